@@ -1,0 +1,12 @@
+# Every third-party dependency in one place. All are Debian 12 packages; see tools/setup.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt 9 REQUIRED)
+find_package(yaml-cpp 0.7 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(CLI11 2.1 REQUIRED)
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(ZLIB REQUIRED)
+find_package(MumpsSeq REQUIRED)
+if(OSCULATE_TESTS)
+  find_package(GTest 1.12 REQUIRED)
+endif()

@@ -1,0 +1,31 @@
+# osculate_layer(NAME [SHARED] DEPS layer... LIBS public-libs... PRIVATE_LIBS private-libs...)
+# One folder under src/osculate = one target = one layer. The folder's own sources are collected;
+# the include rules themselves are checked by tools/check_layers.py.
+function(osculate_layer name)
+  cmake_parse_arguments(L "SHARED" "" "DEPS;LIBS;PRIVATE_LIBS" ${ARGN})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  set(target osculate_${name})
+  set(deps "")
+  foreach(dep IN LISTS L_DEPS)
+    list(APPEND deps Osculate::${dep})
+  endforeach()
+  if(sources)
+    if(L_SHARED)
+      add_library(${target} SHARED ${sources})
+    else()
+      add_library(${target} STATIC ${sources})
+    endif()
+    target_link_libraries(${target} PUBLIC ${deps} ${L_LIBS}
+      PRIVATE ${L_PRIVATE_LIBS} $<BUILD_INTERFACE:osculate_flags>)
+    target_include_directories(${target} PUBLIC
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  else()
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE ${deps} ${L_LIBS})
+    target_include_directories(${target} INTERFACE
+      $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  endif()
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  add_library(Osculate::${name} ALIAS ${target})
+  set_property(GLOBAL APPEND PROPERTY OSCULATE_LAYERS ${name})
+endfunction()

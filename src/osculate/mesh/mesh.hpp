@@ -1,0 +1,52 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "osculate/cell/cell_type.hpp"
+#include "osculate/core/types.hpp"
+
+namespace osculate::mesh {
+
+/// Cells of one type, connectivity flattened (node indices 0-based, Gmsh order).
+struct Block {
+  cell::CellType type;
+  std::vector<Index> connectivity;
+  [[nodiscard]] Index size() const {
+    return static_cast<Index>(connectivity.size()) / cell::info(type).nodes;
+  }
+  [[nodiscard]] const Index* cell(Index c) const {
+    return connectivity.data() + static_cast<std::size_t>(c) * cell::info(type).nodes;
+  }
+};
+
+/// One cell of the mesh.
+struct CellRef {
+  Index block;
+  Index cell;
+  bool operator==(const CellRef&) const = default;
+};
+
+/// A named set: cells of one dimension (0 points, 1 lines, 2 areas) and all their nodes
+/// (sorted, unique). A pure node set has dimension 0 and may have no cells.
+struct Set {
+  std::string name;
+  int dimension = 0;
+  std::vector<CellRef> cells;
+  std::vector<Index> nodes;
+};
+
+/// Nodes, cells and named sets; nothing else. Coordinates always have three components
+/// (z = 0 for plane problems).
+struct Mesh {
+  std::vector<Vec3> nodes;
+  std::vector<Block> blocks;
+  std::vector<Set> sets;
+
+  [[nodiscard]] const Set* find_set(const std::string& name) const {
+    for (const Set& set : sets)
+      if (set.name == name) return &set;
+    return nullptr;
+  }
+};
+
+}  // namespace osculate::mesh
