@@ -1,0 +1,56 @@
+#include "osculate/model/assembler.hpp"
+
+namespace osculate::model {
+
+void Assembler::expand(std::span<const Dof> block_dofs, std::vector<Expansion>& out,
+                       std::vector<std::size_t>& end) const {
+  out.clear();
+  end.clear();
+  for (const Dof dof : block_dofs) {
+    dofs_.expand(dof, 1.0, x_, *rigid_, out);
+    end.push_back(out.size());
+  }
+}
+
+void Assembler::add_outer(std::span<const Dof> row_dofs, std::span<const double> row_values,
+                          std::span<const Dof> column_dofs,
+                          std::span<const double> column_values) {
+  expand(row_dofs, rows_, row_end_);
+  expand(column_dofs, columns_, column_end_);
+  for (std::size_t i = 0; i < row_dofs.size(); ++i)
+    for (std::size_t a = i == 0 ? 0 : row_end_[i - 1]; a < row_end_[i]; ++a) {
+      const double row = row_values[i] * rows_[a].factor;
+      if (row == 0.0 || prescribed(rows_[a].unknown)) continue;
+      for (std::size_t j = 0; j < column_dofs.size(); ++j)
+        for (std::size_t b = j == 0 ? 0 : column_end_[j - 1]; b < column_end_[j]; ++b)
+          if (!prescribed(columns_[b].unknown))
+            matrix_.add(rows_[a].unknown, columns_[b].unknown,
+                        row * column_values[j] * columns_[b].factor);
+    }
+}
+
+void Assembler::add_prescribed_diagonal(double scale) {
+  for (Index u = 0; u < dofs_.unknowns(); ++u)
+    if (prescribed(u)) matrix_.add(u, u, scale);
+}
+
+Eigen::VectorXd Assembler::gather(const Eigen::VectorXd& dof_forces) const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(dofs_.unknowns());
+  std::vector<Expansion> expansion;
+  for (Dof dof = 0; dof < dofs_.dofs(); ++dof) {
+    const double force = dof_forces[dof];
+    if (force == 0.0) continue;
+    const Index direct = dofs_.unknown_of(dof);
+    if (direct >= 0) {
+      if (!prescribed(direct)) result[direct] += force;
+      continue;
+    }
+    expansion.clear();
+    dofs_.expand(dof, force, x_, *rigid_, expansion);
+    for (const Expansion& e : expansion)
+      if (!prescribed(e.unknown)) result[e.unknown] += e.factor;
+  }
+  return result;
+}
+
+}  // namespace osculate::model

@@ -1,0 +1,66 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "osculate/la/sparse_matrix.hpp"
+#include "osculate/model/dof_space.hpp"
+
+namespace osculate::model {
+
+/// Adds blocks over primary dofs to the matrix of the unknowns: rigid nodes and eliminated dofs
+/// are expanded, prescribed rows and columns are left out.
+class Assembler {
+ public:
+  Assembler(const DofSpace& dofs, la::MatrixBuilder& matrix) : dofs_(dofs), matrix_(matrix) {}
+
+  void set_prescribed(std::vector<bool> prescribed) { prescribed_ = std::move(prescribed); }
+  [[nodiscard]] bool prescribed(Index unknown) const {
+    return prescribed_[static_cast<std::size_t>(unknown)];
+  }
+  void set_configuration(std::span<const Vec2> x, const std::vector<body::RigidMotion>& rigid) {
+    x_ = x;
+    rigid_ = &rigid;
+  }
+
+  /// K(i, j) for all pairs of `dofs`.
+  template <class Matrix>
+  void add_block(std::span<const Dof> block_dofs, const Matrix& k) {
+    expand(block_dofs, rows_, row_end_);
+    for (std::size_t i = 0; i < block_dofs.size(); ++i)
+      for (std::size_t a = i == 0 ? 0 : row_end_[i - 1]; a < row_end_[i]; ++a) {
+        if (prescribed(rows_[a].unknown)) continue;
+        for (std::size_t j = 0; j < block_dofs.size(); ++j) {
+          const double value =
+              rows_[a].factor * k(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+          if (value == 0.0) continue;
+          for (std::size_t b = j == 0 ? 0 : row_end_[j - 1]; b < row_end_[j]; ++b)
+            if (!prescribed(rows_[b].unknown))
+              matrix_.add(rows_[a].unknown, rows_[b].unknown, value * rows_[b].factor);
+        }
+      }
+  }
+
+  /// Rank-one term rows (x) columns.
+  void add_outer(std::span<const Dof> row_dofs, std::span<const double> row_values,
+                 std::span<const Dof> column_dofs, std::span<const double> column_values);
+
+  /// Unit diagonal (times `scale`) for every prescribed unknown.
+  void add_prescribed_diagonal(double scale);
+
+  /// Forces on primary dofs -> forces on unknowns (prescribed ones zero).
+  [[nodiscard]] Eigen::VectorXd gather(const Eigen::VectorXd& dof_forces) const;
+
+ private:
+  void expand(std::span<const Dof> block_dofs, std::vector<Expansion>& out,
+              std::vector<std::size_t>& end) const;
+
+  const DofSpace& dofs_;
+  la::MatrixBuilder& matrix_;
+  std::vector<bool> prescribed_;
+  std::span<const Vec2> x_;
+  const std::vector<body::RigidMotion>* rigid_ = nullptr;
+  std::vector<Expansion> rows_, columns_;
+  std::vector<std::size_t> row_end_, column_end_;
+};
+
+}  // namespace osculate::model

@@ -1,0 +1,55 @@
+#include "osculate/model/dof_space.hpp"
+
+namespace osculate::model {
+
+DofSpace::DofSpace(Index nodes, std::vector<Index> body_of_node, Index bodies,
+                   std::vector<Equation> equations, const std::vector<bool>& used_node)
+    : nodes_(nodes),
+      bodies_(bodies),
+      body_of_node_(std::move(body_of_node)),
+      equations_(std::move(equations)) {
+  const auto total = static_cast<std::size_t>(dofs());
+  unknown_of_.assign(total, -1);
+  equation_of_.assign(total, -1);
+  for (std::size_t e = 0; e < equations_.size(); ++e)
+    equation_of_[static_cast<std::size_t>(equations_[e].terms.front().dof)] = static_cast<Index>(e);
+  for (Dof dof = 0; dof < dofs(); ++dof) {
+    const auto d = static_cast<std::size_t>(dof);
+    if (equation_of_[d] >= 0) continue;
+    if (dof < 2 * nodes_) {
+      const auto node = d / 2;
+      if (body_of_node_[node] >= 0 || !used_node[node]) continue;
+    }
+    unknown_of_[d] = unknowns_++;
+    dof_of_unknown_.push_back(dof);
+  }
+}
+
+void DofSpace::expand(Dof dof, double factor, std::span<const Vec2> x,
+                      const std::vector<body::RigidMotion>& rigid,
+                      std::vector<Expansion>& out) const {
+  const auto d = static_cast<std::size_t>(dof);
+  if (unknown_of_[d] >= 0) {
+    out.push_back({unknown_of_[d], factor});
+    return;
+  }
+  if (equation_of_[d] >= 0) {
+    const Equation& equation = equations_[static_cast<std::size_t>(equation_of_[d])];
+    const double lead = equation.terms.front().factor;
+    for (std::size_t t = 1; t < equation.terms.size(); ++t)
+      expand(equation.terms[t].dof, -factor * equation.terms[t].factor / lead, x, rigid, out);
+    return;
+  }
+  if (dof >= 2 * nodes_) return;
+  const Index node = dof / 2;
+  const Index b = body_of_node_[static_cast<std::size_t>(node)];
+  if (b < 0) return;  // a node nobody uses
+  const Mat<2, 3> gradient =
+      body::motion_gradient(rigid[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(node)]);
+  for (int component = 0; component < 3; ++component) {
+    const double value = gradient(dof % 2, component);
+    if (value != 0.0) expand(body_dof(b, component), factor * value, x, rigid, out);
+  }
+}
+
+}  // namespace osculate::model

@@ -1,0 +1,74 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "osculate/body/rigid_body.hpp"
+#include "osculate/core/types.hpp"
+
+namespace osculate::model {
+
+/// A primary degree of freedom: 2 per node (x, y), then 3 per rigid body (x, y, rotation).
+using Dof = Index;
+
+/// Linear constraint  sum_i factor_i u_i = value . The first term's dof is eliminated.
+struct Equation {
+  struct Term {
+    Dof dof;
+    double factor;
+  };
+  std::vector<Term> terms;
+  double value = 0;
+};
+
+/// One entry of the expansion of a dof in unknowns.
+struct Expansion {
+  Index unknown;
+  double factor;
+};
+
+/// Which dofs are unknowns and how the others follow from them: nodes of rigid bodies from the
+/// body's motion, eliminated dofs from their equation. Fixed for the whole analysis; which
+/// unknowns are prescribed changes from step to step and is kept in `prescribed`.
+class DofSpace {
+ public:
+  DofSpace(Index nodes, std::vector<Index> body_of_node, Index bodies,
+           std::vector<Equation> equations, const std::vector<bool>& used_node);
+
+  [[nodiscard]] Index nodes() const { return nodes_; }
+  [[nodiscard]] Index bodies() const { return bodies_; }
+  [[nodiscard]] Index dofs() const { return 2 * nodes_ + 3 * bodies_; }
+  [[nodiscard]] Index unknowns() const { return unknowns_; }
+  [[nodiscard]] Dof node_dof(Index node, int direction) const { return 2 * node + direction; }
+  [[nodiscard]] Dof body_dof(Index body, int component) const {
+    return 2 * nodes_ + 3 * body + component;
+  }
+  [[nodiscard]] Index body_of(Index node) const {
+    return body_of_node_[static_cast<std::size_t>(node)];
+  }
+  /// Unknown of a dof that is one itself, otherwise -1.
+  [[nodiscard]] Index unknown_of(Dof dof) const {
+    return unknown_of_[static_cast<std::size_t>(dof)];
+  }
+  [[nodiscard]] Dof dof_of_unknown(Index unknown) const {
+    return dof_of_unknown_[static_cast<std::size_t>(unknown)];
+  }
+  [[nodiscard]] const std::vector<Equation>& equations() const { return equations_; }
+  /// Index of the equation that eliminates the dof, or -1.
+  [[nodiscard]] Index equation_of(Dof dof) const {
+    return equation_of_[static_cast<std::size_t>(dof)];
+  }
+
+  /// Appends the expansion of `dof` times `factor`, for the current positions `x` of the nodes.
+  void expand(Dof dof, double factor, std::span<const Vec2> x,
+              const std::vector<body::RigidMotion>& rigid, std::vector<Expansion>& out) const;
+
+ private:
+  Index nodes_, bodies_, unknowns_ = 0;
+  std::vector<Index> body_of_node_;
+  std::vector<Equation> equations_;
+  std::vector<Index> unknown_of_, equation_of_;
+  std::vector<Dof> dof_of_unknown_;
+};
+
+}  // namespace osculate::model

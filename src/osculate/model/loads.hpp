@@ -1,0 +1,55 @@
+#pragma once
+#include <vector>
+
+#include "osculate/core/types.hpp"
+#include "osculate/model/dof_space.hpp"
+
+namespace osculate::model {
+
+/// Piecewise linear factor over the fraction of a step; empty = linear ramp.
+using Amplitude = std::vector<std::pair<double, double>>;
+
+/// Value of a channel that goes from `start` to `target` over a step. With an amplitude the value
+/// is target * amplitude(fraction); without, the ramp is linear.
+struct Ramp {
+  double start = 0, target = 0;
+  Amplitude amplitude;
+  [[nodiscard]] double value(double fraction) const;
+};
+
+/// A dof with a given value. `ramp.start` is set when the step begins, from the converged state;
+/// with `hold` the value stays there.
+struct PrescribedDof {
+  Dof dof;
+  Ramp ramp;
+  bool hold = false;
+};
+
+/// Dead load: factor(t) times a force vector over the primary dofs (sparse).
+struct DeadLoad {
+  std::vector<std::pair<Dof, double>> unit;
+  Ramp ramp;
+};
+
+/// Pressure on boundary edges of bulk cells (positive pushes into the body). It follows the
+/// deformation for finite kinematics.
+struct PressureLoad {
+  struct Edge {
+    Index section;               ///< whose thickness and kinematics apply
+    std::vector<Index> nodes;    ///< line cell order, body on the right
+  };
+  std::vector<Edge> edges;
+  Ramp ramp;
+};
+
+/// Everything that acts during one step, compiled from the model file.
+struct Step {
+  std::string name;
+  int increments = 1;
+  std::vector<PrescribedDof> prescribed;
+  std::vector<DeadLoad> dead;
+  std::vector<PressureLoad> pressure;
+  double equation_start = 1, equation_end = 1;  ///< ramp of the constants of the equations
+};
+
+}  // namespace osculate::model

@@ -1,0 +1,66 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "osculate/la/sparse_matrix.hpp"
+#include "osculate/model/model.hpp"
+#include "osculate/model/state.hpp"
+#include "osculate/solve/newton.hpp"
+
+namespace osculate::model {
+
+/// Names of the terms of the system whose tangent can be checked part by part.
+enum class Term { bulk, contact, pressure, rigid };
+
+/// Forces of one configuration on all nodes and rigid bodies (primary dofs of the DofSpace).
+struct Forces {
+  Eigen::VectorXd internal;  ///< from the bulk
+  Eigen::VectorXd contact;   ///< from the contact pairs
+  Eigen::VectorXd external;  ///< applied loads
+};
+
+/// The system that `solve` sees: assembles residual and tangent of a model.
+///
+/// Owns: dof space, matrix, evaluation buffers. Does not own: the model, the states.
+/// Deterministic: element blocks are computed in parallel and added in a fixed order, so the bits
+/// do not depend on the number of threads.
+class System {
+ public:
+  using State = model::State;
+
+  System(const Model& model, int threads);
+  ~System();
+  System(const System&) = delete;
+  System& operator=(const System&) = delete;
+
+  [[nodiscard]] State initial_state();
+  /// Fixes what is prescribed and loaded during a step; start values come from `committed`.
+  void begin_step(const Step& step, const State& committed);
+
+  void predict(const State& committed, double fraction, solve::Evaluation& out);
+  void evaluate(const State& committed, const State& trial, double fraction, bool with_tangent,
+                solve::Evaluation& out);
+  [[nodiscard]] State apply(const State& state, const Eigen::VectorXd& du, double fraction,
+                            double factor) const;
+  /// The converged state with its new history. `trial` must be the last state evaluated.
+  [[nodiscard]] State commit(const State& trial, double fraction) const;
+
+  [[nodiscard]] const la::SparseMatrix& matrix();
+  [[nodiscard]] std::uint64_t pattern_version() const;
+  [[nodiscard]] la::Symmetry symmetry() const;
+
+  [[nodiscard]] const DofSpace& dofs() const;
+  [[nodiscard]] const Forces& forces() const;  ///< of the last evaluation
+  [[nodiscard]] const std::vector<pairing::PairEvaluation>& contact() const;
+  [[nodiscard]] std::vector<Vec2> positions(const State& state) const;
+  [[nodiscard]] bool prescribed(Index unknown) const;
+  /// Switch terms off (tangent check only); all are on by default.
+  void enable(Term term, bool on);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace osculate::model

@@ -1,0 +1,157 @@
+#include "osculate/pairing/chain.hpp"
+
+#include <cmath>
+#include <unordered_map>
+
+#include "osculate/cell/quadrature.hpp"
+
+namespace osculate::pairing {
+
+Facet lagrange_facet(std::span<const Index> nodes) {
+  Facet facet;
+  facet.count = static_cast<int>(nodes.size());
+  std::copy(nodes.begin(), nodes.end(), facet.nodes.begin());
+  return facet;
+}
+
+Facet shape_facet(geometry::Curve curve, const std::array<Index, 3>& frame) {
+  Facet facet;
+  facet.count = 3;
+  std::copy(frame.begin(), frame.end(), facet.nodes.begin());
+  facet.lo = geometry::lo(curve);
+  facet.hi = geometry::hi(curve);
+  facet.closed = geometry::closed(curve);
+  facet.shape = std::make_shared<const geometry::Curve>(std::move(curve));
+  return facet;
+}
+
+void connect(Chain& chain) {
+  std::unordered_map<Index, Index> starts;
+  for (std::size_t f = 0; f < chain.facets.size(); ++f) {
+    Facet& facet = chain.facets[f];
+    if (facet.shape) {
+      if (facet.closed) facet.prev = facet.next = static_cast<Index>(f);
+      continue;
+    }
+    starts.emplace(facet.nodes[0], static_cast<Index>(f));
+  }
+  for (std::size_t f = 0; f < chain.facets.size(); ++f) {
+    Facet& facet = chain.facets[f];
+    if (facet.shape) continue;
+    const auto found = starts.find(facet.nodes[1]);
+    if (found == starts.end()) continue;
+    facet.next = found->second;
+    chain.facets[static_cast<std::size_t>(found->second)].prev = static_cast<Index>(f);
+  }
+}
+
+cell::LineShape facet_shape(const Facet& facet, double xi) {
+  if (!facet.shape) return cell::lagrange_line(facet.count, xi);
+  const geometry::CurveJet<2> jet = geometry::jet(*facet.shape, xi);
+  cell::LineShape shape;
+  shape.count = 3;
+  const std::array<const Vec2*, 4> d{&jet.r, &jet.r1, &jet.r2, &jet.r3};
+  for (std::size_t order = 0; order < 4; ++order) {
+    shape.n[order][0] = (order == 0 ? 1.0 : 0.0) - d[order]->sum();
+    shape.n[order][1] = d[order]->x();
+    shape.n[order][2] = d[order]->y();
+  }
+  return shape;
+}
+
+geometry::CurveJet<2> facet_jet(const Facet& facet, const cell::LineShape& shape,
+                                std::span<const Vec2> x) {
+  geometry::CurveJet<2> jet;
+  for (int k = 0; k < shape.count; ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    const Vec2& node = x[static_cast<std::size_t>(facet.nodes[i])];
+    jet.r += shape.n[0][i] * node;
+    jet.r1 += shape.n[1][i] * node;
+    jet.r2 += shape.n[2][i] * node;
+    jet.r3 += shape.n[3][i] * node;
+  }
+  return jet;
+}
+
+namespace {
+
+constexpr int curved_points = 10;
+
+const cell::Quadrature1D& curved_rule() {
+  static const cell::Quadrature1D rule = cell::gauss_legendre(curved_points);
+  return rule;
+}
+
+/// Length of facet between a and b (signed) and its gradient.
+double piece_length(const Facet& facet, std::span<const Vec2> x, double a, double b,
+                    std::vector<NodeGradient>* gradient) {
+  const double half = 0.5 * (b - a);
+  const double middle = 0.5 * (a + b);
+  const bool one_point = facet.straight();
+  const int points = one_point ? 1 : curved_points;
+  double length = 0;
+  std::array<Vec2, cell::max_line_nodes> sum;
+  sum.fill(Vec2::Zero());
+  for (int i = 0; i < points; ++i) {
+    const double xi =
+        one_point ? middle : middle + half * curved_rule().points[static_cast<std::size_t>(i)];
+    const double weight =
+        half * (one_point ? 2.0 : curved_rule().weights[static_cast<std::size_t>(i)]);
+    const cell::LineShape shape = facet_shape(facet, xi);
+    const geometry::CurveJet<2> jet = facet_jet(facet, shape, x);
+    const double speed = jet.r1.norm();
+    length += weight * speed;  // @eq KS2D:19
+    if (!gradient || !(speed > 0)) continue;
+    const Vec2 tangent = jet.r1 / speed;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+      sum[k] += weight * shape.n[1][k] * tangent;
+  }
+  if (gradient)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+      gradient->push_back({facet.nodes[k], sum[k]});
+  return length;
+}
+
+/// Facets to cross from `from` to `to` going forward (or backward), -1 if there is no way.
+int hops(const Chain& chain, Index from, Index to, bool forward) {
+  Index facet = from;
+  for (int count = 1; count <= static_cast<int>(chain.facets.size()); ++count) {
+    const Facet& here = chain.facets[static_cast<std::size_t>(facet)];
+    facet = forward ? here.next : here.prev;
+    if (facet < 0) return -1;
+    if (facet == to) return count;
+  }
+  return -1;
+}
+
+double same_facet_length(const Facet& facet, std::span<const Vec2> x, double a, double b,
+                         std::vector<NodeGradient>* gradient) {
+  double step = b - a;
+  if (facet.closed && facet.shape) step = std::remainder(step, facet.hi - facet.lo);
+  return piece_length(facet, x, a, a + step, gradient);
+}
+
+}  // namespace
+
+std::optional<double> path_length(const Chain& chain, std::span<const Vec2> x, const Location& from,
+                                  const Location& to, std::vector<NodeGradient>* gradient) {
+  if (from.facet < 0 || to.facet < 0) return std::nullopt;
+  const auto at = [&](Index f) -> const Facet& { return chain.facets[static_cast<std::size_t>(f)]; };
+  if (from.facet == to.facet)
+    return same_facet_length(at(from.facet), x, from.xi, to.xi, gradient);
+  const int ahead = hops(chain, from.facet, to.facet, true);
+  const int behind = hops(chain, from.facet, to.facet, false);
+  if (ahead < 0 && behind < 0) return std::nullopt;
+  const bool forward = behind < 0 || (ahead >= 0 && ahead <= behind);
+  const auto leave = [&](const Facet& f) { return forward ? f.hi : f.lo; };
+  const auto enter = [&](const Facet& f) { return forward ? f.lo : f.hi; };
+  double length = piece_length(at(from.facet), x, from.xi, leave(at(from.facet)), gradient);
+  Index facet = forward ? at(from.facet).next : at(from.facet).prev;
+  while (facet != to.facet) {
+    length += piece_length(at(facet), x, enter(at(facet)), leave(at(facet)), gradient);
+    facet = forward ? at(facet).next : at(facet).prev;
+  }
+  return length + piece_length(at(facet), x, enter(at(facet)), to.xi, gradient);
+}
+
+}  // namespace osculate::pairing

@@ -1,0 +1,73 @@
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "osculate/cell/line_shape.hpp"
+#include "osculate/core/types.hpp"
+#include "osculate/geometry/catalogue.hpp"
+
+namespace osculate::pairing {
+
+/// A node and the derivative of a scalar with respect to its position.
+struct NodeGradient {
+  Index node;
+  Vec2 value;
+};
+
+/// One piece of a boundary curve: either a Lagrange line through its nodes, or an analytic curve
+/// carried by a rigid frame.
+///
+/// The frame is three nodes (origin, tip of e1, tip of e2): a material point with frame
+/// coordinates X has the weights (1 - X1 - X2, X1, X2), so an analytic shape is a facet with three
+/// nodes like any other and no contact formula knows the difference.
+struct Facet {
+  int count = 0;
+  std::array<Index, cell::max_line_nodes> nodes{};
+  std::shared_ptr<const geometry::Curve> shape;  ///< null for a Lagrange line
+  double lo = -1, hi = 1;
+  bool closed = false;         ///< the analytic curve joins itself
+  Index prev = -1, next = -1;  ///< neighbours in the direction of travel, -1 = the chain ends
+  [[nodiscard]] bool straight() const { return !shape && count == 2; }
+};
+
+/// A boundary made of facets; nu = k x rho_xi points out of the body (body on the right of travel).
+struct Chain {
+  std::vector<Facet> facets;
+};
+
+/// A place on a chain.
+struct Location {
+  Index facet = -1;
+  double xi = 0;
+};
+
+/// Lagrange facet through `nodes` (ends first, then interior, left to right).
+[[nodiscard]] Facet lagrange_facet(std::span<const Index> nodes);
+/// Facet of an analytic curve on the frame nodes (origin, tip 1, tip 2).
+[[nodiscard]] Facet shape_facet(geometry::Curve curve, const std::array<Index, 3>& frame);
+/// Sets prev/next from shared end nodes (and closes a closed analytic curve on itself).
+void connect(Chain& chain);
+
+[[nodiscard]] cell::LineShape facet_shape(const Facet& facet, double xi);
+[[nodiscard]] geometry::CurveJet<2> facet_jet(const Facet& facet, const cell::LineShape& shape,
+                                              std::span<const Vec2> x);
+[[nodiscard]] inline geometry::CurveJet<2> facet_jet(const Facet& facet, double xi,
+                                                     std::span<const Vec2> x) {
+  return facet_jet(facet, facet_shape(facet, xi), x);
+}
+
+/// Signed arc length along the chain from `from` to `to` in the current configuration, over all
+/// borders on the way, and its derivative with respect to the node positions at fixed xi.
+///
+/// Formula    s = sum over pieces of int sqrt(a11) dxi ; ds/dx_k = int N_k' tau dxi
+/// Source     KS2D:19 over the borders of KS2D:86-89 (docs/errata.md: arc length, not the chord)
+/// Returns    nothing when the two places are not connected
+/// Tested by  tests/unit/pairing/test_chain.cpp
+[[nodiscard]] std::optional<double> path_length(const Chain& chain, std::span<const Vec2> x,
+                                                const Location& from, const Location& to,
+                                                std::vector<NodeGradient>* gradient);
+
+}  // namespace osculate::pairing

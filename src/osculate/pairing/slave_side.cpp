@@ -1,0 +1,92 @@
+#include "osculate/pairing/slave_side.hpp"
+
+#include <algorithm>
+
+#include "osculate/cell/quadrature.hpp"
+
+namespace osculate::pairing {
+
+SlaveSide make_slave_side(Chain chain, std::span<const Index> extra_nodes) {
+  SlaveSide side;
+  side.chain = std::move(chain);
+  for (const Facet& facet : side.chain.facets)
+    side.nodes.insert(side.nodes.end(), facet.nodes.begin(), facet.nodes.begin() + facet.count);
+  side.nodes.insert(side.nodes.end(), extra_nodes.begin(), extra_nodes.end());
+  std::sort(side.nodes.begin(), side.nodes.end());
+  side.nodes.erase(std::unique(side.nodes.begin(), side.nodes.end()), side.nodes.end());
+  side.facets_of.resize(side.nodes.size());
+  for (std::size_t f = 0; f < side.chain.facets.size(); ++f) {
+    const Facet& facet = side.chain.facets[f];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {
+      const auto at = std::lower_bound(side.nodes.begin(), side.nodes.end(), facet.nodes[k]);
+      side.facets_of[static_cast<std::size_t>(at - side.nodes.begin())].push_back(
+          static_cast<Index>(f));
+    }
+  }
+  return side;
+}
+
+namespace {
+
+/// Adds the share of one facet to the area of its local node `k`.
+void add_facet_area(const Facet& facet, std::size_t k, std::span<const Vec2> x,
+                    const AreaRule& rule, double& area, std::vector<NodeGradient>* gradient) {
+  static const cell::Quadrature1D quadrature = cell::gauss_legendre(8);
+  std::array<Vec2, cell::max_line_nodes> sum;
+  sum.fill(Vec2::Zero());
+  for (std::size_t q = 0; q < quadrature.points.size(); ++q) {
+    const cell::LineShape shape = facet_shape(facet, quadrature.points[q]);
+    const geometry::CurveJet<2> jet = facet_jet(facet, shape, x);
+    const double speed = jet.r1.norm();
+    const double turn_length = 2 * std::numbers::pi;
+    const double factor = rule.axisymmetric ? turn_length * jet.r.x() : rule.thickness;
+    const double weight = quadrature.weights[q] * shape.n[0][k];
+    area += weight * speed * factor;
+    if (!gradient || !(speed > 0)) continue;
+    for (std::size_t l = 0; l < static_cast<std::size_t>(facet.count); ++l) {
+      sum[l] += weight * factor * shape.n[1][l] / speed * jet.r1;
+      if (rule.axisymmetric) sum[l].x() += weight * speed * turn_length * shape.n[0][l];
+    }
+  }
+  if (!gradient) return;
+  for (std::size_t l = 0; l < static_cast<std::size_t>(facet.count); ++l)
+    gradient->push_back({facet.nodes[l], sum[l]});
+}
+
+}  // namespace
+
+void nodal_areas(const SlaveSide& slave, std::span<const Vec2> x, const AreaRule& rule,
+                 std::vector<double>& areas, std::vector<std::vector<NodeGradient>>* gradients) {
+  areas.assign(slave.nodes.size(), 0.0);
+  if (gradients) gradients->resize(slave.nodes.size());
+  for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
+    if (gradients) (*gradients)[i].clear();
+    for (const Index f : slave.facets_of[i]) {
+      const Facet& facet = slave.chain.facets[static_cast<std::size_t>(f)];
+      const auto* const begin = facet.nodes.begin();
+      const auto k = static_cast<std::size_t>(
+          std::find(begin, begin + facet.count, slave.nodes[i]) - begin);
+      add_facet_area(facet, k, x, rule, areas[i], gradients ? &(*gradients)[i] : nullptr);
+    }
+  }
+}
+
+void nodal_normals(const SlaveSide& slave, std::span<const Vec2> x, std::vector<Vec2>& normals) {
+  normals.assign(slave.nodes.size(), Vec2::Zero());
+  for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
+    for (const Index f : slave.facets_of[i]) {
+      const Facet& facet = slave.chain.facets[static_cast<std::size_t>(f)];
+      const auto k = static_cast<std::size_t>(
+          std::find(facet.nodes.begin(), facet.nodes.begin() + facet.count, slave.nodes[i]) -
+          facet.nodes.begin());
+      const double xi = k == 0   ? -1.0
+                        : k == 1 ? 1.0
+                                 : -1.0 + 2.0 * static_cast<double>(k - 1) / (facet.count - 1);
+      const Vec2 tangent = facet_jet(facet, xi, x).r1;
+      if (tangent.norm() > 0) normals[i] += turn(tangent.normalized());
+    }
+    if (normals[i].norm() > 1e-12) normals[i].normalize();
+  }
+}
+
+}  // namespace osculate::pairing
