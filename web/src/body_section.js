@@ -1,0 +1,279 @@
+// The deformed body with its controls, and the contact stresses along the surface.
+import { fit, pan, zoom } from './camera.js';
+import { choice, el, tick, watchWidth } from './dom.js';
+import { num } from './format.js';
+import { plot } from './plot.js';
+import { onTheme, css } from './theme.js';
+import { createView, draw, probe, resize } from './view.js';
+import { runs, statusStyle } from './contact_layer.js';
+
+/** State of the view; `frameChanged(frame)` lets other plots follow. */
+export function bodySection(body, frameChanged) {
+  const canvas = el('canvas', { tabIndex: 0, class: 'body', 'aria-label': 'deformed body' });
+  const view = createView(canvas, body);
+  const hint = el('div', { class: 'tip', hidden: true });
+  const host = el('div', { class: 'canvas-host' }, canvas, hint);
+  const preferred = body.fieldNames.find((name) => /mises/i.test(name)) ?? body.fieldNames[0];
+  const state = {
+    frame: body.frames.length - 1, field: preferred, scale: 1, range: 'all', map: 'sequential',
+    bands: false, lines: true, ghost: false, contact: 'profile', points: true,
+  };
+  const self = { body, view, state, canvas, host, hint, frameChanged, waiting: false };
+  self.contact = contactPlots(body);
+  self.player = player(self);
+  const section = el('section', { id: 'body' }, el('h2', {}, 'Deformed body'),
+    controls(self), host, self.player.bar, self.contact.node);
+  watchWidth(host, (width) => {
+    resize(view, width, heightFor(body, width));
+    fit(view, state.scale);
+    refresh(self);
+  });
+  pointer(self);
+  keys(self);
+  onTheme(() => refresh(self));
+  showFrame(self, state.frame);
+  return { section, show: (frame) => showFrame(self, frame) };
+}
+
+function heightFor(body, width) {
+  const [xs, ys] = [0, 1].map((k) => body.points.filter((_, i) => i % 2 === k));
+  const span = (list) => list.reduce((m, v) => Math.max(m, v), -Infinity) -
+    list.reduce((m, v) => Math.min(m, v), Infinity);
+  const aspect = span(ys) / (span(xs) || 1);
+  return Math.round(Math.min(Math.max((width - 96) * aspect * 1.2 + 60, 300), Math.max(340, width * 0.62), 620));
+}
+
+/** Draws once per animation frame however often it is asked. */
+function refresh(self) {
+  if (self.waiting) return;
+  self.waiting = true;
+  requestAnimationFrame(() => {
+    self.waiting = false;
+    draw(self.view, self.state);
+  });
+}
+
+function change(self, patch) {
+  Object.assign(self.state, patch);
+  refresh(self);
+}
+
+function showFrame(self, frame) {
+  const last = self.body.frames.length - 1;
+  self.state.frame = Math.min(last, Math.max(0, Math.round(frame)));
+  self.player.update();
+  self.contact.show(self.state.frame);
+  self.hint.hidden = true;
+  refresh(self);
+  self.frameChanged(self.body.frames[self.state.frame]);
+}
+
+/** The scale at which the largest displacement is a tenth of the model; never below 1. */
+function autoScale(body) {
+  const [, largest] = body.range('displacement |u|');
+  const raw = largest > 0 ? (0.1 * body.size) / largest : 1;
+  if (raw <= 1) return 1;
+  const power = 10 ** Math.floor(Math.log10(raw));
+  return [5, 2, 1].map((f) => f * power).find((v) => v <= raw);
+}
+
+function controls(self) {
+  const { state, body } = self;
+  const auto = autoScale(body);
+  const scales = [[1, '1 (true)'], ['auto', `auto (${num(auto)})`],
+    ...[0, 2, 5, 10, 100, 1000].map((v) => [v, String(v)])];
+  const warning = el('span', { class: 'warning', hidden: true }, 'scaled: gaps between bodies are not true');
+  const rescale = (v) => {
+    change(self, { scale: v === 'auto' ? auto : Number(v) });
+    warning.hidden = state.scale === 1;
+    fit(self.view, state.scale);
+  };
+  const contactModes = [['profile', 'pressure profile'], ['arrows', 'pressure arrows'],
+    ['traction', 'pressure and shear'], ['none', 'hidden']];
+  const touching = body.pairs().length > 0;
+  if (!touching) Object.assign(state, { contact: 'none', points: false });
+  return el('div', { class: 'controls' },
+    choice('Field', body.fieldNames.map((f) => [f, f]), state.field, (field) => change(self, { field })),
+    choice('Range', [['all', 'all frames'], ['frame', 'this frame']], state.range,
+      (range) => change(self, { range })),
+    choice('Colours', [['sequential', 'sequential'], ['diverging', 'diverging about 0']], state.map,
+      (map) => change(self, { map })),
+    choice('Displacements \u00d7', scales, 1, rescale),
+    touching && choice('Contact', contactModes, state.contact, (contact) => change(self, { contact })),
+    touching && tick('states', state.points, (points) => change(self, { points })),
+    tick('mesh', state.lines, (lines) => change(self, { lines })),
+    tick('bands', state.bands, (bands) => change(self, { bands })),
+    tick('undeformed', state.ghost, (ghost) => change(self, { ghost })),
+    warning,
+    el('span', { class: 'buttons' },
+      button('+', 'zoom in', () => zoomBy(self, 1.4)),
+      button('\u2212', 'zoom out', () => zoomBy(self, 1 / 1.4)),
+      button('fit', 'show everything', () => zoomBy(self, 0)),
+      button('PNG', 'save the picture', () => save(self))));
+}
+
+function button(text, title, onclick) {
+  return el('button', { type: 'button', class: 'small', title, onclick }, text);
+}
+
+function zoomBy(self, factor, x, y) {
+  if (factor) zoom(self.view, factor, x, y);
+  else fit(self.view, self.state.scale);
+  refresh(self);
+}
+
+function save(self) {
+  const { canvas } = self;
+  const copy = el('canvas', { width: canvas.width, height: canvas.height });
+  const ctx = copy.getContext('2d');
+  ctx.fillStyle = css('--panel');
+  ctx.fillRect(0, 0, copy.width, copy.height);
+  ctx.drawImage(canvas, 0, 0);
+  copy.toBlob((blob) => {
+    const url = URL.createObjectURL(blob);
+    el('a', { href: url, download: `frame_${self.state.frame}.png` }).click();
+    setTimeout(() => URL.revokeObjectURL(url), 1000);
+  });
+}
+
+/** Play button, slider and read-out; with one frame only the read-out. */
+function player(self) {
+  const { frames } = self.body;
+  const slider = el('input', {
+    type: 'range', min: 0, max: frames.length - 1, step: 1, 'aria-label': 'frame',
+    oninput: () => { stop(); showFrame(self, Number(slider.value)); },
+  });
+  const text = el('span', { class: 'readout' });
+  const play = el('button', { type: 'button', class: 'play', title: 'play (space)', onclick: toggle }, '\u25b6');
+  let timer = 0;
+  function stop() {
+    clearInterval(timer);
+    timer = 0;
+    play.textContent = '\u25b6';
+  }
+  function toggle() {
+    if (timer) return stop();
+    play.textContent = '\u275a\u275a';
+    const pause = Math.max(50, Math.min(250, 5000 / frames.length));
+    timer = setInterval(() => showFrame(self, (self.state.frame + 1) % frames.length), pause);
+  }
+  const several = frames.length > 1;
+  return {
+    bar: el('div', { class: 'player' }, several && play, several && slider, text),
+    stop, toggle: several ? toggle : stop,
+    update() {
+      const f = frames[self.state.frame];
+      slider.value = self.state.frame;
+      const parts = [f.step !== undefined && `step ${f.step}`,
+        f.increment !== undefined && `increment ${f.increment}`, f.time !== undefined && `time ${num(f.time, 5)}`];
+      text.textContent = `${parts.filter(Boolean).join(', ')}  (${self.state.frame + 1} of ${frames.length})`;
+    },
+  };
+}
+
+/** Drag moves, wheel zooms once the picture has been clicked (or with Ctrl), double click fits. */
+function pointer(self) {
+  const { canvas, view, hint } = self;
+  let from = null;
+  const at = (e) => {
+    const r = canvas.getBoundingClientRect();
+    return [(e.clientX - r.left) * view.dpr, (e.clientY - r.top) * view.dpr];
+  };
+  canvas.addEventListener('pointerdown', (e) => {
+    if (e.pointerType === 'touch' && !e.isPrimary) return;
+    from = at(e);
+    canvas.setPointerCapture(e.pointerId);
+  });
+  canvas.addEventListener('pointerup', () => { from = null; });
+  canvas.addEventListener('pointercancel', () => { from = null; });
+  canvas.addEventListener('pointerleave', () => { hint.hidden = true; });
+  canvas.addEventListener('pointermove', (e) => {
+    const to = at(e);
+    if (from) {
+      pan(view, to[0] - from[0], to[1] - from[1]);
+      from = to;
+      hint.hidden = true;
+      refresh(self);
+      return;
+    }
+    const lines = probe(view, self.state, ...to);
+    hint.hidden = !lines;
+    if (!lines) return;
+    const [x, y] = to.map((v) => v / view.dpr);
+    const right = x > canvas.clientWidth / 2;
+    hint.replaceChildren(...lines.map((line) => el('div', {}, line)));
+    hint.style.cssText = `left:${x + (right ? -12 : 12)}px;top:${y + 12}px;` +
+      `transform:translateX(${right ? '-100%' : '0'})`;
+  });
+  canvas.addEventListener('wheel', (e) => {
+    if (!e.ctrlKey && document.activeElement !== canvas) return;
+    e.preventDefault();
+    zoomBy(self, Math.exp(-e.deltaY * 0.0015), ...at(e));
+  }, { passive: false });
+  canvas.addEventListener('dblclick', () => zoomBy(self, 0));
+}
+
+function keys(self) {
+  self.canvas.addEventListener('keydown', (e) => {
+    const step = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
+    if (step) {
+      self.player.stop();
+      showFrame(self, self.state.frame + step);
+    } else if (e.key === ' ') self.player.toggle();
+    else return;
+    e.preventDefault();
+  });
+}
+
+/** Arc length along the contact points, and the values, broken where the surface is. */
+function along(c) {
+  const s = [];
+  const pressure = [];
+  const shear = [];
+  const styles = [];
+  let length = 0;
+  runs(c.x, c.size).forEach(([from, to], r) => {
+    if (r) {
+      s.push(length);
+      pressure.push(NaN);
+      shear.push(NaN);
+      styles.push(null);
+    }
+    for (let i = from; i < to; ++i) {
+      if (i) length += Math.hypot(c.x[2 * i] - c.x[2 * i - 2], c.x[2 * i + 1] - c.x[2 * i - 1]);
+      s.push(length);
+      pressure.push(c.pressure[i]);
+      shear.push(c.shear[i]);
+      styles.push({ ...statusStyle(c.status[i]), status: c.status[i], size: 2.4 });
+    }
+  });
+  return { s, pressure, shear, styles };
+}
+
+/** One plot of pressure and shear for every contact pair. */
+function contactPlots(body) {
+  const node = el('div', { class: 'grid contact-plots' });
+  const all = body.frames.flatMap((f) => f.contact());
+  const plots = body.pairs().map((pair) => {
+    const list = all.filter((c) => c.pair === pair);
+    const low = Math.min(0, ...list.map((c) => Math.min(...c.shear.filter((v) => v === v), 0)));
+    const high = Math.max(...list.map((c) => Math.max(0, ...c.pressure.filter((v) => v === v),
+      ...c.shear.filter((v) => v === v))));
+    const curvesAt = (frame) => {
+      const c = body.frames[frame].contact().find((k) => k.pair === pair);
+      const { s, pressure, shear, styles } = c ? along(c) : { s: [], pressure: [], shear: [], styles: [] };
+      return [
+        { label: 'pressure', x: s, y: pressure, styles: styles.map((v) => v ?? {}) },
+        { label: 'shear', x: s, y: shear, dashed: true, dots: false },
+      ];
+    };
+    const shown = plot(node, {
+      title: `Contact stress along ${pair}`, xlabel: 'length along the surface', ylabel: 'force / area',
+      height: 260, yRange: [low, high],
+      describe: (curve, i) => [`${curve.label}: ${num(curve.y[i], 5)}`, `at length ${num(curve.x[i], 5)}`,
+        ['open', 'stick', 'slip'][curve.styles?.[i]?.status] ?? ''],
+    }, curvesAt(body.frames.length - 1));
+    return (frame) => shown.show(curvesAt(frame));
+  });
+  return { node, show: (frame) => plots.forEach((p) => p(frame)) };
+}
