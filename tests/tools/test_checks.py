@@ -1,0 +1,170 @@
+"""The checks of tools/ must be able to fail: each is given a small tree with one thing wrong."""
+import importlib.machinery
+import importlib.util
+import pathlib
+import sys
+import tempfile
+import unittest
+
+TOOLS = pathlib.Path(__file__).resolve().parents[2] / "tools"
+sys.path.insert(0, str(TOOLS))
+sys.dont_write_bytecode = True
+
+import check_equations  # noqa: E402
+import check_layers  # noqa: E402
+import cpp_text  # noqa: E402
+import equations  # noqa: E402
+
+
+def script(name):
+    loader = importlib.machinery.SourceFileLoader(name, str(TOOLS / name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    sys.modules[name] = module
+    loader.exec_module(module)
+    return module
+
+
+mutate = script("mutate")
+LAYERS = {"core": [], "cell": ["core"]}
+CMAKE = "osculate_layer(core LIBS x)\nosculate_layer(cell DEPS core)\n"
+
+
+class Tree(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+
+class Layers(Tree):
+    def problems(self):
+        return check_layers.check_includes(self.root, LAYERS)
+
+    def test_a_downward_include_is_fine(self):
+        self.write("src/osculate/core/a.hpp", "")
+        self.write("src/osculate/cell/b.hpp", '#include "osculate/core/a.hpp"\n#include <vector>\n')
+        self.assertEqual(self.problems(), [])
+
+    def test_an_upward_include_is_reported(self):
+        self.write("src/osculate/core/a.hpp", '#include "osculate/cell/b.hpp"\n')
+        self.write("src/osculate/cell/b.hpp", "")
+        self.assertIn("core must not include cell", self.problems()[0])
+
+    def test_an_include_in_a_comment_is_none(self):
+        self.write("src/osculate/core/a.hpp", '// #include "osculate/cell/b.hpp"\n/*\n#include "x"\n*/\n')
+        self.assertEqual(self.problems(), [])
+
+    def test_a_cycle_is_reported(self):
+        self.write("src/osculate/core/a.hpp", '#include "osculate/core/b.hpp"\n')
+        self.write("src/osculate/core/b.hpp", '#include "osculate/core/c.hpp"\n')
+        self.write("src/osculate/core/c.hpp", '#include "osculate/core/a.hpp"\n')
+        self.assertTrue(any("include cycle" in p for p in self.problems()))
+
+    def test_a_short_include_and_a_missing_file_are_reported(self):
+        self.write("src/osculate/core/a.hpp", '#include "b.hpp"\n#include "osculate/core/no.hpp"\n')
+        self.assertEqual(len(self.problems()), 2)
+
+    def test_cmake_must_have_the_same_edges(self):
+        self.write("src/osculate/CMakeLists.txt", CMAKE)
+        self.assertEqual(check_layers.check_table(self.root, LAYERS), [])
+        self.write("src/osculate/CMakeLists.txt", CMAKE.replace("DEPS core", ""))
+        self.assertEqual(len(check_layers.check_table(self.root, LAYERS)), 1)
+
+
+class Sizes(Tree):
+    def body(self, lines, comment=""):
+        self.write("src/osculate/core/a.cpp", f"{comment}int f(int x) {{\n" + "  ++x;\n" * lines + "}\n")
+        return check_layers.check_sizes(self.root)
+
+    def test_a_long_function_warns_then_fails_unless_it_says_why(self):
+        self.assertEqual(self.body(50), ([], []))
+        self.assertEqual([len(x) for x in self.body(70)], [0, 1])
+        self.assertEqual([len(x) for x in self.body(120)], [1, 0])
+        self.assertEqual(self.body(120, "// long: one table\n"), ([], []))
+
+    def test_a_long_file_fails_unless_it_says_why(self):
+        self.write("app/a.cpp", "int a;\n" * 501)
+        self.assertEqual(len(check_layers.check_sizes(self.root)[0]), 1)
+        self.write("app/a.cpp", "// size: generated table\n" + "int a;\n" * 501)
+        self.assertEqual(check_layers.check_sizes(self.root)[0], [])
+
+    def test_functions_are_found_by_name(self):
+        source = ('namespace n {\nstruct S {\n  S() : a_{1}, b_{2} {\n    go();\n  }\n  int a_{0}, b_{0};\n};\n'
+                  'const int table[] = {1, 2};\n// int g() {\n'
+                  'template <class T>\nT h(T x = {}) {\n  if (x) { return "}"[0]; }\n  return x;\n}\n'
+                  'TEST(Suite, Case) {\n}\n}\n')
+        found = [(f.name, cpp_text.line_of(source, f.first), cpp_text.line_of(source, f.last))
+                 for f in cpp_text.functions(source)]
+        self.assertEqual(found, [("S", 3, 5), ("h", 10, 14), ("Suite.Case", 15, 16)])
+
+
+class Equations(Tree):
+    def setUp(self):
+        super().setUp()
+        self.write("src/osculate/core/a.hpp", "// @eq KS2D:1, KS2D:2a\n")
+        self.write("tests/unit/core/t.cpp", "// [eq:KS2D:1] [eq:KS2D:2a]\n")
+        self.write("docs/references.bib", "@book{KS2D,\n}\n")
+
+    def problems(self):
+        return check_equations.check(equations.tags(self.root), equations.mentions(self.root),
+                                     check_equations.bib_keys(self.root))
+
+    def test_all_is_well(self):
+        self.assertEqual(self.problems(), [])
+
+    def test_a_second_place_is_reported(self):
+        self.write("src/osculate/core/b.hpp", "// @eq KS2D:1\n")
+        self.assertIn("already", self.problems()[0])
+
+    def test_an_untested_equation_is_reported(self):
+        self.write("tests/unit/core/t.cpp", "// [eq:KS2D:1] [eq:KS2D:2]\n")
+        self.assertEqual(len(self.problems()), 2)  # 2a is in no test, 2 is in no source
+
+    def test_an_unknown_key_is_reported(self):
+        self.write("docs/references.bib", "@book{Other,\n}\n")
+        self.assertIn("cites no entry", self.problems()[0])
+
+    def test_only_line_numbers_may_be_out_of_date(self):
+        table = check_equations.table(equations.tags(self.root), equations.mentions(self.root), set())
+        self.write("src/osculate/core/a.hpp", "\n\n// @eq KS2D:1, KS2D:2a\n")
+        later = check_equations.table(equations.tags(self.root), equations.mentions(self.root), set())
+        self.assertNotEqual(table, later)
+        self.assertEqual(*map(check_equations.without_lines, (table, later)))
+
+
+class Mutation(unittest.TestCase):
+    def marked(self, source):
+        match = equations.TAG.search(source)
+        tag = equations.Tag(match.group(1), "src/osculate/core/a.hpp", 1, match.start())
+        _, places = mutate.marked(source, tag.path, tag)
+        return [" ".join(source[a:b].split()) for a, b in places]
+
+    def test_a_tag_behind_a_statement_marks_it(self):
+        self.assertEqual(self.marked("int f() {\n  int a = 1 + x;\n  b = g(2,\n        3);  // @eq K:1\n"
+                                     "  c = 4 * b;\n}\n"), ["g(2, 3)"])
+
+    def test_a_tag_before_a_statement_marks_the_next(self):
+        self.assertEqual(self.marked("int f() {\n  a = 1 + x;\n  // @eq K:1 because\n  // of this\n"
+                                     "  if (a == b) return 2 * c;\n  return d;\n}\n"), ["2 * c"])
+
+    def test_a_tag_before_a_function_marks_its_results(self):
+        self.assertEqual(self.marked("// @eq K:1\nint f() {\n  const double h = 1 / x;\n"
+                                     "  for (int i = 0; i < 3; ++i) y[i] += h * z;\n"
+                                     "  Form out = p + q;\n  out.n = 3;\n  return out;\n}\n"),
+                         ["h * z", "p + q"])
+
+    def test_a_braced_list_is_spoilt_element_by_element(self):
+        self.assertEqual(self.marked("// @eq K:1\nS f() { return {Kind::a, x * y, 0.0, g(a, b)}; }\n"),
+                         ["x * y", "g(a, b)"])
+
+    def test_a_one_line_function(self):
+        self.assertEqual(self.marked("S f() { return a - b; }  // @eq K:1\n"), ["a - b"])
+
+
+if __name__ == "__main__":
+    unittest.main()
