@@ -10,7 +10,7 @@ install(DIRECTORY src/osculate DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MAT
   PATTERN "detail" EXCLUDE)
 install(EXPORT OsculateTargets NAMESPACE Osculate:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Osculate)
 configure_package_config_file(cmake/OsculateConfig.cmake.in ${CMAKE_BINARY_DIR}/OsculateConfig.cmake
-  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Osculate)
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Osculate PATH_VARS CMAKE_INSTALL_INCLUDEDIR)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/OsculateConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/OsculateConfig.cmake ${CMAKE_BINARY_DIR}/OsculateConfigVersion.cmake
