@@ -52,7 +52,7 @@ struct DistanceJet {
   d.bend = d.a11 - gap.dot(jet.r2);  // @eq KS2D:3 positive at a minimum: minus the printed F''
   d.twist = 3.0 * jet.r1.dot(jet.r2) - gap.dot(jet.r3);
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  d.noise = epsilon * (gap.lpNorm<1>() + jet.r.lpNorm<1>()) * jet.r1.lpNorm<1>();
+  d.noise = 2.0 * epsilon * (gap.lpNorm<1>() + jet.r.lpNorm<1>()) * jet.r1.lpNorm<1>();
   return d;
 }
 
@@ -114,18 +114,28 @@ struct PieceEnds {
   return d.slope < 0 || (d.slope == 0 && d.bend < 0);
 }
 
+/// The slope is rounding error: below the noise, or near it and no longer falling from step to
+/// step.
+[[nodiscard]] inline bool settled(const DistanceJet& d, double slope_before) {
+  const double slope = std::abs(d.slope);
+  return slope <= d.noise || (slope <= 30 * d.noise && slope >= 0.25 * std::abs(slope_before));
+}
+
 /// The minimum between a (slope < 0) and b (slope >= 0): Newton's step while it stays inside and
 /// at least halves every second bracket, bisection otherwise.
 template <class Eval>
 void solve_bracket(const Eval& eval, DistanceJet a, DistanceJet b, FootCollector& out) {
   if (b.slope == 0 && b.bend >= 0) return out.add(b, false, 0);
   constexpr int most = 200;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   const double smallest = 4e-16 * std::max(std::abs(a.xi), std::abs(b.xi));
   double width_before = 2.0 * (b.xi - a.xi);
   DistanceJet d = eval(0.5 * (a.xi + b.xi));
+  double slope_before = infinite;
   int i = 1;
   for (; i <= most; ++i) {
-    if (std::abs(d.slope) <= d.noise && d.bend > 0) return out.add(d, false, i);
+    if (d.bend > 0 && settled(d, slope_before)) return out.add(d, false, i);
+    slope_before = d.slope;
     (d.slope < 0 ? a : b) = d;
     const double width = b.xi - a.xi;
     if (!(width > smallest)) break;
@@ -218,9 +228,11 @@ template <std::invocable<double> Jet>
   const double smallest = 4e-16 * std::max(std::abs(lo), std::abs(hi));
   DistanceJet d = eval(std::clamp(guess, lo, hi));
   out.saw(d);
+  double slope_before = std::numeric_limits<double>::infinity();
   for (int i = 1; i <= most; ++i) {
     const bool pressed = (d.xi == lo && d.slope > 0) || (d.xi == hi && d.slope < 0);
-    const bool level = std::abs(d.slope) <= d.noise;
+    const bool level = detail::settled(d, slope_before);
+    slope_before = d.slope;
     if (level && d.bend < 0 && !pressed) break;  // on top of a maximum
     if (pressed || level) {
       out.add(d, pressed && !out.orthogonal(d), i - 1);
