@@ -1,0 +1,83 @@
+#include "osculate/api/result_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "osculate/core/error.hpp"
+
+namespace osculate::api {
+namespace fs = std::filesystem;
+namespace {
+
+/// Name of the model file an earlier run was made of, empty if this is no result folder.
+std::string model_of(const fs::path& folder) {
+  std::ifstream file(folder / "summary.json");
+  if (!file) return {};
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  return json.is_object() && json.contains("model") && json["model"].is_string()
+             ? json["model"].get<std::string>()
+             : std::string{};
+}
+
+}  // namespace
+
+std::string choose_folder(const std::string& model, const std::string& wanted) {
+  const fs::path folder = wanted.empty() ? fs::path(fs::path(model).stem().string() + ".results")
+                                         : fs::path(wanted);
+  std::error_code error;
+  if (!fs::exists(folder, error)) return folder.string();
+  if (!fs::is_directory(folder, error))
+    throw core::InputError({}, fmt::format("'{}' exists and is not a folder", folder.string()));
+  if (fs::is_empty(folder, error)) return folder.string();
+  const std::string earlier = model_of(folder);
+  if (earlier != fs::path(model).filename().string())
+    throw core::InputError(
+        {}, fmt::format("folder '{}' is not empty and holds no results of '{}'; name another one with -o",
+                        folder.string(), fs::path(model).filename().string()));
+  return folder.string();
+}
+
+void open_folder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw core::InputError({}, fmt::format("cannot create folder '{}': {}", folder, error.message()));
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const std::string extension = entry.path().extension().string();
+    const bool ours = extension == ".vtu" || extension == ".pvd" || name == "history.csv" ||
+                      name == "summary.json" || name == "report.json" || name == "report.html" ||
+                      name == "log.txt";
+    if (ours) fs::remove(entry.path(), error);
+  }
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  const std::string temporary = path + ".part";
+  {
+    std::ofstream file(temporary, std::ios::binary);
+    file << text;
+    file.flush();
+    if (!file)
+      throw core::InputError({}, fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
+  }
+  std::error_code error;
+  fs::rename(temporary, path, error);
+  if (error) throw core::InputError({}, fmt::format("cannot write '{}': {}", path, error.message()));
+}
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw core::InputError({}, fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace osculate::api

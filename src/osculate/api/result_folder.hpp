@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+
+namespace osculate::api {
+
+/// The folder a run writes to. An occupied folder is refused (core::InputError) unless it holds the
+/// results of the same model file; nothing is changed here.
+[[nodiscard]] std::string choose_folder(const std::string& model, const std::string& wanted);
+
+/// Creates the folder, or removes the files of an earlier run of the same model.
+void open_folder(const std::string& folder);
+
+/// Writes through a temporary file, so that a reader never sees half of it. Throws
+/// core::InputError (the message names the path and the reason) when that fails.
+void write_text(const std::string& path, const std::string& text);
+
+[[nodiscard]] std::string read_text(const std::string& path);
+
+}  // namespace osculate::api

@@ -1,0 +1,43 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace osculate::api {
+
+/// One analysis from a model file to a result folder.
+struct RunOptions {
+  std::string model;   ///< path of the model file
+  std::string folder;  ///< result folder; empty: the model's stem + `.results`
+  std::string until;   ///< last step to run, inclusive; empty: all
+  int threads = 1;
+  std::function<void(std::string_view)> say;       ///< lines for a person (also in log.txt)
+  std::function<void(std::string_view)> progress;  ///< one changing line; may be empty
+  std::function<bool()> interrupted;               ///< asked between increments; may be empty
+};
+
+enum class RunStatus { done, stopped };
+
+struct RunOutcome {
+  RunStatus status = RunStatus::done;
+  std::string message;  ///< plain words
+  std::string folder;
+  std::string summary_json;
+};
+
+/// Validates the input, then runs and writes summary.json, history.csv, results.pvd with VTU files,
+/// report.json, report.html and log.txt. Everything converged is kept whatever happens.
+///
+/// Errors     core::InputError for bad input, before anything is written or replaced
+[[nodiscard]] RunOutcome run(const RunOptions& options);
+
+/// Text and JSON of `osculate check`: bodies, pairs, unknowns, initial gaps and overlaps, warnings.
+struct CheckReport {
+  std::string text, json;
+};
+[[nodiscard]] CheckReport check(const std::string& model);
+
+/// Writes FOLDER/report.html again from FOLDER/report.json.
+void rewrite_report(const std::string& folder);
+
+}  // namespace osculate::api

@@ -1,0 +1,130 @@
+#include "osculate/deck/build.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "osculate/deck/build_context.hpp"
+#include "osculate/deck/parse.hpp"
+#include "osculate/io/gmsh.hpp"
+#include "osculate/mesh/boundary.hpp"
+#include "osculate/mesh/generate.hpp"
+
+namespace osculate::deck {
+namespace {
+
+model::AnalysisOptions analysis_options(const Solver& solver) {
+  model::AnalysisOptions options;
+  solve::NewtonOptions& newton = options.increments.newton;
+  newton.energy = solver.energy.value;
+  newton.residual = solver.residual.value;
+  newton.max_iterations = solver.max_iterations.value;
+  newton.line_search = solver.line_search == LineSearch::off ? solve::LineSearch::off
+                                                             : solve::LineSearch::automatic;
+  options.increments.max_cutbacks = solver.cutbacks.value;
+  return options;
+}
+
+void check_planar(const Description& description, const mesh::Mesh& mesh) {
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    if (std::abs(mesh.nodes[n].z()) > 1e-12 * (1 + mesh.nodes[n].norm()))
+      throw core::InputError(description.mesh.mark,
+                             fmt::format("node {} has z = {:g}; plane problems need z = 0", n + 1,
+                                         mesh.nodes[n].z()));
+}
+
+mesh::BoxSpec box_spec(const Name& name, const Box& box) {
+  mesh::BoxSpec spec;
+  spec.name = name.value;
+  spec.x = box.breakpoints[0].value;
+  spec.y = box.breakpoints[1].value;
+  spec.nx = box.elements[0];
+  spec.ny = box.elements[1];
+  spec.bias_x = box.bias[0];
+  spec.bias_y = box.bias[1];
+  spec.type = box.type.value;
+  if (box.crown)
+    spec.crown = mesh::Crown{box.crown->side == BoxSide::top ? mesh::Crown::Side::top
+                                                             : mesh::Crown::Side::bottom,
+                             box.crown->radius.value, box.crown->at.value};
+  spec.angle = box.angle.value;
+  spec.about = box.about;
+  return spec;
+}
+
+}  // namespace
+
+mesh::Mesh load_mesh(const Description& description) {
+  const MeshSource& source = description.mesh;
+  if (source.file) {
+    try {
+      return io::read_gmsh(source.path);
+    } catch (const core::InputError& error) {
+      if (error.mark().file != source.path || error.mark().line > 0) throw;
+      throw core::InputError(source.file->mark, error.what());
+    }
+  }
+  mesh::Mesh mesh;
+  for (const GeneratedPart& part : source.generated) {
+    if (const auto* box = std::get_if<Box>(&part.shape)) {
+      mesh::append_box(mesh, box_spec(part.name, *box), part.name.mark);
+    } else {
+      const auto& line = std::get<LineMesh>(part.shape);
+      mesh::append_line(mesh, {part.name.value, line.points.value, line.elements, line.type.value},
+                        part.name.mark);
+    }
+  }
+  return mesh;
+}
+
+void build_history(BuildContext& c) {
+  for (const HistoryRequest& request : c.description.output.history) {
+    model::HistoryRequest out;
+    out.name = request.column;
+    out.quantity = std::string(quantity_name(request.of.value));
+    if (request.target == HistoryTarget::contact) {
+      out.kind = model::HistoryRequest::Kind::pair;
+      for (std::size_t p = 0; p < c.model().pairs.size(); ++p)
+        if (c.model().pairs[p].name == request.on.value) out.target = static_cast<Index>(p);
+    } else if (request.target == HistoryTarget::rigid) {
+      out.kind = model::HistoryRequest::Kind::rigid;
+      out.target = c.rigid_index.at(request.on.value);
+    } else {
+      out.kind = model::HistoryRequest::Kind::nodes;
+      out.nodes = c.set(request.on).nodes;
+      if (out.nodes.empty())
+        throw core::InputError(request.on.mark, fmt::format("set '{}' has no nodes", request.on.value));
+    }
+    c.built.history.push_back(std::move(out));
+  }
+}
+
+Built build(const Description& description, mesh::Mesh mesh) {
+  check_planar(description, mesh);
+  Built built;
+  built.options = analysis_options(description.solver);
+  model::Model& m = built.model;
+  m.title = description.title;
+  m.mesh = std::move(mesh);
+  for (const Vec3& node : m.mesh.nodes) m.reference.push_back(node.head<2>());
+  m.body_of_node.assign(m.reference.size(), -1);
+  BuildContext context{description, built, {}, {}, {}, {}};
+  for (const mesh::Set& set : m.mesh.sets) context.set_names.push_back(set.name);
+  build_sections(context);
+  build_rigid(context);
+  build_contact(context);
+  build_equations(context);
+  build_steps(context);
+  build_history(context);
+  check_model(context);
+  return built;
+}
+
+Built build_file(const std::string& path) {
+  const Description description = read_model(path);
+  return build(description, load_mesh(description));
+}
+
+}  // namespace osculate::deck

@@ -1,0 +1,53 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "osculate/model/system.hpp"
+#include "osculate/solve/increments.hpp"
+
+namespace osculate::model {
+
+struct AnalysisOptions {
+  solve::IncrementOptions increments;
+  int threads = 1;
+  std::string until;  ///< last step to run (inclusive), empty = all
+};
+
+/// Where the analysis stands when an observer is called.
+struct Progress {
+  Index step = 0;       ///< 0-based
+  Index increment = 0;  ///< 1-based inside the step, sub-increments counted
+  double fraction = 0;
+  double time = 0;      ///< steps completed + fraction
+};
+
+struct StepRecord {
+  std::string name;
+  std::vector<solve::IncrementRecord> increments;
+};
+
+struct AnalysisResult {
+  solve::Outcome outcome = solve::Outcome::converged;
+  std::string message;      ///< plain words
+  std::vector<StepRecord> steps;
+  State state;              ///< last converged
+  State last_iterate;       ///< of the failed attempt (equal to `state` when done)
+  double seconds = 0, seconds_solver = 0;
+  Index unknowns = 0;
+};
+
+/// Hooks of an analysis. All may be empty.
+struct AnalysisObserver {
+  /// After the initial state and after each converged increment. Return false to stop.
+  std::function<bool(System&, const State&, const Progress&, const solve::IncrementRecord*)>
+      converged;
+  std::function<void(const std::string& reason, const Progress&, double to)> cutback;
+};
+
+/// Runs the steps of a model one after the other. Keeps everything converged when a step fails and
+/// says in `message` why: the reason of the solver and, where there is one, the free motion.
+[[nodiscard]] AnalysisResult run(const Model& model, const AnalysisOptions& options,
+                                 const AnalysisObserver& observer);
+
+}  // namespace osculate::model

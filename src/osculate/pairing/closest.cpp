@@ -1,0 +1,132 @@
+#include "osculate/pairing/closest.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osculate/projection/point_to_curve.hpp"
+
+namespace osculate::pairing {
+namespace {
+
+using projection::CurveFoot;
+using projection::Feature;
+
+Vec2 node(const Facet& facet, std::size_t k, std::span<const Vec2> x) {
+  return x[static_cast<std::size_t>(facet.nodes[k])];
+}
+
+/// Foot point on one facet in the current configuration.
+CurveFoot foot_on_facet(const Facet& facet, std::span<const Vec2> x, const Vec2& point) {
+  if (facet.shape) {
+    const Vec2 origin = node(facet, 0, x);
+    const Vec2 arm = point - origin;
+    const Vec2 local(arm.dot(node(facet, 1, x) - origin), arm.dot(node(facet, 2, x) - origin));
+    return projection::closest_point(*facet.shape, local);
+  }
+  if (facet.count == 2)
+    return projection::closest_on_line2(node(facet, 0, x), node(facet, 1, x), point);
+  geometry::LagrangeCurve curve;
+  curve.count = facet.count;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+    curve.nodes[k] = node(facet, k, x);
+  return projection::closest_point(curve, point);
+}
+
+Vec2 unit_normal(const Facet& facet, double xi, std::span<const Vec2> x) {
+  const Vec2 tangent = facet_jet(facet, xi, x).r1;
+  const double length = tangent.norm();
+  return length > 0 ? Vec2(turn(tangent) / length) : Vec2(Vec2::Zero());
+}
+
+/// Candidate of one facet, and the order among candidates that are equally near.
+struct Candidate {
+  Index facet = -1;
+  CurveFoot foot;
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+int rank(const Candidate& c, const Location& history) {
+  if (c.foot.at_end) return 2;
+  return c.facet == history.facet ? 0 : 1;
+}
+
+bool better(const Candidate& a, const Candidate& b, const Location& history, double tie) {
+  if (b.facet < 0) return true;
+  if (std::abs(a.distance - b.distance) > tie) return a.distance < b.distance;
+  const int ra = rank(a, history), rb = rank(b, history);
+  return ra != rb ? ra < rb : a.facet < b.facet;
+}
+
+/// Fills in what a vertex needs: its outward direction from both neighbours, or that the chain ends.
+void resolve_end(const Chain& chain, std::span<const Vec2> x, Projection& p) {
+  const Facet& facet = chain.facets[static_cast<std::size_t>(p.location.facet)];
+  const bool at_high = p.location.xi > 0.5 * (facet.lo + facet.hi);
+  const Index neighbour = at_high ? facet.next : facet.prev;
+  p.outward = unit_normal(facet, p.location.xi, x);
+  if (neighbour < 0) {
+    p.beyond_end = true;
+    return;
+  }
+  const Facet& other = chain.facets[static_cast<std::size_t>(neighbour)];
+  p.outward += unit_normal(other, at_high ? other.lo : other.hi, x);
+  if (p.outward.norm() > 0) p.outward.normalize();
+}
+
+/// A facet that faces the same way as the slave is the far side of a thin body.
+bool faces_away(const Facet& facet, const CurveFoot& foot, std::span<const Vec2> x,
+                const ProjectionQuery& query) {
+  constexpr double same_way = 0.5;
+  return query.slave_normal && unit_normal(facet, foot.xi, x).dot(*query.slave_normal) > same_way;
+}
+
+#ifdef SHIM
+template <class Visit>
+void nearest_facets(const Tree& tree, const Vec2&, const Visit& visit) {
+  for (std::size_t f = 0; f < tree.b.size(); ++f) visit(static_cast<Index>(f));
+}
+#endif
+
+}  // namespace
+
+void facet_boxes(const Chain& chain, std::span<const Vec2> x, std::vector<search::Box<2>>& boxes) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  boxes.resize(chain.facets.size());
+  for (std::size_t f = 0; f < chain.facets.size(); ++f) {
+    const Facet& facet = chain.facets[f];
+    search::Box<2>& box = boxes[f];
+    box = {};
+    if (facet.shape) {
+      box.lo = Vec2::Constant(-infinite);
+      box.hi = Vec2::Constant(infinite);
+      continue;
+    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+      box.extend(node(facet, k, x));
+    if (facet.count > 2) box.inflate(0.25 * (box.hi - box.lo).norm());
+  }
+}
+
+Projection closest_on_chain(const Chain& chain, const Tree& tree, std::span<const Vec2> x,
+                            const ProjectionQuery& query) {
+  Candidate best;
+  const auto visit = [&](Index f) {
+    const Facet& facet = chain.facets[static_cast<std::size_t>(f)];
+    const CurveFoot foot = foot_on_facet(facet, x, query.point);
+    const double distance = std::sqrt(foot.squared_distance);
+    if (!foot.converged || faces_away(facet, foot, x, query)) return distance;
+    const Candidate candidate{f, foot, distance};
+    const double size = (node(facet, 1, x) - node(facet, 0, x)).norm();
+    if (better(candidate, best, query.history, 1e-10 * size)) best = candidate;
+    return distance;
+  };
+  nearest_facets(tree, query.point, visit);
+  Projection p;
+  if (best.facet < 0) return p;
+  p.feature = best.foot.at_end ? Feature::corner : Feature::face;
+  p.location = {best.facet, best.foot.xi};
+  p.distance = best.distance;
+  if (best.foot.at_end) resolve_end(chain, x, p);
+  return p;
+}
+
+}  // namespace osculate::pairing

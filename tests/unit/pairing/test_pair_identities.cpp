@@ -1,0 +1,117 @@
+// Exact identities of forces and tangents: balance, frame indifference, reparameterisation.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pair_sample.hpp"
+
+namespace osculate::testing {
+namespace {
+
+using contact::ResidualForm;
+
+PairSample frictional(int nodes, ResidualForm form, double depth) {
+  PairSample s = make_sample({.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0, .depth = depth});
+  s.pair.friction = contact::Coulomb{0.2, 80.0};
+  s.pair.residual = form;
+  s.committed.points[0] = {true, 0, projection::Feature::face, 0.5, -0.01, 3, 0};
+  return s;
+}
+
+double moment(const PairSample& s, const Eigen::VectorXd& r) {
+  double sum = 0;
+  for (std::size_t n = 0; n < s.x.size(); ++n)
+    sum += turn(s.x[n]).dot(r.segment<2>(2 * static_cast<Eigen::Index>(n)));
+  return sum;
+}
+
+TEST(PairIdentities, ForcesBalanceAlwaysMomentsWithTheFullResidual) {
+  for (const int nodes : {2, 3, 4})
+    for (const ResidualForm form : {ResidualForm::surface, ResidualForm::full}) {
+      const PairSample s = frictional(nodes, form, 0.2);
+      const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
+      Vec2 sum = Vec2::Zero();
+      for (Eigen::Index n = 0; n < r.size() / 2; ++n) sum += r.segment<2>(2 * n);
+      EXPECT_LT(sum.norm(), 1e-13 * r.norm());
+      const double m = std::abs(moment(s, r)) / r.norm();
+      EXPECT_EQ(m < 1e-13, form == ResidualForm::full) << m;
+    }
+}
+
+TEST(PairIdentities, FrictionlessMomentsBalanceInBothForms) {
+  for (const ResidualForm form : {ResidualForm::surface, ResidualForm::full}) {
+    PairSample s = frictional(3, form, 0.2);
+    s.pair.friction.reset();
+    const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
+    EXPECT_LT(std::abs(moment(s, r)), 1e-13 * r.norm());
+  }
+}
+
+// The surface residual leaves the moment -t zeta of the tangential force (docs/errata.md).
+TEST(PairIdentities, MomentOfTheSurfaceResidualIsShearTimesGap) {
+  PairSample s = frictional(2, ResidualForm::surface, 0.2);
+  s.pair.weight = pairing::Weight::node;
+  pairing::PairEvaluation e;
+  pairing::evaluate(s.pair, s.x, s.committed, false, e);
+  const double m = moment(s, pair_residual(s, flatten(s.x)));
+  EXPECT_NEAR(std::abs(m), std::abs(e.points[0].shear_traction * e.points[0].gap), 1e-13);
+}
+
+TEST(PairIdentities, RigidRotationOfEverythingRotatesTheResidual) {
+  for (const int nodes : {2, 3}) {
+    PairSample s = frictional(nodes, ResidualForm::full, 0.05);
+    const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
+    const double angle = 2.1;
+    Mat<2, 2> q;
+    q << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    for (Vec2& x : s.x) x = q * x + Vec2(3, -5);
+    const Eigen::VectorXd turned = pair_residual(s, flatten(s.x));
+    for (Eigen::Index n = 0; n < r.size() / 2; ++n)
+      EXPECT_LT((turned.segment<2>(2 * n) - q * r.segment<2>(2 * n)).norm(), 1e-12 * r.norm());
+  }
+}
+
+// The same curve in another parameter (a quartic facet whose nodes are those of a quadratic one
+// moved along the curve) gives the same tractions and the same force on the slave.
+TEST(PairIdentities, TractionsDoNotChangeUnderReparameterisation) {
+  PairSample natural = frictional(3, ResidualForm::surface, 0.05);
+  natural.pair.weight = pairing::Weight::node;
+  natural.committed.points[0] = {true, 1, projection::Feature::face, 0.0, -0.01, 3, 0};
+  PairSample other = natural;
+  // facet 1 again as a five-node facet through points of the parabola at xi(eta) = eta + c(1-eta^2)
+  const double c = 0.2;
+  const auto xi_of = [&](double eta) { return eta + c * (1 - eta * eta); };
+  const pairing::Facet& facet = natural.pair.master.facets[1];
+  pairing::Facet five;
+  five.count = 5;
+  const auto first = static_cast<Index>(other.x.size());
+  const std::array<double, 5> eta{-1, 1, -0.5, 0, 0.5};
+  for (std::size_t k = 0; k < 5; ++k) {
+    five.nodes[k] = first + static_cast<Index>(k);
+    other.x.push_back(pairing::facet_jet(facet, xi_of(eta[k]), natural.x).r);
+  }
+  other.pair.master.facets = {five};
+  // xi_of(eta) = 0: eta = (1 - sqrt(1 + 4 c^2)) / (2 c)
+  const double start = (1 - std::sqrt(1 + 4 * c * c)) / (2 * c);
+  other.committed.points[0] = {true, 0, projection::Feature::face, start, -0.01, 3, 0};
+  pairing::PairEvaluation a, b;
+  pairing::evaluate(natural.pair, natural.x, natural.committed, false, a);
+  pairing::evaluate(other.pair, other.x, other.committed, false, b);
+  ASSERT_NE(a.points[0].status, contact::Status::open);
+  EXPECT_NEAR(a.points[0].gap, b.points[0].gap, 1e-13);
+  EXPECT_NEAR(a.points[0].normal_traction, b.points[0].normal_traction, 1e-10);
+  EXPECT_NEAR(a.points[0].shear_traction, b.points[0].shear_traction, 1e-10);
+  EXPECT_LT((a.blocks[0].force.head<2>() - b.blocks[0].force.head<2>()).norm(), 1e-10);
+}
+
+// Curvature term of the evolution equation (KS2D:36): dt = eps_T ds - t kappa d(zeta). It is not
+// integrated; over an increment its size is |kappa d(zeta)| of the traction carried, here measured
+// for a circle of radius 10 and a change of penetration of 1e-3: 1e-4 of t.
+TEST(PairIdentities, CurvatureTermOfTheEvolutionIsSmall) {
+  const double kappa = 1.0 / 10, d_zeta = 1e-3, t = 5.0;
+  const double with_term = t * std::exp(-kappa * d_zeta);
+  EXPECT_NEAR((t - with_term) / t, 1e-4, 1e-8);
+}
+
+}  // namespace
+}  // namespace osculate::testing

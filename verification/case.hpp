@@ -1,0 +1,55 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace osculate::verification {
+
+/// How a computed number is held against its reference. `info` rows never fail: they show where a
+/// published number cannot be reproduced, or a number worth knowing.
+enum class Relation { equal, at_most, at_least, info };
+
+/// One line of the table.
+struct Row {
+  std::string quantity;
+  double computed = 0;
+  double reference = 0;
+  Relation relation = Relation::equal;
+  double tolerance = 0;  ///< allowed |deviation| for `equal`; deviation is relative to the
+                         ///< reference, absolute where the reference is 0
+  std::string source;
+};
+
+/// A curve for the docs: written as CSV when the command asks for it.
+struct Curve {
+  std::string name;
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> rows;
+};
+
+struct CaseResult {
+  std::vector<Row> rows;
+  std::vector<Curve> curves;
+};
+
+struct CaseContext {
+  std::string folder;  ///< of the case: models and reference data
+  int threads = 1;
+};
+
+struct Case {
+  std::string_view name;         ///< folder name
+  std::string_view requirement;  ///< one sentence
+  bool slow = false;             ///< only with --long
+  CaseResult (*run)(const CaseContext&);
+};
+
+/// The one list of cases.
+[[nodiscard]] const std::vector<Case>& all_cases();
+
+[[nodiscard]] double deviation(const Row& row);
+[[nodiscard]] bool passes(const Row& row);
+[[nodiscard]] std::string_view relation_text(Relation relation);
+
+}  // namespace osculate::verification
