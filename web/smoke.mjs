@@ -5,7 +5,7 @@ import { spawnSync } from 'node:child_process';
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
-import { example } from './example.mjs';
+import { example, page } from './example.mjs';
 
 const flags = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run',
   '--disable-background-networking', '--disable-component-update', '--disable-sync',
@@ -30,6 +30,29 @@ function argument(name) {
   return at < 0 ? null : process.argv[at + 1];
 }
 
+/** One cell of every type, a rigid line that moves, missing values, nothing in contact at first. */
+function everyCell() {
+  const points = [];
+  const cells = [];
+  const q = [[-1, -1], [1, -1], [1, 1], [-1, 1], [0, -1], [1, 0], [0, 1], [-1, 0], [0, 0]];
+  const t = [[-1, -1], [1, -1], [-1, 1], [0, -1], [0, 0], [-1, 0]];
+  Object.entries({ quad4: q.slice(0, 4), quad8: q.slice(0, 8), quad9: q, tri3: t.slice(0, 3), tri6: t,
+    line2: q.slice(0, 2), line3: [q[0], q[1], q[4]] }).forEach(([type, nodes], k) => {
+    cells.push({ type, connectivity: [nodes.map((_, i) => points.length + i)] });
+    nodes.forEach(([x, y]) => points.push([x + 2.5 * k, y + (Math.abs(x) < 1 ? 0.2 : 0)]));
+  });
+  const values = points.map(([x, y], i) => (i === 3 ? null : x + y));
+  const contact = [{ pair: 'p', x: [[-1, -1], [0, -1], [1, -1]], pressure: [0, 2, 1], shear: [0, null, -1],
+    normal: [[0, 1], [0, 1], [0, 1]], status: [0, 1, 2] }];
+  return {
+    title: 'every cell', status: 'running', mesh: { points, cells },
+    frames: [{ time: 0, u: points.map(() => [0, 0]), fields: { f: values } },
+      { time: 1, u: points.map(([x]) => [0, 0.01 * x * x]), fields: { f: values }, contact }],
+    rigid: [{ name: 'r', polyline: [[[-1, -1.3], [15, -1.3]], [[-1, -1], [15, -1]]] }],
+    history: { columns: ['time', 'a'], rows: [[0, 1], [1, null]] },
+  };
+}
+
 const dir = mkdtempSync(join(tmpdir(), 'osculate-smoke-'));
 let failed = false;
 const given = process.argv[2]?.endsWith('.html') ? process.argv[2] : null;
@@ -40,6 +63,13 @@ if (!given) {
     const file = join(dir, `${name}.html`);
     writeFileSync(file, example(options));
     pages.push([file, parts]);
+  }
+}
+if (!given) {
+  for (const [name, data] of Object.entries({ bare: { title: 'bare' }, cells: everyCell() })) {
+    const file = join(dir, `${name}.html`);
+    writeFileSync(file, page(data));
+    pages.push([file, name === 'bare' ? ['<h1>bare'] : ['<h1>', 'id="body"']]);
   }
 }
 for (const [file, parts] of pages) {

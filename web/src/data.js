@@ -92,9 +92,13 @@ export function readBody(report) {
   const points = numbers(report.mesh?.points);
   const n = points.length / 2;
   if (!n || !report.frames?.length) return null;
-  const topo = topology(report.mesh.cells ?? [], n);
-  if (report.mesh.edges?.length) {
-    topo.outline = pairsOf(report.mesh.edges).map(([a, b]) => ({ a, b, mid: -1, cells: 1 }));
+  const topo = topology((report.mesh.cells ?? []).map((block) => ({
+    type: block.type, connectivity: Array.from(numbers(block.connectivity)),
+  })), n);
+  const ends = numbers(report.mesh.edges);
+  if (ends.length) {
+    topo.outline = Array.from({ length: ends.length >> 1 }, (_, i) => (
+      { a: ends[2 * i], b: ends[2 * i + 1], mid: -1 }));
   }
   const frames = report.frames.map((f) => readFrame(f, n));
   const names = [...new Set(frames.flatMap((f) => [...f.fields.keys()]))];
@@ -115,11 +119,6 @@ export function readBody(report) {
     }),
     pairs: once(() => [...new Set(frames.flatMap((f) => f.contact().map((c) => c.pair)))]),
   };
-}
-
-function pairsOf(list) {
-  if (Array.isArray(list[0])) return list;
-  return Array.from({ length: list.length / 2 }, (_, i) => [list[2 * i], list[2 * i + 1]]);
 }
 
 function memo(make) {

@@ -1,4 +1,5 @@
 // Histories of the requested quantities, and further curves the program added.
+import { numbers } from './data.js';
 import { el } from './dom.js';
 import { num } from './format.js';
 import { plot } from './plot.js';
@@ -32,7 +33,7 @@ export function historySection(report, history, picked) {
   }
   for (const p of report.profiles ?? []) {
     plot(grid, { title: p.title, xlabel: p.xlabel, ylabel: p.ylabel, legend: true }, (p.curves ?? []).map((c) => ({
-      label: c.label ?? '', x: c.x.map(orNaN), y: c.y.map(orNaN),
+      label: c.label ?? '', x: numbers(c.x), y: numbers(c.y),
     })));
   }
   return {
@@ -42,10 +43,6 @@ export function historySection(report, history, picked) {
       followers.forEach((f) => f(row));
     },
   };
-}
-
-function orNaN(v) {
-  return typeof v === 'number' ? v : NaN;
 }
 
 function rowOf(history, i) {

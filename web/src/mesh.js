@@ -1,42 +1,55 @@
-// Topology of a planar mesh: triangles to paint, edges to draw. Quadrilaterals and quadratic
-// cells are painted as triangles around a virtual centre point, whose values are weighted sums
-// of the values of the cell's nodes; centres follow the nodes in all extended arrays.
+// Topology of a planar mesh: triangles to paint, edges to draw. Cells other than tri3 are painted
+// as triangles around their centre; quadratic edges are cut into four pieces. The points this needs
+// are virtual: their values are weighted sums of nodal values, and they follow the nodes in all
+// extended arrays.
 
-const quarter = [0.25, 0.25, 0.25, 0.25];
-const serendipity = [-0.25, -0.25, -0.25, -0.25, 0.5, 0.5, 0.5, 0.5];
+const ninth = 1 / 9;
 
-// ring: corners of the triangles around the centre; edges: [end, end, mid or -1].
+// edges: [end, end, mid or -1]; centre: weights of the nodes, or the node that stands there.
 const shapes = {
   line2: { nodes: 2, edges: [[0, 1, -1]], line: true },
   line3: { nodes: 3, edges: [[0, 1, 2]], line: true },
-  tri3: { nodes: 3, tris: [[0, 1, 2]], edges: [[0, 1, -1], [1, 2, -1], [2, 0, -1]] },
+  tri3: { nodes: 3, edges: [[0, 1, -1], [1, 2, -1], [2, 0, -1]] },
   tri6: {
-    nodes: 6, tris: [[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
-    edges: [[0, 1, 3], [1, 2, 4], [2, 0, 5]],
+    nodes: 6, edges: [[0, 1, 3], [1, 2, 4], [2, 0, 5]],
+    centre: [-ninth, -ninth, -ninth, 4 * ninth, 4 * ninth, 4 * ninth],
   },
   quad4: {
-    nodes: 4, ring: [0, 1, 2, 3], centre: quarter,
-    edges: [[0, 1, -1], [1, 2, -1], [2, 3, -1], [3, 0, -1]],
+    nodes: 4, edges: [[0, 1, -1], [1, 2, -1], [2, 3, -1], [3, 0, -1]],
+    centre: [0.25, 0.25, 0.25, 0.25],
   },
   quad8: {
-    nodes: 8, ring: [0, 4, 1, 5, 2, 6, 3, 7], centre: serendipity,
-    edges: [[0, 1, 4], [1, 2, 5], [2, 3, 6], [3, 0, 7]],
+    nodes: 8, edges: [[0, 1, 4], [1, 2, 5], [2, 3, 6], [3, 0, 7]],
+    centre: [-0.25, -0.25, -0.25, -0.25, 0.5, 0.5, 0.5, 0.5],
   },
-  quad9: {
-    nodes: 9, ring: [0, 4, 1, 5, 2, 6, 3, 7], centreNode: 8,
-    edges: [[0, 1, 4], [1, 2, 5], [2, 3, 6], [3, 0, 7]],
-  },
+  quad9: { nodes: 9, edges: [[0, 1, 4], [1, 2, 5], [2, 3, 6], [3, 0, 7]], centreNode: 8 },
 };
 
-function addTriangles(shape, nodes, centre, tris) {
-  if (shape.tris) {
-    for (const t of shape.tris) tris.push(nodes[t[0]], nodes[t[1]], nodes[t[2]]);
+// Quadratic shape functions (first end, second end, middle) a quarter of the way along an edge.
+const nearFirst = [0.375, -0.125, 0.75];
+const nearSecond = [-0.125, 0.375, 0.75];
+
+/** The points around a cell, counter-clockwise, with virtual points on quadratic edges. */
+function boundaryOf(shape, nodes, virtual) {
+  const ring = [];
+  for (const [a, b, mid] of shape.edges) {
+    ring.push(nodes[a]);
+    if (mid < 0) continue;
+    const edge = [nodes[a], nodes[b], nodes[mid]];
+    ring.push(virtual(edge, nearFirst), nodes[mid], virtual(edge, nearSecond));
+  }
+  return ring;
+}
+
+function addTriangles(shape, nodes, virtual, tris) {
+  if (shape.line) return;
+  const ring = boundaryOf(shape, nodes, virtual);
+  if (ring.length === 3) {
+    tris.push(...ring);
     return;
   }
-  const ring = shape.ring ?? [];
-  for (let i = 0; i < ring.length; ++i) {
-    tris.push(nodes[ring[i]], nodes[ring[(i + 1) % ring.length]], centre);
-  }
+  const centre = shape.centre ? virtual(nodes, shape.centre) : nodes[shape.centreNode];
+  for (let i = 0; i < ring.length; ++i) tris.push(ring[i], ring[(i + 1) % ring.length], centre);
 }
 
 function addEdges(shape, nodes, n, edges) {
@@ -54,42 +67,40 @@ function addEdges(shape, nodes, n, edges) {
 }
 
 /**
- * Topology of `cells` = [{type, connectivity}] over n nodes:
- * {n, total, centres: [{nodes, weights}], tris: Int32Array, inner: edges, outline: edges}.
+ * Topology of `cells` = [{type, connectivity: flat number[]}] over n nodes:
+ * {n, total, virtual: [{nodes, weights}], tris: Int32Array, inner: edges, outline: edges}.
  */
 export function topology(cells, n) {
-  const centres = [];
+  const points = [];
   const tris = [];
   const edges = new Map();
+  const virtual = (nodes, weights) => n + points.push({ nodes, weights }) - 1;
   for (const block of cells) {
     const shape = shapes[block.type];
     if (!shape) continue;
-    const list = block.connectivity.flat ? block.connectivity.flat() : block.connectivity;
+    const list = block.connectivity;
     for (let c = 0; c + shape.nodes <= list.length; c += shape.nodes) {
       const nodes = list.slice(c, c + shape.nodes);
-      let centre = -1;
-      if (shape.centreNode !== undefined) centre = nodes[shape.centreNode];
-      else if (shape.centre) centre = n + centres.push({ nodes, weights: shape.centre }) - 1;
-      addTriangles(shape, nodes, centre, tris);
+      addTriangles(shape, nodes, virtual, tris);
       addEdges(shape, nodes, n, edges);
     }
   }
   const all = [...edges.values()];
   return {
     n,
-    total: n + centres.length,
-    centres,
+    total: n + points.length,
+    virtual: points,
     tris: Int32Array.from(tris),
     inner: all.filter((e) => e.cells > 1 && !e.line),
     outline: all.filter((e) => e.cells === 1 || e.line),
   };
 }
 
-/** Fills the entries of the virtual centres in an array of `total` values. */
-export function fillCentres(topo, values) {
-  const { centres, n } = topo;
-  for (let c = 0; c < centres.length; ++c) {
-    const { nodes, weights } = centres[c];
+/** Fills the entries of the virtual points in an array of `total` values. */
+export function fillVirtual(topo, values) {
+  const { virtual, n } = topo;
+  for (let c = 0; c < virtual.length; ++c) {
+    const { nodes, weights } = virtual[c];
     let sum = 0;
     for (let k = 0; k < weights.length; ++k) sum += weights[k] * values[nodes[k]];
     values[n + c] = sum;

@@ -21,7 +21,7 @@ export function header(report, increments) {
     el('div', { class: 'title' }, el('h1', {}, report.title || 'Analysis'),
       el('span', { class: 'badge' }, statusWords[status] ?? status)),
     report.message && el('p', { class: 'message' }, report.message),
-    el('div', { class: 'tiles' }, ...tiles.map(([value, name]) =>
+    tiles.length > 0 && el('div', { class: 'tiles' }, ...tiles.map(([value, name]) =>
       el('div', { class: 'tile' }, el('b', {}, String(value)), el('span', {}, name)))));
 }
 

@@ -3,7 +3,7 @@ import { BAR, rigidPoint, toScreen } from './camera.js';
 import { colourMap, cssColour, packed } from './colour.js';
 import { drawContact, legendOf } from './contact_layer.js';
 import { niceTicks, num, tickLabels } from './format.js';
-import { fillCentres } from './mesh.js';
+import { fillVirtual } from './mesh.js';
 import { paint } from './raster.js';
 import { css } from './theme.js';
 
@@ -31,7 +31,7 @@ export function resize(view, width, height) {
   view.pixels = new Uint32Array(view.image.data.buffer);
 }
 
-/** Deformed coordinates of all points (virtual centres included). */
+/** Deformed coordinates of all points (virtual ones included). */
 function deform(view, frame, scale) {
   const { body, x, y } = view;
   const u = body.frames[frame].u();
@@ -39,8 +39,8 @@ function deform(view, frame, scale) {
     x[i] = body.points[2 * i] + scale * u[2 * i];
     y[i] = body.points[2 * i + 1] + scale * u[2 * i + 1];
   }
-  fillCentres(body.topo, x);
-  fillCentres(body.topo, y);
+  fillVirtual(body.topo, x);
+  fillVirtual(body.topo, y);
 }
 
 /** Range of colours: whole analysis, this frame, or symmetric about zero for the diverging map. */
@@ -88,7 +88,7 @@ function paintField(view, state, [low, high], map) {
   const values = body.frames[state.frame].field(state.field);
   const factor = high > low ? 255 / (high - low) : 0;
   for (let i = 0; i < body.n; ++i) V[i] = factor ? (values[i] - low) * factor : 0;
-  fillCentres(body.topo, V);
+  fillVirtual(body.topo, V);
   view.pixels.fill(0);
   paint(view.pixels, view.W, view.H, view.X, view.Y, V, body.topo.tris, packed(map), 0xffa0a0a0);
   view.ctx.putImageData(view.image, 0, 0);
