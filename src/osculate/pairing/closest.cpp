@@ -57,12 +57,22 @@ bool better(const Candidate& a, const Candidate& b, const Location& history, dou
   return ra != rb ? ra < rb : a.facet < b.facet;
 }
 
+/// A kink inside an analytic curve: the normals just before and after it.
+void add_kink_normal(const Facet& facet, std::span<const Vec2> x, Projection& p) {
+  const double step = 1e-9 * (facet.hi - facet.lo);
+  p.outward = unit_normal(facet, p.location.xi - step, x) + unit_normal(facet, p.location.xi + step, x);
+  if (p.outward.norm() > 0) p.outward.normalize();
+}
+
 /// Fills in what a vertex needs: its outward direction from both neighbours, or that the chain ends.
 void resolve_end(const Chain& chain, std::span<const Vec2> x, Projection& p) {
   const Facet& facet = chain.facets[static_cast<std::size_t>(p.location.facet)];
   const bool at_high = p.location.xi > 0.5 * (facet.lo + facet.hi);
   const Index neighbour = at_high ? facet.next : facet.prev;
   p.outward = unit_normal(facet, p.location.xi, x);
+  const double range = facet.hi - facet.lo;
+  const double to_end = std::min(facet.hi - p.location.xi, p.location.xi - facet.lo);
+  if (to_end > 1e-6 * range) return add_kink_normal(facet, x, p);
   if (neighbour < 0) {
     p.beyond_end = true;
     return;
@@ -79,12 +89,11 @@ bool faces_away(const Facet& facet, const CurveFoot& foot, std::span<const Vec2>
   return query.slave_normal && unit_normal(facet, foot.xi, x).dot(*query.slave_normal) > same_way;
 }
 
-#ifdef SHIM
-template <class Visit>
-void nearest_facets(const Tree& tree, const Vec2&, const Visit& visit) {
-  for (std::size_t f = 0; f < tree.b.size(); ++f) visit(static_cast<Index>(f));
+/// How far beyond the nearest facet another one may lie and still count as equally near.
+double tie_distance(const Chain& chain, std::span<const Vec2> x) {
+  const Facet& facet = chain.facets.front();
+  return 1e-10 * (node(facet, 1, x) - node(facet, 0, x)).norm();
 }
-#endif
 
 }  // namespace
 
@@ -108,18 +117,19 @@ void facet_boxes(const Chain& chain, std::span<const Vec2> x, std::vector<search
 
 Projection closest_on_chain(const Chain& chain, const Tree& tree, std::span<const Vec2> x,
                             const ProjectionQuery& query) {
+  constexpr double far_away = std::numeric_limits<double>::infinity();
   Candidate best;
   const auto visit = [&](Index f) {
     const Facet& facet = chain.facets[static_cast<std::size_t>(f)];
     const CurveFoot foot = foot_on_facet(facet, x, query.point);
     const double distance = std::sqrt(foot.squared_distance);
-    if (!foot.converged || faces_away(facet, foot, x, query)) return distance;
+    if (!foot.converged || faces_away(facet, foot, x, query)) return far_away;
     const Candidate candidate{f, foot, distance};
     const double size = (node(facet, 1, x) - node(facet, 0, x)).norm();
     if (better(candidate, best, query.history, 1e-10 * size)) best = candidate;
     return distance;
   };
-  nearest_facets(tree, query.point, visit);
+  tree.for_each_nearest(query.point, tie_distance(chain, x), visit);
   Projection p;
   if (best.facet < 0) return p;
   p.feature = best.foot.at_end ? Feature::corner : Feature::face;
