@@ -45,11 +45,22 @@ LineShape two_node_line(double xi) {
   return shape;
 }
 
+/// Closed form for speed: most curved contact facets are quadratic.
+LineShape three_node_line(double xi) {
+  LineShape shape;
+  shape.count = 3;
+  shape.n[0] = {0.5 * xi * (xi - 1.0), 0.5 * xi * (xi + 1.0), (1.0 - xi) * (1.0 + xi)};
+  shape.n[1] = {xi - 0.5, xi + 0.5, -2.0 * xi};
+  shape.n[2] = {1.0, 1.0, -2.0};
+  return shape;
+}
+
 }  // namespace
 
 LineShape lagrange_line(int nodes, double xi) {
   assert(nodes >= 2 && nodes <= max_line_nodes);
   if (nodes == 2) return two_node_line(xi);
+  if (nodes == 3) return three_node_line(xi);
   LineShape shape;
   if (nodes < 2 || nodes > max_line_nodes) return shape;
   shape.count = nodes;

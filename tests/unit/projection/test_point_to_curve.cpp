@@ -36,12 +36,25 @@ double golden(const Curve& curve, const Vec2& p, double a, double b) {
   return std::sqrt(std::min(fc, fd));
 }
 
-Oracle brute_force(const Curve& curve, const Vec2& p, double lo, double hi) {
-  constexpr int count = 1500;
-  std::vector<double> d(count + 1);
-  const auto xi = [&](int i) { return i == count ? hi : lo + (hi - lo) * i / count; };
-  for (int i = 0; i <= count; ++i)
-    d[static_cast<std::size_t>(i)] = (geometry::jet(curve, xi(i)).r - p).norm();
+/// Curve points at equal parameters.
+struct Sampled {
+  Curve curve;
+  double lo, hi;
+  std::vector<Vec2> points;
+  static constexpr int count = 1500;
+  Sampled(const Curve& c, double from, double to) : curve(c), lo(from), hi(to) {
+    for (int i = 0; i <= count; ++i) points.push_back(geometry::jet(curve, xi(i)).r);
+  }
+  [[nodiscard]] double xi(int i) const { return i == count ? hi : lo + (hi - lo) * i / count; }
+};
+
+Oracle brute_force(const Sampled& sampled, const Vec2& p) {
+  constexpr int count = Sampled::count;
+  const Curve& curve = sampled.curve;
+  const double lo = sampled.lo, hi = sampled.hi;
+  std::vector<double> d;
+  for (const Vec2& point : sampled.points) d.push_back((point - p).norm());
+  const auto xi = [&](int i) { return sampled.xi(i); };
   const bool closed = geometry::closed(curve);
   const auto at = [&](int i) {
     if (closed) return d[static_cast<std::size_t>((i + count) % count)];
@@ -111,12 +124,13 @@ TEST(PointToCurve, AgreesWithBruteForceOnEveryCurve) {  // [eq:KS2D:1] [eq:KS2D:
     auto range = testing::finite_range(sample.curve);
     if (!std::isfinite(geometry::lo(sample.curve))) range = {-40, 40};
     Queries points(sample.curve, 7);
+    const Sampled sampled(sample.curve, range[0], range[1]);
     int wrong_second = 0, iterations = 0;
     for (int q = 0; q < queries; ++q) {
       const Vec2 p = points.next();
       const CurveFoot foot = closest_point(sample.curve, p);
       check_foot(sample.curve, p, foot, geometry::lo(sample.curve), geometry::hi(sample.curve));
-      const Oracle oracle = brute_force(sample.curve, p, range[0], range[1]);
+      const Oracle oracle = brute_force(sampled, p);
       ASSERT_NEAR(std::sqrt(foot.squared_distance), oracle.best, 1e-11) << p.transpose();
       iterations += foot.iterations;
       const bool same = foot.second_distance == oracle.second ||
