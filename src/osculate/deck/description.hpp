@@ -1,0 +1,303 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "osculate/cell/cell_type.hpp"
+#include "osculate/core/error.hpp"
+#include "osculate/core/types.hpp"
+
+/// What a model file says, validated and with all defaults filled in, but not yet matched with a
+/// mesh. Plain values; everything that can turn out wrong later carries the place it was read from.
+namespace osculate::deck {
+
+template <class T>
+struct Marked {
+  T value{};
+  core::SourceMark mark;  ///< of the value; of the enclosing map when it is a default
+};
+
+using Number = Marked<double>;
+using Name = Marked<std::string>;
+
+// ---- mesh -------------------------------------------------------------------------------------
+
+enum class BoxSide { bottom, top };
+
+/// A circular crown on one side of a box: at x the side is moved inwards by
+/// sign(radius) (|radius| - sqrt(radius^2 - (x - at)^2)), nodes between the sides in proportion.
+struct Crown {
+  BoxSide side = BoxSide::bottom;
+  Number radius;  ///< > 0 bulges outwards, < 0 inwards; spans the box
+  Number at;      ///< x of the most protruding point; default: the middle of the box
+};
+
+/// A structured box. All lists are per interval between breakpoints (plain numbers of the model
+/// file are already repeated), so elements[0].size() == breakpoints[0].value.size() - 1.
+struct Box {
+  std::array<Marked<std::vector<double>>, 2> breakpoints;  ///< x and y, strictly increasing
+  std::array<std::vector<int>, 2> elements;                ///< >= 1
+  std::array<std::vector<double>, 2> bias;  ///< last element size / first one, default 1
+  Marked<cell::CellType> type;              ///< tri3, tri6, quad4, quad8, quad9
+  std::optional<Crown> crown;
+  Number angle;      ///< degrees, applied after everything else
+  Vec2 about{0, 0};  ///< centre of that rotation
+};
+
+/// A line mesh along straight intervals.
+struct LineMesh {
+  Marked<std::vector<Vec2>> points;  ///< consecutive ones differ
+  std::vector<int> elements;         ///< per interval
+  Marked<cell::CellType> type;       ///< line2, line3
+};
+
+struct GeneratedPart {
+  Name name;
+  std::variant<Box, LineMesh> shape;
+};
+
+struct MeshSource {
+  core::SourceMark mark;
+  std::optional<Name> file;              ///< as written
+  std::string path;                      ///< `file`, relative to the folder of the model file
+  std::vector<GeneratedPart> generated;  ///< empty when `file` is given
+};
+
+// ---- bodies -----------------------------------------------------------------------------------
+
+enum class MaterialLaw { linear_elastic, st_venant_kirchhoff, neo_hooke };
+
+struct Material {
+  Name name;
+  Marked<MaterialLaw> law;
+  Number young, poisson, density;
+};
+
+enum class SectionElement { plane_strain, plane_stress, axisymmetric };
+enum class Kinematics { small, finite };
+enum class Formulation { full, bbar, enhanced };
+
+struct Section {
+  Name on;
+  Name material;
+  Marked<SectionElement> element;
+  Number thickness;
+  Marked<Kinematics> kinematics;  ///< the material's default is already applied
+  Marked<Formulation> formulation;
+};
+
+struct SetShape {
+  Name set;
+};
+struct CircleShape {
+  Vec2 center{0, 0};
+  Number radius;
+  bool inside = false;  ///< the body is outside the circle (a hole)
+};
+struct ArcShape {
+  Vec2 center{0, 0};
+  Number radius;
+  Number from, to;  ///< degrees, from < to <= from + 360
+  bool inside = false;
+};
+struct PolylineShape {
+  Marked<std::vector<Vec2>> points;  ///< consecutive ones differ
+  bool closed = false;
+};
+/// The half plane behind `point`; `normal` (unit, points out of the body).
+struct HalfPlaneShape {
+  Vec2 point{0, 0};
+  Vec2 normal{0, 1};
+};
+struct NurbsShape {
+  Marked<int> degree;
+  Marked<std::vector<double>> knots;  ///< non-decreasing, control.size() + degree + 1 of them
+  Marked<std::vector<Vec3>> control;  ///< x, y, weight; not pre-multiplied
+};
+using RigidShape =
+    std::variant<SetShape, CircleShape, ArcShape, PolylineShape, HalfPlaneShape, NurbsShape>;
+
+struct Rigid {
+  Name name;
+  RigidShape shape;
+  std::optional<Marked<Vec2>> reference;  ///< absent: centroid of the set, centre of the shape
+  bool flip = false;                      ///< the body is on the other side
+  [[nodiscard]] bool meshed() const { return std::holds_alternative<SetShape>(shape); }
+};
+
+// ---- contact ----------------------------------------------------------------------------------
+
+enum class Sampling { nodes };
+enum class Enforcement { penalty };
+enum class ContactWeight { node, reference_area, current_area };
+enum class Residual { surface, full };
+enum class TangentKind { consistent, covariant };
+enum class HistoryKind { continuous };
+
+/// `consistent`, or the covariant parts that are switched on.
+struct Tangent {
+  TangentKind kind = TangentKind::consistent;
+  bool main = true, rotational = true, curvature = true;
+};
+
+struct CoulombFriction {
+  Number mu, penalty;
+};
+
+struct Contact {
+  Name name;
+  Name master, slave;  ///< name of a rigid body if there is one, else of a set
+  Marked<Sampling> sampling;
+  Number normal_penalty;
+  std::optional<CoulombFriction> friction;
+  Marked<Enforcement> enforcement;
+  Marked<ContactWeight> weight;
+  Marked<Residual> residual;
+  Marked<Tangent> tangent;
+  Marked<HistoryKind> history;
+  std::optional<Number> search_depth;
+};
+
+// ---- loading ----------------------------------------------------------------------------------
+
+/// Points (fraction of the step, factor), fractions strictly increasing in 0..1.
+struct Amplitude {
+  Name name;
+  std::vector<std::pair<double, double>> points;
+};
+
+enum class Component { ux, uy, rz };
+
+struct EquationTerm {
+  Name on;
+  Component of = Component::ux;
+  Number factor;
+};
+/// sum factor * u = value, term by term over the nodes of the sets.
+struct Equation {
+  core::SourceMark mark;
+  std::vector<EquationTerm> terms;
+  Number value;
+};
+/// All nodes of the set share one displacement.
+struct Equal {
+  core::SourceMark mark;
+  Name on;
+  Component of = Component::ux;
+};
+
+/// Values at the end of the step, indexed by Component; absent ones are not touched.
+struct Prescription {
+  core::SourceMark mark;
+  Name on;
+  std::array<std::optional<Number>, 3> values;
+  std::optional<Name> amplitude;
+};
+struct Release {
+  core::SourceMark mark;
+  Name on;
+  std::array<bool, 3> of{};
+};
+/// A load on a set; how many of `values` are used depends on the kind of load: forces fx fy mz,
+/// pressure p, traction tx ty, body force bx by. Absent ones are not touched.
+struct Load {
+  core::SourceMark mark;
+  Name on;
+  std::array<std::optional<Number>, 3> values;
+  std::optional<Name> amplitude;
+};
+
+struct Step {
+  Name name;
+  Marked<int> increments;
+  std::vector<Prescription> prescribe;
+  std::vector<Release> release;
+  std::vector<Load> forces, pressure, traction, body_force;
+};
+
+// ---- solution and output ----------------------------------------------------------------------
+
+enum class LineSearch { automatic, off };
+enum class Predictor { tangent };
+
+struct Solver {
+  Number energy, residual;  ///< tolerances; 0 = this measure does not decide
+  Marked<int> max_iterations;
+  LineSearch line_search = LineSearch::automatic;
+  Marked<int> cutbacks;
+  std::optional<Number> minimum_fraction;
+  Predictor predictor = Predictor::tangent;
+};
+
+enum class FieldTimes { every, last, none };
+
+enum class Quantity {
+  ux,
+  uy,
+  rz,
+  rfx,
+  rfy,
+  rmz,  // of sets and rigid bodies
+  force_x,
+  force_y,
+  normal_force,
+  shear_force,
+  max_pressure,
+  max_penetration,  // of contact pairs
+  stick,
+  slip,
+  open,
+  area
+};
+/// True for the quantities of contact pairs.
+[[nodiscard]] constexpr bool is_contact_quantity(Quantity q) { return q >= Quantity::force_x; }
+
+enum class HistoryTarget { contact, rigid, set };
+
+struct HistoryRequest {
+  core::SourceMark mark;
+  Name on;
+  HistoryTarget target = HistoryTarget::set;  ///< contact pairs first, then rigid bodies, then sets
+  Marked<Quantity> of;
+  std::string column;  ///< unique in the table
+};
+
+struct Plot {
+  std::string title;
+  Name x;
+  std::vector<Name> y;
+};
+
+struct Output {
+  FieldTimes fields = FieldTimes::every;
+  int every = 1;  ///< with FieldTimes::every: each n-th increment (and the last of each step)
+  std::vector<HistoryRequest> history;
+  bool report = true, compress = true;
+  std::vector<Plot> plots;
+};
+
+struct Description {
+  std::string file;  ///< name of the model file
+  std::string title;
+  MeshSource mesh;
+  std::vector<Material> materials;
+  std::vector<Section> sections;
+  std::vector<Rigid> rigid;
+  std::vector<Contact> contact;
+  std::vector<Amplitude> amplitudes;
+  std::vector<Equation> equations;
+  std::vector<Equal> equal;
+  std::vector<Step> steps;
+  Solver solver;
+  Output output;
+
+  [[nodiscard]] const Material* find_material(const std::string& name) const;
+  [[nodiscard]] const Rigid* find_rigid(const std::string& name) const;
+  [[nodiscard]] const Contact* find_contact(const std::string& name) const;
+  [[nodiscard]] const Amplitude* find_amplitude(const std::string& name) const;
+};
+
+}  // namespace osculate::deck

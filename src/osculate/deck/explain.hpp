@@ -1,0 +1,22 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "osculate/deck/spec.hpp"
+
+namespace osculate::deck {
+
+/// The sentence of a key with its unit and its words: the description in the JSON schema.
+[[nodiscard]] std::string summary(const Spec& spec);
+
+/// What `osculate doc KEY` prints: what the key is, its type, range, unit, default, an example,
+/// and the keys below it. KEY is a path such as `contact.friction.coulomb.mu`; indices and the
+/// user's own names may be in it or not; the last part alone is enough (all keys of that name are
+/// then explained). Empty: the whole file.
+///
+/// Errors     core::InputError for a key that does not exist, with the nearest name
+/// Tested by  tests/unit/deck/test_explain.cpp
+[[nodiscard]] std::string explain(const Spec& spec, std::string_view key);
+[[nodiscard]] std::string explain_model_key(std::string_view key);
+
+}  // namespace osculate::deck

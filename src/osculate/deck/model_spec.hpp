@@ -1,0 +1,29 @@
+#pragma once
+#include <string>
+
+#include "osculate/deck/spec.hpp"
+
+namespace osculate::deck {
+
+/// The keys of the model file: the one list that validation, JSON schema and `osculate doc` share.
+[[nodiscard]] Spec model_spec();
+
+// Its branches, one file each.
+[[nodiscard]] Spec mesh_spec();
+[[nodiscard]] Spec materials_spec();
+[[nodiscard]] Spec sections_spec();
+[[nodiscard]] Spec rigid_spec();
+[[nodiscard]] Spec contact_spec();
+[[nodiscard]] Spec amplitudes_spec();
+[[nodiscard]] Spec equations_spec();
+[[nodiscard]] Spec equal_spec();
+[[nodiscard]] Spec steps_spec();
+[[nodiscard]] Spec solver_spec();
+[[nodiscard]] Spec output_spec();
+
+/// Two coordinates.
+[[nodiscard]] Spec point_spec(std::string doc);
+/// A list of points, at least `least` of them.
+[[nodiscard]] Spec points_spec(std::string doc, std::size_t least);
+
+}  // namespace osculate::deck

@@ -1,0 +1,132 @@
+#include "osculate/deck/description.hpp"
+#include "osculate/deck/model_spec.hpp"
+
+namespace osculate::deck {
+namespace {
+
+constexpr const char* stiffness_unit = "force/length^3 (force/length with weight: node)";
+
+Spec sampling_spec() {
+  const Spec points = integer("Number of points.").at_least(1).at_most(10).not_available();
+  return either("Where the slave side is tested for contact.",
+                {choice("Points of the slave side.",
+                        {word("nodes", Sampling::nodes, "the slave nodes"),
+                         planned("mortar", "weighted averages over the slave facets")}),
+                 map("Points inside the slave facets.",
+                     {optional("gauss", points), optional("lobatto", points),
+                      optional("subdomains", points)})})
+      .otherwise("nodes")
+      .such_as("nodes");
+}
+
+Spec normal_spec() {
+  return map("Law in the normal direction.",
+             {required("penalty",
+                       either("Stiffness against penetration.",
+                              {number("Stiffness.").in(stiffness_unit).above(0),
+                               choice("From the stiffness of the bodies.",
+                                      {planned("auto", "from the stiffness of the bodies")})})
+                           .such_as("2.1e6"))})
+      .such_as("{penalty: 2.1e6}");
+}
+
+Spec friction_spec() {
+  const Spec coulomb =
+      map("Coulomb's law with an elastic stick range.",
+          {required("mu", number("Coefficient of friction.").at_least(0).such_as("0.3")),
+           required("penalty", number("Stiffness against sliding while the point sticks.")
+                                   .in(stiffness_unit)
+                                   .above(0)
+                                   .such_as("2.1e6"))});
+  return either("Law in the tangential direction.",
+                {choice("No friction.", {Choice{"none", "no friction", 0, true}}),
+                 map("A law of friction.", {required("coulomb", coulomb)})})
+      .otherwise("none")
+      .such_as("{coulomb: {mu: 0.3, penalty: 2.1e6}}");
+}
+
+Spec tangent_spec() {
+  const auto part = [](std::string doc) { return boolean(std::move(doc)).otherwise("true"); };
+  return either("Derivative of the contact forces that Newton's method uses.",
+                {choice("A complete tangent.", {word("consistent", TangentKind::consistent,
+                                                     "the exact derivative of the residual"),
+                                                word("covariant", TangentKind::covariant,
+                                                     "all parts of the covariant one")}),
+                 map("Parts of the covariant tangent, to study what each is worth.",
+                     {optional("main", part("The part that is left on a flat facet without slip.")),
+                      optional("rotational", part("The part with the rotation of the facet.")),
+                      optional("curvature", part("The part with the curvature of the facet."))})})
+      .otherwise("consistent")
+      .such_as("consistent");
+}
+
+Spec weight_spec() {
+  return choice("What the traction of a contact point is multiplied by.",
+                {word("node", ContactWeight::node, "one: the penalty is a force per length"),
+                 word("reference_area", ContactWeight::reference_area,
+                      "the undeformed area of the slave node"),
+                 word("current_area", ContactWeight::current_area,
+                      "the deformed area of the slave node")})
+      .otherwise("reference_area")
+      .such_as("node");
+}
+
+Spec enforcement_spec() {
+  return choice("How the contact conditions are imposed.",
+                {word("penalty", Enforcement::penalty, "by the stiffnesses alone"),
+                 planned("augmented_lagrange", "by repeated correction of the penalty's tractions"),
+                 planned("lagrange_multiplier", "exactly, by unknown tractions")})
+      .otherwise("penalty")
+      .such_as("penalty");
+}
+
+Spec residual_spec() {
+  return choice("Form of the contact forces.",
+                {word("surface", Residual::surface,
+                      "as published, with the gap set to zero on the tangent plane"),
+                 word("full", Residual::full, "work-conjugate to gap and slip; moments balance")})
+      .otherwise("surface")
+      .such_as("full");
+}
+
+Spec history_spec() {
+  return choice("How friction remembers over borders of facets.",
+                {word("continuous", HistoryKind::continuous,
+                      "the traction is carried along, slip is measured along the surface"),
+                 planned("chord", "slip is measured along the chord"),
+                 planned("per_facet", "each facet starts afresh")})
+      .otherwise("continuous")
+      .such_as("continuous");
+}
+
+}  // namespace
+
+Spec contact_spec() {
+  const Spec depth = number("Points deeper inside the master than this are not in contact with it.")
+                         .in("length")
+                         .above(0)
+                         .otherwise_as("no limit")
+                         .such_as("0.5");
+  return list(
+             "Contact pairs.",
+             map("One contact pair.",
+                 {required("name", text("Name of the pair; begins its columns in history.csv.")
+                                       .as(TextRule::name)
+                                       .such_as("floor")),
+                  required("master", text("Rigid body, or set of boundary facets, that the contact "
+                                          "points are projected onto.")
+                                         .such_as("bottom")),
+                  required("slave", text("Meshed rigid body, or set, whose points are projected.")
+                                        .such_as("base")),
+                  optional("sampling", sampling_spec()), required("normal", normal_spec()),
+                  optional("friction", friction_spec()),
+                  optional("enforcement", enforcement_spec()), optional("weight", weight_spec()),
+                  optional("residual", residual_spec()), optional("tangent", tangent_spec()),
+                  optional("history", history_spec()),
+                  optional("search",
+                           map("Where contact is looked for.", {optional("depth", depth)}))}))
+      .otherwise("[]")
+      .such_as("[{name: floor, master: bottom, slave: base, normal: {penalty: 2.1e6}}]");
+}
+
+}  // namespace osculate::deck

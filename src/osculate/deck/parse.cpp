@@ -1,0 +1,135 @@
+#include "osculate/deck/parse.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "osculate/core/text.hpp"
+#include "osculate/deck/model_spec.hpp"
+#include "osculate/deck/parse_parts.hpp"
+#include "osculate/deck/scalar.hpp"
+
+namespace osculate::deck {
+namespace {
+
+template <class T>
+const T* find_named(const std::vector<T>& list, const std::string& name) {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [&](const T& item) { return item.name.value == name; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+void require_document(const SourceNode& root, const std::string& file) {
+  if (root.kind == SourceNode::Kind::nothing)
+    throw core::InputError({file, 0, ""}, "the file is empty; a model begins with `osculate: 1`");
+  if (root.kind != SourceNode::Kind::map)
+    throw core::InputError({file, root.line, ""},
+                           "expected a map that begins with `osculate: 1`, got " + describe(root));
+}
+
+void require_version(const Value& root) {
+  const Value& version = root.at("osculate");
+  if (version.code != 1)
+    throw core::InputError(
+        version.mark,
+        fmt::format("only version 1 of the model file is understood, got {}", version.code));
+}
+
+}  // namespace
+
+std::optional<Number> number_if(const Value& map, std::string_view key) {
+  const Value* const value = map.find(key);
+  return value ? std::optional(number_of(*value)) : std::nullopt;
+}
+
+std::optional<Name> name_if(const Value& map, std::string_view key) {
+  const Value* const value = map.find(key);
+  return value ? std::optional(name_of(*value)) : std::nullopt;
+}
+
+bool flag(const Value& map, std::string_view key) { return map.at(key).code != 0; }
+
+Vec2 point_of(const Value& v) { return {v.items[0].number, v.items[1].number}; }
+
+Marked<std::vector<Vec2>> points_of(const Value& v) {
+  Marked<std::vector<Vec2>> points{{}, v.mark};
+  for (const Value& item : v.items) {
+    const Vec2 point = point_of(item);
+    if (!points.value.empty() && points.value.back() == point)
+      throw core::InputError(item.mark, "the point coincides with the one before it");
+    points.value.push_back(point);
+  }
+  return points;
+}
+
+Marked<std::vector<double>> numbers_of(const Value& v) {
+  Marked<std::vector<double>> numbers{{}, v.mark};
+  for (const Value& item : v.items) numbers.value.push_back(item.number);
+  return numbers;
+}
+
+std::string quoted(const std::string& text) { return "'" + printable(text) + "'"; }
+
+const Material* Description::find_material(const std::string& name) const {
+  return find_named(materials, name);
+}
+const Rigid* Description::find_rigid(const std::string& name) const {
+  return find_named(rigid, name);
+}
+const Contact* Description::find_contact(const std::string& name) const {
+  return find_named(contact, name);
+}
+const Amplitude* Description::find_amplitude(const std::string& name) const {
+  return find_named(amplitudes, name);
+}
+
+Description parse_model(std::string_view text, std::string file_name) {
+  const SourceNode root = read_yaml(text, file_name);
+  require_document(root, file_name);
+  const Value model = check(model_spec(), root, file_name);
+  require_version(model);
+  Description d;
+  d.file = std::move(file_name);
+  if (const Value* const title = model.find("title")) d.title = title->text;
+  d.mesh = parse_mesh(model.at("mesh"), d.file);
+  d.materials = parse_materials(model.at("materials"));
+  d.sections = parse_sections(model.at("sections"), d.materials);
+  d.rigid = parse_rigid(model.at("rigid"));
+  d.contact = parse_contact(model.at("contact"));
+  d.amplitudes = parse_amplitudes(model.at("amplitudes"));
+  d.equations = parse_equations(model.at("equations"));
+  d.equal = parse_equal(model.at("equal"));
+  d.steps = parse_steps(model.at("steps"));
+  d.solver = parse_solver(model.at("solver"));
+  check_references(d);
+  check_steps(d);
+  d.output = parse_output(model.at("output"), d);
+  return d;
+}
+
+Description read_model(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored))
+    throw core::InputError({path, 0, ""}, "cannot be read: it is a folder");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    const int reason = errno;
+    throw core::InputError({path, 0, ""}, fmt::format("cannot be read: {}", std::strerror(reason)));
+  }
+  // One byte more than allowed is enough to be refused; a device may never end.
+  std::string text(TextLimits{}.bytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return parse_model(text, path);
+}
+
+core::InputError unknown_set(const Name& on, std::span<const std::string> sets) {
+  return {on.mark, core::unknown_name_message("set", printable(on.value), sets)};
+}
+
+}  // namespace osculate::deck

@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "osculate/core/text.hpp"
+#include "osculate/deck/parse_parts.hpp"
+
+namespace osculate::deck {
+namespace {
+
+bool needs_rigid(Quantity q) { return q == Quantity::rz || q == Quantity::rmz; }
+
+void require_quantity(const HistoryRequest& request, const std::string& word,
+                      const Description& d) {
+  const bool contact = request.target == HistoryTarget::contact;
+  if (contact && !is_contact_quantity(request.of.value))
+    throw core::InputError(request.of.mark,
+                           fmt::format("'{}' belongs to sets and rigid bodies, but '{}' is a "
+                                       "contact pair",
+                                       word, request.on.value));
+  if (!contact && is_contact_quantity(request.of.value)) {
+    std::vector<std::string> pairs;
+    for (const Contact& c : d.contact) pairs.push_back(c.name.value);
+    throw core::InputError(
+        request.of.mark,
+        fmt::format("'{}' belongs to contact pairs: {}", word,
+                    core::unknown_name_message("pair", printable(request.on.value), pairs)));
+  }
+  if (request.target == HistoryTarget::set && needs_rigid(request.of.value))
+    throw core::InputError(
+        request.of.mark,
+        fmt::format("'{}' needs a rigid body, and {} is not one", word, quoted(request.on.value)));
+}
+
+HistoryRequest request_of(const Value& v, const Description& d) {
+  HistoryRequest request;
+  request.mark = v.mark;
+  request.on = name_of(v.at("on"));
+  request.of = word_of<Quantity>(v, "of");
+  const std::string& on = request.on.value;
+  request.target = d.find_contact(on) ? HistoryTarget::contact
+                   : d.find_rigid(on) ? HistoryTarget::rigid
+                                      : HistoryTarget::set;
+  const std::string& word = v.at("of").text;
+  const Value* const name = v.find("name");
+  request.column = name ? name->text : on + "." + word;
+  if (!name && on.find_first_of(",\"\r\n") != std::string::npos)
+    throw core::InputError(request.on.mark, quoted(on) + " cannot head a column; give a `name`");
+  require_quantity(request, word, d);
+  return request;
+}
+
+void require_unique_columns(const std::vector<HistoryRequest>& requests) {
+  std::map<std::string, int> lines;
+  for (const HistoryRequest& request : requests) {
+    const std::string& column = request.column;
+    if (column == "step" || column == "increment" || column == "time")
+      throw core::InputError(
+          request.mark, fmt::format("column '{}' is always there; choose another name", column));
+    const auto [at, fresh] = lines.emplace(column, request.mark.line);
+    if (!fresh)
+      throw core::InputError(request.mark, fmt::format("column {} is given twice, first on line {}",
+                                                       quoted(column), at->second));
+  }
+}
+
+Name column_of(const Value& v, const std::vector<std::string>& columns) {
+  if (std::find(columns.begin(), columns.end(), v.text) == columns.end())
+    throw core::InputError(v.mark,
+                           core::unknown_name_message("column", printable(v.text), columns));
+  return name_of(v);
+}
+
+Plot plot_of(const Value& v, const std::vector<std::string>& columns) {
+  Plot plot;
+  if (const Value* const title = v.find("title")) plot.title = title->text;
+  plot.x = column_of(v.at("x"), columns);
+  const Value& y = v.at("y");
+  if (y.alternative == 0) plot.y.push_back(column_of(y, columns));
+  for (const Value& item : y.items) plot.y.push_back(column_of(item, columns));
+  return plot;
+}
+
+}  // namespace
+
+Output parse_output(const Value& v, const Description& description) {
+  Output output;
+  const Value& fields = v.at("fields");
+  if (fields.alternative == 0)
+    output.every = fields.code;
+  else
+    output.fields = word_of<FieldTimes>(fields).value;
+  for (const Value& item : v.at("history").items)
+    output.history.push_back(request_of(item, description));
+  require_unique_columns(output.history);
+  std::vector<std::string> columns{"step", "increment", "time"};
+  for (const HistoryRequest& request : output.history) columns.push_back(request.column);
+  for (const Value& item : v.at("plots").items) output.plots.push_back(plot_of(item, columns));
+  output.report = flag(v, "report");
+  output.compress = flag(v, "compress");
+  return output;
+}
+
+}  // namespace osculate::deck

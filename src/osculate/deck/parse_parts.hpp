@@ -1,0 +1,57 @@
+#pragma once
+// Shared by the parse_*.cpp files; not for users.
+#include "osculate/deck/check.hpp"
+#include "osculate/deck/description.hpp"
+
+namespace osculate::deck {
+
+// ---- plain values -----------------------------------------------------------------------------
+
+[[nodiscard]] inline Number number_of(const Value& v) { return {v.number, v.mark}; }
+[[nodiscard]] inline Name name_of(const Value& v) { return {v.text, v.mark}; }
+[[nodiscard]] inline Marked<int> integer_of(const Value& v) { return {v.code, v.mark}; }
+
+/// The enumerator of a choice; its code comes from the specification.
+template <class E>
+[[nodiscard]] Marked<E> word_of(const Value& v) {
+  return {static_cast<E>(v.code), v.mark};
+}
+template <class E>
+[[nodiscard]] Marked<E> word_of(const Value& map, std::string_view key) {
+  return word_of<E>(map.at(key));
+}
+
+[[nodiscard]] std::optional<Number> number_if(const Value& map, std::string_view key);
+[[nodiscard]] std::optional<Name> name_if(const Value& map, std::string_view key);
+[[nodiscard]] bool flag(const Value& map, std::string_view key);
+[[nodiscard]] Vec2 point_of(const Value& v);
+/// At least one segment; consecutive points must differ.
+[[nodiscard]] Marked<std::vector<Vec2>> points_of(const Value& v);
+[[nodiscard]] Marked<std::vector<double>> numbers_of(const Value& v);
+
+/// The text without its line breaks, for messages.
+[[nodiscard]] std::string quoted(const std::string& text);
+
+// ---- branches ---------------------------------------------------------------------------------
+
+[[nodiscard]] MeshSource parse_mesh(const Value& v, const std::string& file);
+[[nodiscard]] std::vector<Material> parse_materials(const Value& v);
+[[nodiscard]] std::vector<Section> parse_sections(const Value& v,
+                                                  const std::vector<Material>& materials);
+[[nodiscard]] std::vector<Rigid> parse_rigid(const Value& v);
+[[nodiscard]] std::vector<Contact> parse_contact(const Value& v);
+[[nodiscard]] std::vector<Amplitude> parse_amplitudes(const Value& v);
+[[nodiscard]] std::vector<Equation> parse_equations(const Value& v);
+[[nodiscard]] std::vector<Equal> parse_equal(const Value& v);
+[[nodiscard]] std::vector<Step> parse_steps(const Value& v);
+[[nodiscard]] Solver parse_solver(const Value& v);
+/// Needs contacts and rigid bodies: they decide what `on` means.
+[[nodiscard]] Output parse_output(const Value& v, const Description& description);
+
+// ---- references between branches --------------------------------------------------------------
+
+/// Names used twice, names of nothing, contradictions within a step. Throws core::InputError.
+void check_references(const Description& description);
+void check_steps(const Description& description);
+
+}  // namespace osculate::deck

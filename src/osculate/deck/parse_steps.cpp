@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include "osculate/deck/parse_parts.hpp"
+
+namespace osculate::deck {
+namespace {
+
+Tangent tangent_of(const Value& v) {
+  if (v.alternative == 0) return {word_of<TangentKind>(v).value, true, true, true};
+  return {TangentKind::covariant, flag(v, "main"), flag(v, "rotational"), flag(v, "curvature")};
+}
+
+std::optional<CoulombFriction> friction_of(const Value& v) {
+  if (v.alternative == 0) return std::nullopt;
+  const Value& coulomb = v.at("coulomb");
+  return CoulombFriction{number_of(coulomb.at("mu")), number_of(coulomb.at("penalty"))};
+}
+
+Contact contact_of(const Value& v) {
+  Contact c;
+  c.name = name_of(v.at("name"));
+  c.master = name_of(v.at("master"));
+  c.slave = name_of(v.at("slave"));
+  c.sampling = word_of<Sampling>(v, "sampling");
+  c.normal_penalty = number_of(v.at("normal").at("penalty"));
+  c.friction = friction_of(v.at("friction"));
+  c.enforcement = word_of<Enforcement>(v, "enforcement");
+  c.weight = word_of<ContactWeight>(v, "weight");
+  c.residual = word_of<Residual>(v, "residual");
+  c.tangent = {tangent_of(v.at("tangent")), v.at("tangent").mark};
+  c.history = word_of<HistoryKind>(v, "history");
+  if (const Value* const search = v.find("search")) c.search_depth = number_if(*search, "depth");
+  return c;
+}
+
+/// Loads whose components are called `names`, in this order.
+std::vector<Load> loads_of(const Value& v, const std::vector<std::string_view>& names) {
+  std::vector<Load> out;
+  for (const Value& item : v.items) {
+    Load load;
+    load.mark = item.mark;
+    load.on = name_of(item.at("on"));
+    for (std::size_t i = 0; i < names.size(); ++i) load.values[i] = number_if(item, names[i]);
+    load.amplitude = name_if(item, "amplitude");
+    out.push_back(std::move(load));
+  }
+  return out;
+}
+
+std::vector<Prescription> prescriptions_of(const Value& v) {
+  std::vector<Prescription> out;
+  for (const Load& load : loads_of(v, {"ux", "uy", "rz"}))
+    out.push_back({load.mark, load.on, load.values, load.amplitude});
+  return out;
+}
+
+std::vector<Release> releases_of(const Value& v) {
+  std::vector<Release> out;
+  for (const Value& item : v.items) {
+    Release release{item.mark, name_of(item.at("on")), {}};
+    for (const Value& component : item.at("of").items) {
+      bool& slot = release.of[static_cast<std::size_t>(component.code)];
+      if (slot) throw core::InputError(component.mark, quoted(component.text) + " is given twice");
+      slot = true;
+    }
+    out.push_back(std::move(release));
+  }
+  return out;
+}
+
+Step step_of(const Value& v) {
+  Step s;
+  s.name = name_of(v.at("name"));
+  s.increments = integer_of(v.at("increments"));
+  s.prescribe = prescriptions_of(v.at("prescribe"));
+  s.release = releases_of(v.at("release"));
+  s.forces = loads_of(v.at("forces"), {"fx", "fy", "mz"});
+  s.pressure = loads_of(v.at("pressure"), {"value"});
+  s.traction = loads_of(v.at("traction"), {"tx", "ty"});
+  s.body_force = loads_of(v.at("body_force"), {"bx", "by"});
+  return s;
+}
+
+Amplitude amplitude_of(const ValueEntry& entry) {
+  Amplitude amplitude;
+  amplitude.name = {entry.key, entry.key_mark};
+  for (const Value& point : entry.value.items) {
+    const Value& t = point.items[0];
+    if (!(t.number >= 0 && t.number <= 1))
+      throw core::InputError(t.mark,
+                             "the fraction of the step must be >= 0 and <= 1, got " + t.text);
+    if (!amplitude.points.empty() && !(t.number > amplitude.points.back().first))
+      throw core::InputError(t.mark, fmt::format("fractions must increase, got {} after {}", t.text,
+                                                 amplitude.points.back().first));
+    amplitude.points.emplace_back(t.number, point.items[1].number);
+  }
+  return amplitude;
+}
+
+Equation equation_of(const Value& v) {
+  Equation equation;
+  equation.mark = v.mark;
+  for (const Value& item : v.at("terms").items) {
+    const Value& factor = item.at("factor");
+    if (factor.number == 0) throw core::InputError(factor.mark, "must not be zero");
+    equation.terms.push_back(
+        {name_of(item.at("on")), word_of<Component>(item, "of").value, number_of(factor)});
+  }
+  equation.value = number_of(v.at("value"));
+  return equation;
+}
+
+}  // namespace
+
+std::vector<Contact> parse_contact(const Value& v) {
+  std::vector<Contact> out;
+  for (const Value& item : v.items) out.push_back(contact_of(item));
+  return out;
+}
+
+std::vector<Amplitude> parse_amplitudes(const Value& v) {
+  std::vector<Amplitude> out;
+  for (const ValueEntry& entry : v.entries) out.push_back(amplitude_of(entry));
+  return out;
+}
+
+std::vector<Equation> parse_equations(const Value& v) {
+  std::vector<Equation> out;
+  for (const Value& item : v.items) out.push_back(equation_of(item));
+  return out;
+}
+
+std::vector<Equal> parse_equal(const Value& v) {
+  std::vector<Equal> out;
+  for (const Value& item : v.items)
+    out.push_back({item.mark, name_of(item.at("on")), word_of<Component>(item, "of").value});
+  return out;
+}
+
+std::vector<Step> parse_steps(const Value& v) {
+  std::vector<Step> out;
+  for (const Value& item : v.items) out.push_back(step_of(item));
+  return out;
+}
+
+Solver parse_solver(const Value& v) {
+  Solver s;
+  const Value& tolerance = v.at("tolerance");
+  const Value& energy = tolerance.at("energy");
+  const Value& residual = tolerance.at("residual");
+  // Giving one of them takes the default of the other away.
+  const bool alone = energy.given != residual.given;
+  s.energy = {alone && !energy.given ? 0.0 : energy.number, energy.mark};
+  s.residual = {alone && !residual.given ? 0.0 : residual.number, residual.mark};
+  s.max_iterations = integer_of(v.at("max_iterations"));
+  s.line_search = word_of<LineSearch>(v, "line_search").value;
+  s.cutbacks = integer_of(v.at("cutbacks"));
+  s.minimum_fraction = number_if(v, "minimum_fraction");
+  s.predictor = word_of<Predictor>(v, "predictor").value;
+  return s;
+}
+
+}  // namespace osculate::deck

@@ -1,0 +1,188 @@
+#include <fmt/format.h>
+
+#include <map>
+
+#include "osculate/core/text.hpp"
+#include "osculate/deck/parse_parts.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// Throws when a name is already taken.
+void add_unique(std::map<std::string, int>& lines, const std::string& name,
+                const core::SourceMark& mark, const std::string& what) {
+  const auto [at, fresh] = lines.emplace(name, mark.line);
+  if (!fresh)
+    throw core::InputError(mark, fmt::format("{} {} is given twice, first on line {}", what,
+                                             quoted(name), at->second));
+}
+
+void check_rigid_sets(const Description& d) {
+  std::map<std::string, int> sets;
+  for (const Rigid& rigid : d.rigid)
+    if (const auto* const shape = std::get_if<SetShape>(&rigid.shape))
+      add_unique(sets, shape->set.value, shape->set.mark, "set");
+}
+
+void check_contact_names(const Description& d) {
+  std::map<std::string, int> names;
+  for (const Contact& c : d.contact) {
+    add_unique(names, c.name.value, c.name.mark, "contact");
+    if (const Rigid* const rigid = d.find_rigid(c.name.value))
+      throw core::InputError(
+          c.name.mark, fmt::format("the name '{}' already belongs to the rigid body on line {}",
+                                   c.name.value, rigid->name.mark.line));
+  }
+}
+
+void check_sides(const Description& d) {
+  for (const Contact& c : d.contact) {
+    if (c.master.value == c.slave.value)
+      throw core::InputError(c.slave.mark, quoted(c.slave.value) +
+                                               " is master and slave; self-contact is not "
+                                               "available yet");
+    const Rigid* const slave = d.find_rigid(c.slave.value);
+    if (slave && !slave->meshed())
+      throw core::InputError(c.slave.mark,
+                             fmt::format("rigid body '{}' is an analytic shape, which can only be "
+                                         "master",
+                                         c.slave.value));
+  }
+}
+
+void require_rigid(const Description& d, const Name& on, const core::SourceMark& mark,
+                   std::string_view component) {
+  if (d.find_rigid(on.value)) return;
+  std::vector<std::string> bodies;
+  for (const Rigid& rigid : d.rigid) bodies.push_back(rigid.name.value);
+  throw core::InputError(
+      mark, fmt::format("'{}' needs a rigid body: {}", component,
+                        core::unknown_name_message("rigid body", printable(on.value), bodies)));
+}
+
+void check_constraints(const Description& d) {
+  for (const Equation& equation : d.equations)
+    for (const EquationTerm& term : equation.terms)
+      if (term.of == Component::rz) require_rigid(d, term.on, term.on.mark, "rz");
+  std::map<std::string, int> equal;
+  for (const Equal& e : d.equal) {
+    if (d.find_rigid(e.on.value))
+      throw core::InputError(e.on.mark, fmt::format("'{}' is a rigid body; its nodes already move "
+                                                    "as one",
+                                                    e.on.value));
+    const char* const component = e.of == Component::ux ? ".ux" : ".uy";
+    add_unique(equal, e.on.value + component, e.mark, "equal");
+  }
+}
+
+constexpr std::array<const char*, 3> displacement_names{"ux", "uy", "rz"};
+
+/// What one step does with the displacements: every set and component at most once.
+class StepChecker {
+ public:
+  explicit StepChecker(const Description& d) : d_(d) {}
+
+  void check(const Step& step) {
+    std::map<std::string, int> seen;
+    for (const Prescription& p : step.prescribe) check_prescription(p, seen);
+    for (const Release& r : step.release) check_release(r, seen);
+    for (const Prescription& p : step.prescribe)
+      for (std::size_t i = 0; i < 3; ++i) prescribed_[i] = prescribed_[i] || p.values[i];
+    check_loads(step.forces, {"fx", "fy", "mz"}, true);
+    check_loads(step.pressure, {"value", "", ""}, false);
+    check_loads(step.traction, {"tx", "ty", ""}, false);
+    check_loads(step.body_force, {"bx", "by", ""}, false);
+    for (const Load& force : step.forces) check_loaded_dof(step, force);
+  }
+
+ private:
+  void require_amplitude(const std::optional<Name>& amplitude) const {
+    if (!amplitude || d_.find_amplitude(amplitude->value)) return;
+    std::vector<std::string> known;
+    for (const Amplitude& a : d_.amplitudes) known.push_back(a.name.value);
+    throw core::InputError(amplitude->mark, core::unknown_name_message(
+                                                "amplitude", printable(amplitude->value), known));
+  }
+
+  void check_prescription(const Prescription& p, std::map<std::string, int>& seen) const {
+    require_amplitude(p.amplitude);
+    if (p.values[2]) require_rigid(d_, p.on, p.values[2]->mark, "rz");
+    for (std::size_t i = 0; i < 3; ++i)
+      if (p.values[i])
+        add_unique(seen, p.on.value + "." + displacement_names[i], p.values[i]->mark,
+                   "prescription of");
+  }
+
+  /// Rigid bodies are held from the beginning, so that releasing them always makes sense.
+  void check_release(const Release& r, std::map<std::string, int>& seen) const {
+    const bool rigid = d_.find_rigid(r.on.value) != nullptr;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!r.of[i]) continue;
+      const char* const component = displacement_names[i];
+      if (i == 2) require_rigid(d_, r.on, r.mark, component);
+      const std::string name = r.on.value + "." + component;
+      const auto [at, fresh] = seen.emplace(name, r.mark.line);
+      if (!fresh)
+        throw core::InputError(r.mark, fmt::format("{} is already prescribed or released in this "
+                                                   "step, on line {}",
+                                                   quoted(name), at->second));
+      if (!rigid && !prescribed_[i])
+        throw core::InputError(r.mark, fmt::format("no earlier step prescribes {}, so it cannot be "
+                                                   "released",
+                                                   component));
+    }
+  }
+
+  void check_loads(const std::vector<Load>& loads, const std::array<const char*, 3>& components,
+                   bool on_rigid) const {
+    std::map<std::string, int> seen;
+    for (const Load& load : loads) {
+      require_amplitude(load.amplitude);
+      if (!on_rigid && d_.find_rigid(load.on.value))
+        throw core::InputError(
+            load.on.mark,
+            fmt::format("'{}' is a rigid body; only forces act on it directly", load.on.value));
+      if (on_rigid && load.values[2]) require_rigid(d_, load.on, load.values[2]->mark, "mz");
+      for (std::size_t i = 0; i < 3; ++i)
+        if (load.values[i])
+          add_unique(seen, load.on.value + "." + components[i], load.values[i]->mark, "load on");
+    }
+  }
+
+  /// A displacement cannot be prescribed while the force that belongs to it is given.
+  static void check_loaded_dof(const Step& step, const Load& force) {
+    for (const Prescription& p : step.prescribe)
+      for (std::size_t i = 0; i < 3; ++i)
+        if (p.on.value == force.on.value && p.values[i] && force.values[i])
+          throw core::InputError(
+              force.values[i]->mark,
+              fmt::format("a force cannot be given where line {} prescribes {} of {}",
+                          p.values[i]->mark.line, displacement_names[i], quoted(p.on.value)));
+  }
+
+  const Description& d_;
+  std::array<bool, 3> prescribed_{};  ///< by an earlier step, anywhere
+};
+
+}  // namespace
+
+void check_references(const Description& d) {
+  std::map<std::string, int> sections;
+  for (const Section& section : d.sections)
+    add_unique(sections, section.on.value, section.on.mark, "section on");
+  check_rigid_sets(d);
+  check_contact_names(d);
+  check_sides(d);
+  check_constraints(d);
+}
+
+void check_steps(const Description& d) {
+  std::map<std::string, int> names;
+  StepChecker checker(d);
+  for (const Step& step : d.steps) {
+    add_unique(names, step.name.value, step.name.mark, "step");
+    checker.check(step);
+  }
+}
+
+}  // namespace osculate::deck
