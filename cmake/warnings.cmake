@@ -1,7 +1,7 @@
 # Flags shared by every target of the project (never exported to users).
 add_library(osculate_flags INTERFACE)
 target_compile_options(osculate_flags INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
-  -Wno-maybe-uninitialized)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 if(OSCULATE_WERROR)
   target_compile_options(osculate_flags INTERFACE -Werror)
 endif()
