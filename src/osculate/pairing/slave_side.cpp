@@ -1,28 +1,57 @@
 #include "osculate/pairing/slave_side.hpp"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "osculate/cell/quadrature.hpp"
 
 namespace osculate::pairing {
 
+namespace {
+
+/// Nodes of a facet in the direction of travel: first end, interior, second end.
+std::vector<Index> along(const Facet& facet) {
+  std::vector<Index> nodes{facet.nodes[0]};
+  nodes.insert(nodes.end(), facet.nodes.begin() + 2, facet.nodes.begin() + facet.count);
+  nodes.push_back(facet.nodes[1]);
+  return nodes;
+}
+
+/// Facets piece by piece in the direction of travel, open pieces from their start.
+std::vector<Index> facet_order(const Chain& chain) {
+  std::vector<Index> order;
+  std::vector<bool> seen(chain.facets.size(), false);
+  const auto walk = [&](Index f) {
+    for (; f >= 0 && !seen[static_cast<std::size_t>(f)];
+         f = chain.facets[static_cast<std::size_t>(f)].next) {
+      seen[static_cast<std::size_t>(f)] = true;
+      order.push_back(f);
+    }
+  };
+  for (std::size_t f = 0; f < seen.size(); ++f)
+    if (chain.facets[f].prev < 0) walk(static_cast<Index>(f));
+  for (std::size_t f = 0; f < seen.size(); ++f) walk(static_cast<Index>(f));
+  return order;
+}
+
+}  // namespace
+
 SlaveSide make_slave_side(Chain chain, std::span<const Index> extra_nodes) {
   SlaveSide side;
   side.chain = std::move(chain);
-  for (const Facet& facet : side.chain.facets)
-    side.nodes.insert(side.nodes.end(), facet.nodes.begin(), facet.nodes.begin() + facet.count);
-  side.nodes.insert(side.nodes.end(), extra_nodes.begin(), extra_nodes.end());
-  std::sort(side.nodes.begin(), side.nodes.end());
-  side.nodes.erase(std::unique(side.nodes.begin(), side.nodes.end()), side.nodes.end());
-  side.facets_of.resize(side.nodes.size());
-  for (std::size_t f = 0; f < side.chain.facets.size(); ++f) {
-    const Facet& facet = side.chain.facets[f];
-    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {
-      const auto at = std::lower_bound(side.nodes.begin(), side.nodes.end(), facet.nodes[k]);
-      side.facets_of[static_cast<std::size_t>(at - side.nodes.begin())].push_back(
-          static_cast<Index>(f));
+  std::unordered_map<Index, std::size_t> slot;
+  const auto add = [&](Index node) {
+    const auto found = slot.emplace(node, side.nodes.size());
+    if (found.second) {
+      side.nodes.push_back(node);
+      side.facets_of.emplace_back();
     }
-  }
+    return found.first->second;
+  };
+  for (const Index f : facet_order(side.chain))
+    for (const Index node : along(side.chain.facets[static_cast<std::size_t>(f)]))
+      side.facets_of[add(node)].push_back(f);
+  for (const Index node : extra_nodes) add(node);
   return side;
 }
 

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "commands.hpp"
+#include "osculate/api/result_folder.hpp"
+#include "osculate/api/tangent_check.hpp"
+
+namespace osculate::app {
+namespace {
+
+struct Flags {
+  std::string model, folder;
+  int threads = 1;
+  int state = 0;
+  bool json = false;
+};
+
+int tangent(const Flags& flags) {
+  if (flags.state != 0) {
+    fmt::print(stderr, "error: --state needs checkpoints, which are not available yet; only 0 (initial)\n");
+    return bad_input;
+  }
+  const api::TangentReport report = api::check_tangent(flags.model, flags.threads);
+  fmt::print(flags.json ? stderr : stdout, "{}", api::to_text(report));
+  if (flags.json) fmt::print("{}\n", api::to_json(report));
+  if (!flags.folder.empty()) {
+    const std::string folder = api::choose_folder(flags.model, flags.folder);
+    api::open_folder(folder);
+    api::write_text(folder + "/tangent.json", api::to_json(report) + "\n");
+  }
+  const bool ok = std::all_of(report.rows.begin(), report.rows.end(),
+                              [](const api::TangentRow& row) { return row.passed(); });
+  return ok ? done : check_failed;
+}
+
+}  // namespace
+
+void add_tangent(CLI::App& app, int& exit_code) {
+  CLI::App* const command = app.add_subcommand(
+      "tangent", "Check the assembled tangent against finite differences, by convergence order");
+  auto flags = std::make_shared<Flags>();
+  command->add_option("model", flags->model, "Model file (YAML)")->required();
+  command->add_option("-o,--output", flags->folder, "Also write tangent.json to this folder");
+  command->add_option("--state", flags->state, "Converged increment (0 = initial)");
+  command->add_option("--threads", flags->threads, "Threads for assembly")->check(CLI::Range(1, 1024));
+  command->add_flag("--json", flags->json, "Print JSON on stdout");
+  command->callback([flags, &exit_code] { exit_code = tangent(*flags); });
+}
+
+}  // namespace osculate::app

@@ -1,0 +1,62 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "osculate/api/run.hpp"
+#include "osculate/api/summary.hpp"
+
+namespace osculate::api {
+namespace {
+
+struct GapFacts {
+  int found = 0, touching = 0, overlapping = 0;
+  double smallest = 0, largest = 0;
+};
+
+GapFacts gap_facts(const pairing::PairState& state) {
+  GapFacts facts;
+  for (const contact::PointHistory& point : state.points) {
+    if (point.facet < 0) continue;
+    facts.smallest = facts.found ? std::min(facts.smallest, point.gap) : point.gap;
+    facts.largest = facts.found ? std::max(facts.largest, point.gap) : point.gap;
+    ++facts.found;
+    if (point.gap == 0) ++facts.touching;
+    if (point.gap < 0) ++facts.overlapping;
+  }
+  return facts;
+}
+
+}  // namespace
+
+CheckReport check(const std::string& path) {
+  const deck::Built built = deck::build_file(path);
+  const model::Model& m = built.model;
+  model::System system(m, 1);
+  const model::State state = system.initial_state();
+  CheckReport report;
+  nlohmann::json facts = nlohmann::json::array(), pairs = nlohmann::json::array();
+  for (const ModelFact& fact : model_facts(built)) {
+    report.text += fmt::format("{:<13} {:<16} {}\n", fact.heading, fact.name, fact.text);
+    facts.push_back({{"heading", fact.heading}, {"name", fact.name}, {"text", fact.text}});
+  }
+  report.text += fmt::format("{:<13} {}\n", "Unknowns", system.dofs().unknowns());
+  for (std::size_t p = 0; p < m.pairs.size(); ++p) {
+    const GapFacts g = gap_facts(state.pairs[p]);
+    report.text += fmt::format(
+        "{:<13} {:<16} {} of {} slave nodes face the master, {} touch, {} overlap, gap {:.4g} to {:.4g}\n",
+        "Initial gaps", m.pairs[p].name, g.found, state.pairs[p].points.size(), g.touching,
+        g.overlapping, g.smallest, g.largest);
+    pairs.push_back({{"name", m.pairs[p].name}, {"points", state.pairs[p].points.size()},
+                     {"facing", g.found}, {"touching", g.touching}, {"overlapping", g.overlapping},
+                     {"smallest_gap", g.smallest}, {"largest_gap", g.largest}});
+  }
+  for (const std::string& warning : built.warnings) report.text += "warning: " + warning + "\n";
+  report.text += "the model file is valid\n";
+  report.json = nlohmann::json{{"model", path}, {"facts", facts}, {"contact", pairs},
+                               {"unknowns", system.dofs().unknowns()},
+                               {"warnings", built.warnings}}.dump(1);
+  return report;
+}
+
+}  // namespace osculate::api

@@ -1,0 +1,183 @@
+#include "osculate/api/run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "osculate/api/field_files.hpp"
+#include "osculate/api/report_data.hpp"
+#include "osculate/api/result_folder.hpp"
+#include "osculate/api/summary.hpp"
+#include "osculate/core/text.hpp"
+#include "osculate/deck/parse.hpp"
+#include "osculate/io/report.hpp"
+
+namespace osculate::api {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// history.csv: a row after each converged increment, on disk at once.
+class HistoryFile {
+ public:
+  HistoryFile(const std::string& path, const std::vector<model::HistoryRequest>& requests)
+      : file_(path) {
+    file_ << "step,increment,time";
+    for (const model::HistoryRequest& r : requests) file_ << ',' << r.name;
+    file_ << std::endl;
+  }
+  void add(const std::vector<double>& row) {
+    for (std::size_t i = 0; i < row.size(); ++i)
+      file_ << (i ? "," : "") << fmt::format("{:.17g}", row[i]);
+    file_ << std::endl;
+  }
+  [[nodiscard]] bool ok() const { return file_.good(); }
+
+ private:
+  std::ofstream file_;
+};
+
+/// Everything a run writes while it goes on.
+struct Recorder {
+  const RunOptions& options;
+  const deck::Description& description;
+  const deck::Built& built;
+  std::string folder;
+  HistoryFile history;
+  FieldFiles fields;
+  ReportCollector report;
+  std::ofstream log;
+  int since_output = 0;
+  int iterations = 0;
+
+  Recorder(const RunOptions& o, const deck::Description& d, const deck::Built& b, std::string dir)
+      : options(o),
+        description(d),
+        built(b),
+        folder(std::move(dir)),
+        history(folder + "/history.csv", b.history),
+        fields(folder, b, d.output.compress),
+        report(b, d),
+        log(folder + "/log.txt") {}
+
+  void say(const std::string& text) {
+    log << text << std::endl;
+    if (options.say) options.say(text);
+  }
+
+  [[nodiscard]] std::string step_name(const model::Progress& p) const {
+    return built.model.steps.empty() ? std::string{}
+                                     : built.model.steps[static_cast<std::size_t>(p.step)].name;
+  }
+
+  [[nodiscard]] bool wants_fields(const model::Progress& p) {
+    if (description.output.fields == deck::FieldTimes::none) return false;
+    const bool end_of_step = p.fraction >= 1.0;
+    if (description.output.fields == deck::FieldTimes::last)
+      return end_of_step && static_cast<std::size_t>(p.step) + 1 == built.model.steps.size();
+    if (p.increment == 0 || end_of_step) return true;
+    return p.increment % description.output.every == 0;
+  }
+
+  bool converged(model::System& system, const model::State& state, const model::Progress& p,
+                 const solve::IncrementRecord* record) {
+    std::vector<double> row{static_cast<double>(p.step + 1), static_cast<double>(p.increment), p.time};
+    for (const model::HistoryRequest& request : built.history)
+      row.push_back(model::history_value(system, built.model, state, request));
+    history.add(row);
+    report.add_history(row);
+    if (wants_fields(p)) {
+      fields.write(system, state, p.time);
+      report.add_frame(system, state, p);
+    }
+    if (record) report_increment(p, *record);
+    if (!history.ok()) throw core::InputError({}, "cannot write '" + folder + "/history.csv': disk full?");
+    return !(options.interrupted && options.interrupted());
+  }
+
+  void report_increment(const model::Progress& p, const solve::IncrementRecord& record) {
+    const solve::IterationRecord& last = record.iterations.back();
+    iterations += static_cast<int>(record.iterations.size()) + record.wasted_iterations;
+    const std::string line = fmt::format(
+        "{:<12} {:>4}  time {:<9.5g} {:>3} iterations  residual {:.1e}  energy {:.1e}  open {} stick {} slip {}{}",
+        step_name(p), p.increment, p.time, record.iterations.size(), last.residual, last.energy,
+        last.counts.open, last.counts.stick, last.counts.slip,
+        record.cutbacks ? fmt::format("  ({} cut-backs)", record.cutbacks) : std::string{});
+    log << line << "\n";
+    if (options.progress) options.progress(line);
+  }
+};
+
+RunOutcome finish(Recorder& recorder, const model::AnalysisResult& result, double seconds_input) {
+  RunOutcome outcome;
+  outcome.folder = recorder.folder;
+  const bool done = result.outcome == solve::Outcome::converged;
+  outcome.status = done ? RunStatus::done : RunStatus::stopped;
+  outcome.message = result.message;
+  const std::string model = std::filesystem::path(recorder.options.model).filename().string();
+  nlohmann::json summary = summary_json(model, result, done ? "done" : "stopped", seconds_input);
+  summary["seconds"]["total"] = seconds_input + result.seconds;
+  recorder.fields.close();
+  if (recorder.description.output.report) {
+    const std::string data = recorder.report.json(summary);
+    write_text(recorder.folder + "/report.json", data);
+    write_text(recorder.folder + "/report.html", io::report_html(data));
+  }
+  write_text(recorder.folder + "/summary.json", summary.dump(1) + "\n");
+  outcome.summary_json = summary.dump(1);
+  recorder.say(fmt::format("{}: {} iterations, {:.1f} s, {} unknowns; results in {}",
+                           done ? "done" : "stopped", recorder.iterations, result.seconds,
+                           result.unknowns, recorder.folder));
+  if (!done) recorder.say(result.message);
+  return outcome;
+}
+
+}  // namespace
+
+RunOutcome run(const RunOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const deck::Description description = deck::read_model(options.model);
+  deck::Built built = deck::build(description, deck::load_mesh(description));
+  built.options.threads = options.threads;
+  built.options.until = options.until;
+  if (!options.until.empty()) {
+    std::vector<std::string> names;
+    for (const model::Step& step : built.model.steps) names.push_back(step.name);
+    if (std::find(names.begin(), names.end(), options.until) == names.end())
+      throw core::InputError({}, "--until: " + core::unknown_name_message("step", options.until, names));
+  }
+  const std::string folder = choose_folder(options.model, options.folder);
+  open_folder(folder);
+  const double seconds_input = seconds_since(start);
+  Recorder recorder(options, description, built, folder);
+  for (const ModelFact& fact : model_facts(built))
+    recorder.say(fmt::format("{:<13} {:<16} {}", fact.heading, fact.name, fact.text));
+  for (const std::string& warning : built.warnings) recorder.say("warning: " + warning);
+  write_text(folder + "/summary.json",
+             nlohmann::json{{"model", std::filesystem::path(options.model).filename().string()},
+                            {"status", "running"}}.dump(1) + "\n");
+  model::AnalysisObserver observer;
+  observer.converged = [&](model::System& system, const model::State& state,
+                           const model::Progress& p, const solve::IncrementRecord* record) {
+    return recorder.converged(system, state, p, record);
+  };
+  observer.cutback = [&](const std::string& reason, const model::Progress& p, double to) {
+    recorder.say(fmt::format("{}: no convergence from {:.5g} to {:.5g} of the step: {}; halving",
+                             recorder.step_name(p), p.fraction, to, reason));
+  };
+  model::AnalysisResult result = model::run(built.model, built.options, observer);
+  if (result.outcome != solve::Outcome::converged && result.outcome != solve::Outcome::stopped)
+    recorder.fields.write_last_iterate(result.last_iterate);
+  return finish(recorder, result, seconds_input);
+}
+
+void rewrite_report(const std::string& folder) {
+  write_text(folder + "/report.html", io::report_html(read_text(folder + "/report.json")));
+}
+
+}  // namespace osculate::api

@@ -1,0 +1,187 @@
+#include "osculate/api/tangent_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "osculate/deck/build.hpp"
+
+namespace osculate::api {
+namespace {
+
+using model::State;
+using model::System;
+using model::Term;
+
+double mean_facet_length(const model::Model& m) {
+  double sum = 0;
+  int count = 0;
+  for (const model::ContactPair& pair : m.pairs)
+    for (const pairing::Facet& f : pair.definition.slave.chain.facets) {
+      sum += (m.reference[static_cast<std::size_t>(f.nodes[1])] -
+              m.reference[static_cast<std::size_t>(f.nodes[0])]).norm();
+      ++count;
+    }
+  return count ? sum / count : 1.0;
+}
+
+struct Probe {
+  System& system;
+  State committed;
+  State base;
+  double size;  ///< of a displacement that matters
+  std::mt19937 generator{20260101};
+
+  Eigen::VectorXd random(double amplitude) {
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    Eigen::VectorXd d(system.dofs().unknowns());
+    for (Eigen::Index i = 0; i < d.size(); ++i)
+      d[i] = system.prescribed(static_cast<Index>(i)) ? 0.0 : amplitude * uniform(generator);
+    return d;
+  }
+
+  State moved(const Eigen::VectorXd& d, double factor) const {
+    return system.apply(base, d, 0.0, factor);
+  }
+
+  solve::Evaluation at(const State& state, bool tangent) {
+    solve::Evaluation e;
+    system.evaluate(committed, state, 0.0, tangent, e);
+    return e;
+  }
+};
+
+/// Displacement that pushes near slave points into the master.
+void close_contact(Probe& probe, const model::Model& m) {
+  const double depth = 0.01 * probe.size;
+  probe.at(probe.base, false);
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(probe.system.dofs().unknowns());
+  for (std::size_t p = 0; p < m.pairs.size(); ++p) {
+    const auto& points = probe.system.contact()[p].points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!(std::abs(points[i].gap) < 2 * probe.size)) continue;
+      const Vec2 push = -(points[i].gap + depth) * points[i].normal;
+      const Index node = m.pairs[p].definition.slave.nodes[i];
+      for (int k = 0; k < 2; ++k) {
+        const Index u = probe.system.dofs().unknown_of(probe.system.dofs().node_dof(node, k));
+        if (u >= 0) d[u] = push[k];
+      }
+    }
+  }
+  probe.base = probe.moved(d, 1.0);
+}
+
+TangentRow check_part(Probe& probe, const std::string& part) {
+  TangentRow row;
+  row.part = part;
+  const solve::Evaluation here = probe.at(probe.base, true);
+  if (!here.ok) {
+    row.skipped = true;
+    row.note = here.message;
+    return row;
+  }
+  const la::SparseMatrix k = probe.system.matrix();
+  double h = 1e-3;
+  for (int attempt = 0; attempt < 12; ++attempt, h *= 0.25) {
+    const Eigen::VectorXd d = probe.random(probe.size);
+    Eigen::VectorXd df = la::multiply(k, d);
+    for (Eigen::Index i = 0; i < df.size(); ++i)
+      if (probe.system.prescribed(static_cast<Index>(i))) df[i] = 0;
+    const auto error = [&](double step, bool& same) {
+      const solve::Evaluation plus = probe.at(probe.moved(d, step), false);
+      const solve::Evaluation minus = probe.at(probe.moved(d, -step), false);
+      same = same && plus.ok && minus.ok && plus.counts.signature == here.counts.signature &&
+             minus.counts.signature == here.counts.signature;
+      return ((plus.residual - minus.residual) / (2 * step) - df).norm() / std::max(df.norm(), 1e-300);
+    };
+    bool same = true;
+    const double first = error(h, same), second = error(h / 2, same);
+    if (!same) continue;
+    if (df.norm() == 0 && here.residual.norm() == 0) {
+      row.skipped = true;
+      row.note = "nothing acts here";
+      return row;
+    }
+    row.error = second;
+    row.order = std::log2(first / second);
+    row.exact = first < 1e-9 && second < 1e-9;
+    if (row.exact || row.order > 1.8 || h < 1e-4) return row;
+  }
+  row.skipped = true;
+  row.note = "no step small enough keeps both probes in the same contact states";
+  return row;
+}
+
+}  // namespace
+
+bool TangentRow::passed() const {
+  return skipped || exact || std::abs(order - 2.0) < 0.25 || !expected;
+}
+
+TangentReport check_tangent(const std::string& path, int threads) {
+  const deck::Built built = deck::build_file(path);
+  const model::Model& m = built.model;
+  System system(m, threads);
+  const State start = system.initial_state();
+  if (!m.steps.empty()) system.begin_step(m.steps.front(), start);
+  Probe probe{system, start, start, mean_facet_length(m)};
+  close_contact(probe, m);
+  probe.base = probe.moved(probe.random(1e-3 * probe.size), 1.0);
+  TangentReport report;
+  const auto only = [&](std::initializer_list<Term> terms) {
+    for (const Term term : {Term::bulk, Term::contact, Term::pressure, Term::rigid})
+      system.enable(term, std::find(terms.begin(), terms.end(), term) != terms.end());
+  };
+  bool consistent = true;
+  for (const model::ContactPair& pair : m.pairs) consistent &= pair.definition.tangent.consistent;
+  const auto add = [&](const std::string& part, bool with_contact) {
+    TangentRow row = check_part(probe, part);
+    if (with_contact && !consistent) {
+      row.expected = false;
+      row.note = "the covariant tangent is not the derivative of the residual";
+    }
+    report.rows.push_back(row);
+  };
+  only({Term::bulk});
+  add("bulk", false);
+  only({Term::contact, Term::rigid});
+  add("contact", true);
+  only({Term::bulk, Term::contact, Term::pressure, Term::rigid});
+  add("all", true);
+  const solve::Evaluation e = probe.at(probe.base, false);
+  report.open = e.counts.open;
+  report.stick = e.counts.stick;
+  report.slip = e.counts.slip;
+  return report;
+}
+
+std::string to_text(const TangentReport& report) {
+  std::string text = fmt::format("contact points: {} open, {} stick, {} slip\n", report.open,
+                                 report.stick, report.slip);
+  text += fmt::format("{:<10} {:>12} {:>8}\n", "part", "error", "order");
+  for (const TangentRow& row : report.rows) {
+    if (row.skipped)
+      text += fmt::format("{:<10} {:>12} {:>8}  {}\n", row.part, "-", "-", row.note);
+    else
+      text += fmt::format("{:<10} {:>12.2e} {:>8}  {}{}{}\n", row.part, row.error,
+                          row.exact ? std::string("exact") : fmt::format("{:.3f}", row.order),
+                          row.passed() ? "ok" : "WRONG", row.note.empty() ? "" : ": ", row.note);
+  }
+  return text;
+}
+
+std::string to_json(const TangentReport& report) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const TangentRow& row : report.rows)
+    rows.push_back({{"part", row.part}, {"error", row.error},
+                    {"order", std::isfinite(row.order) ? nlohmann::json(row.order) : nlohmann::json(nullptr)},
+                    {"exact", row.exact}, {"skipped", row.skipped}, {"pass", row.passed()},
+                    {"note", row.note}});
+  return nlohmann::json{{"open", report.open}, {"stick", report.stick}, {"slip", report.slip},
+                        {"rows", rows}}.dump(1);
+}
+
+}  // namespace osculate::api

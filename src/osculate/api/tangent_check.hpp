@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace osculate::api {
+
+/// One line of the tangent check: K d against central differences with steps h and h/2.
+struct TangentRow {
+  std::string part;    ///< all, bulk, contact, pressure
+  double error = 0;    ///< relative, at h/2
+  double order = 0;    ///< log2 of the ratio of the two errors; 2 for a right tangent
+  bool exact = false;  ///< both errors at round-off (a linear part)
+  bool skipped = false;
+  bool expected = true;  ///< false: the user chose a tangent that is not the derivative
+  std::string note;
+  [[nodiscard]] bool passed() const;
+};
+
+struct TangentReport {
+  std::vector<TangentRow> rows;
+  int open = 0, stick = 0, slip = 0;  ///< states at which the check was made
+};
+
+/// Checks the assembled tangent of a model by convergence order, part by part, near its initial
+/// configuration. Slave points near the master are pushed 1 % of a facet into it and everything is
+/// displaced a little at random (fixed seed), so that contact is closed and no point sits on a
+/// border between two states; both probes stay in the same states.
+[[nodiscard]] TangentReport check_tangent(const std::string& model, int threads);
+
+[[nodiscard]] std::string to_text(const TangentReport& report);
+[[nodiscard]] std::string to_json(const TangentReport& report);
+
+}  // namespace osculate::api
