@@ -32,8 +32,16 @@ def bib_keys(root):
 
 
 def corrected(root):
+    """The equations in the first column of the tables of docs/errata.md; `A to B` is a range."""
     path = root / "docs" / "errata.md"
-    return set(re.findall(equations.NAME, path.read_text())) if path.is_file() else set()
+    found = set()
+    for cell in re.findall(r"^\|([^|]*)\|", path.read_text() if path.is_file() else "", re.M):
+        names = re.findall(equations.NAME, cell)
+        found.update(names)
+        for first, last in re.findall(f"({equations.NAME}) to ({equations.NAME})", cell):
+            key, _, number = first.partition(":")
+            found.update(f"{key}:{n}" for n in range(int(number), int(last.partition(":")[2]) + 1))
+    return found
 
 
 def check(tags, mentions, keys):

@@ -40,6 +40,8 @@ def mentions(root):
     """KEY:NUMBER -> [(path, line)] in tests and verification cases."""
     found = {}
     for path, name in files(root, ["tests", "verification"], TEST_SUFFIXES):
+        if name.startswith("tests/tools/"):  # the tests of the tools themselves
+            continue
         text = path.read_text()
         for match in MENTION.finditer(text):
             found.setdefault(match.group(1), []).append((name, line_of(text, match.start())))
