@@ -1,0 +1,62 @@
+#include "osculate/io/atomic_file.hpp"
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+namespace osculate::io {
+namespace {
+
+std::string error_text(int error_number) {
+  return error_number == 0 ? "unknown reason" : std::generic_category().message(error_number);
+}
+
+}  // namespace
+
+WriteError::WriteError(std::string path, const std::string& action, int error_number)
+    : std::runtime_error(path + ": " + action + ": " + error_text(error_number)),
+      path_(std::move(path)),
+      error_number_(error_number) {}
+
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), part_(path_ + ".part") {
+  errno = 0;
+  file_ = std::fopen(part_.c_str(), "wb");
+  if (file_ == nullptr) throw WriteError(path_, "cannot write", errno);
+}
+
+AtomicFile::~AtomicFile() {
+  if (file_ == nullptr) return;
+  std::fclose(file_);
+  std::remove(part_.c_str());
+}
+
+void AtomicFile::fail(const std::string& action) {
+  const int error_number = errno;
+  if (file_ != nullptr) std::fclose(file_);
+  file_ = nullptr;
+  std::remove(part_.c_str());
+  throw WriteError(path_, action, error_number);
+}
+
+void AtomicFile::write(std::string_view data) {
+  if (file_ == nullptr) throw WriteError(path_, "cannot write after the end", EBADF);
+  errno = 0;
+  if (std::fwrite(data.data(), 1, data.size(), file_) != data.size()) fail("cannot write");
+}
+
+void AtomicFile::commit() {
+  if (file_ == nullptr) throw WriteError(path_, "cannot write after the end", EBADF);
+  errno = 0;
+  if (std::fflush(file_) != 0) fail("cannot write");
+  std::FILE* const file = std::exchange(file_, nullptr);
+  if (std::fclose(file) != 0) fail("cannot write");
+  if (std::rename(part_.c_str(), path_.c_str()) != 0) fail("cannot replace");
+}
+
+void write_file(const std::string& path, std::string_view content) {
+  AtomicFile file(path);
+  file.write(content);
+  file.commit();
+}
+
+}  // namespace osculate::io

@@ -1,0 +1,156 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <unordered_map>
+
+#include "osculate/io/gmsh/raw.hpp"
+
+namespace osculate::io::gmsh {
+namespace {
+
+using Nodes = std::array<Index, 9>;
+
+struct CellKey {
+  Nodes nodes;
+  EntityKey entity;
+  bool operator==(const CellKey&) const = default;
+};
+
+struct CellHash {
+  std::size_t operator()(const CellKey& key) const {
+    std::uint64_t hash = 14695981039346656037U ^ static_cast<std::uint64_t>(key.entity.second);
+    for (const Index node : key.nodes)
+      hash = (hash ^ static_cast<std::uint32_t>(node)) * 1099511628211U;
+    return static_cast<std::size_t>(hash ^ (hash >> 29U));
+  }
+};
+
+/// The cell walked the other way round, first node kept for areas.
+Nodes reversed(cell::CellType type, const Nodes& n) {
+  using enum cell::CellType;
+  switch (type) {
+    case point1:
+      return n;
+    case line2:
+      return {n[1], n[0]};
+    case line3:
+      return {n[1], n[0], n[2]};
+    case line4:
+      return {n[1], n[0], n[3], n[2]};
+    case tri3:
+      return {n[0], n[2], n[1]};
+    case tri6:
+      return {n[0], n[2], n[1], n[5], n[4], n[3]};
+    case quad4:
+      return {n[0], n[3], n[2], n[1]};
+    case quad8:
+    case quad9:
+      return {n[0], n[3], n[2], n[1], n[7], n[6], n[5], n[4], n[8]};
+  }
+  return n;
+}
+
+/// Entities whose cells are in several physical groups. MSH 2 repeats their cells, one for each
+/// group.
+std::set<EntityKey> shared_entities(const std::vector<Group>& groups) {
+  std::set<EntityKey> seen;
+  std::set<EntityKey> shared;
+  for (const Group& group : groups)
+    if (!group.physical.empty() && (!seen.insert(group.entity).second || group.physical.size() > 1))
+      shared.insert(group.entity);
+  return shared;
+}
+
+std::string default_name(const EntityKey& key) {
+  constexpr std::array<const char*, 3> kinds{"point", "line", "surface"};
+  return fmt::format("{}_{}", kinds[static_cast<std::size_t>(key.first)], key.second);
+}
+
+/// Puts cells into blocks and sets.
+class Builder {
+ public:
+  explicit Builder(const RawMesh& raw) : raw_(raw), shared_(shared_entities(raw.groups)) {
+    for (const auto& [key, name] : raw.names)
+      if (key.first < 3) sets_[key].dimension = key.first;
+    for (const Group& group : raw.groups) is_shared_.push_back(shared_.contains(group.entity));
+  }
+
+  void add_block(const cell::CellInfo& info) {
+    const RawCells& cells = raw_.cells[static_cast<std::size_t>(info.type)];
+    if (cells.group.empty()) return;
+    mesh_.blocks.push_back({info.type, {}});
+    mesh_.blocks.back().connectivity.reserve(cells.connectivity.size());
+    known_.clear();
+    const auto width = static_cast<std::size_t>(info.nodes);
+    for (std::size_t c = 0; c < cells.group.size(); ++c) {
+      Nodes nodes{};
+      std::copy_n(cells.connectivity.begin() + static_cast<std::ptrdiff_t>(c * width), width,
+                  nodes.begin());
+      add_cell(info, nodes, cells.group[c]);
+    }
+  }
+
+  mesh::Mesh finish(const Cursor& cursor, std::vector<Vec3> nodes) {
+    mesh_.nodes = std::move(nodes);
+    std::set<std::string> used;
+    for (auto& [key, set] : sets_) {
+      const auto named = raw_.names.find(key);
+      set.name = named != raw_.names.end() ? named->second : default_name(key);
+      if (!used.insert(set.name).second)
+        cursor.fail_at(Cursor::nowhere,
+                       fmt::format("two physical groups have the name '{}'", set.name));
+      std::sort(set.nodes.begin(), set.nodes.end());
+      set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
+      mesh_.sets.push_back(std::move(set));
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  void add_cell(const cell::CellInfo& info, const Nodes& nodes, Index g) {
+    const Group& group = raw_.groups[static_cast<std::size_t>(g)];
+    const bool shared = is_shared_[static_cast<std::size_t>(g)];
+    if (group.physical.empty()) (void)store(info, nodes);
+    for (const std::int64_t physical : group.physical) {
+      const Nodes directed = physical < 0 ? reversed(info.type, nodes) : nodes;
+      mesh::CellRef ref{};
+      if (shared) {
+        const auto [place, is_new] = known_.try_emplace({directed, group.entity});
+        if (is_new) place->second = store(info, directed);
+        ref = place->second;
+      } else {
+        ref = store(info, directed);
+      }
+      mesh::Set& set = sets_[{info.dimension, std::abs(physical)}];
+      set.dimension = info.dimension;
+      set.cells.push_back(ref);
+      set.nodes.insert(set.nodes.end(), directed.begin(), directed.begin() + info.nodes);
+    }
+  }
+
+  mesh::CellRef store(const cell::CellInfo& info, const Nodes& nodes) {
+    mesh::Block& block = mesh_.blocks.back();
+    const mesh::CellRef ref{static_cast<Index>(mesh_.blocks.size()) - 1, block.size()};
+    block.connectivity.insert(block.connectivity.end(), nodes.begin(), nodes.begin() + info.nodes);
+    return ref;
+  }
+
+  const RawMesh& raw_;
+  std::set<EntityKey> shared_;
+  std::vector<bool> is_shared_;  ///< per group
+  std::unordered_map<CellKey, mesh::CellRef, CellHash> known_;
+  std::map<EntityKey, mesh::Set> sets_;
+  mesh::Mesh mesh_;
+};
+
+}  // namespace
+
+mesh::Mesh build_mesh(const Cursor& cursor, RawMesh raw) {
+  std::vector<Vec3> nodes = std::move(raw.nodes);
+  Builder builder(raw);
+  for (const cell::CellInfo& info : cell::all_cells()) builder.add_block(info);
+  return builder.finish(cursor, std::move(nodes));
+}
+
+}  // namespace osculate::io::gmsh

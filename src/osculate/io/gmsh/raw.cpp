@@ -1,0 +1,102 @@
+#include "osculate/io/gmsh/raw.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace osculate::io::gmsh {
+namespace {
+
+constexpr std::array<std::pair<int, const char*>, 22> foreign_types{{
+    {4, "4-node tetrahedron"},  {5, "8-node hexahedron"},    {6, "6-node prism"},
+    {7, "5-node pyramid"},      {11, "10-node tetrahedron"}, {12, "27-node hexahedron"},
+    {13, "18-node prism"},      {14, "14-node pyramid"},     {17, "20-node hexahedron"},
+    {18, "15-node prism"},      {19, "13-node pyramid"},     {20, "9-node triangle"},
+    {21, "10-node triangle"},   {22, "12-node triangle"},    {23, "15-node triangle"},
+    {24, "15-node triangle"},   {25, "21-node triangle"},    {27, "5-node line"},
+    {28, "6-node line"},        {29, "20-node tetrahedron"}, {36, "16-node quadrangle"},
+    {92, "64-node hexahedron"},
+}};
+
+}  // namespace
+
+NodeMap::NodeMap(std::vector<std::int64_t> sorted_tags) : tags_(std::move(sorted_tags)) {
+  if (tags_.empty()) return;
+  const auto span = static_cast<std::uint64_t>(tags_.back() - tags_.front()) + 1;
+  if (span > 2 * tags_.size() + 1024) return;
+  dense_.assign(span, -1);
+  for (std::size_t i = 0; i < tags_.size(); ++i)
+    dense_[static_cast<std::size_t>(tags_[i] - tags_.front())] = static_cast<Index>(i);
+}
+
+Index NodeMap::find(std::int64_t tag) const {
+  if (tags_.empty() || tag < tags_.front() || tag > tags_.back()) return -1;
+  if (!dense_.empty()) return dense_[static_cast<std::size_t>(tag - tags_.front())];
+  const auto place = std::lower_bound(tags_.begin(), tags_.end(), tag);
+  return *place == tag ? static_cast<Index>(place - tags_.begin()) : -1;
+}
+
+void finish_nodes(const Cursor& cursor, RawMesh& raw) {
+  const std::size_t n = raw.tags.size();
+  if (n == 0) cursor.fail("the mesh has no nodes");
+  if (!std::is_sorted(raw.tags.begin(), raw.tags.end())) {
+    std::vector<Index> order(n);
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+      return raw.tags[static_cast<std::size_t>(a)] < raw.tags[static_cast<std::size_t>(b)];
+    });
+    std::vector<std::int64_t> tags(n);
+    std::vector<std::size_t> places(n);
+    std::vector<Vec3> nodes(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const auto from = static_cast<std::size_t>(order[i]);
+      tags[i] = raw.tags[from];
+      places[i] = raw.places[from];
+      nodes[i] = raw.nodes[from];
+    }
+    raw.tags = std::move(tags);
+    raw.places = std::move(places);
+    raw.nodes = std::move(nodes);
+  }
+  const auto twice = std::adjacent_find(raw.tags.begin(), raw.tags.end());
+  if (twice != raw.tags.end())
+    cursor.fail_at(raw.places[static_cast<std::size_t>(twice - raw.tags.begin()) + 1],
+                   fmt::format("node {} is there twice", *twice));
+  raw.places = {};
+  raw.node_map = NodeMap(std::move(raw.tags));
+  raw.tags = {};
+  raw.has_nodes = true;
+}
+
+const cell::CellInfo& cell_of_type(const Cursor& cursor, std::int64_t gmsh_type) {
+  const bool in_range = gmsh_type > 0 && gmsh_type < 1000;
+  const cell::CellInfo* info =
+      in_range ? cell::find_gmsh_cell(static_cast<int>(gmsh_type)) : nullptr;
+  if (info != nullptr) return *info;
+  std::string text = fmt::format("element type {}", gmsh_type);
+  for (const auto& [type, name] : foreign_types)
+    if (type == gmsh_type) text += fmt::format(" ({})", name);
+  text += " is not supported; supported are";
+  for (const cell::CellInfo& known : cell::all_cells())
+    text += fmt::format(" {} ({})", known.gmsh_type, known.name);
+  cursor.fail(text);
+}
+
+void read_cell_nodes(Cursor& cursor, RawMesh& raw, const cell::CellInfo& info, bool wide,
+                     Index group) {
+  RawCells& cells = raw.cells[static_cast<std::size_t>(info.type)];
+  for (int k = 0; k < info.nodes; ++k) {
+    const std::int64_t tag =
+        wide ? cursor.count("the tag of a node") : cursor.integer("the tag of a node");
+    const Index node = raw.node_map.find(tag);
+    if (node < 0) cursor.fail(fmt::format("an element names node {}, which does not exist", tag));
+    cells.connectivity.push_back(node);
+  }
+  if (cells.connectivity.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+    cursor.fail("too many elements of one type");
+  cells.group.push_back(group);
+}
+
+}  // namespace osculate::io::gmsh

@@ -1,0 +1,190 @@
+#include "osculate/io/vtk.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <map>
+#include <stdexcept>
+
+#include "osculate/io/atomic_file.hpp"
+
+namespace osculate::io {
+namespace {
+
+constexpr std::size_t packet = std::size_t{1} << 18U;
+
+/// The appended part of the file and the header that refers to it.
+struct Document {
+  bool compress = false;
+  std::string header;
+  std::vector<std::string> arrays;
+  std::uint64_t offset = 0;
+};
+
+void append_u64(std::string& out, std::uint64_t value) {
+  out.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+std::string packed(const char* data, std::size_t size) {
+  std::string sizes;
+  std::string body;
+  const std::size_t packets = (size + packet - 1) / packet;
+  append_u64(sizes, packets);
+  append_u64(sizes, packet);
+  append_u64(sizes, size % packet);
+  std::string buffer(compressBound(packet), '\0');
+  for (std::size_t i = 0; i < packets; ++i) {
+    const std::size_t length = std::min(packet, size - i * packet);
+    uLongf used = buffer.size();
+    if (compress2(reinterpret_cast<Bytef*>(buffer.data()), &used,
+                  reinterpret_cast<const Bytef*>(data + i * packet), length, Z_BEST_SPEED) != Z_OK)
+      throw std::bad_alloc();
+    append_u64(sizes, used);
+    body.append(buffer, 0, used);
+  }
+  return sizes + body;
+}
+
+template <class T>
+void add_array(Document& doc, const char* type, const std::string& attributes,
+               std::span<const T> values) {
+  const char* const data = reinterpret_cast<const char*>(values.data());
+  const std::size_t size = values.size_bytes();
+  std::string array;
+  if (doc.compress) {
+    array = packed(data, size);
+  } else {
+    append_u64(array, size);
+    if (size > 0) array.append(data, size);
+  }
+  doc.header +=
+      fmt::format("        <DataArray type=\"{}\" {} format=\"appended\" offset=\"{}\"/>\n", type,
+                  attributes, doc.offset);
+  doc.offset += array.size();
+  doc.arrays.push_back(std::move(array));
+}
+
+void add_fields(Document& doc, const char* element, std::span<const Field> fields,
+                std::size_t tuples) {
+  doc.header += fmt::format("      <{}>\n", element);
+  for (const Field& field : fields) {
+    const bool fits = field.components >= 1 &&
+                      field.values.size() == tuples * static_cast<std::size_t>(field.components);
+    const bool named = field.component_names.empty() ||
+                       field.component_names.size() == static_cast<std::size_t>(field.components);
+    if (!fits || !named)
+      throw std::invalid_argument(fmt::format("field '{}' has {} values for {} tuples of {}",
+                                              field.name, field.values.size(), tuples,
+                                              field.components));
+    std::string attributes = fmt::format("Name=\"{}\" NumberOfComponents=\"{}\"",
+                                         escape_xml(field.name), field.components);
+    for (std::size_t k = 0; k < field.component_names.size(); ++k)
+      attributes += fmt::format(" ComponentName{}=\"{}\"", k, escape_xml(field.component_names[k]));
+    add_array<double>(doc, "Float64", attributes, field.values);
+  }
+  doc.header += fmt::format("      </{}>\n", element);
+}
+
+void add_cells(Document& doc, std::span<const mesh::Block> blocks) {
+  std::vector<std::int64_t> connectivity;
+  std::vector<std::int64_t> offsets;
+  std::vector<std::uint8_t> types;
+  for (const mesh::Block& block : blocks) {
+    const cell::CellInfo& info = cell::info(block.type);
+    connectivity.insert(connectivity.end(), block.connectivity.begin(), block.connectivity.end());
+    for (Index c = 0; c < block.size(); ++c) {
+      const std::int64_t last = offsets.empty() ? 0 : offsets.back();
+      offsets.push_back(last + info.nodes);
+      types.push_back(static_cast<std::uint8_t>(info.vtk_type));
+    }
+  }
+  doc.header += "      <Cells>\n";
+  add_array<std::int64_t>(doc, "Int64", "Name=\"connectivity\"", connectivity);
+  add_array<std::int64_t>(doc, "Int64", "Name=\"offsets\"", offsets);
+  add_array<std::uint8_t>(doc, "UInt8", "Name=\"types\"", types);
+  doc.header += "      </Cells>\n";
+}
+
+std::size_t cell_count(std::span<const mesh::Block> blocks) {
+  std::size_t count = 0;
+  for (const mesh::Block& block : blocks) count += static_cast<std::size_t>(block.size());
+  return count;
+}
+
+}  // namespace
+
+std::string escape_xml(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      case '\'':
+        result += "&apos;";
+        break;
+      default:
+        result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+    }
+  }
+  return result;
+}
+
+void write_vtu(const std::string& path, const VtuData& data, bool compress) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  const std::size_t cells = cell_count(data.blocks);
+  Document doc;
+  doc.compress = compress;
+  doc.header = fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
+      "header_type=\"UInt64\"{}>\n"
+      "  <UnstructuredGrid>\n"
+      "    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian",
+      compress ? " compressor=\"vtkZLibDataCompressor\"" : "", data.points.size(), cells);
+  add_fields(doc, "PointData", data.point_fields, data.points.size());
+  add_fields(doc, "CellData", data.cell_fields, cells);
+  doc.header += "      <Points>\n";
+  const double* const coordinates = data.points.empty() ? nullptr : data.points[0].data();
+  add_array<double>(doc, "Float64", "Name=\"Points\" NumberOfComponents=\"3\"",
+                    {coordinates, 3 * data.points.size()});
+  doc.header += "      </Points>\n";
+  add_cells(doc, data.blocks);
+  doc.header += "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
+  AtomicFile file(path);
+  file.write(doc.header);
+  for (const std::string& array : doc.arrays) file.write(array);
+  file.write("\n  </AppendedData>\n</VTKFile>\n");
+  file.commit();
+}
+
+void write_pvd(const std::string& path, std::span<const PvdEntry> entries) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n";
+  std::map<std::string, std::size_t> parts;
+  for (const PvdEntry& entry : entries) {
+    const std::size_t part = parts.try_emplace(entry.part, parts.size()).first->second;
+    text += fmt::format(
+        "    <DataSet timestep=\"{:.17g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
+        entry.time, part, escape_xml(entry.part), escape_xml(entry.file));
+  }
+  text += "  </Collection>\n</VTKFile>\n";
+  write_file(path, text);
+}
+
+}  // namespace osculate::io

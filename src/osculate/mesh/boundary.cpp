@@ -1,0 +1,353 @@
+#include "osculate/mesh/boundary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+namespace osculate::mesh {
+namespace {
+
+constexpr std::size_t most_messages = 10;
+
+std::uint64_t edge_key(Index a, Index b) {
+  const auto lo = static_cast<std::uint32_t>(std::min(a, b));
+  const auto hi = static_cast<std::uint32_t>(std::max(a, b));
+  return (std::uint64_t{lo} << 32U) | hi;
+}
+
+const Block& block_of(const Mesh& mesh, CellRef ref) {
+  return mesh.blocks[static_cast<std::size_t>(ref.block)];
+}
+
+const Vec3& point(const Mesh& mesh, Index node) {
+  return mesh.nodes[static_cast<std::size_t>(node)];
+}
+
+void add_edges(const Mesh& mesh, CellRef ref, std::vector<Edge>& edges) {
+  const Block& block = block_of(mesh, ref);
+  const cell::CellInfo& info = cell::info(block.type);
+  const Index* nodes = block.cell(ref.cell);
+  for (int e = 0; e < info.edge_count; ++e) {
+    const auto& local = info.edges[static_cast<std::size_t>(e)];
+    edges.push_back({edge_key(nodes[local[0]], nodes[local[1]]), ref, static_cast<std::int8_t>(e)});
+  }
+}
+
+EdgeTable sorted(std::vector<Edge> edges) {
+  const auto order = [](const Edge& a, const Edge& b) {
+    if (a.key != b.key) return a.key < b.key;
+    if (a.cell.block != b.cell.block) return a.cell.block < b.cell.block;
+    if (a.cell.cell != b.cell.cell) return a.cell.cell < b.cell.cell;
+    return a.local < b.local;
+  };
+  std::sort(edges.begin(), edges.end(), order);
+  return {std::move(edges)};
+}
+
+/// Nodes of an edge in the order of a line cell, with the cell on the left if it is numbered
+/// counterclockwise.
+BoundaryFacet facet_of_edge(const Mesh& mesh, const Edge& edge) {
+  const Block& block = block_of(mesh, edge.cell);
+  const cell::CellInfo& info = cell::info(block.type);
+  const auto& local = info.edges[static_cast<std::size_t>(edge.local)];
+  BoundaryFacet facet;
+  facet.type = info.edge_type;
+  facet.parent = edge.cell;
+  for (std::size_t k = 0; k < facet.nodes().size(); ++k)
+    facet.node[k] = block.cell(edge.cell.cell)[local[k]];
+  return facet;
+}
+
+void flip(BoundaryFacet& facet) {
+  std::swap(facet.node[0], facet.node[1]);
+  if (facet.type == cell::CellType::line4) std::swap(facet.node[2], facet.node[3]);
+}
+
+/// +1 for a cell numbered counterclockwise, -1 clockwise, 0 without area. The polygon goes through
+/// all nodes of the edges.
+int turning(const Mesh& mesh, CellRef ref) {
+  const Block& block = block_of(mesh, ref);
+  const cell::CellInfo& info = cell::info(block.type);
+  const Index* nodes = block.cell(ref.cell);
+  const Vec3& origin = point(mesh, nodes[0]);
+  double twice_area = 0;
+  double size = 0;
+  const auto side = [&](Index from, Index to) {
+    const Vec3 a = point(mesh, from) - origin;
+    const Vec3 b = point(mesh, to) - origin;
+    twice_area += a.x() * b.y() - a.y() * b.x();
+    size += (b - a).squaredNorm();
+  };
+  for (int e = 0; e < info.edge_count; ++e) {
+    const auto& local = info.edges[static_cast<std::size_t>(e)];
+    if (info.edge_type == cell::CellType::line3) {
+      side(nodes[local[0]], nodes[local[2]]);
+      side(nodes[local[2]], nodes[local[1]]);
+    } else {
+      side(nodes[local[0]], nodes[local[1]]);
+    }
+  }
+  if (!(std::abs(twice_area) > 1e-14 * size)) return 0;
+  return twice_area > 0 ? 1 : -1;
+}
+
+void add_message(std::vector<std::string>& messages, std::string text) {
+  if (messages.size() < most_messages)
+    messages.push_back(std::move(text));
+  else if (messages.size() == most_messages)
+    messages.emplace_back("... and more of the kind");
+}
+
+std::string describe_facet(const Mesh& mesh, const BoundaryFacet& facet) {
+  return fmt::format("line from {} to {}", describe_node(mesh, facet.node[0]),
+                     describe_node(mesh, facet.node[1]));
+}
+
+/// The free edge, directed with the body on the right; false if its cell has no area.
+bool directed_edge(const Mesh& mesh, const Edge& edge, BoundaryFacet& facet) {
+  facet = facet_of_edge(mesh, edge);
+  const int sense = turning(mesh, edge.cell);
+  if (sense > 0) flip(facet);
+  facet.flipped = sense > 0;
+  return sense != 0;
+}
+
+bool same_interior(BoundaryFacet a, BoundaryFacet b) {
+  std::sort(a.node.begin() + 2, a.node.end());
+  std::sort(b.node.begin() + 2, b.node.end());
+  return a.type == b.type && std::equal(a.node.begin() + 2, a.node.end(), b.node.begin() + 2);
+}
+
+/// Directs one line cell; an empty text means success.
+std::string orient(const Mesh& mesh, const EdgeTable& table, BoundaryFacet& facet) {
+  const std::span<const Edge> parents = table.find(facet.node[0], facet.node[1]);
+  if (parents.empty()) return {};
+  if (parents.size() > 1)
+    return fmt::format("{} lies inside a body: it is an edge of {} cells",
+                       describe_facet(mesh, facet), parents.size());
+  BoundaryFacet edge;
+  if (!directed_edge(mesh, parents[0], edge))
+    return fmt::format("{}: the cell behind it has no area", describe_facet(mesh, facet));
+  if (!same_interior(facet, edge))
+    return fmt::format("{} has other interior nodes than the edge of the cell behind it",
+                       describe_facet(mesh, facet));
+  facet.parent = parents[0].cell;
+  if (facet.node[0] != edge.node[0]) {
+    flip(facet);
+    facet.flipped = true;
+  }
+  return {};
+}
+
+BoundaryFacet line_facet(const Mesh& mesh, CellRef ref) {
+  const Block& block = block_of(mesh, ref);
+  BoundaryFacet facet;
+  facet.type = block.type;
+  facet.line = ref;
+  std::copy_n(block.cell(ref.cell), cell::info(block.type).nodes, facet.node.begin());
+  return facet;
+}
+
+/// Free edges accepted by `wanted`, in the order of the cells.
+template <class Wanted>
+Boundary free_edges(const Mesh& mesh, const EdgeTable& table, const Wanted& wanted) {
+  std::vector<Edge> chosen;
+  const std::vector<Edge>& edges = table.edges;
+  for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
+    for (end = i + 1; end < edges.size() && edges[end].key == edges[i].key;) ++end;
+    if (end == i + 1 && wanted(edges[i])) chosen.push_back(edges[i]);
+  }
+  std::sort(chosen.begin(), chosen.end(), [](const Edge& a, const Edge& b) {
+    if (a.cell.block != b.cell.block) return a.cell.block < b.cell.block;
+    if (a.cell.cell != b.cell.cell) return a.cell.cell < b.cell.cell;
+    return a.local < b.local;
+  });
+  Boundary boundary;
+  for (const Edge& edge : chosen) {
+    BoundaryFacet facet;
+    if (directed_edge(mesh, edge, facet))
+      boundary.facets.push_back(facet);
+    else
+      add_message(boundary.errors,
+                  fmt::format("{}: the cell behind it has no area", describe_facet(mesh, facet)));
+  }
+  connect(mesh, boundary);
+  return boundary;
+}
+
+}  // namespace
+
+std::string describe_node(const Mesh& mesh, Index node) {
+  const Vec3& x = point(mesh, node);
+  return fmt::format("node {} ({:.6g}, {:.6g})", node + 1, x.x(), x.y());
+}
+
+std::span<const Edge> EdgeTable::find(Index a, Index b) const {
+  const auto less = [](const Edge& edge, std::uint64_t key) { return edge.key < key; };
+  const std::uint64_t key = edge_key(a, b);
+  const auto first = std::lower_bound(edges.begin(), edges.end(), key, less);
+  auto last = first;
+  while (last != edges.end() && last->key == key) ++last;
+  return {first, last};
+}
+
+EdgeTable edge_table(const Mesh& mesh) {
+  std::vector<Edge> edges;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+    for (Index c = 0; c < mesh.blocks[b].size(); ++c)
+      add_edges(mesh, {static_cast<Index>(b), c}, edges);
+  return sorted(std::move(edges));
+}
+
+EdgeTable edge_table(const Mesh& mesh, std::span<const CellRef> cells) {
+  std::vector<Edge> edges;
+  for (const CellRef ref : cells) add_edges(mesh, ref, edges);
+  return sorted(std::move(edges));
+}
+
+Boundary orient_boundary(const Mesh& mesh, const EdgeTable& table, const Set& set) {
+  assert(set.dimension == 1);
+  Boundary boundary;
+  std::unordered_map<std::uint64_t, bool> used;
+  for (const CellRef ref : set.cells) {
+    BoundaryFacet facet = line_facet(mesh, ref);
+    std::string problem = orient(mesh, table, facet);
+    if (!used.emplace(edge_key(facet.node[0], facet.node[1]), true).second)
+      problem = fmt::format("{} is there twice", describe_facet(mesh, facet));
+    if (problem.empty())
+      boundary.facets.push_back(facet);
+    else
+      add_message(boundary.errors, fmt::format("set '{}': {}", set.name, problem));
+  }
+  connect(mesh, boundary);
+  return boundary;
+}
+
+Boundary orient_boundary(const Mesh& mesh, const Set& set) {
+  return orient_boundary(mesh, edge_table(mesh), set);
+}
+
+Boundary boundary_facets(const Mesh& mesh, const EdgeTable& table, const Set& set) {
+  std::vector<std::vector<bool>> inside(mesh.blocks.size());
+  for (std::size_t b = 0; b < inside.size(); ++b)
+    inside[b].resize(static_cast<std::size_t>(mesh.blocks[b].size()));
+  for (const CellRef ref : set.cells)
+    inside[static_cast<std::size_t>(ref.block)][static_cast<std::size_t>(ref.cell)] = true;
+  return free_edges(mesh, table, [&](const Edge& edge) {
+    return inside[static_cast<std::size_t>(edge.cell.block)]
+                 [static_cast<std::size_t>(edge.cell.cell)];
+  });
+}
+
+Boundary boundary_facets(const Mesh& mesh, const Set& set) {
+  return boundary_facets(mesh, edge_table(mesh), set);
+}
+
+Boundary facets_of_nodes(const Mesh& mesh, const EdgeTable& table, std::span<const Index> nodes) {
+  std::vector<bool> wanted(mesh.nodes.size());
+  for (const Index node : nodes) wanted[static_cast<std::size_t>(node)] = true;
+  Boundary boundary = free_edges(mesh, table, [&](const Edge& edge) {
+    const BoundaryFacet facet = facet_of_edge(mesh, edge);
+    return std::ranges::all_of(facet.nodes(),
+                               [&](Index node) { return wanted[static_cast<std::size_t>(node)]; });
+  });
+  for (const BoundaryFacet& facet : boundary.facets)
+    for (const Index node : facet.nodes()) wanted[static_cast<std::size_t>(node)] = false;
+  for (const Index node : nodes)
+    if (wanted[static_cast<std::size_t>(node)]) {
+      wanted[static_cast<std::size_t>(node)] = false;
+      add_message(boundary.warnings, describe_node(mesh, node) +
+                                         " belongs to no free edge whose nodes are all in the set");
+    }
+  return boundary;
+}
+
+Boundary surface_of(const Mesh& mesh, const EdgeTable& table, const Set& set) {
+  if (set.dimension == 1) return orient_boundary(mesh, table, set);
+  if (set.dimension == 2) return boundary_facets(mesh, table, set);
+  return facets_of_nodes(mesh, table, set.nodes);
+}
+
+void connect(const Mesh& mesh, Boundary& boundary) {
+  struct Star {
+    Index starting = -1, ending = -1;  // facets
+    Index starts = 0, ends = 0;        // their numbers
+  };
+  std::unordered_map<Index, Star> stars;
+  std::vector<Index> order;
+  const auto star_at = [&](Index node) -> Star& {
+    const auto [place, is_new] = stars.try_emplace(node);
+    if (is_new) order.push_back(node);
+    return place->second;
+  };
+  for (std::size_t f = 0; f < boundary.facets.size(); ++f) {
+    BoundaryFacet& facet = boundary.facets[f];
+    facet.prev = facet.next = -1;
+    Star& start = star_at(facet.node[0]);
+    start.starting = static_cast<Index>(f);
+    ++start.starts;
+    Star& end = star_at(facet.node[1]);
+    end.ending = static_cast<Index>(f);
+    ++end.ends;
+  }
+  boundary.branching.clear();
+  for (const Index node : order) {
+    const Star& star = stars.at(node);
+    if (star.starts == 1 && star.ends == 1) {
+      boundary.facets[static_cast<std::size_t>(star.ending)].next = star.starting;
+      boundary.facets[static_cast<std::size_t>(star.starting)].prev = star.ending;
+    } else if (star.starts + star.ends > 1) {
+      boundary.branching.push_back(node);
+      add_message(boundary.warnings,
+                  star.starts + star.ends == 2
+                      ? "the direction of travel changes at " + describe_node(mesh, node)
+                      : fmt::format("{} lines meet at {}", star.starts + star.ends,
+                                    describe_node(mesh, node)));
+    }
+  }
+}
+
+std::vector<std::vector<CellRef>> connected_parts(const Mesh& mesh, std::span<const CellRef> cells,
+                                                  Link link) {
+  std::vector<std::size_t> root(cells.size());
+  std::iota(root.begin(), root.end(), std::size_t{0});
+  const auto find = [&root](std::size_t i) {
+    while (root[i] != i) i = root[i] = root[root[i]];
+    return i;
+  };
+  std::unordered_map<std::uint64_t, std::size_t> owner;  // of a node or an edge
+  std::vector<Edge> edges;
+  const auto visit = [&](std::uint64_t key, std::size_t i) {
+    const auto [place, is_new] = owner.try_emplace(key, i);
+    if (is_new) return;
+    const std::size_t a = find(place->second);
+    const std::size_t b = find(i);
+    root[std::max(a, b)] = std::min(a, b);
+  };
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Block& block = block_of(mesh, cells[i]);
+    edges.clear();
+    if (link == Link::edge) add_edges(mesh, cells[i], edges);
+    for (const Edge& edge : edges) visit(edge.key, i);
+    const int count = link == Link::node ? cell::info(block.type).nodes : 0;
+    for (int k = 0; k < count; ++k)
+      visit(static_cast<std::uint64_t>(block.cell(cells[i].cell)[k]), i);
+  }
+  std::vector<std::vector<CellRef>> parts;
+  std::vector<std::size_t> part_of(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const std::size_t r = find(i);
+    if (r == i) {
+      part_of[i] = parts.size();
+      parts.emplace_back();
+    }
+    parts[part_of[r]].push_back(cells[i]);
+  }
+  return parts;
+}
+
+}  // namespace osculate::mesh

@@ -1,0 +1,32 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "osculate/mesh/mesh.hpp"
+
+namespace osculate::mesh {
+
+enum class Flaw : std::uint8_t {
+  bad_index,       ///< a cell or set names a node or cell that does not exist
+  not_finite,      ///< a coordinate is NaN or infinite
+  repeated_node,   ///< a cell names a node twice
+  duplicate_area,  ///< two area cells on the same nodes
+  duplicate_line,  ///< two line cells on the same nodes
+  unused_node      ///< a node of no cell (points and node sets do not count as use)
+};
+
+/// All flaws of one kind; `is_error` where no analysis makes sense.
+struct Finding {
+  Flaw flaw;
+  bool is_error;
+  std::size_t count;
+  std::string message;  ///< the number and the first few examples
+};
+
+/// Checks what a mesh file or a generator can get wrong. At most one finding per kind; with
+/// bad_index the rest is not examined.
+/// Tested by  tests/unit/mesh/test_check.cpp
+[[nodiscard]] std::vector<Finding> check_mesh(const Mesh& mesh);
+
+}  // namespace osculate::mesh
