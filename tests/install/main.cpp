@@ -4,6 +4,8 @@
 
 #include "osculate/geometry/curve_frame.hpp"
 #include "osculate/geometry/curve_jet.hpp"
+#include "osculate/la/direct_solver.hpp"
+#include "osculate/projection/point_to_curve.hpp"
 
 namespace {
 
@@ -18,6 +20,29 @@ bool frame_of_a_circle_is_right() {
   return frame.valid && frame.kappa == -1.0 && frame.normal.x() == 0.0 && frame.normal.y() == 1.0;
 }
 
+/// Compiled code of a static layer: the foot of (3, 1) on the segment from (0, 0) to (4, 0).
+bool closest_point_is_right() {
+  const osculate::projection::CurveFoot foot =
+      osculate::projection::closest_on_line2({0.0, 0.0}, {4.0, 0.0}, {3.0, 1.0});
+  return std::abs(foot.xi - 0.5) < 1e-15;
+}
+
+/// The shared layer brings its own third-party libraries: 2 x + y = 5, x + 3 y = 10.
+bool linear_solver_is_right() {
+  osculate::la::SparseMatrix k;
+  k.n = 2;
+  k.row_start = {0, 2, 4};
+  k.column = {0, 1, 0, 1};
+  k.value = {2.0, 1.0, 1.0, 3.0};
+  osculate::la::DirectSolver solver;
+  const bool factored = solver.factor(k, 1, osculate::la::Symmetry::unsymmetric).status ==
+                        osculate::la::SolveStatus::ok;
+  Eigen::VectorXd x(2);
+  x << 5.0, 10.0;
+  return factored && solver.solve(x) == osculate::la::SolveStatus::ok &&
+         (x - Eigen::Vector2d(1.0, 3.0)).norm() < 1e-14;
+}
+
 /// The library may use AVX where this program does not: the layout of values must not depend on it.
 bool alignment_is_the_same_everywhere() { return alignof(osculate::Mat<2, 2>) == 32; }
 
@@ -30,6 +55,8 @@ int main() {
     failed += good ? 0 : 1;
   };
   check(frame_of_a_circle_is_right(), "frame of a circle");
+  check(closest_point_is_right(), "closest point on a segment");
+  check(linear_solver_is_right(), "linear solver");
   check(alignment_is_the_same_everywhere(), "alignment of small matrices");
   return failed == 0 ? 0 : 1;
 }
