@@ -108,6 +108,7 @@ CurveFoot closest_point(const geometry::Arc& arc, const Vec2& point) {
     d.a11 = squared(arc.radius);
     d.slope = length * arc.radius * std::sin(xi - ray);
     d.bend = length * arc.radius * std::cos(xi - ray);
+    d.noise = 4 * std::numeric_limits<double>::epsilon() * length * arc.radius;
     d.squared_distance = squared(length - arc.radius) +
                          4 * length * arc.radius * squared(std::sin(0.5 * (xi - ray)));
     return d;
@@ -152,6 +153,12 @@ CurveFoot closest_point(const geometry::Curve& curve, const Vec2& point) {
 }
 
 namespace detail {
+namespace {
+
+/// A maximum whose slope has its sign from rounding only.
+bool crest(const DistanceJet& d) { return std::abs(d.slope) <= d.noise && d.bend < 0; }
+
+}  // namespace
 
 void FootCollector::saw(const DistanceJet& sample) {
   largest_a11 = std::max(largest_a11, sample.a11);
@@ -183,14 +190,15 @@ void FootCollector::add(const DistanceJet& foot, bool at_end, int iterations) {
 }
 
 void FootCollector::add_joint(const DistanceJet& before, const DistanceJet& after) {
-  if (!(before.slope < 0) || !(after.slope >= 0)) return;
+  if (!(before.slope < 0) || !(after.slope >= 0) || crest(before) || crest(after)) return;
   add(after, !orthogonal(before) && !orthogonal(after), 0);
 }
 
 void FootCollector::add_ends(const DistanceJet& first, const DistanceJet& last) {
   if (closed) return add_joint(last, first);
-  if (first.slope >= 0 && !descends_after(first)) add(first, !orthogonal(first), 0);
-  if (last.slope < 0) add(last, !orthogonal(last), 0);
+  if (first.slope >= 0 && !descends_after(first) && !crest(first))
+    add(first, !orthogonal(first), 0);
+  if (last.slope < 0 && !crest(last)) add(last, !orthogonal(last), 0);
 }
 
 CurveFoot FootCollector::result() const {

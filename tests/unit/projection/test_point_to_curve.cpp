@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -336,6 +337,16 @@ TEST(Circle, CentreIsAmbiguousNotAFailure) {
   EXPECT_LE(nurbs.xi, 4.0);
 }
 
+TEST(Circle, EndOppositeToThePointIsNoMinimum) {
+  for (int i = 0; i < 100; ++i) {
+    const double from = 0.071 * i;
+    const geometry::Arc half{Vec2(0, 0), 1.0, from, from + std::numbers::pi, i % 2 == 0};
+    const Vec2 p = 1.5 * Vec2(std::cos(from), std::sin(from));
+    EXPECT_EQ(closest_point(half, p).second_distance, infinity) << i;
+    EXPECT_FALSE(closest_point(half, p).at_end) << i;
+  }
+}
+
 TEST(Circle, ClosedFormAndNewtonAgree) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> u(-3, 3);
@@ -377,6 +388,19 @@ TEST(Nurbs, SeamOfAClosedCurveIsNoEnd) {
   EXPECT_EQ(opposite.second_distance, infinity);  // its far side is a maximum, not an end
 }
 
+TEST(Nurbs, SeamIsFoundOnceWhateverTheRoundingSays) {
+  for (int i = 0; i < 200; ++i) {
+    geometry::NurbsCurve circle = testing::nurbs_circle(1.3);
+    const double angle = 0.031 * i;
+    Eigen::Rotation2Dd rotation(angle);
+    for (Vec2& point : circle.control) point = rotation * point + Vec2(0.3, 0.7);
+    const CurveFoot foot = closest_point(circle, rotation * Vec2(1.9, 0) + Vec2(0.3, 0.7));
+    EXPECT_FALSE(foot.at_end);
+    EXPECT_NEAR(foot.squared_distance, 0.36, 1e-14);
+    EXPECT_EQ(foot.second_distance, infinity) << i;
+  }
+}
+
 TEST(PointToCurve, HiddenPairOfMinimaBetweenTwoSamplesIsFound) {
   // a dip far narrower than the sampling: both samples see a rising distance
   const auto jet = [](double x) {
@@ -392,6 +416,16 @@ TEST(PointToCurve, HiddenPairOfMinimaBetweenTwoSamplesIsFound) {
   EXPECT_NEAR(std::sqrt(foot.squared_distance), best, 1e-9);
   EXPECT_FALSE(foot.at_end);
   EXPECT_NEAR(foot.second_distance, jet(0).r.y(), 1e-12);  // the end at lo is the second minimum
+  const auto backwards = [&](double x) {
+    CurveJet<2> j = jet(1.5 - x);
+    j.r1 *= -1;
+    j.r3 *= -1;
+    return j;
+  };
+  const CurveFoot mirrored = closest_on_interval(backwards, 0.0, 1.5, 2, Vec2(0, 0));
+  EXPECT_NEAR(mirrored.squared_distance, foot.squared_distance, 1e-13);
+  EXPECT_NEAR(mirrored.xi, 1.5 - foot.xi, 1e-12);
+  EXPECT_NEAR(mirrored.second_distance, foot.second_distance, 1e-12);
 }
 
 void expect_status(const CurveFoot& foot, double lo) {
