@@ -152,7 +152,8 @@ Spec rigid_spec() {
 Spec model_spec() {
   return map(
       "A model of Osculate. All quantities are in one consistent system of units.",
-      {required("osculate", integer("Version of the model file's format, always 1.").such_as("1")),
+      {required("osculate",
+                integer("Version of the model file's format.").at_least(1).at_most(1).such_as("1")),
        optional(
            "title",
            text("What is computed; heads the report.").such_as("Block pressed on a rigid base")),

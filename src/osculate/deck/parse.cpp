@@ -32,14 +32,6 @@ void require_document(const SourceNode& root, const std::string& file) {
                            "expected a map that begins with `osculate: 1`, got " + describe(root));
 }
 
-void require_version(const Value& root) {
-  const Value& version = root.at("osculate");
-  if (version.code != 1)
-    throw core::InputError(
-        version.mark,
-        fmt::format("only version 1 of the model file is understood, got {}", version.code));
-}
-
 }  // namespace
 
 std::optional<Number> number_if(const Value& map, std::string_view key) {
@@ -92,7 +84,6 @@ Description parse_model(std::string_view text, std::string file_name) {
   const SourceNode root = read_yaml(text, file_name);
   require_document(root, file_name);
   const Value model = check(model_spec(), root, file_name);
-  require_version(model);
   Description d;
   d.file = std::move(file_name);
   if (const Value* const title = model.find("title")) d.title = title->text;

@@ -12,13 +12,15 @@ namespace osculate::deck {
 /// exception leaves this function.
 ///
 /// Requires   `file_name` as the user named it; a mesh path is taken relative to its folder
-/// Tested by  tests/unit/deck/test_broken_models.cpp, test_good_models.cpp
+/// Tested by  tests/unit/deck/test_broken_models.cpp, test_broken_references.cpp,
+/// test_good_models.cpp,
+///            test_yaml.cpp, test_mutation.cpp
 [[nodiscard]] Description parse_model(std::string_view text, std::string file_name);
 
 /// The same for a file.
 [[nodiscard]] Description read_model(const std::string& path);
 
-/// The error for a set that the mesh does not have: `unknown set 'tpo'; did you mean 'top'?`,
+/// The error for a set that the mesh does not have: `unknown set 'topp'; did you mean 'top'?`,
 /// at the place where the name was read.
 [[nodiscard]] core::InputError unknown_set(const Name& on, std::span<const std::string> sets);
 

@@ -192,6 +192,8 @@ std::string describe(const Spec& spec) {
 }
 
 std::string describe_range(const Spec& spec) {
+  if (spec.low && spec.high && spec.low->value == spec.high->value)
+    return fmt::format("{}", spec.low->value);
   std::string text;
   if (spec.low) text += fmt::format("{} {}", spec.low->inclusive ? ">=" : ">", spec.low->value);
   if (spec.high) {

@@ -15,6 +15,10 @@ namespace {
 
 using Kind = SourceNode::Kind;
 
+/// Appended to the text as a comment. yaml-cpp lets a quote that is never closed end with the file;
+/// then this turns up inside the quoted text. No model file can hold the character.
+constexpr std::string_view end_mark = "#\x7F";
+
 struct Size {
   std::size_t nodes = 0, bytes = 0;
 };
@@ -53,6 +57,8 @@ class TreeBuilder final : public YAML::EventHandler {
                 const std::string& value) override {
     require_no_tag(mark, tag);
     charge({1, value.size()}, line_of(mark));
+    if (value.find(end_mark) != std::string::npos)
+      fail(line_of(mark), "the quote that begins here is never closed");
     deliver({.kind = Kind::scalar, .quoted = tag == "!", .line = line_of(mark), .text = value},
             anchor);
   }
@@ -188,6 +194,20 @@ class TreeBuilder final : public YAML::EventHandler {
   std::size_t nodes_ = 0, bytes_ = 0;
 };
 
+/// What yaml-cpp's shortest messages mean in practice.
+std::string hint(const std::string& message) {
+  if (message == "illegal map value") return "; check the indentation and the space after each ':'";
+  if (message == "end of map not found") return "; check the indentation and the quotes";
+  if (message == "end of sequence flow not found") return "; a '[' is not closed";
+  if (message == "end of map flow not found") return "; a '{' is not closed";
+  return {};
+}
+
+int count_lines(std::string_view text) {
+  const auto breaks = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
+  return text.empty() || text.ends_with('\n') ? std::max(breaks, 1) : breaks + 1;
+}
+
 }  // namespace
 
 SourceNode read_yaml(std::string_view text, const std::string& file, const TextLimits& limits) {
@@ -198,13 +218,13 @@ SourceNode read_yaml(std::string_view text, const std::string& file, const TextL
   require_plain_text(text, file);
   TreeBuilder builder(file, limits);
   try {
-    std::istringstream stream{std::string(text)};
+    std::istringstream stream{std::string(text) + "\n" + std::string(end_mark) + "\n"};
     YAML::Parser parser(stream);
     while (parser.HandleNextDocument(builder)) {
     }
   } catch (const YAML::Exception& error) {
-    const int line = error.mark.is_null() ? 0 : error.mark.line + 1;
-    throw core::InputError({file, line, ""}, "not valid YAML: " + error.msg);
+    const int line = error.mark.is_null() ? 0 : std::min(error.mark.line + 1, count_lines(text));
+    throw core::InputError({file, line, ""}, "not valid YAML: " + error.msg + hint(error.msg));
   }
   return builder.root();
 }

@@ -1,0 +1,87 @@
+#include "deck_test.hpp"
+#include "osculate/deck/explain.hpp"
+#include "osculate/deck/model_spec.hpp"
+
+namespace osculate::deck {
+namespace {
+
+std::string unknown(const std::string& key) {
+  try {
+    (void)explain_model_key(key);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(Explain, OneKey) {
+  EXPECT_EQ(explain_model_key("contact.friction.coulomb.mu"),
+            "contact[].friction.coulomb.mu: a number >= 0, required\n"
+            "  Coefficient of friction.\n"
+            "  Example: mu: 0.3\n");
+  EXPECT_EQ(explain_model_key("materials.NAME.linear_elastic.density"),
+            "materials.NAME.linear_elastic.density: a number >= 0, default 0\n"
+            "  Mass per reference volume.\n"
+            "  Unit: mass/length^3\n"
+            "  Example: density: 7.85e-9\n");
+}
+
+TEST(Explain, WordsAndTheirMeaning) {
+  EXPECT_EQ(explain_model_key("enforcement"),
+            "contact[].enforcement: one of penalty, default penalty\n"
+            "  How the contact conditions are imposed.\n"
+            "  Words:\n"
+            "    penalty              by the stiffnesses alone\n"
+            "    augmented_lagrange   by repeated correction of the penalty's tractions (not "
+            "available yet)\n"
+            "    lagrange_multiplier  exactly, by unknown tractions (not available yet)\n"
+            "  Example: enforcement: penalty\n");
+}
+
+TEST(Explain, KeysBelow) {
+  EXPECT_EQ(explain_model_key("contact.friction"),
+            "contact[].friction: none or a map, default none\n"
+            "  Law in the tangential direction.\n"
+            "  Words:\n"
+            "    none                 no friction\n"
+            "  Keys:\n"
+            "    coulomb              Coulomb's law with an elastic stick range. (a map, "
+            "required)\n"
+            "  Example: friction: {coulomb: {mu: 0.3, penalty: 2.1e6}}\n");
+  const std::string root = explain_model_key("");
+  for (const Key& key : model_spec().keys)
+    EXPECT_NE(root.find("\n    " + key.name + " "), std::string::npos) << key.name;
+}
+
+TEST(Explain, ManyWaysToNameAKey) {
+  const std::string mu = explain_model_key("mu");
+  for (const char* const key : {"contact[0].friction.coulomb.mu", "contact[].friction.coulomb.mu",
+                                "contact.friction.coulomb.mu"})
+    EXPECT_EQ(explain_model_key(key), mu) << key;
+  const std::string young = explain_model_key("materials.NAME.neo_hooke.E");
+  EXPECT_EQ(explain_model_key("materials.steel.neo_hooke.E"), young);
+  EXPECT_EQ(explain_model_key("materials.neo_hooke.E"), young);
+  // A last part that occurs more than once: all of them.
+  const std::string all = explain_model_key("E");
+  for (const char* const law : {"linear_elastic", "st_venant_kirchhoff", "neo_hooke"})
+    EXPECT_NE(all.find(std::string("materials.NAME.") + law + ".E: "), std::string::npos) << law;
+}
+
+TEST(Explain, EveryKeyHasItsText) {
+  walk(model_spec(), "", [](const std::string& path, const Spec& spec) {
+    if (path.empty() || path.ends_with("[]") || path.ends_with("NAME")) return;
+    const std::string text = explain_model_key(path);
+    EXPECT_TRUE(text.starts_with(path + ": ")) << path;
+    for (const Key& key : spec.keys)
+      EXPECT_NE(text.find(key.spec.doc), std::string::npos) << path << "." << key.name;
+  });
+}
+
+TEST(Explain, UnknownKeysNameTheNearest) {
+  EXPECT_EQ(unknown("frictoin"), "unknown key 'frictoin'; did you mean 'friction'?");
+  EXPECT_EQ(unknown("contact[].frictoin"),
+            "unknown key 'contact[].frictoin'; did you mean 'contact[].friction'?");
+}
+
+}  // namespace
+}  // namespace osculate::deck
