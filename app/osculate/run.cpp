@@ -31,7 +31,7 @@ int run(RunFlags& flags) {
       fmt::print(stderr, "{}{}\n", terminal ? "\r\033[K" : "", text);
     };
     flags.options.progress = [terminal](std::string_view text) {
-      fmt::print(stderr, terminal ? "\r\033[K{}" : "{}\n", text);
+      fmt::print(stderr, "{}{}{}", terminal ? "\r\033[K" : "", text, terminal ? "" : "\n");
       std::fflush(stderr);
     };
   }

@@ -27,6 +27,14 @@ model::AnalysisOptions analysis_options(const Solver& solver) {
   return options;
 }
 
+/// Words of the model file, in the order of Quantity.
+constexpr std::array<std::string_view, 16> quantity_words{
+    "ux",      "uy",           "rz",          "rfx",          "rfy",             "rmz",
+    "force_x", "force_y",      "normal_force", "shear_force", "max_pressure",    "max_penetration",
+    "stick",   "slip",         "open",        "area"};
+
+std::string_view quantity_name(Quantity q) { return quantity_words[static_cast<std::size_t>(q)]; }
+
 void check_planar(const Description& description, const mesh::Mesh& mesh) {
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     if (std::abs(mesh.nodes[n].z()) > 1e-12 * (1 + mesh.nodes[n].norm()))

@@ -8,6 +8,7 @@
 #include "osculate/deck/build_context.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/model/bulk.hpp"
 
 namespace osculate::deck {
 
@@ -17,7 +18,52 @@ const mesh::Set& BuildContext::set(const Name& on) const {
   return *found;
 }
 
+solid::Section make_solid_section(const Section& s, const Material& material) {
+  solid::Section out;
+  switch (s.element.value) {
+    case SectionElement::plane_strain: out.assumption = solid::Assumption::plane_strain; break;
+    case SectionElement::plane_stress: out.assumption = solid::Assumption::plane_stress; break;
+    case SectionElement::axisymmetric: out.assumption = solid::Assumption::axisymmetric; break;
+  }
+  out.kinematics = s.kinematics.value == Kinematics::finite ? solid::Kinematics::finite
+                                                            : solid::Kinematics::small;
+  switch (s.formulation.value) {
+    case Formulation::full: out.formulation = solid::Formulation::full; break;
+    case Formulation::bbar: out.formulation = solid::Formulation::bbar; break;
+    case Formulation::enhanced: out.formulation = solid::Formulation::enhanced; break;
+  }
+  out.thickness = s.thickness.value;
+  const double young = material.young.value, poisson = material.poisson.value;
+  const double density = material.density.value;
+  switch (material.law.value) {
+    case MaterialLaw::linear_elastic: out.law = material::LinearElastic{young, poisson, density}; break;
+    case MaterialLaw::st_venant_kirchhoff:
+      out.law = material::StVenantKirchhoff{young, poisson, density};
+      break;
+    case MaterialLaw::neo_hooke: out.law = material::NeoHooke{young, poisson, density}; break;
+  }
+  return out;
+}
+
 namespace {
+
+geometry::Curve nurbs_curve(const NurbsShape& shape, bool flip) {
+  geometry::NurbsCurve curve;
+  curve.degree = shape.degree.value;
+  curve.knots = shape.knots.value;
+  for (const Vec3& c : shape.control.value) {
+    curve.control.emplace_back(c.x(), c.y());
+    curve.weights.push_back(c.z());
+  }
+  if (flip) {
+    std::reverse(curve.control.begin(), curve.control.end());
+    std::reverse(curve.weights.begin(), curve.weights.end());
+    const double sum = curve.knots.front() + curve.knots.back();
+    std::reverse(curve.knots.begin(), curve.knots.end());
+    for (double& knot : curve.knots) knot = sum - knot;
+  }
+  return curve;
+}
 
 solid::Section solid_section(const BuildContext& c, const Section& s) {
   const Material* const material = [&] {

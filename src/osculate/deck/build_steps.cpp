@@ -7,6 +7,7 @@
 #include "osculate/deck/build_context.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/model/bulk.hpp"
 #include "osculate/solid/element.hpp"
 
 namespace osculate::deck {

@@ -1,218 +1,383 @@
 #include "osculate/la/direct_solver.hpp"
 
 #include <dmumps_c.h>
-#include <metis.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <mutex>
 
+#include "osculate/la/ordering.hpp"
+
 extern "C" void openblas_set_num_threads(int);
+extern "C" int openblas_get_num_threads(void);
 
 namespace osculate::la {
 namespace {
 
-/// Control numbers of the library's manual, one-based there.
 constexpr int use_communicator_world = -987654;
 enum Job { start = -1, end = -2, analyse = 1, factorise = 2, back_substitute = 3 };
 
-std::mutex& library_lock() {
-  static std::mutex lock;
-  return lock;
-}
+/// The library's control numbers, zero-based; the manual counts from one.
+enum Control {
+  error_unit = 0,
+  warning_unit = 1,
+  info_unit = 2,
+  print_level = 3,
+  transversal = 5,
+  ordering = 6,
+  scaling = 7,
+  slack = 13,
+  openmp_threads = 15,
+  null_pivots = 23
+};
+constexpr int null_pivot_threshold = 2;  // CNTL(3)
+
+/// The whole library is called by one thread at a time, with the host's BLAS threads set aside.
+class LibraryCall {
+ public:
+  explicit LibraryCall(int blas_threads) : guard_(mutex()), before_(openblas_get_num_threads()) {
+    if (before_ != blas_threads) openblas_set_num_threads(blas_threads);
+    changed_ = before_ != blas_threads;
+  }
+  ~LibraryCall() {
+    if (changed_) openblas_set_num_threads(before_);
+  }
+  LibraryCall(const LibraryCall&) = delete;
+  LibraryCall& operator=(const LibraryCall&) = delete;
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex lock;
+    return lock;
+  }
+  std::lock_guard<std::mutex> guard_;
+  int before_;
+  bool changed_ = false;
+};
 
 double seconds_since(std::chrono::steady_clock::time_point from) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
 }
 
-/// Fill-reducing order of the graph of K + K^T, one-based; empty when it is not worth it.
-std::vector<int> metis_order(const SparseMatrix& k) {
-  constexpr Index smallest = 1000;
-  if (k.n < smallest) return {};
-  std::vector<std::vector<idx_t>> neighbours(static_cast<std::size_t>(k.n));
-  for (Index i = 0; i < k.n; ++i)
-    for (Index e = k.row_start[static_cast<std::size_t>(i)];
-         e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e) {
-      const Index j = k.column[static_cast<std::size_t>(e)];
-      if (i == j) continue;
-      neighbours[static_cast<std::size_t>(i)].push_back(j);
-      neighbours[static_cast<std::size_t>(j)].push_back(i);
-    }
-  std::vector<idx_t> start{0}, adjacent;
-  for (auto& list : neighbours) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    adjacent.insert(adjacent.end(), list.begin(), list.end());
-    start.push_back(static_cast<idx_t>(adjacent.size()));
-  }
-  idx_t n = k.n;
-  std::vector<idx_t> permutation(static_cast<std::size_t>(n)), inverse(static_cast<std::size_t>(n));
-  if (METIS_NodeND(&n, start.data(), adjacent.data(), nullptr, nullptr, permutation.data(),
-                   inverse.data()) != METIS_OK)
-    return {};
-  std::vector<int> order;
-  for (const idx_t position : inverse) order.push_back(static_cast<int>(position) + 1);
-  return order;
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+FactorReport failure(SolveStatus status, std::string message, Index row = -1) {
+  FactorReport report;
+  report.status = status;
+  report.message = std::move(message);
+  report.bad_row = row;
+  return report;
 }
 
 }  // namespace
 
 struct DirectSolver::Impl {
   DMUMPS_STRUC_C id{};
-  bool open = false, factored = false;
+  DirectOptions options;
+  bool open = false, analysed = false, factored = false;
   Symmetry symmetry = Symmetry::unsymmetric;
   std::uint64_t version = 0;
   Index n = -1;
-  std::vector<int> rows, columns, order;
+  int slack_percent = 30;
+  std::vector<int> rows, columns, order;  // one-based triplets; the upper triangle if symmetric
   std::vector<double> values;
+
+  explicit Impl(DirectOptions wanted) : options(wanted) {
+    options.blas_threads = std::max(1, options.blas_threads);
+  }
+  ~Impl() {
+    if (!open) return;
+    const LibraryCall guard(options.blas_threads);
+    close();
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
   void call(int job) {
     id.job = job;
     dmumps_c(&id);
   }
-
   void close() {
     if (open) call(end);
-    open = factored = false;
+    open = analysed = factored = false;
+  }
+  [[nodiscard]] bool kept(Index i, Index j) const {
+    return symmetry == Symmetry::unsymmetric || i <= j;
   }
 
-  void begin(Symmetry wanted) {
-    close();
-    id = {};
-    id.comm_fortran = use_communicator_world;
-    id.par = 1;
-    id.sym = wanted == Symmetry::unsymmetric ? 0 : wanted == Symmetry::positive_definite ? 1 : 2;
-    call(start);
-    open = true;
-    symmetry = wanted;
-    for (int i = 0; i < 4; ++i) id.icntl[i] = i == 3 ? 0 : -1;  // silent
-  }
-
-  void set_pattern(const SparseMatrix& k) {
-    rows.clear();
-    columns.clear();
-    for (Index i = 0; i < k.n; ++i)
-      for (Index e = k.row_start[static_cast<std::size_t>(i)];
-           e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e) {
-        const Index j = k.column[static_cast<std::size_t>(e)];
-        if (symmetry != Symmetry::unsymmetric && j < i) continue;
-        rows.push_back(i + 1);
-        columns.push_back(j + 1);
-      }
-    id.n = k.n;
-    id.nnz = static_cast<MUMPS_INT8>(rows.size());
-    id.irn = rows.data();
-    id.jcn = columns.data();
-    order = metis_order(k);
-    if (!order.empty()) {
-      id.icntl[6] = 1;  // ICNTL(7): the order is given
-      id.perm_in = order.data();
-    }
-  }
-
-  bool set_values(const SparseMatrix& k) {
-    values.clear();
-    for (Index i = 0; i < k.n; ++i)
-      for (Index e = k.row_start[static_cast<std::size_t>(i)];
-           e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e) {
-        if (symmetry != Symmetry::unsymmetric && k.column[static_cast<std::size_t>(e)] < i) continue;
-        values.push_back(k.value[static_cast<std::size_t>(e)]);
-        if (!std::isfinite(values.back())) return false;
-      }
-    id.a = values.data();
-    return true;
-  }
-
-  FactorReport outcome() const {
-    FactorReport report;
-    const int code = id.infog[0];
-    if (code == -10) {
-      report.status = SolveStatus::singular;
-      report.message = "zero pivot";
-    } else if (code == -13 || code == -8 || code == -9) {
-      report.status = SolveStatus::not_enough_memory;
-      report.message = "not enough memory for the factors";
-    } else if (code < 0) {
-      report.status = SolveStatus::failed;
-      report.message = "MUMPS error " + std::to_string(code);
-    }
-    report.negative_pivots = id.infog[11];
-    return report;
-  }
-
-  FactorReport factorise_with_retries() {
-    for (const int slack : {30, 100, 300, 1000}) {
-      id.icntl[13] = slack;  // ICNTL(14): working space in percent above the estimate
-      call(factorise);
-      if (id.infog[0] != -8 && id.infog[0] != -9) break;
-    }
-    return outcome();
-  }
+  bool begin();
+  void set_pattern(const SparseMatrix& k);
+  [[nodiscard]] bool same_pattern(const SparseMatrix& k) const;
+  Index set_values(const SparseMatrix& k);
+  FactorReport prepare(const SparseMatrix& k, std::uint64_t wanted_version, Symmetry wanted);
+  FactorReport factorise_with_retries();
+  [[nodiscard]] FactorReport outcome() const;
+  [[nodiscard]] Eigen::VectorXd multiplied(const Eigen::VectorXd& x) const;
+  [[nodiscard]] double lost_accuracy();
+  [[nodiscard]] bool looks_singular();
+  [[nodiscard]] Index vanishing_row();
+  SolveStatus substitute(double* rhs, Index count);
+  void refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
 };
 
-DirectSolver::DirectSolver() : impl_(std::make_unique<Impl>()) {}
+bool DirectSolver::Impl::begin() {
+  close();
+  id = {};
+  id.comm_fortran = use_communicator_world;
+  id.par = 1;
+  id.sym = symmetry == Symmetry::unsymmetric ? 0 : symmetry == Symmetry::positive_definite ? 1 : 2;
+  call(start);
+  if (id.infog[0] < 0) return false;
+  open = true;
+  id.icntl[error_unit] = id.icntl[warning_unit] = id.icntl[info_unit] = -1;
+  id.icntl[print_level] = 0;
+  id.icntl[openmp_threads] = 1;
+  // Neither permutation nor scaling from the values at the time of the analysis: the next
+  // factorisations must not depend on them.
+  id.icntl[transversal] = 0;
+  id.icntl[scaling] = 7;  // rows and columns together, iterated, from the current values
+  return true;
+}
+
+void DirectSolver::Impl::set_pattern(const SparseMatrix& k) {
+  rows.clear();
+  columns.clear();
+  for (Index i = 0; i < k.n; ++i)
+    for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
+      if (!kept(i, k.column[at(e)])) continue;
+      rows.push_back(i + 1);
+      columns.push_back(k.column[at(e)] + 1);
+    }
+  id.n = k.n;
+  id.nnz = static_cast<MUMPS_INT8>(rows.size());
+  id.irn = rows.data();
+  id.jcn = columns.data();
+  constexpr Index worth_dissecting = 1000;
+  order = k.n < worth_dissecting ? std::vector<int>{} : nested_dissection(k);
+  id.icntl[ordering] = order.empty() ? 0 : 1;  // minimum degree, or given
+  id.perm_in = order.empty() ? nullptr : order.data();
+}
+
+bool DirectSolver::Impl::same_pattern(const SparseMatrix& k) const {
+  std::size_t next = 0;
+  for (Index i = 0; i < k.n; ++i)
+    for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
+      if (!kept(i, k.column[at(e)])) continue;
+      if (next == rows.size() || rows[next] != i + 1 || columns[next] != k.column[at(e)] + 1)
+        return false;
+      ++next;
+    }
+  return next == rows.size();
+}
+
+/// Returns the first row with an entry that is not finite, or -1.
+Index DirectSolver::Impl::set_values(const SparseMatrix& k) {
+  values.clear();
+  for (Index i = 0; i < k.n; ++i)
+    for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
+      if (!std::isfinite(k.value[at(e)])) return i;
+      if (kept(i, k.column[at(e)])) values.push_back(k.value[at(e)]);
+    }
+  id.a = values.data();
+  return -1;
+}
+
+FactorReport DirectSolver::Impl::outcome() const {
+  const int code = id.infog[0];
+  if (code == -6 || code == -10) return failure(SolveStatus::singular, "a pivot is zero");
+  if (code == -40) return failure(SolveStatus::failed, "the matrix is not positive definite");
+  if (code == -5 || code == -7 || code == -8 || code == -9 || code == -13)
+    return failure(SolveStatus::not_enough_memory, "not enough memory for the factors");
+  if (code < 0) return failure(SolveStatus::failed, "MUMPS error " + std::to_string(code));
+  FactorReport report;
+  if (symmetry != Symmetry::unsymmetric) report.negative_pivots = id.infog[11];
+  constexpr std::int64_t million = 1'000'000;
+  report.factor_entries = id.infog[28] >= 0 ? id.infog[28] : -million * id.infog[28];
+  return report;
+}
+
+/// Opens the library and analyses where the former analysis does not stand; sets the values.
+FactorReport DirectSolver::Impl::prepare(const SparseMatrix& k, std::uint64_t wanted_version,
+                                         Symmetry wanted) {
+  const auto begun = std::chrono::steady_clock::now();
+  const bool stands =
+      analysed && symmetry == wanted && version == wanted_version && n == k.n && same_pattern(k);
+  symmetry = wanted;
+  version = wanted_version;
+  n = k.n;
+  if (!stands) {
+    close();
+    if (!begin()) return failure(SolveStatus::not_enough_memory, "the linear solver did not start");
+    set_pattern(k);
+  }
+  const Index bad = set_values(k);
+  if (bad >= 0) {
+    analysed = stands;
+    return failure(SolveStatus::failed, "the matrix has entries that are not finite", bad);
+  }
+  if (stands) return {};
+  call(analyse);
+  FactorReport report = outcome();
+  analysed = report.status == SolveStatus::ok;
+  report.seconds_analysis = seconds_since(begun);
+  return report;
+}
+
+FactorReport DirectSolver::Impl::factorise_with_retries() {
+  constexpr int no_space = -8, no_real_space = -9;
+  constexpr int most = 3000;
+  for (;; slack_percent = slack_percent * 10 / 3) {
+    id.icntl[slack] = slack_percent;  // working space in percent above the estimate
+    call(factorise);
+    const bool short_of_space = id.infog[0] == no_space || id.infog[0] == no_real_space;
+    if (!short_of_space || slack_percent > most) return outcome();
+  }
+}
+
+Eigen::VectorXd DirectSolver::Impl::multiplied(const Eigen::VectorXd& x) const {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(n);
+  for (std::size_t e = 0; e < values.size(); ++e) {
+    const Index i = rows[e] - 1, j = columns[e] - 1;
+    y[i] += values[e] * x[j];
+    if (symmetry != Symmetry::unsymmetric && i != j) y[j] += values[e] * x[i];
+  }
+  return y;
+}
+
+/// Relative error of the solution for a known vector: about eps times the condition number of the
+/// matrix scaled by its rows, so of order one for a singular one.
+double DirectSolver::Impl::lost_accuracy() {
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(n);
+  for (std::size_t e = 0; e < values.size(); ++e) {
+    scale[rows[e] - 1] = std::max(scale[rows[e] - 1], std::abs(values[e]));
+    scale[columns[e] - 1] = std::max(scale[columns[e] - 1], std::abs(values[e]));
+  }
+  Eigen::VectorXd known(n);
+  std::uint32_t noise = 1;
+  for (Index i = 0; i < n; ++i) {
+    noise = noise * 1664525U + 1013904223U;
+    const double sign = (noise >> 31U) != 0 ? 1.0 : -1.0;
+    known[i] = scale[i] > 0 ? sign / std::sqrt(scale[i]) : sign;
+  }
+  Eigen::VectorXd x = multiplied(known);
+  if (substitute(x.data(), 1) != SolveStatus::ok) return 1;
+  double worst = 0;
+  for (Index i = 0; i < n; ++i) {
+    const double error = std::abs(x[i] / known[i] - 1);
+    if (!(error <= worst)) worst = std::isfinite(error) ? error : 1;
+  }
+  return worst;
+}
+
+bool DirectSolver::Impl::looks_singular() {
+  constexpr double harmless = 1e-9, digits_left = 1e-3;
+  const double smallest = id.rinfog[18], largest = id.rinfog[20];  // pivots of the scaled matrix
+  if (std::getenv("LA_DEBUG")) {
+    fprintf(stderr, "pivots %g %g ratio %g lost %g\n", smallest, largest, smallest / largest,
+            lost_accuracy());
+  }
+  if (smallest > harmless * largest) return false;
+  return lost_accuracy() > digits_left;
+}
+
+/// Factors once more with the search for pivots that vanish; -1 if none is found.
+Index DirectSolver::Impl::vanishing_row() {
+  const double smallest = id.infog[0] < 0 ? 0 : id.rinfog[18];
+  id.icntl[null_pivots] = 1;
+  id.cntl[null_pivot_threshold] = -std::max(1e-14, 2 * smallest);  // negative: absolute
+  call(factorise);
+  const int found = id.infog[0] < 0 ? 0 : id.infog[27];
+  if (std::getenv("LA_DEBUG"))
+    fprintf(stderr, "null pivots: infog1 %d found %d\n", id.infog[0], id.infog[27]);
+  const Index row = found > 0 && id.pivnul_list != nullptr ? id.pivnul_list[0] - 1 : -1;
+  id.icntl[null_pivots] = 0;
+  id.cntl[null_pivot_threshold] = 0;
+  return row;
+}
+
+SolveStatus DirectSolver::Impl::substitute(double* rhs, Index count) {
+  id.rhs = rhs;
+  id.nrhs = count;
+  id.lrhs = n;
+  call(back_substitute);
+  id.rhs = nullptr;
+  if (id.infog[0] >= 0) return SolveStatus::ok;
+  return id.infog[0] == -13 ? SolveStatus::not_enough_memory : SolveStatus::failed;
+}
+
+/// One correction from the residual where it is worth it, kept if it helps.
+void DirectSolver::Impl::refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) {
+  constexpr double good = 1e-12;
+  const double size = rhs.stableNorm();
+  Eigen::VectorXd rest = rhs - multiplied(x);
+  const double before = rest.stableNorm();
+  if (!(before > good * size)) return;
+  if (substitute(rest.data(), 1) != SolveStatus::ok) return;
+  const Eigen::VectorXd better = x + rest;
+  if (Eigen::VectorXd(rhs - multiplied(better)).stableNorm() < before) x = better;
+}
+
+DirectSolver::DirectSolver(DirectOptions options) : impl_(std::make_unique<Impl>(options)) {}
+DirectSolver::~DirectSolver() = default;
 DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
 DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
 
-DirectSolver::~DirectSolver() {
-  if (!impl_) return;
-  const std::lock_guard guard(library_lock());
-  impl_->close();
-}
-
 FactorReport DirectSolver::factor(const SparseMatrix& k, std::uint64_t pattern_version,
                                   Symmetry symmetry) {
-  const std::lock_guard guard(library_lock());
-  openblas_set_num_threads(1);
+  if (!impl_) impl_ = std::make_unique<Impl>(DirectOptions{});  // moved from
   Impl& s = *impl_;
+  const LibraryCall guard(s.options.blas_threads);
   s.factored = false;
   if (k.n == 0) {
+    s.close();
     s.n = 0;
     s.factored = true;
     return {};
   }
-  const auto begin = std::chrono::steady_clock::now();
-  double analysis = 0;
-  const bool fresh = !s.open || s.symmetry != symmetry || s.version != pattern_version || s.n != k.n;
-  if (fresh) {
-    s.begin(symmetry);
-    s.set_pattern(k);
-  }
-  s.n = k.n;
-  s.version = pattern_version;
-  if (!s.set_values(k)) {
-    FactorReport report;
-    report.status = SolveStatus::failed;
-    report.message = "the matrix has entries that are not a number";
-    return report;
-  }
-  if (fresh) {
-    s.call(analyse);
-    analysis = seconds_since(begin);
-    if (s.id.infog[0] < 0) {
-      FactorReport report = s.outcome();
-      s.close();
-      return report;
-    }
-  }
-  FactorReport report = s.factorise_with_retries();
+  FactorReport report = s.prepare(k, pattern_version, symmetry);
+  if (report.status != SolveStatus::ok) return report;
+  const double analysis = report.seconds_analysis;
+  const auto begun = std::chrono::steady_clock::now();
+  report = s.factorise_with_retries();
+  if (report.status == SolveStatus::ok && s.looks_singular())
+    report = failure(SolveStatus::singular, "the matrix is singular to working precision");
+  if (report.status == SolveStatus::singular) report.bad_row = s.vanishing_row();
   report.seconds_analysis = analysis;
-  report.seconds_factor = seconds_since(begin) - analysis;
+  report.seconds_factor = seconds_since(begun);
   s.factored = report.status == SolveStatus::ok;
   return report;
 }
 
 SolveStatus DirectSolver::solve(Eigen::VectorXd& rhs) const {
-  const std::lock_guard guard(library_lock());
+  if (!impl_ || !impl_->factored || rhs.size() != impl_->n || !rhs.allFinite())
+    return SolveStatus::failed;
   Impl& s = *impl_;
-  if (!s.factored || rhs.size() != s.n) return SolveStatus::failed;
   if (s.n == 0) return SolveStatus::ok;
-  s.id.rhs = rhs.data();
-  s.id.nrhs = 1;
-  s.id.lrhs = s.n;
-  s.call(back_substitute);
-  if (s.id.infog[0] < 0) return SolveStatus::failed;
+  const LibraryCall guard(s.options.blas_threads);
+  const Eigen::VectorXd given = rhs;
+  const SolveStatus status = s.substitute(rhs.data(), 1);
+  if (status != SolveStatus::ok) return status;
+  if (!rhs.allFinite()) return SolveStatus::singular;
+  s.refine(given, rhs);
+  return rhs.allFinite() ? SolveStatus::ok : SolveStatus::singular;
+}
+
+SolveStatus DirectSolver::solve(Eigen::MatrixXd& rhs) const {
+  if (!impl_ || !impl_->factored || rhs.rows() != impl_->n || !rhs.allFinite())
+    return SolveStatus::failed;
+  Impl& s = *impl_;
+  if (rhs.size() == 0) return SolveStatus::ok;
+  const LibraryCall guard(s.options.blas_threads);
+  const Eigen::MatrixXd given = rhs;
+  const SolveStatus status = s.substitute(rhs.data(), static_cast<Index>(rhs.cols()));
+  if (status != SolveStatus::ok) return status;
+  for (Eigen::Index c = 0; c < rhs.cols() && rhs.allFinite(); ++c) {
+    Eigen::VectorXd x = rhs.col(c);
+    s.refine(given.col(c), x);
+    rhs.col(c) = x;
+  }
   return rhs.allFinite() ? SolveStatus::ok : SolveStatus::singular;
 }
 

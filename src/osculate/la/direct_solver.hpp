@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -6,6 +7,8 @@
 
 namespace osculate::la {
 
+/// What the caller knows of the matrix. For the symmetric kinds only the upper triangle is read.
+/// `positive_definite` does no pivoting: `negative_pivots` > 0 tells that the promise was wrong.
 enum class Symmetry { unsymmetric, positive_definite, indefinite };
 
 /// Numerical failure is a value, expected and handled by step control.
@@ -13,27 +16,43 @@ enum class SolveStatus { ok, singular, not_enough_memory, failed };
 
 struct FactorReport {
   SolveStatus status = SolveStatus::ok;
-  Index bad_row = -1;        ///< 0-based row of a zero pivot where known
-  int negative_pivots = 0;
-  double seconds_analysis = 0, seconds_factor = 0;
-  std::string message;
+  Index bad_row = -1;                               ///< 0-based row of a zero pivot where known
+  int negative_pivots = 0;                          ///< of the symmetric kinds; 0 for unsymmetric
+  double seconds_analysis = 0, seconds_factor = 0;  ///< analysis 0: the former one was used again
+  std::string message;                              ///< empty when ok
+  std::int64_t factor_entries = 0;
+};
+
+struct DirectOptions {
+  int blas_threads = 1;  ///< more than one may change the last bits with the load of the machine
 };
 
 /// Sparse direct solver (sequential MUMPS with a METIS ordering). The symbolic analysis is kept
-/// while the pattern stands. One lock per process around every call of the library; BLAS runs on
-/// one thread, so the bits do not depend on the machine's load.
+/// while pattern and symmetry stand. It depends on the pattern alone, so that a solver that has
+/// factored other values before gives the same bits as a new one. Several may live at once: one
+/// lock per process around every call of the library.
+///
+/// Errors     a matrix with 13 or more digits lost is reported as `singular` with the row of a
+///            pivot that vanished (one of the unknowns that move in the free mode); nothing is
+///            thrown but std::bad_alloc
+/// Tested by  tests/unit/la/test_direct_solver.cpp
 class DirectSolver {
  public:
-  DirectSolver();
+  explicit DirectSolver(DirectOptions options = {});
   ~DirectSolver();
   DirectSolver(DirectSolver&&) noexcept;
   DirectSolver& operator=(DirectSolver&&) noexcept;
   DirectSolver(const DirectSolver&) = delete;
   DirectSolver& operator=(const DirectSolver&) = delete;
 
+  /// `pattern_version` saves the comparison of patterns where it changed; where it did not, the
+  /// pattern is compared all the same.
   FactorReport factor(const SparseMatrix& k, std::uint64_t pattern_version, Symmetry symmetry);
-  /// Replaces the right-hand side by the solution.
+  /// Replaces the right-hand side by the solution, with one step of refinement where the relative
+  /// residual is above 1e-12. `failed` without factors or for a wrong size or a NaN.
   SolveStatus solve(Eigen::VectorXd& rhs_in_solution_out) const;
+  /// One right-hand side a column, all at once (last bits may differ from one by one).
+  SolveStatus solve(Eigen::MatrixXd& rhs_in_solution_out) const;
 
  private:
   struct Impl;

@@ -1,93 +1,135 @@
 #include "osculate/la/sparse_matrix.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <iterator>
+#include <limits>
 
 namespace osculate::la {
+namespace {
+
+constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
 
 Eigen::VectorXd multiply(const SparseMatrix& k, const Eigen::VectorXd& x) {
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(k.n);
-  for (Index i = 0; i < k.n; ++i)
-    for (Index e = k.row_start[static_cast<std::size_t>(i)];
-         e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e)
-      y[i] += k.value[static_cast<std::size_t>(e)] * x[k.column[static_cast<std::size_t>(e)]];
+  Eigen::VectorXd y(k.n);
+  for (Index i = 0; i < k.n; ++i) {
+    double sum = 0;
+    for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e)
+      sum += k.value[at(e)] * x[k.column[at(e)]];
+    y[i] = sum;
+  }
   return y;
+}
+
+double relative_residual(const SparseMatrix& k, const Eigen::VectorXd& x,
+                         const Eigen::VectorXd& b) {
+  if (k.n == 0) return 0;
+  const double rest = Eigen::VectorXd(b - multiply(k, x)).stableNorm();
+  if (rest == 0) return 0;
+  const double ratio = rest / b.stableNorm();
+  return std::isfinite(ratio) ? ratio : std::numeric_limits<double>::infinity();
 }
 
 MatrixBuilder::MatrixBuilder(Index n) {
   matrix_.n = n;
-  matrix_.row_start.resize(static_cast<std::size_t>(n) + 1);
-  matrix_.column.resize(static_cast<std::size_t>(n));
-  matrix_.value.assign(static_cast<std::size_t>(n), 0.0);
+  matrix_.row_start.resize(at(n) + 1);
+  matrix_.column.resize(at(n));
+  matrix_.value.assign(at(n), 0.0);
   for (Index i = 0; i < n; ++i) {
-    matrix_.row_start[static_cast<std::size_t>(i) + 1] = i + 1;
-    matrix_.column[static_cast<std::size_t>(i)] = i;
+    matrix_.row_start[at(i) + 1] = i + 1;
+    matrix_.column[at(i)] = i;
   }
 }
 
+double* MatrixBuilder::find(Index row, Index column) {
+  assert(row >= 0 && row < matrix_.n && column >= 0 && column < matrix_.n);
+  const auto first = matrix_.column.begin() + matrix_.row_start[at(row)];
+  const auto last = matrix_.column.begin() + matrix_.row_start[at(row) + 1];
+  const auto place = std::lower_bound(first, last, column);
+  if (place == last || *place != column) return nullptr;
+  return matrix_.value.data() + (place - matrix_.column.begin());
+}
+
+void MatrixBuilder::reserve_block(std::span<const Index> rows, std::span<const Index> columns) {
+  for (const Index i : rows)
+    for (const Index j : columns)
+      if (i >= 0 && j >= 0 && find(i, j) == nullptr) pending_.push_back({i, j});
+  constexpr std::size_t most = 8'000'000;  // bounds the memory of the set-up
+  if (pending_.size() > most) merge();
+}
+
 void MatrixBuilder::reserve_block(std::span<const Index> unknowns) {
-  for (const Index i : unknowns)
-    for (const Index j : unknowns)
-      if (i >= 0 && j >= 0 && i != j) aside_.push_back({i, j, 0.0});
-  constexpr std::size_t most = 4'000'000;  // bounds the memory of the set-up
-  if (aside_.size() > most) merge();
+  reserve_block(unknowns, unknowns);
 }
 
 void MatrixBuilder::clear() {
-  if (!aside_.empty()) merge();
+  merge();
   std::fill(matrix_.value.begin(), matrix_.value.end(), 0.0);
 }
 
 void MatrixBuilder::add(Index row, Index column, double value) {
-  const auto begin = matrix_.column.begin() + matrix_.row_start[static_cast<std::size_t>(row)];
-  const auto end = matrix_.column.begin() + matrix_.row_start[static_cast<std::size_t>(row) + 1];
-  const auto at = std::lower_bound(begin, end, column);
-  if (at != end && *at == column)
-    matrix_.value[static_cast<std::size_t>(at - matrix_.column.begin())] += value;
+  if (double* entry = find(row, column))
+    *entry += value;
   else
-    aside_.push_back({row, column, value});
+    aside_.push_back({{row, column}, value});
 }
 
 const SparseMatrix& MatrixBuilder::finish() {
-  if (!aside_.empty()) merge();
+  merge();
   return matrix_;
 }
 
 void MatrixBuilder::merge() {
-  std::stable_sort(aside_.begin(), aside_.end(), [](const Entry& a, const Entry& b) {
-    return a.row != b.row ? a.row < b.row : a.column < b.column;
-  });
+  if (pending_.empty() && aside_.empty()) return;
+  for (const Entry& entry : aside_) pending_.push_back(entry.at);
+  grow();
+  for (const Entry& entry : aside_) *find(entry.at.row, entry.at.column) += entry.value;
+  aside_.clear();
+}
+
+/// Unites the pattern with the pending places. Neither kind is in the pattern before, so it grows.
+void MatrixBuilder::grow() {
+  const auto rows = at(matrix_.n);
+  std::vector<std::size_t> end(rows, 0);  // buckets of new columns, one a row
+  for (const Place& place : pending_) ++end[at(place.row)];
+  std::size_t total = 0;
+  for (std::size_t& e : end) {
+    const std::size_t count = e;
+    e = total;
+    total += count;
+  }
+  std::vector<Index> fresh(total);
+  for (const Place& place : pending_) fresh[end[at(place.row)]++] = place.column;
+  pending_.clear();
+
   SparseMatrix grown;
   grown.n = matrix_.n;
-  grown.row_start.reserve(static_cast<std::size_t>(grown.n) + 1);
-  grown.row_start.push_back(0);
-  std::size_t next = 0;
-  const auto push = [&](Index column, double value) {
-    const bool same = static_cast<Index>(grown.column.size()) > grown.row_start.back() &&
-                      grown.column.back() == column;
-    if (same) {
-      grown.value.back() += value;
-    } else {
-      grown.column.push_back(column);
-      grown.value.push_back(value);
+  grown.row_start.assign(rows + 1, 0);
+  grown.column.reserve(matrix_.column.size() + total / 2);
+  grown.value.reserve(matrix_.column.size() + total / 2);
+  auto from = fresh.begin();
+  for (std::size_t i = 0; i < rows; ++i) {
+    const auto to = fresh.begin() + static_cast<std::ptrdiff_t>(end[i]);
+    std::sort(from, to);
+    const auto last = std::unique(from, to);
+    for (Index e = matrix_.row_start[i]; e < matrix_.row_start[i + 1]; ++e) {
+      for (; from != last && *from < matrix_.column[at(e)]; ++from) {
+        grown.column.push_back(*from);
+        grown.value.push_back(0.0);
+      }
+      grown.column.push_back(matrix_.column[at(e)]);
+      grown.value.push_back(matrix_.value[at(e)]);
     }
-  };
-  for (Index row = 0; row < grown.n; ++row) {
-    for (Index e = matrix_.row_start[static_cast<std::size_t>(row)];
-         e < matrix_.row_start[static_cast<std::size_t>(row) + 1]; ++e) {
-      const Index column = matrix_.column[static_cast<std::size_t>(e)];
-      for (; next < aside_.size() && aside_[next].row == row && aside_[next].column < column; ++next)
-        push(aside_[next].column, aside_[next].value);
-      push(column, matrix_.value[static_cast<std::size_t>(e)]);
-      for (; next < aside_.size() && aside_[next].row == row && aside_[next].column == column; ++next)
-        push(aside_[next].column, aside_[next].value);
-    }
-    for (; next < aside_.size() && aside_[next].row == row; ++next)
-      push(aside_[next].column, aside_[next].value);
-    grown.row_start.push_back(static_cast<Index>(grown.column.size()));
+    grown.column.insert(grown.column.end(), from, last);
+    grown.value.resize(grown.column.size(), 0.0);
+    grown.row_start[i + 1] = static_cast<Index>(grown.column.size());
+    from = to;
   }
-  if (grown.column.size() != matrix_.column.size()) ++version_;
   matrix_ = std::move(grown);
-  aside_.clear();
+  ++version_;
 }
 
 }  // namespace osculate::la

@@ -9,39 +9,66 @@
 namespace osculate::la {
 
 /// Compressed rows, columns sorted inside a row.
+///
+/// Shapes     row_start: n + 1 (or empty when n = 0);  column, value: one per stored entry
 struct SparseMatrix {
   Index n = 0;
   std::vector<Index> row_start, column;
   std::vector<double> value;
 };
 
+/// K x, row by row in the order of the columns.
+///
+/// Requires   x.size() == k.n
 [[nodiscard]] Eigen::VectorXd multiply(const SparseMatrix& k, const Eigen::VectorXd& x);
 
+/// How well x solves K x = b.
+///
+/// Formula    |b - K x| / |b| in the Euclidean norm; 0 for b = 0 and x = 0
+/// Errors     infinite where anything is not a number
+/// Tested by  tests/unit/la/test_direct_solver.cpp
+[[nodiscard]] double relative_residual(const SparseMatrix& k, const Eigen::VectorXd& x,
+                                       const Eigen::VectorXd& b);
+
 /// Assembles a matrix whose pattern only ever grows, so that the symbolic analysis stands as long
-/// as possible. The diagonal is always in the pattern. Sums are made in the order of the calls.
+/// as possible. The diagonal is always in the pattern. Sums are made in the order of the calls of
+/// `add`, whether or not an entry was in the pattern before: the same calls give the same bits.
+///
+/// Requires   0 <= row, column < n in `add`; unknowns below n elsewhere (negative ones are skipped)
+/// Tested by  tests/unit/la/test_matrix_builder.cpp
 class MatrixBuilder {
  public:
   explicit MatrixBuilder(Index n);
-  /// Adds all pairs of these unknowns (negative ones are skipped) to the pattern to come.
+  /// Adds all pairs of these unknowns to the pattern to come.
   void reserve_block(std::span<const Index> unknowns);
-  /// Sets all values to zero; the pattern stays.
+  void reserve_block(std::span<const Index> rows, std::span<const Index> columns);
+  /// Sets all values to zero; the pattern stays (that of entries kept aside included).
   void clear();
   /// Entries outside the pattern are kept aside until `finish`.
   void add(Index row, Index column, double value);
   /// Merges what was kept aside and returns the matrix.
   const SparseMatrix& finish();
-  /// Changes when the pattern grew.
-  [[nodiscard]] std::uint64_t pattern_version() const { return version_; }
+  /// Changes when the pattern grew. Growth that waits for `finish` counts already, so it does not
+  /// matter which of the two is called first.
+  [[nodiscard]] std::uint64_t pattern_version() const {
+    return version_ + (pending_.empty() && aside_.empty() ? 0 : 1);
+  }
 
  private:
-  struct Entry {
+  struct Place {
     Index row, column;
+  };
+  struct Entry {
+    Place at;
     double value;
   };
+  [[nodiscard]] double* find(Index row, Index column);
   void merge();
+  void grow();
 
   SparseMatrix matrix_;
-  std::vector<Entry> aside_;
+  std::vector<Place> pending_;  ///< reserved, not yet in the pattern
+  std::vector<Entry> aside_;    ///< added outside the pattern, in the order of the calls
   std::uint64_t version_ = 1;
 };
 

@@ -173,10 +173,10 @@ struct System::Impl {
         }
         const std::span<const Dof> d(block.dofs.data(), static_cast<std::size_t>(block.dof_count));
         for (int k = 0; k < block.dof_count; ++k)
-          forces.internal[d[static_cast<std::size_t>(k)]] += block.force[k];
+          forces.internal[d[static_cast<std::size_t>(k)]] += block.result.force[k];
         if (!with_tangent) continue;
-        assembler.add_block(d, block.tangent);
-        add_predicted(d, block.tangent, inc);
+        assembler.add_block(d, block.result.tangent);
+        add_predicted(d, block.result.tangent, inc);
       }
     }
     return true;
@@ -311,11 +311,11 @@ void System::Impl::add_pressure(const State& trial, double fraction, bool with_t
       pressure_block(model, section, edge.nodes, trial.u, pressure, block);
       const std::span<const Dof> d(block.dofs.data(), static_cast<std::size_t>(block.dof_count));
       for (int k = 0; k < block.dof_count; ++k)
-        forces.external[d[static_cast<std::size_t>(k)]] += block.force[k];
+        forces.external[d[static_cast<std::size_t>(k)]] += block.result.force[k];
       if (!with_tangent) continue;
-      block.tangent *= -1.0;  // external force moves to the left-hand side
-      assembler.add_block(d, block.tangent);
-      add_predicted(d, block.tangent, inc);
+      block.result.tangent *= -1.0;  // external force moves to the left-hand side
+      assembler.add_block(d, block.result.tangent);
+      add_predicted(d, block.result.tangent, inc);
     }
   }
 }

@@ -102,13 +102,15 @@ CurveFoot closest_point(const geometry::Arc& arc, const Vec2& point) {
   // d^2 = (|arm| - R)^2 + 4 |arm| R sin^2((xi - ray)/2)
   const double ray = wrap_from(ray_parameter(arm, arc.inside), lo);
   detail::FootCollector out{.lo = lo, .hi = hi, .largest_a11 = squared(arc.radius)};
+  const double angle_noise =
+      std::numeric_limits<double>::epsilon() * (std::abs(lo) + std::abs(hi) + two_pi);
   const auto candidate = [&](double xi) {
     DistanceJet d;
     d.xi = xi;
     d.a11 = squared(arc.radius);
     d.slope = length * arc.radius * std::sin(xi - ray);
     d.bend = length * arc.radius * std::cos(xi - ray);
-    d.noise = 4 * std::numeric_limits<double>::epsilon() * length * arc.radius;
+    d.noise = angle_noise * length * arc.radius;
     d.squared_distance = squared(length - arc.radius) +
                          4 * length * arc.radius * squared(std::sin(0.5 * (xi - ray)));
     return d;

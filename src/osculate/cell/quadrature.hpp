@@ -1,0 +1,29 @@
+#pragma once
+#include <vector>
+
+#include "osculate/core/types.hpp"
+
+namespace osculate::cell {
+
+/// Points and weights on -1..1.
+struct Quadrature1D {
+  std::vector<double> points, weights;
+};
+
+/// Gauss-Legendre rule with n points (1..20), exact for polynomials of degree 2n - 1.
+[[nodiscard]] Quadrature1D gauss_legendre(int n);
+/// Gauss-Lobatto rule with n points (2..20), both ends included, exact for degree 2n - 3.
+[[nodiscard]] Quadrature1D gauss_lobatto(int n);
+
+/// Points and weights on a reference area (quads -1..1 squared, triangles 0..1).
+struct Quadrature2D {
+  std::vector<Vec2> points;
+  std::vector<double> weights;
+};
+
+/// n x n tensor Gauss rule.
+[[nodiscard]] Quadrature2D gauss_quad(int n);
+/// Triangle rule of degree 1 (1 point), 2 (3), 4 (6); positive weights, sum 1/2.
+[[nodiscard]] Quadrature2D gauss_triangle(int degree);
+
+}  // namespace osculate::cell

@@ -1,0 +1,53 @@
+#include <fmt/format.h>
+
+#include "osculate/deck/build_context.hpp"
+#include "osculate/mesh/boundary.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// Deformable parts that nothing holds or touches: no contact, no prescribed node, no shared node.
+void check_connected(const BuildContext& c) {
+  const model::Model& m = c.model();
+  std::vector<bool> held(m.reference.size(), false);
+  for (const model::ContactPair& pair : m.pairs) {
+    for (const Index n : pair.definition.slave.nodes) held[static_cast<std::size_t>(n)] = true;
+    for (const pairing::Facet& f : pair.definition.master.facets)
+      for (int k = 0; k < f.count; ++k)
+        held[static_cast<std::size_t>(f.nodes[static_cast<std::size_t>(k)])] = true;
+  }
+  for (const model::Step& step : m.steps)
+    for (const model::PrescribedDof& p : step.prescribed)
+      if (p.dof < 2 * static_cast<Index>(m.reference.size()))
+        held[static_cast<std::size_t>(p.dof / 2)] = true;
+  for (const model::Equation& e : m.equations)
+    for (const model::Equation::Term& t : e.terms)
+      if (t.dof < 2 * static_cast<Index>(m.reference.size()))
+        held[static_cast<std::size_t>(t.dof / 2)] = true;
+  for (std::size_t n = 0; n < held.size(); ++n)
+    if (m.body_of_node[n] >= 0) held[n] = true;
+  for (std::size_t s = 0; s < m.sections.size(); ++s)
+    for (const auto& part : mesh::connected_parts(m.mesh, m.sections[s].cells)) {
+      bool any = false;
+      Index first = -1;
+      for (const mesh::CellRef& ref : part) {
+        const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(ref.block)];
+        for (int k = 0; k < cell::info(block.type).nodes; ++k) {
+          if (first < 0) first = block.cell(ref.cell)[k];
+          any = any || held[static_cast<std::size_t>(block.cell(ref.cell)[k])];
+        }
+      }
+      if (!any)
+        throw core::InputError(
+            c.description.sections[s].on.mark,
+            fmt::format("a part of body '{}' ({} cells, at {}) is held by nothing: no contact, no "
+                        "prescribed displacement, no shared node",
+                        m.sections[s].name, part.size(), mesh::describe_node(m.mesh, first)));
+    }
+}
+
+}  // namespace
+
+void check_model(BuildContext& c) { check_connected(c); }
+
+}  // namespace osculate::deck

@@ -1,0 +1,8 @@
+#pragma once
+#include "case.hpp"
+
+namespace osculate::verification {
+
+// One function per case folder.
+
+}  // namespace osculate::verification
