@@ -137,10 +137,12 @@ void read_partitioned_entities_4(Cursor& cursor, RawMesh& raw) {
     for (std::int64_t i = 0; i < n; ++i) {
       cursor.begin_record();
       const std::int64_t tag = cursor.integer("the tag of an entity");
-      (void)cursor.integer("the dimension of the parent entity");
+      const std::int64_t parent = cursor.integer("the dimension of the parent entity");
       (void)cursor.integer("the tag of the parent entity");
       (void)read_integers(cursor, "partitions");
       read_entity(cursor, raw, {dimension, tag});
+      // An interface between partitions is no part of the user's groups, whatever tags it got.
+      if (parent != dimension) raw.entities.erase({dimension, tag});
     }
   }
 }

@@ -1,0 +1,115 @@
+#include "osculate/mesh/check.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "osculate/mesh/generate.hpp"
+
+namespace osculate::mesh {
+namespace {
+
+using cell::CellType;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+Mesh square(CellType type = CellType::quad4) {
+  BoxSpec spec;
+  spec.name = "b";
+  spec.x = spec.y = {0, 1};
+  spec.nx = spec.ny = {2};
+  spec.type = type;
+  Mesh mesh;
+  append_box(mesh, spec);
+  return mesh;
+}
+
+void expect_one(const Mesh& mesh, Flaw flaw, bool is_error, const std::string& message) {
+  const std::vector<Finding> findings = check_mesh(mesh);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_EQ(findings[0].flaw, flaw);
+  EXPECT_EQ(findings[0].is_error, is_error);
+  EXPECT_EQ(findings[0].message, message);
+}
+
+TEST(Check, GeneratedMeshesHaveNoFlaws) {
+  for (const CellType type :
+       {CellType::tri3, CellType::tri6, CellType::quad4, CellType::quad8, CellType::quad9})
+    EXPECT_THAT(check_mesh(square(type)), IsEmpty()) << cell::info(type).name;
+}
+
+TEST(Check, UnusedNode) {
+  Mesh mesh = square();
+  mesh.nodes.emplace_back(7, 8, 0);
+  mesh.blocks.push_back({CellType::point1, {9}});
+  expect_one(mesh, Flaw::unused_node, false, "1 node(s) of no line or area cell: 10 (7, 8)");
+}
+
+TEST(Check, OnlyTheFirstExamplesAreListed) {
+  Mesh mesh = square();
+  for (int i = 0; i < 8; ++i) mesh.nodes.emplace_back(i, 0, 0);
+  expect_one(mesh, Flaw::unused_node, false,
+             "8 node(s) of no line or area cell: 10 (0, 0), 11 (1, 0), 12 (2, 0), 13 (3, 0), "
+             "14 (4, 0), ...");
+}
+
+TEST(Check, CoordinateThatIsNoNumber) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    for (int k = 0; k < 3; ++k) {
+      Mesh mesh = square();
+      mesh.nodes[4][k] = bad;
+      const std::vector<Finding> findings = check_mesh(mesh);
+      ASSERT_THAT(findings, SizeIs(1));
+      EXPECT_EQ(findings[0].flaw, Flaw::not_finite);
+      EXPECT_TRUE(findings[0].is_error);
+    }
+  }
+}
+
+TEST(Check, CellsThatAreThereTwiceInWhateverOrder) {
+  Mesh mesh = square();
+  std::vector<Index>& quads = mesh.blocks[0].connectivity;
+  const std::vector<Index> turned{quads[6], quads[7], quads[4], quads[5]};
+  quads.insert(quads.end(), turned.begin(), turned.end());
+  expect_one(mesh, Flaw::duplicate_area, true,
+             "1 area cell(s) that are there twice: quad4 on nodes 6 5 2 3");
+}
+
+TEST(Check, LinesThatAreThereTwiceAreAWarning) {
+  Mesh mesh = square();
+  std::vector<Index>& lines = mesh.blocks[1].connectivity;
+  lines.push_back(lines[1]);
+  lines.push_back(lines[0]);
+  expect_one(mesh, Flaw::duplicate_line, false,
+             "1 line cell(s) that are there twice: line2 on nodes 4 1");
+}
+
+TEST(Check, CellThatNamesANodeTwice) {
+  Mesh mesh = square();
+  mesh.blocks[0].connectivity[2] = mesh.blocks[0].connectivity[0];
+  expect_one(mesh, Flaw::repeated_node, true,
+             "1 cell(s) that name a node twice: quad4 on nodes 1 2 1 4");
+}
+
+TEST(Check, ReferencesToNothing) {
+  const auto count = [](const Mesh& mesh) {
+    const std::vector<Finding> findings = check_mesh(mesh);
+    return findings.size() == 1 && findings[0].flaw == Flaw::bad_index ? findings[0].count : 0;
+  };
+  Mesh mesh = square();
+  mesh.blocks[0].connectivity[3] = 9;
+  EXPECT_EQ(count(mesh), 1);
+  mesh.blocks[0].connectivity[2] = -1;
+  EXPECT_EQ(count(mesh), 2);
+  mesh.blocks[0].connectivity.pop_back();
+  EXPECT_EQ(count(mesh), 4);  // an incomplete cell, and the last cell of the set is gone
+  mesh.sets[0].nodes.push_back(99);
+  EXPECT_EQ(count(mesh), 5);
+  mesh.sets[0].cells.push_back({5, 0});
+  EXPECT_EQ(count(mesh), 6);
+}
+
+}  // namespace
+}  // namespace osculate::mesh
