@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <mutex>
 
 #include "osculate/la/ordering.hpp"
@@ -16,6 +15,7 @@ extern "C" int openblas_get_num_threads(void);
 namespace osculate::la {
 namespace {
 
+constexpr const char* not_definite = "the matrix is not positive definite";
 constexpr int use_communicator_world = -987654;
 enum Job { start = -1, end = -2, analyse = 1, factorise = 2, back_substitute = 3 };
 
@@ -59,6 +59,12 @@ class LibraryCall {
 
 double seconds_since(std::chrono::steady_clock::time_point from) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+}
+
+constexpr int general = 0, definite = 1, pivoted = 2;  // the library's SYM
+constexpr int kind_of(Symmetry symmetry) {
+  if (symmetry == Symmetry::unsymmetric) return general;
+  return symmetry == Symmetry::positive_definite ? definite : pivoted;
 }
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -107,7 +113,7 @@ struct DirectSolver::Impl {
     return symmetry == Symmetry::unsymmetric || i <= j;
   }
 
-  bool begin();
+  bool begin(int kind);
   void set_pattern(const SparseMatrix& k);
   [[nodiscard]] bool same_pattern(const SparseMatrix& k) const;
   Index set_values(const SparseMatrix& k);
@@ -117,17 +123,17 @@ struct DirectSolver::Impl {
   [[nodiscard]] Eigen::VectorXd multiplied(const Eigen::VectorXd& x) const;
   [[nodiscard]] double lost_accuracy();
   [[nodiscard]] bool looks_singular();
-  [[nodiscard]] Index vanishing_row();
+  [[nodiscard]] Index vanishing_row(const SparseMatrix& k);
   SolveStatus substitute(double* rhs, Index count);
   void refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
 };
 
-bool DirectSolver::Impl::begin() {
+bool DirectSolver::Impl::begin(int kind) {
   close();
   id = {};
   id.comm_fortran = use_communicator_world;
   id.par = 1;
-  id.sym = symmetry == Symmetry::unsymmetric ? 0 : symmetry == Symmetry::positive_definite ? 1 : 2;
+  id.sym = kind;
   call(start);
   if (id.infog[0] < 0) return false;
   open = true;
@@ -187,7 +193,7 @@ Index DirectSolver::Impl::set_values(const SparseMatrix& k) {
 FactorReport DirectSolver::Impl::outcome() const {
   const int code = id.infog[0];
   if (code == -6 || code == -10) return failure(SolveStatus::singular, "a pivot is zero");
-  if (code == -40) return failure(SolveStatus::failed, "the matrix is not positive definite");
+  if (code == -40) return failure(SolveStatus::failed, not_definite);
   if (code == -5 || code == -7 || code == -8 || code == -9 || code == -13)
     return failure(SolveStatus::not_enough_memory, "not enough memory for the factors");
   if (code < 0) return failure(SolveStatus::failed, "MUMPS error " + std::to_string(code));
@@ -209,7 +215,8 @@ FactorReport DirectSolver::Impl::prepare(const SparseMatrix& k, std::uint64_t wa
   n = k.n;
   if (!stands) {
     close();
-    if (!begin()) return failure(SolveStatus::not_enough_memory, "the linear solver did not start");
+    if (!begin(kind_of(symmetry)))
+      return failure(SolveStatus::not_enough_memory, "the linear solver did not start");
     set_pattern(k);
   }
   const Index bad = set_values(k);
@@ -274,26 +281,26 @@ double DirectSolver::Impl::lost_accuracy() {
 bool DirectSolver::Impl::looks_singular() {
   constexpr double harmless = 1e-9, digits_left = 1e-3;
   const double smallest = id.rinfog[18], largest = id.rinfog[20];  // pivots of the scaled matrix
-  if (std::getenv("LA_DEBUG")) {
-    fprintf(stderr, "pivots %g %g ratio %g lost %g\n", smallest, largest, smallest / largest,
-            lost_accuracy());
-  }
   if (smallest > harmless * largest) return false;
   return lost_accuracy() > digits_left;
 }
 
-/// Factors once more with the search for pivots that vanish; -1 if none is found.
-Index DirectSolver::Impl::vanishing_row() {
+/// Factors once more with the search for pivots that vanish, which needs pivoting; -1 if none is
+/// found. The next factorisation starts from the analysis.
+Index DirectSolver::Impl::vanishing_row(const SparseMatrix& k) {
+  constexpr double rounding = 1e-14, near = 10;
   const double smallest = id.infog[0] < 0 ? 0 : id.rinfog[18];
+  if (!begin(symmetry == Symmetry::unsymmetric ? general : pivoted)) return -1;
+  set_pattern(k);
+  id.a = values.data();
+  id.icntl[slack] = slack_percent;
   id.icntl[null_pivots] = 1;
-  id.cntl[null_pivot_threshold] = -std::max(1e-14, 2 * smallest);  // negative: absolute
-  call(factorise);
-  const int found = id.infog[0] < 0 ? 0 : id.infog[27];
-  if (std::getenv("LA_DEBUG"))
-    fprintf(stderr, "null pivots: infog1 %d found %d\n", id.infog[0], id.infog[27]);
-  const Index row = found > 0 && id.pivnul_list != nullptr ? id.pivnul_list[0] - 1 : -1;
-  id.icntl[null_pivots] = 0;
-  id.cntl[null_pivot_threshold] = 0;
+  id.cntl[null_pivot_threshold] = -std::max(rounding, near * smallest);  // negative: absolute
+  call(analyse);
+  if (id.infog[0] >= 0) call(factorise);
+  const bool found = id.infog[0] >= 0 && id.infog[27] > 0 && id.pivnul_list != nullptr;
+  const Index row = found ? id.pivnul_list[0] - 1 : -1;
+  close();
   return row;
 }
 
@@ -343,7 +350,10 @@ FactorReport DirectSolver::factor(const SparseMatrix& k, std::uint64_t pattern_v
   report = s.factorise_with_retries();
   if (report.status == SolveStatus::ok && s.looks_singular())
     report = failure(SolveStatus::singular, "the matrix is singular to working precision");
-  if (report.status == SolveStatus::singular) report.bad_row = s.vanishing_row();
+  if (report.status == SolveStatus::singular) report.bad_row = s.vanishing_row(k);
+  if (report.status == SolveStatus::singular && report.bad_row < 0 &&
+      symmetry == Symmetry::positive_definite)
+    report = failure(SolveStatus::failed, not_definite);  // it can be factored with pivoting
   report.seconds_analysis = analysis;
   report.seconds_factor = seconds_since(begun);
   s.factored = report.status == SolveStatus::ok;
