@@ -49,7 +49,7 @@ Section section_of(const Value& v, const std::vector<Material>& materials) {
     throw core::InputError(s.thickness.mark, "an axisymmetric body has no thickness");
   const Value* const kinematics = v.find("kinematics");
   s.kinematics = kinematics ? word_of<Kinematics>(*kinematics)
-                            : Marked{usual_kinematics(material->law.value), v.mark};
+                            : Marked<Kinematics>{usual_kinematics(material->law.value), v.mark};
   s.formulation = word_of<Formulation>(v, "formulation");
   require_kinematics(s, *material);
   return s;

@@ -15,9 +15,9 @@ struct SourceNode {
   Kind kind = Kind::nothing;
   bool quoted = false;  ///< a quoted scalar is always text
   int line = 0;         ///< 1-based; for lists and maps under a key: the line of the key
-  std::string text{};
-  std::vector<SourceNode> items{};
-  std::vector<SourceEntry> entries{};  ///< in file order, keys unique
+  std::string text;
+  std::vector<SourceNode> items;
+  std::vector<SourceEntry> entries;  ///< in file order, keys unique
 };
 
 struct SourceEntry {

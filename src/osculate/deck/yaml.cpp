@@ -38,6 +38,13 @@ Size size_of(const SourceNode& node) {
   return size;
 }
 
+SourceNode make_node(Kind kind, int line) {
+  SourceNode node;
+  node.kind = kind;
+  node.line = line;
+  return node;
+}
+
 class TreeBuilder final : public YAML::EventHandler {
  public:
   TreeBuilder(std::string file, const TextLimits& limits)
@@ -51,7 +58,7 @@ class TreeBuilder final : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     charge({1, 0}, line_of(mark));
-    deliver({.kind = Kind::nothing, .line = line_of(mark)}, anchor);
+    deliver(make_node(Kind::nothing, line_of(mark)), anchor);
   }
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
@@ -59,8 +66,10 @@ class TreeBuilder final : public YAML::EventHandler {
     charge({1, value.size()}, line_of(mark));
     if (value.find(end_mark) != std::string::npos)
       fail(line_of(mark), "the quote that begins here is never closed");
-    deliver({.kind = Kind::scalar, .quoted = tag == "!", .line = line_of(mark), .text = value},
-            anchor);
+    SourceNode node = make_node(Kind::scalar, line_of(mark));
+    node.quoted = tag == "!";
+    node.text = value;
+    deliver(std::move(node), anchor);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                        YAML::EmitterStyle::value) override {
@@ -88,7 +97,7 @@ class TreeBuilder final : public YAML::EventHandler {
     SourceNode node;
     YAML::anchor_t anchor = YAML::NullAnchor;
     bool has_key = false;
-    std::string key{};
+    std::string key;
     int key_line = 0;
   };
 
@@ -136,7 +145,10 @@ class TreeBuilder final : public YAML::EventHandler {
     charge({1, 0}, line);
     const bool under_key = !stack_.empty() && stack_.back().node.kind == Kind::map;
     const int shown = under_key ? stack_.back().key_line : line;
-    stack_.push_back({.node = {.kind = kind, .line = shown}, .anchor = anchor});
+    Frame frame;
+    frame.node = make_node(kind, shown);
+    frame.anchor = anchor;
+    stack_.push_back(std::move(frame));
     if (stack_.size() > limits_.depth)
       throw core::InputError({file_, line, ""}, "lists and maps are nested more than " +
                                                     std::to_string(limits_.depth) + " deep");
