@@ -1,0 +1,35 @@
+// Whatever the bytes are: a mesh without broken references, or an InputError.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "osculate/core/error.hpp"
+#include "osculate/io/gmsh.hpp"
+#include "osculate/mesh/boundary.hpp"
+#include "osculate/mesh/check.hpp"
+
+namespace {
+
+/// What comes after reading must also stand any mesh that check_mesh calls usable.
+void use(const osculate::mesh::Mesh& mesh) {
+  namespace m = osculate::mesh;
+  for (const m::Finding& finding : m::check_mesh(mesh))
+    if (finding.flaw == m::Flaw::bad_index || finding.flaw == m::Flaw::not_finite) std::abort();
+  const m::EdgeTable table = m::edge_table(mesh);
+  for (const m::Set& set : mesh.sets) {
+    (void)m::surface_of(mesh, table, set);
+    if (set.dimension == 2) (void)m::connected_parts(mesh, set.cells);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    use(osculate::io::read_gmsh(std::string_view(reinterpret_cast<const char*>(data), size),
+                                "fuzz"));
+  } catch (const osculate::core::InputError&) {
+  }
+  return 0;
+}
