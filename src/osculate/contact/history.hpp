@@ -17,6 +17,7 @@ struct PointHistory {
   double xi = 0;        ///< convective coordinate on that facet
   double gap = 0;       ///< zeta (also of open points: it dates the first contact)
   double traction = 0;  ///< t
+  bool slipping = false;  ///< the friction limit was reached
   double slip = 0;      ///< accumulated sliding distance (signed)
 };
 

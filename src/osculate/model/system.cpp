@@ -71,7 +71,9 @@ struct System::Impl {
   std::vector<BulkBlock> blocks;
   std::vector<pairing::PairEvaluation> contact;
   Forces forces;
-  Eigen::VectorXd predicted;  ///< K du_prescribed on primary dofs
+  Eigen::VectorXd predicted;     ///< K du_prescribed on primary dofs
+  Eigen::VectorXd branch_shift;  ///< force of the linearised branches minus the true force
+  bool branched = false;
   Step step;
   std::array<bool, 4> enabled{true, true, true, true};
   la::Symmetry symmetry;
@@ -104,6 +106,8 @@ struct System::Impl {
     forces.contact.setZero(n);
     forces.external.setZero(n);
     predicted.setZero(n);
+    branch_shift.setZero(n);
+    branched = false;
     if (with_tangent) builder.clear();
   }
 
@@ -207,8 +211,12 @@ struct System::Impl {
       all[static_cast<std::size_t>(k)] =
           dofs.node_dof(block.nodes[static_cast<std::size_t>(k / 2)], k % 2);
     const std::span<const Dof> d(all.data(), static_cast<std::size_t>(2 * block.count));
-    for (std::size_t k = 0; k < d.size(); ++k)
-      forces.contact[d[k]] += block.force[static_cast<Eigen::Index>(k)];
+    for (std::size_t k = 0; k < d.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      forces.contact[d[k]] += block.force[i];
+      if (block.branched) branch_shift[d[k]] += block.branch_force[i] - block.force[i];
+    }
+    if (block.branched) branched = true;
     if (!with_tangent) return;
     assembler.add_block(d, block.tangent);
     add_predicted(d, block.tangent, inc);
@@ -216,16 +224,21 @@ struct System::Impl {
     add_rank_one(d, block.area_rows, block.area, inc);
   }
 
-  void add_contact(const State& committed, std::span<const Vec2> x, bool with_tangent,
-                   const Eigen::VectorXd* inc, solve::Evaluation& out) {
+  void add_contact(const State& committed, const State& trial, std::span<const Vec2> x,
+                   bool with_tangent, const Eigen::VectorXd* inc, solve::Evaluation& out) {
     out.counts = {};
     out.counts.signature = 14695981039346656037ull;
     for (std::size_t p = 0; p < model.pairs.size(); ++p) {
-      pairing::evaluate(model.pairs[p].definition, x, committed.pairs[p], with_tangent, contact[p]);
+      const pairing::Assumed assumed = inc ? pairing::committed_branches(committed.pairs[p])
+                                       : p < trial.assumed.size() ? trial.assumed[p]
+                                                                  : pairing::Assumed{};
+      pairing::evaluate(model.pairs[p].definition, x, committed.pairs[p], with_tangent, contact[p],
+                        assumed);
       for (const pairing::ContactBlock& block : contact[p].blocks)
         if (block.active()) add_contact_block(block, with_tangent, inc);
       for (const pairing::PointResult& point : contact[p].points) {
         mix(out.counts.signature, static_cast<std::uint64_t>(point.status));
+        mix(out.counts.signature, point.shear_traction > 0 ? 1u : 0u);
         if (point.status == contact::Status::open) ++out.counts.open;
         if (point.status == contact::Status::stick) ++out.counts.stick;
         if (point.status == contact::Status::slip) ++out.counts.slip;
@@ -272,13 +285,15 @@ struct System::Impl {
     if (predict) inc = prescribed_increment(trial, x, fraction);
     const Eigen::VectorXd* increment = predict ? &inc : nullptr;
     if (on(Term::bulk) && !add_bulk(trial, with_tangent, increment, out)) return;
-    if (on(Term::contact)) add_contact(committed, x, with_tangent, increment, out);
+    if (on(Term::contact)) add_contact(committed, trial, x, with_tangent, increment, out);
     if (on(Term::pressure)) add_pressure(trial, fraction, with_tangent, increment);
     add_dead_loads(fraction);
     if (with_tangent && on(Term::rigid)) add_rigid_geometry(trial, x, increment);
     if (with_tangent) assembler.add_prescribed_diagonal(1.0);
     const Eigen::VectorXd total = forces.internal + forces.contact - forces.external;
     out.residual = assembler.gather(predict ? Eigen::VectorXd(total + predicted) : total);
+    out.branch_residual.resize(0);
+    if (branched) out.branch_residual = out.residual + assembler.gather(branch_shift);
     out.force_scale =
         std::max({forces.internal.norm(), forces.contact.norm(), forces.external.norm()});
     if (predict) out.force_scale = std::max(out.force_scale, out.residual.norm());
@@ -392,9 +407,18 @@ State System::apply(const State& state, const Eigen::VectorXd& du, double fracti
   return next;
 }
 
+State System::remember(const State& trial) const {
+  State state = trial;
+  state.assumed.clear();
+  for (const pairing::PairEvaluation& e : impl_->contact)
+    state.assumed.push_back(pairing::evaluated_branches(e));
+  return state;
+}
+
 State System::commit(const State& trial, double fraction) const {
   State state = trial;
   state.fraction = fraction;
+  state.assumed.clear();
   for (std::size_t p = 0; p < impl_->contact.size(); ++p)
     state.pairs[p] = pairing::commit(impl_->contact[p]);
   return state;

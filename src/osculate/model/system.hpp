@@ -43,6 +43,8 @@ class System {
                 solve::Evaluation& out);
   [[nodiscard]] State apply(const State& state, const Eigen::VectorXd& du, double fraction,
                             double factor) const;
+  /// The trial state that remembers the branches of the last evaluation, for the next iteration.
+  [[nodiscard]] State remember(const State& trial) const;
   /// The converged state with its new history. `trial` must be the last state evaluated.
   [[nodiscard]] State commit(const State& trial, double fraction) const;
 

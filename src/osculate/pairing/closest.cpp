@@ -15,6 +15,17 @@ Vec2 node(const Facet& facet, std::size_t k, std::span<const Vec2> x) {
   return x[static_cast<std::size_t>(facet.nodes[k])];
 }
 
+/// A foot point that misses an end by less than the tolerance belongs to the facet, and its xi must
+/// be the true one just beyond the end: clamped, the slip would stand still there and then jump.
+template <class Jet>
+void release_end(const Jet& jet, double lo, double hi, const Vec2& point, CurveFoot& foot) {
+  if (foot.at_end || !foot.converged || (foot.xi != lo && foot.xi != hi)) return;
+  const projection::DistanceJet d = projection::distance_jet(jet(foot.xi), foot.xi, point);
+  if (!(d.bend > 0)) return;
+  const double limit = 2 * projection::end_tolerance * (hi - lo);
+  foot.xi += std::clamp(projection::newton_step(d), -limit, limit);
+}
+
 /// Foot point on one facet in the current configuration.
 CurveFoot foot_on_facet(const Facet& facet, std::span<const Vec2> x, const Vec2& point) {
   if (facet.shape) {
@@ -23,13 +34,13 @@ CurveFoot foot_on_facet(const Facet& facet, std::span<const Vec2> x, const Vec2&
     const Vec2 local(arm.dot(node(facet, 1, x) - origin), arm.dot(node(facet, 2, x) - origin));
     return projection::closest_point(*facet.shape, local);
   }
-  if (facet.count == 2)
-    return projection::closest_on_line2(node(facet, 0, x), node(facet, 1, x), point);
   geometry::LagrangeCurve curve;
   curve.count = facet.count;
   for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
     curve.nodes[k] = node(facet, k, x);
-  return projection::closest_point(curve, point);
+  CurveFoot foot = projection::closest_point(curve, point);
+  release_end([&](double xi) { return curve.jet(xi); }, -1.0, 1.0, point, foot);
+  return foot;
 }
 
 Vec2 unit_normal(const Facet& facet, double xi, std::span<const Vec2> x) {

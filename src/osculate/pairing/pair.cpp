@@ -64,13 +64,38 @@ ContactShare contact_share(const PointHistory& history, double gap) {
 
 struct Friction {
   Traction traction;
+  contact::TangentialResponse law;  ///< what the law says; `traction` may be in another branch
   double slip = 0;  ///< arc length of the increment, times the share in contact
 };
 
-// @eq KS2D:89 with the length of T kept across borders (docs/errata.md); within one facet of
-// constant metric this is KS2D:74 and, after KS2D:81, the moved centre of KS2D:82.
+/// What is known of a point's branch before the law is asked.
+struct BranchHint {
+  contact::Branch branch = contact::Branch::none;
+  bool predict = false;
+};
+
+contact::TangentialResponse linearised_branch(const contact::Coulomb& law,
+                                              const contact::TangentialResponse& response,
+                                              double trial, double normal, const BranchHint& hint) {
+  using contact::Branch;
+  const bool slipped = hint.branch == Branch::slip_forward || hint.branch == Branch::slip_backward;
+  if (!slipped) return response;
+  const double sign = hint.branch == Branch::slip_forward ? 1.0 : -1.0;
+  if (hint.predict) return law.slip(sign, normal);
+  const bool reversed = response.status == Status::slip && sign * trial < 0;
+  return reversed ? contact::Coulomb::stick(trial) : response;
+}
+
+contact::Branch branch_of(const contact::TangentialResponse& response) {
+  if (response.status == Status::stick) return contact::Branch::stick;
+  return response.traction > 0 ? contact::Branch::slip_forward : contact::Branch::slip_backward;
+}
+
+// @eq KS2D:89, KS2D:74 with the length of T kept across borders (docs/errata.md); within one facet of
+// constant metric it is the latter and, after KS2D:81, the moved centre of KS2D:82.
 Friction tractions(const PairDefinition& pair, const PointHistory& history, const Placed& placed,
-                   std::span<const Vec2> x, std::vector<NodeGradient>* path) {
+                   std::span<const Vec2> x, const BranchHint& hint,
+                   std::vector<NodeGradient>* path) {
   Friction f;
   f.traction.normal = pair.normal.response(placed.kinematics.gap);
   if (!f.traction.normal.active || !pair.friction) return f;
@@ -82,7 +107,8 @@ Friction tractions(const PairDefinition& pair, const PointHistory& history, cons
   const double carried = history.active && arc ? history.traction : 0.0;
   f.slip = share.value * length;
   const double trial = carried + law.stiffness * f.slip;
-  f.traction.tangential = law.response(trial, f.traction.normal.traction);
+  f.law = law.response(trial, f.traction.normal.traction);
+  f.traction.tangential = linearised_branch(law, f.law, trial, f.traction.normal.traction, hint);
   f.traction.tangential_stiffness = law.stiffness;
   if (arc) {
     f.traction.d_trial_d_slip = law.stiffness * share.value;
@@ -140,7 +166,8 @@ PointHistory next_history(const PointHistory& old, const Placed& placed, const F
   h.gap = placed.kinematics.gap;
   h.active = f.traction.normal.active;
   if (!h.active) return h;
-  h.traction = f.traction.tangential.traction;
+  h.traction = f.law.traction;
+  h.slipping = f.law.status == Status::slip;
   h.slip = (old.active ? old.slip : 0.0) + f.slip;
   return h;
 }
@@ -155,8 +182,8 @@ double point_weight(const PairDefinition& pair, const PairEvaluation& work, std:
 }
 
 void evaluate_point(const PairDefinition& pair, std::span<const Vec2> x,
-                    const PointHistory& history, bool with_tangent, std::size_t i,
-                    PairEvaluation& out) {
+                    const PointHistory& history, const BranchHint& hint, bool with_tangent,
+                    std::size_t i, PairEvaluation& out) {
   PointResult& result = out.points[i];
   ContactBlock& block = out.blocks[i];
   result = {};
@@ -178,11 +205,12 @@ void evaluate_point(const PairDefinition& pair, std::span<const Vec2> x,
     return;
   }
   const bool exact = with_tangent && pair.tangent.consistent;
-  const Friction f = tractions(pair, history, placed, x, exact ? &block.path : nullptr);
+  const Friction f = tractions(pair, history, placed, x, hint, exact ? &block.path : nullptr);
   result.history = next_history(history, placed, f);
-  result.status = !pair.friction ? Status::slip : f.traction.tangential.status;
+  result.status = !pair.friction ? Status::slip : f.law.status;
+  result.branch = pair.friction ? branch_of(f.traction.tangential) : contact::Branch::none;
   result.normal_traction = f.traction.normal.traction;
-  result.shear_traction = f.traction.tangential.traction;
+  result.shear_traction = f.law.traction;
   result.slip_increment = f.slip;
 
   const Facet& facet = pair.master.facets[static_cast<std::size_t>(placed.projection.location.facet)];
@@ -192,6 +220,13 @@ void evaluate_point(const PairDefinition& pair, std::span<const Vec2> x,
                                ? contact::point_terms(k, f.traction, pair.residual, pair.tangent)
                                : contact::point_forces(k, f.traction, pair.residual);
   scatter(block, w, terms, result.weight, with_tangent);
+  block.branch_force = block.force;
+  block.branched = pair.friction && f.law.traction != f.traction.tangential.traction;
+  if (block.branched) {
+    Traction lawful = f.traction;
+    lawful.tangential = f.law;
+    scatter(block, w, contact::point_forces(k, lawful, pair.residual), result.weight, false);
+  }
   if (exact && pair.weight == Weight::current_area) block.area = out.area_gradients[i];
 }
 
@@ -214,10 +249,32 @@ void refresh(const PairDefinition& pair, std::span<const Vec2> x, bool with_tang
 }  // namespace
 
 void evaluate(const PairDefinition& pair, std::span<const Vec2> x, const PairState& committed,
-              bool with_tangent, PairEvaluation& out) {
+              bool with_tangent, PairEvaluation& out, const Assumed& assumed) {
   refresh(pair, x, with_tangent, out);
-  for (std::size_t i = 0; i < pair.slave.nodes.size(); ++i)
-    evaluate_point(pair, x, committed.points[i], with_tangent, i, out);
+  for (std::size_t i = 0; i < pair.slave.nodes.size(); ++i) {
+    BranchHint hint;
+    if (!assumed.branch.empty()) hint = {assumed.branch[i], assumed.predict};
+    evaluate_point(pair, x, committed.points[i], hint, with_tangent, i, out);
+  }
+}
+
+Assumed committed_branches(const PairState& committed) {
+  Assumed assumed;
+  assumed.predict = true;
+  for (const PointHistory& h : committed.points) {
+    contact::Branch branch = contact::Branch::none;
+    if (h.active) branch = contact::Branch::stick;
+    if (h.active && h.slipping)
+      branch = h.traction > 0 ? contact::Branch::slip_forward : contact::Branch::slip_backward;
+    assumed.branch.push_back(branch);
+  }
+  return assumed;
+}
+
+Assumed evaluated_branches(const PairEvaluation& evaluation) {
+  Assumed assumed;
+  for (const PointResult& point : evaluation.points) assumed.branch.push_back(point.branch);
+  return assumed;
 }
 
 PairState initial_state(const PairDefinition& pair, std::span<const Vec2> x) {

@@ -39,6 +39,7 @@ struct PointResult {
   double gap = 0;                 ///< zeta; +inf when no place of the master was found
   double normal_traction = 0;     ///< N <= 0
   double shear_traction = 0;      ///< t
+  contact::Branch branch = contact::Branch::none;  ///< the tangent belongs to
   double weight = 1;              ///< 1 or the area the traction acts on
   double slip_increment = 0;      ///< along the master
   Vec2 foot{0, 0}, normal{0, 1}, unit_tangent{1, 0};
@@ -55,6 +56,8 @@ struct ContactBlock {
   int count = 0;
   std::array<Index, max_block_nodes> nodes{};
   BlockVector force;
+  BlockVector branch_force;  ///< force of the linearised branch; equals `force` unless `branched`
+  bool branched = false;
   BlockMatrix tangent;
   BlockVector path_rows, area_rows;
   std::vector<NodeGradient> path, area;
@@ -80,13 +83,27 @@ void prepare(PairDefinition& pair, std::span<const Vec2> reference);
 /// (KS2D Table 1, step 1: the convective coordinate of points in contact from the start).
 [[nodiscard]] PairState initial_state(const PairDefinition& pair, std::span<const Vec2> x);
 
+/// Branches of the friction law in the last iteration, one per point. A point that has slipped one
+/// way and now would slip the other way has jumped over its narrow sticking range: it is linearised
+/// in the stick branch (without limit), from where it finds its side (primal-dual active set).
+/// Plain return mapping jumps back and forth there for ever.
+struct Assumed {
+  std::vector<contact::Branch> branch;
+  bool predict = false;  ///< first iteration: points that slipped go on slipping
+};
+
+/// Branches at the end of the last increment.
+[[nodiscard]] Assumed committed_branches(const PairState& committed);
+/// Branches of an evaluation, for the next iteration.
+[[nodiscard]] Assumed evaluated_branches(const PairEvaluation& evaluation);
+
 /// One evaluation of all points of the pair: search, projection, kinematics, tractions from the
 /// committed history, residual and (if asked) tangent.
 ///
 /// Source     KS2D Tables 1 and 2 with docs/errata.md
 /// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair_history.cpp
 void evaluate(const PairDefinition& pair, std::span<const Vec2> x, const PairState& committed,
-              bool with_tangent, PairEvaluation& out);
+              bool with_tangent, PairEvaluation& out, const Assumed& assumed = {});
 
 /// The trial history of an accepted evaluation. A point that opens forgets.
 [[nodiscard]] PairState commit(const PairEvaluation& evaluation);

@@ -29,6 +29,7 @@ struct Evaluation {
   bool ok = true;
   std::string message;        ///< why not ok (element, material)
   Eigen::VectorXd residual;   ///< out-of-balance force of the unknowns [force]
+  Eigen::VectorXd branch_residual;  ///< what to linearise from where it differs from `residual`
   double force_scale = 0;     ///< largest of the norms of internal, external and contact forces
   StateCounts counts;
 };
@@ -60,6 +61,7 @@ concept System = requires(S s, const typename S::State& state, const Eigen::Vect
   { s.predict(state, time, out) };                  // residual and tangent at the committed state
   { s.evaluate(state, state, time, true, out) };    // committed, trial
   { s.apply(state, du, time, 1.0) } -> std::same_as<typename S::State>;
+  { s.remember(state) } -> std::same_as<typename S::State>;
   { s.matrix() } -> std::same_as<const la::SparseMatrix&>;
   { s.pattern_version() } -> std::convertible_to<std::uint64_t>;
   { s.symmetry() } -> std::same_as<la::Symmetry>;

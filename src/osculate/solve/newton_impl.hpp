@@ -1,6 +1,7 @@
 #pragma once
 // Implementation of solve::newton; include newton.hpp.
 #include <algorithm>
+#include <limits>
 
 #include "osculate/solve/newton.hpp"
 
@@ -34,33 +35,75 @@ bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd
   return true;
 }
 
-/// Backtracks when the full correction makes things worse: the work of the residual on the
-/// correction must fall to 80 % or the residual norm must not grow. Contact states are part of
-/// each evaluation, so a correction that flips many points is shortened, not trusted.
+/// Work of the residual on the correction at `step`, with the state and evaluation that belong to it.
+template <System S>
+struct LinePoint {
+  double step = 0, work = 0, norm = 0;
+  bool ok = false;
+};
+
+/// Finds how much of a correction to take. Friction and contact make the residual along the
+/// correction a piecewise smooth function: a point that slips one way before and the other way
+/// after the full correction has jumped over its narrow sticking range, and plain Newton jumps back
+/// and forth for ever. The zero of the work du . R(step) lies inside that range.
+///
+/// The full correction is taken when it halves the residual, or when the work has not changed its
+/// sign and the residual has not grown; otherwise the zero is bracketed (Illinois' rule).
 template <System S>
 double line_search(S& system, const typename S::State& committed,
                    NewtonResult<typename S::State>& result, const Eigen::VectorXd& du,
                    const Eigen::VectorXd& old_residual, double time) {
-  const double slope = std::abs(du.dot(old_residual));
-  const double norm = old_residual.norm();
+  constexpr int most = 10;
+  constexpr double close_enough = 0.05;
   const typename S::State start = result.state;
-  double best_step = 0, best_norm = std::numeric_limits<double>::infinity();
-  double step = 1.0;
   Evaluation trial;
-  for (int attempt = 0; attempt < 6; ++attempt, step *= 0.5) {
-    typename S::State state = system.apply(start, du, time, step);
-    system.evaluate(committed, state, time, false, trial);
-    if (!trial.ok) continue;
-    const double trial_norm = trial.residual.norm();
-    if (trial_norm < best_norm) best_norm = trial_norm, best_step = step;
-    if (trial_norm <= norm || std::abs(du.dot(trial.residual)) <= 0.8 * slope) {
-      best_step = step;
-      break;
+  const auto at = [&](double step) {
+    LinePoint<S> point{step};
+    system.evaluate(committed, system.apply(start, du, time, step), time, false, trial);
+    point.ok = trial.ok && trial.residual.allFinite();
+    if (!point.ok) return point;
+    point.work = du.dot(trial.residual);
+    point.norm = trial.residual.norm();
+    return point;
+  };
+  LinePoint<S> low{0, du.dot(old_residual), old_residual.norm(), true};
+  LinePoint<S> high = at(1.0);
+  if (high.ok && trial.branch_residual.size() > 0) {  // points that jumped over: the active set decides
+    result.state = system.apply(start, du, time, 1.0);
+    return 1.0;
+  }
+  for (int i = 0; i < most && !high.ok; ++i) high = at(0.5 * high.step);
+  const double reference = std::abs(low.work);
+  LinePoint<S> best = high;
+  const bool crossed = high.ok && low.work * high.work < 0;
+  const bool good = high.ok && (high.norm <= 0.5 * low.norm || std::abs(high.work) <= close_enough * reference ||
+                                (!crossed && high.norm <= low.norm));
+  if (!good && crossed) {
+    double low_work = low.work, high_work = high.work;
+    for (int i = 0; i < most && std::abs(best.work) > close_enough * reference; ++i) {
+      const double step = (low.step * high_work - high.step * low_work) / (high_work - low_work);
+      const LinePoint<S> next = at(step);
+      if (!next.ok) break;
+      if (std::abs(next.work) < std::abs(best.work)) best = next;
+      if (next.work * low.work > 0) {
+        low = next;
+        low_work = next.work;
+        high_work *= 0.5;
+      } else {
+        high = next;
+        high_work = next.work;
+        low_work *= 0.5;
+      }
+    }
+  } else if (!good) {
+    LinePoint<S> next = high;
+    for (int i = 0; i < most && next.norm > low.norm; ++i) {
+      next = at(0.5 * next.step);
+      if (next.ok && next.norm < best.norm) best = next;
     }
   }
-  if (best_step <= 0) best_step = step;
-  result.state = system.apply(start, du, time, best_step);
-  return best_step;
+  result.state = system.apply(start, du, time, best.step);
+  return best.step;
 }
 
 }  // namespace detail
@@ -79,13 +122,16 @@ NewtonResult<typename S::State> newton(S& system, const typename S::State& commi
       return result;
     }
     const Eigen::VectorXd residual = result.evaluation.residual;
+    const bool branched = result.evaluation.branch_residual.size() > 0;
+    const Eigen::VectorXd linearised = branched ? result.evaluation.branch_residual : residual;
     Eigen::VectorXd du;
-    if (!detail::solve_correction(system, solver, residual, du, result)) return result;
+    result.state = system.remember(result.state);
+    if (!detail::solve_correction(system, solver, linearised, du, result)) return result;
     const double energy_before = std::abs(du.dot(residual));
     if (i == 1) judge.first_energy = energy_before;
 
     IterationRecord record;
-    if (i > 1 && options.line_search == LineSearch::automatic)
+    if (i > 1 && !branched && options.line_search == LineSearch::automatic)
       record.step = detail::line_search(system, committed, result, du, residual, time);
     else
       result.state = system.apply(result.state, du, time, 1.0);

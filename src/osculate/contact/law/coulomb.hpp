@@ -7,6 +7,9 @@ namespace osculate::contact {
 
 enum class Status : std::uint8_t { open = 0, stick = 1, slip = 2 };
 
+/// The smooth piece of the friction law that an iteration was linearised in.
+enum class Branch : std::uint8_t { none, stick, slip_forward, slip_backward };
+
 /// Tangential traction t (physical, along tau) and its derivatives.
 struct TangentialResponse {
   Status status = Status::stick;
@@ -31,9 +34,17 @@ struct Coulomb {
     // @eq KS2D:77
     const double limit = mu * std::abs(normal_traction);
     if (std::abs(trial) <= limit) return {Status::stick, trial, 1.0, 0.0};
-    const double sign = trial > 0 ? 1.0 : -1.0;
-    const double traction = sign * limit;  // @eq KS2D:57
+    return slip(trial > 0 ? 1.0 : -1.0, normal_traction);
+  }
+
+  /// The slip branch, whatever the trial.
+  [[nodiscard]] TangentialResponse slip(double sign, double normal_traction) const {
+    const double traction = sign * mu * std::abs(normal_traction);  // @eq KS2D:57
     return {Status::slip, traction, 0.0, -sign * mu};
+  }
+  /// The stick branch without its limit.
+  [[nodiscard]] static TangentialResponse stick(double trial) {
+    return {Status::stick, trial, 1.0, 0.0};
   }
 };
 
