@@ -82,7 +82,7 @@ std::vector<T> array(const std::string& content, const std::string& name, const 
   const std::string data =
       is_packed ? unpacked(content, at) : content.substr(at + 8, u64(content, at));
   std::vector<T> values(data.size() / sizeof(T));
-  std::memcpy(values.data(), data.data(), values.size() * sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), data.data(), values.size() * sizeof(T));
   return values;
 }
 
