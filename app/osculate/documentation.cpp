@@ -18,12 +18,14 @@ void add_schema(CLI::App& app, int&) {
 void add_doc(CLI::App& app, int&) {
   CLI::App* const command = app.add_subcommand("doc", "Explain a key of the model file");
   auto key = std::make_shared<std::string>();
-  command->add_option("key", *key, "Path such as contact.friction.coulomb.mu (default: the whole file)");
+  command->add_option("key", *key,
+                      "Path such as contact.friction.coulomb.mu (default: the whole file)");
   command->callback([key] { fmt::print("{}\n", deck::explain_model_key(*key)); });
 }
 
 void add_report(CLI::App& app, int&) {
-  CLI::App* const command = app.add_subcommand("report", "Write report.html of a result folder again");
+  CLI::App* const command =
+      app.add_subcommand("report", "Write report.html of a result folder again");
   auto folder = std::make_shared<std::string>();
   command->add_option("folder", *folder, "Result folder")->required();
   command->callback([folder] {
@@ -33,8 +35,8 @@ void add_report(CLI::App& app, int&) {
 }
 
 void add_check(CLI::App& app, int&) {
-  CLI::App* const command =
-      app.add_subcommand("check", "Validate a model file and say what it consists of; solve nothing");
+  CLI::App* const command = app.add_subcommand(
+      "check", "Validate a model file and say what it consists of; solve nothing");
   struct Flags {
     std::string model;
     bool json = false;

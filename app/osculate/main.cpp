@@ -31,7 +31,8 @@ bool cpu_supported() {
 int run_program(int argc, char** argv) {
   using namespace osculate::app;
   CLI::App app{"Osculate: contact mechanics in the coordinates of the master surface", "osculate"};
-  app.set_version_flag("--version", std::string("osculate ") + std::string(osculate::core::version));
+  app.set_version_flag("--version",
+                       std::string("osculate ") + std::string(osculate::core::version));
   app.require_subcommand(1);
   int exit_code = done;
   add_run(app, exit_code);
@@ -54,8 +55,10 @@ int run_program(int argc, char** argv) {
 int main(int argc, char** argv) {
   using namespace osculate::app;
   if (!cpu_supported()) {
-    std::fputs("osculate: this build needs a CPU with AVX2 and FMA (x86-64-v3); configure with "
-               "-DOSCULATE_BASELINE=ON for older ones\n", stderr);
+    std::fputs(
+        "osculate: this build needs a CPU with AVX2 and FMA (x86-64-v3); configure with "
+        "-DOSCULATE_BASELINE=ON for older ones\n",
+        stderr);
     return defect;
   }
   try {

@@ -21,7 +21,8 @@ struct RunFlags {
 
 int run(RunFlags& flags) {
   if (flags.restart) {
-    fmt::print(stderr, "error: --restart is not available yet: this release writes no checkpoints\n");
+    fmt::print(stderr,
+               "error: --restart is not available yet: this release writes no checkpoints\n");
     return bad_input;
   }
   std::signal(SIGINT, on_interrupt);
@@ -49,12 +50,15 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand("run", "Run the analysis of a model file");
   auto flags = std::make_shared<RunFlags>();
   command->add_option("model", flags->options.model, "Model file (YAML)")->required();
-  command->add_option("-o,--output", flags->options.folder, "Result folder (default: MODEL's stem + .results)");
-  command->add_option("--threads", flags->options.threads, "Threads for assembly")->check(CLI::Range(1, 1024));
+  command->add_option("-o,--output", flags->options.folder,
+                      "Result folder (default: MODEL's stem + .results)");
+  command->add_option("--threads", flags->options.threads, "Threads for assembly")
+      ->check(CLI::Range(1, 1024));
   command->add_option("--until", flags->options.until, "Last step to run, inclusive");
   command->add_flag("--json", flags->json, "Print the summary as JSON on stdout");
   command->add_flag("--quiet", flags->quiet, "Print nothing but errors");
-  command->add_flag("--restart", flags->restart, "Continue from the last checkpoint (not available yet)");
+  command->add_flag("--restart", flags->restart,
+                    "Continue from the last checkpoint (not available yet)");
   command->callback([flags, &exit_code] { exit_code = run(*flags); });
 }
 

@@ -19,7 +19,8 @@ struct Flags {
 
 int tangent(const Flags& flags) {
   if (flags.state != 0) {
-    fmt::print(stderr, "error: --state needs checkpoints, which are not available yet; only 0 (initial)\n");
+    fmt::print(stderr,
+               "error: --state needs checkpoints, which are not available yet; only 0 (initial)\n");
     return bad_input;
   }
   const api::TangentReport report = api::check_tangent(flags.model, flags.threads);
@@ -44,7 +45,8 @@ void add_tangent(CLI::App& app, int& exit_code) {
   command->add_option("model", flags->model, "Model file (YAML)")->required();
   command->add_option("-o,--output", flags->folder, "Also write tangent.json to this folder");
   command->add_option("--state", flags->state, "Converged increment (0 = initial)");
-  command->add_option("--threads", flags->threads, "Threads for assembly")->check(CLI::Range(1, 1024));
+  command->add_option("--threads", flags->threads, "Threads for assembly")
+      ->check(CLI::Range(1, 1024));
   command->add_flag("--json", flags->json, "Print JSON on stdout");
   command->callback([flags, &exit_code] { exit_code = tangent(*flags); });
 }

@@ -28,11 +28,11 @@ struct VerifyOptions {
 std::string cases_folder() {
   namespace fs = std::filesystem;
   const fs::path here = program_folder();
-  for (const fs::path& candidate :
-       {here / "../share/osculate/verification", here / "../../../verification",
-        fs::path("verification")})
+  for (const fs::path& candidate : {here / "../share/osculate/verification",
+                                    here / "../../../verification", fs::path("verification")})
     if (fs::is_directory(candidate)) return fs::weakly_canonical(candidate).string();
-  throw core::InputError({}, "the folder of the verification cases was not found beside the program");
+  throw core::InputError({},
+                         "the folder of the verification cases was not found beside the program");
 }
 
 std::vector<const Case*> selected(const VerifyOptions& options) {
@@ -43,7 +43,8 @@ std::vector<const Case*> selected(const VerifyOptions& options) {
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw core::InputError({}, core::unknown_name_message("verification case", name, known));
   for (const Case& c : all_cases()) {
-    const bool named = std::find(options.names.begin(), options.names.end(), c.name) != options.names.end();
+    const bool named =
+        std::find(options.names.begin(), options.names.end(), c.name) != options.names.end();
     if (named || (options.names.empty() && (options.slow || !c.slow))) cases.push_back(&c);
   }
   return cases;
@@ -83,20 +84,31 @@ int verify(const VerifyOptions& options) {
     try {
       result = c->run({folder + "/" + std::string(c->name), options.threads});
     } catch (const std::exception& error) {
-      result.rows.push_back({fmt::format("case ended with: {}", error.what()), 1, 0, Relation::equal, 0, ""});
+      result.rows.push_back(
+          {fmt::format("case ended with: {}", error.what()), 1, 0, Relation::equal, 0, ""});
     }
     for (const Row& row : result.rows) {
       print_row(row);
-      if (row.relation == Relation::info) ++shown;
-      else ++(passes(row) ? passed : failed);
-      const auto number = [](double v) { return std::isfinite(v) ? nlohmann::json(v) : nlohmann::json(nullptr); };
-      out.push_back({{"case", c->name}, {"quantity", row.quantity}, {"computed", number(row.computed)},
-                     {"reference", number(row.reference)}, {"relation", relation_text(row.relation)},
-                     {"deviation", number(deviation(row))}, {"tolerance", row.tolerance},
-                     {"pass", passes(row)}, {"source", row.source}});
+      if (row.relation == Relation::info)
+        ++shown;
+      else
+        ++(passes(row) ? passed : failed);
+      const auto number = [](double v) {
+        return std::isfinite(v) ? nlohmann::json(v) : nlohmann::json(nullptr);
+      };
+      out.push_back({{"case", c->name},
+                     {"quantity", row.quantity},
+                     {"computed", number(row.computed)},
+                     {"reference", number(row.reference)},
+                     {"relation", relation_text(row.relation)},
+                     {"deviation", number(deviation(row))},
+                     {"tolerance", row.tolerance},
+                     {"pass", passes(row)},
+                     {"source", row.source}});
     }
     write_curves(options.curves, *c, result);
-    fmt::print("  ({:.1f} s)\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    fmt::print("  ({:.1f} s)\n",
+               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   if (!options.json.empty()) {
     std::ofstream file(options.json);
@@ -111,13 +123,15 @@ int verify(const VerifyOptions& options) {
 
 void add_verify(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand(
-      "verify", "Run the verification cases: computed | reference | deviation | tolerance | source");
+      "verify",
+      "Run the verification cases: computed | reference | deviation | tolerance | source");
   auto options = std::make_shared<VerifyOptions>();
   command->add_option("name", options->names, "Cases to run (default: all but the long ones)");
   command->add_flag("--list", options->list, "List the cases");
   command->add_flag("--long", options->slow, "Include the long cases");
   command->add_option("--json", options->json, "Also write the table to this file");
-  command->add_option("--curves", options->curves, "Write the curves of the cases as CSV to this folder");
+  command->add_option("--curves", options->curves,
+                      "Write the curves of the cases as CSV to this folder");
   command->add_option("--threads", options->threads, "Threads for assembly");
   command->callback([options, &exit_code] { exit_code = verify(*options); });
 }

@@ -89,7 +89,9 @@ inline PairSample make_sample(const SampleOptions& o) {
     return Vec2(at, o.bend * at * (2.0 * o.facets - at));
   };
   const double c = std::cos(o.angle), si = std::sin(o.angle);
-  const auto turned = [&](const Vec2& p) { return Vec2(c * p.x() - si * p.y(), si * p.x() + c * p.y()); };
+  const auto turned = [&](const Vec2& p) {
+    return Vec2(c * p.x() - si * p.y(), si * p.x() + c * p.y());
+  };
   for (int i = 0; i <= o.facets * per; ++i)
     s.x.push_back(turned(place(static_cast<double>(i) / per)));
   for (int f = 0; f < o.facets; ++f) {

@@ -44,18 +44,26 @@ CheckReport check(const std::string& path) {
   for (std::size_t p = 0; p < m.pairs.size(); ++p) {
     const GapFacts g = gap_facts(state.pairs[p]);
     report.text += fmt::format(
-        "{:<13} {:<16} {} of {} slave nodes face the master, {} touch, {} overlap, gap {:.4g} to {:.4g}\n",
+        "{:<13} {:<16} {} of {} slave nodes face the master, {} touch, {} overlap, gap {:.4g} to "
+        "{:.4g}\n",
         "Initial gaps", m.pairs[p].name, g.found, state.pairs[p].points.size(), g.touching,
         g.overlapping, g.smallest, g.largest);
-    pairs.push_back({{"name", m.pairs[p].name}, {"points", state.pairs[p].points.size()},
-                     {"facing", g.found}, {"touching", g.touching}, {"overlapping", g.overlapping},
-                     {"smallest_gap", g.smallest}, {"largest_gap", g.largest}});
+    pairs.push_back({{"name", m.pairs[p].name},
+                     {"points", state.pairs[p].points.size()},
+                     {"facing", g.found},
+                     {"touching", g.touching},
+                     {"overlapping", g.overlapping},
+                     {"smallest_gap", g.smallest},
+                     {"largest_gap", g.largest}});
   }
   for (const std::string& warning : built.warnings) report.text += "warning: " + warning + "\n";
   report.text += "the model file is valid\n";
-  report.json = nlohmann::json{{"model", path}, {"facts", facts}, {"contact", pairs},
+  report.json = nlohmann::json{{"model", path},
+                               {"facts", facts},
+                               {"contact", pairs},
                                {"unknowns", system.dofs().unknowns()},
-                               {"warnings", built.warnings}}.dump(1);
+                               {"warnings", built.warnings}}
+                    .dump(1);
   return report;
 }
 

@@ -50,9 +50,9 @@ FieldFiles::FieldFiles(std::string folder, const deck::Built& built, bool compre
 
 void FieldFiles::write(const model::System& system, const model::State& state, double time) {
   const model::NodalFields f = model::nodal_fields(system, built_.model, state);
-  const std::vector<io::Field> fields{vector_field("U", f.displacement), vector_field("RF", f.reaction),
-                                      tensor_field("S", f.stress), tensor_field("E", f.strain),
-                                      scalar_field("Mises", f.mises)};
+  const std::vector<io::Field> fields{vector_field("U", f.displacement),
+                                      vector_field("RF", f.reaction), tensor_field("S", f.stress),
+                                      tensor_field("E", f.strain), scalar_field("Mises", f.mises)};
   const std::string bodies = fmt::format("bodies_{:05d}.vtu", frame_);
   io::write_vtu(folder_ + "/" + bodies, {built_.model.mesh.nodes, bodies_, fields, {}}, compress_);
   entries_.push_back({time, "bodies", bodies});
@@ -93,13 +93,17 @@ void FieldFiles::write_contact(const model::System& system, const model::State& 
     list.push_back({cell::CellType::point1, {}});
     for (Index i = 0; i < static_cast<Index>(points.size()); ++i) list[0].connectivity.push_back(i);
   }
-  const std::vector<io::Field> fields{
-      vector_field("U", u),           vector_field("normal", c.normal),
-      scalar_field("COPEN", c.copen), scalar_field("CPRESS", c.cpress),
-      scalar_field("CSHEAR1", c.cshear), scalar_field("CSLIP1", c.cslip),
-      scalar_field("CSTATUS", c.cstatus), scalar_field("CFEATURE", c.cfeature),
-      scalar_field("CAREA", c.carea), scalar_field("CNFORCE", c.cnforce),
-      scalar_field("CSFORCE", c.csforce)};
+  const std::vector<io::Field> fields{vector_field("U", u),
+                                      vector_field("normal", c.normal),
+                                      scalar_field("COPEN", c.copen),
+                                      scalar_field("CPRESS", c.cpress),
+                                      scalar_field("CSHEAR1", c.cshear),
+                                      scalar_field("CSLIP1", c.cslip),
+                                      scalar_field("CSTATUS", c.cstatus),
+                                      scalar_field("CFEATURE", c.cfeature),
+                                      scalar_field("CAREA", c.carea),
+                                      scalar_field("CNFORCE", c.cnforce),
+                                      scalar_field("CSFORCE", c.csforce)};
   io::write_vtu(folder_ + "/" + file, {points, list, fields, {}}, compress_);
 }
 

@@ -109,8 +109,7 @@ void ReportCollector::add_frame(const model::System& system, const model::State&
   const model::NodalFields fields = model::nodal_fields(system, m, state);
   const std::vector<Vec2> x = system.positions(state);
   nlohmann::json contact = nlohmann::json::array();
-  for (std::size_t p = 0; p < m.pairs.size(); ++p)
-    contact.push_back(contact_json(system, m, x, p));
+  for (std::size_t p = 0; p < m.pairs.size(); ++p) contact.push_back(contact_json(system, m, x, p));
   nlohmann::json rigid = nlohmann::json::array();
   for (std::size_t b = 0; b < m.rigid.size(); ++b) rigid.push_back(rigid_outline(m, state, b));
   frames_.push_back(

@@ -28,8 +28,8 @@ std::string model_of(const fs::path& folder) {
 }  // namespace
 
 std::string choose_folder(const std::string& model, const std::string& wanted) {
-  const fs::path folder = wanted.empty() ? fs::path(fs::path(model).stem().string() + ".results")
-                                         : fs::path(wanted);
+  const fs::path folder =
+      wanted.empty() ? fs::path(fs::path(model).stem().string() + ".results") : fs::path(wanted);
   std::error_code error;
   if (!fs::exists(folder, error)) return folder.string();
   if (!fs::is_directory(folder, error))
@@ -38,8 +38,9 @@ std::string choose_folder(const std::string& model, const std::string& wanted) {
   const std::string earlier = model_of(folder);
   if (earlier != fs::path(model).filename().string())
     throw core::InputError(
-        {}, fmt::format("folder '{}' is not empty and holds no results of '{}'; name another one with -o",
-                        folder.string(), fs::path(model).filename().string()));
+        {}, fmt::format(
+                "folder '{}' is not empty and holds no results of '{}'; name another one with -o",
+                folder.string(), fs::path(model).filename().string()));
   return folder.string();
 }
 
@@ -47,7 +48,8 @@ void open_folder(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
-    throw core::InputError({}, fmt::format("cannot create folder '{}': {}", folder, error.message()));
+    throw core::InputError({},
+                           fmt::format("cannot create folder '{}': {}", folder, error.message()));
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
     const std::string extension = entry.path().extension().string();
@@ -69,12 +71,14 @@ void write_text(const std::string& path, const std::string& text) {
   }
   std::error_code error;
   fs::rename(temporary, path, error);
-  if (error) throw core::InputError({}, fmt::format("cannot write '{}': {}", path, error.message()));
+  if (error)
+    throw core::InputError({}, fmt::format("cannot write '{}': {}", path, error.message()));
 }
 
 std::string read_text(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw core::InputError({}, fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
+  if (!file)
+    throw core::InputError({}, fmt::format("cannot read '{}': {}", path, std::strerror(errno)));
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

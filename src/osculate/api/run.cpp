@@ -86,7 +86,8 @@ struct Recorder {
 
   bool converged(model::System& system, const model::State& state, const model::Progress& p,
                  const solve::IncrementRecord* record) {
-    std::vector<double> row{static_cast<double>(p.step + 1), static_cast<double>(p.increment), p.time};
+    std::vector<double> row{static_cast<double>(p.step + 1), static_cast<double>(p.increment),
+                            p.time};
     for (const model::HistoryRequest& request : built.history)
       row.push_back(model::history_value(system, built.model, state, request));
     history.add(row);
@@ -96,7 +97,8 @@ struct Recorder {
       report.add_frame(system, state, p);
     }
     if (record) report_increment(p, *record);
-    if (!history.ok()) throw core::InputError({}, "cannot write '" + folder + "/history.csv': disk full?");
+    if (!history.ok())
+      throw core::InputError({}, "cannot write '" + folder + "/history.csv': disk full?");
     return !(options.interrupted && options.interrupted());
   }
 
@@ -104,7 +106,8 @@ struct Recorder {
     const solve::IterationRecord& last = record.iterations.back();
     iterations += static_cast<int>(record.iterations.size()) + record.wasted_iterations;
     const std::string line = fmt::format(
-        "{:<12} {:>4}  time {:<9.5g} {:>3} iterations  residual {:.1e}  energy {:.1e}  open {} stick {} slip {}{}",
+        "{:<12} {:>4}  time {:<9.5g} {:>3} iterations  residual {:.1e}  energy {:.1e}  open {} "
+        "stick {} slip {}{}",
         step_name(p), p.increment, p.time, record.iterations.size(), last.residual, last.energy,
         last.counts.open, last.counts.stick, last.counts.slip,
         record.cutbacks ? fmt::format("  ({} cut-backs)", record.cutbacks) : std::string{});
@@ -149,7 +152,8 @@ RunOutcome run(const RunOptions& options) {
     std::vector<std::string> names;
     for (const model::Step& step : built.model.steps) names.push_back(step.name);
     if (std::find(names.begin(), names.end(), options.until) == names.end())
-      throw core::InputError({}, "--until: " + core::unknown_name_message("step", options.until, names));
+      throw core::InputError(
+          {}, "--until: " + core::unknown_name_message("step", options.until, names));
   }
   const std::string folder = choose_folder(options.model, options.folder);
   open_folder(folder);
@@ -160,7 +164,9 @@ RunOutcome run(const RunOptions& options) {
   for (const std::string& warning : built.warnings) recorder.say("warning: " + warning);
   write_text(folder + "/summary.json",
              nlohmann::json{{"model", std::filesystem::path(options.model).filename().string()},
-                            {"status", "running"}}.dump(1) + "\n");
+                            {"status", "running"}}
+                     .dump(1) +
+                 "\n");
   model::AnalysisObserver observer;
   observer.converged = [&](model::System& system, const model::State& state,
                            const model::Progress& p, const solve::IncrementRecord* record) {

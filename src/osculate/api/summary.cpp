@@ -38,9 +38,12 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
 
 const char* weight_name(pairing::Weight weight) {
   switch (weight) {
-    case pairing::Weight::node: return "penalty is a force per length and node";
-    case pairing::Weight::reference_area: return "penalty acts on the reference area";
-    case pairing::Weight::current_area: return "penalty acts on the current area";
+    case pairing::Weight::node:
+      return "penalty is a force per length and node";
+    case pairing::Weight::reference_area:
+      return "penalty acts on the reference area";
+    case pairing::Weight::current_area:
+      return "penalty acts on the current area";
   }
   return "";
 }
@@ -48,8 +51,7 @@ const char* weight_name(pairing::Weight weight) {
 std::string section_text(const model::Model& m, const model::BulkSection& section) {
   std::map<std::string, int> counts;
   for (const mesh::CellRef& ref : section.cells)
-    ++counts[std::string(
-        cell::info(m.mesh.blocks[static_cast<std::size_t>(ref.block)].type).name)];
+    ++counts[std::string(cell::info(m.mesh.blocks[static_cast<std::size_t>(ref.block)].type).name)];
   std::string text;
   for (const auto& entry : counts)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", entry.second, entry.first);
@@ -83,15 +85,16 @@ nlohmann::json summary_json(const std::string& model_file, const model::Analysis
     }
     steps.push_back({{"name", result.steps[s].name}, {"increments", list}});
   }
-  return {{"osculate", core::version},
-          {"model", model_file},
-          {"status", status},
-          {"message", result.message},
-          {"steps", steps},
-          {"total", {{"increments", increments}, {"iterations", iterations}, {"cutbacks", cutbacks}}},
-          {"seconds", {{"input", seconds_input}, {"analysis", result.seconds}}},
-          {"peak_memory_mb", peak_memory_mb()},
-          {"unknowns", result.unknowns}};
+  return {
+      {"osculate", core::version},
+      {"model", model_file},
+      {"status", status},
+      {"message", result.message},
+      {"steps", steps},
+      {"total", {{"increments", increments}, {"iterations", iterations}, {"cutbacks", cutbacks}}},
+      {"seconds", {{"input", seconds_input}, {"analysis", result.seconds}}},
+      {"peak_memory_mb", peak_memory_mb()},
+      {"unknowns", result.unknowns}};
 }
 
 std::vector<ModelFact> model_facts(const deck::Built& built) {
@@ -107,13 +110,13 @@ std::vector<ModelFact> model_facts(const deck::Built& built) {
                                  body.reference.x(), body.reference.y())});
   for (const model::ContactPair& pair : m.pairs) {
     const pairing::PairDefinition& d = pair.definition;
-    const std::string friction =
-        d.friction ? fmt::format("Coulomb {:g} (penalty {:g})", d.friction->mu, d.friction->stiffness)
-                   : std::string("frictionless");
-    facts.push_back({"Contact", pair.name,
-                     fmt::format("{} slave nodes on {} facets, penalty {:g}, {}, {}",
-                                 d.slave.nodes.size(), d.master.facets.size(), d.normal.stiffness,
-                                 friction, weight_name(d.weight))});
+    const std::string friction = d.friction ? fmt::format("Coulomb {:g} (penalty {:g})",
+                                                          d.friction->mu, d.friction->stiffness)
+                                            : std::string("frictionless");
+    facts.push_back(
+        {"Contact", pair.name,
+         fmt::format("{} slave nodes on {} facets, penalty {:g}, {}, {}", d.slave.nodes.size(),
+                     d.master.facets.size(), d.normal.stiffness, friction, weight_name(d.weight))});
   }
   for (const model::Step& step : m.steps)
     facts.push_back({"Steps", step.name, fmt::format("{} increments", step.increments)});

@@ -22,7 +22,8 @@ double mean_facet_length(const model::Model& m) {
   for (const model::ContactPair& pair : m.pairs)
     for (const pairing::Facet& f : pair.definition.slave.chain.facets) {
       sum += (m.reference[static_cast<std::size_t>(f.nodes[1])] -
-              m.reference[static_cast<std::size_t>(f.nodes[0])]).norm();
+              m.reference[static_cast<std::size_t>(f.nodes[0])])
+                 .norm();
       ++count;
     }
   return count ? sum / count : 1.0;
@@ -95,7 +96,8 @@ TangentRow check_part(Probe& probe, const std::string& part) {
       const solve::Evaluation minus = probe.at(probe.moved(d, -step), false);
       same = same && plus.ok && minus.ok && plus.counts.signature == here.counts.signature &&
              minus.counts.signature == here.counts.signature;
-      return ((plus.residual - minus.residual) / (2 * step) - df).norm() / std::max(df.norm(), 1e-300);
+      return ((plus.residual - minus.residual) / (2 * step) - df).norm() /
+             std::max(df.norm(), 1e-300);
     };
     bool same = true;
     const double first = error(h, same), second = error(h / 2, same);
@@ -176,12 +178,17 @@ std::string to_text(const TangentReport& report) {
 std::string to_json(const TangentReport& report) {
   nlohmann::json rows = nlohmann::json::array();
   for (const TangentRow& row : report.rows)
-    rows.push_back({{"part", row.part}, {"error", row.error},
-                    {"order", std::isfinite(row.order) ? nlohmann::json(row.order) : nlohmann::json(nullptr)},
-                    {"exact", row.exact}, {"skipped", row.skipped}, {"pass", row.passed()},
-                    {"note", row.note}});
-  return nlohmann::json{{"open", report.open}, {"stick", report.stick}, {"slip", report.slip},
-                        {"rows", rows}}.dump(1);
+    rows.push_back(
+        {{"part", row.part},
+         {"error", row.error},
+         {"order", std::isfinite(row.order) ? nlohmann::json(row.order) : nlohmann::json(nullptr)},
+         {"exact", row.exact},
+         {"skipped", row.skipped},
+         {"pass", row.passed()},
+         {"note", row.note}});
+  return nlohmann::json{
+      {"open", report.open}, {"stick", report.stick}, {"slip", report.slip}, {"rows", rows}}
+      .dump(1);
 }
 
 }  // namespace osculate::api

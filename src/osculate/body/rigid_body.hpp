@@ -23,7 +23,8 @@ struct RigidMotion {
   }
 };
 
-/// dx / d(u_x, u_y, theta) of the material point that is now at `x`:  dx = du + d(theta) k x (x - c).
+/// dx / d(u_x, u_y, theta) of the material point that is now at `x`:  dx = du + d(theta) k x (x -
+/// c).
 [[nodiscard]] inline Mat<2, 3> motion_gradient(const RigidMotion& motion, const Vec2& x) {
   Mat<2, 3> j;
   j.leftCols<2>().setIdentity();

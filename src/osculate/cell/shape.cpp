@@ -90,12 +90,18 @@ AreaShape tri6(const Vec2& xi) {
 
 AreaShape area_shape(CellType type, const Vec2& xi) {
   switch (type) {
-    case CellType::tri3: return tri3(xi);
-    case CellType::tri6: return tri6(xi);
-    case CellType::quad4: return quad4(xi);
-    case CellType::quad8: return quad8(xi);
-    case CellType::quad9: return quad9(xi);
-    default: return {};
+    case CellType::tri3:
+      return tri3(xi);
+    case CellType::tri6:
+      return tri6(xi);
+    case CellType::quad4:
+      return quad4(xi);
+    case CellType::quad8:
+      return quad8(xi);
+    case CellType::quad9:
+      return quad9(xi);
+    default:
+      return {};
   }
 }
 

@@ -14,11 +14,11 @@ struct PointHistory {
   bool active = false;  ///< in contact at the last converged state
   Index facet = -1;     ///< facet of the foot point, -1 = none
   projection::Feature feature = projection::Feature::none;
-  double xi = 0;        ///< convective coordinate on that facet
-  double gap = 0;       ///< zeta (also of open points: it dates the first contact)
-  double traction = 0;  ///< t
+  double xi = 0;          ///< convective coordinate on that facet
+  double gap = 0;         ///< zeta (also of open points: it dates the first contact)
+  double traction = 0;    ///< t
   bool slipping = false;  ///< the friction limit was reached
-  double slip = 0;      ///< accumulated sliding distance (signed)
+  double slip = 0;        ///< accumulated sliding distance (signed)
 };
 
 }  // namespace osculate::contact

@@ -28,11 +28,11 @@ struct Form {
 /// Frame      current configuration
 struct Kinematics {
   projection::Feature feature = projection::Feature::none;
-  double gap = 0;             ///< zeta
-  Vec2 normal{0, 1};          ///< nu
-  Vec2 unit_tangent{1, 0};    ///< tau = rho_xi / |rho_xi|
+  double gap = 0;           ///< zeta
+  Vec2 normal{0, 1};        ///< nu
+  Vec2 unit_tangent{1, 0};  ///< tau = rho_xi / |rho_xi|
   double a11 = 1, sqrt_a11 = 1, h11 = 0, kappa = 0;
-  double g = 1;               ///< a11 - zeta h11 > 0 where the projection is a strict minimum
+  double g = 1;  ///< a11 - zeta h11 > 0 where the projection is a strict minimum
   Vec2 rho2 = Vec2::Zero(), rho3 = Vec2::Zero();  ///< rho_xixi, rho_xixixi
   Form d_xi;     ///< variation of the convective coordinate (zero at a corner)
   Form d_gap;    ///< variation of zeta

@@ -52,8 +52,8 @@ Levers work_conjugate_levers(const Kinematics& k) {
   const Form da = metric_variation(k);
   const Form dg = da + (-k.gap) * curvature_variation(k) + (-k.h11) * k.d_gap;
   v.d_lever = (1 / k.g) * da + (-k.a11 / (k.g * k.g)) * dg;
-  v.d_arm = (k.gap / (2 * k.sqrt_a11 * k.g)) * da + (k.sqrt_a11 / k.g) * k.d_gap +
-            (-v.arm / k.g) * dg;
+  v.d_arm =
+      (k.gap / (2 * k.sqrt_a11 * k.g)) * da + (k.sqrt_a11 / k.g) * k.d_gap + (-v.arm / k.g) * dg;
   return v;
 }
 
@@ -149,8 +149,8 @@ void add_covariant_slip(PointTerms& terms, const Kinematics& k, const Traction& 
   const Tensor rr = rho * rho.transpose();
   const double scale = t.tangential.traction / (k.a11 * k.sqrt_a11);  // s mu |N| / a11^(3/2)
   if (parts.main)
-    terms.m[0][0] += t.tangential.d_normal * t.normal.d_traction / k.sqrt_a11 * rho *
-                     k.normal.transpose();
+    terms.m[0][0] +=
+        t.tangential.d_normal * t.normal.d_traction / k.sqrt_a11 * rho * k.normal.transpose();
   if (parts.rotational) {
     terms.m[1][0] += scale * rr;
     terms.m[0][1] += scale * rr;

@@ -8,8 +8,8 @@
 namespace osculate::contact {
 
 /// Which residual the tractions enter.
-///   surface : R = N A^T nu + t A^T tau                   (the papers, zeta = 0 on the tangent plane)
-///   full    : work-conjugate to the exact d(xi); moments balance for every penetration
+///   surface : R = N A^T nu + t A^T tau                   (the papers, zeta = 0 on the tangent
+///   plane) full    : work-conjugate to the exact d(xi); moments balance for every penetration
 enum class ResidualForm : std::uint8_t { surface, full };
 
 /// Tangent to use. `consistent` is the exact derivative of the residual; otherwise the papers'
@@ -23,8 +23,8 @@ struct TangentForm {
 struct Traction {
   NormalResponse normal;
   TangentialResponse tangential;
-  double d_trial_d_slip = 0;  ///< eps_T times the part of the increment spent in contact
-  double d_trial_d_gap = 0;   ///< from the moment of first contact inside the increment
+  double d_trial_d_slip = 0;        ///< eps_T times the part of the increment spent in contact
+  double d_trial_d_gap = 0;         ///< from the moment of first contact inside the increment
   double tangential_stiffness = 0;  ///< eps_T (for the covariant tangent)
 };
 
@@ -46,7 +46,8 @@ struct PointTerms {
 ///
 /// Source     docs/errata.md (exact form of KS2D:54, 56, 58); with `full` from KS2D:39
 /// Tested by  tests/unit/contact/test_tangent.cpp (order 2 in every branch)
-[[nodiscard]] PointTerms consistent_terms(const Kinematics& k, const Traction& t, ResidualForm form);
+[[nodiscard]] PointTerms consistent_terms(const Kinematics& k, const Traction& t,
+                                          ResidualForm form);
 
 /// The papers' covariant tangent with the corrections of docs/errata.md, part by part.
 /// Symmetric in stick; not the derivative of the residual, so Newton's rate is linear.

@@ -21,26 +21,26 @@ model::AnalysisOptions analysis_options(const Solver& solver) {
   newton.energy = solver.energy.value;
   newton.residual = solver.residual.value;
   newton.max_iterations = solver.max_iterations.value;
-  newton.line_search = solver.line_search == LineSearch::off ? solve::LineSearch::off
-                                                             : solve::LineSearch::automatic;
+  newton.line_search =
+      solver.line_search == LineSearch::off ? solve::LineSearch::off : solve::LineSearch::automatic;
   options.increments.max_cutbacks = solver.cutbacks.value;
   return options;
 }
 
 /// Words of the model file, in the order of Quantity.
 constexpr std::array<std::string_view, 16> quantity_words{
-    "ux",      "uy",           "rz",          "rfx",          "rfy",             "rmz",
-    "force_x", "force_y",      "normal_force", "shear_force", "max_pressure",    "max_penetration",
-    "stick",   "slip",         "open",        "area"};
+    "ux",      "uy",      "rz",           "rfx",         "rfy",          "rmz",
+    "force_x", "force_y", "normal_force", "shear_force", "max_pressure", "max_penetration",
+    "stick",   "slip",    "open",         "area"};
 
 std::string_view quantity_name(Quantity q) { return quantity_words[static_cast<std::size_t>(q)]; }
 
 void check_planar(const Description& description, const mesh::Mesh& mesh) {
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     if (std::abs(mesh.nodes[n].z()) > 1e-12 * (1 + mesh.nodes[n].norm()))
-      throw core::InputError(description.mesh.mark,
-                             fmt::format("node {} has z = {:g}; plane problems need z = 0", n + 1,
-                                         mesh.nodes[n].z()));
+      throw core::InputError(
+          description.mesh.mark,
+          fmt::format("node {} has z = {:g}; plane problems need z = 0", n + 1, mesh.nodes[n].z()));
 }
 
 mesh::BoxSpec box_spec(const Name& name, const Box& box) {
@@ -54,9 +54,9 @@ mesh::BoxSpec box_spec(const Name& name, const Box& box) {
   spec.bias_y = box.bias[1];
   spec.type = box.type.value;
   if (box.crown)
-    spec.crown = mesh::Crown{box.crown->side == BoxSide::top ? mesh::Crown::Side::top
-                                                             : mesh::Crown::Side::bottom,
-                             box.crown->radius.value, box.crown->at.value};
+    spec.crown = mesh::Crown{
+        box.crown->side == BoxSide::top ? mesh::Crown::Side::top : mesh::Crown::Side::bottom,
+        box.crown->radius.value, box.crown->at.value};
   spec.angle = box.angle.value;
   spec.about = box.about;
   return spec;
@@ -103,7 +103,8 @@ void build_history(BuildContext& c) {
       out.kind = model::HistoryRequest::Kind::nodes;
       out.nodes = c.set(request.on).nodes;
       if (out.nodes.empty())
-        throw core::InputError(request.on.mark, fmt::format("set '{}' has no nodes", request.on.value));
+        throw core::InputError(request.on.mark,
+                               fmt::format("set '{}' has no nodes", request.on.value));
     }
     c.built.history.push_back(std::move(out));
   }

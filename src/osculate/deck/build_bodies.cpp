@@ -21,26 +21,42 @@ const mesh::Set& BuildContext::set(const Name& on) const {
 solid::Section make_solid_section(const Section& s, const Material& material) {
   solid::Section out;
   switch (s.element.value) {
-    case SectionElement::plane_strain: out.assumption = solid::Assumption::plane_strain; break;
-    case SectionElement::plane_stress: out.assumption = solid::Assumption::plane_stress; break;
-    case SectionElement::axisymmetric: out.assumption = solid::Assumption::axisymmetric; break;
+    case SectionElement::plane_strain:
+      out.assumption = solid::Assumption::plane_strain;
+      break;
+    case SectionElement::plane_stress:
+      out.assumption = solid::Assumption::plane_stress;
+      break;
+    case SectionElement::axisymmetric:
+      out.assumption = solid::Assumption::axisymmetric;
+      break;
   }
   out.kinematics = s.kinematics.value == Kinematics::finite ? solid::Kinematics::finite
                                                             : solid::Kinematics::small;
   switch (s.formulation.value) {
-    case Formulation::full: out.formulation = solid::Formulation::full; break;
-    case Formulation::bbar: out.formulation = solid::Formulation::bbar; break;
-    case Formulation::enhanced: out.formulation = solid::Formulation::enhanced; break;
+    case Formulation::full:
+      out.formulation = solid::Formulation::full;
+      break;
+    case Formulation::bbar:
+      out.formulation = solid::Formulation::bbar;
+      break;
+    case Formulation::enhanced:
+      out.formulation = solid::Formulation::enhanced;
+      break;
   }
   out.thickness = s.thickness.value;
   const double young = material.young.value, poisson = material.poisson.value;
   const double density = material.density.value;
   switch (material.law.value) {
-    case MaterialLaw::linear_elastic: out.law = material::LinearElastic{young, poisson, density}; break;
+    case MaterialLaw::linear_elastic:
+      out.law = material::LinearElastic{young, poisson, density};
+      break;
     case MaterialLaw::st_venant_kirchhoff:
       out.law = material::StVenantKirchhoff{young, poisson, density};
       break;
-    case MaterialLaw::neo_hooke: out.law = material::NeoHooke{young, poisson, density}; break;
+    case MaterialLaw::neo_hooke:
+      out.law = material::NeoHooke{young, poisson, density};
+      break;
   }
   return out;
 }
@@ -80,19 +96,23 @@ void check_cell(const BuildContext& c, const Section& s, const model::BulkSectio
   const cell::CellInfo& info = cell::info(block.type);
   const std::string_view reason = solid::unsupported(section.section, block.type);
   if (!reason.empty())
-    throw core::InputError(s.formulation.mark, fmt::format("set '{}' has {} cells: {}", s.on.value,
-                                                           info.name, reason));
+    throw core::InputError(s.formulation.mark,
+                           fmt::format("set '{}' has {} cells: {}", s.on.value, info.name, reason));
   const double jacobian = model::smallest_jacobian(c.model(), ref);
   if (!(jacobian > 0))
     throw core::InputError(
         s.on.mark,
-        fmt::format("{} cell {} of set '{}' has a negative or zero volume (smallest Jacobian {:.3g}); "
-                    "number its nodes counter-clockwise", info.name, ref.cell + 1, s.on.value, jacobian));
+        fmt::format(
+            "{} cell {} of set '{}' has a negative or zero volume (smallest Jacobian {:.3g}); "
+            "number its nodes counter-clockwise",
+            info.name, ref.cell + 1, s.on.value, jacobian));
   if (section.section.assumption != solid::Assumption::axisymmetric) return;
   for (int k = 0; k < info.nodes; ++k)
     if (c.model().mesh.nodes[static_cast<std::size_t>(block.cell(ref.cell)[k])].x() < -1e-12)
-      throw core::InputError(s.element.mark, fmt::format("set '{}' has nodes at negative radius x; an "
-                                                         "axisymmetric body needs x >= 0", s.on.value));
+      throw core::InputError(s.element.mark,
+                             fmt::format("set '{}' has nodes at negative radius x; an "
+                                         "axisymmetric body needs x >= 0",
+                                         s.on.value));
 }
 
 }  // namespace
@@ -104,8 +124,9 @@ void build_sections(BuildContext& c) {
   for (const Section& s : c.description.sections) {
     const mesh::Set& set = c.set(s.on);
     if (set.dimension != 2 || set.cells.empty())
-      throw core::InputError(s.on.mark, fmt::format("set '{}' has no area cells, so it cannot be a section",
-                                                    s.on.value));
+      throw core::InputError(
+          s.on.mark,
+          fmt::format("set '{}' has no area cells, so it cannot be a section", s.on.value));
     model::BulkSection section;
     section.name = s.on.value;
     section.section = solid_section(c, s);
@@ -113,8 +134,10 @@ void build_sections(BuildContext& c) {
     for (const mesh::CellRef& ref : section.cells) {
       const auto [at, fresh] = owner.emplace(std::pair(ref.block, ref.cell), s.on.value);
       if (!fresh)
-        throw core::InputError(s.on.mark, fmt::format("cells of set '{}' already belong to the section on "
-                                                      "'{}'", s.on.value, at->second));
+        throw core::InputError(s.on.mark,
+                               fmt::format("cells of set '{}' already belong to the section on "
+                                           "'{}'",
+                                           s.on.value, at->second));
       check_cell(c, s, section, ref);
       const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(ref.block)];
       for (int k = 0; k < cell::info(block.type).nodes; ++k) {
@@ -171,9 +194,10 @@ void add_meshed(BuildContext& c, const Rigid& rigid, const SetShape& shape, Inde
   for (const Index node : set.nodes) {
     Index& owner = m.body_of_node[static_cast<std::size_t>(node)];
     if (owner >= 0)
-      throw core::InputError(rigid.name.mark,
-                             fmt::format("rigid bodies '{}' and '{}' share a node",
-                                         m.rigid[static_cast<std::size_t>(owner)].name, rigid.name.value));
+      throw core::InputError(
+          rigid.name.mark,
+          fmt::format("rigid bodies '{}' and '{}' share a node",
+                      m.rigid[static_cast<std::size_t>(owner)].name, rigid.name.value));
     owner = index;
     body.nodes.push_back(node);
   }
@@ -188,8 +212,10 @@ void build_rigid(BuildContext& c) {
     body.name = rigid.name.value;
     const auto index = static_cast<Index>(m.rigid.size());
     if (m.mesh.find_set(body.name))
-      throw core::InputError(rigid.name.mark, fmt::format("rigid body '{}' has the name of a set of the "
-                                                          "mesh; choose another", body.name));
+      throw core::InputError(rigid.name.mark,
+                             fmt::format("rigid body '{}' has the name of a set of the "
+                                         "mesh; choose another",
+                                         body.name));
     if (const auto* s = std::get_if<SetShape>(&rigid.shape)) add_meshed(c, rigid, *s, index, body);
     if (const auto* s = std::get_if<PolylineShape>(&rigid.shape)) {
       body.polyline = s->points.value;

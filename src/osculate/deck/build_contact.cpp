@@ -37,8 +37,8 @@ pairing::Chain chain_of(const BuildContext& c, const Name& name) {
       const bool closed = std::get<PolylineShape>(rigid->shape).closed;
       const std::size_t n = body.nodes.size();
       for (std::size_t i = 0; i + 1 < n + (closed ? 1 : 0); ++i)
-        chain.facets.push_back(pairing::lagrange_facet(
-            std::array<Index, 2>{body.nodes[i], body.nodes[(i + 1) % n]}));
+        chain.facets.push_back(
+            pairing::lagrange_facet(std::array<Index, 2>{body.nodes[i], body.nodes[(i + 1) % n]}));
     }
   } else {
     const Name& set = meshed ? meshed->set : name;
@@ -78,7 +78,8 @@ pairing::AreaRule area_rule(const BuildContext& c, const pairing::PairDefinition
   for (const Index n : pair.slave.nodes)
     if (!section) section = from(n);
   for (const pairing::Facet& f : pair.master.facets)
-    for (int k = 0; k < f.count && !section; ++k) section = from(f.nodes[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < f.count && !section; ++k)
+      section = from(f.nodes[static_cast<std::size_t>(k)]);
   if (!section) return {};
   return {section->thickness, section->assumption == solid::Assumption::axisymmetric};
 }
@@ -88,9 +89,15 @@ void set_forms(const Contact& contact, pairing::PairDefinition& pair) {
   if (contact.friction)
     pair.friction = contact::Coulomb{contact.friction->mu.value, contact.friction->penalty.value};
   switch (contact.weight.value) {
-    case ContactWeight::node: pair.weight = pairing::Weight::node; break;
-    case ContactWeight::reference_area: pair.weight = pairing::Weight::reference_area; break;
-    case ContactWeight::current_area: pair.weight = pairing::Weight::current_area; break;
+    case ContactWeight::node:
+      pair.weight = pairing::Weight::node;
+      break;
+    case ContactWeight::reference_area:
+      pair.weight = pairing::Weight::reference_area;
+      break;
+    case ContactWeight::current_area:
+      pair.weight = pairing::Weight::current_area;
+      break;
   }
   pair.residual = contact.residual.value == Residual::full ? contact::ResidualForm::full
                                                            : contact::ResidualForm::surface;
@@ -99,7 +106,8 @@ void set_forms(const Contact& contact, pairing::PairDefinition& pair) {
   if (contact.search_depth) pair.depth = contact.search_depth->value;
 }
 
-void check_pair(const BuildContext& c, const Contact& contact, const pairing::PairDefinition& pair) {
+void check_pair(const BuildContext& c, const Contact& contact,
+                const pairing::PairDefinition& pair) {
   if (pair.master.facets.empty())
     throw core::InputError(contact.master.mark,
                            fmt::format("contact set '{}' has no facets", contact.master.value));
@@ -111,13 +119,13 @@ void check_pair(const BuildContext& c, const Contact& contact, const pairing::Pa
   };
   bool rigid = all_rigid(pair.slave.nodes, static_cast<int>(pair.slave.nodes.size()));
   for (const pairing::Facet& f : pair.master.facets) rigid = rigid && all_rigid(f.nodes, f.count);
-  if (rigid)
-    throw core::InputError(contact.name.mark, "both sides of this contact are rigid");
+  if (rigid) throw core::InputError(contact.name.mark, "both sides of this contact are rigid");
   for (const pairing::Facet& f : pair.master.facets)
     for (const Index n : pair.slave.nodes)
       if (std::find(f.nodes.begin(), f.nodes.begin() + f.count, n) != f.nodes.begin() + f.count)
-        throw core::InputError(contact.slave.mark, fmt::format("master '{}' and slave '{}' share a node",
-                                                               contact.master.value, contact.slave.value));
+        throw core::InputError(contact.slave.mark,
+                               fmt::format("master '{}' and slave '{}' share a node",
+                                           contact.master.value, contact.slave.value));
 }
 
 }  // namespace

@@ -51,18 +51,19 @@ std::vector<Dof> displacement_dofs(const BuildContext& c, const Name& on, int co
   const auto rigid = c.rigid_index.find(on.value);
   if (rigid != c.rigid_index.end()) return {body_dof(c.model(), rigid->second, component)};
   if (component == 2)
-    throw core::InputError(on.mark, fmt::format("rz needs a rigid body, and '{}' is a set", on.value));
+    throw core::InputError(on.mark,
+                           fmt::format("rz needs a rigid body, and '{}' is a set", on.value));
   std::vector<Dof> dofs;
   for (const Index node : c.set(on).nodes) {
     const Index body = c.model().body_of_node[static_cast<std::size_t>(node)];
     if (body >= 0)
-      throw core::InputError(on.mark, fmt::format("set '{}' has nodes of the rigid body '{}'; name "
-                                                  "the rigid body instead",
-                                                  on.value, c.model().rigid[static_cast<std::size_t>(body)].name));
+      throw core::InputError(
+          on.mark, fmt::format("set '{}' has nodes of the rigid body '{}'; name "
+                               "the rigid body instead",
+                               on.value, c.model().rigid[static_cast<std::size_t>(body)].name));
     dofs.push_back(2 * node + component);
   }
-  if (dofs.empty())
-    throw core::InputError(on.mark, fmt::format("set '{}' has no nodes", on.value));
+  if (dofs.empty()) throw core::InputError(on.mark, fmt::format("set '{}' has no nodes", on.value));
   return dofs;
 }
 
@@ -74,8 +75,9 @@ void apply_prescriptions(const BuildContext& c, const deck::Step& step, Running&
         for (const Dof d : displacement_dofs(c, release.on, i))
           if (running.prescribed.erase(d) == 0)
             throw core::InputError(
-                release.mark, fmt::format("'{}.{}' is not prescribed, so it cannot be released",
-                                          release.on.value, component_names[static_cast<std::size_t>(i)]));
+                release.mark,
+                fmt::format("'{}.{}' is not prescribed, so it cannot be released", release.on.value,
+                            component_names[static_cast<std::size_t>(i)]));
   std::map<Dof, std::pair<double, std::string>> here;
   for (const Prescription& p : step.prescribe)
     for (int i = 0; i < 3; ++i) {
@@ -85,9 +87,11 @@ void apply_prescriptions(const BuildContext& c, const deck::Step& step, Running&
         const auto [at, fresh] = here.emplace(d, std::pair(value->value, p.on.value));
         if (!fresh && at->second.first != value->value)
           throw core::InputError(
-              value->mark, fmt::format("'{}' and '{}' share a node and prescribe different {} ({} and {})",
-                                       at->second.second, p.on.value,
-                                       component_names[static_cast<std::size_t>(i)], at->second.first, value->value));
+              value->mark,
+              fmt::format("'{}' and '{}' share a node and prescribe different {} ({} and {})",
+                          at->second.second, p.on.value,
+                          component_names[static_cast<std::size_t>(i)], at->second.first,
+                          value->value));
         if (!fresh) continue;
         running.prescribed[d] = p.mark;
         out.prescribed.push_back({d, {0, value->value, amplitude_of(c, p.amplitude)}, false});
@@ -109,16 +113,19 @@ std::vector<model::PressureLoad::Edge> loaded_edges(const BuildContext& c, const
   const mesh::Set& set = c.set(on);
   if (set.dimension != 1)
     throw core::InputError(on.mark, fmt::format("set '{}' has no boundary edges: a load on an edge "
-                                                "needs a set of line cells", on.value));
+                                                "needs a set of line cells",
+                                                on.value));
   std::vector<model::PressureLoad::Edge> edges;
   for (const mesh::BoundaryFacet& facet : oriented_facets(c, on)) {
     if (!facet.has_parent())
-      throw core::InputError(on.mark, fmt::format("an edge of set '{}' belongs to no bulk cell", on.value));
+      throw core::InputError(on.mark,
+                             fmt::format("an edge of set '{}' belongs to no bulk cell", on.value));
     model::PressureLoad::Edge edge;
     edge.nodes.assign(facet.nodes().begin(), facet.nodes().end());
     edge.section = c.section_of_node[static_cast<std::size_t>(facet.nodes()[0])];
     if (edge.section < 0)
-      throw core::InputError(on.mark, fmt::format("an edge of set '{}' belongs to no section", on.value));
+      throw core::InputError(on.mark,
+                             fmt::format("an edge of set '{}' belongs to no section", on.value));
     edges.push_back(std::move(edge));
   }
   return edges;
@@ -127,7 +134,8 @@ std::vector<model::PressureLoad::Edge> loaded_edges(const BuildContext& c, const
 std::vector<std::pair<Dof, double>> traction_unit(const BuildContext& c, const Load& load, int i) {
   std::vector<std::pair<Dof, double>> unit;
   for (const model::PressureLoad::Edge& edge : loaded_edges(c, load.on)) {
-    const solid::Section& section = c.model().sections[static_cast<std::size_t>(edge.section)].section;
+    const solid::Section& section =
+        c.model().sections[static_cast<std::size_t>(edge.section)].section;
     const std::vector<double> weights = model::edge_weights(c.model(), section, edge.nodes);
     for (std::size_t k = 0; k < edge.nodes.size(); ++k)
       unit.emplace_back(2 * edge.nodes[k] + i, weights[k]);
@@ -135,7 +143,8 @@ std::vector<std::pair<Dof, double>> traction_unit(const BuildContext& c, const L
   return unit;
 }
 
-std::vector<std::pair<Dof, double>> body_force_unit(const BuildContext& c, const Load& load, int i) {
+std::vector<std::pair<Dof, double>> body_force_unit(const BuildContext& c, const Load& load,
+                                                    int i) {
   const mesh::Set& set = c.set(load.on);
   std::set<std::pair<Index, Index>> wanted;
   for (const mesh::CellRef& ref : set.cells) wanted.emplace(ref.block, ref.cell);
@@ -149,7 +158,8 @@ std::vector<std::pair<Dof, double>> body_force_unit(const BuildContext& c, const
         unit.emplace_back(2 * block.cell(ref.cell)[k] + i, weights[k]);
     }
   if (unit.empty())
-    throw core::InputError(load.on.mark, fmt::format("set '{}' has no bulk cells with a section", load.on.value));
+    throw core::InputError(load.on.mark,
+                           fmt::format("set '{}' has no bulk cells with a section", load.on.value));
   return unit;
 }
 
@@ -199,7 +209,8 @@ void apply_loads(const BuildContext& c, const deck::Step& step, Running& running
 void build_steps(BuildContext& c) {
   Running running;
   for (std::size_t b = 0; b < c.model().rigid.size(); ++b)
-    for (int i = 0; i < 3; ++i) running.prescribed[body_dof(c.model(), static_cast<Index>(b), i)] = {};
+    for (int i = 0; i < 3; ++i)
+      running.prescribed[body_dof(c.model(), static_cast<Index>(b), i)] = {};
   bool first = true;
   for (const deck::Step& step : c.description.steps) {
     model::Step out;
@@ -216,7 +227,8 @@ void build_steps(BuildContext& c) {
       if (eliminated.contains(p.dof))
         throw core::InputError(step.name.mark,
                                fmt::format("step '{}' prescribes a displacement that an equation "
-                                           "already determines", step.name.value));
+                                           "already determines",
+                                           step.name.value));
     c.model().steps.push_back(std::move(out));
   }
 }
@@ -227,14 +239,17 @@ void build_equations(BuildContext& c) {
   const auto add = [&](model::Equation equation, const core::SourceMark& mark) {
     for (const model::Equation::Term& term : equation.terms)
       if (eliminated.contains(term.dof))
-        throw core::InputError(mark, "a displacement of this equation is already eliminated by "
-                                     "another equation");
+        throw core::InputError(mark,
+                               "a displacement of this equation is already eliminated by "
+                               "another equation");
     const auto lead = std::find_if(
         equation.terms.begin(), equation.terms.end(), [&](const model::Equation::Term& term) {
-          return term.factor != 0.0 && !used.contains(term.dof) && term.dof < 2 * static_cast<Dof>(c.model().reference.size());
+          return term.factor != 0.0 && !used.contains(term.dof) &&
+                 term.dof < 2 * static_cast<Dof>(c.model().reference.size());
         });
     if (lead == equation.terms.end())
-      throw core::InputError(mark, "every displacement of this equation is needed by other equations");
+      throw core::InputError(mark,
+                             "every displacement of this equation is needed by other equations");
     std::iter_swap(equation.terms.begin(), lead);
     eliminated.insert(equation.terms[0].dof);
     for (const model::Equation::Term& term : equation.terms) used.insert(term.dof);

@@ -111,23 +111,32 @@ std::string entry_text(const Found& found) {
   return out;
 }
 
+/// Keys of exactly that path, else keys whose path ends so.
 std::vector<Found> find(const std::vector<Found>& all, std::string_view key) {
   const std::vector<std::string> typed = split(key);
-  std::vector<Found> out;
-  for (const Found& found : all)
-    if (matches(typed, 0, split(found.path), 0)) out.push_back(found);
-  if (!out.empty() || typed.size() != 1) return out;
-  for (const Found& found : all)
-    if (split(found.path).back() == typed[0]) out.push_back(found);
-  return out;
+  std::vector<Found> whole, ending;
+  for (const Found& found : all) {
+    std::vector<std::string> path = split(found.path);
+    if (matches(typed, 0, path, 0)) whole.push_back(found);
+    for (; !path.empty(); path.erase(path.begin()))
+      if (path[0] == typed[0] && matches(typed, 0, path, 0)) {
+        ending.push_back(found);
+        break;
+      }
+  }
+  return whole.empty() ? ending : whole;
 }
 
+/// The nearest path for a path, the nearest last part for a word.
 [[noreturn]] void unknown_key(const std::vector<Found>& all, std::string_view key) {
   const bool whole_path = key.find('.') != std::string_view::npos;
   std::set<std::string> names;
   for (const Found& found : all) names.insert(whole_path ? found.path : split(found.path).back());
   const std::vector<std::string> candidates(names.begin(), names.end());
-  throw core::InputError({}, core::unknown_name_message("key", printable(key), candidates));
+  const std::string near = core::nearest_name(key, candidates);
+  throw core::InputError({}, fmt::format("unknown key '{}'; {}", printable(key),
+                                         near.empty() ? std::string("without a key, all are listed")
+                                                      : "did you mean '" + near + "'?"));
 }
 
 }  // namespace

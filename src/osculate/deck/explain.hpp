@@ -11,8 +11,8 @@ namespace osculate::deck {
 
 /// What `osculate doc KEY` prints: what the key is, its type, range, unit, default, an example,
 /// and the keys below it. KEY is a path such as `contact.friction.coulomb.mu`; indices and the
-/// user's own names may be in it or not; the last part alone is enough (all keys of that name are
-/// then explained). Empty: the whole file.
+/// user's own names may be in it or not; its end is enough (all keys that end so are then
+/// explained). Empty: the whole file.
 ///
 /// Errors     core::InputError for a key that does not exist, with the nearest name
 /// Tested by  tests/unit/deck/test_explain.cpp

@@ -83,12 +83,10 @@ Spec sections_spec() {
       .such_as("[{on: block, material: steel, element: plane_strain}]");
 }
 
-Spec rigid_spec() {
-  const Spec center = point_spec("Centre.").such_as("[0, -5]");
-  const Spec radius = number("Radius.").in("length").above(0).such_as("5");
-  const Spec inside =
-      boolean("The body is outside the circle, so that its surface is a hole.").otherwise("false");
-  const Spec nurbs = map(
+namespace {
+
+Spec nurbs_spec() {
+  return map(
       "A rational B-spline curve, body on the right of the direction of travel.",
       {required("degree", integer("Polynomial degree.").at_least(1).at_most(9).such_as("2")),
        required("knots", list("Knots, non-decreasing, as many as control points + degree + 1.",
@@ -102,6 +100,15 @@ Spec rigid_spec() {
                          .such_as("[1, 0, 1]"))
                     .count(2)
                     .such_as("[[1, 0, 1], [1, 1, 0.7071067811865476], [0, 1, 1]]"))});
+}
+
+}  // namespace
+
+Spec rigid_spec() {
+  const Spec center = point_spec("Centre.").such_as("[0, -5]");
+  const Spec radius = number("Radius.").in("length").above(0).such_as("5");
+  const Spec inside =
+      boolean("The body is outside the circle, so that its surface is a hole.").otherwise("false");
   return names(
              "Rigid bodies, by name: a meshed set of lines or one analytic shape each. All their "
              "motions are held until a step prescribes, loads or releases them.",
@@ -136,7 +143,7 @@ Spec rigid_spec() {
                           {required("point", point_spec("A point of the line.")),
                            required("normal", point_spec("Direction out of the body, of any length "
                                                          "but zero."))})),
-                  optional("nurbs", nurbs),
+                  optional("nurbs", nurbs_spec()),
                   optional("reference",
                            point_spec("Point that prescriptions, forces and moments refer to.")
                                .otherwise_as("the centroid of the nodes, the centre of the shape")),

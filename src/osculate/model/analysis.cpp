@@ -15,9 +15,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 std::string failure_message(System& system, const Model& model, const Step& step,
                             const solve::StepResult<State>& result) {
-  std::string text = fmt::format("step '{}' stopped at {:.4g} of its length: {}", step.name,
-                                 result.increments.empty() ? 0.0 : result.increments.back().fraction,
-                                 result.reason);
+  std::string text = fmt::format(
+      "step '{}' stopped at {:.4g} of its length: {}", step.name,
+      result.increments.empty() ? 0.0 : result.increments.back().fraction, result.reason);
   const std::string motion = free_motion_message(system, model, result.last_attempt.state);
   if (!motion.empty()) text += "; " + motion;
   return text;
@@ -53,9 +53,9 @@ AnalysisResult run(const Model& model, const AnalysisOptions& options,
       progress.fraction = from;
       if (observer.cutback) observer.cutback(reason, progress, to);
     };
-    solve::StepResult<State> done = solve::run_step(system, result.state, step.increments,
-                                                    options.increments, solver, on_increment,
-                                                    on_cutback);
+    solve::StepResult<State> done =
+        solve::run_step(system, result.state, step.increments, options.increments, solver,
+                        on_increment, on_cutback);
     result.state = done.state;
     result.last_iterate = done.state;
     result.outcome = done.outcome;

@@ -19,7 +19,7 @@ struct Progress {
   Index step = 0;       ///< 0-based
   Index increment = 0;  ///< 1-based inside the step, sub-increments counted
   double fraction = 0;
-  double time = 0;      ///< steps completed + fraction
+  double time = 0;  ///< steps completed + fraction
 };
 
 struct StepRecord {
@@ -29,10 +29,10 @@ struct StepRecord {
 
 struct AnalysisResult {
   solve::Outcome outcome = solve::Outcome::converged;
-  std::string message;      ///< plain words
+  std::string message;  ///< plain words
   std::vector<StepRecord> steps;
-  State state;              ///< last converged
-  State last_iterate;       ///< of the failed attempt (equal to `state` when done)
+  State state;         ///< last converged
+  State last_iterate;  ///< of the failed attempt (equal to `state` when done)
   double seconds = 0, seconds_solver = 0;
   Index unknowns = 0;
 };

@@ -13,8 +13,7 @@ void Assembler::expand(std::span<const Dof> block_dofs, std::vector<Expansion>& 
 }
 
 void Assembler::add_outer(std::span<const Dof> row_dofs, std::span<const double> row_values,
-                          std::span<const Dof> column_dofs,
-                          std::span<const double> column_values) {
+                          std::span<const Dof> column_dofs, std::span<const double> column_values) {
   expand(row_dofs, rows_, row_end_);
   expand(column_dofs, columns_, column_end_);
   for (std::size_t i = 0; i < row_dofs.size(); ++i)

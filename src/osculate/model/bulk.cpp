@@ -52,12 +52,11 @@ void evaluate_cell(const Model& model, const BulkSection& section, const mesh::C
                                                    : "has a strain its material cannot answer");
 }
 
-void pressure_block(const Model& model, const solid::Section& section,
-                    std::span<const Index> nodes, const Eigen::VectorXd& u, double pressure,
-                    BulkBlock& out) {
+void pressure_block(const Model& model, const solid::Section& section, std::span<const Index> nodes,
+                    const Eigen::VectorXd& u, double pressure, BulkBlock& out) {
   set_dofs(nodes, out);
-  solid::PressureResult result = solid::edge_pressure(
-      section, reference_of(model, nodes), displacement_of(u, nodes), pressure);
+  solid::PressureResult result = solid::edge_pressure(section, reference_of(model, nodes),
+                                                      displacement_of(u, nodes), pressure);
   out.result.force = result.force;
   out.result.tangent = result.tangent;
 }

@@ -22,9 +22,8 @@ void evaluate_cell(const Model& model, const BulkSection& section, const mesh::C
                    const Eigen::VectorXd& u, bool with_tangent, BulkBlock& out);
 
 /// External nodal forces of a pressure on one boundary edge, and their derivative (follower load).
-void pressure_block(const Model& model, const solid::Section& section,
-                    std::span<const Index> nodes, const Eigen::VectorXd& u, double pressure,
-                    BulkBlock& out);
+void pressure_block(const Model& model, const solid::Section& section, std::span<const Index> nodes,
+                    const Eigen::VectorXd& u, double pressure, BulkBlock& out);
 
 /// Share of each node in a unit body force over a cell / a unit traction over an edge.
 [[nodiscard]] std::vector<double> cell_weights(const Model& model, const BulkSection& section,

@@ -133,7 +133,8 @@ std::string free_motion_message(System& system, const Model& model, const State&
     if (turns)
       text += fmt::format("turn about ({:.4g}, {:.4g})", motion.center.x(), motion.center.y());
     else
-      text += fmt::format("move along ({:.4f}, {:.4f})", motion.direction.x(), motion.direction.y());
+      text +=
+          fmt::format("move along ({:.4f}, {:.4f})", motion.direction.x(), motion.direction.y());
     text += fmt::format(" (resistance {:.1e} of its stiffness)", motion.stiffness_ratio);
   }
   return text;

@@ -9,8 +9,8 @@ namespace osculate::model {
 /// A rigid motion of one body that the tangent hardly resists.
 struct FreeMotion {
   std::string body;
-  Vec2 direction{0, 0};     ///< unit vector of a translation (zero for a pure rotation)
-  double rotation = 0;      ///< about the body's centroid, relative to the translation
+  Vec2 direction{0, 0};  ///< unit vector of a translation (zero for a pure rotation)
+  double rotation = 0;   ///< about the body's centroid, relative to the translation
   Vec2 center{0, 0};
   double stiffness_ratio = 0;  ///< resistance relative to the body's own stiffness
 };

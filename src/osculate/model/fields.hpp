@@ -6,7 +6,8 @@
 
 namespace osculate::model {
 
-/// Results at the nodes of the mesh (frame nodes left out), averaged over the cells that meet there.
+/// Results at the nodes of the mesh (frame nodes left out), averaged over the cells that meet
+/// there.
 struct NodalFields {
   std::vector<Vec2> displacement, reaction;
   std::vector<std::array<double, 4>> stress;  ///< Cauchy: xx, yy, zz, xy

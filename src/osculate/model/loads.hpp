@@ -35,8 +35,8 @@ struct DeadLoad {
 /// deformation for finite kinematics.
 struct PressureLoad {
   struct Edge {
-    Index section;               ///< whose thickness and kinematics apply
-    std::vector<Index> nodes;    ///< line cell order, body on the right
+    Index section;             ///< whose thickness and kinematics apply
+    std::vector<Index> nodes;  ///< line cell order, body on the right
   };
   std::vector<Edge> edges;
   Ramp ramp;

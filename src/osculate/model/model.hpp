@@ -22,7 +22,7 @@ struct BulkSection {
 struct RigidBody {
   std::string name;
   Vec2 reference{0, 0};
-  std::vector<Index> nodes;  ///< mesh nodes and frame nodes
+  std::vector<Index> nodes;              ///< mesh nodes and frame nodes
   std::optional<geometry::Curve> shape;  ///< analytic shape in reference coordinates
   std::vector<Vec2> polyline;            ///< for pictures of analytic polylines
 };

@@ -66,9 +66,12 @@ Eigen::VectorXd reactions(const System& system) {
 double history_value(const System& system, const Model& model, const State& state,
                      const HistoryRequest& request) {
   switch (request.kind) {
-    case HistoryRequest::Kind::nodes: return node_value(reactions(system), state, request);
-    case HistoryRequest::Kind::rigid: return rigid_value(system, model, state, request);
-    case HistoryRequest::Kind::pair: return pair_value(system, request);
+    case HistoryRequest::Kind::nodes:
+      return node_value(reactions(system), state, request);
+    case HistoryRequest::Kind::rigid:
+      return rigid_value(system, model, state, request);
+    case HistoryRequest::Kind::pair:
+      return pair_value(system, request);
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -25,8 +25,8 @@ inline constexpr std::array<std::string_view, 4> node_quantities{"ux", "uy", "rf
 inline constexpr std::array<std::string_view, 6> rigid_quantities{"ux",  "uy",  "rz",
                                                                   "rfx", "rfy", "rmz"};
 inline constexpr std::array<std::string_view, 10> pair_quantities{
-    "force_x",      "force_y",         "normal_force", "shear_force", "max_pressure",
-    "max_penetration", "stick",        "slip",         "open",        "area"};
+    "force_x",         "force_y", "normal_force", "shear_force", "max_pressure",
+    "max_penetration", "stick",   "slip",         "open",        "area"};
 
 /// Value after the last evaluation of `system` at the committed `state`.
 [[nodiscard]] double history_value(const System& system, const Model& model, const State& state,

@@ -155,7 +155,8 @@ struct System::Impl {
       const double du = (*inc)[block_dofs[j]];
       if (du == 0.0) continue;
       for (std::size_t i = 0; i < block_dofs.size(); ++i)
-        predicted[block_dofs[i]] += k(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * du;
+        predicted[block_dofs[i]] +=
+            k(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * du;
     }
   }
 
@@ -257,8 +258,7 @@ struct System::Impl {
   }
 
   /// Second-order part of the rigid motion: forces on the nodes of a turning body.
-  void add_rigid_geometry(const State& trial, std::span<const Vec2> x,
-                          const Eigen::VectorXd* inc) {
+  void add_rigid_geometry(const State& trial, std::span<const Vec2> x, const Eigen::VectorXd* inc) {
     const Eigen::VectorXd f = forces.internal + forces.contact - forces.external;
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       double stiffness = 0;
@@ -306,8 +306,7 @@ void System::Impl::reserve_bulk_pattern() {
     const mesh::Block& block = model.mesh.blocks[static_cast<std::size_t>(job.cell.block)];
     unknowns.clear();
     for (int k = 0; k < 2 * cell::info(block.type).nodes; ++k) {
-      const Index unknown =
-          dofs.unknown_of(dofs.node_dof(block.cell(job.cell.cell)[k / 2], k % 2));
+      const Index unknown = dofs.unknown_of(dofs.node_dof(block.cell(job.cell.cell)[k / 2], k % 2));
       if (unknown >= 0) unknowns.push_back(unknown);
     }
     builder.reserve_block(unknowns);
@@ -342,7 +341,8 @@ State System::initial_state() {
   State state;
   const Model& model = impl_->model;
   state.u = Eigen::VectorXd::Zero(2 * static_cast<Eigen::Index>(model.reference.size()));
-  for (const RigidBody& body : model.rigid) state.rigid.push_back({body.reference, Vec2::Zero(), 0});
+  for (const RigidBody& body : model.rigid)
+    state.rigid.push_back({body.reference, Vec2::Zero(), 0});
   for (const ContactPair& pair : model.pairs)
     state.pairs.push_back(pairing::initial_state(pair.definition, model.reference));
   return state;

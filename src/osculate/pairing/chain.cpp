@@ -136,9 +136,10 @@ double same_facet_length(const Facet& facet, std::span<const Vec2> x, double a, 
 std::optional<double> path_length(const Chain& chain, std::span<const Vec2> x, const Location& from,
                                   const Location& to, std::vector<NodeGradient>* gradient) {
   if (from.facet < 0 || to.facet < 0) return std::nullopt;
-  const auto at = [&](Index f) -> const Facet& { return chain.facets[static_cast<std::size_t>(f)]; };
-  if (from.facet == to.facet)
-    return same_facet_length(at(from.facet), x, from.xi, to.xi, gradient);
+  const auto at = [&](Index f) -> const Facet& {
+    return chain.facets[static_cast<std::size_t>(f)];
+  };
+  if (from.facet == to.facet) return same_facet_length(at(from.facet), x, from.xi, to.xi, gradient);
   const int ahead = hops(chain, from.facet, to.facet, true);
   const int behind = hops(chain, from.facet, to.facet, false);
   if (ahead < 0 && behind < 0) return std::nullopt;

@@ -71,11 +71,13 @@ bool better(const Candidate& a, const Candidate& b, const Location& history, dou
 /// A kink inside an analytic curve: the normals just before and after it.
 void add_kink_normal(const Facet& facet, std::span<const Vec2> x, Projection& p) {
   const double step = 1e-9 * (facet.hi - facet.lo);
-  p.outward = unit_normal(facet, p.location.xi - step, x) + unit_normal(facet, p.location.xi + step, x);
+  p.outward =
+      unit_normal(facet, p.location.xi - step, x) + unit_normal(facet, p.location.xi + step, x);
   if (p.outward.norm() > 0) p.outward.normalize();
 }
 
-/// Fills in what a vertex needs: its outward direction from both neighbours, or that the chain ends.
+/// Fills in what a vertex needs: its outward direction from both neighbours, or that the chain
+/// ends.
 void resolve_end(const Chain& chain, std::span<const Vec2> x, Projection& p) {
   const Facet& facet = chain.facets[static_cast<std::size_t>(p.location.facet)];
   const bool at_high = p.location.xi > 0.5 * (facet.lo + facet.hi);

@@ -11,10 +11,10 @@ namespace osculate::pairing {
 /// Generalized projection of a point onto a chain: faces, then the vertices between them.
 struct Projection {
   projection::Feature feature = projection::Feature::none;
-  Location location;               ///< facet and coordinate (a vertex: the end of its facet)
+  Location location;  ///< facet and coordinate (a vertex: the end of its facet)
   double distance = std::numeric_limits<double>::infinity();
-  Vec2 outward{0, 0};              ///< averaged normal of the neighbours (corners only)
-  bool beyond_end = false;         ///< nearest point is an open end of the chain
+  Vec2 outward{0, 0};       ///< averaged normal of the neighbours (corners only)
+  bool beyond_end = false;  ///< nearest point is an open end of the chain
 };
 
 struct ProjectionQuery {

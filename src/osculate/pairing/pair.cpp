@@ -65,7 +65,7 @@ ContactShare contact_share(const PointHistory& history, double gap) {
 struct Friction {
   Traction traction;
   contact::TangentialResponse law;  ///< what the law says; `traction` may be in another branch
-  double slip = 0;  ///< arc length of the increment, times the share in contact
+  double slip = 0;                  ///< arc length of the increment, times the share in contact
 };
 
 /// What is known of a point's branch before the law is asked.
@@ -91,8 +91,8 @@ contact::Branch branch_of(const contact::TangentialResponse& response) {
   return response.traction > 0 ? contact::Branch::slip_forward : contact::Branch::slip_backward;
 }
 
-// @eq KS2D:89, KS2D:74 with the length of T kept across borders (docs/errata.md); within one facet of
-// constant metric it is the latter and, after KS2D:81, the moved centre of KS2D:82.
+// @eq KS2D:89, KS2D:74 with the length of T kept across borders (docs/errata.md); within one facet
+// of constant metric it is the latter and, after KS2D:81, the moved centre of KS2D:82.
 Friction tractions(const PairDefinition& pair, const PointHistory& history, const Placed& placed,
                    std::span<const Vec2> x, const BranchHint& hint,
                    std::vector<NodeGradient>* path) {
@@ -101,8 +101,8 @@ Friction tractions(const PairDefinition& pair, const PointHistory& history, cons
   if (!f.traction.normal.active || !pair.friction) return f;
   const contact::Coulomb& law = *pair.friction;
   const ContactShare share = contact_share(history, placed.kinematics.gap);
-  const std::optional<double> arc = path_length(pair.master, x, {history.facet, history.xi},
-                                                placed.projection.location, path);
+  const std::optional<double> arc =
+      path_length(pair.master, x, {history.facet, history.xi}, placed.projection.location, path);
   const double length = arc.value_or(0.0);
   const double carried = history.active && arc ? history.traction : 0.0;
   f.slip = share.value * length;
@@ -174,9 +174,12 @@ PointHistory next_history(const PointHistory& old, const Placed& placed, const F
 
 double point_weight(const PairDefinition& pair, const PairEvaluation& work, std::size_t i) {
   switch (pair.weight) {
-    case Weight::node: return 1.0;
-    case Weight::reference_area: return pair.reference_areas[i];
-    case Weight::current_area: return work.areas[i];
+    case Weight::node:
+      return 1.0;
+    case Weight::reference_area:
+      return pair.reference_areas[i];
+    case Weight::current_area:
+      return work.areas[i];
   }
   return 1.0;
 }
@@ -213,7 +216,8 @@ void evaluate_point(const PairDefinition& pair, std::span<const Vec2> x,
   result.shear_traction = f.law.traction;
   result.slip_increment = f.slip;
 
-  const Facet& facet = pair.master.facets[static_cast<std::size_t>(placed.projection.location.facet)];
+  const Facet& facet =
+      pair.master.facets[static_cast<std::size_t>(placed.projection.location.facet)];
   set_nodes(block, facet, pair.slave.nodes[i]);
   const Weights w = contact_weights(placed, block.count);
   const PointTerms terms = with_tangent

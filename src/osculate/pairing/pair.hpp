@@ -24,7 +24,7 @@ struct PairDefinition {
   contact::TangentForm tangent;
   AreaRule area;
   double depth = std::numeric_limits<double>::infinity();  ///< deeper points are not in contact
-  std::vector<double> reference_areas;  ///< filled by `prepare`
+  std::vector<double> reference_areas;                     ///< filled by `prepare`
 };
 
 /// Committed history of a pair, one entry per slave node.
@@ -40,8 +40,8 @@ struct PointResult {
   double normal_traction = 0;     ///< N <= 0
   double shear_traction = 0;      ///< t
   contact::Branch branch = contact::Branch::none;  ///< the tangent belongs to
-  double weight = 1;              ///< 1 or the area the traction acts on
-  double slip_increment = 0;      ///< along the master
+  double weight = 1;                               ///< 1 or the area the traction acts on
+  double slip_increment = 0;                       ///< along the master
   Vec2 foot{0, 0}, normal{0, 1}, unit_tangent{1, 0};
 };
 
@@ -51,7 +51,8 @@ using BlockMatrix = Mat<2 * max_block_nodes, 2 * max_block_nodes>;
 
 /// Forces and tangent of one contact point. Row 2k + i belongs to node k, direction i; only the
 /// first 2 * count rows and columns are used. The forces are ADDED to the internal forces.
-/// `path` and `area` are rank-one terms: dR = path_rows * sum path . dx + area_rows * sum area . dx.
+/// `path` and `area` are rank-one terms: dR = path_rows * sum path . dx + area_rows * sum area .
+/// dx.
 struct ContactBlock {
   int count = 0;
   std::array<Index, max_block_nodes> nodes{};
@@ -64,7 +65,8 @@ struct ContactBlock {
   [[nodiscard]] bool active() const { return count > 0; }
 };
 
-/// Buffers of one evaluation; reused, so that the point loop allocates nothing after the first call.
+/// Buffers of one evaluation; reused, so that the point loop allocates nothing after the first
+/// call.
 struct PairEvaluation {
   std::vector<PointResult> points;
   std::vector<ContactBlock> blocks;  ///< one per point, `count == 0` where open

@@ -93,8 +93,8 @@ void nodal_areas(const SlaveSide& slave, std::span<const Vec2> x, const AreaRule
     for (const Index f : slave.facets_of[i]) {
       const Facet& facet = slave.chain.facets[static_cast<std::size_t>(f)];
       const auto* const begin = facet.nodes.begin();
-      const auto k = static_cast<std::size_t>(
-          std::find(begin, begin + facet.count, slave.nodes[i]) - begin);
+      const auto k =
+          static_cast<std::size_t>(std::find(begin, begin + facet.count, slave.nodes[i]) - begin);
       add_facet_area(facet, k, x, rule, areas[i], gradients ? &(*gradients)[i] : nullptr);
     }
   }

@@ -15,8 +15,8 @@ struct AreaRule {
 
 /// Where contact is sampled: nodes, with the facets they belong to (for areas and normals).
 struct SlaveSide {
-  std::vector<Index> nodes;            ///< along the chain, then the nodes without facets
-  Chain chain;                         ///< slave facets; may be empty (point sets)
+  std::vector<Index> nodes;                   ///< along the chain, then the nodes without facets
+  Chain chain;                                ///< slave facets; may be empty (point sets)
   std::vector<std::vector<Index>> facets_of;  ///< per entry of `nodes`, the facets that hold it
 };
 

@@ -26,8 +26,7 @@ bool fill_points(const Section& section, cell::CellType type, const Coordinates&
   const cell::Quadrature2D& rule = quadrature_of(type);
   points.count = rule.points.size();
   for (std::size_t q = 0; q < points.count; ++q) {
-    points.geometry[q] =
-        point_geometry(section, type, reference, rule.points[q], rule.weights[q]);
+    points.geometry[q] = point_geometry(section, type, reference, rule.points[q], rule.weights[q]);
     points.strain[q] = point_strain(section, points.geometry[q], displacement);
     if (section.kinematics == Kinematics::finite &&
         !(points.strain[q].f.determinant() > 0 && points.strain[q].f33 > 0))
@@ -257,7 +256,8 @@ ElementVector edge_weights(const Section& section, const Coordinates& reference)
       t += s.n[1][static_cast<std::size_t>(k)] * reference.row(k).transpose();
     }
     for (Eigen::Index k = 0; k < n; ++k)
-      weights[k] += weight * s.n[0][static_cast<std::size_t>(k)] * t.norm() * depth_at(section, x.x());
+      weights[k] +=
+          weight * s.n[0][static_cast<std::size_t>(k)] * t.norm() * depth_at(section, x.x());
   });
   return weights;
 }

@@ -7,13 +7,17 @@
 namespace osculate::solid {
 
 const cell::Quadrature2D& quadrature_of(cell::CellType type) {
-  static const std::array<cell::Quadrature2D, 4> rules{cell::gauss_triangle(1), cell::gauss_triangle(4),
-                                                       cell::gauss_quad(2), cell::gauss_quad(3)};
+  static const std::array<cell::Quadrature2D, 4> rules{
+      cell::gauss_triangle(1), cell::gauss_triangle(4), cell::gauss_quad(2), cell::gauss_quad(3)};
   switch (type) {
-    case cell::CellType::tri3: return rules[0];
-    case cell::CellType::tri6: return rules[1];
-    case cell::CellType::quad4: return rules[2];
-    default: return rules[3];
+    case cell::CellType::tri3:
+      return rules[0];
+    case cell::CellType::tri6:
+      return rules[1];
+    case cell::CellType::quad4:
+      return rules[2];
+    default:
+      return rules[3];
   }
 }
 
@@ -54,8 +58,7 @@ PointStrain point_strain(const Section& section, const PointGeometry& g,
     for (Eigen::Index i = 0; i < 2; ++i) {
       const double x = g.gradient(k, 0), y = g.gradient(k, 1);
       p.b.col(2 * k + i) << f(i, 0) * x, f(i, 1) * y, 0, f(i, 0) * y + f(i, 1) * x;
-      if (axisymmetric && i == 0)
-        p.b(2, 2 * k) = (finite ? p.f33 : 1.0) * g.shape.n[k] / g.radius;
+      if (axisymmetric && i == 0) p.b(2, 2 * k) = (finite ? p.f33 : 1.0) * g.shape.n[k] / g.radius;
     }
   return p;
 }

@@ -10,10 +10,10 @@ using StrainMatrix = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 2 * max_node
 
 /// Geometry of one quadrature point in the reference configuration.
 struct PointGeometry {
-  double volume = 0;        ///< weight times area times thickness or circumference
+  double volume = 0;  ///< weight times area times thickness or circumference
   double determinant = 0;
-  double radius = 0;        ///< reference radius (axisymmetric)
-  Coordinates gradient;     ///< dN_k/dX
+  double radius = 0;     ///< reference radius (axisymmetric)
+  Coordinates gradient;  ///< dN_k/dX
   cell::AreaShape shape;
 };
 

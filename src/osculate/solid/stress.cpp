@@ -33,7 +33,8 @@ NodalStress nodal_stress(const Section& section, cell::CellType type, const Coor
   Eigen::MatrixXd values(points, 8), sample(points, basis(Vec2::Zero(), rule.points.size()).size());
   for (Eigen::Index q = 0; q < points; ++q) {
     const auto i = static_cast<std::size_t>(q);
-    const PointGeometry g = point_geometry(section, type, reference, rule.points[i], rule.weights[i]);
+    const PointGeometry g =
+        point_geometry(section, type, reference, rule.points[i], rule.weights[i]);
     const PointStrain p = point_strain(section, g, displacement);
     double strain_33 = 0;
     const material::Response r = point_response(section, p.strain, &strain_33);

@@ -10,8 +10,8 @@ namespace osculate::solve {
 /// fails is halved (nothing to undo: the trial is dropped), and grows back after easy ones.
 struct IncrementOptions {
   NewtonOptions newton;
-  int max_cutbacks = 8;    ///< halvings of one nominal increment before giving up
-  int easy_iterations = 8; ///< at most this many: the next sub-increment doubles
+  int max_cutbacks = 8;     ///< halvings of one nominal increment before giving up
+  int easy_iterations = 8;  ///< at most this many: the next sub-increment doubles
 };
 
 /// One converged increment, or the last failed attempt.

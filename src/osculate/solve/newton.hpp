@@ -27,10 +27,10 @@ struct StateCounts {
 /// What a system returns for one configuration. The matrix stays inside the system.
 struct Evaluation {
   bool ok = true;
-  std::string message;        ///< why not ok (element, material)
-  Eigen::VectorXd residual;   ///< out-of-balance force of the unknowns [force]
+  std::string message;              ///< why not ok (element, material)
+  Eigen::VectorXd residual;         ///< out-of-balance force of the unknowns [force]
   Eigen::VectorXd branch_residual;  ///< what to linearise from where it differs from `residual`
-  double force_scale = 0;     ///< largest of the norms of internal, external and contact forces
+  double force_scale = 0;  ///< largest of the norms of internal, external and contact forces
   StateCounts counts;
 };
 
@@ -58,8 +58,8 @@ struct IterationRecord {
 template <class S>
 concept System = requires(S s, const typename S::State& state, const Eigen::VectorXd& du,
                           Evaluation& out, double time) {
-  { s.predict(state, time, out) };                  // residual and tangent at the committed state
-  { s.evaluate(state, state, time, true, out) };    // committed, trial
+  {s.predict(state, time, out)};                // residual and tangent at the committed state
+  {s.evaluate(state, state, time, true, out)};  // committed, trial
   { s.apply(state, du, time, 1.0) } -> std::same_as<typename S::State>;
   { s.remember(state) } -> std::same_as<typename S::State>;
   { s.matrix() } -> std::same_as<const la::SparseMatrix&>;
@@ -71,7 +71,7 @@ template <class State>
 struct NewtonResult {
   Outcome outcome = Outcome::not_converged;
   std::string reason;
-  State state;                ///< last iterate (converged or not)
+  State state;  ///< last iterate (converged or not)
   Evaluation evaluation;
   std::vector<IterationRecord> iterations;
   la::SolveStatus linear = la::SolveStatus::ok;
@@ -108,9 +108,8 @@ struct Judge {
 /// never moves ahead of the body. The committed state is never written: a failed increment has
 /// nothing to undo.
 template <System S>
-[[nodiscard]] NewtonResult<typename S::State> newton(S& system,
-                                                     const typename S::State& committed, double time,
-                                                     const NewtonOptions& options,
+[[nodiscard]] NewtonResult<typename S::State> newton(S& system, const typename S::State& committed,
+                                                     double time, const NewtonOptions& options,
                                                      la::DirectSolver& solver);
 
 }  // namespace osculate::solve

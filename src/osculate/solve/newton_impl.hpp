@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "osculate/solve/newton.hpp"
-
 namespace osculate::solve {
 namespace detail {
 
@@ -35,7 +33,8 @@ bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd
   return true;
 }
 
-/// Work of the residual on the correction at `step`, with the state and evaluation that belong to it.
+/// Work of the residual on the correction at `step`, with the state and evaluation that belong to
+/// it.
 template <System S>
 struct LinePoint {
   double step = 0, work = 0, norm = 0;
@@ -68,7 +67,8 @@ double line_search(S& system, const typename S::State& committed,
   };
   LinePoint<S> low{0, du.dot(old_residual), old_residual.norm(), true};
   LinePoint<S> high = at(1.0);
-  if (high.ok && trial.branch_residual.size() > 0) {  // points that jumped over: the active set decides
+  if (high.ok &&
+      trial.branch_residual.size() > 0) {  // points that jumped over: the active set decides
     result.state = system.apply(start, du, time, 1.0);
     return 1.0;
   }
@@ -76,8 +76,9 @@ double line_search(S& system, const typename S::State& committed,
   const double reference = std::abs(low.work);
   LinePoint<S> best = high;
   const bool crossed = high.ok && low.work * high.work < 0;
-  const bool good = high.ok && (high.norm <= 0.5 * low.norm || std::abs(high.work) <= close_enough * reference ||
-                                (!crossed && high.norm <= low.norm));
+  const bool good =
+      high.ok && (high.norm <= 0.5 * low.norm || std::abs(high.work) <= close_enough * reference ||
+                  (!crossed && high.norm <= low.norm));
   if (!good && crossed) {
     double low_work = low.work, high_work = high.work;
     for (int i = 0; i < most && std::abs(best.work) > close_enough * reference; ++i) {
@@ -144,8 +145,8 @@ NewtonResult<typename S::State> newton(S& system, const typename S::State& commi
     }
     record.residual = detail::relative(e.residual.norm(), e.force_scale);
     const double energy_after = std::abs(du.dot(e.residual));
-    record.energy = detail::relative(options.residual > 0 ? energy_after : energy_before,
-                                     judge.first_energy);
+    record.energy =
+        detail::relative(options.residual > 0 ? energy_after : energy_before, judge.first_energy);
     record.counts = e.counts;
     result.iterations.push_back(record);
     if (!std::isfinite(record.residual)) {

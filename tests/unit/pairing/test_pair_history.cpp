@@ -64,7 +64,8 @@ TEST(PairHistory, DraggedOverFiveUnequalSegmentsAndAKinkAndBackReturnsToZero) {
   const int steps = 37;
   double largest = 0;
   for (int i = 1; i <= steps; ++i)
-    largest = std::max(largest, std::abs(w.step(on_kinked(0.3 + 8.4 * i / steps, depth)).shear_traction));
+    largest =
+        std::max(largest, std::abs(w.step(on_kinked(0.3 + 8.4 * i / steps, depth)).shear_traction));
   EXPECT_NEAR(largest, eps_t * 8.4, 1e-10);  // arc length, over every border
   for (int i = steps - 1; i > 0; --i) w.step(on_kinked(0.3 + 8.4 * i / steps, depth));
   EXPECT_NEAR(w.step(on_kinked(0.3, depth)).shear_traction, 0.0, 1e-12 * eps_t * 8.4);
@@ -76,7 +77,8 @@ TEST(PairHistory, ResultDoesNotDependOnTheIncrementSize) {
     Walker w(kinked_master(), 1e6);
     w.start(on_kinked(0.3, 1e-3));
     double t = 0;
-    for (int i = 1; i <= steps; ++i) t = w.step(on_kinked(0.3 + 8.4 * i / steps, 1e-3)).shear_traction;
+    for (int i = 1; i <= steps; ++i)
+      t = w.step(on_kinked(0.3 + 8.4 * i / steps, 1e-3)).shear_traction;
     traction.push_back(t);
   }
   EXPECT_NEAR(traction[0], traction[2], 1e-10);
@@ -100,8 +102,9 @@ TEST(PairHistory, TractionIsConvertedToTheMetricOfTheNewSegment) {
   EXPECT_GT(std::abs(printed - t_next), 0.4 * std::abs(t_next));
 }
 
-// [eq:KS2D:74] Table 2a: after slip the centre of attraction is xi_c = xi - s mu|N|/(eps_T sqrt(a11)).
-// With the printed R_xi = mu|N|/eps_T the traction at the unchanged state would be wrong.
+// [eq:KS2D:74] Table 2a: after slip the centre of attraction is xi_c = xi - s mu|N|/(eps_T
+// sqrt(a11)). With the printed R_xi = mu|N|/eps_T the traction at the unchanged state would be
+// wrong.
 TEST(PairHistory, EqualsTheMovedCentreOfTheElasticRegion) {
   const double depth = 0.01, mu = 0.3;
   Walker w({{0, 0}, {0.5, 0}}, mu);  // sqrt(a11) = 0.25

@@ -11,7 +11,8 @@ namespace {
 using contact::ResidualForm;
 
 PairSample frictional(int nodes, ResidualForm form, double depth) {
-  PairSample s = make_sample({.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0, .depth = depth});
+  PairSample s =
+      make_sample({.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0, .depth = depth});
   s.pair.friction = contact::Coulomb{0.2, 80.0};
   s.pair.residual = form;
   s.committed.points[0] = {true, 0, projection::Feature::face, 0.5, -0.01, 3, 0};

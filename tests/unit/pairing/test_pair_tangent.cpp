@@ -32,10 +32,11 @@ void expect_second_order(const PairSample& s, Status expected, const std::string
     const double h = 2e-3;
     ASSERT_EQ(pair_status(s, v + h * d), pair_status(s, v));
     ASSERT_EQ(pair_status(s, v - h * d), pair_status(s, v));
-    const DerivativeReport r = check_derivative(
-        [&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
-        Eigen::VectorXd(pair_tangent(s, v) * d), v, d, h);
-    EXPECT_TRUE(r.exact || std::abs(r.order - 2.0) < 0.15) << "order " << r.order << " error " << r.error;
+    const DerivativeReport r =
+        check_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
+                         Eigen::VectorXd(pair_tangent(s, v) * d), v, d, h);
+    EXPECT_TRUE(r.exact || std::abs(r.order - 2.0) < 0.15)
+        << "order " << r.order << " error " << r.error;
   }
 }
 
@@ -45,7 +46,8 @@ struct Branch {
   double carried;  ///< traction of the last increment
 };
 
-class PairTangent : public ::testing::TestWithParam<std::tuple<int, double, ResidualForm, Weight>> {};
+class PairTangent : public ::testing::TestWithParam<std::tuple<int, double, ResidualForm, Weight>> {
+};
 
 // [eq:KS2D:27] [eq:KS2D:28] [eq:KS2D:31] [eq:KS2D:32] [eq:KS2D:39] [eq:KS2D:45] [eq:KS2D:57]
 // [eq:KS2D:60] [eq:KS2D:77] [eq:KS2D:89]
@@ -54,15 +56,16 @@ TEST_P(PairTangent, IsTheDerivativeOfTheResidual) {
   for (const Branch& branch : {Branch{Status::stick, 10.0, 7.0}, Branch{Status::slip, 0.01, 7.0},
                                Branch{Status::slip, 0.01, -7.0}})
     for (const int from : {0, 1, 2}) {  // facet of the last increment: behind, the same, ahead
-      PairSample s = make_sample({.nodes_per_facet = nodes,
-                                  .bend = nodes > 2 ? 0.02 : 0.0,
-                                  .depth = depth});
+      PairSample s =
+          make_sample({.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0, .depth = depth});
       s.pair.friction = contact::Coulomb{branch.mu, 80.0};
       s.pair.residual = form;
       s.pair.weight = weight;
       const double xi = from == 0 ? 0.8 : from == 1 ? 0.1 : -0.9;
       s.committed.points[0] = {true, from, projection::Feature::face, xi, -0.01, branch.carried, 0};
-      expect_second_order(s, branch.status, "from facet " + std::to_string(from) + " mu " + std::to_string(branch.mu));
+      expect_second_order(
+          s, branch.status,
+          "from facet " + std::to_string(from) + " mu " + std::to_string(branch.mu));
     }
 }
 
@@ -142,7 +145,7 @@ TEST(CovariantTangent, PartsHaveTheirExactProperties) {
       EXPECT_EQ(curvature.norm() == 0.0, nodes == 2);
       EXPECT_LE(Eigen::FullPivLU<Eigen::MatrixXd>(main).rank(), 2);
       const double skew = (all - all.transpose()).norm() / all.norm();
-      EXPECT_EQ(skew < 1e-14, mu > 1) << skew;  // symmetric in stick only
+      EXPECT_EQ(skew<1e-14, mu> 1) << skew;  // symmetric in stick only
       s.pair.tangent = {};
       const Eigen::MatrixXd exact = pair_tangent(s, v);
       EXPECT_LT((all - exact).norm(), 0.2 * exact.norm());

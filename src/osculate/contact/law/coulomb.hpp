@@ -13,9 +13,9 @@ enum class Branch : std::uint8_t { none, stick, slip_forward, slip_backward };
 /// Tangential traction t (physical, along tau) and its derivatives.
 struct TangentialResponse {
   Status status = Status::stick;
-  double traction = 0;     ///< t
-  double d_trial = 0;      ///< dt/dt_trial
-  double d_normal = 0;     ///< dt/dN
+  double traction = 0;  ///< t
+  double d_trial = 0;   ///< dt/dt_trial
+  double d_normal = 0;  ///< dt/dN
 };
 
 /// Coulomb friction by return mapping from an elastic trial.
