@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "osculate/core/error.hpp"
 #include "osculate/core/text.hpp"

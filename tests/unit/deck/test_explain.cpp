@@ -56,7 +56,7 @@ TEST(Explain, KeysBelow) {
 TEST(Explain, ManyWaysToNameAKey) {
   const std::string mu = explain_model_key("mu");
   for (const char* const key : {"contact[0].friction.coulomb.mu", "contact[].friction.coulomb.mu",
-                                "contact.friction.coulomb.mu"})
+                                "contact.friction.coulomb.mu", "coulomb.mu", "friction.coulomb.mu"})
     EXPECT_EQ(explain_model_key(key), mu) << key;
   const std::string young = explain_model_key("materials.NAME.neo_hooke.E");
   EXPECT_EQ(explain_model_key("materials.steel.neo_hooke.E"), young);
@@ -81,6 +81,8 @@ TEST(Explain, UnknownKeysNameTheNearest) {
   EXPECT_EQ(unknown("frictoin"), "unknown key 'frictoin'; did you mean 'friction'?");
   EXPECT_EQ(unknown("contact[].frictoin"),
             "unknown key 'contact[].frictoin'; did you mean 'contact[].friction'?");
+  EXPECT_EQ(unknown("qqqqqqqq"), "unknown key 'qqqqqqqq'; without a key, all are listed");
+  EXPECT_EQ(unknown(".."), "unknown key '..'; without a key, all are listed");
 }
 
 }  // namespace
