@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <set>
+#include <tuple>
+
+#include "grid.hpp"
+
+namespace osculate::la {
+namespace {
+
+using Triplet = std::tuple<Index, Index, double>;
+
+std::vector<Triplet> random_triplets(Index n, std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<Index> index(0, n - 1);
+  std::uniform_real_distribution<double> value(-1, 1);
+  std::vector<Triplet> list;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Index i = index(random), j = index(random);
+    list.emplace_back(i, j, value(random));
+  }
+  return list;
+}
+
+void add_all(MatrixBuilder& m, const std::vector<Triplet>& list) {
+  for (const auto& [i, j, v] : list) m.add(i, j, v);
+}
+
+TEST(MatrixBuilder, diagonal_is_always_in_the_pattern) {
+  MatrixBuilder m(3);
+  const SparseMatrix& k = m.finish();
+  EXPECT_EQ(k.row_start, (std::vector<Index>{0, 1, 2, 3}));
+  EXPECT_EQ(k.column, (std::vector<Index>{0, 1, 2}));
+  EXPECT_EQ(k.value, (std::vector<double>{0, 0, 0}));
+  EXPECT_EQ(MatrixBuilder(0).finish().row_start, std::vector<Index>{0});
+}
+
+TEST(MatrixBuilder, sums_equal_the_dense_ones_to_the_bit) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Index n = 1 + static_cast<Index>(seed) * 3;
+    const std::vector<Triplet> list = random_triplets(n, 400, seed);
+    Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(n, n);
+    std::set<std::pair<Index, Index>> places;
+    for (Index i = 0; i < n; ++i) places.insert({i, i});
+    for (const auto& [i, j, v] : list) expected(i, j) += v, places.insert({i, j});
+    MatrixBuilder m(n);
+    add_all(m, list);
+    const SparseMatrix& k = m.finish();
+    EXPECT_EQ(test::dense(k), expected);
+    EXPECT_EQ(k.column.size(), places.size());  // nothing twice
+    for (Index i = 0; i < n; ++i)
+      EXPECT_TRUE(std::is_sorted(k.column.begin() + k.row_start[static_cast<std::size_t>(i)],
+                                 k.column.begin() + k.row_start[static_cast<std::size_t>(i) + 1]));
+  }
+}
+
+TEST(MatrixBuilder, same_bits_whether_the_pattern_was_there_or_grew) {
+  const std::vector<Triplet> list = random_triplets(40, 6000, 7);
+  MatrixBuilder grown(40), reserved(40), halves(40);
+  for (const Triplet& t : list) {
+    const std::array<Index, 1> row{std::get<0>(t)}, column{std::get<1>(t)};
+    reserved.reserve_block(row, column);
+  }
+  reserved.finish();
+  add_all(grown, list);
+  add_all(reserved, list);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (k == list.size() / 2) halves.finish();
+    halves.add(std::get<0>(list[k]), std::get<1>(list[k]), std::get<2>(list[k]));
+  }
+  EXPECT_EQ(grown.finish().value, reserved.finish().value);
+  EXPECT_EQ(grown.finish().value, halves.finish().value);
+  EXPECT_EQ(grown.finish().column, reserved.finish().column);
+}
+
+TEST(MatrixBuilder, blocks_skip_negative_unknowns) {
+  MatrixBuilder m(4);
+  const std::array<Index, 3> square{2, -1, 0};
+  const std::array<Index, 2> rows{3, -1}, columns{-1, 1};
+  m.reserve_block(square);
+  m.reserve_block(rows, columns);
+  EXPECT_EQ(m.finish().row_start, (std::vector<Index>{0, 2, 3, 5, 7}));
+  EXPECT_EQ(m.finish().column, (std::vector<Index>{0, 2, 1, 0, 2, 1, 3}));
+}
+
+TEST(MatrixBuilder, version_changes_exactly_when_the_pattern_grows) {
+  MatrixBuilder m(3);
+  const std::uint64_t first = m.pattern_version();
+  m.add(1, 1, 2.0);
+  m.finish();
+  EXPECT_EQ(m.pattern_version(), first);
+  m.add(0, 2, 1.0);
+  const std::uint64_t announced = m.pattern_version();  // before finish, as an argument may be
+  EXPECT_NE(announced, first);
+  m.finish();
+  EXPECT_EQ(m.pattern_version(), announced);
+  m.clear();
+  m.add(0, 2, 5.0);
+  const std::array<Index, 1> row{0}, column{2};
+  m.reserve_block(row, column);
+  m.finish();
+  EXPECT_EQ(m.pattern_version(), announced);
+  m.reserve_block(column, row);  // (2, 0) is new
+  EXPECT_NE(m.pattern_version(), announced);
+}
+
+TEST(MatrixBuilder, clear_keeps_the_pattern_of_what_was_aside) {
+  MatrixBuilder m(2);
+  m.add(0, 1, 3.0);
+  m.clear();
+  const SparseMatrix& k = m.finish();
+  EXPECT_EQ(k.column, (std::vector<Index>{0, 1, 1}));
+  EXPECT_EQ(k.value, (std::vector<double>{0, 0, 0}));
+}
+
+TEST(SparseMatrix, product_equals_the_dense_one) {
+  MatrixBuilder m = test::grid(5, 3, true);
+  const SparseMatrix& k = m.finish();
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(k.n, -1, 2);
+  EXPECT_LE((multiply(k, x) - test::dense(k) * x).lpNorm<Eigen::Infinity>(), 1e-14);
+}
+
+TEST(SparseMatrix, relative_residual_of_a_known_error) {
+  MatrixBuilder m(2);
+  m.add(0, 0, 2.0);
+  m.add(1, 1, 4.0);
+  const SparseMatrix& k = m.finish();
+  const Eigen::Vector2d b(3, 4);
+  EXPECT_EQ(relative_residual(k, Eigen::Vector2d(1.5, 1), b), 0);
+  EXPECT_EQ(relative_residual(k, Eigen::Vector2d(0, 0), b), 1);
+  EXPECT_EQ(relative_residual(k, Eigen::Vector2d(1.5, 2.25), b), 1);  // |(0, -5)| / 5
+  EXPECT_EQ(relative_residual(k, Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 0)), 0);
+  EXPECT_TRUE(std::isinf(relative_residual(k, Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 0))));
+  EXPECT_TRUE(std::isinf(relative_residual(k, Eigen::Vector2d(NAN, 0), b)));
+}
+
+}  // namespace
+}  // namespace osculate::la
