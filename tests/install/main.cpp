@@ -1,7 +1,10 @@
 // The consumer's program: plain arrays in, plain numbers out.
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
+#include "osculate/api/contact_evaluator.hpp"
 #include "osculate/geometry/curve_frame.hpp"
 #include "osculate/geometry/curve_jet.hpp"
 #include "osculate/la/direct_solver.hpp"
@@ -46,6 +49,31 @@ bool linear_solver_is_right() {
 /// The library may use AVX where this program does not: the layout of values must not depend on it.
 bool alignment_is_the_same_everywhere() { return alignof(osculate::Mat<2, 2>) == 32; }
 
+/// The contact kernel with plain arrays: a slave facet from (1, -0.01) to (2, -0.01) has sunk 0.01
+/// into a master from (0, 0) to (4, 0) and is dragged by 0.001 in stick.
+bool contact_evaluator_is_right() {
+  using namespace osculate;
+  api::ContactOptions options;
+  options.normal_penalty = 1000.0;
+  options.friction = contact::Coulomb{0.5, 1000.0};
+  const std::vector<Index> master{0, 1}, slave{3, 2};  // body on the right of travel: above
+  std::vector<double> x{0, 0, 4, 0, 1, -0.01, 2, -0.01};
+  api::ContactEvaluator contact(options, {2, master}, {2, slave}, x);
+  for (const std::size_t node : {2u, 3u}) x[2 * node] += 0.001;
+  const api::ContactResult result = contact.evaluate(x, true);
+  contact.commit();
+  double sum_y = 0, slave_x = 0, slave_y = 0;
+  for (std::size_t n = 0; n < 4; ++n) sum_y += result.force[2 * n + 1];
+  for (const std::size_t n : {2u, 3u}) {
+    slave_x += result.force[2 * n];
+    slave_y += result.force[2 * n + 1];
+  }
+  // pressure 10 on length 1 pushes the slave up (internal force down), friction 1 holds it back
+  return std::abs(sum_y) < 1e-12 && std::abs(slave_y + 10.0) < 1e-12 &&
+         std::abs(slave_x - 1.0) < 1e-12 && !result.tangent.empty() &&
+         result.points.front().status == contact::Status::stick;
+}
+
 }  // namespace
 
 int main() {
@@ -57,6 +85,7 @@ int main() {
   check(frame_of_a_circle_is_right(), "frame of a circle");
   check(closest_point_is_right(), "closest point on a segment");
   check(linear_solver_is_right(), "linear solver");
+  check(contact_evaluator_is_right(), "contact evaluator");
   check(alignment_is_the_same_everywhere(), "alignment of small matrices");
   return failed == 0 ? 0 : 1;
 }

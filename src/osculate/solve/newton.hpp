@@ -1,7 +1,9 @@
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <concepts>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -101,6 +103,111 @@ struct Judge {
 
 }  // namespace detail
 
+namespace detail {
+
+template <class State>
+bool fail(NewtonResult<State>& result, Outcome outcome, std::string reason) {
+  result.outcome = outcome;
+  result.reason = std::move(reason);
+  return false;
+}
+
+/// du = -K^-1 R. Returns false and fills the result when the tangent cannot be used.
+template <System S>
+bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd& residual,
+                      Eigen::VectorXd& du, NewtonResult<typename S::State>& result) {
+  const la::FactorReport report =
+      solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
+  result.linear = report.status;
+  result.bad_row = report.bad_row;
+  if (report.status == la::SolveStatus::singular)
+    return fail(result, Outcome::numerical_failure, "the tangent is singular");
+  if (report.status != la::SolveStatus::ok)
+    return fail(result, Outcome::numerical_failure, "the linear solver failed: " + report.message);
+  du = -residual;
+  const la::SolveStatus status = solver.solve(du);
+  result.linear = status;
+  if (status != la::SolveStatus::ok || !du.allFinite())
+    return fail(result, Outcome::numerical_failure, "the tangent is singular");
+  return true;
+}
+
+/// Work of the residual on the correction at `step`, with the state and evaluation that belong to
+/// it.
+template <System S>
+struct LinePoint {
+  double step = 0, work = 0, norm = 0;
+  bool ok = false;
+};
+
+/// Finds how much of a correction to take. Friction and contact make the residual along the
+/// correction a piecewise smooth function: a point that slips one way before and the other way
+/// after the full correction has jumped over its narrow sticking range, and plain Newton jumps back
+/// and forth for ever. The zero of the work du . R(step) lies inside that range.
+///
+/// The full correction is taken when it halves the residual, or when the work has not changed its
+/// sign and the residual has not grown; otherwise the zero is bracketed (Illinois' rule).
+template <System S>
+double line_search(S& system, const typename S::State& committed,
+                   NewtonResult<typename S::State>& result, const Eigen::VectorXd& du,
+                   const Eigen::VectorXd& old_residual, double time) {
+  constexpr int most = 10;
+  constexpr double close_enough = 0.05;
+  const typename S::State start = result.state;
+  Evaluation trial;
+  const auto at = [&](double step) {
+    LinePoint<S> point{step};
+    system.evaluate(committed, system.apply(start, du, time, step), time, false, trial);
+    point.ok = trial.ok && trial.residual.allFinite();
+    if (!point.ok) return point;
+    point.work = du.dot(trial.residual);
+    point.norm = trial.residual.norm();
+    return point;
+  };
+  LinePoint<S> low{0, du.dot(old_residual), old_residual.norm(), true};
+  LinePoint<S> high = at(1.0);
+  if (high.ok &&
+      trial.branch_residual.size() > 0) {  // points that jumped over: the active set decides
+    result.state = system.apply(start, du, time, 1.0);
+    return 1.0;
+  }
+  for (int i = 0; i < most && !high.ok; ++i) high = at(0.5 * high.step);
+  const double reference = std::abs(low.work);
+  LinePoint<S> best = high;
+  const bool crossed = high.ok && low.work * high.work < 0;
+  const bool good =
+      high.ok && (high.norm <= 0.5 * low.norm || std::abs(high.work) <= close_enough * reference ||
+                  (!crossed && high.norm <= low.norm));
+  if (!good && crossed) {
+    double low_work = low.work, high_work = high.work;
+    for (int i = 0; i < most && std::abs(best.work) > close_enough * reference; ++i) {
+      const double step = (low.step * high_work - high.step * low_work) / (high_work - low_work);
+      const LinePoint<S> next = at(step);
+      if (!next.ok) break;
+      if (std::abs(next.work) < std::abs(best.work)) best = next;
+      if (next.work * low.work > 0) {
+        low = next;
+        low_work = next.work;
+        high_work *= 0.5;
+      } else {
+        high = next;
+        high_work = next.work;
+        low_work *= 0.5;
+      }
+    }
+  } else if (!good) {
+    LinePoint<S> next = high;
+    for (int i = 0; i < most && next.norm > low.norm; ++i) {
+      next = at(0.5 * next.step);
+      if (next.ok && next.norm < best.norm) best = next;
+    }
+  }
+  result.state = system.apply(start, du, time, best.step);
+  return best.step;
+}
+
+}  // namespace detail
+
 /// One increment by Newton's method from a committed state to `time`.
 ///
 /// The first iteration linearises at the committed state with the loads and prescribed increments
@@ -110,8 +217,56 @@ struct Judge {
 template <System S>
 [[nodiscard]] NewtonResult<typename S::State> newton(S& system, const typename S::State& committed,
                                                      double time, const NewtonOptions& options,
-                                                     la::DirectSolver& solver);
+                                                     la::DirectSolver& solver) {
+  using detail::fail;
+  NewtonResult<typename S::State> result;
+  result.state = committed;
+  detail::Judge judge{options};
+  system.predict(committed, time, result.evaluation);
+  for (int i = 1; i <= options.max_iterations; ++i) {
+    if (!result.evaluation.ok) {
+      fail(result, Outcome::numerical_failure, result.evaluation.message);
+      return result;
+    }
+    const Eigen::VectorXd residual = result.evaluation.residual;
+    const bool branched = result.evaluation.branch_residual.size() > 0;
+    const Eigen::VectorXd linearised = branched ? result.evaluation.branch_residual : residual;
+    Eigen::VectorXd du;
+    result.state = system.remember(result.state);
+    if (!detail::solve_correction(system, solver, linearised, du, result)) return result;
+    const double energy_before = std::abs(du.dot(residual));
+    if (i == 1) judge.first_energy = energy_before;
+
+    IterationRecord record;
+    if (i > 1 && !branched && options.line_search == LineSearch::automatic)
+      record.step = detail::line_search(system, committed, result, du, residual, time);
+    else
+      result.state = system.apply(result.state, du, time, 1.0);
+    system.evaluate(committed, result.state, time, true, result.evaluation);
+
+    const Evaluation& e = result.evaluation;
+    if (!e.ok) {
+      fail(result, Outcome::numerical_failure, e.message);
+      return result;
+    }
+    record.residual = detail::relative(e.residual.norm(), e.force_scale);
+    const double energy_after = std::abs(du.dot(e.residual));
+    record.energy =
+        detail::relative(options.residual > 0 ? energy_after : energy_before, judge.first_energy);
+    record.counts = e.counts;
+    result.iterations.push_back(record);
+    if (!std::isfinite(record.residual)) {
+      fail(result, Outcome::numerical_failure, "the residual is not a number");
+      return result;
+    }
+    if (judge.done(record.residual, energy_before, energy_after)) {
+      result.outcome = Outcome::converged;
+      return result;
+    }
+  }
+  fail(result, Outcome::not_converged,
+       "not converged after " + std::to_string(options.max_iterations) + " iterations");
+  return result;
+}
 
 }  // namespace osculate::solve
-
-#include "osculate/solve/newton_impl.hpp"
