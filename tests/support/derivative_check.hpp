@@ -7,7 +7,8 @@
 namespace osculate::testing {
 
 /// `order` is log2 of the ratio of the errors of central differences with steps h and h/2: 2 for a
-/// right derivative, 0 for one that is wrong by any constant part. `exact`: both errors are round-off.
+/// right derivative, 0 for one that is wrong by any constant part. `exact`: both errors are
+/// round-off.
 struct DerivativeReport {
   double error, order;
   bool exact;
@@ -15,8 +16,8 @@ struct DerivativeReport {
 
 /// Compares the directional derivative `df` of `f` at `x` along `d` with central differences.
 template <class F, class Vector>
-DerivativeReport check_derivative(F&& f, const Eigen::VectorXd& df, const Vector& x, const Vector& d,
-                                  double h = 1e-3) {
+DerivativeReport check_derivative(F&& f, const Eigen::VectorXd& df, const Vector& x,
+                                  const Vector& d, double h = 1e-3) {
   const auto error = [&](double step) {
     const Eigen::VectorXd fd = (f(Vector(x + step * d)) - f(Vector(x - step * d))) / (2 * step);
     return (fd - df).norm() / std::max(df.norm(), 1e-30);
