@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/version.hpp"
+#include "osculate/io/atomic_file.hpp"
 
 namespace osculate::app {
 
@@ -66,6 +67,9 @@ int main(int argc, char** argv) {
   } catch (const osculate::core::InputError& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return bad_input;
+  } catch (const osculate::io::WriteError& error) {
+    fmt::print(stderr, "stopped: {}; what was written before is kept\n", error.what());
+    return analysis_stopped;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "error: not enough memory for this model\n");
     return bad_input;

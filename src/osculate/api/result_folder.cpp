@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "osculate/core/error.hpp"
+#include "osculate/io/atomic_file.hpp"
 
 namespace osculate::api {
 namespace fs = std::filesystem;
@@ -61,18 +62,9 @@ void open_folder(const std::string& folder) {
 }
 
 void write_text(const std::string& path, const std::string& text) {
-  const std::string temporary = path + ".part";
-  {
-    std::ofstream file(temporary, std::ios::binary);
-    file << text;
-    file.flush();
-    if (!file)
-      throw core::InputError({}, fmt::format("cannot write '{}': {}", path, std::strerror(errno)));
-  }
-  std::error_code error;
-  fs::rename(temporary, path, error);
-  if (error)
-    throw core::InputError({}, fmt::format("cannot write '{}': {}", path, error.message()));
+  io::AtomicFile file(path);
+  file.write(text);
+  file.commit();
 }
 
 std::string read_text(const std::string& path) {

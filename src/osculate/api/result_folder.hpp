@@ -10,8 +10,7 @@ namespace osculate::api {
 /// Creates the folder, or removes the files of an earlier run of the same model.
 void open_folder(const std::string& folder);
 
-/// Writes through a temporary file, so that a reader never sees half of it. Throws
-/// core::InputError (the message names the path and the reason) when that fails.
+/// Writes through a temporary file, so that a reader never sees half of it. Throws io::WriteError.
 void write_text(const std::string& path, const std::string& text);
 
 [[nodiscard]] std::string read_text(const std::string& path);

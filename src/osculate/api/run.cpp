@@ -13,6 +13,7 @@
 #include "osculate/api/summary.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/deck/parse.hpp"
+#include "osculate/io/csv.hpp"
 #include "osculate/io/report.hpp"
 
 namespace osculate::api {
@@ -22,25 +23,11 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// history.csv: a row after each converged increment, on disk at once.
-class HistoryFile {
- public:
-  HistoryFile(const std::string& path, const std::vector<model::HistoryRequest>& requests)
-      : file_(path) {
-    file_ << "step,increment,time";
-    for (const model::HistoryRequest& r : requests) file_ << ',' << r.name;
-    file_ << std::endl;
-  }
-  void add(const std::vector<double>& row) {
-    for (std::size_t i = 0; i < row.size(); ++i)
-      file_ << (i ? "," : "") << fmt::format("{:.17g}", row[i]);
-    file_ << std::endl;
-  }
-  [[nodiscard]] bool ok() const { return file_.good(); }
-
- private:
-  std::ofstream file_;
-};
+std::vector<std::string> column_names(const std::vector<model::HistoryRequest>& requests) {
+  std::vector<std::string> names;
+  for (const model::HistoryRequest& request : requests) names.push_back(request.name);
+  return names;
+}
 
 /// Everything a run writes while it goes on.
 struct Recorder {
@@ -48,7 +35,7 @@ struct Recorder {
   const deck::Description& description;
   const deck::Built& built;
   std::string folder;
-  HistoryFile history;
+  io::HistoryWriter history;
   FieldFiles fields;
   ReportCollector report;
   std::ofstream log;
@@ -60,7 +47,7 @@ struct Recorder {
         description(d),
         built(b),
         folder(std::move(dir)),
-        history(folder + "/history.csv", b.history),
+        history(folder + "/history.csv", column_names(b.history)),
         fields(folder, b, d.output.compress),
         report(b, d),
         log(folder + "/log.txt") {}
@@ -86,19 +73,18 @@ struct Recorder {
 
   bool converged(model::System& system, const model::State& state, const model::Progress& p,
                  const solve::IncrementRecord* record) {
-    std::vector<double> row{static_cast<double>(p.step + 1), static_cast<double>(p.increment),
-                            p.time};
+    std::vector<double> values;
     for (const model::HistoryRequest& request : built.history)
-      row.push_back(model::history_value(system, built.model, state, request));
-    history.add(row);
-    report.add_history(row);
+      values.push_back(model::history_value(system, built.model, state, request));
+    history.row(std::to_string(p.step + 1), p.increment, p.time, values);
+    values.insert(values.begin(),
+                  {static_cast<double>(p.step + 1), static_cast<double>(p.increment), p.time});
+    report.add_history(values);
     if (wants_fields(p)) {
       fields.write(system, state, p.time);
       report.add_frame(system, state, p);
     }
     if (record) report_increment(p, *record);
-    if (!history.ok())
-      throw core::InputError({}, "cannot write '" + folder + "/history.csv': disk full?");
     return !(options.interrupted && options.interrupted());
   }
 

@@ -64,7 +64,11 @@ void close_contact(Probe& probe, const model::Model& m) {
     const auto& points = probe.system.contact()[p].points;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!(std::abs(points[i].gap) < 2 * probe.size)) continue;
-      const Vec2 push = -(points[i].gap + depth) * points[i].normal;
+      Vec2 push = -(points[i].gap + depth) * points[i].normal;
+      const auto& law = m.pairs[p].definition.friction;
+      if (law && i % 2 == 1)  // every second point slips
+        push += 3 * law->mu * depth * m.pairs[p].definition.normal.stiffness / law->stiffness *
+                points[i].unit_tangent;
       const Index node = m.pairs[p].definition.slave.nodes[i];
       for (int k = 0; k < 2; ++k) {
         const Index u = probe.system.dofs().unknown_of(probe.system.dofs().node_dof(node, k));

@@ -6,13 +6,11 @@
 #include <numbers>
 
 #include "osculate/cell/line_shape.hpp"
+#include "osculate/solid/enhanced.hpp"
 #include "osculate/solid/point_strain.hpp"
 
 namespace osculate::solid {
 namespace {
-
-constexpr int max_points = 9;
-constexpr int modes = 4;
 
 /// Geometry and strain of all quadrature points.
 struct Points {
@@ -91,81 +89,30 @@ void average_volume(Points& points, const Coordinates& displacement) {
   }
 }
 
-using ModeMatrix = Mat<4, modes>;
-
-/// Four strain modes (xi for 11, eta for 22, xi and eta for 12), brought from the centre of the
-/// cell to the point; their mean is zero, so that the patch test holds (Simo & Rifai 1990).
-ModeMatrix mode_matrix(const Coordinates& reference, const Vec2& xi, double determinant) {
-  const cell::AreaShape center = cell::area_shape(cell::CellType::quad4, Vec2::Zero());
-  const Mat<2, 2> j = (reference.transpose() * center.d.topRows<4>()).transpose();  // dX_j/dxi_i
-  const Mat<2, 2> i = j.inverse();  // i(a, b) = dxi_b/dX_a
-  // strain_X = T strain_xi with eps_ab = dxi_i/dX_a dxi_j/dX_b eps_ij
-  Mat<3, 3> t;
-  t << i(0, 0) * i(0, 0), i(0, 1) * i(0, 1), i(0, 0) * i(0, 1),  //
-      i(1, 0) * i(1, 0), i(1, 1) * i(1, 1), i(1, 0) * i(1, 1),   //
-      2 * i(0, 0) * i(1, 0), 2 * i(0, 1) * i(1, 1), i(0, 0) * i(1, 1) + i(0, 1) * i(1, 0);
-  Mat<3, modes> natural = Mat<3, modes>::Zero();
-  natural(0, 0) = xi.x();
-  natural(1, 1) = xi.y();
-  natural(2, 2) = xi.x();
-  natural(2, 3) = xi.y();
-  const Mat<3, modes> plane = j.determinant() / determinant * t * natural;
-  ModeMatrix m = ModeMatrix::Zero();
-  m.row(0) = plane.row(0);
-  m.row(1) = plane.row(1);
-  m.row(3) = plane.row(2);
-  return m;
-}
-
-/// Enhanced strains: the mode parameters are found by a local Newton iteration from zero to
-/// round-off (one step where linear), so the element keeps no state, and are condensed out.
+/// Enhanced strains: the mode parameters are condensed out of force and tangent.
 void evaluate_enhanced(const Section& section, const Coordinates& reference, const Points& points,
                        bool with_tangent, ElementResult& out) {
-  const cell::Quadrature2D& rule = quadrature_of(cell::CellType::quad4);
-  std::array<ModeMatrix, 4> m;
-  std::array<material::Response, 4> r;
-  for (std::size_t q = 0; q < 4; ++q)
-    m[q] = mode_matrix(reference, rule.points[q], points.geometry[q].determinant);
-  Vec<modes> alpha = Vec<modes>::Zero();
-  Mat<modes, modes> stiff;
-  double scale = 0;
-  bool found = false;
-  for (int it = 0; it < 40 && !found; ++it) {
-    Vec<modes> rest = Vec<modes>::Zero();
-    stiff.setZero();
-    for (std::size_t q = 0; q < 4; ++q) {
-      r[q] = point_response(section, points.strain[q].strain + m[q] * alpha);
-      if (!r[q].ok) {
-        out.status = Status::material_failed;
-        return;
-      }
-      rest += points.geometry[q].volume * m[q].transpose() * r[q].stress;
-      stiff += points.geometry[q].volume * m[q].transpose() * r[q].tangent * m[q];
-    }
-    const Vec<modes> step = -stiff.partialPivLu().solve(rest);
-    scale = std::max(1e-300, alpha.lpNorm<Eigen::Infinity>());
-    found = it > 0 && step.lpNorm<Eigen::Infinity>() <= 1e-13 * std::max(scale, 1e-9);
-    if (!found) alpha += step;
-    if (rest.norm() == 0) found = true;
-  }
-  if (!found) {
+  const EnhancedModes e = enhanced_modes(section, reference, points.geometry, points.strain);
+  if (!e.ok) {
     out.status = Status::material_failed;
     return;
   }
-  Eigen::Matrix<double, modes, Eigen::Dynamic, 0, modes, 2 * max_nodes> coupling(modes, 8);
+  Eigen::Matrix<double, enhanced_count, Eigen::Dynamic, 0, enhanced_count, 2 * max_nodes> coupling(
+      enhanced_count, 8);
   coupling.setZero();
   for (std::size_t q = 0; q < 4; ++q) {
     const PointGeometry& g = points.geometry[q];
     const PointStrain& p = points.strain[q];
-    out.force.noalias() += g.volume * p.b.transpose() * r[q].stress;
+    out.force.noalias() += g.volume * p.b.transpose() * e.response[q].stress;
     if (!with_tangent) continue;
-    const StrainMatrix cb = g.volume * r[q].tangent * p.b;
+    const StrainMatrix cb = g.volume * e.response[q].tangent * p.b;
     out.tangent.noalias() += p.b.transpose() * cb;
-    coupling.noalias() += m[q].transpose() * cb;
+    coupling.noalias() += e.matrix[q].transpose() * cb;
     if (section.kinematics == Kinematics::finite)
-      add_geometric(section, g, r[q].stress, out.tangent);
+      add_geometric(section, g, e.response[q].stress, out.tangent);
   }
-  if (with_tangent) out.tangent -= coupling.transpose() * stiff.partialPivLu().solve(coupling);
+  if (with_tangent)
+    out.tangent -= coupling.transpose() * e.stiffness.partialPivLu().solve(coupling);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #pragma once
 // One quadrature point of a bulk element; shared by element.cpp and stress.cpp.
+#include <span>
+
 #include "osculate/cell/quadrature.hpp"
 #include "osculate/cell/shape.hpp"
 #include "osculate/solid/element.hpp"
@@ -7,6 +9,8 @@
 namespace osculate::solid {
 
 using StrainMatrix = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 2 * max_nodes>;
+
+inline constexpr int max_points = 9;
 
 /// Geometry of one quadrature point in the reference configuration.
 struct PointGeometry {

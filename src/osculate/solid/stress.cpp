@@ -1,7 +1,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 
-#include "osculate/solid/point_strain.hpp"
+#include "osculate/solid/enhanced.hpp"
 
 namespace osculate::solid {
 namespace {
@@ -31,11 +31,20 @@ NodalStress nodal_stress(const Section& section, cell::CellType type, const Coor
   const cell::Quadrature2D& rule = quadrature_of(type);
   const auto points = static_cast<Eigen::Index>(rule.points.size());
   Eigen::MatrixXd values(points, 8), sample(points, basis(Vec2::Zero(), rule.points.size()).size());
+  std::array<PointGeometry, max_points> geometry;
+  std::array<PointStrain, max_points> strains;
+  for (std::size_t i = 0; i < rule.points.size(); ++i) {
+    geometry[i] = point_geometry(section, type, reference, rule.points[i], rule.weights[i]);
+    strains[i] = point_strain(section, geometry[i], displacement);
+  }
+  if (section.formulation == Formulation::enhanced) {
+    const EnhancedModes e = enhanced_modes(section, reference, geometry, strains);
+    if (e.ok)
+      for (std::size_t i = 0; i < 4; ++i) strains[i].strain += e.matrix[i] * e.alpha;
+  }
   for (Eigen::Index q = 0; q < points; ++q) {
     const auto i = static_cast<std::size_t>(q);
-    const PointGeometry g =
-        point_geometry(section, type, reference, rule.points[i], rule.weights[i]);
-    const PointStrain p = point_strain(section, g, displacement);
+    const PointStrain& p = strains[i];
     double strain_33 = 0;
     const material::Response r = point_response(section, p.strain, &strain_33);
     Vec<4> strain = p.strain;
