@@ -84,6 +84,8 @@ TEST(GmshBroken, Nodes) {
   expect_error(nodes("1\n99999999999 0 0 0\n"), "the tag of a node is too large");
   expect_error(nodes("3\n7 0 0 0\n4 0 0 0\n7 1 0 0\n$EndNodes\n"),
                "x.msh:8: $Nodes: node 7 is there twice");
+  expect_error(nodes("3\n7 0 0 0\n7 1 0 0\n4 0 0 0\n$EndNodes\n"),
+               "x.msh:7: $Nodes: node 7 is there twice");
   expect_error(nodes("0\n$EndNodes\n"), "the mesh has no nodes");
   expect_error(nodes("1\n1 0 0 0\n2 0 0 0\n$EndNodes\n"), "expected '$EndNodes', found '2 0 0 0'");
 }

@@ -241,6 +241,18 @@ TEST(Boundary, LineOfACellWithoutAreaIsAnError) {
   EXPECT_THAT(boundary_facets(mesh, mesh.sets[0]).errors, SizeIs(3));
 }
 
+// The corners are on one line; the area lies between the bent edges only.
+TEST(Boundary, BentEdgesCountForTheSideOfTheBody) {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {2, 0, 0}, {1, 0, 0}, {1, -1, 0}, {1.5, 0.5, 0}, {0.5, 0.5, 0}};
+  mesh.blocks = {{CellType::tri6, {0, 1, 2, 3, 4, 5}}};
+  const Set set{"a", 2, {{0, 0}}, {0, 1, 2, 3, 4, 5}};
+  const Boundary boundary = boundary_facets(mesh, set);
+  ASSERT_THAT(boundary.facets, SizeIs(3));
+  EXPECT_THAT(boundary.facets[0].nodes(), ElementsAre(1, 0, 3));
+  EXPECT_LT(normal(mesh, boundary.facets[0]).y(), 0);
+}
+
 TEST(Boundary, MessagesDoNotPileUp) {
   Mesh mesh = box_mesh(CellType::quad4);
   Set set{"many", 1, {}, {}};
