@@ -10,6 +10,7 @@
 #include "osculate/deck/parse.hpp"
 #include "osculate/io/gmsh.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/mesh/check.hpp"
 #include "osculate/mesh/generate.hpp"
 
 namespace osculate::deck {
@@ -111,8 +112,12 @@ void build_history(BuildContext& c) {
 }
 
 Built build(const Description& description, mesh::Mesh mesh) {
-  check_planar(description, mesh);
   Built built;
+  for (const mesh::Finding& finding : mesh::check_mesh(mesh)) {
+    if (finding.is_error) throw core::InputError(description.mesh.mark, finding.message);
+    built.warnings.push_back(finding.message);
+  }
+  check_planar(description, mesh);
   built.options = analysis_options(description.solver);
   model::Model& m = built.model;
   m.title = description.title;
