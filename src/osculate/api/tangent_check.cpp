@@ -63,7 +63,7 @@ void close_contact(Probe& probe, const model::Model& m) {
   for (std::size_t p = 0; p < m.pairs.size(); ++p) {
     const auto& points = probe.system.contact()[p].points;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!(std::abs(points[i].gap) < 2 * probe.size)) continue;
+      if (!(std::abs(points[i].gap) < 0.1 * probe.size)) continue;
       Vec2 push = -(points[i].gap + depth) * points[i].normal;
       const auto& law = m.pairs[p].definition.friction;
       if (law && i % 2 == 1)  // every second point slips
