@@ -202,9 +202,8 @@ void checked_rows(CaseResult& out, const std::string& name, const Run& run) {
   const Moment& left = at(run, -4e-3, true);
   row("increments", run.increments, 281, Relation::equal, 0, paper);
   row("cut-backs", run.cutbacks, 0, Relation::equal, 0, "");
-  row("growth of sliding from the right, violations", growth_violations(run), 0, Relation::equal, 0,
-      paper);
-  row("points slipping from the turn to u = 0", slips_while_returning(run), 0, Relation::equal, 0,
+  row("sliding not growing from the right", growth_violations(run), 0, Relation::equal, 0, paper);
+  row("points slipping from turn to u = 0", slips_while_returning(run), 0, Relation::equal, 0,
       paper);
   row("left end slips at u = -0.004", left.points.front().slip ? 1 : 0, 1, Relation::equal, 0,
       paper);
@@ -221,28 +220,34 @@ void zone_rows(CaseResult& out, const std::string& name, const Run& run, double 
                       Relation::info, 0, source});
 }
 
-/// What differs between two runs, relative to the largest value of the first.
+/// What differs between two runs, relative to the largest value of the first, over the increments
+/// with the same number of points in contact.
 void difference_rows(CaseResult& out, const std::string& name, const Run& a, const Run& b) {
   double corner = 0, shear = 0, normal = 0, largest_corner = 0, largest_shear = 0,
          largest_normal = 0;
-  int status = 0;
+  int zones = 0, lost = 0;
   for (std::size_t k = 0; k < std::min(a.moments.size(), b.moments.size()); ++k) {
     const Moment &p = a.moments[k], &q = b.moments[k];
-    corner = std::max(corner, std::abs(p.corner - q.corner));
-    shear = std::max(shear, std::abs(p.shear - q.shear));
-    normal = std::max(normal, std::abs(p.normal - q.normal));
-    status += p.slip != q.slip ? 1 : 0;
     largest_corner = std::max(largest_corner, std::abs(p.corner));
     largest_shear = std::max(largest_shear, std::abs(p.shear));
     largest_normal = std::max(largest_normal, p.normal);
+    if (p.points.size() != q.points.size()) {
+      ++lost;
+      continue;
+    }
+    corner = std::max(corner, std::abs(p.corner - q.corner));
+    shear = std::max(shear, std::abs(p.shear - q.shear));
+    normal = std::max(normal, std::abs(p.normal - q.normal));
+    zones += p.slip != q.slip ? 1 : 0;
   }
   const auto row = [&](const char* quantity, double value) {
     out.rows.push_back({name + ": " + quantity, value, 0, Relation::info, 0, "same model"});
   };
-  row("relative difference of u at D", corner / largest_corner);
-  row("relative difference of shear force", shear / largest_shear);
-  row("relative difference of normal force", normal / largest_normal);
-  row("increments with another number of slip points", status);
+  row("difference of u at D", corner / largest_corner);
+  row("difference of shear force", shear / largest_shear);
+  row("difference of normal force", normal / largest_normal);
+  row("increments with other slip points", zones);
+  row("increments with a point beyond an end", lost);
 }
 
 Curve hysteresis(const Run& run) {
@@ -323,12 +328,12 @@ CaseResult sliding_block(const CaseContext& context) {
     built.model.pairs[0].definition.weight = pairing::Weight::node;
   });
   difference_rows(out, "roles exchanged", slave_node, master);
-  difference_rows(out, "penalty per node, not per area", slave, slave_node);
+  difference_rows(out, "penalty per node", slave, slave_node);
   difference_rows(out, "finite strain", master, master_finite);
   const Run between = run_block(context, "block_master_small.yaml",
                                 [](deck::Built& built) { shift_base(built, 0.25); });
-  zone_rows(out, "slaves between the block's nodes", between, 4, -6.9e-3, solver);
-  out.rows.push_back({"slaves between the block's nodes: slips from the turn to u = 0",
+  zone_rows(out, "slaves between nodes", between, 4, -6.9e-3, solver);
+  out.rows.push_back({"slaves between nodes: points slipping from the turn to u = 0",
                       static_cast<double>(slips_while_returning(between)), 0, Relation::info, 0,
                       paper});
 
