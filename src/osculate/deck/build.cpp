@@ -71,7 +71,6 @@ mesh::Mesh load_mesh(const Description& description) {
     try {
       return io::read_gmsh(source.path);
     } catch (const core::InputError& error) {
-      if (error.mark().file != source.path || error.mark().line > 0) throw;
       throw core::InputError(source.file->mark, error.what());
     }
   }
@@ -124,7 +123,7 @@ Built build(const Description& description, mesh::Mesh mesh) {
   m.mesh = std::move(mesh);
   for (const Vec3& node : m.mesh.nodes) m.reference.push_back(node.head<2>());
   m.body_of_node.assign(m.reference.size(), -1);
-  BuildContext context{description, built, {}, {}, {}, {}};
+  BuildContext context{description, built, {}, {}, {}, {}, {}};
   for (const mesh::Set& set : m.mesh.sets) context.set_names.push_back(set.name);
   build_sections(context);
   build_rigid(context);

@@ -18,6 +18,16 @@ const mesh::Set& BuildContext::set(const Name& on) const {
   return *found;
 }
 
+bool BuildContext::takes_part(Index node) const {
+  const auto n = static_cast<std::size_t>(node);
+  return (n < section_of_node.size() && section_of_node[n] >= 0) || model().body_of_node[n] >= 0;
+}
+
+core::InputError BuildContext::idle_node(const Name& on, Index node) const {
+  return {on.mark, fmt::format("{} of '{}' belongs to no section and to no rigid body",
+                               mesh::describe_node(model().mesh, node), on.value)};
+}
+
 solid::Section make_solid_section(const Section& s, const Material& material) {
   solid::Section out;
   switch (s.element.value) {
@@ -107,12 +117,25 @@ void check_cell(const BuildContext& c, const Section& s, const model::BulkSectio
             "number its nodes counter-clockwise",
             info.name, ref.cell + 1, s.on.value, jacobian));
   if (section.section.assumption != solid::Assumption::axisymmetric) return;
-  for (int k = 0; k < info.nodes; ++k)
-    if (c.model().mesh.nodes[static_cast<std::size_t>(block.cell(ref.cell)[k])].x() < -1e-12)
-      throw core::InputError(s.element.mark,
-                             fmt::format("set '{}' has nodes at negative radius x; an "
-                                         "axisymmetric body needs x >= 0",
-                                         s.on.value));
+  for (int k = 0; k < info.nodes; ++k) {
+    const Index node = block.cell(ref.cell)[k];
+    const Vec3& x = c.model().mesh.nodes[static_cast<std::size_t>(node)];
+    if (x.x() < -1e-12 * x.norm())
+      throw core::InputError(
+          s.element.mark,
+          fmt::format("{} of set '{}' has a negative radius; an axisymmetric body needs x >= 0",
+                      mesh::describe_node(c.model().mesh, node), s.on.value));
+  }
+}
+
+void check_mixture(const BuildContext& c, const Section& s, const model::BulkSection& section) {
+  for (const model::BulkSection& other : c.model().sections)
+    if ((other.section.assumption == solid::Assumption::axisymmetric) !=
+        (section.section.assumption == solid::Assumption::axisymmetric))
+      throw core::InputError(
+          s.element.mark,
+          fmt::format("'{}' and '{}': axisymmetric and plane sections exclude each other",
+                      other.name, section.name));
 }
 
 }  // namespace
@@ -120,7 +143,6 @@ void check_cell(const BuildContext& c, const Section& s, const model::BulkSectio
 void build_sections(BuildContext& c) {
   model::Model& m = c.model();
   c.section_of_node.assign(m.mesh.nodes.size(), -1);
-  std::map<std::pair<Index, Index>, std::string> owner;
   for (const Section& s : c.description.sections) {
     const mesh::Set& set = c.set(s.on);
     if (set.dimension != 2 || set.cells.empty())
@@ -131,24 +153,29 @@ void build_sections(BuildContext& c) {
     section.name = s.on.value;
     section.section = solid_section(c, s);
     section.cells = set.cells;
+    check_mixture(c, s, section);
+    const auto index = static_cast<Index>(m.sections.size());
     for (const mesh::CellRef& ref : section.cells) {
-      const auto [at, fresh] = owner.emplace(std::pair(ref.block, ref.cell), s.on.value);
+      const auto [at, fresh] = c.section_of_cell.emplace(std::pair(ref.block, ref.cell), index);
       if (!fresh)
-        throw core::InputError(s.on.mark,
-                               fmt::format("cells of set '{}' already belong to the section on "
-                                           "'{}'",
-                                           s.on.value, at->second));
+        throw core::InputError(
+            s.on.mark,
+            fmt::format("cells of set '{}' already belong to the section on '{}'", s.on.value,
+                        at->second == index
+                            ? section.name
+                            : m.sections[static_cast<std::size_t>(at->second)].name));
       check_cell(c, s, section, ref);
       const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(ref.block)];
       for (int k = 0; k < cell::info(block.type).nodes; ++k) {
         Index& slot = c.section_of_node[static_cast<std::size_t>(block.cell(ref.cell)[k])];
-        if (slot < 0) slot = static_cast<Index>(m.sections.size());
+        if (slot < 0) slot = index;
       }
     }
     m.sections.push_back(std::move(section));
   }
   std::vector<mesh::CellRef> cells;
-  for (const auto& entry : owner) cells.push_back({entry.first.first, entry.first.second});
+  for (const auto& entry : c.section_of_cell)
+    cells.push_back({entry.first.first, entry.first.second});
   c.edges = mesh::edge_table(m.mesh, cells);
 }
 

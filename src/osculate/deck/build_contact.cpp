@@ -11,8 +11,12 @@ namespace osculate::deck {
 std::vector<mesh::BoundaryFacet> oriented_facets(const BuildContext& c, const Name& on) {
   mesh::Boundary boundary = mesh::surface_of(c.model().mesh, c.edges, c.set(on));
   if (!boundary.errors.empty()) throw core::InputError(on.mark, boundary.errors.front());
-  for (std::string& warning : boundary.warnings)
-    c.built.warnings.push_back(fmt::format("set '{}': {}", on.value, warning));
+  std::vector<std::string>& known = c.built.warnings;
+  for (const std::string& text : boundary.warnings) {
+    std::string warning = fmt::format("set '{}': {}", on.value, text);
+    if (std::find(known.begin(), known.end(), warning) == known.end())
+      known.push_back(std::move(warning));
+  }
   return std::move(boundary.facets);
 }
 
@@ -111,6 +115,9 @@ void check_pair(const BuildContext& c, const Contact& contact,
   if (pair.master.facets.empty())
     throw core::InputError(contact.master.mark,
                            fmt::format("contact set '{}' has no facets", contact.master.value));
+  if (pair.slave.nodes.empty())
+    throw core::InputError(contact.slave.mark,
+                           fmt::format("contact set '{}' has no facets", contact.slave.value));
   const auto all_rigid = [&](const auto& nodes, int count) {
     for (int k = 0; k < count; ++k)
       if (c.model().body_of_node[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])] < 0)
@@ -120,12 +127,21 @@ void check_pair(const BuildContext& c, const Contact& contact,
   bool rigid = all_rigid(pair.slave.nodes, static_cast<int>(pair.slave.nodes.size()));
   for (const pairing::Facet& f : pair.master.facets) rigid = rigid && all_rigid(f.nodes, f.count);
   if (rigid) throw core::InputError(contact.name.mark, "both sides of this contact are rigid");
+  std::vector<bool> of_slave(c.model().reference.size());
+  for (const Index n : pair.slave.nodes) {
+    if (!c.takes_part(n)) throw c.idle_node(contact.slave, n);
+    of_slave[static_cast<std::size_t>(n)] = true;
+  }
   for (const pairing::Facet& f : pair.master.facets)
-    for (const Index n : pair.slave.nodes)
-      if (std::find(f.nodes.begin(), f.nodes.begin() + f.count, n) != f.nodes.begin() + f.count)
-        throw core::InputError(contact.slave.mark,
-                               fmt::format("master '{}' and slave '{}' share a node",
-                                           contact.master.value, contact.slave.value));
+    for (int k = 0; k < f.count; ++k) {
+      const Index n = f.nodes[static_cast<std::size_t>(k)];
+      if (!c.takes_part(n)) throw c.idle_node(contact.master, n);
+      if (of_slave[static_cast<std::size_t>(n)])
+        throw core::InputError(
+            contact.slave.mark,
+            fmt::format("master '{}' and slave '{}' share {}", contact.master.value,
+                        contact.slave.value, mesh::describe_node(c.model().mesh, n)));
+    }
 }
 
 }  // namespace

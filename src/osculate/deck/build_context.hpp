@@ -17,10 +17,15 @@ struct BuildContext {
   std::vector<std::string> set_names;
   std::unordered_map<std::string, Index> rigid_index;
   std::vector<Index> section_of_node;  ///< first section that uses the node, -1 = none
+  std::map<std::pair<Index, Index>, Index> section_of_cell;  ///< by block and cell
 
   [[nodiscard]] model::Model& model() const { return built.model; }
   /// The set, or the error with the nearest name.
   [[nodiscard]] const mesh::Set& set(const Name& on) const;
+  /// A node that moves with the solution: of a section or of a rigid body.
+  [[nodiscard]] bool takes_part(Index node) const;
+  /// The error for a set with nodes that do not take part.
+  [[nodiscard]] core::InputError idle_node(const Name& on, Index node) const;
   mesh::EdgeTable edges;  ///< of the cells that have a section
 };
 

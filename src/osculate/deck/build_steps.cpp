@@ -46,8 +46,12 @@ model::Amplitude amplitude_of(const BuildContext& c, const std::optional<Name>& 
   return c.description.find_amplitude(name->value)->points;
 }
 
+/// What happens to nodes of a set that take no part in the analysis.
+enum class Idle { refused, left_out };
+
 /// Primary dofs that `on` names for one displacement component.
-std::vector<Dof> displacement_dofs(const BuildContext& c, const Name& on, int component) {
+std::vector<Dof> displacement_dofs(const BuildContext& c, const Name& on, int component,
+                                   Idle idle) {
   const auto rigid = c.rigid_index.find(on.value);
   if (rigid != c.rigid_index.end()) return {body_dof(c.model(), rigid->second, component)};
   if (component == 2)
@@ -61,37 +65,66 @@ std::vector<Dof> displacement_dofs(const BuildContext& c, const Name& on, int co
           on.mark, fmt::format("set '{}' has nodes of the rigid body '{}'; name "
                                "the rigid body instead",
                                on.value, c.model().rigid[static_cast<std::size_t>(body)].name));
-    dofs.push_back(2 * node + component);
+    if (c.takes_part(node))
+      dofs.push_back(2 * node + component);
+    else if (idle == Idle::refused)
+      throw c.idle_node(on, node);
   }
-  if (dofs.empty()) throw core::InputError(on.mark, fmt::format("set '{}' has no nodes", on.value));
-  return dofs;
+  if (!dofs.empty()) return dofs;
+  if (!c.set(on).nodes.empty()) throw c.idle_node(on, c.set(on).nodes.front());
+  throw core::InputError(on.mark, fmt::format("set '{}' has no nodes", on.value));
 }
 
-void apply_prescriptions(const BuildContext& c, const deck::Step& step, Running& running,
-                         model::Step& out) {
+void apply_releases(const BuildContext& c, const deck::Step& step, Running& running) {
   for (const Release& release : step.release)
     for (int i = 0; i < 3; ++i)
       if (release.of[static_cast<std::size_t>(i)])
-        for (const Dof d : displacement_dofs(c, release.on, i))
+        for (const Dof d : displacement_dofs(c, release.on, i, Idle::left_out))
           if (running.prescribed.erase(d) == 0)
             throw core::InputError(
                 release.mark,
                 fmt::format("'{}.{}' is not prescribed, so it cannot be released", release.on.value,
                             component_names[static_cast<std::size_t>(i)]));
-  std::map<Dof, std::pair<double, std::string>> here;
+}
+
+/// Two prescriptions of one dof: the same, or a contradiction.
+void check_agreement(const Prescription& first, const Prescription& second, int component) {
+  const auto i = static_cast<std::size_t>(component);
+  const Number& one = *first.values[i];
+  const Number& two = *second.values[i];
+  if (one.value != two.value)
+    throw core::InputError(
+        two.mark,
+        fmt::format("'{}' and '{}' share a node and prescribe different {} ({} and {})",
+                    first.on.value, second.on.value, component_names[i], one.value, two.value));
+  const auto name = [](const Prescription& p) {
+    return p.amplitude ? p.amplitude->value : std::string{};
+  };
+  if (name(first) != name(second))
+    throw core::InputError(two.mark,
+                           fmt::format("'{}' and '{}' share a node and prescribe {} with different "
+                                       "amplitudes",
+                                       first.on.value, second.on.value, component_names[i]));
+}
+
+void apply_prescriptions(const BuildContext& c, const deck::Step& step, Running& running,
+                         model::Step& out) {
+  std::set<Dof> eliminated;
+  for (const model::Equation& equation : c.model().equations)
+    eliminated.insert(equation.terms.front().dof);
+  std::map<Dof, const Prescription*> here;
   for (const Prescription& p : step.prescribe)
     for (int i = 0; i < 3; ++i) {
       const std::optional<Number>& value = p.values[static_cast<std::size_t>(i)];
       if (!value) continue;
-      for (const Dof d : displacement_dofs(c, p.on, i)) {
-        const auto [at, fresh] = here.emplace(d, std::pair(value->value, p.on.value));
-        if (!fresh && at->second.first != value->value)
+      for (const Dof d : displacement_dofs(c, p.on, i, Idle::left_out)) {
+        if (eliminated.contains(d))
           throw core::InputError(
               value->mark,
-              fmt::format("'{}' and '{}' share a node and prescribe different {} ({} and {})",
-                          at->second.second, p.on.value,
-                          component_names[static_cast<std::size_t>(i)], at->second.first,
-                          value->value));
+              fmt::format("{} of a node of '{}' already follows from `equations` or `equal`",
+                          component_names[static_cast<std::size_t>(i)], p.on.value));
+        const auto [at, fresh] = here.emplace(d, &p);
+        if (!fresh) check_agreement(*at->second, p, i);
         if (!fresh) continue;
         running.prescribed[d] = p.mark;
         out.prescribed.push_back({d, {0, value->value, amplitude_of(c, p.amplitude)}, false});
@@ -104,7 +137,7 @@ void apply_prescriptions(const BuildContext& c, const deck::Step& step, Running&
 /// Force per node on a set, or force and moment on a rigid body.
 std::vector<std::pair<Dof, double>> force_unit(const BuildContext& c, const Load& load, int i) {
   std::vector<std::pair<Dof, double>> unit;
-  for (const Dof d : displacement_dofs(c, load.on, i)) unit.emplace_back(d, 1.0);
+  for (const Dof d : displacement_dofs(c, load.on, i, Idle::refused)) unit.emplace_back(d, 1.0);
   return unit;
 }
 
@@ -118,14 +151,12 @@ std::vector<model::PressureLoad::Edge> loaded_edges(const BuildContext& c, const
   std::vector<model::PressureLoad::Edge> edges;
   for (const mesh::BoundaryFacet& facet : oriented_facets(c, on)) {
     if (!facet.has_parent())
-      throw core::InputError(on.mark,
-                             fmt::format("an edge of set '{}' belongs to no bulk cell", on.value));
+      throw core::InputError(
+          on.mark, fmt::format("the edge at {} of set '{}' is no boundary of a section",
+                               mesh::describe_node(c.model().mesh, facet.nodes()[0]), on.value));
     model::PressureLoad::Edge edge;
     edge.nodes.assign(facet.nodes().begin(), facet.nodes().end());
-    edge.section = c.section_of_node[static_cast<std::size_t>(facet.nodes()[0])];
-    if (edge.section < 0)
-      throw core::InputError(on.mark,
-                             fmt::format("an edge of set '{}' belongs to no section", on.value));
+    edge.section = c.section_of_cell.at({facet.parent.block, facet.parent.cell});
     edges.push_back(std::move(edge));
   }
   return edges;
@@ -218,20 +249,26 @@ void build_steps(BuildContext& c) {
     out.increments = step.increments.value;
     out.equation_start = first ? 0.0 : 1.0;
     first = false;
+    apply_releases(c, step, running);
     apply_loads(c, step, running, out);  // forces on a rigid body free its dof
     apply_prescriptions(c, step, running, out);
-    std::set<Dof> eliminated;
-    for (const model::Equation& equation : c.model().equations)
-      eliminated.insert(equation.terms.front().dof);
-    for (const model::PrescribedDof& p : out.prescribed)
-      if (eliminated.contains(p.dof))
-        throw core::InputError(step.name.mark,
-                               fmt::format("step '{}' prescribes a displacement that an equation "
-                                           "already determines",
-                                           step.name.value));
     c.model().steps.push_back(std::move(out));
   }
 }
+
+namespace {
+
+/// Adds a term; a displacement named before gets the sum of its factors.
+void add_term(model::Equation& equation, Dof dof, double factor) {
+  for (model::Equation::Term& term : equation.terms)
+    if (term.dof == dof) {
+      term.factor += factor;
+      return;
+    }
+  equation.terms.push_back({dof, factor});
+}
+
+}  // namespace
 
 void build_equations(BuildContext& c) {
   std::set<Dof> eliminated, used;
@@ -240,8 +277,9 @@ void build_equations(BuildContext& c) {
     for (const model::Equation::Term& term : equation.terms)
       if (eliminated.contains(term.dof))
         throw core::InputError(mark,
-                               "a displacement of this equation is already eliminated by "
-                               "another equation");
+                               fmt::format("{} of {} already follows from another equation",
+                                           component_names[static_cast<std::size_t>(term.dof % 2)],
+                                           mesh::describe_node(c.model().mesh, term.dof / 2)));
     const auto lead = std::find_if(
         equation.terms.begin(), equation.terms.end(), [&](const model::Equation::Term& term) {
           return term.factor != 0.0 && !used.contains(term.dof) &&
@@ -249,7 +287,8 @@ void build_equations(BuildContext& c) {
         });
     if (lead == equation.terms.end())
       throw core::InputError(mark,
-                             "every displacement of this equation is needed by other equations");
+                             "no displacement of a node can be eliminated: all are used by other "
+                             "equations, have the factor 0 or belong to rigid bodies");
     std::iter_swap(equation.terms.begin(), lead);
     eliminated.insert(equation.terms[0].dof);
     for (const model::Equation::Term& term : equation.terms) used.insert(term.dof);
@@ -259,12 +298,13 @@ void build_equations(BuildContext& c) {
     model::Equation equation;
     equation.value = e.value.value;
     for (const EquationTerm& term : e.terms)
-      for (const Dof d : displacement_dofs(c, term.on, static_cast<int>(term.of)))
-        equation.terms.push_back({d, term.factor.value});
+      for (const Dof d : displacement_dofs(c, term.on, static_cast<int>(term.of), Idle::refused))
+        add_term(equation, d, term.factor.value);
     add(std::move(equation), e.mark);
   }
   for (const Equal& equal : c.description.equal) {
-    const std::vector<Dof> dofs = displacement_dofs(c, equal.on, static_cast<int>(equal.of));
+    const std::vector<Dof> dofs =
+        displacement_dofs(c, equal.on, static_cast<int>(equal.of), Idle::refused);
     for (std::size_t i = 1; i < dofs.size(); ++i)
       add({{{dofs[i], 1.0}, {dofs[0], -1.0}}, 0.0}, equal.mark);
   }

@@ -6,9 +6,8 @@
 namespace osculate::deck {
 namespace {
 
-/// Deformable parts that nothing holds or touches: no contact, no prescribed node, no shared node.
-void check_connected(const BuildContext& c) {
-  const model::Model& m = c.model();
+/// Nodes of rigid bodies, contacts, prescriptions and equations.
+std::vector<bool> held_nodes(const model::Model& m) {
   std::vector<bool> held(m.reference.size(), false);
   for (const model::ContactPair& pair : m.pairs) {
     for (const Index n : pair.definition.slave.nodes) held[static_cast<std::size_t>(n)] = true;
@@ -26,24 +25,34 @@ void check_connected(const BuildContext& c) {
         held[static_cast<std::size_t>(t.dof / 2)] = true;
   for (std::size_t n = 0; n < held.size(); ++n)
     if (m.body_of_node[n] >= 0) held[n] = true;
-  for (std::size_t s = 0; s < m.sections.size(); ++s)
-    for (const auto& part : mesh::connected_parts(m.mesh, m.sections[s].cells)) {
-      bool any = false;
-      Index first = -1;
-      for (const mesh::CellRef& ref : part) {
-        const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(ref.block)];
-        for (int k = 0; k < cell::info(block.type).nodes; ++k) {
-          if (first < 0) first = block.cell(ref.cell)[k];
-          any = any || held[static_cast<std::size_t>(block.cell(ref.cell)[k])];
-        }
-      }
-      if (!any)
-        throw core::InputError(
-            c.description.sections[s].on.mark,
-            fmt::format("a part of body '{}' ({} cells, at {}) is held by nothing: no contact, no "
-                        "prescribed displacement, no shared node",
-                        m.sections[s].name, part.size(), mesh::describe_node(m.mesh, first)));
+  return held;
+}
+
+/// Deformable parts that nothing holds or touches. Sections that share nodes are one part.
+void check_connected(const BuildContext& c) {
+  const model::Model& m = c.model();
+  const std::vector<bool> held = held_nodes(m);
+  std::vector<mesh::CellRef> cells;
+  for (const model::BulkSection& section : m.sections)
+    cells.insert(cells.end(), section.cells.begin(), section.cells.end());
+  for (const auto& part : mesh::connected_parts(m.mesh, cells)) {
+    bool any = false;
+    for (const mesh::CellRef& ref : part) {
+      const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(ref.block)];
+      for (int k = 0; k < cell::info(block.type).nodes; ++k)
+        any = any || held[static_cast<std::size_t>(block.cell(ref.cell)[k])];
     }
+    if (any) continue;
+    const mesh::CellRef& at = part.front();
+    const Index node = m.mesh.blocks[static_cast<std::size_t>(at.block)].cell(at.cell)[0];
+    const Section& section =
+        c.description.sections[static_cast<std::size_t>(c.section_of_cell.at({at.block, at.cell}))];
+    throw core::InputError(
+        section.on.mark,
+        fmt::format("a part of body '{}' ({} cells, at {}) is held by nothing: no contact, no "
+                    "prescribed displacement, no shared node",
+                    section.on.value, part.size(), mesh::describe_node(m.mesh, node)));
+  }
 }
 
 }  // namespace
