@@ -46,13 +46,17 @@ def save(figure, folder, name):
 
 
 def hysteresis(curves, images):
-    _, (top, corner) = read(curves, "hysteresis")
+    _, (top, corner, stick) = read(curves, "hysteresis")
     figure, axes = plt.subplots(figsize=(5.6, 4))
     axes.plot([1e3 * u for u in top], [1e3 * u for u in corner], color="C0")
     last = top.index(max(top))
-    for index, name, offset in ((0, "O", (6, -10)), (last, "F", (4, 2)), (len(top) - 1, "H", (6, -4))):
+    sliding = last + stick[last:].index(0)
+    marks = ((0, "O", (6, -10)), (last, "F", (5, -3)), (sliding, "G", (6, -9)),
+             (len(top) - 1, "H", (6, -4)))
+    for index, name, offset in marks:
         axes.plot(1e3 * top[index], 1e3 * corner[index], "o", color="C0", markersize=4)
-        axes.annotate(name, (1e3 * top[index], 1e3 * corner[index]), offset, textcoords="offset points")
+        axes.annotate(name, (1e3 * top[index], 1e3 * corner[index]), offset,
+                      textcoords="offset points")
     axes.set_xlabel("applied displacement of the top, u(C) / 1e-3")
     axes.set_ylabel("displacement of the bottom right corner, u(D) / 1e-3")
     save(figure, images, "hysteresis")
