@@ -40,6 +40,7 @@ enum class LineSearch { automatic, off };
 
 /// Convergence is judged by the residual |R| <= residual * force_scale and by the energy
 /// |du . R| <= energy * (value of the first iteration). A measure with tolerance 0 is not used.
+/// A correction at round-off (1e-10 of the increment's largest) ends the iteration in any case.
 /// Both used (default): after a solve, the energy is the work of the remaining residual on the last
 /// correction. Energy alone: the papers' rule, which needs the solve it is measured with
 /// ("counting the last solve").
@@ -90,6 +91,14 @@ inline double relative(double value, double scale) {
 struct Judge {
   const NewtonOptions& options;
   double first_energy = 0;
+  double largest_correction = 0;
+
+  /// Rounding of the coordinates times a stiff penalty can keep the residual above any tolerance.
+  /// A Newton correction 1e-10 times the largest one of the increment cannot improve the answer.
+  [[nodiscard]] bool at_round_off(double residual, double correction) const {
+    constexpr double smallest = 1e-10, residual_limit = 1e-3;
+    return correction <= smallest * largest_correction && residual <= residual_limit;
+  }
 
   [[nodiscard]] bool done(double residual, double energy_before, double energy_after) const {
     constexpr double round_off = 1e-14;
@@ -259,7 +268,10 @@ template <System S>
       fail(result, Outcome::numerical_failure, "the residual is not a number");
       return result;
     }
-    if (judge.done(record.residual, energy_before, energy_after)) {
+    const double correction = du.lpNorm<Eigen::Infinity>();
+    judge.largest_correction = std::max(judge.largest_correction, correction);
+    if (judge.done(record.residual, energy_before, energy_after) ||
+        (i > 1 && judge.at_round_off(record.residual, correction))) {
       result.outcome = Outcome::converged;
       return result;
     }
