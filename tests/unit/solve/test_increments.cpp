@@ -1,0 +1,129 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "toy_system.hpp"
+
+namespace osculate::solve {
+namespace {
+
+struct Log {
+  std::vector<double> fractions, states;
+  std::vector<std::array<double, 2>> dropped;
+  std::vector<std::string> reasons;
+};
+
+StepResult<ToySystem::State> run(ToySystem& system, double start, int increments,
+                                 const IncrementOptions& options, Log& log, int stop_after = -1) {
+  la::DirectSolver solver;
+  return run_step(system, ToySystem::State{vector({start})}, increments, options, solver,
+                  IncrementObserver<ToySystem::State>(
+                      [&](const ToySystem::State& state, const IncrementRecord& record) {
+                        log.fractions.push_back(record.fraction);
+                        log.states.push_back(state.x[0]);
+                        return static_cast<int>(log.fractions.size()) != stop_after;
+                      }),
+                  CutbackObserver([&](const std::string& reason, double from, double to) {
+                    log.reasons.push_back(reason);
+                    log.dropped.push_back({from, to});
+                  }));
+}
+
+/// Unloading of a softening spring f = tanh(x): the flat tangent throws Newton far away.
+ToySystem softening() {
+  return scalar_system([](double x, double t) { return std::tanh(x) - (1 - t) * std::tanh(3.0); },
+                       [](double x) { return 1 / (std::cosh(x) * std::cosh(x)); });
+}
+
+TEST(Increments, CutBackAndGrowOnTheNominalGrid) {
+  ToySystem system = softening();
+  IncrementOptions options;
+  options.newton.line_search = LineSearch::off;
+  Log log;
+  const auto result = run(system, 3.0, 2, options, log);
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  EXPECT_NEAR(result.state.x[0], 0.0, 1e-9);
+  ASSERT_FALSE(log.dropped.empty());
+  EXPECT_EQ(log.dropped.front(), (std::array<double, 2>{0.0, 0.5}));
+  for (std::size_t i = 0; i + 1 < log.dropped.size() && log.dropped[i + 1][0] == 0; ++i)
+    EXPECT_EQ(log.dropped[i + 1][1], 0.5 * log.dropped[i][1]);  // halved, exactly
+  EXPECT_EQ(std::count(log.fractions.begin(), log.fractions.end(), 0.5), 1);
+  EXPECT_EQ(log.fractions.back(), 1.0);
+  EXPECT_TRUE(std::is_sorted(log.fractions.begin(), log.fractions.end()));
+  EXPECT_EQ(result.state.commits, static_cast<int>(log.fractions.size()));
+  EXPECT_EQ(result.increments.size(), log.fractions.size());
+  int cutbacks = 0, wasted = 0;
+  for (const IncrementRecord& record : result.increments) {
+    cutbacks += record.cutbacks;
+    wasted += record.wasted_iterations;
+  }
+  EXPECT_EQ(cutbacks, static_cast<int>(log.dropped.size()));
+  EXPECT_GT(wasted, 0);
+  bool grew = false;
+  for (std::size_t i = 2; i < log.fractions.size(); ++i)
+    grew |= log.fractions[i] - log.fractions[i - 1] >
+            1.5 * (log.fractions[i - 1] - log.fractions[i - 2]);
+  EXPECT_TRUE(grew);
+}
+
+TEST(Increments, EasyStepsNeedNoSubIncrements) {
+  ToySystem system =
+      scalar_system([](double x, double t) { return 2 * x - t; }, [](double) { return 2.0; });
+  Log log;
+  const auto result = run(system, 0.0, 3, {}, log);
+  EXPECT_EQ(result.outcome, Outcome::converged);
+  EXPECT_EQ(log.fractions, (std::vector<double>{1.0 / 3, 2.0 / 3, 1.0}));
+  EXPECT_TRUE(log.dropped.empty());
+}
+
+TEST(Increments, WhatNeverConvergesStopsWithAReason) {
+  ToySystem system =
+      scalar_system([](double x, double) { return std::copysign(std::sqrt(std::abs(x)), x); },
+                    [](double x) { return 0.5 / std::sqrt(std::abs(x)); });
+  IncrementOptions options;
+  options.newton.line_search = LineSearch::off;
+  options.newton.max_iterations = 5;
+  options.max_cutbacks = 3;
+  Log log;
+  const auto result = run(system, 1.0, 2, options, log);
+  EXPECT_EQ(result.outcome, Outcome::not_converged);
+  EXPECT_EQ(result.reason, "not converged after 5 iterations");
+  EXPECT_EQ(result.state.x[0], 1.0);  // the start, untouched
+  EXPECT_EQ(result.state.commits, 0);
+  EXPECT_TRUE(result.increments.empty());
+  EXPECT_EQ(result.last_attempt.iterations.size(), 5u);
+  const std::vector<std::array<double, 2>> halvings{{0, 0.5}, {0, 0.25}, {0, 0.125}, {0, 0.0625}};
+  EXPECT_EQ(log.dropped, halvings);
+}
+
+TEST(Increments, AFailureKeepsWhatConverged) {
+  ToySystem system =
+      scalar_system([](double x, double t) { return 2 * x - t; }, [](double) { return 2.0; });
+  system.wrong = [](const Eigen::VectorXd& x, const Eigen::VectorXd&) {
+    return std::string(x[0] > 0.3 ? "too far" : "");
+  };
+  IncrementOptions options;
+  options.max_cutbacks = 2;
+  Log log;
+  const auto result = run(system, 0.0, 4, options, log);
+  EXPECT_EQ(result.outcome, Outcome::numerical_failure);
+  EXPECT_EQ(result.reason, "too far");
+  // 0.25, 0.5 converge; of 0.75 (x = 0.375) only the quarter to 0.5625 does.
+  EXPECT_EQ(log.fractions, (std::vector<double>{0.25, 0.5, 0.5625}));
+  EXPECT_EQ(result.state.x[0], 0.28125);
+  EXPECT_GT(result.last_attempt.state.x[0], 0.3);
+}
+
+TEST(Increments, TheObserverCanStop) {
+  ToySystem system =
+      scalar_system([](double x, double t) { return 2 * x - t; }, [](double) { return 2.0; });
+  Log log;
+  const auto result = run(system, 0.0, 4, {}, log, 2);
+  EXPECT_EQ(result.outcome, Outcome::stopped);
+  EXPECT_EQ(result.reason, "stopped by the user");
+  EXPECT_EQ(log.fractions, (std::vector<double>{0.25, 0.5}));
+  EXPECT_EQ(result.state.x[0], 0.25);
+}
+
+}  // namespace
+}  // namespace osculate::solve

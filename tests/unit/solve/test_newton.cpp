@@ -1,0 +1,212 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "toy_system.hpp"
+
+namespace osculate::solve {
+namespace {
+
+ToySystem cubic() {
+  return scalar_system([](double x, double t) { return x * x * x + x - 10 * t; },
+                       [](double x) { return 3 * x * x + 1; });
+}
+
+NewtonResult<ToySystem::State> solve_from(ToySystem& system, double x, const NewtonOptions& options,
+                                          double time = 1) {
+  la::DirectSolver solver;
+  return newton(system, {vector({x})}, time, options, solver);
+}
+
+TEST(Newton, ConvergesQuadratically) {
+  ToySystem system = cubic();
+  const auto result =
+      solve_from(system, 1.0, {.residual = 1e-14, .energy = 0, .line_search = LineSearch::off});
+  ASSERT_EQ(result.outcome, Outcome::converged);
+  EXPECT_NEAR(result.state.x[0], 2.0, 1e-15);
+  std::vector<double> error;
+  for (const Eigen::VectorXd& x : system.evaluated)
+    if (std::abs(x[0] - 2.0) > 1e-13) error.push_back(std::abs(x[0] - 2.0));
+  ASSERT_GE(error.size(), 4u);
+  const std::size_t n = error.size();
+  // e' = e^2 f''/(2 f') at the root, f'' = 12, f' = 13
+  EXPECT_NEAR(error[n - 1] / (error[n - 2] * error[n - 2]), 6.0 / 13.0, 1e-2);
+}
+
+/// The stop of every measure, against a Newton loop written out here.
+struct Counts {
+  int residual = 0, energy_before = 0, both = 0;
+};
+Counts reference_counts(double residual_tolerance, double energy_tolerance) {
+  Counts counts;
+  double x = 1, first = 0;
+  for (int i = 1; i < 30; ++i) {
+    const double r = x * x * x + x - 10, du = -r / (3 * x * x + 1);
+    if (i == 1) first = std::abs(du * r);
+    const double before = std::abs(du * r);
+    x += du;
+    const double now = std::abs(x * x * x + x - 10), after = std::abs(du) * now;
+    if (!counts.residual && now <= residual_tolerance) counts.residual = i;
+    if (!counts.energy_before && before <= energy_tolerance * first) counts.energy_before = i;
+    if (!counts.both && now <= residual_tolerance && after <= energy_tolerance * first)
+      counts.both = i;
+  }
+  return counts;
+}
+
+TEST(Newton, EveryMeasureStopsWhereItShould) {
+  for (const double residual : {1e-2, 1e-5, 1e-9})
+    for (const double energy : {1e-3, 1e-8, 1e-16}) {
+      SCOPED_TRACE(testing::Message() << residual << " " << energy);
+      const Counts expected = reference_counts(residual, energy);
+      ToySystem system = cubic();
+      const auto count = [&](double r, double e) {
+        return static_cast<int>(
+            solve_from(system, 1.0, {.residual = r, .energy = e}).iterations.size());
+      };
+      EXPECT_EQ(count(residual, 0), expected.residual);
+      EXPECT_EQ(count(0, energy), expected.energy_before);
+      EXPECT_EQ(count(residual, energy), expected.both);
+    }
+}
+
+/// The papers count the solve that the energy is measured with: a linear system takes two.
+TEST(Newton, EnergyAloneCountsTheLastSolve) {
+  ToySystem system =
+      scalar_system([](double x, double t) { return 3 * x - t; }, [](double) { return 3.0; });
+  EXPECT_EQ(solve_from(system, 0.0, {.residual = 0, .energy = 1e-12}).iterations.size(), 1u)
+      << "nothing is left: round-off ends it at once";
+  ToySystem nearly = scalar_system([](double x, double t) { return 3 * x - t; },
+                                   [](double) { return 3.0 * (1 + 1e-7); });
+  const auto result = solve_from(nearly, 0.0, {.residual = 0, .energy = 1e-12});
+  ASSERT_EQ(result.iterations.size(), 2u);
+  EXPECT_EQ(result.iterations[0].energy, 1.0);
+  EXPECT_NEAR(result.iterations[1].energy, 1e-14, 1e-17);
+}
+
+TEST(Newton, NothingToDoIsConverged) {
+  ToySystem system =
+      scalar_system([](double x, double) { return 5 * x; }, [](double) { return 5.0; });
+  system.scale = [](const Eigen::VectorXd&, double) { return 0.0; };
+  const auto result = solve_from(system, 0.0, {});
+  EXPECT_EQ(result.outcome, Outcome::converged);
+  EXPECT_EQ(result.iterations.size(), 1u);
+  EXPECT_EQ(result.state.x[0], 0.0);
+}
+
+TEST(Newton, SingularTangent) {
+  ToySystem system = scalar_system([](double, double t) { return t; }, [](double) { return 0.0; });
+  const auto result = solve_from(system, 0.0, {});
+  EXPECT_EQ(result.outcome, Outcome::numerical_failure);
+  EXPECT_EQ(result.reason, "the tangent is singular");
+  EXPECT_EQ(result.linear, la::SolveStatus::singular);
+  EXPECT_TRUE(result.iterations.empty());
+  EXPECT_EQ(result.state.x[0], 0.0);
+}
+
+TEST(Newton, FailuresSayWhy) {
+  ToySystem inverted = cubic();
+  inverted.wrong = [](const Eigen::VectorXd& x, const Eigen::VectorXd&) {
+    return std::string(x[0] > 1.5 ? "cell 7 turned inside out" : "");
+  };
+  const auto first = solve_from(inverted, 1.0, {});
+  EXPECT_EQ(first.outcome, Outcome::numerical_failure);
+  EXPECT_EQ(first.reason, "cell 7 turned inside out");
+
+  ToySystem not_a_number = scalar_system([](double x, double t) { return std::log(1 - x) + t; },
+                                         [](double x) { return -1 / (1 - x); });
+  const auto second = solve_from(not_a_number, 0.0, {}, 5.0);
+  EXPECT_EQ(second.outcome, Outcome::numerical_failure);
+  EXPECT_EQ(second.reason, "the residual is not a number");
+
+  // Newton on sign(x) sqrt|x| goes from x to -x for ever.
+  ToySystem cycle =
+      scalar_system([](double x, double) { return std::copysign(std::sqrt(std::abs(x)), x); },
+                    [](double x) { return 0.5 / std::sqrt(std::abs(x)); });
+  const auto third = solve_from(cycle, 1.0, {.max_iterations = 7, .line_search = LineSearch::off});
+  EXPECT_EQ(third.outcome, Outcome::not_converged);
+  EXPECT_EQ(third.reason, "not converged after 7 iterations");
+  EXPECT_EQ(third.iterations.size(), 7u);
+  EXPECT_NEAR(third.state.x[0], -1.0, 1e-12);
+}
+
+/// Two springs in a row, the first end moved: the boundary moves with the body, not ahead of it.
+ToySystem chain(double stiffening) {
+  ToySystem system;
+  system.size = 2;
+  system.builder = la::MatrixBuilder(2);
+  system.force = [stiffening](const Eigen::VectorXd& x, double) {
+    const double e = x[0] - x[1];
+    const double f = e + stiffening * e * e * e;
+    return vector({f, -f + x[1]});
+  };
+  system.stiffness = [stiffening](const Eigen::VectorXd& x) {
+    const double e = x[0] - x[1], k = 1 + 3 * stiffening * e * e;
+    Eigen::MatrixXd m(2, 2);
+    m << k, -k, -k, k + 1;
+    return m;
+  };
+  system.prescribed = [](double t) { return 2 * t; };
+  return system;
+}
+
+TEST(Newton, PrescribedValuesEnterThroughTheTangent) {
+  ToySystem linear = chain(0);
+  la::DirectSolver solver;
+  const auto result = newton(linear, {vector({0, 0})}, 1.0, {}, solver);
+  ASSERT_EQ(result.outcome, Outcome::converged);
+  EXPECT_EQ(result.iterations.size(), 1u);
+  EXPECT_EQ(result.state.x[0], 2.0);
+  EXPECT_NEAR(result.state.x[1], 1.0, 1e-15);
+
+  ToySystem stiff = chain(5.0);
+  const auto second = newton(stiff, {vector({0, 0})}, 1.0, {.residual = 1e-13}, solver);
+  ASSERT_EQ(second.outcome, Outcome::converged);
+  ASSERT_GE(stiff.evaluated.size(), 2u);
+  EXPECT_EQ(stiff.evaluated[0], vector({0, 0}));                    // the committed state
+  EXPECT_TRUE(stiff.evaluated[1].isApprox(vector({2, 1}), 1e-15));  // its linear answer
+  EXPECT_EQ(stiff.predicted_to, std::vector<double>{1.0});
+  const double e = second.state.x[0] - second.state.x[1];
+  EXPECT_NEAR(e + 5 * e * e * e, second.state.x[1], 1e-12);
+}
+
+/// A point that sticks within 1e-6 and slips with force 1 on either side: Newton jumps over.
+ToySystem friction() {
+  constexpr double stick = 1e6;
+  return scalar_system(
+      [](double x, double t) { return std::clamp(stick * x, -1.0, 1.0) + x - 0.3 * t; },
+      [](double x) { return std::abs(stick * x) <= 1 ? stick + 1 : 1.0; });
+}
+
+TEST(Newton, LineSearchFindsTheStickingRange) {
+  ToySystem plain = friction();
+  const auto off = solve_from(plain, -0.5, {.line_search = LineSearch::off});
+  EXPECT_EQ(off.outcome, Outcome::not_converged);
+  ToySystem searched = friction();
+  const auto on = solve_from(searched, -0.5, {});
+  ASSERT_EQ(on.outcome, Outcome::converged) << on.reason;
+  EXPECT_NEAR(on.state.x[0], 0.3 / (1e6 + 1), 1e-15);
+  EXPECT_EQ(on.iterations[0].step, 1.0);
+  EXPECT_LT(on.iterations[1].step, 1.0);
+}
+
+/// An evaluation that has no answer shortens the correction instead of ending the attempt.
+TEST(Newton, LineSearchStaysWhereThereIsAnAnswer) {
+  // atan: from 1.45 to -1.551, from there the full correction would go to 1.848.
+  ToySystem system = scalar_system([](double x, double) { return std::atan(x); },
+                                   [](double x) { return 1 / (1 + x * x); });
+  system.wrong = [](const Eigen::VectorXd& x, const Eigen::VectorXd&) {
+    return std::string(std::abs(x[0]) < 1.6 ? "" : "too far");
+  };
+  const auto result = solve_from(system, 1.45, {});
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  EXPECT_NEAR(result.state.x[0], 0, 1e-9);
+  EXPECT_EQ(result.iterations[1].step, 0.5);
+  const auto plain = solve_from(system, 1.45, {.line_search = LineSearch::off});
+  EXPECT_EQ(plain.outcome, Outcome::numerical_failure);
+  EXPECT_EQ(plain.reason, "too far");
+  EXPECT_EQ(plain.iterations.size(), 1u);
+}
+
+}  // namespace
+}  // namespace osculate::solve
