@@ -88,6 +88,16 @@ struct Recorder {
     return !(options.interrupted && options.interrupted());
   }
 
+  /// What a dropped attempt did, for log.txt only.
+  void log_iterations(const std::vector<solve::IterationRecord>& records) {
+    int number = 0;
+    for (const solve::IterationRecord& it : records)
+      log << fmt::format(
+          "  iteration {:>2}: residual {:.1e} energy {:.1e} step {:.3g} open {} stick {} slip {}\n",
+          ++number, it.residual, it.energy, it.step, it.counts.open, it.counts.stick,
+          it.counts.slip);
+  }
+
   void report_increment(const model::Progress& p, const solve::IncrementRecord& record) {
     const solve::IterationRecord& last = record.iterations.back();
     iterations += static_cast<int>(record.iterations.size()) + record.wasted_iterations;
@@ -158,7 +168,9 @@ RunOutcome run(const RunOptions& options) {
                            const model::Progress& p, const solve::IncrementRecord* record) {
     return recorder.converged(system, state, p, record);
   };
-  observer.cutback = [&](const std::string& reason, const model::Progress& p, double to) {
+  observer.cutback = [&](const std::string& reason, const model::Progress& p, double to,
+                         const std::vector<solve::IterationRecord>& iterations) {
+    recorder.log_iterations(iterations);
     recorder.say(fmt::format("{}: no convergence from {:.5g} to {:.5g} of the step: {}; halving",
                              recorder.step_name(p), p.fraction, to, reason));
   };

@@ -49,9 +49,10 @@ AnalysisResult run(const Model& model, const AnalysisOptions& options,
       progress.time = static_cast<double>(s) + record.fraction;
       return !observer.converged || observer.converged(system, state, progress, &record);
     };
-    const auto on_cutback = [&](const std::string& reason, double from, double to) {
+    const auto on_cutback = [&](const std::string& reason, double from, double to,
+                                const std::vector<solve::IterationRecord>& iterations) {
       progress.fraction = from;
-      if (observer.cutback) observer.cutback(reason, progress, to);
+      if (observer.cutback) observer.cutback(reason, progress, to, iterations);
     };
     solve::StepResult<State> done =
         solve::run_step(system, result.state, step.increments, options.increments, solver,

@@ -42,7 +42,9 @@ struct AnalysisObserver {
   /// After the initial state and after each converged increment. Return false to stop.
   std::function<bool(System&, const State&, const Progress&, const solve::IncrementRecord*)>
       converged;
-  std::function<void(const std::string& reason, const Progress&, double to)> cutback;
+  std::function<void(const std::string& reason, const Progress&, double to,
+                     const std::vector<solve::IterationRecord>&)>
+      cutback;
 };
 
 /// Runs the steps of a model one after the other. Keeps everything converged when a step fails and

@@ -35,7 +35,8 @@ struct StepResult {
 template <class State>
 using IncrementObserver = std::function<bool(const State&, const IncrementRecord&)>;
 /// Called after each failed attempt.
-using CutbackObserver = std::function<void(const std::string& reason, double from, double to)>;
+using CutbackObserver = std::function<void(const std::string& reason, double from, double to,
+                                           const std::vector<IterationRecord>& iterations)>;
 
 /// Runs one step from `start` (fraction 0) to its end.
 template <System S>
@@ -56,7 +57,7 @@ template <System S>
       const double target = end - at <= size * (1 + 1e-9) ? end : at + size;
       NewtonResult<State> attempt = newton(system, result.state, target, options.newton, solver);
       if (attempt.outcome != Outcome::converged) {
-        on_cutback(attempt.reason, at, target);
+        on_cutback(attempt.reason, at, target, attempt.iterations);
         ++cutbacks;
         wasted += static_cast<int>(attempt.iterations.size());
         size = 0.5 * (target - at);
