@@ -252,7 +252,8 @@ void difference_rows(CaseResult& out, const std::string& name, const Run& a, con
 
 Curve hysteresis(const Run& run) {
   Curve curve{"hysteresis", {"u_C", "u_D", "stick"}, {}};
-  for (const Moment& m : run.moments) curve.rows.push_back({m.top, m.corner, static_cast<double>(m.stick)});
+  for (const Moment& m : run.moments)
+    curve.rows.push_back({m.top, m.corner, static_cast<double>(m.stick)});
   return curve;
 }
 
