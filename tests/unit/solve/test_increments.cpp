@@ -23,7 +23,8 @@ StepResult<ToySystem::State> run(ToySystem& system, double start, int increments
                         log.states.push_back(state.x[0]);
                         return static_cast<int>(log.fractions.size()) != stop_after;
                       }),
-                  CutbackObserver([&](const std::string& reason, double from, double to) {
+                  CutbackObserver([&](const std::string& reason, double from, double to,
+                                      const std::vector<IterationRecord>&) {
                     log.reasons.push_back(reason);
                     log.dropped.push_back({from, to});
                   }));
