@@ -4,8 +4,16 @@ namespace osculate::verification {
 
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases{
+      {"contact_patch", "Blocks in contact transmit a uniform pressure unchanged", false,
+       contact_patch},
       {"critical_displacement", "A sheared layer starts to slide as a whole where eq. (90) says",
        false, critical_displacement},
+      {"hertz_line", "A circle on a half-plane gives Hertz's pressure for the computed force",
+       false, hertz_line},
+      {"hertz_sphere", "A sphere on a half-space follows F = 4/3 E* sqrt(R) d^1.5", false,
+       hertz_sphere},
+      {"incline", "A block on a slope rests below the friction angle and slides above it", false,
+       incline},
       {"sliding_block", "The block of KS2D 7.1 is pressed, sheared forward and back", false,
        sliding_block},
   };

@@ -4,7 +4,11 @@
 namespace osculate::verification {
 
 // One function per case folder.
+[[nodiscard]] CaseResult contact_patch(const CaseContext& context);
+[[nodiscard]] CaseResult hertz_sphere(const CaseContext& context);
+[[nodiscard]] CaseResult incline(const CaseContext& context);
 [[nodiscard]] CaseResult critical_displacement(const CaseContext& context);
+[[nodiscard]] CaseResult hertz_line(const CaseContext& context);
 [[nodiscard]] CaseResult sliding_block(const CaseContext& context);
 
 }  // namespace osculate::verification

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "osculate/deck/build.hpp"
+#include "osculate/deck/parse.hpp"
 
 namespace osculate::verification {
 
@@ -22,6 +23,20 @@ inline model::AnalysisResult run_model(const std::string& path,
                                        const std::function<void(deck::Built&)>& edit = {}) {
   deck::Built built = deck::build_file(path);
   if (edit) edit(built);
+  model::AnalysisObserver observer;
+  observer.converged = [&](model::System& system, const model::State& state,
+                           const model::Progress& progress, const solve::IncrementRecord* record) {
+    if (look) look({system, state, progress, record});
+    return true;
+  };
+  return model::run(built.model, built.options, observer);
+}
+
+/// The same for a model file given as text (cases that refine a mesh write theirs).
+inline model::AnalysisResult run_text(const std::string& text,
+                                      const std::function<void(const Snapshot&)>& look) {
+  const deck::Description description = deck::parse_model(text, "generated.yaml");
+  const deck::Built built = deck::build(description, deck::load_mesh(description));
   model::AnalysisObserver observer;
   observer.converged = [&](model::System& system, const model::State& state,
                            const model::Progress& progress, const solve::IncrementRecord* record) {

@@ -87,6 +87,8 @@ int verify(const VerifyOptions& options) {
       result.rows.push_back(
           {fmt::format("case ended with: {}", error.what()), 1, 0, Relation::equal, 0, ""});
     }
+    if (result.rows.empty())
+      result.rows.push_back({"the case gave no row at all", 1, 0, Relation::equal, 0, ""});
     for (const Row& row : result.rows) {
       print_row(row);
       if (row.relation == Relation::info)

@@ -15,15 +15,32 @@ Vec2 node(const Facet& facet, std::size_t k, std::span<const Vec2> x) {
   return x[static_cast<std::size_t>(facet.nodes[k])];
 }
 
-/// A foot point that misses an end by less than the tolerance belongs to the facet, and its xi must
-/// be the true one just beyond the end: clamped, the slip would stand still there and then jump.
+/// The true foot point just beyond an end of the facet, by Newton's steps on the continued curve.
+///
+/// Between neighbours this covers the tolerance of the projection: clamped to the end, the slip
+/// would stand still there and then jump. At an open end of the chain the facet is continued by
+/// `end_extension` of its range: the last node of a surface must not lose contact because its
+/// master tilts or stretches a little.
 template <class Jet>
-void release_end(const Jet& jet, double lo, double hi, const Vec2& point, CurveFoot& foot) {
-  if (foot.at_end || !foot.converged || (foot.xi != lo && foot.xi != hi)) return;
-  const projection::DistanceJet d = projection::distance_jet(jet(foot.xi), foot.xi, point);
+void release_end(const Jet& jet, const Facet& facet, const Vec2& point, CurveFoot& foot) {
+  if (!foot.converged || (foot.xi != facet.lo && foot.xi != facet.hi)) return;
+  const bool open_end = (foot.xi == facet.hi ? facet.next : facet.prev) < 0;
+  if (foot.at_end && !open_end) return;
+  const double range = facet.hi - facet.lo;
+  const double limit = (open_end ? end_extension : 2 * projection::end_tolerance) * range;
+  double xi = foot.xi;
+  projection::DistanceJet d = projection::distance_jet(jet(xi), xi, point);
+  for (int i = 0; i < 8 && d.bend > 0; ++i) {
+    const double step = projection::newton_step(d);
+    xi += step;
+    if (std::abs(xi - foot.xi) > limit) return;
+    d = projection::distance_jet(jet(xi), xi, point);
+    if (std::abs(step) <= 1e-15 * range) break;
+  }
   if (!(d.bend > 0)) return;
-  const double limit = 2 * projection::end_tolerance * (hi - lo);
-  foot.xi += std::clamp(projection::newton_step(d), -limit, limit);
+  foot.xi = xi;
+  foot.squared_distance = d.squared_distance;
+  foot.at_end = false;
 }
 
 /// Foot point on one facet in the current configuration.
@@ -39,7 +56,7 @@ CurveFoot foot_on_facet(const Facet& facet, std::span<const Vec2> x, const Vec2&
   for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
     curve.nodes[k] = node(facet, k, x);
   CurveFoot foot = projection::closest_point(curve, point);
-  release_end([&](double xi) { return curve.jet(xi); }, -1.0, 1.0, point, foot);
+  release_end([&](double xi) { return curve.jet(xi); }, facet, point, foot);
   return foot;
 }
 

@@ -8,6 +8,9 @@
 
 namespace osculate::pairing {
 
+/// How far an open end of a chain is continued, as a part of the last facet's parameter range.
+inline constexpr double end_extension = 0.05;
+
 /// Generalized projection of a point onto a chain: faces, then the vertices between them.
 struct Projection {
   projection::Feature feature = projection::Feature::none;

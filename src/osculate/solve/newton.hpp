@@ -38,12 +38,15 @@ struct Evaluation {
 
 enum class LineSearch { automatic, off };
 
-/// Convergence is judged by the residual |R| <= residual * force_scale and by the energy
+/// Convergence is judged by the residual |R| <= residual * scale and by the energy
 /// |du . R| <= energy * (value of the first iteration). A measure with tolerance 0 is not used.
 /// A correction at round-off (1e-10 of the increment's largest) ends the iteration in any case.
 /// Both used (default): after a solve, the energy is the work of the remaining residual on the last
 /// correction. Energy alone: the papers' rule, which needs the solve it is measured with
 /// ("counting the last solve").
+///
+/// Formula    scale = max(force_scale, 1e-3 |R_1|), R_1 the residual of the prediction: a body that
+///            is carried along without resistance has no forces but round-off to compare with
 struct NewtonOptions {
   double residual = 1e-9;
   double energy = 1e-12;
@@ -52,7 +55,7 @@ struct NewtonOptions {
 };
 
 struct IterationRecord {
-  double residual = 0;  ///< |R| / force_scale after the correction
+  double residual = 0;  ///< |R| / scale after the correction
   double energy = 0;    ///< relative to the first iteration
   double step = 1;      ///< line search factor
   StateCounts counts;
@@ -232,6 +235,7 @@ template <System S>
   result.state = committed;
   detail::Judge judge{options};
   system.predict(committed, time, result.evaluation);
+  const double least_scale = result.evaluation.ok ? 1e-3 * result.evaluation.residual.norm() : 0;
   for (int i = 1; i <= options.max_iterations; ++i) {
     if (!result.evaluation.ok) {
       fail(result, Outcome::numerical_failure, result.evaluation.message);
@@ -258,7 +262,7 @@ template <System S>
       fail(result, Outcome::numerical_failure, e.message);
       return result;
     }
-    record.residual = detail::relative(e.residual.norm(), e.force_scale);
+    record.residual = detail::relative(e.residual.norm(), std::max(e.force_scale, least_scale));
     const double energy_after = std::abs(du.dot(e.residual));
     record.energy =
         detail::relative(options.residual > 0 ? energy_after : energy_before, judge.first_energy);
