@@ -37,13 +37,16 @@ double rigid_value(const System& system, const Model& model, const State& state,
 }
 
 double pair_value(const System& system, const HistoryRequest& request) {
-  const auto& points = system.contact()[static_cast<std::size_t>(request.target)].points;
+  const pairing::PairEvaluation& pair = system.contact()[static_cast<std::size_t>(request.target)];
   double sum = 0;
-  for (const pairing::PointResult& p : points) {
-    const Vec2 on_slave = -(p.normal_traction * p.normal + p.shear_traction * p.unit_tangent);
+  // What was assembled: with `residual: full` it is not just the traction times the area.
+  for (const pairing::ContactBlock& block : pair.blocks) {
+    if (!block.active()) continue;
+    if (request.quantity == "force_x") sum -= block.force[0];
+    if (request.quantity == "force_y") sum -= block.force[1];
+  }
+  for (const pairing::PointResult& p : pair.points) {
     const bool closed = p.status != contact::Status::open;
-    if (request.quantity == "force_x") sum += p.weight * on_slave.x();
-    if (request.quantity == "force_y") sum += p.weight * on_slave.y();
     if (request.quantity == "normal_force") sum -= p.weight * p.normal_traction;
     if (request.quantity == "shear_force") sum -= p.weight * p.shear_traction;
     if (request.quantity == "max_pressure") sum = std::max(sum, -p.normal_traction);

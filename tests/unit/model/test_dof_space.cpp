@@ -1,0 +1,142 @@
+#include "osculate/model/dof_space.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "osculate/model/assembler.hpp"
+#include "osculate/model/loads.hpp"
+
+namespace osculate::model {
+namespace {
+
+/// Nodes 0..5; node 2 belongs to nothing, nodes 3 and 4 to rigid body 1; dofs 0..11, then 12..17.
+/// 1 u_0x + 2 u_5y - 4 theta_0 = .. eliminates u_0x;  -2 u_1y + 3 u_5y + 1 U_1x = .. eliminates
+/// u_1y.
+struct Sample {
+  std::vector<Vec2> x{{0, 0}, {1, 0}, {2, 0}, {3.5, 1}, {4, -2}, {5, 0}};
+  std::vector<body::RigidMotion> rigid{{Vec2(7, 7), Vec2(0, 0), 0.4},
+                                       {Vec2(3, 0), Vec2(0.25, 0.5), 1.1}};
+  DofSpace dofs{6,
+                {-1, -1, -1, 1, 1, -1},
+                2,
+                {{{{0, 1.0}, {11, 2.0}, {14, -4.0}}, 0}, {{{3, -2.0}, {11, 3.0}, {15, 1.0}}, 0}},
+                {true, true, false, false, false, true}};
+
+  [[nodiscard]] std::map<Dof, double> expand(Dof dof, double factor = 1) const {
+    std::vector<Expansion> list;
+    dofs.expand(dof, factor, x, rigid, list);
+    std::map<Dof, double> sum;
+    for (const Expansion& e : list) sum[dofs.dof_of_unknown(e.unknown)] += e.factor;
+    return sum;
+  }
+  /// T with du(all dofs) = T du(unknowns).
+  [[nodiscard]] Eigen::MatrixXd transformation() const {
+    Eigen::MatrixXd t = Eigen::MatrixXd::Zero(dofs.dofs(), dofs.unknowns());
+    for (Dof dof = 0; dof < dofs.dofs(); ++dof) {
+      std::vector<Expansion> list;
+      dofs.expand(dof, 1.0, x, rigid, list);
+      for (const Expansion& e : list) t(dof, e.unknown) += e.factor;
+    }
+    return t;
+  }
+};
+
+TEST(DofSpace, KnowsWhatIsUnknown) {
+  const Sample s;
+  EXPECT_EQ(s.dofs.dofs(), 18);
+  EXPECT_EQ(s.dofs.unknowns(), 10);  // u_0y, u_1x, node 5, and 2 x 3 of the bodies
+  std::vector<Dof> unknown;
+  for (Index u = 0; u < s.dofs.unknowns(); ++u) {
+    unknown.push_back(s.dofs.dof_of_unknown(u));
+    EXPECT_EQ(s.dofs.unknown_of(unknown.back()), u);
+  }
+  EXPECT_EQ(unknown, (std::vector<Dof>{1, 2, 10, 11, 12, 13, 14, 15, 16, 17}));
+  EXPECT_EQ(s.dofs.equation_of(0), 0);
+  EXPECT_EQ(s.dofs.equation_of(3), 1);
+  EXPECT_EQ(s.dofs.equation_of(1), -1);
+}
+
+TEST(DofSpace, ExpandsEquationsAndRigidNodes) {
+  const Sample s;
+  using Map = std::map<Dof, double>;
+  EXPECT_EQ(s.expand(1, 2.5), (Map{{1, 2.5}}));
+  EXPECT_EQ(s.expand(0), (Map{{11, -2.0}, {14, 4.0}}));
+  EXPECT_EQ(s.expand(3, 2.0), (Map{{11, 3.0}, {15, 1.0}}));
+  EXPECT_EQ(s.expand(4), Map{});
+  // node 3 is at (3.5, 1), the body's centre at (3.25, 0.5): k x (0.25, 0.5) = (-0.5, 0.25)
+  EXPECT_EQ(s.expand(6), (Map{{15, 1.0}, {17, -0.5}}));
+  EXPECT_EQ(s.expand(7, 2.0), (Map{{16, 2.0}, {17, 0.5}}));
+}
+
+/// T^T K T with the prescribed rows and columns left out, against a dense product.
+TEST(Assembler, AddsWhatADenseProductGives) {
+  const Sample s;
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const std::vector<Dof> block{0, 1, 3, 6, 7, 9, 10, 11, 4};
+  const auto n = static_cast<Eigen::Index>(block.size());
+  Eigen::MatrixXd k(n, n);
+  Eigen::VectorXd rows(n), columns(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    rows[i] = uniform(generator);
+    columns[i] = uniform(generator);
+    for (Eigen::Index j = 0; j < n; ++j) k(i, j) = uniform(generator);
+  }
+  std::vector<bool> prescribed(10, false);
+  prescribed[2] = prescribed[9] = true;
+  la::MatrixBuilder builder(s.dofs.unknowns());
+  Assembler assembler(s.dofs, builder);
+  assembler.set_prescribed(prescribed);
+  assembler.set_configuration(s.x, s.rigid);
+  assembler.add_block(block, k);
+  assembler.add_outer(block, {rows.data(), block.size()}, block, {columns.data(), block.size()});
+  assembler.add_prescribed_diagonal(3.0);
+
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(18, 18);
+  const Eigen::MatrixXd sum = k + rows * columns.transpose();
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j)
+      all(block[static_cast<std::size_t>(i)], block[static_cast<std::size_t>(j)]) += sum(i, j);
+  const Eigen::MatrixXd t = s.transformation();
+  Eigen::MatrixXd expected = t.transpose() * all * t;
+  for (Index u = 0; u < 10; ++u)
+    if (prescribed[static_cast<std::size_t>(u)]) {
+      expected.row(u).setZero();
+      expected.col(u).setZero();
+      expected(u, u) = 3.0;
+    }
+  const la::SparseMatrix& matrix = builder.finish();
+  for (Index u = 0; u < 10; ++u) {
+    const Eigen::VectorXd column = la::multiply(matrix, Eigen::VectorXd::Unit(10, u));
+    EXPECT_LT((column - expected.col(u)).norm(), 1e-13) << u;
+  }
+
+  Eigen::VectorXd force(18);
+  for (Eigen::Index i = 0; i < 18; ++i) force[i] = uniform(generator);
+  Eigen::VectorXd gathered = t.transpose() * force;
+  gathered[2] = gathered[9] = 0;
+  EXPECT_LT((assembler.gather(force) - gathered).norm(), 1e-13);
+}
+
+TEST(Ramp, IsLinearWithoutAmplitude) {
+  const Ramp ramp{2, 5, {}};
+  EXPECT_EQ(ramp.value(0), 2);
+  EXPECT_EQ(ramp.value(0.5), 3.5);
+  EXPECT_EQ(ramp.value(1), 5);
+}
+
+TEST(Ramp, TakesTheTargetTimesTheAmplitude) {
+  const Ramp ramp{2, 10, {{0.2, 1}, {0.4, 3}, {0.8, -1}}};
+  EXPECT_EQ(ramp.value(0), 10);  // before the first point: its factor
+  EXPECT_EQ(ramp.value(0.2), 10);
+  EXPECT_DOUBLE_EQ(ramp.value(0.3), 20);
+  EXPECT_EQ(ramp.value(0.4), 30);
+  EXPECT_DOUBLE_EQ(ramp.value(0.6), 10);
+  EXPECT_EQ(ramp.value(0.8), -10);
+  EXPECT_EQ(ramp.value(1), -10);
+}
+
+}  // namespace
+}  // namespace osculate::model
