@@ -4,6 +4,10 @@ namespace osculate::verification {
 
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases{
+      {"cattaneo_mindlin", "Partial slip of equal bodies, 8 elements over the half-width", false,
+       cattaneo_mindlin},
+      {"cattaneo_mindlin_fine", "The same with 64 elements over the half-width", true,
+       cattaneo_mindlin_fine},
       {"contact_patch", "Blocks in contact transmit a uniform pressure unchanged", false,
        contact_patch},
       {"critical_displacement", "A sheared layer starts to slide as a whole where eq. (90) says",

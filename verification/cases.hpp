@@ -4,6 +4,8 @@
 namespace osculate::verification {
 
 // One function per case folder.
+[[nodiscard]] CaseResult cattaneo_mindlin(const CaseContext& context);
+[[nodiscard]] CaseResult cattaneo_mindlin_fine(const CaseContext& context);
 [[nodiscard]] CaseResult contact_patch(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_sphere(const CaseContext& context);
 [[nodiscard]] CaseResult incline(const CaseContext& context);
