@@ -76,19 +76,66 @@ Quadrature2D gauss_quad(int n) {
   return rule;
 }
 
+namespace {
+
+/// The three points (a, a), (1 - 2a, a), (a, 1 - 2a) with one weight.
+void add_orbit(Quadrature2D& rule, double a, double weight) {
+  const double c = 1 - 2 * a;
+  for (const Vec2& xi : {Vec2(a, a), Vec2(c, a), Vec2(a, c)}) {
+    rule.points.push_back(xi);
+    rule.weights.push_back(weight);
+  }
+}
+
+/// The six permutations of the area coordinates (a, b, 1 - a - b) with one weight.
+void add_orbit(Quadrature2D& rule, double a, double b, double weight) {
+  const double c = 1 - a - b;
+  for (const Vec2& xi : {Vec2(a, b), Vec2(b, a), Vec2(a, c), Vec2(c, a), Vec2(b, c), Vec2(c, b)}) {
+    rule.points.push_back(xi);
+    rule.weights.push_back(weight);
+  }
+}
+
+/// Six points, degree 4: closed form of the two orbits.
+Quadrature2D six_points() {
+  const double root10 = std::sqrt(10.0), inner = std::sqrt(38.0 - 44.0 * std::sqrt(0.4));
+  const double spread = std::sqrt(213125.0 - 53320.0 * root10);
+  Quadrature2D rule;
+  add_orbit(rule, (8 - root10 + inner) / 18, (620 + spread) / 7440);
+  add_orbit(rule, (8 - root10 - inner) / 18, (620 - spread) / 7440);
+  return rule;
+}
+
+/// Seven points, degree 5: closed form (Radon).
+Quadrature2D seven_points() {
+  const double root15 = std::sqrt(15.0);
+  Quadrature2D rule{{Vec2(1.0 / 3, 1.0 / 3)}, {9.0 / 80}};
+  add_orbit(rule, (6 - root15) / 21, (155 - root15) / 2400);
+  add_orbit(rule, (6 + root15) / 21, (155 + root15) / 2400);
+  return rule;
+}
+
+/// Twelve points, degree 6: the moment equations of two orbits of three points and one of six,
+/// solved with 40 digits.
+Quadrature2D twelve_points() {
+  Quadrature2D rule;
+  add_orbit(rule, 0.2492867451709104212916, 0.05839313786318968301264);
+  add_orbit(rule, 0.06308901449150222834033, 0.02542245318510340846047);
+  add_orbit(rule, 0.05314504984481694735325, 0.3103524510337844054166, 0.04142553780918678759678);
+  return rule;
+}
+
+}  // namespace
+
 Quadrature2D gauss_triangle(int degree) {
   if (degree <= 1) return {{Vec2(1.0 / 3, 1.0 / 3)}, {0.5}};
-  if (degree == 2)
-    return {{Vec2(1.0 / 6, 1.0 / 6), Vec2(2.0 / 3, 1.0 / 6), Vec2(1.0 / 6, 2.0 / 3)},
-            {1.0 / 6, 1.0 / 6, 1.0 / 6}};
-  // Degree 4, six points: closed form of the two symmetric orbits.
-  const double root10 = std::sqrt(10.0), inner = std::sqrt(38.0 - 44.0 * std::sqrt(0.4));
-  const double a = (8 - root10 + inner) / 18, b = (8 - root10 - inner) / 18;
-  const double spread = std::sqrt(213125.0 - 53320.0 * root10);
-  const double wa = (620 + spread) / 7440, wb = (620 - spread) / 7440;
-  return {{Vec2(a, a), Vec2(1 - 2 * a, a), Vec2(a, 1 - 2 * a), Vec2(b, b), Vec2(1 - 2 * b, b),
-           Vec2(b, 1 - 2 * b)},
-          {wa, wa, wa, wb, wb, wb}};
+  if (degree <= 2) {
+    Quadrature2D rule;
+    add_orbit(rule, 1.0 / 6, 1.0 / 6);
+    return rule;
+  }
+  if (degree <= 4) return six_points();
+  return degree <= 5 ? seven_points() : twelve_points();
 }
 
 }  // namespace osculate::cell

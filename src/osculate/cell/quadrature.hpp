@@ -23,7 +23,8 @@ struct Quadrature2D {
 
 /// n x n tensor Gauss rule.
 [[nodiscard]] Quadrature2D gauss_quad(int n);
-/// Triangle rule of degree 1 (1 point), 2 (3), 4 (6); positive weights, sum 1/2.
+/// Triangle rule exact for polynomials of at least the degree (1..6): 1, 3, 6, 6, 7 or 12 points
+/// inside the triangle with positive weights, whose sum is 1/2.
 [[nodiscard]] Quadrature2D gauss_triangle(int degree);
 
 }  // namespace osculate::cell

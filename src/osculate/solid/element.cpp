@@ -2,52 +2,14 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
-#include <numbers>
+#include <limits>
 
-#include "osculate/cell/line_shape.hpp"
 #include "osculate/solid/enhanced.hpp"
+#include "osculate/solid/mean_dilatation.hpp"
 #include "osculate/solid/point_strain.hpp"
 
 namespace osculate::solid {
 namespace {
-
-/// Geometry and strain of all quadrature points.
-struct Points {
-  std::size_t count = 0;
-  std::array<PointGeometry, max_points> geometry;
-  std::array<PointStrain, max_points> strain;
-};
-
-bool fill_points(const Section& section, cell::CellType type, const Coordinates& reference,
-                 const Coordinates& displacement, Points& points) {
-  const cell::Quadrature2D& rule = quadrature_of(type);
-  points.count = rule.points.size();
-  for (std::size_t q = 0; q < points.count; ++q) {
-    points.geometry[q] = point_geometry(section, type, reference, rule.points[q], rule.weights[q]);
-    points.strain[q] = point_strain(section, points.geometry[q], displacement);
-    if (section.kinematics == Kinematics::finite &&
-        !(points.strain[q].f.determinant() > 0 && points.strain[q].f33 > 0))
-      return false;
-  }
-  return true;
-}
-
-/// Adds int G^T S G dV, the part of the tangent from the change of B (finite kinematics).
-void add_geometric(const Section& section, const PointGeometry& g, const material::Stress& s,
-                   ElementMatrix& k) {
-  const Eigen::Index n = g.shape.count;
-  Mat<2, 2> stress;
-  stress << s[0], s[3], s[3], s[1];
-  for (Eigen::Index a = 0; a < n; ++a)
-    for (Eigen::Index b = 0; b < n; ++b) {
-      const double value = g.volume * g.gradient.row(a).dot(stress * g.gradient.row(b).transpose());
-      k(2 * a, 2 * b) += value;
-      k(2 * a + 1, 2 * b + 1) += value;
-      if (section.assumption == Assumption::axisymmetric)
-        k(2 * a, 2 * b) += g.volume * s[2] * g.shape.n[a] * g.shape.n[b] / (g.radius * g.radius);
-    }
-}
 
 void evaluate_full(const Section& section, const Points& points, bool with_tangent,
                    ElementResult& out) {
@@ -67,32 +29,33 @@ void evaluate_full(const Section& section, const Points& points, bool with_tange
   }
 }
 
-/// Replaces the volumetric part of B by its mean over the cell (small strain).
-void average_volume(Points& points, const Coordinates& displacement) {
-  const Eigen::Index dofs = points.strain[0].b.cols();
-  Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 2 * max_nodes> mean(dofs);
-  mean.setZero();
-  double volume = 0;
+/// Finite strain with the same volume ratio at all points.
+void evaluate_mean_dilatation(const Section& section, const Points& points, bool with_tangent,
+                              ElementResult& out) {
+  const MeanDilatation mean = mean_dilatation(points.geometries(), points.strains());
+  std::array<material::Response, max_points> response;
   for (std::size_t q = 0; q < points.count; ++q) {
-    mean += points.geometry[q].volume * points.strain[q].b.topRows<3>().colwise().sum();
-    volume += points.geometry[q].volume;
+    const PointStrain& p = mean.strain[q];
+    response[q] = point_response(section, p.strain);
+    if (!response[q].ok) {
+      out.status = Status::material_failed;
+      return;
+    }
+    const double volume = points.geometry[q].volume;
+    out.force.noalias() += volume * p.b.transpose() * response[q].stress;
+    if (!with_tangent) continue;
+    const StrainMatrix cb = volume * response[q].tangent * p.b;
+    out.tangent.noalias() += p.b.transpose() * cb;
   }
-  mean /= volume;
-  ElementVector u(dofs);
-  for (Eigen::Index k = 0; k < dofs / 2; ++k) u.segment<2>(2 * k) = displacement.row(k);
-  for (std::size_t q = 0; q < points.count; ++q) {
-    StrainMatrix& b = points.strain[q].b;
-    const Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 2 * max_nodes> shift =
-        (mean - b.topRows<3>().colwise().sum()) / 3.0;
-    for (Eigen::Index i = 0; i < 3; ++i) b.row(i) += shift;
-    points.strain[q].strain = b * u;
-  }
+  if (with_tangent)
+    add_mean_dilatation_geometric(section, points.geometries(), points.strains(), response, mean,
+                                  out.tangent);
 }
 
 /// Enhanced strains: the mode parameters are condensed out of force and tangent.
 void evaluate_enhanced(const Section& section, const Coordinates& reference, const Points& points,
                        bool with_tangent, ElementResult& out) {
-  const EnhancedModes e = enhanced_modes(section, reference, points.geometry, points.strain);
+  const EnhancedModes e = enhanced_modes(section, reference, points.geometries(), points.strains());
   if (!e.ok) {
     out.status = Status::material_failed;
     return;
@@ -119,15 +82,17 @@ void evaluate_enhanced(const Section& section, const Coordinates& reference, con
 
 std::string_view unsupported(const Section& section, cell::CellType type) {
   if (cell::info(type).dimension != 2) return "only area cells can be bodies in 2D";
+  const bool finite = section.kinematics == Kinematics::finite;
+  if (finite && !material::finite_strain(section.law))
+    return "linear_elastic is a law of small strains; use st_venant_kirchhoff or neo_hooke with "
+           "finite kinematics";
+  if (!finite && material::finite_strain(section.law))
+    return "the law is one of finite strains; use linear_elastic with small kinematics";
   if (section.formulation == Formulation::full) return {};
   if (type != cell::CellType::quad4)
     return "formulations bbar and enhanced exist for quad4 cells only; use full";
-  if (section.formulation == Formulation::bbar) {
-    if (section.kinematics == Kinematics::finite)
-      return "formulation bbar is for small kinematics; use enhanced";
-    if (section.assumption == Assumption::plane_stress)
-      return "formulation bbar has no use in plane stress; use full or enhanced";
-  }
+  if (section.formulation == Formulation::bbar && section.assumption == Assumption::plane_stress)
+    return "formulation bbar has no use in plane stress; use full or enhanced";
   if (section.formulation == Formulation::enhanced &&
       section.assumption == Assumption::axisymmetric)
     return "formulation enhanced is not available for axisymmetric sections; use full or bbar";
@@ -145,17 +110,24 @@ void evaluate(const Section& section, cell::CellType type, const Coordinates& re
     out.status = Status::inverted;
     return;
   }
-  if (section.formulation == Formulation::bbar) average_volume(points, displacement);
-  if (section.formulation == Formulation::enhanced)
+  if (section.formulation == Formulation::enhanced) {
     evaluate_enhanced(section, reference, points, with_tangent, out);
-  else
-    evaluate_full(section, points, with_tangent, out);
+    return;
+  }
+  if (section.formulation == Formulation::bbar) {
+    if (section.kinematics == Kinematics::finite) {
+      evaluate_mean_dilatation(section, points, with_tangent, out);
+      return;
+    }
+    average_volume_small(points.geometries(), points.strains(), displacement);
+  }
+  evaluate_full(section, points, with_tangent, out);
 }
 
 ElementVector volume_weights(const Section& section, cell::CellType type,
                              const Coordinates& reference) {
   ElementVector weights = ElementVector::Zero(reference.rows());
-  const cell::Quadrature2D& rule = quadrature_of(type);
+  const cell::Quadrature2D& rule = quadrature_of(section.assumption, type);
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     const PointGeometry g =
         point_geometry(section, type, reference, rule.points[q], rule.weights[q]);
@@ -171,76 +143,10 @@ double smallest_jacobian(cell::CellType type, const Coordinates& reference) {
     const Mat<2, 2> j = reference.transpose() * s.d.topRows(s.count);
     smallest = std::min(smallest, j.determinant());
   };
-  for (const Vec2& xi : quadrature_of(type).points) visit(xi);
-  for (int k = 0; k < cell::info(type).corners; ++k) visit(cell::area_node(type, k));
+  for (const Assumption assumption : {Assumption::plane_strain, Assumption::axisymmetric})
+    for (const Vec2& xi : quadrature_of(assumption, type).points) visit(xi);
+  for (int k = 0; k < cell::info(type).nodes; ++k) visit(cell::area_node(type, k));
   return smallest;
-}
-
-namespace {
-
-/// Visits the Gauss points of an edge: shape values, slopes, weight.
-template <class Visit>
-void over_edge(Eigen::Index nodes, const Visit& visit) {
-  static const cell::Quadrature1D rule = cell::gauss_legendre(4);
-  for (std::size_t q = 0; q < rule.points.size(); ++q)
-    visit(cell::lagrange_line(static_cast<int>(nodes), rule.points[q]), rule.weights[q]);
-}
-
-double depth_at(const Section& section, double radius) {
-  return section.assumption == Assumption::axisymmetric ? 2 * std::numbers::pi * radius
-                                                        : section.thickness;
-}
-
-}  // namespace
-
-ElementVector edge_weights(const Section& section, const Coordinates& reference) {
-  const Eigen::Index n = reference.rows();
-  ElementVector weights = ElementVector::Zero(n);
-  over_edge(n, [&](const cell::LineShape& s, double weight) {
-    Vec2 x = Vec2::Zero(), t = Vec2::Zero();
-    for (Eigen::Index k = 0; k < n; ++k) {
-      x += s.n[0][static_cast<std::size_t>(k)] * reference.row(k).transpose();
-      t += s.n[1][static_cast<std::size_t>(k)] * reference.row(k).transpose();
-    }
-    for (Eigen::Index k = 0; k < n; ++k)
-      weights[k] +=
-          weight * s.n[0][static_cast<std::size_t>(k)] * t.norm() * depth_at(section, x.x());
-  });
-  return weights;
-}
-
-PressureResult edge_pressure(const Section& section, const Coordinates& reference,
-                             const Coordinates& displacement, double pressure) {
-  const Eigen::Index n = reference.rows();
-  const bool follows = section.kinematics == Kinematics::finite;
-  const bool axisymmetric = section.assumption == Assumption::axisymmetric;
-  PressureResult out;
-  out.force.setZero(2 * n);
-  out.tangent.setZero(2 * n, 2 * n);
-  Coordinates now = reference;
-  if (follows) now += displacement;
-  over_edge(n, [&](const cell::LineShape& s, double weight) {
-    Vec2 x = Vec2::Zero(), t = Vec2::Zero();
-    for (Eigen::Index k = 0; k < n; ++k) {
-      x += s.n[0][static_cast<std::size_t>(k)] * now.row(k).transpose();
-      t += s.n[1][static_cast<std::size_t>(k)] * now.row(k).transpose();
-    }
-    const double depth = depth_at(section, x.x());
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const double factor = -pressure * weight * s.n[0][static_cast<std::size_t>(k)];
-      out.force.segment<2>(2 * k) += factor * depth * turn(t);
-      if (!follows) continue;
-      for (Eigen::Index l = 0; l < n; ++l) {
-        const double slope = s.n[1][static_cast<std::size_t>(l)];
-        out.tangent(2 * k, 2 * l + 1) -= factor * depth * slope;
-        out.tangent(2 * k + 1, 2 * l) += factor * depth * slope;
-        if (axisymmetric)
-          out.tangent.block<2, 1>(2 * k, 2 * l) +=
-              factor * 2 * std::numbers::pi * s.n[0][static_cast<std::size_t>(l)] * turn(t);
-      }
-    }
-  });
-  return out;
 }
 
 }  // namespace osculate::solid

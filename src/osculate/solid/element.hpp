@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string_view>
 
 #include "osculate/cell/cell_type.hpp"
@@ -8,9 +9,9 @@ namespace osculate::solid {
 
 enum class Assumption { plane_strain, plane_stress, axisymmetric };
 enum class Kinematics { small, finite };
-/// full: plain displacement element. bbar: mean volumetric strain (quad4, small strain), against
-/// volumetric locking. enhanced: four incompatible strain modes (quad4), against bending and
-/// volumetric locking.
+/// full: plain displacement element. bbar: mean dilatation (quad4; not plane stress), against
+/// volumetric locking. enhanced: four incompatible strain modes (quad4; not axisymmetric), against
+/// bending and volumetric locking.
 enum class Formulation { full, bbar, enhanced };
 
 struct Section {
@@ -25,6 +26,7 @@ struct Section {
 [[nodiscard]] std::string_view unsupported(const Section& section, cell::CellType type);
 
 inline constexpr int max_nodes = 9;
+inline constexpr int max_points = 9;
 using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, max_nodes, 2>;
 using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * max_nodes, 1>;
 using ElementMatrix =
@@ -36,7 +38,12 @@ enum class Status { ok, inverted, material_failed };
 ///
 /// Formula    total Lagrange for finite kinematics: E = (F^T F - I)/2, S = dW/dE
 /// Units      force (plane: thickness; axisymmetric about the y axis: full circumference 2 pi R)
-/// Tested by  tests/unit/solid/test_elements.cpp (order, patch tests, rigid motions)
+/// Returns    out.status: inverted if det F <= 0 at a quadrature point (finite kinematics),
+///            material_failed if the law, or the modes of the enhanced strains, have no answer;
+///            force and tangent are then not to be used. The tangent is symmetric for all sections
+/// Requires   unsupported(section, type) is empty
+/// Tested by  tests/unit/solid/test_derivatives.cpp, test_invariance.cpp, test_patch.cpp,
+///            test_locking.cpp, test_axisymmetric.cpp
 struct ElementResult {
   Status status = Status::ok;
   ElementVector force;
@@ -45,8 +52,28 @@ struct ElementResult {
 void evaluate(const Section& section, cell::CellType type, const Coordinates& reference,
               const Coordinates& displacement, bool with_tangent, ElementResult& out);
 
-/// Cauchy stress and strain (Green-Lagrange or small; xx, yy, zz, xy with half the shear angle)
-/// extrapolated to the nodes by least squares over the quadrature points.
+/// Cauchy stress and strain of one quadrature point (strain: Green-Lagrange or small; components
+/// xx, yy, zz, xy, the last with half the shear angle). Formulations bbar and enhanced: the strain
+/// that the material sees.
+struct PointStress {
+  Vec2 xi;        ///< reference coordinates
+  Vec2 position;  ///< in the undeformed body
+  double volume;  ///< undeformed; plane: times thickness, axisymmetric: full circumference
+  Vec<4> stress, strain;
+};
+struct CellStress {
+  Status status = Status::ok;
+  int count = 0;
+  std::array<PointStress, max_points> point;
+};
+/// Tested by  tests/unit/solid/test_stress.cpp
+[[nodiscard]] CellStress stress_at_points(const Section& section, cell::CellType type,
+                                          const Coordinates& reference,
+                                          const Coordinates& displacement);
+
+/// The same extrapolated to the nodes by least squares over the quadrature points.
+///
+/// Tested by  tests/unit/solid/test_stress.cpp
 struct NodalStress {
   int count = 0;
   std::array<Vec<4>, max_nodes> stress, strain;
@@ -59,7 +86,7 @@ struct NodalStress {
 [[nodiscard]] ElementVector volume_weights(const Section& section, cell::CellType type,
                                            const Coordinates& reference);
 
-/// Smallest Jacobian determinant over the quadrature points and corners.
+/// Smallest Jacobian determinant over the quadrature points and nodes.
 [[nodiscard]] double smallest_jacobian(cell::CellType type, const Coordinates& reference);
 
 /// int N_k dA over an edge (line cell order): what a unit traction gives each node.

@@ -1,7 +1,7 @@
 #include "osculate/solid/enhanced.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
+#include <limits>
 
 namespace osculate::solid {
 namespace {
@@ -31,34 +31,56 @@ Mat<4, enhanced_count> mode_matrix(const Coordinates& reference, const Vec2& xi,
   return m;
 }
 
+/// Responses, equations int M^T S dV = 0 and their derivative at the modes of `e`. `scale` is the
+/// size that rounding errors of the equations are relative to. False where the law fails.
+bool sample(const Section& section, std::span<const PointGeometry> geometry,
+            std::span<const PointStrain> strain, EnhancedModes& e, Vec<enhanced_count>& rest,
+            double& scale) {
+  rest.setZero();
+  scale = 0;
+  e.stiffness.setZero();
+  for (std::size_t q = 0; q < 4; ++q) {
+    const material::Strain total = strain[q].strain + e.matrix[q] * e.alpha;
+    e.response[q] = point_response(section, total);
+    const material::Response& r = e.response[q];
+    if (!r.ok) return false;
+    const Mat<4, enhanced_count> weighted = geometry[q].volume * e.matrix[q];
+    rest.noalias() += weighted.transpose() * r.stress;
+    e.stiffness.noalias() += weighted.transpose() * r.tangent * e.matrix[q];
+    const Vec<4> size = r.tangent.cwiseAbs() * total.cwiseAbs() + r.stress.cwiseAbs();
+    scale += (weighted.cwiseAbs().transpose() * size).maxCoeff();
+  }
+  return true;
+}
+
 }  // namespace
 
 EnhancedModes enhanced_modes(const Section& section, const Coordinates& reference,
                              std::span<const PointGeometry> geometry,
                              std::span<const PointStrain> strain) {
-  const cell::Quadrature2D& rule = quadrature_of(cell::CellType::quad4);
+  const cell::Quadrature2D& rule = quadrature_of(section.assumption, cell::CellType::quad4);
   EnhancedModes e;
   for (std::size_t q = 0; q < 4; ++q)
     e.matrix[q] = mode_matrix(reference, rule.points[q], geometry[q].determinant);
+  Vec<enhanced_count> rest, step = Vec<enhanced_count>::Zero();
+  double scale = 0, before = std::numeric_limits<double>::infinity();
   constexpr int most = 40;
   for (int it = 0; it < most; ++it) {
-    Vec<enhanced_count> rest = Vec<enhanced_count>::Zero();
-    e.stiffness.setZero();
-    for (std::size_t q = 0; q < 4; ++q) {
-      e.response[q] = point_response(section, strain[q].strain + e.matrix[q] * e.alpha);
-      if (!e.response[q].ok) {
-        e.ok = false;
-        return e;
-      }
-      const double volume = geometry[q].volume;
-      rest += volume * e.matrix[q].transpose() * e.response[q].stress;
-      e.stiffness += volume * e.matrix[q].transpose() * e.response[q].tangent * e.matrix[q];
+    // Rounding level: small enough, or nearly so and not getting smaller any more.
+    constexpr double rounding = 1e-15, nearly = 1e-12;
+    e.ok = sample(section, geometry, strain, e, rest, scale);
+    const double size = rest.lpNorm<Eigen::Infinity>();
+    if (e.ok && (size <= rounding * scale || (size <= nearly * scale && size >= 0.5 * before)))
+      return e;
+    if (e.ok) {
+      before = size;
+      step = -e.stiffness.partialPivLu().solve(rest);
+      e.alpha += step;
+    } else {  // too far: half of the way back to where the law had an answer
+      if (it == 0) return e;
+      step *= 0.5;
+      e.alpha -= step;
     }
-    const Vec<enhanced_count> step = -e.stiffness.partialPivLu().solve(rest);
-    const double scale = std::max(e.alpha.lpNorm<Eigen::Infinity>(), 1e-9);
-    const bool found = it > 0 && step.lpNorm<Eigen::Infinity>() <= 1e-13 * scale;
-    if (found || rest.norm() == 0) return e;
-    e.alpha += step;
   }
   e.ok = false;
   return e;

@@ -22,7 +22,8 @@ struct EnhancedModes {
 ///
 /// Source     Simo & Rifai 1990 (small strain); for finite strain the Green-Lagrange strain is
 ///            enhanced in the same way
-/// Tested by  tests/unit/solid/test_elements.cpp
+/// Returns    ok is false where the law has no answer or the iteration finds none
+/// Tested by  tests/unit/solid/test_patch.cpp, test_derivatives.cpp, test_locking.cpp
 [[nodiscard]] EnhancedModes enhanced_modes(const Section& section, const Coordinates& reference,
                                            std::span<const PointGeometry> geometry,
                                            std::span<const PointStrain> strain);

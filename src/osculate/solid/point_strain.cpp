@@ -6,18 +6,19 @@
 
 namespace osculate::solid {
 
-const cell::Quadrature2D& quadrature_of(cell::CellType type) {
-  static const std::array<cell::Quadrature2D, 4> rules{
-      cell::gauss_triangle(1), cell::gauss_triangle(4), cell::gauss_quad(2), cell::gauss_quad(3)};
+const cell::Quadrature2D& quadrature_of(Assumption assumption, cell::CellType type) {
+  static const std::array<cell::Quadrature2D, 5> rules{
+      cell::gauss_triangle(1), cell::gauss_triangle(2), cell::gauss_triangle(4),
+      cell::gauss_quad(2), cell::gauss_quad(3)};
   switch (type) {
-    case cell::CellType::tri3:
-      return rules[0];
+    case cell::CellType::tri3:  // one point leaves a ring a mode without energy
+      return assumption == Assumption::axisymmetric ? rules[1] : rules[0];
     case cell::CellType::tri6:
-      return rules[1];
-    case cell::CellType::quad4:
       return rules[2];
-    default:
+    case cell::CellType::quad4:
       return rules[3];
+    default:
+      return rules[4];
   }
 }
 
@@ -61,6 +62,36 @@ PointStrain point_strain(const Section& section, const PointGeometry& g,
       if (axisymmetric && i == 0) p.b(2, 2 * k) = (finite ? p.f33 : 1.0) * g.shape.n[k] / g.radius;
     }
   return p;
+}
+
+bool fill_points(const Section& section, cell::CellType type, const Coordinates& reference,
+                 const Coordinates& displacement, Points& points) {
+  const cell::Quadrature2D& rule = quadrature_of(section.assumption, type);
+  points.count = rule.points.size();
+  bool one_to_one = true;
+  for (std::size_t q = 0; q < points.count; ++q) {
+    points.geometry[q] = point_geometry(section, type, reference, rule.points[q], rule.weights[q]);
+    points.strain[q] = point_strain(section, points.geometry[q], displacement);
+    if (section.kinematics == Kinematics::finite &&
+        !(points.strain[q].f.determinant() > 0 && points.strain[q].f33 > 0))
+      one_to_one = false;
+  }
+  return one_to_one;
+}
+
+void add_geometric(const Section& section, const PointGeometry& g, const material::Stress& s,
+                   ElementMatrix& k) {
+  const Eigen::Index n = g.shape.count;
+  Mat<2, 2> stress;
+  stress << s[0], s[3], s[3], s[1];
+  for (Eigen::Index a = 0; a < n; ++a)
+    for (Eigen::Index b = 0; b < n; ++b) {
+      const double value = g.volume * g.gradient.row(a).dot(stress * g.gradient.row(b).transpose());
+      k(2 * a, 2 * b) += value;
+      k(2 * a + 1, 2 * b + 1) += value;
+      if (section.assumption == Assumption::axisymmetric)
+        k(2 * a, 2 * b) += g.volume * s[2] * g.shape.n[a] * g.shape.n[b] / (g.radius * g.radius);
+    }
 }
 
 material::Response point_response(const Section& section, const material::Strain& strain,

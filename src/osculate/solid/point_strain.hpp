@@ -1,5 +1,6 @@
 #pragma once
 // One quadrature point of a bulk element; shared by element.cpp and stress.cpp.
+#include <array>
 #include <span>
 
 #include "osculate/cell/quadrature.hpp"
@@ -9,8 +10,6 @@
 namespace osculate::solid {
 
 using StrainMatrix = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 2 * max_nodes>;
-
-inline constexpr int max_points = 9;
 
 /// Geometry of one quadrature point in the reference configuration.
 struct PointGeometry {
@@ -29,12 +28,33 @@ struct PointStrain {
   double f33 = 1;
 };
 
-[[nodiscard]] const cell::Quadrature2D& quadrature_of(cell::CellType type);
+/// All quadrature points of a cell.
+struct Points {
+  std::size_t count = 0;
+  std::array<PointGeometry, max_points> geometry;
+  std::array<PointStrain, max_points> strain;
+
+  [[nodiscard]] std::span<const PointGeometry> geometries() const {
+    return {geometry.data(), count};
+  }
+  [[nodiscard]] std::span<const PointStrain> strains() const { return {strain.data(), count}; }
+  [[nodiscard]] std::span<PointStrain> strains() { return {strain.data(), count}; }
+};
+
+/// The full rule: no formulation leaves a mode without energy.
+[[nodiscard]] const cell::Quadrature2D& quadrature_of(Assumption assumption, cell::CellType type);
 [[nodiscard]] PointGeometry point_geometry(const Section& section, cell::CellType type,
                                            const Coordinates& reference, const Vec2& xi,
                                            double weight);
 [[nodiscard]] PointStrain point_strain(const Section& section, const PointGeometry& geometry,
                                        const Coordinates& displacement);
+/// Adds int G^T S G dV, the part of the tangent from the change of B (finite kinematics).
+void add_geometric(const Section& section, const PointGeometry& geometry,
+                   const material::Stress& stress, ElementMatrix& tangent);
+/// Fills `points`; false if det F is not positive somewhere (finite kinematics).
+[[nodiscard]] bool fill_points(const Section& section, cell::CellType type,
+                               const Coordinates& reference, const Coordinates& displacement,
+                               Points& points);
 [[nodiscard]] material::Response point_response(const Section& section,
                                                 const material::Strain& strain,
                                                 double* strain_33 = nullptr);

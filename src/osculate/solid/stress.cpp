@@ -1,7 +1,10 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
 
 #include "osculate/solid/enhanced.hpp"
+#include "osculate/solid/mean_dilatation.hpp"
 
 namespace osculate::solid {
 namespace {
@@ -15,9 +18,44 @@ Vec<4> cauchy(const PointStrain& p, const Vec<4>& s, double f33) {
   return {sigma(0, 0), sigma(1, 1), f33 * f33 * s[2] / j, sigma(0, 1)};
 }
 
+/// Replaces the strains of the displacements by those the material sees.
+Status assume_strains(const Section& section, const Coordinates& reference,
+                      const Coordinates& displacement, Points& points) {
+  if (section.formulation == Formulation::enhanced) {
+    const EnhancedModes e =
+        enhanced_modes(section, reference, points.geometries(), points.strains());
+    if (!e.ok) return Status::material_failed;
+    for (std::size_t q = 0; q < 4; ++q) points.strain[q].strain += e.matrix[q] * e.alpha;
+  } else if (section.formulation == Formulation::bbar) {
+    if (section.kinematics == Kinematics::finite)
+      points.strain = mean_dilatation(points.geometries(), points.strains()).strain;
+    else
+      average_volume_small(points.geometries(), points.strains(), displacement);
+  }
+  return Status::ok;
+}
+
+/// Stress and strain of one point; false where the law has no answer.
+bool fill_stress(const Section& section, const PointStrain& p, PointStress& out) {
+  double strain_33 = 0;
+  const material::Response r = point_response(section, p.strain, &strain_33);
+  out.strain = p.strain;
+  out.strain[2] = strain_33;
+  out.strain[3] *= 0.5;
+  const double f33 = section.assumption == Assumption::plane_stress
+                         ? std::sqrt(std::max(0.0, 1 + 2 * strain_33))
+                         : p.f33;
+  out.stress =
+      section.kinematics == Kinematics::finite && r.ok ? cauchy(p, r.stress, f33) : r.stress;
+  return r.ok;
+}
+
 /// Polynomial basis for the extrapolation: as many terms as the points can carry.
-Eigen::RowVectorXd basis(const Vec2& xi, std::size_t points) {
-  Eigen::RowVectorXd b(points == 1 ? 1 : points < 6 ? 3 : 6);
+constexpr int max_terms = 6;
+using Basis = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, max_terms>;
+
+Basis basis(const Vec2& xi, int points) {
+  Basis b(points == 1 ? 1 : points < 6 ? 3 : 6);
   b[0] = 1;
   if (b.size() >= 3) b.segment<2>(1) << xi.x(), xi.y();
   if (b.size() >= 6) b.segment<3>(3) << xi.x() * xi.y(), xi.x() * xi.x(), xi.y() * xi.y();
@@ -26,44 +64,49 @@ Eigen::RowVectorXd basis(const Vec2& xi, std::size_t points) {
 
 }  // namespace
 
+CellStress stress_at_points(const Section& section, cell::CellType type,
+                            const Coordinates& reference, const Coordinates& displacement) {
+  const cell::Quadrature2D& rule = quadrature_of(section.assumption, type);
+  CellStress out;
+  Points points;
+  const bool one_to_one = fill_points(section, type, reference, displacement, points);
+  out.status =
+      one_to_one ? assume_strains(section, reference, displacement, points) : Status::inverted;
+  out.count = static_cast<int>(rule.points.size());
+  for (std::size_t q = 0; q < rule.points.size(); ++q) {
+    PointStress& p = out.point[q];
+    const PointGeometry& g = points.geometry[q];
+    p.xi = rule.points[q];
+    p.position = reference.transpose() * g.shape.n.head(g.shape.count);
+    p.volume = g.volume;
+    p.stress.setZero();
+    p.strain.setZero();
+    if (one_to_one && !fill_stress(section, points.strain[q], p) && out.status == Status::ok)
+      out.status = Status::material_failed;
+  }
+  return out;
+}
+
 NodalStress nodal_stress(const Section& section, cell::CellType type, const Coordinates& reference,
                          const Coordinates& displacement) {
-  const cell::Quadrature2D& rule = quadrature_of(type);
-  const auto points = static_cast<Eigen::Index>(rule.points.size());
-  Eigen::MatrixXd values(points, 8), sample(points, basis(Vec2::Zero(), rule.points.size()).size());
-  std::array<PointGeometry, max_points> geometry;
-  std::array<PointStrain, max_points> strains;
-  for (std::size_t i = 0; i < rule.points.size(); ++i) {
-    geometry[i] = point_geometry(section, type, reference, rule.points[i], rule.weights[i]);
-    strains[i] = point_strain(section, geometry[i], displacement);
+  const CellStress at = stress_at_points(section, type, reference, displacement);
+  const Eigen::Index terms = basis(Vec2::Zero(), at.count).size();
+  Eigen::Matrix<double, Eigen::Dynamic, 8, 0, max_points, 8> values(at.count, 8);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_points, max_terms> sample(at.count,
+                                                                                         terms);
+  for (int q = 0; q < at.count; ++q) {
+    const PointStress& p = at.point[static_cast<std::size_t>(q)];
+    values.row(q) << p.stress.transpose(), p.strain.transpose();
+    sample.row(q) = basis(p.xi, at.count);
   }
-  if (section.formulation == Formulation::enhanced) {
-    const EnhancedModes e = enhanced_modes(section, reference, geometry, strains);
-    if (e.ok)
-      for (std::size_t i = 0; i < 4; ++i) strains[i].strain += e.matrix[i] * e.alpha;
-  }
-  for (Eigen::Index q = 0; q < points; ++q) {
-    const auto i = static_cast<std::size_t>(q);
-    const PointStrain& p = strains[i];
-    double strain_33 = 0;
-    const material::Response r = point_response(section, p.strain, &strain_33);
-    Vec<4> strain = p.strain;
-    strain[2] = strain_33;
-    strain[3] *= 0.5;
-    const bool finite = section.kinematics == Kinematics::finite;
-    const double f33 = section.assumption == Assumption::plane_stress
-                           ? std::sqrt(std::max(0.0, 1 + 2 * strain_33))
-                           : p.f33;
-    values.row(q) << (finite ? cauchy(p, r.stress, f33) : r.stress).transpose(), strain.transpose();
-    sample.row(q) = basis(rule.points[i], rule.points.size());
-  }
-  const Eigen::MatrixXd fit = sample.colPivHouseholderQr().solve(values);
+  const Eigen::Matrix<double, Eigen::Dynamic, 8, 0, max_terms, 8> fit =
+      sample.colPivHouseholderQr().solve(values);
   NodalStress out;
   out.count = cell::info(type).nodes;
   for (int k = 0; k < out.count; ++k) {
-    const Eigen::RowVectorXd at = basis(cell::area_node(type, k), rule.points.size()) * fit;
-    out.stress[static_cast<std::size_t>(k)] = at.head<4>();
-    out.strain[static_cast<std::size_t>(k)] = at.tail<4>();
+    const Mat<1, 8> node = basis(cell::area_node(type, k), at.count) * fit;
+    out.stress[static_cast<std::size_t>(k)] = node.head<4>();
+    out.strain[static_cast<std::size_t>(k)] = node.tail<4>();
   }
   return out;
 }

@@ -1,0 +1,23 @@
+#include "osculate/core/param.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace osculate::core {
+
+std::string describe(const Range& range, std::string_view name) {
+  const bool low = std::isfinite(range.lower), high = std::isfinite(range.upper);
+  const std::string_view above = range.with_lower ? "=" : "", below = range.with_upper ? "=" : "";
+  if (low && high)
+    return fmt::format("{} <{} {} <{} {}", range.lower, above, name, below, range.upper);
+  if (low) return fmt::format("{} >{} {}", name, above, range.lower);
+  if (high) return fmt::format("{} <{} {}", name, below, range.upper);
+  return fmt::format("{} is any number", name);
+}
+
+std::string out_of_range(std::string_view name, double value, const Range& range) {
+  return fmt::format("{} = {}, but {} is needed", name, value, describe(range, name));
+}
+
+}  // namespace osculate::core

@@ -1,0 +1,79 @@
+#include "osculate/material/neo_hooke.hpp"
+
+#include <cmath>
+
+#include "osculate/material/stretch.hpp"
+
+namespace osculate::material {
+namespace {
+
+/// The plane part of C is positive definite. False for NaN.
+bool plane_is_positive(const Strain& e) { return plane_determinant(e) > 0 && 1 + 2 * e[0] > 0; }
+
+/// I - C^-1 = 2 C^-1 E, which keeps all digits at small strain.
+Vec<4> inverse_change(const Strain& e, double strain_33, double c33) {
+  const double c11 = 1 + 2 * e[0], c22 = 1 + 2 * e[1], c12 = e[3];
+  return Vec<4>(2 * e[0] * c22 - c12 * c12, 2 * e[1] * c11 - c12 * c12, 0, c12) /
+             plane_determinant(e) +
+         Vec<4>(0, 0, 2 * strain_33 / c33, 0);
+}
+
+/// Derivative of -C^-1 with respect to E, over two: the symmetrised square of C^-1.
+Tangent square(const Vec<4>& inv) {
+  Tangent t;
+  t << inv[0] * inv[0], inv[3] * inv[3], 0, inv[0] * inv[3],  //
+      inv[3] * inv[3], inv[1] * inv[1], 0, inv[1] * inv[3],   //
+      0, 0, inv[2] * inv[2], 0,                               //
+      inv[0] * inv[3], inv[1] * inv[3], 0, 0.5 * (inv[0] * inv[1] + inv[3] * inv[3]);
+  return t;
+}
+
+/// y = ln C33 at S33 = 0; false if there is none. Started at y = 0, Newton is monotone from its
+/// second iterate on.
+bool find_log_c33(const Lame& c, double log_area, double& y) {
+  y = 0;
+  for (int i = 0; i < 100; ++i) {
+    const double slope = c.mu * std::exp(y) + 0.5 * c.lambda;
+    if (!(slope > 0)) return false;
+    const double step = (c.mu * std::expm1(y) + 0.5 * c.lambda * (log_area + y)) / slope;
+    y -= step;
+    // quadratic convergence: the step after this one would be below round-off
+    if (std::abs(step) <= 1e-9 * std::abs(y)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Response respond(const NeoHooke& law, const Strain& e) {
+  const Lame c = lame(law.young, law.poisson);
+  const double c33 = 1 + 2 * e[2];
+  Response r;
+  r.ok = plane_is_positive(e) && c33 > 0;
+  if (!r.ok) return r;
+  const double log_j = log_volume_ratio(e);
+  const Vec<4> inv = inverse_stretch(e, c33);
+  r.stress = c.mu * inverse_change(e, e[2], c33) + c.lambda * log_j * inv;
+  r.tangent = c.lambda * inv * inv.transpose() + 2 * (c.mu - c.lambda * log_j) * square(inv);
+  return r;
+}
+
+Response respond_plane_stress(const NeoHooke& law, const Strain& e, double& strain_33) {
+  const Lame c = lame(law.young, law.poisson);
+  Response r;
+  double y = 0;
+  r.ok = plane_is_positive(e) && find_log_c33(c, log_plane_determinant(e), y);
+  if (!r.ok) return r;
+  strain_33 = 0.5 * std::expm1(y);
+  const double c33 = std::exp(y);
+  Vec<4> inv = inverse_stretch(e, c33);
+  inv[2] = 0;
+  r.stress = c.mu * inverse_change(e, 0, c33) - 2 * c.mu * strain_33 * inv;
+  // the 33 component condensed: lambda becomes 1/(1/lambda + 1/(2 mu C33))
+  const double stiff = 2 * c.mu * c33;
+  const double softened = c.lambda * stiff / (c.lambda + stiff);
+  r.tangent = softened * inv * inv.transpose() + stiff * square(inv);
+  return r;
+}
+
+}  // namespace osculate::material

@@ -1,0 +1,51 @@
+#pragma once
+#include <array>
+#include <concepts>
+#include <string_view>
+
+#include "osculate/core/param.hpp"
+#include "osculate/core/types.hpp"
+
+namespace osculate::material {
+
+/// Working components of plane and axisymmetric problems: 11, 22, 33, 12. Strains carry twice the
+/// shear (2 E12), right Cauchy-Green tensors the plain component (C12).
+using Strain = Vec<4>;
+using Stress = Vec<4>;
+using Tangent = Mat<4, 4>;
+
+/// Stress and its derivative with respect to the strain. `ok` is false where the law has no
+/// answer (volume not positive, no thickness found): step control cuts the increment.
+struct Response {
+  bool ok = true;
+  Stress stress = Stress::Zero();
+  Tangent tangent = Tangent::Zero();
+};
+
+/// Lame constants.
+struct Lame {
+  double lambda, mu;
+};
+[[nodiscard]] inline Lame lame(double young, double poisson) {
+  return {young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))};
+}
+
+/// The three constants of an isotropic law with the members young, poisson and density.
+template <class T>
+[[nodiscard]] constexpr std::array<core::Param<T>, 3> isotropic_params() {
+  return {
+      {{"E", "force/length^2", "Young's modulus of the unloaded material", &T::young, {.lower = 0}},
+       {"nu",
+        "1",
+        "Poisson's ratio of the unloaded material",
+        &T::poisson,
+        {.lower = -1, .upper = 0.5}},
+       {"density",
+        "mass/length^3",
+        "Mass per reference volume",
+        &T::density,
+        {.lower = 0, .with_lower = true},
+        false}}};
+}
+
+}  // namespace osculate::material

@@ -1,0 +1,33 @@
+#pragma once
+#include "osculate/material/linear_elastic.hpp"
+
+namespace osculate::material {
+
+/// Hooke's law between second Piola-Kirchhoff stress and Green-Lagrange strain: large rotations,
+/// moderate strains. It softens in compression and has no barrier against det F -> 0.
+///
+/// Formula    S = lambda tr(E) I + 2 mu E
+/// Requires   E > 0, -1 < nu < 0.5
+/// Tested by  tests/unit/material/test_laws.cpp
+struct StVenantKirchhoff {
+  static constexpr std::string_view key = "st_venant_kirchhoff";
+  static constexpr std::string_view doc =
+      "Linear between second Piola-Kirchhoff stress and Green-Lagrange strain; large rotations, "
+      "moderate strains";
+  static constexpr bool finite_strain = true;
+  double young = 0, poisson = 0, density = 0;
+  static constexpr auto params() { return isotropic_params<StVenantKirchhoff>(); }
+};
+
+[[nodiscard]] inline Response respond(const StVenantKirchhoff& law, const Strain& strain) {
+  return hooke(law.young, law.poisson, strain);
+}
+/// Not ok where the thickness would vanish (1 + 2 E33 <= 0).
+[[nodiscard]] inline Response respond_plane_stress(const StVenantKirchhoff& law,
+                                                   const Strain& strain, double& strain_33) {
+  Response r = hooke_plane_stress(law.young, law.poisson, strain, strain_33);
+  r.ok = 1 + 2 * strain_33 > 0;
+  return r;
+}
+
+}  // namespace osculate::material
