@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "osculate/core/error.hpp"
 
@@ -22,13 +24,45 @@ pairing::Chain chain_of(const FacetList& list, std::size_t nodes, const char* na
     if (node < 0 || static_cast<std::size_t>(node) >= nodes)
       throw core::InputError({}, fmt::format("{}: node {} does not exist", name, node));
   pairing::Chain chain;
-  for (std::size_t f = 0; f < list.nodes.size(); f += per)
-    chain.facets.push_back(pairing::lagrange_facet(list.nodes.subspan(f, per)));
+  for (std::size_t f = 0; f < list.nodes.size(); f += per) {
+    const std::span<const Index> facet = list.nodes.subspan(f, per);
+    for (std::size_t k = 1; k < per; ++k)
+      if (std::find(facet.begin(), facet.begin() + static_cast<std::ptrdiff_t>(k), facet[k]) !=
+          facet.begin() + static_cast<std::ptrdiff_t>(k))
+        throw core::InputError(
+            {}, fmt::format("{}: facet {} names node {} twice", name, f / per, facet[k]));
+    chain.facets.push_back(pairing::lagrange_facet(facet));
+  }
   pairing::connect(chain);
   return chain;
 }
 
+void check_options(const ContactOptions& options) {
+  const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
+  if (!positive(options.normal_penalty))
+    throw core::InputError(
+        {}, fmt::format("normal_penalty must be > 0, got {:g}", options.normal_penalty));
+  if (options.friction && (!(options.friction->mu >= 0) || !std::isfinite(options.friction->mu) ||
+                           !positive(options.friction->stiffness)))
+    throw core::InputError({}, fmt::format("friction needs mu >= 0 and a stiffness > 0, got {:g} "
+                                           "and {:g}",
+                                           options.friction->mu, options.friction->stiffness));
+  if (!positive(options.area.thickness))
+    throw core::InputError(
+        {}, fmt::format("area.thickness must be > 0, got {:g}", options.area.thickness));
+}
+
+void check_disjoint(const FacetList& master, const FacetList& slave) {
+  const std::set<Index> nodes(master.nodes.begin(), master.nodes.end());
+  for (const Index node : slave.nodes)
+    if (nodes.contains(node))
+      throw core::InputError({}, fmt::format("node {} is on master and slave", node));
+}
+
 std::vector<Vec2> points_of(std::span<const double> values) {
+  if (values.size() % 2 != 0)
+    throw core::InputError({},
+                           fmt::format("{} coordinates are no pairs of x and y", values.size()));
   std::vector<Vec2> x(values.size() / 2);
   for (std::size_t n = 0; n < x.size(); ++n) {
     x[n] = {values[2 * n], values[2 * n + 1]};
@@ -68,11 +102,7 @@ struct ContactEvaluator::Impl {
 ContactEvaluator::ContactEvaluator(const ContactOptions& options, FacetList master, FacetList slave,
                                    std::span<const double> reference)
     : impl_(std::make_unique<Impl>()) {
-  if (!(options.normal_penalty > 0) || !std::isfinite(options.normal_penalty))
-    throw core::InputError(
-        {}, fmt::format("normal_penalty must be > 0, got {:g}", options.normal_penalty));
-  if (options.friction && (!(options.friction->mu >= 0) || !(options.friction->stiffness > 0)))
-    throw core::InputError({}, "friction needs mu >= 0 and a stiffness > 0");
+  check_options(options);
   const std::vector<Vec2> x = points_of(reference);
   impl_->nodes = x.size();
   pairing::PairDefinition& pair = impl_->pair;
@@ -84,7 +114,12 @@ ContactEvaluator::ContactEvaluator(const ContactOptions& options, FacetList mast
   pair.residual = options.residual;
   pair.tangent = options.tangent;
   pair.area = options.area;
-  pairing::prepare(pair, x);
+  check_disjoint(master, slave);
+  try {
+    pairing::prepare(pair, x);
+  } catch (const core::GeometryError& error) {
+    throw core::InputError({}, std::string("slave: ") + error.what());
+  }
   impl_->committed = pairing::initial_state(pair, x);
 }
 

@@ -18,8 +18,8 @@ struct ContactOptions {
   std::optional<contact::Coulomb> friction;  ///< mu and eps_T; empty = frictionless
   pairing::Weight weight = pairing::Weight::reference_area;
   contact::ResidualForm residual = contact::ResidualForm::surface;
-  contact::TangentForm tangent;
-  pairing::AreaRule area;  ///< thickness, or circumference
+  contact::TangentForm tangent{};
+  pairing::AreaRule area{};  ///< thickness, or circumference
 };
 
 /// A surface as a list of line facets with the same number of nodes each (2..8): end nodes first,

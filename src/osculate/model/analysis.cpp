@@ -37,7 +37,13 @@ AnalysisResult run(const Model& model, const AnalysisOptions& options,
   if (!model.steps.empty()) system.begin_step(model.steps.front(), result.state);
   solve::Evaluation initial;
   system.evaluate(result.state, result.state, 0.0, false, initial);
-  if (observer.converged) observer.converged(system, result.state, progress, nullptr);
+  if (observer.converged && !observer.converged(system, result.state, progress, nullptr)) {
+    result.outcome = solve::Outcome::stopped;
+    result.message = "stopped by the user";
+    result.last_iterate = result.state;
+    result.seconds = seconds_since(start);
+    return result;
+  }
   for (std::size_t s = 0; s < model.steps.size(); ++s) {
     const Step& step = model.steps[s];
     progress.step = static_cast<Index>(s);
