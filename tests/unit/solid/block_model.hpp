@@ -1,0 +1,91 @@
+#pragma once
+// A small dense model of quad cells in a block, for tests that need an answer and not an element.
+#include <Eigen/LU>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "section_cases.hpp"
+
+namespace osculate::solid::testing {
+
+/// nx x ny quad4 cells; node (i, j) has the number i + j (nx + 1).
+struct BlockModel {
+  Section section;
+  int nx, ny;
+  std::vector<Vec2> nodes;
+
+  BlockModel(const Section& s, int columns, int rows,
+             const std::function<Vec2(double, double)>& map)
+      : section(s), nx(columns), ny(rows) {
+    for (int j = 0; j <= ny; ++j)
+      for (int i = 0; i <= nx; ++i)
+        nodes.push_back(map(static_cast<double>(i) / nx, static_cast<double>(j) / ny));
+  }
+  [[nodiscard]] int node(int i, int j) const { return i + j * (nx + 1); }
+  [[nodiscard]] Eigen::Index dofs() const { return 2 * static_cast<Eigen::Index>(nodes.size()); }
+  [[nodiscard]] std::array<int, 4> cell(int i, int j) const {
+    return {node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)};
+  }
+  [[nodiscard]] Coordinates reference(const std::array<int, 4>& cell) const {
+    Coordinates x(4, 2);
+    for (std::size_t k = 0; k < 4; ++k)
+      x.row(static_cast<Eigen::Index>(k)) = nodes[static_cast<std::size_t>(cell[k])];
+    return x;
+  }
+  [[nodiscard]] static Coordinates gather(const Eigen::VectorXd& u,
+                                          const std::array<int, 4>& cell) {
+    Coordinates at(4, 2);
+    for (std::size_t k = 0; k < 4; ++k)
+      at.row(static_cast<Eigen::Index>(k)) = u.segment<2>(2 * cell[k]);
+    return at;
+  }
+
+  void assemble(const Eigen::VectorXd& u, Eigen::VectorXd& force, Eigen::MatrixXd& tangent) const {
+    force.setZero(dofs());
+    tangent.setZero(dofs(), dofs());
+    ElementResult r;
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) {
+        const std::array<int, 4> c = cell(i, j);
+        evaluate(section, cell::CellType::quad4, reference(c), gather(u, c), true, r);
+        ASSERT_EQ(r.status, Status::ok);
+        for (std::size_t a = 0; a < 4; ++a) {
+          const auto ra = 2 * static_cast<Eigen::Index>(a);
+          force.segment<2>(2 * c[a]) += r.force.segment<2>(ra);
+          for (std::size_t b = 0; b < 4; ++b)
+            tangent.block<2, 2>(2 * c[a], 2 * c[b]) +=
+                r.tangent.block<2, 2>(ra, 2 * static_cast<Eigen::Index>(b));
+        }
+      }
+  }
+
+  /// Displacements under dead forces with some unknowns prescribed; Newton from `start` or zero.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& load,
+                                      const std::map<Eigen::Index, double>& prescribed,
+                                      int increments = 1, const Eigen::VectorXd& start = {}) const {
+    Eigen::VectorXd u = start.size() > 0 ? start : Eigen::VectorXd::Zero(dofs()), force;
+    Eigen::MatrixXd tangent;
+    for (int step = 1; step <= increments; ++step) {
+      const double part = static_cast<double>(step) / increments;
+      for (int it = 0; it < 30; ++it) {
+        assemble(u, force, tangent);
+        Eigen::VectorXd rest = part * load - force;
+        const double largest = tangent.diagonal().maxCoeff();
+        for (const auto& fixed : prescribed) {
+          const Eigen::Index d = fixed.first;
+          tangent.row(d).setZero();
+          tangent(d, d) = largest;
+          rest[d] = largest * (part * fixed.second - u[d]);
+        }
+        const Eigen::VectorXd step_u = tangent.partialPivLu().solve(rest);
+        u += step_u;
+        if (it > 0 && step_u.norm() <= 1e-12 * u.norm()) break;
+        if (it == 29) ADD_FAILURE() << "not converged, last step " << step_u.norm();
+      }
+    }
+    return u;
+  }
+};
+
+}  // namespace osculate::solid::testing
