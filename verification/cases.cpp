@@ -18,6 +18,8 @@ const std::vector<Case>& all_cases() {
        hertz_sphere},
       {"incline", "A block on a slope rests below the friction angle and slides above it", false,
        incline},
+      {"large_rotation", "The consistent tangent converges quadratically under large rotation",
+       false, large_rotation},
       {"sliding_block", "The block of KS2D 7.1 is pressed, sheared forward and back", false,
        sliding_block},
   };

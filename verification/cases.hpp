@@ -11,6 +11,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult incline(const CaseContext& context);
 [[nodiscard]] CaseResult critical_displacement(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_line(const CaseContext& context);
+[[nodiscard]] CaseResult large_rotation(const CaseContext& context);
 [[nodiscard]] CaseResult sliding_block(const CaseContext& context);
 
 }  // namespace osculate::verification
