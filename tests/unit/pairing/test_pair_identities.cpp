@@ -105,7 +105,7 @@ TEST(PairIdentities, TractionsDoNotChangeUnderReparameterisation) {
   EXPECT_LT((a.blocks[0].force.head<2>() - b.blocks[0].force.head<2>()).norm(), 1e-10);
 }
 
-// [eq:KS2D:36] The evolution equation has a curvature term, dt = eps_T ds - t kappa d(zeta), that
+// Eq. (36) of KS2D has a curvature term, dt = eps_T ds - t kappa d(zeta), that
 // the increment leaves out. Measured here: a point sticks on a circle of radius 10 with a traction
 // t and sinks in from 0 to 0.01; the term alone would change t by the factor exp(-kappa d(zeta)),
 // which is 1e-3 of t. The scheme keeps t to round-off, so this is what leaving it out costs.
