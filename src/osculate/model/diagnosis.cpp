@@ -113,6 +113,11 @@ std::vector<FreeMotion> free_motions(System& system, const Model& model, const S
       const Eigen::Vector3d v = svd.matrixV().col(j);
       motion.direction = v.head<2>();
       if (motion.direction.norm() > 1e-6) motion.direction.normalize();
+      Eigen::Index largest = 0;
+      motion.direction.cwiseAbs().maxCoeff(&largest);
+      if (motion.direction[largest] < 0) motion.direction = -motion.direction;
+      for (double& component : motion.direction)
+        if (std::abs(component) < 1e-9) component = 0.0;
       motion.rotation = std::abs(v[2]) > 1e-6 ? v[2] : 0.0;
       motion.center = modes.center;
       motion.stiffness_ratio = ratio;
