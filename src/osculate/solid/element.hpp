@@ -43,7 +43,7 @@ enum class Status { ok, inverted, material_failed };
 ///            force and tangent are then not to be used. The tangent is symmetric for all sections
 /// Requires   unsupported(section, type) is empty
 /// Tested by  tests/unit/solid/test_derivatives.cpp, test_invariance.cpp, test_patch.cpp,
-///            test_locking.cpp, test_axisymmetric.cpp
+///            test_locking.cpp
 struct ElementResult {
   Status status = Status::ok;
   ElementVector force;
@@ -94,6 +94,8 @@ struct NodalStress {
 
 /// Nodal forces of a pressure p on an edge whose body is on the right of travel, f = -int p n N dA,
 /// and their derivative. Finite kinematics: on the current edge; small: on the reference edge.
+///
+/// Tested by  tests/unit/solid/test_loads.cpp
 struct PressureResult {
   ElementVector force;
   ElementMatrix tangent;

@@ -80,7 +80,7 @@ struct BlockModel {
         }
         const Eigen::VectorXd step_u = tangent.partialPivLu().solve(rest);
         u += step_u;
-        if (it > 0 && step_u.norm() <= 1e-12 * u.norm()) break;
+        if (it > 0 && step_u.norm() <= 1e-9 * u.norm()) break;
         if (it == 29) ADD_FAILURE() << "not converged, last step " << step_u.norm();
       }
     }
