@@ -46,10 +46,6 @@ bool needs_unsymmetric(const Model& model) {
     if (d.friction || (d.weight == pairing::Weight::current_area && d.tangent.consistent))
       return true;
   }
-  for (const BulkSection& section : model.sections)
-    if (section.section.kinematics == solid::Kinematics::finite &&
-        section.section.formulation == solid::Formulation::bbar)
-      return true;
   for (const Step& step : model.steps)
     if (!step.pressure.empty()) return true;
   return false;
