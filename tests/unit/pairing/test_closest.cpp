@@ -1,0 +1,107 @@
+// Generalized projection onto a chain: faces, vertices, kinks, open ends.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "pair_sample.hpp"
+
+namespace osculate::testing {
+namespace {
+
+using pairing::Projection;
+using projection::Feature;
+
+/// Polyline of line2 facets through points.
+struct Line {
+  std::vector<Vec2> x;
+  pairing::Chain chain;
+  pairing::Tree tree;
+
+  explicit Line(std::vector<Vec2> points) : x(std::move(points)) {
+    for (std::size_t i = 0; i + 1 < x.size(); ++i)
+      chain.facets.push_back(pairing::lagrange_facet(
+          std::array<Index, 2>{static_cast<Index>(i), static_cast<Index>(i + 1)}));
+    pairing::connect(chain);
+    std::vector<search::Box<2>> boxes;
+    pairing::facet_boxes(chain, x, boxes);
+    tree = pairing::Tree(boxes);
+  }
+  [[nodiscard]] Projection at(const Vec2& p, Index history = -1) const {
+    pairing::ProjectionQuery query;
+    query.point = p;
+    query.history = {history, 0};
+    return pairing::closest_on_chain(chain, tree, x, query);
+  }
+};
+
+double segment_distance(const Vec2& a, const Vec2& b, const Vec2& p) {
+  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (p - a - t * (b - a)).norm();
+}
+
+TEST(ClosestOnChain, EqualsBruteForce) {
+  const Line line({{0, 0}, {1, 0.5}, {2, -0.3}, {3, 0.1}, {3.5, 1.5}, {5, 1}});
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> u(-1, 6);
+  for (int i = 0; i < 20000; ++i) {
+    const Vec2 p(u(generator), u(generator) - 2);
+    double best = 1e9;
+    for (std::size_t k = 0; k + 1 < line.x.size(); ++k)
+      best = std::min(best, segment_distance(line.x[k], line.x[k + 1], p));
+    const Projection found = line.at(p);
+    // only the continued ends may be nearer than the polyline itself
+    if (found.location.facet == 0 || found.location.facet == 4)
+      EXPECT_LE(found.distance, best + 1e-12);
+    else
+      EXPECT_NEAR(found.distance, best, 1e-12);
+  }
+}
+
+TEST(ClosestOnChain, KinksBelongToTheVertexOutsideAndToTheNearestFaceInside) {
+  const Line ridge({{-2, -1}, {0, 0}, {2, -1}});  // body below: a convex corner
+  EXPECT_EQ(ridge.at({0, 0.5}).feature, Feature::corner);
+  EXPECT_EQ(ridge.at({0.1, -0.5}).location.facet, 1);
+  EXPECT_EQ(ridge.at({0.1, -0.5}).feature, Feature::face);
+  EXPECT_EQ(ridge.at({0, -0.5}, 1).location.facet, 1);  // equidistant: the history's side
+  EXPECT_EQ(ridge.at({0, -0.5}, 0).location.facet, 0);
+  const Line valley({{-2, 1}, {0, 0}, {2, 1}});
+  EXPECT_EQ(valley.at({0, -0.5}).feature, Feature::corner);
+  EXPECT_EQ(valley.at({0.3, 0.5}).feature, Feature::face);
+  EXPECT_LT((valley.at({0, -0.5}).outward - Vec2(0, 1)).norm(), 1e-14);
+}
+
+// Clamped to the end, the slip stood still within the tolerance and then jumped: Newton cycled.
+TEST(ClosestOnChain, TheFootPointMovesSmoothlyOverABorder) {
+  const Line line({{0, 0}, {1, 0}, {2, 0}});
+  for (const double step : {1e-9, 3e-9, -1e-9, -3e-9}) {
+    const Projection p = line.at({1 + step, -0.1}, 0);
+    EXPECT_EQ(p.feature, Feature::face);
+    const double along = p.location.facet + 0.5 * (p.location.xi + 1);
+    EXPECT_NEAR(along, 1 + step, 1e-15);
+  }
+}
+
+TEST(ClosestOnChain, OpenEndsAreContinuedALittle) {
+  const Line line({{0, 0}, {1, 0}});
+  const Projection near = line.at({1.02, -0.1});
+  EXPECT_EQ(near.feature, Feature::face);
+  EXPECT_NEAR(near.location.xi, 1.04, 1e-14);
+  EXPECT_NEAR(near.distance, 0.1, 1e-14);
+  const Projection beyond = line.at({1.2, -0.1});
+  EXPECT_TRUE(beyond.beyond_end);
+  EXPECT_EQ(beyond.feature, Feature::corner);
+}
+
+TEST(ClosestOnChain, FacetsFacingTheSameWayAreSkipped) {
+  const Line line({{0, 0}, {1, 0}});
+  pairing::ProjectionQuery query;
+  query.point = {0.5, -0.1};
+  query.slave_normal = Vec2(0, 1);  // as the facet: the far side of a thin body
+  EXPECT_EQ(pairing::closest_on_chain(line.chain, line.tree, line.x, query).feature, Feature::none);
+  query.slave_normal = Vec2(0, -1);
+  EXPECT_EQ(pairing::closest_on_chain(line.chain, line.tree, line.x, query).feature, Feature::face);
+}
+
+}  // namespace
+}  // namespace osculate::testing
