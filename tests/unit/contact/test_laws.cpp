@@ -7,6 +7,7 @@
 #include "osculate/contact/kinematics.hpp"
 #include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/normal_penalty.hpp"
+#include "osculate/contact/point_terms.hpp"
 
 namespace osculate::contact {
 namespace {
@@ -86,6 +87,42 @@ TEST(Kinematics, CornerPointsAlongTheSlaveAndSurvivesCoincidence) {
   EXPECT_EQ(same.normal, Vec2(0.6, 0.8));
   EXPECT_LE(same.gap, 0.0);
   EXPECT_TRUE(std::isfinite(same.d_angle.p.norm() * same.gap));
+}
+
+// [eq:KS2D:54] [eq:KS2D:56] [eq:KS2D:58] in physical components: T = sqrt(a11) t, rho_xi =
+// sqrt(a11) tau.
+TEST(CovariantTerms, PartsInPhysicalComponents) {
+  geometry::CurveJet<2> jet;
+  jet.r1 = {2, 1};
+  jet.r2 = {0.3, -0.4};
+  const Kinematics k = face_kinematics(jet, Vec2(0.05, -0.1));
+  const Vec2 tau = k.unit_tangent, nu = k.normal;
+  for (const Status status : {Status::stick, Status::slip}) {
+    const double shear = 3.0, normal = -10.0;
+    Traction t;
+    t.normal = {true, normal, 1000.0};
+    t.tangential = {status, shear, status == Status::stick ? 1.0 : 0.0,
+                    status == Status::stick ? 0.0 : -0.3};
+    t.tangential_stiffness = 80.0;
+    const auto part = [&](bool main, bool rotational, bool curvature) {
+      return covariant_terms(k, t, ResidualForm::surface, {false, main, rotational, curvature});
+    };
+    const double first = status == Status::stick ? 1.0 : 2.0;
+    const Mat<2, 2> bend = -normal * k.kappa * tau * tau.transpose() +
+                           shear * k.kappa * (first * tau * nu.transpose() + nu * tau.transpose());
+    EXPECT_LT((part(false, false, true).m[0][0] - bend).norm(), 1e-13);
+    const Mat<2, 2> main =
+        1000.0 * nu * nu.transpose() + (status == Status::stick
+                                            ? Mat<2, 2>(80.0 * tau * tau.transpose())
+                                            : Mat<2, 2>(-0.3 * 1000.0 * tau * nu.transpose()));
+    EXPECT_LT((part(true, false, false).m[0][0] - main).norm(), 1e-12);
+    const Mat<2, 2> turned =
+        (normal * nu * tau.transpose() + shear * tau * tau.transpose()) / k.sqrt_a11;
+    EXPECT_LT((part(false, true, false).m[1][0] - turned).norm(), 1e-13);
+    const Mat<2, 2> other =
+        (normal * tau * nu.transpose() + shear * tau * tau.transpose()) / k.sqrt_a11;
+    EXPECT_LT((part(false, true, false).m[0][1] - other).norm(), 1e-13);
+  }
 }
 
 }  // namespace
