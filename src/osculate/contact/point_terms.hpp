@@ -45,7 +45,7 @@ struct PointTerms {
 /// Exact consistent tangent: every formula is the derivative of `point_forces`.
 ///
 /// Source     docs/errata.md (exact form of KS2D:54, 56, 58); with `full` from KS2D:39
-/// Tested by  tests/unit/contact/test_tangent.cpp (order 2 in every branch)
+/// Tested by  tests/unit/pairing/test_pair_tangent.cpp (order 2 in every branch)
 [[nodiscard]] PointTerms consistent_terms(const Kinematics& k, const Traction& t,
                                           ResidualForm form);
 

@@ -131,19 +131,12 @@ double same_facet_length(const Facet& facet, std::span<const Vec2> x, double a, 
   return piece_length(facet, x, a, a + step, gradient);
 }
 
-}  // namespace
-
-std::optional<double> path_length(const Chain& chain, std::span<const Vec2> x, const Location& from,
-                                  const Location& to, std::vector<NodeGradient>* gradient) {
-  if (from.facet < 0 || to.facet < 0) return std::nullopt;
+/// Length of the way from `from` to another facet, forward or backward (there must be one).
+double walk(const Chain& chain, std::span<const Vec2> x, const Location& from, const Location& to,
+            bool forward, std::vector<NodeGradient>* gradient) {
   const auto at = [&](Index f) -> const Facet& {
     return chain.facets[static_cast<std::size_t>(f)];
   };
-  if (from.facet == to.facet) return same_facet_length(at(from.facet), x, from.xi, to.xi, gradient);
-  const int ahead = hops(chain, from.facet, to.facet, true);
-  const int behind = hops(chain, from.facet, to.facet, false);
-  if (ahead < 0 && behind < 0) return std::nullopt;
-  const bool forward = behind < 0 || (ahead >= 0 && ahead <= behind);
   const auto leave = [&](const Facet& f) { return forward ? f.hi : f.lo; };
   const auto enter = [&](const Facet& f) { return forward ? f.lo : f.hi; };
   double length = piece_length(at(from.facet), x, from.xi, leave(at(from.facet)), gradient);
@@ -153,6 +146,24 @@ std::optional<double> path_length(const Chain& chain, std::span<const Vec2> x, c
     facet = forward ? at(facet).next : at(facet).prev;
   }
   return length + piece_length(at(facet), x, enter(at(facet)), to.xi, gradient);
+}
+
+}  // namespace
+
+std::optional<double> path_length(const Chain& chain, std::span<const Vec2> x, const Location& from,
+                                  const Location& to, std::vector<NodeGradient>* gradient) {
+  if (from.facet < 0 || to.facet < 0) return std::nullopt;
+  if (from.facet == to.facet)
+    return same_facet_length(chain.facets[static_cast<std::size_t>(from.facet)], x, from.xi, to.xi,
+                             gradient);
+  const int ahead = hops(chain, from.facet, to.facet, true);
+  const int behind = hops(chain, from.facet, to.facet, false);
+  if (ahead < 0 && behind < 0) return std::nullopt;
+  bool forward = behind < 0 || (ahead >= 0 && ahead <= behind);
+  if (ahead == behind)  // opposite facets of a closed chain: both ways cross as many borders
+    forward = std::abs(walk(chain, x, from, to, true, nullptr)) <=
+              std::abs(walk(chain, x, from, to, false, nullptr));
+  return walk(chain, x, from, to, forward, gradient);
 }
 
 }  // namespace osculate::pairing

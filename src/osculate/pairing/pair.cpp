@@ -91,8 +91,8 @@ contact::Branch branch_of(const contact::TangentialResponse& response) {
   return response.traction > 0 ? contact::Branch::slip_forward : contact::Branch::slip_backward;
 }
 
-// @eq KS2D:89, KS2D:74 with the length of T kept across borders (docs/errata.md); within one facet
-// of constant metric it is the latter and, after KS2D:81, the moved centre of KS2D:82.
+/// The trial is KS2D:89 with the length of T kept across borders (docs/errata.md); within one facet
+/// of constant metric it is KS2D:74 and, after KS2D:81, the moved centre of KS2D:82.
 Friction tractions(const PairDefinition& pair, const PointHistory& history, const Placed& placed,
                    std::span<const Vec2> x, const BranchHint& hint,
                    std::vector<NodeGradient>* path) {
@@ -106,7 +106,7 @@ Friction tractions(const PairDefinition& pair, const PointHistory& history, cons
   const double length = arc.value_or(0.0);
   const double carried = history.active && arc ? history.traction : 0.0;
   f.slip = share.value * length;
-  const double trial = carried + law.stiffness * f.slip;
+  const double trial = carried + law.stiffness * f.slip;  // @eq KS2D:89, KS2D:74
   f.law = law.response(trial, f.traction.normal.traction);
   f.traction.tangential = linearised_branch(law, f.law, trial, f.traction.normal.traction, hint);
   f.traction.tangential_stiffness = law.stiffness;

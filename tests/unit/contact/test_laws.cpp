@@ -1,13 +1,10 @@
-// Laws of one contact point at their borders, and the variations of its kinematics by order.
+// Laws of one contact point: their borders and the derivatives of every branch.
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "derivative_check.hpp"
-#include "osculate/contact/kinematics.hpp"
 #include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/normal_penalty.hpp"
-#include "osculate/contact/point_terms.hpp"
 
 namespace osculate::contact {
 namespace {
@@ -40,88 +37,54 @@ TEST(Coulomb, SticksUpToTheLimitAndSlipsBeyond) {
   EXPECT_EQ(Coulomb::stick(1e9).traction, 1e9);
 }
 
-/// A straight segment with two nodes and a slave point, as one vector of coordinates.
-Kinematics on_segment(const Eigen::VectorXd& x, double xi) {
-  const Vec2 a = x.segment<2>(0), b = x.segment<2>(2), s = x.segment<2>(4);
-  geometry::CurveJet<2> jet;
-  jet.r = 0.5 * (1 - xi) * a + 0.5 * (1 + xi) * b;
-  jet.r1 = 0.5 * (b - a);
-  return face_kinematics(jet, s);
+// The limit belongs to stick, from both sides, and a point without pressure has none.
+TEST(Coulomb, TheLimitItselfSticks) {
+  const Coulomb law{0.3, 80.0};
+  const double limit = 0.3 * 7.0;
+  for (const double sign : {1.0, -1.0}) {
+    EXPECT_EQ(law.response(sign * limit, -7.0).status, Status::stick);
+    EXPECT_EQ(law.response(sign * std::nextafter(limit, 10.0), -7.0).status, Status::slip);
+    EXPECT_EQ(law.response(sign * std::nextafter(limit, 0.0), -7.0).status, Status::stick);
+  }
+  EXPECT_EQ(law.response(0.0, 0.0).status, Status::stick);
+  EXPECT_EQ(law.response(1e-300, 0.0).status, Status::slip);
+  EXPECT_EQ(law.response(1e-300, 0.0).traction, 0.0);
 }
 
-double foot(const Eigen::VectorXd& x) {
-  const Vec2 a = x.segment<2>(0), b = x.segment<2>(2), s = x.segment<2>(4);
-  return 2 * (s - a).dot(b - a) / (b - a).squaredNorm() - 1;
+// [eq:KS2D:77] as printed in Table 1 (T_tr <= mu N with N < 0) no positive trial ever sticks.
+TEST(Coulomb, StickUnderPressureThatThePrintedTestWouldMiss) {
+  const Coulomb law{0.5, 80.0};
+  const double trial = 1.0, normal = -10.0;
+  EXPECT_GT(trial, law.mu * normal);  // the printed condition says slip
+  EXPECT_EQ(law.response(trial, normal).status, Status::stick);
 }
 
-// [eq:KS2D:27] [eq:KS2D:28] [eq:KS2D:45]
-TEST(Kinematics, VariationsAreDerivatives) {
-  Eigen::VectorXd x(6), d(6);
-  x << 0, 0, 3, 1, 1.2, 0.1;
-  d << 0.3, -0.7, 0.2, 0.9, -0.4, 0.6;
-  const double xi = foot(x);
-  const Kinematics k = on_segment(x, xi);
-  const Vec2 p =
-      d.segment<2>(4) - 0.5 * (1 - xi) * d.segment<2>(0) - 0.5 * (1 + xi) * d.segment<2>(2);
-  const Vec2 q = 0.5 * d.segment<2>(0) - 0.5 * d.segment<2>(2);
-  const auto value = [&](const Form& form) { return form.p.dot(p) + form.q.dot(q); };
-  Eigen::VectorXd expected(3);
-  expected << value(k.d_xi), value(k.d_gap), value(k.d_angle);
-  const auto quantities = [](const Eigen::VectorXd& y) {
-    const Kinematics at = on_segment(y, foot(y));
-    Eigen::VectorXd v(3);
-    v << foot(y), at.gap, std::atan2(at.unit_tangent.y(), at.unit_tangent.x());
-    return v;
-  };
-  const osculate::testing::DerivativeReport r =
-      osculate::testing::check_derivative(quantities, expected, x, d);
-  EXPECT_NEAR(r.order, 2.0, 0.05) << r.error;
+double value(const NormalResponse& r) { return r.traction; }
+double value(const TangentialResponse& r) { return r.traction; }
+
+/// Central difference of a branch that is linear: exact but for rounding.
+template <class F>
+double slope(const F& f, double x) {
+  constexpr double h = 0.0625;
+  return (value(f(x + h)) - value(f(x - h))) / (2 * h);
 }
 
-TEST(Kinematics, CornerPointsAlongTheSlaveAndSurvivesCoincidence) {
-  const Kinematics below = corner_kinematics({0, 0}, {0.3, -0.4}, {0, 1});
-  EXPECT_NEAR(below.gap, -0.5, 1e-15);
-  EXPECT_LT((below.normal - Vec2(-0.6, 0.8)).norm(), 1e-15);
-  EXPECT_NEAR(below.normal.dot(turn(below.unit_tangent)), 1.0, 1e-15);
-  const Kinematics same = corner_kinematics({1, 2}, {1, 2}, {0.6, 0.8});
-  EXPECT_EQ(same.normal, Vec2(0.6, 0.8));
-  EXPECT_LE(same.gap, 0.0);
-  EXPECT_TRUE(std::isfinite(same.d_angle.p.norm() * same.gap));
-}
-
-// [eq:KS2D:54] [eq:KS2D:56] [eq:KS2D:58] in physical components: T = sqrt(a11) t, rho_xi =
-// sqrt(a11) tau.
-TEST(CovariantTerms, PartsInPhysicalComponents) {
-  geometry::CurveJet<2> jet;
-  jet.r1 = {2, 1};
-  jet.r2 = {0.3, -0.4};
-  const Kinematics k = face_kinematics(jet, Vec2(0.05, -0.1));
-  const Vec2 tau = k.unit_tangent, nu = k.normal;
-  for (const Status status : {Status::stick, Status::slip}) {
-    const double shear = 3.0, normal = -10.0;
-    Traction t;
-    t.normal = {true, normal, 1000.0};
-    t.tangential = {status, shear, status == Status::stick ? 1.0 : 0.0,
-                    status == Status::stick ? 0.0 : -0.3};
-    t.tangential_stiffness = 80.0;
-    const auto part = [&](bool main, bool rotational, bool curvature) {
-      return covariant_terms(k, t, ResidualForm::surface, {false, main, rotational, curvature});
-    };
-    const double first = status == Status::stick ? 1.0 : 2.0;
-    const Mat<2, 2> bend = -normal * k.kappa * tau * tau.transpose() +
-                           shear * k.kappa * (first * tau * nu.transpose() + nu * tau.transpose());
-    EXPECT_LT((part(false, false, true).m[0][0] - bend).norm(), 1e-13);
-    const Mat<2, 2> main =
-        1000.0 * nu * nu.transpose() + (status == Status::stick
-                                            ? Mat<2, 2>(80.0 * tau * tau.transpose())
-                                            : Mat<2, 2>(-0.3 * 1000.0 * tau * nu.transpose()));
-    EXPECT_LT((part(true, false, false).m[0][0] - main).norm(), 1e-12);
-    const Mat<2, 2> turned =
-        (normal * nu * tau.transpose() + shear * tau * tau.transpose()) / k.sqrt_a11;
-    EXPECT_LT((part(false, true, false).m[1][0] - turned).norm(), 1e-13);
-    const Mat<2, 2> other =
-        (normal * tau * nu.transpose() + shear * tau * tau.transpose()) / k.sqrt_a11;
-    EXPECT_LT((part(false, true, false).m[0][1] - other).norm(), 1e-13);
+// [eq:KS2D:32] [eq:KS2D:57]
+TEST(ContactLaws, DerivativesOfEveryBranch) {
+  const NormalPenalty normal{1000.0};
+  const auto of_gap = [&](double gap) { return normal.response(gap); };
+  EXPECT_NEAR(slope(of_gap, -0.5), normal.response(-0.5).d_traction, 1e-10);
+  EXPECT_EQ(normal.response(0.0).d_traction, 1000.0);
+  EXPECT_EQ(slope(of_gap, 0.5), normal.response(0.5).d_traction);
+  const Coulomb law{0.5, 80.0};
+  for (const double trial : {-20.0, -1.0, 1.0, 20.0}) {
+    const double pressure = -10.0;
+    const TangentialResponse at = law.response(trial, pressure);
+    EXPECT_EQ(at.status, std::abs(trial) > 5 ? Status::slip : Status::stick);
+    const auto of_trial = [&](double t) { return law.response(t, pressure); };
+    const auto of_normal = [&](double n) { return law.response(trial, n); };
+    EXPECT_NEAR(slope(of_trial, trial), at.d_trial, 1e-13);
+    EXPECT_NEAR(slope(of_normal, pressure), at.d_normal, 1e-13);
   }
 }
 

@@ -1,0 +1,182 @@
+// Branches of the friction law between iterations: prediction, reversal, branch force.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "derivative_check.hpp"
+#include "pair_sample.hpp"
+
+namespace osculate::testing {
+namespace {
+
+using contact::Branch;
+using contact::Status;
+using pairing::Assumed;
+using pairing::PairEvaluation;
+
+constexpr double eps_n = 1000, eps_t = 80, mu = 0.3, depth = 0.01;
+constexpr double limit = mu * eps_n * depth;
+
+/// One slave node on a straight segment of length 4, committed at x = 2 with the traction t there.
+PairSample at_rest(double traction, bool slipping) {
+  PairSample s;
+  s.x = {{0, 0}, {4, 0}, {2, -depth}};
+  s.pair.master.facets = {pairing::lagrange_facet(std::array<Index, 2>{0, 1})};
+  pairing::connect(s.pair.master);
+  s.pair.slave = pairing::make_slave_side({}, std::array<Index, 1>{2});
+  s.pair.weight = pairing::Weight::node;
+  s.pair.normal.stiffness = eps_n;
+  s.pair.friction = contact::Coulomb{mu, eps_t};
+  pairing::prepare(s.pair, s.x);
+  s.committed = pairing::initial_state(s.pair, s.x);
+  s.committed.points[0].traction = traction;
+  s.committed.points[0].slipping = slipping;
+  return s;
+}
+
+PairEvaluation evaluated(const PairSample& s, const Assumed& assumed) {
+  PairEvaluation e;
+  pairing::evaluate(s.pair, s.x, s.committed, true, e, assumed);
+  return e;
+}
+
+Assumed assume(Branch branch, bool predict) { return {{branch}, predict}; }
+
+/// The tangent of the block is the derivative of its branch force, not of its force.
+void expect_tangent_of_branch_force(const PairSample& s, const Assumed& assumed) {
+  const PairEvaluation e = evaluated(s, assumed);
+  const pairing::ContactBlock& b = e.blocks[0];
+  Eigen::VectorXd d(6);
+  d << 0.3, -0.7, 0.2, 0.5, -0.4, 0.6;
+  Eigen::VectorXd along(6);  // in the block's order of nodes: slave, first, second
+  along << d.segment<2>(4), d.segment<2>(0), d.segment<2>(2);
+  Eigen::VectorXd expected = b.tangent.topLeftCorner<6, 6>() * along;
+  for (const pairing::NodeGradient& g : b.path)
+    expected += b.path_rows.head<6>() * g.value.dot(d.segment<2>(2 * g.node));
+  const auto branch_force = [&](const Eigen::VectorXd& v) {
+    PairSample moved = s;
+    moved.x = unflatten(v);
+    return Eigen::VectorXd(evaluated(moved, assumed).blocks[0].branch_force.head<6>());
+  };
+  const DerivativeReport r = check_derivative(branch_force, expected, flatten(s.x), d, 1e-3);
+  EXPECT_TRUE(std::abs(r.order - 2) < 0.1) << r.order << " " << r.error;
+}
+
+TEST(Branches, CommittedBranchesPredictThatSlippingGoesOn) {
+  pairing::PairState state;
+  state.points.resize(4);
+  state.points[1].active = state.points[2].active = state.points[3].active = true;
+  state.points[2].slipping = state.points[3].slipping = true;
+  state.points[2].traction = 1, state.points[3].traction = -1;
+  const Assumed assumed = pairing::committed_branches(state);
+  EXPECT_TRUE(assumed.predict);
+  EXPECT_EQ(assumed.branch, (std::vector<Branch>{Branch::none, Branch::stick, Branch::slip_forward,
+                                                 Branch::slip_backward}));
+}
+
+TEST(Branches, EvaluatedBranchesAreThoseOfTheTangent) {
+  PairSample s = at_rest(limit, true);
+  s.x[2].x() += 1e-3;
+  const PairEvaluation e = evaluated(s, {});
+  EXPECT_EQ(e.points[0].branch, Branch::slip_forward);
+  const Assumed next = pairing::evaluated_branches(e);
+  EXPECT_FALSE(next.predict);
+  EXPECT_EQ(next.branch, std::vector<Branch>{Branch::slip_forward});
+  s.x[2].y() = 0.1;
+  EXPECT_EQ(evaluated(s, {}).points[0].branch, Branch::none);
+}
+
+// The first iteration of an increment starts where the last one ended: by the law every slipping
+// point sits exactly on its limit and sticks, and the stiff tangent of stick predicts nothing.
+TEST(Branches, PredictionKeepsSlippingPointsSlipping) {
+  for (const double sign : {1.0, -1.0}) {
+    PairSample s = at_rest(sign * limit, true);
+    const Branch slip = sign > 0 ? Branch::slip_forward : Branch::slip_backward;
+    const Assumed assumed = pairing::committed_branches(s.committed);
+    for (const double back : {0.0, 1e-3}) {
+      s.x[2].x() = 2 - sign * back;
+      const PairEvaluation e = evaluated(s, assumed);
+      EXPECT_EQ(e.points[0].status, Status::stick);  // what the law says is what is reported
+      EXPECT_NEAR(e.points[0].shear_traction, sign * (limit - eps_t * back), 1e-13);
+      EXPECT_FALSE(e.points[0].history.slipping);
+      EXPECT_EQ(e.points[0].branch, slip);
+      const pairing::ContactBlock& b = e.blocks[0];
+      EXPECT_NEAR(b.force[0], sign * (limit - eps_t * back), 1e-13);
+      EXPECT_NEAR(b.branch_force[0], sign * limit, 1e-13);
+      EXPECT_EQ(b.tangent(0, 0), 0.0);  // no tangential stiffness
+      EXPECT_EQ(b.branched, back > 0);
+      expect_tangent_of_branch_force(s, assumed);
+    }
+  }
+}
+
+// A point that has slipped one way and now would slip the other way has jumped over its sticking
+// range: plain return mapping sends it back and forth for ever.
+TEST(Branches, AReversedSlipIsLinearisedInStick) {
+  for (const double sign : {1.0, -1.0}) {
+    PairSample s = at_rest(sign * limit, true);
+    const double back = 3 * limit / eps_t;  // the trial is -2 limit
+    s.x[2].x() -= sign * back;
+    const Assumed assumed = assume(sign > 0 ? Branch::slip_forward : Branch::slip_backward, false);
+    const PairEvaluation e = evaluated(s, assumed);
+    EXPECT_EQ(e.points[0].status, Status::slip);
+    EXPECT_NEAR(e.points[0].shear_traction, -sign * limit, 1e-13);
+    EXPECT_TRUE(e.points[0].history.slipping);
+    EXPECT_EQ(e.points[0].branch, Branch::stick);
+    const pairing::ContactBlock& b = e.blocks[0];
+    EXPECT_TRUE(b.branched);
+    EXPECT_NEAR(b.force[0], -sign * limit, 1e-13);
+    EXPECT_NEAR(b.branch_force[0], -sign * 2 * limit, 1e-12);  // the trial, without its limit
+    EXPECT_NEAR(b.branch_force[1], b.force[1], 1e-15);
+    EXPECT_NEAR(b.tangent(0, 0), eps_t, 1e-10);
+    expect_tangent_of_branch_force(s, assumed);
+  }
+}
+
+TEST(Branches, WithoutReversalTheLawDecides) {
+  struct Case {
+    Branch assumed;
+    double moved;  ///< in elastic ranges limit / eps_t, from a traction of zero
+    Branch branch;
+  };
+  for (const Case& c :
+       {Case{Branch::none, 2, Branch::slip_forward}, Case{Branch::none, 0.5, Branch::stick},
+        Case{Branch::stick, -2, Branch::slip_backward},
+        Case{Branch::stick, 2, Branch::slip_forward},
+        Case{Branch::slip_forward, 2, Branch::slip_forward},
+        Case{Branch::slip_forward, 0.5, Branch::stick},
+        Case{Branch::slip_forward, -0.5, Branch::stick},
+        Case{Branch::slip_backward, -2, Branch::slip_backward},
+        Case{Branch::slip_backward, 0.5, Branch::stick}}) {
+    PairSample s = at_rest(0.0, false);
+    s.x[2].x() += c.moved * limit / eps_t;
+    const Assumed assumed = assume(c.assumed, false);
+    const PairEvaluation e = evaluated(s, assumed);
+    EXPECT_EQ(e.points[0].branch, c.branch) << c.moved;
+    EXPECT_FALSE(e.blocks[0].branched);
+    EXPECT_EQ(e.blocks[0].branch_force.head<6>(), e.blocks[0].force.head<6>());
+    expect_tangent_of_branch_force(s, assumed);
+  }
+}
+
+// The branch that an iteration assumes changes the way to the solution, not the solution: forces
+// and histories are those of the law.
+TEST(Branches, ForcesAndHistoriesAreThoseOfTheLawWhateverIsAssumed) {
+  for (const double moved : {-3.0, -0.5, 0.0, 0.5, 3.0}) {
+    PairSample s = at_rest(0.7 * limit, true);
+    s.x[2].x() += moved * limit / eps_t;
+    const PairEvaluation law = evaluated(s, {});
+    for (const Branch branch : {Branch::stick, Branch::slip_forward, Branch::slip_backward})
+      for (const bool predict : {false, true}) {
+        const PairEvaluation e = evaluated(s, assume(branch, predict));
+        EXPECT_EQ(e.blocks[0].force.head<6>(), law.blocks[0].force.head<6>());
+        EXPECT_EQ(e.points[0].status, law.points[0].status);
+        EXPECT_EQ(e.points[0].history.traction, law.points[0].history.traction);
+        EXPECT_EQ(e.points[0].history.slipping, law.points[0].history.slipping);
+      }
+  }
+}
+
+}  // namespace
+}  // namespace osculate::testing
