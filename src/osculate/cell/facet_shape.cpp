@@ -1,0 +1,94 @@
+#include "osculate/cell/facet_shape.hpp"
+
+#include <Eigen/LU>
+
+#include "osculate/cell/shape.hpp"
+
+namespace osculate::cell {
+namespace {
+
+/// A shape function is a sum of monomials xi^p eta^q; which ones, by type.
+struct Monomials {
+  int count;
+  std::array<std::array<int, 2>, max_facet_nodes> power;
+};
+
+constexpr std::array<std::array<int, 2>, max_facet_nodes> quad_powers{
+    {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {2, 0}, {0, 2}, {2, 1}, {1, 2}, {2, 2}}};
+constexpr std::array<std::array<int, 2>, max_facet_nodes> tri_powers{
+    {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};
+
+Monomials monomials(CellType type) {
+  return {info(type).nodes, is_triangle(type) ? tri_powers : quad_powers};
+}
+
+double power(double x, int p) { return p == 0 ? 1.0 : p == 1 ? x : x * x; }
+
+/// d^k/dx^k of x^p for p = 0, 1, 2.
+double power_derivative(double x, int p, int k) {
+  if (k > p) return 0.0;
+  double factor = 1;
+  for (int i = 0; i < k; ++i) factor *= p - i;
+  return factor * power(x, p - k);
+}
+
+using Coefficients = Mat<max_facet_nodes, max_facet_nodes>;
+
+/// Row k: coefficients of shape function k. The entries are multiples of 1/4 for every type, so
+/// rounding of the inverse is removed.
+Coefficients make_coefficients(CellType type) {
+  const Monomials m = monomials(type);
+  Eigen::MatrixXd at_nodes(m.count, m.count);  // monomial i at node k
+  for (int i = 0; i < m.count; ++i)
+    for (int k = 0; k < m.count; ++k) {
+      const Vec2 x = area_node(type, k);
+      const auto& p = m.power[static_cast<std::size_t>(i)];
+      at_nodes(i, k) = power(x.x(), p[0]) * power(x.y(), p[1]);
+    }
+  const Eigen::MatrixXd inverse = at_nodes.inverse();
+  Coefficients c = Coefficients::Zero();
+  c.topLeftCorner(m.count, m.count) = (4.0 * inverse).array().round().matrix() / 4.0;
+  return c;
+}
+
+const Coefficients& coefficients(CellType type) {
+  static const std::array<Coefficients, 5> all{
+      make_coefficients(CellType::tri3), make_coefficients(CellType::tri6),
+      make_coefficients(CellType::quad4), make_coefficients(CellType::quad8),
+      make_coefficients(CellType::quad9)};
+  switch (type) {
+    case CellType::tri3:
+      return all[0];
+    case CellType::tri6:
+      return all[1];
+    case CellType::quad4:
+      return all[2];
+    case CellType::quad8:
+      return all[3];
+    default:
+      return all[4];
+  }
+}
+
+constexpr std::array<std::array<int, 2>, 10> orders{
+    {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}, {3, 0}, {2, 1}, {1, 2}, {0, 3}}};
+
+}  // namespace
+
+FacetShape facet_shape(CellType type, const Vec2& xi) {
+  const Monomials m = monomials(type);
+  const Coefficients& c = coefficients(type);
+  FacetShape s;
+  s.count = m.count;
+  for (std::size_t d = 0; d < orders.size(); ++d)
+    for (int i = 0; i < m.count; ++i) {
+      const auto& p = m.power[static_cast<std::size_t>(i)];
+      const double value = power_derivative(xi.x(), p[0], orders[d][0]) *
+                           power_derivative(xi.y(), p[1], orders[d][1]);
+      if (value == 0.0) continue;
+      for (int k = 0; k < m.count; ++k) s.n[d][static_cast<std::size_t>(k)] += c(k, i) * value;
+    }
+  return s;
+}
+
+}  // namespace osculate::cell
