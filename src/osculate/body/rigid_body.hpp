@@ -1,16 +1,28 @@
 #pragma once
 #include <cmath>
 
+#include "osculate/body/rotation.hpp"
 #include "osculate/core/types.hpp"
 
 namespace osculate::body {
 
-/// Plane rigid motion about a reference point: two translations and a rotation angle (no limit on
-/// its size).
+/// Number of rotations of a rigid body (2D: the angle; 3D: the rotation vector), and of all its
+/// degrees of freedom: translations, then rotations.
+template <int Dim>
+inline constexpr int rotations = Dim == 2 ? 1 : 3;
+template <int Dim>
+inline constexpr int motions = Dim + rotations<Dim>;
+
+/// Rigid motion about a reference point, of any size.
+template <int Dim>
+struct BasicRigidMotion;
+
+/// Plane rigid motion: two translations and a rotation angle.
 ///
 /// Formula    x = c + R(theta) (X - X_ref) ,  c = X_ref + u
 /// Units      lengths of the model; theta in radians, positive from x to y
-struct RigidMotion {
+template <>
+struct BasicRigidMotion<2> {
   Vec2 reference{0, 0};    ///< X_ref
   Vec2 translation{0, 0};  ///< u
   double angle = 0;        ///< theta
@@ -21,7 +33,32 @@ struct RigidMotion {
     const double c = std::cos(angle), s = std::sin(angle);
     return center() + Vec2(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
   }
+  /// Translations, then the rotation.
+  [[nodiscard]] double& component(int i) { return i == 2 ? angle : translation[i]; }
+  [[nodiscard]] double component(int i) const { return i == 2 ? angle : translation[i]; }
 };
+
+/// Rigid motion in space: three translations and the total rotation vector.
+///
+/// Formula    x = c + R(theta) (X - X_ref) ,  c = X_ref + u ,  R = exp [theta]
+/// Units      lengths of the model; theta in radians
+template <>
+struct BasicRigidMotion<3> {
+  Vec3 reference{0, 0, 0};    ///< X_ref
+  Vec3 translation{0, 0, 0};  ///< u
+  Vec3 rotation{0, 0, 0};     ///< theta
+
+  [[nodiscard]] Vec3 center() const { return reference + translation; }
+  [[nodiscard]] Vec3 position(const Vec3& material) const {
+    return center() + rotation_matrix(rotation) * (material - reference);
+  }
+  /// Translations, then the rotation vector.
+  [[nodiscard]] double& component(int i) { return i < 3 ? translation[i] : rotation[i - 3]; }
+  [[nodiscard]] double component(int i) const { return i < 3 ? translation[i] : rotation[i - 3]; }
+};
+
+using RigidMotion = BasicRigidMotion<2>;
+using RigidMotion3 = BasicRigidMotion<3>;
 
 /// dx / d(u_x, u_y, theta) of the material point that is now at `x`:  dx = du + d(theta) k x (x -
 /// c).
@@ -32,9 +69,28 @@ struct RigidMotion {
   return j;
 }
 
+/// dx / d(u, theta):  dx = du + (T dtheta) x (x - c).
+[[nodiscard]] inline Mat<3, 6> motion_gradient(const RigidMotion3& motion, const Vec3& x) {
+  Mat<3, 6> j;
+  j.leftCols<3>().setIdentity();
+  j.rightCols<3>() = -cross_matrix(x - motion.center()) * rotation_tangent(motion.rotation);
+  return j;
+}
+
 /// Second derivative of x with respect to theta: -(x - c).
 [[nodiscard]] inline Vec2 rotation_curvature(const RigidMotion& motion, const Vec2& x) {
   return motion.center() - x;
+}
+
+/// Second derivative of f . x with respect to the rotations, f fixed (symmetric).
+[[nodiscard]] inline Mat<1, 1> rotation_curvature(const RigidMotion& motion, const Vec2& x,
+                                                  const Vec2& f) {
+  return Mat<1, 1>(f.dot(rotation_curvature(motion, x)));
+}
+[[nodiscard]] inline Mat<3, 3> rotation_curvature(const RigidMotion3& motion, const Vec3& x,
+                                                  const Vec3& f) {
+  const Vec3 arm = rotation_matrix(motion.rotation).transpose() * (x - motion.center());
+  return rotation_hessian(motion.rotation, f, arm);
 }
 
 }  // namespace osculate::body

@@ -77,6 +77,39 @@ void MatrixBuilder::add(Index row, Index column, double value) {
     aside_.push_back({{row, column}, value});
 }
 
+void MatrixBuilder::add_block(std::span<const Index> unknowns, const double* values,
+                              std::ptrdiff_t stride) {
+  order_.clear();
+  for (std::size_t j = 0; j < unknowns.size(); ++j)
+    if (unknowns[j] >= 0) order_.push_back(j);
+  std::sort(order_.begin(), order_.end(),
+            [&](std::size_t a, std::size_t b) { return unknowns[a] < unknowns[b]; });
+  places_.assign(order_.size(), 0);
+  for (const std::size_t i : order_) {
+    const Index row = unknowns[i];
+    const Index* const first = matrix_.column.data() + matrix_.row_start[at(row)];
+    const std::ptrdiff_t count = matrix_.row_start[at(row) + 1] - matrix_.row_start[at(row)];
+    double* const sums = matrix_.value.data() + matrix_.row_start[at(row)];
+    const double* const entries = values + i;
+    std::ptrdiff_t next = 0;
+    for (std::size_t k = 0; k < order_.size(); ++k) {
+      const Index column = unknowns[order_[k]];
+      std::ptrdiff_t place = places_[k];  // where it was in the row before
+      if (place >= count || first[place] != column) place = next;
+      if (place >= count || first[place] != column)
+        place = std::lower_bound(first + next, first + count, column) - first;
+      const double value = entries[static_cast<std::ptrdiff_t>(order_[k]) * stride];
+      if (place < count && first[place] == column) {
+        sums[place] += value;
+        places_[k] = place;
+        next = place + 1;
+      } else if (value != 0.0) {
+        aside_.push_back({{row, column}, value});
+      }
+    }
+  }
+}
+
 const SparseMatrix& MatrixBuilder::finish() {
   merge();
   return matrix_;

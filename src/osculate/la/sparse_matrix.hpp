@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -46,6 +47,13 @@ class MatrixBuilder {
   void clear();
   /// Entries outside the pattern are kept aside until `finish`.
   void add(Index row, Index column, double value);
+  /// Adds a dense block, entry by entry as `add` does, but searches hardly at all: columns that are
+  /// neighbours in the block are neighbours in the row, and rows of one node have the same columns.
+  ///
+  /// Shapes     entry (i, j) of the block is values[i + j * stride]
+  /// Requires   unknowns distinct; rows and columns of negative ones are left out, and so are zeros
+  ///            that are not in the pattern
+  void add_block(std::span<const Index> unknowns, const double* values, std::ptrdiff_t stride);
   /// Merges what was kept aside and returns the matrix.
   const SparseMatrix& finish();
   /// Changes when the pattern grew. Growth that waits for `finish` counts already, so it does not
@@ -70,6 +78,8 @@ class MatrixBuilder {
   std::vector<Place> pending_;  ///< reserved, not yet in the pattern
   std::vector<Entry> aside_;    ///< added outside the pattern, in the order of the calls
   std::uint64_t version_ = 1;
+  std::vector<std::size_t> order_;      ///< of the columns of a block
+  std::vector<std::ptrdiff_t> places_;  ///< of these columns in the row before
 };
 
 }  // namespace osculate::la

@@ -2,8 +2,20 @@
 
 namespace osculate::model {
 
-void Assembler::expand(std::span<const Dof> block_dofs, std::vector<Expansion>& out,
-                       std::vector<std::size_t>& end) const {
+template <int Dim>
+bool BasicAssembler<Dim>::direct(std::span<const Dof> block_dofs) {
+  unknowns_.clear();
+  for (const Dof dof : block_dofs) {
+    const Index unknown = dofs_.unknown_of(dof);
+    if (unknown < 0) return false;
+    unknowns_.push_back(prescribed(unknown) ? -1 : unknown);
+  }
+  return true;
+}
+
+template <int Dim>
+void BasicAssembler<Dim>::expand(std::span<const Dof> block_dofs, std::vector<Expansion>& out,
+                                 std::vector<std::size_t>& end) const {
   out.clear();
   end.clear();
   for (const Dof dof : block_dofs) {
@@ -12,8 +24,11 @@ void Assembler::expand(std::span<const Dof> block_dofs, std::vector<Expansion>& 
   }
 }
 
-void Assembler::add_outer(std::span<const Dof> row_dofs, std::span<const double> row_values,
-                          std::span<const Dof> column_dofs, std::span<const double> column_values) {
+template <int Dim>
+void BasicAssembler<Dim>::add_outer(std::span<const Dof> row_dofs,
+                                    std::span<const double> row_values,
+                                    std::span<const Dof> column_dofs,
+                                    std::span<const double> column_values) {
   expand(row_dofs, rows_, row_end_);
   expand(column_dofs, columns_, column_end_);
   for (std::size_t i = 0; i < row_dofs.size(); ++i)
@@ -28,12 +43,14 @@ void Assembler::add_outer(std::span<const Dof> row_dofs, std::span<const double>
     }
 }
 
-void Assembler::add_prescribed_diagonal(double scale) {
+template <int Dim>
+void BasicAssembler<Dim>::add_prescribed_diagonal(double scale) {
   for (Index u = 0; u < dofs_.unknowns(); ++u)
     if (prescribed(u)) matrix_.add(u, u, scale);
 }
 
-Eigen::VectorXd Assembler::gather(const Eigen::VectorXd& dof_forces) const {
+template <int Dim>
+Eigen::VectorXd BasicAssembler<Dim>::gather(const Eigen::VectorXd& dof_forces) const {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(dofs_.unknowns());
   std::vector<Expansion> expansion;
   for (Dof dof = 0; dof < dofs_.dofs(); ++dof) {
@@ -51,5 +68,8 @@ Eigen::VectorXd Assembler::gather(const Eigen::VectorXd& dof_forces) const {
   }
   return result;
 }
+
+template class BasicAssembler<2>;
+template class BasicAssembler<3>;
 
 }  // namespace osculate::model

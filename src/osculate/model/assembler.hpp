@@ -9,22 +9,34 @@ namespace osculate::model {
 
 /// Adds blocks over primary dofs to the matrix of the unknowns: rigid nodes and eliminated dofs
 /// are expanded, prescribed rows and columns are left out.
-class Assembler {
+///
+/// Tested by  tests/unit/model/test_dof_space.cpp, test_dof_space3.cpp
+template <int Dim>
+class BasicAssembler {
  public:
-  Assembler(const DofSpace& dofs, la::MatrixBuilder& matrix) : dofs_(dofs), matrix_(matrix) {}
+  BasicAssembler(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& matrix)
+      : dofs_(dofs), matrix_(matrix) {}
 
   void set_prescribed(std::vector<bool> prescribed) { prescribed_ = std::move(prescribed); }
   [[nodiscard]] bool prescribed(Index unknown) const {
     return prescribed_[static_cast<std::size_t>(unknown)];
   }
-  void set_configuration(std::span<const Vec2> x, const std::vector<body::RigidMotion>& rigid) {
+  void set_configuration(std::span<const Vec<Dim>> x,
+                         const std::vector<body::BasicRigidMotion<Dim>>& rigid) {
     x_ = x;
     rigid_ = &rigid;
   }
 
-  /// K(i, j) for all pairs of `dofs`.
+  /// K(i, j) for all pairs of `block_dofs`. Blocks without rigid nodes and equations (those of all
+  /// cells but a few) need no expansion.
+  ///
+  /// Requires   k stored by columns
   template <class Matrix>
   void add_block(std::span<const Dof> block_dofs, const Matrix& k) {
+    if (direct(block_dofs)) {
+      matrix_.add_block(unknowns_, k.data(), k.outerStride());
+      return;
+    }
     expand(block_dofs, rows_, row_end_);
     for (std::size_t i = 0; i < block_dofs.size(); ++i)
       for (std::size_t a = i == 0 ? 0 : row_end_[i - 1]; a < row_end_[i]; ++a) {
@@ -51,16 +63,22 @@ class Assembler {
   [[nodiscard]] Eigen::VectorXd gather(const Eigen::VectorXd& dof_forces) const;
 
  private:
+  /// True if every dof is an unknown itself; `unknowns_` then holds them, -1 for prescribed ones.
+  [[nodiscard]] bool direct(std::span<const Dof> block_dofs);
   void expand(std::span<const Dof> block_dofs, std::vector<Expansion>& out,
               std::vector<std::size_t>& end) const;
 
-  const DofSpace& dofs_;
+  const BasicDofSpace<Dim>& dofs_;
   la::MatrixBuilder& matrix_;
   std::vector<bool> prescribed_;
-  std::span<const Vec2> x_;
-  const std::vector<body::RigidMotion>* rigid_ = nullptr;
+  std::span<const Vec<Dim>> x_;
+  const std::vector<body::BasicRigidMotion<Dim>>* rigid_ = nullptr;
+  std::vector<Index> unknowns_;
   std::vector<Expansion> rows_, columns_;
   std::vector<std::size_t> row_end_, column_end_;
 };
+
+using Assembler = BasicAssembler<2>;
+using Assembler3 = BasicAssembler<3>;
 
 }  // namespace osculate::model

@@ -2,8 +2,10 @@
 
 namespace osculate::model {
 
-DofSpace::DofSpace(Index nodes, std::vector<Index> body_of_node, Index bodies,
-                   std::vector<Equation> equations, const std::vector<bool>& used_node)
+template <int Dim>
+BasicDofSpace<Dim>::BasicDofSpace(Index nodes, std::vector<Index> body_of_node, Index bodies,
+                                  std::vector<Equation> equations,
+                                  const std::vector<bool>& used_node)
     : nodes_(nodes),
       bodies_(bodies),
       body_of_node_(std::move(body_of_node)),
@@ -16,8 +18,8 @@ DofSpace::DofSpace(Index nodes, std::vector<Index> body_of_node, Index bodies,
   for (Dof dof = 0; dof < dofs(); ++dof) {
     const auto d = static_cast<std::size_t>(dof);
     if (equation_of_[d] >= 0) continue;
-    if (dof < 2 * nodes_) {
-      const auto node = d / 2;
+    if (dof < Dim * nodes_) {
+      const auto node = d / Dim;
       if (body_of_node_[node] >= 0 || !used_node[node]) continue;
     }
     unknown_of_[d] = unknowns_++;
@@ -25,9 +27,10 @@ DofSpace::DofSpace(Index nodes, std::vector<Index> body_of_node, Index bodies,
   }
 }
 
-void DofSpace::expand(Dof dof, double factor, std::span<const Vec2> x,
-                      const std::vector<body::RigidMotion>& rigid,
-                      std::vector<Expansion>& out) const {
+template <int Dim>
+void BasicDofSpace<Dim>::expand(Dof dof, double factor, std::span<const Vec<Dim>> x,
+                                const std::vector<body::BasicRigidMotion<Dim>>& rigid,
+                                std::vector<Expansion>& out) const {
   const auto d = static_cast<std::size_t>(dof);
   if (unknown_of_[d] >= 0) {
     out.push_back({unknown_of_[d], factor});
@@ -40,16 +43,19 @@ void DofSpace::expand(Dof dof, double factor, std::span<const Vec2> x,
       expand(equation.terms[t].dof, -factor * equation.terms[t].factor / lead, x, rigid, out);
     return;
   }
-  if (dof >= 2 * nodes_) return;
-  const Index node = dof / 2;
+  if (dof >= Dim * nodes_) return;
+  const Index node = dof / Dim;
   const Index b = body_of_node_[static_cast<std::size_t>(node)];
   if (b < 0) return;  // a node nobody uses
-  const Mat<2, 3> gradient =
+  const Mat<Dim, body::motions<Dim>> gradient =
       body::motion_gradient(rigid[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(node)]);
-  for (int component = 0; component < 3; ++component) {
-    const double value = gradient(dof % 2, component);
+  for (int component = 0; component < body::motions<Dim>; ++component) {
+    const double value = gradient(dof % Dim, component);
     if (value != 0.0) expand(body_dof(b, component), factor * value, x, rigid, out);
   }
 }
+
+template class BasicDofSpace<2>;
+template class BasicDofSpace<3>;
 
 }  // namespace osculate::model

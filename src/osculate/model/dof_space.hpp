@@ -8,7 +8,8 @@
 
 namespace osculate::model {
 
-/// A primary degree of freedom: 2 per node (x, y), then 3 per rigid body (x, y, rotation).
+/// A primary degree of freedom: Dim per node, then those of the rigid bodies (2D: x, y, rotation;
+/// 3D: x, y, z and the rotation vector).
 using Dof = Index;
 
 /// Linear constraint  sum_i factor_i u_i = value . The first term's dof is eliminated.
@@ -30,18 +31,19 @@ struct Expansion {
 /// Which dofs are unknowns and how the others follow from them: nodes of rigid bodies from the
 /// body's motion, eliminated dofs from their equation. Fixed for the whole analysis; which
 /// unknowns are prescribed changes from step to step and is kept in `prescribed`.
-class DofSpace {
+template <int Dim>
+class BasicDofSpace {
  public:
-  DofSpace(Index nodes, std::vector<Index> body_of_node, Index bodies,
-           std::vector<Equation> equations, const std::vector<bool>& used_node);
+  BasicDofSpace(Index nodes, std::vector<Index> body_of_node, Index bodies,
+                std::vector<Equation> equations, const std::vector<bool>& used_node);
 
   [[nodiscard]] Index nodes() const { return nodes_; }
   [[nodiscard]] Index bodies() const { return bodies_; }
-  [[nodiscard]] Index dofs() const { return 2 * nodes_ + 3 * bodies_; }
+  [[nodiscard]] Index dofs() const { return Dim * nodes_ + body::motions<Dim> * bodies_; }
   [[nodiscard]] Index unknowns() const { return unknowns_; }
-  [[nodiscard]] Dof node_dof(Index node, int direction) const { return 2 * node + direction; }
+  [[nodiscard]] Dof node_dof(Index node, int direction) const { return Dim * node + direction; }
   [[nodiscard]] Dof body_dof(Index body, int component) const {
-    return 2 * nodes_ + 3 * body + component;
+    return Dim * nodes_ + body::motions<Dim> * body + component;
   }
   [[nodiscard]] Index body_of(Index node) const {
     return body_of_node_[static_cast<std::size_t>(node)];
@@ -60,8 +62,9 @@ class DofSpace {
   }
 
   /// Appends the expansion of `dof` times `factor`, for the current positions `x` of the nodes.
-  void expand(Dof dof, double factor, std::span<const Vec2> x,
-              const std::vector<body::RigidMotion>& rigid, std::vector<Expansion>& out) const;
+  void expand(Dof dof, double factor, std::span<const Vec<Dim>> x,
+              const std::vector<body::BasicRigidMotion<Dim>>& rigid,
+              std::vector<Expansion>& out) const;
 
  private:
   Index nodes_, bodies_, unknowns_ = 0;
@@ -70,5 +73,8 @@ class DofSpace {
   std::vector<Index> unknown_of_, equation_of_;
   std::vector<Dof> dof_of_unknown_;
 };
+
+using DofSpace = BasicDofSpace<2>;
+using DofSpace3 = BasicDofSpace<3>;
 
 }  // namespace osculate::model

@@ -138,5 +138,39 @@ TEST(SparseMatrix, relative_residual_of_a_known_error) {
   EXPECT_TRUE(std::isinf(relative_residual(k, Eigen::Vector2d(NAN, 0), b)));
 }
 
+/// Blocks of nodes with three unknowns each, some prescribed (-1), some of it reserved before.
+TEST(MatrixBuilder, blocks_give_the_bits_of_single_entries) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<Index> node(0, 19);
+  std::uniform_real_distribution<double> value(-1, 1);
+  MatrixBuilder blocks(60), entries(60);
+  for (int block = 0; block < 40; ++block) {
+    std::set<Index> nodes;
+    while (nodes.size() < 4) nodes.insert(node(random));
+    std::vector<Index> unknowns;
+    for (const Index n : nodes)
+      for (Index i = 0; i < 3; ++i) unknowns.push_back(3 * n + i);
+    std::shuffle(unknowns.begin(), unknowns.end(), random);
+    if (block % 3 == 0) blocks.reserve_block(unknowns), entries.reserve_block(unknowns);
+    if (block % 5 == 0) blocks.finish(), entries.finish();
+    unknowns[static_cast<std::size_t>(block % 12)] = -1;
+    Eigen::Matrix<double, 15, 15> k;
+    for (double& v : k.reshaped()) v = value(random);
+    k(2, 3) = 0.0;
+    blocks.add_block(unknowns, k.data(), k.outerStride());
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+      for (std::size_t j = 0; j < unknowns.size(); ++j) {
+        const double v = k(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        if (unknowns[i] >= 0 && unknowns[j] >= 0 && v != 0.0)
+          entries.add(unknowns[i], unknowns[j], v);
+      }
+  }
+  const SparseMatrix& a = blocks.finish();
+  const SparseMatrix& b = entries.finish();
+  EXPECT_EQ(a.row_start, b.row_start);
+  EXPECT_EQ(a.column, b.column);
+  EXPECT_EQ(a.value, b.value);
+}
+
 }  // namespace
 }  // namespace osculate::la
