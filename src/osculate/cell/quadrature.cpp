@@ -138,4 +138,62 @@ Quadrature2D gauss_triangle(int degree) {
   return degree <= 5 ? seven_points() : twelve_points();
 }
 
+namespace {
+
+/// A rule of an area times one along zeta.
+Quadrature3D product(const Quadrature2D& area, const Quadrature1D& line) {
+  Quadrature3D rule;
+  for (std::size_t j = 0; j < line.points.size(); ++j)
+    for (std::size_t i = 0; i < area.points.size(); ++i) {
+      rule.points.emplace_back(area.points[i].x(), area.points[i].y(), line.points[j]);
+      rule.weights.push_back(area.weights[i] * line.weights[j]);
+    }
+  return rule;
+}
+
+/// The four points with the volume coordinates (a, a, a, 1 - 3a) with one weight.
+void add_corner_orbit(Quadrature3D& rule, double a, double weight) {
+  const double b = 1 - 3 * a;
+  for (const Vec3& xi : {Vec3(a, a, a), Vec3(b, a, a), Vec3(a, b, a), Vec3(a, a, b)}) {
+    rule.points.push_back(xi);
+    rule.weights.push_back(weight);
+  }
+}
+
+/// The six points with the volume coordinates (a, a, b, b), b = 1/2 - a, with one weight.
+void add_edge_orbit(Quadrature3D& rule, double a, double weight) {
+  const double b = 0.5 - a;
+  for (const Vec3& xi :
+       {Vec3(a, a, b), Vec3(a, b, a), Vec3(b, a, a), Vec3(a, b, b), Vec3(b, a, b), Vec3(b, b, a)}) {
+    rule.points.push_back(xi);
+    rule.weights.push_back(weight);
+  }
+}
+
+}  // namespace
+
+Quadrature3D gauss_hex(int n, int m) {
+  return product(gauss_quad(n), gauss_legendre(m == 0 ? n : m));
+}
+
+Quadrature3D gauss_tetrahedron(int degree) {
+  Quadrature3D rule;
+  if (degree <= 1) return {{Vec3(0.25, 0.25, 0.25)}, {1.0 / 6}};
+  if (degree <= 2) {
+    add_corner_orbit(rule, (5 - std::sqrt(5.0)) / 20, 1.0 / 24);
+    return rule;
+  }
+  // degree 5 in closed form, the sibling of the triangle's seven points (Keast 1986)
+  const double root15 = std::sqrt(15.0);
+  rule = {{Vec3(0.25, 0.25, 0.25)}, {8.0 / 405}};
+  add_corner_orbit(rule, (7 - root15) / 34, (2665 + 14 * root15) / 226800);
+  add_corner_orbit(rule, (7 + root15) / 34, (2665 - 14 * root15) / 226800);
+  add_edge_orbit(rule, (5 - root15) / 20, 5.0 / 567);
+  return rule;
+}
+
+Quadrature3D gauss_wedge(int degree, int n) {
+  return product(gauss_triangle(degree), gauss_legendre(n));
+}
+
 }  // namespace osculate::cell

@@ -27,4 +27,18 @@ struct Quadrature2D {
 /// inside the triangle with positive weights, whose sum is 1/2.
 [[nodiscard]] Quadrature2D gauss_triangle(int degree);
 
+/// Points and weights on a reference volume.
+struct Quadrature3D {
+  std::vector<Vec3> points;
+  std::vector<double> weights;
+};
+
+/// n x n x m tensor Gauss rule, m along zeta; m = 0 stands for n.
+[[nodiscard]] Quadrature3D gauss_hex(int n, int m = 0);
+/// Tetrahedron rule exact for polynomials of at least the degree (1..5): 1, 4 or 15 points inside
+/// with positive weights, whose sum is 1/6.
+[[nodiscard]] Quadrature3D gauss_tetrahedron(int degree);
+/// Triangle rule of the degree times n Gauss points along zeta.
+[[nodiscard]] Quadrature3D gauss_wedge(int degree, int n);
+
 }  // namespace osculate::cell

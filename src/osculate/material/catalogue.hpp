@@ -20,12 +20,14 @@ constexpr void for_each_law(const Visit& visit) {
 
 /// What every entry offers.
 template <class T>
-concept IsLaw = requires(const T& law, const Strain& strain, double& strain_33) {
+concept IsLaw = requires(const T& law, const Strain& strain, const Strain3& strain3,
+                         double& strain_33) {
   { T::key } -> std::convertible_to<std::string_view>;
   { T::doc } -> std::convertible_to<std::string_view>;
   { T::finite_strain } -> std::convertible_to<bool>;
   { T::params().front() } -> std::convertible_to<core::Param<T>>;
   { respond(law, strain) } -> std::same_as<Response>;
+  { respond(law, strain3) } -> std::same_as<Response3>;
   { respond_plane_stress(law, strain, strain_33) } -> std::same_as<Response>;
 };
 

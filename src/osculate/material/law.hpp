@@ -15,6 +15,13 @@ namespace osculate::material {
 /// Returns    second Piola-Kirchhoff stress and dS/dE (finite), Cauchy stress (small)
 /// Tested by  tests/unit/material/test_laws.cpp
 [[nodiscard]] Response response(const Law& law, const Strain& strain);
+/// The same in space. Only for a value of type Strain3: expressions are strains of four components.
+///
+/// Tested by  tests/unit/material/test_space.cpp
+template <std::same_as<Strain3> S>
+[[nodiscard]] Response3 response(const Law& law, const S& strain) {
+  return std::visit([&](const auto& m) { return respond(m, strain); }, law);
+}
 
 /// The same with S33 = 0: E33 is found (closed form, or Newton to round-off) and condensed, so that
 /// rows and columns 33 of the tangent are zero.

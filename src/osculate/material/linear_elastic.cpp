@@ -2,15 +2,6 @@
 
 namespace osculate::material {
 
-Response hooke(double young, double poisson, const Strain& strain) {
-  const Lame c = lame(young, poisson);
-  Response r;
-  r.tangent.topLeftCorner<3, 3>().setConstant(c.lambda);
-  r.tangent.diagonal() += Vec<4>(2 * c.mu, 2 * c.mu, 2 * c.mu, c.mu);
-  r.stress = r.tangent * strain;
-  return r;
-}
-
 Response hooke_plane_stress(double young, double poisson, const Strain& strain, double& strain_33) {
   strain_33 = -poisson / (1 - poisson) * (strain[0] + strain[1]);
   const double factor = young / (1 - poisson * poisson);

@@ -17,12 +17,25 @@ struct LinearElastic {
   static constexpr auto params() { return isotropic_params<LinearElastic>(); }
 };
 
-[[nodiscard]] Response hooke(double young, double poisson, const Strain& strain);
+/// For four components (Strain) or six (Strain3).
+template <int N>
+[[nodiscard]] ResponseOf<N> hooke(double young, double poisson, const Vec<N>& strain) {
+  const Lame c = lame(young, poisson);
+  ResponseOf<N> r;
+  r.tangent.template topLeftCorner<3, 3>().setConstant(c.lambda);
+  r.tangent.diagonal().template head<3>().array() += 2 * c.mu;
+  r.tangent.diagonal().template tail<N - 3>().setConstant(c.mu);
+  r.stress = r.tangent * strain;
+  return r;
+}
 /// Hooke's law with S33 = 0, in closed form: no digits are lost for nu near 0.5.
 [[nodiscard]] Response hooke_plane_stress(double young, double poisson, const Strain& strain,
                                           double& strain_33);
 
 [[nodiscard]] inline Response respond(const LinearElastic& law, const Strain& strain) {
+  return hooke(law.young, law.poisson, strain);
+}
+[[nodiscard]] inline Response3 respond(const LinearElastic& law, const Strain3& strain) {
   return hooke(law.young, law.poisson, strain);
 }
 [[nodiscard]] inline Response respond_plane_stress(const LinearElastic& law, const Strain& strain,

@@ -1,5 +1,6 @@
 #include "osculate/material/neo_hooke.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "osculate/material/stretch.hpp"
@@ -25,6 +26,37 @@ Tangent square(const Vec<4>& inv) {
       inv[3] * inv[3], inv[1] * inv[1], 0, inv[1] * inv[3],   //
       0, 0, inv[2] * inv[2], 0,                               //
       inv[0] * inv[3], inv[1] * inv[3], 0, 0.5 * (inv[0] * inv[1] + inv[3] * inv[3]);
+  return t;
+}
+
+/// C is positive definite. False for NaN.
+bool is_positive(const Strain3& e) {
+  return 1 + 2 * e[0] > 0 && plane_determinant(e) > 0 && 1 + determinant_change(e) > 0;
+}
+
+/// I - C^-1 = 2 E C^-1 in six components.
+Vec<6> inverse_change(const Strain3& e, const Vec<6>& inv) {
+  return {2 * e[0] * inv[0] + e[3] * inv[3] + e[5] * inv[5],
+          e[3] * inv[3] + 2 * e[1] * inv[1] + e[4] * inv[4],
+          e[5] * inv[5] + e[4] * inv[4] + 2 * e[2] * inv[2],
+          -inv[3],
+          -inv[4],
+          -inv[5]};
+}
+
+Tangent3 square(const Vec<6>& inv) {
+  constexpr std::array<std::array<int, 3>, 3> place{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
+  constexpr std::array<std::array<std::size_t, 2>, 6> axes{
+      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+  const auto at = [&](std::size_t i, std::size_t j) { return inv[place[i][j]]; };
+  Tangent3 t;
+  for (std::size_t a = 0; a < 6; ++a)
+    for (std::size_t b = 0; b <= a; ++b) {
+      const auto [i, j] = axes[a];
+      const auto [k, l] = axes[b];
+      const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
+      t(row, column) = t(column, row) = 0.5 * (at(i, k) * at(j, l) + at(i, l) * at(j, k));
+    }
   return t;
 }
 
@@ -54,6 +86,18 @@ Response respond(const NeoHooke& law, const Strain& e) {
   const double log_j = log_volume_ratio(e);
   const Vec<4> inv = inverse_stretch(e, c33);
   r.stress = c.mu * inverse_change(e, e[2], c33) + c.lambda * log_j * inv;
+  r.tangent = c.lambda * inv * inv.transpose() + 2 * (c.mu - c.lambda * log_j) * square(inv);
+  return r;
+}
+
+Response3 respond(const NeoHooke& law, const Strain3& e) {
+  const Lame c = lame(law.young, law.poisson);
+  Response3 r;
+  r.ok = is_positive(e);
+  if (!r.ok) return r;
+  const double log_j = log_volume_ratio(e);
+  const Vec<6> inv = inverse_stretch(e);
+  r.stress = c.mu * inverse_change(e, inv) + c.lambda * log_j * inv;
   r.tangent = c.lambda * inv * inv.transpose() + 2 * (c.mu - c.lambda * log_j) * square(inv);
   return r;
 }

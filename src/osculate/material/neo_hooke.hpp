@@ -19,6 +19,7 @@ struct NeoHooke {
 };
 
 [[nodiscard]] Response respond(const NeoHooke& law, const Strain& strain);
+[[nodiscard]] Response3 respond(const NeoHooke& law, const Strain3& strain);
 
 /// The same with S33 = 0: Newton to round-off for y = ln C33 in
 /// mu (e^y - 1) + lambda/2 (ln det C_plane + y) = 0, which is convex in y. There,

@@ -14,13 +14,21 @@ using Strain = Vec<4>;
 using Stress = Vec<4>;
 using Tangent = Mat<4, 4>;
 
+/// Components in space: 11, 22, 33, 12, 23, 13, of which the first four are the plane ones.
+using Strain3 = Vec<6>;
+using Stress3 = Vec<6>;
+using Tangent3 = Mat<6, 6>;
+
 /// Stress and its derivative with respect to the strain. `ok` is false where the law has no
 /// answer (volume not positive, no thickness found): step control cuts the increment.
-struct Response {
+template <int N>
+struct ResponseOf {
   bool ok = true;
-  Stress stress = Stress::Zero();
-  Tangent tangent = Tangent::Zero();
+  Vec<N> stress = Vec<N>::Zero();
+  Mat<N, N> tangent = Mat<N, N>::Zero();
 };
+using Response = ResponseOf<4>;
+using Response3 = ResponseOf<6>;
 
 /// Lame constants.
 struct Lame {

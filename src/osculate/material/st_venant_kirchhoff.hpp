@@ -22,6 +22,9 @@ struct StVenantKirchhoff {
 [[nodiscard]] inline Response respond(const StVenantKirchhoff& law, const Strain& strain) {
   return hooke(law.young, law.poisson, strain);
 }
+[[nodiscard]] inline Response3 respond(const StVenantKirchhoff& law, const Strain3& strain) {
+  return hooke(law.young, law.poisson, strain);
+}
 /// Not ok where the thickness would vanish (1 + 2 E33 <= 0).
 [[nodiscard]] inline Response respond_plane_stress(const StVenantKirchhoff& law,
                                                    const Strain& strain, double& strain_33) {

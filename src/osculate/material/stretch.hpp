@@ -1,5 +1,6 @@
 #pragma once
-// Right Cauchy-Green tensor C = I + 2 E in the working components 11, 22, 33, 12 of a strain E.
+// Right Cauchy-Green tensor C = I + 2 E in the working components 11, 22, 33, 12 (23, 13) of a
+// strain E.
 #include <cmath>
 
 #include "osculate/material/response.hpp"
@@ -7,7 +8,8 @@
 namespace osculate::material {
 
 /// det C of the plane part.
-[[nodiscard]] inline double plane_determinant(const Strain& e) {
+template <int N>
+[[nodiscard]] double plane_determinant(const Vec<N>& e) {
   return (1 + 2 * e[0]) * (1 + 2 * e[1]) - e[3] * e[3];
 }
 
@@ -26,6 +28,27 @@ namespace osculate::material {
 [[nodiscard]] inline Vec<4> inverse_stretch(const Strain& e, double c33) {
   const double plane = plane_determinant(e);
   return {(1 + 2 * e[1]) / plane, (1 + 2 * e[0]) / plane, 1 / c33, -e[3] / plane};
+}
+
+/// det C - 1 in space, without cancellation at small strain.
+[[nodiscard]] inline double determinant_change(const Strain3& e) {
+  const double a = 2 * e[0], b = 2 * e[1], c = 2 * e[2], d = e[3], f = e[4], g = e[5];
+  return a + b + c + a * b + b * c + c * a - d * d - f * f - g * g + a * b * c + 2 * d * f * g -
+         a * f * f - b * g * g - c * d * d;
+}
+
+[[nodiscard]] inline double log_volume_ratio(const Strain3& e) {
+  const double change = determinant_change(e);
+  return 0.5 * (std::abs(change) < 0.5 ? std::log1p(change) : std::log(1 + change));
+}
+
+[[nodiscard]] inline Vec<6> inverse_stretch(const Strain3& e) {
+  const double c11 = 1 + 2 * e[0], c22 = 1 + 2 * e[1], c33 = 1 + 2 * e[2];
+  const double c12 = e[3], c23 = e[4], c13 = e[5];
+  const double scale = 1 / (1 + determinant_change(e));
+  return {scale * (c22 * c33 - c23 * c23), scale * (c11 * c33 - c13 * c13),
+          scale * (c11 * c22 - c12 * c12), scale * (c13 * c23 - c12 * c33),
+          scale * (c12 * c13 - c23 * c11), scale * (c12 * c23 - c13 * c22)};
 }
 
 }  // namespace osculate::material

@@ -74,13 +74,13 @@ const cell::CellInfo& cell_of_type(const Cursor& cursor, std::int64_t gmsh_type)
   const bool in_range = gmsh_type > 0 && gmsh_type < 1000;
   const cell::CellInfo* info =
       in_range ? cell::find_gmsh_cell(static_cast<int>(gmsh_type)) : nullptr;
-  if (info != nullptr) return *info;
+  if (info != nullptr && info->dimension < 3) return *info;
   std::string text = fmt::format("element type {}", gmsh_type);
   for (const auto& [type, name] : foreign_types)
     if (type == gmsh_type) text += fmt::format(" ({})", name);
   text += " is not supported; supported are";
   for (const cell::CellInfo& known : cell::all_cells())
-    text += fmt::format(" {} ({})", known.gmsh_type, known.name);
+    if (known.dimension < 3) text += fmt::format(" {} ({})", known.gmsh_type, known.name);
   cursor.fail(text);
 }
 

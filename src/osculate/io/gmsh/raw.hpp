@@ -48,7 +48,7 @@ struct RawMesh {
   std::vector<Vec3> nodes;          ///< ordered by tag after finish_nodes
   NodeMap node_map;
   bool has_nodes = false, has_cells = false;
-  std::array<RawCells, 9> cells;  ///< by cell type
+  std::array<RawCells, cell::cell_type_count> cells;  ///< by cell type
   std::vector<Group> groups;
 };
 
