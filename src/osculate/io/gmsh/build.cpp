@@ -47,8 +47,9 @@ Nodes reversed(cell::CellType type, const Nodes& n) {
     case quad8:
     case quad9:
       return {n[0], n[3], n[2], n[1], n[7], n[6], n[5], n[4], n[8]};
+    default:
+      return n;
   }
-  return n;
 }
 
 /// Entities whose cells are in several physical groups. MSH 2 repeats their cells, one for each
