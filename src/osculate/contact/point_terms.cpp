@@ -5,177 +5,289 @@
 namespace osculate::contact {
 namespace {
 
-using Tensor = Mat<2, 2>;
+using I = Eigen::Index;
 
-/// Adds vector (x) form to the row of the a-th derivative of the weights.
-void add(PointTerms& terms, int a, const Vec2& vector, const Form& form) {
-  terms.m[a][0].noalias() += vector * form.p.transpose();
-  terms.m[a][1].noalias() += vector * form.q.transpose();
-  terms.m[a][2].noalias() += vector * form.r.transpose();
+/// Row `a` of the tangent gets the derivative of the force in that slot.
+template <int Dim>
+void add_row(PointTerms<Dim>& terms, std::size_t a, const VectorForm<Dim>& form) {
+  for (std::size_t b = 0; b < terms.used; ++b) terms.m[a][b] += form[b];
+}
+template <int Dim>
+void add_row(PointTerms<Dim>& terms, std::size_t a, const Vec<Dim>& vector, const Form<Dim>& form) {
+  for (std::size_t b = 0; b < terms.used; ++b)
+    terms.m[a][b].noalias() += vector * form[b].transpose();
 }
 
-PointTerms zero_terms() {
-  PointTerms terms;
-  for (auto& row : terms.m)
-    for (Tensor& tensor : row) tensor.setZero();
+template <int Dim>
+PointTerms<Dim> zero_terms(std::size_t used) {
+  PointTerms<Dim> terms;
+  terms.used = used;
+  for (std::size_t a = 0; a < used; ++a)
+    for (std::size_t b = 0; b < used; ++b) terms.m[a][b].setZero();
+  terms.s.fill(Mat<Dim, Dim>::Zero());
   return terms;
 }
 
-bool at_corner(const Kinematics& k) { return k.feature == projection::Feature::corner; }
-
-/// Variation of a11: 2 rho_xi . d(rho_xi), convective part included.
-Form metric_variation(const Kinematics& k) {
-  const Vec2 tangent = k.sqrt_a11 * k.unit_tangent;
-  Form form = 2 * tangent.dot(k.rho2) * k.d_xi;
-  form.q -= 2 * tangent;
-  return form;
+/// Second derivatives of the weights matter for the full residual only.
+template <int Dim>
+std::size_t used_slots(ResidualForm form) {
+  return form == ResidualForm::full ? slots<Dim> : static_cast<std::size_t>(Dim);
 }
 
-/// Variation of h11 = rho_xixi . nu.
-Form curvature_variation(const Kinematics& k) {
-  Form form = k.normal.dot(k.rho3) * k.d_xi + (-k.rho2.dot(k.unit_tangent)) * k.d_angle;
-  form.r -= k.normal;
-  return form;
-}
-
-/// Lever of the tangential force in the full residual: F0 gets lever * t tau, F1 gets -arm * t nu.
-struct Levers {
-  double lever = 1, arm = 0;
-  Form d_lever, d_arm;
+/// Work-conjugate contravariant traction T^j = g^ij (t . rho_,i): the force on d(xi^j).
+template <int Dim>
+struct Conjugate {
+  Vec<Dim - 1> value = Vec<Dim - 1>::Zero();
+  std::array<Form<Dim>, directions<Dim>> variation;       ///< without the traction's own change
+  std::array<Vec<Dim>, directions<Dim>> of_traction;      ///< dT^j = of_traction . dt + variation
 };
 
-// @eq KS2D:39 with the exact d(xi): T d(xi) = t sqrt(a11) (rho_xi . p - zeta nu . q) / g.
-Levers work_conjugate_levers(const Kinematics& k) {
-  Levers v;
-  v.lever = k.a11 / k.g;
-  v.arm = k.sqrt_a11 * k.gap / k.g;
-  const Form da = metric_variation(k);
-  const Form dg = da + (-k.gap) * curvature_variation(k) + (-k.h11) * k.d_gap;
-  v.d_lever = (1 / k.g) * da + (-k.a11 / (k.g * k.g)) * dg;
-  v.d_arm =
-      (k.gap / (2 * k.sqrt_a11 * k.g)) * da + (k.sqrt_a11 / k.g) * k.d_gap + (-v.arm / k.g) * dg;
-  return v;
+// @eq KS2D:39, KSVD:33 with the exact d(xi^i): t . rho_,i d(xi^i) = T^j (rho_,j . v_0 - gap n .
+// v_,j).
+template <int Dim>
+Vec<Dim - 1> conjugate_traction(const Kinematics<Dim>& k, const Vec<Dim>& t) {
+  Vec<Dim - 1> covariant = Vec<Dim - 1>::Zero();
+  for (std::size_t i = 0; i < k.moving; ++i) covariant[static_cast<I>(i)] = t.dot(k.rho1[i]);
+  return k.shifted_inverse * covariant;
 }
 
-Levers levers(const Kinematics& k, ResidualForm form) {
-  if (form == ResidualForm::surface) return {};
-  if (at_corner(k)) return {0, 0, {}, {}};  // no slip along the master, so no conjugate force
-  return work_conjugate_levers(k);
+/// d(h_ij) = n . d(rho_,ij) + rho_,ij . d(n)
+template <int Dim>
+Form<Dim> curvature_variation(const Kinematics<Dim>& k, std::size_t i, std::size_t j) {
+  Form<Dim> form = dot(k.second(i, j), k.d_normal);
+  form[second_slot<Dim>(i, j)] -= k.normal;
+  for (std::size_t l = 0; l < k.moving; ++l)
+    form += k.normal.dot(k.third(i, j, l)) * k.d_xi[l];
+  return form;
 }
 
-void set_forces(PointTerms& terms, const Kinematics& k, const Traction& t, const Levers& v) {
-  const double normal = t.normal.traction;
-  const double shear = t.tangential.traction;
-  // @eq KS2D:31 with the sign of docs/errata.md: both tractions act on the slave point.
-  terms.f0 = normal * k.normal + v.lever * shear * k.unit_tangent;
-  terms.f1 = -v.arm * shear * k.normal;
+/// d(a_ij - gap h_ij)
+template <int Dim>
+Form<Dim> shifted_variation(const Kinematics<Dim>& k, std::size_t i, std::size_t j) {
+  Form<Dim> form = dot(k.rho1[i], k.d_rho1[j]) + dot(k.rho1[j], k.d_rho1[i]);
+  form += -k.curvature(static_cast<I>(i), static_cast<I>(j)) * k.d_gap;
+  form += -k.gap * curvature_variation(k, i, j);
+  return form;
+}
+
+template <int Dim>
+Conjugate<Dim> conjugate(const Kinematics<Dim>& k, const Vec<Dim>& t) {
+  Conjugate<Dim> c;
+  c.of_traction.fill(Vec<Dim>::Zero());
+  c.value = conjugate_traction(k, t);
+  std::array<Form<Dim>, directions<Dim>> covariant;  // t . d(rho_,i) - d(g_il) T^l
+  for (std::size_t i = 0; i < k.moving; ++i) {
+    covariant[i] = dot(t, k.d_rho1[i]);
+    for (std::size_t l = 0; l < k.moving; ++l)
+      covariant[i] += -c.value[static_cast<I>(l)] * shifted_variation(k, i, l);
+  }
+  for (std::size_t j = 0; j < k.moving; ++j)
+    for (std::size_t i = 0; i < k.moving; ++i) {
+      const double g = k.shifted_inverse(static_cast<I>(j), static_cast<I>(i));
+      c.variation[j] += g * covariant[i];
+      c.of_traction[j] += g * k.rho1[i];
+    }
+  return c;
+}
+
+template <int Dim>
+void set_forces(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Traction<Dim>& t,
+                ResidualForm form) {
+  const Vec<Dim> shear = k.frame * t.tangential.traction;
+  terms.f.fill(Vec<Dim>::Zero());
+  if (form == ResidualForm::surface) {
+    // @eq KS2D:31 with the sign of docs/errata.md: both tractions act on the slave point.
+    terms.f[0] = t.normal.traction * k.normal + shear;
+    return;
+  }
+  terms.f[0] = t.normal.traction * k.normal;
+  const Vec<Dim - 1> contravariant = conjugate_traction(k, shear);
+  for (std::size_t j = 0; j < k.moving; ++j) {
+    terms.f[0] += contravariant[static_cast<I>(j)] * k.rho1[j];
+    terms.f[first_slot(j)] = -k.gap * contravariant[static_cast<I>(j)] * k.normal;
+  }
+}
+
+/// The shear traction as a vector in space, dt = E D E^T d(t_trial) + E d_N dN - n (t . d(n)).
+template <int Dim>
+struct Shear {
+  Vec<Dim> value;
+  Mat<Dim, Dim> d_trial;  ///< E D E^T
+  VectorForm<Dim> variation;
+};
+
+template <int Dim>
+Shear<Dim> shear_of(const Kinematics<Dim>& k, const Traction<Dim>& t, const Form<Dim>& d_normal) {
+  Shear<Dim> s;
+  s.value = k.frame * t.tangential.traction;
+  s.d_trial = k.frame * t.tangential.d_trial * k.frame.transpose();
+  s.variation.add(s.d_trial, t.d_trial);
+  s.variation.add(Vec<Dim>(k.frame * t.tangential.d_normal), d_normal);
+  s.variation.add(Vec<Dim>(-k.normal), dot(s.value, k.d_normal));
+  return s;
+}
+
+/// Adds the derivatives of the forces of the full residual's shear.
+template <int Dim>
+void add_full_shear(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Shear<Dim>& shear) {
+  const Conjugate<Dim> c = conjugate(k, shear.value);
+  for (std::size_t j = 0; j < k.moving; ++j) {
+    const double traction = c.value[static_cast<I>(j)];
+    const Form<Dim> d_traction = c.variation[j] + dot(c.of_traction[j], shear.variation);
+    const Vec<Dim> of_trial = shear.d_trial.transpose() * c.of_traction[j];
+    add_row(terms, 0, k.rho1[j], d_traction);
+    add_row(terms, 0, traction * k.d_rho1[j]);
+    terms.s[0] += k.rho1[j] * of_trial.transpose();
+    const std::size_t a = first_slot(j);
+    add_row(terms, a, k.normal, (-k.gap) * d_traction + (-traction) * k.d_gap);
+    add_row(terms, a, (-k.gap * traction) * k.d_normal);
+    terms.s[a] -= k.gap * k.normal * of_trial.transpose();
+  }
 }
 
 }  // namespace
 
-PointTerms point_forces(const Kinematics& k, const Traction& t, ResidualForm form) {
-  PointTerms terms;
-  set_forces(terms, k, t, levers(k, form));
+template <int Dim>
+PointTerms<Dim> point_forces(const Kinematics<Dim>& k, const Traction<Dim>& t, ResidualForm form) {
+  PointTerms<Dim> terms;
+  terms.used = used_slots<Dim>(form);
+  set_forces(terms, k, t, form);
   return terms;
 }
 
-PointTerms consistent_terms(const Kinematics& k, const Traction& t, ResidualForm form) {
-  PointTerms terms = zero_terms();
-  const Levers v = levers(k, form);
-  set_forces(terms, k, t, v);
-  const double normal = t.normal.traction;
-  const double shear = t.tangential.traction;
+template <int Dim>
+PointTerms<Dim> consistent_terms(const Kinematics<Dim>& k, const Traction<Dim>& t,
+                                 ResidualForm form) {
+  PointTerms<Dim> terms = zero_terms<Dim>(used_slots<Dim>(form));
+  set_forces(terms, k, t, form);
 
-  // 1. tractions: dN = N' d(zeta); dt = dt/dt_tr (dt_tr/ds ds + dt_tr/dzeta dzeta) + dt/dN dN
-  const Form d_normal = t.normal.d_traction * k.d_gap;
-  const Form d_slip = k.sqrt_a11 * k.d_xi;
-  const Form d_shear =
-      t.tangential.d_trial * (t.d_trial_d_slip * d_slip + t.d_trial_d_gap * k.d_gap) +
-      t.tangential.d_normal * d_normal;
+  // 1. the normal force: dN n + N d(n)
+  const Form<Dim> d_normal = t.normal.d_traction * k.d_gap;
+  add_row(terms, 0, k.normal, d_normal);
+  add_row(terms, 0, t.normal.traction * k.d_normal);
 
-  // 2. dF0 = dN nu - N tau d(angle) + d(lever t) tau + lever t nu d(angle)
-  add(terms, 0, k.normal, d_normal + v.lever * shear * k.d_angle);
-  add(terms, 0, k.unit_tangent, (-normal) * k.d_angle + v.lever * d_shear + shear * v.d_lever);
+  // 2. the shear force
+  if (t.tangential.status == Status::slip || t.tangential.d_trial(0, 0) != 0.0) {
+    const Shear<Dim> shear = shear_of(k, t, d_normal);
+    if (form == ResidualForm::full) {
+      add_full_shear(terms, k, shear);
+    } else {
+      add_row(terms, 0, shear.variation);
+      terms.s[0] = shear.d_trial;
+    }
+  }
 
-  // 3. dF1 = -d(arm t) nu + arm t tau d(angle)
-  add(terms, 1, k.normal, (-v.arm) * d_shear + (-shear) * v.d_arm);
-  add(terms, 1, k.unit_tangent, v.arm * shear * k.d_angle);
-
-  // 4. the weights move with the foot point: dR_k += w'_k F0 d(xi) + w''_k F1 d(xi)
-  add(terms, 1, terms.f0, k.d_xi);
-  add(terms, 2, terms.f1, k.d_xi);
-
-  // 5. the path behind the point
-  const double d_path = t.tangential.d_trial * t.d_trial_d_slip;
-  terms.s0 = v.lever * d_path * k.unit_tangent;
-  terms.s1 = -v.arm * d_path * k.normal;
+  // 3. the weights move with the foot point: dR_k += w_k^(a,l) f[a] d(xi^l)
+  for (std::size_t l = 0; l < k.moving; ++l) {
+    add_row(terms, first_slot(l), terms.f[0], k.d_xi[l]);
+    if (form == ResidualForm::surface) continue;
+    for (std::size_t j = 0; j < k.moving; ++j)
+      add_row(terms, second_slot<Dim>(j, l), terms.f[first_slot(j)], k.d_xi[l]);
+  }
   return terms;
 }
 
 namespace {
 
-// @eq KS2D:54 normal part: main, rotational and curvature part of N A^T nu.
-void add_covariant_normal(PointTerms& terms, const Kinematics& k, const Traction& t,
-                          const TangentForm& parts) {
-  const Vec2 rho = k.sqrt_a11 * k.unit_tangent;
-  const double n_over_a = t.normal.traction / k.a11;
-  if (parts.main) terms.m[0][0] += t.normal.d_traction * k.normal * k.normal.transpose();
-  if (parts.rotational) {
-    terms.m[1][0] += n_over_a * k.normal * rho.transpose();
-    terms.m[0][1] += n_over_a * rho * k.normal.transpose();
+/// Contravariant components of the shear and of the curvature, for the covariant tangents.
+template <int Dim>
+struct Covariant {
+  Vec<Dim - 1> lower, upper;       ///< T_i, T^i
+  SurfaceMatrix<Dim> curvature;    ///< h^ij
+  Covariant(const Kinematics<Dim>& k, const Traction<Dim>& t) {
+    lower.setZero();
+    const Vec<Dim> shear = k.frame * t.tangential.traction;
+    for (std::size_t i = 0; i < k.moving; ++i) lower[static_cast<I>(i)] = shear.dot(k.rho1[i]);
+    upper = k.metric_inverse * lower;
+    curvature = k.metric_inverse * k.curvature * k.metric_inverse;
   }
-  if (parts.curvature) terms.m[0][0] -= n_over_a * k.kappa * rho * rho.transpose();
+};
+
+// @eq KS2D:54, KSVD:55 normal part: main, rotational and curvature part of N A^T n.
+template <int Dim>
+void add_covariant_normal(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Traction<Dim>& t,
+                          const Covariant<Dim>& c, const TangentForm& parts) {
+  if (parts.main) terms.m[0][0] += t.normal.d_traction * k.normal * k.normal.transpose();
+  for (std::size_t i = 0; i < k.moving; ++i)
+    for (std::size_t j = 0; j < k.moving; ++j) {
+      const double n_a =
+          t.normal.traction * k.metric_inverse(static_cast<I>(i), static_cast<I>(j));
+      const double n_h = t.normal.traction * c.curvature(static_cast<I>(i), static_cast<I>(j));
+      if (parts.rotational) {
+        terms.m[first_slot(i)][0] += n_a * k.normal * k.rho1[j].transpose();
+        terms.m[0][first_slot(i)] += n_a * k.rho1[j] * k.normal.transpose();
+      }
+      if (parts.curvature) terms.m[0][0] -= n_h * k.rho1[i] * k.rho1[j].transpose();
+    }
+}
+
+/// Rotational and curvature part common to stick and slip; `more` = 1 in stick and 2 in slip.
+template <int Dim>
+void add_covariant_shear(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Covariant<Dim>& c,
+                         double more, const TangentForm& parts) {
+  Vec<Dim> shear = Vec<Dim>::Zero();  // T^l rho_,l
+  for (std::size_t l = 0; l < k.moving; ++l) shear += c.upper[static_cast<I>(l)] * k.rho1[l];
+  for (std::size_t j = 0; j < k.moving; ++j) {
+    Vec<Dim> contravariant = Vec<Dim>::Zero(), bent = Vec<Dim>::Zero();
+    for (std::size_t i = 0; i < k.moving; ++i) {
+      contravariant += k.metric_inverse(static_cast<I>(i), static_cast<I>(j)) * k.rho1[i];
+      bent += c.curvature(static_cast<I>(i), static_cast<I>(j)) * k.rho1[i];
+    }
+    if (parts.rotational) {
+      terms.m[first_slot(j)][0] += shear * contravariant.transpose();
+      terms.m[0][first_slot(j)] += contravariant * shear.transpose();
+    }
+    if (parts.curvature)
+      terms.m[0][0] += c.lower[static_cast<I>(j)] *
+                       (more * bent * k.normal.transpose() + k.normal * bent.transpose());
+  }
 }
 
 // @eq KS2D:56 stick with the sign and the factor T/a11^2 of docs/errata.md; exactly symmetric.
-void add_covariant_stick(PointTerms& terms, const Kinematics& k, const Traction& t,
-                         const TangentForm& parts) {
-  const Vec2 rho = k.sqrt_a11 * k.unit_tangent;
-  const Tensor rr = rho * rho.transpose();
-  const double scale = t.tangential.traction * k.sqrt_a11 / (k.a11 * k.a11);  // Tbar / a11^2
-  if (parts.main) terms.m[0][0] += t.tangential_stiffness / k.a11 * rr;
-  if (parts.rotational) {
-    terms.m[1][0] += scale * rr;
-    terms.m[0][1] += scale * rr;
-  }
-  if (parts.curvature)
-    terms.m[0][0] += scale * k.h11 * (rho * k.normal.transpose() + k.normal * rho.transpose());
+template <int Dim>
+void add_covariant_stick(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Traction<Dim>& t,
+                         const Covariant<Dim>& c, const TangentForm& parts) {
+  const Mat<Dim, Dim> plane = k.frame * k.frame.transpose();
+  if (parts.main) terms.m[0][0] += t.stiffness * plane;
+  add_covariant_shear(terms, k, c, 1.0, parts);
 }
 
-// @eq KS2D:58 slip with the corrected sign; d_normal = -s mu for N < 0.
-void add_covariant_slip(PointTerms& terms, const Kinematics& k, const Traction& t,
-                        const TangentForm& parts) {
-  const Vec2 rho = k.sqrt_a11 * k.unit_tangent;
-  const Tensor rr = rho * rho.transpose();
-  const double scale = t.tangential.traction / (k.a11 * k.sqrt_a11);  // s mu |N| / a11^(3/2)
+// @eq KS2D:58 slip with the corrected sign; d_normal = -s mu for N < 0. In 3D the main part has
+// also the turning of the slip direction.
+template <int Dim>
+void add_covariant_slip(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Traction<Dim>& t,
+                        const Covariant<Dim>& c, const TangentForm& parts) {
+  const Vec<Dim> direction = k.frame * t.tangential.d_normal;
+  const Mat<Dim, Dim> turning = k.frame * t.tangential.d_trial * k.frame.transpose();
   if (parts.main)
-    terms.m[0][0] +=
-        t.tangential.d_normal * t.normal.d_traction / k.sqrt_a11 * rho * k.normal.transpose();
-  if (parts.rotational) {
-    terms.m[1][0] += scale * rr;
-    terms.m[0][1] += scale * rr;
-  }
-  if (parts.curvature)
-    terms.m[0][0] += scale * k.h11 * (2 * rho * k.normal.transpose() + k.normal * rho.transpose());
+    terms.m[0][0] += t.normal.d_traction * direction * k.normal.transpose() + t.stiffness * turning;
+  add_covariant_shear(terms, k, c, 2.0, parts);
 }
 
 }  // namespace
 
-PointTerms covariant_terms(const Kinematics& k, const Traction& t, ResidualForm form,
-                           const TangentForm& parts) {
-  PointTerms terms = zero_terms();
-  set_forces(terms, k, t, levers(k, form));
-  add_covariant_normal(terms, k, t, parts);
+template <int Dim>
+PointTerms<Dim> covariant_terms(const Kinematics<Dim>& k, const Traction<Dim>& t, ResidualForm form,
+                                const TangentForm& parts) {
+  PointTerms<Dim> terms = zero_terms<Dim>(Dim);
+  set_forces(terms, k, t, form);
+  const Covariant<Dim> c(k, t);
+  add_covariant_normal(terms, k, t, c, parts);
+  if (!(t.stiffness > 0)) return terms;
   if (t.tangential.status == Status::slip)
-    add_covariant_slip(terms, k, t, parts);
+    add_covariant_slip(terms, k, t, c, parts);
   else
-    add_covariant_stick(terms, k, t, parts);
+    add_covariant_stick(terms, k, t, c, parts);
   return terms;
 }
 
-PointTerms point_terms(const Kinematics& k, const Traction& t, ResidualForm form,
-                       const TangentForm& tangent) {
-  return tangent.consistent ? consistent_terms(k, t, form) : covariant_terms(k, t, form, tangent);
-}
+template PointTerms<2> point_forces<2>(const Kinematics<2>&, const Traction<2>&, ResidualForm);
+template PointTerms<3> point_forces<3>(const Kinematics<3>&, const Traction<3>&, ResidualForm);
+template PointTerms<2> consistent_terms<2>(const Kinematics<2>&, const Traction<2>&, ResidualForm);
+template PointTerms<3> consistent_terms<3>(const Kinematics<3>&, const Traction<3>&, ResidualForm);
+template PointTerms<2> covariant_terms<2>(const Kinematics<2>&, const Traction<2>&, ResidualForm,
+                                          const TangentForm&);
+template PointTerms<3> covariant_terms<3>(const Kinematics<3>&, const Traction<3>&, ResidualForm,
+                                          const TangentForm&);
 
 }  // namespace osculate::contact

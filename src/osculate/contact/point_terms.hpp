@@ -8,8 +8,8 @@
 namespace osculate::contact {
 
 /// Which residual the tractions enter.
-///   surface : R = N A^T nu + t A^T tau                   (the papers, zeta = 0 on the tangent
-///   plane) full    : work-conjugate to the exact d(xi); moments balance for every penetration
+///   surface : N n + t on the contact weights            (the papers: zero gap on the tangent plane)
+///   full    : work-conjugate to the exact d(xi^i); moments balance for every penetration
 enum class ResidualForm : std::uint8_t { surface, full };
 
 /// Tangent to use. `consistent` is the exact derivative of the residual; otherwise the papers'
@@ -20,41 +20,54 @@ struct TangentForm {
 };
 
 /// Traction of one contact point with everything its linearisation needs.
+template <int Dim>
 struct Traction {
   NormalResponse normal;
-  TangentialResponse tangential;
-  double d_trial_d_slip = 0;        ///< eps_T times the part of the increment spent in contact
-  double d_trial_d_gap = 0;         ///< from the moment of first contact inside the increment
-  double tangential_stiffness = 0;  ///< eps_T (for the covariant tangent)
+  TangentialResponse<Dim> tangential;  ///< components in `Kinematics::frame`
+  VectorForm<Dim> d_trial;             ///< of the trial traction as a vector in space
+  double stiffness = 0;                ///< eps_T (for the covariant tangent)
 };
 
 /// Residual and tangent of one contact point before the weights are applied:
-///   R_k  = w_k F0 + w'_k F1
-///   K_kl = sum_ab w^(a)_k M[a][b] w^(b)_l         (a, b = order of the derivative of w)
-/// plus the rank-one term  dR_k = (w_k S0 + w'_k S1) d(path)  for the part of the slip increment
-/// that depends on nodes behind the point (KS2D:86-89, exact along the arc).
+///   R_k  = sum_a w^(a)_k f[a]                              (a: slots of values, first derivatives)
+///   K_kl = sum_ab w^(a)_k m[a][b] w^(b)_l                  (a, b < used; beyond that all zero)
+/// plus  dR_k = sum_a w^(a)_k s[a] d(t_trial)  for the part of the trial traction that depends on
+/// nodes by other ways than the point's own motion (the path behind it, KS2D:86-89).
+template <int Dim>
 struct PointTerms {
-  Vec2 f0 = Vec2::Zero(), f1 = Vec2::Zero();
-  std::array<std::array<Mat<2, 2>, 3>, 3> m;
-  Vec2 s0 = Vec2::Zero(), s1 = Vec2::Zero();
+  std::array<Vec<Dim>, Dim> f;
+  std::size_t used = slots<Dim>;
+  std::array<std::array<Mat<Dim, Dim>, slots<Dim>>, slots<Dim>> m;
+  std::array<Mat<Dim, Dim>, Dim> s;
 };
 
-/// Forces of a contact point (F0, F1 only).
-[[nodiscard]] PointTerms point_forces(const Kinematics& k, const Traction& t, ResidualForm form);
+/// Forces of a contact point (f only).
+template <int Dim>
+[[nodiscard]] PointTerms<Dim> point_forces(const Kinematics<Dim>& k, const Traction<Dim>& t,
+                                           ResidualForm form);
 
 /// Exact consistent tangent: every formula is the derivative of `point_forces`.
 ///
-/// Source     docs/errata.md (exact form of KS2D:54, 56, 58); with `full` from KS2D:39
-/// Tested by  tests/unit/pairing/test_pair_tangent.cpp (order 2 in every branch)
-[[nodiscard]] PointTerms consistent_terms(const Kinematics& k, const Traction& t,
-                                          ResidualForm form);
+/// Formula    frictionless, surface: eps [A^T A - (W_i + gap D_i) g^ij (W_j + gap D_j)^T], W_i =
+///            A^T rho_,i, D_i = A_,i^T n (docs/errata.md)
+/// Source     docs/errata.md (exact form of KS2D:54, 56, 58 and KSVD:55-58); `full` from KS2D:39
+///            and KSVD:33
+/// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair3_tangent.cpp (order 2 in every
+///            branch)
+template <int Dim>
+[[nodiscard]] PointTerms<Dim> consistent_terms(const Kinematics<Dim>& k, const Traction<Dim>& t,
+                                               ResidualForm form);
 
 /// The papers' covariant tangent with the corrections of docs/errata.md, part by part.
 /// Symmetric in stick; not the derivative of the residual, so Newton's rate is linear.
-[[nodiscard]] PointTerms covariant_terms(const Kinematics& k, const Traction& t, ResidualForm form,
-                                         const TangentForm& parts);
+template <int Dim>
+[[nodiscard]] PointTerms<Dim> covariant_terms(const Kinematics<Dim>& k, const Traction<Dim>& t,
+                                              ResidualForm form, const TangentForm& parts);
 
-[[nodiscard]] PointTerms point_terms(const Kinematics& k, const Traction& t, ResidualForm form,
-                                     const TangentForm& tangent);
+template <int Dim>
+[[nodiscard]] PointTerms<Dim> point_terms(const Kinematics<Dim>& k, const Traction<Dim>& t,
+                                          ResidualForm form, const TangentForm& tangent) {
+  return tangent.consistent ? consistent_terms(k, t, form) : covariant_terms(k, t, form, tangent);
+}
 
 }  // namespace osculate::contact

@@ -84,7 +84,7 @@ const cell::Quadrature1D& curved_rule() {
 
 /// Length of facet between a and b (signed) and its gradient.
 double piece_length(const Facet& facet, std::span<const Vec2> x, double a, double b,
-                    std::vector<NodeGradient>* gradient) {
+                    std::vector<NodeGradient<2>>* gradient) {
   const double half = 0.5 * (b - a);
   const double middle = 0.5 * (a + b);
   const bool one_point = facet.straight();
@@ -125,7 +125,7 @@ int hops(const Chain& chain, Index from, Index to, bool forward) {
 }
 
 double same_facet_length(const Facet& facet, std::span<const Vec2> x, double a, double b,
-                         std::vector<NodeGradient>* gradient) {
+                         std::vector<NodeGradient<2>>* gradient) {
   double step = b - a;
   if (facet.closed && facet.shape) step = std::remainder(step, facet.hi - facet.lo);
   return piece_length(facet, x, a, a + step, gradient);
@@ -133,7 +133,7 @@ double same_facet_length(const Facet& facet, std::span<const Vec2> x, double a, 
 
 /// Length of the way from `from` to another facet, forward or backward (there must be one).
 double walk(const Chain& chain, std::span<const Vec2> x, const Location& from, const Location& to,
-            bool forward, std::vector<NodeGradient>* gradient) {
+            bool forward, std::vector<NodeGradient<2>>* gradient) {
   const auto at = [&](Index f) -> const Facet& {
     return chain.facets[static_cast<std::size_t>(f)];
   };
@@ -151,7 +151,7 @@ double walk(const Chain& chain, std::span<const Vec2> x, const Location& from, c
 }  // namespace
 
 std::optional<double> path_length(const Chain& chain, std::span<const Vec2> x, const Location& from,
-                                  const Location& to, std::vector<NodeGradient>* gradient) {
+                                  const Location& to, std::vector<NodeGradient<2>>* gradient) {
   if (from.facet < 0 || to.facet < 0) return std::nullopt;
   if (from.facet == to.facet)
     return same_facet_length(chain.facets[static_cast<std::size_t>(from.facet)], x, from.xi, to.xi,

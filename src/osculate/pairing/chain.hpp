@@ -8,14 +8,9 @@
 #include "osculate/cell/line_shape.hpp"
 #include "osculate/core/types.hpp"
 #include "osculate/geometry/catalogue.hpp"
+#include "osculate/pairing/node_terms.hpp"
 
 namespace osculate::pairing {
-
-/// A node and the derivative of a scalar with respect to its position.
-struct NodeGradient {
-  Index node;
-  Vec2 value;
-};
 
 /// One piece of a boundary curve: either a Lagrange line through its nodes, or an analytic curve
 /// carried by a rigid frame.
@@ -68,6 +63,6 @@ void connect(Chain& chain);
 /// Tested by  tests/unit/pairing/test_chain.cpp
 [[nodiscard]] std::optional<double> path_length(const Chain& chain, std::span<const Vec2> x,
                                                 const Location& from, const Location& to,
-                                                std::vector<NodeGradient>* gradient);
+                                                std::vector<NodeGradient<2>>* gradient);
 
 }  // namespace osculate::pairing

@@ -73,12 +73,12 @@ struct Candidate {
   double distance = std::numeric_limits<double>::infinity();
 };
 
-int rank(const Candidate& c, const Location& history) {
+int rank(const Candidate& c, Index history) {
   if (c.foot.at_end) return 2;
-  return c.facet == history.facet ? 0 : 1;
+  return c.facet == history ? 0 : 1;
 }
 
-bool better(const Candidate& a, const Candidate& b, const Location& history, double tie) {
+bool better(const Candidate& a, const Candidate& b, Index history, double tie) {
   if (b.facet < 0) return true;
   if (std::abs(a.distance - b.distance) > tie) return a.distance < b.distance;
   const int ra = rank(a, history), rb = rank(b, history);
@@ -86,23 +86,24 @@ bool better(const Candidate& a, const Candidate& b, const Location& history, dou
 }
 
 /// A kink inside an analytic curve: the normals just before and after it.
-void add_kink_normal(const Facet& facet, std::span<const Vec2> x, Projection& p) {
+void add_kink_normal(const Facet& facet, double xi, std::span<const Vec2> x, Projection<2>& p) {
   const double step = 1e-9 * (facet.hi - facet.lo);
-  p.outward =
-      unit_normal(facet, p.location.xi - step, x) + unit_normal(facet, p.location.xi + step, x);
+  p.outward = unit_normal(facet, xi - step, x) + unit_normal(facet, xi + step, x);
   if (p.outward.norm() > 0) p.outward.normalize();
 }
 
 /// Fills in what a vertex needs: its outward direction from both neighbours, or that the chain
 /// ends.
-void resolve_end(const Chain& chain, std::span<const Vec2> x, Projection& p) {
-  const Facet& facet = chain.facets[static_cast<std::size_t>(p.location.facet)];
-  const bool at_high = p.location.xi > 0.5 * (facet.lo + facet.hi);
+void resolve_end(const Chain& chain, std::span<const Vec2> x, Projection<2>& p) {
+  const Facet& facet = chain.facets[static_cast<std::size_t>(p.facet)];
+  const double xi = p.xi[0];
+  const bool at_high = xi > 0.5 * (facet.lo + facet.hi);
   const Index neighbour = at_high ? facet.next : facet.prev;
-  p.outward = unit_normal(facet, p.location.xi, x);
+  p.local = at_high ? 1 : 0;
+  p.outward = unit_normal(facet, xi, x);
   const double range = facet.hi - facet.lo;
-  const double to_end = std::min(facet.hi - p.location.xi, p.location.xi - facet.lo);
-  if (to_end > 1e-6 * range) return add_kink_normal(facet, x, p);
+  const double to_end = std::min(facet.hi - xi, xi - facet.lo);
+  if (to_end > 1e-6 * range) return add_kink_normal(facet, xi, x, p);
   if (neighbour < 0) {
     p.beyond_end = true;
     return;
@@ -112,11 +113,32 @@ void resolve_end(const Chain& chain, std::span<const Vec2> x, Projection& p) {
   if (p.outward.norm() > 0) p.outward.normalize();
 }
 
+/// Two neighbours at the same distance and no history to choose: the vertex between them.
+void share(const Chain& chain, std::span<const Vec2> x, Index other, Projection<2>& p) {
+  const Facet& facet = chain.facets[static_cast<std::size_t>(p.facet)];
+  if (facet.shape || (facet.next != other && facet.prev != other)) return;
+  p.feature = Feature::corner;
+  p.xi[0] = facet.next == other ? facet.hi : facet.lo;
+  resolve_end(chain, x, p);
+}
+
 /// A facet that faces the same way as the slave is the far side of a thin body.
 bool faces_away(const Facet& facet, const CurveFoot& foot, std::span<const Vec2> x,
-                const ProjectionQuery& query) {
+                const ProjectionQuery<2>& query) {
   constexpr double same_way = 0.5;
   return query.slave_normal && unit_normal(facet, foot.xi, x).dot(*query.slave_normal) > same_way;
+}
+
+/// Two different foot points inside their facets, equally far away.
+bool equidistant(const Chain& chain, std::span<const Vec2> x, const Candidate& best,
+                 const Candidate& tied) {
+  if (tied.facet < 0 || best.foot.at_end || tied.foot.at_end) return false;
+  const Facet& a = chain.facets[static_cast<std::size_t>(best.facet)];
+  const Facet& b = chain.facets[static_cast<std::size_t>(tied.facet)];
+  const double size = (node(a, 1, x) - node(a, 0, x)).norm();
+  const double apart = (facet_jet(a, best.foot.xi, x).r - facet_jet(b, tied.foot.xi, x).r).norm();
+  return best.distance > 1e-10 * size && apart > 1e-6 * best.distance &&
+         std::abs(tied.distance - best.distance) <= 1e-10 * best.distance;
 }
 
 /// How far beyond the nearest facet another one may lie and still count as equally near.
@@ -145,27 +167,35 @@ void facet_boxes(const Chain& chain, std::span<const Vec2> x, std::vector<search
   }
 }
 
-Projection closest_on_chain(const Chain& chain, const Tree& tree, std::span<const Vec2> x,
-                            const ProjectionQuery& query) {
+Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const Vec2> x,
+                      const ProjectionQuery<2>& query) {
   constexpr double far_away = std::numeric_limits<double>::infinity();
-  Candidate best;
+  Candidate best, tied;
   const auto visit = [&](Index f) {
     const Facet& facet = chain.facets[static_cast<std::size_t>(f)];
     const CurveFoot foot = foot_on_facet(facet, x, query.point);
     const double distance = std::sqrt(foot.squared_distance);
     if (!foot.converged || faces_away(facet, foot, x, query)) return far_away;
     const Candidate candidate{f, foot, distance};
-    const double size = (node(facet, 1, x) - node(facet, 0, x)).norm();
-    if (better(candidate, best, query.history, 1e-10 * size)) best = candidate;
+    const double tie = 1e-10 * (node(facet, 1, x) - node(facet, 0, x)).norm();
+    const bool wins = better(candidate, best, query.history, tie);
+    const Candidate& loser = wins ? best : candidate;
+    if (loser.facet >= 0 && std::abs(candidate.distance - best.distance) <= tie) tied = loser;
+    if (wins) best = candidate;
     return distance;
   };
   tree.for_each_nearest(query.point, tie_distance(chain, x), visit);
-  Projection p;
+  Projection<2> p;
   if (best.facet < 0) return p;
   p.feature = best.foot.at_end ? Feature::corner : Feature::face;
-  p.location = {best.facet, best.foot.xi};
+  p.facet = best.facet;
+  p.xi[0] = best.foot.xi;
   p.distance = best.distance;
-  if (best.foot.at_end) resolve_end(chain, x, p);
+  if (best.foot.at_end) {
+    resolve_end(chain, x, p);
+  } else if (query.shares() && equidistant(chain, x, best, tied)) {
+    share(chain, x, tied.facet, p);
+  }
   return p;
 }
 

@@ -6,14 +6,17 @@
 
 namespace osculate::pairing {
 
+using contact::Branch;
 using contact::Kinematics;
 using contact::PointHistory;
 using contact::PointTerms;
 using contact::Status;
+using contact::TangentialResponse;
 using contact::Traction;
 using projection::Feature;
 
-void prepare(PairDefinition& pair, std::span<const Vec2> reference) {
+template <int Dim>
+void prepare(PairDefinition<Dim>& pair, std::span<const Vec<Dim>> reference) {
   nodal_areas(pair.slave, reference, pair.area, pair.reference_areas, nullptr);
   if (pair.weight == Weight::node) return;
   for (const double area : pair.reference_areas)
@@ -23,156 +26,169 @@ void prepare(PairDefinition& pair, std::span<const Vec2> reference) {
 
 namespace {
 
-struct Placed {
-  Projection projection;
-  Kinematics kinematics;
-  cell::LineShape shape;  ///< of the facet at the foot point (vertices: at the facet's end)
-  Vec2 foot{0, 0};
-};
-
-Placed place(const PairDefinition& pair, const PairEvaluation& work, std::span<const Vec2> x,
-             std::size_t i, const PointHistory& history) {
-  ProjectionQuery query;
+template <int Dim>
+Placed<Dim> place_point(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& work,
+                        std::span<const Vec<Dim>> x, std::size_t i,
+                        const PointHistory<Dim>& history) {
+  ProjectionQuery<Dim> query;
   query.point = x[static_cast<std::size_t>(pair.slave.nodes[i])];
   if (work.normals[i].squaredNorm() > 0) query.slave_normal = work.normals[i];
-  query.history = {history.facet, history.xi};
-  Placed placed;
-  placed.projection = closest_on_chain(pair.master, work.tree, x, query);
-  const Projection& p = placed.projection;
-  if (p.feature == Feature::none) return placed;
-  const Facet& facet = pair.master.facets[static_cast<std::size_t>(p.location.facet)];
-  placed.shape = facet_shape(facet, p.location.xi);
-  const geometry::CurveJet<2> jet = facet_jet(facet, placed.shape, x);
-  placed.foot = jet.r;
-  placed.kinematics = p.feature == Feature::corner
-                          ? contact::corner_kinematics(jet.r, query.point, p.outward)
-                          : contact::face_kinematics(jet, query.point);
-  return placed;
+  query.history = history.facet;
+  query.history_feature = history.feature;
+  const Projection<Dim> p = closest(pair.master, work.tree, x, query);
+  if (p.feature == Feature::none) return {};
+  return place(pair.master, p, query.point, x);
 }
 
-/// Part of the increment that a point which was open at its start has spent in contact, assuming
-/// a constant approach velocity, and its derivative with respect to the gap.
-struct ContactShare {
-  double value = 1, d_gap = 0;
-};
-
-ContactShare contact_share(const PointHistory& history, double gap) {
+template <int Dim>
+ContactShare contact_share(const PointHistory<Dim>& history, double gap) {
   if (history.active || history.facet < 0 || !(history.gap > 0)) return {};
   const double range = history.gap - gap;
   return {-gap / range, -history.gap / (range * range)};
 }
 
+template <int Dim>
 struct Friction {
-  Traction traction;
-  contact::TangentialResponse law;  ///< what the law says; `traction` may be in another branch
-  double slip = 0;                  ///< arc length of the increment, times the share in contact
+  Traction<Dim> traction;
+  TangentialResponse<Dim> law;  ///< what the law says; `traction` may be in another branch
+  Vec<Dim - 1> slip = Vec<Dim - 1>::Zero();  ///< of the increment, times the share in contact
 };
 
 /// What is known of a point's branch before the law is asked.
+template <int Dim>
 struct BranchHint {
-  contact::Branch branch = contact::Branch::none;
+  AssumedBranch<Dim> assumed;
   bool predict = false;
 };
 
-contact::TangentialResponse linearised_branch(const contact::Coulomb& law,
-                                              const contact::TangentialResponse& response,
-                                              double trial, double normal, const BranchHint& hint) {
-  using contact::Branch;
-  const bool slipped = hint.branch == Branch::slip_forward || hint.branch == Branch::slip_backward;
-  if (!slipped) return response;
-  const double sign = hint.branch == Branch::slip_forward ? 1.0 : -1.0;
-  if (hint.predict) return law.slip(sign, normal);
-  const bool reversed = response.status == Status::slip && sign * trial < 0;
-  return reversed ? contact::Coulomb::stick(trial) : response;
+template <int Dim>
+TangentialResponse<Dim> linearised_branch(const contact::Coulomb& law,
+                                          const TangentialResponse<Dim>& response,
+                                          const Vec<Dim - 1>& trial, double normal,
+                                          const Mat<Dim, Dim - 1>& frame,
+                                          const BranchHint<Dim>& hint) {
+  if (hint.assumed.branch != Branch::slip) return response;
+  const Vec<Dim - 1> before = frame.transpose() * hint.assumed.direction;
+  const double size = before.norm();
+  if (!(size > 0)) return response;
+  if (hint.predict) {
+    const double limit = law.mu * std::abs(normal);
+    const double turning = limit > 0 ? limit / std::max(limit, trial.norm()) : 0.0;
+    return law.template slip<Dim>(before / size, normal, turning);
+  }
+  const bool reversed = response.status == Status::slip && before.dot(trial) < 0;
+  return reversed ? contact::Coulomb::stick<Dim>(trial) : response;
 }
 
-contact::Branch branch_of(const contact::TangentialResponse& response) {
-  if (response.status == Status::stick) return contact::Branch::stick;
-  return response.traction > 0 ? contact::Branch::slip_forward : contact::Branch::slip_backward;
+template <int Dim>
+AssumedBranch<Dim> branch_of(const TangentialResponse<Dim>& response,
+                             const Mat<Dim, Dim - 1>& frame) {
+  if (response.status == Status::stick) return {Branch::stick, Vec<Dim>::Zero()};
+  const double size = response.traction.norm();
+  if (!(size > 0)) return {Branch::slip, Vec<Dim>::Zero()};
+  return {Branch::slip, frame * (response.traction / size)};
 }
 
-/// The trial is KS2D:89 with the length of T kept across borders (docs/errata.md); within one facet
-/// of constant metric it is KS2D:74 and, after KS2D:81, the moved centre of KS2D:82.
-Friction tractions(const PairDefinition& pair, const PointHistory& history, const Placed& placed,
-                   std::span<const Vec2> x, const BranchHint& hint,
-                   std::vector<NodeGradient>* path) {
-  Friction f;
-  f.traction.normal = pair.normal.response(placed.kinematics.gap);
+template <int Dim>
+Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,
+                        const Placed<Dim>& placed, std::span<const Vec<Dim>> x,
+                        const BranchHint<Dim>& hint, PathBuffers<Dim>* path) {
+  Friction<Dim> f;
+  const Kinematics<Dim>& k = placed.kinematics;
+  f.traction.normal = pair.normal.response(k.gap);
   if (!f.traction.normal.active || !pair.friction) return f;
   const contact::Coulomb& law = *pair.friction;
-  const ContactShare share = contact_share(history, placed.kinematics.gap);
-  const std::optional<double> arc =
-      path_length(pair.master, x, {history.facet, history.xi}, placed.projection.location, path);
-  const double length = arc.value_or(0.0);
-  const double carried = history.active && arc ? history.traction : 0.0;
-  f.slip = share.value * length;
-  const double trial = carried + law.stiffness * f.slip;  // @eq KS2D:89, KS2D:74
-  f.law = law.response(trial, f.traction.normal.traction);
-  f.traction.tangential = linearised_branch(law, f.law, trial, f.traction.normal.traction, hint);
-  f.traction.tangential_stiffness = law.stiffness;
-  if (arc) {
-    f.traction.d_trial_d_slip = law.stiffness * share.value;
-    f.traction.d_trial_d_gap = law.stiffness * share.d_gap * length;
-  }
+  const Trial<Dim> tr = trial(pair.master, history, placed, law.stiffness,
+                              contact_share(history, k.gap), x, path);
+  const double normal = f.traction.normal.traction;
+  f.slip = tr.slip;
+  f.law = law.template response<Dim>(tr.value, normal);
+  f.traction.tangential = linearised_branch<Dim>(law, f.law, tr.value, normal, k.frame, hint);
+  f.traction.stiffness = law.stiffness;
+  f.traction.d_trial = tr.variation;
   return f;
 }
 
-void set_nodes(ContactBlock& block, const Facet& facet, Index slave) {
-  block.count = 1 + facet.count;
+template <int Dim>
+void set_nodes(ContactBlock<Dim>& block, const Boundary<Dim>& master, const Placed<Dim>& placed,
+               Index slave) {
+  const auto& facet = master.facets[static_cast<std::size_t>(placed.projection.facet)];
+  block.count = 1 + placed.count;
   block.nodes[0] = slave;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+  for (std::size_t k = 0; k < static_cast<std::size_t>(placed.count); ++k)
     block.nodes[k + 1] = facet.nodes[k];
 }
 
-/// Contact weights w_k and their derivatives: 1 and 0 for the slave, -N_k, -N_k', -N_k'' for the
-/// master (KS2D:60, 61 with two columns per node). At a vertex the foot point does not move.
-using Weights = std::array<std::array<double, max_block_nodes>, 3>;
+/// Contact weights by slot: 1 and no derivatives for the slave, -N_k, -N_k,i, -N_k,ij for the
+/// master (KS2D:60, 61 with as many columns per node as there are directions).
+template <int Dim>
+using Weights = std::array<std::array<double, max_block_nodes<Dim>>, contact::slots<Dim>>;
 
-Weights contact_weights(const Placed& placed, int count) {
-  Weights w{};
+template <int Dim>
+Weights<Dim> contact_weights(const Placed<Dim>& placed) {
+  Weights<Dim> w{};
   w[0][0] = 1.0;
-  const std::size_t orders = placed.projection.feature == Feature::corner ? 1 : 3;
-  for (std::size_t order = 0; order < orders; ++order)
-    for (std::size_t k = 1; k < static_cast<std::size_t>(count); ++k)
-      w[order][k] = -placed.shape.n[order][k - 1];  // @eq KS2D:60
+  for (std::size_t s = 0; s < w.size(); ++s)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(placed.count); ++k)
+      w[s][k + 1] = -placed.shape[s][k];  // @eq KS2D:60
   return w;
 }
 
-void scatter(ContactBlock& block, const Weights& w, const PointTerms& terms, double area,
-             bool with_tangent) {
+template <int Dim>
+void scatter_forces(BlockVector<Dim>& force, int count, const Weights<Dim>& w,
+                    const PointTerms<Dim>& terms, double area) {
+  for (int k = 0; k < count; ++k) {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t a = 0; a < terms.f.size(); ++a)
+      sum += w[a][static_cast<std::size_t>(k)] * terms.f[a];
+    force.template segment<Dim>(Dim * k) = area * sum;
+  }
+}
+
+template <int Dim>
+void scatter_tangent(ContactBlock<Dim>& block, const Weights<Dim>& w, const PointTerms<Dim>& terms,
+                     double area) {
   for (int k = 0; k < block.count; ++k) {
-    const auto a = static_cast<std::size_t>(k);
-    const Vec2 force = w[0][a] * terms.f0 + w[1][a] * terms.f1;
-    block.force.segment<2>(2 * k) = area * force;
-    if (!with_tangent) continue;
-    block.area_rows.segment<2>(2 * k) = force;
-    block.path_rows.segment<2>(2 * k) = area * (w[0][a] * terms.s0 + w[1][a] * terms.s1);
-    std::array<Mat<2, 2>, 3> row;
-    for (std::size_t c = 0; c < 3; ++c)
-      row[c] = area * (w[0][a] * terms.m[0][c] + w[1][a] * terms.m[1][c] + w[2][a] * terms.m[2][c]);
+    const auto i = static_cast<std::size_t>(k);
+    Mat<Dim, Dim> behind = Mat<Dim, Dim>::Zero();
+    for (std::size_t a = 0; a < terms.s.size(); ++a) behind += w[a][i] * terms.s[a];
+    block.path_rows.template middleRows<Dim>(Dim * k) = area * behind;
+    std::array<Mat<Dim, Dim>, contact::slots<Dim>> row;
+    for (std::size_t b = 0; b < terms.used; ++b) {
+      row[b].setZero();
+      for (std::size_t a = 0; a < terms.used; ++a)
+        if (w[a][i] != 0.0) row[b] += (area * w[a][i]) * terms.m[a][b];
+    }
     for (int l = 0; l < block.count; ++l) {
-      const auto b = static_cast<std::size_t>(l);
-      block.tangent.block<2, 2>(2 * k, 2 * l) =
-          w[0][b] * row[0] + w[1][b] * row[1] + w[2][b] * row[2];
+      Mat<Dim, Dim> sum = Mat<Dim, Dim>::Zero();
+      for (std::size_t b = 0; b < terms.used; ++b)
+        sum += w[b][static_cast<std::size_t>(l)] * row[b];
+      block.tangent.template block<Dim, Dim>(Dim * k, Dim * l) = sum;
     }
   }
 }
 
-PointHistory next_history(const PointHistory& old, const Placed& placed, const Friction& f) {
-  PointHistory h;
-  h.facet = placed.projection.location.facet;
+template <int Dim>
+PointHistory<Dim> next_history(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
+                               const PointHistory<Dim>& old, const Placed<Dim>& placed,
+                               const Friction<Dim>& f) {
+  PointHistory<Dim> h;
+  h.facet = placed.projection.facet;
   h.feature = placed.projection.feature;
-  h.xi = placed.projection.location.xi;
+  h.xi = placed.projection.xi;
   h.gap = placed.kinematics.gap;
   h.active = f.traction.normal.active;
   if (!h.active) return h;
-  h.traction = f.law.traction;
+  h.traction = stored_components(pair.master, placed, f.law.traction, x);
   h.slipping = f.law.status == Status::slip;
-  h.slip = (old.active ? old.slip : 0.0) + f.slip;
+  h.slip = f.slip;
+  if (old.active) h.slip += old.slip;
   return h;
 }
 
-double point_weight(const PairDefinition& pair, const PairEvaluation& work, std::size_t i) {
+template <int Dim>
+double point_weight(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& work,
+                    std::size_t i) {
   switch (pair.weight) {
     case Weight::node:
       return 1.0;
@@ -184,58 +200,78 @@ double point_weight(const PairDefinition& pair, const PairEvaluation& work, std:
   return 1.0;
 }
 
-void evaluate_point(const PairDefinition& pair, std::span<const Vec2> x,
-                    const PointHistory& history, const BranchHint& hint, bool with_tangent,
-                    std::size_t i, PairEvaluation& out) {
-  PointResult& result = out.points[i];
-  ContactBlock& block = out.blocks[i];
-  result = {};
+template <int Dim>
+void clear(ContactBlock<Dim>& block) {
   block.count = 0;
-  block.path.clear();
+  block.branched = false;
+  block.behind.path.clear();
   block.area.clear();
-  result.weight = point_weight(pair, out, i);
-  result.gap = std::numeric_limits<double>::infinity();
-  const Placed placed = place(pair, out, x, i, history);
-  if (placed.projection.feature == Feature::none) return;
-  const Kinematics& k = placed.kinematics;
+}
+
+/// Where the point is; false where it is not in contact.
+template <int Dim>
+bool report_place(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
+                  const PointHistory<Dim>& history, const Placed<Dim>& placed,
+                  PointResult<Dim>& result) {
+  if (placed.projection.feature == Feature::none) return false;
+  const Kinematics<Dim>& k = placed.kinematics;
   result.gap = k.gap;
   result.foot = placed.foot;
   result.normal = k.normal;
-  result.unit_tangent = k.unit_tangent;
-  result.history = next_history(history, placed, {});
-  if (placed.projection.beyond_end || k.gap < -pair.depth || k.gap > 0) {
-    if (placed.projection.beyond_end) result.history.gap = result.gap = std::abs(k.gap);
-    return;
-  }
+  result.frame = k.frame;
+  result.history = next_history<Dim>(pair, x, history, placed, {});
+  if (placed.projection.beyond_end) result.history.gap = result.gap = std::abs(k.gap);
+  return !placed.projection.beyond_end && k.gap >= -pair.depth && k.gap <= 0;
+}
+
+template <int Dim>
+void evaluate_point(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
+                    const PointHistory<Dim>& history, const BranchHint<Dim>& hint,
+                    bool with_tangent, std::size_t i, PairEvaluation<Dim>& out) {
+  PointResult<Dim>& result = out.points[i];
+  ContactBlock<Dim>& block = out.blocks[i];
+  result = {};
+  clear(block);
+  result.weight = point_weight(pair, out, i);
+  result.gap = std::numeric_limits<double>::infinity();
+  const Placed<Dim> placed = place_point(pair, out, x, i, history);
+  if (!report_place(pair, x, history, placed, result)) return;
+  const Kinematics<Dim>& k = placed.kinematics;
   const bool exact = with_tangent && pair.tangent.consistent;
-  const Friction f = tractions(pair, history, placed, x, hint, exact ? &block.path : nullptr);
-  result.history = next_history(history, placed, f);
+  const Friction<Dim> f =
+      tractions<Dim>(pair, history, placed, x, hint, exact ? &block.behind : nullptr);
+  result.history = next_history(pair, x, history, placed, f);
   result.status = !pair.friction ? Status::slip : f.law.status;
-  result.branch = pair.friction ? branch_of(f.traction.tangential) : contact::Branch::none;
+  if (pair.friction) result.branch = branch_of<Dim>(f.traction.tangential, k.frame);
   result.normal_traction = f.traction.normal.traction;
   result.shear_traction = f.law.traction;
   result.slip_increment = f.slip;
 
-  const Facet& facet =
-      pair.master.facets[static_cast<std::size_t>(placed.projection.location.facet)];
-  set_nodes(block, facet, pair.slave.nodes[i]);
-  const Weights w = contact_weights(placed, block.count);
-  const PointTerms terms = with_tangent
-                               ? contact::point_terms(k, f.traction, pair.residual, pair.tangent)
-                               : contact::point_forces(k, f.traction, pair.residual);
-  scatter(block, w, terms, result.weight, with_tangent);
-  block.branch_force = block.force;
+  set_nodes(block, pair.master, placed, pair.slave.nodes[i]);
+  const Weights<Dim> w = contact_weights(placed);
+  const PointTerms<Dim> terms = with_tangent
+                                    ? contact::point_terms(k, f.traction, pair.residual,
+                                                           pair.tangent)
+                                    : contact::point_forces(k, f.traction, pair.residual);
+  scatter_forces(block.branch_force, block.count, w, terms, result.weight);
+  block.force = block.branch_force;
   block.branched = pair.friction && f.law.traction != f.traction.tangential.traction;
   if (block.branched) {
-    Traction lawful = f.traction;
+    Traction<Dim> lawful = f.traction;
     lawful.tangential = f.law;
-    scatter(block, w, contact::point_forces(k, lawful, pair.residual), result.weight, false);
+    scatter_forces(block.force, block.count, w, contact::point_forces(k, lawful, pair.residual),
+                   result.weight);
   }
-  if (exact && pair.weight == Weight::current_area) block.area = out.area_gradients[i];
+  if (!with_tangent) return;
+  scatter_tangent(block, w, terms, result.weight);
+  if (!exact || pair.weight != Weight::current_area) return;
+  block.area = out.area_gradients[i];
+  scatter_forces(block.area_rows, block.count, w, terms, 1.0);
 }
 
-void refresh(const PairDefinition& pair, std::span<const Vec2> x, bool with_tangent,
-             PairEvaluation& out) {
+template <int Dim>
+void refresh(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x, bool with_tangent,
+             PairEvaluation<Dim>& out) {
   const std::size_t n = pair.slave.nodes.size();
   out.points.resize(n);
   out.blocks.resize(n);
@@ -247,61 +283,87 @@ void refresh(const PairDefinition& pair, std::span<const Vec2> x, bool with_tang
   if (before == out.boxes.size() && before > 0)
     out.tree.refit(out.boxes);
   else
-    out.tree = Tree(out.boxes);
+    out.tree = Tree<Dim>(out.boxes);
 }
 
 }  // namespace
 
-void evaluate(const PairDefinition& pair, std::span<const Vec2> x, const PairState& committed,
-              bool with_tangent, PairEvaluation& out, const Assumed& assumed) {
+template <int Dim>
+void evaluate(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
+              const PairState<Dim>& committed, bool with_tangent, PairEvaluation<Dim>& out,
+              const Assumed<Dim>& assumed) {
   refresh(pair, x, with_tangent, out);
   for (std::size_t i = 0; i < pair.slave.nodes.size(); ++i) {
-    BranchHint hint;
+    BranchHint<Dim> hint;
     if (!assumed.branch.empty()) hint = {assumed.branch[i], assumed.predict};
     evaluate_point(pair, x, committed.points[i], hint, with_tangent, i, out);
   }
 }
 
-Assumed committed_branches(const PairState& committed) {
-  Assumed assumed;
+template <int Dim>
+Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair, const PairState<Dim>& committed,
+                                std::span<const Vec<Dim>> x) {
+  Assumed<Dim> assumed;
   assumed.predict = true;
-  for (const PointHistory& h : committed.points) {
-    contact::Branch branch = contact::Branch::none;
-    if (h.active) branch = contact::Branch::stick;
-    if (h.active && h.slipping)
-      branch = h.traction > 0 ? contact::Branch::slip_forward : contact::Branch::slip_backward;
+  for (const PointHistory<Dim>& h : committed.points) {
+    AssumedBranch<Dim> branch;
+    if (h.active) branch.branch = Branch::stick;
+    const double size = h.traction.norm();
+    if (h.active && h.slipping && size > 0)
+      branch = {Branch::slip,
+                stored_frame(pair.master, h.facet, h.xi, x) * (h.traction / size)};
     assumed.branch.push_back(branch);
   }
   return assumed;
 }
 
-Assumed evaluated_branches(const PairEvaluation& evaluation) {
-  Assumed assumed;
-  for (const PointResult& point : evaluation.points) assumed.branch.push_back(point.branch);
+template <int Dim>
+Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation) {
+  Assumed<Dim> assumed;
+  for (const PointResult<Dim>& point : evaluation.points) assumed.branch.push_back(point.branch);
   return assumed;
 }
 
-PairState initial_state(const PairDefinition& pair, std::span<const Vec2> x) {
-  PairEvaluation work;
+template <int Dim>
+PairState<Dim> initial_state(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x) {
+  PairEvaluation<Dim> work;
   refresh(pair, x, false, work);
-  PairState state;
+  PairState<Dim> state;
   state.points.resize(pair.slave.nodes.size());
   for (std::size_t i = 0; i < state.points.size(); ++i) {
-    const Placed placed = place(pair, work, x, i, {});
+    const Placed<Dim> placed = place_point<Dim>(pair, work, x, i, {});
     if (placed.projection.feature == Feature::none) continue;
-    PointHistory& h = state.points[i];
-    h = next_history({}, placed, {});
+    PointHistory<Dim>& h = state.points[i];
+    h = next_history<Dim>(pair, x, {}, placed, {});
     if (placed.projection.beyond_end) h.gap = std::abs(h.gap);
     h.active = h.gap <= 0 && h.gap >= -pair.depth;
   }
   return state;
 }
 
-PairState commit(const PairEvaluation& evaluation) {
-  PairState state;
+template <int Dim>
+PairState<Dim> commit(const PairEvaluation<Dim>& evaluation) {
+  PairState<Dim> state;
   state.points.reserve(evaluation.points.size());
-  for (const PointResult& point : evaluation.points) state.points.push_back(point.history);
+  for (const PointResult<Dim>& point : evaluation.points) state.points.push_back(point.history);
   return state;
 }
+
+template void prepare<2>(PairDefinition<2>&, std::span<const Vec2>);
+template void prepare<3>(PairDefinition<3>&, std::span<const Vec3>);
+template PairState<2> initial_state<2>(const PairDefinition<2>&, std::span<const Vec2>);
+template PairState<3> initial_state<3>(const PairDefinition<3>&, std::span<const Vec3>);
+template Assumed<2> committed_branches<2>(const PairDefinition<2>&, const PairState<2>&,
+                                          std::span<const Vec2>);
+template Assumed<3> committed_branches<3>(const PairDefinition<3>&, const PairState<3>&,
+                                          std::span<const Vec3>);
+template Assumed<2> evaluated_branches<2>(const PairEvaluation<2>&);
+template Assumed<3> evaluated_branches<3>(const PairEvaluation<3>&);
+template void evaluate<2>(const PairDefinition<2>&, std::span<const Vec2>, const PairState<2>&,
+                          bool, PairEvaluation<2>&, const Assumed<2>&);
+template void evaluate<3>(const PairDefinition<3>&, std::span<const Vec3>, const PairState<3>&,
+                          bool, PairEvaluation<3>&, const Assumed<3>&);
+template PairState<2> commit<2>(const PairEvaluation<2>&);
+template PairState<3> commit<3>(const PairEvaluation<3>&);
 
 }  // namespace osculate::pairing

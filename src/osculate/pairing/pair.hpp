@@ -4,19 +4,22 @@
 
 #include "osculate/contact/history.hpp"
 #include "osculate/contact/point_terms.hpp"
-#include "osculate/pairing/closest.hpp"
+#include "osculate/pairing/place.hpp"
 #include "osculate/pairing/slave_side.hpp"
+#include "osculate/pairing/trial.hpp"
 
 namespace osculate::pairing {
 
 /// What the traction law's result is multiplied by.
 enum class Weight : std::uint8_t { node, reference_area, current_area };
 
-/// One contact pair: one entry per axis (sampling: the slave's nodes; target: the master chain;
-/// law; enforcement: penalty), plus the forms of residual and tangent.
+/// One contact pair: one entry per axis (sampling: the slave's nodes; target: the master; law;
+/// enforcement: penalty), plus the forms of residual and tangent. Everything here is the same in
+/// the plane and in space.
+template <int Dim>
 struct PairDefinition {
-  Chain master;
-  SlaveSide slave;
+  Boundary<Dim> master;
+  SlaveSide<Dim> slave;
   contact::NormalPenalty normal;
   std::optional<contact::Coulomb> friction;
   Weight weight = Weight::reference_area;
@@ -28,86 +31,118 @@ struct PairDefinition {
 };
 
 /// Committed history of a pair, one entry per slave node.
+template <int Dim>
 struct PairState {
-  std::vector<contact::PointHistory> points;
+  std::vector<contact::PointHistory<Dim>> points;
+};
+
+/// The branch of the friction law a point is linearised in; of a slipping point also where to.
+template <int Dim>
+struct AssumedBranch {
+  contact::Branch branch = contact::Branch::none;
+  Vec<Dim> direction = Vec<Dim>::Zero();  ///< unit vector of the shear traction while slipping
 };
 
 /// Result of one contact point, for output and for the next history.
+template <int Dim>
 struct PointResult {
   contact::Status status = contact::Status::open;
-  contact::PointHistory history;  ///< trial
-  double gap = 0;                 ///< zeta; +inf when no place of the master was found
-  double normal_traction = 0;     ///< N <= 0
-  double shear_traction = 0;      ///< t
-  contact::Branch branch = contact::Branch::none;  ///< the tangent belongs to
-  double weight = 1;                               ///< 1 or the area the traction acts on
-  double slip_increment = 0;                       ///< along the master
-  Vec2 foot{0, 0}, normal{0, 1}, unit_tangent{1, 0};
+  contact::PointHistory<Dim> history;  ///< trial
+  double gap = 0;                      ///< +inf when no place of the master was found
+  double normal_traction = 0;          ///< N <= 0
+  Vec<Dim - 1> shear_traction = Vec<Dim - 1>::Zero();  ///< t in `frame`
+  AssumedBranch<Dim> branch;                           ///< the tangent belongs to
+  double weight = 1;                                   ///< 1 or the area the traction acts on
+  Vec<Dim - 1> slip_increment = Vec<Dim - 1>::Zero();  ///< along the master, in `frame`
+  Vec<Dim> foot = Vec<Dim>::Zero(), normal = Vec<Dim>::UnitY();
+  Mat<Dim, Dim - 1> frame = Mat<Dim, Dim - 1>::Zero();  ///< 2D: unit tangent
+
+  /// The shear traction as a vector in space (the force on the slave is its negative).
+  [[nodiscard]] Vec<Dim> shear() const { return frame * shear_traction; }
 };
 
-inline constexpr int max_block_nodes = 1 + cell::max_line_nodes;
-using BlockVector = Vec<2 * max_block_nodes>;
-using BlockMatrix = Mat<2 * max_block_nodes, 2 * max_block_nodes>;
+template <int Dim>
+inline constexpr int max_block_nodes = 1 + max_master_nodes<Dim>;
+template <int Dim>
+using BlockVector = Vec<Dim * max_block_nodes<Dim>>;
+template <int Dim>
+using BlockMatrix = Mat<Dim * max_block_nodes<Dim>, Dim * max_block_nodes<Dim>>;
 
-/// Forces and tangent of one contact point. Row 2k + i belongs to node k, direction i; only the
-/// first 2 * count rows and columns are used. The forces are ADDED to the internal forces.
-/// `path` and `area` are rank-one terms: dR = path_rows * sum path . dx + area_rows * sum area .
-/// dx.
+/// Forces and tangent of one contact point. Row Dim * k + i belongs to node k, direction i; only
+/// the first Dim * count rows and columns are used. The forces are ADDED to the internal forces.
+/// `path` and `area` are terms of other nodes: dR = path_rows * sum path . dx + area_rows * sum
+/// area . dx.
+template <int Dim>
 struct ContactBlock {
   int count = 0;
-  std::array<Index, max_block_nodes> nodes{};
-  BlockVector force;
-  BlockVector branch_force;  ///< force of the linearised branch; equals `force` unless `branched`
+  std::array<Index, max_block_nodes<Dim>> nodes{};
+  BlockVector<Dim> force;
+  BlockVector<Dim> branch_force;  ///< of the linearised branch; equals `force` unless `branched`
   bool branched = false;
-  BlockMatrix tangent;
-  BlockVector path_rows, area_rows;
-  std::vector<NodeGradient> path, area;
+  BlockMatrix<Dim> tangent;
+  Mat<Dim * max_block_nodes<Dim>, Dim> path_rows;
+  BlockVector<Dim> area_rows;
+  PathBuffers<Dim> behind;
+  std::vector<NodeGradient<Dim>> area;
   [[nodiscard]] bool active() const { return count > 0; }
+  [[nodiscard]] const std::vector<NodeMatrix<Dim>>& path() const { return behind.path; }
 };
 
 /// Buffers of one evaluation; reused, so that the point loop allocates nothing after the first
 /// call.
+template <int Dim>
 struct PairEvaluation {
-  std::vector<PointResult> points;
-  std::vector<ContactBlock> blocks;  ///< one per point, `count == 0` where open
+  std::vector<PointResult<Dim>> points;
+  std::vector<ContactBlock<Dim>> blocks;  ///< one per point, `count == 0` where open
   std::vector<double> areas;
-  std::vector<std::vector<NodeGradient>> area_gradients;
-  std::vector<Vec2> normals;
-  std::vector<search::Box<2>> boxes;
-  Tree tree;
+  std::vector<std::vector<NodeGradient<Dim>>> area_gradients;
+  std::vector<Vec<Dim>> normals;
+  std::vector<search::Box<Dim>> boxes;
+  Tree<Dim> tree;
 };
 
 /// Fills the reference areas from the reference coordinates. Throws core::GeometryError when area
 /// weights are asked for and a slave node has no facet or a non-positive area.
-void prepare(PairDefinition& pair, std::span<const Vec2> reference);
+template <int Dim>
+void prepare(PairDefinition<Dim>& pair, std::span<const Vec<Dim>> reference);
 
 /// Projection of all points in configuration `x`: the state before the first increment
 /// (KS2D Table 1, step 1: the convective coordinate of points in contact from the start).
-[[nodiscard]] PairState initial_state(const PairDefinition& pair, std::span<const Vec2> x);
+template <int Dim>
+[[nodiscard]] PairState<Dim> initial_state(const PairDefinition<Dim>& pair,
+                                           std::span<const Vec<Dim>> x);
 
 /// Branches of the friction law in the last iteration, one per point. A point that has slipped one
 /// way and now would slip the other way has jumped over its narrow sticking range: it is linearised
 /// in the stick branch (without limit), from where it finds its side (primal-dual active set).
 /// Plain return mapping jumps back and forth there for ever.
+template <int Dim>
 struct Assumed {
-  std::vector<contact::Branch> branch;
+  std::vector<AssumedBranch<Dim>> branch;
   bool predict = false;  ///< first iteration: points that slipped go on slipping
 };
 
-/// Branches at the end of the last increment.
-[[nodiscard]] Assumed committed_branches(const PairState& committed);
+/// Branches at the end of the last increment; `x` is the configuration then.
+template <int Dim>
+[[nodiscard]] Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair,
+                                              const PairState<Dim>& committed,
+                                              std::span<const Vec<Dim>> x);
 /// Branches of an evaluation, for the next iteration.
-[[nodiscard]] Assumed evaluated_branches(const PairEvaluation& evaluation);
+template <int Dim>
+[[nodiscard]] Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation);
 
 /// One evaluation of all points of the pair: search, projection, kinematics, tractions from the
 /// committed history, residual and (if asked) tangent.
 ///
-/// Source     KS2D Tables 1 and 2 with docs/errata.md
-/// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair_history.cpp
-void evaluate(const PairDefinition& pair, std::span<const Vec2> x, const PairState& committed,
-              bool with_tangent, PairEvaluation& out, const Assumed& assumed = {});
+/// Source     KS2D Tables 1 and 2 with docs/errata.md; KSVD section 3
+/// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair_history.cpp, and their 3D like
+template <int Dim>
+void evaluate(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
+              const PairState<Dim>& committed, bool with_tangent, PairEvaluation<Dim>& out,
+              const Assumed<Dim>& assumed = {});
 
 /// The trial history of an accepted evaluation. A point that opens forgets.
-[[nodiscard]] PairState commit(const PairEvaluation& evaluation);
+template <int Dim>
+[[nodiscard]] PairState<Dim> commit(const PairEvaluation<Dim>& evaluation);
 
 }  // namespace osculate::pairing

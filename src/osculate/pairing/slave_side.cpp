@@ -36,9 +36,9 @@ std::vector<Index> facet_order(const Chain& chain) {
 
 }  // namespace
 
-SlaveSide make_slave_side(Chain chain, std::span<const Index> extra_nodes) {
-  SlaveSide side;
-  side.chain = std::move(chain);
+SlaveSide<2> make_slave_side(Chain chain, std::span<const Index> extra_nodes) {
+  SlaveSide<2> side;
+  side.boundary = std::move(chain);
   std::unordered_map<Index, std::size_t> slot;
   const auto add = [&](Index node) {
     const auto found = slot.emplace(node, side.nodes.size());
@@ -48,8 +48,8 @@ SlaveSide make_slave_side(Chain chain, std::span<const Index> extra_nodes) {
     }
     return found.first->second;
   };
-  for (const Index f : facet_order(side.chain))
-    for (const Index node : along(side.chain.facets[static_cast<std::size_t>(f)]))
+  for (const Index f : facet_order(side.boundary))
+    for (const Index node : along(side.boundary.facets[static_cast<std::size_t>(f)]))
       side.facets_of[add(node)].push_back(f);
   for (const Index node : extra_nodes) add(node);
   return side;
@@ -59,7 +59,7 @@ namespace {
 
 /// Adds the share of one facet to the area of its local node `k`.
 void add_facet_area(const Facet& facet, std::size_t k, std::span<const Vec2> x,
-                    const AreaRule& rule, double& area, std::vector<NodeGradient>* gradient) {
+                    const AreaRule& rule, double& area, std::vector<NodeGradient<2>>* gradient) {
   static const cell::Quadrature1D quadrature = cell::gauss_legendre(8);
   std::array<Vec2, cell::max_line_nodes> sum;
   sum.fill(Vec2::Zero());
@@ -84,14 +84,14 @@ void add_facet_area(const Facet& facet, std::size_t k, std::span<const Vec2> x,
 
 }  // namespace
 
-void nodal_areas(const SlaveSide& slave, std::span<const Vec2> x, const AreaRule& rule,
-                 std::vector<double>& areas, std::vector<std::vector<NodeGradient>>* gradients) {
+void nodal_areas(const SlaveSide<2>& slave, std::span<const Vec2> x, const AreaRule& rule,
+                 std::vector<double>& areas, std::vector<std::vector<NodeGradient<2>>>* gradients) {
   areas.assign(slave.nodes.size(), 0.0);
   if (gradients) gradients->resize(slave.nodes.size());
   for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
     if (gradients) (*gradients)[i].clear();
     for (const Index f : slave.facets_of[i]) {
-      const Facet& facet = slave.chain.facets[static_cast<std::size_t>(f)];
+      const Facet& facet = slave.boundary.facets[static_cast<std::size_t>(f)];
       const auto* const begin = facet.nodes.begin();
       const auto k =
           static_cast<std::size_t>(std::find(begin, begin + facet.count, slave.nodes[i]) - begin);
@@ -100,11 +100,11 @@ void nodal_areas(const SlaveSide& slave, std::span<const Vec2> x, const AreaRule
   }
 }
 
-void nodal_normals(const SlaveSide& slave, std::span<const Vec2> x, std::vector<Vec2>& normals) {
+void nodal_normals(const SlaveSide<2>& slave, std::span<const Vec2> x, std::vector<Vec2>& normals) {
   normals.assign(slave.nodes.size(), Vec2::Zero());
   for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
     for (const Index f : slave.facets_of[i]) {
-      const Facet& facet = slave.chain.facets[static_cast<std::size_t>(f)];
+      const Facet& facet = slave.boundary.facets[static_cast<std::size_t>(f)];
       const auto k = static_cast<std::size_t>(
           std::find(facet.nodes.begin(), facet.nodes.begin() + facet.count, slave.nodes[i]) -
           facet.nodes.begin());

@@ -4,33 +4,61 @@
 #include <vector>
 
 #include "osculate/pairing/chain.hpp"
+#include "osculate/pairing/surface.hpp"
 
 namespace osculate::pairing {
 
-/// How a length of slave curve becomes an area: times the thickness, or times 2 pi x.
+/// The boundary a pair works on: a chain of curves in the plane, a surface of facets in space.
+template <int Dim>
+struct BoundaryOf;
+template <>
+struct BoundaryOf<2> {
+  using Type = Chain;
+};
+template <>
+struct BoundaryOf<3> {
+  using Type = FacetSurface;
+};
+template <int Dim>
+using Boundary = typename BoundaryOf<Dim>::Type;
+
+/// How a length of slave curve becomes an area: times the thickness, or times 2 pi x. (3D: an area
+/// is an area.)
 struct AreaRule {
   double thickness = 1;
   bool axisymmetric = false;  ///< x is the radius, y the axis
 };
 
 /// Where contact is sampled: nodes, with the facets they belong to (for areas and normals).
+template <int Dim>
 struct SlaveSide {
-  std::vector<Index> nodes;                   ///< along the chain, then the nodes without facets
-  Chain chain;                                ///< slave facets; may be empty (point sets)
+  std::vector<Index> nodes;                   ///< along the boundary, then those without facets
+  Boundary<Dim> boundary;                     ///< slave facets; may be empty (point sets)
   std::vector<std::vector<Index>> facets_of;  ///< per entry of `nodes`, the facets that hold it
 };
 
-[[nodiscard]] SlaveSide make_slave_side(Chain chain, std::span<const Index> extra_nodes = {});
+[[nodiscard]] SlaveSide<2> make_slave_side(Chain chain, std::span<const Index> extra_nodes = {});
+[[nodiscard]] SlaveSide<3> make_slave_side(FacetSurface surface,
+                                           std::span<const Index> extra_nodes = {});
 
 /// Tributary area of every slave node in configuration `x`.
 ///
-/// Formula    A_k = int N_k |dx/dxi| f dxi ,  f = thickness or 2 pi x_1
+/// Formula    2D: A_k = int N_k |dx/dxi| f dxi, f = thickness or 2 pi x_1
+///            3D: A_k = int N_k |x_1 x x_2| for tri3, quad4 and quad9. The consistent areas of
+///            tri6 and quad8 have zero or negative corners; theirs are c_k times the facet's area
+///            with c_k = int N_k^2 / sum_l int N_l^2 over the reference cell: positive, the total is
+///            right, but a uniform pressure is not transmitted exactly.
 /// Returns    one value per entry of `nodes`; `gradients` (if given) receives dA_k/dx_l
-/// Tested by  tests/unit/pairing/test_slave_side.cpp
-void nodal_areas(const SlaveSide& slave, std::span<const Vec2> x, const AreaRule& rule,
-                 std::vector<double>& areas, std::vector<std::vector<NodeGradient>>* gradients);
+/// Tested by  tests/unit/pairing/test_slave_side.cpp, test_slave_side3.cpp
+void nodal_areas(const SlaveSide<2>& slave, std::span<const Vec2> x, const AreaRule& rule,
+                 std::vector<double>& areas,
+                 std::vector<std::vector<NodeGradient<2>>>* gradients);
+void nodal_areas(const SlaveSide<3>& slave, std::span<const Vec3> x, const AreaRule& rule,
+                 std::vector<double>& areas,
+                 std::vector<std::vector<NodeGradient<3>>>* gradients);
 
 /// Averaged outward normal of every slave node (zero where the node has no facet).
-void nodal_normals(const SlaveSide& slave, std::span<const Vec2> x, std::vector<Vec2>& normals);
+void nodal_normals(const SlaveSide<2>& slave, std::span<const Vec2> x, std::vector<Vec2>& normals);
+void nodal_normals(const SlaveSide<3>& slave, std::span<const Vec3> x, std::vector<Vec3>& normals);
 
 }  // namespace osculate::pairing

@@ -3,48 +3,69 @@
 #include <cstdint>
 #include <string_view>
 
+#include "osculate/core/types.hpp"
+
 namespace osculate::contact {
 
 enum class Status : std::uint8_t { open = 0, stick = 1, slip = 2 };
 
 /// The smooth piece of the friction law that an iteration was linearised in.
-enum class Branch : std::uint8_t { none, stick, slip_forward, slip_backward };
+enum class Branch : std::uint8_t { none, stick, slip };
 
-/// Tangential traction t (physical, along tau) and its derivatives.
+/// Tangential traction t in an orthonormal frame of the tangent plane (2D: along tau), and its
+/// derivatives.
+template <int Dim>
 struct TangentialResponse {
+  using Traction = Vec<Dim - 1>;
   Status status = Status::stick;
-  double traction = 0;  ///< t
-  double d_trial = 0;   ///< dt/dt_trial
-  double d_normal = 0;  ///< dt/dN
+  Traction traction = Traction::Zero();                         ///< t
+  Mat<Dim - 1, Dim - 1> d_trial = Mat<Dim - 1, Dim - 1>::Zero();  ///< dt/dt_trial
+  Traction d_normal = Traction::Zero();                         ///< dt/dN
 };
 
 /// Coulomb friction by return mapping from an elastic trial.
 ///
-/// Formula    t = t_tr                   if |t_tr| <= mu |N|   (stick)
-///            t = mu |N| sgn(t_tr)       otherwise             (slip)
-/// Source     KS2D:76, KS2D:57 in physical components (T = sqrt(a11) t), signs of docs/errata.md
-/// Sign       the force on the slave's residual is +t tau for a slip in the direction +tau
+/// Formula    t = t_tr                       if |t_tr| <= mu |N|   (stick)
+///            t = mu |N| t_tr / |t_tr|       otherwise             (slip)
+/// Source     KS2D:76, KS2D:57 in physical components (T_i = t . rho_,i), signs of docs/errata.md
+/// Sign       the force on the slave's residual is +t for a slip in the direction +t
 /// Tested by  tests/unit/contact/test_laws.cpp
 struct Coulomb {
   static constexpr std::string_view key = "coulomb";
   double mu = 0;
   double stiffness = 0;  ///< eps_T, units as eps_N
 
-  [[nodiscard]] TangentialResponse response(double trial, double normal_traction) const {
-    // @eq KS2D:77
-    const double limit = mu * std::abs(normal_traction);
-    if (std::abs(trial) <= limit) return {Status::stick, trial, 1.0, 0.0};
-    return slip(trial > 0 ? 1.0 : -1.0, normal_traction);
+  template <int Dim>
+  [[nodiscard]] TangentialResponse<Dim> response(const Vec<Dim - 1>& trial,
+                                                 double normal_traction) const {
+    const double limit = mu * std::abs(normal_traction);  // @eq KS2D:77
+    const double size = trial.norm();
+    if (size <= limit) return stick<Dim>(trial);
+    return slip<Dim>(trial / size, normal_traction, limit / size);
   }
 
-  /// The slip branch, whatever the trial.
-  [[nodiscard]] TangentialResponse slip(double sign, double normal_traction) const {
-    const double traction = sign * mu * std::abs(normal_traction);  // @eq KS2D:57
-    return {Status::slip, traction, 0.0, -sign * mu};
+  /// The slip branch in the direction of the unit vector `s`; `turning` = mu |N| / |t_tr| says how
+  /// much the traction turns with the trial (nothing to turn in 2D).
+  template <int Dim>
+  [[nodiscard]] TangentialResponse<Dim> slip(const Vec<Dim - 1>& s, double normal_traction,
+                                             double turning) const {
+    TangentialResponse<Dim> r;
+    r.status = Status::slip;
+    r.traction = mu * std::abs(normal_traction) * s;  // @eq KS2D:57
+    r.d_normal = -mu * s;
+    if constexpr (Dim == 3)
+      r.d_trial = turning * (Mat<2, 2>::Identity() - s * s.transpose());
+    else
+      (void)turning;
+    return r;
   }
   /// The stick branch without its limit.
-  [[nodiscard]] static TangentialResponse stick(double trial) {
-    return {Status::stick, trial, 1.0, 0.0};
+  template <int Dim>
+  [[nodiscard]] static TangentialResponse<Dim> stick(const Vec<Dim - 1>& trial) {
+    TangentialResponse<Dim> r;
+    r.traction = trial;
+    r.d_trial.setIdentity();
+    return r;
   }
 };
 

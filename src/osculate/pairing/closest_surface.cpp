@@ -1,0 +1,240 @@
+// Generalized projection onto surfaces in space.
+#include <algorithm>
+#include <cmath>
+
+#include "osculate/pairing/closest.hpp"
+#include "osculate/projection/point_to_facet.hpp"
+#include "osculate/projection/point_to_surface.hpp"
+
+namespace osculate::pairing {
+namespace {
+
+using projection::FacetFoot;
+using projection::Feature;
+
+const Vec3& node(const SurfaceFacet& facet, std::size_t k, std::span<const Vec3> x) {
+  return x[static_cast<std::size_t>(facet.nodes[k])];
+}
+
+using FacetNodes = std::array<Vec3, cell::max_facet_nodes>;
+
+std::span<const Vec3> nodes_of(const SurfaceFacet& facet, std::span<const Vec3> x,
+                               FacetNodes& buffer) {
+  const auto count = static_cast<std::size_t>(facet.count);
+  for (std::size_t k = 0; k < count; ++k) buffer[k] = node(facet, k, x);
+  return {buffer.data(), count};
+}
+
+FacetFoot foot_on_shape(const SurfaceFacet& facet, std::span<const Vec3> x, const Vec3& point) {
+  const Vec3 origin = node(facet, 0, x), arm = point - origin;
+  const Vec3 local(arm.dot(node(facet, 1, x) - origin), arm.dot(node(facet, 2, x) - origin),
+                   arm.dot(node(facet, 3, x) - origin));
+  const projection::SurfaceFoot found = projection::closest_point(*facet.shape, local);
+  FacetFoot foot;
+  foot.converged = found.converged;
+  foot.xi = found.xi;
+  foot.squared_distance = found.squared_distance;
+  foot.feature = found.at_border ? Feature::edge : Feature::face;
+  return foot;
+}
+
+/// A foot on the border of its facet is let go a little beyond it: by the tolerance of the
+/// projection between neighbours (clamped, the slip would stand still there and then jump), by
+/// `end_extension` at open borders (the last node of a surface must not lose contact because its
+/// master tilts or stretches a little).
+void release_border(const SurfaceFacet& facet, std::span<const Vec3> nodes, const Vec3& point,
+                    FacetFoot& foot) {
+  if (!foot.converged || foot.feature == Feature::face || foot.local < 0) return;
+  constexpr double tolerance = 2e-8;
+  bool open = false;
+  if (foot.feature == Feature::edge) {
+    open = facet.neighbour[static_cast<std::size_t>(foot.local)] < 0;
+  } else {
+    const int edges = edge_count(facet);
+    const auto before = static_cast<std::size_t>((foot.local + edges - 1) % edges);
+    const auto after = static_cast<std::size_t>(foot.local);
+    open = facet.neighbour[before] < 0 || facet.neighbour[after] < 0;
+  }
+  (void)projection::release(facet.type, nodes, point, open ? end_extension : tolerance, foot);
+}
+
+FacetFoot foot_on_facet(const SurfaceFacet& facet, std::span<const Vec3> x, const Vec3& point) {
+  if (facet.shape) return foot_on_shape(facet, x, point);
+  FacetNodes buffer;
+  const std::span<const Vec3> nodes = nodes_of(facet, x, buffer);
+  FacetFoot foot = projection::closest_point(facet.type, nodes, point);
+  release_border(facet, nodes, point, foot);
+  return foot;
+}
+
+struct Candidate {
+  Index facet = -1;
+  FacetFoot foot;
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+/// Faces before borders, the facet of the history first.
+int rank(const Candidate& c, Index history) {
+  const int feature = c.foot.feature == Feature::face ? 0 : c.foot.feature == Feature::edge ? 2 : 4;
+  return feature + (c.facet == history ? 0 : 1);
+}
+
+bool better(const Candidate& a, const Candidate& b, Index history, double tie) {
+  if (b.facet < 0) return true;
+  if (std::abs(a.distance - b.distance) > tie) return a.distance < b.distance;
+  const int ra = rank(a, history), rb = rank(b, history);
+  return ra != rb ? ra < rb : a.facet < b.facet;
+}
+
+double size_of(const SurfaceFacet& facet, std::span<const Vec3> x) {
+  return (node(facet, 1, x) - node(facet, 0, x)).norm();
+}
+
+void normalize(Vec3& v) {
+  if (v.norm() > 0) v.normalize();
+}
+
+/// The edge of `facet` that it shares with `other`, -1 if there is none.
+int shared_edge(const SurfaceFacet& facet, Index other) {
+  for (int e = 0; e < edge_count(facet); ++e)
+    if (facet.neighbour[static_cast<std::size_t>(e)] == other) return e;
+  return -1;
+}
+
+/// Coordinates on the neighbour of the point that edge `edge` of `facet` has at `xi`.
+Vec2 across(const SurfaceFacet& facet, int edge, const Vec2& xi, const SurfaceFacet& other) {
+  const std::array<int, 2> ends = edge_corners(facet, edge);
+  const auto corner = [](const SurfaceFacet& f, int k) { return cell::area_node(f.type, k); };
+  const Vec2 from = corner(facet, ends[0]), to = corner(facet, ends[1]);
+  const double t = (xi - from).dot(to - from) / (to - from).squaredNorm();
+  const auto local = [&](int end) {
+    const Index wanted = facet.nodes[static_cast<std::size_t>(end)];
+    int k = 0;
+    while (k + 1 < edge_count(other) && other.nodes[static_cast<std::size_t>(k)] != wanted) ++k;
+    return corner(other, k);
+  };
+  return (1 - t) * local(ends[0]) + t * local(ends[1]);
+}
+
+void resolve_edge(const FacetSurface& surface, std::span<const Vec3> x, Projection<3>& p) {
+  const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(p.facet)];
+  p.outward = facet_normal(facet, p.xi, x);
+  if (facet.shape || p.local < 0 || facet.neighbour[static_cast<std::size_t>(p.local)] < 0) {
+    p.beyond_end = true;
+    return;
+  }
+  const SurfaceFacet& other = surface.facets[static_cast<std::size_t>(
+      facet.neighbour[static_cast<std::size_t>(p.local)])];
+  p.outward += facet_normal(other, across(facet, p.local, p.xi, other), x);
+  normalize(p.outward);
+}
+
+void resolve_corner(const FacetSurface& surface, std::span<const Vec3> x, Projection<3>& p) {
+  const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(p.facet)];
+  const Index vertex = facet.nodes[static_cast<std::size_t>(p.local)];
+  p.outward.setZero();
+  for (const Index f : surface.facets_at.at(vertex)) {
+    const SurfaceFacet& other = surface.facets[static_cast<std::size_t>(f)];
+    const int edges = edge_count(other);
+    for (int k = 0; k < edges; ++k) {
+      if (other.nodes[static_cast<std::size_t>(k)] != vertex) continue;
+      p.outward += facet_normal(other, cell::area_node(other.type, k), x);
+      if (other.neighbour[static_cast<std::size_t>(k)] < 0 ||
+          other.neighbour[static_cast<std::size_t>((k + edges - 1) % edges)] < 0)
+        p.beyond_end = true;
+    }
+  }
+  normalize(p.outward);
+}
+
+/// Two different foot points inside their facets, equally far away.
+bool equidistant(const FacetSurface& surface, std::span<const Vec3> x, const Candidate& best,
+                 const Candidate& tied) {
+  if (tied.facet < 0 || best.foot.feature != Feature::face || tied.foot.feature != Feature::face)
+    return false;
+  const SurfaceFacet& a = surface.facets[static_cast<std::size_t>(best.facet)];
+  const SurfaceFacet& b = surface.facets[static_cast<std::size_t>(tied.facet)];
+  const double apart = (facet_jet(a, best.foot.xi, x).r - facet_jet(b, tied.foot.xi, x).r).norm();
+  return best.distance > 1e-10 * size_of(a, x) && apart > 1e-6 * best.distance &&
+         std::abs(tied.distance - best.distance) <= 1e-10 * best.distance;
+}
+
+/// Two neighbours at the same distance and no history to choose: the edge between them, at the
+/// point nearest to the slave.
+void share(const FacetSurface& surface, std::span<const Vec3> x, Index other, const Vec3& point,
+           Projection<3>& p) {
+  const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(p.facet)];
+  const int edge = facet.shape ? -1 : shared_edge(facet, other);
+  if (edge < 0) return;
+  FacetNodes buffer;
+  const FacetFoot foot =
+      projection::closest_point_on_edge(facet.type, nodes_of(facet, x, buffer), edge, point);
+  if (!foot.converged || foot.feature != Feature::edge) return;
+  p.feature = Feature::edge;
+  p.local = edge;
+  p.xi = foot.xi;
+  p.distance = std::sqrt(foot.squared_distance);
+  resolve_edge(surface, x, p);
+}
+
+/// A facet that faces the same way as the slave is the far side of a thin body.
+bool faces_away(const SurfaceFacet& facet, const FacetFoot& foot, std::span<const Vec3> x,
+                const ProjectionQuery<3>& query) {
+  constexpr double same_way = 0.5;
+  return query.slave_normal && facet_normal(facet, foot.xi, x).dot(*query.slave_normal) > same_way;
+}
+
+}  // namespace
+
+void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
+                 std::vector<search::Box<3>>& boxes) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  boxes.resize(surface.facets.size());
+  for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+    const SurfaceFacet& facet = surface.facets[f];
+    search::Box<3>& box = boxes[f];
+    box = {};
+    if (facet.shape) {
+      box.lo = Vec3::Constant(-infinite);
+      box.hi = Vec3::Constant(infinite);
+      continue;
+    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+      box.extend(node(facet, k, x));
+    if (facet.count > 4) box.inflate(0.25 * (box.hi - box.lo).norm());
+  }
+}
+
+Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::span<const Vec3> x,
+                      const ProjectionQuery<3>& query) {
+  constexpr double far_away = std::numeric_limits<double>::infinity();
+  Candidate best, tied;
+  const auto visit = [&](Index f) {
+    const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(f)];
+    const FacetFoot foot = foot_on_facet(facet, x, query.point);
+    const double distance = std::sqrt(foot.squared_distance);
+    if (!foot.converged || faces_away(facet, foot, x, query)) return far_away;
+    const Candidate candidate{f, foot, distance};
+    const double tie = 1e-10 * size_of(facet, x);
+    const bool wins = better(candidate, best, query.history, tie);
+    const Candidate loser = wins ? best : candidate;
+    if (loser.facet >= 0 && std::abs(candidate.distance - best.distance) <= tie) tied = loser;
+    if (wins) best = candidate;
+    return distance;
+  };
+  tree.for_each_nearest(query.point, 1e-10 * size_of(surface.facets.front(), x), visit);
+  Projection<3> p;
+  if (best.facet < 0) return p;
+  p.feature = best.foot.feature;
+  p.facet = best.facet;
+  p.xi = best.foot.xi;
+  p.local = best.foot.local;
+  p.distance = best.distance;
+  if (p.feature == Feature::edge) resolve_edge(surface, x, p);
+  if (p.feature == Feature::corner) resolve_corner(surface, x, p);
+  if (query.shares() && equidistant(surface, x, best, tied))
+    share(surface, x, tied.facet, query.point, p);
+  return p;
+}
+
+}  // namespace osculate::pairing

@@ -1,0 +1,34 @@
+#pragma once
+#include <array>
+#include <span>
+
+#include "osculate/contact/kinematics.hpp"
+#include "osculate/pairing/closest.hpp"
+
+namespace osculate::pairing {
+
+template <int Dim>
+inline constexpr int max_master_nodes = Dim == 2 ? cell::max_line_nodes : cell::max_facet_nodes;
+
+/// A slave point on its place of the master.
+template <int Dim>
+struct Placed {
+  Projection<Dim> projection;
+  contact::Kinematics<Dim> kinematics;
+  Vec<Dim> foot = Vec<Dim>::Zero();
+  int count = 0;  ///< nodes of the facet
+  /// Shape values of the facet at the foot point by slot: values, first and second derivatives
+  /// with respect to the coordinates that move (an edge: along it; a vertex: none).
+  std::array<std::array<double, max_master_nodes<Dim>>, contact::slots<Dim>> shape{};
+};
+
+/// Kinematics and weights of a projection.
+///
+/// Requires   p.feature is not none
+/// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair3_tangent.cpp
+[[nodiscard]] Placed<2> place(const Chain& master, const Projection<2>& p, const Vec2& point,
+                              std::span<const Vec2> x);
+[[nodiscard]] Placed<3> place(const FacetSurface& master, const Projection<3>& p,
+                              const Vec3& point, std::span<const Vec3> x);
+
+}  // namespace osculate::pairing

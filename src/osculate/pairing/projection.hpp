@@ -1,0 +1,42 @@
+#pragma once
+#include <limits>
+#include <optional>
+
+#include "osculate/core/types.hpp"
+#include "osculate/projection/feature.hpp"
+#include "osculate/search/bvh.hpp"
+
+namespace osculate::pairing {
+
+/// How far an open border of a master is continued, as a part of the last facet's parameter range.
+inline constexpr double end_extension = 0.05;
+
+/// Generalized projection of a point onto a master: faces, then edges (3D) and vertices.
+template <int Dim>
+struct Projection {
+  projection::Feature feature = projection::Feature::none;
+  Index facet = -1;
+  Vec<Dim - 1> xi = Vec<Dim - 1>::Zero();  ///< on the facet, also for its edges and vertices
+  int local = -1;                          ///< number of the facet's edge or corner
+  double distance = std::numeric_limits<double>::infinity();
+  Vec<Dim> outward = Vec<Dim>::Zero();  ///< averaged normal of the neighbours (edges, vertices)
+  bool beyond_end = false;              ///< nearest point is on an open border of the master
+};
+
+template <int Dim>
+struct ProjectionQuery {
+  Vec<Dim> point = Vec<Dim>::Zero();
+  std::optional<Vec<Dim>> slave_normal;  ///< facets facing the same way are not candidates
+  Index history = -1;                    ///< facet; equidistant: the side of the history wins
+  projection::Feature history_feature = projection::Feature::none;
+  /// An equidistant point has no side of its own: it belongs to the border between both facets.
+  [[nodiscard]] bool shares() const {
+    return history < 0 || history_feature == projection::Feature::edge ||
+           history_feature == projection::Feature::corner;
+  }
+};
+
+template <int Dim>
+using Tree = search::Bvh<Dim>;
+
+}  // namespace osculate::pairing

@@ -1,0 +1,112 @@
+#include "osculate/pairing/surface.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace osculate::pairing {
+
+SurfaceFacet surface_facet(cell::CellType type, std::span<const Index> nodes) {
+  SurfaceFacet facet;
+  facet.type = type;
+  facet.count = static_cast<int>(nodes.size());
+  std::copy(nodes.begin(), nodes.end(), facet.nodes.begin());
+  return facet;
+}
+
+SurfaceFacet shape_facet(geometry::Surface shape, const std::array<Index, 4>& frame) {
+  SurfaceFacet facet;
+  facet.count = 4;
+  std::copy(frame.begin(), frame.end(), facet.nodes.begin());
+  facet.shape = std::make_shared<const geometry::Surface>(std::move(shape));
+  return facet;
+}
+
+int edge_count(const SurfaceFacet& facet) {
+  if (facet.shape) return 0;
+  return cell::is_triangle(facet.type) ? 3 : 4;
+}
+
+std::array<int, 2> edge_corners(const SurfaceFacet& facet, int edge) {
+  return {edge, (edge + 1) % edge_count(facet)};
+}
+
+namespace {
+
+/// Representative of each facet's connected piece (path halving).
+Index root(std::vector<Index>& parent, Index f) {
+  while (parent[static_cast<std::size_t>(f)] != f) {
+    Index& up = parent[static_cast<std::size_t>(f)];
+    up = parent[static_cast<std::size_t>(up)];
+    f = up;
+  }
+  return f;
+}
+
+}  // namespace
+
+void connect(FacetSurface& surface) {
+  std::map<std::array<Index, 2>, std::array<Index, 2>> open;  // edge -> facet, local edge
+  std::vector<Index> parent(surface.facets.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  surface.facets_at.clear();
+  for (std::size_t f = 0; f < surface.facets.size(); ++f) {
+    SurfaceFacet& facet = surface.facets[f];
+    facet.neighbour.fill(-1);
+    for (int e = 0; e < edge_count(facet); ++e) {
+      const std::array<int, 2> ends = edge_corners(facet, e);
+      const Index a = facet.nodes[static_cast<std::size_t>(ends[0])];
+      const Index b = facet.nodes[static_cast<std::size_t>(ends[1])];
+      surface.facets_at[a].push_back(static_cast<Index>(f));
+      const std::array<Index, 2> key{std::min(a, b), std::max(a, b)};
+      const auto [at, fresh] = open.emplace(key, std::array<Index, 2>{static_cast<Index>(f), e});
+      if (fresh) continue;
+      const auto other = static_cast<std::size_t>(at->second[0]);
+      facet.neighbour[static_cast<std::size_t>(e)] = at->second[0];
+      surface.facets[other].neighbour[static_cast<std::size_t>(at->second[1])] =
+          static_cast<Index>(f);
+      parent[static_cast<std::size_t>(root(parent, static_cast<Index>(f)))] =
+          root(parent, at->second[0]);
+    }
+  }
+  for (std::size_t f = 0; f < surface.facets.size(); ++f)
+    surface.facets[f].piece = root(parent, static_cast<Index>(f));
+}
+
+cell::FacetShape facet_shape(const SurfaceFacet& facet, const Vec2& xi) {
+  if (!facet.shape) return cell::facet_shape(facet.type, xi);
+  const geometry::SurfaceJet jet = geometry::jet(*facet.shape, xi);
+  const std::array<const Vec3*, 10> d{&jet.r,     &jet.r1[0], &jet.r1[1], &jet.r2[0], &jet.r2[1],
+                                      &jet.r2[2], &jet.r3[0], &jet.r3[1], &jet.r3[2], &jet.r3[3]};
+  cell::FacetShape shape;
+  shape.count = 4;
+  for (std::size_t order = 0; order < d.size(); ++order) {
+    shape.n[order][0] = (order == 0 ? 1.0 : 0.0) - d[order]->sum();
+    for (std::size_t k = 0; k < 3; ++k)
+      shape.n[order][k + 1] = (*d[order])[static_cast<Eigen::Index>(k)];
+  }
+  return shape;
+}
+
+geometry::SurfaceJet facet_jet(const SurfaceFacet& facet, const cell::FacetShape& shape,
+                               std::span<const Vec3> x) {
+  geometry::SurfaceJet jet;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(shape.count); ++k) {
+    const Vec3& node = x[static_cast<std::size_t>(facet.nodes[k])];
+    jet.r += shape.n[0][k] * node;
+    for (std::size_t d = 0; d < 2; ++d) jet.r1[d] += shape.n[1 + d][k] * node;
+    for (std::size_t d = 0; d < 3; ++d) jet.r2[d] += shape.n[3 + d][k] * node;
+    for (std::size_t d = 0; d < 4; ++d) jet.r3[d] += shape.n[6 + d][k] * node;
+  }
+  return jet;
+}
+
+Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
+  const geometry::SurfaceJet jet = facet_jet(facet, xi, x);
+  const Vec3 normal = jet.r1[0].cross(jet.r1[1]);
+  const double size = normal.norm();
+  return size > 0 ? Vec3(normal / size) : Vec3(Vec3::Zero());
+}
+
+}  // namespace osculate::pairing
