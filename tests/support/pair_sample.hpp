@@ -9,9 +9,9 @@ namespace osculate::testing {
 
 /// A pair and a configuration; `x` holds all node positions.
 struct PairSample {
-  pairing::PairDefinition pair;
+  pairing::PairDefinition<2> pair;
   std::vector<Vec2> x;
-  pairing::PairState committed;
+  pairing::PairState<2> committed;
 };
 
 inline Eigen::VectorXd flatten(const std::vector<Vec2>& x) {
@@ -26,13 +26,28 @@ inline std::vector<Vec2> unflatten(const Eigen::VectorXd& v) {
   return x;
 }
 
+/// A history by its scalars.
+inline contact::PointHistory<2> remembered(bool active, Index facet, projection::Feature feature,
+                                           double xi, double gap, double traction,
+                                           bool slipping = false) {
+  contact::PointHistory<2> h;
+  h.active = active;
+  h.facet = facet;
+  h.feature = feature;
+  h.xi[0] = xi;
+  h.gap = gap;
+  h.traction[0] = traction;
+  h.slipping = slipping;
+  return h;
+}
+
 /// Sum of the forces of all blocks over the nodes.
 inline Eigen::VectorXd pair_residual(const PairSample& s, const Eigen::VectorXd& v) {
   const std::vector<Vec2> x = unflatten(v);
-  pairing::PairEvaluation e;
+  pairing::PairEvaluation<2> e;
   pairing::evaluate(s.pair, x, s.committed, false, e);
   Eigen::VectorXd r = Eigen::VectorXd::Zero(v.size());
-  for (const pairing::ContactBlock& b : e.blocks)
+  for (const pairing::ContactBlock<2>& b : e.blocks)
     for (int k = 0; k < b.count; ++k)
       r.segment<2>(2 * b.nodes[static_cast<std::size_t>(k)]) += b.force.segment<2>(2 * k);
   return r;
@@ -41,27 +56,27 @@ inline Eigen::VectorXd pair_residual(const PairSample& s, const Eigen::VectorXd&
 /// Assembled dense tangent, rank-one terms included.
 inline Eigen::MatrixXd pair_tangent(const PairSample& s, const Eigen::VectorXd& v) {
   const std::vector<Vec2> x = unflatten(v);
-  pairing::PairEvaluation e;
+  pairing::PairEvaluation<2> e;
   pairing::evaluate(s.pair, x, s.committed, true, e);
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(v.size(), v.size());
-  for (const pairing::ContactBlock& b : e.blocks)
+  for (const pairing::ContactBlock<2>& b : e.blocks)
     for (int i = 0; i < 2 * b.count; ++i) {
       const Eigen::Index row = 2 * b.nodes[static_cast<std::size_t>(i / 2)] + i % 2;
       for (int j = 0; j < 2 * b.count; ++j)
         k(row, 2 * b.nodes[static_cast<std::size_t>(j / 2)] + j % 2) += b.tangent(i, j);
-      for (const pairing::NodeGradient& g : b.path)
-        k.block<1, 2>(row, 2 * g.node) += b.path_rows[i] * g.value.transpose();
-      for (const pairing::NodeGradient& g : b.area)
+      for (const pairing::NodeMatrix<2>& g : b.path())
+        k.block<1, 2>(row, 2 * g.node) += b.path_rows.row(i) * g.value;
+      for (const pairing::NodeGradient<2>& g : b.area)
         k.block<1, 2>(row, 2 * g.node) += b.area_rows[i] * g.value.transpose();
     }
   return k;
 }
 
 inline std::vector<contact::Status> pair_status(const PairSample& s, const Eigen::VectorXd& v) {
-  pairing::PairEvaluation e;
+  pairing::PairEvaluation<2> e;
   pairing::evaluate(s.pair, unflatten(v), s.committed, false, e);
   std::vector<contact::Status> status;
-  for (const pairing::PointResult& p : e.points) status.push_back(p.status);
+  for (const pairing::PointResult<2>& p : e.points) status.push_back(p.status);
   return status;
 }
 

@@ -62,7 +62,7 @@ MindlinErrors mindlin_errors(int n, const std::string& type, double shear) {
     double p_total = 0, q_total = 0;
     for (const auto& p : points) {
       p_total -= p.weight * p.normal_traction;
-      q_total += p.weight * p.shear_traction;
+      q_total += p.weight * p.shear_traction[0];
     }
     const double q_size = std::abs(q_total), sign = q_total > 0 ? 1 : -1;
     const double a = std::sqrt(4 * p_total * radius / (pi * modulus));
@@ -74,7 +74,7 @@ MindlinErrors mindlin_errors(int n, const std::string& type, double shear) {
     double difference = 0, norm = 0;
     for (const auto& p : points) {
       const double x = p.foot.x(), exact = mu * p0 * (bump(x, a) - c / a * bump(x, c));
-      const double found = sign * p.shear_traction;
+      const double found = sign * p.shear_traction[0];
       difference += p.weight * (found - exact) * (found - exact);
       norm += p.weight * exact * exact;
       if (p.status == contact::Status::stick) out.stick = std::max(out.stick, std::abs(x));

@@ -25,10 +25,10 @@ Onset onset(const CaseContext& context, const std::string& model_file) {
     const double u = now.state.u[2 * model->mesh.find_set("column.top_left")->nodes[0]];
     double normal = 0, shear = 0;
     bool slips = true;
-    for (const pairing::PointResult& p : now.system.contact()[0].points) {
+    for (const pairing::PointResult<2>& p : now.system.contact()[0].points) {
       slips = slips && p.status == contact::Status::slip;
       normal += p.weight * p.normal_traction;
-      shear += p.weight * p.shear_traction;
+      shear += p.weight * p.shear_traction[0];
     }
     if (!slips) {
       found = {};

@@ -36,7 +36,7 @@ CaseResult incline(const CaseContext&) {
   const model::AnalysisResult below = run_text(model_text(0.999), [&](const Snapshot& s) {
     friction = normal = 0;
     for (const auto& p : s.system.contact()[0].points) {
-      friction += p.weight * p.shear_traction;
+      friction += p.weight * p.shear_traction[0];
       normal -= p.weight * p.normal_traction;
     }
   });

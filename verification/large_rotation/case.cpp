@@ -36,7 +36,7 @@ DragRun drag(const std::string& path, bool consistent) {
     for (const auto& p : s.system.contact()[0].points)
       if (p.status != contact::Status::open)
         run.rotation = std::max(
-            run.rotation, std::atan2(std::abs(p.unit_tangent.y()), std::abs(p.unit_tangent.x())) *
+            run.rotation, std::atan2(std::abs(p.frame.col(0).y()), std::abs(p.frame.col(0).x())) *
                               180 / std::numbers::pi);
     if (!s.record || s.progress.step != 1) return;
     if (s.progress.increment > 1) {

@@ -54,13 +54,13 @@ std::vector<Index> left_to_right(const model::Model& model, const std::string& s
 }
 
 std::vector<ContactPoint> contact_points(const Snapshot& now, const model::Model& model) {
-  const pairing::PairDefinition& pair = model.pairs[0].definition;
+  const pairing::PairDefinition<2>& pair = model.pairs[0].definition;
   const bool block_is_slave = model.body_of_node[static_cast<std::size_t>(pair.slave.nodes[0])] < 0;
   std::vector<ContactPoint> points;
   for (std::size_t k = 0; k < pair.slave.nodes.size(); ++k) {
-    const pairing::PointResult& p = now.system.contact()[0].points[k];
+    const pairing::PointResult<2>& p = now.system.contact()[0].points[k];
     if (p.status == contact::Status::open) continue;
-    const double on_slave = -p.shear_traction * p.unit_tangent.x();
+    const double on_slave = -p.shear_traction[0] * p.frame.col(0).x();
     points.push_back({model.reference[static_cast<std::size_t>(pair.slave.nodes[k])].x(),
                       (block_is_slave ? on_slave : -on_slave) / -p.normal_traction,
                       p.status == contact::Status::slip});

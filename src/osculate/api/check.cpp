@@ -14,9 +14,9 @@ struct GapFacts {
   double smallest = 0, largest = 0;
 };
 
-GapFacts gap_facts(const pairing::PairState& state) {
+GapFacts gap_facts(const pairing::PairState<2>& state) {
   GapFacts facts;
-  for (const contact::PointHistory& point : state.points) {
+  for (const contact::PointHistory<2>& point : state.points) {
     if (point.facet < 0) continue;
     facts.smallest = facts.found ? std::min(facts.smallest, point.gap) : point.gap;
     facts.largest = facts.found ? std::max(facts.largest, point.gap) : point.gap;

@@ -72,7 +72,7 @@ std::vector<Vec2> points_of(std::span<const double> values) {
   return x;
 }
 
-void add_block(const pairing::ContactBlock& block, bool with_tangent, ContactResult& out) {
+void add_block(const pairing::ContactBlock<2>& block, bool with_tangent, ContactResult& out) {
   const auto row_of = [&](int k) {
     return 2 * block.nodes[static_cast<std::size_t>(k / 2)] + k % 2;
   };
@@ -81,10 +81,11 @@ void add_block(const pairing::ContactBlock& block, bool with_tangent, ContactRes
     if (!with_tangent) continue;
     for (int j = 0; j < 2 * block.count; ++j)
       out.tangent.push_back({row_of(i), row_of(j), block.tangent(i, j)});
-    for (const pairing::NodeGradient& g : block.path)
+    for (const pairing::NodeMatrix<2>& g : block.path())
       for (int d = 0; d < 2; ++d)
-        out.tangent.push_back({row_of(i), 2 * g.node + d, block.path_rows[i] * g.value[d]});
-    for (const pairing::NodeGradient& g : block.area)
+        out.tangent.push_back(
+            {row_of(i), 2 * g.node + d, block.path_rows.row(i).dot(g.value.col(d))});
+    for (const pairing::NodeGradient<2>& g : block.area)
       for (int d = 0; d < 2; ++d)
         out.tangent.push_back({row_of(i), 2 * g.node + d, block.area_rows[i] * g.value[d]});
   }
@@ -93,9 +94,9 @@ void add_block(const pairing::ContactBlock& block, bool with_tangent, ContactRes
 }  // namespace
 
 struct ContactEvaluator::Impl {
-  pairing::PairDefinition pair;
-  pairing::PairState committed;
-  pairing::PairEvaluation evaluation;
+  pairing::PairDefinition<2> pair;
+  pairing::PairState<2> committed;
+  pairing::PairEvaluation<2> evaluation;
   std::size_t nodes = 0;
 };
 
@@ -105,7 +106,7 @@ ContactEvaluator::ContactEvaluator(const ContactOptions& options, FacetList mast
   check_options(options);
   const std::vector<Vec2> x = points_of(reference);
   impl_->nodes = x.size();
-  pairing::PairDefinition& pair = impl_->pair;
+  pairing::PairDefinition<2>& pair = impl_->pair;
   pair.master = chain_of(master, x.size(), "master");
   pair.slave = pairing::make_slave_side(chain_of(slave, x.size(), "slave"));
   pair.normal.stiffness = options.normal_penalty;
@@ -137,7 +138,7 @@ ContactResult ContactEvaluator::evaluate(std::span<const double> coordinates, bo
                     impl_->evaluation);
   ContactResult out;
   out.force.assign(coordinates.size(), 0.0);
-  for (const pairing::ContactBlock& block : impl_->evaluation.blocks)
+  for (const pairing::ContactBlock<2>& block : impl_->evaluation.blocks)
     if (block.active()) add_block(block, with_tangent, out);
   out.points = impl_->evaluation.points;
   return out;

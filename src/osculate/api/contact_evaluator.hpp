@@ -39,7 +39,8 @@ struct TangentEntry {
 struct ContactResult {
   std::vector<double> force;  ///< to be ADDED to the internal forces
   std::vector<TangentEntry> tangent;
-  std::span<const pairing::PointResult> points;  ///< one per slave node, valid until the next call
+  std::span<const pairing::PointResult<2>>
+      points;  ///< one per slave node, valid until the next call
 };
 
 class ContactEvaluator {

@@ -79,7 +79,7 @@ void FieldFiles::write_contact(const model::System& system, const model::State& 
     u.push_back(state.u.segment<2>(2 * node));
   }
   std::map<cell::CellType, mesh::Block> blocks;
-  for (const pairing::Facet& facet : m.pairs[pair].definition.slave.chain.facets) {
+  for (const pairing::Facet& facet : m.pairs[pair].definition.slave.boundary.facets) {
     const cell::CellType type = facet.count == 2   ? cell::CellType::line2
                                 : facet.count == 3 ? cell::CellType::line3
                                                    : cell::CellType::line4;

@@ -109,7 +109,7 @@ std::vector<ModelFact> model_facts(const deck::Built& built) {
                                             : fmt::format("{} nodes", body.nodes.size()),
                                  body.reference.x(), body.reference.y())});
   for (const model::ContactPair& pair : m.pairs) {
-    const pairing::PairDefinition& d = pair.definition;
+    const pairing::PairDefinition<2>& d = pair.definition;
     const std::string friction = d.friction ? fmt::format("Coulomb {:g} (penalty {:g})",
                                                           d.friction->mu, d.friction->stiffness)
                                             : std::string("frictionless");

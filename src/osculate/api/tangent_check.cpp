@@ -20,7 +20,7 @@ double mean_facet_length(const model::Model& m) {
   double sum = 0;
   int count = 0;
   for (const model::ContactPair& pair : m.pairs)
-    for (const pairing::Facet& f : pair.definition.slave.chain.facets) {
+    for (const pairing::Facet& f : pair.definition.slave.boundary.facets) {
       sum += (m.reference[static_cast<std::size_t>(f.nodes[1])] -
               m.reference[static_cast<std::size_t>(f.nodes[0])])
                  .norm();
@@ -68,7 +68,7 @@ void close_contact(Probe& probe, const model::Model& m) {
       const auto& law = m.pairs[p].definition.friction;
       if (law && i % 2 == 1)  // every second point slips
         push += 3 * law->mu * depth * m.pairs[p].definition.normal.stiffness / law->stiffness *
-                points[i].unit_tangent;
+                points[i].frame.col(0);
       const Index node = m.pairs[p].definition.slave.nodes[i];
       for (int k = 0; k < 2; ++k) {
         const Index u = probe.system.dofs().unknown_of(probe.system.dofs().node_dof(node, k));

@@ -99,15 +99,15 @@ struct Kinematics {
   std::size_t moving = 0;  ///< convective coordinates that follow the slave point
   double gap = 0;
   Vec<Dim> normal = Vec<Dim>::UnitY();
-  Mat<Dim, Dim - 1> frame;                        ///< orthonormal, perpendicular to the normal
-  std::array<Vec<Dim>, directions<Dim>> rho1;     ///< rho_,i
-  std::array<Vec<Dim>, Dim == 2 ? 1 : 3> rho2;    ///< rho_,ij
-  std::array<Vec<Dim>, Dim == 2 ? 1 : 4> rho3;    ///< rho_,ijk
-  SurfaceMatrix<Dim> metric, metric_inverse;      ///< a_ij, a^ij (zero beyond `moving`)
-  SurfaceMatrix<Dim> curvature;                   ///< h_ij
-  SurfaceMatrix<Dim> shifted, shifted_inverse;    ///< g_ij, g^ij; positive where the foot is a
-                                                  ///< strict minimum of the distance
-  std::array<Form<Dim>, directions<Dim>> d_xi;    ///< zero beyond `moving`
+  Mat<Dim, Dim - 1> frame;                      ///< orthonormal, perpendicular to the normal
+  std::array<Vec<Dim>, directions<Dim>> rho1;   ///< rho_,i
+  std::array<Vec<Dim>, Dim == 2 ? 1 : 3> rho2;  ///< rho_,ij
+  std::array<Vec<Dim>, Dim == 2 ? 1 : 4> rho3;  ///< rho_,ijk
+  SurfaceMatrix<Dim> metric, metric_inverse;    ///< a_ij, a^ij (zero beyond `moving`)
+  SurfaceMatrix<Dim> curvature;                 ///< h_ij
+  SurfaceMatrix<Dim> shifted, shifted_inverse;  ///< g_ij, g^ij; positive where the foot is a
+                                                ///< strict minimum of the distance
+  std::array<Form<Dim>, directions<Dim>> d_xi;  ///< zero beyond `moving`
   std::array<VectorForm<Dim>, directions<Dim>> d_rho1;  ///< of the moving base vectors
   Form<Dim> d_gap;
   VectorForm<Dim> d_normal;

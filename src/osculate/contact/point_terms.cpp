@@ -38,8 +38,8 @@ std::size_t used_slots(ResidualForm form) {
 template <int Dim>
 struct Conjugate {
   Vec<Dim - 1> value = Vec<Dim - 1>::Zero();
-  std::array<Form<Dim>, directions<Dim>> variation;       ///< without the traction's own change
-  std::array<Vec<Dim>, directions<Dim>> of_traction;      ///< dT^j = of_traction . dt + variation
+  std::array<Form<Dim>, directions<Dim>> variation;   ///< without the traction's own change
+  std::array<Vec<Dim>, directions<Dim>> of_traction;  ///< dT^j = of_traction . dt + variation
 };
 
 // @eq KS2D:39, KSVD:33 with the exact d(xi^i): t . rho_,i d(xi^i) = T^j (rho_,j . v_0 - gap n .
@@ -56,8 +56,7 @@ template <int Dim>
 Form<Dim> curvature_variation(const Kinematics<Dim>& k, std::size_t i, std::size_t j) {
   Form<Dim> form = dot(k.second(i, j), k.d_normal);
   form[second_slot<Dim>(i, j)] -= k.normal;
-  for (std::size_t l = 0; l < k.moving; ++l)
-    form += k.normal.dot(k.third(i, j, l)) * k.d_xi[l];
+  for (std::size_t l = 0; l < k.moving; ++l) form += k.normal.dot(k.third(i, j, l)) * k.d_xi[l];
   return form;
 }
 
@@ -192,8 +191,8 @@ namespace {
 /// Contravariant components of the shear and of the curvature, for the covariant tangents.
 template <int Dim>
 struct Covariant {
-  Vec<Dim - 1> lower, upper;       ///< T_i, T^i
-  SurfaceMatrix<Dim> curvature;    ///< h^ij
+  Vec<Dim - 1> lower, upper;     ///< T_i, T^i
+  SurfaceMatrix<Dim> curvature;  ///< h^ij
   Covariant(const Kinematics<Dim>& k, const Traction<Dim>& t) {
     lower.setZero();
     const Vec<Dim> shear = k.frame * t.tangential.traction;
@@ -210,8 +209,7 @@ void add_covariant_normal(PointTerms<Dim>& terms, const Kinematics<Dim>& k, cons
   if (parts.main) terms.m[0][0] += t.normal.d_traction * k.normal * k.normal.transpose();
   for (std::size_t i = 0; i < k.moving; ++i)
     for (std::size_t j = 0; j < k.moving; ++j) {
-      const double n_a =
-          t.normal.traction * k.metric_inverse(static_cast<I>(i), static_cast<I>(j));
+      const double n_a = t.normal.traction * k.metric_inverse(static_cast<I>(i), static_cast<I>(j));
       const double n_h = t.normal.traction * c.curvature(static_cast<I>(i), static_cast<I>(j));
       if (parts.rotational) {
         terms.m[first_slot(i)][0] += n_a * k.normal * k.rho1[j].transpose();

@@ -8,8 +8,8 @@
 namespace osculate::contact {
 
 /// Which residual the tractions enter.
-///   surface : N n + t on the contact weights            (the papers: zero gap on the tangent plane)
-///   full    : work-conjugate to the exact d(xi^i); moments balance for every penetration
+///   surface : N n + t on the contact weights            (the papers: zero gap on the tangent
+///   plane) full    : work-conjugate to the exact d(xi^i); moments balance for every penetration
 enum class ResidualForm : std::uint8_t { surface, full };
 
 /// Tangent to use. `consistent` is the exact derivative of the residual; otherwise the papers'

@@ -59,7 +59,7 @@ pairing::Chain chain_of(const BuildContext& c, const Name& name) {
   return chain;
 }
 
-pairing::SlaveSide slave_of(const BuildContext& c, const Contact& contact) {
+pairing::SlaveSide<2> slave_of(const BuildContext& c, const Contact& contact) {
   const Rigid* const rigid = rigid_of(c, contact.slave);
   const SetShape* const meshed = rigid ? std::get_if<SetShape>(&rigid->shape) : nullptr;
   const Name& set_name = meshed ? meshed->set : contact.slave;
@@ -67,12 +67,12 @@ pairing::SlaveSide slave_of(const BuildContext& c, const Contact& contact) {
   if (set.nodes.empty())
     throw core::InputError(contact.slave.mark,
                            fmt::format("contact set '{}' is empty", contact.slave.value));
-  if (set.dimension == 0) return pairing::make_slave_side({}, set.nodes);
+  if (set.dimension == 0) return pairing::make_slave_side(pairing::Chain{}, set.nodes);
   return pairing::make_slave_side(chain_of(c, contact.slave));
 }
 
 /// Thickness or circumference from the section behind the slave, else behind the master.
-pairing::AreaRule area_rule(const BuildContext& c, const pairing::PairDefinition& pair) {
+pairing::AreaRule area_rule(const BuildContext& c, const pairing::PairDefinition<2>& pair) {
   const auto from = [&](Index node) -> const solid::Section* {
     if (static_cast<std::size_t>(node) >= c.section_of_node.size()) return nullptr;
     const Index s = c.section_of_node[static_cast<std::size_t>(node)];
@@ -88,7 +88,7 @@ pairing::AreaRule area_rule(const BuildContext& c, const pairing::PairDefinition
   return {section->thickness, section->assumption == solid::Assumption::axisymmetric};
 }
 
-void set_forms(const Contact& contact, pairing::PairDefinition& pair) {
+void set_forms(const Contact& contact, pairing::PairDefinition<2>& pair) {
   pair.normal.stiffness = contact.normal_penalty.value;
   if (contact.friction)
     pair.friction = contact::Coulomb{contact.friction->mu.value, contact.friction->penalty.value};
@@ -111,7 +111,7 @@ void set_forms(const Contact& contact, pairing::PairDefinition& pair) {
 }
 
 void check_pair(const BuildContext& c, const Contact& contact,
-                const pairing::PairDefinition& pair) {
+                const pairing::PairDefinition<2>& pair) {
   if (pair.master.facets.empty())
     throw core::InputError(contact.master.mark,
                            fmt::format("contact set '{}' has no facets", contact.master.value));
@@ -150,7 +150,7 @@ void build_contact(BuildContext& c) {
   for (const Contact& contact : c.description.contact) {
     model::ContactPair out;
     out.name = contact.name.value;
-    pairing::PairDefinition& pair = out.definition;
+    pairing::PairDefinition<2>& pair = out.definition;
     pair.master = chain_of(c, contact.master);
     pair.slave = slave_of(c, contact);
     check_pair(c, contact, pair);

@@ -29,7 +29,7 @@ struct RigidBody {
 
 struct ContactPair {
   std::string name;
-  pairing::PairDefinition definition;
+  pairing::PairDefinition<2> definition;
 };
 
 /// A whole analysis, ready to assemble; built by `deck`, or by hand. Plain data, const during the

@@ -37,18 +37,19 @@ double rigid_value(const System& system, const Model& model, const State& state,
 }
 
 double pair_value(const System& system, const HistoryRequest& request) {
-  const pairing::PairEvaluation& pair = system.contact()[static_cast<std::size_t>(request.target)];
+  const pairing::PairEvaluation<2>& pair =
+      system.contact()[static_cast<std::size_t>(request.target)];
   double sum = 0;
   // What was assembled: with `residual: full` it is not just the traction times the area.
-  for (const pairing::ContactBlock& block : pair.blocks) {
+  for (const pairing::ContactBlock<2>& block : pair.blocks) {
     if (!block.active()) continue;
     if (request.quantity == "force_x") sum -= block.force[0];
     if (request.quantity == "force_y") sum -= block.force[1];
   }
-  for (const pairing::PointResult& p : pair.points) {
+  for (const pairing::PointResult<2>& p : pair.points) {
     const bool closed = p.status != contact::Status::open;
     if (request.quantity == "normal_force") sum -= p.weight * p.normal_traction;
-    if (request.quantity == "shear_force") sum -= p.weight * p.shear_traction;
+    if (request.quantity == "shear_force") sum -= p.weight * p.shear_traction[0];
     if (request.quantity == "max_pressure") sum = std::max(sum, -p.normal_traction);
     if (request.quantity == "max_penetration" && closed) sum = std::max(sum, -p.gap);
     if (request.quantity == "stick") sum += p.status == contact::Status::stick ? 1 : 0;
@@ -82,15 +83,15 @@ double history_value(const System& system, const Model& model, const State& stat
 ContactFields contact_fields(const System& system, const Model& model, std::size_t pair) {
   ContactFields fields;
   fields.nodes = model.pairs[pair].definition.slave.nodes;
-  for (const pairing::PointResult& p : system.contact()[pair].points) {
+  for (const pairing::PointResult<2>& p : system.contact()[pair].points) {
     const bool found = p.history.facet >= 0;
     fields.copen.push_back(found ? p.gap : 0.0);
     fields.cpress.push_back(-p.normal_traction);
-    fields.cshear.push_back(-p.shear_traction);
-    fields.cslip.push_back(p.history.slip);
+    fields.cshear.push_back(-p.shear_traction[0]);
+    fields.cslip.push_back(p.history.slip[0]);
     fields.carea.push_back(p.weight);
     fields.cnforce.push_back(-p.weight * p.normal_traction);
-    fields.csforce.push_back(-p.weight * p.shear_traction);
+    fields.csforce.push_back(-p.weight * p.shear_traction[0]);
     fields.cstatus.push_back(static_cast<double>(p.status));
     fields.cfeature.push_back(static_cast<double>(p.history.feature));
     fields.normal.push_back(p.normal);

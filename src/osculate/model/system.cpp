@@ -42,7 +42,7 @@ std::vector<Index> bodies_by_node(const Model& model) {
 
 bool needs_unsymmetric(const Model& model) {
   for (const ContactPair& pair : model.pairs) {
-    const pairing::PairDefinition& d = pair.definition;
+    const pairing::PairDefinition<2>& d = pair.definition;
     if (d.friction || (d.weight == pairing::Weight::current_area && d.tangent.consistent))
       return true;
   }
@@ -65,7 +65,7 @@ struct System::Impl {
   Assembler assembler;
   std::vector<CellJob> jobs;
   std::vector<BulkBlock> blocks;
-  std::vector<pairing::PairEvaluation> contact;
+  std::vector<pairing::PairEvaluation<2>> contact;
   Forces forces;
   Eigen::VectorXd predicted;     ///< K du_prescribed on primary dofs
   Eigen::VectorXd branch_shift;  ///< force of the linearised branches minus the true force
@@ -183,14 +183,14 @@ struct System::Impl {
     return true;
   }
 
-  void add_rank_one(std::span<const Dof> row_dofs, const pairing::BlockVector& rows,
-                    const std::vector<pairing::NodeGradient>& gradient,
+  void add_rank_one(std::span<const Dof> row_dofs, const pairing::BlockVector<2>& rows,
+                    const std::vector<pairing::NodeGradient<2>>& gradient,
                     const Eigen::VectorXd* inc) {
     if (gradient.empty()) return;
     path_dofs.clear();
     path_values.clear();
     double along = 0;
-    for (const pairing::NodeGradient& g : gradient)
+    for (const pairing::NodeGradient<2>& g : gradient)
       for (int i = 0; i < 2; ++i) {
         path_dofs.push_back(dofs.node_dof(g.node, i));
         path_values.push_back(g.value[i]);
@@ -201,9 +201,29 @@ struct System::Impl {
       predicted[row_dofs[i]] += rows[static_cast<Eigen::Index>(i)] * along;
   }
 
-  void add_contact_block(const pairing::ContactBlock& block, bool with_tangent,
+  /// Terms of the nodes behind a contact point: one outer product per direction in space.
+  void add_path(std::span<const Dof> row_dofs, const pairing::ContactBlock<2>& block,
+                const Eigen::VectorXd* inc) {
+    if (block.path().empty()) return;
+    for (Eigen::Index c = 0; c < 2; ++c) {
+      path_dofs.clear();
+      path_values.clear();
+      double along = 0;
+      for (const pairing::NodeMatrix<2>& g : block.path())
+        for (int i = 0; i < 2; ++i) {
+          path_dofs.push_back(dofs.node_dof(g.node, i));
+          path_values.push_back(g.value(c, i));
+          if (inc) along += g.value(c, i) * (*inc)[path_dofs.back()];
+        }
+      const double* rows = block.path_rows.col(c).data();
+      assembler.add_outer(row_dofs, {rows, row_dofs.size()}, path_dofs, path_values);
+      for (std::size_t i = 0; i < row_dofs.size(); ++i) predicted[row_dofs[i]] += rows[i] * along;
+    }
+  }
+
+  void add_contact_block(const pairing::ContactBlock<2>& block, bool with_tangent,
                          const Eigen::VectorXd* inc) {
-    std::array<Dof, 2 * pairing::max_block_nodes> all{};
+    std::array<Dof, 2 * pairing::max_block_nodes<2>> all{};
     for (int k = 0; k < 2 * block.count; ++k)
       all[static_cast<std::size_t>(k)] =
           dofs.node_dof(block.nodes[static_cast<std::size_t>(k / 2)], k % 2);
@@ -217,7 +237,7 @@ struct System::Impl {
     if (!with_tangent) return;
     assembler.add_block(d, block.tangent);
     add_predicted(d, block.tangent, inc);
-    add_rank_one(d, block.path_rows, block.path, inc);
+    add_path(d, block, inc);
     add_rank_one(d, block.area_rows, block.area, inc);
   }
 
@@ -226,16 +246,17 @@ struct System::Impl {
     out.counts = {};
     out.counts.signature = 14695981039346656037ull;
     for (std::size_t p = 0; p < model.pairs.size(); ++p) {
-      const pairing::Assumed assumed = inc ? pairing::committed_branches(committed.pairs[p])
-                                       : p < trial.assumed.size() ? trial.assumed[p]
-                                                                  : pairing::Assumed{};
-      pairing::evaluate(model.pairs[p].definition, x, committed.pairs[p], with_tangent, contact[p],
-                        assumed);
-      for (const pairing::ContactBlock& block : contact[p].blocks)
+      const pairing::Assumed<2> assumed =
+          inc ? pairing::committed_branches<2>(model.pairs[p].definition, committed.pairs[p], x)
+          : p < trial.assumed.size() ? trial.assumed[p]
+                                     : pairing::Assumed<2>{};
+      pairing::evaluate<2>(model.pairs[p].definition, x, committed.pairs[p], with_tangent,
+                           contact[p], assumed);
+      for (const pairing::ContactBlock<2>& block : contact[p].blocks)
         if (block.active()) add_contact_block(block, with_tangent, inc);
-      for (const pairing::PointResult& point : contact[p].points) {
+      for (const pairing::PointResult<2>& point : contact[p].points) {
         mix(out.counts.signature, static_cast<std::uint64_t>(point.status));
-        mix(out.counts.signature, point.shear_traction > 0 ? 1u : 0u);
+        mix(out.counts.signature, point.shear_traction[0] > 0 ? 1u : 0u);
         if (point.status == contact::Status::open) ++out.counts.open;
         if (point.status == contact::Status::stick) ++out.counts.stick;
         if (point.status == contact::Status::slip) ++out.counts.slip;
@@ -340,7 +361,7 @@ State System::initial_state() {
   for (const RigidBody& body : model.rigid)
     state.rigid.push_back({body.reference, Vec2::Zero(), 0});
   for (const ContactPair& pair : model.pairs)
-    state.pairs.push_back(pairing::initial_state(pair.definition, model.reference));
+    state.pairs.push_back(pairing::initial_state<2>(pair.definition, model.reference));
   return state;
 }
 
@@ -406,7 +427,7 @@ State System::apply(const State& state, const Eigen::VectorXd& du, double fracti
 State System::remember(const State& trial) const {
   State state = trial;
   state.assumed.clear();
-  for (const pairing::PairEvaluation& e : impl_->contact)
+  for (const pairing::PairEvaluation<2>& e : impl_->contact)
     state.assumed.push_back(pairing::evaluated_branches(e));
   return state;
 }
@@ -425,7 +446,7 @@ std::uint64_t System::pattern_version() const { return impl_->builder.pattern_ve
 la::Symmetry System::symmetry() const { return impl_->symmetry; }
 const DofSpace& System::dofs() const { return impl_->dofs; }
 const Forces& System::forces() const { return impl_->forces; }
-const std::vector<pairing::PairEvaluation>& System::contact() const { return impl_->contact; }
+const std::vector<pairing::PairEvaluation<2>>& System::contact() const { return impl_->contact; }
 
 std::vector<Vec2> System::positions(const State& state) const {
   std::vector<Vec2> x(impl_->model.reference.size());

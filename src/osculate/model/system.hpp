@@ -54,7 +54,7 @@ class System {
 
   [[nodiscard]] const DofSpace& dofs() const;
   [[nodiscard]] const Forces& forces() const;  ///< of the last evaluation
-  [[nodiscard]] const std::vector<pairing::PairEvaluation>& contact() const;
+  [[nodiscard]] const std::vector<pairing::PairEvaluation<2>>& contact() const;
   [[nodiscard]] std::vector<Vec2> positions(const State& state) const;
   [[nodiscard]] bool prescribed(Index unknown) const;
   /// Switch terms off (tangent check only); all are on by default.

@@ -123,8 +123,8 @@ void resolve_edge(const FacetSurface& surface, std::span<const Vec3> x, Projecti
     p.beyond_end = true;
     return;
   }
-  const SurfaceFacet& other = surface.facets[static_cast<std::size_t>(
-      facet.neighbour[static_cast<std::size_t>(p.local)])];
+  const SurfaceFacet& other =
+      surface.facets[static_cast<std::size_t>(facet.neighbour[static_cast<std::size_t>(p.local)])];
   p.outward += facet_normal(other, across(facet, p.local, p.xi, other), x);
   normalize(p.outward);
 }

@@ -16,7 +16,7 @@ using contact::Traction;
 using projection::Feature;
 
 template <int Dim>
-void prepare(PairDefinition<Dim>& pair, std::span<const Vec<Dim>> reference) {
+void prepare(PairDefinition<Dim>& pair, Points<Dim> reference) {
   nodal_areas(pair.slave, reference, pair.area, pair.reference_areas, nullptr);
   if (pair.weight == Weight::node) return;
   for (const double area : pair.reference_areas)
@@ -28,8 +28,7 @@ namespace {
 
 template <int Dim>
 Placed<Dim> place_point(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& work,
-                        std::span<const Vec<Dim>> x, std::size_t i,
-                        const PointHistory<Dim>& history) {
+                        Points<Dim> x, std::size_t i, const PointHistory<Dim>& history) {
   ProjectionQuery<Dim> query;
   query.point = x[static_cast<std::size_t>(pair.slave.nodes[i])];
   if (work.normals[i].squaredNorm() > 0) query.slave_normal = work.normals[i];
@@ -91,15 +90,15 @@ AssumedBranch<Dim> branch_of(const TangentialResponse<Dim>& response,
 
 template <int Dim>
 Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,
-                        const Placed<Dim>& placed, std::span<const Vec<Dim>> x,
-                        const BranchHint<Dim>& hint, PathBuffers<Dim>* path) {
+                        const Placed<Dim>& placed, Points<Dim> x, const BranchHint<Dim>& hint,
+                        PathBuffers<Dim>* path) {
   Friction<Dim> f;
   const Kinematics<Dim>& k = placed.kinematics;
   f.traction.normal = pair.normal.response(k.gap);
   if (!f.traction.normal.active || !pair.friction) return f;
   const contact::Coulomb& law = *pair.friction;
-  const Trial<Dim> tr = trial(pair.master, history, placed, law.stiffness,
-                              contact_share(history, k.gap), x, path);
+  const Trial<Dim> tr =
+      trial(pair.master, history, placed, law.stiffness, contact_share(history, k.gap), x, path);
   const double normal = f.traction.normal.traction;
   f.slip = tr.slip;
   f.law = law.template response<Dim>(tr.value, normal);
@@ -169,7 +168,7 @@ void scatter_tangent(ContactBlock<Dim>& block, const Weights<Dim>& w, const Poin
 }
 
 template <int Dim>
-PointHistory<Dim> next_history(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
+PointHistory<Dim> next_history(const PairDefinition<Dim>& pair, Points<Dim> x,
                                const PointHistory<Dim>& old, const Placed<Dim>& placed,
                                const Friction<Dim>& f) {
   PointHistory<Dim> h;
@@ -210,9 +209,8 @@ void clear(ContactBlock<Dim>& block) {
 
 /// Where the point is; false where it is not in contact.
 template <int Dim>
-bool report_place(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
-                  const PointHistory<Dim>& history, const Placed<Dim>& placed,
-                  PointResult<Dim>& result) {
+bool report_place(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHistory<Dim>& history,
+                  const Placed<Dim>& placed, PointResult<Dim>& result) {
   if (placed.projection.feature == Feature::none) return false;
   const Kinematics<Dim>& k = placed.kinematics;
   result.gap = k.gap;
@@ -225,7 +223,7 @@ bool report_place(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
 }
 
 template <int Dim>
-void evaluate_point(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
+void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
                     const PointHistory<Dim>& history, const BranchHint<Dim>& hint,
                     bool with_tangent, std::size_t i, PairEvaluation<Dim>& out) {
   PointResult<Dim>& result = out.points[i];
@@ -249,10 +247,9 @@ void evaluate_point(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x
 
   set_nodes(block, pair.master, placed, pair.slave.nodes[i]);
   const Weights<Dim> w = contact_weights(placed);
-  const PointTerms<Dim> terms = with_tangent
-                                    ? contact::point_terms(k, f.traction, pair.residual,
-                                                           pair.tangent)
-                                    : contact::point_forces(k, f.traction, pair.residual);
+  const PointTerms<Dim> terms =
+      with_tangent ? contact::point_terms(k, f.traction, pair.residual, pair.tangent)
+                   : contact::point_forces(k, f.traction, pair.residual);
   scatter_forces(block.branch_force, block.count, w, terms, result.weight);
   block.force = block.branch_force;
   block.branched = pair.friction && f.law.traction != f.traction.tangential.traction;
@@ -270,7 +267,7 @@ void evaluate_point(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x
 }
 
 template <int Dim>
-void refresh(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x, bool with_tangent,
+void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
              PairEvaluation<Dim>& out) {
   const std::size_t n = pair.slave.nodes.size();
   out.points.resize(n);
@@ -289,9 +286,8 @@ void refresh(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x, bool 
 }  // namespace
 
 template <int Dim>
-void evaluate(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
-              const PairState<Dim>& committed, bool with_tangent, PairEvaluation<Dim>& out,
-              const Assumed<Dim>& assumed) {
+void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
+              bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed) {
   refresh(pair, x, with_tangent, out);
   for (std::size_t i = 0; i < pair.slave.nodes.size(); ++i) {
     BranchHint<Dim> hint;
@@ -302,7 +298,7 @@ void evaluate(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
 
 template <int Dim>
 Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair, const PairState<Dim>& committed,
-                                std::span<const Vec<Dim>> x) {
+                                Points<Dim> x) {
   Assumed<Dim> assumed;
   assumed.predict = true;
   for (const PointHistory<Dim>& h : committed.points) {
@@ -310,8 +306,7 @@ Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair, const PairState
     if (h.active) branch.branch = Branch::stick;
     const double size = h.traction.norm();
     if (h.active && h.slipping && size > 0)
-      branch = {Branch::slip,
-                stored_frame(pair.master, h.facet, h.xi, x) * (h.traction / size)};
+      branch = {Branch::slip, stored_frame(pair.master, h.facet, h.xi, x) * (h.traction / size)};
     assumed.branch.push_back(branch);
   }
   return assumed;
@@ -325,7 +320,7 @@ Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation) {
 }
 
 template <int Dim>
-PairState<Dim> initial_state(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x) {
+PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
   PairEvaluation<Dim> work;
   refresh(pair, x, false, work);
   PairState<Dim> state;
@@ -349,20 +344,18 @@ PairState<Dim> commit(const PairEvaluation<Dim>& evaluation) {
   return state;
 }
 
-template void prepare<2>(PairDefinition<2>&, std::span<const Vec2>);
-template void prepare<3>(PairDefinition<3>&, std::span<const Vec3>);
-template PairState<2> initial_state<2>(const PairDefinition<2>&, std::span<const Vec2>);
-template PairState<3> initial_state<3>(const PairDefinition<3>&, std::span<const Vec3>);
-template Assumed<2> committed_branches<2>(const PairDefinition<2>&, const PairState<2>&,
-                                          std::span<const Vec2>);
-template Assumed<3> committed_branches<3>(const PairDefinition<3>&, const PairState<3>&,
-                                          std::span<const Vec3>);
+template void prepare<2>(PairDefinition<2>&, Points<2>);
+template void prepare<3>(PairDefinition<3>&, Points<3>);
+template PairState<2> initial_state<2>(const PairDefinition<2>&, Points<2>);
+template PairState<3> initial_state<3>(const PairDefinition<3>&, Points<3>);
+template Assumed<2> committed_branches<2>(const PairDefinition<2>&, const PairState<2>&, Points<2>);
+template Assumed<3> committed_branches<3>(const PairDefinition<3>&, const PairState<3>&, Points<3>);
 template Assumed<2> evaluated_branches<2>(const PairEvaluation<2>&);
 template Assumed<3> evaluated_branches<3>(const PairEvaluation<3>&);
-template void evaluate<2>(const PairDefinition<2>&, std::span<const Vec2>, const PairState<2>&,
-                          bool, PairEvaluation<2>&, const Assumed<2>&);
-template void evaluate<3>(const PairDefinition<3>&, std::span<const Vec3>, const PairState<3>&,
-                          bool, PairEvaluation<3>&, const Assumed<3>&);
+template void evaluate<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
+                          PairEvaluation<2>&, const Assumed<2>&);
+template void evaluate<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,
+                          PairEvaluation<3>&, const Assumed<3>&);
 template PairState<2> commit<2>(const PairEvaluation<2>&);
 template PairState<3> commit<3>(const PairEvaluation<3>&);
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "osculate/contact/history.hpp"
 #include "osculate/contact/point_terms.hpp"
@@ -9,6 +10,10 @@
 #include "osculate/pairing/trial.hpp"
 
 namespace osculate::pairing {
+
+/// Positions of all nodes. (No template argument is deduced from it: any range of points will do.)
+template <int Dim>
+using Points = std::type_identity_t<std::span<const Vec<Dim>>>;
 
 /// What the traction law's result is multiplied by.
 enum class Weight : std::uint8_t { node, reference_area, current_area };
@@ -104,13 +109,12 @@ struct PairEvaluation {
 /// Fills the reference areas from the reference coordinates. Throws core::GeometryError when area
 /// weights are asked for and a slave node has no facet or a non-positive area.
 template <int Dim>
-void prepare(PairDefinition<Dim>& pair, std::span<const Vec<Dim>> reference);
+void prepare(PairDefinition<Dim>& pair, Points<Dim> reference);
 
 /// Projection of all points in configuration `x`: the state before the first increment
 /// (KS2D Table 1, step 1: the convective coordinate of points in contact from the start).
 template <int Dim>
-[[nodiscard]] PairState<Dim> initial_state(const PairDefinition<Dim>& pair,
-                                           std::span<const Vec<Dim>> x);
+[[nodiscard]] PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x);
 
 /// Branches of the friction law in the last iteration, one per point. A point that has slipped one
 /// way and now would slip the other way has jumped over its narrow sticking range: it is linearised
@@ -125,8 +129,7 @@ struct Assumed {
 /// Branches at the end of the last increment; `x` is the configuration then.
 template <int Dim>
 [[nodiscard]] Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair,
-                                              const PairState<Dim>& committed,
-                                              std::span<const Vec<Dim>> x);
+                                              const PairState<Dim>& committed, Points<Dim> x);
 /// Branches of an evaluation, for the next iteration.
 template <int Dim>
 [[nodiscard]] Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation);
@@ -137,9 +140,8 @@ template <int Dim>
 /// Source     KS2D Tables 1 and 2 with docs/errata.md; KSVD section 3
 /// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair_history.cpp, and their 3D like
 template <int Dim>
-void evaluate(const PairDefinition<Dim>& pair, std::span<const Vec<Dim>> x,
-              const PairState<Dim>& committed, bool with_tangent, PairEvaluation<Dim>& out,
-              const Assumed<Dim>& assumed = {});
+void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
+              bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed = {});
 
 /// The trial history of an accepted evaluation. A point that opens forgets.
 template <int Dim>

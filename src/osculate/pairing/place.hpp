@@ -28,7 +28,7 @@ struct Placed {
 /// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair3_tangent.cpp
 [[nodiscard]] Placed<2> place(const Chain& master, const Projection<2>& p, const Vec2& point,
                               std::span<const Vec2> x);
-[[nodiscard]] Placed<3> place(const FacetSurface& master, const Projection<3>& p,
-                              const Vec3& point, std::span<const Vec3> x);
+[[nodiscard]] Placed<3> place(const FacetSurface& master, const Projection<3>& p, const Vec3& point,
+                              std::span<const Vec3> x);
 
 }  // namespace osculate::pairing

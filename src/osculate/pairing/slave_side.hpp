@@ -46,16 +46,14 @@ struct SlaveSide {
 /// Formula    2D: A_k = int N_k |dx/dxi| f dxi, f = thickness or 2 pi x_1
 ///            3D: A_k = int N_k |x_1 x x_2| for tri3, quad4 and quad9. The consistent areas of
 ///            tri6 and quad8 have zero or negative corners; theirs are c_k times the facet's area
-///            with c_k = int N_k^2 / sum_l int N_l^2 over the reference cell: positive, the total is
-///            right, but a uniform pressure is not transmitted exactly.
+///            with c_k = int N_k^2 / sum_l int N_l^2 over the reference cell: positive, the total
+///            is right, but a uniform pressure is not transmitted exactly.
 /// Returns    one value per entry of `nodes`; `gradients` (if given) receives dA_k/dx_l
 /// Tested by  tests/unit/pairing/test_slave_side.cpp, test_slave_side3.cpp
 void nodal_areas(const SlaveSide<2>& slave, std::span<const Vec2> x, const AreaRule& rule,
-                 std::vector<double>& areas,
-                 std::vector<std::vector<NodeGradient<2>>>* gradients);
+                 std::vector<double>& areas, std::vector<std::vector<NodeGradient<2>>>* gradients);
 void nodal_areas(const SlaveSide<3>& slave, std::span<const Vec3> x, const AreaRule& rule,
-                 std::vector<double>& areas,
-                 std::vector<std::vector<NodeGradient<3>>>* gradients);
+                 std::vector<double>& areas, std::vector<std::vector<NodeGradient<3>>>* gradients);
 
 /// Averaged outward normal of every slave node (zero where the node has no facet).
 void nodal_normals(const SlaveSide<2>& slave, std::span<const Vec2> x, std::vector<Vec2>& normals);

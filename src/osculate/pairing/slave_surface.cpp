@@ -81,8 +81,7 @@ std::array<double, cell::max_facet_nodes> make_shares(cell::CellType type) {
 /// The function that shares out the facet's area: N_k, or the constant c_k.
 double share_of(cell::CellType type, const cell::FacetShape& shape, std::size_t k) {
   static const std::array<double, cell::max_facet_nodes> tri6 = make_shares(cell::CellType::tri6);
-  static const std::array<double, cell::max_facet_nodes> quad8 =
-      make_shares(cell::CellType::quad8);
+  static const std::array<double, cell::max_facet_nodes> quad8 = make_shares(cell::CellType::quad8);
   if (type == cell::CellType::tri6) return tri6[k];
   if (type == cell::CellType::quad8) return quad8[k];
   return shape.n[0][k];
@@ -120,8 +119,7 @@ std::size_t local_node(const SurfaceFacet& facet, Index node) {
 }  // namespace
 
 void nodal_areas(const SlaveSide<3>& slave, std::span<const Vec3> x, const AreaRule&,
-                 std::vector<double>& areas,
-                 std::vector<std::vector<NodeGradient<3>>>* gradients) {
+                 std::vector<double>& areas, std::vector<std::vector<NodeGradient<3>>>* gradients) {
   areas.assign(slave.nodes.size(), 0.0);
   if (gradients) gradients->resize(slave.nodes.size());
   for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
@@ -139,7 +137,8 @@ void nodal_normals(const SlaveSide<3>& slave, std::span<const Vec3> x, std::vect
   for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
     for (const Index f : slave.facets_of[i]) {
       const SurfaceFacet& facet = slave.boundary.facets[static_cast<std::size_t>(f)];
-      const Vec2 xi = cell::area_node(facet.type, static_cast<int>(local_node(facet, slave.nodes[i])));
+      const Vec2 xi =
+          cell::area_node(facet.type, static_cast<int>(local_node(facet, slave.nodes[i])));
       normals[i] += facet_normal(facet, xi, x);
     }
     if (normals[i].norm() > 1e-12) normals[i].normalize();

@@ -52,7 +52,6 @@ void connect(FacetSurface& surface);
   return facet_jet(facet, facet_shape(facet, xi), x);
 }
 /// Unit normal; zero where the facet has none.
-[[nodiscard]] Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi,
-                                std::span<const Vec3> x);
+[[nodiscard]] Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x);
 
 }  // namespace osculate::pairing

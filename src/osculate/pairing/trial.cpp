@@ -17,7 +17,8 @@ Trial<2> trial(const Chain& master, const PointHistory<2>& history, const Placed
   if (path) path->scratch.clear();
   const Location from{history.facet, history.xi[0]};
   const Location to{placed.projection.facet, placed.projection.xi[0]};
-  const std::optional<double> arc = path_length(master, x, from, to, path ? &path->scratch : nullptr);
+  const std::optional<double> arc =
+      path_length(master, x, from, to, path ? &path->scratch : nullptr);
   if (!arc) return out;
   out.known = true;
   const double carried = history.active ? history.traction[0] : 0.0;
@@ -100,8 +101,7 @@ std::array<Mat<3, 3>, 2> normal_gradient(const FacetFrame& f) {
 std::array<Mat<3, 3>, 2> frame_gradient(const FacetFrame& f, const Vec2& t,
                                         const std::array<Mat<3, 3>, 2>& turning) {
   const Vec3 e1 = f.frame.col(0);
-  const Mat<3, 3> of_first =
-      (Mat<3, 3>::Identity() - e1 * e1.transpose()) / f.jet.r1[0].norm();
+  const Mat<3, 3> of_first = (Mat<3, 3>::Identity() - e1 * e1.transpose()) / f.jet.r1[0].norm();
   std::array<Mat<3, 3>, 2> out;
   for (std::size_t j = 0; j < 2; ++j) out[j] = -t[1] * cross_matrix(e1) * turning[j];
   out[0] += t[0] * of_first + t[1] * cross_matrix(f.normal) * of_first;
@@ -116,8 +116,7 @@ void add_path(const SurfaceFacet& old_facet, const FacetFrame& old, const Surfac
   const std::array<Mat<3, 3>, 2> turning = normal_gradient(old);
   const std::array<Mat<3, 3>, 2> framing = frame_gradient(old, traction, turning);
   std::array<Mat<3, 3>, 2> of_base;
-  for (std::size_t j = 0; j < 2; ++j)
-    of_base[j] = c.of_vector * framing[j] + c.of_old * turning[j];
+  for (std::size_t j = 0; j < 2; ++j) of_base[j] = c.of_vector * framing[j] + c.of_old * turning[j];
   const bool same = &old_facet == &facet;
   for (std::size_t k = 0; k < static_cast<std::size_t>(old_facet.count); ++k) {
     const double moved = (same ? placed.shape[0][k] : 0.0) - old.shape.n[0][k];

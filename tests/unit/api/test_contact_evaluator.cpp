@@ -47,7 +47,7 @@ TEST(ContactEvaluator, ForcesByHand) {
   expect_forces(result.force, {0, 5, 0, 10, 0, 5, 0, -10, 0, -10});
   EXPECT_TRUE(result.tangent.empty());
   ASSERT_EQ(result.points.size(), 2u);
-  for (const pairing::PointResult& p : result.points) {
+  for (const pairing::PointResult<2>& p : result.points) {
     EXPECT_NEAR(p.gap, -0.1, 1e-15);
     EXPECT_NEAR(p.normal_traction, -10, 1e-12);
     EXPECT_NEAR(p.weight, 1.0, 1e-15);
@@ -134,7 +134,7 @@ TEST(ContactEvaluator, TangentIsTheDerivativeOfTheForces) {
           return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(r.force.data(), n));
         };
         const ContactResult here = contact.evaluate(s.x, true);
-        for (const pairing::PointResult& p : here.points)
+        for (const pairing::PointResult<2>& p : here.points)
           ASSERT_EQ(p.status, shift < 0.1 ? contact::Status::stick : contact::Status::slip);
         Eigen::VectorXd df = Eigen::VectorXd::Zero(n);
         for (const TangentEntry& e : here.tangent) df[e.row] += e.value * d[e.column];

@@ -87,14 +87,16 @@ double foot(const Master& m, const Eigen::VectorXd& x) {
   return xi;
 }
 
-Kinematics kinematics(const Master& m, const Eigen::VectorXd& x) {
+Kinematics<2> kinematics(const Master& m, const Eigen::VectorXd& x) {
   return face_kinematics(jet_of(m, x, foot(m, x)), x.tail<2>());
 }
 
 /// The relative variations a Form is applied to.
 struct Relative {
   Vec2 p, q, r;
-  [[nodiscard]] double of(const Form& f) const { return f.p.dot(p) + f.q.dot(q) + f.r.dot(r); }
+  [[nodiscard]] double of(const Form<2>& f) const {
+    return f[0].dot(p) + f[1].dot(q) + f[2].dot(r);
+  }
 };
 
 Relative relative(const Master& m, const Eigen::VectorXd& d) {
@@ -129,7 +131,10 @@ void expect_second_order(const Quantity& quantity, double derivative, const Eige
       << what << ": order " << r.order << " error " << r.error;
 }
 
-double angle(const Kinematics& k) { return std::atan2(k.unit_tangent.y(), k.unit_tangent.x()); }
+/// Rotation of the moving frame: d(tau) = nu d_angle, d(nu) = -tau d_angle.
+Form<2> d_angle(const Kinematics<2>& k) { return dot<2>(Vec2(-k.frame.col(0)), k.d_normal); }
+
+double angle(const Kinematics<2>& k) { return std::atan2(k.frame(1, 0), k.frame(0, 0)); }
 
 // [eq:KS2D:27] [eq:KS2D:28] [eq:KS2D:45]
 TEST(FaceKinematics, VariationsAreDerivatives) {
@@ -138,16 +143,16 @@ TEST(FaceKinematics, VariationsAreDerivatives) {
       for (int seed = 1; seed <= 3; ++seed) {
         const std::string what = m.name + " gap " + std::to_string(gap);
         const Eigen::VectorXd x = coordinates(m, gap), d = direction(x.size(), seed);
-        const Kinematics k = kinematics(m, x);
+        const Kinematics<2> k = kinematics(m, x);
         const Relative v = relative(m, d);
         ASSERT_NEAR(foot(m, x), m.xi, 1e-14) << what;
         EXPECT_NEAR(k.gap, gap, 1e-14) << what;
-        expect_second_order([&](const Eigen::VectorXd& y) { return foot(m, y); }, v.of(k.d_xi), x,
-                            d, what + " xi");
+        expect_second_order([&](const Eigen::VectorXd& y) { return foot(m, y); }, v.of(k.d_xi[0]),
+                            x, d, what + " xi");
         expect_second_order([&](const Eigen::VectorXd& y) { return kinematics(m, y).gap; },
                             v.of(k.d_gap), x, d, what + " gap");
         expect_second_order([&](const Eigen::VectorXd& y) { return angle(kinematics(m, y)); },
-                            v.of(k.d_angle), x, d, what + " angle");
+                            v.of(d_angle(k)), x, d, what + " angle");
       }
 }
 
@@ -156,10 +161,10 @@ TEST(FaceKinematics, VariationsAreDerivatives) {
 TEST(FaceKinematics, PrintedConvectiveRateIsExactForZeroGapOnly) {
   for (const Master& m : masters()) {
     const auto missed = [&](double gap) {
-      const Kinematics k = kinematics(m, coordinates(m, gap));
+      const Kinematics<2> k = kinematics(m, coordinates(m, gap));
       const Relative v =
           relative(m, direction(2 * static_cast<Eigen::Index>(m.nodes.size()) + 2, 1));
-      return std::abs(v.of(k.d_xi) - v.p.dot(k.unit_tangent) / k.sqrt_a11);
+      return std::abs(v.of(k.d_xi[0]) - v.p.dot(k.frame.col(0)) / k.rho1[0].norm());
     };
     EXPECT_LT(missed(0.0), 1e-14) << m.name;
     EXPECT_GT(missed(-1e-2), 1e-5) << m.name;
@@ -170,19 +175,19 @@ TEST(FaceKinematics, PrintedConvectiveRateIsExactForZeroGapOnly) {
 TEST(FaceKinematics, FrameMetricAndCurvature) {
   const double radius = 1.5;
   for (const Master& m : masters()) {
-    const Kinematics k = kinematics(m, coordinates(m, -0.2));
+    const Kinematics<2> k = kinematics(m, coordinates(m, -0.2));
     EXPECT_NEAR(k.normal.norm(), 1.0, 1e-15);
-    EXPECT_LT((k.normal - turn(k.unit_tangent)).norm(), 1e-15);
-    EXPECT_NEAR(k.sqrt_a11 * k.sqrt_a11, k.a11, 1e-14);
-    EXPECT_NEAR(k.g, k.a11 - k.gap * k.h11, 1e-15);
+    EXPECT_LT((k.normal - turn(k.frame.col(0))).norm(), 1e-15);
+    EXPECT_NEAR(k.rho1[0].squaredNorm(), k.metric(0, 0), 1e-14);
+    EXPECT_NEAR(k.shifted(0, 0), k.metric(0, 0) - k.gap * k.curvature(0, 0), 1e-15);
     if (m.name == "line2") {
-      EXPECT_EQ(k.h11, 0.0);
+      EXPECT_EQ(k.curvature(0, 0), 0.0);
     }
     if (m.name == "disc") {
-      EXPECT_NEAR(k.kappa, -1 / radius, 1e-14);
+      EXPECT_NEAR(k.curvature(0, 0) / k.metric(0, 0), -1 / radius, 1e-14);
     }
     if (m.name == "hole") {
-      EXPECT_NEAR(k.kappa, 1 / radius, 1e-14);
+      EXPECT_NEAR(k.curvature(0, 0) / k.metric(0, 0), 1 / radius, 1e-14);
     }
   }
 }
@@ -195,38 +200,38 @@ TEST(CornerKinematics, VariationsAreDerivatives) {
       x << 1.0, 2.0, 1.0 + side * 0.1, 2.0 + side * 0.3;
       const Eigen::VectorXd d = direction(4, seed);
       const auto at = [&](const Eigen::VectorXd& y) {
-        return corner_kinematics(y.head<2>(), y.tail<2>(), outward);
+        return corner_kinematics<2>(y.head<2>(), y.tail<2>(), outward);
       };
-      const Kinematics k = at(x);
+      const Kinematics<2> k = at(x);
       const Vec2 p = d.tail<2>() - d.head<2>();
       EXPECT_NEAR(k.gap, side * std::hypot(0.1, 0.3), 1e-15);
-      EXPECT_EQ(k.d_xi.p, Vec2(0, 0));  // the foot point stays in the vertex
-      EXPECT_EQ(k.d_gap.q, Vec2(0, 0));
-      EXPECT_EQ(k.d_angle.q, Vec2(0, 0));
-      expect_second_order([&](const Eigen::VectorXd& y) { return at(y).gap; }, k.d_gap.p.dot(p), x,
+      EXPECT_EQ(k.d_xi[0][0], Vec2(0, 0));  // the foot point stays in the vertex
+      EXPECT_EQ(k.d_gap[1], Vec2(0, 0));
+      EXPECT_EQ(d_angle(k)[1], Vec2(0, 0));
+      expect_second_order([&](const Eigen::VectorXd& y) { return at(y).gap; }, k.d_gap[0].dot(p), x,
                           d, "gap");
       expect_second_order([&](const Eigen::VectorXd& y) { return angle(at(y)); },
-                          k.d_angle.p.dot(p), x, d, "angle");
+                          d_angle(k)[0].dot(p), x, d, "angle");
     }
 }
 
 TEST(CornerKinematics, NormalPointsOutOfTheMasterOnBothSides) {
-  const Kinematics below = corner_kinematics({0, 0}, {0.3, -0.4}, {0, 1});
+  const Kinematics<2> below = corner_kinematics<2>({0, 0}, {0.3, -0.4}, {0, 1});
   EXPECT_NEAR(below.gap, -0.5, 1e-15);
   EXPECT_LT((below.normal - Vec2(-0.6, 0.8)).norm(), 1e-15);
-  EXPECT_LT((below.normal - turn(below.unit_tangent)).norm(), 1e-15);
-  const Kinematics above = corner_kinematics({0, 0}, {0.3, 0.4}, {0, 1});
+  EXPECT_LT((below.normal - turn(below.frame.col(0))).norm(), 1e-15);
+  const Kinematics<2> above = corner_kinematics<2>({0, 0}, {0.3, 0.4}, {0, 1});
   EXPECT_NEAR(above.gap, 0.5, 1e-15);
   EXPECT_LT((above.normal - Vec2(0.6, 0.8)).norm(), 1e-15);
 }
 
 TEST(CornerKinematics, ACoincidentPointTakesTheOutwardDirectionAndStaysFinite) {
-  const Kinematics k = corner_kinematics({1, 2}, {1, 2}, {0.6, 0.8});
+  const Kinematics<2> k = corner_kinematics<2>({1, 2}, {1, 2}, {0.6, 0.8});
   EXPECT_EQ(k.normal, Vec2(0.6, 0.8));
   EXPECT_LE(k.gap, 0.0);  // counts as contact
   EXPECT_GT(k.gap, -1e-100);
-  EXPECT_TRUE(k.d_angle.p.allFinite());
-  EXPECT_LT((k.gap * k.d_angle.p + k.unit_tangent).norm(), 1e-15);
+  EXPECT_TRUE(d_angle(k)[0].allFinite());
+  EXPECT_LT((k.gap * d_angle(k)[0] + k.frame.col(0)).norm(), 1e-15);
 }
 
 }  // namespace

@@ -14,21 +14,24 @@ TEST(CovariantTerms, PartsInPhysicalComponents) {
   geometry::CurveJet<2> jet;
   jet.r1 = {2, 1};
   jet.r2 = {0.3, -0.4};
-  const Kinematics k = face_kinematics(jet, Vec2(0.05, -0.1));
-  const Vec2 tau = k.unit_tangent, nu = k.normal;
+  const Kinematics<2> k = face_kinematics(jet, Vec2(0.05, -0.1));
+  const double kappa = k.curvature(0, 0) / k.metric(0, 0);
+  const Vec2 tau = k.frame, nu = k.normal;
   for (const Status status : {Status::stick, Status::slip}) {
     const double shear = 3.0, normal = -10.0;
-    Traction t;
+    Traction<2> t;
     t.normal = {true, normal, 1000.0};
-    t.tangential = {status, shear, status == Status::stick ? 1.0 : 0.0,
-                    status == Status::stick ? 0.0 : -0.3};
-    t.tangential_stiffness = 80.0;
+    t.tangential.status = status;
+    t.tangential.traction[0] = shear;
+    t.tangential.d_trial(0, 0) = status == Status::stick ? 1.0 : 0.0;
+    t.tangential.d_normal[0] = status == Status::stick ? 0.0 : -0.3;
+    t.stiffness = 80.0;
     const auto part = [&](bool main, bool rotational, bool curvature) {
       return covariant_terms(k, t, ResidualForm::surface, {false, main, rotational, curvature});
     };
     const double first = status == Status::stick ? 1.0 : 2.0;
-    const Mat<2, 2> bend = -normal * k.kappa * tau * tau.transpose() +
-                           shear * k.kappa * (first * tau * nu.transpose() + nu * tau.transpose());
+    const Mat<2, 2> bend = -normal * kappa * tau * tau.transpose() +
+                           shear * kappa * (first * tau * nu.transpose() + nu * tau.transpose());
     EXPECT_LT((part(false, false, true).m[0][0] - bend).norm(), 1e-13);
     const Mat<2, 2> main =
         1000.0 * nu * nu.transpose() + (status == Status::stick
@@ -36,32 +39,33 @@ TEST(CovariantTerms, PartsInPhysicalComponents) {
                                             : Mat<2, 2>(-0.3 * 1000.0 * tau * nu.transpose()));
     EXPECT_LT((part(true, false, false).m[0][0] - main).norm(), 1e-12);
     const Mat<2, 2> turned =
-        (normal * nu * tau.transpose() + shear * tau * tau.transpose()) / k.sqrt_a11;
+        (normal * nu * tau.transpose() + shear * tau * tau.transpose()) / k.rho1[0].norm();
     EXPECT_LT((part(false, true, false).m[1][0] - turned).norm(), 1e-13);
     const Mat<2, 2> other =
-        (normal * tau * nu.transpose() + shear * tau * tau.transpose()) / k.sqrt_a11;
+        (normal * tau * nu.transpose() + shear * tau * tau.transpose()) / k.rho1[0].norm();
     EXPECT_LT((part(false, true, false).m[0][1] - other).norm(), 1e-13);
   }
 }
 
 /// Point on a straight segment of length 2 (a11 = 1), touching, nothing carried.
-Kinematics touching() {
+Kinematics<2> touching() {
   geometry::CurveJet<2> jet;
   jet.r1 = {1, 0};
   return face_kinematics(jet, Vec2(0, 0));
 }
 
-Traction sticking(double penalty) {
-  Traction t;
+Traction<2> sticking(double penalty) {
+  Traction<2> t;
   t.normal = {true, 0.0, penalty};
-  t.tangential = Coulomb::stick(0.0);
-  t.d_trial_d_slip = t.tangential_stiffness = penalty;
+  t.tangential = Coulomb::stick<2>(Vec<1>(0.0));
+  t.stiffness = penalty;
+  t.d_trial.add(Vec2(penalty, 0), touching().d_xi[0]);  // a11 = 1
   return t;
 }
 
 /// 6 x 6 stiffness for xi = 0: weights 1 of the slave, -1/2 of both master nodes; their
 /// derivatives 0, 1/2, -1/2.
-Eigen::MatrixXd stiffness(const PointTerms& terms) {
+Eigen::MatrixXd stiffness(const PointTerms<2>& terms) {
   const std::array<Eigen::Vector3d, 2> w{Eigen::Vector3d(1, -0.5, -0.5),
                                          Eigen::Vector3d(0, 0.5, -0.5)};
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6, 6);
@@ -85,8 +89,9 @@ TEST(StickStiffness, IsPositiveAndAsPrintedItWouldNotBe) {
     EXPECT_NEAR(values[3], 0.0, 1e-11);
     EXPECT_NEAR(values[4], 1.5 * penalty, 1e-10);
     EXPECT_NEAR(values[5], 1.5 * penalty, 1e-10);
-    Traction frictionless = sticking(penalty);
-    frictionless.d_trial_d_slip = frictionless.tangential_stiffness = 0.0;
+    Traction<2> frictionless = sticking(penalty);
+    frictionless.stiffness = 0.0;
+    frictionless.d_trial = {};
     const Eigen::MatrixXd normal = stiffness(
         point_terms(touching(), frictionless, ResidualForm::surface, {.consistent = consistent}));
     const Eigen::MatrixXd printed = normal - (k - normal);  // K_N - |K_T|
@@ -98,11 +103,11 @@ TEST(StickStiffness, IsPositiveAndAsPrintedItWouldNotBe) {
 // [eq:KS2D:31] Table 1 errata: the tangential force acts on the slave (with A'^T as printed its
 // weight would be that of the derivative, which is zero there), against the motion that caused it.
 TEST(TangentialForce, ActsOnTheSlaveAlongTheSlip) {
-  Traction t = sticking(80.0);
-  t.tangential = Coulomb::stick(3.0);  // the slave has moved by +3 / 80 along tau
-  const PointTerms terms = point_forces(touching(), t, ResidualForm::surface);
-  EXPECT_EQ(terms.f0, Vec2(3, 0));  // added to the internal forces: pulls back
-  EXPECT_EQ(terms.f1, Vec2(0, 0));
+  Traction<2> t = sticking(80.0);
+  t.tangential = Coulomb::stick<2>(Vec<1>(3.0));  // the slave has moved by +3 / 80 along tau
+  const PointTerms<2> terms = point_forces(touching(), t, ResidualForm::surface);
+  EXPECT_EQ(terms.f[0], Vec2(3, 0));  // added to the internal forces: pulls back
+  EXPECT_EQ(terms.f[1], Vec2(0, 0));
 }
 
 }  // namespace

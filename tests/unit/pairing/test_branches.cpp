@@ -24,36 +24,46 @@ PairSample at_rest(double traction, bool slipping) {
   s.x = {{0, 0}, {4, 0}, {2, -depth}};
   s.pair.master.facets = {pairing::lagrange_facet(std::array<Index, 2>{0, 1})};
   pairing::connect(s.pair.master);
-  s.pair.slave = pairing::make_slave_side({}, std::array<Index, 1>{2});
+  s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{2});
   s.pair.weight = pairing::Weight::node;
   s.pair.normal.stiffness = eps_n;
   s.pair.friction = contact::Coulomb{mu, eps_t};
   pairing::prepare(s.pair, s.x);
   s.committed = pairing::initial_state(s.pair, s.x);
-  s.committed.points[0].traction = traction;
+  s.committed.points[0].traction[0] = traction;
   s.committed.points[0].slipping = slipping;
   return s;
 }
 
-PairEvaluation evaluated(const PairSample& s, const Assumed& assumed) {
-  PairEvaluation e;
+PairEvaluation<2> evaluated(const PairSample& s, const Assumed<2>& assumed) {
+  PairEvaluation<2> e;
   pairing::evaluate(s.pair, s.x, s.committed, true, e, assumed);
   return e;
 }
 
-Assumed assume(Branch branch, bool predict) { return {{branch}, predict}; }
+/// The branches of a point on a master along +x.
+using Hint = pairing::AssumedBranch<2>;
+const Hint none{}, stick{Branch::stick, Vec2::Zero()};
+const Hint slip_forward{Branch::slip, Vec2(1, 0)}, slip_backward{Branch::slip, Vec2(-1, 0)};
+
+Assumed<2> assume(const Hint& branch, bool predict) { return {{branch}, predict}; }
+
+void expect_branch(const Hint& found, const Hint& expected) {
+  EXPECT_EQ(found.branch, expected.branch);
+  EXPECT_EQ(found.direction, expected.direction);
+}
 
 /// The tangent of the block is the derivative of its branch force, not of its force.
-void expect_tangent_of_branch_force(const PairSample& s, const Assumed& assumed) {
-  const PairEvaluation e = evaluated(s, assumed);
-  const pairing::ContactBlock& b = e.blocks[0];
+void expect_tangent_of_branch_force(const PairSample& s, const Assumed<2>& assumed) {
+  const PairEvaluation<2> e = evaluated(s, assumed);
+  const pairing::ContactBlock<2>& b = e.blocks[0];
   Eigen::VectorXd d(6);
   d << 0.3, -0.7, 0.2, 0.5, -0.4, 0.6;
   Eigen::VectorXd along(6);  // in the block's order of nodes: slave, first, second
   along << d.segment<2>(4), d.segment<2>(0), d.segment<2>(2);
   Eigen::VectorXd expected = b.tangent.topLeftCorner<6, 6>() * along;
-  for (const pairing::NodeGradient& g : b.path)
-    expected += b.path_rows.head<6>() * g.value.dot(d.segment<2>(2 * g.node));
+  for (const pairing::NodeMatrix<2>& g : b.path())
+    expected += b.path_rows.topRows<6>() * (g.value * d.segment<2>(2 * g.node));
   const auto branch_force = [&](const Eigen::VectorXd& v) {
     PairSample moved = s;
     moved.x = unflatten(v);
@@ -64,27 +74,32 @@ void expect_tangent_of_branch_force(const PairSample& s, const Assumed& assumed)
 }
 
 TEST(Branches, CommittedBranchesPredictThatSlippingGoesOn) {
-  pairing::PairState state;
+  pairing::PairState<2> state;
   state.points.resize(4);
   state.points[1].active = state.points[2].active = state.points[3].active = true;
   state.points[2].slipping = state.points[3].slipping = true;
-  state.points[2].traction = 1, state.points[3].traction = -1;
-  const Assumed assumed = pairing::committed_branches(state);
+  state.points[2].traction[0] = 1, state.points[3].traction[0] = -1;
+  for (auto& point : state.points) point.facet = 0;
+  const PairSample s = at_rest(0.0, false);
+  const Assumed<2> assumed = pairing::committed_branches<2>(s.pair, state, s.x);
   EXPECT_TRUE(assumed.predict);
-  EXPECT_EQ(assumed.branch, (std::vector<Branch>{Branch::none, Branch::stick, Branch::slip_forward,
-                                                 Branch::slip_backward}));
+  expect_branch(assumed.branch[0], none);
+  expect_branch(assumed.branch[1], stick);
+  expect_branch(assumed.branch[2], slip_forward);
+  expect_branch(assumed.branch[3], slip_backward);
 }
 
 TEST(Branches, EvaluatedBranchesAreThoseOfTheTangent) {
   PairSample s = at_rest(limit, true);
   s.x[2].x() += 1e-3;
-  const PairEvaluation e = evaluated(s, {});
-  EXPECT_EQ(e.points[0].branch, Branch::slip_forward);
-  const Assumed next = pairing::evaluated_branches(e);
+  const PairEvaluation<2> e = evaluated(s, {});
+  expect_branch(e.points[0].branch, slip_forward);
+  const Assumed<2> next = pairing::evaluated_branches(e);
   EXPECT_FALSE(next.predict);
-  EXPECT_EQ(next.branch, std::vector<Branch>{Branch::slip_forward});
+  ASSERT_EQ(next.branch.size(), 1u);
+  expect_branch(next.branch[0], slip_forward);
   s.x[2].y() = 0.1;
-  EXPECT_EQ(evaluated(s, {}).points[0].branch, Branch::none);
+  expect_branch(evaluated(s, {}).points[0].branch, none);
 }
 
 // The first iteration of an increment starts where the last one ended: by the law every slipping
@@ -92,16 +107,16 @@ TEST(Branches, EvaluatedBranchesAreThoseOfTheTangent) {
 TEST(Branches, PredictionKeepsSlippingPointsSlipping) {
   for (const double sign : {1.0, -1.0}) {
     PairSample s = at_rest(sign * limit, true);
-    const Branch slip = sign > 0 ? Branch::slip_forward : Branch::slip_backward;
-    const Assumed assumed = pairing::committed_branches(s.committed);
+    const Hint slip = sign > 0 ? slip_forward : slip_backward;
+    const Assumed<2> assumed = pairing::committed_branches<2>(s.pair, s.committed, s.x);
     for (const double back : {0.0, 1e-3}) {
       s.x[2].x() = 2 - sign * back;
-      const PairEvaluation e = evaluated(s, assumed);
+      const PairEvaluation<2> e = evaluated(s, assumed);
       EXPECT_EQ(e.points[0].status, Status::stick);  // what the law says is what is reported
-      EXPECT_NEAR(e.points[0].shear_traction, sign * (limit - eps_t * back), 1e-13);
+      EXPECT_NEAR(e.points[0].shear_traction[0], sign * (limit - eps_t * back), 1e-13);
       EXPECT_FALSE(e.points[0].history.slipping);
-      EXPECT_EQ(e.points[0].branch, slip);
-      const pairing::ContactBlock& b = e.blocks[0];
+      expect_branch(e.points[0].branch, slip);
+      const pairing::ContactBlock<2>& b = e.blocks[0];
       EXPECT_NEAR(b.force[0], sign * (limit - eps_t * back), 1e-13);
       EXPECT_NEAR(b.branch_force[0], sign * limit, 1e-13);
       EXPECT_EQ(b.tangent(0, 0), 0.0);  // no tangential stiffness
@@ -118,13 +133,13 @@ TEST(Branches, AReversedSlipIsLinearisedInStick) {
     PairSample s = at_rest(sign * limit, true);
     const double back = 3 * limit / eps_t;  // the trial is -2 limit
     s.x[2].x() -= sign * back;
-    const Assumed assumed = assume(sign > 0 ? Branch::slip_forward : Branch::slip_backward, false);
-    const PairEvaluation e = evaluated(s, assumed);
+    const Assumed<2> assumed = assume(sign > 0 ? slip_forward : slip_backward, false);
+    const PairEvaluation<2> e = evaluated(s, assumed);
     EXPECT_EQ(e.points[0].status, Status::slip);
-    EXPECT_NEAR(e.points[0].shear_traction, -sign * limit, 1e-13);
+    EXPECT_NEAR(e.points[0].shear_traction[0], -sign * limit, 1e-13);
     EXPECT_TRUE(e.points[0].history.slipping);
-    EXPECT_EQ(e.points[0].branch, Branch::stick);
-    const pairing::ContactBlock& b = e.blocks[0];
+    expect_branch(e.points[0].branch, stick);
+    const pairing::ContactBlock<2>& b = e.blocks[0];
     EXPECT_TRUE(b.branched);
     EXPECT_NEAR(b.force[0], -sign * limit, 1e-13);
     EXPECT_NEAR(b.branch_force[0], -sign * 2 * limit, 1e-12);  // the trial, without its limit
@@ -136,24 +151,20 @@ TEST(Branches, AReversedSlipIsLinearisedInStick) {
 
 TEST(Branches, WithoutReversalTheLawDecides) {
   struct Case {
-    Branch assumed;
+    Hint assumed;
     double moved;  ///< in elastic ranges limit / eps_t, from a traction of zero
-    Branch branch;
+    Hint branch;
   };
   for (const Case& c :
-       {Case{Branch::none, 2, Branch::slip_forward}, Case{Branch::none, 0.5, Branch::stick},
-        Case{Branch::stick, -2, Branch::slip_backward},
-        Case{Branch::stick, 2, Branch::slip_forward},
-        Case{Branch::slip_forward, 2, Branch::slip_forward},
-        Case{Branch::slip_forward, 0.5, Branch::stick},
-        Case{Branch::slip_forward, -0.5, Branch::stick},
-        Case{Branch::slip_backward, -2, Branch::slip_backward},
-        Case{Branch::slip_backward, 0.5, Branch::stick}}) {
+       {Case{none, 2, slip_forward}, Case{none, 0.5, stick}, Case{stick, -2, slip_backward},
+        Case{stick, 2, slip_forward}, Case{slip_forward, 2, slip_forward},
+        Case{slip_forward, 0.5, stick}, Case{slip_forward, -0.5, stick},
+        Case{slip_backward, -2, slip_backward}, Case{slip_backward, 0.5, stick}}) {
     PairSample s = at_rest(0.0, false);
     s.x[2].x() += c.moved * limit / eps_t;
-    const Assumed assumed = assume(c.assumed, false);
-    const PairEvaluation e = evaluated(s, assumed);
-    EXPECT_EQ(e.points[0].branch, c.branch) << c.moved;
+    const Assumed<2> assumed = assume(c.assumed, false);
+    const PairEvaluation<2> e = evaluated(s, assumed);
+    expect_branch(e.points[0].branch, c.branch);
     EXPECT_FALSE(e.blocks[0].branched);
     EXPECT_EQ(e.blocks[0].branch_force.head<6>(), e.blocks[0].force.head<6>());
     expect_tangent_of_branch_force(s, assumed);
@@ -166,13 +177,13 @@ TEST(Branches, ForcesAndHistoriesAreThoseOfTheLawWhateverIsAssumed) {
   for (const double moved : {-3.0, -0.5, 0.0, 0.5, 3.0}) {
     PairSample s = at_rest(0.7 * limit, true);
     s.x[2].x() += moved * limit / eps_t;
-    const PairEvaluation law = evaluated(s, {});
-    for (const Branch branch : {Branch::stick, Branch::slip_forward, Branch::slip_backward})
+    const PairEvaluation<2> law = evaluated(s, {});
+    for (const Hint& branch : {stick, slip_forward, slip_backward})
       for (const bool predict : {false, true}) {
-        const PairEvaluation e = evaluated(s, assume(branch, predict));
+        const PairEvaluation<2> e = evaluated(s, assume(branch, predict));
         EXPECT_EQ(e.blocks[0].force.head<6>(), law.blocks[0].force.head<6>());
         EXPECT_EQ(e.points[0].status, law.points[0].status);
-        EXPECT_EQ(e.points[0].history.traction, law.points[0].history.traction);
+        EXPECT_EQ(e.points[0].history.traction[0], law.points[0].history.traction[0]);
         EXPECT_EQ(e.points[0].history.slipping, law.points[0].history.slipping);
       }
   }

@@ -32,10 +32,10 @@ void expect_gradient(const pairing::Chain& chain, const std::vector<Vec2>& x, co
   const Eigen::VectorXd v = flatten(x);
   Eigen::VectorXd d(v.size());
   for (Eigen::Index i = 0; i < d.size(); ++i) d[i] = std::sin(3.0 + static_cast<double>(i));
-  std::vector<pairing::NodeGradient> gradient;
+  std::vector<pairing::NodeGradient<2>> gradient;
   ASSERT_TRUE(pairing::path_length(chain, x, from, to, &gradient)) << what;
   Eigen::VectorXd expected = Eigen::VectorXd::Zero(1);
-  for (const pairing::NodeGradient& g : gradient)
+  for (const pairing::NodeGradient<2>& g : gradient)
     expected[0] += g.value.dot(d.segment<2>(2 * g.node));
   const DerivativeReport r = check_derivative(
       [&](const Eigen::VectorXd& y) {

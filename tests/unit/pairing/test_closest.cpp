@@ -16,7 +16,7 @@ using projection::Feature;
 struct Line {
   std::vector<Vec2> x;
   pairing::Chain chain;
-  pairing::Tree tree;
+  pairing::Tree<2> tree;
 
   explicit Line(std::vector<Vec2> points) : x(std::move(points)) {
     for (std::size_t i = 0; i + 1 < x.size(); ++i)
@@ -25,13 +25,13 @@ struct Line {
     pairing::connect(chain);
     std::vector<search::Box<2>> boxes;
     pairing::facet_boxes(chain, x, boxes);
-    tree = pairing::Tree(boxes);
+    tree = pairing::Tree<2>(boxes);
   }
-  [[nodiscard]] Projection at(const Vec2& p, Index history = -1) const {
-    pairing::ProjectionQuery query;
+  [[nodiscard]] Projection<2> at(const Vec2& p, Index history = -1) const {
+    pairing::ProjectionQuery<2> query;
     query.point = p;
-    query.history = {history, 0};
-    return pairing::closest_on_chain(chain, tree, x, query);
+    query.history = history;
+    return pairing::closest(chain, tree, x, query);
   }
 };
 
@@ -49,9 +49,9 @@ TEST(ClosestOnChain, EqualsBruteForce) {
     double best = 1e9;
     for (std::size_t k = 0; k + 1 < line.x.size(); ++k)
       best = std::min(best, segment_distance(line.x[k], line.x[k + 1], p));
-    const Projection found = line.at(p);
+    const Projection<2> found = line.at(p);
     // only the continued ends may be nearer than the polyline itself
-    if (found.location.facet == 0 || found.location.facet == 4)
+    if (found.facet == 0 || found.facet == 4)
       EXPECT_LE(found.distance, best + 1e-12);
     else
       EXPECT_NEAR(found.distance, best, 1e-12);
@@ -61,10 +61,10 @@ TEST(ClosestOnChain, EqualsBruteForce) {
 TEST(ClosestOnChain, KinksBelongToTheVertexOutsideAndToTheNearestFaceInside) {
   const Line ridge({{-2, -1}, {0, 0}, {2, -1}});  // body below: a convex corner
   EXPECT_EQ(ridge.at({0, 0.5}).feature, Feature::corner);
-  EXPECT_EQ(ridge.at({0.1, -0.5}).location.facet, 1);
+  EXPECT_EQ(ridge.at({0.1, -0.5}).facet, 1);
   EXPECT_EQ(ridge.at({0.1, -0.5}).feature, Feature::face);
-  EXPECT_EQ(ridge.at({0, -0.5}, 1).location.facet, 1);  // equidistant: the history's side
-  EXPECT_EQ(ridge.at({0, -0.5}, 0).location.facet, 0);
+  EXPECT_EQ(ridge.at({0, -0.5}, 1).facet, 1);  // equidistant: the history's side
+  EXPECT_EQ(ridge.at({0, -0.5}, 0).facet, 0);
   const Line valley({{-2, 1}, {0, 0}, {2, 1}});
   EXPECT_EQ(valley.at({0, -0.5}).feature, Feature::corner);
   EXPECT_EQ(valley.at({0.3, 0.5}).feature, Feature::face);
@@ -75,32 +75,32 @@ TEST(ClosestOnChain, KinksBelongToTheVertexOutsideAndToTheNearestFaceInside) {
 TEST(ClosestOnChain, TheFootPointMovesSmoothlyOverABorder) {
   const Line line({{0, 0}, {1, 0}, {2, 0}});
   for (const double step : {1e-9, 3e-9, -1e-9, -3e-9}) {
-    const Projection p = line.at({1 + step, -0.1}, 0);
+    const Projection<2> p = line.at({1 + step, -0.1}, 0);
     EXPECT_EQ(p.feature, Feature::face);
-    const double along = p.location.facet + 0.5 * (p.location.xi + 1);
+    const double along = p.facet + 0.5 * (p.xi[0] + 1);
     EXPECT_NEAR(along, 1 + step, 1e-15);
   }
 }
 
 TEST(ClosestOnChain, OpenEndsAreContinuedALittle) {
   const Line line({{0, 0}, {1, 0}});
-  const Projection near = line.at({1.02, -0.1});
+  const Projection<2> near = line.at({1.02, -0.1});
   EXPECT_EQ(near.feature, Feature::face);
-  EXPECT_NEAR(near.location.xi, 1.04, 1e-14);
+  EXPECT_NEAR(near.xi[0], 1.04, 1e-14);
   EXPECT_NEAR(near.distance, 0.1, 1e-14);
-  const Projection beyond = line.at({1.2, -0.1});
+  const Projection<2> beyond = line.at({1.2, -0.1});
   EXPECT_TRUE(beyond.beyond_end);
   EXPECT_EQ(beyond.feature, Feature::corner);
 }
 
 TEST(ClosestOnChain, FacetsFacingTheSameWayAreSkipped) {
   const Line line({{0, 0}, {1, 0}});
-  pairing::ProjectionQuery query;
+  pairing::ProjectionQuery<2> query;
   query.point = {0.5, -0.1};
   query.slave_normal = Vec2(0, 1);  // as the facet: the far side of a thin body
-  EXPECT_EQ(pairing::closest_on_chain(line.chain, line.tree, line.x, query).feature, Feature::none);
+  EXPECT_EQ(pairing::closest(line.chain, line.tree, line.x, query).feature, Feature::none);
   query.slave_normal = Vec2(0, -1);
-  EXPECT_EQ(pairing::closest_on_chain(line.chain, line.tree, line.x, query).feature, Feature::face);
+  EXPECT_EQ(pairing::closest(line.chain, line.tree, line.x, query).feature, Feature::face);
 }
 
 }  // namespace

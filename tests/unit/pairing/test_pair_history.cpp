@@ -14,7 +14,7 @@ constexpr double eps_t = 80.0;
 struct Walker {
   PairSample s;
   Index slave = -1;
-  pairing::PairEvaluation last;
+  pairing::PairEvaluation<2> last;
 
   explicit Walker(const std::vector<Vec2>& master, double mu) {
     s.x = master;
@@ -24,7 +24,7 @@ struct Walker {
     pairing::connect(s.pair.master);
     slave = static_cast<Index>(master.size());
     s.x.push_back({0, 0});
-    s.pair.slave = pairing::make_slave_side({}, std::array<Index, 1>{slave});
+    s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{slave});
     s.pair.weight = pairing::Weight::node;
     s.pair.normal.stiffness = 1000;
     s.pair.friction = contact::Coulomb{mu, eps_t};
@@ -34,7 +34,7 @@ struct Walker {
     s.x.back() = at;
     s.committed = pairing::initial_state(s.pair, s.x);
   }
-  const pairing::PointResult& step(const Vec2& to) {
+  const pairing::PointResult<2>& step(const Vec2& to) {
     s.x.back() = to;
     pairing::evaluate(s.pair, s.x, s.committed, false, last);
     s.committed = pairing::commit(last);
@@ -64,11 +64,11 @@ TEST(PairHistory, DraggedOverFiveUnequalSegmentsAndAKinkAndBackReturnsToZero) {
   const int steps = 37;
   double largest = 0;
   for (int i = 1; i <= steps; ++i)
-    largest =
-        std::max(largest, std::abs(w.step(on_kinked(0.3 + 8.4 * i / steps, depth)).shear_traction));
+    largest = std::max(largest,
+                       std::abs(w.step(on_kinked(0.3 + 8.4 * i / steps, depth)).shear_traction[0]));
   EXPECT_NEAR(largest, eps_t * 8.4, 1e-10);  // arc length, over every border
   for (int i = steps - 1; i > 0; --i) w.step(on_kinked(0.3 + 8.4 * i / steps, depth));
-  EXPECT_NEAR(w.step(on_kinked(0.3, depth)).shear_traction, 0.0, 1e-12 * eps_t * 8.4);
+  EXPECT_NEAR(w.step(on_kinked(0.3, depth)).shear_traction[0], 0.0, 1e-12 * eps_t * 8.4);
 }
 
 TEST(PairHistory, ResultDoesNotDependOnTheIncrementSize) {
@@ -78,7 +78,7 @@ TEST(PairHistory, ResultDoesNotDependOnTheIncrementSize) {
     w.start(on_kinked(0.3, 1e-3));
     double t = 0;
     for (int i = 1; i <= steps; ++i)
-      t = w.step(on_kinked(0.3 + 8.4 * i / steps, 1e-3)).shear_traction;
+      t = w.step(on_kinked(0.3 + 8.4 * i / steps, 1e-3)).shear_traction[0];
     traction.push_back(t);
   }
   EXPECT_NEAR(traction[0], traction[2], 1e-10);
@@ -90,9 +90,9 @@ TEST(PairHistory, ResultDoesNotDependOnTheIncrementSize) {
 TEST(PairHistory, TractionIsConvertedToTheMetricOfTheNewSegment) {
   Walker w({{0, 0}, {1, 0}, {4, 0}}, 1e6);
   w.start({0.2, -1e-3});
-  const double t_before = w.step({0.9, -1e-3}).shear_traction;
-  const double t_after = w.step({1.0, -1e-3}).shear_traction + 0.0;
-  const double t_next = w.step({1.2, -1e-3}).shear_traction;
+  const double t_before = w.step({0.9, -1e-3}).shear_traction[0];
+  const double t_after = w.step({1.0, -1e-3}).shear_traction[0] + 0.0;
+  const double t_next = w.step({1.2, -1e-3}).shear_traction[0];
   EXPECT_NEAR(t_before, eps_t * 0.7, 1e-12);
   EXPECT_NEAR(t_after, eps_t * 0.8, 1e-12);
   EXPECT_NEAR(t_next, eps_t * 1.0, 1e-12);
@@ -112,7 +112,7 @@ TEST(PairHistory, EqualsTheMovedCentreOfTheElasticRegion) {
   w.start({0.05, -depth});
   double center = -1 + 0.05 / root;
   for (const double x : {0.06, 0.2, 0.35, 0.33, 0.30, 0.21, 0.30}) {
-    const double t = w.step({x, -depth}).shear_traction;
+    const double t = w.step({x, -depth}).shear_traction[0];
     const double xi = -1 + x / root;
     double expected = eps_t * root * (xi - center);
     const bool slips = std::abs(expected) > limit;
@@ -130,12 +130,12 @@ TEST(PairHistory, EqualsTheMovedCentreOfTheElasticRegion) {
 TEST(PairHistory, APointThatOpensForgets) {
   Walker w({{0, 0}, {4, 0}}, 1e6);
   w.start({1, -0.01});
-  EXPECT_NEAR(w.step({1.5, -0.01}).shear_traction, eps_t * 0.5, 1e-13);
+  EXPECT_NEAR(w.step({1.5, -0.01}).shear_traction[0], eps_t * 0.5, 1e-13);
   EXPECT_EQ(w.step({1.5, 0.02}).status, contact::Status::open);
   EXPECT_FALSE(w.s.committed.points[0].active);
-  EXPECT_EQ(w.step({2.0, 0.02}).shear_traction, 0.0);
+  EXPECT_EQ(w.step({2.0, 0.02}).shear_traction[0], 0.0);
   // comes back while it moves: two thirds of the way in the air, one third in contact
-  EXPECT_NEAR(w.step({2.3, -0.01}).shear_traction, eps_t * 0.1, 1e-12);
+  EXPECT_NEAR(w.step({2.3, -0.01}).shear_traction[0], eps_t * 0.1, 1e-12);
 }
 
 TEST(PairHistory, ZeroGapCountsAsContact) {
@@ -161,12 +161,12 @@ TEST(PairHistory, ClosedSlidingLoopDissipatesFrictionTimesPath) {
   w.start({0.5, -depth});
   // slide until the elastic part is fully developed, then measure one closed loop 3 -> 0.6 -> 3
   for (int i = 1; i <= 100; ++i) w.step({0.5 + 0.025 * i, -depth});
-  double work = 0, previous = w.last.points[0].shear_traction;
+  double work = 0, previous = w.last.points[0].shear_traction[0];
   const int n = 4800;
   for (int i = 1; i <= n; ++i) {
     const double phase = 2.0 * i / n;
     const double x = 0.6 + 2.4 * std::abs(phase - 1.0);
-    const double t = w.step({x, -depth}).shear_traction;
+    const double t = w.step({x, -depth}).shear_traction[0];
     work += 0.5 * (t + previous) * (i <= n / 2 ? -4.8 / n : 4.8 / n);
     previous = t;
   }

@@ -15,7 +15,7 @@ PairSample frictional(int nodes, ResidualForm form, double depth) {
       make_sample({.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0, .depth = depth});
   s.pair.friction = contact::Coulomb{0.2, 80.0};
   s.pair.residual = form;
-  s.committed.points[0] = {true, 0, projection::Feature::face, 0.5, -0.01, 3, 0};
+  s.committed.points[0] = remembered(true, 0, projection::Feature::face, 0.5, -0.01, 3, 0);
   return s;
 }
 
@@ -52,10 +52,10 @@ TEST(PairIdentities, FrictionlessMomentsBalanceInBothForms) {
 TEST(PairIdentities, MomentOfTheSurfaceResidualIsShearTimesGap) {
   PairSample s = frictional(2, ResidualForm::surface, 0.2);
   s.pair.weight = pairing::Weight::node;
-  pairing::PairEvaluation e;
+  pairing::PairEvaluation<2> e;
   pairing::evaluate(s.pair, s.x, s.committed, false, e);
   const double m = moment(s, pair_residual(s, flatten(s.x)));
-  EXPECT_NEAR(std::abs(m), std::abs(e.points[0].shear_traction * e.points[0].gap), 1e-12);
+  EXPECT_NEAR(std::abs(m), std::abs(e.points[0].shear_traction[0] * e.points[0].gap), 1e-12);
 }
 
 TEST(PairIdentities, RigidRotationOfEverythingRotatesTheResidual) {
@@ -77,7 +77,7 @@ TEST(PairIdentities, RigidRotationOfEverythingRotatesTheResidual) {
 TEST(PairIdentities, TractionsDoNotChangeUnderReparameterisation) {
   PairSample natural = frictional(3, ResidualForm::surface, 0.05);
   natural.pair.weight = pairing::Weight::node;
-  natural.committed.points[0] = {true, 1, projection::Feature::face, 0.0, -0.01, 3, 0};
+  natural.committed.points[0] = remembered(true, 1, projection::Feature::face, 0.0, -0.01, 3, 0);
   PairSample other = natural;
   // facet 1 again as a five-node facet through points of the parabola at xi(eta) = eta + c(1-eta^2)
   const double c = 0.2;
@@ -94,14 +94,14 @@ TEST(PairIdentities, TractionsDoNotChangeUnderReparameterisation) {
   other.pair.master.facets = {five};
   // xi_of(eta) = 0: eta = (1 - sqrt(1 + 4 c^2)) / (2 c)
   const double start = (1 - std::sqrt(1 + 4 * c * c)) / (2 * c);
-  other.committed.points[0] = {true, 0, projection::Feature::face, start, -0.01, 3, 0};
-  pairing::PairEvaluation a, b;
+  other.committed.points[0] = remembered(true, 0, projection::Feature::face, start, -0.01, 3, 0);
+  pairing::PairEvaluation<2> a, b;
   pairing::evaluate(natural.pair, natural.x, natural.committed, false, a);
   pairing::evaluate(other.pair, other.x, other.committed, false, b);
   ASSERT_NE(a.points[0].status, contact::Status::open);
   EXPECT_NEAR(a.points[0].gap, b.points[0].gap, 1e-13);
   EXPECT_NEAR(a.points[0].normal_traction, b.points[0].normal_traction, 1e-10);
-  EXPECT_NEAR(a.points[0].shear_traction, b.points[0].shear_traction, 1e-10);
+  EXPECT_NEAR(a.points[0].shear_traction[0], b.points[0].shear_traction[0], 1e-10);
   EXPECT_LT((a.blocks[0].force.head<2>() - b.blocks[0].force.head<2>()).norm(), 1e-10);
 }
 
@@ -116,13 +116,13 @@ TEST(PairIdentities, TheCurvatureTermLeftOutIsCurvatureTimesSinking) {
   s.pair.master.facets = {
       pairing::shape_facet(geometry::Circle{{0, 0}, 10.0, false}, {frame, frame + 1, frame + 2})};
   pairing::connect(s.pair.master);
-  s.pair.slave = pairing::make_slave_side({}, std::array<Index, 1>{frame + 3});
+  s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{frame + 3});
   s.pair.weight = pairing::Weight::node;
   s.pair.friction = contact::Coulomb{1e6, 80.0};
   pairing::prepare(s.pair, s.x);
   s.committed = pairing::initial_state(s.pair, s.x);
-  s.committed.points[0].traction = 5.0;
-  pairing::PairEvaluation e;
+  s.committed.points[0].traction[0] = 5.0;
+  pairing::PairEvaluation<2> e;
   double left_out = 1.0;
   for (int i = 1; i <= 10; ++i) {
     s.x.back() = {0, 10 - 0.001 - 0.001 * i};
@@ -132,7 +132,7 @@ TEST(PairIdentities, TheCurvatureTermLeftOutIsCurvatureTimesSinking) {
     s.committed = pairing::commit(e);
   }
   EXPECT_NEAR(e.points[0].gap, -0.011, 1e-12);
-  EXPECT_NEAR(e.points[0].shear_traction, 5.0, 1e-12);
+  EXPECT_NEAR(e.points[0].shear_traction[0], 5.0, 1e-12);
   EXPECT_NEAR(left_out, 1 - 1e-3, 1e-6);
 }
 

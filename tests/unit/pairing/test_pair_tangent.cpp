@@ -62,7 +62,8 @@ TEST_P(PairTangent, IsTheDerivativeOfTheResidual) {
       s.pair.residual = form;
       s.pair.weight = weight;
       const double xi = from == 0 ? 0.8 : from == 1 ? 0.1 : -0.9;
-      s.committed.points[0] = {true, from, projection::Feature::face, xi, -0.01, branch.carried, 0};
+      s.committed.points[0] =
+          remembered(true, from, projection::Feature::face, xi, -0.01, branch.carried, 0);
       expect_second_order(
           s, branch.status,
           "from facet " + std::to_string(from) + " mu " + std::to_string(branch.mu));
@@ -89,7 +90,7 @@ TEST(PairTangentBranches, FirstContactInsideTheIncrement) {
   for (const double mu : {10.0, 0.02}) {
     PairSample s = make_sample({});
     s.pair.friction = contact::Coulomb{mu, 80.0};
-    s.committed.points[0] = {false, 1, projection::Feature::face, 0.1, 0.03, 0, 0};
+    s.committed.points[0] = remembered(false, 1, projection::Feature::face, 0.1, 0.03, 0, 0);
     expect_second_order(s, mu > 1 ? Status::stick : Status::slip, "mu " + std::to_string(mu));
   }
 }
@@ -102,7 +103,7 @@ PairSample valley_sample(double mu, double carried) {
   s.x[2] = {2, 1.5};
   s.x[3] = {0.02, -0.11};
   s.pair.friction = contact::Coulomb{mu, 80.0};
-  s.committed.points[0] = {true, 0, projection::Feature::face, 0.9, -0.01, carried, 0};
+  s.committed.points[0] = remembered(true, 0, projection::Feature::face, 0.9, -0.01, carried, 0);
   return s;
 }
 
@@ -112,7 +113,7 @@ TEST(PairTangentBranches, CornerInTheValley) {
       PairSample s = valley_sample(mu, 5.0);
       s.pair.weight = Weight::node;
       s.pair.residual = form;
-      pairing::PairEvaluation e;
+      pairing::PairEvaluation<2> e;
       pairing::evaluate(s.pair, s.x, s.committed, true, e);
       ASSERT_EQ(e.points[0].history.feature, projection::Feature::corner);
       ASSERT_NEAR(e.points[0].gap, -s.x[3].norm(), 1e-15);
@@ -133,7 +134,7 @@ TEST(CovariantTangent, PartsHaveTheirExactProperties) {
     for (const double mu : {10.0, 0.02}) {
       PairSample s = make_sample({.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0});
       s.pair.friction = contact::Coulomb{mu, 80.0};
-      s.committed.points[0] = {true, 1, projection::Feature::face, 0.1, -0.01, 5, 0};
+      s.committed.points[0] = remembered(true, 1, projection::Feature::face, 0.1, -0.01, 5, 0);
       const Eigen::VectorXd v = flatten(s.x);
       const auto part = [&](bool main, bool rotational, bool curvature) {
         s.pair.tangent = {false, main, rotational, curvature};

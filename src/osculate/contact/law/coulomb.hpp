@@ -18,9 +18,9 @@ template <int Dim>
 struct TangentialResponse {
   using Traction = Vec<Dim - 1>;
   Status status = Status::stick;
-  Traction traction = Traction::Zero();                         ///< t
+  Traction traction = Traction::Zero();                           ///< t
   Mat<Dim - 1, Dim - 1> d_trial = Mat<Dim - 1, Dim - 1>::Zero();  ///< dt/dt_trial
-  Traction d_normal = Traction::Zero();                         ///< dt/dN
+  Traction d_normal = Traction::Zero();                           ///< dt/dN
 };
 
 /// Coulomb friction by return mapping from an elastic trial.
@@ -39,7 +39,7 @@ struct Coulomb {
   [[nodiscard]] TangentialResponse<Dim> response(const Vec<Dim - 1>& trial,
                                                  double normal_traction) const {
     const double limit = mu * std::abs(normal_traction);  // @eq KS2D:77
-    const double size = trial.norm();
+    const double size = Dim == 2 ? std::abs(trial[0]) : trial.norm();
     if (size <= limit) return stick<Dim>(trial);
     return slip<Dim>(trial / size, normal_traction, limit / size);
   }
