@@ -66,7 +66,7 @@ VectorForm<Dim> base_variation(const Kinematics<Dim>& k, std::size_t i) {
   return form;
 }
 
-// @eq KS2D:45, KSVD:19 rotation of the normal, the convective part included.
+// @eq KS2D:45 rotation of the normal, the convective part included.
 template <int Dim>
 VectorForm<Dim> normal_variation(const Kinematics<Dim>& k) {
   VectorForm<Dim> form;

@@ -88,7 +88,7 @@ using SurfaceMatrix = Mat<Dim - 1, Dim - 1>;
 ///            d(xi^i) = g^ij (rho_,j . v_0 - gap n . v_,j) ,  d(gap) = n . v_0 ,
 ///            d(n) = -a^ij rho_,i (n . d(rho_,j)) + (I - n n - a^ij rho_,i rho_,j) v_0 / gap
 ///            (the last part is zero on faces)
-/// Source     KS2D:27, KS2D:28, KS2D:45 and KSVD:19, KSVD:23, in their exact forms
+/// Source     KS2D:27, KS2D:28, KS2D:45 and KSVD:23, in their exact forms
 /// Sign       gap < 0 is penetration; n points out of the master (2D: k x rho_xi; 3D: rho_,1 x
 ///            rho_,2; edges and corners: along the line to the slave point)
 /// Frame      current configuration

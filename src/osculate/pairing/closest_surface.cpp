@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/cell/shape.hpp"
 #include "osculate/pairing/closest.hpp"
 #include "osculate/projection/point_to_facet.hpp"
 #include "osculate/projection/point_to_surface.hpp"

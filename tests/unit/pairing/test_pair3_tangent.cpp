@@ -1,0 +1,168 @@
+// Derivative of the contact residual in space by convergence order, in every branch.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+#include "derivative_check.hpp"
+#include "pair_sample3.hpp"
+
+namespace osculate::testing {
+namespace {
+
+using cell::CellType;
+using contact::ResidualForm;
+using contact::Status;
+using pairing::Weight;
+using projection::Feature;
+
+Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::VectorXd d(n);
+  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
+  return d;
+}
+
+/// Both probes stay in the branch, and the error falls with the square of the step.
+void expect_second_order(const PairSample3& s, Status status, Feature feature,
+                         const std::string& what, double h = 1e-3) {
+  SCOPED_TRACE(what);
+  const Eigen::VectorXd v = flatten3(s.x);
+  const Facts3 at = pair_facts(s, v);
+  ASSERT_EQ(at.status, status);
+  ASSERT_EQ(at.feature, feature);
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const Eigen::VectorXd d = random_direction(v.size(), seed);
+    ASSERT_TRUE(pair_facts(s, v + h * d) == at);
+    ASSERT_TRUE(pair_facts(s, v - h * d) == at);
+    const DerivativeReport r =
+        check_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
+                         Eigen::VectorXd(pair_tangent(s, v) * d), v, d, h);
+    EXPECT_TRUE(r.exact || std::abs(r.order - 2.0) < 0.15)
+        << "order " << r.order << " error " << r.error;
+  }
+}
+
+constexpr std::array<CellType, 5> types{CellType::tri3, CellType::tri6, CellType::quad4,
+                                        CellType::quad8, CellType::quad9};
+
+struct Branch {
+  Status status;
+  double mu;
+  Vec2 carried;  ///< traction of the last increment
+};
+
+const std::array<Branch, 3> branches{{{Status::stick, 10.0, {4.0, -3.0}},
+                                      {Status::slip, 0.02, {4.0, -3.0}},
+                                      {Status::slip, 0.02, {-2.0, 5.0}}}};
+
+class Pair3Tangent
+    : public ::testing::TestWithParam<std::tuple<CellType, double, ResidualForm, Weight>> {};
+
+// [eq:KSVD:23] [eq:KSVD:33] [eq:KSVD:55] [eq:KS2D:28] [eq:KS2D:39] [eq:KS2D:45]
+TEST_P(Pair3Tangent, IsTheDerivativeOfTheResidual) {
+  const auto [type, depth, form, weight] = GetParam();
+  const bool triangle = cell::is_triangle(type);
+  for (const Branch& branch : branches)
+    for (const Index from : {0, 1, 2}) {  // facet of the last increment
+      SampleOptions3 o{.type = type, .bend = 0.03, .depth = depth};
+      if (triangle) o.at = 2, o.xi = {0.3, 0.4};
+      PairSample3 s = make_sample3(o);
+      s.pair.friction = contact::Coulomb{branch.mu, 80.0};
+      s.pair.residual = form;
+      s.pair.weight = weight;
+      const Index facet = triangle ? from + 1 : from;
+      const Vec2 xi = triangle ? Vec2(0.25, 0.5) : from == 1 ? Vec2(0.1, -0.1) : Vec2(0.4, 0.2);
+      s.committed.points[0] = remembered(facet, xi, -0.01, branch.carried);
+      expect_second_order(s, branch.status, Feature::face,
+                          std::string(cell::info(type).name) + " from facet " +
+                              std::to_string(facet) + " mu " + std::to_string(branch.mu));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    AllForms, Pair3Tangent,
+    ::testing::Combine(::testing::ValuesIn(types), ::testing::Values(0.02, 0.2),
+                       ::testing::Values(ResidualForm::surface, ResidualForm::full),
+                       ::testing::Values(Weight::node, Weight::reference_area,
+                                         Weight::current_area)));
+
+TEST(Pair3TangentBranches, FrictionlessIsSymmetric) {
+  for (const CellType type : types) {
+    SampleOptions3 o{.type = type, .bend = 0.03};
+    if (cell::is_triangle(type)) o.at = 2, o.xi = {0.3, 0.4};
+    const PairSample3 s = make_sample3(o);
+    expect_second_order(s, Status::slip, Feature::face, std::string(cell::info(type).name));
+    const Eigen::MatrixXd k = pair_tangent(s, flatten3(s.x));
+    EXPECT_LT((k - k.transpose()).norm(), 1e-13 * k.norm());  // a potential
+  }
+}
+
+TEST(Pair3TangentBranches, FirstContactInsideTheIncrement) {
+  for (const double mu : {10.0, 0.005}) {
+    PairSample3 s = make_sample3({.bend = 0.02});
+    s.pair.friction = contact::Coulomb{mu, 80.0};
+    s.committed.points[0] = remembered(1, {0.1, -0.1}, 0.03, {0, 0}, false);
+    expect_second_order(s, mu > 1 ? Status::stick : Status::slip, Feature::face,
+                        "mu " + std::to_string(mu));
+  }
+}
+
+/// The strip is folded up at x = 4: a point under the fold is nearest to the edge.
+PairSample3 valley(CellType type, double mu, ResidualForm form) {
+  PairSample3 s = make_sample3({.type = type, .kink = 1.2});
+  s.x[s.x.size() - 4] = {4.02, 0.3, -0.1};
+  s.pair.friction = contact::Coulomb{mu, 80.0};
+  s.pair.weight = Weight::node;
+  s.pair.residual = form;
+  s.committed.points[0] = remembered(1, {0.9, 0.25}, -0.01, {2.0, 1.0});
+  return s;
+}
+
+TEST(Pair3TangentBranches, EdgeOfAValley) {
+  for (const CellType type : {CellType::quad4, CellType::quad9})
+    for (const double mu : {10.0, 0.02})
+      for (const ResidualForm form : {ResidualForm::surface, ResidualForm::full})
+        expect_second_order(valley(type, mu, form), mu > 1 ? Status::stick : Status::slip,
+                            Feature::edge, "mu " + std::to_string(mu));
+}
+
+/// Three facets of an inner corner (a room seen from inside) and a point beyond it.
+PairSample3 inner_corner(double mu) {
+  PairSample3 s;
+  s.x = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  const auto add = [&](const std::array<Index, 4>& nodes) {
+    s.pair.master.facets.push_back(pairing::surface_facet(CellType::quad4, nodes));
+  };
+  add({0, 1, 2, 3});  // floor, +z
+  add({0, 4, 5, 1});  // wall, +y
+  add({0, 3, 6, 4});  // wall, +x
+  // more of the corner's surroundings, so that its borders are inside the surface
+  pairing::connect(s.pair.master);
+  s.x.push_back({-0.03, -0.05, -0.04});
+  s.pair.slave = pairing::make_slave_side(pairing::FacetSurface{}, std::array<Index, 1>{7});
+  s.pair.normal.stiffness = 1000.0;
+  s.pair.weight = Weight::node;
+  s.pair.friction = contact::Coulomb{mu, 80.0};
+  s.committed.points.resize(1);
+  pairing::prepare(s.pair, s.x);
+  s.committed.points[0] = remembered(0, {-0.9, -0.95}, -0.01, {2.0, 1.0});
+  return s;
+}
+
+TEST(Pair3TangentBranches, InnerCorner) {
+  for (const double mu : {10.0, 0.02})
+    expect_second_order(inner_corner(mu), mu > 1 ? Status::stick : Status::slip, Feature::corner,
+                        "mu " + std::to_string(mu));
+}
+
+TEST(Pair3TangentBranches, OpenPointsGiveNothing) {
+  const PairSample3 s = make_sample3({.depth = -0.05});
+  const Eigen::VectorXd v = flatten3(s.x);
+  EXPECT_EQ(pair_residual(s, v).norm(), 0.0);
+  EXPECT_EQ(pair_tangent(s, v).norm(), 0.0);
+}
+
+}  // namespace
+}  // namespace osculate::testing

@@ -1,0 +1,125 @@
+// Closest point of one facet against brute force, and its borders.
+#include "osculate/projection/point_to_facet.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+#include "osculate/cell/shape.hpp"
+
+namespace osculate::projection {
+namespace {
+
+using cell::CellType;
+
+constexpr std::array<CellType, 5> types{CellType::tri3, CellType::tri6, CellType::quad4,
+                                        CellType::quad8, CellType::quad9};
+
+/// A bent and warped facet of about unit size.
+std::vector<Vec3> nodes_of(CellType type, double bend) {
+  std::vector<Vec3> nodes;
+  for (int k = 0; k < cell::info(type).nodes; ++k) {
+    const Vec2 p = cell::area_node(type, k);
+    nodes.emplace_back(1.2 * p.x() + 0.1 * p.y(), 0.9 * p.y(),
+                       bend * (p.x() * p.x() - 0.6 * p.y() * p.y() + 0.8 * p.x() * p.y()));
+  }
+  return nodes;
+}
+
+Vec3 at(CellType type, const std::vector<Vec3>& nodes, const Vec2& xi) {
+  const cell::FacetShape s = cell::facet_shape(type, xi);
+  Vec3 r = Vec3::Zero();
+  for (std::size_t k = 0; k < nodes.size(); ++k) r += s.n[0][k] * nodes[k];
+  return r;
+}
+
+double brute_force(CellType type, const std::vector<Vec3>& nodes, const Vec3& p) {
+  constexpr int steps = 120;
+  double best = 1e30;
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j <= steps; ++j) {
+      Vec2 xi(static_cast<double>(i) / steps, static_cast<double>(j) / steps);
+      if (cell::is_triangle(type))
+        xi.y() *= 1 - xi.x();
+      else
+        xi = 2 * xi - Vec2::Ones();
+      best = std::min(best, (p - at(type, nodes, xi)).norm());
+    }
+  return best;
+}
+
+// [eq:KSVD:15] [eq:KSVD:16]
+TEST(PointToFacet, IsNeverFartherThanAnySample) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> u(-2, 2);
+  for (const CellType type : types)
+    for (const double bend : {0.0, 0.3}) {
+      const std::vector<Vec3> nodes = nodes_of(type, bend);
+      for (int i = 0; i < 150; ++i) {
+        const Vec3 p(u(generator), u(generator), u(generator));
+        const FacetFoot foot = closest_point(type, nodes, p);
+        ASSERT_TRUE(foot.converged);
+        const double distance = std::sqrt(foot.squared_distance);
+        EXPECT_NEAR((p - at(type, nodes, foot.xi)).norm(), distance, 1e-12);
+        const double sampled = brute_force(type, nodes, p);
+        EXPECT_LE(distance, sampled + 1e-12) << cell::info(type).name;
+        EXPECT_GE(distance, sampled - 2e-2) << cell::info(type).name;  // the grid is 0.02 wide
+      }
+    }
+}
+
+TEST(PointToFacet, PointsOnNormalsComeBack) {
+  for (const CellType type : types)
+    for (const double height : {-0.3, -1e-3, 0.0, 0.2}) {
+      const std::vector<Vec3> nodes = nodes_of(type, 0.1);
+      const Vec2 xi = cell::is_triangle(type) ? Vec2(0.3, 0.45) : Vec2(0.4, -0.7);
+      const cell::FacetShape s = cell::facet_shape(type, xi);
+      Vec3 a = Vec3::Zero(), b = Vec3::Zero();
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        a += s.n[1][k] * nodes[k], b += s.n[2][k] * nodes[k];
+      const Vec3 p = at(type, nodes, xi) + height * a.cross(b).normalized();
+      const FacetFoot foot = closest_point(type, nodes, p);
+      EXPECT_EQ(foot.feature, Feature::face);
+      EXPECT_LT((foot.xi - xi).norm(), 1e-12) << cell::info(type).name << " " << height;
+    }
+}
+
+TEST(PointToFacet, NamesEdgesAndCorners) {
+  const std::vector<Vec3> nodes = nodes_of(CellType::quad4, 0.0);
+  const FacetFoot edge = closest_point(CellType::quad4, nodes, Vec3(1.7, 0.1, 0.2));
+  EXPECT_EQ(edge.feature, Feature::edge);
+  EXPECT_EQ(edge.local, 1);
+  const FacetFoot corner = closest_point(CellType::quad4, nodes, Vec3(-3, -3, 0.2));
+  EXPECT_EQ(corner.feature, Feature::corner);
+  EXPECT_EQ(corner.local, 0);
+}
+
+TEST(PointToFacet, IsReleasedALittleBeyondABorder) {
+  const std::vector<Vec3> nodes = nodes_of(CellType::quad4, 0.0);
+  const Vec3 p = at(CellType::quad4, nodes, {1.04, 0.3}) + Vec3(0, 0, 0.1);
+  FacetFoot foot = closest_point(CellType::quad4, nodes, p);
+  ASSERT_EQ(foot.feature, Feature::edge);
+  FacetFoot kept = foot;
+  EXPECT_FALSE(release(CellType::quad4, nodes, p, 0.01, kept));
+  EXPECT_EQ(kept.feature, Feature::edge);
+  EXPECT_TRUE(release(CellType::quad4, nodes, p, 0.05, foot));
+  EXPECT_EQ(foot.feature, Feature::face);
+  EXPECT_LT((foot.xi - Vec2(1.04, 0.3)).norm(), 1e-13);
+}
+
+TEST(PointToFacet, CentreOfCurvatureAndFarPointsStayFinite) {
+  for (const CellType type : types) {
+    const std::vector<Vec3> nodes = nodes_of(type, 0.5);
+    for (const Vec3& p : {Vec3(0, 0, 1.44), Vec3(1e8, -1e8, 1e8), nodes[0]}) {
+      const FacetFoot foot = closest_point(type, nodes, p);
+      EXPECT_TRUE(foot.converged);
+      EXPECT_TRUE(foot.xi.allFinite());
+      EXPECT_TRUE(std::isfinite(foot.squared_distance));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace osculate::projection
