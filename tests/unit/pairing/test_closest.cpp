@@ -103,5 +103,23 @@ TEST(ClosestOnChain, FacetsFacingTheSameWayAreSkipped) {
   EXPECT_EQ(pairing::closest(line.chain, line.tree, line.x, query).feature, Feature::face);
 }
 
+// Inside a convex corner, on its bisector: without history the point belongs to the vertex, whose
+// normal is the average of both; with a history it stays on its side.
+TEST(ClosestOnChain, EquidistantPointsWithoutHistoryTakeTheAveragedNormal) {
+  const Line line({{-1, 0}, {0, 0}, {0, -1}});
+  const Projection<2> shared = line.at({-0.1, -0.1});
+  EXPECT_EQ(shared.feature, Feature::corner);
+  EXPECT_LT((shared.outward - Vec2(1, 1).normalized()).norm(), 1e-15);
+  EXPECT_FALSE(shared.beyond_end);
+  for (const Index history : {0, 1}) {
+    const Projection<2> kept = line.at({-0.1, -0.1}, history);
+    EXPECT_EQ(kept.feature, Feature::face);
+    EXPECT_EQ(kept.facet, history);
+  }
+  EXPECT_EQ(line.at({-0.1, -0.1 + 1e-6}).facet, 0);
+  EXPECT_EQ(line.at({-0.1 + 1e-6, -0.1}).facet, 1);
+  EXPECT_EQ(line.at({-0.1, -0.1 + 1e-6}).feature, Feature::face);
+}
+
 }  // namespace
 }  // namespace osculate::testing

@@ -1,0 +1,120 @@
+// Generalized projection onto a surface in space: faces, edges, corners, open borders.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <random>
+
+#include "pair_sample3.hpp"
+
+namespace osculate::testing {
+namespace {
+
+using cell::CellType;
+using pairing::Projection;
+using projection::Feature;
+
+/// A surface with its search tree.
+struct Target {
+  std::vector<Vec3> x;
+  pairing::FacetSurface surface;
+  pairing::Tree<3> tree;
+
+  void finish() {
+    pairing::connect(surface);
+    std::vector<search::Box<3>> boxes;
+    pairing::facet_boxes(surface, x, boxes);
+    tree = pairing::Tree<3>(boxes);
+  }
+  [[nodiscard]] Projection<3> at(const Vec3& p, Index history = -1) const {
+    pairing::ProjectionQuery<3> query;
+    query.point = p;
+    query.history = history;
+    return pairing::closest(surface, tree, x, query);
+  }
+};
+
+/// The unit cube -1..1, outward normals. Facets: z-, z+, y-, x+, y+, x-.
+Target cube() {
+  Target t;
+  t.x = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+         {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  for (const std::array<Index, 4>& nodes :
+       {std::array<Index, 4>{0, 3, 2, 1}, std::array<Index, 4>{4, 5, 6, 7},
+        std::array<Index, 4>{0, 1, 5, 4}, std::array<Index, 4>{1, 2, 6, 5},
+        std::array<Index, 4>{2, 3, 7, 6}, std::array<Index, 4>{3, 0, 4, 7}})
+    t.surface.facets.push_back(pairing::surface_facet(CellType::quad4, nodes));
+  t.finish();
+  return t;
+}
+
+TEST(ClosestOnSurface, OfACubeIsExactEverywhereOutside) {
+  const Target t = cube();
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> u(-2, 2);
+  std::array<int, 4> seen{};
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3 p(u(generator), u(generator), u(generator));
+    if (p.lpNorm<Eigen::Infinity>() <= 1) continue;
+    const Vec3 foot = p.cwiseMax(-1).cwiseMin(1);
+    int clamped = 0;
+    for (int k = 0; k < 3; ++k) clamped += std::abs(p[k]) > 1 ? 1 : 0;
+    const Projection<3> found = t.at(p);
+    EXPECT_NEAR(found.distance, (p - foot).norm(), 1e-12);
+    const Feature expected = clamped == 1   ? Feature::face
+                             : clamped == 2 ? Feature::edge
+                                            : Feature::corner;
+    EXPECT_EQ(found.feature, expected);
+    ++seen[static_cast<std::size_t>(clamped)];
+    EXPECT_FALSE(found.beyond_end);
+    const pairing::SurfaceFacet& facet = t.surface.facets[static_cast<std::size_t>(found.facet)];
+    EXPECT_LT((pairing::facet_jet(facet, found.xi, t.x).r - foot).norm(), 1e-12);
+    if (clamped == 1) continue;
+    Vec3 outward = Vec3::Zero();  // average of the faces that meet there
+    for (int k = 0; k < 3; ++k)
+      if (std::abs(p[k]) > 1) outward[k] = p[k] > 0 ? 1 : -1;
+    EXPECT_LT((found.outward - outward.normalized()).norm(), 1e-12);
+  }
+  for (std::size_t k = 1; k < 4; ++k) EXPECT_GT(seen[k], 100);
+}
+
+TEST(ClosestOnSurface, InsideTheNearestFaceWinsAndEquidistantPointsKeepTheirSide) {
+  const Target t = cube();
+  EXPECT_EQ(t.at({0.2, 0.1, 0.8}).facet, 1);
+  EXPECT_EQ(t.at({0.9, 0.1, 0.8}).facet, 3);
+  const Projection<3> shared = t.at({0.9, 0.1, 0.9});
+  EXPECT_EQ(shared.feature, Feature::edge);
+  EXPECT_LT((shared.outward - Vec3(1, 0, 1).normalized()).norm(), 1e-14);
+  for (const Index history : {1, 3}) {
+    const Projection<3> kept = t.at({0.9, 0.1, 0.9}, history);
+    EXPECT_EQ(kept.feature, Feature::face);
+    EXPECT_EQ(kept.facet, history);
+  }
+}
+
+TEST(ClosestOnSurface, SharedEdgesOfAFlatSurfaceHaveNoGap) {
+  const PairSample3 s = make_sample3({});
+  Target t;
+  t.x = s.x;
+  t.surface = s.pair.master;
+  t.finish();
+  for (const double offset : {-1e-7, -1e-9, -1e-12, 0.0, 1e-12, 1e-9, 1e-7}) {
+    const Projection<3> p = t.at({1.0 + offset, 0.3, -0.05});
+    EXPECT_EQ(p.feature, Feature::face) << offset;
+    EXPECT_NEAR(p.distance, 0.05, 1e-15) << offset;
+  }
+}
+
+TEST(ClosestOnSurface, OpenBordersAreContinuedALittle) {
+  const PairSample3 s = make_sample3({});
+  Target t;
+  t.x = s.x;
+  t.surface = s.pair.master;
+  t.finish();
+  EXPECT_EQ(t.at({5.04, 0.3, -0.05}).feature, Feature::face);
+  EXPECT_FALSE(t.at({5.04, 0.3, -0.05}).beyond_end);
+  EXPECT_TRUE(t.at({5.2, 0.3, -0.05}).beyond_end);
+  EXPECT_TRUE(t.at({5.2, 1.3, -0.05}).beyond_end);
+}
+
+}  // namespace
+}  // namespace osculate::testing
