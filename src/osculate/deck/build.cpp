@@ -8,10 +8,8 @@
 
 #include "osculate/deck/build_context.hpp"
 #include "osculate/deck/parse.hpp"
-#include "osculate/io/gmsh.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/check.hpp"
-#include "osculate/mesh/generate.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -44,48 +42,7 @@ void check_planar(const Description& description, const mesh::Mesh& mesh) {
           fmt::format("node {} has z = {:g}; plane problems need z = 0", n + 1, mesh.nodes[n].z()));
 }
 
-mesh::BoxSpec box_spec(const Name& name, const Box& box) {
-  mesh::BoxSpec spec;
-  spec.name = name.value;
-  spec.x = box.breakpoints[0].value;
-  spec.y = box.breakpoints[1].value;
-  spec.nx = box.elements[0];
-  spec.ny = box.elements[1];
-  spec.bias_x = box.bias[0];
-  spec.bias_y = box.bias[1];
-  spec.type = box.type.value;
-  if (box.crown)
-    spec.crown = mesh::Crown{
-        box.crown->side == BoxSide::top ? mesh::Crown::Side::top : mesh::Crown::Side::bottom,
-        box.crown->radius.value, box.crown->at.value};
-  spec.angle = box.angle.value;
-  spec.about = box.about;
-  return spec;
-}
-
 }  // namespace
-
-mesh::Mesh load_mesh(const Description& description) {
-  const MeshSource& source = description.mesh;
-  if (source.file) {
-    try {
-      return io::read_gmsh(source.path);
-    } catch (const core::InputError& error) {
-      throw core::InputError(source.file->mark, error.what());
-    }
-  }
-  mesh::Mesh mesh;
-  for (const GeneratedPart& part : source.generated) {
-    if (const auto* box = std::get_if<Box>(&part.shape)) {
-      mesh::append_box(mesh, box_spec(part.name, *box), part.name.mark);
-    } else {
-      const auto& line = std::get<LineMesh>(part.shape);
-      mesh::append_line(mesh, {part.name.value, line.points.value, line.elements, line.type.value},
-                        part.name.mark);
-    }
-  }
-  return mesh;
-}
 
 void build_history(BuildContext& c) {
   for (const HistoryRequest& request : c.description.output.history) {

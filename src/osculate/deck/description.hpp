@@ -9,6 +9,7 @@
 #include "osculate/cell/cell_type.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/types.hpp"
+#include "osculate/mesh/generate_space.hpp"
 
 /// What a model file says, validated and with all defaults filled in, but not yet matched with a
 /// mesh. Plain values; everything that can turn out wrong later carries the place it was read from.
@@ -35,16 +36,19 @@ struct Crown {
   Number at;      ///< x of the most protruding point; default: the middle of the box
 };
 
-/// A structured box. All lists are per interval between breakpoints (plain numbers of the model
-/// file are already repeated), so elements[0].size() == breakpoints[0].value.size() - 1.
+/// A structured box of area cells, or of volume cells if it has breakpoints in z. All lists are per
+/// interval between breakpoints (plain numbers of the model file are already repeated), so
+/// elements[0].size() == breakpoints[0].value.size() - 1.
 struct Box {
-  std::array<Marked<std::vector<double>>, 2> breakpoints;  ///< x and y, strictly increasing
-  std::array<std::vector<int>, 2> elements;                ///< >= 1
-  std::array<std::vector<double>, 2> bias;  ///< last element size / first one, default 1
-  Marked<cell::CellType> type;              ///< tri3, tri6, quad4, quad8, quad9
-  std::optional<Crown> crown;
-  Number angle;      ///< degrees, applied after everything else
-  Vec2 about{0, 0};  ///< centre of that rotation
+  std::array<Marked<std::vector<double>>, 3> breakpoints;  ///< strictly increasing; z may be empty
+  std::array<std::vector<int>, 3> elements;                ///< >= 1
+  std::array<std::vector<double>, 3> bias;  ///< last element size / first one, default 1
+  Marked<cell::CellType> type;              ///< of the dimension of the box
+  std::optional<Crown> crown;               ///< without z only
+  Number angle;                             ///< degrees, applied after everything else
+  Vec3 about{0, 0, 0};                      ///< centre of that rotation
+  Vec3 axis{0, 0, 1};                       ///< and its axis, of any length
+  [[nodiscard]] bool solid() const { return !breakpoints[2].value.empty(); }
 };
 
 /// A line mesh along straight intervals.
@@ -56,7 +60,8 @@ struct LineMesh {
 
 struct GeneratedPart {
   Name name;
-  std::variant<Box, LineMesh> shape;
+  std::variant<Box, LineMesh, mesh::GridSpec, mesh::TubeSpec, mesh::SphereSpec, mesh::BallSpec>
+      shape;
 };
 
 struct MeshSource {

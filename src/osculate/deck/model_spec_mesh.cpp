@@ -22,8 +22,25 @@ Spec per_direction(std::string doc, const Spec& one) {
   return list(std::move(doc),
               either("One direction: a value for every interval, or a list with one per interval.",
                      {one, list("One value per interval.", one).count(1)}))
-      .count(2, 2);
+      .count(2, 3);
 }
+
+/// Three coordinates.
+Spec place_spec(std::string doc) {
+  return list(std::move(doc), number("One coordinate.").in("length")).count(3, 3);
+}
+Spec vector_spec(std::string doc) { return list(std::move(doc), number("One part.")).count(3, 3); }
+
+Spec pair_of(std::string doc, const Spec& one) { return list(std::move(doc), one).count(2, 2); }
+
+Spec facet_choice() {
+  return cell_choice("Kind of cell.",
+                     {cell::CellType::tri3, cell::CellType::tri6, cell::CellType::quad4,
+                      cell::CellType::quad8, cell::CellType::quad9},
+                     "quad4");
+}
+
+Spec radius_spec() { return number("Radius.").in("length").above(0).such_as("2"); }
 
 Spec breakpoints(std::string doc) {
   return list(std::move(doc), number("One coordinate.").in("length")).count(2).such_as("[0, 2, 4]");
@@ -45,30 +62,47 @@ Spec crown_spec() {
                           .such_as("2"))});
 }
 
+std::vector<Choice> box_cells() {
+  std::vector<Choice> words;
+  for (const cell::CellInfo& info : cell::all_cells())
+    if (info.dimension >= 2)
+      words.push_back(word(std::string(info.name), info.type,
+                           std::to_string(info.nodes) +
+                               (info.dimension == 2 ? " nodes, without z" : " nodes, with z")));
+  return words;
+}
+
 Spec box_spec() {
   return map(
-      "A rectangle of structured cells, cut into intervals by breakpoints.",
+      "A rectangle, or with z a box, of structured cells, cut into intervals by breakpoints.",
       {required("x", breakpoints("Breakpoints in x, increasing.")),
        required("y", breakpoints("Breakpoints in y, increasing.")),
-       required("elements",
-                per_direction("Numbers of elements in x and y, per interval.", interval_count())
-                    .such_as("[[8, 4], 3]")),
+       optional("z", breakpoints("Breakpoints in z, increasing; makes a box of volume cells.")),
+       required("elements", per_direction("Numbers of elements in x, y (and z), per interval.",
+                                          interval_count())
+                                .such_as("[[8, 4], 3]")),
        optional("bias", per_direction("Size of the last element of an interval over that of its "
-                                      "first, in x and y.",
+                                      "first, in x, y (and z).",
                                       number("Ratio of sizes.").above(0).such_as("2"))
-                            .otherwise("[1, 1]")
+                            .otherwise_as("1 everywhere")
                             .such_as("[[1, 2], 0.5]")),
-       optional("type",
-                cell_choice("Kind of cell.",
-                            {cell::CellType::tri3, cell::CellType::tri6, cell::CellType::quad4,
-                             cell::CellType::quad8, cell::CellType::quad9},
-                            "quad4")),
+       optional("type", choice("Kind of cell.", box_cells())
+                            .otherwise_as("quad4, with z hex8")
+                            .such_as("quad9")),
        optional("crown", crown_spec()),
-       optional("angle", number("Turns the finished box, positive from x to y.")
+       optional("angle", number("Turns the finished box, positive from x to y, or right-handed "
+                                "about the axis.")
                              .in("degrees")
                              .otherwise("0")
                              .such_as("15")),
-       optional("about", point_spec("Point that the box is turned about.").otherwise("[0, 0]"))});
+       optional("about",
+                list("Point that the box is turned about.", number("One coordinate.").in("length"))
+                    .count(2, 3)
+                    .otherwise_as("the origin")
+                    .such_as("[0, 0]")),
+       optional("axis", vector_spec("With z: direction of the axis that the box is turned about.")
+                            .otherwise_as("z")
+                            .such_as("[0, 0, 1]"))});
 }
 
 Spec line_spec() {
@@ -84,13 +118,99 @@ Spec line_spec() {
                                     "line2"))});
 }
 
+Spec grid_spec() {
+  return map(
+      "A flat patch of area cells in space.",
+      {optional("origin",
+                place_spec("Its first corner.").otherwise("[0, 0, 0]").such_as("[0, 0, -1]")),
+       required("u",
+                vector_spec("Its side from the first corner to the right.").such_as("[4, 0, 0]")),
+       required("v", vector_spec("Its side upwards; the normal is u x v.").such_as("[0, 2, 0]")),
+       required("elements",
+                pair_of("Numbers of elements along u and v.", interval_count()).such_as("[8, 4]")),
+       optional("type", facet_choice())});
+}
+
+Spec tube_spec() {
+  return map(
+      "The surface of a cylinder, all round or a part of it, with its nodes on the cylinder.",
+      {required("ends", pair_of("Both ends of the axis.", place_spec("One end."))
+                            .such_as("[[12, -1, -2], [12, 2, -2]]")),
+       required("radius", radius_spec()),
+       required("elements",
+                pair_of("Numbers of elements around and along the axis.", interval_count())
+                    .such_as("[49, 3]")),
+       optional("zero", vector_spec("Direction from the axis to the angle zero.")
+                            .otherwise_as("z, or x where the axis is nearer to z than 45 degrees")
+                            .such_as("[0, 0, 1]")),
+       optional("from", number("Angle of the first nodes; angles are right-handed about the axis.")
+                            .in("degrees")
+                            .otherwise("0")
+                            .such_as("-30")),
+       optional("to", number("Angle of the last nodes, at most 360 degrees further; then the tube "
+                             "is closed.")
+                          .in("degrees")
+                          .otherwise("360")
+                          .such_as("90")),
+       optional("type", facet_choice()),
+       optional(
+           "inside",
+           boolean("The body is around the tube: normals point to the axis.").otherwise("false"))});
+}
+
+Spec sphere_spec() {
+  return map("The surface of a ball, with its nodes on the sphere.",
+             {required("center", place_spec("Centre.").such_as("[0, 0, -2]")),
+              required("radius", radius_spec()),
+              required("elements",
+                       integer("Number of elements along each edge of the cube that is blown up; "
+                               "6 n^2 in all. An even number has nodes on the axes.")
+                           .at_least(1)
+                           .at_most(1000)
+                           .such_as("8")),
+              optional("type", facet_choice()),
+              optional("inside", boolean("The body is around the sphere: normals point to the "
+                                         "centre.")
+                                     .otherwise("false"))});
+}
+
+Spec ball_spec() {
+  return map(
+      "An octant of a ball of volume cells: a cube in its middle and layers around that.",
+      {required("center", place_spec("Centre.").such_as("[0, 0, 1]")),
+       required("radius", radius_spec()),
+       required("elements",
+                pair_of("Numbers of elements along each edge of the cube, and of layers.",
+                        interval_count())
+                    .such_as("[4, 6]")),
+       optional("bias", pair_of("Size of the outermost element over that of the innermost, along "
+                                "the edges of the cube and through the layers.",
+                                number("Ratio of sizes.").above(0))
+                            .otherwise("[1, 1]")
+                            .such_as("[1, 0.2]")),
+       optional("octant", pair_of("Signs of x, y and z from the centre.",
+                                  integer("1 or -1.").at_least(-1).at_most(1))
+                              .count(3, 3)
+                              .otherwise("[1, 1, 1]")
+                              .such_as("[1, 1, -1]")),
+       optional("type",
+                cell_choice("Kind of cell.",
+                            {cell::CellType::hex8, cell::CellType::hex20, cell::CellType::hex27},
+                            "hex8"))});
+}
+
+Spec part_spec() {
+  return map("One generated part.",
+             {optional("box", box_spec()), optional("line", line_spec()),
+              optional("grid", grid_spec()), optional("tube", tube_spec()),
+              optional("sphere", sphere_spec()), optional("ball", ball_spec())})
+      .with(Group::Rule::exactly_one, {"box", "line", "grid", "tube", "sphere", "ball"})
+      .such_as("{box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}");
+}
+
 }  // namespace
 
 Spec mesh_spec() {
-  const Spec part = map("One generated part: a box or a line.",
-                        {optional("box", box_spec()), optional("line", line_spec())})
-                        .with(Group::Rule::exactly_one, {"box", "line"})
-                        .such_as("{box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}");
   return either(
              "The mesh: a Gmsh file, relative to the folder of the model file, or generated parts.",
              {text("Name of a Gmsh file.").such_as("block.msh"),
@@ -100,8 +220,13 @@ Spec mesh_spec() {
                       names(
                           "Parts to generate, by name. Sets: NAME, and NAME.left, .right, .bottom, "
                           ".top, .bottom_left, .bottom_right, .top_right, .top_left of a "
-                          "box, NAME.start and .end of a line.",
-                          part)
+                          "box without z or a grid; NAME.start and .end of a line or a tube, and "
+                          ".from and .to of a tube that is not closed; with z, NAME.left, .right "
+                          "(x), .front, .back (y), .bottom, .top (z), the edges .bottom_front and "
+                          "so on, the corners .bottom_front_left and so on of a box; NAME.surface, "
+                          ".plane_x, .plane_y, .plane_z, .center, .pole_x, .pole_y, .pole_z of a "
+                          "ball.",
+                          part_spec())
                           .count(1))})})
       .such_as("block.msh");
 }

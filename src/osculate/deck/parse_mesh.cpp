@@ -63,24 +63,81 @@ Crown crown_of(const Value& v, const std::vector<double>& x) {
   return crown;
 }
 
+constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
+
+/// `elements` and `bias` have one entry for each direction.
+void require_directions(const Value& v, bool solid) {
+  const std::size_t wanted = solid ? 3 : 2;
+  if (v.items.size() == wanted) return;
+  throw core::InputError(v.mark, fmt::format("expected {} values for a box {} z, got {}", wanted,
+                                             solid ? "with" : "without", v.items.size()));
+}
+
+Marked<cell::CellType> box_type(const Value& v, bool solid) {
+  if (!v.find("type")) return {solid ? cell::CellType::hex8 : cell::CellType::quad4, v.mark};
+  Marked<cell::CellType> type = word_of<cell::CellType>(v, "type");
+  const int wanted = solid ? 3 : 2;
+  if (cell::info(type.value).dimension == wanted) return type;
+  std::string names;
+  for (const cell::CellInfo& info : cell::all_cells())
+    if (info.dimension == wanted)
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", info.name);
+  throw core::InputError(
+      type.mark, fmt::format("a box {} z is made of {}; got {}", solid ? "with" : "without", names,
+                             cell::info(type.value).name));
+}
+
+Vec3 place_of(const Value& v) {
+  return {v.items[0].number, v.items[1].number, v.items.size() > 2 ? v.items[2].number : 0.0};
+}
+
+/// A direction, of any length.
+Vec3 direction_of(const Value& v) {
+  const Vec3 direction = place_of(v);
+  if (direction.norm() > 0) return direction;
+  throw core::InputError(v.mark, "expected a direction, got a vector of no length");
+}
+
+void read_rotation(const Value& v, Box& box) {
+  box.angle = number_of(v.at("angle"));
+  if (const Value* const about = v.find("about")) {
+    box.about = place_of(*about);
+    if (about->items.size() > 2 && !box.solid())
+      throw core::InputError(about->mark, "expected 2 values for a box without z, got 3");
+    if (about->items.size() < 3 && box.solid())
+      throw core::InputError(about->mark, "expected 3 values for a box with z, got 2");
+  }
+  if (const Value* const axis = v.find("axis")) {
+    if (!box.solid())
+      throw core::InputError(axis->mark, "is for boxes with z; others turn about z");
+    box.axis = direction_of(*axis);
+  }
+}
+
 Box box_of(const Value& v) {
   Box box;
+  const bool solid = v.find("z") != nullptr;
   const Value& elements = v.at("elements");
-  const Value& bias = v.at("bias");
-  const std::array<const char*, 2> axes{"x", "y"};
-  for (std::size_t i = 0; i < 2; ++i) {
-    box.breakpoints[i] = breakpoints_of(v.at(axes[i]));
+  const Value* const bias = v.find("bias");
+  require_directions(elements, solid);
+  if (bias) require_directions(*bias, solid);
+  double size = 1;
+  for (std::size_t i = 0; i < (solid ? 3 : 2); ++i) {
+    box.breakpoints[i] = breakpoints_of(v.at(axis_names[i]));
     const std::size_t intervals = box.breakpoints[i].value.size() - 1;
     box.elements[i] = counts_of(elements.items[i], intervals);
-    box.bias[i] = per_interval<double>(bias.items[i], intervals,
-                                       [](const Value& ratio) { return ratio.number; });
+    box.bias[i] = bias ? per_interval<double>(bias->items[i], intervals,
+                                              [](const Value& ratio) { return ratio.number; })
+                       : std::vector<double>(intervals, 1.0);
+    size *= total(box.elements[i]);
   }
-  require_size(total(box.elements[0]) * total(box.elements[1]), elements.mark);
-  box.type = word_of<cell::CellType>(v, "type");
-  if (const Value* const crown = v.find("crown"))
+  require_size(size, elements.mark);
+  box.type = box_type(v, solid);
+  if (const Value* const crown = v.find("crown")) {
+    if (solid) throw core::InputError(crown->mark, "is for boxes without z");
     box.crown = crown_of(*crown, box.breakpoints[0].value);
-  box.angle = number_of(v.at("angle"));
-  box.about = point_of(v.at("about"));
+  }
+  read_rotation(v, box);
   return box;
 }
 
@@ -92,6 +149,93 @@ LineMesh line_of(const Value& v) {
   require_size(total(line.elements), elements.mark);
   line.type = word_of<cell::CellType>(v, "type");
   return line;
+}
+
+std::array<int, 2> two_counts(const Value& v) {
+  require_size(1.0 * v.items[0].code * v.items[1].code, v.mark);
+  return {v.items[0].code, v.items[1].code};
+}
+
+mesh::GridSpec grid_of(const Value& v, const std::string& name) {
+  mesh::GridSpec grid;
+  grid.name = name;
+  grid.origin = place_of(v.at("origin"));
+  grid.u = direction_of(v.at("u"));
+  grid.v = direction_of(v.at("v"));
+  grid.elements = two_counts(v.at("elements"));
+  grid.type = word_of<cell::CellType>(v, "type").value;
+  return grid;
+}
+
+mesh::TubeSpec tube_of(const Value& v, const std::string& name) {
+  mesh::TubeSpec tube;
+  tube.name = name;
+  const Value& ends = v.at("ends");
+  tube.start = place_of(ends.items[0]);
+  tube.end = place_of(ends.items[1]);
+  if (tube.start == tube.end) throw core::InputError(ends.mark, "both ends are the same point");
+  tube.radius = v.at("radius").number;
+  if (const Value* const zero = v.find("zero")) tube.zero = direction_of(*zero);
+  tube.from = v.at("from").number;
+  const Value& to = v.at("to");
+  tube.to = to.number;
+  if (!(tube.to > tube.from) || tube.to - tube.from > 360)
+    throw core::InputError(to.mark, fmt::format("must be above 'from' = {} by at most 360, got {}",
+                                                tube.from, tube.to));
+  tube.elements = two_counts(v.at("elements"));
+  tube.type = word_of<cell::CellType>(v, "type").value;
+  tube.inside = flag(v, "inside");
+  return tube;
+}
+
+mesh::SphereSpec sphere_of(const Value& v, const std::string& name) {
+  mesh::SphereSpec sphere;
+  sphere.name = name;
+  sphere.center = place_of(v.at("center"));
+  sphere.radius = v.at("radius").number;
+  sphere.elements = v.at("elements").code;
+  sphere.type = word_of<cell::CellType>(v, "type").value;
+  sphere.inside = flag(v, "inside");
+  return sphere;
+}
+
+mesh::BallSpec ball_of(const Value& v, const std::string& name) {
+  mesh::BallSpec ball;
+  ball.name = name;
+  ball.center = place_of(v.at("center"));
+  ball.radius = v.at("radius").number;
+  const Value& elements = v.at("elements");
+  ball.core = elements.items[0].code;
+  ball.layers = elements.items[1].code;
+  require_size(1.0 * ball.core * ball.core * (ball.core + 3.0 * ball.layers), elements.mark);
+  const Value& bias = v.at("bias");
+  ball.core_bias = bias.items[0].number;
+  ball.layer_bias = bias.items[1].number;
+  const Value& octant = v.at("octant");
+  for (std::size_t k = 0; k < 3; ++k) {
+    ball.octant[k] = octant.items[k].code;
+    if (ball.octant[k] == 0) throw core::InputError(octant.items[k].mark, "must be 1 or -1, got 0");
+  }
+  ball.type = word_of<cell::CellType>(v, "type").value;
+  return ball;
+}
+
+GeneratedPart part_of(const Value& v, Name name) {
+  GeneratedPart part{std::move(name), {}};
+  const std::string& text = part.name.value;
+  if (const Value* const box = v.find("box"))
+    part.shape = box_of(*box);
+  else if (const Value* const line = v.find("line"))
+    part.shape = line_of(*line);
+  else if (const Value* const grid = v.find("grid"))
+    part.shape = grid_of(*grid, text);
+  else if (const Value* const tube = v.find("tube"))
+    part.shape = tube_of(*tube, text);
+  else if (const Value* const sphere = v.find("sphere"))
+    part.shape = sphere_of(*sphere, text);
+  else
+    part.shape = ball_of(v.at("ball"), text);
+  return part;
 }
 
 std::string path_beside(const std::string& model_file, const std::string& mesh_file) {
@@ -120,15 +264,8 @@ MeshSource parse_mesh(const Value& v, const std::string& file) {
     mesh.path = path_beside(file, mesh.file->value);
     return mesh;
   }
-  for (const ValueEntry& entry : v.at("generate").entries) {
-    GeneratedPart part;
-    part.name = {entry.key, entry.key_mark};
-    if (const Value* const box = entry.value.find("box"))
-      part.shape = box_of(*box);
-    else
-      part.shape = line_of(entry.value.at("line"));
-    mesh.generated.push_back(std::move(part));
-  }
+  for (const ValueEntry& entry : v.at("generate").entries)
+    mesh.generated.push_back(part_of(entry.value, {entry.key, entry.key_mark}));
   return mesh;
 }
 

@@ -71,7 +71,7 @@ void read_names(Cursor& cursor, RawMesh& raw) {
     const std::int64_t tag = cursor.text_integer("the tag of a group");
     const std::string name = read_name(cursor, cursor.rest_of_line());
     if (name.empty()) continue;
-    if (dimension < 3 && !used.insert(name).second)
+    if (!used.insert(name).second)
       cursor.fail(
           fmt::format("the name '{}' is used twice; the names of physical groups must "
                       "differ, also across dimensions",

@@ -94,10 +94,11 @@ void add_cells(Document& doc, std::span<const mesh::Block> blocks) {
   std::vector<std::uint8_t> types;
   for (const mesh::Block& block : blocks) {
     const cell::CellInfo& info = cell::info(block.type);
-    connectivity.insert(connectivity.end(), block.connectivity.begin(), block.connectivity.end());
+    const std::span<const std::int8_t> order = cell::vtk_nodes(block.type);
     for (Index c = 0; c < block.size(); ++c) {
+      for (const std::int8_t k : order) connectivity.push_back(block.cell(c)[k]);
       const std::int64_t last = offsets.empty() ? 0 : offsets.back();
-      offsets.push_back(last + info.nodes);
+      offsets.push_back(last + static_cast<std::int64_t>(order.size()));
       types.push_back(static_cast<std::uint8_t>(info.vtk_type));
     }
   }
@@ -169,6 +170,65 @@ void write_vtu(const std::string& path, const VtuData& data, bool compress) {
   for (const std::string& array : doc.arrays) file.write(array);
   file.write("\n  </AppendedData>\n</VTKFile>\n");
   file.commit();
+}
+
+Field scalar_field(std::string name, std::vector<double> values) {
+  return {std::move(name), 1, std::move(values), {}};
+}
+
+Field vector_field(std::string name, std::span<const Vec3> values) {
+  Field field{std::move(name), 3, {}, {"X", "Y", "Z"}};
+  field.values.reserve(3 * values.size());
+  for (const Vec3& v : values) field.values.insert(field.values.end(), {v.x(), v.y(), v.z()});
+  return field;
+}
+
+Field tensor_field(std::string name, std::span<const std::array<double, 6>> values) {
+  Field field{std::move(name), 6, {}, {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}};
+  field.values.reserve(6 * values.size());
+  for (const auto& v : values) field.values.insert(field.values.end(), v.begin(), v.end());
+  return field;
+}
+
+SurfacePart surface_part(std::span<const Vec3> coordinates,
+                         std::span<const mesh::SurfaceFacet> facets, std::span<const Index> nodes) {
+  SurfacePart part;
+  part.nodes.assign(nodes.begin(), nodes.end());
+  for (const mesh::SurfaceFacet& facet : facets)
+    part.nodes.insert(part.nodes.end(), facet.nodes().begin(), facet.nodes().end());
+  std::sort(part.nodes.begin(), part.nodes.end());
+  part.nodes.erase(std::unique(part.nodes.begin(), part.nodes.end()), part.nodes.end());
+  std::vector<Index> place(coordinates.size(), -1);
+  for (const Index node : part.nodes) {
+    place[static_cast<std::size_t>(node)] = static_cast<Index>(part.points.size());
+    part.points.push_back(coordinates[static_cast<std::size_t>(node)]);
+  }
+  std::map<cell::CellType, mesh::Block> blocks;
+  std::vector<bool> used(coordinates.size());
+  for (const mesh::SurfaceFacet& facet : facets) {
+    mesh::Block& block = blocks.try_emplace(facet.type, mesh::Block{facet.type, {}}).first->second;
+    for (const Index node : facet.nodes()) {
+      block.connectivity.push_back(place[static_cast<std::size_t>(node)]);
+      used[static_cast<std::size_t>(node)] = true;
+    }
+  }
+  mesh::Block points{cell::CellType::point1, {}};
+  for (const Index node : part.nodes)
+    if (!used[static_cast<std::size_t>(node)])
+      points.connectivity.push_back(place[static_cast<std::size_t>(node)]);
+  if (!points.connectivity.empty()) part.blocks.push_back(std::move(points));
+  for (auto& entry : blocks) part.blocks.push_back(std::move(entry.second));
+  return part;
+}
+
+Field on_part(const Field& field, const SurfacePart& part) {
+  Field out{field.name, field.components, {}, field.component_names};
+  for (const Index node : part.nodes)
+    for (int k = 0; k < field.components; ++k)
+      out.values.push_back(field.values.at(static_cast<std::size_t>(node) *
+                                               static_cast<std::size_t>(field.components) +
+                                           static_cast<std::size_t>(k)));
+  return out;
 }
 
 void write_pvd(const std::string& path, std::span<const PvdEntry> entries) {

@@ -1,9 +1,11 @@
 #pragma once
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "osculate/mesh/mesh.hpp"
+#include "osculate/mesh/surface.hpp"
 
 namespace osculate::io {
 
@@ -15,8 +17,14 @@ struct Field {
   std::vector<std::string> component_names;  ///< empty, or one per component (`XX`, `YY`, ...)
 };
 
-/// What one VTU file shows. Cells count block by block; nodes are in Gmsh order, which for our cell
-/// types is also VTK's.
+/// A vector field of three components.
+[[nodiscard]] Field vector_field(std::string name, std::span<const Vec3> values);
+/// A symmetric tensor field XX, YY, ZZ, XY, YZ, XZ (VTK's order).
+[[nodiscard]] Field tensor_field(std::string name, std::span<const std::array<double, 6>> values);
+[[nodiscard]] Field scalar_field(std::string name, std::vector<double> values);
+
+/// What one VTU file shows. Cells count block by block; nodes are in Gmsh order and are put into
+/// VTK's on the way (cells that VTK does not have, by the nodes of their `vtk_type` only).
 struct VtuData {
   std::span<const Vec3> points;
   std::span<const mesh::Block> blocks;
@@ -32,6 +40,22 @@ struct VtuData {
 ///            caller)
 /// Tested by  tests/unit/io/test_vtk.cpp (read back by a parser of its own)
 void write_vtu(const std::string& path, const VtuData& data, bool compress = false);
+
+/// A surface as a data set of its own: the facets on their own nodes only.
+struct SurfacePart {
+  std::vector<Index> nodes;  ///< of the mesh, sorted; fields have one tuple for each of them
+  std::vector<Vec3> points;
+  std::vector<mesh::Block> blocks;  ///< in the order of the cell types; nodes count in `nodes`
+};
+
+/// The data set of some facets. Nodes beside the facets, if any, come with it as points.
+/// Requires   all nodes are in `coordinates`
+[[nodiscard]] SurfacePart surface_part(std::span<const Vec3> coordinates,
+                                       std::span<const mesh::SurfaceFacet> facets,
+                                       std::span<const Index> nodes = {});
+
+/// The tuples of a field of the whole mesh that belong to the part.
+[[nodiscard]] Field on_part(const Field& field, const SurfacePart& part);
 
 /// One file of a series.
 struct PvdEntry {

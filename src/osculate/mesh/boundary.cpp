@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
+
+#include "osculate/mesh/support.hpp"
 
 namespace osculate::mesh {
 namespace {
-
-constexpr std::size_t most_messages = 10;
 
 std::uint64_t edge_key(Index a, Index b) {
   const auto lo = static_cast<std::uint32_t>(std::min(a, b));
@@ -19,17 +18,10 @@ std::uint64_t edge_key(Index a, Index b) {
   return (std::uint64_t{lo} << 32U) | hi;
 }
 
-const Block& block_of(const Mesh& mesh, CellRef ref) {
-  return mesh.blocks[static_cast<std::size_t>(ref.block)];
-}
-
-const Vec3& point(const Mesh& mesh, Index node) {
-  return mesh.nodes[static_cast<std::size_t>(node)];
-}
-
 void add_edges(const Mesh& mesh, CellRef ref, std::vector<Edge>& edges) {
   const Block& block = block_of(mesh, ref);
   const cell::CellInfo& info = cell::info(block.type);
+  if (info.dimension != 2) return;
   const Index* nodes = block.cell(ref.cell);
   for (int e = 0; e < info.edge_count; ++e) {
     const auto& local = info.edges[static_cast<std::size_t>(e)];
@@ -93,13 +85,6 @@ int turning(const Mesh& mesh, CellRef ref) {
   }
   if (!(std::abs(twice_area) > 1e-14 * size)) return 0;
   return twice_area > 0 ? 1 : -1;
-}
-
-void add_message(std::vector<std::string>& messages, std::string text) {
-  if (messages.size() < most_messages)
-    messages.push_back(std::move(text));
-  else if (messages.size() == most_messages)
-    messages.emplace_back("... and more of the kind");
 }
 
 std::string describe_facet(const Mesh& mesh, const BoundaryFacet& facet) {
@@ -183,7 +168,9 @@ Boundary free_edges(const Mesh& mesh, const EdgeTable& table, const Wanted& want
 
 std::string describe_node(const Mesh& mesh, Index node) {
   const Vec3& x = point(mesh, node);
-  return fmt::format("node {} ({:.6g}, {:.6g})", node + 1, x.x(), x.y());
+  return has_volumes(mesh) || x.z() != 0
+             ? fmt::format("node {} ({:.6g}, {:.6g}, {:.6g})", node + 1, x.x(), x.y(), x.z())
+             : fmt::format("node {} ({:.6g}, {:.6g})", node + 1, x.x(), x.y());
 }
 
 std::span<const Edge> EdgeTable::find(Index a, Index b) const {
@@ -309,45 +296,6 @@ void connect(const Mesh& mesh, Boundary& boundary) {
                                     describe_node(mesh, node)));
     }
   }
-}
-
-std::vector<std::vector<CellRef>> connected_parts(const Mesh& mesh, std::span<const CellRef> cells,
-                                                  Link link) {
-  std::vector<std::size_t> root(cells.size());
-  std::iota(root.begin(), root.end(), std::size_t{0});
-  const auto find = [&root](std::size_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  std::unordered_map<std::uint64_t, std::size_t> owner;  // of a node or an edge
-  std::vector<Edge> edges;
-  const auto visit = [&](std::uint64_t key, std::size_t i) {
-    const auto [place, is_new] = owner.try_emplace(key, i);
-    if (is_new) return;
-    const std::size_t a = find(place->second);
-    const std::size_t b = find(i);
-    root[std::max(a, b)] = std::min(a, b);
-  };
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Block& block = block_of(mesh, cells[i]);
-    edges.clear();
-    if (link == Link::edge) add_edges(mesh, cells[i], edges);
-    for (const Edge& edge : edges) visit(edge.key, i);
-    const int count = link == Link::node ? cell::info(block.type).nodes : 0;
-    for (int k = 0; k < count; ++k)
-      visit(static_cast<std::uint64_t>(block.cell(cells[i].cell)[k]), i);
-  }
-  std::vector<std::vector<CellRef>> parts;
-  std::vector<std::size_t> part_of(cells.size());
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const std::size_t r = find(i);
-    if (r == i) {
-      part_of[i] = parts.size();
-      parts.emplace_back();
-    }
-    parts[part_of[r]].push_back(cells[i]);
-  }
-  return parts;
 }
 
 }  // namespace osculate::mesh

@@ -82,16 +82,17 @@ struct Boundary {
 /// Sets prev/next through shared end nodes, fills `branching` and adds the warnings.
 void connect(const Mesh& mesh, Boundary& boundary);
 
-/// What makes two cells neighbours. `edge` also separates parts that hang together in one node.
-enum class Link : std::uint8_t { node, edge };
+/// What makes two cells neighbours. `side` (an edge of areas, a face of volumes) also separates
+/// parts that hang together in less than that.
+enum class Link : std::uint8_t { node, side };
 
-/// The connected parts of some area cells, each in the order of the input, parts in the order of
-/// their first cell.
+/// The connected parts of some area or volume cells, each in the order of the input, parts in the
+/// order of their first cell.
 [[nodiscard]] std::vector<std::vector<CellRef>> connected_parts(const Mesh& mesh,
                                                                 std::span<const CellRef> cells,
                                                                 Link link = Link::node);
 
-/// `node 12 (1, 0.5)`: 1-based, with its coordinates.
+/// `node 12 (1, 0.5)`: 1-based, with its coordinates (three of them where there are volumes).
 [[nodiscard]] std::string describe_node(const Mesh& mesh, Index node);
 
 }  // namespace osculate::mesh

@@ -2,9 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <numeric>
+
+#include "osculate/cell/volume_shape.hpp"
+#include "osculate/mesh/boundary.hpp"
+#include "osculate/mesh/support.hpp"
 
 namespace osculate::mesh {
 namespace {
@@ -59,7 +66,7 @@ Tally bad_indices(const Mesh& mesh) {
 
 void check_cells(const Mesh& mesh, std::vector<Finding>& findings) {
   Tally repeated;
-  std::array<Tally, 3> twice;  // by dimension
+  std::array<Tally, 4> twice;  // by dimension
   for (const Block& block : mesh.blocks) {
     const auto n = static_cast<std::size_t>(cell::info(block.type).nodes);
     std::vector<Index> nodes = block.connectivity;
@@ -85,7 +92,9 @@ void check_cells(const Mesh& mesh, std::vector<Finding>& findings) {
             cell_name(block, order[i]));
   }
   report(findings, Flaw::repeated_node, true, repeated, "cell(s) that name a node twice");
-  report(findings, Flaw::duplicate_area, true, twice[2], "area cell(s) that are there twice");
+  report(findings, Flaw::duplicate_volume, true, twice[3], "volume cell(s) that are there twice");
+  report(findings, Flaw::duplicate_area, !has_volumes(mesh), twice[2],
+         "area cell(s) that are there twice");
   report(findings, Flaw::duplicate_line, false, twice[1], "line cell(s) that are there twice");
 }
 
@@ -99,15 +108,101 @@ void check_nodes(const Mesh& mesh, std::vector<Finding>& findings) {
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     const Vec3& x = mesh.nodes[i];
     const std::string text =
-        (used[i] && x.allFinite()) ? "" : fmt::format("{} ({:.6g}, {:.6g})", i + 1, x.x(), x.y());
+        (used[i] && x.allFinite()) ? "" : describe_node(mesh, static_cast<Index>(i)).substr(5);
     if (!x.allFinite()) infinite.add(text);
     if (!used[i]) unused.add(text);
   }
   report(findings, Flaw::not_finite, true, infinite, "node(s) with coordinates that are no number");
-  report(findings, Flaw::unused_node, false, unused, "node(s) of no line or area cell");
+  report(findings, Flaw::unused_node, false, unused,
+         has_volumes(mesh) ? "node(s) of no cell" : "node(s) of no line or area cell");
+}
+
+/// Shape functions where a volume cell is judged: at its nodes and their middle.
+std::vector<cell::VolumeShape> judged_shapes(cell::CellType type) {
+  std::vector<cell::VolumeShape> shapes;
+  const int n = cell::info(type).nodes;
+  Vec3 centre = Vec3::Zero();
+  for (int k = 0; k < n; ++k) {
+    const Vec3 xi = cell::volume_node(type, k);
+    shapes.push_back(cell::volume_shape(type, xi));
+    centre += xi / n;
+  }
+  shapes.push_back(cell::volume_shape(type, centre));
+  return shapes;
+}
+
+double smallest_jacobian(const Mesh& mesh, CellRef ref,
+                         const std::vector<cell::VolumeShape>& shapes) {
+  const Index* const nodes = nodes_of(mesh, ref);
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const cell::VolumeShape& shape : shapes) {
+    Mat<3, 3> jacobian = Mat<3, 3>::Zero();
+    for (int k = 0; k < shape.count; ++k) jacobian += point(mesh, nodes[k]) * shape.d.row(k);
+    smallest = std::min(smallest, jacobian.determinant());
+  }
+  return smallest;
+}
+
+/// Volume cells that are inside out or flat; only cells with finite coordinates are judged.
+void check_volumes(const Mesh& mesh, std::vector<Finding>& findings) {
+  Tally bad;
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const Block& block = mesh.blocks[b];
+    if (cell::info(block.type).dimension != 3) continue;
+    const std::vector<cell::VolumeShape> shapes = judged_shapes(block.type);
+    for (Index c = 0; c < block.size(); ++c) {
+      const double jacobian = smallest_jacobian(mesh, {static_cast<Index>(b), c}, shapes);
+      if (jacobian <= 0)
+        bad.add(fmt::format("{} (smallest Jacobian {:.3g})", cell_name(block, c), jacobian));
+    }
+  }
+  report(findings, Flaw::inside_out, true, bad,
+         "volume cell(s) that are inside out or flat (numbered against their type's order, or too "
+         "distorted)");
+}
+
+/// Nodes of one volume set that are at the same place.
+void check_double_nodes(const Mesh& mesh, std::vector<Finding>& findings) {
+  Tally doubles;
+  for (const Set& set : mesh.sets) {
+    if (set.dimension != 3 || set.nodes.empty()) continue;
+    Vec3 low = point(mesh, set.nodes[0]);
+    Vec3 high = low;
+    for (const Index node : set.nodes) {
+      low = low.cwiseMin(point(mesh, node));
+      high = high.cwiseMax(point(mesh, node));
+    }
+    const double step = 1e-9 * (high - low).norm();
+    if (!std::isfinite(step) || step == 0) continue;
+    using Spot = std::array<std::int64_t, 3>;
+    std::vector<std::pair<Spot, Index>> spots;
+    for (const Index node : set.nodes) {
+      const Vec3 scaled = (point(mesh, node) - low) / step;
+      spots.emplace_back(
+          Spot{std::llround(scaled.x()), std::llround(scaled.y()), std::llround(scaled.z())}, node);
+    }
+    std::sort(spots.begin(), spots.end());
+    for (std::size_t i = 1; i < spots.size(); ++i)
+      if (spots[i].first == spots[i - 1].first)
+        doubles.add(fmt::format("{} and {} of '{}'", spots[i - 1].second + 1,
+                                describe_node(mesh, spots[i].second).substr(5), set.name));
+  }
+  report(findings, Flaw::double_node, false, doubles,
+         "pair(s) of nodes of one body at the same place, so that it may not hang together");
+}
+
+void check_sets(const Mesh& mesh, std::vector<Finding>& findings) {
+  Tally empty;
+  for (const Set& set : mesh.sets)
+    if (set.nodes.empty() && set.cells.empty()) empty.add(fmt::format("'{}'", set.name));
+  report(findings, Flaw::empty_set, false, empty, "set(s) without nodes");
 }
 
 }  // namespace
+
+double smallest_jacobian(const Mesh& mesh, CellRef ref) {
+  return smallest_jacobian(mesh, ref, judged_shapes(block_of(mesh, ref).type));
+}
 
 std::vector<Finding> check_mesh(const Mesh& mesh) {
   std::vector<Finding> findings;
@@ -115,6 +210,9 @@ std::vector<Finding> check_mesh(const Mesh& mesh) {
   if (!findings.empty()) return findings;
   check_cells(mesh, findings);
   check_nodes(mesh, findings);
+  check_volumes(mesh, findings);
+  check_double_nodes(mesh, findings);
+  check_sets(mesh, findings);
   return findings;
 }
 

@@ -8,12 +8,16 @@
 namespace osculate::mesh {
 
 enum class Flaw : std::uint8_t {
-  bad_index,       ///< a cell or set names a node or cell that does not exist
-  not_finite,      ///< a coordinate is NaN or infinite
-  repeated_node,   ///< a cell names a node twice
-  duplicate_area,  ///< two area cells on the same nodes
-  duplicate_line,  ///< two line cells on the same nodes
-  unused_node      ///< a node of no cell (points and node sets do not count as use)
+  bad_index,         ///< a cell or set names a node or cell that does not exist
+  not_finite,        ///< a coordinate is NaN or infinite
+  repeated_node,     ///< a cell names a node twice
+  duplicate_volume,  ///< two volume cells on the same nodes
+  duplicate_area,    ///< two area cells on the same nodes
+  duplicate_line,    ///< two line cells on the same nodes
+  inside_out,        ///< a volume cell whose Jacobian is not positive at its nodes and centre
+  unused_node,       ///< a node of no cell (points and node sets do not count as use)
+  double_node,       ///< two nodes of one volume set at the same place: parts that are not joined
+  empty_set          ///< a set without nodes
 };
 
 /// All flaws of one kind; `is_error` where no analysis makes sense.
@@ -28,5 +32,8 @@ struct Finding {
 /// bad_index the rest is not examined.
 /// Tested by  tests/unit/mesh/test_check.cpp
 [[nodiscard]] std::vector<Finding> check_mesh(const Mesh& mesh);
+
+/// Smallest Jacobian determinant of a volume cell over its nodes and their middle.
+[[nodiscard]] double smallest_jacobian(const Mesh& mesh, CellRef ref);
 
 }  // namespace osculate::mesh

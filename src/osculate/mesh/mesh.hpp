@@ -26,7 +26,7 @@ struct CellRef {
   bool operator==(const CellRef&) const = default;
 };
 
-/// A named set: cells of one dimension (0 points, 1 lines, 2 areas) and all their nodes
+/// A named set: cells of one dimension (0 points, 1 lines, 2 areas, 3 volumes) and all their nodes
 /// (sorted, unique). A pure node set has dimension 0 and may have no cells.
 struct Set {
   std::string name;
@@ -48,5 +48,12 @@ struct Mesh {
     return nullptr;
   }
 };
+
+/// True if there are volume cells.
+[[nodiscard]] inline bool has_volumes(const Mesh& mesh) {
+  for (const Block& block : mesh.blocks)
+    if (cell::info(block.type).dimension == 3 && block.size() > 0) return true;
+  return false;
+}
 
 }  // namespace osculate::mesh

@@ -304,7 +304,7 @@ TEST(ConnectedParts, HingeIsOnePartByNodesAndTwoByEdges) {
               ElementsAre(ElementsAre(CellRef{0, 0}), ElementsAre(CellRef{0, 1})));
   mesh.blocks[0].connectivity[4] = 3;  // lower left node of c := upper right node of a
   EXPECT_THAT(connected_parts(mesh, all), ElementsAre(SizeIs(2)));
-  EXPECT_THAT(connected_parts(mesh, all, Link::edge), SizeIs(2));
+  EXPECT_THAT(connected_parts(mesh, all, Link::side), SizeIs(2));
 }
 
 TEST(ConnectedParts, LongChainIsOnePart) {
@@ -312,7 +312,7 @@ TEST(ConnectedParts, LongChainIsOnePart) {
   append_box(mesh, box("b", 0, 1, 300, 1, CellType::tri6));
   std::vector<CellRef> cells = mesh.find_set("b")->cells;
   std::reverse(cells.begin(), cells.end());
-  const auto parts = connected_parts(mesh, cells, Link::edge);
+  const auto parts = connected_parts(mesh, cells, Link::side);
   ASSERT_THAT(parts, SizeIs(1));
   EXPECT_EQ(parts[0], cells);
 }

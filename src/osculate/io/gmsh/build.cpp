@@ -5,11 +5,12 @@
 #include <unordered_map>
 
 #include "osculate/io/gmsh/raw.hpp"
+#include "osculate/mesh/surface.hpp"
 
 namespace osculate::io::gmsh {
 namespace {
 
-using Nodes = std::array<Index, 9>;
+using Nodes = std::array<Index, 27>;
 
 struct CellKey {
   Nodes nodes;
@@ -26,30 +27,18 @@ struct CellHash {
   }
 };
 
-/// The cell walked the other way round, first node kept for areas.
+/// The cell walked the other way round, first node kept for areas. Volumes have no other way: a
+/// group of them with a negative tag holds them as they are.
 Nodes reversed(cell::CellType type, const Nodes& n) {
-  using enum cell::CellType;
-  switch (type) {
-    case point1:
-      return n;
-    case line2:
-      return {n[1], n[0]};
-    case line3:
-      return {n[1], n[0], n[2]};
-    case line4:
-      return {n[1], n[0], n[3], n[2]};
-    case tri3:
-      return {n[0], n[2], n[1]};
-    case tri6:
-      return {n[0], n[2], n[1], n[5], n[4], n[3]};
-    case quad4:
-      return {n[0], n[3], n[2], n[1]};
-    case quad8:
-    case quad9:
-      return {n[0], n[3], n[2], n[1], n[7], n[6], n[5], n[4], n[8]};
-    default:
-      return n;
+  const cell::CellInfo& info = cell::info(type);
+  Nodes out = n;
+  if (info.dimension == 1) {
+    std::swap(out[0], out[1]);
+    std::reverse(out.begin() + 2, out.begin() + info.nodes);
+  } else if (info.dimension == 2) {
+    mesh::reverse_area(type, {out.data(), static_cast<std::size_t>(info.nodes)});
   }
+  return out;
 }
 
 /// Entities whose cells are in several physical groups. MSH 2 repeats their cells, one for each
@@ -64,7 +53,7 @@ std::set<EntityKey> shared_entities(const std::vector<Group>& groups) {
 }
 
 std::string default_name(const EntityKey& key) {
-  constexpr std::array<const char*, 3> kinds{"point", "line", "surface"};
+  constexpr std::array<const char*, 4> kinds{"point", "line", "surface", "volume"};
   return fmt::format("{}_{}", kinds[static_cast<std::size_t>(key.first)], key.second);
 }
 
@@ -72,8 +61,7 @@ std::string default_name(const EntityKey& key) {
 class Builder {
  public:
   explicit Builder(const RawMesh& raw) : raw_(raw), shared_(shared_entities(raw.groups)) {
-    for (const auto& [key, name] : raw.names)
-      if (key.first < 3) sets_[key].dimension = key.first;
+    for (const auto& [key, name] : raw.names) sets_[key].dimension = key.first;
     for (const Group& group : raw.groups) is_shared_.push_back(shared_.contains(group.entity));
   }
 

@@ -10,14 +10,14 @@ namespace osculate::io::gmsh {
 namespace {
 
 constexpr std::array<std::pair<int, const char*>, 22> foreign_types{{
-    {4, "4-node tetrahedron"},  {5, "8-node hexahedron"},    {6, "6-node prism"},
-    {7, "5-node pyramid"},      {11, "10-node tetrahedron"}, {12, "27-node hexahedron"},
-    {13, "18-node prism"},      {14, "14-node pyramid"},     {17, "20-node hexahedron"},
-    {18, "15-node prism"},      {19, "13-node pyramid"},     {20, "9-node triangle"},
-    {21, "10-node triangle"},   {22, "12-node triangle"},    {23, "15-node triangle"},
-    {24, "15-node triangle"},   {25, "21-node triangle"},    {27, "5-node line"},
-    {28, "6-node line"},        {29, "20-node tetrahedron"}, {36, "16-node quadrangle"},
-    {92, "64-node hexahedron"},
+    {7, "5-node pyramid"},       {13, "18-node prism"},       {14, "14-node pyramid"},
+    {19, "13-node pyramid"},     {20, "9-node triangle"},     {21, "10-node triangle"},
+    {22, "12-node triangle"},    {23, "15-node triangle"},    {24, "15-node triangle"},
+    {25, "21-node triangle"},    {27, "5-node line"},         {28, "6-node line"},
+    {29, "20-node tetrahedron"}, {30, "35-node tetrahedron"}, {31, "56-node tetrahedron"},
+    {36, "16-node quadrangle"},  {37, "25-node quadrangle"},  {39, "12-node quadrangle"},
+    {90, "40-node prism"},       {92, "64-node hexahedron"},  {93, "125-node hexahedron"},
+    {91, "75-node prism"},
 }};
 
 }  // namespace
@@ -74,13 +74,15 @@ const cell::CellInfo& cell_of_type(const Cursor& cursor, std::int64_t gmsh_type)
   const bool in_range = gmsh_type > 0 && gmsh_type < 1000;
   const cell::CellInfo* info =
       in_range ? cell::find_gmsh_cell(static_cast<int>(gmsh_type)) : nullptr;
-  if (info != nullptr && info->dimension < 3) return *info;
+  if (info != nullptr) return *info;
   std::string text = fmt::format("element type {}", gmsh_type);
   for (const auto& [type, name] : foreign_types)
     if (type == gmsh_type) text += fmt::format(" ({})", name);
-  text += " is not supported; supported are";
+  text += " is not supported";
+  if (gmsh_type == 13) text += " (Mesh.SecondOrderIncomplete = 1 makes 15-node prisms)";
+  text += "; supported are";
   for (const cell::CellInfo& known : cell::all_cells())
-    if (known.dimension < 3) text += fmt::format(" {} ({})", known.gmsh_type, known.name);
+    if (known.gmsh_type > 0) text += fmt::format(" {} ({})", known.gmsh_type, known.name);
   cursor.fail(text);
 }
 

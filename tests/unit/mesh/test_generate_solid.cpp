@@ -1,0 +1,412 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "osculate/cell/volume_shape.hpp"
+#include "osculate/mesh/check.hpp"
+#include "osculate/mesh/generate_space.hpp"
+#include "osculate/mesh/surface.hpp"
+
+namespace osculate::mesh {
+namespace {
+
+using cell::CellType;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+constexpr std::array volume_types{CellType::tet4,    CellType::tet10,  CellType::wedge6,
+                                  CellType::wedge15, CellType::hex8,   CellType::hex20,
+                                  CellType::hex27,   CellType::shell18};
+
+SolidBoxSpec graded_box(CellType type) {
+  SolidBoxSpec spec;
+  spec.name = "b";
+  spec.breaks = {{{0.1, 0.7, 3.0}, {-1, 0.3}, {2, 2.5}}};
+  spec.elements = {{{3, 2}, {4}, {2}}};
+  spec.bias = {{{5.0, 0.25}, {3.0}, {}}};
+  spec.type = type;
+  return spec;
+}
+
+Mesh make(const SolidBoxSpec& spec) {
+  Mesh mesh;
+  append_solid_box(mesh, spec);
+  return mesh;
+}
+
+const Vec3& at(const Mesh& mesh, Index node) { return mesh.nodes[static_cast<std::size_t>(node)]; }
+
+/// Area vector of a facet: half the sum of the cross products of its corners (exact for plane
+/// corners).
+Vec3 area_vector(const Mesh& mesh, std::span<const Index> corners) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    sum += 0.5 * at(mesh, corners[k]).cross(at(mesh, corners[(k + 1) % corners.size()]));
+  return sum;
+}
+
+Vec3 area_of_set(const Mesh& mesh, const std::string& name) {
+  Vec3 sum = Vec3::Zero();
+  for (const CellRef ref : mesh.find_set(name)->cells) {
+    const Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
+    sum += area_vector(
+        mesh, {block.cell(ref.cell), static_cast<std::size_t>(cell::info(block.type).corners)});
+  }
+  return sum;
+}
+
+/// Volume of a cell by integrating its Jacobian with 3 x 3 x 3 Gauss points mapped to its shape
+/// from the cube (collapsed for tetrahedra and wedges): exact up to degree four.
+double volume_of(const Mesh& mesh, CellRef ref) {
+  const Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
+  const cell::CellInfo& info = cell::info(block.type);
+  const double g = std::sqrt(0.6);
+  constexpr std::array<double, 3> weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
+  const std::array<double, 3> place{0.5 * (1 - g), 0.5, 0.5 * (1 + g)};
+  double volume = 0;
+  for (std::size_t i = 0; i < 27; ++i) {
+    const double a = place[i % 3], b = place[i / 3 % 3], c = place[i / 9];
+    const double w = weight[i % 3] * weight[i / 3 % 3] * weight[i / 9];
+    Vec3 xi(2 * a - 1, 2 * b - 1, 2 * c - 1);
+    double scale = 8;
+    if (info.corners == 6) {
+      xi = {a, b * (1 - a), 2 * c - 1};
+      scale = 2 * (1 - a);
+    } else if (info.corners == 4) {
+      xi = {a, b * (1 - a), c * (1 - a) * (1 - b)};
+      scale = (1 - a) * (1 - a) * (1 - b);
+    }
+    const cell::VolumeShape shape = cell::volume_shape(block.type, xi);
+    Mat<3, 3> jacobian = Mat<3, 3>::Zero();
+    for (int k = 0; k < shape.count; ++k)
+      jacobian += at(mesh, block.cell(ref.cell)[k]) * shape.d.row(k);
+    volume += w * scale * jacobian.determinant();
+  }
+  return volume;
+}
+
+double volume_of_set(const Mesh& mesh, const std::string& name) {
+  double total = 0;
+  for (const CellRef ref : mesh.find_set(name)->cells) total += volume_of(mesh, ref);
+  return total;
+}
+
+class SolidBox : public ::testing::TestWithParam<CellType> {};
+INSTANTIATE_TEST_SUITE_P(Types, SolidBox, ::testing::ValuesIn(volume_types),
+                         [](const auto& tested) {
+                           return std::string(cell::info(tested.param).name);
+                         });
+
+TEST_P(SolidBox, NumbersOfNodesAndCells) {
+  const Mesh mesh = make(graded_box(GetParam()));
+  const std::size_t bricks = 5 * 4 * 2;
+  const std::size_t corners = 6 * 5 * 3;
+  const std::size_t edges = 5 * 5 * 3 + 6 * 4 * 3 + 6 * 5 * 2;  // along x, y, z
+  std::size_t nodes = corners;
+  std::size_t cells = bricks;
+  std::size_t left = 4 * 2, top = 5 * 4;
+  switch (GetParam()) {
+    case CellType::tet4:
+      cells *= 6, left *= 2, top *= 2;
+      break;
+    case CellType::tet10:
+      nodes = 11 * 9 * 5;  // one on every edge, diagonal of a rectangle, diagonal of a brick
+      cells *= 6, left *= 2, top *= 2;
+      break;
+    case CellType::wedge6:
+      cells *= 2, top *= 2;
+      break;
+    case CellType::wedge15:
+      nodes = corners + edges + 5 * 4 * 3;  // diagonals of the horizontal rectangles
+      cells *= 2, top *= 2;
+      break;
+    case CellType::hex20:
+      nodes = corners + edges;
+      break;
+    case CellType::hex27:
+      nodes = 11 * 9 * 5;
+      break;
+    case CellType::shell18:
+      nodes = 11 * 9 * 3;
+      break;
+    default:
+      break;
+  }
+  EXPECT_EQ(mesh.nodes.size(), nodes);
+  EXPECT_EQ(mesh.find_set("b")->cells.size(), cells);
+  EXPECT_EQ(mesh.find_set("b")->nodes.size(), nodes);
+  EXPECT_EQ(mesh.find_set("b")->dimension, 3);
+  EXPECT_THAT(mesh.find_set("b.left")->cells, SizeIs(left));
+  EXPECT_THAT(mesh.find_set("b.top")->cells, SizeIs(top));
+  EXPECT_EQ(mesh.find_set("b.top")->dimension, 2);
+  EXPECT_THAT(check_mesh(mesh), IsEmpty());
+}
+
+TEST_P(SolidBox, CellsHavePositiveVolumesThatFillTheBox) {
+  const Mesh mesh = make(graded_box(GetParam()));
+  double total = 0;
+  for (const CellRef ref : mesh.find_set("b")->cells) {
+    EXPECT_EQ(handedness(mesh, ref), 1);
+    EXPECT_GT(smallest_jacobian(mesh, ref), 0);
+    total += volume_of(mesh, ref);
+  }
+  EXPECT_NEAR(total, 2.9 * 1.3 * 0.5, 1e-14);
+}
+
+TEST_P(SolidBox, SidesPointOutwardsAndBelongToTheirCells) {
+  const Mesh mesh = make(graded_box(GetParam()));
+  const std::vector<std::pair<std::string, Vec3>> sides{
+      {"b.left", {-0.65, 0, 0}}, {"b.right", {0.65, 0, 0}},   {"b.front", {0, -1.45, 0}},
+      {"b.back", {0, 1.45, 0}},  {"b.bottom", {0, 0, -3.77}}, {"b.top", {0, 0, 3.77}}};
+  std::size_t facets = 0;
+  for (const auto& [name, area] : sides) {
+    EXPECT_LE((area_of_set(mesh, name) - area).norm(), 1e-14) << name;
+    const Surface surface = orient_surface(mesh, *mesh.find_set(name));
+    EXPECT_THAT(surface.errors, IsEmpty()) << name;
+    EXPECT_THAT(surface.warnings, IsEmpty()) << name;
+    EXPECT_EQ(surface.facets.size(), mesh.find_set(name)->cells.size());
+    for (const SurfaceFacet& facet : surface.facets)
+      EXPECT_TRUE(facet.has_parent() && !facet.flipped) << name;
+    facets += surface.facets.size();
+  }
+  EXPECT_EQ(surface_facets(mesh, *mesh.find_set("b")).facets.size(), facets);
+}
+
+TEST_P(SolidBox, SidesAreHitExactlyAndHaveAllTheirNodes) {
+  const Mesh mesh = make(graded_box(GetParam()));
+  const auto count = [&](int axis, double value) {
+    return std::count_if(mesh.nodes.begin(), mesh.nodes.end(),
+                         [&](const Vec3& x) { return x[axis] == value; });
+  };
+  const auto size = [&](const char* name) {
+    return static_cast<std::ptrdiff_t>(mesh.find_set(name)->nodes.size());
+  };
+  EXPECT_EQ(size("b.left"), count(0, 0.1));
+  EXPECT_EQ(size("b.right"), count(0, 3.0));
+  EXPECT_EQ(size("b.front"), count(1, -1));
+  EXPECT_EQ(size("b.back"), count(1, 0.3));
+  EXPECT_EQ(size("b.bottom"), count(2, 2));
+  EXPECT_EQ(size("b.top"), count(2, 2.5));
+}
+
+TEST_P(SolidBox, EdgesAndCornersAreWhatTheirNamesSay) {
+  const Mesh mesh = make(graded_box(GetParam()));
+  const std::vector<std::pair<std::string, Vec3>> corners{
+      {"b.bottom_front_left", {0.1, -1, 2}}, {"b.bottom_front_right", {3, -1, 2}},
+      {"b.bottom_back_left", {0.1, 0.3, 2}}, {"b.bottom_back_right", {3, 0.3, 2}},
+      {"b.top_front_left", {0.1, -1, 2.5}},  {"b.top_front_right", {3, -1, 2.5}},
+      {"b.top_back_left", {0.1, 0.3, 2.5}},  {"b.top_back_right", {3, 0.3, 2.5}}};
+  for (const auto& [name, x] : corners) {
+    ASSERT_NE(mesh.find_set(name), nullptr) << name;
+    ASSERT_THAT(mesh.find_set(name)->nodes, SizeIs(1)) << name;
+    EXPECT_EQ(at(mesh, mesh.find_set(name)->nodes[0]), x) << name;
+  }
+  const auto check = [&](const std::string& name, int axis, const Vec3& from, const Vec3& to) {
+    const Set* const set = mesh.find_set(name);
+    ASSERT_NE(set, nullptr) << name;
+    EXPECT_EQ(set->dimension, 1);
+    const std::size_t n = axis == 0 ? 5 : axis == 1 ? 4 : 2;
+    ASSERT_THAT(set->cells, SizeIs(n)) << name;
+    const auto end = [&](std::size_t c, int k) {
+      const CellRef ref = set->cells[c];
+      return at(mesh, mesh.blocks[static_cast<std::size_t>(ref.block)].cell(ref.cell)[k]);
+    };
+    EXPECT_EQ(end(0, 0), from) << name;
+    EXPECT_EQ(end(n - 1, 1), to) << name;
+  };
+  check("b.bottom_front", 0, {0.1, -1, 2}, {3, -1, 2});
+  check("b.top_back", 0, {0.1, 0.3, 2.5}, {3, 0.3, 2.5});
+  check("b.bottom_right", 1, {3, -1, 2}, {3, 0.3, 2});
+  check("b.top_left", 1, {0.1, -1, 2.5}, {0.1, 0.3, 2.5});
+  check("b.front_right", 2, {3, -1, 2}, {3, -1, 2.5});
+  check("b.back_left", 2, {0.1, 0.3, 2}, {0.1, 0.3, 2.5});
+  EXPECT_THAT(mesh.sets, SizeIs(1 + 6 + 12 + 8));
+}
+
+// The middle of an edge, face or cell of a straight cell is the mean of the corners around it.
+TEST_P(SolidBox, FurtherNodesLieInTheMiddle) {
+  const Mesh mesh = make(graded_box(GetParam()));
+  const cell::CellInfo& info = cell::info(GetParam());
+  for (const CellRef ref : mesh.find_set("b")->cells) {
+    const Index* const nodes = mesh.blocks[static_cast<std::size_t>(ref.block)].cell(ref.cell);
+    for (int f = 0; f < info.face_count; ++f) {
+      const cell::CellFace& face = info.faces[static_cast<std::size_t>(f)];
+      const cell::CellInfo& area = cell::info(face.type);
+      if (area.order == 1) continue;
+      const auto n = static_cast<std::size_t>(area.corners);
+      Vec3 mean = Vec3::Zero();
+      for (std::size_t k = 0; k < n; ++k) {
+        const Vec3& a = at(mesh, nodes[face.nodes[k]]);
+        const Vec3& b = at(mesh, nodes[face.nodes[(k + 1) % n]]);
+        EXPECT_LE((at(mesh, nodes[face.nodes[n + k]]) - 0.5 * (a + b)).norm(), 1e-15);
+        mean += a / static_cast<double>(n);
+      }
+      if (area.nodes == 9) {
+        EXPECT_LE((at(mesh, nodes[face.nodes[8]]) - mean).norm(), 1e-15);
+      }
+    }
+  }
+}
+
+TEST_P(SolidBox, TurnsAboutAnyAxis) {
+  SolidBoxSpec spec = graded_box(GetParam());
+  const Mesh straight = make(spec);
+  spec.axis = {0, -3, 0};
+  spec.about = {1, 7, 2};
+  spec.angle = 90;
+  const Mesh turned = make(spec);
+  for (std::size_t i = 0; i < straight.nodes.size(); ++i) {
+    const Vec3 arm = straight.nodes[i] - spec.about;
+    const Vec3 expected(1 - arm.z(), 7 + arm.y(), 2 + arm.x());
+    EXPECT_LE((turned.nodes[i] - expected).norm(), 1e-15);
+  }
+  EXPECT_THAT(check_mesh(turned), IsEmpty());
+}
+
+TEST(SolidBoxes, ShareBlocksAndLeaveFurtherNodesApart) {
+  Mesh mesh;
+  append_solid_box(mesh, graded_box(CellType::hex8));
+  SolidBoxSpec second = graded_box(CellType::hex8);
+  second.name = "c";
+  append_solid_box(mesh, second);
+  EXPECT_EQ(mesh.find_set("c")->cells[0], (CellRef{0, 40}));
+  EXPECT_EQ(mesh.find_set("c")->nodes[0], 90);
+  EXPECT_THAT(mesh.blocks, SizeIs(3));
+  EXPECT_THAT(check_mesh(mesh), IsEmpty());
+}
+
+void expect_refusal(const std::function<void(SolidBoxSpec&)>& spoil, const std::string& message) {
+  Mesh mesh;
+  mesh.sets.push_back({"old.top", 2, {}, {0}});
+  SolidBoxSpec spec = graded_box(CellType::hex8);
+  spoil(spec);
+  try {
+    append_solid_box(mesh, spec, {"model.yaml", 7, "mesh.generate"});
+    ADD_FAILURE() << "accepted; expected: " << message;
+  } catch (const core::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr(message));
+    EXPECT_THAT(error.what(), HasSubstr("model.yaml:7: mesh.generate: box '"));
+  }
+  EXPECT_THAT(mesh.nodes, IsEmpty());
+  EXPECT_THAT(mesh.sets, SizeIs(1));
+  EXPECT_THAT(mesh.blocks, IsEmpty());
+}
+
+TEST(SolidBoxes, BadInputIsRefusedAndTheMeshUnchanged) {
+  const double nan = std::nan("");
+  expect_refusal([](SolidBoxSpec& s) { s.name = "old"; }, "already a set 'old.top'");
+  expect_refusal([](SolidBoxSpec& s) { s.type = CellType::quad4; },
+                 "cannot be made of quad4 cells with three coordinates");
+  expect_refusal([](SolidBoxSpec& s) { s.breaks[2] = {1}; }, "z needs at least two values");
+  expect_refusal([](SolidBoxSpec& s) { s.breaks[2] = {1, 1}; }, "z must increase; 1 follows 1");
+  expect_refusal([&](SolidBoxSpec& s) { s.breaks[1] = {0, nan}; }, "y must be finite");
+  expect_refusal([](SolidBoxSpec& s) { s.elements[2] = {1, 2}; }, "2 numbers of elements in z");
+  expect_refusal([](SolidBoxSpec& s) { s.elements[2] = {0}; }, "0 elements in z");
+  expect_refusal([](SolidBoxSpec& s) { s.bias[2] = {1, 2}; }, "2 bias values in z for 1");
+  expect_refusal([](SolidBoxSpec& s) { s.axis = {0, 0, 0}; }, "must have a direction");
+  expect_refusal([&](SolidBoxSpec& s) { s.angle = nan; }, "finite numbers");
+  expect_refusal([](SolidBoxSpec& s) { s.elements = {{{2000, 2}, {2000}, {2000}}}; }, "e+09 nodes");
+}
+
+// ---- balls --------------------------------------------------------------------------------------
+
+Mesh ball(CellType type, int n, std::array<int, 3> octant = {1, 1, 1}) {
+  BallSpec spec;
+  spec.name = "b";
+  spec.center = {1, -2, 3};
+  spec.radius = 2;
+  spec.core = spec.layers = n;
+  spec.octant = octant;
+  spec.type = type;
+  Mesh mesh;
+  append_ball(mesh, spec);
+  return mesh;
+}
+
+class Ball : public ::testing::TestWithParam<CellType> {};
+INSTANTIATE_TEST_SUITE_P(Types, Ball,
+                         ::testing::Values(CellType::hex8, CellType::hex20, CellType::hex27),
+                         [](const auto& tested) {
+                           return std::string(cell::info(tested.param).name);
+                         });
+
+TEST_P(Ball, IsSoundInEveryOctant) {
+  for (int k = 0; k < 8; ++k) {
+    const std::array<int, 3> octant{k % 2 == 0 ? 1 : -1, k / 2 % 2 == 0 ? 1 : -1, k < 4 ? 1 : -1};
+    const Mesh mesh = ball(GetParam(), 2, octant);
+    EXPECT_THAT(check_mesh(mesh), IsEmpty());
+    EXPECT_THAT(mesh.find_set("b")->cells, SizeIs(8 + 3 * 8));
+    EXPECT_THAT(mesh.find_set("b.surface")->cells, SizeIs(3 * 4));
+    EXPECT_THAT(mesh.find_set("b.plane_y")->cells, SizeIs(4 + 2 * 4));
+    for (const Index node : mesh.find_set("b.surface")->nodes) {
+      const Vec3 arm = at(mesh, node) - Vec3(1, -2, 3);
+      EXPECT_NEAR(arm.norm(), 2, 1e-15);
+      for (int c = 0; c < 3; ++c) EXPECT_GE(arm[c] * octant[static_cast<std::size_t>(c)], 0);
+    }
+    for (const Index node : mesh.find_set("b.plane_y")->nodes) EXPECT_EQ(at(mesh, node).y(), -2);
+    EXPECT_EQ(at(mesh, mesh.find_set("b.center")->nodes[0]), Vec3(1, -2, 3));
+    EXPECT_EQ(at(mesh, mesh.find_set("b.pole_z")->nodes[0]), Vec3(1, -2, 3 + 2.0 * octant[2]));
+    const Vec3 out = area_of_set(mesh, "b.surface");
+    const Vec3 in = area_of_set(mesh, "b.plane_x") + area_of_set(mesh, "b.plane_y") +
+                    area_of_set(mesh, "b.plane_z");
+    EXPECT_LE((out + in).norm(), 1e-13);
+    for (int c = 0; c < 3; ++c) EXPECT_GT(out[c] * octant[static_cast<std::size_t>(c)], 0);
+    EXPECT_THAT(surface_facets(mesh, *mesh.find_set("b")).warnings, IsEmpty());
+  }
+}
+
+TEST_P(Ball, VolumeConvergesWithTheOrderOfTheCells) {
+  const double exact = std::numbers::pi / 6 * 8;
+  const double coarse = std::abs(volume_of_set(ball(GetParam(), 4), "b") - exact);
+  const double fine = std::abs(volume_of_set(ball(GetParam(), 8), "b") - exact);
+  EXPECT_NEAR(std::log2(coarse / fine), cell::info(GetParam()).order == 1 ? 2 : 4, 0.1);
+}
+
+TEST(Balls, BiasRefinesTowardsTheSurface) {
+  BallSpec spec;
+  spec.name = "b";
+  spec.layers = 4;
+  spec.layer_bias = 0.125;
+  Mesh mesh;
+  append_ball(mesh, spec);
+  std::vector<double> z;
+  for (const Vec3& x : mesh.nodes)
+    if (x.x() == 0 && x.y() == 0 && x.z() > 0.49) z.push_back(x.z());
+  ASSERT_THAT(z, SizeIs(5));
+  EXPECT_NEAR((z[4] - z[3]) / (z[1] - z[0]), 0.125, 1e-13);
+  EXPECT_EQ(z[4], 1);
+}
+
+TEST(Balls, BadInputIsRefused) {
+  const auto refused = [](const std::function<void(BallSpec&)>& spoil, const char* message) {
+    BallSpec spec;
+    spec.name = "b";
+    spoil(spec);
+    Mesh mesh;
+    try {
+      append_ball(mesh, spec, {"model.yaml", 7, "mesh.generate"});
+      ADD_FAILURE() << "accepted; expected: " << message;
+    } catch (const core::InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(message));
+      EXPECT_THAT(error.what(), HasSubstr("model.yaml:7: mesh.generate: ball 'b': "));
+    }
+    EXPECT_THAT(mesh.nodes, IsEmpty());
+  };
+  refused([](BallSpec& s) { s.type = CellType::tet4; }, "cannot be made of tet4 cells");
+  refused([](BallSpec& s) { s.radius = 0; }, "positive number, not 0");
+  refused([](BallSpec& s) { s.center.x() = std::nan(""); }, "the center must be finite");
+  refused([](BallSpec& s) { s.octant = {1, 0, 1}; }, "not 0");
+  refused([](BallSpec& s) { s.core = 0; }, "0 elements in the core");
+  refused([](BallSpec& s) { s.layer_bias = -1; }, "bias -1 in the layers");
+  refused([](BallSpec& s) { s.core = 2000; }, "nodes; at most");
+}
+
+}  // namespace
+}  // namespace osculate::mesh
