@@ -8,6 +8,7 @@
 #include "osculate/io/gmsh.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/check.hpp"
+#include "osculate/mesh/surface.hpp"
 
 namespace {
 
@@ -17,9 +18,11 @@ void use(const osculate::mesh::Mesh& mesh) {
   for (const m::Finding& finding : m::check_mesh(mesh))
     if (finding.flaw == m::Flaw::bad_index || finding.flaw == m::Flaw::not_finite) std::abort();
   const m::EdgeTable table = m::edge_table(mesh);
+  const m::FaceTable faces = m::face_table(mesh);
   for (const m::Set& set : mesh.sets) {
     (void)m::surface_of(mesh, table, set);
-    if (set.dimension == 2) (void)m::connected_parts(mesh, set.cells);
+    (void)m::surface_of(mesh, faces, set);
+    if (set.dimension >= 2) (void)m::connected_parts(mesh, set.cells, m::Link::side);
   }
 }
 

@@ -193,16 +193,19 @@ TEST(Gmsh, CellsWithoutGroupAreInNoSet) {
   EXPECT_EQ(mesh.blocks[1].size(), 2);
 }
 
-TEST(Gmsh, NamedGroupsWithoutCellsAreEmptySetsAndVolumesAreNone) {
+TEST(Gmsh, NamedGroupsWithoutCellsAreEmptySets) {
   const Mesh mesh = read_gmsh(head2 +
-                                  "$PhysicalNames\n3\n1 4 \"edge of it\"\n3 9 \"edge of it\"\n2 1 "
+                                  "$PhysicalNames\n3\n1 4 \"edge of it\"\n3 9 \"body\"\n2 1 "
                                   "\"a\"\n$EndPhysicalNames\n" +
                                   nodes2 + "$Elements\n1\n1 2 2 1 1 1 2 3\n$EndElements\n",
                               "t");
-  ASSERT_THAT(mesh.sets, SizeIs(2));
+  ASSERT_THAT(mesh.sets, SizeIs(3));
   EXPECT_EQ(mesh.sets[0].name, "edge of it");
   EXPECT_THAT(mesh.sets[0].cells, IsEmpty());
   EXPECT_THAT(mesh.sets[1].cells, SizeIs(1));
+  EXPECT_EQ(mesh.sets[2].name, "body");
+  EXPECT_EQ(mesh.sets[2].dimension, 3);
+  EXPECT_THAT(mesh.sets[2].cells, IsEmpty());
 }
 
 TEST(Gmsh, OtherSectionsAreSkipped) {

@@ -10,6 +10,7 @@
 #include "osculate/core/error.hpp"
 #include "osculate/io/gmsh.hpp"
 #include "osculate/mesh/check.hpp"
+#include "osculate/mesh/surface.hpp"
 
 namespace osculate::io {
 namespace {
@@ -96,8 +97,8 @@ TEST(GmshBroken, Elements) {
   };
   expect_error(elements("1\n1 2 2 1 1 1 2 4\n"),
                "x.msh:12: $Elements: an element names node 4, which does not exist");
-  expect_error(elements("1\n1 4 2 1 1 1 2 3 3\n"),
-               "x.msh:12: $Elements: element type 4 (4-node tetrahedron) is not supported; "
+  expect_error(elements("1\n1 7 2 1 1 1 2 3 3 3\n"),
+               "x.msh:12: $Elements: element type 7 (5-node pyramid) is not supported; "
                "supported are 15 (point1) 1 (line2)");
   expect_error(elements("1\n1 777 2 1 1 1 2 3\n"), "element type 777 is not supported");
   expect_error(elements("1\n1 -1 2 1 1 1 2 3\n"), "element type -1 is not supported");
@@ -152,7 +153,9 @@ TEST(GmshBroken, Version4) {
   expect_error(spoiled("2 1 2 1\n", "1 1 2 1\n"),
                "elements of type 2 (tri3) in an entity of dimension 1");
   expect_error(spoiled("2 1 2 1\n", "2 1 5 1\n"),
-               "element type 5 (8-node hexahedron) is not supported");
+               "elements of type 5 (hex8) in an entity of dimension 2");
+  expect_error(spoiled("2 1 2 1\n", "2 1 7 1\n"),
+               "element type 7 (5-node pyramid) is not supported");
   expect_error(spoiled("1 1 2 3\n", "1 1 2 9\n"), "names node 9, which does not exist");
   expect_error(spoiled("1 5 0\n", "1 0 0\n"), "the tag of a physical group must not be 0");
   expect_error(spoiled("1 5 0\n", "77777 5 0\n"), "77777 tags of physical groups announced");
@@ -200,7 +203,8 @@ INSTANTIATE_TEST_SUITE_P(Samples, EverySample,
                          ::testing::Values("blocks_22.msh", "blocks_41.msh", "blocks_22_binary.msh",
                                            "blocks_41_binary.msh", "partitioned_41.msh",
                                            "partitioned_41_binary.msh", "parametric_41.msh",
-                                           "mixed_2_41.msh"));
+                                           "mixed_2_41.msh", "solids_1_22_binary.msh",
+                                           "solids_3_41.msh"));
 
 TEST_P(EverySample, CutAnywhereIsAnInputError) {
   const std::string content = read_file(data_dir + GetParam());
@@ -225,6 +229,8 @@ TEST_P(EverySample, ChangedBytesGiveAMeshOrAnInputError) {
           ASSERT_NE(finding.flaw, mesh::Flaw::bad_index) << i;
           ASSERT_NE(finding.flaw, mesh::Flaw::not_finite) << i;
         }
+        const mesh::FaceTable faces = mesh::face_table(mesh);
+        for (const mesh::Set& set : mesh.sets) (void)mesh::surface_of(mesh, faces, set);
       } catch (const core::InputError&) {
       }
     }

@@ -6,6 +6,8 @@
 #include <sys/resource.h>
 #include <zlib.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <csignal>
@@ -16,6 +18,7 @@
 #include "osculate/io/atomic_file.hpp"
 #include "osculate/io/gmsh.hpp"
 #include "osculate/mesh/generate.hpp"
+#include "osculate/mesh/generate_space.hpp"
 
 namespace osculate::io {
 namespace {
@@ -192,6 +195,134 @@ TEST(VtuFile, ComponentsHaveNames) {
   const std::string tag = tag_with(read_file(path), "ComponentName0");
   EXPECT_EQ(attribute(tag, "ComponentName0"), "XX");
   EXPECT_EQ(attribute(tag, "ComponentName1"), "YY");
+  std::filesystem::remove(path);
+}
+
+// ---- in space -----------------------------------------------------------------------------------
+
+/// Nodes of VTK's quadratic cells between which corners they lie, as in the format's description.
+using Edges = std::vector<std::pair<int, int>>;
+const Edges hex_edges{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                      {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
+const Edges wedge_edges{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+const Edges tet_edges{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
+
+TEST(VtuFile, VolumesAreInTheOrderOfVtk) {
+  struct Case {
+    cell::CellType type;
+    int vtk, corners, nodes;
+    Edges edges;
+  };
+  using enum cell::CellType;
+  const std::vector<Case> cases{{tet4, 10, 4, 4, {}},          {tet10, 24, 4, 10, tet_edges},
+                                {wedge6, 13, 6, 6, {}},        {wedge15, 26, 6, 15, wedge_edges},
+                                {hex8, 12, 8, 8, {}},          {hex20, 25, 8, 20, hex_edges},
+                                {hex27, 29, 8, 27, hex_edges}, {shell18, 12, 8, 8, {}}};
+  // middle nodes of triquadratic hexahedra: -x, +x, -y, +y, -z, +z
+  const std::array<std::array<int, 4>, 6> sides{
+      {{0, 3, 4, 7}, {1, 2, 5, 6}, {0, 1, 4, 5}, {2, 3, 6, 7}, {0, 1, 2, 3}, {4, 5, 6, 7}}};
+  for (const Case& c : cases) {
+    mesh::SolidBoxSpec spec;
+    spec.name = "b";
+    spec.breaks = {{{0, 2}, {0, 1}, {0, 0.5}}};
+    spec.elements = {{{1}, {1}, {1}}};
+    spec.type = c.type;
+    mesh::Mesh mesh;
+    append_solid_box(mesh, spec);
+    const std::string path = temp("volumes.vtu");
+    write_vtu(path, {mesh.nodes, std::span(mesh.blocks).first(1), {}, {}});
+    const std::string content = read_file(path);
+    const auto cells = array<std::int64_t>(content, "connectivity", "Int64");
+    const auto offsets = array<std::int64_t>(content, "offsets", "Int64");
+    const auto count = static_cast<std::size_t>(mesh.blocks[0].size());
+    ASSERT_EQ(offsets.size(), count);
+    ASSERT_EQ(cells.size(), count * static_cast<std::size_t>(c.nodes));
+    EXPECT_EQ(offsets.back(), static_cast<std::int64_t>(cells.size()));
+    for (const std::uint8_t type : array<std::uint8_t>(content, "types", "UInt8"))
+      EXPECT_EQ(type, c.vtk);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto x = [&](int k) -> const Vec3& {
+        return mesh.nodes[static_cast<std::size_t>(
+            cells[i * static_cast<std::size_t>(c.nodes) + static_cast<std::size_t>(k)])];
+      };
+      for (std::size_t e = 0; e < c.edges.size(); ++e)
+        EXPECT_EQ(x(c.corners + static_cast<int>(e)),
+                  Vec3(0.5 * (x(c.edges[e].first) + x(c.edges[e].second))));
+      const Vec3 a = x(1) - x(0);
+      const Vec3 b = x(c.corners == 8 ? 3 : 2) - x(0);
+      const Vec3 up = x(c.corners == 8 ? 4 : 3) - x(0);
+      EXPECT_GT(a.cross(b).dot(up), 0);
+      if (c.nodes != 27) continue;
+      for (std::size_t s = 0; s < 6; ++s) {
+        Vec3 mean = Vec3::Zero();
+        for (const int k : sides[s]) mean += 0.25 * x(k);
+        EXPECT_EQ(x(20 + static_cast<int>(s)), mean);
+      }
+      EXPECT_EQ(x(26), Vec3(1, 0.5, 0.25));
+    }
+    std::filesystem::remove(path);
+  }
+}
+
+TEST(VtuFields, VectorsAndTensorsNameTheirComponents) {
+  const std::vector<Vec3> u{{1, 2, 3}, {4, 5, 6}};
+  const Field vector = vector_field("U", u);
+  EXPECT_EQ(vector.components, 3);
+  EXPECT_THAT(vector.values, ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(vector.component_names, ElementsAre("X", "Y", "Z"));
+  const std::vector<std::array<double, 6>> s{{1, 2, 3, 4, 5, 6}};
+  const Field tensor = tensor_field("S", s);
+  EXPECT_EQ(tensor.components, 6);
+  EXPECT_THAT(tensor.values, ElementsAre(1, 2, 3, 4, 5, 6));
+  EXPECT_THAT(tensor.component_names, ElementsAre("XX", "YY", "ZZ", "XY", "YZ", "XZ"));
+  EXPECT_EQ(scalar_field("p", {7}).components, 1);
+}
+
+TEST(SurfacePart, HasItsOwnNodesAndTheirFields) {
+  mesh::Mesh mesh;
+  mesh::SolidBoxSpec spec;
+  spec.name = "b";
+  spec.breaks = {{{0, 2}, {0, 1}, {0, 1}}};
+  spec.elements = {{{2}, {1}, {1}}};
+  spec.type = cell::CellType::wedge6;
+  append_solid_box(mesh, spec);
+  const mesh::Surface surface = surface_facets(mesh, *mesh.find_set("b"));
+  std::vector<mesh::SurfaceFacet> chosen;  // the right side and the top
+  for (const mesh::SurfaceFacet& facet : surface.facets) {
+    const auto on = [&](int axis, double value) {
+      return std::ranges::all_of(facet.nodes(), [&](Index n) {
+        return mesh.nodes[static_cast<std::size_t>(n)][axis] == value;
+      });
+    };
+    if (on(0, 2) || on(2, 1)) chosen.push_back(facet);
+  }
+  const SurfacePart part = surface_part(mesh.nodes, chosen, std::vector<Index>{0, 8});
+  EXPECT_THAT(part.nodes, ElementsAre(0, 2, 5, 6, 7, 8, 9, 10, 11));
+  ASSERT_EQ(part.blocks.size(), 3U);
+  EXPECT_EQ(part.blocks[0].type, cell::CellType::point1);
+  EXPECT_THAT(part.blocks[0].connectivity, ElementsAre(0));
+  EXPECT_EQ(part.blocks[1].type, cell::CellType::tri3);
+  EXPECT_EQ(part.blocks[1].size(), 4);
+  EXPECT_EQ(part.blocks[2].type, cell::CellType::quad4);
+  EXPECT_EQ(part.blocks[2].size(), 1);
+  std::size_t next = 0;
+  for (const mesh::Block& block : part.blocks)
+    for (const mesh::SurfaceFacet& facet : chosen) {
+      if (facet.type != block.type) continue;
+      for (const Index node : facet.nodes())
+        EXPECT_EQ(part.points[static_cast<std::size_t>(
+                      block.connectivity[next++ % block.connectivity.size()])],
+                  mesh.nodes[static_cast<std::size_t>(node)]);
+      if (next == block.connectivity.size()) next = 0;
+    }
+  const Field whole = vector_field("X", mesh.nodes);
+  const Field field = on_part(whole, part);
+  EXPECT_EQ(field.components, 3);
+  EXPECT_EQ(field.values, vector_field("X", part.points).values);
+  const std::string path = temp("surface.vtu");
+  write_vtu(path, {part.points, part.blocks, std::array{field}, {}});
+  EXPECT_THAT(array<std::uint8_t>(read_file(path), "types", "UInt8"),
+              ElementsAre(1, 5, 5, 5, 5, 9));
   std::filesystem::remove(path);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "osculate/mesh/generate.hpp"
+#include "osculate/mesh/generate_space.hpp"
 
 namespace osculate::mesh {
 namespace {
@@ -91,6 +92,98 @@ TEST(Check, CellThatNamesANodeTwice) {
   mesh.blocks[0].connectivity[2] = mesh.blocks[0].connectivity[0];
   expect_one(mesh, Flaw::repeated_node, true,
              "1 cell(s) that name a node twice: quad4 on nodes 1 2 1 4");
+}
+
+// ---- in space -----------------------------------------------------------------------------------
+
+Mesh cube(CellType type = CellType::hex8) {
+  SolidBoxSpec spec;
+  spec.name = "b";
+  spec.breaks = {{{0, 2}, {0, 1}, {0, 1}}};
+  spec.elements = {{{2}, {1}, {1}}};
+  spec.type = type;
+  Mesh mesh;
+  append_solid_box(mesh, spec);
+  return mesh;
+}
+
+TEST(CheckSpace, JacobianOfABrickIsAnEighthOfItsVolume) {
+  const Mesh mesh = cube(CellType::hex27);
+  EXPECT_NEAR(smallest_jacobian(mesh, {0, 0}), 0.125, 1e-15);
+}
+
+TEST(CheckSpace, UnusedNode) {
+  Mesh mesh = cube();
+  mesh.nodes.emplace_back(7, 8, 0);
+  expect_one(mesh, Flaw::unused_node, false, "1 node(s) of no cell: 13 (7, 8, 0)");
+}
+
+TEST(CheckSpace, MirroredCellsAreInsideOut) {
+  for (const CellType type :
+       {CellType::tet4, CellType::tet10, CellType::wedge6, CellType::wedge15, CellType::hex8,
+        CellType::hex20, CellType::hex27, CellType::shell18}) {
+    Mesh mesh = cube(type);
+    EXPECT_THAT(check_mesh(mesh), IsEmpty());
+    for (Vec3& x : mesh.nodes) x.y() = -x.y();
+    const std::vector<Finding> findings = check_mesh(mesh);
+    ASSERT_THAT(findings, SizeIs(1)) << cell::info(type).name;
+    EXPECT_EQ(findings[0].flaw, Flaw::inside_out);
+    EXPECT_TRUE(findings[0].is_error);
+    EXPECT_EQ(findings[0].count, mesh.find_set("b")->cells.size());
+  }
+}
+
+TEST(CheckSpace, OneCornerPushedThroughTheCellIsNamed) {
+  Mesh mesh = cube();
+  mesh.nodes[0] = {1.5, 0.75, 0.75};
+  const std::vector<Finding> findings = check_mesh(mesh);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_EQ(findings[0].flaw, Flaw::inside_out);
+  EXPECT_EQ(findings[0].count, 1);
+  EXPECT_THAT(findings[0].message,
+              ::testing::HasSubstr("hex8 on nodes 1 2 5 4 7 8 11 10 (smallest Jacobian -"));
+}
+
+TEST(CheckSpace, FlatCellIsFound) {
+  Mesh mesh = cube(CellType::tet4);
+  for (Vec3& x : mesh.nodes) x.z() = 0;
+  const std::vector<Finding> findings = check_mesh(mesh);
+  EXPECT_EQ(findings.at(0).flaw, Flaw::inside_out);
+  EXPECT_EQ(findings.at(1).flaw, Flaw::double_node);
+}
+
+TEST(CheckSpace, VolumesThatAreThereTwice) {
+  Mesh mesh = cube();
+  std::vector<Index>& hexes = mesh.blocks[0].connectivity;
+  const std::vector<Index> first(hexes.begin(), hexes.begin() + 8);
+  hexes.insert(hexes.end(), first.begin(), first.end());
+  expect_one(mesh, Flaw::duplicate_volume, true,
+             "1 volume cell(s) that are there twice: hex8 on nodes 1 2 5 4 7 8 11 10");
+}
+
+TEST(CheckSpace, NodesOfOneBodyAtTheSamePlace) {
+  Mesh mesh;
+  for (const double x : {0.0, 1.0}) {
+    SolidBoxSpec spec;
+    spec.name = x == 0 ? "a" : "c";
+    spec.breaks = {{{x, x + 1}, {0, 1}, {0, 1}}};
+    spec.elements = {{{1}, {1}, {1}}};
+    append_solid_box(mesh, spec);
+  }
+  EXPECT_THAT(check_mesh(mesh), IsEmpty());  // two bodies that touch
+  Set whole{"whole", 3, {{0, 0}, {0, 1}}, {}};
+  for (Index i = 0; i < 16; ++i) whole.nodes.push_back(i);
+  mesh.sets.push_back(whole);
+  expect_one(mesh, Flaw::double_node, false,
+             "4 pair(s) of nodes of one body at the same place, so that it may not hang together: "
+             "2 and 9 (1, 0, 0) of 'whole', 6 and 13 (1, 0, 1) of 'whole', 4 and 11 (1, 1, 0) of "
+             "'whole', 8 and 15 (1, 1, 1) of 'whole'");
+}
+
+TEST(Check, SetWithoutNodes) {
+  Mesh mesh = square();
+  mesh.sets.push_back({"nothing", 1, {}, {}});
+  expect_one(mesh, Flaw::empty_set, false, "1 set(s) without nodes: 'nothing'");
 }
 
 TEST(Check, ReferencesToNothing) {
