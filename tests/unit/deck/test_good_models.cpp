@@ -93,7 +93,7 @@ TEST(GoodModels, GeneratedMeshRepeatsPlainNumbers) {
   EXPECT_EQ(box.bias[1], (std::vector<double>{0.5}));
   EXPECT_EQ(box.type.value, cell::CellType::quad8);
   EXPECT_EQ(box.crown->at.value, 1.5);
-  EXPECT_EQ(box.about, Vec2(1, 2));
+  EXPECT_EQ(box.about, Vec3(1, 2, 0));
   const Box& plate = std::get<Box>(d.mesh.generated[1].shape);
   EXPECT_EQ(plate.bias[0], (std::vector<double>{1}));
   EXPECT_EQ(plate.type.value, cell::CellType::quad4);

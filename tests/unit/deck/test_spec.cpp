@@ -64,7 +64,7 @@ TEST(Spec, CodesOfWordsAreUnique) {
   });
 }
 
-/// The full model uses every key that can be used, so that no key goes untested.
+/// The full models use every key that can be used, so that no key goes untested.
 TEST(Spec, FullModelUsesEveryKey) {
   std::set<std::string> used;
   const auto visit = [&](const auto& self, const SourceNode& node) -> void {
@@ -74,7 +74,8 @@ TEST(Spec, FullModelUsesEveryKey) {
       self(self, entry.value);
     }
   };
-  visit(visit, read_yaml(test_file("full.yaml"), "full.yaml"));
+  for (const char* const file : {"full.yaml", "parts.yaml"})
+    visit(visit, read_yaml(test_file(file), file));
   each([&](const std::string&, const Spec& spec) {
     for (const Key& key : spec.keys) {
       const bool tolerance = key.name == "residual";
