@@ -189,7 +189,7 @@ Spec ball_spec() {
                             .otherwise("[1, 1]")
                             .such_as("[1, 0.2]")),
        optional("octant", pair_of("Signs of x, y and z from the centre.",
-                                  integer("1 or -1.").at_least(-1).at_most(1))
+                                  integer("One sign, 1 or -1.").at_least(-1).at_most(1))
                               .count(3, 3)
                               .otherwise("[1, 1, 1]")
                               .such_as("[1, 1, -1]")),
