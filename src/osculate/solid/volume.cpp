@@ -1,0 +1,178 @@
+#include "osculate/solid/volume.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "osculate/solid/volume_enhanced.hpp"
+#include "osculate/solid/volume_mean_dilatation.hpp"
+#include "osculate/solid/volume_point.hpp"
+
+namespace osculate::solid {
+namespace {
+
+template <int N>
+void evaluate_full(const VolumeSection& section, cell::CellType type, const Coordinates3& reference,
+                   const Coordinates3& displacement, bool with_tangent, VolumeResult& out) {
+  using Sizes = VolumeSizes<N>;
+  const VolumeRule& rule = volume_rule(type);
+  const bool finite = section.kinematics == Kinematics::finite;
+  const typename Sizes::Nodal x = reference, u = displacement;
+  const Eigen::Index n = x.rows();
+  typename Sizes::Vector force = Sizes::Vector::Zero(3 * n);
+  typename Sizes::Matrix tangent = Sizes::Matrix::Zero(3 * n, 3 * n);
+  typename Sizes::NodeMatrix geometric = Sizes::NodeMatrix::Zero(n, n);
+  VolumePoint<N> p;
+  for (std::size_t q = 0; q < rule.weights.size(); ++q) {
+    if (!fill_point<N>(section.kinematics, rule.shape[q], rule.weights[q], x, u, p)) {
+      out.status = Status::inverted;
+      return;
+    }
+    const material::Response3 r = material::response(section.law, p.strain);
+    if (!r.ok) {
+      out.status = Status::material_failed;
+      return;
+    }
+    const material::Stress3 stress = p.volume * r.stress;
+    add_force(p.b, stress, force);
+    if (!with_tangent) continue;
+    add_material(p.b, p.volume * r.tangent, tangent);
+    if (finite) add_geometric(p.gradient, stress, geometric);
+  }
+  out.force = force;
+  if (!with_tangent) return;
+  finish_tangent(geometric, tangent);
+  out.tangent = tangent;
+}
+
+void evaluate_bbar(const VolumeSection& section, const Coordinates3& displacement,
+                   bool with_tangent, HexPoints& points, VolumeResult& out) {
+  const bool finite = section.kinematics == Kinematics::finite;
+  MeanDilatation3 mean;
+  if (finite)
+    mean = mean_dilatation(points);
+  else
+    average_volume_small(points, displacement);
+  const HexPoints& seen = finite ? mean.point : points;
+  HexSizes::Vector force = HexSizes::Vector::Zero();
+  HexSizes::Matrix tangent = HexSizes::Matrix::Zero();
+  HexSizes::NodeMatrix geometric = HexSizes::NodeMatrix::Zero();
+  std::array<material::Stress3, 8> stress;
+  for (std::size_t q = 0; q < 8; ++q) {
+    const HexPoint& p = seen[q];
+    const material::Response3 r = material::response(section.law, p.strain);
+    if (!r.ok) {
+      out.status = Status::material_failed;
+      return;
+    }
+    stress[q] = r.stress;
+    add_force(p.b, p.volume * r.stress, force);
+    if (with_tangent) add_material(p.b, p.volume * r.tangent, tangent);
+  }
+  out.force = force;
+  if (!with_tangent) return;
+  if (finite) add_mean_dilatation_geometric(points, stress, mean, tangent, geometric);
+  finish_tangent(geometric, tangent);
+  out.tangent = tangent;
+}
+
+/// Enhanced strains: the mode parameters are condensed out of force and tangent.
+void evaluate_enhanced(const VolumeSection& section, const Coordinates3& reference,
+                       bool with_tangent, const HexPoints& points, VolumeResult& out) {
+  const EnhancedModes3 e = enhanced_modes(section, reference, points);
+  if (!e.ok) {
+    out.status = Status::material_failed;
+    return;
+  }
+  HexSizes::Vector force = HexSizes::Vector::Zero();
+  HexSizes::Matrix tangent = HexSizes::Matrix::Zero();
+  HexSizes::NodeMatrix geometric = HexSizes::NodeMatrix::Zero();
+  Mat<enhanced_count3, 24> coupling = Mat<enhanced_count3, 24>::Zero();
+  for (std::size_t q = 0; q < 8; ++q) {
+    const HexPoint& p = points[q];
+    const material::Stress3 stress = p.volume * e.response[q].stress;
+    add_force(p.b, stress, force);
+    if (!with_tangent) continue;
+    const material::Tangent3 d = p.volume * e.response[q].tangent;
+    add_material(p.b, d, tangent);
+    const Mat<enhanced_count3, 6> weighted = e.matrix[q].transpose() * d;
+    coupling.noalias() += weighted * p.b;
+    if (section.kinematics == Kinematics::finite) add_geometric(p.gradient, stress, geometric);
+  }
+  out.force = force;
+  if (!with_tangent) return;
+  const Mat<enhanced_count3, 24> modes = e.stiffness.partialPivLu().solve(coupling);
+  tangent.noalias() -= coupling.transpose() * modes;
+  finish_tangent(geometric, tangent);
+  out.tangent = tangent;
+}
+
+bool is_volume(cell::CellType type) { return cell::info(type).dimension == 3; }
+
+}  // namespace
+
+std::string_view unsupported(const VolumeSection& section, cell::CellType type) {
+  if (!is_volume(type)) return "only volume cells can be bodies in 3D";
+  const bool finite = section.kinematics == Kinematics::finite;
+  if (finite && !material::finite_strain(section.law))
+    return "linear_elastic is a law of small strains; use st_venant_kirchhoff or neo_hooke with "
+           "finite kinematics";
+  if (!finite && material::finite_strain(section.law))
+    return "the law is one of finite strains; use linear_elastic with small kinematics";
+  if (section.formulation == VolumeFormulation::full) return {};
+  if (section.formulation == VolumeFormulation::solid_shell)
+    return "formulation solid_shell is not available";
+  if (type != cell::CellType::hex8)
+    return "formulations bbar and enhanced exist for hex8 cells only; use full";
+  return {};
+}
+
+void evaluate(const VolumeSection& section, cell::CellType type, const Coordinates3& reference,
+              const Coordinates3& displacement, bool with_tangent, VolumeResult& out) {
+  const Eigen::Index dofs = 3 * reference.rows();
+  out.status = Status::ok;
+  out.force.setZero(dofs);
+  out.tangent.setZero(dofs, dofs);
+  if (section.formulation == VolumeFormulation::full) {
+    if (type == cell::CellType::hex8)
+      evaluate_full<8>(section, type, reference, displacement, with_tangent, out);
+    else if (type == cell::CellType::tet4)
+      evaluate_full<4>(section, type, reference, displacement, with_tangent, out);
+    else
+      evaluate_full<Eigen::Dynamic>(section, type, reference, displacement, with_tangent, out);
+    return;
+  }
+  HexPoints points;
+  if (!fill_points(section.kinematics, reference, displacement, points)) {
+    out.status = Status::inverted;
+    return;
+  }
+  if (section.formulation == VolumeFormulation::bbar)
+    evaluate_bbar(section, displacement, with_tangent, points, out);
+  else
+    evaluate_enhanced(section, reference, with_tangent, points, out);
+}
+
+VolumeVector volume_weights(cell::CellType type, const Coordinates3& reference) {
+  const VolumeRule& rule = volume_rule(type);
+  const Eigen::Index n = reference.rows();
+  VolumeVector weights = VolumeVector::Zero(n);
+  for (std::size_t q = 0; q < rule.weights.size(); ++q) {
+    const Mat<3, 3> j = reference.transpose() * rule.shape[q].d.topRows(n);
+    weights += rule.weights[q] * j.determinant() * rule.shape[q].n.head(n);
+  }
+  return weights;
+}
+
+double smallest_jacobian(cell::CellType type, const Coordinates3& reference) {
+  double smallest = std::numeric_limits<double>::infinity();
+  const auto visit = [&](const cell::VolumeShape& s) {
+    const Mat<3, 3> j = reference.transpose() * s.d.topRows(s.count);
+    smallest = std::min(smallest, j.determinant());
+  };
+  for (const cell::VolumeShape& s : volume_rule(type).shape) visit(s);
+  for (int k = 0; k < cell::info(type).nodes; ++k)
+    visit(cell::volume_shape(type, cell::volume_node(type, k)));
+  return smallest;
+}
+
+}  // namespace osculate::solid
