@@ -269,7 +269,13 @@ TEST(VolumeLocking, RubberBlockKeepsItsVolumeAtLargeStrain) {
   EXPECT_GT(squeezed(section(VolumeFormulation::full), 4, 0.2, 5, volume) / bbar, 2);
   const double enhanced = squeezed(section(VolumeFormulation::enhanced), 4, 0.2, 5, volume);
   EXPECT_NEAR(volume, 1, 4e-3);
-  EXPECT_NEAR(enhanced / bbar, 1, 0.05);
+  // two ways to the same answer: they approach each other with the mesh
+  const double gap = enhanced / bbar - 1;
+  const double coarse = squeezed(section(VolumeFormulation::enhanced), 2, 0.2, 5, volume) /
+                            squeezed(section(VolumeFormulation::bbar), 2, 0.2, 5, volume) -
+                        1;
+  EXPECT_GT(coarse, 0);
+  EXPECT_LT(std::abs(gap), 0.5 * coarse) << gap << " " << coarse;
 }
 
 // In all three directions at once, where the nine bending modes alone would still lock: the
