@@ -13,8 +13,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::string failure_message(System& system, const Model& model, const Step& step,
-                            const solve::StepResult<State>& result) {
+template <int Dim>
+std::string failure_message(BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                            const Step& step, const solve::StepResult<BasicState<Dim>>& result) {
   std::string text = fmt::format(
       "step '{}' stopped at {:.4g} of its length: {}", step.name,
       result.increments.empty() ? 0.0 : result.increments.back().fraction, result.reason);
@@ -25,12 +26,13 @@ std::string failure_message(System& system, const Model& model, const Step& step
 
 }  // namespace
 
-AnalysisResult run(const Model& model, const AnalysisOptions& options,
-                   const AnalysisObserver& observer) {
+template <int Dim>
+BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions& options,
+                             const BasicAnalysisObserver<Dim>& observer) {
   const auto start = std::chrono::steady_clock::now();
-  System system(model, options.threads);
+  BasicSystem<Dim> system(model, options.threads);
   la::DirectSolver solver;
-  AnalysisResult result;
+  BasicAnalysisResult<Dim> result;
   result.unknowns = system.dofs().unknowns();
   result.state = system.initial_state();
   Progress progress;
@@ -49,7 +51,8 @@ AnalysisResult run(const Model& model, const AnalysisOptions& options,
     progress.step = static_cast<Index>(s);
     progress.increment = 0;
     system.begin_step(step, result.state);
-    const auto on_increment = [&](const State& state, const solve::IncrementRecord& record) {
+    const auto on_increment = [&](const BasicState<Dim>& state,
+                                  const solve::IncrementRecord& record) {
       ++progress.increment;
       progress.fraction = record.fraction;
       progress.time = static_cast<double>(s) + record.fraction;
@@ -60,7 +63,7 @@ AnalysisResult run(const Model& model, const AnalysisOptions& options,
       progress.fraction = from;
       if (observer.cutback) observer.cutback(reason, progress, to, iterations);
     };
-    solve::StepResult<State> done =
+    solve::StepResult<BasicState<Dim>> done =
         solve::run_step(system, result.state, step.increments, options.increments, solver,
                         on_increment, on_cutback);
     result.state = done.state;
@@ -77,5 +80,8 @@ AnalysisResult run(const Model& model, const AnalysisOptions& options,
   result.seconds = seconds_since(start);
   return result;
 }
+
+template AnalysisResult run(const Model&, const AnalysisOptions&, const AnalysisObserver&);
+template AnalysisResult3 run(const Model3&, const AnalysisOptions&, const AnalysisObserver3&);
 
 }  // namespace osculate::model

@@ -27,20 +27,23 @@ struct StepRecord {
   std::vector<solve::IncrementRecord> increments;
 };
 
-struct AnalysisResult {
+template <int Dim>
+struct BasicAnalysisResult {
   solve::Outcome outcome = solve::Outcome::converged;
   std::string message;  ///< plain words
   std::vector<StepRecord> steps;
-  State state;         ///< last converged
-  State last_iterate;  ///< of the failed attempt (equal to `state` when done)
+  BasicState<Dim> state;         ///< last converged
+  BasicState<Dim> last_iterate;  ///< of the failed attempt (equal to `state` when done)
   double seconds = 0, seconds_solver = 0;
   Index unknowns = 0;
 };
 
 /// Hooks of an analysis. All may be empty.
-struct AnalysisObserver {
+template <int Dim>
+struct BasicAnalysisObserver {
   /// After the initial state and after each converged increment. Return false to stop.
-  std::function<bool(System&, const State&, const Progress&, const solve::IncrementRecord*)>
+  std::function<bool(BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
+                     const solve::IncrementRecord*)>
       converged;
   std::function<void(const std::string& reason, const Progress&, double to,
                      const std::vector<solve::IterationRecord>&)>
@@ -49,7 +52,14 @@ struct AnalysisObserver {
 
 /// Runs the steps of a model one after the other. Keeps everything converged when a step fails and
 /// says in `message` why: the reason of the solver and, where there is one, the free motion.
-[[nodiscard]] AnalysisResult run(const Model& model, const AnalysisOptions& options,
-                                 const AnalysisObserver& observer);
+template <int Dim>
+[[nodiscard]] BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model,
+                                           const AnalysisOptions& options,
+                                           const BasicAnalysisObserver<Dim>& observer);
+
+using AnalysisResult = BasicAnalysisResult<2>;
+using AnalysisResult3 = BasicAnalysisResult<3>;
+using AnalysisObserver = BasicAnalysisObserver<2>;
+using AnalysisObserver3 = BasicAnalysisObserver<3>;
 
 }  // namespace osculate::model

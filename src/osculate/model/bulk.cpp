@@ -5,45 +5,52 @@
 namespace osculate::model {
 namespace {
 
-void set_dofs(std::span<const Index> nodes, BulkBlock& out) {
-  out.dof_count = static_cast<int>(2 * nodes.size());
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    out.dofs[2 * k] = 2 * nodes[k];
-    out.dofs[2 * k + 1] = 2 * nodes[k] + 1;
-  }
+template <int Dim>
+void set_dofs(std::span<const Index> nodes, BasicBulkBlock<Dim>& out) {
+  out.dof_count = Dim * static_cast<int>(nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    for (int i = 0; i < Dim; ++i)
+      out.dofs[Dim * k + static_cast<std::size_t>(i)] = Dim * nodes[k] + i;
 }
 
-std::vector<double> to_vector(const solid::ElementVector& v) { return {v.begin(), v.end()}; }
+template <class Vector>
+std::vector<double> to_vector(const Vector& v) {
+  return {v.begin(), v.end()};
+}
 
 }  // namespace
 
-CellNodes cell_nodes(const Model& model, const mesh::CellRef& ref) {
-  const mesh::Block& block = model.mesh.blocks[static_cast<std::size_t>(ref.block)];
+CellNodes cell_nodes(const mesh::Mesh& mesh, const mesh::CellRef& ref) {
+  const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
   return {block.type,
           {block.cell(ref.cell), static_cast<std::size_t>(cell::info(block.type).nodes)}};
 }
 
-solid::Coordinates reference_of(const Model& model, std::span<const Index> nodes) {
-  solid::Coordinates x(static_cast<Eigen::Index>(nodes.size()), 2);
+template <int Dim>
+SolidCoordinates<Dim> reference_of(const BasicModel<Dim>& model, std::span<const Index> nodes) {
+  SolidCoordinates<Dim> x(static_cast<Eigen::Index>(nodes.size()), Dim);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     x.row(static_cast<Eigen::Index>(k)) =
         model.reference[static_cast<std::size_t>(nodes[k])].transpose();
   return x;
 }
 
-solid::Coordinates displacement_of(const Eigen::VectorXd& u, std::span<const Index> nodes) {
-  solid::Coordinates d(static_cast<Eigen::Index>(nodes.size()), 2);
+template <int Dim>
+SolidCoordinates<Dim> displacement_of(const Eigen::VectorXd& u, std::span<const Index> nodes) {
+  SolidCoordinates<Dim> d(static_cast<Eigen::Index>(nodes.size()), Dim);
   for (std::size_t k = 0; k < nodes.size(); ++k)
-    d.row(static_cast<Eigen::Index>(k)) = u.segment<2>(2 * nodes[k]).transpose();
+    d.row(static_cast<Eigen::Index>(k)) = u.segment<Dim>(Dim * nodes[k]).transpose();
   return d;
 }
 
-void evaluate_cell(const Model& model, const BulkSection& section, const mesh::CellRef& ref,
-                   const Eigen::VectorXd& u, bool with_tangent, BulkBlock& out) {
-  const CellNodes cell = cell_nodes(model, ref);
+template <int Dim>
+void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
+                   const mesh::CellRef& ref, const Eigen::VectorXd& u, bool with_tangent,
+                   BasicBulkBlock<Dim>& out) {
+  const CellNodes cell = cell_nodes(model.mesh, ref);
   set_dofs(cell.nodes, out);
   solid::evaluate(section.section, cell.type, reference_of(model, cell.nodes),
-                  displacement_of(u, cell.nodes), with_tangent, out.result);
+                  displacement_of<Dim>(u, cell.nodes), with_tangent, out.result);
   out.ok = out.result.status == solid::Status::ok;
   if (out.ok) return;
   out.message = fmt::format(
@@ -52,20 +59,34 @@ void evaluate_cell(const Model& model, const BulkSection& section, const mesh::C
                                                    : "has a strain its material cannot answer");
 }
 
-void pressure_block(const Model& model, const solid::Section& section, std::span<const Index> nodes,
-                    const Eigen::VectorXd& u, double pressure, BulkBlock& out) {
-  set_dofs(nodes, out);
-  solid::PressureResult result = solid::edge_pressure(section, reference_of(model, nodes),
-                                                      displacement_of(u, nodes), pressure);
-  out.result.force = result.force;
-  out.result.tangent = result.tangent;
+template <int Dim>
+void pressure_block(const BasicModel<Dim>& model, const PressureLoad::Facet& facet,
+                    const Eigen::VectorXd& u, double pressure, BasicBulkBlock<Dim>& out) {
+  set_dofs(std::span<const Index>(facet.nodes), out);
+  const SolidSection<Dim>& section =
+      model.sections[static_cast<std::size_t>(facet.section)].section;
+  const auto add = [&](const auto& result) {
+    out.result.force = result.force;
+    out.result.tangent = result.tangent;
+  };
+  if constexpr (Dim == 2)
+    add(solid::edge_pressure(section, reference_of(model, facet.nodes),
+                             displacement_of<2>(u, facet.nodes), pressure));
+  else
+    add(solid::face_pressure(section, facet.type, reference_of(model, facet.nodes),
+                             displacement_of<3>(u, facet.nodes), pressure));
 }
 
-std::vector<double> cell_weights(const Model& model, const BulkSection& section,
+template <int Dim>
+std::vector<double> cell_weights(const BasicModel<Dim>& model,
+                                 [[maybe_unused]] const BasicBulkSection<Dim>& section,
                                  const mesh::CellRef& ref) {
-  const CellNodes cell = cell_nodes(model, ref);
-  return to_vector(
-      solid::volume_weights(section.section, cell.type, reference_of(model, cell.nodes)));
+  const CellNodes cell = cell_nodes(model.mesh, ref);
+  if constexpr (Dim == 2)
+    return to_vector(
+        solid::volume_weights(section.section, cell.type, reference_of(model, cell.nodes)));
+  else
+    return to_vector(solid::volume_weights(cell.type, reference_of(model, cell.nodes)));
 }
 
 std::vector<double> edge_weights(const Model& model, const solid::Section& section,
@@ -73,9 +94,32 @@ std::vector<double> edge_weights(const Model& model, const solid::Section& secti
   return to_vector(solid::edge_weights(section, reference_of(model, nodes)));
 }
 
-double smallest_jacobian(const Model& model, const mesh::CellRef& ref) {
-  const CellNodes cell = cell_nodes(model, ref);
+std::vector<double> face_weights(const Model3& model, cell::CellType type,
+                                 std::span<const Index> nodes) {
+  return to_vector(solid::face_weights(type, reference_of(model, nodes)));
+}
+
+template <int Dim>
+double smallest_jacobian(const BasicModel<Dim>& model, const mesh::CellRef& ref) {
+  const CellNodes cell = cell_nodes(model.mesh, ref);
   return solid::smallest_jacobian(cell.type, reference_of(model, cell.nodes));
 }
+
+template SolidCoordinates<2> reference_of(const Model&, std::span<const Index>);
+template SolidCoordinates<3> reference_of(const Model3&, std::span<const Index>);
+template SolidCoordinates<2> displacement_of<2>(const Eigen::VectorXd&, std::span<const Index>);
+template SolidCoordinates<3> displacement_of<3>(const Eigen::VectorXd&, std::span<const Index>);
+template void evaluate_cell(const Model&, const BulkSection&, const mesh::CellRef&,
+                            const Eigen::VectorXd&, bool, BulkBlock&);
+template void evaluate_cell(const Model3&, const BulkSection3&, const mesh::CellRef&,
+                            const Eigen::VectorXd&, bool, BulkBlock3&);
+template void pressure_block(const Model&, const PressureLoad::Facet&, const Eigen::VectorXd&,
+                             double, BulkBlock&);
+template void pressure_block(const Model3&, const PressureLoad::Facet&, const Eigen::VectorXd&,
+                             double, BulkBlock3&);
+template std::vector<double> cell_weights(const Model&, const BulkSection&, const mesh::CellRef&);
+template std::vector<double> cell_weights(const Model3&, const BulkSection3&, const mesh::CellRef&);
+template double smallest_jacobian(const Model&, const mesh::CellRef&);
+template double smallest_jacobian(const Model3&, const mesh::CellRef&);
 
 }  // namespace osculate::model

@@ -9,38 +9,54 @@
 namespace osculate::model {
 
 /// Internal force and tangent of one bulk cell, or the force of a pressure on one edge.
-struct BulkBlock {
+template <int Dim>
+struct BasicBulkBlock {
   bool ok = true;
   std::string message;
   int dof_count = 0;
-  std::array<Dof, 2 * solid::max_nodes> dofs{};
-  solid::ElementResult result;
+  std::array<Dof, Dim * BulkTraits<Dim>::max_nodes> dofs{};
+  typename BulkTraits<Dim>::Result result;
 };
 
 /// Evaluates one cell at the nodal displacements `u`.
-void evaluate_cell(const Model& model, const BulkSection& section, const mesh::CellRef& cell,
-                   const Eigen::VectorXd& u, bool with_tangent, BulkBlock& out);
+template <int Dim>
+void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
+                   const mesh::CellRef& cell, const Eigen::VectorXd& u, bool with_tangent,
+                   BasicBulkBlock<Dim>& out);
 
-/// External nodal forces of a pressure on one boundary edge, and their derivative (follower load).
-void pressure_block(const Model& model, const solid::Section& section, std::span<const Index> nodes,
-                    const Eigen::VectorXd& u, double pressure, BulkBlock& out);
+/// External nodal forces of a pressure on one boundary facet, and their derivative (follower load).
+template <int Dim>
+void pressure_block(const BasicModel<Dim>& model, const PressureLoad::Facet& facet,
+                    const Eigen::VectorXd& u, double pressure, BasicBulkBlock<Dim>& out);
 
-/// Share of each node in a unit body force over a cell / a unit traction over an edge.
-[[nodiscard]] std::vector<double> cell_weights(const Model& model, const BulkSection& section,
+/// Share of each node in a unit body force over a cell.
+template <int Dim>
+[[nodiscard]] std::vector<double> cell_weights(const BasicModel<Dim>& model,
+                                               const BasicBulkSection<Dim>& section,
                                                const mesh::CellRef& cell);
+/// Share of each node in a unit traction over an edge (2D) or a face (3D).
 [[nodiscard]] std::vector<double> edge_weights(const Model& model, const solid::Section& section,
                                                std::span<const Index> nodes);
-[[nodiscard]] double smallest_jacobian(const Model& model, const mesh::CellRef& cell);
+[[nodiscard]] std::vector<double> face_weights(const Model3& model, cell::CellType type,
+                                               std::span<const Index> nodes);
+template <int Dim>
+[[nodiscard]] double smallest_jacobian(const BasicModel<Dim>& model, const mesh::CellRef& cell);
 
 /// Reference coordinates and displacements of some nodes.
-[[nodiscard]] solid::Coordinates reference_of(const Model& model, std::span<const Index> nodes);
-[[nodiscard]] solid::Coordinates displacement_of(const Eigen::VectorXd& u,
+template <int Dim>
+[[nodiscard]] SolidCoordinates<Dim> reference_of(const BasicModel<Dim>& model,
                                                  std::span<const Index> nodes);
+template <int Dim>
+[[nodiscard]] SolidCoordinates<Dim> displacement_of(const Eigen::VectorXd& u,
+                                                    std::span<const Index> nodes);
 /// Nodes and type of a cell.
 struct CellNodes {
   cell::CellType type;
   std::span<const Index> nodes;
 };
-[[nodiscard]] CellNodes cell_nodes(const Model& model, const mesh::CellRef& cell);
+[[nodiscard]] CellNodes cell_nodes(const mesh::Mesh& mesh, const mesh::CellRef& cell);
+
+using BulkBlock = BasicBulkBlock<2>;
+using BulkBlock3 = BasicBulkBlock<3>;
 
 }  // namespace osculate::model

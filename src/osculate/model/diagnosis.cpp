@@ -2,15 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "osculate/model/bulk.hpp"
 
 namespace osculate::model {
 namespace {
 
 /// Connected groups of the nodes used by bulk cells.
-std::vector<std::vector<Index>> deformable_bodies(const Model& model) {
+template <int Dim>
+std::vector<std::vector<Index>> deformable_bodies(const BasicModel<Dim>& model) {
   std::vector<Index> parent(model.reference.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](Index n) {
@@ -22,13 +28,12 @@ std::vector<std::vector<Index>> deformable_bodies(const Model& model) {
     return n;
   };
   std::vector<bool> used(parent.size(), false);
-  for (const BulkSection& section : model.sections)
+  for (const BasicBulkSection<Dim>& section : model.sections)
     for (const mesh::CellRef& ref : section.cells) {
-      const mesh::Block& block = model.mesh.blocks[static_cast<std::size_t>(ref.block)];
-      const Index* const nodes = block.cell(ref.cell);
-      for (int k = 0; k < cell::info(block.type).nodes; ++k) {
-        used[static_cast<std::size_t>(nodes[k])] = true;
-        parent[static_cast<std::size_t>(root(nodes[k]))] = root(nodes[0]);
+      const std::span<const Index> nodes = cell_nodes(model.mesh, ref).nodes;
+      for (const Index node : nodes) {
+        used[static_cast<std::size_t>(node)] = true;
+        parent[static_cast<std::size_t>(root(node))] = root(nodes[0]);
       }
     }
   std::vector<std::vector<Index>> bodies;
@@ -45,104 +50,214 @@ std::vector<std::vector<Index>> deformable_bodies(const Model& model) {
   return bodies;
 }
 
-std::string body_name(const Model& model, Index node) {
-  for (const BulkSection& section : model.sections)
+template <int Dim>
+std::string body_name(const BasicModel<Dim>& model, Index node) {
+  for (const BasicBulkSection<Dim>& section : model.sections)
     for (const mesh::CellRef& ref : section.cells) {
-      const mesh::Block& block = model.mesh.blocks[static_cast<std::size_t>(ref.block)];
-      for (int k = 0; k < cell::info(block.type).nodes; ++k)
-        if (block.cell(ref.cell)[k] == node) return section.name;
+      const std::span<const Index> nodes = cell_nodes(model.mesh, ref).nodes;
+      if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return section.name;
     }
   return "?";
 }
 
+/// Rigid motions of one body, one a column: translations, then rotations about the centroid.
+template <int Dim>
 struct Modes {
-  Eigen::MatrixXd z;  ///< unknowns x 3
-  Vec2 center{0, 0};
+  Eigen::MatrixXd z;  ///< unknowns x motions
+  Vec<Dim> center = Vec<Dim>::Zero();
   double size = 1;
 };
 
-Modes rigid_modes(const System& system, const std::vector<Index>& nodes,
-                  const std::vector<Vec2>& x) {
-  Modes modes;
+Mat<2, 1> turned(const Vec2& arm) { return turn(arm); }
+Mat<3, 3> turned(const Vec3& arm) { return -body::cross_matrix(arm); }
+
+template <int Dim>
+Modes<Dim> rigid_modes(const BasicSystem<Dim>& system, const std::vector<Index>& nodes,
+                       const std::vector<Vec<Dim>>& x) {
+  Modes<Dim> modes;
   for (const Index n : nodes) modes.center += x[static_cast<std::size_t>(n)];
   modes.center /= static_cast<double>(nodes.size());
   double sum = 0;
   for (const Index n : nodes) sum += (x[static_cast<std::size_t>(n)] - modes.center).squaredNorm();
   modes.size = std::sqrt(sum / static_cast<double>(nodes.size()));
-  modes.z = Eigen::MatrixXd::Zero(system.dofs().unknowns(), 3);
+  modes.z = Eigen::MatrixXd::Zero(system.dofs().unknowns(), body::motions<Dim>);
   for (const Index n : nodes) {
-    const Vec2 turned = turn(x[static_cast<std::size_t>(n)] - modes.center) / modes.size;
-    for (int i = 0; i < 2; ++i) {
+    const Mat<Dim, body::rotations<Dim>> turns =
+        turned(Vec<Dim>(x[static_cast<std::size_t>(n)] - modes.center)) / modes.size;
+    for (int i = 0; i < Dim; ++i) {
       const Index u = system.dofs().unknown_of(system.dofs().node_dof(n, i));
       if (u < 0) continue;
       modes.z(u, i) = 1;
-      modes.z(u, 2) = turned[i];
+      modes.z.template block<1, body::rotations<Dim>>(u, Dim) = turns.row(i);
     }
   }
   return modes;
 }
 
-}  // namespace
+/// Combinations of the modes that leave the prescribed unknowns alone.
+template <int Dim>
+Eigen::MatrixXd admissible(const BasicSystem<Dim>& system, const Eigen::MatrixXd& z) {
+  constexpr double smallest = 1e-12;
+  const Eigen::Index m = z.cols();
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(m, m);
+  for (Index u = 0; u < system.dofs().unknowns(); ++u)
+    if (system.prescribed(u)) gram += z.row(u).transpose() * z.row(u);
+  if (gram.isZero(0)) return Eigen::MatrixXd::Identity(m, m);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  Eigen::Index free = 0;
+  while (free < m && eigen.eigenvalues()[free] < smallest * eigen.eigenvalues()[m - 1]) ++free;
+  return eigen.eigenvectors().leftCols(free);
+}
 
-std::vector<FreeMotion> free_motions(System& system, const Model& model, const State& state) {
-  constexpr double threshold = 1e-6;
-  std::vector<FreeMotion> found;
-  const std::vector<Vec2> x = system.positions(state);
-  const la::SparseMatrix& k = system.matrix();
+/// Combines columns to plain ones: each has a component of its own (translations first) that the
+/// others lack.
+Eigen::MatrixXd plain_basis(Eigen::MatrixXd w) {
+  constexpr double smallest = 1e-6;
+  Eigen::Index done = 0;
+  for (Eigen::Index row = 0; row < w.rows() && done < w.cols(); ++row) {
+    Eigen::Index best = 0;
+    if (w.row(row).tail(w.cols() - done).cwiseAbs().maxCoeff(&best) < smallest) continue;
+    w.col(done).swap(w.col(done + best));
+    w.col(done) /= w(row, done);
+    for (Eigen::Index c = 0; c < w.cols(); ++c)
+      if (c != done) w.col(c) -= w(row, c) * Eigen::VectorXd(w.col(done));
+    ++done;
+  }
+  w.colwise().normalize();
+  return w;
+}
+
+/// Points where its largest component is positive; round-off becomes zero.
+template <class Vector>
+void make_plain(Vector& v) {
+  Eigen::Index largest = 0;
+  v.cwiseAbs().maxCoeff(&largest);
+  if (v[largest] < 0) v = -v;
+  for (double& component : v)
+    if (std::abs(component) < 1e-9) component = 0.0;
+}
+
+template <int Dim>
+BasicFreeMotion<Dim> motion_of(const Eigen::VectorXd& v, const Vec<Dim>& center, double ratio) {
+  BasicFreeMotion<Dim> motion;
+  motion.direction = v.head<Dim>();
+  if (motion.direction.norm() > 1e-6) motion.direction.normalize();
+  make_plain(motion.direction);
+  const double rotation = Dim == 2 ? v[2] : v.tail(v.size() - Dim).norm();
+  motion.rotation = std::abs(rotation) > 1e-6 ? rotation : 0.0;
+  if constexpr (Dim == 3)
+    if (motion.rotation > 0) {
+      motion.axis = v.tail<3>() / rotation;
+      make_plain(motion.axis);
+    }
+  motion.center = center;
+  motion.stiffness_ratio = ratio;
+  return motion;
+}
+
+double stiffest_diagonal(const la::SparseMatrix& k, const std::vector<bool>& prescribed) {
   double stiffest = 0;
   for (Index row = 0; row < k.n; ++row)
     for (Index e = k.row_start[static_cast<std::size_t>(row)];
          e < k.row_start[static_cast<std::size_t>(row) + 1]; ++e)
-      if (k.column[static_cast<std::size_t>(e)] == row && !system.prescribed(row))
+      if (k.column[static_cast<std::size_t>(e)] == row &&
+          !prescribed[static_cast<std::size_t>(row)])
         stiffest = std::max(stiffest, std::abs(k.value[static_cast<std::size_t>(e)]));
+  return stiffest;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<BasicFreeMotion<Dim>> free_motions(BasicSystem<Dim>& system,
+                                               const BasicModel<Dim>& model,
+                                               const BasicState<Dim>& state) {
+  constexpr double threshold = 1e-6;
+  std::vector<BasicFreeMotion<Dim>> found;
+  const std::vector<Vec<Dim>> x = system.positions(state);
+  const la::SparseMatrix& k = system.matrix();
+  std::vector<bool> prescribed(static_cast<std::size_t>(k.n));
+  for (Index u = 0; u < k.n; ++u) prescribed[static_cast<std::size_t>(u)] = system.prescribed(u);
+  const double stiffest = stiffest_diagonal(k, prescribed);
   for (const std::vector<Index>& nodes : deformable_bodies(model)) {
-    const Modes modes = rigid_modes(system, nodes, x);
-    Eigen::MatrixXd kz(k.n, 3);
-    bool held = false;
-    for (Index u = 0; u < k.n; ++u)
-      if (system.prescribed(u) && modes.z.row(u).norm() > 0) held = true;
-    for (int j = 0; j < 3; ++j) kz.col(j) = la::multiply(k, modes.z.col(j));
-    if (held) continue;  // prescribed nodes hold this body; contact alone decides for the others
-    const Eigen::Matrix3d g = modes.z.transpose() * kz;
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(g, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    for (int j = 0; j < 3; ++j) {
-      const double ratio = stiffest > 0 ? svd.singularValues()[j] / stiffest : 0.0;
-      if (ratio > threshold) continue;
-      FreeMotion motion;
-      motion.body = body_name(model, nodes.front());
-      const Eigen::Vector3d v = svd.matrixV().col(j);
-      motion.direction = v.head<2>();
-      if (motion.direction.norm() > 1e-6) motion.direction.normalize();
-      Eigen::Index largest = 0;
-      motion.direction.cwiseAbs().maxCoeff(&largest);
-      if (motion.direction[largest] < 0) motion.direction = -motion.direction;
-      for (double& component : motion.direction)
-        if (std::abs(component) < 1e-9) component = 0.0;
-      motion.rotation = std::abs(v[2]) > 1e-6 ? v[2] : 0.0;
-      motion.center = modes.center;
-      motion.stiffness_ratio = ratio;
-      found.push_back(motion);
+    const Modes<Dim> modes = rigid_modes(system, nodes, x);
+    const Eigen::MatrixXd free = admissible(system, modes.z);
+    if (free.cols() == 0) continue;
+    const Eigen::MatrixXd z = modes.z * free;
+    Eigen::MatrixXd kz(k.n, z.cols());
+    for (Eigen::Index j = 0; j < z.cols(); ++j) kz.col(j) = la::multiply(k, z.col(j));
+    const Eigen::MatrixXd g = z.transpose() * kz;
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(g, Eigen::ComputeFullV);
+    const auto ratio = [&](Eigen::Index j) {
+      return stiffest > 0 ? svd.singularValues()[j] / stiffest : 0.0;
+    };
+    Eigen::Index first = 0;  // singular values fall
+    while (first < g.cols() && ratio(first) > threshold) ++first;
+    if (first == g.cols()) continue;
+    const Eigen::Index count = g.cols() - first;
+    Eigen::MatrixXd w = free * svd.matrixV().rightCols(count);
+    if (count > 1) w = plain_basis(std::move(w));
+    const std::string name = body_name(model, nodes.front());
+    for (Eigen::Index j = 0; j < count; ++j) {
+      found.push_back(motion_of<Dim>(w.col(j), modes.center, ratio(first + j)));
+      found.back().body = name;
     }
   }
   return found;
 }
 
-std::string free_motion_message(System& system, const Model& model, const State& state) {
+namespace {
+
+template <class Vector>
+std::string direction_text(const Vector& v) {
+  std::string text;
+  for (const double c : v) text += fmt::format("{}{:.4f}", text.empty() ? "(" : ", ", c);
+  return text + ")";
+}
+
+template <class Vector>
+std::string point_text(const Vector& v) {
+  std::string text;
+  for (const double c : v) text += fmt::format("{}{:.4g}", text.empty() ? "(" : ", ", c);
+  return text + ")";
+}
+
+template <int Dim>
+std::string motion_text(const BasicFreeMotion<Dim>& motion) {
+  if (std::abs(motion.rotation) <= 0.5) return "move along " + direction_text(motion.direction);
+  if (Dim == 2) return "turn about " + point_text(motion.center);
+  return fmt::format("turn about the axis {} through {}", direction_text(motion.axis),
+                     point_text(motion.center));
+}
+
+}  // namespace
+
+template <int Dim>
+std::string free_motion_message(BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                                const BasicState<Dim>& state) {
   solve::Evaluation unused;
   system.evaluate(state, state, state.fraction, true, unused);
+  const std::vector<BasicFreeMotion<Dim>> motions = free_motions(system, model, state);
   std::string text;
-  for (const FreeMotion& motion : free_motions(system, model, state)) {
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    std::size_t last = i;
+    while (last + 1 < motions.size() && motions[last + 1].center == motions[i].center) ++last;
     if (!text.empty()) text += "; ";
-    text += fmt::format("body '{}' is free to ", motion.body);
-    const bool turns = std::abs(motion.rotation) > 0.5;
-    if (turns)
-      text += fmt::format("turn about ({:.4g}, {:.4g})", motion.center.x(), motion.center.y());
-    else
-      text +=
-          fmt::format("move along ({:.4f}, {:.4f})", motion.direction.x(), motion.direction.y());
-    text += fmt::format(" (resistance {:.1e} of its stiffness)", motion.stiffness_ratio);
+    text += fmt::format("body '{}' is free to ", motions[i].body);
+    if (last + 1 - i == static_cast<std::size_t>(body::motions<Dim>)) {
+      text += "move and turn in every direction: nothing holds it";
+      i = last;
+      continue;
+    }
+    text += fmt::format("{} (resistance {:.1e} of its stiffness)", motion_text(motions[i]),
+                        motions[i].stiffness_ratio);
   }
   return text;
 }
+
+template std::vector<FreeMotion> free_motions(System&, const Model&, const State&);
+template std::vector<FreeMotion3> free_motions(System3&, const Model3&, const State3&);
+template std::string free_motion_message(System&, const Model&, const State&);
+template std::string free_motion_message(System3&, const Model3&, const State3&);
 
 }  // namespace osculate::model

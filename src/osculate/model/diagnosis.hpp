@@ -7,22 +7,35 @@
 namespace osculate::model {
 
 /// A rigid motion of one body that the tangent hardly resists.
-struct FreeMotion {
+template <int Dim>
+struct BasicFreeMotion {
   std::string body;
-  Vec2 direction{0, 0};  ///< unit vector of a translation (zero for a pure rotation)
-  double rotation = 0;   ///< about the body's centroid, relative to the translation
-  Vec2 center{0, 0};
+  Vec<Dim> direction = Vec<Dim>::Zero();  ///< unit vector of a translation (zero: pure rotation)
+  double rotation = 0;  ///< about the body's centroid, relative to the translation
+  Vec3 axis{0, 0, 1};   ///< of the rotation
+  Vec<Dim> center = Vec<Dim>::Zero();
   double stiffness_ratio = 0;  ///< resistance relative to the body's own stiffness
 };
 
 /// Rigid-body modes of every deformable body that the tangent of the last evaluation does not
-/// resist in its forces: the singular values of Z^T K Z (Z = two translations and a rotation,
-/// scaled by the body's size) below 1e-6 of the body's own stiffness.
-[[nodiscard]] std::vector<FreeMotion> free_motions(System& system, const Model& model,
-                                                   const State& state);
+/// resist in its forces: the singular values of Z^T K Z (Z = translations and rotations, scaled by
+/// the body's size, as far as prescribed nodes allow them) below 1e-6 of the body's own stiffness.
+/// Several modes of one body are combined to plain ones: along x, y, z, then about the axes.
+///
+/// Tested by  tests/unit/model/test_diagnosis.cpp
+template <int Dim>
+[[nodiscard]] std::vector<BasicFreeMotion<Dim>> free_motions(BasicSystem<Dim>& system,
+                                                             const BasicModel<Dim>& model,
+                                                             const BasicState<Dim>& state);
 
-/// `body 'block' is free to move along (0.9578, 0.2873)`, or empty.
-[[nodiscard]] std::string free_motion_message(System& system, const Model& model,
-                                              const State& state);
+/// `body 'block' is free to move along (0.9578, 0.2873)`, or empty. A body that nothing holds gets
+/// one phrase for all its motions.
+template <int Dim>
+[[nodiscard]] std::string free_motion_message(BasicSystem<Dim>& system,
+                                              const BasicModel<Dim>& model,
+                                              const BasicState<Dim>& state);
+
+using FreeMotion = BasicFreeMotion<2>;
+using FreeMotion3 = BasicFreeMotion<3>;
 
 }  // namespace osculate::model

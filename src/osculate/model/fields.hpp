@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 #include <vector>
 
@@ -8,14 +9,21 @@ namespace osculate::model {
 
 /// Results at the nodes of the mesh (frame nodes left out), averaged over the cells that meet
 /// there.
-struct NodalFields {
-  std::vector<Vec2> displacement, reaction;
-  std::vector<std::array<double, 4>> stress;  ///< Cauchy: xx, yy, zz, xy
-  std::vector<std::array<double, 4>> strain;  ///< small or Green-Lagrange: xx, yy, zz, xy
+template <int Dim>
+struct BasicNodalFields {
+  using Tensor = std::array<double, BulkTraits<Dim>::tensor>;  ///< xx, yy, zz, xy (3D: yz, xz)
+  std::vector<Vec<Dim>> displacement, reaction;
+  std::vector<Tensor> stress;  ///< Cauchy
+  std::vector<Tensor> strain;  ///< small or Green-Lagrange, half the shear angles
   std::vector<double> mises;
 };
 
-[[nodiscard]] NodalFields nodal_fields(const System& system, const Model& model,
-                                       const State& state);
+template <int Dim>
+[[nodiscard]] BasicNodalFields<Dim> nodal_fields(const BasicSystem<Dim>& system,
+                                                 const BasicModel<Dim>& model,
+                                                 const BasicState<Dim>& state);
+
+using NodalFields = BasicNodalFields<2>;
+using NodalFields3 = BasicNodalFields<3>;
 
 }  // namespace osculate::model

@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "osculate/cell/cell_type.hpp"
 #include "osculate/core/types.hpp"
 #include "osculate/model/dof_space.hpp"
 
@@ -25,20 +26,24 @@ struct PrescribedDof {
   bool hold = false;
 };
 
-/// Dead load: factor(t) times a force vector over the primary dofs (sparse).
+/// Dead load: factor(t) times a force vector over the primary dofs (sparse). What acts on the
+/// rotations of a rigid body is a moment about axes fixed in space (2D: about z); in space such a
+/// moment has no potential.
 struct DeadLoad {
   std::vector<std::pair<Dof, double>> unit;
   Ramp ramp;
 };
 
-/// Pressure on boundary edges of bulk cells (positive pushes into the body). It follows the
-/// deformation for finite kinematics.
+/// Pressure on boundary facets of bulk cells (positive pushes into the body): edges in the plane,
+/// faces in space. It follows the deformation for finite kinematics.
 struct PressureLoad {
-  struct Edge {
+  struct Facet {
     Index section;             ///< whose thickness and kinematics apply
-    std::vector<Index> nodes;  ///< line cell order, body on the right
+    std::vector<Index> nodes;  ///< cell order; 2D: body on the right; 3D: r_1 x r_2 points outwards
+    cell::CellType type = cell::CellType::line2;  ///< of faces; an edge is known by its nodes
   };
-  std::vector<Edge> edges;
+  using Edge = Facet;
+  std::vector<Facet> facets;
   Ramp ramp;
 };
 

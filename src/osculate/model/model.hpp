@@ -1,49 +1,68 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "osculate/geometry/surface_catalogue.hpp"
 #include "osculate/mesh/mesh.hpp"
+#include "osculate/model/bulk_traits.hpp"
 #include "osculate/model/dof_space.hpp"
 #include "osculate/model/loads.hpp"
 #include "osculate/pairing/pair.hpp"
-#include "osculate/solid/element.hpp"
 
 namespace osculate::model {
 
 /// Cells of one section: element formulation, material, thickness.
-struct BulkSection {
+template <int Dim>
+struct BasicBulkSection {
   std::string name;  ///< set it was given on
-  solid::Section section;
+  SolidSection<Dim> section;
   std::vector<mesh::CellRef> cells;
 };
 
+/// Analytic shape of a rigid body.
+template <int Dim>
+using RigidShape = std::conditional_t<Dim == 2, geometry::Curve, geometry::Surface>;
+
 /// A rigid body: its reference point and the nodes that follow it.
-struct RigidBody {
+template <int Dim>
+struct BasicRigidBody {
   std::string name;
-  Vec2 reference{0, 0};
+  Vec<Dim> reference = Vec<Dim>::Zero();
   std::vector<Index> nodes;              ///< mesh nodes and frame nodes
-  std::optional<geometry::Curve> shape;  ///< analytic shape in reference coordinates
-  std::vector<Vec2> polyline;            ///< for pictures of analytic polylines
+  std::optional<RigidShape<Dim>> shape;  ///< analytic shape in reference coordinates
+  std::vector<Vec<Dim>> polyline;        ///< for pictures of analytic polylines
 };
 
-struct ContactPair {
+template <int Dim>
+struct BasicContactPair {
   std::string name;
-  pairing::PairDefinition<2> definition;
+  pairing::PairDefinition<Dim> definition;
 };
 
 /// A whole analysis, ready to assemble; built by `deck`, or by hand. Plain data, const during the
 /// analysis. Nodes: the mesh's, then the frame nodes of analytic rigid bodies.
-struct Model {
+template <int Dim>
+struct BasicModel {
   std::string title;
   mesh::Mesh mesh;
-  std::vector<Vec2> reference;  ///< all nodes
-  std::vector<BulkSection> sections;
-  std::vector<RigidBody> rigid;
+  std::vector<Vec<Dim>> reference;  ///< all nodes
+  std::vector<BasicBulkSection<Dim>> sections;
+  std::vector<BasicRigidBody<Dim>> rigid;
   std::vector<Index> body_of_node;  ///< rigid body of each node, -1 = deformable
-  std::vector<ContactPair> pairs;
+  std::vector<BasicContactPair<Dim>> pairs;
   std::vector<Equation> equations;
   std::vector<Step> steps;
 };
+
+using BulkSection = BasicBulkSection<2>;
+using BulkSection3 = BasicBulkSection<3>;
+using RigidBody = BasicRigidBody<2>;
+using RigidBody3 = BasicRigidBody<3>;
+using ContactPair = BasicContactPair<2>;
+using ContactPair3 = BasicContactPair<3>;
+using Model = BasicModel<2>;
+using Model3 = BasicModel<3>;
 
 }  // namespace osculate::model

@@ -1,5 +1,7 @@
 #include "osculate/model/quantities.hpp"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,49 +9,83 @@
 namespace osculate::model {
 namespace {
 
-double node_value(const Eigen::VectorXd& reaction, const State& state,
+/// 0, 1, 2 for a quantity that ends in x, y, z.
+int direction_of(const std::string& quantity) { return quantity.back() - 'x'; }
+
+template <int Dim>
+double node_value(const Eigen::VectorXd& reaction, const BasicState<Dim>& state,
                   const HistoryRequest& request) {
-  const int direction = request.quantity.back() == 'y' ? 1 : 0;
+  const int direction = direction_of(request.quantity);
   const bool force = request.quantity.starts_with("rf");
   double sum = 0;
   for (const Index n : request.nodes)
-    sum += force ? reaction[2 * n + direction] : state.u[2 * n + direction];
+    sum += force ? reaction[Dim * n + direction] : state.u[Dim * n + direction];
   return force || request.nodes.empty() ? sum : sum / static_cast<double>(request.nodes.size());
 }
 
-double rigid_value(const System& system, const Model& model, const State& state,
-                   const HistoryRequest& request) {
-  const auto b = static_cast<std::size_t>(request.target);
-  const body::RigidMotion& motion = state.rigid[b];
-  if (request.quantity == "ux") return motion.translation.x();
-  if (request.quantity == "uy") return motion.translation.y();
-  if (request.quantity == "rz") return motion.angle;
-  const Eigen::VectorXd reaction = reactions(system);
-  const std::vector<Vec2> x = system.positions(state);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Index n : model.rigid[b].nodes)
-    sum += body::motion_gradient(motion, x[static_cast<std::size_t>(n)]).transpose() *
-           reaction.segment<2>(2 * n);
-  sum += reaction.segment<3>(system.dofs().body_dof(request.target, 0));
-  if (request.quantity == "rfx") return sum[0];
-  if (request.quantity == "rfy") return sum[1];
-  return sum[2];
+/// Moment about axes fixed in space that does the work of the forces `q` on the rotations.
+Vec<1> moment_in_space(const body::RigidMotion&, const Vec<1>& q) { return q; }
+Vec3 moment_in_space(const body::RigidMotion3& motion, const Vec3& q) {
+  return Mat<3, 3>(body::rotation_tangent(motion.rotation).transpose()).fullPivLu().solve(q);
 }
 
-double pair_value(const System& system, const HistoryRequest& request) {
-  const pairing::PairEvaluation<2>& pair =
+Vec<1> moment_of(const Vec2& arm, const Vec2& force) { return Vec<1>(turn(arm).dot(force)); }
+Vec3 moment_of(const Vec3& arm, const Vec3& force) { return arm.cross(force); }
+
+/// Force and moment that the supports exert on a rigid body.
+template <int Dim>
+Vec<body::motions<Dim>> rigid_reaction(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                                       const BasicState<Dim>& state, Index b) {
+  constexpr int turns = body::rotations<Dim>;
+  const body::BasicRigidMotion<Dim>& motion = state.rigid[static_cast<std::size_t>(b)];
+  const Eigen::VectorXd reaction = reactions(system);
+  const std::vector<Vec<Dim>> x = system.positions(state);
+  Vec<Dim> force = Vec<Dim>::Zero();
+  Vec<turns> moment = Vec<turns>::Zero();
+  for (const Index n : model.rigid[static_cast<std::size_t>(b)].nodes) {
+    const Vec<Dim> f = reaction.segment<Dim>(Dim * n);
+    force += f;
+    moment += moment_of(Vec<Dim>(x[static_cast<std::size_t>(n)] - motion.center()), f);
+  }
+  const Dof first = system.dofs().body_dof(b, 0);
+  force += reaction.segment<Dim>(first);
+  moment += moment_in_space(motion, Vec<turns>(reaction.segment<turns>(first + Dim)));
+  Vec<body::motions<Dim>> sum;
+  sum << force, moment;
+  return sum;
+}
+
+template <int Dim>
+double rigid_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                   const BasicState<Dim>& state, const HistoryRequest& request) {
+  const std::string& quantity = request.quantity;
+  const bool of_motion = quantity.size() == 2;  // u* and r*; else rf* and rm*
+  const bool turns = of_motion ? quantity[0] == 'r' : quantity[1] == 'm';
+  const int direction = direction_of(quantity);
+  const int component = !turns ? direction : Dim == 2 ? 2 : 3 + direction;
+  if (of_motion) return state.rigid[static_cast<std::size_t>(request.target)].component(component);
+  return rigid_reaction(system, model, state, request.target)[component];
+}
+
+template <int Dim>
+double pair_value(const BasicSystem<Dim>& system, const HistoryRequest& request) {
+  const pairing::PairEvaluation<Dim>& pair =
       system.contact()[static_cast<std::size_t>(request.target)];
   double sum = 0;
+  Vec<Dim> shear = Vec<Dim>::Zero();
   // What was assembled: with `residual: full` it is not just the traction times the area.
-  for (const pairing::ContactBlock<2>& block : pair.blocks) {
-    if (!block.active()) continue;
-    if (request.quantity == "force_x") sum -= block.force[0];
-    if (request.quantity == "force_y") sum -= block.force[1];
-  }
-  for (const pairing::PointResult<2>& p : pair.points) {
+  if (request.quantity.starts_with("force_"))
+    for (const pairing::ContactBlock<Dim>& block : pair.blocks)
+      if (block.active()) sum -= block.force[direction_of(request.quantity)];
+  for (const pairing::PointResult<Dim>& p : pair.points) {
     const bool closed = p.status != contact::Status::open;
     if (request.quantity == "normal_force") sum -= p.weight * p.normal_traction;
-    if (request.quantity == "shear_force") sum -= p.weight * p.shear_traction[0];
+    if (request.quantity == "shear_force") {
+      if constexpr (Dim == 2)
+        sum -= p.weight * p.shear_traction[0];
+      else
+        shear += p.weight * p.shear();
+    }
     if (request.quantity == "max_pressure") sum = std::max(sum, -p.normal_traction);
     if (request.quantity == "max_penetration" && closed) sum = std::max(sum, -p.gap);
     if (request.quantity == "stick") sum += p.status == contact::Status::stick ? 1 : 0;
@@ -57,18 +93,47 @@ double pair_value(const System& system, const HistoryRequest& request) {
     if (request.quantity == "open") sum += closed ? 0 : 1;
     if (request.quantity == "area" && closed) sum += p.weight;
   }
-  return sum;
+  return sum + shear.norm();
+}
+
+/// The two directions in which shear is reported.
+Mat<3, 2> shear_directions(const Vec3& normal) {
+  constexpr double aligned = 1.7453e-3;  // 0.1 degree
+  const Vec3 axis = normal.cross(Vec3::UnitX()).norm() < aligned ? Vec3::UnitZ() : Vec3::UnitX();
+  Mat<3, 2> t;
+  t.col(0) = (axis - axis.dot(normal) * normal).normalized();
+  t.col(1) = normal.cross(t.col(0));
+  return t;
+}
+
+void add_shear(const pairing::PointResult<2>& p, ContactFields& fields) {
+  fields.cshear.push_back(-p.shear_traction[0]);
+  fields.cslip.push_back(p.history.slip[0]);
+  fields.csforce.push_back(-p.weight * p.shear_traction[0]);
+}
+
+void add_shear(const pairing::PointResult<3>& p, ContactFields3& fields) {
+  const Mat<3, 2> t = shear_directions(p.normal);
+  const Vec2 shear = -t.transpose() * p.shear();
+  const Vec2 slip = t.transpose() * (p.frame * p.history.slip);
+  fields.cshear.push_back(shear[0]);
+  fields.cshear2.push_back(shear[1]);
+  fields.cslip.push_back(slip[0]);
+  fields.cslip2.push_back(slip[1]);
+  fields.csforce.push_back(p.weight * shear.norm());
 }
 
 }  // namespace
 
-Eigen::VectorXd reactions(const System& system) {
+template <int Dim>
+Eigen::VectorXd reactions(const BasicSystem<Dim>& system) {
   const Forces& f = system.forces();
   return f.internal + f.contact - f.external;
 }
 
-double history_value(const System& system, const Model& model, const State& state,
-                     const HistoryRequest& request) {
+template <int Dim>
+double history_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                     const BasicState<Dim>& state, const HistoryRequest& request) {
   switch (request.kind) {
     case HistoryRequest::Kind::nodes:
       return node_value(reactions(system), state, request);
@@ -80,23 +145,30 @@ double history_value(const System& system, const Model& model, const State& stat
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-ContactFields contact_fields(const System& system, const Model& model, std::size_t pair) {
-  ContactFields fields;
+template <int Dim>
+BasicContactFields<Dim> contact_fields(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                                       std::size_t pair) {
+  BasicContactFields<Dim> fields;
   fields.nodes = model.pairs[pair].definition.slave.nodes;
-  for (const pairing::PointResult<2>& p : system.contact()[pair].points) {
+  for (const pairing::PointResult<Dim>& p : system.contact()[pair].points) {
     const bool found = p.history.facet >= 0;
     fields.copen.push_back(found ? p.gap : 0.0);
     fields.cpress.push_back(-p.normal_traction);
-    fields.cshear.push_back(-p.shear_traction[0]);
-    fields.cslip.push_back(p.history.slip[0]);
+    add_shear(p, fields);
     fields.carea.push_back(p.weight);
     fields.cnforce.push_back(-p.weight * p.normal_traction);
-    fields.csforce.push_back(-p.weight * p.shear_traction[0]);
     fields.cstatus.push_back(static_cast<double>(p.status));
     fields.cfeature.push_back(static_cast<double>(p.history.feature));
     fields.normal.push_back(p.normal);
   }
   return fields;
 }
+
+template Eigen::VectorXd reactions(const System&);
+template Eigen::VectorXd reactions(const System3&);
+template double history_value(const System&, const Model&, const State&, const HistoryRequest&);
+template double history_value(const System3&, const Model3&, const State3&, const HistoryRequest&);
+template ContactFields contact_fields(const System&, const Model&, std::size_t);
+template ContactFields3 contact_fields(const System3&, const Model3&, std::size_t);
 
 }  // namespace osculate::model

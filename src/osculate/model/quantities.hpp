@@ -19,30 +19,53 @@ struct HistoryRequest {
 };
 
 /// What can be asked of node sets, rigid bodies and contact pairs. Displacements of a set are
-/// averages, reactions (rf*) sums of the force the support exerts. Pair forces act on the slave;
-/// `shear_force` is along the master's direction of travel.
+/// averages, reactions (rf*) sums of the force the support exerts. Rotations of a rigid body in
+/// space are the components of its rotation vector, reaction moments (rm*) act about axes through
+/// its reference point that are fixed in space. Pair forces act on the slave; `shear_force` is
+/// along the master's direction of travel (3D: the length of the resultant of all shear forces).
 inline constexpr std::array<std::string_view, 4> node_quantities{"ux", "uy", "rfx", "rfy"};
 inline constexpr std::array<std::string_view, 6> rigid_quantities{"ux",  "uy",  "rz",
                                                                   "rfx", "rfy", "rmz"};
 inline constexpr std::array<std::string_view, 10> pair_quantities{
     "force_x",         "force_y", "normal_force", "shear_force", "max_pressure",
     "max_penetration", "stick",   "slip",         "open",        "area"};
+inline constexpr std::array<std::string_view, 6> node_quantities3{"ux",  "uy",  "uz",
+                                                                  "rfx", "rfy", "rfz"};
+inline constexpr std::array<std::string_view, 12> rigid_quantities3{
+    "ux", "uy", "uz", "rx", "ry", "rz", "rfx", "rfy", "rfz", "rmx", "rmy", "rmz"};
+inline constexpr std::array<std::string_view, 11> pair_quantities3{
+    "force_x",         "force_y", "force_z", "normal_force", "shear_force", "max_pressure",
+    "max_penetration", "stick",   "slip",    "open",         "area"};
 
 /// Value after the last evaluation of `system` at the committed `state`.
-[[nodiscard]] double history_value(const System& system, const Model& model, const State& state,
-                                   const HistoryRequest& request);
+template <int Dim>
+[[nodiscard]] double history_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                                   const BasicState<Dim>& state, const HistoryRequest& request);
 
 /// Contact results of one slave node under the names users know.
-struct ContactFields {
+///
+/// Frame      2D: shear and slip along the master's direction of travel. 3D: along two directions
+///            of the contact plane: 1 is the x axis projected onto it (the z axis where the normal
+///            is within 0.1 degree of x), 2 is normal x 1; `csforce` is the length of the shear
+///            force
+template <int Dim>
+struct BasicContactFields {
   std::vector<Index> nodes;
   std::vector<double> copen, cpress, cshear, cslip, carea, cnforce, csforce;
   std::vector<double> cstatus, cfeature;
-  std::vector<Vec2> normal;
+  std::vector<double> cshear2, cslip2;  ///< 3D only; `cshear` and `cslip` are along direction 1
+  std::vector<Vec<Dim>> normal;
 };
-[[nodiscard]] ContactFields contact_fields(const System& system, const Model& model,
-                                           std::size_t pair);
+template <int Dim>
+[[nodiscard]] BasicContactFields<Dim> contact_fields(const BasicSystem<Dim>& system,
+                                                     const BasicModel<Dim>& model,
+                                                     std::size_t pair);
 
 /// Nodal reaction: internal + contact - external (zero at free nodes of a converged state).
-[[nodiscard]] Eigen::VectorXd reactions(const System& system);
+template <int Dim>
+[[nodiscard]] Eigen::VectorXd reactions(const BasicSystem<Dim>& system);
+
+using ContactFields = BasicContactFields<2>;
+using ContactFields3 = BasicContactFields<3>;
 
 }  // namespace osculate::model

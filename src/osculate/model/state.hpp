@@ -9,12 +9,16 @@
 namespace osculate::model {
 
 /// A configuration. Committed states are const; a trial is a new value.
-struct State {
-  Eigen::VectorXd u;                         ///< displacements of all nodes, x0 y0 x1 y1 ...
-  std::vector<body::RigidMotion> rigid;      ///< one per rigid body
-  std::vector<pairing::PairState<2>> pairs;  ///< history of the last converged increment
-  std::vector<pairing::Assumed<2>> assumed;  ///< branches of the last iteration (trial states only)
-  double fraction = 0;                       ///< of the running step
+template <int Dim>
+struct BasicState {
+  Eigen::VectorXd u;  ///< displacements of all nodes, x0 y0 (z0) x1 y1 ...
+  std::vector<body::BasicRigidMotion<Dim>> rigid;  ///< one per rigid body
+  std::vector<pairing::PairState<Dim>> pairs;      ///< history of the last converged increment
+  std::vector<pairing::Assumed<Dim>> assumed;      ///< branches of the last iteration (trials only)
+  double fraction = 0;                             ///< of the running step
 };
+
+using State = BasicState<2>;
+using State3 = BasicState<3>;
 
 }  // namespace osculate::model

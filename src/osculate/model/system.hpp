@@ -25,14 +25,15 @@ struct Forces {
 /// Owns: dof space, matrix, evaluation buffers. Does not own: the model, the states.
 /// Deterministic: element blocks are computed in parallel and added in a fixed order, so the bits
 /// do not depend on the number of threads.
-class System {
+template <int Dim>
+class BasicSystem {
  public:
-  using State = model::State;
+  using State = BasicState<Dim>;
 
-  System(const Model& model, int threads);
-  ~System();
-  System(const System&) = delete;
-  System& operator=(const System&) = delete;
+  BasicSystem(const BasicModel<Dim>& model, int threads);
+  ~BasicSystem();
+  BasicSystem(const BasicSystem&) = delete;
+  BasicSystem& operator=(const BasicSystem&) = delete;
 
   [[nodiscard]] State initial_state();
   /// Fixes what is prescribed and loaded during a step; start values come from `committed`.
@@ -52,10 +53,10 @@ class System {
   [[nodiscard]] std::uint64_t pattern_version() const;
   [[nodiscard]] la::Symmetry symmetry() const;
 
-  [[nodiscard]] const DofSpace& dofs() const;
+  [[nodiscard]] const BasicDofSpace<Dim>& dofs() const;
   [[nodiscard]] const Forces& forces() const;  ///< of the last evaluation
-  [[nodiscard]] const std::vector<pairing::PairEvaluation<2>>& contact() const;
-  [[nodiscard]] std::vector<Vec2> positions(const State& state) const;
+  [[nodiscard]] const std::vector<pairing::PairEvaluation<Dim>>& contact() const;
+  [[nodiscard]] std::vector<Vec<Dim>> positions(const State& state) const;
   [[nodiscard]] bool prescribed(Index unknown) const;
   /// Switch terms off (tangent check only); all are on by default.
   void enable(Term term, bool on);
@@ -64,5 +65,8 @@ class System {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+using System = BasicSystem<2>;
+using System3 = BasicSystem<3>;
 
 }  // namespace osculate::model

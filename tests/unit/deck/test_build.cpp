@@ -387,7 +387,7 @@ TEST(Build, EdgesBelongToTheSectionBehindThem) {
       "prescribe:", "pressure: [{on: inner, value: 1}], prescribe:");
   const Built built = build(parse_model(text, "model.yaml"), io::read_gmsh(mesh, "square.msh"));
   ASSERT_EQ(built.model.steps[0].pressure.size(), 1u);
-  for (const model::PressureLoad::Edge& edge : built.model.steps[0].pressure[0].edges)
+  for (const model::PressureLoad::Edge& edge : built.model.steps[0].pressure[0].facets)
     EXPECT_EQ(built.model.sections[static_cast<std::size_t>(edge.section)].name, "right_half");
 }
 

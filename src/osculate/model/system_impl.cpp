@@ -1,0 +1,365 @@
+#include "osculate/model/system_impl.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+
+namespace osculate::model {
+namespace {
+
+constexpr std::size_t tile = 256;  ///< cells computed in parallel before they are added in order
+
+template <int Dim>
+std::vector<bool> used_nodes(const BasicModel<Dim>& model) {
+  std::vector<bool> used(model.reference.size(), false);
+  for (const BasicBulkSection<Dim>& section : model.sections)
+    for (const mesh::CellRef& ref : section.cells)
+      for (const Index node : cell_nodes(model.mesh, ref).nodes)
+        used[static_cast<std::size_t>(node)] = true;
+  return used;
+}
+
+template <int Dim>
+std::vector<Index> bodies_by_node(const BasicModel<Dim>& model) {
+  return model.body_of_node.empty() ? std::vector<Index>(model.reference.size(), -1)
+                                    : model.body_of_node;
+}
+
+/// A moment about axes fixed in space has no potential: its tangent is unsymmetric.
+template <int Dim>
+bool has_moment_in_space(const BasicModel<Dim>& model, const DeadLoad& load) {
+  const auto first = Dim * static_cast<Dof>(model.reference.size());
+  return Dim == 3 && std::any_of(load.unit.begin(), load.unit.end(), [&](const auto& entry) {
+           return entry.first >= first && (entry.first - first) % body::motions<Dim> >= Dim;
+         });
+}
+
+template <int Dim>
+bool needs_unsymmetric(const BasicModel<Dim>& model) {
+  for (const BasicContactPair<Dim>& pair : model.pairs) {
+    const pairing::PairDefinition<Dim>& d = pair.definition;
+    if (d.friction || (d.weight == pairing::Weight::current_area && d.tangent.consistent))
+      return true;
+  }
+  for (const Step& step : model.steps) {
+    if (!step.pressure.empty()) return true;
+    for (const DeadLoad& load : step.dead)
+      if (has_moment_in_space(model, load)) return true;
+  }
+  return false;
+}
+
+void mix(std::uint64_t& hash, std::uint64_t value) {
+  hash = (hash ^ value) * 1099511628211ull;  // FNV-1a
+}
+
+template <int Dim>
+void count_point(const pairing::PointResult<Dim>& point, solve::StateCounts& counts) {
+  mix(counts.signature, static_cast<std::uint64_t>(point.status));
+  if constexpr (Dim == 2) mix(counts.signature, point.shear_traction[0] > 0 ? 1u : 0u);
+  if (point.status == contact::Status::open) ++counts.open;
+  if (point.status == contact::Status::stick) ++counts.stick;
+  if (point.status == contact::Status::slip) ++counts.slip;
+}
+
+}  // namespace
+
+template <int Dim>
+BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int thread_count)
+    : model(m),
+      threads(std::max(1, thread_count)),
+      dofs(static_cast<Index>(m.reference.size()), bodies_by_node(m),
+           static_cast<Index>(m.rigid.size()), m.equations, used_nodes(m)),
+      builder(dofs.unknowns()),
+      assembler(dofs, builder),
+      contact(m.pairs.size()),
+      symmetry(needs_unsymmetric(m) ? la::Symmetry::unsymmetric : la::Symmetry::indefinite) {
+  for (const BasicBulkSection<Dim>& section : model.sections)
+    for (const mesh::CellRef& cell : section.cells) jobs.push_back({&section, cell});
+  blocks.resize(std::min(tile, jobs.size()));
+  assembler.set_prescribed(std::vector<bool>(static_cast<std::size_t>(dofs.unknowns()), false));
+  // Contact entries enter the pattern when they first appear and then stay.
+  std::vector<Index> unknowns;
+  for (const CellJob& job : jobs) {
+    unknowns.clear();
+    for (const Index node : cell_nodes(model.mesh, job.cell).nodes)
+      for (int i = 0; i < Dim; ++i) {
+        const Index unknown = dofs.unknown_of(dofs.node_dof(node, i));
+        if (unknown >= 0) unknowns.push_back(unknown);
+      }
+    builder.reserve_block(unknowns);
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::clear(bool with_tangent) {
+  const Eigen::Index n = dofs.dofs();
+  forces.internal.setZero(n);
+  forces.contact.setZero(n);
+  forces.external.setZero(n);
+  predicted.setZero(n);
+  branch_shift.setZero(n);
+  branched = false;
+  if (with_tangent) builder.clear();
+}
+
+template <int Dim>
+std::vector<Vec<Dim>> BasicSystem<Dim>::Impl::positions(const Eigen::VectorXd& u) const {
+  std::vector<Vec<Dim>> x(model.reference.size());
+  for (std::size_t n = 0; n < x.size(); ++n)
+    x[n] = model.reference[n] + u.segment<Dim>(Dim * static_cast<Eigen::Index>(n));
+  return x;
+}
+
+template <int Dim>
+double BasicSystem<Dim>::Impl::current_value(const State& s, Dof dof) const {
+  const Dof local = dof - Dim * dofs.nodes();
+  if (local < 0) return s.u[dof];
+  return s.rigid[static_cast<std::size_t>(local / body::motions<Dim>)].component(
+      local % body::motions<Dim>);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_to(State& s, Dof dof, double value) const {
+  const Dof local = dof - Dim * dofs.nodes();
+  if (local < 0)
+    s.u[dof] += value;
+  else
+    s.rigid[static_cast<std::size_t>(local / body::motions<Dim>)].component(
+        local % body::motions<Dim>) += value;
+}
+
+template <int Dim>
+double BasicSystem<Dim>::Impl::equation_value(const Equation& equation, double fraction) const {
+  return equation.value *
+         (step.equation_start + (step.equation_end - step.equation_start) * fraction);
+}
+
+template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::Impl::prescribed_increment(const State& s,
+                                                             std::span<const Vec<Dim>> x,
+                                                             double fraction) const {
+  Eigen::VectorXd inc = Eigen::VectorXd::Zero(dofs.dofs());
+  for (const PrescribedDof& p : step.prescribed)
+    inc[p.dof] = p.ramp.value(fraction) - current_value(s, p.dof);
+  for (Index node = 0; node < dofs.nodes(); ++node) {
+    const Index b = dofs.body_of(node);
+    if (b < 0) continue;
+    const Mat<Dim, body::motions<Dim>> j = body::motion_gradient(
+        s.rigid[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(node)]);
+    inc.segment<Dim>(Dim * node) = j * inc.segment<body::motions<Dim>>(dofs.body_dof(b, 0));
+  }
+  for (const Equation& equation : dofs.equations()) {
+    double rest = equation_value(equation, fraction);
+    for (std::size_t t = 1; t < equation.terms.size(); ++t) {
+      const Dof d = equation.terms[t].dof;
+      rest -= equation.terms[t].factor * (current_value(s, d) + inc[d]);
+    }
+    const Equation::Term& lead = equation.terms.front();
+    inc[lead.dof] = rest / lead.factor - current_value(s, lead.dof);
+  }
+  return inc;
+}
+
+template <int Dim>
+bool BasicSystem<Dim>::Impl::add_bulk(const State& trial, bool with_tangent,
+                                      const Eigen::VectorXd* inc, solve::Evaluation& out) {
+  for (std::size_t start = 0; start < jobs.size(); start += tile) {
+    const std::size_t count = std::min(tile, jobs.size() - start);
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::size_t i = 0; i < count; ++i) {
+      const CellJob& job = jobs[start + i];
+      evaluate_cell(model, *job.section, job.cell, trial.u, with_tangent, blocks[i]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const BulkBlock& block = blocks[i];
+      if (!block.ok) {
+        out.ok = false;
+        out.message = block.message;
+        return false;
+      }
+      const std::span<const Dof> d(block.dofs.data(), static_cast<std::size_t>(block.dof_count));
+      for (int k = 0; k < block.dof_count; ++k)
+        forces.internal[d[static_cast<std::size_t>(k)]] += block.result.force[k];
+      if (with_tangent) add_stiffness(d, block.result.tangent, inc);
+    }
+  }
+  return true;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_outer(std::span<const Dof> row_dofs, const double* rows,
+                                       const Eigen::VectorXd* inc) {
+  assembler.add_outer(row_dofs, {rows, row_dofs.size()}, path_dofs, path_values);
+  if (!inc) return;
+  double along = 0;
+  for (std::size_t j = 0; j < path_dofs.size(); ++j) along += path_values[j] * (*inc)[path_dofs[j]];
+  for (std::size_t i = 0; i < row_dofs.size(); ++i) predicted[row_dofs[i]] += rows[i] * along;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_rank_one(std::span<const Dof> row_dofs,
+                                          const pairing::BlockVector<Dim>& rows,
+                                          const std::vector<pairing::NodeGradient<Dim>>& gradient,
+                                          const Eigen::VectorXd* inc) {
+  if (gradient.empty()) return;
+  path_dofs.clear();
+  path_values.clear();
+  for (const pairing::NodeGradient<Dim>& g : gradient)
+    for (int i = 0; i < Dim; ++i) {
+      path_dofs.push_back(dofs.node_dof(g.node, i));
+      path_values.push_back(g.value[i]);
+    }
+  add_outer(row_dofs, rows.data(), inc);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_path(std::span<const Dof> row_dofs,
+                                      const pairing::ContactBlock<Dim>& block,
+                                      const Eigen::VectorXd* inc) {
+  if (block.path().empty()) return;
+  for (Eigen::Index c = 0; c < Dim; ++c) {
+    path_dofs.clear();
+    path_values.clear();
+    for (const pairing::NodeMatrix<Dim>& g : block.path())
+      for (int i = 0; i < Dim; ++i) {
+        path_dofs.push_back(dofs.node_dof(g.node, i));
+        path_values.push_back(g.value(c, i));
+      }
+    add_outer(row_dofs, block.path_rows.col(c).data(), inc);
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_contact_block(const pairing::ContactBlock<Dim>& block,
+                                               bool with_tangent, const Eigen::VectorXd* inc) {
+  std::array<Dof, Dim * pairing::max_block_nodes<Dim>> all{};
+  for (int k = 0; k < Dim * block.count; ++k)
+    all[static_cast<std::size_t>(k)] =
+        dofs.node_dof(block.nodes[static_cast<std::size_t>(k / Dim)], k % Dim);
+  const std::span<const Dof> d(all.data(), static_cast<std::size_t>(Dim * block.count));
+  for (std::size_t k = 0; k < d.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    forces.contact[d[k]] += block.force[i];
+    if (block.branched) branch_shift[d[k]] += block.branch_force[i] - block.force[i];
+  }
+  if (block.branched) branched = true;
+  if (!with_tangent) return;
+  add_stiffness(d, block.tangent, inc);
+  add_path(d, block, inc);
+  add_rank_one(d, block.area_rows, block.area, inc);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& trial,
+                                         std::span<const Vec<Dim>> x, bool with_tangent,
+                                         const Eigen::VectorXd* inc, solve::Evaluation& out) {
+  out.counts = {};
+  out.counts.signature = 14695981039346656037ull;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
+    const pairing::Assumed<Dim> assumed =
+        inc                        ? pairing::committed_branches<Dim>(pair, committed.pairs[p], x)
+        : p < trial.assumed.size() ? trial.assumed[p]
+                                   : pairing::Assumed<Dim>{};
+    pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed);
+    for (const pairing::ContactBlock<Dim>& block : contact[p].blocks)
+      if (block.active()) add_contact_block(block, with_tangent, inc);
+    for (const pairing::PointResult<Dim>& point : contact[p].points) count_point(point, out.counts);
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_pressure(const State& trial, double fraction, bool with_tangent,
+                                          const Eigen::VectorXd* inc) {
+  BulkBlock block;
+  for (const PressureLoad& load : step.pressure) {
+    const double pressure = load.ramp.value(fraction);
+    if (pressure == 0.0) continue;
+    for (const PressureLoad::Facet& facet : load.facets) {
+      pressure_block(model, facet, trial.u, pressure, block);
+      const std::span<const Dof> d(block.dofs.data(), static_cast<std::size_t>(block.dof_count));
+      for (int k = 0; k < block.dof_count; ++k)
+        forces.external[d[static_cast<std::size_t>(k)]] += block.result.force[k];
+      if (!with_tangent) continue;
+      block.result.tangent *= -1.0;  // external force moves to the left-hand side
+      add_stiffness(d, block.result.tangent, inc);
+    }
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_dead_loads(double fraction) {
+  for (const DeadLoad& load : step.dead) {
+    const double factor = load.ramp.value(fraction);
+    for (const auto& entry : load.unit) forces.external[entry.first] += factor * entry.second;
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::turn_moments(const State& trial, bool with_tangent,
+                                          const Eigen::VectorXd* inc) {
+  if constexpr (Dim == 3) {
+    for (std::size_t b = 0; b < model.rigid.size(); ++b) {
+      const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
+      const Vec3 moment = forces.external.segment<3>(first);
+      if (moment.isZero(0)) continue;
+      const Vec3& theta = trial.rigid[b].rotation;
+      forces.external.segment<3>(first) = body::rotation_tangent(theta).transpose() * moment;
+      const std::array<Dof, 3> d{first, first + 1, first + 2};
+      if (with_tangent) add_stiffness(d, Mat<3, 3>(-body::moment_gradient(theta, moment)), inc);
+    }
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_rigid_geometry(const State& trial, std::span<const Vec<Dim>> x,
+                                                const Eigen::VectorXd* inc) {
+  constexpr int turns = body::rotations<Dim>;
+  const Eigen::VectorXd f = forces.internal + forces.contact - forces.external;
+  for (std::size_t b = 0; b < model.rigid.size(); ++b) {
+    Mat<turns, turns> stiffness = Mat<turns, turns>::Zero();
+    for (const Index node : model.rigid[b].nodes) {
+      const Vec<Dim> force = f.segment<Dim>(Dim * node);
+      if (force.isZero(0)) continue;
+      stiffness +=
+          body::rotation_curvature(trial.rigid[b], x[static_cast<std::size_t>(node)], force);
+    }
+    std::array<Dof, turns> d{};
+    for (int i = 0; i < turns; ++i)
+      d[static_cast<std::size_t>(i)] = dofs.body_dof(static_cast<Index>(b), Dim + i);
+    add_stiffness(d, stiffness, inc);
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::assemble(const State& committed, const State& trial, double fraction,
+                                      bool with_tangent, bool predict, solve::Evaluation& out) {
+  out.ok = true;
+  out.message.clear();
+  clear(with_tangent);
+  const std::vector<Vec<Dim>> x = positions(trial.u);
+  assembler.set_configuration(x, trial.rigid);
+  Eigen::VectorXd inc;
+  if (predict) inc = prescribed_increment(trial, x, fraction);
+  const Eigen::VectorXd* increment = predict ? &inc : nullptr;
+  if (on(Term::bulk) && !add_bulk(trial, with_tangent, increment, out)) return;
+  if (on(Term::contact)) add_contact(committed, trial, x, with_tangent, increment, out);
+  if (on(Term::pressure)) add_pressure(trial, fraction, with_tangent, increment);
+  add_dead_loads(fraction);
+  turn_moments(trial, with_tangent && on(Term::rigid), increment);
+  if (with_tangent && on(Term::rigid)) add_rigid_geometry(trial, x, increment);
+  if (with_tangent) assembler.add_prescribed_diagonal(1.0);
+  const Eigen::VectorXd total = forces.internal + forces.contact - forces.external;
+  out.residual = assembler.gather(predict ? Eigen::VectorXd(total + predicted) : total);
+  out.branch_residual.resize(0);
+  if (branched) out.branch_residual = out.residual + assembler.gather(branch_shift);
+  out.force_scale =
+      std::max({forces.internal.norm(), forces.contact.norm(), forces.external.norm()});
+  if (predict) out.force_scale = std::max(out.force_scale, out.residual.norm());
+}
+
+template struct BasicSystem<2>::Impl;
+template struct BasicSystem<3>::Impl;
+
+}  // namespace osculate::model

@@ -1,0 +1,96 @@
+#pragma once
+// Inside of BasicSystem; included by its sources only.
+#include <array>
+#include <span>
+#include <vector>
+
+#include "osculate/model/assembler.hpp"
+#include "osculate/model/bulk.hpp"
+#include "osculate/model/system.hpp"
+
+namespace osculate::model {
+
+template <int Dim>
+struct BasicSystem<Dim>::Impl {
+  using BulkBlock = BasicBulkBlock<Dim>;
+  struct CellJob {
+    const BasicBulkSection<Dim>* section;
+    mesh::CellRef cell;
+  };
+
+  const BasicModel<Dim>& model;
+  int threads;
+  BasicDofSpace<Dim> dofs;
+  la::MatrixBuilder builder;
+  BasicAssembler<Dim> assembler;
+  std::vector<CellJob> jobs;
+  std::vector<BulkBlock> blocks;
+  std::vector<pairing::PairEvaluation<Dim>> contact;
+  Forces forces;
+  Eigen::VectorXd predicted;     ///< K du_prescribed on primary dofs
+  Eigen::VectorXd branch_shift;  ///< force of the linearised branches minus the true force
+  bool branched = false;
+  Step step;
+  std::array<bool, 4> enabled{true, true, true, true};
+  la::Symmetry symmetry;
+  std::vector<double> path_values;
+  std::vector<Dof> path_dofs;
+
+  Impl(const BasicModel<Dim>& m, int thread_count);
+
+  [[nodiscard]] bool on(Term term) const { return enabled[static_cast<std::size_t>(term)]; }
+  [[nodiscard]] std::vector<Vec<Dim>> positions(const Eigen::VectorXd& u) const;
+  [[nodiscard]] double current_value(const State& s, Dof dof) const;
+  [[nodiscard]] double equation_value(const Equation& equation, double fraction) const;
+  void add_to(State& s, Dof dof, double value) const;
+  /// Increment of every primary dof that follows from prescriptions alone (unknowns fixed).
+  [[nodiscard]] Eigen::VectorXd prescribed_increment(const State& s, std::span<const Vec<Dim>> x,
+                                                     double fraction) const;
+
+  /// Residual and tangent of `trial`; with `predict` those of the first iteration.
+  void assemble(const State& committed, const State& trial, double fraction, bool with_tangent,
+                bool predict, solve::Evaluation& out);
+
+  // The terms. `inc` (may be null) is the prescribed increment that `predicted` takes up.
+  void clear(bool with_tangent);
+  bool add_bulk(const State& trial, bool with_tangent, const Eigen::VectorXd* inc,
+                solve::Evaluation& out);
+  void add_contact(const State& committed, const State& trial, std::span<const Vec<Dim>> x,
+                   bool with_tangent, const Eigen::VectorXd* inc, solve::Evaluation& out);
+  void add_contact_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,
+                         const Eigen::VectorXd* inc);
+  /// rows * sum gradient . dx
+  void add_rank_one(std::span<const Dof> row_dofs, const pairing::BlockVector<Dim>& rows,
+                    const std::vector<pairing::NodeGradient<Dim>>& gradient,
+                    const Eigen::VectorXd* inc);
+  /// Terms of the nodes behind a contact point: one outer product per direction in space.
+  void add_path(std::span<const Dof> row_dofs, const pairing::ContactBlock<Dim>& block,
+                const Eigen::VectorXd* inc);
+  void add_outer(std::span<const Dof> row_dofs, const double* rows, const Eigen::VectorXd* inc);
+  void add_pressure(const State& trial, double fraction, bool with_tangent,
+                    const Eigen::VectorXd* inc);
+  void add_dead_loads(double fraction);
+  /// What depends on the rotations of rigid bodies beyond the forces themselves: the work of
+  /// moments about fixed axes, and the second-order part of the motion.
+  void turn_moments(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);
+  void add_rigid_geometry(const State& trial, std::span<const Vec<Dim>> x,
+                          const Eigen::VectorXd* inc);
+
+  template <class Block>
+  void add_stiffness(std::span<const Dof> block_dofs, const Block& k, const Eigen::VectorXd* inc) {
+    assembler.add_block(block_dofs, k);
+    if (!inc) return;
+    for (std::size_t j = 0; j < block_dofs.size(); ++j) {
+      const double du = (*inc)[block_dofs[j]];
+      if (du == 0.0) continue;
+      for (std::size_t i = 0; i < block_dofs.size(); ++i)
+        predicted[block_dofs[i]] +=
+            k(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * du;
+    }
+  }
+};
+
+extern template struct BasicSystem<2>::Impl;
+extern template struct BasicSystem<3>::Impl;
+
+}  // namespace osculate::model
