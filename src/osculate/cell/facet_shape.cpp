@@ -70,17 +70,39 @@ const Coefficients& coefficients(CellType type) {
   }
 }
 
+/// Derivatives up to the third in the places of `FacetShape::n`; the first `derivatives(order)`.
 constexpr std::array<std::array<int, 2>, 10> orders{
     {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}, {3, 0}, {2, 1}, {1, 2}, {0, 3}}};
 
-}  // namespace
+constexpr std::array<std::size_t, 4> derivatives{1, 3, 6, 10};
 
-FacetShape facet_shape(CellType type, const Vec2& xi) {
+/// Values and derivatives of the one-dimensional functions of a product cell; row: node of
+/// (-1, 1) or (-1, 1, 0).
+using LineValues = std::array<std::array<double, 4>, 3>;
+
+LineValues line_values(bool quadratic, double x) {
+  if (!quadratic) return {{{0.5 * (1 - x), -0.5, 0, 0}, {0.5 * (1 + x), 0.5, 0, 0}, {}}};
+  return {{{0.5 * x * (x - 1), x - 0.5, 1, 0},
+           {0.5 * x * (x + 1), x + 0.5, 1, 0},
+           {1 - x * x, -2 * x, -2, 0}}};
+}
+
+/// Places of the nodes of quad4 and quad9 in the two lines.
+constexpr std::array<std::array<std::size_t, 2>, 9> product_nodes{
+    {{0, 0}, {1, 0}, {1, 1}, {0, 1}, {2, 0}, {1, 2}, {2, 1}, {0, 2}, {2, 2}}};
+
+void fill_product(bool quadratic, const Vec2& xi, std::size_t count, FacetShape& s) {
+  const LineValues a = line_values(quadratic, xi.x()), b = line_values(quadratic, xi.y());
+  for (std::size_t d = 0; d < count; ++d)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(s.count); ++k)
+      s.n[d][k] = a[product_nodes[k][0]][static_cast<std::size_t>(orders[d][0])] *
+                  b[product_nodes[k][1]][static_cast<std::size_t>(orders[d][1])];
+}
+
+void fill_monomials(CellType type, const Vec2& xi, std::size_t count, FacetShape& s) {
   const Monomials m = monomials(type);
   const Coefficients& c = coefficients(type);
-  FacetShape s;
-  s.count = m.count;
-  for (std::size_t d = 0; d < orders.size(); ++d)
+  for (std::size_t d = 0; d < count; ++d)
     for (int i = 0; i < m.count; ++i) {
       const auto& p = m.power[static_cast<std::size_t>(i)];
       const double value = power_derivative(xi.x(), p[0], orders[d][0]) *
@@ -88,6 +110,18 @@ FacetShape facet_shape(CellType type, const Vec2& xi) {
       if (value == 0.0) continue;
       for (int k = 0; k < m.count; ++k) s.n[d][static_cast<std::size_t>(k)] += c(k, i) * value;
     }
+}
+
+}  // namespace
+
+FacetShape facet_shape(CellType type, const Vec2& xi, int order) {
+  FacetShape s;
+  s.count = info(type).nodes;
+  const std::size_t count = derivatives[static_cast<std::size_t>(order)];
+  if (type == CellType::quad4 || type == CellType::quad9)
+    fill_product(type == CellType::quad9, xi, count, s);
+  else
+    fill_monomials(type, xi, count, s);
   return s;
 }
 

@@ -23,8 +23,10 @@ struct FacetShape {
   return 6 + i + j + k;
 }
 
+/// `order`: highest derivative that is filled in, 0 to 3.
+///
 /// Requires   type is tri3, tri6, quad4, quad8 or quad9
-[[nodiscard]] FacetShape facet_shape(CellType type, const Vec2& xi);
+[[nodiscard]] FacetShape facet_shape(CellType type, const Vec2& xi, int order = 3);
 
 /// True for the five types that `facet_shape` knows.
 [[nodiscard]] constexpr bool is_facet(CellType type) {

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "osculate/cell/shape.hpp"
 
@@ -19,7 +20,7 @@ struct DistanceJet2 {
 
 DistanceJet2 distance_jet2(cell::CellType type, std::span<const Vec3> nodes, const Vec2& xi,
                            const Vec3& point) {
-  const cell::FacetShape s = cell::facet_shape(type, xi);
+  const cell::FacetShape s = cell::facet_shape(type, xi, 2);
   std::array<Vec3, 6> r;
   r.fill(Vec3::Zero());
   for (std::size_t d = 0; d < r.size(); ++d)
@@ -69,32 +70,84 @@ double inside_part(cell::CellType type, const Vec2& xi, const Vec2& step) {
   return part;
 }
 
-/// Grid of starting points.
-Vec2 nearest_sample(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point) {
-  const bool curved = nodes.size() > 4;
-  const int steps = cell::is_triangle(type) && !curved ? 1 : curved ? 6 : 2;
-  Vec2 best(0, 0);
-  double distance = std::numeric_limits<double>::infinity();
-  for (int i = 0; i <= steps; ++i)
-    for (int j = 0; j <= steps; ++j) {
-      Vec2 xi(static_cast<double>(i) / steps, static_cast<double>(j) / steps);
-      if (cell::is_triangle(type))
-        xi.y() *= 1 - xi.x();
-      else
+/// Grid of starting points with its shape values.
+struct Samples {
+  int steps = 0;
+  std::vector<Vec2> xi;
+  std::vector<std::array<double, cell::max_facet_nodes>> shape;
+  std::vector<bool> border;
+};
+
+Samples make_samples(cell::CellType type) {
+  Samples out;
+  const bool curved = cell::info(type).order > 1;
+  out.steps = curved ? 6 : 2;
+  for (int i = 0; i <= out.steps; ++i)
+    for (int j = 0; j <= out.steps; ++j) {
+      Vec2 xi(static_cast<double>(i) / out.steps, static_cast<double>(j) / out.steps);
+      bool border = i == 0 || j == 0 || i == out.steps || j == out.steps;
+      if (cell::is_triangle(type)) {
+        if (i + j > out.steps) continue;
+        border = i == 0 || j == 0 || i + j == out.steps;
+      } else {
         xi = 2 * xi - Vec2::Ones();
-      const cell::FacetShape s = cell::facet_shape(type, xi);
-      Vec3 r = Vec3::Zero();
-      for (std::size_t k = 0; k < nodes.size(); ++k) r += s.n[0][k] * nodes[k];
-      const double d = (point - r).squaredNorm();
-      if (d < distance) distance = d, best = xi;
+      }
+      out.xi.push_back(xi);
+      out.shape.push_back(cell::facet_shape(type, xi, 0).n[0]);
+      out.border.push_back(border);
     }
-  return 0.98 * best + 0.02 * (cell::is_triangle(type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(0, 0));
+  return out;
+}
+
+const Samples& samples_of(cell::CellType type) {
+  static const std::array<Samples, 5> all{
+      make_samples(cell::CellType::tri3), make_samples(cell::CellType::tri6),
+      make_samples(cell::CellType::quad4), make_samples(cell::CellType::quad8),
+      make_samples(cell::CellType::quad9)};
+  switch (type) {
+    case cell::CellType::tri3:
+      return all[0];
+    case cell::CellType::tri6:
+      return all[1];
+    case cell::CellType::quad4:
+      return all[2];
+    case cell::CellType::quad8:
+      return all[3];
+    default:
+      return all[4];
+  }
+}
+
+/// The nearest point of the grid, moved a little inwards, and how near the border can be at least.
+struct Start {
+  Vec2 xi{0, 0};
+  double border = 0;
+};
+
+Start nearest_sample(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point) {
+  const Samples& samples = samples_of(type);
+  double best = std::numeric_limits<double>::infinity(), border = best;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < samples.xi.size(); ++i) {
+    Vec3 r = Vec3::Zero();
+    for (std::size_t k = 0; k < nodes.size(); ++k) r += samples.shape[i][k] * nodes[k];
+    const double d = (point - r).squaredNorm();
+    if (d < best) best = d, at = i;
+    if (samples.border[i]) border = std::min(border, d);
+  }
+  double edge = 0;  // longest piece of border between two samples, with room for its curvature
+  const std::size_t corners = cell::is_triangle(type) ? 3 : 4;
+  for (std::size_t k = 0; k < corners; ++k)
+    edge = std::max(edge, (nodes[(k + 1) % corners] - nodes[k]).norm());
+  const Vec2 middle = cell::is_triangle(type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(0, 0);
+  return {0.98 * samples.xi[at] + 0.02 * middle, std::sqrt(border) - edge / samples.steps};
 }
 
 /// Safeguarded Newton inside the facet. Feature none if the way leads out of it.
-FacetFoot foot_inside(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point) {
+FacetFoot foot_inside(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point,
+                      const Vec2& start) {
   FacetFoot foot;
-  foot.xi = nearest_sample(type, nodes, point);
+  foot.xi = start;
   DistanceJet2 j = distance_jet2(type, nodes, foot.xi, point);
   constexpr int most = 40;
   for (int it = 0; it < most; ++it) {
@@ -121,19 +174,49 @@ FacetFoot foot_inside(cell::CellType type, std::span<const Vec3> nodes, const Ve
   return foot;
 }
 
-/// The edge as a curve over t = -1..1: position and its first two derivatives.
-std::array<Vec3, 3> edge_jet(cell::CellType type, std::span<const Vec3> nodes, const Vec2& xi,
-                             const Vec2& e) {
-  const cell::FacetShape s = cell::facet_shape(type, xi);
-  std::array<Vec3, 3> r{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    r[0] += s.n[0][k] * nodes[k];
-    r[1] += (e.x() * s.n[1][k] + e.y() * s.n[2][k]) * nodes[k];
-    r[2] +=
-        (e.x() * e.x() * s.n[3][k] + 2 * e.x() * e.y() * s.n[4][k] + e.y() * e.y() * s.n[5][k]) *
-        nodes[k];
+/// An edge as a curve over t = -1..1: straight, or through its middle node.
+struct Edge {
+  Vec3 middle, half, bend;  ///< r = middle + t half + t^2 bend
+  [[nodiscard]] Vec3 at(double t) const { return middle + t * half + t * t * bend; }
+};
+
+Edge edge_of(cell::CellType type, std::span<const Vec3> nodes, int edge) {
+  const std::size_t corners = cell::is_triangle(type) ? 3 : 4;
+  const auto k = static_cast<std::size_t>(edge);
+  const Vec3 a = nodes[k], b = nodes[(k + 1) % corners];
+  if (cell::info(type).order == 1) return {0.5 * (a + b), 0.5 * (b - a), Vec3::Zero()};
+  const Vec3 m = nodes[corners + k];
+  return {m, 0.5 * (b - a), 0.5 * (a + b) - m};
+}
+
+/// Safeguarded Newton for the nearest t in -1..1.
+double nearest_on_edge(const Edge& e, const Vec3& point, double& squared) {
+  const auto distance = [&](double t) { return (point - e.at(t)).squaredNorm(); };
+  if (e.bend.isZero(0.0)) {
+    const double size = std::max(e.half.squaredNorm(), 1e-300);
+    const double t = std::clamp((point - e.middle).dot(e.half) / size, -1.0, 1.0);
+    squared = distance(t);
+    return t;
   }
-  return r;
+  double t = 0;
+  squared = std::numeric_limits<double>::infinity();
+  for (int i = -3; i <= 3; ++i)
+    if (const double d = distance(i / 3.0); d < squared) squared = d, t = i / 3.0;
+  for (int it = 0; it < 40; ++it) {
+    const Vec3 gap = point - e.at(t), first = e.half + 2 * t * e.bend;
+    const double slope = -gap.dot(first), a = first.squaredNorm();
+    const double bend = a - 2 * gap.dot(e.bend);
+    double step = -slope / (bend > 0 ? bend : std::max(a, 1e-300));
+    step = std::clamp(t + step, -1.0, 1.0) - t;
+    double d = distance(t + step);
+    for (int half = 0; half < 30 && d > squared * (1 + 1e-14); ++half)
+      step *= 0.5, d = distance(t + step);
+    if (!(d <= squared * (1 + 1e-14))) break;
+    t += step;
+    squared = d;
+    if (std::abs(step) <= 1e-15) break;
+  }
+  return t;
 }
 
 }  // namespace
@@ -141,42 +224,22 @@ std::array<Vec3, 3> edge_jet(cell::CellType type, std::span<const Vec3> nodes, c
 FacetFoot closest_point_on_edge(cell::CellType type, std::span<const Vec3> nodes, int edge,
                                 const Vec3& point) {
   const int corners = cell::is_triangle(type) ? 3 : 4;
-  const Vec2 from = cell::area_node(type, edge), to = cell::area_node(type, (edge + 1) % corners);
-  const Vec2 middle = 0.5 * (from + to), e = 0.5 * (to - from);
-  const auto squared = [&](double t) {
-    return (point - edge_jet(type, nodes, middle + t * e, e)[0]).squaredNorm();
-  };
-  double t = 0, best = std::numeric_limits<double>::infinity();
-  for (int i = -4; i <= 4; ++i)
-    if (const double d = squared(0.25 * i); d < best) best = d, t = 0.25 * i;
-  for (int it = 0; it < 40; ++it) {
-    const std::array<Vec3, 3> r = edge_jet(type, nodes, middle + t * e, e);
-    const Vec3 gap = point - r[0];
-    const double slope = -gap.dot(r[1]), a = r[1].squaredNorm(), bend = a - gap.dot(r[2]);
-    double step = -slope / (bend > 0 ? bend : std::max(a, 1e-300));
-    step = std::clamp(t + step, -1.0, 1.0) - t;
-    double d = squared(t + step);
-    for (int half = 0; half < 30 && d > best * (1 + 1e-14); ++half)
-      step *= 0.5, d = squared(t + step);
-    if (!(d <= best * (1 + 1e-14))) break;
-    t += step;
-    best = d;
-    if (std::abs(step) <= 1e-15) break;
-  }
   FacetFoot foot;
-  foot.converged = std::isfinite(best);
-  foot.squared_distance = best;
-  foot.xi = middle + t * e;
+  const double t = nearest_on_edge(edge_of(type, nodes, edge), point, foot.squared_distance);
+  const Vec2 from = cell::area_node(type, edge), to = cell::area_node(type, (edge + 1) % corners);
+  foot.converged = std::isfinite(foot.squared_distance);
+  foot.xi = 0.5 * (from + to) + t * 0.5 * (to - from);
   foot.feature = std::abs(t) < 1 ? Feature::edge : Feature::corner;
   foot.local = std::abs(t) < 1 ? edge : t > 0 ? (edge + 1) % corners : edge;
   return foot;
 }
 
 FacetFoot closest_point(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point) {
-  FacetFoot best = foot_inside(type, nodes, point);
-  // At a minimum inside, the border of a flat facet cannot be nearer.
-  if (best.feature == Feature::face && type == cell::CellType::tri3) return best;
+  const Start start = nearest_sample(type, nodes, point);
+  FacetFoot best = foot_inside(type, nodes, point, start.xi);
   if (best.feature != Feature::face) best = {};
+  // Nothing on the border can be nearer than this.
+  if (start.border > 0 && best.squared_distance <= start.border * start.border) return best;
   const int edges = cell::is_triangle(type) ? 3 : 4;
   for (int k = 0; k < edges; ++k) {
     const FacetFoot foot = closest_point_on_edge(type, nodes, k, point);
