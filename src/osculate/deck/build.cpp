@@ -22,6 +22,8 @@ model::AnalysisOptions analysis_options(const Solver& solver) {
   newton.max_iterations = solver.max_iterations.value;
   newton.line_search =
       solver.line_search == LineSearch::off ? solve::LineSearch::off : solve::LineSearch::automatic;
+  newton.predictor = solver.predictor == Predictor::tangent ? solve::Predictor::tangent
+                                                            : solve::Predictor::automatic;
   options.increments.max_cutbacks = solver.cutbacks.value;
   return options;
 }

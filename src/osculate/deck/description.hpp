@@ -226,7 +226,7 @@ struct Step {
 // ---- solution and output ----------------------------------------------------------------------
 
 enum class LineSearch { automatic, off };
-enum class Predictor { tangent };
+enum class Predictor { automatic, tangent };
 
 struct Solver {
   Number energy, residual;  ///< tolerances; 0 = this measure does not decide
@@ -234,7 +234,7 @@ struct Solver {
   LineSearch line_search = LineSearch::automatic;
   Marked<int> cutbacks;
   std::optional<Number> minimum_fraction;
-  Predictor predictor = Predictor::tangent;
+  Predictor predictor = Predictor::automatic;
 };
 
 enum class FieldTimes { every, last, none };

@@ -80,9 +80,12 @@ Spec solver_spec() {
                                                .otherwise_as("decided by cutbacks")
                                                .such_as("1e-6")),
               optional("predictor", choice("First guess of an increment.",
-                                           {word("tangent", Predictor::tangent,
+                                           {word("auto", Predictor::automatic,
+                                                 "tangent, or where increments follow each other "
+                                                 "smoothly the extrapolation of the last ones"),
+                                            word("tangent", Predictor::tangent,
                                                  "prescribed motions act through the tangent")})
-                                        .otherwise("tangent")),
+                                        .otherwise("auto")),
               optional("stabilisation",
                        map("Viscous help until contact closes.", {}).not_available()),
               optional("arc_length", map("Arc length control.", {}).not_available()),

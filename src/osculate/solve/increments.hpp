@@ -22,6 +22,50 @@ struct IncrementRecord {
   int wasted_iterations = 0;  ///< iterations of the dropped attempts
 };
 
+/// The last increments, for a guess of the next one.
+///
+/// Formula    du = h v_1 + h (h + h_1) (v_1 - v_2) / (h_1 + h_2), v_i = du_i / h_i: the parabola
+///            through the last three converged states
+/// Used       where the last two increments ended with the same states of all contact points and
+///            the last one took at least three iterations (otherwise there is nothing to save)
+/// Tested by  tests/unit/solve/test_increments.cpp
+class Extrapolation {
+ public:
+  void reset() { *this = {}; }
+
+  /// Takes note of a converged increment of size `h`.
+  template <class State>
+  void add(const NewtonResult<State>& converged, double h) {
+    smooth_ = known_ > 0 && converged.evaluation.counts.signature == signature_;
+    signature_ = converged.evaluation.counts.signature;
+    before_ = std::move(last_);
+    before_size_ = last_size_;
+    last_ = converged.total;
+    last_size_ = h;
+    known_ = std::min(known_ + 1, 2);
+    worth_ = converged.iterations.size() >= 3 || (converged.extrapolated && worth_);
+    if (!converged.extrapolated) {
+      residual_ = converged.first_residual / h;
+      energy_ = converged.first_energy / (h * h);
+    }
+  }
+
+  [[nodiscard]] Guess guess(double h) const {
+    if (known_ < 2 || !smooth_ || !worth_) return {};
+    const Eigen::VectorXd v1 = last_ / last_size_, v2 = before_ / before_size_;
+    const double bend = h * (h + last_size_) / (last_size_ + before_size_);
+    return {h * v1 + bend * (v1 - v2), residual_ * h, energy_ * h * h};
+  }
+
+ private:
+  Eigen::VectorXd last_, before_;
+  double last_size_ = 0, before_size_ = 0;
+  double residual_ = 0, energy_ = 0;  ///< per size, of the last start by the tangent
+  std::uint64_t signature_ = 0;
+  int known_ = 0;
+  bool smooth_ = false, worth_ = false;
+};
+
 template <class State>
 struct StepResult {
   Outcome outcome = Outcome::converged;
@@ -47,6 +91,8 @@ template <System S>
   using State = typename S::State;
   StepResult<State> result;
   result.state = start;
+  Extrapolation extrapolation;
+  const bool may_guess = options.newton.predictor == Predictor::automatic;
   for (int n = 0; n < nominal_increments; ++n) {
     const double begin = static_cast<double>(n) / nominal_increments;
     const double end = static_cast<double>(n + 1) / nominal_increments;
@@ -55,8 +101,15 @@ template <System S>
     int cutbacks = 0, wasted = 0;
     while (at < end) {
       const double target = end - at <= size * (1 + 1e-9) ? end : at + size;
-      NewtonResult<State> attempt = newton(system, result.state, target, options.newton, solver);
+      const Guess guess = may_guess ? extrapolation.guess(target - at) : Guess{};
+      NewtonResult<State> attempt =
+          newton(system, result.state, target, options.newton, solver, guess);
+      if (attempt.outcome != Outcome::converged && attempt.extrapolated) {
+        wasted += static_cast<int>(attempt.iterations.size());
+        attempt = newton(system, result.state, target, options.newton, solver);
+      }
       if (attempt.outcome != Outcome::converged) {
+        extrapolation.reset();
         on_cutback(attempt.reason, at, target, attempt.iterations);
         ++cutbacks;
         wasted += static_cast<int>(attempt.iterations.size());
@@ -70,6 +123,7 @@ template <System S>
         continue;
       }
       const int iterations = static_cast<int>(attempt.iterations.size());
+      extrapolation.add(attempt, target - at);
       result.state = system.commit(attempt.state, target);
       result.increments.push_back({target, cutbacks, std::move(attempt.iterations), wasted});
       cutbacks = wasted = 0;

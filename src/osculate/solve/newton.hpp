@@ -38,6 +38,11 @@ struct Evaluation {
 
 enum class LineSearch { automatic, off };
 
+/// Where an increment starts from. tangent: from the committed state, linearised there.
+/// automatic: the same, but where increments follow each other smoothly and Newton needs several
+/// iterations, from the quadratic extrapolation of the last ones (see increments.hpp).
+enum class Predictor { automatic, tangent };
+
 /// Convergence is judged by the residual |R| <= residual * scale and by the energy
 /// |du . R| <= energy * (value of the first iteration). A measure with tolerance 0 is not used.
 /// A correction at round-off (1e-10 of the increment's largest) ends the iteration in any case.
@@ -52,6 +57,15 @@ struct NewtonOptions {
   double energy = 1e-12;
   int max_iterations = 25;
   LineSearch line_search = LineSearch::automatic;
+  Predictor predictor = Predictor::automatic;
+};
+
+/// A first guess of an increment, and what its convergence is measured by: an extrapolated start
+/// is so near that its own first iteration would be no measure.
+struct Guess {
+  Eigen::VectorXd du;   ///< correction of the unknowns; empty = none
+  double residual = 0;  ///< |R| of the last increment that was started by the tangent
+  double energy = 0;    ///< first energy of that increment
 };
 
 struct IterationRecord {
@@ -80,6 +94,9 @@ struct NewtonResult {
   State state;  ///< last iterate (converged or not)
   Evaluation evaluation;
   std::vector<IterationRecord> iterations;
+  Eigen::VectorXd total;      ///< sum of the corrections
+  bool extrapolated = false;  ///< started from the guess
+  double first_residual = 0, first_energy = 0;
   la::SolveStatus linear = la::SolveStatus::ok;
   Index bad_row = -1;
 };
@@ -220,6 +237,26 @@ double line_search(S& system, const typename S::State& committed,
 
 }  // namespace detail
 
+namespace detail {
+
+/// Moves to the guess. False (and nothing changed but the evaluation) if it is no good start.
+template <System S>
+bool start_from_guess(S& system, const typename S::State& committed, double time,
+                      const Guess& guess, NewtonResult<typename S::State>& result) {
+  if (guess.du.size() == 0) return false;
+  typename S::State state = system.apply(committed, guess.du, time, 1.0);
+  system.evaluate(committed, state, time, true, result.evaluation);
+  const Evaluation& e = result.evaluation;
+  if (!e.ok || e.branch_residual.size() > 0 || !(e.residual.norm() < 0.5 * guess.residual))
+    return false;
+  result.state = std::move(state);
+  result.total = guess.du;
+  result.extrapolated = true;
+  return true;
+}
+
+}  // namespace detail
+
 /// One increment by Newton's method from a committed state to `time`.
 ///
 /// The first iteration linearises at the committed state with the loads and prescribed increments
@@ -229,13 +266,21 @@ double line_search(S& system, const typename S::State& committed,
 template <System S>
 [[nodiscard]] NewtonResult<typename S::State> newton(S& system, const typename S::State& committed,
                                                      double time, const NewtonOptions& options,
-                                                     la::DirectSolver& solver) {
+                                                     la::DirectSolver& solver,
+                                                     const Guess& guess = {}) {
   using detail::fail;
   NewtonResult<typename S::State> result;
   result.state = committed;
   detail::Judge judge{options};
-  system.predict(committed, time, result.evaluation);
-  const double least_scale = result.evaluation.ok ? 1e-3 * result.evaluation.residual.norm() : 0;
+  if (detail::start_from_guess(system, committed, time, guess, result)) {
+    judge.first_energy = guess.energy;
+    result.first_residual = guess.residual;
+    judge.largest_correction = guess.du.lpNorm<Eigen::Infinity>();
+  } else {
+    system.predict(committed, time, result.evaluation);
+    if (result.evaluation.ok) result.first_residual = result.evaluation.residual.norm();
+  }
+  const double least_scale = 1e-3 * result.first_residual;
   for (int i = 1; i <= options.max_iterations; ++i) {
     if (!result.evaluation.ok) {
       fail(result, Outcome::numerical_failure, result.evaluation.message);
@@ -248,14 +293,18 @@ template <System S>
     result.state = system.remember(result.state);
     if (!detail::solve_correction(system, solver, linearised, du, result)) return result;
     const double energy_before = std::abs(du.dot(residual));
-    if (i == 1) judge.first_energy = energy_before;
+    if (i == 1 && !result.extrapolated) judge.first_energy = energy_before;
+    result.first_energy = judge.first_energy;
 
     IterationRecord record;
-    if (i > 1 && !branched && options.line_search == LineSearch::automatic)
+    if ((i > 1 || result.extrapolated) && !branched && options.line_search == LineSearch::automatic)
       record.step = detail::line_search(system, committed, result, du, residual, time);
     else
       result.state = system.apply(result.state, du, time, 1.0);
     system.evaluate(committed, result.state, time, true, result.evaluation);
+
+    if (result.total.size() == 0) result.total.setZero(du.size());
+    result.total += record.step * du;
 
     const Evaluation& e = result.evaluation;
     if (!e.ok) {

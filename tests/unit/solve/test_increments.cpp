@@ -126,5 +126,47 @@ TEST(Increments, TheObserverCanStop) {
   EXPECT_EQ(result.state.x[0], 0.25);
 }
 
+TEST(Extrapolation, IsTheParabolaThroughTheLastThreeStates) {
+  const auto path = [](double t) { return vector({2 + 3 * t - 5 * t * t, t * t}); };
+  Extrapolation extrapolation;
+  NewtonResult<ToySystem::State> step;
+  step.iterations.resize(4);
+  step.first_residual = 7;
+  step.first_energy = 11;
+  EXPECT_EQ(extrapolation.guess(1.0).du.size(), 0);
+  step.total = path(0.3) - path(0.1);
+  extrapolation.add(step, 0.2);
+  EXPECT_EQ(extrapolation.guess(1.0).du.size(), 0);
+  step.total = path(0.4) - path(0.3);
+  extrapolation.add(step, 0.1);
+  const Guess guess = extrapolation.guess(0.25);
+  EXPECT_LT((guess.du - (path(0.65) - path(0.4))).norm(), 1e-14);
+  EXPECT_NEAR(guess.residual, 7 * 2.5, 1e-13);
+  EXPECT_NEAR(guess.energy, 11 * 6.25, 1e-12);
+  step.evaluation.counts.signature = 5;  // a contact point changed its state
+  extrapolation.add(step, 0.1);
+  EXPECT_EQ(extrapolation.guess(0.1).du.size(), 0);
+}
+
+TEST(Extrapolation, SavesIterationsAndFindsTheSameStates) {
+  std::array<int, 2> iterations{};
+  std::array<std::vector<double>, 2> states;
+  for (const std::size_t k : {0u, 1u}) {
+    ToySystem system = scalar_system([](double x, double t) { return std::sinh(x) - 40 * t; },
+                                     [](double x) { return std::cosh(x); });
+    IncrementOptions options;
+    options.newton.predictor = k == 0 ? Predictor::tangent : Predictor::automatic;
+    Log log;
+    const auto result = run(system, 0.0, 20, options, log);
+    ASSERT_EQ(result.outcome, Outcome::converged);
+    for (const IncrementRecord& record : result.increments)
+      iterations[k] += static_cast<int>(record.iterations.size());
+    states[k] = log.states;
+  }
+  EXPECT_LE(iterations[1], iterations[0] - 15);
+  ASSERT_EQ(states[0].size(), states[1].size());
+  for (std::size_t i = 0; i < states[0].size(); ++i) EXPECT_NEAR(states[1][i], states[0][i], 1e-9);
+}
+
 }  // namespace
 }  // namespace osculate::solve
