@@ -1,0 +1,47 @@
+#pragma once
+// Solid-shells: volume cells with displacements only, thin in the direction zeta.
+#include "osculate/solid/volume.hpp"
+
+namespace osculate::solid {
+
+/// Internal force of a solid-shell cell and its derivative, as `evaluate` of the other volume
+/// formulations. hex8 is thin from nodes 0..3 to nodes 4..7, shell18 from 0..8 to 9..17; of the
+/// eight turned numberings of a hex8 that keep this direction each gives the same.
+///
+/// Formula    E_ij = (g_i . g_j - G_i . G_j)/2 in convected components, sampled at tying points:
+///            hex8: E13, E23 at two edge middles, E33 at the four corners of the middle surface;
+///            shell18: E11, E13 at 2 x 3 points, E22, E23 at 3 x 2, E12 at 2 x 2 (Gauss points),
+///            E33 at the nine nodes. Enhanced modes (7 and 4) make E33 linear in zeta and, for
+///            hex8, the membrane strains linear; their parameters are found in the cell
+/// Source     Bathe & Dvorkin 1985; Betsch & Stein 1995; Simo & Rifai 1990; Bucalem & Bathe 1993
+/// Returns    out.status: inverted if det(G_1, G_2, G_3) <= 0 at a quadrature point (a mirrored or
+///            flat cell; its current one likewise in finite kinematics), material_failed if the law
+///            or the modes have no answer; force and tangent are then not to be used. The tangent
+///            is symmetric
+/// Requires   type is hex8 or shell18; small kinematics with linear_elastic, finite with another
+/// law Tested by  tests/unit/solid/test_solid_shell.cpp, test_solid_shell_patch.cpp,
+///            test_solid_shell_benchmarks.cpp
+void evaluate_solid_shell(const VolumeSection& section, cell::CellType type,
+                          const Coordinates3& reference, const Coordinates3& displacement,
+                          bool with_tangent, VolumeResult& out);
+
+/// Cauchy stress and strain at the quadrature points (the strain is the one the material sees).
+///
+/// Formula    finite kinematics: sigma = R U S U R^T / det U with the assumed strain in
+///            U^2 = I + 2 E and the rotation R of the displacement gradient
+/// Tested by  tests/unit/solid/test_solid_shell_stress.cpp
+[[nodiscard]] CellStress3 solid_shell_stress_at_points(const VolumeSection& section,
+                                                       cell::CellType type,
+                                                       const Coordinates3& reference,
+                                                       const Coordinates3& displacement);
+
+/// The same at the nodes: least squares over the quadrature points, linear through the thickness,
+/// linear (hex8) or quadratic (shell18) along the shell.
+///
+/// Tested by  tests/unit/solid/test_solid_shell_stress.cpp
+[[nodiscard]] NodalStress3 solid_shell_nodal_stress(const VolumeSection& section,
+                                                    cell::CellType type,
+                                                    const Coordinates3& reference,
+                                                    const Coordinates3& displacement);
+
+}  // namespace osculate::solid

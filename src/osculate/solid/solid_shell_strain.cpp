@@ -1,0 +1,231 @@
+#include "osculate/solid/solid_shell_strain.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "osculate/cell/quadrature.hpp"
+
+namespace osculate::solid {
+namespace {
+
+constexpr std::array<std::array<Eigen::Index, 2>, 6> axes{
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+
+/// Tying points of one component: a grid of abscissae in xi and eta, at zeta = 0 or at the zeta of
+/// each quadrature point.
+struct Grid {
+  std::vector<double> xi, eta;
+  bool at_mid;
+};
+
+std::array<Grid, 6> grids(cell::CellType type) {
+  const std::vector<double> two = cell::gauss_legendre(2).points,
+                            three = cell::gauss_legendre(3).points;
+  if (type == cell::CellType::hex8)
+    return {{{two, two, false},
+             {two, two, false},
+             {{-1, 1}, {-1, 1}, true},
+             {two, two, false},
+             {{-1, 1}, {0}, true},
+             {{0}, {-1, 1}, true}}};
+  return {{{two, three, false},
+           {three, two, false},
+           {{-1, 0, 1}, {-1, 0, 1}, true},
+           {two, two, false},
+           {three, two, true},
+           {two, three, true}}};
+}
+
+/// Lagrange polynomial of the i-th abscissa. Exactly 0 or 1 at the abscissae themselves.
+double lagrange(std::span<const double> at, std::size_t i, double x) {
+  double value = 1;
+  for (std::size_t j = 0; j < at.size(); ++j)
+    if (j != i) value *= (x - at[j]) / (at[i] - at[j]);
+  return value;
+}
+
+ShellGradient gradient(cell::CellType type, const Vec3& xi) {
+  const cell::VolumeShape s = cell::volume_shape(type, xi);
+  return s.d.topRows(s.count);
+}
+
+/// Adds the samples of one component in one layer and the shares of the points `layer` in them.
+void add_samples(ShellRule& rule, cell::CellType type, Eigen::Index component, const Grid& grid,
+                 double zeta, std::span<ShellRulePoint> layer) {
+  for (std::size_t i = 0; i < grid.xi.size(); ++i)
+    for (std::size_t j = 0; j < grid.eta.size(); ++j) {
+      for (ShellRulePoint& p : layer) {
+        const double weight = lagrange(grid.xi, i, p.xi.x()) * lagrange(grid.eta, j, p.xi.y());
+        if (weight != 0) p.shares.push_back({rule.samples.size(), weight});
+      }
+      rule.samples.push_back({component, gradient(type, {grid.xi[i], grid.eta[j], zeta})});
+    }
+}
+
+ShellRule make_rule(cell::CellType type) {
+  const int along = type == cell::CellType::hex8 ? 2 : 3;
+  const cell::Quadrature1D plane = cell::gauss_legendre(along), through = cell::gauss_legendre(2);
+  ShellRule rule;
+  rule.modes = type == cell::CellType::hex8 ? 7 : 4;
+  rule.center = gradient(type, Vec3::Zero());
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < plane.points.size(); ++i)
+      for (std::size_t j = 0; j < plane.points.size(); ++j) {
+        const Vec3 xi(plane.points[i], plane.points[j], through.points[k]);
+        rule.points.push_back({xi,
+                               plane.weights[i] * plane.weights[j] * through.weights[k],
+                               gradient(type, xi),
+                               gradient(type, {xi.x(), xi.y(), 0}),
+                               {}});
+      }
+  const std::span<ShellRulePoint> all(rule.points);
+  const std::size_t half = all.size() / 2;
+  const std::array<Grid, 6> grid = grids(type);
+  for (std::size_t c = 0; c < 6; ++c) {
+    const auto component = static_cast<Eigen::Index>(c);
+    if (grid[c].at_mid) {
+      add_samples(rule, type, component, grid[c], 0, all);
+      continue;
+    }
+    for (std::size_t k = 0; k < 2; ++k)
+      add_samples(rule, type, component, grid[c], through.points[k], all.subspan(k * half, half));
+  }
+  return rule;
+}
+
+/// Cartesian strain components from those in the basis of the columns of `basis`.
+Mat<6, 6> cartesian_from(const Mat<3, 3>& basis) {
+  const Mat<3, 3> dual = basis.inverse().transpose();  // columns G^i
+  Mat<6, 6> t;
+  for (std::size_t r = 0; r < 6; ++r)
+    for (std::size_t c = 0; c < 6; ++c) {
+      const auto [a, b] = axes[r];
+      const auto [i, j] = axes[c];
+      t(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(c)) =
+          (a == b ? 0.5 : 1.0) * (dual(a, i) * dual(b, j) + dual(a, j) * dual(b, i));
+    }
+  return t;
+}
+
+/// Strain of a sample; its derivative, three values a node, goes to `b`.
+double sample_strain(const ShellSample& s, const Coordinates3& reference,
+                     const Coordinates3& displacement, bool finite, Eigen::Ref<Eigen::VectorXd> b) {
+  const auto [i, j] = axes[static_cast<std::size_t>(s.component)];
+  const Mat<3, 3> basis = reference.transpose() * s.shape;
+  const Mat<3, 3> change = displacement.transpose() * s.shape;
+  const double half = i == j ? 0.5 : 1.0;
+  const Mat<3, 3> now = finite ? Mat<3, 3>(basis + change) : basis;
+  for (Eigen::Index k = 0; k < s.shape.rows(); ++k)
+    b.segment<3>(3 * k) = half * (s.shape(k, i) * now.col(j) + s.shape(k, j) * now.col(i));
+  const double linear = half * (basis.col(i).dot(change.col(j)) + basis.col(j).dot(change.col(i)));
+  return finite ? linear + half * change.col(i).dot(change.col(j)) : linear;
+}
+
+/// Fills p.modes, each scaled by the size of the cell to Cartesian strains of about one.
+void set_modes(const ShellRule& rule, const ShellRulePoint& at, const Coordinates3& reference,
+               double determinant, ShellPoint& p) {
+  const Mat<3, 3> center = reference.transpose() * rule.center;
+  const Mat<3, 3> mid = reference.transpose() * at.shape_mid;
+  const Vec3 xi = at.xi, length = center.colwise().norm();
+  const Vec<6> thickness = xi.z() * length.z() * length.z() * mid.determinant() / determinant *
+                           cartesian_from(mid).col(2);
+  p.modes.resize(6, rule.modes);
+  p.modes.leftCols<3>() << thickness, xi.x() * thickness, xi.y() * thickness;
+  if (rule.modes == 4) {
+    p.modes.col(3) = xi.x() * xi.y() * thickness;
+    return;
+  }
+  const Mat<6, 6> t = center.determinant() / determinant * cartesian_from(center);
+  const Vec<6> shear = length.x() * length.y() * t.col(3);
+  p.modes.rightCols<4>() << xi.x() * length.x() * length.x() * t.col(0),
+      xi.y() * length.y() * length.y() * t.col(1), xi.x() * shear, xi.y() * shear;
+}
+
+/// Responses, equations int M^T S dV = 0 and their derivative. `scale` is the size that rounding
+/// errors of the equations are relative to. False where the law fails.
+bool sample_modes(const VolumeSection& section, const ShellCell& cell, ShellModes& m,
+                  ShellModeVector& rest, double& scale) {
+  rest.setZero(cell.rule->modes);
+  m.stiffness.setZero(cell.rule->modes, cell.rule->modes);
+  scale = 0;
+  for (std::size_t q = 0; q < cell.rule->points.size(); ++q) {
+    const ShellPoint& p = cell.points[q];
+    const material::Strain3 total = p.strain + p.modes * m.alpha;
+    const material::Response3& r = m.response[q] = material::response(section.law, total);
+    if (!r.ok) return false;
+    const ShellModeMatrix weighted = p.volume * p.modes;
+    rest.noalias() += weighted.transpose() * r.stress;
+    m.stiffness.noalias() += weighted.transpose() * r.tangent * p.modes;
+    const Vec<6> size = r.tangent.cwiseAbs() * total.cwiseAbs() + r.stress.cwiseAbs();
+    scale += (weighted.cwiseAbs().transpose() * size).maxCoeff();
+  }
+  return true;
+}
+
+}  // namespace
+
+const ShellRule& shell_rule(cell::CellType type) {
+  static const ShellRule eight = make_rule(cell::CellType::hex8);
+  static const ShellRule eighteen = make_rule(cell::CellType::shell18);
+  return type == cell::CellType::hex8 ? eight : eighteen;
+}
+
+bool fill_shell(const VolumeSection& section, cell::CellType type, const Coordinates3& reference,
+                const Coordinates3& displacement, ShellCell& cell) {
+  const ShellRule& rule = shell_rule(type);
+  const bool finite = section.kinematics == Kinematics::finite;
+  cell.rule = &rule;
+  cell.sample_b.resize(3 * reference.rows(), static_cast<Eigen::Index>(rule.samples.size()));
+  std::array<double, max_shell_samples> value{};
+  for (std::size_t s = 0; s < rule.samples.size(); ++s)
+    value[s] = sample_strain(rule.samples[s], reference, displacement, finite,
+                             cell.sample_b.col(static_cast<Eigen::Index>(s)));
+  for (std::size_t q = 0; q < rule.points.size(); ++q) {
+    const ShellRulePoint& at = rule.points[q];
+    ShellPoint& p = cell.points[q];
+    p.basis = reference.transpose() * at.shape;
+    p.change = displacement.transpose() * at.shape;
+    const double determinant = p.basis.determinant();
+    if (!(determinant > 0)) return false;
+    if (finite && !(Mat<3, 3>(p.basis + p.change).determinant() > 0)) return false;
+    p.volume = at.weight * determinant;
+    p.from_convected = cartesian_from(p.basis);
+    Vec<6> convected = Vec<6>::Zero();
+    for (const ShellRulePoint::Share& share : at.shares)
+      convected[rule.samples[share.sample].component] += share.weight * value[share.sample];
+    p.strain = p.from_convected * convected;
+    set_modes(rule, at, reference, determinant, p);
+  }
+  return true;
+}
+
+ShellModes shell_modes(const VolumeSection& section, const ShellCell& cell) {
+  ShellModes m;
+  m.alpha.setZero(cell.rule->modes);
+  ShellModeVector rest, step = m.alpha;
+  double scale = 0, before = std::numeric_limits<double>::infinity();
+  constexpr int most = 40;
+  for (int it = 0; it < most; ++it) {
+    // Rounding level: small enough, or nearly so and not getting smaller any more.
+    constexpr double rounding = 1e-15, nearly = 1e-12;
+    m.ok = sample_modes(section, cell, m, rest, scale);
+    const double size = rest.lpNorm<Eigen::Infinity>();
+    if (m.ok && (size <= rounding * scale || (size <= nearly * scale && size >= 0.5 * before)))
+      return m;
+    if (m.ok) {
+      before = size;
+      step = -m.stiffness.partialPivLu().solve(rest);
+      m.alpha += step;
+    } else {  // too far: half of the way back to where the law had an answer
+      if (it == 0) return m;
+      step *= 0.5;
+      m.alpha -= step;
+    }
+  }
+  m.ok = false;
+  return m;
+}
+
+}  // namespace osculate::solid

@@ -1,0 +1,93 @@
+#pragma once
+// Assumed and enhanced strains of solid-shells; shared by solid_shell.cpp, solid_shell_stress.cpp.
+#include <array>
+#include <vector>
+
+#include "osculate/solid/volume.hpp"
+
+namespace osculate::solid {
+
+inline constexpr int max_shell_nodes = 18;
+inline constexpr int max_shell_points = 18;
+inline constexpr int max_shell_samples = 53;
+inline constexpr int max_shell_modes = 7;
+
+/// dN_k/dxi_i.
+using ShellGradient = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, max_shell_nodes, 3>;
+using ShellModeMatrix = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_shell_modes>;
+using ShellModeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_shell_modes, 1>;
+using ShellModeStiffness =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_shell_modes, max_shell_modes>;
+using ShellSampleMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
+                                        3 * max_shell_nodes, max_shell_samples>;
+
+/// One convected strain component at one tying point. Components as in `material::Strain3`.
+struct ShellSample {
+  Eigen::Index component;
+  ShellGradient shape;
+};
+
+/// A quadrature point and what it takes from which sample.
+struct ShellRulePoint {
+  struct Share {
+    std::size_t sample;
+    double weight;
+  };
+  Vec3 xi;
+  double weight;
+  ShellGradient shape, shape_mid;  ///< at the point; at (xi, eta, 0)
+  std::vector<Share> shares;
+};
+
+/// What is the same for all cells of a type.
+struct ShellRule {
+  std::vector<ShellSample> samples;
+  std::vector<ShellRulePoint> points;
+  ShellGradient center;
+  Eigen::Index modes;
+};
+/// Requires   type is hex8 or shell18
+[[nodiscard]] const ShellRule& shell_rule(cell::CellType type);
+
+/// Reference geometry of one quadrature point.
+struct ShellPoint {
+  double volume;             ///< weight times det G
+  Mat<3, 3> basis;           ///< columns G_i
+  Mat<3, 3> change;          ///< columns du/dxi_i
+  Mat<6, 6> from_convected;  ///< Cartesian strain components from convected ones
+  ShellModeMatrix modes;     ///< Cartesian strain per mode
+  material::Strain3 strain;  ///< assumed strain without modes, Cartesian
+};
+
+/// A cell at given displacements, before its modes are found.
+struct ShellCell {
+  const ShellRule* rule = nullptr;
+  std::array<ShellPoint, max_shell_points> points;
+  ShellSampleMatrix sample_b;  ///< derivative of each sample with respect to the displacements
+};
+
+/// False where det G is not positive at a quadrature point, or, in finite kinematics, the current
+/// one.
+[[nodiscard]] bool fill_shell(const VolumeSection& section, cell::CellType type,
+                              const Coordinates3& reference, const Coordinates3& displacement,
+                              ShellCell& cell);
+
+/// State of the enhanced modes at given displacements.
+struct ShellModes {
+  bool ok = true;
+  ShellModeVector alpha;
+  ShellModeStiffness stiffness;
+  std::array<material::Response3, max_shell_points> response;  ///< at strain + modes * alpha
+};
+
+/// Finds the mode parameters by a local Newton iteration from zero to round-off (one step where
+/// linear): int M^T S dV = 0. The element keeps no state.
+///
+/// Formula    thickness: E33 = zeta {1, xi, eta} (hex8), zeta {1, xi, eta, xi eta} (shell18) in the
+///            basis at (xi, eta, 0), times det G there over det G here; membrane (hex8): xi in E11,
+///            eta in E22, xi and eta in 2 E12 in the basis of the centre, times det G0/det G. So
+///            every mode has no work with a constant stress
+/// Returns    ok is false where the law has no answer or the iteration finds none
+[[nodiscard]] ShellModes shell_modes(const VolumeSection& section, const ShellCell& cell);
+
+}  // namespace osculate::solid

@@ -1,0 +1,111 @@
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <Eigen/SVD>
+
+#include "osculate/solid/solid_shell.hpp"
+#include "osculate/solid/solid_shell_strain.hpp"
+
+namespace osculate::solid {
+namespace {
+
+/// Symmetric tensor from the components 11, 22, 33, 12, 23, 13, the last three times `shear`.
+Mat<3, 3> tensor(const Vec<6>& v, double shear) {
+  Mat<3, 3> t;
+  t << v[0], shear * v[3], shear * v[5],  //
+      shear * v[3], v[1], shear * v[4],   //
+      shear * v[5], shear * v[4], v[2];
+  return t;
+}
+
+/// Cauchy stress from second Piola-Kirchhoff stress, assumed strain and deformation gradient. False
+/// where the assumed strain squeezes a direction to nothing.
+bool cauchy(const Mat<3, 3>& f, const material::Strain3& strain, const Vec<6>& stress,
+            Vec<6>& out) {
+  const Mat<3, 3> c = Mat<3, 3>::Identity() + 2 * tensor(strain, 0.5);
+  const Eigen::SelfAdjointEigenSolver<Mat<3, 3>> eigen(c);
+  if (!(eigen.eigenvalues()[0] > 0)) return false;
+  const Eigen::JacobiSVD<Mat<3, 3>> polar(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Mat<3, 3> rotation = polar.matrixU() * polar.matrixV().transpose();
+  const Mat<3, 3> g = rotation * eigen.operatorSqrt();
+  const Mat<3, 3> s = g * tensor(stress, 1) * g.transpose() / std::sqrt(eigen.eigenvalues().prod());
+  out << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
+  return true;
+}
+
+/// Linear through the thickness, linear or (from nine points a layer on) quadratic along the shell.
+constexpr int max_terms = 12;
+using Basis = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, max_terms>;
+
+Basis basis(const Vec3& xi, int points) {
+  Basis plane(points == 8 ? 3 : 6);
+  plane.head<3>() << 1, xi.x(), xi.y();
+  if (plane.size() == 6) plane.tail<3>() << xi.x() * xi.y(), xi.x() * xi.x(), xi.y() * xi.y();
+  Basis b(2 * plane.size());
+  b << plane, xi.z() * plane;
+  return b;
+}
+
+}  // namespace
+
+CellStress3 solid_shell_stress_at_points(const VolumeSection& section, cell::CellType type,
+                                         const Coordinates3& reference,
+                                         const Coordinates3& displacement) {
+  CellStress3 out;
+  ShellCell cell;
+  const bool one_to_one = fill_shell(section, type, reference, displacement, cell);
+  const ShellRule& rule = shell_rule(type);
+  out.status = one_to_one ? Status::ok : Status::inverted;
+  out.count = static_cast<int>(rule.points.size());
+  ShellModes modes;
+  if (one_to_one) modes = shell_modes(section, cell);
+  if (one_to_one && !modes.ok) out.status = Status::material_failed;
+  for (std::size_t q = 0; q < rule.points.size(); ++q) {
+    PointStress3& to = out.point[q];
+    to.xi = rule.points[q].xi;
+    const cell::VolumeShape shape = cell::volume_shape(type, to.xi);
+    to.position = reference.transpose() * shape.n.head(shape.count);
+    to.volume = rule.points[q].weight *
+                Mat<3, 3>(reference.transpose() * rule.points[q].shape).determinant();
+    to.stress.setZero();
+    to.strain.setZero();
+    if (out.status != Status::ok) continue;
+    const ShellPoint& p = cell.points[q];
+    const material::Strain3 strain = p.strain + p.modes * modes.alpha;
+    to.strain = strain;
+    to.strain.tail<3>() *= 0.5;
+    to.stress = modes.response[q].stress;
+    if (section.kinematics == Kinematics::small) continue;
+    const Mat<3, 3> f = Mat<3, 3>::Identity() + p.change * p.basis.inverse();
+    if (!cauchy(f, strain, modes.response[q].stress, to.stress))
+      out.status = Status::material_failed;
+  }
+  return out;
+}
+
+NodalStress3 solid_shell_nodal_stress(const VolumeSection& section, cell::CellType type,
+                                      const Coordinates3& reference,
+                                      const Coordinates3& displacement) {
+  const CellStress3 at = solid_shell_stress_at_points(section, type, reference, displacement);
+  const Eigen::Index terms = basis(Vec3::Zero(), at.count).size();
+  Eigen::Matrix<double, Eigen::Dynamic, 12, 0, max_shell_points, 12> values(at.count, 12);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_shell_points, max_terms> sample(
+      at.count, terms);
+  for (int q = 0; q < at.count; ++q) {
+    const PointStress3& p = at.point[static_cast<std::size_t>(q)];
+    values.row(q) << p.stress.transpose(), p.strain.transpose();
+    sample.row(q) = basis(p.xi, at.count);
+  }
+  const Eigen::Matrix<double, Eigen::Dynamic, 12, 0, max_terms, 12> fit =
+      sample.colPivHouseholderQr().solve(values);
+  NodalStress3 out;
+  out.count = cell::info(type).nodes;
+  for (int k = 0; k < out.count; ++k) {
+    const Mat<1, 12> node = basis(cell::volume_node(type, k), at.count) * fit;
+    out.stress[static_cast<std::size_t>(k)] = node.head<6>().transpose();
+    out.strain[static_cast<std::size_t>(k)] = node.tail<6>().transpose();
+  }
+  return out;
+}
+
+}  // namespace osculate::solid

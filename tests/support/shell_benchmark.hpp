@@ -1,0 +1,195 @@
+#pragma once
+// Small assembled problems for solid-shells: a structured mesh of one cell through the thickness,
+// single nodal constraints, dead loads, an end moment, and Newton's method with equal load steps.
+#include <Eigen/LU>
+#include <Eigen/SparseCholesky>
+#include <functional>
+#include <vector>
+
+#include "osculate/solid/solid_shell.hpp"
+
+namespace osculate::testing {
+
+/// The node (i, j) of the bottom (side 0) or top (side 1) face is at map(u, v, z) with
+/// u, v = 0..1 and z = -1 or 1; (u, v, z) must be right-handed.
+struct ShellMesh {
+  cell::CellType type;
+  Index count_u, count_v;  ///< nodes
+  std::vector<Vec3> nodes;
+  std::vector<std::vector<Index>> cells;
+
+  [[nodiscard]] Index node(Index i, Index j, Index side) const {
+    return (side * count_v + j) * count_u + i;
+  }
+};
+
+inline ShellMesh shell_mesh(cell::CellType type, Index cells_u, Index cells_v,
+                            const std::function<Vec3(double, double, double)>& map) {
+  const Index order = type == cell::CellType::hex8 ? 1 : 2;
+  ShellMesh m{type, order * cells_u + 1, order * cells_v + 1, {}, {}};
+  for (const double z : {-1.0, 1.0})
+    for (Index j = 0; j < m.count_v; ++j)
+      for (Index i = 0; i < m.count_u; ++i)
+        m.nodes.push_back(map(double(i) / (m.count_u - 1), double(j) / (m.count_v - 1), z));
+  for (Index j = 0; j < cells_v; ++j)
+    for (Index i = 0; i < cells_u; ++i) {
+      std::vector<Index> cell;
+      for (int k = 0; k < cell::info(type).nodes; ++k) {
+        const Vec3 at = 0.5 * order * (cell::volume_node(type, k) + Vec3::Ones());
+        cell.push_back(
+            m.node(order * i + Index(at.x()), order * j + Index(at.y()), at.z() > 0 ? 1 : 0));
+      }
+      m.cells.push_back(cell);
+    }
+  return m;
+}
+
+/// A couple of the moment about the y axis at the node pairs (bottom, top) of one edge: forces on
+/// the two nodes, normal to the line between them, that follow its rotation. Its energy is
+/// -moment * angle.
+struct EndMoment {
+  struct Pair {
+    Index bottom, top;
+    double moment;
+  };
+  std::vector<Pair> pairs;
+};
+
+struct ShellProblem {
+  ShellMesh mesh;
+  solid::VolumeSection section;
+  std::vector<char> fixed;  ///< a flag per unknown
+  Eigen::VectorXd load;     ///< dead loads
+  EndMoment moment;
+
+  ShellProblem(ShellMesh m, solid::VolumeSection s)
+      : mesh(std::move(m)),
+        section(std::move(s)),
+        fixed(3 * mesh.nodes.size(), 0),
+        load(Eigen::VectorXd::Zero(Eigen::Index(3 * mesh.nodes.size()))) {}
+  void fix(Index node, int component) { fixed[std::size_t(3 * node + component)] = 1; }
+};
+
+namespace detail {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+inline solid::Coordinates3 cell_values(const std::vector<Index>& cell, const Eigen::VectorXd& u) {
+  solid::Coordinates3 c(Eigen::Index(cell.size()), 3);
+  for (std::size_t k = 0; k < cell.size(); ++k)
+    c.row(Eigen::Index(k)) = u.segment<3>(3 * cell[k]).transpose();
+  return c;
+}
+
+/// Internal minus external forces and their derivative. False where a cell fails.
+inline bool assemble(const ShellProblem& p, const Eigen::VectorXd& u, double factor,
+                     Eigen::VectorXd& rest, Triplets& k) {
+  rest = -factor * p.load;
+  k.clear();
+  solid::VolumeResult r;
+  for (const std::vector<Index>& cell : p.mesh.cells) {
+    solid::Coordinates3 x(Eigen::Index(cell.size()), 3);
+    for (std::size_t i = 0; i < cell.size(); ++i)
+      x.row(Eigen::Index(i)) = p.mesh.nodes[std::size_t(cell[i])].transpose();
+    solid::evaluate_solid_shell(p.section, p.mesh.type, x, cell_values(cell, u), true, r);
+    if (r.status != solid::Status::ok) return false;
+    for (Eigen::Index i = 0; i < r.force.size(); ++i) {
+      const Index row = 3 * cell[std::size_t(i / 3)] + Index(i % 3);
+      rest[row] += r.force[i];
+      for (Eigen::Index j = 0; j < r.force.size(); ++j)
+        k.emplace_back(row, 3 * cell[std::size_t(j / 3)] + Index(j % 3), r.tangent(i, j));
+    }
+  }
+  for (const EndMoment::Pair& pair : p.moment.pairs) {
+    const Vec3 d = p.mesh.nodes[std::size_t(pair.top)] - p.mesh.nodes[std::size_t(pair.bottom)] +
+                   u.segment<3>(3 * pair.top) - u.segment<3>(3 * pair.bottom);
+    const double m = factor * pair.moment, square = d.x() * d.x() + d.z() * d.z();
+    const Vec3 turned(d.z(), 0, -d.x());  // y x d
+    Mat<3, 3> slope = Mat<3, 3>::Zero();
+    slope(0, 2) = m / square;
+    slope(2, 0) = -m / square;
+    slope -= 2 * m / (square * square) * turned * Vec3(d.x(), 0, d.z()).transpose();
+    for (const auto& [a, sign_a] : {std::pair{pair.top, 1.0}, std::pair{pair.bottom, -1.0}}) {
+      rest.segment<3>(3 * a) -= sign_a * m / square * turned;
+      for (const auto& [b, sign_b] : {std::pair{pair.top, 1.0}, std::pair{pair.bottom, -1.0}})
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            k.emplace_back(3 * a + i, 3 * b + j, -sign_a * sign_b * slope(i, j));
+    }
+  }
+  return true;
+}
+
+}  // namespace detail
+
+struct ShellSolution {
+  bool converged = false;
+  int iterations = 0;
+  std::vector<Eigen::VectorXd> u;  ///< after each load step
+};
+
+/// Newton's method; a step has converged when the correction is below 1e-9 of the displacement.
+inline ShellSolution solve(const ShellProblem& p, int steps) {
+  const Eigen::Index n = p.load.size();
+  std::vector<Index> place(std::size_t(n), -1);
+  Index free = 0;
+  for (std::size_t i = 0; i < place.size(); ++i)
+    if (!p.fixed[i]) place[i] = free++;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
+  bool analysed = false;
+  ShellSolution s;
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(n), rest;
+  detail::Triplets all, kept;
+  for (int step = 1; step <= steps; ++step) {
+    for (int it = 0;; ++it) {
+      if (it == 40 || !detail::assemble(p, u, double(step) / steps, rest, all)) return s;
+      kept.clear();
+      for (const Eigen::Triplet<double>& t : all) {
+        const Index row = place[std::size_t(t.row())], column = place[std::size_t(t.col())];
+        if (row >= 0 && column >= 0) kept.emplace_back(row, column, t.value());
+      }
+      Eigen::SparseMatrix<double> k(free, free);
+      k.setFromTriplets(kept.begin(), kept.end());
+      Eigen::VectorXd right(free);
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (place[std::size_t(i)] >= 0) right[place[std::size_t(i)]] = -rest[i];
+      if (!analysed) solver.analyzePattern(k);
+      analysed = true;
+      solver.factorize(k);
+      if (solver.info() != Eigen::Success) return s;
+      const Eigen::VectorXd du = solver.solve(right);
+      for (Eigen::Index i = 0; i < n; ++i)
+        if (place[std::size_t(i)] >= 0) u[i] += du[place[std::size_t(i)]];
+      ++s.iterations;
+      if (!(du.norm() < 1e6 * (1 + u.norm()))) return s;
+      if (du.norm() <= 1e-9 * u.norm()) break;
+    }
+    s.u.push_back(u);
+  }
+  s.converged = true;
+  return s;
+}
+
+/// Mean displacement of the two nodes at (i, j).
+inline Vec3 mid_displacement(const ShellMesh& m, const Eigen::VectorXd& u, Index i, Index j) {
+  return 0.5 * (u.segment<3>(3 * m.node(i, j, 0)) + u.segment<3>(3 * m.node(i, j, 1)));
+}
+
+/// Share of each node in a load spread evenly along an edge of n nodes (sum 1).
+inline std::vector<double> edge_shares(cell::CellType type, Index n) {
+  std::vector<double> share(std::size_t(n), 0.0);
+  if (type == cell::CellType::hex8) {
+    for (Index i = 0; i + 1 < n; ++i)
+      for (const Index k : {i, i + 1}) share[std::size_t(k)] += 0.5 / (n - 1);
+    return share;
+  }
+  for (Index i = 0; i + 2 < n; i += 2) {
+    const double length = 2.0 / (n - 1);
+    share[std::size_t(i)] += length / 6;
+    share[std::size_t(i + 1)] += length * 4 / 6;
+    share[std::size_t(i + 2)] += length / 6;
+  }
+  return share;
+}
+
+}  // namespace osculate::testing

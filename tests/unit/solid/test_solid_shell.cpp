@@ -1,0 +1,182 @@
+#include <Eigen/Eigenvalues>
+#include <limits>
+
+#include "derivative_check.hpp"
+#include "solid_shell_cases.hpp"
+
+namespace osculate::solid::testing {
+namespace {
+
+using osculate::testing::check_derivative;
+
+constexpr double thickness = 0.2;
+
+void expect_tangent_is_derivative(const ShellCase& c, const Coordinates3& x,
+                                  const Coordinates3& u) {
+  Coordinates3 direction = sample_shell_displacement(c.type, 0.3, 5);
+  direction *= thickness;
+  const Eigen::VectorXd along = flat(direction);
+  const VolumeResult at = evaluated(c, x, u);
+  const auto force = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+    VolumeResult r;
+    evaluate_solid_shell(c.section, c.type, x, unflat3(v), false, r);
+    EXPECT_EQ(r.status, Status::ok);
+    return r.force;
+  };
+  const auto r = check_derivative(force, at.tangent * along, flat(u), along, 4e-3);
+  EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.1)
+      << "order " << r.order << " error " << r.error;
+  EXPECT_TRUE(c.finite() || r.exact) << r.error;
+  EXPECT_LT((at.tangent - at.tangent.transpose()).norm(), 1e-14 * at.tangent.norm());
+}
+
+TEST(SolidShell, TangentIsTheDerivativeOfTheForceAndSymmetric) {
+  for_each_shell([](const ShellCase& c) {
+    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
+    const Coordinates3 u = sample_shell_displacement(c.type, 0.1 * thickness);
+    expect_tangent_is_derivative(c, x, u);
+    if (!c.finite()) return;
+    const Coordinates3 turned = (x + u) * sample_turn(2.5).transpose() - x;
+    expect_tangent_is_derivative(c, x, turned);
+  });
+}
+
+TEST(SolidShell, ForceDoesNotDependOnWhetherTheTangentIsAskedFor) {
+  for_each_shell([](const ShellCase& c) {
+    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
+    const Coordinates3 u = sample_shell_displacement(c.type, 0.1 * thickness);
+    VolumeResult r;
+    evaluate_solid_shell(c.section, c.type, x, u, false, r);
+    EXPECT_EQ(r.force, evaluated(c, x, u).force);
+    EXPECT_EQ(r.tangent.norm(), 0.0);
+  });
+}
+
+TEST(SolidShell, ForcesAndMomentsBalance) {
+  for_each_shell([](const ShellCase& c) {
+    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
+    const Coordinates3 u = sample_shell_displacement(c.type, 0.1 * thickness);
+    const Coordinates3 force = unflat3(evaluated(c, x, u).force);
+    const Coordinates3 arm = c.finite() ? Coordinates3(x + u) : x;
+    Vec3 moment = Vec3::Zero();
+    for (Eigen::Index k = 0; k < x.rows(); ++k)
+      moment += Vec3(arm.row(k)).cross(Vec3(force.row(k)));
+    EXPECT_LT(force.colwise().sum().norm(), 1e-14 * force.norm());
+    EXPECT_LT(moment.norm(), 1e-14 * force.norm());
+  });
+}
+
+TEST(SolidShell, ForceTurnsWithTheBody) {
+  for_each_shell([](const ShellCase& c) {
+    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
+    const Coordinates3 u = sample_shell_displacement(c.type, 0.1 * thickness);
+    const VolumeResult before = evaluated(c, x, u);
+    const Mat<3, 3> turn = sample_turn(2.8);
+    Eigen::MatrixXd turns = Eigen::MatrixXd::Zero(3 * x.rows(), 3 * x.rows());
+    for (Eigen::Index k = 0; k < x.rows(); ++k) turns.block<3, 3>(3 * k, 3 * k) = turn;
+    const auto expect_turned = [&](const VolumeResult& after) {
+      EXPECT_LT((after.force - turns * before.force).norm(), 1e-12 * before.force.norm());
+      EXPECT_LT((after.tangent - turns * before.tangent * turns.transpose()).norm(),
+                1e-13 * before.tangent.norm());
+    };
+    expect_turned(evaluated(c, x * turn.transpose(), u * turn.transpose()));
+    if (!c.finite()) return;
+    const Coordinates3 moved = (x + u) * turn.transpose() - x;
+    expect_turned(evaluated(c, x, moved.rowwise() + Vec3(3, -2, 5).transpose()));
+    const Coordinates3 rigid = x * turn.transpose() - x;
+    EXPECT_LT(evaluated(c, x, rigid).force.norm(), 1e-14 * before.tangent.norm());
+  });
+}
+
+/// The cell's nodes in the order seen after the reference axes were mapped to `axes` (columns).
+std::vector<Eigen::Index> renumbered(cell::CellType type, const Mat<3, 3>& axes) {
+  const int nodes = cell::info(type).nodes;
+  std::vector<Eigen::Index> order;
+  for (int k = 0; k < nodes; ++k)
+    for (int l = 0; l < nodes; ++l)
+      if ((axes * cell::volume_node(type, k) - cell::volume_node(type, l)).norm() < 1e-9)
+        order.push_back(l);
+  return order;
+}
+
+// Eight turns keep the thickness direction: four about it, and those after turning the cell over.
+TEST(SolidShell, AnyNumberingWithTheSameThicknessDirectionGivesTheSame) {
+  Mat<3, 3> quarter, over;
+  quarter << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  over << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  for_each_shell([&](const ShellCase& c) {
+    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
+    const Coordinates3 u = sample_shell_displacement(c.type, 0.1 * thickness);
+    const VolumeResult one = evaluated(c, x, u);
+    Mat<3, 3> axes = Mat<3, 3>::Identity();
+    for (int turn = 0; turn < 8; ++turn) {
+      const std::vector<Eigen::Index> order = renumbered(c.type, axes);
+      ASSERT_EQ(order.size(), static_cast<std::size_t>(x.rows()));
+      const VolumeResult other = evaluated(c, x(order, Eigen::all), u(order, Eigen::all));
+      for (std::size_t k = 0; k < order.size(); ++k) {
+        const auto at = static_cast<Eigen::Index>(k);
+        EXPECT_LT((other.force.segment<3>(3 * at) - one.force.segment<3>(3 * order[k])).norm(),
+                  1e-14 * one.tangent.norm() * u.norm());
+      }
+      axes = (turn == 3 ? over : quarter) * axes;
+    }
+  });
+}
+
+TEST(SolidShell, FiniteKinematicsStartAsSmallOnes) {
+  for_each_shell([](const ShellCase& c) {
+    if (!c.finite()) return;
+    ShellCase small = c;
+    small.section.kinematics = Kinematics::small;
+    small.section.law = material::LinearElastic{7, 0.3, 0};
+    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
+    const Coordinates3 none = Coordinates3::Zero(x.rows(), 3);
+    const VolumeResult a = evaluated(c, x, none), b = evaluated(small, x, none);
+    EXPECT_LT((a.tangent - b.tangent).norm(), 1e-14 * b.tangent.norm());
+    EXPECT_EQ(a.force.norm(), 0.0);
+  });
+}
+
+// No mode without energy but the six rigid motions, thick or thin, regular or distorted.
+TEST(SolidShell, HasNoZeroEnergyModesButRigidMotions) {
+  for_each_shell([](const ShellCase& c) {
+    for (const double height : {1.0, 0.1})
+      for (const double distortion : {0.0, 0.06}) {
+        const Coordinates3 x = sample_shell(c.type, height, distortion);
+        const Eigen::MatrixXd k = evaluated(c, x, Coordinates3::Zero(x.rows(), 3)).tangent;
+        const Eigen::VectorXd values =
+            Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
+        const double largest = values[values.size() - 1];
+        for (int i = 0; i < values.size(); ++i) {
+          EXPECT_TRUE(i < 6 ? std::abs(values[i]) < 1e-14 * largest
+                            : values[i] > 1e-3 * height * height * height * largest)
+              << height << " " << distortion << " " << i << ": " << values[i] / largest;
+        }
+      }
+  });
+}
+
+TEST(SolidShell, MirroredFlatAndInvertedCellsAreRefused) {
+  for_each_shell([](const ShellCase& c) {
+    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
+    const Coordinates3 none = Coordinates3::Zero(x.rows(), 3);
+    const auto status = [&](const Coordinates3& at, const Coordinates3& u) {
+      VolumeResult r;
+      evaluate_solid_shell(c.section, c.type, at, u, true, r);
+      return r.status;
+    };
+    Coordinates3 mirrored = x, flat = x, wrong = none;
+    mirrored.col(2) *= -1;
+    flat.col(2).setZero();
+    EXPECT_EQ(status(mirrored, none), Status::inverted);
+    EXPECT_EQ(status(flat, none), Status::inverted);
+    wrong.setConstant(std::numeric_limits<double>::quiet_NaN());
+    EXPECT_NE(status(x, wrong), Status::ok);
+    if (c.finite()) {
+      EXPECT_EQ(status(x, mirrored - x), Status::inverted);
+    }
+  });
+}
+
+}  // namespace
+}  // namespace osculate::solid::testing
