@@ -6,6 +6,7 @@
 #include <span>
 
 #include "osculate/cell/quadrature.hpp"
+#include "osculate/solid/volume_point.hpp"
 
 namespace osculate::solid {
 namespace {
@@ -51,12 +52,14 @@ ShellGradient gradient(cell::CellType type, const Vec3& xi) {
   return s.d.topRows(s.count);
 }
 
-/// Adds the samples of one component in one layer and the shares of the points `layer` in them.
+/// Adds the samples of one component at one zeta, and the shares in them of the points at this zeta
+/// or, if the component is sampled at the middle only, of all points.
 void add_samples(ShellRule& rule, cell::CellType type, Eigen::Index component, const Grid& grid,
-                 double zeta, std::span<ShellRulePoint> layer) {
+                 double zeta) {
   for (std::size_t i = 0; i < grid.xi.size(); ++i)
     for (std::size_t j = 0; j < grid.eta.size(); ++j) {
-      for (ShellRulePoint& p : layer) {
+      for (ShellRulePoint& p : rule.points) {
+        if (!grid.at_mid && p.xi.z() != zeta) continue;
         const double weight = lagrange(grid.xi, i, p.xi.x()) * lagrange(grid.eta, j, p.xi.y());
         if (weight != 0) p.shares.push_back({rule.samples.size(), weight});
       }
@@ -65,33 +68,20 @@ void add_samples(ShellRule& rule, cell::CellType type, Eigen::Index component, c
 }
 
 ShellRule make_rule(cell::CellType type) {
-  const int along = type == cell::CellType::hex8 ? 2 : 3;
-  const cell::Quadrature1D plane = cell::gauss_legendre(along), through = cell::gauss_legendre(2);
   ShellRule rule;
   rule.modes = type == cell::CellType::hex8 ? 7 : 4;
   rule.center = gradient(type, Vec3::Zero());
-  for (std::size_t k = 0; k < 2; ++k)
-    for (std::size_t i = 0; i < plane.points.size(); ++i)
-      for (std::size_t j = 0; j < plane.points.size(); ++j) {
-        const Vec3 xi(plane.points[i], plane.points[j], through.points[k]);
-        rule.points.push_back({xi,
-                               plane.weights[i] * plane.weights[j] * through.weights[k],
-                               gradient(type, xi),
-                               gradient(type, {xi.x(), xi.y(), 0}),
-                               {}});
-      }
-  const std::span<ShellRulePoint> all(rule.points);
-  const std::size_t half = all.size() / 2;
-  const std::array<Grid, 6> grid = grids(type);
-  for (std::size_t c = 0; c < 6; ++c) {
-    const auto component = static_cast<Eigen::Index>(c);
-    if (grid[c].at_mid) {
-      add_samples(rule, type, component, grid[c], 0, all);
-      continue;
-    }
-    for (std::size_t k = 0; k < 2; ++k)
-      add_samples(rule, type, component, grid[c], through.points[k], all.subspan(k * half, half));
+  const VolumeRule& full = volume_rule(type);
+  for (std::size_t q = 0; q < full.points.size(); ++q) {
+    const Vec3 xi = full.points[q];
+    rule.points.push_back(
+        {xi, full.weights[q], gradient(type, xi), gradient(type, {xi.x(), xi.y(), 0}), {}});
   }
+  const std::array<Grid, 6> grid = grids(type);
+  for (std::size_t c = 0; c < 6; ++c)
+    for (const double zeta :
+         grid[c].at_mid ? std::vector<double>{0} : cell::gauss_legendre(2).points)
+      add_samples(rule, type, static_cast<Eigen::Index>(c), grid[c], zeta);
   return rule;
 }
 

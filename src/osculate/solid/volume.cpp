@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "osculate/solid/solid_shell.hpp"
 #include "osculate/solid/volume_enhanced.hpp"
 #include "osculate/solid/volume_mean_dilatation.hpp"
 #include "osculate/solid/volume_point.hpp"
@@ -119,8 +120,10 @@ std::string_view unsupported(const VolumeSection& section, cell::CellType type) 
   if (!finite && material::finite_strain(section.law))
     return "the law is one of finite strains; use linear_elastic with small kinematics";
   if (section.formulation == VolumeFormulation::full) return {};
-  if (section.formulation == VolumeFormulation::solid_shell)
-    return "formulation solid_shell is not available";
+  if (section.formulation == VolumeFormulation::solid_shell) {
+    if (type == cell::CellType::hex8 || type == cell::CellType::shell18) return {};
+    return "formulation solid_shell exists for hex8 and shell18 cells only; use full";
+  }
   if (type != cell::CellType::hex8)
     return "formulations bbar and enhanced exist for hex8 cells only; use full";
   return {};
@@ -128,6 +131,10 @@ std::string_view unsupported(const VolumeSection& section, cell::CellType type) 
 
 void evaluate(const VolumeSection& section, cell::CellType type, const Coordinates3& reference,
               const Coordinates3& displacement, bool with_tangent, VolumeResult& out) {
+  if (section.formulation == VolumeFormulation::solid_shell) {
+    evaluate_solid_shell(section, type, reference, displacement, with_tangent, out);
+    return;
+  }
   const Eigen::Index dofs = 3 * reference.rows();
   out.status = Status::ok;
   out.force.setZero(dofs);

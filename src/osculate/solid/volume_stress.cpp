@@ -1,5 +1,6 @@
 #include <Eigen/QR>
 
+#include "osculate/solid/solid_shell.hpp"
 #include "osculate/solid/volume_enhanced.hpp"
 #include "osculate/solid/volume_mean_dilatation.hpp"
 
@@ -101,6 +102,8 @@ const Eigen::MatrixXd& extrapolation(cell::CellType type) {
 
 CellStress3 stress_at_points(const VolumeSection& section, cell::CellType type,
                              const Coordinates3& reference, const Coordinates3& displacement) {
+  if (section.formulation == VolumeFormulation::solid_shell)
+    return solid_shell_stress_at_points(section, type, reference, displacement);
   const VolumeRule& rule = volume_rule(type);
   Seen seen;
   if (section.formulation == VolumeFormulation::full)
@@ -132,6 +135,8 @@ CellStress3 stress_at_points(const VolumeSection& section, cell::CellType type,
 
 NodalStress3 nodal_stress(const VolumeSection& section, cell::CellType type,
                           const Coordinates3& reference, const Coordinates3& displacement) {
+  if (section.formulation == VolumeFormulation::solid_shell)
+    return solid_shell_nodal_stress(section, type, reference, displacement);
   const CellStress3 at = stress_at_points(section, type, reference, displacement);
   const Eigen::MatrixXd& factor = extrapolation(type);
   NodalStress3 out;

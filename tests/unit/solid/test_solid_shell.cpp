@@ -11,15 +11,15 @@ using osculate::testing::check_derivative;
 
 constexpr double thickness = 0.2;
 
-void expect_tangent_is_derivative(const ShellCase& c, const Coordinates3& x,
+void expect_tangent_is_derivative(const VolumeCase& c, const Coordinates3& x,
                                   const Coordinates3& u) {
-  Coordinates3 direction = sample_shell_displacement(c.type, 0.3, 5);
+  Coordinates3 direction = sample_motion(c.type, 0.3, 5);
   direction *= thickness;
   const Eigen::VectorXd along = flat(direction);
   const VolumeResult at = evaluated(c, x, u);
   const auto force = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
     VolumeResult r;
-    evaluate_solid_shell(c.section, c.type, x, unflat3(v), false, r);
+    evaluate(c.section, c.type, x, unflat3(v), false, r);
     EXPECT_EQ(r.status, Status::ok);
     return r.force;
   };
@@ -31,31 +31,31 @@ void expect_tangent_is_derivative(const ShellCase& c, const Coordinates3& x,
 }
 
 TEST(SolidShell, TangentIsTheDerivativeOfTheForceAndSymmetric) {
-  for_each_shell([](const ShellCase& c) {
+  for_each_shell([](const VolumeCase& c) {
     const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 u = sample_shell_displacement(c.type, 0.1 * thickness);
+    const Coordinates3 u = sample_motion(c.type, 0.1 * thickness);
     expect_tangent_is_derivative(c, x, u);
     if (!c.finite()) return;
-    const Coordinates3 turned = (x + u) * sample_turn(2.5).transpose() - x;
+    const Coordinates3 turned = (x + u) * turn3(2.5).transpose() - x;
     expect_tangent_is_derivative(c, x, turned);
   });
 }
 
 TEST(SolidShell, ForceDoesNotDependOnWhetherTheTangentIsAskedFor) {
-  for_each_shell([](const ShellCase& c) {
+  for_each_shell([](const VolumeCase& c) {
     const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 u = sample_shell_displacement(c.type, 0.1 * thickness);
+    const Coordinates3 u = sample_motion(c.type, 0.1 * thickness);
     VolumeResult r;
-    evaluate_solid_shell(c.section, c.type, x, u, false, r);
+    evaluate(c.section, c.type, x, u, false, r);
     EXPECT_EQ(r.force, evaluated(c, x, u).force);
     EXPECT_EQ(r.tangent.norm(), 0.0);
   });
 }
 
 TEST(SolidShell, ForcesAndMomentsBalance) {
-  for_each_shell([](const ShellCase& c) {
+  for_each_shell([](const VolumeCase& c) {
     const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 u = sample_shell_displacement(c.type, 0.1 * thickness);
+    const Coordinates3 u = sample_motion(c.type, 0.1 * thickness);
     const Coordinates3 force = unflat3(evaluated(c, x, u).force);
     const Coordinates3 arm = c.finite() ? Coordinates3(x + u) : x;
     Vec3 moment = Vec3::Zero();
@@ -67,11 +67,11 @@ TEST(SolidShell, ForcesAndMomentsBalance) {
 }
 
 TEST(SolidShell, ForceTurnsWithTheBody) {
-  for_each_shell([](const ShellCase& c) {
+  for_each_shell([](const VolumeCase& c) {
     const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 u = sample_shell_displacement(c.type, 0.1 * thickness);
+    const Coordinates3 u = sample_motion(c.type, 0.1 * thickness);
     const VolumeResult before = evaluated(c, x, u);
-    const Mat<3, 3> turn = sample_turn(2.8);
+    const Mat<3, 3> turn = turn3(2.8);
     Eigen::MatrixXd turns = Eigen::MatrixXd::Zero(3 * x.rows(), 3 * x.rows());
     for (Eigen::Index k = 0; k < x.rows(); ++k) turns.block<3, 3>(3 * k, 3 * k) = turn;
     const auto expect_turned = [&](const VolumeResult& after) {
@@ -104,9 +104,9 @@ TEST(SolidShell, AnyNumberingWithTheSameThicknessDirectionGivesTheSame) {
   Mat<3, 3> quarter, over;
   quarter << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   over << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  for_each_shell([&](const ShellCase& c) {
+  for_each_shell([&](const VolumeCase& c) {
     const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 u = sample_shell_displacement(c.type, 0.1 * thickness);
+    const Coordinates3 u = sample_motion(c.type, 0.1 * thickness);
     const VolumeResult one = evaluated(c, x, u);
     Mat<3, 3> axes = Mat<3, 3>::Identity();
     for (int turn = 0; turn < 8; ++turn) {
@@ -124,9 +124,9 @@ TEST(SolidShell, AnyNumberingWithTheSameThicknessDirectionGivesTheSame) {
 }
 
 TEST(SolidShell, FiniteKinematicsStartAsSmallOnes) {
-  for_each_shell([](const ShellCase& c) {
+  for_each_shell([](const VolumeCase& c) {
     if (!c.finite()) return;
-    ShellCase small = c;
+    VolumeCase small = c;
     small.section.kinematics = Kinematics::small;
     small.section.law = material::LinearElastic{7, 0.3, 0};
     const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
@@ -139,7 +139,7 @@ TEST(SolidShell, FiniteKinematicsStartAsSmallOnes) {
 
 // No mode without energy but the six rigid motions, thick or thin, regular or distorted.
 TEST(SolidShell, HasNoZeroEnergyModesButRigidMotions) {
-  for_each_shell([](const ShellCase& c) {
+  for_each_shell([](const VolumeCase& c) {
     for (const double height : {1.0, 0.1})
       for (const double distortion : {0.0, 0.06}) {
         const Coordinates3 x = sample_shell(c.type, height, distortion);
@@ -157,19 +157,19 @@ TEST(SolidShell, HasNoZeroEnergyModesButRigidMotions) {
 }
 
 TEST(SolidShell, MirroredFlatAndInvertedCellsAreRefused) {
-  for_each_shell([](const ShellCase& c) {
+  for_each_shell([](const VolumeCase& c) {
     const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
     const Coordinates3 none = Coordinates3::Zero(x.rows(), 3);
     const auto status = [&](const Coordinates3& at, const Coordinates3& u) {
       VolumeResult r;
-      evaluate_solid_shell(c.section, c.type, at, u, true, r);
+      evaluate(c.section, c.type, at, u, true, r);
       return r.status;
     };
-    Coordinates3 mirrored = x, flat = x, wrong = none;
+    Coordinates3 mirrored = x, flattened = x, wrong = none;
     mirrored.col(2) *= -1;
-    flat.col(2).setZero();
+    flattened.col(2).setZero();
     EXPECT_EQ(status(mirrored, none), Status::inverted);
-    EXPECT_EQ(status(flat, none), Status::inverted);
+    EXPECT_EQ(status(flattened, none), Status::inverted);
     wrong.setConstant(std::numeric_limits<double>::quiet_NaN());
     EXPECT_NE(status(x, wrong), Status::ok);
     if (c.finite()) {

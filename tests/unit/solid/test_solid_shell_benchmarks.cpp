@@ -238,6 +238,8 @@ TEST(SolidShellBenchmark, DISABLED_HemisphereWithHoleFinite) {
 
 // Radii 6 and 10, h 0.03, E 21e6, nu 0, a slit with one side clamped and 0.8 per length along the
 // other: Sze, Liu & Lo 2004 have 13.891 (inner corner) and 17.528 (outer corner).
+// (The hex8 of the independent implementation has no membrane modes here, 13.168 and 16.813, which
+// this one gives without them, too.)
 void slit_plate(CellType type, int around, int across, double inner, double outer) {
   ShellProblem p(shell_mesh(type, across, around,
                             [](double u, double v, double z) {
@@ -251,7 +253,7 @@ void slit_plate(CellType type, int around, int across, double inner, double oute
   for (Index i = 0; i < p.mesh.count_u; ++i)
     for (Index side = 0; side < 2; ++side)
       p.load[3 * p.mesh.node(i, end, side) + 2] = 0.5 * 0.8 * 4 * share[std::size_t(i)];
-  const ShellSolution s = solved(p, 40);
+  const ShellSolution s = solved(p, 80);
   if (!s.converged) return;
   expect_within("slit plate, inner", mid_displacement(p.mesh, s.u.back(), 0, end).z(), inner, 0.01,
                 13.891);
@@ -261,7 +263,7 @@ void slit_plate(CellType type, int around, int across, double inner, double oute
 }
 
 TEST(SolidShellBenchmark, DISABLED_SlitAnnularPlate) {
-  slit_plate(CellType::hex8, 30, 6, 13.168, 16.813);
+  slit_plate(CellType::hex8, 30, 6, 13.437, 17.073);
   slit_plate(CellType::shell18, 15, 3, 13.483, 17.121);
   slit_plate(CellType::shell18, 30, 5, 13.794, 17.431);
 }
