@@ -29,9 +29,12 @@ double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
     const Eigen::MatrixXd k = full.blocks[p].tangent.topLeftCorner(n, n);
     const Eigen::MatrixXd m = main.blocks[p].tangent.topLeftCorner(n, n);
     const auto norm = [](const Eigen::MatrixXd& a) {
-      return a.cwiseAbs().rowwise().sum().maxCoeff();  // @eq KSVD:61
+      const double largest_row = a.cwiseAbs().rowwise().sum().maxCoeff();  // @eq KSVD:61
+      return largest_row;
     };
-    if (norm(m) > 0) largest = std::max(largest, norm(k - m) / norm(m));  // @eq KSVD:60
+    if (!(norm(m) > 0)) continue;
+    const double share = norm(k - m) / norm(m);  // @eq KSVD:60
+    largest = std::max(largest, share);
   }
   return largest;
 }
