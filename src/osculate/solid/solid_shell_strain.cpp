@@ -149,7 +149,8 @@ bool sample_modes(const VolumeSection& section, const ShellCell& cell, ShellMode
     rest.noalias() += weighted.transpose() * r.stress;
     m.stiffness.noalias() += weighted.transpose() * r.tangent * p.modes;
     const Vec<6> size = r.tangent.cwiseAbs() * total.cwiseAbs() + r.stress.cwiseAbs();
-    scale += (weighted.cwiseAbs().transpose() * size).maxCoeff();
+    const ShellModeVector sizes = weighted.cwiseAbs().transpose() * size;
+    scale += sizes.lpNorm<Eigen::Infinity>();
   }
   return true;
 }
