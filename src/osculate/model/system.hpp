@@ -25,6 +25,9 @@ struct Forces {
 /// Owns: dof space, matrix, evaluation buffers. Does not own: the model, the states.
 /// Deterministic: element blocks are computed in parallel and added in a fixed order, so the bits
 /// do not depend on the number of threads.
+///
+/// Tested by  tests/unit/deck/test_system.cpp (2D), tests/unit/model/test_system3.cpp,
+///            test_contact3.cpp (3D)
 template <int Dim>
 class BasicSystem {
  public:
