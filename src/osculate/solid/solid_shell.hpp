@@ -13,8 +13,9 @@ namespace osculate::solid {
 ///            shell18: E11, E13 at 2 x 3 points, E22, E23 at 3 x 2, E12 at 2 x 2 (Gauss points),
 ///            E33 at the nine nodes. Enhanced modes (7 and 4) make E33 linear in zeta and, for
 ///            hex8, the membrane strains linear; their parameters are found in the cell
-/// Limits     constant strains are exact in prismatic cells (zeta straight and of constant length;
-///            shell18: edges straight, nodes in the middle), nearly so in others
+/// Limits     constant membrane and bending states are exact in a prismatic hex8 of any outline and
+///            in an affine shell18 (2e-3 of the displacements in MacNeal & Harder's patch, the
+///            price of sampled membrane strains), constant transverse shear in affine cells only
 /// Source     Bathe & Dvorkin 1985; Betsch & Stein 1995; Simo & Rifai 1990; Bucalem & Bathe 1993
 /// Returns    out.status: inverted if det(G_1, G_2, G_3) <= 0 at a quadrature point (a mirrored or
 ///            flat cell; its current one likewise in finite kinematics), material_failed if the law

@@ -34,7 +34,7 @@ void expect_forces_of_displacement_cell(const VolumeCase& c, const Coordinates3&
   plain.section.formulation = VolumeFormulation::full;
   const Coordinates3 u = x * h.transpose();
   const VolumeVector found = evaluated(c, x, u).force, exact = evaluated(plain, x, u).force;
-  EXPECT_LT((found - exact).norm(), 1e-14 * stiffness_scale(c, x) * u.norm());
+  EXPECT_LT((found - exact).norm(), 1e-15 * stiffness_scale(c, x) * x.norm());
 }
 
 TEST(SolidShellPatch, AnyLinearDisplacementIsExactInAnAffineCell) {
@@ -43,8 +43,7 @@ TEST(SolidShellPatch, AnyLinearDisplacementIsExactInAnAffineCell) {
   affine << 1.2, 0.4, 0.3, -0.3, 0.9, 0.5, 0.1, 0.2, 0.7;
   for_each_shell([&](const VolumeCase& c) {
     const Coordinates3 x = sample_shell(c.type, 0.2, 0) * affine.transpose();
-    for (const double size : {1e-9, 1e-3, 0.3})
-      expect_forces_of_displacement_cell(c, x, size * shape);
+    for (const double size : {1e-3, 0.3}) expect_forces_of_displacement_cell(c, x, size * shape);
   });
 }
 
@@ -56,7 +55,7 @@ TEST(SolidShellPatch, LinearDisplacementWithoutTransverseShearIsExactInADistorte
   for_each_shell([&](const VolumeCase& c) {
     if (c.type != cell::CellType::hex8) return;
     const Coordinates3 x = prismatic(c.type) * to.transpose();
-    for (const double size : {1e-9, 1e-3, 0.3}) {
+    for (const double size : {1e-3, 0.3}) {
       const Mat<3, 3> stretched = one + size * strain;
       const Mat<3, 3> h =
           c.finite() ? Mat<3, 3>(turn3(size) * stretched - one) : Mat<3, 3>(size * (strain + spin));
@@ -68,7 +67,7 @@ TEST(SolidShellPatch, LinearDisplacementWithoutTransverseShearIsExactInADistorte
 /// MacNeal & Harder's patch of five quadrilaterals as a plate. Nodes of all cells are listed cell
 /// by cell; forces at equal places add up.
 struct Plate {
-  static constexpr double height = 0.001, length = 0.24, width = 0.12;
+  static constexpr double height = 0.01, length = 0.24, width = 0.12;
   std::vector<Coordinates3> cells;
 
   explicit Plate(cell::CellType type) {
@@ -102,7 +101,7 @@ struct Plate {
 };
 
 struct PlateResult {
-  double error;   ///< of the displacements inside, of those along z and of the others
+  double error;   ///< of the displacements inside, relative to all displacements
   double energy;  ///< of the given displacements, relative to the exact one
 };
 /// Finds the displacements inside from those of `motion` at the border.
@@ -123,7 +122,8 @@ PlateResult solve_plate(const VolumeCase& c, double energy, const Motion& motion
   }
   const auto size = static_cast<Eigen::Index>(3 * nodes.size());
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size, size);
-  Eigen::VectorXd exact(size);
+  Eigen::VectorXd exact(size), force = Eigen::VectorXd::Zero(size);
+  double work = 0;
   std::vector<Eigen::Index> inside;
   for (std::size_t n = 0; n < nodes.size(); ++n) {
     const auto at = static_cast<Eigen::Index>(3 * n);
@@ -132,22 +132,21 @@ PlateResult solve_plate(const VolumeCase& c, double energy, const Motion& motion
   }
   for (std::size_t e = 0; e < plate.cells.size(); ++e) {
     const Coordinates3& x = plate.cells[e];
-    const VolumeMatrix cell = evaluated(c, x, Coordinates3::Zero(x.rows(), 3)).tangent;
+    Coordinates3 u(x.rows(), 3);
+    for (Eigen::Index i = 0; i < x.rows(); ++i) u.row(i) = motion(Vec3(x.row(i)));
+    const VolumeResult cell = evaluated(c, x, u);
+    work += cell.force.dot(flat(u));
+    for (Eigen::Index a = 0; a < x.rows(); ++a)
+      force.segment<3>(3 * numbers[e][static_cast<std::size_t>(a)]) += cell.force.segment<3>(3 * a);
     for (Eigen::Index a = 0; a < x.rows(); ++a)
       for (Eigen::Index b = 0; b < x.rows(); ++b)
         k.block<3, 3>(3 * numbers[e][static_cast<std::size_t>(a)],
                       3 * numbers[e][static_cast<std::size_t>(b)]) +=
-            cell.block<3, 3>(3 * a, 3 * b);
+            cell.tangent.block<3, 3>(3 * a, 3 * b);
   }
-  const Eigen::VectorXd force = k * exact;
   const Eigen::MatrixXd free = k(inside, inside);
-  Eigen::VectorXd wrong = Eigen::VectorXd::Zero(size);
   const Eigen::VectorXd rest = -force(inside), correction = free.ldlt().solve(rest);
-  wrong(inside) = correction;
-  const auto part = [&](Eigen::Index i) {
-    return wrong(Eigen::seqN(i, size / 3, 3)).norm() / exact(Eigen::seqN(i, size / 3, 3)).norm();
-  };
-  return {std::max({part(0), part(1), part(2)}), force.dot(exact) / energy};
+  return {correction.norm() / exact.norm(), work / energy};
 }
 
 VolumeCase plate_case(cell::CellType type, double poisson) {
@@ -173,7 +172,7 @@ TEST(SolidShellPatch, MembraneStateOfAPlate) {
                                     -nu / (1 - nu) * (xx + yy) * p.z());
                       });
       std::printf("    membrane, nu %g: %.1e\n", nu, r.error);
-      EXPECT_LT(r.error, type == cell::CellType::hex8 ? 1e-11 : 1e-2) << nu;
+      EXPECT_LT(r.error, type == cell::CellType::hex8 ? 1e-13 : 3e-3) << nu;
       EXPECT_NEAR(r.energy, 1, 1e-12) << nu;
     }
 }
@@ -192,7 +191,7 @@ TEST(SolidShellPatch, BendingStateOfAPlate) {
                         0.5 * (xx * p.x() * p.x() + yy * p.y() * p.y()) + xy * p.x() * p.y());
           });
       std::printf("    bending, nu %g: %.1e\n", nu, r.error);
-      EXPECT_LT(r.error, type == cell::CellType::hex8 ? 1e-9 : 1e-2) << nu;
+      EXPECT_LT(r.error, type == cell::CellType::hex8 ? 1e-13 : 2e-4) << nu;
       EXPECT_NEAR(r.energy, 1, 1e-10) << nu;
     }
 }
