@@ -94,6 +94,26 @@ Built build(const Description& description, mesh::Mesh mesh) {
   return built;
 }
 
+int dimension(const Description& description) {
+  for (const Section& section : description.sections)
+    if (is_space(section.element.value)) return 3;
+  return 2;
+}
+
+Built3 build3(const Description& description, mesh::Mesh) {
+  throw core::InputError(description.mesh.mark, "models in space are not available yet");
+}
+
+AnyBuilt build_any(const Description& description, mesh::Mesh mesh) {
+  if (dimension(description) == 3) return build3(description, std::move(mesh));
+  return build(description, std::move(mesh));
+}
+
+AnyBuilt build_any_file(const std::string& path) {
+  const Description description = read_model(path);
+  return build_any(description, load_mesh(description));
+}
+
 Built build_file(const std::string& path) {
   const Description description = read_model(path);
   return build(description, load_mesh(description));

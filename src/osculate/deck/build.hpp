@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "osculate/deck/description.hpp"
@@ -10,21 +11,34 @@
 namespace osculate::deck {
 
 /// Everything a run needs, built from a description and its mesh.
-struct Built {
-  model::Model model;
+template <int Dim>
+struct BasicBuilt {
+  model::BasicModel<Dim> model;
   model::AnalysisOptions options;
   std::vector<model::HistoryRequest> history;
   std::vector<std::string> warnings;  ///< plain sentences, shown by `check` and `run`
 };
 
+using Built = BasicBuilt<2>;
+using Built3 = BasicBuilt<3>;
+/// A model of the plane or one in space.
+using AnyBuilt = std::variant<Built, Built3>;
+
+/// 3 for a model in space (a section has the element `solid` or `solid_shell`), otherwise 2.
+[[nodiscard]] int dimension(const Description& description);
+
 /// Reads or generates the mesh. Throws core::InputError.
 [[nodiscard]] mesh::Mesh load_mesh(const Description& description);
 
 /// Matches the description with its mesh: sets, bodies, surfaces, loads. Throws core::InputError
-/// naming file, line and key for everything that does not fit.
+/// naming file, line and key for everything that does not fit; `build` also for a model in space,
+/// `build3` for one of the plane.
 [[nodiscard]] Built build(const Description& description, mesh::Mesh mesh);
+[[nodiscard]] Built3 build3(const Description& description, mesh::Mesh mesh);
+[[nodiscard]] AnyBuilt build_any(const Description& description, mesh::Mesh mesh);
 
-/// read_model, load_mesh and build in one call.
+/// read_model, load_mesh and build (build_any) in one call.
 [[nodiscard]] Built build_file(const std::string& path);
+[[nodiscard]] AnyBuilt build_any_file(const std::string& path);
 
 }  // namespace osculate::deck

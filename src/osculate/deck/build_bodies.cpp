@@ -40,6 +40,9 @@ solid::Section make_solid_section(const Section& s, const Material& material) {
     case SectionElement::axisymmetric:
       out.assumption = solid::Assumption::axisymmetric;
       break;
+    case SectionElement::solid:
+    case SectionElement::solid_shell:
+      throw core::InputError(s.element.mark, "the model is plane");
   }
   out.kinematics = s.kinematics.value == Kinematics::finite ? solid::Kinematics::finite
                                                             : solid::Kinematics::small;

@@ -81,7 +81,9 @@ struct Material {
   Number young, poisson, density;
 };
 
-enum class SectionElement { plane_strain, plane_stress, axisymmetric };
+enum class SectionElement { plane_strain, plane_stress, axisymmetric, solid, solid_shell };
+/// True for bodies in space.
+[[nodiscard]] constexpr bool is_space(SectionElement e) { return e >= SectionElement::solid; }
 enum class Kinematics { small, finite };
 enum class Formulation { full, bbar, enhanced };
 
