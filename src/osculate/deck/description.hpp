@@ -2,6 +2,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -114,7 +115,7 @@ struct PolylineShape {
   Marked<std::vector<Vec2>> points;  ///< consecutive ones differ
   bool closed = false;
 };
-/// The half plane behind `point`; `normal` (unit, points out of the body).
+/// The half plane behind `point`; `normal` (unit) points out of the body.
 struct HalfPlaneShape {
   Vec2 point{0, 0};
   Vec2 normal{0, 1};
@@ -124,14 +125,23 @@ struct NurbsShape {
   Marked<std::vector<double>> knots;  ///< non-decreasing, control.size() + degree + 1 of them
   Marked<std::vector<Vec3>> control;  ///< x, y, weight; not pre-multiplied
 };
-using RigidShape =
-    std::variant<SetShape, CircleShape, ArcShape, PolylineShape, HalfPlaneShape, NurbsShape>;
+/// The half space behind `point`; `normal` (unit) points out of the body.
+struct PlaneShape {
+  Vec3 point{0, 0, 0};
+  Vec3 normal{0, 0, 1};
+};
+/// The last ones, from PlaneShape on, are shapes in space.
+using RigidShape = std::variant<SetShape, CircleShape, ArcShape, PolylineShape, HalfPlaneShape,
+                                NurbsShape, PlaneShape>;
 
 struct Rigid {
   Name name;
   RigidShape shape;
-  std::optional<Marked<Vec2>> reference;  ///< absent: centroid of the set, centre of the shape
-  bool flip = false;                      ///< the body is on the other side
+  std::string kind;  ///< key of the shape
+  /// Two coordinates in the plane, three in space; absent: centroid of the set, centre of the
+  /// shape.
+  std::optional<Marked<std::vector<double>>> reference;
+  bool flip = false;  ///< the body is on the other side
   [[nodiscard]] bool meshed() const { return std::holds_alternative<SetShape>(shape); }
 };
 
@@ -176,7 +186,16 @@ struct Amplitude {
   std::vector<std::pair<double, double>> points;
 };
 
-enum class Component { ux, uy, rz };
+enum class Component { ux, uy, uz, rx, ry, rz };
+inline constexpr std::size_t component_count = 6;
+inline constexpr std::array<const char*, component_count> component_names{"ux", "uy", "uz",
+                                                                          "rx", "ry", "rz"};
+/// True for the motions that only rigid bodies have.
+[[nodiscard]] constexpr bool is_rotation(Component c) { return c >= Component::rx; }
+/// True for the motions of a model in the plane.
+[[nodiscard]] constexpr bool is_planar(Component c) {
+  return c == Component::ux || c == Component::uy || c == Component::rz;
+}
 
 struct EquationTerm {
   Name on;
@@ -200,20 +219,21 @@ struct Equal {
 struct Prescription {
   core::SourceMark mark;
   Name on;
-  std::array<std::optional<Number>, 3> values;
+  std::array<std::optional<Number>, component_count> values;
   std::optional<Name> amplitude;
 };
 struct Release {
   core::SourceMark mark;
   Name on;
-  std::array<bool, 3> of{};
+  std::array<bool, component_count> of{};
 };
-/// A load on a set; how many of `values` are used depends on the kind of load: forces fx fy mz,
-/// pressure p, traction tx ty, body force bx by. Absent ones are not touched.
+/// A load on a set; how many of `values` are used depends on the kind of load: forces fx fy fz mx
+/// my mz (like Component), pressure p, traction tx ty tz, body force bx by bz. Absent ones are not
+/// touched.
 struct Load {
   core::SourceMark mark;
   Name on;
-  std::array<std::optional<Number>, 3> values;
+  std::array<std::optional<Number>, component_count> values;
   std::optional<Name> amplitude;
 };
 
@@ -244,12 +264,19 @@ enum class FieldTimes { every, last, none };
 enum class Quantity {
   ux,
   uy,
+  uz,
+  rx,
+  ry,
   rz,
   rfx,
   rfy,
+  rfz,
+  rmx,
+  rmy,
   rmz,  // of sets and rigid bodies
   force_x,
   force_y,
+  force_z,
   normal_force,
   shear_force,
   max_pressure,
@@ -261,6 +288,35 @@ enum class Quantity {
 };
 /// True for the quantities of contact pairs.
 [[nodiscard]] constexpr bool is_contact_quantity(Quantity q) { return q >= Quantity::force_x; }
+/// The words of the model file and of model::HistoryRequest, in the order of Quantity.
+inline constexpr std::array<std::string_view, 23> quantity_names{"ux",
+                                                                 "uy",
+                                                                 "uz",
+                                                                 "rx",
+                                                                 "ry",
+                                                                 "rz",
+                                                                 "rfx",
+                                                                 "rfy",
+                                                                 "rfz",
+                                                                 "rmx",
+                                                                 "rmy",
+                                                                 "rmz",
+                                                                 "force_x",
+                                                                 "force_y",
+                                                                 "force_z",
+                                                                 "normal_force",
+                                                                 "shear_force",
+                                                                 "max_pressure",
+                                                                 "max_penetration",
+                                                                 "stick",
+                                                                 "slip",
+                                                                 "open",
+                                                                 "area"};
+/// True for what only models in space have.
+[[nodiscard]] constexpr bool is_spatial(Quantity q) {
+  return q == Quantity::uz || q == Quantity::rx || q == Quantity::ry || q == Quantity::rfz ||
+         q == Quantity::rmx || q == Quantity::rmy || q == Quantity::force_z;
+}
 
 enum class HistoryTarget { contact, rigid, set };
 

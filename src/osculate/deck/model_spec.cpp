@@ -8,6 +8,10 @@ Spec point_spec(std::string doc) {
   return list(std::move(doc), number("One coordinate.").in("length")).count(2, 2).such_as("[0, 1]");
 }
 
+Spec place_spec(std::string doc) {
+  return list(std::move(doc), number("One coordinate.").in("length")).count(3, 3);
+}
+
 Spec points_spec(std::string doc, std::size_t least) {
   return list(std::move(doc), point_spec("One point [x, y]."))
       .count(least)
@@ -47,13 +51,17 @@ Spec materials_spec() {
 
 Spec sections_spec() {
   const Spec element =
-      choice("Which plane the body lives in.",
-             {word("plane_strain", SectionElement::plane_strain, "no strain out of the plane"),
-              word("plane_stress", SectionElement::plane_stress, "no stress out of the plane"),
-              word("axisymmetric", SectionElement::axisymmetric,
-                   "x is the radius, y the axis; forces are those of the whole circumference"),
-              planned("solid", "three-dimensional solid"),
-              planned("solid_shell", "thin three-dimensional solid")})
+      choice(
+          "Which plane the body lives in, or that it is one in space. All sections of a model are "
+          "plane, all axisymmetric, or all in space.",
+          {word("plane_strain", SectionElement::plane_strain, "no strain out of the plane"),
+           word("plane_stress", SectionElement::plane_stress, "no stress out of the plane"),
+           word("axisymmetric", SectionElement::axisymmetric,
+                "x is the radius, y the axis; forces are those of the whole circumference"),
+           word("solid", SectionElement::solid, "a body in space, of volume cells"),
+           word("solid_shell", SectionElement::solid_shell,
+                "a thin body in space, of hex8 cells whose last four nodes lie above the first "
+                "four through the thickness")})
           .such_as("plane_strain");
   const Spec kinematics =
       choice("How strains are measured.",
@@ -70,7 +78,8 @@ Spec sections_spec() {
           .such_as("bbar");
   return list("Which cells of the mesh are bulk material, and of what kind.",
               map("One section.",
-                  {required("on", text("Set of area cells.").such_as("block")),
+                  {required("on",
+                            text("Set of area cells, in space of volume cells.").such_as("block")),
                    required("material", text("Name of a material.").such_as("steel")),
                    required("element", element),
                    optional("thickness", number("Thickness of a plane body.")
@@ -81,79 +90,6 @@ Spec sections_spec() {
                    optional("kinematics", kinematics), optional("formulation", formulation)}))
       .otherwise("[]")
       .such_as("[{on: block, material: steel, element: plane_strain}]");
-}
-
-namespace {
-
-Spec nurbs_spec() {
-  return map(
-      "A rational B-spline curve, body on the right of the direction of travel.",
-      {required("degree", integer("Polynomial degree.").at_least(1).at_most(9).such_as("2")),
-       required("knots", list("Knots, non-decreasing, as many as control points + degree + 1.",
-                              number("One knot."))
-                             .count(4)
-                             .such_as("[0, 0, 0, 1, 1, 1]")),
-       required("control",
-                list("Control points [x, y, w], coordinates not multiplied by the weight w > 0.",
-                     list("One control point [x, y, w].", number("Coordinate or weight."))
-                         .count(3, 3)
-                         .such_as("[1, 0, 1]"))
-                    .count(2)
-                    .such_as("[[1, 0, 1], [1, 1, 0.7071067811865476], [0, 1, 1]]"))});
-}
-
-}  // namespace
-
-Spec rigid_spec() {
-  const Spec center = point_spec("Centre.").such_as("[0, -5]");
-  const Spec radius = number("Radius.").in("length").above(0).such_as("5");
-  const Spec inside =
-      boolean("The body is outside the circle, so that its surface is a hole.").otherwise("false");
-  return names(
-             "Rigid bodies, by name: a meshed set of lines or one analytic shape each. All their "
-             "motions are held until a step prescribes, loads or releases them.",
-             map("One rigid body: exactly one shape.",
-                 {optional(
-                      "set",
-                      text("Set of line cells or nodes that move as one.").such_as("base_line")),
-                  optional("circle", map("A full circle.",
-                                         {required("center", center), required("radius", radius),
-                                          optional("inside", inside)})),
-                  optional(
-                      "arc",
-                      map("Part of a circle.",
-                          {required("center", center), required("radius", radius),
-                           required("from", number("Angle where the arc begins, from the x-axis "
-                                                   "towards the y-axis.")
-                                                .in("degrees")
-                                                .such_as("0")),
-                           required("to", number("Angle where the arc ends, above `from` by at "
-                                                 "most 360.")
-                                              .in("degrees")
-                                              .such_as("180")),
-                           optional("inside", inside)})),
-                  optional("polyline",
-                           map("Straight segments, body on the right of the direction of travel.",
-                               {required("points", points_spec("Corners in order of travel.", 2)),
-                                optional("closed", boolean("Join the last corner with the first.")
-                                                       .otherwise("false"))})),
-                  optional(
-                      "line",
-                      map("A straight line without ends; the body is the half plane behind it.",
-                          {required("point", point_spec("A point of the line.")),
-                           required("normal", point_spec("Direction out of the body, of any length "
-                                                         "but zero."))})),
-                  optional("nurbs", nurbs_spec()),
-                  optional("reference",
-                           point_spec("Point that prescriptions, forces and moments refer to.")
-                               .otherwise_as("the centroid of the nodes, the centre of the shape")),
-                  optional("flip", boolean("Put the body on the other side of its surface.")
-                                       .otherwise("false"))})
-                 .with(Group::Rule::exactly_one,
-                       {"set", "circle", "arc", "polyline", "line", "nurbs"})
-                 .such_as("{circle: {center: [0, -5], radius: 5}}"))
-      .otherwise("{}")
-      .such_as("{base: {set: base_line}}");
 }
 
 Spec model_spec() {

@@ -23,6 +23,8 @@ namespace osculate::deck {
 
 /// Two coordinates.
 [[nodiscard]] Spec point_spec(std::string doc);
+/// Three coordinates.
+[[nodiscard]] Spec place_spec(std::string doc);
 /// A list of points, at least `least` of them.
 [[nodiscard]] Spec points_spec(std::string doc, std::size_t least);
 

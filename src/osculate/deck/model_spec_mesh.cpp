@@ -25,10 +25,6 @@ Spec per_direction(std::string doc, const Spec& one) {
       .count(2, 3);
 }
 
-/// Three coordinates.
-Spec place_spec(std::string doc) {
-  return list(std::move(doc), number("One coordinate.").in("length")).count(3, 3);
-}
 Spec vector_spec(std::string doc) { return list(std::move(doc), number("One part.")).count(3, 3); }
 
 Spec pair_of(std::string doc, const Spec& one) { return list(std::move(doc), one).count(2, 2); }

@@ -8,6 +8,9 @@ Spec component_spec(std::string doc) {
   return choice(std::move(doc),
                 {word("ux", Component::ux, "displacement in x"),
                  word("uy", Component::uy, "displacement in y"),
+                 word("uz", Component::uz, "displacement in z (models in space)"),
+                 word("rx", Component::rx, "rotation vector of a rigid body (models in space)"),
+                 word("ry", Component::ry, "rotation vector of a rigid body (models in space)"),
                  word("rz", Component::rz, "rotation of a rigid body, positive from x to y")});
 }
 
@@ -42,12 +45,24 @@ Spec loads(std::string doc, const std::string& one, Key on, const std::vector<Pa
 }
 
 Spec prescribe_spec() {
-  return loads("Displacements to prescribe; they persist until released or prescribed again.",
-               "One prescription.", on_key("Set of nodes, or rigid body.", "top"),
-               {{"ux", "Displacement in x at the end of the step.", "length"},
-                {"uy", "Displacement in y at the end of the step.", "length"},
-                {"rz", "Rotation of a rigid body at the end of the step, positive from x to y.",
-                 "radians"}})
+  return loads(
+             "Displacements to prescribe; they persist until released or prescribed again.",
+             "One prescription.", on_key("Set of nodes, or rigid body.", "top"),
+             {{"ux", "Displacement in x at the end of the step.", "length"},
+              {"uy", "Displacement in y at the end of the step.", "length"},
+              {"uz", "Displacement in z at the end of the step (models in space).", "length"},
+              {"rx",
+               "First component of a rigid body's rotation vector at the end of the step (models "
+               "in space).",
+               "radians"},
+              {"ry",
+               "Second component of a rigid body's rotation vector at the end of the step (models "
+               "in space).",
+               "radians"},
+              {"rz",
+               "Rotation of a rigid body at the end of the step, positive from x to y; in space "
+               "the third component of its rotation vector.",
+               "radians"}})
       .such_as("[{on: top, ux: 0, uy: -0.007}]");
 }
 
@@ -56,19 +71,29 @@ Spec release_spec() {
               map("One release.",
                   {on_key("Set of nodes, or rigid body.", "top"),
                    required("of", list("Which displacements.", component_spec("One displacement."))
-                                      .count(1, 3)
+                                      .count(1, component_count)
                                       .such_as("[ux]"))}))
       .otherwise("[]")
       .such_as("[{on: top, of: [ux]}]");
 }
 
 Spec forces_spec() {
-  return loads("Forces on every node of a set, or on a rigid body, whose motion they set free.",
-               "One force.", on_key("Set of nodes, or rigid body.", "corner"),
-               {{"fx", "Force in x at the end of the step.", "force"},
-                {"fy", "Force in y at the end of the step.", "force"},
-                {"mz", "Moment on a rigid body at the end of the step, positive from x to y.",
-                 "force*length"}})
+  return loads(
+             "Forces on every node of a set, or on a rigid body, whose motion they set free.",
+             "One force.", on_key("Set of nodes, or rigid body.", "corner"),
+             {{"fx", "Force in x at the end of the step.", "force"},
+              {"fy", "Force in y at the end of the step.", "force"},
+              {"fz", "Force in z at the end of the step (models in space).", "force"},
+              {"mx",
+               "Moment on a rigid body about an axis along x that is fixed in space, at the end of "
+               "the step (models in space).",
+               "force*length"},
+              {"my",
+               "Moment on a rigid body about an axis along y that is fixed in space, at the end of "
+               "the step (models in space).",
+               "force*length"},
+              {"mz", "Moment on a rigid body at the end of the step, positive from x to y.",
+               "force*length"}})
       .such_as("[{on: corner, fy: -3}]");
 }
 
@@ -86,10 +111,12 @@ Spec pressure_spec() {
 }
 
 Spec traction_spec() {
-  return loads("Tractions on boundary facets, per undeformed area, of constant direction.",
-               "One traction.", on_key("Set of boundary facets.", "top"),
-               {{"tx", "Traction in x at the end of the step.", "force/length^2"},
-                {"ty", "Traction in y at the end of the step.", "force/length^2"}})
+  return loads(
+             "Tractions on boundary facets, per undeformed area, of constant direction.",
+             "One traction.", on_key("Set of boundary facets.", "top"),
+             {{"tx", "Traction in x at the end of the step.", "force/length^2"},
+              {"ty", "Traction in y at the end of the step.", "force/length^2"},
+              {"tz", "Traction in z at the end of the step (models in space).", "force/length^2"}})
       .such_as("[{on: top, tx: 3}]");
 }
 
@@ -97,7 +124,9 @@ Spec body_force_spec() {
   return loads("Forces per undeformed volume.", "One body force.",
                on_key("Set of bulk cells.", "block"),
                {{"bx", "Force per volume in x at the end of the step.", "force/length^3"},
-                {"by", "Force per volume in y at the end of the step.", "force/length^3"}})
+                {"by", "Force per volume in y at the end of the step.", "force/length^3"},
+                {"bz", "Force per volume in z at the end of the step (models in space).",
+                 "force/length^3"}})
       .such_as("[{on: block, by: -7.7e-5}]");
 }
 
@@ -134,8 +163,10 @@ Spec equations_spec() {
 }
 
 Spec equal_spec() {
-  const Spec of = choice("Which displacement.", {word("ux", Component::ux, "displacement in x"),
-                                                 word("uy", Component::uy, "displacement in y")})
+  const Spec of = choice("Which displacement.",
+                         {word("ux", Component::ux, "displacement in x"),
+                          word("uy", Component::uy, "displacement in y"),
+                          word("uz", Component::uz, "displacement in z (models in space)")})
                       .such_as("uy");
   return list("Sets whose nodes all share one displacement.",
               map("One shared displacement.", {on_key("Set of nodes.", "top"), required("of", of)}))

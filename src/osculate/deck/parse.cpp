@@ -48,6 +48,10 @@ bool flag(const Value& map, std::string_view key) { return map.at(key).code != 0
 
 Vec2 point_of(const Value& v) { return {v.items[0].number, v.items[1].number}; }
 
+Vec3 place_of(const Value& v) {
+  return {v.items[0].number, v.items[1].number, v.items.size() > 2 ? v.items[2].number : 0.0};
+}
+
 Marked<std::vector<Vec2>> points_of(const Value& v) {
   Marked<std::vector<Vec2>> points{{}, v.mark};
   for (const Value& item : v.items) {
@@ -97,6 +101,7 @@ Description parse_model(std::string_view text, std::string file_name) {
   d.equal = parse_equal(model.at("equal"));
   d.steps = parse_steps(model.at("steps"));
   d.solver = parse_solver(model.at("solver"));
+  check_dimension(d);
   check_references(d);
   check_steps(d);
   d.output = parse_output(model.at("output"), d);

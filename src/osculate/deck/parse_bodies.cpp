@@ -47,10 +47,15 @@ Section section_of(const Value& v, const std::vector<Material>& materials) {
   s.thickness = number_of(v.at("thickness"));
   if (s.element.value == SectionElement::axisymmetric && v.at("thickness").given)
     throw core::InputError(s.thickness.mark, "an axisymmetric body has no thickness");
+  if (is_space(s.element.value) && v.at("thickness").given)
+    throw core::InputError(s.thickness.mark, "is for plane bodies; a body in space has its own");
   const Value* const kinematics = v.find("kinematics");
   s.kinematics = kinematics ? word_of<Kinematics>(*kinematics)
                             : Marked<Kinematics>{usual_kinematics(material->law.value), v.mark};
   s.formulation = word_of<Formulation>(v, "formulation");
+  if (s.element.value == SectionElement::solid_shell && v.at("formulation").given)
+    throw core::InputError(s.formulation.mark,
+                           "solid_shell elements have a formulation of their own");
   require_kinematics(s, *material);
   return s;
 }
@@ -81,6 +86,13 @@ HalfPlaneShape half_plane_of(const Value& v) {
   const double length = normal.stableNorm();
   if (!(length > 0)) throw core::InputError(v.at("normal").mark, "must not be zero");
   return {point_of(v.at("point")), normal / length};
+}
+
+PlaneShape plane_of(const Value& v) {
+  const Vec3 normal = place_of(v.at("normal"));
+  const double length = normal.stableNorm();
+  if (!(length > 0)) throw core::InputError(v.at("normal").mark, "must not be zero");
+  return {place_of(v.at("point")), normal / length};
 }
 
 NurbsShape nurbs_of(const Value& v) {
@@ -120,7 +132,15 @@ RigidShape shape_of(const Value& v) {
   if (const Value* const arc = v.find("arc")) return arc_of(*arc);
   if (const Value* const polyline = v.find("polyline")) return polyline_of(*polyline);
   if (const Value* const line = v.find("line")) return half_plane_of(*line);
+  if (const Value* const plane = v.find("plane")) return plane_of(*plane);
   return nurbs_of(v.at("nurbs"));
+}
+
+/// The key of the shape: the first one; exactly one of them is given.
+std::string kind_of(const Value& v) {
+  for (const ValueEntry& entry : v.entries)
+    if (entry.key != "reference" && entry.key != "flip") return entry.key;
+  return {};
 }
 
 }  // namespace
@@ -153,8 +173,9 @@ std::vector<Rigid> parse_rigid(const Value& v) {
     Rigid rigid;
     rigid.name = {entry.key, entry.key_mark};
     rigid.shape = shape_of(entry.value);
+    rigid.kind = kind_of(entry.value);
     if (const Value* const reference = entry.value.find("reference"))
-      rigid.reference = Marked<Vec2>{point_of(*reference), reference->mark};
+      rigid.reference = numbers_of(*reference);
     rigid.flip = flag(entry.value, "flip");
     out.push_back(std::move(rigid));
   }

@@ -87,10 +87,6 @@ Marked<cell::CellType> box_type(const Value& v, bool solid) {
                              cell::info(type.value).name));
 }
 
-Vec3 place_of(const Value& v) {
-  return {v.items[0].number, v.items[1].number, v.items.size() > 2 ? v.items[2].number : 0.0};
-}
-
 /// A direction, of any length.
 Vec3 direction_of(const Value& v) {
   const Vec3 direction = place_of(v);

@@ -4,15 +4,19 @@
 #include <map>
 
 #include "osculate/core/text.hpp"
+#include "osculate/deck/build.hpp"
 #include "osculate/deck/parse_parts.hpp"
 
 namespace osculate::deck {
 namespace {
 
-bool needs_rigid(Quantity q) { return q == Quantity::rz || q == Quantity::rmz; }
+bool needs_rigid(Quantity q) {
+  return (q >= Quantity::rx && q <= Quantity::rz) || (q >= Quantity::rmx && q <= Quantity::rmz);
+}
 
 void require_quantity(const HistoryRequest& request, const std::string& word,
                       const Description& d) {
+  if (is_spatial(request.of.value) && dimension(d) == 2) throw only_in_space(request.of.mark, word);
   const bool contact = request.target == HistoryTarget::contact;
   if (contact && !is_contact_quantity(request.of.value))
     throw core::InputError(request.of.mark,

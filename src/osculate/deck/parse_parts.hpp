@@ -25,6 +25,8 @@ template <class E>
 [[nodiscard]] std::optional<Name> name_if(const Value& map, std::string_view key);
 [[nodiscard]] bool flag(const Value& map, std::string_view key);
 [[nodiscard]] Vec2 point_of(const Value& v);
+/// Two or three coordinates; z = 0 where it is not given.
+[[nodiscard]] Vec3 place_of(const Value& v);
 /// At least one segment; consecutive points must differ.
 [[nodiscard]] Marked<std::vector<Vec2>> points_of(const Value& v);
 [[nodiscard]] Marked<std::vector<double>> numbers_of(const Value& v);
@@ -53,5 +55,10 @@ template <class E>
 /// Names used twice, names of nothing, contradictions within a step. Throws core::InputError.
 void check_references(const Description& description);
 void check_steps(const Description& description);
+/// Sections, shapes, displacements and loads that do not exist in a model of this dimension. Throws
+/// core::InputError.
+void check_dimension(const Description& description);
+/// The error for a key or word that only models in space have.
+[[nodiscard]] core::InputError only_in_space(const core::SourceMark& mark, std::string_view word);
 
 }  // namespace osculate::deck

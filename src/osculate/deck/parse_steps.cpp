@@ -49,7 +49,7 @@ std::vector<Load> loads_of(const Value& v, const std::vector<std::string_view>& 
 
 std::vector<Prescription> prescriptions_of(const Value& v) {
   std::vector<Prescription> out;
-  for (const Load& load : loads_of(v, {"ux", "uy", "rz"}))
+  for (const Load& load : loads_of(v, {component_names.begin(), component_names.end()}))
     out.push_back({load.mark, load.on, load.values, load.amplitude});
   return out;
 }
@@ -74,10 +74,10 @@ Step step_of(const Value& v) {
   s.increments = integer_of(v.at("increments"));
   s.prescribe = prescriptions_of(v.at("prescribe"));
   s.release = releases_of(v.at("release"));
-  s.forces = loads_of(v.at("forces"), {"fx", "fy", "mz"});
+  s.forces = loads_of(v.at("forces"), {"fx", "fy", "fz", "mx", "my", "mz"});
   s.pressure = loads_of(v.at("pressure"), {"value"});
-  s.traction = loads_of(v.at("traction"), {"tx", "ty"});
-  s.body_force = loads_of(v.at("body_force"), {"bx", "by"});
+  s.traction = loads_of(v.at("traction"), {"tx", "ty", "tz"});
+  s.body_force = loads_of(v.at("body_force"), {"bx", "by", "bz"});
   return s;
 }
 

@@ -50,6 +50,9 @@ void check_sides(const Description& d) {
   }
 }
 
+constexpr std::array<const char*, component_count> force_names{"fx", "fy", "fz", "mx", "my", "mz"};
+
+/// Rotations and moments are for rigid bodies.
 void require_rigid(const Description& d, const Name& on, const core::SourceMark& mark,
                    std::string_view component) {
   if (d.find_rigid(on.value)) return;
@@ -63,19 +66,18 @@ void require_rigid(const Description& d, const Name& on, const core::SourceMark&
 void check_constraints(const Description& d) {
   for (const Equation& equation : d.equations)
     for (const EquationTerm& term : equation.terms)
-      if (term.of == Component::rz) require_rigid(d, term.on, term.on.mark, "rz");
+      if (is_rotation(term.of))
+        require_rigid(d, term.on, term.on.mark, component_names[static_cast<std::size_t>(term.of)]);
   std::map<std::string, int> equal;
   for (const Equal& e : d.equal) {
     if (d.find_rigid(e.on.value))
       throw core::InputError(e.on.mark, fmt::format("'{}' is a rigid body; its nodes already move "
                                                     "as one",
                                                     e.on.value));
-    const char* const component = e.of == Component::ux ? ".ux" : ".uy";
-    add_unique(equal, e.on.value + component, e.mark, "equal");
+    const char* const component = component_names[static_cast<std::size_t>(e.of)];
+    add_unique(equal, e.on.value + "." + component, e.mark, "equal");
   }
 }
-
-constexpr std::array<const char*, 3> displacement_names{"ux", "uy", "rz"};
 
 /// What one step does with the displacements: every set and component at most once.
 class StepChecker {
@@ -87,11 +89,12 @@ class StepChecker {
     for (const Prescription& p : step.prescribe) check_prescription(p, seen);
     for (const Release& r : step.release) check_release(r, seen);
     for (const Prescription& p : step.prescribe)
-      for (std::size_t i = 0; i < 3; ++i) prescribed_[i] = prescribed_[i] || p.values[i];
-    check_loads(step.forces, {"fx", "fy", "mz"}, true);
-    check_loads(step.pressure, {"value", "", ""}, false);
-    check_loads(step.traction, {"tx", "ty", ""}, false);
-    check_loads(step.body_force, {"bx", "by", ""}, false);
+      for (std::size_t i = 0; i < component_count; ++i)
+        prescribed_[i] = prescribed_[i] || p.values[i];
+    check_loads(step.forces, force_names, true);
+    check_loads(step.pressure, {"value"}, false);
+    check_loads(step.traction, {"tx", "ty", "tz"}, false);
+    check_loads(step.body_force, {"bx", "by", "bz"}, false);
     for (const Load& force : step.forces) check_loaded_dof(step, force);
   }
 
@@ -106,20 +109,22 @@ class StepChecker {
 
   void check_prescription(const Prescription& p, std::map<std::string, int>& seen) const {
     require_amplitude(p.amplitude);
-    if (p.values[2]) require_rigid(d_, p.on, p.values[2]->mark, "rz");
-    for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t i = 0; i < component_count; ++i)
+      if (p.values[i] && is_rotation(static_cast<Component>(i)))
+        require_rigid(d_, p.on, p.values[i]->mark, component_names[i]);
+    for (std::size_t i = 0; i < component_count; ++i)
       if (p.values[i])
-        add_unique(seen, p.on.value + "." + displacement_names[i], p.values[i]->mark,
+        add_unique(seen, p.on.value + "." + component_names[i], p.values[i]->mark,
                    "prescription of");
   }
 
   /// Rigid bodies are held from the beginning, so that releasing them always makes sense.
   void check_release(const Release& r, std::map<std::string, int>& seen) const {
     const bool rigid = d_.find_rigid(r.on.value) != nullptr;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < component_count; ++i) {
       if (!r.of[i]) continue;
-      const char* const component = displacement_names[i];
-      if (i == 2) require_rigid(d_, r.on, r.mark, component);
+      const char* const component = component_names[i];
+      if (is_rotation(static_cast<Component>(i))) require_rigid(d_, r.on, r.mark, component);
       const std::string name = r.on.value + "." + component;
       const auto [at, fresh] = seen.emplace(name, r.mark.line);
       if (!fresh)
@@ -133,7 +138,8 @@ class StepChecker {
     }
   }
 
-  void check_loads(const std::vector<Load>& loads, const std::array<const char*, 3>& components,
+  void check_loads(const std::vector<Load>& loads,
+                   const std::array<const char*, component_count>& components,
                    bool on_rigid) const {
     std::map<std::string, int> seen;
     for (const Load& load : loads) {
@@ -142,8 +148,10 @@ class StepChecker {
         throw core::InputError(
             load.on.mark,
             fmt::format("'{}' is a rigid body; only forces act on it directly", load.on.value));
-      if (on_rigid && load.values[2]) require_rigid(d_, load.on, load.values[2]->mark, "mz");
-      for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t i = 0; on_rigid && i < component_count; ++i)
+        if (load.values[i] && is_rotation(static_cast<Component>(i)))
+          require_rigid(d_, load.on, load.values[i]->mark, force_names[i]);
+      for (std::size_t i = 0; i < component_count; ++i)
         if (load.values[i])
           add_unique(seen, load.on.value + "." + components[i], load.values[i]->mark, "load on");
     }
@@ -152,16 +160,16 @@ class StepChecker {
   /// A displacement cannot be prescribed while the force that belongs to it is given.
   static void check_loaded_dof(const Step& step, const Load& force) {
     for (const Prescription& p : step.prescribe)
-      for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t i = 0; i < component_count; ++i)
         if (p.on.value == force.on.value && p.values[i] && force.values[i])
           throw core::InputError(
               force.values[i]->mark,
               fmt::format("a force cannot be given where line {} prescribes {} of {}",
-                          p.values[i]->mark.line, displacement_names[i], quoted(p.on.value)));
+                          p.values[i]->mark.line, component_names[i], quoted(p.on.value)));
   }
 
   const Description& d_;
-  std::array<bool, 3> prescribed_{};  ///< by an earlier step, anywhere
+  std::array<bool, component_count> prescribed_{};  ///< by an earlier step, anywhere
 };
 
 }  // namespace

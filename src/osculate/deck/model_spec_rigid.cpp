@@ -1,0 +1,116 @@
+#include "osculate/deck/model_spec.hpp"
+
+namespace osculate::deck {
+namespace {
+
+Spec nurbs_spec() {
+  return map(
+      "A rational B-spline curve, body on the right of the direction of travel.",
+      {required("degree", integer("Polynomial degree.").at_least(1).at_most(9).such_as("2")),
+       required("knots", list("Knots, non-decreasing, as many as control points + degree + 1.",
+                              number("One knot."))
+                             .count(4)
+                             .such_as("[0, 0, 0, 1, 1, 1]")),
+       required("control",
+                list("Control points [x, y, w], coordinates not multiplied by the weight w > 0.",
+                     list("One control point [x, y, w].", number("Coordinate or weight."))
+                         .count(3, 3)
+                         .such_as("[1, 0, 1]"))
+                    .count(2)
+                    .such_as("[[1, 0, 1], [1, 1, 0.7071067811865476], [0, 1, 1]]"))});
+}
+
+/// Shapes of plane models.
+std::vector<Key> plane_shapes() {
+  const Spec center = point_spec("Centre.").such_as("[0, -5]");
+  const Spec radius = number("Radius.").in("length").above(0).such_as("5");
+  const Spec inside =
+      boolean("The body is outside the circle, so that its surface is a hole.").otherwise("false");
+  const Spec circle =
+      map("A full circle (plane models).",
+          {required("center", center), required("radius", radius), optional("inside", inside)});
+  const Spec arc = map(
+      "Part of a circle (plane models).",
+      {required("center", center), required("radius", radius),
+       required("from", number("Angle where the arc begins, from the x-axis towards the y-axis.")
+                            .in("degrees")
+                            .such_as("0")),
+       required("to", number("Angle where the arc ends, above `from` by at most 360.")
+                          .in("degrees")
+                          .such_as("180")),
+       optional("inside", inside)});
+  const Spec polyline =
+      map("Straight segments, body on the right of the direction of travel (plane models).",
+          {required("points", points_spec("Corners in order of travel.", 2)),
+           optional("closed", boolean("Join the last corner with the first.").otherwise("false"))});
+  const Spec line =
+      map("A straight line without ends; the body is the half plane behind it (plane models).",
+          {required("point", point_spec("A point of the line.")),
+           required("normal", point_spec("Direction out of the body, of any length but zero."))});
+  return {optional("circle", circle), optional("arc", arc), optional("polyline", polyline),
+          optional("line", line), optional("nurbs", nurbs_spec())};
+}
+
+/// Shapes of models in space.
+std::vector<Key> space_shapes() {
+  const Spec plane = map(
+      "A plane without borders; the body is the half space behind it (models in space).",
+      {required("point", place_spec("A point of the plane.").such_as("[0, 0, 0]")),
+       required(
+           "normal",
+           place_spec("Direction out of the body, of any length but zero.").such_as("[0, 0, 1]"))});
+  const auto later = [](const char* doc) { return map(doc, {}).not_available(); };
+  return {optional("plane", plane),
+          optional("sphere", later("A sphere (models in space).")),
+          optional("cylinder", later("A circular cylinder (models in space).")),
+          optional("cone", later("A circular cone (models in space).")),
+          optional("torus", later("A torus (models in space).")),
+          optional("nurbs_patch", later("A rational B-spline surface (models in space)."))};
+}
+
+std::vector<Key> shape_keys() {
+  std::vector<Key> keys{optional(
+      "set", text("Set of line cells or nodes, in space of area cells or nodes, that move as one.")
+                 .such_as("base_line"))};
+  for (const std::vector<Key>& shapes : {plane_shapes(), space_shapes()})
+    keys.insert(keys.end(), shapes.begin(), shapes.end());
+  return keys;
+}
+
+std::vector<std::string> shape_names() {
+  std::vector<std::string> out;
+  for (const Key& key : shape_keys())
+    if (key.spec.available) out.push_back(key.name);
+  return out;
+}
+
+std::vector<Key> rigid_keys() {
+  std::vector<Key> keys = shape_keys();
+  keys.push_back(optional(
+      "reference",
+      list(
+          "Point that prescriptions, forces and moments refer to: two coordinates, in space three.",
+          number("One coordinate.").in("length"))
+          .count(2, 3)
+          .otherwise_as("the centroid of the nodes, the centre of the shape")
+          .such_as("[0, 1]")));
+  keys.push_back(optional(
+      "flip", boolean("Put the body on the other side of its surface.").otherwise("false")));
+  return keys;
+}
+
+}  // namespace
+
+Spec rigid_spec() {
+  return names(
+             "Rigid bodies, by name: a meshed set or one analytic shape each. All their motions "
+             "are "
+             "held until a step prescribes, loads or releases them.",
+             map("One rigid body: exactly one shape.", rigid_keys())
+                 .with(Group::Rule::exactly_one, shape_names())
+                 .such_as("{circle: {center: [0, -5], radius: 5}}"))
+      .otherwise("{}")
+      .such_as("{base: {set: base_line}}");
+}
+
+}  // namespace osculate::deck
