@@ -2,16 +2,36 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "osculate/deck/build_context.hpp"
 #include "osculate/deck/parse.hpp"
-#include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/check.hpp"
 
 namespace osculate::deck {
+
+template <int Dim>
+const mesh::Set& BuildContext<Dim>::set(const Name& on) const {
+  const mesh::Set* const found = model().mesh.find_set(on.value);
+  if (!found) throw unknown_set(on, set_names);
+  return *found;
+}
+
+template <int Dim>
+bool BuildContext<Dim>::takes_part(Index node) const {
+  const auto n = static_cast<std::size_t>(node);
+  return (n < section_of_node.size() && section_of_node[n] >= 0) || model().body_of_node[n] >= 0;
+}
+
+template <int Dim>
+core::InputError BuildContext<Dim>::idle_node(const Name& on, Index node) const {
+  return {on.mark, fmt::format("{} of '{}' belongs to no section and to no rigid body",
+                               mesh::describe_node(model().mesh, node), on.value)};
+}
+
+template struct BuildContext<2>;
+template struct BuildContext<3>;
+
 namespace {
 
 model::AnalysisOptions analysis_options(const Solver& solver) {
@@ -28,15 +48,12 @@ model::AnalysisOptions analysis_options(const Solver& solver) {
   return options;
 }
 
-/// Words of the model file, in the order of Quantity.
-constexpr std::array<std::string_view, 16> quantity_words{
-    "ux",      "uy",      "rz",           "rfx",         "rfy",          "rmz",
-    "force_x", "force_y", "normal_force", "shear_force", "max_pressure", "max_penetration",
-    "stick",   "slip",    "open",         "area"};
-
-std::string_view quantity_name(Quantity q) { return quantity_words[static_cast<std::size_t>(q)]; }
-
+/// A plane model needs z = 0; where its sections are of volume cells, that is the mistake.
 void check_planar(const Description& description, const mesh::Mesh& mesh) {
+  for (const Section& section : description.sections) {
+    const mesh::Set* const set = mesh.find_set(section.on.value);
+    if (set && set->dimension == 3) return;  // build_sections says so
+  }
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     if (std::abs(mesh.nodes[n].z()) > 1e-12 * (1 + mesh.nodes[n].norm()))
       throw core::InputError(
@@ -44,22 +61,27 @@ void check_planar(const Description& description, const mesh::Mesh& mesh) {
           fmt::format("node {} has z = {:g}; plane problems need z = 0", n + 1, mesh.nodes[n].z()));
 }
 
+model::HistoryRequest::Kind kind_of(HistoryTarget target) {
+  if (target == HistoryTarget::contact) return model::HistoryRequest::Kind::pair;
+  if (target == HistoryTarget::rigid) return model::HistoryRequest::Kind::rigid;
+  return model::HistoryRequest::Kind::nodes;
+}
+
 }  // namespace
 
-void build_history(BuildContext& c) {
+template <int Dim>
+void build_history(BuildContext<Dim>& c) {
   for (const HistoryRequest& request : c.description.output.history) {
     model::HistoryRequest out;
     out.name = request.column;
-    out.quantity = std::string(quantity_name(request.of.value));
+    out.quantity = quantity_names[static_cast<std::size_t>(request.of.value)];
+    out.kind = kind_of(request.target);
     if (request.target == HistoryTarget::contact) {
-      out.kind = model::HistoryRequest::Kind::pair;
       for (std::size_t p = 0; p < c.model().pairs.size(); ++p)
         if (c.model().pairs[p].name == request.on.value) out.target = static_cast<Index>(p);
     } else if (request.target == HistoryTarget::rigid) {
-      out.kind = model::HistoryRequest::Kind::rigid;
       out.target = c.rigid_index.at(request.on.value);
     } else {
-      out.kind = model::HistoryRequest::Kind::nodes;
       out.nodes = c.set(request.on).nodes;
       if (out.nodes.empty())
         throw core::InputError(request.on.mark,
@@ -69,20 +91,23 @@ void build_history(BuildContext& c) {
   }
 }
 
-Built build(const Description& description, mesh::Mesh mesh) {
-  Built built;
+namespace {
+
+template <int Dim>
+BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
+  BasicBuilt<Dim> built;
   for (const mesh::Finding& finding : mesh::check_mesh(mesh)) {
     if (finding.is_error) throw core::InputError(description.mesh.mark, finding.message);
     built.warnings.push_back(finding.message);
   }
-  check_planar(description, mesh);
+  if (Dim == 2) check_planar(description, mesh);
   built.options = analysis_options(description.solver);
-  model::Model& m = built.model;
+  model::BasicModel<Dim>& m = built.model;
   m.title = description.title;
   m.mesh = std::move(mesh);
-  for (const Vec3& node : m.mesh.nodes) m.reference.push_back(node.head<2>());
+  for (const Vec3& node : m.mesh.nodes) m.reference.push_back(node.head<Dim>());
   m.body_of_node.assign(m.reference.size(), -1);
-  BuildContext context{description, built, {}, {}, {}, {}, {}};
+  BuildContext<Dim> context{description, built, {}, {}, {}, {}, {}};
   for (const mesh::Set& set : m.mesh.sets) context.set_names.push_back(set.name);
   build_sections(context);
   build_rigid(context);
@@ -94,14 +119,26 @@ Built build(const Description& description, mesh::Mesh mesh) {
   return built;
 }
 
-int dimension(const Description& description) {
-  for (const Section& section : description.sections)
-    if (is_space(section.element.value)) return 3;
-  return 2;
+/// The error for a model that its builder is not made for.
+void require_dimension(const Description& description, int wanted) {
+  if (dimension(description) == wanted) return;
+  const core::SourceMark mark = description.sections.empty()
+                                    ? core::SourceMark{description.file, 0, ""}
+                                    : description.sections.front().element.mark;
+  throw core::InputError(mark, wanted == 2 ? "this is a model in space; a plane one is needed here"
+                                           : "this is a plane model; one in space is needed here");
 }
 
-Built3 build3(const Description& description, mesh::Mesh) {
-  throw core::InputError(description.mesh.mark, "models in space are not available yet");
+}  // namespace
+
+Built build(const Description& description, mesh::Mesh mesh) {
+  require_dimension(description, 2);
+  return build_in<2>(description, std::move(mesh));
+}
+
+Built3 build3(const Description& description, mesh::Mesh mesh) {
+  require_dimension(description, 3);
+  return build_in<3>(description, std::move(mesh));
 }
 
 AnyBuilt build_any(const Description& description, mesh::Mesh mesh) {
@@ -109,14 +146,14 @@ AnyBuilt build_any(const Description& description, mesh::Mesh mesh) {
   return build(description, std::move(mesh));
 }
 
-AnyBuilt build_any_file(const std::string& path) {
-  const Description description = read_model(path);
-  return build_any(description, load_mesh(description));
-}
-
 Built build_file(const std::string& path) {
   const Description description = read_model(path);
   return build(description, load_mesh(description));
+}
+
+AnyBuilt build_any_file(const std::string& path) {
+  const Description description = read_model(path);
+  return build_any(description, load_mesh(description));
 }
 
 }  // namespace osculate::deck

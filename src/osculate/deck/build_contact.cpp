@@ -8,58 +8,87 @@
 
 namespace osculate::deck {
 
-std::vector<mesh::BoundaryFacet> oriented_facets(const BuildContext& c, const Name& on) {
-  mesh::Boundary boundary = mesh::surface_of(c.model().mesh, c.edges, c.set(on));
-  if (!boundary.errors.empty()) throw core::InputError(on.mark, boundary.errors.front());
+template <int Dim>
+std::vector<Side<Dim>> oriented_facets(const BuildContext<Dim>& c, const Name& on) {
+  auto surface = mesh::surface_of(c.model().mesh, c.sides, c.set(on));
+  if (!surface.errors.empty()) throw core::InputError(on.mark, surface.errors.front());
   std::vector<std::string>& known = c.built.warnings;
-  for (const std::string& text : boundary.warnings) {
+  for (const std::string& text : surface.warnings) {
     std::string warning = fmt::format("set '{}': {}", on.value, text);
     if (std::find(known.begin(), known.end(), warning) == known.end())
       known.push_back(std::move(warning));
   }
-  return std::move(boundary.facets);
+  return std::move(surface.facets);
 }
+
+template std::vector<Side<2>> oriented_facets(const BuildContext<2>&, const Name&);
+template std::vector<Side<3>> oriented_facets(const BuildContext<3>&, const Name&);
 
 namespace {
 
-const Rigid* rigid_of(const BuildContext& c, const Name& name) {
+template <int Dim>
+const Rigid* rigid_of(const BuildContext<Dim>& c, const Name& name) {
   return c.rigid_index.contains(name.value) ? c.description.find_rigid(name.value) : nullptr;
 }
 
-/// Chain of a mesh set, or of a rigid body: facets with outward normals.
-pairing::Chain chain_of(const BuildContext& c, const Name& name) {
-  pairing::Chain chain;
+template <int Dim>
+const model::BasicRigidBody<Dim>& body_of(const BuildContext<Dim>& c, const Name& name) {
+  return c.model().rigid[static_cast<std::size_t>(c.rigid_index.at(name.value))];
+}
+
+/// Facets of a rigid body that has no mesh: an analytic shape on its frame, or a polyline.
+void add_unmeshed(const Rigid& rigid, const model::RigidBody& body, pairing::Chain& chain) {
+  const std::vector<Index>& nodes = body.nodes;
+  if (body.shape) {
+    chain.facets.push_back(pairing::shape_facet(*body.shape, {nodes[0], nodes[1], nodes[2]}));
+    return;
+  }
+  const bool closed = std::get<PolylineShape>(rigid.shape).closed;
+  for (std::size_t i = 0; i + 1 < nodes.size() + (closed ? 1 : 0); ++i)
+    chain.facets.push_back(
+        pairing::lagrange_facet(std::array<Index, 2>{nodes[i], nodes[(i + 1) % nodes.size()]}));
+}
+
+void add_unmeshed(const Rigid&, const model::RigidBody3& body, pairing::FacetSurface& surface) {
+  const std::vector<Index>& nodes = body.nodes;
+  surface.facets.push_back(
+      pairing::shape_facet(body.shape.value(), {nodes[0], nodes[1], nodes[2], nodes[3]}));
+}
+
+/// Facet of a mesh side; `flip` puts the body on its other side.
+pairing::Facet contact_facet(const mesh::BoundaryFacet& side, bool flip) {
+  std::vector<Index> nodes(side.nodes().begin(), side.nodes().end());
+  if (flip) {
+    std::swap(nodes[0], nodes[1]);
+    std::reverse(nodes.begin() + 2, nodes.end());
+  }
+  return pairing::lagrange_facet(nodes);
+}
+
+pairing::SurfaceFacet contact_facet(const mesh::SurfaceFacet& side, bool flip) {
+  std::vector<Index> nodes(side.nodes().begin(), side.nodes().end());
+  if (flip) mesh::reverse_area(side.type, nodes);
+  return pairing::surface_facet(side.type, nodes);
+}
+
+/// Boundary of a mesh set, or of a rigid body: facets with outward normals.
+template <int Dim>
+pairing::Boundary<Dim> boundary_of(const BuildContext<Dim>& c, const Name& name) {
+  pairing::Boundary<Dim> boundary;
   const Rigid* const rigid = rigid_of(c, name);
   const SetShape* const meshed = rigid ? std::get_if<SetShape>(&rigid->shape) : nullptr;
   if (rigid && !meshed) {
-    const model::RigidBody& body =
-        c.model().rigid[static_cast<std::size_t>(c.rigid_index.at(name.value))];
-    if (body.shape) {
-      chain.facets.push_back(
-          pairing::shape_facet(*body.shape, {body.nodes[0], body.nodes[1], body.nodes[2]}));
-    } else {
-      const bool closed = std::get<PolylineShape>(rigid->shape).closed;
-      const std::size_t n = body.nodes.size();
-      for (std::size_t i = 0; i + 1 < n + (closed ? 1 : 0); ++i)
-        chain.facets.push_back(
-            pairing::lagrange_facet(std::array<Index, 2>{body.nodes[i], body.nodes[(i + 1) % n]}));
-    }
+    add_unmeshed(*rigid, body_of(c, name), boundary);
   } else {
-    const Name& set = meshed ? meshed->set : name;
-    for (const mesh::BoundaryFacet& facet : oriented_facets(c, set)) {
-      std::vector<Index> nodes(facet.nodes().begin(), facet.nodes().end());
-      if (rigid && rigid->flip && !facet.has_parent()) {
-        std::swap(nodes[0], nodes[1]);
-        std::reverse(nodes.begin() + 2, nodes.end());
-      }
-      chain.facets.push_back(pairing::lagrange_facet(nodes));
-    }
+    for (const Side<Dim>& side : oriented_facets(c, meshed ? meshed->set : name))
+      boundary.facets.push_back(contact_facet(side, rigid && rigid->flip && !side.has_parent()));
   }
-  pairing::connect(chain);
-  return chain;
+  pairing::connect(boundary);
+  return boundary;
 }
 
-pairing::SlaveSide<2> slave_of(const BuildContext& c, const Contact& contact) {
+template <int Dim>
+pairing::SlaveSide<Dim> slave_of(const BuildContext<Dim>& c, const Contact& contact) {
   const Rigid* const rigid = rigid_of(c, contact.slave);
   const SetShape* const meshed = rigid ? std::get_if<SetShape>(&rigid->shape) : nullptr;
   const Name& set_name = meshed ? meshed->set : contact.slave;
@@ -67,12 +96,13 @@ pairing::SlaveSide<2> slave_of(const BuildContext& c, const Contact& contact) {
   if (set.nodes.empty())
     throw core::InputError(contact.slave.mark,
                            fmt::format("contact set '{}' is empty", contact.slave.value));
-  if (set.dimension == 0) return pairing::make_slave_side(pairing::Chain{}, set.nodes);
-  return pairing::make_slave_side(chain_of(c, contact.slave));
+  if (set.dimension == 0) return pairing::make_slave_side(pairing::Boundary<Dim>{}, set.nodes);
+  return pairing::make_slave_side(boundary_of(c, contact.slave));
 }
 
-/// Thickness or circumference from the section behind the slave, else behind the master.
-pairing::AreaRule area_rule(const BuildContext& c, const pairing::PairDefinition<2>& pair) {
+/// Thickness or circumference from the section behind the slave, else behind the master. An area in
+/// space needs neither.
+pairing::AreaRule area_rule(const BuildContext<2>& c, const pairing::PairDefinition<2>& pair) {
   const auto from = [&](Index node) -> const solid::Section* {
     if (static_cast<std::size_t>(node) >= c.section_of_node.size()) return nullptr;
     const Index s = c.section_of_node[static_cast<std::size_t>(node)];
@@ -87,8 +117,12 @@ pairing::AreaRule area_rule(const BuildContext& c, const pairing::PairDefinition
   if (!section) return {};
   return {section->thickness, section->assumption == solid::Assumption::axisymmetric};
 }
+pairing::AreaRule area_rule(const BuildContext<3>&, const pairing::PairDefinition<3>&) {
+  return {};
+}
 
-void set_forms(const Contact& contact, pairing::PairDefinition<2>& pair) {
+template <int Dim>
+void set_forms(const Contact& contact, pairing::PairDefinition<Dim>& pair) {
   pair.normal.stiffness = contact.normal_penalty.value;
   if (contact.friction)
     pair.friction = contact::Coulomb{contact.friction->mu.value, contact.friction->penalty.value};
@@ -110,8 +144,9 @@ void set_forms(const Contact& contact, pairing::PairDefinition<2>& pair) {
   if (contact.search_depth) pair.depth = contact.search_depth->value;
 }
 
-void check_pair(const BuildContext& c, const Contact& contact,
-                const pairing::PairDefinition<2>& pair) {
+template <int Dim>
+void check_pair(const BuildContext<Dim>& c, const Contact& contact,
+                const pairing::PairDefinition<Dim>& pair) {
   if (pair.master.facets.empty())
     throw core::InputError(contact.master.mark,
                            fmt::format("contact set '{}' has no facets", contact.master.value));
@@ -125,14 +160,14 @@ void check_pair(const BuildContext& c, const Contact& contact,
     return true;
   };
   bool rigid = all_rigid(pair.slave.nodes, static_cast<int>(pair.slave.nodes.size()));
-  for (const pairing::Facet& f : pair.master.facets) rigid = rigid && all_rigid(f.nodes, f.count);
+  for (const auto& f : pair.master.facets) rigid = rigid && all_rigid(f.nodes, f.count);
   if (rigid) throw core::InputError(contact.name.mark, "both sides of this contact are rigid");
   std::vector<bool> of_slave(c.model().reference.size());
   for (const Index n : pair.slave.nodes) {
     if (!c.takes_part(n)) throw c.idle_node(contact.slave, n);
     of_slave[static_cast<std::size_t>(n)] = true;
   }
-  for (const pairing::Facet& f : pair.master.facets)
+  for (const auto& f : pair.master.facets)
     for (int k = 0; k < f.count; ++k) {
       const Index n = f.nodes[static_cast<std::size_t>(k)];
       if (!c.takes_part(n)) throw c.idle_node(contact.master, n);
@@ -146,12 +181,13 @@ void check_pair(const BuildContext& c, const Contact& contact,
 
 }  // namespace
 
-void build_contact(BuildContext& c) {
+template <int Dim>
+void build_contact(BuildContext<Dim>& c) {
   for (const Contact& contact : c.description.contact) {
-    model::ContactPair out;
+    model::BasicContactPair<Dim> out;
     out.name = contact.name.value;
-    pairing::PairDefinition<2>& pair = out.definition;
-    pair.master = chain_of(c, contact.master);
+    pairing::PairDefinition<Dim>& pair = out.definition;
+    pair.master = boundary_of(c, contact.master);
     pair.slave = slave_of(c, contact);
     check_pair(c, contact, pair);
     set_forms(contact, pair);
@@ -164,5 +200,8 @@ void build_contact(BuildContext& c) {
     c.model().pairs.push_back(std::move(out));
   }
 }
+
+template void build_contact(BuildContext<2>&);
+template void build_contact(BuildContext<3>&);
 
 }  // namespace osculate::deck

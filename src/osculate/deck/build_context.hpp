@@ -2,46 +2,73 @@
 // Shared by the build_*.cpp files; not for users.
 #include <map>
 #include <string>
+#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
 #include "osculate/deck/build.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/mesh/surface.hpp"
 
 namespace osculate::deck {
 
+/// Boundary facets: edges of area cells in the plane, faces of volume cells in space.
+template <int Dim>
+using SideTable = std::conditional_t<Dim == 2, mesh::EdgeTable, mesh::FaceTable>;
+template <int Dim>
+using Side = std::conditional_t<Dim == 2, mesh::BoundaryFacet, mesh::SurfaceFacet>;
+
 /// What the parts of `build` share while a model grows.
+template <int Dim>
 struct BuildContext {
   const Description& description;
-  Built& built;
+  BasicBuilt<Dim>& built;
   std::vector<std::string> set_names;
   std::unordered_map<std::string, Index> rigid_index;
   std::vector<Index> section_of_node;  ///< first section that uses the node, -1 = none
   std::map<std::pair<Index, Index>, Index> section_of_cell;  ///< by block and cell
+  SideTable<Dim> sides;                                      ///< of the cells that have a section
 
-  [[nodiscard]] model::Model& model() const { return built.model; }
+  [[nodiscard]] model::BasicModel<Dim>& model() const { return built.model; }
   /// The set, or the error with the nearest name.
   [[nodiscard]] const mesh::Set& set(const Name& on) const;
   /// A node that moves with the solution: of a section or of a rigid body.
   [[nodiscard]] bool takes_part(Index node) const;
   /// The error for a set with nodes that do not take part.
   [[nodiscard]] core::InputError idle_node(const Name& on, Index node) const;
-  mesh::EdgeTable edges;  ///< of the cells that have a section
 };
 
-/// Directed facets of the surface that a set names (lines, free edges of areas or of nodes).
-[[nodiscard]] std::vector<mesh::BoundaryFacet> oriented_facets(const BuildContext& context,
-                                                               const Name& on);
-/// The element formulation of a section with its material.
-[[nodiscard]] solid::Section make_solid_section(const Section& section, const Material& material);
+/// Place of a component among the motions of a node or a rigid body.
+template <int Dim>
+[[nodiscard]] constexpr int motion_of(Component component) {
+  if constexpr (Dim == 2) return component == Component::rz ? 2 : static_cast<int>(component);
+  return static_cast<int>(component);
+}
 
-void build_sections(BuildContext& context);
-void build_rigid(BuildContext& context);
-void build_contact(BuildContext& context);
-void build_equations(BuildContext& context);
-void build_steps(BuildContext& context);
-void build_history(BuildContext& context);
+/// Directed facets of the surface that a set names (in the plane lines, free edges of areas or of
+/// nodes; in space areas, free faces of volumes or of nodes).
+template <int Dim>
+[[nodiscard]] std::vector<Side<Dim>> oriented_facets(const BuildContext<Dim>& context,
+                                                     const Name& on);
+/// The element formulation of a section with its material.
+template <int Dim>
+[[nodiscard]] model::SolidSection<Dim> make_solid_section(const Section& section,
+                                                          const Material& material);
+
+template <int Dim>
+void build_sections(BuildContext<Dim>& context);
+template <int Dim>
+void build_rigid(BuildContext<Dim>& context);
+template <int Dim>
+void build_contact(BuildContext<Dim>& context);
+template <int Dim>
+void build_equations(BuildContext<Dim>& context);
+template <int Dim>
+void build_steps(BuildContext<Dim>& context);
+template <int Dim>
+void build_history(BuildContext<Dim>& context);
 /// Whole-model checks: unconnected bodies, contradictory prescriptions, nothing to solve.
-void check_model(BuildContext& context);
+template <int Dim>
+void check_model(BuildContext<Dim>& context);
 
 }  // namespace osculate::deck

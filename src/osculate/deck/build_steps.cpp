@@ -8,17 +8,20 @@
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
-#include "osculate/solid/element.hpp"
 
 namespace osculate::deck {
 namespace {
 
 using model::Dof;
 
-constexpr std::array<const char*, 3> component_names{"ux", "uy", "rz"};
+const char* name_of(Component component) {
+  return component_names[static_cast<std::size_t>(component)];
+}
 
-Dof body_dof(const model::Model& m, Index body, int component) {
-  return 2 * static_cast<Dof>(m.reference.size()) + 3 * body + component;
+template <int Dim>
+Dof body_dof(const model::BasicModel<Dim>& m, Index body, Component component) {
+  return Dim * static_cast<Dof>(m.reference.size()) + body::motions<Dim> * body +
+         motion_of<Dim>(component);
 }
 
 /// Channel of a load: same kind, same place, same component.
@@ -32,7 +35,7 @@ struct ChannelKey {
 struct Channel {
   double value = 0;  ///< at the end of the last step
   std::vector<std::pair<Dof, double>> unit;
-  std::vector<model::PressureLoad::Edge> edges;
+  std::vector<model::PressureLoad::Facet> facets;
 };
 
 /// What is in force from step to step.
@@ -41,7 +44,8 @@ struct Running {
   std::map<ChannelKey, Channel> channels;
 };
 
-model::Amplitude amplitude_of(const BuildContext& c, const std::optional<Name>& name) {
+template <int Dim>
+model::Amplitude amplitude_of(const BuildContext<Dim>& c, const std::optional<Name>& name) {
   if (!name) return {};
   return c.description.find_amplitude(name->value)->points;
 }
@@ -50,13 +54,14 @@ model::Amplitude amplitude_of(const BuildContext& c, const std::optional<Name>& 
 enum class Idle { refused, left_out };
 
 /// Primary dofs that `on` names for one displacement component.
-std::vector<Dof> displacement_dofs(const BuildContext& c, const Name& on, int component,
+template <int Dim>
+std::vector<Dof> displacement_dofs(const BuildContext<Dim>& c, const Name& on, Component component,
                                    Idle idle) {
   const auto rigid = c.rigid_index.find(on.value);
   if (rigid != c.rigid_index.end()) return {body_dof(c.model(), rigid->second, component)};
-  if (component == 2)
-    throw core::InputError(on.mark,
-                           fmt::format("rz needs a rigid body, and '{}' is a set", on.value));
+  if (is_rotation(component))
+    throw core::InputError(on.mark, fmt::format("{} needs a rigid body, and '{}' is a set",
+                                                name_of(component), on.value));
   std::vector<Dof> dofs;
   for (const Index node : c.set(on).nodes) {
     const Index body = c.model().body_of_node[static_cast<std::size_t>(node)];
@@ -66,7 +71,7 @@ std::vector<Dof> displacement_dofs(const BuildContext& c, const Name& on, int co
                                "the rigid body instead",
                                on.value, c.model().rigid[static_cast<std::size_t>(body)].name));
     if (c.takes_part(node))
-      dofs.push_back(2 * node + component);
+      dofs.push_back(Dim * node + motion_of<Dim>(component));
     else if (idle == Idle::refused)
       throw c.idle_node(on, node);
   }
@@ -75,21 +80,21 @@ std::vector<Dof> displacement_dofs(const BuildContext& c, const Name& on, int co
   throw core::InputError(on.mark, fmt::format("set '{}' has no nodes", on.value));
 }
 
-void apply_releases(const BuildContext& c, const deck::Step& step, Running& running) {
+template <int Dim>
+void apply_releases(const BuildContext<Dim>& c, const deck::Step& step, Running& running) {
   for (const Release& release : step.release)
-    for (int i = 0; i < 3; ++i)
-      if (release.of[static_cast<std::size_t>(i)])
-        for (const Dof d : displacement_dofs(c, release.on, i, Idle::left_out))
+    for (std::size_t i = 0; i < component_count; ++i)
+      if (release.of[i])
+        for (const Dof d :
+             displacement_dofs(c, release.on, static_cast<Component>(i), Idle::left_out))
           if (running.prescribed.erase(d) == 0)
             throw core::InputError(
-                release.mark,
-                fmt::format("'{}.{}' is not prescribed, so it cannot be released", release.on.value,
-                            component_names[static_cast<std::size_t>(i)]));
+                release.mark, fmt::format("'{}.{}' is not prescribed, so it cannot be released",
+                                          release.on.value, component_names[i]));
 }
 
 /// Two prescriptions of one dof: the same, or a contradiction.
-void check_agreement(const Prescription& first, const Prescription& second, int component) {
-  const auto i = static_cast<std::size_t>(component);
+void check_agreement(const Prescription& first, const Prescription& second, std::size_t i) {
   const Number& one = *first.values[i];
   const Number& two = *second.values[i];
   if (one.value != two.value)
@@ -107,22 +112,23 @@ void check_agreement(const Prescription& first, const Prescription& second, int 
                                        first.on.value, second.on.value, component_names[i]));
 }
 
-void apply_prescriptions(const BuildContext& c, const deck::Step& step, Running& running,
+template <int Dim>
+void apply_prescriptions(const BuildContext<Dim>& c, const deck::Step& step, Running& running,
                          model::Step& out) {
   std::set<Dof> eliminated;
   for (const model::Equation& equation : c.model().equations)
     eliminated.insert(equation.terms.front().dof);
   std::map<Dof, const Prescription*> here;
   for (const Prescription& p : step.prescribe)
-    for (int i = 0; i < 3; ++i) {
-      const std::optional<Number>& value = p.values[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < component_count; ++i) {
+      const std::optional<Number>& value = p.values[i];
       if (!value) continue;
-      for (const Dof d : displacement_dofs(c, p.on, i, Idle::left_out)) {
+      for (const Dof d : displacement_dofs(c, p.on, static_cast<Component>(i), Idle::left_out)) {
         if (eliminated.contains(d))
           throw core::InputError(
               value->mark,
               fmt::format("{} of a node of '{}' already follows from `equations` or `equal`",
-                          component_names[static_cast<std::size_t>(i)], p.on.value));
+                          component_names[i], p.on.value));
         const auto [at, fresh] = here.emplace(d, &p);
         if (!fresh) check_agreement(*at->second, p, i);
         if (!fresh) continue;
@@ -135,58 +141,80 @@ void apply_prescriptions(const BuildContext& c, const deck::Step& step, Running&
 }
 
 /// Force per node on a set, or force and moment on a rigid body.
-std::vector<std::pair<Dof, double>> force_unit(const BuildContext& c, const Load& load, int i) {
+template <int Dim>
+std::vector<std::pair<Dof, double>> force_unit(const BuildContext<Dim>& c, const Load& load,
+                                               Component i) {
   std::vector<std::pair<Dof, double>> unit;
   for (const Dof d : displacement_dofs(c, load.on, i, Idle::refused)) unit.emplace_back(d, 1.0);
   return unit;
 }
 
-/// Boundary edges of bulk cells that a set names, outward, with the section they belong to.
-std::vector<model::PressureLoad::Edge> loaded_edges(const BuildContext& c, const Name& on) {
+/// What one side of a body is called in messages.
+template <int Dim>
+struct SideWords {
+  static constexpr const char* side = Dim == 2 ? "edge" : "face";
+  static constexpr const char* cells = Dim == 2 ? "line" : "area";
+};
+
+/// Boundary sides of bulk cells that a set names, outward, with the section they belong to.
+template <int Dim>
+std::vector<model::PressureLoad::Facet> loaded_sides(const BuildContext<Dim>& c, const Name& on) {
+  using Words = SideWords<Dim>;
   const mesh::Set& set = c.set(on);
-  if (set.dimension != 1)
-    throw core::InputError(on.mark, fmt::format("set '{}' has no boundary edges: a load on an edge "
-                                                "needs a set of line cells",
-                                                on.value));
-  std::vector<model::PressureLoad::Edge> edges;
-  for (const mesh::BoundaryFacet& facet : oriented_facets(c, on)) {
-    if (!facet.has_parent())
+  if (set.dimension != Dim - 1)
+    throw core::InputError(on.mark, fmt::format("set '{}' has no boundary {}s: a load on {} {} "
+                                                "needs a set of {} cells",
+                                                on.value, Words::side, Dim == 2 ? "an" : "a",
+                                                Words::side, Words::cells));
+  std::vector<model::PressureLoad::Facet> facets;
+  for (const Side<Dim>& side : oriented_facets(c, on)) {
+    if (!side.has_parent())
       throw core::InputError(
-          on.mark, fmt::format("the edge at {} of set '{}' is no boundary of a section",
-                               mesh::describe_node(c.model().mesh, facet.nodes()[0]), on.value));
-    model::PressureLoad::Edge edge;
-    edge.nodes.assign(facet.nodes().begin(), facet.nodes().end());
-    edge.section = c.section_of_cell.at({facet.parent.block, facet.parent.cell});
-    edges.push_back(std::move(edge));
+          on.mark, fmt::format("the {} at {} of set '{}' is no boundary of a section", Words::side,
+                               mesh::describe_node(c.model().mesh, side.nodes()[0]), on.value));
+    model::PressureLoad::Facet facet;
+    facet.nodes.assign(side.nodes().begin(), side.nodes().end());
+    facet.section = c.section_of_cell.at({side.parent.block, side.parent.cell});
+    facet.type = side.type;
+    facets.push_back(std::move(facet));
   }
-  return edges;
+  return facets;
 }
 
-std::vector<std::pair<Dof, double>> traction_unit(const BuildContext& c, const Load& load, int i) {
+std::vector<double> side_weights(const model::Model& m, const model::PressureLoad::Facet& facet) {
+  return model::edge_weights(m, m.sections[static_cast<std::size_t>(facet.section)].section,
+                             facet.nodes);
+}
+std::vector<double> side_weights(const model::Model3& m, const model::PressureLoad::Facet& facet) {
+  return model::face_weights(m, facet.type, facet.nodes);
+}
+
+template <int Dim>
+std::vector<std::pair<Dof, double>> traction_unit(const BuildContext<Dim>& c, const Load& load,
+                                                  int direction) {
   std::vector<std::pair<Dof, double>> unit;
-  for (const model::PressureLoad::Edge& edge : loaded_edges(c, load.on)) {
-    const solid::Section& section =
-        c.model().sections[static_cast<std::size_t>(edge.section)].section;
-    const std::vector<double> weights = model::edge_weights(c.model(), section, edge.nodes);
-    for (std::size_t k = 0; k < edge.nodes.size(); ++k)
-      unit.emplace_back(2 * edge.nodes[k] + i, weights[k]);
+  for (const model::PressureLoad::Facet& facet : loaded_sides(c, load.on)) {
+    const std::vector<double> weights = side_weights(c.model(), facet);
+    for (std::size_t k = 0; k < facet.nodes.size(); ++k)
+      unit.emplace_back(Dim * facet.nodes[k] + direction, weights[k]);
   }
   return unit;
 }
 
-std::vector<std::pair<Dof, double>> body_force_unit(const BuildContext& c, const Load& load,
-                                                    int i) {
+template <int Dim>
+std::vector<std::pair<Dof, double>> body_force_unit(const BuildContext<Dim>& c, const Load& load,
+                                                    int direction) {
   const mesh::Set& set = c.set(load.on);
   std::set<std::pair<Index, Index>> wanted;
   for (const mesh::CellRef& ref : set.cells) wanted.emplace(ref.block, ref.cell);
   std::vector<std::pair<Dof, double>> unit;
-  for (const model::BulkSection& section : c.model().sections)
+  for (const model::BasicBulkSection<Dim>& section : c.model().sections)
     for (const mesh::CellRef& ref : section.cells) {
       if (!wanted.contains({ref.block, ref.cell})) continue;
       const mesh::Block& block = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)];
       const std::vector<double> weights = model::cell_weights(c.model(), section, ref);
       for (std::size_t k = 0; k < weights.size(); ++k)
-        unit.emplace_back(2 * block.cell(ref.cell)[k] + i, weights[k]);
+        unit.emplace_back(Dim * block.cell(ref.cell)[k] + direction, weights[k]);
     }
   if (unit.empty())
     throw core::InputError(load.on.mark,
@@ -196,30 +224,33 @@ std::vector<std::pair<Dof, double>> body_force_unit(const BuildContext& c, const
 
 enum Kind { force, traction, body_force, pressure };
 
-Channel new_channel(const BuildContext& c, int kind, const Load& load, int i) {
+template <int Dim>
+Channel new_channel(const BuildContext<Dim>& c, int kind, const Load& load, int i) {
   Channel channel;
-  if (kind == force) channel.unit = force_unit(c, load, i);
+  if (kind == force) channel.unit = force_unit(c, load, static_cast<Component>(i));
   if (kind == traction) channel.unit = traction_unit(c, load, i);
   if (kind == body_force) channel.unit = body_force_unit(c, load, i);
-  if (kind == pressure) channel.edges = loaded_edges(c, load.on);
+  if (kind == pressure) channel.facets = loaded_sides(c, load.on);
   return channel;
 }
 
-void apply_loads(const BuildContext& c, const deck::Step& step, Running& running,
+template <int Dim>
+void apply_loads(const BuildContext<Dim>& c, const deck::Step& step, Running& running,
                  model::Step& out) {
   std::map<ChannelKey, model::Ramp> ramps;
   const std::array<const std::vector<Load>*, 4> kinds{&step.forces, &step.traction,
                                                       &step.body_force, &step.pressure};
   for (int kind = 0; kind < 4; ++kind)
     for (const Load& load : *kinds[static_cast<std::size_t>(kind)])
-      for (int i = 0; i < 3; ++i) {
+      for (int i = 0; i < static_cast<int>(component_count); ++i) {
         const std::optional<Number>& value = load.values[static_cast<std::size_t>(i)];
         if (!value) continue;
         const ChannelKey key{kind, load.on.value, i};
         if (!running.channels.contains(key))
           running.channels.emplace(key, new_channel(c, kind, load, i));
         if (kind == force && c.rigid_index.contains(load.on.value))
-          running.prescribed.erase(body_dof(c.model(), c.rigid_index.at(load.on.value), i));
+          running.prescribed.erase(
+              body_dof(c.model(), c.rigid_index.at(load.on.value), static_cast<Component>(i)));
         ramps[key] = {running.channels[key].value, value->value, amplitude_of(c, load.amplitude)};
       }
   for (auto& entry : running.channels) {
@@ -227,21 +258,24 @@ void apply_loads(const BuildContext& c, const deck::Step& step, Running& running
     const auto ramp = ramps.find(entry.first);
     const model::Ramp r =
         ramp != ramps.end() ? ramp->second : model::Ramp{channel.value, channel.value, {}};
-    if (channel.edges.empty())
+    if (channel.facets.empty())
       out.dead.push_back({channel.unit, r});
     else
-      out.pressure.push_back({channel.edges, r});
+      out.pressure.push_back({channel.facets, r});
     channel.value = r.value(1.0);
   }
 }
 
 }  // namespace
 
-void build_steps(BuildContext& c) {
+template <int Dim>
+void build_steps(BuildContext<Dim>& c) {
   Running running;
   for (std::size_t b = 0; b < c.model().rigid.size(); ++b)
-    for (int i = 0; i < 3; ++i)
-      running.prescribed[body_dof(c.model(), static_cast<Index>(b), i)] = {};
+    for (std::size_t i = 0; i < component_count; ++i)
+      if (Dim == 3 || is_planar(static_cast<Component>(i)))
+        running
+            .prescribed[body_dof(c.model(), static_cast<Index>(b), static_cast<Component>(i))] = {};
   bool first = true;
   for (const deck::Step& step : c.description.steps) {
     model::Step out;
@@ -270,20 +304,21 @@ void add_term(model::Equation& equation, Dof dof, double factor) {
 
 }  // namespace
 
-void build_equations(BuildContext& c) {
+template <int Dim>
+void build_equations(BuildContext<Dim>& c) {
   std::set<Dof> eliminated, used;
   // A dof is eliminated at most once and only in favour of dofs that stay: no chains, no cycles.
   const auto add = [&](model::Equation equation, const core::SourceMark& mark) {
     for (const model::Equation::Term& term : equation.terms)
       if (eliminated.contains(term.dof))
-        throw core::InputError(mark,
-                               fmt::format("{} of {} already follows from another equation",
-                                           component_names[static_cast<std::size_t>(term.dof % 2)],
-                                           mesh::describe_node(c.model().mesh, term.dof / 2)));
+        throw core::InputError(
+            mark, fmt::format("{} of {} already follows from another equation",
+                              component_names[static_cast<std::size_t>(term.dof % Dim)],
+                              mesh::describe_node(c.model().mesh, term.dof / Dim)));
     const auto lead = std::find_if(
         equation.terms.begin(), equation.terms.end(), [&](const model::Equation::Term& term) {
           return term.factor != 0.0 && !used.contains(term.dof) &&
-                 term.dof < 2 * static_cast<Dof>(c.model().reference.size());
+                 term.dof < Dim * static_cast<Dof>(c.model().reference.size());
         });
     if (lead == equation.terms.end())
       throw core::InputError(mark,
@@ -298,16 +333,20 @@ void build_equations(BuildContext& c) {
     model::Equation equation;
     equation.value = e.value.value;
     for (const EquationTerm& term : e.terms)
-      for (const Dof d : displacement_dofs(c, term.on, static_cast<int>(term.of), Idle::refused))
+      for (const Dof d : displacement_dofs(c, term.on, term.of, Idle::refused))
         add_term(equation, d, term.factor.value);
     add(std::move(equation), e.mark);
   }
   for (const Equal& equal : c.description.equal) {
-    const std::vector<Dof> dofs =
-        displacement_dofs(c, equal.on, static_cast<int>(equal.of), Idle::refused);
+    const std::vector<Dof> dofs = displacement_dofs(c, equal.on, equal.of, Idle::refused);
     for (std::size_t i = 1; i < dofs.size(); ++i)
       add({{{dofs[i], 1.0}, {dofs[0], -1.0}}, 0.0}, equal.mark);
   }
 }
+
+template void build_steps(BuildContext<2>&);
+template void build_steps(BuildContext<3>&);
+template void build_equations(BuildContext<2>&);
+template void build_equations(BuildContext<3>&);
 
 }  // namespace osculate::deck

@@ -7,33 +7,35 @@ namespace osculate::deck {
 namespace {
 
 /// Nodes of rigid bodies, contacts, prescriptions and equations.
-std::vector<bool> held_nodes(const model::Model& m) {
+template <int Dim>
+std::vector<bool> held_nodes(const model::BasicModel<Dim>& m) {
   std::vector<bool> held(m.reference.size(), false);
-  for (const model::ContactPair& pair : m.pairs) {
+  for (const model::BasicContactPair<Dim>& pair : m.pairs) {
     for (const Index n : pair.definition.slave.nodes) held[static_cast<std::size_t>(n)] = true;
-    for (const pairing::Facet& f : pair.definition.master.facets)
+    for (const auto& f : pair.definition.master.facets)
       for (int k = 0; k < f.count; ++k)
         held[static_cast<std::size_t>(f.nodes[static_cast<std::size_t>(k)])] = true;
   }
   for (const model::Step& step : m.steps)
     for (const model::PrescribedDof& p : step.prescribed)
-      if (p.dof < 2 * static_cast<Index>(m.reference.size()))
-        held[static_cast<std::size_t>(p.dof / 2)] = true;
+      if (p.dof < Dim * static_cast<Index>(m.reference.size()))
+        held[static_cast<std::size_t>(p.dof / Dim)] = true;
   for (const model::Equation& e : m.equations)
     for (const model::Equation::Term& t : e.terms)
-      if (t.dof < 2 * static_cast<Index>(m.reference.size()))
-        held[static_cast<std::size_t>(t.dof / 2)] = true;
+      if (t.dof < Dim * static_cast<Index>(m.reference.size()))
+        held[static_cast<std::size_t>(t.dof / Dim)] = true;
   for (std::size_t n = 0; n < held.size(); ++n)
     if (m.body_of_node[n] >= 0) held[n] = true;
   return held;
 }
 
 /// Deformable parts that nothing holds or touches. Sections that share nodes are one part.
-void check_connected(const BuildContext& c) {
-  const model::Model& m = c.model();
+template <int Dim>
+void check_connected(const BuildContext<Dim>& c) {
+  const model::BasicModel<Dim>& m = c.model();
   const std::vector<bool> held = held_nodes(m);
   std::vector<mesh::CellRef> cells;
-  for (const model::BulkSection& section : m.sections)
+  for (const model::BasicBulkSection<Dim>& section : m.sections)
     cells.insert(cells.end(), section.cells.begin(), section.cells.end());
   for (const auto& part : mesh::connected_parts(m.mesh, cells)) {
     bool any = false;
@@ -57,6 +59,12 @@ void check_connected(const BuildContext& c) {
 
 }  // namespace
 
-void check_model(BuildContext& c) { check_connected(c); }
+template <int Dim>
+void check_model(BuildContext<Dim>& c) {
+  check_connected(c);
+}
+
+template void check_model(BuildContext<2>&);
+template void check_model(BuildContext<3>&);
 
 }  // namespace osculate::deck

@@ -1,0 +1,194 @@
+#include <fmt/format.h>
+
+#include "osculate/deck/build_context.hpp"
+#include "osculate/model/bulk.hpp"
+
+namespace osculate::deck {
+namespace {
+
+solid::Kinematics solid_kinematics(Kinematics kinematics) {
+  return kinematics == Kinematics::finite ? solid::Kinematics::finite : solid::Kinematics::small;
+}
+
+material::Law material_law(const Material& material) {
+  const double young = material.young.value, poisson = material.poisson.value;
+  const double density = material.density.value;
+  switch (material.law.value) {
+    case MaterialLaw::st_venant_kirchhoff:
+      return material::StVenantKirchhoff{young, poisson, density};
+    case MaterialLaw::neo_hooke:
+      return material::NeoHooke{young, poisson, density};
+    default:
+      return material::LinearElastic{young, poisson, density};
+  }
+}
+
+solid::Assumption assumption_of(SectionElement element) {
+  switch (element) {
+    case SectionElement::plane_stress:
+      return solid::Assumption::plane_stress;
+    case SectionElement::axisymmetric:
+      return solid::Assumption::axisymmetric;
+    default:
+      return solid::Assumption::plane_strain;
+  }
+}
+
+/// The formulation that a word stands for in the plane (solid::Formulation) and in space.
+template <class F>
+F formulation_of(Formulation formulation) {
+  switch (formulation) {
+    case Formulation::bbar:
+      return F::bbar;
+    case Formulation::enhanced:
+      return F::enhanced;
+    default:
+      return F::full;
+  }
+}
+
+}  // namespace
+
+template <>
+solid::Section make_solid_section<2>(const Section& s, const Material& material) {
+  solid::Section out;
+  out.assumption = assumption_of(s.element.value);
+  out.kinematics = solid_kinematics(s.kinematics.value);
+  out.formulation = formulation_of<solid::Formulation>(s.formulation.value);
+  out.thickness = s.thickness.value;
+  out.law = material_law(material);
+  return out;
+}
+
+template <>
+solid::VolumeSection make_solid_section<3>(const Section& s, const Material& material) {
+  solid::VolumeSection out;
+  out.kinematics = solid_kinematics(s.kinematics.value);
+  out.formulation = s.element.value == SectionElement::solid_shell
+                        ? solid::VolumeFormulation::solid_shell
+                        : formulation_of<solid::VolumeFormulation>(s.formulation.value);
+  out.law = material_law(material);
+  return out;
+}
+
+namespace {
+
+template <int Dim>
+model::SolidSection<Dim> solid_section(const BuildContext<Dim>& c, const Section& s) {
+  const Material* const material = c.description.find_material(s.material.value);
+  if (!material)
+    throw core::InputError(s.material.mark, fmt::format("unknown material '{}'", s.material.value));
+  return make_solid_section<Dim>(s, *material);
+}
+
+/// Cells without volume or inside out; in the plane also of negative radius.
+template <int Dim>
+void check_shape(const BuildContext<Dim>& c, const Section& s, const mesh::CellRef& ref) {
+  const mesh::Block& block = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)];
+  const cell::CellInfo& info = cell::info(block.type);
+  const double jacobian = model::smallest_jacobian(c.model(), ref);
+  if (!(jacobian > 0))
+    throw core::InputError(
+        s.on.mark, fmt::format("{} cell {} of set '{}' has a negative or zero volume (smallest "
+                               "Jacobian {:.3g}); number its nodes {}",
+                               info.name, ref.cell + 1, s.on.value, jacobian,
+                               Dim == 2 ? "counter-clockwise" : "as Gmsh does"));
+  if (s.element.value != SectionElement::axisymmetric) return;
+  for (int k = 0; k < info.nodes; ++k) {
+    const Index node = block.cell(ref.cell)[k];
+    const Vec3& x = c.model().mesh.nodes[static_cast<std::size_t>(node)];
+    if (x.x() < -1e-12 * x.norm())
+      throw core::InputError(
+          s.element.mark,
+          fmt::format("{} of set '{}' has a negative radius; an axisymmetric body needs x >= 0",
+                      mesh::describe_node(c.model().mesh, node), s.on.value));
+  }
+}
+
+template <int Dim>
+void check_cell(const BuildContext<Dim>& c, const Section& s,
+                const model::BasicBulkSection<Dim>& section, const mesh::CellRef& ref) {
+  const cell::CellType type = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)].type;
+  const std::string_view reason = solid::unsupported(section.section, type);
+  const bool shell = s.element.value == SectionElement::solid_shell;
+  if (!reason.empty())
+    throw core::InputError(
+        shell ? s.element.mark : s.formulation.mark,
+        fmt::format("set '{}' has {} cells: {}", s.on.value, cell::info(type).name, reason));
+  check_shape(c, s, ref);
+}
+
+void check_mixture(const BuildContext<2>& c, const Section& s, const model::BulkSection& section) {
+  for (const model::BulkSection& other : c.model().sections)
+    if ((other.section.assumption == solid::Assumption::axisymmetric) !=
+        (section.section.assumption == solid::Assumption::axisymmetric))
+      throw core::InputError(
+          s.element.mark,
+          fmt::format("'{}' and '{}': axisymmetric and plane sections exclude each other",
+                      other.name, section.name));
+}
+
+template <int Dim>
+void check_set(const Section& s, const mesh::Set& set) {
+  if (set.dimension == Dim && !set.cells.empty()) return;
+  if (Dim == 2 && set.dimension == 3)
+    throw core::InputError(s.element.mark,
+                           fmt::format("set '{}' has volume cells; a body in space has the element "
+                                       "solid or solid_shell",
+                                       s.on.value));
+  throw core::InputError(
+      s.on.mark,
+      fmt::format("set '{}' has no {} cells, so it cannot be a section{}", s.on.value,
+                  Dim == 2 ? "area" : "volume", Dim == 3 && set.dimension == 2 ? " in space" : ""));
+}
+
+template <int Dim>
+void add_cell(BuildContext<Dim>& c, const Section& s, const model::BasicBulkSection<Dim>& section,
+              const mesh::CellRef& ref) {
+  const model::BasicModel<Dim>& m = c.model();
+  const auto index = static_cast<Index>(m.sections.size());
+  const auto [at, fresh] = c.section_of_cell.emplace(std::pair(ref.block, ref.cell), index);
+  if (!fresh)
+    throw core::InputError(
+        s.on.mark,
+        fmt::format("cells of set '{}' already belong to the section on '{}'", s.on.value,
+                    at->second == index ? section.name
+                                        : m.sections[static_cast<std::size_t>(at->second)].name));
+  check_cell(c, s, section, ref);
+  const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(ref.block)];
+  for (int k = 0; k < cell::info(block.type).nodes; ++k) {
+    Index& slot = c.section_of_node[static_cast<std::size_t>(block.cell(ref.cell)[k])];
+    if (slot < 0) slot = index;
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void build_sections(BuildContext<Dim>& c) {
+  model::BasicModel<Dim>& m = c.model();
+  c.section_of_node.assign(m.mesh.nodes.size(), -1);
+  for (const Section& s : c.description.sections) {
+    const mesh::Set& set = c.set(s.on);
+    check_set<Dim>(s, set);
+    model::BasicBulkSection<Dim> section;
+    section.name = s.on.value;
+    section.section = solid_section(c, s);
+    section.cells = set.cells;
+    if constexpr (Dim == 2) check_mixture(c, s, section);
+    for (const mesh::CellRef& ref : section.cells) add_cell(c, s, section, ref);
+    m.sections.push_back(std::move(section));
+  }
+  std::vector<mesh::CellRef> cells;
+  for (const auto& entry : c.section_of_cell)
+    cells.push_back({entry.first.first, entry.first.second});
+  if constexpr (Dim == 2)
+    c.sides = mesh::edge_table(m.mesh, cells);
+  else
+    c.sides = mesh::face_table(m.mesh, cells);
+}
+
+template void build_sections(BuildContext<2>&);
+template void build_sections(BuildContext<3>&);
+
+}  // namespace osculate::deck
