@@ -110,11 +110,14 @@ void check_cell(const BuildContext<Dim>& c, const Section& s,
                 const model::BasicBulkSection<Dim>& section, const mesh::CellRef& ref) {
   const cell::CellType type = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)].type;
   const std::string_view reason = solid::unsupported(section.section, type);
-  const bool shell = s.element.value == SectionElement::solid_shell;
-  if (!reason.empty())
+  if (!reason.empty() && s.element.value == SectionElement::solid_shell)
     throw core::InputError(
-        shell ? s.element.mark : s.formulation.mark,
-        fmt::format("set '{}' has {} cells: {}", s.on.value, cell::info(type).name, reason));
+        s.element.mark,
+        fmt::format("set '{}' has {} cells: solid_shell is for hex8 and shell18 cells; use solid",
+                    s.on.value, cell::info(type).name));
+  if (!reason.empty())
+    throw core::InputError(s.formulation.mark, fmt::format("set '{}' has {} cells: {}", s.on.value,
+                                                           cell::info(type).name, reason));
   check_shape(c, s, ref);
 }
 

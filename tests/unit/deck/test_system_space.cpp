@@ -1,0 +1,172 @@
+// Analyses in space from the text of a model file to forces and displacements.
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include "deck_test.hpp"
+#include "osculate/deck/build.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using model::State3;
+using model::System3;
+
+Built3 build_space(const std::string& text) {
+  const Description description = parse_model(text, "model.yaml");
+  return build3(description, load_mesh(description));
+}
+
+/// Values of the columns of the history after every increment, the last row at the end.
+struct Table {
+  std::vector<std::vector<double>> rows;
+  model::AnalysisResult3 result;
+};
+
+Table run_space(const Built3& built) {
+  Table table;
+  model::AnalysisObserver3 observer;
+  observer.converged = [&](System3& system, const State3& state, const model::Progress&,
+                           const solve::IncrementRecord* record) {
+    if (!record) return true;
+    std::vector<double> row;
+    for (const model::HistoryRequest& request : built.history)
+      row.push_back(model::history_value(system, built.model, state, request));
+    table.rows.push_back(std::move(row));
+    return true;
+  };
+  table.result = model::run(built.model, built.options, observer);
+  return table;
+}
+
+/// A block on a floor, with what differs from test to test.
+std::string block_on(const std::string& parts, const std::string& floor, const std::string& more,
+                     const std::string& steps, const std::string& history) {
+  return "osculate: 1\nmesh:\n  generate:\n    b: {box: {x: [0, 2], y: [0, 1], z: [0, 1], "
+         "elements: [4, 2, 2]}}\n" +
+         parts +
+         "materials: {m: {linear_elastic: {E: 100, nu: 0.25}}}\n"
+         "sections: [{on: b, material: m, element: solid}]\nrigid: {floor: " +
+         floor + "}\ncontact: [{name: c, master: floor, slave: b.bottom, normal: {penalty: 1000}" +
+         more + "}]\nsteps: [" + steps + "]\noutput: {history: [" + history + "]}\n";
+}
+
+/// Uniform compression: penetration p / 1000 below, strain p / 100 (no lateral restraint).
+///
+/// A top pushed down by d moves the block by p (1/100 + 1/1000), so p = d / 0.011.
+TEST(SystemSpace, ABlockPressedOnAFloorIsInUniformCompression) {
+  const std::string steps =
+      "{name: s, increments: 1, prescribe: [{on: b.top, uz: -0.011}, {on: b.left, ux: 0}, {on: "
+      "b.front, uy: 0}]}";
+  const std::string history =
+      "{on: c, of: normal_force}, {on: c, of: force_z}, {on: c, of: max_penetration}, {on: b.top, "
+      "of: rfz}, {on: b.right, of: ux}, {on: floor, of: rfz}, {on: b.bottom, of: uz}";
+  const std::vector<std::pair<std::string, std::string>> floors{
+      {"", "{plane: {point: [0, 0, 0], normal: [0, 0, 3]}}"},
+      {"", "{plane: {point: [5, -3, 0], normal: [0, 0, -1]}, flip: true}"},
+      {"    g: {grid: {origin: [-1, -1, 0], u: [4, 0, 0], v: [0, 4, 0], elements: [3, 3]}}\n",
+       "{set: g}"},
+      {"    g: {grid: {origin: [-1, -1, 0], u: [0, 4, 0], v: [4, 0, 0], elements: [3, 3], type: "
+       "tri3}}\n",
+       "{set: g, flip: true}"},
+  };
+  for (const auto& floor : floors) {
+    const Table t = run_space(build_space(block_on(floor.first, floor.second, "", steps, history)));
+    ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << floor.second << t.result.message;
+    const std::vector<double>& v = t.rows.back();
+    EXPECT_NEAR(v[0], 2, 1e-9) << floor.second;
+    EXPECT_NEAR(v[1], 2, 1e-9);
+    EXPECT_NEAR(v[2], 0.001, 1e-12);
+    EXPECT_NEAR(v[3], -2, 1e-9);
+    EXPECT_NEAR(v[4], 2 * 0.25 * 0.01, 1e-11);
+    EXPECT_NEAR(v[5], 2, 1e-9);
+    EXPECT_NEAR(v[6], -0.001, 1e-12);
+  }
+}
+
+/// The other way round: the meshed surface is the slave.
+TEST(SystemSpace, NodesOfARigidSurfaceAreSlaves) {
+  const std::string swapped = edited(
+      block_on("    g: {grid: {origin: [-0.5, -0.5, 0], u: [3, 0, 0], v: [0, 2, 0], elements: [12, "
+               "8]}}\n",
+               "{set: g}", ", weight: node",
+               "{name: s, increments: 1, prescribe: [{on: b.top, ux: 0, uy: 0, uz: -0.01}]}",
+               "{on: c, of: force_z}, {on: b.top, of: rfz}, {on: floor, of: rfz}"),
+      "master: floor, slave: b.bottom", "master: b.bottom, slave: floor");
+  const Table t = run_space(build_space(edited(swapped, "penalty: 1000", "penalty: 100")));
+  ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
+  const std::vector<double>& v = t.rows.back();
+  EXPECT_LT(v[0], -0.1);  // on the slave, the floor
+  EXPECT_NEAR(v[0], v[1], 1e-9);
+  EXPECT_NEAR(v[2], -v[0], 1e-9);
+}
+
+/// A weight on a rigid plate sinks until the block carries it; its moment turns it.
+TEST(SystemSpace, ALoadedRigidPlaneFindsItsPlace) {
+  const std::string text = edited(
+      block_on(
+          "", "{plane: {point: [0, 0, 1], normal: [0, 0, -1]}, reference: [1, 0.5, 1]}", "",
+          "{name: s, increments: 1, prescribe: [{on: b.bottom, ux: 0, uy: 0, uz: 0}], release: "
+          "[{on: floor, of: [rx, ry]}], forces: [{on: floor, fz: -3, mx: 0.02, my: -0.05}]}",
+          "{on: floor, of: rfz}, {on: floor, of: rmx}, {on: floor, of: rmy}, {on: c, of: "
+          "force_z}, {on: floor, of: uz}, {on: floor, of: rx}, {on: floor, of: ry}, {on: "
+          "b.bottom, of: rfz}"),
+      "slave: b.bottom", "slave: b.top");
+  const Table t = run_space(build_space(text));
+  ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
+  const std::vector<double>& v = t.rows.back();
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(v[static_cast<std::size_t>(i)], 0, 1e-7) << i;
+  EXPECT_NEAR(v[3], -3, 1e-7);
+  EXPECT_LT(v[4], 0);
+  EXPECT_GT(v[5], 0);
+  EXPECT_LT(v[6], 0);
+  EXPECT_NEAR(v[7], 3, 1e-7);
+}
+
+TEST(SystemSpace, PressureTractionAndBodyForceAreCarriedByTheSupport) {
+  const std::string text =
+      "osculate: 1\nmesh: {generate: {b: {box: {x: [0, 2], y: [0, 1], z: [0, 3], elements: [2, 1, "
+      "3], type: hex20}}}}\nmaterials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
+      "sections: [{on: b, material: m, element: solid}]\n"
+      "steps: [{name: s, increments: 1, prescribe: [{on: b.bottom, ux: 0, uy: 0, uz: 0}], "
+      "pressure: "
+      "[{on: b.top, value: 5}], traction: [{on: b.left, tx: 1, ty: 2, tz: 3}], body_force: [{on: "
+      "b, "
+      "bx: 0.1, by: 0.2, bz: -0.3}]}]\n"
+      "output: {history: [{on: b.bottom, of: rfx}, {on: b.bottom, of: rfy}, {on: b.bottom, of: "
+      "rfz}]}\n";
+  const Table t = run_space(build_space(text));
+  ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
+  const std::vector<double>& v = t.rows.back();
+  EXPECT_NEAR(v[0], -(3 * 1 + 6 * 0.1), 1e-9);
+  EXPECT_NEAR(v[1], -(3 * 2 + 6 * 0.2), 1e-9);
+  EXPECT_NEAR(v[2], -(3 * 3 - 6 * 0.3 - 2 * 5), 1e-9);
+}
+
+/// The example of a model in space runs, balances, and slides at Coulomb's limit.
+TEST(SystemSpace, TheExampleSlidesAtTheLimit) {
+  const std::string path = std::string(OSCULATE_SOURCE_DIR) + "/examples/block3d/block3d.yaml";
+  const Built3 built = std::get<Built3>(build_any_file(path));
+  EXPECT_EQ(built.warnings, std::vector<std::string>{});
+  const Table t = run_space(built);
+  ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
+  const auto column = [&](const std::vector<double>& row, const std::string& name) {
+    for (std::size_t k = 0; k < built.history.size(); ++k)
+      if (built.history[k].name == name) return row[k];
+    throw std::runtime_error(name);
+  };
+  ASSERT_EQ(t.rows.size(), 34u);
+  for (const std::vector<double>& row : t.rows) {
+    EXPECT_NEAR(column(row, "high.top.rfx"), -column(row, "joint.force_x"), 1e-6);
+    EXPECT_GT(column(row, "joint.normal_force"), 0);
+    EXPECT_LE(std::hypot(column(row, "joint.force_x"), column(row, "joint.force_y")),
+              0.25 * column(row, "joint.normal_force"));
+  }
+  EXPECT_LT(column(t.rows[13], "joint.force_x"), 0);
+  EXPECT_GT(column(t.rows[13], "joint.slip"), 0);
+  EXPECT_GT(column(t.rows[33], "joint.force_x"), 0);
+  EXPECT_LT(column(t.rows[33], "joint.force_y"), 0);
+}
+
+}  // namespace
+}  // namespace osculate::deck
