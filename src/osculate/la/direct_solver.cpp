@@ -77,6 +77,19 @@ FactorReport failure(SolveStatus status, std::string message, Index row = -1) {
   return report;
 }
 
+/// Adds the life time of the value to a sum [s].
+class Spent {
+ public:
+  explicit Spent(double& sum) : sum_(sum) {}
+  ~Spent() { sum_ += seconds_since(begun_); }
+  Spent(const Spent&) = delete;
+  Spent& operator=(const Spent&) = delete;
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
+
 }  // namespace
 
 struct DirectSolver::Impl {
@@ -87,6 +100,7 @@ struct DirectSolver::Impl {
   std::uint64_t version = 0;
   Index n = -1;
   int slack_percent = 30;
+  double seconds = 0;
   std::vector<int> rows, columns, order;  // one-based triplets; the upper triangle if symmetric
   std::vector<double> values;
 
@@ -335,6 +349,7 @@ FactorReport DirectSolver::factor(const SparseMatrix& k, std::uint64_t pattern_v
                                   Symmetry symmetry) {
   if (!impl_) impl_ = std::make_unique<Impl>(DirectOptions{});  // moved from
   Impl& s = *impl_;
+  const Spent spent(s.seconds);
   const LibraryCall guard(s.options.blas_threads);
   s.factored = false;
   if (k.n == 0) {
@@ -360,11 +375,14 @@ FactorReport DirectSolver::factor(const SparseMatrix& k, std::uint64_t pattern_v
   return report;
 }
 
+double DirectSolver::seconds() const { return impl_ ? impl_->seconds : 0.0; }
+
 SolveStatus DirectSolver::solve(Eigen::VectorXd& rhs) const {
   if (!impl_ || !impl_->factored || rhs.size() != impl_->n || !rhs.allFinite())
     return SolveStatus::failed;
   Impl& s = *impl_;
   if (s.n == 0) return SolveStatus::ok;
+  const Spent spent(s.seconds);
   const LibraryCall guard(s.options.blas_threads);
   const Eigen::VectorXd given = rhs;
   const SolveStatus status = s.substitute(rhs.data(), 1);
@@ -379,6 +397,7 @@ SolveStatus DirectSolver::solve(Eigen::MatrixXd& rhs) const {
     return SolveStatus::failed;
   Impl& s = *impl_;
   if (rhs.size() == 0) return SolveStatus::ok;
+  const Spent spent(s.seconds);
   const LibraryCall guard(s.options.blas_threads);
   const Eigen::MatrixXd given = rhs;
   const SolveStatus status = s.substitute(rhs.data(), static_cast<Index>(rhs.cols()));

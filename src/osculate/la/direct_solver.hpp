@@ -53,6 +53,8 @@ class DirectSolver {
   SolveStatus solve(Eigen::VectorXd& rhs_in_solution_out) const;
   /// One right-hand side a column, all at once (last bits may differ from one by one).
   SolveStatus solve(Eigen::MatrixXd& rhs_in_solution_out) const;
+  /// Spent in `factor` and `solve` so far [s].
+  [[nodiscard]] double seconds() const;
 
  private:
   struct Impl;

@@ -77,6 +77,8 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
     result.steps.push_back({step.name, std::move(done.increments)});
     if (result.outcome != solve::Outcome::converged || step.name == options.until) break;
   }
+  result.seconds_system = system.seconds();
+  result.seconds_solver = solver.seconds();
   result.seconds = seconds_since(start);
   return result;
 }

@@ -34,7 +34,9 @@ struct BasicAnalysisResult {
   std::vector<StepRecord> steps;
   BasicState<Dim> state;         ///< last converged
   BasicState<Dim> last_iterate;  ///< of the failed attempt (equal to `state` when done)
-  double seconds = 0, seconds_solver = 0;
+  double seconds = 0;            ///< of the whole analysis, observers included
+  SystemSeconds seconds_system;  ///< of its evaluations
+  double seconds_solver = 0;     ///< of the linear solver: factors and solutions
   Index unknowns = 0;
 };
 

@@ -100,7 +100,10 @@ BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) co
 
 template <int Dim>
 const la::SparseMatrix& BasicSystem<Dim>::matrix() {
-  return impl_->builder.finish();
+  const Stopwatch watch;
+  const la::SparseMatrix& k = impl_->builder.finish();
+  impl_->seconds.assembly += watch.seconds();
+  return k;
 }
 template <int Dim>
 std::uint64_t BasicSystem<Dim>::pattern_version() const {
@@ -129,6 +132,10 @@ std::vector<Vec<Dim>> BasicSystem<Dim>::positions(const State& state) const {
 template <int Dim>
 bool BasicSystem<Dim>::prescribed(Index unknown) const {
   return impl_->assembler.prescribed(unknown);
+}
+template <int Dim>
+SystemSeconds BasicSystem<Dim>::seconds() const {
+  return impl_->seconds;
 }
 template <int Dim>
 void BasicSystem<Dim>::enable(Term term, bool on) {

@@ -20,6 +20,13 @@ struct Forces {
   Eigen::VectorXd external;  ///< applied loads
 };
 
+/// Where the time of all evaluations went [s], summed up since the system was made.
+struct SystemSeconds {
+  double contact = 0;   ///< search, projection, contact terms of all points
+  double bulk = 0;      ///< internal forces and tangents of the cells
+  double assembly = 0;  ///< everything else: loads, scatter into vectors and matrix
+};
+
 /// The system that `solve` sees: assembles residual and tangent of a model.
 ///
 /// Owns: dof space, matrix, evaluation buffers. Does not own: the model, the states.
@@ -61,6 +68,7 @@ class BasicSystem {
   [[nodiscard]] const std::vector<pairing::PairEvaluation<Dim>>& contact() const;
   [[nodiscard]] std::vector<Vec<Dim>> positions(const State& state) const;
   [[nodiscard]] bool prescribed(Index unknown) const;
+  [[nodiscard]] SystemSeconds seconds() const;
   /// Switch terms off (tangent check only); all are on by default.
   void enable(Term term, bool on);
 

@@ -166,11 +166,13 @@ bool BasicSystem<Dim>::Impl::add_bulk(const State& trial, bool with_tangent,
                                       const Eigen::VectorXd* inc, solve::Evaluation& out) {
   for (std::size_t start = 0; start < jobs.size(); start += tile) {
     const std::size_t count = std::min(tile, jobs.size() - start);
+    const Stopwatch watch;
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::size_t i = 0; i < count; ++i) {
       const CellJob& job = jobs[start + i];
       evaluate_cell(model, *job.section, job.cell, trial.u, with_tangent, blocks[i]);
     }
+    seconds.bulk += watch.seconds();
     for (std::size_t i = 0; i < count; ++i) {
       const BulkBlock& block = blocks[i];
       if (!block.ok) {
@@ -258,11 +260,13 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
   out.counts.signature = 14695981039346656037ull;
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
+    const Stopwatch watch;
     const pairing::Assumed<Dim> assumed =
         inc                        ? pairing::committed_branches<Dim>(pair, committed.pairs[p], x)
         : p < trial.assumed.size() ? trial.assumed[p]
                                    : pairing::Assumed<Dim>{};
     pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed);
+    seconds.contact += watch.seconds();
     for (const pairing::ContactBlock<Dim>& block : contact[p].blocks)
       if (block.active()) add_contact_block(block, with_tangent, inc);
     for (const pairing::PointResult<Dim>& point : contact[p].points) count_point(point, out.counts);
@@ -335,6 +339,16 @@ void BasicSystem<Dim>::Impl::add_rigid_geometry(const State& trial, std::span<co
 template <int Dim>
 void BasicSystem<Dim>::Impl::assemble(const State& committed, const State& trial, double fraction,
                                       bool with_tangent, bool predict, solve::Evaluation& out) {
+  const Stopwatch watch;
+  const double elsewhere = seconds.bulk + seconds.contact;
+  assemble_terms(committed, trial, fraction, with_tangent, predict, out);
+  seconds.assembly += watch.seconds() - (seconds.bulk + seconds.contact - elsewhere);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State& trial,
+                                            double fraction, bool with_tangent, bool predict,
+                                            solve::Evaluation& out) {
   out.ok = true;
   out.message.clear();
   clear(with_tangent);

@@ -1,6 +1,7 @@
 #pragma once
 // Inside of BasicSystem; included by its sources only.
 #include <array>
+#include <chrono>
 #include <span>
 #include <vector>
 
@@ -9,6 +10,17 @@
 #include "osculate/model/system.hpp"
 
 namespace osculate::model {
+
+/// Time since it was made.
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
 
 template <int Dim>
 struct BasicSystem<Dim>::Impl {
@@ -33,6 +45,7 @@ struct BasicSystem<Dim>::Impl {
   Step step;
   std::array<bool, 4> enabled{true, true, true, true};
   la::Symmetry symmetry;
+  SystemSeconds seconds;
   std::vector<double> path_values;
   std::vector<Dof> path_dofs;
 
@@ -50,6 +63,8 @@ struct BasicSystem<Dim>::Impl {
   /// Residual and tangent of `trial`; with `predict` those of the first iteration.
   void assemble(const State& committed, const State& trial, double fraction, bool with_tangent,
                 bool predict, solve::Evaluation& out);
+  void assemble_terms(const State& committed, const State& trial, double fraction,
+                      bool with_tangent, bool predict, solve::Evaluation& out);
 
   // The terms. `inc` (may be null) is the prescribed increment that `predicted` takes up.
   void clear(bool with_tangent);
