@@ -74,6 +74,27 @@ bool contact_evaluator_is_right() {
          result.points.front().status == contact::Status::stick;
 }
 
+/// The same in space: a square facet of area 1 has sunk 0.01 into the middle of a larger one.
+bool contact_in_space_is_right() {
+  using namespace osculate;
+  api::ContactOptions options;
+  options.normal_penalty = 1000.0;
+  const std::vector<Index> master{0, 1, 2, 3}, slave{7, 6, 5, 4};  // normals up and down
+  std::vector<double> x{0, 0, 0, 3, 0, 0, 3, 3, 0, 0, 3, 0};
+  for (const double v : {1, 1, 2, 1, 2, 2, 1, 2}) {
+    x.push_back(v);
+    if (x.size() % 3 == 2) x.push_back(-0.01);
+  }
+  api::ContactEvaluator3 contact(options, {cell::CellType::quad4, master},
+                                 {cell::CellType::quad4, slave}, x);
+  const api::ContactResult3 result = contact.evaluate(x, true);
+  contact.commit();
+  double master_z = 0, slave_z = 0;
+  for (std::size_t n = 0; n < 8; ++n) (n < 4 ? master_z : slave_z) += result.force[3 * n + 2];
+  return std::abs(master_z - 10.0) < 1e-12 && std::abs(slave_z + 10.0) < 1e-12 &&
+         result.points.size() == 4 && !result.tangent.empty();
+}
+
 }  // namespace
 
 int main() {
@@ -86,6 +107,7 @@ int main() {
   check(closest_point_is_right(), "closest point on a segment");
   check(linear_solver_is_right(), "linear solver");
   check(contact_evaluator_is_right(), "contact evaluator");
+  check(contact_in_space_is_right(), "contact evaluator in space");
   check(alignment_is_the_same_everywhere(), "alignment of small matrices");
   return failed == 0 ? 0 : 1;
 }

@@ -22,6 +22,21 @@ steps:
 output: {history: [{on: c, of: normal_force}, {on: c, of: shear_force}]}
 """
 
+SPACE = """osculate: 1
+title: Block in space on a plane
+mesh: {generate: {b: {box: {x: [0, 2], y: [0, 1], z: [0, 1], elements: [4, 2, 2]}}}}
+materials: {m: {linear_elastic: {E: 100, nu: 0.25}}}
+sections: [{on: b, material: m, element: solid}]
+rigid: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}}
+contact: [{name: c, master: floor, slave: b.bottom, normal: {penalty: 1000},
+  friction: {coulomb: {mu: 0.3, penalty: 500}}}]
+steps:
+  - {name: press, increments: 2, prescribe: [{on: b.top, ux: 0, uy: 0, uz: -0.02}]}
+  - {name: drag, increments: 3, prescribe: [{on: b.top, ux: 0.03, uy: 0.04}]}
+output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}, {on: c, of: force_y},
+  {on: c, of: slip}, {on: b.top, of: rfz}]}
+"""
+
 
 class Program(unittest.TestCase):
     def setUp(self):
@@ -128,9 +143,44 @@ class Program(unittest.TestCase):
             self.assertIn("Block on a slope", file.read())
         self.assertEqual(self.run_program("nonsense").returncode, 2)
 
-    def test_the_example_of_the_readme_folder_is_valid(self):
-        example = os.path.join(SOURCE, "examples/sliding_block/sliding_block.yaml")
-        self.assertEqual(self.run_program("check", example).returncode, 0)
+    def test_a_block_in_space_is_pressed_and_dragged(self):
+        name = self.model(SPACE)
+        done = self.run_program("run", name, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        summary = json.loads(done.stdout)
+        for phase in ("contact", "bulk", "assembly", "solver", "output", "total"):
+            self.assertGreater(summary["seconds"][phase], 0, phase)
+        with open(self.path("model.results/history.csv")) as file:
+            last = {k: float(v) for k, v in list(csv.DictReader(file))[-1].items()}
+        normal, x, y = (last["c." + q] for q in ("normal_force", "force_x", "force_y"))
+        self.assertEqual(last["c.slip"], 15)
+        self.assertAlmostEqual((x * x + y * y) ** 0.5 / normal, 0.3, places=2)
+        self.assertAlmostEqual(last["b.top.rfz"] / normal, -1, places=8)
+        with open(self.path("model.results/report.html")) as file:
+            self.assertIn('"dimension":3', file.read())
+        self.assertTrue(os.path.exists(self.path("model.results/contact0_00005.vtu")))
+        tangent = self.run_program("tangent", name)
+        self.assertEqual(tangent.returncode, 0, tangent.stdout + tangent.stderr)
+        check = self.run_program("check", name)
+        self.assertIn("15 of 15 slave nodes face the master, 15 touch", check.stdout)
+
+    def test_the_same_bits_with_one_and_two_threads_in_space(self):
+        name = self.model(SPACE)
+        texts = []
+        for threads in ("1", "2"):
+            self.run_program("run", name, "-o", "t" + threads, "--threads", threads, "--quiet")
+            with open(self.path("t" + threads + "/history.csv")) as file:
+                texts.append(file.read())
+        self.assertEqual(texts[0], texts[1])
+
+    def test_the_examples_are_valid(self):
+        examples = os.path.join(SOURCE, "examples")
+        found = [os.path.join(folder, name) for folder, _, names in os.walk(examples)
+                 for name in names if name.endswith(".yaml")]
+        self.assertTrue(found)
+        for example in found:
+            done = self.run_program("check", example)
+            self.assertEqual(done.returncode, 0, example + done.stderr)
 
 
 if __name__ == "__main__":

@@ -14,9 +14,10 @@ struct GapFacts {
   double smallest = 0, largest = 0;
 };
 
-GapFacts gap_facts(const pairing::PairState<2>& state) {
+template <int Dim>
+GapFacts gap_facts(const pairing::PairState<Dim>& state) {
   GapFacts facts;
-  for (const contact::PointHistory<2>& point : state.points) {
+  for (const contact::PointHistory<Dim>& point : state.points) {
     if (point.facet < 0) continue;
     facts.smallest = facts.found ? std::min(facts.smallest, point.gap) : point.gap;
     facts.largest = facts.found ? std::max(facts.largest, point.gap) : point.gap;
@@ -27,13 +28,11 @@ GapFacts gap_facts(const pairing::PairState<2>& state) {
   return facts;
 }
 
-}  // namespace
-
-CheckReport check(const std::string& path) {
-  const deck::Built built = deck::build_file(path);
-  const model::Model& m = built.model;
-  model::System system(m, 1);
-  const model::State state = system.initial_state();
+template <int Dim>
+CheckReport check_built(const std::string& path, const deck::BasicBuilt<Dim>& built) {
+  const model::BasicModel<Dim>& m = built.model;
+  model::BasicSystem<Dim> system(m, 1);
+  const model::BasicState<Dim> state = system.initial_state();
   CheckReport report;
   nlohmann::json facts = nlohmann::json::array(), pairs = nlohmann::json::array();
   for (const ModelFact& fact : model_facts(built)) {
@@ -42,7 +41,7 @@ CheckReport check(const std::string& path) {
   }
   report.text += fmt::format("{:<13} {}\n", "Unknowns", system.dofs().unknowns());
   for (std::size_t p = 0; p < m.pairs.size(); ++p) {
-    const GapFacts g = gap_facts(state.pairs[p]);
+    const GapFacts g = gap_facts<Dim>(state.pairs[p]);
     report.text += fmt::format(
         "{:<13} {:<16} {} of {} slave nodes face the master, {} touch, {} overlap, gap {:.4g} to "
         "{:.4g}\n",
@@ -65,6 +64,13 @@ CheckReport check(const std::string& path) {
                                {"warnings", built.warnings}}
                     .dump(1);
   return report;
+}
+
+}  // namespace
+
+CheckReport check(const std::string& path) {
+  const deck::AnyBuilt any = deck::build_any_file(path);
+  return std::visit([&](const auto& built) { return check_built(path, built); }, any);
 }
 
 }  // namespace osculate::api

@@ -19,13 +19,26 @@ struct ContactOptions {
   pairing::Weight weight = pairing::Weight::reference_area;
   contact::ResidualForm residual = contact::ResidualForm::surface;
   contact::TangentForm tangent{};
-  pairing::AreaRule area{};  ///< thickness, or circumference
+  pairing::AreaRule area{};  ///< thickness, or circumference (in the plane)
 };
 
-/// A surface as a list of line facets with the same number of nodes each (2..8): end nodes first,
-/// then the interior ones; the body is on the right of the direction of travel.
-struct FacetList {
+/// A surface as a list of facets of one kind.
+template <int Dim>
+struct BasicFacetList;
+
+/// Line facets with the same number of nodes each (2..8): end nodes first, then the interior ones;
+/// the body is on the right of the direction of travel.
+template <>
+struct BasicFacetList<2> {
   int nodes_per_facet = 2;
+  std::span<const Index> nodes;
+};
+
+/// Facets tri3, tri6, quad4, quad8 or quad9 (Gmsh's order of nodes); r_1 x r_2 points out of the
+/// body: seen from outside, the corners run counterclockwise.
+template <>
+struct BasicFacetList<3> {
+  cell::CellType type = cell::CellType::quad4;
   std::span<const Index> nodes;
 };
 
@@ -35,28 +48,34 @@ struct TangentEntry {
   double value;
 };
 
-/// Result of one evaluation. Row 2 n + i is direction i of node n.
-struct ContactResult {
+/// Result of one evaluation. Row Dim n + i is direction i of node n.
+template <int Dim>
+struct BasicContactResult {
   std::vector<double> force;  ///< to be ADDED to the internal forces
   std::vector<TangentEntry> tangent;
-  std::span<const pairing::PointResult<2>>
+  std::span<const pairing::PointResult<Dim>>
       points;  ///< one per slave node, valid until the next call
 };
 
-class ContactEvaluator {
+/// In the plane (Dim = 2) or in space (Dim = 3); the same code but for the facets.
+///
+/// Tested by  tests/unit/api/test_contact_evaluator.cpp, test_contact_evaluator3.cpp
+template <int Dim>
+class BasicContactEvaluator {
  public:
-  /// `reference`: x0 y0 x1 y1 ... of all nodes that the lists name.
+  /// `reference`: x0 y0 (z0) x1 y1 ... of all nodes that the lists name.
   /// Errors     core::InputError for a list or value that cannot be used
-  ContactEvaluator(const ContactOptions& options, FacetList master, FacetList slave,
-                   std::span<const double> reference);
-  ~ContactEvaluator();
-  ContactEvaluator(ContactEvaluator&&) noexcept;
-  ContactEvaluator& operator=(ContactEvaluator&&) noexcept;
+  BasicContactEvaluator(const ContactOptions& options, BasicFacetList<Dim> master,
+                        BasicFacetList<Dim> slave, std::span<const double> reference);
+  ~BasicContactEvaluator();
+  BasicContactEvaluator(BasicContactEvaluator&&) noexcept;
+  BasicContactEvaluator& operator=(BasicContactEvaluator&&) noexcept;
 
-  /// Slave nodes in the order of `ContactResult::points`.
+  /// Slave nodes in the order of `BasicContactResult::points`.
   [[nodiscard]] std::span<const Index> slave_nodes() const;
   /// Forces (and tangent) at these coordinates, from the history of the last commit.
-  [[nodiscard]] ContactResult evaluate(std::span<const double> coordinates, bool with_tangent);
+  [[nodiscard]] BasicContactResult<Dim> evaluate(std::span<const double> coordinates,
+                                                 bool with_tangent);
   /// Accepts the last evaluation as the new history (a converged increment).
   void commit();
 
@@ -64,5 +83,12 @@ class ContactEvaluator {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+using FacetList = BasicFacetList<2>;
+using FacetList3 = BasicFacetList<3>;
+using ContactResult = BasicContactResult<2>;
+using ContactResult3 = BasicContactResult<3>;
+using ContactEvaluator = BasicContactEvaluator<2>;
+using ContactEvaluator3 = BasicContactEvaluator<3>;
 
 }  // namespace osculate::api

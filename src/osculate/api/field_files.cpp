@@ -10,25 +10,31 @@
 namespace osculate::api {
 namespace {
 
-io::Field vector_field(const std::string& name, const std::vector<Vec2>& values) {
+Vec3 in_space(const Vec2& v) { return {v.x(), v.y(), 0.0}; }
+Vec3 in_space(const Vec3& v) { return v; }
+
+template <int Rows>
+io::Field vector_field(const std::string& name, const std::vector<Vec<Rows>>& values) {
   io::Field field{name, 3, {}, {}};
-  for (const Vec2& v : values) field.values.insert(field.values.end(), {v.x(), v.y(), 0.0});
+  for (const Vec<Rows>& value : values) {
+    const Vec3 v = in_space(value);
+    field.values.insert(field.values.end(), {v.x(), v.y(), v.z()});
+  }
   return field;
 }
 
-io::Field tensor_field(const std::string& name, const std::vector<std::array<double, 4>>& values) {
-  io::Field field{name, 4, {}, {"XX", "YY", "ZZ", "XY"}};
+template <std::size_t N>
+io::Field tensor_field(const std::string& name, const std::vector<std::array<double, N>>& values) {
+  io::Field field{name, static_cast<int>(N), {}, {"XX", "YY", "ZZ", "XY", "YZ", "XZ"}};
+  field.component_names.resize(N);
   for (const auto& v : values) field.values.insert(field.values.end(), v.begin(), v.end());
   return field;
 }
 
-io::Field scalar_field(const std::string& name, const std::vector<double>& values) {
-  return {name, 1, values, {}};
-}
-
-std::vector<mesh::Block> section_blocks(const model::Model& m) {
+template <int Dim>
+std::vector<mesh::Block> section_blocks(const model::BasicModel<Dim>& m) {
   std::map<cell::CellType, mesh::Block> blocks;
-  for (const model::BulkSection& section : m.sections)
+  for (const model::BasicBulkSection<Dim>& section : m.sections)
     for (const mesh::CellRef& ref : section.cells) {
       const mesh::Block& from = m.mesh.blocks[static_cast<std::size_t>(ref.block)];
       mesh::Block& to = blocks.try_emplace(from.type, mesh::Block{from.type, {}}).first->second;
@@ -40,19 +46,65 @@ std::vector<mesh::Block> section_blocks(const model::Model& m) {
   return list;
 }
 
+cell::CellType type_of(const pairing::Facet& facet) {
+  return facet.count == 2   ? cell::CellType::line2
+         : facet.count == 3 ? cell::CellType::line3
+                            : cell::CellType::line4;
+}
+cell::CellType type_of(const pairing::SurfaceFacet& facet) { return facet.type; }
+
+/// Slave facets as cells of their own points; single points where the slave has no facets.
+template <class Facets>
+std::vector<mesh::Block> slave_cells(const Facets& facets, const std::map<Index, Index>& local) {
+  std::map<cell::CellType, mesh::Block> blocks;
+  for (const auto& facet : facets) {
+    const cell::CellType type = type_of(facet);
+    mesh::Block& block = blocks.try_emplace(type, mesh::Block{type, {}}).first->second;
+    for (int k = 0; k < facet.count; ++k)
+      block.connectivity.push_back(local.at(facet.nodes[static_cast<std::size_t>(k)]));
+  }
+  std::vector<mesh::Block> list;
+  for (auto& entry : blocks) list.push_back(std::move(entry.second));
+  if (list.empty()) {
+    list.push_back({cell::CellType::point1, {}});
+    for (const auto& entry : local) list[0].connectivity.push_back(entry.second);
+  }
+  return list;
+}
+
+template <int Dim>
+std::vector<io::Field> contact_columns(const model::BasicContactFields<Dim>& c) {
+  using io::scalar_field;
+  std::vector<io::Field> fields{vector_field("normal", c.normal), scalar_field("COPEN", c.copen),
+                                scalar_field("CPRESS", c.cpress),
+                                scalar_field("CSHEAR1", c.cshear)};
+  if (Dim == 3) fields.push_back(scalar_field("CSHEAR2", c.cshear2));
+  fields.push_back(scalar_field("CSLIP1", c.cslip));
+  if (Dim == 3) fields.push_back(scalar_field("CSLIP2", c.cslip2));
+  fields.push_back(scalar_field("CSTATUS", c.cstatus));
+  fields.push_back(scalar_field("CFEATURE", c.cfeature));
+  fields.push_back(scalar_field("CAREA", c.carea));
+  fields.push_back(scalar_field("CNFORCE", c.cnforce));
+  fields.push_back(scalar_field("CSFORCE", c.csforce));
+  return fields;
+}
+
 }  // namespace
 
-FieldFiles::FieldFiles(std::string folder, const deck::Built& built, bool compress)
+template <int Dim>
+FieldFiles<Dim>::FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& built, bool compress)
     : folder_(std::move(folder)),
       built_(built),
       compress_(compress),
       bodies_(section_blocks(built.model)) {}
 
-void FieldFiles::write(const model::System& system, const model::State& state, double time) {
-  const model::NodalFields f = model::nodal_fields(system, built_.model, state);
-  const std::vector<io::Field> fields{vector_field("U", f.displacement),
-                                      vector_field("RF", f.reaction), tensor_field("S", f.stress),
-                                      tensor_field("E", f.strain), scalar_field("Mises", f.mises)};
+template <int Dim>
+void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
+                            const model::BasicState<Dim>& state, double time) {
+  const model::BasicNodalFields<Dim> f = model::nodal_fields(system, built_.model, state);
+  const std::vector<io::Field> fields{
+      vector_field("U", f.displacement), vector_field("RF", f.reaction),
+      tensor_field("S", f.stress), tensor_field("E", f.strain), io::scalar_field("Mises", f.mises)};
   const std::string bodies = fmt::format("bodies_{:05d}.vtu", frame_);
   io::write_vtu(folder_ + "/" + bodies, {built_.model.mesh.nodes, bodies_, fields, {}}, compress_);
   entries_.push_back({time, "bodies", bodies});
@@ -65,59 +117,43 @@ void FieldFiles::write(const model::System& system, const model::State& state, d
   io::write_pvd(folder_ + "/results.pvd", entries_);
 }
 
-void FieldFiles::write_contact(const model::System& system, const model::State& state,
-                               std::size_t pair, const std::string& file) {
-  const model::Model& m = built_.model;
-  const model::ContactFields c = model::contact_fields(system, m, pair);
+template <int Dim>
+void FieldFiles<Dim>::write_contact(const model::BasicSystem<Dim>& system,
+                                    const model::BasicState<Dim>& state, std::size_t pair,
+                                    const std::string& file) {
+  const model::BasicModel<Dim>& m = built_.model;
+  const model::BasicContactFields<Dim> c = model::contact_fields(system, m, pair);
   std::map<Index, Index> local;
   std::vector<Vec3> points;
-  std::vector<Vec2> u;
+  std::vector<Vec<Dim>> u;
   for (const Index node : c.nodes) {
     local.emplace(node, static_cast<Index>(points.size()));
-    const Vec2& x = m.reference[static_cast<std::size_t>(node)];
-    points.emplace_back(x.x(), x.y(), 0.0);
-    u.push_back(state.u.segment<2>(2 * node));
+    points.push_back(in_space(m.reference[static_cast<std::size_t>(node)]));
+    u.push_back(state.u.template segment<Dim>(Dim * node));
   }
-  std::map<cell::CellType, mesh::Block> blocks;
-  for (const pairing::Facet& facet : m.pairs[pair].definition.slave.boundary.facets) {
-    const cell::CellType type = facet.count == 2   ? cell::CellType::line2
-                                : facet.count == 3 ? cell::CellType::line3
-                                                   : cell::CellType::line4;
-    mesh::Block& block = blocks.try_emplace(type, mesh::Block{type, {}}).first->second;
-    for (int k = 0; k < facet.count; ++k)
-      block.connectivity.push_back(local.at(facet.nodes[static_cast<std::size_t>(k)]));
-  }
-  std::vector<mesh::Block> list;
-  for (auto& entry : blocks) list.push_back(std::move(entry.second));
-  if (list.empty()) {
-    list.push_back({cell::CellType::point1, {}});
-    for (Index i = 0; i < static_cast<Index>(points.size()); ++i) list[0].connectivity.push_back(i);
-  }
-  const std::vector<io::Field> fields{vector_field("U", u),
-                                      vector_field("normal", c.normal),
-                                      scalar_field("COPEN", c.copen),
-                                      scalar_field("CPRESS", c.cpress),
-                                      scalar_field("CSHEAR1", c.cshear),
-                                      scalar_field("CSLIP1", c.cslip),
-                                      scalar_field("CSTATUS", c.cstatus),
-                                      scalar_field("CFEATURE", c.cfeature),
-                                      scalar_field("CAREA", c.carea),
-                                      scalar_field("CNFORCE", c.cnforce),
-                                      scalar_field("CSFORCE", c.csforce)};
-  io::write_vtu(folder_ + "/" + file, {points, list, fields, {}}, compress_);
+  const std::vector<mesh::Block> cells =
+      slave_cells(m.pairs[pair].definition.slave.boundary.facets, local);
+  std::vector<io::Field> fields = contact_columns(c);
+  fields.insert(fields.begin(), vector_field("U", u));
+  io::write_vtu(folder_ + "/" + file, {points, cells, fields, {}}, compress_);
 }
 
-void FieldFiles::write_last_iterate(const model::State& state) {
-  std::vector<Vec2> u;
+template <int Dim>
+void FieldFiles<Dim>::write_last_iterate(const model::BasicState<Dim>& state) {
+  std::vector<Vec<Dim>> u;
   for (std::size_t i = 0; i < built_.model.mesh.nodes.size(); ++i)
-    u.push_back(state.u.segment<2>(2 * static_cast<Eigen::Index>(i)));
+    u.push_back(state.u.template segment<Dim>(Dim * static_cast<Eigen::Index>(i)));
   const std::vector<io::Field> fields{vector_field("U", u)};
   io::write_vtu(folder_ + "/last_iterate.vtu", {built_.model.mesh.nodes, bodies_, fields, {}},
                 compress_);
 }
 
-void FieldFiles::close() {
+template <int Dim>
+void FieldFiles<Dim>::close() {
   if (!entries_.empty()) io::write_pvd(folder_ + "/results.pvd", entries_);
 }
+
+template class FieldFiles<2>;
+template class FieldFiles<3>;
 
 }  // namespace osculate::api

@@ -7,21 +7,24 @@
 
 namespace osculate::api {
 
-/// results.pvd with one VTU for the bodies and one per contact pair and frame.
+/// results.pvd with one VTU for the bodies and one per contact pair and frame. Tensors have four
+/// components in the plane (XX YY ZZ XY), six in space (and YZ XZ).
+template <int Dim>
 class FieldFiles {
  public:
-  FieldFiles(std::string folder, const deck::Built& built, bool compress);
-  void write(const model::System& system, const model::State& state, double time);
+  FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& built, bool compress);
+  void write(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+             double time);
   /// The last iterate of a failed increment (displacements only), as last_iterate.vtu.
-  void write_last_iterate(const model::State& state);
+  void write_last_iterate(const model::BasicState<Dim>& state);
   void close();
 
  private:
-  void write_contact(const model::System& system, const model::State& state, std::size_t pair,
-                     const std::string& file);
+  void write_contact(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+                     std::size_t pair, const std::string& file);
 
   std::string folder_;
-  const deck::Built& built_;
+  const deck::BasicBuilt<Dim>& built_;
   bool compress_;
   int frame_ = 0;
   std::vector<io::PvdEntry> entries_;

@@ -3,26 +3,30 @@
 #include <string>
 #include <vector>
 
+#include "osculate/api/report_view.hpp"
 #include "osculate/deck/build.hpp"
 
 namespace osculate::api {
 
-/// Collects what the report shows while an analysis runs (docs/report_data.md). Keeps at most
-/// `max_frames` frames: when there are more, every second one is dropped.
+/// Collects what the report shows while an analysis runs (docs/report_data.md). Keeps at most as
+/// many frames as the view allows: when there are more, every second one is dropped. The first and
+/// the last frame are always there.
+template <int Dim>
 class ReportCollector {
  public:
-  ReportCollector(const deck::Built& built, const deck::Description& description);
-  void add_frame(const model::System& system, const model::State& state,
+  ReportCollector(const deck::BasicBuilt<Dim>& built, const deck::Description& description);
+  void add_frame(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
                  const model::Progress& progress);
   void add_history(const std::vector<double>& row);
   /// The report data with the summary merged in.
   [[nodiscard]] std::string json(const nlohmann::json& summary) const;
 
  private:
-  static constexpr std::size_t max_frames = 60;
-  const deck::Built& built_;
+  const deck::BasicBuilt<Dim>& built_;
   const deck::Description& description_;
+  ReportView<Dim> view_;
   std::vector<nlohmann::json> frames_;
+  nlohmann::json last_;  ///< the latest frame, if it is not among them
   std::size_t stride_ = 1, seen_ = 0;
   nlohmann::json rows_ = nlohmann::json::array();
 };

@@ -30,19 +30,22 @@ std::vector<std::string> column_names(const std::vector<model::HistoryRequest>& 
 }
 
 /// Everything a run writes while it goes on.
+template <int Dim>
 struct Recorder {
   const RunOptions& options;
   const deck::Description& description;
-  const deck::Built& built;
+  const deck::BasicBuilt<Dim>& built;
   std::string folder;
   io::HistoryWriter history;
-  FieldFiles fields;
-  ReportCollector report;
+  FieldFiles<Dim> fields;
+  ReportCollector<Dim> report;
   std::ofstream log;
   int since_output = 0;
   int iterations = 0;
+  double seconds = 0;  ///< spent here
 
-  Recorder(const RunOptions& o, const deck::Description& d, const deck::Built& b, std::string dir)
+  Recorder(const RunOptions& o, const deck::Description& d, const deck::BasicBuilt<Dim>& b,
+           std::string dir)
       : options(o),
         description(d),
         built(b),
@@ -71,8 +74,9 @@ struct Recorder {
     return p.increment % description.output.every == 0;
   }
 
-  bool converged(model::System& system, const model::State& state, const model::Progress& p,
-                 const solve::IncrementRecord* record) {
+  bool converged(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+                 const model::Progress& p, const solve::IncrementRecord* record) {
+    const auto start = std::chrono::steady_clock::now();
     std::vector<double> values;
     for (const model::HistoryRequest& request : built.history)
       values.push_back(model::history_value(system, built.model, state, request));
@@ -85,6 +89,7 @@ struct Recorder {
       report.add_frame(system, state, p);
     }
     if (record) report_increment(p, *record);
+    seconds += seconds_since(start);
     return !(options.interrupted && options.interrupted());
   }
 
@@ -112,15 +117,17 @@ struct Recorder {
   }
 };
 
-RunOutcome finish(Recorder& recorder, const model::AnalysisResult& result, double seconds_input) {
+template <int Dim>
+RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>& result,
+                  double seconds_input) {
   RunOutcome outcome;
   outcome.folder = recorder.folder;
   const bool done = result.outcome == solve::Outcome::converged;
   outcome.status = done ? RunStatus::done : RunStatus::stopped;
   outcome.message = result.message;
   const std::string model = std::filesystem::path(recorder.options.model).filename().string();
-  nlohmann::json summary = summary_json(model, result, done ? "done" : "stopped", seconds_input);
-  summary["seconds"]["total"] = seconds_input + result.seconds;
+  const nlohmann::json summary =
+      summary_json(model, result, done ? "done" : "stopped", {seconds_input, recorder.seconds});
   recorder.fields.close();
   if (recorder.description.output.report) {
     const std::string data = recorder.report.json(summary);
@@ -136,25 +143,41 @@ RunOutcome finish(Recorder& recorder, const model::AnalysisResult& result, doubl
   return outcome;
 }
 
-}  // namespace
+void check_until(const std::string& until, const std::vector<model::Step>& steps) {
+  if (until.empty()) return;
+  std::vector<std::string> names;
+  for (const model::Step& step : steps) names.push_back(step.name);
+  if (std::find(names.begin(), names.end(), until) == names.end())
+    throw core::InputError({}, "--until: " + core::unknown_name_message("step", until, names));
+}
 
-RunOutcome run(const RunOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
-  const deck::Description description = deck::read_model(options.model);
-  deck::Built built = deck::build(description, deck::load_mesh(description));
+template <int Dim>
+model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
+  model::BasicAnalysisObserver<Dim> observer;
+  observer.converged = [&recorder](model::BasicSystem<Dim>& system,
+                                   const model::BasicState<Dim>& state, const model::Progress& p,
+                                   const solve::IncrementRecord* record) {
+    return recorder.converged(system, state, p, record);
+  };
+  observer.cutback = [&recorder](const std::string& reason, const model::Progress& p, double to,
+                                 const std::vector<solve::IterationRecord>& iterations) {
+    recorder.log_iterations(iterations);
+    recorder.say(fmt::format("{}: no convergence from {:.5g} to {:.5g} of the step: {}; halving",
+                             recorder.step_name(p), p.fraction, to, reason));
+  };
+  return observer;
+}
+
+template <int Dim>
+RunOutcome run_built(const RunOptions& options, const deck::Description& description,
+                     deck::BasicBuilt<Dim>& built, std::chrono::steady_clock::time_point start) {
   built.options.threads = options.threads;
   built.options.until = options.until;
-  if (!options.until.empty()) {
-    std::vector<std::string> names;
-    for (const model::Step& step : built.model.steps) names.push_back(step.name);
-    if (std::find(names.begin(), names.end(), options.until) == names.end())
-      throw core::InputError(
-          {}, "--until: " + core::unknown_name_message("step", options.until, names));
-  }
+  check_until(options.until, built.model.steps);
   const std::string folder = choose_folder(options.model, options.folder);
   open_folder(folder);
   const double seconds_input = seconds_since(start);
-  Recorder recorder(options, description, built, folder);
+  Recorder<Dim> recorder(options, description, built, folder);
   for (const ModelFact& fact : model_facts(built))
     recorder.say(fmt::format("{:<13} {:<16} {}", fact.heading, fact.name, fact.text));
   for (const std::string& warning : built.warnings) recorder.say("warning: " + warning);
@@ -163,21 +186,21 @@ RunOutcome run(const RunOptions& options) {
                             {"status", "running"}}
                      .dump(1) +
                  "\n");
-  model::AnalysisObserver observer;
-  observer.converged = [&](model::System& system, const model::State& state,
-                           const model::Progress& p, const solve::IncrementRecord* record) {
-    return recorder.converged(system, state, p, record);
-  };
-  observer.cutback = [&](const std::string& reason, const model::Progress& p, double to,
-                         const std::vector<solve::IterationRecord>& iterations) {
-    recorder.log_iterations(iterations);
-    recorder.say(fmt::format("{}: no convergence from {:.5g} to {:.5g} of the step: {}; halving",
-                             recorder.step_name(p), p.fraction, to, reason));
-  };
-  model::AnalysisResult result = model::run(built.model, built.options, observer);
+  const model::BasicAnalysisResult<Dim> result =
+      model::run(built.model, built.options, observe(recorder));
   if (result.outcome != solve::Outcome::converged && result.outcome != solve::Outcome::stopped)
     recorder.fields.write_last_iterate(result.last_iterate);
   return finish(recorder, result, seconds_input);
+}
+
+}  // namespace
+
+RunOutcome run(const RunOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  const deck::Description description = deck::read_model(options.model);
+  deck::AnyBuilt any = deck::build_any(description, deck::load_mesh(description));
+  return std::visit([&](auto& built) { return run_built(options, description, built, start); },
+                    any);
 }
 
 void rewrite_report(const std::string& folder) {

@@ -48,19 +48,76 @@ const char* weight_name(pairing::Weight weight) {
   return "";
 }
 
-std::string section_text(const model::Model& m, const model::BulkSection& section) {
+const char* assumption_name(solid::Assumption assumption) {
+  switch (assumption) {
+    case solid::Assumption::plane_strain:
+      return "plane strain";
+    case solid::Assumption::plane_stress:
+      return "plane stress";
+    case solid::Assumption::axisymmetric:
+      return "axisymmetric";
+  }
+  return "";
+}
+
+const char* formulation_name(solid::VolumeFormulation formulation) {
+  switch (formulation) {
+    case solid::VolumeFormulation::full:
+      return "full integration";
+    case solid::VolumeFormulation::bbar:
+      return "mean dilatation";
+    case solid::VolumeFormulation::enhanced:
+      return "enhanced strains";
+    case solid::VolumeFormulation::solid_shell:
+      return "solid shell";
+  }
+  return "";
+}
+
+const char* element_name(const solid::Section& section) {
+  return assumption_name(section.assumption);
+}
+const char* element_name(const solid::VolumeSection& section) {
+  return formulation_name(section.formulation);
+}
+
+template <int Dim>
+std::string section_text(const model::BasicModel<Dim>& m,
+                         const model::BasicBulkSection<Dim>& section) {
   std::map<std::string, int> counts;
   for (const mesh::CellRef& ref : section.cells)
     ++counts[std::string(cell::info(m.mesh.blocks[static_cast<std::size_t>(ref.block)].type).name)];
   std::string text;
   for (const auto& entry : counts)
     text += fmt::format("{}{} {}", text.empty() ? "" : ", ", entry.second, entry.first);
-  const solid::Section& s = section.section;
-  const char* const assumption = s.assumption == solid::Assumption::plane_strain   ? "plane strain"
-                                 : s.assumption == solid::Assumption::plane_stress ? "plane stress"
-                                                                                   : "axisymmetric";
-  return fmt::format("{}, {}, {} strain", text, assumption,
-                     s.kinematics == solid::Kinematics::small ? "small" : "finite");
+  const bool small = section.section.kinematics == solid::Kinematics::small;
+  return fmt::format("{}, {}, {} strain", text, element_name(section.section),
+                     small ? "small" : "finite");
+}
+
+template <int Dim>
+std::string place_text(const Vec<Dim>& x) {
+  std::string text;
+  for (int i = 0; i < Dim; ++i) text += fmt::format("{}{:g}", i ? ", " : "", x[i]);
+  return text;
+}
+
+template <int Dim>
+std::string rigid_text(const model::BasicRigidBody<Dim>& body) {
+  const std::string what =
+      body.shape ? std::visit([](const auto& shape) { return std::string(shape.key); }, *body.shape)
+                 : fmt::format("{} nodes", body.nodes.size());
+  return fmt::format("{}, reference point ({})", what, place_text<Dim>(body.reference));
+}
+
+/// The total is the caller's; what is not named is spent between the phases.
+template <int Dim>
+nlohmann::json seconds_json(const model::BasicAnalysisResult<Dim>& result, const RunSeconds& run) {
+  const model::SystemSeconds& s = result.seconds_system;
+  return {{"input", run.input},     {"analysis", result.seconds},
+          {"contact", s.contact},   {"bulk", s.bulk},
+          {"assembly", s.assembly}, {"solver", result.seconds_solver},
+          {"output", run.output},   {"total", run.input + result.seconds}};
 }
 
 }  // namespace
@@ -71,8 +128,10 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-nlohmann::json summary_json(const std::string& model_file, const model::AnalysisResult& result,
-                            const std::string& status, double seconds_input) {
+template <int Dim>
+nlohmann::json summary_json(const std::string& model_file,
+                            const model::BasicAnalysisResult<Dim>& result,
+                            const std::string& status, const RunSeconds& seconds) {
   nlohmann::json steps = nlohmann::json::array();
   int iterations = 0, increments = 0, cutbacks = 0;
   for (std::size_t s = 0; s < result.steps.size(); ++s) {
@@ -92,24 +151,21 @@ nlohmann::json summary_json(const std::string& model_file, const model::Analysis
       {"message", result.message},
       {"steps", steps},
       {"total", {{"increments", increments}, {"iterations", iterations}, {"cutbacks", cutbacks}}},
-      {"seconds", {{"input", seconds_input}, {"analysis", result.seconds}}},
+      {"seconds", seconds_json(result, seconds)},
       {"peak_memory_mb", peak_memory_mb()},
       {"unknowns", result.unknowns}};
 }
 
-std::vector<ModelFact> model_facts(const deck::Built& built) {
-  const model::Model& m = built.model;
+template <int Dim>
+std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
+  const model::BasicModel<Dim>& m = built.model;
   std::vector<ModelFact> facts;
-  for (const model::BulkSection& section : m.sections)
+  for (const model::BasicBulkSection<Dim>& section : m.sections)
     facts.push_back({"Bodies", section.name, section_text(m, section)});
-  for (const model::RigidBody& body : m.rigid)
-    facts.push_back({"Rigid bodies", body.name,
-                     fmt::format("{}, reference point ({:g}, {:g})",
-                                 body.shape ? std::string(geometry::key(*body.shape))
-                                            : fmt::format("{} nodes", body.nodes.size()),
-                                 body.reference.x(), body.reference.y())});
-  for (const model::ContactPair& pair : m.pairs) {
-    const pairing::PairDefinition<2>& d = pair.definition;
+  for (const model::BasicRigidBody<Dim>& body : m.rigid)
+    facts.push_back({"Rigid bodies", body.name, rigid_text(body)});
+  for (const model::BasicContactPair<Dim>& pair : m.pairs) {
+    const pairing::PairDefinition<Dim>& d = pair.definition;
     const std::string friction = d.friction ? fmt::format("Coulomb {:g} (penalty {:g})",
                                                           d.friction->mu, d.friction->stiffness)
                                             : std::string("frictionless");
@@ -122,5 +178,12 @@ std::vector<ModelFact> model_facts(const deck::Built& built) {
     facts.push_back({"Steps", step.name, fmt::format("{} increments", step.increments)});
   return facts;
 }
+
+template nlohmann::json summary_json(const std::string&, const model::AnalysisResult&,
+                                     const std::string&, const RunSeconds&);
+template nlohmann::json summary_json(const std::string&, const model::AnalysisResult3&,
+                                     const std::string&, const RunSeconds&);
+template std::vector<ModelFact> model_facts(const deck::Built&);
+template std::vector<ModelFact> model_facts(const deck::Built3&);
 
 }  // namespace osculate::api

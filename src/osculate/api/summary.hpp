@@ -6,17 +6,25 @@
 
 namespace osculate::api {
 
+/// Time spent outside the analysis proper.
+struct RunSeconds {
+  double input = 0;   ///< reading and building the model
+  double output = 0;  ///< fields, histories and report data, while the analysis runs
+};
+
 /// What summary.json says (docs/results.md): status, message, steps with their increments, time per
 /// phase, memory, unknowns.
+template <int Dim>
 [[nodiscard]] nlohmann::json summary_json(const std::string& model_file,
-                                          const model::AnalysisResult& result,
-                                          const std::string& status, double seconds_input);
+                                          const model::BasicAnalysisResult<Dim>& result,
+                                          const std::string& status, const RunSeconds& seconds);
 
 /// One line per thing the model consists of: bodies, rigid bodies, pairs, steps.
 struct ModelFact {
   std::string heading, name, text;
 };
-[[nodiscard]] std::vector<ModelFact> model_facts(const deck::Built& built);
+template <int Dim>
+[[nodiscard]] std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built);
 
 /// Largest resident memory of this process so far [MB].
 [[nodiscard]] double peak_memory_mb();

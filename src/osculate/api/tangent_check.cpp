@@ -12,25 +12,38 @@
 namespace osculate::api {
 namespace {
 
-using model::State;
-using model::System;
 using model::Term;
 
-double mean_facet_length(const model::Model& m) {
+double edge_lengths(const pairing::Facet& f, std::span<const Vec2> x, int& count) {
+  ++count;
+  return (x[static_cast<std::size_t>(f.nodes[1])] - x[static_cast<std::size_t>(f.nodes[0])]).norm();
+}
+
+double edge_lengths(const pairing::SurfaceFacet& f, std::span<const Vec3> x, int& count) {
+  double sum = 0;
+  for (int e = 0; e < pairing::edge_count(f); ++e, ++count) {
+    const std::array<int, 2> ends = pairing::edge_corners(f, e);
+    const Index a = f.nodes[static_cast<std::size_t>(ends[0])];
+    const Index b = f.nodes[static_cast<std::size_t>(ends[1])];
+    sum += (x[static_cast<std::size_t>(b)] - x[static_cast<std::size_t>(a)]).norm();
+  }
+  return sum;
+}
+
+template <int Dim>
+double mean_facet_length(const model::BasicModel<Dim>& m) {
   double sum = 0;
   int count = 0;
-  for (const model::ContactPair& pair : m.pairs)
-    for (const pairing::Facet& f : pair.definition.slave.boundary.facets) {
-      sum += (m.reference[static_cast<std::size_t>(f.nodes[1])] -
-              m.reference[static_cast<std::size_t>(f.nodes[0])])
-                 .norm();
-      ++count;
-    }
+  for (const model::BasicContactPair<Dim>& pair : m.pairs)
+    for (const auto& facet : pair.definition.slave.boundary.facets)
+      sum += edge_lengths(facet, m.reference, count);
   return count ? sum / count : 1.0;
 }
 
+template <int Dim>
 struct Probe {
-  System& system;
+  using State = model::BasicState<Dim>;
+  model::BasicSystem<Dim>& system;
   State committed;
   State base;
   double size;  ///< of a displacement that matters
@@ -56,7 +69,8 @@ struct Probe {
 };
 
 /// Displacement that pushes near slave points into the master.
-void close_contact(Probe& probe, const model::Model& m) {
+template <int Dim>
+void close_contact(Probe<Dim>& probe, const model::BasicModel<Dim>& m) {
   const double depth = 0.01 * probe.size;
   probe.at(probe.base, false);
   Eigen::VectorXd d = Eigen::VectorXd::Zero(probe.system.dofs().unknowns());
@@ -64,13 +78,13 @@ void close_contact(Probe& probe, const model::Model& m) {
     const auto& points = probe.system.contact()[p].points;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!(std::abs(points[i].gap) < 0.1 * probe.size)) continue;
-      Vec2 push = -(points[i].gap + depth) * points[i].normal;
+      Vec<Dim> push = -(points[i].gap + depth) * points[i].normal;
       const auto& law = m.pairs[p].definition.friction;
       if (law && i % 2 == 1)  // every second point slips
         push += 3 * law->mu * depth * m.pairs[p].definition.normal.stiffness / law->stiffness *
                 points[i].frame.col(0);
       const Index node = m.pairs[p].definition.slave.nodes[i];
-      for (int k = 0; k < 2; ++k) {
+      for (int k = 0; k < Dim; ++k) {
         const Index u = probe.system.dofs().unknown_of(probe.system.dofs().node_dof(node, k));
         if (u >= 0) d[u] = push[k];
       }
@@ -79,7 +93,8 @@ void close_contact(Probe& probe, const model::Model& m) {
   probe.base = probe.moved(d, 1.0);
 }
 
-TangentRow check_part(Probe& probe, const std::string& part) {
+template <int Dim>
+TangentRow check_part(Probe<Dim>& probe, const std::string& part) {
   TangentRow row;
   row.part = part;
   const solve::Evaluation here = probe.at(probe.base, true);
@@ -121,19 +136,12 @@ TangentRow check_part(Probe& probe, const std::string& part) {
   return row;
 }
 
-}  // namespace
-
-bool TangentRow::passed() const {
-  return skipped || exact || std::abs(order - 2.0) < 0.25 || !expected;
-}
-
-TangentReport check_tangent(const std::string& path, int threads) {
-  const deck::Built built = deck::build_file(path);
-  const model::Model& m = built.model;
-  System system(m, threads);
-  const State start = system.initial_state();
+template <int Dim>
+TangentReport check_model(const model::BasicModel<Dim>& m, int threads) {
+  model::BasicSystem<Dim> system(m, threads);
+  const model::BasicState<Dim> start = system.initial_state();
   if (!m.steps.empty()) system.begin_step(m.steps.front(), start);
-  Probe probe{system, start, start, mean_facet_length(m)};
+  Probe<Dim> probe{system, start, start, mean_facet_length(m)};
   close_contact(probe, m);
   probe.base = probe.moved(probe.random(1e-3 * probe.size), 1.0);
   TangentReport report;
@@ -142,7 +150,8 @@ TangentReport check_tangent(const std::string& path, int threads) {
       system.enable(term, std::find(terms.begin(), terms.end(), term) != terms.end());
   };
   bool consistent = true;
-  for (const model::ContactPair& pair : m.pairs) consistent &= pair.definition.tangent.consistent;
+  for (const model::BasicContactPair<Dim>& pair : m.pairs)
+    consistent &= pair.definition.tangent.consistent;
   const auto add = [&](const std::string& part, bool with_contact) {
     TangentRow row = check_part(probe, part);
     if (with_contact && !consistent) {
@@ -162,6 +171,24 @@ TangentReport check_tangent(const std::string& path, int threads) {
   report.stick = e.counts.stick;
   report.slip = e.counts.slip;
   return report;
+}
+
+}  // namespace
+
+bool TangentRow::passed() const {
+  return skipped || exact || std::abs(order - 2.0) < 0.25 || !expected;
+}
+
+TangentReport check_tangent(const model::Model& model, int threads) {
+  return check_model(model, threads);
+}
+TangentReport check_tangent(const model::Model3& model, int threads) {
+  return check_model(model, threads);
+}
+
+TangentReport check_tangent(const std::string& path, int threads) {
+  const deck::AnyBuilt any = deck::build_any_file(path);
+  return std::visit([&](const auto& built) { return check_tangent(built.model, threads); }, any);
 }
 
 std::string to_text(const TangentReport& report) {

@@ -2,6 +2,8 @@
 #include <string>
 #include <vector>
 
+#include "osculate/model/model.hpp"
+
 namespace osculate::api {
 
 /// One line of the tangent check: K d against central differences with steps h and h/2.
@@ -26,6 +28,8 @@ struct TangentReport {
 /// displaced a little at random (fixed seed), so that contact is closed and no point sits on a
 /// border between two states; both probes stay in the same states.
 [[nodiscard]] TangentReport check_tangent(const std::string& model, int threads);
+[[nodiscard]] TangentReport check_tangent(const model::Model& model, int threads);
+[[nodiscard]] TangentReport check_tangent(const model::Model3& model, int threads);
 
 [[nodiscard]] std::string to_text(const TangentReport& report);
 [[nodiscard]] std::string to_json(const TangentReport& report);

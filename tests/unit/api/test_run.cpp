@@ -126,7 +126,9 @@ TEST_F(Run, SummaryTellsWhatHappened) {
   EXPECT_EQ(s["total"]["increments"], 5);
   EXPECT_EQ(s["total"]["cutbacks"], 0);
   EXPECT_GT(s["peak_memory_mb"], 1);
-  for (const char* phase : {"input", "analysis", "total"}) EXPECT_GE(s["seconds"][phase], 0);
+  for (const char* phase :
+       {"input", "analysis", "contact", "bulk", "assembly", "solver", "output", "total"})
+    EXPECT_GE(s["seconds"][phase], 0);
   ASSERT_EQ(s["steps"].size(), 2u);
   EXPECT_EQ(s["steps"][0]["name"], "press");
   ASSERT_EQ(s["steps"][1]["increments"].size(), 3u);
@@ -182,6 +184,18 @@ TEST_F(Run, ReportIsOffline) {
   fs::remove(results / "report.html");
   rewrite_report(results.string());
   EXPECT_EQ(read(results / "report.html"), before);
+}
+
+/// Of more frames than the page holds every second is dropped, but never the first and the last.
+TEST_F(Run, ReportKeepsTheFirstAndTheLastFrame) {
+  write("model.yaml", edited(model, "increments: 2", "increments: 62"));
+  (void)run(options());
+  const nlohmann::json data = nlohmann::json::parse(read(results / "report.json"));
+  EXPECT_EQ(data["frames"].size(), 34u);  // 0, 2, ..., 64 of 65, and the last
+  EXPECT_EQ(data["frames"][0]["time"], 0);
+  EXPECT_EQ(data["frames"][33]["time"], 2);
+  EXPECT_EQ(data["frames"][32]["increment"], 2);
+  EXPECT_EQ(data["rigid"][0]["polyline"].size(), 34u);
 }
 
 TEST_F(Run, AnOccupiedFolderIsRefused) {

@@ -1,0 +1,106 @@
+#include <map>
+
+#include "osculate/api/report_json.hpp"
+#include "osculate/api/report_view.hpp"
+#include "osculate/model/fields.hpp"
+#include "osculate/model/quantities.hpp"
+
+namespace osculate::api {
+namespace {
+
+nlohmann::json contact_json(const model::System& system, const model::Model& m,
+                            const std::vector<Vec2>& x, std::size_t pair) {
+  const model::ContactFields f = model::contact_fields(system, m, pair);
+  const std::size_t n = f.nodes.size();
+  return {
+      {"pair", m.pairs[pair].name},
+      {"x", vectors<2>(n, [&](std::size_t i) { return x[static_cast<std::size_t>(f.nodes[i])]; })},
+      {"normal", vectors<2>(n, [&](std::size_t i) { return f.normal[i]; })},
+      {"pressure", scalars(n, [&](std::size_t i) { return f.cpress[i]; })},
+      {"shear", scalars(n, [&](std::size_t i) { return f.cshear[i]; })},
+      {"status", f.cstatus}};
+}
+
+/// Boundary of a rigid body in its current place, as a polyline for the picture.
+std::vector<std::array<double, 2>> rigid_outline(const model::Model& m, const model::State& state,
+                                                 std::size_t b) {
+  const model::RigidBody& body = m.rigid[b];
+  const body::RigidMotion& motion = state.rigid[b];
+  std::vector<Vec2> points;
+  if (body.shape) {
+    Vec2 lo = m.reference.front(), hi = lo;
+    for (std::size_t n = 0; n < m.mesh.nodes.size(); ++n) {
+      lo = lo.cwiseMin(m.reference[n]);
+      hi = hi.cwiseMax(m.reference[n]);
+    }
+    const double reach = (hi - lo).norm();
+    const double from = std::max(geometry::lo(*body.shape), -reach);
+    const double to = std::min(geometry::hi(*body.shape), reach);
+    constexpr int pieces = 120;
+    for (int i = 0; i <= pieces; ++i)
+      points.push_back(geometry::jet(*body.shape, from + (to - from) * i / pieces).r);
+  } else if (!body.polyline.empty()) {
+    points = body.polyline;
+  } else {
+    for (const Index n : body.nodes) points.push_back(m.reference[static_cast<std::size_t>(n)]);
+  }
+  std::vector<std::array<double, 2>> outline;
+  for (const Vec2& p : points) {
+    const Vec2 now = motion.position(p);
+    outline.push_back({now.x(), now.y()});
+  }
+  return outline;
+}
+
+}  // namespace
+
+nlohmann::json ReportView<2>::mesh() const {
+  const model::Model& m = model_;
+  nlohmann::json cells = nlohmann::json::array();
+  std::map<Index, std::vector<Index>> by_block;
+  for (const model::BulkSection& section : m.sections)
+    for (const mesh::CellRef& ref : section.cells) {
+      const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(ref.block)];
+      const int n = cell::info(block.type).nodes;
+      auto& list = by_block[ref.block];
+      list.insert(list.end(), block.cell(ref.cell), block.cell(ref.cell) + n);
+    }
+  for (const auto& entry : by_block) {
+    const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(entry.first)];
+    cells.push_back({{"type", cell::info(block.type).name}, {"connectivity", entry.second}});
+  }
+  return {
+      {"points", vectors<2>(m.mesh.nodes.size(), [&](std::size_t i) { return m.reference[i]; })},
+      {"cells", cells}};
+}
+
+nlohmann::json ReportView<2>::frame(const model::System& system, const model::State& state) const {
+  const model::Model& m = model_;
+  const std::size_t n = m.mesh.nodes.size();
+  const model::NodalFields fields = model::nodal_fields(system, m, state);
+  const std::vector<Vec2> x = system.positions(state);
+  nlohmann::json contact = nlohmann::json::array();
+  for (std::size_t p = 0; p < m.pairs.size(); ++p) contact.push_back(contact_json(system, m, x, p));
+  nlohmann::json rigid = nlohmann::json::array();
+  for (std::size_t b = 0; b < m.rigid.size(); ++b) rigid.push_back(rigid_outline(m, state, b));
+  return {{"u", vectors<2>(n, [&](std::size_t i) { return fields.displacement[i]; })},
+          {"fields",
+           {{"von Mises stress", scalars(n, [&](std::size_t i) { return fields.mises[i]; })},
+            {"stress yy", scalars(n, [&](std::size_t i) { return fields.stress[i][1]; })},
+            {"stress xy", scalars(n, [&](std::size_t i) { return fields.stress[i][3]; })}}},
+          {"contact", contact},
+          {"rigid", rigid}};
+}
+
+void ReportView<2>::finish(nlohmann::json& frames, nlohmann::json& report) const {
+  nlohmann::json rigid = nlohmann::json::array();
+  for (std::size_t b = 0; b < model_.rigid.size(); ++b) {
+    nlohmann::json lines = nlohmann::json::array();
+    for (auto& frame : frames) lines.push_back(frame["rigid"][b]);
+    rigid.push_back({{"name", model_.rigid[b].name}, {"polyline", lines}});
+  }
+  for (auto& frame : frames) frame.erase("rigid");
+  report["rigid"] = rigid;
+}
+
+}  // namespace osculate::api

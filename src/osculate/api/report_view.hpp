@@ -1,0 +1,66 @@
+#pragma once
+#include <array>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "osculate/mesh/surface.hpp"
+#include "osculate/model/system.hpp"
+
+namespace osculate::api {
+
+/// The picture of a model in the report: what is sent once, and once a frame
+/// (docs/report_data.md).
+template <int Dim>
+class ReportView;
+
+/// In the plane: all cells, contact along the slave, rigid bodies as lines.
+template <>
+class ReportView<2> {
+ public:
+  explicit ReportView(const model::Model& model) : model_(model) {}
+  [[nodiscard]] nlohmann::json mesh() const;
+  /// `u`, `fields`, `contact` and `rigid` of one frame.
+  [[nodiscard]] nlohmann::json frame(const model::System& system, const model::State& state) const;
+  [[nodiscard]] std::size_t max_frames() const { return 60; }
+  /// Turns the `rigid` of the frames into `rigid` of the report.
+  void finish(nlohmann::json& frames, nlohmann::json& report) const;
+
+ private:
+  const model::Model& model_;
+};
+
+/// In space: the free faces of the bodies, the faces of meshed rigid bodies, and a square of each
+/// analytic plane, on nodes of their own; contact pressure and shear as fields of the slave's
+/// nodes.
+///
+/// Size       all frames together are kept below 8 million values, eight a point and frame (a page
+///            of 43 MB); when not even two frames fit, there is no picture
+/// Tested by  tests/unit/api/test_report_view.cpp
+template <>
+class ReportView<3> {
+ public:
+  explicit ReportView(const model::Model3& model);
+  [[nodiscard]] nlohmann::json mesh() const;
+  [[nodiscard]] nlohmann::json frame(const model::System3& system,
+                                     const model::State3& state) const;
+  [[nodiscard]] std::size_t max_frames() const;
+  void finish(nlohmann::json&, nlohmann::json&) const {}
+
+ private:
+  /// A square of an analytic surface, carried by its rigid body.
+  struct Patch {
+    std::size_t body;
+    std::array<Vec3, 4> corners;
+  };
+  void add_rigid_faces();
+  void add_patches();
+  [[nodiscard]] std::size_t points() const { return nodes_.size() + 4 * patches_.size(); }
+
+  const model::Model3& model_;
+  std::vector<mesh::SurfaceFacet> body_faces_, rigid_faces_;
+  std::vector<Patch> patches_;
+  std::vector<Index> nodes_;  ///< of the mesh, sorted
+  std::vector<Index> place_;  ///< of each node in `nodes_`, or -1
+};
+
+}  // namespace osculate::api

@@ -1,0 +1,95 @@
+#include "osculate/api/report_view.hpp"
+
+#include <gtest/gtest.h>
+
+namespace osculate::api {
+namespace {
+
+/// A row of hexahedra: all 4 (cells + 1) nodes are on its surface.
+model::Model3 row_of(Index cells) {
+  model::Model3 m;
+  for (Index i = 0; i <= cells; ++i)
+    for (const auto& [y, z] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+      m.reference.emplace_back(i, y, z);
+  mesh::Block block{cell::CellType::hex8, {}};
+  model::BulkSection3 section;
+  for (Index i = 0; i < cells; ++i) {
+    const Index a = 4 * i, b = a + 4;
+    block.connectivity.insert(block.connectivity.end(),
+                              {a, b, b + 1, a + 1, a + 3, b + 3, b + 2, a + 2});
+    section.cells.push_back({0, i});
+  }
+  m.mesh.nodes = m.reference;
+  m.mesh.blocks.push_back(std::move(block));
+  m.sections.push_back(std::move(section));
+  return m;
+}
+
+TEST(ReportView3, OneCellHasSixFaces) {
+  const model::Model3 m = row_of(1);
+  const ReportView<3> view(m);
+  const nlohmann::json mesh = view.mesh();
+  EXPECT_EQ(mesh["points"]["shape"], (std::vector<int>{8, 3}));
+  ASSERT_EQ(mesh["cells"].size(), 1u);
+  EXPECT_EQ(mesh["cells"][0]["connectivity"].size(), 24u);
+  EXPECT_EQ(view.max_frames(), 60u);
+}
+
+/// Eight values a point and frame, at most eight million.
+TEST(ReportView3, FramesKeepToTheirBudget) {
+  const model::Model3 large = row_of(49'999);
+  EXPECT_EQ(ReportView<3>(large).max_frames(), 5u);
+  const model::Model3 limit = row_of(124'999);
+  EXPECT_EQ(ReportView<3>(limit).max_frames(), 2u);
+  const model::Model3 too_large = row_of(125'000);
+  const ReportView<3> nothing(too_large);
+  EXPECT_EQ(nothing.max_frames(), 0u);
+  EXPECT_EQ(nothing.mesh(), (nlohmann::json{{"dimension", 3}}));
+}
+
+/// Nodes that no body has (of a tool, say) and inner faces are not sent.
+TEST(ReportView3, OnlyWhatCanBeSeenIsSent) {
+  model::Model3 m = row_of(3);
+  m.reference.emplace_back(9, 9, 9);
+  m.mesh.nodes = m.reference;
+  m.rigid.push_back({"tool", Vec3::Zero(), {16}, {}, {}});
+  m.body_of_node.assign(m.reference.size(), -1);
+  m.body_of_node.back() = 0;
+  const nlohmann::json mesh = ReportView<3>(m).mesh();
+  EXPECT_EQ(mesh["points"]["shape"], (std::vector<int>{16, 3}));
+  EXPECT_EQ(mesh["cells"][0]["connectivity"].size(), 4u * (3 * 4 + 2));
+}
+
+/// A plane is shown by a square around the bodies that goes with its rigid body.
+TEST(ReportView3, APlaneIsASquare) {
+  model::Model3 m = row_of(1);
+  m.rigid.push_back({"floor", Vec3::Zero(), {}, geometry::Plane{{0, 0, -1}, {0, 0, 2}}, {}});
+  const nlohmann::json mesh = ReportView<3>(m).mesh();
+  EXPECT_EQ(mesh["points"]["shape"], (std::vector<int>{12, 3}));
+  ASSERT_EQ(mesh["cells"].size(), 2u);
+  EXPECT_EQ(mesh["cells"][1]["rigid"], true);
+  EXPECT_EQ(mesh["cells"][1]["connectivity"], (std::vector<int>{8, 9, 10, 11}));
+}
+
+/// The faces of meshed rigid bodies are those of their contact surfaces.
+TEST(ReportView3, ARigidMeshIsItsContactSurface) {
+  model::Model3 m = row_of(1);
+  const auto first = static_cast<Index>(m.reference.size());
+  for (const auto& [x, y] : {std::pair{0, 0}, {2, 0}, {2, 2}, {0, 2}})
+    m.reference.emplace_back(x, y, -1);
+  m.mesh.nodes = m.reference;
+  m.body_of_node.assign(m.reference.size(), -1);
+  model::ContactPair3 pair;
+  const std::array<Index, 4> nodes{first, first + 1, first + 2, first + 3};
+  for (const Index n : nodes) m.body_of_node[static_cast<std::size_t>(n)] = 0;
+  pair.definition.master.facets.push_back(pairing::surface_facet(cell::CellType::quad4, nodes));
+  m.pairs.push_back(pair);
+  m.rigid.push_back({"tool", Vec3::Zero(), {nodes.begin(), nodes.end()}, {}, {}});
+  const nlohmann::json mesh = ReportView<3>(m).mesh();
+  ASSERT_EQ(mesh["cells"].size(), 2u);
+  EXPECT_EQ(mesh["cells"][1]["rigid"], true);
+  EXPECT_EQ(mesh["cells"][1]["connectivity"], (std::vector<int>{8, 9, 10, 11}));
+}
+
+}  // namespace
+}  // namespace osculate::api
