@@ -53,6 +53,34 @@ function everyCell() {
   };
 }
 
+/** A box in space of linear and quadratic faces, a rigid face that moves, values on one face only. */
+function space() {
+  const corner = (i) => [i & 1, (i >> 1) & 1, i >> 2];
+  const points = Array.from({ length: 8 }, (_, i) => corner(i));
+  const quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [3, 2, 6, 7]];
+  const edge = (a, b) => points.push(points[a].map((v, k) => (v + points[b][k]) / 2)) - 1;
+  const eight = [1, 3, 7, 5];
+  eight.slice().forEach((a, k) => eight.push(edge(a, eight[(k + 1) % 4])));
+  const six = [0, 4, 6];
+  six.slice().forEach((a, k) => six.push(edge(a, six[(k + 1) % 3])));
+  const n = points.length;
+  points.push([-1, -1, -0.1], [2, -1, -0.1], [2, 2, -0.1], [-1, 2, -0.1]);
+  const u = (s) => points.map(([x, , z], i) => (i < n ? [0.2 * s * z, 0, -0.1 * s * x] : [0, 0, 9 * s]));
+  return {
+    title: 'faces in space', history: { columns: ['time', 'a'], rows: [[0, 1], [1, 2]] },
+    mesh: {
+      dimension: 3, points, cells: [{ type: 'quad4', connectivity: quads.flat() },
+        { type: 'quad8', connectivity: eight }, { type: 'tri6', connectivity: six },
+        { type: 'tri3', connectivity: [0, 6, 2] },
+        { type: 'quad4', connectivity: [n, n + 1, n + 2, n + 3], rigid: true }],
+    },
+    frames: [0, 1].map((s) => ({
+      step: 1, increment: s, time: s, u: u(s),
+      fields: { f: points.map(([x], i) => (i < 4 ? x : null)), 'von Mises stress': points.map(([x, y, z]) => x + y * z) },
+    })),
+  };
+}
+
 const dir = mkdtempSync(join(tmpdir(), 'osculate-smoke-'));
 let failed = false;
 const given = process.argv[2]?.endsWith('.html') ? process.argv[2] : null;
@@ -66,7 +94,7 @@ if (!given) {
   }
 }
 if (!given) {
-  for (const [name, data] of Object.entries({ bare: { title: 'bare' }, cells: everyCell() })) {
+  for (const [name, data] of Object.entries({ bare: { title: 'bare' }, cells: everyCell(), space: space() })) {
     const file = join(dir, `${name}.html`);
     writeFileSync(file, page(data));
     pages.push([file, name === 'bare' ? ['<h1>bare'] : ['<h1>', 'id="body"']]);

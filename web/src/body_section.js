@@ -3,7 +3,8 @@ import { fit, pan, zoom } from './camera.js';
 import { choice, el, tick, watchWidth } from './dom.js';
 import { num } from './format.js';
 import { plot } from './plot.js';
-import { onTheme, css } from './theme.js';
+import { autoScale, button, frameKeys, onceAFrame, player, savePicture } from './player.js';
+import { onTheme } from './theme.js';
 import { createView, draw, probe, resize } from './view.js';
 import { runs, statusStyle } from './contact_layer.js';
 
@@ -18,9 +19,12 @@ export function bodySection(body, frameChanged) {
     frame: body.frames.length - 1, field: preferred, scale: 1, range: 'all', map: 'sequential',
     bands: false, lines: true, ghost: false, contact: 'profile', points: true,
   };
-  const self = { body, view, state, canvas, host, hint, frameChanged, waiting: false };
+  const self = { body, view, state, canvas, host, hint, frameChanged };
+  self.redraw = onceAFrame(() => draw(view, state));
   self.contact = contactPlots(body);
-  self.player = player(self);
+  const shown = () => state.frame;
+  const show = (frame) => showFrame(self, frame);
+  self.player = player(body.frames, shown, show);
   const section = el('section', { id: 'body' }, el('h2', {}, 'Deformed body'),
     controls(self), host, self.player.bar, self.contact.node);
   watchWidth(host, (width) => {
@@ -29,7 +33,7 @@ export function bodySection(body, frameChanged) {
     refresh(self);
   });
   pointer(self);
-  keys(self);
+  frameKeys(canvas, self.player, shown, show);
   onTheme(() => refresh(self));
   showFrame(self, state.frame);
   return { section, show: (frame) => showFrame(self, frame) };
@@ -43,14 +47,8 @@ function heightFor(body, width) {
   return Math.round(Math.min(Math.max((width - 96) * aspect * 1.2 + 60, 300), Math.max(340, width * 0.62), 620));
 }
 
-/** Draws once per animation frame however often it is asked. */
 function refresh(self) {
-  if (self.waiting) return;
-  self.waiting = true;
-  requestAnimationFrame(() => {
-    self.waiting = false;
-    draw(self.view, self.state);
-  });
+  self.redraw();
 }
 
 function change(self, patch) {
@@ -66,15 +64,6 @@ function showFrame(self, frame) {
   self.hint.hidden = true;
   refresh(self);
   self.frameChanged(self.body.frames[self.state.frame]);
-}
-
-/** The scale at which the largest displacement is a tenth of the model; never below 1. */
-function autoScale(body) {
-  const [, largest] = body.range('displacement |u|');
-  const raw = largest > 0 ? (0.1 * body.size) / largest : 1;
-  if (raw <= 1) return 1;
-  const power = 10 ** Math.floor(Math.log10(raw));
-  return [5, 2, 1].map((f) => f * power).find((v) => v <= raw);
 }
 
 function controls(self) {
@@ -109,66 +98,13 @@ function controls(self) {
       button('+', 'zoom in', () => zoomBy(self, 1.4)),
       button('\u2212', 'zoom out', () => zoomBy(self, 1 / 1.4)),
       button('fit', 'show everything', () => zoomBy(self, 0)),
-      button('PNG', 'save the picture', () => save(self))));
-}
-
-function button(text, title, onclick) {
-  return el('button', { type: 'button', class: 'small', title, onclick }, text);
+      button('PNG', 'save the picture', () => savePicture(self.canvas, `frame_${self.state.frame}.png`))));
 }
 
 function zoomBy(self, factor, x, y) {
   if (factor) zoom(self.view, factor, x, y);
   else fit(self.view, self.state.scale);
   refresh(self);
-}
-
-function save(self) {
-  const { canvas } = self;
-  const copy = el('canvas', { width: canvas.width, height: canvas.height });
-  const ctx = copy.getContext('2d');
-  ctx.fillStyle = css('--panel');
-  ctx.fillRect(0, 0, copy.width, copy.height);
-  ctx.drawImage(canvas, 0, 0);
-  copy.toBlob((blob) => {
-    const url = URL.createObjectURL(blob);
-    el('a', { href: url, download: `frame_${self.state.frame}.png` }).click();
-    setTimeout(() => URL.revokeObjectURL(url), 1000);
-  });
-}
-
-/** Play button, slider and read-out; with one frame only the read-out. */
-function player(self) {
-  const { frames } = self.body;
-  const slider = el('input', {
-    type: 'range', min: 0, max: frames.length - 1, step: 1, 'aria-label': 'frame',
-    oninput: () => { stop(); showFrame(self, Number(slider.value)); },
-  });
-  const text = el('span', { class: 'readout' });
-  const play = el('button', { type: 'button', class: 'play', title: 'play (space)', onclick: toggle }, '\u25b6');
-  let timer = 0;
-  function stop() {
-    clearInterval(timer);
-    timer = 0;
-    play.textContent = '\u25b6';
-  }
-  function toggle() {
-    if (timer) return stop();
-    play.textContent = '\u275a\u275a';
-    const pause = Math.max(50, Math.min(250, 5000 / frames.length));
-    timer = setInterval(() => showFrame(self, (self.state.frame + 1) % frames.length), pause);
-  }
-  const several = frames.length > 1;
-  return {
-    bar: el('div', { class: 'player' }, several && play, several && slider, text),
-    stop, toggle: several ? toggle : stop,
-    update() {
-      const f = frames[self.state.frame];
-      slider.value = self.state.frame;
-      const parts = [f.step !== undefined && `step ${f.step}`,
-        f.increment !== undefined && `increment ${f.increment}`, f.time !== undefined && `time ${num(f.time, 5)}`];
-      text.textContent = `${parts.filter(Boolean).join(', ')}  (${self.state.frame + 1} of ${frames.length})`;
-    },
-  };
 }
 
 /** Drag moves, wheel zooms once the picture has been clicked (or with Ctrl), double click fits. */
@@ -211,18 +147,6 @@ function pointer(self) {
     zoomBy(self, Math.exp(-e.deltaY * 0.0015), ...at(e));
   }, { passive: false });
   canvas.addEventListener('dblclick', () => zoomBy(self, 0));
-}
-
-function keys(self) {
-  self.canvas.addEventListener('keydown', (e) => {
-    const step = { ArrowRight: 1, ArrowLeft: -1 }[e.key];
-    if (step) {
-      self.player.stop();
-      showFrame(self, self.state.frame + step);
-    } else if (e.key === ' ') self.player.toggle();
-    else return;
-    e.preventDefault();
-  });
 }
 
 /** Arc length along the contact points, and the values, broken where the surface is. */

@@ -17,7 +17,7 @@ export function numbers(source) {
 }
 
 /** Remembers the result of `make`. */
-function once(make) {
+export function once(make) {
   let value;
   return () => (value === undefined ? (value = make()) : value);
 }
@@ -121,7 +121,8 @@ export function readBody(report) {
   };
 }
 
-function memo(make) {
+/** Remembers the results of `make` by key. */
+export function memo(make) {
   const known = new Map();
   return (key) => {
     if (!known.has(key)) known.set(key, make(key));

@@ -2,6 +2,7 @@
 import plotStyle from 'uplot/dist/uPlot.min.css';
 import style from './style.css';
 import { bodySection } from './body_section.js';
+import { readSpace, spaceSection } from './space_section.js';
 import { convergenceSection } from './convergence.js';
 import { readBody, readHistory, readIncrements } from './data.js';
 import { el } from './dom.js';
@@ -42,9 +43,10 @@ function build(report) {
   };
   const historyPart = guarded(() => (histories = historySection(report, history, goTo)).section);
   const bodyPart = guarded(() => {
-    const body = readBody(report);
+    const space = report.mesh?.dimension === 3;
+    const body = space ? readSpace(report) : readBody(report);
     if (!body) return null;
-    const made = bodySection(body, (frame) => histories?.follow(frame));
+    const made = (space ? spaceSection : bodySection)(body, (frame) => histories?.follow(frame));
     view = { body, show: made.show };
     return made.section;
   });
@@ -57,7 +59,8 @@ function build(report) {
     el('a', { href: `#${s.id}` }, s.querySelector('h2').textContent));
   return [header(report, increments), el('nav', {}, ...links), ...shown,
     el('footer', {}, `Osculate ${report.osculate ?? ''}. Plots: drag to zoom, double click to go back, ` +
-      'click a point to show its frame. Body: drag to move, click it and use the wheel to zoom, ' +
+      `click a point to show its frame. Body: ${report.mesh?.dimension === 3 ? 'drag to turn, shift and drag' : 'drag'} ` +
+      'to move, click it and use the wheel to zoom, ' +
       'arrow keys to step through the frames.')];
 }
 

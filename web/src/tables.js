@@ -36,7 +36,10 @@ export function modelSection(report) {
 
 /** Table of increments (folded away) and the time spent in each phase. */
 export function runSection(report, increments) {
-  const phases = Object.entries(report.summary?.seconds ?? {}).filter(([name]) => name !== 'total');
+  const spent = report.summary?.seconds ?? {};
+  // The analysis as a whole is shown only where its parts are not known.
+  const sums = spent.solver === undefined ? ['total'] : ['total', 'analysis'];
+  const phases = Object.entries(spent).filter(([name]) => !sums.includes(name));
   if (!increments.length && !phases.length) return null;
   return el('section', { id: 'run' }, el('h2', {}, 'Run'),
     phases.length > 0 && phaseBars(phases), increments.length > 0 && incrementTable(increments));

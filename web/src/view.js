@@ -165,7 +165,8 @@ function rigidLines(view, state) {
   }
 }
 
-function colourBar(view, state, [low, high], map) {
+/** The colours with their values, on the right. */
+export function colourBar(view, state, [low, high], map) {
   const { ctx, dpr, W, H } = view;
   const width = 14 * dpr;
   const height = Math.min(H - 84 * dpr, 300 * dpr);
@@ -196,7 +197,7 @@ function colourBar(view, state, [low, high], map) {
 }
 
 /** A round length in the lower left corner. */
-function scaleBar(view) {
+export function scaleBar(view) {
   const { ctx, dpr, H, k } = view;
   const raw = (110 * dpr) / k;
   const power = 10 ** Math.floor(Math.log10(raw));

@@ -1,0 +1,233 @@
+// The faces of deformed bodies in space on a canvas: orthographic, shaded, coloured by a field.
+import { BAR } from './camera.js';
+import { colourMap } from './colour.js';
+import { num } from './format.js';
+import { fillVirtual } from './mesh.js';
+import { clear, line, target, triangle } from './space_raster.js';
+import { css } from './theme.js';
+import { colourBar, colourRange, scaleBar } from './view.js';
+
+const levels = 24; // of brightness
+
+export function createSpaceView(canvas, body) {
+  const { total } = body.topo;
+  const array = () => new Float32Array(total);
+  return {
+    canvas, body, ctx: canvas.getContext('2d'),
+    x: [array(), array(), array()], // deformed coordinates
+    X: array(), Y: array(), Z: array(), V: array(), // pixels, depth, value as 0..255
+    azimuth: -0.9, elevation: 0.45, centre: [0, 0, 0], px: 0, py: 0, k: 1, dpr: 1, W: 0, H: 0,
+  };
+}
+
+/** Sizes the canvas in CSS pixels. */
+export function resizeSpace(view, width, height) {
+  view.dpr = Math.min(2, devicePixelRatio || 1);
+  const W = Math.round(width * view.dpr);
+  const H = Math.round(height * view.dpr);
+  if (W === view.W && H === view.H) return;
+  const image = new ImageData(W, H);
+  Object.assign(view, { W, H, image, target: target(W, H, new Uint32Array(image.data.buffer)) });
+  Object.assign(view.canvas, { width: W, height: H });
+  view.canvas.style.height = `${height}px`;
+}
+
+/** Rows of the rotation: to the right, upwards, towards the eye. z is up. */
+function axes({ azimuth, elevation }) {
+  const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
+  return [[-sa, ca, 0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]];
+}
+
+/** Turns the picture by a drag of so many pixels. */
+export function turn(view, dx, dy) {
+  view.azimuth -= (0.008 * dx) / view.dpr;
+  view.elevation = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, view.elevation + (0.008 * dy) / view.dpr));
+}
+
+export function look(view, azimuth, elevation) {
+  Object.assign(view, { azimuth, elevation });
+}
+
+export function shift(view, dx, dy) {
+  view.px += dx;
+  view.py += dy;
+}
+
+export function zoomSpace(view, factor, px = view.W / 2, py = view.H / 2) {
+  view.px = px - view.W / 2 - factor * (px - view.W / 2 - view.px);
+  view.py = py - view.H / 2 - factor * (py - view.H / 2 - view.py);
+  view.k *= factor;
+}
+
+/** Shows the bodies (not the rigid faces) of the frame with room for the colour bar. */
+export function fitSpace(view, state) {
+  deform(view, state.frame, state.scale);
+  const rows = axes(view);
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  const box = { low: [...low], high: [...high] };
+  const deformable = view.body.deformable;
+  for (const i of deformable) {
+    const p = view.x.map((list) => list[i]);
+    p.forEach((v, k) => {
+      low[k] = Math.min(low[k], v);
+      high[k] = Math.max(high[k], v);
+    });
+    rows.forEach((row, k) => {
+      const v = row[0] * p[0] + row[1] * p[1] + row[2] * p[2];
+      box.low[k] = Math.min(box.low[k], v);
+      box.high[k] = Math.max(box.high[k], v);
+    });
+  }
+  if (!(low[0] <= high[0])) return;
+  view.centre = low.map((v, k) => (v + high[k]) / 2);
+  const free = view.W - BAR * view.dpr;
+  const size = Math.max(view.body.size, 1e-300);
+  view.k = Math.min((free * 0.86) / Math.max(box.high[0] - box.low[0], 1e-3 * size),
+    (view.H * 0.8) / Math.max(box.high[1] - box.low[1], 1e-3 * size));
+  const middle = rows.map((row) => row.reduce((s, v, k) => s + v * view.centre[k], 0));
+  view.px = (middle[0] - (box.low[0] + box.high[0]) / 2) * view.k - (BAR * view.dpr) / 2;
+  view.py = ((box.low[1] + box.high[1]) / 2 - middle[1]) * view.k;
+}
+
+function deform(view, frame, scale) {
+  const { body, x } = view;
+  const u = body.frames[frame].u();
+  for (let k = 0; k < 3; ++k) {
+    for (let i = 0; i < body.n; ++i) x[k][i] = body.points[3 * i + k] + scale * u[3 * i + k];
+    fillVirtual(body.topo, x[k]);
+  }
+}
+
+function project(view) {
+  const { X, Y, Z, x, centre: c } = view;
+  const [right, up, near] = axes(view);
+  const along = (row, i) => row[0] * (x[0][i] - c[0]) + row[1] * (x[1][i] - c[1]) + row[2] * (x[2][i] - c[2]);
+  for (let i = 0; i < X.length; ++i) {
+    X[i] = view.W / 2 + view.px + view.k * along(right, i);
+    Y[i] = view.H / 2 + view.py - view.k * along(up, i);
+    Z[i] = view.k * along(near, i);
+  }
+}
+
+/** The colour map at each level of brightness, packed. */
+function shades(map) {
+  return Array.from({ length: levels }, (_, s) => {
+    const bright = 0.62 + (0.38 * s) / (levels - 1);
+    return Uint32Array.from(map, (rgb) => {
+      const [r, g, b] = rgb.map((v) => Math.round(v * bright));
+      return ((255 << 24) | (b << 16) | (g << 8) | r) >>> 0;
+    });
+  });
+}
+
+/** Brightness level of a triangle: how much it faces a lamp beside the eye. Both sides count. */
+function levelOf({ X, Y, Z }, a, b, c) {
+  const u = [X[b] - X[a], Y[a] - Y[b], Z[b] - Z[a]];
+  const v = [X[c] - X[a], Y[a] - Y[c], Z[c] - Z[a]];
+  const n = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+  const size = Math.hypot(...n) || 1;
+  const towards = n[2] < 0 ? -1 : 1;
+  const light = (towards * (-0.35 * n[0] + 0.45 * n[1] + 0.82 * n[2])) / size;
+  return Math.max(0, Math.min(levels - 1, Math.round(light * (levels - 1))));
+}
+
+export function drawSpace(view, state) {
+  if (!view.W) return;
+  deform(view, state.frame, state.scale);
+  project(view);
+  const range = colourRange(view, state);
+  const map = colourMap(state.map, state.bands ? 10 : 0);
+  const values = view.body.frames[state.frame].field(state.field);
+  const [low, high] = range;
+  const factor = high > low ? 255 / (high - low) : 0;
+  for (let i = 0; i < view.body.n; ++i) {
+    view.V[i] = factor ? (values[i] - low) * factor : values[i] === values[i] ? 0 : NaN;
+  }
+  fillVirtual(view.body.topo, view.V);
+  clear(view.target);
+  paintFaces(view, view.body.topo, shades(map), shades(map.map(() => [176, 176, 176])));
+  if (state.rigid) {
+    const grey = shades(map.map(() => [142, 150, 160]));
+    paintFaces(view, view.body.rigidTopo, grey, grey);
+  }
+  if (state.lines) meshLines(view, state);
+  view.ctx.putImageData(view.image, 0, 0);
+  colourBar(view, state, range, map);
+  scaleBar(view);
+  triad(view);
+}
+
+function paintFaces(view, topo, luts, none) {
+  const { tris } = topo;
+  for (let t = 0; t < tris.length; t += 3) {
+    const s = levelOf(view, tris[t], tris[t + 1], tris[t + 2]);
+    triangle(view.target, view, tris[t], tris[t + 1], tris[t + 2], luts[s], none[s][0]);
+  }
+}
+
+/** Lines between elements, fainter as the elements get smaller, none below 5 pixels. */
+function meshLines(view, state) {
+  const { X, Y, Z } = view;
+  const draw = (edges) => {
+    const sample = Math.max(1, Math.floor(edges.length / 200));
+    let sum = 0;
+    let number = 0;
+    for (let i = 0; i < edges.length; i += sample, ++number) {
+      const { a, b } = edges[i];
+      sum += Math.hypot(X[a] - X[b], Y[a] - Y[b], Z[a] - Z[b]);
+    }
+    const size = number ? sum / number / view.dpr : 0;
+    if (size < 5) return;
+    const alpha = Math.min(0.6, 0.12 + size / 50);
+    for (const { a, b, mid } of edges) {
+      for (const [p, q] of mid < 0 ? [[a, b]] : [[a, mid], [mid, b]]) {
+        line(view.target, view, p, q, [20, 26, 34], alpha, 1.5 * view.dpr);
+      }
+    }
+  };
+  draw([...view.body.topo.inner, ...view.body.topo.outline]);
+  if (state.rigid) draw([...view.body.rigidTopo.inner, ...view.body.rigidTopo.outline]);
+}
+
+/** Directions of x, y, z in the lower left corner, above the scale bar. */
+function triad(view) {
+  const { ctx, dpr } = view;
+  const rows = axes(view);
+  const [left, bottom] = [40 * dpr, view.H - 76 * dpr];
+  ctx.font = `600 ${11.5 * dpr}px system-ui, sans-serif`;
+  ctx.textAlign = 'center';
+  ctx.textBaseline = 'middle';
+  ctx.strokeStyle = ctx.fillStyle = css('--ink');
+  ctx.lineWidth = 1.5 * dpr;
+  ['x', 'y', 'z'].forEach((name, k) => {
+    const [dx, dy] = [rows[0][k] * 24 * dpr, -rows[1][k] * 24 * dpr];
+    if (Math.hypot(dx, dy) < 3 * dpr) return;
+    ctx.beginPath();
+    ctx.moveTo(left, bottom);
+    ctx.lineTo(left + dx, bottom + dy);
+    ctx.stroke();
+    ctx.fillText(name, left + dx * 1.35, bottom + dy * 1.35);
+  });
+}
+
+/** What is under the pointer (canvas pixels): text lines, or null. */
+export function probeSpace(view, state, px, py) {
+  const { X, Y, Z, body } = view;
+  const at = Math.floor(py) * view.W + Math.floor(px);
+  const seen = view.target?.depth[at];
+  if (!(seen > -Infinity)) return null;
+  let best = -1;
+  let distance = (18 * view.dpr) ** 2;
+  for (const i of body.deformable) {
+    if (i >= body.n) continue;
+    const d = (X[i] - px) ** 2 + (Y[i] - py) ** 2 + (Z[i] - seen) ** 2;
+    if (d < distance) [best, distance] = [i, d];
+  }
+  if (best < 0) return null;
+  const frame = body.frames[state.frame];
+  const u = frame.u();
+  const list = (of) => [0, 1, 2].map((k) => num(of(3 * best + k), 5)).join(', ');
+  return [`${state.field}: ${num(frame.field(state.field)[best], 6)}`,
+    `at ${list((i) => body.points[i] + u[i])}`, `u = ${list((i) => u[i])}`];
+}
