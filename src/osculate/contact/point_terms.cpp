@@ -202,7 +202,8 @@ struct Covariant {
   }
 };
 
-// @eq KS2D:54, KSVD:55, KSVD:56, KSVD:57, KSVD:58 normal part: main, rotational and curvature part of N A^T n.
+// @eq KS2D:54, KSVD:55, KSVD:56, KSVD:57, KSVD:58 normal part: main, rotational and curvature part
+// of N A^T n.
 template <int Dim>
 void add_covariant_normal(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Traction<Dim>& t,
                           const Covariant<Dim>& c, const TangentForm& parts) {
