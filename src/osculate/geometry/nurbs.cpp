@@ -2,60 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
+
+#include "osculate/geometry/spline_basis.hpp"
 
 namespace osculate::geometry {
 namespace {
 
-using Row = std::array<double, cell::max_line_nodes>;
-
-/// B-spline values of degrees 0..p on one span: row q holds N_{span-q,q} .. N_{span,q}.
-using Triangle = std::array<Row, cell::max_line_nodes>;
-
-Triangle spline_values(const double* u, int degree, double xi) {
-  Triangle values{};
-  values[0][0] = 1.0;
-  for (int q = 1; q <= degree; ++q) {
-    const Row& lower = values[static_cast<std::size_t>(q - 1)];
-    Row& row = values[static_cast<std::size_t>(q)];
-    for (int j = 0; j < q; ++j) {  // u points at the start of the span
-      const double left = u[j - q + 1], right = u[j + 1];
-      const double share = lower[static_cast<std::size_t>(j)] / (right - left);
-      row[static_cast<std::size_t>(j)] += (right - xi) * share;
-      row[static_cast<std::size_t>(j) + 1] += (xi - left) * share;
-    }
-  }
-  return values;
-}
-
-/// Raises a row of degree q-1 to the derivative row of degree q:
-/// N'_{i,q} = q (N_{i,q-1}/(u_{i+q}-u_i) - N_{i+1,q-1}/(u_{i+q+1}-u_{i+1})).
-Row raise(const Row& lower, const double* u, int q) {
-  Row row{};
-  for (int j = 0; j < q; ++j) {
-    const double share = q * lower[static_cast<std::size_t>(j)] / (u[j + 1] - u[j - q + 1]);
-    row[static_cast<std::size_t>(j)] -= share;
-    row[static_cast<std::size_t>(j) + 1] += share;
-  }
-  return row;
-}
-
-std::array<Row, 4> spline_derivatives(const double* u, int degree, double xi) {
-  const Triangle values = spline_values(u, degree, xi);
-  std::array<Row, 4> n{};
-  for (int d = 0; d <= std::min(3, degree); ++d) {
-    Row row = values[static_cast<std::size_t>(degree - d)];
-    for (int q = degree - d + 1; q <= degree; ++q) row = raise(row, u, q);
-    n[static_cast<std::size_t>(d)] = row;
-  }
-  return n;
-}
-
 /// Quotient rule: from the derivatives of N_k w_k and of W to those of R_k = N_k w_k / W.
-void divide(std::array<Row, 4>& n, std::size_t count) {
+void divide(std::array<SplineRow, 4>& n, std::size_t count) {
   std::array<double, 4> w{};
   for (std::size_t d = 0; d < 4; ++d)
     for (std::size_t k = 0; k < count; ++k) w[d] += n[d][k];
@@ -78,22 +34,15 @@ bool NurbsCurve::closed() const {
   return (jet(hi()).r - jet(lo()).r).norm() <= 1e-12 * (high - low).norm();
 }
 
-Index NurbsCurve::find_span(double xi) const {
-  const auto first = knots.begin() + degree;
-  const auto last = knots.begin() + static_cast<std::ptrdiff_t>(control.size());
-  auto next = std::upper_bound(first, last, xi);  // first knot > xi
-  if (next == last || !(*next < *last)) next = std::lower_bound(first, last, *last);
-  if (next == first) next = std::upper_bound(first, last, *first);
-  return static_cast<Index>(next - knots.begin()) - 1;
-}
+Index NurbsCurve::find_span(double xi) const { return geometry::find_span(knots, degree, xi); }
 
 NurbsBasis NurbsCurve::basis_in_span(Index span, double xi) const {
   NurbsBasis basis;
   basis.span = span;
   basis.first = span - degree;
   basis.shape.count = degree + 1;
-  std::array<Row, 4>& n = basis.shape.n;
-  n = spline_derivatives(knots.data() + span, degree, xi);
+  std::array<SplineRow, 4>& n = basis.shape.n;
+  n = spline_basis(knots, degree, span, xi);
   const auto count = static_cast<std::size_t>(degree) + 1;
   for (std::size_t d = 0; d < 4; ++d)
     for (std::size_t k = 0; k < count; ++k)

@@ -6,11 +6,12 @@
 #include "osculate/cell/line_shape.hpp"
 #include "osculate/core/types.hpp"
 #include "osculate/geometry/curve_jet.hpp"
+#include "osculate/geometry/spline_basis.hpp"
 
 namespace osculate::geometry {
 
 /// Highest degree of a NURBS curve: a span then depends on `cell::max_line_nodes` control points.
-inline constexpr int max_nurbs_degree = cell::max_line_nodes - 1;
+inline constexpr int max_nurbs_degree = max_spline_degree;
 
 /// Rational basis of one knot span: control points first .. first + shape.count - 1.
 struct NurbsBasis {

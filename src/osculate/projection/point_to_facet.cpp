@@ -1,22 +1,14 @@
 #include "osculate/projection/point_to_facet.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "osculate/cell/shape.hpp"
+#include "osculate/projection/surface_distance.hpp"
 
 namespace osculate::projection {
 namespace {
-
-/// Squared distance and its derivatives at one point of the facet.
-struct DistanceJet2 {
-  double squared_distance = 0;
-  Vec2 slope{0, 0};                      ///< F_i
-  Mat<2, 2> bend = Mat<2, 2>::Zero();    ///< F_ij
-  Mat<2, 2> metric = Mat<2, 2>::Zero();  ///< a_ij
-};
 
 DistanceJet2 distance_jet2(cell::CellType type, std::span<const Vec3> nodes, const Vec2& xi,
                            const Vec3& point) {
@@ -25,24 +17,7 @@ DistanceJet2 distance_jet2(cell::CellType type, std::span<const Vec3> nodes, con
   r.fill(Vec3::Zero());
   for (std::size_t d = 0; d < r.size(); ++d)
     for (std::size_t k = 0; k < nodes.size(); ++k) r[d] += s.n[d][k] * nodes[k];
-  const Vec3 gap = point - r[0];
-  DistanceJet2 j;
-  j.squared_distance = gap.squaredNorm();
-  j.slope = {-gap.dot(r[1]), -gap.dot(r[2])};  // @eq KSVD:15
-  j.metric << r[1].dot(r[1]), r[1].dot(r[2]), r[1].dot(r[2]), r[2].dot(r[2]);
-  Mat<2, 2> second;
-  second << gap.dot(r[3]), gap.dot(r[4]), gap.dot(r[4]), gap.dot(r[5]);
-  j.bend = j.metric - second;  // @eq KSVD:16
-  return j;
-}
-
-bool positive(const Mat<2, 2>& m) { return m(0, 0) > 0 && m.determinant() > 0; }
-
-/// Downhill step: Newton's where the distance bends upwards, else Gauss-Newton's.
-Vec2 descent(const DistanceJet2& j) {
-  if (positive(j.bend)) return -j.bend.inverse() * j.slope;
-  if (positive(j.metric)) return -j.metric.inverse() * j.slope;
-  return -j.slope / std::max(j.metric.trace(), 1e-300);
+  return projection::distance_jet2(point - r[0], {r[1], r[2]}, {r[3], r[4], r[5]});
 }
 
 /// How far a point is outside of the reference cell (0 inside), in parts of its range.
