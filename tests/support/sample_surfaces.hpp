@@ -101,8 +101,10 @@ inline std::array<Vec2, 2> finite_range(const geometry::Surface& surface) {
   std::array<Vec2, 2> range{geometry::lo(surface), geometry::hi(surface)};
   if (const auto* cone = std::get_if<geometry::Cone>(&surface))
     range[0].y() = std::max(cone->from, 0.5);
-  range[0] = range[0].cwiseMax(-3.0);
-  range[1] = range[1].cwiseMin(5.0);
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    if (!std::isfinite(range[0][i])) range[0][i] = -3;
+    if (!std::isfinite(range[1][i])) range[1][i] = 5;
+  }
   return range;
 }
 

@@ -40,6 +40,13 @@ Sample sample_at(const Piece& piece, const Vec2& xi) {
           {size * jet.r1[0].lpNorm<1>(), size * jet.r1[1].lpNorm<1>()}};
 }
 
+/// The nearest point so far and the range of its piece.
+struct Best {
+  Sample sample;
+  Vec2 lo{0, 0}, hi{0, 0};
+  [[nodiscard]] double squared_distance() const { return sample.distance.squared_distance; }
+};
+
 /// Pressed against a side of the piece: moving inwards would only lead away.
 bool pressed(const Piece& piece, const Sample& s, Eigen::Index i) {
   return (s.xi[i] <= piece.lo[i] && s.distance.slope[i] > 0) ||
@@ -137,7 +144,7 @@ bool local_minimum(const Grid& grid, const std::array<int, 2>& last, int i, int 
 }
 
 /// Improves `best` by the minima of one piece.
-void search_piece(const Piece& piece, Sample& best) {
+void search_piece(const Piece& piece, Best& best) {
   Grid grid;
   const std::array<int, 2> last{2 * piece.patch.degree[0], 2 * piece.patch.degree[1]};
   const auto xi_at = [&](int i, int j) {
@@ -154,8 +161,9 @@ void search_piece(const Piece& piece, Sample& best) {
       Sample s = sample_at(piece, xi_at(i, j));
       descend(piece, s);
       // Pieces meet: a later one must be nearer by more than rounding.
-      const double rounding = best.distance.squared_distance == infinity ? 0 : 1e-15;
-      if (s.distance.squared_distance < best.distance.squared_distance * (1 - rounding)) best = s;
+      const double rounding = best.squared_distance() == infinity ? 0 : 1e-15;
+      if (s.distance.squared_distance < best.squared_distance() * (1 - rounding))
+        best = {s, piece.lo, piece.hi};
     }
 }
 
@@ -171,22 +179,28 @@ void for_each_piece(const NurbsPatch& patch, const Vec3& point, const Visit& vis
     }
 }
 
-/// On an open border of the patch and pulled outwards.
-bool at_open_border(const NurbsPatch& patch, const Sample& s) {
+/// Opposite borders of the patch meet at the border point `here`.
+bool meets_itself(const NurbsPatch& patch, const Vec2& xi, Eigen::Index i) {
+  Vec2 opposite = xi;
+  opposite[i] = xi[i] <= patch.lo()[i] ? patch.hi()[i] : patch.lo()[i];
+  const Vec3 here = patch.jet(xi).r, there = patch.jet(opposite).r;
+  const double size = (patch.control.front() - here).norm() + here.norm();
+  return (here - there).norm() <= 1e-12 * size;
+}
+
+/// Sets `at_border` and `at_kink` where the foot point is pulled out of its piece.
+void classify(const NurbsPatch& patch, const Best& best, SurfaceFoot& foot) {
   const Vec2 lo = patch.lo(), hi = patch.hi();
+  const Sample& s = best.sample;
   for (Eigen::Index i = 0; i < 2; ++i) {
-    const bool low = s.xi[i] <= lo[i], high = s.xi[i] >= hi[i];
+    const bool low = s.xi[i] <= best.lo[i], high = s.xi[i] >= best.hi[i];
     const double slope = s.distance.slope[i];
     if (!(low && slope > 0) && !(high && slope < 0)) continue;
     const double scale = std::max(s.distance.bend(i, i), 1e-3 * s.distance.metric(i, i));
     if (std::abs(slope) <= std::max(end_tolerance * (hi[i] - lo[i]) * scale, s.noise[i])) continue;
-    Vec2 opposite = s.xi;
-    opposite[i] = low ? hi[i] : lo[i];
-    const Vec3 here = patch.jet(s.xi).r, there = patch.jet(opposite).r;
-    const double size = (patch.control.front() - here).norm() + here.norm();
-    if ((here - there).norm() > 1e-12 * size) return true;
+    const bool outer = low ? s.xi[i] <= lo[i] : s.xi[i] >= hi[i];
+    (outer && !meets_itself(patch, s.xi, i) ? foot.at_border : foot.at_kink) = true;
   }
-  return false;
 }
 
 }  // namespace
@@ -202,21 +216,21 @@ SurfaceFoot closest_point(const geometry::NurbsPatch& patch, const Vec3& point) 
     const double d = nearest_possible(patch, piece.span, point);
     if (d < least) least = d, first = piece.span;
   });
-  Sample best;
-  best.distance.squared_distance = infinity;
+  Best best;
+  best.sample.distance.squared_distance = infinity;
   for_each_piece(patch, point, [&](const Piece& piece) {
     if (piece.span == first) search_piece(piece, best);
   });
   for_each_piece(patch, point, [&](const Piece& piece) {
     if (piece.span == first) return;
-    if (nearest_possible(patch, piece.span, point) < best.distance.squared_distance)
+    if (nearest_possible(patch, piece.span, point) < best.squared_distance())
       search_piece(piece, best);
   });
-  if (!std::isfinite(best.distance.squared_distance)) return foot;
+  if (!std::isfinite(best.squared_distance())) return foot;
   foot.converged = true;
-  foot.xi = best.xi;
-  foot.squared_distance = best.distance.squared_distance;
-  foot.at_border = at_open_border(patch, best);
+  foot.xi = best.sample.xi;
+  foot.squared_distance = best.squared_distance();
+  classify(patch, best, foot);
   return foot;
 }
 

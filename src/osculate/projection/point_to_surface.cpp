@@ -17,7 +17,7 @@ double squared(double x) { return x * x; }
 /// An analytic foot point that came out finite, or none.
 SurfaceFoot checked(const Vec2& xi, double squared_distance, bool at_border = false) {
   if (!xi.allFinite() || !std::isfinite(squared_distance)) return {};
-  return {true, xi, squared_distance, at_border};
+  return {true, xi, squared_distance, at_border, false};
 }
 
 /// A point in cylindrical coordinates about an axis; `turn` = -1 counts the angle clockwise.
@@ -42,7 +42,7 @@ struct Clamped {
 };
 
 Clamped clamped(double xi, double lo, double hi) {
-  const double range = std::isfinite(hi - lo) ? hi - lo : std::max(1.0, std::abs(lo));
+  const double range = std::isfinite(hi - lo) ? hi - lo : std::abs(lo);
   const double inside = std::clamp(xi, lo, hi);
   return {inside, std::abs(xi - inside) > end_tolerance * range};
 }

@@ -15,6 +15,7 @@ struct SurfaceFoot {
   Vec2 xi{0, 0};
   double squared_distance = std::numeric_limits<double>::infinity();
   bool at_border = false;  ///< on an open border, or the apex of a cone, and not orthogonal there
+  bool at_kink = false;    ///< on a knot line or seam where a NURBS patch is bent sharply
 };
 
 /// Closest point in closed form for plane, sphere, cylinder, cone and torus; a Lagrange facet as in

@@ -47,6 +47,7 @@ TEST(PointToSurface, PointsOnNormalsComeBack) {
 }
 
 TEST(PointToSurface, FootPointsAreOrthogonalOrOnABorder) {
+  int kinks = 0;
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> u(-3, 5);
   for (const testing::NamedSurface& sample : sample_surfaces()) {
@@ -58,11 +59,16 @@ TEST(PointToSurface, FootPointsAreOrthogonalOrOnABorder) {
       const geometry::SurfaceJet j = geometry::jet(sample.surface, foot.xi);
       const Vec3 gap = p - j.r;
       EXPECT_NEAR(gap.squaredNorm(), foot.squared_distance, 1e-12);
-      if (foot.at_border) continue;
+      if (foot.at_kink) {
+        EXPECT_EQ(sample.name, "hills 1 2");  // straight pieces along xi1
+        ++kinks;
+      }
+      if (foot.at_border || foot.at_kink) continue;
       for (const Vec3& tangent : j.r1)
         EXPECT_NEAR(gap.dot(tangent) / (tangent.norm() * gap.norm()), 0.0, 1e-8);
     }
   }
+  EXPECT_GT(kinks, 0);
 }
 
 TEST(PointToSurface, NoSampleIsNearer) {
