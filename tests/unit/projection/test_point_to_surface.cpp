@@ -166,6 +166,32 @@ TEST(PointToSurface, PatchesHaveBordersButNoSeam) {
   EXPECT_TRUE(closest_point(pipe, Vec3(2, 0.3, -0.001)).at_border);
 }
 
+TEST(PointToSurface, TheSeamOfASquareTubeIsAKinkLikeItsOtherEdges) {
+  const std::array<std::array<double, 2>, 5> ring{{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}, {1, 1}}};
+  geometry::NurbsPatch tube{.degree = {1, 1},
+                            .knots = {{{0, 0, 1, 2, 3, 4, 4}, {0, 0, 1, 1}}},
+                            .count = {5, 2},
+                            .control = {},
+                            .weights = std::vector<double>(10, 1.0)};
+  for (const auto& corner : ring)
+    for (const double z : {0.0, 2.0}) tube.control.emplace_back(corner[0], corner[1], z);
+  ASSERT_EQ(geometry::validate(tube), "");
+  EXPECT_EQ(tube.closed(), (geometry::ClosedFlags{true, false}));
+  for (const auto& corner : ring) {
+    const SurfaceFoot foot = closest_point(tube, Vec3(1.3 * corner[0], 1.2 * corner[1], 0.7));
+    EXPECT_TRUE(foot.at_kink);
+    EXPECT_FALSE(foot.at_border);
+    EXPECT_NEAR(foot.squared_distance, 0.13, 1e-15);
+    EXPECT_NEAR(foot.xi.y(), 0.35, 1e-15);
+  }
+  const SurfaceFoot side = closest_point(tube, Vec3(0.2, 1.5, 0.7));
+  EXPECT_FALSE(side.at_kink || side.at_border);
+  tube.control.back().x() = tube.control[8].x() = 0.9;  // the tube does not close any more
+  const SurfaceFoot open = closest_point(tube, Vec3(1.3, 1.2, 0.7));
+  EXPECT_TRUE(open.at_border);
+  EXPECT_FALSE(open.at_kink);
+}
+
 TEST(PointToSurface, PatchAgreesWithTheCylinderItIs) {
   const geometry::NurbsPatch patch = testing::nurbs_cylinder(1.5, 2);
   const Cylinder cylinder{.radius = 1.5, .length = 2};
