@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "osculate/io/plot.hpp"
+
 namespace osculate::verification {
 
 /// How a computed number is held against its reference. `info` rows never fail: they show where a
@@ -28,9 +30,16 @@ struct Curve {
   std::vector<std::vector<double>> rows;
 };
 
+/// A picture for the docs: written as SVG when the command asks for it.
+struct Picture {
+  std::string name;  ///< of the file, after the name of the case
+  io::LinePlot plot;
+};
+
 struct CaseResult {
   std::vector<Row> rows;
   std::vector<Curve> curves;
+  std::vector<Picture> pictures;
 };
 
 struct CaseContext {

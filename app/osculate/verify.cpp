@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/text.hpp"
+#include "osculate/io/atomic_file.hpp"
 
 namespace osculate::app {
 namespace {
@@ -20,7 +21,7 @@ using namespace verification;
 struct VerifyOptions {
   std::vector<std::string> names;
   bool list = false, slow = false;
-  std::string json, curves;
+  std::string json, curves, plots;
   int threads = 1;
 };
 
@@ -58,6 +59,14 @@ void write_curves(const std::string& folder, const Case& c, const CaseResult& re
     file << fmt::format("{}\n", fmt::join(curve.columns, ","));
     for (const auto& row : curve.rows) file << fmt::format("{:.10g}\n", fmt::join(row, ","));
   }
+}
+
+void write_plots(const std::string& folder, const Case& c, const CaseResult& result) {
+  if (folder.empty()) return;
+  std::filesystem::create_directories(folder);
+  for (const Picture& picture : result.pictures)
+    io::write_file(folder + "/" + std::string(c.name) + "." + picture.name + ".svg",
+                   io::plot_svg(picture.plot));
 }
 
 void print_row(const Row& row) {
@@ -109,6 +118,7 @@ int verify(const VerifyOptions& options) {
                      {"source", row.source}});
     }
     write_curves(options.curves, *c, result);
+    write_plots(options.plots, *c, result);
     fmt::print("  ({:.1f} s)\n",
                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
@@ -134,6 +144,8 @@ void add_verify(CLI::App& app, int& exit_code) {
   command->add_option("--json", options->json, "Also write the table to this file");
   command->add_option("--curves", options->curves,
                       "Write the curves of the cases as CSV to this folder");
+  command->add_option("--plots", options->plots,
+                      "Write the plots of the cases as SVG to this folder");
   command->add_option("--threads", options->threads, "Threads for assembly");
   command->callback([options, &exit_code] { exit_code = verify(*options); });
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "osculate/core/error.hpp"
+#include "osculate/io/markup.hpp"
 #include "osculate/io/report_bundle.hpp"
 
 namespace osculate::io {
@@ -78,19 +79,6 @@ std::string read_title(const std::string& data) {
     throw core::InputError({"report.json", line, ""}, reader.problem);
   }
   return reader.title;
-}
-
-std::string escape_markup(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else
-      out += c;
-  }
-  return out;
 }
 
 /// `<` occurs only inside strings of JSON, where \u003c means the same: neither `</script>` nor
