@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <limits>
-#include <optional>
+#include <numbers>
 #include <variant>
 
 #include "osculate/api/report_json.hpp"
@@ -29,23 +29,74 @@ mesh::SurfaceFacet mesh_facet(const pairing::SurfaceFacet& facet) {
   return out;
 }
 
-/// A square around the middle of the model, a little larger than it.
-struct PatchOf {
-  Vec3 low, high;
-  using Result = std::optional<std::array<Vec3, 4>>;
+using Quads = std::vector<std::array<Vec3, 4>>;
 
-  Result operator()(const geometry::Plane& plane) const {
+/// Quadrilaterals between the places at(s, t) of a regular grid over 0..1 x 0..1.
+template <class Place>
+Quads grid(int count_s, int count_t, const Place& at) {
+  Quads quads;
+  const auto place = [&](int i, int j) -> Vec3 {
+    return at(static_cast<double>(i) / count_s, static_cast<double>(j) / count_t);
+  };
+  for (int i = 0; i < count_s; ++i)
+    for (int j = 0; j < count_t; ++j)
+      quads.push_back({place(i, j), place(i + 1, j), place(i + 1, j + 1), place(i, j + 1)});
+  return quads;
+}
+
+/// What is seen of an analytic surface: all of it, and of an endless one what is near the model,
+/// whose box is between `low` and `high`.
+struct QuadsOf {
+  Vec3 low, high;
+
+  Quads operator()(const geometry::Plane& plane) const {
     const Mat<3, 3> frame = plane.frame();
     const Vec3 offset = 0.5 * (low + high) - plane.point;
     const double half = 0.6 * (high - low).norm();
-    const Vec2 middle(offset.dot(frame.col(0)), offset.dot(frame.col(1)));
-    return {{plane.jet(middle + Vec2(-half, -half)).r, plane.jet(middle + Vec2(half, -half)).r,
-             plane.jet(middle + Vec2(half, half)).r, plane.jet(middle + Vec2(-half, half)).r}};
+    const Vec2 first = Vec2(offset.dot(frame.col(0)), offset.dot(frame.col(1))).array() - half;
+    return grid(1, 1,
+                [&](double s, double t) { return plane.jet(first + 2 * half * Vec2(s, t)).r; });
   }
-  /// Shapes that nothing is drawn for.
-  template <class Other>
-  Result operator()(const Other&) const {
-    return std::nullopt;
+  Quads operator()(const geometry::Sphere& sphere) const {
+    return grid(32, 16, [&](double s, double t) -> Vec3 {
+      const double phi = 2 * std::numbers::pi * s, theta = std::numbers::pi * (t - 0.5);
+      const Vec3 out(std::cos(theta) * std::cos(phi), std::cos(theta) * std::sin(phi),
+                     std::sin(theta));
+      return sphere.center + sphere.radius * out;
+    });
+  }
+  Quads operator()(const geometry::Cylinder& cylinder) const {
+    return along_axis(cylinder, cylinder.point, cylinder.axis);
+  }
+  Quads operator()(const geometry::Cone& cone) const {
+    return along_axis(cone, cone.apex, cone.axis);
+  }
+  Quads operator()(const geometry::Torus& torus) const { return whole(torus, 48, 24); }
+  Quads operator()(const geometry::NurbsPatch& patch) const { return whole(patch, 24, 24); }
+  Quads operator()(const geometry::LagrangeSurface& facet) const { return whole(facet, 8, 8); }
+
+ private:
+  template <class Shape>
+  static Quads between(const Shape& shape, const Vec2& lo, const Vec2& hi, int count_1,
+                       int count_2) {
+    return grid(count_1, count_2, [&](double s, double t) -> Vec3 {
+      return shape.jet(lo + Vec2(s, t).cwiseProduct(hi - lo)).r;
+    });
+  }
+  template <class Shape>
+  static Quads whole(const Shape& shape, int count_1, int count_2) {
+    return between(shape, shape.lo(), shape.hi(), count_1, count_2);
+  }
+  /// Round the axis; along it no farther than a little beyond the model.
+  template <class Shape>
+  [[nodiscard]] Quads along_axis(const Shape& shape, const Vec3& origin, const Vec3& axis) const {
+    const double half = 0.6 * (high - low).norm();
+    const double middle = (0.5 * (low + high) - origin).dot(axis.normalized());
+    Vec2 lo = shape.lo(), hi = shape.hi();
+    lo.y() = std::max(lo.y(), middle - half);
+    hi.y() = std::min(hi.y(), middle + half);
+    if (!(hi.y() > lo.y())) return {};
+    return between(shape, lo, hi, 48, 1);
   }
 };
 
@@ -129,8 +180,9 @@ void ReportView<3>::add_patches() {
   }
   for (std::size_t b = 0; b < model_.rigid.size(); ++b) {
     if (!model_.rigid[b].shape) continue;
-    const PatchOf::Result corners = std::visit(PatchOf{low, high}, *model_.rigid[b].shape);
-    if (corners) patches_.push_back({b, *corners});
+    for (const std::array<Vec3, 4>& corners :
+         std::visit(QuadsOf{low, high}, *model_.rigid[b].shape))
+      patches_.push_back({b, corners});
   }
 }
 

@@ -29,9 +29,9 @@ class ReportView<2> {
   const model::Model& model_;
 };
 
-/// In space: the free faces of the bodies, the faces of meshed rigid bodies, and a square of each
-/// analytic plane, on nodes of their own; contact pressure and shear as fields of the slave's
-/// nodes.
+/// In space: the free faces of the bodies, the faces of meshed rigid bodies, and quadrilaterals of
+/// each analytic surface, on nodes of their own; contact pressure and shear as fields of the
+/// slave's nodes.
 ///
 /// Size       all frames together are kept below 8 million values, eight a point and frame (a page
 ///            of 43 MB); when not even two frames fit, there is no picture
@@ -47,7 +47,7 @@ class ReportView<3> {
   void finish(nlohmann::json&, nlohmann::json&) const {}
 
  private:
-  /// A square of an analytic surface, carried by its rigid body.
+  /// A quadrilateral of an analytic surface, carried by its rigid body.
   struct Patch {
     std::size_t body;
     std::array<Vec3, 4> corners;

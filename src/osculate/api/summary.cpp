@@ -144,6 +144,7 @@ nlohmann::json summary_json(const std::string& model_file,
     }
     steps.push_back({{"name", result.steps[s].name}, {"increments", list}});
   }
+  const pairing::PairSeconds& parts = result.seconds_system.contact_parts;
   return {
       {"osculate", core::version},
       {"model", model_file},
@@ -152,6 +153,10 @@ nlohmann::json summary_json(const std::string& model_file,
       {"steps", steps},
       {"total", {{"increments", increments}, {"iterations", iterations}, {"cutbacks", cutbacks}}},
       {"seconds", seconds_json(result, seconds)},
+      {"contact_seconds",
+       {{"search", parts.search},
+        {"projection", parts.projection},
+        {"evaluation", parts.evaluation}}},
       {"peak_memory_mb", peak_memory_mb()},
       {"unknowns", result.unknowns}};
 }

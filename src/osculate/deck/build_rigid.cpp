@@ -67,12 +67,28 @@ struct SurfaceOf {
   bool flip;
   using Result = std::optional<Analytic<3>>;
 
-  Result operator()(const PlaneShape& s) const {
+  Result operator()(const geometry::Plane& s) const {
     return {{geometry::Plane{s.point, (flip ? -1.0 : 1.0) * s.normal}, s.point}};
+  }
+  Result operator()(const geometry::Sphere& s) const { return turned(s, s.center); }
+  Result operator()(const geometry::Cylinder& s) const { return turned(s, s.point); }
+  Result operator()(const geometry::Cone& s) const { return turned(s, s.apex); }
+  Result operator()(const geometry::Torus& s) const { return turned(s, s.center); }
+  Result operator()(const geometry::NurbsPatch& s) const {
+    Vec3 sum = Vec3::Zero();
+    for (const Vec3& c : s.control) sum += c;
+    return {{flip ? geometry::reversed(s) : s, Vec3(sum / static_cast<double>(s.control.size()))}};
   }
   template <class Other>
   Result operator()(const Other&) const {
     return std::nullopt;
+  }
+
+ private:
+  template <class Round>
+  [[nodiscard]] Result turned(Round s, const Vec3& center) const {
+    s.inside = s.inside != flip;
+    return {{s, center}};
   }
 };
 
@@ -112,10 +128,8 @@ void add_meshed(BuildContext<Dim>& c, const Rigid& rigid, const SetShape& shape,
 template <int Dim>
 void add_frame(BuildContext<Dim>& c, const Rigid& rigid, Index index,
                const model::RigidShape<Dim>& shape, model::BasicRigidBody<Dim>& body) {
-  if constexpr (Dim == 2) {
-    const std::string wrong = geometry::validate(shape);
-    if (!wrong.empty()) throw core::InputError(rigid.name.mark, wrong);
-  }
+  const std::string wrong = geometry::validate(shape);
+  if (!wrong.empty()) throw core::InputError(rigid.name.mark, wrong);
   body.shape = shape;
   body.nodes.push_back(add_node<Dim>(c.model(), Vec<Dim>::Zero(), index));
   for (int i = 0; i < Dim; ++i)

@@ -10,6 +10,8 @@
 #include "osculate/cell/cell_type.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/types.hpp"
+#include "osculate/geometry/nurbs_patch.hpp"
+#include "osculate/geometry/surfaces.hpp"
 #include "osculate/mesh/generate_space.hpp"
 
 /// What a model file says, validated and with all defaults filled in, but not yet matched with a
@@ -125,14 +127,10 @@ struct NurbsShape {
   Marked<std::vector<double>> knots;  ///< non-decreasing, control.size() + degree + 1 of them
   Marked<std::vector<Vec3>> control;  ///< x, y, weight; not pre-multiplied
 };
-/// The half space behind `point`; `normal` (unit) points out of the body.
-struct PlaneShape {
-  Vec3 point{0, 0, 0};
-  Vec3 normal{0, 0, 1};
-};
-/// The last ones, from PlaneShape on, are shapes in space.
+/// The last ones, those of the geometry, are shapes in space.
 using RigidShape = std::variant<SetShape, CircleShape, ArcShape, PolylineShape, HalfPlaneShape,
-                                NurbsShape, PlaneShape>;
+                                NurbsShape, geometry::Plane, geometry::Sphere, geometry::Cylinder,
+                                geometry::Cone, geometry::Torus, geometry::NurbsPatch>;
 
 struct Rigid {
   Name name;

@@ -6,7 +6,7 @@ namespace {
 Spec nurbs_spec() {
   return map(
       "A rational B-spline curve, body on the right of the direction of travel.",
-      {required("degree", integer("Polynomial degree.").at_least(1).at_most(9).such_as("2")),
+      {required("degree", integer("Polynomial degree.").at_least(1).at_most(7).such_as("2")),
        required("knots", list("Knots, non-decreasing, as many as control points + degree + 1.",
                               number("One knot."))
                              .count(4)
@@ -51,6 +51,80 @@ std::vector<Key> plane_shapes() {
           optional("line", line), optional("nurbs", nurbs_spec())};
 }
 
+Spec nurbs_patch_spec() {
+  return map(
+      "A rational B-spline surface (models in space); its normal, out of the body, is that of the "
+      "first direction crossed with the second.",
+      {required("degree", list("Polynomial degrees of the two directions.",
+                               integer("One degree.").at_least(1).at_most(7))
+                              .count(2, 2)
+                              .such_as("[2, 1]")),
+       required("knots", list("Knots of the two directions, non-decreasing, as many as control "
+                              "points + degree + 1.",
+                              list("Knots of one direction.", number("One knot.")).count(4))
+                             .count(2, 2)
+                             .such_as("[[0, 0, 0, 1, 1, 1], [0, 0, 1, 1]]")),
+       required("control",
+                list("Control points by rows: the first direction runs through the rows, the "
+                     "second along each row; coordinates not multiplied by the weight w > 0.",
+                     list("One row.",
+                          list("One control point [x, y, z, w].", number("Coordinate or weight."))
+                              .count(4, 4))
+                         .count(2))
+                    .count(2)
+                    .such_as("[[[0, 0, 0, 1], [0, 1, 0, 1]], [[1, 0, 1, 1], [1, 1, 1, 1]], "
+                             "[[2, 0, 0, 1], [2, 1, 0, 1]]]"))});
+}
+
+/// Shapes of models in space that turn about an axis.
+std::vector<Key> round_shapes() {
+  const Spec axis =
+      place_spec("Direction of the axis, of any length but zero.").such_as("[0, 1, 0]");
+  const Spec center = place_spec("Centre.").such_as("[0, 0, -5]");
+  const Spec radius = number("Radius.").in("length").above(0).such_as("5");
+  const Key inside =
+      optional("inside",
+               boolean("The body is around the surface, so that it is a hole.").otherwise("false"));
+  const Spec sphere = map("A full sphere (models in space).",
+                          {required("center", center), required("radius", radius), inside});
+  const Spec cylinder =
+      map("A circular cylinder with open ends (models in space).",
+          {required("point", place_spec("A point of the axis.").such_as("[12, 0, -2]")),
+           required("axis", axis), required("radius", radius),
+           optional("length", number("Length along the axis, from the point.")
+                                  .in("length")
+                                  .above(0)
+                                  .otherwise_as("without ends on both sides")
+                                  .such_as("3")),
+           inside});
+  const Spec cone =
+      map("A circular cone that opens along its axis (models in space).",
+          {required("apex", place_spec("The apex.").such_as("[0, 0, 1]")), required("axis", axis),
+           required("half_angle", number("Angle between the axis and the surface.")
+                                      .in("degrees")
+                                      .above(0)
+                                      .below(90)
+                                      .such_as("30")),
+           optional("from", number("Where the cone begins, along the axis from the apex.")
+                                .in("length")
+                                .at_least(0)
+                                .otherwise("0")
+                                .such_as("0.5")),
+           optional("to",
+                    number("Where it ends.").in("length").otherwise_as("without end").such_as("4")),
+           inside});
+  const Spec torus = map(
+      "A ring torus (models in space).",
+      {required("center", center), required("axis", axis),
+       required(
+           "radius",
+           number("From the axis to the middle of the tube.").in("length").above(0).such_as("5")),
+       required("tube_radius", number("Radius of the tube.").in("length").above(0).such_as("1")),
+       inside});
+  return {optional("sphere", sphere), optional("cylinder", cylinder), optional("cone", cone),
+          optional("torus", torus)};
+}
+
 /// Shapes of models in space.
 std::vector<Key> space_shapes() {
   const Spec plane = map(
@@ -59,13 +133,10 @@ std::vector<Key> space_shapes() {
        required(
            "normal",
            place_spec("Direction out of the body, of any length but zero.").such_as("[0, 0, 1]"))});
-  const auto later = [](const char* doc) { return map(doc, {}).not_available(); };
-  return {optional("plane", plane),
-          optional("sphere", later("A sphere (models in space).")),
-          optional("cylinder", later("A circular cylinder (models in space).")),
-          optional("cone", later("A circular cone (models in space).")),
-          optional("torus", later("A torus (models in space).")),
-          optional("nurbs_patch", later("A rational B-spline surface (models in space)."))};
+  std::vector<Key> keys{optional("plane", plane)};
+  for (Key& key : round_shapes()) keys.push_back(std::move(key));
+  keys.push_back(optional("nurbs_patch", nurbs_patch_spec()));
+  return keys;
 }
 
 std::vector<Key> shape_keys() {
@@ -79,8 +150,7 @@ std::vector<Key> shape_keys() {
 
 std::vector<std::string> shape_names() {
   std::vector<std::string> out;
-  for (const Key& key : shape_keys())
-    if (key.spec.available) out.push_back(key.name);
+  for (const Key& key : shape_keys()) out.push_back(key.name);
   return out;
 }
 

@@ -60,82 +60,6 @@ Section section_of(const Value& v, const std::vector<Material>& materials) {
   return s;
 }
 
-ArcShape arc_of(const Value& v) {
-  ArcShape arc{point_of(v.at("center")), number_of(v.at("radius")), number_of(v.at("from")),
-               number_of(v.at("to")), flag(v, "inside")};
-  if (!(arc.to.value > arc.from.value && arc.to.value <= arc.from.value + 360))
-    throw core::InputError(
-        arc.to.mark, fmt::format("must be above `from` ({}) by at most 360, got {}", arc.from.value,
-                                 arc.to.value));
-  return arc;
-}
-
-PolylineShape polyline_of(const Value& v) {
-  PolylineShape line{points_of(v.at("points")), flag(v, "closed")};
-  const std::vector<Vec2>& points = line.points.value;
-  if (line.closed && points.size() < 3)
-    throw core::InputError(line.points.mark, "a closed polyline needs at least 3 points");
-  if (line.closed && points.front() == points.back())
-    throw core::InputError(line.points.mark,
-                           "a closed polyline must not repeat its first point at the end");
-  return line;
-}
-
-HalfPlaneShape half_plane_of(const Value& v) {
-  const Vec2 normal = point_of(v.at("normal"));
-  const double length = normal.stableNorm();
-  if (!(length > 0)) throw core::InputError(v.at("normal").mark, "must not be zero");
-  return {point_of(v.at("point")), normal / length};
-}
-
-PlaneShape plane_of(const Value& v) {
-  const Vec3 normal = place_of(v.at("normal"));
-  const double length = normal.stableNorm();
-  if (!(length > 0)) throw core::InputError(v.at("normal").mark, "must not be zero");
-  return {place_of(v.at("point")), normal / length};
-}
-
-NurbsShape nurbs_of(const Value& v) {
-  NurbsShape n;
-  n.degree = integer_of(v.at("degree"));
-  n.knots = numbers_of(v.at("knots"));
-  n.control.mark = v.at("control").mark;
-  for (const Value& item : v.at("control").items) {
-    if (!(item.items[2].number > 0))
-      throw core::InputError(item.items[2].mark, "a weight must be > 0, got " + item.items[2].text);
-    n.control.value.emplace_back(item.items[0].number, item.items[1].number, item.items[2].number);
-  }
-  const std::size_t expected =
-      n.control.value.size() + static_cast<std::size_t>(n.degree.value) + 1;
-  if (n.control.value.size() <= static_cast<std::size_t>(n.degree.value))
-    throw core::InputError(n.control.mark,
-                           fmt::format("degree {} needs at least {} control points, "
-                                       "got {}",
-                                       n.degree.value, n.degree.value + 1, n.control.value.size()));
-  if (n.knots.value.size() != expected)
-    throw core::InputError(n.knots.mark,
-                           fmt::format("expected {} knots (control points + degree + 1), got {}",
-                                       expected, n.knots.value.size()));
-  const std::vector<Value>& knots = v.at("knots").items;
-  for (std::size_t i = 1; i < knots.size(); ++i)
-    if (knots[i].number < knots[i - 1].number)
-      throw core::InputError(knots[i].mark, fmt::format("knots must not decrease, got {} after {}",
-                                                        knots[i].text, knots[i - 1].text));
-  return n;
-}
-
-RigidShape shape_of(const Value& v) {
-  if (const Value* const set = v.find("set")) return SetShape{name_of(*set)};
-  if (const Value* const circle = v.find("circle"))
-    return CircleShape{point_of(circle->at("center")), number_of(circle->at("radius")),
-                       flag(*circle, "inside")};
-  if (const Value* const arc = v.find("arc")) return arc_of(*arc);
-  if (const Value* const polyline = v.find("polyline")) return polyline_of(*polyline);
-  if (const Value* const line = v.find("line")) return half_plane_of(*line);
-  if (const Value* const plane = v.find("plane")) return plane_of(*plane);
-  return nurbs_of(v.at("nurbs"));
-}
-
 /// The key of the shape: the first one; exactly one of them is given.
 std::string kind_of(const Value& v) {
   for (const ValueEntry& entry : v.entries)
@@ -172,7 +96,7 @@ std::vector<Rigid> parse_rigid(const Value& v) {
   for (const ValueEntry& entry : v.entries) {
     Rigid rigid;
     rigid.name = {entry.key, entry.key_mark};
-    rigid.shape = shape_of(entry.value);
+    rigid.shape = parse_shape(entry.value);
     rigid.kind = kind_of(entry.value);
     if (const Value* const reference = entry.value.find("reference"))
       rigid.reference = numbers_of(*reference);

@@ -41,6 +41,8 @@ template <class E>
 [[nodiscard]] std::vector<Section> parse_sections(const Value& v,
                                                   const std::vector<Material>& materials);
 [[nodiscard]] std::vector<Rigid> parse_rigid(const Value& v);
+/// Of a map with exactly one shape among its keys.
+[[nodiscard]] RigidShape parse_shape(const Value& v);
 [[nodiscard]] std::vector<Contact> parse_contact(const Value& v);
 [[nodiscard]] std::vector<Amplitude> parse_amplitudes(const Value& v);
 [[nodiscard]] std::vector<Equation> parse_equations(const Value& v);

@@ -135,7 +135,13 @@ bool BasicSystem<Dim>::prescribed(Index unknown) const {
 }
 template <int Dim>
 SystemSeconds BasicSystem<Dim>::seconds() const {
-  return impl_->seconds;
+  SystemSeconds out = impl_->seconds;
+  for (const pairing::PairEvaluation<Dim>& pair : impl_->contact) {
+    out.contact_parts.search += pair.seconds.search;
+    out.contact_parts.projection += pair.seconds.projection;
+    out.contact_parts.evaluation += pair.seconds.evaluation;
+  }
+  return out;
 }
 template <int Dim>
 void BasicSystem<Dim>::enable(Term term, bool on) {

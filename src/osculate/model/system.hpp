@@ -22,9 +22,10 @@ struct Forces {
 
 /// Where the time of all evaluations went [s], summed up since the system was made.
 struct SystemSeconds {
-  double contact = 0;   ///< search, projection, contact terms of all points
-  double bulk = 0;      ///< internal forces and tangents of the cells
-  double assembly = 0;  ///< everything else: loads, scatter into vectors and matrix
+  double contact = 0;                  ///< search, projection, contact terms of all points
+  pairing::PairSeconds contact_parts;  ///< the same in parts, all pairs together
+  double bulk = 0;                     ///< internal forces and tangents of the cells
+  double assembly = 0;                 ///< everything else: loads, scatter into vectors and matrix
 };
 
 /// The system that `solve` sees: assembles residual and tangent of a model.

@@ -1,5 +1,6 @@
 #include "osculate/pairing/pair.hpp"
 
+#include <chrono>
 #include <cmath>
 
 #include "osculate/core/error.hpp"
@@ -25,6 +26,19 @@ void prepare(PairDefinition<Dim>& pair, Points<Dim> reference) {
 }
 
 namespace {
+
+/// Adds the time since the last call to one of the phases.
+class Laps {
+ public:
+  void add_to(double& seconds) {
+    const auto now = std::chrono::steady_clock::now();
+    seconds += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 template <int Dim>
 Placed<Dim> place_point(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& work,
@@ -224,15 +238,15 @@ bool report_place(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHis
 
 template <int Dim>
 void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
-                    const PointHistory<Dim>& history, const BranchHint<Dim>& hint,
-                    bool with_tangent, std::size_t i, PairEvaluation<Dim>& out) {
+                    const PointHistory<Dim>& history, const Placed<Dim>& placed,
+                    const BranchHint<Dim>& hint, bool with_tangent, std::size_t i,
+                    PairEvaluation<Dim>& out) {
   PointResult<Dim>& result = out.points[i];
   ContactBlock<Dim>& block = out.blocks[i];
   result = {};
   clear(block);
   result.weight = point_weight(pair, out, i);
   result.gap = std::numeric_limits<double>::infinity();
-  const Placed<Dim> placed = place_point(pair, out, x, i, history);
   if (!report_place(pair, x, history, placed, result)) return;
   const Kinematics<Dim>& k = placed.kinematics;
   const bool exact = with_tangent && pair.tangent.consistent;
@@ -288,11 +302,16 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
 template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed) {
+  Laps laps;
   refresh(pair, x, with_tangent, out);
+  laps.add_to(out.seconds.search);
   for (std::size_t i = 0; i < pair.slave.nodes.size(); ++i) {
     BranchHint<Dim> hint;
     if (!assumed.branch.empty()) hint = {assumed.branch[i], assumed.predict};
-    evaluate_point(pair, x, committed.points[i], hint, with_tangent, i, out);
+    const Placed<Dim> placed = place_point(pair, out, x, i, committed.points[i]);
+    laps.add_to(out.seconds.projection);
+    evaluate_point(pair, x, committed.points[i], placed, hint, with_tangent, i, out);
+    laps.add_to(out.seconds.evaluation);
   }
 }
 

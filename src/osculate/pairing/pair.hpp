@@ -93,6 +93,13 @@ struct ContactBlock {
   [[nodiscard]] const std::vector<NodeMatrix<Dim>>& path() const { return behind.path; }
 };
 
+/// Where the time of evaluations went [s], summed up over all calls with the same buffers.
+struct PairSeconds {
+  double search = 0;      ///< normals and areas of the slave, boxes and tree of the master
+  double projection = 0;  ///< candidates out of the tree, closest points, kinematics
+  double evaluation = 0;  ///< tractions, forces and tangents
+};
+
 /// Buffers of one evaluation; reused, so that the point loop allocates nothing after the first
 /// call.
 template <int Dim>
@@ -104,6 +111,7 @@ struct PairEvaluation {
   std::vector<Vec<Dim>> normals;
   std::vector<search::Box<Dim>> boxes;
   Tree<Dim> tree;
+  PairSeconds seconds;
 };
 
 /// Fills the reference areas from the reference coordinates. Throws core::GeometryError when area

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "packed_values.hpp"
+
 namespace osculate::api {
 namespace {
 
@@ -69,6 +73,32 @@ TEST(ReportView3, APlaneIsASquare) {
   ASSERT_EQ(mesh["cells"].size(), 2u);
   EXPECT_EQ(mesh["cells"][1]["rigid"], true);
   EXPECT_EQ(mesh["cells"][1]["connectivity"], (std::vector<int>{8, 9, 10, 11}));
+}
+
+/// Round shapes are shown whole, endless ones near the model; every corner is on the surface.
+TEST(ReportView3, AnalyticShapesAreQuadrilateralsOnThem) {
+  const auto corners = [](const geometry::Surface& shape) {
+    model::Model3 m = row_of(1);
+    m.rigid.push_back({"tool", Vec3::Zero(), {}, shape, {}});
+    const nlohmann::json mesh = ReportView<3>(m).mesh();
+    const std::vector<float> values = support::decoded(mesh["points"]);
+    std::vector<Vec3> out;
+    for (std::size_t i = 8; 3 * i < values.size(); ++i)
+      out.emplace_back(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    return out;
+  };
+  const std::vector<Vec3> ball = corners(geometry::Sphere{{1, 2, 3}, 2});
+  EXPECT_EQ(ball.size(), 4u * 32 * 16);
+  for (const Vec3& x : ball) EXPECT_NEAR((x - Vec3(1, 2, 3)).norm(), 2, 1e-6);
+  const std::vector<Vec3> roll = corners(geometry::Cylinder{{0, 0, -3}, {2, 0, 0}, 2});
+  EXPECT_EQ(roll.size(), 4u * 48);
+  for (const Vec3& x : roll) {
+    EXPECT_NEAR(std::hypot(x.y(), x.z() + 3), 2, 1e-6);
+    EXPECT_LT(std::abs(x.x() - 0.5), 1.1);
+  }
+  const std::vector<Vec3> cone = corners(geometry::Cone{{0, 0, -1}, {0, 0, -1}, 0.25, false, 0, 5});
+  for (const Vec3& x : cone) EXPECT_LE(x.z(), -1);
+  EXPECT_EQ(corners(geometry::Torus{{0, 0, 5}, {0, 0, 1}, 2, 1}).size(), 4u * 48 * 24);
 }
 
 /// The faces of meshed rigid bodies are those of their contact surfaces.

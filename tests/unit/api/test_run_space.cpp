@@ -12,6 +12,7 @@
 
 #include "osculate/api/run.hpp"
 #include "osculate/api/tangent_check.hpp"
+#include "packed_values.hpp"
 
 namespace osculate::api {
 namespace {
@@ -76,25 +77,6 @@ Array<T> array(const std::string& vtu, const std::string& name) {
   out.values.resize(bytes / sizeof(T));
   std::memcpy(out.values.data(), vtu.data() + start + sizeof bytes, bytes);
   return out;
-}
-
-/// Little-endian single precision out of base64.
-std::vector<float> decoded(const nlohmann::json& packed) {
-  const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  std::uint32_t group = 0;
-  int bits = 0;
-  for (const char c : packed["f32"].get<std::string>()) {
-    if (c == '=') break;
-    group = group << 6 | static_cast<std::uint32_t>(letters.find(c));
-    bits += 6;
-    if (bits < 8) continue;
-    bits -= 8;
-    bytes.push_back(static_cast<char>(group >> bits & 0xffU));
-  }
-  std::vector<float> values(bytes.size() / sizeof(float));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
-  return values;
 }
 
 struct RunSpace : testing::Test {
@@ -251,6 +233,13 @@ TEST_F(RunSpace, SummarySaysWhereTheTimeWent) {
   }
   EXPECT_LE(parts, t["analysis"].get<double>());
   EXPECT_GT(parts, 0.5 * t["analysis"].get<double>());
+  double contact = 0;
+  for (const char* phase : {"search", "projection", "evaluation"}) {
+    EXPECT_GT(s["contact_seconds"][phase].get<double>(), 0) << phase;
+    contact += s["contact_seconds"][phase].get<double>();
+  }
+  EXPECT_LE(contact, t["contact"].get<double>());
+  EXPECT_GT(contact, 0.5 * t["contact"].get<double>());
   EXPECT_DOUBLE_EQ(t["total"].get<double>(),
                    t["input"].get<double>() + t["analysis"].get<double>());
   EXPECT_EQ(s["unknowns"], 3 * 45 + 6);
@@ -272,9 +261,9 @@ TEST_F(RunSpace, ReportShowsTheOuterFaces) {
   ASSERT_EQ(data["frames"].size(), 3u);
   const nlohmann::json& frame = data["frames"][2];
   EXPECT_EQ(frame["increment"], 2);
-  const std::vector<float> u = decoded(frame["u"]), x = decoded(mesh["points"]);
-  const std::vector<float> p = decoded(frame["fields"]["contact pressure"]);
-  const std::vector<float> mises = decoded(frame["fields"]["von Mises stress"]);
+  const std::vector<float> u = support::decoded(frame["u"]), x = support::decoded(mesh["points"]);
+  const std::vector<float> p = support::decoded(frame["fields"]["contact pressure"]);
+  const std::vector<float> mises = support::decoded(frame["fields"]["von Mises stress"]);
   ASSERT_EQ(u.size(), 3 * points);
   ASSERT_EQ(p.size(), points);
   for (std::size_t i = 0; i < surface; ++i) {

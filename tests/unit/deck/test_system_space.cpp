@@ -101,6 +101,43 @@ TEST(SystemSpace, NodesOfARigidSurfaceAreSlaves) {
   EXPECT_NEAR(v[2], -v[0], 1e-9);
 }
 
+/// A circular cylinder and a rational patch that is the same surface press the same way.
+TEST(SystemSpace, ACylinderAndItsNurbsPatchPressAlike) {
+  const std::string steps =
+      "{name: s, increments: 2, prescribe: [{on: b.bottom, ux: 0, uy: 0, uz: 0}, {on: floor, uz: "
+      "-0.05, ux: 0.03}]}";
+  const std::string history =
+      "{on: c, of: force_x}, {on: c, of: force_z}, {on: floor, of: rfx}, {on: floor, of: rfz}, "
+      "{on: floor, of: rmy}";
+  const auto run = [&](const std::string& shape) {
+    const std::string text = edited(
+        block_on("", shape, ", friction: {coulomb: {mu: 0.2, penalty: 200}}", steps, history),
+        "slave: b.bottom", "slave: b.top");
+    const Table t = run_space(build_space(text));
+    EXPECT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
+    return t.rows.back();
+  };
+  const std::vector<double> cylinder =
+      run("{cylinder: {point: [1, 0, 4], axis: [0, 1, 0], radius: 3}, reference: [1, 0, 4]}");
+  // The lower half: a quarter to each side of the lowest line, from x = 4 through z = 1 to x = -2.
+  const std::string w = "0.70710678118654757";
+  const auto row = [&](const std::string& xz, const std::string& weight) {
+    const auto comma = xz.find(',');
+    const std::string x = xz.substr(0, comma), z = xz.substr(comma + 1);
+    return "[[" + x + ", -1, " + z + ", " + weight + "], [" + x + ", 2, " + z + ", " + weight +
+           "]]";
+  };
+  const std::string patch =
+      "nurbs_patch: {degree: [2, 1], knots: [[0, 0, 0, 1, 1, 2, 2, 2], [0, "
+      "0, 1, 1]], control: [" +
+      row("4, 4", "1") + ", " + row("4, 1", w) + ", " + row("1, 1", "1") + ", " + row("-2, 1", w) +
+      ", " + row("-2, 4", "1") + "]}";
+  const std::vector<double> nurbs = run("{" + patch + ", reference: [1, 0, 4]}");
+  EXPECT_LT(cylinder[1], -0.01);
+  EXPECT_GT(cylinder[0], 1e-4);
+  for (std::size_t i = 0; i < nurbs.size(); ++i) EXPECT_NEAR(nurbs[i], cylinder[i], 1e-9) << i;
+}
+
 /// A weight on a rigid plate sinks until the block carries it; its moment turns it.
 TEST(SystemSpace, ALoadedRigidPlaneFindsItsPlace) {
   const std::string text = edited(
