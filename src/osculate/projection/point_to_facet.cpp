@@ -118,6 +118,20 @@ Start nearest_sample(cell::CellType type, std::span<const Vec3> nodes, const Vec
   return {0.98 * samples.xi[at] + 0.02 * middle, std::sqrt(border) - edge / samples.steps};
 }
 
+/// Takes full Newton steps that the distance is too coarse to judge (it is flat where it is
+/// smallest: of 1e-16 relative, 1e-8 of the way), while the slope shrinks.
+void polish(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point, Vec2& xi,
+            DistanceJet2& j) {
+  for (int it = 0; it < 3 && positive(j.bend); ++it) {
+    const Vec2 next_xi = xi + descent(j);
+    if (!next_xi.allFinite() || outside(type, next_xi) > 0) return;
+    const DistanceJet2 next = distance_jet2(type, nodes, next_xi, point);
+    if (!(next.slope.norm() < j.slope.norm())) return;
+    xi = next_xi;
+    j = next;
+  }
+}
+
 /// Safeguarded Newton inside the facet. Feature none if the way leads out of it.
 FacetFoot foot_inside(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point,
                       const Vec2& start) {
@@ -143,6 +157,7 @@ FacetFoot foot_inside(cell::CellType type, std::span<const Vec3> nodes, const Ve
     j = next;
     if (part == 1 && step.norm() <= 1e-15) break;
   }
+  polish(type, nodes, point, foot.xi, j);
   foot.squared_distance = j.squared_distance;
   foot.converged = positive(j.bend) || j.slope.norm() <= 1e-12 * j.metric.trace();
   foot.feature = foot.converged ? Feature::face : Feature::none;
@@ -162,6 +177,23 @@ Edge edge_of(cell::CellType type, std::span<const Vec3> nodes, int edge) {
   if (cell::info(type).order == 1) return {0.5 * (a + b), 0.5 * (b - a), Vec3::Zero()};
   const Vec3 m = nodes[corners + k];
   return {m, 0.5 * (b - a), 0.5 * (a + b) - m};
+}
+
+/// The same along an edge.
+void polish(const Edge& e, const Vec3& point, double& t, double& squared) {
+  const auto slope = [&](double s) { return -(point - e.at(s)).dot(e.half + 2 * s * e.bend); };
+  double before = std::abs(slope(t));
+  for (int it = 0; it < 3; ++it) {
+    const Vec3 first = e.half + 2 * t * e.bend;
+    const double bend = first.squaredNorm() - 2 * (point - e.at(t)).dot(e.bend);
+    if (!(bend > 0)) return;
+    const double next = t - slope(t) / bend;
+    const double after = std::abs(slope(next));
+    if (!(std::abs(next) <= 1) || !(after < before)) return;
+    t = next;
+    before = after;
+    squared = (point - e.at(t)).squaredNorm();
+  }
 }
 
 /// Safeguarded Newton for the nearest t in -1..1.
@@ -191,6 +223,7 @@ double nearest_on_edge(const Edge& e, const Vec3& point, double& squared) {
     squared = d;
     if (std::abs(step) <= 1e-15) break;
   }
+  polish(e, point, t, squared);
   return t;
 }
 

@@ -70,6 +70,32 @@ TEST(PointToFacet, IsNeverFartherThanAnySample) {
     }
 }
 
+/// The distance is flat at its minimum and cannot tell the last half of the digits; the foot has
+/// them all the same, or the forces of a contact point would be noise below 1e-9.
+TEST(PointToFacet, TheFootIsExactToRounding) {
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> u(0.05, 0.95);
+  for (const CellType type : types)
+    for (const double height : {-0.1, -1e-3, -1e-5, 1e-4, 0.02})
+      for (int i = 0; i < 200; ++i) {
+        std::vector<Vec3> nodes = nodes_of(type, 0.2);
+        for (Vec3& x : nodes) x += Vec3(3, -5, 4);
+        Vec2 xi(u(generator), u(generator));
+        xi = cell::is_triangle(type) ? Vec2(xi.x(), (1 - xi.x()) * xi.y())
+                                     : Vec2(2 * xi - Vec2::Ones());
+        const cell::FacetShape s = cell::facet_shape(type, xi);
+        Vec3 a = Vec3::Zero(), b = Vec3::Zero();
+        for (std::size_t k = 0; k < nodes.size(); ++k) {
+          a += s.n[1][k] * nodes[k];
+          b += s.n[2][k] * nodes[k];
+        }
+        const Vec3 p = at(type, nodes, xi) + height * a.cross(b).normalized();
+        const FacetFoot foot = closest_point(type, nodes, p);
+        ASSERT_EQ(foot.feature, Feature::face);
+        EXPECT_LT((foot.xi - xi).norm(), 3e-14) << cell::info(type).name << " " << height;
+      }
+}
+
 TEST(PointToFacet, PointsOnNormalsComeBack) {
   for (const CellType type : types)
     for (const double height : {-0.3, -1e-3, 0.0, 0.2}) {
