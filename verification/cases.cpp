@@ -14,6 +14,8 @@ const std::vector<Case>& all_cases() {
        contact_patch},
       {"critical_displacement", "A sheared layer starts to slide as a whole where eq. (90) says",
        false, critical_displacement},
+      {"drag_in_space", "Friction in space: quadratic convergence, covariant tangent beside it",
+       false, drag_in_space},
       {"hertz_line", "A circle on a half-plane gives Hertz's pressure for the computed force",
        false, hertz_line},
       {"hertz_sphere", "A sphere on a half-space follows F = 4/3 E* sqrt(R) d^1.5", false,

@@ -10,6 +10,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult contact_patch(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_sphere(const CaseContext& context);
 [[nodiscard]] CaseResult incline(const CaseContext& context);
+[[nodiscard]] CaseResult drag_in_space(const CaseContext& context);
 [[nodiscard]] CaseResult critical_displacement(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_line(const CaseContext& context);
 [[nodiscard]] CaseResult large_rotation(const CaseContext& context);
