@@ -205,5 +205,24 @@ TEST(SystemSpace, TheExampleSlidesAtTheLimit) {
   EXPECT_LT(column(t.rows[33], "joint.force_y"), 0);
 }
 
+/// The dragged ball on a coarser block: friction follows the path around its corner.
+TEST(SystemSpace, TheBallIsDraggedAroundACorner) {
+  const std::string example = test_file("../../../examples/ball_dragged/ball_dragged.yaml");
+  const std::string text = edited(example, "elements: [18, 12, 3]", "elements: [12, 8, 2]");
+  const Built3 built = build_space(text);
+  EXPECT_EQ(built.warnings, std::vector<std::string>{});
+  const Table t = run_space(built);
+  ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
+  const auto force = [&](std::size_t back) {  // of the row so many before the last
+    const std::vector<double>& row = t.rows[t.rows.size() - 1 - back];
+    return Vec3(row[3], row[4], row[2]);  // along, across, normal
+  };
+  const Vec3 across = force(0), along = force(8);
+  EXPECT_GT(along.x(), 0.25 * along.z());
+  EXPECT_LT(std::abs(along.y()), 0.05 * along.z());
+  EXPECT_GT(across.y(), 0.25 * across.z());
+  EXPECT_LT(std::abs(across.x()), 0.05 * across.z());
+}
+
 }  // namespace
 }  // namespace osculate::deck
