@@ -1,7 +1,8 @@
 #include "osculate/solid/enhanced.hpp"
 
 #include <Eigen/LU>
-#include <limits>
+
+#include "osculate/solid/local_modes.hpp"
 
 namespace osculate::solid {
 namespace {
@@ -62,27 +63,10 @@ EnhancedModes enhanced_modes(const Section& section, const Coordinates& referenc
   EnhancedModes e;
   for (std::size_t q = 0; q < 4; ++q)
     e.matrix[q] = mode_matrix(reference, rule.points[q], geometry[q].determinant);
-  Vec<enhanced_count> rest, step = Vec<enhanced_count>::Zero();
-  double scale = 0, before = std::numeric_limits<double>::infinity();
-  constexpr int most = 40;
-  for (int it = 0; it < most; ++it) {
-    // Rounding level: small enough, or nearly so and not getting smaller any more.
-    constexpr double rounding = 1e-15, nearly = 1e-12;
-    e.ok = sample(section, geometry, strain, e, rest, scale);
-    const double size = rest.lpNorm<Eigen::Infinity>();
-    if (e.ok && (size <= rounding * scale || (size <= nearly * scale && size >= 0.5 * before)))
-      return e;
-    if (e.ok) {
-      before = size;
-      step = -e.stiffness.partialPivLu().solve(rest);
-      e.alpha += step;
-    } else {  // too far: half of the way back to where the law had an answer
-      if (it == 0) return e;
-      step *= 0.5;
-      e.alpha -= step;
-    }
-  }
-  e.ok = false;
+  solve_modes<Vec<enhanced_count>>(e,
+                                   [&](EnhancedModes& m, Vec<enhanced_count>& rest, double& scale) {
+                                     return sample(section, geometry, strain, m, rest, scale);
+                                   });
   return e;
 }
 

@@ -2,10 +2,10 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "osculate/cell/quadrature.hpp"
+#include "osculate/solid/local_modes.hpp"
 #include "osculate/solid/volume_point.hpp"
 
 namespace osculate::solid {
@@ -195,27 +195,9 @@ bool fill_shell(const VolumeSection& section, cell::CellType type, const Coordin
 ShellModes shell_modes(const VolumeSection& section, const ShellCell& cell) {
   ShellModes m;
   m.alpha.setZero(cell.rule->modes);
-  ShellModeVector rest, step = m.alpha;
-  double scale = 0, before = std::numeric_limits<double>::infinity();
-  constexpr int most = 40;
-  for (int it = 0; it < most; ++it) {
-    // Rounding level: small enough, or nearly so and not getting smaller any more.
-    constexpr double rounding = 1e-15, nearly = 1e-12;
-    m.ok = sample_modes(section, cell, m, rest, scale);
-    const double size = rest.lpNorm<Eigen::Infinity>();
-    if (m.ok && (size <= rounding * scale || (size <= nearly * scale && size >= 0.5 * before)))
-      return m;
-    if (m.ok) {
-      before = size;
-      step = -m.stiffness.partialPivLu().solve(rest);
-      m.alpha += step;
-    } else {  // too far: half of the way back to where the law had an answer
-      if (it == 0) return m;
-      step *= 0.5;
-      m.alpha -= step;
-    }
-  }
-  m.ok = false;
+  solve_modes<ShellModeVector>(m, [&](ShellModes& modes, ShellModeVector& rest, double& scale) {
+    return sample_modes(section, cell, modes, rest, scale);
+  });
   return m;
 }
 

@@ -1,6 +1,6 @@
 #include "osculate/solid/volume_enhanced.hpp"
 
-#include <limits>
+#include "osculate/solid/local_modes.hpp"
 
 namespace osculate::solid {
 namespace {
@@ -70,27 +70,10 @@ EnhancedModes3 enhanced_modes(const VolumeSection& section, const Coordinates3& 
   EnhancedModes3 e;
   for (std::size_t q = 0; q < 8; ++q)
     e.matrix[q] = mode_matrix(centre, rule.points[q], points[q].determinant);
-  Vec<enhanced_count3> rest, step = Vec<enhanced_count3>::Zero();
-  double scale = 0, before = std::numeric_limits<double>::infinity();
-  constexpr int most = 40;
-  for (int it = 0; it < most; ++it) {
-    // Rounding level: small enough, or nearly so and not getting smaller any more.
-    constexpr double rounding = 1e-15, nearly = 1e-12;
-    e.ok = sample(section.law, points, e, rest, scale);
-    const double size = rest.lpNorm<Eigen::Infinity>();
-    if (e.ok && (size <= rounding * scale || (size <= nearly * scale && size >= 0.5 * before)))
-      return e;
-    if (e.ok) {
-      before = size;
-      step = -e.stiffness.partialPivLu().solve(rest);
-      e.alpha += step;
-    } else {  // too far: half of the way back to where the law had an answer
-      if (it == 0) return e;
-      step *= 0.5;
-      e.alpha -= step;
-    }
-  }
-  e.ok = false;
+  solve_modes<Vec<enhanced_count3>>(
+      e, [&](EnhancedModes3& m, Vec<enhanced_count3>& rest, double& scale) {
+        return sample(section.law, points, m, rest, scale);
+      });
   return e;
 }
 
