@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "osculate/deck/build_context.hpp"
+#include "osculate/mesh/shell_direction.hpp"
 #include "osculate/model/bulk.hpp"
 
 namespace osculate::deck {
@@ -179,6 +180,8 @@ void build_sections(BuildContext<Dim>& c) {
     section.section = solid_section(c, s);
     section.cells = set.cells;
     if constexpr (Dim == 2) check_mixture(c, s, section);
+    if (s.element.value == SectionElement::solid_shell)
+      (void)mesh::align_shells(m.mesh, section.cells);
     for (const mesh::CellRef& ref : section.cells) add_cell(c, s, section, ref);
     m.sections.push_back(std::move(section));
   }

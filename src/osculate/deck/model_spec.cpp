@@ -59,10 +59,9 @@ Spec sections_spec() {
            word("axisymmetric", SectionElement::axisymmetric,
                 "x is the radius, y the axis; forces are those of the whole circumference"),
            word("solid", SectionElement::solid, "a body in space, of volume cells"),
-           word(
-               "solid_shell", SectionElement::solid_shell,
-               "a thin body in space, of hex8 or shell18 cells whose thickness goes from the first "
-               "half of their nodes to the second")})
+           word("solid_shell", SectionElement::solid_shell,
+                "a thin body in space, of hex8 or shell18 cells; the thickness goes from the first "
+                "half of their nodes to the second, and hex8 cells in one layer are turned so")})
           .such_as("plane_strain");
   const Spec kinematics =
       choice("How strains are measured.",

@@ -205,6 +205,38 @@ TEST(SystemSpace, TheExampleSlidesAtTheLimit) {
   EXPECT_LT(column(t.rows[33], "joint.force_y"), 0);
 }
 
+/// A cantilever of solid-shells, thin along x, y or z of its box: the same force bends it.
+TEST(SystemSpace, AShellMayBeThinInAnyDirection) {
+  struct Way {
+    const char *box, *held, *moved;
+  };
+  const std::vector<Way> ways{{"x: [0, 10], y: [0, 1], z: [0, 0.1], elements: [8, 2, 1]", "left",
+                               "{on: b.top_right, uz: 1}"},
+                              {"y: [0, 10], z: [0, 1], x: [0, 0.1], elements: [1, 8, 2]", "front",
+                               "{on: b.back_right, ux: 1}"},
+                              {"z: [0, 10], x: [0, 1], y: [0, 0.1], elements: [2, 1, 8]", "bottom",
+                               "{on: b.top_back, uy: 1}"}};
+  std::vector<double> forces;
+  for (const Way& way : ways) {
+    const std::string moved = way.moved;
+    const std::string set = moved.substr(5, moved.find(',') - 5);
+    const std::string text =
+        std::string("osculate: 1\nmesh: {generate: {b: {box: {") + way.box +
+        "}}}}\nmaterials: {m: {st_venant_kirchhoff: {E: 1.2e6, nu: 0.3}}}\nsections: [{on: b, "
+        "material: m, element: solid_shell}]\nsteps: [{name: s, increments: 2, prescribe: [{on: "
+        "b." +
+        way.held + ", ux: 0, uy: 0, uz: 0}, " + moved + "]}]\noutput: {history: [{on: " + set +
+        ", of: rf" + moved.substr(moved.find(", u") + 3, 1) + "}]}\n";
+    const Table t = run_space(build_space(text));
+    ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
+    forces.push_back(t.rows.back()[0]);
+  }
+  EXPECT_GT(forces[0], 0.2);  // 3 E I u / L^3 = 0.3 of a slender beam
+  EXPECT_LT(forces[0], 0.4);
+  EXPECT_NEAR(forces[1], forces[0], 1e-8 * forces[0]);
+  EXPECT_NEAR(forces[2], forces[0], 1e-8 * forces[0]);
+}
+
 /// The dragged ball on a coarser block: friction follows the path around its corner.
 TEST(SystemSpace, TheBallIsDraggedAroundACorner) {
   const std::string example = test_file("../../../examples/ball_dragged/ball_dragged.yaml");
