@@ -44,8 +44,10 @@ struct SurfaceFrame {
   f.valid = true;
   f.tangent = jet.r1;
   f.area = area;
-  f.normal = cross / area;                                            // @eq KSVD:4
-  f.a << r1.squaredNorm(), r1.dot(r2), r1.dot(r2), r2.squaredNorm();  // @eq KSVD:5
+  f.normal = cross / area;  // @eq KSVD:4
+  Mat<3, 2> tangents;
+  tangents << r1, r2;
+  f.a = tangents.transpose() * tangents;  // @eq KSVD:5
   f.a_inv << f.a(1, 1), -f.a(0, 1), -f.a(1, 0), f.a(0, 0);
   f.a_inv = f.a_inv / area / area;  // @eq KSVD:6 with det a = |r_1 x r_2|^2
   std::array<Mat<2, 2>, 2> along;   // r_ij . r_m
@@ -57,8 +59,10 @@ struct SurfaceFrame {
   f.h = second(f.normal);  // @eq KSVD:7
   f.h_mixed = f.h * f.a_inv;
   along = {second(r1), second(r2)};
-  for (Eigen::Index k = 0; k < 2; ++k)  // @eq KSVD:11
-    f.gamma[static_cast<std::size_t>(k)] = f.a_inv(0, k) * along[0] + f.a_inv(1, k) * along[1];
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vec2 raise = f.a_inv.col(static_cast<Eigen::Index>(k));
+    f.gamma[k] = raise[0] * along[0] + raise[1] * along[1];  // @eq KSVD:11
+  }
   return f;
 }
 
@@ -103,8 +107,8 @@ struct SurfaceFrame {
 [[nodiscard]] inline Mat<2, 2> covariant_derivative(const SurfaceFrame& f, const Vec2& field,
                                                     const Mat<2, 2>& partial) {
   Mat<2, 2> nabla = partial;
-  for (Eigen::Index i = 0; i < 2; ++i)  // @eq KSVD:19
-    nabla.row(i) += (f.gamma[static_cast<std::size_t>(i)] * field).transpose();
+  for (std::size_t i = 0; i < 2; ++i)
+    nabla.row(static_cast<Eigen::Index>(i)) += (f.gamma[i] * field).transpose();  // @eq KSVD:19
   return nabla;
 }
 
