@@ -1,18 +1,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <span>
 
 #include "../cases.hpp"
-#include "../model3.hpp"
+#include "beam.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
 
 namespace osculate::verification {
 namespace {
 
-constexpr double length = 24, height = 0.25, width = 1, radius = 2, pull = 9;
-constexpr int increments = 90, chords = 49;
+constexpr int increments = 90;
 
 struct Choice {
   bool quadratic = false;
@@ -22,90 +20,17 @@ struct Choice {
   solve::LineSearch line_search = solve::LineSearch::off;
   solve::Predictor predictor = solve::Predictor::automatic;
   bool cylinder_master = false;  ///< the beam's nodes are the slaves
-  int refine = 1;                ///< of the beam's length
 };
 
-/// The beam: bottom at z = 0, one element through the thickness and across the width.
-std::vector<pairing::SurfaceFacet> add_beam(Builder3& b, const Choice& c) {
-  const int elements = (c.quadratic ? 12 : 24) * c.refine;
-  const double step = length / elements;
-  std::vector<pairing::SurfaceFacet> bottom;
-  for (int e = 0; e < elements; ++e) {
-    const auto at = [&](const Vec2& xi, double z) {
-      return b.node({(e + 0.5 + 0.5 * xi.x()) * step, 0.5 * width * (1 + xi.y()), z});
-    };
-    const cell::CellType face = c.quadratic ? cell::CellType::quad9 : cell::CellType::quad4;
-    std::vector<Index> nodes;
-    for (const double z : {0.0, height})
-      for (int k = 0; k < cell::info(face).nodes; ++k)
-        nodes.push_back(at(cell::area_node(face, k), z));
-    b.cell(c.quadratic ? cell::CellType::shell18 : cell::CellType::hex8, nodes, 0);
-    // the bottom face seen from below: corners 0 3 2 1, so edges 3 2 1 0
-    constexpr std::array<std::size_t, 9> below{0, 3, 2, 1, 7, 6, 5, 4, 8};
-    std::vector<Index> turned;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(cell::info(face).nodes); ++k)
-      turned.push_back(nodes[below[k]]);
-    bottom.push_back(pairing::surface_facet(face, turned));
-  }
-  return bottom;
-}
-
-/// The cylinder: chords on the full circumference, one node at the top; rigid body 0.
-pairing::FacetSurface add_cylinder(Builder3& b) {
-  pairing::FacetSurface ring;
-  const auto at = [&](int k, double y) {
-    const double angle = 0.5 * std::numbers::pi - 2 * std::numbers::pi * k / chords;
-    return b.node({12 + radius * std::cos(angle), y, -radius + radius * std::sin(angle)}, 0);
-  };
-  for (int k = 0; k < chords; ++k)
-    ring.facets.push_back(pairing::surface_facet(
-        cell::CellType::quad4, std::array<Index, 4>{at(k, 0), at((k + 1) % chords, 0),
-                                                    at((k + 1) % chords, width), at(k, width)}));
-  model::RigidBody3 body;
-  body.name = "cylinder";
-  body.reference = {12, 0.5 * width, -radius};
-  for (std::size_t n = 0; n < b.model.reference.size(); ++n)
-    if (b.model.body_of_node[n] == 0) body.nodes.push_back(static_cast<Index>(n));
-  b.model.rigid.push_back(std::move(body));
-  return ring;
-}
-
 model::Model3 make_model(const Choice& c) {
-  Builder3 b;
-  b.model.title = "Beam bent over a rigid cylinder";
-  model::BulkSection3 section;
-  section.name = "beam";
-  section.section = {solid::Kinematics::finite, solid::VolumeFormulation::solid_shell,
-                     material::StVenantKirchhoff{1e4, 0.3, 0}};
-  b.model.sections.push_back(section);
-  model::ContactPair3 pair;
-  pair.name = "contact";
-  pairing::FacetSurface beam;
-  beam.facets = add_beam(b, c);
-  pairing::FacetSurface cylinder = add_cylinder(b);
-  if (c.cylinder_master) std::swap(beam, cylinder);
-  pairing::connect(beam);
-  pairing::connect(cylinder);
-  pair.definition.master = std::move(beam);
-  pair.definition.slave = pairing::make_slave_side(std::move(cylinder));
-  pair.definition.normal.stiffness = c.penalty;
-  pair.definition.tangent = c.tangent;
-  pairing::prepare(pair.definition, b.model.reference);
-  b.model.pairs.push_back(std::move(pair));
-  model::Step step;
-  step.name = "bend";
-  step.increments = increments;
-  for (std::size_t n = 0; n < b.model.reference.size(); ++n) {
-    if (b.model.body_of_node[n] >= 0) continue;
-    const Vec3& x = b.model.reference[n];
-    const auto node = static_cast<Index>(n);
-    if (x.x() == 0) Builder3::fix(step, node);
-    if (std::abs(x.x() - length) < 1e-9 && x.z() == 0)
-      step.prescribed.push_back({3 * node + 2, {0, -pull, {}}, false});
-  }
-  b.hold(step, 0);
-  b.model.steps.push_back(step);
-  return std::move(b.model);
+  BeamModel o;
+  o.quadratic = c.quadratic;
+  o.elements = c.quadratic ? 12 : 24;
+  o.penalty = c.penalty;
+  o.tangent = c.tangent;
+  o.cylinder_master = c.cylinder_master;
+  o.increments = increments;
+  return beam_model(o);
 }
 
 struct Outcome {
@@ -134,7 +59,7 @@ Outcome run_case(const Choice& choice, int threads) {
     out.cutbacks += record->cutbacks;
     out.per_increment.push_back(static_cast<int>(record->iterations.size()));
     out.share.push_back(pairing::curvature_share<3>(m.pairs[0].definition, system.positions(state),
-                                                    state.pairs[0]));
+                                                    system.contact()[0], choice.tangent));
     for (const auto& p : system.contact()[0].points)
       if (p.status != contact::Status::open) out.penetration = std::max(out.penetration, -p.gap);
     out.tip_force = 0;
@@ -164,16 +89,51 @@ void add_row(CaseResult& result, const std::string& quantity, double computed, d
   result.rows.push_back({quantity, computed, reference, relation, tolerance, source});
 }
 
-/// Numbers of case a that the paper prints beside its table.
-void add_first_case(const char* kind, bool quadratic, const Outcome& o, const char* table,
-                    CaseResult& result) {
-  add_row(result, fmt::format("{}: penetration / height in percent", kind),
-          100 * o.penetration / height, quadratic ? 0.048 : 0.18, Relation::info, 0, "KSVD 5.1");
+/// Eq. (60) at the end of each group of increments, in units of the column.
+struct PublishedShare {
+  int increment;
+  double value;
+};
+constexpr std::array<PublishedShare, 8> linear_a{{{15, 0.18},
+                                                  {16, 0.19},
+                                                  {45, 0.55},
+                                                  {73, 0.45},
+                                                  {74, 0.62},
+                                                  {75, 1.04},
+                                                  {76, 0.62},
+                                                  {90, 1.26}}};
+constexpr std::array<PublishedShare, 10> quadratic_a{{{16, 0.19},
+                                                      {18, 0.19},
+                                                      {46, 0.55},
+                                                      {47, 0.45},
+                                                      {50, 0.62},
+                                                      {69, 1.04},
+                                                      {70, 0.63},
+                                                      {86, 1.27},
+                                                      {87, 2.00},
+                                                      {90, 2.37}}};
+constexpr std::array<PublishedShare, 7> quadratic_c{
+    {{16, 0.09}, {18, 0.12}, {30, 0.35}, {47, 0.49}, {48, 1.03}, {86, 4.81}, {90, 9.76}}};
+
+/// The columns of eq. (60) and what the paper prints beside its tables.
+void add_beside(const char* kind, bool quadratic, char name, const Outcome& o, const char* table,
+                CaseResult& result) {
+  if (name == 'a')
+    add_row(result, fmt::format("{}: penetration / height in percent", kind),
+            100 * o.penetration / beam_height, quadratic ? 0.048 : 0.18, Relation::info, 0,
+            "KSVD 5.1");
   if (o.share.size() < static_cast<std::size_t>(increments)) return;
-  add_row(result, fmt::format("{}: eq. (60) at increment 15 in percent", kind), 100 * o.share[14],
-          0.18e-2, Relation::info, 0, table);
-  add_row(result, fmt::format("{}: eq. (60) at increment 90 in percent", kind), 100 * o.share[89],
-          quadratic ? 2.37e-2 : 1.26e-2, Relation::info, 0, table);
+  std::span<const PublishedShare> published;
+  if (name == 'a') published = linear_a;
+  if (name == 'a' && quadratic) published = quadratic_a;
+  if (name == 'c' && quadratic) published = quadratic_c;
+  const double unit = name == 'a' ? 1e-2 : 1e-4;
+  for (const PublishedShare& at : published)
+    add_row(result,
+            fmt::format("{}, case {}: eq. (60) at increment {} in {:g} percent", kind, name,
+                        at.increment, unit),
+            100 / unit * o.share[static_cast<std::size_t>(at.increment) - 1], at.value,
+            Relation::info, 0, table);
 }
 
 /// Totals of cases a-d beside a table of the paper.
@@ -200,7 +160,7 @@ void add_table(const CaseContext& context, bool quadratic, double penalty,
       curve.rows[i][k + 1] = o.per_increment[i];
       if (k == 0) curve.rows[i][5] = o.share[i];
     }
-    if (k == 0) add_first_case(kind, quadratic, o, table, result);
+    add_beside(kind, quadratic, p.name[0], o, table, result);
   }
   result.curves.push_back(std::move(curve));
 }
@@ -246,6 +206,7 @@ CaseResult beam_over_cylinder(const CaseContext& context) {
               {"d", d, 337, 352, 20}}},
             "KSVD Table 2", result);
   add_defaults(context, result);
+  add_elastica(context, result);
   return result;
 }
 

@@ -15,6 +15,7 @@
 #include "osculate/deck/parse.hpp"
 #include "osculate/io/csv.hpp"
 #include "osculate/io/report.hpp"
+#include "osculate/pairing/tangent_parts.hpp"
 
 namespace osculate::api {
 namespace {
@@ -42,7 +43,8 @@ struct Recorder {
   std::ofstream log;
   int since_output = 0;
   int iterations = 0;
-  double seconds = 0;  ///< spent here
+  double seconds = 0;                    ///< spent here
+  std::vector<double> curvature_shares;  ///< one per converged increment
 
   Recorder(const RunOptions& o, const deck::Description& d, const deck::BasicBuilt<Dim>& b,
            std::string dir)
@@ -88,9 +90,24 @@ struct Recorder {
       fields.write(system, state, p.time);
       report.add_frame(system, state, p);
     }
-    if (record) report_increment(p, *record);
+    if (record) {
+      curvature_shares.push_back(curvature_share(system, state));
+      report_increment(p, *record);
+    }
     seconds += seconds_since(start);
     return !(options.interrupted && options.interrupted());
+  }
+
+  /// Largest of all pairs.
+  [[nodiscard]] double curvature_share(const model::BasicSystem<Dim>& system,
+                                       const model::BasicState<Dim>& state) const {
+    if (built.model.pairs.empty()) return 0;
+    const std::vector<Vec<Dim>> x = system.positions(state);
+    double largest = 0;
+    for (std::size_t k = 0; k < built.model.pairs.size(); ++k)
+      largest = std::max(largest, pairing::curvature_share<Dim>(built.model.pairs[k].definition, x,
+                                                                system.contact()[k]));
+    return largest;
   }
 
   /// What a dropped attempt did, for log.txt only.
@@ -127,7 +144,8 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
   outcome.message = result.message;
   const std::string model = std::filesystem::path(recorder.options.model).filename().string();
   const nlohmann::json summary =
-      summary_json(model, result, done ? "done" : "stopped", {seconds_input, recorder.seconds});
+      summary_json(model, result, done ? "done" : "stopped", {seconds_input, recorder.seconds},
+                   recorder.curvature_shares);
   recorder.fields.close();
   if (recorder.description.output.report) {
     const std::string data = recorder.report.json(summary);

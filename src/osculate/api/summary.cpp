@@ -131,13 +131,17 @@ double peak_memory_mb() {
 template <int Dim>
 nlohmann::json summary_json(const std::string& model_file,
                             const model::BasicAnalysisResult<Dim>& result,
-                            const std::string& status, const RunSeconds& seconds) {
+                            const std::string& status, const RunSeconds& seconds,
+                            const std::vector<double>& curvature_shares) {
   nlohmann::json steps = nlohmann::json::array();
   int iterations = 0, increments = 0, cutbacks = 0;
   for (std::size_t s = 0; s < result.steps.size(); ++s) {
     nlohmann::json list = nlohmann::json::array();
     for (const solve::IncrementRecord& record : result.steps[s].increments) {
       list.push_back(increment_json(static_cast<double>(s), record));
+      const auto number_of = static_cast<std::size_t>(increments);
+      if (number_of < curvature_shares.size())
+        list.back()["curvature_share"] = number(curvature_shares[number_of]);
       iterations += static_cast<int>(record.iterations.size()) + record.wasted_iterations;
       cutbacks += record.cutbacks;
       ++increments;
@@ -185,9 +189,11 @@ std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
 }
 
 template nlohmann::json summary_json(const std::string&, const model::AnalysisResult&,
-                                     const std::string&, const RunSeconds&);
+                                     const std::string&, const RunSeconds&,
+                                     const std::vector<double>&);
 template nlohmann::json summary_json(const std::string&, const model::AnalysisResult3&,
-                                     const std::string&, const RunSeconds&);
+                                     const std::string&, const RunSeconds&,
+                                     const std::vector<double>&);
 template std::vector<ModelFact> model_facts(const deck::Built&);
 template std::vector<ModelFact> model_facts(const deck::Built3&);
 

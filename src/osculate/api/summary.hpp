@@ -13,11 +13,12 @@ struct RunSeconds {
 };
 
 /// What summary.json says (docs/results.md): status, message, steps with their increments, time per
-/// phase, memory, unknowns.
+/// phase, memory, unknowns. `curvature_shares`: one value (KSVD:60) per converged increment.
 template <int Dim>
 [[nodiscard]] nlohmann::json summary_json(const std::string& model_file,
                                           const model::BasicAnalysisResult<Dim>& result,
-                                          const std::string& status, const RunSeconds& seconds);
+                                          const std::string& status, const RunSeconds& seconds,
+                                          const std::vector<double>& curvature_shares);
 
 /// One line per thing the model consists of: bodies, rigid bodies, pairs, steps.
 struct ModelFact {

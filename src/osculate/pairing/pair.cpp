@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "osculate/core/error.hpp"
+#include "osculate/pairing/point_block.hpp"
 
 namespace osculate::pairing {
 
@@ -132,21 +133,6 @@ void set_nodes(ContactBlock<Dim>& block, const Boundary<Dim>& master, const Plac
     block.nodes[k + 1] = facet.nodes[k];
 }
 
-/// Contact weights by slot: 1 and no derivatives for the slave, -N_k, -N_k,i, -N_k,ij for the
-/// master (KS2D:60, 61 with as many columns per node as there are directions).
-template <int Dim>
-using Weights = std::array<std::array<double, max_block_nodes<Dim>>, contact::slots<Dim>>;
-
-template <int Dim>
-Weights<Dim> contact_weights(const Placed<Dim>& placed) {
-  Weights<Dim> w{};
-  w[0][0] = 1.0;
-  for (std::size_t s = 0; s < w.size(); ++s)
-    for (std::size_t k = 0; k < static_cast<std::size_t>(placed.count); ++k)
-      w[s][k + 1] = -placed.shape[s][k];  // @eq KS2D:60
-  return w;
-}
-
 template <int Dim>
 void scatter_forces(BlockVector<Dim>& force, int count, const Weights<Dim>& w,
                     const PointTerms<Dim>& terms, double area) {
@@ -159,25 +145,13 @@ void scatter_forces(BlockVector<Dim>& force, int count, const Weights<Dim>& w,
 }
 
 template <int Dim>
-void scatter_tangent(ContactBlock<Dim>& block, const Weights<Dim>& w, const PointTerms<Dim>& terms,
-                     double area) {
+void scatter_path(ContactBlock<Dim>& block, const Weights<Dim>& w, const PointTerms<Dim>& terms,
+                  double area) {
   for (int k = 0; k < block.count; ++k) {
-    const auto i = static_cast<std::size_t>(k);
     Mat<Dim, Dim> behind = Mat<Dim, Dim>::Zero();
-    for (std::size_t a = 0; a < terms.s.size(); ++a) behind += w[a][i] * terms.s[a];
+    for (std::size_t a = 0; a < terms.s.size(); ++a)
+      behind += w[a][static_cast<std::size_t>(k)] * terms.s[a];
     block.path_rows.template middleRows<Dim>(Dim * k) = area * behind;
-    std::array<Mat<Dim, Dim>, contact::slots<Dim>> row;
-    for (std::size_t b = 0; b < terms.used; ++b) {
-      row[b].setZero();
-      for (std::size_t a = 0; a < terms.used; ++a)
-        if (w[a][i] != 0.0) row[b] += (area * w[a][i]) * terms.m[a][b];
-    }
-    for (int l = 0; l < block.count; ++l) {
-      Mat<Dim, Dim> sum = Mat<Dim, Dim>::Zero();
-      for (std::size_t b = 0; b < terms.used; ++b)
-        sum += w[b][static_cast<std::size_t>(l)] * row[b];
-      block.tangent.template block<Dim, Dim>(Dim * k, Dim * l) = sum;
-    }
   }
 }
 
@@ -274,7 +248,8 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
                    result.weight);
   }
   if (!with_tangent) return;
-  scatter_tangent(block, w, terms, result.weight);
+  scatter_tangent<Dim>(w, terms, block.count, result.weight, block.tangent);
+  scatter_path(block, w, terms, result.weight);
   if (!exact || pair.weight != Weight::current_area) return;
   block.area = out.area_gradients[i];
   scatter_forces(block.area_rows, block.count, w, terms, 1.0);

@@ -2,44 +2,70 @@
 
 #include <algorithm>
 
+#include "osculate/pairing/point_block.hpp"
+
 namespace osculate::pairing {
 namespace {
 
 template <int Dim>
-PairEvaluation<Dim> with_parts(const PairDefinition<Dim>& pair, Points<Dim> x,
-                               const PairState<Dim>& committed, bool all) {
-  PairDefinition<Dim> parts = pair;
-  parts.tangent = {false, true, all, all};
-  PairEvaluation<Dim> out;
-  evaluate<Dim>(parts, x, committed, true, out);
-  return out;
+Placed<Dim> placed_again(const PairDefinition<Dim>& pair, Points<Dim> x,
+                         const PairEvaluation<Dim>& evaluation, std::size_t i) {
+  const contact::PointHistory<Dim>& history = evaluation.points[i].history;
+  ProjectionQuery<Dim> query;
+  query.point = x[static_cast<std::size_t>(pair.slave.nodes[i])];
+  if (evaluation.normals[i].squaredNorm() > 0) query.slave_normal = evaluation.normals[i];
+  query.history = history.facet;
+  query.history_feature = history.feature;
+  const Projection<Dim> p = closest(pair.master, evaluation.tree, x, query);
+  if (p.feature == projection::Feature::none) return {};
+  return place(pair.master, p, query.point, x);
+}
+
+template <int Dim>
+double share_at(const PairDefinition<Dim>& pair, const Placed<Dim>& placed,
+                const contact::TangentForm& parts) {
+  contact::Traction<Dim> traction;
+  traction.normal = pair.normal.response(placed.kinematics.gap);
+  const Weights<Dim> w = contact_weights(placed);
+  const int count = 1 + placed.count, size = Dim * count;
+  const auto matrix = [&](bool rotational, bool curvature) {
+    const contact::TangentForm form{false, true, rotational, curvature};
+    BlockMatrix<Dim> k = BlockMatrix<Dim>::Zero();
+    scatter_tangent<Dim>(w,
+                         contact::covariant_terms(placed.kinematics, traction, pair.residual, form),
+                         count, 1.0, k);
+    return k;
+  };
+  const auto norm = [&](const BlockMatrix<Dim>& k) {
+    const double largest_row =
+        k.topLeftCorner(size, size).cwiseAbs().rowwise().sum().maxCoeff();  // @eq KSVD:61
+    return largest_row;
+  };
+  const BlockMatrix<Dim> full = matrix(parts.rotational, parts.curvature),
+                         main = matrix(false, false);
+  const BlockMatrix<Dim> rest = full - main;
+  const double share = norm(rest) / norm(main);  // @eq KSVD:60
+  return share;
 }
 
 }  // namespace
 
 template <int Dim>
 double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
-                       const PairState<Dim>& committed) {
-  const PairEvaluation<Dim> full = with_parts(pair, x, committed, true);
-  const PairEvaluation<Dim> main = with_parts(pair, x, committed, false);
+                       const PairEvaluation<Dim>& evaluation, const contact::TangentForm& parts) {
   double largest = 0;
-  for (std::size_t p = 0; p < full.blocks.size(); ++p) {
-    const Eigen::Index n = Dim * full.blocks[p].count;
-    if (n == 0) continue;
-    const Eigen::MatrixXd k = full.blocks[p].tangent.topLeftCorner(n, n);
-    const Eigen::MatrixXd m = main.blocks[p].tangent.topLeftCorner(n, n);
-    const auto norm = [](const Eigen::MatrixXd& a) {
-      const double largest_row = a.cwiseAbs().rowwise().sum().maxCoeff();  // @eq KSVD:61
-      return largest_row;
-    };
-    if (!(norm(m) > 0)) continue;
-    const double share = norm(k - m) / norm(m);  // @eq KSVD:60
-    largest = std::max(largest, share);
+  for (std::size_t i = 0; i < evaluation.points.size(); ++i) {
+    if (evaluation.points[i].status == contact::Status::open) continue;
+    const Placed<Dim> placed = placed_again<Dim>(pair, x, evaluation, i);
+    if (placed.projection.feature == projection::Feature::none) continue;
+    largest = std::max(largest, share_at(pair, placed, parts));
   }
   return largest;
 }
 
-template double curvature_share<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&);
-template double curvature_share<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&);
+template double curvature_share<2>(const PairDefinition<2>&, Points<2>, const PairEvaluation<2>&,
+                                   const contact::TangentForm&);
+template double curvature_share<3>(const PairDefinition<3>&, Points<3>, const PairEvaluation<3>&,
+                                   const contact::TangentForm&);
 
 }  // namespace osculate::pairing

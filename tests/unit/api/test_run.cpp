@@ -142,6 +142,9 @@ TEST_F(Run, SummaryTellsWhatHappened) {
                     increment["slip"].get<int>(),
                 5);
       EXPECT_EQ(increment["residuals"].size(), increment["iterations"]);
+      // on segments of length 1: the largest penetration of points between their ends (KSVD:60)
+      const double pressure = 100 / (1 - 0.3 * 0.3) * 0.02 * increment["time"].get<double>() / 2;
+      EXPECT_NEAR(increment["curvature_share"], pressure / 1e4, 0.3 * pressure / 1e4);
     }
   EXPECT_EQ(s["total"]["iterations"], iterations);
   EXPECT_DOUBLE_EQ(s["steps"][1]["increments"][1]["time"], 1 + 2.0 / 3);

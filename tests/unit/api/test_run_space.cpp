@@ -246,6 +246,19 @@ TEST_F(RunSpace, SummarySaysWhereTheTimeWent) {
   EXPECT_GT(s["peak_memory_mb"], 1);
 }
 
+// [eq:KSVD:60] by hand, on a plane whose frame has unit length: the row of the frame's origin in
+// the rotational part is 4 eps |gap| where that of the slave node in the main part is 2 eps.
+TEST_F(RunSpace, SummaryTellsWhatTheTangentPartsWeigh) {
+  (void)run_model();
+  const nlohmann::json s = nlohmann::json::parse(read(results / "summary.json"));
+  const nlohmann::json& increments = s["steps"][0]["increments"];
+  ASSERT_EQ(increments.size(), 2u);
+  const double first = increments[0]["curvature_share"], last = increments[1]["curvature_share"];
+  EXPECT_GT(first, 0);
+  EXPECT_NEAR(last, 2 * 0.001, 1e-8);  // the gap is -0.001
+  EXPECT_NEAR(last, 2 * first, 0.1 * last);
+}
+
 TEST_F(RunSpace, ReportShowsTheOuterFaces) {
   (void)run_model();
   const nlohmann::json data = nlohmann::json::parse(read(results / "report.json"));

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 
-#include "osculate/pairing/tangent_parts.hpp"
 #include "pair_sample.hpp"
 #include "pair_sample3.hpp"
 
@@ -204,24 +203,6 @@ TEST(Pair3Identities, CovariantStickIsSymmetric) {
     const Eigen::MatrixXd k = pair_tangent(s, flatten3(s.x));
     EXPECT_LT((k - k.transpose()).norm(), 1e-13 * k.norm());
   }
-}
-
-// [eq:KSVD:60] [eq:KSVD:61] by hand: over the middle of a square facet of side 2 (a_ij = 1) the
-// largest row of the main part is 2 eps_N (slave, normal), that of the rotational part eps_N |gap|.
-TEST(CurvatureShare, OfASquareFacetIsHalfThePenetration) {
-  PairSample3 s;
-  s.x = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, -0.02}};
-  s.pair.master.facets = {
-      pairing::surface_facet(CellType::quad4, std::array<Index, 4>{0, 1, 2, 3})};
-  pairing::connect(s.pair.master);
-  s.pair.slave = pairing::make_slave_side(pairing::FacetSurface{}, std::array<Index, 1>{4});
-  s.pair.weight = pairing::Weight::node;
-  s.pair.normal.stiffness = 1000;
-  pairing::prepare(s.pair, s.x);
-  s.committed.points.resize(1);
-  EXPECT_NEAR(pairing::curvature_share(s.pair, s.x, s.committed), 0.01, 1e-15);
-  s.x[4].z() = 0.02;  // open
-  EXPECT_EQ(pairing::curvature_share(s.pair, s.x, s.committed), 0.0);
 }
 
 }  // namespace

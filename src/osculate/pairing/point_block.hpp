@@ -1,0 +1,44 @@
+#pragma once
+// From the terms of one contact point to the matrix of its nodes; for sources of this layer.
+#include "osculate/pairing/pair.hpp"
+
+namespace osculate::pairing {
+
+/// Contact weights by slot: 1 and no derivatives for the slave, -N_k, -N_k,i, -N_k,ij for the
+/// master (KS2D:60, 61 with as many columns per node as there are directions).
+template <int Dim>
+using Weights = std::array<std::array<double, max_block_nodes<Dim>>, contact::slots<Dim>>;
+
+template <int Dim>
+[[nodiscard]] Weights<Dim> contact_weights(const Placed<Dim>& placed) {
+  Weights<Dim> w{};
+  w[0][0] = 1.0;
+  for (std::size_t s = 0; s < w.size(); ++s)
+    for (std::size_t k = 0; k < static_cast<std::size_t>(placed.count); ++k)
+      w[s][k + 1] = -placed.shape[s][k];  // @eq KS2D:60
+  return w;
+}
+
+/// Sets the first Dim * count rows and columns of `tangent`.
+template <int Dim>
+void scatter_tangent(const Weights<Dim>& w, const contact::PointTerms<Dim>& terms, int count,
+                     double area, BlockMatrix<Dim>& tangent) {
+  for (int k = 0; k < count; ++k) {
+    std::array<Mat<Dim, Dim>, contact::slots<Dim>> row;
+    for (std::size_t b = 0; b < terms.used; ++b) {
+      row[b].setZero();
+      for (std::size_t a = 0; a < terms.used; ++a) {
+        const double weight = w[a][static_cast<std::size_t>(k)];
+        if (weight != 0.0) row[b] += (area * weight) * terms.m[a][b];
+      }
+    }
+    for (int l = 0; l < count; ++l) {
+      Mat<Dim, Dim> sum = Mat<Dim, Dim>::Zero();
+      for (std::size_t b = 0; b < terms.used; ++b)
+        sum += w[b][static_cast<std::size_t>(l)] * row[b];
+      tangent.template block<Dim, Dim>(Dim * k, Dim * l) = sum;
+    }
+  }
+}
+
+}  // namespace osculate::pairing
