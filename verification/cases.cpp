@@ -26,6 +26,10 @@ const std::vector<Case>& all_cases() {
        false, large_rotation},
       {"sliding_block", "The block of KS2D 7.1 is pressed, sheared forward and back", false,
        sliding_block},
+      {"solid_shell", "Solid-shells pass the patch tests and the classical thin shells", false,
+       solid_shell},
+      {"solid_shell_fine", "The same under large displacements on fine meshes", true,
+       solid_shell_fine},
   };
   return cases;
 }

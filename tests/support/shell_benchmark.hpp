@@ -1,74 +1,16 @@
 #pragma once
-// Small assembled problems for solid-shells: a structured mesh of one cell through the thickness,
-// single nodal constraints, dead loads, an end moment, and Newton's method with equal load steps.
+// The shell problems of the verification case, assembled and solved without the product's model and
+// solver: Newton's method with equal load steps; an end moment is couples that follow.
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
-#include <functional>
 #include <vector>
 
-#include "osculate/solid/solid_shell.hpp"
+#include "../../verification/solid_shell/problems.hpp"
 
 namespace osculate::testing {
 
-/// The node (i, j) of the bottom (side 0) or top (side 1) face is at map(u, v, z) with
-/// u, v = 0..1 and z = -1 or 1; (u, v, z) must be right-handed.
-struct ShellMesh {
-  cell::CellType type;
-  Index count_u, count_v;  ///< nodes
-  std::vector<Vec3> nodes;
-  std::vector<std::vector<Index>> cells;
-
-  [[nodiscard]] Index node(Index i, Index j, Index side) const {
-    return (side * count_v + j) * count_u + i;
-  }
-};
-
-inline ShellMesh shell_mesh(cell::CellType type, Index cells_u, Index cells_v,
-                            const std::function<Vec3(double, double, double)>& map) {
-  const Index order = type == cell::CellType::hex8 ? 1 : 2;
-  ShellMesh m{type, order * cells_u + 1, order * cells_v + 1, {}, {}};
-  for (const double z : {-1.0, 1.0})
-    for (Index j = 0; j < m.count_v; ++j)
-      for (Index i = 0; i < m.count_u; ++i)
-        m.nodes.push_back(map(double(i) / (m.count_u - 1), double(j) / (m.count_v - 1), z));
-  for (Index j = 0; j < cells_v; ++j)
-    for (Index i = 0; i < cells_u; ++i) {
-      std::vector<Index> cell;
-      for (int k = 0; k < cell::info(type).nodes; ++k) {
-        const Vec3 at = 0.5 * order * (cell::volume_node(type, k) + Vec3::Ones());
-        cell.push_back(
-            m.node(order * i + Index(at.x()), order * j + Index(at.y()), at.z() > 0 ? 1 : 0));
-      }
-      m.cells.push_back(cell);
-    }
-  return m;
-}
-
-/// A couple of the moment about the y axis at the node pairs (bottom, top) of one edge: forces on
-/// the two nodes, normal to the line between them, that follow its rotation. Its energy is
-/// -moment * angle.
-struct EndMoment {
-  struct Pair {
-    Index bottom, top;
-    double moment;
-  };
-  std::vector<Pair> pairs;
-};
-
-struct ShellProblem {
-  ShellMesh mesh;
-  solid::VolumeSection section;
-  std::vector<char> fixed;  ///< a flag per unknown
-  Eigen::VectorXd load;     ///< dead loads
-  EndMoment moment;
-
-  ShellProblem(ShellMesh m, solid::VolumeSection s)
-      : mesh(std::move(m)),
-        section(std::move(s)),
-        fixed(3 * mesh.nodes.size(), 0),
-        load(Eigen::VectorXd::Zero(Eigen::Index(3 * mesh.nodes.size()))) {}
-  void fix(Index node, int component) { fixed[std::size_t(3 * node + component)] = 1; }
-};
+using verification::shell::EndMoment;
+using verification::shell::ShellProblem;
 
 namespace detail {
 
@@ -168,28 +110,6 @@ inline ShellSolution solve(const ShellProblem& p, int steps) {
   }
   s.converged = true;
   return s;
-}
-
-/// Mean displacement of the two nodes at (i, j).
-inline Vec3 mid_displacement(const ShellMesh& m, const Eigen::VectorXd& u, Index i, Index j) {
-  return 0.5 * (u.segment<3>(3 * m.node(i, j, 0)) + u.segment<3>(3 * m.node(i, j, 1)));
-}
-
-/// Share of each node in a load spread evenly along an edge of n nodes (sum 1).
-inline std::vector<double> edge_shares(cell::CellType type, Index n) {
-  std::vector<double> share(std::size_t(n), 0.0);
-  if (type == cell::CellType::hex8) {
-    for (Index i = 0; i + 1 < n; ++i)
-      for (const Index k : {i, i + 1}) share[std::size_t(k)] += 0.5 / (n - 1);
-    return share;
-  }
-  for (Index i = 0; i + 2 < n; i += 2) {
-    const double length = 2.0 / (n - 1);
-    share[std::size_t(i)] += length / 6;
-    share[std::size_t(i + 1)] += length * 4 / 6;
-    share[std::size_t(i + 2)] += length / 6;
-  }
-  return share;
 }
 
 }  // namespace osculate::testing
