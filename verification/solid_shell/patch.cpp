@@ -79,6 +79,27 @@ PatchMesh four_cells(double shift) {
   return m;
 }
 
+PatchMesh refined(const PatchMesh& mesh, int n) {
+  PatchMesh m{{}, {}, mesh.length, mesh.width, mesh.height};
+  for (const auto& quad : mesh.quads)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        std::array<std::size_t, 4> corners{};
+        for (int k = 0; k < 4; ++k) {
+          const Vec2 xi = cell::area_node(cell::CellType::quad4, k);
+          const Vec2 at((2 * i + 1 + xi.x()) / n - 1, (2 * j + 1 + xi.y()) / n - 1);
+          const cell::AreaShape shape = cell::area_shape(cell::CellType::quad4, at);
+          Vec2 place = Vec2::Zero();
+          for (std::size_t c = 0; c < 4; ++c)
+            place += shape.n[static_cast<Eigen::Index>(c)] * mesh.at[quad[c]];
+          corners[static_cast<std::size_t>(k)] = m.at.size();
+          m.at.push_back(place);  // shared corners become one node later
+        }
+        m.quads.push_back(corners);
+      }
+  return m;
+}
+
 double patch_error(const PatchMesh& mesh, cell::CellType type, PlateState state, double poisson,
                    int threads) {
   Builder3 b;

@@ -8,8 +8,7 @@
 
 namespace osculate::verification::shell {
 
-/// Quadrilaterals with straight sides in the plane z = 0. Nodes at `border` places are given the
-/// exact displacements.
+/// Quadrilaterals with straight sides that fill a rectangle in the plane z = 0.
 struct PatchMesh {
   std::vector<Vec2> at;
   std::vector<std::array<std::size_t, 4>> quads;
@@ -18,6 +17,8 @@ struct PatchMesh {
 
 /// MacNeal & Harder's five quadrilaterals in a rectangle 0.24 x 0.12, 0.01 thick.
 [[nodiscard]] PatchMesh five_cells();
+/// Each quadrilateral cut into n by n.
+[[nodiscard]] PatchMesh refined(const PatchMesh& mesh, int n);
 /// Two by two cells in the same rectangle, the middle node moved by `shift` times the size of a
 /// cell in both directions.
 [[nodiscard]] PatchMesh four_cells(double shift);
