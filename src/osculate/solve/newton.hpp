@@ -255,6 +255,47 @@ bool start_from_guess(S& system, const typename S::State& committed, double time
   return true;
 }
 
+/// Starts from the guess, or at the committed state with the tangent's prediction.
+template <System S>
+void begin(S& system, const typename S::State& committed, double time, const Guess& guess,
+           Judge& judge, NewtonResult<typename S::State>& result) {
+  result.state = committed;
+  if (start_from_guess(system, committed, time, guess, result)) {
+    judge.first_energy = guess.energy;
+    result.first_residual = guess.residual;
+    judge.largest_correction = guess.du.lpNorm<Eigen::Infinity>();
+    return;
+  }
+  system.predict(committed, time, result.evaluation);
+  if (result.evaluation.ok) result.first_residual = result.evaluation.residual.norm();
+}
+
+/// Writes down the iteration with correction `du`; true if it was the last one, converged or not.
+template <class State>
+bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energy_before,
+              NewtonResult<State>& result) {
+  const Evaluation& e = result.evaluation;
+  if (!e.ok) return !fail(result, Outcome::numerical_failure, e.message);
+  const double least_scale = 1e-3 * result.first_residual;
+  const double energy_after = std::abs(du.dot(e.residual));
+  const bool by_residual = judge.options.residual > 0;
+  IterationRecord record;
+  record.step = step;
+  record.residual = relative(e.residual.norm(), std::max(e.force_scale, least_scale));
+  record.energy = relative(by_residual ? energy_after : energy_before, judge.first_energy);
+  record.counts = e.counts;
+  result.iterations.push_back(record);
+  if (!std::isfinite(record.residual))
+    return !fail(result, Outcome::numerical_failure, "the residual is not a number");
+  const double correction = du.lpNorm<Eigen::Infinity>();
+  judge.largest_correction = std::max(judge.largest_correction, correction);
+  if (!judge.done(record.residual, energy_before, energy_after) &&
+      !(result.iterations.size() > 1 && judge.at_round_off(record.residual, correction)))
+    return false;
+  result.outcome = Outcome::converged;
+  return true;
+}
+
 }  // namespace detail
 
 /// One increment by Newton's method from a committed state to `time`.
@@ -268,24 +309,14 @@ template <System S>
                                                      double time, const NewtonOptions& options,
                                                      la::DirectSolver& solver,
                                                      const Guess& guess = {}) {
-  using detail::fail;
   NewtonResult<typename S::State> result;
-  result.state = committed;
   detail::Judge judge{options};
-  if (detail::start_from_guess(system, committed, time, guess, result)) {
-    judge.first_energy = guess.energy;
-    result.first_residual = guess.residual;
-    judge.largest_correction = guess.du.lpNorm<Eigen::Infinity>();
-  } else {
-    system.predict(committed, time, result.evaluation);
-    if (result.evaluation.ok) result.first_residual = result.evaluation.residual.norm();
+  detail::begin(system, committed, time, guess, judge, result);
+  if (!result.evaluation.ok) {
+    detail::fail(result, Outcome::numerical_failure, result.evaluation.message);
+    return result;
   }
-  const double least_scale = 1e-3 * result.first_residual;
   for (int i = 1; i <= options.max_iterations; ++i) {
-    if (!result.evaluation.ok) {
-      fail(result, Outcome::numerical_failure, result.evaluation.message);
-      return result;
-    }
     const Eigen::VectorXd residual = result.evaluation.residual;
     const bool branched = result.evaluation.branch_residual.size() > 0;
     const Eigen::VectorXd linearised = branched ? result.evaluation.branch_residual : residual;
@@ -296,41 +327,18 @@ template <System S>
     if (i == 1 && !result.extrapolated) judge.first_energy = energy_before;
     result.first_energy = judge.first_energy;
 
-    IterationRecord record;
+    double step = 1;
     if ((i > 1 || result.extrapolated) && !branched && options.line_search == LineSearch::automatic)
-      record.step = detail::line_search(system, committed, result, du, residual, time);
+      step = detail::line_search(system, committed, result, du, residual, time);
     else
       result.state = system.apply(result.state, du, time, 1.0);
     system.evaluate(committed, result.state, time, true, result.evaluation);
-
     if (result.total.size() == 0) result.total.setZero(du.size());
-    result.total += record.step * du;
-
-    const Evaluation& e = result.evaluation;
-    if (!e.ok) {
-      fail(result, Outcome::numerical_failure, e.message);
-      return result;
-    }
-    record.residual = detail::relative(e.residual.norm(), std::max(e.force_scale, least_scale));
-    const double energy_after = std::abs(du.dot(e.residual));
-    record.energy =
-        detail::relative(options.residual > 0 ? energy_after : energy_before, judge.first_energy);
-    record.counts = e.counts;
-    result.iterations.push_back(record);
-    if (!std::isfinite(record.residual)) {
-      fail(result, Outcome::numerical_failure, "the residual is not a number");
-      return result;
-    }
-    const double correction = du.lpNorm<Eigen::Infinity>();
-    judge.largest_correction = std::max(judge.largest_correction, correction);
-    if (judge.done(record.residual, energy_before, energy_after) ||
-        (i > 1 && judge.at_round_off(record.residual, correction))) {
-      result.outcome = Outcome::converged;
-      return result;
-    }
+    result.total += step * du;
+    if (detail::conclude(judge, du, step, energy_before, result)) return result;
   }
-  fail(result, Outcome::not_converged,
-       "not converged after " + std::to_string(options.max_iterations) + " iterations");
+  detail::fail(result, Outcome::not_converged,
+               "not converged after " + std::to_string(options.max_iterations) + " iterations");
   return result;
 }
 
