@@ -37,9 +37,7 @@ double share_at(const PairDefinition<Dim>& pair, const Placed<Dim>& placed,
     return k;
   };
   const auto norm = [&](const BlockMatrix<Dim>& k) {
-    const double largest_row =
-        k.topLeftCorner(size, size).cwiseAbs().rowwise().sum().maxCoeff();  // @eq KSVD:61
-    return largest_row;
+    return row_sum_norm(k.topLeftCorner(size, size));
   };
   const BlockMatrix<Dim> full = matrix(parts.rotational, parts.curvature),
                          main = matrix(false, false);

@@ -3,6 +3,14 @@
 
 namespace osculate::pairing {
 
+/// max_i sum_j |k_ij|.
+///
+/// Source     KSVD:61
+/// Tested by  tests/unit/pairing/test_curvature_share.cpp
+[[nodiscard]] inline double row_sum_norm(const Eigen::Ref<const Eigen::MatrixXd>& k) {
+  return k.cwiseAbs().rowwise().sum().maxCoeff();  // @eq KSVD:61
+}
+
 /// What the parts of the covariant tangent of the normal contact beside the main one weigh, point
 /// by point.
 ///

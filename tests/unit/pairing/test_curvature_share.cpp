@@ -16,6 +16,13 @@ double share_of(const PairSample3& s) {
   return pairing::curvature_share<3>(s.pair, s.x, e);
 }
 
+// [eq:KSVD:61]
+TEST(RowSumNorm, IsThatOfTheLargestRow) {
+  Mat<2, 3> k;
+  k << 1, -2, 0.5, -4, 1, 1;
+  EXPECT_EQ(pairing::row_sum_norm(k), 6.0);
+}
+
 // [eq:KSVD:60] [eq:KSVD:61] by hand: over the middle of a square facet of side 2 (a_ij = 1) the
 // largest row of the main part is 2 eps_N (slave, normal), that of the rotational part eps_N |gap|.
 TEST(CurvatureShare, OfASquareFacetIsHalfThePenetration) {
