@@ -32,6 +32,7 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
           {"open", last.counts.open},
           {"stick", last.counts.stick},
           {"slip", last.counts.slip},
+          {"friction_work", number(last.counts.friction_work)},
           {"residuals", residuals},
           {"energies", energies}};
 }

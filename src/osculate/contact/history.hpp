@@ -21,6 +21,7 @@ struct PointHistory {
   Vec<Dim - 1> traction = Vec<Dim - 1>::Zero();  ///< t
   bool slipping = false;                         ///< the friction limit was reached
   Vec<Dim - 1> slip = Vec<Dim - 1>::Zero();      ///< accumulated sliding distance (signed)
+  double friction_work = 0;  ///< [energy] dissipated here so far; stays when the point opens
 };
 
 }  // namespace osculate::contact

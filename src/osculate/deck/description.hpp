@@ -282,12 +282,13 @@ enum class Quantity {
   stick,
   slip,
   open,
-  area
+  area,
+  friction_work
 };
 /// True for the quantities of contact pairs.
 [[nodiscard]] constexpr bool is_contact_quantity(Quantity q) { return q >= Quantity::force_x; }
 /// The words of the model file and of model::HistoryRequest, in the order of Quantity.
-inline constexpr std::array<std::string_view, 23> quantity_names{"ux",
+inline constexpr std::array<std::string_view, 24> quantity_names{"ux",
                                                                  "uy",
                                                                  "uz",
                                                                  "rx",
@@ -309,7 +310,8 @@ inline constexpr std::array<std::string_view, 23> quantity_names{"ux",
                                                                  "stick",
                                                                  "slip",
                                                                  "open",
-                                                                 "area"};
+                                                                 "area",
+                                                                 "friction_work"};
 /// True for what only models in space have.
 [[nodiscard]] constexpr bool is_spatial(Quantity q) {
   return q == Quantity::uz || q == Quantity::rx || q == Quantity::ry || q == Quantity::rfz ||

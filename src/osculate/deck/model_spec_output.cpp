@@ -37,7 +37,9 @@ Spec quantity_spec() {
               word("stick", Q::stick, "number of sticking points"),
               word("slip", Q::slip, "number of sliding points"),
               word("open", Q::open, "number of open points"),
-              word("area", Q::area, "area of the points in contact")})
+              word("area", Q::area, "area of the points in contact"),
+              word("friction_work", Q::friction_work,
+                   "work that sliding has dissipated since the beginning")})
       .such_as("normal_force");
 }
 

@@ -92,6 +92,7 @@ double pair_value(const BasicSystem<Dim>& system, const HistoryRequest& request)
     if (request.quantity == "slip") sum += p.status == contact::Status::slip ? 1 : 0;
     if (request.quantity == "open") sum += closed ? 0 : 1;
     if (request.quantity == "area" && closed) sum += p.weight;
+    if (request.quantity == "friction_work") sum += p.history.friction_work;
   }
   return sum + shear.norm();
 }

@@ -23,19 +23,21 @@ struct HistoryRequest {
 /// space are the components of its rotation vector, reaction moments (rm*) act about axes through
 /// its reference point that are fixed in space. Pair forces act on the slave; `shear_force` is
 /// along the master's direction of travel (3D: the length of the resultant of all shear forces).
+/// `friction_work` is what sliding has dissipated since the beginning; the elastic part of the
+/// tangential penalty is not in it.
 inline constexpr std::array<std::string_view, 4> node_quantities{"ux", "uy", "rfx", "rfy"};
 inline constexpr std::array<std::string_view, 6> rigid_quantities{"ux",  "uy",  "rz",
                                                                   "rfx", "rfy", "rmz"};
-inline constexpr std::array<std::string_view, 10> pair_quantities{
-    "force_x",         "force_y", "normal_force", "shear_force", "max_pressure",
-    "max_penetration", "stick",   "slip",         "open",        "area"};
+inline constexpr std::array<std::string_view, 11> pair_quantities{
+    "force_x", "force_y", "normal_force", "shear_force", "max_pressure", "max_penetration",
+    "stick",   "slip",    "open",         "area",        "friction_work"};
 inline constexpr std::array<std::string_view, 6> node_quantities3{"ux",  "uy",  "uz",
                                                                   "rfx", "rfy", "rfz"};
 inline constexpr std::array<std::string_view, 12> rigid_quantities3{
     "ux", "uy", "uz", "rx", "ry", "rz", "rfx", "rfy", "rfz", "rmx", "rmy", "rmz"};
-inline constexpr std::array<std::string_view, 11> pair_quantities3{
+inline constexpr std::array<std::string_view, 12> pair_quantities3{
     "force_x",         "force_y", "force_z", "normal_force", "shear_force", "max_pressure",
-    "max_penetration", "stick",   "slip",    "open",         "area"};
+    "max_penetration", "stick",   "slip",    "open",         "area",        "friction_work"};
 
 /// Value after the last evaluation of `system` at the committed `state`.
 template <int Dim>

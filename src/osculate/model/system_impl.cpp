@@ -57,6 +57,7 @@ template <int Dim>
 void count_point(const pairing::PointResult<Dim>& point, solve::StateCounts& counts) {
   mix(counts.signature, static_cast<std::uint64_t>(point.status));
   if constexpr (Dim == 2) mix(counts.signature, point.shear_traction[0] > 0 ? 1u : 0u);
+  counts.friction_work += point.history.friction_work;
   if (point.status == contact::Status::open) ++counts.open;
   if (point.status == contact::Status::stick) ++counts.stick;
   if (point.status == contact::Status::slip) ++counts.slip;

@@ -66,6 +66,7 @@ struct Friction {
   Traction<Dim> traction;
   TangentialResponse<Dim> law;  ///< what the law says; `traction` may be in another branch
   Vec<Dim - 1> slip = Vec<Dim - 1>::Zero();  ///< of the increment, times the share in contact
+  double dissipated = 0;                     ///< per area (or per node) in the increment
 };
 
 /// What is known of a point's branch before the law is asked.
@@ -117,6 +118,7 @@ Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>
   const double normal = f.traction.normal.traction;
   f.slip = tr.slip;
   f.law = law.template response<Dim>(tr.value, normal);
+  f.dissipated = law.template dissipated<Dim>(tr.value, f.law);
   f.traction.tangential = linearised_branch<Dim>(law, f.law, tr.value, normal, k.frame, hint);
   f.traction.stiffness = law.stiffness;
   f.traction.d_trial = tr.variation;
@@ -165,6 +167,7 @@ PointHistory<Dim> next_history(const PairDefinition<Dim>& pair, Points<Dim> x,
   h.xi = placed.projection.xi;
   h.gap = placed.kinematics.gap;
   h.active = f.traction.normal.active;
+  h.friction_work = old.friction_work;
   if (!h.active) return h;
   h.traction = stored_components(pair.master, placed, f.law.traction, x);
   h.slipping = f.law.status == Status::slip;
@@ -220,6 +223,7 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   result = {};
   clear(block);
   result.weight = point_weight(pair, out, i);
+  result.history.friction_work = history.friction_work;
   result.gap = std::numeric_limits<double>::infinity();
   if (!report_place(pair, x, history, placed, result)) return;
   const Kinematics<Dim>& k = placed.kinematics;
@@ -227,6 +231,7 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   const Friction<Dim> f =
       tractions<Dim>(pair, history, placed, x, hint, exact ? &block.behind : nullptr);
   result.history = next_history(pair, x, history, placed, f);
+  result.history.friction_work += result.weight * f.dissipated;
   result.status = !pair.friction ? Status::slip : f.law.status;
   if (pair.friction) result.branch = branch_of<Dim>(f.traction.tangential, k.frame);
   result.normal_traction = f.traction.normal.traction;

@@ -24,6 +24,7 @@ enum class Outcome {
 struct StateCounts {
   int open = 0, stick = 0, slip = 0;
   std::uint64_t signature = 0;  ///< hash of the state of every point
+  double friction_work = 0;     ///< dissipated by all points since the beginning
 };
 
 /// What a system returns for one configuration. The matrix stays inside the system.

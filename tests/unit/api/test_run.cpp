@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -148,6 +149,29 @@ TEST_F(Run, SummaryTellsWhatHappened) {
     }
   EXPECT_EQ(s["total"]["iterations"], iterations);
   EXPECT_DOUBLE_EQ(s["steps"][1]["increments"][1]["time"], 1 + 2.0 / 3);
+}
+
+// The block is pressed and dragged: mu N times the way, less what is elastic (and the little that
+// the way to the verge of sliding differs from point to point).
+TEST_F(Run, SummaryHasTheWorkOfFriction) {
+  std::string text = edited(model, "normal: {penalty: 1e4}",
+                            "normal: {penalty: 1e4}, friction: {coulomb: {mu: 0.2, penalty: 1e4}}");
+  text = edited(text, "[{on: block.top, uy: -0.02}]", "[{on: block.top, ux: 0.05}]");
+  text = edited(text, "{on: floor, of: normal_force}", "{on: floor, of: friction_work}");
+  write("model.yaml", text);
+  run(options());
+  const nlohmann::json s = summary();
+  double last = s["steps"][0]["increments"][1]["friction_work"];
+  EXPECT_GE(last, 0.0);
+  for (const nlohmann::json& increment : s["steps"][1]["increments"]) {
+    EXPECT_GT(increment["friction_work"], last);
+    last = increment["friction_work"];
+  }
+  const auto rows = table(read(results / "history.csv"));
+  const auto column = std::find(rows[0].begin(), rows[0].end(), "floor.friction_work");
+  ASSERT_NE(column, rows[0].end());
+  const double at_end = std::stod(rows.back()[static_cast<std::size_t>(column - rows[0].begin())]);
+  EXPECT_NEAR(at_end, last, 1e-15);
 }
 
 TEST_F(Run, HistoryHasOneColumnPerRequest) {

@@ -190,6 +190,7 @@ TEST(GoodModels, EveryWordStandsForItsQuantity) {
   EXPECT_EQ(of("{on: floor, of: max_penetration}"), Quantity::max_penetration);
   EXPECT_EQ(of("{on: floor, of: stick}"), Quantity::stick);
   EXPECT_EQ(of("{on: floor, of: area}"), Quantity::area);
+  EXPECT_EQ(of("{on: floor, of: friction_work}"), Quantity::friction_work);
 }
 
 TEST(GoodModels, NumbersAsYamlWritesThem) {

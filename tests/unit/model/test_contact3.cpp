@@ -242,6 +242,10 @@ TEST(Contact3, ReportsShearAndSlipInItsTwoDirections) {
                   1e-12);
       EXPECT_NEAR(value(system, m, state, HistoryRequest::Kind::pair, "force_y"),
                   -2 * shear * b / 0.005, 1e-12);
+      const double work = 2 * shear * (0.005 - shear / eps_t);  // what is not elastic
+      EXPECT_NEAR(value(system, m, state, HistoryRequest::Kind::pair, "friction_work"), work,
+                  1e-14);
+      EXPECT_NEAR(record->iterations.back().counts.friction_work, work, 1e-14);
       EXPECT_NEAR(value(system, m, state, HistoryRequest::Kind::rigid, "rfx"),
                   -2 * shear * a / 0.005, 1e-12);
       return true;

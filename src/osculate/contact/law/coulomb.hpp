@@ -59,6 +59,17 @@ struct Coulomb {
       (void)turning;
     return r;
   }
+  /// Work per area (or per node) that sliding dissipates in the increment: t times the part of the
+  /// trial slip that is not elastic. Sticking dissipates nothing.
+  ///
+  /// Formula    w = t . (t_tr - t) / eps_T = mu |N| (|t_tr| - mu |N|) / eps_T
+  /// Tested by  tests/unit/contact/test_laws.cpp, tests/unit/pairing/test_friction_work.cpp
+  template <int Dim>
+  [[nodiscard]] double dissipated(const Vec<Dim - 1>& trial,
+                                  const TangentialResponse<Dim>& response) const {
+    if (response.status != Status::slip) return 0.0;
+    return response.traction.dot(trial - response.traction) / stiffness;
+  }
   /// The stick branch without its limit.
   template <int Dim>
   [[nodiscard]] static TangentialResponse<Dim> stick(const Vec<Dim - 1>& trial) {
