@@ -41,7 +41,9 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
 }
 
 template <int Dim>
-void BasicSystem<Dim>::predict(const State& committed, double fraction, solve::Evaluation& out) {
+void BasicSystem<Dim>::predict(const State& committed, double fraction, solve::Evaluation& out,
+                               bool sticking) {
+  impl_->sticking = sticking;
   impl_->assemble(committed, committed, fraction, true, true, out);
 }
 

@@ -50,7 +50,10 @@ class BasicSystem {
   /// Fixes what is prescribed and loaded during a step; start values come from `committed`.
   void begin_step(const Step& step, const State& committed);
 
-  void predict(const State& committed, double fraction, solve::Evaluation& out);
+  /// Residual and tangent of the first iteration. Points that slid go on sliding; with `sticking`
+  /// they stick, which is what can be solved where sliding points alone do not hold a body.
+  void predict(const State& committed, double fraction, solve::Evaluation& out,
+               bool sticking = false);
   void evaluate(const State& committed, const State& trial, double fraction, bool with_tangent,
                 solve::Evaluation& out);
   [[nodiscard]] State apply(const State& state, const Eigen::VectorXd& du, double fraction,

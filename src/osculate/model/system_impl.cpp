@@ -263,7 +263,7 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     const Stopwatch watch;
     const pairing::Assumed<Dim> assumed =
-        inc                        ? pairing::committed_branches<Dim>(pair, committed.pairs[p], x)
+        inc ? pairing::committed_branches<Dim>(pair, committed.pairs[p], x, sticking)
         : p < trial.assumed.size() ? trial.assumed[p]
                                    : pairing::Assumed<Dim>{};
     pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed);

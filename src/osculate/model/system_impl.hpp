@@ -40,6 +40,7 @@ struct BasicSystem<Dim>::Impl {
   std::vector<pairing::PairEvaluation<Dim>> contact;
   Forces forces;
   Eigen::VectorXd predicted;     ///< K du_prescribed on primary dofs
+  bool sticking = false;         ///< points that slid are predicted to stick
   Eigen::VectorXd branch_shift;  ///< force of the linearised branches minus the true force
   bool branched = false;
   Step step;

@@ -82,6 +82,8 @@ TangentialResponse<Dim> linearised_branch(const contact::Coulomb& law,
                                           const Vec<Dim - 1>& trial, double normal,
                                           const Mat<Dim, Dim - 1>& frame,
                                           const BranchHint<Dim>& hint) {
+  if (hint.predict && hint.assumed.branch == Branch::stick)
+    return contact::Coulomb::stick<Dim>(trial);  // also on the limit, whatever round-off says
   if (hint.assumed.branch != Branch::slip) return response;
   const Vec<Dim - 1> before = frame.transpose() * hint.assumed.direction;
   const double size = before.norm();
@@ -297,14 +299,14 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
 
 template <int Dim>
 Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair, const PairState<Dim>& committed,
-                                Points<Dim> x) {
+                                Points<Dim> x, bool sticking) {
   Assumed<Dim> assumed;
   assumed.predict = true;
   for (const PointHistory<Dim>& h : committed.points) {
     AssumedBranch<Dim> branch;
     if (h.active) branch.branch = Branch::stick;
     const double size = h.traction.norm();
-    if (h.active && h.slipping && size > 0)
+    if (h.active && h.slipping && size > 0 && !sticking)
       branch = {Branch::slip, stored_frame(pair.master, h.facet, h.xi, x) * (h.traction / size)};
     assumed.branch.push_back(branch);
   }
@@ -347,8 +349,10 @@ template void prepare<2>(PairDefinition<2>&, Points<2>);
 template void prepare<3>(PairDefinition<3>&, Points<3>);
 template PairState<2> initial_state<2>(const PairDefinition<2>&, Points<2>);
 template PairState<3> initial_state<3>(const PairDefinition<3>&, Points<3>);
-template Assumed<2> committed_branches<2>(const PairDefinition<2>&, const PairState<2>&, Points<2>);
-template Assumed<3> committed_branches<3>(const PairDefinition<3>&, const PairState<3>&, Points<3>);
+template Assumed<2> committed_branches<2>(const PairDefinition<2>&, const PairState<2>&, Points<2>,
+                                          bool);
+template Assumed<3> committed_branches<3>(const PairDefinition<3>&, const PairState<3>&, Points<3>,
+                                          bool);
 template Assumed<2> evaluated_branches<2>(const PairEvaluation<2>&);
 template Assumed<3> evaluated_branches<3>(const PairEvaluation<3>&);
 template void evaluate<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,

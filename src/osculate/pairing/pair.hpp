@@ -134,10 +134,12 @@ struct Assumed {
   bool predict = false;  ///< first iteration: points that slipped go on slipping
 };
 
-/// Branches at the end of the last increment; `x` is the configuration then.
+/// Branches at the end of the last increment; `x` is the configuration then. With `sticking`, all
+/// points in contact stick.
 template <int Dim>
 [[nodiscard]] Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair,
-                                              const PairState<Dim>& committed, Points<Dim> x);
+                                              const PairState<Dim>& committed, Points<Dim> x,
+                                              bool sticking = false);
 /// Branches of an evaluation, for the next iteration.
 template <int Dim>
 [[nodiscard]] Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation);

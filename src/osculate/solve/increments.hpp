@@ -108,6 +108,14 @@ template <System S>
         wasted += static_cast<int>(attempt.iterations.size());
         attempt = newton(system, result.state, target, options.newton, solver);
       }
+      if (detail::PredictsSticking<S> && attempt.outcome == Outcome::numerical_failure &&
+          attempt.evaluation.ok) {
+        // singular: a body that only sliding points hold, as one that is let go while it slides
+        wasted += static_cast<int>(attempt.iterations.size());
+        Guess sticking;
+        sticking.sticking = true;
+        attempt = newton(system, result.state, target, options.newton, solver, sticking);
+      }
       if (attempt.outcome != Outcome::converged) {
         extrapolation.reset();
         on_cutback(attempt.reason, at, target, attempt.iterations);

@@ -64,9 +64,10 @@ struct NewtonOptions {
 /// A first guess of an increment, and what its convergence is measured by: an extrapolated start
 /// is so near that its own first iteration would be no measure.
 struct Guess {
-  Eigen::VectorXd du;   ///< correction of the unknowns; empty = none
-  double residual = 0;  ///< |R| of the last increment that was started by the tangent
-  double energy = 0;    ///< first energy of that increment
+  Eigen::VectorXd du;     ///< correction of the unknowns; empty = none
+  double residual = 0;    ///< |R| of the last increment that was started by the tangent
+  double energy = 0;      ///< first energy of that increment
+  bool sticking = false;  ///< without du: predict points that slid to stick
 };
 
 struct IterationRecord {
@@ -240,6 +241,21 @@ double line_search(S& system, const typename S::State& committed,
 
 namespace detail {
 
+/// Systems with points that slide can predict the first iteration with all of them sticking.
+template <class S>
+concept PredictsSticking = requires(S s, const typename S::State& state, Evaluation& out) {
+  s.predict(state, 0.0, out, true);
+};
+
+template <System S>
+void predict(S& system, const typename S::State& committed, double time, bool sticking,
+             Evaluation& out) {
+  if constexpr (PredictsSticking<S>)
+    system.predict(committed, time, out, sticking);
+  else
+    system.predict(committed, time, out);
+}
+
 /// Moves to the guess. False (and nothing changed but the evaluation) if it is no good start.
 template <System S>
 bool start_from_guess(S& system, const typename S::State& committed, double time,
@@ -267,7 +283,7 @@ void begin(S& system, const typename S::State& committed, double time, const Gue
     judge.largest_correction = guess.du.lpNorm<Eigen::Infinity>();
     return;
   }
-  system.predict(committed, time, result.evaluation);
+  predict(system, committed, time, guess.sticking, result.evaluation);
   if (result.evaluation.ok) result.first_residual = result.evaluation.residual.norm();
 }
 

@@ -256,5 +256,38 @@ TEST(Contact3, ReportsShearAndSlipInItsTwoDirections) {
   }
 }
 
+/// All points slide, which holds nothing: the tangent of going on is singular. The block springs
+/// back until the elastic part of the friction is gone.
+TEST(Contact3, ABlockLetGoWhileItSlidesStaysWhereFrictionHoldsIt) {
+  const double a = 0.003, b = -0.004, d = 0.01, mu = 0.1, way = 0.005, p = eps_n * d;
+  Model3 m = block(elastic());
+  add_floor(m, mu);
+  const auto nodes = static_cast<Index>(m.mesh.nodes.size());
+  Step free = m.steps[0];
+  const std::array<double, 3> u{a, b, -d};
+  for (Index n = 0; n < nodes; ++n) {
+    for (int i = 0; i < 3; ++i) prescribe(m.steps[0], {n}, i, u[static_cast<std::size_t>(i)]);
+    prescribe(free, {n}, 2, -d);
+  }
+  free.name = "free";
+  m.steps.push_back(free);
+  const double rest = (way - mu * p / eps_t) / way;
+  int stuck = 0;
+  AnalysisObserver3 observer;
+  observer.converged = [&](System3& system, const State3& state, const Progress& progress,
+                           const solve::IncrementRecord*) {
+    if (progress.step != 1) return true;
+    for (Index n = 0; n < nodes; ++n) {
+      EXPECT_NEAR(state.u[3 * n], rest * a, 1e-13);
+      EXPECT_NEAR(state.u[3 * n + 1], rest * b, 1e-13);
+    }
+    stuck = static_cast<int>(value(system, m, state, HistoryRequest::Kind::pair, "stick"));
+    return true;
+  };
+  const AnalysisResult3 result = run(m, {}, observer);
+  EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
+  EXPECT_EQ(stuck, 9);
+}
+
 }  // namespace
 }  // namespace osculate::model
