@@ -7,7 +7,10 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult beam_over_cylinder(const CaseContext& context);
 [[nodiscard]] CaseResult cattaneo_mindlin(const CaseContext& context);
 [[nodiscard]] CaseResult cattaneo_mindlin_fine(const CaseContext& context);
+[[nodiscard]] CaseResult closed_loop(const CaseContext& context);
 [[nodiscard]] CaseResult contact_patch(const CaseContext& context);
+[[nodiscard]] CaseResult contact_patch_space(const CaseContext& context);
+[[nodiscard]] CaseResult hertz_ball(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_sphere(const CaseContext& context);
 [[nodiscard]] CaseResult incline(const CaseContext& context);
 [[nodiscard]] CaseResult drag_in_space(const CaseContext& context);
