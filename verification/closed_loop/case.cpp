@@ -294,9 +294,9 @@ double degrees_between(const Vec2& a, const Vec2& b) {
 
 void add_square(CaseResult& out, int threads) {
   using enum Relation;
-  const Square left = run_square(Floor::plane, 64, true, threads);
-  const Square coarse = run_square(Floor::plane, 32, true, threads);
-  const Square right = run_square(Floor::plane, 64, false, threads);
+  const Square left = run_square(Floor::plane, 256, true, threads);
+  const Square coarse = run_square(Floor::plane, 128, true, threads);
+  const Square right = run_square(Floor::plane, 256, false, threads);
   const double full = mu * force;
   // friction on the block, against its last way (0, -1) or (-1, 0)
   add(out, "square to the left: friction on the block along y / mu N", -left.end.shear.y() / full,
@@ -312,11 +312,11 @@ void add_square(CaseResult& out, int threads) {
       1e-10, at_most, 0, "symmetry");
   const double work = full * left.exact.slid;
   const double error = std::abs(left.end.work / work - 1);
-  add(out, "square, 64 increments a side: work / exact", left.end.work / work, 1, info, 0,
+  add(out, "square, 256 increments a side: work / exact", left.end.work / work, 1, info, 0,
       string_law);
   add(out, "square: work / exact, extrapolated", (2 * left.end.work - coarse.end.work) / work, 1,
       equal, 1e-3, string_law);
-  add(out, "square: order of the work's error, 32 to 64",
+  add(out, "square: order of the work's error, 128 to 256",
       std::log2(std::abs(coarse.end.work / work - 1) / error), 1, equal, 0.1, "backward Euler");
   add(out, "let go: way back to rest / l", (left.free.at - left.end.at).norm() / rod, 1, equal,
       1e-9, "l = mu p / eps_T");
