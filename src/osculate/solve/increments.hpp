@@ -82,6 +82,18 @@ using IncrementObserver = std::function<bool(const State&, const IncrementRecord
 using CutbackObserver = std::function<void(const std::string& reason, double from, double to,
                                            const std::vector<IterationRecord>& iterations)>;
 
+namespace detail {
+
+/// The tangent was singular: perhaps only sliding points hold a body, as one that is let go while
+/// it slides.
+template <System S>
+bool worth_sticking(const NewtonResult<typename S::State>& attempt) {
+  return PredictsSticking<S> && attempt.outcome == Outcome::numerical_failure &&
+         attempt.evaluation.ok;
+}
+
+}  // namespace detail
+
 /// Runs one step from `start` (fraction 0) to its end.
 template <System S>
 [[nodiscard]] StepResult<typename S::State> run_step(
@@ -108,13 +120,9 @@ template <System S>
         wasted += static_cast<int>(attempt.iterations.size());
         attempt = newton(system, result.state, target, options.newton, solver);
       }
-      if (detail::PredictsSticking<S> && attempt.outcome == Outcome::numerical_failure &&
-          attempt.evaluation.ok) {
-        // singular: a body that only sliding points hold, as one that is let go while it slides
+      if (detail::worth_sticking<S>(attempt)) {
         wasted += static_cast<int>(attempt.iterations.size());
-        Guess sticking;
-        sticking.sticking = true;
-        attempt = newton(system, result.state, target, options.newton, solver, sticking);
+        attempt = newton(system, result.state, target, options.newton, solver, {{}, 0, 0, true});
       }
       if (attempt.outcome != Outcome::converged) {
         extrapolation.reset();
