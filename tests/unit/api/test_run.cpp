@@ -159,7 +159,7 @@ TEST_F(Run, SummaryHasTheWorkOfFriction) {
   text = edited(text, "[{on: block.top, uy: -0.02}]", "[{on: block.top, ux: 0.05}]");
   text = edited(text, "{on: floor, of: normal_force}", "{on: floor, of: friction_work}");
   write("model.yaml", text);
-  run(options());
+  ASSERT_EQ(run(options()).status, RunStatus::done);
   const nlohmann::json s = summary();
   double last = s["steps"][0]["increments"][1]["friction_work"];
   EXPECT_GE(last, 0.0);
