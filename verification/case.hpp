@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "osculate/io/plot.hpp"
+#include "osculate/io/scene.hpp"
 
 namespace osculate::verification {
 
@@ -36,10 +37,17 @@ struct Picture {
   io::LinePlot plot;
 };
 
+/// Deformed bodies for the docs: written as SVG when the command asks for it.
+struct Drawing {
+  std::string name;  ///< of the file, after the name of the case
+  io::Scene scene;
+};
+
 struct CaseResult {
   std::vector<Row> rows;
   std::vector<Curve> curves;
   std::vector<Picture> pictures;
+  std::vector<Drawing> drawings;
 };
 
 struct CaseContext {

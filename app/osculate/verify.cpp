@@ -67,6 +67,9 @@ void write_plots(const std::string& folder, const Case& c, const CaseResult& res
   for (const Picture& picture : result.pictures)
     io::write_file(folder + "/" + std::string(c.name) + "." + picture.name + ".svg",
                    io::plot_svg(picture.plot));
+  for (const Drawing& drawing : result.drawings)
+    io::write_file(folder + "/" + std::string(c.name) + "." + drawing.name + ".svg",
+                   io::scene_svg(drawing.scene));
 }
 
 void print_row(const Row& row) {
