@@ -6,6 +6,9 @@ const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases{
       {"beam_over_cylinder", "The solid-shell beam of KSVD 5.1 is bent over a rigid cylinder",
        false, beam_over_cylinder},
+      {"beam_over_sphere",
+       "The solid-shell beam of KSVD 5.2 is bent and twisted over a rigid sphere", false,
+       beam_over_sphere},
       {"cattaneo_mindlin", "Partial slip of equal bodies, 8 elements over the half-width", false,
        cattaneo_mindlin},
       {"cattaneo_mindlin_fine", "The same with 64 elements over the half-width", true,

@@ -5,6 +5,7 @@ namespace osculate::verification {
 
 // One function per case folder.
 [[nodiscard]] CaseResult beam_over_cylinder(const CaseContext& context);
+[[nodiscard]] CaseResult beam_over_sphere(const CaseContext& context);
 [[nodiscard]] CaseResult cattaneo_mindlin(const CaseContext& context);
 [[nodiscard]] CaseResult cattaneo_mindlin_fine(const CaseContext& context);
 [[nodiscard]] CaseResult closed_loop(const CaseContext& context);

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "../cases.hpp"
+#include "../scene3.hpp"
 #include "beam.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
 
@@ -40,9 +41,19 @@ struct Outcome {
   std::vector<int> per_increment;
   std::vector<double> share;  ///< eq. (60)
   double penetration = 0, tip_force = 0;
+  std::vector<io::ScenePanel> panels;
 };
 
-Outcome run_case(const Choice& choice, int threads) {
+/// The state if it is one of those that Fig. 2 shows.
+void draw_state(const model::Model3& m, const std::vector<Vec3>& x, double increment,
+                std::vector<io::ScenePanel>& panels) {
+  for (const double shown : {0, 20, 40, 60, 80, 90})
+    if (std::abs(increment - shown) < 1e-6)
+      panels.push_back(shell_panel(m, m.pairs[0].definition.slave.boundary, true, x,
+                                   fmt::format("increment {:.0f}", increment)));
+}
+
+Outcome run_case(const Choice& choice, int threads, bool draw = false) {
   const model::Model3 m = make_model(choice);
   model::AnalysisOptions options;
   options.threads = threads;
@@ -53,7 +64,8 @@ Outcome run_case(const Choice& choice, int threads) {
   Outcome out;
   model::AnalysisObserver3 observer;
   observer.converged = [&](model::System3& system, const model::BasicState<3>& state,
-                           const model::Progress&, const solve::IncrementRecord* record) {
+                           const model::Progress& progress, const solve::IncrementRecord* record) {
+    if (draw) draw_state(m, system.positions(state), progress.fraction * increments, out.panels);
     if (!record) return true;
     out.iterations += static_cast<int>(record->iterations.size()) + record->wasted_iterations;
     out.cutbacks += record->cutbacks;
@@ -150,7 +162,16 @@ void add_table(const CaseContext& context, bool quadratic, double penalty,
     choice.penalty = penalty;
     choice.tangent = p.tangent;
     choice.predictor = solve::Predictor::tangent;
-    const Outcome o = run_case(choice, context.threads);
+    const bool draw = k == 0 && !quadratic;
+    Outcome o = run_case(choice, context.threads, draw);
+    if (draw)
+      result.drawings.push_back({"deformation",
+                                 {"Beam bent over a rigid cylinder",
+                                  "displacement",
+                                  {0.4, -1.6, 0.5},
+                                  {0, 0, 1},
+                                  2,
+                                  std::move(o.panels)}});
     const double total = o.converged && o.cutbacks == 0 ? o.iterations : -1;
     add_row(result, fmt::format("{}, case {}: iterations", kind, p.name), total, p.total,
             Relation::equal, (p.allowed + 0.5) / p.total, table);
