@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -85,12 +86,12 @@ void expect_increment(const deck::BasicBuilt<Dim>& built) {
 }
 
 template <int Dim>
-void expect_conforming(const std::string& text) {
+void expect_conforming(const std::string& text, bool scatters = false) {
   SCOPED_TRACE(text);
   const deck::Description description = deck::parse_model(text, "generated.yaml");
   const auto built =
       std::get<deck::BasicBuilt<Dim>>(deck::build_any(description, deck::load_mesh(description)));
-  EXPECT_EQ(built.warnings, std::vector<std::string>{});
+  EXPECT_EQ(built.warnings.size(), scatters ? 1u : 0u);
   expect_tangent(api::check_tangent(built.model, 1));
   expect_increment<Dim>(built);
 }
@@ -145,14 +146,16 @@ std::vector<Named> targets_in_space() {
 }
 
 TEST(ContactInSpace, EverySlaveOnEveryTarget) {
+  const std::set<std::string> scatter{"hex20", "tet10", "wedge15"};  // a warning says so
   std::size_t i = 0;
   for (const Named& slave : slaves_in_space())
     for (const Named& target : targets_in_space())
       for (int three = 0; three < 3; ++three)
-        expect_conforming<3>(model_text(slave, target, "block.bottom", variant(5 * i++ % variants),
-                                        "{neo_hooke: {E: 100, nu: 0.31}}",
-                                        "{on: block.top, ux: 0.01, uy: 0.01, uz: -0.03}",
-                                        "force_z"));
+        expect_conforming<3>(
+            model_text(slave, target, "block.bottom", variant(5 * i++ % variants),
+                       "{neo_hooke: {E: 100, nu: 0.31}}",
+                       "{on: block.top, ux: 0.01, uy: 0.01, uz: -0.03}", "force_z"),
+            scatter.contains(slave.name));
 }
 
 // ---- the plane ----------------------------------------------------------------------------------

@@ -179,6 +179,22 @@ void check_pair(const BuildContext<Dim>& c, const Contact& contact,
     }
 }
 
+/// The areas of the nodes of tri6 and quad8 facets are positive, but not those of a uniform
+/// pressure.
+void warn_of_scatter(BuildContext<2>&, const Contact&, const pairing::PairDefinition<2>&) {}
+void warn_of_scatter(BuildContext<3>& c, const Contact& contact,
+                     const pairing::PairDefinition<3>& pair) {
+  for (const pairing::SurfaceFacet& facet : pair.slave.boundary.facets) {
+    if (facet.type != cell::CellType::tri6 && facet.type != cell::CellType::quad8) continue;
+    if (c.model().body_of_node[static_cast<std::size_t>(facet.nodes[0])] >= 0) continue;
+    c.built.warnings.push_back(fmt::format(
+        "contact '{}': the slave '{}' has {} faces, at whose nodes contact pressures scatter; "
+        "prefer hex27 or first-order cells there, or make it the master",
+        contact.name.value, contact.slave.value, cell::info(facet.type).name));
+    return;
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -197,6 +213,7 @@ void build_contact(BuildContext<Dim>& c) {
     } catch (const core::GeometryError& error) {
       throw core::InputError(contact.slave.mark, error.what());
     }
+    warn_of_scatter(c, contact, pair);
     c.model().pairs.push_back(std::move(out));
   }
 }
