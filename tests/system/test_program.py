@@ -104,14 +104,16 @@ class Program(unittest.TestCase):
         again = self.run_program("run", name, "--quiet")
         self.assertEqual((again.returncode, again.stdout, again.stderr), (0, "", ""))
 
-    def test_the_same_bits_with_one_and_two_threads(self):
-        name = self.model(BLOCK.replace("SIDE", "0.1"))
+    def expect_the_same_bits(self, name):
         texts = []
         for threads in ("1", "2"):
             self.run_program("run", name, "-o", "t" + threads, "--threads", threads, "--quiet")
             with open(self.path("t" + threads + "/history.csv")) as file:
                 texts.append(file.read())
         self.assertEqual(texts[0], texts[1])
+
+    def test_the_same_bits_with_one_and_two_threads(self):
+        self.expect_the_same_bits(self.model(BLOCK.replace("SIDE", "0.1")))
 
     def test_until_and_what_is_not_there_yet(self):
         name = self.model(BLOCK.replace("SIDE", "0.1"))
@@ -165,13 +167,7 @@ class Program(unittest.TestCase):
         self.assertIn("15 of 15 slave nodes face the master, 15 touch", check.stdout)
 
     def test_the_same_bits_with_one_and_two_threads_in_space(self):
-        name = self.model(SPACE)
-        texts = []
-        for threads in ("1", "2"):
-            self.run_program("run", name, "-o", "t" + threads, "--threads", threads, "--quiet")
-            with open(self.path("t" + threads + "/history.csv")) as file:
-                texts.append(file.read())
-        self.assertEqual(texts[0], texts[1])
+        self.expect_the_same_bits(self.model(SPACE))
 
     def test_the_examples_are_valid(self):
         examples = os.path.join(SOURCE, "examples")

@@ -42,19 +42,6 @@ class Laps {
 };
 
 template <int Dim>
-Placed<Dim> place_point(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& work,
-                        Points<Dim> x, std::size_t i, const PointHistory<Dim>& history) {
-  ProjectionQuery<Dim> query;
-  query.point = x[static_cast<std::size_t>(pair.slave.nodes[i])];
-  if (work.normals[i].squaredNorm() > 0) query.slave_normal = work.normals[i];
-  query.history = history.facet;
-  query.history_feature = history.feature;
-  const Projection<Dim> p = closest(pair.master, work.tree, x, query);
-  if (p.feature == Feature::none) return {};
-  return place(pair.master, p, query.point, x);
-}
-
-template <int Dim>
 ContactShare contact_share(const PointHistory<Dim>& history, double gap) {
   if (history.active || history.facet < 0 || !(history.gap > 0)) return {};
   const double range = history.gap - gap;

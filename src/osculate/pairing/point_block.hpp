@@ -19,6 +19,22 @@ template <int Dim>
   return w;
 }
 
+/// Closest point of slave node `i` on the master and the kinematics there; no place where none is
+/// found. `work` is refreshed at `x`.
+template <int Dim>
+[[nodiscard]] Placed<Dim> place_point(const PairDefinition<Dim>& pair,
+                                      const PairEvaluation<Dim>& work, Points<Dim> x, std::size_t i,
+                                      const contact::PointHistory<Dim>& history) {
+  ProjectionQuery<Dim> query;
+  query.point = x[static_cast<std::size_t>(pair.slave.nodes[i])];
+  if (work.normals[i].squaredNorm() > 0) query.slave_normal = work.normals[i];
+  query.history = history.facet;
+  query.history_feature = history.feature;
+  const Projection<Dim> p = closest(pair.master, work.tree, x, query);
+  if (p.feature == projection::Feature::none) return {};
+  return place(pair.master, p, query.point, x);
+}
+
 /// Sets the first Dim * count rows and columns of `tangent`.
 template <int Dim>
 void scatter_tangent(const Weights<Dim>& w, const contact::PointTerms<Dim>& terms, int count,

@@ -8,20 +8,6 @@ namespace osculate::pairing {
 namespace {
 
 template <int Dim>
-Placed<Dim> placed_again(const PairDefinition<Dim>& pair, Points<Dim> x,
-                         const PairEvaluation<Dim>& evaluation, std::size_t i) {
-  const contact::PointHistory<Dim>& history = evaluation.points[i].history;
-  ProjectionQuery<Dim> query;
-  query.point = x[static_cast<std::size_t>(pair.slave.nodes[i])];
-  if (evaluation.normals[i].squaredNorm() > 0) query.slave_normal = evaluation.normals[i];
-  query.history = history.facet;
-  query.history_feature = history.feature;
-  const Projection<Dim> p = closest(pair.master, evaluation.tree, x, query);
-  if (p.feature == projection::Feature::none) return {};
-  return place(pair.master, p, query.point, x);
-}
-
-template <int Dim>
 double share_at(const PairDefinition<Dim>& pair, const Placed<Dim>& placed,
                 const contact::TangentForm& parts) {
   contact::Traction<Dim> traction;
@@ -54,7 +40,8 @@ double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
   double largest = 0;
   for (std::size_t i = 0; i < evaluation.points.size(); ++i) {
     if (evaluation.points[i].status == contact::Status::open) continue;
-    const Placed<Dim> placed = placed_again<Dim>(pair, x, evaluation, i);
+    const Placed<Dim> placed =
+        place_point<Dim>(pair, evaluation, x, i, evaluation.points[i].history);
     if (placed.projection.feature == projection::Feature::none) continue;
     largest = std::max(largest, share_at(pair, placed, parts));
   }
