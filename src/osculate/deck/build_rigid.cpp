@@ -1,102 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 
+#include "osculate/deck/analytic_shape.hpp"
 #include "osculate/deck/build_context.hpp"
 
 namespace osculate::deck {
 namespace {
-
-double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
-
-geometry::Curve nurbs_curve(const NurbsShape& shape, bool flip) {
-  geometry::NurbsCurve curve;
-  curve.degree = shape.degree.value;
-  curve.knots = shape.knots.value;
-  for (const Vec3& c : shape.control.value) {
-    curve.control.emplace_back(c.x(), c.y());
-    curve.weights.push_back(c.z());
-  }
-  if (flip) {
-    std::reverse(curve.control.begin(), curve.control.end());
-    std::reverse(curve.weights.begin(), curve.weights.end());
-    const double sum = curve.knots.front() + curve.knots.back();
-    std::reverse(curve.knots.begin(), curve.knots.end());
-    for (double& knot : curve.knots) knot = sum - knot;
-  }
-  return curve;
-}
-
-/// Analytic shape of a rigid body with its centre.
-template <int Dim>
-struct Analytic {
-  model::RigidShape<Dim> shape;
-  Vec<Dim> center;
-};
-
-/// Curves of the plane; nothing for the other shapes.
-struct CurveOf {
-  bool flip;
-  using Result = std::optional<Analytic<2>>;
-
-  Result operator()(const CircleShape& s) const {
-    return {{geometry::Circle{s.center, s.radius.value, s.inside != flip}, s.center}};
-  }
-  Result operator()(const ArcShape& s) const {
-    return {{geometry::Arc{s.center, s.radius.value, radians(s.from.value), radians(s.to.value),
-                           s.inside != flip},
-             s.center}};
-  }
-  Result operator()(const HalfPlaneShape& s) const {
-    return {{geometry::InfiniteLine{s.point, (flip ? -1.0 : 1.0) * s.normal}, s.point}};
-  }
-  Result operator()(const NurbsShape& s) const {
-    Vec2 sum = Vec2::Zero();
-    for (const Vec3& c : s.control.value) sum += c.head<2>();
-    return {{nurbs_curve(s, flip), Vec2(sum / static_cast<double>(s.control.value.size()))}};
-  }
-  template <class Other>
-  Result operator()(const Other&) const {
-    return std::nullopt;
-  }
-};
-
-/// Surfaces in space; nothing for the other shapes. A new one is one more line here.
-struct SurfaceOf {
-  bool flip;
-  using Result = std::optional<Analytic<3>>;
-
-  Result operator()(const geometry::Plane& s) const {
-    return {{geometry::Plane{s.point, (flip ? -1.0 : 1.0) * s.normal}, s.point}};
-  }
-  Result operator()(const geometry::Sphere& s) const { return turned(s, s.center); }
-  Result operator()(const geometry::Cylinder& s) const { return turned(s, s.point); }
-  Result operator()(const geometry::Cone& s) const { return turned(s, s.apex); }
-  Result operator()(const geometry::Torus& s) const { return turned(s, s.center); }
-  Result operator()(const geometry::NurbsPatch& s) const {
-    Vec3 sum = Vec3::Zero();
-    for (const Vec3& c : s.control) sum += c;
-    return {{flip ? geometry::reversed(s) : s, Vec3(sum / static_cast<double>(s.control.size()))}};
-  }
-  template <class Other>
-  Result operator()(const Other&) const {
-    return std::nullopt;
-  }
-
- private:
-  template <class Round>
-  [[nodiscard]] Result turned(Round s, const Vec3& center) const {
-    s.inside = s.inside != flip;
-    return {{s, center}};
-  }
-};
-
-template <int Dim>
-std::optional<Analytic<Dim>> analytic_shape(const Rigid& rigid) {
-  if constexpr (Dim == 2) return std::visit(CurveOf{rigid.flip}, rigid.shape);
-  if constexpr (Dim == 3) return std::visit(SurfaceOf{rigid.flip}, rigid.shape);
-}
 
 template <int Dim>
 Index add_node(model::BasicModel<Dim>& m, const Vec<Dim>& x, Index body) {
@@ -163,7 +73,7 @@ model::BasicRigidBody<Dim> rigid_body(BuildContext<Dim>& c, const Rigid& rigid, 
   if (const auto* s = std::get_if<SetShape>(&rigid.shape)) add_meshed(c, rigid, *s, index, body);
   if constexpr (Dim == 2) add_polyline(c, rigid, index, body);
   body.reference = centroid(c.model(), body.nodes);
-  if (const std::optional<Analytic<Dim>> analytic = analytic_shape<Dim>(rigid)) {
+  if (const std::optional<Analytic<Dim>> analytic = analytic_shape<Dim>(rigid.shape, rigid.flip)) {
     add_frame(c, rigid, index, analytic->shape, body);
     body.reference = analytic->center;
   }

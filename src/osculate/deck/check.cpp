@@ -230,6 +230,11 @@ Value check(const Spec& spec, const SourceNode& node, const std::string& file) {
   return check_node(spec, node, {file, "", true});
 }
 
+Value check(const Spec& spec, const SourceNode& node, const std::string& file,
+            const std::string& path) {
+  return check_node(spec, node, {file, path, true});
+}
+
 Value check_text(const Spec& spec, std::string_view yaml) {
   return check(spec, read_yaml(yaml, "text"), "text");
 }

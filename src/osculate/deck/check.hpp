@@ -40,6 +40,9 @@ struct ValueEntry {
 ///
 /// Tested by  tests/unit/deck/test_broken_models.cpp
 [[nodiscard]] Value check(const Spec& spec, const SourceNode& node, const std::string& file);
+/// The same for a node that stands under the key `path`.
+[[nodiscard]] Value check(const Spec& spec, const SourceNode& node, const std::string& file,
+                          const std::string& path);
 
 /// A YAML text on its own, such as a default or an example.
 [[nodiscard]] Value check_text(const Spec& spec, std::string_view yaml);

@@ -21,6 +21,8 @@ namespace osculate::deck {
 [[nodiscard]] Spec solver_spec();
 [[nodiscard]] Spec output_spec();
 
+/// The shapes that need no mesh: those of the plane, then those of space.
+[[nodiscard]] std::vector<Key> shape_keys();
 /// Two coordinates.
 [[nodiscard]] Spec point_spec(std::string doc);
 /// Three coordinates.

@@ -139,23 +139,22 @@ std::vector<Key> space_shapes() {
   return keys;
 }
 
-std::vector<Key> shape_keys() {
+std::vector<Key> rigid_shape_keys() {
   std::vector<Key> keys{optional(
       "set", text("Set of line cells or nodes, in space of area cells or nodes, that move as one.")
                  .such_as("base_line"))};
-  for (const std::vector<Key>& shapes : {plane_shapes(), space_shapes()})
-    keys.insert(keys.end(), shapes.begin(), shapes.end());
+  for (Key& key : shape_keys()) keys.push_back(std::move(key));
   return keys;
 }
 
 std::vector<std::string> shape_names() {
   std::vector<std::string> out;
-  for (const Key& key : shape_keys()) out.push_back(key.name);
+  for (const Key& key : rigid_shape_keys()) out.push_back(key.name);
   return out;
 }
 
 std::vector<Key> rigid_keys() {
-  std::vector<Key> keys = shape_keys();
+  std::vector<Key> keys = rigid_shape_keys();
   keys.push_back(optional(
       "reference",
       list(
@@ -170,6 +169,12 @@ std::vector<Key> rigid_keys() {
 }
 
 }  // namespace
+
+std::vector<Key> shape_keys() {
+  std::vector<Key> keys = plane_shapes();
+  for (Key& key : space_shapes()) keys.push_back(std::move(key));
+  return keys;
+}
 
 Spec rigid_spec() {
   return names(
