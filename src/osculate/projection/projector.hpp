@@ -36,6 +36,7 @@ struct ClosestPoint {
 };
 
 enum class Mode : std::uint8_t {
+  nearest,   ///< proved by bounds: nothing on the target is nearer; the margin is not looked for
   fast,      ///< every facet that its box does not exclude, Newton's method from a good guess
   certified  ///< proved by bounds: nothing on the target is nearer; the margin is found
 };

@@ -39,6 +39,30 @@ class Bvh {
     refit(boxes);
   }
   [[nodiscard]] std::size_t size() const { return order_.size(); }
+  [[nodiscard]] std::size_t node_count() const { return nodes_.size(); }
+  [[nodiscard]] const Box<Dim>& node_box(Index i) const { return nodes_[at(i)].box; }
+
+  /// From the leaves to the root: leaf(i, objects) for every leaf i, inner(i, left, right) for every
+  /// other node; a caller's own data of the nodes (cones, flags) are filled so.
+  template <class Leaf, class Inner>
+  void fold(const Leaf& leaf, const Inner& inner) const {
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+      const Node& node = nodes_[i];
+      const auto self = static_cast<Index>(i);
+      if (node.right < 0)
+        leaf(self, std::span(order_).subspan(at(node.begin), at(node.end - node.begin)));
+      else
+        inner(self, self + 1, node.right);
+    }
+  }
+
+  /// Offers every object whose box lies within `reach` (a squared distance that may shrink on the
+  /// way) and whose nodes are all `wanted(i)`; nearer children first.
+  template <class Wanted, class Offer>
+  void for_each_wanted(const Vec<Dim>& point, const double& reach, const Wanted& wanted,
+                       const Offer& offer) const {
+    descend(point, reach, wanted, offer);
+  }
 
   /// New boxes of the same objects; the tree keeps its shape (another number of boxes builds anew).
   void refit(std::span<const Box<Dim>> boxes) {
@@ -88,7 +112,7 @@ class Bvh {
       constexpr double rounding = 1 + 4 * std::numeric_limits<double>::epsilon();
       reach = (best + tie) * (best + tie) * rounding;
     };
-    descend(point, reach, offer);
+    descend(point, reach, [](Index) { return true; }, offer);
   }
 
   /// The object of the smallest `squared_distance(index)` within the bound (which counts as
@@ -106,7 +130,7 @@ class Bvh {
       constexpr double rounding = 1 + 1e-12;  // of the caller's distance against the box's
       reach = std::min(bound, d * rounding);
     };
-    descend(point, reach, offer);
+    descend(point, reach, [](Index) { return true; }, offer);
     return found;
   }
 
@@ -174,8 +198,9 @@ class Bvh {
 
   /// Offers every object whose box lies within `reach`, which may shrink on the way; nearer
   /// children first.
-  template <class Offer>
-  void descend(const Vec<Dim>& point, const double& reach, const Offer& offer) const {
+  template <class Wanted, class Offer>
+  void descend(const Vec<Dim>& point, const double& reach, const Wanted& wanted,
+               const Offer& offer) const {
     const auto out_of_reach = [&](const Box<Dim>& box) {
       return box.empty() || box.squared_distance(point) > reach;
     };
@@ -187,7 +212,7 @@ class Bvh {
     while (top > 0) {
       const Index i = stack[--top];
       const Node& node = nodes_[at(i)];
-      if (out_of_reach(node.box)) continue;
+      if (out_of_reach(node.box) || !wanted(i)) continue;
       if (node.right >= 0) {
         const Index left = i + 1;
         const bool left_first = nodes_[at(left)].box.squared_distance(point) <=

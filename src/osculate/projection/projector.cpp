@@ -1,0 +1,408 @@
+#include "osculate/projection/projector.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "osculate/core/error.hpp"
+#include "osculate/projection/on_cell.hpp"
+#include "osculate/projection/shape_answer.hpp"
+#include "osculate/projection/triangle.hpp"
+#include "osculate/search/bvh.hpp"
+
+namespace osculate::projection {
+
+std::string_view name(Status status) {
+  switch (status) {
+    case Status::projected:
+      return "projected";
+    case Status::ambiguous:
+      return "ambiguous";
+    case Status::outside_domain:
+      return "outside_domain";
+    case Status::invalid:
+      break;
+  }
+  return "invalid";
+}
+
+std::string_view name(Feature feature) {
+  switch (feature) {
+    case Feature::face:
+      return "face";
+    case Feature::edge:
+      return "edge";
+    case Feature::corner:
+      return "corner";
+    case Feature::none:
+      break;
+  }
+  return "none";
+}
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A minimum and the piece it was found on.
+template <int Dim>
+struct Found {
+  Index piece = -1;
+  PieceMinimum<Dim> minimum;
+};
+
+/// Normals of everything below a node of the tree, for leaving out what cannot hold a minimum.
+template <int Dim>
+struct Guard {
+  Vec<Dim> center = Vec<Dim>::Zero();
+  double radius = 0;
+  Vec<Dim> axis = Vec<Dim>::UnitX();
+  double cosine = -1, sine = 0;  ///< of the cone's angle; cosine -1: anything is possible
+
+  /// No point within the ball looks at `point` along plus or minus a normal of the cone.
+  [[nodiscard]] bool excludes(const Vec<Dim>& point) const {
+    if (cosine <= 0) return false;
+    const Vec<Dim> d = point - center;
+    const double distance2 = d.squaredNorm();
+    if (!(distance2 > radius * radius)) return false;
+    const double distance = std::sqrt(distance2), far = std::sqrt(distance2 - radius * radius);
+    const double limit =
+        cosine * far - sine * radius;  // distance cos(angle + asin(radius/distance))
+    constexpr double rounding = 1e-9;
+    return limit > 0 && std::abs(d.dot(axis)) < limit - rounding * distance;
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+struct Projector<Dim>::Impl {
+  Target<Dim> target;
+  double size = 0;
+  bool analytic = false;
+  CellComplex<Dim> all;
+  search::Bvh<Dim> tree;
+  std::vector<Guard<Dim>> guards;  ///< of the nodes of the tree
+
+  [[nodiscard]] const Piece<Dim>& piece(Index k) const {
+    return all.set.pieces[static_cast<std::size_t>(k)];
+  }
+  [[nodiscard]] Control<Dim> control(const Piece<Dim>& p) const {
+    return control_of(p, all.set.control);
+  }
+};
+
+namespace {
+
+/// Shapes that are made of pieces become meshes or NURBS; nothing for analytic ones.
+std::optional<CellComplex<2>> pieces_of(const geometry::Curve& curve) {
+  if (const auto* nurbs = std::get_if<geometry::NurbsCurve>(&curve)) return make_complex(*nurbs);
+  const auto* lagrange = std::get_if<geometry::LagrangeCurve>(&curve);
+  if (lagrange == nullptr) return std::nullopt;
+  return make_complex(as_nurbs(*lagrange));
+}
+
+std::optional<CellComplex<3>> pieces_of(const geometry::Surface& surface) {
+  if (const auto* nurbs = std::get_if<geometry::NurbsPatch>(&surface)) return make_complex(*nurbs);
+  const auto* lagrange = std::get_if<geometry::LagrangeSurface>(&surface);
+  if (lagrange == nullptr) return std::nullopt;
+  FacetMesh<3> mesh;
+  MeshFacet facet{lagrange->type, {}};
+  const std::span<const Vec3> nodes = lagrange->used();
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    mesh.nodes.push_back(nodes[k]);
+    facet.nodes[k] = static_cast<Index>(k);
+  }
+  mesh.facets.push_back(facet);
+  return make_complex<3>(mesh);
+}
+
+template <int Dim>
+double size_of(const Shape<Dim>& shape) {
+  return std::visit(
+      [](const auto& s) {
+        using S = std::decay_t<decltype(s)>;
+        if constexpr (requires { s.tube_radius; })
+          return 2 * (s.radius + s.tube_radius);
+        else if constexpr (requires {
+                             s.radius;
+                             s.length;
+                           })
+          return std::isfinite(s.length) ? std::hypot(2 * s.radius, s.length) : 2 * s.radius;
+        else if constexpr (requires { s.radius; })
+          return 2 * s.radius;
+        else if constexpr (std::is_same_v<S, geometry::Cone>)
+          return std::isfinite(s.to) ? 2 * s.to * std::tan(s.half_angle) : 1.0;
+        else
+          return 1.0;  // without any length of its own
+      },
+      shape);
+}
+
+template <int Dim>
+bool touches_border(const CellComplex<Dim>& all, const Piece<Dim>& piece) {
+  const Cell& cell = all.cell(piece.cell);
+  for (const std::int8_t side : piece.side) {
+    if (side < 0) continue;
+    const auto k = static_cast<std::size_t>(side);
+    const std::size_t sharing =
+        Dim == 2 ? all.at_vertex.of(cell.vertex[k]).size() : all.at_edge.of(cell.group[k]).size();
+    if (sharing != 2) return true;
+  }
+  return false;
+}
+
+/// Normals of the piece and of all cells it meets at its corners and edges.
+template <int Dim>
+std::vector<Cone<Dim>> piece_cones(const CellComplex<Dim>& all) {
+  const std::size_t count = all.set.pieces.size();
+  std::vector<Cone<Dim>> own(count), of_cell(all.cells.size());
+  std::vector<bool> seen(all.cells.size(), false);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Piece<Dim>& piece = all.set.pieces[k];
+    own[k] = normal_cone<Dim>(piece, control_of(piece, all.set.control));
+    const auto c = static_cast<std::size_t>(piece.cell);
+    of_cell[c] = seen[c] ? join<Dim>(of_cell[c], own[k]) : own[k];
+    seen[c] = true;
+  }
+  std::vector<Cone<Dim>> at_vertex(all.at_vertex.start.size() - 1);
+  for (std::size_t v = 0; v < at_vertex.size(); ++v) {
+    bool first = true;
+    for (const CellPart& part : all.at_vertex.of(static_cast<Index>(v))) {
+      const Cone<Dim>& other = of_cell[static_cast<std::size_t>(part.cell)];
+      at_vertex[v] = first ? other : join<Dim>(at_vertex[v], other);
+      first = false;
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const Piece<Dim>& piece = all.set.pieces[k];
+    if (touches_border(all, piece)) {
+      own[k] = {};
+      continue;
+    }
+    const Cell& cell = all.cell(piece.cell);
+    const int n = corner_count(cell);
+    for (const std::int8_t side : piece.side) {
+      if (side < 0) continue;
+      const auto a = static_cast<std::size_t>(side), b = static_cast<std::size_t>((side + 1) % n);
+      own[k] = join<Dim>(own[k], at_vertex[static_cast<std::size_t>(cell.vertex[a])]);
+      if (Dim == 3) own[k] = join<Dim>(own[k], at_vertex[static_cast<std::size_t>(cell.vertex[b])]);
+    }
+  }
+  return own;
+}
+
+template <int Dim>
+std::vector<Guard<Dim>> guard_nodes(const search::Bvh<Dim>& tree,
+                                    const std::vector<Cone<Dim>>& cones) {
+  std::vector<Cone<Dim>> at_node(tree.node_count());
+  tree.fold(
+      [&](Index i, std::span<const Index> objects) {
+        Cone<Dim> sum;
+        for (std::size_t k = 0; k < objects.size(); ++k) {
+          const Cone<Dim>& one = cones[static_cast<std::size_t>(objects[k])];
+          sum = k == 0 ? one : join<Dim>(sum, one);
+        }
+        at_node[static_cast<std::size_t>(i)] = sum;
+      },
+      [&](Index i, Index left, Index right) {
+        at_node[static_cast<std::size_t>(i)] = join<Dim>(at_node[static_cast<std::size_t>(left)],
+                                                         at_node[static_cast<std::size_t>(right)]);
+      });
+  std::vector<Guard<Dim>> guards(at_node.size());
+  for (std::size_t i = 0; i < guards.size(); ++i) {
+    const search::Box<Dim>& box = tree.node_box(static_cast<Index>(i));
+    guards[i].center = 0.5 * (box.lo + box.hi);
+    guards[i].radius = 0.5 * (box.hi - box.lo).norm();
+    guards[i].axis = at_node[i].axis;
+    if (!at_node[i].narrow()) continue;
+    guards[i].cosine = std::cos(at_node[i].angle);
+    guards[i].sine = std::sin(at_node[i].angle);
+  }
+  return guards;
+}
+
+// -- one query ----------------------------------------------------------------------------------
+
+/// Keeps the nearest place.
+template <int Dim>
+struct NearestSink {
+  double tolerance = 0;
+  Vec<Dim> point;
+  Index piece = -1;
+  Found<Dim> best;
+  double reach = infinity;  ///< squared
+
+  [[nodiscard]] double reach2() const { return reach; }
+  void offer(PieceMinimum<Dim> m) {
+    if (m.flat) m.squared_distance = (point - m.point).squaredNorm();
+    if (!(m.squared_distance < best.minimum.squared_distance)) return;
+    best = {piece, m};
+    const double near = std::max(std::sqrt(m.squared_distance) - tolerance, 0.0);
+    reach = near * near;
+  }
+};
+
+/// Keeps the second-best minimum at another place, if it is one of the composed surface.
+template <int Dim, class Valid>
+struct SecondSink {
+  const Valid& valid;
+  Vec<Dim> taken;    ///< the best place
+  double apart = 0;  ///< nearer places are the same
+  double tolerance = 0;
+  Index piece = -1;
+  double second = infinity;  ///< distance
+  double reach = infinity;   ///< squared
+
+  [[nodiscard]] double reach2() const { return reach; }
+  void offer(const PieceMinimum<Dim>& m) {
+    const double distance = std::sqrt(std::max(m.squared_distance, 0.0));
+    if (!(distance < second) || (m.point - taken).norm() <= apart) return;
+    if (!m.flat && !valid(piece, m)) return;
+    second = distance;
+    const double near = std::max(distance - tolerance, 0.0);
+    reach = near * near;
+  }
+};
+
+template <int Dim, class Impl, class Sink>
+void search_piece(const Impl& impl, Index k, const Vec<Dim>& point, double tolerance, Sink& sink) {
+  sink.piece = k;
+  const Piece<Dim>& piece = impl.piece(k);
+  const Control<Dim> control = impl.control(piece);
+  if constexpr (Dim == 3) {
+    if (piece.triangle) {
+      const TriangleFoot foot =
+          closest_on_triangle(control[0].template head<3>(), control[1].template head<3>(),
+                              control[2].template head<3>(), point);
+      if (foot.squared_distance < sink.reach2())
+        sink.offer({foot.xi, foot.squared_distance, foot.point, foot.pressed});
+      return;
+    }
+  }
+  find_minima<Dim>(piece, control, point, tolerance, sink);
+}
+
+/// Newton's method from the middle of the piece, if that is nearly flat.
+template <int Dim, class Impl, class Sink>
+void descend_piece(const Impl& impl, Index k, const Vec<Dim>& point, double tolerance, Sink& sink) {
+  const Piece<Dim>& piece = impl.piece(k);
+  if (piece.triangle || piece.bent) return search_piece<Dim>(impl, k, point, tolerance, sink);
+  sink.piece = k;
+  const Control<Dim> control = impl.control(piece);
+  const detail::Range range = detail::whole_range(piece);
+  const Vec2 middle = 0.5 * (range.lo + range.hi);
+  const detail::Place<Dim> place = detail::descend<Dim>(
+      piece, control, point, range, detail::look<Dim>(piece, control, point, middle));
+  PieceMinimum<Dim> m;
+  m.st = place.st;
+  m.squared_distance = place.squared;
+  m.point = place.r;
+  m.pressed = detail::pressed_sides(piece, place);
+  sink.offer(m);
+}
+
+template <int Dim>
+ClosestPoint<Dim> answer_of(const CellComplex<Dim>& all, const OnCell& found, const Vec<Dim>& point,
+                            const Vec<Dim>& foot) {
+  ClosestPoint<Dim> out;
+  const Vec<Dim> gap = point - foot;
+  const OnCell on = first_owner(all, found);
+  out.feature = on.corner >= 0 ? Feature::corner : on.edge >= 0 ? Feature::edge : Feature::face;
+  out.facet = all.cell(on.cell).facet;
+  out.xi[0] = on.xi[0];
+  if (Dim == 3) out.xi[1] = on.xi[1];
+  out.point = foot;
+  const double length = gap.norm();
+  out.distance = gap.dot(shared_normal(all, on)) < 0 ? -length : length;
+  out.status =
+      bend_at(all, on, gap) <= least_bend_allowed ? Status::outside_domain : Status::projected;
+  return out;
+}
+
+}  // namespace
+
+template <int Dim>
+Projector<Dim>::Projector(Target<Dim> target) : impl_(std::make_unique<Impl>()) {
+  Impl& impl = *impl_;
+  impl.target = std::move(target);
+  if (const auto* shape = std::get_if<Shape<Dim>>(&impl.target)) {
+    const std::string wrong = geometry::validate(*shape);
+    if (!wrong.empty()) throw core::InputError({}, wrong);
+    std::optional<CellComplex<Dim>> all = pieces_of(*shape);
+    impl.analytic = !all.has_value();
+    if (all) impl.all = std::move(*all);
+    if (!all) impl.size = size_of<Dim>(*shape);
+  } else {
+    impl.all = make_complex(std::get<FacetMesh<Dim>>(impl.target));
+  }
+  if (impl.analytic) return;
+  std::vector<search::Box<Dim>> boxes;
+  search::Box<Dim> whole;
+  for (const Piece<Dim>& piece : impl.all.set.pieces) {
+    boxes.push_back(box_of<Dim>(piece, impl.control(piece)));
+    whole.extend(boxes.back());
+  }
+  impl.size = (whole.hi - whole.lo).norm();
+  impl.tree = search::Bvh<Dim>(boxes);
+  impl.guards = guard_nodes(impl.tree, piece_cones(impl.all));
+}
+template <int Dim>
+Projector<Dim>::~Projector() = default;
+template <int Dim>
+Projector<Dim>::Projector(Projector&&) noexcept = default;
+template <int Dim>
+Projector<Dim>& Projector<Dim>::operator=(Projector&&) noexcept = default;
+
+template <int Dim>
+const Target<Dim>& Projector<Dim>::target() const {
+  return impl_->target;
+}
+template <int Dim>
+double Projector<Dim>::size() const {
+  return impl_->size;
+}
+
+template <int Dim>
+ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) const {
+  const Impl& impl = *impl_;
+  if (!point.allFinite()) return {};
+  if (impl.analytic) return *shape_answer(std::get<Shape<Dim>>(impl.target), point);
+  // Distances are told apart down to this; it follows the rounding of far points.
+  const double far = (point - impl.tree.node_box(0).lo).norm();
+  const double tolerance = 1e-13 * (impl.size + (far > impl.size ? far - impl.size : 0));
+  NearestSink<Dim> nearest{tolerance, point, -1, {}, infinity};
+  const auto possible = [&](Index i) {
+    return !impl.guards[static_cast<std::size_t>(i)].excludes(point);
+  };
+  impl.tree.for_each_wanted(point, nearest.reach, possible, [&](Index k) {
+    if (mode == Mode::fast)
+      descend_piece<Dim>(impl, k, point, tolerance, nearest);
+    else
+      search_piece<Dim>(impl, k, point, tolerance, nearest);
+  });
+  const Found<Dim>& best = nearest.best;
+  if (best.piece < 0) return {};
+  ClosestPoint<Dim> out = answer_of<Dim>(
+      impl.all, locate(impl.all, impl.piece(best.piece), best.minimum), point, best.minimum.point);
+  if (mode != Mode::certified) return out;
+
+  const auto valid = [&](Index k, const PieceMinimum<Dim>& m) {
+    return minimum_of_all<Dim>(impl.all, locate(impl.all, impl.piece(k), m), point - m.point);
+  };
+  SecondSink<Dim, decltype(valid)> sink{valid, best.minimum.point, 1e-8 * impl.size, tolerance,
+                                        -1,    infinity,           infinity};
+  impl.tree.for_each_wanted(point, sink.reach, possible,
+                            [&](Index k) { search_piece<Dim>(impl, k, point, tolerance, sink); });
+  out.margin = std::max(sink.second - std::abs(out.distance), 0.0);
+  out.unique = out.margin > least_margin * impl.size;
+  if (!out.unique && out.status == Status::projected) out.status = Status::ambiguous;
+  if (best.minimum.open) out.status = Status::ambiguous;
+  return out;
+}
+
+template class Projector<2>;
+template class Projector<3>;
+
+}  // namespace osculate::projection
