@@ -42,8 +42,8 @@ class Bvh {
   [[nodiscard]] std::size_t node_count() const { return nodes_.size(); }
   [[nodiscard]] const Box<Dim>& node_box(Index i) const { return nodes_[at(i)].box; }
 
-  /// From the leaves to the root: leaf(i, objects) for every leaf i, inner(i, left, right) for every
-  /// other node; a caller's own data of the nodes (cones, flags) are filled so.
+  /// From the leaves to the root: leaf(i, objects) for every leaf i, inner(i, left, right) for
+  /// every other node; a caller's own data of the nodes (cones, flags) are filled so.
   template <class Leaf, class Inner>
   void fold(const Leaf& leaf, const Inner& inner) const {
     for (std::size_t i = nodes_.size(); i-- > 0;) {
@@ -112,7 +112,8 @@ class Bvh {
       constexpr double rounding = 1 + 4 * std::numeric_limits<double>::epsilon();
       reach = (best + tie) * (best + tie) * rounding;
     };
-    descend(point, reach, [](Index) { return true; }, offer);
+    descend(
+        point, reach, [](Index) { return true; }, offer);
   }
 
   /// The object of the smallest `squared_distance(index)` within the bound (which counts as
@@ -130,7 +131,8 @@ class Bvh {
       constexpr double rounding = 1 + 1e-12;  // of the caller's distance against the box's
       reach = std::min(bound, d * rounding);
     };
-    descend(point, reach, [](Index) { return true; }, offer);
+    descend(
+        point, reach, [](Index) { return true; }, offer);
     return found;
   }
 
