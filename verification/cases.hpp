@@ -8,6 +8,8 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult beam_over_sphere(const CaseContext& context);
 [[nodiscard]] CaseResult cattaneo_mindlin(const CaseContext& context);
 [[nodiscard]] CaseResult cattaneo_mindlin_fine(const CaseContext& context);
+[[nodiscard]] CaseResult closest_points(const CaseContext& context);
+[[nodiscard]] CaseResult closest_points_many(const CaseContext& context);
 [[nodiscard]] CaseResult closed_loop(const CaseContext& context);
 [[nodiscard]] CaseResult contact_patch(const CaseContext& context);
 [[nodiscard]] CaseResult contact_patch_space(const CaseContext& context);

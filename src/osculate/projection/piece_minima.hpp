@@ -267,6 +267,17 @@ class PieceSearch {
     return ss.lo > least && tt.lo > least && ss.lo * tt.lo > mixed * mixed * (1 + 1e-12);
   }
 
+  /// Nowhere bent upwards in all directions: no minimum but on sides.
+  [[nodiscard]] bool saddle(const NetBounds& b, const std::array<bool, 2>& fixed) const {
+    const double least = 100 * slack_;
+    const Bounds &ss = b.second[0], &st = b.second[1], &tt = b.second[2];
+    if ((!fixed[0] && ss.hi < -least) || (!fixed[1] && tt.hi < -least)) return true;
+    if (fixed[0] || fixed[1] || st.lo * st.hi <= 0) return false;
+    const double mixed = std::min(std::abs(st.lo), std::abs(st.hi));
+    return mixed > least &&
+           mixed * mixed > std::max(ss.hi, least) * std::max(tt.hi, least) * (1 + 1e-12);
+  }
+
   void visit(const Net<Capacity>& n, const Net<Capacity>& d, const Range& range,
              std::array<bool, 2> fixed, int depth) {
     const Bounds f = value_bounds(n, d);
@@ -281,6 +292,12 @@ class PieceSearch {
       if (!rises && !falls) continue;
       return to_side(n, d, range, fixed, k, falls, depth);
     }
+    if (saddle(b, fixed)) {
+      for (std::size_t k = 0; k < 2; ++k)
+        for (const bool high : {false, true})
+          if (!fixed[k]) to_side(n, d, range, fixed, k, high, depth);
+      return;
+    }
     constexpr int deepest = 90;
     const bool level =
         std::sqrt(std::max(f.hi, 0.0)) - std::sqrt(std::max(f.lo, 0.0)) <= tolerance_;
@@ -292,7 +309,7 @@ class PieceSearch {
     split(n, d, range, fixed, change(1) > change(0) ? 1 : 0, depth);
   }
 
-  /// The distance only falls towards one side of the range.
+  /// Looks for minima on one side of the range.
   void to_side(const Net<Capacity>& n, const Net<Capacity>& d, Range range,
                std::array<bool, 2> fixed, std::size_t k, bool high, int depth) {
     const auto i = static_cast<Eigen::Index>(k);

@@ -253,7 +253,8 @@ struct SecondSink {
   double tolerance = 0;
   Index piece = -1;
   double second = infinity;  ///< distance
-  double reach = infinity;   ///< squared
+  Vec<Dim> place = Vec<Dim>::Constant(std::numeric_limits<double>::quiet_NaN());
+  double reach = infinity;  ///< squared
 
   [[nodiscard]] double reach2() const { return reach; }
   void offer(const PieceMinimum<Dim>& m) {
@@ -261,6 +262,7 @@ struct SecondSink {
     if (!(distance < second) || (m.point - taken).norm() <= apart) return;
     if (!m.flat && !valid(piece, m)) return;
     second = distance;
+    place = m.point;
     const double near = std::max(distance - tolerance, 0.0);
     reach = near * near;
   }
@@ -391,10 +393,10 @@ ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) cons
   const auto valid = [&](Index k, const PieceMinimum<Dim>& m) {
     return minimum_of_all<Dim>(impl.all, locate(impl.all, impl.piece(k), m), point - m.point);
   };
-  SecondSink<Dim, decltype(valid)> sink{valid, best.minimum.point, 1e-8 * impl.size, tolerance,
-                                        -1,    infinity,           infinity};
+  SecondSink<Dim, decltype(valid)> sink{valid, best.minimum.point, 1e-8 * impl.size, tolerance};
   impl.tree.for_each_wanted(point, sink.reach, possible,
                             [&](Index k) { search_piece<Dim>(impl, k, point, tolerance, sink); });
+  out.second = sink.place;
   out.margin = std::max(sink.second - std::abs(out.distance), 0.0);
   out.unique = out.margin > least_margin * impl.size;
   if (!out.unique && out.status == Status::projected) out.status = Status::ambiguous;

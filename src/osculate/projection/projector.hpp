@@ -32,7 +32,8 @@ struct ClosestPoint {
   double distance = none;  ///< signed along the (angle-weighted) normal: negative inside
   double margin = none;    ///< second-best distinct local minimum minus the best; inf: there is
                            ///< none; NaN in fast mode: not looked for
-  bool unique = false;     ///< margin > 1e-9 of the surface's size (always false in fast mode)
+  Vec<Dim> second = Vec<Dim>::Constant(none);  ///< where that is; NaN: nowhere, or not looked for
+  bool unique = false;  ///< margin > 1e-9 of the surface's size (always false in fast mode)
 };
 
 enum class Mode : std::uint8_t {

@@ -68,7 +68,10 @@ ClosestPoint<2> on_arc(const geometry::Arc& arc, const Vec2& point) {
     const Vec2 gap = point - j.r;
     const bool minimum = gap.dot(high ? Vec2(-j.r1) : j.r1) <= 0;
     if (!minimum || (j.r - best.point).norm() <= 1e-8 * arc.radius) continue;
-    best.margin = std::min(best.margin, std::max(gap.norm() - std::abs(best.distance), 0.0));
+    const double margin = std::max(gap.norm() - std::abs(best.distance), 0.0);
+    if (margin >= best.margin) continue;
+    best.margin = margin;
+    best.second = j.r;
   }
   const double size = 2 * arc.radius;
   best.unique = best.margin > least_margin * size;
