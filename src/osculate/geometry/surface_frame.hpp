@@ -114,11 +114,12 @@ struct SurfaceFrame {
 
 /// Half the trace of h_i^k; -1/R on a solid sphere. The same in every parameterisation.
 [[nodiscard]] inline double mean_curvature(const SurfaceFrame& f) {
-  return 0.5 * f.h_mixed.trace();
+  return 0.5 * f.h_mixed.trace();  // @eq KSCPP:18
 }
 /// det h_i^k, the product of the principal curvatures.
 [[nodiscard]] inline double gaussian_curvature(const SurfaceFrame& f) {
-  return f.valid ? (f.h(0, 0) * f.h(1, 1) - f.h(0, 1) * f.h(1, 0)) / f.area / f.area : 0.0;
+  const double det_h = f.h(0, 0) * f.h(1, 1) - f.h(0, 1) * f.h(1, 0);
+  return f.valid ? det_h / f.area / f.area : 0.0;  // @eq KSCPP:17
 }
 
 /// Extremal normal curvatures, the larger first, with their unit directions. Where both are equal
@@ -128,7 +129,9 @@ struct PrincipalCurvatures {
   std::array<Vec3, 2> direction{Vec3::Zero(), Vec3::Zero()};
 };
 
-/// Formula    eigenvalues of h_ij in the orthonormal basis r_1/|r_1|, n x r_1/|r_1|
+/// Formula    eigenvalues of h_ij in the orthonormal basis r_1/|r_1|, n x r_1/|r_1|; the same as
+///            H +- sqrt(H^2 - K), without its cancellation where both are nearly equal
+/// Source     KSCPP:13, 14 and 16
 [[nodiscard]] inline PrincipalCurvatures principal_curvatures(const SurfaceFrame& f) {
   if (!f.valid) return {};
   const Vec3 e1 = f.tangent[0].normalized(), e2 = f.normal.cross(e1);
@@ -140,7 +143,8 @@ struct PrincipalCurvatures {
   const double shear = 0.5 * (b(0, 1) + b(1, 0)), radius = std::hypot(half, shear);
   const double angle = 0.5 * std::atan2(shear, half);
   PrincipalCurvatures out;
-  out.value = {middle + radius, middle - radius};
+  out.value = {middle + radius, middle - radius};  // @eq KSCPP:14, KSCPP:16
+  // @eq KSCPP:13
   out.direction = {std::cos(angle) * e1 + std::sin(angle) * e2,
                    std::cos(angle) * e2 - std::sin(angle) * e1};
   return out;
