@@ -11,6 +11,7 @@ void add_run(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_tangent(CLI::App& app, int& exit_code);
 void add_verify(CLI::App& app, int& exit_code);
+void add_project(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
 void add_doc(CLI::App& app, int& exit_code);

@@ -5,22 +5,33 @@
 #include "commands.hpp"
 #include "osculate/api/run.hpp"
 #include "osculate/deck/explain.hpp"
+#include "osculate/deck/parse_surface.hpp"
 #include "osculate/deck/schema.hpp"
 
 namespace osculate::app {
 
 void add_schema(CLI::App& app, int&) {
-  app.add_subcommand("schema", "Print the JSON schema of the model file")->callback([] {
-    fmt::print("{}\n", deck::model_schema());
-  });
+  CLI::App* const command = app.add_subcommand("schema", "Print the JSON schema of the model file");
+  auto surface = std::make_shared<bool>(false);
+  command->add_flag("--surface", *surface, "Of the surface file of `osculate project`");
+  command->callback(
+      [surface] { fmt::print("{}\n", *surface ? deck::surface_schema() : deck::model_schema()); });
 }
 
 void add_doc(CLI::App& app, int&) {
   CLI::App* const command = app.add_subcommand("doc", "Explain a key of the model file");
-  auto key = std::make_shared<std::string>();
-  command->add_option("key", *key,
+  struct Flags {
+    std::string key;
+    bool surface = false;
+  };
+  auto flags = std::make_shared<Flags>();
+  command->add_option("key", flags->key,
                       "Path such as contact.friction.coulomb.mu (default: the whole file)");
-  command->callback([key] { fmt::print("{}\n", deck::explain_model_key(*key)); });
+  command->add_flag("--surface", flags->surface, "Of the surface file of `osculate project`");
+  command->callback([flags] {
+    fmt::print("{}\n", flags->surface ? deck::explain_surface_key(flags->key)
+                                      : deck::explain_model_key(flags->key));
+  });
 }
 
 void add_report(CLI::App& app, int&) {

@@ -40,6 +40,7 @@ int run_program(int argc, char** argv) {
   add_check(app, exit_code);
   add_tangent(app, exit_code);
   add_verify(app, exit_code);
+  add_project(app, exit_code);
   add_report(app, exit_code);
   add_schema(app, exit_code);
   add_doc(app, exit_code);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "osculate/api/closest_points.hpp"
 #include "osculate/api/contact_evaluator.hpp"
 #include "osculate/geometry/curve_frame.hpp"
 #include "osculate/geometry/curve_jet.hpp"
@@ -95,6 +96,20 @@ bool contact_in_space_is_right() {
          result.points.size() == 4 && !result.tangent.empty();
 }
 
+/// Closest points with plain arrays, on two threads: above a square and beyond its edge.
+bool closest_points_are_right() {
+  using namespace osculate;
+  const std::vector<Index> square{0, 1, 2, 3};
+  const std::vector<double> nodes{0, 0, 0, 2, 0, 0, 2, 2, 0, 0, 2, 0};
+  const std::vector<api::FacetList3> lists{{cell::CellType::quad4, square}};
+  const api::ClosestPoints3 surface(lists, nodes);
+  const std::vector<double> points{1, 0.5, 3, 5, 1, 4};
+  const api::ClosestPointArrays<3> a = surface.find(points, {projection::Mode::certified, 2});
+  return a.feature[0] == projection::Feature::face && std::abs(a.distance[0] - 3.0) < 1e-12 &&
+         std::abs(a.xi[1] + 0.5) < 1e-12 && a.feature[1] == projection::Feature::edge &&
+         std::abs(a.distance[1] - 5.0) < 1e-12 && std::abs(a.point[3] - 2.0) < 1e-12;
+}
+
 }  // namespace
 
 int main() {
@@ -108,6 +123,7 @@ int main() {
   check(linear_solver_is_right(), "linear solver");
   check(contact_evaluator_is_right(), "contact evaluator");
   check(contact_in_space_is_right(), "contact evaluator in space");
+  check(closest_points_are_right(), "closest points of a surface");
   check(alignment_is_the_same_everywhere(), "alignment of small matrices");
   return failed == 0 ? 0 : 1;
 }

@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -169,12 +170,92 @@ class Program(unittest.TestCase):
     def test_the_same_bits_with_one_and_two_threads_in_space(self):
         self.expect_the_same_bits(self.model(SPACE))
 
+    def points(self, rows, name="points.csv"):
+        with open(self.path(name), "w") as file:
+            file.write(rows)
+        return name
+
+    def test_closest_points_of_the_example(self):
+        folder = os.path.join(SOURCE, "examples/closest_points")
+        box, points = os.path.join(folder, "box.yaml"), os.path.join(folder, "points.csv")
+        done = self.run_program("project", box, points)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("6 points", done.stderr)
+        rows = list(csv.DictReader(done.stdout.splitlines()))
+        self.assertEqual([row["id"] for row in rows], list("012345"))
+        self.assertEqual([row["feature"] for row in rows[:4]], ["face", "edge", "corner", "face"])
+        self.assertEqual([row["facet"] for row in (rows[0], rows[3])], ["1", "0"])
+        for row, distance in zip(rows, (2, 2 ** 0.5, 3 ** 0.5, -0.25, -0.5)):
+            self.assertAlmostEqual(float(row["distance"]), distance, places=12)
+        self.assertEqual([row["status"] for row in rows[:4]], 4 * ["projected"])
+        self.assertEqual([row["unique"] for row in rows], ["1", "1", "1", "1", "0", ""])
+        self.assertAlmostEqual(float(rows[3]["margin"]), 0.5, places=12)
+        self.assertEqual((rows[4]["status"], rows[5]["status"]), ("ambiguous", "invalid"))
+        self.assertEqual(self.run_program("project", box, points, "-o", "out.csv", "--fast").returncode, 0)
+        with open(self.path("out.csv")) as file:
+            fast = list(csv.DictReader(file))
+        self.assertEqual([row["feature"] for row in fast[:4]], ["face", "edge", "corner", "face"])
+        self.assertEqual({row["margin"] for row in fast}, {""})
+
+    def test_closest_points_have_the_same_bytes_with_one_and_two_threads(self):
+        rows = ["x,y,z"] + [f"{i % 37 / 9},{i % 41 / 10 - 1},{i % 43 / 11 - 1}" for i in range(5000)]
+        points = self.points("\n".join(rows))
+        box = os.path.join(SOURCE, "examples/closest_points/box.yaml")
+        texts = [self.run_program("project", box, points, "--threads", n).stdout for n in "12"]
+        self.assertEqual(texts[0].count("\n"), 5001)
+        self.assertEqual(texts[0], texts[1])
+
+    def test_bad_surfaces_and_points_end_with_2_and_write_nothing(self):
+        good = self.model("sphere: {center: [0, 0, 0], radius: 1}\n", "good.yaml")
+        bad = self.model("sphere: {center: [0, 0, 0], radios: 1}\n", "bad.yaml")
+        points = self.points("x,y,z\n1,2,3\n")
+        self.points("kept", "out.csv")
+        for surface, table, message in (
+            (bad, points, "error: bad.yaml:1: sphere: unknown key 'radios'; did you mean 'radius'?\n"),
+            ("no.yaml", points, "error: no.yaml: no such file\n"),
+            (good, "no.csv", "error: no.csv: no such file\n"),
+            (good, self.points("x,y,z\n1,2,3\n1,2,c\n", "c.csv"),
+             "error: c.csv:3: z: expected a number, found 'c'\n"),
+            (good, self.points("x,y\n1,2\n", "xy.csv"),
+             "error: xy.csv:1: there is no column 'z' in the header line; it has: x, y\n"),
+        ):
+            done = self.run_program("project", surface, table, "-o", "out.csv")
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", message))
+            with open(self.path("out.csv")) as file:
+                self.assertEqual(file.read(), "kept")
+        self.assertFalse(os.path.exists(self.path("out.csv.part")))
+        self.assertEqual(self.run_program("project", good, points, "-o", "no/out.csv").returncode, 3)
+        self.assertEqual(self.run_program("project", good).returncode, 2)
+        self.assertIn("tube_radius", self.run_program("doc", "--surface", "torus").stdout)
+        self.assertIn("facets", json.loads(self.run_program("schema", "--surface").stdout)["properties"])
+
+    def test_interrupted_closest_points_leave_no_file(self):
+        surface = self.model("sphere: {center: [0, 0, 0], radius: 1}\n", "good.yaml")
+        os.mkfifo(self.path("endless.csv"))
+        command = [PROGRAM, "project", surface, "endless.csv", "-o", "out.csv"]
+        with subprocess.Popen(command, cwd=self.folder.name, stderr=subprocess.PIPE, text=True) as program:
+            with open(self.path("endless.csv"), "w") as table:
+                table.write("x,y,z\n" + 100000 * "1,2,3\n")
+                table.flush()
+                program.send_signal(signal.SIGINT)
+                try:
+                    table.write(100000 * "1,2,3\n")
+                except BrokenPipeError:
+                    pass
+            message = program.stderr.read()
+        self.assertEqual(program.returncode, 3, message)
+        self.assertIn("out.csv was not written", message)
+        self.assertEqual([name for name in os.listdir(self.folder.name) if name.startswith("out")], [])
+
     def test_the_examples_are_valid(self):
         examples = os.path.join(SOURCE, "examples")
         found = [os.path.join(folder, name) for folder, _, names in os.walk(examples)
                  for name in names if name.endswith(".yaml")]
         self.assertTrue(found)
         for example in found:
+            with open(example) as file:
+                if "\nosculate: 1\n" not in "\n" + file.read():
+                    continue  # a surface
             done = self.run_program("check", example)
             self.assertEqual(done.returncode, 0, example + done.stderr)
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "osculate/api/facet_list.hpp"
 #include "osculate/core/types.hpp"
 #include "osculate/pairing/pair.hpp"
 
@@ -20,26 +21,6 @@ struct ContactOptions {
   contact::ResidualForm residual = contact::ResidualForm::surface;
   contact::TangentForm tangent{};
   pairing::AreaRule area{};  ///< thickness, or circumference (in the plane)
-};
-
-/// A surface as a list of facets of one kind.
-template <int Dim>
-struct BasicFacetList;
-
-/// Line facets with the same number of nodes each (2..8): end nodes first, then the interior ones;
-/// the body is on the right of the direction of travel.
-template <>
-struct BasicFacetList<2> {
-  int nodes_per_facet = 2;
-  std::span<const Index> nodes;
-};
-
-/// Facets tri3, tri6, quad4, quad8 or quad9 (Gmsh's order of nodes); r_1 x r_2 points out of the
-/// body: seen from outside, the corners run counterclockwise.
-template <>
-struct BasicFacetList<3> {
-  cell::CellType type = cell::CellType::quad4;
-  std::span<const Index> nodes;
 };
 
 /// One entry of the tangent (to be summed): d force[row] / d coordinate[column].
@@ -84,8 +65,6 @@ class BasicContactEvaluator {
   std::unique_ptr<Impl> impl_;
 };
 
-using FacetList = BasicFacetList<2>;
-using FacetList3 = BasicFacetList<3>;
 using ContactResult = BasicContactResult<2>;
 using ContactResult3 = BasicContactResult<3>;
 using ContactEvaluator = BasicContactEvaluator<2>;
