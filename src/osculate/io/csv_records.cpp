@@ -146,10 +146,8 @@ std::size_t CsvRecords::find(const std::string& column) const {
   if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
   std::vector<std::string> known;
   for (const std::string& name : columns_) known.push_back(shown(name));
-  const std::string near = core::nearest_name(column, known);
-  fail(header_line_, fmt::format("there is no column '{}' in the header line; {}", column,
-                                 near.empty() ? "it has: " + core::join(known)
-                                              : fmt::format("is it '{}'?", near)));
+  fail(header_line_, fmt::format("there is no column '{}' in the header line; it has: {}", column,
+                                 core::join(known)));
 }
 
 void CsvRecords::fail(int line, const std::string& message) const {

@@ -25,7 +25,7 @@ class CsvRecords {
   explicit CsvRecords(std::string path);
   [[nodiscard]] const std::string& file() const { return path_; }
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
-  /// Position of a column; core::InputError with the nearest name if there is none.
+  /// Position of a column; core::InputError with those that are there if there is none.
   [[nodiscard]] std::size_t find(const std::string& column) const;
   /// The next rows (some thousand); none at the end of the file. Valid until the next call.
   [[nodiscard]] std::span<const CsvRecord> next();
