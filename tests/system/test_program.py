@@ -234,14 +234,15 @@ class Program(unittest.TestCase):
         os.mkfifo(self.path("endless.csv"))
         command = [PROGRAM, "project", surface, "endless.csv", "-o", "out.csv"]
         with subprocess.Popen(command, cwd=self.folder.name, stderr=subprocess.PIPE, text=True) as program:
-            with open(self.path("endless.csv"), "w") as table:
-                table.write("x,y,z\n" + 100000 * "1,2,3\n")
-                table.flush()
-                program.send_signal(signal.SIGINT)
-                try:
-                    table.write(100000 * "1,2,3\n")
-                except BrokenPipeError:
-                    pass
+            table = os.open(self.path("endless.csv"), os.O_WRONLY)  # waits for the program to read it
+            os.write(table, b"x,y,z\n")
+            program.send_signal(signal.SIGINT)
+            try:
+                for _ in range(1000):
+                    os.write(table, 10000 * b"1,2,3\n")
+            except BrokenPipeError:
+                pass
+            os.close(table)
             message = program.stderr.read()
         self.assertEqual(program.returncode, 3, message)
         self.assertIn("out.csv was not written", message)
