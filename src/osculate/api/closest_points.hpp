@@ -18,8 +18,8 @@ struct ClosestPointArrays {
   std::vector<double> xi;  ///< two a point: coordinates on the facet; NaN where they do not apply
   std::vector<double> point;         ///< Dim a point: the foot point; NaN where invalid
   std::vector<double> distance;      ///< negative inside
-  std::vector<double> margin;        ///< NaN in fast mode and where invalid
-  std::vector<std::uint8_t> unique;  ///< 0 or 1; 0 in fast mode
+  std::vector<double> margin;        ///< NaN where it was not looked for, and where invalid
+  std::vector<std::uint8_t> unique;  ///< 0 or 1; 0 where the margin was not looked for
 };
 
 struct ClosestPointOptions {

@@ -28,7 +28,7 @@ struct SurfaceInput {
 [[nodiscard]] std::string explain_surface_key(std::string_view key);
 
 /// Larger than those of a model file: a surface file may hold a mesh.
-inline constexpr TextLimits surface_limits{std::size_t{256} << 20U, 8'000'000, 48};
+inline constexpr TextLimits surface_limits{std::size_t{256} << 20U, 4'000'000, 48};
 
 /// The text of a surface file. Polylines become meshes of line2; the facets of a mesh are numbered
 /// across types in the order of the file.
