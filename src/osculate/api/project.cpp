@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 
 #include "osculate/api/pieces.hpp"
@@ -104,22 +105,26 @@ io::CsvPick picked(const io::CsvRecords& table, int dimension) {
 
 // ---- all rows ---------------------------------------------------------------------------------
 
-/// Says how far it is, not more often than a person can read.
+/// Says how far it is, not more often than a person can read; asked from several threads.
 class Progress {
  public:
   explicit Progress(const ProjectOptions& options) : options_(options) {}
-  void update(std::int64_t points) {
-    if (!options_.progress || seconds_since(last_) < 1) return;
+  void add(std::size_t points) {
+    const std::int64_t sum = points_ += static_cast<std::int64_t>(points);
+    if (!options_.progress) return;
+    const std::unique_lock<std::mutex> lock(mutex_, std::try_to_lock);
+    if (!lock || seconds_since(last_) < 1) return;
     last_ = Clock::now();
-    const double seconds = seconds_since(start_);
-    options_.progress(
-        fmt::format("{} points, {:.0f} per second", points, static_cast<double>(points) / seconds));
+    options_.progress(fmt::format("{} points, {:.0f} per second", sum,
+                                  static_cast<double>(sum) / seconds_since(start_)));
   }
   [[nodiscard]] double seconds() const { return seconds_since(start_); }
 
  private:
   const ProjectOptions& options_;
   Clock::time_point start_ = Clock::now(), last_ = start_;
+  std::atomic<std::int64_t> points_{0};
+  std::mutex mutex_;
 };
 
 /// Rows of one piece of a block.
@@ -139,14 +144,16 @@ class Table {
         mode_(options.fast ? Mode::fast : Mode::certified) {}
 
   /// Writes the rows of one block; false: interrupted.
-  bool project(std::span<const io::CsvRecord> block, Output& output, ProjectOutcome& outcome) {
+  bool project(std::span<const io::CsvRecord> block, Output& output, Progress& progress,
+               ProjectOutcome& outcome) {
     pieces_.resize((block.size() + piece - 1) / piece);
     std::atomic<bool> stopped{false};
     for_pieces(block.size(), piece, options_.threads, [&](std::size_t begin, std::size_t end) {
       if (options_.interrupted && options_.interrupted()) stopped = true;
-      if (!stopped)
-        fill(block.subspan(begin, end - begin), outcome.points + static_cast<std::int64_t>(begin),
-             pieces_[begin / piece]);
+      if (stopped) return;
+      fill(block.subspan(begin, end - begin), outcome.points + static_cast<std::int64_t>(begin),
+           pieces_[begin / piece]);
+      progress.add(end - begin);
     });
     if (stopped) return false;
     for (const Piece& p : pieces_) {
@@ -219,7 +226,7 @@ ProjectOutcome project_onto(projection::Target<Dim> target, const ProjectOptions
   for (;;) {
     const std::span<const io::CsvRecord> block = table.next();
     if (block.empty()) break;
-    if (!rows.project(block, output, outcome)) {
+    if (!rows.project(block, output, progress, outcome)) {
       outcome.complete = false;
       outcome.message =
           fmt::format("interrupted after {} points{}", outcome.points,
@@ -227,7 +234,6 @@ ProjectOutcome project_onto(projection::Target<Dim> target, const ProjectOptions
                                              : fmt::format("; {} was not written", options.output));
       return outcome;
     }
-    progress.update(outcome.points);
   }
   output.commit();
   outcome.seconds = progress.seconds();

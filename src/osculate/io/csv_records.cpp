@@ -19,7 +19,7 @@
 namespace osculate::io {
 namespace {
 
-constexpr std::size_t piece = std::size_t{1} << 18U;
+constexpr std::size_t piece = std::size_t{1} << 20U;
 constexpr std::size_t longest_record = std::size_t{16} << 20U;
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }

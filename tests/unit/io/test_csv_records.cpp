@@ -105,7 +105,7 @@ TEST_F(CsvRecordsTest, FilesThatCannotBeRead) {
 
 TEST_F(CsvRecordsTest, LongTablesComeInBlocks) {
   std::string text = "x,y\n";
-  constexpr int rows = 100'000;
+  constexpr int rows = 300'000;
   for (int i = 0; i < rows; ++i) text += std::to_string(i) + ",\"" + std::to_string(-i) + "\"\n";
   write(text);
   const std::vector<double> v = numbers({"x", "y"});
