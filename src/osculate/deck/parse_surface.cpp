@@ -268,10 +268,20 @@ void check_document(const SourceNode& root, const std::string& file) {
   if (!first) throw core::InputError({file, root.line, ""}, fmt::format("expected {}", expected));
 }
 
+/// JSON may be indented with tabs; within its texts they cannot stand.
+SourceNode read_tree(std::string_view text, const std::string& file, const TextLimits& limits) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  const bool json = first != std::string_view::npos && text[first] == '{';
+  if (!json || text.size() > limits.bytes) return read_yaml(text, file, limits);
+  std::string spaced(text);
+  std::replace(spaced.begin(), spaced.end(), '\t', ' ');
+  return read_yaml(spaced, file, limits);
+}
+
 }  // namespace
 
 AnyTarget parse_surface(std::string_view text, const std::string& file, const TextLimits& limits) {
-  const SourceNode root = read_yaml(text, file, limits);
+  const SourceNode root = read_tree(text, file, limits);
   check_document(root, file);
   const SourceEntry& first = root.entries.front();
   return is_mesh_key(first.key) ? mesh_of(root, file) : shape_of(first, file);

@@ -62,6 +62,17 @@ TEST(Surface, JsonAndAnyOrderOfKeys) {
   EXPECT_EQ(mesh.facets[1].nodes[1], 3);
 }
 
+TEST(Surface, JsonAsProgramsWriteIt) {
+  EXPECT_EQ(surface_in<geometry::Sphere>(
+                parse("{\"sphere\":{\"center\":[0,0,1E0],\"radius\":2e0,\"inside\":false}}"))
+                .radius,
+            2);
+  EXPECT_EQ(curve_in<geometry::Circle>(
+                parse("{\n\t\"circle\": {\n\t\t\"center\": [0, 0],\n\t\t\"radius\": 1\n\t}\n}\n"))
+                .radius,
+            1);
+}
+
 TEST(Surface, ShapesOfThePlane) {
   const auto circle = curve_in<geometry::Circle>(parse("circle: {center: [1, 2], radius: 3}"));
   EXPECT_EQ(circle.center, Vec2(1, 2));
