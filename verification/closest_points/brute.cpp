@@ -210,7 +210,11 @@ typename BruteForce<Dim>::Minimum BruteForce<Dim>::refine(std::size_t number, Ve
       continue;
     }
     m.from_border = std::min(m.from_border, away);
-    if (away > 0) continue;
+    // Steps end at 1e-8 of a chart: this close to a corner an edge and the corner look alike.
+    if (away > 0) {
+      m.pulled = m.pulled && away > 1e-7;
+      continue;
+    }
     ++m.on_sides;
     m.pulled = m.pulled && outward > 1e-6 * std::abs(bend(i, i));
   }

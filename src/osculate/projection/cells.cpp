@@ -39,6 +39,15 @@ PieceJet<2> lagrange_jet(const CellComplex<2>& all, const Cell& cell, double xi)
 }
 
 PieceJet<3> lagrange_jet(const CellComplex<3>& all, const Cell& cell, const Vec2& xi) {
+  if (cell.type == cell::CellType::tri3) {
+    const auto at = [&](std::size_t k) -> const Vec3& {
+      return all.nodes[static_cast<std::size_t>(cell.nodes[k])];
+    };
+    PieceJet<3> flat;
+    flat.r1 = {at(1) - at(0), at(2) - at(0)};
+    flat.r = at(0) + xi[0] * flat.r1[0] + xi[1] * flat.r1[1];
+    return flat;
+  }
   const cell::FacetShape shape = cell::facet_shape(cell.type, xi, 2);
   PieceJet<3> out;
   for (std::size_t k = 0; k < static_cast<std::size_t>(shape.count); ++k) {

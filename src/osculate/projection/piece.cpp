@@ -226,6 +226,20 @@ Cone<Dim> normal_cone(const Piece<Dim>& piece, Control<Dim> control) {
   }
 }
 
+template <int Dim>
+Cone<Dim> inward_cone(const Piece<Dim>& piece, Control<Dim> control, std::size_t side) {
+  std::vector<Vec<Dim>> directions;
+  if (piece.triangle) {
+    const auto at = [&](std::size_t k) -> Vec<Dim> { return control[k % 3].template head<Dim>(); };
+    return cone_of<Dim>({at(side + 2) - at(side), at(side + 2) - at(side + 1)});
+  }
+  tangent_directions<Dim>(control, {piece.degree[0], piece.degree[1]}, static_cast<int>(side / 2),
+                          piece.rational, directions);
+  Cone<Dim> cone = cone_of<Dim>(directions);
+  if (side % 2 == 1) cone.axis = -cone.axis;
+  return cone;
+}
+
 namespace {
 
 template <int Dim>
@@ -309,6 +323,8 @@ template search::Box<2> box_of(const Piece<2>&, Control<2>);
 template search::Box<3> box_of(const Piece<3>&, Control<3>);
 template Cone<2> normal_cone(const Piece<2>&, Control<2>);
 template Cone<3> normal_cone(const Piece<3>&, Control<3>);
+template Cone<2> inward_cone(const Piece<2>&, Control<2>, std::size_t);
+template Cone<3> inward_cone(const Piece<3>&, Control<3>, std::size_t);
 template Cone<2> join(const Cone<2>&, const Cone<2>&);
 template Cone<3> join(const Cone<3>&, const Cone<3>&);
 template void add_pieces(const Piece<2>&, std::vector<ControlPoint<2>>, PieceSet<2>&);

@@ -78,6 +78,11 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Cone<Dim> normal_cone(const Piece<Dim>& piece, Control<Dim> control);
 
+/// Cone of the directions from a side into the piece.
+template <int Dim>
+[[nodiscard]] Cone<Dim> inward_cone(const Piece<Dim>& piece, Control<Dim> control,
+                                    std::size_t side);
+
 /// The smallest cone round both.
 template <int Dim>
 [[nodiscard]] Cone<Dim> join(const Cone<Dim>& a, const Cone<Dim>& b);

@@ -7,9 +7,9 @@
 
 #include "osculate/core/error.hpp"
 #include "osculate/projection/on_cell.hpp"
+#include "osculate/projection/piece_trees.hpp"
 #include "osculate/projection/shape_answer.hpp"
 #include "osculate/projection/triangle.hpp"
-#include "osculate/search/bvh.hpp"
 
 namespace osculate::projection {
 
@@ -52,28 +52,6 @@ struct Found {
   PieceMinimum<Dim> minimum;
 };
 
-/// Normals of everything below a node of the tree, for leaving out what cannot hold a minimum.
-template <int Dim>
-struct Guard {
-  Vec<Dim> center = Vec<Dim>::Zero();
-  double radius = 0;
-  Vec<Dim> axis = Vec<Dim>::UnitX();
-  double cosine = -1, sine = 0;  ///< of the cone's angle; cosine -1: anything is possible
-
-  /// No point within the ball looks at `point` along plus or minus a normal of the cone.
-  [[nodiscard]] bool excludes(const Vec<Dim>& point) const {
-    if (cosine <= 0) return false;
-    const Vec<Dim> d = point - center;
-    const double distance2 = d.squaredNorm();
-    if (!(distance2 > radius * radius)) return false;
-    const double distance = std::sqrt(distance2), far = std::sqrt(distance2 - radius * radius);
-    const double limit =
-        cosine * far - sine * radius;  // distance cos(angle + asin(radius/distance))
-    constexpr double rounding = 1e-9;
-    return limit > 0 && std::abs(d.dot(axis)) < limit - rounding * distance;
-  }
-};
-
 }  // namespace
 
 template <int Dim>
@@ -82,8 +60,7 @@ struct Projector<Dim>::Impl {
   double size = 0;
   bool analytic = false;
   CellComplex<Dim> all;
-  search::Bvh<Dim> tree;
-  std::vector<Guard<Dim>> guards;  ///< of the nodes of the tree
+  PieceTrees<Dim> trees;
 
   [[nodiscard]] const Piece<Dim>& piece(Index k) const {
     return all.set.pieces[static_cast<std::size_t>(k)];
@@ -138,89 +115,6 @@ double size_of(const Shape<Dim>& shape) {
           return 1.0;  // without any length of its own
       },
       shape);
-}
-
-template <int Dim>
-bool touches_border(const CellComplex<Dim>& all, const Piece<Dim>& piece) {
-  const Cell& cell = all.cell(piece.cell);
-  for (const std::int8_t side : piece.side) {
-    if (side < 0) continue;
-    const auto k = static_cast<std::size_t>(side);
-    const std::size_t sharing =
-        Dim == 2 ? all.at_vertex.of(cell.vertex[k]).size() : all.at_edge.of(cell.group[k]).size();
-    if (sharing != 2) return true;
-  }
-  return false;
-}
-
-/// Normals of the piece and of all cells it meets at its corners and edges.
-template <int Dim>
-std::vector<Cone<Dim>> piece_cones(const CellComplex<Dim>& all) {
-  const std::size_t count = all.set.pieces.size();
-  std::vector<Cone<Dim>> own(count), of_cell(all.cells.size());
-  std::vector<bool> seen(all.cells.size(), false);
-  for (std::size_t k = 0; k < count; ++k) {
-    const Piece<Dim>& piece = all.set.pieces[k];
-    own[k] = normal_cone<Dim>(piece, control_of(piece, all.set.control));
-    const auto c = static_cast<std::size_t>(piece.cell);
-    of_cell[c] = seen[c] ? join<Dim>(of_cell[c], own[k]) : own[k];
-    seen[c] = true;
-  }
-  std::vector<Cone<Dim>> at_vertex(all.at_vertex.start.size() - 1);
-  for (std::size_t v = 0; v < at_vertex.size(); ++v) {
-    bool first = true;
-    for (const CellPart& part : all.at_vertex.of(static_cast<Index>(v))) {
-      const Cone<Dim>& other = of_cell[static_cast<std::size_t>(part.cell)];
-      at_vertex[v] = first ? other : join<Dim>(at_vertex[v], other);
-      first = false;
-    }
-  }
-  for (std::size_t k = 0; k < count; ++k) {
-    const Piece<Dim>& piece = all.set.pieces[k];
-    if (touches_border(all, piece)) {
-      own[k] = {};
-      continue;
-    }
-    const Cell& cell = all.cell(piece.cell);
-    const int n = corner_count(cell);
-    for (const std::int8_t side : piece.side) {
-      if (side < 0) continue;
-      const auto a = static_cast<std::size_t>(side), b = static_cast<std::size_t>((side + 1) % n);
-      own[k] = join<Dim>(own[k], at_vertex[static_cast<std::size_t>(cell.vertex[a])]);
-      if (Dim == 3) own[k] = join<Dim>(own[k], at_vertex[static_cast<std::size_t>(cell.vertex[b])]);
-    }
-  }
-  return own;
-}
-
-template <int Dim>
-std::vector<Guard<Dim>> guard_nodes(const search::Bvh<Dim>& tree,
-                                    const std::vector<Cone<Dim>>& cones) {
-  std::vector<Cone<Dim>> at_node(tree.node_count());
-  tree.fold(
-      [&](Index i, std::span<const Index> objects) {
-        Cone<Dim> sum;
-        for (std::size_t k = 0; k < objects.size(); ++k) {
-          const Cone<Dim>& one = cones[static_cast<std::size_t>(objects[k])];
-          sum = k == 0 ? one : join<Dim>(sum, one);
-        }
-        at_node[static_cast<std::size_t>(i)] = sum;
-      },
-      [&](Index i, Index left, Index right) {
-        at_node[static_cast<std::size_t>(i)] = join<Dim>(at_node[static_cast<std::size_t>(left)],
-                                                         at_node[static_cast<std::size_t>(right)]);
-      });
-  std::vector<Guard<Dim>> guards(at_node.size());
-  for (std::size_t i = 0; i < guards.size(); ++i) {
-    const search::Box<Dim>& box = tree.node_box(static_cast<Index>(i));
-    guards[i].center = 0.5 * (box.lo + box.hi);
-    guards[i].radius = 0.5 * (box.hi - box.lo).norm();
-    guards[i].axis = at_node[i].axis;
-    if (!at_node[i].narrow()) continue;
-    guards[i].cosine = std::cos(at_node[i].angle);
-    guards[i].sine = std::sin(at_node[i].angle);
-  }
-  return guards;
 }
 
 // -- one query ----------------------------------------------------------------------------------
@@ -340,15 +234,9 @@ Projector<Dim>::Projector(Target<Dim> target) : impl_(std::make_unique<Impl>()) 
     impl.all = make_complex(std::get<FacetMesh<Dim>>(impl.target));
   }
   if (impl.analytic) return;
-  std::vector<search::Box<Dim>> boxes;
-  search::Box<Dim> whole;
-  for (const Piece<Dim>& piece : impl.all.set.pieces) {
-    boxes.push_back(box_of<Dim>(piece, impl.control(piece)));
-    whole.extend(boxes.back());
-  }
+  impl.trees = plant(impl.all);
+  const search::Box<Dim>& whole = impl.trees.inner.tree.node_box(0);
   impl.size = (whole.hi - whole.lo).norm();
-  impl.tree = search::Bvh<Dim>(boxes);
-  impl.guards = guard_nodes(impl.tree, piece_cones(impl.all));
 }
 template <int Dim>
 Projector<Dim>::~Projector() = default;
@@ -372,13 +260,10 @@ ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) cons
   if (!point.allFinite()) return {};
   if (impl.analytic) return *shape_answer(std::get<Shape<Dim>>(impl.target), point);
   // Distances are told apart down to this; it follows the rounding of far points.
-  const double far = (point - impl.tree.node_box(0).lo).norm();
+  const double far = (point - impl.trees.inner.tree.node_box(0).lo).norm();
   const double tolerance = 1e-13 * (impl.size + (far > impl.size ? far - impl.size : 0));
   NearestSink<Dim> nearest{tolerance, point, -1, {}, infinity};
-  const auto possible = [&](Index i) {
-    return !impl.guards[static_cast<std::size_t>(i)].excludes(point);
-  };
-  impl.tree.for_each_wanted(point, nearest.reach, possible, [&](Index k) {
+  for_each_possible(impl.trees, point, nearest.reach, [&](Index k) {
     if (mode == Mode::fast)
       descend_piece<Dim>(impl, k, point, tolerance, nearest);
     else
@@ -394,8 +279,8 @@ ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) cons
     return minimum_of_all<Dim>(impl.all, locate(impl.all, impl.piece(k), m), point - m.point);
   };
   SecondSink<Dim, decltype(valid)> sink{valid, best.minimum.point, 1e-8 * impl.size, tolerance};
-  impl.tree.for_each_wanted(point, sink.reach, possible,
-                            [&](Index k) { search_piece<Dim>(impl, k, point, tolerance, sink); });
+  for_each_possible(impl.trees, point, sink.reach,
+                    [&](Index k) { search_piece<Dim>(impl, k, point, tolerance, sink); });
   out.second = sink.place;
   out.margin = std::max(sink.second - std::abs(out.distance), 0.0);
   out.unique = out.margin > least_margin * impl.size;
