@@ -20,9 +20,8 @@ SampleStress sample_stress(const ShellCell& cell, const ShellModes& modes) {
   for (std::size_t q = 0; q < cell.rule->points.size(); ++q) {
     const ShellPoint& p = cell.points[q];
     const Vec<6> convected = p.volume * p.from_convected.transpose() * modes.response[q].stress;
-    for (const ShellRulePoint::Share& share : cell.rule->points[q].shares)
-      stress[static_cast<Eigen::Index>(share.sample)] +=
-          share.weight * convected[cell.rule->samples[share.sample].component];
+    for (const ShellShare& share : p.shares)
+      stress[static_cast<Eigen::Index>(share.sample)] += share.weight * convected[share.component];
   }
   return stress;
 }
@@ -38,8 +37,8 @@ void add_material(const ShellCell& cell, const ShellModes& modes, VolumeMatrix& 
     const auto at = static_cast<std::size_t>(q);
     const ShellPoint& p = cell.points[at];
     convected.setZero();
-    for (const ShellRulePoint::Share& share : cell.rule->points[at].shares)
-      convected.row(cell.rule->samples[share.sample].component) +=
+    for (const ShellShare& share : p.shares)
+      convected.row(share.component) +=
           share.weight * cell.sample_b.col(static_cast<Eigen::Index>(share.sample)).transpose();
     b.middleRows<6>(6 * q).noalias() = p.from_convected * convected;
     cb.middleRows<6>(6 * q).noalias() =

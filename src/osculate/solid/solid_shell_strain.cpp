@@ -1,5 +1,6 @@
 #include "osculate/solid/solid_shell_strain.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
 #include <span>
@@ -34,7 +35,7 @@ std::array<Grid, 6> grids(cell::CellType type) {
   return {{{two, three, false},
            {three, two, false},
            {{-1, 0, 1}, {-1, 0, 1}, true},
-           {two, two, false},
+           {},  // fitted
            {three, two, true},
            {two, three, true}}};
 }
@@ -61,10 +62,23 @@ void add_samples(ShellRule& rule, cell::CellType type, Eigen::Index component, c
       for (ShellRulePoint& p : rule.points) {
         if (!grid.at_mid && p.xi.z() != zeta) continue;
         const double weight = lagrange(grid.xi, i, p.xi.x()) * lagrange(grid.eta, j, p.xi.y());
-        if (weight != 0) p.shares.push_back({rule.samples.size(), weight});
+        if (weight != 0) p.shares.push_back({rule.samples.size(), component, weight});
       }
       rule.samples.push_back({component, gradient(type, {grid.xi[i], grid.eta[j], zeta})});
     }
+}
+
+constexpr Eigen::Index e12 = 3;
+
+/// Adds samples of E12 at the quadrature points of one zeta.
+void add_layer(ShellRule& rule, double zeta) {
+  ShellLayer layer{{}, rule.samples.size()};
+  for (std::size_t q = 0; q < rule.points.size(); ++q) {
+    if (rule.points[q].xi.z() != zeta) continue;
+    layer.points.push_back(q);
+    rule.samples.push_back({e12, rule.points[q].shape});
+  }
+  rule.fitted.push_back(layer);
 }
 
 ShellRule make_rule(cell::CellType type) {
@@ -78,10 +92,12 @@ ShellRule make_rule(cell::CellType type) {
         {xi, full.weights[q], gradient(type, xi), gradient(type, {xi.x(), xi.y(), 0}), {}});
   }
   const std::array<Grid, 6> grid = grids(type);
+  const std::vector<double> through = cell::gauss_legendre(2).points;
   for (std::size_t c = 0; c < 6; ++c)
-    for (const double zeta :
-         grid[c].at_mid ? std::vector<double>{0} : cell::gauss_legendre(2).points)
+    for (const double zeta : grid[c].at_mid ? std::vector<double>{0} : through)
       add_samples(rule, type, static_cast<Eigen::Index>(c), grid[c], zeta);
+  if (type == cell::CellType::shell18)
+    for (const double zeta : through) add_layer(rule, zeta);
   return rule;
 }
 
@@ -111,6 +127,28 @@ double sample_strain(const ShellSample& s, const Coordinates3& reference,
     b.segment<3>(3 * k) = half * (s.shape(k, i) * now.col(j) + s.shape(k, j) * now.col(i));
   const double linear = half * (basis.col(i).dot(change.col(j)) + basis.col(j).dot(change.col(i)));
   return finite ? linear + half * change.col(i).dot(change.col(j)) : linear;
+}
+
+/// Adds the shares of the points of a layer in its samples of E12.
+void add_fit(const ShellRule& rule, const ShellLayer& layer, ShellCell& cell) {
+  const auto bilinear = [&](std::size_t q) -> Vec<4> {
+    const Vec3& xi = rule.points[q].xi;
+    return {1, xi.x(), xi.y(), xi.x() * xi.y()};
+  };
+  const auto weight = [&](std::size_t q) {
+    const double w = rule.points[q].weight;
+    return w * w / cell.points[q].volume;
+  };
+  Mat<4, 4> normal = Mat<4, 4>::Zero();
+  for (const std::size_t q : layer.points)
+    normal.noalias() += weight(q) * bilinear(q) * bilinear(q).transpose();
+  const Eigen::LDLT<Mat<4, 4>> solver(normal);
+  for (std::size_t k = 0; k < layer.points.size(); ++k) {
+    const std::size_t from = layer.points[k];
+    const Vec<4> fit = solver.solve(Vec<4>(weight(from) * bilinear(from)));
+    for (const std::size_t to : layer.points)
+      cell.points[to].shares.push_back({layer.first_sample + k, e12, bilinear(to).dot(fit)});
+  }
 }
 
 /// Fills p.modes, each scaled by the size of the cell to Cartesian strains of about one.
@@ -183,11 +221,16 @@ bool fill_shell(const VolumeSection& section, cell::CellType type, const Coordin
     if (finite && !(Mat<3, 3>(p.basis + p.change).determinant() > 0)) return false;
     p.volume = at.weight * determinant;
     p.from_convected = cartesian_from(p.basis);
-    Vec<6> convected = Vec<6>::Zero();
-    for (const ShellRulePoint::Share& share : at.shares)
-      convected[rule.samples[share.sample].component] += share.weight * value[share.sample];
-    p.strain = p.from_convected * convected;
+    p.shares = {};
+    for (const ShellShare& share : at.shares) p.shares.push_back(share);
     set_modes(rule, at, reference, determinant, p);
+  }
+  for (const ShellLayer& layer : rule.fitted) add_fit(rule, layer, cell);
+  for (std::size_t q = 0; q < rule.points.size(); ++q) {
+    Vec<6> convected = Vec<6>::Zero();
+    for (const ShellShare& share : cell.points[q].shares)
+      convected[share.component] += share.weight * value[share.sample];
+    cell.points[q].strain = cell.points[q].from_convected * convected;
   }
   return true;
 }

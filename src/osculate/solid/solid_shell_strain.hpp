@@ -9,7 +9,8 @@ namespace osculate::solid {
 
 inline constexpr int max_shell_nodes = 18;
 inline constexpr int max_shell_points = 18;
-inline constexpr int max_shell_samples = 53;
+inline constexpr int max_shell_samples = 63;
+inline constexpr int max_shell_shares = 26;  ///< of one quadrature point
 inline constexpr int max_shell_modes = 7;
 
 /// dN_k/dxi_i.
@@ -27,30 +28,52 @@ struct ShellSample {
   ShellGradient shape;
 };
 
-/// A quadrature point and what it takes from which sample.
+/// What a quadrature point takes from a sample of the component.
+struct ShellShare {
+  std::size_t sample;
+  Eigen::Index component;
+  double weight;
+};
+
 struct ShellRulePoint {
-  struct Share {
-    std::size_t sample;
-    double weight;
-  };
   Vec3 xi;
   double weight;
   ShellGradient shape, shape_mid;  ///< at the point; at (xi, eta, 0)
-  std::vector<Share> shares;
+  std::vector<ShellShare> shares;  ///< those that are the same for all cells
+};
+
+/// The quadrature points at one zeta, and E12 at them: the sample of points[k] is first_sample + k.
+struct ShellLayer {
+  std::vector<std::size_t> points;
+  std::size_t first_sample;
 };
 
 /// What is the same for all cells of a type.
 struct ShellRule {
   std::vector<ShellSample> samples;
   std::vector<ShellRulePoint> points;
+  std::vector<ShellLayer> fitted;  ///< where E12 is fitted in each cell (shell18)
   ShellGradient center;
   Eigen::Index modes;
 };
 /// Requires   type is hex8 or shell18
 [[nodiscard]] const ShellRule& shell_rule(cell::CellType type);
 
+/// All shares of a quadrature point.
+class ShellShares {
+ public:
+  void push_back(const ShellShare& share) { share_[size_++] = share; }
+  [[nodiscard]] const ShellShare* begin() const { return share_.data(); }
+  [[nodiscard]] const ShellShare* end() const { return share_.data() + size_; }
+
+ private:
+  std::array<ShellShare, max_shell_shares> share_;
+  std::size_t size_ = 0;
+};
+
 /// Reference geometry of one quadrature point.
 struct ShellPoint {
+  ShellShares shares;
   double volume;             ///< weight times det G
   Mat<3, 3> basis;           ///< columns G_i
   Mat<3, 3> change;          ///< columns du/dxi_i
@@ -60,6 +83,15 @@ struct ShellPoint {
 };
 
 /// A cell at given displacements, before its modes are found.
+///
+/// Formula    E12 of shell18, layer by layer: the bilinear function of xi and eta nearest to the
+///            strain of the displacements, sum over the quadrature points of w (E12 - fit)^2/det G
+///            least. In a flat cell with straight sides J sigma^12 of a constant stress is a
+///            bilinear function over J, so the stress does no work on what the fit leaves out: the
+///            forces of a constant state are those of the displacements, whatever the outline. In
+///            an affine cell the fit is the interpolation at 2 x 2 Gauss points (MITC9)
+/// Source     orthogonality to constant stress: Simo & Hughes 1986
+/// Tested by  tests/unit/solid/test_solid_shell_patch.cpp
 struct ShellCell {
   const ShellRule* rule = nullptr;
   std::array<ShellPoint, max_shell_points> points;
