@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "../model3.hpp"
@@ -32,6 +33,12 @@ bool at_border(const PatchMesh& m, const Vec3& x) {
   return x.x() < near || x.x() > m.length - near || x.y() < near || x.y() > m.width - near;
 }
 
+Vec2 bent_by(const PatchMesh& m, const Vec2& x) {
+  const double by = m.bend * m.width * std::sin(std::numbers::pi * x.x() / m.length) *
+                    std::sin(std::numbers::pi * x.y() / m.width);
+  return {by, -by};
+}
+
 void add_cells(Builder3& b, const PatchMesh& m, cell::CellType type) {
   for (const auto& quad : m.quads) {
     std::vector<Index> nodes;
@@ -41,6 +48,7 @@ void add_cells(Builder3& b, const PatchMesh& m, cell::CellType type) {
       Vec3 place(0, 0, 0.5 * m.height * xi.z());
       for (std::size_t i = 0; i < 4; ++i)
         place.head<2>() += s.n[static_cast<Eigen::Index>(i)] * m.at[quad[i]];
+      place.head<2>() += bent_by(m, place.head<2>());
       nodes.push_back(b.node(place));
     }
     b.cell(type, nodes, 0);
@@ -80,7 +88,7 @@ PatchMesh four_cells(double shift) {
 }
 
 PatchMesh refined(const PatchMesh& mesh, int n) {
-  PatchMesh m{{}, {}, mesh.length, mesh.width, mesh.height};
+  PatchMesh m{{}, {}, mesh.length, mesh.width, mesh.height, mesh.bend};
   for (const auto& quad : mesh.quads)
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) {
@@ -98,6 +106,11 @@ PatchMesh refined(const PatchMesh& mesh, int n) {
         m.quads.push_back(corners);
       }
   return m;
+}
+
+PatchMesh bent(PatchMesh mesh, double bend) {
+  mesh.bend = bend;
+  return mesh;
 }
 
 double patch_error(const PatchMesh& mesh, cell::CellType type, PlateState state, double poisson,

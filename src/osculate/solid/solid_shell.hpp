@@ -10,19 +10,21 @@ namespace osculate::solid {
 ///
 /// Formula    E_ij = (g_i . g_j - G_i . G_j)/2 in convected components, sampled at tying points:
 ///            hex8: E13, E23 at two edge middles, E33 at the four corners of the middle surface;
-///            shell18: E11, E13 at 2 x 3 points, E22, E23 at 3 x 2, E12 at 2 x 2 (Gauss points),
-///            E33 at the nine nodes. Enhanced modes (7 and 4) make E33 linear in zeta and, for
-///            hex8, the membrane strains linear; their parameters are found in the cell
-/// Limits     constant membrane and bending states are exact in a prismatic hex8 of any outline and
-///            in an affine shell18 (2e-3 of the displacements in MacNeal & Harder's patch, the
-///            price of sampled membrane strains), constant transverse shear in affine cells only
-/// Source     Bathe & Dvorkin 1985; Betsch & Stein 1995; Simo & Rifai 1990; Bucalem & Bathe 1993
+///            shell18: E11, E13 at 2 x 3 points, E22, E23 at 3 x 2 (Gauss points), E33 at the nine
+///            nodes, E12 fitted by a bilinear function. Enhanced modes (7 and 4) make E33 linear in
+///            zeta and, for hex8, the membrane strains linear; their parameters are found in the
+///            cell
+/// Limits     constant membrane and bending states are exact in prismatic cells with straight sides
+///            of any outline; where a side of a shell18 is curved in its plane they are not.
+///            Constant transverse shear is exact in affine cells only
+/// Source     Bathe & Dvorkin 1985; Betsch & Stein 1995; Simo & Rifai 1990; Bucalem & Bathe 1993;
+///            Simo & Hughes 1986 for what the fit of E12 must leave out
 /// Returns    out.status: inverted if det(G_1, G_2, G_3) <= 0 at a quadrature point (a mirrored or
 ///            flat cell; its current one likewise in finite kinematics), material_failed if the law
 ///            or the modes have no answer; force and tangent are then not to be used. The tangent
 ///            is symmetric
-/// Requires   type is hex8 or shell18; small kinematics with linear_elastic, finite with another
-/// law Tested by  tests/unit/solid/test_solid_shell.cpp, test_solid_shell_patch.cpp,
+/// Requires   type is hex8 or shell18; small kinematics with linear_elastic, finite with the others
+/// Tested by  tests/unit/solid/test_solid_shell.cpp, test_solid_shell_patch.cpp,
 ///            test_solid_shell_benchmarks.cpp
 void evaluate_solid_shell(const VolumeSection& section, cell::CellType type,
                           const Coordinates3& reference, const Coordinates3& displacement,

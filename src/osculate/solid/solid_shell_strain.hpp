@@ -1,6 +1,7 @@
 #pragma once
 // Assumed and enhanced strains of solid-shells; shared by solid_shell.cpp, solid_shell_stress.cpp.
 #include <array>
+#include <cassert>
 #include <vector>
 
 #include "osculate/solid/volume.hpp"
@@ -62,7 +63,10 @@ struct ShellRule {
 /// All shares of a quadrature point.
 class ShellShares {
  public:
-  void push_back(const ShellShare& share) { share_[size_++] = share; }
+  void push_back(const ShellShare& share) {
+    assert(size_ < share_.size());
+    share_[size_++] = share;
+  }
   [[nodiscard]] const ShellShare* begin() const { return share_.data(); }
   [[nodiscard]] const ShellShare* end() const { return share_.data() + size_; }
 
