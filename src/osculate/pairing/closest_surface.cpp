@@ -1,4 +1,5 @@
 // Generalized projection onto surfaces in space.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -130,6 +131,24 @@ void resolve_edge(const FacetSurface& surface, std::span<const Vec3> x, Projecti
   normalize(p.outward);
 }
 
+/// Angle between the two edges of a facet that meet in its corner `k`.
+double corner_angle(const SurfaceFacet& facet, int k, std::span<const Vec3> x) {
+  const int edges = edge_count(facet);
+  const Vec2 at = cell::area_node(facet.type, k);
+  const geometry::SurfaceJet jet = facet_jet(facet, at, x);
+  const auto towards = [&](int end) {
+    const Vec2 e = cell::area_node(facet.type, end) - at;
+    return Vec3(e.x() * jet.r1[0] + e.y() * jet.r1[1]);
+  };
+  const Vec3 a = towards((k + 1) % edges), b = towards((k + edges - 1) % edges);
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+/// The normals that meet in a corner count by the angle of their facets there: so the sign of the
+/// gap is right at every corner, however its faces are cut into facets.
+///
+/// Source     Baerentzen2005
+/// Tested by  tests/unit/pairing/test_closest3.cpp
 void resolve_corner(const FacetSurface& surface, std::span<const Vec3> x, Projection<3>& p) {
   const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(p.facet)];
   const Index vertex = facet.nodes[static_cast<std::size_t>(p.local)];
@@ -139,7 +158,8 @@ void resolve_corner(const FacetSurface& surface, std::span<const Vec3> x, Projec
     const int edges = edge_count(other);
     for (int k = 0; k < edges; ++k) {
       if (other.nodes[static_cast<std::size_t>(k)] != vertex) continue;
-      p.outward += facet_normal(other, cell::area_node(other.type, k), x);
+      p.outward +=
+          corner_angle(other, k, x) * facet_normal(other, cell::area_node(other.type, k), x);
       if (other.neighbour[static_cast<std::size_t>(k)] < 0 ||
           other.neighbour[static_cast<std::size_t>((k + edges - 1) % edges)] < 0)
         p.beyond_end = true;

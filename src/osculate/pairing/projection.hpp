@@ -19,8 +19,9 @@ struct Projection {
   Vec<Dim - 1> xi = Vec<Dim - 1>::Zero();  ///< on the facet, also for its edges and vertices
   int local = -1;                          ///< number of the facet's edge or corner
   double distance = std::numeric_limits<double>::infinity();
-  Vec<Dim> outward = Vec<Dim>::Zero();  ///< averaged normal of the neighbours (edges, vertices)
-  bool beyond_end = false;              ///< nearest point is on an open border of the master
+  /// Averaged normal of the neighbours (edges, vertices; corners in space: by their angles).
+  Vec<Dim> outward = Vec<Dim>::Zero();
+  bool beyond_end = false;  ///< nearest point is on an open border of the master
 };
 
 template <int Dim>

@@ -91,6 +91,38 @@ TEST(ClosestOnSurface, InsideTheNearestFaceWinsAndEquidistantPointsKeepTheirSide
   }
 }
 
+/// The corner (1, 1, 1) of a cube whose top is a fan of `fan` triangles there: the other faces are
+/// one triangle each, so that the top has `fan` normals of three or more.
+Target fanned_corner(int fan) {
+  Target t;
+  t.x = {{1, 1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, -1}};
+  const auto add = [&](Index a, Index b, Index c) {
+    t.surface.facets.push_back(
+        pairing::surface_facet(CellType::tri3, std::array<Index, 3>{a, b, c}));
+  };
+  Index last = 2;  // the top, z+, from (-1, 1) round to (1, -1)
+  for (int i = 1; i < fan; ++i) {
+    const double s = static_cast<double>(i) / fan;
+    t.x.emplace_back(-1 + 2 * s, 1 - 2 * s, 1);
+    add(0, last, static_cast<Index>(t.x.size()) - 1);
+    last = static_cast<Index>(t.x.size()) - 1;
+  }
+  add(0, last, 1);
+  add(0, 1, 3);  // x+
+  add(0, 3, 2);  // y+
+  t.finish();
+  return t;
+}
+
+// A sum over facets leans towards the face that is cut into most of them.
+TEST(ClosestOnSurface, TheCornerOfACubeHasOneNormalHoweverItsFacesAreCut) {
+  for (const int fan : {1, 2, 7, 40}) {
+    const Projection<3> p = fanned_corner(fan).at({1.3, 1.2, 1.1});
+    ASSERT_EQ(p.feature, Feature::corner);
+    EXPECT_LT((p.outward - Vec3(1, 1, 1).normalized()).norm(), 1e-14) << fan;
+  }
+}
+
 TEST(ClosestOnSurface, SharedEdgesOfAFlatSurfaceHaveNoGap) {
   const PairSample3 s = make_sample3({});
   Target t;
