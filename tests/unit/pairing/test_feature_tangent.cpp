@@ -90,7 +90,7 @@ TEST_P(FeatureTangent, CornerInThePlane) {
     s.x[slave] = depth * Vec2(0.18, -0.98).normalized();
     set_pair(s, mu, form, weight);
     s.committed.points[0] = remembered(true, 0, Feature::face, 0.9, -0.01, 5.0);
-    expect_second_order(s, {status_of(mu), Feature::corner}, 0.02 * depth);
+    expect_second_order(s, {status_of(mu), Feature::corner}, 0.08 * depth);
   }
 }
 
@@ -114,7 +114,7 @@ TEST_P(FeatureTangent, EdgeInSpace) {
     const bool triangle = cell::is_triangle(type);
     s.committed.points[0] = remembered(
         triangle ? 3 : 1, triangle ? Vec2(0.1, 0.2) : Vec2(0.9, 0.25), -0.01, {2.0, 1.0});
-    expect_second_order(s, {status_of(mu), Feature::edge}, 0.02 * depth);
+    expect_second_order(s, {status_of(mu), Feature::edge}, 0.08 * depth);
   }
 }
 
@@ -141,7 +141,7 @@ TEST_P(FeatureTangent, CornerInSpace) {
   s.pair.slave = pairing::make_slave_side(facet);
   set_pair(s, mu, form, weight);
   s.committed.points[0] = remembered(0, {-0.9, -0.95}, -0.01, {2.0, 1.0});
-  expect_second_order(s, {status_of(mu), Feature::corner}, 0.02 * depth);
+  expect_second_order(s, {status_of(mu), Feature::corner}, 0.08 * depth);
 }
 
 INSTANTIATE_TEST_SUITE_P(

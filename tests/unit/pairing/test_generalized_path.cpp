@@ -89,8 +89,9 @@ Jumps along(PairSample3 s, const std::vector<Vec3>& corners, int samples) {
   return jumps;
 }
 
-const std::vector<Feature> all_features{Feature::face,   Feature::edge, Feature::face,
-                                        Feature::corner, Feature::edge, Feature::face};
+const std::vector<Feature> all_features{Feature::face, Feature::edge,   Feature::face,
+                                        Feature::edge, Feature::corner, Feature::edge,
+                                        Feature::face};
 
 /// Every quantity changes in proportion to the step: it is Lipschitz continuous along the path.
 void expect_continuous(const Jumps& coarse, const Jumps& fine) {
