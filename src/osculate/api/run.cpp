@@ -15,6 +15,8 @@
 #include "osculate/deck/parse.hpp"
 #include "osculate/io/csv.hpp"
 #include "osculate/io/report.hpp"
+#include "osculate/mesh/boundary.hpp"
+#include "osculate/model/diagnosis.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
 
 namespace osculate::api {
@@ -45,6 +47,8 @@ struct Recorder {
   int iterations = 0;
   double seconds = 0;                    ///< spent here
   std::vector<double> curvature_shares;  ///< one per converged increment
+  std::vector<nlohmann::json> notes;     ///< one per converged increment
+  std::vector<std::string> warned;       ///< of contact in the last increment
 
   Recorder(const RunOptions& o, const deck::Description& d, const deck::BasicBuilt<Dim>& b,
            std::string dir)
@@ -92,10 +96,30 @@ struct Recorder {
     }
     if (record) {
       curvature_shares.push_back(curvature_share(system, state));
+      notes.push_back({{"outside_domain", report_outside_domain(system)}});
       report_increment(p, *record);
     }
     seconds += seconds_since(start);
     return !(options.interrupted && options.interrupted());
+  }
+
+  /// Names points without contact normal, on the screen when they are others than before.
+  nlohmann::json report_outside_domain(const model::BasicSystem<Dim>& system) {
+    nlohmann::json list = nlohmann::json::array();
+    std::vector<std::string> now;
+    for (const model::OutsideDomain& found : model::outside_domain(system, built.model)) {
+      nlohmann::json names = nlohmann::json::array();
+      for (const Index node : found.nodes)
+        names.push_back(mesh::describe_node(built.model.mesh, node));
+      list.push_back({{"pair", found.pair}, {"points", found.nodes.size()}, {"nodes", names}});
+      now.push_back("warning: " + model::outside_domain_message(built.model, found));
+      if (std::find(warned.begin(), warned.end(), now.back()) == warned.end())
+        say(now.back());
+      else
+        log << now.back() << "\n";
+    }
+    warned = std::move(now);
+    return list;
   }
 
   /// Largest of all pairs.
@@ -145,7 +169,7 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
   const std::string model = std::filesystem::path(recorder.options.model).filename().string();
   const nlohmann::json summary =
       summary_json(model, result, done ? "done" : "stopped", {seconds_input, recorder.seconds},
-                   recorder.curvature_shares);
+                   recorder.curvature_shares, recorder.notes);
   recorder.fields.close();
   if (recorder.description.output.report) {
     const std::string data = recorder.report.json(summary);

@@ -133,7 +133,8 @@ template <int Dim>
 nlohmann::json summary_json(const std::string& model_file,
                             const model::BasicAnalysisResult<Dim>& result,
                             const std::string& status, const RunSeconds& seconds,
-                            const std::vector<double>& curvature_shares) {
+                            const std::vector<double>& curvature_shares,
+                            const std::vector<nlohmann::json>& notes) {
   nlohmann::json steps = nlohmann::json::array();
   int iterations = 0, increments = 0, cutbacks = 0;
   for (std::size_t s = 0; s < result.steps.size(); ++s) {
@@ -143,6 +144,8 @@ nlohmann::json summary_json(const std::string& model_file,
       const auto number_of = static_cast<std::size_t>(increments);
       if (number_of < curvature_shares.size())
         list.back()["curvature_share"] = number(curvature_shares[number_of]);
+      if (number_of < notes.size() && !notes[number_of].is_null())
+        list.back().update(notes[number_of]);
       iterations += static_cast<int>(record.iterations.size()) + record.wasted_iterations;
       cutbacks += record.cutbacks;
       ++increments;
@@ -191,10 +194,12 @@ std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
 
 template nlohmann::json summary_json(const std::string&, const model::AnalysisResult&,
                                      const std::string&, const RunSeconds&,
-                                     const std::vector<double>&);
+                                     const std::vector<double>&,
+                                     const std::vector<nlohmann::json>&);
 template nlohmann::json summary_json(const std::string&, const model::AnalysisResult3&,
                                      const std::string&, const RunSeconds&,
-                                     const std::vector<double>&);
+                                     const std::vector<double>&,
+                                     const std::vector<nlohmann::json>&);
 template std::vector<ModelFact> model_facts(const deck::Built&);
 template std::vector<ModelFact> model_facts(const deck::Built3&);
 

@@ -13,12 +13,14 @@ struct RunSeconds {
 };
 
 /// What summary.json says (docs/results.md): status, message, steps with their increments, time per
-/// phase, memory, unknowns. `curvature_shares`: one value (KSVD:60) per converged increment.
+/// phase, memory, unknowns. `curvature_shares`: one value (KSVD:60) per converged increment;
+/// `notes`: an object per converged increment whose entries are added to the increment's.
 template <int Dim>
 [[nodiscard]] nlohmann::json summary_json(const std::string& model_file,
                                           const model::BasicAnalysisResult<Dim>& result,
                                           const std::string& status, const RunSeconds& seconds,
-                                          const std::vector<double>& curvature_shares);
+                                          const std::vector<double>& curvature_shares,
+                                          const std::vector<nlohmann::json>& notes = {});
 
 /// One line per thing the model consists of: bodies, rigid bodies, pairs, steps.
 struct ModelFact {

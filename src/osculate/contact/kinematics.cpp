@@ -180,6 +180,22 @@ Kinematics<Dim> corner_kinematics(const Vec<Dim>& vertex, const Vec<Dim>& slave,
   return k;
 }
 
+template <int Dim>
+double domain_margin(const Kinematics<Dim>& k) {
+  if (k.moving == 0) return 1;
+  if (Dim == 2 || k.moving == 1) {
+    const double along = k.metric_inverse(0, 0) * k.shifted(0, 0);
+    return along;
+  }
+  const SurfaceMatrix<Dim> relative = k.metric_inverse * k.shifted;  // eigenvalues 1 - gap k_i
+  const double mean = 0.5 * relative.trace();
+  const double apart = std::sqrt(std::max(mean * mean - relative.determinant(), 0.0));
+  const double smallest = mean - apart;
+  return smallest;
+}
+
+template double domain_margin<2>(const Kinematics<2>&);
+template double domain_margin<3>(const Kinematics<3>&);
 template struct Kinematics<2>;
 template struct Kinematics<3>;
 template Mat<2, 1> tangent_frame<2>(const Vec2&, const Vec2&);

@@ -121,6 +121,23 @@ struct Kinematics {
   }
 };
 
+/// Smallest of 1 - gap k over the principal curvatures k of a face at the foot point; on an edge
+/// 1 - gap k cos(phi), with phi between the curve's principal normal and the contact normal; 1 at a
+/// corner. Positive where the foot is a strict minimum of the distance.
+///
+/// Source     the conditions of projection/local_domain.hpp for a contact point (KSCPP:20, 41, 42)
+/// Tested by  tests/unit/contact/test_projection_domain.cpp
+template <int Dim>
+[[nodiscard]] double domain_margin(const Kinematics<Dim>& k);
+
+/// Whether the slave point lies in the projection domain of its foot, by more than round-off: at a
+/// centre of curvature every direction is as near and no normal is right.
+template <int Dim>
+[[nodiscard]] bool inside_domain(const Kinematics<Dim>& k) {
+  constexpr double round_off = 1e-9;
+  return domain_margin(k) > round_off;
+}
+
 /// Kinematics at a foot point inside a facet: closest point condition satisfied by `jet`.
 [[nodiscard]] Kinematics<2> face_kinematics(const geometry::CurveJet<2>& jet, const Vec2& slave);
 [[nodiscard]] Kinematics<3> face_kinematics(const geometry::SurfaceJet& jet, const Vec3& slave);

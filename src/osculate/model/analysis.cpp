@@ -21,6 +21,8 @@ std::string failure_message(BasicSystem<Dim>& system, const BasicModel<Dim>& mod
       result.increments.empty() ? 0.0 : result.increments.back().fraction, result.reason);
   const std::string motion = free_motion_message(system, model, result.last_attempt.state);
   if (!motion.empty()) text += "; " + motion;
+  for (const OutsideDomain& found : outside_domain(system, model))
+    text += "; " + outside_domain_message(model, found);
   return text;
 }
 

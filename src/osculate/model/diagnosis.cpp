@@ -9,6 +9,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
 
 namespace osculate::model {
@@ -255,6 +256,39 @@ std::string free_motion_message(BasicSystem<Dim>& system, const BasicModel<Dim>&
   return text;
 }
 
+template <int Dim>
+std::vector<OutsideDomain> outside_domain(const BasicSystem<Dim>& system,
+                                          const BasicModel<Dim>& model) {
+  std::vector<OutsideDomain> found;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    const std::vector<Index>& slaves = model.pairs[p].definition.slave.nodes;
+    OutsideDomain here{model.pairs[p].name, {}};
+    const auto& points = system.contact()[p].points;
+    for (std::size_t i = 0; i < std::min(points.size(), slaves.size()); ++i)
+      if (points[i].outside_domain) here.nodes.push_back(slaves[i]);
+    if (!here.nodes.empty()) found.push_back(std::move(here));
+  }
+  return found;
+}
+
+template <int Dim>
+std::string outside_domain_message(const BasicModel<Dim>& model, const OutsideDomain& found) {
+  constexpr std::size_t most = 3;
+  std::string who;
+  for (std::size_t i = 0; i < std::min(most, found.nodes.size()); ++i)
+    who += (i ? ", " : "") + mesh::describe_node(model.mesh, found.nodes[i]);
+  if (found.nodes.size() > most) who += fmt::format(" and {} more", found.nodes.size() - most);
+  return fmt::format(
+      "contact '{}': {} at or beyond the centre of curvature of the master's surface: no direction "
+      "out of it is the nearest, so there is no contact force; a stiffer penalty, smaller "
+      "increments or search: {{depth: ...}} keep points from getting that deep",
+      found.pair, who + (found.nodes.size() == 1 ? " lies" : " lie"));
+}
+
+template std::vector<OutsideDomain> outside_domain(const System&, const Model&);
+template std::vector<OutsideDomain> outside_domain(const System3&, const Model3&);
+template std::string outside_domain_message(const Model&, const OutsideDomain&);
+template std::string outside_domain_message(const Model3&, const OutsideDomain&);
 template std::vector<FreeMotion> free_motions(System&, const Model&, const State&);
 template std::vector<FreeMotion3> free_motions(System3&, const Model3&, const State3&);
 template std::string free_motion_message(System&, const Model&, const State&);

@@ -35,6 +35,21 @@ template <int Dim>
                                               const BasicModel<Dim>& model,
                                               const BasicState<Dim>& state);
 
+/// Slave nodes of one pair that lie beyond the projection domain of the master in the last
+/// evaluation (pairing::PointResult::outside_domain).
+struct OutsideDomain {
+  std::string pair;
+  std::vector<Index> nodes;
+};
+template <int Dim>
+[[nodiscard]] std::vector<OutsideDomain> outside_domain(const BasicSystem<Dim>& system,
+                                                        const BasicModel<Dim>& model);
+
+/// What it means, in plain words, with the first nodes by name.
+template <int Dim>
+[[nodiscard]] std::string outside_domain_message(const BasicModel<Dim>& model,
+                                                 const OutsideDomain& found);
+
 using FreeMotion = BasicFreeMotion<2>;
 using FreeMotion3 = BasicFreeMotion<3>;
 

@@ -199,7 +199,9 @@ bool report_place(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHis
   result.frame = k.frame;
   result.history = next_history<Dim>(pair, x, history, placed, {});
   if (placed.projection.beyond_end) result.history.gap = result.gap = std::abs(k.gap);
-  return !placed.projection.beyond_end && k.gap >= -pair.depth && k.gap <= 0;
+  const bool closed = !placed.projection.beyond_end && k.gap >= -pair.depth && k.gap <= 0;
+  result.outside_domain = closed && !contact::inside_domain(k);
+  return closed && !result.outside_domain;
 }
 
 template <int Dim>
@@ -319,7 +321,7 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
     PointHistory<Dim>& h = state.points[i];
     h = next_history<Dim>(pair, x, {}, placed, {});
     if (placed.projection.beyond_end) h.gap = std::abs(h.gap);
-    h.active = h.gap <= 0 && h.gap >= -pair.depth;
+    h.active = h.gap <= 0 && h.gap >= -pair.depth && contact::inside_domain(placed.kinematics);
   }
   return state;
 }

@@ -54,7 +54,10 @@ struct PointResult {
   contact::Status status = contact::Status::open;
   contact::PointHistory<Dim> history;  ///< trial
   double gap = 0;                      ///< +inf when no place of the master was found
-  double normal_traction = 0;          ///< N <= 0
+  /// Deep enough for contact, but at or beyond the centre of curvature of the master under it
+  /// (contact::inside_domain): there is no normal to push along, so the point gives no force.
+  bool outside_domain = false;
+  double normal_traction = 0;                          ///< N <= 0
   Vec<Dim - 1> shear_traction = Vec<Dim - 1>::Zero();  ///< t in `frame`
   AssumedBranch<Dim> branch;                           ///< the tangent belongs to
   double weight = 1;                                   ///< 1 or the area the traction acts on

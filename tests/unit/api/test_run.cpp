@@ -333,5 +333,37 @@ TEST_F(Run, CheckDescribesWithoutSolving) {
   EXPECT_FALSE(fs::exists(results));
 }
 
+// The disc's centre is a corner of the block: every direction out of the disc is as near.
+TEST_F(Run, NamesPointsBeyondTheCentreOfCurvatureOfTheMaster) {
+  write("deep.yaml",
+        "osculate: 1\n"
+        "mesh: {generate: {block: {box: {x: [0, 2], y: [0, 1], elements: [4, 2]}}}}\n"
+        "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
+        "sections: [{on: block, material: m, element: plane_strain}]\n"
+        "rigid: {disc: {circle: {center: [0, 0], radius: 0.4}}}\n"
+        "contact: [{name: lost, master: disc, slave: block.bottom, normal: {penalty: 1e-3}}]\n"
+        "steps: [{name: s, increments: 2, prescribe: [{on: block.top, ux: 0, uy: 0}, {on: "
+        "block.bottom, ux: 0, uy: 0}]}]\n");
+  RunOptions o = options("deep.yaml");
+  std::vector<std::string> said;
+  o.say = [&](std::string_view text) { said.emplace_back(text); };
+  EXPECT_EQ(run(o).status, RunStatus::done);
+  const nlohmann::json s = summary();
+  for (const auto& increment : s["steps"][0]["increments"]) {
+    const nlohmann::json& list = increment["outside_domain"];
+    ASSERT_EQ(list.size(), 1u);
+    EXPECT_EQ(list[0]["pair"], "lost");
+    EXPECT_EQ(list[0]["points"], 1);
+    EXPECT_NE(list[0]["nodes"][0].get<std::string>().find("(0, 0"), std::string::npos);
+  }
+  const auto warned = std::count_if(said.begin(), said.end(), [](const std::string& text) {
+    return text.find("warning: contact 'lost': ") == 0 &&
+           text.find("centre of curvature") != std::string::npos;
+  });
+  EXPECT_EQ(warned, 1);  // once on the screen, in the log for every increment
+  const std::string log = read(results / "log.txt");
+  EXPECT_NE(log.find("centre of curvature"), log.rfind("centre of curvature"));
+}
+
 }  // namespace
 }  // namespace osculate::api
