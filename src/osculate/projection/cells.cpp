@@ -128,16 +128,16 @@ std::array<Vec<Dim>, 2> corner_directions(const CellComplex<Dim>& all, const Cel
   return {towards(corner.local + 1), towards(corner.local + n - 1)};
 }
 
-Vec3 inward_direction(const CellComplex<3>& all, const CellPart& edge, const Vec2& xi) {
-  const Cell& cell = all.cell(edge.cell);
+template <int Dim>
+Vec2 middle_xi(const CellComplex<Dim>& all, const Cell& cell) {
   const int n = corner_count(cell);
   Vec2 middle(0, 0);
   for (int k = 0; k < n; ++k) middle += corner_xi(all, cell, k) / n;
-  const PieceJet<3> j = cell_jet(all, cell, xi);
-  const Vec2 d = middle - xi;
-  return d[0] * j.r1[0] + d[1] * j.r1[1];
+  return middle;
 }
 
+template Vec2 middle_xi(const CellComplex<2>&, const Cell&);
+template Vec2 middle_xi(const CellComplex<3>&, const Cell&);
 template Vec2 corner_xi(const CellComplex<2>&, const Cell&, int);
 template Vec2 corner_xi(const CellComplex<3>&, const Cell&, int);
 template PieceJet<2> cell_jet(const CellComplex<2>&, const Cell&, const Vec2&);

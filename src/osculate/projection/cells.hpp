@@ -78,9 +78,9 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::array<Vec<Dim>, 2> corner_directions(const CellComplex<Dim>& all,
                                                         const CellPart& corner);
-/// A direction from a point of an edge into the cell.
-[[nodiscard]] Vec3 inward_direction(const CellComplex<3>& all, const CellPart& edge,
-                                    const Vec2& xi);
+/// Cell coordinates of its middle.
+template <int Dim>
+[[nodiscard]] Vec2 middle_xi(const CellComplex<Dim>& all, const Cell& cell);
 /// Unit normal; zero where there is none.
 template <int Dim>
 [[nodiscard]] Vec<Dim> cell_normal(const PieceJet<Dim>& jet);

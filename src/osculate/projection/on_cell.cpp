@@ -9,11 +9,58 @@
 namespace osculate::projection {
 namespace {
 
-/// The point is pulled away from the cell along this direction into it, or at least not towards it.
+/// No nearer point of the cell in the direction of `inner` (cell coordinates): the distance grows
+/// that way, or, where it begins level, it has not shrunk after a small step.
 template <int Dim>
-bool keeps(const Vec<Dim>& gap, const Vec<Dim>& inward) {
-  constexpr double rounding = 1e-9;
-  return gap.dot(inward) <= rounding * gap.norm() * inward.norm();
+bool grows(const CellComplex<Dim>& all, const Cell& cell, const Vec2& xi, const Vec2& inner,
+           const Vec<Dim>& point, const Vec<Dim>& foot) {
+  constexpr double rounding = 1e-9, step = 1e-3;
+  const Vec<Dim> gap = point - foot;
+  const PieceJet<Dim> j = cell_jet(all, cell, xi);
+  const Vec2 d = inner - xi;
+  const Vec<Dim> direction = d[0] * j.r1[0] + d[1] * j.r1[1];
+  const double pull = gap.dot(direction), level = rounding * gap.norm() * direction.norm();
+  if (pull > level) return false;
+  if (pull < -level) return true;
+  const Vec<Dim> beside = cell_jet(all, cell, Vec2(xi + step * d)).r;
+  return (point - beside).squaredNorm() >= gap.squaredNorm() * (1 - 1e-13);
+}
+
+template <int Dim>
+bool minimum_at_corner(const CellComplex<Dim>& all, Index vertex, const Vec<Dim>& point,
+                       const Vec<Dim>& foot) {
+  for (const CellPart& part : all.at_vertex.of(vertex)) {
+    const Cell& cell = all.cell(part.cell);
+    const int n = corner_count(cell);
+    const Vec2 here = corner_xi(all, cell, part.local);
+    for (const int other : {part.local + 1, part.local + n - 1})
+      if (!grows<Dim>(all, cell, here, corner_xi(all, cell, other % n), point, foot)) return false;
+  }
+  return true;
+}
+
+/// A corner that an edge of the cell has shrunk to, if the foot point is as good as there: its
+/// coordinates do not tell the directions round it apart.
+template <int Dim>
+int nearby_pole(const CellComplex<Dim>& all, const Cell& cell, const Vec<Dim>& foot) {
+  const auto n = static_cast<std::size_t>(corner_count(cell));
+  for (std::size_t k = 0; Dim == 3 && k < n; ++k) {
+    if (cell.vertex[k] != cell.vertex[(k + 1) % n]) continue;
+    const int here = static_cast<int>(k), far = static_cast<int>((k + 2) % n);
+    const Vec<Dim> r = cell_jet(all, cell, corner_xi(all, cell, here)).r;
+    const double size = (cell_jet(all, cell, corner_xi(all, cell, far)).r - r).norm();
+    if ((foot - r).norm() <= 1e-6 * size) return here;
+  }
+  return -1;
+}
+
+/// Unit normal; where the coordinates have none (a pole), that of a place close by.
+template <int Dim>
+Vec<Dim> normal_near(const CellComplex<Dim>& all, const Cell& cell, const Vec2& xi) {
+  const Vec<Dim> n = cell_normal<Dim>(cell_jet(all, cell, xi));
+  if (n.squaredNorm() > 0) return n;
+  const Vec2 beside = xi + 1e-6 * (middle_xi(all, cell) - xi);
+  return cell_normal<Dim>(cell_jet(all, cell, beside));
 }
 
 }  // namespace
@@ -24,51 +71,54 @@ OnCell locate(const CellComplex<Dim>& all, const Piece<Dim>& piece, const PieceM
   on.cell = piece.cell;
   const Cell& cell = all.cell(piece.cell);
   const auto n = static_cast<std::size_t>(corner_count(cell));
-  std::array<bool, 4> reached{};
-  bool any = false;
+  std::array<bool, 4> reached{}, pressed{};
   for (std::size_t side = 0; side < 4; ++side) {
     if (piece.side[side] < 0) continue;
     const auto local = static_cast<std::size_t>(piece.side[side]);
-    const bool pressed = (m.pressed >> side & 1U) != 0;
     const double x = m.st[static_cast<Eigen::Index>(side / 2)];
-    const bool here = piece.triangle ? pressed : side % 2 == 1 ? x >= 1 : x <= 0;
-    on.pressed[local] = pressed;
-    reached[local] = reached[local] || here;
-    any = any || pressed;
+    pressed[local] = (m.pressed >> side & 1U) != 0;
+    reached[local] = reached[local] || (piece.triangle  ? pressed[local]
+                                        : side % 2 == 1 ? x >= 1
+                                                        : x <= 0);
   }
-  on.xi = piece.triangle ? m.st : piece.cell_xi(m.st);
-  if (!any) return on;
+  bool any = false;
   for (std::size_t k = 0; k < n; ++k) {
+    any = any || pressed[k];
     if (Dim == 2) {
-      if (on.pressed[k]) on.corner = static_cast<int>(k);
+      if (reached[k]) on.touched_corner = static_cast<int>(k);
       continue;
     }
-    if (on.pressed[k] && on.edge < 0) on.edge = static_cast<int>(k);
-    const bool collapsed = cell.vertex[k] == cell.vertex[(k + 1) % n] && on.pressed[k];
-    if ((reached[k] && reached[(k + n - 1) % n]) || collapsed) on.corner = static_cast<int>(k);
+    if (reached[k] && (on.touched_edge < 0 || pressed[k])) on.touched_edge = static_cast<int>(k);
+    const bool collapsed = cell.vertex[k] == cell.vertex[(k + 1) % n] && reached[k];
+    if ((reached[k] && reached[(k + n - 1) % n]) || collapsed)
+      on.touched_corner = static_cast<int>(k);
   }
-  if (on.corner >= 0 && Dim == 3) on.xi = corner_xi(all, cell, on.corner);
+  on.xi = piece.triangle ? m.st : piece.cell_xi(m.st);
+  if (on.touched_corner >= 0) on.xi = corner_xi(all, cell, on.touched_corner);
+  if (!any) return on;
+  on.corner = on.touched_corner;
+  on.edge = on.touched_edge;
   return on;
 }
 
 template <int Dim>
-bool minimum_of_all(const CellComplex<Dim>& all, const OnCell& on, const Vec<Dim>& gap) {
-  if (on.inside()) return true;
+bool minimum_of_all(const CellComplex<Dim>& all, const OnCell& on, const Vec<Dim>& point,
+                    const Vec<Dim>& foot) {
   const Cell& cell = all.cell(on.cell);
-  if (on.corner >= 0) {
-    for (const CellPart& part :
-         all.at_vertex.of(cell.vertex[static_cast<std::size_t>(on.corner)])) {
-      const std::array<Vec<Dim>, 2> d = corner_directions(all, part);
-      if (!keeps<Dim>(gap, d[0]) || !keeps<Dim>(gap, d[1])) return false;
-    }
-    return true;
-  }
+  const int pole = nearby_pole<Dim>(all, cell, foot);
+  if (pole >= 0)
+    return minimum_at_corner<Dim>(all, cell.vertex[static_cast<std::size_t>(pole)], point, foot);
+  if (on.touched_corner >= 0)
+    return minimum_at_corner<Dim>(all, cell.vertex[static_cast<std::size_t>(on.touched_corner)],
+                                  point, foot);
   if constexpr (Dim == 3) {
-    const CellPart own{on.cell, static_cast<std::int8_t>(on.edge)};
-    for (const CellPart& part : all.at_edge.of(cell.group[static_cast<std::size_t>(on.edge)])) {
-      if (part.cell == own.cell && part.local == own.local) continue;
-      if (!keeps<3>(gap, inward_direction(all, part, across_edge(all, own, on.xi, part))))
-        return false;
+    if (on.touched_edge < 0) return true;
+    const CellPart own{on.cell, static_cast<std::int8_t>(on.touched_edge)};
+    const Index group = cell.group[static_cast<std::size_t>(on.touched_edge)];
+    for (const CellPart& part : all.at_edge.of(group)) {
+      const Cell& other = all.cell(part.cell);
+      const Vec2 xi = across_edge(all, own, on.xi, part);
+      if (!grows<3>(all, other, xi, middle_xi(all, other), point, foot)) return false;
     }
   }
   return true;
@@ -104,13 +154,13 @@ OnCell first_owner(const CellComplex<Dim>& all, const OnCell& on) {
 template <int Dim>
 Vec<Dim> shared_normal(const CellComplex<Dim>& all, const OnCell& on) {
   const Cell& cell = all.cell(on.cell);
-  if (on.inside()) return cell_normal<Dim>(cell_jet(all, cell, on.xi));
+  if (on.inside()) return normal_near<Dim>(all, cell, on.xi);
   Vec<Dim> sum = Vec<Dim>::Zero();
   if (on.corner >= 0) {
     for (const CellPart& part :
          all.at_vertex.of(cell.vertex[static_cast<std::size_t>(on.corner)])) {
       const Cell& other = all.cell(part.cell);
-      const Vec<Dim> n = cell_normal<Dim>(cell_jet(all, other, corner_xi(all, other, part.local)));
+      const Vec<Dim> n = normal_near<Dim>(all, other, corner_xi(all, other, part.local));
       double angle = 1;
       if constexpr (Dim == 3) {
         const std::array<Vec3, 2> d = corner_directions(all, part);
@@ -124,7 +174,7 @@ Vec<Dim> shared_normal(const CellComplex<Dim>& all, const OnCell& on) {
     const CellPart own{on.cell, static_cast<std::int8_t>(on.edge)};
     for (const CellPart& part : all.at_edge.of(cell.group[static_cast<std::size_t>(on.edge)])) {
       const Cell& other = all.cell(part.cell);
-      sum += cell_normal<3>(cell_jet(all, other, across_edge(all, own, on.xi, part)));
+      sum += normal_near<3>(all, other, across_edge(all, own, on.xi, part));
     }
   }
   return sum;
@@ -148,12 +198,12 @@ double bend_at(const CellComplex<Dim>& all, const OnCell& on, const Vec<Dim>& ga
 }
 
 template OnCell locate(const CellComplex<2>&, const Piece<2>&, const PieceMinimum<2>&);
-template bool minimum_of_all(const CellComplex<2>&, const OnCell&, const Vec<2>&);
+template bool minimum_of_all(const CellComplex<2>&, const OnCell&, const Vec<2>&, const Vec<2>&);
 template OnCell first_owner(const CellComplex<2>&, const OnCell&);
 template Vec<2> shared_normal(const CellComplex<2>&, const OnCell&);
 template double bend_at(const CellComplex<2>&, const OnCell&, const Vec<2>&);
 template OnCell locate(const CellComplex<3>&, const Piece<3>&, const PieceMinimum<3>&);
-template bool minimum_of_all(const CellComplex<3>&, const OnCell&, const Vec<3>&);
+template bool minimum_of_all(const CellComplex<3>&, const OnCell&, const Vec<3>&, const Vec<3>&);
 template OnCell first_owner(const CellComplex<3>&, const OnCell&);
 template Vec<3> shared_normal(const CellComplex<3>&, const OnCell&);
 template double bend_at(const CellComplex<3>&, const OnCell&, const Vec<3>&);

@@ -9,8 +9,10 @@ struct OnCell {
   Index cell = -1;
   Vec2 xi{0, 0};
   std::array<bool, 4> pressed{};  ///< by the number of the cell's edge (plane: corner)
-  int corner = -1;                ///< at this corner
-  int edge = -1;                  ///< on this edge
+  int corner = -1;                ///< pulled beyond this corner
+  int edge = -1;                  ///< pulled beyond this edge
+  /// The same without being pulled beyond it.
+  int touched_corner = -1, touched_edge = -1;
   [[nodiscard]] bool inside() const { return corner < 0 && edge < 0; }
 };
 
@@ -21,7 +23,7 @@ template <int Dim>
 /// A minimum over its own cell that is one over all cells that share its place.
 template <int Dim>
 [[nodiscard]] bool minimum_of_all(const CellComplex<Dim>& all, const OnCell& on,
-                                  const Vec<Dim>& gap);
+                                  const Vec<Dim>& point, const Vec<Dim>& foot);
 
 /// The same place on the cell that comes first in the order of the input.
 template <int Dim>

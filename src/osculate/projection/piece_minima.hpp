@@ -302,7 +302,7 @@ class PieceSearch {
     const bool level =
         std::sqrt(std::max(f.hi, 0.0)) - std::sqrt(std::max(f.lo, 0.0)) <= tolerance_;
     if (level || depth > deepest || --budget_ < 0)
-      return offer_flat(range, std::max(f.lo, 0.0), !level);
+      return offer_flat(range, fixed, std::max(f.lo, 0.0), !level);
     const auto change = [&](std::size_t k) {
       return fixed[k] ? -1 : std::max(std::abs(b.first[k].lo), std::abs(b.first[k].hi));
     };
@@ -359,13 +359,18 @@ class PieceSearch {
     sink_.offer(m);
   }
 
-  void offer_flat(const Range& range, double least, bool given_up) {
+  void offer_flat(const Range& range, const std::array<bool, 2>& fixed, double least,
+                  bool given_up) {
     PieceMinimum<Dim> m;
     m.st = 0.5 * (range.lo + range.hi);
     m.point = look(piece_, control_, point_, m.st).r;
     m.squared_distance = least;
     m.flat = true;
     m.open = given_up;
+    unsigned bits = 0;
+    for (unsigned k = 0; k < (piece_.degree[1] == 0 ? 1U : 2U); ++k)
+      if (fixed[k]) bits |= 1U << (2 * k + (m.st[static_cast<Eigen::Index>(k)] > 0.5 ? 1 : 0));
+    m.pressed = static_cast<std::uint8_t>(bits);
     sink_.offer(m);
   }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -119,10 +120,10 @@ double size_of(const Shape<Dim>& shape) {
 
 // -- one query ----------------------------------------------------------------------------------
 
-/// Keeps the nearest place.
+/// Keeps the nearest place; of places that are equally near to rounding (a point far away cannot
+/// tell them) the one that is pulled beyond fewer sides.
 template <int Dim>
 struct NearestSink {
-  double tolerance = 0;
   Vec<Dim> point;
   Index piece = -1;
   Found<Dim> best;
@@ -130,11 +131,16 @@ struct NearestSink {
 
   [[nodiscard]] double reach2() const { return reach; }
   void offer(PieceMinimum<Dim> m) {
+    constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
     if (m.flat) m.squared_distance = (point - m.point).squaredNorm();
-    if (!(m.squared_distance < best.minimum.squared_distance)) return;
+    const double taken = best.minimum.squared_distance;
+    if (!(m.squared_distance <= taken * (1 + rounding))) return;
+    const bool tied = m.squared_distance >= taken * (1 - rounding);
+    const int sides = std::popcount(m.pressed), taken_sides = std::popcount(best.minimum.pressed);
+    if (tied && (sides > taken_sides || (sides == taken_sides && m.squared_distance >= taken)))
+      return;
     best = {piece, m};
-    const double near = std::max(std::sqrt(m.squared_distance) - tolerance, 0.0);
-    reach = near * near;
+    reach = std::nextafter(m.squared_distance * (1 + rounding), infinity);
   }
 };
 
@@ -142,8 +148,10 @@ struct NearestSink {
 template <int Dim, class Valid>
 struct SecondSink {
   const Valid& valid;
-  Vec<Dim> taken;    ///< the best place
+  Vec<Dim> taken;  ///< the best place
+  double taken_distance = 0;
   double apart = 0;  ///< nearer places are the same
+  double size = 1;   ///< of the target
   double tolerance = 0;
   Index piece = -1;
   double second = infinity;  ///< distance
@@ -151,10 +159,15 @@ struct SecondSink {
   double reach = infinity;  ///< squared
 
   [[nodiscard]] double reach2() const { return reach; }
+  [[nodiscard]] bool same(const PieceMinimum<Dim>& m, double distance) const {
+    const double off = (m.point - taken).norm();
+    const double near = m.flat ? std::max(apart, 1e-5 * size) : apart;
+    return off <= 1e-8 * size || (off <= near && distance <= taken_distance + 1e-11 * size);
+  }
   void offer(const PieceMinimum<Dim>& m) {
     const double distance = std::sqrt(std::max(m.squared_distance, 0.0));
-    if (!(distance < second) || (m.point - taken).norm() <= apart) return;
-    if (!m.flat && !valid(piece, m)) return;
+    if (!(distance < second) || same(m, distance)) return;
+    if ((!m.flat || m.pressed != 0) && !valid(piece, m)) return;
     second = distance;
     place = m.point;
     const double near = std::max(distance - tolerance, 0.0);
@@ -199,9 +212,23 @@ void descend_piece(const Impl& impl, Index k, const Vec<Dim>& point, double tole
   sink.offer(m);
 }
 
+/// The bottom of a valley that the bounds could not narrow down.
+template <int Dim, class Impl>
+void polish(const Impl& impl, const Vec<Dim>& point, Found<Dim>& found) {
+  const Piece<Dim>& piece = impl.piece(found.piece);
+  const Control<Dim> control = impl.control(piece);
+  const detail::Place<Dim> place =
+      detail::descend<Dim>(piece, control, point, detail::whole_range(piece),
+                           detail::look<Dim>(piece, control, point, found.minimum.st));
+  found.minimum.st = place.st;
+  found.minimum.squared_distance = place.squared;
+  found.minimum.point = place.r;
+  found.minimum.pressed = detail::pressed_sides(piece, place);
+}
+
 template <int Dim>
 ClosestPoint<Dim> answer_of(const CellComplex<Dim>& all, const OnCell& found, const Vec<Dim>& point,
-                            const Vec<Dim>& foot) {
+                            const Vec<Dim>& foot, double& bend) {
   ClosestPoint<Dim> out;
   const Vec<Dim> gap = point - foot;
   const OnCell on = first_owner(all, found);
@@ -262,23 +289,29 @@ ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) cons
   // Distances are told apart down to this; it follows the rounding of far points.
   const double far = (point - impl.trees.inner.tree.node_box(0).lo).norm();
   const double tolerance = 1e-13 * (impl.size + (far > impl.size ? far - impl.size : 0));
-  NearestSink<Dim> nearest{tolerance, point, -1, {}, infinity};
+  NearestSink<Dim> nearest{point};
   for_each_possible(impl.trees, point, nearest.reach, [&](Index k) {
     if (mode == Mode::fast)
       descend_piece<Dim>(impl, k, point, tolerance, nearest);
     else
       search_piece<Dim>(impl, k, point, tolerance, nearest);
   });
-  const Found<Dim>& best = nearest.best;
+  Found<Dim>& best = nearest.best;
   if (best.piece < 0) return {};
-  ClosestPoint<Dim> out = answer_of<Dim>(
-      impl.all, locate(impl.all, impl.piece(best.piece), best.minimum), point, best.minimum.point);
+  if (best.minimum.flat) polish<Dim>(impl, point, best);
+  double bend = 1;
+  ClosestPoint<Dim> out =
+      answer_of<Dim>(impl.all, locate(impl.all, impl.piece(best.piece), best.minimum), point,
+                     best.minimum.point, bend);
   if (mode != Mode::certified) return out;
 
   const auto valid = [&](Index k, const PieceMinimum<Dim>& m) {
-    return minimum_of_all<Dim>(impl.all, locate(impl.all, impl.piece(k), m), point - m.point);
+    return minimum_of_all<Dim>(impl.all, locate(impl.all, impl.piece(k), m), point, m.point);
   };
-  SecondSink<Dim, decltype(valid)> sink{valid, best.minimum.point, 1e-8 * impl.size, tolerance};
+  // Near a centre of curvature a minimum is so flat that its place is known to 1e-3 only.
+  const double apart = (bend < 1e-4 ? 1e-3 : 1e-8) * impl.size;
+  SecondSink<Dim, decltype(valid)> sink{valid, best.minimum.point, std::abs(out.distance),
+                                        apart, impl.size,          tolerance};
   for_each_possible(impl.trees, point, sink.reach,
                     [&](Index k) { search_piece<Dim>(impl, k, point, tolerance, sink); });
   out.second = sink.place;

@@ -15,7 +15,8 @@ namespace osculate::projection {
 double least_bend(const Vec3& gap, const std::array<Vec3, 2>& r1, const std::array<Vec3, 3>& r2) {
   const double a11 = r1[0].squaredNorm(), a22 = r1[1].squaredNorm(), a12 = r1[0].dot(r1[1]);
   const double det = a11 * a22 - a12 * a12;
-  if (!(det > 1e-14 * a11 * a22)) return 1;
+  // Near a pole the one tangent is nothing but rounding.
+  if (!(det > 1e-14 * a11 * a22) || std::min(a11, a22) < 1e-12 * std::max(a11, a22)) return 1;
   const double f11 = a11 - gap.dot(r2[0]), f12 = a12 - gap.dot(r2[1]), f22 = a22 - gap.dot(r2[2]);
   const double trace = (a22 * f11 - 2 * a12 * f12 + a11 * f22) / det;
   const double product = (f11 * f22 - f12 * f12) / det;

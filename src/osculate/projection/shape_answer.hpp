@@ -26,8 +26,9 @@ template <int Dim>
   return a > 0 ? 1 - gap.dot(r2) / a : 1.0;
 }
 
-/// Below this 1 - zeta k counts as zero: the point is at its centre of curvature.
-inline constexpr double least_bend_allowed = 1e-9;
+/// Below this 1 - zeta k counts as zero: the point is at its centre of curvature. (There the foot
+/// point itself is known to the cube root of the rounding only, and 1 - zeta k to its square.)
+inline constexpr double least_bend_allowed = 1e-8;
 /// Margins below this part of the target's size make a foot point ambiguous.
 inline constexpr double least_margin = 1e-9;
 
