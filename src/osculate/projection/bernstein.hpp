@@ -11,7 +11,7 @@ namespace osculate::projection {
 /// over the unit interval); coefficient (i, j) stands at i (n + 1) + j. Their smallest and largest
 /// bound the polynomial.
 ///
-/// Tested by  tests/unit/projection/test_bernstein.cpp
+/// Tested by  tests/unit/projection/test_pieces.cpp
 template <int Capacity>
 struct Net {
   int m = 0, n = 0;

@@ -387,7 +387,7 @@ class PieceSearch {
 /// Requires   not a `triangle`
 /// Returns    minima the bounds cannot tell apart to `tolerance` come marked `flat` with a lower
 ///            bound of their distance
-/// Tested by  tests/unit/projection/test_piece_minima.cpp
+/// Tested by  tests/unit/projection/test_pieces.cpp
 template <int Dim, class Sink>
 void find_minima(const Piece<Dim>& piece, Control<Dim> control, const Vec<Dim>& point,
                  double tolerance, Sink& sink) {

@@ -8,7 +8,7 @@ namespace osculate::projection {
 /// Closed-form answers, proved as they stand: the nearest point with its margin. Empty for shapes
 /// that are not analytic (Lagrange, NURBS).
 ///
-/// Tested by  tests/unit/projection/test_projector_shapes.cpp
+/// Tested by  tests/unit/projection/test_projector.cpp
 [[nodiscard]] std::optional<ClosestPoint<2>> shape_answer(const geometry::Curve& curve,
                                                           const Vec2& point);
 [[nodiscard]] std::optional<ClosestPoint<3>> shape_answer(const geometry::Surface& surface,

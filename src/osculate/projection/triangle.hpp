@@ -14,7 +14,7 @@ struct TriangleFoot {
 /// Closed form by the regions of face, edges and corners; a triangle without area is the longest of
 /// its edges.
 ///
-/// Tested by  tests/unit/projection/test_triangle.cpp (against brute force)
+/// Tested by  tests/unit/projection/test_pieces.cpp (against brute force)
 [[nodiscard]] TriangleFoot closest_on_triangle(const Vec3& a, const Vec3& b, const Vec3& c,
                                                const Vec3& point);
 

@@ -54,7 +54,7 @@ FacetMesh<3> cube(bool triangles) {
   return mesh;
 }
 
-// [eq:KSCPP:33] The seven regions outside the corner (1, 1, 1), and the inside.
+// The seven regions outside the corner (1, 1, 1), and the inside.
 TEST(Projector, RegionsOfACubeCorner) {
   for (const bool triangles : {false, true}) {
     const Projector<3> p = projector(cube(triangles));
