@@ -130,7 +130,14 @@ struct NearestSink {
   double reach = infinity;  ///< squared
 
   [[nodiscard]] double reach2() const { return reach; }
+  /// From now on other places must be nearer by `lead`.
+  void prefer(double lead) {
+    if (best.piece < 0) return;
+    const double near = std::max(std::sqrt(best.minimum.squared_distance) - lead, 0.0);
+    reach = near * near;
+  }
   void offer(PieceMinimum<Dim> m) {
+    if (m.squared_distance > reach) return;
     constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
     if (m.flat) m.squared_distance = (point - m.point).squaredNorm();
     const double taken = best.minimum.squared_distance;
@@ -281,22 +288,28 @@ double Projector<Dim>::size() const {
   return impl_->size;
 }
 
-template <int Dim>
-ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) const {
-  const Impl& impl = *impl_;
-  if (!point.allFinite()) return {};
-  if (impl.analytic) return *shape_answer(std::get<Shape<Dim>>(impl.target), point);
-  // Distances are told apart down to this; it follows the rounding of far points.
+namespace {
+
+/// Distances are told apart down to this; it follows the rounding of far points.
+template <int Dim, class Impl>
+double tolerance_at(const Impl& impl, const Vec<Dim>& point) {
   const double far = (point - impl.trees.inner.tree.node_box(0).lo).norm();
-  const double tolerance = 1e-13 * (impl.size + (far > impl.size ? far - impl.size : 0));
-  NearestSink<Dim> nearest{point};
-  for_each_possible(impl.trees, point, nearest.reach, [&](Index k) {
-    if (mode == Mode::fast)
-      descend_piece<Dim>(impl, k, point, tolerance, nearest);
-    else
-      search_piece<Dim>(impl, k, point, tolerance, nearest);
-  });
-  Found<Dim>& best = nearest.best;
+  return 1e-13 * (impl.size + (far > impl.size ? far - impl.size : 0));
+}
+
+template <int Dim, class Impl>
+void look_at_piece(const Impl& impl, Index k, const Vec<Dim>& point, Mode mode, double tolerance,
+                   NearestSink<Dim>& nearest) {
+  if (mode == Mode::fast)
+    descend_piece<Dim>(impl, k, point, tolerance, nearest);
+  else
+    search_piece<Dim>(impl, k, point, tolerance, nearest);
+}
+
+/// Names the nearest place; in certified mode looks for the second-best minimum.
+template <int Dim, class Impl>
+ClosestPoint<Dim> conclude(const Impl& impl, const Vec<Dim>& point, Mode mode, double tolerance,
+                           Found<Dim> best) {
   if (best.piece < 0) return {};
   if (best.minimum.flat) polish<Dim>(impl, point, best);
   double bend = 1;
@@ -304,7 +317,6 @@ ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) cons
       answer_of<Dim>(impl.all, locate(impl.all, impl.piece(best.piece), best.minimum), point,
                      best.minimum.point, bend);
   if (mode != Mode::certified) return out;
-
   const auto valid = [&](Index k, const PieceMinimum<Dim>& m) {
     return minimum_of_all<Dim>(impl.all, locate(impl.all, impl.piece(k), m), point, m.point);
   };
@@ -320,6 +332,36 @@ ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) cons
   if (!out.unique && out.status == Status::projected) out.status = Status::ambiguous;
   if (best.minimum.open) out.status = Status::ambiguous;
   return out;
+}
+
+}  // namespace
+
+template <int Dim>
+ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) const {
+  const Impl& impl = *impl_;
+  if (!point.allFinite()) return {};
+  if (impl.analytic) return *shape_answer(std::get<Shape<Dim>>(impl.target), point);
+  const double tolerance = tolerance_at<Dim>(impl, point);
+  NearestSink<Dim> nearest{point};
+  for_each_possible(impl.trees, point, nearest.reach,
+                    [&](Index k) { look_at_piece<Dim>(impl, k, point, mode, tolerance, nearest); });
+  return conclude<Dim>(impl, point, mode, tolerance, nearest.best);
+}
+
+template <int Dim>
+ClosestPoint<Dim> Projector<Dim>::follow(const Vec<Dim>& point, const ClosestPoint<Dim>& last,
+                                         Mode mode) const {
+  const Impl& impl = *impl_;
+  if (!point.allFinite() || impl.analytic || !last.point.allFinite()) return closest(point, mode);
+  const double tolerance = tolerance_at<Dim>(impl, point);
+  NearestSink<Dim> nearest{point};
+  impl.trees.inner.tree.for_each_within(last.point, 1e-9 * impl.size, [&](Index k) {
+    look_at_piece<Dim>(impl, k, point, mode, tolerance, nearest);
+  });
+  nearest.prefer(least_margin * impl.size);
+  for_each_possible(impl.trees, point, nearest.reach,
+                    [&](Index k) { look_at_piece<Dim>(impl, k, point, mode, tolerance, nearest); });
+  return conclude<Dim>(impl, point, mode, tolerance, nearest.best);
 }
 
 template class Projector<2>;

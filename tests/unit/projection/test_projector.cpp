@@ -366,6 +366,39 @@ TEST(Projector, FootJumpsOnlyAcrossTheMedialAxis) {
   EXPECT_EQ(below.margin, infinity);
 }
 
+/// With history an equidistant point keeps its side, from whichever it came; away from there the
+/// answers are those without.
+TEST(Projector, EquidistantPointsKeepTheSideTheyCameFrom) {
+  FacetMesh<2> valley;
+  valley.nodes = {{1, 1}, {0, 0}, {-1, 1}};
+  valley.facets = {{CellType::line2, {1, 0}}, {CellType::line2, {2, 1}}};
+  const Projector<2> p = projector(valley);
+  for (const double side : {-1.0, 1.0}) {
+    ClosestPoint<2> last = p.closest({0.3 * side, 0.7});
+    for (int k = 9; k >= 0; --k) {
+      last = p.follow({0.03 * side * k, 0.7}, last);
+      EXPECT_GT(last.point[0] * side, 0.2);
+      EXPECT_NEAR(std::abs(last.distance), std::abs(p.closest({0.03 * side * k, 0.7}).distance),
+                  1e-15);
+    }
+  }
+  const Projector<3> box = projector(cube(true));
+  std::mt19937 generator(31);
+  std::uniform_real_distribution<double> u(-1, 2);
+  ClosestPoint<3> last = box.closest({2, 2, 2});
+  for (int k = 0; k < 500; ++k) {
+    const Vec3 point(u(generator), u(generator), u(generator));
+    const ClosestPoint<3> now = box.closest(point);
+    if (now.status != Status::projected) continue;
+    for (const Mode mode : {Mode::fast, Mode::certified}) {
+      last = box.follow(point, last, mode);
+      EXPECT_NEAR(last.distance, now.distance, 1e-14);
+      EXPECT_EQ(last.feature, now.feature);
+    }
+    EXPECT_NEAR((last.point - now.point).norm(), 0, 1e-14);
+  }
+}
+
 /// Points on the evolute of a parabola: the second derivative of the distance vanishes.
 TEST(Projector, PointsOnTheEvoluteAreOutsideTheDomain) {
   FacetMesh<2> mesh;
