@@ -15,6 +15,7 @@ void add_project(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
 void add_doc(CLI::App& app, int& exit_code);
+void add_domain(CLI::App& app, int& exit_code);
 
 /// Folder of the program itself.
 [[nodiscard]] std::string program_folder();

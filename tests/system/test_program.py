@@ -55,6 +55,26 @@ class Program(unittest.TestCase):
     def run_program(self, *arguments):
         return subprocess.run([PROGRAM, *arguments], cwd=self.folder.name, capture_output=True, text=True)
 
+    def test_domain(self):
+        saddle = os.path.join(SOURCE, "examples", "domains", "saddle.yaml")
+        done = self.run_program("domain", saddle, "-o", "saddle.vtu", "--page", "saddle.html", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout)
+        self.assertEqual(list(found["classes"]), ["hyperbolic"])
+        self.assertAlmostEqual(found["above"]["reach"]["value"], 1, places=7)
+        self.assertIn("wrote saddle.vtu", done.stderr)
+        for name in ["saddle.vtu", "saddle.html"]:
+            self.assertGreater(os.path.getsize(self.path(name)), 1000)
+        ellipse = os.path.join(SOURCE, "examples", "domains", "ellipse.yaml")
+        done = self.run_program("domain", ellipse)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("reach         0.0833333, curvature at (", done.stdout)
+        broken = self.model("nurbs: {degree: [2]}\n", "broken.yaml")
+        done = self.run_program("domain", broken, "-o", "broken.vtu")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("broken.yaml:1", done.stderr)
+        self.assertFalse(os.path.exists(self.path("broken.vtu")))
+
     def test_run_writes_what_it_promises(self):
         name = self.model(BLOCK.replace("SIDE", "0.1"))
         done = self.run_program("run", name, "--json")
