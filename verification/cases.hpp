@@ -15,11 +15,13 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult contact_patch_space(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_ball(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_sphere(const CaseContext& context);
+[[nodiscard]] CaseResult hyperbolic_surface(const CaseContext& context);
 [[nodiscard]] CaseResult incline(const CaseContext& context);
 [[nodiscard]] CaseResult drag_in_space(const CaseContext& context);
 [[nodiscard]] CaseResult critical_displacement(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_line(const CaseContext& context);
 [[nodiscard]] CaseResult large_rotation(const CaseContext& context);
+[[nodiscard]] CaseResult projection_domains(const CaseContext& context);
 [[nodiscard]] CaseResult sliding_block(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell_fine(const CaseContext& context);

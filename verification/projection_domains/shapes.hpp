@@ -1,0 +1,75 @@
+#pragma once
+// The curves and surfaces of the case.
+#include <numbers>
+#include <vector>
+
+#include "osculate/projection/target.hpp"
+
+namespace osculate::verification {
+
+/// Straight piece AB, arcs BC and CD of radius 1 bent to both sides.
+inline geometry::NurbsCurve figure_6() {
+  const double w = std::numbers::sqrt2 / 2;
+  return {2,
+          {0, 0, 0, 1, 1, 2, 2, 3, 3, 3},
+          {Vec2(-2, 0), Vec2(-1, 0), Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(1, 2), Vec2(2, 2)},
+          {1, 1, 1, w, 1, w, 1}};
+}
+
+/// Full ellipse, counter-clockwise: the normals point inwards.
+inline geometry::NurbsCurve ellipse(double a, double b) {
+  const double w = std::numbers::sqrt2 / 2;
+  return {2,
+          {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4},
+          {Vec2(a, 0), Vec2(a, b), Vec2(0, b), Vec2(-a, b), Vec2(-a, 0), Vec2(-a, -b), Vec2(0, -b),
+           Vec2(a, -b), Vec2(a, 0)},
+          {1, w, 1, w, 1, w, 1, w, 1}};
+}
+
+inline projection::FacetMesh<2> polyline(const std::vector<Vec2>& points) {
+  projection::FacetMesh<2> mesh{points, {}};
+  for (Index i = 0; i + 1 < static_cast<Index>(points.size()); ++i)
+    mesh.facets.push_back({cell::CellType::line2, {i, i + 1}});
+  return mesh;
+}
+
+/// The box 0..1 with normals outwards.
+inline projection::FacetMesh<3> unit_box() {
+  projection::FacetMesh<3> mesh;
+  for (int k = 0; k < 8; ++k) mesh.nodes.emplace_back(k & 1, (k >> 1) & 1, k >> 2);
+  for (const auto& q : {std::array<Index, 4>{0, 2, 3, 1},
+                        {4, 5, 7, 6},
+                        {0, 1, 5, 4},
+                        {2, 6, 7, 3},
+                        {0, 4, 6, 2},
+                        {1, 3, 7, 5}})
+    mesh.facets.push_back({cell::CellType::quad4, {q[0], q[1], q[2], q[3]}});
+  return mesh;
+}
+
+/// Its three faces at the corner (0, 1, 1).
+inline projection::FacetMesh<3> three_faces() {
+  projection::FacetMesh<3> mesh = unit_box();
+  mesh.facets = {mesh.facets[1], mesh.facets[3], mesh.facets[4]};
+  return mesh;
+}
+
+/// z = x^3 - 3 x y^2 over -1/2..1/2 both ways, exactly, as a bicubic patch.
+inline geometry::NurbsPatch monkey_saddle() {
+  geometry::NurbsPatch p;
+  p.degree = {3, 3};
+  p.count = {4, 4};
+  p.knots = {{{0, 0, 0, 0, 1, 1, 1, 1}, {0, 0, 0, 0, 1, 1, 1, 1}}};
+  // Bernstein coefficients of x, x^2 and x^3 for x = t - 1/2
+  const std::array<double, 4> x{-1.0 / 2, -1.0 / 6, 1.0 / 6, 1.0 / 2};
+  const std::array<double, 4> square{1.0 / 4, -1.0 / 12, -1.0 / 12, 1.0 / 4};
+  const std::array<double, 4> cube{-1.0 / 8, 1.0 / 8, -1.0 / 8, 1.0 / 8};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) {
+      p.control.emplace_back(x[i], x[j], cube[i] - 3 * x[i] * square[j]);
+      p.weights.push_back(1);
+    }
+  return p;
+}
+
+}  // namespace osculate::verification
