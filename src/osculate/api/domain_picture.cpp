@@ -17,7 +17,6 @@ using projection::SmoothPiece;
 using projection::SurfacePlace;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr int arc = 8;  ///< pieces of a wedge's arc
 constexpr DomainPlace no_place{nothing, nothing, nothing, nothing, nothing,
                                nothing, nothing, nothing, nothing, nothing};
