@@ -215,34 +215,57 @@ void add_edges(Sketch& sketch, const Composed<3>& s, double kink, double length)
     }
 }
 
-void add_corners(Sketch&, const Composed<2>&, double) {}
-/// Cones of corners: flanks between neighbouring rays, and the part of a sphere that closes them.
-void add_corners(Sketch& sketch, const Composed<3>& s, double length) {
+/// Flanks between neighbouring rays, and the part of a sphere that closes them.
+void add_cone(Sketch& sketch, const Vec3& r, std::vector<Vec3> rays, DomainPart part,
+              double length) {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& ray : rays) mean += ray;
+  if (!(mean.norm() > 1e-9)) return;
+  mean.normalize();
+  const Vec3 e1 = mean.unitOrthogonal(), e2 = mean.cross(e1);
+  std::sort(rays.begin(), rays.end(), [&](const Vec3& a, const Vec3& b) {
+    return std::atan2(a.dot(e2), a.dot(e1)) < std::atan2(b.dot(e2), b.dot(e1));
+  });
+  const Index apex = sketch.point(r), tip = sketch.point(r + length * mean);
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    const Vec3 &a = rays[k], &b = rays[(k + 1) % rays.size()];
+    Index last = sketch.point(r + length * a);
+    for (int i = 1; i <= arc; ++i) {
+      const Vec3 v = projection::turned<3>(a, b, static_cast<double>(i) / arc);
+      const Index next = sketch.point(r + length * v);
+      sketch.cell(cell::CellType::tri3, {apex, last, next}, part);
+      sketch.cell(cell::CellType::tri3, {tip, last, next}, part);
+      last = next;
+    }
+  }
+}
+
+void add_corners(Sketch&, const Composed<2>&, double, double) {}
+/// Cones of corners that are wider than a kink; those of the border one on each side.
+void add_corners(Sketch& sketch, const Composed<3>& s, double kink, double length) {
   for (const std::vector<projection::PieceCorner>& around : s.corners()) {
     const projection::CornerFan fan = corner_fan(s, around);
     std::vector<Vec3> rays = projection::corner_rays(fan.tangents);
     if (rays.size() < 3) continue;
+    const double narrow = std::max(kink, 1e-6);
+    if (rays[0].dot(rays[1]) < -1 + 1e-9) {
+      const std::vector<Vec3> across(rays.begin() + 2, rays.end());
+      if (across.size() < 2 || (across[0] - across[1]).norm() < narrow) continue;
+      for (const std::size_t k : {0u, 1u}) {
+        std::vector<Vec3> half = across;
+        half.push_back(rays[k]);
+        const int side = rays[k].dot(fan.normal) > 0 ? 1 : -1;
+        add_cone(sketch, fan.r, half, side_of(DomainPart::corner_above, side), length);
+      }
+      continue;
+    }
     Vec3 mean = Vec3::Zero();
     for (const Vec3& ray : rays) mean += ray;
-    if (!(mean.norm() > 1e-9)) continue;
-    mean.normalize();
-    const Vec3 e1 = mean.unitOrthogonal(), e2 = mean.cross(e1);
-    std::sort(rays.begin(), rays.end(), [&](const Vec3& a, const Vec3& b) {
-      return std::atan2(a.dot(e2), a.dot(e1)) < std::atan2(b.dot(e2), b.dot(e1));
+    const bool wide = std::any_of(rays.begin(), rays.end(), [&](const Vec3& ray) {
+      return (ray - mean.normalized()).norm() > narrow;
     });
-    const DomainPart part = side_of(DomainPart::corner_above, mean.dot(fan.normal) >= 0 ? 1 : -1);
-    const Index apex = sketch.point(fan.r), tip = sketch.point(fan.r + length * mean);
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-      const Vec3 &a = rays[k], &b = rays[(k + 1) % rays.size()];
-      Index last = sketch.point(fan.r + length * a);
-      for (int i = 1; i <= arc; ++i) {
-        const Vec3 v = projection::turned<3>(a, b, static_cast<double>(i) / arc);
-        const Index next = sketch.point(fan.r + length * v);
-        sketch.cell(cell::CellType::tri3, {apex, last, next}, part);
-        sketch.cell(cell::CellType::tri3, {tip, last, next}, part);
-        last = next;
-      }
-    }
+    const int side = mean.dot(fan.normal) >= 0 ? 1 : -1;
+    if (wide) add_cone(sketch, fan.r, rays, side_of(DomainPart::corner_above, side), length);
   }
 }
 
@@ -255,7 +278,7 @@ DomainPicture draw_domain(const Composed<Dim>& s, double kink, double length,
   add_sheets(sketch, s, length, even);
   const double drawn = 0.25 * length;
   add_edges(sketch, s, kink, drawn);
-  add_corners(sketch, s, drawn);
+  add_corners(sketch, s, kink, drawn);
   return sketch.take();
 }
 template DomainPicture draw_domain(const Composed<2>&, double, double,

@@ -68,24 +68,28 @@ template <int Dim>
 }
 
 /// Unit vectors along the extreme rays of the normal cone of a corner in space; empty if the cone
-/// is empty (a saddle, say). The cone of a half-open corner may have a straight line: then the rays
-/// hold both its directions.
+/// is empty (a saddle, say). The cone of a corner of the border holds a whole line: then the rays
+/// are its two directions, and across it those between which the rest lies.
 [[nodiscard]] inline std::vector<Vec3> corner_rays(std::span<const Vec3> tangents) {
   std::vector<Vec3> rays;
   constexpr double tolerance = 1e-9;
+  const auto offer = [&](const Vec3& direction, double scale) {
+    const double length = direction.norm();
+    if (!(length > tolerance * scale)) return;
+    const Vec3 ray = direction / length;
+    const bool known = std::any_of(rays.begin(), rays.end(),
+                                   [&](const Vec3& other) { return (other - ray).norm() < 1e-6; });
+    if (!known && in_normal_cone<3>(tangents, ray, tolerance)) rays.push_back(ray);
+  };
   for (std::size_t i = 0; i < tangents.size(); ++i)
     for (std::size_t j = i + 1; j < tangents.size(); ++j) {
       const Vec3 normal = tangents[i].cross(tangents[j]);
-      const double length = normal.norm();
-      if (!(length > tolerance * tangents[i].norm() * tangents[j].norm())) continue;
-      for (const double sign : {1.0, -1.0}) {
-        const Vec3 ray = sign / length * normal;
-        const bool known = std::any_of(rays.begin(), rays.end(), [&](const Vec3& other) {
-          return (other - ray).norm() < 1e-6;
-        });
-        if (!known && in_normal_cone<3>(tangents, ray, tolerance)) rays.push_back(ray);
-      }
+      offer(normal, tangents[i].norm() * tangents[j].norm());
+      offer(-normal, tangents[i].norm() * tangents[j].norm());
     }
+  if (rays.size() != 2 || rays[0].dot(rays[1]) > -1 + tolerance) return rays;
+  for (const Vec3& a : tangents)
+    for (const Vec3& b : tangents) offer(b.dot(a) / a.squaredNorm() * a - b, b.norm());
   return rays;
 }
 

@@ -90,6 +90,18 @@ TEST(FeatureDomain, RaysOfACorner) {
   EXPECT_TRUE(corner_rays(saddle).empty());
 }
 
+TEST(FeatureDomain, RaysOfACornerOfTheBorder) {
+  const std::array<Vec3, 2> plate{Vec3(1, 0, 0), Vec3(1, 1, 0).normalized()};
+  const std::vector<Vec3> rays = corner_rays(plate);
+  ASSERT_EQ(rays.size(), 4u);
+  for (const Vec3& n :
+       {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0, -1, 0), Vec3(Vec3(-1, 1, 0).normalized())})
+    EXPECT_TRUE(std::any_of(rays.begin(), rays.end(),
+                            [&](const Vec3& r) { return (r - n).norm() < 1e-14; }));
+  const std::array<Vec3, 4> inside{Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, 0, 0), Vec3(0, -1, 0)};
+  EXPECT_EQ(corner_rays(inside).size(), 2u);  // nothing but the normal and its opposite
+}
+
 TEST(FeatureDomain, TurnedVectors) {
   EXPECT_LT((turned<2>(Vec2(1, 0), Vec2(0, 1), 0.5) - Vec2(1, 1).normalized()).norm(), 1e-15);
   EXPECT_LT((turned<3>(Vec3(1, 0, 0), Vec3(0, 0, 1), 1) - Vec3(0, 0, 1)).norm(), 1e-15);
