@@ -21,12 +21,15 @@ struct Named {
   std::optional<std::string> set;
 };
 
-/// A colon may belong to the name of the file.
+/// Colons may belong to the name of the file or of the set: the first part that is a file counts.
 Named split(const std::string& named) {
   std::error_code ignored;
+  if (std::filesystem::exists(named, ignored)) return {named, {}};
+  for (std::size_t at = named.find(':'); at != std::string::npos; at = named.find(':', at + 1))
+    if (std::filesystem::exists(named.substr(0, at), ignored))
+      return {named.substr(0, at), named.substr(at + 1)};
   const std::size_t colon = named.rfind(':');
-  if (colon == std::string::npos || std::filesystem::exists(named, ignored)) return {named, {}};
-  return {named.substr(0, colon), named.substr(colon + 1)};
+  return {named.substr(0, colon), {}};
 }
 
 bool is_gmsh(const std::string& file, std::string_view content) {

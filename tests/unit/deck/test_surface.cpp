@@ -251,6 +251,13 @@ TEST_F(SurfaceFile, SetsThatCannotBeUsed) {
                 "nodes");
 }
 
+TEST_F(SurfaceFile, SetsMayHaveColonsInTheirNames) {
+  std::string text = square_msh;
+  text.replace(text.find("\"bottom\""), 8, "\"side:1\"");
+  write(text);
+  EXPECT_EQ(mesh_in<2>(read_surface(path_ + ":side:1").target).facets.size(), 1U);
+}
+
 TEST_F(SurfaceFile, OnlyGmshMeshesHaveSets) {
   const std::string yaml = path_ + ".yaml";
   std::ofstream(yaml) << "circle: {center: [0, 0], radius: 1}\n";
