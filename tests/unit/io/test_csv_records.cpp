@@ -99,8 +99,8 @@ TEST_F(CsvRecordsTest, MistakesInTheHeader) {
 }
 
 TEST_F(CsvRecordsTest, FilesThatCannotBeRead) {
-  EXPECT_THROW(CsvRecords(path_ + ".none"), core::InputError);
-  EXPECT_THROW(CsvRecords(testing::TempDir()), core::InputError);
+  EXPECT_THROW((void)CsvRecords(path_ + ".none"), core::InputError);
+  EXPECT_THROW((void)CsvRecords(testing::TempDir()), core::InputError);
 }
 
 TEST_F(CsvRecordsTest, LongTablesComeInBlocks) {
