@@ -126,7 +126,7 @@ template <int Dim>
 struct NearestSink {
   Vec<Dim> point;
   Index piece = -1;
-  Found<Dim> best;
+  Found<Dim> best{};
   double reach = infinity;  ///< squared
 
   [[nodiscard]] double reach2() const { return reach; }
@@ -246,8 +246,8 @@ ClosestPoint<Dim> answer_of(const CellComplex<Dim>& all, const OnCell& found, co
   out.point = foot;
   const double length = gap.norm();
   out.distance = gap.dot(shared_normal(all, on)) < 0 ? -length : length;
-  out.status =
-      bend_at(all, on, gap) <= least_bend_allowed ? Status::outside_domain : Status::projected;
+  bend = bend_at(all, on, gap);
+  out.status = bend <= least_bend_allowed ? Status::outside_domain : Status::projected;
   return out;
 }
 
