@@ -97,6 +97,27 @@ GuardedTree<Dim> grow(const std::vector<search::Box<Dim>>& boxes, const Cones<Di
 }  // namespace
 
 template <int Dim>
+void sort_by_place(PieceSet<Dim>& set) {
+  std::vector<search::Box<Dim>> boxes;
+  for (const Piece<Dim>& piece : set.pieces)
+    boxes.push_back(box_of<Dim>(piece, control_of(piece, set.control)));
+  PieceSet<Dim> sorted;
+  sorted.pieces.reserve(set.pieces.size());
+  sorted.control.reserve(set.control.size());
+  const auto move = [&](Index, std::span<const Index> objects) {
+    for (const Index k : objects) {
+      Piece<Dim> piece = set.pieces[static_cast<std::size_t>(k)];
+      const Control<Dim> control = control_of(piece, set.control);
+      piece.first = static_cast<Index>(sorted.control.size());
+      sorted.control.insert(sorted.control.end(), control.begin(), control.end());
+      sorted.pieces.push_back(piece);
+    }
+  };
+  search::Bvh<Dim>(boxes).fold(move, [](Index, Index, Index) {});
+  set = std::move(sorted);
+}
+
+template <int Dim>
 PieceTrees<Dim> plant(const CellComplex<Dim>& all) {
   std::vector<search::Box<Dim>> boxes, border_boxes;
   std::vector<Index> pieces, border_pieces;
@@ -117,6 +138,8 @@ PieceTrees<Dim> plant(const CellComplex<Dim>& all) {
           grow<Dim>(border_boxes, inward, std::move(border_pieces))};
 }
 
+template void sort_by_place(PieceSet<2>&);
+template void sort_by_place(PieceSet<3>&);
 template PieceTrees<2> plant(const CellComplex<2>&);
 template PieceTrees<3> plant(const CellComplex<3>&);
 

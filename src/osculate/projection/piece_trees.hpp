@@ -64,6 +64,10 @@ struct PieceTrees {
   GuardedTree<Dim> inner, border;
 };
 
+/// Puts pieces that lie close to each other close in memory: queries on large meshes wait for it.
+template <int Dim>
+void sort_by_place(PieceSet<Dim>& set);
+
 template <int Dim>
 [[nodiscard]] PieceTrees<Dim> plant(const CellComplex<Dim>& all);
 

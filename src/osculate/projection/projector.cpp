@@ -268,6 +268,7 @@ Projector<Dim>::Projector(Target<Dim> target) : impl_(std::make_unique<Impl>()) 
     impl.all = make_complex(std::get<FacetMesh<Dim>>(impl.target));
   }
   if (impl.analytic) return;
+  sort_by_place(impl.all.set);
   impl.trees = plant(impl.all);
   const search::Box<Dim>& whole = impl.trees.inner.tree.node_box(0);
   impl.size = (whole.hi - whole.lo).norm();
