@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <cassert>
 #include <cmath>
 #include <span>
 
@@ -72,12 +73,17 @@ constexpr Eigen::Index e12 = 3;
 
 /// Adds samples of E12 at the quadrature points of one zeta.
 void add_layer(ShellRule& rule, double zeta) {
-  ShellLayer layer{{}, rule.samples.size()};
+  ShellLayer layer{{}, rule.samples.size(), {}};
+  std::size_t k = 0;
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
-    if (rule.points[q].xi.z() != zeta) continue;
-    layer.points.push_back(q);
+    const Vec3& xi = rule.points[q].xi;
+    if (xi.z() != zeta) continue;
+    layer.points[k] = q;
+    layer.bilinear.col(static_cast<Eigen::Index>(k)) << 1, xi.x(), xi.y(), xi.x() * xi.y();
     rule.samples.push_back({e12, rule.points[q].shape});
+    ++k;
   }
+  assert(k == ShellLayer::count);
   rule.fitted.push_back(layer);
 }
 
@@ -131,24 +137,20 @@ double sample_strain(const ShellSample& s, const Coordinates3& reference,
 
 /// Adds the shares of the points of a layer in its samples of E12.
 void add_fit(const ShellRule& rule, const ShellLayer& layer, ShellCell& cell) {
-  const auto bilinear = [&](std::size_t q) -> Vec<4> {
-    const Vec3& xi = rule.points[q].xi;
-    return {1, xi.x(), xi.y(), xi.x() * xi.y()};
-  };
-  const auto weight = [&](std::size_t q) {
+  constexpr auto count = static_cast<Eigen::Index>(ShellLayer::count);
+  Mat<4, ShellLayer::count> weighted = layer.bilinear;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const std::size_t q = layer.points[static_cast<std::size_t>(k)];
     const double w = rule.points[q].weight;
-    return w * w / cell.points[q].volume;
-  };
-  Mat<4, 4> normal = Mat<4, 4>::Zero();
-  for (const std::size_t q : layer.points)
-    normal.noalias() += weight(q) * bilinear(q) * bilinear(q).transpose();
-  const Eigen::LDLT<Mat<4, 4>> solver(normal);
-  for (std::size_t k = 0; k < layer.points.size(); ++k) {
-    const std::size_t from = layer.points[k];
-    const Vec<4> fit = solver.solve(Vec<4>(weight(from) * bilinear(from)));
-    for (const std::size_t to : layer.points)
-      cell.points[to].shares.push_back({layer.first_sample + k, e12, bilinear(to).dot(fit)});
+    weighted.col(k) *= w * w / cell.points[q].volume;
   }
+  const Mat<4, 4> normal = weighted * layer.bilinear.transpose();
+  const Mat<4, ShellLayer::count> fit = normal.ldlt().solve(weighted);
+  for (Eigen::Index to = 0; to < count; ++to)
+    for (Eigen::Index from = 0; from < count; ++from)
+      cell.points[layer.points[static_cast<std::size_t>(to)]].shares.push_back(
+          {layer.first_sample + static_cast<std::size_t>(from), e12,
+           layer.bilinear.col(to).dot(fit.col(from))});
 }
 
 /// Fills p.modes, each scaled by the size of the cell to Cartesian strains of about one.
