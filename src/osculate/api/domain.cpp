@@ -194,7 +194,7 @@ DomainReport survey(const projection::Target<Dim>& target, const DomainOptions& 
   if (smooth_parts == 1)
     even.assign(even.size(), {r.below.curvature.value, r.above.curvature.value});
   const double length = options.length > 0 ? options.length : s.size();
-  report.picture = draw_domain(s, kink, length, even);
+  report.picture = draw_domain(s, {kink, length, options.cells}, even);
   return report;
 }
 

@@ -115,11 +115,13 @@ void add_sheet(Sketch& sketch, const Composed<Dim>& s, std::size_t p, int cells,
 }
 
 template <int Dim>
-void add_sheets(Sketch& sketch, const Composed<Dim>& s, double length,
+void add_sheets(Sketch& sketch, const Composed<Dim>& s, const DomainPen& pen,
                 const std::vector<std::array<double, 2>>& even) {
   constexpr int places = 40000;  // of all pieces together
-  const int cells = std::min(projection::cells_of(s, places), Dim == 2 ? 100 : 40);
-  const auto bound = [&](double v) { return std::isnan(v) ? nothing : std::min(v, 2 * length); };
+  const int cells = std::min(projection::cells_of(s, places), Dim == 2 ? 100 : pen.cells);
+  const auto bound = [&](double v) {
+    return std::isnan(v) ? nothing : std::min(v, 2 * pen.length);
+  };
   for (std::size_t p = 0; p < s.pieces().size(); ++p) {
     const auto add = [&](DomainPart part, const auto& height) {
       add_sheet(sketch, s, p, cells, even[p], part, height);
@@ -272,18 +274,18 @@ void add_corners(Sketch& sketch, const Composed<3>& s, double kink, double lengt
 }  // namespace
 
 template <int Dim>
-DomainPicture draw_domain(const Composed<Dim>& s, double kink, double length,
+DomainPicture draw_domain(const Composed<Dim>& s, const DomainPen& pen,
                           const std::vector<std::array<double, 2>>& even) {
   Sketch sketch;
-  add_sheets(sketch, s, length, even);
-  const double drawn = 0.25 * length;
-  add_edges(sketch, s, kink, drawn);
-  add_corners(sketch, s, kink, drawn);
+  add_sheets(sketch, s, pen, even);
+  const double drawn = 0.25 * pen.length;
+  add_edges(sketch, s, pen.kink, drawn);
+  add_corners(sketch, s, pen.kink, drawn);
   return sketch.take();
 }
-template DomainPicture draw_domain(const Composed<2>&, double, double,
+template DomainPicture draw_domain(const Composed<2>&, const DomainPen&,
                                    const std::vector<std::array<double, 2>>&);
-template DomainPicture draw_domain(const Composed<3>&, double, double,
+template DomainPicture draw_domain(const Composed<3>&, const DomainPen&,
                                    const std::vector<std::array<double, 2>>&);
 
 }  // namespace osculate::api
