@@ -165,6 +165,14 @@ void add_corners(const Composed<3>& s, int side, Probes<3>& out) {
 }
 void add_corners(const Composed<2>&, int, Probes<2>&) {}
 
+void add_apex(const Composed<2>&, int, Probes<2>&) {}
+/// The point of a whole cone: a corner that opens outwards.
+void add_apex(const Composed<3>& s, int side, Probes<3>& out) {
+  const auto* surface = std::get_if<geometry::Surface>(&s.target());
+  const auto* cone = surface ? std::get_if<geometry::Cone>(surface) : nullptr;
+  if (cone && cone->from == 0 && (side > 0) == cone->inside) set_kink(cone->apex, out);
+}
+
 /// Shrinks balls that rest on places until nothing of the surface is inside.
 template <int Dim>
 class BallPress {
@@ -335,6 +343,8 @@ SideLimit<Dim> smallest_ball(const Composed<Dim>& s, int side, const ReachOption
   for (std::size_t i = 0; i < std::min(refined, found.size()); ++i) {
     Probe<Dim>& p = found[found.size() - 1 - i];
     refine(s, press, side, p);
+    const bool close = (p.other - p.r).norm() < p.radius;  // the bend itself, but for rounding
+    if (close && p.radius > (1 - 1e-6) * limit.value) continue;
     if (p.radius < out.value) out = {p.radius, Limit::bottleneck, p.r, p.other};
   }
   return out;
@@ -366,13 +376,16 @@ Reach<Dim> reach(const Composed<Dim>& surface, const ReachOptions& options) {
     add_faces(surface, side, cells, probes);
     add_joints(surface, side, options.kink, cells, probes);
     add_corners(surface, side, probes);
+    add_apex(surface, side, probes);
     to.bottleneck = smallest_bottleneck<Dim>(surface, side, face_samples(probes.list));
     if (probes.kink.limit == Limit::kink) {
       to.reach = probes.kink;
       continue;
     }
     to.reach = smallest_ball(surface, side, options, to.curvature, probes.list);
-    if (to.reach.limit == Limit::bottleneck && to.reach.value < to.bottleneck.value)
+    const bool opposite = (to.reach.other - to.reach.at).norm() > 1.999 * to.reach.value;
+    if (to.reach.limit == Limit::bottleneck && opposite &&
+        to.reach.value < (1 - 1e-9) * to.bottleneck.value)
       to.bottleneck = to.reach;
     if (to.bottleneck.value <= to.reach.value) to.reach = to.bottleneck;
   }

@@ -12,7 +12,7 @@ namespace osculate::projection {
 enum class Limit : std::uint8_t {
   none,        ///< nothing: without end
   curvature,   ///< a centre of curvature: 1/k
-  bottleneck,  ///< another part of the surface: half the way to it
+  bottleneck,  ///< another part of the surface; half the way to it where they face each other
   kink         ///< a sharp edge or corner that opens to the other side: zero
 };
 [[nodiscard]] std::string_view name(Limit limit);

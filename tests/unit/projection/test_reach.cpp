@@ -189,6 +189,20 @@ TEST(Reach, AnalyticSurfaces) {
   EXPECT_NEAR(cut.above.reach.value, 0.8 * std::tan(0.6) / std::sin(0.6), 1e-6);
 }
 
+TEST(Reach, RoundShapesAreBoundedByTheirBendOrByTheOppositeSide) {
+  const Reach<2> circle = reach_of(geometry::Circle{Vec2(1, 2), 2});
+  EXPECT_NEAR(circle.below.curvature.value, 2, 1e-12);
+  EXPECT_NEAR(circle.below.reach.value, 2, 1e-9);
+  EXPECT_NEAR((circle.below.bottleneck.at - circle.below.bottleneck.other).norm(), 4, 1e-9);
+  const Reach<2> arc = reach_of(geometry::Arc{Vec2(0, 0), 2, 0, 0.05, false});
+  EXPECT_EQ(arc.below.reach.limit, Limit::curvature);
+  EXPECT_EQ(arc.below.bottleneck.limit, Limit::none);
+  const Reach<3> cone = reach_of(geometry::Cone{.half_angle = 0.5, .to = 2});
+  EXPECT_EQ(cone.below.reach.limit, Limit::kink);
+  EXPECT_EQ(cone.below.reach.value, 0);
+  EXPECT_EQ(cone.above.reach.value, infinite);
+}
+
 TEST(Reach, CubeOutsideAndInside) {
   const Reach<3> r = reach(Composed<3>(box(Vec3(1, 2, 0.5))));
   EXPECT_EQ(r.above.reach.value, infinite);
