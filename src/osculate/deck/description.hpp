@@ -174,6 +174,10 @@ struct Contact {
   Marked<Tangent> tangent;
   Marked<HistoryKind> history;
   std::optional<Number> search_depth;
+  /// All bodies with each other, with the rigid ones and with themselves: stands for the pairs that
+  /// are made of the mesh, named NAME.A-B. Master and slave are empty then.
+  bool all = false;
+  std::vector<std::array<Name, 2>> exclude;  ///< of `all`: bodies by number, section or rigid name
 };
 
 // ---- loading ----------------------------------------------------------------------------------

@@ -68,9 +68,8 @@ double rigid_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
 }
 
 template <int Dim>
-double pair_value(const BasicSystem<Dim>& system, const HistoryRequest& request) {
-  const pairing::PairEvaluation<Dim>& pair =
-      system.contact()[static_cast<std::size_t>(request.target)];
+double one_pair_value(const BasicSystem<Dim>& system, const HistoryRequest& request, Index target) {
+  const pairing::PairEvaluation<Dim>& pair = system.contact()[static_cast<std::size_t>(target)];
   double sum = 0;
   Vec<Dim> shear = Vec<Dim>::Zero();
   // What was assembled: with `residual: full` it is not just the traction times the area.
@@ -95,6 +94,16 @@ double pair_value(const BasicSystem<Dim>& system, const HistoryRequest& request)
     if (request.quantity == "friction_work") sum += p.history.friction_work;
   }
   return sum + shear.norm();
+}
+
+template <int Dim>
+double pair_value(const BasicSystem<Dim>& system, const HistoryRequest& request) {
+  double value = one_pair_value(system, request, request.target);
+  for (const Index pair : request.group) {
+    const double other = one_pair_value(system, request, pair);
+    value = request.quantity.starts_with("max_") ? std::max(value, other) : value + other;
+  }
+  return value;
 }
 
 /// The two directions in which shear is reported.
