@@ -23,6 +23,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult hertz_line(const CaseContext& context);
 [[nodiscard]] CaseResult large_rotation(const CaseContext& context);
 [[nodiscard]] CaseResult projection_domains(const CaseContext& context);
+[[nodiscard]] CaseResult self_contact(const CaseContext& context);
 [[nodiscard]] CaseResult sliding_block(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell_fine(const CaseContext& context);

@@ -268,6 +268,23 @@ class Program(unittest.TestCase):
         self.assertIn("out.csv was not written", message)
         self.assertEqual([name for name in os.listdir(self.folder.name) if name.startswith("out")], [])
 
+    def test_a_clip_closes_on_itself_and_opens_again(self):
+        model = os.path.join(SOURCE, "examples", "clip", "clip.yaml")
+        check = self.run_program("check", model)
+        self.assertIn("body 1 with itself", check.stdout)
+        self.assertIn("all.1-1", check.stdout)
+        done = self.run_program("run", model, "-o", self.path("clip"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("clip/history.csv")) as file:
+            rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+        for row in rows:
+            self.assertAlmostEqual(row["low.rfy"], -row["up.rfy"], delta=1e-6)
+        closed, opened = rows[10], rows[-1]
+        self.assertGreater(closed["all.normal_force"], 1)
+        self.assertAlmostEqual(closed["all.normal_force"], closed["low.rfy"], delta=0.02 * closed["low.rfy"])
+        self.assertEqual(opened["all.normal_force"], 0)
+        self.assertAlmostEqual(opened["low.rfy"], 0, delta=1e-6)
+
     def test_the_examples_are_valid(self):
         examples = os.path.join(SOURCE, "examples")
         found = [os.path.join(folder, name) for folder, _, names in os.walk(examples)

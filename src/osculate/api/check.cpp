@@ -32,6 +32,13 @@ GapFacts gap_facts(const pairing::PairState<Dim>& state) {
   return facts;
 }
 
+std::string gap_line(const std::string& pair, const GapFacts& g, std::size_t points) {
+  return fmt::format(
+      "{:<13} {:<16} {} of {} slave nodes face the master, {} touch, {} overlap, gap {:.4g} to "
+      "{:.4g}\n",
+      "Initial gaps", pair, g.found, points, g.touching, g.overlapping, g.smallest, g.largest);
+}
+
 template <int Dim>
 CheckReport check_built(const std::string& path, const deck::BasicBuilt<Dim>& built) {
   const model::BasicModel<Dim>& m = built.model;
@@ -39,6 +46,7 @@ CheckReport check_built(const std::string& path, const deck::BasicBuilt<Dim>& bu
   const model::BasicState<Dim> state = system.initial_state();
   CheckReport report;
   nlohmann::json facts = nlohmann::json::array(), pairs = nlohmann::json::array();
+  std::string apart;
   for (const ModelFact& fact : model_facts(built)) {
     report.text += fmt::format("{:<13} {:<16} {}\n", fact.heading, fact.name, fact.text);
     facts.push_back({{"heading", fact.heading}, {"name", fact.name}, {"text", fact.text}});
@@ -46,11 +54,10 @@ CheckReport check_built(const std::string& path, const deck::BasicBuilt<Dim>& bu
   report.text += fmt::format("{:<13} {}\n", "Unknowns", system.dofs().unknowns());
   for (std::size_t p = 0; p < m.pairs.size(); ++p) {
     const GapFacts g = gap_facts<Dim>(state.pairs[p]);
-    report.text += fmt::format(
-        "{:<13} {:<16} {} of {} slave nodes face the master, {} touch, {} overlap, gap {:.4g} to "
-        "{:.4g}\n",
-        "Initial gaps", m.pairs[p].name, g.found, m.pairs[p].definition.slave.nodes.size(),
-        g.touching, g.overlapping, g.smallest, g.largest);
+    if (g.found == 0 && !m.pairs[p].group.empty())
+      apart += fmt::format("{}{}", apart.empty() ? "" : ", ", m.pairs[p].name);
+    else
+      report.text += gap_line(m.pairs[p].name, g, m.pairs[p].definition.slave.nodes.size());
     const pairing::EdgeContact& edges = m.pairs[p].definition.edges;
     if (edges.on)
       report.text += fmt::format("{:<13} {:<16} {} of the master, {} of the slave, {} crossings\n",
@@ -68,6 +75,9 @@ CheckReport check_built(const std::string& path, const deck::BasicBuilt<Dim>& bu
                                {"slave", edges.slave.size()},
                                {"crossings", g.crossings}};
   }
+  if (!apart.empty())
+    report.text +=
+        fmt::format("{:<13} no node is near the other side: {}\n", "Initial gaps", apart);
   for (const std::string& warning : built.warnings) report.text += "warning: " + warning + "\n";
   report.text += "the model file is valid\n";
   report.json = nlohmann::json{{"model", path},

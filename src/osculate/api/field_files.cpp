@@ -112,7 +112,8 @@ FieldFiles<Dim>::FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& bui
     : folder_(std::move(folder)),
       built_(built),
       compress_(compress),
-      bodies_(section_blocks(built.model)) {}
+      bodies_(section_blocks(built.model)),
+      touched_(built.model.pairs.size(), false) {}
 
 template <int Dim>
 void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
@@ -124,7 +125,10 @@ void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
   const std::string bodies = fmt::format("bodies_{:05d}.vtu", frame_);
   io::write_vtu(folder_ + "/" + bodies, {built_.model.mesh.nodes, bodies_, fields, {}}, compress_);
   entries_.push_back({time, "bodies", bodies});
+  const auto& contact = system.contact();
   for (std::size_t p = 0; p < built_.model.pairs.size(); ++p) {
+    touched_[p] = touched_[p] || built_.model.pairs[p].group.empty() || touches(contact[p]);
+    if (!touched_[p]) continue;
     const std::string file = fmt::format("contact{}_{:05d}.vtu", p, frame_);
     write_contact(system, state, p, file);
     entries_.push_back({time, built_.model.pairs[p].name, file});

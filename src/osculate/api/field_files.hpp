@@ -29,6 +29,7 @@ class FieldFiles {
   int frame_ = 0;
   std::vector<io::PvdEntry> entries_;
   std::vector<mesh::Block> bodies_;  ///< cells with a section
+  std::vector<bool> touched_;        ///< per pair: it is written from its first contact on
 };
 
 }  // namespace osculate::api

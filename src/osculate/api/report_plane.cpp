@@ -80,7 +80,9 @@ nlohmann::json ReportView<2>::frame(const model::System& system, const model::St
   const model::NodalFields fields = model::nodal_fields(system, m, state);
   const std::vector<Vec2> x = system.positions(state);
   nlohmann::json contact = nlohmann::json::array();
-  for (std::size_t p = 0; p < m.pairs.size(); ++p) contact.push_back(contact_json(system, m, x, p));
+  for (std::size_t p = 0; p < m.pairs.size(); ++p)
+    if (m.pairs[p].group.empty() || touches(system.contact()[p]))
+      contact.push_back(contact_json(system, m, x, p));
   nlohmann::json rigid = nlohmann::json::array();
   for (std::size_t b = 0; b < m.rigid.size(); ++b) rigid.push_back(rigid_outline(m, state, b));
   return {{"u", vectors<2>(n, [&](std::size_t i) { return fields.displacement[i]; })},

@@ -111,6 +111,33 @@ std::string rigid_text(const model::BasicRigidBody<Dim>& body) {
   return fmt::format("{}, reference point ({})", what, place_text<Dim>(body.reference));
 }
 
+template <int Dim>
+std::string pair_text(const model::BasicContactPair<Dim>& pair) {
+  const pairing::PairDefinition<Dim>& d = pair.definition;
+  const std::string friction =
+      d.friction ? fmt::format("Coulomb {:g} (penalty {:g})", d.friction->mu, d.friction->stiffness)
+                 : std::string("frictionless");
+  const std::string edges = d.edges.on ? fmt::format(", {} sharp edges on {}", d.edges.slave.size(),
+                                                     d.edges.master.size())
+                                       : std::string{};
+  return fmt::format("{} slave nodes on {} facets{}, penalty {:g}, {}, {}{}{}",
+                     d.slave.nodes.size(), d.master.facets.size(), edges, d.normal.stiffness,
+                     friction, weight_name(d.weight), pair.note.empty() ? "" : "; ", pair.note);
+}
+
+constexpr int most_listed_pairs = 20;
+
+/// Sizes of the groups of generated pairs that are too many to be listed one by one.
+template <int Dim>
+std::map<std::string, int> long_groups(const model::BasicModel<Dim>& m) {
+  std::map<std::string, int> sizes;
+  for (const model::BasicContactPair<Dim>& pair : m.pairs)
+    if (!pair.group.empty()) ++sizes[pair.group];
+  for (auto entry = sizes.begin(); entry != sizes.end();)
+    entry = entry->second <= most_listed_pairs ? sizes.erase(entry) : std::next(entry);
+  return sizes;
+}
+
 /// The total is the caller's; what is not named is spent between the phases.
 template <int Dim>
 nlohmann::json seconds_json(const model::BasicAnalysisResult<Dim>& result, const RunSeconds& run) {
@@ -177,19 +204,12 @@ std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
     facts.push_back({"Bodies", section.name, section_text(m, section)});
   for (const model::BasicRigidBody<Dim>& body : m.rigid)
     facts.push_back({"Rigid bodies", body.name, rigid_text(body)});
-  for (const model::BasicContactPair<Dim>& pair : m.pairs) {
-    const pairing::PairDefinition<Dim>& d = pair.definition;
-    const std::string friction = d.friction ? fmt::format("Coulomb {:g} (penalty {:g})",
-                                                          d.friction->mu, d.friction->stiffness)
-                                            : std::string("frictionless");
-    const std::string edges = d.edges.on ? fmt::format(", {} sharp edges on {}",
-                                                       d.edges.slave.size(), d.edges.master.size())
-                                         : std::string{};
-    facts.push_back({"Contact", pair.name,
-                     fmt::format("{} slave nodes on {} facets{}, penalty {:g}, {}, {}",
-                                 d.slave.nodes.size(), d.master.facets.size(), edges,
-                                 d.normal.stiffness, friction, weight_name(d.weight))});
-  }
+  for (const std::string& note : built.notes) facts.push_back({"Contact", "", note});
+  const std::map<std::string, int> unlisted = long_groups(m);
+  for (const model::BasicContactPair<Dim>& pair : m.pairs)
+    if (!unlisted.contains(pair.group)) facts.push_back({"Contact", pair.name, pair_text(pair)});
+  for (const auto& entry : unlisted)
+    facts.push_back({"Contact", entry.first, fmt::format("{} pairs of bodies", entry.second)});
   for (const model::Step& step : m.steps)
     facts.push_back({"Steps", step.name, fmt::format("{} increments", step.increments)});
   return facts;

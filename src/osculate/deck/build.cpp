@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "osculate/core/text.hpp"
 #include "osculate/deck/build_context.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/check.hpp"
@@ -67,6 +68,23 @@ model::HistoryRequest::Kind kind_of(HistoryTarget target) {
   return model::HistoryRequest::Kind::nodes;
 }
 
+/// One pair, or all that were made for one `all`.
+template <int Dim>
+void set_pairs(const BuildContext<Dim>& c, const Name& on, model::HistoryRequest& out) {
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < c.model().pairs.size(); ++p) {
+    const model::BasicContactPair<Dim>& pair = c.model().pairs[p];
+    names.push_back(pair.name);
+    if (pair.name != on.value && pair.group != on.value) continue;
+    if (out.target < 0)
+      out.target = static_cast<Index>(p);
+    else
+      out.group.push_back(static_cast<Index>(p));
+  }
+  if (out.target < 0)
+    throw core::InputError(on.mark, core::unknown_name_message("contact pair", on.value, names));
+}
+
 }  // namespace
 
 template <int Dim>
@@ -77,8 +95,7 @@ void build_history(BuildContext<Dim>& c) {
     out.quantity = quantity_names[static_cast<std::size_t>(request.of.value)];
     out.kind = kind_of(request.target);
     if (request.target == HistoryTarget::contact) {
-      for (std::size_t p = 0; p < c.model().pairs.size(); ++p)
-        if (c.model().pairs[p].name == request.on.value) out.target = static_cast<Index>(p);
+      set_pairs(c, request.on, out);
     } else if (request.target == HistoryTarget::rigid) {
       out.target = c.rigid_index.at(request.on.value);
     } else {

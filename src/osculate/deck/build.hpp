@@ -17,6 +17,7 @@ struct BasicBuilt {
   model::AnalysisOptions options;
   std::vector<model::HistoryRequest> history;
   std::vector<std::string> warnings;  ///< plain sentences, shown by `check` and `run`
+  std::vector<std::string> notes;     ///< what was decided for the user, shown there too
 };
 
 using Built = BasicBuilt<2>;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "osculate/deck/build_context.hpp"
+#include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
 
@@ -72,21 +72,36 @@ pairing::SurfaceFacet contact_facet(const mesh::SurfaceFacet& side, bool flip) {
   return pairing::surface_facet(side.type, nodes);
 }
 
-/// Boundary of a mesh set, or of a rigid body: facets with outward normals.
+}  // namespace
+
 template <int Dim>
-pairing::Boundary<Dim> boundary_of(const BuildContext<Dim>& c, const Name& name) {
+pairing::Boundary<Dim> boundary_from(const std::vector<Side<Dim>>& sides, bool flip_rigid) {
   pairing::Boundary<Dim> boundary;
-  const Rigid* const rigid = rigid_of(c, name);
-  const SetShape* const meshed = rigid ? std::get_if<SetShape>(&rigid->shape) : nullptr;
-  if (rigid && !meshed) {
-    add_unmeshed(*rigid, body_of(c, name), boundary);
-  } else {
-    for (const Side<Dim>& side : oriented_facets(c, meshed ? meshed->set : name))
-      boundary.facets.push_back(contact_facet(side, rigid && rigid->flip && !side.has_parent()));
-  }
+  for (const Side<Dim>& side : sides)
+    boundary.facets.push_back(contact_facet(side, flip_rigid && !side.has_parent()));
   pairing::connect(boundary);
   return boundary;
 }
+
+template <int Dim>
+pairing::Boundary<Dim> boundary_of(const BuildContext<Dim>& c, const Name& name) {
+  const Rigid* const rigid = rigid_of(c, name);
+  const SetShape* const meshed = rigid ? std::get_if<SetShape>(&rigid->shape) : nullptr;
+  if (!rigid || meshed)
+    return boundary_from<Dim>(oriented_facets(c, meshed ? meshed->set : name),
+                              rigid && rigid->flip);
+  pairing::Boundary<Dim> boundary;
+  add_unmeshed(*rigid, body_of(c, name), boundary);
+  pairing::connect(boundary);
+  return boundary;
+}
+
+template pairing::Boundary<2> boundary_from<2>(const std::vector<Side<2>>&, bool);
+template pairing::Boundary<3> boundary_from<3>(const std::vector<Side<3>>&, bool);
+template pairing::Boundary<2> boundary_of(const BuildContext<2>&, const Name&);
+template pairing::Boundary<3> boundary_of(const BuildContext<3>&, const Name&);
+
+namespace {
 
 template <int Dim>
 pairing::SlaveSide<Dim> slave_of(const BuildContext<Dim>& c, const Contact& contact) {
@@ -172,7 +187,7 @@ void check_pair(const BuildContext<Dim>& c, const Contact& contact,
     for (int k = 0; k < f.count; ++k) {
       const Index n = f.nodes[static_cast<std::size_t>(k)];
       if (!c.takes_part(n)) throw c.idle_node(contact.master, n);
-      if (of_slave[static_cast<std::size_t>(n)])
+      if (!pair.scope.own && of_slave[static_cast<std::size_t>(n)])
         throw core::InputError(
             contact.slave.mark,
             fmt::format("master '{}' and slave '{}' share {}", contact.master.value,
@@ -183,6 +198,10 @@ void check_pair(const BuildContext<Dim>& c, const Contact& contact,
 void set_edges(BuildContext<2>&, const Contact&, pairing::PairDefinition<2>&) {}
 void set_edges(BuildContext<3>&, const Contact& contact, pairing::PairDefinition<3>& pair) {
   if (!contact.edges) return;
+  if (pair.scope.own) {  // the edges of one facet cross at its corners
+    if (contact.all) return;
+    throw core::InputError(contact.edges->mark, "the edges of a surface do not touch each other");
+  }
   if (pair.slave.boundary.facets.empty())
     throw core::InputError(contact.edges->mark,
                            fmt::format("the slave '{}' is a set of points: only facets have edges",
@@ -222,31 +241,90 @@ void warn_of_scatter(BuildContext<3>& c, const Contact& contact,
   }
 }
 
+double edge_length_sum(const pairing::Chain& chain, const std::vector<Vec2>& x, int& count) {
+  double sum = 0;
+  for (const pairing::Facet& f : chain.facets) {
+    if (f.shape) continue;
+    sum +=
+        (x[static_cast<std::size_t>(f.nodes[1])] - x[static_cast<std::size_t>(f.nodes[0])]).norm();
+    ++count;
+  }
+  return sum;
+}
+
+double edge_length_sum(const pairing::FacetSurface& surface, const std::vector<Vec3>& x,
+                       int& count) {
+  double sum = 0;
+  for (const pairing::SurfaceFacet& f : surface.facets)
+    for (int e = 0; e < pairing::edge_count(f); ++e, ++count) {
+      const std::array<int, 2> ends = pairing::edge_corners(f, e);
+      sum += (x[static_cast<std::size_t>(f.nodes[static_cast<std::size_t>(ends[1])])] -
+              x[static_cast<std::size_t>(f.nodes[static_cast<std::size_t>(ends[0])])])
+                 .norm();
+    }
+  return sum;
+}
+
+/// Master and slave are one set: every node of it may touch every facet that is not its own.
+template <int Dim>
+void set_own_surface(const BuildContext<Dim>& c, pairing::PairDefinition<Dim>& pair) {
+  pair.slave = pairing::make_slave_side(pair.master);
+  pair.scope.own = true;
+  pair.scope.reach = reach_in_facets * mean_size<Dim>(pair.master, c.model().reference);
+}
+
 }  // namespace
+
+template <int Dim>
+double mean_size(const pairing::Boundary<Dim>& boundary, const std::vector<Vec<Dim>>& reference) {
+  int count = 0;
+  const double sum = edge_length_sum(boundary, reference, count);
+  return count ? sum / count : 0.0;
+}
+
+template <int Dim>
+void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMark& mark,
+              model::BasicContactPair<Dim> out) {
+  pairing::PairDefinition<Dim>& pair = out.definition;
+  set_forms(contact, pair);
+  set_edges(c, contact, pair);
+  pair.area = area_rule(c, pair);
+  try {
+    pairing::prepare(pair, c.model().reference);
+  } catch (const core::GeometryError& error) {
+    throw core::InputError(mark, error.what());
+  }
+  if (!contact.all) warn_of_smooth(c, contact, pair);
+  c.model().pairs.push_back(std::move(out));
+}
 
 template <int Dim>
 void build_contact(BuildContext<Dim>& c) {
   for (const Contact& contact : c.description.contact) {
+    if (contact.all) {
+      build_contact_all(c, contact);
+      continue;
+    }
     model::BasicContactPair<Dim> out;
     out.name = contact.name.value;
     pairing::PairDefinition<Dim>& pair = out.definition;
     pair.master = boundary_of(c, contact.master);
-    pair.slave = slave_of(c, contact);
+    if (contact.master.value == contact.slave.value)
+      set_own_surface(c, pair);
+    else
+      pair.slave = slave_of(c, contact);
     check_pair(c, contact, pair);
-    set_forms(contact, pair);
-    set_edges(c, contact, pair);
-    pair.area = area_rule(c, pair);
-    try {
-      pairing::prepare(pair, c.model().reference);
-    } catch (const core::GeometryError& error) {
-      throw core::InputError(contact.slave.mark, error.what());
-    }
     warn_of_scatter(c, contact, pair);
-    warn_of_smooth(c, contact, pair);
-    c.model().pairs.push_back(std::move(out));
+    add_pair(c, contact, contact.slave.mark, std::move(out));
   }
 }
 
+template double mean_size<2>(const pairing::Chain&, const std::vector<Vec2>&);
+template double mean_size<3>(const pairing::FacetSurface&, const std::vector<Vec3>&);
+template void add_pair(BuildContext<2>&, const Contact&, const core::SourceMark&,
+                       model::ContactPair);
+template void add_pair(BuildContext<3>&, const Contact&, const core::SourceMark&,
+                       model::ContactPair3);
 template void build_contact(BuildContext<2>&);
 template void build_contact(BuildContext<3>&);
 

@@ -175,6 +175,10 @@ struct Contact {
   Marked<HistoryKind> history;
   std::optional<Number> search_depth;
   std::optional<Number> edges;  ///< angle [degrees] of edges that are sharp; absent: without edges
+  /// All bodies with each other, with the rigid ones and with themselves: stands for the pairs that
+  /// are made of the mesh, named NAME.A-B. Master and slave are empty then.
+  bool all = false;
+  std::vector<std::array<Name, 2>> exclude;  ///< of `all`: bodies by number, section or rigid name
 };
 
 // ---- loading ----------------------------------------------------------------------------------

@@ -112,32 +112,73 @@ Spec edges_spec() {
       .such_as("true");
 }
 
-}  // namespace
-
-Spec contact_spec() {
+/// The keys that a pair and all pairs together have in common.
+std::vector<Key> law_keys() {
   const Spec depth = number("Points deeper inside the master than this are not in contact with it.")
                          .in("length")
                          .above(0)
                          .otherwise_as("no limit")
                          .such_as("0.5");
+  return {optional("sampling", sampling_spec()),
+          required("normal", normal_spec()),
+          optional("friction", friction_spec()),
+          optional("enforcement", enforcement_spec()),
+          optional("weight", weight_spec()),
+          optional("residual", residual_spec()),
+          optional("tangent", tangent_spec()),
+          optional("history", history_spec()),
+          optional("edges", edges_spec()),
+          optional("search", map("Where contact is looked for.", {optional("depth", depth)}))};
+}
+
+Spec with_laws(std::string doc, std::vector<Key> keys) {
+  for (Key& key : law_keys()) keys.push_back(std::move(key));
+  return map(std::move(doc), std::move(keys));
+}
+
+Spec pairs_spec() {
   return list(
-             "Contact pairs.",
-             map("One contact pair.",
-                 {required("name", text("Name of the pair; begins its columns in history.csv.")
-                                       .as(TextRule::name)
-                                       .such_as("floor")),
-                  required("master", text("Rigid body, or set of boundary facets, that the contact "
-                                          "points are projected onto.")
-                                         .such_as("bottom")),
-                  required("slave", text("Meshed rigid body, or set, whose points are projected.")
-                                        .such_as("base")),
-                  optional("sampling", sampling_spec()), required("normal", normal_spec()),
-                  optional("friction", friction_spec()),
-                  optional("enforcement", enforcement_spec()), optional("weight", weight_spec()),
-                  optional("residual", residual_spec()), optional("tangent", tangent_spec()),
-                  optional("history", history_spec()), optional("edges", edges_spec()),
-                  optional("search",
-                           map("Where contact is looked for.", {optional("depth", depth)}))}))
+      "Contact pairs.",
+      with_laws("One contact pair.",
+                {required("name", text("Name of the pair; begins its columns in history.csv.")
+                                      .as(TextRule::name)
+                                      .such_as("floor")),
+                 required("master", text("Rigid body, or set of boundary facets, that the contact "
+                                         "points are projected onto.")
+                                        .such_as("bottom")),
+                 required("slave", text("Meshed rigid body, or set, whose points are projected; "
+                                        "the set that is master, for contact with itself.")
+                                       .such_as("base"))}));
+}
+
+Spec all_spec() {
+  const Spec body = text("Number of a body, set of a section, or rigid body.").such_as("base");
+  return with_laws(
+      "All bodies with each other, with the rigid ones and with themselves; pairs are called "
+      "NAME.A-B, bodies are numbered in the order of the mesh.",
+      {optional("name", text("Begins the names of the pairs, and stands for all of them in "
+                             "output.history.")
+                            .as(TextRule::name)
+                            .otherwise("all")
+                            .such_as("all")),
+       optional("exclude", list("Pairs of bodies that do not touch; the same body twice: not "
+                                "itself.",
+                                list("Two bodies.", body).count(2, 2))
+                               .otherwise("[]")
+                               .such_as("[[1, 1], [2, base]]"))});
+}
+
+}  // namespace
+
+Spec contact_spec() {
+  return either("Who touches whom.",
+                {pairs_spec(),
+                 map("Contact of everything with everything.", {required("all", all_spec())}),
+                 choice("The same, for short.",
+                        {Choice{"all",
+                                "all bodies; a penalty must be given, so that this needs "
+                                "the long form",
+                                0, true}})})
       .otherwise("[]")
       .such_as("[{name: floor, master: bottom, slave: base, normal: {penalty: 2.1e6}}]");
 }

@@ -78,7 +78,13 @@ const Rigid* Description::find_rigid(const std::string& name) const {
   return find_named(rigid, name);
 }
 const Contact* Description::find_contact(const std::string& name) const {
-  return find_named(contact, name);
+  if (const Contact* const found = find_named(contact, name)) return found;
+  for (const Contact& c : contact) {  // a pair that is made later: NAME.A-B
+    const std::string prefix = c.name.value + ".";
+    if (c.all && name.starts_with(prefix) && name.find('-', prefix.size()) != std::string::npos)
+      return &c;
+  }
+  return nullptr;
 }
 const Amplitude* Description::find_amplitude(const std::string& name) const {
   return find_named(amplitudes, name);

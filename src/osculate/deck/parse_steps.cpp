@@ -23,11 +23,9 @@ std::optional<Number> edges_of(const Value& v) {
   return Number{usual, v.mark};
 }
 
-Contact contact_of(const Value& v) {
-  Contact c;
+/// What a pair and all pairs together have in common.
+void read_laws(const Value& v, Contact& c) {
   c.name = name_of(v.at("name"));
-  c.master = name_of(v.at("master"));
-  c.slave = name_of(v.at("slave"));
   c.sampling = word_of<Sampling>(v, "sampling");
   c.normal_penalty = number_of(v.at("normal").at("penalty"));
   c.friction = friction_of(v.at("friction"));
@@ -38,6 +36,22 @@ Contact contact_of(const Value& v) {
   c.history = word_of<HistoryKind>(v, "history");
   c.edges = edges_of(v.at("edges"));
   if (const Value* const search = v.find("search")) c.search_depth = number_if(*search, "depth");
+}
+
+Contact contact_of(const Value& v) {
+  Contact c;
+  read_laws(v, c);
+  c.master = name_of(v.at("master"));
+  c.slave = name_of(v.at("slave"));
+  return c;
+}
+
+Contact all_contact_of(const Value& v) {
+  Contact c;
+  read_laws(v, c);
+  c.all = true;
+  for (const Value& item : v.at("exclude").items)
+    c.exclude.push_back({name_of(item.items[0]), name_of(item.items[1])});
   return c;
 }
 
@@ -121,6 +135,10 @@ Equation equation_of(const Value& v) {
 }  // namespace
 
 std::vector<Contact> parse_contact(const Value& v) {
+  if (v.alternative == 1) return {all_contact_of(v.at("all"))};
+  if (v.alternative == 2)
+    throw core::InputError(v.mark,
+                           "needs a stiffness: contact: {all: {normal: {penalty: NUMBER}}}");
   std::vector<Contact> out;
   for (const Value& item : v.items) out.push_back(contact_of(item));
   return out;

@@ -37,10 +37,7 @@ void check_contact_names(const Description& d) {
 
 void check_sides(const Description& d) {
   for (const Contact& c : d.contact) {
-    if (c.master.value == c.slave.value)
-      throw core::InputError(c.slave.mark, quoted(c.slave.value) +
-                                               " is master and slave; self-contact is not "
-                                               "available yet");
+    if (c.all) continue;
     const Rigid* const slave = d.find_rigid(c.slave.value);
     if (slave && !slave->meshed())
       throw core::InputError(c.slave.mark,

@@ -38,6 +38,8 @@ struct BasicRigidBody {
 template <int Dim>
 struct BasicContactPair {
   std::string name;
+  std::string group{};  ///< name of the `all` that made it; empty: the user's own pair
+  std::string note{};   ///< who is master, and why
   pairing::PairDefinition<Dim> definition;
 };
 

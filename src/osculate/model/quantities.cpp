@@ -91,14 +91,13 @@ double force_on_slave(const pairing::PairDefinition<Dim>& definition,
 }
 
 template <int Dim>
-double pair_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
-                  const HistoryRequest& request) {
-  const pairing::PairEvaluation<Dim>& pair =
-      system.contact()[static_cast<std::size_t>(request.target)];
+double one_pair_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                      const HistoryRequest& request, Index target) {
+  const pairing::PairEvaluation<Dim>& pair = system.contact()[static_cast<std::size_t>(target)];
   double sum = 0;
   Vec<Dim> shear = Vec<Dim>::Zero();
   if (request.quantity.starts_with("force_"))
-    sum = force_on_slave(model.pairs[static_cast<std::size_t>(request.target)].definition, pair,
+    sum = force_on_slave(model.pairs[static_cast<std::size_t>(target)].definition, pair,
                          direction_of(request.quantity));
   for (const pairing::PointResult<Dim>& p : pair.points) {
     const bool closed = p.status != contact::Status::open;
@@ -118,6 +117,17 @@ double pair_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
     if (request.quantity == "friction_work") sum += p.history.friction_work;
   }
   return sum + shear.norm();
+}
+
+template <int Dim>
+double pair_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                  const HistoryRequest& request) {
+  double value = one_pair_value(system, model, request, request.target);
+  for (const Index pair : request.group) {
+    const double other = one_pair_value(system, model, request, pair);
+    value = request.quantity.starts_with("max_") ? std::max(value, other) : value + other;
+  }
+  return value;
 }
 
 /// The two directions in which shear is reported.

@@ -16,6 +16,7 @@ struct HistoryRequest {
   Index target = -1;         ///< rigid body or pair
   std::vector<Index> nodes;  ///< of a set
   std::string quantity;
+  std::vector<Index> group{};  ///< further pairs: their sum, the largest of `max_*`
 };
 
 /// What can be asked of node sets, rigid bodies and contact pairs. Displacements of a set are

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/pairing/scope.hpp"
 #include "osculate/projection/point_to_curve.hpp"
 
 namespace osculate::pairing {
@@ -170,12 +171,15 @@ void facet_boxes(const Chain& chain, std::span<const Vec2> x, std::vector<search
 Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const Vec2> x,
                       const ProjectionQuery<2>& query) {
   constexpr double far_away = std::numeric_limits<double>::infinity();
+  const double reach = query.scope ? query.scope->reach : far_away;
   Candidate best, tied;
   const auto visit = [&](Index f) {
     const Facet& facet = chain.facets[static_cast<std::size_t>(f)];
+    if (query.scope && query.scope->skips(f)) return far_away;
     const CurveFoot foot = foot_on_facet(facet, x, query.point);
     const double distance = std::sqrt(foot.squared_distance);
     if (!foot.converged || faces_away(facet, foot, x, query)) return far_away;
+    if (query.scope && !admits(*query.scope, facet, foot.xi, x)) return far_away;
     const Candidate candidate{f, foot, distance};
     const double tie = 1e-10 * (node(facet, 1, x) - node(facet, 0, x)).norm();
     const bool wins = better(candidate, best, query.history, tie);
@@ -184,7 +188,7 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
     if (wins) best = candidate;
     return distance;
   };
-  tree.for_each_nearest(query.point, tie_distance(chain, x), visit);
+  tree.for_each_nearest(query.point, tie_distance(chain, x), visit, reach);
   Projection<2> p;
   if (best.facet < 0) return p;
   p.feature = best.foot.at_end ? Feature::corner : Feature::face;

@@ -5,6 +5,7 @@
 
 #include "osculate/cell/shape.hpp"
 #include "osculate/pairing/closest.hpp"
+#include "osculate/pairing/scope.hpp"
 #include "osculate/projection/point_to_facet.hpp"
 #include "osculate/projection/point_to_surface.hpp"
 
@@ -229,12 +230,15 @@ void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
 Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::span<const Vec3> x,
                       const ProjectionQuery<3>& query) {
   constexpr double far_away = std::numeric_limits<double>::infinity();
+  const double reach = query.scope ? query.scope->reach : far_away;
   Candidate best, tied;
   const auto visit = [&](Index f) {
     const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(f)];
+    if (query.scope && query.scope->skips(f)) return far_away;
     const FacetFoot foot = foot_on_facet(facet, x, query.point);
     const double distance = std::sqrt(foot.squared_distance);
     if (!foot.converged || faces_away(facet, foot, x, query)) return far_away;
+    if (query.scope && !admits(*query.scope, facet, foot.xi, x)) return far_away;
     const Candidate candidate{f, foot, distance};
     const double tie = 1e-10 * size_of(facet, x);
     const bool wins = better(candidate, best, query.history, tie);
@@ -243,7 +247,7 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
     if (wins) best = candidate;
     return distance;
   };
-  tree.for_each_nearest(query.point, 1e-10 * size_of(surface.facets.front(), x), visit);
+  tree.for_each_nearest(query.point, 1e-10 * size_of(surface.facets.front(), x), visit, reach);
   Projection<3> p;
   if (best.facet < 0) return p;
   p.feature = best.foot.feature;

@@ -5,6 +5,7 @@
 
 #include "osculate/core/error.hpp"
 #include "osculate/pairing/point_block.hpp"
+#include "osculate/pairing/point_weight.hpp"
 
 namespace osculate::pairing {
 
@@ -19,6 +20,7 @@ using projection::Feature;
 
 template <int Dim>
 void prepare(PairDefinition<Dim>& pair, Points<Dim> reference) {
+  prepare(pair.scope, pair.master, pair.slave, reference, pair.area);
   nodal_areas(pair.slave, reference, pair.area, pair.reference_areas, nullptr);
   if constexpr (Dim == 3)
     prepare_edges(pair.edges, pair.master, pair.slave, pair.reference_areas, reference);
@@ -168,20 +170,6 @@ PointHistory<Dim> next_history(const PairDefinition<Dim>& pair, Points<Dim> x,
 }
 
 template <int Dim>
-double point_weight(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& work,
-                    std::size_t i) {
-  switch (pair.weight) {
-    case Weight::node:
-      return 1.0;
-    case Weight::reference_area:
-      return pair.reference_areas[i];
-    case Weight::current_area:
-      return work.areas[i];
-  }
-  return 1.0;
-}
-
-template <int Dim>
 void clear(ContactBlock<Dim>& block) {
   block.count = 0;
   block.branched = false;
@@ -220,6 +208,7 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   result.gap = std::numeric_limits<double>::infinity();
   if (!report_place(pair, x, history, placed, result)) return;
   const Kinematics<Dim>& k = placed.kinematics;
+  result.weight = facing_weight<Dim>(pair, out, i, k.normal);
   const bool exact = with_tangent && pair.tangent.consistent;
   const Friction<Dim> f =
       tractions<Dim>(pair, history, placed, x, hint, exact ? &block.behind : nullptr);
@@ -249,8 +238,18 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   scatter_tangent<Dim>(w, terms, block.count, result.weight, block.tangent);
   scatter_path(block, w, terms, result.weight);
   if (!exact || pair.weight != Weight::current_area) return;
-  block.area = out.area_gradients[i];
-  scatter_forces(block.area_rows, block.count, w, terms, 1.0);
+  add_area_gradient<Dim>(pair, out, i, k.normal, block.area);
+  scatter_forces(block.area_rows, block.count, w, terms, side_share(pair));
+}
+
+template <int Dim>
+bool out_of_reach(const PairDefinition<Dim>& pair, Points<Dim> x,
+                  const std::vector<search::Box<Dim>>& boxes) {
+  if (!pair.scope.limited() || pair.scope.own) return false;
+  search::Box<Dim> master, slave;
+  for (const search::Box<Dim>& box : boxes) master.extend(box);
+  for (const Index node : pair.slave.nodes) slave.extend(x[static_cast<std::size_t>(node)]);
+  return master.squared_distance(slave) > pair.scope.reach * pair.scope.reach;
 }
 
 template <int Dim>
@@ -260,10 +259,16 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   out.points.resize(n);
   out.blocks.resize(n);
   nodal_normals(pair.slave, x, out.normals);
-  if (pair.weight == Weight::current_area)
+  if (pair.weight == Weight::current_area) {
     nodal_areas(pair.slave, x, pair.area, out.areas, with_tangent ? &out.area_gradients : nullptr);
+    if (pair.scope.limited())
+      nodal_areas(pair.scope.parts, x, pair.area, out.scope.areas,
+                  with_tangent ? &out.scope.area_gradients : nullptr);
+  }
   const std::size_t before = out.boxes.size();
   facet_boxes(pair.master, x, out.boxes);
+  out.apart = out_of_reach(pair, x, out.boxes);
+  if (!out.apart) refresh(pair.scope, pair.master, x, out.scope);
   if (before == out.boxes.size() && before > 0)
     out.tree.refit(out.boxes);
   else

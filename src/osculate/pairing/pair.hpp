@@ -7,6 +7,7 @@
 #include "osculate/contact/point_terms.hpp"
 #include "osculate/pairing/edges.hpp"
 #include "osculate/pairing/place.hpp"
+#include "osculate/pairing/scope.hpp"
 #include "osculate/pairing/slave_side.hpp"
 #include "osculate/pairing/trial.hpp"
 
@@ -33,7 +34,9 @@ struct PairDefinition {
   contact::TangentForm tangent;
   AreaRule area;
   double depth = std::numeric_limits<double>::infinity();  ///< deeper points are not in contact
-  EdgeContact edges;                    ///< in space: also where sharp edges cross
+  EdgeContact edges;  ///< in space: also where sharp edges cross
+  /// With `scope.own` both sides of a contact are slaves, and each carries half of the traction.
+  Scope<Dim> scope;
   std::vector<double> reference_areas;  ///< filled by `prepare`
 };
 
@@ -118,11 +121,13 @@ struct PairEvaluation {
   std::vector<Vec<Dim>> normals;
   std::vector<search::Box<Dim>> boxes;
   Tree<Dim> tree;
+  ScopeBuffers<Dim> scope;
+  bool apart = false;  ///< master and slave are farther from each other than the scope reaches
   PairSeconds seconds;
 };
 
 /// Fills the reference areas from the reference coordinates. Throws core::GeometryError when area
-/// weights are asked for and a slave node has no facet or a non-positive area.
+/// weights are asked for and a slave node has no facet or a non-positive area. Prepares the scope.
 template <int Dim>
 void prepare(PairDefinition<Dim>& pair, Points<Dim> reference);
 
@@ -159,6 +164,14 @@ template <int Dim>
 template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed = {});
+
+/// True if any point is in contact.
+template <int Dim>
+[[nodiscard]] bool touches(const PairEvaluation<Dim>& evaluation) {
+  for (const PointResult<Dim>& point : evaluation.points)
+    if (point.status != contact::Status::open) return true;
+  return false;
+}
 
 /// The trial history of an accepted evaluation. A point that opens forgets.
 template <int Dim>

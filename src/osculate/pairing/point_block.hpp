@@ -19,17 +19,38 @@ template <int Dim>
   return w;
 }
 
+/// Where the place of a history is now.
+[[nodiscard]] inline Vec2 place_in_space(const Chain& master, const contact::PointHistory<2>& h,
+                                         std::span<const Vec2> x) {
+  return facet_jet(master.facets[static_cast<std::size_t>(h.facet)], h.xi[0], x).r;
+}
+[[nodiscard]] inline Vec3 place_in_space(const FacetSurface& master,
+                                         const contact::PointHistory<3>& h,
+                                         std::span<const Vec3> x) {
+  return facet_jet(master.facets[static_cast<std::size_t>(h.facet)], h.xi, x).r;
+}
+
 /// Closest point of slave node `i` on the master and the kinematics there; no place where none is
 /// found. `work` is refreshed at `x`.
 template <int Dim>
 [[nodiscard]] Placed<Dim> place_point(const PairDefinition<Dim>& pair,
                                       const PairEvaluation<Dim>& work, Points<Dim> x, std::size_t i,
                                       const contact::PointHistory<Dim>& history) {
+  if (work.apart) return {};
   ProjectionQuery<Dim> query;
   query.point = x[static_cast<std::size_t>(pair.slave.nodes[i])];
   if (work.normals[i].squaredNorm() > 0) query.slave_normal = work.normals[i];
   query.history = history.facet;
   query.history_feature = history.feature;
+  NodeScope<Dim> rules;
+  if (pair.scope.limited()) {
+    rules = node_scope<Dim>(pair.scope, pair.slave, work.scope, i, query.point);
+    if (history.facet >= 0) {
+      rules.last = place_in_space(pair.master, history, x);
+      rules.reach = std::max(rules.reach, (query.point - *rules.last).norm());
+    }
+    query.scope = &rules;
+  }
   const Projection<Dim> p = closest(pair.master, work.tree, x, query);
   if (p.feature == projection::Feature::none) return {};
   return place(pair.master, p, query.point, x);

@@ -25,11 +25,15 @@ struct Projection {
 };
 
 template <int Dim>
+struct NodeScope;
+
+template <int Dim>
 struct ProjectionQuery {
   Vec<Dim> point = Vec<Dim>::Zero();
   std::optional<Vec<Dim>> slave_normal;  ///< facets facing the same way are not candidates
   Index history = -1;                    ///< facet; equidistant: the side of the history wins
   projection::Feature history_feature = projection::Feature::none;
+  const NodeScope<Dim>* scope = nullptr;  ///< null: every facet is a candidate (scope.hpp)
   /// An equidistant point has no side of its own: it belongs to the border between both facets.
   [[nodiscard]] bool shares() const {
     return history < 0 || history_feature == projection::Feature::edge ||

@@ -102,15 +102,16 @@ class Bvh {
 
   /// Visits every object whose box may hold a point nearer than the bound. `visit(index)` returns
   /// the object's distance from the point; objects up to `tie` beyond the best are visited too, so
-  /// that the caller sees all that are equally near.
+  /// that the caller sees all that are equally near. Nothing farther than `bound` is visited.
   template <class Visit>
-  void for_each_nearest(const Vec<Dim>& point, double tie, const Visit& visit) const {
+  void for_each_nearest(const Vec<Dim>& point, double tie, const Visit& visit,
+                        double bound = std::numeric_limits<double>::infinity()) const {
     double best = std::numeric_limits<double>::infinity();
-    double reach = best;  // (best + tie)^2, a little more for the rounding of the square
+    double reach = bound * bound;
     const auto offer = [&](Index index) {
-      best = std::min(best, visit(index));
+      best = std::min({best, visit(index), bound});
       constexpr double rounding = 1 + 4 * std::numeric_limits<double>::epsilon();
-      reach = (best + tie) * (best + tie) * rounding;
+      reach = (best + tie) * (best + tie) * rounding;  // a little more than the square
     };
     descend(
         point, reach, [](Index) { return true; }, offer);

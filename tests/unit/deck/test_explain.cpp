@@ -27,7 +27,7 @@ TEST(Explain, OneKey) {
 }
 
 TEST(Explain, WordsAndTheirMeaning) {
-  EXPECT_EQ(explain_model_key("enforcement"),
+  EXPECT_EQ(explain_model_key("contact.enforcement"),
             "contact[].enforcement: one of penalty, default penalty\n"
             "  How the contact conditions are imposed.\n"
             "  Words:\n"
@@ -54,10 +54,12 @@ TEST(Explain, KeysBelow) {
 }
 
 TEST(Explain, ManyWaysToNameAKey) {
-  const std::string mu = explain_model_key("mu");
-  for (const char* const key : {"contact[0].friction.coulomb.mu", "contact[].friction.coulomb.mu",
-                                "contact.friction.coulomb.mu", "coulomb.mu", "friction.coulomb.mu"})
+  const std::string mu = explain_model_key("contact.friction.coulomb.mu");
+  for (const char* const key : {"contact[0].friction.coulomb.mu", "contact[].friction.coulomb.mu"})
     EXPECT_EQ(explain_model_key(key), mu) << key;
+  const std::string both = mu + "\n" + explain_model_key("contact.all.friction.coulomb.mu");
+  for (const char* const key : {"mu", "coulomb.mu", "friction.coulomb.mu"})
+    EXPECT_EQ(explain_model_key(key), both) << key;
   const std::string young = explain_model_key("materials.NAME.neo_hooke.E");
   EXPECT_EQ(explain_model_key("materials.steel.neo_hooke.E"), young);
   EXPECT_EQ(explain_model_key("materials.neo_hooke.E"), young);

@@ -183,6 +183,20 @@ TEST(Bvh, ties_are_all_visited) {
   EXPECT_EQ(near, (std::vector<Index>{31, 32}));
 }
 
+TEST(Bvh, nothing_beyond_the_bound_is_visited) {
+  std::vector<Box<2>> boxes(64);
+  for (std::size_t k = 0; k < boxes.size(); ++k) boxes[k].extend(Vec2(static_cast<double>(k), 0));
+  const Bvh<2> tree{boxes};
+  std::vector<Index> seen;
+  const auto refused = [&](Index k) {
+    seen.push_back(k);
+    return std::numeric_limits<double>::infinity();
+  };
+  tree.for_each_nearest(Vec2(31.5, 0), 1e-9, refused, 1.6);
+  std::sort(seen.begin(), seen.end());
+  EXPECT_EQ(seen, (std::vector<Index>{30, 31, 32, 33}));
+}
+
 TEST(Bvh, nearest_looks_at_few_of_many_boxes_also_beside_an_infinite_one) {
   constexpr int side = 100;
   std::vector<Box<2>> boxes;

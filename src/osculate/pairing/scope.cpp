@@ -1,0 +1,211 @@
+#include "osculate/pairing/scope.hpp"
+
+#include <algorithm>
+
+#include "osculate/cell/shape.hpp"
+#include "osculate/core/error.hpp"
+#include "osculate/pairing/closest.hpp"
+
+namespace osculate::pairing {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double facing_cosine = -0.5;  ///< 120 degrees
+constexpr double across_cosine = 0.5;   ///< 60 degrees
+constexpr double apart_ratio = 4;
+
+Vec2 normal_at(const Facet& facet, double xi, std::span<const Vec2> x) {
+  const Vec2 tangent = facet_jet(facet, xi, x).r1;
+  const double length = tangent.norm();
+  return length > 0 ? Vec2(turn(tangent) / length) : Vec2(Vec2::Zero());
+}
+Vec3 normal_at(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
+  return facet_normal(facet, xi, x);
+}
+
+double middle_of(const Facet& facet) { return 0.5 * (facet.lo + facet.hi); }
+Vec2 middle_of(const SurfaceFacet& facet) {
+  return cell::is_triangle(facet.type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(Vec2::Zero());
+}
+
+template <int Dim, class FacetType>
+FacetOutline<Dim> outline(const FacetType& facet, std::span<const Vec<Dim>> x) {
+  FacetOutline<Dim> out{Vec<Dim>::Zero(), Vec<Dim>::Zero(), infinite};
+  if (facet.shape) return out;
+  out.middle = facet_jet(facet, middle_of(facet), x).r;
+  out.normal = normal_at(facet, middle_of(facet), x);
+  out.bulge = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {
+    const Vec<Dim> arm = x[static_cast<std::size_t>(facet.nodes[k])] - out.middle;
+    out.bulge = std::max(out.bulge, std::abs(arm.dot(out.normal)));
+  }
+  return out;
+}
+
+/// Every node once for each of its facets.
+template <int Dim>
+void set_parts(const SlaveSide<Dim>& slave, Scope<Dim>& scope) {
+  scope.parts = {};
+  scope.parts.boundary = slave.boundary;
+  scope.first.assign(1, 0);
+  for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
+    for (const Index f : slave.facets_of[i]) {
+      scope.parts.nodes.push_back(slave.nodes[i]);
+      scope.parts.facets_of.push_back({f});
+    }
+    scope.first.push_back(scope.parts.nodes.size());
+  }
+}
+
+template <int Dim>
+bool same_facets(const Boundary<Dim>& a, const Boundary<Dim>& b) {
+  return std::equal(a.facets.begin(), a.facets.end(), b.facets.begin(), b.facets.end(),
+                    [](const auto& f, const auto& g) {
+                      return f.count == g.count && f.nodes == g.nodes && !f.shape && !g.shape;
+                    });
+}
+
+template <int Dim>
+std::span<const Vec<Dim>> normals_of(const Scope<Dim>& scope, const ScopeBuffers<Dim>& buffers,
+                                     std::size_t i) {
+  const std::size_t first = scope.first[i];
+  return std::span(buffers.normals).subspan(first, scope.first[i + 1] - first);
+}
+
+/// How far the body reaches behind each slave node.
+template <int Dim>
+void measure(Scope<Dim>& scope, const SlaveSide<Dim>& slave, std::span<const Vec<Dim>> x) {
+  scope.thickness.assign(slave.nodes.size(), infinite);
+  if (slave.boundary.facets.empty()) return;
+  ScopeBuffers<Dim> buffers;
+  for (const auto& facet : slave.boundary.facets) buffers.outlines.push_back(outline(facet, x));
+  nodal_normals(scope.parts, x, buffers.normals);
+  std::vector<search::Box<Dim>> boxes;
+  facet_boxes(slave.boundary, x, boxes);
+  const Tree<Dim> tree(boxes);
+  for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
+    NodeScope<Dim> rules;
+    rules.point = x[static_cast<std::size_t>(slave.nodes[i])];
+    rules.reach = 2 * scope.reach;
+    rules.outlines = buffers.outlines;
+    rules.facets = slave.facets_of[i];
+    rules.facing = normals_of(scope, buffers, i);
+    rules.behind = true;
+    if (rules.facing.empty()) continue;
+    ProjectionQuery<Dim> query;
+    query.point = rules.point;
+    query.scope = &rules;
+    scope.thickness[i] = closest(slave.boundary, tree, x, query).distance;
+  }
+}
+
+/// `admits` for both dimensions.
+template <int Dim, class FacetType, class Coordinates>
+bool admitted(const NodeScope<Dim>& rules, const FacetType& facet, const Coordinates& xi,
+              std::span<const Vec<Dim>> x) {
+  const Vec<Dim> foot = facet_jet(facet, xi, x).r;
+  const Vec<Dim> normal = normal_at(facet, xi, x);
+  const auto faces = [&](const Vec<Dim>& n) { return n.dot(normal) < facing_cosine; };
+  if (!rules.facing.empty() && std::none_of(rules.facing.begin(), rules.facing.end(), faces))
+    return false;
+  const Vec<Dim> arm = rules.point - foot;
+  const double distance = arm.norm();
+  const double gap = arm.dot(normal);
+  if (!rules.facing.empty() && std::abs(gap) < across_cosine * distance) return false;
+  if (rules.behind) return gap < 0;
+  constexpr double straight = 0.9;  // else a foot at a vertex, which has the last word on the sign
+  if (gap >= straight * distance) return true;
+  if (!facet.shape && distance > rules.depth) {
+    constexpr double near = 0.9;
+    if (!rules.last || !((foot - *rules.last).norm() < near * (rules.point - *rules.last).norm()))
+      return false;
+  }
+  if (rules.reference.empty()) return true;
+  const Vec<Dim> before = rules.home - facet_jet(facet, xi, rules.reference).r;
+  const double height = before.dot(normal_at(facet, xi, rules.reference));
+  const double size = (rules.reference[static_cast<std::size_t>(facet.nodes[1])] -
+                       rules.reference[static_cast<std::size_t>(facet.nodes[0])])
+                          .norm();
+  const bool was_behind = height < -1e-6 * size;
+  return !(was_behind && before.norm() < apart_ratio * distance);
+}
+
+}  // namespace
+
+template <int Dim>
+void prepare(Scope<Dim>& scope, const Boundary<Dim>& master, const SlaveSide<Dim>& slave,
+             std::type_identity_t<std::span<const Vec<Dim>>> reference, const AreaRule& rule) {
+  if (!scope.limited()) return;
+  set_parts(slave, scope);
+  nodal_areas(scope.parts, reference, rule, scope.areas, nullptr);
+  if (scope.own) {
+    if (!same_facets<Dim>(master, slave.boundary))
+      throw core::GeometryError("self-contact needs the same facets as master and slave");
+    scope.reference.assign(reference.begin(), reference.end());
+  }
+  if (scope.thickness.size() != slave.nodes.size()) measure<Dim>(scope, slave, reference);
+}
+
+template <int Dim>
+void refresh(const Scope<Dim>& scope, const Boundary<Dim>& master,
+             std::type_identity_t<std::span<const Vec<Dim>>> x, ScopeBuffers<Dim>& buffers) {
+  if (!scope.limited()) return;
+  buffers.outlines.clear();
+  for (const auto& facet : master.facets) buffers.outlines.push_back(outline(facet, x));
+  nodal_normals(scope.parts, x, buffers.normals);
+}
+
+template <int Dim>
+bool NodeScope<Dim>::skips(Index facet) const {
+  if (std::find(facets.begin(), facets.end(), facet) != facets.end()) return true;
+  const FacetOutline<Dim>& o = outlines[static_cast<std::size_t>(facet)];
+  if (std::isinf(o.bulge)) return false;
+  constexpr double turned = 0.3;  // a facet bends less than the 47 degrees to `facing_cosine`
+  const auto may_face = [&](const Vec<Dim>& n) { return n.dot(o.normal) < turned; };
+  if (!facing.empty() && std::none_of(facing.begin(), facing.end(), may_face)) return true;
+  const double height = (point - o.middle).dot(o.normal);
+  if (behind) return height > 2 * o.bulge;
+  const double deepest = last ? std::max(depth, (point - *last).norm()) : depth;
+  return height < -(deepest + 2 * o.bulge);
+}
+
+bool admits(const NodeScope<2>& rules, const Facet& facet, double xi, std::span<const Vec2> x) {
+  return admitted<2>(rules, facet, xi, x);
+}
+bool admits(const NodeScope<3>& rules, const SurfaceFacet& facet, const Vec2& xi,
+            std::span<const Vec3> x) {
+  return admitted<3>(rules, facet, xi, x);
+}
+
+template <int Dim>
+NodeScope<Dim> node_scope(const Scope<Dim>& scope, const SlaveSide<Dim>& slave,
+                          const ScopeBuffers<Dim>& buffers, std::size_t i, const Vec<Dim>& point) {
+  NodeScope<Dim> rules;
+  rules.point = point;
+  rules.reach = scope.reach;
+  rules.depth = 0.5 * scope.thickness[i];
+  rules.outlines = buffers.outlines;
+  if (!scope.own) return rules;
+  rules.facing = normals_of(scope, buffers, i);
+  rules.facets = slave.facets_of[i];
+  rules.reference = scope.reference;
+  rules.home = scope.reference[static_cast<std::size_t>(slave.nodes[i])];
+  return rules;
+}
+
+template void prepare<2>(Scope<2>&, const Boundary<2>&, const SlaveSide<2>&, std::span<const Vec2>,
+                         const AreaRule&);
+template void prepare<3>(Scope<3>&, const Boundary<3>&, const SlaveSide<3>&, std::span<const Vec3>,
+                         const AreaRule&);
+template void refresh<2>(const Scope<2>&, const Boundary<2>&, std::span<const Vec2>,
+                         ScopeBuffers<2>&);
+template void refresh<3>(const Scope<3>&, const Boundary<3>&, std::span<const Vec3>,
+                         ScopeBuffers<3>&);
+template struct NodeScope<2>;
+template struct NodeScope<3>;
+template NodeScope<2> node_scope<2>(const Scope<2>&, const SlaveSide<2>&, const ScopeBuffers<2>&,
+                                    std::size_t, const Vec2&);
+template NodeScope<3> node_scope<3>(const Scope<3>&, const SlaveSide<3>&, const ScopeBuffers<3>&,
+                                    std::size_t, const Vec3&);
+
+}  // namespace osculate::pairing

@@ -1,0 +1,125 @@
+#pragma once
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "osculate/pairing/slave_side.hpp"
+
+namespace osculate::pairing {
+
+/// Which places of a master a slave node may touch where the whole surface of a body, or the node's
+/// own surface, is the master. Without limits (the default) the nearest facet that does not face
+/// the same way as the node is taken, however far away or deep.
+///
+/// Rules      a place is a candidate if it passes all of them
+///            near      it is not farther away than `reach`
+///            thin      where the node lies behind it (g < 0), |g| <= t / 2: t is how far the
+///                      node's own body reaches behind the node in the reference configuration.
+///                      Through more than its own body no node touches anything: what is seen
+///                      there is the far side of the master. A place near the one that the node
+///                      faced at the end of the last increment is let off (a thin body that moves
+///                      fast)
+///            facing    own surface: a facet of the node and the place have normals more than 120
+///                      degrees apart. Where the curvature of the surface is at most k, that takes
+///                      a way of more than 2 / k along it, so no facet of a smooth neighbourhood
+///                      is one, and no facet that the node itself belongs to ever is
+///            across    own surface: the way to the place is within 60 degrees of its normal. (A
+///                      node of a sharp corner sees the next facets of its own flanks end on.)
+///            apart     own surface: if the node was behind the place in the reference
+///                      configuration too (there is material between them), their distance was
+///                      more than 4 |g|. The other side of a plate that is squeezed to more than a
+///                      quarter, and the other flank of a convex corner that is bent to more than
+///                      30 degrees, fail; the flanks of a notch and the lips of a fold, which
+///                      faced each other or lay in one plane, pass at any depth
+/// Areas      of the node's facets only those within 60 degrees of facing the place count (all, if
+///            none is): the node at the edge of a block that lies flat carries the pressure on its
+///            lower face, not on the side
+/// Tested by  tests/unit/pairing/test_own_surface.cpp, test_own_surface3.cpp
+template <int Dim>
+struct Scope {
+  bool own = false;  ///< the master is the slave's own surface, facet by facet
+  double reach = std::numeric_limits<double>::infinity();
+  // Filled by `prepare`:
+  std::vector<double> thickness;    ///< per slave node, infinite where more than twice `reach`
+  std::vector<Vec<Dim>> reference;  ///< own surface: positions of all nodes
+  std::vector<std::size_t> first;   ///< of each node's facets in `parts`, and the end
+  SlaveSide<Dim> parts;             ///< every node once for each facet that holds it
+  std::vector<double> areas;        ///< of the parts, reference configuration
+
+  [[nodiscard]] bool limited() const { return own || std::isfinite(reach); }
+};
+
+/// Fills the rest. Throws core::GeometryError where `own` is set and master
+/// and slave are not the same facets. A thickness that is there already is kept.
+template <int Dim>
+void prepare(Scope<Dim>& scope, const Boundary<Dim>& master, const SlaveSide<Dim>& slave,
+             std::type_identity_t<std::span<const Vec<Dim>>> reference, const AreaRule& rule = {});
+
+/// A facet in short: enough to pass over most of them without a projection.
+template <int Dim>
+struct FacetOutline {
+  Vec<Dim> middle, normal;
+  double bulge = 0;  ///< of its nodes over the plane through the middle; infinite: analytic shape
+};
+
+/// What the nodes of one evaluation share.
+template <int Dim>
+struct ScopeBuffers {
+  std::vector<FacetOutline<Dim>> outlines;  ///< of the master
+  std::vector<Vec<Dim>> normals;            ///< of the parts
+  std::vector<double> areas;                ///< of the parts, if they were asked for
+  std::vector<std::vector<NodeGradient<Dim>>> area_gradients;
+};
+/// Outlines and normals at `x`.
+template <int Dim>
+void refresh(const Scope<Dim>& scope, const Boundary<Dim>& master,
+             std::type_identity_t<std::span<const Vec<Dim>>> x, ScopeBuffers<Dim>& buffers);
+
+/// Parts of slave node `i` that carry the pressure of a contact with this normal of the master:
+/// calls `visit` with the number of each.
+template <int Dim, class Visit>
+void for_each_facing(const Scope<Dim>& scope, const ScopeBuffers<Dim>& buffers, std::size_t i,
+                     const Vec<Dim>& normal, const Visit& visit) {
+  constexpr double cosine = -0.5;
+  bool any = false;
+  for (std::size_t p = scope.first[i]; p < scope.first[i + 1]; ++p)
+    any = any || buffers.normals[p].dot(normal) < cosine;
+  for (std::size_t p = scope.first[i]; p < scope.first[i + 1]; ++p)
+    if (!any || buffers.normals[p].dot(normal) < cosine) visit(p);
+}
+
+/// The rules for one node at one place in space.
+template <int Dim>
+struct NodeScope {
+  Vec<Dim> point = Vec<Dim>::Zero();
+  double reach = std::numeric_limits<double>::infinity();
+  double depth = std::numeric_limits<double>::infinity();  ///< t / 2
+  std::optional<Vec<Dim>> last;  ///< where the place of the last increment is now
+  std::span<const FacetOutline<Dim>> outlines;
+  std::span<const Vec<Dim>> facing;     ///< normals of the node's facets; empty: another surface
+  std::span<const Index> facets;        ///< those facets
+  std::span<const Vec<Dim>> reference;  ///< empty: no memory of where the node was
+  Vec<Dim> home = Vec<Dim>::Zero();     ///< the node there
+  bool behind = false;                  ///< only places that the node is behind (for the thickness)
+
+  /// Facets that need no projection. Never one that `admits` any of its places, but for feet far
+  /// outside a strongly curved facet.
+  [[nodiscard]] bool skips(Index facet) const;
+};
+
+/// Whether the node may touch the facet at `xi`.
+[[nodiscard]] bool admits(const NodeScope<2>& rules, const Facet& facet, double xi,
+                          std::span<const Vec2> x);
+[[nodiscard]] bool admits(const NodeScope<3>& rules, const SurfaceFacet& facet, const Vec2& xi,
+                          std::span<const Vec3> x);
+
+/// The rules for slave node `i`, without `last`.
+template <int Dim>
+[[nodiscard]] NodeScope<Dim> node_scope(const Scope<Dim>& scope, const SlaveSide<Dim>& slave,
+                                        const ScopeBuffers<Dim>& buffers, std::size_t i,
+                                        const Vec<Dim>& point);
+
+}  // namespace osculate::pairing

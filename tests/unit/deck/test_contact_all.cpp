@@ -1,0 +1,108 @@
+// `contact: {all: ...}` and sets that touch themselves: which pairs are made, and what is refused.
+#include <set>
+
+#include "system_test.hpp"
+
+namespace osculate::deck {
+namespace {
+
+std::string build_refusal(const std::string& text) {
+  try {
+    (void)build_text(text);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+const model::ContactPair& pair_named(const Built& built, const std::string& name) {
+  for (const model::ContactPair& pair : built.model.pairs)
+    if (pair.name == name) return pair;
+  throw std::runtime_error("no pair " + name);
+}
+
+TEST(ContactAll, MakesThePairsOfAllBodiesButTheExcludedOnes) {
+  const Built built = build_text(test_file("all.yaml"));
+  std::set<std::string> names;
+  for (const model::ContactPair& pair : built.model.pairs) {
+    names.insert(pair.name);
+    EXPECT_EQ(pair.group, "any");
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"any.1-1", "any.2-2", "any.3-3", "any.1-2", "any.2-3",
+                                          "any.1-floor", "any.2-floor"}));
+  ASSERT_EQ(built.notes.size(), 3u);
+  EXPECT_EQ(built.notes[1], "body 2 is mid, 14 boundary facets");
+}
+
+// Rigid, else stiffer, else coarser, else first.
+TEST(ContactAll, ChoosesTheMasterByOneRule) {
+  const Built built = build_text(test_file("all.yaml"));
+  EXPECT_EQ(pair_named(built, "any.1-2").note, "slave 2, master 1 (stiffer)");
+  EXPECT_EQ(pair_named(built, "any.2-3").note, "slave 2, master 3 (coarser)");
+  EXPECT_EQ(pair_named(built, "any.1-floor").note, "slave 1, master floor (rigid)");
+  EXPECT_EQ(pair_named(built, "any.1-1").note, "body 1 with itself");
+  EXPECT_TRUE(pair_named(built, "any.1-1").definition.scope.own);
+  EXPECT_FALSE(pair_named(built, "any.1-2").definition.scope.own);
+  EXPECT_EQ(pair_named(built, "any.1-2").definition.master.facets.size(), 10u);
+  const std::string same = edited(edited(test_file("all.yaml"), "material: hard", "material: soft"),
+                                  "elements: [6, 1]", "elements: [3, 1]");
+  EXPECT_EQ(pair_named(build_text(same), "any.1-2").note, "slave 2, master 1 (first)");
+}
+
+TEST(ContactAll, HistoryOfOnePairOrOfAll) {
+  const Built built = build_text(test_file("all.yaml"));
+  std::vector<double> values;
+  const model::AnalysisResult result =
+      run_to_end(built, 1, [&](model::System& system, const model::State& state) {
+        for (const model::HistoryRequest& request : built.history)
+          values.push_back(model::history_value(system, built.model, state, request));
+      });
+  ASSERT_EQ(result.outcome, solve::Outcome::converged) << result.message;
+  EXPECT_GT(values[2], 1);
+  EXPECT_NEAR(values[1], values[2], 0.02 * values[2]);  // friction takes a part of the shear only
+  EXPECT_NEAR(values[0], values[1] + values[2] + values[4], 1e-9 * values[0]);
+  EXPECT_GT(values[3], 0);
+}
+
+TEST(ContactAll, Refusals) {
+  const std::string text = test_file("all.yaml");
+  const auto expect = [](const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  expect(build_refusal(edited(text, "[low, top]", "[low, tpo]")),
+         "contact.all.exclude[0][1]: unknown body 'tpo'; did you mean 'top'?");
+  expect(build_refusal(edited(text, "{on: any.2-3,", "{on: any.2-4,")),
+         "output.history[2].on: unknown contact pair 'any.2-4'; did you mean 'any.");
+  expect(build_refusal(edited(text, "    normal: {penalty: 1000}\n", "")),
+         "contact.all: required key 'normal' is missing");
+  const std::string block = test_file("block.yaml");
+  const std::size_t from = block.find("contact:"), to = block.find("steps:");
+  std::string bare = block;
+  bare.replace(from, to - from, "contact: all\n");
+  expect(refusal(bare), "contact: needs a stiffness: contact: {all: {normal: {penalty: NUMBER}}}");
+}
+
+TEST(SelfContact, IsAPairWhoseMasterAndSlaveAreOneSet) {
+  const Built built = build_text(R"(osculate: 1
+mesh: {generate: {b: {box: {x: [0, 6], y: [0, 0.5], elements: [12, 1]}}}}
+materials: {m: {neo_hooke: {E: 100, nu: 0.3}}}
+sections: [{on: b, material: m, element: plane_strain}]
+contact: [{name: c, master: b, slave: b, normal: {penalty: 50}}]
+steps: [{name: s, increments: 1, prescribe: [{on: b.left, ux: 0, uy: 0}]}]
+)");
+  ASSERT_EQ(built.model.pairs.size(), 1u);
+  const pairing::PairDefinition<2>& pair = built.model.pairs[0].definition;
+  EXPECT_TRUE(pair.scope.own);
+  EXPECT_EQ(pair.slave.nodes.size(), 26u);
+  EXPECT_EQ(pair.master.facets.size(), 26u);
+  EXPECT_NEAR(pair.scope.reach, 8 * 0.5, 1e-12);
+  for (std::size_t i = 0; i < pair.slave.nodes.size(); ++i) {
+    const Vec2& x = built.model.reference[static_cast<std::size_t>(pair.slave.nodes[i])];
+    if (x.x() > 0.6 && x.x() < 5.4) {
+      EXPECT_NEAR(pair.scope.thickness[i], 0.5, 1e-12);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace osculate::deck
