@@ -47,7 +47,7 @@ struct SurfaceFrame {
   f.normal = cross / area;  // @eq KSVD:4
   Mat<3, 2> tangents;
   tangents << r1, r2;
-  f.a = tangents.transpose() * tangents;  // @eq KSVD:5
+  f.a = tangents.transpose() * tangents;  // @eq KSVD:5, KSCPP:9
   f.a_inv << f.a(1, 1), -f.a(0, 1), -f.a(1, 0), f.a(0, 0);
   f.a_inv = f.a_inv / area / area;  // @eq KSVD:6 with det a = |r_1 x r_2|^2
   std::array<Mat<2, 2>, 2> along;   // r_ij . r_m
@@ -56,7 +56,7 @@ struct SurfaceFrame {
     m << jet.r2[0].dot(v), jet.r2[1].dot(v), jet.r2[1].dot(v), jet.r2[2].dot(v);
     return m;
   };
-  f.h = second(f.normal);  // @eq KSVD:7
+  f.h = second(f.normal);  // @eq KSVD:7, KSCPP:10
   f.h_mixed = f.h * f.a_inv;
   along = {second(r1), second(r2)};
   for (std::size_t k = 0; k < 2; ++k) {
@@ -90,7 +90,7 @@ struct SurfaceFrame {
 
 /// Position with coordinates (xi1, xi2, zeta).
 [[nodiscard]] inline Vec3 offset_point(const SurfaceJet& jet, const Vec3& normal, double zeta) {
-  return jet.r + zeta * normal;  // @eq KSVD:17
+  return jet.r + zeta * normal;  // @eq KSVD:17, KSCPP:8
 }
 
 /// Derivative of `offset_point` along xi^i: (delta_i^k - zeta h_i^k) r_k. Both become parallel, and

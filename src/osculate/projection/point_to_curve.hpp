@@ -46,10 +46,10 @@ struct DistanceJet {
   const Vec2 gap = point - jet.r;
   DistanceJet d;
   d.xi = xi;
-  d.squared_distance = gap.squaredNorm();  // @eq KS2D:1
+  d.squared_distance = gap.squaredNorm();  // @eq KS2D:1, KSCPP:27
   d.slope = -gap.dot(jet.r1);              // @eq KS2D:2
   d.a11 = jet.r1.squaredNorm();
-  d.bend = d.a11 - gap.dot(jet.r2);  // @eq KS2D:3 positive at a minimum: minus the printed F''
+  d.bend = d.a11 - gap.dot(jet.r2);  // @eq KS2D:3, KSCPP:29 minus KS2D's F'', > 0 at minima
   d.twist = 3.0 * jet.r1.dot(jet.r2) - gap.dot(jet.r3);
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   d.noise = 2.0 * epsilon * (gap.lpNorm<1>() + jet.r.lpNorm<1>()) * jet.r1.lpNorm<1>();
@@ -59,13 +59,13 @@ struct DistanceJet {
 /// Newton step towards the nearest point; needs bend > 0. The sign is that of KS2D:4; the same
 /// step with a minus, as printed in KSCPP:43, walks away from the foot point (docs/errata.md).
 [[nodiscard]] inline double newton_step(const DistanceJet& d) {
-  return -d.slope / d.bend;  // @eq KS2D:4
+  return -d.slope / d.bend;  // @eq KS2D:4, KSCPP:43
 }
 
 /// Position with coordinates (xi, zeta): r = rho + zeta nu.
 [[nodiscard]] inline Vec2 offset_point(const geometry::CurveJet<2>& jet, const Vec2& normal,
                                        double zeta) {
-  return jet.r + zeta * normal;  // @eq KS2D:5
+  return jet.r + zeta * normal;  // @eq KS2D:5, KSCPP:28
 }
 
 /// Step of xi on the straight segment x1 -> x2; from any xi it ends at the foot point.

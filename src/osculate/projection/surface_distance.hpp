@@ -24,12 +24,12 @@ struct DistanceJet2 {
                                                 const std::array<Vec3, 3>& r2) {
   DistanceJet2 j;
   j.squared_distance = gap.squaredNorm();
-  j.slope = {-gap.dot(r1[0]), -gap.dot(r1[1])};  // @eq KSVD:15
+  j.slope = {-gap.dot(r1[0]), -gap.dot(r1[1])};  // @eq KSVD:15, KSCPP:5
   const double a12 = r1[0].dot(r1[1]), b12 = gap.dot(r2[1]);
   j.metric << r1[0].squaredNorm(), a12, a12, r1[1].squaredNorm();
   Mat<2, 2> second;
   second << gap.dot(r2[0]), b12, b12, gap.dot(r2[2]);
-  j.bend = j.metric - second;  // @eq KSVD:16
+  j.bend = j.metric - second;  // @eq KSVD:16, KSCPP:6
   return j;
 }
 
@@ -39,7 +39,7 @@ struct DistanceJet2 {
 
 /// Downhill step: Newton's where the distance bends upwards, else Gauss-Newton's.
 [[nodiscard]] inline Vec2 descent(const DistanceJet2& j) {
-  if (positive(j.bend)) return -j.bend.inverse() * j.slope;  // @eq KSVD:14
+  if (positive(j.bend)) return -j.bend.inverse() * j.slope;  // @eq KSVD:14, KSCPP:4
   if (positive(j.metric)) return -j.metric.inverse() * j.slope;
   return -j.slope / std::max(j.metric.trace(), 1e-300);
 }

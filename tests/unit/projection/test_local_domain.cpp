@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "osculate/projection/point_to_curve.hpp"
+#include "osculate/projection/point_to_facet.hpp"
 #include "osculate/projection/surface_distance.hpp"
 #include "sample_curves.hpp"
 #include "sample_surfaces.hpp"
@@ -27,6 +29,68 @@ TEST(LocalDomain, SecondDerivativeAtTheFootPoint) {  // [eq:KSCPP:11]
       EXPECT_LT((distance_bend(f, zeta) - d.bend).norm(), 1e-12 * (1 + d.bend.norm()));
     }
   });
+}
+
+TEST(LocalDomain, DistanceToASurfaceByOrder) {
+  // [eq:KSCPP:4] [eq:KSCPP:5] [eq:KSCPP:6] [eq:KSCPP:8] [eq:KSCPP:9] [eq:KSCPP:10]
+  at_surface_places([](const geometry::Surface& s, const Vec2& xi) {
+    const geometry::SurfaceJet j = geometry::jet(s, xi);
+    const SurfaceFrame f = surface_frame(j);
+    const Vec3 point = offset_point(j, f.normal, 0.2) + 0.1 * j.r1[0] - 0.05 * j.r1[1];
+    const auto at = [&](const Vec2& x) {
+      const geometry::SurfaceJet here = geometry::jet(s, x);
+      return distance_jet2(point - here.r, here.r1, here.r2);
+    };
+    const DistanceJet2 d = at(xi);
+    const auto half = [&](const Vec2& x) { return Vec3(0.5 * at(x).squared_distance, 0, 0); };
+    const auto slope = [&](const Vec2& x) { return Vec3(at(x).slope[0], at(x).slope[1], 0); };
+    for (Eigen::Index i = 0; i < 2; ++i) {
+      EXPECT_TRUE(testing::is_derivative(half, Vec3(d.slope[i], 0, 0), xi, i));
+      EXPECT_TRUE(testing::is_derivative(slope, Vec3(d.bend(0, i), d.bend(1, i), 0), xi, i));
+      EXPECT_NEAR(f.a(i, i), j.r1[static_cast<std::size_t>(i)].squaredNorm(), 1e-13 * f.a.norm());
+      EXPECT_NEAR(f.h(i, i), f.normal.dot(j.r2[static_cast<std::size_t>(2 * i)]),
+                  1e-13 * (1 + f.h.norm()));
+    }
+    if (positive(d.bend)) {
+      EXPECT_LT((d.bend * descent(d) + d.slope).norm(), 1e-10 * (1 + d.slope.norm()));
+    }
+  });
+}
+
+TEST(LocalDomain, DistanceToACurveByOrder) {
+  // [eq:KSCPP:27] [eq:KSCPP:28] [eq:KSCPP:29] [eq:KSCPP:43] in any parameter
+  for (const testing::NamedCurve& sample : testing::sample_curves()) {
+    SCOPED_TRACE(sample.name);
+    const auto range = testing::finite_range(sample.curve);
+    const double xi = range[0] + 0.41 * (range[1] - range[0]);
+    const geometry::CurveJet<2> j = geometry::jet(sample.curve, xi);
+    const Vec2 point = offset_point(j, curve_frame(j).normal, 0.2) + 0.1 * j.r1;
+    const auto at = [&](double x) {
+      return distance_jet(geometry::jet(sample.curve, x), x, point);
+    };
+    const DistanceJet d = at(xi);
+    EXPECT_NEAR(d.squared_distance, 0.04 + 0.01 * d.a11, 1e-12 * (1 + d.a11));
+    const auto half = [&](double x) { return Vec2(0.5 * at(x).squared_distance, 0); };
+    const auto slope = [&](double x) { return Vec2(at(x).slope, 0); };
+    EXPECT_TRUE(testing::check_order(half, Vec2(d.slope, 0), xi, 1e-3).second_order());
+    EXPECT_TRUE(testing::check_order(slope, Vec2(d.bend, 0), xi, 1e-3).second_order());
+    EXPECT_NEAR(newton_step(d) * d.bend, -d.slope, 1e-13 * (1 + std::abs(d.slope)));
+  }
+}
+
+TEST(LocalDomain, FootOnACurvedEdgeIsOrthogonal) {  // [eq:KSCPP:37]
+  const std::vector<Vec3> nodes = testing::bent_facet_nodes(cell::CellType::quad9, 0.3);
+  for (int edge = 0; edge < 4; ++edge) {
+    const Vec3 middle = nodes[4 + static_cast<std::size_t>(edge)];
+    const FacetFoot foot = closest_point_on_edge(cell::CellType::quad9, nodes, edge,
+                                                 Vec3(middle + Vec3(0.05, -0.04, 0.2)));
+    ASSERT_TRUE(foot.converged);
+    ASSERT_EQ(foot.feature, Feature::edge);
+    const geometry::SurfaceJet j =
+        geometry::lagrange_surface(cell::CellType::quad9, nodes).jet(foot.xi);
+    const Vec3 tangent = j.r1[edge % 2 == 0 ? 0 : 1];
+    EXPECT_NEAR((middle + Vec3(0.05, -0.04, 0.2) - j.r).dot(tangent), 0, 1e-9);
+  }
 }
 
 TEST(LocalDomain, SylvesterAndPrincipalCurvaturesAgree) {
