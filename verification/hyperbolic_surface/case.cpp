@@ -79,7 +79,7 @@ void look_at_c(const Form& form, CaseResult& out) {
 /// Classes and the bounds of the whole surface: k1 is largest and k2 smallest at O, both 1.
 api::DomainReport look_at_all(const Form& form, CaseResult& out) {
   using enum Relation;
-  api::DomainReport r = api::survey_domain(form.target, form.name);
+  api::DomainReport r = api::survey_domain(form.target, form.name, {.cells = 16});
   int hyperbolic = 0;
   for (const auto& [name, count] : r.classes)
     if (name == "hyperbolic") hyperbolic = count;

@@ -105,9 +105,11 @@ void look_at_figure_6(CaseResult& out) {
   picture.plot.x.label = "x";
   picture.plot.y.label = "y";
   picture.plot.curves = {lines_of(r.picture, api::DomainPart::surface, "curve ABCD"),
-                         lines_of(r.picture, api::DomainPart::sheet_above, "r + n/k"),
+                         lines_of(r.picture, api::DomainPart::sheet_above, "centre, r + n/k"),
+                         lines_of(r.picture, api::DomainPart::sheet_below, "centre, r - n/|k|"),
                          lines_of(r.picture, api::DomainPart::even_above, "r + R n, above"),
                          lines_of(r.picture, api::DomainPart::even_below, "r - R n, below")};
+  for (const std::size_t k : {1u, 2u}) picture.plot.curves[k].style = io::PlotStyle::marks;
   out.pictures.push_back(std::move(picture));
 }
 
@@ -206,19 +208,25 @@ void look_at_the_monkey_saddle(CaseResult& out) {
   add(out, "monkey saddle: lines in the tangent plane",
       point.form == geometry::CubicForm::three_lines ? 3 : 0, 3, 0, source);
   add(out, "monkey saddle: size of the cubic form", std::sqrt(square), 12, 1e-12, source);
-  const api::DomainReport r = api::survey_domain(Target<3>(geometry::Surface(patch)), "monkey");
+  const api::DomainReport r =
+      api::survey_domain(Target<3>(geometry::Surface(patch)), "monkey", {.cells = 20});
   add(out, "monkey saddle: planar points found", static_cast<double>(r.flat.size()), 1, 0, source);
   add(out, "monkey saddle: reach above / reach below", r.above.reach.value / r.below.reach.value, 1,
       1e-6, "reflection in its centre");
   Drawing drawing{"monkey_saddle", {}};
-  drawing.scene.title = "Monkey saddle: planar in the middle, and its upper sheet near it";
-  drawing.scene.label = "larger curvature";
+  drawing.scene.title = "Monkey saddle z = x^3 - 3 x y^2: planar in its middle";
+  drawing.scene.label = "curvature";
   drawing.scene.towards_eye = {0.3, -1, 0.8};
-  io::ScenePanel panel{"z = x^3 - 3 x y^2", {}};
-  add_faces(
-      r.picture, [](api::DomainPart part) { return part == api::DomainPart::surface; },
-      [](const api::DomainPlace& p, api::DomainPart) { return p.larger; }, panel.faces);
-  drawing.scene.panels.push_back(std::move(panel));
+  drawing.scene.columns = 2;
+  const auto panel = [&](const std::string& caption, const auto& value) {
+    io::ScenePanel next{caption, {}};
+    add_faces(
+        r.picture, [](api::DomainPart part) { return part == api::DomainPart::surface; }, value,
+        next.faces);
+    drawing.scene.panels.push_back(std::move(next));
+  };
+  panel("k1, the larger", [](const api::DomainPlace& p, api::DomainPart) { return p.larger; });
+  panel("-k2, the smaller", [](const api::DomainPlace& p, api::DomainPart) { return -p.smaller; });
   out.drawings.push_back(std::move(drawing));
 }
 
@@ -237,24 +245,60 @@ void look_at_reach(CaseResult& out) {
   add(out, "torus R = 2, r = 1: reach outside", t.above.reach.value, 1, 1e-8, "R - r");
 }
 
-void draw_the_cube(CaseResult& out) {
-  api::DomainOptions options;
-  options.length = 2;
-  const api::DomainReport r = api::survey_domain(Target<3>(three_faces()), "cube", options);
-  Drawing drawing{"cube_corner", {}};
-  drawing.scene.title = "Three faces of a cube: wedges of the edges and the corner's cone";
-  drawing.scene.label = "1 wedge, 2 cone";
-  drawing.scene.towards_eye = {-1, 0.8, 0.7};
-  io::ScenePanel panel{"S, E and P of Fig. 8", {}};
+/// The surface grey, wedges and cones above it coloured.
+io::ScenePanel features(const api::DomainReport& r, const std::string& caption, bool cones) {
+  using api::DomainPart;
+  io::ScenePanel panel{caption, {}};
   add_faces(
       r.picture,
-      [](api::DomainPart part) {
-        return part == api::DomainPart::surface || part == api::DomainPart::corner_above;
+      [&](DomainPart part) {
+        return part == DomainPart::surface || part == DomainPart::edge_above ||
+               (cones && part == DomainPart::corner_above);
       },
-      [](const api::DomainPlace&, api::DomainPart part) {
-        return part == api::DomainPart::surface ? std::numeric_limits<double>::quiet_NaN() : 2.0;
+      [](const api::DomainPlace&, DomainPart part) {
+        return part == DomainPart::surface ? std::numeric_limits<double>::quiet_NaN()
+                                           : (part == DomainPart::edge_above ? 0.0 : 1.0);
       },
       panel.faces);
+  return panel;
+}
+
+void draw_the_cube(CaseResult& out) {
+  api::DomainOptions options;
+  options.samples = 400;
+  options.length = 1.4;
+  options.cells = 10;
+  const api::DomainReport r = api::survey_domain(Target<3>(unit_box()), "cube", options);
+  Drawing drawing{"cube_corner", {}};
+  drawing.scene.title = "A cube: wedges of its edges and cones of its corners, cut off";
+  drawing.scene.label = "edge 0, corner 1";
+  drawing.scene.towards_eye = {-1, 0.8, 0.7};
+  drawing.scene.columns = 2;
+  drawing.scene.panels = {features(r, "edges", false), features(r, "edges and corners", true)};
+  out.drawings.push_back(std::move(drawing));
+}
+
+/// The rim of a bore: its wedge ends at the axis, the centre of curvature of the edge.
+void draw_the_rim(CaseResult& out) {
+  api::DomainOptions options;
+  options.samples = 400;
+  options.length = 6;
+  options.cells = 4;
+  options.kink = 2;  // between the quadratic facets round the bore
+  const api::DomainReport r = api::survey_domain(Target<3>(half_bore()), "rim", options);
+  io::ScenePanel panel = features(r, "half of a bore of radius 1 and its upper rim", false);
+  std::erase_if(panel.faces, [](const io::SceneFace& face) {  // keep the rim's
+    return face.coloured &&
+           !std::all_of(face.corners.begin(), face.corners.end(), [](const Vec3& p) {
+             return p.y() > -1e-6 && p.z() > -1e-6 && p.head<2>().norm() < 1.001;
+           });
+  });
+  for (io::SceneFace& face : panel.faces)
+    face.value = 0.25 * (face.corners[0] + face.corners[1] + face.corners[2] + face.corners[3]).z();
+  Drawing drawing{"curved_edge", {}};
+  drawing.scene.title = "Domain of a curved edge";
+  drawing.scene.label = "height";
+  drawing.scene.towards_eye = {0.5, -1, 0.6};
   drawing.scene.panels.push_back(std::move(panel));
   out.drawings.push_back(std::move(drawing));
 }
@@ -270,6 +314,7 @@ CaseResult projection_domains(const CaseContext&) {
   look_at_the_monkey_saddle(out);
   look_at_reach(out);
   draw_the_cube(out);
+  draw_the_rim(out);
   return out;
 }
 

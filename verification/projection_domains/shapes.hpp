@@ -1,5 +1,6 @@
 #pragma once
 // The curves and surfaces of the case.
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -47,10 +48,23 @@ inline projection::FacetMesh<3> unit_box() {
   return mesh;
 }
 
-/// Its three faces at the corner (0, 1, 1).
-inline projection::FacetMesh<3> three_faces() {
-  projection::FacetMesh<3> mesh = unit_box();
-  mesh.facets = {mesh.facets[1], mesh.facets[3], mesh.facets[4]};
+/// Half of a bore of radius 1 below z = 0 and the ring round its mouth, by quad9 facets.
+inline projection::FacetMesh<3> half_bore() {
+  constexpr int around = 8;
+  const std::array<Vec2, 5> profile{Vec2(1, -1), Vec2(1, -0.5), Vec2(1, 0), Vec2(1.3, 0),
+                                    Vec2(1.6, 0)};  // r, z
+  projection::FacetMesh<3> mesh;
+  for (int i = 0; i <= 2 * around; ++i) {
+    const double angle = std::numbers::pi * i / (2 * around);
+    for (const Vec2& p : profile)
+      mesh.nodes.emplace_back(p.x() * std::cos(angle), p.x() * std::sin(angle), p.y());
+  }
+  for (Index i = 0; i < around; ++i)
+    for (const Index j : {0, 2}) {
+      const Index o = 10 * i + j;  // along the profile first: normals out of the body
+      mesh.facets.push_back(
+          {cell::CellType::quad9, {o, o + 2, o + 12, o + 10, o + 1, o + 7, o + 11, o + 5, o + 6}});
+    }
   return mesh;
 }
 

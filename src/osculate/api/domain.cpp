@@ -87,9 +87,9 @@ void look_at_joints(const Composed<Dim>& s, double kink, DomainReport& report, S
   }
   if (irregular > 0)
     report.warnings.push_back(
-        fmt::format("{} {} join facets of opposite orientation or more than two facets: sides and "
-                    "reach there mean nothing",
-                    irregular, Dim == 2 ? "nodes" : "edges"));
+        fmt::format("facets of opposite orientation, or more than two, meet at {} {}: sides and "
+                    "reach mean nothing there",
+                    irregular, Dim == 2 ? "node(s)" : "edge(s)"));
 }
 
 std::string_view class_name(int dimension, const SurfacePlace<2>& place, double size) {
@@ -108,6 +108,7 @@ std::vector<std::array<double, 2>> look_at_places(const Composed<Dim>& s, int ce
                                                   DomainReport& report, SmoothParts& parts) {
   std::vector<std::array<double, 2>> bounds(s.pieces().size(), {infinite, infinite});
   Vec3 distorted = Vec3::Zero();
+  std::vector<Vec3> without;  // a normal
   for (std::size_t p = 0; p < s.pieces().size(); ++p)
     projection::for_each_sample<Dim>(s.pieces()[p], cells, [&](const Vec2& xi, double) {
       const SurfacePlace<Dim> place = s.place(static_cast<int>(p), xi);
@@ -119,7 +120,8 @@ std::vector<std::array<double, 2>> look_at_places(const Composed<Dim>& s, int ce
       else
         ++known->second;
       ++report.places;
-      if (place.sine < report.smallest_sine) {
+      if (!place.valid) without.push_back(in_space(place.r));
+      if (place.valid && place.sine < report.smallest_sine) {
         report.smallest_sine = place.sine;
         distorted = in_space(place.r);
       }
@@ -128,6 +130,9 @@ std::vector<std::array<double, 2>> look_at_places(const Composed<Dim>& s, int ce
       if (place.k[0] * s.size() > 1e-9) bound[1] = std::min(bound[1], 1 / place.k[0]);
       if (-place.k[1] * s.size() > 1e-9) bound[0] = std::min(bound[0], -1 / place.k[1]);
     });
+  if (!without.empty())
+    report.warnings.push_back(fmt::format("there is no normal at {} of the places, at {} first",
+                                          without.size(), text_of(without.front())));
   constexpr double distortion = 0.02;
   if (report.smallest_sine < distortion)
     report.warnings.push_back(
@@ -194,7 +199,7 @@ DomainReport survey(const projection::Target<Dim>& target, const DomainOptions& 
   if (smooth_parts == 1)
     even.assign(even.size(), {r.below.curvature.value, r.above.curvature.value});
   const double length = options.length > 0 ? options.length : s.size();
-  report.picture = draw_domain(s, kink, length, even);
+  report.picture = draw_domain(s, {kink, length, options.cells}, even);
   return report;
 }
 

@@ -82,6 +82,7 @@ struct DomainOptions {
   double kink = 0.01;  ///< degrees between normals up to which a joint counts as smooth
   int samples = 3000;  ///< places looked at, about
   double length = 0;   ///< what has no end is drawn that far; 0: the size of the surface
+  int cells = 40;      ///< of the picture, along a side of a piece; fewer on many pieces
 };
 
 /// Classes of points, bounds on both sides, reach (projection/reach.hpp) and the boundaries of the

@@ -142,12 +142,13 @@ void write_domain(const std::string& path, const DomainPicture& picture) {
 
 std::string domain_html(const DomainReport& r) {
   const DomainPicture& p = r.picture;
+  const bool plane = r.dimension == 2;  // then with the borders of the domain
   nlohmann::json cells = nlohmann::json::array();
   for (std::size_t b = 0; b < p.blocks.size(); ++b) {
     const auto nodes = static_cast<std::size_t>(cell::info(p.blocks[b].type).nodes);
     std::vector<Index> shown;
     for (std::size_t c = 0; c < p.parts[b].size(); ++c)
-      if (p.parts[b][c] == DomainPart::surface)
+      if (plane || p.parts[b][c] == DomainPart::surface)
         shown.insert(shown.end(), p.blocks[b].cell(static_cast<Index>(c)),
                      p.blocks[b].cell(static_cast<Index>(c)) + nodes);
     if (!shown.empty())
@@ -155,7 +156,6 @@ std::string domain_html(const DomainReport& r) {
           {{"type", cell::info(p.blocks[b].type).name}, {"connectivity", std::move(shown)}});
   }
   const std::size_t n = p.points.size();
-  const bool plane = r.dimension == 2;
   const auto vectors_of = [&](const auto& get) {
     return plane ? vectors<2>(n, [&](std::size_t i) { return Vec2(get(i).template head<2>()); })
                  : vectors<3>(n, get);

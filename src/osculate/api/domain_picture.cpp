@@ -17,7 +17,7 @@ using projection::SmoothPiece;
 using projection::SurfacePlace;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr int arc = 8;  ///< pieces of a wedge's arc
+constexpr int arc = 8;  ///< pieces of a right angle's arc, about
 constexpr DomainPlace no_place{nothing, nothing, nothing, nothing, nothing,
                                nothing, nothing, nothing, nothing, nothing};
 
@@ -115,11 +115,13 @@ void add_sheet(Sketch& sketch, const Composed<Dim>& s, std::size_t p, int cells,
 }
 
 template <int Dim>
-void add_sheets(Sketch& sketch, const Composed<Dim>& s, double length,
+void add_sheets(Sketch& sketch, const Composed<Dim>& s, const DomainPen& pen,
                 const std::vector<std::array<double, 2>>& even) {
   constexpr int places = 40000;  // of all pieces together
-  const int cells = std::min(projection::cells_of(s, places), Dim == 2 ? 100 : 40);
-  const auto bound = [&](double v) { return std::isnan(v) ? nothing : std::min(v, 2 * length); };
+  const int cells = std::min(projection::cells_of(s, places), Dim == 2 ? 100 : pen.cells);
+  const auto bound = [&](double v) {
+    return std::isnan(v) ? nothing : std::min(v, 2 * pen.length);
+  };
   for (std::size_t p = 0; p < s.pieces().size(); ++p) {
     const auto add = [&](DomainPart part, const auto& height) {
       add_sheet(sketch, s, p, cells, even[p], part, height);
@@ -178,7 +180,7 @@ geometry::SpaceCurveFrame side_frame(const Composed<3>& s, const Joint& joint, d
 /// One cross-section of a wedge: the edge's point, then the arc as far as the edge's own curvature
 /// and the drawn length let it; empty where there is none.
 std::vector<Index> wedge_section(Sketch& sketch, const Composed<3>& s, const Joint& joint, double t,
-                                 int side, double kink, double length) {
+                                 int side, double kink, double length, int pieces) {
   EdgeFaces e;
   const bool border = joint.piece[1] < 0;
   if (!(border ? border_face(s, joint, t, e) : edge_faces(s, joint, t, e))) return {};
@@ -188,8 +190,8 @@ std::vector<Index> wedge_section(Sketch& sketch, const Composed<3>& s, const Joi
   const geometry::SpaceCurveFrame frame = side_frame(s, joint, t);
   const Vec3 from = side * e.n[0], to = border ? Vec3(-e.into[0]) : Vec3(side * e.n[1]);
   std::vector<Index> section{sketch.point(r)};
-  for (int k = 0; k <= arc; ++k) {
-    const Vec3 v = projection::turned<3>(from, to, static_cast<double>(k) / arc);
+  for (int k = 0; k <= pieces; ++k) {
+    const Vec3 v = projection::turned<3>(from, to, static_cast<double>(k) / pieces);
     const double phi = std::atan2(v.dot(frame.beta), v.dot(frame.nu));
     section.push_back(sketch.point(r + std::min(length, projection::local_limit(frame, phi)) * v));
   }
@@ -197,14 +199,19 @@ std::vector<Index> wedge_section(Sketch& sketch, const Composed<3>& s, const Joi
 }
 
 void add_edges(Sketch& sketch, const Composed<3>& s, double kink, double length) {
-  constexpr int along = 8;
-  for (const Joint& joint : s.joints())
+  constexpr std::size_t fine = 200;  // joints that are drawn with all pieces
+  const bool coarse = s.joints().size() > fine;
+  const int along = coarse ? 1 : arc;
+  for (const Joint& joint : s.joints()) {
+    const std::array<double, 2> angles = joint_angles(s, joint);
+    const double widest = joint.piece[1] < 0 ? 1.6 : std::max(angles[0], -angles[1]);
+    const int pieces = coarse ? 1 + static_cast<int>(3 * widest / 1.6) : arc;
     for (const int side : {1, -1}) {
       const DomainPart part = side_of(DomainPart::edge_above, side);
       std::vector<Index> last;
       for (int i = 0; i <= along; ++i) {
         const double t = static_cast<double>(i) / along;
-        std::vector<Index> next = wedge_section(sketch, s, joint, t, side, kink, length);
+        std::vector<Index> next = wedge_section(sketch, s, joint, t, side, kink, length, pieces);
         if (!next.empty() && !last.empty()) {
           for (std::size_t k = 0; k + 1 < next.size(); ++k)  // first flank and arc
             sketch.cell(cell::CellType::quad4, {last[k], next[k], next[k + 1], last[k + 1]}, part);
@@ -213,11 +220,12 @@ void add_edges(Sketch& sketch, const Composed<3>& s, double kink, double length)
         last = std::move(next);
       }
     }
+  }
 }
 
 /// Flanks between neighbouring rays, and the part of a sphere that closes them.
-void add_cone(Sketch& sketch, const Vec3& r, std::vector<Vec3> rays, DomainPart part,
-              double length) {
+void add_cone(Sketch& sketch, const Vec3& r, std::vector<Vec3> rays, DomainPart part, double length,
+              int pieces) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& ray : rays) mean += ray;
   if (!(mean.norm() > 1e-9)) return;
@@ -230,8 +238,8 @@ void add_cone(Sketch& sketch, const Vec3& r, std::vector<Vec3> rays, DomainPart 
   for (std::size_t k = 0; k < rays.size(); ++k) {
     const Vec3 &a = rays[k], &b = rays[(k + 1) % rays.size()];
     Index last = sketch.point(r + length * a);
-    for (int i = 1; i <= arc; ++i) {
-      const Vec3 v = projection::turned<3>(a, b, static_cast<double>(i) / arc);
+    for (int i = 1; i <= pieces; ++i) {
+      const Vec3 v = projection::turned<3>(a, b, static_cast<double>(i) / pieces);
       const Index next = sketch.point(r + length * v);
       sketch.cell(cell::CellType::tri3, {apex, last, next}, part);
       sketch.cell(cell::CellType::tri3, {tip, last, next}, part);
@@ -243,6 +251,8 @@ void add_cone(Sketch& sketch, const Vec3& r, std::vector<Vec3> rays, DomainPart 
 void add_corners(Sketch&, const Composed<2>&, double, double) {}
 /// Cones of corners that are wider than a kink; those of the border one on each side.
 void add_corners(Sketch& sketch, const Composed<3>& s, double kink, double length) {
+  constexpr std::size_t fine = 200;
+  const int pieces = s.corners().size() > fine ? 1 : arc;
   for (const std::vector<projection::PieceCorner>& around : s.corners()) {
     const projection::CornerFan fan = corner_fan(s, around);
     std::vector<Vec3> rays = projection::corner_rays(fan.tangents);
@@ -255,7 +265,7 @@ void add_corners(Sketch& sketch, const Composed<3>& s, double kink, double lengt
         std::vector<Vec3> half = across;
         half.push_back(rays[k]);
         const int side = rays[k].dot(fan.normal) > 0 ? 1 : -1;
-        add_cone(sketch, fan.r, half, side_of(DomainPart::corner_above, side), length);
+        add_cone(sketch, fan.r, half, side_of(DomainPart::corner_above, side), length, pieces);
       }
       continue;
     }
@@ -265,25 +275,26 @@ void add_corners(Sketch& sketch, const Composed<3>& s, double kink, double lengt
       return (ray - mean.normalized()).norm() > narrow;
     });
     const int side = mean.dot(fan.normal) >= 0 ? 1 : -1;
-    if (wide) add_cone(sketch, fan.r, rays, side_of(DomainPart::corner_above, side), length);
+    if (wide)
+      add_cone(sketch, fan.r, rays, side_of(DomainPart::corner_above, side), length, pieces);
   }
 }
 
 }  // namespace
 
 template <int Dim>
-DomainPicture draw_domain(const Composed<Dim>& s, double kink, double length,
+DomainPicture draw_domain(const Composed<Dim>& s, const DomainPen& pen,
                           const std::vector<std::array<double, 2>>& even) {
   Sketch sketch;
-  add_sheets(sketch, s, length, even);
-  const double drawn = 0.25 * length;
-  add_edges(sketch, s, kink, drawn);
-  add_corners(sketch, s, kink, drawn);
+  add_sheets(sketch, s, pen, even);
+  const double drawn = 0.25 * pen.length;
+  add_edges(sketch, s, pen.kink, drawn);
+  add_corners(sketch, s, pen.kink, drawn);
   return sketch.take();
 }
-template DomainPicture draw_domain(const Composed<2>&, double, double,
+template DomainPicture draw_domain(const Composed<2>&, const DomainPen&,
                                    const std::vector<std::array<double, 2>>&);
-template DomainPicture draw_domain(const Composed<3>&, double, double,
+template DomainPicture draw_domain(const Composed<3>&, const DomainPen&,
                                    const std::vector<std::array<double, 2>>&);
 
 }  // namespace osculate::api

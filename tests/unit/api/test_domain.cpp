@@ -95,7 +95,7 @@ TEST(Domain, WarnsOfDistortedAndTwistedFacets) {
                  {cell::CellType::tri3, {3, 5, 0}}};
   const DomainReport r = survey_domain(projection::Target<3>(mesh), "twisted");
   ASSERT_EQ(r.warnings.size(), 2u);
-  EXPECT_NE(r.warnings[0].find("opposite orientation"), std::string::npos);
+  EXPECT_NE(r.warnings[0].find("facets of opposite orientation"), std::string::npos);
   EXPECT_NE(r.warnings[1].find("det a is close to zero"), std::string::npos);
 }
 
