@@ -93,7 +93,7 @@ struct ShellPoint {
 ///            least. In a flat cell with straight sides J sigma^12 of a constant stress is a
 ///            bilinear function over J, so the stress does no work on what the fit leaves out: the
 ///            forces of a constant state are those of the displacements, whatever the outline. In
-///            an affine cell the fit is the interpolation at 2 x 2 Gauss points (MITC9)
+///            a flat affine cell the fit is the interpolation at 2 x 2 Gauss points (MITC9)
 /// Source     orthogonality to constant stress: Simo & Hughes 1986
 /// Tested by  tests/unit/solid/test_solid_shell_patch.cpp
 struct ShellCell {
