@@ -265,6 +265,7 @@ io::ScenePanel features(const api::DomainReport& r, const std::string& caption, 
 
 void draw_the_cube(CaseResult& out) {
   api::DomainOptions options;
+  options.samples = 400;
   options.length = 1.4;
   options.cells = 10;
   const api::DomainReport r = api::survey_domain(Target<3>(unit_box()), "cube", options);
@@ -280,6 +281,7 @@ void draw_the_cube(CaseResult& out) {
 /// The rim of a bore: its wedge ends at the axis, the centre of curvature of the edge.
 void draw_the_rim(CaseResult& out) {
   api::DomainOptions options;
+  options.samples = 400;
   options.length = 6;
   options.cells = 4;
   options.kink = 2;  // between the quadratic facets round the bore
