@@ -1,6 +1,7 @@
 #include "osculate/io/atomic_file.hpp"
 
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -18,23 +19,33 @@ WriteError::WriteError(std::string path, const std::string& action, int error_nu
       path_(std::move(path)),
       error_number_(error_number) {}
 
-AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), part_(path_ + ".part") {
+AtomicFile::AtomicFile(std::string path) : path_(std::move(path)), place_(path_) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path_, error);
+  if (fs::is_directory(status)) throw WriteError(path_, "cannot write", EISDIR);
+  const bool replaceable = !fs::exists(status) || fs::is_regular_file(status);
+  if (fs::is_symlink(fs::symlink_status(path_, error)) && fs::is_regular_file(status)) {
+    const fs::path target = fs::canonical(path_, error);
+    if (!error) place_ = target.string();
+  }
+  part_ = replaceable ? place_ + ".part" : std::string{};
   errno = 0;
-  file_ = std::fopen(part_.c_str(), "wb");
+  file_ = std::fopen(replaceable ? part_.c_str() : path_.c_str(), "wb");
   if (file_ == nullptr) throw WriteError(path_, "cannot write", errno);
 }
 
 AtomicFile::~AtomicFile() {
   if (file_ == nullptr) return;
   std::fclose(file_);
-  std::remove(part_.c_str());
+  if (!part_.empty()) std::remove(part_.c_str());
 }
 
 void AtomicFile::fail(const std::string& action) {
   const int error_number = errno;
   if (file_ != nullptr) std::fclose(file_);
   file_ = nullptr;
-  std::remove(part_.c_str());
+  if (!part_.empty()) std::remove(part_.c_str());
   throw WriteError(path_, action, error_number);
 }
 
@@ -50,7 +61,8 @@ void AtomicFile::commit() {
   if (std::fflush(file_) != 0) fail("cannot write");
   std::FILE* const file = std::exchange(file_, nullptr);
   if (std::fclose(file) != 0) fail("cannot write");
-  if (std::rename(part_.c_str(), path_.c_str()) != 0) fail("cannot replace");
+  if (part_.empty()) return;
+  if (std::rename(part_.c_str(), place_.c_str()) != 0) fail("cannot replace");
 }
 
 void write_file(const std::string& path, std::string_view content) {

@@ -20,7 +20,10 @@ class WriteError : public std::runtime_error {
 };
 
 /// Writes to `path.part` and renames it in the end, so that `path` is either the old or the whole
-/// new content at any time. Without commit() the partial file is removed.
+/// new content at any time. Without commit() the partial file is removed. A link stays a link: the
+/// file it leads to is replaced. A device or pipe is never replaced but written to directly.
+///
+/// Tested by  tests/unit/io/test_atomic_file.cpp
 class AtomicFile {
  public:
   explicit AtomicFile(std::string path);
@@ -34,7 +37,8 @@ class AtomicFile {
  private:
   [[noreturn]] void fail(const std::string& action);
   std::string path_;
-  std::string part_;
+  std::string place_;  ///< what is replaced: `path`, or where that link leads to
+  std::string part_;   ///< empty: written to directly
   std::FILE* file_ = nullptr;
 };
 
