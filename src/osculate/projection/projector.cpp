@@ -335,12 +335,18 @@ ClosestPoint<Dim> conclude(const Impl& impl, const Vec<Dim>& point, Mode mode, d
   return out;
 }
 
+/// Squared distances of points farther than that are beyond the range of doubles.
+template <int Dim>
+bool can_be_asked(const Vec<Dim>& point) {
+  return point.allFinite() && point.cwiseAbs().maxCoeff() <= farthest_coordinate;
+}
+
 }  // namespace
 
 template <int Dim>
 ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) const {
   const Impl& impl = *impl_;
-  if (!point.allFinite()) return {};
+  if (!can_be_asked<Dim>(point)) return {};
   if (impl.analytic) return *shape_answer(std::get<Shape<Dim>>(impl.target), point);
   const double tolerance = tolerance_at<Dim>(impl, point);
   NearestSink<Dim> nearest{point};
@@ -353,7 +359,8 @@ template <int Dim>
 ClosestPoint<Dim> Projector<Dim>::follow(const Vec<Dim>& point, const ClosestPoint<Dim>& last,
                                          Mode mode) const {
   const Impl& impl = *impl_;
-  if (!point.allFinite() || impl.analytic || !last.point.allFinite()) return closest(point, mode);
+  if (!can_be_asked<Dim>(point) || impl.analytic || !last.point.allFinite())
+    return closest(point, mode);
   const double tolerance = tolerance_at<Dim>(impl, point);
   NearestSink<Dim> nearest{point};
   impl.trees.inner.tree.for_each_within(last.point, 1e-9 * impl.size, [&](Index k) {

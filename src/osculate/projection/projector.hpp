@@ -15,8 +15,10 @@ enum class Status : std::uint8_t {
   ambiguous,       ///< another place is as near: the margin is below 1e-9 of the surface's size
   outside_domain,  ///< at or beyond the centre of curvature, 1 - zeta k <= 0: another place, or
                    ///< none, is as good locally
-  invalid          ///< NaN or infinite input
+  invalid          ///< NaN or infinite input, or a coordinate beyond farthest_coordinate
 };
+/// Squares of larger ones are beyond the range of doubles.
+inline constexpr double farthest_coordinate = 1e150;
 [[nodiscard]] std::string_view name(Status status);
 [[nodiscard]] std::string_view name(Feature feature);
 

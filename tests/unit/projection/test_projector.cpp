@@ -252,6 +252,21 @@ std::vector<Degenerate> degenerate_meshes() {
 }
 
 /// Never a hang, a NaN or a farther point than a dense sample of the facet.
+TEST(Projector, BeyondTheRangeOfSquaresPointsAreInvalidAndNotWrong) {
+  const Projector<3> sphere{Target<3>(geometry::Surface(geometry::Sphere{}))};
+  FacetMesh<3> mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.facets = {{cell::CellType::tri3, {0, 1, 2}}};
+  const Projector<3> triangle{Target<3>(mesh)};
+  for (const Projector<3>* const projector : {&sphere, &triangle}) {
+    EXPECT_EQ(projector->closest({1e151, 0, 0}).status, Status::invalid);
+    EXPECT_EQ(projector->closest({0, -1e308, 0}, Mode::fast).status, Status::invalid);
+    const ClosestPoint<3> far = projector->closest({0, 0, 1e150});
+    EXPECT_EQ(far.status, Status::projected);
+    EXPECT_NEAR(far.distance / 1e150, 1, 1e-12);
+  }
+}
+
 TEST(Projector, DegenerateFacetsEndInANamedAnswer) {
   std::mt19937 generator(17);
   std::uniform_real_distribution<double> u(-1, 2);
