@@ -165,12 +165,20 @@ void add_corners(const Composed<3>& s, int side, Probes<3>& out) {
 }
 void add_corners(const Composed<2>&, int, Probes<2>&) {}
 
+void add_apex(const Composed<2>&, int, Probes<2>&) {}
+/// The point of a whole cone: a corner that opens outwards.
+void add_apex(const Composed<3>& s, int side, Probes<3>& out) {
+  const auto* surface = std::get_if<geometry::Surface>(&s.target());
+  const auto* cone = surface ? std::get_if<geometry::Cone>(surface) : nullptr;
+  if (cone && cone->from == 0 && (side > 0) == cone->inside) set_kink(cone->apex, out);
+}
+
 /// Shrinks balls that rest on places until nothing of the surface is inside.
 template <int Dim>
 class BallPress {
  public:
   BallPress(const Composed<Dim>& s, int side, double kink)
-      : surface_(s), side_(side), slack_(std::max(1e-9, 2 * kink * kink)) {}
+      : surface_(s), side_(side), kink_(kink) {}
 
   /// The radius at the probe if it is below `radius`, else `radius`; sets `other` and turns the
   /// direction of a probe on an edge or corner to where the ball is smallest.
@@ -188,13 +196,21 @@ class BallPress {
     return radius;
   }
 
-  /// Radius of the ball that rests on the probe and has q on it.
-  double ball(Probe<Dim>& p, const Vec<Dim>& q) const {
+  /// Radius of the ball that rests on the probe and has q on it. A place nearby may stand out by
+  /// what the kink of a joint that counts as smooth raises it.
+  double resting(const Probe<Dim>& p, const Vec<Dim>& q) const {
     const Vec<Dim> d = q - p.r;
-    const double distance = d.norm(), height = d.dot(p.v);
+    const double distance = d.norm();
+    double height = d.dot(p.v);
     if (!(distance > 1e-5 * surface_.size()) || !(height > 1e-9 * distance)) return infinite;
-    aim(p, d);
-    return distance * distance / (2 * d.dot(p.v));
+    if (4 * height < distance) height -= kink_ * distance;  // closer than half the radius
+    return height > 1e-9 * distance ? distance * distance / (2 * height) : infinite;
+  }
+
+  /// The same after turning the direction of a probe on an edge or corner.
+  double ball(Probe<Dim>& p, const Vec<Dim>& q) const {
+    if (resting(p, q) < infinite) aim(p, Vec<Dim>(q - p.r));
+    return resting(p, q);
   }
 
  private:
@@ -212,7 +228,7 @@ class BallPress {
         tangents.push_back(begins ? r1 : Vec2(-r1));
       }
       const bool border = joint.piece[1] < 0;
-      if (!in_normal_cone<2>(tangents, v) || (border && wrong_side(p, joint, v))) return;
+      if (!in_normal_cone<2>(tangents, v) || (border && wrong_side(joint, v))) return;
     } else if (p.rest == Rest::joint) {
       const Joint& joint = surface_.joints()[static_cast<std::size_t>(p.index)];
       EdgeFaces e;
@@ -231,16 +247,16 @@ class BallPress {
     if (length > 0) p.v = v / length;
   }
 
-  [[nodiscard]] bool wrong_side(const Probe<2>& p, const Joint& joint, const Vec2& v) const {
+  [[nodiscard]] bool wrong_side(const Joint& joint, const Vec2& v) const {
     const SmoothPiece& piece = surface_.pieces()[static_cast<std::size_t>(joint.piece[0])];
     const Vec2 n = surface_.place(joint.piece[0], joint.side[0] == 0 ? piece.lo : piece.hi).n;
-    (void)p;
     return side_ * v.dot(n) < 0;
   }
 
   const Composed<Dim>& surface_;
   int side_;
-  double slack_;  ///< of the radius: what a smooth joint's kink may stick into a ball
+  double kink_;
+  static constexpr double slack_ = 1e-9;  ///< of the radius
 };
 
 /// Moves a probe to another place of its face or edge; false where there is none.
@@ -295,17 +311,13 @@ void press_on_cloud(const BallPress<Dim>& press, std::vector<Probe<Dim>>& probes
   constexpr std::size_t most = 1500;
   const std::size_t stride = probes.size() / most + 1;
   for (Probe<Dim>& p : probes) {
-    Vec<Dim> other = p.r;
-    const Vec<Dim> v = p.v;
     for (std::size_t k = 0; k < probes.size(); k += stride) {
-      p.v = v;
-      const double radius = press.ball(p, probes[k].r);
+      const double radius = press.resting(p, probes[k].r);
       if (!(radius < p.radius)) continue;
       p.radius = radius;
-      other = probes[k].r;
+      p.other = probes[k].r;
     }
-    p.v = v;
-    p.other = other;
+    if (p.radius < infinite) p.radius = std::min(p.radius, press.ball(p, p.other));
   }
   std::stable_sort(probes.begin(), probes.end(),
                    [](const Probe<Dim>& a, const Probe<Dim>& b) { return a.radius < b.radius; });
@@ -335,6 +347,8 @@ SideLimit<Dim> smallest_ball(const Composed<Dim>& s, int side, const ReachOption
   for (std::size_t i = 0; i < std::min(refined, found.size()); ++i) {
     Probe<Dim>& p = found[found.size() - 1 - i];
     refine(s, press, side, p);
+    const bool close = (p.other - p.r).norm() < p.radius;  // the bend itself, but for rounding
+    if (close && p.radius > (1 - 1e-6) * limit.value) continue;
     if (p.radius < out.value) out = {p.radius, Limit::bottleneck, p.r, p.other};
   }
   return out;
@@ -366,13 +380,16 @@ Reach<Dim> reach(const Composed<Dim>& surface, const ReachOptions& options) {
     add_faces(surface, side, cells, probes);
     add_joints(surface, side, options.kink, cells, probes);
     add_corners(surface, side, probes);
+    add_apex(surface, side, probes);
     to.bottleneck = smallest_bottleneck<Dim>(surface, side, face_samples(probes.list));
     if (probes.kink.limit == Limit::kink) {
       to.reach = probes.kink;
       continue;
     }
     to.reach = smallest_ball(surface, side, options, to.curvature, probes.list);
-    if (to.reach.limit == Limit::bottleneck && to.reach.value < to.bottleneck.value)
+    const bool opposite = (to.reach.other - to.reach.at).norm() > 1.999 * to.reach.value;
+    if (to.reach.limit == Limit::bottleneck && opposite &&
+        to.reach.value < (1 - 1e-9) * to.bottleneck.value)
       to.bottleneck = to.reach;
     if (to.bottleneck.value <= to.reach.value) to.reach = to.bottleneck;
   }

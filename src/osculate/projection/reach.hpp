@@ -12,7 +12,7 @@ namespace osculate::projection {
 enum class Limit : std::uint8_t {
   none,        ///< nothing: without end
   curvature,   ///< a centre of curvature: 1/k
-  bottleneck,  ///< another part of the surface: half the way to it
+  bottleneck,  ///< another part of the surface; half the way to it where they face each other
   kink         ///< a sharp edge or corner that opens to the other side: zero
 };
 [[nodiscard]] std::string_view name(Limit limit);
@@ -57,9 +57,10 @@ struct ReachOptions {
 ///            the best samples are refined by moving their place. Bottlenecks: pairs of samples
 ///            that face each other, refined by Gauss and Newton's method (faces only; pairs with
 ///            edges and corners are found where they limit the reach)
-/// Returns    every value is attained at the places given, to about 2 kink^2 of itself, so that the
+/// Returns    every value is attained at the places given, to about 1e-8 of itself, so that the
 ///            true reach is not larger. That it is not smaller is sampled, not proved: a feature
-///            finer than the distance of the samples can be missed
+///            finer than the distance of the samples can be missed. Joints with an angle below
+///            `kink` are taken as smooth: they may hide up to kink/2 of the reach
 /// Sign       an edge that is convex by more than `kink` makes the reach below zero, a re-entrant
 ///            one the reach above; below and above are opposite for the two sides of a border
 /// Tested by  tests/unit/projection/test_reach.cpp

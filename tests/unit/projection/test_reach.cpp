@@ -189,6 +189,34 @@ TEST(Reach, AnalyticSurfaces) {
   EXPECT_NEAR(cut.above.reach.value, 0.8 * std::tan(0.6) / std::sin(0.6), 1e-6);
 }
 
+TEST(Reach, RoundShapesAreBoundedByTheirBendOrByTheOppositeSide) {
+  const Reach<2> circle = reach_of(geometry::Circle{Vec2(1, 2), 2});
+  EXPECT_NEAR(circle.below.curvature.value, 2, 1e-12);
+  EXPECT_NEAR(circle.below.reach.value, 2, 1e-9);
+  EXPECT_NEAR((circle.below.bottleneck.at - circle.below.bottleneck.other).norm(), 4, 1e-9);
+  const Reach<2> arc = reach_of(geometry::Arc{Vec2(0, 0), 2, 0, 0.05, false});
+  EXPECT_EQ(arc.below.reach.limit, Limit::curvature);
+  EXPECT_EQ(arc.below.bottleneck.limit, Limit::none);
+  const Reach<3> cone = reach_of(geometry::Cone{.half_angle = 0.5, .to = 2});
+  EXPECT_EQ(cone.below.reach.limit, Limit::kink);
+  EXPECT_EQ(cone.below.reach.value, 0);
+  EXPECT_EQ(cone.above.reach.value, infinite);
+}
+
+TEST(Reach, KinksThatCountAsSmoothDoNotCutIt) {
+  FacetMesh<2> mesh;  // a circle by 16 parabolas, seen from inside: kinks of 0.0037
+  for (int i = 0; i < 32; ++i)
+    mesh.nodes.emplace_back(std::cos(std::numbers::pi * i / 16),
+                            std::sin(std::numbers::pi * i / 16));
+  for (Index i = 0; i < 16; ++i)
+    mesh.facets.push_back({cell::CellType::line3, {2 * i, (2 * i + 2) % 32, 2 * i + 1}});
+  const Composed<2> curve{Target<2>(mesh)};
+  EXPECT_EQ(reach(curve).above.reach.limit, Limit::kink);
+  const Reach<2> smooth = reach(curve, {.kink = 0.01});
+  EXPECT_NEAR(smooth.above.curvature.value, 0.9904, 1e-4);
+  EXPECT_NEAR(smooth.above.reach.value, smooth.above.curvature.value, 1e-9);
+}
+
 TEST(Reach, CubeOutsideAndInside) {
   const Reach<3> r = reach(Composed<3>(box(Vec3(1, 2, 0.5))));
   EXPECT_EQ(r.above.reach.value, infinite);
