@@ -310,13 +310,15 @@ template <int Dim>
 void press_on_cloud(const BallPress<Dim>& press, std::vector<Probe<Dim>>& probes) {
   constexpr std::size_t most = 1500;
   const std::size_t stride = probes.size() / most + 1;
-  for (Probe<Dim>& p : probes)
+  for (Probe<Dim>& p : probes) {
     for (std::size_t k = 0; k < probes.size(); k += stride) {
       const double radius = press.resting(p, probes[k].r);
       if (!(radius < p.radius)) continue;
       p.radius = radius;
       p.other = probes[k].r;
     }
+    if (p.radius < infinite) p.radius = std::min(p.radius, press.ball(p, p.other));
+  }
   std::stable_sort(probes.begin(), probes.end(),
                    [](const Probe<Dim>& a, const Probe<Dim>& b) { return a.radius < b.radius; });
 }
