@@ -17,6 +17,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult hertz_sphere(const CaseContext& context);
 [[nodiscard]] CaseResult hyperbolic_surface(const CaseContext& context);
 [[nodiscard]] CaseResult incline(const CaseContext& context);
+[[nodiscard]] CaseResult crossed_edges(const CaseContext& context);
 [[nodiscard]] CaseResult drag_in_space(const CaseContext& context);
 [[nodiscard]] CaseResult critical_displacement(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_line(const CaseContext& context);

@@ -10,7 +10,7 @@ namespace osculate::api {
 namespace {
 
 struct GapFacts {
-  int found = 0, touching = 0, overlapping = 0;
+  int found = 0, touching = 0, overlapping = 0, crossings = 0;
   double smallest = 0, largest = 0;
 };
 
@@ -18,6 +18,10 @@ template <int Dim>
 GapFacts gap_facts(const pairing::PairState<Dim>& state) {
   GapFacts facts;
   for (const contact::PointHistory<Dim>& point : state.points) {
+    if (point.edge >= 0) {
+      ++facts.crossings;
+      continue;
+    }
     if (point.facet < 0) continue;
     facts.smallest = facts.found ? std::min(facts.smallest, point.gap) : point.gap;
     facts.largest = facts.found ? std::max(facts.largest, point.gap) : point.gap;
@@ -45,15 +49,24 @@ CheckReport check_built(const std::string& path, const deck::BasicBuilt<Dim>& bu
     report.text += fmt::format(
         "{:<13} {:<16} {} of {} slave nodes face the master, {} touch, {} overlap, gap {:.4g} to "
         "{:.4g}\n",
-        "Initial gaps", m.pairs[p].name, g.found, state.pairs[p].points.size(), g.touching,
-        g.overlapping, g.smallest, g.largest);
+        "Initial gaps", m.pairs[p].name, g.found, m.pairs[p].definition.slave.nodes.size(),
+        g.touching, g.overlapping, g.smallest, g.largest);
+    const pairing::EdgeContact& edges = m.pairs[p].definition.edges;
+    if (edges.on)
+      report.text += fmt::format("{:<13} {:<16} {} of the master, {} of the slave, {} crossings\n",
+                                 "Sharp edges", m.pairs[p].name, edges.master.size(),
+                                 edges.slave.size(), g.crossings);
     pairs.push_back({{"name", m.pairs[p].name},
-                     {"points", state.pairs[p].points.size()},
+                     {"points", m.pairs[p].definition.slave.nodes.size()},
                      {"facing", g.found},
                      {"touching", g.touching},
                      {"overlapping", g.overlapping},
                      {"smallest_gap", g.smallest},
                      {"largest_gap", g.largest}});
+    if (edges.on)
+      pairs.back()["edges"] = {{"master", edges.master.size()},
+                               {"slave", edges.slave.size()},
+                               {"crossings", g.crossings}};
   }
   for (const std::string& warning : built.warnings) report.text += "warning: " + warning + "\n";
   report.text += "the model file is valid\n";

@@ -72,6 +72,22 @@ std::vector<mesh::Block> slave_cells(const Facets& facets, const std::map<Index,
   return list;
 }
 
+/// Crossings of edges as single points.
+void add_crossings(const pairing::PairDefinition<3>& pair, const std::vector<Vec3>& reference,
+                   const std::vector<Vec3>& x, const std::vector<model::CrossingSite>& crossings,
+                   std::vector<Vec3>& points, std::vector<Vec3>& u,
+                   std::vector<mesh::Block>& cells) {
+  if (crossings.empty()) return;
+  mesh::Block block{cell::CellType::point1, {}};
+  for (const model::CrossingSite& site : crossings) {
+    const pairing::SharpEdge& edge = pair.edges.slave[static_cast<std::size_t>(site.edge)];
+    block.connectivity.push_back(static_cast<Index>(points.size()));
+    points.push_back(pairing::crossing_place(edge, site.xi, reference));
+    u.emplace_back(pairing::crossing_place(edge, site.xi, x) - points.back());
+  }
+  cells.push_back(std::move(block));
+}
+
 template <int Dim>
 std::vector<io::Field> contact_columns(const model::BasicContactFields<Dim>& c) {
   using io::scalar_field;
@@ -131,8 +147,11 @@ void FieldFiles<Dim>::write_contact(const model::BasicSystem<Dim>& system,
     points.push_back(in_space(m.reference[static_cast<std::size_t>(node)]));
     u.push_back(state.u.template segment<Dim>(Dim * node));
   }
-  const std::vector<mesh::Block> cells =
+  std::vector<mesh::Block> cells =
       slave_cells(m.pairs[pair].definition.slave.boundary.facets, local);
+  if constexpr (Dim == 3)
+    add_crossings(m.pairs[pair].definition, m.reference, system.positions(state), c.crossings,
+                  points, u, cells);
   std::vector<io::Field> fields = contact_columns(c);
   fields.insert(fields.begin(), vector_field("U", u));
   io::write_vtu(folder_ + "/" + file, {points, cells, fields, {}}, compress_);

@@ -182,10 +182,13 @@ std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
     const std::string friction = d.friction ? fmt::format("Coulomb {:g} (penalty {:g})",
                                                           d.friction->mu, d.friction->stiffness)
                                             : std::string("frictionless");
-    facts.push_back(
-        {"Contact", pair.name,
-         fmt::format("{} slave nodes on {} facets, penalty {:g}, {}, {}", d.slave.nodes.size(),
-                     d.master.facets.size(), d.normal.stiffness, friction, weight_name(d.weight))});
+    const std::string edges = d.edges.on ? fmt::format(", {} sharp edges on {}",
+                                                       d.edges.slave.size(), d.edges.master.size())
+                                         : std::string{};
+    facts.push_back({"Contact", pair.name,
+                     fmt::format("{} slave nodes on {} facets{}, penalty {:g}, {}, {}",
+                                 d.slave.nodes.size(), d.master.facets.size(), edges,
+                                 d.normal.stiffness, friction, weight_name(d.weight))});
   }
   for (const model::Step& step : m.steps)
     facts.push_back({"Steps", step.name, fmt::format("{} increments", step.increments)});

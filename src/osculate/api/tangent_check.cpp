@@ -78,6 +78,24 @@ struct Probe {
   }
 };
 
+/// Adds `push` to the displacement of the slave's edges that cross edges of the master nearby.
+void push_edges(const Probe<3>& probe, const pairing::PairDefinition<3>& pair,
+                std::span<const pairing::PointResult<3>> crossings, double depth,
+                Eigen::VectorXd& d) {
+  for (const pairing::PointResult<3>& p : crossings) {
+    if (!(std::abs(p.gap) < 0.1 * probe.size)) continue;
+    const Vec3 push = -(p.gap + depth) * p.normal;
+    const pairing::SharpEdge& edge = pair.edges.slave[static_cast<std::size_t>(p.history.edge)];
+    for (int n = 0; n < edge.count; ++n)
+      for (int k = 0; k < 3; ++k) {
+        const model::Dof dof =
+            probe.system.dofs().node_dof(edge.nodes[static_cast<std::size_t>(n)], k);
+        const Index u = probe.system.dofs().unknown_of(dof);
+        if (u >= 0) d[u] = push[k];
+      }
+  }
+}
+
 /// Displacement that pushes near slave points into the master.
 template <int Dim>
 void close_contact(Probe<Dim>& probe, const model::BasicModel<Dim>& m) {
@@ -86,7 +104,8 @@ void close_contact(Probe<Dim>& probe, const model::BasicModel<Dim>& m) {
   Eigen::VectorXd d = Eigen::VectorXd::Zero(probe.system.dofs().unknowns());
   for (std::size_t p = 0; p < m.pairs.size(); ++p) {
     const auto& points = probe.system.contact()[p].points;
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t nodes = m.pairs[p].definition.slave.nodes.size();
+    for (std::size_t i = 0; i < nodes; ++i) {
       if (!(std::abs(points[i].gap) < 0.1 * probe.size)) continue;
       Vec<Dim> push = -(points[i].gap + depth) * points[i].normal;
       const auto& law = m.pairs[p].definition.friction;
@@ -99,6 +118,8 @@ void close_contact(Probe<Dim>& probe, const model::BasicModel<Dim>& m) {
         if (u >= 0) d[u] = push[k];
       }
     }
+    if constexpr (Dim == 3)
+      push_edges(probe, m.pairs[p].definition, std::span(points).subspan(nodes), depth, d);
   }
   probe.base = probe.moved(d, 1.0);
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "osculate/deck/build_context.hpp"
 #include "osculate/deck/parse.hpp"
@@ -179,6 +180,32 @@ void check_pair(const BuildContext<Dim>& c, const Contact& contact,
     }
 }
 
+void set_edges(BuildContext<2>&, const Contact&, pairing::PairDefinition<2>&) {}
+void set_edges(BuildContext<3>&, const Contact& contact, pairing::PairDefinition<3>& pair) {
+  if (!contact.edges) return;
+  if (pair.slave.boundary.facets.empty())
+    throw core::InputError(contact.edges->mark,
+                           fmt::format("the slave '{}' is a set of points: only facets have edges",
+                                       contact.slave.value));
+  pair.edges.on = true;
+  pair.edges.angle = contact.edges->value * std::numbers::pi / 180;
+}
+
+/// Edges were asked for, and one side has none.
+void warn_of_smooth(BuildContext<2>&, const Contact&, const pairing::PairDefinition<2>&) {}
+void warn_of_smooth(BuildContext<3>& c, const Contact& contact,
+                    const pairing::PairDefinition<3>& pair) {
+  if (!pair.edges.on) return;
+  const auto warn = [&](const char* side, const Name& name) {
+    c.built.warnings.push_back(fmt::format(
+        "contact '{}': the {} '{}' has no convex edge with more than {:g} degrees between its "
+        "facets, so edges: has no effect",
+        contact.name.value, side, name.value, contact.edges->value));
+  };
+  if (pair.edges.master.empty()) warn("master", contact.master);
+  if (pair.edges.slave.empty()) warn("slave", contact.slave);
+}
+
 /// The areas of the nodes of tri6 and quad8 facets are positive, but not those of a uniform
 /// pressure.
 void warn_of_scatter(BuildContext<2>&, const Contact&, const pairing::PairDefinition<2>&) {}
@@ -207,6 +234,7 @@ void build_contact(BuildContext<Dim>& c) {
     pair.slave = slave_of(c, contact);
     check_pair(c, contact, pair);
     set_forms(contact, pair);
+    set_edges(c, contact, pair);
     pair.area = area_rule(c, pair);
     try {
       pairing::prepare(pair, c.model().reference);
@@ -214,6 +242,7 @@ void build_contact(BuildContext<Dim>& c) {
       throw core::InputError(contact.slave.mark, error.what());
     }
     warn_of_scatter(c, contact, pair);
+    warn_of_smooth(c, contact, pair);
     c.model().pairs.push_back(std::move(out));
   }
 }

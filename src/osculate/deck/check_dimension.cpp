@@ -96,6 +96,8 @@ void check_dimension(const Description& d) {
   const int dim = dimension(d);
   for (const Rigid& rigid : d.rigid) check_rigid(rigid, dim);
   if (dim == 3) return;
+  for (const Contact& contact : d.contact)
+    if (contact.edges) throw only_in_space(contact.edges->mark, "edges");
   for (const Equation& equation : d.equations)
     for (const EquationTerm& term : equation.terms) refuse(term.of, term.on.mark);
   for (const Equal& equal : d.equal) refuse(equal.of, equal.mark);

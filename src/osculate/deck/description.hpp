@@ -174,6 +174,7 @@ struct Contact {
   Marked<Tangent> tangent;
   Marked<HistoryKind> history;
   std::optional<Number> search_depth;
+  std::optional<Number> edges;  ///< angle [degrees] of edges that are sharp; absent: without edges
 };
 
 // ---- loading ----------------------------------------------------------------------------------

@@ -99,6 +99,19 @@ Spec history_spec() {
       .such_as("continuous");
 }
 
+Spec edges_spec() {
+  const Spec angle = number("Edges are sharp where the normals of their facets differ by more.")
+                         .in("degrees")
+                         .above(5)
+                         .below(180)
+                         .otherwise("30")
+                         .such_as("40");
+  return either("In space: contact also where a sharp edge of the slave crosses one of the master.",
+                {boolean("Switches it on."), map("Switches it on.", {optional("angle", angle)})})
+      .otherwise("false")
+      .such_as("true");
+}
+
 }  // namespace
 
 Spec contact_spec() {
@@ -122,7 +135,7 @@ Spec contact_spec() {
                   optional("friction", friction_spec()),
                   optional("enforcement", enforcement_spec()), optional("weight", weight_spec()),
                   optional("residual", residual_spec()), optional("tangent", tangent_spec()),
-                  optional("history", history_spec()),
+                  optional("history", history_spec()), optional("edges", edges_spec()),
                   optional("search",
                            map("Where contact is looked for.", {optional("depth", depth)}))}))
       .otherwise("[]")

@@ -16,6 +16,13 @@ std::optional<CoulombFriction> friction_of(const Value& v) {
   return CoulombFriction{number_of(coulomb.at("mu")), number_of(coulomb.at("penalty"))};
 }
 
+std::optional<Number> edges_of(const Value& v) {
+  constexpr double usual = 30;
+  if (v.alternative == 1) return number_of(v.at("angle"));
+  if (v.code == 0) return std::nullopt;
+  return Number{usual, v.mark};
+}
+
 Contact contact_of(const Value& v) {
   Contact c;
   c.name = name_of(v.at("name"));
@@ -29,6 +36,7 @@ Contact contact_of(const Value& v) {
   c.residual = word_of<Residual>(v, "residual");
   c.tangent = {tangent_of(v.at("tangent")), v.at("tangent").mark};
   c.history = word_of<HistoryKind>(v, "history");
+  c.edges = edges_of(v.at("edges"));
   if (const Value* const search = v.find("search")) c.search_depth = number_if(*search, "depth");
   return c;
 }

@@ -152,7 +152,10 @@ BasicContactFields<Dim> contact_fields(const BasicSystem<Dim>& system, const Bas
   BasicContactFields<Dim> fields;
   fields.nodes = model.pairs[pair].definition.slave.nodes;
   for (const pairing::PointResult<Dim>& p : system.contact()[pair].points) {
-    const bool found = p.history.facet >= 0;
+    const contact::PointHistory<Dim>& h = p.history;
+    const bool found = h.facet >= 0;
+    if constexpr (Dim == 3)
+      if (h.edge >= 0) fields.crossings.push_back({h.edge, h.flipped ? -h.xi[1] : h.xi[1]});
     fields.copen.push_back(found ? p.gap : 0.0);
     fields.cpress.push_back(-p.normal_traction);
     add_shear(p, fields);

@@ -5,6 +5,7 @@
 
 #include "osculate/contact/history.hpp"
 #include "osculate/contact/point_terms.hpp"
+#include "osculate/pairing/edges.hpp"
 #include "osculate/pairing/place.hpp"
 #include "osculate/pairing/slave_side.hpp"
 #include "osculate/pairing/trial.hpp"
@@ -32,10 +33,11 @@ struct PairDefinition {
   contact::TangentForm tangent;
   AreaRule area;
   double depth = std::numeric_limits<double>::infinity();  ///< deeper points are not in contact
-  std::vector<double> reference_areas;                     ///< filled by `prepare`
+  EdgeContact edges;                    ///< in space: also where sharp edges cross
+  std::vector<double> reference_areas;  ///< filled by `prepare`
 };
 
-/// Committed history of a pair, one entry per slave node.
+/// Committed history of a pair: one entry per slave node, then one per crossing of edges.
 template <int Dim>
 struct PairState {
   std::vector<contact::PointHistory<Dim>> points;
@@ -46,6 +48,7 @@ template <int Dim>
 struct AssumedBranch {
   contact::Branch branch = contact::Branch::none;
   Vec<Dim> direction = Vec<Dim>::Zero();  ///< unit vector of the shear traction while slipping
+  std::array<Index, 2> edges{-1, -1};     ///< of a crossing: the slave's and the master's
 };
 
 /// Result of one contact point, for output and for the next history.
@@ -107,8 +110,9 @@ struct PairSeconds {
 /// call.
 template <int Dim>
 struct PairEvaluation {
-  std::vector<PointResult<Dim>> points;
+  std::vector<PointResult<Dim>> points;   ///< one per slave node, then one per crossing of edges
   std::vector<ContactBlock<Dim>> blocks;  ///< one per point, `count == 0` where open
+  EdgeBuffers edges;
   std::vector<double> areas;
   std::vector<std::vector<NodeGradient<Dim>>> area_gradients;
   std::vector<Vec<Dim>> normals;

@@ -5,6 +5,8 @@
 #include <map>
 #include <numeric>
 
+#include "osculate/cell/line_shape.hpp"
+
 namespace osculate::pairing {
 
 SurfaceFacet surface_facet(cell::CellType type, std::span<const Index> nodes) {
@@ -74,7 +76,30 @@ void connect(FacetSurface& surface) {
     surface.facets[f].piece = root(parent, static_cast<Index>(f));
 }
 
+namespace {
+
+/// Shape functions of rho(xi) - s(eta).
+cell::FacetShape difference_shape(const SurfaceFacet& facet, const Vec2& xi) {
+  const double way = facet.flipped ? -1.0 : 1.0;
+  const cell::LineShape r = cell::lagrange_line(facet.difference[0], xi[0]),
+                        s = cell::lagrange_line(facet.difference[1], way * xi[1]);
+  constexpr std::array<std::size_t, 4> along_first{0, 1, 3, 6}, along_second{0, 2, 5, 9};
+  cell::FacetShape shape;
+  shape.count = facet.count;
+  const auto first = static_cast<std::size_t>(r.count);
+  double sign = -1;
+  for (std::size_t d = 0; d < 4; ++d, sign *= way) {
+    for (std::size_t k = 0; k < first; ++k) shape.n[along_first[d]][k] = r.n[d][k];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(s.count); ++k)
+      shape.n[along_second[d]][first + k] = sign * s.n[d][k];
+  }
+  return shape;
+}
+
+}  // namespace
+
 cell::FacetShape facet_shape(const SurfaceFacet& facet, const Vec2& xi) {
+  if (facet.difference[0] > 0) return difference_shape(facet, xi);
   if (!facet.shape) return cell::facet_shape(facet.type, xi);
   const geometry::SurfaceJet jet = geometry::jet(*facet.shape, xi);
   const std::array<const Vec3*, 10> d{&jet.r,     &jet.r1[0], &jet.r1[1], &jet.r2[0], &jet.r2[1],

@@ -24,6 +24,10 @@ struct SurfaceFacet {
   std::shared_ptr<const geometry::Surface> shape;  ///< null for a Lagrange facet
   std::array<Index, 4> neighbour{-1, -1, -1, -1};  ///< across each edge, -1 = open border
   Index piece = 0;                                 ///< number of the connected piece
+  /// Nodes of the two edges whose difference r = rho(xi) - s(eta) this is (pairing/edges.hpp), the
+  /// second one run backwards if `flipped`; 0: an ordinary facet.
+  std::array<int, 2> difference{0, 0};
+  bool flipped = false;
 };
 
 /// A boundary made of facets; n = r_1 x r_2 points out of the body.

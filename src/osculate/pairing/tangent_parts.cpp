@@ -38,7 +38,7 @@ template <int Dim>
 double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
                        const PairEvaluation<Dim>& evaluation, const contact::TangentForm& parts) {
   double largest = 0;
-  for (std::size_t i = 0; i < evaluation.points.size(); ++i) {
+  for (std::size_t i = 0; i < pair.slave.nodes.size(); ++i) {  // not the crossings
     if (evaluation.points[i].status == contact::Status::open) continue;
     const Placed<Dim> placed =
         place_point<Dim>(pair, evaluation, x, i, evaluation.points[i].history);

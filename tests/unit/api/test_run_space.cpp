@@ -169,6 +169,44 @@ TEST_F(RunSpace, ShearComponentsAreInTheirPlaces) {
   }
 }
 
+/// Two cells that touch edge on edge: the crossing is a point of its own, after the slave's nodes.
+TEST_F(RunSpace, CrossingsOfEdgesArePointsOfTheContactData) {
+  const std::string text =
+      "osculate: 1\n"
+      "mesh: {generate: {low: {box: {x: [-1, 1], y: [-1, 1], z: [-1, 1], elements: [1, 1, 1], "
+      "angle: 45, axis: [1, 0, 0], about: [0, 0, 0]}}, up: {box: {x: [-1, 1], y: [-1, 1], z: "
+      "[1.8, 3.8], elements: [1, 1, 1], angle: 45, axis: [0, 1, 0], about: [0, 0, 2.8]}}}}\n"
+      "materials: {m: {linear_elastic: {E: 100, nu: 0}}}\n"
+      "sections: [{on: low, material: m, element: solid}, {on: up, material: m, element: solid}]\n"
+      "contact: [{name: c, master: low, slave: up, normal: {penalty: 10}, weight: node, edges: "
+      "true, search: {depth: 0.5}}]\n"
+      "steps: [{name: s, increments: 1, prescribe: [{on: low, ux: 0, uy: 0, uz: 0}, {on: up.top, "
+      "ux: 0, uy: 0, uz: -0.1}]}]\n"
+      "output: {compress: false, history: [{on: c, of: force_z}, {on: c, of: slip}]}\n";
+  const RunOutcome outcome = run_model(text);
+  ASSERT_EQ(outcome.status, RunStatus::done) << outcome.message;
+  const std::string vtu = read(results / "contact0_00001.vtu");
+  const std::vector<double> feature = array<double>(vtu, "CFEATURE").values,
+                            status = array<double>(vtu, "CSTATUS").values,
+                            force = array<double>(vtu, "CNFORCE").values,
+                            u = array<double>(vtu, "U").values,
+                            place = array<double>(vtu, "Points").values;
+  ASSERT_EQ(feature.size(), 8u + 1);  // the slave's nodes and the crossing
+  EXPECT_EQ(feature.back(), 2);
+  EXPECT_EQ(status.back(), 2);
+  for (std::size_t n = 0; n < 8; ++n) EXPECT_EQ(status[n], 0);
+  ASSERT_EQ(place.size(), 27u);
+  EXPECT_NEAR(place[24], 0, 1e-12);
+  EXPECT_NEAR(place[25], 0, 1e-12);
+  EXPECT_NEAR(place[26], 2.8 - std::sqrt(2.0), 1e-12);  // on the slave's edge
+  EXPECT_LT(u[26], 0);
+  EXPECT_NEAR(force.back(), 10 * (std::sqrt(2.0) - place[26] - u[26]), 1e-9);
+  EXPECT_EQ(array<std::uint8_t>(vtu, "types").values.back(), 1);  // a vertex
+  const std::string checked = check((folder / "model.yaml").string()).text;
+  EXPECT_NE(checked.find("12 of the master, 12 of the slave, 1 crossings"), std::string::npos)
+      << checked;
+}
+
 TEST_F(RunSpace, ContactSurfaceIsADataSetOfItsOwn) {
   (void)run_model();
   const std::string vtu = read(results / "contact0_00002.vtu");

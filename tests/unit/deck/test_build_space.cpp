@@ -31,6 +31,10 @@ TEST(BuildSpace, SectionsAndRigidBodies) {
   const model::Model3& m = built.model;
   EXPECT_EQ(built.warnings,
             (std::vector<std::string>{
+                "contact 'gap': the master 'high.bottom' has no convex edge with more than 40 "
+                "degrees between its facets, so edges: has no effect",
+                "contact 'gap': the slave 'low.top' has no convex edge with more than 40 degrees "
+                "between its facets, so edges: has no effect",
                 "contact 'press': the slave 'high.top' has quad8 faces, at whose nodes contact "
                 "pressures scatter; prefer hex27 or first-order cells there, or make it the "
                 "master"}));
@@ -219,6 +223,34 @@ TEST(BuildSpace, HistoryHasTheWordsOfTheModelLayer) {
 
 // ---- broken models ------------------------------------------------------------------------------
 
+TEST(BuildSpace, EdgesOfAPair) {
+  const std::string model = test_file("solid.yaml");
+  const auto with = [&](const std::string& master, const std::string& slave,
+                        const std::string& edges) {
+    return edited(edited(model, "master: high.bottom, slave: low.top",
+                         "master: " + master + ", slave: " + slave),
+                  "edges: {angle: 40}", "edges: " + edges);
+  };
+  const Built3 on = built_from(with("high", "low", "true"));
+  EXPECT_TRUE(on.model.pairs[1].definition.edges.on);
+  EXPECT_NEAR(on.model.pairs[1].definition.edges.angle, std::acos(-1.0) / 6, 1e-15);
+  EXPECT_EQ(on.model.pairs[1].definition.edges.master.size(), 20u);  // two pieces, height one
+  EXPECT_EQ(on.model.pairs[1].definition.edges.slave.size(), 20u);
+  EXPECT_EQ(on.model.pairs[1].definition.edges.master[0].count, 3);
+  EXPECT_EQ(on.warnings.size(), 1u);  // of another pair
+  EXPECT_FALSE(built_from(with("high", "low", "false")).model.pairs[1].definition.edges.on);
+  const Built3 blunt = built_from(with("high", "low", "{angle: 91}"));
+  ASSERT_EQ(blunt.warnings.size(), 3u);
+  EXPECT_EQ(blunt.warnings[0],
+            "contact 'gap': the master 'high' has no convex edge with more than 91 degrees between "
+            "its facets, so edges: has no effect");
+  expect_refusals(model, {{"edges: {angle: 40}", "edges: {angle: 4}",
+                           "model.yaml:22: contact[1].edges.angle: must be > 5 and < 180, got 4"},
+                          {"edges: {angle: 40}", "edges: {angel: 40}",
+                           "model.yaml:22: contact[1].edges: unknown key 'angel'; did you mean "
+                           "'angle'?"}});
+}
+
 TEST(BuildSpace, WhatThePlaneDoesNotHave) {
   const std::string why =
       " exists in space only, and this model is plane: no section has the element solid or "
@@ -228,6 +260,8 @@ TEST(BuildSpace, WhatThePlaneDoesNotHave) {
       {
           {"{on: low.left, uy: 0}", "{on: low.left, uz: 0}",
            "model.yaml:30: steps[0].prescribe[0].uz: 'uz'" + why},
+          {"slave: low.bottom, normal", "slave: low.bottom, edges: true, normal",
+           "model.yaml:17: contact[0].edges: 'edges'" + why},
           {"{on: punch, uy: -0.1}", "{on: punch, rx: -0.1}",
            "model.yaml:31: steps[0].prescribe[1].rx: 'rx'" + why},
           {"{on: high.bottom_right, fy: -1}", "{on: high.bottom_right, fz: -1}",

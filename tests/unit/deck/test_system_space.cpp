@@ -210,6 +210,69 @@ TEST(SystemSpace, TheExampleSlidesAtTheLimit) {
   EXPECT_LT(column(t.rows.back(), "joint.force_y"), 0);
 }
 
+/// Beams across each other on their edges: held by the crossing alone, dragged at Coulomb's limit.
+TEST(SystemSpace, TheExampleOfCrossedBeamsIsHeldByItsEdges) {
+  const std::string path =
+      std::string(OSCULATE_SOURCE_DIR) + "/examples/crossed_beams/crossed_beams.yaml";
+  Built3 built = std::get<Built3>(build_any_file(path));
+  EXPECT_EQ(built.warnings, std::vector<std::string>{});
+  const Table t = run_space(built);
+  ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
+  const auto column = [&](const std::vector<double>& row, const std::string& name) {
+    for (std::size_t k = 0; k < built.history.size(); ++k)
+      if (built.history[k].name == name) return row[k];
+    throw std::runtime_error(name);
+  };
+  ASSERT_GE(t.rows.size(), 20u);
+  for (const std::vector<double>& row : t.rows) {
+    const double normal = column(row, "cross.normal_force");
+    EXPECT_GT(normal, 0);
+    EXPECT_NEAR(column(row, "high.front.rfx") + column(row, "high.back.rfx"),
+                -column(row, "cross.force_x"), 1e-6 * normal);
+    EXPECT_LE(std::abs(column(row, "cross.force_x")), 0.25 * normal);
+  }
+  EXPECT_EQ(column(t.rows.back(), "cross.slip"), 1);  // one crossing, and it slides
+  EXPECT_LT(column(t.rows.back(), "cross.force_x"),
+            -0.15 * column(t.rows.back(), "cross.normal_force"));
+  built.model.pairs[0].definition.edges.on = false;
+  for (const std::vector<double>& row : run_space(built).rows)
+    EXPECT_EQ(column(row, "cross.normal_force"), 0);  // nodes alone see nothing
+}
+
+/// Two single cells, each with an edge up: the edge of one falls on the edge of the other at a
+/// right angle. Dead load, no friction: the crossing is a spring of one node's stiffness.
+TEST(SystemSpace, ABoxFallsEdgeOnEdge) {
+  const auto run = [](const char* edges) {
+    return run_space(build_space(
+        std::string(
+            "osculate: 1\n"
+            "mesh: {generate: {low: {box: {x: [-1, 1], y: [-1, 1], z: [-1, 1], elements: [1, 1, "
+            "1], "
+            "angle: 45, axis: [1, 0, 0], about: [0, 0, 0]}}, up: {box: {x: [-1, 1], y: [-1, 1], z: "
+            "[1.828, 3.828], elements: [1, 1, 1], angle: 45, axis: [0, 1, 0], about: [0, 0, "
+            "2.828]}}}}\n"
+            "materials: {m: {linear_elastic: {E: 1e6, nu: 0}}}\n"
+            "sections: [{on: low, material: m, element: solid}, {on: up, material: m, element: "
+            "solid}]\n"
+            "contact: [{name: c, master: low, slave: up, normal: {penalty: 100}, weight: node, "
+            "edges: ") +
+        edges +
+        "}]\n"
+        "steps: [{name: s, increments: 1, prescribe: [{on: low, ux: 0, uy: 0, uz: 0}, {on: up, "
+        "ux: 0, uy: 0}], body_force: [{on: up, bz: -0.5}]}]\n"
+        "output: {history: [{on: c, of: force_z}, {on: up, of: uz}]}\n"));
+  };
+  const Table held = run("true");
+  ASSERT_EQ(held.result.outcome, solve::Outcome::converged) << held.result.message;
+  const std::vector<double>& end = held.rows.back();
+  EXPECT_NEAR(end[0], 4.0, 1e-9);  // its weight
+  // the weight over the penalty is reached from the overlap of the start
+  EXPECT_NEAR(end[1], -0.04 + (2 * std::sqrt(2.0) - 2.828), 1e-4);
+  const Table falling = run("false");
+  EXPECT_NE(falling.result.outcome, solve::Outcome::converged);
+  EXPECT_NE(falling.result.message.find("free to"), std::string::npos) << falling.result.message;
+}
+
 /// A cantilever of solid-shells, thin along x, y or z of its box: the same force bends it.
 TEST(SystemSpace, AShellMayBeThinInAnyDirection) {
   struct Way {
