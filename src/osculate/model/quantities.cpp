@@ -67,16 +67,39 @@ double rigid_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
   return rigid_reaction(system, model, state, request.target)[component];
 }
 
+/// First of a block's nodes that is the slave's, and the one after the last: the first node alone,
+/// at a crossing those behind the master's edge.
 template <int Dim>
-double pair_value(const BasicSystem<Dim>& system, const HistoryRequest& request) {
+std::array<int, 2> slave_range(const pairing::PairDefinition<Dim>& pair,
+                               const pairing::PointResult<Dim>& point,
+                               const pairing::ContactBlock<Dim>& block) {
+  if (!block.active()) return {0, 0};
+  if (point.history.edge < 0) return {0, 1};
+  return {pair.edges.master[static_cast<std::size_t>(point.history.facet)].count, block.count};
+}
+
+/// What was assembled: with `residual: full` it is not just the traction times the area.
+template <int Dim>
+double force_on_slave(const pairing::PairDefinition<Dim>& definition,
+                      const pairing::PairEvaluation<Dim>& pair, int direction) {
+  double sum = 0;
+  for (std::size_t i = 0; i < pair.blocks.size(); ++i) {
+    const std::array<int, 2> range = slave_range(definition, pair.points[i], pair.blocks[i]);
+    for (int k = range[0]; k < range[1]; ++k) sum -= pair.blocks[i].force[Dim * k + direction];
+  }
+  return sum;
+}
+
+template <int Dim>
+double pair_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                  const HistoryRequest& request) {
   const pairing::PairEvaluation<Dim>& pair =
       system.contact()[static_cast<std::size_t>(request.target)];
   double sum = 0;
   Vec<Dim> shear = Vec<Dim>::Zero();
-  // What was assembled: with `residual: full` it is not just the traction times the area.
   if (request.quantity.starts_with("force_"))
-    for (const pairing::ContactBlock<Dim>& block : pair.blocks)
-      if (block.active()) sum -= block.force[direction_of(request.quantity)];
+    sum = force_on_slave(model.pairs[static_cast<std::size_t>(request.target)].definition, pair,
+                         direction_of(request.quantity));
   for (const pairing::PointResult<Dim>& p : pair.points) {
     const bool closed = p.status != contact::Status::open;
     if (request.quantity == "normal_force") sum -= p.weight * p.normal_traction;
@@ -141,7 +164,7 @@ double history_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& mode
     case HistoryRequest::Kind::rigid:
       return rigid_value(system, model, state, request);
     case HistoryRequest::Kind::pair:
-      return pair_value(system, request);
+      return pair_value(system, model, request);
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -229,7 +229,8 @@ TEST(SystemSpace, TheExampleOfCrossedBeamsIsHeldByItsEdges) {
     EXPECT_GT(normal, 0);
     EXPECT_NEAR(column(row, "high.front.rfx") + column(row, "high.back.rfx"),
                 -column(row, "cross.force_x"), 1e-6 * normal);
-    EXPECT_LE(std::abs(column(row, "cross.force_x")), 0.25 * normal);
+    // the limit is 0.2 of a normal force that leans with the bent edges, by up to 0.06
+    EXPECT_LE(std::abs(column(row, "cross.force_x")), 0.27 * normal);
   }
   EXPECT_EQ(column(t.rows.back(), "cross.slip"), 1);  // one crossing, and it slides
   EXPECT_LT(column(t.rows.back(), "cross.force_x"),
