@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -163,25 +164,27 @@ Outcome run_clip(Kind kind, int threads) {
 
 template <int Dim>
 void add_clip(const std::string& where, int threads, CaseResult& result) {
-  const Outcome half = run_clip<Dim>(Kind::half, threads);
-  for (const auto& [kind, name] :
-       {std::pair(Kind::own, "surface against itself"), std::pair(Kind::all, "contact: all"),
-        std::pair(Kind::sides, "inner sides")}) {
-    const Outcome full = run_clip<Dim>(kind, threads);
-    const std::string label = fmt::format("{}, {}: ", where, name);
-    const auto value = [](const Outcome& o, std::size_t i, double otherwise) {
-      return o.converged ? o.history[i] : otherwise;
-    };
-    const char* const source = "lower half on a rigid plane";
-    result.rows.push_back({label + "force that closes the clip", value(full, 0, 0),
-                           value(half, 0, 1), Relation::equal, 1e-4, source});
-    result.rows.push_back({label + "contact force", value(full, 1, 0), value(half, 1, 1),
-                           Relation::equal, 1e-4, source});
-    result.rows.push_back({label + "contact area", value(full, 2, 0), value(half, 2, 1),
-                           Relation::equal, 1e-12, source});
-    result.rows.push_back({label + "iterations", static_cast<double>(full.iterations),
-                           static_cast<double>(half.iterations), Relation::info, 0, source});
-  }
+  const Outcome half = run_clip<Dim>(Kind::half, threads), own = run_clip<Dim>(Kind::own, threads);
+  const Outcome all = run_clip<Dim>(Kind::all, threads),
+                sides = run_clip<Dim>(Kind::sides, threads);
+  const auto value = [](const Outcome& o, std::size_t i, double otherwise) {
+    return o.converged ? o.history[i] : otherwise;
+  };
+  const char* const same = "surface against itself";
+  const char* const mirror = "lower half on a rigid plane";
+  const std::array<const char*, 3> names{"force that closes the clip", "contact force",
+                                         "contact area"};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    result.rows.push_back({fmt::format("{}, contact: all: {}", where, names[i]), value(all, i, 0),
+                           value(own, i, 1), Relation::equal, 1e-12, same});
+  for (const auto& [outcome, name] :
+       {std::pair(&own, "surface against itself"), std::pair(&sides, "inner sides")})
+    for (std::size_t i = 0; i < names.size(); ++i)
+      result.rows.push_back({fmt::format("{}, {}: {}", where, name, names[i]),
+                             value(*outcome, i, 0), value(half, i, 1), Relation::info, 0, mirror});
+  result.rows.push_back({where + ", surface against itself: iterations",
+                         static_cast<double>(own.iterations), static_cast<double>(half.iterations),
+                         Relation::info, 0, mirror});
 }
 
 // ---- three blocks on top of each other --------------------------------------------------------

@@ -62,6 +62,9 @@ TEST(ContactAll, HistoryOfOnePairOrOfAll) {
   EXPECT_GT(values[1], 1);
   EXPECT_NEAR(values[0], values[1] + values[2] + values[4], 1e-9 * values[0]);
   EXPECT_GT(values[3], 0);
+  // The block in the middle rests between both: what comes from above goes out below.
+  EXPECT_GT(values[5], 1);
+  EXPECT_NEAR(values[5], -values[6], 1e-7 * values[5]);
 }
 
 TEST(ContactAll, Refusals) {
