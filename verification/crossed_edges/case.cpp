@@ -132,7 +132,7 @@ CaseResult crossed_edges(const CaseContext& context) {
   const Found found = solve_rods(elastic, context.threads);
   const double force = found.converged ? found.force.z() : 0;
   out.rows.push_back({"elastic rods bent over each other: force on the supports / contact force",
-                      -found.support / force, 1, Relation::equal, 1e-8, "equilibrium"});
+                      found.support / force, 1, Relation::equal, 1e-8, "equilibrium"});
   out.rows.push_back({"elastic rods: penalty times area times penetration / contact force",
                       found.law / found.normal_force, 1, Relation::equal, 1e-10, "closed form"});
   out.rows.push_back({"elastic rods: contact force", force, 0, Relation::info, 0, ""});
