@@ -74,7 +74,7 @@ TEST(ContactAll, Refusals) {
   };
   expect(build_refusal(edited(text, "[low, top]", "[low, tpo]")),
          "contact.all.exclude[0][1]: unknown body 'tpo'; known: 1, 2, 3, floor, low, mid, top");
-  expect(build_refusal(edited(text, "{on: any.2-3,", "{on: any.2-4,")),
+  expect(build_refusal(edited(text, "any.2-3, of: normal_force", "any.2-4, of: normal_force")),
          "output.history[2].on: unknown contact pair 'any.2-4'; did you mean 'any.");
   expect(build_refusal(edited(text, "    normal: {penalty: 1000}\n", "")),
          "contact.all: required key 'normal' is missing");

@@ -390,7 +390,7 @@ TEST(AtomicFile, ReasonsAreNamed) {
     write_file(folder, "data");
     ADD_FAILURE();
   } catch (const WriteError& error) {
-    EXPECT_EQ(std::string(error.what()), folder + ": cannot replace: Is a directory");
+    EXPECT_EQ(std::string(error.what()), folder + ": cannot write: Is a directory");
   }
   EXPECT_FALSE(std::filesystem::exists(folder + ".part"));
   std::filesystem::remove(folder);
