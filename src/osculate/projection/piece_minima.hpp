@@ -117,8 +117,8 @@ template <int Dim>
 /// The local minimum below `start` inside the range: projected Newton steps, halved while the
 /// distance grows; the last ones by the slope, since the distance is flat there.
 template <int Dim>
-[[nodiscard]] Place<Dim> descend(const Piece<Dim>& piece, Control<Dim> control,
-                                 const Vec<Dim>& point, const Range& range, Place<Dim> p) {
+[[nodiscard]] Place<Dim> roll_down(const Piece<Dim>& piece, Control<Dim> control,
+                                   const Vec<Dim>& point, const Range& range, Place<Dim> p) {
   constexpr int most = 60;
   const auto clamp = [&](const Vec2& st) -> Vec2 {
     return st.cwiseMax(range.lo).cwiseMin(range.hi);
@@ -163,6 +163,21 @@ template <int Dim>
     if (!moved) return p;
   }
   return p;
+}
+
+/// The same; what misses a side of the piece by rounding lies on it.
+template <int Dim>
+[[nodiscard]] Place<Dim> descend(const Piece<Dim>& piece, Control<Dim> control,
+                                 const Vec<Dim>& point, const Range& range,
+                                 const Place<Dim>& start) {
+  constexpr double rounding = 1e-15;
+  const Place<Dim> p = roll_down(piece, control, point, range, start);
+  Vec2 st = p.st;
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    if (st[i] < rounding) st[i] = 0;
+    if (st[i] > 1 - rounding) st[i] = 1;
+  }
+  return st == p.st ? p : look(piece, control, point, st);
 }
 
 /// Branch and bound over one piece. `Sink` has two members: `double reach2() const` (minima at or

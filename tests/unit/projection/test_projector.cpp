@@ -414,6 +414,26 @@ TEST(Projector, EquidistantPointsKeepTheSideTheyCameFrom) {
   }
 }
 
+/// A foot point that comes to lie on a corner by rounding lies on it exactly.
+TEST(Projector, CornersAreReachedExactly) {
+  FacetMesh<3> mesh;  // z = (x^2 - y^2)/2 over the unit square
+  const double x[9] = {0, 1, 1, 0, 0.5, 1, 0.5, 0, 0.5}, y[9] = {0, 0, 1, 1, 0, 0.5, 1, 0.5, 0.5};
+  MeshFacet facet{CellType::quad9, {}};
+  for (std::size_t k = 0; k < 9; ++k) {
+    mesh.nodes.push_back({x[k], y[k], 0.5 * (x[k] * x[k] - y[k] * y[k])});
+    facet.nodes[k] = static_cast<Index>(k);
+  }
+  mesh.facets = {facet};
+  const Projector<3> p = projector(mesh);
+  // The centre of curvature of the corner (1, 0, 1/2) is nearer to the corner (0, 0, 0).
+  const ClosestPoint<3> c = p.closest({-1, 0, 2.5});
+  EXPECT_EQ(c.point, Vec3(0, 0, 0));
+  EXPECT_EQ(c.feature, Feature::corner);
+  EXPECT_NEAR(c.distance, std::sqrt(7.25), 1e-15);
+  // The corner itself is the second one, flat: its distance is bounded from below to 1e-13.
+  EXPECT_NEAR(c.margin, std::sqrt(8) - std::sqrt(7.25), 2e-13);
+}
+
 /// Points on the evolute of a parabola: the second derivative of the distance vanishes.
 TEST(Projector, PointsOnTheEvoluteAreOutsideTheDomain) {
   FacetMesh<2> mesh;
