@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/projection/surface_distance.hpp"
+
 namespace osculate::contact {
 
 template <int Dim>
@@ -187,11 +189,8 @@ double domain_margin(const Kinematics<Dim>& k) {
     const double along = k.metric_inverse(0, 0) * k.shifted(0, 0);
     return along;
   }
-  const SurfaceMatrix<Dim> relative = k.metric_inverse * k.shifted;  // eigenvalues 1 - gap k_i
-  const double mean = 0.5 * relative.trace();
-  const double apart = std::sqrt(std::max(mean * mean - relative.determinant(), 0.0));
-  const double smallest = mean - apart;
-  return smallest;
+  if constexpr (Dim == 3) return projection::least_ratio(k.shifted, k.metric);
+  return 1;
 }
 
 template double domain_margin<2>(const Kinematics<2>&);

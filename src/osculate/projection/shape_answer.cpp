@@ -9,6 +9,7 @@
 #include "osculate/geometry/surface_frame.hpp"
 #include "osculate/projection/point_to_curve.hpp"
 #include "osculate/projection/point_to_surface.hpp"
+#include "osculate/projection/surface_distance.hpp"
 
 namespace osculate::projection {
 
@@ -17,13 +18,8 @@ double least_bend(const Vec3& gap, const std::array<Vec3, 2>& r1, const std::arr
   const double det = a11 * a22 - a12 * a12;
   // Near a pole the one tangent is nothing but rounding.
   if (!(det > 1e-14 * a11 * a22) || std::min(a11, a22) < 1e-12 * std::max(a11, a22)) return 1;
-  const double f11 = a11 - gap.dot(r2[0]), f12 = a12 - gap.dot(r2[1]), f22 = a22 - gap.dot(r2[2]);
-  const double trace = (a22 * f11 - 2 * a12 * f12 + a11 * f22) / det;
-  const double product = (f11 * f22 - f12 * f12) / det;
-  const double root = std::sqrt(std::max(0.25 * trace * trace - product, 0.0));
-  // The smaller root without cancellation.
-  const double larger = 0.5 * trace + root;
-  return larger > 0 && 0.5 * trace > 0 ? product / larger : 0.5 * trace - root;
+  const DistanceJet2 j = distance_jet2(gap, r1, r2);
+  return least_ratio(j.bend, j.metric);
 }
 
 namespace {

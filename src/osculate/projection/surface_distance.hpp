@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "osculate/core/types.hpp"
 
@@ -35,6 +36,20 @@ struct DistanceJet2 {
 
 [[nodiscard]] inline bool positive(const Mat<2, 2>& m) {
   return m(0, 0) > 0 && m.determinant() > 0;
+}
+
+/// Smallest lambda with det(f - lambda a) = 0; f symmetric, a symmetric and positive. With f = F_ij
+/// at a foot point it is the smaller 1 - zeta k.
+///
+/// Formula    lambda of the symmetric L^-1 f L^-T with a = L L^T: exact to rounding for equal
+///            lambdas too, where trace and determinant leave half the digits
+[[nodiscard]] inline double least_ratio(const Mat<2, 2>& f, const Mat<2, 2>& a) {
+  const double slant = a(0, 1) / a(0, 0), rest = a(1, 1) - slant * a(0, 1);
+  const double m11 = f(0, 0) / a(0, 0);
+  const double mixed = f(0, 1) - slant * f(0, 0);
+  const double m12 = mixed / std::sqrt(a(0, 0) * rest);
+  const double m22 = (f(1, 1) - slant * f(0, 1) - slant * mixed) / rest;
+  return 0.5 * (m11 + m22) - std::hypot(0.5 * (m11 - m22), m12);
 }
 
 /// Downhill step: Newton's where the distance bends upwards, else Gauss-Newton's.

@@ -44,8 +44,8 @@ PairSample3 contact_sample(CellType type, double mu) {
   for (Vec3& p : s.x) {
     const Vec2 q = closed_hairpin(p.head<2>(), 0.33);
     const double slide = p.x() > 1 && p.y() > 1.1 ? 0.11 : 0.0;
-    p = turn * Vec3(q.x() + slide + jitter(generator), q.y() + jitter(generator),
-                    p.z() + slide + jitter(generator));
+    const double up = jitter(generator), across = jitter(generator), along = jitter(generator);
+    p = turn * Vec3(q.x() + slide + along, q.y() + across, p.z() + slide + up);
   }
   return s;
 }

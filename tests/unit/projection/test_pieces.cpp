@@ -296,6 +296,10 @@ TEST(LeastBend, IsOneMinusGapTimesCurvature) {
   EXPECT_NEAR(least_bend(Vec3(0, 0, -0.5), r1, r2), 1, 1e-14);  // along the axis
   EXPECT_NEAR(least_bend(Vec3(0, 0, 2), r1, r2), 0, 1e-14);
   EXPECT_NEAR(least_bend(Vec3(0, 0, 3), r1, r2), 1 - 3 * k, 1e-14);
+  // On a sphere both curvatures are equal, and no digits may be lost.
+  const std::array<Vec3, 3> round{Vec3(0, 0, 36 * k), Vec3(0, 0, 1.2 * k), Vec3(0, 0, 0.29 * k)};
+  for (const double gap : {-3.0, 0.5, 1.9})
+    EXPECT_NEAR(least_bend(Vec3(0, 0, gap), r1, round), 1 - gap * k, 1e-14);
   EXPECT_NEAR(least_bend<2>(Vec2(0, 0.5), Vec2(3, 0), Vec2(1, 9 * k)), 1 - 0.5 * k, 1e-14);
 }
 
