@@ -136,13 +136,11 @@ template <int Dim>
 void prepare(Scope<Dim>& scope, const Boundary<Dim>& master, const SlaveSide<Dim>& slave,
              std::type_identity_t<std::span<const Vec<Dim>>> reference, const AreaRule& rule) {
   if (!scope.limited()) return;
+  if (scope.own && !same_facets<Dim>(master, slave.boundary))
+    throw core::GeometryError("self-contact needs the same facets as master and slave");
   set_parts(slave, scope);
   nodal_areas(scope.parts, reference, rule, scope.areas, nullptr);
-  if (scope.own) {
-    if (!same_facets<Dim>(master, slave.boundary))
-      throw core::GeometryError("self-contact needs the same facets as master and slave");
-    scope.reference.assign(reference.begin(), reference.end());
-  }
+  if (scope.own) scope.reference.assign(reference.begin(), reference.end());
   if (scope.thickness.size() != slave.nodes.size()) measure<Dim>(scope, slave, reference);
 }
 

@@ -189,7 +189,9 @@ TEST(OwnSurface, FrictionIsRemembered) {
 
 TEST(OwnSurface, OtherFacetsOnTheSlaveSideAreRefused) {
   PairSample s = own_surface(hairpin());
-  s.pair.slave = pairing::make_slave_side(own_surface(hairpin(0.25)).pair.master);
+  const PairSample finer = own_surface(hairpin(0.25));
+  s.pair.slave = pairing::make_slave_side(finer.pair.master);
+  s.x = finer.x;
   EXPECT_THROW(pairing::prepare(s.pair, s.x), core::GeometryError);
 }
 
