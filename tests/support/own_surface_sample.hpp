@@ -34,6 +34,18 @@ inline Vec2 closed_hairpin(const Vec2& p, double drop) {
   return {p.x() + 0.03 * t, p.y() - drop * t * t};
 }
 
+/// Makes the sample's master its slave too; prepared where it is.
+template <int Dim, class Sample>
+void touch_itself(Sample& s, double reach) {
+  pairing::connect(s.pair.master);
+  s.pair.slave = pairing::make_slave_side(s.pair.master);
+  s.pair.scope.own = true;
+  s.pair.scope.reach = reach;
+  s.pair.normal.stiffness = 1000;
+  pairing::prepare(s.pair, s.x);
+  s.committed = pairing::initial_state<Dim>(s.pair, s.x);
+}
+
 /// A surface of `points` that is master and slave at once; prepared where it is.
 inline PairSample own_surface(const std::vector<Vec2>& points, int nodes_per_facet = 2,
                               double reach = 4) {
@@ -51,13 +63,7 @@ inline PairSample own_surface(const std::vector<Vec2>& points, int nodes_per_fac
     }
     s.pair.master.facets.push_back(pairing::lagrange_facet(nodes));
   }
-  pairing::connect(s.pair.master);
-  s.pair.slave = pairing::make_slave_side(s.pair.master);
-  s.pair.scope.own = true;
-  s.pair.scope.reach = reach;
-  s.pair.normal.stiffness = 1000;
-  pairing::prepare(s.pair, s.x);
-  s.committed = pairing::initial_state<2>(s.pair, s.x);
+  touch_itself<2>(s, reach);
   return s;
 }
 
@@ -91,13 +97,7 @@ inline PairSample3 own_walls(const std::vector<Vec2>& points, cell::CellType typ
       facet(low, along, up);
       if (cell::is_triangle(type)) facet(Vec3(low + along + up), Vec3(-along), Vec3(-up));
     }
-  pairing::connect(s.pair.master);
-  s.pair.slave = pairing::make_slave_side(s.pair.master);
-  s.pair.scope.own = true;
-  s.pair.scope.reach = reach;
-  s.pair.normal.stiffness = 1000;
-  pairing::prepare(s.pair, s.x);
-  s.committed = pairing::initial_state<3>(s.pair, s.x);
+  touch_itself<3>(s, reach);
   return s;
 }
 
@@ -112,22 +112,18 @@ inline void move(PairSample3& s, const std::function<Vec2(const Vec2&)>& to) {
   }
 }
 
+template <int Dim, class Sample>
+std::vector<Index> active_nodes(const Sample& s) {
+  pairing::PairEvaluation<Dim> e;
+  pairing::evaluate(s.pair, s.x, s.committed, false, e);
+  std::vector<Index> nodes;
+  for (std::size_t i = 0; i < e.points.size(); ++i)
+    if (e.blocks[i].active()) nodes.push_back(s.pair.slave.nodes[i]);
+  return nodes;
+}
+
 /// Slave nodes in contact.
-inline std::vector<Index> touching(const PairSample& s) {
-  pairing::PairEvaluation<2> e;
-  pairing::evaluate(s.pair, s.x, s.committed, false, e);
-  std::vector<Index> nodes;
-  for (std::size_t i = 0; i < e.points.size(); ++i)
-    if (e.blocks[i].active()) nodes.push_back(s.pair.slave.nodes[i]);
-  return nodes;
-}
-inline std::vector<Index> touching(const PairSample3& s) {
-  pairing::PairEvaluation<3> e;
-  pairing::evaluate(s.pair, s.x, s.committed, false, e);
-  std::vector<Index> nodes;
-  for (std::size_t i = 0; i < e.points.size(); ++i)
-    if (e.blocks[i].active()) nodes.push_back(s.pair.slave.nodes[i]);
-  return nodes;
-}
+inline std::vector<Index> touching(const PairSample& s) { return active_nodes<2>(s); }
+inline std::vector<Index> touching(const PairSample3& s) { return active_nodes<3>(s); }
 
 }  // namespace osculate::testing

@@ -131,23 +131,31 @@ void BruteForce<Dim>::add(Chart chart) {
   charts_.push_back(std::move(chart));
 }
 
+/// A place on a chart on its way down.
 template <int Dim>
-typename BruteForce<Dim>::Minimum BruteForce<Dim>::refine(std::size_t number, Vec2 st,
-                                                          const Vec<Dim>& point) const {
-  const Chart& chart = charts_[number];
-  const auto squared = [&](const Vec2& x) { return (point - jet(chart, x).r).squaredNorm(); };
-  const int count = 1 + second_parameter(Dim);
+struct BruteForce<Dim>::Descent {
+  const BruteForce& brute;
+  const Chart& chart;
+  const Vec<Dim>& point;
+  Vec2 st;
   double f = squared(st);
-  Vec2 slope(0, 0);
+  Vec2 slope = Vec2::Zero();
   Mat<2, 2> bend = Mat<2, 2>::Identity();
-  const auto look = [&] {
-    const Jet j = jet(chart, st);
+
+  static constexpr int count = 1 + second_parameter(Dim);
+
+  [[nodiscard]] double squared(const Vec2& x) const {
+    return (point - brute.jet(chart, x).r).squaredNorm();
+  }
+  void look() {
+    const Jet j = brute.jet(chart, st);
     const Vec<Dim> g = point - j.r;
     slope = {-g.dot(j.r1), -g.dot(j.r2)};
     bend << j.r1.squaredNorm() - g.dot(j.r11), j.r1.dot(j.r2) - g.dot(j.r12),
         j.r1.dot(j.r2) - g.dot(j.r12), j.r2.squaredNorm() - g.dot(j.r22);
-  };
-  const auto newton = [&] {
+  }
+  /// Newton's steps while they lead down.
+  void newton() {
     for (int it = 0; it < 20; ++it) {
       look();
       Vec2 step(0, 0);
@@ -173,51 +181,66 @@ typename BruteForce<Dim>::Minimum BruteForce<Dim>::refine(std::size_t number, Ve
       f = value;
       if (moved < 1e-15) return;
     }
-  };
-  newton();
-  // What Newton's method left, down to steps that no longer count.
-  const double dirs[8][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
-  for (double h = 0.3 / grid_; h > 1e-8;) {
-    bool moved = false;
-    for (int d = 0; d < (count == 1 ? 2 : 8) && !moved; ++d) {
-      const Vec2 next = (st + h * Vec2(dirs[d][0], dirs[d][1])).cwiseMax(0.0).cwiseMin(1.0);
-      const double value = squared(next);
-      if (!(value < f * (1 - 1e-15))) continue;
-      st = next;
-      f = value;
-      moved = true;
-    }
-    if (moved)
-      newton();
-    else
-      h *= 0.05;
   }
-  look();
+  /// What Newton's method left, down to steps that no longer count.
+  void search(double h) {
+    const double dirs[8][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
+                               {1, 1}, {1, -1}, {-1, 1}, {-1, -1}};
+    while (h > 1e-8) {
+      bool moved = false;
+      for (int d = 0; d < (count == 1 ? 2 : 8) && !moved; ++d) {
+        const Vec2 next = (st + h * Vec2(dirs[d][0], dirs[d][1])).cwiseMax(0.0).cwiseMin(1.0);
+        const double value = squared(next);
+        if (!(value < f * (1 - 1e-15))) continue;
+        st = next;
+        f = value;
+        moved = true;
+      }
+      if (moved)
+        newton();
+      else
+        h *= 0.05;
+    }
+  }
+  /// On which sides it lies, and whether it is pulled beyond them.
+  void name_sides(Minimum& m) const {
+    m.from_border = 1;
+    m.pulled = true;
+    for (int side = 0; side < 2 * count; ++side) {
+      const int i = side / 2;
+      const double away = side % 2 == 0 ? st[i] : 1 - st[i];
+      const double outward = side % 2 == 0 ? slope[i] : -slope[i];
+      if (!chart.border[static_cast<std::size_t>(side)]) {
+        m.inner = m.inner || (away <= 0 && outward > 1e-9 * std::abs(bend(i, i)));
+        continue;
+      }
+      m.from_border = std::min(m.from_border, away);
+      // Steps end at 1e-8 of a chart: this close to a corner an edge and the corner look alike.
+      if (away > 0) {
+        m.pulled = m.pulled && away > 1e-7;
+        continue;
+      }
+      ++m.on_sides;
+      m.pulled = m.pulled && outward > 1e-6 * std::abs(bend(i, i));
+    }
+  }
+};
+
+template <int Dim>
+typename BruteForce<Dim>::Minimum BruteForce<Dim>::refine(std::size_t number, const Vec2& st,
+                                                          const Vec<Dim>& point) const {
+  const Chart& chart = charts_[number];
+  Descent way{*this, chart, point, st};
+  way.newton();
+  way.search(0.3 / grid_);
+  way.look();
   Minimum m;
-  m.distance = std::sqrt(f);
-  m.point = jet(chart, st).r;
+  m.distance = std::sqrt(way.f);
+  m.point = jet(chart, way.st).r;
   m.facet = chart.facet;
   m.chart = number;
-  m.st = st;
-  m.from_border = 1;
-  m.pulled = true;
-  for (int side = 0; side < 2 * count; ++side) {
-    const int i = side / 2;
-    const double away = side % 2 == 0 ? st[i] : 1 - st[i];
-    const double outward = side % 2 == 0 ? slope[i] : -slope[i];
-    if (!chart.border[static_cast<std::size_t>(side)]) {
-      m.inner = m.inner || (away <= 0 && outward > 1e-9 * std::abs(bend(i, i)));
-      continue;
-    }
-    m.from_border = std::min(m.from_border, away);
-    // Steps end at 1e-8 of a chart: this close to a corner an edge and the corner look alike.
-    if (away > 0) {
-      m.pulled = m.pulled && away > 1e-7;
-      continue;
-    }
-    ++m.on_sides;
-    m.pulled = m.pulled && outward > 1e-6 * std::abs(bend(i, i));
-  }
+  m.st = way.st;
+  way.name_sides(m);
   return m;
 }
 

@@ -46,9 +46,10 @@ class BruteForce {
     std::vector<Vec<Dim>> samples;
     double spacing = 0;  ///< largest distance of neighbouring samples
   };
+  struct Descent;
   [[nodiscard]] Jet jet(const Chart& chart, const Vec2& st) const;
   void add(Chart chart);
-  [[nodiscard]] Minimum refine(std::size_t number, Vec2 st, const Vec<Dim>& point) const;
+  [[nodiscard]] Minimum refine(std::size_t number, const Vec2& st, const Vec<Dim>& point) const;
 
   int grid_;
   std::vector<Chart> charts_;

@@ -92,14 +92,23 @@ void look_at_joints(const Composed<Dim>& s, double kink, DomainReport& report, S
                     irregular, Dim == 2 ? "node(s)" : "edge(s)"));
 }
 
-std::string_view class_name(int dimension, const SurfacePlace<2>& place, double size) {
-  (void)dimension;
+std::string_view class_name(const SurfacePlace<2>& place, double size) {
   if (!place.valid) return "singular";
   if (std::abs(place.k[0]) * size <= geometry::flat_tolerance) return "straight";
   return place.k[0] > 0 ? "bent above" : "bent below";
 }
-std::string_view class_name(int, const SurfacePlace<3>& place, double size) {
+std::string_view class_name(const SurfacePlace<3>& place, double size) {
   return place.valid ? name(geometry::point_class(place.k, size)) : "singular";
+}
+
+void count_class(std::string_view name, DomainReport& report) {
+  const auto known = std::find_if(report.classes.begin(), report.classes.end(),
+                                  [&](const auto& c) { return c.first == name; });
+  if (known == report.classes.end())
+    report.classes.emplace_back(name, 1);
+  else
+    ++known->second;
+  ++report.places;
 }
 
 /// Counts classes; finds distorted places and the smallest bounds of the smooth parts.
@@ -112,14 +121,7 @@ std::vector<std::array<double, 2>> look_at_places(const Composed<Dim>& s, int ce
   for (std::size_t p = 0; p < s.pieces().size(); ++p)
     projection::for_each_sample<Dim>(s.pieces()[p], cells, [&](const Vec2& xi, double) {
       const SurfacePlace<Dim> place = s.place(static_cast<int>(p), xi);
-      const std::string_view name = class_name(Dim, place, s.size());
-      const auto known = std::find_if(report.classes.begin(), report.classes.end(),
-                                      [&](const auto& c) { return c.first == name; });
-      if (known == report.classes.end())
-        report.classes.emplace_back(name, 1);
-      else
-        ++known->second;
-      ++report.places;
+      count_class(class_name(place, s.size()), report);
       if (!place.valid) without.push_back(in_space(place.r));
       if (place.valid && place.sine < report.smallest_sine) {
         report.smallest_sine = place.sine;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "osculate/projection/local_domain.hpp"
 #include "osculate/projection/shape_answer.hpp"
 
 namespace osculate::projection {
@@ -186,14 +187,17 @@ double bend_at(const CellComplex<Dim>& all, const OnCell& on, const Vec<Dim>& ga
   const Cell& cell = all.cell(on.cell);
   const PieceJet<Dim> j = cell_jet(all, cell, on.xi);
   if constexpr (Dim == 2) {
-    return least_bend<2>(gap, j.r1[0], j.r2[0]);
+    const geometry::CurveFrame f =
+        geometry::curve_frame(geometry::CurveJet<2>{j.r, j.r1[0], j.r2[0], Vec2::Zero()});
+    return distance_bend(f, gap.dot(f.normal));
   } else {
     if (on.edge < 0) return least_bend(gap, j.r1, j.r2);
     const int n = corner_count(cell);
     const Vec2 d = corner_xi(all, cell, (on.edge + 1) % n) - corner_xi(all, cell, on.edge);
     const Vec3 r1 = d[0] * j.r1[0] + d[1] * j.r1[1];
     const Vec3 r2 = d[0] * d[0] * j.r2[0] + 2 * d[0] * d[1] * j.r2[1] + d[1] * d[1] * j.r2[2];
-    return least_bend<3>(gap, r1, r2);
+    return distance_bend(
+        geometry::space_curve_frame(geometry::CurveJet<3>{j.r, r1, r2, Vec3::Zero()}), gap);
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "osculate/projection/bernstein.hpp"
 #include "osculate/projection/piece.hpp"
+#include "osculate/projection/surface_distance.hpp"
 
 namespace osculate::projection {
 
@@ -46,18 +47,16 @@ template <int Dim>
   out.st = st;
   out.r = j.r;
   out.squared = gap.squaredNorm();
+  const DistanceJet2 d = distance_jet2<Dim>(gap, j.r1, j.r2);
+  out.slope = d.slope;
+  out.bend = d.bend;
+  out.metric = d.metric.diagonal();
+  out.a12 = d.metric(0, 1);
   const double size =
       4 * std::numeric_limits<double>::epsilon() *
       (gap.template lpNorm<1>() + j.r.template lpNorm<1>() + point.template lpNorm<1>());
-  for (Eigen::Index i = 0; i < 2; ++i) {
-    const Vec<Dim>& ri = j.r1[static_cast<std::size_t>(i)];
-    out.slope[i] = -gap.dot(ri);
-    out.noise[i] = size * ri.template lpNorm<1>();
-    out.metric[i] = ri.squaredNorm();
-  }
-  out.a12 = j.r1[0].dot(j.r1[1]);
-  const double b12 = out.a12 - gap.dot(j.r2[1]);
-  out.bend << out.metric[0] - gap.dot(j.r2[0]), b12, b12, out.metric[1] - gap.dot(j.r2[2]);
+  for (std::size_t i = 0; i < 2; ++i)
+    out.noise[static_cast<Eigen::Index>(i)] = size * j.r1[i].template lpNorm<1>();
   return out;
 }
 

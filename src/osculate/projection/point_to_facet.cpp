@@ -17,7 +17,7 @@ DistanceJet2 distance_jet2(cell::CellType type, std::span<const Vec3> nodes, con
   r.fill(Vec3::Zero());
   for (std::size_t d = 0; d < r.size(); ++d)
     for (std::size_t k = 0; k < nodes.size(); ++k) r[d] += s.n[d][k] * nodes[k];
-  return projection::distance_jet2(point - r[0], {r[1], r[2]}, {r[3], r[4], r[5]});
+  return projection::distance_jet2<3>(point - r[0], {r[1], r[2]}, {r[3], r[4], r[5]});
 }
 
 /// How far a point is outside of the reference cell (0 inside), in parts of its range.

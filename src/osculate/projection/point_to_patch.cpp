@@ -36,7 +36,7 @@ Sample sample_at(const Piece& piece, const Vec2& xi) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const double size = 4 * epsilon * (gap.lpNorm<1>() + jet.r.lpNorm<1>());
   return {xi,
-          distance_jet2(gap, jet.r1, jet.r2),
+          distance_jet2<3>(gap, jet.r1, jet.r2),
           {size * jet.r1[0].lpNorm<1>(), size * jet.r1[1].lpNorm<1>()}};
 }
 

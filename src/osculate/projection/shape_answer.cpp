@@ -7,6 +7,7 @@
 
 #include "osculate/geometry/curve_frame.hpp"
 #include "osculate/geometry/surface_frame.hpp"
+#include "osculate/projection/local_domain.hpp"
 #include "osculate/projection/point_to_curve.hpp"
 #include "osculate/projection/point_to_surface.hpp"
 #include "osculate/projection/surface_distance.hpp"
@@ -18,7 +19,7 @@ double least_bend(const Vec3& gap, const std::array<Vec3, 2>& r1, const std::arr
   const double det = a11 * a22 - a12 * a12;
   // Near a pole the one tangent is nothing but rounding.
   if (!(det > 1e-14 * a11 * a22) || std::min(a11, a22) < 1e-12 * std::max(a11, a22)) return 1;
-  const DistanceJet2 j = distance_jet2(gap, r1, r2);
+  const DistanceJet2 j = distance_jet2<3>(gap, r1, r2);
   return least_ratio(j.bend, j.metric);
 }
 
@@ -45,8 +46,9 @@ ClosestPoint<2> on_curve(const geometry::Curve& curve, double xi, const Vec2& po
   out.facet = 0;
   out.xi[0] = xi;
   out.point = j.r;
-  finish<2>(point - j.r, geometry::curve_frame(j).normal, least_bend<2>(point - j.r, j.r1, j.r2),
-            out);
+  const geometry::CurveFrame frame = geometry::curve_frame(j);
+  const Vec2 gap = point - j.r;
+  finish<2>(gap, frame.normal, distance_bend(frame, gap.dot(frame.normal)), out);
   return out;
 }
 
@@ -102,7 +104,10 @@ std::optional<ClosestPoint<3>> shape_answer(const geometry::Surface& surface, co
   double bend = 1;
   Vec3 normal = frame.normal;
   if (out.feature == Feature::face) bend = least_bend(gap, j.r1, j.r2);
-  if (out.feature == Feature::edge) bend = least_bend<3>(gap, j.r1[0], j.r2[0]);  // a circle
+  if (out.feature == Feature::edge)  // a circle
+    bend = distance_bend(
+        geometry::space_curve_frame(geometry::CurveJet<3>{j.r, j.r1[0], j.r2[0], Vec3::Zero()}),
+        gap);
   if (out.feature == Feature::corner) {  // the apex of a cone: its axis is the mean normal
     const auto* cone = std::get_if<geometry::Cone>(&surface);
     if (cone != nullptr) normal = (cone->inside ? 1.0 : -1.0) * cone->axis.normalized();

@@ -14,17 +14,11 @@ namespace osculate::projection {
 [[nodiscard]] std::optional<ClosestPoint<3>> shape_answer(const geometry::Surface& surface,
                                                           const Vec3& point);
 
-/// Smallest 1 - zeta k over the directions of a face (of the curve in the plane): the second
+/// Smallest 1 - zeta k over the directions of a face: the second
 /// derivative of half the squared distance along the surface's arc length. 1 where the metric is
 /// singular (a pole), which leaves the question open.
 [[nodiscard]] double least_bend(const Vec3& gap, const std::array<Vec3, 2>& r1,
                                 const std::array<Vec3, 3>& r2);
-/// The same along a curve.
-template <int Dim>
-[[nodiscard]] double least_bend(const Vec<Dim>& gap, const Vec<Dim>& r1, const Vec<Dim>& r2) {
-  const double a = r1.squaredNorm();
-  return a > 0 ? 1 - gap.dot(r2) / a : 1.0;
-}
 
 /// Below this 1 - zeta k counts as zero: the point is at its centre of curvature. (There the foot
 /// point itself is known to the cube root of the rounding only, and 1 - zeta k to its square.)

@@ -20,9 +20,10 @@ struct DistanceJet2 {
   Mat<2, 2> metric = Mat<2, 2>::Zero();  ///< a_ij
 };
 
-/// From r_s - r and the derivatives r_1, r_2; r_11, r_12, r_22.
-[[nodiscard]] inline DistanceJet2 distance_jet2(const Vec3& gap, const std::array<Vec3, 2>& r1,
-                                                const std::array<Vec3, 3>& r2) {
+/// From r_s - r and the derivatives r_1, r_2; r_11, r_12, r_22 (a curve has r_2 = 0).
+template <int Dim>
+[[nodiscard]] DistanceJet2 distance_jet2(const Vec<Dim>& gap, const std::array<Vec<Dim>, 2>& r1,
+                                         const std::array<Vec<Dim>, 3>& r2) {
   DistanceJet2 j;
   j.squared_distance = gap.squaredNorm();
   j.slope = {-gap.dot(r1[0]), -gap.dot(r1[1])};  // @eq KSVD:15, KSCPP:5

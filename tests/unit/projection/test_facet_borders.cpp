@@ -21,7 +21,7 @@ constexpr std::array<CellType, 5> types{CellType::tri3, CellType::tri6, CellType
 
 DistanceJet2 distance_at(const geometry::LagrangeSurface& s, const Vec2& xi, const Vec3& p) {
   const geometry::SurfaceJet j = s.jet(xi);
-  return distance_jet2(p - j.r, j.r1, j.r2);
+  return distance_jet2<3>(p - j.r, j.r1, j.r2);
 }
 
 TEST(SurfaceDistance, SlopeAndBendAreDerivativesByOrder) {  // [eq:KSVD:15] [eq:KSVD:16]

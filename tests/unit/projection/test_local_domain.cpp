@@ -25,7 +25,7 @@ TEST(LocalDomain, SecondDerivativeAtTheFootPoint) {  // [eq:KSCPP:11]
     const geometry::SurfaceJet j = geometry::jet(s, xi);
     const SurfaceFrame f = surface_frame(j);
     for (const double zeta : heights) {
-      const DistanceJet2 d = distance_jet2(zeta * f.normal, j.r1, j.r2);
+      const DistanceJet2 d = distance_jet2<3>(zeta * f.normal, j.r1, j.r2);
       EXPECT_LT((distance_bend(f, zeta) - d.bend).norm(), 1e-12 * (1 + d.bend.norm()));
     }
   });
@@ -39,7 +39,7 @@ TEST(LocalDomain, DistanceToASurfaceByOrder) {
     const Vec3 point = offset_point(j, f.normal, 0.2) + 0.1 * j.r1[0] - 0.05 * j.r1[1];
     const auto at = [&](const Vec2& x) {
       const geometry::SurfaceJet here = geometry::jet(s, x);
-      return distance_jet2(point - here.r, here.r1, here.r2);
+      return distance_jet2<3>(point - here.r, here.r1, here.r2);
     };
     const DistanceJet2 d = at(xi);
     const auto half = [&](const Vec2& x) { return Vec3(0.5 * at(x).squared_distance, 0, 0); };

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "osculate/projection/cells.hpp"
+#include "osculate/projection/local_domain.hpp"
 #include "osculate/projection/piece_minima.hpp"
 #include "osculate/projection/piece_trees.hpp"
 #include "osculate/projection/shape_answer.hpp"
@@ -300,7 +301,9 @@ TEST(LeastBend, IsOneMinusGapTimesCurvature) {
   const std::array<Vec3, 3> round{Vec3(0, 0, 36 * k), Vec3(0, 0, 1.2 * k), Vec3(0, 0, 0.29 * k)};
   for (const double gap : {-3.0, 0.5, 1.9})
     EXPECT_NEAR(least_bend(Vec3(0, 0, gap), r1, round), 1 - gap * k, 1e-14);
-  EXPECT_NEAR(least_bend<2>(Vec2(0, 0.5), Vec2(3, 0), Vec2(1, 9 * k)), 1 - 0.5 * k, 1e-14);
+  const geometry::CurveFrame curve = geometry::curve_frame(
+      geometry::CurveJet<2>{Vec2::Zero(), Vec2(3, 0), Vec2(1, 9 * k), Vec2::Zero()});
+  EXPECT_NEAR(distance_bend(curve, 0.5), 1 - 0.5 * k, 1e-14);
 }
 
 }  // namespace
