@@ -57,14 +57,14 @@ CheckReport check_built(const std::string& path, const deck::BasicBuilt<Dim>& bu
     if (g.found == 0 && !m.pairs[p].group.empty())
       apart += fmt::format("{}{}", apart.empty() ? "" : ", ", m.pairs[p].name);
     else
-      report.text += gap_line(m.pairs[p].name, g, m.pairs[p].definition.slave.nodes.size());
+      report.text += gap_line(m.pairs[p].name, g, m.pairs[p].definition.slave.points.size());
     const pairing::EdgeContact& edges = m.pairs[p].definition.edges;
     if (edges.on)
       report.text += fmt::format("{:<13} {:<16} {} of the master, {} of the slave, {} crossings\n",
                                  "Sharp edges", m.pairs[p].name, edges.master.size(),
                                  edges.slave.size(), g.crossings);
     pairs.push_back({{"name", m.pairs[p].name},
-                     {"points", m.pairs[p].definition.slave.nodes.size()},
+                     {"points", m.pairs[p].definition.slave.points.size()},
                      {"facing", g.found},
                      {"touching", g.touching},
                      {"overlapping", g.overlapping},

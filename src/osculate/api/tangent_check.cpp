@@ -104,22 +104,23 @@ void close_contact(Probe<Dim>& probe, const model::BasicModel<Dim>& m) {
   Eigen::VectorXd d = Eigen::VectorXd::Zero(probe.system.dofs().unknowns());
   for (std::size_t p = 0; p < m.pairs.size(); ++p) {
     const auto& points = probe.system.contact()[p].points;
-    const std::size_t nodes = m.pairs[p].definition.slave.nodes.size();
-    for (std::size_t i = 0; i < nodes; ++i) {
+    const std::vector<pairing::SlavePoint<Dim>>& slave = m.pairs[p].definition.slave.points;
+    for (std::size_t i = 0; i < slave.size(); ++i) {
       if (!(std::abs(points[i].gap) < 0.1 * probe.size)) continue;
       Vec<Dim> push = -(points[i].gap + depth) * points[i].normal;
       const auto& law = m.pairs[p].definition.friction;
       if (law && i % 2 == 1)  // every second point slips
         push += 3 * law->mu * depth * m.pairs[p].definition.normal.stiffness / law->stiffness *
                 points[i].frame.col(0);
-      const Index node = m.pairs[p].definition.slave.nodes[i];
-      for (int k = 0; k < Dim; ++k) {
-        const Index u = probe.system.dofs().unknown_of(probe.system.dofs().node_dof(node, k));
-        if (u >= 0) d[u] = push[k];
-      }
+      for (std::size_t n = 0; n < static_cast<std::size_t>(slave[i].count); ++n)
+        for (int k = 0; k < Dim; ++k) {
+          const Index u =
+              probe.system.dofs().unknown_of(probe.system.dofs().node_dof(slave[i].nodes[n], k));
+          if (u >= 0) d[u] = push[k];
+        }
     }
     if constexpr (Dim == 3)
-      push_edges(probe, m.pairs[p].definition, std::span(points).subspan(nodes), depth, d);
+      push_edges(probe, m.pairs[p].definition, std::span(points).subspan(slave.size()), depth, d);
   }
   probe.base = probe.moved(d, 1.0);
 }

@@ -6,6 +6,7 @@
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/pairing/sampling.hpp"
 
 namespace osculate::deck {
 
@@ -230,12 +231,13 @@ void warn_of_smooth(BuildContext<3>& c, const Contact& contact,
 void warn_of_scatter(BuildContext<2>&, const Contact&, const pairing::PairDefinition<2>&) {}
 void warn_of_scatter(BuildContext<3>& c, const Contact& contact,
                      const pairing::PairDefinition<3>& pair) {
+  if (!pairing::sampled_at_nodes(pair.slave)) return;
   for (const pairing::SurfaceFacet& facet : pair.slave.boundary.facets) {
     if (facet.type != cell::CellType::tri6 && facet.type != cell::CellType::quad8) continue;
     if (c.model().body_of_node[static_cast<std::size_t>(facet.nodes[0])] >= 0) continue;
     c.built.warnings.push_back(fmt::format(
         "contact '{}': the slave '{}' has {} faces, at whose nodes contact pressures scatter; "
-        "prefer hex27 or first-order cells there, or make it the master",
+        "prefer sampling: {{gauss: 3}}, hex27 or first-order cells there, or make it the master",
         contact.name.value, contact.slave.value, cell::info(facet.type).name));
     return;
   }
@@ -298,9 +300,81 @@ void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMa
   c.model().pairs.push_back(std::move(out));
 }
 
+namespace {
+
+pairing::Sampling rule_of(const Sampling& s) {
+  using Rule = pairing::Sampling::Rule;
+  const Rule rule = s.rule == SamplingRule::gauss     ? Rule::gauss
+                    : s.rule == SamplingRule::lobatto ? Rule::lobatto
+                                                      : Rule::nodes;
+  return {rule, s.points, s.subdomains};
+}
+
+/// What needs nodes as contact points, or one slave.
+void check_axes(const Contact& contact) {
+  const bool own = contact.all || contact.master.value == contact.slave.value;
+  if (contact.sampling.value.rule != SamplingRule::nodes) {
+    if (own)
+      throw core::InputError(contact.sampling.mark,
+                             "contact of a surface with itself is sampled at nodes only");
+    if (contact.edges)
+      throw core::InputError(contact.sampling.mark,
+                             "contact of edges goes with sampling: nodes only");
+  }
+  if (!contact.two_pass) return;
+  if (own)
+    throw core::InputError(*contact.two_pass,
+                           "contact of a surface with itself has two passes already");
+  if (contact.edges)
+    throw core::InputError(*contact.two_pass, "crossings of edges have no second pass");
+}
+
+template <int Dim>
+void set_points(const Contact& contact, pairing::SlaveSide<Dim>& slave) {
+  try {
+    pairing::sample(slave, rule_of(contact.sampling.value));
+  } catch (const core::GeometryError& error) {
+    throw core::InputError(contact.sampling.mark, error.what());
+  }
+}
+
+template <int Dim>
+void add_sampled(BuildContext<Dim>& c, const Contact& contact, model::BasicContactPair<Dim> out) {
+  set_points(contact, out.definition.slave);
+  warn_of_scatter(c, contact, out.definition);
+  add_pair(c, contact, contact.slave.mark, std::move(out));
+}
+
+/// The second pass of a pair: its slave is the master.
+template <int Dim>
+model::BasicContactPair<Dim> reversed(const Contact& contact,
+                                      const model::BasicContactPair<Dim>& first) {
+  for (const auto& facet : first.definition.master.facets)
+    if (facet.shape)
+      throw core::InputError(*contact.two_pass,
+                             fmt::format("'{}' is an analytic shape, which has no points to be a "
+                                         "slave",
+                                         contact.master.value));
+  if (first.definition.slave.boundary.facets.empty())
+    throw core::InputError(
+        *contact.two_pass,
+        fmt::format("'{}' is a set of points, which cannot be master", contact.slave.value));
+  model::BasicContactPair<Dim> out;
+  out.name = first.name + ".reversed";
+  out.group = first.name;
+  out.note = "second pass";
+  out.reversed = true;
+  out.definition.master = first.definition.slave.boundary;
+  out.definition.slave = pairing::make_slave_side(first.definition.master);
+  return out;
+}
+
+}  // namespace
+
 template <int Dim>
 void build_contact(BuildContext<Dim>& c) {
   for (const Contact& contact : c.description.contact) {
+    check_axes(contact);
     if (contact.all) {
       build_contact_all(c, contact);
       continue;
@@ -314,8 +388,14 @@ void build_contact(BuildContext<Dim>& c) {
     else
       pair.slave = slave_of(c, contact);
     check_pair(c, contact, pair);
-    warn_of_scatter(c, contact, pair);
-    add_pair(c, contact, contact.slave.mark, std::move(out));
+    if (!contact.two_pass) {
+      add_sampled(c, contact, std::move(out));
+      continue;
+    }
+    model::BasicContactPair<Dim> second = reversed(contact, out);
+    pair.share = second.definition.share = 0.5;
+    add_sampled(c, contact, std::move(out));
+    add_sampled(c, contact, std::move(second));
   }
 }
 

@@ -145,7 +145,7 @@ struct Rigid {
 
 // ---- contact ----------------------------------------------------------------------------------
 
-enum class Sampling { nodes };
+enum class SamplingRule { nodes, gauss, lobatto };
 enum class Enforcement { penalty };
 enum class ContactWeight { node, reference_area, current_area };
 enum class Residual { surface, full };
@@ -156,6 +156,12 @@ enum class HistoryKind { continuous };
 struct Tangent {
   TangentKind kind = TangentKind::consistent;
   bool main = true, rotational = true, curvature = true;
+};
+
+/// Points per direction of a slave facet, or of each of its equal parts.
+struct Sampling {
+  SamplingRule rule = SamplingRule::nodes;
+  int points = 0, subdomains = 1;
 };
 
 struct CoulombFriction {
@@ -173,6 +179,7 @@ struct Contact {
   Marked<Residual> residual;
   Marked<Tangent> tangent;
   Marked<HistoryKind> history;
+  std::optional<core::SourceMark> two_pass;  ///< where it was asked for
   std::optional<Number> search_depth;
   std::optional<Number> edges;  ///< angle [degrees] of edges that are sharp; absent: without edges
   /// All bodies with each other, with the rigid ones and with themselves: stands for the pairs that

@@ -7,16 +7,23 @@ namespace {
 constexpr const char* stiffness_unit = "force/length^3 (force/length with weight: node)";
 
 Spec sampling_spec() {
-  const Spec points = integer("Number of points.").at_least(1).at_most(10).not_available();
+  const Spec points = integer("Points per direction of a facet.").at_most(20);
+  const Spec parts = integer("Equal parts per direction of a facet, each with its own points.")
+                         .at_least(1)
+                         .at_most(50)
+                         .otherwise("1")
+                         .such_as("2");
   return either("Where the slave side is tested for contact.",
                 {choice("Points of the slave side.",
-                        {word("nodes", Sampling::nodes, "the slave nodes"),
+                        {word("nodes", SamplingRule::nodes, "the slave nodes"),
                          planned("mortar", "weighted averages over the slave facets")}),
-                 map("Points inside the slave facets.",
-                     {optional("gauss", points), optional("lobatto", points),
-                      optional("subdomains", points)})})
+                 map("Points of a quadrature rule on the slave facets (segment to segment).",
+                     {optional("gauss", Spec(points).at_least(1).such_as("2")),
+                      optional("lobatto", Spec(points).at_least(2).such_as("5")),
+                      optional("subdomains", parts)})
+                     .with(Group::Rule::exactly_one, {"gauss", "lobatto"})})
       .otherwise("nodes")
-      .such_as("nodes");
+      .such_as("{lobatto: 5, subdomains: 2}");
 }
 
 Spec normal_spec() {
@@ -64,9 +71,9 @@ Spec weight_spec() {
   return choice("What the traction of a contact point is multiplied by.",
                 {word("node", ContactWeight::node, "one: the penalty is a force per length"),
                  word("reference_area", ContactWeight::reference_area,
-                      "the undeformed area of the slave node"),
+                      "the undeformed area of the slave point"),
                  word("current_area", ContactWeight::current_area,
-                      "the deformed area of the slave node")})
+                      "the deformed area of the slave point")})
       .otherwise("reference_area")
       .such_as("node");
 }
@@ -119,16 +126,20 @@ std::vector<Key> law_keys() {
                          .above(0)
                          .otherwise_as("no limit")
                          .such_as("0.5");
-  return {optional("sampling", sampling_spec()),
-          required("normal", normal_spec()),
-          optional("friction", friction_spec()),
-          optional("enforcement", enforcement_spec()),
-          optional("weight", weight_spec()),
-          optional("residual", residual_spec()),
-          optional("tangent", tangent_spec()),
-          optional("history", history_spec()),
-          optional("edges", edges_spec()),
-          optional("search", map("Where contact is looked for.", {optional("depth", depth)}))};
+  return {
+      optional("sampling", sampling_spec()),
+      required("normal", normal_spec()),
+      optional("friction", friction_spec()),
+      optional("enforcement", enforcement_spec()),
+      optional("weight", weight_spec()),
+      optional("residual", residual_spec()),
+      optional("tangent", tangent_spec()),
+      optional("history", history_spec()),
+      optional("two_pass", boolean("Both sides are slaves in turn, each with half of the traction.")
+                               .otherwise("false")
+                               .such_as("true")),
+      optional("edges", edges_spec()),
+      optional("search", map("Where contact is looked for.", {optional("depth", depth)}))};
 }
 
 Spec with_laws(std::string doc, std::vector<Key> keys) {

@@ -23,10 +23,19 @@ std::optional<Number> edges_of(const Value& v) {
   return Number{usual, v.mark};
 }
 
+Marked<Sampling> sampling_of(const Value& v) {
+  if (v.alternative == 0) return {{word_of<SamplingRule>(v).value}, v.mark};
+  const Value* const gauss = v.find("gauss");
+  return {
+      {gauss ? SamplingRule::gauss : SamplingRule::lobatto,
+       integer_of(gauss ? *gauss : v.at("lobatto")).value, integer_of(v.at("subdomains")).value},
+      v.mark};
+}
+
 /// What a pair and all pairs together have in common.
 void read_laws(const Value& v, Contact& c) {
   c.name = name_of(v.at("name"));
-  c.sampling = word_of<Sampling>(v, "sampling");
+  c.sampling = sampling_of(v.at("sampling"));
   c.normal_penalty = number_of(v.at("normal").at("penalty"));
   c.friction = friction_of(v.at("friction"));
   c.enforcement = word_of<Enforcement>(v, "enforcement");
@@ -35,6 +44,7 @@ void read_laws(const Value& v, Contact& c) {
   c.tangent = {tangent_of(v.at("tangent")), v.at("tangent").mark};
   c.history = word_of<HistoryKind>(v, "history");
   c.edges = edges_of(v.at("edges"));
+  if (flag(v, "two_pass")) c.two_pass = v.at("two_pass").mark;
   if (const Value* const search = v.find("search")) c.search_depth = number_if(*search, "depth");
 }
 

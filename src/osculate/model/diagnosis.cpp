@@ -261,11 +261,14 @@ std::vector<OutsideDomain> outside_domain(const BasicSystem<Dim>& system,
                                           const BasicModel<Dim>& model) {
   std::vector<OutsideDomain> found;
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
-    const std::vector<Index>& slaves = model.pairs[p].definition.slave.nodes;
+    const std::vector<pairing::SlavePoint<Dim>>& slaves = model.pairs[p].definition.slave.points;
     OutsideDomain here{model.pairs[p].name, {}};
     const auto& points = system.contact()[p].points;
     for (std::size_t i = 0; i < std::min(points.size(), slaves.size()); ++i)
-      if (points[i].outside_domain) here.nodes.push_back(slaves[i]);
+      if (const Index node = slaves[i].nearest_node();
+          points[i].outside_domain &&
+          std::find(here.nodes.begin(), here.nodes.end(), node) == here.nodes.end())
+        here.nodes.push_back(node);
     if (!here.nodes.empty()) found.push_back(std::move(here));
   }
   return found;

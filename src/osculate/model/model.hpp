@@ -38,8 +38,9 @@ struct BasicRigidBody {
 template <int Dim>
 struct BasicContactPair {
   std::string name;
-  std::string group{};  ///< name of the `all` that made it; empty: the user's own pair
-  std::string note{};   ///< who is master, and why
+  std::string group{};    ///< name of the `all`, or of the first pass; empty: the user's own pair
+  std::string note{};     ///< who is master, and why
+  bool reversed = false;  ///< second pass: forces on the pair's slave are those on its master
   pairing::PairDefinition<Dim> definition;
 };
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+
+#include "osculate/pairing/sampling.hpp"
 
 namespace osculate::model {
 namespace {
@@ -67,24 +70,26 @@ double rigid_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
   return rigid_reaction(system, model, state, request.target)[component];
 }
 
-/// First of a block's nodes that is the slave's, and the one after the last: the first node alone,
-/// at a crossing those behind the master's edge.
+/// First of a block's nodes that is the slave's, and the one after the last: the first ones, at a
+/// crossing those behind the master's edge.
 template <int Dim>
 std::array<int, 2> slave_range(const pairing::PairDefinition<Dim>& pair,
                                const pairing::PointResult<Dim>& point,
                                const pairing::ContactBlock<Dim>& block) {
   if (!block.active()) return {0, 0};
-  if (point.history.edge < 0) return {0, 1};
+  if (point.history.edge < 0) return {0, block.slave_count};
   return {pair.edges.master[static_cast<std::size_t>(point.history.facet)].count, block.count};
 }
 
-/// What was assembled: with `residual: full` it is not just the traction times the area.
+/// What was assembled: with `residual: full` it is not just the traction times the area. Of a
+/// second pass the force on its master.
 template <int Dim>
 double force_on_slave(const pairing::PairDefinition<Dim>& definition,
-                      const pairing::PairEvaluation<Dim>& pair, int direction) {
+                      const pairing::PairEvaluation<Dim>& pair, bool reversed, int direction) {
   double sum = 0;
   for (std::size_t i = 0; i < pair.blocks.size(); ++i) {
-    const std::array<int, 2> range = slave_range(definition, pair.points[i], pair.blocks[i]);
+    std::array<int, 2> range = slave_range(definition, pair.points[i], pair.blocks[i]);
+    if (reversed) range = {range[1], pair.blocks[i].count};
     for (int k = range[0]; k < range[1]; ++k) sum -= pair.blocks[i].force[Dim * k + direction];
   }
   return sum;
@@ -96,9 +101,9 @@ double one_pair_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& mod
   const pairing::PairEvaluation<Dim>& pair = system.contact()[static_cast<std::size_t>(target)];
   double sum = 0;
   Vec<Dim> shear = Vec<Dim>::Zero();
+  const BasicContactPair<Dim>& of = model.pairs[static_cast<std::size_t>(target)];
   if (request.quantity.starts_with("force_"))
-    sum = force_on_slave(model.pairs[static_cast<std::size_t>(target)].definition, pair,
-                         direction_of(request.quantity));
+    sum = force_on_slave(of.definition, pair, of.reversed, direction_of(request.quantity));
   for (const pairing::PointResult<Dim>& p : pair.points) {
     const bool closed = p.status != contact::Status::open;
     if (request.quantity == "normal_force") sum -= p.weight * p.normal_traction;
@@ -140,21 +145,97 @@ Mat<3, 2> shear_directions(const Vec3& normal) {
   return t;
 }
 
-void add_shear(const pairing::PointResult<2>& p, ContactFields& fields) {
-  fields.cshear.push_back(-p.shear_traction[0]);
-  fields.cslip.push_back(p.history.slip[0]);
-  fields.csforce.push_back(-p.weight * p.shear_traction[0]);
+/// What the fields show at one place.
+template <int Dim>
+struct Shown {
+  double weight = 0;  ///< of the values below in a mean
+  double gap = 0, pressure = 0, area = 0;
+  Vec<Dim> shear = Vec<Dim>::Zero(), slip = Vec<Dim>::Zero();  ///< on the slave; sliding
+  double status = 0, feature = 0;
+  Vec<Dim> normal = Vec<Dim>::UnitY();
+};
+
+template <int Dim>
+Shown<Dim> shown(const pairing::PointResult<Dim>& p) {
+  Shown<Dim> s;
+  s.weight = 1;
+  s.gap = p.history.facet >= 0 ? p.gap : 0.0;
+  s.pressure = -p.normal_traction;
+  s.area = p.weight;
+  s.shear = -p.shear();
+  s.slip = p.frame * p.history.slip;
+  s.status = static_cast<double>(p.status);
+  s.feature = static_cast<double>(p.history.feature);
+  s.normal = p.normal;
+  return s;
 }
 
-void add_shear(const pairing::PointResult<3>& p, ContactFields3& fields) {
-  const Mat<3, 2> t = shear_directions(p.normal);
-  const Vec2 shear = -t.transpose() * p.shear();
-  const Vec2 slip = t.transpose() * (p.frame * p.history.slip);
+void add_shear(const Shown<2>& s, ContactFields& fields) {
+  const Vec2 along = -turn(s.normal);
+  fields.cshear.push_back(s.shear.dot(along));
+  fields.cslip.push_back(s.slip.dot(along));
+  fields.csforce.push_back(s.area * fields.cshear.back());
+}
+
+void add_shear(const Shown<3>& s, ContactFields3& fields) {
+  const Mat<3, 2> t = shear_directions(s.normal);
+  const Vec2 shear = t.transpose() * s.shear;
+  const Vec2 slip = t.transpose() * s.slip;
   fields.cshear.push_back(shear[0]);
   fields.cshear2.push_back(shear[1]);
   fields.cslip.push_back(slip[0]);
   fields.cslip2.push_back(slip[1]);
-  fields.csforce.push_back(p.weight * shear.norm());
+  fields.csforce.push_back(s.area * shear.norm());
+}
+
+template <int Dim>
+void add_shown(const Shown<Dim>& s, BasicContactFields<Dim>& fields) {
+  fields.copen.push_back(s.gap);
+  fields.cpress.push_back(s.pressure);
+  add_shear(s, fields);
+  fields.carea.push_back(s.area);
+  fields.cnforce.push_back(s.area * s.pressure);
+  fields.cstatus.push_back(s.status);
+  fields.cfeature.push_back(s.feature);
+  fields.normal.push_back(s.normal);
+}
+
+/// The contact points' values at the slave's nodes: means with the weights N_k^2 (a constant is
+/// kept, and no weight is negative); areas are N_k shares, status and feature those of the point
+/// with the largest weight.
+template <int Dim>
+std::vector<Shown<Dim>> at_nodes(const pairing::SlaveSide<Dim>& slave,
+                                 const std::vector<pairing::PointResult<Dim>>& points) {
+  std::map<Index, std::size_t> slot;
+  for (std::size_t n = 0; n < slave.nodes.size(); ++n) slot[slave.nodes[n]] = n;
+  std::vector<Shown<Dim>> out(slave.nodes.size());
+  std::vector<double> heaviest(out.size(), 0.0);
+  for (std::size_t i = 0; i < slave.points.size(); ++i) {
+    const Shown<Dim> p = shown(points[i]);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(slave.points[i].count); ++k) {
+      const std::size_t n = slot.at(slave.points[i].nodes[k]);
+      const double share = slave.points[i].shape[k], weight = share * share * p.area;
+      Shown<Dim>& to = out[n];
+      to.weight += weight;
+      to.gap += weight * p.gap;
+      to.pressure += weight * p.pressure;
+      to.shear += weight * p.shear;
+      to.slip += weight * p.slip;
+      to.area += share * p.area;
+      if (!(weight > heaviest[n])) continue;
+      heaviest[n] = weight;
+      to.status = p.status;
+      to.feature = p.feature;
+      to.normal = p.normal;
+    }
+  }
+  for (Shown<Dim>& s : out) {
+    if (!(s.weight > 0)) continue;
+    for (double* const value : {&s.gap, &s.pressure}) *value /= s.weight;
+    s.shear /= s.weight;
+    s.slip /= s.weight;
+  }
+  return out;
 }
 
 }  // namespace
@@ -183,20 +264,18 @@ template <int Dim>
 BasicContactFields<Dim> contact_fields(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
                                        std::size_t pair) {
   BasicContactFields<Dim> fields;
-  fields.nodes = model.pairs[pair].definition.slave.nodes;
-  for (const pairing::PointResult<Dim>& p : system.contact()[pair].points) {
+  const pairing::SlaveSide<Dim>& slave = model.pairs[pair].definition.slave;
+  const std::vector<pairing::PointResult<Dim>>& points = system.contact()[pair].points;
+  fields.nodes = slave.nodes;
+  if (!pairing::sampled_at_nodes(slave)) {
+    for (const Shown<Dim>& s : at_nodes<Dim>(slave, points)) add_shown(s, fields);
+    return fields;
+  }
+  for (const pairing::PointResult<Dim>& p : points) {
     const contact::PointHistory<Dim>& h = p.history;
-    const bool found = h.facet >= 0;
     if constexpr (Dim == 3)
       if (h.edge >= 0) fields.crossings.push_back({h.edge, h.flipped ? -h.xi[1] : h.xi[1]});
-    fields.copen.push_back(found ? p.gap : 0.0);
-    fields.cpress.push_back(-p.normal_traction);
-    add_shear(p, fields);
-    fields.carea.push_back(p.weight);
-    fields.cnforce.push_back(-p.weight * p.normal_traction);
-    fields.cstatus.push_back(static_cast<double>(p.status));
-    fields.cfeature.push_back(static_cast<double>(p.history.feature));
-    fields.normal.push_back(p.normal);
+    add_shown(shown(p), fields);
   }
   return fields;
 }

@@ -202,7 +202,7 @@ void BasicSystem<Dim>::Impl::add_outer(std::span<const Dof> row_dofs, const doub
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::add_rank_one(std::span<const Dof> row_dofs,
-                                          const pairing::BlockVector<Dim>& rows,
+                                          const Eigen::VectorXd& rows,
                                           const std::vector<pairing::NodeGradient<Dim>>& gradient,
                                           const Eigen::VectorXd* inc) {
   if (gradient.empty()) return;
@@ -236,11 +236,10 @@ void BasicSystem<Dim>::Impl::add_path(std::span<const Dof> row_dofs,
 template <int Dim>
 void BasicSystem<Dim>::Impl::add_contact_block(const pairing::ContactBlock<Dim>& block,
                                                bool with_tangent, const Eigen::VectorXd* inc) {
-  std::array<Dof, Dim * pairing::max_block_nodes<Dim>> all{};
+  contact_dofs.clear();
   for (int k = 0; k < Dim * block.count; ++k)
-    all[static_cast<std::size_t>(k)] =
-        dofs.node_dof(block.nodes[static_cast<std::size_t>(k / Dim)], k % Dim);
-  const std::span<const Dof> d(all.data(), static_cast<std::size_t>(Dim * block.count));
+    contact_dofs.push_back(dofs.node_dof(block.nodes[static_cast<std::size_t>(k / Dim)], k % Dim));
+  const std::span<const Dof> d(contact_dofs);
   for (std::size_t k = 0; k < d.size(); ++k) {
     const auto i = static_cast<Eigen::Index>(k);
     forces.contact[d[k]] += block.force[i];

@@ -48,7 +48,7 @@ struct BasicSystem<Dim>::Impl {
   la::Symmetry symmetry;
   SystemSeconds seconds;
   std::vector<double> path_values;
-  std::vector<Dof> path_dofs;
+  std::vector<Dof> path_dofs, contact_dofs;
 
   Impl(const BasicModel<Dim>& m, int thread_count);
 
@@ -76,7 +76,7 @@ struct BasicSystem<Dim>::Impl {
   void add_contact_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,
                          const Eigen::VectorXd* inc);
   /// rows * sum gradient . dx
-  void add_rank_one(std::span<const Dof> row_dofs, const pairing::BlockVector<Dim>& rows,
+  void add_rank_one(std::span<const Dof> row_dofs, const Eigen::VectorXd& rows,
                     const std::vector<pairing::NodeGradient<Dim>>& gradient,
                     const Eigen::VectorXd* inc);
   /// Terms of the nodes behind a contact point: one outer product per direction in space.

@@ -20,7 +20,7 @@ using Points = std::type_identity_t<std::span<const Vec<Dim>>>;
 /// What the traction law's result is multiplied by.
 enum class Weight : std::uint8_t { node, reference_area, current_area };
 
-/// One contact pair: one entry per axis (sampling: the slave's nodes; target: the master; law;
+/// One contact pair: one entry per axis (sampling: the slave's points; target: the master; law;
 /// enforcement: penalty), plus the forms of residual and tangent. Everything here is the same in
 /// the plane and in space.
 template <int Dim>
@@ -33,14 +33,15 @@ struct PairDefinition {
   contact::ResidualForm residual = contact::ResidualForm::surface;
   contact::TangentForm tangent;
   AreaRule area;
+  double share = 1;  ///< of the traction that this pass carries (two passes: 1/2 each)
   double depth = std::numeric_limits<double>::infinity();  ///< deeper points are not in contact
   EdgeContact edges;  ///< in space: also where sharp edges cross
   /// With `scope.own` both sides of a contact are slaves, and each carries half of the traction.
   Scope<Dim> scope;
-  std::vector<double> reference_areas;  ///< filled by `prepare`
+  std::vector<double> reference_areas;  ///< of the slave's points; filled by `prepare`
 };
 
-/// Committed history of a pair: one entry per slave node, then one per crossing of edges.
+/// Committed history of a pair: one entry per slave point, then one per crossing of edges.
 template <int Dim>
 struct PairState {
   std::vector<contact::PointHistory<Dim>> points;
@@ -75,31 +76,36 @@ struct PointResult {
   [[nodiscard]] Vec<Dim> shear() const { return frame * shear_traction; }
 };
 
-template <int Dim>
-inline constexpr int max_block_nodes = 1 + max_master_nodes<Dim>;
-template <int Dim>
-using BlockVector = Vec<Dim * max_block_nodes<Dim>>;
-template <int Dim>
-using BlockMatrix = Mat<Dim * max_block_nodes<Dim>, Dim * max_block_nodes<Dim>>;
-
-/// Forces and tangent of one contact point. Row Dim * k + i belongs to node k, direction i; only
-/// the first Dim * count rows and columns are used. The forces are ADDED to the internal forces.
-/// `path` and `area` are terms of other nodes: dR = path_rows * sum path . dx + area_rows * sum
-/// area . dx.
+/// Forces and tangent of one contact point. Row Dim * k + i belongs to node k, direction i; the
+/// slave's nodes come first. Only the first Dim * count rows and columns are used: the buffers grow
+/// once, to the largest block of the pair. The forces are ADDED to the internal forces. `path` and
+/// `area` are terms of other nodes: dR = path_rows * sum path . dx + area_rows * sum area . dx.
 template <int Dim>
 struct ContactBlock {
   int count = 0;
-  std::array<Index, max_block_nodes<Dim>> nodes{};
-  BlockVector<Dim> force;
-  BlockVector<Dim> branch_force;  ///< of the linearised branch; equals `force` unless `branched`
+  int slave_count = 0;
+  std::vector<Index> nodes;
+  Eigen::VectorXd force;
+  Eigen::VectorXd branch_force;  ///< of the linearised branch; equals `force` unless `branched`
   bool branched = false;
-  BlockMatrix<Dim> tangent;
-  Mat<Dim * max_block_nodes<Dim>, Dim> path_rows;
-  BlockVector<Dim> area_rows;
+  Eigen::MatrixXd tangent;
+  Eigen::Matrix<double, Eigen::Dynamic, Dim> path_rows;
+  Eigen::VectorXd area_rows;
   PathBuffers<Dim> behind;
   std::vector<NodeGradient<Dim>> area;
   [[nodiscard]] bool active() const { return count > 0; }
   [[nodiscard]] const std::vector<NodeMatrix<Dim>>& path() const { return behind.path; }
+  /// Room for blocks of so many nodes.
+  void reserve(int most) {
+    if (static_cast<int>(nodes.size()) >= most) return;
+    const Eigen::Index size = Dim * most;
+    nodes.resize(static_cast<std::size_t>(most));
+    force.resize(size);
+    branch_force.resize(size);
+    tangent.resize(size, size);
+    path_rows.resize(size, Dim);
+    area_rows.resize(size);
+  }
 };
 
 /// Where the time of evaluations went [s], summed up over all calls with the same buffers.
@@ -113,12 +119,13 @@ struct PairSeconds {
 /// call.
 template <int Dim>
 struct PairEvaluation {
-  std::vector<PointResult<Dim>> points;   ///< one per slave node, then one per crossing of edges
+  std::vector<PointResult<Dim>> points;   ///< one per slave point, then one per crossing of edges
   std::vector<ContactBlock<Dim>> blocks;  ///< one per point, `count == 0` where open
   EdgeBuffers edges;
-  std::vector<double> areas;
+  int block_nodes = 0;        ///< of the largest block there can be
+  std::vector<double> areas;  ///< of the slave's points, if they change
   std::vector<std::vector<NodeGradient<Dim>>> area_gradients;
-  std::vector<Vec<Dim>> normals;
+  std::vector<Vec<Dim>> normals;  ///< of the slave at its points
   std::vector<search::Box<Dim>> boxes;
   Tree<Dim> tree;
   ScopeBuffers<Dim> scope;
@@ -127,7 +134,8 @@ struct PairEvaluation {
 };
 
 /// Fills the reference areas from the reference coordinates. Throws core::GeometryError when area
-/// weights are asked for and a slave node has no facet or a non-positive area. Prepares the scope.
+/// weights are asked for and a slave point has no facet or a non-positive area, and when a scope or
+/// edges meet another sampling than the nodes. Prepares the scope.
 template <int Dim>
 void prepare(PairDefinition<Dim>& pair, Points<Dim> reference);
 

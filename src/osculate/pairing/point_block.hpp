@@ -1,21 +1,26 @@
 #pragma once
 // From the terms of one contact point to the matrix of its nodes; for sources of this layer.
+#include <algorithm>
+
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::pairing {
 
-/// Contact weights by slot: 1 and no derivatives for the slave, -N_k, -N_k,i, -N_k,ij for the
-/// master (KS2D:60, 61 with as many columns per node as there are directions).
+/// Contact weights by slot: N_k and no derivatives for the slave (1 for a node), -N_k, -N_k,i,
+/// -N_k,ij for the master (KS2D:60, 61 with as many columns per node as there are directions).
 template <int Dim>
-using Weights = std::array<std::array<double, max_block_nodes<Dim>>, contact::slots<Dim>>;
+using Weights = std::array<std::array<double, max_slave_nodes<Dim> + max_master_nodes<Dim>>,
+                           contact::slots<Dim>>;
 
 template <int Dim>
-[[nodiscard]] Weights<Dim> contact_weights(const Placed<Dim>& placed) {
+[[nodiscard]] Weights<Dim> contact_weights(const SlavePoint<Dim>& slave,
+                                           const Placed<Dim>& placed) {
   Weights<Dim> w{};
-  w[0][0] = 1.0;
+  const auto first = static_cast<std::size_t>(slave.count);
+  std::copy_n(slave.shape.begin(), first, w[0].begin());
   for (std::size_t s = 0; s < w.size(); ++s)
     for (std::size_t k = 0; k < static_cast<std::size_t>(placed.count); ++k)
-      w[s][k + 1] = -placed.shape[s][k];  // @eq KS2D:60
+      w[s][first + k] = -placed.shape[s][k];  // @eq KS2D:60
   return w;
 }
 
@@ -30,7 +35,7 @@ template <int Dim>
   return facet_jet(master.facets[static_cast<std::size_t>(h.facet)], h.xi, x).r;
 }
 
-/// Closest point of slave node `i` on the master and the kinematics there; no place where none is
+/// Closest point of slave point `i` on the master and the kinematics there; no place where none is
 /// found. `work` is refreshed at `x`.
 template <int Dim>
 [[nodiscard]] Placed<Dim> place_point(const PairDefinition<Dim>& pair,
@@ -38,7 +43,7 @@ template <int Dim>
                                       const contact::PointHistory<Dim>& history) {
   if (work.apart) return {};
   ProjectionQuery<Dim> query;
-  query.point = x[static_cast<std::size_t>(pair.slave.nodes[i])];
+  query.point = position<Dim>(pair.slave.points[i], x);
   if (work.normals[i].squaredNorm() > 0) query.slave_normal = work.normals[i];
   query.history = history.facet;
   query.history_feature = history.feature;
@@ -59,7 +64,7 @@ template <int Dim>
 /// Sets the first Dim * count rows and columns of `tangent`.
 template <int Dim>
 void scatter_tangent(const Weights<Dim>& w, const contact::PointTerms<Dim>& terms, int count,
-                     double area, BlockMatrix<Dim>& tangent) {
+                     double area, Eigen::MatrixXd& tangent) {
   for (int k = 0; k < count; ++k) {
     std::array<Mat<Dim, Dim>, contact::slots<Dim>> row;
     for (std::size_t b = 0; b < terms.used; ++b) {

@@ -5,13 +5,13 @@
 
 namespace osculate::pairing {
 
-/// Of the traction at a slave node: on its own surface the other side of the contact carries half.
+/// Of the traction at a slave point: on its own surface the other side of the contact carries half.
 template <int Dim>
 [[nodiscard]] double side_share(const PairDefinition<Dim>& pair) {
-  return pair.scope.own ? 0.5 : 1.0;
+  return pair.scope.own ? 0.5 : pair.share;
 }
 
-/// What the traction of point i is multiplied by: 1 or the area of its node.
+/// What the traction of point i is multiplied by: 1 or its area.
 template <int Dim>
 [[nodiscard]] double point_weight(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& work,
                                   std::size_t i) {

@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "osculate/cell/quadrature.hpp"
+#include "osculate/pairing/area_element.hpp"
 
 namespace osculate::pairing {
 
@@ -52,6 +53,7 @@ SlaveSide<2> make_slave_side(Chain chain, std::span<const Index> extra_nodes) {
     for (const Index node : along(side.boundary.facets[static_cast<std::size_t>(f)]))
       side.facets_of[add(node)].push_back(f);
   for (const Index node : extra_nodes) add(node);
+  sample_nodes(side);
   return side;
 }
 
@@ -65,17 +67,11 @@ void add_facet_area(const Facet& facet, std::size_t k, std::span<const Vec2> x,
   sum.fill(Vec2::Zero());
   for (std::size_t q = 0; q < quadrature.points.size(); ++q) {
     const cell::LineShape shape = facet_shape(facet, quadrature.points[q]);
-    const geometry::CurveJet<2> jet = facet_jet(facet, shape, x);
-    const double speed = jet.r1.norm();
-    const double turn_length = 2 * std::numbers::pi;
-    const double factor = rule.axisymmetric ? turn_length * jet.r.x() : rule.thickness;
+    const AreaElement<2> element = area_element(facet, shape, x, rule);
     const double weight = quadrature.weights[q] * shape.n[0][k];
-    area += weight * speed * factor;
-    if (!gradient || !(speed > 0)) continue;
-    for (std::size_t l = 0; l < static_cast<std::size_t>(facet.count); ++l) {
-      sum[l] += weight * factor * shape.n[1][l] / speed * jet.r1;
-      if (rule.axisymmetric) sum[l].x() += weight * speed * turn_length * shape.n[0][l];
-    }
+    area += weight * element.value;
+    for (std::size_t l = 0; l < static_cast<std::size_t>(facet.count); ++l)
+      sum[l] += weight * element.gradient[l];
   }
   if (!gradient) return;
   for (std::size_t l = 0; l < static_cast<std::size_t>(facet.count); ++l)

@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <numbers>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "osculate/pairing/chain.hpp"
@@ -29,13 +31,53 @@ struct AreaRule {
   bool axisymmetric = false;  ///< x is the radius, y the axis
 };
 
-/// Where contact is sampled: nodes, with the facets they belong to (for areas and normals).
+template <int Dim>
+inline constexpr int max_slave_nodes = Dim == 2 ? cell::max_line_nodes : cell::max_facet_nodes;
+
+/// A contact point of the slave: a fixed place on one of its facets, r_s = sum_k N_k x_k, so that
+/// d(r_s) = sum_k N_k d(u_k). A node is the case of one node with N = 1.
+template <int Dim>
+struct SlavePoint {
+  int count = 1;
+  std::array<Index, max_slave_nodes<Dim>> nodes{};
+  std::array<double, max_slave_nodes<Dim>> shape{1.0};  ///< N_k
+  Index facet = -1;                                     ///< of the slave's boundary; -1: a node
+  Vec<Dim - 1> xi = Vec<Dim - 1>::Zero();               ///< on that facet
+  double weight = 0;  ///< of the quadrature, in the facet's reference cell
+
+  [[nodiscard]] bool is_node() const { return facet < 0; }
+  /// The node with the largest share.
+  [[nodiscard]] Index nearest_node() const {
+    const auto* const end = shape.begin() + count;
+    return nodes[static_cast<std::size_t>(std::max_element(shape.begin(), end) - shape.begin())];
+  }
+};
+
+/// The slave with its contact points: its nodes, unless sampled otherwise (sampling.hpp).
 template <int Dim>
 struct SlaveSide {
   std::vector<Index> nodes;                   ///< along the boundary, then those without facets
   Boundary<Dim> boundary;                     ///< slave facets; may be empty (point sets)
   std::vector<std::vector<Index>> facets_of;  ///< per entry of `nodes`, the facets that hold it
+  std::vector<SlavePoint<Dim>> points;        ///< by default one per entry of `nodes`, in order
 };
+
+/// Position of a contact point.
+template <int Dim>
+[[nodiscard]] Vec<Dim> position(const SlavePoint<Dim>& point,
+                                std::type_identity_t<std::span<const Vec<Dim>>> x) {
+  Vec<Dim> r = point.shape[0] * x[static_cast<std::size_t>(point.nodes[0])];
+  for (std::size_t k = 1; k < static_cast<std::size_t>(point.count); ++k)
+    r += point.shape[k] * x[static_cast<std::size_t>(point.nodes[k])];
+  return r;
+}
+
+/// One contact point per entry of `nodes`.
+template <int Dim>
+void sample_nodes(SlaveSide<Dim>& side) {
+  side.points.assign(side.nodes.size(), {});
+  for (std::size_t i = 0; i < side.nodes.size(); ++i) side.points[i].nodes[0] = side.nodes[i];
+}
 
 [[nodiscard]] SlaveSide<2> make_slave_side(Chain chain, std::span<const Index> extra_nodes = {});
 [[nodiscard]] SlaveSide<3> make_slave_side(FacetSurface surface,

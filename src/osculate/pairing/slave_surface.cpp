@@ -4,6 +4,7 @@
 
 #include "osculate/cell/quadrature.hpp"
 #include "osculate/cell/shape.hpp"
+#include "osculate/pairing/area_element.hpp"
 #include "osculate/pairing/slave_side.hpp"
 
 namespace osculate::pairing {
@@ -26,6 +27,7 @@ SlaveSide<3> make_slave_side(FacetSurface surface, std::span<const Index> extra_
       side.facets_of[add(facet.nodes[k])].push_back(static_cast<Index>(f));
   }
   for (const Index node : extra_nodes) add(node);
+  sample_nodes(side);
   return side;
 }
 
@@ -95,16 +97,11 @@ void add_facet_area(const SurfaceFacet& facet, std::size_t k, std::span<const Ve
   sum.fill(Vec3::Zero());
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     const cell::FacetShape shape = facet_shape(facet, rule.points[q]);
-    const geometry::SurfaceJet jet = facet_jet(facet, shape, x);
-    const Vec3 normal = jet.r1[0].cross(jet.r1[1]);
-    const double size = normal.norm();
+    const AreaElement<3> element = area_element(facet, shape, x, {});
     const double weight = rule.weights[q] * share_of(facet.type, shape, k);
-    area += weight * size;
-    if (!gradient || !(size > 0)) continue;
-    const Vec3 n = normal / size;
-    const Vec3 of_first = jet.r1[1].cross(n), of_second = n.cross(jet.r1[0]);
+    area += weight * element.value;
     for (std::size_t l = 0; l < static_cast<std::size_t>(facet.count); ++l)
-      sum[l] += weight * (shape.n[1][l] * of_first + shape.n[2][l] * of_second);
+      sum[l] += weight * element.gradient[l];
   }
   if (!gradient) return;
   for (std::size_t l = 0; l < static_cast<std::size_t>(facet.count); ++l)

@@ -8,27 +8,24 @@ namespace osculate::pairing {
 namespace {
 
 template <int Dim>
-double share_at(const PairDefinition<Dim>& pair, const Placed<Dim>& placed,
-                const contact::TangentForm& parts) {
+double share_at(const PairDefinition<Dim>& pair, const SlavePoint<Dim>& slave,
+                const Placed<Dim>& placed, const contact::TangentForm& parts) {
   contact::Traction<Dim> traction;
   traction.normal = pair.normal.response(placed.kinematics.gap);
-  const Weights<Dim> w = contact_weights(placed);
-  const int count = 1 + placed.count, size = Dim * count;
+  const Weights<Dim> w = contact_weights(slave, placed);
+  const int count = slave.count + placed.count, size = Dim * count;
   const auto matrix = [&](bool rotational, bool curvature) {
     const contact::TangentForm form{false, true, rotational, curvature};
-    BlockMatrix<Dim> k = BlockMatrix<Dim>::Zero();
+    Eigen::MatrixXd k(size, size);
     scatter_tangent<Dim>(w,
                          contact::covariant_terms(placed.kinematics, traction, pair.residual, form),
                          count, 1.0, k);
     return k;
   };
-  const auto norm = [&](const BlockMatrix<Dim>& k) {
-    return row_sum_norm(k.topLeftCorner(size, size));
-  };
-  const BlockMatrix<Dim> full = matrix(parts.rotational, parts.curvature),
-                         main = matrix(false, false);
-  const BlockMatrix<Dim> rest = full - main;
-  const double share = norm(rest) / norm(main);  // @eq KSVD:60
+  const Eigen::MatrixXd full = matrix(parts.rotational, parts.curvature),
+                        main = matrix(false, false);
+  const Eigen::MatrixXd rest = full - main;
+  const double share = row_sum_norm(rest) / row_sum_norm(main);  // @eq KSVD:60
   return share;
 }
 
@@ -38,12 +35,12 @@ template <int Dim>
 double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
                        const PairEvaluation<Dim>& evaluation, const contact::TangentForm& parts) {
   double largest = 0;
-  for (std::size_t i = 0; i < pair.slave.nodes.size(); ++i) {  // not the crossings
+  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {  // not the crossings
     if (evaluation.points[i].status == contact::Status::open) continue;
     const Placed<Dim> placed =
         place_point<Dim>(pair, evaluation, x, i, evaluation.points[i].history);
     if (placed.projection.feature == projection::Feature::none) continue;
-    largest = std::max(largest, share_at(pair, placed, parts));
+    largest = std::max(largest, share_at(pair, pair.slave.points[i], placed, parts));
   }
   return largest;
 }

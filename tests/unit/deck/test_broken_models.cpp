@@ -190,8 +190,6 @@ TEST(BrokenModels, KnownButNotAvailable) {
   expect_refusals({
       {"sampling: nodes", "sampling: mortar",
        "model.yaml:15: contact[0].sampling: 'mortar' is not available yet; use nodes"},
-      {"sampling: nodes", "sampling: {gauss: 2}",
-       "model.yaml:15: contact[0].sampling.gauss: is not available yet"},
       {"enforcement: penalty", "enforcement: lagrange_multiplier",
        "model.yaml:18: contact[0].enforcement: 'lagrange_multiplier' is not available yet; use "
        "penalty"},

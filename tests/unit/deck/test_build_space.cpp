@@ -36,7 +36,8 @@ TEST(BuildSpace, SectionsAndRigidBodies) {
                 "contact 'gap': the slave 'low.top' has no convex edge with more than 40 degrees "
                 "between its facets, so edges: has no effect",
                 "contact 'press': the slave 'high.top' has quad8 faces, at whose nodes contact "
-                "pressures scatter; prefer hex27 or first-order cells there, or make it the "
+                "pressures scatter; prefer sampling: {gauss: 3}, hex27 or first-order cells there, "
+                "or make it the "
                 "master"}));
   ASSERT_EQ(m.sections.size(), 2u);
   EXPECT_EQ(m.sections[0].section.formulation, solid::VolumeFormulation::enhanced);

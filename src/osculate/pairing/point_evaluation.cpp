@@ -1,0 +1,231 @@
+#include "osculate/pairing/point_evaluation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osculate/pairing/point_block.hpp"
+#include "osculate/pairing/point_weight.hpp"
+
+namespace osculate::pairing {
+
+using contact::Branch;
+using contact::Kinematics;
+using contact::PointHistory;
+using contact::PointTerms;
+using contact::Status;
+using contact::TangentialResponse;
+using contact::Traction;
+using projection::Feature;
+
+namespace {
+
+template <int Dim>
+ContactShare contact_share(const PointHistory<Dim>& history, double gap) {
+  if (history.active || history.facet < 0 || !(history.gap > 0)) return {};
+  const double range = history.gap - gap;
+  return {-gap / range, -history.gap / (range * range)};
+}
+
+template <int Dim>
+struct Friction {
+  Traction<Dim> traction;
+  TangentialResponse<Dim> law;  ///< what the law says; `traction` may be in another branch
+  Vec<Dim - 1> slip = Vec<Dim - 1>::Zero();  ///< of the increment, times the share in contact
+  double dissipated = 0;                     ///< per area (or per node) in the increment
+};
+
+template <int Dim>
+TangentialResponse<Dim> linearised_branch(const contact::Coulomb& law,
+                                          const TangentialResponse<Dim>& response,
+                                          const Vec<Dim - 1>& trial, double normal,
+                                          const Mat<Dim, Dim - 1>& frame,
+                                          const BranchHint<Dim>& hint) {
+  if (hint.predict && hint.assumed.branch == Branch::stick)
+    return contact::Coulomb::stick<Dim>(trial);  // also on the limit, whatever round-off says
+  if (hint.assumed.branch != Branch::slip) return response;
+  const Vec<Dim - 1> before = frame.transpose() * hint.assumed.direction;
+  const double size = before.norm();
+  if (!(size > 0)) return response;
+  if (hint.predict) {
+    const double limit = law.mu * std::abs(normal);
+    const double turning = limit > 0 ? limit / std::max(limit, trial.norm()) : 0.0;
+    return law.template slip<Dim>(before / size, normal, turning);
+  }
+  const bool reversed = response.status == Status::slip && before.dot(trial) < 0;
+  return reversed ? contact::Coulomb::stick<Dim>(trial) : response;
+}
+
+template <int Dim>
+AssumedBranch<Dim> branch_of(const TangentialResponse<Dim>& response,
+                             const Mat<Dim, Dim - 1>& frame) {
+  if (response.status == Status::stick) return {Branch::stick, Vec<Dim>::Zero()};
+  const double size = response.traction.norm();
+  if (!(size > 0)) return {Branch::slip, Vec<Dim>::Zero()};
+  return {Branch::slip, frame * (response.traction / size)};
+}
+
+template <int Dim>
+Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,
+                        const Placed<Dim>& placed, Points<Dim> x, const BranchHint<Dim>& hint,
+                        PathBuffers<Dim>* path) {
+  Friction<Dim> f;
+  const Kinematics<Dim>& k = placed.kinematics;
+  f.traction.normal = pair.normal.response(k.gap);
+  if (!f.traction.normal.active || !pair.friction) return f;
+  const contact::Coulomb& law = *pair.friction;
+  const Trial<Dim> tr =
+      trial(pair.master, history, placed, law.stiffness, contact_share(history, k.gap), x, path);
+  const double normal = f.traction.normal.traction;
+  f.slip = tr.slip;
+  f.law = law.template response<Dim>(tr.value, normal);
+  f.dissipated = law.template dissipated<Dim>(tr.value, f.law);
+  f.traction.tangential = linearised_branch<Dim>(law, f.law, tr.value, normal, k.frame, hint);
+  f.traction.stiffness = law.stiffness;
+  f.traction.d_trial = tr.variation;
+  return f;
+}
+
+template <int Dim>
+void set_nodes(ContactBlock<Dim>& block, const Boundary<Dim>& master, const Placed<Dim>& placed,
+               const SlavePoint<Dim>& slave, int most) {
+  const auto& facet = master.facets[static_cast<std::size_t>(placed.projection.facet)];
+  block.reserve(most);
+  block.count = slave.count + placed.count;
+  block.slave_count = slave.count;
+  std::copy_n(slave.nodes.begin(), slave.count, block.nodes.begin());
+  std::copy_n(facet.nodes.begin(), placed.count, block.nodes.begin() + slave.count);
+}
+
+template <int Dim>
+void scatter_forces(Eigen::VectorXd& force, int count, const Weights<Dim>& w,
+                    const PointTerms<Dim>& terms, double area) {
+  for (int k = 0; k < count; ++k) {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t a = 0; a < terms.f.size(); ++a)
+      sum += w[a][static_cast<std::size_t>(k)] * terms.f[a];
+    force.template segment<Dim>(Dim * k) = area * sum;
+  }
+}
+
+template <int Dim>
+void scatter_path(ContactBlock<Dim>& block, const Weights<Dim>& w, const PointTerms<Dim>& terms,
+                  double area) {
+  for (int k = 0; k < block.count; ++k) {
+    Mat<Dim, Dim> behind = Mat<Dim, Dim>::Zero();
+    for (std::size_t a = 0; a < terms.s.size(); ++a)
+      behind += w[a][static_cast<std::size_t>(k)] * terms.s[a];
+    block.path_rows.template middleRows<Dim>(Dim * k) = area * behind;
+  }
+}
+
+template <int Dim>
+PointHistory<Dim> next_history(const PairDefinition<Dim>& pair, Points<Dim> x,
+                               const PointHistory<Dim>& old, const Placed<Dim>& placed,
+                               const Friction<Dim>& f) {
+  PointHistory<Dim> h;
+  h.facet = placed.projection.facet;
+  h.feature = placed.projection.feature;
+  h.xi = placed.projection.xi;
+  h.gap = placed.kinematics.gap;
+  h.active = f.traction.normal.active;
+  h.friction_work = old.friction_work;
+  if (!h.active) return h;
+  h.traction = stored_components(pair.master, placed, f.law.traction, x);
+  h.slipping = f.law.status == Status::slip;
+  h.slip = f.slip;
+  if (old.active) h.slip += old.slip;
+  return h;
+}
+
+template <int Dim>
+void clear(ContactBlock<Dim>& block) {
+  block.count = 0;
+  block.branched = false;
+  block.behind.path.clear();
+  block.area.clear();
+}
+
+/// Where the point is; false where it is not in contact.
+template <int Dim>
+bool report_place(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHistory<Dim>& history,
+                  const Placed<Dim>& placed, PointResult<Dim>& result) {
+  if (placed.projection.feature == Feature::none) return false;
+  const Kinematics<Dim>& k = placed.kinematics;
+  result.gap = k.gap;
+  result.foot = placed.foot;
+  result.normal = k.normal;
+  result.frame = k.frame;
+  result.history = next_history<Dim>(pair, x, history, placed, {});
+  if (placed.projection.beyond_end) result.history.gap = result.gap = std::abs(k.gap);
+  const bool closed = !placed.projection.beyond_end && k.gap >= -pair.depth && k.gap <= 0;
+  result.outside_domain = closed && !contact::inside_domain(k);
+  return closed && !result.outside_domain;
+}
+
+}  // namespace
+
+template <int Dim>
+void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
+                    const PointHistory<Dim>& history, const Placed<Dim>& placed,
+                    const BranchHint<Dim>& hint, bool with_tangent, std::size_t i,
+                    PairEvaluation<Dim>& out) {
+  PointResult<Dim>& result = out.points[i];
+  ContactBlock<Dim>& block = out.blocks[i];
+  result = {};
+  clear(block);
+  result.weight = point_weight(pair, out, i);
+  result.history.friction_work = history.friction_work;
+  result.gap = std::numeric_limits<double>::infinity();
+  if (!report_place(pair, x, history, placed, result)) return;
+  const Kinematics<Dim>& k = placed.kinematics;
+  result.weight = facing_weight<Dim>(pair, out, i, k.normal);
+  const bool exact = with_tangent && pair.tangent.consistent;
+  const Friction<Dim> f =
+      tractions<Dim>(pair, history, placed, x, hint, exact ? &block.behind : nullptr);
+  result.history = next_history(pair, x, history, placed, f);
+  result.history.friction_work += result.weight * f.dissipated;
+  result.status = !pair.friction ? Status::slip : f.law.status;
+  if (pair.friction) result.branch = branch_of<Dim>(f.traction.tangential, k.frame);
+  result.normal_traction = f.traction.normal.traction;
+  result.shear_traction = f.law.traction;
+  result.slip_increment = f.slip;
+
+  const SlavePoint<Dim>& slave = pair.slave.points[i];
+  set_nodes(block, pair.master, placed, slave, out.block_nodes);
+  const Weights<Dim> w = contact_weights(slave, placed);
+  const PointTerms<Dim> terms =
+      with_tangent ? contact::point_terms(k, f.traction, pair.residual, pair.tangent)
+                   : contact::point_forces(k, f.traction, pair.residual);
+  scatter_forces(block.branch_force, block.count, w, terms, result.weight);
+  block.force = block.branch_force;
+  block.branched = pair.friction && f.law.traction != f.traction.tangential.traction;
+  if (block.branched) {
+    Traction<Dim> lawful = f.traction;
+    lawful.tangential = f.law;
+    scatter_forces(block.force, block.count, w, contact::point_forces(k, lawful, pair.residual),
+                   result.weight);
+  }
+  if (!with_tangent) return;
+  scatter_tangent<Dim>(w, terms, block.count, result.weight, block.tangent);
+  scatter_path(block, w, terms, result.weight);
+  if (!exact || pair.weight != Weight::current_area) return;
+  add_area_gradient<Dim>(pair, out, i, k.normal, block.area);
+  scatter_forces(block.area_rows, block.count, w, terms, side_share(pair));
+}
+
+template <int Dim>
+PointHistory<Dim> history_at(const PairDefinition<Dim>& pair, Points<Dim> x,
+                             const Placed<Dim>& placed) {
+  return next_history<Dim>(pair, x, {}, placed, {});
+}
+
+template void evaluate_point<2>(const PairDefinition<2>&, Points<2>, const PointHistory<2>&,
+                                const Placed<2>&, const BranchHint<2>&, bool, std::size_t,
+                                PairEvaluation<2>&);
+template void evaluate_point<3>(const PairDefinition<3>&, Points<3>, const PointHistory<3>&,
+                                const Placed<3>&, const BranchHint<3>&, bool, std::size_t,
+                                PairEvaluation<3>&);
+template PointHistory<2> history_at<2>(const PairDefinition<2>&, Points<2>, const Placed<2>&);
+template PointHistory<3> history_at<3>(const PairDefinition<3>&, Points<3>, const Placed<3>&);
+
+}  // namespace osculate::pairing

@@ -1,0 +1,35 @@
+#pragma once
+// One contact point, from its place to forces, tangent and history; for sources of this layer.
+#include "osculate/pairing/pair.hpp"
+
+namespace osculate::pairing {
+
+/// What is known of a point's branch before the law is asked.
+template <int Dim>
+struct BranchHint {
+  AssumedBranch<Dim> assumed;
+  bool predict = false;
+};
+
+/// Fills `out.points[i]` and `out.blocks[i]` of the slave point `i`, which is `placed` on the
+/// master; `out` is refreshed at `x`.
+template <int Dim>
+void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
+                    const contact::PointHistory<Dim>& history, const Placed<Dim>& placed,
+                    const BranchHint<Dim>& hint, bool with_tangent, std::size_t i,
+                    PairEvaluation<Dim>& out);
+
+/// What a point remembers of a place at which it has not slipped.
+template <int Dim>
+[[nodiscard]] contact::PointHistory<Dim> history_at(const PairDefinition<Dim>& pair, Points<Dim> x,
+                                                    const Placed<Dim>& placed);
+
+/// Points and blocks of the crossings of edges, behind those of the slave's points.
+void evaluate_crossings(const PairDefinition<3>& pair, Points<3> x, const PairState<3>& committed,
+                        bool with_tangent, PairEvaluation<3>& out, const Assumed<3>& assumed);
+
+/// Frame of a crossing's stored traction.
+[[nodiscard]] Mat<3, 2> crossing_frame(const PairDefinition<3>& pair,
+                                       const contact::PointHistory<3>& h, Points<3> x);
+
+}  // namespace osculate::pairing

@@ -1,0 +1,76 @@
+// The keys sampling and two_pass.
+#include <gtest/gtest.h>
+
+#include "deck_test.hpp"
+#include "osculate/deck/build.hpp"
+
+namespace osculate::deck {
+namespace {
+
+const std::string gap = "slave: low.top, normal: {penalty: 1000}";
+
+Built built_with(const std::string& keys) {
+  const std::string text =
+      edited(test_file("bodies.yaml"), gap, "slave: low.top, normal: {penalty: 1000}, " + keys);
+  const Description description = parse_model(text, "model.yaml");
+  return build(description, load_mesh(description));
+}
+
+std::string refusal_of(const std::string& from, const std::string& to) {
+  try {
+    const Description d = parse_model(edited(test_file("bodies.yaml"), from, to), "model.yaml");
+    (void)build(d, load_mesh(d));
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(SamplingKey, SetsTheContactPoints) {
+  EXPECT_EQ(built_with("sampling: nodes").model.pairs[1].definition.slave.points.size(), 5u);
+  EXPECT_EQ(built_with("sampling: {gauss: 3}").model.pairs[1].definition.slave.points.size(), 12u);
+  const Description d = parse_model(test_file("sampling.yaml"), "model.yaml");
+  const Built lobatto = build(d, load_mesh(d));
+  const auto& slave = lobatto.model.pairs[1].definition.slave;
+  EXPECT_EQ(slave.points.size(), 12u);  // 4 facets with 3 points each
+  double length = 0;
+  for (const double area : lobatto.model.pairs[1].definition.reference_areas) length += area;
+  EXPECT_NEAR(length, 4, 1e-14);
+  EXPECT_EQ(lobatto.model.pairs[0].definition.slave.points.size(), 12u);  // each pair its own
+  EXPECT_EQ(lobatto.model.pairs[2].definition.slave.points.size(), 15u);  // second pass
+}
+
+TEST(SamplingKey, TwoPassesHaveHalfOfTheTractionEach) {
+  const Built b = built_with("two_pass: true, sampling: {gauss: 2}");
+  ASSERT_EQ(b.model.pairs.size(), 4u);
+  const auto &first = b.model.pairs[1], &second = b.model.pairs[2];
+  EXPECT_EQ(second.name, "gap.reversed");
+  EXPECT_EQ(second.group, "gap");
+  EXPECT_TRUE(second.reversed);
+  EXPECT_EQ(first.definition.share, 0.5);
+  EXPECT_EQ(second.definition.share, 0.5);
+  EXPECT_EQ(first.definition.slave.nodes.size(), 5u);
+  EXPECT_EQ(second.definition.slave.points.size(), 8u);
+  EXPECT_EQ(second.definition.master.facets.size(), first.definition.slave.boundary.facets.size());
+  EXPECT_EQ(b.model.pairs[3].definition.share, 1);
+}
+
+TEST(SamplingKey, RefusesWhatItCannotDo) {
+  EXPECT_EQ(refusal_of(gap, gap + ", sampling: {subdomains: 2}"),
+            "model.yaml:18: contact[1].sampling: needs one of gauss, lobatto");
+  EXPECT_EQ(refusal_of("master: high.bottom, " + gap,
+                       "master: low.top, " + gap + ", sampling: {gauss: 2}"),
+            "model.yaml:18: contact[1].sampling: contact of a surface with itself is sampled at "
+            "nodes only");
+  EXPECT_EQ(
+      refusal_of("master: high.bottom, " + gap, "master: low.top, " + gap + ", two_pass: true"),
+      "model.yaml:18: contact[1].two_pass: contact of a surface with itself has two passes "
+      "already");
+  EXPECT_EQ(refusal_of("slave: high.top, normal: {penalty: 1000}",
+                       "slave: high.top, normal: {penalty: 1000}, two_pass: true"),
+            "model.yaml:19: contact[2].two_pass: 'punch' is an analytic shape, which has no points "
+            "to be a slave");
+}
+
+}  // namespace
+}  // namespace osculate::deck
