@@ -126,8 +126,8 @@ void share(const Chain& chain, std::span<const Vec2> x, Index other, Projection<
 /// A facet that faces the same way as the slave is the far side of a thin body.
 bool faces_away(const Facet& facet, const CurveFoot& foot, std::span<const Vec2> x,
                 const ProjectionQuery<2>& query) {
-  constexpr double same_way = 0.5;
-  return query.slave_normal && unit_normal(facet, foot.xi, x).dot(*query.slave_normal) > same_way;
+  return query.slave_normal &&
+         unit_normal(facet, foot.xi, x).dot(*query.slave_normal) > same_way_cosine;
 }
 
 /// Two different foot points inside their facets, equally far away.
@@ -175,7 +175,7 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
   Candidate best, tied;
   const auto visit = [&](Index f) {
     const Facet& facet = chain.facets[static_cast<std::size_t>(f)];
-    if (query.scope && query.scope->skips(f)) return far_away;
+    if (query.scope && query.scope->skips(f, query.slave_normal)) return far_away;
     const CurveFoot foot = foot_on_facet(facet, x, query.point);
     const double distance = std::sqrt(foot.squared_distance);
     if (!foot.converged || faces_away(facet, foot, x, query)) return far_away;
@@ -188,7 +188,10 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
     if (wins) best = candidate;
     return distance;
   };
-  tree.for_each_nearest(query.point, tie_distance(chain, x), visit, reach);
+  const auto wanted = [&](Index branch) {
+    return !query.scope || !query.scope->misses(branch, query.slave_normal);
+  };
+  tree.for_each_nearest_wanted(query.point, tie_distance(chain, x), wanted, visit, reach);
   Projection<2> p;
   if (best.facet < 0) return p;
   p.feature = best.foot.at_end ? Feature::corner : Feature::face;

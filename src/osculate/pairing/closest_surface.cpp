@@ -202,8 +202,8 @@ void share(const FacetSurface& surface, std::span<const Vec3> x, Index other, co
 /// A facet that faces the same way as the slave is the far side of a thin body.
 bool faces_away(const SurfaceFacet& facet, const FacetFoot& foot, std::span<const Vec3> x,
                 const ProjectionQuery<3>& query) {
-  constexpr double same_way = 0.5;
-  return query.slave_normal && facet_normal(facet, foot.xi, x).dot(*query.slave_normal) > same_way;
+  return query.slave_normal &&
+         facet_normal(facet, foot.xi, x).dot(*query.slave_normal) > same_way_cosine;
 }
 
 }  // namespace
@@ -234,7 +234,7 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
   Candidate best, tied;
   const auto visit = [&](Index f) {
     const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(f)];
-    if (query.scope && query.scope->skips(f)) return far_away;
+    if (query.scope && query.scope->skips(f, query.slave_normal)) return far_away;
     const FacetFoot foot = foot_on_facet(facet, x, query.point);
     const double distance = std::sqrt(foot.squared_distance);
     if (!foot.converged || faces_away(facet, foot, x, query)) return far_away;
@@ -247,7 +247,11 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
     if (wins) best = candidate;
     return distance;
   };
-  tree.for_each_nearest(query.point, 1e-10 * size_of(surface.facets.front(), x), visit, reach);
+  const auto wanted = [&](Index branch) {
+    return !query.scope || !query.scope->misses(branch, query.slave_normal);
+  };
+  tree.for_each_nearest_wanted(query.point, 1e-10 * size_of(surface.facets.front(), x), wanted,
+                               visit, reach);
   Projection<3> p;
   if (best.facet < 0) return p;
   p.feature = best.foot.feature;

@@ -86,7 +86,10 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   const std::size_t before = out.boxes.size();
   facet_boxes(pair.master, x, out.boxes);
   out.apart = out_of_reach(pair, x, out.boxes);
-  if (!out.apart) refresh(pair.scope, pair.master, x, out.scope);
+  if (pair.scope.limited()) {
+    if (!out.apart) refresh(pair.scope, pair.master, x, out.boxes, out.scope, out.tree);
+    return;
+  }
   if (before == out.boxes.size() && before > 0)
     out.tree.refit(out.boxes);
   else

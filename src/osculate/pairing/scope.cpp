@@ -10,8 +10,7 @@ namespace osculate::pairing {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double facing_cosine = -0.5;  ///< 120 degrees
-constexpr double across_cosine = 0.5;   ///< 60 degrees
+constexpr double across_cosine = 0.5;  ///< 60 degrees
 constexpr double apart_ratio = 4;
 
 Vec2 normal_at(const Facet& facet, double xi, std::span<const Vec2> x) {
@@ -28,6 +27,25 @@ Vec2 middle_of(const SurfaceFacet& facet) {
   return cell::is_triangle(facet.type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(Vec2::Zero());
 }
 
+/// Largest angle between the normal in the middle and the others: exact for first-order facets
+/// (their r_1 x r_2 is linear, so a combination of those at the corners) but for feet a little
+/// beyond the border, twice what the nodes show for curved ones.
+double spread_of(const Facet& facet, const Vec2& middle, std::span<const Vec2> x) {
+  if (facet.straight()) return 0;
+  double least = 1;
+  for (const double xi : {-1.0, 1.0}) least = std::min(least, normal_at(facet, xi, x).dot(middle));
+  return 2 * std::acos(std::max(least, -1.0));
+}
+double spread_of(const SurfaceFacet& facet, const Vec3& middle, std::span<const Vec3> x) {
+  if (facet.type == cell::CellType::tri3) return 0;
+  double least = 1;
+  for (int k = 0; k < facet.count; ++k)
+    least = std::min(least, normal_at(facet, cell::area_node(facet.type, k), x).dot(middle));
+  constexpr double rounding = 1e-14;
+  if (least > 1 - rounding) return std::sqrt(8 * rounding);
+  return (facet.count > 4 ? 2 : 1.2) * std::acos(std::max(least, -1.0));
+}
+
 template <int Dim, class FacetType>
 FacetOutline<Dim> outline(const FacetType& facet, std::span<const Vec<Dim>> x) {
   FacetOutline<Dim> out{Vec<Dim>::Zero(), Vec<Dim>::Zero(), infinite};
@@ -39,6 +57,9 @@ FacetOutline<Dim> outline(const FacetType& facet, std::span<const Vec<Dim>> x) {
     const Vec<Dim> arm = x[static_cast<std::size_t>(facet.nodes[k])] - out.middle;
     out.bulge = std::max(out.bulge, std::abs(arm.dot(out.normal)));
   }
+  out.spread = spread_of(facet, out.normal, x);
+  out.facing = product_within(facing_cosine, out.spread);
+  out.same_way = product_within(same_way_cosine, out.spread);
   return out;
 }
 
@@ -82,12 +103,14 @@ void measure(Scope<Dim>& scope, const SlaveSide<Dim>& slave, std::span<const Vec
   nodal_normals(scope.parts, x, buffers.normals);
   std::vector<search::Box<Dim>> boxes;
   facet_boxes(slave.boundary, x, boxes);
-  const Tree<Dim> tree(boxes);
+  Tree<Dim> tree;
+  plant(buffers.outlines, boxes, scope.reach, tree, buffers.branches);
   for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
     NodeScope<Dim> rules;
     rules.point = x[static_cast<std::size_t>(slave.nodes[i])];
     rules.reach = 2 * scope.reach;
     rules.outlines = buffers.outlines;
+    rules.branches = buffers.branches;
     rules.facets = slave.facets_of[i];
     rules.facing = normals_of(scope, buffers, i);
     rules.behind = true;
@@ -146,25 +169,38 @@ void prepare(Scope<Dim>& scope, const Boundary<Dim>& master, const SlaveSide<Dim
 
 template <int Dim>
 void refresh(const Scope<Dim>& scope, const Boundary<Dim>& master,
-             std::type_identity_t<std::span<const Vec<Dim>>> x, ScopeBuffers<Dim>& buffers) {
+             std::type_identity_t<std::span<const Vec<Dim>>> x,
+             const std::vector<search::Box<Dim>>& boxes, ScopeBuffers<Dim>& buffers,
+             Tree<Dim>& tree) {
   if (!scope.limited()) return;
   buffers.outlines.clear();
   for (const auto& facet : master.facets) buffers.outlines.push_back(outline(facet, x));
   nodal_normals(scope.parts, x, buffers.normals);
+  plant(buffers.outlines, boxes, scope.reach, tree, buffers.branches);
 }
 
 template <int Dim>
-bool NodeScope<Dim>::skips(Index facet) const {
+bool NodeScope<Dim>::skips(Index facet, const std::optional<Vec<Dim>>& slave_normal) const {
   if (std::find(facets.begin(), facets.end(), facet) != facets.end()) return true;
   const FacetOutline<Dim>& o = outlines[static_cast<std::size_t>(facet)];
   if (std::isinf(o.bulge)) return false;
-  constexpr double turned = 0.3;  // a facet bends less than the 47 degrees to `facing_cosine`
-  const auto may_face = [&](const Vec<Dim>& n) { return n.dot(o.normal) < turned; };
+  const auto may_face = [&](const Vec<Dim>& n) { return n.dot(o.normal) <= o.facing; };
   if (!facing.empty() && std::none_of(facing.begin(), facing.end(), may_face)) return true;
+  if (slave_normal && slave_normal->dot(o.normal) > o.same_way) return true;
   const double height = (point - o.middle).dot(o.normal);
   if (behind) return height > 2 * o.bulge;
-  const double deepest = last ? std::max(depth, (point - *last).norm()) : depth;
-  return height < -(deepest + 2 * o.bulge);
+  return height < -(deepest() + 2 * o.bulge);
+}
+
+template <int Dim>
+bool NodeScope<Dim>::misses(Index branch, const std::optional<Vec<Dim>>& slave_normal) const {
+  if (branches.empty()) return false;
+  const BranchOutline<Dim>& b = branches[static_cast<std::size_t>(branch)];
+  if (std::isinf(b.bulge)) return false;
+  if (slave_normal && slave_normal->dot(b.axis) > b.same_way) return true;
+  const auto may_face = [&](const Vec<Dim>& n) { return n.dot(b.axis) <= b.facing; };
+  if (!facing.empty() && std::none_of(facing.begin(), facing.end(), may_face)) return true;
+  return !behind && b.highest(point) < -(deepest() + 2 * b.bulge);
 }
 
 bool admits(const NodeScope<2>& rules, const Facet& facet, double xi, std::span<const Vec2> x) {
@@ -183,6 +219,7 @@ NodeScope<Dim> node_scope(const Scope<Dim>& scope, const SlaveSide<Dim>& slave,
   rules.reach = scope.reach;
   rules.depth = 0.5 * scope.thickness[i];
   rules.outlines = buffers.outlines;
+  rules.branches = buffers.branches;
   if (!scope.own) return rules;
   rules.facing = normals_of(scope, buffers, i);
   rules.facets = slave.facets_of[i];
@@ -196,9 +233,9 @@ template void prepare<2>(Scope<2>&, const Boundary<2>&, const SlaveSide<2>&, std
 template void prepare<3>(Scope<3>&, const Boundary<3>&, const SlaveSide<3>&, std::span<const Vec3>,
                          const AreaRule&);
 template void refresh<2>(const Scope<2>&, const Boundary<2>&, std::span<const Vec2>,
-                         ScopeBuffers<2>&);
+                         const std::vector<search::Box<2>>&, ScopeBuffers<2>&, Tree<2>&);
 template void refresh<3>(const Scope<3>&, const Boundary<3>&, std::span<const Vec3>,
-                         ScopeBuffers<3>&);
+                         const std::vector<search::Box<3>>&, ScopeBuffers<3>&, Tree<3>&);
 template struct NodeScope<2>;
 template struct NodeScope<3>;
 template NodeScope<2> node_scope<2>(const Scope<2>&, const SlaveSide<2>&, const ScopeBuffers<2>&,

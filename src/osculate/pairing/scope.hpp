@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -6,6 +7,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "osculate/pairing/scope_tree.hpp"
 #include "osculate/pairing/slave_side.hpp"
 
 namespace osculate::pairing {
@@ -58,25 +60,21 @@ template <int Dim>
 void prepare(Scope<Dim>& scope, const Boundary<Dim>& master, const SlaveSide<Dim>& slave,
              std::type_identity_t<std::span<const Vec<Dim>>> reference, const AreaRule& rule = {});
 
-/// A facet in short: enough to pass over most of them without a projection.
-template <int Dim>
-struct FacetOutline {
-  Vec<Dim> middle, normal;
-  double bulge = 0;  ///< of its nodes over the plane through the middle; infinite: analytic shape
-};
-
 /// What the nodes of one evaluation share.
 template <int Dim>
 struct ScopeBuffers {
-  std::vector<FacetOutline<Dim>> outlines;  ///< of the master
-  std::vector<Vec<Dim>> normals;            ///< of the parts
-  std::vector<double> areas;                ///< of the parts, if they were asked for
+  std::vector<FacetOutline<Dim>> outlines;   ///< of the master
+  std::vector<BranchOutline<Dim>> branches;  ///< of the tree over it
+  std::vector<Vec<Dim>> normals;             ///< of the parts
+  std::vector<double> areas;                 ///< of the parts, if they were asked for
   std::vector<std::vector<NodeGradient<Dim>>> area_gradients;
 };
-/// Outlines and normals at `x`.
+/// Outlines, normals and tree at `x`; `boxes` are those of the master's facets there.
 template <int Dim>
 void refresh(const Scope<Dim>& scope, const Boundary<Dim>& master,
-             std::type_identity_t<std::span<const Vec<Dim>>> x, ScopeBuffers<Dim>& buffers);
+             std::type_identity_t<std::span<const Vec<Dim>>> x,
+             const std::vector<search::Box<Dim>>& boxes, ScopeBuffers<Dim>& buffers,
+             Tree<Dim>& tree);
 
 /// Parts of slave node `i` that carry the pressure of a contact with this normal of the master:
 /// calls `visit` with the number of each.
@@ -99,15 +97,22 @@ struct NodeScope {
   double depth = std::numeric_limits<double>::infinity();  ///< t / 2
   std::optional<Vec<Dim>> last;  ///< where the place of the last increment is now
   std::span<const FacetOutline<Dim>> outlines;
+  std::span<const BranchOutline<Dim>> branches;
   std::span<const Vec<Dim>> facing;     ///< normals of the node's facets; empty: another surface
   std::span<const Index> facets;        ///< those facets
   std::span<const Vec<Dim>> reference;  ///< empty: no memory of where the node was
   Vec<Dim> home = Vec<Dim>::Zero();     ///< the node there
   bool behind = false;                  ///< only places that the node is behind (for the thickness)
 
+  /// How far behind a facet the node may be.
+  [[nodiscard]] double deepest() const {
+    return last ? std::max(depth, (point - *last).norm()) : depth;
+  }
   /// Facets that need no projection. Never one that `admits` any of its places, but for feet far
-  /// outside a strongly curved facet.
-  [[nodiscard]] bool skips(Index facet) const;
+  /// outside a strongly curved facet. `slave_normal` is that of the query (projection.hpp).
+  [[nodiscard]] bool skips(Index facet, const std::optional<Vec<Dim>>& slave_normal) const;
+  /// Branches of the tree with nothing but such facets.
+  [[nodiscard]] bool misses(Index branch, const std::optional<Vec<Dim>>& slave_normal) const;
 };
 
 /// Whether the node may touch the facet at `xi`.

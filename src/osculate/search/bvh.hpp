@@ -106,6 +106,14 @@ class Bvh {
   template <class Visit>
   void for_each_nearest(const Vec<Dim>& point, double tie, const Visit& visit,
                         double bound = std::numeric_limits<double>::infinity()) const {
+    for_each_nearest_wanted(
+        point, tie, [](Index) { return true; }, visit, bound);
+  }
+
+  /// The same without the branches that are not `wanted(i)`.
+  template <class Wanted, class Visit>
+  void for_each_nearest_wanted(const Vec<Dim>& point, double tie, const Wanted& wanted,
+                               const Visit& visit, double bound) const {
     double best = std::numeric_limits<double>::infinity();
     double reach = bound * bound;
     const auto offer = [&](Index index) {
@@ -113,8 +121,7 @@ class Bvh {
       constexpr double rounding = 1 + 4 * std::numeric_limits<double>::epsilon();
       reach = (best + tie) * (best + tie) * rounding;  // a little more than the square
     };
-    descend(
-        point, reach, [](Index) { return true; }, offer);
+    descend(point, reach, wanted, offer);
   }
 
   /// The object of the smallest `squared_distance(index)` within the bound (which counts as
