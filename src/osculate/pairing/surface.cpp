@@ -128,8 +128,16 @@ geometry::SurfaceJet facet_jet(const SurfaceFacet& facet, const cell::FacetShape
 }
 
 Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
-  const geometry::SurfaceJet jet = facet_jet(facet, xi, x);
-  const Vec3 normal = jet.r1[0].cross(jet.r1[1]);
+  const bool plain = !facet.shape && facet.difference[0] == 0;  // first derivatives are enough
+  const cell::FacetShape shape =
+      plain ? cell::facet_shape(facet.type, xi, 1) : facet_shape(facet, xi);
+  Vec3 r1 = Vec3::Zero(), r2 = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(shape.count); ++k) {
+    const Vec3& node = x[static_cast<std::size_t>(facet.nodes[k])];
+    r1 += shape.n[1][k] * node;
+    r2 += shape.n[2][k] * node;
+  }
+  const Vec3 normal = r1.cross(r2);
   const double size = normal.norm();
   return size > 0 ? Vec3(normal / size) : Vec3(Vec3::Zero());
 }
