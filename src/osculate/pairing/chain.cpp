@@ -1,5 +1,6 @@
 #include "osculate/pairing/chain.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -25,6 +26,18 @@ Facet shape_facet(geometry::Curve curve, const std::array<Index, 3>& frame) {
   return facet;
 }
 
+void add_curves(const std::vector<geometry::Curve>& curves, bool closed,
+                const std::array<Index, 3>& frame, Chain& chain) {
+  const auto first = static_cast<Index>(chain.facets.size());
+  const auto count = static_cast<Index>(curves.size());
+  for (Index i = 0; i < count; ++i) {
+    Facet facet = shape_facet(curves[static_cast<std::size_t>(i)], frame);
+    if (i > 0 || closed) facet.prev = first + (i + count - 1) % count;
+    if (i + 1 < count || closed) facet.next = first + (i + 1) % count;
+    chain.facets.push_back(std::move(facet));
+  }
+}
+
 void connect(Chain& chain) {
   std::unordered_map<Index, Index> starts;
   for (std::size_t f = 0; f < chain.facets.size(); ++f) {
@@ -46,6 +59,7 @@ void connect(Chain& chain) {
 }
 
 cell::LineShape facet_shape(const Facet& facet, double xi) {
+  if (facet.bezier) return bezier_shape(*facet.bezier, facet.count, xi);
   if (!facet.shape) return cell::lagrange_line(facet.count, xi);
   const geometry::CurveJet<2> jet = geometry::jet(*facet.shape, xi);
   cell::LineShape shape;
@@ -71,6 +85,18 @@ geometry::CurveJet<2> facet_jet(const Facet& facet, const cell::LineShape& shape
     jet.r3 += shape.n[3][i] * node;
   }
   return jet;
+}
+
+geometry::LagrangeCurve facet_curve(const Facet& facet, std::span<const Vec2> x) {
+  geometry::LagrangeCurve curve;
+  curve.count = facet.bezier ? static_cast<int>(facet.bezier->degree) + 1 : facet.count;
+  for (int k = 0; k < curve.count; ++k) {
+    Vec2& node = curve.nodes[static_cast<std::size_t>(k)];
+    node = x[static_cast<std::size_t>(
+        facet.nodes[static_cast<std::size_t>(std::min(k, facet.count - 1))])];
+    if (facet.bezier && k > 1) node = facet_jet(facet, -1 + 2.0 * (k - 1) / (curve.count - 1), x).r;
+  }
+  return curve;
 }
 
 namespace {

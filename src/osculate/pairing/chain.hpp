@@ -9,11 +9,13 @@
 #include "osculate/core/types.hpp"
 #include "osculate/geometry/catalogue.hpp"
 #include "osculate/pairing/node_terms.hpp"
+#include "osculate/pairing/smoothing.hpp"
 
 namespace osculate::pairing {
 
-/// One piece of a boundary curve: either a Lagrange line through its nodes, or an analytic curve
-/// carried by a rigid frame.
+/// One piece of a boundary curve: a Lagrange line through its nodes, a smoothed line that depends
+/// on its neighbours' nodes too (behind its own two), or an analytic curve carried by a rigid
+/// frame.
 ///
 /// The frame is three nodes (origin, tip of e1, tip of e2): a material point with frame
 /// coordinates X has the weights (1 - X1 - X2, X1, X2), so an analytic shape is a facet with three
@@ -21,11 +23,12 @@ namespace osculate::pairing {
 struct Facet {
   int count = 0;
   std::array<Index, cell::max_line_nodes> nodes{};
-  std::shared_ptr<const geometry::Curve> shape;  ///< null for a Lagrange line
+  std::shared_ptr<const geometry::Curve> shape;  ///< null for a Lagrange or smoothed line
+  std::shared_ptr<const BezierWeights> bezier;   ///< of a smoothed line (pairing/smoothing.hpp)
   double lo = -1, hi = 1;
   bool closed = false;         ///< the analytic curve joins itself
   Index prev = -1, next = -1;  ///< neighbours in the direction of travel, -1 = the chain ends
-  [[nodiscard]] bool straight() const { return !shape && count == 2; }
+  [[nodiscard]] bool straight() const { return !shape && !bezier && count == 2; }
 };
 
 /// A boundary made of facets; nu = k x rho_xi points out of the body (body on the right of travel).
@@ -43,12 +46,18 @@ struct Location {
 [[nodiscard]] Facet lagrange_facet(std::span<const Index> nodes);
 /// Facet of an analytic curve on the frame nodes (origin, tip 1, tip 2).
 [[nodiscard]] Facet shape_facet(geometry::Curve curve, const std::array<Index, 3>& frame);
+/// Facets of the curves on one frame, neighbours in their order (and the last with the first when
+/// `closed`).
+void add_curves(const std::vector<geometry::Curve>& curves, bool closed,
+                const std::array<Index, 3>& frame, Chain& chain);
 /// Sets prev/next from shared end nodes (and closes a closed analytic curve on itself).
 void connect(Chain& chain);
 
 [[nodiscard]] cell::LineShape facet_shape(const Facet& facet, double xi);
 [[nodiscard]] geometry::CurveJet<2> facet_jet(const Facet& facet, const cell::LineShape& shape,
                                               std::span<const Vec2> x);
+/// The present curve of a facet on nodes.
+[[nodiscard]] geometry::LagrangeCurve facet_curve(const Facet& facet, std::span<const Vec2> x);
 [[nodiscard]] inline geometry::CurveJet<2> facet_jet(const Facet& facet, double xi,
                                                      std::span<const Vec2> x) {
   return facet_jet(facet, facet_shape(facet, xi), x);

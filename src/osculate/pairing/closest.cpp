@@ -50,12 +50,13 @@ CurveFoot foot_on_facet(const Facet& facet, std::span<const Vec2> x, const Vec2&
     const Vec2 origin = node(facet, 0, x);
     const Vec2 arm = point - origin;
     const Vec2 local(arm.dot(node(facet, 1, x) - origin), arm.dot(node(facet, 2, x) - origin));
-    return projection::closest_point(*facet.shape, local);
+    CurveFoot foot = projection::closest_point(*facet.shape, local);
+    const Index beyond = foot.xi == facet.hi ? facet.next : facet.prev;
+    if (beyond >= 0 && !facet.closed)
+      release_end([&](double xi) { return geometry::jet(*facet.shape, xi); }, facet, local, foot);
+    return foot;
   }
-  geometry::LagrangeCurve curve;
-  curve.count = facet.count;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
-    curve.nodes[k] = node(facet, k, x);
+  const geometry::LagrangeCurve curve = facet_curve(facet, x);
   CurveFoot foot = projection::closest_point(curve, point);
   release_end([&](double xi) { return curve.jet(xi); }, facet, point, foot);
   return foot;
@@ -117,7 +118,7 @@ void resolve_end(const Chain& chain, std::span<const Vec2> x, Projection<2>& p) 
 /// Two neighbours at the same distance and no history to choose: the vertex between them.
 void share(const Chain& chain, std::span<const Vec2> x, Index other, Projection<2>& p) {
   const Facet& facet = chain.facets[static_cast<std::size_t>(p.facet)];
-  if (facet.shape || (facet.next != other && facet.prev != other)) return;
+  if (facet.next != other && facet.prev != other) return;
   p.feature = Feature::corner;
   p.xi[0] = facet.next == other ? facet.hi : facet.lo;
   resolve_end(chain, x, p);
@@ -148,6 +149,16 @@ double tie_distance(const Chain& chain, std::span<const Vec2> x) {
   return 1e-10 * (node(facet, 1, x) - node(facet, 0, x)).norm();
 }
 
+/// A Bezier curve lies in the hull of its control points.
+void extend_by_control_points(const Facet& facet, std::span<const Vec2> x, search::Box<2>& box) {
+  for (std::size_t j = 0; j <= facet.bezier->degree; ++j) {
+    Vec2 point = Vec2::Zero();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+      point += facet.bezier->weight[k][j] * node(facet, k, x);
+    box.extend(point);
+  }
+}
+
 }  // namespace
 
 void facet_boxes(const Chain& chain, std::span<const Vec2> x, std::vector<search::Box<2>>& boxes) {
@@ -160,6 +171,10 @@ void facet_boxes(const Chain& chain, std::span<const Vec2> x, std::vector<search
     if (facet.shape) {
       box.lo = Vec2::Constant(-infinite);
       box.hi = Vec2::Constant(infinite);
+      continue;
+    }
+    if (facet.bezier) {
+      extend_by_control_points(facet, x, box);
       continue;
     }
     for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
