@@ -4,38 +4,152 @@
 #include <Eigen/LU>
 #include <optional>
 
+#include "osculate/cell/shape.hpp"
+
 namespace osculate::pairing {
 
 using contact::Kinematics;
 using contact::PointHistory;
 
-Trial<2> trial(const Chain& master, const PointHistory<2>& history, const Placed<2>& placed,
-               double stiffness, const ContactShare& share, std::span<const Vec2> x,
-               PathBuffers<2>* path) {
+namespace {
+
+/// d(tau) = turn_back d(n)
+Mat<2, 2> turn_back() {
+  Mat<2, 2> back;
+  back << 0, 1, -1, 0;
+  return back;
+}
+
+/// Length of rho_xi at a place of a facet, and what its derivative needs.
+struct Speed {
+  cell::LineShape shape;
+  double size = 0;  ///< sqrt(a11)
+  Vec2 tangent;     ///< rho_xi / sqrt(a11)
+  double growth;    ///< d(size) / d(xi)
+};
+
+Speed speed_at(const Facet& facet, double xi, std::span<const Vec2> x) {
+  Speed s;
+  s.shape = facet_shape(facet, xi);
+  const geometry::CurveJet<2> jet = facet_jet(facet, s.shape, x);
+  s.size = jet.r1.norm();
+  s.tangent = jet.r1 / s.size;
+  s.growth = s.tangent.dot(jet.r2);
+  return s;
+}
+
+/// One trial in the plane: everything that the three rules share.
+struct PlaneCase {
+  const Chain& master;
+  const PointHistory<2>& history;
+  const Placed<2>& placed;
+  double stiffness;
+  const ContactShare& share;
+  std::span<const Vec2> x;
+  PathBuffers<2>* path;
+
+  [[nodiscard]] const Facet& facet() const {
+    return master.facets[static_cast<std::size_t>(placed.projection.facet)];
+  }
+  [[nodiscard]] const Facet& old_facet() const {
+    return master.facets[static_cast<std::size_t>(history.facet)];
+  }
+  [[nodiscard]] Location from() const { return {history.facet, history.xi[0]}; }
+  [[nodiscard]] Location to() const { return {placed.projection.facet, placed.projection.xi[0]}; }
+  [[nodiscard]] double carried() const { return history.active ? history.traction[0] : 0.0; }
+};
+
+Trial<2> by_path(const PlaneCase& c) {
   Trial<2> out;
-  const Kinematics<2>& k = placed.kinematics;
-  if (path) path->scratch.clear();
-  const Location from{history.facet, history.xi[0]};
-  const Location to{placed.projection.facet, placed.projection.xi[0]};
+  const Kinematics<2>& k = c.placed.kinematics;
+  if (c.path) c.path->scratch.clear();
   const std::optional<double> arc =
-      path_length(master, x, from, to, path ? &path->scratch : nullptr);
+      path_length(c.master, c.x, c.from(), c.to(), c.path ? &c.path->scratch : nullptr);
   if (!arc) return out;
   out.known = true;
-  const double carried = history.active ? history.traction[0] : 0.0;
-  out.slip[0] = share.value * *arc;
-  const double value = carried + stiffness * out.slip[0];  // @eq KS2D:89, KS2D:74
+  out.slip[0] = c.share.value * *arc;
+  const double value = c.carried() + c.stiffness * out.slip[0];  // @eq KS2D:89, KS2D:74
   out.value[0] = value;
   const Vec2 tau = k.frame;
   if (k.moving > 0)
-    out.variation.add(Vec2(stiffness * share.value * k.rho1[0].norm() * tau), k.d_xi[0]);
-  out.variation.add(Vec2(stiffness * share.d_gap * *arc * tau), k.d_gap);
-  Mat<2, 2> back;  // tau = -turn(n)
-  back << 0, 1, -1, 0;
-  out.variation.add(Mat<2, 2>(value * back), k.d_normal);
-  if (!path) return out;
-  for (const NodeGradient<2>& g : path->scratch)
-    path->path.push_back({g.node, stiffness * share.value * tau * g.value.transpose()});
+    out.variation.add(Vec2(c.stiffness * c.share.value * k.rho1[0].norm() * tau), k.d_xi[0]);
+  out.variation.add(Vec2(c.stiffness * c.share.d_gap * *arc * tau), k.d_gap);
+  out.variation.add(Mat<2, 2>(value * turn_back()), k.d_normal);
+  if (!c.path) return out;
+  for (const NodeGradient<2>& g : c.path->scratch)
+    c.path->path.push_back({g.node, c.stiffness * c.share.value * tau * g.value.transpose()});
   return out;
+}
+
+Trial<2> by_chord(const PlaneCase& c) {
+  Trial<2> out;
+  const Kinematics<2>& k = c.placed.kinematics;
+  if (!path_length(c.master, c.x, c.from(), c.to(), nullptr)) return out;
+  out.known = true;
+  const Speed here = speed_at(c.facet(), c.placed.projection.xi[0], c.x);
+  const cell::LineShape old = facet_shape(c.old_facet(), c.history.xi[0]);
+  const Vec2 chord = c.placed.foot - facet_jet(c.old_facet(), old, c.x).r;
+  const Vec2 tau = k.frame;
+  const double along = chord.dot(tau);  // @eq KS2D:88 times sqrt(a11)
+  const double penalty = c.stiffness * c.share.value;
+  const double thinning = -c.carried() / (here.size * here.size);  // of T / sqrt(a11)
+  out.slip[0] = c.share.value * along;
+  out.value[0] = c.carried() / here.size + penalty * along;
+  if (k.moving > 0)
+    out.variation.add(Vec2((penalty * here.size + thinning * here.growth) * tau), k.d_xi[0]);
+  out.variation.add(Vec2(c.stiffness * c.share.d_gap * along * tau), k.d_gap);
+  const Mat<2, 2> turned = turn_back();
+  out.variation.add(Mat<2, 2>(out.value[0] * turned + penalty * tau * chord.transpose() * turned),
+                    k.d_normal);
+  if (!c.path) return out;
+  const Mat<2, 2> project = penalty * tau * tau.transpose(),
+                  thin = thinning * tau * here.tangent.transpose();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(old.count); ++i)
+    c.path->path.push_back({c.old_facet().nodes[i], -old.n[0][i] * project});
+  for (std::size_t i = 0; i < static_cast<std::size_t>(here.shape.count); ++i)
+    c.path->path.push_back(
+        {c.facet().nodes[i], here.shape.n[0][i] * project + here.shape.n[1][i] * thin});
+  return out;
+}
+
+Trial<2> by_coordinate(const PlaneCase& c) {
+  if (c.history.facet < 0 || c.history.facet == c.placed.projection.facet) return by_path(c);
+  Trial<2> out;
+  out.known = true;
+  const Kinematics<2>& k = c.placed.kinematics;
+  const Speed here = speed_at(c.facet(), c.placed.projection.xi[0], c.x);
+  const double step = c.placed.projection.xi[0] - c.history.xi[0];
+  const double way = here.size * step;  // @eq KS2D:84 with its factor a11, by sqrt(a11)
+  const double penalty = c.stiffness * c.share.value;
+  const Vec2 tau = k.frame;
+  out.slip[0] = c.share.value * way;
+  out.value[0] = c.carried() + penalty * way;
+  if (k.moving > 0)
+    out.variation.add(Vec2(penalty * (here.size + step * here.growth) * tau), k.d_xi[0]);
+  out.variation.add(Vec2(c.stiffness * c.share.d_gap * way * tau), k.d_gap);
+  out.variation.add(Mat<2, 2>(out.value[0] * turn_back()), k.d_normal);
+  if (!c.path) return out;
+  const Mat<2, 2> stretch = penalty * step * tau * here.tangent.transpose();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(here.shape.count); ++i)
+    c.path->path.push_back({c.facet().nodes[i], here.shape.n[1][i] * stretch});
+  return out;
+}
+
+}  // namespace
+
+Trial<2> trial(const Chain& master, const PointHistory<2>& history, const Placed<2>& placed,
+               double stiffness, const ContactShare& share, std::span<const Vec2> x,
+               PathBuffers<2>* path, HistoryRule rule) {
+  const PlaneCase c{master, history, placed, stiffness, share, x, path};
+  switch (rule) {
+    case HistoryRule::continuous:
+      return by_path(c);
+    case HistoryRule::chord:
+      return by_chord(c);
+    case HistoryRule::per_facet:
+      return by_coordinate(c);
+  }
+  return {};
 }
 
 namespace {
@@ -46,7 +160,7 @@ Mat<3, 3> cross_matrix(const Vec3& v) {
   return m;
 }
 
-/// v - (n_o + n) (n . v) / (1 + n_o . n) and its derivatives with respect to v, n_o and n.
+/// v - (n_o + n) (n . v) / (1 + n_o . n), and its derivatives with respect to v, n_o and n.
 struct Carried {
   Vec3 value;
   Mat<3, 3> of_vector, of_old, of_new;
@@ -62,6 +176,17 @@ Carried carry(const Vec3& v, const Vec3& old_normal, const Vec3& normal) {
   c.of_vector = unit - w * normal.transpose();
   c.of_old = -along * scale * (unit - w * normal.transpose());
   c.of_new = -w * v.transpose() - along * scale * (unit - w * old_normal.transpose());
+  return c;
+}
+
+/// v - n (n . v), in the same form.
+Carried project(const Vec3& v, const Vec3& normal) {
+  const double along = normal.dot(v);
+  Carried c;
+  c.value = v - along * normal;
+  c.of_vector = Mat<3, 3>::Identity() - normal * normal.transpose();
+  c.of_old.setZero();
+  c.of_new = -normal * v.transpose() - along * Mat<3, 3>::Identity();
   return c;
 }
 
@@ -131,26 +256,85 @@ void add_path(const SurfaceFacet& old_facet, const FacetFrame& old, const Surfac
 
 }  // namespace
 
+namespace {
+
+/// Motion of the convective coordinates of the facet with those that follow the slave point: an
+/// edge has one, along it.
+Mat<2, 2> coordinate_motion(const SurfaceFacet& facet, const Placed<3>& placed) {
+  Mat<2, 2> motion = Mat<2, 2>::Identity();
+  if (placed.projection.feature != projection::Feature::edge || placed.projection.local < 0)
+    return motion;
+  const std::array<int, 2> ends = edge_corners(facet, placed.projection.local);
+  motion.col(0) =
+      0.5 * (cell::area_node(facet.type, ends[1]) - cell::area_node(facet.type, ends[0]));
+  return motion;
+}
+
+/// By the difference of the coordinates of two facets, for HistoryRule::per_facet.
+Trial<3> by_coordinates(const SurfaceFacet& facet, const PointHistory<3>& history,
+                        const Placed<3>& placed, double stiffness, const ContactShare& share,
+                        std::span<const Vec3> x, PathBuffers<3>* path) {
+  Trial<3> out;
+  out.known = true;
+  const Kinematics<3>& k = placed.kinematics;
+  const FacetFrame here = facet_frame(facet, placed.projection.xi, x);
+  const Vec2 step = placed.projection.xi - history.xi;
+  const Vec2 traction = history.active ? history.traction : Vec2(Vec2::Zero());
+  const Vec3 way = step[0] * here.jet.r1[0] + step[1] * here.jet.r1[1];
+  const double penalty = stiffness * share.value;
+  const Carried c = project(here.frame * traction + penalty * way, k.normal);
+  out.value = k.frame.transpose() * c.value;
+  out.slip = share.value * k.frame.transpose() * way;
+  std::array<Mat<3, 3>, 2> of_base = frame_gradient(here, traction, normal_gradient(here));
+  for (std::size_t j = 0; j < 2; ++j) {
+    of_base[j] += penalty * step[static_cast<Eigen::Index>(j)] * Mat<3, 3>::Identity();
+    of_base[j] = Mat<3, 3>(c.of_vector * of_base[j]);
+  }
+  const Mat<2, 2> motion = coordinate_motion(facet, placed);
+  for (std::size_t m = 0; m < k.moving; ++m) {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t l = 0; l < 2; ++l) {
+      const Vec3 along = penalty * (c.of_vector * here.jet.r1[l]) + of_base[0] * here.jet.r2[l] +
+                         of_base[1] * here.jet.r2[l + 1];
+      sum += motion(static_cast<Eigen::Index>(l), static_cast<Eigen::Index>(m)) * along;
+    }
+    out.variation.add(sum, k.d_xi[m]);
+  }
+  out.variation.add(Vec3(stiffness * share.d_gap * c.of_vector * way), k.d_gap);
+  out.variation.add(c.of_new, k.d_normal);
+  if (!path) return out;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(facet.count); ++i)
+    path->path.push_back(
+        {facet.nodes[i], here.shape.n[1][i] * of_base[0] + here.shape.n[2][i] * of_base[1]});
+  return out;
+}
+
+}  // namespace
+
 Trial<3> trial(const FacetSurface& master, const PointHistory<3>& history, const Placed<3>& placed,
                double stiffness, const ContactShare& share, std::span<const Vec3> x,
-               PathBuffers<3>* path) {
+               PathBuffers<3>* path, HistoryRule rule) {
   Trial<3> out;
   const Kinematics<3>& k = placed.kinematics;
   if (history.facet < 0) return out;
   const SurfaceFacet& facet = master.facets[static_cast<std::size_t>(placed.projection.facet)];
   const SurfaceFacet& old_facet = master.facets[static_cast<std::size_t>(history.facet)];
   if (facet.piece != old_facet.piece) return out;
+  if (rule == HistoryRule::per_facet && &facet != &old_facet)
+    return by_coordinates(facet, history, placed, stiffness, share, x, path);
   const FacetFrame old = facet_frame(old_facet, history.xi, x);
   constexpr double opposite = -0.999;
   if (!(old.normal.dot(k.normal) > opposite)) return out;
   out.known = true;
+  const auto brought = [&](const Vec3& v) {
+    return rule == HistoryRule::chord ? project(v, k.normal) : carry(v, old.normal, k.normal);
+  };
   const Vec2 traction = history.active ? history.traction : Vec2(Vec2::Zero());
   const Vec3 chord = placed.foot - old.jet.r;
   const double penalty = stiffness * share.value;
-  const Vec3 q = old.frame * traction + penalty * chord;
-  const Carried c = carry(q, old.normal, k.normal);
+  const Carried c = brought(old.frame * traction + penalty * chord);
   out.value = k.frame.transpose() * c.value;
-  out.slip = share.value * k.frame.transpose() * carry(chord, old.normal, k.normal).value;
+  out.slip = share.value * k.frame.transpose() * brought(chord).value;
   for (std::size_t j = 0; j < k.moving; ++j)
     out.variation.add(Vec3(penalty * c.of_vector * k.rho1[j]), k.d_xi[j]);
   out.variation.add(Vec3(stiffness * share.d_gap * c.of_vector * chord), k.d_gap);
@@ -159,12 +343,15 @@ Trial<3> trial(const FacetSurface& master, const PointHistory<3>& history, const
   return out;
 }
 
-Vec<1> stored_components(const Chain&, const Placed<2>&, const Vec<1>& t, std::span<const Vec2>) {
-  return t;
+Vec<1> stored_components(const Chain& master, const Placed<2>& placed, const Vec<1>& t,
+                         std::span<const Vec2> x, HistoryRule rule) {
+  if (rule != HistoryRule::chord) return t;
+  const Facet& facet = master.facets[static_cast<std::size_t>(placed.projection.facet)];
+  return speed_at(facet, placed.projection.xi[0], x).size * t;
 }
 
 Vec2 stored_components(const FacetSurface& master, const Placed<3>& placed, const Vec2& t,
-                       std::span<const Vec3> x) {
+                       std::span<const Vec3> x, HistoryRule) {
   if (placed.projection.feature == projection::Feature::face) return t;
   const SurfaceFacet& facet = master.facets[static_cast<std::size_t>(placed.projection.facet)];
   const FacetFrame f = facet_frame(facet, placed.projection.xi, x);
