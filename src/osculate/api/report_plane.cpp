@@ -1,3 +1,4 @@
+#include <limits>
 #include <map>
 
 #include "osculate/api/report_json.hpp"
@@ -21,6 +22,14 @@ nlohmann::json contact_json(const model::System& system, const model::Model& m,
       {"status", f.cstatus}};
 }
 
+void add_points(const geometry::Curve& curve, double reach, std::vector<Vec2>& points) {
+  const double from = std::max(geometry::lo(curve), -reach);
+  const double to = std::min(geometry::hi(curve), reach);
+  constexpr int pieces = 120;
+  for (int i = 0; i <= pieces; ++i)
+    points.push_back(geometry::jet(curve, from + (to - from) * i / pieces).r);
+}
+
 /// Boundary of a rigid body in its current place, as a polyline for the picture.
 std::vector<std::array<double, 2>> rigid_outline(const model::Model& m, const model::State& state,
                                                  std::size_t b) {
@@ -33,12 +42,10 @@ std::vector<std::array<double, 2>> rigid_outline(const model::Model& m, const mo
       lo = lo.cwiseMin(m.reference[n]);
       hi = hi.cwiseMax(m.reference[n]);
     }
-    const double reach = (hi - lo).norm();
-    const double from = std::max(geometry::lo(*body.shape), -reach);
-    const double to = std::min(geometry::hi(*body.shape), reach);
-    constexpr int pieces = 120;
-    for (int i = 0; i <= pieces; ++i)
-      points.push_back(geometry::jet(*body.shape, from + (to - from) * i / pieces).r);
+    add_points(*body.shape, (hi - lo).norm(), points);
+  } else if (!body.parts.empty()) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    for (const geometry::Curve& part : body.parts) add_points(part, infinite, points);
   } else if (!body.polyline.empty()) {
     points = body.polyline;
   } else {

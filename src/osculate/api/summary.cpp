@@ -108,7 +108,8 @@ template <int Dim>
 std::string rigid_text(const model::BasicRigidBody<Dim>& body) {
   const std::string what =
       body.shape ? std::visit([](const auto& shape) { return std::string(shape.key); }, *body.shape)
-                 : fmt::format("{} nodes", body.nodes.size());
+      : body.parts.empty() ? fmt::format("{} nodes", body.nodes.size())
+                           : fmt::format("composite of {} curves", body.parts.size());
   return fmt::format("{}, reference point ({})", what, place_text<Dim>(body.reference));
 }
 

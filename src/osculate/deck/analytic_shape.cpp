@@ -16,13 +16,7 @@ geometry::Curve nurbs_curve(const NurbsShape& shape, bool flip) {
     curve.control.emplace_back(c.x(), c.y());
     curve.weights.push_back(c.z());
   }
-  if (flip) {
-    std::reverse(curve.control.begin(), curve.control.end());
-    std::reverse(curve.weights.begin(), curve.weights.end());
-    const double sum = curve.knots.front() + curve.knots.back();
-    std::reverse(curve.knots.begin(), curve.knots.end());
-    for (double& knot : curve.knots) knot = sum - knot;
-  }
+  if (flip) return geometry::reversed(curve);
   return curve;
 }
 
@@ -92,6 +86,14 @@ std::optional<Analytic<2>> analytic_shape(const RigidShape& shape, bool flip) {
 template <>
 std::optional<Analytic<3>> analytic_shape(const RigidShape& shape, bool flip) {
   return std::visit(SurfaceOf{flip}, shape);
+}
+
+std::vector<geometry::Curve> composite_curves(const CompositeShape& shape, bool flip) {
+  std::vector<geometry::Curve> curves = shape.parts;
+  if (!flip) return curves;
+  std::reverse(curves.begin(), curves.end());
+  for (geometry::Curve& curve : curves) curve = geometry::reversed(curve);
+  return curves;
 }
 
 }  // namespace osculate::deck

@@ -2,6 +2,7 @@
 // Shared by the sources of this layer; not for users.
 #include <optional>
 #include <type_traits>
+#include <vector>
 
 #include "osculate/deck/description.hpp"
 #include "osculate/geometry/catalogue.hpp"
@@ -25,5 +26,8 @@ template <>
 [[nodiscard]] std::optional<Analytic<2>> analytic_shape(const RigidShape& shape, bool flip);
 template <>
 [[nodiscard]] std::optional<Analytic<3>> analytic_shape(const RigidShape& shape, bool flip);
+
+/// The curves of a composite in order of travel; with `flip` the body is on the other side.
+[[nodiscard]] std::vector<geometry::Curve> composite_curves(const CompositeShape& shape, bool flip);
 
 }  // namespace osculate::deck

@@ -45,6 +45,10 @@ void add_unmeshed(const Rigid& rigid, const model::RigidBody& body, pairing::Cha
     chain.facets.push_back(pairing::shape_facet(*body.shape, {nodes[0], nodes[1], nodes[2]}));
     return;
   }
+  if (!body.parts.empty()) {
+    pairing::add_curves(body.parts, body.closed, {nodes[0], nodes[1], nodes[2]}, chain);
+    return;
+  }
   const bool closed = std::get<PolylineShape>(rigid.shape).closed;
   for (std::size_t i = 0; i + 1 < nodes.size() + (closed ? 1 : 0); ++i)
     chain.facets.push_back(

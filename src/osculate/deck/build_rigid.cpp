@@ -36,14 +36,19 @@ void add_meshed(BuildContext<Dim>& c, const Rigid& rigid, const SetShape& shape,
 
 /// The frame nodes of an analytic shape: origin, then the tip of each unit vector.
 template <int Dim>
+void add_frame_nodes(BuildContext<Dim>& c, Index index, model::BasicRigidBody<Dim>& body) {
+  body.nodes.push_back(add_node<Dim>(c.model(), Vec<Dim>::Zero(), index));
+  for (int i = 0; i < Dim; ++i)
+    body.nodes.push_back(add_node<Dim>(c.model(), Vec<Dim>::Unit(i), index));
+}
+
+template <int Dim>
 void add_frame(BuildContext<Dim>& c, const Rigid& rigid, Index index,
                const model::RigidShape<Dim>& shape, model::BasicRigidBody<Dim>& body) {
   const std::string wrong = geometry::validate(shape);
   if (!wrong.empty()) throw core::InputError(rigid.name.mark, wrong);
   body.shape = shape;
-  body.nodes.push_back(add_node<Dim>(c.model(), Vec<Dim>::Zero(), index));
-  for (int i = 0; i < Dim; ++i)
-    body.nodes.push_back(add_node<Dim>(c.model(), Vec<Dim>::Unit(i), index));
+  add_frame_nodes(c, index, body);
 }
 
 void add_polyline(BuildContext<2>& c, const Rigid& rigid, Index index, model::RigidBody& body) {
@@ -52,6 +57,23 @@ void add_polyline(BuildContext<2>& c, const Rigid& rigid, Index index, model::Ri
   body.polyline = s->points.value;
   if (rigid.flip) std::reverse(body.polyline.begin(), body.polyline.end());
   for (const Vec2& p : body.polyline) body.nodes.push_back(add_node<2>(c.model(), p, index));
+}
+
+/// The frame nodes that all curves of a composite share; the reference point is the mean of the
+/// points where they begin and end.
+void add_composite(BuildContext<2>& c, const Rigid& rigid, Index index, model::RigidBody& body) {
+  const auto* const s = std::get_if<CompositeShape>(&rigid.shape);
+  if (!s) return;
+  body.parts = composite_curves(*s, rigid.flip);
+  body.closed = s->closed;
+  add_frame_nodes(c, index, body);
+  std::vector<Vec2> ends;
+  if (!s->closed) ends.push_back(geometry::jet(body.parts[0], geometry::lo(body.parts[0])).r);
+  for (const geometry::Curve& part : body.parts)
+    ends.push_back(geometry::jet(part, geometry::hi(part)).r);
+  Vec2 sum = Vec2::Zero();
+  for (const Vec2& end : ends) sum += end;
+  body.reference = sum / static_cast<double>(ends.size());
 }
 
 template <int Dim>
@@ -73,6 +95,7 @@ model::BasicRigidBody<Dim> rigid_body(BuildContext<Dim>& c, const Rigid& rigid, 
   if (const auto* s = std::get_if<SetShape>(&rigid.shape)) add_meshed(c, rigid, *s, index, body);
   if constexpr (Dim == 2) add_polyline(c, rigid, index, body);
   body.reference = centroid(c.model(), body.nodes);
+  if constexpr (Dim == 2) add_composite(c, rigid, index, body);
   if (const std::optional<Analytic<Dim>> analytic = analytic_shape<Dim>(rigid.shape, rigid.flip)) {
     add_frame(c, rigid, index, analytic->shape, body);
     body.reference = analytic->center;

@@ -41,6 +41,7 @@ struct LivesOf {
   Lives operator()(const PolylineShape&) const { return {true, false}; }
   Lives operator()(const HalfPlaneShape&) const { return {true, false}; }
   Lives operator()(const NurbsShape&) const { return {true, false}; }
+  Lives operator()(const CompositeShape&) const { return {true, false}; }
   template <class SpaceShape>
   Lives operator()(const SpaceShape&) const {
     return {false, true};

@@ -10,6 +10,7 @@
 #include "osculate/cell/cell_type.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/types.hpp"
+#include "osculate/geometry/catalogue.hpp"
 #include "osculate/geometry/nurbs_patch.hpp"
 #include "osculate/geometry/surfaces.hpp"
 #include "osculate/mesh/generate_space.hpp"
@@ -127,10 +128,16 @@ struct NurbsShape {
   Marked<std::vector<double>> knots;  ///< non-decreasing, control.size() + degree + 1 of them
   Marked<std::vector<Vec3>> control;  ///< x, y, weight; not pre-multiplied
 };
+/// Curves of which each begins where the one before ends.
+struct CompositeShape {
+  std::vector<geometry::Curve> parts;
+  bool closed = false;  ///< the first begins where the last ends
+};
 /// The last ones, those of the geometry, are shapes in space.
-using RigidShape = std::variant<SetShape, CircleShape, ArcShape, PolylineShape, HalfPlaneShape,
-                                NurbsShape, geometry::Plane, geometry::Sphere, geometry::Cylinder,
-                                geometry::Cone, geometry::Torus, geometry::NurbsPatch>;
+using RigidShape =
+    std::variant<SetShape, CircleShape, ArcShape, PolylineShape, HalfPlaneShape, NurbsShape,
+                 CompositeShape, geometry::Plane, geometry::Sphere, geometry::Cylinder,
+                 geometry::Cone, geometry::Torus, geometry::NurbsPatch>;
 
 struct Rigid {
   Name name;

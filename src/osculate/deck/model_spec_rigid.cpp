@@ -51,6 +51,33 @@ std::vector<Key> plane_shapes() {
           optional("line", line), optional("nurbs", nurbs_spec())};
 }
 
+/// Curves joined to one surface, for rigid bodies.
+Spec composite_spec() {
+  const Spec values =
+      list("Coordinates in order of travel.", number("One coordinate.").in("length")).count(2);
+  const Spec function =
+      map("The graph y(x) of the cubic spline through given points (its first and second "
+          "derivatives are continuous).",
+          {required("x", values.such_as("[0, 1, 2, 3]")),
+           required("y", values.such_as("[0, 0.1, 0.4, 0.9]"))});
+  std::vector<Key> keys;
+  for (Key& key : plane_shapes())
+    if (key.name == "arc" || key.name == "polyline" || key.name == "nurbs")
+      keys.push_back(std::move(key));
+  keys.push_back(optional("function", function));
+  std::vector<std::string> kinds;
+  for (const Key& key : keys) kinds.push_back(key.name);
+  return list(
+             "Curves of which each begins where the one before ends, smoothly or with a corner, "
+             "body on the right of the direction of travel; closed when the last ends where the "
+             "first begins (plane models).",
+             map("One part: exactly one curve.", keys).with(Group::Rule::exactly_one, kinds))
+      .count(1)
+      .such_as(
+          "[{polyline: {points: [[-2, 0], [0, 0]]}}, {function: {x: [0, 1, 2], y: [0, 0.1, "
+          "0.4]}}]");
+}
+
 Spec nurbs_patch_spec() {
   return map(
       "A rational B-spline surface (models in space); its normal, out of the body, is that of the "
@@ -143,7 +170,9 @@ std::vector<Key> rigid_shape_keys() {
   std::vector<Key> keys{optional(
       "set", text("Set of line cells or nodes, in space of area cells or nodes, that move as one.")
                  .such_as("base_line"))};
-  for (Key& key : shape_keys()) keys.push_back(std::move(key));
+  for (Key& key : plane_shapes()) keys.push_back(std::move(key));
+  keys.push_back(optional("composite", composite_spec()));
+  for (Key& key : space_shapes()) keys.push_back(std::move(key));
   return keys;
 }
 

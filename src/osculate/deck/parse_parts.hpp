@@ -43,6 +43,8 @@ template <class E>
 [[nodiscard]] std::vector<Rigid> parse_rigid(const Value& v);
 /// Of a map with exactly one shape among its keys.
 [[nodiscard]] RigidShape parse_shape(const Value& v);
+/// Of the list of its parts.
+[[nodiscard]] CompositeShape parse_composite(const Value& v);
 [[nodiscard]] std::vector<Contact> parse_contact(const Value& v);
 [[nodiscard]] std::vector<Amplitude> parse_amplitudes(const Value& v);
 [[nodiscard]] std::vector<Equation> parse_equations(const Value& v);

@@ -28,6 +28,10 @@ using Curve = std::variant<LagrangeCurve, NurbsCurve, Circle, Arc, InfiniteLine>
 [[nodiscard]] inline std::string_view key(const Curve& curve) {
   return std::visit([](const auto& c) { return c.key; }, curve);
 }
+/// The same points travelled the other way: the body changes sides.
+[[nodiscard]] inline Curve reversed(const Curve& curve) {
+  return std::visit([](const auto& c) { return Curve(reversed(c)); }, curve);
+}
 /// Empty, or a message naming the field and what was expected of it.
 [[nodiscard]] inline std::string validate(const Curve& curve) {
   return std::visit([](const auto& c) { return validate(c); }, curve);

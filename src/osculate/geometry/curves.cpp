@@ -67,6 +67,13 @@ std::string validate(const LagrangeCurve& curve) {
   return {};
 }
 
+LagrangeCurve reversed(const LagrangeCurve& curve) {
+  LagrangeCurve out = curve;
+  std::swap(out.nodes[0], out.nodes[1]);
+  std::reverse(out.nodes.begin() + 2, out.nodes.begin() + curve.count);
+  return out;
+}
+
 CurveJet<2> Circle::jet(double xi) const { return circle_jet(center, radius, inside, xi); }
 double Circle::hi() const { return two_pi; }
 std::string validate(const Circle& curve) { return check_circle(curve.center, curve.radius); }

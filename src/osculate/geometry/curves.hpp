@@ -84,6 +84,21 @@ struct InfiniteLine {
 };
 [[nodiscard]] std::string validate(const InfiniteLine& curve);
 
+/// The same points travelled the other way: the body changes sides.
+[[nodiscard]] LagrangeCurve reversed(const LagrangeCurve& curve);
+[[nodiscard]] inline Circle reversed(Circle curve) {
+  curve.inside = !curve.inside;
+  return curve;
+}
+[[nodiscard]] inline Arc reversed(Arc curve) {
+  curve.inside = !curve.inside;
+  return curve;
+}
+[[nodiscard]] inline InfiniteLine reversed(InfiniteLine curve) {
+  curve.normal = -curve.normal;
+  return curve;
+}
+
 /// Corner points joined by straight segments. Not a smooth curve, hence no jet: it only yields its
 /// segments.
 struct Polyline {

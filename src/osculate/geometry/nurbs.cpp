@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -113,6 +114,16 @@ std::string validate(const NurbsCurve& curve) {
       return fmt::format("weights: expected numbers > 0, weight {} is {}", k, curve.weights[k]);
   }
   return {};
+}
+
+NurbsCurve reversed(const NurbsCurve& curve) {
+  NurbsCurve out = curve;
+  std::reverse(out.control.begin(), out.control.end());
+  std::reverse(out.weights.begin(), out.weights.end());
+  std::reverse(out.knots.begin(), out.knots.end());
+  const double sum = curve.knots.front() + curve.knots.back();
+  for (double& knot : out.knots) knot = sum - knot;
+  return out;
 }
 
 }  // namespace osculate::geometry

@@ -51,6 +51,8 @@ struct NurbsCurve {
 /// Empty, or what was expected: degree 1..7, finite nondecreasing knots, as many knots as control
 /// points + degree + 1, inner multiplicity <= degree, a non-empty range, weights > 0.
 [[nodiscard]] std::string validate(const NurbsCurve& curve);
+/// The same points travelled the other way: the body changes sides.
+[[nodiscard]] NurbsCurve reversed(const NurbsCurve& curve);
 [[nodiscard]] std::string validate_knots(std::size_t control_points, int degree,
                                          const std::vector<double>& knots);
 

@@ -32,6 +32,8 @@ struct BasicRigidBody {
   Vec<Dim> reference = Vec<Dim>::Zero();
   std::vector<Index> nodes;              ///< mesh nodes and frame nodes
   std::optional<RigidShape<Dim>> shape;  ///< analytic shape in reference coordinates
+  std::vector<RigidShape<Dim>> parts;    ///< curves of a composite, each begins where one ends
+  bool closed = false;                   ///< the first part begins where the last one ends
   std::vector<Vec<Dim>> polyline;        ///< for pictures of analytic polylines
 };
 

@@ -66,8 +66,8 @@ TEST(BrokenModels, MissingKeysNameTheParent) {
 TEST(BrokenModels, OneOfSeveralKeys) {
   expect_refusals({
       {"{set: base_line}", "{flip: true}",
-       "model.yaml:9: rigid.base: needs one of set, circle, arc, polyline, line, nurbs, plane, "
-       "sphere, cylinder, cone, torus, nurbs_patch"},
+       "model.yaml:9: rigid.base: needs one of set, circle, arc, polyline, line, nurbs, "
+       "composite, plane, sphere, cylinder, cone, torus, nurbs_patch"},
       {"{set: base_line}", "{set: base_line, circle: {center: [0, 0], radius: 1}}",
        "model.yaml:9: rigid.base: 'set' and 'circle' exclude each other"},
       {"{linear_elastic: {E: 2.1e4, nu: 0.3}}", "{}",

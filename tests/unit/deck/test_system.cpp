@@ -36,6 +36,10 @@ const std::vector<Tool> tools{
      ""},
     {"line", "line: {point: [1, 0.89], normal: [0.1, -1]}", ""},
     {"polyline", "polyline: {points: [[2.5, 1.2], [1.2, 0.9], [0.3, 0.95], [-0.5, 1.3]]}", ""},
+    {"composite",
+     "composite: [{polyline: {points: [[2.5, 1.2], [1.6, 0.9]]}}, {function: {x: [1.6, 1.2, 0.8, "
+     "0.4], y: [0.9, 0.88, 0.93, 0.9]}}, {polyline: {points: [[0.4, 0.9], [-0.5, 1.3]]}}]",
+     ""},
     {"meshed", "set: bar", ", bar: {line: {points: [[2.4, 0.93], [-0.4, 0.91]], elements: 3}}"},
 };
 constexpr const char* driven =
