@@ -25,7 +25,7 @@ std::vector<mesh::SurfaceFacet> free_faces(const model::Model3& m) {
 mesh::SurfaceFacet mesh_facet(const pairing::SurfaceFacet& facet) {
   mesh::SurfaceFacet out;
   out.type = facet.type;
-  std::copy_n(facet.nodes.begin(), facet.count, out.node.begin());
+  std::copy_n(facet.nodes.begin(), cell::info(facet.type).nodes, out.node.begin());
   return out;
 }
 

@@ -6,6 +6,8 @@
 namespace osculate::cell {
 
 inline constexpr int max_facet_nodes = 9;
+/// Room in FacetShape: smooth patches depend on nodes of the facets around theirs too.
+inline constexpr int max_shape_nodes = 16;
 
 /// Shape functions of a surface facet and all derivatives up to the third at one point (the first
 /// `count` entries are used). Index of a derivative: 0 value; 1, 2 first (1; 2); 3, 4, 5 second
@@ -14,7 +16,7 @@ inline constexpr int max_facet_nodes = 9;
 /// Tested by  tests/unit/cell/test_facet_shape.cpp
 struct FacetShape {
   int count = 0;
-  std::array<std::array<double, max_facet_nodes>, 10> n{};
+  std::array<std::array<double, max_shape_nodes>, 10> n{};
 };
 
 /// Place of d2/dxi_i dxi_j and d3/dxi_i dxi_j dxi_k (i, j, k = 0 or 1) in `FacetShape::n`.

@@ -160,6 +160,17 @@ void set_forms(const Contact& contact, pairing::PairDefinition<Dim>& pair) {
   }
   pair.residual = contact.residual.value == Residual::full ? contact::ResidualForm::full
                                                            : contact::ResidualForm::surface;
+  switch (contact.history.value) {
+    case HistoryKind::continuous:
+      pair.history = pairing::HistoryRule::continuous;
+      break;
+    case HistoryKind::chord:
+      pair.history = pairing::HistoryRule::chord;
+      break;
+    case HistoryKind::per_facet:
+      pair.history = pairing::HistoryRule::per_facet;
+      break;
+  }
   const Tangent& t = contact.tangent.value;
   pair.tangent = {t.kind == TangentKind::consistent, t.main, t.rotational, t.curvature};
   if (contact.search_depth) pair.depth = contact.search_depth->value;
@@ -393,10 +404,13 @@ void build_contact(BuildContext<Dim>& c) {
       pair.slave = slave_of(c, contact);
     check_pair(c, contact, pair);
     if (!contact.two_pass) {
+      smooth_master(c, contact, pair);
       add_sampled(c, contact, std::move(out));
       continue;
     }
     model::BasicContactPair<Dim> second = reversed(contact, out);
+    smooth_master(c, contact, pair);
+    smooth_master(c, contact, second.definition);
     pair.share = second.definition.share = 0.5;
     add_sampled(c, contact, std::move(out));
     add_sampled(c, contact, std::move(second));

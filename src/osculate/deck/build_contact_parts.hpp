@@ -31,4 +31,9 @@ inline constexpr double reach_in_facets = 8;
 template <int Dim>
 void build_contact_all(BuildContext<Dim>& c, const Contact& contact);
 
+/// Replaces the master of a finished pair by the smooth one that the model asks for.
+template <int Dim>
+void smooth_master(const BuildContext<Dim>& context, const Contact& contact,
+                   pairing::PairDefinition<Dim>& pair);
+
 }  // namespace osculate::deck

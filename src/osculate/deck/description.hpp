@@ -157,7 +157,14 @@ enum class Enforcement { penalty };
 enum class ContactWeight { node, reference_area, current_area };
 enum class Residual { surface, full };
 enum class TangentKind { consistent, covariant };
-enum class HistoryKind { continuous };
+enum class HistoryKind { continuous, chord, per_facet };
+enum class SmoothingWord { none, hermite, nurbs };
+
+/// Of the master's surface.
+struct MasterSmoothing {
+  SmoothingWord kind = SmoothingWord::none;
+  double angle = 30;  ///< degrees: corners with a larger one stay sharp
+};
 
 /// `consistent`, or the covariant parts that are switched on.
 struct Tangent {
@@ -186,6 +193,7 @@ struct Contact {
   Marked<Residual> residual;
   Marked<Tangent> tangent;
   Marked<HistoryKind> history;
+  Marked<MasterSmoothing> smoothing;
   std::optional<core::SourceMark> two_pass;  ///< where it was asked for
   std::optional<Number> search_depth;
   std::optional<Number> edges;  ///< angle [degrees] of edges that are sharp; absent: without edges

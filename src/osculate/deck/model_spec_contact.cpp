@@ -100,10 +100,36 @@ Spec history_spec() {
   return choice("How friction remembers over borders of facets.",
                 {word("continuous", HistoryKind::continuous,
                       "the traction is carried along, slip is measured along the surface"),
-                 planned("chord", "slip is measured along the chord"),
-                 planned("per_facet", "each facet starts afresh")})
+                 word("chord", HistoryKind::chord,
+                      "as published: slip is the straight line between the places, projected"),
+                 word("per_facet", HistoryKind::per_facet,
+                      "as published: slip is the difference of the facets' coordinates, which "
+                      "jumps at their borders")})
       .otherwise("continuous")
       .such_as("continuous");
+}
+
+Spec smoothing_spec() {
+  const Choice hermite = word("hermite", SmoothingWord::hermite,
+                              "cubic pieces with one normal where facets meet"),
+               nurbs = word("nurbs", SmoothingWord::nurbs,
+                            "in the plane: pieces of degree 5 with one curvature too, a spline "
+                            "with the nodes as knots");
+  const Spec angle = number("Corners and edges of the master with a larger angle stay sharp.")
+                         .in("degrees")
+                         .at_least(0)
+                         .below(180)
+                         .otherwise("30")
+                         .such_as("40");
+  return either(
+             "A smooth surface through the nodes of a master of first-order facets.",
+             {choice("With sharp corners above 30 degrees.",
+                     {word("none", SmoothingWord::none, "the facets as they are"), hermite, nurbs}),
+              map("With another angle.",
+                  {required("kind", choice("Pieces.", {hermite, nurbs}).such_as("hermite")),
+                   optional("angle", angle)})})
+      .otherwise("none")
+      .such_as("hermite");
 }
 
 Spec edges_spec() {
@@ -157,6 +183,7 @@ Spec pairs_spec() {
                  required("master", text("Rigid body, or set of boundary facets, that the contact "
                                          "points are projected onto.")
                                         .such_as("bottom")),
+                 optional("smoothing", smoothing_spec()),
                  required("slave", text("Meshed rigid body, or set, whose points are projected; "
                                         "the set that is master, for contact with itself.")
                                        .such_as("base"))}));

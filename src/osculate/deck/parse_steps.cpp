@@ -48,9 +48,15 @@ void read_laws(const Value& v, Contact& c) {
   if (const Value* const search = v.find("search")) c.search_depth = number_if(*search, "depth");
 }
 
+Marked<MasterSmoothing> smoothing_of(const Value& v) {
+  if (v.alternative == 0) return {{word_of<SmoothingWord>(v).value, 30}, v.mark};
+  return {{word_of<SmoothingWord>(v, "kind").value, number_of(v.at("angle")).value}, v.mark};
+}
+
 Contact contact_of(const Value& v) {
   Contact c;
   read_laws(v, c);
+  c.smoothing = smoothing_of(v.at("smoothing"));
   c.master = name_of(v.at("master"));
   c.slave = name_of(v.at("slave"));
   return c;

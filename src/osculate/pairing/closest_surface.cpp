@@ -5,6 +5,7 @@
 
 #include "osculate/cell/shape.hpp"
 #include "osculate/pairing/closest.hpp"
+#include "osculate/pairing/closest_patch.hpp"
 #include "osculate/pairing/scope.hpp"
 #include "osculate/projection/point_to_facet.hpp"
 #include "osculate/projection/point_to_surface.hpp"
@@ -23,7 +24,8 @@ using FacetNodes = std::array<Vec3, cell::max_facet_nodes>;
 
 std::span<const Vec3> nodes_of(const SurfaceFacet& facet, std::span<const Vec3> x,
                                FacetNodes& buffer) {
-  const auto count = static_cast<std::size_t>(facet.count);
+  const auto count = facet.patch ? static_cast<std::size_t>(edge_count(facet))  // its corners
+                                 : static_cast<std::size_t>(facet.count);
   for (std::size_t k = 0; k < count; ++k) buffer[k] = node(facet, k, x);
   return {buffer.data(), count};
 }
@@ -45,8 +47,8 @@ FacetFoot foot_on_shape(const SurfaceFacet& facet, std::span<const Vec3> x, cons
 /// projection between neighbours (clamped, the slip would stand still there and then jump), by
 /// `end_extension` at open borders (the last node of a surface must not lose contact because its
 /// master tilts or stretches a little).
-void release_border(const SurfaceFacet& facet, std::span<const Vec3> nodes, const Vec3& point,
-                    FacetFoot& foot) {
+template <class Release>
+void release_border(const SurfaceFacet& facet, const Release& release, FacetFoot& foot) {
   if (!foot.converged || foot.feature == Feature::face || foot.local < 0) return;
   constexpr double tolerance = 2e-8;
   bool open = false;
@@ -58,7 +60,7 @@ void release_border(const SurfaceFacet& facet, std::span<const Vec3> nodes, cons
     const auto after = static_cast<std::size_t>(foot.local);
     open = facet.neighbour[before] < 0 || facet.neighbour[after] < 0;
   }
-  (void)projection::release(facet.type, nodes, point, open ? end_extension : tolerance, foot);
+  (void)release(open ? end_extension : tolerance, foot);
 }
 
 FacetFoot foot_on_facet(const SurfaceFacet& facet, std::span<const Vec3> x, const Vec3& point) {
@@ -66,8 +68,31 @@ FacetFoot foot_on_facet(const SurfaceFacet& facet, std::span<const Vec3> x, cons
   FacetNodes buffer;
   const std::span<const Vec3> nodes = nodes_of(facet, x, buffer);
   FacetFoot foot = projection::closest_point(facet.type, nodes, point);
-  release_border(facet, nodes, point, foot);
+  if (facet.patch) {
+    const PatchPoints points = patch_points(facet, x);
+    const PatchQuery query{facet.type, points, point};
+    foot = closest_on_patch(query, foot.xi);
+    const auto release = [&](double extension, FacetFoot& f) {
+      return release_from_patch(query, extension, f);
+    };
+    release_border(facet, release, foot);
+    return foot;
+  }
+  const auto release = [&](double extension, FacetFoot& f) {
+    return projection::release(facet.type, nodes, point, extension, f);
+  };
+  release_border(facet, release, foot);
   return foot;
+}
+
+FacetFoot foot_on_edge(const SurfaceFacet& facet, std::span<const Vec3> x, int edge,
+                       const Vec3& point) {
+  if (facet.patch) {
+    const PatchPoints points = patch_points(facet, x);
+    return closest_on_patch_edge({facet.type, points, point}, edge);
+  }
+  FacetNodes buffer;
+  return projection::closest_point_on_edge(facet.type, nodes_of(facet, x, buffer), edge, point);
 }
 
 struct Candidate {
@@ -188,9 +213,7 @@ void share(const FacetSurface& surface, std::span<const Vec3> x, Index other, co
   const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(p.facet)];
   const int edge = facet.shape ? -1 : shared_edge(facet, other);
   if (edge < 0) return;
-  FacetNodes buffer;
-  const FacetFoot foot =
-      projection::closest_point_on_edge(facet.type, nodes_of(facet, x, buffer), edge, point);
+  const FacetFoot foot = foot_on_edge(facet, x, edge, point);
   if (!foot.converged || foot.feature != Feature::edge) return;
   p.feature = Feature::edge;
   p.local = edge;
@@ -219,6 +242,12 @@ void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
     if (facet.shape) {
       box.lo = Vec3::Constant(-infinite);
       box.hi = Vec3::Constant(infinite);
+      continue;
+    }
+    if (facet.patch) {  // in the hull of its control points
+      const PatchPoints points = patch_points(facet, x);
+      const std::size_t used = cell::is_triangle(facet.type) ? 18 : gregory_points;
+      for (std::size_t j = 0; j < used; ++j) box.extend(points[j]);
       continue;
     }
     for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)

@@ -32,6 +32,7 @@ struct PairDefinition {
   Weight weight = Weight::reference_area;
   contact::ResidualForm residual = contact::ResidualForm::surface;
   contact::TangentForm tangent;
+  HistoryRule history = HistoryRule::continuous;
   AreaRule area;
   double share = 1;  ///< of the traction that this pass carries (two passes: 1/2 each)
   double depth = std::numeric_limits<double>::infinity();  ///< deeper points are not in contact

@@ -30,10 +30,10 @@ Placed<2> place(const Chain& master, const Projection<2>& p, const Vec2& point,
 namespace {
 
 /// Derivatives of the shape functions along the straight direction `e` of the reference cell.
-std::array<std::array<double, cell::max_facet_nodes>, 4> along(const cell::FacetShape& s,
+std::array<std::array<double, cell::max_shape_nodes>, 4> along(const cell::FacetShape& s,
                                                                const Vec2& e) {
   const double a = e.x(), b = e.y();
-  std::array<std::array<double, cell::max_facet_nodes>, 4> n{};
+  std::array<std::array<double, cell::max_shape_nodes>, 4> n{};
   for (std::size_t k = 0; k < static_cast<std::size_t>(s.count); ++k) {
     n[0][k] = s.n[0][k];
     n[1][k] = a * s.n[1][k] + b * s.n[2][k];

@@ -8,7 +8,7 @@
 namespace osculate::pairing {
 
 template <int Dim>
-inline constexpr int max_master_nodes = Dim == 2 ? cell::max_line_nodes : cell::max_facet_nodes;
+inline constexpr int max_master_nodes = Dim == 2 ? cell::max_line_nodes : cell::max_shape_nodes;
 
 /// A slave point on its place of the master.
 template <int Dim>

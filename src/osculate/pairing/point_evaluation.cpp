@@ -73,8 +73,8 @@ Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>
   f.traction.normal = pair.normal.response(k.gap);
   if (!f.traction.normal.active || !pair.friction) return f;
   const contact::Coulomb& law = *pair.friction;
-  const Trial<Dim> tr =
-      trial(pair.master, history, placed, law.stiffness, contact_share(history, k.gap), x, path);
+  const Trial<Dim> tr = trial(pair.master, history, placed, law.stiffness,
+                              contact_share(history, k.gap), x, path, pair.history);
   const double normal = f.traction.normal.traction;
   f.slip = tr.slip;
   f.law = law.template response<Dim>(tr.value, normal);
@@ -130,7 +130,7 @@ PointHistory<Dim> next_history(const PairDefinition<Dim>& pair, Points<Dim> x,
   h.active = f.traction.normal.active;
   h.friction_work = old.friction_work;
   if (!h.active) return h;
-  h.traction = stored_components(pair.master, placed, f.law.traction, x);
+  h.traction = stored_components(pair.master, placed, f.law.traction, x, pair.history);
   h.slipping = f.law.status == Status::slip;
   h.slip = f.slip;
   if (old.active) h.slip += old.slip;

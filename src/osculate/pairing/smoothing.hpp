@@ -9,6 +9,7 @@
 namespace osculate::pairing {
 
 struct Chain;
+struct FacetSurface;
 
 /// A smooth surface through the nodes of first-order facets.
 ///   hermite  cubic pieces, one continuous tangent
@@ -52,5 +53,21 @@ struct BezierWeights {
 /// Requires   facets of two nodes, which differ in `reference`
 /// Tested by  tests/unit/pairing/test_smoothing.cpp
 void smooth(Chain& chain, std::span<const Vec2> reference, const Smoothing& options);
+
+/// Replaces quad4 and tri3 facets of `surface` (connected) by patches through the same nodes with
+/// one normal along their common borders.
+///
+/// Formula    every vertex has a tangent plane that is linear in the nodes around it: the gradient,
+///            by least squares with the weights |q|^-3, in a plane chart of the reference
+///            configuration that keeps the lengths q of the edges; sharp and open edges are cubic
+///            lines of their own as in the plane, whose tangents it contains. Borders are cubics
+///            with these tangents; across a border the derivative is k b + h rho' with k, h and b
+///            linear along it, b the same for both patches
+/// Source     the construction of Chiyokura and Kimura with the inner points of Gregory's patch
+/// Requires   facets of the types quad4 and tri3, kind `hermite`
+/// Errors     core::GeometryError where a patch would depend on more than cell::max_shape_nodes
+///            nodes, or the facets do not form a surface
+/// Tested by  tests/unit/pairing/test_smooth_surface.cpp
+void smooth(FacetSurface& surface, std::span<const Vec3> reference, const Smoothing& options);
 
 }  // namespace osculate::pairing

@@ -100,6 +100,7 @@ cell::FacetShape difference_shape(const SurfaceFacet& facet, const Vec2& xi) {
 
 cell::FacetShape facet_shape(const SurfaceFacet& facet, const Vec2& xi) {
   if (facet.difference[0] > 0) return difference_shape(facet, xi);
+  if (facet.patch) return gregory_shape(*facet.patch, facet.count, xi);
   if (!facet.shape) return cell::facet_shape(facet.type, xi);
   const geometry::SurfaceJet jet = geometry::jet(*facet.shape, xi);
   const std::array<const Vec3*, 10> d{&jet.r,     &jet.r1[0], &jet.r1[1], &jet.r2[0], &jet.r2[1],

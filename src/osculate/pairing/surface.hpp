@@ -8,11 +8,12 @@
 #include "osculate/cell/facet_shape.hpp"
 #include "osculate/geometry/surface_catalogue.hpp"
 #include "osculate/geometry/surface_jet.hpp"
+#include "osculate/pairing/gregory.hpp"
 
 namespace osculate::pairing {
 
-/// One piece of a boundary surface: a Lagrange facet through its nodes, or an analytic surface
-/// carried by a rigid frame.
+/// One piece of a boundary surface: a Lagrange facet through its nodes, a smooth patch that depends
+/// on nodes around them too (behind its own), or an analytic surface carried by a rigid frame.
 ///
 /// The frame is four nodes (origin, tips of e1, e2, e3): a material point with frame coordinates X
 /// has the weights (1 - X1 - X2 - X3, X1, X2, X3), so an analytic shape is a facet with four nodes
@@ -20,8 +21,9 @@ namespace osculate::pairing {
 struct SurfaceFacet {
   cell::CellType type = cell::CellType::quad4;  ///< of a Lagrange facet
   int count = 0;
-  std::array<Index, cell::max_facet_nodes> nodes{};
-  std::shared_ptr<const geometry::Surface> shape;  ///< null for a Lagrange facet
+  std::array<Index, cell::max_shape_nodes> nodes{};
+  std::shared_ptr<const geometry::Surface> shape;  ///< null for a Lagrange facet and a patch
+  std::shared_ptr<const GregoryWeights> patch;     ///< of a smooth patch (pairing/smoothing.hpp)
   std::array<Index, 4> neighbour{-1, -1, -1, -1};  ///< across each edge, -1 = open border
   Index piece = 0;                                 ///< number of the connected piece
   /// Nodes of the two edges whose difference r = rho(xi) - s(eta) this is (pairing/edges.hpp), the

@@ -49,7 +49,7 @@ double inside_part(cell::CellType type, const Vec2& xi, const Vec2& step) {
 struct Samples {
   int steps = 0;
   std::vector<Vec2> xi;
-  std::vector<std::array<double, cell::max_facet_nodes>> shape;
+  std::vector<std::array<double, cell::max_shape_nodes>> shape;
   std::vector<bool> border;
 };
 

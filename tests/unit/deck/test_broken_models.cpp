@@ -193,8 +193,6 @@ TEST(BrokenModels, KnownButNotAvailable) {
       {"enforcement: penalty", "enforcement: lagrange_multiplier",
        "model.yaml:18: contact[0].enforcement: 'lagrange_multiplier' is not available yet; use "
        "penalty"},
-      {"history: continuous", "history: chord",
-       "model.yaml:22: contact[0].history: 'chord' is not available yet; use continuous"},
       {"{penalty: 2.1e6}\n    friction", "{penalty: auto}\n    friction",
        "model.yaml:16: contact[0].normal.penalty: 'auto' is not available yet"},
       {"max_iterations: 25", "arc_length: {}",

@@ -70,7 +70,7 @@ TEST(GraphThrough, HasTwoContinuousDerivativesAndConvergesWithOrderFour) {
       worst = std::max(worst, std::abs(curve.jet(at).r.y() - std::sin(at)));
     return worst;
   };
-  EXPECT_NEAR(std::log2(error(20) / error(40)), 4, 0.3);
+  EXPECT_NEAR(std::log2(error(80) / error(160)), 4, 0.2);
 }
 
 TEST(Reversed, TravelsTheSamePointsTheOtherWay) {

@@ -107,7 +107,7 @@ TEST(CurveChain, JointsAreTight) {
       w.start(on_channel(joint + beside, 1e-3));
       const auto& point = w.step(on_channel(joint + beside, 1e-3));
       EXPECT_NEAR(point.gap, -1e-3, 1e-12);
-      EXPECT_NEAR((point.foot - on_channel(joint + beside, 0)).norm(), 0, 1e-12);
+      EXPECT_NEAR((point.foot - on_channel(joint + beside, 0)).norm(), 0, 2e-12);
       EXPECT_NEAR(point.shear_traction[0], 0, 1e-10);
     }
 }
@@ -115,6 +115,7 @@ TEST(CurveChain, JointsAreTight) {
 // A sharp convex corner between two curves is a vertex with the averaged normal.
 TEST(CurveChain, ConvexCornersAreVertices) {
   Slider w(1e6);
+  w.start({3.3, 0.4});
   const auto& outside = w.step({3.3, 0.4});
   EXPECT_NEAR(outside.gap, 0.5, 1e-14);
   EXPECT_NEAR((outside.foot - Vec2(3, 0)).norm(), 0, 1e-15);

@@ -1,0 +1,204 @@
+#include "osculate/pairing/closest_patch.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "osculate/cell/shape.hpp"
+#include "osculate/projection/surface_distance.hpp"
+
+namespace osculate::pairing {
+namespace {
+
+using projection::DistanceJet2;
+using projection::FacetFoot;
+using projection::Feature;
+
+DistanceJet2 distance_at(const PatchQuery& q, const Vec2& xi) {
+  const GregoryBasis basis = gregory_basis(cell::is_triangle(q.type), xi);
+  std::array<Vec3, 6> r;
+  r.fill(Vec3::Zero());
+  for (std::size_t d = 0; d < r.size(); ++d)
+    for (std::size_t j = 0; j < gregory_points; ++j) r[d] += basis[d][j] * q.points[j];
+  return projection::distance_jet2<3>(q.point - r[0], {r[1], r[2]}, {r[3], r[4], r[5]});
+}
+
+/// Distance of a coordinate from the borders of the cell, inwards, in parts of its range.
+std::array<double, 4> room(cell::CellType type, const Vec2& xi) {
+  if (cell::is_triangle(type)) return {xi.y(), 1 - xi.x() - xi.y(), xi.x(), 1};
+  return {0.5 * (1 + xi.y()), 0.5 * (1 - xi.x()), 0.5 * (1 - xi.y()), 0.5 * (1 + xi.x())};
+}
+
+double least_room(cell::CellType type, const Vec2& xi) {
+  const std::array<double, 4> r = room(type, xi);
+  return *std::min_element(r.begin(), r.end());
+}
+
+/// Largest part of the step that stays inside.
+double inside_part(cell::CellType type, const Vec2& xi, const Vec2& step) {
+  const std::array<double, 4> here = room(type, xi), there = room(type, Vec2(xi + step));
+  double part = 1;
+  for (std::size_t e = 0; e < 4; ++e)
+    if (there[e] < 0) part = std::min(part, std::max(here[e], 0.0) / (here[e] - there[e]));
+  return part;
+}
+
+/// Safeguarded Newton inside the cell; feature none if the way leads out of it.
+FacetFoot foot_inside(const PatchQuery& q, const Vec2& start) {
+  FacetFoot foot;
+  foot.xi = start;
+  DistanceJet2 j = distance_at(q, foot.xi);
+  constexpr int most = 40;
+  for (int it = 0; it < most; ++it) {
+    Vec2 step = projection::descent(j);
+    if (!step.allFinite()) return foot;
+    if (step.norm() <= 1e-15) break;
+    const double part = inside_part(q.type, foot.xi, step);
+    if (part < 1e-12) return foot;
+    step *= part;
+    DistanceJet2 next = distance_at(q, foot.xi + step);
+    for (int half = 0; half < 30 && next.squared_distance > j.squared_distance * (1 + 1e-14);
+         ++half) {
+      step *= 0.5;
+      next = distance_at(q, foot.xi + step);
+    }
+    // The distance is flat where it is smallest: there the slope judges.
+    const bool farther = next.squared_distance > j.squared_distance * (1 + 1e-14);
+    const bool shallow = step.norm() < 1e-7 && !(next.slope.norm() < j.slope.norm());
+    if (farther || shallow) break;
+    foot.xi += step;
+    j = next;
+  }
+  foot.squared_distance = j.squared_distance;
+  foot.converged = projection::positive(j.bend) || j.slope.norm() <= 1e-12 * j.metric.trace();
+  foot.feature = foot.converged ? Feature::face : Feature::none;
+  return foot;
+}
+
+/// A border as a polynomial of t in 0..1.
+struct EdgeCurve {
+  std::size_t degree = 3;
+  std::array<Vec3, 5> c;
+
+  [[nodiscard]] std::array<Vec3, 3> at(double t) const {
+    std::array<Vec3, 3> r{c[degree], Vec3::Zero(), Vec3::Zero()};
+    for (std::size_t k = degree; k-- > 0;) {
+      r[2] = t * r[2] + 2 * r[1];
+      r[1] = t * r[1] + r[0];
+      r[0] = t * r[0] + c[k];
+    }
+    return r;
+  }
+};
+
+EdgeCurve edge_curve(const PatchQuery& q, int edge) {
+  const auto k = static_cast<std::size_t>(edge);
+  EdgeCurve out;
+  std::array<Vec3, 5> b;
+  b.fill(Vec3::Zero());
+  if (cell::is_triangle(q.type)) {
+    out.degree = 4;
+    b[0] = q.points[k];
+    for (std::size_t s = 1; s < 4; ++s) b[s] = q.points[triangle_border(k, s)];
+    b[4] = q.points[(k + 1) % 3];
+  } else {
+    for (std::size_t s = 0; s < 4; ++s) {
+      const std::array<std::size_t, 4> place{quad_point(s, 0), quad_point(3, s),
+                                             quad_point(3 - s, 3), quad_point(0, 3 - s)};
+      b[s] = q.points[place[k]];
+    }
+  }
+  double binomial = 1;  // powers from forward differences of the control points
+  for (std::size_t d = 0; d <= out.degree; ++d) {
+    out.c[d] = binomial * b[0];
+    for (std::size_t j = 0; j + d < out.degree; ++j) b[j] = b[j + 1] - b[j];
+    binomial *= static_cast<double>(out.degree - d) / static_cast<double>(d + 1);
+  }
+  return out;
+}
+
+/// Safeguarded Newton for the nearest t, from the nearest of five samples.
+double nearest_on_edge(const EdgeCurve& e, const Vec3& point, double& squared) {
+  const auto distance = [&](double t) { return (point - e.at(t)[0]).squaredNorm(); };
+  double t = 0;
+  squared = std::numeric_limits<double>::infinity();
+  for (int i = 0; i <= 4; ++i)
+    if (const double d = distance(0.25 * i); d < squared) squared = d, t = 0.25 * i;
+  double slope_before = std::numeric_limits<double>::infinity();
+  for (int it = 0; it < 40; ++it) {
+    const std::array<Vec3, 3> r = e.at(t);
+    const double slope = -(point - r[0]).dot(r[1]), a = r[1].squaredNorm();
+    const double bend = a - (point - r[0]).dot(r[2]);
+    double step = -slope / (bend > 0 ? bend : std::max(a, 1e-300));
+    step = std::clamp(t + step, 0.0, 1.0) - t;
+    double d = distance(t + step);
+    for (int half = 0; half < 30 && d > squared * (1 + 1e-14); ++half)
+      step *= 0.5, d = distance(t + step);
+    const bool shallow = std::abs(step) < 1e-7 && !(std::abs(slope) < slope_before);
+    if (!(d <= squared * (1 + 1e-14)) || shallow) break;
+    slope_before = std::abs(slope);
+    t += step;
+    squared = d;
+    if (std::abs(step) <= 1e-16) break;
+  }
+  return t;
+}
+
+}  // namespace
+
+PatchPoints patch_points(const SurfaceFacet& facet, std::span<const Vec3> x) {
+  PatchPoints points;
+  points.fill(Vec3::Zero());
+  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+    for (std::size_t j = 0; j < gregory_points; ++j)
+      points[j] += facet.patch->weight[k][j] * x[static_cast<std::size_t>(facet.nodes[k])];
+  return points;
+}
+
+FacetFoot closest_on_patch_edge(const PatchQuery& query, int edge) {
+  const int corners = cell::is_triangle(query.type) ? 3 : 4;
+  FacetFoot foot;
+  const double t = nearest_on_edge(edge_curve(query, edge), query.point, foot.squared_distance);
+  const Vec2 from = cell::area_node(query.type, edge),
+             to = cell::area_node(query.type, (edge + 1) % corners);
+  foot.converged = std::isfinite(foot.squared_distance);
+  foot.xi = (1 - t) * from + t * to;
+  const bool inner = t > 0 && t < 1;
+  foot.feature = inner ? Feature::edge : Feature::corner;
+  foot.local = inner || t <= 0 ? edge : (edge + 1) % corners;
+  return foot;
+}
+
+FacetFoot closest_on_patch(const PatchQuery& query, const Vec2& start) {
+  const Vec2 middle = cell::is_triangle(query.type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(0, 0);
+  FacetFoot best = foot_inside(query, 0.98 * start + 0.02 * middle);
+  if (best.feature == Feature::face && least_room(query.type, best.xi) > 0.01) return best;
+  if (best.feature != Feature::face) best = {};
+  const int edges = cell::is_triangle(query.type) ? 3 : 4;
+  for (int k = 0; k < edges; ++k) {
+    const FacetFoot foot = closest_on_patch_edge(query, k);
+    if (foot.converged && foot.squared_distance < best.squared_distance * (1 - 1e-14)) best = foot;
+  }
+  return best;
+}
+
+bool release_from_patch(const PatchQuery& query, double extension, FacetFoot& foot) {
+  Vec2 xi = foot.xi;
+  DistanceJet2 j = distance_at(query, xi);
+  for (int it = 0; it < 12; ++it) {
+    if (!projection::positive(j.bend)) return false;
+    const Vec2 step = -j.bend.inverse() * j.slope;
+    xi += step;
+    if (!(least_room(query.type, xi) >= -extension)) return false;
+    j = distance_at(query, xi);
+    if (step.norm() <= 1e-15) break;
+  }
+  if (!projection::positive(j.bend)) return false;
+  foot.xi = xi;
+  foot.squared_distance = j.squared_distance;
+  foot.feature = Feature::face;
+  foot.local = -1;
+  return true;
+}
+
+}  // namespace osculate::pairing
