@@ -66,7 +66,8 @@ std::string amplitude(const Way& way, int direction) {
 
 /// A block that moves as a whole (or, on an elastic floor, is led by its top): pressed, dragged
 /// along the ways, and let go at the end.
-std::string model_text(Floor floor, const std::vector<Way>& ways, bool let_go) {
+std::string model_text(Floor floor, const std::vector<Way>& ways, bool let_go,
+                       const std::string& sampling) {
   const bool elastic = floor == Floor::elastic;
   const char* const led = elastic ? "block.top" : "block";
   std::string amplitudes, steps;
@@ -100,7 +101,7 @@ materials: {{m: {{linear_elastic: {{E: 1000, nu: 0}}}}}}
 sections: [{{on: block, material: m, element: solid}}{3}]
 {4}
 contact:
-  - {{name: c, master: {5}, slave: block.bottom, normal: {{penalty: {6}}},
+  - {{name: c, master: {5}, slave: block.bottom, sampling: {14}, normal: {{penalty: {6}}},
      friction: {{coulomb: {{mu: {7}, penalty: {8}}}}}}}
 amplitudes:
 {9}
@@ -110,7 +111,7 @@ steps:
                      elastic ? 3 : 2, elastic ? 2 : 1, parts,
                      elastic ? ", {on: ground, material: m, element: solid}" : "", rigid,
                      elastic ? "ground.top" : "floor", eps_n, mu, eps_t, amplitudes, led, -depth,
-                     elastic ? ", {on: ground.bottom, ux: 0, uy: 0, uz: 0}" : "", steps);
+                     elastic ? ", {on: ground.bottom, ux: 0, uy: 0, uz: 0}" : "", steps, sampling);
 }
 
 /// One converged increment.
@@ -128,7 +129,8 @@ struct Run {
   int iterations = 0;
 };
 
-Run drag(Floor floor, const std::vector<Way>& ways, bool let_go, int threads) {
+Run drag(Floor floor, const std::vector<Way>& ways, bool let_go, int threads,
+         const std::string& sampling = "nodes") {
   Run run;
   std::vector<Index> facets;
   Vec2 led_force = Vec2::Zero();
@@ -162,7 +164,8 @@ Run drag(Floor floor, const std::vector<Way>& ways, bool let_go, int threads) {
     facets = std::move(now);
     run.moments.push_back(m);
   };
-  const model::AnalysisResult3 result = run_text3(model_text(floor, ways, let_go), threads, look);
+  const model::AnalysisResult3 result =
+      run_text3(model_text(floor, ways, let_go, sampling), threads, look);
   if (result.outcome != solve::Outcome::converged) throw std::runtime_error(result.message);
   return run;
 }
@@ -185,9 +188,9 @@ struct Rounds {
   Curve curve;
 };
 
-Rounds rounds(Floor floor, int increments, int threads) {
+Rounds rounds(Floor floor, int increments, int threads, const std::string& sampling = "nodes") {
   const std::vector<Way> ways{circle("first", increments), circle("second", increments)};
-  const Run run = drag(floor, ways, false, threads);
+  const Run run = drag(floor, ways, false, threads, sampling);
   Rounds out;
   out.curve = {fmt::format("circle_{}", increments), {"x", "y", "shear_x", "shear_y", "work"}, {}};
   Slider stone;
@@ -246,18 +249,21 @@ void add_circle(CaseResult& out, int threads) {
     books = std::max(books, std::abs(fine.last.work - fine.last.pair_work));
     errors.rows.push_back({static_cast<double>(n), fine.shear_error, fine.work_error});
   }
-  const Rounds facets = rounds(Floor::facets, 64, threads);
   using enum Relation;
   add(out, "circle: shear of every increment / mu N, off by", shear_gap, 1e-10, at_most, 0,
       mapping_law);
   add(out, "circle: work of every increment / (mu N l), off by", work_gap, 1e-10, at_most, 0,
       mapping_law);
   add(out, "circle: work in summary.json and of the pair, off by", books, 0, equal, 0, "");
-  add(out, "circle over facets: shear of every increment / mu N, off by", facets.shear_gap, 1e-10,
-      at_most, 0, mapping_law);
-  add(out, "circle over facets: work of every increment / (mu N l), off by", facets.work_gap, 1e-10,
-      at_most, 0, mapping_law);
-  add(out, "circle over facets: borders crossed", facets.crossed, 1, at_least, 0, "");
+  for (const std::string sampling : {"nodes", "{gauss: 2}", "{lobatto: 3, subdomains: 2}"}) {
+    const Rounds facets = rounds(Floor::facets, 64, threads, sampling);
+    const std::string name = fmt::format("circle over facets, {}: ", sampling);
+    add(out, name + "shear of every increment / mu N, off by", facets.shear_gap, 1e-10, at_most, 0,
+        mapping_law);
+    add(out, name + "work of every increment / (mu N l), off by", facets.work_gap, 1e-10, at_most,
+        0, mapping_law);
+    add(out, name + "borders crossed", facets.crossed, 1, at_least, 0, "");
+  }
   add(out, "circle, 256 increments: error of shear / mu N", fine.shear_error, 0, info, 0,
       string_law);
   add(out, "circle, 256 increments: relative error of work", fine.work_error, 0, info, 0,
