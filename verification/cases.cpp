@@ -54,8 +54,6 @@ const std::vector<Case>& all_cases() {
        sliding_block},
       {"strip_into_channel", "The strip of KS2D 7.2 is drawn into a channel, in all its variants",
        false, strip_into_channel},
-      {"strip_into_channel_fine", "The same with the increments of the paper", true,
-       strip_into_channel_fine},
       {"solid_shell", "Solid-shells pass the patch tests and the classical thin shells", false,
        solid_shell},
       {"solid_shell_fine", "The same under large displacements on fine meshes", true,
