@@ -68,6 +68,13 @@ void check_options(const ContactOptions& options) {
     throw core::InputError({}, fmt::format("friction needs mu >= 0 and a stiffness > 0, got {:g} "
                                            "and {:g}",
                                            options.friction->mu, options.friction->stiffness));
+  using Rule = pairing::Sampling::Rule;
+  const pairing::Sampling& s = options.sampling;
+  if (s.rule != Rule::nodes &&
+      (s.points < (s.rule == Rule::gauss ? 1 : 2) || s.points > 20 || s.subdomains < 1))
+    throw core::InputError({}, fmt::format("sampling needs 1 to 20 Gauss or 2 to 20 Lobatto points "
+                                           "and subdomains >= 1, got {} and {}",
+                                           s.points, s.subdomains));
   if (!positive(options.area.thickness))
     throw core::InputError(
         {}, fmt::format("area.thickness must be > 0, got {:g}", options.area.thickness));
@@ -146,6 +153,7 @@ BasicContactEvaluator<Dim>::BasicContactEvaluator(const ContactOptions& options,
   pair.area = options.area;
   check_disjoint<Dim>(master, slave);
   try {
+    pairing::sample(pair.slave, options.sampling);
     pairing::prepare<Dim>(pair, x);
   } catch (const core::GeometryError& error) {
     throw core::InputError({}, std::string("slave: ") + error.what());
@@ -164,6 +172,11 @@ BasicContactEvaluator<Dim>& BasicContactEvaluator<Dim>::operator=(
 template <int Dim>
 std::span<const Index> BasicContactEvaluator<Dim>::slave_nodes() const {
   return impl_->pair.slave.nodes;
+}
+
+template <int Dim>
+std::span<const pairing::SlavePoint<Dim>> BasicContactEvaluator<Dim>::slave_points() const {
+  return impl_->pair.slave.points;
 }
 
 template <int Dim>

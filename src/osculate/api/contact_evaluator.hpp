@@ -7,6 +7,7 @@
 #include "osculate/api/facet_list.hpp"
 #include "osculate/core/types.hpp"
 #include "osculate/pairing/pair.hpp"
+#include "osculate/pairing/sampling.hpp"
 
 namespace osculate::api {
 
@@ -20,7 +21,8 @@ struct ContactOptions {
   pairing::Weight weight = pairing::Weight::reference_area;
   contact::ResidualForm residual = contact::ResidualForm::surface;
   contact::TangentForm tangent{};
-  pairing::AreaRule area{};  ///< thickness, or circumference (in the plane)
+  pairing::AreaRule area{};      ///< thickness, or circumference (in the plane)
+  pairing::Sampling sampling{};  ///< nodes, or points of a rule on the slave's facets
 };
 
 /// One entry of the tangent (to be summed): d force[row] / d coordinate[column].
@@ -35,7 +37,7 @@ struct BasicContactResult {
   std::vector<double> force;  ///< to be ADDED to the internal forces
   std::vector<TangentEntry> tangent;
   std::span<const pairing::PointResult<Dim>>
-      points;  ///< one per slave node, valid until the next call
+      points;  ///< one per slave point, valid until the next call
 };
 
 /// In the plane (Dim = 2) or in space (Dim = 3); the same code but for the facets.
@@ -52,8 +54,11 @@ class BasicContactEvaluator {
   BasicContactEvaluator(BasicContactEvaluator&&) noexcept;
   BasicContactEvaluator& operator=(BasicContactEvaluator&&) noexcept;
 
-  /// Slave nodes in the order of `BasicContactResult::points`.
+  /// Slave nodes, with `sampling` at nodes in the order of `BasicContactResult::points`.
   [[nodiscard]] std::span<const Index> slave_nodes() const;
+  /// The slave's points in the order of `BasicContactResult::points`: nodes, their shares, and the
+  /// place on the facet.
+  [[nodiscard]] std::span<const pairing::SlavePoint<Dim>> slave_points() const;
   /// Forces (and tangent) at these coordinates, from the history of the last commit.
   [[nodiscard]] BasicContactResult<Dim> evaluate(std::span<const double> coordinates,
                                                  bool with_tangent);

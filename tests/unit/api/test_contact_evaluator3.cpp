@@ -66,6 +66,22 @@ TEST(ContactEvaluator3, ForcesByHand) {
   for (const double f : contact.evaluate(s.moved(0, 0, 0.2), false).force) EXPECT_EQ(f, 0.0);
 }
 
+/// The same pressure at Gauss points: the same forces on the slave, their sum on the master.
+TEST(ContactEvaluator3, SampledAtGaussPoints) {
+  Sample3 s;
+  s.options.sampling = {pairing::Sampling::Rule::gauss, 2, 1};
+  ContactEvaluator3 contact = s.make();
+  ASSERT_EQ(contact.slave_nodes().size(), 4u);
+  ASSERT_EQ(contact.slave_points().size(), 4u);
+  EXPECT_EQ(contact.slave_points()[0].count, 4);
+  const ContactResult3 result = contact.evaluate(s.x, true);
+  for (std::size_t n = 6; n < 10; ++n) EXPECT_NEAR(result.force[3 * n + 2], -2.5, 1e-12);
+  EXPECT_NEAR(sum(result.force, 0, 6, 2), 10, 1e-12);
+  for (const TangentEntry& e : result.tangent) EXPECT_TRUE(std::isfinite(e.value));
+  s.options.sampling.points = 0;
+  EXPECT_THROW((void)s.make(), core::InputError);
+}
+
 /// Stick along (3, 4)/5 to 0.01, slip at 0.02 (limit 0.3 * 10), back by 0.005 from there.
 TEST(ContactEvaluator3, HistoryIsThatOfTheLastCommit) {
   const Sample3 s;

@@ -7,6 +7,7 @@
 #include "block3.hpp"
 #include "osculate/model/fields.hpp"
 #include "osculate/model/quantities.hpp"
+#include "osculate/pairing/sampling.hpp"
 
 namespace osculate::model {
 namespace {
@@ -35,11 +36,13 @@ std::vector<std::vector<Index>> bottom_faces(const Model3& m) {
 }
 
 void add_pair(Model3& m, pairing::FacetSurface master, pairing::FacetSurface slave, double mu,
-              pairing::Weight weight = pairing::Weight::reference_area) {
+              pairing::Weight weight = pairing::Weight::reference_area,
+              const pairing::Sampling& sampling = {}) {
   ContactPair3 pair;
   pair.name = "c";
   pair.definition.master = std::move(master);
   pair.definition.slave = pairing::make_slave_side(std::move(slave));
+  pairing::sample(pair.definition.slave, sampling);
   pair.definition.normal.stiffness = eps_n;
   if (mu > 0) pair.definition.friction = contact::Coulomb{mu, eps_t};
   pair.definition.weight = weight;
@@ -143,7 +146,7 @@ TEST(Contact3, TangentWithARigidSlaveAndCurrentArea) {
 }
 
 /// A fixed rigid plane under the block.
-void add_floor(Model3& m, double mu) {
+void add_floor(Model3& m, double mu, const pairing::Sampling& sampling = {}) {
   const std::vector<std::vector<Index>> faces = bottom_faces(m);
   const auto first = static_cast<Index>(m.reference.size());
   m.reference.emplace_back(0, 0, 0);
@@ -153,7 +156,7 @@ void add_floor(Model3& m, double mu) {
       pairing::shape_facet(geometry::Plane{}, {first, first + 1, first + 2, first + 3}));
   pairing::connect(floor);
   add_rigid(m, {0, 0, 0}, {first, first + 1, first + 2, first + 3});
-  add_pair(m, std::move(floor), surface_of(faces), mu);
+  add_pair(m, std::move(floor), surface_of(faces), mu, pairing::Weight::reference_area, sampling);
   for (int i = 0; i < 6; ++i)
     m.steps[0].prescribed.push_back({body_dof(m, 0, i), {0, 0, {}}, false});
 }
@@ -212,9 +215,12 @@ TEST(Contact3, PatchTestThroughAPair) {
 /// at most mu p. Slip is the whole way in contact.
 TEST(Contact3, ReportsShearAndSlipInItsTwoDirections) {
   const double a = 0.003, b = -0.004, d = 0.01, p = eps_n * d;
-  for (const double mu : {1.0, 0.1}) {
+  using Rule = pairing::Sampling::Rule;
+  const std::array<std::pair<double, pairing::Sampling>, 4> runs{
+      {{1.0, {}}, {0.1, {}}, {1.0, {Rule::gauss, 2, 1}}, {0.1, {Rule::lobatto, 3, 2}}}};
+  for (const auto& [mu, sampling] : runs) {
     Model3 m = block(elastic());
-    add_floor(m, mu);
+    add_floor(m, mu, sampling);
     const std::array<double, 3> u{a, b, -d};
     const auto nodes = static_cast<Index>(m.mesh.nodes.size());
     for (Index n = 0; n < nodes; ++n)
