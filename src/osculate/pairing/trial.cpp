@@ -119,7 +119,7 @@ Trial<2> by_coordinate(const PlaneCase& c) {
   const Kinematics<2>& k = c.placed.kinematics;
   const Speed here = speed_at(c.facet(), c.placed.projection.xi[0], c.x);
   const double step = c.placed.projection.xi[0] - c.history.xi[0];
-  const double way = here.size * step;  // @eq KS2D:84 with its factor a11, by sqrt(a11)
+  const double way = here.size * step;  // @eq KS2D:84, KS2D:85 with their factor a11, by sqrt(a11)
   const double penalty = c.stiffness * c.share.value;
   const Vec2 tau = k.frame;
   out.slip[0] = c.share.value * way;
