@@ -52,6 +52,8 @@ const std::vector<Case>& all_cases() {
        false, self_contact},
       {"sliding_block", "The block of KS2D 7.1 is pressed, sheared forward and back", false,
        sliding_block},
+      {"ironing", "A punch is pressed into a soft slab and dragged along it with friction", true,
+       ironing},
       {"strip_into_channel", "The strip of KS2D 7.2 is drawn into a channel, in all its variants",
        false, strip_into_channel},
       {"solid_shell", "Solid-shells pass the patch tests and the classical thin shells", false,
