@@ -56,7 +56,7 @@ TEST(ReportView3, OnlyWhatCanBeSeenIsSent) {
   model::Model3 m = row_of(3);
   m.reference.emplace_back(9, 9, 9);
   m.mesh.nodes = m.reference;
-  m.rigid.push_back({"tool", Vec3::Zero(), {16}, {}, {}});
+  m.rigid.push_back({"tool", Vec3::Zero(), {16}, {}, {}, {}, {}});
   m.body_of_node.assign(m.reference.size(), -1);
   m.body_of_node.back() = 0;
   const nlohmann::json mesh = ReportView<3>(m).mesh();
@@ -67,7 +67,8 @@ TEST(ReportView3, OnlyWhatCanBeSeenIsSent) {
 /// A plane is shown by a square around the bodies that goes with its rigid body.
 TEST(ReportView3, APlaneIsASquare) {
   model::Model3 m = row_of(1);
-  m.rigid.push_back({"floor", Vec3::Zero(), {}, geometry::Plane{{0, 0, -1}, {0, 0, 2}}, {}});
+  m.rigid.push_back(
+      {"floor", Vec3::Zero(), {}, geometry::Plane{{0, 0, -1}, {0, 0, 2}}, {}, {}, {}});
   const nlohmann::json mesh = ReportView<3>(m).mesh();
   EXPECT_EQ(mesh["points"]["shape"], (std::vector<int>{12, 3}));
   ASSERT_EQ(mesh["cells"].size(), 2u);
@@ -79,7 +80,7 @@ TEST(ReportView3, APlaneIsASquare) {
 TEST(ReportView3, AnalyticShapesAreQuadrilateralsOnThem) {
   const auto corners = [](const geometry::Surface& shape) {
     model::Model3 m = row_of(1);
-    m.rigid.push_back({"tool", Vec3::Zero(), {}, shape, {}});
+    m.rigid.push_back({"tool", Vec3::Zero(), {}, shape, {}, {}, {}});
     const nlohmann::json mesh = ReportView<3>(m).mesh();
     const std::vector<float> values = support::decoded(mesh["points"]);
     std::vector<Vec3> out;
@@ -114,7 +115,7 @@ TEST(ReportView3, ARigidMeshIsItsContactSurface) {
   for (const Index n : nodes) m.body_of_node[static_cast<std::size_t>(n)] = 0;
   pair.definition.master.facets.push_back(pairing::surface_facet(cell::CellType::quad4, nodes));
   m.pairs.push_back(pair);
-  m.rigid.push_back({"tool", Vec3::Zero(), {nodes.begin(), nodes.end()}, {}, {}});
+  m.rigid.push_back({"tool", Vec3::Zero(), {nodes.begin(), nodes.end()}, {}, {}, {}, {}});
   const nlohmann::json mesh = ReportView<3>(m).mesh();
   ASSERT_EQ(mesh["cells"].size(), 2u);
   EXPECT_EQ(mesh["cells"][1]["rigid"], true);
