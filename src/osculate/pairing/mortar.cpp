@@ -90,20 +90,30 @@ std::size_t find_cells(const MortarSides<Dim>& sides, const SlaveSide<Dim>& slav
 
 // ---- D and M of the nodes -----------------------------------------------------------------------
 
-template <int Dim>
-void add_facet(const MortarFacet<Dim>& facet, std::span<const std::size_t> local, Index master,
-               Points<Dim> x, std::vector<MortarNode<Dim>>& nodes) {
-  for (std::size_t j = 0; j < local.size(); ++j) {
-    MortarNode<Dim>& node = nodes[local[j]];
-    const auto row = static_cast<Eigen::Index>(j);
-    node.area += facet.d[row];
+void add_weight(MortarPlace& place, Index node, double weight) {
+  const std::size_t k = slot_of(place.nodes, node);
+  if (k == place.weights.size()) place.weights.push_back(0);
+  place.weights[k] += weight;
+}
+
+template <int Dim, class Facet>
+void add_facet(const MortarFacet<Dim>& matrices, const Facet& facet,
+               std::span<const std::size_t> local, Index master, Points<Dim> x,
+               std::vector<MortarNode<Dim>>& nodes) {
+  for (Eigen::Index j = 0; j < matrices.d.size(); ++j) {
+    MortarNode<Dim>& node = nodes[local[static_cast<std::size_t>(j)]];
+    node.area += matrices.d[j];
     if (node.facet < 0) node.facet = master;
-    for (std::size_t l = 0; l < facet.masters.size(); ++l) {
-      const double m = facet.m(row, static_cast<Eigen::Index>(l));
-      node.moment += m * x[at(facet.masters[l])];
-      const std::size_t k = slot_of(node.row.nodes, facet.masters[l]);
-      if (k == node.row.weights.size()) node.row.weights.push_back(0);
-      node.row.weights[k] += m;
+    for (Eigen::Index k = 0; k < matrices.s.cols(); ++k) {
+      const Index by = facet.nodes[static_cast<std::size_t>(k)];
+      if (matrices.s(j, k) == 0) continue;
+      node.own += matrices.s(j, k) * x[at(by)];
+      add_weight(node.slaves, by, matrices.s(j, k));
+    }
+    for (std::size_t l = 0; l < matrices.masters.size(); ++l) {
+      const double m = matrices.m(j, static_cast<Eigen::Index>(l));
+      node.other += m * x[at(matrices.masters[l])];
+      add_weight(node.masters, matrices.masters[l], m);
     }
   }
 }
@@ -117,6 +127,18 @@ MortarSides<Dim> sides_of(const PairDefinition<Dim>& pair, Points<Dim> reference
           out.normals};
 }
 
+/// D and M of slave facet `f` from its first `count` cells.
+template <int Dim>
+void matrices_of(const PairDefinition<Dim>& pair, std::size_t f, std::size_t count,
+                 bool derivatives, MortarEvaluation<Dim>& out) {
+  constexpr double rounding = 1e-6;
+  double cover = 0;
+  for (std::size_t c = 0; c < count; ++c) cover += out.cells[c].cover;
+  mortar_facet<Dim>(std::span(out.cells).first(count), pair.master,
+                    multiplier_basis(pair.slave.boundary.facets[f], cover > 1 - rounding),
+                    derivatives, out.facet);
+}
+
 template <int Dim>
 void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, Points<Dim> reference,
              bool with_tangent, MortarEvaluation<Dim>& out) {
@@ -128,9 +150,12 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, Points<Dim> referen
     nodal_normal(pair.slave, i, x, with_tangent, out.normals[i]);
     MortarNode<Dim>& node = out.nodes[i];
     node.area = 0;
-    node.moment.setZero();
-    node.row.nodes.clear();
-    node.row.weights.clear();
+    node.own.setZero();
+    node.other.setZero();
+    for (MortarPlace* const place : {&node.slaves, &node.masters}) {
+      place->nodes.clear();
+      place->weights.clear();
+    }
     node.facet = -1;
     node.rates.clear();
   }
@@ -145,9 +170,9 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, Points<Dim> referen
   for (std::size_t f = 0; f < out.overlaps.size(); ++f) {
     const std::size_t count = find_cells(sides, pair.slave, f, x, out);
     if (count == 0) continue;
-    mortar_facet<Dim>(std::span(out.cells).first(count), pair.master,
-                      basis_change(pair.slave.boundary.facets[f]), false, out.facet);
-    add_facet<Dim>(out.facet, out.slots[f], out.overlaps[f][0], x, out.nodes);
+    matrices_of(pair, f, count, false, out);
+    add_facet<Dim>(out.facet, pair.slave.boundary.facets[f], out.slots[f], out.overlaps[f][0], x,
+                   out.nodes);
   }
 }
 
@@ -177,11 +202,10 @@ Vec<Dim> place_in_space(const MortarPlace& place, Points<Dim> x) {
 }
 
 template <int Dim>
-NodeContact<Dim> place_node(const MortarNode<Dim>& node, const NodalNormal<Dim>& normal,
-                            const Vec<Dim>& point) {
+NodeContact<Dim> place_node(const MortarNode<Dim>& node, const NodalNormal<Dim>& normal) {
   NodeContact<Dim> c;
-  c.foot = node.moment / node.area;
-  c.apart = point - c.foot;
+  c.foot = node.other / node.area;
+  c.apart = node.own / node.area - c.foot;
   c.normal = -normal.value;
   c.frame = normal.frame;
   c.gap = c.normal.dot(c.apart);
@@ -231,11 +255,11 @@ void report(const PairDefinition<Dim>& pair, const PointHistory<Dim>& old,
 }
 
 template <int Dim>
-void set_forces(const SlaveCombination& own, const MortarNode<Dim>& node, const NodeContact<Dim>& c,
-                MortarBlock<Dim>& block) {
-  block.slave_count = static_cast<int>(own.nodes.size());
-  block.nodes = own.nodes;
-  block.nodes.insert(block.nodes.end(), node.row.nodes.begin(), node.row.nodes.end());
+void set_forces(const MortarNode<Dim>& node, const NodeContact<Dim>& c, MortarBlock<Dim>& block) {
+  const std::size_t own = node.slaves.nodes.size();
+  block.slave_count = static_cast<int>(own);
+  block.nodes = node.slaves.nodes;
+  block.nodes.insert(block.nodes.end(), node.masters.nodes.begin(), node.masters.nodes.end());
   const auto rows = Dim * static_cast<Eigen::Index>(block.nodes.size());
   const Vec<Dim> push = c.normal_law.traction * c.normal;
   const Vec<Dim> lawful = push + c.frame * c.law.traction,
@@ -245,8 +269,7 @@ void set_forces(const SlaveCombination& own, const MortarNode<Dim>& node, const 
   block.branch_force.resize(rows);
   block.path_rows.resize(rows, Dim);
   for (std::size_t k = 0; k < block.nodes.size(); ++k) {
-    const double weight =
-        k < own.nodes.size() ? node.area * own.weights[k] : -node.row.weights[k - own.nodes.size()];
+    const double weight = k < own ? node.slaves.weights[k] : -node.masters.weights[k - own];
     const auto row = Dim * static_cast<Eigen::Index>(k);
     block.force.template segment<Dim>(row) = weight * lawful;
     block.branch_force.template segment<Dim>(row) = weight * linear;
@@ -266,38 +289,43 @@ typename MortarNode<Dim>::Rate& rate_of(MortarNode<Dim>& node, Index by) {
   return node.rates.back();
 }
 
-/// Derivatives of D_jj and sum_l M_jl x_l of the facet's nodes.
+/// Derivatives of d_j, sum_k D_jk x_k and sum_l M_jl x_l of the facet's nodes.
 template <int Dim>
-void add_rates(const MortarFacet<Dim>& facet, std::span<const std::size_t> local, Points<Dim> x,
+void add_rates(const MortarFacet<Dim>& matrices, std::span<const Index> slaves,
+               std::span<const std::size_t> local, Points<Dim> x,
                std::vector<MortarNode<Dim>>& nodes) {
-  const auto n = static_cast<Eigen::Index>(local.size());
+  const Eigen::Index n = matrices.d.size();
   for (Eigen::Index j = 0; j < n; ++j) {
     MortarNode<Dim>& node = nodes[local[static_cast<std::size_t>(j)]];
-    for (std::size_t c = 0; c < facet.nodes.size(); ++c) {
+    for (std::size_t c = 0; c < matrices.nodes.size(); ++c) {
       const auto column = Dim * static_cast<Eigen::Index>(c);
-      typename MortarNode<Dim>::Rate& rate = rate_of(node, facet.nodes[c]);
-      rate.area += facet.dd.template block<1, Dim>(j, column).transpose();
-      for (std::size_t l = 0; l < facet.masters.size(); ++l)
-        rate.moment += x[at(facet.masters[l])] * facet.dm.template block<1, Dim>(
-                                                     j + n * static_cast<Eigen::Index>(l), column);
+      typename MortarNode<Dim>::Rate& rate = rate_of(node, matrices.nodes[c]);
+      rate.area += matrices.dd.template block<1, Dim>(j, column).transpose();
+      Eigen::Index row = j;
+      for (const Index k : slaves) {
+        rate.own += x[at(k)] * matrices.ds.template block<1, Dim>(row, column);
+        row += n;
+      }
+      row = j;
+      for (const Index l : matrices.masters) {
+        rate.other += x[at(l)] * matrices.dm.template block<1, Dim>(row, column);
+        row += n;
+      }
     }
-    for (std::size_t l = 0; l < facet.masters.size(); ++l)
-      rate_of(node, facet.masters[l]).moment.diagonal().array() +=
-          facet.m(j, static_cast<Eigen::Index>(l));
   }
 }
 
 /// The derivatives of D and M times the tractions.
 template <int Dim>
-void set_facet_tangent(const MortarFacet<Dim>& facet, std::span<const std::size_t> local,
-                       std::span<const SlaveCombination> own, std::span<const Vec<Dim>> tractions,
+void set_facet_tangent(const MortarFacet<Dim>& matrices, std::span<const Index> slaves,
+                       std::span<const std::size_t> local, std::span<const Vec<Dim>> tractions,
                        MortarBlock<Dim>& block) {
-  block.nodes = facet.nodes;
+  block.nodes = matrices.nodes;
   block.slave_count = 0;
   block.branched = false;
   block.path.clear();
   const auto size = Dim * static_cast<Eigen::Index>(block.nodes.size());
-  const auto n = static_cast<Eigen::Index>(local.size());
+  const Eigen::Index n = matrices.d.size();
   block.force.setZero(size);
   block.branch_force.setZero(size);
   block.tangent.setZero(size, size);
@@ -306,23 +334,30 @@ void set_facet_tangent(const MortarFacet<Dim>& facet, std::span<const std::size_
     return Dim * static_cast<Eigen::Index>(slot_of(block.nodes, node));
   };
   for (Eigen::Index j = 0; j < n; ++j) {
-    const std::size_t slave = local[static_cast<std::size_t>(j)];
-    const Vec<Dim>& t = tractions[slave];
+    const Vec<Dim>& t = tractions[local[static_cast<std::size_t>(j)]];
     if (t.squaredNorm() == 0) continue;
-    for (std::size_t k = 0; k < own[slave].nodes.size(); ++k)
-      block.tangent.template middleRows<Dim>(row_of(own[slave].nodes[k])) +=
-          own[slave].weights[k] * t * facet.dd.row(j);
-    for (std::size_t l = 0; l < facet.masters.size(); ++l)
-      block.tangent.template middleRows<Dim>(row_of(facet.masters[l])) -=
-          t * facet.dm.row(j + n * static_cast<Eigen::Index>(l));
+    Eigen::Index row = j;
+    for (const Index k : slaves) {
+      block.tangent.template middleRows<Dim>(row_of(k)) += t * matrices.ds.row(row);
+      row += n;
+    }
+    row = j;
+    for (const Index l : matrices.masters) {
+      block.tangent.template middleRows<Dim>(row_of(l)) -= t * matrices.dm.row(row);
+      row += n;
+    }
   }
 }
 
 template <int Dim>
-void complete_rates(const SlaveCombination& own, const MortarPlace& last,
-                    const NodalNormal<Dim>& normal, MortarNode<Dim>& node) {
-  for (std::size_t k = 0; k < own.nodes.size(); ++k)
-    rate_of(node, own.nodes[k]).own += own.weights[k];
+void complete_rates(const MortarPlace& last, const NodalNormal<Dim>& normal,
+                    MortarNode<Dim>& node) {
+  const auto at_fixed = [&](const MortarPlace& place, auto member) {
+    for (std::size_t k = 0; k < place.nodes.size(); ++k)
+      (rate_of(node, place.nodes[k]).*member).diagonal().array() += place.weights[k];
+  };
+  at_fixed(node.slaves, &MortarNode<Dim>::Rate::own);
+  at_fixed(node.masters, &MortarNode<Dim>::Rate::other);
   for (std::size_t l = 0; l < last.nodes.size(); ++l)
     rate_of(node, last.nodes[l]).old += last.weights[l];
   for (const NodeMatrix<Dim>& g : normal.gradient) rate_of(node, g.node).normal -= g.value;
@@ -337,8 +372,9 @@ Mat<Dim, Dim> traction_rate(const PairDefinition<Dim>& pair, const NodeContact<D
                             const typename MortarNode<Dim>::Rate& r) {
   using Row = Eigen::Matrix<double, 1, Dim>;
   const Mat<Dim, Dim> unit = Mat<Dim, Dim>::Identity();
-  const Mat<Dim, Dim> d_foot = (r.moment - c.foot * r.area.transpose()) / area;
-  const Row d_gap = c.normal.transpose() * (r.own * unit - d_foot) + c.apart.transpose() * r.normal;
+  const Mat<Dim, Dim> d_foot = (r.other - c.foot * r.area.transpose()) / area;
+  const Mat<Dim, Dim> d_apart = (r.own - r.other - c.apart * r.area.transpose()) / area;
+  const Row d_gap = c.normal.transpose() * d_apart + c.apart.transpose() * r.normal;
   const Row d_push = c.normal_law.d_traction * d_gap;
   Mat<Dim, Dim> out = c.normal * d_push + c.normal_law.traction * r.normal;
   if (!pair.friction) return out;
@@ -367,7 +403,7 @@ bool in_contact(std::span<const std::size_t> local, const std::vector<PointResul
 /// Blocks of the facets, and all rates of the nodes.
 template <int Dim>
 void add_tangents(const PairDefinition<Dim>& pair, Points<Dim> x, Points<Dim> reference,
-                  std::span<const SlaveCombination> own, MortarEvaluation<Dim>& out) {
+                  MortarEvaluation<Dim>& out) {
   const MortarSides<Dim> sides = sides_of(pair, reference, out);
   std::size_t used = pair.slave.nodes.size();
   for (std::size_t f = 0; f < out.overlaps.size(); ++f) {
@@ -378,11 +414,12 @@ void add_tangents(const PairDefinition<Dim>& pair, Points<Dim> x, Points<Dim> re
       if (mortar_cell(sides, static_cast<Index>(f), out.slots[f], m, x, true, out.cells[count]))
         ++count;
     }
-    mortar_facet<Dim>(std::span(out.cells).first(count), pair.master,
-                      basis_change(pair.slave.boundary.facets[f]), true, out.facet);
-    add_rates<Dim>(out.facet, out.slots[f], x, out.nodes);
+    matrices_of(pair, f, count, true, out);
+    const auto& facet = pair.slave.boundary.facets[f];
+    const std::span<const Index> slaves(facet.nodes.data(), at(facet.count));
+    add_rates<Dim>(out.facet, slaves, out.slots[f], x, out.nodes);
     if (out.blocks.size() <= used) out.blocks.emplace_back();
-    set_facet_tangent<Dim>(out.facet, out.slots[f], own, out.tractions, out.blocks[used++]);
+    set_facet_tangent<Dim>(out.facet, slaves, out.slots[f], out.tractions, out.blocks[used++]);
   }
   out.blocks.resize(used);
 }
@@ -410,7 +447,6 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x, Points<Dim>
                      MortarEvaluation<Dim>& out, const Assumed<Dim>& assumed) {
   refresh<Dim>(pair, x, reference, with_tangent, out);
   const std::size_t n = pair.slave.nodes.size();
-  const std::vector<SlaveCombination> own = slave_combinations(pair.slave);
   out.points.assign(n, {});
   out.places.assign(n, {});
   out.tractions.assign(n, Vec<Dim>::Zero());
@@ -425,8 +461,8 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x, Points<Dim>
     result.history.friction_work = committed.points[i].friction_work;
     if (!covered<Dim>(node, out.normals[i], pair.reference_areas[i])) continue;
     NodeContact<Dim>& c = contacts[i];
-    c = place_node<Dim>(node, out.normals[i], position_of<Dim>(own[i], x));
-    out.places[i] = node.row;
+    c = place_node<Dim>(node, out.normals[i]);
+    out.places[i] = node.masters;
     for (double& weight : out.places[i].weights) weight /= node.area;
     if (c.gap >= -pair.depth) c.normal_law = pair.normal.response(c.gap);
     BranchHint<Dim> hint;
@@ -435,17 +471,17 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x, Points<Dim>
       set_friction<Dim>(*pair.friction, committed.points[i], committed.places[i], x, hint, c);
     report<Dim>(pair, committed.points[i], node, c, result);
     if (!c.normal_law.active) continue;
-    set_forces<Dim>(own[i], node, c, out.blocks[i]);
+    set_forces<Dim>(node, c, out.blocks[i]);
     out.tractions[i] = c.normal_law.traction * c.normal + c.frame * c.linearised.traction;
   }
   if (!with_tangent) {
     out.blocks.resize(n);
     return;
   }
-  add_tangents<Dim>(pair, x, reference, own, out);
+  add_tangents<Dim>(pair, x, reference, out);
   for (std::size_t i = 0; i < n; ++i) {
     if (out.points[i].status == Status::open) continue;
-    complete_rates<Dim>(own[i], committed.places[i], out.normals[i], out.nodes[i]);
+    complete_rates<Dim>(committed.places[i], out.normals[i], out.nodes[i]);
     for (const typename MortarNode<Dim>::Rate& r : out.nodes[i].rates)
       out.blocks[i].path.push_back(
           {r.node, traction_rate<Dim>(pair, contacts[i], out.nodes[i].area, r)});

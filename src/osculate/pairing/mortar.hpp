@@ -33,16 +33,17 @@ struct MortarBlock {
 /// What a slave node collects from its facets.
 template <int Dim>
 struct MortarNode {
-  double area = 0;                     ///< D_jj
-  Vec<Dim> moment = Vec<Dim>::Zero();  ///< sum_l M_jl x_l
-  MortarPlace row;                     ///< M_jl
-  Index facet = -1;                    ///< of the master
-  /// Derivatives of `moment` and `area`, and of what else the traction depends on, by one node.
+  double area = 0;                    ///< d_j
+  Vec<Dim> own = Vec<Dim>::Zero();    ///< sum_k D_jk x_k
+  Vec<Dim> other = Vec<Dim>::Zero();  ///< sum_l M_jl x_l
+  MortarPlace slaves, masters;        ///< D_jk and M_jl
+  Index facet = -1;                   ///< of the master
+  /// Derivatives of these, and of what else the traction depends on, by one node.
   struct Rate {
     Index node;
-    Mat<Dim, Dim> moment = Mat<Dim, Dim>::Zero();
+    Mat<Dim, Dim> own = Mat<Dim, Dim>::Zero(), other = Mat<Dim, Dim>::Zero();
     Vec<Dim> area = Vec<Dim>::Zero();
-    double own = 0, old = 0;  ///< of the slave's point and of the last place
+    double old = 0;  ///< of the last place
     Mat<Dim, Dim> normal = Mat<Dim, Dim>::Zero();
     std::array<Mat<Dim, Dim>, Dim - 1> frame{};
   };
@@ -57,7 +58,7 @@ struct MortarEvaluation {
   /// One per slave node: forces, and the derivative of its traction. Then one per slave facet in
   /// contact: the derivatives of D and M.
   std::vector<MortarBlock<Dim>> blocks;
-  std::vector<MortarNode<Dim>> nodes;  ///< D and M: `area`, `row`
+  std::vector<MortarNode<Dim>> nodes;  ///< D and M
   std::vector<NodalNormal<Dim>> normals;
   std::vector<std::vector<std::size_t>> slots;  ///< of each slave facet's nodes
   std::vector<std::vector<Index>> overlaps;     ///< of each slave facet: masters
@@ -70,28 +71,29 @@ struct MortarEvaluation {
 
 /// Contact sampled by segment-to-segment mortar integration with dual shape functions.
 ///
-/// Formula    tributary area  A_j = D_jj = int Phi_j N_j dA = int N_j dA over what is covered
-///            gap             g_j = n_j . (x_j - y_j),  y_j = sum_l M_jl x_l / D_jj,
+/// Formula    tributary area  A_j = d_j = int psi_j dA over what is covered
+///            gap             g_j = n_j . (x_j - y_j),  x_j = sum_k D_jk x_k / d_j (where D is
+///                            diagonal the slave node itself),  y_j = sum_l M_jl x_l / d_j,
 ///                            n_j = minus the slave's averaged normal (so g < 0 is penetration)
-///            traction        t_j = N(g_j) n_j + E_j t,  forces D_jj t_j on slave node j and
+///            traction        t_j = N(g_j) n_j + E_j t;  forces D_jk t_j on slave node k and
 ///                            -M_jl t_j on master node l
-///            slip            s_j = E_j^T (sum_l (P_jl - P_jl,old) x_l),  P = M / D, on the present
-///                            positions, so that it does not change with a motion of both bodies
-///                            together (increments of D and M at fixed positions, Gitterle et al.
-///                            2010, here divided by D_jj); t is kept by its components in E_j, the
-///                            frame that moves with the slave node
+///            slip            s_j = E_j^T (sum_l (P_jl - P_jl,old) x_l),  P_jl = M_jl / d_j, on the
+///                            present positions, so that it does not change with a motion of both
+///                            bodies together (increments of D and M at fixed positions, Gitterle
+///                            et al. 2010, here divided by d_j); t is kept by its components in
+///                            E_j, the frame that moves with the slave node
 ///            The chord between the two places is the way along the master up to second order in
 ///            the angle it turns by on the way
-/// Areas      `weight`: reference_area integrates over the slave's reference area,
-///            current_area over the current one
-/// Balance    forces exactly (sum_l M_jl = D_jj); moments up to D_jj (x_j - y_j) x t_j: nothing for
-///            the normal traction on flat faces, otherwise of the order of the gap times the angle
-///            between the nodal normals plus the gap times the shear
-/// Slave      tri6 and quad8 take their multipliers from the functions N_c + 1/5 sum N_e of the
-///            corners and 3/5 N_e of the edges, whose areas are positive; x_j then stands for the
-///            combination of nodes that belongs to them
+/// Areas      `weight`: reference_area integrates over the slave's reference area, current_area
+///            over the current one
+/// Balance    forces exactly (sum_k D_jk = sum_l M_jl); moments up to d_j (x_j - y_j) x t_j:
+///            nothing for the normal traction on flat faces, otherwise of the order of the gap
+///            times the angle between the nodal normals plus the gap times the shear
+/// Jumps      where a facet with nodes on its edges begins to be covered in part, its multipliers
+///            change from its own order to the corners' linear functions: a uniform traction stays
+///            what it was, another one is shared out anew
 /// Requires   `pair.weight` is an area; all facets through nodes (lines up to 4 nodes); no scope
-/// Tested by  tests/unit/pairing/test_mortar.cpp
+/// Tested by  tests/unit/pairing/test_mortar.cpp, test_mortar3.cpp
 template <int Dim>
 void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x, Points<Dim> reference,
                      const MortarState<Dim>& committed, bool with_tangent,

@@ -1,12 +1,17 @@
 #include "osculate/pairing/mortar_basis.hpp"
 
-#include <algorithm>
+#include <array>
+
+#include "osculate/cell/shape.hpp"
 
 namespace osculate::pairing {
 namespace {
 
-Eigen::MatrixXd make_change(int corners) {
-  Eigen::MatrixXd t = Eigen::MatrixXd::Identity(2 * corners, 2 * corners);
+using Eigen::MatrixXd;
+
+/// psi of the whole facet of tri6 and quad8.
+MatrixXd positive_basis(int corners) {
+  MatrixXd t = MatrixXd::Identity(2 * corners, 2 * corners);
   for (int e = 0; e < corners; ++e) {
     const int node = corners + e;
     t(node, node) = 1 - 2 * edge_share;
@@ -16,57 +21,61 @@ Eigen::MatrixXd make_change(int corners) {
   return t;
 }
 
-bool serendipity(const SurfaceFacet& facet) {
-  return !facet.shape &&
-         (facet.type == cell::CellType::tri6 || facet.type == cell::CellType::quad8);
+/// The linear functions of the corners: their values at the nodes.
+MatrixXd linear_basis(cell::CellType type) {
+  const bool triangle = cell::is_triangle(type);
+  const int nodes = cell::info(type).nodes;
+  MatrixXd t(triangle ? 3 : 4, nodes);
+  for (int k = 0; k < nodes; ++k) {
+    const cell::AreaShape shape = cell::area_shape(
+        triangle ? cell::CellType::tri3 : cell::CellType::quad4, cell::area_node(type, k));
+    t.col(k) = shape.n.head(t.rows());
+  }
+  return t;
 }
 
-template <int Dim>
-std::vector<SlaveCombination> nodes_alone(const SlaveSide<Dim>& slave) {
-  std::vector<SlaveCombination> out;
-  out.reserve(slave.nodes.size());
-  for (const Index node : slave.nodes) out.push_back({{node}, {1.0}});
-  return out;
+struct Bases {
+  MatrixXd whole, part;
+};
+
+Bases make_bases(cell::CellType type) {
+  const int nodes = cell::info(type).nodes;
+  Bases b{MatrixXd::Identity(nodes, nodes), linear_basis(type)};
+  if (type == cell::CellType::tri6) b.whole = positive_basis(3);
+  if (type == cell::CellType::quad8) b.whole = positive_basis(4);
+  return b;
+}
+
+Bases make_bases(int nodes) {
+  Bases b{MatrixXd::Identity(nodes, nodes), MatrixXd::Identity(2, nodes)};
+  for (int k = 2; k < nodes; ++k) {
+    b.part(1, k) = static_cast<double>(k - 1) / (nodes - 1);
+    b.part(0, k) = 1 - b.part(1, k);
+  }
+  return b;
 }
 
 }  // namespace
 
-const Eigen::MatrixXd& basis_change(const Facet&) {
-  static const Eigen::MatrixXd none;
-  return none;
+const MatrixXd& multiplier_basis(const Facet& facet, bool whole) {
+  static const std::array<Bases, cell::max_line_nodes + 1> lines{
+      make_bases(2), make_bases(2), make_bases(2), make_bases(3), make_bases(4),
+      make_bases(5), make_bases(6), make_bases(7), make_bases(8)};
+  const Bases& b = lines[static_cast<std::size_t>(facet.count)];
+  return whole ? b.whole : b.part;
 }
 
-const Eigen::MatrixXd& basis_change(const SurfaceFacet& facet) {
-  static const Eigen::MatrixXd none, tri6 = make_change(3), quad8 = make_change(4);
-  if (!serendipity(facet)) return none;
-  return facet.type == cell::CellType::tri6 ? tri6 : quad8;
-}
-
-std::vector<SlaveCombination> slave_combinations(const SlaveSide<2>& slave) {
-  return nodes_alone(slave);
-}
-
-std::vector<SlaveCombination> slave_combinations(const SlaveSide<3>& slave) {
-  std::vector<SlaveCombination> out = nodes_alone(slave);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    if (slave.facets_of[i].empty()) continue;
-    const SurfaceFacet& facet =
-        slave.boundary.facets[static_cast<std::size_t>(slave.facets_of[i][0])];
-    if (!serendipity(facet)) continue;
-    const auto* const found =
-        std::find(facet.nodes.begin(), facet.nodes.begin() + facet.count, slave.nodes[i]);
-    const auto local = static_cast<int>(found - facet.nodes.begin());
-    const int corners = facet.count / 2;
-    if (local < corners) continue;
-    const std::array<int, 2> ends = edge_corners(facet, local - corners);
-    const double rest = 1 - 2 * edge_share;
-    out[i].weights[0] = 1 / rest;
-    for (const int end : ends) {
-      out[i].nodes.push_back(facet.nodes[static_cast<std::size_t>(end)]);
-      out[i].weights.push_back(-edge_share / rest);
-    }
-  }
-  return out;
+const MatrixXd& multiplier_basis(const SurfaceFacet& facet, bool whole) {
+  using cell::CellType;
+  static const Bases tri3 = make_bases(CellType::tri3), tri6 = make_bases(CellType::tri6),
+                     quad4 = make_bases(CellType::quad4), quad8 = make_bases(CellType::quad8),
+                     quad9 = make_bases(CellType::quad9);
+  const Bases& b = facet.type == CellType::tri3    ? tri3
+                   : facet.type == CellType::tri6  ? tri6
+                   : facet.type == CellType::quad8 ? quad8
+                   : facet.type == CellType::quad9 ? quad9
+                                                   : quad4;
+  return whole ? b.whole : b.part;
 }
 
 }  // namespace osculate::pairing

@@ -1,44 +1,26 @@
 #pragma once
 #include <Eigen/Core>
-#include <span>
-#include <type_traits>
 
-#include "osculate/pairing/slave_side.hpp"
+#include "osculate/pairing/chain.hpp"
+#include "osculate/pairing/surface.hpp"
 
 namespace osculate::pairing {
 
 /// How much of its edges' functions a corner of tri6 and quad8 takes over.
 inline constexpr double edge_share = 0.2;
 
-/// Functions that a slave facet's multipliers are dual to, as rows over its shape functions.
+/// Functions psi_j that a slave facet's multipliers are dual to: rows over its shape functions.
+/// They belong to the facet's first nodes, sum up to 1, and their integrals over what is covered
+/// are positive.
 ///
-/// Formula    tri6, quad8: corners N_c + a sum N_e over both edges, edges (1 - 2 a) N_e, a = 1/5;
-///            they sum up to 1 and their integrals are positive (those of N_c are not). All others:
-///            the shape functions themselves (empty)
-/// Tested by  tests/unit/pairing/test_mortar_basis.cpp
-[[nodiscard]] const Eigen::MatrixXd& basis_change(const Facet& facet);
-[[nodiscard]] const Eigen::MatrixXd& basis_change(const SurfaceFacet& facet);
-
-/// The point that belongs to one of these functions: sum_k weights_k x of nodes_k.
-///
-/// Formula    corners x_c; edges (x_e - a (x_c1 + x_c2)) / (1 - 2 a): sum_j (new N_j) (new x_j) is
-///            the facet again, and on a straight edge with x_e in its middle (new x_e) = x_e
-struct SlaveCombination {
-  std::vector<Index> nodes;
-  std::vector<double> weights;
-};
-
-/// One per entry of `slave.nodes`.
-[[nodiscard]] std::vector<SlaveCombination> slave_combinations(const SlaveSide<2>& slave);
-[[nodiscard]] std::vector<SlaveCombination> slave_combinations(const SlaveSide<3>& slave);
-
-template <int Dim>
-[[nodiscard]] Vec<Dim> position_of(const SlaveCombination& point,
-                                   std::type_identity_t<std::span<const Vec<Dim>>> x) {
-  Vec<Dim> sum = Vec<Dim>::Zero();
-  for (std::size_t k = 0; k < point.nodes.size(); ++k)
-    sum += point.weights[k] * x[static_cast<std::size_t>(point.nodes[k])];
-  return sum;
-}
+/// Formula    facets that are wholly covered: the shape functions themselves; tri6 and quad8
+///            (whose corners have no positive integrals): corners N_c + a sum N_e over both edges,
+///            edges (1 - 2 a) N_e, a = 1/5
+///            facets that are partly covered: the linear functions of the corners, which are
+///            positive everywhere (those of higher order are not)
+/// Requires   a facet through nodes
+/// Tested by  tests/unit/pairing/test_mortar_facet.cpp
+[[nodiscard]] const Eigen::MatrixXd& multiplier_basis(const Facet& facet, bool whole);
+[[nodiscard]] const Eigen::MatrixXd& multiplier_basis(const SurfaceFacet& facet, bool whole);
 
 }  // namespace osculate::pairing

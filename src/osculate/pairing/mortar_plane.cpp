@@ -107,8 +107,8 @@ Points2 flat(const Plane& plane, const Points3& x, int count) {
 
 /// A facet in the plane.
 struct Flat {
-  cell::CellType type;
-  int count;
+  cell::CellType type = cell::CellType::quad4;
+  int count = 0;
   Points2 u;
 };
 
@@ -489,8 +489,10 @@ bool mortar_cell(const MortarSides<3>& sides, Index s, std::span<const std::size
   const SurfaceFacet& slave = sides.slave->facets[static_cast<std::size_t>(s)];
   const SurfaceFacet& master = sides.master->facets[static_cast<std::size_t>(m)];
   Work w;
-  w.slave = {slave.type, slave.count, {}};
-  w.master = {master.type, master.count, {}};
+  w.slave.type = slave.type;
+  w.slave.count = slave.count;
+  w.master.type = master.type;
+  w.master.count = master.count;
   w.slave_x = positions(slave, x);
   w.master_x = positions(master, x);
   w.current = sides.measure.current;
