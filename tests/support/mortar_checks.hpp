@@ -63,7 +63,7 @@ template <int Dim>
 void expect_uniform_pressure(const MortarSample<Dim>& s, bool master_covered, double area,
                              double tolerance) {
   constexpr double pressure = 50;
-  const pairing::MortarEvaluation<Dim> e = mortar_evaluation(s, flat<Dim>(s.x));
+  const pairing::PairEvaluation<Dim> e = mortar_evaluation(s, flat<Dim>(s.x));
   double total = 0;
   for (const pairing::PointResult<Dim>& p : e.points) {
     if (p.status == contact::Status::open) continue;

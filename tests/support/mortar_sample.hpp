@@ -4,15 +4,15 @@
 #include <cmath>
 #include <random>
 
-#include "osculate/pairing/mortar.hpp"
+#include "osculate/pairing/pair.hpp"
 
 namespace osculate::testing {
 
 template <int Dim>
 struct MortarSample {
   pairing::PairDefinition<Dim> pair;
-  std::vector<Vec<Dim>> x, reference;
-  pairing::MortarState<Dim> committed;
+  std::vector<Vec<Dim>> x;
+  pairing::PairState<Dim> committed;
 };
 
 template <int Dim>
@@ -32,18 +32,18 @@ std::vector<Vec<Dim>> unflat(const Eigen::VectorXd& v) {
 }
 
 template <int Dim>
-pairing::MortarEvaluation<Dim> mortar_evaluation(const MortarSample<Dim>& s,
-                                                 const Eigen::VectorXd& v, bool tangent = false) {
-  pairing::MortarEvaluation<Dim> e;
-  pairing::evaluate_mortar<Dim>(s.pair, unflat<Dim>(v), s.reference, s.committed, tangent, e);
+pairing::PairEvaluation<Dim> mortar_evaluation(const MortarSample<Dim>& s, const Eigen::VectorXd& v,
+                                               bool tangent = false) {
+  pairing::PairEvaluation<Dim> e;
+  pairing::evaluate<Dim>(s.pair, unflat<Dim>(v), s.committed, tangent, e);
   return e;
 }
 
 template <int Dim>
 Eigen::VectorXd mortar_residual(const MortarSample<Dim>& s, const Eigen::VectorXd& v) {
-  const pairing::MortarEvaluation<Dim> e = mortar_evaluation(s, v);
+  const pairing::PairEvaluation<Dim> e = mortar_evaluation(s, v);
   Eigen::VectorXd r = Eigen::VectorXd::Zero(v.size());
-  for (const pairing::MortarBlock<Dim>& b : e.blocks)
+  for (const pairing::ContactBlock<Dim>& b : e.blocks)
     for (std::size_t k = 0; k < b.nodes.size(); ++k)
       r.segment<Dim>(Dim * b.nodes[k]) +=
           b.force.template segment<Dim>(Dim * static_cast<Eigen::Index>(k));
@@ -52,16 +52,16 @@ Eigen::VectorXd mortar_residual(const MortarSample<Dim>& s, const Eigen::VectorX
 
 template <int Dim>
 Eigen::MatrixXd mortar_tangent(const MortarSample<Dim>& s, const Eigen::VectorXd& v) {
-  const pairing::MortarEvaluation<Dim> e = mortar_evaluation(s, v, true);
+  const pairing::PairEvaluation<Dim> e = mortar_evaluation(s, v, true);
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(v.size(), v.size());
-  for (const pairing::MortarBlock<Dim>& b : e.blocks)
+  for (const pairing::ContactBlock<Dim>& b : e.blocks)
     for (std::size_t i = 0; i < b.nodes.size(); ++i) {
       const auto at = Dim * static_cast<Eigen::Index>(i);
       if (b.tangent.size() > 0)
         for (std::size_t j = 0; j < b.nodes.size(); ++j)
           k.block<Dim, Dim>(Dim * b.nodes[i], Dim * b.nodes[j]) +=
               b.tangent.template block<Dim, Dim>(at, Dim * static_cast<Eigen::Index>(j));
-      for (const pairing::NodeMatrix<Dim>& g : b.path)
+      for (const pairing::NodeMatrix<Dim>& g : b.path())
         k.block<Dim, Dim>(Dim * b.nodes[i], Dim * g.node) +=
             b.path_rows.template middleRows<Dim>(at) * g.value;
     }
@@ -76,11 +76,24 @@ std::vector<contact::Status> mortar_status(const MortarSample<Dim>& s, const Eig
   return status;
 }
 
+/// The state after the slave has lain at another place: `shift` along the master, `lift` above.
+template <int Dim>
+void remember(MortarSample<Dim>& s, const Vec<Dim>& shift, const Vec<Dim - 1>& carried,
+              bool active) {
+  std::vector<Vec<Dim>> before = s.x;
+  for (const Index n : s.pair.slave.nodes) before[static_cast<std::size_t>(n)] -= shift;
+  s.committed = pairing::initial_state<Dim>(s.pair, before);
+  for (auto& h : s.committed.points) {
+    h.active = active;
+    h.traction = active ? carried : Vec<Dim - 1>(Vec<Dim - 1>::Zero());
+  }
+}
+
 /// Master facets that every slave facet lies over: the combinatorial part of a configuration.
 template <int Dim>
 std::vector<std::vector<Index>> mortar_overlaps(const MortarSample<Dim>& s,
                                                 const Eigen::VectorXd& v) {
-  return mortar_evaluation(s, v).overlaps;
+  return mortar_evaluation(s, v).mortar.overlaps;
 }
 
 /// The lower body's top from x = 0 along +x (master) and the upper body's bottom, run through
@@ -122,10 +135,9 @@ inline MortarSample<2> make_mortar2(const MortarOptions2& o) {
   add_line(s, slave, o.slave_facets, o.slave_nodes, o.to, o.from, o, -o.depth);
   s.pair.slave = pairing::make_slave_side(slave);
   s.pair.normal.stiffness = 1000;
-  s.reference = s.x;
+  s.pair.mortar = true;
   pairing::prepare(s.pair, s.x);
   s.committed.points.resize(s.pair.slave.nodes.size());
-  s.committed.places.resize(s.pair.slave.nodes.size());
   return s;
 }
 

@@ -100,10 +100,9 @@ inline MortarSample<3> make_mortar3(const MortarOptions3& o) {
   s.pair.master = MortarGrid(s, o, false).surface;
   s.pair.slave = pairing::make_slave_side(MortarGrid(s, o, true).surface);
   s.pair.normal.stiffness = 1000;
-  s.reference = s.x;
+  s.pair.mortar = true;
   pairing::prepare(s.pair, s.x);
   s.committed.points.resize(s.pair.slave.nodes.size());
-  s.committed.places.resize(s.pair.slave.nodes.size());
   return s;
 }
 

@@ -3,24 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "osculate/pairing/pair.hpp"
+#include "osculate/pairing/point_evaluation.hpp"
 
 namespace osculate::pairing {
 
-/// The part in contact of a point that was open, at the place of `history`, with its gap there.
+/// The part in contact of a point that was open at the start of the increment (`history`).
 template <int Dim>
 [[nodiscard]] ContactShare contact_share(const contact::PointHistory<Dim>& history, double gap) {
   if (history.active || history.facet < 0 || !(history.gap > 0)) return {};
   const double range = history.gap - gap;
   return {-gap / range, -history.gap / (range * range)};
 }
-
-/// What is known of a point's branch before the law is asked.
-template <int Dim>
-struct BranchHint {
-  AssumedBranch<Dim> assumed;
-  bool predict = false;
-};
 
 /// The law's answer, or the branch that the hint keeps it in.
 template <int Dim>

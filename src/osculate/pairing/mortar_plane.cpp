@@ -2,10 +2,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "osculate/cell/quadrature.hpp"
 #include "osculate/cell/shape.hpp"
 #include "osculate/pairing/mortar_cell.hpp"
 #include "osculate/pairing/mortar_clip.hpp"
+#include "osculate/pairing/mortar_rule.hpp"
 
 namespace osculate::pairing {
 namespace {
@@ -58,7 +58,7 @@ Vec2 middle_of(cell::CellType type, const Piece& piece) {
 
 // ---- the plane ----------------------------------------------------------------------------------
 
-using Points3 = std::array<Vec3, cell::max_facet_nodes>;
+using Points3 = FacetPoints;
 using Points2 = std::array<Vec2, cell::max_facet_nodes>;
 
 /// Plane through a linear piece of the slave, across its normal in the middle.
@@ -145,48 +145,6 @@ bool find_place(const Flat& facet, const Vec2& p, const Vec2& start, Place& out)
     return out.inverse.allFinite();
   }
   return false;
-}
-
-// ---- quadrature ---------------------------------------------------------------------------------
-
-/// Gauss rule on the triangle by collapsing the square: exact for total degree 2 n - 2.
-cell::Quadrature2D collapsed(int n) {
-  const cell::Quadrature1D line = cell::gauss_legendre(n);
-  cell::Quadrature2D rule;
-  for (std::size_t i = 0; i < line.points.size(); ++i)
-    for (std::size_t j = 0; j < line.points.size(); ++j) {
-      const double u = 0.5 * (1 + line.points[i]);
-      rule.points.emplace_back(u, 0.5 * (1 + line.points[j]) * (1 - u));
-      rule.weights.push_back(0.25 * line.weights[i] * line.weights[j] * (1 - u));
-    }
-  return rule;
-}
-
-bool parallel_sided(const Points3& x, cell::CellType type) {
-  if (cell::is_triangle(type)) return true;
-  constexpr double tolerance = 1e-6;
-  return (x[0] - x[1] + x[2] - x[3]).norm() <= tolerance * (x[2] - x[0]).norm();
-}
-
-int degree_of(cell::CellType type) {
-  if (type == cell::CellType::tri3) return 1;
-  return type == cell::CellType::quad4 || type == cell::CellType::tri6 ? 2 : 4;
-}
-
-/// Exact where the shape functions are polynomials of the plane's coordinates: triangles and
-/// parallelograms with straight edges. On other quadrilaterals they are not, and more points are
-/// taken.
-const cell::Quadrature2D& rule_of(const Flat& slave, const Points3& slave_reference,
-                                  const Flat& master, const Points3& master_reference) {
-  static const cell::Quadrature2D second = cell::gauss_triangle(2),
-                                  fourth = cell::gauss_triangle(4), sixth = cell::gauss_triangle(6),
-                                  eighth = collapsed(5), many = collapsed(7);
-  if (!parallel_sided(slave_reference, slave.type) ||
-      !parallel_sided(master_reference, master.type))
-    return many;
-  const int own = degree_of(slave.type), other = degree_of(master.type);
-  const int degree = own + std::max(own, other);
-  return degree <= 2 ? second : degree <= 4 ? fourth : degree <= 6 ? sixth : eighth;
 }
 
 // ---- integration --------------------------------------------------------------------------------
@@ -499,7 +457,8 @@ bool mortar_cell(const MortarSides<3>& sides, Index s, std::span<const std::size
   w.derivatives = derivatives;
   const Points3 reference = positions(slave, sides.measure.reference);
   w.measured = w.current ? w.slave_x : reference;
-  w.rule = &rule_of(w.slave, reference, w.master, positions(master, sides.measure.reference));
+  w.rule =
+      &mortar_rule(slave.type, reference, master.type, positions(master, sides.measure.reference));
   w.cell = &cell;
   cell.master = m;
   cell.e.setZero(slave.count, slave.count);

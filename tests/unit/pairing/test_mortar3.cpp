@@ -89,5 +89,58 @@ INSTANTIATE_TEST_SUITE_P(
                                          CellType::quad9),
                        ::testing::Values(Weight::reference_area, Weight::current_area)));
 
+// ---- friction -----------------------------------------------------------------------------------
+
+class MortarShear : public ::testing::TestWithParam<CellType> {};
+
+TEST_P(MortarShear, TangentInEveryBranch) {
+  for (const double mu : {10.0, 0.02})
+    for (const bool active : {true, false}) {
+      MortarSample<3> s = make_mortar3({.slave = GetParam(),
+                                        .slave_cells = 1,
+                                        .master_cells = 2,
+                                        .depth = 0.15,
+                                        .skew = 0.1,
+                                        .bend = 0.02});
+      s.pair.friction = contact::Coulomb{mu, 300.0};
+      const Vec3 shift = turn_of({0.4, -0.3, 0.2}) * Vec3(0.03, -0.02, active ? 0.01 : -0.5);
+      remember<3>(s, shift, Vec2(2.0, -3.0), active);
+      expect_second_order(s, 1e-3, "mu " + std::to_string(mu));
+    }
+}
+
+// On a flat master without turning the slip is the way, over all borders of facets.
+TEST_P(MortarShear, SlipIsTheWayAlongTheMaster) {
+  MortarSample<3> s = make_mortar3({.slave = GetParam(), .slave_cells = 1, .from = 1.6, .to = 2.2});
+  s.pair.friction = contact::Coulomb{1e6, 300.0};
+  const Vec3 way = turn_of({0.4, -0.3, 0.2}) * Vec3(0.9, 0.5, 0);
+  remember<3>(s, way, Vec2(1.5, -0.5), true);
+  for (const auto& p : mortar_evaluation(s, flat<3>(s.x)).points) {
+    EXPECT_LT((p.frame * p.slip_increment - way).norm(), 1e-11);
+    EXPECT_LT((p.shear_traction - Vec2(1.5, -0.5) - 300 * p.slip_increment).norm(), 1e-9);
+    EXPECT_LT((p.frame.transpose() * p.frame - Mat<2, 2>::Identity()).norm(), 1e-14);
+    EXPECT_LT((p.frame.col(0).cross(p.frame.col(1)) - p.normal).norm(), 1e-13);
+  }
+}
+
+TEST_P(MortarShear, NothingSlipsWhenBothTurnTogether) {
+  MortarSample<3> s = make_mortar3({.slave = GetParam(), .depth = 0.15, .skew = 0.1, .bend = 0.01});
+  s.pair.friction = contact::Coulomb{1e6, 300.0};
+  remember<3>(s, Vec3::Zero(), Vec2(1.5, -0.5), true);
+  const Eigen::VectorXd r = mortar_residual(s, flat<3>(s.x));
+  const Mat<3, 3> turned = turn_of({1.0, 0.5, -2.0});
+  std::vector<Vec3> moved;
+  for (const Vec3& p : s.x) moved.push_back(turned * p + Vec3(3, -7, 1));
+  const Eigen::VectorXd after = mortar_residual(s, flat<3>(moved));
+  for (const auto& p : mortar_evaluation(s, flat<3>(moved)).points)
+    EXPECT_LT(p.slip_increment.norm(), 1e-11);
+  for (Eigen::Index n = 0; n < r.size() / 3; ++n)
+    EXPECT_LT((after.segment<3>(3 * n) - turned * r.segment<3>(3 * n)).norm(), 1e-10 * r.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MortarShear,
+                         ::testing::Values(CellType::tri3, CellType::quad4, CellType::tri6,
+                                           CellType::quad8, CellType::quad9));
+
 }  // namespace
 }  // namespace osculate::testing

@@ -23,12 +23,15 @@ struct OneFacet {
 
 template <int Dim>
 void integrate(OneFacet<Dim>& out) {
-  const pairing::MortarEvaluation<Dim> e = mortar_evaluation(out.s, flat<Dim>(out.s.x));
-  const pairing::MortarSides<Dim> sides{
-      &out.s.pair.slave.boundary, &out.s.pair.master, {false, {}, out.s.reference}, e.normals};
-  for (const Index m : e.overlaps[0]) {
+  const pairing::PairEvaluation<Dim> e = mortar_evaluation(out.s, flat<Dim>(out.s.x));
+  const pairing::MortarSides<Dim> sides{&out.s.pair.slave.boundary,
+                                        &out.s.pair.master,
+                                        {false, {}, out.s.pair.reference},
+                                        e.mortar.normals};
+  for (const Index m : e.mortar.overlaps[0]) {
     out.cells.emplace_back();
-    ASSERT_TRUE(pairing::mortar_cell(sides, 0, e.slots[0], m, out.s.x, false, out.cells.back()));
+    ASSERT_TRUE(
+        pairing::mortar_cell(sides, 0, e.mortar.slots[0], m, out.s.x, false, out.cells.back()));
   }
   ASSERT_FALSE(out.cells.empty());
   double cover = 0;
