@@ -18,10 +18,12 @@ cell::Quadrature2D collapsed(int n) {
   return rule;
 }
 
-bool parallel_sided(const FacetPoints& x, cell::CellType type) {
-  if (cell::is_triangle(type)) return true;
-  constexpr double tolerance = 1e-6;
-  return (x[0] - x[1] + x[2] - x[3]).norm() <= tolerance * (x[2] - x[0]).norm();
+/// |x_0 - x_1 + x_2 - x_3| over the shorter diagonal: how far a quadrilateral is from a
+/// parallelogram.
+double skew_of(const FacetPoints& x, cell::CellType type) {
+  if (cell::is_triangle(type)) return 0;
+  const double diagonal = std::min((x[2] - x[0]).norm(), (x[3] - x[1]).norm());
+  return (x[0] - x[1] + x[2] - x[3]).norm() / diagonal;
 }
 
 int degree_of(cell::CellType type) {
@@ -33,14 +35,17 @@ int degree_of(cell::CellType type) {
 
 const cell::Quadrature2D& mortar_rule(cell::CellType slave, const FacetPoints& slave_reference,
                                       cell::CellType master, const FacetPoints& master_reference) {
-  static const cell::Quadrature2D second = cell::gauss_triangle(2),
-                                  fourth = cell::gauss_triangle(4), sixth = cell::gauss_triangle(6),
-                                  eighth = collapsed(5), many = collapsed(7);
-  if (!parallel_sided(slave_reference, slave) || !parallel_sided(master_reference, master))
-    return many;
+  static const std::array<cell::Quadrature2D, 3> exact{
+      cell::gauss_triangle(2), cell::gauss_triangle(4), cell::gauss_triangle(6)};
+  static const std::array<cell::Quadrature2D, 4> more{collapsed(4), collapsed(5), collapsed(7),
+                                                      collapsed(10)};
+  const double skew = std::max(skew_of(slave_reference, slave), skew_of(master_reference, master));
   const int own = degree_of(slave), other = degree_of(master);
   const int degree = own + std::max(own, other);
-  return degree <= 2 ? second : degree <= 4 ? fourth : degree <= 6 ? sixth : eighth;
+  constexpr double none = 1e-6;
+  if (skew <= none && degree <= 6) return exact[static_cast<std::size_t>((degree - 1) / 2)];
+  const std::size_t by_skew = skew <= 0.03 ? 0 : skew <= 0.1 ? 1 : skew <= 0.27 ? 2 : 3;
+  return more[std::max<std::size_t>(by_skew, degree > 6 ? 1 : 0)];
 }
 
 }  // namespace osculate::pairing
