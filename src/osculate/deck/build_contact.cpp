@@ -373,6 +373,13 @@ void set_points(const Contact& contact, pairing::SlaveSide<Dim>& slave) {
 template <int Dim>
 void add_sampled(BuildContext<Dim>& c, const Contact& contact, model::BasicContactPair<Dim> out) {
   out.definition.mortar = contact.sampling.value.rule == SamplingRule::mortar;
+  for (const auto& facet : out.definition.master.facets)
+    if (out.definition.mortar && facet.shape)
+      throw core::InputError(
+          contact.sampling.mark,
+          fmt::format("'{}' is an analytic shape: mortar takes sides with nodes, and other "
+                      "samplings any master",
+                      contact.master.value));
   set_points(contact, out.definition.slave);
   warn_of_scatter(c, contact, out.definition);
   add_pair(c, contact, contact.slave.mark, std::move(out));
