@@ -138,6 +138,30 @@ TEST_P(MortarShear, NothingSlipsWhenBothTurnTogether) {
     EXPECT_LT((after.segment<3>(3 * n) - turned * r.segment<3>(3 * n)).norm(), 1e-10 * r.norm());
 }
 
+// The slave slides over corners and edges of a flat, skewed master: no slave force changes.
+TEST_P(MortarShear, NoJumpAtCrossingsOnAFlatSurface) {
+  MortarSample<3> s = make_mortar3({.slave = GetParam(),
+                                    .slave_cells = 1,
+                                    .master_cells = 4,
+                                    .from = 0.4,
+                                    .to = 1.1,
+                                    .skew = 0.05,
+                                    .keep_border = true});
+  const Vec3 step = turn_of({0.4, -0.3, 0.2}) * Vec3(0.023, 0.037, 0);
+  const auto forces = [&] {
+    const Eigen::VectorXd r = mortar_residual(s, flat<3>(s.x));
+    Eigen::VectorXd out(3 * static_cast<Eigen::Index>(s.pair.slave.nodes.size()));
+    for (std::size_t k = 0; k < s.pair.slave.nodes.size(); ++k)
+      out.segment<3>(3 * static_cast<Eigen::Index>(k)) = r.segment<3>(3 * s.pair.slave.nodes[k]);
+    return out;
+  };
+  const Eigen::VectorXd first = forces();
+  for (int i = 0; i < 40; ++i) {
+    for (const Index n : s.pair.slave.nodes) s.x[static_cast<std::size_t>(n)] += step;
+    EXPECT_LT((forces() - first).norm(), 1e-9 * first.norm()) << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, MortarShear,
                          ::testing::Values(CellType::tri3, CellType::quad4, CellType::tri6,
                                            CellType::quad8, CellType::quad9));
