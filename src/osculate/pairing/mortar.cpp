@@ -43,18 +43,24 @@ search::Box<Dim> reach_of(const SlaveSide<Dim>& slave, std::size_t f, Points<Dim
   return box;
 }
 
+/// Part of the slave facet that its first `count` cells cover.
+template <int Dim>
+double cover_of(const std::vector<MortarCell<Dim>>& cells, std::size_t count) {
+  double cover = 0;
+  for (std::size_t c = 0; c < count; ++c) cover += cells[c].cover;
+  return cover;
+}
+
 /// Of several layers of master the nearest: cells are taken by distance while the facet has room.
 template <int Dim>
 void drop_covered(std::vector<MortarCell<Dim>>& cells, std::size_t& count) {
   constexpr double room = 1 + 1e-3;
-  double cover = 0;
-  for (std::size_t c = 0; c < count; ++c) cover += cells[c].cover;
-  if (cover <= room) return;
+  if (cover_of<Dim>(cells, count) <= room) return;
   std::stable_sort(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(count),
                    [](const MortarCell<Dim>& a, const MortarCell<Dim>& b) {
                      return std::abs(a.distance) < std::abs(b.distance);
                    });
-  cover = 0;
+  double cover = 0;
   std::size_t kept = 0;
   while (kept < count && cover + cells[kept].cover <= room) cover += cells[kept++].cover;
   count = kept;
@@ -84,6 +90,8 @@ std::size_t find_cells(const MortarSides<Dim>& sides, const SlaveSide<Dim>& slav
       ++count;
   }
   drop_covered(out.mortar.cells, count);
+  constexpr double nothing = 1e-5;  // of a facet: the dual functions of less are all rounding
+  if (cover_of<Dim>(out.mortar.cells, count) < nothing) count = 0;
   near.clear();
   for (std::size_t c = 0; c < count; ++c) near.push_back(out.mortar.cells[c].master);
   return count;
@@ -132,8 +140,7 @@ template <int Dim>
 void matrices_of(const PairDefinition<Dim>& pair, std::size_t f, std::size_t count,
                  bool derivatives, PairEvaluation<Dim>& out) {
   constexpr double rounding = 1e-6;
-  double cover = 0;
-  for (std::size_t c = 0; c < count; ++c) cover += out.mortar.cells[c].cover;
+  const double cover = cover_of<Dim>(out.mortar.cells, count);
   mortar_facet<Dim>(std::span(out.mortar.cells).first(count), pair.master,
                     multiplier_basis(pair.slave.boundary.facets[f], cover > 1 - rounding),
                     derivatives, out.mortar.facet);
