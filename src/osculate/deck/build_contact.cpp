@@ -339,6 +339,10 @@ void check_mortar(const Contact& contact) {
     refuse(contact.residual.mark, "mortar has its own form of the forces: use surface");
   if (contact.tangent.value.kind != TangentKind::consistent)
     refuse(contact.tangent.mark, "mortar has the consistent tangent only");
+  if (contact.history.value != HistoryKind::continuous)
+    refuse(contact.history.mark, "mortar has its own history, without borders: use continuous");
+  if (contact.smoothing.value.kind != SmoothingWord::none)
+    refuse(contact.smoothing.mark, "mortar integrates over the facets of the mesh: use none");
 }
 
 /// What needs nodes as contact points, or one slave.

@@ -269,6 +269,8 @@ NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
 
 bool too_long(const Facet& facet) { return facet.count > max_mortar_line; }
 bool too_long(const SurfaceFacet&) { return false; }
+bool smoothed(const Facet& facet) { return facet.bezier != nullptr; }
+bool smoothed(const SurfaceFacet& facet) { return facet.patch != nullptr; }
 
 }  // namespace
 
@@ -280,12 +282,15 @@ void prepare_mortar(PairDefinition<Dim>& pair, Points<Dim> reference) {
   if (pair.scope.limited() || pair.edges.on)
     refuse(
         "contact of a surface with itself, of all bodies, and of edges is sampled at nodes only");
+  if (pair.history != HistoryRule::continuous)
+    refuse("mortar has its own history, without borders");
   for (const auto& facets : pair.slave.facets_of)
     if (facets.empty()) refuse("mortar integrates over facets, and the slave is a set of points");
   for (const Boundary<Dim>* const side : {&pair.master, &pair.slave.boundary})
     for (const auto& facet : side->facets) {
       if (facet.shape)
         refuse("mortar takes meshed sides: an analytic shape has no nodes that carry its share");
+      if (smoothed(facet)) refuse("mortar integrates over the facets of the mesh: no smoothing");
       if (too_long(facet)) refuse("mortar takes lines of up to 4 nodes");
     }
   pair.reference.assign(reference.begin(), reference.end());

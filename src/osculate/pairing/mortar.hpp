@@ -6,7 +6,8 @@ namespace osculate::pairing {
 
 /// Keeps the reference positions. Throws core::GeometryError, with the reason, for a pair that
 /// mortar integration does not take: analytic shapes, a slave without facets, lines of more than 4
-/// nodes, weight: node, edges, a scope.
+/// nodes, weight: node, edges, a scope,
+/// a smoothed master, another history than the continuous one.
 template <int Dim>
 void prepare_mortar(PairDefinition<Dim>& pair, Points<Dim> reference);
 

@@ -87,6 +87,10 @@ TEST(SamplingKey, MortarIntegratesOverTheFacets) {
             at + "two_pass: mortar treats both sides in one pass: leave out two_pass");
   EXPECT_EQ(refusal("residual: full"),
             at + "residual: mortar has its own form of the forces: use surface");
+  EXPECT_EQ(refusal("history: chord"),
+            at + "history: mortar has its own history, without borders: use continuous");
+  EXPECT_EQ(refusal("smoothing: hermite"),
+            at + "smoothing: mortar integrates over the facets of the mesh: use none");
   EXPECT_EQ(refusal("tangent: covariant"), at + "tangent: mortar has the consistent tangent only");
   EXPECT_EQ(refusal_of("slave: high.top, normal: {penalty: 1000}",
                        "slave: high.top, normal: {penalty: 1000}, sampling: mortar"),
