@@ -111,7 +111,7 @@ void add_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,
   for (int i = 0; i < Dim * block.count; ++i) {
     out.force[static_cast<std::size_t>(row_of(i))] += block.force[i];
     if (!with_tangent) continue;
-    for (int j = 0; j < Dim * block.count; ++j)
+    for (int j = 0; block.tangent.size() > 0 && j < Dim * block.count; ++j)
       out.tangent.push_back({row_of(i), row_of(j), block.tangent(i, j)});
     for (const pairing::NodeMatrix<Dim>& g : block.path())
       for (int d = 0; d < Dim; ++d)

@@ -123,7 +123,9 @@ std::string pair_text(const model::BasicContactPair<Dim>& pair) {
                                                      d.edges.master.size())
                                        : std::string{};
   return fmt::format("{} slave {} on {} facets{}, penalty {:g}, {}, {}{}{}", d.slave.points.size(),
-                     pairing::sampled_at_nodes(d.slave) ? "nodes" : "points",
+                     d.mortar                             ? "nodes by mortar"
+                     : pairing::sampled_at_nodes(d.slave) ? "nodes"
+                                                          : "points",
                      d.master.facets.size(), edges, d.normal.stiffness, friction,
                      weight_name(d.weight), pair.note.empty() ? "" : "; ", pair.note);
 }

@@ -246,7 +246,7 @@ void warn_of_smooth(BuildContext<3>& c, const Contact& contact,
 void warn_of_scatter(BuildContext<2>&, const Contact&, const pairing::PairDefinition<2>&) {}
 void warn_of_scatter(BuildContext<3>& c, const Contact& contact,
                      const pairing::PairDefinition<3>& pair) {
-  if (!pairing::sampled_at_nodes(pair.slave)) return;
+  if (!pairing::sampled_at_nodes(pair.slave) || pair.mortar) return;
   for (const pairing::SurfaceFacet& facet : pair.slave.boundary.facets) {
     if (facet.type != cell::CellType::tri6 && facet.type != cell::CellType::quad8) continue;
     if (c.model().body_of_node[static_cast<std::size_t>(facet.nodes[0])] >= 0) continue;
@@ -325,6 +325,26 @@ pairing::Sampling rule_of(const Sampling& s) {
   return {rule, s.points, s.subdomains};
 }
 
+/// What mortar integration has no choice of.
+void check_mortar(const Contact& contact) {
+  if (contact.sampling.value.rule != SamplingRule::mortar) return;
+  const auto refuse = [](const core::SourceMark& mark, const char* why) {
+    throw core::InputError(mark, why);
+  };
+  if (contact.two_pass)
+    refuse(*contact.two_pass, "mortar treats both sides in one pass: leave out two_pass");
+  if (contact.weight.value == ContactWeight::node)
+    refuse(contact.weight.mark, "mortar integrates over areas: use reference_area or current_area");
+  if (contact.residual.value == Residual::full)
+    refuse(contact.residual.mark, "mortar has its own form of the forces: use surface");
+  if (contact.tangent.value.kind != TangentKind::consistent)
+    refuse(contact.tangent.mark, "mortar has the consistent tangent only");
+  if (contact.history.value != HistoryKind::continuous)
+    refuse(contact.history.mark, "mortar has its own history, without borders: use continuous");
+  if (contact.smoothing.value.kind != SmoothingWord::none)
+    refuse(contact.smoothing.mark, "mortar integrates over the facets of the mesh: use none");
+}
+
 /// What needs nodes as contact points, or one slave.
 void check_axes(const Contact& contact) {
   const bool own = contact.all || contact.master.value == contact.slave.value;
@@ -336,6 +356,7 @@ void check_axes(const Contact& contact) {
       throw core::InputError(contact.sampling.mark,
                              "contact of edges goes with sampling: nodes only");
   }
+  check_mortar(contact);
   if (!contact.two_pass) return;
   if (own)
     throw core::InputError(*contact.two_pass,
@@ -355,6 +376,14 @@ void set_points(const Contact& contact, pairing::SlaveSide<Dim>& slave) {
 
 template <int Dim>
 void add_sampled(BuildContext<Dim>& c, const Contact& contact, model::BasicContactPair<Dim> out) {
+  out.definition.mortar = contact.sampling.value.rule == SamplingRule::mortar;
+  for (const auto& facet : out.definition.master.facets)
+    if (out.definition.mortar && facet.shape)
+      throw core::InputError(
+          contact.sampling.mark,
+          fmt::format("'{}' is an analytic shape: mortar takes sides with nodes, and other "
+                      "samplings any master",
+                      contact.master.value));
   set_points(contact, out.definition.slave);
   warn_of_scatter(c, contact, out.definition);
   add_pair(c, contact, contact.slave.mark, std::move(out));

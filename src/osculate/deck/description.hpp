@@ -152,7 +152,7 @@ struct Rigid {
 
 // ---- contact ----------------------------------------------------------------------------------
 
-enum class SamplingRule { nodes, gauss, lobatto };
+enum class SamplingRule { nodes, gauss, lobatto, mortar };
 enum class Enforcement { penalty };
 enum class ContactWeight { node, reference_area, current_area };
 enum class Residual { surface, full };

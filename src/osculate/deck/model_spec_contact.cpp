@@ -16,7 +16,9 @@ Spec sampling_spec() {
   return either("Where the slave side is tested for contact.",
                 {choice("Points of the slave side.",
                         {word("nodes", SamplingRule::nodes, "the slave nodes"),
-                         planned("mortar", "weighted averages over the slave facets")}),
+                         word("mortar", SamplingRule::mortar,
+                              "integrals over the overlaps of slave and master facets, "
+                              "weighted by dual functions of the slave's nodes")}),
                  map("Points of a quadrature rule on the slave facets (segment to segment).",
                      {optional("gauss", Spec(points).at_least(1).such_as("2")),
                       optional("lobatto", Spec(points).at_least(2).such_as("5")),

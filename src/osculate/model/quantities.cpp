@@ -87,7 +87,7 @@ template <int Dim>
 double force_on_slave(const pairing::PairDefinition<Dim>& definition,
                       const pairing::PairEvaluation<Dim>& pair, bool reversed, int direction) {
   double sum = 0;
-  for (std::size_t i = 0; i < pair.blocks.size(); ++i) {
+  for (std::size_t i = 0; i < pair.points.size(); ++i) {  // what follows carries no forces
     std::array<int, 2> range = slave_range(definition, pair.points[i], pair.blocks[i]);
     if (reversed) range = {range[1], pair.blocks[i].count};
     for (int k = range[0]; k < range[1]; ++k) sum -= pair.blocks[i].force[Dim * k + direction];

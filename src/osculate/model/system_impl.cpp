@@ -38,7 +38,8 @@ template <int Dim>
 bool needs_unsymmetric(const BasicModel<Dim>& model) {
   for (const BasicContactPair<Dim>& pair : model.pairs) {
     const pairing::PairDefinition<Dim>& d = pair.definition;
-    if (d.friction || (d.weight == pairing::Weight::current_area && d.tangent.consistent))
+    if (d.friction || d.mortar ||
+        (d.weight == pairing::Weight::current_area && d.tangent.consistent))
       return true;
   }
   for (const Step& step : model.steps) {
@@ -247,7 +248,7 @@ void BasicSystem<Dim>::Impl::add_contact_block(const pairing::ContactBlock<Dim>&
   }
   if (block.branched) branched = true;
   if (!with_tangent) return;
-  add_stiffness(d, block.tangent, inc);
+  if (block.tangent.size() > 0) add_stiffness(d, block.tangent, inc);
   add_path(d, block, inc);
   add_rank_one(d, block.area_rows, block.area, inc);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "osculate/core/error.hpp"
+#include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/point_block.hpp"
 #include "osculate/pairing/point_evaluation.hpp"
 #include "osculate/pairing/sampling.hpp"
@@ -24,6 +25,7 @@ void prepare(PairDefinition<Dim>& pair, Points<Dim> reference) {
         "contact of a surface with itself, of all bodies, and of edges is sampled at nodes only");
   if constexpr (Dim == 3)
     prepare_edges(pair.edges, pair.master, pair.slave, pair.reference_areas, reference);
+  if (pair.mortar) prepare_mortar(pair, reference);
   if (pair.weight == Weight::node) return;
   for (const double area : pair.reference_areas)
     if (!(area > 0))
@@ -96,8 +98,9 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
     out.tree = Tree<Dim>(out.boxes);
 }
 template <int Dim>
-Mat<Dim, Dim - 1> frame_of_history(const PairDefinition<Dim>& pair, const PointHistory<Dim>& h,
-                                   Points<Dim> x) {
+Mat<Dim, Dim - 1> frame_of_history(const PairDefinition<Dim>& pair, std::size_t i,
+                                   const PointHistory<Dim>& h, Points<Dim> x) {
+  if (pair.mortar) return mortar_frame(pair, i, x);
   if constexpr (Dim == 3)
     if (h.edge >= 0) return crossing_frame(pair, h, x);
   return stored_frame(pair.master, h.facet, h.xi, x);
@@ -109,6 +112,11 @@ template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed) {
   Laps laps;
+  if (pair.mortar) {
+    evaluate_mortar(pair, x, committed, with_tangent, out, assumed);
+    laps.add_to(out.seconds.evaluation);
+    return;
+  }
   refresh(pair, x, with_tangent, out);
   laps.add_to(out.seconds.search);
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
@@ -131,12 +139,13 @@ Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair, const PairState
                                 Points<Dim> x, bool sticking) {
   Assumed<Dim> assumed;
   assumed.predict = true;
-  for (const PointHistory<Dim>& h : committed.points) {
+  for (std::size_t i = 0; i < committed.points.size(); ++i) {
+    const PointHistory<Dim>& h = committed.points[i];
     AssumedBranch<Dim> branch;
     if (h.active) branch.branch = Branch::stick;
     const double size = h.traction.norm();
     if (h.active && h.slipping && size > 0 && !sticking)
-      branch = {Branch::slip, frame_of_history(pair, h, x) * (h.traction / size)};
+      branch = {Branch::slip, frame_of_history(pair, i, h, x) * (h.traction / size)};
     if (h.edge >= 0) branch.edges = {h.edge, h.facet};
     assumed.branch.push_back(branch);
   }
@@ -152,6 +161,7 @@ Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation) {
 
 template <int Dim>
 PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
+  if (pair.mortar) return initial_mortar_state(pair, x);
   PairEvaluation<Dim> work;
   refresh(pair, x, false, work);
   PairState<Dim> state;
@@ -179,6 +189,7 @@ PairState<Dim> commit(const PairEvaluation<Dim>& evaluation) {
   PairState<Dim> state;
   state.points.reserve(evaluation.points.size());
   for (const PointResult<Dim>& point : evaluation.points) state.points.push_back(point.history);
+  state.places = evaluation.mortar.places;
   return state;
 }
 

@@ -6,6 +6,7 @@
 #include "osculate/contact/history.hpp"
 #include "osculate/contact/point_terms.hpp"
 #include "osculate/pairing/edges.hpp"
+#include "osculate/pairing/mortar_buffers.hpp"
 #include "osculate/pairing/place.hpp"
 #include "osculate/pairing/scope.hpp"
 #include "osculate/pairing/slave_side.hpp"
@@ -39,13 +40,16 @@ struct PairDefinition {
   EdgeContact edges;  ///< in space: also where sharp edges cross
   /// With `scope.own` both sides of a contact are slaves, and each carries half of the traction.
   Scope<Dim> scope;
+  bool mortar = false;  ///< integrals over the slave's facets instead of points (mortar.hpp)
   std::vector<double> reference_areas;  ///< of the slave's points; filled by `prepare`
+  std::vector<Vec<Dim>> reference;      ///< mortar: positions of all nodes; filled by `prepare`
 };
 
 /// Committed history of a pair: one entry per slave point, then one per crossing of edges.
 template <int Dim>
 struct PairState {
   std::vector<contact::PointHistory<Dim>> points;
+  std::vector<MortarPlace> places;  ///< mortar: one per slave node; empty at first
 };
 
 /// The branch of the friction law a point is linearised in; of a slipping point also where to.
@@ -89,7 +93,7 @@ struct ContactBlock {
   Eigen::VectorXd force;
   Eigen::VectorXd branch_force;  ///< of the linearised branch; equals `force` unless `branched`
   bool branched = false;
-  Eigen::MatrixXd tangent;
+  Eigen::MatrixXd tangent;  ///< empty: nothing but `path`
   Eigen::Matrix<double, Eigen::Dynamic, Dim> path_rows;
   Eigen::VectorXd area_rows;
   PathBuffers<Dim> behind;
@@ -120,8 +124,9 @@ struct PairSeconds {
 /// call.
 template <int Dim>
 struct PairEvaluation {
-  std::vector<PointResult<Dim>> points;   ///< one per slave point, then one per crossing of edges
-  std::vector<ContactBlock<Dim>> blocks;  ///< one per point, `count == 0` where open
+  std::vector<PointResult<Dim>> points;  ///< one per slave point, then one per crossing of edges
+  /// One per point, `count == 0` where open; mortar: then those of the facets, without forces.
+  std::vector<ContactBlock<Dim>> blocks;
   EdgeBuffers edges;
   int block_nodes = 0;        ///< of the largest block there can be
   std::vector<double> areas;  ///< of the slave's points, if they change
@@ -130,6 +135,7 @@ struct PairEvaluation {
   std::vector<search::Box<Dim>> boxes;
   Tree<Dim> tree;
   ScopeBuffers<Dim> scope;
+  MortarBuffers<Dim> mortar;
   bool apart = false;  ///< master and slave are farther from each other than the scope reaches
   PairSeconds seconds;
 };

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/pairing/friction_branch.hpp"
 #include "osculate/pairing/point_block.hpp"
 #include "osculate/pairing/point_weight.hpp"
 
 namespace osculate::pairing {
 
-using contact::Branch;
 using contact::Kinematics;
 using contact::PointHistory;
 using contact::PointTerms;
@@ -20,49 +20,12 @@ using projection::Feature;
 namespace {
 
 template <int Dim>
-ContactShare contact_share(const PointHistory<Dim>& history, double gap) {
-  if (history.active || history.facet < 0 || !(history.gap > 0)) return {};
-  const double range = history.gap - gap;
-  return {-gap / range, -history.gap / (range * range)};
-}
-
-template <int Dim>
 struct Friction {
   Traction<Dim> traction;
   TangentialResponse<Dim> law;  ///< what the law says; `traction` may be in another branch
   Vec<Dim - 1> slip = Vec<Dim - 1>::Zero();  ///< of the increment, times the share in contact
   double dissipated = 0;                     ///< per area (or per node) in the increment
 };
-
-template <int Dim>
-TangentialResponse<Dim> linearised_branch(const contact::Coulomb& law,
-                                          const TangentialResponse<Dim>& response,
-                                          const Vec<Dim - 1>& trial, double normal,
-                                          const Mat<Dim, Dim - 1>& frame,
-                                          const BranchHint<Dim>& hint) {
-  if (hint.predict && hint.assumed.branch == Branch::stick)
-    return contact::Coulomb::stick<Dim>(trial);  // also on the limit, whatever round-off says
-  if (hint.assumed.branch != Branch::slip) return response;
-  const Vec<Dim - 1> before = frame.transpose() * hint.assumed.direction;
-  const double size = before.norm();
-  if (!(size > 0)) return response;
-  if (hint.predict) {
-    const double limit = law.mu * std::abs(normal);
-    const double turning = limit > 0 ? limit / std::max(limit, trial.norm()) : 0.0;
-    return law.template slip<Dim>(before / size, normal, turning);
-  }
-  const bool reversed = response.status == Status::slip && before.dot(trial) < 0;
-  return reversed ? contact::Coulomb::stick<Dim>(trial) : response;
-}
-
-template <int Dim>
-AssumedBranch<Dim> branch_of(const TangentialResponse<Dim>& response,
-                             const Mat<Dim, Dim - 1>& frame) {
-  if (response.status == Status::stick) return {Branch::stick, Vec<Dim>::Zero()};
-  const double size = response.traction.norm();
-  if (!(size > 0)) return {Branch::slip, Vec<Dim>::Zero()};
-  return {Branch::slip, frame * (response.traction / size)};
-}
 
 template <int Dim>
 Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,

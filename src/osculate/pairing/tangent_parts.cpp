@@ -35,6 +35,7 @@ template <int Dim>
 double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
                        const PairEvaluation<Dim>& evaluation, const contact::TangentForm& parts) {
   double largest = 0;
+  if (pair.mortar) return largest;                              // one tangent, without parts
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {  // not the crossings
     if (evaluation.points[i].status == contact::Status::open) continue;
     const Placed<Dim> placed =

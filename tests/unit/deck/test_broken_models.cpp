@@ -188,8 +188,6 @@ TEST(BrokenModels, Words) {
 
 TEST(BrokenModels, KnownButNotAvailable) {
   expect_refusals({
-      {"sampling: nodes", "sampling: mortar",
-       "model.yaml:15: contact[0].sampling: 'mortar' is not available yet; use nodes"},
       {"enforcement: penalty", "enforcement: lagrange_multiplier",
        "model.yaml:18: contact[0].enforcement: 'lagrange_multiplier' is not available yet; use "
        "penalty"},

@@ -72,5 +72,31 @@ TEST(SamplingKey, RefusesWhatItCannotDo) {
             "to be a slave");
 }
 
+TEST(SamplingKey, MortarIntegratesOverTheFacets) {
+  const Built b = built_with("sampling: mortar");
+  EXPECT_TRUE(b.model.pairs[1].definition.mortar);
+  EXPECT_FALSE(b.model.pairs[0].definition.mortar);
+  EXPECT_EQ(b.model.pairs[1].definition.slave.points.size(), 5u);  // its nodes
+  const std::string at = "model.yaml:18: contact[1].";
+  const auto refusal = [](const std::string& keys) {
+    return refusal_of(gap, gap + ", sampling: mortar, " + keys);
+  };
+  EXPECT_EQ(refusal("weight: node"),
+            at + "weight: mortar integrates over areas: use reference_area or current_area");
+  EXPECT_EQ(refusal("two_pass: true"),
+            at + "two_pass: mortar treats both sides in one pass: leave out two_pass");
+  EXPECT_EQ(refusal("residual: full"),
+            at + "residual: mortar has its own form of the forces: use surface");
+  EXPECT_EQ(refusal("history: chord"),
+            at + "history: mortar has its own history, without borders: use continuous");
+  EXPECT_EQ(refusal("smoothing: hermite"),
+            at + "smoothing: mortar integrates over the facets of the mesh: use none");
+  EXPECT_EQ(refusal("tangent: covariant"), at + "tangent: mortar has the consistent tangent only");
+  EXPECT_EQ(refusal_of("slave: high.top, normal: {penalty: 1000}",
+                       "slave: high.top, normal: {penalty: 1000}, sampling: mortar"),
+            "model.yaml:19: contact[2].sampling: 'punch' is an analytic shape: mortar takes sides "
+            "with nodes, and other samplings any master");
+}
+
 }  // namespace
 }  // namespace osculate::deck

@@ -166,7 +166,6 @@ TEST(Schema, RefusesWhatTheParserRefuses) {
       {"uy: -0.007, ux: 0}", "amplitude: wave}"},
       {"center: [0, 9]", "center: [0, 9, 2]"},
       {"weight: reference_area", "weight: areas"},
-      {"sampling: nodes", "sampling: mortar"},
       {"sampling: nodes", "sampling: {gauss: 0}"},
       {"sampling: nodes", "sampling: {lobatto: 1}"},
       {"sampling: nodes", "sampling: {subdomains: 2}"},

@@ -1,0 +1,361 @@
+#include "osculate/pairing/mortar.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "osculate/core/error.hpp"
+#include "osculate/pairing/closest.hpp"
+#include "osculate/pairing/mortar_basis.hpp"
+#include "osculate/pairing/mortar_node.hpp"
+
+namespace osculate::pairing {
+namespace {
+
+using contact::PointHistory;
+using contact::Status;
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// ---- which master facets a slave facet lies over ------------------------------------------------
+
+template <int Dim>
+void set_slots(const SlaveSide<Dim>& slave, std::vector<std::vector<std::size_t>>& slots) {
+  if (slots.size() == slave.boundary.facets.size()) return;
+  std::unordered_map<Index, std::size_t> slot;
+  for (std::size_t i = 0; i < slave.nodes.size(); ++i) slot.emplace(slave.nodes[i], i);
+  slots.clear();
+  for (const auto& facet : slave.boundary.facets) {
+    slots.emplace_back();
+    for (std::size_t k = 0; k < at(facet.count); ++k)
+      slots.back().push_back(slot.at(facet.nodes[k]));
+  }
+}
+
+/// Boxes of the slave's facets, wider by their diagonal on all sides: nothing that is farther away
+/// than a facet is long takes part.
+template <int Dim>
+search::Box<Dim> reach_of(const SlaveSide<Dim>& slave, std::size_t f, Points<Dim> x) {
+  const auto& facet = slave.boundary.facets[f];
+  search::Box<Dim> box;
+  for (std::size_t k = 0; k < at(facet.count); ++k) box.extend(x[at(facet.nodes[k])]);
+  box.inflate((box.hi - box.lo).norm());
+  return box;
+}
+
+/// Part of the slave facet that its first `count` cells cover.
+template <int Dim>
+double cover_of(const std::vector<MortarCell<Dim>>& cells, std::size_t count) {
+  double cover = 0;
+  for (std::size_t c = 0; c < count; ++c) cover += cells[c].cover;
+  return cover;
+}
+
+/// Of several layers of master the nearest: cells are taken by distance while the facet has room.
+template <int Dim>
+void drop_covered(std::vector<MortarCell<Dim>>& cells, std::size_t& count) {
+  constexpr double room = 1 + 1e-3;
+  if (cover_of<Dim>(cells, count) <= room) return;
+  std::stable_sort(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(count),
+                   [](const MortarCell<Dim>& a, const MortarCell<Dim>& b) {
+                     return std::abs(a.distance) < std::abs(b.distance);
+                   });
+  double cover = 0;
+  std::size_t kept = 0;
+  while (kept < count && cover + cells[kept].cover <= room) cover += cells[kept++].cover;
+  count = kept;
+}
+
+/// A slave facet can be used when its nodes have normals.
+template <int Dim>
+bool usable(std::span<const std::size_t> local, const std::vector<NodalNormal<Dim>>& normals) {
+  return std::all_of(local.begin(), local.end(),
+                     [&](std::size_t i) { return normals[i].value.squaredNorm() > 0; });
+}
+
+/// Cells of slave facet `f`, without derivatives; returns how many.
+template <int Dim>
+std::size_t find_cells(const MortarSides<Dim>& sides, const SlaveSide<Dim>& slave, std::size_t f,
+                       Points<Dim> x, PairEvaluation<Dim>& out) {
+  std::vector<Index>& near = out.mortar.overlaps[f];
+  near.clear();
+  if (!usable<Dim>(out.mortar.slots[f], out.mortar.normals)) return 0;
+  out.tree.for_each_overlap(reach_of(slave, f, x), [&](Index m) { near.push_back(m); });
+  std::sort(near.begin(), near.end());
+  std::size_t count = 0;
+  for (const Index m : near) {
+    if (out.mortar.cells.size() <= count) out.mortar.cells.emplace_back();
+    if (mortar_cell(sides, static_cast<Index>(f), out.mortar.slots[f], m, x, false,
+                    out.mortar.cells[count]))
+      ++count;
+  }
+  drop_covered(out.mortar.cells, count);
+  constexpr double nothing = 1e-5;  // of a facet: the dual functions of less are all rounding
+  if (cover_of<Dim>(out.mortar.cells, count) < nothing) count = 0;
+  near.clear();
+  for (std::size_t c = 0; c < count; ++c) near.push_back(out.mortar.cells[c].master);
+  return count;
+}
+
+// ---- D and M of the nodes -----------------------------------------------------------------------
+
+void add_weight(MortarPlace& place, Index node, double weight) {
+  const std::size_t k = slot_of(place.nodes, node);
+  if (k == place.weights.size()) place.weights.push_back(0);
+  place.weights[k] += weight;
+}
+
+template <int Dim, class Facet>
+void add_facet(const MortarFacet<Dim>& matrices, const Facet& facet,
+               std::span<const std::size_t> local, Index master, Points<Dim> x,
+               std::vector<MortarNode<Dim>>& nodes) {
+  for (Eigen::Index j = 0; j < matrices.d.size(); ++j) {
+    MortarNode<Dim>& node = nodes[local[static_cast<std::size_t>(j)]];
+    node.area += matrices.d[j];
+    if (node.facet < 0) node.facet = master;
+    for (Eigen::Index k = 0; k < matrices.s.cols(); ++k) {
+      const Index by = facet.nodes[static_cast<std::size_t>(k)];
+      if (matrices.s(j, k) == 0) continue;
+      node.own += matrices.s(j, k) * x[at(by)];
+      add_weight(node.slaves, by, matrices.s(j, k));
+    }
+    for (std::size_t l = 0; l < matrices.masters.size(); ++l) {
+      const double m = matrices.m(j, static_cast<Eigen::Index>(l));
+      node.other += m * x[at(matrices.masters[l])];
+      add_weight(node.masters, matrices.masters[l], m);
+    }
+  }
+}
+
+template <int Dim>
+MortarSides<Dim> sides_of(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& out) {
+  return {&pair.slave.boundary,
+          &pair.master,
+          {pair.weight == Weight::current_area, pair.area, pair.reference},
+          out.mortar.normals};
+}
+
+/// D and M of slave facet `f` from its first `count` cells.
+template <int Dim>
+void matrices_of(const PairDefinition<Dim>& pair, std::size_t f, std::size_t count,
+                 bool derivatives, PairEvaluation<Dim>& out) {
+  constexpr double rounding = 1e-6;
+  const double cover = cover_of<Dim>(out.mortar.cells, count);
+  mortar_facet<Dim>(std::span(out.mortar.cells).first(count), pair.master,
+                    multiplier_basis(pair.slave.boundary.facets[f], cover > 1 - rounding),
+                    derivatives, out.mortar.facet);
+}
+
+template <int Dim>
+void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
+             PairEvaluation<Dim>& out) {
+  const std::size_t n = pair.slave.nodes.size();
+  set_slots(pair.slave, out.mortar.slots);
+  out.mortar.normals.resize(n);
+  out.mortar.nodes.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    nodal_normal(pair.slave, i, x, with_tangent, out.mortar.normals[i]);
+    MortarNode<Dim>& node = out.mortar.nodes[i];
+    node.area = 0;
+    node.own.setZero();
+    node.other.setZero();
+    for (MortarPlace* const place : {&node.slaves, &node.masters}) {
+      place->nodes.clear();
+      place->weights.clear();
+    }
+    node.facet = -1;
+    node.rates.clear();
+  }
+  const std::size_t before = out.boxes.size();
+  facet_boxes(pair.master, x, out.boxes);
+  if (before == out.boxes.size() && before > 0)
+    out.tree.refit(out.boxes);
+  else
+    out.tree = Tree<Dim>(out.boxes);
+  out.mortar.overlaps.resize(pair.slave.boundary.facets.size());
+  const MortarSides<Dim> sides = sides_of(pair, out);
+  for (std::size_t f = 0; f < out.mortar.overlaps.size(); ++f) {
+    const std::size_t count = find_cells(sides, pair.slave, f, x, out);
+    if (count == 0) continue;
+    matrices_of(pair, f, count, false, out);
+    add_facet<Dim>(out.mortar.facet, pair.slave.boundary.facets[f], out.mortar.slots[f],
+                   out.mortar.overlaps[f][0], x, out.mortar.nodes);
+  }
+}
+
+// ---- evaluation
+// -----------------------------------------------------------------------------------
+
+template <int Dim>
+bool in_contact(std::span<const std::size_t> local, const std::vector<PointResult<Dim>>& points) {
+  return std::any_of(local.begin(), local.end(),
+                     [&](std::size_t i) { return points[i].status != Status::open; });
+}
+
+/// Blocks of the facets, and all rates of the nodes.
+template <int Dim>
+void add_tangents(const PairDefinition<Dim>& pair, Points<Dim> x, PairEvaluation<Dim>& out) {
+  const MortarSides<Dim> sides = sides_of(pair, out);
+  std::size_t used = pair.slave.nodes.size();
+  for (std::size_t f = 0; f < out.mortar.overlaps.size(); ++f) {
+    if (out.mortar.overlaps[f].empty() || !in_contact<Dim>(out.mortar.slots[f], out.points))
+      continue;
+    std::size_t count = 0;
+    for (const Index m : out.mortar.overlaps[f]) {
+      if (out.mortar.cells.size() <= count) out.mortar.cells.emplace_back();
+      if (mortar_cell(sides, static_cast<Index>(f), out.mortar.slots[f], m, x, true,
+                      out.mortar.cells[count]))
+        ++count;
+    }
+    matrices_of(pair, f, count, true, out);
+    const auto& facet = pair.slave.boundary.facets[f];
+    const std::span<const Index> slaves(facet.nodes.data(), at(facet.count));
+    add_rates<Dim>(out.mortar.facet, slaves, out.mortar.slots[f], x, out.mortar.nodes);
+    if (out.blocks.size() <= used) out.blocks.emplace_back();
+    set_facet_tangent<Dim>(out.mortar.facet, slaves, out.mortar.slots[f], out.mortar.tractions,
+                           out.blocks[used++]);
+  }
+  out.blocks.resize(used);
+}
+
+template <int Dim>
+void clear(ContactBlock<Dim>& block) {
+  block.count = 0;
+  block.nodes.clear();
+  block.behind.path.clear();
+  block.tangent.resize(0, 0);
+  block.branched = false;
+}
+
+/// Parts of a node's area smaller than this are nothing.
+template <int Dim>
+bool covered(const MortarNode<Dim>& node, const NodalNormal<Dim>& normal, double full) {
+  constexpr double nothing = 1e-8;
+  return node.facet >= 0 && node.area > nothing * full && normal.value.squaredNorm() > 0;
+}
+
+/// Place of slave node `i` at the end of the last increment.
+template <int Dim>
+const MortarPlace& last_place(const PairState<Dim>& committed, std::size_t i) {
+  static const MortarPlace none;
+  return committed.places.empty() ? none : committed.places[i];
+}
+
+/// Place and traction of slave node `i`.
+template <int Dim>
+NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
+                               const PairState<Dim>& committed, const BranchHint<Dim>& hint,
+                               std::size_t i, PairEvaluation<Dim>& out) {
+  const MortarNode<Dim>& node = out.mortar.nodes[i];
+  PointResult<Dim>& result = out.points[i];
+  clear(out.blocks[i]);
+  result.gap = std::numeric_limits<double>::infinity();
+  result.weight = node.area;
+  result.history.friction_work = committed.points[i].friction_work;
+  if (!covered<Dim>(node, out.mortar.normals[i], pair.reference_areas[i])) return {};
+  NodeContact<Dim> c = place_node<Dim>(node, out.mortar.normals[i]);
+  out.mortar.places[i] = node.masters;
+  for (double& weight : out.mortar.places[i].weights) weight /= node.area;
+  if (c.gap >= -pair.depth) c.normal_law = pair.normal.response(c.gap);
+  if (c.normal_law.active && pair.friction)
+    set_friction<Dim>(*pair.friction, committed.points[i], last_place<Dim>(committed, i), x, hint,
+                      c);
+  report<Dim>(pair, committed.points[i], node, c, result);
+  if (!c.normal_law.active) return c;
+  set_forces<Dim>(node, c, out.blocks[i]);
+  out.mortar.tractions[i] = c.traction();
+  return c;
+}
+
+bool too_long(const Facet& facet) { return facet.count > max_mortar_line; }
+bool too_long(const SurfaceFacet&) { return false; }
+bool smoothed(const Facet& facet) { return facet.bezier != nullptr; }
+bool smoothed(const SurfaceFacet& facet) { return facet.patch != nullptr; }
+
+}  // namespace
+
+template <int Dim>
+void prepare_mortar(PairDefinition<Dim>& pair, Points<Dim> reference) {
+  const auto refuse = [](const char* why) { throw core::GeometryError(why); };
+  if (pair.weight == Weight::node)
+    refuse("mortar integrates over the slave's area: weight: node is not for it");
+  if (pair.scope.limited() || pair.edges.on)
+    refuse(
+        "contact of a surface with itself, of all bodies, and of edges is sampled at nodes only");
+  if (pair.history != HistoryRule::continuous)
+    refuse("mortar has its own history, without borders");
+  for (const auto& facets : pair.slave.facets_of)
+    if (facets.empty()) refuse("mortar integrates over facets, and the slave is a set of points");
+  for (const Boundary<Dim>* const side : {&pair.master, &pair.slave.boundary})
+    for (const auto& facet : side->facets) {
+      if (facet.shape)
+        refuse("mortar takes meshed sides: an analytic shape has no nodes that carry its share");
+      if (smoothed(facet)) refuse("mortar integrates over the facets of the mesh: no smoothing");
+      if (too_long(facet)) refuse("mortar takes lines of up to 4 nodes");
+    }
+  pair.reference.assign(reference.begin(), reference.end());
+}
+
+template <int Dim>
+void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
+                     const PairState<Dim>& committed, bool with_tangent, PairEvaluation<Dim>& out,
+                     const Assumed<Dim>& assumed) {
+  refresh<Dim>(pair, x, with_tangent, out);
+  const std::size_t n = pair.slave.nodes.size();
+  out.points.assign(n, {});
+  out.mortar.places.assign(n, {});
+  out.mortar.tractions.assign(n, Vec<Dim>::Zero());
+  out.blocks.resize(std::max(n, out.blocks.size()));
+  std::vector<NodeContact<Dim>> contacts(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    BranchHint<Dim> hint;
+    if (!assumed.branch.empty()) hint = {assumed.branch[i], assumed.predict};
+    contacts[i] = evaluate_node<Dim>(pair, x, committed, hint, i, out);
+  }
+  if (!with_tangent) {
+    out.blocks.resize(n);
+    return;
+  }
+  add_tangents<Dim>(pair, x, out);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (out.points[i].status == Status::open) continue;
+    set_path<Dim>(pair, contacts[i], last_place<Dim>(committed, i), out.mortar.normals[i],
+                  out.mortar.nodes[i], out.blocks[i]);
+  }
+}
+
+template <int Dim>
+PairState<Dim> initial_mortar_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
+  PairState<Dim> state;
+  state.points.resize(pair.slave.nodes.size());
+  PairEvaluation<Dim> work;
+  evaluate_mortar<Dim>(pair, x, state, false, work);
+  state = commit(work);
+  for (PointHistory<Dim>& h : state.points) {  // what it remembers has not slipped
+    h.traction.setZero();
+    h.slip.setZero();
+    h.slipping = false;
+    h.friction_work = 0;
+  }
+  return state;
+}
+
+template <int Dim>
+Mat<Dim, Dim - 1> mortar_frame(const PairDefinition<Dim>& pair, std::size_t i, Points<Dim> x) {
+  NodalNormal<Dim> normal;
+  nodal_normal(pair.slave, i, x, false, normal);
+  return normal.frame;
+}
+
+template void prepare_mortar<2>(PairDefinition<2>&, Points<2>);
+template void prepare_mortar<3>(PairDefinition<3>&, Points<3>);
+template void evaluate_mortar<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
+                                 PairEvaluation<2>&, const Assumed<2>&);
+template void evaluate_mortar<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,
+                                 PairEvaluation<3>&, const Assumed<3>&);
+template PairState<2> initial_mortar_state<2>(const PairDefinition<2>&, Points<2>);
+template PairState<3> initial_mortar_state<3>(const PairDefinition<3>&, Points<3>);
+template Mat<2, 1> mortar_frame<2>(const PairDefinition<2>&, std::size_t, Points<2>);
+template Mat<3, 2> mortar_frame<3>(const PairDefinition<3>&, std::size_t, Points<3>);
+
+}  // namespace osculate::pairing

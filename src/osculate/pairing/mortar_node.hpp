@@ -1,0 +1,67 @@
+#pragma once
+// Slave nodes of a mortar pair: tractions from D and M, forces, derivatives; for sources of this
+// layer.
+#include "osculate/pairing/friction_branch.hpp"
+#include "osculate/pairing/pair.hpp"
+
+namespace osculate::pairing {
+
+/// A slave node over the master, with what its derivatives need.
+template <int Dim>
+struct NodeContact {
+  Vec<Dim> foot, apart;  ///< y and x - y
+  Vec<Dim> normal;       ///< out of the master
+  Mat<Dim, Dim - 1> frame;
+  double gap = 0;
+  contact::NormalResponse normal_law;
+  bool sliding = false;  ///< there is friction and a last place
+  ContactShare share;
+  Vec<Dim> way = Vec<Dim>::Zero();  ///< y - y_old
+  Vec<Dim - 1> trial = Vec<Dim - 1>::Zero();
+  contact::TangentialResponse<Dim> law, linearised;
+
+  /// Traction of the branch that is linearised.
+  [[nodiscard]] Vec<Dim> traction() const {
+    return normal_law.traction * normal + frame * linearised.traction;
+  }
+};
+
+/// Where the node lies over the master.
+template <int Dim>
+[[nodiscard]] NodeContact<Dim> place_node(const MortarNode<Dim>& node,
+                                          const NodalNormal<Dim>& normal);
+
+/// Slip since the last place and the shear traction.
+template <int Dim>
+void set_friction(const contact::Coulomb& law, const contact::PointHistory<Dim>& history,
+                  const MortarPlace& last, Points<Dim> x, const BranchHint<Dim>& hint,
+                  NodeContact<Dim>& c);
+
+template <int Dim>
+void report(const PairDefinition<Dim>& pair, const contact::PointHistory<Dim>& old,
+            const MortarNode<Dim>& node, const NodeContact<Dim>& c, PointResult<Dim>& result);
+
+template <int Dim>
+void set_forces(const MortarNode<Dim>& node, const NodeContact<Dim>& c, ContactBlock<Dim>& block);
+
+/// Adds the derivatives of d_j, sum_k D_jk x_k and sum_l M_jl x_l of a facet's nodes, those of D
+/// and M alone.
+template <int Dim>
+void add_rates(const MortarFacet<Dim>& matrices, std::span<const Index> slaves,
+               std::span<const std::size_t> local, Points<Dim> x,
+               std::vector<MortarNode<Dim>>& nodes);
+
+/// The derivatives of D and M times the tractions.
+template <int Dim>
+void set_facet_tangent(const MortarFacet<Dim>& matrices, std::span<const Index> slaves,
+                       std::span<const std::size_t> local,
+                       std::type_identity_t<std::span<const Vec<Dim>>> tractions,
+                       ContactBlock<Dim>& block);
+
+/// Completes the rates of a node by those at fixed D and M, of the last place and of the frame, and
+/// sets the derivative of its traction as path of the block.
+template <int Dim>
+void set_path(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c, const MortarPlace& last,
+              const NodalNormal<Dim>& normal, MortarNode<Dim>& node, ContactBlock<Dim>& block);
+
+}  // namespace osculate::pairing

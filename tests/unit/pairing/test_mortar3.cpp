@@ -1,0 +1,170 @@
+// Mortar contact in space: balance, uniform pressure, derivatives by order.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "mortar_checks.hpp"
+#include "mortar_sample3.hpp"
+
+namespace osculate::testing {
+namespace {
+
+using cell::CellType;
+using contact::Status;
+using pairing::Weight;
+
+class MortarFacets : public ::testing::TestWithParam<std::tuple<CellType, CellType, Weight>> {};
+
+TEST_P(MortarFacets, TangentIsTheDerivativeOfTheResidual) {
+  const auto [slave, master, weight] = GetParam();
+  MortarSample<3> s = make_mortar3({.slave = slave,
+                                    .master = master,
+                                    .slave_cells = 1,
+                                    .master_cells = 2,
+                                    .depth = 0.15,
+                                    .skew = 0.1,
+                                    .bend = 0.02});
+  s.pair.weight = weight;
+  expect_second_order(s, 2e-3, "inside");
+}
+
+TEST_P(MortarFacets, TangentWhereTheSlaveLeavesTheMaster) {
+  const auto [slave, master, weight] = GetParam();
+  MortarSample<3> s = make_mortar3({.slave = slave,
+                                    .master = master,
+                                    .slave_cells = 2,
+                                    .master_cells = 1,
+                                    .from = -0.33,
+                                    .to = 3.27,
+                                    .depth = 0.2,
+                                    .skew = 0.05,
+                                    .bend = 0.005});
+  s.pair.weight = weight;
+  expect_second_order(s, 2e-3, "over the border");
+}
+
+TEST_P(MortarFacets, ForcesBalance) {
+  const auto [slave, master, weight] = GetParam();
+  MortarSample<3> s = make_mortar3({.slave = slave, .master = master, .skew = 0.1, .bend = 0.02});
+  s.pair.weight = weight;
+  expect_balance(s);
+}
+
+// A uniform gap between flat surfaces gives the nodal forces of a uniform pressure on both sides,
+// whichever is wholly covered: the contact patch test without its bodies.
+TEST_P(MortarFacets, UniformGapIsUniformPressureOnBothSides) {
+  const auto [slave, master, weight] = GetParam();
+  for (const bool longer : {true, false})
+    for (const double skew : {0.0, 0.15}) {
+      MortarSample<3> s = make_mortar3({.slave = slave,
+                                        .master = master,
+                                        .slave_cells = 3,
+                                        .master_cells = 2,
+                                        .from = longer ? -0.4 : 0.4,
+                                        .to = longer ? 3.3 : 2.7,
+                                        .skew = skew,
+                                        .keep_border = true});
+      s.pair.weight = weight;
+      expect_uniform_pressure(s, longer, longer ? 9.0 : 2.3 * 2.3, 1e-10);
+    }
+}
+
+// The same mesh on both sides: every edge lies on one of the other side.
+TEST_P(MortarFacets, MatchingMeshes) {
+  const auto [slave, master, weight] = GetParam();
+  MortarSample<3> s = make_mortar3(
+      {.slave = slave, .master = master, .slave_cells = 2, .master_cells = 2, .from = 0, .to = 3});
+  s.pair.weight = weight;
+  expect_uniform_pressure(s, true, 9.0, 1e-10);
+  const Eigen::MatrixXd k = mortar_tangent(s, flat<3>(s.x));
+  EXPECT_TRUE(k.allFinite());
+  EXPECT_LT(k.norm(), 1000 * 9.0 * 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, MortarFacets,
+    ::testing::Combine(::testing::Values(CellType::tri3, CellType::quad4, CellType::tri6,
+                                         CellType::quad8, CellType::quad9),
+                       ::testing::Values(CellType::tri3, CellType::quad4, CellType::tri6,
+                                         CellType::quad9),
+                       ::testing::Values(Weight::reference_area, Weight::current_area)));
+
+// ---- friction -----------------------------------------------------------------------------------
+
+class MortarShear : public ::testing::TestWithParam<CellType> {};
+
+TEST_P(MortarShear, TangentInEveryBranch) {
+  for (const double mu : {10.0, 0.002})
+    for (const bool active : {true, false}) {
+      MortarSample<3> s = make_mortar3({.slave = GetParam(),
+                                        .slave_cells = 1,
+                                        .master_cells = 2,
+                                        .depth = 0.15,
+                                        .skew = 0.1,
+                                        .bend = 0.02});
+      s.pair.friction = contact::Coulomb{mu, 300.0};
+      const Vec3 shift = turn_of({0.4, -0.3, 0.2}) * Vec3(0.03, -0.02, active ? 0.01 : -0.5);
+      remember<3>(s, shift, Vec2(2.0, -3.0), active);
+      expect_second_order(s, 1e-3, "mu " + std::to_string(mu));
+    }
+}
+
+// On a flat master without turning the slip is the way, over all borders of facets.
+TEST_P(MortarShear, SlipIsTheWayAlongTheMaster) {
+  MortarSample<3> s = make_mortar3({.slave = GetParam(), .slave_cells = 1, .from = 1.6, .to = 2.2});
+  s.pair.friction = contact::Coulomb{1e6, 300.0};
+  const Vec3 way = turn_of({0.4, -0.3, 0.2}) * Vec3(0.9, 0.5, 0);
+  remember<3>(s, way, Vec2(1.5, -0.5), true);
+  for (const auto& p : mortar_evaluation(s, flat<3>(s.x)).points) {
+    EXPECT_LT((p.frame * p.slip_increment - way).norm(), 1e-11);
+    EXPECT_LT((p.shear_traction - Vec2(1.5, -0.5) - 300 * p.slip_increment).norm(), 1e-9);
+    EXPECT_LT((p.frame.transpose() * p.frame - Mat<2, 2>::Identity()).norm(), 1e-14);
+    EXPECT_LT((p.frame.col(0).cross(p.frame.col(1)) - p.normal).norm(), 1e-13);
+  }
+}
+
+TEST_P(MortarShear, NothingSlipsWhenBothTurnTogether) {
+  MortarSample<3> s = make_mortar3({.slave = GetParam(), .depth = 0.15, .skew = 0.1, .bend = 0.01});
+  s.pair.friction = contact::Coulomb{1e6, 300.0};
+  remember<3>(s, Vec3::Zero(), Vec2(1.5, -0.5), true);
+  const Eigen::VectorXd r = mortar_residual(s, flat<3>(s.x));
+  const Mat<3, 3> turned = turn_of({1.0, 0.5, -2.0});
+  std::vector<Vec3> moved;
+  for (const Vec3& p : s.x) moved.push_back(turned * p + Vec3(3, -7, 1));
+  const Eigen::VectorXd after = mortar_residual(s, flat<3>(moved));
+  for (const auto& p : mortar_evaluation(s, flat<3>(moved)).points)
+    EXPECT_LT(p.slip_increment.norm(), 1e-11);
+  for (Eigen::Index n = 0; n < r.size() / 3; ++n)
+    EXPECT_LT((after.segment<3>(3 * n) - turned * r.segment<3>(3 * n)).norm(), 1e-10 * r.norm());
+}
+
+// The slave slides over corners and edges of a flat, skewed master: no slave force changes.
+TEST_P(MortarShear, NoJumpAtCrossingsOnAFlatSurface) {
+  MortarSample<3> s = make_mortar3({.slave = GetParam(),
+                                    .slave_cells = 1,
+                                    .master_cells = 4,
+                                    .from = 0.4,
+                                    .to = 1.1,
+                                    .skew = 0.05,
+                                    .keep_border = true});
+  const Vec3 step = turn_of({0.4, -0.3, 0.2}) * Vec3(0.023, 0.037, 0);
+  const auto forces = [&] {
+    const Eigen::VectorXd r = mortar_residual(s, flat<3>(s.x));
+    Eigen::VectorXd out(3 * static_cast<Eigen::Index>(s.pair.slave.nodes.size()));
+    for (std::size_t k = 0; k < s.pair.slave.nodes.size(); ++k)
+      out.segment<3>(3 * static_cast<Eigen::Index>(k)) = r.segment<3>(3 * s.pair.slave.nodes[k]);
+    return out;
+  };
+  const Eigen::VectorXd first = forces();
+  for (int i = 0; i < 40; ++i) {
+    for (const Index n : s.pair.slave.nodes) s.x[static_cast<std::size_t>(n)] += step;
+    EXPECT_LT((forces() - first).norm(), 1e-9 * first.norm()) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, MortarShear,
+                         ::testing::Values(CellType::tri3, CellType::quad4, CellType::tri6,
+                                           CellType::quad8, CellType::quad9));
+
+}  // namespace
+}  // namespace osculate::testing
