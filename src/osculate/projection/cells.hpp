@@ -84,6 +84,8 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::array<Vec<Dim>, 2> corner_directions(const CellComplex<Dim>& all,
                                                         const CellPart& corner);
+/// An edge that has shrunk to a point (not one that comes back to where it began).
+[[nodiscard]] bool collapsed(const CellComplex<3>& all, const Cell& cell, int edge);
 /// Cell coordinates of its middle.
 template <int Dim>
 [[nodiscard]] Vec2 middle_xi(const CellComplex<Dim>& all, const Cell& cell);

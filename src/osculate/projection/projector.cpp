@@ -262,6 +262,10 @@ const Target<Dim>& Projector<Dim>::target() const {
   return impl_->target;
 }
 template <int Dim>
+const CellComplex<Dim>* Projector<Dim>::cells() const {
+  return impl_->analytic ? nullptr : &impl_->all;
+}
+template <int Dim>
 double Projector<Dim>::size() const {
   return impl_->size;
 }
@@ -330,6 +334,24 @@ ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) cons
   for_each_possible(impl.trees, point, nearest.reach,
                     [&](Index k) { look_at_piece<Dim>(impl, k, point, mode, tolerance, nearest); });
   return conclude<Dim>(impl, point, mode, tolerance, nearest.best);
+}
+
+template <int Dim>
+ClosestPoint<Dim> Projector<Dim>::nearest_within(const Vec<Dim>& point,
+                                                 double squared_bound) const {
+  const Impl& impl = *impl_;
+  if (!can_be_asked<Dim>(point)) return {};
+  if (impl.analytic) {
+    const ClosestPoint<Dim> c = *shape_answer(std::get<Shape<Dim>>(impl.target), point);
+    return c.distance * c.distance <= squared_bound ? c : ClosestPoint<Dim>{};
+  }
+  const double tolerance = tolerance_at<Dim>(impl, point);
+  NearestSink<Dim> nearest{point};
+  nearest.reach = squared_bound;
+  for_each_possible(impl.trees, point, nearest.reach, [&](Index k) {
+    look_at_piece<Dim>(impl, k, point, Mode::nearest, tolerance, nearest);
+  });
+  return conclude<Dim>(impl, point, Mode::nearest, tolerance, nearest.best);
 }
 
 template <int Dim>

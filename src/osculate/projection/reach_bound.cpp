@@ -55,6 +55,27 @@ struct BoundResult {
   Gap gap = Gap::none;
 };
 
+/// Halves of a feature with the bounds of their curvature; of a face those that bound it better.
+template <int Dim>
+bool halve_best(const CellComplex<Dim>& all, int side, const ReachFeature<Dim>& f,
+                std::array<ReachFeature<Dim>, 2>& halves, std::array<double, 2>& bends) {
+  const bool both = f.kind == FeatureKind::face && Dim == 3 && !f.piece.triangle;
+  if (!halve(all, side, f, halves, both ? 0 : -1)) return false;
+  bends = {bend_of(halves[0], side), bend_of(halves[1], side)};
+  if (!both) return true;
+  std::array<ReachFeature<Dim>, 2> others;
+  if (!halve(all, side, f, others, 1)) return true;
+  const std::array<double, 2> other{bend_of(others[0], side), bend_of(others[1], side)};
+  const double here = std::max(bends[0], bends[1]), there = std::max(other[0], other[1]);
+  const bool longer =
+      std::isinf(here) && std::isinf(there) && longer_direction<Dim>(f.piece, f.control) == 1;
+  if (there < here || longer) {
+    halves = std::move(others);
+    bends = other;
+  }
+  return true;
+}
+
 /// The smallest radius of curvature from below; ends at `wanted`.
 template <int Dim>
 BoundResult smallest_radius(const CellComplex<Dim>& all, int side,
@@ -67,26 +88,25 @@ BoundResult smallest_radius(const CellComplex<Dim>& all, int side,
   const auto less = [](const Open& a, const Open& b) { return a.bend < b.bend; };
   std::vector<Open> heap;
   const double enough = 1 / wanted;
-  const auto push = [&](const ReachFeature<Dim>& f) {
-    const double bend = bend_of(f, side);
+  const auto push = [&](const ReachFeature<Dim>& f, double bend) {
     if (bend <= enough) return;
     heap.push_back({bend, f});
     std::push_heap(heap.begin(), heap.end(), less);
   };
-  for (const ReachFeature<Dim>& f : list) push(f);
+  for (const ReachFeature<Dim>& f : list) push(f, bend_of(f, side));
   while (!heap.empty()) {
     const Open& top = heap.front();
     const double radius = std::isfinite(top.bend) ? 1 / top.bend : 0;
-    const bool pole = !top.feature.owners[0].normal.narrow();
+    const bool pole = std::isinf(top.bend);
     if (top.feature.radius < 1e-5 * size || --effort < 0)
       return {radius, pole ? Gap::pole : Gap::effort};
     std::pop_heap(heap.begin(), heap.end(), less);
     const Open open = std::move(heap.back());
     heap.pop_back();
     std::array<ReachFeature<Dim>, 2> halves;
-    if (!halve(all, side, open.feature, halves)) return {radius, Gap::effort};
-    push(halves[0]);
-    push(halves[1]);
+    std::array<double, 2> bends{};
+    if (!halve_best(all, side, open.feature, halves, bends)) return {radius, Gap::effort};
+    for (std::size_t k = 0; k < 2; ++k) push(halves[k], bends[k]);
   }
   return {wanted, Gap::none};
 }

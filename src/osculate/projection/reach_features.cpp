@@ -1,4 +1,5 @@
 // Parts of a surface with their normal directions, for the bound of its reach.
+// size: what features are made from and what their halves are made from is the same
 #include "osculate/projection/reach_features.hpp"
 
 #include <Eigen/Geometry>
@@ -14,7 +15,9 @@ std::string_view name(Gap gap) {
     case Gap::none:
       return "none";
     case Gap::irregular:
-      return "more than two facets meet at an edge or node";
+      return "facets of opposite orientation, or more than two, meet at an edge or node";
+    case Gap::kink:
+      return "an edge or corner opens to the other side";
     case Gap::notch:
       return "the border has a re-entrant corner";
     case Gap::pole:
@@ -145,25 +148,40 @@ void bar_edge(int side, ReachFeature<3>& f, bool border) {
 
 struct EdgeState {
   bool border = false, sharp = false;
+  bool ridge = true;    ///< sharp: opens above, else below
+  bool regular = true;  ///< two facets of the same orientation
 };
+
+bool same_orientation(const CellComplex<3>& all, const CellPart& a, const CellPart& b) {
+  const Cell &p = all.cell(a.cell), &q = all.cell(b.cell);
+  const auto end = [](const Cell& cell, int local) {
+    return cell.vertex[at((local + 1) % corner_count(cell))];
+  };
+  return p.vertex[at(a.local)] == end(q, b.local) && end(p, a.local) == q.vertex[at(b.local)];
+}
 
 /// The angle of an inner edge at five places decides whether it is sharp.
 EdgeState state_of(const CellComplex<3>& all, const CellPart& part, double kink) {
   const Cell& cell = all.cell(part.cell);
-  const auto k = at(part.local);
   const int n = corner_count(cell);
-  if (cell.vertex[k] == cell.vertex[at((part.local + 1) % n)]) return {};  // a pole
-  const auto sharing = all.at_edge.of(cell.group[k]);
-  if (sharing.size() == 1) return {true, false};
-  const CellPart other =
-      sharing[0].cell == part.cell && sharing[0].local == part.local ? sharing[1] : sharing[0];
+  if (collapsed(all, cell, part.local)) return {};  // a pole
+  const auto sharing = all.at_edge.of(cell.group[at(part.local)]);
+  if (sharing.size() == 1) return {.border = true};
+  const bool first = sharing[0].cell == part.cell && sharing[0].local == part.local;
+  const CellPart other = sharing[first ? 1 : 0];
+  if (sharing.size() > 2 || !same_orientation(all, part, other)) return {.regular = false};
   const Vec2 a = corner_xi(all, cell, part.local), b = corner_xi(all, cell, (part.local + 1) % n);
+  const Cell& beyond = all.cell(other.cell);
   for (const double t : {0.1, 0.3, 0.5, 0.7, 0.9}) {
     const Vec2 xi = (1 - t) * a + t * b;
     const Vec3 m = cell_normal<3>(cell_jet(all, cell, xi));
-    const Cell& beyond = all.cell(other.cell);
-    const Vec3 o = cell_normal<3>(cell_jet(all, beyond, across_edge(all, part, xi, other)));
-    if (std::atan2(m.cross(o).norm(), m.dot(o)) > kink) return {false, true};
+    const Vec2 over = across_edge(all, part, xi, other);
+    const PieceJet<3> j = cell_jet(all, beyond, over);
+    const Vec3 o = cell_normal<3>(j);
+    if (!(std::atan2(m.cross(o).norm(), m.dot(o)) > kink)) continue;
+    const Vec2 inwards = middle_xi(all, beyond) - over;
+    const Vec3 into = inwards[0] * j.r1[0] + inwards[1] * j.r1[1];
+    return {.sharp = true, .ridge = m.dot(into) <= 0};
   }
   return {};
 }
@@ -233,16 +251,19 @@ struct Fan {
   Cone<Dim> cone;
   double angle = 0;  ///< of all faces
   bool border = false, sharp = false;
+  Gap gap = Gap::none;
 };
 
-Fan<2> fan_of(const CellComplex<2>& all, Index vertex, double kink) {
+Fan<2> fan_of(const CellComplex<2>& all, Index vertex, int side, double kink) {
   Fan<2> fan;
   bool any = false;
+  std::array<Vec2, 2> leaving{Vec2::Zero(), Vec2::Zero()};  // by the end of the cell
   for (const CellPart& part : all.at_vertex.of(vertex)) {
     const Cell& cell = all.cell(part.cell);
     const PieceJet<2> j = cell_jet(all, cell, corner_xi(all, cell, part.local));
     const Vec2 n = cell_normal<2>(j);
     fan.tangents.push_back(corner_directions(all, part)[0].normalized());
+    leaving[at(part.local)] = fan.tangents.back();
     const Cone<2> one{n, 1e-9};
     fan.cone = any ? join<2>(fan.cone, one) : one;
     any = true;
@@ -250,12 +271,18 @@ Fan<2> fan_of(const CellComplex<2>& all, Index vertex, double kink) {
   }
   fan.border = fan.tangents.size() == 1;
   if (fan.border) fan.outward = {Vec2(-fan.tangents[0])};
-  if (fan.tangents.size() == 2)
-    fan.sharp = std::abs(corner_angle(Vec2(-fan.tangents[0]), fan.tangents[1])) > kink;
+  if (fan.border) return fan;
+  if (fan.tangents.size() > 2 || leaving[0].isZero() || leaving[1].isZero()) {
+    fan.gap = Gap::irregular;
+    return fan;
+  }
+  const double angle = corner_angle(Vec2(-leaving[1]), leaving[0]);
+  fan.sharp = std::abs(angle) > kink;
+  if (side * angle < -kink) fan.gap = Gap::kink;
   return fan;
 }
 
-Fan<3> fan_of(const CellComplex<3>& all, Index vertex, double kink) {
+Fan<3> fan_of(const CellComplex<3>& all, Index vertex, int, double kink) {
   Fan<3> fan;
   bool any = false;
   for (const CellPart& part : all.at_vertex.of(vertex)) {
@@ -289,8 +316,8 @@ void add_point(const CellComplex<Dim>& all, int side, Index vertex, double kink,
                ReachFeatures<Dim>& out) {
   const auto around = all.at_vertex.of(vertex);
   if (around.empty()) return;
-  if (Dim == 2 && around.size() > 2) out.gap = Gap::irregular;
-  const Fan<Dim> fan = fan_of(all, vertex, kink);
+  const Fan<Dim> fan = fan_of(all, vertex, side, kink);
+  if (fan.gap != Gap::none) out.gap = fan.gap;
   if (!fan.border && !fan.sharp) return;
   constexpr double straight = 3.141592653589793;
   if (Dim == 3 && fan.border && !fan.sharp && fan.angle > straight + std::max(kink, 1e-6))
@@ -340,11 +367,9 @@ ReachFeatures<Dim> features_of(const CellComplex<Dim>& all, int side, double kin
         if (own.side[s] < 0) continue;
         const CellPart part{own.cell, own.side[s]};
         const auto sharing = all.at_edge.of(all.cell(own.cell).group[at(own.side[s])]);
-        if (sharing.size() > 2) {
-          out.gap = Gap::irregular;
-          continue;
-        }
         const EdgeState state = state_of(all, part, kink);
+        if (!state.regular) out.gap = Gap::irregular;
+        if (state.sharp && state.ridge != (side > 0)) out.gap = Gap::kink;
         const bool first = sharing[0].cell == part.cell && sharing[0].local == part.local;
         if (state.border || (state.sharp && first)) add_edge(all, side, own, s, state, out.list);
       }
@@ -427,7 +452,7 @@ void halve_edge(const CellComplex<3>& all, int side, const ReachFeature<3>& f,
 
 template <int Dim>
 bool halve(const CellComplex<Dim>& all, int side, const ReachFeature<Dim>& f,
-           std::array<ReachFeature<Dim>, 2>& halves) {
+           std::array<ReachFeature<Dim>, 2>& halves, int direction) {
   if (f.control.empty()) return false;
   if (f.kind != FeatureKind::face) {
     if constexpr (Dim == 3) halve_edge(all, side, f, halves);
@@ -438,7 +463,8 @@ bool halve(const CellComplex<Dim>& all, int side, const ReachFeature<Dim>& f,
   if (f.piece.triangle)
     cut_triangle(f, longest_side<Dim>(f.control), points, pieces);
   else
-    cut(f.piece, f.control, longer_direction<Dim>(f.piece, f.control), pieces, points);
+    cut(f.piece, f.control, direction >= 0 ? direction : longer_direction<Dim>(f.piece, f.control),
+        pieces, points);
   for (std::size_t k = 0; k < 2; ++k)
     halves[k] = face_feature<Dim>(all, side, pieces[k], std::move(points[k]));
   return true;
@@ -486,9 +512,9 @@ bool one_graph(const CellComplex<Dim>& all, const ReachFeature<Dim>& a,
 template ReachFeatures<2> features_of(const CellComplex<2>&, int, double);
 template ReachFeatures<3> features_of(const CellComplex<3>&, int, double);
 template bool halve(const CellComplex<2>&, int, const ReachFeature<2>&,
-                    std::array<ReachFeature<2>, 2>&);
+                    std::array<ReachFeature<2>, 2>&, int);
 template bool halve(const CellComplex<3>&, int, const ReachFeature<3>&,
-                    std::array<ReachFeature<3>, 2>&);
+                    std::array<ReachFeature<3>, 2>&, int);
 template bool meet(const CellComplex<2>&, const ReachFeature<2>&, const ReachFeature<2>&);
 template bool meet(const CellComplex<3>&, const ReachFeature<3>&, const ReachFeature<3>&);
 template bool one_graph(const CellComplex<2>&, const ReachFeature<2>&, const ReachFeature<2>&);

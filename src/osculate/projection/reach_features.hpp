@@ -53,7 +53,8 @@ struct ReachFeature {
 /// Why nothing can be proved.
 enum class Gap : std::uint8_t {
   none,
-  irregular,  ///< more than two facets at an edge
+  irregular,  ///< facets of opposite orientation, or more than two
+  kink,       ///< an edge or corner opens to the other side: the reach is zero
   notch,      ///< a re-entrant corner of the border: the reach is zero there
   pole,       ///< places without a normal
   touch,      ///< parts that the bounds cannot separate: they touch, or nearly
@@ -73,10 +74,11 @@ struct ReachFeatures {
 template <int Dim>
 [[nodiscard]] ReachFeatures<Dim> features_of(const CellComplex<Dim>& all, int side, double kink);
 
-/// The two halves of a feature; false where it cannot be divided.
+/// The two halves of a feature; false where it cannot be divided. A face is cut across its longer
+/// direction, or across the one that is given.
 template <int Dim>
 [[nodiscard]] bool halve(const CellComplex<Dim>& all, int side, const ReachFeature<Dim>& feature,
-                         std::array<ReachFeature<Dim>, 2>& halves);
+                         std::array<ReachFeature<Dim>, 2>& halves, int direction = -1);
 
 /// Both belong to cells that share an edge, a corner or themselves, reach what they share, and
 /// their normals lie in one narrow cone: together they are a graph over the plane across its axis,
