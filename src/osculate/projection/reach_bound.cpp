@@ -13,6 +13,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double most_sizes = 1e3;
+constexpr std::size_t most_features = 2000;
 
 template <int Dim>
 double angle_between(const Vec<Dim>& a, const Vec<Dim>& b) {
@@ -37,7 +38,7 @@ double bend_of(const ReachFeature<Dim>& f, int side) {
     const Cone<3> into = inward_cone<3>(f.piece, f.control, f.side);
     Vec3 out = into.axis.dot(along.axis) * along.axis - into.axis;
     out -= out.dot(up.axis) * up.axis;
-    const Cone<3> outwards{out.normalized(), normal.angle + along.angle};
+    const Cone<3> outwards{out.normalized(), 1.2 * (normal.angle + along.angle)};
     const double a = largest_side_bend(f.piece, f.control, f.side, up);
     const double b = largest_side_bend(f.piece, f.control, f.side, outwards);
     if (f.directions.narrow() && f.directions.angle > 0.8) {  // a wedge of more than 90 degrees
@@ -135,7 +136,6 @@ class PairSearch {
 
   BoundResult run() {
     const auto count = static_cast<Index>(list_.size());
-    if (count > most_features) return {0, Gap::effort};
     for (Index p = 0; p < count; ++p)
       for (Index q = 0; q < count; ++q) push(p, q);
     while (!heap_.empty()) {
@@ -158,7 +158,6 @@ class PairSearch {
   }
 
  private:
-  static constexpr Index most_features = 4000;
   struct Pair {
     double least = 0, size = 0;
     Index p = -1, q = -1;
@@ -279,8 +278,10 @@ class PairSearch {
 template <int Dim>
 SideBound bound_side(const CellComplex<Dim>& all, int side, double size, double found,
                      const ReachBoundOptions& options) {
+  if (all.set.pieces.size() > most_features) return {0, Gap::size};
   ReachFeatures<Dim> features = features_of(all, side, options.kink);
   if (features.gap != Gap::none) return {0, features.gap};
+  if (features.list.size() > most_features) return {0, Gap::size};
   const double end = most_sizes * size;  // farther is without end, as in `reach`
   const double wanted = std::min(found * (1 - options.tolerance), end);
   const BoundResult bend =

@@ -26,6 +26,8 @@ std::string_view name(Gap gap) {
       return "there are parts that the bounds cannot separate: they touch, or nearly";
     case Gap::effort:
       return "the search was given up";
+    case Gap::size:
+      return "there are more than 2000 pieces, edges and corners";
     case Gap::shape:
       break;
   }
@@ -143,7 +145,7 @@ void bar_edge(int side, ReachFeature<3>& f, bool border) {
   Vec3 out = into.axis.dot(along.axis) * along.axis - into.axis;
   out -= out.dot(up) * up;
   f.outermost = {Vec3(out.normalized())};
-  f.spread = normal.angle + along.angle;  // -n x tau
+  f.spread = 1.2 * (normal.angle + along.angle);  // n x tau, with axes that are not quite across
 }
 
 struct EdgeState {

@@ -59,6 +59,7 @@ enum class Gap : std::uint8_t {
   pole,       ///< places without a normal
   touch,      ///< parts that the bounds cannot separate: they touch, or nearly
   effort,     ///< the search was given up
+  size,       ///< too many parts
   shape       ///< an analytic shape without a formula here
 };
 [[nodiscard]] std::string_view name(Gap gap);
