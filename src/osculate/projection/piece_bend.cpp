@@ -140,6 +140,26 @@ double turned_away(const Vectors<Dim>& z, const Cone<Dim>& cone) {
   return most;
 }
 
+/// The largest ratio of b + extra against a over pairs of coefficients; infinite where an a is not
+/// positive.
+template <int M>
+double largest_ratio(const std::vector<Mat<M, M>>& a, const std::vector<Mat<M, M>>& b,
+                     const Mat<M, M>& back, double extra) {
+  double most = -infinite;
+  for (std::size_t c = 0; c < a.size(); ++c) {
+    const Mat<M, M> own = back.transpose() * a[c] * back;
+    const Mat<M, M> bent = back.transpose() * b[c] * back + extra * Mat<M, M>::Identity();
+    const Eigen::LLT<Mat<M, M>> root(own);
+    if (root.info() != Eigen::Success || !own.allFinite()) return infinite;
+    const Mat<M, M> side = root.matrixL().solve(bent);
+    const Mat<M, M> ratio = root.matrixL().solve(Mat<M, M>(side.transpose()));
+    most = std::max(most, Eigen::SelfAdjointEigenSolver<Mat<M, M>>(ratio, Eigen::EigenvaluesOnly)
+                              .eigenvalues()
+                              .maxCoeff());
+  }
+  return std::isfinite(most) ? most : infinite;
+}
+
 /// The largest h against a, M parameters (the first M directions).
 template <int Dim, int M>
 double largest_ratio(const Homogeneous<Dim>& h, const Cone<Dim>& cone) {
@@ -190,19 +210,7 @@ double largest_ratio(const Homogeneous<Dim>& h, const Cone<Dim>& cone) {
     }
   const Mat<M, M> size = back.cwiseAbs();
   const Mat<M, M> spread = size.transpose() * away * size;
-  double most = -infinite;
-  for (std::size_t c = 0; c < a.size(); ++c) {
-    const Mat<M, M> own = back.transpose() * a[c] * back;
-    const Mat<M, M> bent = back.transpose() * b[c] * back + spread.norm() * Mat<M, M>::Identity();
-    const Eigen::LLT<Mat<M, M>> root(own);
-    if (root.info() != Eigen::Success || !own.allFinite()) return infinite;
-    const Mat<M, M> side = root.matrixL().solve(bent);
-    const Mat<M, M> ratio = root.matrixL().solve(Mat<M, M>(side.transpose()));
-    most = std::max(most, Eigen::SelfAdjointEigenSolver<Mat<M, M>>(ratio, Eigen::EigenvaluesOnly)
-                              .eigenvalues()
-                              .maxCoeff());
-  }
-  return std::isfinite(most) ? most : infinite;
+  return largest_ratio<M>(a, b, back, spread.norm());
 }
 
 }  // namespace
