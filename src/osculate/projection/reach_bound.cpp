@@ -288,7 +288,7 @@ SideBound bound_side(const CellComplex<Dim>& all, int side, double size, double 
       smallest_radius<Dim>(all, side, features.list, size, wanted, options.effort);
   if (!(bend.value > 0)) return {0, bend.gap};
   PairSearch<Dim> pairs(all, side, std::move(features.list), size, std::min(wanted, bend.value),
-                        8 * options.effort);
+                        16 * options.effort);
   const BoundResult pair = pairs.run();
   const double least = std::min(pair.value, bend.value);
   if (least >= end) return {infinite, Gap::none};

@@ -17,7 +17,7 @@ struct ReachBound {
 struct ReachBoundOptions {
   double kink = 1e-4;       ///< as in ReachOptions
   double tolerance = 0.01;  ///< where the search ends: 1 - least/found
-  int effort = 50000;       ///< halvings for the curvature of each side, eight times as many pairs
+  int effort = 50000;       ///< halvings for the curvature of each side, 16 times as many pairs
 };
 
 /// A bound of the reach from below, by branch and bound over the pieces.

@@ -288,17 +288,18 @@ TEST(ReachBound, NotBeyondBruteForceOnRandomPatches) {
 }
 
 TEST(ReachBound, TurnsMovesAndScales) {
-  const NurbsPatch one = ring(2, 0.6);
   const Mat<3, 3> turned = Eigen::AngleAxisd(0.8, Vec3(1, 2, -1).normalized()).toRotationMatrix();
   for (const double scale : {1e-9, 1e9}) {
-    NurbsPatch other = one;
-    for (Vec3& p : other.control) p = scale * (turned * p + Vec3(3, -2, 5));
+    FacetMesh<3> other = saddle(2);
+    for (Vec3& p : other.nodes) p = scale * (turned * p + Vec3(3, -2, 5));
     Reach<3> found;
-    found.below.reach.value = 0.6 * scale;
-    found.above.reach.value = 1.4 * scale;
-    const ReachBound b = reach_bound<3>(Shape<3>(other), found);
-    EXPECT_NEAR(b.below.least / scale, 0.594, 1e-9);
-    EXPECT_NEAR(b.above.least / scale, 1.386, 1e-9);
+    found.below.reach.value = found.above.reach.value = scale;
+    const ReachBound b = reach_bound<3>(other, found);
+    EXPECT_NEAR(b.below.least / scale, 0.99, 1e-9);
+    EXPECT_NEAR(b.above.least / scale, 0.99, 1e-9);
+    const ReachBound alone = reach_bound<3>(other, nothing_found<3>(), {.effort = 2000});
+    EXPECT_LE(alone.below.least / scale, 1 + 1e-9);
+    EXPECT_GE(alone.below.least / scale, 0.95);
   }
 }
 
