@@ -50,6 +50,11 @@ void add_domain(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(10, 10000000))
       ->capture_default_str();
   command
+      ->add_option("--tolerance", flags->options.tolerance,
+                   "Between the proved and the found reach, as a part of it")
+      ->check(CLI::Range(1e-6, 0.9))
+      ->capture_default_str();
+  command
       ->add_option("--length", flags->options.length,
                    "How far things without end are drawn (default: the size of the surface)")
       ->check(CLI::PositiveNumber);

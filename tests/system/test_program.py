@@ -69,6 +69,7 @@ class Program(unittest.TestCase):
         done = self.run_program("domain", ellipse)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("reach         0.0833333, curvature at (", done.stdout)
+        self.assertIn("reach between 0.0825 and 0.0833333 (within 1 %)", done.stdout)
         broken = self.model("nurbs: {degree: [2]}\n", "broken.yaml")
         done = self.run_program("domain", broken, "-o", "broken.vtu")
         self.assertEqual(done.returncode, 2)

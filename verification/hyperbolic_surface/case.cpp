@@ -93,6 +93,8 @@ api::DomainReport look_at_all(const Form& form, CaseResult& out) {
   add("smallest 1/k below", r.below.curvature.value, 1, 1e-9);
   add("reach above", r.above.reach.value, 1, 1e-8);
   add("reach below", r.below.reach.value, 1, 1e-8);
+  add("proved reach above", r.above.proved, 1, r.tolerance + 1e-8);
+  add("proved reach below", r.below.proved, 1, r.tolerance + 1e-8);
   return r;
 }
 

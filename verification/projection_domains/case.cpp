@@ -8,6 +8,7 @@
 #include "osculate/geometry/point_class.hpp"
 #include "osculate/projection/local_domain.hpp"
 #include "osculate/projection/reach.hpp"
+#include "osculate/projection/reach_bound.hpp"
 #include "shapes.hpp"
 
 namespace osculate::verification {
@@ -245,6 +246,45 @@ void look_at_reach(CaseResult& out) {
   add(out, "torus R = 2, r = 1: reach outside", t.above.reach.value, 1, 1e-8, "R - r");
 }
 
+/// The reach from below against its exact values (below and above): without anything found from
+/// above to go by it must not pass them, with it come close.
+template <int Dim>
+void prove(CaseResult& out, const std::string& name, const Target<Dim>& target, double below,
+           double above, const std::string& source) {
+  const projection::ReachBound alone =
+      reach_bound<Dim>(target, projection::Reach<Dim>{}, {.effort = 20000});
+  const projection::ReachBound told = reach_bound<Dim>(target, reach(Composed<Dim>{target}));
+  const auto rows = [&](const std::string& side, double untold, double least, double exact) {
+    const std::string quantity = name + ", " + side + ": ";
+    if (std::isinf(exact)) {
+      add(out, quantity + "1 / proved reach", 1 / least, 0, 0, source);
+      return;
+    }
+    out.rows.push_back({quantity + "reach proved alone", untold, exact * (1 + 1e-9),
+                        Relation::at_most, 0, source});
+    out.rows.push_back({quantity + "proved reach", least, exact * (0.99 - 1e-8), Relation::at_least,
+                        0, source + ", less 1 %"});
+  };
+  rows("below", alone.below.least, told.below.least, below);
+  rows("above", alone.above.least, told.above.least, above);
+}
+
+void prove_the_reach(CaseResult& out) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  prove<2>(out, "ellipse 3 x 0.5", geometry::Curve(ellipse(3, 0.5)), infinite, 0.25 / 3, "b^2/a");
+  prove<2>(out, "circle of radius 2 by four arcs", geometry::Curve(ellipse(2, 2)), infinite, 2,
+           "the radius");
+  prove<2>(out, "Fig. 6", geometry::Curve(figure_6()), 1, 1, "KSCPP Table 1");
+  prove<2>(out, "Fig. 7", polyline({Vec2(0, 0), Vec2(2, 1), Vec2(4, 0), Vec2(6, 1)}), 0, 0,
+           "KSCPP 4.1.2, Fig. 7");
+  prove<3>(out, "sphere of radius 0.7", geometry::Surface(geometry::Sphere{Vec3(1, 2, 3), 0.7}),
+           0.7, infinite, "the radius");
+  prove<3>(out, "torus R = 2, r = 0.6 of NURBS", geometry::Surface(torus_patch(2, 0.6)), 0.6, 1.4,
+           "r and R - r");
+  prove<3>(out, "plates at the distance 0.4", parallel_plates(), infinite, 0.2,
+           "half the distance");
+}
+
 /// The surface grey, wedges and cones above it coloured.
 io::ScenePanel features(const api::DomainReport& r, const std::string& caption, bool cones) {
   using api::DomainPart;
@@ -313,6 +353,7 @@ CaseResult projection_domains(const CaseContext&) {
   look_at_figure_9(out);
   look_at_the_monkey_saddle(out);
   look_at_reach(out);
+  prove_the_reach(out);
   draw_the_cube(out);
   draw_the_rim(out);
   return out;

@@ -48,6 +48,35 @@ inline projection::FacetMesh<3> unit_box() {
   return mesh;
 }
 
+/// Two plates 1 x 2 at the distance 0.4 that face each other, four facets each.
+inline projection::FacetMesh<3> parallel_plates() {
+  projection::FacetMesh<3> mesh;
+  for (int k = 0; k < 18; ++k)
+    mesh.nodes.emplace_back(0.5 * (k % 3), 1.0 * (k / 3 % 3), k < 9 ? 0.0 : 0.4);
+  for (const Index o : {0, 1, 3, 4}) {
+    mesh.facets.push_back({cell::CellType::quad4, {o, o + 1, o + 4, o + 3}});
+    mesh.facets.push_back({cell::CellType::quad4, {o + 9, o + 12, o + 13, o + 10}});
+  }
+  return mesh;
+}
+
+/// Torus of rational biquadratic spans, normals out of the tube.
+inline geometry::NurbsPatch torus_patch(double radius, double tube) {
+  const geometry::NurbsCurve ring = ellipse(1, 1);
+  geometry::NurbsPatch p;
+  p.degree = {2, 2};
+  p.count = {9, 9};
+  p.knots = {ring.knots, ring.knots};
+  for (std::size_t i = 0; i < 9; ++i)
+    for (std::size_t j = 0; j < 9; ++j) {
+      const double r = radius + tube * ring.control[j].x();
+      p.control.emplace_back(r * ring.control[i].x(), r * ring.control[i].y(),
+                             tube * ring.control[j].y());
+      p.weights.push_back(ring.weights[i] * ring.weights[j]);
+    }
+  return p;
+}
+
 /// Half of a bore of radius 1 below z = 0 and the ring round its mouth, by quad9 facets.
 inline projection::FacetMesh<3> half_bore() {
   constexpr int around = 8;

@@ -11,6 +11,7 @@
 #include "osculate/geometry/point_class.hpp"
 #include "osculate/projection/piece_search.hpp"
 #include "osculate/projection/reach.hpp"
+#include "osculate/projection/reach_bound.hpp"
 
 namespace osculate::api {
 namespace {
@@ -27,8 +28,11 @@ DomainLimit plain(const projection::SideLimit<Dim>& limit) {
   return {limit.value, std::string(name(limit.limit)), in_space(limit.at), in_space(limit.other)};
 }
 template <int Dim>
-DomainSide plain(const projection::SideReach<Dim>& side) {
-  return {plain(side.curvature), plain(side.bottleneck), plain(side.reach)};
+DomainSide plain(const projection::SideReach<Dim>& side, const projection::SideBound& bound) {
+  std::string why;
+  if (bound.gap != projection::Gap::none) why = name(bound.gap);
+  return {plain(side.curvature), plain(side.bottleneck), plain(side.reach), bound.least,
+          std::move(why)};
 }
 
 /// Largest and smallest angle of a joint, in radians.
@@ -194,8 +198,11 @@ DomainReport survey(const projection::Target<Dim>& target, const DomainOptions& 
   std::vector<std::array<double, 2>> even = look_at_places(s, cells, report, parts);
   look_for_flat_points(s, cells, report);
   const projection::Reach<Dim> r = reach(s, {kink, options.samples});
-  report.above = plain(r.above);
-  report.below = plain(r.below);
+  const projection::ReachBound bound =
+      reach_bound(target, r, {.kink = kink, .tolerance = options.tolerance});
+  report.above = plain(r.above, bound.above);
+  report.below = plain(r.below, bound.below);
+  report.tolerance = options.tolerance;
   std::size_t smooth_parts = 0;
   for (std::size_t p = 0; p < s.pieces().size(); ++p) smooth_parts += parts.of(p) == p;
   if (smooth_parts == 1)

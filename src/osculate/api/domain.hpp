@@ -49,6 +49,8 @@ struct DomainLimit {
 };
 struct DomainSide {
   DomainLimit curvature, bottleneck, reach;
+  double proved = 0;     ///< the reach is not smaller (projection/reach_bound.hpp)
+  std::string unproved;  ///< why that is not within the tolerance; empty if it is
 };
 
 /// Sharp joints of one kind.
@@ -67,6 +69,7 @@ struct FlatPlace {
 struct DomainReport {
   std::string surface;
   int dimension = 3;
+  double tolerance = 0.01;  ///< asked for between the proved and the found reach
   double size = 0;
   int pieces = 0, borders = 0, places = 0;
   std::vector<std::pair<std::string, int>> classes;
@@ -79,10 +82,11 @@ struct DomainReport {
 };
 
 struct DomainOptions {
-  double kink = 0.01;  ///< degrees between normals up to which a joint counts as smooth
-  int samples = 3000;  ///< places looked at, about
-  double length = 0;   ///< what has no end is drawn that far; 0: the size of the surface
-  int cells = 40;      ///< of the picture, along a side of a piece; fewer on many pieces
+  double kink = 0.01;       ///< degrees between normals up to which a joint counts as smooth
+  int samples = 3000;       ///< places looked at, about
+  double tolerance = 0.01;  ///< between the proved and the found reach, as a part of it
+  double length = 0;        ///< what has no end is drawn that far; 0: the size of the surface
+  int cells = 40;           ///< of the picture, along a side of a piece; fewer on many pieces
 };
 
 /// Classes of points, bounds on both sides, reach (projection/reach.hpp) and the boundaries of the

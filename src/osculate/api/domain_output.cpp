@@ -26,10 +26,24 @@ std::string limit_text(const DomainLimit& limit, bool with_kind) {
   return text;
 }
 
-std::string side_text(std::string_view name, const DomainSide& side) {
-  return fmt::format("{}\n  smallest 1/k  {}\n  bottleneck/2  {}\n  reach         {}\n", name,
-                     limit_text(side.curvature, false), limit_text(side.bottleneck, false),
-                     limit_text(side.reach, true));
+/// What is certain of the reach: found from above, proved from below.
+std::string proved_text(const DomainSide& side, double tolerance) {
+  const double found = side.reach.value, least = side.proved;
+  if (found <= 0) return "reach is 0: an edge or corner opens to the other side";
+  if (least >= found) return "reach is " + length_text(found);
+  if (!(least > 0)) return fmt::format("no reach: {}", side.unproved);
+  const std::string range = std::isfinite(found)
+                                ? fmt::format("reach between {:.6g} and {:.6g}", least, found)
+                                : fmt::format("reach at least {:.6g}", least);
+  if (side.unproved.empty()) return range + fmt::format(" (within {:.3g} %)", 100 * tolerance);
+  return range + fmt::format(" (wider than {:.3g} %: {})", 100 * tolerance, side.unproved);
+}
+
+std::string side_text(std::string_view name, const DomainSide& side, double tolerance) {
+  return fmt::format(
+      "{}\n  smallest 1/k  {}\n  bottleneck/2  {}\n  reach         {}\n  proved        {}\n", name,
+      limit_text(side.curvature, false), limit_text(side.bottleneck, false),
+      limit_text(side.reach, true), proved_text(side, tolerance));
 }
 
 std::string kink_text(std::string_view name, const DomainKinks& kinks) {
@@ -52,7 +66,9 @@ nlohmann::json limit_json(const DomainLimit& limit) {
 nlohmann::json side_json(const DomainSide& side) {
   return {{"curvature", limit_json(side.curvature)},
           {"bottleneck", limit_json(side.bottleneck)},
-          {"reach", limit_json(side.reach)}};
+          {"reach", limit_json(side.reach)},
+          {"proved", number(side.proved)},
+          {"unproved", side.unproved}};
 }
 nlohmann::json kinks_json(const DomainKinks& kinks) {
   nlohmann::json out{{"count", kinks.count}, {"largest_degrees", kinks.largest}};
@@ -94,8 +110,8 @@ std::string to_text(const DomainReport& r) {
   for (const FlatPlace& flat : r.flat)
     text += fmt::format("planar point at {}: its terms of third order vanish along {}\n",
                         text_of(flat.at), flat.form == "zero" ? "all lines" : flat.form);
-  text += side_text("above (to where the normals point)", r.above);
-  text += side_text("below", r.below);
+  text += side_text("above (to where the normals point)", r.above, r.tolerance);
+  text += side_text("below", r.below, r.tolerance);
   text += fmt::format("{}; {}; borders {}\n", kink_text("convex edges", r.ridges),
                       kink_text("re-entrant", r.valleys), r.borders);
   for (const std::string& warning : r.warnings) text += "warning: " + warning + "\n";
@@ -118,6 +134,7 @@ std::string to_json(const DomainReport& r) {
                         {"below", side_json(r.below)},
                         {"convex", kinks_json(r.ridges)},
                         {"reentrant", kinks_json(r.valleys)},
+                        {"tolerance", r.tolerance},
                         {"smallest_sine", r.smallest_sine},
                         {"warnings", r.warnings}}
       .dump(1);
@@ -180,6 +197,7 @@ std::string domain_html(const DomainReport& r) {
     add(fmt::format("smallest 1/k {}", name), limit_text(side->curvature, false));
     add(fmt::format("bottleneck/2 {}", name), limit_text(side->bottleneck, false));
     add(fmt::format("reach {}", name), limit_text(side->reach, true));
+    add(fmt::format("proved {}", name), proved_text(*side, r.tolerance));
   }
   add("edges", kink_text("convex", r.ridges) + "; " + kink_text("re-entrant", r.valleys));
   for (const std::string& warning : r.warnings) add("warning", warning);

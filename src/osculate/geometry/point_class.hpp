@@ -39,8 +39,8 @@ inline constexpr double flat_tolerance = 1e-9;
   if (!std::isfinite(larger)) return PointClass::singular;
   if (larger <= zero) return PointClass::planar;
   if (std::min(std::abs(k[0]), std::abs(k[1])) <= zero) return PointClass::parabolic;
-  const bool same_sign = std::signbit(k[0]) == std::signbit(k[1]);  // @eq KSCPP:15
-  return same_sign ? PointClass::elliptic : PointClass::hyperbolic;
+  const double sign = std::copysign(1.0, k[0]) * k[1];  // @eq KSCPP:15
+  return sign > 0 ? PointClass::elliptic : PointClass::hyperbolic;
 }
 
 /// How a surface leaves its tangent plane at a planar point, by the lines along which it does not

@@ -24,10 +24,10 @@ struct Net {
   double& at(int i, int j) { return c[index(i, j)]; }
 };
 
-/// Binomial coefficients up to 14 over k: products of two polynomials of degree 7.
+/// Binomial coefficients up to 28 over k: products of four polynomials of degree 7.
 inline constexpr auto binomials = [] {
-  std::array<std::array<double, 15>, 15> table{};
-  for (std::size_t n = 0; n < 15; ++n) {
+  std::array<std::array<double, 29>, 29> table{};
+  for (std::size_t n = 0; n < 29; ++n) {
     table[n][0] = 1;
     for (std::size_t k = 1; k <= n; ++k)
       table[n][k] = table[n][k - 1] * double(n - k + 1) / double(k);

@@ -136,6 +136,16 @@ Vec2 middle_xi(const CellComplex<Dim>& all, const Cell& cell) {
   return middle;
 }
 
+bool collapsed(const CellComplex<3>& all, const Cell& cell, int edge) {
+  const int n = corner_count(cell), next = (edge + 1) % n;
+  if (cell.vertex[static_cast<std::size_t>(edge)] != cell.vertex[static_cast<std::size_t>(next)])
+    return false;
+  const Vec2 a = corner_xi(all, cell, edge), b = corner_xi(all, cell, next);
+  const Vec3 here = cell_jet(all, cell, a).r, half = cell_jet(all, cell, Vec2(0.5 * (a + b))).r;
+  const Vec3 across = cell_jet(all, cell, corner_xi(all, cell, (edge + 2) % n)).r;
+  return (half - here).norm() <= 1e-9 * (across - here).norm();
+}
+
 template Vec2 middle_xi(const CellComplex<2>&, const Cell&);
 template Vec2 middle_xi(const CellComplex<3>&, const Cell&);
 template Vec2 corner_xi(const CellComplex<2>&, const Cell&, int);

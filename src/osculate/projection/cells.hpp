@@ -58,8 +58,14 @@ template <int Dim>
 [[nodiscard]] CellComplex<2> make_complex(const geometry::NurbsCurve& curve);
 [[nodiscard]] CellComplex<3> make_complex(const geometry::NurbsPatch& patch);
 
+/// Shapes that are made of pieces; nothing for analytic ones.
+[[nodiscard]] std::optional<CellComplex<2>> complex_of(const geometry::Curve& curve);
+[[nodiscard]] std::optional<CellComplex<3>> complex_of(const geometry::Surface& surface);
+
 /// The Lagrange curve as a Bezier curve over -1..1, which it is.
 [[nodiscard]] geometry::NurbsCurve as_nurbs(const geometry::LagrangeCurve& curve);
+/// The same arc, run through in the same direction (by other parameters).
+[[nodiscard]] geometry::NurbsCurve as_nurbs(const geometry::Arc& arc);
 
 /// Corners of a cell: 2 in the plane, 3 or 4 in space.
 [[nodiscard]] int corner_count(const Cell& cell);
@@ -78,6 +84,8 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::array<Vec<Dim>, 2> corner_directions(const CellComplex<Dim>& all,
                                                         const CellPart& corner);
+/// An edge that has shrunk to a point (not one that comes back to where it began).
+[[nodiscard]] bool collapsed(const CellComplex<3>& all, const Cell& cell, int edge);
 /// Cell coordinates of its middle.
 template <int Dim>
 [[nodiscard]] Vec2 middle_xi(const CellComplex<Dim>& all, const Cell& cell);

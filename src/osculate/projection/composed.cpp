@@ -1,40 +1,16 @@
 #include "osculate/projection/composed.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "osculate/core/error.hpp"
 #include "osculate/geometry/curve_frame.hpp"
 #include "osculate/geometry/point_class.hpp"
-#include "osculate/projection/point_to_curve.hpp"
-#include "osculate/projection/point_to_facet.hpp"
-#include "osculate/projection/point_to_surface.hpp"
 
 namespace osculate::projection {
 namespace {
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
-template <int Dim>
-std::size_t check_facet(const FacetMesh<Dim>& mesh, std::size_t f) {
-  const MeshFacet& facet = mesh.facets[f];
-  const cell::CellInfo& info = cell::info(facet.type);
-  if (info.dimension != Dim - 1)
-    throw core::InputError({}, fmt::format("facet {}: {} is no facet of a {}", f, info.name,
-                                           Dim == 2 ? "plane curve" : "surface"));
-  const auto count = static_cast<std::size_t>(info.nodes);
-  for (std::size_t k = 0; k < count; ++k) {
-    const Index n = facet.nodes[k];
-    if (n < 0 || at(n) >= mesh.nodes.size())
-      throw core::InputError({}, fmt::format("facet {}: there is no node {}", f, n));
-    if (!mesh.nodes[at(n)].allFinite())
-      throw core::InputError({}, fmt::format("node {}: expected finite coordinates", n));
-  }
-  return count;
-}
 
 geometry::LagrangeCurve facet_curve(const FacetMesh<2>& mesh, std::size_t f) {
   const MeshFacet& facet = mesh.facets[f];
@@ -52,14 +28,6 @@ geometry::LagrangeSurface facet_surface(const FacetMesh<3>& mesh, std::size_t f)
   return geometry::lagrange_surface(facet.type, std::span<const Vec3>(nodes.data(), count));
 }
 
-/// Non-empty spans of a knot vector.
-std::vector<Index> spans_of(const std::vector<double>& knots, int degree, std::size_t control) {
-  std::vector<Index> spans;
-  for (std::size_t i = at(degree); i < control; ++i)
-    if (knots[i + 1] > knots[i]) spans.push_back(static_cast<Index>(i));
-  return spans;
-}
-
 /// Ranges of analytic surfaces: infinite ones are cut to about the size of the shape.
 std::vector<SmoothPiece> charts(const geometry::Surface& surface) {
   if (std::holds_alternative<geometry::Sphere>(surface)) {
@@ -74,17 +42,14 @@ std::vector<SmoothPiece> charts(const geometry::Surface& surface) {
     if (!std::isfinite(piece.lo[i])) piece.lo[i] = -length;
     if (!std::isfinite(piece.hi[i])) piece.hi[i] = std::max(piece.lo[i], 0.0) + length;
   }
-  if (const auto* facet = std::get_if<geometry::LagrangeSurface>(&surface))
-    piece.triangle = cell::is_triangle(facet->type);
   return {piece};
 }
 
 /// Sides of an analytic surface that are borders.
-std::vector<int> open_sides(const geometry::Surface& surface, const SmoothPiece& piece) {
+std::vector<int> open_sides(const geometry::Surface& surface) {
   if (std::holds_alternative<geometry::Sphere>(surface)) return {};
   const Vec2 lo = geometry::lo(surface), hi = geometry::hi(surface);
   const geometry::ClosedFlags closed = geometry::closed(surface);
-  if (piece.triangle) return {0, 1, 2};
   std::vector<int> sides;
   const auto* cone = std::get_if<geometry::Cone>(&surface);
   const bool apex = cone && cone->from == 0;
@@ -108,9 +73,9 @@ Vec2 on_side(const SmoothPiece& p, int side, double t) {
 }
 
 template <int Dim>
-Composed<Dim>::Composed(Target<Dim> target) : target_(std::move(target)) {
-  if (std::holds_alternative<FacetMesh<Dim>>(target_))
-    join_mesh();
+Composed<Dim>::Composed(Target<Dim> target) : projector_(std::move(target)) {
+  if (cells())
+    take_cells();
   else
     cut_shape();
   measure();
@@ -131,32 +96,30 @@ void Composed<Dim>::measure() {
     throw core::InputError({}, "the surface has no extent, or an infinite one");
 }
 
-template <>
-void Composed<2>::join_mesh() {
-  const auto& mesh = std::get<FacetMesh<2>>(target_);
-  std::map<Index, std::vector<std::array<int, 2>>> ends;  // facet, side
-  std::vector<search::Box<2>> boxes;
-  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
-    const std::size_t count = check_facet(mesh, f);
-    const MeshFacet& facet = mesh.facets[f];
-    search::Box<2>& box = boxes.emplace_back();
-    for (std::size_t k = 0; k < count; ++k) box.extend(mesh.nodes[at(facet.nodes[k])]);
-    if (count > 2) box.inflate(0.25 * (box.hi - box.lo).norm());
-    pieces_.push_back({});
-    for (int side = 0; side < 2; ++side)
-      ends[facet.nodes[at(side)]].push_back({static_cast<int>(f), side});
+template <int Dim>
+void Composed<Dim>::take_cells() {
+  for (const Cell& cell : cells()->cells) {
+    const bool triangle = Dim == 3 && corner_count(cell) == 3;
+    const Vec2 hi = triangle ? Vec2(1, 1) : corner_xi(*cells(), cell, Dim == 2 ? 1 : 2);
+    pieces_.push_back({corner_xi(*cells(), cell, 0), hi, triangle});
   }
-  if (mesh.facets.empty()) throw core::InputError({}, "the surface has no facets");
-  tree_ = search::Bvh<2>(boxes);
-  for (auto& [node, list] : ends) {
-    std::sort(list.begin(), list.end(),  // the one that arrives first
-              [](const auto& a, const auto& b) { return a[1] > b[1]; });
+  join_cells();
+}
+
+template <>
+void Composed<2>::join_cells() {
+  for (Index v = 0; v + 1 < static_cast<Index>(cells()->at_vertex.start.size()); ++v) {
+    const auto around = cells()->at_vertex.of(v);
+    std::vector<CellPart> list(around.begin(), around.end());
+    if (list.empty()) continue;
+    std::stable_sort(list.begin(), list.end(),  // the one that arrives first
+                     [](const CellPart& a, const CellPart& b) { return a.local > b.local; });
     Joint joint;
-    joint.piece[0] = list[0][0];
-    joint.side[0] = list[0][1];
+    joint.piece[0] = list[0].cell;
+    joint.side[0] = list[0].local;
     if (list.size() > 1) {
-      joint.piece[1] = list[1][0];
-      joint.side[1] = list[1][1];
+      joint.piece[1] = list[1].cell;
+      joint.side[1] = list[1].local;
       joint.regular = list.size() == 2 && joint.side[0] != joint.side[1];
     }
     joints_.push_back(joint);
@@ -164,126 +127,70 @@ void Composed<2>::join_mesh() {
 }
 
 template <>
-void Composed<3>::join_mesh() {
-  const auto& mesh = std::get<FacetMesh<3>>(target_);
-  std::map<std::array<Index, 2>, std::vector<std::array<int, 3>>> edges;  // facet, side, way
-  std::map<Index, std::vector<PieceCorner>> around;
-  std::vector<search::Box<3>> boxes;
-  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
-    const std::size_t count = check_facet(mesh, f);
-    const MeshFacet& facet = mesh.facets[f];
-    search::Box<3>& box = boxes.emplace_back();
-    for (std::size_t k = 0; k < count; ++k) box.extend(mesh.nodes[at(facet.nodes[k])]);
-    if (count > 4) box.inflate(0.25 * (box.hi - box.lo).norm());
-    const bool triangle = cell::is_triangle(facet.type);
-    pieces_.push_back({triangle ? Vec2(0, 0) : Vec2(-1, -1), Vec2(1, 1), triangle});
-    const int corners = triangle ? 3 : 4;
-    for (int k = 0; k < corners; ++k) {
-      const Index a = facet.nodes[at(k)], b = facet.nodes[at((k + 1) % corners)];
-      around[a].push_back({static_cast<int>(f), k});
-      edges[{std::min(a, b), std::max(a, b)}].push_back({static_cast<int>(f), k, a < b});
-    }
-  }
-  if (mesh.facets.empty()) throw core::InputError({}, "the surface has no facets");
-  tree_ = search::Bvh<3>(boxes);
-  for (const auto& [nodes, list] : edges) {
+void Composed<3>::join_cells() {
+  const CellComplex<3>& all = *cells();
+  const auto begin_of = [&](const CellPart& part) {
+    return all.cell(part.cell).vertex[static_cast<std::size_t>(part.local)];
+  };
+  const auto end_of = [&](const CellPart& part) {
+    const Cell& cell = all.cell(part.cell);
+    return cell.vertex[static_cast<std::size_t>((part.local + 1) % corner_count(cell))];
+  };
+  for (Index e = 0; e + 1 < static_cast<Index>(all.at_edge.start.size()); ++e) {
+    const auto list = all.at_edge.of(e);
+    if (collapsed(all, all.cell(list[0].cell), list[0].local)) continue;
     Joint joint;
     for (std::size_t k = 0; k < std::min<std::size_t>(list.size(), 2); ++k) {
-      joint.piece[k] = list[k][0];
-      joint.side[k] = list[k][1];
+      joint.piece[k] = list[k].cell;
+      joint.side[k] = list[k].local;
     }
-    joint.regular = list.size() == 1 || (list.size() == 2 && list[0][2] != list[1][2]);
+    joint.regular = list.size() == 1 || (list.size() == 2 && begin_of(list[0]) == end_of(list[1]) &&
+                                         end_of(list[0]) == begin_of(list[1]));
     joints_.push_back(joint);
   }
-  for (auto& [node, list] : around) corners_.push_back(std::move(list));
+  for (Index v = 0; v + 1 < static_cast<Index>(all.at_vertex.start.size()); ++v) {
+    std::vector<PieceCorner> around;
+    for (const CellPart& part : all.at_vertex.of(v)) around.push_back({part.cell, part.local});
+    if (!around.empty()) corners_.push_back(std::move(around));
+  }
 }
 
 template <>
 void Composed<2>::cut_shape() {
-  const auto& curve = std::get<geometry::Curve>(target_);
-  if (std::string problem = geometry::validate(curve); !problem.empty())
-    throw core::InputError({}, problem);
-  const bool closed = geometry::closed(curve);
-  if (const auto* nurbs = std::get_if<geometry::NurbsCurve>(&curve)) {
-    for (const Index i : spans_of(nurbs->knots, nurbs->degree, nurbs->control.size())) {
-      pieces_.push_back({Vec2(nurbs->knots[at(i)], 0), Vec2(nurbs->knots[at(i) + 1], 0)});
-      spans_.push_back({i, 0});
-    }
-  } else {
-    double lo = geometry::lo(curve), hi = geometry::hi(curve);
-    if (!std::isfinite(lo)) lo = -1;
-    if (!std::isfinite(hi)) hi = 1;
-    pieces_.push_back({Vec2(lo, 0), Vec2(hi, 0)});
-    if (closed || std::holds_alternative<geometry::InfiniteLine>(curve)) return;
-  }
-  const int last = static_cast<int>(pieces_.size()) - 1;
-  for (int p = 0; p < last; ++p) joints_.push_back({{p, p + 1}, {1, 0}});
-  if (closed) {
-    joints_.push_back({{last, 0}, {1, 0}});
-  } else {
-    joints_.push_back({{0, -1}, {0, 0}});
-    joints_.push_back({{last, -1}, {1, 0}});
-  }
+  const auto& curve = std::get<geometry::Curve>(target());
+  double lo = geometry::lo(curve), hi = geometry::hi(curve);
+  if (!std::isfinite(lo)) lo = -1;
+  if (!std::isfinite(hi)) hi = 1;
+  pieces_.push_back({Vec2(lo, 0), Vec2(hi, 0)});
+  if (geometry::closed(curve) || std::holds_alternative<geometry::InfiniteLine>(curve)) return;
+  joints_.push_back({{0, -1}, {0, 0}});
+  joints_.push_back({{0, -1}, {1, 0}});
 }
 
 template <>
 void Composed<3>::cut_shape() {
-  const auto& surface = std::get<geometry::Surface>(target_);
-  if (std::string problem = geometry::validate(surface); !problem.empty())
-    throw core::InputError({}, problem);
-  const auto* patch = std::get_if<geometry::NurbsPatch>(&surface);
-  if (!patch) {
-    pieces_ = charts(surface);
-    for (const int side : open_sides(surface, pieces_[0])) joints_.push_back({{0, -1}, {side, 0}});
-    if (std::holds_alternative<geometry::LagrangeSurface>(surface))
-      for (int c = 0; c < corner_count(pieces_[0]); ++c) corners_.push_back({{0, c}});
-    return;
-  }
-  const auto u = spans_of(patch->knots[0], patch->degree[0], at(patch->count[0]));
-  const auto v = spans_of(patch->knots[1], patch->degree[1], at(patch->count[1]));
-  const int nu = static_cast<int>(u.size()), nv = static_cast<int>(v.size());
-  const geometry::ClosedFlags closed = patch->closed();
-  std::map<std::array<int, 2>, std::vector<PieceCorner>> around;
-  for (int i = 0; i < nu; ++i)
-    for (int j = 0; j < nv; ++j) {
-      const std::size_t a = at(u[at(i)]), b = at(v[at(j)]);
-      pieces_.push_back({Vec2(patch->knots[0][a], patch->knots[1][b]),
-                         Vec2(patch->knots[0][a + 1], patch->knots[1][b + 1])});
-      spans_.push_back({u[at(i)], v[at(j)]});
-      const int self = i * nv + j;
-      const int right = i + 1 < nu ? self + nv : closed[0] ? j : -1;
-      const int up = j + 1 < nv ? self + 1 : closed[1] ? i * nv : -1;
-      joints_.push_back({{self, right}, {1, 3}});
-      joints_.push_back({{self, up}, {2, 0}});
-      if (i == 0 && !closed[0]) joints_.push_back({{self, -1}, {3, 0}});
-      if (j == 0 && !closed[1]) joints_.push_back({{self, -1}, {0, 0}});
-      for (int c = 0; c < 4; ++c) {
-        int x = i + (c == 1 || c == 2), y = j + (c >= 2);
-        if (closed[0]) x %= nu;
-        if (closed[1]) y %= nv;
-        around[{x, y}].push_back({self, c});
-      }
-    }
-  for (auto& [place, list] : around) corners_.push_back(std::move(list));
+  const auto& surface = std::get<geometry::Surface>(target());
+  pieces_ = charts(surface);
+  for (const int side : open_sides(surface)) joints_.push_back({{0, -1}, {side, 0}});
 }
 
 template <>
 geometry::CurveJet<2> Composed<2>::jet(int piece, const Vec2& xi) const {
-  if (const auto* mesh = std::get_if<FacetMesh<2>>(&target_))
+  if (const auto* mesh = std::get_if<FacetMesh<2>>(&target()))
     return facet_curve(*mesh, at(piece)).jet(xi.x());
-  const auto& curve = std::get<geometry::Curve>(target_);
+  const auto& curve = std::get<geometry::Curve>(target());
   if (const auto* nurbs = std::get_if<geometry::NurbsCurve>(&curve))
-    return nurbs->jet_in_span(spans_[at(piece)][0], xi.x());
+    return nurbs->jet_in_span(cells()->cell(piece).span[0], xi.x());
   return geometry::jet(curve, xi.x());
 }
 
 template <>
 geometry::SurfaceJet Composed<3>::jet(int piece, const Vec2& xi) const {
-  if (const auto* mesh = std::get_if<FacetMesh<3>>(&target_))
+  if (const auto* mesh = std::get_if<FacetMesh<3>>(&target()))
     return facet_surface(*mesh, at(piece)).jet(xi);
-  const auto& surface = std::get<geometry::Surface>(target_);
+  const auto& surface = std::get<geometry::Surface>(target());
   if (const auto* patch = std::get_if<geometry::NurbsPatch>(&surface))
-    return patch->jet_in_span(spans_[at(piece)], xi);
+    return patch->jet_in_span(cells()->cell(piece).span, xi);
   return geometry::jet(surface, xi);
 }
 
@@ -301,55 +208,16 @@ SurfacePlace<3> Composed<3>::place(int piece, const Vec2& xi) const {
   return {j.r, f.normal, principal_curvatures(f).value, coordinate_sine(f), f.valid};
 }
 
-template <>
-NearestPlace<2> Composed<2>::nearest(const Vec2& point, double squared_bound) const {
-  NearestPlace<2> out;
-  if (const auto* mesh = std::get_if<FacetMesh<2>>(&target_)) {
-    const auto distance = [&](Index f) {
-      const CurveFoot foot = closest_point(facet_curve(*mesh, at(f)), point);
-      if (!foot.converged || !(foot.squared_distance < out.squared_distance))
-        return foot.squared_distance;
-      out = {foot.squared_distance, Vec2::Zero(), f, Vec2(foot.xi, 0)};
-      return foot.squared_distance;
-    };
-    (void)tree_.nearest(point, distance, squared_bound);
-  } else {
-    const auto& curve = std::get<geometry::Curve>(target_);
-    const CurveFoot foot = closest_point(curve, point);
-    if (foot.converged) out = {foot.squared_distance, Vec2::Zero(), 0, Vec2(foot.xi, 0)};
-    for (std::size_t p = 0; p < spans_.size(); ++p)
-      if (foot.xi >= pieces_[p].lo.x()) out.piece = static_cast<int>(p);
-  }
-  if (out.piece < 0 || out.squared_distance > squared_bound) return {};
-  out.r = jet(out.piece, out.xi).r;
-  return out;
-}
-
-template <>
-NearestPlace<3> Composed<3>::nearest(const Vec3& point, double squared_bound) const {
-  NearestPlace<3> out;
-  if (const auto* mesh = std::get_if<FacetMesh<3>>(&target_)) {
-    std::array<Vec3, cell::max_facet_nodes> nodes;
-    const auto distance = [&](Index f) {
-      const MeshFacet& facet = mesh->facets[at(f)];
-      const auto count = static_cast<std::size_t>(cell::info(facet.type).nodes);
-      for (std::size_t k = 0; k < count; ++k) nodes[k] = mesh->nodes[at(facet.nodes[k])];
-      const FacetFoot foot =
-          closest_point(facet.type, std::span<const Vec3>(nodes.data(), count), point);
-      if (foot.converged && foot.squared_distance < out.squared_distance)
-        out = {foot.squared_distance, Vec3::Zero(), f, foot.xi};
-      return foot.squared_distance;
-    };
-    (void)tree_.nearest(point, distance, squared_bound);
-  } else {
-    const auto& surface = std::get<geometry::Surface>(target_);
-    const SurfaceFoot foot = closest_point(surface, point);
-    if (foot.converged) out = {foot.squared_distance, Vec3::Zero(), 0, foot.xi};
-    for (std::size_t p = 0; p < pieces_.size(); ++p)
-      if ((foot.xi.array() >= pieces_[p].lo.array()).all()) out.piece = static_cast<int>(p);
-  }
-  if (out.piece < 0 || out.squared_distance > squared_bound) return {};
-  out.r = jet(out.piece, out.xi).r;
+template <int Dim>
+NearestPlace<Dim> Composed<Dim>::nearest(const Vec<Dim>& point, double squared_bound) const {
+  const ClosestPoint<Dim> c = projector_.nearest_within(point, squared_bound);
+  if (c.facet < 0) return {};
+  const Vec2 xi(c.xi[0], Dim == 2 ? 0.0 : c.xi[1]);
+  NearestPlace<Dim> out{(point - c.point).squaredNorm(), c.point, c.facet, xi};
+  if (std::holds_alternative<FacetMesh<Dim>>(target())) return out;
+  out.piece = 0;  // of shapes: the last one that begins before the place
+  for (std::size_t p = 0; p < pieces_.size(); ++p)
+    if ((xi.array() >= pieces_[p].lo.array()).all()) out.piece = static_cast<int>(p);
   return out;
 }
 

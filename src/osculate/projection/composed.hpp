@@ -2,8 +2,8 @@
 #include <limits>
 #include <vector>
 
-#include "osculate/projection/target.hpp"
-#include "osculate/search/bvh.hpp"
+#include "osculate/projection/cells.hpp"
+#include "osculate/projection/projector.hpp"
 
 namespace osculate::projection {
 
@@ -44,7 +44,8 @@ struct NearestPlace {
   Vec2 xi{0, 0};
 };
 
-/// A whole curve or surface as its smooth pieces and how they meet.
+/// A whole curve or surface as its smooth pieces and how they meet: the cells of its projector, or
+/// the charts of an analytic shape.
 ///
 /// Requires   facets that share nodes where they meet; a knot line is a joint even where it is
 ///            smooth
@@ -63,23 +64,24 @@ class Composed {
   [[nodiscard]] const std::vector<Joint>& joints() const { return joints_; }
   /// In space: the pieces round each corner (in the plane the joints are the corners).
   [[nodiscard]] const std::vector<std::vector<PieceCorner>>& corners() const { return corners_; }
-  /// Nearest place within the bound; piece -1 if there is none.
+  /// Nearest place within the bound, proved as by Projector; piece -1 if there is none.
   [[nodiscard]] NearestPlace<Dim> nearest(
       const Vec<Dim>& point, double squared_bound = std::numeric_limits<double>::infinity()) const;
   [[nodiscard]] double size() const { return size_; }  ///< diagonal of the box round all pieces
-  [[nodiscard]] const Target<Dim>& target() const { return target_; }
+  [[nodiscard]] const Target<Dim>& target() const { return projector_.target(); }
+  /// Null for analytic shapes.
+  [[nodiscard]] const CellComplex<Dim>* cells() const { return projector_.cells(); }
 
  private:
-  void join_mesh();
+  void take_cells();
+  void join_cells();
   void cut_shape();
   void measure();
 
-  Target<Dim> target_;
+  Projector<Dim> projector_;
   std::vector<SmoothPiece> pieces_;
-  std::vector<std::array<Index, 2>> spans_;  ///< of NURBS: one for each piece
   std::vector<Joint> joints_;
   std::vector<std::vector<PieceCorner>> corners_;
-  search::Bvh<Dim> tree_;
   double size_ = 0;
 };
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -31,7 +32,8 @@ struct LocalDomain {
 [[nodiscard]] inline bool locally_nearest(const geometry::SurfaceFrame& f, double zeta) {
   const Mat<2, 2> bend = distance_bend(f, zeta);
   const double det = bend(0, 0) * bend(1, 1) - bend(0, 1) * bend(1, 0);
-  return f.valid && bend(0, 0) > 0 && det > 0;  // @eq KSCPP:12
+  const double smaller_minor = std::min(bend(0, 0), det);  // @eq KSCPP:12
+  return f.valid && smaller_minor > 0;
 }
 
 /// det F''/det a = 1 - 2 H zeta + K zeta^2: the area of the surface shifted by zeta per area of the
@@ -44,7 +46,8 @@ struct LocalDomain {
 
 /// The same criterion in the principal directions; holds for both signs of zeta, unlike the print.
 [[nodiscard]] inline bool locally_nearest(const geometry::PrincipalCurvatures& k, double zeta) {
-  return 1 - zeta * k.value[0] > 0 && 1 - zeta * k.value[1] > 0;  // @eq KSCPP:20
+  const double least = 1 - std::max(zeta * k.value[0], zeta * k.value[1]);  // @eq KSCPP:20
+  return least > 0;
 }
 
 /// From the larger and the smaller curvature: 1/k1 above if k1 > 0, 1/k2 below if k2 < 0, else

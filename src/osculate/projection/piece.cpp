@@ -240,12 +240,36 @@ Cone<Dim> inward_cone(const Piece<Dim>& piece, Control<Dim> control, std::size_t
   return cone;
 }
 
-namespace {
+template <int Dim>
+std::vector<ControlPoint<Dim>> side_control(const Piece<Dim>& piece, Control<Dim> control,
+                                            std::size_t side) {
+  const int p = piece.degree[0], q = piece.degree[1];
+  const bool along_s = side >= 2 || q == 0;
+  const int degree = along_s ? p : q, last = along_s ? q : p;
+  const int other = side % 2 == 1 ? last : 0;
+  std::vector<ControlPoint<Dim>> line;
+  for (int k = 0; k <= degree; ++k)
+    line.push_back(
+        control[static_cast<std::size_t>(along_s ? k * (q + 1) + other : other * (q + 1) + k)]);
+  return line;
+}
 
 template <int Dim>
-using Points = std::vector<ControlPoint<Dim>>;
+Cone<Dim> along_cone(const Piece<Dim>& piece, Control<Dim> control, std::size_t side) {
+  if (piece.triangle)
+    return cone_of<Dim>({(control[(side + 1) % 3] - control[side]).template head<Dim>().eval()});
+  const std::vector<ControlPoint<Dim>> line = side_control<Dim>(piece, control, side);
+  std::vector<Vec<Dim>> directions;
+  tangent_directions<Dim>(line, {static_cast<int>(line.size()) - 1, 0}, 0, piece.rational,
+                          directions);
+  return cone_of<Dim>(directions);
+}
 
-/// Cuts the piece at the middle of a direction.
+namespace {
+template <int Dim>
+using Points = std::vector<ControlPoint<Dim>>;
+}  // namespace
+
 template <int Dim>
 void cut(const Piece<Dim>& piece, const Points<Dim>& control, int direction,
          std::array<Piece<Dim>, 2>& halves, std::array<Points<Dim>, 2>& points) {
@@ -277,6 +301,19 @@ void cut(const Piece<Dim>& piece, const Points<Dim>& control, int direction,
 }
 
 template <int Dim>
+int longer_direction(const Piece<Dim>& piece, Control<Dim> control) {
+  if (piece.degree[1] == 0) return 0;
+  const auto q = static_cast<std::size_t>(piece.degree[1]);
+  const auto corner = [&](std::size_t k) { return euclidean<Dim>(control[k]); };
+  const std::size_t last = control.size() - 1;
+  const double s = (corner(last - q) - corner(0)).norm() + (corner(last) - corner(q)).norm();
+  const double t = (corner(q) - corner(0)).norm() + (corner(last) - corner(last - q)).norm();
+  return t > s ? 1 : 0;
+}
+
+namespace {
+
+template <int Dim>
 void add_cut(const Piece<Dim>& piece, Points<Dim> control, std::array<int, 2> cuts,
              PieceSet<Dim>& set) {
   constexpr int max_cuts = 3;
@@ -292,16 +329,9 @@ void add_cut(const Piece<Dim>& piece, Points<Dim> control, std::array<int, 2> cu
     return;
   }
   // Along the longer side, so that halves do not get thin.
-  int direction = 0;
-  if (piece.degree[1] > 0) {
-    const auto q = static_cast<std::size_t>(piece.degree[1]);
-    const auto corner = [&](std::size_t k) { return euclidean<Dim>(control[k]); };
-    const std::size_t last = control.size() - 1;
-    const double s = (corner(last - q) - corner(0)).norm() + (corner(last) - corner(q)).norm();
-    const double t = (corner(q) - corner(0)).norm() + (corner(last) - corner(last - q)).norm();
-    direction = t > s ? 1 : 0;
-    if (cuts[static_cast<std::size_t>(direction)] >= max_cuts) direction = 1 - direction;
-  }
+  int direction = longer_direction<Dim>(piece, control);
+  if (piece.degree[1] > 0 && cuts[static_cast<std::size_t>(direction)] >= max_cuts)
+    direction = 1 - direction;
   std::array<Piece<Dim>, 2> halves;
   std::array<Points<Dim>, 2> points;
   cut(piece, control, direction, halves, points);
@@ -325,6 +355,16 @@ template Cone<2> normal_cone(const Piece<2>&, Control<2>);
 template Cone<3> normal_cone(const Piece<3>&, Control<3>);
 template Cone<2> inward_cone(const Piece<2>&, Control<2>, std::size_t);
 template Cone<3> inward_cone(const Piece<3>&, Control<3>, std::size_t);
+template std::vector<ControlPoint<2>> side_control(const Piece<2>&, Control<2>, std::size_t);
+template std::vector<ControlPoint<3>> side_control(const Piece<3>&, Control<3>, std::size_t);
+template Cone<2> along_cone(const Piece<2>&, Control<2>, std::size_t);
+template Cone<3> along_cone(const Piece<3>&, Control<3>, std::size_t);
+template void cut(const Piece<2>&, const Points<2>&, int, std::array<Piece<2>, 2>&,
+                  std::array<Points<2>, 2>&);
+template void cut(const Piece<3>&, const Points<3>&, int, std::array<Piece<3>, 2>&,
+                  std::array<Points<3>, 2>&);
+template int longer_direction(const Piece<2>&, Control<2>);
+template int longer_direction(const Piece<3>&, Control<3>);
 template Cone<2> join(const Cone<2>&, const Cone<2>&);
 template Cone<3> join(const Cone<3>&, const Cone<3>&);
 template void add_pieces(const Piece<2>&, std::vector<ControlPoint<2>>, PieceSet<2>&);

@@ -83,6 +83,23 @@ template <int Dim>
 [[nodiscard]] Cone<Dim> inward_cone(const Piece<Dim>& piece, Control<Dim> control,
                                     std::size_t side);
 
+/// Control points of a side, as a curve. Not of a `triangle`.
+template <int Dim>
+[[nodiscard]] std::vector<ControlPoint<Dim>> side_control(const Piece<Dim>& piece,
+                                                          Control<Dim> control, std::size_t side);
+
+/// Cone of the directions along a side (in the plane: of the curve).
+template <int Dim>
+[[nodiscard]] Cone<Dim> along_cone(const Piece<Dim>& piece, Control<Dim> control, std::size_t side);
+
+/// Both halves of a piece that is not a `triangle`, across the direction 0 (s) or 1 (t).
+template <int Dim>
+void cut(const Piece<Dim>& piece, const std::vector<ControlPoint<Dim>>& control, int direction,
+         std::array<Piece<Dim>, 2>& halves, std::array<std::vector<ControlPoint<Dim>>, 2>& points);
+/// The direction in which it is longer.
+template <int Dim>
+[[nodiscard]] int longer_direction(const Piece<Dim>& piece, Control<Dim> control);
+
 /// The smallest cone round both.
 template <int Dim>
 [[nodiscard]] Cone<Dim> join(const Cone<Dim>& a, const Cone<Dim>& b);

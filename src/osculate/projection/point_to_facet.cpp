@@ -211,7 +211,8 @@ double nearest_on_edge(const Edge& e, const Vec3& point, double& squared) {
     if (const double d = distance(i / 3.0); d < squared) squared = d, t = i / 3.0;
   for (int it = 0; it < 40; ++it) {
     const Vec3 gap = point - e.at(t), first = e.half + 2 * t * e.bend;
-    const double slope = -gap.dot(first), a = first.squaredNorm();  // @eq KSCPP:37
+    const double a = first.squaredNorm();
+    const double slope = -gap.dot(first);  // @eq KSCPP:37
     const double bend = a - 2 * gap.dot(e.bend);
     double step = -slope / (bend > 0 ? bend : std::max(a, 1e-300));
     step = std::clamp(t + step, -1.0, 1.0) - t;

@@ -73,29 +73,6 @@ struct Projector<Dim>::Impl {
 
 namespace {
 
-/// Shapes that are made of pieces become meshes or NURBS; nothing for analytic ones.
-std::optional<CellComplex<2>> pieces_of(const geometry::Curve& curve) {
-  if (const auto* nurbs = std::get_if<geometry::NurbsCurve>(&curve)) return make_complex(*nurbs);
-  const auto* lagrange = std::get_if<geometry::LagrangeCurve>(&curve);
-  if (lagrange == nullptr) return std::nullopt;
-  return make_complex(as_nurbs(*lagrange));
-}
-
-std::optional<CellComplex<3>> pieces_of(const geometry::Surface& surface) {
-  if (const auto* nurbs = std::get_if<geometry::NurbsPatch>(&surface)) return make_complex(*nurbs);
-  const auto* lagrange = std::get_if<geometry::LagrangeSurface>(&surface);
-  if (lagrange == nullptr) return std::nullopt;
-  FacetMesh<3> mesh;
-  MeshFacet facet{lagrange->type, {}};
-  const std::span<const Vec3> nodes = lagrange->used();
-  for (std::size_t k = 0; k < nodes.size(); ++k) {
-    mesh.nodes.push_back(nodes[k]);
-    facet.nodes[k] = static_cast<Index>(k);
-  }
-  mesh.facets.push_back(facet);
-  return make_complex<3>(mesh);
-}
-
 template <int Dim>
 double size_of(const Shape<Dim>& shape) {
   return std::visit(
@@ -260,7 +237,7 @@ Projector<Dim>::Projector(Target<Dim> target) : impl_(std::make_unique<Impl>()) 
   if (const auto* shape = std::get_if<Shape<Dim>>(&impl.target)) {
     const std::string wrong = geometry::validate(*shape);
     if (!wrong.empty()) throw core::InputError({}, wrong);
-    std::optional<CellComplex<Dim>> all = pieces_of(*shape);
+    std::optional<CellComplex<Dim>> all = complex_of(*shape);
     impl.analytic = !all.has_value();
     if (all) impl.all = std::move(*all);
     if (!all) impl.size = size_of<Dim>(*shape);
@@ -283,6 +260,10 @@ Projector<Dim>& Projector<Dim>::operator=(Projector&&) noexcept = default;
 template <int Dim>
 const Target<Dim>& Projector<Dim>::target() const {
   return impl_->target;
+}
+template <int Dim>
+const CellComplex<Dim>* Projector<Dim>::cells() const {
+  return impl_->analytic ? nullptr : &impl_->all;
 }
 template <int Dim>
 double Projector<Dim>::size() const {
@@ -353,6 +334,24 @@ ClosestPoint<Dim> Projector<Dim>::closest(const Vec<Dim>& point, Mode mode) cons
   for_each_possible(impl.trees, point, nearest.reach,
                     [&](Index k) { look_at_piece<Dim>(impl, k, point, mode, tolerance, nearest); });
   return conclude<Dim>(impl, point, mode, tolerance, nearest.best);
+}
+
+template <int Dim>
+ClosestPoint<Dim> Projector<Dim>::nearest_within(const Vec<Dim>& point,
+                                                 double squared_bound) const {
+  const Impl& impl = *impl_;
+  if (!can_be_asked<Dim>(point)) return {};
+  if (impl.analytic) {
+    const ClosestPoint<Dim> c = *shape_answer(std::get<Shape<Dim>>(impl.target), point);
+    return c.distance * c.distance <= squared_bound ? c : ClosestPoint<Dim>{};
+  }
+  const double tolerance = tolerance_at<Dim>(impl, point);
+  NearestSink<Dim> nearest{point};
+  nearest.reach = squared_bound;
+  for_each_possible(impl.trees, point, nearest.reach, [&](Index k) {
+    look_at_piece<Dim>(impl, k, point, Mode::nearest, tolerance, nearest);
+  });
+  return conclude<Dim>(impl, point, Mode::nearest, tolerance, nearest.best);
 }
 
 template <int Dim>

@@ -9,6 +9,9 @@
 
 namespace osculate::projection {
 
+template <int Dim>
+struct CellComplex;
+
 /// The named answer of a query.
 enum class Status : std::uint8_t {
   projected,       ///< one closest point, as far as the mode looks
@@ -63,7 +66,11 @@ class Projector {
   /// certain as in `closest`, and faster, since little remains to be excluded.
   [[nodiscard]] ClosestPoint<Dim> follow(const Vec<Dim>& point, const ClosestPoint<Dim>& last,
                                          Mode mode = Mode::fast) const;
+  /// The nearest place within a bound (`facet` is -1 if there is none), proved as in mode nearest.
+  [[nodiscard]] ClosestPoint<Dim> nearest_within(const Vec<Dim>& point, double squared_bound) const;
   [[nodiscard]] const Target<Dim>& target() const;
+  /// Its cells; null for analytic shapes, which have none.
+  [[nodiscard]] const CellComplex<Dim>* cells() const;
   [[nodiscard]] double size() const;  ///< diagonal of the box round the (finite part of the) target
 
  private:

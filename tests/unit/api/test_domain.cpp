@@ -112,6 +112,34 @@ TEST(Domain, TextAndJsonAgree) {
   EXPECT_EQ(json["classes"]["planar"], r.places);
 }
 
+TEST(Domain, TellsWhatIsProvedOfTheReach) {
+  const geometry::NurbsCurve ellipse{
+      2,
+      {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4},
+      {Vec2(3, 0), Vec2(3, 0.5), Vec2(0, 0.5), Vec2(-3, 0.5), Vec2(-3, 0), Vec2(-3, -0.5),
+       Vec2(0, -0.5), Vec2(3, -0.5), Vec2(3, 0)},
+      {1, std::sqrt(0.5), 1, std::sqrt(0.5), 1, std::sqrt(0.5), 1, std::sqrt(0.5), 1}};
+  const projection::Target<2> target = geometry::Curve(ellipse);
+  const DomainReport r = survey_domain(target, "ellipse", {.tolerance = 0.02});
+  EXPECT_LE(r.above.proved, 0.25 / 3);
+  EXPECT_GE(r.above.proved, 0.98 * 0.25 / 3);
+  EXPECT_EQ(r.above.unproved, "");
+  EXPECT_TRUE(std::isinf(r.below.proved));
+  const std::string text = to_text(r);
+  EXPECT_NE(text.find("reach between 0.0816667 and 0.0833333 (within 2 %)"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("proved        reach is without end"), std::string::npos) << text;
+  EXPECT_TRUE(nlohmann::json::parse(to_json(r))["below"]["proved"].is_null());
+  const std::string corners = to_text(survey_domain(cube(), "cube"));
+  EXPECT_NE(corners.find("reach is 0: an edge or corner opens to the other side"),
+            std::string::npos)
+      << corners;
+  const geometry::Cone cone{.half_angle = 0.6, .from = 0.8, .to = 3};
+  const std::string none =
+      to_text(survey_domain(projection::Target<3>(geometry::Surface(cone)), "cone"));
+  EXPECT_NE(none.find("no reach: not for this analytic shape"), std::string::npos) << none;
+}
+
 TEST(Domain, FilesAreWritten) {
   const DomainReport r = survey_domain(cube(), "cube");
   const std::string path = ::testing::TempDir() + "/domain.vtu";

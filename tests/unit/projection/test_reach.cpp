@@ -373,13 +373,13 @@ TEST(Reach, BadInputIsNamed) {
     }
     return "accepted";
   };
-  EXPECT_EQ(message({}), "the surface has no facets");
+  EXPECT_EQ(message({}), "a surface needs at least one facet");
   FacetMesh<3> mesh = saddle(1, 1);
   mesh.facets[0].nodes[3] = 12;
-  EXPECT_EQ(message(mesh), "facet 0: there is no node 12");
+  EXPECT_EQ(message(mesh), "facet 0 names node 12; there are nodes 0 to 8");
   mesh = saddle(1, 1);
   mesh.nodes[2].x() = NAN;
-  EXPECT_EQ(message(mesh), "node 2: expected finite coordinates");
+  EXPECT_EQ(message(mesh), "node 2 has a coordinate that is not finite");
 }
 
 }  // namespace
