@@ -136,11 +136,27 @@ Outcome add_run(CaseResult& out, const std::string& name, const Ironing& p, int 
 }  // namespace
 
 CaseResult ironing(const CaseContext& context) {
+  using enum Relation;
   CaseResult out;
   for (const char* const sampling : {"nodes", "{gauss: 2}", "{lobatto: 3}", "mortar"})
-    for (const bool slab : {true, false})
-      add_run(out, fmt::format("{}, {} slave", sampling, slab ? "slab" : "punch"),
-              {.sampling = sampling, .slab_is_slave = slab}, context.threads);
+    add_run(out, fmt::format("20 x 6 x 5 cells, {}", sampling), {.sampling = sampling},
+            context.threads);
+  add_run(out, "20 x 6 x 5 cells, mortar, punch slave",
+          {.sampling = "mortar", .slab_is_slave = false}, context.threads);
+  Ironing best{.sampling = "mortar", .slab = {40, 4, 5}, .punch = {32, 4}};
+  const Outcome whole = add_run(out, "40 x 4 x 5 cells, mortar", best, context.threads);
+  best.refine = 2;
+  const Outcome half =
+      add_run(out, "40 x 4 x 5 cells, mortar, half increments", best, context.threads);
+  if (!whole.finished || !half.finished) return out;
+  add(out, "40 x 4 x 5 cells, mortar: oscillation of the tangential force",
+      oscillation(whole.at, whole.tangential), 0.003, at_most, 0, "required");
+  add(out, "40 x 4 x 5 cells, mortar: ratio of the forces with half increments / with whole ones",
+      ratio(half) / ratio(whole), 1, equal, 0.01, "required");
+  Curve curve{"mortar", {"way", "tangential", "normal"}, {}};
+  for (std::size_t i = 0; i < whole.at.size(); ++i)
+    curve.rows.push_back({whole.at[i], whole.tangential[i], whole.normal[i]});
+  out.curves.push_back(std::move(curve));
   return out;
 }
 
