@@ -37,13 +37,13 @@ double spread_of(const Facet& facet, const Vec2& middle, std::span<const Vec2> x
   return 2 * std::acos(std::max(least, -1.0));
 }
 double spread_of(const SurfaceFacet& facet, const Vec3& middle, std::span<const Vec3> x) {
-  if (facet.type == cell::CellType::tri3) return 0;
+  if (facet.type == cell::CellType::tri3 && !facet.patch) return 0;
   double least = 1;
-  for (int k = 0; k < facet.count; ++k)
+  for (int k = 0; k < std::min(facet.count, cell::info(facet.type).nodes); ++k)
     least = std::min(least, normal_at(facet, cell::area_node(facet.type, k), x).dot(middle));
   constexpr double rounding = 1e-14;
   if (least > 1 - rounding) return std::sqrt(8 * rounding);
-  return (facet.count > 4 ? 2 : 1.2) * std::acos(std::max(least, -1.0));
+  return (facet.count > 4 || facet.patch ? 2 : 1.2) * std::acos(std::max(least, -1.0));
 }
 
 template <int Dim, class FacetType>

@@ -129,7 +129,8 @@ geometry::SurfaceJet facet_jet(const SurfaceFacet& facet, const cell::FacetShape
 }
 
 Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
-  const bool plain = !facet.shape && facet.difference[0] == 0;  // first derivatives are enough
+  // First derivatives are enough where they come alone.
+  const bool plain = !facet.shape && !facet.patch && facet.difference[0] == 0;
   const cell::FacetShape shape =
       plain ? cell::facet_shape(facet.type, xi, 1) : facet_shape(facet, xi);
   Vec3 r1 = Vec3::Zero(), r2 = Vec3::Zero();
