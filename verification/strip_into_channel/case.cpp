@@ -21,6 +21,7 @@ struct Variant {
   double mu = 0, increment = 0.02, lip = 0.02;
   const char* sampling = "nodes";
   const char* history = "continuous";
+  const char* smoothing = "none";
   Roles roles = Roles::corner_is_slave;
 };
 
@@ -48,7 +49,7 @@ rigid:
   channel: {{polyline: {{points: [[{2}, -30], [{2}, -0.04], [{2}, -0.02]]}}}}
 contact:
   - {{name: corner, master: {6}, slave: {7}, sampling: {8}, weight: {9}, history: {10},
-     two_pass: {11}, normal: {{penalty: {12}}}{13}}}
+     two_pass: {11}, smoothing: {16}, normal: {{penalty: {12}}}{13}}}
   - {{name: side, master: channel, slave: strip.bottom, weight: node, history: {10},
      search: {{depth: 0.3}}, normal: {{penalty: {12}}}{13}}}
 steps: [{{name: draw, increments: {14}, prescribe: [{{on: strip.left, ux: 0, uy: -{15}}}]}}]
@@ -57,7 +58,7 @@ solver: {{tolerance: {{residual: 1.0e-8}}, max_iterations: 30}}
       half_length, height, corner, v.lip, corner + v.lip, node ? "side.end" : "lip",
       strip ? "block" : "strip.bottom", strip ? "strip.bottom" : "block", v.sampling,
       node ? "node" : "reference_area", v.history, v.roles == Roles::two_pass, stiffness, friction,
-      std::lround(depth / v.increment), depth);
+      std::lround(depth / v.increment), depth, v.smoothing);
 }
 
 /// One converged increment.
@@ -253,6 +254,14 @@ void add_frictionless(CaseResult& out, double increment) {
     add(out, name + ": work of drawing it in / that of the node", sum / work, 1, equal, 0.01,
         "the strip ends in the same state");
   }
+  v.sampling = "nodes";
+  v.smoothing = "hermite";
+  const Draw smooth = draw(v, full_depth);
+  add_run(out, "frictionless, nodes, smoothed strip", smooth, equal);
+  for (std::size_t b = 0; b < 3; ++b)
+    add(out, fmt::format("frictionless, nodes, smoothed strip: jump at border {} / force", b + 1),
+        jump(smooth, b), 2e-4, at_most);
+  picture.plot.curves.push_back(curve_of(smooth, "nodes, smoothed strip"));
   out.pictures.push_back(std::move(picture));
 }
 
@@ -275,12 +284,19 @@ void add_friction(CaseResult& out, double increment) {
     add(out, name + ", continuous: jump at border 1 / force", jump(d, 0), 0, info);
     picture.plot.curves.push_back(curve_of(d, name));
     v.history = "per_facet";
+    add_run(out, name + ", per facet", draw(v, full_depth), info);
+    // With longer increments it comes over the first borders, and the jump can be seen.
+    v.increment = 0.01;
     const Draw bad = draw(v, full_depth);
-    add_run(out, name + ", per facet", bad, info);
-    add(out, name + ", per facet: jump at border 1 / that of the continuous history",
+    v.increment = increment;
+    add_run(out, name + ", per facet, increments of 0.01", bad, info);
+    add(out,
+        name +
+            ", per facet, increments of 0.01: jump at border 1 / that of the continuous "
+            "history",
         jump(bad, 0) / jump(d, 0), 5, at_least);
     if (mu != 0.2) continue;
-    picture.plot.curves.push_back(curve_of(bad, name + ", per facet"));
+    picture.plot.curves.push_back(curve_of(bad, name + ", per facet, increments of 0.01"));
     whole = d;
   }
   v.mu = 0.2;
