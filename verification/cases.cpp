@@ -2,7 +2,7 @@
 
 namespace osculate::verification {
 
-const std::vector<Case>& all_cases() {
+const std::vector<Case>& all_cases() {  // long: the one list
   static const std::vector<Case> cases{
       {"beam_over_cylinder", "The solid-shell beam of KSVD 5.1 is bent over a rigid cylinder",
        false, beam_over_cylinder},

@@ -85,12 +85,13 @@ void add_table(CaseResult& result) {
     Relation relation;
     double limit;
   };
-  constexpr std::array<Kind, 6> kinds{{{"nodes", false, Relation::info, 0},
+  constexpr std::array<Kind, 7> kinds{{{"nodes", false, Relation::info, 0},
                                        {"nodes", true, Relation::info, 0},
                                        {"{gauss: 2}", false, Relation::info, 0},
                                        {"{gauss: 2}", true, Relation::info, 0},
                                        {"{gauss: 5}", false, Relation::info, 0},
-                                       {"{lobatto: 5, subdomains: 2}", false, Relation::info, 0}}};
+                                       {"{lobatto: 5, subdomains: 2}", false, Relation::info, 0},
+                                       {"mortar", false, Relation::at_most, 1e-10}}};
   for (const std::string type : {"quad4", "quad8", "quad9", "tri3", "tri6"})
     for (const Kind& kind : kinds)
       for (const bool upper : {true, false}) {
