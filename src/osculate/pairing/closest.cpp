@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "osculate/pairing/scope.hpp"
+#include "osculate/pairing/other_side.hpp"
 #include "osculate/projection/point_to_curve.hpp"
 
 namespace osculate::pairing {
@@ -16,16 +16,35 @@ Vec2 node(const Facet& facet, std::size_t k, std::span<const Vec2> x) {
   return x[static_cast<std::size_t>(facet.nodes[k])];
 }
 
+Vec2 unit_normal(const Facet& facet, double xi, std::span<const Vec2> x) {
+  const Vec2 tangent = facet_jet(facet, xi, x).r1;
+  const double length = tangent.norm();
+  return length > 0 ? Vec2(turn(tangent) / length) : Vec2(Vec2::Zero());
+}
+
+/// Whether the chain ends for this point behind the facet: nothing is there, or another side.
+bool ends_at(const Chain& chain, const Facet& facet, bool high, std::span<const Vec2> x,
+             const ProjectionQuery<2>& query) {
+  const Index next = high ? facet.next : facet.prev;
+  if (next < 0) return true;
+  if (facet.shape || (!query.slave_normal && !query.scope)) return false;
+  const Facet& other = chain.facets[static_cast<std::size_t>(next)];
+  return ends_between<2>(query, unit_normal(facet, high ? facet.hi : facet.lo, x),
+                         unit_normal(other, high ? other.lo : other.hi, x),
+                         node(other, high ? 1 : 0, x) - node(facet, high ? 0 : 1, x));
+}
+
 /// The true foot point just beyond an end of the facet, by Newton's steps on the continued curve.
 ///
 /// Between neighbours this covers the tolerance of the projection: clamped to the end, the slip
 /// would stand still there and then jump. At an open end of the chain the facet is continued by
 /// `end_extension` of its range: the last node of a surface must not lose contact because its
 /// master tilts or stretches a little.
-template <class Jet>
-void release_end(const Jet& jet, const Facet& facet, const Vec2& point, CurveFoot& foot) {
+template <class Jet, class Open>
+void release_end(const Jet& jet, const Facet& facet, const Vec2& point, const Open& open,
+                 CurveFoot& foot) {
   if (!foot.converged || (foot.xi != facet.lo && foot.xi != facet.hi)) return;
-  const bool open_end = (foot.xi == facet.hi ? facet.next : facet.prev) < 0;
+  const bool open_end = open(foot.xi == facet.hi);
   if (foot.at_end && !open_end) return;
   const double range = facet.hi - facet.lo;
   const double limit = (open_end ? end_extension : 2 * projection::end_tolerance) * range;
@@ -45,7 +64,10 @@ void release_end(const Jet& jet, const Facet& facet, const Vec2& point, CurveFoo
 }
 
 /// Foot point on one facet in the current configuration.
-CurveFoot foot_on_facet(const Facet& facet, std::span<const Vec2> x, const Vec2& point) {
+CurveFoot foot_on_facet(const Chain& chain, const Facet& facet, std::span<const Vec2> x,
+                        const ProjectionQuery<2>& query) {
+  const Vec2& point = query.point;
+  const auto open = [&](bool high) { return ends_at(chain, facet, high, x, query); };
   if (facet.shape) {
     const Vec2 origin = node(facet, 0, x);
     const Vec2 arm = point - origin;
@@ -53,19 +75,14 @@ CurveFoot foot_on_facet(const Facet& facet, std::span<const Vec2> x, const Vec2&
     CurveFoot foot = projection::closest_point(*facet.shape, local);
     const Index beyond = foot.xi == facet.hi ? facet.next : facet.prev;
     if (beyond >= 0 && !facet.closed)
-      release_end([&](double xi) { return geometry::jet(*facet.shape, xi); }, facet, local, foot);
+      release_end([&](double xi) { return geometry::jet(*facet.shape, xi); }, facet, local, open,
+                  foot);
     return foot;
   }
   const geometry::LagrangeCurve curve = facet_curve(facet, x);
   CurveFoot foot = projection::closest_point(curve, point);
-  release_end([&](double xi) { return curve.jet(xi); }, facet, point, foot);
+  release_end([&](double xi) { return curve.jet(xi); }, facet, point, open, foot);
   return foot;
-}
-
-Vec2 unit_normal(const Facet& facet, double xi, std::span<const Vec2> x) {
-  const Vec2 tangent = facet_jet(facet, xi, x).r1;
-  const double length = tangent.norm();
-  return length > 0 ? Vec2(turn(tangent) / length) : Vec2(Vec2::Zero());
 }
 
 /// Candidate of one facet, and the order among candidates that are equally near.
@@ -96,7 +113,8 @@ void add_kink_normal(const Facet& facet, double xi, std::span<const Vec2> x, Pro
 
 /// Fills in what a vertex needs: its outward direction from both neighbours, or that the chain
 /// ends.
-void resolve_end(const Chain& chain, std::span<const Vec2> x, Projection<2>& p) {
+void resolve_end(const Chain& chain, std::span<const Vec2> x, const ProjectionQuery<2>& query,
+                 Projection<2>& p) {
   const Facet& facet = chain.facets[static_cast<std::size_t>(p.facet)];
   const double xi = p.xi[0];
   const bool at_high = xi > 0.5 * (facet.lo + facet.hi);
@@ -106,7 +124,7 @@ void resolve_end(const Chain& chain, std::span<const Vec2> x, Projection<2>& p) 
   const double range = facet.hi - facet.lo;
   const double to_end = std::min(facet.hi - xi, xi - facet.lo);
   if (to_end > 1e-6 * range) return add_kink_normal(facet, xi, x, p);
-  if (neighbour < 0) {
+  if (ends_at(chain, facet, at_high, x, query)) {
     p.beyond_end = true;
     return;
   }
@@ -116,12 +134,13 @@ void resolve_end(const Chain& chain, std::span<const Vec2> x, Projection<2>& p) 
 }
 
 /// Two neighbours at the same distance and no history to choose: the vertex between them.
-void share(const Chain& chain, std::span<const Vec2> x, Index other, Projection<2>& p) {
+void share(const Chain& chain, std::span<const Vec2> x, Index other,
+           const ProjectionQuery<2>& query, Projection<2>& p) {
   const Facet& facet = chain.facets[static_cast<std::size_t>(p.facet)];
   if (facet.next != other && facet.prev != other) return;
   p.feature = Feature::corner;
   p.xi[0] = facet.next == other ? facet.hi : facet.lo;
-  resolve_end(chain, x, p);
+  resolve_end(chain, x, query, p);
 }
 
 /// A facet that faces the same way as the slave is the far side of a thin body.
@@ -191,7 +210,7 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
   const auto visit = [&](Index f) {
     const Facet& facet = chain.facets[static_cast<std::size_t>(f)];
     if (query.scope && query.scope->skips(f, query.slave_normal)) return far_away;
-    const CurveFoot foot = foot_on_facet(facet, x, query.point);
+    const CurveFoot foot = foot_on_facet(chain, facet, x, query);
     const double distance = std::sqrt(foot.squared_distance);
     if (!foot.converged || faces_away(facet, foot, x, query)) return far_away;
     if (query.scope && !admits(*query.scope, facet, foot.xi, x)) return far_away;
@@ -214,9 +233,9 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
   p.xi[0] = best.foot.xi;
   p.distance = best.distance;
   if (best.foot.at_end) {
-    resolve_end(chain, x, p);
+    resolve_end(chain, x, query, p);
   } else if (query.shares() && equidistant(chain, x, best, tied)) {
-    share(chain, x, tied.facet, p);
+    share(chain, x, tied.facet, query, p);
   }
   return p;
 }

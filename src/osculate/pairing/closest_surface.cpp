@@ -6,7 +6,7 @@
 #include "osculate/cell/shape.hpp"
 #include "osculate/pairing/closest.hpp"
 #include "osculate/pairing/closest_patch.hpp"
-#include "osculate/pairing/scope.hpp"
+#include "osculate/pairing/other_side.hpp"
 #include "osculate/projection/point_to_facet.hpp"
 #include "osculate/projection/point_to_surface.hpp"
 
@@ -43,45 +43,70 @@ FacetFoot foot_on_shape(const SurfaceFacet& facet, std::span<const Vec3> x, cons
   return foot;
 }
 
+Vec3 middle_normal(const SurfaceFacet& facet, std::span<const Vec3> x) {
+  const Vec2 middle = cell::is_triangle(facet.type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(Vec2::Zero());
+  return facet_normal(facet, middle, x);
+}
+
+/// Mean of the corners.
+Vec3 middle_of(const SurfaceFacet& facet, std::span<const Vec3> x) {
+  Vec3 sum = Vec3::Zero();
+  const int corners = edge_count(facet);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k) sum += node(facet, k, x);
+  return sum / corners;
+}
+
+/// Whether the surface ends for this point behind an edge: nothing is there, or another side.
+bool ends_at(const FacetSurface& surface, const SurfaceFacet& facet, int edge,
+             std::span<const Vec3> x, const ProjectionQuery<3>& query) {
+  const Index other = facet.neighbour[static_cast<std::size_t>(edge)];
+  if (other < 0) return true;
+  if (!query.slave_normal && !query.scope) return false;
+  const SurfaceFacet& next = surface.facets[static_cast<std::size_t>(other)];
+  return ends_between<3>(query, middle_normal(facet, x), middle_normal(next, x),
+                         middle_of(next, x) - middle_of(facet, x));
+}
+
 /// A foot on the border of its facet is let go a little beyond it: by the tolerance of the
 /// projection between neighbours (clamped, the slip would stand still there and then jump), by
 /// `end_extension` at open borders (the last node of a surface must not lose contact because its
 /// master tilts or stretches a little).
 template <class Release>
-void release_border(const SurfaceFacet& facet, const Release& release, FacetFoot& foot) {
+void release_border(const FacetSurface& surface, const SurfaceFacet& facet, std::span<const Vec3> x,
+                    const ProjectionQuery<3>& query, const Release& release, FacetFoot& foot) {
   if (!foot.converged || foot.feature == Feature::face || foot.local < 0) return;
   constexpr double tolerance = 2e-8;
   bool open = false;
   if (foot.feature == Feature::edge) {
-    open = facet.neighbour[static_cast<std::size_t>(foot.local)] < 0;
+    open = ends_at(surface, facet, foot.local, x, query);
   } else {
     const int edges = edge_count(facet);
-    const auto before = static_cast<std::size_t>((foot.local + edges - 1) % edges);
-    const auto after = static_cast<std::size_t>(foot.local);
-    open = facet.neighbour[before] < 0 || facet.neighbour[after] < 0;
+    open = ends_at(surface, facet, (foot.local + edges - 1) % edges, x, query) ||
+           ends_at(surface, facet, foot.local, x, query);
   }
   (void)release(open ? end_extension : tolerance, foot);
 }
 
-FacetFoot foot_on_facet(const SurfaceFacet& facet, std::span<const Vec3> x, const Vec3& point) {
-  if (facet.shape) return foot_on_shape(facet, x, point);
+FacetFoot foot_on_facet(const FacetSurface& surface, const SurfaceFacet& facet,
+                        std::span<const Vec3> x, const ProjectionQuery<3>& query) {
+  if (facet.shape) return foot_on_shape(facet, x, query.point);
   FacetNodes buffer;
   const std::span<const Vec3> nodes = nodes_of(facet, x, buffer);
-  FacetFoot foot = projection::closest_point(facet.type, nodes, point);
+  FacetFoot foot = projection::closest_point(facet.type, nodes, query.point);
   if (facet.patch) {
     const PatchPoints points = patch_points(facet, x);
-    const PatchQuery query{facet.type, points, point};
-    foot = closest_on_patch(query, foot.xi);
+    const PatchQuery on_patch{facet.type, points, query.point};
+    foot = closest_on_patch(on_patch, foot.xi);
     const auto release = [&](double extension, FacetFoot& f) {
-      return release_from_patch(query, extension, f);
+      return release_from_patch(on_patch, extension, f);
     };
-    release_border(facet, release, foot);
+    release_border(surface, facet, x, query, release, foot);
     return foot;
   }
   const auto release = [&](double extension, FacetFoot& f) {
-    return projection::release(facet.type, nodes, point, extension, f);
+    return projection::release(facet.type, nodes, query.point, extension, f);
   };
-  release_border(facet, release, foot);
+  release_border(surface, facet, x, query, release, foot);
   return foot;
 }
 
@@ -144,10 +169,11 @@ Vec2 across(const SurfaceFacet& facet, int edge, const Vec2& xi, const SurfaceFa
   return (1 - t) * local(ends[0]) + t * local(ends[1]);
 }
 
-void resolve_edge(const FacetSurface& surface, std::span<const Vec3> x, Projection<3>& p) {
+void resolve_edge(const FacetSurface& surface, std::span<const Vec3> x,
+                  const ProjectionQuery<3>& query, Projection<3>& p) {
   const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(p.facet)];
   p.outward = facet_normal(facet, p.xi, x);
-  if (facet.shape || p.local < 0 || facet.neighbour[static_cast<std::size_t>(p.local)] < 0) {
+  if (facet.shape || p.local < 0 || ends_at(surface, facet, p.local, x, query)) {
     p.beyond_end = true;
     return;
   }
@@ -175,7 +201,8 @@ double corner_angle(const SurfaceFacet& facet, int k, std::span<const Vec3> x) {
 ///
 /// Source     Baerentzen2005
 /// Tested by  tests/unit/pairing/test_closest3.cpp
-void resolve_corner(const FacetSurface& surface, std::span<const Vec3> x, Projection<3>& p) {
+void resolve_corner(const FacetSurface& surface, std::span<const Vec3> x,
+                    const ProjectionQuery<3>& query, Projection<3>& p) {
   const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(p.facet)];
   const Index vertex = facet.nodes[static_cast<std::size_t>(p.local)];
   p.outward.setZero();
@@ -186,8 +213,8 @@ void resolve_corner(const FacetSurface& surface, std::span<const Vec3> x, Projec
       if (other.nodes[static_cast<std::size_t>(k)] != vertex) continue;
       p.outward +=
           corner_angle(other, k, x) * facet_normal(other, cell::area_node(other.type, k), x);
-      if (other.neighbour[static_cast<std::size_t>(k)] < 0 ||
-          other.neighbour[static_cast<std::size_t>((k + edges - 1) % edges)] < 0)
+      if (ends_at(surface, other, k, x, query) ||
+          ends_at(surface, other, (k + edges - 1) % edges, x, query))
         p.beyond_end = true;
     }
   }
@@ -208,18 +235,18 @@ bool equidistant(const FacetSurface& surface, std::span<const Vec3> x, const Can
 
 /// Two neighbours at the same distance and no history to choose: the edge between them, at the
 /// point nearest to the slave.
-void share(const FacetSurface& surface, std::span<const Vec3> x, Index other, const Vec3& point,
-           Projection<3>& p) {
+void share(const FacetSurface& surface, std::span<const Vec3> x, Index other,
+           const ProjectionQuery<3>& query, Projection<3>& p) {
   const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(p.facet)];
   const int edge = facet.shape ? -1 : shared_edge(facet, other);
   if (edge < 0) return;
-  const FacetFoot foot = foot_on_edge(facet, x, edge, point);
+  const FacetFoot foot = foot_on_edge(facet, x, edge, query.point);
   if (!foot.converged || foot.feature != Feature::edge) return;
   p.feature = Feature::edge;
   p.local = edge;
   p.xi = foot.xi;
   p.distance = std::sqrt(foot.squared_distance);
-  resolve_edge(surface, x, p);
+  resolve_edge(surface, x, query, p);
 }
 
 /// A facet that faces the same way as the slave is the far side of a thin body.
@@ -264,7 +291,7 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
   const auto visit = [&](Index f) {
     const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(f)];
     if (query.scope && query.scope->skips(f, query.slave_normal)) return far_away;
-    const FacetFoot foot = foot_on_facet(facet, x, query.point);
+    const FacetFoot foot = foot_on_facet(surface, facet, x, query);
     const double distance = std::sqrt(foot.squared_distance);
     if (!foot.converged || faces_away(facet, foot, x, query)) return far_away;
     if (query.scope && !admits(*query.scope, facet, foot.xi, x)) return far_away;
@@ -288,10 +315,10 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
   p.xi = best.foot.xi;
   p.local = best.foot.local;
   p.distance = best.distance;
-  if (p.feature == Feature::edge) resolve_edge(surface, x, p);
-  if (p.feature == Feature::corner) resolve_corner(surface, x, p);
+  if (p.feature == Feature::edge) resolve_edge(surface, x, query, p);
+  if (p.feature == Feature::corner) resolve_corner(surface, x, query, p);
   if (query.shares() && equidistant(surface, x, best, tied))
-    share(surface, x, tied.facet, query.point, p);
+    share(surface, x, tied.facet, query, p);
   return p;
 }
 
