@@ -84,6 +84,9 @@ NodeContact<Dim> place_node(const MortarNode<Dim>& node, const NodalNormal<Dim>&
   c.normal = -normal.value;
   c.frame = normal.frame;
   c.gap = c.normal.dot(c.apart);
+  // Sides that touch without a gap are in contact; the sums leave some rounding of it.
+  constexpr double rounding = 1e-13;
+  if (c.gap > 0 && c.gap <= rounding * (node.own.norm() + node.other.norm()) / node.area) c.gap = 0;
   return c;
 }
 

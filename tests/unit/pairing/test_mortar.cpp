@@ -57,6 +57,13 @@ TEST_P(MortarLines, UniformGapIsUniformPressureOnBothSides) {
   }
 }
 
+TEST_P(MortarLines, SidesThatTouchAreInContact) {
+  const auto [slave, master, weight] = GetParam();
+  MortarSample<2> s = make_mortar2({.slave_nodes = slave, .master_nodes = master, .depth = 0});
+  s.pair.weight = weight;
+  for (const Status status : mortar_status(s, flat<2>(s.x))) EXPECT_EQ(status, Status::slip);
+}
+
 TEST_P(MortarLines, MatchingMeshes) {
   const auto [slave, master, weight] = GetParam();
   MortarSample<2> s = make_mortar2({.slave_nodes = slave,

@@ -69,6 +69,15 @@ TEST_P(MortarFacets, UniformGapIsUniformPressureOnBothSides) {
     }
 }
 
+// Without a gap all nodes are in contact, whatever the sums leave of it.
+TEST_P(MortarFacets, SidesThatTouchAreInContact) {
+  const auto [slave, master, weight] = GetParam();
+  MortarSample<3> s = make_mortar3(
+      {.slave = slave, .master = master, .depth = 0, .skew = 0.1, .keep_border = true});
+  s.pair.weight = weight;
+  for (const Status status : mortar_status(s, flat<3>(s.x))) EXPECT_EQ(status, Status::slip);
+}
+
 // The same mesh on both sides: every edge lies on one of the other side.
 TEST_P(MortarFacets, MatchingMeshes) {
   const auto [slave, master, weight] = GetParam();
