@@ -218,9 +218,10 @@ TEST(Contact3, ReportsShearAndSlipInItsTwoDirections) {
   using Rule = pairing::Sampling::Rule;
   const std::array<std::pair<double, pairing::Sampling>, 4> runs{
       {{1.0, {}}, {0.1, {}}, {1.0, {Rule::gauss, 2, 1}}, {0.1, {Rule::lobatto, 3, 2}}}};
-  for (const auto& [mu, sampling] : runs) {
+  for (const auto& chosen : runs) {
+    const double mu = chosen.first;
     Model3 m = block(elastic());
-    add_floor(m, mu, sampling);
+    add_floor(m, mu, chosen.second);
     const std::array<double, 3> u{a, b, -d};
     const auto nodes = static_cast<Index>(m.mesh.nodes.size());
     for (Index n = 0; n < nodes; ++n)
