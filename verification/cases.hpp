@@ -26,6 +26,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult self_contact(const CaseContext& context);
 [[nodiscard]] CaseResult sliding_block(const CaseContext& context);
 [[nodiscard]] CaseResult ironing(const CaseContext& context);
+[[nodiscard]] CaseResult smoothed_circle(const CaseContext& context);
 [[nodiscard]] CaseResult strip_into_channel(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell_fine(const CaseContext& context);
