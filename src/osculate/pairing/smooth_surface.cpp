@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "osculate/core/error.hpp"
@@ -205,7 +206,8 @@ Crease crease_slope(const std::vector<Index>& ends, Index vertex, Index far, Spa
   if (ends.size() != 2) return out;
   const Index other = ends[0] == far ? ends[1] : ends[0];
   const Vec3 before = at(x, vertex) - at(x, other);
-  if (angle_between(before, at(x, far) - at(x, vertex)) > sharp_angle) return out;
+  constexpr double most = 0.25 * std::numbers::pi;  // a corner of a sheet is no smooth line
+  if (angle_between(before, at(x, far) - at(x, vertex)) > std::min(sharp_angle, most)) return out;
   const double g = before.norm();
   out.slope = sum(g / (g + h), out.slope, -h / (g + h), difference(other, vertex, 1 / g));
   out.along = true;
@@ -233,19 +235,36 @@ std::vector<Vec2> chart_of(const FacetSurface& s, const Sector& sector,
 }
 
 /// Gradient in the chart by least squares with the weights |q|^-3, which make two opposite spokes
-/// a parabola whatever their lengths are.
+/// a parabola whatever their lengths are. With `round` the fit has a term |q|^2 too, which takes
+/// the curvature of a ball out of it where the spokes are not opposite to each other.
 std::array<Combination, 2> fitted_base(Index vertex, const std::vector<Index>& ends,
-                                       const std::vector<Vec2>& q) {
-  Mat<2, 2> normal = Mat<2, 2>::Zero();
-  for (const Vec2& p : q) normal += std::pow(p.norm(), -3) * p * p.transpose();
-  const Mat<2, 2> inverse = normal.inverse();
+                                       const std::vector<Vec2>& q, bool round) {
+  double size = 0;
+  for (const Vec2& p : q) size += p.norm() / static_cast<double>(q.size());
+  const auto terms = [&](const Vec2& p) {
+    return Vec3(p.x(), p.y(), round ? p.squaredNorm() / size : 0.0);
+  };
+  Mat<3, 3> normal = Mat<3, 3>::Zero();
+  for (const Vec2& p : q) normal += std::pow(p.norm(), -3) * terms(p) * terms(p).transpose();
+  if (!round) normal(2, 2) = 1;
+  const Mat<3, 3> inverse = normal.inverse();
   std::array<Combination, 2> base;
   for (std::size_t i = 0; i < q.size(); ++i) {
-    const Vec2 weight = std::pow(q[i].norm(), -3) * inverse * q[i];
+    const Vec3 weight = std::pow(q[i].norm(), -3) * inverse * terms(q[i]);
     base[0].add(weight.x(), difference(ends[i], vertex, 1));
     base[1].add(weight.y(), difference(ends[i], vertex, 1));
   }
   return base;
+}
+
+/// Of a sector of one facet: by the sum of its two edges.
+Combination side_of_corner(Index vertex, const std::vector<Index>& ends, const std::vector<Vec2>& q,
+                           const Combination& along, const Vec2& e, const Vec2& across) {
+  const Vec2 both = q.front() + q.back();
+  Combination out =
+      sum(1, difference(ends.front(), vertex, 1), 1, difference(ends.back(), vertex, 1));
+  out.add(-both.dot(e), along);
+  return sum(1 / both.dot(across), out, 0, out);
 }
 
 /// Everything the tangent planes are made from.
@@ -274,10 +293,15 @@ std::array<Combination, 2> bordered_base(const Work& w, const Sector& sector,
     return {sum(back(0, 0), one.slope, back(1, 0), two.slope),
             sum(back(0, 1), one.slope, back(1, 1), two.slope)};
   }
-  if (one.along) q.back() = -q.back().norm() * e1;
-  const std::array<Combination, 2> fit = fitted_base(sector.vertex, ends, q);
   const Vec2 across(-e1.y(), e1.x());
-  const Combination side = sum(across.x(), fit[0], across.y(), fit[1]);
+  Combination side;
+  if (sector.corners.size() == 1) {
+    side = side_of_corner(sector.vertex, ends, q, one.slope, e1, across);
+  } else {
+    const std::array<Combination, 2> fit = fitted_base(sector.vertex, ends, q, false);
+    side = sum(across.x(), fit[0], across.y(), fit[1]);
+  }
+  if (one.along) q.back() = -q.back().norm() * e1;
   return {sum(e1.x(), one.slope, across.x(), side), sum(e1.y(), one.slope, across.y(), side)};
 }
 
@@ -292,7 +316,7 @@ std::vector<std::array<CornerFrame, 4>> corner_frames(const Work& w) {
       const std::vector<Index> ends = spokes(w.surface, sector);
       std::vector<Vec2> q = chart_of(w.surface, sector, ends, w.x);
       CornerFrame frame;
-      frame.base = sector.closed ? fitted_base(sector.vertex, ends, q)
+      frame.base = sector.closed ? fitted_base(sector.vertex, ends, q, true)
                                  : bordered_base(w, sector, ends, q, frame.sharp);
       frame.sharp = frame.sharp && sector.corners.size() == 1;
       for (std::size_t i = 0; i < sector.corners.size(); ++i) {
@@ -396,7 +420,8 @@ SurfaceFacet with_patch(const SurfaceFacet& facet, const Points& points) {
         out.nodes[static_cast<std::size_t>(out.count++)] = term.first;
       }
       if (!std::isfinite(term.second))
-        throw core::GeometryError("smoothing: a facet of the master has an edge without length");
+        throw core::GeometryError(
+            "smoothing: a facet of the master has no shape at one of its nodes");
       patch.weight[static_cast<std::size_t>(found - begin)][j] = term.second;
     }
   out.patch = std::make_shared<const GregoryWeights>(patch);
