@@ -34,9 +34,8 @@ void prepare_mortar(PairDefinition<Dim>& pair, Points<Dim> reference);
 /// Jumps      where a facet with nodes on its edges begins to be covered in part, its multipliers
 ///            change from its own order to the corners' linear functions: a uniform traction stays
 ///            what it was, another one is shared out anew
-/// Blocks     one per slave node (its forces and, as path, the derivative of its traction), then
-/// one
-///            per slave facet in contact (the derivatives of D and M times the tractions)
+/// Blocks     one per slave node (its forces and, as path, the derivative of its traction),
+///            then one per slave facet in contact (the derivatives of D and M times the tractions)
 /// Requires   `prepare`, which throws where the pair is none for mortar
 /// Tested by  tests/unit/pairing/test_mortar.cpp, test_mortar3.cpp
 template <int Dim>

@@ -11,9 +11,8 @@ namespace osculate::pairing {
 /// N_l of the master:
 ///
 /// Formula    E_jk = int N_j N_k dA,  F_jl = int N_j N_l dA
-/// Shapes     `de`, `df`: row j + n k (column by column), n the slave facet's nodes; column Dim c +
-/// i
-///            is the derivative by direction i of nodes[c]
+/// Shapes     `de`, `df`: row j + n k (column by column), n the slave facet's nodes;
+///            column Dim c + i is the derivative by direction i of nodes[c]
 template <int Dim>
 struct MortarCell {
   Index master = -1;    ///< facet
@@ -58,7 +57,7 @@ inline constexpr int max_mortar_line = 4;
 ///            each other along that normal
 /// Requires   slave and master facets through nodes, lines with at most `max_mortar_line`; `local`
 ///            the entries of the facet's nodes in `sides.normals`
-/// Tested by  tests/unit/pairing/test_mortar_cell.cpp
+/// Tested by  tests/unit/pairing/test_mortar.cpp, test_mortar3.cpp (the pair's tangent by order)
 bool mortar_cell(const MortarSides<2>& sides, Index s, std::span<const std::size_t> local, Index m,
                  std::span<const Vec2> x, bool derivatives, MortarCell<2>& cell);
 bool mortar_cell(const MortarSides<3>& sides, Index s, std::span<const std::size_t> local, Index m,

@@ -13,7 +13,7 @@ namespace osculate::pairing {
 ///            travel); 3D e_1 along the part of r_,1 of the node's first facet that is
 ///            perpendicular to n, e_2 = -n x e_1
 /// Sign       n points out of the slave
-/// Tested by  tests/unit/pairing/test_mortar_normal.cpp
+/// Tested by  tests/unit/pairing/test_mortar.cpp, test_mortar3.cpp (the pair's tangent by order)
 template <int Dim>
 struct NodalNormal {
   Vec<Dim> value = Vec<Dim>::Zero();  ///< zero where the facets have no common outside

@@ -14,8 +14,7 @@ struct FacetSurface;
 /// A smooth surface through the nodes of first-order facets.
 ///   hermite  cubic pieces, one continuous tangent
 ///   nurbs    pieces of degree 5, also one continuous curvature: the spline with all weights 1
-///   whose
-///            inner knots are the nodes' (three times each)
+///            whose inner knots are the nodes' (three times each)
 enum class SmoothingKind : std::uint8_t { none, hermite, nurbs };
 
 struct Smoothing {
@@ -44,11 +43,10 @@ struct BezierWeights {
 /// Replaces the straight facets of `chain` (connected) by smooth ones through the same nodes.
 ///
 /// Formula    at a node between facets of the reference lengths h_1 and h_2, by the parabola
-/// through
-///            three nodes: d = (h_2 e_1 + h_1 e_2)/(h_1 + h_2), c = 2 (e_2 - e_1)/(h_1 + h_2),
-///            where e_i = (difference of the facet's nodes)/h_i; rho' = d (and for `nurbs` rho'' =
-///            c) there by the reference length. At an end and at a sharp corner d and c are those
-///            of the parabola of the facet's other end
+///            through three nodes: d = (h_2 e_1 + h_1 e_2)/(h_1 + h_2), c = 2 (e_2 - e_1)/(h_1 +
+///            h_2), where e_i = (difference of the facet's nodes)/h_i; rho' = d (and for `nurbs`
+///            rho'' = c) there by the reference length. At an end and at a sharp corner d and c are
+///            those of the parabola of the facet's other end
 /// Returns    facets between two such ends stay straight, analytic curves as they are
 /// Requires   facets of two nodes, which differ in `reference`
 /// Tested by  tests/unit/pairing/test_smoothing.cpp

@@ -72,7 +72,7 @@ struct PathBuffers {
 /// Source     docs/errata.md (3D transport; KS2D:89 in space)
 /// Returns    as above; no trial when the places are on different pieces of the master, or the
 ///            normals are opposite
-/// Tested by  tests/unit/pairing/test_pair3_tangent.cpp, test_pair3_history.cpp,
+/// Tested by  tests/unit/pairing/test_pair3_tangent.cpp, test_pair3_identities.cpp,
 ///            test_history_rules3.cpp
 [[nodiscard]] Trial<3> trial(const FacetSurface& master, const contact::PointHistory<3>& history,
                              const Placed<3>& placed, double stiffness, const ContactShare& share,
