@@ -51,7 +51,7 @@ struct Probe {
 
   Eigen::VectorXd random(double amplitude) {
     std::uniform_real_distribution<double> uniform(-1, 1);
-    Eigen::VectorXd d(system.dofs().unknowns());
+    Eigen::VectorXd d(system.unknowns());
     for (Eigen::Index i = 0; i < d.size(); ++i)
       d[i] = system.prescribed(static_cast<Index>(i)) ? 0.0 : amplitude * uniform(generator);
     return d;
@@ -101,7 +101,7 @@ template <int Dim>
 void close_contact(Probe<Dim>& probe, const model::BasicModel<Dim>& m) {
   const double depth = 0.01 * probe.size;
   probe.at(probe.base, false);
-  Eigen::VectorXd d = Eigen::VectorXd::Zero(probe.system.dofs().unknowns());
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(probe.system.unknowns());
   for (std::size_t p = 0; p < m.pairs.size(); ++p) {
     const auto& points = probe.system.contact()[p].points;
     const std::vector<pairing::SlavePoint<Dim>>& slave = m.pairs[p].definition.slave.points;

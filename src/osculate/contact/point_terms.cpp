@@ -107,28 +107,9 @@ void set_forces(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Traction
   }
 }
 
-/// The shear traction as a vector in space, dt = E D E^T d(t_trial) + E d_N dN - n (t . d(n)).
-template <int Dim>
-struct Shear {
-  Vec<Dim> value;
-  Mat<Dim, Dim> d_trial;  ///< E D E^T
-  VectorForm<Dim> variation;
-};
-
-template <int Dim>
-Shear<Dim> shear_of(const Kinematics<Dim>& k, const Traction<Dim>& t, const Form<Dim>& d_normal) {
-  Shear<Dim> s;
-  s.value = k.frame * t.tangential.traction;
-  s.d_trial = k.frame * t.tangential.d_trial * k.frame.transpose();
-  s.variation.add(s.d_trial, t.d_trial);
-  s.variation.add(Vec<Dim>(k.frame * t.tangential.d_normal), d_normal);
-  s.variation.add(Vec<Dim>(-k.normal), dot(s.value, k.d_normal));
-  return s;
-}
-
 /// Adds the derivatives of the forces of the full residual's shear.
 template <int Dim>
-void add_full_shear(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Shear<Dim>& shear) {
+void add_full_shear(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const ShearRate<Dim>& shear) {
   const Conjugate<Dim> c = conjugate(k, shear.value);
   for (std::size_t j = 0; j < k.moving; ++j) {
     const double traction = c.value[static_cast<I>(j)];
@@ -155,6 +136,18 @@ PointTerms<Dim> point_forces(const Kinematics<Dim>& k, const Traction<Dim>& t, R
 }
 
 template <int Dim>
+ShearRate<Dim> shear_rate(const Kinematics<Dim>& k, const Traction<Dim>& t) {
+  ShearRate<Dim> s;
+  s.value = k.frame * t.tangential.traction;
+  s.d_trial = k.frame * t.tangential.d_trial * k.frame.transpose();
+  s.d_push = k.frame * t.tangential.d_normal;
+  s.variation.add(s.d_trial, t.d_trial);
+  s.variation.add(s.d_push, t.normal.d_traction * k.d_gap);
+  s.variation.add(Vec<Dim>(-k.normal), dot(s.value, k.d_normal));
+  return s;
+}
+
+template <int Dim>
 PointTerms<Dim> consistent_terms(const Kinematics<Dim>& k, const Traction<Dim>& t,
                                  ResidualForm form) {
   PointTerms<Dim> terms = zero_terms<Dim>(used_slots<Dim>(form));
@@ -167,7 +160,7 @@ PointTerms<Dim> consistent_terms(const Kinematics<Dim>& k, const Traction<Dim>& 
 
   // 2. the shear force
   if (t.tangential.status == Status::slip || t.tangential.d_trial(0, 0) != 0.0) {
-    const Shear<Dim> shear = shear_of(k, t, d_normal);
+    const ShearRate<Dim> shear = shear_rate(k, t);
     if (form == ResidualForm::full) {
       add_full_shear(terms, k, shear);
     } else {
@@ -282,6 +275,8 @@ PointTerms<Dim> covariant_terms(const Kinematics<Dim>& k, const Traction<Dim>& t
 
 template PointTerms<2> point_forces<2>(const Kinematics<2>&, const Traction<2>&, ResidualForm);
 template PointTerms<3> point_forces<3>(const Kinematics<3>&, const Traction<3>&, ResidualForm);
+template ShearRate<2> shear_rate<2>(const Kinematics<2>&, const Traction<2>&);
+template ShearRate<3> shear_rate<3>(const Kinematics<3>&, const Traction<3>&);
 template PointTerms<2> consistent_terms<2>(const Kinematics<2>&, const Traction<2>&, ResidualForm);
 template PointTerms<3> consistent_terms<3>(const Kinematics<3>&, const Traction<3>&, ResidualForm);
 template PointTerms<2> covariant_terms<2>(const Kinematics<2>&, const Traction<2>&, ResidualForm,

@@ -58,6 +58,19 @@ template <int Dim>
 [[nodiscard]] PointTerms<Dim> consistent_terms(const Kinematics<Dim>& k, const Traction<Dim>& t,
                                                ResidualForm form);
 
+/// The shear traction as a vector in space and its derivatives,
+///   dt = d_trial d(t_trial) + d_push dN + variation  (the last with the point's own motion, dN and
+///   d(t_trial) by it included).
+template <int Dim>
+struct ShearRate {
+  Vec<Dim> value;
+  Mat<Dim, Dim> d_trial;  ///< E D E^T
+  Vec<Dim> d_push;
+  VectorForm<Dim> variation;
+};
+template <int Dim>
+[[nodiscard]] ShearRate<Dim> shear_rate(const Kinematics<Dim>& k, const Traction<Dim>& t);
+
 /// The papers' covariant tangent with the corrections of docs/errata.md, part by part.
 /// Symmetric in stick; not the derivative of the residual, so Newton's rate is linear.
 template <int Dim>

@@ -174,6 +174,38 @@ void set_forms(const Contact& contact, pairing::PairDefinition<Dim>& pair) {
   const Tangent& t = contact.tangent.value;
   pair.tangent = {t.kind == TangentKind::consistent, t.main, t.rotational, t.curvature};
   if (contact.search_depth) pair.depth = contact.search_depth->value;
+  switch (contact.enforcement.value.kind) {
+    case EnforcementWord::penalty:
+      pair.enforcement = contact::Enforcement::penalty;
+      break;
+    case EnforcementWord::augmented_lagrange:
+      pair.enforcement = contact::Enforcement::augmented_lagrange;
+      break;
+    case EnforcementWord::lagrange_multiplier:
+      pair.enforcement = contact::Enforcement::lagrange_multiplier;
+      break;
+  }
+}
+
+/// Target and loop of the augmented Lagrangian.
+template <int Dim>
+void set_augmentation(const BuildContext<Dim>& c, const Contact& contact,
+                      pairing::PairDefinition<Dim>& pair) {
+  constexpr double usual = 1e-4;  // of a facet
+  if (pair.enforcement != contact::Enforcement::augmented_lagrange) return;
+  pair.augment_often = contact.enforcement.value.loop == AugmentLoop::single;
+  if (contact.enforcement.value.target) {
+    pair.target = *contact.enforcement.value.target;
+    return;
+  }
+  const double slave = mean_size<Dim>(pair.slave.boundary, c.model().reference);
+  const double master = mean_size<Dim>(pair.master, c.model().reference);
+  const double size = slave > 0 ? slave : master;
+  if (!(size > 0))
+    throw core::InputError(contact.enforcement.mark,
+                           "neither side has facets whose length a target could be made of: give "
+                           "{augmented_lagrange: {target: ...}}");
+  pair.target = usual * size;
 }
 
 template <int Dim>
@@ -304,6 +336,7 @@ void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMa
               model::BasicContactPair<Dim> out) {
   pairing::PairDefinition<Dim>& pair = out.definition;
   set_forms(contact, pair);
+  set_augmentation(c, contact, pair);
   set_edges(c, contact, pair);
   pair.area = area_rule(c, pair);
   try {
@@ -345,6 +378,34 @@ void check_mortar(const Contact& contact) {
     refuse(contact.smoothing.mark, "mortar integrates over the facets of the mesh: use none");
 }
 
+/// What goes with corrected or unknown tractions.
+void check_enforcement(const Contact& contact, bool own) {
+  const EnforcementWord kind = contact.enforcement.value.kind;
+  const auto refuse = [](const core::SourceMark& mark, const char* why) {
+    throw core::InputError(mark, why);
+  };
+  if (kind == EnforcementWord::penalty) return;
+  if (contact.edges && !contact.all)
+    refuse(contact.enforcement.mark,
+           "crossings of edges come and go: they are enforced by penalty only");
+  if (kind != EnforcementWord::lagrange_multiplier) return;
+  const SamplingRule rule = contact.sampling.value.rule;
+  if (own || contact.two_pass)
+    refuse(contact.enforcement.mark,
+           "with both sides as slaves there are more unknown tractions than nodes that could "
+           "carry them: use penalty or augmented_lagrange");
+  if (rule != SamplingRule::nodes && rule != SamplingRule::mortar)
+    refuse(contact.enforcement.mark,
+           "facets have more quadrature points than nodes, so their tractions cannot all be "
+           "unknown: use sampling: nodes or mortar, or augmented_lagrange");
+  if (contact.residual.value == Residual::full)
+    refuse(contact.residual.mark,
+           "unknown tractions have the form surface only: without "
+           "penetration there is no other");
+  if (contact.tangent.value.kind != TangentKind::consistent)
+    refuse(contact.tangent.mark, "unknown tractions have the consistent tangent only");
+}
+
 /// What needs nodes as contact points, or one slave.
 void check_axes(const Contact& contact) {
   const bool own = contact.all || contact.master.value == contact.slave.value;
@@ -357,6 +418,7 @@ void check_axes(const Contact& contact) {
                              "contact of edges goes with sampling: nodes only");
   }
   check_mortar(contact);
+  check_enforcement(contact, own);
   if (!contact.two_pass) return;
   if (own)
     throw core::InputError(*contact.two_pass,

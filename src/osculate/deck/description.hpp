@@ -153,7 +153,8 @@ struct Rigid {
 // ---- contact ----------------------------------------------------------------------------------
 
 enum class SamplingRule { nodes, gauss, lobatto, mortar };
-enum class Enforcement { penalty };
+enum class EnforcementWord { penalty, augmented_lagrange, lagrange_multiplier };
+enum class AugmentLoop { uzawa, single };
 enum class ContactWeight { node, reference_area, current_area };
 enum class Residual { surface, full };
 enum class TangentKind { consistent, covariant };
@@ -170,6 +171,13 @@ struct MasterSmoothing {
 struct Tangent {
   TangentKind kind = TangentKind::consistent;
   bool main = true, rotational = true, curvature = true;
+};
+
+/// How the contact conditions are met; the last two are of the augmented Lagrangian.
+struct Enforcement {
+  EnforcementWord kind = EnforcementWord::penalty;
+  std::optional<double> target;  ///< largest gap and elastic slip [length]
+  AugmentLoop loop = AugmentLoop::uzawa;
 };
 
 /// Points per direction of a slave facet, or of each of its equal parts.

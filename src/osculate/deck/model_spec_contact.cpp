@@ -81,12 +81,30 @@ Spec weight_spec() {
 }
 
 Spec enforcement_spec() {
-  return choice("How the contact conditions are imposed.",
-                {word("penalty", Enforcement::penalty, "by the stiffnesses alone"),
-                 planned("augmented_lagrange", "by repeated correction of the penalty's tractions"),
-                 planned("lagrange_multiplier", "exactly, by unknown tractions")})
+  const Spec options =
+      map("Correction of the penalty's tractions.",
+          {optional("target", number("Largest gap and elastic slip that are left.")
+                                  .in("length")
+                                  .above(0)
+                                  .otherwise_as("1e-4 of the mean length of the facets' edges")
+                                  .such_as("1e-5")),
+           optional("loop",
+                    choice("When the tractions are corrected.",
+                           {word("uzawa", AugmentLoop::uzawa, "after each solution"),
+                            word("single", AugmentLoop::single, "after each iteration near one")})
+                        .otherwise("uzawa")
+                        .such_as("single"))});
+  return either("How the contact conditions are imposed.",
+                {choice("Method.",
+                        {word("penalty", EnforcementWord::penalty, "by the stiffnesses alone"),
+                         word("augmented_lagrange", EnforcementWord::augmented_lagrange,
+                              "by repeated correction of the penalty's tractions"),
+                         word("lagrange_multiplier", EnforcementWord::lagrange_multiplier,
+                              "exactly, by unknown tractions")}),
+                 map("Augmented Lagrangian with its options.",
+                     {required("augmented_lagrange", options)})})
       .otherwise("penalty")
-      .such_as("penalty");
+      .such_as("augmented_lagrange");
 }
 
 Spec residual_spec() {

@@ -32,13 +32,24 @@ Marked<Sampling> sampling_of(const Value& v) {
       v.mark};
 }
 
+Marked<Enforcement> enforcement_of(const Value& v) {
+  if (v.alternative == 0)
+    return {{word_of<EnforcementWord>(v).value, std::nullopt, AugmentLoop::uzawa}, v.mark};
+  const Value& options = v.at("augmented_lagrange");
+  Enforcement out;
+  out.kind = EnforcementWord::augmented_lagrange;
+  if (const auto target = number_if(options, "target")) out.target = target->value;
+  out.loop = word_of<AugmentLoop>(options, "loop").value;
+  return {out, v.mark};
+}
+
 /// What a pair and all pairs together have in common.
 void read_laws(const Value& v, Contact& c) {
   c.name = name_of(v.at("name"));
   c.sampling = sampling_of(v.at("sampling"));
   c.normal_penalty = number_of(v.at("normal").at("penalty"));
   c.friction = friction_of(v.at("friction"));
-  c.enforcement = word_of<Enforcement>(v, "enforcement");
+  c.enforcement = enforcement_of(v.at("enforcement"));
   c.weight = word_of<ContactWeight>(v, "weight");
   c.residual = word_of<Residual>(v, "residual");
   c.tangent = {tangent_of(v.at("tangent")), v.at("tangent").mark};

@@ -1,5 +1,8 @@
 #include "osculate/model/assembler.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace osculate::model {
 
 template <int Dim>
@@ -41,6 +44,31 @@ void BasicAssembler<Dim>::add_outer(std::span<const Dof> row_dofs,
             matrix_.add(rows_[a].unknown, columns_[b].unknown,
                         row * column_values[j] * columns_[b].factor);
     }
+}
+
+template <int Dim>
+double BasicAssembler<Dim>::add_row(Index unknown, std::span<const Dof> column_dofs,
+                                    std::span<const double> values) {
+  double largest = 0;
+  expand(column_dofs, columns_, column_end_);
+  for (std::size_t j = 0; j < column_dofs.size(); ++j)
+    for (std::size_t b = j == 0 ? 0 : column_end_[j - 1]; b < column_end_[j]; ++b)
+      if (!prescribed(columns_[b].unknown)) {
+        const double value = values[j] * columns_[b].factor;
+        matrix_.add(unknown, columns_[b].unknown, value);
+        largest = std::max(largest, std::abs(value));
+      }
+  return largest;
+}
+
+template <int Dim>
+void BasicAssembler<Dim>::add_column(std::span<const Dof> row_dofs, std::span<const double> values,
+                                     Index unknown) {
+  expand(row_dofs, rows_, row_end_);
+  for (std::size_t i = 0; i < row_dofs.size(); ++i)
+    for (std::size_t a = i == 0 ? 0 : row_end_[i - 1]; a < row_end_[i]; ++a)
+      if (!prescribed(rows_[a].unknown))
+        matrix_.add(rows_[a].unknown, unknown, values[i] * rows_[a].factor);
 }
 
 template <int Dim>

@@ -56,6 +56,11 @@ class BasicAssembler {
   void add_outer(std::span<const Dof> row_dofs, std::span<const double> row_values,
                  std::span<const Dof> column_dofs, std::span<const double> column_values);
 
+  /// Entries of one unknown outside the dof space (a multiplier): its row, its column. The row's
+  /// largest entry is returned: 0 where nothing it depends on is free.
+  double add_row(Index unknown, std::span<const Dof> column_dofs, std::span<const double> values);
+  void add_column(std::span<const Dof> row_dofs, std::span<const double> values, Index unknown);
+
   /// Unit diagonal (times `scale`) for every prescribed unknown.
   void add_prescribed_diagonal(double scale);
 

@@ -81,7 +81,7 @@ Modes<Dim> rigid_modes(const BasicSystem<Dim>& system, const std::vector<Index>&
   double sum = 0;
   for (const Index n : nodes) sum += (x[static_cast<std::size_t>(n)] - modes.center).squaredNorm();
   modes.size = std::sqrt(sum / static_cast<double>(nodes.size()));
-  modes.z = Eigen::MatrixXd::Zero(system.dofs().unknowns(), body::motions<Dim>);
+  modes.z = Eigen::MatrixXd::Zero(system.unknowns(), body::motions<Dim>);
   for (const Index n : nodes) {
     const Mat<Dim, body::rotations<Dim>> turns =
         turned(Vec<Dim>(x[static_cast<std::size_t>(n)] - modes.center)) / modes.size;

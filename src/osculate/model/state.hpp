@@ -15,7 +15,8 @@ struct BasicState {
   std::vector<body::BasicRigidMotion<Dim>> rigid;  ///< one per rigid body
   std::vector<pairing::PairState<Dim>> pairs;      ///< history of the last converged increment
   std::vector<pairing::Assumed<Dim>> assumed;      ///< branches of the last iteration (trials only)
-  double fraction = 0;                             ///< of the running step
+  std::vector<pairing::PairMultipliers<Dim>> multipliers;  ///< of the pairs; empty by penalty
+  double fraction = 0;                                     ///< of the running step
 };
 
 using State = BasicState<2>;

@@ -21,6 +21,9 @@ BasicState<Dim> BasicSystem<Dim>::initial_state() {
   }
   for (const BasicContactPair<Dim>& pair : model.pairs)
     state.pairs.push_back(pairing::initial_state<Dim>(pair.definition, model.reference));
+  for (std::size_t p = 0; p < model.pairs.size(); ++p)
+    state.multipliers.push_back(
+        pairing::initial_multipliers<Dim>(model.pairs[p].definition, state.pairs[p]));
   return state;
 }
 
@@ -62,6 +65,7 @@ BasicState<Dim> BasicSystem<Dim>::apply(const State& state, const Eigen::VectorX
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (!impl_->assembler.prescribed(u))
       impl_->add_to(next, dofs.dof_of_unknown(u), factor * du[u]);
+  impl_->add_to_multipliers(next, du, factor);
   for (const PrescribedDof& p : impl_->step.prescribed)
     impl_->add_to(next, p.dof, p.ramp.value(fraction) - impl_->current_value(next, p.dof));
   for (Index node = 0; node < dofs.nodes(); ++node) {
@@ -97,7 +101,36 @@ BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) co
   state.assumed.clear();
   for (std::size_t p = 0; p < impl_->contact.size(); ++p)
     state.pairs[p] = pairing::commit(impl_->contact[p]);
+  for (std::size_t p = 0; p < state.multipliers.size(); ++p)
+    state.multipliers[p] = pairing::commit(impl_->contact[p], std::move(state.multipliers[p]));
   return state;
+}
+
+template <int Dim>
+std::optional<BasicState<Dim>> BasicSystem<Dim>::augment(const State& trial) const {
+  State next = trial;
+  bool missed = false;
+  for (std::size_t p = 0; p < trial.multipliers.size(); ++p) {
+    const pairing::PairDefinition<Dim>& pair = impl_->model.pairs[p].definition;
+    if (pair.enforcement != contact::Enforcement::augmented_lagrange) continue;
+    next.multipliers[p] = pairing::augmented(pair, impl_->contact[p], trial.multipliers[p]);
+    if (next.multipliers[p].violation > pair.target) missed = true;
+  }
+  if (!missed) return std::nullopt;
+  next.assumed.clear();
+  return next;
+}
+
+template <int Dim>
+bool BasicSystem<Dim>::augments_often() const {
+  for (const BasicContactPair<Dim>& pair : impl_->model.pairs)
+    if (pair.definition.augment_often) return true;
+  return false;
+}
+
+template <int Dim>
+Index BasicSystem<Dim>::unknowns() const {
+  return impl_->unknowns;
 }
 
 template <int Dim>
@@ -133,7 +166,7 @@ std::vector<Vec<Dim>> BasicSystem<Dim>::positions(const State& state) const {
 }
 template <int Dim>
 bool BasicSystem<Dim>::prescribed(Index unknown) const {
-  return impl_->assembler.prescribed(unknown);
+  return unknown < impl_->dofs.unknowns() && impl_->assembler.prescribed(unknown);
 }
 template <int Dim>
 SystemSeconds BasicSystem<Dim>::seconds() const {

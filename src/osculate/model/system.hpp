@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,9 +61,16 @@ class BasicSystem {
                             double factor) const;
   /// The trial state that remembers the branches of the last evaluation, for the next iteration.
   [[nodiscard]] State remember(const State& trial) const;
+  /// After a solution: the state with corrected multipliers, or nothing where all pairs by
+  /// augmented Lagrangian have reached their target. `trial` must be the last state evaluated.
+  [[nodiscard]] std::optional<State> augment(const State& trial) const;
+  /// Whether the multipliers are corrected after every iteration instead of every solution.
+  [[nodiscard]] bool augments_often() const;
   /// The converged state with its new history. `trial` must be the last state evaluated.
   [[nodiscard]] State commit(const State& trial, double fraction) const;
 
+  /// Unknowns of the matrix: those of the dof space, then the multipliers that are unknowns.
+  [[nodiscard]] Index unknowns() const;
   [[nodiscard]] const la::SparseMatrix& matrix();
   [[nodiscard]] std::uint64_t pattern_version() const;
   [[nodiscard]] la::Symmetry symmetry() const;

@@ -50,6 +50,26 @@ bool needs_unsymmetric(const BasicModel<Dim>& model) {
   return false;
 }
 
+template <int Dim>
+bool constrained(const BasicContactPair<Dim>& pair) {
+  return pair.definition.enforcement == contact::Enforcement::lagrange_multiplier;
+}
+
+/// Unknowns of one point of a pair whose multipliers are unknowns.
+template <int Dim>
+Index multipliers_per_point(const BasicContactPair<Dim>& pair) {
+  return pair.definition.friction ? Dim + 1 : 1;
+}
+
+template <int Dim>
+Index multiplier_unknowns(const BasicModel<Dim>& model) {
+  Index sum = 0;
+  for (const BasicContactPair<Dim>& pair : model.pairs)
+    if (constrained(pair))
+      sum += multipliers_per_point(pair) * static_cast<Index>(pair.definition.slave.points.size());
+  return sum;
+}
+
 void mix(std::uint64_t& hash, std::uint64_t value) {
   hash = (hash ^ value) * 1099511628211ull;  // FNV-1a
 }
@@ -72,24 +92,31 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int thread_count)
       threads(std::max(1, thread_count)),
       dofs(static_cast<Index>(m.reference.size()), bodies_by_node(m),
            static_cast<Index>(m.rigid.size()), m.equations, used_nodes(m)),
-      builder(dofs.unknowns()),
+      builder(dofs.unknowns() + multiplier_unknowns(m)),
       assembler(dofs, builder),
       contact(m.pairs.size()),
       symmetry(needs_unsymmetric(m) ? la::Symmetry::unsymmetric : la::Symmetry::indefinite) {
+  unknowns = dofs.unknowns();
+  for (const BasicContactPair<Dim>& pair : model.pairs) {
+    first_multiplier.push_back(constrained(pair) ? unknowns : -1);
+    if (constrained(pair))
+      unknowns +=
+          multipliers_per_point(pair) * static_cast<Index>(pair.definition.slave.points.size());
+  }
   for (const BasicBulkSection<Dim>& section : model.sections)
     for (const mesh::CellRef& cell : section.cells) jobs.push_back({&section, cell});
   blocks.resize(std::min(tile, jobs.size()));
   assembler.set_prescribed(std::vector<bool>(static_cast<std::size_t>(dofs.unknowns()), false));
   // Contact entries enter the pattern when they first appear and then stay.
-  std::vector<Index> unknowns;
+  std::vector<Index> of_cell;
   for (const CellJob& job : jobs) {
-    unknowns.clear();
+    of_cell.clear();
     for (const Index node : cell_nodes(model.mesh, job.cell).nodes)
       for (int i = 0; i < Dim; ++i) {
         const Index unknown = dofs.unknown_of(dofs.node_dof(node, i));
-        if (unknown >= 0) unknowns.push_back(unknown);
+        if (unknown >= 0) of_cell.push_back(unknown);
       }
-    builder.reserve_block(unknowns);
+    builder.reserve_block(of_cell);
   }
 }
 
@@ -101,6 +128,8 @@ void BasicSystem<Dim>::Impl::clear(bool with_tangent) {
   forces.external.setZero(n);
   predicted.setZero(n);
   branch_shift.setZero(n);
+  constraint.setZero(unknowns - dofs.unknowns());
+  branch_constraint.setZero(unknowns - dofs.unknowns());
   branched = false;
   if (with_tangent) builder.clear();
 }
@@ -119,6 +148,22 @@ double BasicSystem<Dim>::Impl::current_value(const State& s, Dof dof) const {
   if (local < 0) return s.u[dof];
   return s.rigid[static_cast<std::size_t>(local / body::motions<Dim>)].component(
       local % body::motions<Dim>);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_to_multipliers(State& s, const Eigen::VectorXd& du,
+                                                double factor) const {
+  for (std::size_t p = 0; p < first_multiplier.size(); ++p) {
+    if (first_multiplier[p] < 0) continue;
+    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
+    Index row = first_multiplier[p];
+    for (contact::Multiplier<Dim>& m : s.multipliers[p].points) {
+      m.normal += factor * pair.normal.stiffness * du[row++];
+      if (!pair.friction) continue;
+      m.shear += factor * pair.friction->stiffness * du.segment<Dim>(row);
+      row += Dim;
+    }
+  }
 }
 
 template <int Dim>
@@ -254,6 +299,79 @@ void BasicSystem<Dim>::Impl::add_contact_block(const pairing::ContactBlock<Dim>&
 }
 
 template <int Dim>
+double BasicSystem<Dim>::Impl::add_constraint_row(Index unknown, const Eigen::VectorXd* inc) {
+  const double largest = assembler.add_row(unknown, path_dofs, path_values);
+  if (!inc) return largest;
+  double along = 0;
+  for (std::size_t j = 0; j < path_dofs.size(); ++j) along += path_values[j] * (*inc)[path_dofs[j]];
+  const Index row = unknown - dofs.unknowns();
+  constraint[row] += along;
+  branch_constraint[row] += along;
+  return largest;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_constraint_tangent(const pairing::ContactBlock<Dim>& block,
+                                                    bool friction, Index first,
+                                                    const Eigen::VectorXd* inc) {
+  const pairing::ConstraintBlock<Dim>& c = block.constraint;
+  const Index count = friction ? Dim + 1 : 1;
+  constexpr double round_off = 1e-10;
+  for (Index row = 0; row < count; ++row) {
+    path_dofs.clear();
+    path_values.clear();
+    const auto add = [&](Index node, const auto& values) {
+      for (int i = 0; i < Dim; ++i) {
+        path_dofs.push_back(dofs.node_dof(node, i));
+        path_values.push_back(values[i]);
+      }
+    };
+    if (row == 0)
+      for (const pairing::NodeGradient<Dim>& g : c.normal_row) add(g.node, g.value);
+    else
+      for (const pairing::NodeMatrix<Dim>& g : c.shear_row)
+        add(g.node, Vec<Dim>(g.value.row(row - 1).transpose()));
+    double largest = add_constraint_row(first + row, inc);
+    for (Index column = 0; column < count; ++column)
+      if (const double own = c.own(row, column); own != 0.0) {
+        builder.add(first + row, first + column, own);
+        largest = std::max(largest, std::abs(own));
+      }
+    // Both sides are prescribed in this direction: the traction stays what it is.
+    if (largest <= round_off * c.scale[row]) builder.add(first + row, first + row, -c.scale[row]);
+  }
+  if (!block.active()) return;
+  contact_dofs.clear();
+  for (int k = 0; k < Dim * block.count; ++k)
+    contact_dofs.push_back(dofs.node_dof(block.nodes[static_cast<std::size_t>(k / Dim)], k % Dim));
+  for (Index column = 0; column < count; ++column)
+    assembler.add_column(contact_dofs,
+                         {c.columns.col(column).data(), static_cast<std::size_t>(c.columns.rows())},
+                         first + column);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_constraints(std::size_t pair, bool with_tangent,
+                                             const Eigen::VectorXd* inc) {
+  if (first_multiplier[pair] < 0) return;
+  const bool friction = model.pairs[pair].definition.friction.has_value();
+  const Index count = multipliers_per_point(model.pairs[pair]);
+  Index first = first_multiplier[pair];
+  for (std::size_t i = 0; i < model.pairs[pair].definition.slave.points.size(); ++i) {
+    const pairing::ContactBlock<Dim>& block = contact[pair].blocks[i];
+    const Index row = first - dofs.unknowns();
+    constraint[row] += block.constraint.normal;
+    branch_constraint[row] += block.constraint.normal;
+    if (friction) {
+      constraint.segment<Dim>(row + 1) += block.constraint.shear;
+      branch_constraint.segment<Dim>(row + 1) += block.constraint.branch_shear;
+    }
+    if (with_tangent) add_constraint_tangent(block, friction, first, inc);
+    first += count;
+  }
+}
+
+template <int Dim>
 void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& trial,
                                          std::span<const Vec<Dim>> x, bool with_tangent,
                                          const Eigen::VectorXd* inc, solve::Evaluation& out) {
@@ -266,10 +384,13 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
         inc ? pairing::committed_branches<Dim>(pair, committed.pairs[p], x, sticking)
         : p < trial.assumed.size() ? trial.assumed[p]
                                    : pairing::Assumed<Dim>{};
-    pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed);
+    const bool around = p < trial.multipliers.size() && !trial.multipliers[p].points.empty();
+    pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed,
+                           around ? &trial.multipliers[p] : nullptr);
     seconds.contact += watch.seconds();
     for (const pairing::ContactBlock<Dim>& block : contact[p].blocks)
       if (block.active()) add_contact_block(block, with_tangent, inc);
+    add_constraints(p, with_tangent, inc);
     for (const pairing::PointResult<Dim>& point : contact[p].points) count_point(point, out.counts);
   }
 }
@@ -369,6 +490,15 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   out.residual = assembler.gather(predict ? Eigen::VectorXd(total + predicted) : total);
   out.branch_residual.resize(0);
   if (branched) out.branch_residual = out.residual + assembler.gather(branch_shift);
+  if (constraint.size() > 0) {
+    const auto append = [](Eigen::VectorXd& v, const Eigen::VectorXd& more) {
+      v.conservativeResize(v.size() + more.size());
+      v.tail(more.size()) = more;
+    };
+    append(out.residual, constraint);
+    if (branched) append(out.branch_residual, branch_constraint);
+  }
+  out.saddle = constraint.size() > 0;
   out.force_scale =
       std::max({forces.internal.norm(), forces.contact.norm(), forces.external.norm()});
   if (predict) out.force_scale = std::max(out.force_scale, out.residual.norm());

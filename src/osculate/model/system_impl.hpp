@@ -47,6 +47,9 @@ struct BasicSystem<Dim>::Impl {
   std::array<bool, 4> enabled{true, true, true, true};
   la::Symmetry symmetry;
   SystemSeconds seconds;
+  std::vector<Index> first_multiplier;            ///< per pair; -1: its tractions are no unknowns
+  Index unknowns = 0;                             ///< of the matrix
+  Eigen::VectorXd constraint, branch_constraint;  ///< values of the multipliers' rows
   std::vector<double> path_values;
   std::vector<Dof> path_dofs, contact_dofs;
 
@@ -57,6 +60,7 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] double current_value(const State& s, Dof dof) const;
   [[nodiscard]] double equation_value(const Equation& equation, double fraction) const;
   void add_to(State& s, Dof dof, double value) const;
+  void add_to_multipliers(State& s, const Eigen::VectorXd& du, double factor) const;
   /// Increment of every primary dof that follows from prescriptions alone (unknowns fixed).
   [[nodiscard]] Eigen::VectorXd prescribed_increment(const State& s, std::span<const Vec<Dim>> x,
                                                      double fraction) const;
@@ -75,6 +79,12 @@ struct BasicSystem<Dim>::Impl {
                    bool with_tangent, const Eigen::VectorXd* inc, solve::Evaluation& out);
   void add_contact_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,
                          const Eigen::VectorXd* inc);
+  /// Constraints of a pair whose multipliers are unknowns.
+  void add_constraints(std::size_t pair, bool with_tangent, const Eigen::VectorXd* inc);
+  void add_constraint_tangent(const pairing::ContactBlock<Dim>& block, bool friction, Index first,
+                              const Eigen::VectorXd* inc);
+  /// Largest entry of the row.
+  double add_constraint_row(Index unknown, const Eigen::VectorXd* inc);
   /// rows * sum gradient . dx
   void add_rank_one(std::span<const Dof> row_dofs, const Eigen::VectorXd& rows,
                     const std::vector<pairing::NodeGradient<Dim>>& gradient,

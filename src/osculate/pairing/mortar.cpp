@@ -225,6 +225,7 @@ void clear(ContactBlock<Dim>& block) {
   block.behind.path.clear();
   block.tangent.resize(0, 0);
   block.branched = false;
+  block.constraint.on = false;
 }
 
 /// Parts of a node's area smaller than this are nothing.
@@ -252,17 +253,27 @@ NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
   result.gap = std::numeric_limits<double>::infinity();
   result.weight = node.area;
   result.history.friction_work = committed.points[i].friction_work;
+  const bool constrained =
+      pair.enforcement == contact::Enforcement::lagrange_multiplier && hint.multiplier;
+  if (constrained)
+    set_open(constraint_weight(pair, i), pair.normal.stiffness,
+             pair.friction ? pair.friction->stiffness : 0.0, hint.multiplier->normal,
+             hint.multiplier->shear, out.blocks[i].constraint);
   if (!covered<Dim>(node, out.mortar.normals[i], pair.reference_areas[i])) return {};
   NodeContact<Dim> c = place_node<Dim>(node, out.mortar.normals[i]);
   out.mortar.places[i] = node.masters;
   for (double& weight : out.mortar.places[i].weights) weight /= node.area;
-  if (c.gap >= -pair.depth) c.normal_law = pair.normal.response(c.gap);
-  if (c.normal_law.active && pair.friction)
-    set_friction<Dim>(*pair.friction, committed.points[i], last_place<Dim>(committed, i), x, hint,
-                      c);
+  if (c.gap >= -pair.depth) c.normal_law = push_of(pair, c.gap, hint);
+  if (c.normal_law.active && pair.friction) {
+    contact::Coulomb law = *pair.friction;
+    law.stiffness *= hint.stiffening;
+    set_friction<Dim>(law, committed.points[i], last_place<Dim>(committed, i), x, hint, c);
+  }
   report<Dim>(pair, committed.points[i], node, c, result);
   if (!c.normal_law.active) return c;
   set_forces<Dim>(node, c, out.blocks[i]);
+  if (constrained)
+    set_constraint<Dim>(pair, c, node, constraint_weight(pair, i), *hint.multiplier, out.blocks[i]);
   out.mortar.tractions[i] = c.traction();
   return c;
 }
@@ -299,7 +310,7 @@ void prepare_mortar(PairDefinition<Dim>& pair, Points<Dim> reference) {
 template <int Dim>
 void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
                      const PairState<Dim>& committed, bool with_tangent, PairEvaluation<Dim>& out,
-                     const Assumed<Dim>& assumed) {
+                     const Assumed<Dim>& assumed, const PairMultipliers<Dim>* multipliers) {
   refresh<Dim>(pair, x, with_tangent, out);
   const std::size_t n = pair.slave.nodes.size();
   out.points.assign(n, {});
@@ -308,9 +319,7 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
   out.blocks.resize(std::max(n, out.blocks.size()));
   std::vector<NodeContact<Dim>> contacts(n);
   for (std::size_t i = 0; i < n; ++i) {
-    BranchHint<Dim> hint;
-    if (!assumed.branch.empty()) hint = {assumed.branch[i], assumed.predict};
-    contacts[i] = evaluate_node<Dim>(pair, x, committed, hint, i, out);
+    contacts[i] = evaluate_node<Dim>(pair, x, committed, hint_of(assumed, multipliers, i), i, out);
   }
   if (!with_tangent) {
     out.blocks.resize(n);
@@ -319,8 +328,8 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
   add_tangents<Dim>(pair, x, out);
   for (std::size_t i = 0; i < n; ++i) {
     if (out.points[i].status == Status::open) continue;
-    set_path<Dim>(pair, contacts[i], last_place<Dim>(committed, i), out.mortar.normals[i],
-                  out.mortar.nodes[i], out.blocks[i]);
+    set_path<Dim>(pair, constraint_weight(pair, i), contacts[i], last_place<Dim>(committed, i),
+                  out.mortar.normals[i], out.mortar.nodes[i], out.blocks[i]);
   }
 }
 
@@ -350,9 +359,9 @@ Mat<Dim, Dim - 1> mortar_frame(const PairDefinition<Dim>& pair, std::size_t i, P
 template void prepare_mortar<2>(PairDefinition<2>&, Points<2>);
 template void prepare_mortar<3>(PairDefinition<3>&, Points<3>);
 template void evaluate_mortar<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
-                                 PairEvaluation<2>&, const Assumed<2>&);
+                                 PairEvaluation<2>&, const Assumed<2>&, const PairMultipliers<2>*);
 template void evaluate_mortar<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,
-                                 PairEvaluation<3>&, const Assumed<3>&);
+                                 PairEvaluation<3>&, const Assumed<3>&, const PairMultipliers<3>*);
 template PairState<2> initial_mortar_state<2>(const PairDefinition<2>&, Points<2>);
 template PairState<3> initial_mortar_state<3>(const PairDefinition<3>&, Points<3>);
 template Mat<2, 1> mortar_frame<2>(const PairDefinition<2>&, std::size_t, Points<2>);

@@ -41,7 +41,8 @@ void prepare_mortar(PairDefinition<Dim>& pair, Points<Dim> reference);
 template <int Dim>
 void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
                      const PairState<Dim>& committed, bool with_tangent, PairEvaluation<Dim>& out,
-                     const Assumed<Dim>& assumed = {});
+                     const Assumed<Dim>& assumed = {},
+                     const PairMultipliers<Dim>* multipliers = nullptr);
 
 /// State before the first increment.
 template <int Dim>

@@ -46,31 +46,38 @@ void complete_rates(const MortarPlace& last, const NodalNormal<Dim>& normal,
       rate_of(node, g.node).frame[i] += g.value;
 }
 
-/// Derivative of the traction t_j = N n + E t by the position of one node.
+/// Derivatives of a node's gap and shear by the position of one node.
 template <int Dim>
-Mat<Dim, Dim> traction_rate(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c, double area,
-                            const typename MortarNode<Dim>::Rate& r) {
-  using Row = Eigen::Matrix<double, 1, Dim>;
+struct NodeRates {
+  Eigen::Matrix<double, 1, Dim> gap;
+  Mat<Dim, Dim> shear;  ///< of E t
+};
+
+template <int Dim>
+NodeRates<Dim> node_rates(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c, double area,
+                          const typename MortarNode<Dim>::Rate& r) {
   const Mat<Dim, Dim> unit = Mat<Dim, Dim>::Identity();
   const Mat<Dim, Dim> d_foot = (r.other - c.foot * r.area.transpose()) / area;
   const Mat<Dim, Dim> d_apart = (r.own - r.other - c.apart * r.area.transpose()) / area;
-  const Row d_gap = c.normal.transpose() * d_apart + c.apart.transpose() * r.normal;
-  const Row d_push = c.normal_law.d_traction * d_gap;
-  Mat<Dim, Dim> out = c.normal * d_push + c.normal_law.traction * r.normal;
+  NodeRates<Dim> out;
+  out.gap = c.normal.transpose() * d_apart + c.apart.transpose() * r.normal;
+  out.shear.setZero();
   if (!pair.friction) return out;
   Mat<Dim - 1, Dim> d_trial = Mat<Dim - 1, Dim>::Zero();
-  if (c.sliding)
-    for (int i = 0; i < Dim - 1; ++i) {
-      const Vec<Dim> e = c.frame.col(i);
-      d_trial.row(i) = pair.friction->stiffness *
-                       (c.share.value * (e.transpose() * (d_foot - r.old * unit) +
-                                         c.way.transpose() * r.frame[static_cast<std::size_t>(i)]) +
-                        c.share.d_gap * e.dot(c.way) * d_gap);
-    }
-  const Mat<Dim - 1, Dim> d_shear = c.linearised.d_trial * d_trial + c.linearised.d_normal * d_push;
-  out += c.frame * d_shear;
+  for (int i = 0; i < Dim - 1; ++i) {
+    const Mat<Dim, Dim>& turning = r.frame[static_cast<std::size_t>(i)];
+    d_trial.row(i) = c.around.transpose() * turning;
+    if (!c.sliding) continue;
+    const Vec<Dim> e = c.frame.col(i);
+    d_trial.row(i) +=
+        c.shear_penalty *
+        (c.share.value * (e.transpose() * (d_foot - r.old * unit) + c.way.transpose() * turning) +
+         c.share.d_gap * e.dot(c.way) * out.gap);
+  }
+  out.shear = c.frame * (c.linearised.d_trial * d_trial +
+                         c.linearised.d_normal * (c.normal_law.d_traction * out.gap));
   for (int i = 0; i < Dim - 1; ++i)
-    out += c.linearised.traction[i] * r.frame[static_cast<std::size_t>(i)];
+    out.shear += c.linearised.traction[i] * r.frame[static_cast<std::size_t>(i)];
   return out;
 }
 
@@ -94,10 +101,16 @@ template <int Dim>
 void set_friction(const contact::Coulomb& law, const PointHistory<Dim>& history,
                   const MortarPlace& last, Points<Dim> x, const BranchHint<Dim>& hint,
                   NodeContact<Dim>& c) {
-  if (history.active) c.trial = history.traction;
+  c.shear_penalty = law.stiffness;
+  if (hint.multiplier) {
+    c.around = hint.multiplier->shear;
+    c.trial = c.frame.transpose() * c.around;
+  } else if (history.active) {
+    c.trial = history.traction;
+  }
   c.sliding = !last.nodes.empty();
   if (c.sliding) {
-    c.share = contact_share(history, c.gap);
+    if (!hint.multiplier) c.share = contact_share(history, c.gap);
     c.way = c.foot - place_in_space<Dim>(last, x);
     c.trial += law.stiffness * c.share.value * (c.frame.transpose() * c.way);
   }
@@ -129,7 +142,9 @@ void report(const PairDefinition<Dim>& pair, const PointHistory<Dim>& old,
   h.slipping = c.law.status == Status::slip;
   h.slip = result.slip_increment;
   if (old.active) h.slip += old.slip;
-  h.friction_work += node.area * pair.friction->template dissipated<Dim>(c.trial, c.law);
+  contact::Coulomb law = *pair.friction;
+  law.stiffness = c.shear_penalty;
+  h.friction_work += node.area * law.template dissipated<Dim>(c.trial, c.law);
 }
 
 template <int Dim>
@@ -217,11 +232,44 @@ void set_facet_tangent(const MortarFacet<Dim>& matrices, std::span<const Index> 
 }
 
 template <int Dim>
-void set_path(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c, const MortarPlace& last,
-              const NodalNormal<Dim>& normal, MortarNode<Dim>& node, ContactBlock<Dim>& block) {
+void set_path(const PairDefinition<Dim>& pair, double constraint_area, const NodeContact<Dim>& c,
+              const MortarPlace& last, const NodalNormal<Dim>& normal, MortarNode<Dim>& node,
+              ContactBlock<Dim>& block) {
   complete_rates<Dim>(last, normal, node);
-  for (const typename MortarNode<Dim>::Rate& r : node.rates)
-    block.behind.path.push_back({r.node, traction_rate<Dim>(pair, c, node.area, r)});
+  for (const typename MortarNode<Dim>::Rate& r : node.rates) {
+    const NodeRates<Dim> rate = node_rates<Dim>(pair, c, node.area, r);
+    const auto d_push = c.normal_law.d_traction * rate.gap;
+    block.behind.path.push_back(
+        {r.node, c.normal * d_push + c.normal_law.traction * r.normal + rate.shear});
+    if (!block.constraint.on) continue;
+    block.constraint.normal_row.push_back({r.node, constraint_area * d_push.transpose()});
+    if (pair.friction) block.constraint.shear_row.push_back({r.node, constraint_area * rate.shear});
+  }
+}
+
+template <int Dim>
+void set_constraint(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c,
+                    const MortarNode<Dim>& node, double area,
+                    const contact::Multiplier<Dim>& multiplier, ContactBlock<Dim>& block) {
+  ConstraintBlock<Dim>& k = block.constraint;
+  const double normal = pair.normal.stiffness, shear = c.shear_penalty;
+  k.normal = area * (c.normal_law.traction - multiplier.normal);
+  k.shear = area * (c.frame * c.law.traction - multiplier.shear);
+  k.branch_shear = area * (c.frame * c.linearised.traction - multiplier.shear);
+  const Mat<Dim, Dim> d_trial = c.frame * c.linearised.d_trial * c.frame.transpose();
+  const Vec<Dim> d_push = c.frame * c.linearised.d_normal;
+  const std::size_t own = node.slaves.nodes.size();
+  k.columns.resize(Dim * block.count, Dim + 1);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(block.count); ++n) {
+    const double weight = n < own ? node.slaves.weights[n] : -node.masters.weights[n - own];
+    auto rows = k.columns.template middleRows<Dim>(Dim * static_cast<Eigen::Index>(n));
+    rows.col(0) = (weight * normal) * (c.normal + d_push);
+    rows.template rightCols<Dim>() = (weight * shear) * d_trial;
+  }
+  k.own.setZero();
+  k.own.template block<Dim, 1>(1, 0) = area * normal * d_push;
+  k.own.template bottomRightCorner<Dim, Dim>() =
+      (area * shear) * (d_trial - Mat<Dim, Dim>::Identity());
 }
 
 template NodeContact<2> place_node<2>(const MortarNode<2>&, const NodalNormal<2>&);
@@ -235,8 +283,12 @@ template void add_rates<2>(const MortarFacet<2>&, std::span<const Index>,
 template void set_facet_tangent<2>(const MortarFacet<2>&, std::span<const Index>,
                                    std::span<const std::size_t>, std::span<const Vec<2>>,
                                    ContactBlock<2>&);
-template void set_path<2>(const PairDefinition<2>&, const NodeContact<2>&, const MortarPlace&,
-                          const NodalNormal<2>&, MortarNode<2>&, ContactBlock<2>&);
+template void set_path<2>(const PairDefinition<2>&, double, const NodeContact<2>&,
+                          const MortarPlace&, const NodalNormal<2>&, MortarNode<2>&,
+                          ContactBlock<2>&);
+template void set_constraint<2>(const PairDefinition<2>&, const NodeContact<2>&,
+                                const MortarNode<2>&, double, const contact::Multiplier<2>&,
+                                ContactBlock<2>&);
 template NodeContact<3> place_node<3>(const MortarNode<3>&, const NodalNormal<3>&);
 template void set_friction<3>(const contact::Coulomb&, const PointHistory<3>&, const MortarPlace&,
                               Points<3>, const BranchHint<3>&, NodeContact<3>&);
@@ -248,7 +300,11 @@ template void add_rates<3>(const MortarFacet<3>&, std::span<const Index>,
 template void set_facet_tangent<3>(const MortarFacet<3>&, std::span<const Index>,
                                    std::span<const std::size_t>, std::span<const Vec<3>>,
                                    ContactBlock<3>&);
-template void set_path<3>(const PairDefinition<3>&, const NodeContact<3>&, const MortarPlace&,
-                          const NodalNormal<3>&, MortarNode<3>&, ContactBlock<3>&);
+template void set_path<3>(const PairDefinition<3>&, double, const NodeContact<3>&,
+                          const MortarPlace&, const NodalNormal<3>&, MortarNode<3>&,
+                          ContactBlock<3>&);
+template void set_constraint<3>(const PairDefinition<3>&, const NodeContact<3>&,
+                                const MortarNode<3>&, double, const contact::Multiplier<3>&,
+                                ContactBlock<3>&);
 
 }  // namespace osculate::pairing

@@ -18,6 +18,8 @@ struct NodeContact {
   ContactShare share;
   Vec<Dim> way = Vec<Dim>::Zero();  ///< y - y_old
   Vec<Dim - 1> trial = Vec<Dim - 1>::Zero();
+  double shear_penalty = 0;
+  Vec<Dim> around = Vec<Dim>::Zero();  ///< multiplier of the shear
   contact::TangentialResponse<Dim> law, linearised;
 
   /// Traction of the branch that is linearised.
@@ -59,9 +61,16 @@ void set_facet_tangent(const MortarFacet<Dim>& matrices, std::span<const Index> 
                        ContactBlock<Dim>& block);
 
 /// Completes the rates of a node by those at fixed D and M, of the last place and of the frame, and
-/// sets the derivative of its traction as path of the block.
+/// sets the derivative of its traction as path of the block, and the rows of its constraint.
 template <int Dim>
-void set_path(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c, const MortarPlace& last,
-              const NodalNormal<Dim>& normal, MortarNode<Dim>& node, ContactBlock<Dim>& block);
+void set_path(const PairDefinition<Dim>& pair, double constraint_area, const NodeContact<Dim>& c,
+              const MortarPlace& last, const NodalNormal<Dim>& normal, MortarNode<Dim>& node,
+              ContactBlock<Dim>& block);
+
+/// Values and columns of a node whose tractions are unknowns.
+template <int Dim>
+void set_constraint(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c,
+                    const MortarNode<Dim>& node, double area,
+                    const contact::Multiplier<Dim>& multiplier, ContactBlock<Dim>& block);
 
 }  // namespace osculate::pairing

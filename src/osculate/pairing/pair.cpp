@@ -110,18 +110,18 @@ Mat<Dim, Dim - 1> frame_of_history(const PairDefinition<Dim>& pair, std::size_t 
 
 template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
-              bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed) {
+              bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed,
+              const PairMultipliers<Dim>* multipliers) {
   Laps laps;
   if (pair.mortar) {
-    evaluate_mortar(pair, x, committed, with_tangent, out, assumed);
+    evaluate_mortar(pair, x, committed, with_tangent, out, assumed, multipliers);
     laps.add_to(out.seconds.evaluation);
     return;
   }
   refresh(pair, x, with_tangent, out);
   laps.add_to(out.seconds.search);
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
-    BranchHint<Dim> hint;
-    if (!assumed.branch.empty()) hint = {assumed.branch[i], assumed.predict};
+    const BranchHint<Dim> hint = hint_of(assumed, multipliers, i);
     const Placed<Dim> placed = place_point(pair, out, x, i, committed.points[i]);
     laps.add_to(out.seconds.projection);
     evaluate_point(pair, x, committed.points[i], placed, hint, with_tangent, i, out);
@@ -185,6 +185,46 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
 }
 
 template <int Dim>
+PairMultipliers<Dim> initial_multipliers(const PairDefinition<Dim>& pair,
+                                         const PairState<Dim>& state) {
+  PairMultipliers<Dim> out;
+  if (pair.enforcement != contact::Enforcement::penalty) out.points.resize(state.points.size());
+  return out;
+}
+
+template <int Dim>
+PairMultipliers<Dim> augmented(const PairDefinition<Dim>& pair,
+                               const PairEvaluation<Dim>& evaluation,
+                               const PairMultipliers<Dim>& used) {
+  constexpr double fast_enough = 0.25, more = 10;
+  PairMultipliers<Dim> next = used;
+  next.violation = 0;
+  const double normal = used.stiffening * pair.normal.stiffness;
+  const double shear = pair.friction ? used.stiffening * pair.friction->stiffness : 1.0;
+  for (std::size_t i = 0; i < next.points.size(); ++i) {
+    const PointResult<Dim>& point = evaluation.points[i];
+    const contact::Multiplier<Dim>& old = used.points[i];
+    next.points[i] = {point.normal_traction, point.shear()};
+    next.violation =
+        std::max({next.violation, std::abs(point.normal_traction - old.normal) / normal,
+                  (next.points[i].shear - old.shear).norm() / shear});
+  }
+  if (next.violation > fast_enough * used.violation) next.stiffening *= more;
+  return next;
+}
+
+template <int Dim>
+PairMultipliers<Dim> commit(const PairEvaluation<Dim>& evaluation, PairMultipliers<Dim> used) {
+  used.violation = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < used.points.size(); ++i) {
+    const PointResult<Dim>& point = evaluation.points[i];
+    if (point.status == contact::Status::open) used.points[i].normal = 0;
+    used.points[i].shear = point.shear();
+  }
+  return used;
+}
+
+template <int Dim>
 PairState<Dim> commit(const PairEvaluation<Dim>& evaluation) {
   PairState<Dim> state;
   state.points.reserve(evaluation.points.size());
@@ -204,10 +244,18 @@ template Assumed<3> committed_branches<3>(const PairDefinition<3>&, const PairSt
 template Assumed<2> evaluated_branches<2>(const PairEvaluation<2>&);
 template Assumed<3> evaluated_branches<3>(const PairEvaluation<3>&);
 template void evaluate<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
-                          PairEvaluation<2>&, const Assumed<2>&);
+                          PairEvaluation<2>&, const Assumed<2>&, const PairMultipliers<2>*);
 template void evaluate<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,
-                          PairEvaluation<3>&, const Assumed<3>&);
+                          PairEvaluation<3>&, const Assumed<3>&, const PairMultipliers<3>*);
+template PairMultipliers<2> initial_multipliers<2>(const PairDefinition<2>&, const PairState<2>&);
+template PairMultipliers<2> augmented<2>(const PairDefinition<2>&, const PairEvaluation<2>&,
+                                         const PairMultipliers<2>&);
+template PairMultipliers<2> commit<2>(const PairEvaluation<2>&, PairMultipliers<2>);
 template PairState<2> commit<2>(const PairEvaluation<2>&);
+template PairMultipliers<3> initial_multipliers<3>(const PairDefinition<3>&, const PairState<3>&);
+template PairMultipliers<3> augmented<3>(const PairDefinition<3>&, const PairEvaluation<3>&,
+                                         const PairMultipliers<3>&);
+template PairMultipliers<3> commit<3>(const PairEvaluation<3>&, PairMultipliers<3>);
 template PairState<3> commit<3>(const PairEvaluation<3>&);
 
 }  // namespace osculate::pairing

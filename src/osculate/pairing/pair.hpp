@@ -4,7 +4,9 @@
 #include <type_traits>
 
 #include "osculate/contact/history.hpp"
+#include "osculate/contact/multiplier.hpp"
 #include "osculate/contact/point_terms.hpp"
+#include "osculate/pairing/constraint.hpp"
 #include "osculate/pairing/edges.hpp"
 #include "osculate/pairing/mortar_buffers.hpp"
 #include "osculate/pairing/place.hpp"
@@ -22,7 +24,7 @@ using Points = std::type_identity_t<std::span<const Vec<Dim>>>;
 enum class Weight : std::uint8_t { node, reference_area, current_area };
 
 /// One contact pair: one entry per axis (sampling: the slave's points; target: the master; law;
-/// enforcement: penalty), plus the forms of residual and tangent. Everything here is the same in
+/// enforcement), plus the forms of residual and tangent. Everything here is the same in
 /// the plane and in space.
 template <int Dim>
 struct PairDefinition {
@@ -30,6 +32,11 @@ struct PairDefinition {
   SlaveSide<Dim> slave;
   contact::NormalPenalty normal;
   std::optional<contact::Coulomb> friction;
+  contact::Enforcement enforcement = contact::Enforcement::penalty;
+  /// Augmented Lagrangian: the largest gap and elastic slip that are left [length]. The multipliers
+  /// are corrected after each solution, or after each iteration (in one loop).
+  double target = 0;
+  bool augment_often = false;
   Weight weight = Weight::reference_area;
   contact::ResidualForm residual = contact::ResidualForm::surface;
   contact::TangentForm tangent;
@@ -50,6 +57,16 @@ template <int Dim>
 struct PairState {
   std::vector<contact::PointHistory<Dim>> points;
   std::vector<MortarPlace> places;  ///< mortar: one per slave node; empty at first
+};
+
+/// Multipliers of a pair in an iteration: one per slave point; none where penalties are enough.
+template <int Dim>
+struct PairMultipliers {
+  std::vector<contact::Multiplier<Dim>> points;
+  double stiffening = 1;  ///< factor of the pair's penalties (augmented Lagrangian)
+  /// Largest gap or elastic slip of the last correction of the multipliers; how fast it falls tells
+  /// whether the penalties are stiff enough.
+  double violation = std::numeric_limits<double>::infinity();
 };
 
 /// The branch of the friction law a point is linearised in; of a slipping point also where to.
@@ -98,6 +115,7 @@ struct ContactBlock {
   Eigen::VectorXd area_rows;
   PathBuffers<Dim> behind;
   std::vector<NodeGradient<Dim>> area;
+  ConstraintBlock<Dim> constraint;  ///< of a point whose multipliers are unknowns, open or not
   [[nodiscard]] bool active() const { return count > 0; }
   [[nodiscard]] const std::vector<NodeMatrix<Dim>>& path() const { return behind.path; }
   /// Room for blocks of so many nodes.
@@ -172,13 +190,15 @@ template <int Dim>
 [[nodiscard]] Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation);
 
 /// One evaluation of all points of the pair: search, projection, kinematics, tractions from the
-/// committed history, residual and (if asked) tangent.
+/// committed history, residual and (if asked) tangent. `multipliers` are needed where the pair's
+/// enforcement is not by penalty alone.
 ///
 /// Source     KS2D Tables 1 and 2 with docs/errata.md; KSVD section 3
 /// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair_history.cpp, and their 3D like
 template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
-              bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed = {});
+              bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed = {},
+              const PairMultipliers<Dim>* multipliers = nullptr);
 
 /// True if any point is in contact.
 template <int Dim>
@@ -187,6 +207,26 @@ template <int Dim>
     if (point.status != contact::Status::open) return true;
   return false;
 }
+
+/// Multipliers to start from: none in contact.
+template <int Dim>
+[[nodiscard]] PairMultipliers<Dim> initial_multipliers(const PairDefinition<Dim>& pair,
+                                                       const PairState<Dim>& state);
+/// The multipliers that an evaluation around `used` asks for: the tractions of its points. The
+/// penalties are multiplied by 10 where the violation fell by less than a factor of 4.
+///
+/// Formula    lambda <- N , t <- t ; violation = max |N - lambda| / eps_N, |t - t_old| / eps_T
+/// Source     SL92 (Uzawa's iteration with friction)
+/// Tested by  tests/unit/pairing/test_multipliers.cpp
+template <int Dim>
+[[nodiscard]] PairMultipliers<Dim> augmented(const PairDefinition<Dim>& pair,
+                                             const PairEvaluation<Dim>& evaluation,
+                                             const PairMultipliers<Dim>& used);
+/// Multipliers at the start of the next increment: those of open points vanish, the shear has taken
+/// up the slip of the increment.
+template <int Dim>
+[[nodiscard]] PairMultipliers<Dim> commit(const PairEvaluation<Dim>& evaluation,
+                                          PairMultipliers<Dim> used);
 
 /// The trial history of an accepted evaluation. A point that opens forgets.
 template <int Dim>

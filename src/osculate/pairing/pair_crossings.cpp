@@ -79,7 +79,8 @@ void remember_edges(const PairDefinition<3>& pair, Points<3> x, const Crossing& 
 
 BranchHint<3> hint_of(const Crossing& c, const Assumed<3>& assumed) {
   for (const AssumedBranch<3>& branch : assumed.branch)
-    if (branch.edges == std::array<Index, 2>{c.slave, c.master}) return {branch, assumed.predict};
+    if (branch.edges == std::array<Index, 2>{c.slave, c.master})
+      return {.assumed = branch, .predict = assumed.predict};
   return {};
 }
 

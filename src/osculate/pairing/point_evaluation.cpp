@@ -27,17 +27,41 @@ struct Friction {
   double dissipated = 0;                     ///< per area (or per node) in the increment
 };
 
+/// The elastic trial around a multiplier: the slip of the whole increment counts, also that of a
+/// point that was open at its start, and what is carried is in the multiplier.
+///
+/// Formula    d((I - n n^T) t) = -(n . t) d(n) in the tangent plane
+template <int Dim>
+Trial<Dim> trial_around(const PairDefinition<Dim>& pair, const contact::Multiplier<Dim>& multiplier,
+                        double stiffness, PointHistory<Dim> history, const Placed<Dim>& placed,
+                        Points<Dim> x, PathBuffers<Dim>* path) {
+  history.active = false;
+  Trial<Dim> tr =
+      trial(pair.master, history, placed, stiffness, ContactShare{}, x, path, pair.history);
+  const Kinematics<Dim>& k = placed.kinematics;
+  tr.value += k.frame.transpose() * multiplier.shear;
+  tr.variation.add(Mat<Dim, Dim>(-k.normal.dot(multiplier.shear) * Mat<Dim, Dim>::Identity()),
+                   k.d_normal);
+  return tr;
+}
+
 template <int Dim>
 Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,
                         const Placed<Dim>& placed, Points<Dim> x, const BranchHint<Dim>& hint,
                         PathBuffers<Dim>* path) {
   Friction<Dim> f;
   const Kinematics<Dim>& k = placed.kinematics;
-  f.traction.normal = pair.normal.response(k.gap);
+  f.traction.normal = push_of(pair, k.gap, hint);
   if (!f.traction.normal.active || !pair.friction) return f;
-  const contact::Coulomb& law = *pair.friction;
-  const Trial<Dim> tr = trial(pair.master, history, placed, law.stiffness,
-                              contact_share(history, k.gap), x, path, pair.history);
+  contact::Coulomb law = *pair.friction;
+  Trial<Dim> tr;
+  if (hint.multiplier) {
+    law.stiffness *= hint.stiffening;
+    tr = trial_around<Dim>(pair, *hint.multiplier, law.stiffness, history, placed, x, path);
+  } else {
+    tr = trial(pair.master, history, placed, law.stiffness, contact_share(history, k.gap), x, path,
+               pair.history);
+  }
   const double normal = f.traction.normal.traction;
   f.slip = tr.slip;
   f.law = law.template response<Dim>(tr.value, normal);
@@ -106,12 +130,14 @@ void clear(ContactBlock<Dim>& block) {
   block.branched = false;
   block.behind.path.clear();
   block.area.clear();
+  block.constraint.on = false;
 }
 
 /// Where the point is; false where it is not in contact.
 template <int Dim>
 bool report_place(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHistory<Dim>& history,
-                  const Placed<Dim>& placed, PointResult<Dim>& result) {
+                  const Placed<Dim>& placed, const BranchHint<Dim>& hint,
+                  PointResult<Dim>& result) {
   if (placed.projection.feature == Feature::none) return false;
   const Kinematics<Dim>& k = placed.kinematics;
   result.gap = k.gap;
@@ -120,9 +146,42 @@ bool report_place(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHis
   result.frame = k.frame;
   result.history = next_history<Dim>(pair, x, history, placed, {});
   if (placed.projection.beyond_end) result.history.gap = result.gap = std::abs(k.gap);
-  const bool closed = !placed.projection.beyond_end && k.gap >= -pair.depth && k.gap <= 0;
+  const bool closed =
+      !placed.projection.beyond_end && k.gap >= -pair.depth && push_of(pair, k.gap, hint).active;
   result.outside_domain = closed && !contact::inside_domain(k);
   return closed && !result.outside_domain;
+}
+
+/// Rows and columns of the multipliers of a point in contact.
+template <int Dim>
+void set_constraint_tangent(const PairDefinition<Dim>& pair, const Kinematics<Dim>& k,
+                            const Traction<Dim>& t, const Weights<Dim>& w, double area,
+                            double weight, ContactBlock<Dim>& block) {
+  ConstraintBlock<Dim>& c = block.constraint;
+  const double normal = pair.normal.stiffness;
+  const double shear = pair.friction ? pair.friction->stiffness : 0.0;
+  const contact::ShearRate<Dim> rate = contact::shear_rate(k, t);
+  c.columns.resize(Dim * block.count, Dim + 1);
+  for (int n = 0; n < block.count; ++n) {
+    const auto node = static_cast<std::size_t>(n);
+    Vec<Dim> gap = Vec<Dim>::Zero();
+    Mat<Dim, Dim> along = Mat<Dim, Dim>::Zero();
+    for (std::size_t s = 0; s < contact::slots<Dim>; ++s) {
+      gap += w[s][node] * k.d_gap[s];
+      along += w[s][node] * rate.variation[s];
+    }
+    c.normal_row.push_back({block.nodes[node], area * normal * gap});
+    if (pair.friction) c.shear_row.push_back({block.nodes[node], area * along});
+    auto rows = c.columns.template middleRows<Dim>(Dim * n);
+    rows.col(0) = (weight * w[0][node] * normal) * (k.normal + rate.d_push);
+    rows.template rightCols<Dim>() = (weight * w[0][node] * shear) * rate.d_trial;
+  }
+  for (const NodeMatrix<Dim>& g : block.path())
+    c.shear_row.push_back({g.node, area * rate.d_trial * g.value});
+  c.own.setZero();
+  c.own.template block<Dim, 1>(1, 0) = area * normal * rate.d_push;
+  c.own.template bottomRightCorner<Dim, Dim>() =
+      (area * shear) * (rate.d_trial - Mat<Dim, Dim>::Identity());
 }
 
 }  // namespace
@@ -139,7 +198,13 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   result.weight = point_weight(pair, out, i);
   result.history.friction_work = history.friction_work;
   result.gap = std::numeric_limits<double>::infinity();
-  if (!report_place(pair, x, history, placed, result)) return;
+  const bool constrained =
+      pair.enforcement == contact::Enforcement::lagrange_multiplier && hint.multiplier;
+  const double area = constrained ? constraint_weight(pair, i) : 0.0;
+  if (constrained)
+    set_open(area, pair.normal.stiffness, pair.friction ? pair.friction->stiffness : 0.0,
+             hint.multiplier->normal, hint.multiplier->shear, block.constraint);
+  if (!report_place(pair, x, history, placed, hint, result)) return;
   const Kinematics<Dim>& k = placed.kinematics;
   result.weight = facing_weight<Dim>(pair, out, i, k.normal);
   const bool exact = with_tangent && pair.tangent.consistent;
@@ -168,7 +233,14 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
     scatter_forces(block.force, block.count, w, contact::point_forces(k, lawful, pair.residual),
                    result.weight);
   }
+  if (constrained) {
+    ConstraintBlock<Dim>& c = block.constraint;
+    c.normal = area * (f.traction.normal.traction - hint.multiplier->normal);
+    c.shear = area * (k.frame * f.law.traction - hint.multiplier->shear);
+    c.branch_shear = area * (k.frame * f.traction.tangential.traction - hint.multiplier->shear);
+  }
   if (!with_tangent) return;
+  if (constrained) set_constraint_tangent<Dim>(pair, k, f.traction, w, area, result.weight, block);
   scatter_tangent<Dim>(w, terms, block.count, result.weight, block.tangent);
   scatter_path(block, w, terms, result.weight);
   if (!exact || pair.weight != Weight::current_area) return;

@@ -4,12 +4,45 @@
 
 namespace osculate::pairing {
 
-/// What is known of a point's branch before the law is asked.
+/// What is known of a point before the law is asked: its branch, and the multiplier its penalties
+/// act around.
 template <int Dim>
 struct BranchHint {
-  AssumedBranch<Dim> assumed;
+  AssumedBranch<Dim> assumed{};
   bool predict = false;
+  const contact::Multiplier<Dim>* multiplier = nullptr;
+  double stiffening = 1;
 };
+
+/// The hint of point i.
+template <int Dim>
+[[nodiscard]] BranchHint<Dim> hint_of(const Assumed<Dim>& assumed,
+                                      const PairMultipliers<Dim>* multipliers, std::size_t i) {
+  BranchHint<Dim> hint;
+  if (!assumed.branch.empty()) {
+    hint.assumed = assumed.branch[i];
+    hint.predict = assumed.predict;
+  }
+  if (multipliers && i < multipliers->points.size()) {
+    hint.multiplier = &multipliers->points[i];
+    hint.stiffening = multipliers->stiffening;
+  }
+  return hint;
+}
+
+/// The normal law around the point's multiplier.
+template <int Dim>
+[[nodiscard]] contact::NormalResponse push_of(const PairDefinition<Dim>& pair, double gap,
+                                              const BranchHint<Dim>& hint) {
+  if (!hint.multiplier) return pair.normal.response(gap);
+  return contact::shifted({hint.stiffening * pair.normal.stiffness}, gap, hint.multiplier->normal);
+}
+
+/// What a constraint is multiplied by: it does not change with the deformation.
+template <int Dim>
+[[nodiscard]] double constraint_weight(const PairDefinition<Dim>& pair, std::size_t i) {
+  return pair.weight == Weight::node ? 1.0 : pair.reference_areas[i];
+}
 
 /// Fills `out.points[i]` and `out.blocks[i]` of the slave point `i`, which is `placed` on the
 /// master; `out` is refreshed at `x`.

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <functional>
+#include <optional>
 
 #include "osculate/solve/newton.hpp"
 
@@ -94,6 +95,59 @@ bool worth_sticking(const NewtonResult<typename S::State>& attempt) {
 
 }  // namespace detail
 
+namespace detail {
+
+/// Systems whose multipliers are corrected around the solutions (augmented Lagrangian).
+template <class S>
+concept Augments = requires(const S s, const typename S::State& state) {
+  { s.augment(state) } -> std::same_as<std::optional<typename S::State>>;
+  { s.augments_often() } -> std::convertible_to<bool>;
+};
+
+/// Newton's method, and where the system asks for it again around corrected multipliers until it
+/// is satisfied. `attempt` keeps the iterations of all solutions.
+template <System S>
+void augment(S& system, const typename S::State& committed, double time,
+             const NewtonOptions& options, la::DirectSolver& solver,
+             NewtonResult<typename S::State>& attempt) {
+  constexpr double near_solution = 1e-2;
+  const bool often = system.augments_often();
+  const int most = often ? 200 : 60;
+  for (int n = 0; n < most; ++n) {
+    const bool solved = attempt.outcome == Outcome::converged;
+    if (!solved && !(often && attempt.outcome == Outcome::not_converged)) return;
+    const bool near = solved || attempt.iterations.back().residual < near_solution;
+    const std::optional<typename S::State> next =
+        near ? system.augment(attempt.state) : std::optional<typename S::State>{};
+    if (!next && solved) return;
+    const Guess guess{attempt.total, attempt.first_residual, attempt.first_energy};
+    NewtonResult<typename S::State> more =
+        newton(system, committed, time, options, solver, guess, next ? &*next : &attempt.state);
+    more.iterations.insert(more.iterations.begin(), attempt.iterations.begin(),
+                           attempt.iterations.end());
+    more.extrapolated = attempt.extrapolated;
+    attempt = std::move(more);
+  }
+  fail(attempt, Outcome::not_converged,
+       "the penetration is above its target after " + std::to_string(most) +
+           " corrections of the multipliers");
+}
+
+/// Newton's method with the corrections of `augment`.
+template <System S>
+[[nodiscard]] NewtonResult<typename S::State> solve_increment(
+    S& system, const typename S::State& committed, double time, const NewtonOptions& options,
+    la::DirectSolver& solver, const Guess& guess = {}) {
+  NewtonOptions inner = options;
+  if constexpr (Augments<S>)
+    if (system.augments_often()) inner.max_iterations = 1;
+  NewtonResult<typename S::State> attempt = newton(system, committed, time, inner, solver, guess);
+  if constexpr (Augments<S>) augment(system, committed, time, inner, solver, attempt);
+  return attempt;
+}
+
+}  // namespace detail
+
 /// Runs one step from `start` (fraction 0) to its end.
 template <System S>
 [[nodiscard]] StepResult<typename S::State> run_step(
@@ -115,14 +169,15 @@ template <System S>
       const double target = end - at <= size * (1 + 1e-9) ? end : at + size;
       const Guess guess = may_guess ? extrapolation.guess(target - at) : Guess{};
       NewtonResult<State> attempt =
-          newton(system, result.state, target, options.newton, solver, guess);
+          detail::solve_increment(system, result.state, target, options.newton, solver, guess);
       if (attempt.outcome != Outcome::converged && attempt.extrapolated) {
         wasted += static_cast<int>(attempt.iterations.size());
-        attempt = newton(system, result.state, target, options.newton, solver);
+        attempt = detail::solve_increment(system, result.state, target, options.newton, solver);
       }
       if (detail::worth_sticking<S>(attempt)) {
         wasted += static_cast<int>(attempt.iterations.size());
-        attempt = newton(system, result.state, target, options.newton, solver, {{}, 0, 0, true});
+        attempt = detail::solve_increment(system, result.state, target, options.newton, solver,
+                                          {{}, 0, 0, true});
       }
       if (attempt.outcome != Outcome::converged) {
         extrapolation.reset();

@@ -35,6 +35,7 @@ struct Evaluation {
   Eigen::VectorXd branch_residual;  ///< what to linearise from where it differs from `residual`
   double force_scale = 0;  ///< largest of the norms of internal, external and contact forces
   StateCounts counts;
+  bool saddle = false;  ///< some unknowns are multipliers: the residual has no potential
 };
 
 enum class LineSearch { automatic, off };
@@ -272,11 +273,20 @@ bool start_from_guess(S& system, const typename S::State& committed, double time
   return true;
 }
 
-/// Starts from the guess, or at the committed state with the tangent's prediction.
+/// Starts from `warm`, from the guess, or at the committed state with the tangent's prediction.
 template <System S>
 void begin(S& system, const typename S::State& committed, double time, const Guess& guess,
-           Judge& judge, NewtonResult<typename S::State>& result) {
+           const typename S::State* warm, Judge& judge, NewtonResult<typename S::State>& result) {
   result.state = committed;
+  if (warm) {
+    result.state = *warm;
+    system.evaluate(committed, *warm, time, true, result.evaluation);
+    judge.first_energy = guess.energy;
+    result.first_residual = guess.residual;
+    result.total = guess.du;
+    result.extrapolated = true;
+    return;
+  }
   if (start_from_guess(system, committed, time, guess, result)) {
     judge.first_energy = guess.energy;
     result.first_residual = guess.residual;
@@ -320,15 +330,17 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
 /// The first iteration linearises at the committed state with the loads and prescribed increments
 /// of `time` applied through the tangent (residual includes K du_prescribed), so the boundary
 /// never moves ahead of the body. The committed state is never written: a failed increment has
-/// nothing to undo.
+/// nothing to undo. With `warm` the iteration goes on from that trial state, and `guess` has the
+/// sum of the corrections so far and the measures of the first iteration.
 template <System S>
 [[nodiscard]] NewtonResult<typename S::State> newton(S& system, const typename S::State& committed,
                                                      double time, const NewtonOptions& options,
                                                      la::DirectSolver& solver,
-                                                     const Guess& guess = {}) {
+                                                     const Guess& guess = {},
+                                                     const typename S::State* warm = nullptr) {
   NewtonResult<typename S::State> result;
   detail::Judge judge{options};
-  detail::begin(system, committed, time, guess, judge, result);
+  detail::begin(system, committed, time, guess, warm, judge, result);
   if (!result.evaluation.ok) {
     detail::fail(result, Outcome::numerical_failure, result.evaluation.message);
     return result;
@@ -345,7 +357,8 @@ template <System S>
     result.first_energy = judge.first_energy;
 
     double step = 1;
-    if ((i > 1 || result.extrapolated) && !branched && options.line_search == LineSearch::automatic)
+    if ((i > 1 || result.extrapolated) && !branched && !result.evaluation.saddle &&
+        options.line_search == LineSearch::automatic)
       step = detail::line_search(system, committed, result, du, residual, time);
     else
       result.state = system.apply(result.state, du, time, 1.0);

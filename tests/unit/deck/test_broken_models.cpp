@@ -188,9 +188,6 @@ TEST(BrokenModels, Words) {
 
 TEST(BrokenModels, KnownButNotAvailable) {
   expect_refusals({
-      {"enforcement: penalty", "enforcement: lagrange_multiplier",
-       "model.yaml:18: contact[0].enforcement: 'lagrange_multiplier' is not available yet; use "
-       "penalty"},
       {"{penalty: 2.1e6}\n    friction", "{penalty: auto}\n    friction",
        "model.yaml:16: contact[0].normal.penalty: 'auto' is not available yet"},
       {"max_iterations: 25", "arc_length: {}",

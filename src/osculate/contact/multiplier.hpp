@@ -1,0 +1,36 @@
+#pragma once
+#include "osculate/contact/law/normal_penalty.hpp"
+#include "osculate/core/types.hpp"
+
+namespace osculate::contact {
+
+/// How the contact conditions of a pair are met.
+///   penalty               tractions follow from the penetration
+///   augmented_lagrange    the same, around tractions that are corrected after each solution until
+///                         the penetration is below a target (Uzawa)
+///   lagrange_multiplier   the tractions are unknowns of the linear system: no penetration, no
+///                         elastic slip (active set by a semismooth Newton method)
+enum class Enforcement : unsigned char { penalty, augmented_lagrange, lagrange_multiplier };
+
+/// Traction of one contact point that does not follow from its penetration. The penalty laws act
+/// around it: N = lambda + eps_N gap, t_trial = (I - n n^T) t + eps_T slip. The slip is that of the
+/// increment alone; what the point carries from earlier is in `shear`.
+///
+/// Source     AC91:3.8 (the augmented Lagrangian with friction); both parts as vectors in space, so
+///            that they need no frame
+template <int Dim>
+struct Multiplier {
+  double normal = 0;                  ///< lambda <= 0 in contact
+  Vec<Dim> shear = Vec<Dim>::Zero();  ///< t, as PointResult::shear()
+};
+
+/// The penalty law around a multiplier.
+///
+/// Formula    N = lambda + eps_N gap where that is not positive, otherwise 0
+[[nodiscard]] inline NormalResponse shifted(const NormalPenalty& law, double gap, double lambda) {
+  const double traction = lambda + law.stiffness * gap;
+  if (traction > 0) return {};
+  return {true, traction, law.stiffness};
+}
+
+}  // namespace osculate::contact
