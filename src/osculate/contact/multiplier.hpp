@@ -16,7 +16,7 @@ enum class Enforcement : unsigned char { penalty, augmented_lagrange, lagrange_m
 /// around it: N = lambda + eps_N gap, t_trial = (I - n n^T) t + eps_T slip. The slip is that of the
 /// increment alone; what the point carries from earlier is in `shear`.
 ///
-/// Source     AC91:3.8 (the augmented Lagrangian with friction); both parts as vectors in space, so
+/// Source     AC91 (the augmented Lagrangian with friction); both parts as vectors in space, so
 ///            that they need no frame
 template <int Dim>
 struct Multiplier {

@@ -1,0 +1,111 @@
+#pragma once
+// A contact pair whose tractions are unknowns: forces and constraints, and their dense tangent.
+#include <random>
+
+#include "osculate/pairing/pair.hpp"
+
+namespace osculate::testing {
+
+/// Positions, then (lambda / eps_N, t / eps_T) of every slave point.
+template <int Dim>
+struct MultiplierSample {
+  pairing::PairDefinition<Dim> pair;
+  pairing::PairState<Dim> committed;
+  std::vector<Vec<Dim>> x;
+  std::vector<contact::Multiplier<Dim>> multipliers;
+
+  [[nodiscard]] Eigen::Index nodes() const { return static_cast<Eigen::Index>(x.size()); }
+  [[nodiscard]] Eigen::Index points() const {
+    return static_cast<Eigen::Index>(multipliers.size());
+  }
+  [[nodiscard]] Eigen::Index per_point() const { return pair.friction ? Dim + 1 : 1; }
+  [[nodiscard]] Eigen::Index size() const { return Dim * nodes() + per_point() * points(); }
+
+  [[nodiscard]] Eigen::VectorXd packed() const {
+    Eigen::VectorXd v(size());
+    for (Eigen::Index n = 0; n < nodes(); ++n)
+      v.segment<Dim>(Dim * n) = x[static_cast<std::size_t>(n)];
+    for (Eigen::Index i = 0; i < points(); ++i) {
+      const contact::Multiplier<Dim>& m = multipliers[static_cast<std::size_t>(i)];
+      const Eigen::Index at = Dim * nodes() + per_point() * i;
+      v[at] = m.normal / pair.normal.stiffness;
+      if (pair.friction) v.segment<Dim>(at + 1) = m.shear / pair.friction->stiffness;
+    }
+    return v;
+  }
+
+  [[nodiscard]] pairing::PairEvaluation<Dim> evaluation(const Eigen::VectorXd& v,
+                                                        bool tangent) const {
+    std::vector<Vec<Dim>> at(x.size());
+    for (Eigen::Index n = 0; n < nodes(); ++n)
+      at[static_cast<std::size_t>(n)] = v.segment<Dim>(Dim * n);
+    pairing::PairMultipliers<Dim> around;
+    for (Eigen::Index i = 0; i < points(); ++i) {
+      const Eigen::Index first = Dim * nodes() + per_point() * i;
+      around.points.emplace_back();
+      around.points.back().normal = pair.normal.stiffness * v[first];
+      if (pair.friction)
+        around.points.back().shear = pair.friction->stiffness * v.segment<Dim>(first + 1);
+    }
+    pairing::PairEvaluation<Dim> e;
+    pairing::evaluate<Dim>(pair, at, committed, tangent, e, {}, &around);
+    return e;
+  }
+
+  [[nodiscard]] Eigen::VectorXd residual(const Eigen::VectorXd& v) const {
+    const pairing::PairEvaluation<Dim> e = evaluation(v, false);
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(size());
+    for (std::size_t b = 0; b < e.blocks.size(); ++b) {
+      const pairing::ContactBlock<Dim>& block = e.blocks[b];
+      for (int k = 0; k < block.count; ++k)
+        r.segment<Dim>(Dim * block.nodes[static_cast<std::size_t>(k)]) +=
+            block.force.template segment<Dim>(Dim * k);
+      if (!block.constraint.on) continue;
+      const Eigen::Index at = Dim * nodes() + per_point() * static_cast<Eigen::Index>(b);
+      r[at] = block.constraint.normal;
+      if (pair.friction) r.segment<Dim>(at + 1) = block.constraint.shear;
+    }
+    return r;
+  }
+
+  [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::VectorXd& v) const {
+    const pairing::PairEvaluation<Dim> e = evaluation(v, true);
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size(), size());
+    for (std::size_t b = 0; b < e.blocks.size(); ++b) {
+      add_forces(e.blocks[b], k);
+      if (e.blocks[b].constraint.on)
+        add_constraint(e.blocks[b], Dim * nodes() + per_point() * static_cast<Eigen::Index>(b), k);
+    }
+    return k;
+  }
+
+ private:
+  void add_forces(const pairing::ContactBlock<Dim>& b, Eigen::MatrixXd& k) const {
+    for (int i = 0; i < Dim * b.count; ++i) {
+      const Eigen::Index row = Dim * b.nodes[static_cast<std::size_t>(i / Dim)] + i % Dim;
+      if (b.tangent.size() > 0)
+        for (int j = 0; j < Dim * b.count; ++j)
+          k(row, Dim * b.nodes[static_cast<std::size_t>(j / Dim)] + j % Dim) += b.tangent(i, j);
+      for (const pairing::NodeMatrix<Dim>& g : b.path())
+        k.block<1, Dim>(row, Dim * g.node) += b.path_rows.row(i) * g.value;
+      for (const pairing::NodeGradient<Dim>& g : b.area)
+        k.block<1, Dim>(row, Dim * g.node) += b.area_rows[i] * g.value.transpose();
+    }
+  }
+
+  void add_constraint(const pairing::ContactBlock<Dim>& b, Eigen::Index at,
+                      Eigen::MatrixXd& k) const {
+    const pairing::ConstraintBlock<Dim>& c = b.constraint;
+    const Eigen::Index count = per_point();
+    k.block(at, at, count, count) += c.own.topLeftCorner(count, count);
+    for (const pairing::NodeGradient<Dim>& g : c.normal_row)
+      k.block<1, Dim>(at, Dim * g.node) += g.value.transpose();
+    for (const pairing::NodeMatrix<Dim>& g : c.shear_row)
+      k.block<Dim, Dim>(at + 1, Dim * g.node) += g.value;
+    for (int n = 0; n < (c.columns.rows() > 0 ? b.count : 0); ++n)
+      k.block(Dim * b.nodes[static_cast<std::size_t>(n)], at, Dim, count) +=
+          c.columns.middleRows(Dim * n, Dim).leftCols(count);
+  }
+};
+
+}  // namespace osculate::testing

@@ -1,0 +1,185 @@
+// Tractions that are unknowns or corrected: derivatives by their order, and what corrections do.
+#include <gtest/gtest.h>
+
+#include "derivative_check.hpp"
+#include "mortar_sample3.hpp"
+#include "multiplier_sample.hpp"
+#include "pair_sample.hpp"
+#include "pair_sample3.hpp"
+
+namespace osculate::testing {
+namespace {
+
+using contact::Enforcement;
+using contact::Multiplier;
+using contact::Status;
+
+Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::VectorXd d(n);
+  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
+  return d;
+}
+
+/// A shear in the plane of the master that leans out of it a little, as it does between iterations.
+template <int Dim>
+Vec<Dim> shear_of(double size) {
+  Vec<Dim> t = Vec<Dim>::Constant(0.1 * size);
+  t[0] = size;
+  return t;
+}
+
+template <int Dim, class Sample>
+MultiplierSample<Dim> unknown_tractions(const Sample& s, double lambda, double shear) {
+  MultiplierSample<Dim> m;
+  m.pair = s.pair;
+  m.pair.enforcement = Enforcement::lagrange_multiplier;
+  m.committed = s.committed;
+  m.x = s.x;
+  m.multipliers.assign(s.committed.points.size(), Multiplier<Dim>{});
+  for (Multiplier<Dim>& point : m.multipliers) {
+    point.normal = lambda;
+    point.shear = shear_of<Dim>(shear);
+  }
+  return m;
+}
+
+template <int Dim>
+std::vector<Status> states(const pairing::PairEvaluation<Dim>& e) {
+  std::vector<Status> out;
+  for (const auto& point : e.points) out.push_back(point.status);
+  return out;
+}
+
+template <int Dim>
+void expect_second_order(const MultiplierSample<Dim>& s, Status expected, const std::string& what,
+                         double h = 2e-3) {
+  SCOPED_TRACE(what);
+  const Eigen::VectorXd v = s.packed();
+  const pairing::PairEvaluation<Dim> here = s.evaluation(v, false);
+  ASSERT_TRUE(std::any_of(here.points.begin(), here.points.end(),
+                          [&](const auto& p) { return p.status == expected; }));
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const Eigen::VectorXd d = random_direction(v.size(), seed);
+    for (const double step : {h, -h}) {
+      const pairing::PairEvaluation<Dim> probe = s.evaluation(v + step * d, false);
+      ASSERT_EQ(states<Dim>(probe), states<Dim>(here));
+      ASSERT_EQ(probe.mortar.overlaps, here.mortar.overlaps);
+    }
+    const DerivativeReport r =
+        check_derivative([&](const Eigen::VectorXd& y) { return s.residual(y); },
+                         Eigen::VectorXd(s.tangent(v) * d), v, d, h);
+    EXPECT_TRUE(r.exact || std::abs(r.order - 2.0) < 0.15)
+        << "order " << r.order << " error " << r.error;
+  }
+}
+
+TEST(MultiplierTangent, PlaneInEveryBranch) {
+  for (const int nodes : {2, 3})
+    for (const auto weight :
+         {pairing::Weight::node, pairing::Weight::reference_area, pairing::Weight::current_area})
+      for (const double depth : {0.03, -0.03})  // in front of the master the traction still acts
+        for (const int from : {0, 1}) {
+          PairSample s = make_sample(
+              {.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0, .depth = depth});
+          s.pair.weight = weight;
+          s.committed.points[0] =
+              remembered(true, from, projection::Feature::face, from ? 0.1 : 0.8, -0.01, 0, 0);
+          expect_second_order(unknown_tractions<2>(s, -90, 0), Status::slip, "frictionless");
+          expect_second_order(unknown_tractions<2>(s, 70, 0), Status::open, "open");
+          s.pair.friction = contact::Coulomb{10.0, 80.0};
+          expect_second_order(unknown_tractions<2>(s, -90, 9), Status::stick, "stick");
+          s.pair.friction = contact::Coulomb{0.02, 80.0};
+          expect_second_order(unknown_tractions<2>(s, -90, 9), Status::slip, "slip");
+          expect_second_order(unknown_tractions<2>(s, -90, -90), Status::slip, "slip back");
+        }
+}
+
+TEST(MultiplierTangent, SpaceInEveryBranch) {
+  for (const cell::CellType type : {cell::CellType::quad4, cell::CellType::tri6})
+    for (const auto weight : {pairing::Weight::node, pairing::Weight::current_area}) {
+      PairSample3 s = make_sample3({.type = type, .xi = {0.2, 0.3}, .depth = 0.03});
+      s.pair.weight = weight;
+      s.committed = pairing::initial_state<3>(s.pair, s.x);
+      s.committed.points[0].xi += Vec2(0.07, -0.05);
+      expect_second_order(unknown_tractions<3>(s, -90, 0), Status::slip, "frictionless", 1e-3);
+      s.pair.friction = contact::Coulomb{10.0, 80.0};
+      expect_second_order(unknown_tractions<3>(s, -90, 9), Status::stick, "stick", 1e-3);
+      s.pair.friction = contact::Coulomb{0.02, 80.0};
+      expect_second_order(unknown_tractions<3>(s, -90, 9), Status::slip, "slip", 1e-3);
+    }
+}
+
+TEST(MultiplierTangent, MortarInEveryBranch) {
+  MortarSample<2> s = make_mortar2({.bend = 0.01});
+  remember<2>(s, Vec2(0.05, 0), Vec<1>::Zero(), true);
+  expect_second_order(unknown_tractions<2>(s, -90, 0), Status::slip, "frictionless", 1e-4);
+  s.pair.friction = contact::Coulomb{10.0, 80.0};
+  expect_second_order(unknown_tractions<2>(s, -90, 9), Status::stick, "stick", 1e-4);
+  s.pair.friction = contact::Coulomb{0.02, 80.0};
+  expect_second_order(unknown_tractions<2>(s, -90, 9), Status::slip, "slip", 1e-4);
+}
+
+TEST(MultiplierTangent, MortarInSpace) {
+  MortarSample<3> s = make_mortar3({});
+  remember<3>(s, Vec3(0.05, 0.02, 0), Vec2::Zero(), true);
+  s.pair.friction = contact::Coulomb{10.0, 80.0};
+  expect_second_order(unknown_tractions<3>(s, -90, 9), Status::stick, "stick", 1e-4);
+  s.pair.friction = contact::Coulomb{0.02, 80.0};
+  expect_second_order(unknown_tractions<3>(s, -90, 9), Status::slip, "slip", 1e-4);
+}
+
+TEST(MultiplierTangent, FrictionlessIsSymmetric) {
+  const PairSample s = make_sample({.nodes_per_facet = 3, .bend = 0.02});
+  const MultiplierSample<2> m = unknown_tractions<2>(s, -90, 0);
+  const Eigen::MatrixXd k = m.tangent(m.packed());
+  EXPECT_LT((k - k.transpose()).norm(), 1e-13 * k.norm());
+}
+
+/// The constraint of a closed point is its gap, that of an open one its multiplier.
+TEST(Multipliers, ConstraintsAreGapAndSlip) {
+  PairSample s = make_sample({.depth = 0.03});
+  s.pair.weight = pairing::Weight::node;
+  s.pair.friction = contact::Coulomb{10.0, 80.0};
+  s.committed = pairing::initial_state<2>(s.pair, s.x);
+  const MultiplierSample<2> m = unknown_tractions<2>(s, -90, 0);
+  const pairing::PairEvaluation<2> e = m.evaluation(m.packed(), false);
+  ASSERT_EQ(e.points[0].status, Status::stick);
+  EXPECT_NEAR(e.blocks[0].constraint.normal, 1000 * -0.03, 1e-11);
+  ASSERT_EQ(e.points[1].status, Status::open);
+  EXPECT_NEAR(e.blocks[1].constraint.normal, 90, 1e-12);
+}
+
+/// A spring pushes a point against a wall: f = k u + N = 0. Corrections bring the gap below any
+/// target; the penalty grows where it is too soft for that.
+TEST(Augmentation, ReachesTheTargetWhateverThePenalty) {
+  PairSample s = make_sample({.angle = 0, .depth = 0});
+  s.pair.weight = pairing::Weight::node;
+  s.pair.enforcement = Enforcement::augmented_lagrange;
+  const std::vector<Vec2> start = s.x;
+  constexpr double spring = 100, load = 5, target = 1e-9;
+  for (const double penalty : {1e-2, 1e0, 1e2, 1e4, 1e6}) {
+    s.pair.normal.stiffness = penalty;
+    pairing::PairMultipliers<2> m = pairing::initial_multipliers<2>(s.pair, s.committed);
+    pairing::PairEvaluation<2> e;
+    double gap = 0;
+    int corrections = 0;
+    for (; corrections < 40; ++corrections) {
+      const double stiffness = m.stiffening * penalty;
+      gap = (-load - m.points[0].normal) / (spring + stiffness);
+      s.x = start;
+      s.x[s.x.size() - 2].y() += gap;
+      pairing::evaluate<2>(s.pair, s.x, s.committed, false, e, {}, &m);
+      const pairing::PairMultipliers<2> next = pairing::augmented<2>(s.pair, e, m);
+      m = next;
+      if (m.violation < target) break;
+    }
+    EXPECT_LT(std::abs(gap), 1e-8) << penalty;
+    EXPECT_NEAR(e.points[0].normal_traction, -load, 1e-6) << penalty;
+    EXPECT_LT(corrections, 30) << penalty;
+  }
+}
+
+}  // namespace
+}  // namespace osculate::testing
