@@ -252,14 +252,15 @@ NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
   result.gap = std::numeric_limits<double>::infinity();
   result.weight = node.area;
   result.history.friction_work = committed.points[i].friction_work;
+  result.history.held = committed.points[i].held;
+  result.history.rest = committed.points[i].rest;
   if (!covered<Dim>(node, out.mortar.normals[i], pair.reference_areas[i])) return {};
   NodeContact<Dim> c = place_node<Dim>(node, out.mortar.normals[i]);
   out.mortar.places[i] = node.masters;
   for (double& weight : out.mortar.places[i].weights) weight /= node.area;
-  if (c.gap >= -pair.depth) c.normal_law = pair.normal.response(c.gap);
+  c.normal_law = normal_response(pair, committed.points[i], c.gap);
   if (c.normal_law.active && pair.friction)
-    set_friction<Dim>(*pair.friction, committed.points[i], last_place<Dim>(committed, i), x, hint,
-                      c);
+    set_friction<Dim>(pair, committed.points[i], last_place<Dim>(committed, i), x, hint, c);
   report<Dim>(pair, committed.points[i], node, c, result);
   if (!c.normal_law.active) return c;
   set_forces<Dim>(node, c, out.blocks[i]);
@@ -310,6 +311,7 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
   for (std::size_t i = 0; i < n; ++i) {
     BranchHint<Dim> hint;
     if (!assumed.branch.empty()) hint = {assumed.branch[i], assumed.predict};
+    hint.duration = assumed.duration;
     contacts[i] = evaluate_node<Dim>(pair, x, committed, hint, i, out);
   }
   if (!with_tangent) {
@@ -331,9 +333,16 @@ PairState<Dim> initial_mortar_state(const PairDefinition<Dim>& pair, Points<Dim>
   PairEvaluation<Dim> work;
   evaluate_mortar<Dim>(pair, x, state, false, work);
   state = commit(work);
+  if (pair.separation == Separation::tied_normal) {
+    for (PointHistory<Dim>& h : state.points)
+      if (h.facet >= 0) hold(pair, h);
+    evaluate_mortar<Dim>(pair, x, state, false, work);
+    state = commit(work);
+  }
   for (PointHistory<Dim>& h : state.points) {  // what it remembers has not slipped
     h.traction.setZero();
     h.slip.setZero();
+    h.slid = 0;
     h.slipping = false;
     h.friction_work = 0;
   }

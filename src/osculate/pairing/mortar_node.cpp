@@ -62,7 +62,7 @@ Mat<Dim, Dim> traction_rate(const PairDefinition<Dim>& pair, const NodeContact<D
   if (c.sliding)
     for (int i = 0; i < Dim - 1; ++i) {
       const Vec<Dim> e = c.frame.col(i);
-      d_trial.row(i) = pair.friction->stiffness *
+      d_trial.row(i) = c.stiffness *
                        (c.share.value * (e.transpose() * (d_foot - r.old * unit) +
                                          c.way.transpose() * r.frame[static_cast<std::size_t>(i)]) +
                         c.share.d_gap * e.dot(c.way) * d_gap);
@@ -91,25 +91,28 @@ NodeContact<Dim> place_node(const MortarNode<Dim>& node, const NodalNormal<Dim>&
 }
 
 template <int Dim>
-void set_friction(const contact::Coulomb& law, const PointHistory<Dim>& history,
+void set_friction(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,
                   const MortarPlace& last, Points<Dim> x, const BranchHint<Dim>& hint,
                   NodeContact<Dim>& c) {
+  const contact::FrictionLaw& law = *pair.friction;
+  const contact::Sliding sliding = sliding_of(history, hint);
+  c.stiffness = contact::stiffness(law);
   if (history.active) c.trial = history.traction;
   c.sliding = !last.nodes.empty();
   if (c.sliding) {
-    c.share = contact_share(history, c.gap);
+    c.share = contact_share(pair, history, c.gap);
     c.way = c.foot - place_in_space<Dim>(last, x);
-    c.trial += law.stiffness * c.share.value * (c.frame.transpose() * c.way);
+    c.trial += c.stiffness * c.share.value * (c.frame.transpose() * c.way);
   }
   const double normal = c.normal_law.traction;
-  c.law = law.template response<Dim>(c.trial, normal);
-  c.linearised = linearised_branch<Dim>(law, c.law, c.trial, normal, c.frame, hint);
+  c.law = contact::response<Dim>(law, c.trial, normal, sliding);
+  c.linearised = linearised_branch<Dim>(law, c.law, c.trial, normal, c.frame, sliding, hint);
 }
 
 template <int Dim>
 void report(const PairDefinition<Dim>& pair, const PointHistory<Dim>& old,
             const MortarNode<Dim>& node, const NodeContact<Dim>& c, PointResult<Dim>& result) {
-  result.gap = c.gap;
+  result.gap = c.gap - pair.offset;
   result.foot = c.foot;
   result.normal = c.normal;
   result.frame = c.frame;
@@ -128,8 +131,12 @@ void report(const PairDefinition<Dim>& pair, const PointHistory<Dim>& old,
   h.traction = c.law.traction;
   h.slipping = c.law.status == Status::slip;
   h.slip = result.slip_increment;
-  if (old.active) h.slip += old.slip;
-  h.friction_work += node.area * pair.friction->template dissipated<Dim>(c.trial, c.law);
+  h.slid = contact::slid<Dim>(c.trial, c.law, c.stiffness);
+  if (old.active) {
+    h.slip += old.slip;
+    h.slid += old.slid;
+  }
+  h.friction_work += node.area * contact::dissipated<Dim>(c.trial, c.law, c.stiffness);
 }
 
 template <int Dim>
@@ -225,7 +232,7 @@ void set_path(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c, const 
 }
 
 template NodeContact<2> place_node<2>(const MortarNode<2>&, const NodalNormal<2>&);
-template void set_friction<2>(const contact::Coulomb&, const PointHistory<2>&, const MortarPlace&,
+template void set_friction<2>(const PairDefinition<2>&, const PointHistory<2>&, const MortarPlace&,
                               Points<2>, const BranchHint<2>&, NodeContact<2>&);
 template void report<2>(const PairDefinition<2>&, const PointHistory<2>&, const MortarNode<2>&,
                         const NodeContact<2>&, PointResult<2>&);
@@ -238,7 +245,7 @@ template void set_facet_tangent<2>(const MortarFacet<2>&, std::span<const Index>
 template void set_path<2>(const PairDefinition<2>&, const NodeContact<2>&, const MortarPlace&,
                           const NodalNormal<2>&, MortarNode<2>&, ContactBlock<2>&);
 template NodeContact<3> place_node<3>(const MortarNode<3>&, const NodalNormal<3>&);
-template void set_friction<3>(const contact::Coulomb&, const PointHistory<3>&, const MortarPlace&,
+template void set_friction<3>(const PairDefinition<3>&, const PointHistory<3>&, const MortarPlace&,
                               Points<3>, const BranchHint<3>&, NodeContact<3>&);
 template void report<3>(const PairDefinition<3>&, const PointHistory<3>&, const MortarNode<3>&,
                         const NodeContact<3>&, PointResult<3>&);

@@ -19,6 +19,7 @@ struct NodeContact {
   Vec<Dim> way = Vec<Dim>::Zero();  ///< y - y_old
   Vec<Dim - 1> trial = Vec<Dim - 1>::Zero();
   contact::TangentialResponse<Dim> law, linearised;
+  double stiffness = 0;  ///< eps_T
 
   /// Traction of the branch that is linearised.
   [[nodiscard]] Vec<Dim> traction() const {
@@ -33,7 +34,7 @@ template <int Dim>
 
 /// Slip since the last place and the shear traction.
 template <int Dim>
-void set_friction(const contact::Coulomb& law, const contact::PointHistory<Dim>& history,
+void set_friction(const PairDefinition<Dim>& pair, const contact::PointHistory<Dim>& history,
                   const MortarPlace& last, Points<Dim> x, const BranchHint<Dim>& hint,
                   NodeContact<Dim>& c);
 

@@ -5,16 +5,33 @@
 #include <cmath>
 
 #include "osculate/core/error.hpp"
+#include "osculate/pairing/friction_branch.hpp"
 #include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/point_block.hpp"
 #include "osculate/pairing/point_evaluation.hpp"
 #include "osculate/pairing/sampling.hpp"
+#include "osculate/pairing/tie.hpp"
 
 namespace osculate::pairing {
 
 using contact::Branch;
 using contact::PointHistory;
 using projection::Feature;
+
+namespace {
+
+template <int Dim>
+void check_areas(const PairDefinition<Dim>& pair) {
+  if (pair.weight == Weight::node) return;
+  for (const double area : pair.reference_areas)
+    if (!(area > 0))
+      throw core::GeometryError(
+          sampled_at_nodes(pair.slave)
+              ? "a slave node has no positive tributary area; use weight: node"
+              : "a slave facet has no area; use weight: node");
+}
+
+}  // namespace
 
 template <int Dim>
 void prepare(PairDefinition<Dim>& pair, Points<Dim> reference) {
@@ -26,13 +43,8 @@ void prepare(PairDefinition<Dim>& pair, Points<Dim> reference) {
   if constexpr (Dim == 3)
     prepare_edges(pair.edges, pair.master, pair.slave, pair.reference_areas, reference);
   if (pair.mortar) prepare_mortar(pair, reference);
-  if (pair.weight == Weight::node) return;
-  for (const double area : pair.reference_areas)
-    if (!(area > 0))
-      throw core::GeometryError(
-          sampled_at_nodes(pair.slave)
-              ? "a slave node has no positive tributary area; use weight: node"
-              : "a slave facet has no area; use weight: node");
+  check_areas(pair);
+  prepare_ties(pair, reference);
 }
 
 namespace {
@@ -112,6 +124,11 @@ template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed) {
   Laps laps;
+  if (pair.separation == Separation::tied) {
+    evaluate_ties(pair, x, committed, with_tangent, out);
+    laps.add_to(out.seconds.evaluation);
+    return;
+  }
   if (pair.mortar) {
     evaluate_mortar(pair, x, committed, with_tangent, out, assumed);
     laps.add_to(out.seconds.evaluation);
@@ -122,6 +139,7 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
     BranchHint<Dim> hint;
     if (!assumed.branch.empty()) hint = {assumed.branch[i], assumed.predict};
+    hint.duration = assumed.duration;
     const Placed<Dim> placed = place_point(pair, out, x, i, committed.points[i]);
     laps.add_to(out.seconds.projection);
     evaluate_point(pair, x, committed.points[i], placed, hint, with_tangent, i, out);
@@ -161,8 +179,12 @@ Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation) {
 
 template <int Dim>
 PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
-  if (pair.mortar) return initial_mortar_state(pair, x);
   PairEvaluation<Dim> work;
+  if (pair.separation == Separation::tied) {
+    evaluate(pair, x, {}, false, work);
+    return commit(work);
+  }
+  if (pair.mortar) return initial_mortar_state(pair, x);
   refresh(pair, x, false, work);
   PairState<Dim> state;
   state.points.resize(pair.slave.points.size());
@@ -172,7 +194,9 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
     PointHistory<Dim>& h = state.points[i];
     h = history_at<Dim>(pair, x, placed);
     if (placed.projection.beyond_end) h.gap = std::abs(h.gap);
-    h.active = h.gap <= 0 && h.gap >= -pair.depth && contact::inside_domain(placed.kinematics);
+    if (placed.projection.beyond_end || !contact::inside_domain(placed.kinematics)) continue;
+    hold(pair, h);
+    h.active = is_closed(pair, h, h.gap);
   }
   if constexpr (Dim == 3) {
     if (!pair.edges.on) return state;

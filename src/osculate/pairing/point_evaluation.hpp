@@ -9,6 +9,7 @@ template <int Dim>
 struct BranchHint {
   AssumedBranch<Dim> assumed;
   bool predict = false;
+  double duration = 0;  ///< of the increment
 };
 
 /// Fills `out.points[i]` and `out.blocks[i]` of the slave point `i`, which is `placed` on the
