@@ -134,7 +134,7 @@ inline MortarSample<2> make_mortar2(const MortarOptions2& o) {
   pairing::Chain slave;
   add_line(s, slave, o.slave_facets, o.slave_nodes, o.to, o.from, o, -o.depth);
   s.pair.slave = pairing::make_slave_side(slave);
-  s.pair.normal.stiffness = 1000;
+  s.pair.normal = contact::NormalPenalty{1000};
   s.pair.mortar = true;
   pairing::prepare(s.pair, s.x);
   s.committed.points.resize(s.pair.slave.nodes.size());

@@ -99,7 +99,7 @@ inline MortarSample<3> make_mortar3(const MortarOptions3& o) {
   MortarSample<3> s;
   s.pair.master = MortarGrid(s, o, false).surface;
   s.pair.slave = pairing::make_slave_side(MortarGrid(s, o, true).surface);
-  s.pair.normal.stiffness = 1000;
+  s.pair.normal = contact::NormalPenalty{1000};
   s.pair.mortar = true;
   pairing::prepare(s.pair, s.x);
   s.committed.points.resize(s.pair.slave.nodes.size());

@@ -28,8 +28,8 @@ struct MultiplierSample {
     for (Eigen::Index i = 0; i < points(); ++i) {
       const contact::Multiplier<Dim>& m = multipliers[static_cast<std::size_t>(i)];
       const Eigen::Index at = Dim * nodes() + per_point() * i;
-      v[at] = m.normal / pair.normal.stiffness;
-      if (pair.friction) v.segment<Dim>(at + 1) = m.shear / pair.friction->stiffness;
+      v[at] = m.normal / contact::penalty(pair.normal);
+      if (pair.friction) v.segment<Dim>(at + 1) = m.shear / contact::stiffness(*pair.friction);
     }
     return v;
   }
@@ -43,9 +43,9 @@ struct MultiplierSample {
     for (Eigen::Index i = 0; i < points(); ++i) {
       const Eigen::Index first = Dim * nodes() + per_point() * i;
       around.points.emplace_back();
-      around.points.back().normal = pair.normal.stiffness * v[first];
+      around.points.back().normal = contact::penalty(pair.normal) * v[first];
       if (pair.friction)
-        around.points.back().shear = pair.friction->stiffness * v.segment<Dim>(first + 1);
+        around.points.back().shear = contact::stiffness(*pair.friction) * v.segment<Dim>(first + 1);
     }
     pairing::PairEvaluation<Dim> e;
     pairing::evaluate<Dim>(pair, at, committed, tangent, e, {}, &around);

@@ -41,7 +41,7 @@ void touch_itself(Sample& s, double reach) {
   s.pair.slave = pairing::make_slave_side(s.pair.master);
   s.pair.scope.own = true;
   s.pair.scope.reach = reach;
-  s.pair.normal.stiffness = 1000;
+  s.pair.normal = contact::NormalPenalty{1000};
   pairing::prepare(s.pair, s.x);
   s.committed = pairing::initial_state<Dim>(s.pair, s.x);
 }

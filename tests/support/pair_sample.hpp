@@ -125,7 +125,7 @@ inline PairSample make_sample(const SampleOptions& o) {
   slave.facets.push_back(pairing::lagrange_facet(std::array<Index, 2>{first, first + 1}));
   pairing::connect(slave);
   s.pair.slave = pairing::make_slave_side(slave);
-  s.pair.normal.stiffness = 1000.0;
+  s.pair.normal = contact::NormalPenalty{1000.0};
   s.committed.points.resize(2);
   pairing::prepare(s.pair, s.x);
   return s;

@@ -128,7 +128,7 @@ inline PairSample3 make_sample3(const SampleOptions3& o) {
       cell::CellType::quad4, std::array<Index, 4>{first, first + 1, first + 2, first + 3}));
   pairing::connect(slave);
   s.pair.slave = pairing::make_slave_side(slave);
-  s.pair.normal.stiffness = 1000.0;
+  s.pair.normal = contact::NormalPenalty{1000.0};
   s.committed.points.resize(4);
   pairing::prepare(s.pair, s.x);
   return s;

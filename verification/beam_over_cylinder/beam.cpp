@@ -87,7 +87,7 @@ model::Model3 beam_model(const BeamModel& o) {
   pairing::connect(cylinder);
   pair.definition.master = std::move(beam);
   pair.definition.slave = pairing::make_slave_side(std::move(cylinder));
-  pair.definition.normal.stiffness = o.penalty;
+  pair.definition.normal = contact::NormalPenalty{o.penalty};
   pair.definition.tangent = o.tangent;
   pairing::prepare(pair.definition, b.model.reference);
   b.model.pairs.push_back(std::move(pair));

@@ -119,7 +119,7 @@ Problem make_problem(const Choice& c) {
   Sphere sphere = add_sphere(b);
   pairing::connect(sphere.upper);
   pair.definition.slave = pairing::make_slave_side(std::move(sphere.upper));
-  pair.definition.normal.stiffness = c.penalty;
+  pair.definition.normal = contact::NormalPenalty{c.penalty};
   pair.definition.tangent = c.tangent;
   pairing::prepare(pair.definition, b.model.reference);
   b.model.pairs.push_back(std::move(pair));

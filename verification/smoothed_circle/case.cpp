@@ -36,7 +36,7 @@ Ride make_ride(pairing::SmoothingKind kind) {
   ride.x.push_back(on_circle(0, 1 - depth));
   ride.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{corners});
   ride.pair.weight = pairing::Weight::node;
-  ride.pair.normal.stiffness = stiffness;
+  ride.pair.normal = contact::NormalPenalty{stiffness};
   ride.pair.friction = contact::Coulomb{mu, eps_t};
   pairing::prepare<2>(ride.pair, ride.x);
   return ride;

@@ -58,16 +58,27 @@ pairing::FacetSurface boundary_of(const FacetList3& list, std::size_t nodes, con
   return surface;
 }
 
+/// A text that says what is wrong with a law.
+void check_laws(const ContactOptions& options) {
+  const contact::NormalLaw normal =
+      options.normal.value_or(contact::NormalPenalty{options.normal_penalty});
+  std::string wrong = contact::fault(normal);
+  if (wrong.empty() && options.friction) wrong = contact::fault(*options.friction);
+  if (wrong.empty() && options.friction && contact::needs_duration(*options.friction))
+    wrong = "friction by speed needs a time, which an evaluation does not have";
+  if (wrong.empty() && options.separation != pairing::Separation::allowed &&
+      !contact::holds(normal))
+    wrong = "this normal law lets go: separation goes with a penalty only";
+  if (wrong.empty() && !(options.offset >= 0 && std::isfinite(options.offset)))
+    wrong = fmt::format("offset must be >= 0, got {:g}", options.offset);
+  if (wrong.empty() && !(options.tolerance >= 0))
+    wrong = fmt::format("tolerance must be >= 0, got {:g}", options.tolerance);
+  if (!wrong.empty()) throw core::InputError({}, wrong);
+}
+
 void check_options(const ContactOptions& options) {
   const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
-  if (!positive(options.normal_penalty))
-    throw core::InputError(
-        {}, fmt::format("normal_penalty must be > 0, got {:g}", options.normal_penalty));
-  if (options.friction && (!(options.friction->mu >= 0) || !std::isfinite(options.friction->mu) ||
-                           !positive(options.friction->stiffness)))
-    throw core::InputError({}, fmt::format("friction needs mu >= 0 and a stiffness > 0, got {:g} "
-                                           "and {:g}",
-                                           options.friction->mu, options.friction->stiffness));
+  check_laws(options);
   using Rule = pairing::Sampling::Rule;
   const pairing::Sampling& s = options.sampling;
   if (s.rule != Rule::nodes &&
@@ -145,7 +156,10 @@ BasicContactEvaluator<Dim>::BasicContactEvaluator(const ContactOptions& options,
   pairing::PairDefinition<Dim>& pair = impl_->pair;
   pair.master = boundary_of(master, x.size(), "master");
   pair.slave = pairing::make_slave_side(boundary_of(slave, x.size(), "slave"));
-  pair.normal.stiffness = options.normal_penalty;
+  pair.normal = options.normal.value_or(contact::NormalPenalty{options.normal_penalty});
+  pair.separation = options.separation;
+  pair.tolerance = options.tolerance;
+  pair.offset = options.offset;
   pair.friction = options.friction;
   pair.weight = options.weight;
   pair.residual = options.residual;

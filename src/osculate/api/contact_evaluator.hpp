@@ -16,12 +16,17 @@ namespace osculate::api {
 ///
 /// Order of calls:   construct -> (evaluate ... evaluate -> commit) per increment
 struct ContactOptions {
-  double normal_penalty = 0;                 ///< eps_N > 0
-  std::optional<contact::Coulomb> friction;  ///< mu and eps_T; empty = frictionless
+  double normal_penalty = 0;  ///< eps_N > 0, unless there is a `normal`
+  /// Empty: frictionless. A coefficient that depends on speed is not for this: it has no time.
+  std::optional<contact::FrictionLaw> friction;
   pairing::Weight weight = pairing::Weight::reference_area;
   contact::ResidualForm residual = contact::ResidualForm::surface;
   contact::TangentForm tangent{};
-  pairing::AreaRule area{};      ///< thickness, or circumference (in the plane)
+  pairing::AreaRule area{};                    ///< thickness, or circumference (in the plane)
+  std::optional<contact::NormalLaw> normal{};  ///< another law than the penalty
+  pairing::Separation separation = pairing::Separation::allowed;
+  double tolerance = 0;          ///< of separation tied, tied_normal: gap of held points
+  double offset = 0;             ///< half thicknesses of both sides, taken off the gap
   pairing::Sampling sampling{};  ///< nodes, or points of a rule on the slave's facets
 };
 

@@ -113,20 +113,49 @@ std::string rigid_text(const model::BasicRigidBody<Dim>& body) {
   return fmt::format("{}, reference point ({})", what, place_text<Dim>(body.reference));
 }
 
+std::string law_text(const contact::NormalLaw& law) {
+  if (const auto* const l = std::get_if<contact::NormalExponential>(&law))
+    return fmt::format("exponential {:g} within {:g}", l->pressure, l->clearance);
+  if (const auto* const l = std::get_if<contact::NormalTable>(&law))
+    return fmt::format("table of {} points", l->points.size());
+  return fmt::format("penalty {:g}", std::get<contact::NormalPenalty>(law).stiffness);
+}
+
+std::string law_text(const contact::FrictionLaw& law) {
+  const std::string penalty = fmt::format("penalty {:g}", contact::stiffness(law));
+  if (const auto* const l = std::get_if<contact::Tresca>(&law))
+    return fmt::format("Tresca {:g} ({})", l->limit_traction, penalty);
+  if (std::holds_alternative<contact::Rough>(law)) return fmt::format("rough ({})", penalty);
+  const auto& l = std::get<contact::Coulomb>(law);
+  std::string text = fmt::format("Coulomb {:g}", l.mu);
+  if (l.change) text += fmt::format(" to {:g}", l.change->kinetic);
+  if (std::isfinite(l.cap)) text += fmt::format(" up to {:g}", l.cap);
+  return fmt::format("{} ({})", text, penalty);
+}
+
+template <int Dim>
+std::string hold_text(const pairing::PairDefinition<Dim>& d) {
+  std::string text;
+  if (d.separation == pairing::Separation::no_separation) text += ", no separation";
+  if (d.separation == pairing::Separation::tied_normal) text += ", tied in the normal direction";
+  if (d.separation == pairing::Separation::tied)
+    text += fmt::format(", {} of them tied", d.ties.size());
+  if (d.offset > 0) text += fmt::format(", offset {:g}", d.offset);
+  return text;
+}
+
 template <int Dim>
 std::string pair_text(const model::BasicContactPair<Dim>& pair) {
   const pairing::PairDefinition<Dim>& d = pair.definition;
-  const std::string friction =
-      d.friction ? fmt::format("Coulomb {:g} (penalty {:g})", d.friction->mu, d.friction->stiffness)
-                 : std::string("frictionless");
+  const std::string friction = d.friction ? law_text(*d.friction) : std::string("frictionless");
   const std::string edges = d.edges.on ? fmt::format(", {} sharp edges on {}", d.edges.slave.size(),
                                                      d.edges.master.size())
                                        : std::string{};
-  return fmt::format("{} slave {} on {} facets{}, penalty {:g}, {}, {}{}{}", d.slave.points.size(),
+  return fmt::format("{} slave {} on {} facets{}, {}, {}, {}{}{}", d.slave.points.size(),
                      d.mortar                             ? "nodes by mortar"
                      : pairing::sampled_at_nodes(d.slave) ? "nodes"
                                                           : "points",
-                     d.master.facets.size(), edges, d.normal.stiffness, friction,
+                     d.master.facets.size(), edges, law_text(d.normal) + hold_text(d), friction,
                      weight_name(d.weight), pair.note.empty() ? "" : "; ", pair.note);
 }
 

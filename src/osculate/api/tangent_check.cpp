@@ -109,9 +109,12 @@ void close_contact(Probe<Dim>& probe, const model::BasicModel<Dim>& m) {
       if (!(std::abs(points[i].gap) < 0.1 * probe.size)) continue;
       Vec<Dim> push = -(points[i].gap + depth) * points[i].normal;
       const auto& law = m.pairs[p].definition.friction;
-      if (law && i % 2 == 1)  // every second point slips
-        push += 3 * law->mu * depth * m.pairs[p].definition.normal.stiffness / law->stiffness *
-                points[i].frame.col(0);
+      if (law && i % 2 == 1) {  // every second point slips
+        const double pressed = contact::response(m.pairs[p].definition.normal, -depth).traction;
+        const double limit = contact::predicted_limit(*law, 0, pressed, {}).value;
+        if (std::isfinite(limit))
+          push += 3 * limit / contact::stiffness(*law) * points[i].frame.col(0);
+      }
       for (std::size_t n = 0; n < static_cast<std::size_t>(slave[i].count); ++n)
         for (int k = 0; k < Dim; ++k) {
           const Index u =

@@ -25,6 +25,9 @@ struct PointHistory {
   /// whether the slave's edge is run backwards.
   Index edge = -1;
   bool flipped = false;
+  double slid = 0;    ///< distance slid (without the elastic part) since it came into contact
+  bool held = false;  ///< tied to the master in the normal direction from the start
+  double rest = 0;    ///< of a held point: its gap at the start
   double friction_work = 0;  ///< [energy] dissipated here so far; stays when the point opens
 };
 

@@ -26,10 +26,11 @@ struct Multiplier {
 
 /// The penalty law around a multiplier.
 ///
-/// Formula    N = lambda + eps_N gap where that is not positive, otherwise 0
-[[nodiscard]] inline NormalResponse shifted(const NormalPenalty& law, double gap, double lambda) {
+/// Formula    N = lambda + eps_N gap where that is not positive or the point is held, otherwise 0
+[[nodiscard]] inline NormalResponse shifted(const NormalPenalty& law, double gap, double lambda,
+                                            bool held = false) {
   const double traction = lambda + law.stiffness * gap;
-  if (traction > 0) return {};
+  if (traction > 0 && !held) return {};
   return {true, traction, law.stiffness};
 }
 

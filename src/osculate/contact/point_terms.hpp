@@ -2,8 +2,8 @@
 #include <array>
 
 #include "osculate/contact/kinematics.hpp"
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
+#include "osculate/contact/law/normal_response.hpp"
+#include "osculate/contact/law/tangential.hpp"
 
 namespace osculate::contact {
 

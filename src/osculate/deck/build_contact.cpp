@@ -144,9 +144,6 @@ pairing::AreaRule area_rule(const BuildContext<3>&, const pairing::PairDefinitio
 
 template <int Dim>
 void set_forms(const Contact& contact, pairing::PairDefinition<Dim>& pair) {
-  pair.normal.stiffness = contact.normal_penalty.value;
-  if (contact.friction)
-    pair.friction = contact::Coulomb{contact.friction->mu.value, contact.friction->penalty.value};
   switch (contact.weight.value) {
     case ContactWeight::node:
       pair.weight = pairing::Weight::node;
@@ -338,12 +335,14 @@ void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMa
   set_forms(contact, pair);
   set_augmentation(c, contact, pair);
   set_edges(c, contact, pair);
+  set_laws(c, contact, pair);
   pair.area = area_rule(c, pair);
   try {
     pairing::prepare(pair, c.model().reference);
   } catch (const core::GeometryError& error) {
     throw core::InputError(mark, error.what());
   }
+  note_tied(c, contact, pair);
   if (!contact.all) warn_of_smooth(c, contact, pair);
   c.model().pairs.push_back(std::move(out));
 }

@@ -19,6 +19,16 @@ template <int Dim>
 void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMark& mark,
               model::BasicContactPair<Dim> pair);
 
+/// Normal law, friction law, what is held, offset. Errors point at the key.
+template <int Dim>
+void set_laws(const BuildContext<Dim>& c, const Contact& contact,
+              pairing::PairDefinition<Dim>& pair);
+
+/// Counts the points of a prepared pair that are tied; throws where there are none.
+template <int Dim>
+void note_tied(BuildContext<Dim>& c, const Contact& contact,
+               const pairing::PairDefinition<Dim>& pair);
+
 /// Mean length of the facets' edges in the reference configuration, 0 without facets.
 template <int Dim>
 [[nodiscard]] double mean_size(const pairing::Boundary<Dim>& boundary,

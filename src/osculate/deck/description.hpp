@@ -186,8 +186,27 @@ struct Sampling {
   int points = 0, subdomains = 1;
 };
 
+enum class NormalWord { penalty, exponential, table };
+enum class SeparationWord { allowed, no_separation, tied_normal, tied };
+enum class InitialGap { keep, close };
+enum class FrictionWord { coulomb, tresca, rough };
+
+/// Of the law in the normal direction what is not the penalty.
+struct NormalDescription {
+  Marked<NormalWord> law;
+  Number pressure, clearance;                ///< exponential
+  std::vector<std::array<double, 2>> table;  ///< overclosure, pressure
+  Marked<SeparationWord> separation;
+  std::optional<Number> tolerance;
+  Marked<InitialGap> initial_gap;
+};
+
+/// A law of friction; which members mean something depends on the law.
 struct CoulombFriction {
   Number mu, penalty;
+  FrictionWord law = FrictionWord::coulomb;
+  std::optional<Number> kinetic, distance, speed, cap;
+  Number limit;  ///< tresca
 };
 
 struct Contact {
@@ -195,6 +214,8 @@ struct Contact {
   Name master, slave;  ///< name of a rigid body if there is one, else of a set
   Marked<Sampling> sampling;
   Number normal_penalty;
+  NormalDescription normal;
+  double offset = 0;  ///< of both sides together
   std::optional<CoulombFriction> friction;
   Marked<Enforcement> enforcement;
   Marked<ContactWeight> weight;
@@ -273,6 +294,7 @@ struct Load {
 struct Step {
   Name name;
   Marked<int> increments;
+  std::optional<Number> duration;
   std::vector<Prescription> prescribe;
   std::vector<Release> release;
   std::vector<Load> forces, pressure, traction, body_force;

@@ -28,30 +28,128 @@ Spec sampling_spec() {
       .such_as("{lobatto: 5, subdomains: 2}");
 }
 
+/// What holds points together that are pulled apart.
+std::vector<Key> holding_keys() {
+  return {
+      optional("separation",
+               choice("Whether points that touch may part again.",
+                      {word("allowed", SeparationWord::allowed, "they part when they are pulled"),
+                       word("no_separation", SeparationWord::no_separation,
+                            "a point that was in contact at the end of an increment stays so; it "
+                            "slides as the friction law says"),
+                       word("tied_normal", SeparationWord::tied_normal,
+                            "points near the master at the start keep their gap and slide as the "
+                            "friction law says; no others come into contact"),
+                       word("tied", SeparationWord::tied,
+                            "points near the master at the start stick to their places, pulled and "
+                            "pressed; no others come into contact")})
+                   .otherwise("allowed")
+                   .such_as("no_separation")),
+      optional("tolerance", number("Gap at the start up to which points are tied.")
+                                .in("length")
+                                .above(0)
+                                .otherwise_as("a twentieth of the mean size of the master's facets")
+                                .such_as("0.01")),
+      optional("initial_gap",
+               choice("What becomes of the gaps of tied points.",
+                      {word("keep", InitialGap::keep, "they stay as they are, without a force"),
+                       word("close", InitialGap::close,
+                            "they are closed in the first increment, which strains the bodies")})
+                   .otherwise("keep")
+                   .such_as("close"))};
+}
+
 Spec normal_spec() {
-  return map("Law in the normal direction.",
-             {required("penalty",
-                       either("Stiffness against penetration.",
-                              {number("Stiffness.").in(stiffness_unit).above(0),
-                               choice("From the stiffness of the bodies.",
-                                      {planned("auto", "from the stiffness of the bodies")})})
-                           .such_as("2.1e6"))})
+  const Spec exponential =
+      map("Pressure that grows exponentially: p = p0 / (e - 1) x (exp(x) - 1), x = 1 - gap / "
+          "clearance.",
+          {required("pressure",
+                    number("Pressure p0 at zero gap.").in("force/length^2").above(0).such_as("12")),
+           required("clearance",
+                    number("Gap at which it begins.").in("length").above(0).such_as("0.01"))});
+  const Spec point = list("One point [overclosure, pressure].", number("Length, or pressure."))
+                         .count(2, 2)
+                         .such_as("[0.01, 12]");
+  const Spec table =
+      list(
+          "Pressure over overclosure, straight between the points and beyond the last one; the "
+          "first pressure is 0.",
+          point)
+          .count(2)
+          .such_as("[[0, 0], [0.01, 12], [0.02, 40]]");
+  std::vector<Key> keys{
+      optional("penalty", either("Stiffness against penetration.",
+                                 {number("Stiffness.").in(stiffness_unit).above(0),
+                                  choice("From the stiffness of the bodies.",
+                                         {planned("auto", "from the stiffness of the bodies")})})
+                              .such_as("2.1e6")),
+      optional("exponential", exponential), optional("table", table)};
+  for (Key& key : holding_keys()) keys.push_back(std::move(key));
+  return map("Law in the normal direction.", std::move(keys))
+      .with(Group::Rule::exactly_one, {"penalty", "exponential", "table"})
       .such_as("{penalty: 2.1e6}");
 }
 
+Spec coulomb_spec(const Spec& penalty) {
+  const Spec decay =
+      map("How the coefficient goes from mu to kinetic: mu(a) = kinetic + (mu - kinetic) exp(-a / "
+          "scale).",
+          {optional("distance", number("Scale of the distance slid since the point touched.")
+                                    .in("length")
+                                    .above(0)
+                                    .such_as("0.01")),
+           optional("speed", number("Scale of the sliding speed; every step needs a duration.")
+                                 .in("length/time")
+                                 .above(0)
+                                 .such_as("0.5"))});
+  return map("Coulomb's law with an elastic stick range.",
+             {required("mu", number("Coefficient of friction.").at_least(0).such_as("0.3")),
+              required("penalty", penalty),
+              optional("kinetic", number("Coefficient of friction after sliding, or at speed.")
+                                      .at_least(0)
+                                      .otherwise_as("mu")
+                                      .such_as("0.2")),
+              optional("decay", Spec(decay)
+                                    .with(Group::Rule::exactly_one, {"distance", "speed"})
+                                    .such_as("{distance: 0.01}")),
+              optional("cap", number("Largest shear traction, whatever the pressure.")
+                                  .in("force/length^2 (force with weight: node)")
+                                  .above(0)
+                                  .otherwise_as("none")
+                                  .such_as("40"))});
+}
+
 Spec friction_spec() {
-  const Spec coulomb =
-      map("Coulomb's law with an elastic stick range.",
-          {required("mu", number("Coefficient of friction.").at_least(0).such_as("0.3")),
-           required("penalty", number("Stiffness against sliding while the point sticks.")
-                                   .in(stiffness_unit)
-                                   .above(0)
-                                   .such_as("2.1e6"))});
+  const Spec penalty = number("Stiffness against sliding while the point sticks.")
+                           .in(stiffness_unit)
+                           .above(0)
+                           .such_as("2.1e6");
+  const Spec tresca = map("One shear traction for every pressure, with an elastic stick range.",
+                          {required("limit", number("Shear traction while sliding.")
+                                                 .in("force/length^2 (force with weight: node)")
+                                                 .at_least(0)
+                                                 .such_as("40")),
+                           required("penalty", penalty)});
+  const Spec rough = map("No sliding while in contact.", {required("penalty", penalty)});
   return either("Law in the tangential direction.",
                 {choice("No friction.", {Choice{"none", "no friction", 0, true}}),
-                 map("A law of friction.", {required("coulomb", coulomb)})})
+                 map("A law of friction.", {optional("coulomb", coulomb_spec(penalty)),
+                                            optional("tresca", tresca), optional("rough", rough)})
+                     .with(Group::Rule::exactly_one, {"coulomb", "tresca", "rough"})})
       .otherwise("none")
       .such_as("{coulomb: {mu: 0.3, penalty: 2.1e6}}");
+}
+
+/// Half thicknesses of shells.
+Spec offset_spec() {
+  const auto side = [](const char* doc) {
+    return number(doc).in("length").at_least(0).otherwise("0").such_as("0.5");
+  };
+  return map("Distance at which the sides touch: half thicknesses of shells, which are taken off "
+             "the gap.",
+             {optional("master", side("Of the master.")), optional("slave", side("Of the slave."))})
+      .otherwise("{}")
+      .such_as("{master: 0.5, slave: 0.25}");
 }
 
 Spec tangent_spec() {
@@ -176,6 +274,7 @@ std::vector<Key> law_keys() {
       optional("sampling", sampling_spec()),
       required("normal", normal_spec()),
       optional("friction", friction_spec()),
+      optional("offset", offset_spec()),
       optional("enforcement", enforcement_spec()),
       optional("weight", weight_spec()),
       optional("residual", residual_spec()),

@@ -184,6 +184,12 @@ Spec steps_spec() {
                                              .at_least(1)
                                              .at_most(1'000'000)
                                              .such_as("10")),
+                  optional("duration", number("Time from the beginning of the step to its end; "
+                                              "only friction that depends on speed asks for it.")
+                                           .in("time")
+                                           .above(0)
+                                           .otherwise_as("no time")
+                                           .such_as("0.5")),
                   optional("prescribe", prescribe_spec()), optional("release", release_spec()),
                   optional("forces", forces_spec()), optional("pressure", pressure_spec()),
                   optional("traction", traction_spec()),

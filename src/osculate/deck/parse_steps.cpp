@@ -12,8 +12,79 @@ Tangent tangent_of(const Value& v) {
 
 std::optional<CoulombFriction> friction_of(const Value& v) {
   if (v.alternative == 0) return std::nullopt;
+  CoulombFriction out;
+  if (const Value* const tresca = v.find("tresca")) {
+    out.law = FrictionWord::tresca;
+    out.limit = number_of(tresca->at("limit"));
+    out.penalty = number_of(tresca->at("penalty"));
+    return out;
+  }
+  if (const Value* const rough = v.find("rough")) {
+    out.law = FrictionWord::rough;
+    out.penalty = number_of(rough->at("penalty"));
+    return out;
+  }
   const Value& coulomb = v.at("coulomb");
-  return CoulombFriction{number_of(coulomb.at("mu")), number_of(coulomb.at("penalty"))};
+  out.mu = number_of(coulomb.at("mu"));
+  out.penalty = number_of(coulomb.at("penalty"));
+  out.kinetic = number_if(coulomb, "kinetic");
+  out.cap = number_if(coulomb, "cap");
+  const Value* const decay = coulomb.find("decay");
+  if (decay) out.distance = number_if(*decay, "distance");
+  if (decay) out.speed = number_if(*decay, "speed");
+  if (out.kinetic && !decay)
+    throw core::InputError(out.kinetic->mark,
+                           "how the coefficient changes is missing: add decay: {distance: ...} or "
+                           "{speed: ...}");
+  if (decay && !out.kinetic)
+    throw core::InputError(decay->mark, "decay goes with a kinetic coefficient, which is missing");
+  return out;
+}
+
+/// The points of a table of pressures.
+std::vector<std::array<double, 2>> table_of(const Value& v) {
+  std::vector<std::array<double, 2>> points;
+  for (const Value& item : v.items) {
+    const std::array<double, 2> point{item.items[0].number, item.items[1].number};
+    const auto refuse = [&](const std::string& why) { throw core::InputError(item.mark, why); };
+    if (points.empty() && point[1] != 0) refuse("the first pressure of the table must be 0");
+    if (!points.empty() && !(point[0] > points.back()[0]))
+      refuse(fmt::format("overclosures must grow: {:g} follows {:g}", point[0], points.back()[0]));
+    if (!points.empty() && !(point[1] >= points.back()[1]))
+      refuse(fmt::format("pressures must not fall: {:g} follows {:g}", point[1], points.back()[1]));
+    points.push_back(point);
+  }
+  if (!(points.back()[1] > 0)) throw core::InputError(v.mark, "the table has no pressure > 0");
+  return points;
+}
+
+void read_normal(const Value& v, Contact& c) {
+  NormalDescription& n = c.normal;
+  n.law = {NormalWord::penalty, v.mark};
+  if (const Value* const penalty = v.find("penalty")) c.normal_penalty = number_of(*penalty);
+  if (const Value* const exponential = v.find("exponential")) {
+    n.law = {NormalWord::exponential, exponential->mark};
+    n.pressure = number_of(exponential->at("pressure"));
+    n.clearance = number_of(exponential->at("clearance"));
+  }
+  if (const Value* const table = v.find("table")) {
+    n.law = {NormalWord::table, table->mark};
+    n.table = table_of(*table);
+  }
+  n.separation = word_of<SeparationWord>(v, "separation");
+  n.tolerance = number_if(v, "tolerance");
+  if (n.law.value != NormalWord::penalty && n.separation.value != SeparationWord::allowed)
+    throw core::InputError(
+        n.separation.mark,
+        "holding points needs a stiffness in tension: it goes with penalty only");
+  const bool tied = n.separation.value == SeparationWord::tied;
+  if (n.tolerance && !tied && n.separation.value != SeparationWord::tied_normal)
+    throw core::InputError(n.tolerance->mark,
+                           "tolerance says what is tied: it goes with separation: tied or "
+                           "tied_normal");
+  n.initial_gap = word_of<InitialGap>(v, "initial_gap");
+  if (n.initial_gap.value == InitialGap::close && !tied)
+    throw core::InputError(n.initial_gap.mark, "closing gaps goes with separation: tied only");
 }
 
 std::optional<Number> edges_of(const Value& v) {
@@ -47,8 +118,12 @@ Marked<Enforcement> enforcement_of(const Value& v) {
 void read_laws(const Value& v, Contact& c) {
   c.name = name_of(v.at("name"));
   c.sampling = sampling_of(v.at("sampling"));
-  c.normal_penalty = number_of(v.at("normal").at("penalty"));
+  read_normal(v.at("normal"), c);
   c.friction = friction_of(v.at("friction"));
+  if (c.friction && c.normal.separation.value == SeparationWord::tied)
+    throw core::InputError(v.at("friction").mark,
+                           "tied points do not slide: leave out friction, or use tied_normal");
+  c.offset = v.at("offset").at("master").number + v.at("offset").at("slave").number;
   c.enforcement = enforcement_of(v.at("enforcement"));
   c.weight = word_of<ContactWeight>(v, "weight");
   c.residual = word_of<Residual>(v, "residual");
@@ -121,6 +196,7 @@ Step step_of(const Value& v) {
   Step s;
   s.name = name_of(v.at("name"));
   s.increments = integer_of(v.at("increments"));
+  s.duration = number_if(v, "duration");
   s.prescribe = prescriptions_of(v.at("prescribe"));
   s.release = releases_of(v.at("release"));
   s.forces = loads_of(v.at("forces"), {"fx", "fy", "fz", "mx", "my", "mz"});

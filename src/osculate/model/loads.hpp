@@ -51,6 +51,7 @@ struct PressureLoad {
 struct Step {
   std::string name;
   int increments = 1;
+  double duration = 0;  ///< time from its beginning to its end; 0: no time is known
   std::vector<PrescribedDof> prescribed;
   std::vector<DeadLoad> dead;
   std::vector<PressureLoad> pressure;

@@ -38,6 +38,7 @@ template <int Dim>
 bool needs_unsymmetric(const BasicModel<Dim>& model) {
   for (const BasicContactPair<Dim>& pair : model.pairs) {
     const pairing::PairDefinition<Dim>& d = pair.definition;
+    if (d.separation == pairing::Separation::tied) continue;
     if (d.friction || d.mortar ||
         (d.weight == pairing::Weight::current_area && d.tangent.consistent))
       return true;
@@ -158,9 +159,9 @@ void BasicSystem<Dim>::Impl::add_to_multipliers(State& s, const Eigen::VectorXd&
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     Index row = first_multiplier[p];
     for (contact::Multiplier<Dim>& m : s.multipliers[p].points) {
-      m.normal += factor * pair.normal.stiffness * du[row++];
+      m.normal += factor * contact::penalty(pair.normal) * du[row++];
       if (!pair.friction) continue;
-      m.shear += factor * pair.friction->stiffness * du.segment<Dim>(row);
+      m.shear += factor * contact::stiffness(*pair.friction) * du.segment<Dim>(row);
       row += Dim;
     }
   }
@@ -373,17 +374,22 @@ void BasicSystem<Dim>::Impl::add_constraints(std::size_t pair, bool with_tangent
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& trial,
-                                         std::span<const Vec<Dim>> x, bool with_tangent,
-                                         const Eigen::VectorXd* inc, solve::Evaluation& out) {
+                                         double fraction, std::span<const Vec<Dim>> x,
+                                         bool with_tangent, const Eigen::VectorXd* inc,
+                                         solve::Evaluation& out) {
+  // A committed state at the end of a step is the start of the next one.
+  const double begin = committed.fraction < fraction ? committed.fraction : 0.0;
+  const double duration = (fraction - begin) * step.duration;
   out.counts = {};
   out.counts.signature = 14695981039346656037ull;
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     const Stopwatch watch;
-    const pairing::Assumed<Dim> assumed =
+    pairing::Assumed<Dim> assumed =
         inc ? pairing::committed_branches<Dim>(pair, committed.pairs[p], x, sticking)
         : p < trial.assumed.size() ? trial.assumed[p]
                                    : pairing::Assumed<Dim>{};
+    assumed.duration = duration;
     const bool around = p < trial.multipliers.size() && !trial.multipliers[p].points.empty();
     pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed,
                            around ? &trial.multipliers[p] : nullptr);
@@ -480,7 +486,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   if (predict) inc = prescribed_increment(trial, x, fraction);
   const Eigen::VectorXd* increment = predict ? &inc : nullptr;
   if (on(Term::bulk) && !add_bulk(trial, with_tangent, increment, out)) return;
-  if (on(Term::contact)) add_contact(committed, trial, x, with_tangent, increment, out);
+  if (on(Term::contact)) add_contact(committed, trial, fraction, x, with_tangent, increment, out);
   if (on(Term::pressure)) add_pressure(trial, fraction, with_tangent, increment);
   add_dead_loads(fraction);
   turn_moments(trial, with_tangent && on(Term::rigid), increment);

@@ -75,8 +75,9 @@ struct BasicSystem<Dim>::Impl {
   void clear(bool with_tangent);
   bool add_bulk(const State& trial, bool with_tangent, const Eigen::VectorXd* inc,
                 solve::Evaluation& out);
-  void add_contact(const State& committed, const State& trial, std::span<const Vec<Dim>> x,
-                   bool with_tangent, const Eigen::VectorXd* inc, solve::Evaluation& out);
+  void add_contact(const State& committed, const State& trial, double fraction,
+                   std::span<const Vec<Dim>> x, bool with_tangent, const Eigen::VectorXd* inc,
+                   solve::Evaluation& out);
   void add_contact_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,
                          const Eigen::VectorXd* inc);
   /// Constraints of a pair whose multipliers are unknowns.

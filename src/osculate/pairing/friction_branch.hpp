@@ -7,33 +7,98 @@
 
 namespace osculate::pairing {
 
+/// Whether a point stays in contact whatever pulls at it.
+template <int Dim>
+[[nodiscard]] bool is_held(const PairDefinition<Dim>& pair,
+                           const contact::PointHistory<Dim>& history) {
+  if (pair.separation == Separation::no_separation) return history.active;
+  return pair.separation == Separation::tied_normal && history.held;
+}
+
+/// The gap at which the normal law begins to count: half thicknesses, and what a held point keeps.
+template <int Dim>
+[[nodiscard]] double rest_gap(const PairDefinition<Dim>& pair,
+                              const contact::PointHistory<Dim>& history) {
+  return pair.offset + history.rest;
+}
+
+/// At the start: holds a point that is near the master.
+template <int Dim>
+void hold(const PairDefinition<Dim>& pair, contact::PointHistory<Dim>& history) {
+  if (pair.separation != Separation::tied_normal) return;
+  const double gap = history.gap - pair.offset;
+  history.held = std::abs(gap) <= pair.tolerance;
+  if (history.held) history.rest = gap;
+}
+
+/// Whether the normal law gives a traction at this gap.
+template <int Dim>
+[[nodiscard]] bool is_closed(const PairDefinition<Dim>& pair,
+                             const contact::PointHistory<Dim>& history, double gap) {
+  if (gap < -pair.depth) return false;
+  if (is_held(pair, history)) return true;
+  return pair.separation != Separation::tied_normal &&
+         gap - pair.offset <= contact::reach(pair.normal);
+}
+
+/// The normal law, around the multiplier where there is one.
+template <int Dim>
+[[nodiscard]] contact::NormalResponse normal_response(const PairDefinition<Dim>& pair,
+                                                      const contact::PointHistory<Dim>& history,
+                                                      double gap, const BranchHint<Dim>& hint) {
+  if (hint.multiplier) {
+    const bool held = is_held(pair, history);
+    if (gap < -pair.depth || (pair.separation == Separation::tied_normal && !held)) return {};
+    return contact::shifted({hint.stiffening * contact::penalty(pair.normal)},
+                            gap - rest_gap(pair, history), hint.multiplier->normal, held);
+  }
+  if (!is_closed(pair, history, gap)) return {};
+  return contact::response(pair.normal, gap - rest_gap(pair, history), is_held(pair, history));
+}
+
 /// The part in contact of a point that was open at the start of the increment (`history`).
 template <int Dim>
-[[nodiscard]] ContactShare contact_share(const contact::PointHistory<Dim>& history, double gap) {
-  if (history.active || history.facet < 0 || !(history.gap > 0)) return {};
+[[nodiscard]] ContactShare contact_share(const PairDefinition<Dim>& pair,
+                                         const contact::PointHistory<Dim>& history, double gap) {
+  const double onset = rest_gap(pair, history) + contact::reach(pair.normal);
+  if (history.active || history.facet < 0 || !(history.gap > onset)) return {};
   const double range = history.gap - gap;
-  return {-gap / range, -history.gap / (range * range)};
+  return {(onset - gap) / range, -(history.gap - onset) / (range * range)};
+}
+
+/// What the friction law may ask beside the tractions.
+template <int Dim>
+[[nodiscard]] contact::Sliding sliding_of(const contact::PointHistory<Dim>& history,
+                                          const BranchHint<Dim>& hint) {
+  return {history.active ? history.slid : 0.0, hint.duration};
+}
+
+/// The friction law with the penalty that the multipliers' corrections have come to.
+template <int Dim>
+[[nodiscard]] contact::FrictionLaw stiffened(contact::FrictionLaw law,
+                                             const BranchHint<Dim>& hint) {
+  if (hint.stiffening != 1) std::visit([&](auto& l) { l.stiffness *= hint.stiffening; }, law);
+  return law;
 }
 
 /// The law's answer, or the branch that the hint keeps it in.
 template <int Dim>
 [[nodiscard]] contact::TangentialResponse<Dim> linearised_branch(
-    const contact::Coulomb& law, const contact::TangentialResponse<Dim>& response,
+    const contact::FrictionLaw& law, const contact::TangentialResponse<Dim>& response,
     const Vec<Dim - 1>& trial, double normal, const Mat<Dim, Dim - 1>& frame,
-    const BranchHint<Dim>& hint) {
+    const contact::Sliding& sliding, const BranchHint<Dim>& hint) {
   if (hint.predict && hint.assumed.branch == contact::Branch::stick)
-    return contact::Coulomb::stick<Dim>(trial);  // also on the limit, whatever round-off says
+    return contact::stick_response<Dim>(trial);  // also on the limit, whatever round-off says
   if (hint.assumed.branch != contact::Branch::slip) return response;
   const Vec<Dim - 1> before = frame.transpose() * hint.assumed.direction;
   const double size = before.norm();
   if (!(size > 0)) return response;
   if (hint.predict) {
-    const double limit = law.mu * std::abs(normal);
-    const double turning = limit > 0 ? limit / std::max(limit, trial.norm()) : 0.0;
-    return law.template slip<Dim>(before / size, normal, turning);
+    const contact::SlipLimit limit = contact::predicted_limit(law, trial.norm(), normal, sliding);
+    return contact::slip_response<Dim>(before / size, std::max(limit.value, trial.norm()), limit);
   }
   const bool reversed = response.status == contact::Status::slip && before.dot(trial) < 0;
-  return reversed ? contact::Coulomb::stick<Dim>(trial) : response;
+  return reversed ? contact::stick_response<Dim>(trial) : response;
 }
 
 template <int Dim>

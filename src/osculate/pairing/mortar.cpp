@@ -253,22 +253,21 @@ NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
   result.gap = std::numeric_limits<double>::infinity();
   result.weight = node.area;
   result.history.friction_work = committed.points[i].friction_work;
+  result.history.held = committed.points[i].held;
+  result.history.rest = committed.points[i].rest;
   const bool constrained =
       pair.enforcement == contact::Enforcement::lagrange_multiplier && hint.multiplier;
   if (constrained)
-    set_open(constraint_weight(pair, i), pair.normal.stiffness,
-             pair.friction ? pair.friction->stiffness : 0.0, hint.multiplier->normal,
+    set_open(constraint_weight(pair, i), contact::penalty(pair.normal),
+             pair.friction ? contact::stiffness(*pair.friction) : 0.0, hint.multiplier->normal,
              hint.multiplier->shear, out.blocks[i].constraint);
   if (!covered<Dim>(node, out.mortar.normals[i], pair.reference_areas[i])) return {};
   NodeContact<Dim> c = place_node<Dim>(node, out.mortar.normals[i]);
   out.mortar.places[i] = node.masters;
   for (double& weight : out.mortar.places[i].weights) weight /= node.area;
-  if (c.gap >= -pair.depth) c.normal_law = push_of(pair, c.gap, hint);
-  if (c.normal_law.active && pair.friction) {
-    contact::Coulomb law = *pair.friction;
-    law.stiffness *= hint.stiffening;
-    set_friction<Dim>(law, committed.points[i], last_place<Dim>(committed, i), x, hint, c);
-  }
+  c.normal_law = normal_response(pair, committed.points[i], c.gap, hint);
+  if (c.normal_law.active && pair.friction)
+    set_friction<Dim>(pair, committed.points[i], last_place<Dim>(committed, i), x, hint, c);
   report<Dim>(pair, committed.points[i], node, c, result);
   if (!c.normal_law.active) return c;
   set_forces<Dim>(node, c, out.blocks[i]);
@@ -340,9 +339,16 @@ PairState<Dim> initial_mortar_state(const PairDefinition<Dim>& pair, Points<Dim>
   PairEvaluation<Dim> work;
   evaluate_mortar<Dim>(pair, x, state, false, work);
   state = commit(work);
+  if (pair.separation == Separation::tied_normal) {
+    for (PointHistory<Dim>& h : state.points)
+      if (h.facet >= 0) hold(pair, h);
+    evaluate_mortar<Dim>(pair, x, state, false, work);
+    state = commit(work);
+  }
   for (PointHistory<Dim>& h : state.points) {  // what it remembers has not slipped
     h.traction.setZero();
     h.slip.setZero();
+    h.slid = 0;
     h.slipping = false;
     h.friction_work = 0;
   }

@@ -70,7 +70,7 @@ NodeRates<Dim> node_rates(const PairDefinition<Dim>& pair, const NodeContact<Dim
     if (!c.sliding) continue;
     const Vec<Dim> e = c.frame.col(i);
     d_trial.row(i) +=
-        c.shear_penalty *
+        c.stiffness *
         (c.share.value * (e.transpose() * (d_foot - r.old * unit) + c.way.transpose() * turning) +
          c.share.d_gap * e.dot(c.way) * out.gap);
   }
@@ -98,10 +98,12 @@ NodeContact<Dim> place_node(const MortarNode<Dim>& node, const NodalNormal<Dim>&
 }
 
 template <int Dim>
-void set_friction(const contact::Coulomb& law, const PointHistory<Dim>& history,
+void set_friction(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,
                   const MortarPlace& last, Points<Dim> x, const BranchHint<Dim>& hint,
                   NodeContact<Dim>& c) {
-  c.shear_penalty = law.stiffness;
+  const contact::FrictionLaw law = stiffened(*pair.friction, hint);
+  const contact::Sliding sliding = sliding_of(history, hint);
+  c.stiffness = contact::stiffness(law);
   if (hint.multiplier) {
     c.around = hint.multiplier->shear;
     c.trial = c.frame.transpose() * c.around;
@@ -110,19 +112,19 @@ void set_friction(const contact::Coulomb& law, const PointHistory<Dim>& history,
   }
   c.sliding = !last.nodes.empty();
   if (c.sliding) {
-    if (!hint.multiplier) c.share = contact_share(history, c.gap);
+    if (!hint.multiplier) c.share = contact_share(pair, history, c.gap);
     c.way = c.foot - place_in_space<Dim>(last, x);
-    c.trial += law.stiffness * c.share.value * (c.frame.transpose() * c.way);
+    c.trial += c.stiffness * c.share.value * (c.frame.transpose() * c.way);
   }
   const double normal = c.normal_law.traction;
-  c.law = law.template response<Dim>(c.trial, normal);
-  c.linearised = linearised_branch<Dim>(law, c.law, c.trial, normal, c.frame, hint);
+  c.law = contact::response<Dim>(law, c.trial, normal, sliding);
+  c.linearised = linearised_branch<Dim>(law, c.law, c.trial, normal, c.frame, sliding, hint);
 }
 
 template <int Dim>
 void report(const PairDefinition<Dim>& pair, const PointHistory<Dim>& old,
             const MortarNode<Dim>& node, const NodeContact<Dim>& c, PointResult<Dim>& result) {
-  result.gap = c.gap;
+  result.gap = c.gap - pair.offset;
   result.foot = c.foot;
   result.normal = c.normal;
   result.frame = c.frame;
@@ -141,10 +143,12 @@ void report(const PairDefinition<Dim>& pair, const PointHistory<Dim>& old,
   h.traction = c.law.traction;
   h.slipping = c.law.status == Status::slip;
   h.slip = result.slip_increment;
-  if (old.active) h.slip += old.slip;
-  contact::Coulomb law = *pair.friction;
-  law.stiffness = c.shear_penalty;
-  h.friction_work += node.area * law.template dissipated<Dim>(c.trial, c.law);
+  h.slid = contact::slid<Dim>(c.trial, c.law, c.stiffness);
+  if (old.active) {
+    h.slip += old.slip;
+    h.slid += old.slid;
+  }
+  h.friction_work += node.area * contact::dissipated<Dim>(c.trial, c.law, c.stiffness);
 }
 
 template <int Dim>
@@ -252,7 +256,7 @@ void set_constraint(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c,
                     const MortarNode<Dim>& node, double area,
                     const contact::Multiplier<Dim>& multiplier, ContactBlock<Dim>& block) {
   ConstraintBlock<Dim>& k = block.constraint;
-  const double normal = pair.normal.stiffness, shear = c.shear_penalty;
+  const double normal = contact::penalty(pair.normal), shear = c.stiffness;
   k.normal = area * (c.normal_law.traction - multiplier.normal);
   k.shear = area * (c.frame * c.law.traction - multiplier.shear);
   k.branch_shear = area * (c.frame * c.linearised.traction - multiplier.shear);
@@ -273,7 +277,7 @@ void set_constraint(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c,
 }
 
 template NodeContact<2> place_node<2>(const MortarNode<2>&, const NodalNormal<2>&);
-template void set_friction<2>(const contact::Coulomb&, const PointHistory<2>&, const MortarPlace&,
+template void set_friction<2>(const PairDefinition<2>&, const PointHistory<2>&, const MortarPlace&,
                               Points<2>, const BranchHint<2>&, NodeContact<2>&);
 template void report<2>(const PairDefinition<2>&, const PointHistory<2>&, const MortarNode<2>&,
                         const NodeContact<2>&, PointResult<2>&);
@@ -290,7 +294,7 @@ template void set_constraint<2>(const PairDefinition<2>&, const NodeContact<2>&,
                                 const MortarNode<2>&, double, const contact::Multiplier<2>&,
                                 ContactBlock<2>&);
 template NodeContact<3> place_node<3>(const MortarNode<3>&, const NodalNormal<3>&);
-template void set_friction<3>(const contact::Coulomb&, const PointHistory<3>&, const MortarPlace&,
+template void set_friction<3>(const PairDefinition<3>&, const PointHistory<3>&, const MortarPlace&,
                               Points<3>, const BranchHint<3>&, NodeContact<3>&);
 template void report<3>(const PairDefinition<3>&, const PointHistory<3>&, const MortarNode<3>&,
                         const NodeContact<3>&, PointResult<3>&);

@@ -18,9 +18,9 @@ struct NodeContact {
   ContactShare share;
   Vec<Dim> way = Vec<Dim>::Zero();  ///< y - y_old
   Vec<Dim - 1> trial = Vec<Dim - 1>::Zero();
-  double shear_penalty = 0;
   Vec<Dim> around = Vec<Dim>::Zero();  ///< multiplier of the shear
   contact::TangentialResponse<Dim> law, linearised;
+  double stiffness = 0;  ///< eps_T
 
   /// Traction of the branch that is linearised.
   [[nodiscard]] Vec<Dim> traction() const {
@@ -35,7 +35,7 @@ template <int Dim>
 
 /// Slip since the last place and the shear traction.
 template <int Dim>
-void set_friction(const contact::Coulomb& law, const contact::PointHistory<Dim>& history,
+void set_friction(const PairDefinition<Dim>& pair, const contact::PointHistory<Dim>& history,
                   const MortarPlace& last, Points<Dim> x, const BranchHint<Dim>& hint,
                   NodeContact<Dim>& c);
 

@@ -5,16 +5,33 @@
 #include <cmath>
 
 #include "osculate/core/error.hpp"
+#include "osculate/pairing/friction_branch.hpp"
 #include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/point_block.hpp"
 #include "osculate/pairing/point_evaluation.hpp"
 #include "osculate/pairing/sampling.hpp"
+#include "osculate/pairing/tie.hpp"
 
 namespace osculate::pairing {
 
 using contact::Branch;
 using contact::PointHistory;
 using projection::Feature;
+
+namespace {
+
+template <int Dim>
+void check_areas(const PairDefinition<Dim>& pair) {
+  if (pair.weight == Weight::node) return;
+  for (const double area : pair.reference_areas)
+    if (!(area > 0))
+      throw core::GeometryError(
+          sampled_at_nodes(pair.slave)
+              ? "a slave node has no positive tributary area; use weight: node"
+              : "a slave facet has no area; use weight: node");
+}
+
+}  // namespace
 
 template <int Dim>
 void prepare(PairDefinition<Dim>& pair, Points<Dim> reference) {
@@ -26,13 +43,8 @@ void prepare(PairDefinition<Dim>& pair, Points<Dim> reference) {
   if constexpr (Dim == 3)
     prepare_edges(pair.edges, pair.master, pair.slave, pair.reference_areas, reference);
   if (pair.mortar) prepare_mortar(pair, reference);
-  if (pair.weight == Weight::node) return;
-  for (const double area : pair.reference_areas)
-    if (!(area > 0))
-      throw core::GeometryError(
-          sampled_at_nodes(pair.slave)
-              ? "a slave node has no positive tributary area; use weight: node"
-              : "a slave facet has no area; use weight: node");
+  check_areas(pair);
+  prepare_ties(pair, reference);
 }
 
 namespace {
@@ -113,6 +125,11 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
               bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed,
               const PairMultipliers<Dim>* multipliers) {
   Laps laps;
+  if (pair.separation == Separation::tied) {
+    evaluate_ties(pair, x, committed, with_tangent, out);
+    laps.add_to(out.seconds.evaluation);
+    return;
+  }
   if (pair.mortar) {
     evaluate_mortar(pair, x, committed, with_tangent, out, assumed, multipliers);
     laps.add_to(out.seconds.evaluation);
@@ -161,8 +178,12 @@ Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation) {
 
 template <int Dim>
 PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
-  if (pair.mortar) return initial_mortar_state(pair, x);
   PairEvaluation<Dim> work;
+  if (pair.separation == Separation::tied) {
+    evaluate(pair, x, {}, false, work);
+    return commit(work);
+  }
+  if (pair.mortar) return initial_mortar_state(pair, x);
   refresh(pair, x, false, work);
   PairState<Dim> state;
   state.points.resize(pair.slave.points.size());
@@ -172,7 +193,9 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
     PointHistory<Dim>& h = state.points[i];
     h = history_at<Dim>(pair, x, placed);
     if (placed.projection.beyond_end) h.gap = std::abs(h.gap);
-    h.active = h.gap <= 0 && h.gap >= -pair.depth && contact::inside_domain(placed.kinematics);
+    if (placed.projection.beyond_end || !contact::inside_domain(placed.kinematics)) continue;
+    hold(pair, h);
+    h.active = is_closed(pair, h, h.gap);
   }
   if constexpr (Dim == 3) {
     if (!pair.edges.on) return state;
@@ -199,8 +222,8 @@ PairMultipliers<Dim> augmented(const PairDefinition<Dim>& pair,
   constexpr double fast_enough = 0.25, more = 10;
   PairMultipliers<Dim> next = used;
   next.violation = 0;
-  const double normal = used.stiffening * pair.normal.stiffness;
-  const double shear = pair.friction ? used.stiffening * pair.friction->stiffness : 1.0;
+  const double normal = used.stiffening * contact::penalty(pair.normal);
+  const double shear = pair.friction ? used.stiffening * contact::stiffness(*pair.friction) : 1.0;
   for (std::size_t i = 0; i < next.points.size(); ++i) {
     const PointResult<Dim>& point = evaluation.points[i];
     const contact::Multiplier<Dim>& old = used.points[i];

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "osculate/contact/history.hpp"
+#include "osculate/contact/law/catalogue.hpp"
 #include "osculate/contact/multiplier.hpp"
 #include "osculate/contact/point_terms.hpp"
 #include "osculate/pairing/constraint.hpp"
@@ -12,6 +13,7 @@
 #include "osculate/pairing/place.hpp"
 #include "osculate/pairing/scope.hpp"
 #include "osculate/pairing/slave_side.hpp"
+#include "osculate/pairing/tied_point.hpp"
 #include "osculate/pairing/trial.hpp"
 
 namespace osculate::pairing {
@@ -23,6 +25,14 @@ using Points = std::type_identity_t<std::span<const Vec<Dim>>>;
 /// What the traction law's result is multiplied by.
 enum class Weight : std::uint8_t { node, reference_area, current_area };
 
+/// Which points stay in contact whatever pulls at them.
+///   allowed        none
+///   no_separation  those that were in contact at the end of the last increment
+///   tied_normal    those near the master at the start; they keep their gap, and no other points
+///                  come into contact
+///   tied           the same, and they do not slide either (tie.hpp); no friction law
+enum class Separation : std::uint8_t { allowed, no_separation, tied_normal, tied };
+
 /// One contact pair: one entry per axis (sampling: the slave's points; target: the master; law;
 /// enforcement), plus the forms of residual and tangent. Everything here is the same in
 /// the plane and in space.
@@ -30,8 +40,12 @@ template <int Dim>
 struct PairDefinition {
   Boundary<Dim> master;
   SlaveSide<Dim> slave;
-  contact::NormalPenalty normal;
-  std::optional<contact::Coulomb> friction;
+  contact::NormalLaw normal;
+  std::optional<contact::FrictionLaw> friction;
+  Separation separation = Separation::allowed;
+  double tolerance = 0;  ///< tied, tied_normal: gap at the start of the points that are held
+  bool keep_gap = true;  ///< tied: false pulls the points onto the master
+  double offset = 0;     ///< half thicknesses of master and slave: the laws see the gap less this
   contact::Enforcement enforcement = contact::Enforcement::penalty;
   /// Augmented Lagrangian: the largest gap and elastic slip that are left [length]. The multipliers
   /// are corrected after each solution, or after each iteration (in one loop).
@@ -48,6 +62,7 @@ struct PairDefinition {
   /// With `scope.own` both sides of a contact are slaves, and each carries half of the traction.
   Scope<Dim> scope;
   bool mortar = false;  ///< integrals over the slave's facets instead of points (mortar.hpp)
+  std::vector<TiedPoint<Dim>> ties;     ///< filled by `prepare`
   std::vector<double> reference_areas;  ///< of the slave's points; filled by `prepare`
   std::vector<Vec<Dim>> reference;      ///< mortar: positions of all nodes; filled by `prepare`
 };
@@ -82,7 +97,7 @@ template <int Dim>
 struct PointResult {
   contact::Status status = contact::Status::open;
   contact::PointHistory<Dim> history;  ///< trial
-  double gap = 0;                      ///< +inf when no place of the master was found
+  double gap = 0;                      ///< less the offset; +inf: no place of the master found
   /// Deep enough for contact, but at or beyond the centre of curvature of the master under it
   /// (contact::inside_domain): there is no normal to push along, so the point gives no force.
   bool outside_domain = false;
@@ -177,6 +192,7 @@ template <int Dim>
 struct Assumed {
   std::vector<AssumedBranch<Dim>> branch;
   bool predict = false;  ///< first iteration: points that slipped go on slipping
+  double duration = 0;   ///< of the increment, for laws that depend on speed; 0: not known
 };
 
 /// Branches at the end of the last increment; `x` is the configuration then. With `sticking`, all

@@ -18,6 +18,9 @@ PairDefinition<3> pair_of_crossings(const PairDefinition<3>& pair,
   PairDefinition<3> out;
   out.normal = pair.normal;
   out.friction = pair.friction;
+  out.separation = pair.separation;
+  out.tolerance = pair.tolerance;
+  out.offset = pair.offset;
   out.residual = pair.residual;
   out.tangent = pair.tangent;
   out.depth = pair.depth;
@@ -80,8 +83,8 @@ void remember_edges(const PairDefinition<3>& pair, Points<3> x, const Crossing& 
 BranchHint<3> hint_of(const Crossing& c, const Assumed<3>& assumed) {
   for (const AssumedBranch<3>& branch : assumed.branch)
     if (branch.edges == std::array<Index, 2>{c.slave, c.master})
-      return {.assumed = branch, .predict = assumed.predict};
-  return {};
+      return {.assumed = branch, .predict = assumed.predict, .duration = assumed.duration};
+  return {.duration = assumed.duration};
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct Friction {
   Traction<Dim> traction;
   TangentialResponse<Dim> law;  ///< what the law says; `traction` may be in another branch
   Vec<Dim - 1> slip = Vec<Dim - 1>::Zero();  ///< of the increment, times the share in contact
+  double slid = 0;                           ///< distance, in the increment
   double dissipated = 0;                     ///< per area (or per node) in the increment
 };
 
@@ -51,23 +52,24 @@ Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>
                         PathBuffers<Dim>* path) {
   Friction<Dim> f;
   const Kinematics<Dim>& k = placed.kinematics;
-  f.traction.normal = push_of(pair, k.gap, hint);
+  f.traction.normal = normal_response(pair, history, k.gap, hint);
   if (!f.traction.normal.active || !pair.friction) return f;
-  contact::Coulomb law = *pair.friction;
-  Trial<Dim> tr;
-  if (hint.multiplier) {
-    law.stiffness *= hint.stiffening;
-    tr = trial_around<Dim>(pair, *hint.multiplier, law.stiffness, history, placed, x, path);
-  } else {
-    tr = trial(pair.master, history, placed, law.stiffness, contact_share(history, k.gap), x, path,
-               pair.history);
-  }
+  const contact::FrictionLaw law = stiffened(*pair.friction, hint);
+  const double stiffness = contact::stiffness(law);
+  const contact::Sliding sliding = sliding_of(history, hint);
+  const Trial<Dim> tr =
+      hint.multiplier
+          ? trial_around<Dim>(pair, *hint.multiplier, stiffness, history, placed, x, path)
+          : trial(pair.master, history, placed, stiffness, contact_share(pair, history, k.gap), x,
+                  path, pair.history);
   const double normal = f.traction.normal.traction;
   f.slip = tr.slip;
-  f.law = law.template response<Dim>(tr.value, normal);
-  f.dissipated = law.template dissipated<Dim>(tr.value, f.law);
-  f.traction.tangential = linearised_branch<Dim>(law, f.law, tr.value, normal, k.frame, hint);
-  f.traction.stiffness = law.stiffness;
+  f.law = contact::response<Dim>(law, tr.value, normal, sliding);
+  f.slid = contact::slid<Dim>(tr.value, f.law, stiffness);
+  f.dissipated = contact::dissipated<Dim>(tr.value, f.law, stiffness);
+  f.traction.tangential =
+      linearised_branch<Dim>(law, f.law, tr.value, normal, k.frame, sliding, hint);
+  f.traction.stiffness = stiffness;
   f.traction.d_trial = tr.variation;
   return f;
 }
@@ -116,11 +118,16 @@ PointHistory<Dim> next_history(const PairDefinition<Dim>& pair, Points<Dim> x,
   h.gap = placed.kinematics.gap;
   h.active = f.traction.normal.active;
   h.friction_work = old.friction_work;
+  h.held = old.held;
+  h.rest = old.rest;
   if (!h.active) return h;
   h.traction = stored_components(pair.master, placed, f.law.traction, x, pair.history);
   h.slipping = f.law.status == Status::slip;
   h.slip = f.slip;
-  if (old.active) h.slip += old.slip;
+  h.slid = f.slid;
+  if (!old.active) return h;
+  h.slip += old.slip;
+  h.slid += old.slid;
   return h;
 }
 
@@ -140,14 +147,14 @@ bool report_place(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHis
                   PointResult<Dim>& result) {
   if (placed.projection.feature == Feature::none) return false;
   const Kinematics<Dim>& k = placed.kinematics;
-  result.gap = k.gap;
+  result.gap = k.gap - pair.offset;
   result.foot = placed.foot;
   result.normal = k.normal;
   result.frame = k.frame;
   result.history = next_history<Dim>(pair, x, history, placed, {});
   if (placed.projection.beyond_end) result.history.gap = result.gap = std::abs(k.gap);
   const bool closed =
-      !placed.projection.beyond_end && k.gap >= -pair.depth && push_of(pair, k.gap, hint).active;
+      !placed.projection.beyond_end && normal_response(pair, history, k.gap, hint).active;
   result.outside_domain = closed && !contact::inside_domain(k);
   return closed && !result.outside_domain;
 }
@@ -158,8 +165,8 @@ void set_constraint_tangent(const PairDefinition<Dim>& pair, const Kinematics<Di
                             const Traction<Dim>& t, const Weights<Dim>& w, double area,
                             double weight, ContactBlock<Dim>& block) {
   ConstraintBlock<Dim>& c = block.constraint;
-  const double normal = pair.normal.stiffness;
-  const double shear = pair.friction ? pair.friction->stiffness : 0.0;
+  const double normal = contact::penalty(pair.normal);
+  const double shear = pair.friction ? contact::stiffness(*pair.friction) : 0.0;
   const contact::ShearRate<Dim> rate = contact::shear_rate(k, t);
   c.columns.resize(Dim * block.count, Dim + 1);
   for (int n = 0; n < block.count; ++n) {
@@ -197,13 +204,16 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   clear(block);
   result.weight = point_weight(pair, out, i);
   result.history.friction_work = history.friction_work;
+  result.history.held = history.held;
+  result.history.rest = history.rest;
   result.gap = std::numeric_limits<double>::infinity();
   const bool constrained =
       pair.enforcement == contact::Enforcement::lagrange_multiplier && hint.multiplier;
   const double area = constrained ? constraint_weight(pair, i) : 0.0;
   if (constrained)
-    set_open(area, pair.normal.stiffness, pair.friction ? pair.friction->stiffness : 0.0,
-             hint.multiplier->normal, hint.multiplier->shear, block.constraint);
+    set_open(area, contact::penalty(pair.normal),
+             pair.friction ? contact::stiffness(*pair.friction) : 0.0, hint.multiplier->normal,
+             hint.multiplier->shear, block.constraint);
   if (!report_place(pair, x, history, placed, hint, result)) return;
   const Kinematics<Dim>& k = placed.kinematics;
   result.weight = facing_weight<Dim>(pair, out, i, k.normal);

@@ -10,6 +10,7 @@ template <int Dim>
 struct BranchHint {
   AssumedBranch<Dim> assumed{};
   bool predict = false;
+  double duration = 0;  ///< of the increment
   const contact::Multiplier<Dim>* multiplier = nullptr;
   double stiffening = 1;
 };
@@ -23,19 +24,12 @@ template <int Dim>
     hint.assumed = assumed.branch[i];
     hint.predict = assumed.predict;
   }
+  hint.duration = assumed.duration;
   if (multipliers && i < multipliers->points.size()) {
     hint.multiplier = &multipliers->points[i];
     hint.stiffening = multipliers->stiffening;
   }
   return hint;
-}
-
-/// The normal law around the point's multiplier.
-template <int Dim>
-[[nodiscard]] contact::NormalResponse push_of(const PairDefinition<Dim>& pair, double gap,
-                                              const BranchHint<Dim>& hint) {
-  if (!hint.multiplier) return pair.normal.response(gap);
-  return contact::shifted({hint.stiffening * pair.normal.stiffness}, gap, hint.multiplier->normal);
 }
 
 /// What a constraint is multiplied by: it does not change with the deformation.

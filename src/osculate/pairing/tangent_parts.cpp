@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "osculate/pairing/friction_branch.hpp"
 #include "osculate/pairing/point_block.hpp"
 
 namespace osculate::pairing {
@@ -9,9 +10,10 @@ namespace {
 
 template <int Dim>
 double share_at(const PairDefinition<Dim>& pair, const SlavePoint<Dim>& slave,
-                const Placed<Dim>& placed, const contact::TangentForm& parts) {
+                const contact::PointHistory<Dim>& history, const Placed<Dim>& placed,
+                const contact::TangentForm& parts) {
   contact::Traction<Dim> traction;
-  traction.normal = pair.normal.response(placed.kinematics.gap);
+  traction.normal = normal_response(pair, history, placed.kinematics.gap);
   const Weights<Dim> w = contact_weights(slave, placed);
   const int count = slave.count + placed.count, size = Dim * count;
   const auto matrix = [&](bool rotational, bool curvature) {
@@ -35,13 +37,13 @@ template <int Dim>
 double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
                        const PairEvaluation<Dim>& evaluation, const contact::TangentForm& parts) {
   double largest = 0;
-  if (pair.mortar) return largest;                              // one tangent, without parts
-  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {  // not the crossings
+  if (pair.mortar || pair.separation == Separation::tied) return largest;  // one tangent, no parts
+  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {             // not the crossings
     if (evaluation.points[i].status == contact::Status::open) continue;
-    const Placed<Dim> placed =
-        place_point<Dim>(pair, evaluation, x, i, evaluation.points[i].history);
+    const contact::PointHistory<Dim>& history = evaluation.points[i].history;
+    const Placed<Dim> placed = place_point<Dim>(pair, evaluation, x, i, history);
     if (placed.projection.feature == projection::Feature::none) continue;
-    largest = std::max(largest, share_at(pair, pair.slave.points[i], placed, parts));
+    largest = std::max(largest, share_at(pair, pair.slave.points[i], history, placed, parts));
   }
   return largest;
 }

@@ -161,9 +161,11 @@ TEST(ContactEvaluator, RefusesWhatItCannotUse) {
             "normal_penalty must be > 0, got 0");
   EXPECT_EQ(refusal([](Sample& s) { s.options.normal_penalty = nan; }),
             "normal_penalty must be > 0, got nan");
-  EXPECT_EQ(refusal([](Sample& s) { s.options.friction->mu = -0.1; }),
+  EXPECT_EQ(refusal([](Sample& s) { std::get<contact::Coulomb>(*s.options.friction).mu = -0.1; }),
             "friction needs mu >= 0 and a stiffness > 0, got -0.1 and 200");
-  EXPECT_EQ(refusal([](Sample& s) { s.options.friction->stiffness = INFINITY; }),
+  EXPECT_EQ(refusal([](Sample& s) {
+              std::get<contact::Coulomb>(*s.options.friction).stiffness = INFINITY;
+            }),
             "friction needs mu >= 0 and a stiffness > 0, got 0.3 and inf");
   EXPECT_EQ(refusal([](Sample& s) { s.options.area.thickness = 0; }),
             "area.thickness must be > 0, got 0");

@@ -45,8 +45,8 @@ TEST(Coulomb, SticksUpToTheLimitAndSlipsBeyond) {
     EXPECT_EQ(slip.d_trial, 0.0);
     EXPECT_EQ(slip.d_normal, -sign * 0.5);
   }
-  EXPECT_EQ(plane(law.slip<2>(Vec<1>(-1.0), -4.0, 0.0)).traction, -2.0);
-  EXPECT_EQ(plane(Coulomb::stick<2>(Vec<1>(1e9))).traction, 1e9);
+  EXPECT_EQ(plane(slip_response<2>(Vec<1>(-1.0), 9, law.first_limit(4.0, {}))).traction, -2.0);
+  EXPECT_EQ(plane(stick_response<2>(Vec<1>(1e9))).traction, 1e9);
 }
 
 // The limit belongs to stick, from both sides, and a point without pressure has none.

@@ -57,7 +57,7 @@ Kinematics<2> touching() {
 Traction<2> sticking(double penalty) {
   Traction<2> t;
   t.normal = {true, 0.0, penalty};
-  t.tangential = Coulomb::stick<2>(Vec<1>(0.0));
+  t.tangential = stick_response<2>(Vec<1>(0.0));
   t.stiffness = penalty;
   t.d_trial.add(Vec2(penalty, 0), touching().d_xi[0]);  // a11 = 1
   return t;
@@ -104,7 +104,7 @@ TEST(StickStiffness, IsPositiveAndAsPrintedItWouldNotBe) {
 // weight would be that of the derivative, which is zero there), against the motion that caused it.
 TEST(TangentialForce, ActsOnTheSlaveAlongTheSlip) {
   Traction<2> t = sticking(80.0);
-  t.tangential = Coulomb::stick<2>(Vec<1>(3.0));  // the slave has moved by +3 / 80 along tau
+  t.tangential = stick_response<2>(Vec<1>(3.0));  // the slave has moved by +3 / 80 along tau
   const PointTerms<2> terms = point_forces(touching(), t, ResidualForm::surface);
   EXPECT_EQ(terms.f[0], Vec2(3, 0));  // added to the internal forces: pulls back
   EXPECT_EQ(terms.f[1], Vec2(0, 0));

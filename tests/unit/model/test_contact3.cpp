@@ -43,7 +43,7 @@ void add_pair(Model3& m, pairing::FacetSurface master, pairing::FacetSurface sla
   pair.definition.master = std::move(master);
   pair.definition.slave = pairing::make_slave_side(std::move(slave));
   pairing::sample(pair.definition.slave, sampling);
-  pair.definition.normal.stiffness = eps_n;
+  pair.definition.normal = contact::NormalPenalty{eps_n};
   if (mu > 0) pair.definition.friction = contact::Coulomb{mu, eps_t};
   pair.definition.weight = weight;
   pairing::prepare<3>(pair.definition, m.reference);

@@ -26,7 +26,7 @@ PairSample at_rest(double traction, bool slipping) {
   pairing::connect(s.pair.master);
   s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{2});
   s.pair.weight = pairing::Weight::node;
-  s.pair.normal.stiffness = eps_n;
+  s.pair.normal = contact::NormalPenalty{eps_n};
   s.pair.friction = contact::Coulomb{mu, eps_t};
   pairing::prepare(s.pair, s.x);
   s.committed = pairing::initial_state(s.pair, s.x);

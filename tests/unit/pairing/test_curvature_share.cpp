@@ -33,7 +33,7 @@ TEST(CurvatureShare, OfASquareFacetIsHalfThePenetration) {
   pairing::connect(s.pair.master);
   s.pair.slave = pairing::make_slave_side(pairing::FacetSurface{}, std::array<Index, 1>{4});
   s.pair.weight = pairing::Weight::node;
-  s.pair.normal.stiffness = 1000;
+  s.pair.normal = contact::NormalPenalty{1000};
   pairing::prepare(s.pair, s.x);
   s.committed.points.resize(1);
   EXPECT_NEAR(share_of(s), 0.01, 1e-15);
@@ -49,7 +49,7 @@ TEST(CurvatureShare, InThePlane) {
   pairing::connect(pair.master);
   pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{2});
   pair.weight = pairing::Weight::node;
-  pair.normal.stiffness = 1000;
+  pair.normal = contact::NormalPenalty{1000};
   pairing::prepare(pair, x);
   const auto share = [&] {
     pairing::PairState<2> committed;

@@ -35,7 +35,7 @@ struct Slider {
     pairing::connect(s.pair.master);
     s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{3});
     s.pair.weight = pairing::Weight::node;
-    s.pair.normal.stiffness = 1000;
+    s.pair.normal = contact::NormalPenalty{1000};
     s.pair.friction = contact::Coulomb{mu, eps_t};
     pairing::prepare(s.pair, s.x);
   }

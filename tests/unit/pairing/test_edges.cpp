@@ -303,7 +303,7 @@ TEST(EdgeContact, FlushFacesAreTheNodesAffair) {
     s.pair.master = add_box(s.x, {-1, -1, -1}, {1, 1, 0}, 0.0);
     const pairing::FacetSurface slave = add_box(s.x, {-1, -1, -0.01}, {1, 1, 1}, turn);
     s.pair.slave = pairing::make_slave_side(slave);
-    s.pair.normal.stiffness = 1000.0;
+    s.pair.normal = contact::NormalPenalty{1000.0};
     s.pair.weight = Weight::node;
     s.pair.edges.on = true;
     pairing::prepare(s.pair, s.x);

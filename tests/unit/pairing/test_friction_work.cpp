@@ -25,7 +25,7 @@ struct Dragged {
     x.push_back(Vec<Dim>::Zero());
     pair.slave = pairing::make_slave_side(pairing::Boundary<Dim>{}, std::array<Index, 1>{slave});
     pair.weight = pairing::Weight::node;
-    pair.normal.stiffness = eps_n;
+    pair.normal = contact::NormalPenalty{eps_n};
     pair.friction = contact::Coulomb{mu, eps_t};
     pairing::prepare(pair, x);
   }
@@ -87,11 +87,14 @@ TEST(FrictionWork, StaysWhenThePointOpensAndGoesOn) {
 
 TEST(FrictionWork, IsPerAreaTimesTheArea) {
   Dragged<2> d;
-  const contact::Coulomb& law = *d.pair.friction;
+  const contact::Coulomb& law = std::get<contact::Coulomb>(*d.pair.friction);
   const Vec<1> trial(2.5 * limit);
   const auto response = law.response<2>(trial, -eps_n * depth);
-  EXPECT_NEAR(law.dissipated<2>(trial, response), limit * 1.5 * limit / eps_t, 1e-15);
-  EXPECT_EQ(law.dissipated<2>(Vec<1>(limit), law.response<2>(Vec<1>(limit), -eps_n * depth)), 0.0);
+  EXPECT_NEAR(contact::dissipated<2>(trial, response, law.stiffness), limit * 1.5 * limit / eps_t,
+              1e-15);
+  EXPECT_EQ(contact::dissipated<2>(Vec<1>(limit), law.response<2>(Vec<1>(limit), -eps_n * depth),
+                                   law.stiffness),
+            0.0);
   d.pair.weight = pairing::Weight::reference_area;
   d.pair.reference_areas = {0.7};
   d.start(Vec<1>(0.0));

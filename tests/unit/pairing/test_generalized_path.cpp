@@ -26,7 +26,7 @@ PairSample3 one_node(std::vector<Vec3> x, const std::vector<std::array<Index, 4>
   s.x.emplace_back(0, 0, 9);
   s.pair.slave = pairing::make_slave_side(pairing::FacetSurface{},
                                           std::array<Index, 1>{static_cast<Index>(s.x.size()) - 1});
-  s.pair.normal.stiffness = 1000.0;
+  s.pair.normal = contact::NormalPenalty{1000.0};
   s.pair.weight = pairing::Weight::node;
   s.committed.points.resize(1);
   pairing::prepare(s.pair, s.x);
@@ -200,7 +200,7 @@ PairSample line_and_node(const std::array<Vec2, 3>& points, const Vec2& node) {
     s.pair.master.facets.push_back(pairing::lagrange_facet(std::array<Index, 2>{i, i + 1}));
   pairing::connect(s.pair.master);
   s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{3});
-  s.pair.normal.stiffness = 1000.0;
+  s.pair.normal = contact::NormalPenalty{1000.0};
   s.pair.weight = pairing::Weight::node;
   s.committed.points.resize(1);
   pairing::prepare(s.pair, s.x);

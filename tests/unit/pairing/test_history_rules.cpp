@@ -36,7 +36,7 @@ struct Walker {
     s.pair.slave = pairing::make_slave_side(
         pairing::Chain{}, std::array<Index, 1>{static_cast<Index>(master.size())});
     s.pair.weight = pairing::Weight::node;
-    s.pair.normal.stiffness = 1000;
+    s.pair.normal = contact::NormalPenalty{1000};
     s.pair.friction = contact::Coulomb{mu, eps_t};
     s.pair.history = rule;
     pairing::prepare(s.pair, s.x);

@@ -40,7 +40,7 @@ struct Walker {
     s.pair.slave = pairing::make_slave_side(
         pairing::FacetSurface{}, std::array<Index, 1>{static_cast<Index>(s.x.size()) - 1});
     s.pair.weight = pairing::Weight::node;
-    s.pair.normal.stiffness = 1000;
+    s.pair.normal = contact::NormalPenalty{1000};
     s.pair.friction = contact::Coulomb{1e6, eps_t};
     s.pair.history = rule;
     pairing::prepare(s.pair, s.x);

@@ -160,7 +160,7 @@ TEST(Augmentation, ReachesTheTargetWhateverThePenalty) {
   const std::vector<Vec2> start = s.x;
   constexpr double spring = 100, load = 5, target = 1e-9;
   for (const double penalty : {1e-2, 1e0, 1e2, 1e4, 1e6}) {
-    s.pair.normal.stiffness = penalty;
+    s.pair.normal = contact::NormalPenalty{penalty};
     pairing::PairMultipliers<2> m = pairing::initial_multipliers<2>(s.pair, s.committed);
     pairing::PairEvaluation<2> e;
     double gap = 0;

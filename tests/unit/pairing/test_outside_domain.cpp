@@ -17,7 +17,7 @@ PairSample disc(const Vec2& node) {
       pairing::shape_facet(geometry::Circle{Vec2(0, 0), 2.0, false}, {0, 1, 2}));
   pairing::connect(s.pair.master);
   s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{3});
-  s.pair.normal.stiffness = 1000.0;
+  s.pair.normal = contact::NormalPenalty{1000.0};
   s.pair.weight = pairing::Weight::node;
   s.committed.points.resize(1);
   pairing::prepare(s.pair, s.x);
@@ -50,7 +50,7 @@ TEST(OutsideDomain, CentreOfCurvatureOfAQuadraticFacet) {
   s.pair.master.facets.push_back(pairing::lagrange_facet(std::array<Index, 3>{0, 1, 2}));
   pairing::connect(s.pair.master);
   s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{3});
-  s.pair.normal.stiffness = 1000.0;
+  s.pair.normal = contact::NormalPenalty{1000.0};
   s.pair.weight = pairing::Weight::node;
   s.committed.points.resize(1);
   pairing::prepare(s.pair, s.x);
@@ -77,7 +77,7 @@ TEST(OutsideDomain, CentreOfASphereAndAxisOfACylinder) {
     s.pair.master.facets.push_back(pairing::shape_facet(shape, {0, 1, 2, 3}));
     pairing::connect(s.pair.master);
     s.pair.slave = pairing::make_slave_side(pairing::FacetSurface{}, std::array<Index, 1>{4});
-    s.pair.normal.stiffness = 1000.0;
+    s.pair.normal = contact::NormalPenalty{1000.0};
     s.pair.weight = pairing::Weight::node;
     s.committed.points.resize(1);
     pairing::prepare(s.pair, s.x);

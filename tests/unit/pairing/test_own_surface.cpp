@@ -107,7 +107,7 @@ TEST(OwnSurface, AThinLipThatJumpsThroughIsFoundAgain) {
 /// A closed hairpin in general position.
 PairSample contact_sample(int nodes, double mu) {
   PairSample s = own_surface(hairpin(), nodes);
-  s.pair.normal.stiffness = 300;
+  s.pair.normal = contact::NormalPenalty{300};
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> jitter(-0.01, 0.01);
   move(s, [&](const Vec2& p) {

@@ -36,7 +36,7 @@ TEST(OwnSurface3, LipsFaceEachOtherAndSqueezeIsNoContact) {
 
 PairSample3 contact_sample(CellType type, double mu) {
   PairSample3 s = own_walls(hairpin(), type);
-  s.pair.normal.stiffness = 300;
+  s.pair.normal = contact::NormalPenalty{300};
   if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80};
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> jitter(-0.01, 0.01);

@@ -142,7 +142,7 @@ PairSample3 inner_corner(double mu) {
   pairing::connect(s.pair.master);
   s.x.push_back({-0.03, -0.05, -0.04});
   s.pair.slave = pairing::make_slave_side(pairing::FacetSurface{}, std::array<Index, 1>{7});
-  s.pair.normal.stiffness = 1000.0;
+  s.pair.normal = contact::NormalPenalty{1000.0};
   s.pair.weight = Weight::node;
   s.pair.friction = contact::Coulomb{mu, 80.0};
   s.committed.points.resize(1);

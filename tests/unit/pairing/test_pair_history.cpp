@@ -26,7 +26,7 @@ struct Walker {
     s.x.push_back({0, 0});
     s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{slave});
     s.pair.weight = pairing::Weight::node;
-    s.pair.normal.stiffness = 1000;
+    s.pair.normal = contact::NormalPenalty{1000};
     s.pair.friction = contact::Coulomb{mu, eps_t};
     pairing::prepare(s.pair, s.x);
   }

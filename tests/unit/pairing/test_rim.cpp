@@ -47,7 +47,9 @@ void expect_straight_push(const Sample& sample) {
       force -= p.weight * p.normal_traction;
     }
     const double area = Dim == 2 ? 3 : 3 * 1.0;  // two layers of 0.5
-    EXPECT_NEAR(force, s.pair.normal.stiffness * depth * area, 1e-9) << beside;
+    EXPECT_NEAR(force, std::get<contact::NormalPenalty>(s.pair.normal).stiffness * depth * area,
+                1e-9)
+        << beside;
   }
 }
 

@@ -248,7 +248,8 @@ TEST(SegmentForces, OfAUniformGapAreThoseOfAUniformPressure) {
     const pairing::SurfaceFacet& facet = s.pair.slave.boundary.facets[0];
     double total = 0;
     for (const Index node : s.pair.slave.nodes) total -= r[3 * node + 2];
-    EXPECT_NEAR(total, s.pair.normal.stiffness * depth * 1.78, 1e-12 * 1000);  // |along x across|
+    EXPECT_NEAR(total, std::get<contact::NormalPenalty>(s.pair.normal).stiffness * depth * 1.78,
+                1e-12 * 1000);      // |along x across|
     if (type == CellType::quad8) {  // corners of a parallelogram: -A / 12, middles A / 3
       EXPECT_NEAR(r[3 * facet.nodes[0] + 2], 1000 * depth * 1.78 / 12, 1e-11);
       EXPECT_NEAR(r[3 * facet.nodes[4] + 2], -1000 * depth * 1.78 / 3, 1e-11);

@@ -42,7 +42,7 @@ PairSample3 make_shape_sample(const ShapeSample& o) {
       cell::CellType::quad4, std::array<Index, 4>{first, first + 1, first + 2, first + 3}));
   pairing::connect(slave);
   s.pair.slave = pairing::make_slave_side(slave);
-  s.pair.normal.stiffness = 1000.0;
+  s.pair.normal = contact::NormalPenalty{1000.0};
   s.pair.friction = contact::Coulomb{o.mu, 80.0};
   s.committed.points.resize(4);
   pairing::prepare(s.pair, s.x);

@@ -344,7 +344,7 @@ TEST(SmoothSurface, TangentIsTheDerivative) {
           s.pair.slave = pairing::make_slave_side(
               FacetSurface{}, std::array<Index, 1>{static_cast<Index>(s.x.size()) - 1});
           s.pair.weight = pairing::Weight::node;
-          s.pair.normal.stiffness = 1000;
+          s.pair.normal = contact::NormalPenalty{1000};
           if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80.0};
           s.pair.residual = form;
           pairing::prepare(s.pair, s.x);

@@ -1,82 +1,119 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <limits>
+#include <optional>
 #include <string_view>
 
-#include "osculate/core/types.hpp"
+#include "osculate/contact/law/tangential.hpp"
 
 namespace osculate::contact {
 
-enum class Status : std::uint8_t { open = 0, stick = 1, slip = 2 };
-
-/// The smooth piece of the friction law that an iteration was linearised in.
-enum class Branch : std::uint8_t { none, stick, slip };
-
-/// Tangential traction t in an orthonormal frame of the tangent plane (2D: along tau), and its
-/// derivatives.
-template <int Dim>
-struct TangentialResponse {
-  using Traction = Vec<Dim - 1>;
-  Status status = Status::stick;
-  Traction traction = Traction::Zero();                           ///< t
-  Mat<Dim - 1, Dim - 1> d_trial = Mat<Dim - 1, Dim - 1>::Zero();  ///< dt/dt_trial
-  Traction d_normal = Traction::Zero();                           ///< dt/dN
+/// How a coefficient of friction goes over from the static to the kinetic one.
+///
+/// Formula    mu(a) = mu_k + (mu - mu_k) exp(-a / scale) ,
+///            a = distance slid since the point came into contact, or
+///            a = speed = distance slid in the increment / duration of the increment
+/// Source     by speed: J. T. Oden, J. A. C. Martins, Comput. Methods Appl. Mech. Engrg. 52 (1985)
+///            527-634, section 2, in the usual exponential form; by distance: the same with what
+///            slip-weakening models of faults take for a (Y. Ida, J. Geophys. Res. 77 (1972) 3796)
+struct FrictionChange {
+  enum class By : std::uint8_t { distance, speed };
+  double kinetic = 0;  ///< mu_k; above mu: friction grows
+  double scale = 1;    ///< length, or length per time; > 0
+  By by = By::distance;
 };
 
-/// Coulomb friction by return mapping from an elastic trial.
+/// Coulomb friction by return mapping from an elastic trial, with an optional change of the
+/// coefficient and an optional cap of the shear traction.
 ///
-/// Formula    t = t_tr                       if |t_tr| <= mu |N|   (stick)
-///            t = mu |N| t_tr / |t_tr|       otherwise             (slip)
+/// Formula    t = t_tr            if |t_tr| <= L_0                        (stick)
+///            t = L t_tr / |t_tr| otherwise                               (slip)
+///            L = min(mu(a) p, cap) , a taken at the end of the increment: it depends on L by
+///            the distance slid, (|t_tr| - L) / eps_T; L_0 is L without sliding in the increment;
+///            p = |N| under pressure, 0 where a held point is pulled
 /// Source     KS2D:76, KS2D:57 in physical components (T_i = t . rho_,i), signs of docs/errata.md
 /// Sign       the force on the slave's residual is +t for a slip in the direction +t
-/// Tested by  tests/unit/contact/test_laws.cpp
+/// Tested by  tests/unit/contact/test_laws.cpp, test_friction_laws.cpp
 struct Coulomb {
   static constexpr std::string_view key = "coulomb";
   double mu = 0;
   double stiffness = 0;  ///< eps_T, units as eps_N
+  double cap = std::numeric_limits<double>::infinity();
+  std::optional<FrictionChange> change{};
 
-  template <int Dim>
-  [[nodiscard]] TangentialResponse<Dim> response(const Vec<Dim - 1>& trial,
-                                                 double normal_traction) const {
-    const double limit = mu * std::abs(normal_traction);  // @eq KS2D:77
-    const double size = Dim == 2 ? std::abs(trial[0]) : trial.norm();
-    if (size <= limit) return stick<Dim>(trial);
-    return slip<Dim>(trial / size, normal_traction, limit / size);
+  [[nodiscard]] double coefficient(double a) const {
+    if (!change) return mu;
+    return change->kinetic + (mu - change->kinetic) * std::exp(-a / change->scale);
   }
 
-  /// The slip branch in the direction of the unit vector `s`; `turning` = mu |N| / |t_tr| says how
-  /// much the traction turns with the trial (nothing to turn in 2D).
-  template <int Dim>
-  [[nodiscard]] TangentialResponse<Dim> slip(const Vec<Dim - 1>& s, double normal_traction,
-                                             double turning) const {
-    TangentialResponse<Dim> r;
-    r.status = Status::slip;
-    r.traction = mu * std::abs(normal_traction) * s;  // @eq KS2D:57
-    r.d_normal = -mu * s;
-    if constexpr (Dim == 3)
-      r.d_trial = turning * (Mat<2, 2>::Identity() - s * s.transpose());
-    else
-      (void)turning;
-    return r;
+  /// The limit at which a point that has not slid in the increment begins to.
+  [[nodiscard]] SlipLimit first_limit(double pressure, const Sliding& sliding) const {
+    const double now = coefficient(argument(0, sliding));
+    return capped({now * pressure, 0, now});  // @eq KS2D:77
   }
-  /// Work per area (or per node) that sliding dissipates in the increment: t times the part of the
-  /// trial slip that is not elastic. Sticking dissipates nothing.
-  ///
-  /// Formula    w = t . (t_tr - t) / eps_T = mu |N| (|t_tr| - mu |N|) / eps_T
-  /// Tested by  tests/unit/contact/test_laws.cpp, tests/unit/pairing/test_friction_work.cpp
-  template <int Dim>
-  [[nodiscard]] double dissipated(const Vec<Dim - 1>& trial,
-                                  const TangentialResponse<Dim>& response) const {
-    if (response.status != Status::slip) return 0.0;
-    return response.traction.dot(trial - response.traction) / stiffness;
+
+  /// The limit of a point whose trial is beyond the first limit.
+  [[nodiscard]] SlipLimit limit(double trial, double pressure, const Sliding& sliding) const {
+    if (!change || rate(sliding) == 0.0) return first_limit(pressure, sliding);
+    const double value = solved(trial, pressure, sliding);
+    const double a = argument(trial - value, sliding);
+    const double growth = slope(a) * rate(sliding) * pressure;  // kappa
+    return capped({value, growth / (1 + growth), coefficient(a) / (1 + growth)});
   }
-  /// The stick branch without its limit.
+
+  /// Before the first iteration nothing has slid: at which limit a sliding point will go on.
+  [[nodiscard]] SlipLimit predicted_limit(double trial, double pressure,
+                                          const Sliding& sliding) const {
+    if (!change || change->by == FrictionChange::By::distance || !(pressure > 0))
+      return first_limit(pressure, sliding);
+    const double low = std::min(mu, change->kinetic), high = std::max(mu, change->kinetic);
+    const double last = std::clamp(trial / pressure, low, high);  // of the last increment
+    return capped({last * pressure, 0, last});
+  }
+
   template <int Dim>
-  [[nodiscard]] static TangentialResponse<Dim> stick(const Vec<Dim - 1>& trial) {
-    TangentialResponse<Dim> r;
-    r.traction = trial;
-    r.d_trial.setIdentity();
-    return r;
+  [[nodiscard]] TangentialResponse<Dim> response(const Vec<Dim - 1>& trial, double normal_traction,
+                                                 const Sliding& sliding = {}) const {
+    const double pressure = pressure_of(normal_traction);
+    const double size = length_of<Dim>(trial);
+    if (size <= first_limit(pressure, sliding).value) return stick_response<Dim>(trial);
+    return slip_response<Dim>(trial / size, size, limit(size, pressure, sliding));
+  }
+
+ private:
+  [[nodiscard]] SlipLimit capped(const SlipLimit& limit) const {
+    return limit.value > cap ? SlipLimit{cap, 0, 0} : limit;
+  }
+  /// d(a) / d(distance in the increment) / eps_T
+  [[nodiscard]] double rate(const Sliding& sliding) const {
+    if (change->by == FrictionChange::By::distance) return 1 / stiffness;
+    return sliding.duration > 0 ? 1 / (stiffness * sliding.duration) : 0.0;
+  }
+  /// a after sliding by `excess` / eps_T.
+  [[nodiscard]] double argument(double excess, const Sliding& sliding) const {
+    if (!change) return 0;
+    const double before = change->by == FrictionChange::By::distance ? sliding.distance : 0.0;
+    return before + std::max(0.0, excess) * rate(sliding);
+  }
+  /// d(mu) / d(a)
+  [[nodiscard]] double slope(double a) const {
+    return (change->kinetic - mu) / change->scale * std::exp(-a / change->scale);
+  }
+  /// The one root of L = mu(a(L)) p below the trial. Friction that falls: the function is concave
+  /// and the tangents' roots rise to it from the least limit; that grows: convex, from above.
+  [[nodiscard]] double solved(double trial, double pressure, const Sliding& sliding) const {
+    constexpr int most = 50;
+    constexpr double rounding = 4e-15;
+    double value = std::min(trial, change->kinetic * pressure);
+    for (int i = 0; i < most; ++i) {
+      const double a = argument(trial - value, sliding);
+      const double error = value - coefficient(a) * pressure;
+      const double step = error / (1 + slope(a) * rate(sliding) * pressure);
+      value -= step;
+      if (!(std::abs(step) > rounding * value)) break;
+    }
+    return value;
   }
 };
 

@@ -1,0 +1,38 @@
+#pragma once
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "osculate/contact/law/normal_response.hpp"
+
+namespace osculate::contact {
+
+/// Pressure that grows exponentially from a clearance on.
+///
+/// Formula    p = p_0 / (e - 1) x (exp(x) - 1) ,  x = 1 - zeta / c_0 >= 0 :
+///            zero with zero slope at the clearance c_0, p_0 at zero clearance; beyond an
+///            overclosure of 6 c_0 the tangent there (nothing overflows)
+/// Source     the exponential pressure-overclosure relationship of Abaqus (Theory Guide,
+///            "Small-sliding interaction between bodies"); the tangent is this program's
+/// Units      p_0: force per area (force with weight node); c_0: length
+/// Tested by  tests/unit/contact/test_normal_laws.cpp
+struct NormalExponential {
+  static constexpr std::string_view key = "exponential";
+  static constexpr bool augmentable = false;  ///< the law is physical, not a means
+  double pressure = 0;                        ///< p_0
+  double clearance = 0;                       ///< c_0
+
+  [[nodiscard]] double reach() const { return clearance; }
+  [[nodiscard]] NormalResponse response(double gap, bool = false) const {
+    constexpr double last = 7;  // x at an overclosure of 6 c_0
+    if (gap > clearance) return {};
+    const double x = 1 - gap / clearance;
+    const double at = x < last ? x : last;
+    const double scale = pressure / (std::numbers::e - 1);
+    const double slope = scale * (std::exp(at) * (1 + at) - 1);  // dp/dx
+    const double p = scale * at * std::expm1(at) + slope * (x - at);
+    return {true, -p, slope / clearance};
+  }
+};
+
+}  // namespace osculate::contact

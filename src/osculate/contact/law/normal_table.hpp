@@ -1,0 +1,40 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "osculate/contact/law/normal_response.hpp"
+
+namespace osculate::contact {
+
+/// Pressure as a piecewise linear function of the overclosure.
+///
+/// Formula    p(h) by interpolation between the points (h_i, p_i), h = -zeta; no contact below the
+///            first point (p_1 = 0 there), the last slope goes on beyond the last one. At a point
+///            of the table the derivative is that of the piece with the larger overclosure
+/// Requires   at least two points, h_i strictly increasing, p_i not decreasing, p_1 = 0
+/// Units      h: length; p: force per area (force with weight node)
+/// Tested by  tests/unit/contact/test_normal_laws.cpp
+struct NormalTable {
+  static constexpr std::string_view key = "table";
+  static constexpr bool augmentable = false;
+  std::vector<std::array<double, 2>> points;  ///< overclosure, pressure
+
+  [[nodiscard]] double reach() const { return -points.front()[0]; }
+  [[nodiscard]] NormalResponse response(double gap, bool = false) const {
+    const double h = -gap;
+    if (h < points.front()[0]) return {};
+    const auto above = std::upper_bound(
+        points.begin(), points.end(), h,
+        [](double value, const std::array<double, 2>& point) { return value < point[0]; });
+    const std::size_t i =
+        std::min(static_cast<std::size_t>(above - points.begin()), points.size() - 1);
+    const std::array<double, 2>&a = points[i - 1], &b = points[i];
+    const double slope = (b[1] - a[1]) / (b[0] - a[0]);
+    return {true, -(a[1] + slope * (h - a[0])), slope};
+  }
+};
+
+}  // namespace osculate::contact

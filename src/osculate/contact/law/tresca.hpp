@@ -1,0 +1,30 @@
+#pragma once
+#include <string_view>
+
+#include "osculate/contact/law/tangential.hpp"
+
+namespace osculate::contact {
+
+/// Friction with one shear traction for every pressure, by return mapping from an elastic trial.
+///
+/// Formula    t = t_tr if |t_tr| <= tau ,  t = tau t_tr / |t_tr| otherwise
+/// Units      tau: force per area; force with weight node
+/// Tested by  tests/unit/contact/test_friction_laws.cpp
+struct Tresca {
+  static constexpr std::string_view key = "tresca";
+  double limit_traction = 0;
+  double stiffness = 0;  ///< eps_T
+
+  [[nodiscard]] SlipLimit predicted_limit(double, double, const Sliding&) const {
+    return {limit_traction, 0, 0};
+  }
+  template <int Dim>
+  [[nodiscard]] TangentialResponse<Dim> response(const Vec<Dim - 1>& trial, double,
+                                                 const Sliding& = {}) const {
+    const double size = length_of<Dim>(trial);
+    if (size <= limit_traction) return stick_response<Dim>(trial);
+    return slip_response<Dim>(trial / size, size, {limit_traction, 0, 0});
+  }
+};
+
+}  // namespace osculate::contact

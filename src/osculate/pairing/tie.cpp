@@ -1,0 +1,293 @@
+#include "osculate/pairing/tie.hpp"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <limits>
+
+#include "osculate/cell/shape.hpp"
+#include "osculate/pairing/mortar.hpp"
+#include "osculate/pairing/point_block.hpp"
+#include "osculate/pairing/point_weight.hpp"
+
+namespace osculate::pairing {
+namespace {
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// ---- the plane and space ------------------------------------------------------------------------
+
+cell::LineShape shape_at(const Facet& facet, const Vec<1>& xi) { return facet_shape(facet, xi[0]); }
+cell::FacetShape shape_at(const SurfaceFacet& facet, const Vec2& xi) {
+  return facet_shape(facet, xi);
+}
+
+Vec<1> own_place(const Facet& facet, int local) {
+  if (local < 2) return Vec<1>(local == 0 ? -1.0 : 1.0);
+  return Vec<1>(-1 + 2.0 * (local - 1) / (facet.count - 1));
+}
+Vec2 own_place(const SurfaceFacet& facet, int local) { return cell::area_node(facet.type, local); }
+
+template <int Dim>
+using Bases = std::array<Vec<Dim>, Dim - 1>;
+
+Vec2 normal_of(const Bases<2>& r) { return turn(r[0]); }
+Vec3 normal_of(const Bases<3>& r) { return r[0].cross(r[1]); }
+
+Mat<3, 3> cross_matrix(const Vec3& v) {
+  Mat<3, 3> m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+/// d(m) / d(x_k)
+Mat<2, 2> normal_rate(const TiedPoint<2>& tie, const Bases<2>&, std::size_t k) {
+  Mat<2, 2> turned;
+  turned << 0, -1, 1, 0;
+  return tie.carrier[0][k] * turned;
+}
+Mat<3, 3> normal_rate(const TiedPoint<3>& tie, const Bases<3>& r, std::size_t k) {
+  return tie.carrier[1][k] * cross_matrix(r[0]) - tie.carrier[0][k] * cross_matrix(r[1]);
+}
+
+/// The part of K_kl by the second derivative of m, for c^n A eps = 1.
+Mat<2, 2> second_rate(const TiedPoint<2>&, const Vec2&, std::size_t, std::size_t) {
+  return Mat<2, 2>::Zero();
+}
+Mat<3, 3> second_rate(const TiedPoint<3>& tie, const Vec3& q, std::size_t k, std::size_t l) {
+  const double area = tie.carrier[0][k] * tie.carrier[1][l] - tie.carrier[1][k] * tie.carrier[0][l];
+  return area * cross_matrix(q);
+}
+
+// ---- places -------------------------------------------------------------------------------------
+
+template <int Dim>
+std::size_t slot(TiedPoint<Dim>& tie, Index node) {
+  for (std::size_t k = 0; k < tie.nodes.size(); ++k)
+    if (tie.nodes[k] == node) return k;
+  tie.nodes.push_back(node);
+  tie.weights.push_back(0);
+  for (std::vector<double>& b : tie.carrier) b.push_back(0);
+  return tie.nodes.size() - 1;
+}
+
+template <int Dim, class AnyFacet>
+void add_carrier(const AnyFacet& facet, const Vec<Dim - 1>& xi, TiedPoint<Dim>& tie) {
+  const auto shape = shape_at(facet, xi);
+  for (std::size_t l = 0; l < at(facet.count); ++l) {
+    const std::size_t k = slot(tie, facet.nodes[l]);
+    for (std::size_t i = 0; i < tie.carrier.size(); ++i) tie.carrier[i][k] += shape.n[1 + i][l];
+  }
+}
+
+template <int Dim>
+Vec<Dim> distance_of(const TiedPoint<Dim>& tie, Points<Dim> x) {
+  Vec<Dim> apart = Vec<Dim>::Zero();
+  for (std::size_t k = 0; k < tie.nodes.size(); ++k) apart += tie.weights[k] * x[at(tie.nodes[k])];
+  return apart;
+}
+
+template <int Dim>
+Bases<Dim> bases_of(const TiedPoint<Dim>& tie, Points<Dim> x) {
+  Bases<Dim> r;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    r[i].setZero();
+    for (std::size_t k = 0; k < tie.nodes.size(); ++k)
+      r[i] += tie.carrier[i][k] * x[at(tie.nodes[k])];
+  }
+  return r;
+}
+
+/// Sets what is kept; false where the point is too far away, or has no facet to be carried by.
+template <int Dim>
+bool keep(const PairDefinition<Dim>& pair, Points<Dim> x, TiedPoint<Dim>& tie) {
+  const Vec<Dim> apart = distance_of<Dim>(tie, x);
+  if (!(std::abs(apart.norm() - pair.offset) <= pair.tolerance)) return false;
+  const Bases<Dim> r = bases_of<Dim>(tie, x);
+  const Vec<Dim> m = normal_of(r);
+  if (!(m.norm() > 0)) return false;
+  if (pair.keep_gap) {
+    Mat<Dim, Dim> base;
+    for (int i = 0; i < Dim - 1; ++i) base.col(i) = r[static_cast<std::size_t>(i)];
+    base.col(Dim - 1) = m;
+    tie.kept = base.partialPivLu().solve(apart);
+  } else {
+    tie.kept[Dim - 1] = tie.side * pair.offset / m.norm();
+  }
+  return true;
+}
+
+template <int Dim>
+void tie_points(PairDefinition<Dim>& pair, Points<Dim> x) {
+  PairDefinition<Dim> open = pair;  // the same, to search in
+  open.separation = Separation::allowed;
+  PairEvaluation<Dim> work;
+  PairState<Dim> none;
+  none.points.resize(pair.slave.points.size());
+  evaluate<Dim>(open, x, none, false, work);
+  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
+    const Placed<Dim> placed = place_point<Dim>(open, work, x, i, {});
+    if (placed.projection.feature == projection::Feature::none) continue;
+    const SlavePoint<Dim>& point = pair.slave.points[i];
+    const auto& facet = pair.master.facets[at(placed.projection.facet)];
+    TiedPoint<Dim> tie;
+    tie.point = static_cast<Index>(i);
+    for (std::size_t k = 0; k < at(point.count); ++k)
+      tie.weights[slot(tie, point.nodes[k])] += point.shape[k];
+    tie.slave_count = static_cast<int>(tie.nodes.size());
+    const auto shape = shape_at(facet, placed.projection.xi);
+    for (std::size_t l = 0; l < at(facet.count); ++l)
+      tie.weights[slot(tie, facet.nodes[l])] -= shape.n[0][l];
+    add_carrier<Dim>(facet, placed.projection.xi, tie);
+    tie.facet = placed.projection.facet;
+    tie.feature = placed.projection.feature;
+    tie.xi = placed.projection.xi;
+    if (keep(pair, x, tie)) pair.ties.push_back(std::move(tie));
+  }
+}
+
+template <int Dim>
+void tie_by_mortar(PairDefinition<Dim>& pair, Points<Dim> x) {
+  constexpr double nothing = 1e-8;  // parts of a node's area smaller than this are nothing
+  PairEvaluation<Dim> work;
+  PairState<Dim> none;
+  none.points.resize(pair.slave.nodes.size());
+  evaluate_mortar<Dim>(pair, x, none, false, work);
+  for (std::size_t j = 0; j < pair.slave.nodes.size(); ++j) {
+    const MortarNode<Dim>& node = work.mortar.nodes[j];
+    const double full = pair.reference_areas[j];
+    pair.reference_areas[j] = node.area;
+    if (node.facet < 0 || !(node.area > nothing * full)) continue;
+    TiedPoint<Dim> tie;
+    tie.point = static_cast<Index>(j);
+    tie.side = -1;
+    tie.facet = node.facet;
+    for (std::size_t k = 0; k < node.slaves.nodes.size(); ++k)
+      tie.weights[slot(tie, node.slaves.nodes[k])] += node.slaves.weights[k] / node.area;
+    const auto& facet = pair.slave.boundary.facets[at(pair.slave.facets_of[j].front())];
+    int local = 0;
+    while (facet.nodes[at(local)] != pair.slave.nodes[j]) ++local;
+    add_carrier<Dim>(facet, own_place(facet, local), tie);
+    tie.slave_count = static_cast<int>(tie.nodes.size());
+    for (std::size_t l = 0; l < node.masters.nodes.size(); ++l)
+      tie.weights[slot(tie, node.masters.nodes[l])] -= node.masters.weights[l] / node.area;
+    if (keep(pair, x, tie)) pair.ties.push_back(std::move(tie));
+  }
+}
+
+// ---- evaluation ---------------------------------------------------------------------------------
+
+/// What a tied point says at a configuration.
+template <int Dim>
+struct TieState {
+  Bases<Dim> r;
+  Vec<Dim> apart, m, q;
+};
+
+template <int Dim>
+TieState<Dim> state_of(const TiedPoint<Dim>& tie, Points<Dim> x) {
+  TieState<Dim> s;
+  s.r = bases_of<Dim>(tie, x);
+  s.m = normal_of(s.r);
+  s.apart = distance_of<Dim>(tie, x);
+  s.q = s.apart - tie.kept[Dim - 1] * s.m;
+  for (std::size_t i = 0; i < s.r.size(); ++i)
+    s.q -= tie.kept[static_cast<Eigen::Index>(i)] * s.r[i];
+  return s;
+}
+
+template <int Dim>
+Mat<Dim, Dim> rate_of(const TiedPoint<Dim>& tie, const TieState<Dim>& s, std::size_t k) {
+  double own = tie.weights[k];
+  for (std::size_t i = 0; i < tie.carrier.size(); ++i)
+    own -= tie.kept[static_cast<Eigen::Index>(i)] * tie.carrier[i][k];
+  Mat<Dim, Dim> rate = own * Mat<Dim, Dim>::Identity();
+  rate -= tie.kept[Dim - 1] * normal_rate(tie, s.r, k);
+  return rate;
+}
+
+template <int Dim>
+void set_block(const TiedPoint<Dim>& tie, const TieState<Dim>& s, double stiffness,
+               bool with_tangent, ContactBlock<Dim>& block) {
+  const std::size_t n = tie.nodes.size();
+  const auto size = Dim * static_cast<Eigen::Index>(n);
+  block.count = static_cast<int>(n);
+  block.slave_count = tie.slave_count;
+  block.branched = false;
+  block.nodes = tie.nodes;
+  block.force.resize(size);
+  if (with_tangent) block.tangent.resize(size, size);
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto row = Dim * static_cast<Eigen::Index>(k);
+    const Mat<Dim, Dim> of_k = stiffness * rate_of(tie, s, k).transpose();
+    block.force.template segment<Dim>(row) = of_k * s.q;
+    for (std::size_t l = 0; with_tangent && l < n; ++l)
+      block.tangent.template block<Dim, Dim>(row, Dim * static_cast<Eigen::Index>(l)) =
+          of_k * rate_of(tie, s, l) + stiffness * tie.kept[Dim - 1] * second_rate(tie, s.q, k, l);
+  }
+  block.branch_force = block.force;
+}
+
+template <int Dim>
+void report(const PairDefinition<Dim>& pair, const TiedPoint<Dim>& tie, const TieState<Dim>& s,
+            double stiffness, PointResult<Dim>& result) {
+  result.status = contact::Status::stick;
+  result.branch.branch = contact::Branch::stick;
+  result.normal = tie.side * s.m / s.m.norm();
+  result.frame = contact::tangent_frame<Dim>(result.normal, s.r[0]);
+  result.gap = result.normal.dot(s.apart) - pair.offset;
+  result.normal_traction = stiffness * result.normal.dot(s.q);
+  result.shear_traction = stiffness * (result.frame.transpose() * s.q);
+  contact::PointHistory<Dim>& h = result.history;
+  h.active = h.held = true;
+  h.facet = tie.facet;
+  h.feature = tie.feature;
+  h.xi = tie.xi;
+  h.gap = result.gap + pair.offset;
+  h.traction = result.shear_traction;
+}
+
+}  // namespace
+
+template <int Dim>
+void prepare_ties(PairDefinition<Dim>& pair, Points<Dim> reference) {
+  pair.ties.clear();
+  if (pair.separation != Separation::tied) return;
+  if (pair.mortar)
+    tie_by_mortar<Dim>(pair, reference);
+  else
+    tie_points<Dim>(pair, reference);
+}
+
+template <int Dim>
+void evaluate_ties(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>&,
+                   bool with_tangent, PairEvaluation<Dim>& out) {
+  const std::size_t n = pair.slave.points.size();
+  const double stiffness = std::get<contact::NormalPenalty>(pair.normal).stiffness;
+  out.points.assign(n, {});
+  out.blocks.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    out.points[i].gap = std::numeric_limits<double>::infinity();
+    out.blocks[i].count = 0;
+    out.blocks[i].nodes.clear();
+  }
+  for (const TiedPoint<Dim>& tie : pair.ties) {
+    const std::size_t i = at(tie.point);
+    PointResult<Dim>& result = out.points[i];
+    const bool by_node = pair.weight == Weight::node;
+    result.weight = pair.mortar ? pair.reference_areas[i]
+                                : pair.share * (by_node ? 1.0 : pair.reference_areas[i]);
+    const TieState<Dim> s = state_of<Dim>(tie, x);
+    result.foot = position<Dim>(pair.slave.points[i], x) - s.apart;
+    report(pair, tie, s, stiffness, result);
+    set_block(tie, s, result.weight * stiffness, with_tangent, out.blocks[i]);
+  }
+}
+
+template void prepare_ties<2>(PairDefinition<2>&, Points<2>);
+template void prepare_ties<3>(PairDefinition<3>&, Points<3>);
+template void evaluate_ties<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
+                               PairEvaluation<2>&);
+template void evaluate_ties<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,
+                               PairEvaluation<3>&);
+
+}  // namespace osculate::pairing

@@ -1,0 +1,168 @@
+// Friction beyond the constant coefficient: the implicit limit, derivatives by order, dissipation.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "derivative_check.hpp"
+#include "osculate/contact/law/catalogue.hpp"
+
+namespace osculate::contact {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+using By = FrictionChange::By;
+
+Coulomb changing(double kinetic, double scale, By by, double cap = infinite) {
+  return {0.5, 80.0, cap, FrictionChange{kinetic, scale, by}};
+}
+
+// The limit satisfies its equation: mu at the distance that the point has slid in the end.
+TEST(ChangingCoulomb, LimitBelongsToWhereThePointEndsUp) {
+  for (const double kinetic : {0.2, 0.0, 0.9})
+    for (const double trial : {5.3, 9.0, 60.0})
+      for (const double before : {0.0, 0.04}) {
+        const Coulomb law = changing(kinetic, 0.1, By::distance);
+        const TangentialResponse<2> r = law.response<2>(Vec<1>(-trial), -10.0, {before, 0});
+        if (r.status == Status::stick) {
+          EXPECT_LE(trial, 10 * law.coefficient(before));
+          continue;
+        }
+        const double limit = -r.traction[0];
+        const double moved = slid<2>(Vec<1>(-trial), r, law.stiffness);
+        EXPECT_GT(moved, 0);
+        const double mu = kinetic + (0.5 - kinetic) * std::exp(-(before + moved) / 0.1);
+        EXPECT_NEAR(limit, 10 * mu, 1e-13 * trial);
+      }
+}
+
+TEST(ChangingCoulomb, SpeedIsDistanceOverDuration) {
+  const Coulomb law = changing(0.2, 0.3, By::speed);
+  for (const double duration : {0.01, 1.0}) {
+    const TangentialResponse<2> r = law.response<2>(Vec<1>(9.0), -10.0, {123.0, duration});
+    const double speed = slid<2>(Vec<1>(9.0), r, 80.0) / duration;
+    EXPECT_NEAR(r.traction[0], 10 * (0.2 + 0.3 * std::exp(-speed / 0.3)), 1e-13);
+  }
+  EXPECT_EQ(law.response<2>(Vec<1>(9.0), -10.0, {}).traction[0], 5.0);  // no time: static
+  EXPECT_TRUE(needs_duration(FrictionLaw(law)));
+  EXPECT_FALSE(needs_duration(FrictionLaw(changing(0.2, 0.3, By::distance))));
+  EXPECT_FALSE(needs_duration(FrictionLaw(Tresca{1, 1})));
+}
+
+// At the first sliding the limit is the static one, without a jump; far out the kinetic one.
+TEST(ChangingCoulomb, BeginsStaticAndEndsKinetic) {
+  const Coulomb law = changing(0.2, 0.1, By::distance);
+  EXPECT_EQ(law.response<2>(Vec<1>(5.0), -10.0, {}).status, Status::stick);
+  EXPECT_NEAR(law.response<2>(Vec<1>(5.0 + 1e-9), -10.0, {}).traction[0], 5.0, 1e-7);
+  EXPECT_NEAR(law.response<2>(Vec<1>(1000.0), -10.0, {}).traction[0], 2.0, 1e-12);
+  EXPECT_EQ(law.response<2>(Vec<1>(3.0), -10.0, {1.0, 0}).status, Status::slip);
+}
+
+TEST(Coulomb, CapIsTheLargestTraction) {
+  const Coulomb law{0.5, 80.0, 3.0};
+  EXPECT_EQ(law.response<2>(Vec<1>(2.9), -10.0).status, Status::stick);
+  const TangentialResponse<2> capped = law.response<2>(Vec<1>(-4.0), -10.0);
+  EXPECT_EQ(capped.status, Status::slip);
+  EXPECT_EQ(capped.traction[0], -3.0);
+  EXPECT_EQ(capped.d_normal[0], 0.0);
+  EXPECT_EQ(law.response<2>(Vec<1>(4.0), -4.0).traction[0], 2.0);
+  EXPECT_EQ(law.response<2>(Vec<1>(4.0), -4.0).d_normal[0], -0.5);
+}
+
+TEST(Coulomb, HasNoLimitLeftWhereAHeldPointIsPulled) {
+  const TangentialResponse<3> r = Coulomb{0.5, 80.0}.response<3>(Vec2(3, 4), 10.0);
+  EXPECT_EQ(r.status, Status::slip);
+  EXPECT_EQ(r.traction.norm(), 0.0);
+  EXPECT_EQ(r.d_normal.norm() + r.d_trial.norm(), 0.0);
+}
+
+TEST(Tresca, KnowsNoPressure) {
+  const Tresca law{3.0, 80.0};
+  for (const double normal : {-1000.0, -1e-3, 0.0}) {
+    EXPECT_EQ(law.response<2>(Vec<1>(3.0), normal).status, Status::stick);
+    EXPECT_EQ(law.response<2>(Vec<1>(-7.0), normal).traction[0], -3.0);
+    EXPECT_EQ(law.response<2>(Vec<1>(-7.0), normal).d_normal[0], 0.0);
+  }
+}
+
+TEST(Rough, NeverSlides) {
+  const TangentialResponse<3> r = Rough{80.0}.response<3>(Vec2(1e9, -3), -1e-9);
+  EXPECT_EQ(r.status, Status::stick);
+  EXPECT_EQ(r.traction, Vec2(1e9, -3));
+}
+
+/// Order of the derivatives by trial and normal traction, all at once.
+template <int Dim>
+void expect_second_order(const FrictionLaw& law, const Vec<Dim - 1>& trial, double normal,
+                         const Sliding& sliding) {
+  using V = Eigen::VectorXd;
+  const auto f = [&](const V& y) {
+    return V(response<Dim>(law, Vec<Dim - 1>(y.head<Dim - 1>()), y[Dim - 1], sliding).traction);
+  };
+  const TangentialResponse<Dim> at = response<Dim>(law, trial, normal, sliding);
+  V y(Dim), d(Dim);
+  y << trial, normal;
+  d << Vec<Dim - 1>::Constant(0.7), -0.4;
+  d[0] = 1;
+  const V df = at.d_trial * d.head<Dim - 1>() + at.d_normal * d[Dim - 1];
+  const testing::DerivativeReport r = testing::check_derivative(f, df, y, d, 0.05);
+  EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.1) << "order " << r.order << ", " << r.error;
+}
+
+TEST(FrictionLaws, DerivativesAreOfSecondOrder) {
+  const std::array<FrictionLaw, 9> laws{Coulomb{0.5, 80.0},
+                                        Coulomb{0.5, 80.0, 3.0},
+                                        changing(0.2, 0.1, By::distance),
+                                        changing(0.9, 0.1, By::distance),
+                                        changing(0.2, 0.2, By::speed),
+                                        changing(0.9, 0.2, By::speed),
+                                        changing(0.2, 0.1, By::distance, 3.0),
+                                        Tresca{3.0, 80.0},
+                                        Rough{80.0}};
+  for (const FrictionLaw& law : laws)
+    for (const double size : {1.0, 9.0, 14.0}) {
+      const Sliding sliding{0.02, 0.5};
+      expect_second_order<2>(law, Vec<1>(size), -10.0, sliding);
+      expect_second_order<2>(law, Vec<1>(-size), -10.0, sliding);
+      expect_second_order<3>(law, Vec2(0.6 * size, -0.8 * size), -10.0, sliding);
+    }
+}
+
+TEST(FrictionLaws, DissipationIsTractionTimesDistanceSlid) {
+  const std::array<FrictionLaw, 4> laws{Coulomb{0.5, 80.0, 3.0}, changing(0.2, 0.1, By::distance),
+                                        Tresca{3.0, 80.0}, Rough{80.0}};
+  for (const FrictionLaw& law : laws) {
+    const Vec2 trial(6, -8);
+    const TangentialResponse<3> r = response<3>(law, trial, -10.0, {});
+    const double distance = slid<3>(trial, r, stiffness(law));
+    EXPECT_NEAR(dissipated<3>(trial, r, stiffness(law)), r.traction.norm() * distance, 1e-14);
+    EXPECT_EQ(distance == 0, std::holds_alternative<Rough>(law));
+  }
+}
+
+// Before the first iteration a sliding point is expected to go on at the limit it had.
+TEST(FrictionLaws, PredictedLimits) {
+  const FrictionLaw by_distance = changing(0.2, 0.1, By::distance);
+  EXPECT_NEAR(predicted_limit(by_distance, 3, -10, {0.1, 0}).value, 2 + 3 * std::exp(-1.0), 1e-13);
+  const FrictionLaw by_speed = changing(0.2, 0.1, By::speed);
+  EXPECT_NEAR(predicted_limit(by_speed, 3, -10, {0.1, 1}).value, 3, 1e-13);
+  EXPECT_NEAR(predicted_limit(by_speed, 1, -10, {0.1, 1}).value, 2, 1e-13);
+  EXPECT_NEAR(predicted_limit(by_speed, 9, -10, {0.1, 1}).value, 5, 1e-13);
+  EXPECT_EQ(predicted_limit(by_speed, 9, 0, {0.1, 1}).value, 0);
+  EXPECT_EQ(predicted_limit(Tresca{3, 80}, 9, -10, {}).value, 3);
+  EXPECT_EQ(predicted_limit(Coulomb{0.5, 80.0}, 9, -10, {}).d_pressure, 0.5);
+}
+
+TEST(FrictionLaws, SayWhatIsWrongWithThem) {
+  EXPECT_EQ(fault(FrictionLaw(Coulomb{0.3, 80})), "");
+  EXPECT_EQ(fault(FrictionLaw(Tresca{0, 80})), "");
+  EXPECT_EQ(fault(FrictionLaw(Rough{80})), "");
+  EXPECT_EQ(fault(FrictionLaw(Rough{0})), "friction needs a stiffness > 0, got 0");
+  EXPECT_EQ(fault(FrictionLaw(Tresca{-1, 80})),
+            "friction needs a shear traction >= 0 and a stiffness > 0, got -1 and 80");
+  EXPECT_EQ(fault(FrictionLaw(Coulomb{0.3, 80, 0})), "the cap of friction must be > 0, got 0");
+  EXPECT_EQ(fault(FrictionLaw(changing(-1, 1, By::speed))),
+            "a change of friction needs a coefficient >= 0 and a scale > 0, got -1 and 1");
+}
+
+}  // namespace
+}  // namespace osculate::contact

@@ -1,0 +1,115 @@
+// Normal laws beside the penalty: values, joints, derivatives by order, what is refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "derivative_check.hpp"
+#include "osculate/contact/law/catalogue.hpp"
+
+namespace osculate::contact {
+namespace {
+
+constexpr double p0 = 12, c0 = 0.01;
+const NormalTable table{{{-0.01, 0}, {0, 5}, {0.02, 5}, {0.05, 80}}};
+
+double pressure(const NormalLaw& law, double gap) { return -response(law, gap).traction; }
+
+TEST(NormalExponential, IsZeroAtTheClearanceAndP0AtZero) {
+  const NormalExponential law{p0, c0};
+  EXPECT_FALSE(law.response(1.0001 * c0).active);
+  EXPECT_TRUE(law.response(c0).active);
+  EXPECT_EQ(law.response(c0).traction, 0.0);
+  EXPECT_EQ(law.response(c0).d_traction, 0.0);
+  EXPECT_NEAR(-law.response(0).traction, p0, 1e-14 * p0);
+  constexpr double e = std::numbers::e;
+  EXPECT_NEAR(law.response(0).d_traction, p0 / c0 * (2 * e - 1) / (e - 1), 1e-12 * p0 / c0);
+  EXPECT_NEAR(-law.response(-c0).traction, p0 * 2 * (e + 1), 1e-13 * p0);
+  EXPECT_EQ(reach(law), c0);
+  EXPECT_FALSE(augmentable(law));
+}
+
+TEST(NormalExponential, GoesOnWithItsTangentAndNeverOverflows) {
+  const NormalExponential law{p0, c0};
+  const double joint = -6 * c0, h = 1e-9 * c0;
+  const NormalResponse below = law.response(joint + h), above = law.response(joint - h);
+  EXPECT_NEAR(above.traction / below.traction, 1, 1e-8);
+  EXPECT_NEAR(above.d_traction / below.d_traction, 1, 1e-8);
+  EXPECT_NEAR((law.response(2 * joint).traction - law.response(joint).traction) / joint,
+              law.response(joint).d_traction, 1e-9 * above.d_traction);
+  EXPECT_TRUE(std::isfinite(law.response(-1e6).traction));
+}
+
+TEST(NormalTable, RunsThroughItsPointsAndOnBeyondTheLast) {
+  EXPECT_FALSE(table.response(0.0100001).active);
+  EXPECT_TRUE(table.response(0.01).active);
+  for (const auto& [h, p] : table.points) EXPECT_NEAR(pressure(table, -h), p, 1e-12);
+  EXPECT_NEAR(pressure(table, 0.005), 2.5, 1e-12);
+  EXPECT_NEAR(pressure(table, -0.01), 5, 1e-12);
+  EXPECT_NEAR(pressure(table, -0.08), 155, 1e-11);
+  EXPECT_EQ(table.response(-0.01).d_traction, 0.0);
+  EXPECT_EQ(reach(NormalLaw(table)), 0.01);
+}
+
+// The pressure never jumps and never falls with the overclosure.
+TEST(NormalLaws, AreContinuousAndMonotone) {
+  for (const NormalLaw& law :
+       {NormalLaw(NormalExponential{p0, c0}), NormalLaw(table), NormalLaw(NormalPenalty{100.0})}) {
+    double last = 0;
+    for (int i = -2000; i <= 9000; ++i) {
+      const double p = pressure(law, -1e-5 * i);
+      EXPECT_GE(p, last - 1e-12);
+      EXPECT_LE(p - last, 1e-5 * 1.01 * response(law, -1e-5 * i).d_traction + 0.026 + 0.01 * p);
+      last = p;
+    }
+  }
+}
+
+TEST(NormalLaws, DerivativesAreOfSecondOrder) {
+  const NormalExponential law{p0, c0};
+  for (const double gap : {0.9 * c0, 0.1 * c0, -0.7 * c0, -3 * c0}) {
+    using V = Eigen::VectorXd;
+    const auto f = [&](const V& g) { return V::Constant(1, law.response(g[0]).traction); };
+    const testing::DerivativeReport r =
+        testing::check_derivative(f, V(V::Constant(1, law.response(gap).d_traction)),
+                                  V(V::Constant(1, gap)), V(V::Constant(1, 1.0)), 0.05 * c0);
+    EXPECT_NEAR(r.order, 2, 0.1) << gap;
+  }
+  for (const double gap : {0.005, -0.01, -0.03, -0.2}) {
+    constexpr double h = 1e-4;
+    const double slope =
+        (table.response(gap + h).traction - table.response(gap - h).traction) / (2 * h);
+    EXPECT_NEAR(slope, table.response(gap).d_traction, 1e-8) << gap;
+  }
+}
+
+TEST(NormalLaws, OnlyThePenaltyHoldsWhatIsPulled) {
+  EXPECT_EQ(response(NormalPenalty{1000}, 0.01, true).traction, 10.0);
+  EXPECT_TRUE(response(NormalPenalty{1000}, 0.01, true).active);
+  EXPECT_FALSE(response(NormalPenalty{1000}, 0.01).active);
+  EXPECT_TRUE(holds(NormalPenalty{1}));
+  EXPECT_TRUE(augmentable(NormalPenalty{1}));
+  EXPECT_FALSE(holds(NormalExponential{1, 1}));
+  EXPECT_FALSE(holds(table));
+}
+
+TEST(NormalLaws, SayWhatIsWrongWithThem) {
+  EXPECT_EQ(fault(NormalLaw(NormalPenalty{2})), "");
+  EXPECT_EQ(fault(NormalLaw(table)), "");
+  EXPECT_EQ(fault(NormalLaw(NormalExponential{p0, c0})), "");
+  EXPECT_EQ(fault(NormalLaw(NormalPenalty{0})), "normal_penalty must be > 0, got 0");
+  EXPECT_EQ(fault(NormalLaw(NormalExponential{1, 0})),
+            "an exponential law needs a pressure > 0 and a clearance > 0, got 1 and 0");
+  EXPECT_EQ(fault(NormalLaw(NormalTable{})), "a table of pressures needs at least two points");
+  EXPECT_EQ(fault(NormalLaw(NormalTable{{{0, 1}, {1, 2}}})),
+            "the first pressure of a table must be 0");
+  EXPECT_EQ(fault(NormalLaw(NormalTable{{{0, 0}, {0, 2}}})), "overclosures must grow: 0 follows 0");
+  EXPECT_EQ(fault(NormalLaw(NormalTable{{{0, 0}, {1, 2}, {2, 1}}})),
+            "pressures must not fall: 1 follows 2");
+  EXPECT_EQ(fault(NormalLaw(NormalTable{{{0, 0}, {1, 0}}})), "a table needs a pressure > 0");
+  EXPECT_EQ(fault(NormalLaw(NormalTable{{{0, 0}, {1, INFINITY}}})),
+            "a table of pressures has a value that is not finite");
+}
+
+}  // namespace
+}  // namespace osculate::contact

@@ -1,0 +1,211 @@
+// Tied points: what is kept, balance with moments, derivatives, for every kind of contact point.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "derivative_check.hpp"
+#include "mortar_sample.hpp"
+#include "mortar_sample3.hpp"
+#include "segment_sample.hpp"
+
+namespace osculate::testing {
+namespace {
+
+using contact::Status;
+using pairing::Separation;
+
+constexpr double eps = 1000;
+
+template <class Sample>
+inline constexpr int dimension = std::is_same_v<decltype(Sample::x), std::vector<Vec2>> ? 2 : 3;
+
+/// Ties what is near in the configuration of the sample.
+template <class Sample, int Dim = dimension<Sample>>
+Sample tied(Sample s, bool keep = true, double tolerance = 0.15) {
+  s.pair.separation = Separation::tied;
+  s.pair.tolerance = tolerance;
+  s.pair.keep_gap = keep;
+  pairing::prepare<Dim>(s.pair, s.x);
+  s.committed = pairing::initial_state<Dim>(s.pair, s.x);
+  return s;
+}
+
+template <class Sample, int Dim = dimension<Sample>>
+pairing::PairEvaluation<Dim> evaluation(const Sample& s, const Eigen::VectorXd& v) {
+  pairing::PairEvaluation<Dim> e;
+  pairing::evaluate<Dim>(s.pair, unflat<Dim>(v), s.committed, true, e);
+  return e;
+}
+
+template <class Sample, int Dim = dimension<Sample>>
+Eigen::VectorXd residual(const Sample& s, const Eigen::VectorXd& v) {
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(v.size());
+  const pairing::PairEvaluation<Dim> e = evaluation(s, v);
+  for (const pairing::ContactBlock<Dim>& b : e.blocks)
+    for (int k = 0; k < b.count; ++k)
+      r.segment<Dim>(Dim * b.nodes[static_cast<std::size_t>(k)]) +=
+          b.force.template segment<Dim>(Dim * k);
+  return r;
+}
+
+template <class Sample, int Dim = dimension<Sample>>
+Eigen::MatrixXd tangent(const Sample& s, const Eigen::VectorXd& v) {
+  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(v.size(), v.size());
+  const pairing::PairEvaluation<Dim> e = evaluation(s, v);
+  for (const pairing::ContactBlock<Dim>& b : e.blocks)
+    for (int k = 0; k < b.count; ++k)
+      for (int l = 0; l < b.count; ++l)
+        m.block<Dim, Dim>(Dim * b.nodes[static_cast<std::size_t>(k)],
+                          Dim * b.nodes[static_cast<std::size_t>(l)]) +=
+            b.tangent.template block<Dim, Dim>(Dim * k, Dim * l);
+  return m;
+}
+
+Eigen::VectorXd noise(Eigen::Index n, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::VectorXd d(n);
+  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
+  return d;
+}
+
+double moment(const Vec2& x, const Vec2& f) { return x.x() * f.y() - x.y() * f.x(); }
+Vec3 moment(const Vec3& x, const Vec3& f) { return x.cross(f); }
+Mat<2, 2> turned(double angle, const Vec2&) { return Eigen::Rotation2Dd(angle).toRotationMatrix(); }
+Mat<3, 3> turned(double angle, const Vec3&) {
+  return Eigen::AngleAxisd(angle, Vec3(1, -2, 0.5).normalized()).toRotationMatrix();
+}
+
+/// What holds for every pair that is tied with its gaps.
+template <class Sample, int Dim = dimension<Sample>>
+void expect_tie(const Sample& s, const std::string& what) {
+  SCOPED_TRACE(what);
+  ASSERT_FALSE(s.pair.ties.empty());
+  const Eigen::VectorXd start = flat<Dim>(s.x);
+  EXPECT_LT(residual(s, start).norm(), 1e-12 * eps);
+  const Eigen::VectorXd v = start + 0.05 * noise(start.size(), 3);
+  const Eigen::VectorXd r = residual(s, v);
+  ASSERT_GT(r.norm(), 1);
+  // 1. forces and moments balance
+  Vec<Dim> force = Vec<Dim>::Zero();
+  auto turning = moment(Vec<Dim>(force), Vec<Dim>(force));
+  for (Eigen::Index n = 0; n < v.size() / Dim; ++n) {
+    const Vec<Dim> f = r.segment<Dim>(Dim * n), x = v.segment<Dim>(Dim * n);
+    force += f;
+    turning += moment(x, f);
+  }
+  EXPECT_LT(force.norm(), 1e-12 * r.norm());
+  if constexpr (Dim == 2)
+    EXPECT_LT(std::abs(turning), 1e-11 * r.norm());
+  else
+    EXPECT_LT(turning.norm(), 1e-11 * r.norm());
+  // 2. a motion of both sides turns the forces
+  const Mat<Dim, Dim> q = turned(2.1, Vec<Dim>(force));
+  Eigen::VectorXd moved(v.size());
+  for (Eigen::Index n = 0; n < v.size() / Dim; ++n)
+    moved.segment<Dim>(Dim * n) = q * v.segment<Dim>(Dim * n) + Vec<Dim>::Constant(3);
+  const Eigen::VectorXd after = residual(s, moved);
+  for (Eigen::Index n = 0; n < v.size() / Dim; ++n)
+    EXPECT_LT((after.segment<Dim>(Dim * n) - q * r.segment<Dim>(Dim * n)).norm(), 1e-11 * r.norm());
+  // 3. the tangent is symmetric, and the derivative
+  const Eigen::MatrixXd k = tangent(s, v);
+  EXPECT_LT((k - k.transpose()).norm(), 1e-13 * k.norm());
+  const Eigen::VectorXd d = noise(v.size(), 5);
+  const DerivativeReport report = check_derivative(
+      [&](const Eigen::VectorXd& y) { return residual(s, y); }, Eigen::VectorXd(k * d), v, d, 1e-2);
+  EXPECT_TRUE(report.exact || std::abs(report.order - 2) < 0.15 || report.error < 1e-11)
+      << "order " << report.order << " error " << report.error;
+}
+
+TEST(Tie, OfNodes) {
+  for (const int nodes : {2, 3})
+    for (const double depth : {0.0, 0.08, -0.08})
+      expect_tie(tied(make_sample(
+                     {.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0, .depth = depth})),
+                 "line of " + std::to_string(nodes) + " depth " + std::to_string(depth));
+}
+
+TEST(Tie, OfNodesInSpace) {
+  using cell::CellType;
+  for (const CellType type : {CellType::tri3, CellType::tri6, CellType::quad4, CellType::quad9})
+    for (const double depth : {0.0, 0.08, -0.08}) {
+      SampleOptions3 o{.type = type, .bend = 0.03, .depth = depth};
+      if (cell::is_triangle(type)) o.at = 2, o.xi = {0.3, 0.4};
+      expect_tie(tied(make_sample3(o)), std::string(cell::info(type).name));
+    }
+}
+
+TEST(Tie, OfGaussPoints) {
+  const pairing::Sampling gauss{pairing::Sampling::Rule::gauss, 2, 1};
+  expect_tie(tied(segment_sample({.slave_nodes = 3, .bend = 0.02, .sampling = gauss})), "plane");
+  expect_tie(tied(segment_sample3({.bend = 0.01, .sampling = gauss})), "space");
+}
+
+TEST(Tie, OfMortar) {
+  for (const int nodes : {2, 3})
+    expect_tie(tied(make_mortar2({.slave_nodes = nodes, .bend = 0.02, .uneven = 0.2}), true, 0.3),
+               "plane");
+  for (const cell::CellType type : {cell::CellType::quad4, cell::CellType::tri6})
+    expect_tie(tied(make_mortar3({.slave = type, .bend = 0.01}), true, 0.3), "space");
+}
+
+/// The whole slave moved by `by`.
+template <class Sample, int Dim = dimension<Sample>>
+Eigen::VectorXd lifted(const Sample& s, const Vec<Dim>& by) {
+  std::vector<Vec<Dim>> x = s.x;
+  for (const Index n : s.pair.slave.nodes) x[static_cast<std::size_t>(n)] += by;
+  return flat<Dim>(x);
+}
+
+// Pulled as stiff as pressed, along the surface as across it; uniform at every point.
+TEST(Tie, CarriesTensionAndShear) {
+  const MortarSample<3> mortar = tied(make_mortar3({.tilt = Vec3::Zero()}));
+  const PairSample nodes = tied(make_sample({.depth = 0}));
+  for (const double by : {0.02, -0.02}) {
+    for (const auto& p : evaluation(mortar, lifted(mortar, Vec3(0, 0, by))).points) {
+      EXPECT_EQ(p.status, Status::stick);
+      EXPECT_NEAR(std::abs(p.normal_traction), eps * std::abs(by), 1e-9);
+      EXPECT_LT(p.shear_traction.norm(), 1e-9);
+    }
+    const Vec2 along(std::cos(0.3), std::sin(0.3));
+    const auto pulled = evaluation(nodes, lifted(nodes, turn(Vec2(by * along)))).points[0];
+    EXPECT_NEAR(pulled.normal_traction, eps * by, 1e-9);
+    EXPECT_NEAR(pulled.gap, by, 1e-12);
+    const auto sheared = evaluation(nodes, lifted(nodes, Vec2(by * along))).points[0];
+    EXPECT_NEAR(sheared.shear_traction[0], eps * by, 1e-9);
+    EXPECT_NEAR(sheared.normal_traction, 0, 1e-9);
+  }
+}
+
+TEST(Tie, ClosesGapsOrKeepsThem) {
+  const PairSample keep = tied(make_sample({.depth = -0.08}));
+  EXPECT_NEAR(evaluation(keep, flat<2>(keep.x)).points[0].normal_traction, 0, 1e-11);
+  EXPECT_NEAR(evaluation(keep, flat<2>(keep.x)).points[0].gap, 0.08, 1e-12);
+  const PairSample close = tied(make_sample({.depth = -0.08}), false);
+  EXPECT_NEAR(evaluation(close, flat<2>(close.x)).points[0].normal_traction, 0.08 * eps, 1e-9);
+}
+
+TEST(Tie, LeavesFarPointsAlone) {
+  PairSample s = tied(make_sample({.depth = -0.2}));
+  EXPECT_TRUE(s.pair.ties.empty());
+  const auto point = evaluation(s, lifted(s, Vec2(0, -0.5))).points[0];
+  EXPECT_EQ(point.status, Status::open);
+  EXPECT_FALSE(point.history.held);
+  s = tied(make_sample({.depth = -0.2}), true, 0.25);
+  EXPECT_EQ(s.pair.ties.size(), 1u);
+  EXPECT_TRUE(s.committed.points[0].held);
+  EXPECT_FALSE(s.committed.points[1].held);
+}
+
+// Shells that touch at the sum of their half thicknesses.
+TEST(Tie, GapIsMeasuredFromTheOffset) {
+  PairSample s = make_sample({.depth = -0.5});
+  s.pair.offset = 0.45;
+  s = tied(s, false);
+  ASSERT_EQ(s.pair.ties.size(), 1u);
+  EXPECT_NEAR(evaluation(s, flat<2>(s.x)).points[0].normal_traction, 0.05 * eps, 1e-9);
+  EXPECT_NEAR(evaluation(s, flat<2>(s.x)).points[0].gap, 0.05, 1e-12);
+}
+
+}  // namespace
+}  // namespace osculate::testing
