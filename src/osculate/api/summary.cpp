@@ -122,12 +122,13 @@ std::string pair_text(const model::BasicContactPair<Dim>& pair) {
   const std::string edges = d.edges.on ? fmt::format(", {} sharp edges on {}", d.edges.slave.size(),
                                                      d.edges.master.size())
                                        : std::string{};
-  return fmt::format("{} slave {} on {} facets{}, penalty {:g}, {}, {}{}{}", d.slave.points.size(),
-                     d.mortar                             ? "nodes by mortar"
-                     : pairing::sampled_at_nodes(d.slave) ? "nodes"
-                                                          : "points",
-                     d.master.facets.size(), edges, d.normal.stiffness, friction,
-                     weight_name(d.weight), pair.note.empty() ? "" : "; ", pair.note);
+  return fmt::format(
+      "{} slave {} on {} facets{}, penalty {:g}{}, {}, {}{}{}", d.slave.points.size(),
+      d.mortar                             ? "nodes by mortar"
+      : pairing::sampled_at_nodes(d.slave) ? "nodes"
+                                           : "points",
+      d.master.facets.size(), edges, d.normal.stiffness, pair.automatic ? " (automatic)" : "",
+      friction, weight_name(d.weight), pair.note.empty() ? "" : "; ", pair.note);
 }
 
 constexpr int most_listed_pairs = 20;

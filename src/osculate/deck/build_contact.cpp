@@ -311,6 +311,7 @@ void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMa
   } catch (const core::GeometryError& error) {
     throw core::InputError(mark, error.what());
   }
+  set_automatic(c, contact, out);
   if (!contact.all) warn_of_smooth(c, contact, pair);
   c.model().pairs.push_back(std::move(out));
 }

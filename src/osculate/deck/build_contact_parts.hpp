@@ -31,6 +31,22 @@ inline constexpr double reach_in_facets = 8;
 template <int Dim>
 void build_contact_all(BuildContext<Dim>& c, const Contact& contact);
 
+/// A penalty is this many times the stiffness of the cells behind the contact, and a penetration
+/// above this share of their height is one to be told of (docs/decisions/020).
+inline constexpr double automatic_factor = 10;
+inline constexpr double penetration_target = 0.01;
+
+/// The stiffnesses that are left to the program, from the cells behind both sides, and the
+/// penetration above which a result is doubtful.
+///
+/// Formula    eps_N = 10 / (h_s / E_s + h_m / E_m), eps_T the same with the shear moduli; h the
+///            height of the cells behind the facets, E / h averaged over the area of a side; a
+///            rigid side gives nothing. weight: node: times the mean area of a slave point.
+/// Tested by  tests/unit/deck/test_automatic_penalty.cpp
+template <int Dim>
+void set_automatic(BuildContext<Dim>& context, const Contact& contact,
+                   model::BasicContactPair<Dim>& pair);
+
 /// Replaces the master of a finished pair by the smooth one that the model asks for.
 template <int Dim>
 void smooth_master(const BuildContext<Dim>& context, const Contact& contact,

@@ -180,6 +180,7 @@ struct Sampling {
 
 struct CoulombFriction {
   Number mu, penalty;
+  bool automatic = false;  ///< the penalty, from the stiffness of the bodies
 };
 
 struct Contact {
@@ -187,6 +188,7 @@ struct Contact {
   Name master, slave;  ///< name of a rigid body if there is one, else of a set
   Marked<Sampling> sampling;
   Number normal_penalty;
+  bool automatic = false;  ///< the normal penalty, from the stiffness of the bodies
   std::optional<CoulombFriction> friction;
   Marked<Enforcement> enforcement;
   Marked<ContactWeight> weight;

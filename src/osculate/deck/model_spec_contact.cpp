@@ -28,14 +28,22 @@ Spec sampling_spec() {
       .such_as("{lobatto: 5, subdomains: 2}");
 }
 
+/// A stiffness, or that of the cells behind the contact times a factor.
+Spec penalty_spec(std::string doc, const char* of) {
+  return either(std::move(doc), {number("Stiffness.").in(stiffness_unit).above(0),
+                                 choice("From the stiffness of the bodies.",
+                                        {Choice{"auto",
+                                                std::string("ten times the stiffness against ") +
+                                                    of + " of the cells behind the contact",
+                                                0, true}})})
+      .otherwise("auto")
+      .such_as("2.1e6");
+}
+
 Spec normal_spec() {
   return map("Law in the normal direction.",
-             {required("penalty",
-                       either("Stiffness against penetration.",
-                              {number("Stiffness.").in(stiffness_unit).above(0),
-                               choice("From the stiffness of the bodies.",
-                                      {planned("auto", "from the stiffness of the bodies")})})
-                           .such_as("2.1e6"))})
+             {optional("penalty", penalty_spec("Stiffness against penetration.", "compression"))})
+      .otherwise("{}")
       .such_as("{penalty: 2.1e6}");
 }
 
@@ -43,10 +51,8 @@ Spec friction_spec() {
   const Spec coulomb =
       map("Coulomb's law with an elastic stick range.",
           {required("mu", number("Coefficient of friction.").at_least(0).such_as("0.3")),
-           required("penalty", number("Stiffness against sliding while the point sticks.")
-                                   .in(stiffness_unit)
-                                   .above(0)
-                                   .such_as("2.1e6"))});
+           optional("penalty",
+                    penalty_spec("Stiffness against sliding while the point sticks.", "shear"))});
   return either("Law in the tangential direction.",
                 {choice("No friction.", {Choice{"none", "no friction", 0, true}}),
                  map("A law of friction.", {required("coulomb", coulomb)})})
@@ -156,7 +162,7 @@ std::vector<Key> law_keys() {
                          .such_as("0.5");
   return {
       optional("sampling", sampling_spec()),
-      required("normal", normal_spec()),
+      optional("normal", normal_spec()),
       optional("friction", friction_spec()),
       optional("enforcement", enforcement_spec()),
       optional("weight", weight_spec()),

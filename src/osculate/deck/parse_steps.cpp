@@ -10,10 +10,15 @@ Tangent tangent_of(const Value& v) {
   return {TangentKind::covariant, flag(v, "main"), flag(v, "rotational"), flag(v, "curvature")};
 }
 
+/// A number, or the word `auto`.
+bool is_word(const Value& v) { return v.alternative == 1; }
+Number stiffness_of(const Value& v) { return is_word(v) ? Number{0, v.mark} : number_of(v); }
+
 std::optional<CoulombFriction> friction_of(const Value& v) {
   if (v.alternative == 0) return std::nullopt;
   const Value& coulomb = v.at("coulomb");
-  return CoulombFriction{number_of(coulomb.at("mu")), number_of(coulomb.at("penalty"))};
+  const Value& penalty = coulomb.at("penalty");
+  return CoulombFriction{number_of(coulomb.at("mu")), stiffness_of(penalty), is_word(penalty)};
 }
 
 std::optional<Number> edges_of(const Value& v) {
@@ -36,7 +41,8 @@ Marked<Sampling> sampling_of(const Value& v) {
 void read_laws(const Value& v, Contact& c) {
   c.name = name_of(v.at("name"));
   c.sampling = sampling_of(v.at("sampling"));
-  c.normal_penalty = number_of(v.at("normal").at("penalty"));
+  c.normal_penalty = stiffness_of(v.at("normal").at("penalty"));
+  c.automatic = is_word(v.at("normal").at("penalty"));
   c.friction = friction_of(v.at("friction"));
   c.enforcement = word_of<Enforcement>(v, "enforcement");
   c.weight = word_of<ContactWeight>(v, "weight");

@@ -40,9 +40,11 @@ struct BasicRigidBody {
 template <int Dim>
 struct BasicContactPair {
   std::string name;
-  std::string group{};    ///< name of the `all`, or of the first pass; empty: the user's own pair
-  std::string note{};     ///< who is master, and why
-  bool reversed = false;  ///< second pass: forces on the pair's slave are those on its master
+  std::string group{};     ///< name of the `all`, or of the first pass; empty: the user's own pair
+  std::string note{};      ///< who is master, and why
+  double target = 0;       ///< penetration above this is doubtful; 0: unknown
+  bool automatic = false;  ///< the penalty is from the stiffness of the bodies
+  bool reversed = false;   ///< second pass: forces on the pair's slave are those on its master
   pairing::PairDefinition<Dim> definition;
 };
 
