@@ -60,6 +60,22 @@ void add_remedies(const CaseContext& context, const std::vector<HardOutcome>& wi
   }
 }
 
+void add_units(CaseResult& result) {
+  const UnitsOutcome reference = run_in_units(1, 1);
+  struct Units {
+    const char* name;
+    double length, force;
+  };
+  for (const Units& units : {Units{"N-m", 1e-3, 1}, Units{"kN-cm", 0.1, 1e-3}}) {
+    const UnitsOutcome other = run_in_units(units.length, units.force);
+    const bool same = reference.finished && other.finished &&
+                      other.iterations == reference.iterations && other.states == reference.states;
+    result.rows.push_back(
+        {fmt::format("two blocks in {}: states and iterations of N-mm", units.name),
+         same ? 1.0 : 0.0, 1, Relation::equal, 0, "units are the user's"});
+  }
+}
+
 CaseResult run_selection(const CaseContext& context, bool all) {
   CaseResult result;
   std::vector<HardOutcome> outcomes;
@@ -72,6 +88,7 @@ CaseResult run_selection(const CaseContext& context, bool all) {
   }
   result.rows.push_back({"problems as required", double(required), double(outcomes.size()),
                          Relation::equal, 0, promise});
+  add_units(result);
   if (all) add_remedies(context, outcomes, result);
   return result;
 }

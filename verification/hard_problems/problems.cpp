@@ -1,6 +1,9 @@
 #include "problems.hpp"
 
+#include <fmt/format.h>
+
 #include "osculate/deck/build.hpp"
+#include "osculate/deck/parse.hpp"
 
 namespace osculate::verification {
 
@@ -73,6 +76,38 @@ HardOutcome run_hard(const std::string& folder, const HardProblem& problem, int 
                      const std::function<void(model::AnalysisOptions&)>& edit) {
   deck::AnyBuilt any = deck::build_any_file(folder + "/" + std::string(problem.name) + ".yaml");
   return std::visit([&](auto& built) { return run_built(built, threads, edit); }, any);
+}
+
+UnitsOutcome run_in_units(double length, double force) {
+  const double stress = force / (length * length);
+  const std::string text = fmt::format(
+      R"(osculate: 1
+mesh:
+  generate:
+    low: {{box: {{x: [0, {0}], y: [0, {1}], elements: [8, 4]}}}}
+    high: {{box: {{x: [{1}, {2}], y: [{1}, {2}], elements: [3, 4]}}}}
+materials: {{a: {{neo_hooke: {{E: {3}, nu: 0.25}}}}, b: {{neo_hooke: {{E: {4}, nu: 0.25}}}}}}
+sections:
+  - {{on: low, material: a, element: plane_strain, thickness: {1}}}
+  - {{on: high, material: b, element: plane_strain, thickness: {1}}}
+contact: [{{name: c, master: low.top, slave: high.bottom, friction: {{coulomb: {{mu: 0.3}}}}}}]
+steps:
+  - {{name: press, increments: 2, prescribe: [{{on: low.bottom, ux: 0, uy: 0}}, {{on: high.top, ux: 0, uy: {5}}}]}}
+  - {{name: shear, increments: 8, prescribe: [{{on: high.top, ux: {6}}}]}}
+)",
+      4 * length, length, 2 * length, 100 * stress, 400 * stress, -0.05 * length, 0.4 * length);
+  const deck::Description description = deck::parse_model(text, "generated.yaml");
+  const deck::Built built = deck::build(description, deck::load_mesh(description));
+  const model::AnalysisResult result = model::run(built.model, built.options, {});
+  UnitsOutcome out;
+  out.finished = result.outcome == solve::Outcome::converged;
+  for (const model::StepRecord& step : result.steps)
+    for (const solve::IncrementRecord& record : step.increments) {
+      out.iterations.push_back(static_cast<int>(record.iterations.size()));
+      for (const solve::IterationRecord& it : record.iterations)
+        out.states.push_back(it.counts.signature);
+    }
+  return out;
 }
 
 bool as_required(const HardProblem& problem, const HardOutcome& outcome) {

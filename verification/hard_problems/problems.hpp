@@ -31,6 +31,15 @@ struct HardOutcome {
                                    int threads,
                                    const std::function<void(model::AnalysisOptions&)>& edit = {});
 
+/// Iterations of each increment and a hash of the states in each, of two blocks pressed and sheared
+/// with automatic penalties, written in other units.
+struct UnitsOutcome {
+  bool finished = false;
+  std::vector<int> iterations;
+  std::vector<std::uint64_t> states;
+};
+[[nodiscard]] UnitsOutcome run_in_units(double length, double force);
+
 /// As was asked of it: to the end, or stopped with the right cause.
 [[nodiscard]] bool as_required(const HardProblem& problem, const HardOutcome& outcome);
 

@@ -30,6 +30,7 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
           {"energy", number(last.energy)},
           {"cutbacks", record.cutbacks},
           {"wasted_iterations", record.wasted_iterations},
+          {"resisted", record.resisted},
           {"open", last.counts.open},
           {"stick", last.counts.stick},
           {"slip", last.counts.slip},

@@ -154,9 +154,8 @@ void set_automatic(BuildContext<Dim>& c, const Contact& contact,
   Layer master = layer_behind(c, pair.master);
   average(slave);
   average(master);
-  out.target =
-      penetration_target * (slave.size > 0 && master.size > 0 ? std::min(slave.size, master.size)
-                                                              : slave.size + master.size);
+  out.height = slave.size > 0 && master.size > 0 ? std::min(slave.size, master.size)
+                                                 : slave.size + master.size;
   out.automatic = contact.automatic;
   const bool shear = contact.friction && contact.friction->automatic;
   if (!contact.automatic && !shear) return;

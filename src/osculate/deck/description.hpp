@@ -158,6 +158,7 @@ enum class ContactWeight { node, reference_area, current_area };
 enum class Residual { surface, full };
 enum class TangentKind { consistent, covariant };
 enum class HistoryKind { continuous, chord, per_facet };
+enum class InitialWord { ignore, ramp, keep, adjust };
 enum class SmoothingWord { none, hermite, nurbs };
 
 /// Of the master's surface.
@@ -196,6 +197,8 @@ struct Contact {
   Marked<Tangent> tangent;
   Marked<HistoryKind> history;
   Marked<MasterSmoothing> smoothing;
+  Marked<InitialWord> initial;               ///< what becomes of initial overlaps
+  double initial_tolerance = 0;              ///< of adjust: gaps up to this are closed too
   std::optional<core::SourceMark> two_pass;  ///< where it was asked for
   std::optional<Number> search_depth;
   std::optional<Number> edges;  ///< angle [degrees] of edges that are sharp; absent: without edges

@@ -140,6 +140,24 @@ Spec smoothing_spec() {
       .such_as("hermite");
 }
 
+Spec initial_spec() {
+  const Spec tolerance =
+      number("Initial gaps up to this are closed too.").in("length").at_least(0).such_as("0.01");
+  return either("What becomes of slave points that are inside the master from the beginning.",
+                {choice("One of these.",
+                        {word("ignore", InitialWord::ignore, "they are pushed out at once"),
+                         word("ramp", InitialWord::ramp,
+                              "the overlap is let in over the first step, as for a press fit"),
+                         word("keep", InitialWord::keep,
+                              "the overlap never counts: gaps are measured from it"),
+                         word("adjust", InitialWord::adjust,
+                              "the slave nodes are moved onto the master without strain, before "
+                              "anything is computed")}),
+                 map("Adjust with a tolerance.", {required("adjust", tolerance)})})
+      .otherwise("ignore")
+      .such_as("ramp");
+}
+
 Spec edges_spec() {
   const Spec angle = number("Edges are sharp where the normals of their facets differ by more.")
                          .in("degrees")
@@ -169,6 +187,7 @@ std::vector<Key> law_keys() {
       optional("residual", residual_spec()),
       optional("tangent", tangent_spec()),
       optional("history", history_spec()),
+      optional("initial", initial_spec()),
       optional("two_pass", boolean("Both sides are slaves in turn, each with half of the traction.")
                                .otherwise("false")
                                .such_as("true")),
@@ -221,10 +240,7 @@ Spec contact_spec() {
                 {pairs_spec(),
                  map("Contact of everything with everything.", {required("all", all_spec())}),
                  choice("The same, for short.",
-                        {Choice{"all",
-                                "all bodies; a penalty must be given, so that this needs "
-                                "the long form",
-                                0, true}})})
+                        {Choice{"all", "all bodies, with the default of every key", 0, true}})})
       .otherwise("[]")
       .such_as("[{name: floor, master: bottom, slave: base, normal: {penalty: 2.1e6}}]");
 }

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include "osculate/deck/check.hpp"
+#include "osculate/deck/model_spec.hpp"
 #include "osculate/deck/parse_parts.hpp"
 
 namespace osculate::deck {
@@ -37,6 +39,15 @@ Marked<Sampling> sampling_of(const Value& v) {
       v.mark};
 }
 
+void read_initial(const Value& v, Contact& c) {
+  if (v.alternative == 0) {
+    c.initial = word_of<InitialWord>(v);
+    return;
+  }
+  c.initial = {InitialWord::adjust, v.mark};
+  c.initial_tolerance = number_of(v.at("adjust")).value;
+}
+
 /// What a pair and all pairs together have in common.
 void read_laws(const Value& v, Contact& c) {
   c.name = name_of(v.at("name"));
@@ -49,6 +60,7 @@ void read_laws(const Value& v, Contact& c) {
   c.residual = word_of<Residual>(v, "residual");
   c.tangent = {tangent_of(v.at("tangent")), v.at("tangent").mark};
   c.history = word_of<HistoryKind>(v, "history");
+  read_initial(v.at("initial"), c);
   c.edges = edges_of(v.at("edges"));
   if (flag(v, "two_pass")) c.two_pass = v.at("two_pass").mark;
   if (const Value* const search = v.find("search")) c.search_depth = number_if(*search, "depth");
@@ -158,9 +170,13 @@ Equation equation_of(const Value& v) {
 
 std::vector<Contact> parse_contact(const Value& v) {
   if (v.alternative == 1) return {all_contact_of(v.at("all"))};
-  if (v.alternative == 2)
-    throw core::InputError(v.mark,
-                           "needs a stiffness: contact: {all: {normal: {penalty: NUMBER}}}");
+  if (v.alternative == 2) {  // `all` alone is `{all: {}}`
+    SourceNode nothing, whole;
+    nothing.kind = whole.kind = SourceNode::Kind::map;
+    nothing.line = whole.line = v.mark.line;
+    whole.entries.push_back({"all", v.mark.line, nothing});
+    return {all_contact_of(check(contact_spec(), whole, v.mark.file).at("all"))};
+  }
   std::vector<Contact> out;
   for (const Value& item : v.items) out.push_back(contact_of(item));
   return out;

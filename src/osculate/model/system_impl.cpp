@@ -255,17 +255,19 @@ void BasicSystem<Dim>::Impl::add_contact_block(const pairing::ContactBlock<Dim>&
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& trial,
-                                         std::span<const Vec<Dim>> x, bool with_tangent,
-                                         const Eigen::VectorXd* inc, solve::Evaluation& out) {
+                                         std::span<const Vec<Dim>> x, double fraction,
+                                         bool with_tangent, const Eigen::VectorXd* inc,
+                                         solve::Evaluation& out) {
   out.counts = {};
   out.counts.signature = 14695981039346656037ull;
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     const Stopwatch watch;
-    const pairing::Assumed<Dim> assumed =
+    pairing::Assumed<Dim> assumed =
         inc ? pairing::committed_branches<Dim>(pair, committed.pairs[p], x, sticking)
         : p < trial.assumed.size() ? trial.assumed[p]
                                    : pairing::Assumed<Dim>{};
+    assumed.relief = relief(pair, fraction);
     pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed);
     seconds.contact += watch.seconds();
     for (const pairing::ContactBlock<Dim>& block : contact[p].blocks)
@@ -356,15 +358,20 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   const std::vector<Vec<Dim>> x = positions(trial.u);
   assembler.set_configuration(x, trial.rigid);
   Eigen::VectorXd inc;
-  if (predict) inc = prescribed_increment(trial, x, fraction);
+  if (predict) {
+    inc = prescribed_increment(trial, x, fraction);
+    carried =
+        inc.head(Dim * static_cast<Eigen::Index>(x.size())).template lpNorm<Eigen::Infinity>();
+  }
   const Eigen::VectorXd* increment = predict ? &inc : nullptr;
   if (on(Term::bulk) && !add_bulk(trial, with_tangent, increment, out)) return;
-  if (on(Term::contact)) add_contact(committed, trial, x, with_tangent, increment, out);
+  if (on(Term::contact)) add_contact(committed, trial, x, fraction, with_tangent, increment, out);
   if (on(Term::pressure)) add_pressure(trial, fraction, with_tangent, increment);
   add_dead_loads(fraction);
   turn_moments(trial, with_tangent && on(Term::rigid), increment);
   if (with_tangent && on(Term::rigid)) add_rigid_geometry(trial, x, increment);
   if (with_tangent) assembler.add_prescribed_diagonal(1.0);
+  if (with_tangent && resisted > 0) add_resistance(resisted);
   const Eigen::VectorXd total = forces.internal + forces.contact - forces.external;
   out.residual = assembler.gather(predict ? Eigen::VectorXd(total + predicted) : total);
   out.branch_residual.resize(0);

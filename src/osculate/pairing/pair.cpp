@@ -122,6 +122,7 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
     BranchHint<Dim> hint;
     if (!assumed.branch.empty()) hint = {assumed.branch[i], assumed.predict};
+    if (!committed.overlap.empty()) hint.relieved = assumed.relief * committed.overlap[i];
     const Placed<Dim> placed = place_point(pair, out, x, i, committed.points[i]);
     laps.add_to(out.seconds.projection);
     evaluate_point(pair, x, committed.points[i], placed, hint, with_tangent, i, out);
@@ -174,6 +175,11 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
     if (placed.projection.beyond_end) h.gap = std::abs(h.gap);
     h.active = h.gap <= 0 && h.gap >= -pair.depth && contact::inside_domain(placed.kinematics);
   }
+  if (pair.overlap != InitialOverlap::acts)
+    for (PointHistory<Dim>& h : state.points) {
+      state.overlap.push_back(h.active ? h.gap : 0.0);
+      if (h.active) h.gap = 0;
+    }
   if constexpr (Dim == 3) {
     if (!pair.edges.on) return state;
     // By a whole evaluation: it tells which crossings are the nodes' own contacts.

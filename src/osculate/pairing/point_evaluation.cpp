@@ -33,11 +33,12 @@ Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>
                         PathBuffers<Dim>* path) {
   Friction<Dim> f;
   const Kinematics<Dim>& k = placed.kinematics;
-  f.traction.normal = pair.normal.response(k.gap);
+  const double gap = k.gap - hint.relieved;
+  f.traction.normal = pair.normal.response(gap);
   if (!f.traction.normal.active || !pair.friction) return f;
   const contact::Coulomb& law = *pair.friction;
   const Trial<Dim> tr = trial(pair.master, history, placed, law.stiffness,
-                              contact_share(history, k.gap), x, path, pair.history);
+                              contact_share(history, gap), x, path, pair.history);
   const double normal = f.traction.normal.traction;
   f.slip = tr.slip;
   f.law = law.template response<Dim>(tr.value, normal);
@@ -111,16 +112,17 @@ void clear(ContactBlock<Dim>& block) {
 /// Where the point is; false where it is not in contact.
 template <int Dim>
 bool report_place(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHistory<Dim>& history,
-                  const Placed<Dim>& placed, PointResult<Dim>& result) {
+                  const Placed<Dim>& placed, double relieved, PointResult<Dim>& result) {
   if (placed.projection.feature == Feature::none) return false;
   const Kinematics<Dim>& k = placed.kinematics;
-  result.gap = k.gap;
+  result.gap = k.gap - relieved;
   result.foot = placed.foot;
   result.normal = k.normal;
   result.frame = k.frame;
   result.history = next_history<Dim>(pair, x, history, placed, {});
+  result.history.gap = result.gap;
   if (placed.projection.beyond_end) result.history.gap = result.gap = std::abs(k.gap);
-  const bool closed = !placed.projection.beyond_end && k.gap >= -pair.depth && k.gap <= 0;
+  const bool closed = !placed.projection.beyond_end && k.gap >= -pair.depth && k.gap <= relieved;
   result.outside_domain = closed && !contact::inside_domain(k);
   return closed && !result.outside_domain;
 }
@@ -139,13 +141,14 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   result.weight = point_weight(pair, out, i);
   result.history.friction_work = history.friction_work;
   result.gap = std::numeric_limits<double>::infinity();
-  if (!report_place(pair, x, history, placed, result)) return;
+  if (!report_place(pair, x, history, placed, hint.relieved, result)) return;
   const Kinematics<Dim>& k = placed.kinematics;
   result.weight = facing_weight<Dim>(pair, out, i, k.normal);
   const bool exact = with_tangent && pair.tangent.consistent;
   const Friction<Dim> f =
       tractions<Dim>(pair, history, placed, x, hint, exact ? &block.behind : nullptr);
   result.history = next_history(pair, x, history, placed, f);
+  result.history.gap = result.gap;
   result.history.friction_work += result.weight * f.dissipated;
   result.status = !pair.friction ? Status::slip : f.law.status;
   if (pair.friction) result.branch = branch_of<Dim>(f.traction.tangential, k.frame);

@@ -9,6 +9,7 @@ template <int Dim>
 struct BranchHint {
   AssumedBranch<Dim> assumed;
   bool predict = false;
+  double relieved = 0;  ///< part <= 0 of the gap that does not count (PairState::overlap)
 };
 
 /// Fills `out.points[i]` and `out.blocks[i]` of the slave point `i`, which is `placed` on the
