@@ -30,6 +30,7 @@ struct Remedy {
 constexpr Remedy remedies[] = {
     {"predictor",
      [](model::AnalysisOptions& o) { o.increments.newton.predictor = solve::Predictor::tangent; }},
+    {"cycle cure", [](model::AnalysisOptions& o) { o.increments.newton.cycle_cure = false; }},
     {"line search",
      [](model::AnalysisOptions& o) { o.increments.newton.line_search = solve::LineSearch::off; }},
 };

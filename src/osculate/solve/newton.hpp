@@ -59,6 +59,7 @@ struct NewtonOptions {
   int max_iterations = 25;
   LineSearch line_search = LineSearch::automatic;
   Predictor predictor = Predictor::automatic;
+  bool cycle_cure = true;  ///< with the line search: half a step where states repeat in a circle
 };
 
 /// A first guess of an increment, and what its convergence is measured by: an extrapolated start
@@ -318,6 +319,28 @@ void predict(S& system, const typename S::State& committed, double time, bool st
     system.predict(committed, time, out);
 }
 
+/// True if the states of the contact points come back after two to four iterations, twice, while
+/// the residual does not fall: Newton's method jumps in a circle. Half a step leads out of it: from
+/// between the two states it sees both.
+///
+/// Tested by  tests/unit/solve/test_cycles.cpp
+inline bool comes_back(const std::vector<IterationRecord>& done) {
+  constexpr std::size_t longest = 4;
+  for (std::size_t period = 2; period <= longest && done.size() >= 2 * period; ++period) {
+    const auto last = done.end() - 1;
+    bool same = last->residual > 0.5 * (last - static_cast<std::ptrdiff_t>(period))->residual;
+    bool flips = false;
+    for (std::size_t k = 0; k < period; ++k) {
+      const auto now = last - static_cast<std::ptrdiff_t>(k);
+      const auto before = now - static_cast<std::ptrdiff_t>(period);
+      same = same && now->counts.signature == before->counts.signature;
+      flips = flips || now->counts.signature != last->counts.signature;
+    }
+    if (same && flips) return true;
+  }
+  return false;
+}
+
 /// Moves to the guess. False (and nothing changed but the evaluation) if it is no good start.
 template <System S>
 bool start_from_guess(S& system, const typename S::State& committed, double time,
@@ -409,8 +432,10 @@ template <System S>
     result.first_energy = judge.first_energy;
 
     double step = 1;
-    const bool searched = i > 1 || result.extrapolated || resistance.on();
-    if (searched && !branched && options.line_search == LineSearch::automatic)
+    const bool search = options.line_search == LineSearch::automatic;
+    if (search && options.cycle_cure && detail::comes_back(result.iterations))
+      result.state = system.apply(result.state, du, time, step = 0.5);
+    else if (search && !branched && (i > 1 || result.extrapolated || resistance.on()))
       step = detail::line_search(system, committed, result, du, residual, time);
     else
       result.state = system.apply(result.state, du, time, 1.0);
