@@ -14,6 +14,8 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult contact_patch(const CaseContext& context);
 [[nodiscard]] CaseResult contact_patch_space(const CaseContext& context);
 [[nodiscard]] CaseResult enforcement(const CaseContext& context);
+[[nodiscard]] CaseResult hard_problems(const CaseContext& context);
+[[nodiscard]] CaseResult hard_problems_all(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_ball(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_sphere(const CaseContext& context);
 [[nodiscard]] CaseResult hyperbolic_surface(const CaseContext& context);

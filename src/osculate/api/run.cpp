@@ -49,6 +49,7 @@ struct Recorder {
   std::vector<double> curvature_shares;  ///< one per converged increment
   std::vector<nlohmann::json> notes;     ///< one per converged increment
   std::vector<std::string> warned;       ///< of contact in the last increment
+  std::vector<double> deepest;           ///< penetration of each pair so far
 
   Recorder(const RunOptions& o, const deck::Description& d, const deck::BasicBuilt<Dim>& b,
            std::string dir)
@@ -95,12 +96,44 @@ struct Recorder {
       report.add_frame(system, state, p);
     }
     if (record) {
+      measure_penetration(system);
       curvature_shares.push_back(curvature_share(system, state));
       notes.push_back({{"outside_domain", report_outside_domain(system)}});
       report_increment(p, *record);
     }
     seconds += seconds_since(start);
     return !(options.interrupted && options.interrupted());
+  }
+
+  void measure_penetration(const model::BasicSystem<Dim>& system) {
+    deepest.resize(built.model.pairs.size(), 0.0);
+    for (std::size_t p = 0; p < deepest.size(); ++p)
+      for (const pairing::PointResult<Dim>& point : system.contact()[p].points)
+        if (point.status != contact::Status::open) deepest[p] = std::max(deepest[p], -point.gap);
+  }
+
+  /// Penalties used and penetrations reached; says where the target is missed.
+  nlohmann::json report_penetration() {
+    nlohmann::json list = nlohmann::json::array();
+    deepest.resize(built.model.pairs.size(), 0.0);
+    for (std::size_t p = 0; p < deepest.size(); ++p) {
+      const model::BasicContactPair<Dim>& pair = built.model.pairs[p];
+      const double target = model::penetration_target * pair.height;
+      list.push_back({{"name", pair.name},
+                      {"penalty", contact::penalty(pair.definition.normal)},
+                      {"automatic", pair.automatic},
+                      {"largest_penetration", deepest[p]},
+                      {"penetration_target", target}});
+      if (pair.definition.friction)
+        list.back()["shear_penalty"] = contact::stiffness(*pair.definition.friction);
+      if (target > 0 && deepest[p] > target)
+        say(fmt::format(
+            "warning: contact '{}': penetration up to {:.3g}, {:.2g} of the height of the cells "
+            "behind it (target {:g}); a penalty of {:.3g} would reach the target",
+            pair.name, deepest[p], deepest[p] / pair.height, model::penetration_target,
+            contact::penalty(pair.definition.normal) * deepest[p] / target));
+    }
+    return list;
   }
 
   /// Names points without contact normal, on the screen when they are others than before.
@@ -152,7 +185,8 @@ struct Recorder {
         "stick {} slip {}{}",
         step_name(p), p.increment, p.time, record.iterations.size(), last.residual, last.energy,
         last.counts.open, last.counts.stick, last.counts.slip,
-        record.cutbacks ? fmt::format("  ({} cut-backs)", record.cutbacks) : std::string{});
+        (record.cutbacks ? fmt::format("  ({} cut-backs)", record.cutbacks) : std::string{}) +
+            (record.resisted ? "  (free motions resisted on the way)" : ""));
     log << line << "\n";
     if (options.progress) options.progress(line);
   }
@@ -167,9 +201,10 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
   outcome.status = done ? RunStatus::done : RunStatus::stopped;
   outcome.message = result.message;
   const std::string model = std::filesystem::path(recorder.options.model).filename().string();
-  const nlohmann::json summary =
+  nlohmann::json summary =
       summary_json(model, result, done ? "done" : "stopped", {seconds_input, recorder.seconds},
                    recorder.curvature_shares, recorder.notes);
+  summary["contact"] = recorder.report_penetration();
   recorder.fields.close();
   if (recorder.description.output.report) {
     const std::string data = recorder.report.json(summary);

@@ -30,6 +30,7 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
           {"energy", number(last.energy)},
           {"cutbacks", record.cutbacks},
           {"wasted_iterations", record.wasted_iterations},
+          {"resisted", record.resisted},
           {"open", last.counts.open},
           {"stick", last.counts.stick},
           {"slip", last.counts.slip},
@@ -151,12 +152,13 @@ std::string pair_text(const model::BasicContactPair<Dim>& pair) {
   const std::string edges = d.edges.on ? fmt::format(", {} sharp edges on {}", d.edges.slave.size(),
                                                      d.edges.master.size())
                                        : std::string{};
-  return fmt::format("{} slave {} on {} facets{}, {}, {}, {}{}{}", d.slave.points.size(),
+  return fmt::format("{} slave {} on {} facets{}, {}{}, {}, {}{}{}", d.slave.points.size(),
                      d.mortar                             ? "nodes by mortar"
                      : pairing::sampled_at_nodes(d.slave) ? "nodes"
                                                           : "points",
-                     d.master.facets.size(), edges, law_text(d.normal) + hold_text(d), friction,
-                     weight_name(d.weight), pair.note.empty() ? "" : "; ", pair.note);
+                     d.master.facets.size(), edges, law_text(d.normal) + hold_text(d),
+                     pair.automatic ? " (automatic)" : "", friction, weight_name(d.weight),
+                     pair.note.empty() ? "" : "; ", pair.note);
 }
 
 constexpr int most_listed_pairs = 20;

@@ -106,8 +106,6 @@ template pairing::Boundary<3> boundary_from<3>(const std::vector<Side<3>>&, bool
 template pairing::Boundary<2> boundary_of(const BuildContext<2>&, const Name&);
 template pairing::Boundary<3> boundary_of(const BuildContext<3>&, const Name&);
 
-namespace {
-
 template <int Dim>
 pairing::SlaveSide<Dim> slave_of(const BuildContext<Dim>& c, const Contact& contact) {
   const Rigid* const rigid = rigid_of(c, contact.slave);
@@ -120,6 +118,11 @@ pairing::SlaveSide<Dim> slave_of(const BuildContext<Dim>& c, const Contact& cont
   if (set.dimension == 0) return pairing::make_slave_side(pairing::Boundary<Dim>{}, set.nodes);
   return pairing::make_slave_side(boundary_of(c, contact.slave));
 }
+
+template pairing::SlaveSide<2> slave_of(const BuildContext<2>&, const Contact&);
+template pairing::SlaveSide<3> slave_of(const BuildContext<3>&, const Contact&);
+
+namespace {
 
 /// Thickness or circumference from the section behind the slave, else behind the master. An area in
 /// space needs neither.
@@ -171,6 +174,8 @@ void set_forms(const Contact& contact, pairing::PairDefinition<Dim>& pair) {
   const Tangent& t = contact.tangent.value;
   pair.tangent = {t.kind == TangentKind::consistent, t.main, t.rotational, t.curvature};
   if (contact.search_depth) pair.depth = contact.search_depth->value;
+  if (contact.initial.value == InitialWord::ramp) pair.overlap = pairing::InitialOverlap::ramped;
+  if (contact.initial.value == InitialWord::keep) pair.overlap = pairing::InitialOverlap::kept;
   switch (contact.enforcement.value.kind) {
     case EnforcementWord::penalty:
       pair.enforcement = contact::Enforcement::penalty;
@@ -343,6 +348,7 @@ void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMa
     throw core::InputError(mark, error.what());
   }
   note_tied(c, contact, pair);
+  set_automatic(c, contact, out);
   if (!contact.all) warn_of_smooth(c, contact, pair);
   c.model().pairs.push_back(std::move(out));
 }
@@ -375,6 +381,8 @@ void check_mortar(const Contact& contact) {
     refuse(contact.history.mark, "mortar has its own history, without borders: use continuous");
   if (contact.smoothing.value.kind != SmoothingWord::none)
     refuse(contact.smoothing.mark, "mortar integrates over the facets of the mesh: use none");
+  if (contact.initial.value == InitialWord::ramp || contact.initial.value == InitialWord::keep)
+    refuse(contact.initial.mark, "mortar knows initial overlaps only as they are: use adjust");
 }
 
 /// What goes with corrected or unknown tractions.
@@ -384,6 +392,11 @@ void check_enforcement(const Contact& contact, bool own) {
     throw core::InputError(mark, why);
   };
   if (kind == EnforcementWord::penalty) return;
+  if (contact.normal.law.value != NormalWord::penalty)
+    refuse(contact.enforcement.mark,
+           "a law that gives the pressure as a function of the gap is met by itself: use penalty");
+  if (contact.normal.separation.value == SeparationWord::tied)
+    refuse(contact.enforcement.mark, "tied points are held by penalty only");
   if (contact.edges && !contact.all)
     refuse(contact.enforcement.mark,
            "crossings of edges come and go: they are enforced by penalty only");
@@ -478,6 +491,7 @@ model::BasicContactPair<Dim> reversed(const Contact& contact,
 
 template <int Dim>
 void build_contact(BuildContext<Dim>& c) {
+  adjust_overlaps(c);
   for (const Contact& contact : c.description.contact) {
     check_axes(contact);
     if (contact.all) {

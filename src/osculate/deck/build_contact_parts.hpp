@@ -13,6 +13,17 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] pairing::Boundary<Dim> boundary_of(const BuildContext<Dim>& c, const Name& name);
 
+/// The slave that a pair names: facets, or points.
+template <int Dim>
+[[nodiscard]] pairing::SlaveSide<Dim> slave_of(const BuildContext<Dim>& c, const Contact& contact);
+
+/// Moves the slave nodes of pairs with `initial: adjust` onto their masters, in the reference
+/// coordinates, and says how far.
+///
+/// Tested by  tests/unit/deck/test_initial_overlap.cpp
+template <int Dim>
+void adjust_overlaps(BuildContext<Dim>& context);
+
 /// Laws and forms from the description, areas; then the pair is part of the model. Errors point at
 /// `mark`.
 template <int Dim>
@@ -40,6 +51,21 @@ inline constexpr double reach_in_facets = 8;
 /// The pairs that `contact: {all: ...}` stands for.
 template <int Dim>
 void build_contact_all(BuildContext<Dim>& c, const Contact& contact);
+
+/// A penalty is this many times the stiffness of the cells behind the contact
+/// (docs/decisions/020).
+inline constexpr double automatic_factor = 10;
+
+/// The stiffnesses that are left to the program, from the cells behind both sides, and the height
+/// of these cells.
+///
+/// Formula    eps_N = 10 / (h_s / E_s + h_m / E_m), eps_T the same with the shear moduli; h the
+///            height of the cells behind the facets, E / h averaged over the area of a side; a
+///            rigid side gives nothing. weight: node: times the mean area of a slave point.
+/// Tested by  tests/unit/deck/test_automatic_penalty.cpp
+template <int Dim>
+void set_automatic(BuildContext<Dim>& context, const Contact& contact,
+                   model::BasicContactPair<Dim>& pair);
 
 /// Replaces the master of a finished pair by the smooth one that the model asks for.
 template <int Dim>

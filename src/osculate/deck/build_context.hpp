@@ -26,8 +26,9 @@ struct BuildContext {
   std::vector<std::string> set_names;
   std::unordered_map<std::string, Index> rigid_index;
   std::vector<Index> section_of_node;  ///< first section that uses the node, -1 = none
-  std::map<std::pair<Index, Index>, Index> section_of_cell;  ///< by block and cell
-  SideTable<Dim> sides;                                      ///< of the cells that have a section
+  std::map<std::pair<Index, Index>, Index> section_of_cell;    ///< by block and cell
+  SideTable<Dim> sides;                                        ///< of the cells that have a section
+  std::vector<std::vector<mesh::CellRef>> cells_of_node = {};  ///< of sections; made when needed
 
   [[nodiscard]] model::BasicModel<Dim>& model() const { return built.model; }
   /// The set, or the error with the nearest name.

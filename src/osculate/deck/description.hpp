@@ -159,6 +159,7 @@ enum class ContactWeight { node, reference_area, current_area };
 enum class Residual { surface, full };
 enum class TangentKind { consistent, covariant };
 enum class HistoryKind { continuous, chord, per_facet };
+enum class InitialWord { ignore, ramp, keep, adjust };
 enum class SmoothingWord { none, hermite, nurbs };
 
 /// Of the master's surface.
@@ -206,7 +207,8 @@ struct CoulombFriction {
   Number mu, penalty;
   FrictionWord law = FrictionWord::coulomb;
   std::optional<Number> kinetic, distance, speed, cap;
-  Number limit;  ///< tresca
+  Number limit;            ///< tresca
+  bool automatic = false;  ///< the penalty, from the stiffness of the bodies
 };
 
 struct Contact {
@@ -215,7 +217,8 @@ struct Contact {
   Marked<Sampling> sampling;
   Number normal_penalty;
   NormalDescription normal;
-  double offset = 0;  ///< of both sides together
+  double offset = 0;       ///< of both sides together
+  bool automatic = false;  ///< the normal penalty, from the stiffness of the bodies
   std::optional<CoulombFriction> friction;
   Marked<Enforcement> enforcement;
   Marked<ContactWeight> weight;
@@ -223,6 +226,8 @@ struct Contact {
   Marked<Tangent> tangent;
   Marked<HistoryKind> history;
   Marked<MasterSmoothing> smoothing;
+  Marked<InitialWord> initial;               ///< what becomes of initial overlaps
+  double initial_tolerance = 0;              ///< of adjust: gaps up to this are closed too
   std::optional<core::SourceMark> two_pass;  ///< where it was asked for
   std::optional<Number> search_depth;
   std::optional<Number> edges;  ///< angle [degrees] of edges that are sharp; absent: without edges

@@ -28,6 +28,18 @@ Spec sampling_spec() {
       .such_as("{lobatto: 5, subdomains: 2}");
 }
 
+/// A stiffness, or that of the cells behind the contact times a factor.
+Spec penalty_spec(std::string doc, const char* of) {
+  return either(std::move(doc), {number("Stiffness.").in(stiffness_unit).above(0),
+                                 choice("From the stiffness of the bodies.",
+                                        {Choice{"auto",
+                                                std::string("ten times the stiffness against ") +
+                                                    of + " of the cells behind the contact",
+                                                0, true}})})
+      .otherwise("auto")
+      .such_as("2.1e6");
+}
+
 /// What holds points together that are pulled apart.
 std::vector<Key> holding_keys() {
   return {
@@ -78,15 +90,14 @@ Spec normal_spec() {
           .count(2)
           .such_as("[[0, 0], [0.01, 12], [0.02, 40]]");
   std::vector<Key> keys{
-      optional("penalty", either("Stiffness against penetration.",
-                                 {number("Stiffness.").in(stiffness_unit).above(0),
-                                  choice("From the stiffness of the bodies.",
-                                         {planned("auto", "from the stiffness of the bodies")})})
-                              .such_as("2.1e6")),
+      optional("penalty", penalty_spec("Stiffness against penetration, unless there is another "
+                                       "law.",
+                                       "compression")),
       optional("exponential", exponential), optional("table", table)};
   for (Key& key : holding_keys()) keys.push_back(std::move(key));
-  return map("Law in the normal direction.", std::move(keys))
-      .with(Group::Rule::exactly_one, {"penalty", "exponential", "table"})
+  return map("Law in the normal direction: a penalty, or one of exponential and table.",
+             std::move(keys))
+      .otherwise("{}")
       .such_as("{penalty: 2.1e6}");
 }
 
@@ -120,17 +131,14 @@ Spec coulomb_spec(const Spec& penalty) {
 }
 
 Spec friction_spec() {
-  const Spec penalty = number("Stiffness against sliding while the point sticks.")
-                           .in(stiffness_unit)
-                           .above(0)
-                           .such_as("2.1e6");
+  const Spec penalty = penalty_spec("Stiffness against sliding while the point sticks.", "shear");
   const Spec tresca = map("One shear traction for every pressure, with an elastic stick range.",
                           {required("limit", number("Shear traction while sliding.")
                                                  .in("force/length^2 (force with weight: node)")
                                                  .at_least(0)
                                                  .such_as("40")),
-                           required("penalty", penalty)});
-  const Spec rough = map("No sliding while in contact.", {required("penalty", penalty)});
+                           optional("penalty", penalty)});
+  const Spec rough = map("No sliding while in contact.", {optional("penalty", penalty)});
   return either("Law in the tangential direction.",
                 {choice("No friction.", {Choice{"none", "no friction", 0, true}}),
                  map("A law of friction.", {optional("coulomb", coulomb_spec(penalty)),
@@ -250,6 +258,24 @@ Spec smoothing_spec() {
       .such_as("hermite");
 }
 
+Spec initial_spec() {
+  const Spec tolerance =
+      number("Initial gaps up to this are closed too.").in("length").at_least(0).such_as("0.01");
+  return either("What becomes of slave points that are inside the master from the beginning.",
+                {choice("One of these.",
+                        {word("ignore", InitialWord::ignore, "they are pushed out at once"),
+                         word("ramp", InitialWord::ramp,
+                              "the overlap is let in over the first step, as for a press fit"),
+                         word("keep", InitialWord::keep,
+                              "the overlap never counts: gaps are measured from it"),
+                         word("adjust", InitialWord::adjust,
+                              "the slave nodes are moved onto the master without strain, before "
+                              "anything is computed")}),
+                 map("Adjust with a tolerance.", {required("adjust", tolerance)})})
+      .otherwise("ignore")
+      .such_as("ramp");
+}
+
 Spec edges_spec() {
   const Spec angle = number("Edges are sharp where the normals of their facets differ by more.")
                          .in("degrees")
@@ -272,7 +298,7 @@ std::vector<Key> law_keys() {
                          .such_as("0.5");
   return {
       optional("sampling", sampling_spec()),
-      required("normal", normal_spec()),
+      optional("normal", normal_spec()),
       optional("friction", friction_spec()),
       optional("offset", offset_spec()),
       optional("enforcement", enforcement_spec()),
@@ -280,6 +306,7 @@ std::vector<Key> law_keys() {
       optional("residual", residual_spec()),
       optional("tangent", tangent_spec()),
       optional("history", history_spec()),
+      optional("initial", initial_spec()),
       optional("two_pass", boolean("Both sides are slaves in turn, each with half of the traction.")
                                .otherwise("false")
                                .such_as("true")),
@@ -332,10 +359,7 @@ Spec contact_spec() {
                 {pairs_spec(),
                  map("Contact of everything with everything.", {required("all", all_spec())}),
                  choice("The same, for short.",
-                        {Choice{"all",
-                                "all bodies; a penalty must be given, so that this needs "
-                                "the long form",
-                                0, true}})})
+                        {Choice{"all", "all bodies, with the default of every key", 0, true}})})
       .otherwise("[]")
       .such_as("[{name: floor, master: bottom, slave: base, normal: {penalty: 2.1e6}}]");
 }

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include "osculate/deck/check.hpp"
+#include "osculate/deck/model_spec.hpp"
 #include "osculate/deck/parse_parts.hpp"
 
 namespace osculate::deck {
@@ -10,23 +12,32 @@ Tangent tangent_of(const Value& v) {
   return {TangentKind::covariant, flag(v, "main"), flag(v, "rotational"), flag(v, "curvature")};
 }
 
+/// A number, or the word `auto`.
+bool is_word(const Value& v) { return v.alternative == 1; }
+Number stiffness_of(const Value& v) { return is_word(v) ? Number{0, v.mark} : number_of(v); }
+
+void set_penalty(const Value& law, CoulombFriction& out) {
+  out.penalty = stiffness_of(law.at("penalty"));
+  out.automatic = is_word(law.at("penalty"));
+}
+
 std::optional<CoulombFriction> friction_of(const Value& v) {
   if (v.alternative == 0) return std::nullopt;
   CoulombFriction out;
   if (const Value* const tresca = v.find("tresca")) {
     out.law = FrictionWord::tresca;
     out.limit = number_of(tresca->at("limit"));
-    out.penalty = number_of(tresca->at("penalty"));
+    set_penalty(*tresca, out);
     return out;
   }
   if (const Value* const rough = v.find("rough")) {
     out.law = FrictionWord::rough;
-    out.penalty = number_of(rough->at("penalty"));
+    set_penalty(*rough, out);
     return out;
   }
   const Value& coulomb = v.at("coulomb");
   out.mu = number_of(coulomb.at("mu"));
-  out.penalty = number_of(coulomb.at("penalty"));
+  set_penalty(coulomb, out);
   out.kinetic = number_if(coulomb, "kinetic");
   out.cap = number_if(coulomb, "cap");
   const Value* const decay = coulomb.find("decay");
@@ -61,16 +72,23 @@ std::vector<std::array<double, 2>> table_of(const Value& v) {
 void read_normal(const Value& v, Contact& c) {
   NormalDescription& n = c.normal;
   n.law = {NormalWord::penalty, v.mark};
-  if (const Value* const penalty = v.find("penalty")) c.normal_penalty = number_of(*penalty);
+  c.normal_penalty = stiffness_of(v.at("penalty"));
+  c.automatic = is_word(v.at("penalty"));
   if (const Value* const exponential = v.find("exponential")) {
     n.law = {NormalWord::exponential, exponential->mark};
     n.pressure = number_of(exponential->at("pressure"));
     n.clearance = number_of(exponential->at("clearance"));
   }
   if (const Value* const table = v.find("table")) {
+    if (n.law.value != NormalWord::penalty)
+      throw core::InputError(table->mark, "there is an exponential law already: use one of them");
     n.law = {NormalWord::table, table->mark};
     n.table = table_of(*table);
   }
+  if (n.law.value != NormalWord::penalty && !c.automatic)
+    throw core::InputError(c.normal_penalty.mark,
+                           "there is another law already: use one of penalty, exponential, table");
+  c.automatic = c.automatic && n.law.value == NormalWord::penalty;
   n.separation = word_of<SeparationWord>(v, "separation");
   n.tolerance = number_if(v, "tolerance");
   if (n.law.value != NormalWord::penalty && n.separation.value != SeparationWord::allowed)
@@ -114,6 +132,15 @@ Marked<Enforcement> enforcement_of(const Value& v) {
   return {out, v.mark};
 }
 
+void read_initial(const Value& v, Contact& c) {
+  if (v.alternative == 0) {
+    c.initial = word_of<InitialWord>(v);
+    return;
+  }
+  c.initial = {InitialWord::adjust, v.mark};
+  c.initial_tolerance = number_of(v.at("adjust")).value;
+}
+
 /// What a pair and all pairs together have in common.
 void read_laws(const Value& v, Contact& c) {
   c.name = name_of(v.at("name"));
@@ -129,6 +156,7 @@ void read_laws(const Value& v, Contact& c) {
   c.residual = word_of<Residual>(v, "residual");
   c.tangent = {tangent_of(v.at("tangent")), v.at("tangent").mark};
   c.history = word_of<HistoryKind>(v, "history");
+  read_initial(v.at("initial"), c);
   c.edges = edges_of(v.at("edges"));
   if (flag(v, "two_pass")) c.two_pass = v.at("two_pass").mark;
   if (const Value* const search = v.find("search")) c.search_depth = number_if(*search, "depth");
@@ -239,9 +267,13 @@ Equation equation_of(const Value& v) {
 
 std::vector<Contact> parse_contact(const Value& v) {
   if (v.alternative == 1) return {all_contact_of(v.at("all"))};
-  if (v.alternative == 2)
-    throw core::InputError(v.mark,
-                           "needs a stiffness: contact: {all: {normal: {penalty: NUMBER}}}");
+  if (v.alternative == 2) {  // `all` alone is `{all: {}}`
+    SourceNode nothing, whole;
+    nothing.kind = whole.kind = SourceNode::Kind::map;
+    nothing.line = whole.line = v.mark.line;
+    whole.entries.push_back({"all", v.mark.line, nothing});
+    return {all_contact_of(check(contact_spec(), whole, v.mark.file).at("all"))};
+  }
   std::vector<Contact> out;
   for (const Value& item : v.items) out.push_back(contact_of(item));
   return out;

@@ -37,12 +37,17 @@ struct BasicRigidBody {
   std::vector<Vec<Dim>> polyline;        ///< for pictures of analytic polylines
 };
 
+/// A penetration above this share of the cells' height is one to be told of.
+inline constexpr double penetration_target = 0.01;
+
 template <int Dim>
 struct BasicContactPair {
   std::string name;
-  std::string group{};    ///< name of the `all`, or of the first pass; empty: the user's own pair
-  std::string note{};     ///< who is master, and why
-  bool reversed = false;  ///< second pass: forces on the pair's slave are those on its master
+  std::string group{};     ///< name of the `all`, or of the first pass; empty: the user's own pair
+  std::string note{};      ///< who is master, and why
+  double height = 0;       ///< of the thinner cells behind it; 0: unknown
+  bool automatic = false;  ///< the penalty is from the stiffness of the bodies
+  bool reversed = false;   ///< second pass: forces on the pair's slave are those on its master
   pairing::PairDefinition<Dim> definition;
 };
 

@@ -1,5 +1,8 @@
 #include "osculate/model/system.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "osculate/model/system_impl.hpp"
 
 namespace osculate::model {
@@ -30,6 +33,8 @@ BasicState<Dim> BasicSystem<Dim>::initial_state() {
 template <int Dim>
 void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
   impl_->step = step;
+  const std::vector<Step>& steps = impl_->model.steps;
+  impl_->beginning = steps.empty() || step.name == steps.front().name;
   std::vector<bool> flags(static_cast<std::size_t>(impl_->dofs.unknowns()), false);
   for (PrescribedDof& p : impl_->step.prescribed) {
     p.ramp.start = impl_->current_value(committed, p.dof);
@@ -99,8 +104,11 @@ BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) co
   State state = trial;
   state.fraction = fraction;
   state.assumed.clear();
-  for (std::size_t p = 0; p < impl_->contact.size(); ++p)
+  for (std::size_t p = 0; p < impl_->contact.size(); ++p) {
+    std::vector<double> overlap = std::move(state.pairs[p].overlap);
     state.pairs[p] = pairing::commit(impl_->contact[p]);
+    state.pairs[p].overlap = std::move(overlap);
+  }
   for (std::size_t p = 0; p < state.multipliers.size(); ++p)
     state.multipliers[p] = pairing::commit(impl_->contact[p], std::move(state.multipliers[p]));
   return state;
@@ -177,6 +185,29 @@ SystemSeconds BasicSystem<Dim>::seconds() const {
     out.contact_parts.evaluation += pair.seconds.evaluation;
   }
   return out;
+}
+template <int Dim>
+void BasicSystem<Dim>::resist(double share) {
+  if (share == impl_->resisted) return;
+  if (impl_->resistance.size() == 0) impl_->measure_resistance();
+  impl_->add_resistance(share - impl_->resisted);
+  impl_->resisted = share;
+}
+template <int Dim>
+double BasicSystem<Dim>::stride(const Eigen::VectorXd& du) const {
+  const BasicDofSpace<Dim>& dofs = impl_->dofs;
+  const Dof first = Dim * dofs.nodes();
+  double largest = 0, height = 0;
+  for (Index u = 0; u < dofs.unknowns(); ++u) {
+    if (impl_->assembler.prescribed(u)) continue;
+    const Dof dof = dofs.dof_of_unknown(u);
+    const bool turns = dof >= first && (dof - first) % body::motions<Dim> >= Dim;
+    largest = std::max(largest, std::abs(du[u]) * (turns ? impl_->extent : 1.0));
+  }
+  for (const BasicContactPair<Dim>& pair : impl_->model.pairs)
+    if (pair.height > 0) height = height > 0 ? std::min(height, pair.height) : pair.height;
+  if (!(height > 0)) height = 0.01 * impl_->extent;
+  return largest / std::max(height, impl_->carried);
 }
 template <int Dim>
 void BasicSystem<Dim>::enable(Term term, bool on) {

@@ -81,6 +81,12 @@ class BasicSystem {
   [[nodiscard]] std::vector<Vec<Dim>> positions(const State& state) const;
   [[nodiscard]] bool prescribed(Index unknown) const;
   [[nodiscard]] SystemSeconds seconds() const;
+  /// Puts `share` of the bodies' own stiffness on the diagonal of the tangent, this one and those
+  /// to come, against free motions (solve::Resistance). 0 removes it.
+  void resist(double share);
+  /// Largest motion of a node in a correction, over the height of the cells at the contacts or the
+  /// largest prescribed motion of the increment.
+  [[nodiscard]] double stride(const Eigen::VectorXd& du) const;
   /// Switch terms off (tangent check only); all are on by default.
   void enable(Term term, bool on);
 

@@ -390,6 +390,7 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
         : p < trial.assumed.size() ? trial.assumed[p]
                                    : pairing::Assumed<Dim>{};
     assumed.duration = duration;
+    assumed.relief = relief(pair, fraction);
     const bool around = p < trial.multipliers.size() && !trial.multipliers[p].points.empty();
     pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed,
                            around ? &trial.multipliers[p] : nullptr);
@@ -483,7 +484,11 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   const std::vector<Vec<Dim>> x = positions(trial.u);
   assembler.set_configuration(x, trial.rigid);
   Eigen::VectorXd inc;
-  if (predict) inc = prescribed_increment(trial, x, fraction);
+  if (predict) {
+    inc = prescribed_increment(trial, x, fraction);
+    carried =
+        inc.head(Dim * static_cast<Eigen::Index>(x.size())).template lpNorm<Eigen::Infinity>();
+  }
   const Eigen::VectorXd* increment = predict ? &inc : nullptr;
   if (on(Term::bulk) && !add_bulk(trial, with_tangent, increment, out)) return;
   if (on(Term::contact)) add_contact(committed, trial, fraction, x, with_tangent, increment, out);
@@ -492,6 +497,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   turn_moments(trial, with_tangent && on(Term::rigid), increment);
   if (with_tangent && on(Term::rigid)) add_rigid_geometry(trial, x, increment);
   if (with_tangent) assembler.add_prescribed_diagonal(1.0);
+  if (with_tangent && resisted > 0) add_resistance(resisted);
   const Eigen::VectorXd total = forces.internal + forces.contact - forces.external;
   out.residual = assembler.gather(predict ? Eigen::VectorXd(total + predicted) : total);
   out.branch_residual.resize(0);

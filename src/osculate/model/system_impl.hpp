@@ -43,6 +43,11 @@ struct BasicSystem<Dim>::Impl {
   bool sticking = false;         ///< points that slid are predicted to stick
   Eigen::VectorXd branch_shift;  ///< force of the linearised branches minus the true force
   bool branched = false;
+  double resisted = 0;         ///< share of `resistance` on the diagonal
+  Eigen::VectorXd resistance;  ///< stiffness of the bodies' own, one per unknown; empty: not needed
+  double carried = 0;          ///< largest prescribed increment of the last prediction
+  bool beginning = true;       ///< the first step: initial overlaps are let in
+  double extent = 0;           ///< of all cells
   Step step;
   std::array<bool, 4> enabled{true, true, true, true};
   la::Symmetry symmetry;
@@ -70,6 +75,14 @@ struct BasicSystem<Dim>::Impl {
                 bool predict, solve::Evaluation& out);
   void assemble_terms(const State& committed, const State& trial, double fraction,
                       bool with_tangent, bool predict, solve::Evaluation& out);
+
+  /// Share of the initial overlaps of a pair that does not count at a fraction of the step.
+  [[nodiscard]] double relief(const pairing::PairDefinition<Dim>& pair, double fraction) const {
+    if (pair.overlap == pairing::InitialOverlap::kept) return 1;
+    return pair.overlap == pairing::InitialOverlap::ramped && beginning ? 1 - fraction : 0;
+  }
+  void measure_resistance();
+  void add_resistance(double share);
 
   // The terms. `inc` (may be null) is the prescribed increment that `predicted` takes up.
   void clear(bool with_tangent);

@@ -15,11 +15,13 @@ template <int Dim>
   return pair.separation == Separation::tied_normal && history.held;
 }
 
-/// The gap at which the normal law begins to count: half thicknesses, and what a held point keeps.
+/// The gap at which the normal law begins to count: half thicknesses, what a held point keeps, and
+/// the initial overlap that does not count.
 template <int Dim>
 [[nodiscard]] double rest_gap(const PairDefinition<Dim>& pair,
-                              const contact::PointHistory<Dim>& history) {
-  return pair.offset + history.rest;
+                              const contact::PointHistory<Dim>& history,
+                              const BranchHint<Dim>& hint) {
+  return pair.offset + history.rest + hint.relieved;
 }
 
 /// At the start: holds a point that is near the master.
@@ -34,11 +36,12 @@ void hold(const PairDefinition<Dim>& pair, contact::PointHistory<Dim>& history) 
 /// Whether the normal law gives a traction at this gap.
 template <int Dim>
 [[nodiscard]] bool is_closed(const PairDefinition<Dim>& pair,
-                             const contact::PointHistory<Dim>& history, double gap) {
+                             const contact::PointHistory<Dim>& history, double gap,
+                             const BranchHint<Dim>& hint = {}) {
   if (gap < -pair.depth) return false;
   if (is_held(pair, history)) return true;
   return pair.separation != Separation::tied_normal &&
-         gap - pair.offset <= contact::reach(pair.normal);
+         gap - pair.offset - hint.relieved <= contact::reach(pair.normal);
 }
 
 /// The normal law, around the multiplier where there is one.
@@ -50,17 +53,19 @@ template <int Dim>
     const bool held = is_held(pair, history);
     if (gap < -pair.depth || (pair.separation == Separation::tied_normal && !held)) return {};
     return contact::shifted({hint.stiffening * contact::penalty(pair.normal)},
-                            gap - rest_gap(pair, history), hint.multiplier->normal, held);
+                            gap - rest_gap(pair, history, hint), hint.multiplier->normal, held);
   }
-  if (!is_closed(pair, history, gap)) return {};
-  return contact::response(pair.normal, gap - rest_gap(pair, history), is_held(pair, history));
+  if (!is_closed(pair, history, gap, hint)) return {};
+  return contact::response(pair.normal, gap - rest_gap(pair, history, hint),
+                           is_held(pair, history));
 }
 
 /// The part in contact of a point that was open at the start of the increment (`history`).
 template <int Dim>
 [[nodiscard]] ContactShare contact_share(const PairDefinition<Dim>& pair,
-                                         const contact::PointHistory<Dim>& history, double gap) {
-  const double onset = rest_gap(pair, history) + contact::reach(pair.normal);
+                                         const contact::PointHistory<Dim>& history, double gap,
+                                         const BranchHint<Dim>& hint) {
+  const double onset = rest_gap(pair, history, hint) + contact::reach(pair.normal);
   if (history.active || history.facet < 0 || !(history.gap > onset)) return {};
   const double range = history.gap - gap;
   return {(onset - gap) / range, -(history.gap - onset) / (range * range)};

@@ -112,7 +112,7 @@ void set_friction(const PairDefinition<Dim>& pair, const PointHistory<Dim>& hist
   }
   c.sliding = !last.nodes.empty();
   if (c.sliding) {
-    if (!hint.multiplier) c.share = contact_share(pair, history, c.gap);
+    if (!hint.multiplier) c.share = contact_share(pair, history, c.gap, hint);
     c.way = c.foot - place_in_space<Dim>(last, x);
     c.trial += c.stiffness * c.share.value * (c.frame.transpose() * c.way);
   }

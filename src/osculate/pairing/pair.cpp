@@ -138,7 +138,8 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   refresh(pair, x, with_tangent, out);
   laps.add_to(out.seconds.search);
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
-    const BranchHint<Dim> hint = hint_of(assumed, multipliers, i);
+    BranchHint<Dim> hint = hint_of(assumed, multipliers, i);
+    if (!committed.overlap.empty()) hint.relieved = assumed.relief * committed.overlap[i];
     const Placed<Dim> placed = place_point(pair, out, x, i, committed.points[i]);
     laps.add_to(out.seconds.projection);
     evaluate_point(pair, x, committed.points[i], placed, hint, with_tangent, i, out);
@@ -197,6 +198,10 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
     hold(pair, h);
     h.active = is_closed(pair, h, h.gap);
   }
+  if (pair.overlap != InitialOverlap::acts)
+    for (PointHistory<Dim>& h : state.points) {
+      state.overlap.push_back(h.active ? std::min(0.0, h.gap - pair.offset) : 0.0);
+    }
   if constexpr (Dim == 3) {
     if (!pair.edges.on) return state;
     // By a whole evaluation: it tells which crossings are the nodes' own contacts.

@@ -33,6 +33,10 @@ enum class Weight : std::uint8_t { node, reference_area, current_area };
 ///   tied           the same, and they do not slide either (tie.hpp); no friction law
 enum class Separation : std::uint8_t { allowed, no_separation, tied_normal, tied };
 
+/// Initial penetrations: they act from the beginning, they are let in over the first step, or they
+/// never count: the gap is measured from them.
+enum class InitialOverlap : std::uint8_t { acts, ramped, kept };
+
 /// One contact pair: one entry per axis (sampling: the slave's points; target: the master; law;
 /// enforcement), plus the forms of residual and tangent. Everything here is the same in
 /// the plane and in space.
@@ -58,6 +62,7 @@ struct PairDefinition {
   AreaRule area;
   double share = 1;  ///< of the traction that this pass carries (two passes: 1/2 each)
   double depth = std::numeric_limits<double>::infinity();  ///< deeper points are not in contact
+  InitialOverlap overlap = InitialOverlap::acts;
   EdgeContact edges;  ///< in space: also where sharp edges cross
   /// With `scope.own` both sides of a contact are slaves, and each carries half of the traction.
   Scope<Dim> scope;
@@ -72,6 +77,8 @@ template <int Dim>
 struct PairState {
   std::vector<contact::PointHistory<Dim>> points;
   std::vector<MortarPlace> places;  ///< mortar: one per slave node; empty at first
+  /// Gaps <= 0 of the slave's points at the beginning; empty where they act from then on.
+  std::vector<double> overlap;
 };
 
 /// Multipliers of a pair in an iteration: one per slave point; none where penalties are enough.
@@ -193,6 +200,7 @@ struct Assumed {
   std::vector<AssumedBranch<Dim>> branch;
   bool predict = false;  ///< first iteration: points that slipped go on slipping
   double duration = 0;   ///< of the increment, for laws that depend on speed; 0: not known
+  double relief = 0;     ///< share of the initial overlaps that does not count yet
 };
 
 /// Branches at the end of the last increment; `x` is the configuration then. With `sticking`, all

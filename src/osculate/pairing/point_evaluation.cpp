@@ -60,8 +60,8 @@ Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>
   const Trial<Dim> tr =
       hint.multiplier
           ? trial_around<Dim>(pair, *hint.multiplier, stiffness, history, placed, x, path)
-          : trial(pair.master, history, placed, stiffness, contact_share(pair, history, k.gap), x,
-                  path, pair.history);
+          : trial(pair.master, history, placed, stiffness,
+                  contact_share(pair, history, k.gap, hint), x, path, pair.history);
   const double normal = f.traction.normal.traction;
   f.slip = tr.slip;
   f.law = contact::response<Dim>(law, tr.value, normal, sliding);
@@ -147,7 +147,7 @@ bool report_place(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHis
                   PointResult<Dim>& result) {
   if (placed.projection.feature == Feature::none) return false;
   const Kinematics<Dim>& k = placed.kinematics;
-  result.gap = k.gap - pair.offset;
+  result.gap = k.gap - pair.offset - hint.relieved;
   result.foot = placed.foot;
   result.normal = k.normal;
   result.frame = k.frame;

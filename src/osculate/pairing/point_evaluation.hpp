@@ -11,6 +11,7 @@ struct BranchHint {
   AssumedBranch<Dim> assumed{};
   bool predict = false;
   double duration = 0;  ///< of the increment
+  double relieved = 0;  ///< part <= 0 of the gap that does not count (PairState::overlap)
   const contact::Multiplier<Dim>* multiplier = nullptr;
   double stiffening = 1;
 };

@@ -21,6 +21,7 @@ struct IncrementRecord {
   int cutbacks = 0;     ///< attempts dropped since the last converged increment
   std::vector<IterationRecord> iterations;
   int wasted_iterations = 0;  ///< iterations of the dropped attempts
+  bool resisted = false;      ///< free motions were resisted on the way (see Resistance)
 };
 
 /// The last increments, for a guess of the next one.
@@ -91,6 +92,13 @@ template <System S>
 bool worth_sticking(const NewtonResult<typename S::State>& attempt) {
   return PredictsSticking<S> && attempt.outcome == Outcome::numerical_failure &&
          attempt.evaluation.ok;
+}
+
+/// Nothing holds a body, or nothing else is left to try.
+template <System S>
+bool worth_resisting(const NewtonResult<typename S::State>& attempt, bool last) {
+  if (!Resists<S> || attempt.outcome == Outcome::converged) return false;
+  return last || attempt.linear == la::SolveStatus::singular;
 }
 
 }  // namespace detail
@@ -179,6 +187,14 @@ template <System S>
         attempt = detail::solve_increment(system, result.state, target, options.newton, solver,
                                           {{}, 0, 0, true});
       }
+      bool resisted = false;
+      if (detail::worth_resisting<S>(attempt, 0.5 * (target - at) < smallest)) {
+        NewtonResult<State> held =
+            newton(system, result.state, target, options.newton, solver, {{}, 0, 0, false, true});
+        resisted = held.outcome == Outcome::converged;
+        wasted += static_cast<int>((resisted ? attempt : held).iterations.size());
+        if (resisted) attempt = std::move(held);  // else the first failure tells more
+      }
       if (attempt.outcome != Outcome::converged) {
         extrapolation.reset();
         on_cutback(attempt.reason, at, target, attempt.iterations);
@@ -196,7 +212,8 @@ template <System S>
       const int iterations = static_cast<int>(attempt.iterations.size());
       extrapolation.add(attempt, target - at);
       result.state = system.commit(attempt.state, target);
-      result.increments.push_back({target, cutbacks, std::move(attempt.iterations), wasted});
+      result.increments.push_back(
+          {target, cutbacks, std::move(attempt.iterations), wasted, resisted});
       cutbacks = wasted = 0;
       at = target;
       if (!on_increment(result.state, result.increments.back())) {

@@ -60,6 +60,7 @@ struct NewtonOptions {
   int max_iterations = 25;
   LineSearch line_search = LineSearch::automatic;
   Predictor predictor = Predictor::automatic;
+  bool cycle_cure = true;  ///< with the line search: half a step where states repeat in a circle
 };
 
 /// A first guess of an increment, and what its convergence is measured by: an extrapolated start
@@ -69,6 +70,7 @@ struct Guess {
   double residual = 0;    ///< |R| of the last increment that was started by the tangent
   double energy = 0;      ///< first energy of that increment
   bool sticking = false;  ///< without du: predict points that slid to stick
+  bool resisted = false;  ///< without du: resist free motions (see Resistance)
 };
 
 struct IterationRecord {
@@ -135,6 +137,13 @@ struct Judge {
 
 }  // namespace detail
 
+/// Systems that can put a small artificial stiffness on the diagonal of their tangent.
+template <class S>
+concept Resists = requires(S s, const Eigen::VectorXd& du, double share) {
+  s.resist(share);                                  // of the bodies' own stiffness; 0 removes it
+  { s.stride(du) } -> std::convertible_to<double>;  // largest motion over the size of an element
+};
+
 namespace detail {
 
 template <class State>
@@ -163,6 +172,60 @@ bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd
     return fail(result, Outcome::numerical_failure, "the tangent is singular");
   return true;
 }
+
+/// Resistance against free motions, for bodies that nothing holds until contact closes. It is put
+/// on the tangent alone: the residual is the true one, so that nothing artificial is left in a
+/// converged increment, and its work is zero.
+///
+/// Formula    (K + c D) du = -R, c such that nothing moves farther than an element in one
+///            iteration, and ten times smaller after each that does not
+/// Tested by  tests/unit/solve/test_resistance.cpp
+template <System S>
+class Resistance {
+ public:
+  Resistance(S& system, bool on) : system_(system), on_(on && Resists<S>) {}
+  ~Resistance() { set(0); }
+  Resistance(const Resistance&) = delete;
+  Resistance& operator=(const Resistance&) = delete;
+  [[nodiscard]] bool on() const { return on_; }
+
+  /// As solve_correction, with as much resistance as it takes.
+  bool solve(la::DirectSolver& solver, const Eigen::VectorXd& residual, Eigen::VectorXd& du,
+             NewtonResult<typename S::State>& result) {
+    if (!on_) return solve_correction(system_, solver, residual, du, result);
+    constexpr double most = 1.0, stiffer = 100, spare = 2;
+    for (bool first = true; share_ <= most; first = false) {
+      set(share_);
+      if (!solve_correction(system_, solver, residual, du, result)) {
+        if (result.linear != la::SolveStatus::singular) return false;
+        share_ *= stiffer;
+        continue;
+      }
+      const double stride = motion(du);
+      if (stride <= 1) {
+        if (first) share_ = std::max(0.1 * share_, least);
+        return true;
+      }
+      share_ *= std::clamp(spare * stride, spare, stiffer * stiffer);
+    }
+    return fail(result, Outcome::numerical_failure, "free motions cannot be resisted");
+  }
+
+ private:
+  static constexpr double least = 1e-9, usual = 1e-6;
+  void set(double share) {
+    if constexpr (Resists<S>)
+      if (on_) system_.resist(share);
+  }
+  double motion(const Eigen::VectorXd& du) {
+    if constexpr (Resists<S>) return system_.stride(du);
+    return du.size() > 0 ? 0.0 : 0.0;
+  }
+
+  S& system_;
+  bool on_;
+  double share_ = usual;
+};
 
 /// Work of the residual on the correction at `step`, with the state and evaluation that belong to
 /// it.
@@ -257,6 +320,28 @@ void predict(S& system, const typename S::State& committed, double time, bool st
     system.predict(committed, time, out);
 }
 
+/// True if the states of the contact points come back after two to four iterations, twice, while
+/// the residual does not fall: Newton's method jumps in a circle. Half a step leads out of it: from
+/// between the two states it sees both.
+///
+/// Tested by  tests/unit/solve/test_cycles.cpp
+inline bool comes_back(const std::vector<IterationRecord>& done) {
+  constexpr std::size_t longest = 4;
+  for (std::size_t period = 2; period <= longest && done.size() >= 2 * period; ++period) {
+    const auto last = done.end() - 1;
+    bool same = last->residual > 0.5 * (last - static_cast<std::ptrdiff_t>(period))->residual;
+    bool flips = false;
+    for (std::size_t k = 0; k < period; ++k) {
+      const auto now = last - static_cast<std::ptrdiff_t>(k);
+      const auto before = now - static_cast<std::ptrdiff_t>(period);
+      same = same && now->counts.signature == before->counts.signature;
+      flips = flips || now->counts.signature != last->counts.signature;
+    }
+    if (same && flips) return true;
+  }
+  return false;
+}
+
 /// Moves to the guess. False (and nothing changed but the evaluation) if it is no good start.
 template <System S>
 bool start_from_guess(S& system, const typename S::State& committed, double time,
@@ -345,20 +430,25 @@ template <System S>
     detail::fail(result, Outcome::numerical_failure, result.evaluation.message);
     return result;
   }
-  for (int i = 1; i <= options.max_iterations; ++i) {
+  detail::Resistance<S> resistance(system, guess.resisted);
+  const int most = (resistance.on() ? 2 : 1) * options.max_iterations;
+  for (int i = 1; i <= most; ++i) {
     const Eigen::VectorXd residual = result.evaluation.residual;
     const bool branched = result.evaluation.branch_residual.size() > 0;
     const Eigen::VectorXd linearised = branched ? result.evaluation.branch_residual : residual;
     Eigen::VectorXd du;
     result.state = system.remember(result.state);
-    if (!detail::solve_correction(system, solver, linearised, du, result)) return result;
+    if (!resistance.solve(solver, linearised, du, result)) return result;
     const double energy_before = std::abs(du.dot(residual));
     if (i == 1 && !result.extrapolated) judge.first_energy = energy_before;
     result.first_energy = judge.first_energy;
 
     double step = 1;
-    if ((i > 1 || result.extrapolated) && !branched && !result.evaluation.saddle &&
-        options.line_search == LineSearch::automatic)
+    const bool search = options.line_search == LineSearch::automatic;
+    const bool smooth = !branched && !result.evaluation.saddle;
+    if (search && options.cycle_cure && detail::comes_back(result.iterations))
+      result.state = system.apply(result.state, du, time, step = 0.5);
+    else if (search && smooth && (i > 1 || result.extrapolated || resistance.on()))
       step = detail::line_search(system, committed, result, du, residual, time);
     else
       result.state = system.apply(result.state, du, time, 1.0);
@@ -368,7 +458,7 @@ template <System S>
     if (detail::conclude(judge, du, step, energy_before, result)) return result;
   }
   detail::fail(result, Outcome::not_converged,
-               "not converged after " + std::to_string(options.max_iterations) + " iterations");
+               "not converged after " + std::to_string(most) + " iterations");
   return result;
 }
 

@@ -76,13 +76,25 @@ TEST(ContactAll, Refusals) {
          "contact.all.exclude[0][1]: unknown body 'tpo'; known: 1, 2, 3, floor, low, mid, top");
   expect(build_refusal(edited(text, "any.2-3, of: normal_force", "any.2-4, of: normal_force")),
          "output.history[2].on: unknown contact pair 'any.2-4'; did you mean 'any.");
-  expect(build_refusal(edited(text, "    normal: {penalty: 1000}\n", "")),
-         "contact.all: required key 'normal' is missing");
-  const std::string block = test_file("block.yaml");
-  const std::size_t from = block.find("contact:"), to = block.find("steps:");
-  std::string bare = block;
-  bare.replace(from, to - from, "contact: all\n");
-  expect(refusal(bare), "contact: needs a stiffness: contact: {all: {normal: {penalty: NUMBER}}}");
+}
+
+TEST(ContactAll, TheShortFormHasTheDefaults) {
+  std::string text = test_file("all.yaml");
+  const std::size_t from = text.find("contact:"), to = text.find("steps:");
+  const auto with = [&](const std::string& contact) {
+    std::string other = text;
+    other.replace(from, to - from, contact);
+    return build_text(other.substr(0, other.find("output:")));
+  };
+  const Built brief = with("contact: all\n"), full = with("contact: {all: {}}\n");
+  ASSERT_EQ(brief.model.pairs.size(), full.model.pairs.size());
+  for (std::size_t p = 0; p < brief.model.pairs.size(); ++p) {
+    EXPECT_EQ(brief.model.pairs[p].name, full.model.pairs[p].name);
+    EXPECT_TRUE(brief.model.pairs[p].automatic);
+    contact::penalty(EXPECT_GT(brief.model.pairs[p].definition.normal), 0);
+    contact::penalty(EXPECT_EQ(brief.model.pairs[p].definition.normal),
+                     contact::penalty(full.model.pairs[p].definition.normal));
+  }
 }
 
 TEST(SelfContact, IsAPairWhoseMasterAndSlaveAreOneSet) {

@@ -1,0 +1,98 @@
+// `initial: adjust`: slave nodes onto the master, before anything is computed.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "osculate/deck/build_contact_parts.hpp"
+#include "osculate/mesh/boundary.hpp"
+#include "osculate/model/bulk.hpp"
+
+namespace osculate::deck {
+namespace {
+
+template <int Dim>
+void refuse_rigid(const BuildContext<Dim>& c, const Contact& contact,
+                  const std::vector<Index>& nodes) {
+  for (const Index n : nodes)
+    if (c.model().body_of_node[static_cast<std::size_t>(n)] >= 0)
+      throw core::InputError(
+          contact.initial.mark,
+          fmt::format("the slave '{}' is rigid, its nodes cannot be moved one by "
+                      "one: use ramp, or move the body",
+                      contact.slave.value));
+}
+
+/// A cell that a moved node has turned inside out.
+template <int Dim>
+void check_cells(const BuildContext<Dim>& c, const Contact& contact,
+                 const std::vector<bool>& moved) {
+  for (const model::BasicBulkSection<Dim>& section : c.model().sections)
+    for (const mesh::CellRef& ref : section.cells) {
+      const std::span<const Index> nodes = model::cell_nodes(c.model().mesh, ref).nodes;
+      const auto found = std::find_if(nodes.begin(), nodes.end(),
+                                      [&](Index n) { return moved[static_cast<std::size_t>(n)]; });
+      if (found == nodes.end() || model::smallest_jacobian(c.model(), ref) > 0) continue;
+      throw core::InputError(
+          contact.initial.mark,
+          fmt::format("moving the slave nodes onto the master turns the cell at {} inside out: the "
+                      "overlap is deeper than the cell",
+                      mesh::describe_node(c.model().mesh, *found)));
+    }
+}
+
+template <int Dim>
+void move(BuildContext<Dim>& c, Index node, const Vec<Dim>& to) {
+  c.model().reference[static_cast<std::size_t>(node)] = to;
+  c.model().mesh.nodes[static_cast<std::size_t>(node)].template head<Dim>() = to;
+}
+
+template <int Dim>
+void adjust(BuildContext<Dim>& c, const Contact& contact) {
+  pairing::PairDefinition<Dim> pair;
+  pair.master = boundary_of(c, contact.master);
+  pair.slave = slave_of(c, contact);
+  pair.weight = pairing::Weight::node;
+  if (contact.search_depth) pair.depth = contact.search_depth->value;
+  refuse_rigid(c, contact, pair.slave.nodes);
+  std::vector<Vec<Dim>> x = c.model().reference;
+  pairing::prepare<Dim>(pair, x);
+  pairing::PairEvaluation<Dim> found;
+  pairing::evaluate<Dim>(pair, x, pairing::initial_state<Dim>(pair, x), false, found);
+  std::vector<bool> moved(x.size());
+  int count = 0;
+  double farthest = 0;
+  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
+    const pairing::PointResult<Dim>& point = found.points[i];
+    const bool inside = point.status != contact::Status::open && point.gap < 0;
+    if (!inside && !(std::abs(point.gap) <= contact.initial_tolerance)) continue;
+    const Index node = pair.slave.points[i].nearest_node();
+    moved[static_cast<std::size_t>(node)] = true;
+    farthest = std::max(farthest, (point.foot - x[static_cast<std::size_t>(node)]).norm());
+    move<Dim>(c, node, point.foot);
+    ++count;
+  }
+  check_cells(c, contact, moved);
+  c.built.notes.push_back(fmt::format(
+      "'{}': {} slave nodes moved onto the master before the first step, by up to {:.4g}",
+      contact.name.value, count, farthest));
+}
+
+}  // namespace
+
+template <int Dim>
+void adjust_overlaps(BuildContext<Dim>& c) {
+  for (const Contact& contact : c.description.contact) {
+    if (contact.initial.value != InitialWord::adjust) continue;
+    if (contact.all || contact.master.value == contact.slave.value)
+      throw core::InputError(contact.initial.mark,
+                             "adjust needs a pair with a slave that is moved and a master that "
+                             "stays: name the pair");
+    adjust(c, contact);
+  }
+}
+
+template void adjust_overlaps(BuildContext<2>&);
+template void adjust_overlaps(BuildContext<3>&);
+
+}  // namespace osculate::deck

@@ -1,0 +1,77 @@
+// Free motions are resisted until contact closes, and nothing of it stays.
+#include <gtest/gtest.h>
+
+#include "toy_system.hpp"
+
+namespace osculate::solve {
+namespace {
+
+/// A point that a force of 1 pushes over a gap of 5 onto a spring of stiffness 100.
+struct FreePoint : ToySystem {
+  double share = 0;
+  std::vector<double> shares;
+  double limit = 1;
+
+  FreePoint() {
+    static_cast<ToySystem&>(*this) =
+        scalar_system([](double x, double t) { return std::max(0.0, x - 5) * 100 - t; },
+                      [](double x) { return x > 5 ? 100.0 : 0.0; });
+  }
+  void resist(double value) {
+    share = value;
+    shares.push_back(value);
+  }
+  [[nodiscard]] double stride(const Eigen::VectorXd& du) const {
+    return du.lpNorm<Eigen::Infinity>() / limit;
+  }
+  const la::SparseMatrix& matrix() {
+    fill(evaluated.back());
+    builder.add(0, 0, 100 * share);
+    return builder.finish();
+  }
+};
+
+static_assert(Resists<FreePoint>);
+static_assert(!Resists<ToySystem>);
+
+TEST(Resistance, BringsAFreePointToItsSpring) {
+  FreePoint system;
+  la::DirectSolver solver;
+  const auto result = run_step<FreePoint>(
+      system, {vector({0.0})}, 1, {}, solver,
+      [](const auto&, const IncrementRecord&) { return true; },
+      [](const std::string&, double, double, const std::vector<IterationRecord>&) {});
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  EXPECT_NEAR(result.state.x[0], 5.01, 1e-12) << "as without any resistance";
+  ASSERT_EQ(result.increments.size(), 1u);
+  EXPECT_TRUE(result.increments[0].resisted);
+  EXPECT_EQ(result.increments[0].cutbacks, 0);
+  EXPECT_EQ(system.share, 0) << "removed";
+}
+
+TEST(Resistance, NothingMovesFartherThanOneStride) {
+  FreePoint system;
+  la::DirectSolver solver;
+  (void)newton<FreePoint>(system, {vector({0.0})}, 1.0, {}, solver, {{}, 0, 0, false, true});
+  double before = 0;
+  for (const Eigen::VectorXd& x : system.evaluated) {
+    EXPECT_LE(std::abs(x[0] - before), system.limit * (1 + 1e-12));
+    before = x[0];
+  }
+}
+
+TEST(Resistance, WhatNothingHoldsStillFails) {
+  FreePoint system;
+  system.force = [](const Eigen::VectorXd&, double t) { return vector({-t}); };
+  system.stiffness = [](const Eigen::VectorXd&) { return Eigen::MatrixXd::Zero(1, 1); };
+  la::DirectSolver solver;
+  const auto result = run_step<FreePoint>(
+      system, {vector({0.0})}, 1, {}, solver,
+      [](const auto&, const IncrementRecord&) { return true; },
+      [](const std::string&, double, double, const std::vector<IterationRecord>&) {});
+  EXPECT_NE(result.outcome, Outcome::converged);
+  EXPECT_EQ(system.share, 0);
+}
+
+}  // namespace
+}  // namespace osculate::solve
