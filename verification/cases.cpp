@@ -19,6 +19,8 @@ const std::vector<Case>& all_cases() {  // long: the one list
        closest_points_many},
       {"closed_loop", "A block dragged in a closed loop: path dependence and dissipated work",
        false, closed_loop},
+      {"contact_laws", "Each law of contact in a model with a closed solution; tied patch tests",
+       false, contact_laws},
       {"contact_patch", "Blocks in contact transmit a uniform pressure unchanged", false,
        contact_patch},
       {"contact_patch_space", "Blocks in space in contact transmit a uniform pressure unchanged",

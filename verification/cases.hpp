@@ -11,6 +11,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult closest_points(const CaseContext& context);
 [[nodiscard]] CaseResult closest_points_many(const CaseContext& context);
 [[nodiscard]] CaseResult closed_loop(const CaseContext& context);
+[[nodiscard]] CaseResult contact_laws(const CaseContext& context);
 [[nodiscard]] CaseResult contact_patch(const CaseContext& context);
 [[nodiscard]] CaseResult contact_patch_space(const CaseContext& context);
 [[nodiscard]] CaseResult enforcement(const CaseContext& context);

@@ -57,7 +57,7 @@ TEST(BrokenModels, MissingKeysNameTheParent) {
       {"{mu: 0.3, penalty: 2.1e6}", "{penalty: 2.1e6}",
        "model.yaml:17: contact[0].friction.coulomb: required key 'mu' is missing"},
       {"{coulomb: {mu: 0.3, penalty: 2.1e6}}", "{}",
-       "model.yaml:17: contact[0].friction: required key 'coulomb' is missing"},
+       "model.yaml:17: contact[0].friction: needs one of coulomb, tresca, rough"},
       {"{on: floor, of: normal_force}", "{on: floor}",
        "model.yaml:39: output.history[1]: required key 'of' is missing"},
   });
@@ -89,7 +89,7 @@ TEST(BrokenModels, WrongTypes) {
        "'0.3'"},
       {"mu: 0.3", "mu: 0,3",
        "model.yaml:17: contact[0].friction.coulomb: unknown key '3'; known: "
-       "mu, penalty"},
+       "mu, penalty, kinetic, decay, cap"},
       {"mu: 0.3", "mu: 1d4",
        "model.yaml:17: contact[0].friction.coulomb.mu: expected a number, got the text '1d4'"},
       {"mu: 0.3", "mu: 0x10",

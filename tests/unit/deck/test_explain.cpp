@@ -45,8 +45,10 @@ TEST(Explain, KeysBelow) {
             "  Words:\n"
             "    none                 no friction\n"
             "  Keys:\n"
-            "    coulomb              Coulomb's law with an elastic stick range. (a map, "
-            "required)\n"
+            "    coulomb              Coulomb's law with an elastic stick range. (a map)\n"
+            "    tresca               One shear traction for every pressure, with an elastic stick "
+            "range. (a map)\n"
+            "    rough                No sliding while in contact. (a map)\n"
             "  Example: friction: {coulomb: {mu: 0.3, penalty: 2.1e6}}\n");
   const std::string root = explain_model_key("");
   for (const Key& key : model_spec().keys)

@@ -147,8 +147,8 @@ TEST(Schema, MentionsEveryKeyWithADescription) {
 
 TEST(Schema, AcceptsTheGoodModels) {
   const Json schema = model_schema_json();
-  for (const char* const file :
-       {"block.yaml", "full.yaml", "parts.yaml", "solid.yaml", "all.yaml", "channel.yaml"})
+  for (const char* const file : {"block.yaml", "full.yaml", "parts.yaml", "solid.yaml", "all.yaml",
+                                 "channel.yaml", "laws.yaml"})
     EXPECT_EQ(violation(schema, to_json(read_yaml(test_file(file), file))), "") << file;
 }
 

@@ -1,0 +1,132 @@
+// The keys of the laws of contact: normal, friction, offset, duration.
+#include <gtest/gtest.h>
+
+#include "deck_test.hpp"
+#include "osculate/deck/build.hpp"
+
+namespace osculate::deck {
+namespace {
+
+Built built(const std::string& from = "", const std::string& to = "") {
+  const std::string text = test_file("laws.yaml");
+  const Description d = parse_model(from.empty() ? text : edited(text, from, to), "model.yaml");
+  return build(d, load_mesh(d));
+}
+
+std::string refusal_of(const std::string& from, const std::string& to) {
+  try {
+    (void)built(from, to);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(LawKeys, BecomeLaws) {
+  const Built b = built();
+  const auto& floor = b.model.pairs[0].definition;
+  const auto& exponential = std::get<contact::NormalExponential>(floor.normal);
+  EXPECT_EQ(exponential.pressure, 12);
+  EXPECT_EQ(exponential.clearance, 0.01);
+  const auto& coulomb = std::get<contact::Coulomb>(*floor.friction);
+  EXPECT_EQ(coulomb.mu, 0.4);
+  EXPECT_EQ(coulomb.stiffness, 500);
+  EXPECT_EQ(coulomb.cap, 30);
+  EXPECT_EQ(coulomb.change->kinetic, 0.2);
+  EXPECT_EQ(coulomb.change->scale, 0.5);
+  EXPECT_EQ(coulomb.change->by, contact::FrictionChange::By::speed);
+  EXPECT_NEAR(floor.offset, 0.03, 1e-16);
+  EXPECT_EQ(b.model.steps[0].duration, 0.5);
+  const auto& joint = b.model.pairs[1].definition;
+  EXPECT_EQ(joint.separation, pairing::Separation::tied);
+  EXPECT_EQ(joint.tolerance, 0.02);
+  EXPECT_FALSE(joint.keep_gap);
+  EXPECT_EQ(joint.ties.size(), 6u);
+  const auto& top = b.model.pairs[2].definition;
+  EXPECT_EQ(std::get<contact::NormalTable>(top.normal).points.size(), 3u);
+  EXPECT_EQ(std::get<contact::Tresca>(*top.friction).limit_traction, 3);
+  EXPECT_EQ(top.offset, 0);
+  EXPECT_EQ(top.separation, pairing::Separation::allowed);
+}
+
+TEST(LawKeys, DistanceRoughAndWhatIsHeld) {
+  const Built distance = built("decay: {speed: 0.5}", "decay: {distance: 0.1}");
+  EXPECT_EQ(std::get<contact::Coulomb>(*distance.model.pairs[0].definition.friction).change->by,
+            contact::FrictionChange::By::distance);
+  const Built rough = built("tresca: {limit: 3, penalty: 500}", "rough: {penalty: 7}");
+  EXPECT_EQ(std::get<contact::Rough>(*rough.model.pairs[2].definition.friction).stiffness, 7);
+  const std::string tied = "separation: tied, tolerance: 0.02, initial_gap: close";
+  EXPECT_EQ(built(tied, "separation: no_separation").model.pairs[1].definition.separation,
+            pairing::Separation::no_separation);
+  const Built normal = built(tied, "separation: tied_normal");
+  EXPECT_EQ(normal.model.pairs[1].definition.separation, pairing::Separation::tied_normal);
+  EXPECT_NEAR(normal.model.pairs[1].definition.tolerance, 0.05, 1e-15);  // 0.05 of facets of 1
+  EXPECT_TRUE(normal.model.pairs[1].definition.ties.empty());
+}
+
+TEST(LawKeys, SayHowManyPointsAreTied) {
+  const std::vector<std::string> notes = built().notes;
+  EXPECT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0], "contact 'joint': 6 of 6 points are tied (within 0.02)");
+}
+
+TEST(LawKeys, RefuseWhatMakesNoSense) {
+  const std::string floor = "model.yaml:20: contact[0].", joint = "model.yaml:26: contact[1].",
+                    top = "model.yaml:27: contact[2].";
+  const std::string exponential = "{exponential: {pressure: 12, clearance: 0.01}}";
+  const std::string tied = "separation: tied, tolerance: 0.02, initial_gap: close";
+  const std::string table = "[[-0.01, 0], [0, 5], [0.1, 50]]";
+  struct Refusal {
+    std::string from, to, message;
+  };
+  const std::vector<Refusal> all{
+      {exponential, "{}", floor + "normal: needs one of penalty, exponential, table"},
+      {exponential, "{penalty: 1, table: [[0, 0], [1, 1]]}",
+       floor + "normal: 'penalty' and 'table' exclude each other"},
+      {"clearance: 0.01}}", "clearance: 0}}",
+       floor + "normal.exponential.clearance: must be > 0, got 0"},
+      {"clearance: 0.01}}", "clearance: 0.01}, separation: no_separation}",
+       floor + "normal.separation: holding points needs a stiffness in tension: it goes with "
+               "penalty only"},
+      {tied, "tolerance: 0.02",
+       joint + "normal.tolerance: tolerance says what is tied: it goes with separation: tied or "
+               "tied_normal"},
+      {tied, "initial_gap: close",
+       joint + "normal.initial_gap: closing gaps goes with separation: tied only"},
+      {"tolerance: 0.02", "tolerance: -1", joint + "normal.tolerance: must be > 0, got -1"},
+      {tied + "}", tied + "}\n    friction: {rough: {penalty: 1}}",
+       "model.yaml:27: contact[1].friction: tied points do not slide: leave out friction, or use "
+       "tied_normal"},
+      {"slave: mid.bottom\n", "slave: high.bottom\n",
+       joint +
+           "normal.separation: no point of the slave 'high.bottom' is within 0.02 of the master "
+           "'low.top': nothing is tied"},
+      {"master: low.top\n", "master: mid.bottom\n",
+       joint + "normal.separation: a surface cannot be tied to itself: name master and slave"},
+      {table, "[[0, 0]]", top + "normal.table: needs at least 2 items, got 1"},
+      {table, "[[0, 1], [1, 2]]",
+       top + "normal.table[0]: the first pressure of the table must be 0"},
+      {table, "[[0, 0], [0, 2]]", top + "normal.table[1]: overclosures must grow: 0 follows 0"},
+      {table, "[[0, 0], [1, 2], [2, 1]]",
+       top + "normal.table[2]: pressures must not fall: 1 follows 2"},
+      {table, "[[0, 0], [1, 0]]", top + "normal.table: the table has no pressure > 0"},
+      {"kinetic: 0.2, decay: {speed: 0.5}", "kinetic: 0.2",
+       "model.yaml:21: contact[0].friction.coulomb.kinetic: how the coefficient changes is "
+       "missing: "
+       "add decay: {distance: ...} or {speed: ...}"},
+      {"kinetic: 0.2, decay", "decay",
+       "model.yaml:21: contact[0].friction.coulomb.decay: decay goes with a kinetic coefficient, "
+       "which is missing"},
+      {"duration: 0.5, ", "",
+       "model.yaml:21: contact[0].friction.coulomb.decay.speed: friction that depends on speed "
+       "needs "
+       "the duration of every step, and step 'one' has none"},
+      {"duration: 0.5, ", "duration: 0, ", "model.yaml:29: steps[0].duration: must be > 0, got 0"},
+      {"tresca: {limit: 3, penalty: 500}", "tresca: {limit: 3, penalty: 500}, rough: {penalty: 1}",
+       top + "friction: 'tresca' and 'rough' exclude each other"},
+  };
+  for (const Refusal& r : all) EXPECT_EQ(refusal_of(r.from, r.to), r.message) << r.to;
+}
+
+}  // namespace
+}  // namespace osculate::deck
