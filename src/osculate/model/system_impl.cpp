@@ -513,6 +513,8 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   out.saddle = constraint.size() > 0;
   out.force_scale =
       std::max({forces.internal.norm(), forces.contact.norm(), forces.external.norm()});
+  if (with_tangent && resistance.size() == 0) measure_resistance();
+  out.round_off = round_off;
   if (predict) out.force_scale = std::max(out.force_scale, out.residual.norm());
 }
 

@@ -43,11 +43,13 @@ struct BasicSystem<Dim>::Impl {
   bool sticking = false;         ///< points that slid are predicted to stick
   Eigen::VectorXd branch_shift;  ///< force of the linearised branches minus the true force
   bool branched = false;
-  double resisted = 0;         ///< share of `resistance` on the diagonal
-  Eigen::VectorXd resistance;  ///< stiffness of the bodies' own, one per unknown; empty: not needed
-  double carried = 0;          ///< largest prescribed increment of the last prediction
-  bool beginning = true;       ///< the first step: initial overlaps are let in
-  double extent = 0;           ///< of all cells
+  double resisted = 0;  ///< share of `resistance` on the diagonal
+  Eigen::VectorXd
+      resistance;      ///< stiffness of the bodies' own, one per unknown; empty: not yet measured
+  double carried = 0;  ///< largest prescribed increment of the last prediction
+  bool beginning = true;  ///< the first step: initial overlaps are let in
+  double round_off = 0;   ///< of internal forces, from that of the coordinates
+  double extent = 0;      ///< of all cells
   Step step;
   std::array<bool, 4> enabled{true, true, true, true};
   la::Symmetry symmetry;

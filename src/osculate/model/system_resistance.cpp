@@ -24,6 +24,8 @@ double size_of(const BasicModel<Dim>& model) {
 
 }  // namespace
 
+/// Also what the rounding of coordinates does to internal forces: |diag K| times that.
+///
 /// Rigid bodies have no stiffness of their own: they get the mean of the others', their rotations
 /// with the square of a length.
 template <int Dim>
@@ -45,6 +47,11 @@ void BasicSystem<Dim>::Impl::measure_resistance() {
       sum += diagonal[d];
       ++count;
     }
+  double farthest = 0;
+  for (const CellJob& job : jobs)
+    for (const Index n : cell_nodes(model.mesh, job.cell).nodes)
+      farthest = std::max(farthest, model.reference[static_cast<std::size_t>(n)].norm());
+  round_off = 2 * std::numeric_limits<double>::epsilon() * farthest * diagonal.norm();
   const double mean = count ? sum / count : 1.0, arm = extent;
   const Dof first = Dim * dofs.nodes();
   resistance.resize(dofs.unknowns());

@@ -193,7 +193,10 @@ template <System S>
             newton(system, result.state, target, options.newton, solver, {{}, 0, 0, false, true});
         resisted = held.outcome == Outcome::converged;
         wasted += static_cast<int>((resisted ? attempt : held).iterations.size());
-        if (resisted) attempt = std::move(held);  // else the first failure tells more
+        if (resisted)
+          attempt = std::move(held);
+        else if (held.outcome == Outcome::not_converged)
+          attempt.state = std::move(held.state);  // moves and moves: shows what is free
       }
       if (attempt.outcome != Outcome::converged) {
         extrapolation.reset();

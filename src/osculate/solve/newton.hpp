@@ -34,6 +34,7 @@ struct Evaluation {
   Eigen::VectorXd residual;         ///< out-of-balance force of the unknowns [force]
   Eigen::VectorXd branch_residual;  ///< what to linearise from where it differs from `residual`
   double force_scale = 0;  ///< largest of the norms of internal, external and contact forces
+  double round_off = 0;    ///< a residual below this is rounding of coordinates times stiffness
   StateCounts counts;
   bool saddle = false;  ///< some unknowns are multipliers: the residual has no potential
 };
@@ -241,7 +242,10 @@ struct LinePoint {
 /// and forth for ever. The zero of the work du . R(step) lies inside that range.
 ///
 /// The full correction is taken when it halves the residual, or when the work has not changed its
-/// sign and the residual has not grown; otherwise the zero is bracketed (Illinois' rule).
+/// sign and the residual has not grown; otherwise the zero is bracketed (Illinois' rule). Where the
+/// work keeps its sign and no part of the correction makes the residual smaller, the start lies on
+/// a border between states and the tangent is that of the wrong side: the full correction goes on,
+/// into the states that the next tangent is of.
 template <System S>
 double line_search(S& system, const typename S::State& committed,
                    NewtonResult<typename S::State>& result, const Eigen::VectorXd& du,
@@ -296,6 +300,7 @@ double line_search(S& system, const typename S::State& committed,
       next = at(0.5 * next.step);
       if (next.ok && next.norm < best.norm) best = next;
     }
+    if (high.step == 1 && best.norm > 0.999 * low.norm) best = high;
   }
   result.state = system.apply(start, du, time, best.step);
   return best.step;
@@ -393,7 +398,8 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
   const bool by_residual = judge.options.residual > 0;
   IterationRecord record;
   record.step = step;
-  record.residual = relative(e.residual.norm(), std::max(e.force_scale, least_scale));
+  const double size = e.residual.norm();
+  record.residual = relative(size, std::max(e.force_scale, least_scale));
   record.energy = relative(by_residual ? energy_after : energy_before, judge.first_energy);
   record.counts = e.counts;
   result.iterations.push_back(record);
@@ -401,7 +407,8 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
     return !fail(result, Outcome::numerical_failure, "the residual is not a number");
   const double correction = du.lpNorm<Eigen::Infinity>();
   judge.largest_correction = std::max(judge.largest_correction, correction);
-  if (!judge.done(record.residual, energy_before, energy_after) &&
+  const double counted = size <= e.round_off ? 0.0 : record.residual;
+  if (!judge.done(counted, energy_before, energy_after) &&
       !(result.iterations.size() > 1 && judge.at_round_off(record.residual, correction)))
     return false;
   result.outcome = Outcome::converged;
