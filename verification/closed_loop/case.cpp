@@ -8,6 +8,7 @@
 #include "../cases.hpp"
 #include "../run_space.hpp"
 #include "osculate/model/quantities.hpp"
+#include "over_borders.hpp"
 #include "tractrix.hpp"
 
 namespace osculate::verification {
@@ -170,6 +171,8 @@ Run drag(Floor floor, const std::vector<Way>& ways, bool let_go, int threads,
   return run;
 }
 
+constexpr std::array<const char*, 4> samplings{"nodes", "{gauss: 2}", "{lobatto: 3, subdomains: 2}",
+                                               "mortar"};
 constexpr const char* string_law = "stone on a string";
 constexpr const char* mapping_law = "return mapping";
 
@@ -255,7 +258,7 @@ void add_circle(CaseResult& out, int threads) {
   add(out, "circle: work of every increment / (mu N l), off by", work_gap, 1e-10, at_most, 0,
       mapping_law);
   add(out, "circle: work in summary.json and of the pair, off by", books, 0, equal, 0, "");
-  for (const std::string sampling : {"nodes", "{gauss: 2}", "{lobatto: 3, subdomains: 2}"}) {
+  for (const std::string sampling : samplings) {
     const Rounds facets = rounds(Floor::facets, 64, threads, sampling);
     const std::string name = fmt::format("circle over facets, {}: ", sampling);
     add(out, name + "shear of every increment / mu N, off by", facets.shear_gap, 1e-10, at_most, 0,
@@ -356,11 +359,32 @@ void add_elastic(CaseResult& out, int threads) {
       std::log2(unbalance[0] / unbalance[1]), 2, info, 0, "trapezoidal rule");
 }
 
+/// Straight over five unequal facets and back, with every sampling in the plane and in space.
+void add_over_borders(CaseResult& out, int threads) {
+  using enum Relation;
+  for (const int dimension : {2, 3})
+    for (const char* const sampling : samplings) {
+      const BorderNumbers n =
+          numbers_over_borders({.dimension = dimension, .sampling = sampling, .threads = threads});
+      const std::string name =
+          fmt::format("five facets, {}, {}: ", dimension == 2 ? "plane" : "space", sampling);
+      add(out, name + "shear left of sticking there and back / largest", n.left, 1e-12, at_most, 0,
+          "nothing is forgotten");
+      add(out, name + "largest change of the force at a border / N", n.jump, 1e-3, at_most, 0,
+          "flat floor");
+      add(out, name + "difference to a floor of one facet / N", n.uneven, 1e-10, at_most, 0,
+          "flat floor");
+      add(out, name + "work of a closed loop / (mu N way of the stone)", n.loop, 1, equal, 1e-10,
+          string_law);
+    }
+}
+
 }  // namespace
 
 CaseResult closed_loop(const CaseContext& context) {
   CaseResult out;
   add_circle(out, context.threads);
+  add_over_borders(out, context.threads);
   add_square(out, context.threads);
   add_elastic(out, context.threads);
   return out;

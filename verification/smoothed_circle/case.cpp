@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "../cases.hpp"
+#include "in_space.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::verification {
@@ -73,6 +74,45 @@ Forces ride_round(pairing::SmoothingKind kind) {
   return out;
 }
 
+/// The same on a round master in space, along one of its great circles.
+Forces ride_round(RoundMaster master, pairing::SmoothingKind kind) {
+  RideInSpace ride = ride_on(std::move(master), kind, stiffness, contact::Coulomb{mu, eps_t});
+  ride.x.back() = (1 - depth) * ride.outwards(0);
+  pairing::PairState<3> state = pairing::initial_state<3>(ride.pair, ride.x);
+  pairing::PairEvaluation<3> e;
+  Forces out;
+  for (int i = 1; i <= 2 * places; ++i) {
+    const double turns = static_cast<double>(i) / places;
+    const Vec3 out_of = ride.outwards(turns);
+    ride.x.back() = (1 - depth) * out_of;
+    pairing::evaluate<3>(ride.pair, ride.x, state, false, e);
+    state = pairing::commit(e);
+    if (i <= places) continue;
+    Vec3 force = Vec3::Zero();
+    if (e.blocks[0].active()) force = -e.blocks[0].force.head<3>();
+    out.radial.push_back(force.dot(out_of));
+    out.along.push_back(force.dot(ride.outwards(turns + 0.25)));
+  }
+  return out;
+}
+
+void add_in_space(CaseResult& out, const std::string& name, const RoundMaster& master) {
+  using enum Relation;
+  const auto add = [&](const char* quantity, double value, double reference, Relation relation) {
+    out.rows.push_back({name + quantity, value, reference, relation, 0, "round master"});
+  };
+  const Forces facets = ride_round(master, pairing::SmoothingKind::none);
+  const Forces smooth = ride_round(master, pairing::SmoothingKind::hermite);
+  add(", facets: oscillation of the radial force", oscillation(facets.radial), 0, info);
+  add(", facets: oscillation of the friction", oscillation(facets.along), 0, info);
+  add(", hermite: oscillation of the radial force", oscillation(smooth.radial), 0, info);
+  add(", hermite: oscillation of the friction", oscillation(smooth.along), 0, info);
+  add(", hermite: radial force, facets' oscillation / this",
+      oscillation(facets.radial) / oscillation(smooth.radial), 20, at_least);
+  add(", hermite: friction, facets' oscillation / this",
+      oscillation(facets.along) / oscillation(smooth.along), 20, at_least);
+}
+
 }  // namespace
 
 CaseResult smoothed_circle(const CaseContext&) {
@@ -103,6 +143,13 @@ CaseResult smoothed_circle(const CaseContext&) {
                           smoothed[1].radial[k]});
   }
   out.curves.push_back(std::move(curve));
+  constexpr int along_cube = 6;
+  for (const bool triangles : {false, true}) {
+    const char* const type = triangles ? "tri3" : "quad4";
+    add_in_space(out, fmt::format("cylinder of {} {}", corners, type), tube(corners, triangles));
+    add_in_space(out, fmt::format("sphere of 6 x {} x {} {}", along_cube, along_cube, type),
+                 ball(along_cube, triangles));
+  }
   return out;
 }
 

@@ -27,7 +27,8 @@ void check_smoothing(const Contact& contact, const pairing::PairDefinition<Dim>&
   if (pair.scope.own)
     throw core::InputError(mark, "a surface that touches itself cannot be smoothed");
   if (contact.edges) throw core::InputError(mark, "`edges` and `smoothing` exclude each other");
-  if (Dim == 3) throw core::InputError(mark, "smoothing is for plane models so far");
+  if (Dim == 3 && contact.smoothing.value.kind == SmoothingWord::nurbs)
+    throw core::InputError(mark, "nurbs is for plane models; in space use hermite");
   for (const auto& facet : pair.master.facets)
     if (const std::string wrong = wrong_facet(facet); !wrong.empty())
       throw core::InputError(mark, fmt::format("the master '{}' {}", contact.master.value, wrong));

@@ -43,6 +43,20 @@ double inside_part(cell::CellType type, const Vec2& xi, const Vec2& step) {
   return part;
 }
 
+/// Takes full Newton steps that the distance is too coarse to judge (it is flat where it is
+/// smallest: of 1e-16 relative, 1e-8 of the way), while the slope shrinks. Without them the slip is
+/// noisy by that much, and no increment gets below it.
+void polish(const PatchQuery& q, Vec2& xi, DistanceJet2& j) {
+  for (int it = 0; it < 3 && projection::positive(j.bend); ++it) {
+    const Vec2 next_xi = xi + projection::descent(j);
+    if (!next_xi.allFinite() || least_room(q.type, next_xi) < 0) return;
+    const DistanceJet2 next = distance_at(q, next_xi);
+    if (!(next.slope.norm() < j.slope.norm())) return;
+    xi = next_xi;
+    j = next;
+  }
+}
+
 /// Safeguarded Newton inside the cell; feature none if the way leads out of it.
 FacetFoot foot_inside(const PatchQuery& q, const Vec2& start) {
   FacetFoot foot;
@@ -62,13 +76,12 @@ FacetFoot foot_inside(const PatchQuery& q, const Vec2& start) {
       step *= 0.5;
       next = distance_at(q, foot.xi + step);
     }
-    // The distance is flat where it is smallest: there the slope judges.
-    const bool farther = next.squared_distance > j.squared_distance * (1 + 1e-14);
-    const bool shallow = step.norm() < 1e-7 && !(next.slope.norm() < j.slope.norm());
-    if (farther || shallow) break;
+    if (next.squared_distance > j.squared_distance * (1 + 1e-14)) break;
     foot.xi += step;
     j = next;
+    if (part == 1 && step.norm() <= 1e-7) break;
   }
+  polish(q, foot.xi, j);
   foot.squared_distance = j.squared_distance;
   foot.converged = projection::positive(j.bend) || j.slope.norm() <= 1e-12 * j.metric.trace();
   foot.feature = foot.converged ? Feature::face : Feature::none;
@@ -117,6 +130,22 @@ EdgeCurve edge_curve(const PatchQuery& q, int edge) {
   return out;
 }
 
+/// The same along an edge.
+void polish(const EdgeCurve& e, const Vec3& point, double& t, double& squared) {
+  for (int it = 0; it < 3; ++it) {
+    const std::array<Vec3, 3> r = e.at(t);
+    const double slope = -(point - r[0]).dot(r[1]);
+    const double bend = r[1].squaredNorm() - (point - r[0]).dot(r[2]);
+    if (!(bend > 0)) return;
+    const double next = t - slope / bend;
+    if (!(next >= 0 && next <= 1)) return;
+    const std::array<Vec3, 3> there = e.at(next);
+    if (!(std::abs((point - there[0]).dot(there[1])) < std::abs(slope))) return;
+    t = next;
+    squared = (point - there[0]).squaredNorm();
+  }
+}
+
 /// Safeguarded Newton for the nearest t, from the nearest of five samples.
 double nearest_on_edge(const EdgeCurve& e, const Vec3& point, double& squared) {
   const auto distance = [&](double t) { return (point - e.at(t)[0]).squaredNorm(); };
@@ -124,7 +153,6 @@ double nearest_on_edge(const EdgeCurve& e, const Vec3& point, double& squared) {
   squared = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= 4; ++i)
     if (const double d = distance(0.25 * i); d < squared) squared = d, t = 0.25 * i;
-  double slope_before = std::numeric_limits<double>::infinity();
   for (int it = 0; it < 40; ++it) {
     const std::array<Vec3, 3> r = e.at(t);
     const double slope = -(point - r[0]).dot(r[1]), a = r[1].squaredNorm();
@@ -134,13 +162,12 @@ double nearest_on_edge(const EdgeCurve& e, const Vec3& point, double& squared) {
     double d = distance(t + step);
     for (int half = 0; half < 30 && d > squared * (1 + 1e-14); ++half)
       step *= 0.5, d = distance(t + step);
-    const bool shallow = std::abs(step) < 1e-7 && !(std::abs(slope) < slope_before);
-    if (!(d <= squared * (1 + 1e-14)) || shallow) break;
-    slope_before = std::abs(slope);
+    if (!(d <= squared * (1 + 1e-14))) break;
     t += step;
     squared = d;
-    if (std::abs(step) <= 1e-16) break;
+    if (std::abs(step) <= 1e-7) break;
   }
+  polish(e, point, t, squared);
   return t;
 }
 

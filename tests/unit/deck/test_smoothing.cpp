@@ -60,6 +60,35 @@ TEST(SmoothingKey, TangentOfTheSystem) {
       }
 }
 
+/// Two boxes in space, the upper one 0.02 deep in the lower one.
+std::string boxes(const std::string& keys) {
+  return "osculate: 1\nmesh: {generate: {low: {box: {x: [0, 2], y: [0, 2], z: [0, 1], elements: "
+         "[3, 3, 1]}}, up: {box: {x: [0.3, 1.6], y: [0.4, 1.5], z: [0.98, 1.5], elements: [1, 1, "
+         "1]}}}}\nmaterials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\nsections: [{on: low, "
+         "material: m, element: solid}, {on: up, material: m, element: solid}]\ncontact: [{name: "
+         "c, master: low.top, slave: up.bottom, normal: {penalty: 500}, " +
+         keys +
+         "}]\nsteps: [{name: s, increments: 1, prescribe: [{on: low.bottom, ux: 0, uy: 0, uz: "
+         "0}]}]\n";
+}
+
+TEST(SmoothingKey, BuildsSmoothPatchesInSpace) {
+  const Description d = parse_model(boxes("smoothing: hermite"), "model.yaml");
+  const Built3 built = build3(d, load_mesh(d));
+  const auto& facets = built.model.pairs[0].definition.master.facets;
+  ASSERT_EQ(facets.size(), 9u);
+  for (const pairing::SurfaceFacet& facet : facets) EXPECT_TRUE(facet.patch);
+  const Description nurbs = parse_model(boxes("smoothing: nurbs"), "model.yaml");
+  try {
+    (void)build3(nurbs, load_mesh(nurbs));
+    FAIL();
+  } catch (const core::InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "model.yaml:5: contact[0].smoothing: nurbs is for plane models; in space use "
+                 "hermite");
+  }
+}
+
 TEST(HistoryKey, ChoosesTheRule) {
   using pairing::HistoryRule;
   const auto rule = [](const std::string& word) {

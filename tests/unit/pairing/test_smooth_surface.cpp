@@ -315,6 +315,36 @@ TEST(SmoothSurface, ClosestPoint) {
   }
 }
 
+// Ironing with a smooth punch crawled: so near the surface the distance is too coarse to find the
+// place by better than 1e-8, and the slip had that noise.
+TEST(SmoothSurface, FootPointsAreSharpToRounding) {
+  for (const CellType type : {CellType::quad4, CellType::tri3}) {
+    const Skin s = cube(type, 4, true, everything, 0.02);
+    std::vector<search::Box<3>> boxes;
+    pairing::facet_boxes(s.surface, s.x, boxes);
+    pairing::Tree<3> tree;
+    tree.refit(boxes);
+    int faces = 0;
+    for (int i = 0; i < 400; ++i) {
+      const auto f = static_cast<std::size_t>(i) % s.surface.facets.size();
+      const double a = 0.05 + 0.4 * std::abs(std::sin(0.7 * i)), b = 0.5 - a * std::cos(1.3 * i);
+      const Vec2 xi =
+          type == CellType::tri3 ? Vec2(a, 0.9 * (1 - a) * b) : Vec2(2 * a - 1, 1.8 * b - 1);
+      const geometry::SurfaceJet jet = jet_of(s, f, xi);
+      const Vec3 n = jet.r1[0].cross(jet.r1[1]).normalized();
+      pairing::ProjectionQuery<3> query;
+      query.point = jet.r + (i % 3 - 1.1) * 0.01 * n;
+      const pairing::Projection<3> p = pairing::closest(s.surface, tree, s.x, query);
+      if (p.feature != Feature::face) continue;
+      ++faces;
+      const geometry::SurfaceJet foot = jet_of(s, static_cast<std::size_t>(p.facet), p.xi);
+      for (std::size_t d = 0; d < 2; ++d)
+        EXPECT_NEAR((query.point - foot.r).dot(foot.r1[d].normalized()), 0, 2e-15);
+    }
+    EXPECT_GT(faces, 350);
+  }
+}
+
 Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<double> uniform(-1, 1);
