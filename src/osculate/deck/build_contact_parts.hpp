@@ -13,6 +13,10 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] pairing::Boundary<Dim> boundary_of(const BuildContext<Dim>& c, const Name& name);
 
+/// Refuses choices that do not go together: what needs nodes as contact points, or one slave, or a
+/// penalty. Throws core::InputError.
+void check_axes(const Contact& contact);
+
 /// The slave that a pair names: facets, or points.
 template <int Dim>
 [[nodiscard]] pairing::SlaveSide<Dim> slave_of(const BuildContext<Dim>& c, const Contact& contact);

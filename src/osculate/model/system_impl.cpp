@@ -52,17 +52,6 @@ bool needs_unsymmetric(const BasicModel<Dim>& model) {
 }
 
 template <int Dim>
-bool constrained(const BasicContactPair<Dim>& pair) {
-  return pair.definition.enforcement == contact::Enforcement::lagrange_multiplier;
-}
-
-/// Unknowns of one point of a pair whose multipliers are unknowns.
-template <int Dim>
-Index multipliers_per_point(const BasicContactPair<Dim>& pair) {
-  return pair.definition.friction ? Dim + 1 : 1;
-}
-
-template <int Dim>
 Index multiplier_unknowns(const BasicModel<Dim>& model) {
   Index sum = 0;
   for (const BasicContactPair<Dim>& pair : model.pairs)
@@ -149,22 +138,6 @@ double BasicSystem<Dim>::Impl::current_value(const State& s, Dof dof) const {
   if (local < 0) return s.u[dof];
   return s.rigid[static_cast<std::size_t>(local / body::motions<Dim>)].component(
       local % body::motions<Dim>);
-}
-
-template <int Dim>
-void BasicSystem<Dim>::Impl::add_to_multipliers(State& s, const Eigen::VectorXd& du,
-                                                double factor) const {
-  for (std::size_t p = 0; p < first_multiplier.size(); ++p) {
-    if (first_multiplier[p] < 0) continue;
-    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
-    Index row = first_multiplier[p];
-    for (contact::Multiplier<Dim>& m : s.multipliers[p].points) {
-      m.normal += factor * contact::penalty(pair.normal) * du[row++];
-      if (!pair.friction) continue;
-      m.shear += factor * contact::stiffness(*pair.friction) * du.segment<Dim>(row);
-      row += Dim;
-    }
-  }
 }
 
 template <int Dim>
@@ -297,79 +270,6 @@ void BasicSystem<Dim>::Impl::add_contact_block(const pairing::ContactBlock<Dim>&
   if (block.tangent.size() > 0) add_stiffness(d, block.tangent, inc);
   add_path(d, block, inc);
   add_rank_one(d, block.area_rows, block.area, inc);
-}
-
-template <int Dim>
-double BasicSystem<Dim>::Impl::add_constraint_row(Index unknown, const Eigen::VectorXd* inc) {
-  const double largest = assembler.add_row(unknown, path_dofs, path_values);
-  if (!inc) return largest;
-  double along = 0;
-  for (std::size_t j = 0; j < path_dofs.size(); ++j) along += path_values[j] * (*inc)[path_dofs[j]];
-  const Index row = unknown - dofs.unknowns();
-  constraint[row] += along;
-  branch_constraint[row] += along;
-  return largest;
-}
-
-template <int Dim>
-void BasicSystem<Dim>::Impl::add_constraint_tangent(const pairing::ContactBlock<Dim>& block,
-                                                    bool friction, Index first,
-                                                    const Eigen::VectorXd* inc) {
-  const pairing::ConstraintBlock<Dim>& c = block.constraint;
-  const Index count = friction ? Dim + 1 : 1;
-  constexpr double round_off = 1e-10;
-  for (Index row = 0; row < count; ++row) {
-    path_dofs.clear();
-    path_values.clear();
-    const auto add = [&](Index node, const auto& values) {
-      for (int i = 0; i < Dim; ++i) {
-        path_dofs.push_back(dofs.node_dof(node, i));
-        path_values.push_back(values[i]);
-      }
-    };
-    if (row == 0)
-      for (const pairing::NodeGradient<Dim>& g : c.normal_row) add(g.node, g.value);
-    else
-      for (const pairing::NodeMatrix<Dim>& g : c.shear_row)
-        add(g.node, Vec<Dim>(g.value.row(row - 1).transpose()));
-    double largest = add_constraint_row(first + row, inc);
-    for (Index column = 0; column < count; ++column)
-      if (const double own = c.own(row, column); own != 0.0) {
-        builder.add(first + row, first + column, own);
-        largest = std::max(largest, std::abs(own));
-      }
-    // Both sides are prescribed in this direction: the traction stays what it is.
-    if (largest <= round_off * c.scale[row]) builder.add(first + row, first + row, -c.scale[row]);
-  }
-  if (!block.active()) return;
-  contact_dofs.clear();
-  for (int k = 0; k < Dim * block.count; ++k)
-    contact_dofs.push_back(dofs.node_dof(block.nodes[static_cast<std::size_t>(k / Dim)], k % Dim));
-  for (Index column = 0; column < count; ++column)
-    assembler.add_column(contact_dofs,
-                         {c.columns.col(column).data(), static_cast<std::size_t>(c.columns.rows())},
-                         first + column);
-}
-
-template <int Dim>
-void BasicSystem<Dim>::Impl::add_constraints(std::size_t pair, bool with_tangent,
-                                             const Eigen::VectorXd* inc) {
-  if (first_multiplier[pair] < 0) return;
-  const bool friction = model.pairs[pair].definition.friction.has_value();
-  const Index count = multipliers_per_point(model.pairs[pair]);
-  Index first = first_multiplier[pair];
-  for (std::size_t i = 0; i < model.pairs[pair].definition.slave.points.size(); ++i) {
-    const pairing::ContactBlock<Dim>& block = contact[pair].blocks[i];
-    const Index row = first - dofs.unknowns();
-    constraint[row] += block.constraint.normal;
-    branch_constraint[row] += block.constraint.normal;
-    if (friction) {
-      constraint.segment<Dim>(row + 1) += block.constraint.shear;
-      branch_constraint.segment<Dim>(row + 1) += block.constraint.branch_shear;
-    }
-    if (with_tangent) add_constraint_tangent(block, friction, first, inc);
-    first += count;
-  }
 }
 
 template <int Dim>

@@ -22,6 +22,18 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Whether the tractions of a pair are unknowns.
+template <int Dim>
+[[nodiscard]] bool constrained(const BasicContactPair<Dim>& pair) {
+  return pair.definition.enforcement == contact::Enforcement::lagrange_multiplier;
+}
+
+/// Unknowns of one point of a pair whose multipliers are unknowns.
+template <int Dim>
+[[nodiscard]] Index multipliers_per_point(const BasicContactPair<Dim>& pair) {
+  return pair.definition.friction ? Dim + 1 : 1;
+}
+
 template <int Dim>
 struct BasicSystem<Dim>::Impl {
   using BulkBlock = BasicBulkBlock<Dim>;

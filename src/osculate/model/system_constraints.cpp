@@ -1,0 +1,104 @@
+// Rows and columns of multipliers that are unknowns (pairing/constraint.hpp).
+#include <algorithm>
+
+#include "osculate/model/system_impl.hpp"
+
+namespace osculate::model {
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_to_multipliers(State& s, const Eigen::VectorXd& du,
+                                                double factor) const {
+  for (std::size_t p = 0; p < first_multiplier.size(); ++p) {
+    if (first_multiplier[p] < 0) continue;
+    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
+    Index row = first_multiplier[p];
+    for (contact::Multiplier<Dim>& m : s.multipliers[p].points) {
+      m.normal += factor * contact::penalty(pair.normal) * du[row++];
+      if (!pair.friction) continue;
+      m.shear += factor * contact::stiffness(*pair.friction) * du.segment<Dim>(row);
+      row += Dim;
+    }
+  }
+}
+
+template <int Dim>
+double BasicSystem<Dim>::Impl::add_constraint_row(Index unknown, const Eigen::VectorXd* inc) {
+  const double largest = assembler.add_row(unknown, path_dofs, path_values);
+  if (!inc) return largest;
+  double along = 0;
+  for (std::size_t j = 0; j < path_dofs.size(); ++j) along += path_values[j] * (*inc)[path_dofs[j]];
+  const Index row = unknown - dofs.unknowns();
+  constraint[row] += along;
+  branch_constraint[row] += along;
+  return largest;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_constraint_tangent(const pairing::ContactBlock<Dim>& block,
+                                                    bool friction, Index first,
+                                                    const Eigen::VectorXd* inc) {
+  const pairing::ConstraintBlock<Dim>& c = block.constraint;
+  const Index count = friction ? Dim + 1 : 1;
+  constexpr double negligible = 1e-10;
+  for (Index row = 0; row < count; ++row) {
+    path_dofs.clear();
+    path_values.clear();
+    const auto add = [&](Index node, const auto& values) {
+      for (int i = 0; i < Dim; ++i) {
+        path_dofs.push_back(dofs.node_dof(node, i));
+        path_values.push_back(values[i]);
+      }
+    };
+    if (row == 0)
+      for (const pairing::NodeGradient<Dim>& g : c.normal_row) add(g.node, g.value);
+    else
+      for (const pairing::NodeMatrix<Dim>& g : c.shear_row)
+        add(g.node, Vec<Dim>(g.value.row(row - 1).transpose()));
+    double largest = add_constraint_row(first + row, inc);
+    for (Index column = 0; column < count; ++column)
+      if (const double own = c.own(row, column); own != 0.0) {
+        builder.add(first + row, first + column, own);
+        largest = std::max(largest, std::abs(own));
+      }
+    // Both sides are prescribed in this direction: the traction stays what it is.
+    if (largest <= negligible * c.scale[row]) builder.add(first + row, first + row, -c.scale[row]);
+  }
+  if (!block.active()) return;
+  contact_dofs.clear();
+  for (int k = 0; k < Dim * block.count; ++k)
+    contact_dofs.push_back(dofs.node_dof(block.nodes[static_cast<std::size_t>(k / Dim)], k % Dim));
+  for (Index column = 0; column < count; ++column)
+    assembler.add_column(contact_dofs,
+                         {c.columns.col(column).data(), static_cast<std::size_t>(c.columns.rows())},
+                         first + column);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::add_constraints(std::size_t pair, bool with_tangent,
+                                             const Eigen::VectorXd* inc) {
+  if (first_multiplier[pair] < 0) return;
+  const bool friction = model.pairs[pair].definition.friction.has_value();
+  const Index count = multipliers_per_point(model.pairs[pair]);
+  Index first = first_multiplier[pair];
+  for (std::size_t i = 0; i < model.pairs[pair].definition.slave.points.size(); ++i) {
+    const pairing::ContactBlock<Dim>& block = contact[pair].blocks[i];
+    const Index row = first - dofs.unknowns();
+    constraint[row] += block.constraint.normal;
+    branch_constraint[row] += block.constraint.normal;
+    if (friction) {
+      constraint.segment<Dim>(row + 1) += block.constraint.shear;
+      branch_constraint.segment<Dim>(row + 1) += block.constraint.branch_shear;
+    }
+    if (with_tangent) add_constraint_tangent(block, friction, first, inc);
+    first += count;
+  }
+}
+
+template void BasicSystem<2>::Impl::add_constraints(std::size_t, bool, const Eigen::VectorXd*);
+template void BasicSystem<3>::Impl::add_constraints(std::size_t, bool, const Eigen::VectorXd*);
+template void BasicSystem<2>::Impl::add_to_multipliers(State&, const Eigen::VectorXd&,
+                                                       double) const;
+template void BasicSystem<3>::Impl::add_to_multipliers(State&, const Eigen::VectorXd&,
+                                                       double) const;
+
+}  // namespace osculate::model
