@@ -94,8 +94,9 @@ template <int Dim>
 BasicState<Dim> BasicSystem<Dim>::remember(const State& trial) const {
   State state = trial;
   state.assumed.clear();
-  for (const pairing::PairEvaluation<Dim>& e : impl_->contact)
-    state.assumed.push_back(pairing::evaluated_branches(e));
+  for (std::size_t p = 0; p < impl_->contact.size(); ++p)
+    state.assumed.push_back(pairing::evaluated_branches(
+        impl_->contact[p], p < trial.assumed.size() ? trial.assumed[p] : pairing::Assumed<Dim>{}));
   return state;
 }
 

@@ -26,7 +26,7 @@ Vec2 unit_normal(const Facet& facet, double xi, std::span<const Vec2> x) {
 bool ends_at(const Chain& chain, const Facet& facet, bool high, std::span<const Vec2> x,
              const ProjectionQuery<2>& query) {
   const Index next = high ? facet.next : facet.prev;
-  if (next < 0) return true;
+  if (next < 0 || query.kept >= 0) return true;
   if (facet.shape || (!query.slave_normal && !query.scope)) return false;
   const Facet& other = chain.facets[static_cast<std::size_t>(next)];
   return ends_between<2>(query, unit_normal(facet, high ? facet.hi : facet.lo, x),
@@ -162,6 +162,20 @@ bool equidistant(const Chain& chain, std::span<const Vec2> x, const Candidate& b
          std::abs(tied.distance - best.distance) <= 1e-10 * best.distance;
 }
 
+/// The foot on the facet that the point keeps, if it is still there.
+Projection<2> on_kept_facet(const Chain& chain, std::span<const Vec2> x,
+                            const ProjectionQuery<2>& query) {
+  Projection<2> p;
+  const Facet& facet = chain.facets[static_cast<std::size_t>(query.kept)];
+  const CurveFoot foot = foot_on_facet(chain, facet, x, query);
+  if (!foot.converged || foot.at_end || faces_away(facet, foot, x, query)) return p;
+  p.feature = Feature::face;
+  p.facet = query.kept;
+  p.xi[0] = foot.xi;
+  p.distance = std::sqrt(foot.squared_distance);
+  return p;
+}
+
 /// How far beyond the nearest facet another one may lie and still count as equally near.
 double tie_distance(const Chain& chain, std::span<const Vec2> x) {
   const Facet& facet = chain.facets.front();
@@ -204,6 +218,13 @@ void facet_boxes(const Chain& chain, std::span<const Vec2> x, std::vector<search
 
 Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const Vec2> x,
                       const ProjectionQuery<2>& query) {
+  if (query.kept >= 0) {
+    const Projection<2> kept = on_kept_facet(chain, x, query);
+    if (kept.feature != Feature::none) return kept;
+    ProjectionQuery<2> any = query;
+    any.kept = -1;
+    return closest(chain, tree, x, any);
+  }
   constexpr double far_away = std::numeric_limits<double>::infinity();
   const double reach = query.scope ? query.scope->reach : far_away;
   Candidate best, tied;

@@ -60,7 +60,7 @@ Vec3 middle_of(const SurfaceFacet& facet, std::span<const Vec3> x) {
 bool ends_at(const FacetSurface& surface, const SurfaceFacet& facet, int edge,
              std::span<const Vec3> x, const ProjectionQuery<3>& query) {
   const Index other = facet.neighbour[static_cast<std::size_t>(edge)];
-  if (other < 0) return true;
+  if (other < 0 || query.kept >= 0) return true;
   if (!query.slave_normal && !query.scope) return false;
   const SurfaceFacet& next = surface.facets[static_cast<std::size_t>(other)];
   return ends_between<3>(query, middle_normal(facet, x), middle_normal(next, x),
@@ -256,6 +256,21 @@ bool faces_away(const SurfaceFacet& facet, const FacetFoot& foot, std::span<cons
          facet_normal(facet, foot.xi, x).dot(*query.slave_normal) > same_way_cosine;
 }
 
+/// The foot on the facet that the point keeps, if it is still there.
+Projection<3> on_kept_facet(const FacetSurface& surface, std::span<const Vec3> x,
+                            const ProjectionQuery<3>& query) {
+  Projection<3> p;
+  const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(query.kept)];
+  const FacetFoot foot = foot_on_facet(surface, facet, x, query);
+  if (!foot.converged || foot.feature != Feature::face || faces_away(facet, foot, x, query))
+    return p;
+  p.feature = Feature::face;
+  p.facet = query.kept;
+  p.xi = foot.xi;
+  p.distance = std::sqrt(foot.squared_distance);
+  return p;
+}
+
 }  // namespace
 
 void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
@@ -285,6 +300,13 @@ void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
 
 Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::span<const Vec3> x,
                       const ProjectionQuery<3>& query) {
+  if (query.kept >= 0) {
+    const Projection<3> kept = on_kept_facet(surface, x, query);
+    if (kept.feature != Feature::none) return kept;
+    ProjectionQuery<3> any = query;
+    any.kept = -1;
+    return closest(surface, tree, x, any);
+  }
   constexpr double far_away = std::numeric_limits<double>::infinity();
   const double reach = query.scope ? query.scope->reach : far_away;
   Candidate best, tied;

@@ -140,7 +140,8 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
     BranchHint<Dim> hint = hint_of(assumed, multipliers, i);
     if (!committed.overlap.empty()) hint.relieved = assumed.relief * committed.overlap[i];
-    const Placed<Dim> placed = place_point(pair, out, x, i, committed.points[i]);
+    const Placed<Dim> placed =
+        place_point(pair, out, x, i, committed.points[i], hint.assumed.kept());
     laps.add_to(out.seconds.projection);
     evaluate_point(pair, x, committed.points[i], placed, hint, with_tangent, i, out);
     laps.add_to(out.seconds.evaluation);
@@ -171,9 +172,19 @@ Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair, const PairState
 }
 
 template <int Dim>
-Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation) {
+Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation, const Assumed<Dim>& before) {
   Assumed<Dim> assumed;
-  for (const PointResult<Dim>& point : evaluation.points) assumed.branch.push_back(point.branch);
+  for (std::size_t i = 0; i < evaluation.points.size(); ++i) {
+    const PointResult<Dim>& point = evaluation.points[i];
+    AssumedBranch<Dim>& branch = assumed.branch.emplace_back(point.branch);
+    const bool touches = point.status != contact::Status::open;
+    branch.facet = touches && branch.edges[0] < 0 ? point.history.facet : -1;
+    if (before.predict || i >= before.branch.size()) continue;
+    const AssumedBranch<Dim>& last = before.branch[i];
+    const bool changed = branch.facet >= 0 && last.facet >= 0 && branch.facet != last.facet;
+    branch.changes = last.changes + (changed ? 1 : 0);
+    if (branch.facet < 0) branch.facet = last.facet;
+  }
   return assumed;
 }
 
@@ -269,8 +280,8 @@ template Assumed<2> committed_branches<2>(const PairDefinition<2>&, const PairSt
                                           bool);
 template Assumed<3> committed_branches<3>(const PairDefinition<3>&, const PairState<3>&, Points<3>,
                                           bool);
-template Assumed<2> evaluated_branches<2>(const PairEvaluation<2>&);
-template Assumed<3> evaluated_branches<3>(const PairEvaluation<3>&);
+template Assumed<2> evaluated_branches<2>(const PairEvaluation<2>&, const Assumed<2>&);
+template Assumed<3> evaluated_branches<3>(const PairEvaluation<3>&, const Assumed<3>&);
 template void evaluate<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
                           PairEvaluation<2>&, const Assumed<2>&, const PairMultipliers<2>*);
 template void evaluate<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,

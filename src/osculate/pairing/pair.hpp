@@ -97,6 +97,15 @@ struct AssumedBranch {
   contact::Branch branch = contact::Branch::none;
   Vec<Dim> direction = Vec<Dim>::Zero();  ///< unit vector of the shear traction while slipping
   std::array<Index, 2> edges{-1, -1};     ///< of a crossing: the slave's and the master's
+  /// A point that has gone back and forth over the border of a facet keeps that facet until the
+  /// increment is done: between two facets at an angle the force jumps, and iterations that follow
+  /// it find no end.
+  Index facet = -1;  ///< in this iteration
+  int changes = 0;   ///< of the facet, in this increment
+  [[nodiscard]] Index kept() const {
+    constexpr int enough = 3;
+    return changes >= enough ? facet : -1;
+  }
 };
 
 /// Result of one contact point, for output and for the next history.
@@ -209,9 +218,10 @@ template <int Dim>
 [[nodiscard]] Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair,
                                               const PairState<Dim>& committed, Points<Dim> x,
                                               bool sticking = false);
-/// Branches of an evaluation, for the next iteration.
+/// Branches of an evaluation, for the next iteration; `before` are those it was made with.
 template <int Dim>
-[[nodiscard]] Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation);
+[[nodiscard]] Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation,
+                                              const Assumed<Dim>& before = {});
 
 /// One evaluation of all points of the pair: search, projection, kinematics, tractions from the
 /// committed history, residual and (if asked) tangent. `multipliers` are needed where the pair's

@@ -40,13 +40,14 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Placed<Dim> place_point(const PairDefinition<Dim>& pair,
                                       const PairEvaluation<Dim>& work, Points<Dim> x, std::size_t i,
-                                      const contact::PointHistory<Dim>& history) {
+                                      const contact::PointHistory<Dim>& history, Index kept = -1) {
   if (work.apart) return {};
   ProjectionQuery<Dim> query;
   query.point = position<Dim>(pair.slave.points[i], x);
   if (work.normals[i].squaredNorm() > 0) query.slave_normal = work.normals[i];
   query.history = history.facet;
   query.history_feature = history.feature;
+  query.kept = kept;
   NodeScope<Dim> rules;
   if (pair.scope.limited()) {
     rules = node_scope<Dim>(pair.scope, pair.slave, work.scope, i, query.point);
