@@ -10,10 +10,13 @@ namespace {
 
 template <int Dim>
 double share_at(const PairDefinition<Dim>& pair, const SlavePoint<Dim>& slave,
-                const contact::PointHistory<Dim>& history, const Placed<Dim>& placed,
+                const PointResult<Dim>& point, const Placed<Dim>& placed,
                 const contact::TangentForm& parts) {
   contact::Traction<Dim> traction;
-  traction.normal = normal_response(pair, history, placed.kinematics.gap);
+  traction.normal =
+      normal_response<Dim>(pair, point.history, placed.kinematics.gap, BranchHint<Dim>{});
+  if (!traction.normal.active) traction.normal.d_traction = contact::penalty(pair.normal);
+  traction.normal.traction = point.normal_traction;
   const Weights<Dim> w = contact_weights(slave, placed);
   const int count = slave.count + placed.count, size = Dim * count;
   const auto matrix = [&](bool rotational, bool curvature) {
@@ -43,7 +46,8 @@ double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
     const contact::PointHistory<Dim>& history = evaluation.points[i].history;
     const Placed<Dim> placed = place_point<Dim>(pair, evaluation, x, i, history);
     if (placed.projection.feature == projection::Feature::none) continue;
-    largest = std::max(largest, share_at(pair, pair.slave.points[i], history, placed, parts));
+    largest = std::max(largest,
+                       share_at(pair, pair.slave.points[i], evaluation.points[i], placed, parts));
   }
   return largest;
 }
