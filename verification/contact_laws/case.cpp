@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -15,25 +16,26 @@ namespace {
 constexpr double length = 2;  ///< of the block, which is 1 high and 1 thick
 
 /// A block on a rigid line; `contact` are the keys of its law, `steps` the list of steps.
-std::string block_text(double young, const std::string& contact, const std::string& steps,
-                       double height = 0) {
+std::string block_text(double young, const std::string& contact, const std::string& steps) {
   return fmt::format(R"(osculate: 1
 title: Block on a rigid line
-mesh: {{generate: {{block: {{box: {{x: [0, {}], y: [{}, {}], elements: [4, 2]}}}}}}}}
+mesh: {{generate: {{block: {{box: {{x: [0, {}], y: [0, 1], elements: [4, 2]}}}}}}}}
 materials: {{s: {{linear_elastic: {{E: {}, nu: 0}}}}}}
 sections: [{{on: block, material: s, element: plane_strain}}]
 rigid: {{floor: {{line: {{point: [0, 0], normal: [0, 1]}}}}}}
 contact: [{{name: c, master: floor, slave: block.bottom, {}}}]
 steps: {}
-solver: {{tolerance: {{residual: 1.0e-13}}}}
+{}
 )",
-                     length, height, height + 1, young, contact, steps);
+                     length, young, contact, steps,
+                     young > 1e6 ? "" : "solver: {tolerance: {residual: 1.0e-13}}");
 }
 
 /// What the points of a contact carry together, and their least and largest gap.
 struct Sum {
   double normal = 0, shear = 0, slid = 0, area = 0;
   double least = 1e300, largest = -1e300;
+  std::vector<std::array<double, 2>> sliding;  ///< T / N and distance slid, point by point
 };
 
 Sum sum_of(const Snapshot& now) {
@@ -45,6 +47,8 @@ Sum sum_of(const Snapshot& now) {
     sum.slid += p.weight * p.history.slid;
     sum.least = std::min(sum.least, p.gap);
     sum.largest = std::max(sum.largest, p.gap);
+    if (p.status == contact::Status::slip)
+      sum.sliding.push_back({std::abs(p.shear_traction[0] / p.normal_traction), p.history.slid});
   }
   sum.slid /= sum.area;
   return sum;
@@ -147,11 +151,11 @@ void add_limits(CaseResult& out) {
     add(out, fmt::format("cap, pressed by {:g}: sliding force / (cap A)", press),
         capped.shear / (1.5 * length), 1, 1e-12, "definition");
   }
-  const Sum rough = end_of(dragged(1000, "{rough: {penalty: 1.0e3}}", 0.01, 0.05, 10, 1));
+  const Sum rough = end_of(dragged(1000, "{rough: {penalty: 1.0e3}}", 0.01, 0.005, 10, 1));
   add(out, "rough: distance slid", rough.slid, 0, 1e-15, "definition");
 }
 
-constexpr double mu_s = 0.5, mu_k = 0.2, scale = 0.02, eps_t = 1000, stiff = 1e9;
+constexpr double mu_s = 0.5, mu_k = 0.2, scale = 0.02, eps_t = 1000, stiff = 1e7;
 
 double coefficient(double a) { return mu_k + (mu_s - mu_k) * std::exp(-a / scale); }
 
@@ -177,14 +181,15 @@ void add_static_and_kinetic(CaseResult& out) {
     const double ratio = all[i].shear / all[i].normal, p = all[i].normal / length;
     peak = std::max(peak, ratio);
     if (!(all[i].slid > 0)) continue;
-    worst = std::max(worst, std::abs(ratio - coefficient(all[i].slid)));
+    for (const auto& [mu, slid] : all[i].sliding)
+      worst = std::max(worst, std::abs(mu - coefficient(slid)));
     const double moved = way * static_cast<double>(i) / 400;
     analytic = std::max(analytic, std::abs(ratio - coefficient_at(moved, p)));
   }
   const double last = all.empty() ? 0 : all.back().shear / all.back().normal;
   add(out, "static to kinetic: peak of T / N over mu_s", peak / mu_s, 1, 0.01, "definition");
   add(out, "static to kinetic: T / N at the end over mu_k", last / mu_k, 1, 1e-3, "definition");
-  add(out, "static to kinetic: largest error of T / N = mu(distance slid)", worst, 0, 1e-8,
+  add(out, "static to kinetic: largest error of T / N = mu(distance slid)", worst, 0, 1e-12,
       "definition");
   add(out, "static to kinetic: largest error along the way", analytic, 0, 1e-4,
       "u = mu(s) p / eps_T + s");
