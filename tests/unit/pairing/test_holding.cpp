@@ -112,6 +112,7 @@ TEST(Offset, RoundsACorner) {
   s.x[1] = {0, 0};
   s.x[2] = {2, -2};
   s.x[3] = {0.02, 0.38};
+  s.x[4] = {-0.98, 0.58};  // the slave looks down
   s.pair.weight = pairing::Weight::node;
   s.pair.offset = 0.4;
   pairing::PairEvaluation<2> e;

@@ -59,11 +59,13 @@ template <int Dim>
 /// At which limit a sliding point is expected to go on, before the first iteration.
 [[nodiscard]] inline SlipLimit predicted_limit(const FrictionLaw& law, double trial,
                                                double normal_traction, const Sliding& sliding) {
-  return std::visit(
+  SlipLimit limit = std::visit(
       [&](const auto& l) {
         return l.predicted_limit(trial, pressure_of(normal_traction), sliding);
       },
       law);
+  if (normal_traction > 0) limit.d_pressure = 0;
+  return limit;
 }
 /// Whether the law asks how long an increment lasts.
 [[nodiscard]] inline bool needs_duration(const FrictionLaw& law) {

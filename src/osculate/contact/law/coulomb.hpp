@@ -78,7 +78,9 @@ struct Coulomb {
     const double pressure = pressure_of(normal_traction);
     const double size = length_of<Dim>(trial);
     if (size <= first_limit(pressure, sliding).value) return stick_response<Dim>(trial);
-    return slip_response<Dim>(trial / size, size, limit(size, pressure, sliding));
+    SlipLimit most = limit(size, pressure, sliding);
+    if (normal_traction > 0) most.d_pressure = 0;  // pulled harder: still no pressure
+    return slip_response<Dim>(trial / size, size, most);
   }
 
  private:
