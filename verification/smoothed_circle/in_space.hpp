@@ -94,7 +94,7 @@ inline RideInSpace ride_on(RoundMaster master, pairing::SmoothingKind kind, doub
   ride.x.emplace_back(0, 0, 0);
   ride.pair.slave = pairing::make_slave_side(pairing::FacetSurface{}, std::array<Index, 1>{slave});
   ride.pair.weight = pairing::Weight::node;
-  ride.pair.normal.stiffness = stiffness;
+  ride.pair.normal = contact::NormalPenalty{stiffness};
   ride.pair.friction = friction;
   pairing::prepare<3>(ride.pair, ride.x);
   return ride;

@@ -113,7 +113,7 @@ void finish(Carpet<Dim>& c, pairing::Boundary<Dim> slave, const Choice& choice, 
   c.pair.slave = pairing::make_slave_side(std::move(slave));
   if (!choice.mortar) pairing::sample(c.pair.slave, choice.points);
   c.pair.mortar = choice.mortar;
-  c.pair.normal.stiffness = eps_n;
+  c.pair.normal = contact::NormalPenalty{eps_n};
   c.pair.friction = contact::Coulomb{mu, eps_t};
   pairing::prepare<Dim>(c.pair, c.x);
 }
