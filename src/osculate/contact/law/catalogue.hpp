@@ -39,6 +39,12 @@ using FrictionLaw = std::variant<Coulomb, Tresca, Rough>;
   return std::holds_alternative<NormalPenalty>(law);
 }
 
+/// eps_N of a linear law; 0: the law has none.
+[[nodiscard]] inline double penalty_of(const NormalLaw& law) {
+  const auto* const penalty = std::get_if<NormalPenalty>(&law);
+  return penalty ? penalty->stiffness : 0.0;
+}
+
 /// What is wrong with the numbers of a law; empty: nothing.
 ///
 /// Tested by  tests/unit/contact/test_normal_laws.cpp, test_friction_laws.cpp
@@ -48,6 +54,11 @@ using FrictionLaw = std::variant<Coulomb, Tresca, Rough>;
 /// eps_T
 [[nodiscard]] inline double stiffness(const FrictionLaw& law) {
   return std::visit([](const auto& l) { return l.stiffness; }, law);
+}
+/// The same law with another eps_T.
+[[nodiscard]] inline FrictionLaw stiffened(FrictionLaw law, double factor) {
+  std::visit([&](auto& l) { l.stiffness *= factor; }, law);
+  return law;
 }
 template <int Dim>
 [[nodiscard]] TangentialResponse<Dim> response(const FrictionLaw& law, const Vec<Dim - 1>& trial,
