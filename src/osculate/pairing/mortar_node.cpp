@@ -46,6 +46,13 @@ void complete_rates(const MortarPlace& last, const NodalNormal<Dim>& normal,
       rate_of(node, g.node).frame[i] += g.value;
 }
 
+/// Makes room; memory is never given back.
+template <class Matrix>
+void grow(Matrix& m, Eigen::Index rows, Eigen::Index columns = 1) {
+  if (m.rows() < rows || m.cols() < columns)
+    m.resize(std::max(m.rows(), rows), std::max(m.cols(), columns));
+}
+
 /// Derivative of the traction t_j = N n + E t by the position of one node.
 template <int Dim>
 Mat<Dim, Dim> traction_rate(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c, double area,
@@ -144,9 +151,9 @@ void set_forces(const MortarNode<Dim>& node, const NodeContact<Dim>& c, ContactB
                  linear = push + c.frame * c.linearised.traction;
   block.count = static_cast<int>(block.nodes.size());
   block.branched = c.law.traction != c.linearised.traction;
-  block.force.resize(rows);
-  block.branch_force.resize(rows);
-  block.path_rows.resize(rows, Dim);
+  grow(block.force, rows);
+  grow(block.branch_force, rows);
+  grow(block.path_rows, rows, Dim);
   for (std::size_t k = 0; k < block.nodes.size(); ++k) {
     const double weight = k < own ? node.slaves.weights[k] : -node.masters.weights[k - own];
     const auto row = Dim * static_cast<Eigen::Index>(k);
@@ -161,20 +168,21 @@ void add_rates(const MortarFacet<Dim>& matrices, std::span<const Index> slaves,
                std::span<const std::size_t> local, Points<Dim> x,
                std::vector<MortarNode<Dim>>& nodes) {
   const Eigen::Index n = matrices.d.size();
+  const Sheet::ConstView dd = matrices.dd.view(), ds = matrices.ds.view(), dm = matrices.dm.view();
   for (Eigen::Index j = 0; j < n; ++j) {
     MortarNode<Dim>& node = nodes[local[static_cast<std::size_t>(j)]];
     for (std::size_t c = 0; c < matrices.nodes.size(); ++c) {
       const auto column = Dim * static_cast<Eigen::Index>(c);
       typename MortarNode<Dim>::Rate& rate = rate_of(node, matrices.nodes[c]);
-      rate.area += matrices.dd.template block<1, Dim>(j, column).transpose();
+      rate.area += dd.template block<1, Dim>(j, column).transpose();
       Eigen::Index row = j;
       for (const Index k : slaves) {
-        rate.own += x[at(k)] * matrices.ds.template block<1, Dim>(row, column);
+        rate.own += x[at(k)] * ds.template block<1, Dim>(row, column);
         row += n;
       }
       row = j;
       for (const Index l : matrices.masters) {
-        rate.other += x[at(l)] * matrices.dm.template block<1, Dim>(row, column);
+        rate.other += x[at(l)] * dm.template block<1, Dim>(row, column);
         row += n;
       }
     }
@@ -193,10 +201,15 @@ void set_facet_tangent(const MortarFacet<Dim>& matrices, std::span<const Index> 
   block.behind.path.clear();
   const auto size = Dim * static_cast<Eigen::Index>(block.nodes.size());
   const Eigen::Index n = matrices.d.size();
-  block.force.setZero(size);
-  block.branch_force.setZero(size);
-  block.tangent.setZero(size, size);
-  block.path_rows.setZero(size, Dim);
+  grow(block.force, size);
+  grow(block.branch_force, size);
+  grow(block.tangent, size, size);
+  grow(block.path_rows, size, Dim);
+  block.force.head(size).setZero();
+  block.branch_force.head(size).setZero();
+  block.tangent.topLeftCorner(size, size).setZero();
+  block.path_rows.topRows(size).setZero();
+  const Sheet::ConstView ds = matrices.ds.view(), dm = matrices.dm.view();
   const auto row_of = [&](Index node) {
     return Dim * static_cast<Eigen::Index>(slot_of(block.nodes, node));
   };
@@ -205,12 +218,12 @@ void set_facet_tangent(const MortarFacet<Dim>& matrices, std::span<const Index> 
     if (t.squaredNorm() == 0) continue;
     Eigen::Index row = j;
     for (const Index k : slaves) {
-      block.tangent.template middleRows<Dim>(row_of(k)) += t * matrices.ds.row(row);
+      block.tangent.template block<Dim, Eigen::Dynamic>(row_of(k), 0, Dim, size) += t * ds.row(row);
       row += n;
     }
     row = j;
     for (const Index l : matrices.masters) {
-      block.tangent.template middleRows<Dim>(row_of(l)) -= t * matrices.dm.row(row);
+      block.tangent.template block<Dim, Eigen::Dynamic>(row_of(l), 0, Dim, size) -= t * dm.row(row);
       row += n;
     }
   }
