@@ -28,7 +28,7 @@ struct MultiplierSample {
     for (Eigen::Index i = 0; i < points(); ++i) {
       const contact::Multiplier<Dim>& m = multipliers[static_cast<std::size_t>(i)];
       const Eigen::Index at = Dim * nodes() + per_point() * i;
-      v[at] = m.normal / contact::penalty(pair.normal);
+      v[at] = m.normal / contact::penalty_of(pair.normal);
       if (pair.friction) v.segment<Dim>(at + 1) = m.shear / contact::stiffness(*pair.friction);
     }
     return v;
@@ -43,7 +43,7 @@ struct MultiplierSample {
     for (Eigen::Index i = 0; i < points(); ++i) {
       const Eigen::Index first = Dim * nodes() + per_point() * i;
       around.points.emplace_back();
-      around.points.back().normal = contact::penalty(pair.normal) * v[first];
+      around.points.back().normal = contact::penalty_of(pair.normal) * v[first];
       if (pair.friction)
         around.points.back().shear = contact::stiffness(*pair.friction) * v.segment<Dim>(first + 1);
     }
@@ -102,7 +102,7 @@ struct MultiplierSample {
       k.block<1, Dim>(at, Dim * g.node) += g.value.transpose();
     for (const pairing::NodeMatrix<Dim>& g : c.shear_row)
       k.block<Dim, Dim>(at + 1, Dim * g.node) += g.value;
-    for (int n = 0; n < (c.columns.rows() > 0 ? b.count : 0); ++n)
+    for (int n = 0; n < b.count; ++n)
       k.block(Dim * b.nodes[static_cast<std::size_t>(n)], at, Dim, count) +=
           c.columns.middleRows(Dim * n, Dim).leftCols(count);
   }

@@ -205,13 +205,41 @@ void add_other_mesh(const std::string& type, const char* face, const std::string
   }
 }
 
+struct Kind {
+  const char *type, *face;
+  bool exact;
+};
+
+/// The same for different faces on both sides: one row with the largest error of pressure and
+/// stress.
+void add_other_faces(const Kind& lower, const Kind& upper, const std::string& sampling,
+                     CaseResult& out, double& balance, int threads) {
+  for (const bool upper_is_slave : {true, false}) {
+    Patch p;
+    p.lower_type = lower.type;
+    p.upper_type = upper.type;
+    p.upper = 4;
+    p.upper_swirl = -p.lower_swirl;
+    p.confined = true;
+    p.upper_is_slave = upper_is_slave;
+    p.sampling = sampling;
+    const Errors e = patch_errors(p, threads);
+    if (e.converged) balance = std::max(balance, e.balance);
+    const bool mortar = sampling == "mortar";
+    const std::string name = fmt::format("{} under {}, 3 x 3 against 4 x 4, {}, {}: ", lower.face,
+                                         upper.face, sampling, role(upper_is_slave));
+    if (!e.converged && !mortar)
+      out.rows.push_back({name + "converges", 0, 1, Relation::info, 0, source});
+    else
+      out.rows.push_back({name + "largest error of pressure and stress",
+                          std::max(e.pressure, e.stress), mortar ? 1e-10 : 0.0,
+                          mortar ? Relation::at_most : Relation::info, 0, source});
+  }
+}
+
 }  // namespace
 
 CaseResult contact_patch_space(const CaseContext& context) {
-  struct Kind {
-    const char *type, *face;
-    bool exact;
-  };
   constexpr std::array<Kind, 7> kinds{{{"hex8", "quad4", true},
                                        {"hex27", "quad9", true},
                                        {"tet4", "tri3", true},
@@ -224,8 +252,14 @@ CaseResult contact_patch_space(const CaseContext& context) {
   for (const Kind& k : kinds) add_matching(k.type, k.face, k.exact, out, balance, context.threads);
   for (const Kind& k : kinds) add_matching_gauss(k.type, k.face, out, balance, context.threads);
   for (const Kind& k : kinds)
-    for (const char* const sampling : {"nodes", "{gauss: 2}", "{gauss: 4}", "mortar"})
+    for (const char* const sampling :
+         {"nodes", "{gauss: 2}", "{gauss: 4}", "{lobatto: 3}", "mortar"})
       add_other_mesh(k.type, k.face, sampling, out, balance, context.threads);
+  for (const std::size_t lower : {0, 1, 2, 4, 5})
+    for (const std::size_t upper : {0, 1, 2, 4, 5})
+      for (const char* const sampling : {"nodes", "{gauss: 2}", "{lobatto: 3}", "mortar"})
+        if (lower < upper)
+          add_other_faces(kinds[lower], kinds[upper], sampling, out, balance, context.threads);
   out.rows.push_back({"largest unbalance of forces / load, all of the above", balance, 1e-11,
                       Relation::at_most, 0, "equilibrium"});
   return out;

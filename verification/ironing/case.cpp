@@ -15,7 +15,7 @@ namespace {
 constexpr double radius = 3, thickness = 0.5, depth = 0.6, way = 4, mu = 0.2, penalty = 50;
 
 struct Ironing {
-  std::string sampling = "nodes";
+  std::string sampling = "nodes", smoothing = "none";
   bool slab_is_slave = true;
   std::array<int, 3> slab{20, 6, 5};
   std::array<int, 2> punch{16, 5};  ///< cells round the half ring and along it
@@ -34,7 +34,7 @@ materials: {{soft: {{neo_hooke: {{E: 1, nu: 0.3}}}}, hard: {{neo_hooke: {{E: 100
 sections:
   - {{on: slab, material: soft, element: solid, kinematics: finite}}
   - {{on: punch, material: hard, element: solid, kinematics: finite, formulation: enhanced}}
-contact: [{{name: c, master: {}, slave: {}, sampling: {}, normal: {{penalty: {}}},
+contact: [{{name: c, master: {}, slave: {}, sampling: {}, smoothing: {}, normal: {{penalty: {}}},
   friction: {{coulomb: {{mu: {}, penalty: {}}}}}}}]
 steps:
   - {{name: press, increments: {}, prescribe: [{{on: slab.bottom, ux: 0, uy: 0, uz: 0}},
@@ -43,8 +43,8 @@ steps:
 )",
                      p.slab[0], p.slab[1], p.slab[2], p.punch[0], p.punch[1],
                      p.slab_is_slave ? "punch.bottom" : "slab.top",
-                     p.slab_is_slave ? "slab.top" : "punch.bottom", p.sampling, penalty, mu,
-                     penalty, 10 * p.refine, -depth, -depth, 40 * p.refine, way, way);
+                     p.slab_is_slave ? "slab.top" : "punch.bottom", p.sampling, p.smoothing,
+                     penalty, mu, penalty, 10 * p.refine, -depth, -depth, 40 * p.refine, way, way);
 }
 
 /// Half a ring over the slab that touches it at x = 3.
@@ -119,10 +119,11 @@ void add(CaseResult& out, std::string quantity, double computed, double referenc
   out.rows.push_back({std::move(quantity), computed, reference, relation, tolerance, source});
 }
 
-Outcome add_run(CaseResult& out, const std::string& name, const Ironing& p, int threads) {
+Outcome add_run(CaseResult& out, const std::string& name, const Ironing& p, int threads,
+                Relation end = Relation::equal) {
   using enum Relation;
   Outcome o = run(p, threads);
-  add(out, name + ": runs to the end", o.finished ? 1 : 0, 1, equal, 0, "");
+  add(out, name + ": runs to the end", o.finished ? 1 : 0, 1, end, 0, "");
   if (!o.finished) return o;
   add(out, name + ": iterations", o.iterations, 0, info, 0, "");
   add(out, name + ": tangential / normal force", ratio(o), 0, info, 0,
@@ -131,6 +132,17 @@ Outcome add_run(CaseResult& out, const std::string& name, const Ironing& p, int 
       0, "");
   add(out, name + ": oscillation of the normal force", oscillation(o.at, o.normal), 0, info, 0, "");
   return o;
+}
+
+/// Points of a sampling on smooth masters: the stiff punch under the slab's points, and the slab
+/// under the punch's, where flat facets let points flip between two of them for ever.
+void add_smoothed(CaseResult& out, int threads) {
+  add_run(out, "20 x 6 x 5 cells, {gauss: 2}, smoothed punch",
+          {.sampling = "{gauss: 2}", .smoothing = "hermite"}, threads);
+  Ironing p{.sampling = "{gauss: 3}", .slab_is_slave = false, .slab = {80, 2, 5}, .punch = {60, 2}};
+  add_run(out, "80 x 2 x 5 cells, {gauss: 3}, punch slave", p, threads, Relation::info);
+  p.smoothing = "hermite";
+  add_run(out, "80 x 2 x 5 cells, {gauss: 3}, punch slave, smoothed slab", p, threads);
 }
 
 }  // namespace
@@ -143,6 +155,7 @@ CaseResult ironing(const CaseContext& context) {
             context.threads);
   add_run(out, "20 x 6 x 5 cells, mortar, punch slave",
           {.sampling = "mortar", .slab_is_slave = false}, context.threads);
+  add_smoothed(out, context.threads);
   Ironing best{.sampling = "mortar", .slab = {40, 4, 5}, .punch = {32, 4}};
   const Outcome whole = add_run(out, "40 x 4 x 5 cells, mortar", best, context.threads);
   best.refine = 2;

@@ -120,7 +120,7 @@ struct Recorder {
       const model::BasicContactPair<Dim>& pair = built.model.pairs[p];
       const double target = model::penetration_target * pair.height;
       list.push_back({{"name", pair.name},
-                      {"penalty", contact::penalty(pair.definition.normal)},
+                      {"penalty", contact::penalty_of(pair.definition.normal)},
                       {"automatic", pair.automatic},
                       {"largest_penetration", deepest[p]},
                       {"penetration_target", target}});
@@ -131,7 +131,7 @@ struct Recorder {
             "warning: contact '{}': penetration up to {:.3g}, {:.2g} of the height of the cells "
             "behind it (target {:g}); a penalty of {:.3g} would reach the target",
             pair.name, deepest[p], deepest[p] / pair.height, model::penetration_target,
-            contact::penalty(pair.definition.normal) * deepest[p] / target));
+            contact::penalty_of(pair.definition.normal) * deepest[p] / target));
     }
     return list;
   }

@@ -13,7 +13,7 @@ void BasicSystem<Dim>::Impl::add_to_multipliers(State& s, const Eigen::VectorXd&
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     Index row = first_multiplier[p];
     for (contact::Multiplier<Dim>& m : s.multipliers[p].points) {
-      m.normal += factor * contact::penalty(pair.normal) * du[row++];
+      m.normal += factor * contact::penalty_of(pair.normal) * du[row++];
       if (!pair.friction) continue;
       m.shear += factor * contact::stiffness(*pair.friction) * du.segment<Dim>(row);
       row += Dim;
@@ -68,8 +68,7 @@ void BasicSystem<Dim>::Impl::add_constraint_tangent(const pairing::ContactBlock<
   for (int k = 0; k < Dim * block.count; ++k)
     contact_dofs.push_back(dofs.node_dof(block.nodes[static_cast<std::size_t>(k / Dim)], k % Dim));
   for (Index column = 0; column < count; ++column)
-    assembler.add_column(contact_dofs,
-                         {c.columns.col(column).data(), static_cast<std::size_t>(c.columns.rows())},
+    assembler.add_column(contact_dofs, {c.columns.col(column).data(), contact_dofs.size()},
                          first + column);
 }
 

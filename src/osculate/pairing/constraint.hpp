@@ -25,7 +25,7 @@ struct ConstraintBlock {
   Vec<Dim> branch_shear = Vec<Dim>::Zero();  ///< of the linearised branch
   std::vector<NodeGradient<Dim>> normal_row;
   std::vector<NodeMatrix<Dim>> shear_row;
-  /// Derivative of the block's forces by the unknowns (z, Z): Dim * count rows.
+  /// Derivative of the block's forces by the unknowns (z, Z): the first Dim * count rows.
   Eigen::Matrix<double, Eigen::Dynamic, Dim + 1> columns;
   Vec<Dim + 1> scale = Vec<Dim + 1>::Zero();  ///< area times penalties
   Mat<Dim + 1, Dim + 1> own = Mat<Dim + 1, Dim + 1>::Zero();
@@ -40,7 +40,6 @@ void set_open(double area, double normal_penalty, double shear_penalty, double l
   block.shear = block.branch_shear = -area * shear;
   block.normal_row.clear();
   block.shear_row.clear();
-  block.columns.setZero(0, Dim + 1);
   block.own.setZero();
   block.scale.setConstant(area * shear_penalty);
   block.scale[0] = area * normal_penalty;

@@ -52,7 +52,7 @@ template <int Dim>
   if (hint.multiplier) {
     const bool held = is_held(pair, history);
     if (gap < -pair.depth || (pair.separation == Separation::tied_normal && !held)) return {};
-    return contact::shifted({hint.stiffening * contact::penalty(pair.normal)},
+    return contact::shifted({hint.stiffening * contact::penalty_of(pair.normal)},
                             gap - rest_gap(pair, history, hint), hint.multiplier->normal, held);
   }
   if (!is_closed(pair, history, gap, hint)) return {};
@@ -76,14 +76,6 @@ template <int Dim>
 [[nodiscard]] contact::Sliding sliding_of(const contact::PointHistory<Dim>& history,
                                           const BranchHint<Dim>& hint) {
   return {history.active ? history.slid : 0.0, hint.duration};
-}
-
-/// The friction law with the penalty that the multipliers' corrections have come to.
-template <int Dim>
-[[nodiscard]] contact::FrictionLaw stiffened(contact::FrictionLaw law,
-                                             const BranchHint<Dim>& hint) {
-  if (hint.stiffening != 1) std::visit([&](auto& l) { l.stiffness *= hint.stiffening; }, law);
-  return law;
 }
 
 /// The law's answer, or the branch that the hint keeps it in.

@@ -56,10 +56,11 @@ template <int Dim>
 void drop_covered(std::vector<MortarCell<Dim>>& cells, std::size_t& count) {
   constexpr double room = 1 + 1e-3;
   if (cover_of<Dim>(cells, count) <= room) return;
-  std::stable_sort(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(count),
-                   [](const MortarCell<Dim>& a, const MortarCell<Dim>& b) {
-                     return std::abs(a.distance) < std::abs(b.distance);
-                   });
+  std::sort(cells.begin(), cells.begin() + static_cast<std::ptrdiff_t>(count),
+            [](const MortarCell<Dim>& a, const MortarCell<Dim>& b) {
+              const double far_a = std::abs(a.distance), far_b = std::abs(b.distance);
+              return far_a != far_b ? far_a < far_b : a.master < b.master;
+            });
   double cover = 0;
   std::size_t kept = 0;
   while (kept < count && cover + cells[kept].cover <= room) cover += cells[kept++].cover;
@@ -109,6 +110,7 @@ template <int Dim, class Facet>
 void add_facet(const MortarFacet<Dim>& matrices, const Facet& facet,
                std::span<const std::size_t> local, Index master, Points<Dim> x,
                std::vector<MortarNode<Dim>>& nodes) {
+  const Sheet::ConstView over_master = matrices.m.view();
   for (Eigen::Index j = 0; j < matrices.d.size(); ++j) {
     MortarNode<Dim>& node = nodes[local[static_cast<std::size_t>(j)]];
     node.area += matrices.d[j];
@@ -120,7 +122,7 @@ void add_facet(const MortarFacet<Dim>& matrices, const Facet& facet,
       add_weight(node.slaves, by, matrices.s(j, k));
     }
     for (std::size_t l = 0; l < matrices.masters.size(); ++l) {
-      const double m = matrices.m(j, static_cast<Eigen::Index>(l));
+      const double m = over_master(j, static_cast<Eigen::Index>(l));
       node.other += m * x[at(matrices.masters[l])];
       add_weight(node.masters, matrices.masters[l], m);
     }
@@ -215,7 +217,7 @@ void add_tangents(const PairDefinition<Dim>& pair, Points<Dim> x, PairEvaluation
     set_facet_tangent<Dim>(out.mortar.facet, slaves, out.mortar.slots[f], out.mortar.tractions,
                            out.blocks[used++]);
   }
-  out.blocks.resize(used);
+  for (std::size_t k = used; k < out.blocks.size(); ++k) out.blocks[k].count = 0;
 }
 
 template <int Dim>
@@ -258,7 +260,7 @@ NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
   const bool constrained =
       pair.enforcement == contact::Enforcement::lagrange_multiplier && hint.multiplier;
   if (constrained)
-    set_open(constraint_weight(pair, i), contact::penalty(pair.normal),
+    set_open(constraint_weight(pair, i), contact::penalty_of(pair.normal),
              pair.friction ? contact::stiffness(*pair.friction) : 0.0, hint.multiplier->normal,
              hint.multiplier->shear, out.blocks[i].constraint);
   if (!covered<Dim>(node, out.mortar.normals[i], pair.reference_areas[i])) return {};
@@ -316,19 +318,19 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
   out.mortar.places.assign(n, {});
   out.mortar.tractions.assign(n, Vec<Dim>::Zero());
   out.blocks.resize(std::max(n, out.blocks.size()));
-  std::vector<NodeContact<Dim>> contacts(n);
+  out.mortar.contacts.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
-    contacts[i] = evaluate_node<Dim>(pair, x, committed, hint_of(assumed, multipliers, i), i, out);
+    out.mortar.contacts[i] =
+        evaluate_node<Dim>(pair, x, committed, hint_of(assumed, multipliers, i), i, out);
   }
-  if (!with_tangent) {
-    out.blocks.resize(n);
-    return;
-  }
+  for (std::size_t k = n; k < out.blocks.size(); ++k) out.blocks[k].count = 0;
+  if (!with_tangent) return;
   add_tangents<Dim>(pair, x, out);
   for (std::size_t i = 0; i < n; ++i) {
     if (out.points[i].status == Status::open) continue;
-    set_path<Dim>(pair, constraint_weight(pair, i), contacts[i], last_place<Dim>(committed, i),
-                  out.mortar.normals[i], out.mortar.nodes[i], out.blocks[i]);
+    set_path<Dim>(pair, constraint_weight(pair, i), out.mortar.contacts[i],
+                  last_place<Dim>(committed, i), out.mortar.normals[i], out.mortar.nodes[i],
+                  out.blocks[i]);
   }
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include "osculate/pairing/mortar_contact.hpp"
 #include "osculate/pairing/mortar_facet.hpp"
 #include "osculate/search/bvh.hpp"
 
@@ -35,6 +36,7 @@ struct MortarNode {
 template <int Dim>
 struct MortarBuffers {
   std::vector<MortarNode<Dim>> nodes;           ///< D and M of the slave's nodes
+  std::vector<NodeContact<Dim>> contacts;       ///< of the slave's nodes
   std::vector<MortarPlace> places;              ///< trial, as `PairState::places`
   std::vector<NodalNormal<Dim>> normals;        ///< of the slave's nodes
   std::vector<std::vector<std::size_t>> slots;  ///< of each slave facet's nodes

@@ -3,9 +3,15 @@
 
 #include "osculate/cell/facet_shape.hpp"
 #include "osculate/pairing/mortar_normal.hpp"
+#include "osculate/pairing/sheet.hpp"
 #include "osculate/pairing/slave_side.hpp"
 
 namespace osculate::pairing {
+
+/// A matrix over the nodes of a facet: it needs no memory of its own.
+using FacetMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, cell::max_facet_nodes,
+                                  cell::max_facet_nodes>;
+using FacetVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, cell::max_facet_nodes, 1>;
 
 /// Integrals over the part of one slave facet that lies over one master facet, N_j of the slave and
 /// N_l of the master:
@@ -18,9 +24,9 @@ struct MortarCell {
   Index master = -1;    ///< facet
   double distance = 0;  ///< mean way from the slave to the master along the slave's normal
   double cover = 0;     ///< part of the slave facet that is covered
-  Eigen::MatrixXd e, f;
+  FacetMatrix e, f;
   std::vector<Index> nodes;
-  Eigen::MatrixXd de, df;
+  Sheet de, df;
 };
 
 /// What the integrals are taken over: the slave's reference or its current area.

@@ -1,113 +1,119 @@
 #include "osculate/pairing/mortar_facet.hpp"
 
 #include <Eigen/Cholesky>
+#include <utility>
 
 namespace osculate::pairing {
 namespace {
 
-using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, cell::max_facet_nodes,
-                            cell::max_facet_nodes>;
-using Eigen::MatrixXd;
 using Row = Eigen::Index;
 
-/// Places of a cell's columns or master nodes among those of the facet.
-std::vector<Row> places(const std::vector<Index>& of, std::vector<Index>& in) {
-  std::vector<Row> out;
-  for (const Index node : of) out.push_back(static_cast<Row>(slot_of(in, node)));
-  return out;
-}
-
+/// Sums of the cells' integrals with the facet's numbering: returns int N N^T; int N N_m^T is in
+/// the working space.
 template <int Dim>
-std::vector<Index> nodes_of(const Boundary<Dim>& master, Index facet) {
-  const auto& f = master.facets[static_cast<std::size_t>(facet)];
-  return {f.nodes.begin(), f.nodes.begin() + f.count};
-}
-
-/// Sums of the cells' integrals with the facet's numbering.
-struct Sums {
-  Small e;                                         ///< int N N^T
-  MatrixXd f;                                      ///< int N N_m^T
-  std::vector<std::vector<Row>> masters, columns;  ///< of each cell
-};
-
-template <int Dim>
-Sums sums_of(std::span<const MortarCell<Dim>> cells, const Boundary<Dim>& master, bool derivatives,
-             MortarFacet<Dim>& out) {
-  Sums s;
+FacetMatrix sums_of(std::span<const MortarCell<Dim>> cells, const Boundary<Dim>& master,
+                    bool derivatives, MortarFacet<Dim>& out) {
   out.masters.clear();
   out.nodes.clear();
+  out.work.masters.clear();
+  out.work.columns.clear();
   for (const MortarCell<Dim>& c : cells) {
-    s.masters.push_back(places(nodes_of<Dim>(master, c.master), out.masters));
-    if (derivatives) s.columns.push_back(places(c.nodes, out.nodes));
+    const auto& facet = master.facets[static_cast<std::size_t>(c.master)];
+    for (std::size_t l = 0; l < static_cast<std::size_t>(facet.count); ++l)
+      out.work.masters.push_back(static_cast<Row>(slot_of(out.masters, facet.nodes[l])));
+    if (!derivatives) continue;
+    for (const Index node : c.nodes)
+      out.work.columns.push_back(static_cast<Row>(slot_of(out.nodes, node)));
   }
   const Row n = cells[0].e.rows();
-  s.e.setZero(n, n);
-  s.f.setZero(n, static_cast<Row>(out.masters.size()));
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    s.e += cells[c].e;
-    for (std::size_t l = 0; l < s.masters[c].size(); ++l)
-      s.f.col(s.masters[c][l]) += cells[c].f.col(static_cast<Row>(l));
+  FacetMatrix e = FacetMatrix::Zero(n, n);
+  out.work.f.set_zero(n, static_cast<Row>(out.masters.size()));
+  Sheet::View f = out.work.f.view();
+  std::size_t at = 0;
+  for (const MortarCell<Dim>& c : cells) {
+    e += c.e;
+    for (Row l = 0; l < c.f.cols(); ++l) f.col(out.work.masters[at++]) += c.f.col(l);
   }
-  return s;
+  return e;
 }
 
-/// E^-1 with D = diag(d) `own`, M = diag(d) `other`.
+/// E^-1 with D = diag(d) `own`; M = diag(d) `other` of the working space.
 struct Solved {
-  Eigen::LDLT<Small> solver;
-  MatrixXd own, other;
+  FacetMatrix basis;
+  Eigen::LDLT<FacetMatrix> solver;
+  FacetMatrix own;
 };
 
 /// Adds the derivatives by one column of one cell:
 /// d(M) = diag(d(d)) P + diag(d) E^-1 (T dF - dE P) with P = E^-1 F, D alike.
 template <int Dim>
-void add_column(const MortarCell<Dim>& cell, Row column, Row to, const std::vector<Row>& masters,
-                const Solved& s, const MatrixXd& basis, MortarFacet<Dim>& out) {
-  const Row n = cell.e.rows();
-  const Small de = basis * Eigen::Map<const MatrixXd>(cell.de.col(column).data(), n, n);
-  const Small dee = de * basis.transpose();
-  const MatrixXd df =
-      basis * Eigen::Map<const MatrixXd>(cell.df.col(column).data(), n, cell.f.cols());
-  MatrixXd right = -dee * s.other;
-  for (std::size_t l = 0; l < masters.size(); ++l)
-    right.col(masters[l]) += df.col(static_cast<Row>(l));
-  const Eigen::VectorXd dd = dee.rowwise().sum();
-  const MatrixXd dm = dd.asDiagonal() * s.other + out.d.asDiagonal() * s.solver.solve(right);
-  const MatrixXd ds =
-      dd.asDiagonal() * s.own + out.d.asDiagonal() * s.solver.solve(de - dee * s.own);
-  out.dd.col(to) += dd;
-  out.dm.col(to) += Eigen::Map<const Eigen::VectorXd>(dm.data(), dm.size());
-  out.ds.col(to) += Eigen::Map<const Eigen::VectorXd>(ds.data(), ds.size());
+void add_column(const MortarCell<Dim>& cell, Row column, Row to, const Row* masters,
+                const Solved& s, MortarFacet<Dim>& out) {
+  const Row n = cell.e.rows(), rows = out.d.size();
+  const Sheet::ConstView cell_de = cell.de.view(), cell_df = cell.df.view();
+  const FacetMatrix de = s.basis * Eigen::Map<const FacetMatrix>(cell_de.col(column).data(), n, n);
+  const FacetMatrix dee = de * s.basis.transpose();
+  const FacetMatrix df =
+      s.basis * Eigen::Map<const FacetMatrix>(cell_df.col(column).data(), n, cell.f.cols());
+  const Sheet::ConstView other = std::as_const(out.work.other).view();
+  Sheet::View right = out.work.right.view();
+  right.noalias() = -dee * other;
+  for (Row l = 0; l < df.cols(); ++l) right.col(masters[l]) += df.col(l);
+  s.solver.solveInPlace(right);
+  FacetMatrix own = de - dee * s.own;
+  s.solver.solveInPlace(own);
+  const FacetVector dd = dee.rowwise().sum();
+  out.dd.view().col(to) += dd;
+  Sheet::View dm = out.dm.view(), ds = out.ds.view();
+  for (Row l = 0; l < other.cols(); ++l)
+    dm.col(to).segment(rows * l, rows) +=
+        dd.cwiseProduct(other.col(l)) + out.d.cwiseProduct(right.col(l));
+  for (Row k = 0; k < own.cols(); ++k)
+    ds.col(to).segment(rows * k, rows) +=
+        dd.cwiseProduct(s.own.col(k)) + out.d.cwiseProduct(own.col(k));
 }
 
 }  // namespace
 
 template <int Dim>
 void mortar_facet(std::span<const MortarCell<Dim>> cells, const Boundary<Dim>& master,
-                  const MatrixXd& basis, bool derivatives, MortarFacet<Dim>& out) {
-  const Sums sums = sums_of(cells, master, derivatives, out);
-  const Small mixed = basis * sums.e;
-  const Small e = mixed * basis.transpose();
-  Solved s{Eigen::LDLT<Small>(e), {}, {}};
-  s.own = s.solver.solve(mixed);
-  s.other = s.solver.solve(basis * sums.f);
+                  const Eigen::MatrixXd& basis, bool derivatives, MortarFacet<Dim>& out) {
+  const FacetMatrix sum = sums_of(cells, master, derivatives, out);
+  Solved s{basis, {}, {}};
+  const FacetMatrix mixed = s.basis * sum;
+  const FacetMatrix e = mixed * s.basis.transpose();
+  s.solver.compute(e);
+  s.own = mixed;
+  s.solver.solveInPlace(s.own);
+  const auto masters = static_cast<Row>(out.masters.size());
+  out.work.other.set_zero(e.rows(), masters);
+  out.work.right.set_zero(e.rows(), masters);
+  Sheet::View other = out.work.other.view();
+  other.noalias() = s.basis * out.work.f.view();
+  s.solver.solveInPlace(other);
   out.d = e.rowwise().sum();
   out.s = out.d.asDiagonal() * s.own;
-  out.m = out.d.asDiagonal() * s.other;
+  out.m.set_zero(e.rows(), masters);
+  out.m.view() = out.d.asDiagonal() * other;
   if (!derivatives) return;
   const auto columns = Dim * static_cast<Row>(out.nodes.size());
-  out.dd.setZero(out.d.size(), columns);
-  out.ds.setZero(out.s.size(), columns);
-  out.dm.setZero(out.m.size(), columns);
-  for (std::size_t c = 0; c < cells.size(); ++c)
-    for (std::size_t k = 0; k < sums.columns[c].size(); ++k)
+  out.dd.set_zero(out.d.size(), columns);
+  out.ds.set_zero(out.s.size(), columns);
+  out.dm.set_zero(out.m.size(), columns);
+  const Row *its_masters = out.work.masters.data(), *its_columns = out.work.columns.data();
+  for (const MortarCell<Dim>& cell : cells) {
+    for (std::size_t k = 0; k < cell.nodes.size(); ++k)
       for (Row i = 0; i < Dim; ++i)
-        add_column(cells[c], Dim * static_cast<Row>(k) + i, Dim * sums.columns[c][k] + i,
-                   sums.masters[c], s, basis, out);
+        add_column<Dim>(cell, Dim * static_cast<Row>(k) + i, Dim * its_columns[k] + i, its_masters,
+                        s, out);
+    its_masters += cell.f.cols();
+    its_columns += cell.nodes.size();
+  }
 }
 
-template void mortar_facet<2>(std::span<const MortarCell<2>>, const Boundary<2>&, const MatrixXd&,
-                              bool, MortarFacet<2>&);
-template void mortar_facet<3>(std::span<const MortarCell<3>>, const Boundary<3>&, const MatrixXd&,
-                              bool, MortarFacet<3>&);
+template void mortar_facet<2>(std::span<const MortarCell<2>>, const Boundary<2>&,
+                              const Eigen::MatrixXd&, bool, MortarFacet<2>&);
+template void mortar_facet<3>(std::span<const MortarCell<3>>, const Boundary<3>&,
+                              const Eigen::MatrixXd&, bool, MortarFacet<3>&);
 
 }  // namespace osculate::pairing

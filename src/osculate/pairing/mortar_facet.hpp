@@ -17,10 +17,17 @@ namespace osculate::pairing {
 template <int Dim>
 struct MortarFacet {
   std::vector<Index> masters;  ///< nodes
-  Eigen::VectorXd d;
-  Eigen::MatrixXd s, m;  ///< D over the facet's nodes, M over `masters`
+  FacetVector d;
+  FacetMatrix s;  ///< D over the facet's nodes
+  Sheet m;        ///< M over `masters`
   std::vector<Index> nodes;
-  Eigen::MatrixXd dd, ds, dm;
+  Sheet dd, ds, dm;
+  /// Working space: places of the cells' master nodes and columns among those of the facet, one
+  /// cell after the other; sums and solutions.
+  struct Work {
+    std::vector<Eigen::Index> masters, columns;
+    Sheet f, other, right;
+  } work;
 };
 
 /// Of the cells of a slave facet (at least one) with T = `basis`.

@@ -46,6 +46,13 @@ void complete_rates(const MortarPlace& last, const NodalNormal<Dim>& normal,
       rate_of(node, g.node).frame[i] += g.value;
 }
 
+/// Makes room; memory is never given back.
+template <class Matrix>
+void grow(Matrix& m, Eigen::Index rows, Eigen::Index columns = 1) {
+  if (m.rows() < rows || m.cols() < columns)
+    m.resize(std::max(m.rows(), rows), std::max(m.cols(), columns));
+}
+
 /// Derivatives of a node's gap and shear by the position of one node.
 template <int Dim>
 struct NodeRates {
@@ -101,7 +108,7 @@ template <int Dim>
 void set_friction(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,
                   const MortarPlace& last, Points<Dim> x, const BranchHint<Dim>& hint,
                   NodeContact<Dim>& c) {
-  const contact::FrictionLaw law = stiffened(*pair.friction, hint);
+  const contact::FrictionLaw law = contact::stiffened(*pair.friction, hint.stiffening);
   const contact::Sliding sliding = sliding_of(history, hint);
   c.stiffness = contact::stiffness(law);
   if (hint.multiplier) {
@@ -163,9 +170,9 @@ void set_forces(const MortarNode<Dim>& node, const NodeContact<Dim>& c, ContactB
                  linear = push + c.frame * c.linearised.traction;
   block.count = static_cast<int>(block.nodes.size());
   block.branched = c.law.traction != c.linearised.traction;
-  block.force.resize(rows);
-  block.branch_force.resize(rows);
-  block.path_rows.resize(rows, Dim);
+  grow(block.force, rows);
+  grow(block.branch_force, rows);
+  grow(block.path_rows, rows, Dim);
   for (std::size_t k = 0; k < block.nodes.size(); ++k) {
     const double weight = k < own ? node.slaves.weights[k] : -node.masters.weights[k - own];
     const auto row = Dim * static_cast<Eigen::Index>(k);
@@ -180,20 +187,21 @@ void add_rates(const MortarFacet<Dim>& matrices, std::span<const Index> slaves,
                std::span<const std::size_t> local, Points<Dim> x,
                std::vector<MortarNode<Dim>>& nodes) {
   const Eigen::Index n = matrices.d.size();
+  const Sheet::ConstView dd = matrices.dd.view(), ds = matrices.ds.view(), dm = matrices.dm.view();
   for (Eigen::Index j = 0; j < n; ++j) {
     MortarNode<Dim>& node = nodes[local[static_cast<std::size_t>(j)]];
     for (std::size_t c = 0; c < matrices.nodes.size(); ++c) {
       const auto column = Dim * static_cast<Eigen::Index>(c);
       typename MortarNode<Dim>::Rate& rate = rate_of(node, matrices.nodes[c]);
-      rate.area += matrices.dd.template block<1, Dim>(j, column).transpose();
+      rate.area += dd.template block<1, Dim>(j, column).transpose();
       Eigen::Index row = j;
       for (const Index k : slaves) {
-        rate.own += x[at(k)] * matrices.ds.template block<1, Dim>(row, column);
+        rate.own += x[at(k)] * ds.template block<1, Dim>(row, column);
         row += n;
       }
       row = j;
       for (const Index l : matrices.masters) {
-        rate.other += x[at(l)] * matrices.dm.template block<1, Dim>(row, column);
+        rate.other += x[at(l)] * dm.template block<1, Dim>(row, column);
         row += n;
       }
     }
@@ -212,10 +220,15 @@ void set_facet_tangent(const MortarFacet<Dim>& matrices, std::span<const Index> 
   block.behind.path.clear();
   const auto size = Dim * static_cast<Eigen::Index>(block.nodes.size());
   const Eigen::Index n = matrices.d.size();
-  block.force.setZero(size);
-  block.branch_force.setZero(size);
-  block.tangent.setZero(size, size);
-  block.path_rows.setZero(size, Dim);
+  grow(block.force, size);
+  grow(block.branch_force, size);
+  grow(block.tangent, size, size);
+  grow(block.path_rows, size, Dim);
+  block.force.head(size).setZero();
+  block.branch_force.head(size).setZero();
+  block.tangent.topLeftCorner(size, size).setZero();
+  block.path_rows.topRows(size).setZero();
+  const Sheet::ConstView ds = matrices.ds.view(), dm = matrices.dm.view();
   const auto row_of = [&](Index node) {
     return Dim * static_cast<Eigen::Index>(slot_of(block.nodes, node));
   };
@@ -224,12 +237,12 @@ void set_facet_tangent(const MortarFacet<Dim>& matrices, std::span<const Index> 
     if (t.squaredNorm() == 0) continue;
     Eigen::Index row = j;
     for (const Index k : slaves) {
-      block.tangent.template middleRows<Dim>(row_of(k)) += t * matrices.ds.row(row);
+      block.tangent.template block<Dim, Eigen::Dynamic>(row_of(k), 0, Dim, size) += t * ds.row(row);
       row += n;
     }
     row = j;
     for (const Index l : matrices.masters) {
-      block.tangent.template middleRows<Dim>(row_of(l)) -= t * matrices.dm.row(row);
+      block.tangent.template block<Dim, Eigen::Dynamic>(row_of(l), 0, Dim, size) -= t * dm.row(row);
       row += n;
     }
   }
@@ -256,14 +269,14 @@ void set_constraint(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c,
                     const MortarNode<Dim>& node, double area,
                     const contact::Multiplier<Dim>& multiplier, ContactBlock<Dim>& block) {
   ConstraintBlock<Dim>& k = block.constraint;
-  const double normal = contact::penalty(pair.normal), shear = c.stiffness;
+  const double normal = contact::penalty_of(pair.normal), shear = c.stiffness;
   k.normal = area * (c.normal_law.traction - multiplier.normal);
   k.shear = area * (c.frame * c.law.traction - multiplier.shear);
   k.branch_shear = area * (c.frame * c.linearised.traction - multiplier.shear);
   const Mat<Dim, Dim> d_trial = c.frame * c.linearised.d_trial * c.frame.transpose();
   const Vec<Dim> d_push = c.frame * c.linearised.d_normal;
   const std::size_t own = node.slaves.nodes.size();
-  k.columns.resize(Dim * block.count, Dim + 1);
+  grow(k.columns, Dim * block.count, Dim + 1);
   for (std::size_t n = 0; n < static_cast<std::size_t>(block.count); ++n) {
     const double weight = n < own ? node.slaves.weights[n] : -node.masters.weights[n - own];
     auto rows = k.columns.template middleRows<Dim>(Dim * static_cast<Eigen::Index>(n));

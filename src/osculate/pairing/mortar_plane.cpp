@@ -149,6 +149,10 @@ bool find_place(const Flat& facet, const Vec2& p, const Vec2& start, Place& out)
 
 // ---- integration --------------------------------------------------------------------------------
 
+constexpr int most_rows = cell::max_facet_nodes * cell::max_facet_nodes;
+/// Derivatives of the integrals by the plane's coordinates.
+using FlatRates = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_rows, most_columns>;
+
 /// One overlap: both facets in the plane of a linear piece of the slave.
 struct Work {
   Flat slave, master;
@@ -159,7 +163,7 @@ struct Work {
   Vec2 slave_start, master_start;
   const cell::Quadrature2D* rule = nullptr;
   MortarCell<3>* cell = nullptr;
-  Eigen::MatrixXd de, df;  ///< by the plane's coordinates
+  FlatRates de, df;
   double way = 0, area = 0, flat_area = 0;
   [[nodiscard]] I columns() const { return 2 * (slave.count + master.count); }
 };
@@ -252,16 +256,15 @@ void add_area_rates(Work& w, const Place& s, const Place& m, double weight,
                     const Stretch& stretch) {
   const I n = w.slave.count, l = w.master.count;
   const auto at = [](I i) { return static_cast<std::size_t>(i); };
+  Sheet::View de = w.cell->de.view(), df = w.cell->df.view();
   for (I c = 0; c < n; ++c) {
     const Eigen::RowVector3d rate =
         weight * (s.shape.n[1][at(c)] * stretch.first + s.shape.n[2][at(c)] * stretch.second);
     for (I j = 0; j < n; ++j) {
       for (I k = 0; k < n; ++k)
-        w.cell->de.block<1, 3>(j + n * k, 3 * c) +=
-            s.shape.n[0][at(j)] * s.shape.n[0][at(k)] * rate;
+        de.block<1, 3>(j + n * k, 3 * c) += s.shape.n[0][at(j)] * s.shape.n[0][at(k)] * rate;
       for (I k = 0; k < l; ++k)
-        w.cell->df.block<1, 3>(j + n * k, 3 * c) +=
-            s.shape.n[0][at(j)] * m.shape.n[0][at(k)] * rate;
+        df.block<1, 3>(j + n * k, 3 * c) += s.shape.n[0][at(j)] * m.shape.n[0][at(k)] * rate;
     }
   }
 }
@@ -386,8 +389,7 @@ bool add_pieces(Work& w, const Piece& slave, const Piece& master) {
 
 /// From the plane's coordinates u_k = E^T (x_k - x_0) to positions in space:
 /// du_k = E^T dx_k - h_k E^T dn, h_k = n . (x_k - x_0).
-void to_space(const Work& w, const Piece& piece, const Eigen::MatrixXd& flat_rates,
-              Eigen::MatrixXd& out) {
+void to_space(const Work& w, const Piece& piece, const FlatRates& flat_rates, Sheet::View out) {
   const Mat<2, 3> across = w.plane.frame.transpose();
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 81, 3> turning(flat_rates.rows(), 3);
   turning.setZero();
@@ -419,8 +421,8 @@ bool add_slave_piece(Work& w, const Piece& piece, std::span<const Piece> master,
                         : add_pieces<double>(w, piece, other)))
       return false;
   if (!w.derivatives || w.flat_area == before) return true;
-  to_space(w, piece, w.de, w.cell->de);
-  to_space(w, piece, w.df, w.cell->df);
+  to_space(w, piece, w.de, w.cell->de.view());
+  to_space(w, piece, w.df, w.cell->df.view());
   return true;
 }
 
@@ -436,8 +438,8 @@ void set_nodes(const SurfaceFacet& slave, const SurfaceFacet& master, MortarCell
   cell.nodes.assign(slave.nodes.begin(), slave.nodes.begin() + slave.count);
   cell.nodes.insert(cell.nodes.end(), master.nodes.begin(), master.nodes.begin() + master.count);
   const I columns = 3 * (slave.count + master.count);
-  cell.de.setZero(slave.count * slave.count, columns);
-  cell.df.setZero(slave.count * master.count, columns);
+  cell.de.set_zero(slave.count * slave.count, columns);
+  cell.df.set_zero(slave.count * master.count, columns);
 }
 
 }  // namespace

@@ -229,29 +229,29 @@ Both<T> lines(const MortarSides<2>& sides, const Facet& slave, std::span<const s
   return b;
 }
 
-/// Derivative by node positions of a number that depends on the variables.
-struct Columns {
-  struct Entry {
-    std::size_t column, variable;  ///< first of two each
-    Mat<2, 2> value;               ///< d(variable)/d(position)
-  };
-  std::vector<Entry> entries;
+/// One link from the position of a node to the variables.
+struct Link {
+  Eigen::Index column, variable;  ///< first of two each
+  Mat<2, 2> value;                ///< d(variable)/d(position)
 };
 
-Columns columns_of(const MortarSides<2>& sides, const Facet& slave,
+/// Calls `use` with every link; `nodes` is extended by what is new.
+template <class Use>
+void for_each_link(const MortarSides<2>& sides, const Facet& slave,
                    std::span<const std::size_t> local, const Facet& master,
-                   std::vector<Index>& nodes) {
-  Columns c;
-  nodes.clear();
+                   std::vector<Index>& nodes, const Use& use) {
+  const auto offer = [&](Index node, std::size_t variable, const Mat<2, 2>& value) {
+    use(Link{static_cast<Eigen::Index>(2 * slot_of(nodes, node)),
+             static_cast<Eigen::Index>(2 * variable), value});
+  };
   const Mat<2, 2> unit = Mat<2, 2>::Identity();
   for (std::size_t k = 0; k < static_cast<std::size_t>(slave.count); ++k)
-    c.entries.push_back({2 * slot_of(nodes, slave.nodes[k]), 2 * k, unit});
+    offer(slave.nodes[k], k, unit);
   for (std::size_t l = 0; l < static_cast<std::size_t>(master.count); ++l)
-    c.entries.push_back({2 * slot_of(nodes, master.nodes[l]), 2 * (2 * most + l), unit});
+    offer(master.nodes[l], 2 * most + l, unit);
   for (std::size_t k = 0; k < static_cast<std::size_t>(slave.count); ++k)
     for (const NodeMatrix<2>& g : sides.normals[local[k]].gradient)
-      c.entries.push_back({2 * slot_of(nodes, g.node), 2 * (most + k), g.value});
-  return c;
+      offer(g.node, most + k, g.value);
 }
 
 void set_values(const Both<double>& b, const Integrals<double>& sum, MortarCell<2>& cell) {
@@ -271,15 +271,11 @@ void set_values(const Both<double>& b, const Integrals<double>& sum, MortarCell<
 }
 
 void add_derivatives(const std::array<Variables, most * most>& from, std::size_t rows,
-                     std::size_t columns, const Columns& by, Eigen::MatrixXd& to) {
+                     std::size_t columns, const Link& by, Sheet::View to) {
   for (std::size_t k = 0; k < columns; ++k)
-    for (std::size_t j = 0; j < rows; ++j) {
-      const auto row = static_cast<Eigen::Index>(j + rows * k);
-      for (const Columns::Entry& e : by.entries)
-        to.block<1, 2>(row, static_cast<Eigen::Index>(e.column)) +=
-            from[j + most * k].d.segment<2>(static_cast<Eigen::Index>(e.variable)).transpose() *
-            e.value;
-    }
+    for (std::size_t j = 0; j < rows; ++j)
+      to.block<1, 2>(static_cast<Eigen::Index>(j + rows * k), by.column) +=
+          from[j + most * k].d.segment<2>(by.variable).transpose() * by.value;
 }
 
 }  // namespace
@@ -304,13 +300,16 @@ bool mortar_cell(const MortarSides<2>& sides, Index s, std::span<const std::size
   Integrals<Variables> rates;
   if (!integrate(lines<Variables>(sides, slave, local, master, x), sides.measure, rates))
     return false;
-  const Columns by = columns_of(sides, slave, local, master, cell.nodes);
+  cell.nodes.clear();
+  for_each_link(sides, slave, local, master, cell.nodes, [](const Link&) {});
   const auto n = static_cast<std::size_t>(slave.count), l = static_cast<std::size_t>(master.count);
   const auto columns = static_cast<Eigen::Index>(2 * cell.nodes.size());
-  cell.de.setZero(static_cast<Eigen::Index>(n * n), columns);
-  cell.df.setZero(static_cast<Eigen::Index>(n * l), columns);
-  add_derivatives(rates.e, n, n, by, cell.de);
-  add_derivatives(rates.f, n, l, by, cell.df);
+  cell.de.set_zero(static_cast<Eigen::Index>(n * n), columns);
+  cell.df.set_zero(static_cast<Eigen::Index>(n * l), columns);
+  for_each_link(sides, slave, local, master, cell.nodes, [&](const Link& by) {
+    add_derivatives(rates.e, n, n, by, cell.de.view());
+    add_derivatives(rates.f, n, l, by, cell.df.view());
+  });
   return true;
 }
 

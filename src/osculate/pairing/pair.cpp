@@ -238,7 +238,7 @@ PairMultipliers<Dim> augmented(const PairDefinition<Dim>& pair,
   constexpr double fast_enough = 0.25, more = 10;
   PairMultipliers<Dim> next = used;
   next.violation = 0;
-  const double normal = used.stiffening * contact::penalty(pair.normal);
+  const double normal = used.stiffening * contact::penalty_of(pair.normal);
   const double shear = pair.friction ? used.stiffening * contact::stiffness(*pair.friction) : 1.0;
   for (std::size_t i = 0; i < next.points.size(); ++i) {
     const PointResult<Dim>& point = evaluation.points[i];

@@ -54,7 +54,7 @@ Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>
   const Kinematics<Dim>& k = placed.kinematics;
   f.traction.normal = normal_response(pair, history, k.gap, hint);
   if (!f.traction.normal.active || !pair.friction) return f;
-  const contact::FrictionLaw law = stiffened(*pair.friction, hint);
+  const contact::FrictionLaw law = contact::stiffened(*pair.friction, hint.stiffening);
   const double stiffness = contact::stiffness(law);
   const contact::Sliding sliding = sliding_of(history, hint);
   const Trial<Dim> tr =
@@ -165,10 +165,10 @@ void set_constraint_tangent(const PairDefinition<Dim>& pair, const Kinematics<Di
                             const Traction<Dim>& t, const Weights<Dim>& w, double area,
                             double weight, ContactBlock<Dim>& block) {
   ConstraintBlock<Dim>& c = block.constraint;
-  const double normal = contact::penalty(pair.normal);
+  const double normal = contact::penalty_of(pair.normal);
   const double shear = pair.friction ? contact::stiffness(*pair.friction) : 0.0;
   const contact::ShearRate<Dim> rate = contact::shear_rate(k, t);
-  c.columns.resize(Dim * block.count, Dim + 1);
+  if (c.columns.rows() < Dim * block.count) c.columns.resize(Dim * block.count, Dim + 1);
   for (int n = 0; n < block.count; ++n) {
     const auto node = static_cast<std::size_t>(n);
     Vec<Dim> gap = Vec<Dim>::Zero();
@@ -211,7 +211,7 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
       pair.enforcement == contact::Enforcement::lagrange_multiplier && hint.multiplier;
   const double area = constrained ? constraint_weight(pair, i) : 0.0;
   if (constrained)
-    set_open(area, contact::penalty(pair.normal),
+    set_open(area, contact::penalty_of(pair.normal),
              pair.friction ? contact::stiffness(*pair.friction) : 0.0, hint.multiplier->normal,
              hint.multiplier->shear, block.constraint);
   if (!report_place(pair, x, history, placed, hint, result)) return;

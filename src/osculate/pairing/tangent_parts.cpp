@@ -15,7 +15,7 @@ double share_at(const PairDefinition<Dim>& pair, const SlavePoint<Dim>& slave,
   contact::Traction<Dim> traction;
   traction.normal =
       normal_response<Dim>(pair, point.history, placed.kinematics.gap, BranchHint<Dim>{});
-  if (!traction.normal.active) traction.normal.d_traction = contact::penalty(pair.normal);
+  if (!traction.normal.active) traction.normal.d_traction = contact::penalty_of(pair.normal);
   traction.normal.traction = point.normal_traction;
   const Weights<Dim> w = contact_weights(slave, placed);
   const int count = slave.count + placed.count, size = Dim * count;

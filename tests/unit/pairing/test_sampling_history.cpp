@@ -6,6 +6,7 @@
 #include <functional>
 #include <set>
 
+#include "allocation_count.hpp"
 #include "osculate/pairing/pair.hpp"
 #include "osculate/pairing/sampling.hpp"
 
@@ -322,6 +323,31 @@ TEST(SamplingHistory, AClosedLoopDissipatesTheFrictionTimesTheWay) {
     slide_in_a_loop<2>(choice);
     slide_in_a_loop<3>(choice);
   }
+}
+
+/// Allocations of an evaluation with tangent, the second one with the same buffers.
+template <int Dim>
+std::size_t allocations(const Choice& choice, double mu) {
+  Carpet<Dim> c = carpet<Dim>(choice, mu, five);
+  c.start();
+  c.place(along<Dim>(0.1));
+  c.step();
+  c.place(along<Dim>(0.15));
+  pairing::evaluate<Dim>(c.pair, c.x, c.state, true, c.now);
+  c.place(along<Dim>(0.16));
+  const std::size_t before = allocation_count();
+  pairing::evaluate<Dim>(c.pair, c.x, c.state, true, c.now);
+  const std::size_t after = allocation_count();
+  EXPECT_EQ(c.now.points[0].status, mu > 1 ? Status::stick : Status::slip);
+  return after - before;
+}
+
+TEST(SamplingHistory, NothingIsAllocatedAfterTheFirstCall) {
+  for (const Choice& choice : choices)
+    for (const double mu : {1e6, 0.05}) {
+      EXPECT_EQ(allocations<2>(choice, mu), 0u) << choice.name;
+      EXPECT_EQ(allocations<3>(choice, mu), 0u) << choice.name;
+    }
 }
 
 }  // namespace

@@ -28,12 +28,6 @@ using FrictionLaw = std::variant<Coulomb, Tresca, Rough>;
   return std::visit([](const auto& l) { return l.augmentable; }, law);
 }
 
-/// eps_N of a law that a multiplier may act with; 0 of the others.
-[[nodiscard]] inline double penalty(const NormalLaw& law) {
-  const auto* const linear = std::get_if<NormalPenalty>(&law);
-  return linear ? linear->stiffness : 0.0;
-}
-
 /// Whether the law goes on where a held point is pulled.
 [[nodiscard]] inline bool holds(const NormalLaw& law) {
   return std::holds_alternative<NormalPenalty>(law);
