@@ -14,7 +14,7 @@ namespace osculate::api {
 /// Values as bytes, one after the other: a type is described once, by a function
 /// `fields(archive, value)` that names its members, and is saved and loaded by it.
 ///
-/// Tested by  tests/unit/api/test_checkpoint.cpp
+/// Tested by  tests/system/test_restart.py
 class Saver {
  public:
   template <class... T>

@@ -42,7 +42,7 @@ struct JournalEntry {
 /// A process that is killed at any moment leaves a whole checkpoint and the journal up to it.
 ///
 /// Errors     io::WriteError
-/// Tested by  tests/unit/api/test_checkpoint.cpp, tests/system/test_restart.py
+/// Tested by  tests/system/test_restart.py, tests/unit/api/test_restart.cpp
 template <int Dim>
 class CheckpointWriter {
  public:

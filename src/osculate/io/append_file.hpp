@@ -11,7 +11,7 @@ namespace osculate::io {
 /// that the file ends with the last good one.
 ///
 /// Errors     WriteError
-/// Tested by  tests/unit/io/test_append_file.cpp
+/// Tested by  tests/unit/io/test_chunk_file.cpp
 class AppendFile {
  public:
   /// Keeps the first `keep` bytes of a file that is there (0: begins anew).

@@ -46,7 +46,7 @@ struct BasicFailure {
 /// Looks for the cause in the last attempt: its message, the tangent at the last converged state,
 /// the states of the contact points in its last iterations.
 ///
-/// Tested by  tests/unit/model/test_failure.cpp
+/// Tested by  tests/system/test_diagnosis.py
 template <int Dim>
 [[nodiscard]] BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& model,
                                          const Step& step,
