@@ -16,16 +16,13 @@ void on_interrupt(int) { interrupted = true; }
 
 struct RunFlags {
   api::RunOptions options;
-  bool json = false, quiet = false, restart = false;
+  bool json = false, quiet = false;
 };
 
 int run(RunFlags& flags) {
-  if (flags.restart) {
-    fmt::print(stderr,
-               "error: --restart is not available yet: this release writes no checkpoints\n");
-    return bad_input;
-  }
   std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of writing
   const bool terminal = isatty(STDERR_FILENO) != 0;
   if (!flags.quiet) {
     flags.options.say = [terminal](std::string_view text) {
@@ -57,8 +54,8 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--until", flags->options.until, "Last step to run, inclusive");
   command->add_flag("--json", flags->json, "Print the summary as JSON on stdout");
   command->add_flag("--quiet", flags->quiet, "Print nothing but errors");
-  command->add_flag("--restart", flags->restart,
-                    "Continue from the last checkpoint (not available yet)");
+  command->add_flag("--restart", flags->options.restart,
+                    "Go on from the last checkpoint in the result folder");
   command->callback([flags, &exit_code] { exit_code = run(*flags); });
 }
 

@@ -18,17 +18,13 @@ struct Flags {
 };
 
 int tangent(const Flags& flags) {
-  if (flags.state != 0) {
-    fmt::print(stderr,
-               "error: --state needs checkpoints, which are not available yet; only 0 (initial)\n");
-    return bad_input;
-  }
-  const api::TangentReport report = api::check_tangent(flags.model, flags.threads);
+  const api::TangentReport report = api::check_tangent(
+      flags.model, flags.threads, flags.state, api::result_folder(flags.model, flags.folder));
   fmt::print(flags.json ? stderr : stdout, "{}", api::to_text(report));
   if (flags.json) fmt::print("{}\n", api::to_json(report));
   if (!flags.folder.empty()) {
     const std::string folder = api::choose_folder(flags.model, flags.folder);
-    api::open_folder(folder);
+    api::open_folder(folder, true);
     api::write_text(folder + "/tangent.json", api::to_json(report) + "\n");
   }
   const bool ok = std::all_of(report.rows.begin(), report.rows.end(),
@@ -43,8 +39,10 @@ void add_tangent(CLI::App& app, int& exit_code) {
       "tangent", "Check the assembled tangent against finite differences, by convergence order");
   auto flags = std::make_shared<Flags>();
   command->add_option("model", flags->model, "Model file (YAML)")->required();
-  command->add_option("-o,--output", flags->folder, "Also write tangent.json to this folder");
-  command->add_option("--state", flags->state, "Converged increment (0 = initial)");
+  command->add_option("-o,--output", flags->folder,
+                      "Result folder with checkpoints; also write tangent.json to it");
+  command->add_option("--state", flags->state, "Converged increment (0 = initial)")
+      ->check(CLI::Range(0, 1'000'000'000));
   command->add_option("--threads", flags->threads, "Threads for assembly")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--json", flags->json, "Print JSON on stdout");

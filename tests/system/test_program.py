@@ -137,17 +137,13 @@ class Program(unittest.TestCase):
     def test_the_same_bits_with_one_and_two_threads(self):
         self.expect_the_same_bits(self.model(BLOCK.replace("SIDE", "0.1")))
 
-    def test_until_and_what_is_not_there_yet(self):
+    def test_until(self):
         name = self.model(BLOCK.replace("SIDE", "0.1"))
         done = self.run_program("run", name, "--until", "weight", "--json", "--quiet")
         self.assertEqual(len(json.loads(done.stdout)["steps"]), 1)
         wrong = self.run_program("run", name, "--until", "wait")
         self.assertEqual(wrong.returncode, 2)
         self.assertIn("did you mean 'weight'", wrong.stderr)
-        for arguments in (("run", name, "--restart"), ("tangent", name, "--state", "3")):
-            later = self.run_program(*arguments)
-            self.assertEqual(later.returncode, 2)
-            self.assertIn("not available yet", later.stderr)
 
     def test_the_other_commands(self):
         name = self.model(BLOCK.replace("SIDE", "0.1"))

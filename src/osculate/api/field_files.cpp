@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <map>
+#include <set>
+#include <system_error>
 
 #include "osculate/model/fields.hpp"
 #include "osculate/model/quantities.hpp"
@@ -162,13 +166,40 @@ void FieldFiles<Dim>::write_contact(const model::BasicSystem<Dim>& system,
 }
 
 template <int Dim>
-void FieldFiles<Dim>::write_last_iterate(const model::BasicState<Dim>& state) {
+void FieldFiles<Dim>::write_last_iterate(const model::BasicState<Dim>& state,
+                                         const model::BasicFailure<Dim>& failure) {
+  const std::size_t nodes = built_.model.mesh.nodes.size();
   std::vector<Vec<Dim>> u;
-  for (std::size_t i = 0; i < built_.model.mesh.nodes.size(); ++i)
+  for (std::size_t i = 0; i < nodes; ++i)
     u.push_back(state.u.template segment<Dim>(Dim * static_cast<Eigen::Index>(i)));
-  const std::vector<io::Field> fields{vector_field("U", u)};
+  std::vector<double> flips(nodes, 0.0);
+  for (const model::FlippingPoint& point : failure.flips)
+    if (point.node >= 0 && static_cast<std::size_t>(point.node) < nodes)
+      flips[static_cast<std::size_t>(point.node)] = point.changes;
+  std::vector<io::Field> fields{vector_field("U", u), io::scalar_field("flips", flips)};
+  for (std::size_t k = 0; k < failure.motions.size(); ++k) {
+    std::vector<Vec<Dim>> motion = model::motion_field(built_.model, state, failure.motions[k]);
+    motion.resize(nodes);
+    fields.push_back(vector_field(fmt::format("free_motion_{}", k + 1), motion));
+  }
   io::write_vtu(folder_ + "/last_iterate.vtu", {built_.model.mesh.nodes, bodies_, fields, {}},
                 compress_);
+}
+
+template <int Dim>
+void FieldFiles<Dim>::resume(std::vector<io::PvdEntry> written, std::vector<bool> touched) {
+  namespace fs = std::filesystem;
+  std::set<std::string> kept;
+  for (const io::PvdEntry& entry : written) kept.insert(entry.file);
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error))
+    if (entry.path().extension() == ".vtu" && !kept.contains(entry.path().filename().string()))
+      fs::remove(entry.path(), error);
+  entries_ = std::move(written);
+  frame_ = static_cast<int>(std::count_if(entries_.begin(), entries_.end(),
+                                          [](const auto& e) { return e.part == "bodies"; }));
+  touched_ = std::move(touched);
+  close();
 }
 
 template <int Dim>

@@ -15,9 +15,17 @@ class FieldFiles {
   FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& built, bool compress);
   void write(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
              double time);
-  /// The last iterate of a failed increment (displacements only), as last_iterate.vtu.
-  void write_last_iterate(const model::BasicState<Dim>& state);
+  /// The last iterate of a failed increment, as last_iterate.vtu: displacements, `flips` (changes
+  /// of the contact state at a slave node in the last iterations), and every free rigid motion as a
+  /// vector field `free_motion_1`, ...
+  void write_last_iterate(const model::BasicState<Dim>& state,
+                          const model::BasicFailure<Dim>& failure);
   void close();
+
+  [[nodiscard]] const std::vector<io::PvdEntry>& written() const { return entries_; }
+  [[nodiscard]] const std::vector<bool>& touched() const { return touched_; }
+  /// Goes on after these files, of so many frames; removes what was written of later ones.
+  void resume(std::vector<io::PvdEntry> written, std::vector<bool> touched);
 
  private:
   void write_contact(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,

@@ -19,12 +19,20 @@ template <int Dim>
 void ReportCollector<Dim>::add_frame(const model::BasicSystem<Dim>& system,
                                      const model::BasicState<Dim>& state,
                                      const model::Progress& progress) {
+  if (view_.max_frames() == 0) return;
+  nlohmann::json frame = view_.frame(system, state);
+  frame["step"] = progress.step + 1;  // as in the columns of the history
+  frame["increment"] = progress.increment;
+  frame["time"] = progress.time;
+  add_frame(std::move(frame));
+}
+
+template <int Dim>
+void ReportCollector<Dim>::add_frame(nlohmann::json frame) {
   const std::size_t most = view_.max_frames();
   if (most == 0) return;
-  last_ = view_.frame(system, state);
-  last_["step"] = progress.step + 1;  // as in the columns of the history
-  last_["increment"] = progress.increment;
-  last_["time"] = progress.time;
+  newest_ = frame;
+  last_ = std::move(frame);
   if (seen_++ % stride_ != 0) return;
   frames_.push_back(std::move(last_));
   last_ = nullptr;

@@ -17,6 +17,10 @@ class ReportCollector {
   ReportCollector(const deck::BasicBuilt<Dim>& built, const deck::Description& description);
   void add_frame(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
                  const model::Progress& progress);
+  /// A frame that was made before: `newest()` of another collector.
+  void add_frame(nlohmann::json frame);
+  /// The frame that was added last; null if there is none or the view wants none.
+  [[nodiscard]] const nlohmann::json& newest() const { return newest_; }
   void add_history(const std::vector<double>& row);
   /// The report data with the summary merged in.
   [[nodiscard]] std::string json(const nlohmann::json& summary) const;
@@ -26,6 +30,7 @@ class ReportCollector {
   const deck::Description& description_;
   ReportView<Dim> view_;
   std::vector<nlohmann::json> frames_;
+  nlohmann::json newest_;
   nlohmann::json last_;  ///< the latest frame, if it is not among them
   std::size_t stride_ = 1, seen_ = 0;
   nlohmann::json rows_ = nlohmann::json::array();

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <system_error>
 
 #include "osculate/core/error.hpp"
 #include "osculate/io/atomic_file.hpp"
@@ -26,11 +27,27 @@ std::string model_of(const fs::path& folder) {
              : std::string{};
 }
 
+void require_writable(const std::string& folder) {
+  const fs::path probe = fs::path(folder) / "writable.part";
+  std::error_code ignored;
+  try {
+    io::write_file(probe.string(), "?");
+    fs::remove(probe, ignored);
+  } catch (const io::WriteError& error) {
+    fs::remove(probe, ignored);
+    throw core::InputError({}, fmt::format("cannot write to folder '{}': {}", folder,
+                                           std::generic_category().message(error.error_number())));
+  }
+}
+
 }  // namespace
 
+std::string result_folder(const std::string& model, const std::string& wanted) {
+  return wanted.empty() ? fs::path(model).stem().string() + ".results" : wanted;
+}
+
 std::string choose_folder(const std::string& model, const std::string& wanted) {
-  const fs::path folder =
-      wanted.empty() ? fs::path(fs::path(model).stem().string() + ".results") : fs::path(wanted);
+  const fs::path folder = result_folder(model, wanted);
   std::error_code error;
   if (!fs::exists(folder, error)) return folder.string();
   if (!fs::is_directory(folder, error))
@@ -45,18 +62,21 @@ std::string choose_folder(const std::string& model, const std::string& wanted) {
   return folder.string();
 }
 
-void open_folder(const std::string& folder) {
+void open_folder(const std::string& folder, bool keep) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
     throw core::InputError({},
                            fmt::format("cannot create folder '{}': {}", folder, error.message()));
+  require_writable(folder);
+  if (keep) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
     const std::string extension = entry.path().extension().string();
     const bool ours = extension == ".vtu" || extension == ".pvd" || name == "history.csv" ||
                       name == "summary.json" || name == "report.json" || name == "report.html" ||
-                      name == "log.txt";
+                      name == "log.txt" || name == "journal.bin" || name == "checkpoint.bin" ||
+                      name == "checkpoint.previous.bin" || name == "checkpoint.bin.part";
     if (ours) fs::remove(entry.path(), error);
   }
 }

@@ -6,7 +6,9 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
+#include "osculate/api/checkpoint.hpp"
 #include "osculate/api/field_files.hpp"
 #include "osculate/api/report_data.hpp"
 #include "osculate/api/result_folder.hpp"
@@ -43,7 +45,11 @@ struct Recorder {
   FieldFiles<Dim> fields;
   ReportCollector<Dim> report;
   std::ofstream log;
-  int since_output = 0;
+  std::optional<CheckpointWriter<Dim>> checkpoints;
+  JournalEntry entry{};     ///< of the increment that has just converged
+  std::string write_error;  ///< why the run had to stop, if a file could not be written
+  bool stopping = false;
+  int converged_count = 0;  ///< increments
   int iterations = 0;
   double seconds = 0;                    ///< spent here
   std::vector<double> curvature_shares;  ///< one per converged increment
@@ -52,7 +58,7 @@ struct Recorder {
   std::vector<double> deepest;           ///< penetration of each pair so far
 
   Recorder(const RunOptions& o, const deck::Description& d, const deck::BasicBuilt<Dim>& b,
-           std::string dir)
+           std::string dir, bool append)
       : options(o),
         description(d),
         built(b),
@@ -60,7 +66,35 @@ struct Recorder {
         history(folder + "/history.csv", column_names(b.history)),
         fields(folder, b, d.output.compress),
         report(b, d),
-        log(folder + "/log.txt") {}
+        log(folder + "/log.txt", append ? std::ios::app : std::ios::trunc) {}
+
+  /// Everything as it was when the checkpoint was written.
+  void resume(const Checkpoint<Dim>& from) {
+    std::vector<io::PvdEntry> files;
+    for (const JournalEntry& e : from.entries) {
+      add_row(e.progress, e.row);
+      if (!e.frame.empty()) report.add_frame(nlohmann::json::from_cbor(e.frame));
+      files.insert(files.end(), e.files.begin(), e.files.end());
+      if (!e.record) continue;
+      ++converged_count;
+      iterations += static_cast<int>(e.record->iterations.size()) + e.record->wasted_iterations;
+      curvature_shares.push_back(e.curvature_share);
+      notes.push_back(nlohmann::json::parse(e.note));
+      deepest = e.deepest;
+    }
+    const std::vector<char>& touched = from.entries.back().touched;
+    fields.resume(std::move(files), {touched.begin(), touched.end()});
+    if (description.output.checkpoint > 0)
+      checkpoints.emplace(folder, from.journal_bytes, from.journal_checksum,
+                          from.point.memory.grown.size());
+  }
+
+  void add_row(const model::Progress& p, std::vector<double> values) {
+    history.row(std::to_string(p.step + 1), p.increment, p.time, values);
+    values.insert(values.begin(),
+                  {static_cast<double>(p.step + 1), static_cast<double>(p.increment), p.time});
+    report.add_history(values);
+  }
 
   void say(const std::string& text) {
     log << text << std::endl;
@@ -84,25 +118,62 @@ struct Recorder {
   bool converged(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
                  const model::Progress& p, const solve::IncrementRecord* record) {
     const auto start = std::chrono::steady_clock::now();
-    std::vector<double> values;
-    for (const model::HistoryRequest& request : built.history)
-      values.push_back(model::history_value(system, built.model, state, request));
-    history.row(std::to_string(p.step + 1), p.increment, p.time, values);
-    values.insert(values.begin(),
-                  {static_cast<double>(p.step + 1), static_cast<double>(p.increment), p.time});
-    report.add_history(values);
-    if (wants_fields(p)) {
-      fields.write(system, state, p.time);
-      report.add_frame(system, state, p);
-    }
-    if (record) {
-      measure_penetration(system);
-      curvature_shares.push_back(curvature_share(system, state));
-      notes.push_back({{"outside_domain", report_outside_domain(system)}});
-      report_increment(p, *record);
+    try {
+      record_increment(system, state, p, record);
+    } catch (const io::WriteError& error) {
+      write_error = error.what();
     }
     seconds += seconds_since(start);
-    return !(options.interrupted && options.interrupted());
+    stopping = !write_error.empty() || (options.interrupted && options.interrupted());
+    return !stopping;
+  }
+
+  void record_increment(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+                        const model::Progress& p, const solve::IncrementRecord* record) {
+    entry = {};
+    entry.progress = p;
+    for (const model::HistoryRequest& request : built.history)
+      entry.row.push_back(model::history_value(system, built.model, state, request));
+    if (record) {
+      measure_penetration(system);
+      entry.deepest = deepest;
+      entry.record = *record;
+      entry.curvature_share = curvature_share(system, state);
+      const nlohmann::json note = {{"outside_domain", report_outside_domain(system)}};
+      entry.note = note.dump();
+      curvature_shares.push_back(entry.curvature_share);
+      notes.push_back(note);
+      report_increment(p, *record);
+      ++converged_count;
+    }
+    add_row(p, entry.row);
+    if (!wants_fields(p)) return;
+    const std::size_t before = fields.written().size();
+    fields.write(system, state, p.time);
+    entry.files.assign(fields.written().begin() + static_cast<std::ptrdiff_t>(before),
+                       fields.written().end());
+    if (!description.output.report) return;
+    report.add_frame(system, state, p);
+    if (checkpoints && !report.newest().is_null())
+      nlohmann::json::to_cbor(report.newest(), entry.frame);
+  }
+
+  /// The increment that `converged` has recorded.
+  void save(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+            const model::Progress& p, const solve::StepPosition& position) {
+    if (!checkpoints || !write_error.empty()) return;
+    const auto start = std::chrono::steady_clock::now();
+    const model::SystemMemory memory = system.memory();
+    entry.touched.assign(fields.touched().begin(), fields.touched().end());
+    const bool due =
+        converged_count % description.output.checkpoint == 0 || p.fraction >= 1.0 || stopping;
+    try {
+      checkpoints->add(entry, memory);
+      if (due) checkpoints->save(state, p, position, memory);
+    } catch (const io::WriteError& error) {
+      write_error = error.what();
+    }
+    seconds += seconds_since(start);
   }
 
   void measure_penetration(const model::BasicSystem<Dim>& system) {
@@ -193,30 +264,42 @@ struct Recorder {
 };
 
 template <int Dim>
+void write_results(Recorder<Dim>& recorder, const nlohmann::json& summary) {
+  write_text(recorder.folder + "/summary.json", summary.dump(1) + "\n");
+  recorder.fields.close();
+  if (!recorder.description.output.report) return;
+  const std::string data = recorder.report.json(summary);
+  write_text(recorder.folder + "/report.json", data);
+  write_text(recorder.folder + "/report.html", io::report_html(data));
+}
+
+template <int Dim>
 RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>& result,
                   double seconds_input) {
   RunOutcome outcome;
   outcome.folder = recorder.folder;
-  const bool done = result.outcome == solve::Outcome::converged;
+  const bool done = result.outcome == solve::Outcome::converged && recorder.write_error.empty();
   outcome.status = done ? RunStatus::done : RunStatus::stopped;
-  outcome.message = result.message;
+  outcome.message = recorder.write_error.empty()
+                        ? result.message
+                        : recorder.write_error + "; what was written before is kept";
   const std::string model = std::filesystem::path(recorder.options.model).filename().string();
   nlohmann::json summary =
       summary_json(model, result, done ? "done" : "stopped", {seconds_input, recorder.seconds},
                    recorder.curvature_shares, recorder.notes);
   summary["contact"] = recorder.report_penetration();
-  recorder.fields.close();
-  if (recorder.description.output.report) {
-    const std::string data = recorder.report.json(summary);
-    write_text(recorder.folder + "/report.json", data);
-    write_text(recorder.folder + "/report.html", io::report_html(data));
+  summary["message"] = outcome.message;
+  if (result.failure) summary["diagnosis"] = diagnosis_json(recorder.built.model, result);
+  try {
+    write_results(recorder, summary);
+  } catch (const io::WriteError& error) {
+    if (recorder.write_error.empty()) throw;  // otherwise it has been said already
   }
-  write_text(recorder.folder + "/summary.json", summary.dump(1) + "\n");
   outcome.summary_json = summary.dump(1);
   recorder.say(fmt::format("{}: {} iterations, {:.1f} s, {} unknowns; results in {}",
                            done ? "done" : "stopped", recorder.iterations, result.seconds,
                            result.unknowns, recorder.folder));
-  if (!done) recorder.say(result.message);
+  if (!done) recorder.say(outcome.message);
   return outcome;
 }
 
@@ -242,7 +325,39 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
     recorder.say(fmt::format("{}: no convergence from {:.5g} to {:.5g} of the step: {}; halving",
                              recorder.step_name(p), p.fraction, to, reason));
   };
+  observer.resumable = [&recorder](const model::BasicSystem<Dim>& system,
+                                   const model::BasicState<Dim>& state, const model::Progress& p,
+                                   const solve::StepPosition& position) {
+    recorder.save(system, state, p, position);
+  };
   return observer;
+}
+
+template <int Dim>
+void write_running(const Recorder<Dim>& recorder) {
+  const std::string model = std::filesystem::path(recorder.options.model).filename().string();
+  write_text(recorder.folder + "/summary.json",
+             nlohmann::json{{"model", model}, {"status", "running"}}.dump(1) + "\n");
+}
+
+/// What a run says and writes at its beginning.
+template <int Dim>
+void introduce(Recorder<Dim>& recorder, const RunIdentity& id) {
+  for (const ModelFact& fact : model_facts(recorder.built))
+    recorder.say(fmt::format("{:<13} {:<16} {}", fact.heading, fact.name, fact.text));
+  for (const std::string& warning : recorder.built.warnings) recorder.say("warning: " + warning);
+  write_running(recorder);
+  if (recorder.description.output.checkpoint > 0) recorder.checkpoints.emplace(recorder.folder, id);
+}
+
+template <int Dim>
+void introduce_restart(Recorder<Dim>& recorder, const Checkpoint<Dim>& from) {
+  if (!from.warning.empty()) recorder.say("warning: " + from.warning);
+  write_running(recorder);
+  recorder.resume(from);
+  recorder.say(fmt::format("restart after increment {} of step '{}', time {:.5g}",
+                           from.point.progress.increment, recorder.step_name(from.point.progress),
+                           from.point.progress.time));
 }
 
 template <int Dim>
@@ -252,21 +367,19 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
   built.options.until = options.until;
   check_until(options.until, built.model.steps);
   const std::string folder = choose_folder(options.model, options.folder);
-  open_folder(folder);
+  const RunIdentity id = identity(description, built.model.mesh, built.history);
+  std::optional<Checkpoint<Dim>> from;
+  if (options.restart) from = read_checkpoint<Dim>(folder, id, built.model, options.model);
+  open_folder(folder, options.restart);
   const double seconds_input = seconds_since(start);
-  Recorder<Dim> recorder(options, description, built, folder);
-  for (const ModelFact& fact : model_facts(built))
-    recorder.say(fmt::format("{:<13} {:<16} {}", fact.heading, fact.name, fact.text));
-  for (const std::string& warning : built.warnings) recorder.say("warning: " + warning);
-  write_text(folder + "/summary.json",
-             nlohmann::json{{"model", std::filesystem::path(options.model).filename().string()},
-                            {"status", "running"}}
-                     .dump(1) +
-                 "\n");
+  Recorder<Dim> recorder(options, description, built, folder, options.restart);
+  if (from)
+    introduce_restart(recorder, *from);
+  else
+    introduce(recorder, id);
   const model::BasicAnalysisResult<Dim> result =
-      model::run(built.model, built.options, observe(recorder));
-  if (result.outcome != solve::Outcome::converged && result.outcome != solve::Outcome::stopped)
-    recorder.fields.write_last_iterate(result.last_iterate);
+      model::run(built.model, built.options, observe(recorder), from ? &from->point : nullptr);
+  if (result.failure) recorder.fields.write_last_iterate(result.last_iterate, *result.failure);
   return finish(recorder, result, seconds_input);
 }
 

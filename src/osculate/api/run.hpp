@@ -11,6 +11,7 @@ struct RunOptions {
   std::string folder;  ///< result folder; empty: the model's stem + `.results`
   std::string until;   ///< last step to run, inclusive; empty: all
   int threads = 1;
+  bool restart = false;                            ///< go on from the folder's last checkpoint
   std::function<void(std::string_view)> say;       ///< lines for a person (also in log.txt)
   std::function<void(std::string_view)> progress;  ///< one changing line; may be empty
   std::function<bool()> interrupted;               ///< asked between increments; may be empty
@@ -26,9 +27,11 @@ struct RunOutcome {
 };
 
 /// Validates the input, then runs and writes summary.json, history.csv, results.pvd with VTU files,
-/// report.json, report.html and log.txt. Everything converged is kept whatever happens.
+/// report.json, report.html, log.txt and checkpoints. Everything converged is kept whatever
+/// happens; where a file cannot be written (disk full) the analysis stops.
 ///
-/// Errors     core::InputError for bad input, before anything is written or replaced
+/// Errors     core::InputError for bad input, a folder that cannot be written to, a checkpoint that
+///            cannot be used: before anything is written or replaced
 [[nodiscard]] RunOutcome run(const RunOptions& options);
 
 /// Text and JSON of `osculate check`: bodies, pairs, unknowns, initial gaps and overlaps, warnings.

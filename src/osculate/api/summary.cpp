@@ -7,6 +7,7 @@
 #include <map>
 
 #include "osculate/core/version.hpp"
+#include "osculate/mesh/boundary.hpp"
 #include "osculate/pairing/sampling.hpp"
 
 namespace osculate::api {
@@ -37,6 +38,39 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
           {"friction_work", number(last.counts.friction_work)},
           {"residuals", residuals},
           {"energies", energies}};
+}
+
+template <class Vector>
+nlohmann::json components(const Vector& v) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const double c : v) list.push_back(number(c));
+  return list;
+}
+
+/// Why an analysis stopped before its end.
+template <int Dim>
+nlohmann::json failure_json(const model::BasicModel<Dim>& model,
+                            const model::BasicFailure<Dim>& failure) {
+  nlohmann::json flips = nlohmann::json::array(), motions = nlohmann::json::array();
+  for (const model::FlippingPoint& point : failure.flips)
+    flips.push_back({{"pair", point.pair},
+                     {"node", point.node >= 0 ? mesh::describe_node(model.mesh, point.node) : ""},
+                     {"states", point.states}});
+  for (const model::BasicFreeMotion<Dim>& motion : failure.motions)
+    motions.push_back({{"body", motion.body},
+                       {"direction", components(motion.direction)},
+                       {"rotation", number(motion.rotation)},
+                       {"axis", components(motion.axis)},
+                       {"center", components(motion.center)},
+                       {"resistance", number(motion.stiffness_ratio)}});
+  return {{"cause", model::cause_name(failure.cause)},
+          {"reason", failure.reason},
+          {"proposal", failure.proposal},
+          {"flips", flips},
+          {"free_motions", motions},
+          {"stiffness_ratio", number(failure.stiffness_ratio)},
+          {"negative_pivots", failure.negative_pivots},
+          {"last_step", number(failure.last_step)}};
 }
 
 const char* weight_name(pairing::Weight weight) {
@@ -233,6 +267,12 @@ nlohmann::json summary_json(const std::string& model_file,
 }
 
 template <int Dim>
+nlohmann::json diagnosis_json(const model::BasicModel<Dim>& model,
+                              const model::BasicAnalysisResult<Dim>& result) {
+  return result.failure ? failure_json(model, *result.failure) : nlohmann::json(nullptr);
+}
+
+template <int Dim>
 std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
   const model::BasicModel<Dim>& m = built.model;
   std::vector<ModelFact> facts;
@@ -259,6 +299,8 @@ template nlohmann::json summary_json(const std::string&, const model::AnalysisRe
                                      const std::string&, const RunSeconds&,
                                      const std::vector<double>&,
                                      const std::vector<nlohmann::json>&);
+template nlohmann::json diagnosis_json(const model::Model&, const model::AnalysisResult&);
+template nlohmann::json diagnosis_json(const model::Model3&, const model::AnalysisResult3&);
 template std::vector<ModelFact> model_facts(const deck::Built&);
 template std::vector<ModelFact> model_facts(const deck::Built3&);
 

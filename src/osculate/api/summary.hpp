@@ -22,6 +22,11 @@ template <int Dim>
                                           const std::vector<double>& curvature_shares,
                                           const std::vector<nlohmann::json>& notes = {});
 
+/// `diagnosis` of summary.json: why the analysis stopped before its end; null if it did not fail.
+template <int Dim>
+[[nodiscard]] nlohmann::json diagnosis_json(const model::BasicModel<Dim>& model,
+                                            const model::BasicAnalysisResult<Dim>& result);
+
 /// One line per thing the model consists of: bodies, rigid bodies, pairs, steps.
 struct ModelFact {
   std::string heading, name, text;

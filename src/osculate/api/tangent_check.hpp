@@ -28,6 +28,13 @@ struct TangentReport {
 /// displaced a little at random (fixed seed), so that contact is closed and no point sits on a
 /// border between two states; both probes stay in the same states.
 [[nodiscard]] TangentReport check_tangent(const std::string& model, int threads);
+/// The same where converged increment number `state` (counted through all steps) ends: the tangent
+/// of its last iteration, all points moved by 1e-6 of a facet off the borders. The increment is
+/// computed again from the last checkpoint in `folder` that lies before it, or from the beginning.
+///
+/// Errors     core::InputError also if the analysis has not so many converged increments
+[[nodiscard]] TangentReport check_tangent(const std::string& model, int threads, int state,
+                                          const std::string& folder);
 [[nodiscard]] TangentReport check_tangent(const model::Model& model, int threads);
 [[nodiscard]] TangentReport check_tangent(const model::Model3& model, int threads);
 

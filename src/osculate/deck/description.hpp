@@ -10,6 +10,7 @@
 #include "osculate/cell/cell_type.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/types.hpp"
+#include "osculate/deck/source_tree.hpp"
 #include "osculate/geometry/catalogue.hpp"
 #include "osculate/geometry/nurbs_patch.hpp"
 #include "osculate/geometry/surfaces.hpp"
@@ -401,6 +402,7 @@ struct Output {
   int every = 1;  ///< with FieldTimes::every: each n-th increment (and the last of each step)
   std::vector<HistoryRequest> history;
   bool report = true, compress = true;
+  int checkpoint = 1;  ///< every so many increments; 0: never
   std::vector<Plot> plots;
 };
 
@@ -418,6 +420,8 @@ struct Description {
   std::vector<Step> steps;
   Solver solver;
   Output output;
+  /// What the results depend on, as it was written: everything but `title`, `solver`, `output`.
+  std::vector<SourceLeaf> source;
 
   [[nodiscard]] const Material* find_material(const std::string& name) const;
   [[nodiscard]] const Rigid* find_rigid(const std::string& name) const;

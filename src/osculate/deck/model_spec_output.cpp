@@ -102,8 +102,7 @@ Spec solver_spec() {
                                         .otherwise("auto")),
               optional("stabilisation",
                        map("Viscous help until contact closes.", {}).not_available()),
-              optional("arc_length", map("Arc length control.", {}).not_available()),
-              optional("checkpoints", map("Files to restart from.", {}).not_available())})
+              optional("arc_length", map("Arc length control.", {}).not_available())})
       .otherwise("{}")
       .such_as("{max_iterations: 40, line_search: off}");
 }
@@ -116,6 +115,12 @@ Spec output_spec() {
                                  word("last", FieldTimes::last, "at the end of every step"),
                                  word("none", FieldTimes::none, "never")})})
           .otherwise("every")
+          .such_as("10");
+  const Spec checkpoint =
+      either("When a checkpoint is written, from which `osculate run --restart` goes on.",
+             {integer("Every n-th increment, and at the end of every step.").at_least(1),
+              choice("A word.", {word("none", FieldTimes::none, "never")})})
+          .otherwise("1")
           .such_as("10");
   const Spec request =
       map("One column of history.csv.",
@@ -132,7 +137,7 @@ Spec output_spec() {
                                       .such_as("[{on: floor, of: normal_force}]")),
               optional("report", boolean("Write report.html.").otherwise("true")),
               optional("compress", boolean("Compress field files.").otherwise("true")),
-              optional("plots", plots_spec())})
+              optional("checkpoint", checkpoint), optional("plots", plots_spec())})
       .otherwise("{}")
       .such_as("{fields: last, history: [{on: floor, of: normal_force}]}");
 }

@@ -111,6 +111,7 @@ Description parse_model(std::string_view text, std::string file_name) {
   check_references(d);
   check_steps(d);
   d.output = parse_output(model.at("output"), d);
+  d.source = source_leaves(root, {"title", "solver", "output"});
   return d;
 }
 

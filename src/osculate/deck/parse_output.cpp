@@ -103,6 +103,8 @@ Output parse_output(const Value& v, const Description& description) {
   for (const Value& item : v.at("plots").items) output.plots.push_back(plot_of(item, columns));
   output.report = flag(v, "report");
   output.compress = flag(v, "compress");
+  const Value& checkpoint = v.at("checkpoint");
+  output.checkpoint = checkpoint.alternative == 0 ? checkpoint.code : 0;
   return output;
 }
 

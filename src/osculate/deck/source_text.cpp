@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "osculate/core/error.hpp"
@@ -58,6 +59,39 @@ void require_plain_text(std::string_view text, const std::string& file) {
     i += length;
   }
   require_no_tab_indent(text.substr(start), number, file);
+}
+
+namespace {
+
+void add_leaves(const SourceNode& node, const std::string& path, std::vector<SourceLeaf>& out) {
+  switch (node.kind) {
+    case SourceNode::Kind::nothing:
+      out.push_back({path, "nothing", node.line});
+      return;
+    case SourceNode::Kind::scalar:
+      out.push_back({path, node.text, node.line});
+      return;
+    case SourceNode::Kind::list:
+      if (node.items.empty()) out.push_back({path, "[]", node.line});
+      for (std::size_t i = 0; i < node.items.size(); ++i)
+        add_leaves(node.items[i], path + "[" + std::to_string(i) + "]", out);
+      return;
+    case SourceNode::Kind::map:
+      if (node.entries.empty()) out.push_back({path, "{}", node.line});
+      for (const SourceEntry& entry : node.entries)
+        add_leaves(entry.value, path + "." + entry.key, out);
+  }
+}
+
+}  // namespace
+
+std::vector<SourceLeaf> source_leaves(const SourceNode& root,
+                                      const std::vector<std::string>& left_out) {
+  std::vector<SourceLeaf> leaves;
+  for (const SourceEntry& entry : root.entries)
+    if (std::find(left_out.begin(), left_out.end(), entry.key) == left_out.end())
+      add_leaves(entry.value, entry.key, leaves);
+  return leaves;
 }
 
 std::string printable(std::string_view text) {

@@ -41,6 +41,16 @@ struct TextLimits {
 [[nodiscard]] SourceNode read_yaml(std::string_view text, const std::string& file,
                                    const TextLimits& limits = {});
 
+/// A value as it was written, with the path of its key, e.g. `steps[1].increments`.
+struct SourceLeaf {
+  std::string path, text;
+  int line = 0;
+};
+
+/// All values of a document in file order, without those under the keys `left_out` of the root.
+[[nodiscard]] std::vector<SourceLeaf> source_leaves(const SourceNode& root,
+                                                    const std::vector<std::string>& left_out);
+
 /// User's text made fit for a message: control characters replaced, at most 40 characters.
 [[nodiscard]] std::string printable(std::string_view text);
 

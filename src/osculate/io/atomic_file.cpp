@@ -1,5 +1,7 @@
 #include "osculate/io/atomic_file.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <filesystem>
 #include <system_error>
@@ -55,13 +57,29 @@ void AtomicFile::write(std::string_view data) {
   if (std::fwrite(data.data(), 1, data.size(), file_) != data.size()) fail("cannot write");
 }
 
-void AtomicFile::commit() {
+void AtomicFile::finish(bool on_disk) {
   if (file_ == nullptr) throw WriteError(path_, "cannot write after the end", EBADF);
   errno = 0;
   if (std::fflush(file_) != 0) fail("cannot write");
+  if (on_disk && ::fsync(::fileno(file_)) != 0 && errno != EINVAL) fail("cannot write");
   std::FILE* const file = std::exchange(file_, nullptr);
   if (std::fclose(file) != 0) fail("cannot write");
+}
+
+void AtomicFile::commit() {
+  finish(false);
   if (part_.empty()) return;
+  if (std::rename(part_.c_str(), place_.c_str()) != 0) fail("cannot replace");
+}
+
+void AtomicFile::commit_keeping(const std::string& previous) {
+  finish(true);
+  if (part_.empty()) return;
+  std::remove(previous.c_str());
+  // A second name for the old file; where links are not known the old file is moved.
+  if (::link(place_.c_str(), previous.c_str()) != 0 && errno != ENOENT &&
+      std::rename(place_.c_str(), previous.c_str()) != 0)
+    fail("cannot keep the previous file");
   if (std::rename(part_.c_str(), place_.c_str()) != 0) fail("cannot replace");
 }
 

@@ -33,8 +33,12 @@ class AtomicFile {
   void write(std::string_view data);
   /// Puts the file in its place; nothing may be written afterwards.
   void commit();
+  /// The same, on the disk when it returns; what was there before is kept under the name `previous`
+  /// (in the same folder). At any moment one of the two is whole.
+  void commit_keeping(const std::string& previous);
 
  private:
+  void finish(bool on_disk);
   [[noreturn]] void fail(const std::string& action);
   std::string path_;
   std::string place_;  ///< what is replaced: `path`, or where that link leads to

@@ -90,13 +90,10 @@ std::string csv_text(const std::string& text) {
 // ---- writing ------------------------------------------------------------------------------------
 
 HistoryWriter::HistoryWriter(std::string path, std::vector<std::string> columns)
-    : path_(std::move(path)), columns_(columns.size()) {
-  errno = 0;
-  file_.reset(std::fopen(path_.c_str(), "wb"));
-  if (!file_) throw WriteError(path_, "cannot write", errno);
+    : path_(std::move(path)), columns_(columns.size()), file_(path_) {
   std::string header = "step,increment,time";
   for (const std::string& column : columns) header += "," + csv_text(column);
-  write(std::move(header));
+  file_.append(header + "\n");
 }
 
 void HistoryWriter::row(const std::string& step, int increment, double time,
@@ -106,15 +103,7 @@ void HistoryWriter::row(const std::string& step, int increment, double time,
         fmt::format("{}: {} values for {} columns", path_, values.size(), columns_));
   std::string line = fmt::format("{},{},{}", csv_text(step), increment, csv_number(time));
   for (const double value : values) line += "," + csv_number(value);
-  write(std::move(line));
-}
-
-void HistoryWriter::write(std::string line) {
-  line += '\n';
-  errno = 0;
-  if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size() ||
-      std::fflush(file_.get()) != 0)
-    throw WriteError(path_, "cannot write", errno);
+  file_.append(line + "\n");
 }
 
 // ---- reading ------------------------------------------------------------------------------------

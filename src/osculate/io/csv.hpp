@@ -1,17 +1,16 @@
 #pragma once
-#include <cstdio>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "osculate/io/atomic_file.hpp"
+#include "osculate/io/append_file.hpp"
 
 namespace osculate::io {
 
 /// Writes `history.csv` row by row: `step,increment,time` and one column per request. Every row is
-/// on disk when row() returns, so that a running analysis can be watched.
+/// in the file when row() returns, so that a running analysis can be watched, and the file ends
+/// with a whole row even when the disk is full.
 ///
 /// Errors     WriteError; std::invalid_argument if a row has not the number of columns
 /// Tested by  tests/unit/io/test_csv.cpp
@@ -21,13 +20,9 @@ class HistoryWriter {
   void row(const std::string& step, int increment, double time, std::span<const double> values);
 
  private:
-  void write(std::string line);
-  struct Close {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-  };
   std::string path_;
   std::size_t columns_;
-  std::unique_ptr<std::FILE, Close> file_;
+  AppendFile file_;
 };
 
 /// A number with 17 significant digits: reading it back gives the same bits. `nan`, `inf`, `-inf`.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 namespace osculate::la {
 namespace {
@@ -117,10 +118,29 @@ const SparseMatrix& MatrixBuilder::finish() {
 
 void MatrixBuilder::merge() {
   if (pending_.empty() && aside_.empty()) return;
-  for (const Entry& entry : aside_) pending_.push_back(entry.at);
+  const auto before = static_cast<std::ptrdiff_t>(grown_.size());
+  for (const Entry& entry : aside_) {
+    pending_.push_back(entry.at);
+    grown_.push_back(entry.at);
+  }
+  const auto key = [](const Place& p) { return std::pair(p.row, p.column); };
+  std::sort(grown_.begin() + before, grown_.end(),
+            [&](const Place& a, const Place& b) { return key(a) < key(b); });
+  const auto same = [&](const Place& a, const Place& b) { return key(a) == key(b); };
+  grown_.erase(std::unique(grown_.begin() + before, grown_.end(), same), grown_.end());
   grow();
   for (const Entry& entry : aside_) *find(entry.at.row, entry.at.column) += entry.value;
   aside_.clear();
+}
+
+void MatrixBuilder::grow_by(std::span<const MatrixPlace> places) {
+  merge();
+  for (const Place& place : places) {
+    if (find(place.row, place.column) != nullptr) continue;
+    pending_.push_back(place);
+    grown_.push_back(place);
+  }
+  merge();
 }
 
 /// Unites the pattern with the pending places. Neither kind is in the pattern before, so it grows.

@@ -18,6 +18,11 @@ struct SparseMatrix {
   std::vector<double> value;
 };
 
+/// A place in a matrix.
+struct MatrixPlace {
+  Index row = 0, column = 0;
+};
+
 /// K x, row by row in the order of the columns.
 ///
 /// Requires   x.size() == k.n
@@ -56,6 +61,11 @@ class MatrixBuilder {
   void add_block(std::span<const Index> unknowns, const double* values, std::ptrdiff_t stride);
   /// Merges what was kept aside and returns the matrix.
   const SparseMatrix& finish();
+  /// Places by which entries have made the pattern grow so far, each once (all merged). The same
+  /// reservations and these give another builder the same pattern.
+  [[nodiscard]] const std::vector<MatrixPlace>& grown() const { return grown_; }
+  /// Adds such places to the pattern.
+  void grow_by(std::span<const MatrixPlace> places);
   /// Changes when the pattern grew. Growth that waits for `finish` counts already, so it does not
   /// matter which of the two is called first.
   [[nodiscard]] std::uint64_t pattern_version() const {
@@ -63,9 +73,7 @@ class MatrixBuilder {
   }
 
  private:
-  struct Place {
-    Index row, column;
-  };
+  using Place = MatrixPlace;
   struct Entry {
     Place at;
     double value;
@@ -77,6 +85,7 @@ class MatrixBuilder {
   SparseMatrix matrix_;
   std::vector<Place> pending_;  ///< reserved, not yet in the pattern
   std::vector<Entry> aside_;    ///< added outside the pattern, in the order of the calls
+  std::vector<Place> grown_;    ///< in the order of the growth
   std::uint64_t version_ = 1;
   std::vector<std::size_t> order_;      ///< of the columns of a block
   std::vector<std::ptrdiff_t> places_;  ///< of these columns in the row before

@@ -1,10 +1,7 @@
 #include "osculate/model/analysis.hpp"
 
-#include <fmt/format.h>
-
 #include <chrono>
-
-#include "osculate/model/diagnosis.hpp"
+#include <iterator>
 
 namespace osculate::model {
 namespace {
@@ -13,52 +10,32 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// One analysis on its way.
 template <int Dim>
-std::string failure_message(BasicSystem<Dim>& system, const BasicModel<Dim>& model,
-                            const Step& step, const solve::StepResult<BasicState<Dim>>& result) {
-  std::string text = fmt::format(
-      "step '{}' stopped at {:.4g} of its length: {}", step.name,
-      result.increments.empty() ? 0.0 : result.increments.back().fraction, result.reason);
-  const std::string motion = free_motion_message(system, model, result.last_attempt.state);
-  if (!motion.empty()) text += "; " + motion;
-  for (const OutsideDomain& found : outside_domain(system, model))
-    text += "; " + outside_domain_message(model, found);
-  return text;
-}
+struct Analysis {
+  const BasicModel<Dim>& model;
+  const AnalysisOptions& options;
+  const BasicAnalysisObserver<Dim>& observer;
+  BasicSystem<Dim> system;
+  la::DirectSolver solver{};
+  BasicAnalysisResult<Dim> result{};
+  Progress progress{};
+  solve::StepPosition position{};
 
-}  // namespace
-
-template <int Dim>
-BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions& options,
-                             const BasicAnalysisObserver<Dim>& observer) {
-  const auto start = std::chrono::steady_clock::now();
-  BasicSystem<Dim> system(model, options.threads);
-  la::DirectSolver solver;
-  BasicAnalysisResult<Dim> result;
-  result.unknowns = system.dofs().unknowns();
-  result.state = system.initial_state();
-  Progress progress;
-  if (!model.steps.empty()) system.begin_step(model.steps.front(), result.state);
-  solve::Evaluation initial;
-  system.evaluate(result.state, result.state, 0.0, false, initial);
-  if (observer.converged && !observer.converged(system, result.state, progress, nullptr)) {
-    result.outcome = solve::Outcome::stopped;
-    result.message = "stopped by the user";
-    result.last_iterate = result.state;
-    result.seconds = seconds_since(start);
-    return result;
+  /// Tells the observer; false to stop.
+  bool tell(const BasicState<Dim>& state, const solve::IncrementRecord* record) {
+    const bool go_on = !observer.converged || observer.converged(system, state, progress, record);
+    if (observer.resumable) observer.resumable(system, state, progress, position);
+    return go_on;
   }
-  for (std::size_t s = 0; s < model.steps.size(); ++s) {
-    const Step& step = model.steps[s];
-    progress.step = static_cast<Index>(s);
-    progress.increment = 0;
-    system.begin_step(step, result.state);
+
+  void run_step(const Step& step) {
     const auto on_increment = [&](const BasicState<Dim>& state,
                                   const solve::IncrementRecord& record) {
       ++progress.increment;
       progress.fraction = record.fraction;
-      progress.time = static_cast<double>(s) + record.fraction;
-      return !observer.converged || observer.converged(system, state, progress, &record);
+      progress.time = static_cast<double>(progress.step) + record.fraction;
+      return tell(state, &record);
     };
     const auto on_cutback = [&](const std::string& reason, double from, double to,
                                 const std::vector<solve::IterationRecord>& iterations) {
@@ -67,25 +44,78 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
     };
     solve::StepResult<BasicState<Dim>> done =
         solve::run_step(system, result.state, step.increments, options.increments, solver,
-                        on_increment, on_cutback);
+                        on_increment, on_cutback, position);
     result.state = done.state;
     result.last_iterate = done.state;
     result.outcome = done.outcome;
     if (done.outcome == solve::Outcome::stopped) result.message = done.reason;
     if (done.outcome != solve::Outcome::converged && done.outcome != solve::Outcome::stopped) {
-      result.message = failure_message(system, model, step, done);
+      result.failure = diagnose(system, model, step, done);
+      result.message = result.failure->message;
       result.last_iterate = done.last_attempt.state;
     }
-    result.steps.push_back({step.name, std::move(done.increments)});
+    std::vector<solve::IncrementRecord>& records = result.steps.back().increments;
+    records.insert(records.end(), std::make_move_iterator(done.increments.begin()),
+                   std::make_move_iterator(done.increments.end()));
+  }
+};
+
+/// The first state and its evaluation, which gives the search trees their shape. False to stop.
+template <int Dim>
+bool begin(Analysis<Dim>& a, const BasicResumePoint<Dim>* from) {
+  a.result.state = a.system.initial_state();
+  if (!a.model.steps.empty()) a.system.begin_step(a.model.steps.front(), a.result.state);
+  solve::Evaluation initial;
+  a.system.evaluate(a.result.state, a.result.state, 0.0, false, initial);
+  if (!from) return a.tell(a.result.state, nullptr);
+  a.result.state = from->state;
+  a.result.steps = from->steps;
+  a.progress = from->progress;
+  a.position = from->position;
+  return true;
+}
+
+}  // namespace
+
+template <int Dim>
+BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions& options,
+                             const BasicAnalysisObserver<Dim>& observer,
+                             const BasicResumePoint<Dim>* from) {
+  const auto start = std::chrono::steady_clock::now();
+  Analysis<Dim> a{model, options, observer, {model, options.threads}};
+  BasicAnalysisResult<Dim>& result = a.result;
+  result.unknowns = a.system.dofs().unknowns();
+  if (!begin(a, from)) {
+    result.outcome = solve::Outcome::stopped;
+    result.message = "stopped by the user";
+    result.last_iterate = result.state;
+    result.seconds = seconds_since(start);
+    return result;
+  }
+  const auto first = static_cast<std::size_t>(a.progress.step);
+  for (std::size_t s = first; s < model.steps.size(); ++s) {
+    const Step& step = model.steps[s];
+    if (from && s == first) {
+      a.system.resume_step(step, result.state, from->memory);
+    } else {
+      a.progress.step = static_cast<Index>(s);
+      a.progress.increment = 0;
+      a.position = {};
+      a.system.begin_step(step, result.state);
+    }
+    if (result.steps.size() == s) result.steps.push_back({step.name, {}});
+    a.run_step(step);
     if (result.outcome != solve::Outcome::converged || step.name == options.until) break;
   }
-  result.seconds_system = system.seconds();
-  result.seconds_solver = solver.seconds();
+  result.seconds_system = a.system.seconds();
+  result.seconds_solver = a.solver.seconds();
   result.seconds = seconds_since(start);
   return result;
 }
 
-template AnalysisResult run(const Model&, const AnalysisOptions&, const AnalysisObserver&);
-template AnalysisResult3 run(const Model3&, const AnalysisOptions&, const AnalysisObserver3&);
+template AnalysisResult run(const Model&, const AnalysisOptions&, const AnalysisObserver&,
+                            const ResumePoint*);
+template AnalysisResult3 run(const Model3&, const AnalysisOptions&, const AnalysisObserver3&,
+                             const ResumePoint3*);
 
 }  // namespace osculate::model

@@ -1,8 +1,10 @@
 #pragma once
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "osculate/model/failure.hpp"
 #include "osculate/model/system.hpp"
 #include "osculate/solve/increments.hpp"
 
@@ -27,16 +29,27 @@ struct StepRecord {
   std::vector<solve::IncrementRecord> increments;
 };
 
+/// A converged increment and all that is needed to go on from there with the same bits.
+template <int Dim>
+struct BasicResumePoint {
+  BasicState<Dim> state;
+  Progress progress;
+  solve::StepPosition position;
+  SystemMemory memory;
+  std::vector<StepRecord> steps;  ///< what went before, for the result
+};
+
 template <int Dim>
 struct BasicAnalysisResult {
   solve::Outcome outcome = solve::Outcome::converged;
   std::string message;  ///< plain words
   std::vector<StepRecord> steps;
-  BasicState<Dim> state;         ///< last converged
-  BasicState<Dim> last_iterate;  ///< of the failed attempt (equal to `state` when done)
-  double seconds = 0;            ///< of the whole analysis, observers included
-  SystemSeconds seconds_system;  ///< of its evaluations
-  double seconds_solver = 0;     ///< of the linear solver: factors and solutions
+  BasicState<Dim> state;                     ///< last converged
+  BasicState<Dim> last_iterate;              ///< of the failed attempt (equal to `state` when done)
+  std::optional<BasicFailure<Dim>> failure;  ///< why the analysis stopped before its end
+  double seconds = 0;                        ///< of the whole analysis, observers included
+  SystemSeconds seconds_system;              ///< of its evaluations
+  double seconds_solver = 0;                 ///< of the linear solver: factors and solutions
   Index unknowns = 0;
 };
 
@@ -50,15 +63,23 @@ struct BasicAnalysisObserver {
   std::function<void(const std::string& reason, const Progress&, double to,
                      const std::vector<solve::IterationRecord>&)>
       cutback;
+  /// After `converged`, with what a resume point consists of.
+  std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
+                     const solve::StepPosition&)>
+      resumable;
 };
 
 /// Runs the steps of a model one after the other. Keeps everything converged when a step fails and
-/// says in `message` why: the reason of the solver and, where there is one, the free motion.
+/// says in `message` why: the reason of the solver and, where there is one, the free motion. With
+/// `from` it goes on from there; the observer hears of what comes after only.
 template <int Dim>
 [[nodiscard]] BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model,
                                            const AnalysisOptions& options,
-                                           const BasicAnalysisObserver<Dim>& observer);
+                                           const BasicAnalysisObserver<Dim>& observer,
+                                           const BasicResumePoint<Dim>* from = nullptr);
 
+using ResumePoint = BasicResumePoint<2>;
+using ResumePoint3 = BasicResumePoint<3>;
 using AnalysisResult = BasicAnalysisResult<2>;
 using AnalysisResult3 = BasicAnalysisResult<3>;
 using AnalysisObserver = BasicAnalysisObserver<2>;

@@ -202,6 +202,7 @@ std::vector<BasicFreeMotion<Dim>> free_motions(BasicSystem<Dim>& system,
     for (Eigen::Index j = 0; j < count; ++j) {
       found.push_back(motion_of<Dim>(w.col(j), modes.center, ratio(first + j)));
       found.back().body = name;
+      found.back().nodes = nodes;
     }
   }
   return found;

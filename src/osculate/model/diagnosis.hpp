@@ -14,6 +14,7 @@ struct BasicFreeMotion {
   double rotation = 0;  ///< about the body's centroid, relative to the translation
   Vec3 axis{0, 0, 1};   ///< of the rotation
   Vec<Dim> center = Vec<Dim>::Zero();
+  std::vector<Index> nodes{};  ///< of the body
   double stiffness_ratio = 0;  ///< resistance relative to the body's own stiffness
 };
 

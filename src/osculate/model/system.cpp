@@ -49,9 +49,31 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
 }
 
 template <int Dim>
+SystemMemory BasicSystem<Dim>::memory() const {
+  SystemMemory memory;
+  for (const PrescribedDof& p : impl_->step.prescribed) memory.starts.push_back(p.ramp.start);
+  impl_->builder.finish();  // what the last evaluation has kept aside belongs to it
+  memory.grown = impl_->builder.grown();
+  return memory;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::resume_step(const Step& step, const State& committed,
+                                   const SystemMemory& memory) {
+  begin_step(step, committed);
+  for (std::size_t i = 0; i < memory.starts.size(); ++i) {
+    PrescribedDof& p = impl_->step.prescribed.at(i);
+    p.ramp.start = memory.starts[i];
+    if (p.hold) p.ramp.target = p.ramp.start;
+  }
+  impl_->builder.grow_by(memory.grown);
+}
+
+template <int Dim>
 void BasicSystem<Dim>::predict(const State& committed, double fraction, solve::Evaluation& out,
                                bool sticking) {
   impl_->sticking = sticking;
+  impl_->recent.clear();
   impl_->assemble(committed, committed, fraction, true, true, out);
 }
 
@@ -97,7 +119,17 @@ BasicState<Dim> BasicSystem<Dim>::remember(const State& trial) const {
   for (std::size_t p = 0; p < impl_->contact.size(); ++p)
     state.assumed.push_back(pairing::evaluated_branches(
         impl_->contact[p], p < trial.assumed.size() ? trial.assumed[p] : pairing::Assumed<Dim>{}));
+  constexpr std::size_t most = 8;
+  if (impl_->recent.size() == most) impl_->recent.pop_front();
+  impl_->recent.push_back(impl_->contact_states());
   return state;
+}
+
+template <int Dim>
+std::vector<ContactStates> BasicSystem<Dim>::recent_contact() const {
+  std::vector<ContactStates> states(impl_->recent.begin(), impl_->recent.end());
+  states.push_back(impl_->contact_states());
+  return states;
 }
 
 template <int Dim>

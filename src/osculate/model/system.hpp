@@ -29,6 +29,16 @@ struct SystemSeconds {
   double assembly = 0;                 ///< everything else: loads, scatter into vectors and matrix
 };
 
+/// What a system remembers beside the states: with it, another one of the same model goes on with
+/// the same bits.
+struct SystemMemory {
+  std::vector<double> starts;          ///< of the prescribed dofs' ramps in the running step
+  std::vector<la::MatrixPlace> grown;  ///< entries of contact in the pattern of the matrix
+};
+
+/// States of the contact points by pair: 0 open, 1 stick, 2 slip, 3 slip the other way (2D only).
+using ContactStates = std::vector<std::vector<std::uint8_t>>;
+
 /// The system that `solve` sees: assembles residual and tangent of a model.
 ///
 /// Owns: dof space, matrix, evaluation buffers. Does not own: the model, the states.
@@ -50,6 +60,9 @@ class BasicSystem {
   [[nodiscard]] State initial_state();
   /// Fixes what is prescribed and loaded during a step; start values come from `committed`.
   void begin_step(const Step& step, const State& committed);
+  [[nodiscard]] SystemMemory memory() const;
+  /// Begins `step` as it was begun when the memory was taken, in the middle of it.
+  void resume_step(const Step& step, const State& committed, const SystemMemory& memory);
 
   /// Residual and tangent of the first iteration. Points that slid go on sliding; with `sticking`
   /// they stick, which is what can be solved where sliding points alone do not hold a body.
@@ -78,6 +91,8 @@ class BasicSystem {
   [[nodiscard]] const BasicDofSpace<Dim>& dofs() const;
   [[nodiscard]] const Forces& forces() const;  ///< of the last evaluation
   [[nodiscard]] const std::vector<pairing::PairEvaluation<Dim>>& contact() const;
+  /// At the beginning of the last iterations (at most eight) of the running attempt and at its end.
+  [[nodiscard]] std::vector<ContactStates> recent_contact() const;
   [[nodiscard]] std::vector<Vec<Dim>> positions(const State& state) const;
   [[nodiscard]] bool prescribed(Index unknown) const;
   [[nodiscard]] SystemSeconds seconds() const;

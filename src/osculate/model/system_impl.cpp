@@ -133,6 +133,22 @@ std::vector<Vec<Dim>> BasicSystem<Dim>::Impl::positions(const Eigen::VectorXd& u
 }
 
 template <int Dim>
+ContactStates BasicSystem<Dim>::Impl::contact_states() const {
+  ContactStates states;
+  for (const pairing::PairEvaluation<Dim>& pair : contact) {
+    states.emplace_back();
+    for (const pairing::PointResult<Dim>& point : pair.points) {
+      auto state = static_cast<std::uint8_t>(point.status == contact::Status::open    ? 0
+                                             : point.status == contact::Status::stick ? 1
+                                                                                      : 2);
+      if (Dim == 2 && state == 2 && point.shear_traction[0] < 0) state = 3;
+      states.back().push_back(state);
+    }
+  }
+  return states;
+}
+
+template <int Dim>
 double BasicSystem<Dim>::Impl::current_value(const State& s, Dof dof) const {
   const Dof local = dof - Dim * dofs.nodes();
   if (local < 0) return s.u[dof];

@@ -2,6 +2,7 @@
 // Inside of BasicSystem; included by its sources only.
 #include <array>
 #include <chrono>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -73,6 +74,9 @@ struct BasicSystem<Dim>::Impl {
   std::vector<Dof> path_dofs, contact_dofs;
 
   Impl(const BasicModel<Dim>& m, int thread_count);
+
+  std::deque<ContactStates> recent;  ///< of the running attempt
+  [[nodiscard]] ContactStates contact_states() const;
 
   [[nodiscard]] bool on(Term term) const { return enabled[static_cast<std::size_t>(term)]; }
   [[nodiscard]] std::vector<Vec<Dim>> positions(const Eigen::VectorXd& u) const;

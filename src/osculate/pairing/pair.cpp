@@ -101,7 +101,9 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   facet_boxes(pair.master, x, out.boxes);
   out.apart = out_of_reach(pair, x, out.boxes);
   if (pair.scope.limited()) {
-    if (!out.apart) refresh(pair.scope, pair.master, x, out.boxes, out.scope, out.tree);
+    // The first evaluation gives the tree its shape, so that it does not depend on when they met.
+    if (!out.apart || out.tree.size() != out.boxes.size())
+      refresh(pair.scope, pair.master, x, out.boxes, out.scope, out.tree);
     return;
   }
   if (before == out.boxes.size() && before > 0)

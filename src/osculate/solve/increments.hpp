@@ -24,6 +24,16 @@ struct IncrementRecord {
   bool resisted = false;      ///< free motions were resisted on the way (see Resistance)
 };
 
+/// What the extrapolation knows of the last two increments.
+struct ExtrapolationMemory {
+  Eigen::VectorXd last, before;  ///< their corrections
+  double last_size = 0, before_size = 0;
+  double residual = 0, energy = 0;  ///< per size, of the last start by the tangent
+  std::uint64_t signature = 0;
+  int known = 0;
+  bool smooth = false, worth = false;
+};
+
 /// The last increments, for a guess of the next one.
 ///
 /// Formula    du = h v_1 + h (h + h_1) (v_1 - v_2) / (h_1 + h_2), v_i = du_i / h_i: the parabola
@@ -33,39 +43,46 @@ struct IncrementRecord {
 /// Tested by  tests/unit/solve/test_increments.cpp
 class Extrapolation {
  public:
-  void reset() { *this = {}; }
+  Extrapolation() = default;
+  explicit Extrapolation(ExtrapolationMemory memory) : m_(std::move(memory)) {}
+  [[nodiscard]] const ExtrapolationMemory& memory() const { return m_; }
+  void reset() { m_ = {}; }
 
   /// Takes note of a converged increment of size `h`.
   template <class State>
   void add(const NewtonResult<State>& converged, double h) {
-    smooth_ = known_ > 0 && converged.evaluation.counts.signature == signature_;
-    signature_ = converged.evaluation.counts.signature;
-    before_ = std::move(last_);
-    before_size_ = last_size_;
-    last_ = converged.total;
-    last_size_ = h;
-    known_ = std::min(known_ + 1, 2);
-    worth_ = converged.iterations.size() >= 3 || (converged.extrapolated && worth_);
+    m_.smooth = m_.known > 0 && converged.evaluation.counts.signature == m_.signature;
+    m_.signature = converged.evaluation.counts.signature;
+    m_.before = std::move(m_.last);
+    m_.before_size = m_.last_size;
+    m_.last = converged.total;
+    m_.last_size = h;
+    m_.known = std::min(m_.known + 1, 2);
+    m_.worth = converged.iterations.size() >= 3 || (converged.extrapolated && m_.worth);
     if (!converged.extrapolated) {
-      residual_ = converged.first_residual / h;
-      energy_ = converged.first_energy / (h * h);
+      m_.residual = converged.first_residual / h;
+      m_.energy = converged.first_energy / (h * h);
     }
   }
 
   [[nodiscard]] Guess guess(double h) const {
-    if (known_ < 2 || !smooth_ || !worth_) return {};
-    const Eigen::VectorXd v1 = last_ / last_size_, v2 = before_ / before_size_;
-    const double bend = h * (h + last_size_) / (last_size_ + before_size_);
-    return {h * v1 + bend * (v1 - v2), residual_ * h, energy_ * h * h};
+    if (m_.known < 2 || !m_.smooth || !m_.worth) return {};
+    const Eigen::VectorXd v1 = m_.last / m_.last_size, v2 = m_.before / m_.before_size;
+    const double bend = h * (h + m_.last_size) / (m_.last_size + m_.before_size);
+    return {h * v1 + bend * (v1 - v2), m_.residual * h, m_.energy * h * h};
   }
 
  private:
-  Eigen::VectorXd last_, before_;
-  double last_size_ = 0, before_size_ = 0;
-  double residual_ = 0, energy_ = 0;  ///< per size, of the last start by the tangent
-  std::uint64_t signature_ = 0;
-  int known_ = 0;
-  bool smooth_ = false, worth_ = false;
+  ExtrapolationMemory m_;
+};
+
+/// Where the step control stands after a converged increment: with the committed state all that it
+/// needs to go on as if it had never stopped.
+struct StepPosition {
+  int nominal = 0;  ///< running nominal increment, 0-based
+  double at = 0;    ///< fraction of the step that has converged
+  double size = 0;  ///< of the next sub-increment
+  Extrapolation extrapolation;
 };
 
 template <class State>
@@ -156,22 +173,28 @@ template <System S>
 
 }  // namespace detail
 
-/// Runs one step from `start` (fraction 0) to its end.
+/// Runs one step from `start` to its end: from its beginning, or from where `position` stands,
+/// which is kept up to date (and may be read by the observers).
 template <System S>
 [[nodiscard]] StepResult<typename S::State> run_step(
     S& system, const typename S::State& start, int nominal_increments,
     const IncrementOptions& options, la::DirectSolver& solver,
-    const IncrementObserver<typename S::State>& on_increment, const CutbackObserver& on_cutback) {
+    const IncrementObserver<typename S::State>& on_increment, const CutbackObserver& on_cutback,
+    StepPosition& position) {
   using State = typename S::State;
   StepResult<State> result;
   result.state = start;
-  Extrapolation extrapolation;
+  Extrapolation& extrapolation = position.extrapolation;
   const bool may_guess = options.newton.predictor == Predictor::automatic;
-  for (int n = 0; n < nominal_increments; ++n) {
-    const double begin = static_cast<double>(n) / nominal_increments;
-    const double end = static_cast<double>(n + 1) / nominal_increments;
+  for (; position.nominal < nominal_increments; ++position.nominal) {
+    const double begin = static_cast<double>(position.nominal) / nominal_increments;
+    const double end = static_cast<double>(position.nominal + 1) / nominal_increments;
     const double smallest = (end - begin) * std::ldexp(1.0, -options.max_cutbacks);
-    double at = begin, size = end - begin;
+    double &at = position.at, &size = position.size;
+    if (!(at > begin)) {
+      at = begin;
+      size = end - begin;
+    }
     int cutbacks = 0, wasted = 0;
     while (at < end) {
       const double target = end - at <= size * (1 + 1e-9) ? end : at + size;
@@ -219,15 +242,26 @@ template <System S>
           {target, cutbacks, std::move(attempt.iterations), wasted, resisted});
       cutbacks = wasted = 0;
       at = target;
+      if (iterations <= options.easy_iterations) size = std::min(2 * size, end - begin);
       if (!on_increment(result.state, result.increments.back())) {
         result.outcome = Outcome::stopped;
         result.reason = "stopped by the user";
         return result;
       }
-      if (iterations <= options.easy_iterations) size = std::min(2 * size, end - begin);
     }
   }
   return result;
+}
+
+/// The same from the beginning of the step.
+template <System S>
+[[nodiscard]] StepResult<typename S::State> run_step(
+    S& system, const typename S::State& start, int nominal_increments,
+    const IncrementOptions& options, la::DirectSolver& solver,
+    const IncrementObserver<typename S::State>& on_increment, const CutbackObserver& on_cutback) {
+  StepPosition position;
+  return run_step(system, start, nominal_increments, options, solver, on_increment, on_cutback,
+                  position);
 }
 
 }  // namespace osculate::solve

@@ -126,6 +126,50 @@ TEST(Increments, TheObserverCanStop) {
   EXPECT_EQ(result.state.x[0], 0.25);
 }
 
+/// A step that goes on from the position of any of its increments finds the same bits.
+TEST(Increments, GoOnFromAnyPosition) {
+  IncrementOptions options;
+  options.newton.line_search = LineSearch::off;
+  std::vector<StepPosition> positions;
+  std::vector<ToySystem::State> states;
+  const auto watched = [&](ToySystem& system, const ToySystem::State& start,
+                           StepPosition position) {
+    la::DirectSolver solver;
+    std::vector<double> found;
+    const auto result = run_step(system, start, 3, options, solver,
+                                 IncrementObserver<ToySystem::State>(
+                                     [&](const ToySystem::State& state, const IncrementRecord&) {
+                                       found.push_back(state.x[0]);
+                                       return true;
+                                     }),
+                                 CutbackObserver([](const std::string&, double, double,
+                                                    const std::vector<IterationRecord>&) {}),
+                                 position);
+    EXPECT_EQ(result.outcome, Outcome::converged);
+    return found;
+  };
+  ToySystem whole = softening();
+  la::DirectSolver solver;
+  StepPosition running;
+  (void)run_step(whole, ToySystem::State{vector({3.0})}, 3, options, solver,
+                 IncrementObserver<ToySystem::State>(
+                     [&](const ToySystem::State& state, const IncrementRecord&) {
+                       positions.push_back(running);
+                       states.push_back(state);
+                       return true;
+                     }),
+                 CutbackObserver([](const std::string&, double, double,
+                                    const std::vector<IterationRecord>&) {}),
+                 running);
+  ASSERT_GT(states.size(), 4u);
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    ToySystem system = softening();
+    const std::vector<double> rest = watched(system, states[k], positions[k]);
+    ASSERT_EQ(rest.size(), states.size() - k - 1) << k;
+    for (std::size_t i = 0; i < rest.size(); ++i) EXPECT_EQ(rest[i], states[k + 1 + i].x[0]);
+  }
+}
+
 TEST(Extrapolation, IsTheParabolaThroughTheLastThreeStates) {
   const auto path = [](double t) { return vector({2 + 3 * t - 5 * t * t, t * t}); };
   Extrapolation extrapolation;

@@ -1,0 +1,91 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "osculate/deck/build.hpp"
+#include "osculate/io/append_file.hpp"
+#include "osculate/io/vtk.hpp"
+
+namespace osculate::api {
+
+/// What must be the same when an analysis is continued. Two runs with the same identity have the
+/// same bits as long as their solver settings are the same too.
+struct RunIdentity {
+  std::string program;                   ///< version of Osculate
+  std::vector<deck::SourceLeaf> source;  ///< of the model file
+  std::uint64_t mesh = 0;                ///< checksum of nodes and cells
+  std::vector<std::string> columns;      ///< of the history
+};
+[[nodiscard]] RunIdentity identity(const deck::Description& description, const mesh::Mesh& mesh,
+                                   const std::vector<model::HistoryRequest>& history);
+/// What differs, in plain words with file and line; empty if nothing does.
+[[nodiscard]] std::string difference(const RunIdentity& before, const RunIdentity& now,
+                                     const std::string& file);
+
+/// What one converged increment adds to the results (the first entry: the initial state).
+struct JournalEntry {
+  model::Progress progress;
+  std::optional<solve::IncrementRecord> record;  ///< none for the initial state
+  std::vector<double> row;                       ///< of the history
+  double curvature_share = 0;
+  std::vector<double> deepest{};         ///< penetration so far, by pair
+  std::string note;                      ///< JSON for the summary
+  std::string frame;                     ///< of the report (CBOR), empty: none
+  std::vector<io::PvdEntry> files;       ///< field files
+  std::vector<char> touched;             ///< by pair, for the field files to come
+  std::vector<la::MatrixPlace> grown{};  ///< what the pattern of the matrix has grown by
+};
+
+/// Writes journal.bin, to which every increment adds its entry, and checkpoint.bin: the last state,
+/// the place in the journal it belongs to, and the one before as checkpoint.previous.bin.
+///
+/// A process that is killed at any moment leaves a whole checkpoint and the journal up to it.
+///
+/// Errors     io::WriteError
+/// Tested by  tests/system/test_restart.py, tests/unit/api/test_restart.cpp
+template <int Dim>
+class CheckpointWriter {
+ public:
+  /// A new journal.
+  CheckpointWriter(std::string folder, const RunIdentity& identity);
+  /// Goes on with one of which so much is good.
+  CheckpointWriter(std::string folder, std::uint64_t good_bytes, std::uint32_t checksum,
+                   std::size_t grown);
+  /// `memory` is that of the system, from which the entry's growth follows.
+  void add(JournalEntry entry, const model::SystemMemory& memory);
+  void save(const model::BasicState<Dim>& state, const model::Progress& progress,
+            const solve::StepPosition& position, const model::SystemMemory& memory);
+
+ private:
+  void append(const std::string& bytes);
+  std::string folder_;
+  io::AppendFile journal_;
+  std::uint32_t checksum_ = 0;
+  std::size_t grown_ = 0;  ///< places written so far
+};
+
+/// A checkpoint that has been read, with all entries of the journal up to it.
+template <int Dim>
+struct Checkpoint {
+  model::BasicResumePoint<Dim> point;
+  std::vector<JournalEntry> entries;
+  std::uint64_t journal_bytes = 0;
+  std::uint32_t journal_checksum = 0;
+  std::string warning;  ///< not empty: it is the previous one, and why
+  [[nodiscard]] int increments() const { return static_cast<int>(entries.size()) - 1; }
+};
+
+enum class WhichCheckpoint { best, last, previous };
+
+/// Reads a checkpoint of a folder; `best`: the last, or if that is damaged the previous one.
+/// Nothing is written.
+///
+/// Errors     core::InputError: there is none, none is whole, or it is of another model or version
+template <int Dim>
+[[nodiscard]] Checkpoint<Dim> read_checkpoint(const std::string& folder, const RunIdentity& now,
+                                              const model::BasicModel<Dim>& model,
+                                              const std::string& model_file,
+                                              WhichCheckpoint which = WhichCheckpoint::best);
+
+}  // namespace osculate::api

@@ -1,0 +1,297 @@
+#include "osculate/model/failure.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "osculate/mesh/boundary.hpp"
+
+namespace osculate::model {
+namespace {
+
+constexpr double too_stiff = 1e10;  ///< leaves six digits for the rest
+
+const char* state_name(std::uint8_t state) {
+  switch (state) {
+    case 0:
+      return "open";
+    case 1:
+      return "stick";
+    case 2:
+      return "slip";
+    default:
+      return "slip back";
+  }
+}
+
+template <int Dim>
+Index node_of(const BasicModel<Dim>& model, std::size_t pair, std::size_t point) {
+  const auto& points = model.pairs[pair].definition.slave.points;
+  return point < points.size() ? points[point].nearest_node() : -1;
+}
+
+/// Points that changed at least twice, those with most changes first.
+template <int Dim>
+std::vector<FlippingPoint> flipping_points(const BasicModel<Dim>& model,
+                                           const std::vector<ContactStates>& recent) {
+  std::vector<FlippingPoint> found;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    std::size_t count = recent.empty() ? 0 : recent.front()[p].size();
+    for (const ContactStates& states : recent) count = std::min(count, states[p].size());
+    for (std::size_t i = 0; i < count; ++i) {
+      FlippingPoint point{model.pairs[p].name, node_of(model, p, i), {}, 0};
+      for (std::size_t k = 0; k < recent.size(); ++k) {
+        if (k > 0 && recent[k][p][i] != recent[k - 1][p][i]) ++point.changes;
+        point.states += fmt::format("{}{}", k ? ", " : "", state_name(recent[k][p][i]));
+      }
+      if (point.changes >= 2) found.push_back(std::move(point));
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const FlippingPoint& a, const FlippingPoint& b) {
+    return a.changes > b.changes;
+  });
+  return found;
+}
+
+template <int Dim>
+double model_size(const BasicModel<Dim>& model) {
+  Vec<Dim> low = model.reference.front(), high = low;
+  for (std::size_t n = 0; n < model.mesh.nodes.size(); ++n) {
+    low = low.cwiseMin(model.reference[n]);
+    high = high.cwiseMax(model.reference[n]);
+  }
+  return (high - low).norm();
+}
+
+Eigen::VectorXd diagonal(const la::SparseMatrix& k) {
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(k.n);
+  for (Index row = 0; row < k.n; ++row)
+    for (Index e = k.row_start[static_cast<std::size_t>(row)];
+         e < k.row_start[static_cast<std::size_t>(row) + 1]; ++e)
+      if (k.column[static_cast<std::size_t>(e)] == row)
+        d[row] = k.value[static_cast<std::size_t>(e)];
+  return d;
+}
+
+/// Largest ratio of what contact adds to what the body has, on the diagonal of the tangent.
+template <int Dim>
+double contact_ratio(BasicSystem<Dim>& system, const BasicState<Dim>& state) {
+  solve::Evaluation unused;
+  const auto diagonal_of = [&](bool contact) {
+    system.enable(Term::contact, contact);
+    system.evaluate(state, state, state.fraction, true, unused);
+    return diagonal(system.matrix());
+  };
+  const Eigen::VectorXd bulk = diagonal_of(false), all = diagonal_of(true);
+  double largest = 0;
+  for (Index u = 0; u < system.dofs().unknowns(); ++u)
+    if (!system.prescribed(u) && bulk[u] > 0)
+      largest = std::max(largest, std::abs(all[u] - bulk[u]) / bulk[u]);
+  return largest;
+}
+
+/// Of the upper triangle; the prescribed unknowns have a positive one.
+template <int Dim>
+int negative_pivots(BasicSystem<Dim>& system, const BasicState<Dim>& state) {
+  solve::Evaluation evaluation;
+  system.evaluate(state, state, state.fraction, true, evaluation);
+  if (!evaluation.ok) return 0;
+  la::DirectSolver solver;
+  return solver.factor(system.matrix(), system.pattern_version(), la::Symmetry::indefinite)
+      .negative_pivots;
+}
+
+/// Pairs that touch, with and without friction.
+template <int Dim>
+struct Touching {
+  std::string frictionless, frictional;
+};
+
+template <int Dim>
+Touching<Dim> touching_pairs(const BasicSystem<Dim>& system, const BasicModel<Dim>& model) {
+  Touching<Dim> found;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    if (!pairing::touches(system.contact()[p])) continue;
+    std::string& name = model.pairs[p].definition.friction ? found.frictional : found.frictionless;
+    if (name.empty()) name = model.pairs[p].name;
+  }
+  return found;
+}
+
+template <int Dim>
+void name_motion(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                 BasicFailure<Dim>& f) {
+  const Touching<Dim> touching = touching_pairs(system, model);
+  const std::string& body = f.motions.front().body;
+  f.cause = FailureCause::sliding_motion;
+  if (!touching.frictional.empty()) {
+    f.proposal = fmt::format(
+        "hold body '{}' against this motion by a prescription, or raise the friction coefficient "
+        "of contact '{}': all its points slide, so it resists no more",
+        body, touching.frictional);
+  } else if (!touching.frictionless.empty()) {
+    f.proposal =
+        fmt::format("give contact '{}' a `friction`, or hold body '{}' against this motion",
+                    touching.frictionless, body);
+  } else {
+    f.cause = FailureCause::free_motion;
+    f.proposal = model.pairs.empty()
+                     ? fmt::format("hold body '{}' by a prescription", body)
+                     : fmt::format(
+                           "begin with a step that prescribes the motion of body '{}' until "
+                           "it is in contact (no contact is closed now)",
+                           body);
+  }
+}
+
+template <int Dim>
+std::string flips_text(const BasicModel<Dim>& model, const std::vector<FlippingPoint>& flips) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, flips.size()); ++i)
+    text += fmt::format("{}contact '{}' at {}: {}", i ? "; " : "", flips[i].pair,
+                        flips[i].node >= 0 ? mesh::describe_node(model.mesh, flips[i].node)
+                                           : std::string("a crossing of edges"),
+                        flips[i].states);
+  if (flips.size() > most) text += fmt::format("; and {} more", flips.size() - most);
+  return text;
+}
+
+/// Cause and proposal from what has been found.
+template <int Dim>
+void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const Step& step,
+           const solve::NewtonResult<BasicState<Dim>>& attempt, BasicFailure<Dim>& f) {
+  const int more = 4 * std::max(1, step.increments);
+  if (!attempt.evaluation.ok) {
+    f.cause = FailureCause::inverted_element;
+    f.proposal = fmt::format(
+        "give step '{}' more increments (`increments: {}`); if the same element fails again, make "
+        "the mesh finer or more regular there",
+        step.name, more);
+  } else if (!f.motions.empty()) {
+    name_motion(system, model, f);
+  } else if (f.stiffness_ratio > too_stiff) {
+    f.cause = FailureCause::stiffness_ratio;
+    f.proposal = fmt::format(
+        "lower the penalty of the contact by a factor of {:.0e}: contact is {:.1e} "
+        "times as stiff as the body behind it",
+        f.stiffness_ratio / 1e3, f.stiffness_ratio);
+  } else if (f.negative_pivots > 0) {
+    f.cause = FailureCause::instability;
+    f.proposal = fmt::format(
+        "prescribe a displacement instead of the load in step '{}': the equilibrium path turns "
+        "back "
+        "here (snap-through or buckling), and no larger load can be carried nearby",
+        step.name);
+  } else if (!f.flips.empty()) {
+    f.cause = FailureCause::flipping;
+    f.proposal = fmt::format(
+        "lower the penalty of contact '{}' by a factor of 10 (its points change between states in "
+        "every iteration)",
+        f.flips.front().pair);
+  } else {
+    f.cause = FailureCause::too_large_increment;
+    f.proposal = fmt::format("give step '{}' more increments (`increments: {}`)", step.name, more);
+  }
+}
+
+template <int Dim>
+std::string paragraph(const BasicModel<Dim>& model, const Step& step,
+                      const solve::StepResult<BasicState<Dim>>& result,
+                      const std::string& free_motions, const BasicFailure<Dim>& f) {
+  std::string text = fmt::format(
+      "step '{}' stopped at {:.4g} of its length: {}", step.name,
+      result.increments.empty() ? 0.0 : result.increments.back().fraction, result.reason);
+  if (!free_motions.empty()) text += "; " + free_motions;
+  if (!f.flips.empty())
+    text +=
+        "; points that change their state in the last iterations: " + flips_text(model, f.flips);
+  if (f.negative_pivots > 0)
+    text += fmt::format("; the tangent at the last converged state has {} negative pivots",
+                        f.negative_pivots);
+  if (f.stiffness_ratio > 0)
+    text += fmt::format("; contact adds up to {:.1e} times the stiffness of the body",
+                        f.stiffness_ratio);
+  return text + fmt::format("; the last iterate moved by {:.2g} of the model's size", f.last_step);
+}
+
+}  // namespace
+
+std::string_view cause_name(FailureCause cause) {
+  switch (cause) {
+    case FailureCause::inverted_element:
+      return "inverted element";
+    case FailureCause::sliding_motion:
+      return "sliding motion";
+    case FailureCause::free_motion:
+      return "free motion";
+    case FailureCause::stiffness_ratio:
+      return "stiffness ratio";
+    case FailureCause::flipping:
+      return "flipping contact";
+    case FailureCause::instability:
+      return "instability";
+    case FailureCause::too_large_increment:
+      return "too large increment";
+  }
+  return "";
+}
+
+template <int Dim>
+std::vector<Vec<Dim>> motion_field(const BasicModel<Dim>& model, const BasicState<Dim>& state,
+                                   const BasicFreeMotion<Dim>& motion) {
+  std::vector<Vec<Dim>> field(model.reference.size(), Vec<Dim>::Zero());
+  double longest = 0;
+  for (const Index node : motion.nodes) {
+    const auto n = static_cast<std::size_t>(node);
+    Vec3 arm = Vec3::Zero();
+    arm.head<Dim>() = model.reference[n] - motion.center +
+                      state.u.template segment<Dim>(Dim * static_cast<Eigen::Index>(node));
+    const bool turns = std::abs(motion.rotation) > 0.5;
+    field[n] = turns ? Vec<Dim>(motion.axis.cross(arm).template head<Dim>()) : motion.direction;
+    longest = std::max(longest, field[n].norm());
+  }
+  if (longest > 0)
+    for (Vec<Dim>& v : field) v /= longest;
+  return field;
+}
+
+template <int Dim>
+BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& model, const Step& step,
+                           const solve::StepResult<BasicState<Dim>>& result) {
+  const solve::NewtonResult<BasicState<Dim>>& attempt = result.last_attempt;
+  BasicFailure<Dim> f;
+  f.reason = result.reason;
+  f.flips = flipping_points(model, system.recent_contact());
+  if (attempt.state.u.size() == result.state.u.size() && result.state.u.size() > 0 &&
+      attempt.state.u.allFinite())
+    f.last_step =
+        (attempt.state.u - result.state.u).template lpNorm<Eigen::Infinity>() / model_size(model);
+  const BasicState<Dim>& last = attempt.evaluation.ok ? attempt.state : result.state;
+  std::string outside;
+  solve::Evaluation evaluation;
+  system.evaluate(last, last, last.fraction, true, evaluation);
+  if (evaluation.ok) {
+    f.motions = free_motions(system, model, last);
+    for (const OutsideDomain& found : outside_domain(system, model))
+      outside += "; " + outside_domain_message(model, found);
+  }
+  if (!model.pairs.empty()) f.stiffness_ratio = contact_ratio(system, result.state);
+  if (f.motions.empty()) f.negative_pivots = negative_pivots(system, result.state);
+  system.evaluate(last, last, last.fraction, true, evaluation);
+  judge(system, model, step, attempt, f);
+  f.message =
+      paragraph(model, step, result,
+                evaluation.ok ? free_motion_message(system, model, last) : std::string{}, f) +
+      outside + fmt::format(". Cause: {}. Proposal: {}.", cause_name(f.cause), f.proposal);
+  return f;
+}
+
+template std::vector<Vec2> motion_field(const Model&, const State&, const FreeMotion&);
+template std::vector<Vec3> motion_field(const Model3&, const State3&, const FreeMotion3&);
+template Failure diagnose(System&, const Model&, const Step&, const solve::StepResult<State>&);
+template Failure3 diagnose(System3&, const Model3&, const Step&, const solve::StepResult<State3>&);
+
+}  // namespace osculate::model

@@ -1,0 +1,64 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "osculate/model/diagnosis.hpp"
+#include "osculate/solve/increments.hpp"
+
+namespace osculate::model {
+
+/// Why an increment fails for good. In the order in which they are looked for: the first that
+/// applies is named.
+enum class FailureCause {
+  inverted_element,    ///< an element is turned inside out
+  sliding_motion,      ///< a body in contact is free to slide: without friction, or too little
+  free_motion,         ///< nothing resists a rigid motion of a body
+  stiffness_ratio,     ///< contact so stiff that the digits do not suffice
+  flipping,            ///< contact points change between states for ever
+  instability,         ///< the tangent has lost its positive definiteness: snap-through, buckling
+  too_large_increment  ///< none of these
+};
+[[nodiscard]] std::string_view cause_name(FailureCause cause);
+
+/// A contact point that changed its state at least twice in the last iterations.
+struct FlippingPoint {
+  std::string pair;
+  Index node = -1;     ///< of the slave, the nearest one
+  std::string states;  ///< of the last iterations, e.g. `open, stick, open, stick`
+  int changes = 0;
+};
+
+/// What is known of an increment that failed for good.
+template <int Dim>
+struct BasicFailure {
+  FailureCause cause = FailureCause::too_large_increment;
+  std::string reason;    ///< of the solver
+  std::string message;   ///< one paragraph: what happened, the cause, what to change
+  std::string proposal;  ///< the one change
+  std::vector<FlippingPoint> flips;
+  std::vector<BasicFreeMotion<Dim>> motions;
+  double stiffness_ratio = 0;  ///< largest of contact to bulk stiffness on the diagonal
+  int negative_pivots = 0;     ///< of the symmetric part, at the last converged state
+  double last_step = 0;        ///< largest displacement of the last iterate, over the model's size
+};
+
+/// Looks for the cause in the last attempt: its message, the tangent at the last converged state,
+/// the states of the contact points in its last iterations.
+///
+/// Tested by  tests/system/test_diagnosis.py
+template <int Dim>
+[[nodiscard]] BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                                         const Step& step,
+                                         const solve::StepResult<BasicState<Dim>>& result);
+
+/// The motion at the nodes of its body, its largest vector of length 1; zero elsewhere.
+template <int Dim>
+[[nodiscard]] std::vector<Vec<Dim>> motion_field(const BasicModel<Dim>& model,
+                                                 const BasicState<Dim>& state,
+                                                 const BasicFreeMotion<Dim>& motion);
+
+using Failure = BasicFailure<2>;
+using Failure3 = BasicFailure<3>;
+
+}  // namespace osculate::model

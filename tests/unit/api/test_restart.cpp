@@ -1,0 +1,113 @@
+// Restart inside one process, and analyses side by side.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "osculate/api/run.hpp"
+
+namespace osculate::api {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr const char* plane =
+    "osculate: 1\n"
+    "mesh: {generate: {block: {box: {x: [0, 2], y: [0, 1], elements: [12, 6]}}, rail: {line: "
+    "{points: [[-1, 0], [3, 0]], elements: 7}}}}\n"
+    "materials: {m: {st_venant_kirchhoff: {E: 100, nu: 0.3}}}\n"
+    "sections: [{on: block, material: m, element: plane_strain}]\n"
+    "rigid: {base: {set: rail}}\n"
+    "contact: [{name: floor, master: base, slave: block.bottom, normal: {penalty: 1e4}, friction: "
+    "{coulomb: {mu: 0.3, penalty: 1e4}}}]\n"
+    "steps:\n"
+    "  - {name: press, increments: 2, prescribe: [{on: block.top, ux: 0, uy: -0.02}]}\n"
+    "  - {name: drag, increments: 8, prescribe: [{on: block.top, ux: 0.1}]}\n"
+    "output: {history: [{on: floor, of: normal_force}, {on: floor, of: shear_force}]}\n";
+
+constexpr const char* space =
+    "osculate: 1\n"
+    "mesh: {generate: {b: {box: {x: [0, 2], y: [0, 1], z: [0, 1], elements: [6, 3, 3]}}}}\n"
+    "materials: {m: {linear_elastic: {E: 100, nu: 0.25}}}\n"
+    "sections: [{on: b, material: m, element: solid}]\n"
+    "rigid: {floor: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}}\n"
+    "contact: [{name: c, master: floor, slave: b.bottom, normal: {penalty: 1000}, friction: "
+    "{coulomb: {mu: 0.3, penalty: 500}}}]\n"
+    "steps:\n"
+    "  - {name: press, increments: 2, prescribe: [{on: b.top, ux: 0, uy: 0, uz: -0.02}]}\n"
+    "  - {name: drag, increments: 4, prescribe: [{on: b.top, ux: 0.03, uy: 0.04}]}\n"
+    "output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}]}\n";
+
+class Restart : public testing::Test {
+ protected:
+  fs::path folder_ = fs::path(testing::TempDir()) /
+                     (std::string("osculate_restart_") +
+                      testing::UnitTest::GetInstance()->current_test_info()->name());
+  void SetUp() override {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "plane.yaml") << plane;
+    std::ofstream(folder_ / "space.yaml") << space;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  [[nodiscard]] RunOptions options(const std::string& model, const std::string& out,
+                                   int threads = 1) const {
+    RunOptions o;
+    o.model = (folder_ / (model + ".yaml")).string();
+    o.folder = (folder_ / out).string();
+    o.threads = threads;
+    return o;
+  }
+  /// Histories and fields, byte by byte, and the steps of the summary.
+  [[nodiscard]] std::map<std::string, std::string> results(const std::string& out) const {
+    std::map<std::string, std::string> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / out)) {
+      const std::string name = entry.path().filename().string();
+      std::ostringstream text;
+      text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+      if (name == "history.csv" || name.ends_with(".vtu") || name.ends_with(".pvd"))
+        found[name] = text.str();
+      if (name == "summary.json") found[name] = nlohmann::json::parse(text.str())["steps"].dump();
+    }
+    return found;
+  }
+};
+
+TEST_F(Restart, AfterEveryIncrementGivesTheSameBits) {
+  ASSERT_EQ(run(options("plane", "whole")).status, RunStatus::done);
+  RunOptions o = options("plane", "pieces");
+  o.interrupted = [] { return true; };  // after one increment more
+  int runs = 0;
+  while (run(o).status != RunStatus::done) {
+    o.restart = true;
+    ASSERT_LT(++runs, 50);
+  }
+  EXPECT_GE(runs, 10);
+  EXPECT_EQ(results("pieces"), results("whole"));
+}
+
+TEST_F(Restart, TwoAnalysesAtTheSameTimeHaveTheBitsOfEachAlone) {
+  ASSERT_EQ(run(options("plane", "plane1")).status, RunStatus::done);
+  ASSERT_EQ(run(options("space", "space1")).status, RunStatus::done);
+  for (int k = 0; k < 3; ++k) {
+    std::thread other([&] { EXPECT_EQ(run(options("space", "space2")).status, RunStatus::done); });
+    EXPECT_EQ(run(options("plane", "plane2")).status, RunStatus::done);
+    other.join();
+    EXPECT_EQ(results("plane2"), results("plane1"));
+    EXPECT_EQ(results("space2"), results("space1"));
+  }
+}
+
+TEST_F(Restart, OneAndTwoThreadsHaveTheSameBits) {
+  for (const std::string model : {"plane", "space"}) {
+    ASSERT_EQ(run(options(model, model + "1")).status, RunStatus::done);
+    ASSERT_EQ(run(options(model, model + "2", 2)).status, RunStatus::done);
+    EXPECT_EQ(results(model + "2"), results(model + "1"));
+  }
+}
+
+}  // namespace
+}  // namespace osculate::api

@@ -1,0 +1,138 @@
+// Chunks that vouch for themselves, and files that grow by whole pieces.
+#include "osculate/io/chunk_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "osculate/core/error.hpp"
+#include "osculate/io/append_file.hpp"
+
+namespace osculate::io {
+namespace {
+namespace fs = std::filesystem;
+
+class ChunkFile : public testing::Test {
+ protected:
+  fs::path folder_ = fs::path(testing::TempDir()) /
+                     (std::string("osculate_chunk_") +
+                      testing::UnitTest::GetInstance()->current_test_info()->name());
+  std::string path_ = (folder_ / "f.bin").string();
+  const std::string good_ = chunk_file_head("test", 3) + packed({"a", "first"}) +
+                            packed({"empty", ""}) + packed({"b", std::string(300, 'x')});
+  void SetUp() override {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  void write(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
+  [[nodiscard]] std::string read() const {
+    std::ostringstream text;
+    text << std::ifstream(path_, std::ios::binary).rdbuf();
+    return text.str();
+  }
+  /// The message, empty if the file is taken.
+  [[nodiscard]] std::string refusal(int version = 3, std::uint64_t limit = UINT64_MAX) const {
+    try {
+      (void)read_chunks(path_, "test", version, limit);
+    } catch (const core::InputError& error) {
+      EXPECT_EQ(std::string(error.what()).find(path_ + ": "), 0u) << error.what();
+      return std::string(error.what()).substr(path_.size() + 2);
+    }
+    return {};
+  }
+};
+
+TEST_F(ChunkFile, GivesBackWhatWasWritten) {
+  write(good_);
+  const std::vector<Chunk> chunks = read_chunks(path_, "test", 3);
+  ASSERT_EQ(chunks.size(), 3u);
+  EXPECT_EQ(chunks[0].name, "a");
+  EXPECT_EQ(chunks[0].bytes, "first");
+  EXPECT_EQ(chunks[1].bytes, "");
+  EXPECT_EQ(chunks[2].bytes, std::string(300, 'x'));
+}
+
+/// Whichever bit is flipped and wherever the file is cut, except between two chunks.
+TEST_F(ChunkFile, EveryFlippedBitAndEveryCutIsNoticed) {
+  for (std::size_t at = 0; at < good_.size(); ++at) {
+    std::string broken = good_;
+    broken[at] = static_cast<char>(broken[at] ^ (1 << (at % 8)));
+    write(broken);
+    EXPECT_NE(refusal(), "") << at;
+  }
+  const std::size_t head = chunk_file_head("test", 3).size();
+  const std::size_t first = head + packed({"a", "first"}).size();
+  const std::size_t second = first + packed({"empty", ""}).size();
+  for (std::size_t size = 0; size < good_.size(); ++size) {
+    write(good_.substr(0, size));
+    EXPECT_EQ(refusal() == "", size == head || size == first || size == second) << size;
+  }
+}
+
+TEST_F(ChunkFile, SaysWhatIsWrong) {
+  EXPECT_EQ(refusal(), "No such file or directory");
+  write(good_);
+  EXPECT_EQ(refusal(4), "is of another version: 'osculate test 3', expected 'osculate test 4'");
+  write("something else");
+  EXPECT_EQ(refusal(), "is no test of osculate");
+  std::string swapped = good_;
+  std::swap(swapped[16], swapped[17]);
+  write(swapped);
+  EXPECT_EQ(refusal(), "is of a machine of another byte order");
+  write(good_);
+  EXPECT_EQ(refusal(3, good_.size() + 7), "is cut off: " + std::to_string(good_.size()) +
+                                              " bytes of " + std::to_string(good_.size() + 7));
+}
+
+TEST_F(ChunkFile, WhatComesBehindTheLimitDoesNotMatter) {
+  write(good_ + "half a chu");
+  EXPECT_NE(refusal(), "");
+  EXPECT_EQ(read_chunks(path_, "test", 3, good_.size()).size(), 3u);
+}
+
+TEST_F(ChunkFile, AnAppendFileKeepsAsMuchAsItIsTold) {
+  {
+    AppendFile file(path_);
+    file.append("one ");
+    file.append("two ");
+    EXPECT_EQ(file.size(), 8u);
+  }
+  {
+    AppendFile file(path_, 4);
+    file.append("three");
+    file.sync();
+  }
+  EXPECT_EQ(read(), "one three");
+  AppendFile anew(path_);
+  EXPECT_EQ(read(), "");
+}
+
+TEST_F(ChunkFile, AnAppendFileThatCannotBeWrittenSaysSo) {
+  try {
+    AppendFile file("/dev/full");
+    file.append("x");
+    FAIL();
+  } catch (const WriteError& error) {
+    EXPECT_STREQ(error.what(), "/dev/full: cannot write: No space left on device");
+  }
+  EXPECT_THROW(AppendFile("/nowhere/at/all"), WriteError);
+}
+
+TEST_F(ChunkFile, AnAtomicFileKeepsThePreviousOne) {
+  const std::string previous = (folder_ / "previous.bin").string();
+  for (const char* const text : {"1", "2", "3"}) {
+    AtomicFile file(path_);
+    file.write(text);
+    file.commit_keeping(previous);
+  }
+  EXPECT_EQ(read(), "3");
+  std::ostringstream kept;
+  kept << std::ifstream(previous).rdbuf();
+  EXPECT_EQ(kept.str(), "2");
+}
+
+}  // namespace
+}  // namespace osculate::io
