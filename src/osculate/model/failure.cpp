@@ -272,9 +272,17 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
   const BasicState<Dim>& last = attempt.evaluation.ok ? attempt.state : result.state;
   std::string outside;
   solve::Evaluation evaluation;
+  // A body may be free from the beginning of the increment, or only where the iterations ended.
+  system.evaluate(result.state, result.state, result.state.fraction, true, evaluation);
+  const auto before = free_motions(system, model, result.state);
   system.evaluate(last, last, last.fraction, true, evaluation);
+  const BasicState<Dim>* freest = &last;
   if (evaluation.ok) {
     f.motions = free_motions(system, model, last);
+    if (before.size() > f.motions.size()) {
+      f.motions = before;
+      freest = &result.state;
+    }
     for (const OutsideDomain& found : outside_domain(system, model))
       outside += "; " + outside_domain_message(model, found);
   }
@@ -284,7 +292,7 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
   judge(system, model, step, attempt, f);
   f.message =
       paragraph(model, step, result,
-                evaluation.ok ? free_motion_message(system, model, last) : std::string{}, f) +
+                evaluation.ok ? free_motion_message(system, model, *freest) : std::string{}, f) +
       outside + fmt::format(". Cause: {}. Proposal: {}.", cause_name(f.cause), f.proposal);
   return f;
 }

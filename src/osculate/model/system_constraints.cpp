@@ -93,6 +93,12 @@ void BasicSystem<Dim>::Impl::add_constraints(std::size_t pair, bool with_tangent
   }
 }
 
+template double BasicSystem<2>::Impl::add_constraint_row(Index, const Eigen::VectorXd*);
+template double BasicSystem<3>::Impl::add_constraint_row(Index, const Eigen::VectorXd*);
+template void BasicSystem<2>::Impl::add_constraint_tangent(const pairing::ContactBlock<2>&, bool,
+                                                           Index, const Eigen::VectorXd*);
+template void BasicSystem<3>::Impl::add_constraint_tangent(const pairing::ContactBlock<3>&, bool,
+                                                           Index, const Eigen::VectorXd*);
 template void BasicSystem<2>::Impl::add_constraints(std::size_t, bool, const Eigen::VectorXd*);
 template void BasicSystem<3>::Impl::add_constraints(std::size_t, bool, const Eigen::VectorXd*);
 template void BasicSystem<2>::Impl::add_to_multipliers(State&, const Eigen::VectorXd&,

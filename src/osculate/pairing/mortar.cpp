@@ -315,7 +315,11 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
   refresh<Dim>(pair, x, with_tangent, out);
   const std::size_t n = pair.slave.nodes.size();
   out.points.assign(n, {});
-  out.mortar.places.assign(n, {});
+  out.mortar.places.resize(n);
+  for (MortarPlace& place : out.mortar.places) {
+    place.nodes.clear();
+    place.weights.clear();
+  }
   out.mortar.tractions.assign(n, Vec<Dim>::Zero());
   out.blocks.resize(std::max(n, out.blocks.size()));
   out.mortar.contacts.assign(n, {});

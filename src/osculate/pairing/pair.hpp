@@ -103,7 +103,7 @@ struct AssumedBranch {
   Index facet = -1;  ///< in this iteration
   int changes = 0;   ///< of the facet, in this increment
   [[nodiscard]] Index kept() const {
-    constexpr int enough = 3;
+    constexpr int enough = 6;
     return changes >= enough ? facet : -1;
   }
 };

@@ -104,8 +104,9 @@ TEST_F(Run, WritesItsFiles) {
   EXPECT_EQ(outcome.status, RunStatus::done);
   EXPECT_EQ(outcome.message, "");
   EXPECT_EQ(outcome.folder, results.string());
-  std::set<std::string> expected{"summary.json", "history.csv", "results.pvd",
-                                 "report.json",  "report.html", "log.txt"};
+  std::set<std::string> expected{"summary.json", "history.csv",    "results.pvd",
+                                 "report.json",  "report.html",    "log.txt",
+                                 "journal.bin",  "checkpoint.bin", "checkpoint.previous.bin"};
   for (int i = 0; i < 6; ++i) {
     expected.insert("bodies_0000" + std::to_string(i) + ".vtu");
     expected.insert("contact0_0000" + std::to_string(i) + ".vtu");
@@ -262,7 +263,9 @@ TEST_F(Run, BadInputLeavesEarlierResultsAlone) {
   EXPECT_EQ(read(results / "history.csv"), history);
   write("model.yaml", edited(model, "output:\n", "output:\n  fields: none\n  report: false\n"));
   (void)run(options());
-  EXPECT_EQ(files(), (std::set<std::string>{"notes.md", "summary.json", "history.csv", "log.txt"}));
+  EXPECT_EQ(files(),
+            (std::set<std::string>{"notes.md", "summary.json", "history.csv", "log.txt",
+                                   "journal.bin", "checkpoint.bin", "checkpoint.previous.bin"}));
 }
 
 TEST_F(Run, UntilAStep) {

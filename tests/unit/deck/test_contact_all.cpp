@@ -91,9 +91,9 @@ TEST(ContactAll, TheShortFormHasTheDefaults) {
   for (std::size_t p = 0; p < brief.model.pairs.size(); ++p) {
     EXPECT_EQ(brief.model.pairs[p].name, full.model.pairs[p].name);
     EXPECT_TRUE(brief.model.pairs[p].automatic);
-    contact::penalty_of(EXPECT_GT(brief.model.pairs[p].definition.normal), 0);
-    contact::penalty_of(EXPECT_EQ(brief.model.pairs[p].definition.normal),
-                        contact::penalty_of(full.model.pairs[p].definition.normal));
+    EXPECT_GT(contact::penalty_of(brief.model.pairs[p].definition.normal), 0);
+    EXPECT_EQ(contact::penalty_of(brief.model.pairs[p].definition.normal),
+              contact::penalty_of(full.model.pairs[p].definition.normal));
   }
 }
 

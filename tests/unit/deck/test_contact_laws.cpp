@@ -80,9 +80,9 @@ TEST(LawKeys, RefuseWhatMakesNoSense) {
     std::string from, to, message;
   };
   const std::vector<Refusal> all{
-      {exponential, "{}", floor + "normal: needs one of penalty, exponential, table"},
       {exponential, "{penalty: 1, table: [[0, 0], [1, 1]]}",
-       floor + "normal: 'penalty' and 'table' exclude each other"},
+       floor + "normal.penalty: there is another law already: use one of penalty, exponential, "
+               "table"},
       {"clearance: 0.01}}", "clearance: 0}}",
        floor + "normal.exponential.clearance: must be > 0, got 0"},
       {"clearance: 0.01}}", "clearance: 0.01}, separation: no_separation}",
@@ -103,7 +103,7 @@ TEST(LawKeys, RefuseWhatMakesNoSense) {
            "'low.top': nothing is tied"},
       {"master: low.top\n", "master: mid.bottom\n",
        joint + "normal.separation: a surface cannot be tied to itself: name master and slave"},
-      {table, "[[0, 0]]", top + "normal.table: needs at least 2 items, got 1"},
+      {table, "[[0, 0]]", top + "normal.table: expected at least 2 values, got 1"},
       {table, "[[0, 1], [1, 2]]",
        top + "normal.table[0]: the first pressure of the table must be 0"},
       {table, "[[0, 0], [0, 2]]", top + "normal.table[1]: overclosures must grow: 0 follows 0"},

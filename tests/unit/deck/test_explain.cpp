@@ -28,14 +28,16 @@ TEST(Explain, OneKey) {
 
 TEST(Explain, WordsAndTheirMeaning) {
   EXPECT_EQ(explain_model_key("contact.enforcement"),
-            "contact[].enforcement: one of penalty, default penalty\n"
+            "contact[].enforcement: penalty, augmented_lagrange, lagrange_multiplier or a map, "
+            "default penalty\n"
             "  How the contact conditions are imposed.\n"
             "  Words:\n"
             "    penalty              by the stiffnesses alone\n"
-            "    augmented_lagrange   by repeated correction of the penalty's tractions (not "
-            "available yet)\n"
-            "    lagrange_multiplier  exactly, by unknown tractions (not available yet)\n"
-            "  Example: enforcement: penalty\n");
+            "    augmented_lagrange   by repeated correction of the penalty's tractions\n"
+            "    lagrange_multiplier  exactly, by unknown tractions\n"
+            "  Keys:\n"
+            "    augmented_lagrange   Correction of the penalty's tractions. (a map, required)\n"
+            "  Example: enforcement: augmented_lagrange\n");
 }
 
 TEST(Explain, KeysBelow) {
@@ -49,6 +51,7 @@ TEST(Explain, KeysBelow) {
             "    tresca               One shear traction for every pressure, with an elastic stick "
             "range. (a map)\n"
             "    rough                No sliding while in contact. (a map)\n"
+            "    Exactly one of: coulomb, tresca, rough\n"
             "  Example: friction: {coulomb: {mu: 0.3, penalty: 2.1e6}}\n");
   const std::string root = explain_model_key("");
   for (const Key& key : model_spec().keys)

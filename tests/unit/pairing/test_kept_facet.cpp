@@ -1,0 +1,90 @@
+// A point that goes back and forth over a border of the master keeps its facet.
+#include <gtest/gtest.h>
+
+#include "pair_sample.hpp"
+#include "pair_sample3.hpp"
+
+namespace osculate::testing {
+namespace {
+
+/// A ridge at the origin, the slave point under its right side, `ahead` to the right of the ridge.
+PairSample ridge(double ahead) {
+  PairSample s = make_sample({.facets = 2, .angle = 0.0});
+  s.x[0] = {-1, -0.1};
+  s.x[1] = {0, 0};
+  s.x[2] = {1, -0.1};
+  s.x[3] = {ahead, -0.05};
+  s.pair.weight = pairing::Weight::node;
+  const std::vector<Index> point{3};
+  s.pair.slave = pairing::make_slave_side(pairing::Chain{}, point);
+  s.committed.points.resize(1);
+  pairing::prepare<2>(s.pair, s.x);
+  return s;
+}
+
+pairing::Assumed<2> that_changed(Index facet, int times) {
+  pairing::Assumed<2> assumed;
+  assumed.branch.resize(1);
+  assumed.branch[0].facet = facet;
+  assumed.branch[0].changes = times;
+  return assumed;
+}
+
+Index facet_with(const PairSample& s, const pairing::Assumed<2>& assumed) {
+  pairing::PairEvaluation<2> e;
+  pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, assumed);
+  return e.points[0].history.facet;
+}
+
+TEST(KeptFacet, IsContinuedALittle) {
+  const PairSample s = ridge(0.01);
+  EXPECT_EQ(facet_with(s, {}), 1);
+  EXPECT_EQ(facet_with(s, that_changed(0, 2)), 1);
+  EXPECT_EQ(facet_with(s, that_changed(0, 3)), 0);
+  pairing::PairEvaluation<2> e;
+  pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, that_changed(0, 3));
+  EXPECT_GT(e.points[0].history.xi[0], 1);
+  const Vec2 n = turn(Vec2(s.x[1] - s.x[0]).normalized());
+  EXPECT_NEAR(e.points[0].gap, n.dot(s.x[3] - s.x[1]), 1e-15);
+}
+
+TEST(KeptFacet, IsLeftByAPointThatMovesOn) {
+  EXPECT_EQ(facet_with(ridge(0.3), that_changed(0, 3)), 1);
+}
+
+/// The count belongs to the iterations of one increment.
+TEST(KeptFacet, ChangesAreCounted) {
+  pairing::Assumed<2> assumed;
+  for (int i = 0; i < 5; ++i) {
+    const PairSample s = ridge(i % 2 == 0 ? 0.01 : -0.01);
+    pairing::PairEvaluation<2> e;
+    pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, assumed);
+    assumed = pairing::evaluated_branches<2>(e, assumed);
+    EXPECT_EQ(assumed.branch[0].changes, std::min(i, 3));
+    EXPECT_EQ(assumed.branch[0].facet, i < 3 ? (i % 2 == 0 ? 1 : 0) : 0);
+  }
+}
+
+TEST(KeptFacet, InSpace) {
+  PairSample3 s = make_sample3({.at = 1, .xi = {0.99, 0.1}, .depth = 0.05, .kink = -0.1});
+  s.pair.weight = pairing::Weight::node;
+  pairing::PairEvaluation<3> e;
+  pairing::evaluate<3>(s.pair, s.x, s.committed, true, e);
+  const Index here = e.points[0].history.facet;
+  pairing::Assumed<3> assumed;
+  assumed.branch.resize(4);
+  for (Index other = 0; other < static_cast<Index>(s.pair.master.facets.size()); ++other) {
+    assumed.branch[0].facet = other;
+    assumed.branch[0].changes = 3;
+    pairing::evaluate<3>(s.pair, s.x, s.committed, true, e, assumed);
+    if (other == here) continue;
+    const bool near = e.points[0].history.facet == other;
+    EXPECT_TRUE(near || e.points[0].history.facet == here);
+    if (near) {
+      EXPECT_EQ(e.points[0].history.feature, projection::Feature::face);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace osculate::testing
