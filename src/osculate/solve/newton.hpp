@@ -179,7 +179,8 @@ bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd
 /// converged increment, and its work is zero.
 ///
 /// Formula    (K + c D) du = -R, c such that nothing moves farther than an element in one
-///            iteration, and ten times smaller after each that does not
+///            iteration and that the work du . R is not positive, and ten times smaller after each
+///            iteration that did not ask for more
 /// Tested by  tests/unit/solve/test_resistance.cpp
 template <System S>
 class Resistance {
@@ -199,6 +200,10 @@ class Resistance {
       set(share_);
       if (!solve_correction(system_, solver, residual, du, result)) {
         if (result.linear != la::SolveStatus::singular) return false;
+        share_ *= stiffer;
+        continue;
+      }
+      if (du.dot(residual) > 0) {  // uphill: a mode of negative stiffness, as before a snap
         share_ *= stiffer;
         continue;
       }
