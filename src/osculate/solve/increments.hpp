@@ -197,8 +197,11 @@ NewtonResult<typename S::State> attempt_increment(S& system, const typename S::S
   resisted = held.outcome == Outcome::converged;
   waste(resisted ? attempt : held);
   if (resisted) return held;
-  // It moves and moves: the state shows what is free, the first failure tells why.
-  if (held.outcome == Outcome::not_converged) attempt.state = std::move(held.state);
+  // It moves and moves: in contact its state shows what is free, the first failure tells why.
+  const StateCounts &before = attempt.evaluation.counts, &after = held.evaluation.counts;
+  if (held.outcome == Outcome::not_converged &&
+      after.stick + after.slip > before.stick + before.slip)
+    attempt.state = std::move(held.state);
   return attempt;
 }
 
