@@ -115,7 +115,7 @@ Spec coulomb_spec(const Spec& penalty) {
                                  .such_as("0.5"))});
   return map("Coulomb's law with an elastic stick range.",
              {required("mu", number("Coefficient of friction.").at_least(0).such_as("0.3")),
-              required("penalty", penalty),
+              optional("penalty", penalty),
               optional("kinetic", number("Coefficient of friction after sliding, or at speed.")
                                       .at_least(0)
                                       .otherwise_as("mu")
