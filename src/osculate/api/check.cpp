@@ -5,6 +5,7 @@
 
 #include "osculate/api/run.hpp"
 #include "osculate/api/summary.hpp"
+#include "osculate/mesh/boundary.hpp"
 
 namespace osculate::api {
 namespace {
@@ -12,22 +13,26 @@ namespace {
 struct GapFacts {
   int found = 0, touching = 0, overlapping = 0, crossings = 0;
   double smallest = 0, largest = 0;
+  std::size_t deepest = 0;  ///< point with the smallest gap
 };
 
 template <int Dim>
 GapFacts gap_facts(const pairing::PairState<Dim>& state) {
   GapFacts facts;
-  for (const contact::PointHistory<Dim>& point : state.points) {
+  for (std::size_t i = 0; i < state.points.size(); ++i) {
+    const contact::PointHistory<Dim>& point = state.points[i];
     if (point.edge >= 0) {
       ++facts.crossings;
       continue;
     }
     if (point.facet < 0) continue;
-    facts.smallest = facts.found ? std::min(facts.smallest, point.gap) : point.gap;
-    facts.largest = facts.found ? std::max(facts.largest, point.gap) : point.gap;
+    const double gap = point.gap + (i < state.overlap.size() ? state.overlap[i] : 0.0);
+    if (!facts.found || gap < facts.smallest) facts.deepest = i;
+    facts.smallest = facts.found ? std::min(facts.smallest, gap) : gap;
+    facts.largest = facts.found ? std::max(facts.largest, gap) : gap;
     ++facts.found;
-    if (point.gap == 0) ++facts.touching;
-    if (point.gap < 0) ++facts.overlapping;
+    if (gap == 0) ++facts.touching;
+    if (gap < 0) ++facts.overlapping;
   }
   return facts;
 }
@@ -37,6 +42,24 @@ std::string gap_line(const std::string& pair, const GapFacts& g, std::size_t poi
       "{:<13} {:<16} {} of {} slave nodes face the master, {} touch, {} overlap, gap {:.4g} to "
       "{:.4g}\n",
       "Initial gaps", pair, g.found, points, g.touching, g.overlapping, g.smallest, g.largest);
+}
+
+/// The deepest overlap by name, and what becomes of all of them.
+template <int Dim>
+std::string overlap_line(const model::BasicModel<Dim>& m, const model::BasicContactPair<Dim>& pair,
+                         const GapFacts& g) {
+  if (g.overlapping == 0) return {};
+  const char* fate = "they are pushed out in the first increment";
+  if (pair.definition.overlap == pairing::InitialOverlap::ramped)
+    fate = "they are let in over the first step";
+  if (pair.definition.overlap == pairing::InitialOverlap::kept)
+    fate = "gaps are measured from them";
+  const Index node = pair.definition.slave.points[g.deepest].nearest_node();
+  const std::string deep = pair.height > 0 ? fmt::format(", {:.2g} of the height of the cells",
+                                                         -g.smallest / pair.height)
+                                           : std::string{};
+  return fmt::format("{:<13} {:<16} deepest {:.4g} at {}{}; {}\n", "Overlaps", pair.name,
+                     -g.smallest, mesh::describe_node(m.mesh, node), deep, fate);
 }
 
 template <int Dim>
@@ -57,7 +80,8 @@ CheckReport check_built(const std::string& path, const deck::BasicBuilt<Dim>& bu
     if (g.found == 0 && !m.pairs[p].group.empty())
       apart += fmt::format("{}{}", apart.empty() ? "" : ", ", m.pairs[p].name);
     else
-      report.text += gap_line(m.pairs[p].name, g, m.pairs[p].definition.slave.points.size());
+      report.text += gap_line(m.pairs[p].name, g, m.pairs[p].definition.slave.points.size()) +
+                     overlap_line(m, m.pairs[p], g);
     const pairing::EdgeContact& edges = m.pairs[p].definition.edges;
     if (edges.on)
       report.text += fmt::format("{:<13} {:<16} {} of the master, {} of the slave, {} crossings\n",

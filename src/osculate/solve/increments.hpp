@@ -171,6 +171,40 @@ template <System S>
   return attempt;
 }
 
+/// One increment with all that may help it: from the guess, by the tangent, with sliding points
+/// that stick at first, with free motions resisted. Iterations of what did not help are `wasted`.
+template <System S>
+NewtonResult<typename S::State> attempt_increment(S& system, const typename S::State& committed,
+                                                  double target, const NewtonOptions& options,
+                                                  la::DirectSolver& solver, const Guess& guess,
+                                                  bool last, int& wasted, bool& resisted) {
+  using Result = NewtonResult<typename S::State>;
+  const auto waste = [&](const Result& dropped) {
+    wasted += static_cast<int>(dropped.iterations.size());
+  };
+  Result attempt = solve_increment(system, committed, target, options, solver, guess);
+  if (attempt.outcome != Outcome::converged && attempt.extrapolated) {
+    waste(attempt);
+    attempt = solve_increment(system, committed, target, options, solver);
+  }
+  if (worth_sticking<S>(attempt)) {
+    waste(attempt);
+    attempt = solve_increment(system, committed, target, options, solver, {{}, 0, 0, true});
+  }
+  if (!worth_resisting<S>(attempt, last)) return attempt;
+  Result held =
+      solve_increment(system, committed, target, options, solver, {{}, 0, 0, false, true});
+  resisted = held.outcome == Outcome::converged;
+  waste(resisted ? attempt : held);
+  if (resisted) return held;
+  // It moves and moves: in contact its state shows what is free, the first failure tells why.
+  const StateCounts &before = attempt.evaluation.counts, &after = held.evaluation.counts;
+  if (held.outcome == Outcome::not_converged &&
+      after.stick + after.slip > before.stick + before.slip)
+    attempt.state = std::move(held.state);
+  return attempt;
+}
+
 }  // namespace detail
 
 /// Runs one step from `start` to its end: from its beginning, or from where `position` stands,
@@ -199,28 +233,10 @@ template <System S>
     while (at < end) {
       const double target = end - at <= size * (1 + 1e-9) ? end : at + size;
       const Guess guess = may_guess ? extrapolation.guess(target - at) : Guess{};
-      NewtonResult<State> attempt =
-          detail::solve_increment(system, result.state, target, options.newton, solver, guess);
-      if (attempt.outcome != Outcome::converged && attempt.extrapolated) {
-        wasted += static_cast<int>(attempt.iterations.size());
-        attempt = detail::solve_increment(system, result.state, target, options.newton, solver);
-      }
-      if (detail::worth_sticking<S>(attempt)) {
-        wasted += static_cast<int>(attempt.iterations.size());
-        attempt = detail::solve_increment(system, result.state, target, options.newton, solver,
-                                          {{}, 0, 0, true});
-      }
+      const bool last = 0.5 * (target - at) < smallest;
       bool resisted = false;
-      if (detail::worth_resisting<S>(attempt, 0.5 * (target - at) < smallest)) {
-        NewtonResult<State> held =
-            newton(system, result.state, target, options.newton, solver, {{}, 0, 0, false, true});
-        resisted = held.outcome == Outcome::converged;
-        wasted += static_cast<int>((resisted ? attempt : held).iterations.size());
-        if (resisted)
-          attempt = std::move(held);
-        else if (held.outcome == Outcome::not_converged)
-          attempt.state = std::move(held.state);  // moves and moves: shows what is free
-      }
+      NewtonResult<State> attempt = detail::attempt_increment(
+          system, result.state, target, options.newton, solver, guess, last, wasted, resisted);
       if (attempt.outcome != Outcome::converged) {
         extrapolation.reset();
         on_cutback(attempt.reason, at, target, attempt.iterations);

@@ -179,7 +179,8 @@ bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd
 /// converged increment, and its work is zero.
 ///
 /// Formula    (K + c D) du = -R, c such that nothing moves farther than an element in one
-///            iteration, and ten times smaller after each that does not
+///            iteration and that the work du . R is not positive, and ten times smaller after each
+///            iteration that did not ask for more
 /// Tested by  tests/unit/solve/test_resistance.cpp
 template <System S>
 class Resistance {
@@ -199,6 +200,10 @@ class Resistance {
       set(share_);
       if (!solve_correction(system_, solver, residual, du, result)) {
         if (result.linear != la::SolveStatus::singular) return false;
+        share_ *= stiffer;
+        continue;
+      }
+      if (du.dot(residual) > 0) {  // uphill: a mode of negative stiffness, as before a snap
         share_ *= stiffer;
         continue;
       }
@@ -236,6 +241,32 @@ struct LinePoint {
   bool ok = false;
 };
 
+/// The zero of the work between `low` and `high`, which have different signs of it: the best point
+/// found, by Illinois' rule. With `falling`: by halves, and the far end if it is not found.
+template <System S, class At>
+LinePoint<S> bracketed(const At& at, LinePoint<S> low, LinePoint<S> high, double enough,
+                       bool falling) {
+  constexpr int most = 10;
+  LinePoint<S> best = high;
+  double low_work = low.work, high_work = high.work;
+  for (int i = 0; i < most && std::abs(best.work) > enough; ++i) {
+    const double secant = (low.step * high_work - high.step * low_work) / (high_work - low_work);
+    const LinePoint<S> next = at(falling ? 0.5 * (low.step + high.step) : secant);
+    if (!next.ok) break;
+    if (std::abs(next.work) < std::abs(best.work)) best = next;
+    if (next.work * low.work > 0) {
+      low = next;
+      low_work = next.work;
+      high_work *= 0.5;
+    } else {
+      high = next;
+      high_work = next.work;
+      low_work *= 0.5;
+    }
+  }
+  return falling && std::abs(best.work) > enough ? high : best;
+}
+
 /// Finds how much of a correction to take. Friction and contact make the residual along the
 /// correction a piecewise smooth function: a point that slips one way before and the other way
 /// after the full correction has jumped over its narrow sticking range, and plain Newton jumps back
@@ -246,10 +277,13 @@ struct LinePoint {
 /// work keeps its sign and no part of the correction makes the residual smaller, the start lies on
 /// a border between states and the tangent is that of the wrong side: the full correction goes on,
 /// into the states that the next tangent is of.
+///
+/// With `falling` bodies (see Resistance) the work is small and constant up to the contact and then
+/// large: the bracket is halved, and its far end is taken, where the tangent knows the contact.
 template <System S>
 double line_search(S& system, const typename S::State& committed,
                    NewtonResult<typename S::State>& result, const Eigen::VectorXd& du,
-                   const Eigen::VectorXd& old_residual, double time) {
+                   const Eigen::VectorXd& old_residual, double time, bool falling = false) {
   constexpr int most = 10;
   constexpr double close_enough = 0.05;
   const typename S::State start = result.state;
@@ -278,22 +312,7 @@ double line_search(S& system, const typename S::State& committed,
       high.ok && (high.norm <= 0.5 * low.norm || std::abs(high.work) <= close_enough * reference ||
                   (!crossed && high.norm <= low.norm));
   if (!good && crossed) {
-    double low_work = low.work, high_work = high.work;
-    for (int i = 0; i < most && std::abs(best.work) > close_enough * reference; ++i) {
-      const double step = (low.step * high_work - high.step * low_work) / (high_work - low_work);
-      const LinePoint<S> next = at(step);
-      if (!next.ok) break;
-      if (std::abs(next.work) < std::abs(best.work)) best = next;
-      if (next.work * low.work > 0) {
-        low = next;
-        low_work = next.work;
-        high_work *= 0.5;
-      } else {
-        high = next;
-        high_work = next.work;
-        low_work *= 0.5;
-      }
-    }
+    best = bracketed<S>(at, low, high, close_enough * reference, falling);
   } else if (!good) {
     LinePoint<S> next = high;
     for (int i = 0; i < most && next.norm > low.norm; ++i) {
@@ -456,7 +475,7 @@ template <System S>
     if (search && options.cycle_cure && detail::comes_back(result.iterations))
       result.state = system.apply(result.state, du, time, step = 0.5);
     else if (search && smooth && (i > 1 || result.extrapolated || resistance.on()))
-      step = detail::line_search(system, committed, result, du, residual, time);
+      step = detail::line_search(system, committed, result, du, residual, time, resistance.on());
     else
       result.state = system.apply(result.state, du, time, 1.0);
     system.evaluate(committed, result.state, time, true, result.evaluation);

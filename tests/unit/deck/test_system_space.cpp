@@ -270,9 +270,12 @@ TEST(SystemSpace, ABoxFallsEdgeOnEdge) {
   // the weight over the penalty is reached from the overlap of the start
   EXPECT_NEAR(end[1], -0.04 + (2 * std::sqrt(2.0) - 2.828), 1e-4);
   const Table falling = run("false");
-  // Nothing sees the edges: it falls through them, until its nodes reach the faces.
-  ASSERT_EQ(falling.result.outcome, solve::Outcome::converged) << falling.result.message;
-  EXPECT_LT(falling.rows.back()[1], -0.3);
+  // Nodes alone see nothing of each other there: it falls on, for ever or until nodes meet faces.
+  if (falling.result.outcome == solve::Outcome::converged) {
+    EXPECT_LT(falling.rows.back()[1], -0.5);
+  } else {
+    EXPECT_NE(falling.result.message.find("free to"), std::string::npos) << falling.result.message;
+  }
 }
 
 /// A cantilever of solid-shells, thin along x, y or z of its box: the same force bends it.
