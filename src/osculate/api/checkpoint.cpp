@@ -216,12 +216,12 @@ CheckpointWriter<Dim>::CheckpointWriter(std::string folder, const RunIdentity& i
 }
 
 template <int Dim>
-CheckpointWriter<Dim>::CheckpointWriter(std::string folder, std::uint64_t good_bytes,
-                                        std::uint32_t checksum, std::size_t grown)
+CheckpointWriter<Dim>::CheckpointWriter(std::string folder, const Checkpoint<Dim>& from)
     : folder_(std::move(folder)),
-      journal_(journal_path(folder_), good_bytes),
-      checksum_(checksum),
-      grown_(grown) {}
+      journal_(journal_path(folder_), from.journal_bytes),
+      checksum_(from.journal_checksum),
+      grown_(from.point.memory.grown.size()),
+      durable_(from.warning.empty()) {}
 
 template <int Dim>
 void CheckpointWriter<Dim>::append(const std::string& bytes) {
@@ -242,14 +242,19 @@ void CheckpointWriter<Dim>::save(const model::BasicState<Dim>& state,
                                  const model::Progress& progress,
                                  const solve::StepPosition& position,
                                  const model::SystemMemory& memory) {
-  journal_.sync();
+  using namespace std::chrono_literals;
+  const auto now = std::chrono::steady_clock::now();
+  const bool sync = now - synced_ > 1s || progress.fraction >= 1.0;
+  if (sync) journal_.sync();
   const Place place{journal_.size(), checksum_};
   io::AtomicFile file(checkpoint_path(folder_));
   file.write(io::chunk_file_head("checkpoint", version));
   file.write(io::packed({"place", saved(place)}));
   file.write(io::packed({"control", saved(progress, position, memory.starts)}));
   file.write(io::packed({"state", saved(state)}));
-  file.commit_keeping(previous_path(folder_));
+  file.commit_keeping(durable_ ? previous_path(folder_) : std::string{}, sync);
+  durable_ = sync;
+  if (sync) synced_ = now;
 }
 
 namespace {
