@@ -11,78 +11,87 @@
 #include "osculate/core/version.hpp"
 #include "osculate/io/chunk_file.hpp"
 
-// Members of all that is saved; one that is added to a type must be named here. The sizes are a
-// reminder: a member that is forgotten would be lost by a restart.
+// Members of all that is saved, each type taken apart into all of its members: one that is added to
+// a type stops the compiler here, and is to be named.
 namespace osculate::contact {
-static_assert(sizeof(PointHistory<2>) == 72 && sizeof(PointHistory<3>) == 112);
 template <class Archive, int Dim>
 void fields(Archive& a, PointHistory<Dim>& h) {
-  a(h.active, h.facet, h.feature, h.xi, h.gap, h.traction, h.slipping, h.slip, h.edge, h.flipped,
-    h.friction_work);
+  auto& [active, facet, feature, xi, gap, traction, slipping, slip, edge, flipped, work] = h;
+  a(active, facet, feature, xi, gap, traction, slipping, slip, edge, flipped, work);
 }
 }  // namespace osculate::contact
 
 namespace osculate::pairing {
 template <class Archive>
 void fields(Archive& a, MortarPlace& place) {
-  a(place.nodes, place.weights);
+  auto& [nodes, weights] = place;
+  a(nodes, weights);
 }
-static_assert(sizeof(PairState<2>) == 48);
 template <class Archive, int Dim>
 void fields(Archive& a, PairState<Dim>& state) {
-  a(state.points, state.places);
+  auto& [points, places] = state;
+  a(points, places);
 }
 }  // namespace osculate::pairing
 
 namespace osculate::body {
 template <class Archive, int Dim>
 void fields(Archive& a, BasicRigidMotion<Dim>& motion) {
-  a(motion.reference);
-  for (int i = 0; i < motions<Dim>; ++i) a(motion.component(i));
+  auto& [reference, translation, rotation] = motion;
+  a(reference, translation, rotation);
 }
 }  // namespace osculate::body
 
 namespace osculate::la {
 template <class Archive>
 void fields(Archive& a, MatrixPlace& place) {
-  a(place.row, place.column);
+  auto& [row, column] = place;
+  a(row, column);
 }
 }  // namespace osculate::la
 
 namespace osculate::solve {
 template <class Archive>
-void fields(Archive& a, StateCounts& c) {
-  a(c.open, c.stick, c.slip, c.signature, c.friction_work);
+void fields(Archive& a, StateCounts& counts) {
+  auto& [open, stick, slip, signature, work] = counts;
+  a(open, stick, slip, signature, work);
 }
 template <class Archive>
-void fields(Archive& a, IterationRecord& r) {
-  a(r.residual, r.energy, r.step, r.counts);
+void fields(Archive& a, IterationRecord& record) {
+  auto& [residual, energy, step, counts] = record;
+  a(residual, energy, step, counts);
 }
 template <class Archive>
-void fields(Archive& a, IncrementRecord& r) {
-  a(r.fraction, r.cutbacks, r.iterations, r.wasted_iterations);
+void fields(Archive& a, IncrementRecord& record) {
+  auto& [fraction, cutbacks, iterations, wasted] = record;
+  a(fraction, cutbacks, iterations, wasted);
 }
 template <class Archive>
 void fields(Archive& a, ExtrapolationMemory& m) {
-  a(m.last, m.before, m.last_size, m.before_size, m.residual, m.energy, m.signature, m.known,
-    m.smooth, m.worth);
+  auto& [last, before, last_size, before_size, residual, energy, signature, known, smooth, worth] =
+      m;
+  a(last, before, last_size, before_size, residual, energy, signature, known, smooth, worth);
 }
 template <class Archive>
-void fields(Archive& a, StepPosition& p) {
-  ExtrapolationMemory memory = p.extrapolation.memory();
-  a(p.nominal, p.at, p.size, memory);
-  p.extrapolation = Extrapolation(std::move(memory));
+void fields(Archive& a, StepPosition& position) {
+  auto& [nominal, at, size, extrapolation] = position;
+  ExtrapolationMemory memory = extrapolation.memory();
+  a(nominal, at, size, memory);
+  extrapolation = Extrapolation(std::move(memory));
 }
 }  // namespace osculate::solve
 
 namespace osculate::model {
 template <class Archive>
-void fields(Archive& a, Progress& p) {
-  a(p.step, p.increment, p.fraction, p.time);
+void fields(Archive& a, Progress& progress) {
+  auto& [step, increment, fraction, time] = progress;
+  a(step, increment, fraction, time);
 }
 template <class Archive, int Dim>
-void fields(Archive& a, BasicState<Dim>& s) {
-  a(s.u, s.rigid, s.pairs, s.fraction);  // `assumed` belongs to trials
+void fields(Archive& a, BasicState<Dim>& state) {
+  auto& [u, rigid, pairs, assumed, fraction] = state;
+  a(u, rigid, pairs, fraction);
+  assumed.clear();  // belongs to trials
 }
 }  // namespace osculate::model
 
