@@ -77,7 +77,8 @@ void fields(Archive& a, StepPosition& position) {
   auto& [nominal, at, size, extrapolation] = position;
   ExtrapolationMemory memory = extrapolation.memory();
   a(nominal, at, size, memory);
-  extrapolation = Extrapolation(std::move(memory));
+  if constexpr (std::is_same_v<Archive, api::Loader>)
+    extrapolation = Extrapolation(std::move(memory));
 }
 }  // namespace osculate::solve
 
@@ -91,7 +92,7 @@ template <class Archive, int Dim>
 void fields(Archive& a, BasicState<Dim>& state) {
   auto& [u, rigid, pairs, assumed, fraction] = state;
   a(u, rigid, pairs, fraction);
-  assumed.clear();  // belongs to trials
+  (void)assumed;  // belongs to trials
 }
 }  // namespace osculate::model
 
