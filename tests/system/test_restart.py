@@ -113,7 +113,7 @@ class Restart(unittest.TestCase):
             with subprocess.Popen(self.command("killed", "--quiet", *more, *restart), cwd=self.folder.name,
                                   stderr=subprocess.PIPE, text=True) as program:
                 try:
-                    program.wait(chance.uniform(0.05, 0.6) * whole + 0.02 * kills)
+                    program.wait(chance.uniform(0.02, 0.3) * whole + 0.03 * kills)
                     message = program.stderr.read()
                     break
                 except subprocess.TimeoutExpired:

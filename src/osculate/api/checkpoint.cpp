@@ -11,87 +11,100 @@
 #include "osculate/core/version.hpp"
 #include "osculate/io/chunk_file.hpp"
 
-// Members of all that is saved; one that is added to a type must be named here. The sizes are a
-// reminder: a member that is forgotten would be lost by a restart.
+// Members of all that is saved, each type taken apart into all of its members: one that is added to
+// a type stops the compiler here, and is to be named.
 namespace osculate::contact {
-static_assert(sizeof(PointHistory<2>) == 96 && sizeof(PointHistory<3>) == 144);
 template <class Archive, int Dim>
 void fields(Archive& a, PointHistory<Dim>& h) {
-  a(h.active, h.facet, h.feature, h.xi, h.gap, h.traction, h.slipping, h.slip, h.edge, h.flipped,
-    h.slid, h.held, h.rest, h.friction_work);
+  auto& [active, facet, feature, xi, gap, traction, slipping, slip, edge, flipped, slid, held, rest,
+         work] = h;
+  a(active, facet, feature, xi, gap, traction, slipping, slip, edge, flipped, slid, held, rest,
+    work);
 }
-static_assert(sizeof(Multiplier<2>) == 32 && sizeof(Multiplier<3>) == 32);
 template <class Archive, int Dim>
-void fields(Archive& a, Multiplier<Dim>& m) {
-  a(m.normal, m.shear);
+void fields(Archive& a, Multiplier<Dim>& multiplier) {
+  auto& [normal, shear] = multiplier;
+  a(normal, shear);
 }
 }  // namespace osculate::contact
 
 namespace osculate::pairing {
 template <class Archive>
 void fields(Archive& a, MortarPlace& place) {
-  a(place.nodes, place.weights);
+  auto& [nodes, weights] = place;
+  a(nodes, weights);
 }
-static_assert(sizeof(PairState<2>) == 72 && sizeof(PairMultipliers<2>) == 40);
 template <class Archive, int Dim>
 void fields(Archive& a, PairState<Dim>& state) {
-  a(state.points, state.places, state.overlap);
+  auto& [points, places, overlap] = state;
+  a(points, places, overlap);
 }
 template <class Archive, int Dim>
-void fields(Archive& a, PairMultipliers<Dim>& m) {
-  a(m.points, m.stiffening, m.violation);
+void fields(Archive& a, PairMultipliers<Dim>& multipliers) {
+  auto& [points, stiffening, violation] = multipliers;
+  a(points, stiffening, violation);
 }
 }  // namespace osculate::pairing
 
 namespace osculate::body {
 template <class Archive, int Dim>
 void fields(Archive& a, BasicRigidMotion<Dim>& motion) {
-  a(motion.reference);
-  for (int i = 0; i < motions<Dim>; ++i) a(motion.component(i));
+  auto& [reference, translation, rotation] = motion;
+  a(reference, translation, rotation);
 }
 }  // namespace osculate::body
 
 namespace osculate::la {
 template <class Archive>
 void fields(Archive& a, MatrixPlace& place) {
-  a(place.row, place.column);
+  auto& [row, column] = place;
+  a(row, column);
 }
 }  // namespace osculate::la
 
 namespace osculate::solve {
 template <class Archive>
-void fields(Archive& a, StateCounts& c) {
-  a(c.open, c.stick, c.slip, c.signature, c.friction_work);
+void fields(Archive& a, StateCounts& counts) {
+  auto& [open, stick, slip, signature, work] = counts;
+  a(open, stick, slip, signature, work);
 }
 template <class Archive>
-void fields(Archive& a, IterationRecord& r) {
-  a(r.residual, r.energy, r.step, r.counts);
+void fields(Archive& a, IterationRecord& record) {
+  auto& [residual, energy, step, counts] = record;
+  a(residual, energy, step, counts);
 }
 template <class Archive>
-void fields(Archive& a, IncrementRecord& r) {
-  a(r.fraction, r.cutbacks, r.iterations, r.wasted_iterations, r.resisted);
+void fields(Archive& a, IncrementRecord& record) {
+  auto& [fraction, cutbacks, iterations, wasted, resisted] = record;
+  a(fraction, cutbacks, iterations, wasted, resisted);
 }
 template <class Archive>
 void fields(Archive& a, ExtrapolationMemory& m) {
-  a(m.last, m.before, m.last_size, m.before_size, m.residual, m.energy, m.signature, m.known,
-    m.smooth, m.worth);
+  auto& [last, before, last_size, before_size, residual, energy, signature, known, smooth, worth] =
+      m;
+  a(last, before, last_size, before_size, residual, energy, signature, known, smooth, worth);
 }
 template <class Archive>
-void fields(Archive& a, StepPosition& p) {
-  ExtrapolationMemory memory = p.extrapolation.memory();
-  a(p.nominal, p.at, p.size, memory);
-  p.extrapolation = Extrapolation(std::move(memory));
+void fields(Archive& a, StepPosition& position) {
+  auto& [nominal, at, size, extrapolation] = position;
+  ExtrapolationMemory memory = extrapolation.memory();
+  a(nominal, at, size, memory);
+  if constexpr (std::is_same_v<Archive, api::Loader>)
+    extrapolation = Extrapolation(std::move(memory));
 }
 }  // namespace osculate::solve
 
 namespace osculate::model {
 template <class Archive>
-void fields(Archive& a, Progress& p) {
-  a(p.step, p.increment, p.fraction, p.time);
+void fields(Archive& a, Progress& progress) {
+  auto& [step, increment, fraction, time] = progress;
+  a(step, increment, fraction, time);
 }
 template <class Archive, int Dim>
-void fields(Archive& a, BasicState<Dim>& s) {
-  a(s.u, s.rigid, s.pairs, s.multipliers, s.fraction);  // `assumed` belongs to trials
+void fields(Archive& a, BasicState<Dim>& state) {
+  auto& [u, rigid, pairs, assumed, multipliers, fraction] = state;
+  a(u, rigid, pairs, multipliers, fraction);
+  (void)assumed;  // belongs to trials
 }
 }  // namespace osculate::model
 
@@ -225,12 +238,12 @@ CheckpointWriter<Dim>::CheckpointWriter(std::string folder, const RunIdentity& i
 }
 
 template <int Dim>
-CheckpointWriter<Dim>::CheckpointWriter(std::string folder, std::uint64_t good_bytes,
-                                        std::uint32_t checksum, std::size_t grown)
+CheckpointWriter<Dim>::CheckpointWriter(std::string folder, const Checkpoint<Dim>& from)
     : folder_(std::move(folder)),
-      journal_(journal_path(folder_), good_bytes),
-      checksum_(checksum),
-      grown_(grown) {}
+      journal_(journal_path(folder_), from.journal_bytes),
+      checksum_(from.journal_checksum),
+      grown_(from.point.memory.grown.size()),
+      durable_(from.warning.empty()) {}
 
 template <int Dim>
 void CheckpointWriter<Dim>::append(const std::string& bytes) {
@@ -251,14 +264,19 @@ void CheckpointWriter<Dim>::save(const model::BasicState<Dim>& state,
                                  const model::Progress& progress,
                                  const solve::StepPosition& position,
                                  const model::SystemMemory& memory) {
-  journal_.sync();
+  using namespace std::chrono_literals;
+  const auto now = std::chrono::steady_clock::now();
+  const bool sync = now - synced_ > 1s || progress.fraction >= 1.0;
+  if (sync) journal_.sync();
   const Place place{journal_.size(), checksum_};
   io::AtomicFile file(checkpoint_path(folder_));
   file.write(io::chunk_file_head("checkpoint", version));
   file.write(io::packed({"place", saved(place)}));
   file.write(io::packed({"control", saved(progress, position, memory.starts)}));
   file.write(io::packed({"state", saved(state)}));
-  file.commit_keeping(previous_path(folder_));
+  file.commit_keeping(durable_ ? previous_path(folder_) : std::string{}, sync);
+  durable_ = sync;
+  if (sync) synced_ = now;
 }
 
 namespace {

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,10 +38,24 @@ struct JournalEntry {
   std::vector<la::MatrixPlace> grown{};  ///< what the pattern of the matrix has grown by
 };
 
+/// A checkpoint that has been read, with all entries of the journal up to it.
+template <int Dim>
+struct Checkpoint {
+  model::BasicResumePoint<Dim> point;
+  std::vector<JournalEntry> entries;
+  std::uint64_t journal_bytes = 0;
+  std::uint32_t journal_checksum = 0;
+  std::string warning;  ///< not empty: it is the previous one, and why
+  [[nodiscard]] int increments() const { return static_cast<int>(entries.size()) - 1; }
+};
+
 /// Writes journal.bin, to which every increment adds its entry, and checkpoint.bin: the last state,
 /// the place in the journal it belongs to, and the one before as checkpoint.previous.bin.
 ///
-/// A process that is killed at any moment leaves a whole checkpoint and the journal up to it.
+/// A process that is killed at any moment leaves a whole checkpoint and the journal up to it. A
+/// machine that stops leaves those of a second before: waiting for the disk after every increment
+/// would cost small models more than their solution, so it is done once a second, and
+/// checkpoint.previous.bin is always one that has reached the disk.
 ///
 /// Errors     io::WriteError
 /// Tested by  tests/system/test_restart.py, tests/unit/api/test_restart.cpp
@@ -49,9 +64,8 @@ class CheckpointWriter {
  public:
   /// A new journal.
   CheckpointWriter(std::string folder, const RunIdentity& identity);
-  /// Goes on with one of which so much is good.
-  CheckpointWriter(std::string folder, std::uint64_t good_bytes, std::uint32_t checksum,
-                   std::size_t grown);
+  /// Goes on after a checkpoint that has been read.
+  CheckpointWriter(std::string folder, const Checkpoint<Dim>& from);
   /// `memory` is that of the system, from which the entry's growth follows.
   void add(JournalEntry entry, const model::SystemMemory& memory);
   void save(const model::BasicState<Dim>& state, const model::Progress& progress,
@@ -63,17 +77,8 @@ class CheckpointWriter {
   io::AppendFile journal_;
   std::uint32_t checksum_ = 0;
   std::size_t grown_ = 0;  ///< places written so far
-};
-
-/// A checkpoint that has been read, with all entries of the journal up to it.
-template <int Dim>
-struct Checkpoint {
-  model::BasicResumePoint<Dim> point;
-  std::vector<JournalEntry> entries;
-  std::uint64_t journal_bytes = 0;
-  std::uint32_t journal_checksum = 0;
-  std::string warning;  ///< not empty: it is the previous one, and why
-  [[nodiscard]] int increments() const { return static_cast<int>(entries.size()) - 1; }
+  bool durable_ = false;   ///< checkpoint.bin has reached the disk
+  std::chrono::steady_clock::time_point synced_{};
 };
 
 enum class WhichCheckpoint { best, last, previous };

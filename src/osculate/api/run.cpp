@@ -84,9 +84,7 @@ struct Recorder {
     }
     const std::vector<char>& touched = from.entries.back().touched;
     fields.resume(std::move(files), {touched.begin(), touched.end()});
-    if (description.output.checkpoint > 0)
-      checkpoints.emplace(folder, from.journal_bytes, from.journal_checksum,
-                          from.point.memory.grown.size());
+    if (description.output.checkpoint > 0) checkpoints.emplace(folder, from);
   }
 
   void add_row(const model::Progress& p, std::vector<double> values) {

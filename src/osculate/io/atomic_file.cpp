@@ -72,12 +72,12 @@ void AtomicFile::commit() {
   if (std::rename(part_.c_str(), place_.c_str()) != 0) fail("cannot replace");
 }
 
-void AtomicFile::commit_keeping(const std::string& previous) {
-  finish(true);
+void AtomicFile::commit_keeping(const std::string& previous, bool on_disk) {
+  finish(on_disk);
   if (part_.empty()) return;
-  std::remove(previous.c_str());
+  if (!previous.empty()) std::remove(previous.c_str());
   // A second name for the old file; where links are not known the old file is moved.
-  if (::link(place_.c_str(), previous.c_str()) != 0 && errno != ENOENT &&
+  if (!previous.empty() && ::link(place_.c_str(), previous.c_str()) != 0 && errno != ENOENT &&
       std::rename(place_.c_str(), previous.c_str()) != 0)
     fail("cannot keep the previous file");
   if (std::rename(part_.c_str(), place_.c_str()) != 0) fail("cannot replace");

@@ -33,9 +33,10 @@ class AtomicFile {
   void write(std::string_view data);
   /// Puts the file in its place; nothing may be written afterwards.
   void commit();
-  /// The same, on the disk when it returns; what was there before is kept under the name `previous`
-  /// (in the same folder). At any moment one of the two is whole.
-  void commit_keeping(const std::string& previous);
+  /// The same; what was there before is kept under the name `previous` (in the same folder; empty:
+  /// it is not). At any moment one of the two is whole. With `on_disk` it is on the disk, not only
+  /// in the system's memory, when this returns.
+  void commit_keeping(const std::string& previous, bool on_disk = true);
 
  private:
   void finish(bool on_disk);

@@ -103,6 +103,14 @@ int negative_pivots(BasicSystem<Dim>& system, const BasicState<Dim>& state) {
       .negative_pivots;
 }
 
+/// The increment has been cut to an eighth or less: it was not just too large.
+template <int Dim>
+bool cut_small(const Step& step, const BasicState<Dim>& attempt, const BasicState<Dim>& committed) {
+  double size = attempt.fraction - committed.fraction;
+  if (size <= 0) size = attempt.fraction;  // the first of a step
+  return size > 0 && size * std::max(1, step.increments) <= 0.125;
+}
+
 /// Pairs that touch, with and without friction.
 template <int Dim>
 struct Touching {
@@ -209,7 +217,7 @@ std::string paragraph(const BasicModel<Dim>& model, const Step& step,
     text +=
         "; points that change their state in the last iterations: " + flips_text(model, f.flips);
   if (f.negative_pivots > 0)
-    text += fmt::format("; the tangent at the last converged state has {} negative pivots",
+    text += fmt::format("; the tangent has lost its positive definiteness ({} negative pivots)",
                         f.negative_pivots);
   if (f.stiffness_ratio > 0)
     text += fmt::format("; contact adds up to {:.1e} times the stiffness of the body",
@@ -287,7 +295,11 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
       outside += "; " + outside_domain_message(model, found);
   }
   if (!model.pairs.empty()) f.stiffness_ratio = contact_ratio(system, result.state);
-  if (f.motions.empty()) f.negative_pivots = negative_pivots(system, result.state);
+  if (f.motions.empty()) {
+    f.negative_pivots = negative_pivots(system, result.state);
+    if (f.negative_pivots == 0 && cut_small(step, attempt.state, result.state))
+      f.negative_pivots = negative_pivots(system, last);
+  }
   system.evaluate(last, last, last.fraction, true, evaluation);
   judge(system, model, step, attempt, f);
   f.message =

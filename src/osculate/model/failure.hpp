@@ -39,8 +39,10 @@ struct BasicFailure {
   std::vector<FlippingPoint> flips;
   std::vector<BasicFreeMotion<Dim>> motions;
   double stiffness_ratio = 0;  ///< largest of contact to bulk stiffness on the diagonal
-  int negative_pivots = 0;     ///< of the symmetric part, at the last converged state
-  double last_step = 0;        ///< largest displacement of the last iterate, over the model's size
+  /// Of the tangent's upper triangle at the last converged state, or, where small increments fail
+  /// too, at the last iterate.
+  int negative_pivots = 0;
+  double last_step = 0;  ///< largest displacement of the last iterate, over the model's size
 };
 
 /// Looks for the cause in the last attempt: its message, the tangent at the last converged state,

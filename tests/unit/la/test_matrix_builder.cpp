@@ -172,5 +172,26 @@ TEST(MatrixBuilder, blocks_give_the_bits_of_single_entries) {
   EXPECT_EQ(a.value, b.value);
 }
 
+/// What a restart needs: the same reservations and the places that came by entries.
+TEST(MatrixBuilder, grows_to_the_pattern_of_another) {
+  const std::vector<Index> block{0, 1, 2};
+  MatrixBuilder first(6), second(6);
+  first.reserve_block(block);
+  second.reserve_block(block);
+  first.add(4, 1, 2.0);
+  first.add(1, 2, 3.0);  // reserved
+  first.add(4, 1, 5.0);
+  (void)first.finish();
+  first.clear();
+  first.add(0, 5, 1.0);
+  (void)first.finish();
+  ASSERT_EQ(first.grown().size(), 2u);
+  second.grow_by(first.grown());
+  second.grow_by(first.grown());
+  EXPECT_EQ(second.grown().size(), 2u);
+  EXPECT_EQ(second.finish().row_start, first.finish().row_start);
+  EXPECT_EQ(second.finish().column, first.finish().column);
+}
+
 }  // namespace
 }  // namespace osculate::la
