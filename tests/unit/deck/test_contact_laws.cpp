@@ -1,6 +1,8 @@
 // The keys of the laws of contact: normal, friction, offset, duration.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "deck_test.hpp"
 #include "osculate/deck/build.hpp"
 
@@ -66,8 +68,9 @@ TEST(LawKeys, DistanceRoughAndWhatIsHeld) {
 
 TEST(LawKeys, SayHowManyPointsAreTied) {
   const std::vector<std::string> notes = built().notes;
-  EXPECT_EQ(notes.size(), 1u);
-  EXPECT_EQ(notes[0], "contact 'joint': 6 of 6 points are tied (within 0.02)");
+  const auto count = std::count(notes.begin(), notes.end(),
+                                "contact 'joint': 6 of 6 points are tied (within 0.02)");
+  EXPECT_EQ(count, 1);
 }
 
 TEST(LawKeys, RefuseWhatMakesNoSense) {
