@@ -174,7 +174,8 @@ struct PairSeconds {
 template <int Dim>
 struct PairEvaluation {
   std::vector<PointResult<Dim>> points;  ///< one per slave point, then one per crossing of edges
-  /// One per point, `count == 0` where open; mortar: then those of the facets, without forces.
+  /// One per point, `count == 0` where open; mortar: then those of the facets, without forces (and
+  /// unused ones with `count == 0`).
   std::vector<ContactBlock<Dim>> blocks;
   EdgeBuffers edges;
   int block_nodes = 0;        ///< of the largest block there can be
