@@ -39,8 +39,8 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "model.yaml:5: materials.steel: unknown key 'plastic_flow'; known: linear_elastic, "
        "st_venant_kirchhoff, neo_hooke"},
       {"penalty: 2.1e6}\n    friction", "penalty: 2.1e6, <<: 1}\n    friction",
-       "model.yaml:16: contact[0].normal: unknown key '<<'; known: penalty, exponential, "
-       "table, separation, tolerance, initial_gap"},
+       "model.yaml:16: contact[0].normal: unknown key '<<'; known: penalty, exponential, table, "
+       "separation, tolerance, initial_gap"},
   });
 }
 
