@@ -39,29 +39,29 @@ Index facet_with(const PairSample& s, const pairing::Assumed<2>& assumed) {
 TEST(KeptFacet, IsContinuedALittle) {
   const PairSample s = ridge(0.01);
   EXPECT_EQ(facet_with(s, {}), 1);
-  EXPECT_EQ(facet_with(s, that_changed(0, 2)), 1);
-  EXPECT_EQ(facet_with(s, that_changed(0, 3)), 0);
+  EXPECT_EQ(facet_with(s, that_changed(0, 5)), 1);
+  EXPECT_EQ(facet_with(s, that_changed(0, 6)), 0);
   pairing::PairEvaluation<2> e;
-  pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, that_changed(0, 3));
+  pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, that_changed(0, 6));
   EXPECT_GT(e.points[0].history.xi[0], 1);
   const Vec2 n = turn(Vec2(s.x[1] - s.x[0]).normalized());
   EXPECT_NEAR(e.points[0].gap, n.dot(s.x[3] - s.x[1]), 1e-15);
 }
 
 TEST(KeptFacet, IsLeftByAPointThatMovesOn) {
-  EXPECT_EQ(facet_with(ridge(0.3), that_changed(0, 3)), 1);
+  EXPECT_EQ(facet_with(ridge(0.3), that_changed(0, 6)), 1);
 }
 
 /// The count belongs to the iterations of one increment.
 TEST(KeptFacet, ChangesAreCounted) {
   pairing::Assumed<2> assumed;
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const PairSample s = ridge(i % 2 == 0 ? 0.01 : -0.01);
     pairing::PairEvaluation<2> e;
     pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, assumed);
     assumed = pairing::evaluated_branches<2>(e, assumed);
-    EXPECT_EQ(assumed.branch[0].changes, std::min(i, 3));
-    EXPECT_EQ(assumed.branch[0].facet, i < 3 ? (i % 2 == 0 ? 1 : 0) : 0);
+    EXPECT_EQ(assumed.branch[0].changes, std::min(i, 6));
+    EXPECT_EQ(assumed.branch[0].facet, i < 6 ? (i % 2 == 0 ? 1 : 0) : 1);
   }
 }
 
@@ -75,7 +75,7 @@ TEST(KeptFacet, InSpace) {
   assumed.branch.resize(4);
   for (Index other = 0; other < static_cast<Index>(s.pair.master.facets.size()); ++other) {
     assumed.branch[0].facet = other;
-    assumed.branch[0].changes = 3;
+    assumed.branch[0].changes = 6;
     pairing::evaluate<3>(s.pair, s.x, s.committed, true, e, assumed);
     if (other == here) continue;
     const bool near = e.points[0].history.facet == other;
