@@ -237,12 +237,14 @@ void set_facet_tangent(const MortarFacet<Dim>& matrices, std::span<const Index> 
     if (t.squaredNorm() == 0) continue;
     Eigen::Index row = j;
     for (const Index k : slaves) {
-      block.tangent.template block<Dim, Eigen::Dynamic>(row_of(k), 0, Dim, size) += t * ds.row(row);
+      block.tangent.template block<Dim, Eigen::Dynamic>(row_of(k), 0, Dim, size) +=
+          t.lazyProduct(ds.row(row));
       row += n;
     }
     row = j;
     for (const Index l : matrices.masters) {
-      block.tangent.template block<Dim, Eigen::Dynamic>(row_of(l), 0, Dim, size) -= t * dm.row(row);
+      block.tangent.template block<Dim, Eigen::Dynamic>(row_of(l), 0, Dim, size) -=
+          t.lazyProduct(dm.row(row));
       row += n;
     }
   }
