@@ -97,7 +97,8 @@ template <int Dim>
 int negative_pivots(BasicSystem<Dim>& system, const BasicState<Dim>& state) {
   solve::Evaluation evaluation;
   system.evaluate(state, state, state.fraction, true, evaluation);
-  if (!evaluation.ok) return 0;
+  const bool saddle = system.matrix().n != system.dofs().unknowns();  // multipliers: always some
+  if (!evaluation.ok || saddle) return 0;
   la::DirectSolver solver;
   return solver.factor(system.matrix(), system.pattern_version(), la::Symmetry::indefinite)
       .negative_pivots;
