@@ -162,6 +162,9 @@ template <int Dim>
 void set_forces(const MortarNode<Dim>& node, const NodeContact<Dim>& c, ContactBlock<Dim>& block) {
   const std::size_t own = node.slaves.nodes.size();
   block.slave_count = static_cast<int>(own);
+  // Weights that are zero but for rounding come and go: room for more than is needed just now.
+  const std::size_t room = 2 * (own + node.masters.nodes.size());
+  if (block.nodes.capacity() < room / 2) block.nodes.reserve(room);
   block.nodes = node.slaves.nodes;
   block.nodes.insert(block.nodes.end(), node.masters.nodes.begin(), node.masters.nodes.end());
   const auto rows = Dim * static_cast<Eigen::Index>(block.nodes.size());
@@ -170,9 +173,11 @@ void set_forces(const MortarNode<Dim>& node, const NodeContact<Dim>& c, ContactB
                  linear = push + c.frame * c.linearised.traction;
   block.count = static_cast<int>(block.nodes.size());
   block.branched = c.law.traction != c.linearised.traction;
-  grow(block.force, rows);
-  grow(block.branch_force, rows);
-  grow(block.path_rows, rows, Dim);
+  if (block.force.size() < rows) {
+    grow(block.force, 2 * rows);
+    grow(block.branch_force, 2 * rows);
+    grow(block.path_rows, 2 * rows, Dim);
+  }
   for (std::size_t k = 0; k < block.nodes.size(); ++k) {
     const double weight = k < own ? node.slaves.weights[k] : -node.masters.weights[k - own];
     const auto row = Dim * static_cast<Eigen::Index>(k);
