@@ -118,8 +118,10 @@ const SparseMatrix& MatrixBuilder::finish() {
 
 void MatrixBuilder::merge() {
   if (pending_.empty() && aside_.empty()) return;
+  if (!pending_.empty()) grow();  // what was reserved did not come by entries
   const auto before = static_cast<std::ptrdiff_t>(grown_.size());
   for (const Entry& entry : aside_) {
+    if (find(entry.at.row, entry.at.column) != nullptr) continue;
     pending_.push_back(entry.at);
     grown_.push_back(entry.at);
   }
@@ -128,7 +130,7 @@ void MatrixBuilder::merge() {
             [&](const Place& a, const Place& b) { return key(a) < key(b); });
   const auto same = [&](const Place& a, const Place& b) { return key(a) == key(b); };
   grown_.erase(std::unique(grown_.begin() + before, grown_.end(), same), grown_.end());
-  grow();
+  if (!pending_.empty()) grow();
   for (const Entry& entry : aside_) *find(entry.at.row, entry.at.column) += entry.value;
   aside_.clear();
 }

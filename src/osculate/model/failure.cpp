@@ -112,6 +112,21 @@ bool cut_small(const Step& step, const BasicState<Dim>& attempt, const BasicStat
   return size > 0 && size * std::max(1, step.increments) <= 0.125;
 }
 
+/// The stiffness against the direction of the failed increment, over that of the undeformed bodies:
+/// it vanishes at a limit point, which a cut-back approaches from the stable side.
+template <int Dim>
+double softened_to(BasicSystem<Dim>& system, const BasicState<Dim>& committed,
+                   const Eigen::VectorXd& along) {
+  const auto stiffness = [&](const BasicState<Dim>& state) {
+    solve::Evaluation evaluation;
+    system.evaluate(state, state, state.fraction, true, evaluation);
+    const la::SparseMatrix& k = system.matrix();
+    return evaluation.ok && k.n == along.size() ? along.dot(la::multiply(k, along)) : 0.0;
+  };
+  const double now = stiffness(committed), once = stiffness(system.initial_state());
+  return once > 0 ? now / once : 1.0;
+}
+
 /// Pairs that touch, with and without friction.
 template <int Dim>
 struct Touching {
@@ -187,7 +202,7 @@ void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const S
         "lower the penalty of the contact by a factor of {:.0e}: contact is {:.1e} "
         "times as stiff as the body behind it",
         f.stiffness_ratio / 1e3, f.stiffness_ratio);
-  } else if (f.negative_pivots > 0) {
+  } else if (f.negative_pivots > 0 || f.softened) {
     f.cause = FailureCause::instability;
     f.proposal = fmt::format(
         "prescribe a displacement instead of the load in step '{}': the equilibrium path turns "
@@ -300,6 +315,10 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
     f.negative_pivots = negative_pivots(system, result.state);
     if (f.negative_pivots == 0 && cut_small(step, attempt.state, result.state))
       f.negative_pivots = negative_pivots(system, last);
+    constexpr double hardly_any = 0.05;
+    if (f.negative_pivots == 0 && cut_small(step, attempt.state, result.state) &&
+        softened_to(system, result.state, attempt.total) < hardly_any)
+      f.softened = true;
   }
   system.evaluate(last, last, last.fraction, true, evaluation);
   judge(system, model, step, attempt, f);

@@ -42,7 +42,8 @@ struct BasicFailure {
   /// Of the tangent's upper triangle at the last converged state, or, where small increments fail
   /// too, at the last iterate.
   int negative_pivots = 0;
-  double last_step = 0;  ///< largest displacement of the last iterate, over the model's size
+  bool softened = false;  ///< next to nothing resists the increment: a limit point is near
+  double last_step = 0;   ///< largest displacement of the last iterate, over the model's size
 };
 
 /// Looks for the cause in the last attempt: its message, the tangent at the last converged state,
