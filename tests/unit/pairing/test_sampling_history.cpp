@@ -242,16 +242,17 @@ double left_on_bowl(const Choice& choice, int steps) {
   return c.largest_shear() / largest;
 }
 
-// On curved surfaces in space the way is a chain of chords: of second order in the increment.
-TEST(SamplingHistory, StickIsReversibleToSecondOrderOnCurvedSurfaces) {
+// On curved surfaces in space the way is a chain of chords: of second order in the increment for
+// points, of first order for mortar, which takes its components in the frame at the end.
+TEST(SamplingHistory, StickIsReversibleToItsOrderOnCurvedSurfaces) {
   for (const Choice& choice : choices) {
-    if (choice.mortar) continue;  // its slip is measured in a frame of the slave
     SCOPED_TRACE(choice.name);
+    const double order = choice.mortar ? 1.0 : 2.0;
     const double coarse = left_on_bowl(choice, 40), fine = left_on_bowl(choice, 80),
                  finest = left_on_bowl(choice, 160);
-    EXPECT_LT(finest, 1e-4);
-    EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.25);
-    EXPECT_NEAR(std::log2(fine / finest), 2.0, 0.15);
+    EXPECT_LT(finest, choice.mortar ? 1e-3 : 1e-4);
+    EXPECT_NEAR(std::log2(coarse / fine), order, 0.25);
+    EXPECT_NEAR(std::log2(fine / finest), order, 0.15);
   }
 }
 
