@@ -148,6 +148,15 @@ void matrices_of(const PairDefinition<Dim>& pair, std::size_t f, std::size_t cou
                     derivatives, out.mortar.facet);
 }
 
+/// Empties a place. It keeps some room: how many nodes it has may depend on rounding.
+void empty(MortarPlace& place) {
+  constexpr std::size_t room = 32;
+  place.nodes.clear();
+  place.weights.clear();
+  place.nodes.reserve(room);
+  place.weights.reserve(room);
+}
+
 template <int Dim>
 void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
              PairEvaluation<Dim>& out) {
@@ -161,10 +170,7 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
     node.area = 0;
     node.own.setZero();
     node.other.setZero();
-    for (MortarPlace* const place : {&node.slaves, &node.masters}) {
-      place->nodes.clear();
-      place->weights.clear();
-    }
+    for (MortarPlace* const place : {&node.slaves, &node.masters}) empty(*place);
     node.facet = -1;
     node.rates.clear();
   }
@@ -185,8 +191,7 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   }
 }
 
-// ---- evaluation
-// -----------------------------------------------------------------------------------
+// ---- evaluation ---------------------------------------------------------------------------------
 
 template <int Dim>
 bool in_contact(std::span<const std::size_t> local, const std::vector<PointResult<Dim>>& points) {
@@ -316,10 +321,7 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
   const std::size_t n = pair.slave.nodes.size();
   out.points.assign(n, {});
   out.mortar.places.resize(n);
-  for (MortarPlace& place : out.mortar.places) {
-    place.nodes.clear();
-    place.weights.clear();
-  }
+  for (MortarPlace& place : out.mortar.places) empty(place);
   out.mortar.tractions.assign(n, Vec<Dim>::Zero());
   out.blocks.resize(std::max(n, out.blocks.size()));
   out.mortar.contacts.assign(n, {});

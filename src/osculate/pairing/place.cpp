@@ -8,6 +8,19 @@ using contact::first_slot;
 using contact::second_slot;
 using projection::Feature;
 
+namespace {
+
+/// Sides that touch without a gap are in contact, also where the rounding of their coordinates has
+/// left one (it would differ with the units of the model).
+template <int Dim>
+void drop_rounding(const Vec<Dim>& point, Placed<Dim>& placed) {
+  constexpr double rounding = 1e-14;
+  double& gap = placed.kinematics.gap;
+  if (gap > 0 && gap <= rounding * (point.norm() + placed.foot.norm())) gap = 0;
+}
+
+}  // namespace
+
 Placed<2> place(const Chain& master, const Projection<2>& p, const Vec2& point,
                 std::span<const Vec2> x) {
   Placed<2> placed;
@@ -24,6 +37,7 @@ Placed<2> place(const Chain& master, const Projection<2>& p, const Vec2& point,
   for (std::size_t s = 0; s < orders; ++s)
     for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
       placed.shape[s][k] = shape.n[s][k];
+  drop_rounding(point, placed);
   return placed;
 }
 
@@ -83,6 +97,7 @@ Placed<3> place(const FacetSurface& master, const Projection<3>& p, const Vec3& 
     placed.kinematics = contact::face_kinematics(jet, point);
     for (std::size_t s = 1; s < contact::slots<3>; ++s) placed.shape[s] = shape.n[s];
   }
+  drop_rounding(point, placed);
   return placed;
 }
 
