@@ -40,6 +40,14 @@ void require_writable(const std::string& folder) {
   }
 }
 
+/// Nothing but what a killed run was about to write.
+bool only_parts(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (entry.path().extension() != ".part") return false;
+  return !error;
+}
+
 }  // namespace
 
 std::string result_folder(const std::string& model, const std::string& wanted) {
@@ -52,7 +60,7 @@ std::string choose_folder(const std::string& model, const std::string& wanted) {
   if (!fs::exists(folder, error)) return folder.string();
   if (!fs::is_directory(folder, error))
     throw core::InputError({}, fmt::format("'{}' exists and is not a folder", folder.string()));
-  if (fs::is_empty(folder, error)) return folder.string();
+  if (fs::is_empty(folder, error) || only_parts(folder)) return folder.string();
   const std::string earlier = model_of(folder);
   if (earlier != fs::path(model).filename().string())
     throw core::InputError(
@@ -62,21 +70,37 @@ std::string choose_folder(const std::string& model, const std::string& wanted) {
   return folder.string();
 }
 
-void open_folder(const std::string& folder, bool keep) {
+namespace {
+
+void create(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
     throw core::InputError({},
                            fmt::format("cannot create folder '{}': {}", folder, error.message()));
   require_writable(folder);
+}
+
+}  // namespace
+
+void claim_folder(const std::string& folder, const std::string& model) {
+  create(folder);
+  const std::string name = fs::path(model).filename().string();
+  write_text(folder + "/summary.json",
+             nlohmann::json{{"model", name}, {"status", "running"}}.dump(1) + "\n");
+}
+
+void open_folder(const std::string& folder, bool keep) {
+  create(folder);
   if (keep) return;
+  std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
     const std::string extension = entry.path().extension().string();
     const bool ours = extension == ".vtu" || extension == ".pvd" || name == "history.csv" ||
-                      name == "summary.json" || name == "report.json" || name == "report.html" ||
-                      name == "log.txt" || name == "journal.bin" || name == "checkpoint.bin" ||
-                      name == "checkpoint.previous.bin" || name == "checkpoint.bin.part";
+                      name == "report.json" || name == "report.html" || name == "log.txt" ||
+                      name == "journal.bin" || name == "checkpoint.bin" ||
+                      name == "checkpoint.previous.bin" || extension == ".part";
     if (ours) fs::remove(entry.path(), error);
   }
 }

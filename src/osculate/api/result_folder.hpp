@@ -10,8 +10,13 @@ namespace osculate::api {
 /// results of the same model file; nothing is changed here.
 [[nodiscard]] std::string choose_folder(const std::string& model, const std::string& wanted);
 
-/// Creates the folder, or removes the files of an earlier run of the same model unless they are to
-/// be kept. Throws core::InputError, with nothing removed, if nothing can be written there.
+/// Creates the folder if there is none and says in summary.json whose results these will be. To be
+/// called before anything else: a run that is killed at any later moment leaves a folder that may
+/// be used again. Throws as `open_folder`.
+void claim_folder(const std::string& folder, const std::string& model);
+
+/// Creates the folder, or removes the files of an earlier run (but its summary.json) unless they
+/// are to be kept. Throws core::InputError, with nothing removed, if nothing can be written there.
 void open_folder(const std::string& folder, bool keep = false);
 
 /// Writes through a temporary file, so that a reader never sees half of it. Throws io::WriteError.

@@ -331,27 +331,18 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
   return observer;
 }
 
-template <int Dim>
-void write_running(const Recorder<Dim>& recorder) {
-  const std::string model = std::filesystem::path(recorder.options.model).filename().string();
-  write_text(recorder.folder + "/summary.json",
-             nlohmann::json{{"model", model}, {"status", "running"}}.dump(1) + "\n");
-}
-
 /// What a run says and writes at its beginning.
 template <int Dim>
 void introduce(Recorder<Dim>& recorder, const RunIdentity& id) {
   for (const ModelFact& fact : model_facts(recorder.built))
     recorder.say(fmt::format("{:<13} {:<16} {}", fact.heading, fact.name, fact.text));
   for (const std::string& warning : recorder.built.warnings) recorder.say("warning: " + warning);
-  write_running(recorder);
   if (recorder.description.output.checkpoint > 0) recorder.checkpoints.emplace(recorder.folder, id);
 }
 
 template <int Dim>
 void introduce_restart(Recorder<Dim>& recorder, const Checkpoint<Dim>& from) {
   if (!from.warning.empty()) recorder.say("warning: " + from.warning);
-  write_running(recorder);
   recorder.resume(from);
   recorder.say(fmt::format("restart after increment {} of step '{}', time {:.5g}",
                            from.point.progress.increment, recorder.step_name(from.point.progress),
@@ -368,6 +359,7 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
   const RunIdentity id = identity(description, built.model.mesh, built.history);
   std::optional<Checkpoint<Dim>> from;
   if (options.restart) from = read_checkpoint<Dim>(folder, id, built.model, options.model);
+  claim_folder(folder, options.model);
   open_folder(folder, options.restart);
   const double seconds_input = seconds_since(start);
   Recorder<Dim> recorder(options, description, built, folder, options.restart);
