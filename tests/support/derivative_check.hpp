@@ -3,8 +3,18 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 namespace osculate::testing {
+
+/// Components between -1 and 1; the same for the same seed.
+inline Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Eigen::VectorXd d(n);
+  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
+  return d;
+}
 
 /// `order` is log2 of the ratio of the errors of central differences with steps h and h/2: 2 for a
 /// right derivative, 0 for one that is wrong by any constant part. `exact`: both errors are

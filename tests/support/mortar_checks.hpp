@@ -10,14 +10,6 @@
 
 namespace osculate::testing {
 
-inline Eigen::VectorXd mortar_direction(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
-  return d;
-}
-
 /// The error of the tangent falls with the square of the step, in one branch of contact and with
 /// the same facets over each other.
 template <int Dim>
@@ -28,7 +20,7 @@ void expect_second_order(const MortarSample<Dim>& s, double h, const std::string
   ASSERT_TRUE(std::any_of(status.begin(), status.end(),
                           [](contact::Status at) { return at != contact::Status::open; }));
   for (unsigned seed = 1; seed <= 2; ++seed) {
-    const Eigen::VectorXd d = mortar_direction(v.size(), seed);
+    const Eigen::VectorXd d = random_direction(v.size(), seed);
     for (const double step : {h, -h}) {
       const Eigen::VectorXd probe = v + step * d;
       ASSERT_EQ(mortar_status(s, probe), status);

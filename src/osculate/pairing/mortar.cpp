@@ -262,12 +262,7 @@ NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
   result.history.friction_work = committed.points[i].friction_work;
   result.history.held = committed.points[i].held;
   result.history.rest = committed.points[i].rest;
-  const bool constrained =
-      pair.enforcement == contact::Enforcement::lagrange_multiplier && hint.multiplier;
-  if (constrained)
-    set_open(constraint_weight(pair, i), contact::penalty_of(pair.normal),
-             pair.friction ? contact::stiffness(*pair.friction) : 0.0, hint.multiplier->normal,
-             hint.multiplier->shear, out.blocks[i].constraint);
+  const bool constrained = start_constraint(pair, hint, i, out.blocks[i]);
   if (!covered<Dim>(node, out.mortar.normals[i], pair.reference_areas[i])) return {};
   NodeContact<Dim> c = place_node<Dim>(node, out.mortar.normals[i]);
   out.mortar.places[i] = node.masters;

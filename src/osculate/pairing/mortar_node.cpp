@@ -275,25 +275,17 @@ template <int Dim>
 void set_constraint(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c,
                     const MortarNode<Dim>& node, double area,
                     const contact::Multiplier<Dim>& multiplier, ContactBlock<Dim>& block) {
-  ConstraintBlock<Dim>& k = block.constraint;
-  const double normal = contact::penalty_of(pair.normal), shear = c.stiffness;
-  k.normal = area * (c.normal_law.traction - multiplier.normal);
-  k.shear = area * (c.frame * c.law.traction - multiplier.shear);
-  k.branch_shear = area * (c.frame * c.linearised.traction - multiplier.shear);
-  const Mat<Dim, Dim> d_trial = c.frame * c.linearised.d_trial * c.frame.transpose();
-  const Vec<Dim> d_push = c.frame * c.linearised.d_normal;
+  set_constraint_values<Dim>(area, c.normal_law.traction, c.frame * c.law.traction,
+                             c.frame * c.linearised.traction, multiplier, block.constraint);
   const std::size_t own = node.slaves.nodes.size();
-  grow(k.columns, Dim * block.count, Dim + 1);
-  for (std::size_t n = 0; n < static_cast<std::size_t>(block.count); ++n) {
-    const double weight = n < own ? node.slaves.weights[n] : -node.masters.weights[n - own];
-    auto rows = k.columns.template middleRows<Dim>(Dim * static_cast<Eigen::Index>(n));
-    rows.col(0) = (weight * normal) * (c.normal + d_push);
-    rows.template rightCols<Dim>() = (weight * shear) * d_trial;
-  }
-  k.own.setZero();
-  k.own.template block<Dim, 1>(1, 0) = area * normal * d_push;
-  k.own.template bottomRightCorner<Dim, Dim>() =
-      (area * shear) * (d_trial - Mat<Dim, Dim>::Identity());
+  set_multiplier_terms<Dim>(
+      pair, area, c.normal, c.frame * c.linearised.d_trial * c.frame.transpose(),
+      c.frame * c.linearised.d_normal,
+      [&](int n) {
+        const auto k = static_cast<std::size_t>(n);
+        return k < own ? node.slaves.weights[k] : -node.masters.weights[k - own];
+      },
+      block);
 }
 
 template NodeContact<2> place_node<2>(const MortarNode<2>&, const NodalNormal<2>&);

@@ -165,30 +165,36 @@ void set_constraint_tangent(const PairDefinition<Dim>& pair, const Kinematics<Di
                             const Traction<Dim>& t, const Weights<Dim>& w, double area,
                             double weight, ContactBlock<Dim>& block) {
   ConstraintBlock<Dim>& c = block.constraint;
-  const double normal = contact::penalty_of(pair.normal);
-  const double shear = pair.friction ? contact::stiffness(*pair.friction) : 0.0;
   const contact::ShearRate<Dim> rate = contact::shear_rate(k, t);
-  if (c.columns.rows() < Dim * block.count) c.columns.resize(Dim * block.count, Dim + 1);
-  for (int n = 0; n < block.count; ++n) {
-    const auto node = static_cast<std::size_t>(n);
+  for (std::size_t n = 0; n < static_cast<std::size_t>(block.count); ++n) {
     Vec<Dim> gap = Vec<Dim>::Zero();
     Mat<Dim, Dim> along = Mat<Dim, Dim>::Zero();
     for (std::size_t s = 0; s < contact::slots<Dim>; ++s) {
-      gap += w[s][node] * k.d_gap[s];
-      along += w[s][node] * rate.variation[s];
+      gap += w[s][n] * k.d_gap[s];
+      along += w[s][n] * rate.variation[s];
     }
-    c.normal_row.push_back({block.nodes[node], area * normal * gap});
-    if (pair.friction) c.shear_row.push_back({block.nodes[node], area * along});
-    auto rows = c.columns.template middleRows<Dim>(Dim * n);
-    rows.col(0) = (weight * w[0][node] * normal) * (k.normal + rate.d_push);
-    rows.template rightCols<Dim>() = (weight * w[0][node] * shear) * rate.d_trial;
+    c.normal_row.push_back({block.nodes[n], area * contact::penalty_of(pair.normal) * gap});
+    if (pair.friction) c.shear_row.push_back({block.nodes[n], area * along});
   }
   for (const NodeMatrix<Dim>& g : block.path())
     c.shear_row.push_back({g.node, area * rate.d_trial * g.value});
-  c.own.setZero();
-  c.own.template block<Dim, 1>(1, 0) = area * normal * rate.d_push;
-  c.own.template bottomRightCorner<Dim, Dim>() =
-      (area * shear) * (rate.d_trial - Mat<Dim, Dim>::Identity());
+  set_multiplier_terms<Dim>(
+      pair, area, k.normal, rate.d_trial, rate.d_push,
+      [&](int n) { return weight * w[0][static_cast<std::size_t>(n)]; }, block);
+}
+
+/// What is reported of a point in contact.
+template <int Dim>
+void report_contact(const PairDefinition<Dim>& pair, Points<Dim> x,
+                    const PointHistory<Dim>& history, const Placed<Dim>& placed,
+                    const Friction<Dim>& f, PointResult<Dim>& result) {
+  result.history = next_history(pair, x, history, placed, f);
+  result.history.friction_work += result.weight * f.dissipated;
+  result.status = !pair.friction ? Status::slip : f.law.status;
+  if (pair.friction) result.branch = branch_of<Dim>(f.traction.tangential, placed.kinematics.frame);
+  result.normal_traction = f.traction.normal.traction;
+  result.shear_traction = f.law.traction;
+  result.slip_increment = f.slip;
 }
 
 }  // namespace
@@ -207,26 +213,14 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   result.history.held = history.held;
   result.history.rest = history.rest;
   result.gap = std::numeric_limits<double>::infinity();
-  const bool constrained =
-      pair.enforcement == contact::Enforcement::lagrange_multiplier && hint.multiplier;
-  const double area = constrained ? constraint_weight(pair, i) : 0.0;
-  if (constrained)
-    set_open(area, contact::penalty_of(pair.normal),
-             pair.friction ? contact::stiffness(*pair.friction) : 0.0, hint.multiplier->normal,
-             hint.multiplier->shear, block.constraint);
+  const bool constrained = start_constraint(pair, hint, i, block);
   if (!report_place(pair, x, history, placed, hint, result)) return;
   const Kinematics<Dim>& k = placed.kinematics;
   result.weight = facing_weight<Dim>(pair, out, i, k.normal);
   const bool exact = with_tangent && pair.tangent.consistent;
   const Friction<Dim> f =
       tractions<Dim>(pair, history, placed, x, hint, exact ? &block.behind : nullptr);
-  result.history = next_history(pair, x, history, placed, f);
-  result.history.friction_work += result.weight * f.dissipated;
-  result.status = !pair.friction ? Status::slip : f.law.status;
-  if (pair.friction) result.branch = branch_of<Dim>(f.traction.tangential, k.frame);
-  result.normal_traction = f.traction.normal.traction;
-  result.shear_traction = f.law.traction;
-  result.slip_increment = f.slip;
+  report_contact(pair, x, history, placed, f, result);
 
   const SlavePoint<Dim>& slave = pair.slave.points[i];
   set_nodes(block, pair.master, placed, slave, out.block_nodes);
@@ -243,14 +237,14 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
     scatter_forces(block.force, block.count, w, contact::point_forces(k, lawful, pair.residual),
                    result.weight);
   }
-  if (constrained) {
-    ConstraintBlock<Dim>& c = block.constraint;
-    c.normal = area * (f.traction.normal.traction - hint.multiplier->normal);
-    c.shear = area * (k.frame * f.law.traction - hint.multiplier->shear);
-    c.branch_shear = area * (k.frame * f.traction.tangential.traction - hint.multiplier->shear);
-  }
+  if (constrained)
+    set_constraint_values<Dim>(constraint_weight(pair, i), result.normal_traction,
+                               k.frame * f.law.traction, k.frame * f.traction.tangential.traction,
+                               *hint.multiplier, block.constraint);
   if (!with_tangent) return;
-  if (constrained) set_constraint_tangent<Dim>(pair, k, f.traction, w, area, result.weight, block);
+  if (constrained)
+    set_constraint_tangent<Dim>(pair, k, f.traction, w, constraint_weight(pair, i), result.weight,
+                                block);
   scatter_tangent<Dim>(w, terms, block.count, result.weight, block.tangent);
   scatter_path(block, w, terms, result.weight);
   if (!exact || pair.weight != Weight::current_area) return;

@@ -39,6 +39,50 @@ template <int Dim>
   return pair.weight == Weight::node ? 1.0 : pair.reference_areas[i];
 }
 
+/// Whether the tractions of the point are unknowns; if so its constraint starts as that of an open
+/// point.
+template <int Dim>
+bool start_constraint(const PairDefinition<Dim>& pair, const BranchHint<Dim>& hint, std::size_t i,
+                      ContactBlock<Dim>& block) {
+  if (pair.enforcement != contact::Enforcement::lagrange_multiplier || !hint.multiplier)
+    return false;
+  set_open(constraint_weight(pair, i), contact::penalty_of(pair.normal),
+           pair.friction ? contact::stiffness(*pair.friction) : 0.0, hint.multiplier->normal,
+           hint.multiplier->shear, block.constraint);
+  return true;
+}
+
+/// Values of the constraint of a point in contact: see ConstraintBlock.
+template <int Dim>
+void set_constraint_values(double area, double push, const Vec<Dim>& shear,
+                           const Vec<Dim>& branch_shear, const contact::Multiplier<Dim>& multiplier,
+                           ConstraintBlock<Dim>& c) {
+  c.normal = area * (push - multiplier.normal);
+  c.shear = area * (shear - multiplier.shear);
+  c.branch_shear = area * (branch_shear - multiplier.shear);
+}
+
+/// Derivatives by the multipliers of a point in contact: of its forces, with `weight(n)` of node n
+/// of the block, and of its constraint. dt = d_trial dLambda + d_push dlambda.
+template <int Dim, class WeightOf>
+void set_multiplier_terms(const PairDefinition<Dim>& pair, double area, const Vec<Dim>& normal,
+                          const Mat<Dim, Dim>& d_trial, const Vec<Dim>& d_push,
+                          const WeightOf& weight, ContactBlock<Dim>& block) {
+  ConstraintBlock<Dim>& c = block.constraint;
+  const double push = contact::penalty_of(pair.normal);
+  const double shear = pair.friction ? contact::stiffness(*pair.friction) : 0.0;
+  if (c.columns.rows() < Dim * block.count) c.columns.resize(Dim * block.count, Dim + 1);
+  for (int n = 0; n < block.count; ++n) {
+    auto rows = c.columns.template middleRows<Dim>(Dim * n);
+    rows.col(0) = (weight(n) * push) * (normal + d_push);
+    rows.template rightCols<Dim>() = (weight(n) * shear) * d_trial;
+  }
+  c.own.setZero();
+  c.own.template block<Dim, 1>(1, 0) = area * push * d_push;
+  c.own.template bottomRightCorner<Dim, Dim>() =
+      (area * shear) * (d_trial - Mat<Dim, Dim>::Identity());
+}
+
 /// Fills `out.points[i]` and `out.blocks[i]` of the slave point `i`, which is `placed` on the
 /// master; `out` is refreshed at `x`.
 template <int Dim>

@@ -67,14 +67,6 @@ TEST(EdgeContact, GapNormalAndForceOfTwoLines) {
   EXPECT_LT((on_slave - 1000 * gap * n).norm(), 1e-11);
 }
 
-Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
-  return d;
-}
-
 Status status_at(PairSample3 s, const Eigen::VectorXd& v) {
   s.x = unflatten3(v);
   return only(s, evaluated(s)).status;

@@ -17,14 +17,6 @@ using contact::Status;
 using pairing::Weight;
 using projection::Feature;
 
-Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
-  return d;
-}
-
 struct Facts {
   Status status;
   Feature feature;

@@ -137,14 +137,6 @@ TEST(HistoryRules, TheContinuousOneDoesNotKnowWhereTheBordersAre) {
 
 // --- derivatives --------------------------------------------------------------------------------
 
-Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
-  return d;
-}
-
 void expect_second_order(const PairSample& s, Status status, Feature feature, double h) {
   const Eigen::VectorXd v = flatten(s.x);
   const auto feature_at = [&](const Eigen::VectorXd& y) {

@@ -114,14 +114,6 @@ TEST(HistoryRules3, PerFacetJumpsAtTheBorder) {
   EXPECT_LT((inside.step(0.8, 0.3) - Vec2(0.5, 0.3)).norm(), 1e-13);
 }
 
-Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
-  return d;
-}
-
 void expect_second_order(const PairSample3& s, Status status, Feature feature, double h = 1e-3) {
   const Eigen::VectorXd v = flatten3(s.x);
   const Facts3 at = pair_facts(s, v);

@@ -14,14 +14,6 @@ using contact::Enforcement;
 using contact::Multiplier;
 using contact::Status;
 
-Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
-  return d;
-}
-
 /// A shear in the plane of the master that leans out of it a little, as it does between iterations.
 template <int Dim>
 Vec<Dim> shear_of(double size) {

@@ -16,14 +16,6 @@ using contact::Status;
 using pairing::Weight;
 using projection::Feature;
 
-Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
-  return d;
-}
-
 /// Both probes stay in the branch, and the error falls with the square of the step.
 void expect_second_order(const PairSample3& s, Status status, Feature feature,
                          const std::string& what, double h = 1e-3) {

@@ -121,14 +121,6 @@ TEST(Sampling, RefusesWhatDoesNotExist) {
 
 // ---- tangents ---------------------------------------------------------------------------------
 
-Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
-  return d;
-}
-
 std::vector<Status> statuses(const PairSample& s, const Eigen::VectorXd& v) {
   return pair_status(s, v);
 }

@@ -345,14 +345,6 @@ TEST(SmoothSurface, FootPointsAreSharpToRounding) {
   }
 }
 
-Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
-  return d;
-}
-
 // The tangent couples the nodes around a patch; the history comes from its neighbours too.
 TEST(SmoothSurface, TangentIsTheDerivative) {
   for (const CellType type : {CellType::quad4, CellType::tri3})

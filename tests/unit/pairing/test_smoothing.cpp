@@ -252,14 +252,6 @@ TEST(Smoothing, ClosestPoint) {
   }
 }
 
-Eigen::VectorXd random_direction(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
-  return d;
-}
-
 // The tangent couples the neighbours' nodes, history from either side of a border.
 TEST(Smoothing, TangentIsTheDerivative) {
   for (const SmoothingKind kind : kinds)
