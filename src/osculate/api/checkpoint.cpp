@@ -47,10 +47,15 @@ void fields(Archive& a, PairMultipliers<Dim>& multipliers) {
 }  // namespace osculate::pairing
 
 namespace osculate::body {
-template <class Archive, int Dim>
-void fields(Archive& a, BasicRigidMotion<Dim>& motion) {
-  auto& [reference, translation, rotation] = motion;
-  a(reference, translation, rotation);
+template <class Archive>
+void fields(Archive& a, RigidMotion& motion) {
+  auto& [reference, translation, angle] = motion;
+  a(reference, translation, angle);
+}
+template <class Archive>
+void fields(Archive& a, RigidMotion3& motion) {
+  auto& [reference, translation, rotation, base, turned] = motion;
+  a(reference, translation, rotation, base, turned);
 }
 }  // namespace osculate::body
 
@@ -140,7 +145,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 1;
+constexpr int version = 2;
 
 template <class... T>
 std::string saved(const T&... values) {

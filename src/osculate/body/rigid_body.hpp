@@ -38,27 +38,70 @@ struct BasicRigidMotion<2> {
   [[nodiscard]] double component(int i) const { return i == 2 ? angle : translation[i]; }
 };
 
-/// Rigid motion in space: three translations and the total rotation vector.
+/// Rigid motion in space: three translations and a rotation vector on top of a base.
 ///
-/// Formula    x = c + R(theta) (X - X_ref) ,  c = X_ref + u ,  R = exp [theta]
+/// A rotation vector is singular at whole turns. Motions that turn freely and far move what they
+/// have turned into the base (`rebased`); others leave it alone, and their rotation vector is the
+/// total.
+///
+/// Formula    x = c + R (X - X_ref) ,  c = X_ref + u ,  R = exp [theta] B
 /// Units      lengths of the model; theta in radians
+/// Tested by  tests/unit/body/test_rotation.cpp, tests/unit/body/test_base_rotation.cpp
 template <>
 struct BasicRigidMotion<3> {
-  Vec3 reference{0, 0, 0};    ///< X_ref
-  Vec3 translation{0, 0, 0};  ///< u
-  Vec3 rotation{0, 0, 0};     ///< theta
+  Vec3 reference{0, 0, 0};                 ///< X_ref
+  Vec3 translation{0, 0, 0};               ///< u
+  Vec3 rotation{0, 0, 0};                  ///< theta
+  Mat<3, 3> base = Mat<3, 3>::Identity();  ///< B
+  Vec3 turned{0, 0, 0};                    ///< total rotation vector of the base
 
   [[nodiscard]] Vec3 center() const { return reference + translation; }
+  [[nodiscard]] Mat<3, 3> orientation() const { return rotation_matrix(rotation) * base; }
   [[nodiscard]] Vec3 position(const Vec3& material) const {
-    return center() + rotation_matrix(rotation) * (material - reference);
+    const Vec3 arm = base * (material - reference);
+    return center() + rotation_matrix(rotation) * arm;
   }
-  /// Translations, then the rotation vector.
+  /// Translations, then the rotation vector on top of the base.
   [[nodiscard]] double& component(int i) { return i < 3 ? translation[i] : rotation[i - 3]; }
   [[nodiscard]] double component(int i) const { return i < 3 ? translation[i] : rotation[i - 3]; }
 };
 
 using RigidMotion = BasicRigidMotion<2>;
 using RigidMotion3 = BasicRigidMotion<3>;
+
+/// Rotation since the beginning: the angle; in space the total rotation vector, whose exponential
+/// is the orientation. Without a base it is theta. With one it is the logarithm of the orientation
+/// next to the sum of both rotation vectors: turns about one axis add up without end.
+///
+/// Tested by  tests/unit/body/test_base_rotation.cpp
+[[nodiscard]] inline Vec<1> total_rotation(const RigidMotion& motion) {
+  return Vec<1>(motion.angle);
+}
+[[nodiscard]] Vec3 total_rotation(const RigidMotion3& motion);
+
+/// The angle above which a rotation vector is moved into the base, far from its whole turn.
+inline constexpr double far_turned = 2;
+
+/// The same motion with its rotation moved into the base, if it is larger than `angle` (in the
+/// plane: as it is, an angle has no whole turn). Velocities in space do not change by this; what is
+/// measured along the components of theta does. Requires   no component of theta is prescribed or
+/// part of an equation: they are totals
+///
+/// Tested by  tests/unit/body/test_base_rotation.cpp
+[[nodiscard]] inline RigidMotion rebased(const RigidMotion& motion, double angle = far_turned) {
+  (void)angle;
+  return motion;
+}
+[[nodiscard]] RigidMotion3 rebased(const RigidMotion3& motion, double angle = far_turned);
+
+/// Rotation vector in space of the turn that leads from one orientation to the other, below half a
+/// turn; exactly the change of theta where both have the same base and the first is at it.
+///
+/// Tested by  tests/unit/body/test_base_rotation.cpp
+[[nodiscard]] inline Vec<1> turn_between(const RigidMotion& from, const RigidMotion& to) {
+  return Vec<1>(to.angle - from.angle);
+}
+[[nodiscard]] Vec3 turn_between(const RigidMotion3& from, const RigidMotion3& to);
 
 /// dx / d(u_x, u_y, theta) of the material point that is now at `x`:  dx = du + d(theta) k x (x -
 /// c).
@@ -89,6 +132,7 @@ using RigidMotion3 = BasicRigidMotion<3>;
 }
 [[nodiscard]] inline Mat<3, 3> rotation_curvature(const RigidMotion3& motion, const Vec3& x,
                                                   const Vec3& f) {
+  // B (X - X_ref)
   const Vec3 arm = rotation_matrix(motion.rotation).transpose() * (x - motion.center());
   return rotation_hessian(motion.rotation, f, arm);
 }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace osculate::body {
 namespace {
@@ -80,6 +81,28 @@ Mat<3, 3> rotation_matrix(const Vec3& theta) {
   const Coefficients k = coefficients(theta);
   return k.c[0] * Mat<3, 3>::Identity() + k.c[1] * cross_matrix(theta) +
          k.c[2] * theta * theta.transpose();
+}
+
+Vec3 rotation_vector(const Mat<3, 3>& r) {
+  const Eigen::Quaterniond q(r);
+  const double sine = q.vec().norm(), cosine = std::abs(q.w());
+  if (sine == 0) return Vec3::Zero();
+  const double angle = 2 * std::atan2(sine, cosine);
+  return std::copysign(angle / sine, q.w()) * q.vec();
+}
+
+Vec3 rotation_vector_near(const Mat<3, 3>& r, const Vec3& guess) {
+  constexpr double turn = 2 * std::numbers::pi, hardly_turned = 1e-2, across_it = 1e-6;
+  const Vec3 least = rotation_vector(r);
+  if (guess.isZero(0)) return least;
+  const Vec3 towards = guess.normalized();
+  const double along = least.dot(towards), turns = std::round((guess.norm() - along) / turn);
+  const double across = (least - along * towards).norm();
+  if (turns != 0 && least.norm() < hardly_turned && across < across_it)
+    return (along + turns * turn) * towards;
+  if (least.isZero(0)) return turns * turn * towards;
+  const Vec3 axis = least.normalized();
+  return least + std::round(axis.dot(guess - least) / turn) * turn * axis;
 }
 
 Mat<3, 3> rotation_tangent(const Vec3& theta) {

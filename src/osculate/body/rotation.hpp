@@ -14,6 +14,18 @@ namespace osculate::body {
 /// Tested by  tests/unit/body/test_rotation.cpp
 [[nodiscard]] Mat<3, 3> rotation_matrix(const Vec3& theta);
 
+/// The rotation vector of a rotation matrix, of at most half a turn.
+///
+/// Tested by  tests/unit/body/test_base_rotation.cpp
+[[nodiscard]] Vec3 rotation_vector(const Mat<3, 3>& r);
+
+/// Of all rotation vectors of `r` (they differ by whole turns about its axis) the one next to
+/// `guess`. Near a whole turn, where every axis would do, a turn that is about the axis of `guess`
+/// up to 1e-6 is about it exactly.
+///
+/// Tested by  tests/unit/body/test_base_rotation.cpp
+[[nodiscard]] Vec3 rotation_vector_near(const Mat<3, 3>& r, const Vec3& guess);
+
 /// Spin of a change of the rotation vector: dR R^T = [T dtheta].
 ///
 /// Formula    T = I + (1 - cos t)/t^2 [theta] + (t - sin t)/t^3 [theta]^2

@@ -65,9 +65,11 @@ double rigid_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
   const bool of_motion = quantity.size() == 2;  // u* and r*; else rf* and rm*
   const bool turns = of_motion ? quantity[0] == 'r' : quantity[1] == 'm';
   const int direction = direction_of(quantity);
-  const int component = !turns ? direction : Dim == 2 ? 2 : 3 + direction;
-  if (of_motion) return state.rigid[static_cast<std::size_t>(request.target)].component(component);
-  return rigid_reaction(system, model, state, request.target)[component];
+  const int rotation = Dim == 2 ? 0 : direction;
+  if (!of_motion)
+    return rigid_reaction(system, model, state, request.target)[turns ? Dim + rotation : direction];
+  const auto& motion = state.rigid[static_cast<std::size_t>(request.target)];
+  return turns ? body::total_rotation(motion)[rotation] : motion.translation[direction];
 }
 
 /// First of a block's nodes that is the slave's, and the one after the last: the first ones, at a
