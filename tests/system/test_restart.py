@@ -3,6 +3,7 @@ import csv
 import json
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -149,9 +150,9 @@ class Restart(RestartCase):
             done = restart_with(2, **{"journal.bin": broken})
             self.assertIn("journal.bin", done.stderr)
         self.expect_the_same_after(restart_with, journal + b"half an entry of the increment that was killed")
-        done = restart_with(2, **{"checkpoint.bin": last.replace(b"osculate checkpoint 1\n", b"osculate checkpoint 9\n"),
+        done = restart_with(2, **{"checkpoint.bin": re.sub(rb"\Aosculate checkpoint \d\n", b"osculate checkpoint 9\n", last),
                                   "checkpoint.previous.bin": None})
-        self.assertIn("is of another version: 'osculate checkpoint 9', expected 'osculate checkpoint 2'", done.stderr)
+        self.assertIn("is of another version: 'osculate checkpoint 9', expected 'osculate checkpoint ", done.stderr)
         done = restart_with(2, **{"checkpoint.bin": None, "checkpoint.previous.bin": None})
         self.assertIn("there is no checkpoint in 'r'", done.stderr)
 
