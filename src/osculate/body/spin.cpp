@@ -41,6 +41,28 @@ InertiaMoment<2> inertia_moment(const Mat<1, 1>& inertia, const RotationRates<2>
   return out;
 }
 
+RotationRates<3> with_contact(const RotationRates<3>& without, const Mat<3, 3>& inertia,
+                              const RotationScheme& scheme, const RigidMotion3& to,
+                              const Vec3& contact, double way) {
+  const double share = way / scheme.beta;
+  const Vec3 b = inertia.inverse() * (to.orientation().transpose() * contact);
+  return {without.velocity + scheme.step * (1 - scheme.gamma * share) * b,
+          without.acceleration - share * b, without.moment - share * contact};
+}
+
+RotationRates<2> with_contact(const RotationRates<2>& without, const Mat<1, 1>& inertia,
+                              const RotationScheme& scheme, const RigidMotion&,
+                              const Vec<1>& contact, double way) {
+  const double share = way / scheme.beta;
+  const Vec<1> b = contact / inertia(0, 0);
+  return {without.velocity + scheme.step * (1 - scheme.gamma * share) * b,
+          without.acceleration - share * b, without.moment - share * contact};
+}
+
+Vec3 moment_of(const RigidMotion3& motion, const Vec3& force) {
+  return Mat<3, 3>(rotation_tangent(motion.rotation).transpose()).fullPivLu().solve(force);
+}
+
 RotationForce<3> rotation_force(const RigidMotion3& motion, const Vec3& moment,
                                 const Mat<3, 3>& gradient) {
   const Mat<3, 3> t = rotation_tangent(motion.rotation);

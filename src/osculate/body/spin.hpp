@@ -73,6 +73,27 @@ struct InertiaMoment {
   return inertia_moment(inertia, rates, scheme, turn_between(from, to));
 }
 
+/// The rates at the end of a step in which the moment of the contact forces counts by its value
+/// there (`contact`, in space), with a share `way` of the turn that its impulse h C makes.
+///
+/// Formula    R^T t = h W + h^2 ((1/2 - beta) A + beta A') + way h^2 B ,  J B = R'^T C
+///            W' = W + h ((1 - gamma) A + gamma A') + h B
+///            R' J W' = R J W + h ((1 - gamma) f + gamma f') + h C
+///            so that ((1 - alpha_m) f' + alpha_m f) (without: inertia_moment) satisfies
+///            beta/(1 - alpha_m)/way inertia_moment.moment = C + beta/(1 - alpha_m)/way M ,
+///            M what balances (1 - alpha_m) f' + alpha_m f
+/// Source     Kane et al. (1999) for displacements
+/// Requires   the inertia is positive definite; `without` from inertia_moment of this step
+/// Tested by  tests/unit/body/test_spin.cpp
+[[nodiscard]] RotationRates<3> with_contact(const RotationRates<3>& without,
+                                            const Mat<3, 3>& inertia, const RotationScheme& scheme,
+                                            const RigidMotion3& to, const Vec3& contact,
+                                            double way);
+[[nodiscard]] RotationRates<2> with_contact(const RotationRates<2>& without,
+                                            const Mat<1, 1>& inertia, const RotationScheme& scheme,
+                                            const RigidMotion& to, const Vec<1>& contact,
+                                            double way);
+
 /// A moment about axes in space as the force that does its work on the rotation vector, and the
 /// derivative of that.
 template <int Dim>
@@ -89,6 +110,13 @@ struct RotationForce {
                                                      const Mat<1, 1>& gradient) {
   return {moment, gradient};
 }
+
+/// The moment about axes in space that does the work of a force on the rotation vector.
+///
+/// Formula    T^T m = q
+/// Tested by  tests/unit/body/test_spin.cpp
+[[nodiscard]] Vec3 moment_of(const RigidMotion3& motion, const Vec3& force);
+[[nodiscard]] inline Vec<1> moment_of(const RigidMotion&, const Vec<1>& force) { return force; }
 
 /// Rates at the start: angular velocity and moment about the centre of mass, both in space.
 ///

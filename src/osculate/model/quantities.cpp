@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "osculate/body/spin.hpp"
 #include "osculate/pairing/sampling.hpp"
 
 namespace osculate::model {
@@ -26,14 +27,8 @@ double node_value(const Eigen::VectorXd& reaction, const BasicState<Dim>& state,
   return force || request.nodes.empty() ? sum : sum / static_cast<double>(request.nodes.size());
 }
 
-/// Moment about axes fixed in space that does the work of the forces `q` on the rotations.
-Vec<1> moment_in_space(const body::RigidMotion&, const Vec<1>& q) { return q; }
-Vec3 moment_in_space(const body::RigidMotion3& motion, const Vec3& q) {
-  return Mat<3, 3>(body::rotation_tangent(motion.rotation).transpose()).fullPivLu().solve(q);
-}
-
-Vec<1> moment_of(const Vec2& arm, const Vec2& force) { return Vec<1>(turn(arm).dot(force)); }
-Vec3 moment_of(const Vec3& arm, const Vec3& force) { return arm.cross(force); }
+Vec<1> moment_about(const Vec2& arm, const Vec2& force) { return Vec<1>(turn(arm).dot(force)); }
+Vec3 moment_about(const Vec3& arm, const Vec3& force) { return arm.cross(force); }
 
 /// Force and moment that the supports exert on a rigid body.
 template <int Dim>
@@ -48,11 +43,11 @@ Vec<body::motions<Dim>> rigid_reaction(const BasicSystem<Dim>& system, const Bas
   for (const Index n : model.rigid[static_cast<std::size_t>(b)].nodes) {
     const Vec<Dim> f = reaction.segment<Dim>(Dim * n);
     force += f;
-    moment += moment_of(Vec<Dim>(x[static_cast<std::size_t>(n)] - motion.center()), f);
+    moment += moment_about(Vec<Dim>(x[static_cast<std::size_t>(n)] - motion.center()), f);
   }
   const Dof first = system.dofs().body_dof(b, 0);
   force += reaction.segment<Dim>(first);
-  moment += moment_in_space(motion, Vec<turns>(reaction.segment<turns>(first + Dim)));
+  moment += body::moment_of(motion, Vec<turns>(reaction.segment<turns>(first + Dim)));
   Vec<body::motions<Dim>> sum;
   sum << force, moment;
   return sum;

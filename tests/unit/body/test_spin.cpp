@@ -166,6 +166,57 @@ TEST(Spin, RatesFollowNewmarksFormulas) {
   EXPECT_LT((weighted - out.moment).norm(), 1e-15);
 }
 
+/// A contact moment C at the end of the step beside the others, with half or all of its way.
+TEST(Spin, ContactAtTheEndOfTheStepEntersByItsImpulse) {
+  const RotationRates<3> rates{{0.8, -0.5, 1.1}, {0.3, 0.7, -0.2}, {-0.4, 0.9, 0.6}};
+  const RigidMotion3 from{Vec3::Zero(), Vec3::Zero(), Vec3(0.9, 0.7, -1.2)};
+  RigidMotion3 to = from;
+  to.rotation += Vec3(0.2, -0.3, 0.1);
+  const Mat<3, 3> inertia = full_inertia(), r = from.orientation();
+  const Vec3 contact(0.7, -0.2, 1.3), turn = turn_between(from, to);
+  for (const double way : {0.5, 1.0}) {
+    const RotationScheme s = dissipative(0.2, 0.6);
+    const double h = s.step;
+    const InertiaMoment<3> plain = inertia_moment(inertia, rates, s, from, to);
+    const RotationRates<3> now = with_contact(plain.rates, inertia, s, to, contact, way);
+    const Vec3 b = inertia.inverse() * (to.orientation().transpose() * contact);
+    const Vec3 in_body =
+        h * rates.velocity +
+        h * h * ((0.5 - s.beta) * rates.acceleration + s.beta * now.acceleration + way * b);
+    EXPECT_LT((in_body - r.transpose() * turn).norm(), 1e-14);
+    const Vec3 velocity =
+        rates.velocity + h * ((1 - s.gamma) * rates.acceleration + s.gamma * now.acceleration + b);
+    EXPECT_LT((velocity - now.velocity).norm(), 1e-14);
+    const Vec3 gained = to.orientation() * inertia * now.velocity - r * inertia * rates.velocity;
+    const Vec3 given = h * ((1 - s.gamma) * rates.moment + s.gamma * now.moment + contact);
+    EXPECT_LT((gained - given).norm(), 1e-14);
+    const double scale = s.beta / (1 - s.alpha_m) / way;
+    const Vec3 others = (1 - s.alpha_m) * now.moment + s.alpha_m * rates.moment;
+    EXPECT_LT((scale * plain.moment - contact - scale * others).norm(), 1e-13);
+  }
+}
+
+TEST(Spin, ContactInThePlane) {
+  const RotationScheme s = dissipative(0.3, 0.5);
+  const RotationRates<3> rates{{0, 0, 1.1}, {0, 0, -0.2}, {0, 0, -0.6}};
+  const RotationRates<2> flat{Vec<1>(1.1), Vec<1>(-0.2), Vec<1>(-0.6)};
+  const RotationRates<3> space =
+      with_contact(rates, three_moments(), s, RigidMotion3{}, {0, 0, 0.7}, 0.5);
+  const RotationRates<2> plane =
+      with_contact(flat, Mat<1, 1>(3.0), s, RigidMotion{}, Vec<1>(0.7), 0.5);
+  EXPECT_NEAR(space.velocity[2], plane.velocity[0], 1e-15);
+  EXPECT_NEAR(space.acceleration[2], plane.acceleration[0], 1e-15);
+  EXPECT_NEAR(space.moment[2], plane.moment[0], 1e-15);
+}
+
+TEST(Spin, MomentAndForceDoTheSameWork) {
+  const RigidMotion3 motion{Vec3::Zero(), Vec3::Zero(), Vec3(0.9, 1.7, -1.2)};
+  const Vec3 moment(0.3, 0.1, 0.7), d(0.4, 0.9, -0.3);
+  const Vec3 force = rotation_force(motion, moment, Mat<3, 3>::Zero()).force;
+  EXPECT_LT((moment_of(motion, force) - moment).norm(), 1e-15);
+  EXPECT_NEAR(force.dot(d), moment.dot(rotation_tangent(motion.rotation) * d), 1e-15);
+}
+
 TEST(Spin, StartsByEulersEquations) {
   const RigidMotion3 motion{Vec3::Zero(), Vec3::Zero(), Vec3(0.4, 0.9, -0.3)};
   const Vec3 velocity(0.5, 0.2, -0.8), moment(0.3, 0.1, 0.7);
@@ -254,6 +305,24 @@ TEST(ConservingSpin, GainsTheWorkOfTheMoment) {
     EXPECT_NEAR(energy(next) - energy(top), load.dot(turn), 1e-13 * energy(next)) << i;
     const Vec3 gained = momentum(next) - momentum(top);
     EXPECT_LT((gained - 0.3 * load).norm(), 1e-14 * momentum(next).norm()) << i;
+    top = next;
+  }
+}
+
+/// With a contact moment at the end of the step and half its way, it does its work over the turn.
+TEST(ConservingSpin, GainsTheWorkOfAContactMoment) {
+  const RotationScheme s = trapezoidal(0.3);
+  Top top = top_with(full_inertia(), {0.9, 0.3, 0.8});
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 contact(0.2 * std::cos(0.3 * i), 0.4, std::sin(0.7 * i));
+    // 2 beta inertia = contact: without other moments
+    Top next = step(top, s, 2 * contact);
+    const Vec3 turn =
+        rotation_vector(next.motion.orientation() * top.motion.orientation().transpose());
+    next.rates = with_contact(next.rates, top.inertia, s, next.motion, contact, 0.5);
+    EXPECT_LT(next.rates.moment.norm(), 1e-13);
+    EXPECT_NEAR(energy(next) - energy(top), contact.dot(turn), 1e-13 * energy(next)) << i;
+    EXPECT_LT((momentum(next) - momentum(top) - 0.3 * contact).norm(), 1e-13);
     top = next;
   }
 }
