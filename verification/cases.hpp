@@ -15,6 +15,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult contact_patch(const CaseContext& context);
 [[nodiscard]] CaseResult contact_patch_space(const CaseContext& context);
 [[nodiscard]] CaseResult enforcement(const CaseContext& context);
+[[nodiscard]] CaseResult free_top(const CaseContext& context);
 [[nodiscard]] CaseResult hard_problems(const CaseContext& context);
 [[nodiscard]] CaseResult hard_problems_all(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_ball(const CaseContext& context);
