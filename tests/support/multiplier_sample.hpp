@@ -13,6 +13,7 @@ struct MultiplierSample {
   pairing::PairState<Dim> committed;
   std::vector<Vec<Dim>> x;
   std::vector<contact::Multiplier<Dim>> multipliers;
+  double duration = 0;  ///< of the increment
 
   [[nodiscard]] Eigen::Index nodes() const { return static_cast<Eigen::Index>(x.size()); }
   [[nodiscard]] Eigen::Index points() const {
@@ -48,7 +49,9 @@ struct MultiplierSample {
         around.points.back().shear = contact::stiffness(*pair.friction) * v.segment<Dim>(first + 1);
     }
     pairing::PairEvaluation<Dim> e;
-    pairing::evaluate<Dim>(pair, at, committed, tangent, e, {}, &around);
+    pairing::Assumed<Dim> assumed;
+    assumed.duration = duration;
+    pairing::evaluate<Dim>(pair, at, committed, tangent, e, assumed, &around);
     return e;
   }
 
@@ -107,5 +110,28 @@ struct MultiplierSample {
           c.columns.middleRows(Dim * n, Dim).leftCols(count);
   }
 };
+
+/// A shear in the plane of the master that leans out of it a little, as it does between iterations.
+template <int Dim>
+Vec<Dim> shear_of(double size) {
+  Vec<Dim> t = Vec<Dim>::Constant(0.1 * size);
+  t[0] = size;
+  return t;
+}
+
+template <int Dim, class Sample>
+MultiplierSample<Dim> unknown_tractions(const Sample& s, double lambda, double shear) {
+  MultiplierSample<Dim> m;
+  m.pair = s.pair;
+  m.pair.enforcement = contact::Enforcement::lagrange_multiplier;
+  m.committed = s.committed;
+  m.x = s.x;
+  m.multipliers.assign(s.committed.points.size(), contact::Multiplier<Dim>{});
+  for (contact::Multiplier<Dim>& point : m.multipliers) {
+    point.normal = lambda;
+    point.shear = shear_of<Dim>(shear);
+  }
+  return m;
+}
 
 }  // namespace osculate::testing

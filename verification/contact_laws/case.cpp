@@ -35,6 +35,7 @@ steps: {}
 struct Sum {
   double normal = 0, shear = 0, slid = 0, area = 0;
   double least = 1e300, largest = -1e300;
+  double apart = 0;  ///< largest of |distance slid - way along the floor| of sliding points
   std::vector<std::array<double, 2>> sliding;  ///< T / N and distance slid, point by point
 };
 
@@ -47,8 +48,9 @@ Sum sum_of(const Snapshot& now) {
     sum.slid += p.weight * p.history.slid;
     sum.least = std::min(sum.least, p.gap);
     sum.largest = std::max(sum.largest, p.gap);
-    if (p.status == contact::Status::slip)
-      sum.sliding.push_back({std::abs(p.shear_traction[0] / p.normal_traction), p.history.slid});
+    if (p.status != contact::Status::slip) continue;
+    sum.apart = std::max(sum.apart, std::abs(p.history.slid - std::abs(p.history.slip[0])));
+    sum.sliding.push_back({std::abs(p.shear_traction[0] / p.normal_traction), p.history.slid});
   }
   sum.slid /= sum.area;
   return sum;
@@ -130,14 +132,16 @@ void add_no_separation(CaseResult& out) {
 
 /// Pressed by `press`, then moved along by `way`.
 std::string dragged(double young, const std::string& friction, double press, double way,
-                    int increments, double duration) {
+                    int increments, double duration, const std::string& enforcement = "penalty") {
   const std::string steps = fmt::format(
       "[{{name: press, increments: 1, duration: 1, prescribe: [{{on: block.top, uy: {0}, ux: "
       "0}}]}}, "
       "{{name: drag, increments: {1}, duration: {2}, prescribe: [{{on: block.top, uy: {0}, ux: "
       "{3}}}]}}]",
       -press, increments, duration, way);
-  return block_text(young, "normal: {penalty: 1.0e4}, friction: " + friction, steps);
+  return block_text(
+      young, "normal: {penalty: 1.0e4}, friction: " + friction + ", enforcement: " + enforcement,
+      steps);
 }
 
 void add_limits(CaseResult& out) {
@@ -206,6 +210,47 @@ void add_speed(CaseResult& out) {
     add(out, fmt::format("speed {:g}: T / N over mu(speed)", way / duration),
         end.shear / end.normal / mu, 1, 1e-7, "definition");
   }
+}
+
+/// The same where the tractions are unknowns or corrected: no elastic slip is left, and what the
+/// penalty is makes no difference.
+void add_enforced(CaseResult& out) {
+  struct Method {
+    const char *name, *key;
+    double elastic;  ///< slip that an increment may leave
+  };
+  constexpr double young = 1000, press = 0.002, way = 0.2, target = 1e-7;
+  const auto law = [](double kinetic, const std::string& decay, double penalty) {
+    return fmt::format("{{coulomb: {{mu: {}, kinetic: {}, decay: {{{}}}, penalty: {}}}}}", mu_s,
+                       kinetic, decay, penalty);
+  };
+  const std::string by_distance = fmt::format("distance: {}", scale);
+  for (const Method& m : {Method{"multipliers", "lagrange_multiplier", 1e-12},
+                          Method{"augmented", "{augmented_lagrange: {target: 1.0e-7}}", target}})
+    for (const double penalty : {10.0, 1e4}) {
+      const std::string what = fmt::format("{}, penalty {:g}: ", m.name, penalty);
+      const std::vector<Sum> all =
+          history_of(dragged(young, law(mu_k, by_distance, penalty), press, way, 20, 1, m.key));
+      double worst = all.empty() ? 1 : 0, apart = worst;
+      for (const Sum& now : all) {
+        apart = std::max(apart, now.apart);
+        for (const auto& [mu, slid] : now.sliding)
+          worst = std::max(worst, std::abs(mu - coefficient(slid)));
+      }
+      add(out, what + "largest error of T / N = mu(distance slid)", worst, 0, 1e-12, "definition");
+      add(out, what + "distance slid - way along the floor", apart, 0, 20 * m.elastic,
+          "no elastic slip");
+      const Sum fast =
+          end_of(dragged(young, law(mu_k, "speed: 0.3", penalty), press, way, 20, 1, m.key));
+      add(out, what + "T / N over mu(speed 0.2)",
+          fast.shear / fast.normal / (mu_k + (mu_s - mu_k) * std::exp(-way / 0.3)), 1, 1e-7,
+          "definition");
+      const Sum tresca =
+          end_of(dragged(young, fmt::format("{{tresca: {{limit: 0.5, penalty: {}}}}}", penalty),
+                         press, way, 20, 1, m.key));
+      add(out, what + "Tresca, sliding force / (tau A)", tresca.shear / (0.5 * length), 1, 1e-12,
+          "definition");
+    }
 }
 
 // ---- tied patches -------------------------------------------------------------------------------
@@ -318,6 +363,7 @@ CaseResult contact_laws(const CaseContext& context) {
   add_limits(out);
   add_static_and_kinetic(out);
   add_speed(out);
+  add_enforced(out);
   add_patches(out, context.threads);
   return out;
 }

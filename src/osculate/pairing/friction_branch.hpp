@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/contact/law/steadying.hpp"
 #include "osculate/pairing/point_evaluation.hpp"
 
 namespace osculate::pairing {
@@ -76,6 +77,16 @@ template <int Dim>
 [[nodiscard]] contact::Sliding sliding_of(const contact::PointHistory<Dim>& history,
                                           const BranchHint<Dim>& hint) {
   return {history.active ? history.slid : 0.0, hint.duration};
+}
+
+/// The friction law with the stiffness it has in this evaluation.
+template <int Dim>
+[[nodiscard]] contact::FrictionLaw friction_law(const PairDefinition<Dim>& pair,
+                                                double normal_traction,
+                                                const BranchHint<Dim>& hint) {
+  const contact::FrictionLaw law = contact::stiffened(*pair.friction, hint.stiffening);
+  if (!hint.multiplier) return law;
+  return contact::stiffened(law, contact::steadying(law, normal_traction, hint.duration));
 }
 
 /// The law's answer, or the branch that the hint keeps it in.

@@ -108,7 +108,8 @@ template <int Dim>
 void set_friction(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,
                   const MortarPlace& last, Points<Dim> x, const BranchHint<Dim>& hint,
                   NodeContact<Dim>& c) {
-  const contact::FrictionLaw law = contact::stiffened(*pair.friction, hint.stiffening);
+  const double normal = c.normal_law.traction;
+  const contact::FrictionLaw law = friction_law(pair, normal, hint);
   const contact::Sliding sliding = sliding_of(history, hint);
   c.stiffness = contact::stiffness(law);
   if (hint.multiplier) {
@@ -123,7 +124,6 @@ void set_friction(const PairDefinition<Dim>& pair, const PointHistory<Dim>& hist
     c.way = c.foot - place_in_space<Dim>(last, x);
     c.trial += c.stiffness * c.share.value * (c.frame.transpose() * c.way);
   }
-  const double normal = c.normal_law.traction;
   c.law = contact::response<Dim>(law, c.trial, normal, sliding);
   c.linearised = linearised_branch<Dim>(law, c.law, c.trial, normal, c.frame, sliding, hint);
 }

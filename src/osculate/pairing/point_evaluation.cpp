@@ -54,7 +54,8 @@ Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>
   const Kinematics<Dim>& k = placed.kinematics;
   f.traction.normal = normal_response(pair, history, k.gap, hint);
   if (!f.traction.normal.active || !pair.friction) return f;
-  const contact::FrictionLaw law = contact::stiffened(*pair.friction, hint.stiffening);
+  const double normal = f.traction.normal.traction;
+  const contact::FrictionLaw law = friction_law(pair, normal, hint);
   const double stiffness = contact::stiffness(law);
   const contact::Sliding sliding = sliding_of(history, hint);
   const Trial<Dim> tr =
@@ -62,7 +63,6 @@ Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>
           ? trial_around<Dim>(pair, *hint.multiplier, stiffness, history, placed, x, path)
           : trial(pair.master, history, placed, stiffness,
                   contact_share(pair, history, k.gap, hint), x, path, pair.history);
-  const double normal = f.traction.normal.traction;
   f.slip = tr.slip;
   f.law = contact::response<Dim>(law, tr.value, normal, sliding);
   f.slid = contact::slid<Dim>(tr.value, f.law, stiffness);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "derivative_check.hpp"
-#include "osculate/contact/law/catalogue.hpp"
+#include "osculate/contact/law/steadying.hpp"
 
 namespace osculate::contact {
 namespace {
@@ -46,6 +46,22 @@ TEST(ChangingCoulomb, SpeedIsDistanceOverDuration) {
   EXPECT_TRUE(needs_duration(FrictionLaw(law)));
   EXPECT_FALSE(needs_duration(FrictionLaw(changing(0.2, 0.3, By::distance))));
   EXPECT_FALSE(needs_duration(FrictionLaw(Tresca{1, 1})));
+}
+
+// Around multipliers: as stiff as the limit falls, by powers of ten, and no stiffer than needed.
+TEST(ChangingCoulomb, IsSteadiedByPowersOfTen) {
+  const FrictionLaw falling = changing(0.2, 0.1, By::distance);  // dL/ds = 3 p
+  EXPECT_EQ(steadying(falling, -10, 0), 1);                      // 80 >= 2 x 30
+  EXPECT_EQ(steadying(falling, -20, 0), 10);
+  EXPECT_EQ(steadying(falling, -2000, 0), 1000);
+  EXPECT_EQ(steadying(falling, 20, 0), 1);  // pulled: no pressure
+  const FrictionLaw by_speed = changing(0.2, 0.1, By::speed);
+  EXPECT_EQ(steadying(by_speed, -20, 0), 1);  // no time: static
+  EXPECT_EQ(steadying(by_speed, -20, 10), 1);
+  EXPECT_EQ(steadying(by_speed, -20, 0.01), 1000);
+  EXPECT_EQ(steadying(changing(0.9, 0.1, By::distance), -2000, 0), 1);  // it grows
+  EXPECT_EQ(steadying(Coulomb{0.5, 1e-9}, -2000, 0), 1);
+  EXPECT_EQ(steadying(falling, -infinite, 0), 1e12);
 }
 
 // At the first sliding the limit is the static one, without a jump; far out the kinetic one.
