@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "derivative_check.hpp"
+#include "expect_derivative.hpp"
 #include "pair_sample.hpp"
 
 namespace osculate::testing {
@@ -139,24 +139,14 @@ TEST(HistoryRules, TheContinuousOneDoesNotKnowWhereTheBordersAre) {
 
 void expect_second_order(const PairSample& s, Status status, Feature feature, double h) {
   const Eigen::VectorXd v = flatten(s.x);
-  const auto feature_at = [&](const Eigen::VectorXd& y) {
+  const auto branch = [&](const Eigen::VectorXd& y) {
     pairing::PairEvaluation<2> e;
     pairing::evaluate(s.pair, unflatten(y), s.committed, false, e);
-    return e.points[0].history.feature;
+    return std::pair(e.points[0].status, e.points[0].history.feature);
   };
-  ASSERT_EQ(pair_status(s, v)[0], status);
-  for (unsigned seed = 1; seed <= 3; ++seed) {
-    const Eigen::VectorXd d = random_direction(v.size(), seed);
-    for (const double way : {-h, 0.0, h}) {
-      ASSERT_EQ(pair_status(s, v + way * d)[0], status);
-      ASSERT_EQ(feature_at(v + way * d), feature);
-    }
-    const DerivativeReport r =
-        check_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
-                         Eigen::VectorXd(pair_tangent(s, v) * d), v, d, h);
-    EXPECT_TRUE(r.exact || std::abs(r.order - 2.0) < 0.15)
-        << "order " << r.order << " error " << r.error;
-  }
+  ASSERT_EQ(branch(v), std::pair(status, feature));
+  expect_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
+                    pair_tangent(s, v), branch, v, h);
 }
 
 // [eq:KS2D:84] [eq:KS2D:88]
