@@ -14,9 +14,8 @@ namespace osculate::verification {
 /// a_1)
 ///            m [(1 - alpha_m) a_1 + alpha_m a] + c [(1 - alpha_f) v_1 + alpha_f v]
 ///                + k [(1 - alpha_f) d_1 + alpha_f d] = 0
-/// Source     Chung and Hulbert (1993); alpha_m = alpha_f = 0 is Newmark (1959), alpha_m = 0
-/// Hilber,
-///            Hughes and Taylor (1977) with alpha = -alpha_f
+/// Source     ChungHulbert1993; alpha_m = alpha_f = 0: Newmark1959; alpha_m = 0: Hilber1977, whose
+///            alpha is -alpha_f
 struct TimeScheme {
   double alpha_m = 0, alpha_f = 0;
   double beta = 0.25, gamma = 0.5;
@@ -24,9 +23,9 @@ struct TimeScheme {
 
 inline TimeScheme newmark(double beta, double gamma) { return {0, 0, beta, gamma}; }
 
-/// -1/3 <= alpha <= 0: beta = (1 - alpha)^2 / 4, gamma = 1/2 - alpha
+/// 0 <= alpha <= 1/3: beta = (1 + alpha)^2 / 4, gamma = 1/2 + alpha
 inline TimeScheme hht(double alpha) {
-  return {0, -alpha, 0.25 * (1 - alpha) * (1 - alpha), 0.5 - alpha};
+  return {0, alpha, 0.25 * (1 + alpha) * (1 + alpha), 0.5 + alpha};
 }
 
 /// `radius`: the spectral radius for h -> infinity, 0 to 1.

@@ -101,7 +101,8 @@ enum class TurningKind { turns, slips, slips_at_impact, jumps };
 
 /// The second impact, at the front upper corner, plastic as the first.
 struct SecondImpact {
-  double rate = 0;               ///< of turning over that corner; 0: the face lies on the floor
+  double rate = 0;               ///< of turning over that corner; 0: the face lies
+                                 ///< on the floor, negative: it falls there (after a jump)
   Vec2 velocity = Vec2::Zero();  ///< of that corner
   Vec2 impulse = Vec2::Zero();   ///< on the block
 };
