@@ -96,6 +96,31 @@ bool contact_in_space_is_right() {
          result.points.size() == 4 && !result.tangent.empty();
 }
 
+/// A host that corrects multipliers around its own solutions: a facet on springs (100 a node) that
+/// is pressed by 5 a node into a wall, with a penalty much softer than the springs.
+bool host_corrects_multipliers() {
+  using namespace osculate;
+  api::ContactOptions options;
+  options.normal_penalty = 10.0;
+  options.enforcement = contact::Enforcement::augmented_lagrange;
+  const std::vector<Index> master{0, 1}, slave{3, 2};
+  std::vector<double> x{0, 0, 4, 0, 1, 0, 2, 0};
+  api::ContactEvaluator contact(options, {2, master}, {2, slave}, x);
+  pairing::PairMultipliers<2> multipliers = contact.multipliers();
+  double y = 0, force = 0;
+  for (int corrections = 0; corrections < 40 && multipliers.violation > 1e-10; ++corrections) {
+    for (int i = 0; i < 3; ++i) {  // its Newton iterations; the area of a node is 1/2
+      x[5] = x[7] = y;
+      force = contact.evaluate(x, false, multipliers).force[5];
+      y -= (100.0 * y + 5.0 + force) / (100.0 + 0.5 * 10.0 * multipliers.stiffening);
+    }
+    multipliers = contact.corrected(multipliers);
+  }
+  multipliers = contact.commit(multipliers);
+  return std::abs(y) < 1e-9 && std::abs(force + 5.0) < 1e-7 &&
+         std::abs(multipliers.points[0].normal + 10.0) < 1e-6;
+}
+
 /// Closest points with plain arrays, on two threads: above a square and beyond its edge.
 bool closest_points_are_right() {
   using namespace osculate;
@@ -123,6 +148,7 @@ int main() {
   check(linear_solver_is_right(), "linear solver");
   check(contact_evaluator_is_right(), "contact evaluator");
   check(contact_in_space_is_right(), "contact evaluator in space");
+  check(host_corrects_multipliers(), "multipliers that a host corrects");
   check(closest_points_are_right(), "closest points of a surface");
   check(alignment_is_the_same_everywhere(), "alignment of small matrices");
   return failed == 0 ? 0 : 1;

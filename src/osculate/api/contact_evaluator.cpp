@@ -76,9 +76,30 @@ void check_laws(const ContactOptions& options) {
   if (!wrong.empty()) throw core::InputError({}, wrong);
 }
 
+/// What goes with corrected or unknown tractions.
+void check_enforcement(const ContactOptions& options) {
+  using contact::Enforcement;
+  if (options.enforcement == Enforcement::penalty) return;
+  const char* wrong = nullptr;
+  if (options.normal && !contact::augmentable(*options.normal))
+    wrong =
+        "a law that gives the pressure as a function of the gap is met by itself: use the penalty";
+  else if (options.separation == pairing::Separation::tied)
+    wrong = "tied points are held by penalty only";
+  const bool unknown = options.enforcement == Enforcement::lagrange_multiplier;
+  if (unknown && options.sampling.rule != pairing::Sampling::Rule::nodes)
+    wrong = "unknown tractions go with sampling at nodes only";
+  else if (unknown && options.residual == contact::ResidualForm::full)
+    wrong = "unknown tractions have the residual form surface only";
+  else if (unknown && !options.tangent.consistent)
+    wrong = "unknown tractions have the consistent tangent only";
+  if (wrong) throw core::InputError({}, std::string("enforcement: ") + wrong);
+}
+
 void check_options(const ContactOptions& options) {
   const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
   check_laws(options);
+  check_enforcement(options);
   using Rule = pairing::Sampling::Rule;
   const pairing::Sampling& s = options.sampling;
   if (s.rule != Rule::nodes &&
@@ -134,6 +155,30 @@ void add_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,
   }
 }
 
+/// Value, rows and columns of the constraint of one point, whose first unknown is `first`.
+template <int Dim>
+void add_constraint(const pairing::ContactBlock<Dim>& block, Index first, Index count,
+                    bool with_tangent, ContactConstraints& out) {
+  const pairing::ConstraintBlock<Dim>& c = block.constraint;
+  const auto at = [first](Index i) { return static_cast<std::size_t>(first + i); };
+  out.value[at(0)] = c.normal;
+  for (Index i = 1; i < count; ++i) out.value[at(i)] = c.shear[i - 1];
+  if (!with_tangent) return;
+  for (const pairing::NodeGradient<Dim>& g : c.normal_row)
+    for (int d = 0; d < Dim; ++d) out.rows.push_back({first, Dim * g.node + d, g.value[d]});
+  for (const pairing::NodeMatrix<Dim>& g : c.shear_row)
+    for (int i = 0; i < Dim; ++i)
+      for (int d = 0; d < Dim; ++d)
+        out.rows.push_back({first + 1 + i, Dim * g.node + d, g.value(i, d)});
+  for (Index i = 0; i < count; ++i)
+    for (Index j = 0; j < count; ++j)
+      if (c.own(i, j) != 0.0) out.own.push_back({first + i, first + j, c.own(i, j)});
+  for (int k = 0; k < Dim * block.count; ++k)
+    for (Index j = 0; j < count; ++j)
+      out.columns.push_back({Dim * block.nodes[static_cast<std::size_t>(k / Dim)] + k % Dim,
+                             first + j, c.columns(k, j)});
+}
+
 }  // namespace
 
 template <int Dim>
@@ -142,6 +187,45 @@ struct BasicContactEvaluator<Dim>::Impl {
   pairing::PairState<Dim> committed;
   pairing::PairEvaluation<Dim> evaluation;
   std::size_t nodes = 0;
+
+  [[nodiscard]] bool by_penalty() const {
+    return pair.enforcement == contact::Enforcement::penalty;
+  }
+  void check(const pairing::PairMultipliers<Dim>& m) const {
+    if (by_penalty()) throw core::InputError({}, "multipliers: the enforcement is by penalty");
+    if (m.points.size() != pair.slave.points.size())
+      throw core::InputError({}, fmt::format("multipliers: {} points given, {} expected",
+                                             m.points.size(), pair.slave.points.size()));
+    for (std::size_t i = 0; i < m.points.size(); ++i)
+      if (!std::isfinite(m.points[i].normal) || !m.points[i].shear.allFinite())
+        throw core::InputError({}, fmt::format("multipliers: those of point {} are not finite", i));
+    if (!(m.stiffening > 0) || !std::isfinite(m.stiffening))
+      throw core::InputError(
+          {}, fmt::format("multipliers: stiffening must be > 0, got {:g}", m.stiffening));
+  }
+  [[nodiscard]] Index per_point() const { return pair.friction ? Dim + 1 : 1; }
+
+  [[nodiscard]] BasicContactResult<Dim> evaluate(std::span<const double> coordinates,
+                                                 bool with_tangent,
+                                                 const pairing::PairMultipliers<Dim>* around) {
+    if (coordinates.size() != Dim * nodes)
+      throw core::InputError(
+          {}, fmt::format("{} coordinates given, {} expected", coordinates.size(), Dim * nodes));
+    pairing::evaluate<Dim>(pair, points_of<Dim>(coordinates), committed, with_tangent, evaluation,
+                           {}, around);
+    BasicContactResult<Dim> out;
+    out.force.assign(coordinates.size(), 0.0);
+    for (const pairing::ContactBlock<Dim>& block : evaluation.blocks)
+      if (block.active()) add_block(block, with_tangent, out);
+    out.points = evaluation.points;
+    if (pair.enforcement != contact::Enforcement::lagrange_multiplier) return out;
+    out.constraints.value.assign(static_cast<std::size_t>(per_point()) * evaluation.points.size(),
+                                 0.0);
+    for (std::size_t i = 0; i < evaluation.points.size(); ++i)
+      add_constraint(evaluation.blocks[i], per_point() * static_cast<Index>(i), per_point(),
+                     with_tangent, out.constraints);
+    return out;
+  }
 };
 
 template <int Dim>
@@ -157,6 +241,7 @@ BasicContactEvaluator<Dim>::BasicContactEvaluator(const ContactOptions& options,
   pair.master = boundary_of(master, x.size(), "master");
   pair.slave = pairing::make_slave_side(boundary_of(slave, x.size(), "slave"));
   pair.normal = options.normal.value_or(contact::NormalPenalty{options.normal_penalty});
+  pair.enforcement = options.enforcement;
   pair.separation = options.separation;
   pair.tolerance = options.tolerance;
   pair.offset = options.offset;
@@ -196,22 +281,70 @@ std::span<const pairing::SlavePoint<Dim>> BasicContactEvaluator<Dim>::slave_poin
 template <int Dim>
 BasicContactResult<Dim> BasicContactEvaluator<Dim>::evaluate(std::span<const double> coordinates,
                                                              bool with_tangent) {
-  if (coordinates.size() != Dim * impl_->nodes)
-    throw core::InputError({}, fmt::format("{} coordinates given, {} expected", coordinates.size(),
-                                           Dim * impl_->nodes));
-  pairing::evaluate<Dim>(impl_->pair, points_of<Dim>(coordinates), impl_->committed, with_tangent,
-                         impl_->evaluation);
-  BasicContactResult<Dim> out;
-  out.force.assign(coordinates.size(), 0.0);
-  for (const pairing::ContactBlock<Dim>& block : impl_->evaluation.blocks)
-    if (block.active()) add_block(block, with_tangent, out);
-  out.points = impl_->evaluation.points;
-  return out;
+  if (!impl_->by_penalty())
+    throw core::InputError({}, "this enforcement is around multipliers: none are given");
+  return impl_->evaluate(coordinates, with_tangent, nullptr);
+}
+
+template <int Dim>
+BasicContactResult<Dim> BasicContactEvaluator<Dim>::evaluate(
+    std::span<const double> coordinates, bool with_tangent,
+    const pairing::PairMultipliers<Dim>& multipliers) {
+  impl_->check(multipliers);
+  return impl_->evaluate(coordinates, with_tangent, &multipliers);
 }
 
 template <int Dim>
 void BasicContactEvaluator<Dim>::commit() {
   if (!impl_->evaluation.points.empty()) impl_->committed = pairing::commit(impl_->evaluation);
+}
+
+template <int Dim>
+pairing::PairMultipliers<Dim> BasicContactEvaluator<Dim>::commit(
+    pairing::PairMultipliers<Dim> multipliers) {
+  impl_->check(multipliers);
+  if (impl_->evaluation.points.empty()) return multipliers;
+  commit();
+  return pairing::commit(impl_->evaluation, std::move(multipliers));
+}
+
+template <int Dim>
+pairing::PairMultipliers<Dim> BasicContactEvaluator<Dim>::multipliers() const {
+  return pairing::initial_multipliers(impl_->pair, impl_->committed);
+}
+
+template <int Dim>
+pairing::PairMultipliers<Dim> BasicContactEvaluator<Dim>::corrected(
+    const pairing::PairMultipliers<Dim>& used) const {
+  impl_->check(used);
+  if (impl_->pair.enforcement != contact::Enforcement::augmented_lagrange)
+    throw core::InputError({},
+                           "multipliers that are unknowns are corrected by the host's solution");
+  if (impl_->evaluation.points.empty()) return used;
+  return pairing::augmented(impl_->pair, impl_->evaluation, used);
+}
+
+template <int Dim>
+Index BasicContactEvaluator<Dim>::unknowns_per_point() const {
+  return impl_->per_point();
+}
+
+template <int Dim>
+pairing::PairMultipliers<Dim> BasicContactEvaluator<Dim>::multipliers_of(
+    std::span<const double> unknowns) const {
+  pairing::PairMultipliers<Dim> out = multipliers();
+  const auto per = static_cast<std::size_t>(impl_->per_point());
+  if (unknowns.size() != per * out.points.size())
+    throw core::InputError({}, fmt::format("{} unknowns of multipliers given, {} expected",
+                                           unknowns.size(), per * out.points.size()));
+  const pairing::PairDefinition<Dim>& pair = impl_->pair;
+  for (std::size_t i = 0; i < out.points.size(); ++i) {
+    const double* const at = unknowns.data() + per * i;
+    out.points[i].normal = contact::penalty_of(pair.normal) * at[0];
+    if (pair.friction)
+      out.points[i].shear = contact::stiffness(*pair.friction) * Eigen::Map<const Vec<Dim>>(at + 1);
+  }
+  return out;
 }
 
 template class BasicContactEvaluator<2>;
