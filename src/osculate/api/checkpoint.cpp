@@ -105,10 +105,22 @@ void fields(Archive& a, Progress& progress) {
   auto& [step, increment, fraction, time] = progress;
   a(step, increment, fraction, time);
 }
+template <class Archive>
+void fields(Archive& a, Energies& energies) {
+  auto& [kinetic, strain, contact, external, friction, damping, numerical, residual, start,
+         before, elapsed] = energies;
+  a(kinetic, strain, contact, external, friction, damping, numerical, residual, start, before,
+    elapsed);
+}
+template <class Archive>
+void fields(Archive& a, Rates& rates) {
+  auto& [velocity, acceleration, internal, external, contact, damping, energies] = rates;
+  a(velocity, acceleration, internal, external, contact, damping, energies);
+}
 template <class Archive, int Dim>
 void fields(Archive& a, BasicState<Dim>& state) {
-  auto& [u, rigid, pairs, assumed, multipliers, fraction] = state;
-  a(u, rigid, pairs, multipliers, fraction);
+  auto& [u, rigid, pairs, assumed, multipliers, fraction, rates] = state;
+  a(u, rigid, pairs, multipliers, fraction, rates);
   (void)assumed;  // belongs to trials
 }
 }  // namespace osculate::model

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "osculate/core/text.hpp"
@@ -106,6 +107,17 @@ void build_history(BuildContext<Dim>& c) {
     }
     c.built.history.push_back(std::move(out));
   }
+  const auto has_inertia = [](const Step& step) { return step.dynamics.has_value(); };
+  const std::vector<Step>& steps = c.description.steps;
+  if (std::none_of(steps.begin(), steps.end(), has_inertia)) return;
+  for (const std::string_view name : model::energy_quantities) {
+    model::HistoryRequest out;
+    out.name = fmt::format("energy.{}", name);
+    if (name == "elapsed") out.name = name;
+    out.quantity = name;
+    out.kind = model::HistoryRequest::Kind::whole;
+    c.built.history.push_back(std::move(out));
+  }
 }
 
 namespace {
@@ -128,9 +140,11 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   for (const mesh::Set& set : m.mesh.sets) context.set_names.push_back(set.name);
   build_sections(context);
   build_rigid(context);
+  build_masses(context);
   build_contact(context);
   build_equations(context);
   build_steps(context);
+  build_initial_velocity(context);
   build_history(context);
   check_model(context);
   return built;

@@ -62,6 +62,15 @@ template <int Dim>
 void build_rigid(BuildContext<Dim>& context);
 template <int Dim>
 void build_contact(BuildContext<Dim>& context);
+/// Masses and moments of inertia of rigid bodies.
+template <int Dim>
+void build_masses(BuildContext<Dim>& context);
+/// Inertia, gravity of one step; `gravity` is that at the end of the steps before, and then of it.
+template <int Dim>
+void build_dynamics(const BuildContext<Dim>& context, const Step& step,
+                    std::vector<double>& gravity, model::Step& out);
+template <int Dim>
+void build_initial_velocity(BuildContext<Dim>& context);
 template <int Dim>
 void build_equations(BuildContext<Dim>& context);
 template <int Dim>

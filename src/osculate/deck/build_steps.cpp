@@ -268,12 +268,24 @@ void apply_loads(const BuildContext<Dim>& c, const deck::Step& step, Running& ru
 
 }  // namespace
 
+namespace {
+
+/// Bodies without mass move only as they are told.
+template <int Dim>
+bool held_from_the_beginning(const model::BasicRigidBody<Dim>& body, Component component) {
+  if (Dim == 2 && !is_planar(component)) return false;
+  return !(body.mass > 0);
+}
+
+}  // namespace
+
 template <int Dim>
 void build_steps(BuildContext<Dim>& c) {
   Running running;
+  std::vector<double> gravity;
   for (std::size_t b = 0; b < c.model().rigid.size(); ++b)
     for (std::size_t i = 0; i < component_count; ++i)
-      if (Dim == 3 || is_planar(static_cast<Component>(i)))
+      if (held_from_the_beginning(c.model().rigid[b], static_cast<Component>(i)))
         running
             .prescribed[body_dof(c.model(), static_cast<Index>(b), static_cast<Component>(i))] = {};
   bool first = true;
@@ -284,6 +296,7 @@ void build_steps(BuildContext<Dim>& c) {
     if (step.duration) out.duration = step.duration->value;
     out.equation_start = first ? 0.0 : 1.0;
     first = false;
+    build_dynamics(c, step, gravity, out);
     apply_releases(c, step, running);
     apply_loads(c, step, running, out);  // forces on a rigid body free its dof
     apply_prescriptions(c, step, running, out);

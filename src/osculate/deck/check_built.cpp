@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "osculate/deck/build_context.hpp"
 #include "osculate/mesh/boundary.hpp"
 
@@ -33,6 +35,8 @@ std::vector<bool> held_nodes(const model::BasicModel<Dim>& m) {
 template <int Dim>
 void check_connected(const BuildContext<Dim>& c) {
   const model::BasicModel<Dim>& m = c.model();
+  const auto inert = [](const model::Step& step) { return step.dynamics.has_value(); };
+  if (std::all_of(m.steps.begin(), m.steps.end(), inert)) return;
   const std::vector<bool> held = held_nodes(m);
   std::vector<mesh::CellRef> cells;
   for (const model::BasicBulkSection<Dim>& section : m.sections)

@@ -148,6 +148,8 @@ struct Rigid {
   /// shape.
   std::optional<Marked<std::vector<double>>> reference;
   bool flip = false;  ///< the body is on the other side
+  std::optional<Number> mass;
+  std::optional<Marked<std::vector<double>>> inertia;  ///< 1, 3 or 6 numbers
   [[nodiscard]] bool meshed() const { return std::holds_alternative<SetShape>(shape); }
 };
 
@@ -297,6 +299,20 @@ struct Load {
   std::optional<Name> amplitude;
 };
 
+enum class SchemeWord { newmark, hht, generalized_alpha };
+enum class ImpactWord { dissipative, average, plastic };
+enum class MassWord { consistent, lumped };
+
+/// Time integration of a step with inertia.
+struct DynamicsDescription {
+  core::SourceMark mark;
+  SchemeWord scheme = SchemeWord::newmark;
+  double parameter = 0;  ///< alpha of hht, radius of generalized_alpha
+  ImpactWord impact = ImpactWord::dissipative;
+  MassWord mass = MassWord::consistent;
+  double damping_mass = 0, damping_stiffness = 0;
+};
+
 struct Step {
   Name name;
   Marked<int> increments;
@@ -304,6 +320,8 @@ struct Step {
   std::vector<Prescription> prescribe;
   std::vector<Release> release;
   std::vector<Load> forces, pressure, traction, body_force;
+  std::optional<DynamicsDescription> dynamics;
+  std::optional<Marked<std::vector<double>>> gravity;
 };
 
 // ---- solution and output ----------------------------------------------------------------------
@@ -334,7 +352,13 @@ enum class Quantity {
   rfz,
   rmx,
   rmy,
-  rmz,  // of sets and rigid bodies
+  rmz,
+  vx,
+  vy,
+  vz,
+  wx,
+  wy,
+  wz,  // of sets and rigid bodies
   force_x,
   force_y,
   force_z,
@@ -351,34 +375,18 @@ enum class Quantity {
 /// True for the quantities of contact pairs.
 [[nodiscard]] constexpr bool is_contact_quantity(Quantity q) { return q >= Quantity::force_x; }
 /// The words of the model file and of model::HistoryRequest, in the order of Quantity.
-inline constexpr std::array<std::string_view, 24> quantity_names{"ux",
-                                                                 "uy",
-                                                                 "uz",
-                                                                 "rx",
-                                                                 "ry",
-                                                                 "rz",
-                                                                 "rfx",
-                                                                 "rfy",
-                                                                 "rfz",
-                                                                 "rmx",
-                                                                 "rmy",
-                                                                 "rmz",
-                                                                 "force_x",
-                                                                 "force_y",
-                                                                 "force_z",
-                                                                 "normal_force",
-                                                                 "shear_force",
-                                                                 "max_pressure",
-                                                                 "max_penetration",
-                                                                 "stick",
-                                                                 "slip",
-                                                                 "open",
-                                                                 "area",
-                                                                 "friction_work"};
+inline constexpr std::array<std::string_view, 30> quantity_names{
+    "ux",      "uy",           "uz",          "rx",           "ry",
+    "rz",      "rfx",          "rfy",         "rfz",          "rmx",
+    "rmy",     "rmz",          "vx",          "vy",           "vz",
+    "wx",      "wy",           "wz",          "force_x",      "force_y",
+    "force_z", "normal_force", "shear_force", "max_pressure", "max_penetration",
+    "stick",   "slip",         "open",        "area",         "friction_work"};
 /// True for what only models in space have.
 [[nodiscard]] constexpr bool is_spatial(Quantity q) {
   return q == Quantity::uz || q == Quantity::rx || q == Quantity::ry || q == Quantity::rfz ||
-         q == Quantity::rmx || q == Quantity::rmy || q == Quantity::force_z;
+         q == Quantity::rmx || q == Quantity::rmy || q == Quantity::vz || q == Quantity::wx ||
+         q == Quantity::wy || q == Quantity::force_z;
 }
 
 enum class HistoryTarget { contact, rigid, set };
@@ -417,6 +425,7 @@ struct Description {
   std::vector<Amplitude> amplitudes;
   std::vector<Equation> equations;
   std::vector<Equal> equal;
+  std::vector<Load> initial_velocity;  ///< vx vy vz wx wy wz
   std::vector<Step> steps;
   Solver solver;
   Output output;

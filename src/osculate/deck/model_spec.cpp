@@ -104,8 +104,8 @@ Spec model_spec() {
        optional("sections", sections_spec()), optional("rigid", rigid_spec()),
        optional("contact", contact_spec()), optional("amplitudes", amplitudes_spec()),
        optional("equations", equations_spec()), optional("equal", equal_spec()),
-       required("steps", steps_spec()), optional("solver", solver_spec()),
-       optional("output", output_spec())});
+       optional("initial_velocity", initial_velocity_spec()), required("steps", steps_spec()),
+       optional("solver", solver_spec()), optional("output", output_spec())});
 }
 
 }  // namespace osculate::deck

@@ -18,6 +18,9 @@ namespace osculate::deck {
 [[nodiscard]] Spec equations_spec();
 [[nodiscard]] Spec equal_spec();
 [[nodiscard]] Spec steps_spec();
+[[nodiscard]] Spec dynamics_spec();
+[[nodiscard]] Spec gravity_spec();
+[[nodiscard]] Spec initial_velocity_spec();
 [[nodiscard]] Spec solver_spec();
 [[nodiscard]] Spec output_spec();
 

@@ -193,6 +193,23 @@ std::vector<Key> rigid_keys() {
           .otherwise_as("the centroid of the nodes, the centre of the shape")
           .such_as("[0, 1]")));
   keys.push_back(optional(
+      "mass",
+      number("Mass, with its centre at the reference point; in steps with inertia the body then "
+             "moves freely where nothing is prescribed.")
+          .in("mass")
+          .above(0)
+          .otherwise_as("no mass: the body moves as prescribed")
+          .such_as("2.5")));
+  const Spec moment = number("Moment of inertia.").in("mass*length^2");
+  keys.push_back(optional(
+      "inertia",
+      either("Moments of inertia about the reference point.",
+             {number("About z (plane models).").in("mass*length^2").above(0),
+              list("In space: xx, yy, zz, or xx, yy, zz, xy, yz, zx.", moment).count(3, 6)})
+          .otherwise_as(
+              "that of the homogeneous circle or sphere; for other shapes it is to be given")
+          .such_as("0.4")));
+  keys.push_back(optional(
       "flip", boolean("Put the body on the other side of its surface.").otherwise("false")));
   return keys;
 }

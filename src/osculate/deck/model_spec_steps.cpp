@@ -185,15 +185,16 @@ Spec steps_spec() {
                                              .at_most(1'000'000)
                                              .such_as("10")),
                   optional("duration", number("Time from the beginning of the step to its end; "
-                                              "only friction that depends on speed asks for it.")
+                                              "inertia and friction that depends on speed ask for "
+                                              "it.")
                                            .in("time")
                                            .above(0)
                                            .otherwise_as("no time")
                                            .such_as("0.5")),
                   optional("prescribe", prescribe_spec()), optional("release", release_spec()),
                   optional("forces", forces_spec()), optional("pressure", pressure_spec()),
-                  optional("traction", traction_spec()),
-                  optional("body_force", body_force_spec())}))
+                  optional("traction", traction_spec()), optional("body_force", body_force_spec()),
+                  optional("gravity", gravity_spec()), optional("dynamics", dynamics_spec())}))
       .count(1)
       .such_as("[{name: press, increments: 10, prescribe: [{on: top, uy: -0.007}]}]");
 }

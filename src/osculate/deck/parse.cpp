@@ -105,6 +105,7 @@ Description parse_model(std::string_view text, std::string file_name) {
   d.amplitudes = parse_amplitudes(model.at("amplitudes"));
   d.equations = parse_equations(model.at("equations"));
   d.equal = parse_equal(model.at("equal"));
+  d.initial_velocity = parse_initial_velocity(model.at("initial_velocity"));
   d.steps = parse_steps(model.at("steps"));
   d.solver = parse_solver(model.at("solver"));
   check_dimension(d);

@@ -63,7 +63,9 @@ Section section_of(const Value& v, const std::vector<Material>& materials) {
 /// The key of the shape: the first one; exactly one of them is given.
 std::string kind_of(const Value& v) {
   for (const ValueEntry& entry : v.entries)
-    if (entry.key != "reference" && entry.key != "flip") return entry.key;
+    if (entry.key != "reference" && entry.key != "flip" && entry.key != "mass" &&
+        entry.key != "inertia")
+      return entry.key;
   return {};
 }
 
@@ -101,6 +103,13 @@ std::vector<Rigid> parse_rigid(const Value& v) {
     if (const Value* const reference = entry.value.find("reference"))
       rigid.reference = numbers_of(*reference);
     rigid.flip = flag(entry.value, "flip");
+    rigid.mass = number_if(entry.value, "mass");
+    if (const Value* const inertia = entry.value.find("inertia"))
+      rigid.inertia = inertia->alternative == 0
+                          ? Marked<std::vector<double>>{{inertia->number}, inertia->mark}
+                          : numbers_of(*inertia);
+    if (rigid.inertia && !rigid.mass)
+      throw core::InputError(rigid.inertia->mark, "inertia goes with a mass, which is missing");
     out.push_back(std::move(rigid));
   }
   return out;

@@ -11,7 +11,8 @@ namespace osculate::deck {
 namespace {
 
 bool needs_rigid(Quantity q) {
-  return (q >= Quantity::rx && q <= Quantity::rz) || (q >= Quantity::rmx && q <= Quantity::rmz);
+  return (q >= Quantity::rx && q <= Quantity::rz) || (q >= Quantity::rmx && q <= Quantity::rmz) ||
+         (q >= Quantity::wx && q <= Quantity::wz);
 }
 
 void require_quantity(const HistoryRequest& request, const std::string& word,

@@ -50,6 +50,8 @@ template <class E>
 [[nodiscard]] std::vector<Equation> parse_equations(const Value& v);
 [[nodiscard]] std::vector<Equal> parse_equal(const Value& v);
 [[nodiscard]] std::vector<Step> parse_steps(const Value& v);
+[[nodiscard]] DynamicsDescription parse_dynamics(const Value& v);
+[[nodiscard]] std::vector<Load> parse_initial_velocity(const Value& v);
 [[nodiscard]] Solver parse_solver(const Value& v);
 /// Needs contacts and rigid bodies: they decide what `on` means.
 [[nodiscard]] Output parse_output(const Value& v, const Description& description);

@@ -231,6 +231,10 @@ Step step_of(const Value& v) {
   s.pressure = loads_of(v.at("pressure"), {"value"});
   s.traction = loads_of(v.at("traction"), {"tx", "ty", "tz"});
   s.body_force = loads_of(v.at("body_force"), {"bx", "by", "bz"});
+  if (const Value* const gravity = v.find("gravity")) s.gravity = numbers_of(*gravity);
+  if (const Value* const dynamics = v.find("dynamics")) s.dynamics = parse_dynamics(*dynamics);
+  if (s.dynamics && !s.duration)
+    throw core::InputError(s.dynamics->mark, "a step with inertia needs a duration");
   return s;
 }
 
@@ -296,6 +300,10 @@ std::vector<Equal> parse_equal(const Value& v) {
   for (const Value& item : v.items)
     out.push_back({item.mark, name_of(item.at("on")), word_of<Component>(item, "of").value});
   return out;
+}
+
+std::vector<Load> parse_initial_velocity(const Value& v) {
+  return loads_of(v, {"vx", "vy", "vz", "wx", "wy", "wz"});
 }
 
 std::vector<Step> parse_steps(const Value& v) {

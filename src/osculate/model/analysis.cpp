@@ -102,6 +102,7 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
       a.progress.increment = 0;
       a.position = {};
       a.system.begin_step(step, result.state);
+      result.state = a.system.begin_motion(result.state);
     }
     if (result.steps.size() == s) result.steps.push_back({step.name, {}});
     a.run_step(step);

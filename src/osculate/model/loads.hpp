@@ -1,9 +1,11 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "osculate/cell/cell_type.hpp"
 #include "osculate/core/types.hpp"
 #include "osculate/model/dof_space.hpp"
+#include "osculate/solve/time_scheme.hpp"
 
 namespace osculate::model {
 
@@ -47,6 +49,16 @@ struct PressureLoad {
   Ramp ramp;
 };
 
+/// A step in time with inertia.
+///
+/// Formula    damping forces C v, C = damping_mass M + damping_stiffness K_0 (Rayleigh), K_0 the
+///            stiffness of the undeformed cells: a body that turns far is damped as if it strained
+struct Dynamics {
+  solve::TimeScheme scheme;
+  bool lumped = false;  ///< masses at the nodes alone
+  double damping_mass = 0, damping_stiffness = 0;
+};
+
 /// Everything that acts during one step, compiled from the model file.
 struct Step {
   std::string name;
@@ -55,6 +67,8 @@ struct Step {
   std::vector<PrescribedDof> prescribed;
   std::vector<DeadLoad> dead;
   std::vector<PressureLoad> pressure;
+  std::optional<Dynamics> dynamics;             ///< empty: without inertia
+  std::vector<Ramp> gravity;                    ///< acceleration in every direction; empty: none
   double equation_start = 1, equation_end = 1;  ///< ramp of the constants of the equations
 };
 

@@ -35,6 +35,10 @@ struct BasicRigidBody {
   std::vector<RigidShape<Dim>> parts;    ///< curves of a composite, each begins where one ends
   bool closed = false;                   ///< the first part begins where the last one ends
   std::vector<Vec<Dim>> polyline;        ///< for pictures of analytic polylines
+  double mass = 0;                       ///< its centre is the reference point; 0: none
+  /// About the reference point, in reference coordinates.
+  Mat<body::rotations<Dim>, body::rotations<Dim>> inertia =
+      Mat<body::rotations<Dim>, body::rotations<Dim>>::Zero();
 };
 
 /// A penetration above this share of the cells' height is one to be told of.
@@ -64,6 +68,7 @@ struct BasicModel {
   std::vector<BasicContactPair<Dim>> pairs;
   std::vector<Equation> equations;
   std::vector<Step> steps;
+  std::vector<std::pair<Dof, double>> initial_velocity;  ///< of primary dofs; zero elsewhere
 };
 
 using BulkSection = BasicBulkSection<2>;

@@ -17,9 +17,28 @@ namespace {
 int direction_of(const std::string& quantity) { return quantity.back() - 'x'; }
 
 template <int Dim>
+double node_velocity(const BasicState<Dim>& state, const HistoryRequest& request) {
+  if (state.rates.empty() || request.nodes.empty()) return 0;
+  double sum = 0;
+  for (const Index n : request.nodes)
+    sum += state.rates.velocity[Dim * n + direction_of(request.quantity)];
+  return sum / static_cast<double>(request.nodes.size());
+}
+
+double energy_value(const Energies& e, std::string_view quantity) {
+  const std::array<double, energy_quantities.size()> values{e.elapsed, e.kinetic,   e.strain,
+                                                            e.contact, e.external,  e.friction,
+                                                            e.damping, e.numerical, e.residual};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (energy_quantities[i] == quantity) return values[i];
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+template <int Dim>
 double node_value(const Eigen::VectorXd& reaction, const BasicState<Dim>& state,
                   const HistoryRequest& request) {
   const int direction = direction_of(request.quantity);
+  if (request.quantity[0] == 'v') return node_velocity(state, request);
   const bool force = request.quantity.starts_with("rf");
   double sum = 0;
   for (const Index n : request.nodes)
@@ -57,6 +76,12 @@ template <int Dim>
 double rigid_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
                    const BasicState<Dim>& state, const HistoryRequest& request) {
   const std::string& quantity = request.quantity;
+  if (quantity[0] == 'v' || quantity[0] == 'w') {
+    if (state.rates.empty()) return 0;
+    const int i =
+        quantity[0] == 'v' ? direction_of(quantity) : (Dim == 2 ? 2 : 3 + direction_of(quantity));
+    return state.rates.velocity[system.dofs().body_dof(request.target, i)];
+  }
   const bool of_motion = quantity.size() == 2;  // u* and r*; else rf* and rm*
   const bool turns = of_motion ? quantity[0] == 'r' : quantity[1] == 'm';
   const int direction = direction_of(quantity);
@@ -240,7 +265,8 @@ std::vector<Shown<Dim>> at_nodes(const pairing::SlaveSide<Dim>& slave,
 template <int Dim>
 Eigen::VectorXd reactions(const BasicSystem<Dim>& system) {
   const Forces& f = system.forces();
-  return f.internal + f.contact - f.external;
+  if (f.inertia.size() == 0) return f.internal + f.contact - f.external;
+  return f.internal + f.contact - f.external + f.inertia;
 }
 
 template <int Dim>
@@ -253,6 +279,8 @@ double history_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& mode
       return rigid_value(system, model, state, request);
     case HistoryRequest::Kind::pair:
       return pair_value(system, model, request);
+    case HistoryRequest::Kind::whole:
+      return energy_value(state.rates.energies, request.quantity);
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

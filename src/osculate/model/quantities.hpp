@@ -10,7 +10,7 @@ namespace osculate::model {
 
 /// One column of history.csv.
 struct HistoryRequest {
-  enum class Kind { nodes, rigid, pair };
+  enum class Kind { nodes, rigid, pair, whole };
   std::string name;  ///< column name
   Kind kind = Kind::nodes;
   Index target = -1;         ///< rigid body or pair
@@ -26,16 +26,23 @@ struct HistoryRequest {
 /// along the master's direction of travel (3D: the length of the resultant of all shear forces).
 /// `friction_work` is what sliding has dissipated since the beginning; the elastic part of the
 /// tangential penalty is not in it.
-inline constexpr std::array<std::string_view, 4> node_quantities{"ux", "uy", "rfx", "rfy"};
-inline constexpr std::array<std::string_view, 6> rigid_quantities{"ux",  "uy",  "rz",
-                                                                  "rfx", "rfy", "rmz"};
+/// Velocities are zero in steps without inertia. Of the whole model: the members of Energies, and
+/// the time since inertia began (`elapsed`).
+inline constexpr std::array<std::string_view, 9> energy_quantities{
+    "elapsed",  "kinetic", "strain",    "contact", "external",
+    "friction", "damping", "numerical", "residual"};
+inline constexpr std::array<std::string_view, 6> node_quantities{"ux",  "uy", "rfx",
+                                                                 "rfy", "vx", "vy"};
+inline constexpr std::array<std::string_view, 9> rigid_quantities{"ux",  "uy", "rz", "rfx", "rfy",
+                                                                  "rmz", "vx", "vy", "wz"};
 inline constexpr std::array<std::string_view, 11> pair_quantities{
     "force_x", "force_y", "normal_force", "shear_force", "max_pressure", "max_penetration",
     "stick",   "slip",    "open",         "area",        "friction_work"};
-inline constexpr std::array<std::string_view, 6> node_quantities3{"ux",  "uy",  "uz",
-                                                                  "rfx", "rfy", "rfz"};
-inline constexpr std::array<std::string_view, 12> rigid_quantities3{
-    "ux", "uy", "uz", "rx", "ry", "rz", "rfx", "rfy", "rfz", "rmx", "rmy", "rmz"};
+inline constexpr std::array<std::string_view, 9> node_quantities3{"ux",  "uy", "uz", "rfx", "rfy",
+                                                                  "rfz", "vx", "vy", "vz"};
+inline constexpr std::array<std::string_view, 18> rigid_quantities3{
+    "ux",  "uy",  "uz",  "rx", "ry", "rz", "rfx", "rfy", "rfz",
+    "rmx", "rmy", "rmz", "vx", "vy", "vz", "wx",  "wy",  "wz"};
 inline constexpr std::array<std::string_view, 12> pair_quantities3{
     "force_x",         "force_y", "force_z", "normal_force", "shear_force", "max_pressure",
     "max_penetration", "stick",   "slip",    "open",         "area",        "friction_work"};
@@ -71,7 +78,8 @@ template <int Dim>
                                                      const BasicModel<Dim>& model,
                                                      std::size_t pair);
 
-/// Nodal reaction: internal + contact - external (zero at free nodes of a converged state).
+/// Nodal reaction: internal + contact - external, with inertia and damping (zero at free nodes of a
+/// converged state; with inertia up to what the scheme leaves).
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd reactions(const BasicSystem<Dim>& system);
 

@@ -8,6 +8,33 @@
 
 namespace osculate::model {
 
+/// Where the energy is and where it went since the first step with inertia began.
+///
+/// Formula    kinetic + strain + contact = start + external - friction - damping - numerical -
+///            residual ; work of a step by the mean of the forces at its beginning and end
+struct Energies {
+  double kinetic = 0;
+  double strain = 0;     ///< stored in the cells
+  double contact = 0;    ///< stored in the springs of the penalties
+  double external = 0;   ///< work of loads, gravity and supports
+  double friction = 0;   ///< dissipated by sliding
+  double damping = 0;    ///< dissipated by Rayleigh damping
+  double numerical = 0;  ///< lost by the time integration and by implicit contact forces
+  double residual = 0;   ///< not accounted for
+  double start = 0;      ///< kinetic + strain + contact at the beginning
+  double friction_before = 0;
+  double elapsed = 0;  ///< time since the beginning
+};
+
+/// What a state has in steps with inertia, over the primary dofs. The acceleration is that of all
+/// forces but those of contact, unless Impact::average.
+struct Rates {
+  Eigen::VectorXd velocity, acceleration;
+  Eigen::VectorXd internal, external, contact, damping;  ///< forces
+  Energies energies;
+  [[nodiscard]] bool empty() const { return velocity.size() == 0; }
+};
+
 /// A configuration. Committed states are const; a trial is a new value.
 template <int Dim>
 struct BasicState {
@@ -17,6 +44,7 @@ struct BasicState {
   std::vector<pairing::Assumed<Dim>> assumed;      ///< branches of the last iteration (trials only)
   std::vector<pairing::PairMultipliers<Dim>> multipliers;  ///< of the pairs; empty by penalty
   double fraction = 0;                                     ///< of the running step
+  Rates rates{};                                           ///< empty in steps without inertia
 };
 
 using State = BasicState<2>;

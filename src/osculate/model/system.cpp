@@ -46,6 +46,14 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
     if (unknown >= 0) flags[static_cast<std::size_t>(unknown)] = true;
   }
   impl_->assembler.set_prescribed(std::move(flags));
+  impl_->begin_dynamics();
+}
+
+template <int Dim>
+BasicState<Dim> BasicSystem<Dim>::begin_motion(const State& committed) {
+  State state = committed;
+  state.rates = impl_->motion ? impl_->begin_rates(committed) : Rates{};
+  return state;
 }
 
 template <int Dim>
@@ -135,6 +143,7 @@ std::vector<ContactStates> BasicSystem<Dim>::recent_contact() const {
 template <int Dim>
 BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) const {
   State state = trial;
+  if (impl_->timed()) state.rates = impl_->new_rates(trial);
   state.fraction = fraction;
   state.assumed.clear();
   for (std::size_t p = 0; p < impl_->contact.size(); ++p) {

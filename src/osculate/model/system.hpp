@@ -19,6 +19,7 @@ struct Forces {
   Eigen::VectorXd internal;  ///< from the bulk
   Eigen::VectorXd contact;   ///< from the contact pairs
   Eigen::VectorXd external;  ///< applied loads
+  Eigen::VectorXd inertia;   ///< mass times acceleration, and damping; of the last converged state
 };
 
 /// Where the time of all evaluations went [s], summed up since the system was made.
@@ -60,6 +61,9 @@ class BasicSystem {
   [[nodiscard]] State initial_state();
   /// Fixes what is prescribed and loaded during a step; start values come from `committed`.
   void begin_step(const Step& step, const State& committed);
+  /// The committed state with what the running step needs of it: accelerations and the energies of
+  /// its beginning, or none of them in a step without inertia. To be called after `begin_step`.
+  [[nodiscard]] State begin_motion(const State& committed);
   [[nodiscard]] SystemMemory memory() const;
   /// Begins `step` as it was begun when the memory was taken, in the middle of it.
   void resume_step(const Step& step, const State& committed, const SystemMemory& memory);
@@ -79,7 +83,7 @@ class BasicSystem {
   [[nodiscard]] std::optional<State> augment(const State& trial) const;
   /// Whether the multipliers are corrected after every iteration instead of every solution.
   [[nodiscard]] bool augments_often() const;
-  /// The converged state with its new history. `trial` must be the last state evaluated.
+  /// The converged state with its new history and rates. `trial` must be the last state evaluated.
   [[nodiscard]] State commit(const State& trial, double fraction) const;
 
   /// Unknowns of the matrix: those of the dof space, then the multipliers that are unknowns.

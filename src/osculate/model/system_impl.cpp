@@ -116,6 +116,7 @@ void BasicSystem<Dim>::Impl::clear(bool with_tangent) {
   forces.internal.setZero(n);
   forces.contact.setZero(n);
   forces.external.setZero(n);
+  forces.inertia.resize(0);
   predicted.setZero(n);
   branch_shift.setZero(n);
   constraint.setZero(unknowns - dofs.unknowns());
@@ -220,7 +221,9 @@ bool BasicSystem<Dim>::Impl::add_bulk(const State& trial, bool with_tangent,
       const std::span<const Dof> d(block.dofs.data(), static_cast<std::size_t>(block.dof_count));
       for (int k = 0; k < block.dof_count; ++k)
         forces.internal[d[static_cast<std::size_t>(k)]] += block.result.force[k];
-      if (with_tangent) add_stiffness(d, block.result.tangent, inc);
+      if (!with_tangent) continue;
+      if (timed()) add_cell_inertia(start + i, blocks[i].result.tangent);
+      add_stiffness(d, block.result.tangent, inc);
     }
   }
   return true;
@@ -293,9 +296,7 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
                                          double fraction, std::span<const Vec<Dim>> x,
                                          bool with_tangent, const Eigen::VectorXd* inc,
                                          solve::Evaluation& out) {
-  // A committed state at the end of a step is the start of the next one.
-  const double begin = committed.fraction < fraction ? committed.fraction : 0.0;
-  const double duration = (fraction - begin) * step.duration;
+  const double duration = time_between(committed, fraction);
   out.counts = {};
   out.counts.signature = 14695981039346656037ull;
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
@@ -331,7 +332,7 @@ void BasicSystem<Dim>::Impl::add_pressure(const State& trial, double fraction, b
       for (int k = 0; k < block.dof_count; ++k)
         forces.external[d[static_cast<std::size_t>(k)]] += block.result.force[k];
       if (!with_tangent) continue;
-      block.result.tangent *= -1.0;  // external force moves to the left-hand side
+      block.result.tangent *= -force_factor();  // external force moves to the left-hand side
       add_stiffness(d, block.result.tangent, inc);
     }
   }
@@ -356,7 +357,8 @@ void BasicSystem<Dim>::Impl::turn_moments(const State& trial, bool with_tangent,
       const Vec3& theta = trial.rigid[b].rotation;
       forces.external.segment<3>(first) = body::rotation_tangent(theta).transpose() * moment;
       const std::array<Dof, 3> d{first, first + 1, first + 2};
-      if (with_tangent) add_stiffness(d, Mat<3, 3>(-body::moment_gradient(theta, moment)), inc);
+      if (with_tangent)
+        add_stiffness(d, Mat<3, 3>(-force_factor() * body::moment_gradient(theta, moment)), inc);
     }
   }
 }
@@ -365,7 +367,7 @@ template <int Dim>
 void BasicSystem<Dim>::Impl::add_rigid_geometry(const State& trial, std::span<const Vec<Dim>> x,
                                                 const Eigen::VectorXd* inc) {
   constexpr int turns = body::rotations<Dim>;
-  const Eigen::VectorXd f = forces.internal + forces.contact - forces.external;
+  const Eigen::VectorXd f = total_force();
   for (std::size_t b = 0; b < model.rigid.size(); ++b) {
     Mat<turns, turns> stiffness = Mat<turns, turns>::Zero();
     for (const Index node : model.rigid[b].nodes) {
@@ -406,15 +408,18 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
         inc.head(Dim * static_cast<Eigen::Index>(x.size())).template lpNorm<Eigen::Infinity>();
   }
   const Eigen::VectorXd* increment = predict ? &inc : nullptr;
+  if (motion) begin_increment(committed, fraction, time_between(committed, fraction));
   if (on(Term::bulk) && !add_bulk(trial, with_tangent, increment, out)) return;
   if (on(Term::contact)) add_contact(committed, trial, fraction, x, with_tangent, increment, out);
   if (on(Term::pressure)) add_pressure(trial, fraction, with_tangent, increment);
   add_dead_loads(fraction);
+  add_gravity(fraction);
+  if (timed()) add_inertia(trial, with_tangent, increment);
   turn_moments(trial, with_tangent && on(Term::rigid), increment);
   if (with_tangent && on(Term::rigid)) add_rigid_geometry(trial, x, increment);
   if (with_tangent) assembler.add_prescribed_diagonal(1.0);
   if (with_tangent && resisted > 0) add_resistance(resisted);
-  const Eigen::VectorXd total = forces.internal + forces.contact - forces.external;
+  const Eigen::VectorXd total = total_force();
   out.residual = assembler.gather(predict ? Eigen::VectorXd(total + predicted) : total);
   out.branch_residual.resize(0);
   if (branched) out.branch_residual = out.residual + assembler.gather(branch_shift);
@@ -429,6 +434,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   out.saddle = constraint.size() > 0;
   out.force_scale =
       std::max({forces.internal.norm(), forces.contact.norm(), forces.external.norm()});
+  if (timed()) out.force_scale = std::max(force_factor() * out.force_scale, forces.contact.norm());
   if (with_tangent && resistance.size() == 0) measure_resistance();
   out.round_off = round_off;
   if (predict) out.force_scale = std::max(out.force_scale, out.residual.norm());

@@ -6,8 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "osculate/la/direct_solver.hpp"
 #include "osculate/model/assembler.hpp"
 #include "osculate/model/bulk.hpp"
+#include "osculate/model/inertia.hpp"
 #include "osculate/model/system.hpp"
 
 namespace osculate::model {
@@ -73,7 +75,52 @@ struct BasicSystem<Dim>::Impl {
   std::vector<double> path_values;
   std::vector<Dof> path_dofs, contact_dofs;
 
+  /// A step with inertia: what belongs to the step, and to the running increment.
+  struct Motion {
+    explicit Motion(Index unknowns) : builder(unknowns) {}
+    Dynamics settings;
+    std::optional<BasicInertia<Dim>> inertia;
+    std::vector<Eigen::MatrixXd> damping;  ///< K_0 of the cells; empty: no such damping
+    bool turns = false;                    ///< cells with mass turn with a rigid body
+    bool mass_known = false;               ///< the mass matrix is factored
+    la::MatrixBuilder builder;             ///< of the mass matrix of the unknowns
+    la::DirectSolver solver{};
+    std::vector<bool> massless;  ///< unknowns
+    double h = 0;                ///< of the running increment; 0: none
+    solve::StepFactors factors;
+    Eigen::VectorXd start;  ///< primary dofs of the committed state
+    Rates past;             ///< of the committed state
+    Eigen::VectorXd effective, damping_force;
+  };
+  std::optional<Motion> motion;
+  std::optional<BasicInertia<Dim>> resting;  ///< for gravity in steps without inertia
+  std::vector<Vec<Dim>> mass_x;              ///< configuration of the mass matrix
+  std::vector<body::BasicRigidMotion<Dim>> mass_rigid;
+
   Impl(const BasicModel<Dim>& m, int thread_count);
+
+  // Steps with inertia, in system_dynamics.cpp.
+  [[nodiscard]] bool timed() const { return motion && motion->h > 0; }
+  [[nodiscard]] double force_factor() const { return timed() ? motion->factors.force : 1.0; }
+  [[nodiscard]] Eigen::VectorXd dof_values(const State& s) const;
+  void begin_dynamics();
+  void begin_increment(const State& committed, double fraction, double duration);
+  void add_inertia(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);
+  void add_cell_inertia(std::size_t cell, Eigen::Ref<Eigen::MatrixXd> tangent) const;
+  /// What is in balance: all forces on the side of the internal ones.
+  [[nodiscard]] Eigen::VectorXd total_force() const;
+  [[nodiscard]] Eigen::VectorXd damping_of(const Eigen::VectorXd& velocity) const;
+  void factor_mass();
+  /// M^-1 f over all primary dofs, prescribed ones zero.
+  [[nodiscard]] Eigen::VectorXd accelerations_by(const Eigen::VectorXd& force);
+  [[nodiscard]] Eigen::VectorXd spread(const Eigen::VectorXd& of_unknowns) const;
+  [[nodiscard]] double contact_energy() const;
+  [[nodiscard]] double friction_work() const;
+  [[nodiscard]] Rates begin_rates(const State& committed);
+  [[nodiscard]] Rates new_rates(const State& trial);
+  void add_energies(const State& trial, const Rates& now, const Eigen::VectorXd& step,
+                    Energies& e) const;
+  void move_with_bodies(const State& s, Rates& rates) const;
 
   std::deque<ContactStates> recent;  ///< of the running attempt
   [[nodiscard]] ContactStates contact_states() const;
@@ -94,6 +141,12 @@ struct BasicSystem<Dim>::Impl {
   void assemble_terms(const State& committed, const State& trial, double fraction,
                       bool with_tangent, bool predict, solve::Evaluation& out);
 
+  /// Time from a committed state to a fraction of the running step. A committed state at the end of
+  /// a step is the start of the next one.
+  [[nodiscard]] double time_between(const State& committed, double fraction) const {
+    const double begin = committed.fraction < fraction ? committed.fraction : 0.0;
+    return (fraction - begin) * step.duration;
+  }
   /// Share of the initial overlaps of a pair that does not count at a fraction of the step.
   [[nodiscard]] double relief(const pairing::PairDefinition<Dim>& pair, double fraction) const {
     if (pair.overlap == pairing::InitialOverlap::kept) return 1;
@@ -128,6 +181,7 @@ struct BasicSystem<Dim>::Impl {
   void add_pressure(const State& trial, double fraction, bool with_tangent,
                     const Eigen::VectorXd* inc);
   void add_dead_loads(double fraction);
+  void add_gravity(double fraction);
   /// What depends on the rotations of rigid bodies beyond the forces themselves: the work of
   /// moments about fixed axes, and the second-order part of the motion.
   void turn_moments(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);

@@ -19,6 +19,12 @@ using FrictionLaw = std::variant<Coulomb, Tresca, Rough>;
 [[nodiscard]] inline NormalResponse response(const NormalLaw& law, double gap, bool held = false) {
   return std::visit([&](const auto& l) { return l.response(gap, held); }, law);
 }
+/// Work that the normal traction has taken up at a gap, per weight: -dU/dgap = pressure.
+///
+/// Tested by  tests/unit/contact/test_normal_laws.cpp
+[[nodiscard]] inline double stored_energy(const NormalLaw& law, double gap, bool held = false) {
+  return std::visit([&](const auto& l) { return l.energy(gap, held); }, law);
+}
 /// Largest gap with contact.
 [[nodiscard]] inline double reach(const NormalLaw& law) {
   return std::visit([](const auto& l) { return l.reach(); }, law);

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -21,10 +22,10 @@ struct NormalExponential {
   static constexpr bool augmentable = false;  ///< the law is physical, not a means
   double pressure = 0;                        ///< p_0
   double clearance = 0;                       ///< c_0
+  static constexpr double last = 7;           ///< x at an overclosure of 6 c_0
 
   [[nodiscard]] double reach() const { return clearance; }
   [[nodiscard]] NormalResponse response(double gap, bool = false) const {
-    constexpr double last = 7;  // x at an overclosure of 6 c_0
     if (gap > clearance) return {};
     const double x = 1 - gap / clearance;
     const double at = x < last ? x : last;
@@ -32,6 +33,15 @@ struct NormalExponential {
     const double slope = scale * (std::exp(at) * (1 + at) - 1);  // dp/dx
     const double p = scale * at * std::expm1(at) + slope * (x - at);
     return {true, -p, slope / clearance};
+  }
+  /// Work that the traction has taken up, per weight.
+  [[nodiscard]] double energy(double gap, bool = false) const {
+    if (gap > clearance) return 0;
+    const double x = 1 - gap / clearance, at = std::min(x, last), rest = x - at;
+    const double scale = pressure / (std::numbers::e - 1);
+    const double slope = scale * (std::exp(at) * (1 + at) - 1);
+    const double up_to = scale * ((at - 1) * std::exp(at) + 1 - 0.5 * at * at);
+    return clearance * (up_to + rest * (scale * at * std::expm1(at) + 0.5 * slope * rest));
   }
 };
 

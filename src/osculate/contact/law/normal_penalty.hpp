@@ -23,6 +23,10 @@ struct NormalPenalty {
     const double traction = stiffness * gap;  // @eq KS2D:32
     return {true, traction, stiffness};
   }
+  /// Work that the traction has taken up, per weight.
+  [[nodiscard]] double energy(double gap, bool held = false) const {
+    return gap > 0 && !held ? 0.0 : 0.5 * stiffness * gap * gap;
+  }
 };
 
 }  // namespace osculate::contact

@@ -35,6 +35,17 @@ struct NormalTable {
     const double slope = (b[1] - a[1]) / (b[0] - a[0]);
     return {true, -(a[1] + slope * (h - a[0])), slope};
   }
+  /// Work that the traction has taken up, per weight.
+  [[nodiscard]] double energy(double gap, bool = false) const {
+    const double h = -gap;
+    double sum = 0;
+    for (std::size_t i = 1; i < points.size() && h > points[i - 1][0]; ++i) {
+      const bool inside = i + 1 == points.size() || h < points[i][0];
+      const double to = inside ? h : points[i][0];
+      sum += 0.5 * (points[i - 1][1] - response(-to).traction) * (to - points[i - 1][0]);
+    }
+    return sum;
+  }
 };
 
 }  // namespace osculate::contact

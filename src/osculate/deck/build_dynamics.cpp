@@ -1,0 +1,164 @@
+// Steps with inertia: masses, schemes, gravity, initial velocities.
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "osculate/deck/build_context.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// Of a homogeneous body with the shape, in the plane; 0: not known.
+double moment_of_shape(const RigidShape& shape, double mass) {
+  if (const auto* const circle = std::get_if<CircleShape>(&shape); circle && !circle->inside)
+    return 0.5 * mass * circle->radius.value * circle->radius.value;
+  return 0;
+}
+double moment_of_shape_in_space(const RigidShape& shape, double mass) {
+  const auto* const sphere = std::get_if<geometry::Sphere>(&shape);
+  return sphere ? 0.4 * mass * sphere->radius * sphere->radius : 0.0;
+}
+
+core::InputError inertia_missing(const Rigid& rigid) {
+  return {rigid.mass->mark,
+          fmt::format("inertia is missing: it is known for a circle or a sphere only, and '{}' is "
+                      "another shape",
+                      rigid.name.value)};
+}
+
+void set_inertia(const Rigid& rigid, model::RigidBody& body) {
+  if (rigid.inertia && rigid.inertia->value.size() != 1)
+    throw core::InputError(rigid.inertia->mark, "a plane body has one moment of inertia");
+  body.inertia(0, 0) =
+      rigid.inertia ? rigid.inertia->value[0] : moment_of_shape(rigid.shape, body.mass);
+  if (!(body.inertia(0, 0) > 0)) throw inertia_missing(rigid);
+}
+
+void set_inertia(const Rigid& rigid, model::RigidBody3& body) {
+  if (!rigid.inertia) {
+    const double moment = moment_of_shape_in_space(rigid.shape, body.mass);
+    if (!(moment > 0)) throw inertia_missing(rigid);
+    body.inertia = moment * Mat<3, 3>::Identity();
+    return;
+  }
+  const std::vector<double>& v = rigid.inertia->value;
+  if (v.size() != 3 && v.size() != 6)
+    throw core::InputError(rigid.inertia->mark,
+                           "a body in space has three moments of inertia, or six");
+  body.inertia = Vec3(v[0], v[1], v[2]).asDiagonal();
+  if (v.size() == 6) {
+    body.inertia(0, 1) = body.inertia(1, 0) = v[3];
+    body.inertia(1, 2) = body.inertia(2, 1) = v[4];
+    body.inertia(0, 2) = body.inertia(2, 0) = v[5];
+  }
+  const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat<3, 3>>(body.inertia).eigenvalues();
+  if (!(principal[0] > 0) || principal[0] + principal[1] < principal[2] * (1 - 1e-9))
+    throw core::InputError(rigid.inertia->mark,
+                           "no body has such moments: each principal one must be above zero and at "
+                           "most the sum of the two others");
+}
+
+solve::TimeScheme scheme_of(const DynamicsDescription& d) {
+  solve::TimeScheme scheme = solve::newmark();
+  if (d.scheme == SchemeWord::hht) scheme = solve::hht(d.parameter);
+  if (d.scheme == SchemeWord::generalized_alpha) scheme = solve::generalized_alpha(d.parameter);
+  scheme.impact = d.impact == ImpactWord::average   ? solve::Impact::average
+                  : d.impact == ImpactWord::plastic ? solve::Impact::plastic
+                                                    : solve::Impact::dissipative;
+  return scheme;
+}
+
+/// Everything that is deformable must have a mass.
+void require_density(const Description& d) {
+  for (const Section& section : d.sections) {
+    const Material* const material = d.find_material(section.material.value);
+    if (material && !(material->density.value > 0))
+      throw core::InputError(material->density.mark,
+                             fmt::format("density of material '{}' is missing: a step has inertia",
+                                         material->name.value));
+  }
+}
+
+bool all_zero(const std::vector<double>& gravity) {
+  return std::all_of(gravity.begin(), gravity.end(), [](double g) { return g == 0.0; });
+}
+
+}  // namespace
+
+template <int Dim>
+void build_masses(BuildContext<Dim>& c) {
+  for (std::size_t b = 0; b < c.description.rigid.size(); ++b) {
+    const Rigid& rigid = c.description.rigid[b];
+    if (!rigid.mass) continue;
+    c.model().rigid[b].mass = rigid.mass->value;
+    set_inertia(rigid, c.model().rigid[b]);
+  }
+}
+
+template <int Dim>
+void build_dynamics(const BuildContext<Dim>& c, const Step& step, std::vector<double>& gravity,
+                    model::Step& out) {
+  const std::vector<double> before = gravity.empty() ? std::vector<double>(Dim, 0.0) : gravity;
+  if (step.gravity) {
+    if (step.gravity->value.size() != Dim)
+      throw core::InputError(step.gravity->mark,
+                             fmt::format("expected {} components, as many as the model has", Dim));
+    gravity = step.gravity->value;
+  }
+  if (step.dynamics) {
+    require_density(c.description);
+    const DynamicsDescription& d = *step.dynamics;
+    out.dynamics = model::Dynamics{scheme_of(d), d.mass == MassWord::lumped, d.damping_mass,
+                                   d.damping_stiffness};
+  }
+  if (gravity.empty() || (all_zero(gravity) && all_zero(before))) return;
+  for (std::size_t i = 0; i < Dim; ++i)
+    out.gravity.push_back({step.dynamics ? gravity[i] : before[i], gravity[i], {}});
+}
+
+template <int Dim>
+void build_initial_velocity(BuildContext<Dim>& c) {
+  const auto nodes = static_cast<Index>(c.model().reference.size());
+  std::vector<std::pair<model::Dof, double>>& out = c.model().initial_velocity;
+  for (const Load& v : c.description.initial_velocity) {
+    const auto rigid = c.rigid_index.find(v.on.value);
+    const bool is_rigid = rigid != c.rigid_index.end();
+    for (std::size_t i = 0; i < component_count; ++i) {
+      if (!v.values[i]) continue;
+      const auto component = static_cast<Component>(i);
+      if (Dim == 2 && !is_planar(component))
+        throw core::InputError(v.values[i]->mark, "exists in space only, and this model is plane");
+      if (is_rigid) {
+        out.emplace_back(
+            Dim * nodes + body::motions<Dim> * rigid->second + motion_of<Dim>(component),
+            v.values[i]->value);
+        continue;
+      }
+      if (is_rotation(component))
+        throw core::InputError(v.values[i]->mark,
+                               fmt::format("an angular velocity needs a rigid body, and '{}' is a "
+                                           "set",
+                                           v.on.value));
+      for (const Index node : c.set(v.on).nodes) {
+        if (c.model().body_of_node[static_cast<std::size_t>(node)] >= 0)
+          throw core::InputError(v.on.mark, fmt::format("set '{}' has nodes of a rigid body; name "
+                                                        "the rigid body instead",
+                                                        v.on.value));
+        if (!c.takes_part(node)) throw c.idle_node(v.on, node);
+        out.emplace_back(Dim * node + motion_of<Dim>(component), v.values[i]->value);
+      }
+    }
+  }
+}
+
+template void build_masses(BuildContext<2>&);
+template void build_masses(BuildContext<3>&);
+template void build_dynamics(const BuildContext<2>&, const Step&, std::vector<double>&,
+                             model::Step&);
+template void build_dynamics(const BuildContext<3>&, const Step&, std::vector<double>&,
+                             model::Step&);
+template void build_initial_velocity(BuildContext<2>&);
+template void build_initial_velocity(BuildContext<3>&);
+
+}  // namespace osculate::deck

@@ -1,0 +1,94 @@
+#include "osculate/deck/description.hpp"
+#include "osculate/deck/model_spec.hpp"
+
+namespace osculate::deck {
+namespace {
+
+Spec scheme_spec() {
+  const Spec hht = map("Hilber, Hughes and Taylor's.",
+                       {required("alpha", number("0: no dissipation; up to 1/3: most.")
+                                              .at_least(0)
+                                              .at_most(1.0 / 3)
+                                              .such_as("0.05"))});
+  const Spec alpha =
+      map("Chung and Hulbert's.",
+          {required("radius", number("Spectral radius at infinitely high frequencies: 1 no "
+                                     "dissipation, 0 most.")
+                                  .at_least(0)
+                                  .at_most(1)
+                                  .such_as("0.8"))});
+  return either("The time integration.",
+                {choice("Scheme.", {word("newmark", SchemeWord::newmark,
+                                         "Newmark's average acceleration: no dissipation")}),
+                 map("A scheme with dissipation of high frequencies.",
+                     {optional("hht", hht), optional("generalized_alpha", alpha)})
+                     .with(Group::Rule::exactly_one, {"hht", "generalized_alpha"})})
+      .otherwise("newmark")
+      .such_as("{generalized_alpha: {radius: 0.8}}");
+}
+
+}  // namespace
+
+Spec dynamics_spec() {
+  const Spec impact =
+      choice("How contact forces enter the time integration.",
+             {word("dissipative", ImpactWord::dissipative,
+                   "by their value at the end of each increment: energy does not grow"),
+              word("average", ImpactWord::average,
+                   "as all other forces; increments must resolve the contact's stiffness"),
+              word("plastic", ImpactWord::plastic,
+                   "as dissipative, but what has hit does not bounce within the increment")})
+          .otherwise("dissipative")
+          .such_as("average");
+  const Spec mass = choice("Distribution of the mass of cells.",
+                           {word("consistent", MassWord::consistent, "by the shape functions"),
+                            word("lumped", MassWord::lumped, "at the nodes")})
+                        .otherwise("consistent")
+                        .such_as("lumped");
+  const Spec damping =
+      map("Rayleigh damping: both numbers times mass and stiffness give the damping.",
+          {optional("mass", number("Factor of the mass.").in("1/time").at_least(0).otherwise("0")),
+           optional("stiffness", number("Factor of the stiffness of the undeformed cells.")
+                                     .in("time")
+                                     .at_least(0)
+                                     .otherwise("0")
+                                     .such_as("1e-4"))})
+          .otherwise("{}")
+          .such_as("{stiffness: 1e-4}");
+  return map("Inertia: the step is an integration in time, over its duration.",
+             {optional("scheme", scheme_spec()), optional("impact", impact), optional("mass", mass),
+              optional("damping", damping)})
+      .such_as("{scheme: {generalized_alpha: {radius: 0.8}}}");
+}
+
+Spec gravity_spec() {
+  return list(
+             "Acceleration of gravity, which acts on everything with a mass from the beginning of "
+             "a step with inertia (in other steps it is ramped); it persists.",
+             number("One component.").in("length/time^2"))
+      .count(2, 3)
+      .such_as("[0, -9.81]");
+}
+
+Spec initial_velocity_spec() {
+  const auto component = [](const char* name, const char* doc, const char* unit) {
+    return optional(name, number(doc).in(unit).such_as("-2"));
+  };
+  return list("Velocities at the beginning of the first step with inertia.",
+              map("One velocity.",
+                  {required("on", text("Set of nodes or cells, or rigid body.").such_as("ball")),
+                   component("vx", "Velocity in x.", "length/time"),
+                   component("vy", "Velocity in y.", "length/time"),
+                   component("vz", "Velocity in z (models in space).", "length/time"),
+                   component("wx", "Angular velocity of a rigid body, x (models in space).",
+                             "radians/time"),
+                   component("wy", "Angular velocity of a rigid body, y (models in space).",
+                             "radians/time"),
+                   component("wz", "Angular velocity of a rigid body, positive from x to y.",
+                             "radians/time")})
+                  .with(Group::Rule::at_least_one, {"vx", "vy", "vz", "wx", "wy", "wz"}))
+      .otherwise("[]")
+      .such_as("[{on: ball, vy: -2}]");
+}
+
+}  // namespace osculate::deck

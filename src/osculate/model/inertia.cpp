@@ -1,0 +1,87 @@
+#include "osculate/model/inertia.hpp"
+
+#include "osculate/solid/energy.hpp"
+#include "osculate/solid/mass.hpp"
+
+namespace osculate::model {
+
+template <int Dim>
+BasicInertia<Dim>::BasicInertia(const BasicModel<Dim>& model, bool lumped)
+    : nodes_(static_cast<Index>(model.reference.size())) {
+  for (const BasicBulkSection<Dim>& section : model.sections) {
+    const double density =
+        std::visit([](const auto& law) { return law.density; }, section.section.law);
+    for (const mesh::CellRef& ref : section.cells) {
+      const CellNodes cell = cell_nodes(model.mesh, ref);
+      const solid::NodeMass unit =
+          solid::consistent_mass(section.section, cell.type, reference_of(model, cell.nodes));
+      cells_.push_back({{cell.nodes.begin(), cell.nodes.end()},
+                        density * (lumped ? solid::lumped_mass(unit) : unit)});
+    }
+  }
+  for (const BasicRigidBody<Dim>& body : model.rigid) bodies_.push_back({body.mass, body.inertia});
+}
+
+template <int Dim>
+Mat<body::motions<Dim>, body::motions<Dim>> BasicInertia<Dim>::body_mass(std::size_t body) const {
+  Mat<body::motions<Dim>, body::motions<Dim>> m =
+      Mat<body::motions<Dim>, body::motions<Dim>>::Zero();
+  m.diagonal().template head<Dim>().setConstant(bodies_[body].mass);
+  if constexpr (Dim == 2) m(2, 2) = bodies_[body].inertia(0, 0);
+  return m;
+}
+
+template <int Dim>
+Eigen::VectorXd BasicInertia<Dim>::multiply(const Eigen::VectorXd& w) const {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(w.size());
+  for (const CellMass& cell : cells_)
+    for (std::size_t i = 0; i < cell.nodes.size(); ++i)
+      for (std::size_t j = 0; j < cell.nodes.size(); ++j)
+        out.template segment<Dim>(Dim * cell.nodes[i]) +=
+            cell.mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+            w.template segment<Dim>(Dim * cell.nodes[j]);
+  constexpr int motions = body::motions<Dim>;
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    const Eigen::Index first = Dim * nodes_ + motions * static_cast<Eigen::Index>(b);
+    out.template segment<motions>(first) += body_mass(b) * w.template segment<motions>(first);
+  }
+  return out;
+}
+
+template <int Dim>
+Eigen::VectorXd BasicInertia<Dim>::times(const Vec<Dim>& acceleration) const {
+  constexpr int motions = body::motions<Dim>;
+  const auto bodies = static_cast<Eigen::Index>(bodies_.size());
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(Dim * nodes_ + motions * bodies);
+  for (Eigen::Index n = 0; n < nodes_; ++n) w.template segment<Dim>(Dim * n) = acceleration;
+  for (Eigen::Index b = 0; b < bodies; ++b)
+    w.template segment<Dim>(Dim * nodes_ + motions * b) = acceleration;
+  return multiply(w);
+}
+
+template <int Dim>
+double BasicInertia<Dim>::total() const {
+  double sum = 0;
+  for (const CellMass& cell : cells_) sum += cell.mass.sum();
+  for (const Body& body : bodies_) sum += body.mass;
+  return sum;
+}
+
+template <int Dim>
+double strain_energy(const BasicModel<Dim>& model, const Eigen::VectorXd& u) {
+  double sum = 0;
+  for (const BasicBulkSection<Dim>& section : model.sections)
+    for (const mesh::CellRef& ref : section.cells) {
+      const CellNodes cell = cell_nodes(model.mesh, ref);
+      sum += solid::strain_energy(section.section, cell.type, reference_of(model, cell.nodes),
+                                  displacement_of<Dim>(u, cell.nodes));
+    }
+  return sum;
+}
+
+template class BasicInertia<2>;
+template class BasicInertia<3>;
+template double strain_energy(const Model&, const Eigen::VectorXd&);
+template double strain_energy(const Model3&, const Eigen::VectorXd&);
+
+}  // namespace osculate::model

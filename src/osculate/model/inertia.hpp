@@ -1,0 +1,48 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "osculate/model/bulk.hpp"
+
+namespace osculate::model {
+
+/// The masses of a model: of cells by pairs of nodes, of rigid bodies by their centre.
+///
+/// Units      mass (force / acceleration)
+/// Tested by  tests/unit/model/test_dynamics.cpp
+template <int Dim>
+class BasicInertia {
+ public:
+  BasicInertia(const BasicModel<Dim>& model, bool lumped);
+
+  /// Mass matrix of a cell, cells counted through all sections in order, with the nodes of it.
+  struct CellMass {
+    std::vector<Index> nodes;
+    Eigen::MatrixXd mass;
+  };
+  [[nodiscard]] const std::vector<CellMass>& cells() const { return cells_; }
+
+  /// M w over the primary dofs. Rotations of bodies in space are left out.
+  [[nodiscard]] Eigen::VectorXd multiply(const Eigen::VectorXd& w) const;
+  /// The same with one acceleration for all points of space (gravity).
+  [[nodiscard]] Eigen::VectorXd times(const Vec<Dim>& acceleration) const;
+  /// Mass of a dof of a rigid body in the direction of itself.
+  [[nodiscard]] Mat<body::motions<Dim>, body::motions<Dim>> body_mass(std::size_t body) const;
+  [[nodiscard]] bool body_has_mass(std::size_t body) const { return bodies_[body].mass > 0; }
+  [[nodiscard]] double total() const;
+
+ private:
+  struct Body {
+    double mass;
+    Mat<body::rotations<Dim>, body::rotations<Dim>> inertia;
+  };
+  Index nodes_;
+  std::vector<CellMass> cells_;
+  std::vector<Body> bodies_;
+};
+
+/// Strain energy of all cells.
+template <int Dim>
+[[nodiscard]] double strain_energy(const BasicModel<Dim>& model, const Eigen::VectorXd& u);
+
+}  // namespace osculate::model

@@ -1,0 +1,73 @@
+// Masses of cells: exact moments, rigid motions, lumping.
+#include "osculate/solid/mass.hpp"
+
+#include <numbers>
+
+#include "section_cases.hpp"
+#include "volume_cases.hpp"
+
+namespace osculate::solid::testing {
+namespace {
+
+/// Unit square, or its triangle x + y <= 1, with the nodes of the type.
+Coordinates plain_area(cell::CellType type) {
+  Coordinates x(cell::info(type).nodes, 2);
+  const bool quad = cell::info(type).corners == 4;
+  for (int k = 0; k < x.rows(); ++k) {
+    const Vec2 xi = cell::area_node(type, k);
+    x.row(k) = quad ? (0.5 * (xi + Vec2(1, 1))).transpose() : xi.transpose();
+  }
+  return x;
+}
+
+// The moments of the square and of the triangle up to the second order.
+TEST(Mass, OfAreaCellsHasTheirMoments) {
+  for (const cell::CellType type : area_types) {
+    Section section;
+    section.thickness = 2;
+    const Coordinates x = plain_area(type);
+    const NodeMass m = consistent_mass(section, type, x);
+    const bool quad = cell::info(type).corners == 4;
+    const double area = quad ? 1 : 0.5, first = quad ? 0.5 : 1.0 / 6,
+                 second = quad ? 1.0 / 3 : 1.0 / 12;
+    const Eigen::VectorXd one = Eigen::VectorXd::Ones(x.rows()), px = x.col(0);
+    EXPECT_NEAR(one.dot(m * one), 2 * area, 1e-15);
+    EXPECT_NEAR(one.dot(m * px), 2 * first, 1e-15);
+    EXPECT_NEAR(px.dot(m * px), 2 * second, 1e-15);
+    EXPECT_LT((m - m.transpose()).norm(), 1e-16);
+    EXPECT_GT(m.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
+  }
+}
+
+// A ring: x is the radius, int 2 pi x dA over the unit square is pi.
+TEST(Mass, OfARingIsOfItsWholeCircumference) {
+  Section section;
+  section.assumption = Assumption::axisymmetric;
+  const NodeMass m =
+      consistent_mass(section, cell::CellType::quad4, plain_area(cell::CellType::quad4));
+  EXPECT_NEAR(m.sum(), std::numbers::pi, 1e-14);
+}
+
+// int 1 dV of any cell is that of its weights; linear fields are integrated as with a finer rule.
+TEST(Mass, OfVolumeCellsIsThatOfTheirWeights) {
+  for (const cell::CellType type : volume_types) {
+    const Coordinates3 x = sample_volume(type, 0.05, false);
+    const NodeMass m = consistent_mass(VolumeSection{}, type, x);
+    EXPECT_NEAR(m.sum(), volume_weights(type, x).sum(), 2e-15 * std::abs(m.sum()) + 1e-12);
+    EXPECT_LT((m - m.transpose()).norm(), 1e-15);
+    EXPECT_GT(m.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
+  }
+}
+
+TEST(Mass, LumpedKeepsTheMassAndIsPositive) {
+  for (const cell::CellType type : volume_types) {
+    const Coordinates3 x = sample_volume(type, 0.05, false);
+    const NodeMass m = consistent_mass(VolumeSection{}, type, x), lumped = lumped_mass(m);
+    EXPECT_NEAR(lumped.sum(), m.sum(), 1e-14 * m.sum());
+    EXPECT_GT(lumped.diagonal().minCoeff(), 0);
+    EXPECT_EQ(lumped.diagonal().sum(), lumped.sum());
+  }
+}
+
+}  // namespace
+}  // namespace osculate::solid::testing
