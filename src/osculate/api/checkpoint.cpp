@@ -47,6 +47,11 @@ void fields(Archive& a, PairMultipliers<Dim>& multipliers) {
 }  // namespace osculate::pairing
 
 namespace osculate::body {
+template <class Archive, int Dim>
+void fields(Archive& a, RotationRates<Dim>& rates) {
+  auto& [velocity, acceleration, moment] = rates;
+  a(velocity, acceleration, moment);
+}
 template <class Archive>
 void fields(Archive& a, RigidMotion& motion) {
   auto& [reference, translation, angle] = motion;
@@ -107,15 +112,15 @@ void fields(Archive& a, Progress& progress) {
 }
 template <class Archive>
 void fields(Archive& a, Energies& energies) {
-  auto& [kinetic, strain, contact, external, friction, damping, numerical, residual, start,
-         before, elapsed] = energies;
+  auto& [kinetic, strain, contact, external, friction, damping, numerical, residual, start, before,
+         elapsed] = energies;
   a(kinetic, strain, contact, external, friction, damping, numerical, residual, start, before,
     elapsed);
 }
 template <class Archive>
 void fields(Archive& a, Rates& rates) {
-  auto& [velocity, acceleration, internal, external, contact, damping, energies] = rates;
-  a(velocity, acceleration, internal, external, contact, damping, energies);
+  auto& [velocity, acceleration, internal, external, contact, damping, spins, energies] = rates;
+  a(velocity, acceleration, internal, external, contact, damping, spins, energies);
 }
 template <class Archive, int Dim>
 void fields(Archive& a, BasicState<Dim>& state) {

@@ -4,42 +4,45 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "osculate/body/inertia.hpp"
 #include "osculate/deck/build_context.hpp"
 
 namespace osculate::deck {
 namespace {
 
-/// Of a homogeneous body with the shape, in the plane; 0: not known.
-double moment_of_shape(const RigidShape& shape, double mass) {
-  if (const auto* const circle = std::get_if<CircleShape>(&shape); circle && !circle->inside)
-    return 0.5 * mass * circle->radius.value * circle->radius.value;
-  return 0;
-}
-double moment_of_shape_in_space(const RigidShape& shape, double mass) {
-  const auto* const sphere = std::get_if<geometry::Sphere>(&shape);
-  return sphere ? 0.4 * mass * sphere->radius * sphere->radius : 0.0;
+/// Mass, centre and moments of the homogeneous body that an analytic shape encloses, about its
+/// reference point.
+template <int Dim>
+std::optional<typename body::Inertia<Dim>::Tensor> moment_of_shape(
+    const model::BasicRigidBody<Dim>& body) {
+  std::optional<body::VolumeMoments<Dim>> moments;
+  if (body.shape) moments = body::enclosed(*body.shape);
+  if (!moments || !(std::abs(moments->volume) > 0)) return std::nullopt;
+  const body::Inertia<Dim> inertia =
+      body::inertia_of(*moments, body.mass / std::abs(moments->volume));
+  return body::tensor_about(inertia, body.reference);
 }
 
 core::InputError inertia_missing(const Rigid& rigid) {
   return {rigid.mass->mark,
-          fmt::format("inertia is missing: it is known for a circle or a sphere only, and '{}' is "
-                      "another shape",
+          fmt::format("inertia is missing: it is known for analytic shapes that enclose a volume, "
+                      "and '{}' is none",
                       rigid.name.value)};
 }
 
 void set_inertia(const Rigid& rigid, model::RigidBody& body) {
   if (rigid.inertia && rigid.inertia->value.size() != 1)
     throw core::InputError(rigid.inertia->mark, "a plane body has one moment of inertia");
-  body.inertia(0, 0) =
-      rigid.inertia ? rigid.inertia->value[0] : moment_of_shape(rigid.shape, body.mass);
-  if (!(body.inertia(0, 0) > 0)) throw inertia_missing(rigid);
+  const auto of_shape = moment_of_shape(body);
+  if (!rigid.inertia && !of_shape) throw inertia_missing(rigid);
+  body.inertia = rigid.inertia ? Mat<1, 1>(rigid.inertia->value[0]) : *of_shape;
 }
 
 void set_inertia(const Rigid& rigid, model::RigidBody3& body) {
   if (!rigid.inertia) {
-    const double moment = moment_of_shape_in_space(rigid.shape, body.mass);
-    if (!(moment > 0)) throw inertia_missing(rigid);
-    body.inertia = moment * Mat<3, 3>::Identity();
+    const auto of_shape = moment_of_shape(body);
+    if (!of_shape) throw inertia_missing(rigid);
+    body.inertia = *of_shape;
     return;
   }
   const std::vector<double>& v = rigid.inertia->value;

@@ -6,7 +6,7 @@ namespace {
 
 Spec scheme_spec() {
   const Spec hht = map("Hilber, Hughes and Taylor's.",
-                       {required("alpha", number("0: no dissipation; up to 1/3: most.")
+                       {required("alpha", number("Dissipation, from 0 (none) to 1/3 (most).")
                                               .at_least(0)
                                               .at_most(1.0 / 3)
                                               .such_as("0.05"))});

@@ -206,8 +206,7 @@ std::vector<Key> rigid_keys() {
       either("Moments of inertia about the reference point.",
              {number("About z (plane models).").in("mass*length^2").above(0),
               list("In space: xx, yy, zz, or xx, yy, zz, xy, yz, zx.", moment).count(3, 6)})
-          .otherwise_as(
-              "that of the homogeneous circle or sphere; for other shapes it is to be given")
+          .otherwise_as("those of the homogeneous analytic shape; otherwise to be given")
           .such_as("0.4")));
   keys.push_back(optional(
       "flip", boolean("Put the body on the other side of its surface.").otherwise("false")));

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "osculate/body/rigid_body.hpp"
+#include "osculate/body/spin.hpp"
 #include "osculate/core/types.hpp"
 #include "osculate/pairing/pair.hpp"
 
@@ -27,10 +28,13 @@ struct Energies {
 };
 
 /// What a state has in steps with inertia, over the primary dofs. The acceleration is that of all
-/// forces but those of contact, unless Impact::average.
+/// forces but those of contact, unless Impact::average. Velocities of rotations in space are
+/// angular velocities in space (not rates of rotation vectors); their accelerations stand in
+/// `spins`.
 struct Rates {
   Eigen::VectorXd velocity, acceleration;
   Eigen::VectorXd internal, external, contact, damping;  ///< forces
+  std::vector<body::RotationRates<3>> spins;             ///< of the rigid bodies in space
   Energies energies;
   [[nodiscard]] bool empty() const { return velocity.size() == 0; }
 };

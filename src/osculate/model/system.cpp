@@ -143,7 +143,11 @@ std::vector<ContactStates> BasicSystem<Dim>::recent_contact() const {
 template <int Dim>
 BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) const {
   State state = trial;
-  if (impl_->timed()) state.rates = impl_->new_rates(trial);
+  if (impl_->timed()) {
+    state.rates = impl_->new_rates(trial);
+    for (std::size_t b = 0; b < state.rigid.size(); ++b)
+      if (impl_->turns_freely(b)) state.rigid[b] = body::rebased(state.rigid[b]);
+  }
   state.fraction = fraction;
   state.assumed.clear();
   for (std::size_t p = 0; p < impl_->contact.size(); ++p) {

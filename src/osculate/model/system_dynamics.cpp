@@ -1,4 +1,5 @@
 // Steps with inertia: the residual and tangent of one step in time, velocities, energies.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 
@@ -43,6 +44,7 @@ void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double /*fr
   if (!(duration > 0)) return;
   motion->factors = solve::step_factors(motion->settings.scheme, duration);
   motion->start = dof_values(committed);
+  motion->from = committed.rigid;
   motion->past = committed.rates;
 }
 
@@ -82,6 +84,7 @@ void BasicSystem<Dim>::Impl::add_inertia(const State& trial, bool with_tangent,
     m.effective += m.factors.past_force * (m.past.internal - m.past.external + m.past.damping);
     if (s.impact == solve::Impact::average) m.effective += m.factors.past_force * m.past.contact;
   }
+  if constexpr (Dim == 3) add_spins(trial, with_tangent, inc);
   if (!with_tangent) return;
   const double of_mass =
       m.factors.mass + m.factors.force * m.factors.rate * m.settings.damping_mass;
@@ -225,10 +228,15 @@ void BasicSystem<Dim>::Impl::move_with_bodies(const State& s, Rates& rates) cons
   for (Index node = 0; node < dofs.nodes(); ++node) {
     const Index b = dofs.body_of(node);
     if (b < 0) continue;
-    const Mat<Dim, body::motions<Dim>> j = body::motion_gradient(
-        s.rigid[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(node)]);
-    rates.velocity.segment<Dim>(Dim * node) =
-        j * rates.velocity.segment<body::motions<Dim>>(dofs.body_dof(b, 0));
+    const Vec<Dim> arm =
+        x[static_cast<std::size_t>(node)] - s.rigid[static_cast<std::size_t>(b)].center();
+    const Dof first = dofs.body_dof(b, 0);
+    Vec<Dim> v = rates.velocity.segment<Dim>(first);
+    if constexpr (Dim == 2)
+      v += rates.velocity[first + 2] * turn(arm);
+    else
+      v += Vec3(rates.velocity.segment<3>(first + 3)).cross(arm);
+    rates.velocity.segment<Dim>(Dim * node) = v;
   }
 }
 
@@ -259,9 +267,11 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   Eigen::VectorXd force = rates.external - rates.internal - rates.damping;
   if (motion->settings.scheme.impact == solve::Impact::average) force -= rates.contact;
   rates.acceleration = accelerations_by(force);
+  if constexpr (Dim == 3) begin_spins(committed, rates);
   forces.inertia = rates.damping + motion->inertia->multiply(rates.acceleration);
   Energies& e = rates.energies;
-  e.kinetic = 0.5 * rates.velocity.dot(motion->inertia->multiply(rates.velocity));
+  e.kinetic =
+      0.5 * rates.velocity.dot(motion->inertia->multiply(rates.velocity)) + spin_energy(rates);
   e.strain = strain_energy(model, committed.u);
   e.contact = contact_energy();
   if (first) {
@@ -293,6 +303,7 @@ Rates BasicSystem<Dim>::Impl::new_rates(const State& trial) {
   };
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (assembler.prescribed(u)) follow(dofs.dof_of_unknown(u));
+  if constexpr (Dim == 3) new_spins(trial, now);
   move_with_bodies(trial, now);
   now.internal = forces.internal;
   now.external = forces.external;
@@ -331,7 +342,7 @@ void BasicSystem<Dim>::Impl::add_energies(const State& trial, const Rates& now,
       if (assembler.prescribed(t.unknown))
         supports += rest[d] * t.factor * step_of[dofs.dof_of_unknown(t.unknown)];
   }
-  e.kinetic = 0.5 * now.velocity.dot(m.inertia->multiply(now.velocity));
+  e.kinetic = 0.5 * now.velocity.dot(m.inertia->multiply(now.velocity)) + spin_energy(now);
   e.strain = strain_energy(model, trial.u);
   e.contact = contact_energy();
   e.external += external.dot(step_of) + supports;

@@ -43,8 +43,11 @@ bool needs_unsymmetric(const BasicModel<Dim>& model) {
         (d.weight == pairing::Weight::current_area && d.tangent.consistent))
       return true;
   }
+  bool has_mass = false;
+  for (const BasicRigidBody<Dim>& body : model.rigid) has_mass = has_mass || body.mass > 0;
   for (const Step& step : model.steps) {
     if (!step.pressure.empty()) return true;
+    if (Dim == 3 && step.dynamics && has_mass) return true;  // moments of inertia
     for (const DeadLoad& load : step.dead)
       if (has_moment_in_space(model, load)) return true;
   }

@@ -88,8 +88,9 @@ struct BasicSystem<Dim>::Impl {
     std::vector<bool> massless;  ///< unknowns
     double h = 0;                ///< of the running increment; 0: none
     solve::StepFactors factors;
-    Eigen::VectorXd start;  ///< primary dofs of the committed state
-    Rates past;             ///< of the committed state
+    Eigen::VectorXd start;                          ///< primary dofs of the committed state
+    std::vector<body::BasicRigidMotion<Dim>> from;  ///< rigid bodies of the committed state
+    Rates past;                                     ///< of the committed state
     Eigen::VectorXd effective, damping_force;
   };
   std::optional<Motion> motion;
@@ -106,6 +107,15 @@ struct BasicSystem<Dim>::Impl {
   void begin_dynamics();
   void begin_increment(const State& committed, double fraction, double duration);
   void add_inertia(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);
+  /// Rotations of rigid bodies in space, in system_spins.cpp.
+  void add_spins(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);
+  void begin_spins(const State& committed, Rates& rates) const;
+  void new_spins(const State& trial, Rates& now) const;
+  [[nodiscard]] double spin_energy(const Rates& rates) const;
+  /// Moment of forces on the nodes of a rigid body about its centre, axes fixed in space.
+  [[nodiscard]] Vec<body::rotations<Dim>> moment_on(const State& s, std::size_t body,
+                                                    const Eigen::VectorXd& forces_on_dofs) const;
+  [[nodiscard]] bool turns_freely(std::size_t body) const;
   void add_cell_inertia(std::size_t cell, Eigen::Ref<Eigen::MatrixXd> tangent) const;
   /// What is in balance: all forces on the side of the internal ones.
   [[nodiscard]] Eigen::VectorXd total_force() const;

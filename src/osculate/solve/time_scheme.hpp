@@ -54,6 +54,11 @@ struct TimeScheme {
 ///            rate: dv/du of v = v_n + h (1 - gamma) a_n + rate (u - u*)
 struct StepFactors {
   double mass = 0, past_mass = 0, force = 1, past_force = 0, rate = 0;
+  /// Of (1 - alpha_m) x_n+1 + alpha_m x_n, where x_n+1 is the rate of a momentum as Newmark's
+  /// formulas without b give it from the displacement.
+  double balance = 1;
+  /// b's share in that x_n+1, and what the velocity still lacks of h b when it is computed from it.
+  double impulse_in_rate = 0, impulse_in_velocity = 0;
 };
 
 [[nodiscard]] constexpr double impulse_way(Impact impact) {
@@ -69,6 +74,7 @@ struct StepFactors {
     f.mass = scale * (1 - s.alpha_m) / (s.beta * h * h);
     f.past_mass = scale * s.alpha_m;
     f.past_force = scale * s.alpha_f;
+    f.balance = scale;
     return f;
   }
   const double theta = impulse_way(s.impact), scale = s.beta / (theta * (1 - s.alpha_m));
@@ -76,6 +82,9 @@ struct StepFactors {
   f.past_mass = scale * s.alpha_m;
   f.force = scale * (1 - s.alpha_f);
   f.past_force = scale * s.alpha_f;
+  f.balance = scale;
+  f.impulse_in_rate = theta / s.beta;
+  f.impulse_in_velocity = 1 - s.gamma * theta / s.beta;
   return f;
 }
 

@@ -50,8 +50,9 @@ TEST(StrainEnergy, OfAnInvertedCellIsInfinite) {
   section.kinematics = Kinematics::finite;
   section.law = material::NeoHooke{1, 0.3, 0};
   const Coordinates x = sample_cell(cell::CellType::quad4, 0, false);
-  EXPECT_TRUE(std::isinf(strain_energy(section, cell::CellType::quad4, x, Coordinates(-2 * x))) ||
-              strain_energy(section, cell::CellType::quad4, x, Coordinates(-2 * x)) > 0);
+  Coordinates folded = -2 * x;
+  folded.col(1).setZero();  // mirrored in one direction
+  EXPECT_TRUE(std::isinf(strain_energy(section, cell::CellType::quad4, x, folded)));
 }
 
 }  // namespace

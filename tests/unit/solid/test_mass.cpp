@@ -1,6 +1,7 @@
 // Masses of cells: exact moments, rigid motions, lumping.
 #include "osculate/solid/mass.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <numbers>
 
 #include "section_cases.hpp"
@@ -15,7 +16,7 @@ Coordinates plain_area(cell::CellType type) {
   const bool quad = cell::info(type).corners == 4;
   for (int k = 0; k < x.rows(); ++k) {
     const Vec2 xi = cell::area_node(type, k);
-    x.row(k) = quad ? (0.5 * (xi + Vec2(1, 1))).transpose() : xi.transpose();
+    x.row(k) = (quad ? Vec2(0.5 * (xi + Vec2(1, 1))) : xi).transpose();
   }
   return x;
 }

@@ -30,6 +30,7 @@ Eigen::Matrix3d amplification(const TimeScheme& s, double wh) {
   return m;
 }
 
+/// Sharp to the square or cube root of rounding where roots are multiple.
 double radius(const TimeScheme& s, double wh) {
   return amplification(s, wh).eigenvalues().cwiseAbs().maxCoeff();
 }
@@ -42,7 +43,7 @@ TimeScheme with(TimeScheme s, Impact impact) {
 TEST(TimeScheme, RadiusAtInfiniteFrequencyIsThePublishedOne) {
   for (const Impact impact : {Impact::average, Impact::dissipative, Impact::plastic}) {
     for (const double r : {0.0, 0.3, 0.8, 1.0})
-      EXPECT_NEAR(radius(with(generalized_alpha(r), impact), 1e5), r, 1e-4) << r;
+      EXPECT_NEAR(radius(with(generalized_alpha(r), impact), 1e5), r, 1e-3) << r;
     EXPECT_NEAR(radius(with(newmark(), impact), 1e5), 1, 1e-9);
     // (1 - alpha) / (1 + alpha), the double root of its cubic
     EXPECT_NEAR(radius(with(hht(0.1), impact), 1e5), 0.9 / 1.1, 1e-3);
@@ -52,9 +53,9 @@ TEST(TimeScheme, RadiusAtInfiniteFrequencyIsThePublishedOne) {
 TEST(TimeScheme, NeverGrows) {
   for (double wh = 1e-3; wh < 1e4; wh *= 1.7) {
     EXPECT_LT(radius(newmark(), wh), 1 + 1e-12);
-    for (const double alpha : {0.05, 0.2, 1.0 / 3}) EXPECT_LT(radius(hht(alpha), wh), 1 + 1e-12);
+    for (const double alpha : {0.05, 0.2, 1.0 / 3}) EXPECT_LT(radius(hht(alpha), wh), 1 + 1e-7);
     for (const double r : {0.0, 0.5, 0.9, 1.0})
-      EXPECT_LT(radius(generalized_alpha(r), wh), 1 + 1e-12);
+      EXPECT_LT(radius(generalized_alpha(r), wh), 1 + 1e-7);
   }
 }
 
@@ -67,7 +68,7 @@ double error_at(const TimeScheme& s, int steps) {
 
 TEST(TimeScheme, IsOfSecondOrder) {
   for (const TimeScheme& s : {newmark(), hht(0.1), generalized_alpha(0.6), generalized_alpha(0)})
-    EXPECT_NEAR(std::log2(error_at(s, 400) / error_at(s, 800)), 2, 0.05);
+    EXPECT_NEAR(std::log2(error_at(s, 1600) / error_at(s, 3200)), 2, 0.05);
 }
 
 TEST(TimeScheme, NewmarkKeepsTheEnergy) {
