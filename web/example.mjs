@@ -132,6 +132,23 @@ function increments(frames, failed) {
   return { steps, iterations };
 }
 
+/** The cause of the failure, and that the block may slide or turn. */
+function diagnosis() {
+  return {
+    cause: 'sliding motion', reason: 'not converged after 25 iterations', proposal: 'hold the block sideways',
+    free_motions: [
+      { body: 'block', direction: [1, 0], rotation: 0, axis: [0, 0, 1], center: [0, 0.5] },
+      { body: 'block', direction: [0, 0], rotation: 1, axis: [0, 0, 1], center: [0, 0.5] }],
+  };
+}
+
+function freeMotion(last, n) {
+  return {
+    u: f32(last.u, n, 2), rigid: [{ name: 'base', polyline: [[-2.2, 0], [2.2, 0]] }],
+    motions: [f32(last.u.map((_, i) => 1 - (i % 2)), n, 2), f32(last.u.map((_, i) => (i % 2 ? 1 : 0)), n, 2)],
+  };
+}
+
 function report(cells, count, failed, motion) {
   const mesh = makeMesh(cells);
   const frames = Array.from({ length: count }, (_, k) => frame(mesh, k, count, motion));
@@ -156,9 +173,11 @@ function report(cells, count, failed, motion) {
       { heading: 'Solver', rows: [['tolerance', 'energy 1e-12, residual 1e-9'], ['iterations', 'at most 25, line search auto']] },
     ],
     summary: {
+      ...(failed && { diagnosis: diagnosis() }),
       steps, unknowns: 2 * n, peak_memory_mb: 212.4,
       seconds: { reading: 0.031, assembly: 1.92, factorisation: 7.41, contact: 0.84, output: 0.55 },
     },
+    ...(failed && { last_iterate: freeMotion(frames.at(-1), n) }),
     iterations,
     history: { columns: ['step', 'increment', 'time', 'top.ux', 'floor.normal_force', 'floor.shear_force', 'floor.max_pressure'], rows },
     plots: [

@@ -67,7 +67,10 @@ function space() {
   points.push([-1, -1, -0.1], [2, -1, -0.1], [2, 2, -0.1], [-1, 2, -0.1]);
   const u = (s) => points.map(([x, , z], i) => (i < n ? [0.2 * s * z, 0, -0.1 * s * x] : [0, 0, 9 * s]));
   return {
-    title: 'faces in space', history: { columns: ['time', 'a'], rows: [[0, 1], [1, 2]] },
+    title: 'faces in space', status: 'failed', summary: { diagnosis: { cause: 'free motion', proposal: 'hold it',
+      free_motions: [{ body: 'box', direction: [0, 0, 0], rotation: 1, axis: [0, 0, 1], center: [0, 0, 0] }] } },
+    last_iterate: { u: u(1), motions: [points.map(([x, y], i) => (i < n ? [-y, x, 0] : [0, 0, 0]))] },
+    history: { columns: ['time', 'a'], rows: [[0, 1], [1, 2]] },
     mesh: {
       dimension: 3, points, cells: [{ type: 'quad4', connectivity: quads.flat() },
         { type: 'quad8', connectivity: eight }, { type: 'tri6', connectivity: six },
@@ -90,14 +93,15 @@ if (!given) {
   for (const [name, options] of Object.entries({ done: {}, failed: { failed: true }, one: { frames: 2, cells: 12 } })) {
     const file = join(dir, `${name}.html`);
     writeFileSync(file, example(options));
-    pages.push([file, parts]);
+    pages.push([file, options.failed ? [...parts, 'id="diagnosis"'] : parts]);
   }
 }
 if (!given) {
   for (const [name, data] of Object.entries({ bare: { title: 'bare' }, cells: everyCell(), space: space() })) {
     const file = join(dir, `${name}.html`);
     writeFileSync(file, page(data));
-    pages.push([file, name === 'bare' ? ['<h1>bare'] : ['<h1>', 'id="body"']]);
+    pages.push([file, name === 'bare' ? ['<h1>bare']
+      : ['<h1>', 'id="body"', ...(name === 'space' ? ['id="diagnosis"', 'turning about'] : [])]]);
   }
 }
 for (const [file, parts] of pages) {

@@ -86,6 +86,12 @@ class Diagnosis(unittest.TestCase):
                 self.assertIn(summary["message"], file.read())
             with open(os.path.join(folder, "m.results", "last_iterate.vtu"), "rb") as file:
                 self.fields = file.read()
+            with open(os.path.join(folder, "m.results", "report.json")) as file:
+                report = json.load(file)
+            drawn = report.get("last_iterate", {"motions": []})
+            self.assertEqual(len(drawn["motions"]), len(summary["diagnosis"]["free_motions"]))
+            for motion in drawn["motions"]:
+                self.assertEqual(motion["shape"], report["mesh"]["points"]["shape"])
         found = summary["diagnosis"]
         self.assertIn(f"Cause: {found['cause']}. Proposal: {found['proposal']}.", summary["message"])
         self.message = summary["message"]

@@ -8,8 +8,8 @@ import { onTheme } from './theme.js';
 import { createView, draw, probe, resize } from './view.js';
 import { runs, statusStyle } from './contact_layer.js';
 
-/** State of the view; `frameChanged(frame)` lets other plots follow. */
-export function bodySection(body, frameChanged) {
+/** State of the view; `frameChanged(frame)` lets other plots follow; `preset` changes its first state. */
+export function bodySection(body, frameChanged, { id = 'body', title = 'Deformed body', preset = {} } = {}) {
   const canvas = el('canvas', { tabIndex: 0, class: 'body', 'aria-label': 'deformed body' });
   const view = createView(canvas, body);
   const hint = el('div', { class: 'tip', hidden: true });
@@ -17,7 +17,7 @@ export function bodySection(body, frameChanged) {
   const preferred = body.fieldNames.find((name) => /mises/i.test(name)) ?? body.fieldNames[0];
   const state = {
     frame: body.frames.length - 1, field: preferred, scale: 1, range: 'all', map: 'sequential',
-    bands: false, lines: true, ghost: false, contact: 'profile', points: true,
+    bands: false, lines: true, ghost: false, contact: 'profile', points: true, ...preset,
   };
   const self = { body, view, state, canvas, host, hint, frameChanged };
   self.redraw = onceAFrame(() => draw(view, state));
@@ -25,7 +25,7 @@ export function bodySection(body, frameChanged) {
   const shown = () => state.frame;
   const show = (frame) => showFrame(self, frame);
   self.player = player(body.frames, shown, show);
-  const section = el('section', { id: 'body' }, el('h2', {}, 'Deformed body'),
+  const section = el('section', { id }, title && el('h2', {}, title),
     controls(self), host, self.player.bar, self.contact.node);
   watchWidth(host, (width) => {
     resize(view, width, heightFor(body, width));

@@ -5,6 +5,7 @@ import { bodySection } from './body_section.js';
 import { readSpace, spaceSection } from './space_section.js';
 import { convergenceSection } from './convergence.js';
 import { readBody, readHistory, readIncrements } from './data.js';
+import { diagnosisSection } from './diagnosis_section.js';
 import { el } from './dom.js';
 import { historySection } from './histories.js';
 import { header, modelSection, runSection } from './tables.js';
@@ -52,7 +53,7 @@ function build(report) {
   });
   const convergence = guarded(() => convergenceSection(report, increments, goTo));
   const parts = report.status === 'failed'
-    ? [convergence, bodyPart, historyPart] : [bodyPart, historyPart, convergence];
+    ? [guarded(() => diagnosisSection(report)), convergence, bodyPart, historyPart] : [bodyPart, historyPart, convergence];
   parts.push(guarded(() => modelSection(report)), guarded(() => runSection(report, increments)));
   const shown = parts.filter(Boolean);
   const links = shown.filter((s) => s.id).map((s) =>

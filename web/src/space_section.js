@@ -67,7 +67,7 @@ function readFrame(f, n, coloured) {
 }
 
 /** The section, and `show(frame)`; `frameChanged(frame)` lets the plots follow. */
-export function spaceSection(body, frameChanged) {
+export function spaceSection(body, frameChanged, { id = 'body', title = 'Deformed bodies', preset = {} } = {}) {
   const canvas = el('canvas', { tabIndex: 0, class: 'body', 'aria-label': 'deformed bodies' });
   const view = createSpaceView(canvas, body);
   const hint = el('div', { class: 'tip', hidden: true });
@@ -75,7 +75,7 @@ export function spaceSection(body, frameChanged) {
   const preferred = body.fieldNames.find((name) => /mises/i.test(name)) ?? body.fieldNames[0];
   const state = {
     frame: body.frames.length - 1, field: preferred, scale: 1, range: 'all', map: 'sequential',
-    bands: false, lines: true, rigid: true,
+    bands: false, lines: true, rigid: true, ...preset,
   };
   const self = { body, view, state, canvas, hint, redraw: onceAFrame(() => drawSpace(view, state)) };
   const shown = () => state.frame;
@@ -87,7 +87,7 @@ export function spaceSection(body, frameChanged) {
     frameChanged(body.frames[state.frame]);
   };
   self.player = player(body.frames, shown, show);
-  const section = el('section', { id: 'body' }, el('h2', {}, 'Deformed bodies'), controls(self), host,
+  const section = el('section', { id }, title && el('h2', {}, title), controls(self), host,
     self.player.bar);
   watchWidth(host, (width) => {
     resizeSpace(view, width, Math.round(Math.max(320, Math.min(width * 0.6, 620))));

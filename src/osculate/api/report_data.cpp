@@ -45,6 +45,13 @@ void ReportCollector<Dim>::add_frame(nlohmann::json frame) {
 }
 
 template <int Dim>
+void ReportCollector<Dim>::add_failure(const model::BasicState<Dim>& state,
+                                       const model::BasicFailure<Dim>& failure) {
+  if (!failure.motions.empty() && state.u.allFinite())
+    failure_ = view_.last_iterate(state, failure);
+}
+
+template <int Dim>
 std::string ReportCollector<Dim>::json(const nlohmann::json& summary) const {
   nlohmann::json facts = nlohmann::json::array();
   for (const ModelFact& fact : model_facts(built_)) {
@@ -84,6 +91,7 @@ std::string ReportCollector<Dim>::json(const nlohmann::json& summary) const {
                          {"mesh", view_.mesh()}};
   view_.finish(frames, data);
   data["frames"] = frames;
+  if (!failure_.is_null()) data["last_iterate"] = failure_;
   if (!plots.empty()) data["plots"] = plots;
   return data.dump();
 }

@@ -21,6 +21,8 @@ class ReportCollector {
   void add_frame(nlohmann::json frame);
   /// The frame that was added last; null if there is none or the view wants none.
   [[nodiscard]] const nlohmann::json& newest() const { return newest_; }
+  /// Where an increment failed for good, and what is free to move there.
+  void add_failure(const model::BasicState<Dim>& state, const model::BasicFailure<Dim>& failure);
   void add_history(const std::vector<double>& row);
   /// The report data with the summary merged in.
   [[nodiscard]] std::string json(const nlohmann::json& summary) const;
@@ -33,6 +35,7 @@ class ReportCollector {
   nlohmann::json newest_;
   nlohmann::json last_;  ///< the latest frame, if it is not among them
   std::size_t stride_ = 1, seen_ = 0;
+  nlohmann::json failure_;
   nlohmann::json rows_ = nlohmann::json::array();
 };
 

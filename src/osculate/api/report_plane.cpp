@@ -101,6 +101,23 @@ nlohmann::json ReportView<2>::frame(const model::System& system, const model::St
           {"rigid", rigid}};
 }
 
+nlohmann::json ReportView<2>::last_iterate(const model::State& state,
+                                           const model::Failure& failure) const {
+  const std::size_t n = model_.mesh.nodes.size();
+  nlohmann::json motions = nlohmann::json::array(), rigid = nlohmann::json::array();
+  for (const model::FreeMotion& motion : failure.motions) {
+    const std::vector<Vec2> field = model::motion_field(model_, state, motion);
+    motions.push_back(vectors<2>(n, [&](std::size_t i) { return field[i]; }));
+  }
+  for (std::size_t b = 0; b < model_.rigid.size(); ++b)
+    rigid.push_back(
+        {{"name", model_.rigid[b].name}, {"polyline", rigid_outline(model_, state, b)}});
+  const auto u = [&](std::size_t i) -> Vec2 {
+    return state.u.segment<2>(2 * static_cast<Eigen::Index>(i));
+  };
+  return {{"u", vectors<2>(n, u)}, {"motions", motions}, {"rigid", rigid}};
+}
+
 void ReportView<2>::finish(nlohmann::json& frames, nlohmann::json& report) const {
   nlohmann::json rigid = nlohmann::json::array();
   for (std::size_t b = 0; b < model_.rigid.size(); ++b) {

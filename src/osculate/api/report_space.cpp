@@ -231,4 +231,26 @@ nlohmann::json ReportView<3>::frame(const model::System3& system,
   return {{"u", vectors<3>(points(), u)}, {"fields", fields}};
 }
 
+nlohmann::json ReportView<3>::last_iterate(const model::State3& state,
+                                           const model::Failure3& failure) const {
+  if (max_frames() == 0) return nullptr;
+  const std::size_t n = nodes_.size();
+  nlohmann::json motions = nlohmann::json::array();
+  for (const model::FreeMotion3& motion : failure.motions) {
+    if (static_cast<double>(motions.size() + 1) * 3 * static_cast<double>(points()) > most_values)
+      break;
+    const std::vector<Vec3> field = model::motion_field(model_, state, motion);
+    motions.push_back(vectors<3>(points(), [&](std::size_t i) -> Vec3 {
+      return i < n ? field[static_cast<std::size_t>(nodes_[i])] : Vec3(Vec3::Zero());
+    }));
+  }
+  const auto u = [&](std::size_t i) -> Vec3 {
+    if (i < n) return state.u.segment<3>(3 * static_cast<Eigen::Index>(nodes_[i]));
+    const Patch& patch = patches_[(i - n) / 4];
+    const Vec3& x = patch.corners[(i - n) % 4];
+    return state.rigid[patch.body].position(x) - x;
+  };
+  return {{"u", vectors<3>(points(), u)}, {"motions", motions}};
+}
+
 }  // namespace osculate::api

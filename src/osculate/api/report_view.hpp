@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "osculate/mesh/surface.hpp"
-#include "osculate/model/system.hpp"
+#include "osculate/model/failure.hpp"
 
 namespace osculate::api {
 
@@ -21,6 +21,10 @@ class ReportView<2> {
   [[nodiscard]] nlohmann::json mesh() const;
   /// `u`, `fields`, `contact` and `rigid` of one frame.
   [[nodiscard]] nlohmann::json frame(const model::System& system, const model::State& state) const;
+  /// The place `u` where an increment failed for good, its free rigid motions on the same points,
+  /// and `rigid` there.
+  [[nodiscard]] nlohmann::json last_iterate(const model::State& state,
+                                            const model::Failure& failure) const;
   [[nodiscard]] std::size_t max_frames() const { return 60; }
   /// Turns the `rigid` of the frames into `rigid` of the report.
   void finish(nlohmann::json& frames, nlohmann::json& report) const;
@@ -43,6 +47,8 @@ class ReportView<3> {
   [[nodiscard]] nlohmann::json mesh() const;
   [[nodiscard]] nlohmann::json frame(const model::System3& system,
                                      const model::State3& state) const;
+  [[nodiscard]] nlohmann::json last_iterate(const model::State3& state,
+                                            const model::Failure3& failure) const;
   [[nodiscard]] std::size_t max_frames() const;
   void finish(nlohmann::json&, nlohmann::json&) const {}
 

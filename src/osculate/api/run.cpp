@@ -369,7 +369,10 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
     introduce(recorder, id);
   const model::BasicAnalysisResult<Dim> result =
       model::run(built.model, built.options, observe(recorder), from ? &from->point : nullptr);
-  if (result.failure) recorder.fields.write_last_iterate(result.last_iterate, *result.failure);
+  if (result.failure) {
+    recorder.fields.write_last_iterate(result.last_iterate, *result.failure);
+    recorder.report.add_failure(result.last_iterate, *result.failure);
+  }
   return finish(recorder, result, seconds_input);
 }
 
