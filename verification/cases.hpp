@@ -4,8 +4,10 @@
 namespace osculate::verification {
 
 // One function per case folder.
+[[nodiscard]] CaseResult bar_impact(const CaseContext& context);
 [[nodiscard]] CaseResult beam_over_cylinder(const CaseContext& context);
 [[nodiscard]] CaseResult beam_over_sphere(const CaseContext& context);
+[[nodiscard]] CaseResult bouncing_ball(const CaseContext& context);
 [[nodiscard]] CaseResult cattaneo_mindlin(const CaseContext& context);
 [[nodiscard]] CaseResult cattaneo_mindlin_fine(const CaseContext& context);
 [[nodiscard]] CaseResult closest_points(const CaseContext& context);
@@ -28,10 +30,13 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult hertz_line(const CaseContext& context);
 [[nodiscard]] CaseResult large_rotation(const CaseContext& context);
 [[nodiscard]] CaseResult projection_domains(const CaseContext& context);
+[[nodiscard]] CaseResult rolling_cylinder(const CaseContext& context);
 [[nodiscard]] CaseResult self_contact(const CaseContext& context);
 [[nodiscard]] CaseResult sliding_block(const CaseContext& context);
 [[nodiscard]] CaseResult ironing(const CaseContext& context);
 [[nodiscard]] CaseResult smoothed_circle(const CaseContext& context);
+[[nodiscard]] CaseResult spinning_disc(const CaseContext& context);
+[[nodiscard]] CaseResult stopped_block(const CaseContext& context);
 [[nodiscard]] CaseResult strip_into_channel(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell_fine(const CaseContext& context);
