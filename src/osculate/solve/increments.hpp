@@ -129,25 +129,37 @@ concept Augments = requires(const S s, const typename S::State& state) {
   { s.augments_often() } -> std::convertible_to<bool>;
 };
 
-/// Newton's method, and where the system asks for it again around corrected multipliers until it
-/// is satisfied. `attempt` keeps the iterations of all solutions.
+/// Near a solution, for corrections that do not wait for it.
+inline NewtonOptions loosened(NewtonOptions options) {
+  constexpr double near_solution = 1e-2;
+  options.residual = std::max(options.residual, near_solution);
+  options.energy = 0;
+  return options;
+}
+
+/// Newton's method again around corrected multipliers, until the system is satisfied with a
+/// solution. `attempt` keeps the iterations of all solutions.
+///
+/// In one loop (`often`) a correction follows as soon as the iterations are near a solution, which
+/// around corrected multipliers takes one of them as a rule; the last solution is a whole one. It
+/// is Newton's method that comes near, with its line search and its cure of circles: iterations
+/// that each begin anew would not know that they run in one.
 template <System S>
 void augment(S& system, const typename S::State& committed, double time,
              const NewtonOptions& options, la::DirectSolver& solver,
              NewtonResult<typename S::State>& attempt) {
-  constexpr double near_solution = 1e-2;
   const bool often = system.augments_often();
   const int most = often ? 200 : 60;
+  bool whole = !often;
   for (int n = 0; n < most; ++n) {
-    const bool solved = attempt.outcome == Outcome::converged;
-    if (!solved && !(often && attempt.outcome == Outcome::not_converged)) return;
-    const bool near = solved || attempt.iterations.back().residual < near_solution;
-    const std::optional<typename S::State> next =
-        near ? system.augment(attempt.state) : std::optional<typename S::State>{};
-    if (!next && solved) return;
+    if (attempt.outcome != Outcome::converged) return;
+    const std::optional<typename S::State> next = system.augment(attempt.state);
+    if (!next && whole) return;
+    whole = !often || !next;
     const Guess guess{attempt.total, attempt.first_residual, attempt.first_energy};
     NewtonResult<typename S::State> more =
-        newton(system, committed, time, options, solver, guess, next ? &*next : &attempt.state);
+        newton(system, committed, time, whole ? options : loosened(options), solver, guess,
+               next ? &*next : &attempt.state);
     more.iterations.insert(more.iterations.begin(), attempt.iterations.begin(),
                            attempt.iterations.end());
     more.extrapolated = attempt.extrapolated;
@@ -163,11 +175,11 @@ template <System S>
 [[nodiscard]] NewtonResult<typename S::State> solve_increment(
     S& system, const typename S::State& committed, double time, const NewtonOptions& options,
     la::DirectSolver& solver, const Guess& guess = {}) {
-  NewtonOptions inner = options;
+  NewtonOptions first = options;
   if constexpr (Augments<S>)
-    if (system.augments_often()) inner.max_iterations = 1;
-  NewtonResult<typename S::State> attempt = newton(system, committed, time, inner, solver, guess);
-  if constexpr (Augments<S>) augment(system, committed, time, inner, solver, attempt);
+    if (system.augments_often()) first = loosened(options);
+  NewtonResult<typename S::State> attempt = newton(system, committed, time, first, solver, guess);
+  if constexpr (Augments<S>) augment(system, committed, time, options, solver, attempt);
   return attempt;
 }
 
