@@ -59,6 +59,10 @@ RotationRates<2> with_contact(const RotationRates<2>& without, const Mat<1, 1>& 
           without.acceleration - share * b, without.moment - share * contact};
 }
 
+Vec3 rotation_rate(const RigidMotion3& motion, const Vec3& spin) {
+  return rotation_tangent(motion.rotation).fullPivLu().solve(spin);
+}
+
 Vec3 moment_of(const RigidMotion3& motion, const Vec3& force) {
   return Mat<3, 3>(rotation_tangent(motion.rotation).transpose()).fullPivLu().solve(force);
 }

@@ -136,6 +136,13 @@ struct RotationForce {
   return rates.velocity;
 }
 
+/// Rate of the rotation vector of a body that turns with an angular velocity in space.
+///
+/// Formula    T theta' = w
+/// Tested by  tests/unit/body/test_spin.cpp
+[[nodiscard]] Vec3 rotation_rate(const RigidMotion3& motion, const Vec3& spin);
+[[nodiscard]] inline Vec<1> rotation_rate(const RigidMotion&, const Vec<1>& spin) { return spin; }
+
 /// Angular momentum about the centre of mass, in space.
 [[nodiscard]] inline Vec3 angular_momentum(const Mat<3, 3>& inertia, const RigidMotion3& motion,
                                            const RotationRates<3>& rates) {

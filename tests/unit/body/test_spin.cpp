@@ -230,6 +230,40 @@ TEST(Spin, StartsByEulersEquations) {
   EXPECT_EQ(rates.moment, moment);
 }
 
+TEST(Spin, RateOfTheRotationVector) {
+  const RigidMotion3 motion{Vec3::Zero(), Vec3::Zero(), Vec3(0.4, 0.9, -1.3)};
+  const Vec3 velocity(0.5, 0.2, -0.8), rate = rotation_rate(motion, velocity);
+  // R' = [w] R
+  const Mat<3, 3> spinning = cross_matrix(velocity) * motion.orientation();
+  const auto report = testing::check_derivative(
+      [&](const Vec<1>& t) {
+        const Mat<3, 3> r = rotation_matrix(motion.rotation + t[0] * rate);
+        return Eigen::VectorXd(Eigen::Map<const Vec<9>>(r.data()));
+      },
+      Eigen::Map<const Vec<9>>(spinning.data()), Vec<1>(0.0), Vec<1>(1.0));
+  EXPECT_NEAR(report.order, 2, 0.05) << report.error;
+  EXPECT_EQ(rotation_rate(RigidMotion{}, Vec<1>(0.3))[0], 0.3);
+}
+
+TEST(Spin, OfAPlaneBody) {
+  const Mat<1, 1> inertia(2.5);
+  const RigidMotion motion{Vec2(1, 0), Vec2(0, 0), 7.0};
+  const RotationRates<2> rates = initial_rates(inertia, motion, Vec<1>(0.8), Vec<1>(0.5));
+  EXPECT_DOUBLE_EQ(rates.acceleration[0], 0.2);
+  EXPECT_EQ(rates.moment[0], 0.5);
+  EXPECT_EQ(spin(motion, rates)[0], 0.8);
+  EXPECT_DOUBLE_EQ(angular_momentum(inertia, motion, rates)[0], 2.0);
+  EXPECT_DOUBLE_EQ(rotation_energy(inertia, rates), 0.8);
+  EXPECT_DOUBLE_EQ(predicted_turn(motion, rates, 0.1)[0], 0.1 * 0.8 + 0.5 * 0.01 * 0.2);
+  EXPECT_EQ(moment_of(motion, Vec<1>(0.3))[0], 0.3);
+  // A constant moment is met exactly: the angle by a parabola.
+  RigidMotion to = motion;
+  to.angle += predicted_turn(motion, rates, 0.1)[0];
+  const InertiaMoment<2> now = inertia_moment(inertia, rates, trapezoidal(0.1), motion, to);
+  EXPECT_NEAR(now.moment[0], 0.5, 1e-12);
+  EXPECT_NEAR(now.rates.velocity[0], 0.82, 1e-14);
+}
+
 /// About a principal axis that is normal to the plane, space is the plane.
 TEST(Spin, ReducesToThePlane) {
   const RotationScheme s = dissipative(0.3, 0.5);
