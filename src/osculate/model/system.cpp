@@ -145,8 +145,7 @@ BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) co
   State state = trial;
   if (impl_->timed()) {
     state.rates = impl_->new_rates(trial);
-    for (std::size_t b = 0; b < state.rigid.size(); ++b)
-      if (impl_->turns_freely(b)) state.rigid[b] = body::rebased(state.rigid[b]);
+    impl_->rebase(state);
   }
   state.fraction = fraction;
   state.assumed.clear();

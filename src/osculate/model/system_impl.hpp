@@ -115,7 +115,15 @@ struct BasicSystem<Dim>::Impl {
   /// Moment of forces on the nodes of a rigid body about its centre, axes fixed in space.
   [[nodiscard]] Vec<body::rotations<Dim>> moment_on(const State& s, std::size_t body,
                                                     const Eigen::VectorXd& forces_on_dofs) const;
-  [[nodiscard]] bool turns_freely(std::size_t body) const;
+  [[nodiscard]] bool turns_body(Dof dof, std::size_t body) const;  ///< is a rotation of it
+  /// Number of rotations of a body that the running step does not prescribe.
+  [[nodiscard]] int free_rotations(std::size_t body) const;
+  /// Its total rotation vector is prescribed, now or in a later step, or part of an equation.
+  [[nodiscard]] bool total_matters(std::size_t body) const;
+  /// Bodies in space that have turned far go on from another base.
+  void rebase(State& state) const;
+  [[nodiscard]] Vec3 turning_moment(const body::RigidMotion3& motion_of, std::size_t body,
+                                    const Vec3& moment, const Vec3& spinning) const;
   void add_cell_inertia(std::size_t cell, Eigen::Ref<Eigen::MatrixXd> tangent) const;
   /// What is in balance: all forces on the side of the internal ones.
   [[nodiscard]] Eigen::VectorXd total_force() const;

@@ -1,6 +1,8 @@
 // Steps with inertia: rotations of rigid bodies in space.
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 
 #include "osculate/model/system_impl.hpp"
 
@@ -14,12 +16,81 @@ body::RotationScheme rotation_scheme(const solve::TimeScheme& s, double h) {
 }  // namespace
 
 template <int Dim>
-bool BasicSystem<Dim>::Impl::turns_freely(std::size_t body) const {
-  if (!(model.rigid[body].mass > 0)) return false;
-  for (const PrescribedDof& p : step.prescribed)
-    for (int i = Dim; i < body::motions<Dim>; ++i)
-      if (p.dof == dofs.body_dof(static_cast<Index>(body), i)) return false;
-  return true;
+int BasicSystem<Dim>::Impl::free_rotations(std::size_t body) const {
+  int count = body::rotations<Dim>;
+  for (const PrescribedDof& p : step.prescribed) count -= turns_body(p.dof, body) ? 1 : 0;
+  return count;
+}
+
+template <int Dim>
+bool BasicSystem<Dim>::Impl::turns_body(Dof dof, std::size_t body) const {
+  const Dof first = dofs.body_dof(static_cast<Index>(body), 0);
+  return dof >= first + Dim && dof < first + body::motions<Dim>;
+}
+
+template <int Dim>
+bool BasicSystem<Dim>::Impl::total_matters(std::size_t body) const {
+  if (free_rotations(body) < body::rotations<Dim>) return true;
+  for (const Equation& equation : model.equations)
+    for (const Equation::Term& term : equation.terms)
+      if (turns_body(term.dof, body)) return true;
+  const auto running = std::find_if(model.steps.begin(), model.steps.end(),
+                                    [&](const Step& s) { return s.name == step.name; });
+  for (auto later = running; later != model.steps.end(); ++later)
+    for (const PrescribedDof& p : later->prescribed)
+      if (turns_body(p.dof, body)) return true;
+  return false;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::rebase(State& state) const {
+  if constexpr (Dim == 3) {
+    for (std::size_t b = 0; b < state.rigid.size(); ++b) {
+      if (!(model.rigid[b].mass > 0) || total_matters(b)) continue;
+      const body::RigidMotion3 before = state.rigid[b];
+      state.rigid[b] = body::rebased(before);
+      if (state.rigid[b].rotation == before.rotation) continue;
+      // Forces on the rotation vector are forces on another one now.
+      const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
+      Rates& r = state.rates;
+      for (Eigen::VectorXd* const forces_on : {&r.internal, &r.external, &r.contact, &r.damping})
+        forces_on->template segment<3>(first) =
+            body::moment_of(before, Vec3(forces_on->template segment<3>(first)));
+    }
+  } else {
+    (void)state;
+  }
+}
+
+/// What turns a body: the moment without the part that the supports of its prescribed rotations
+/// take at once. `spinning`: angular velocity times momentum, whose change needs a moment too.
+///
+/// Formula    J P (P^T J P)^-1 P^T (m - w) + w ,  P the spins of the free rotations
+template <int Dim>
+Vec3 BasicSystem<Dim>::Impl::turning_moment(const body::RigidMotion3& motion_of, std::size_t body,
+                                            const Vec3& moment, const Vec3& spinning) const {
+  if constexpr (Dim == 3) {
+    const int count = free_rotations(body);
+    if (count == 3) return moment;
+    if (count == 0) return spinning;
+    const Mat<3, 3> tangent = body::rotation_tangent(motion_of.rotation);
+    std::array<bool, 3> held{};
+    const Dof first = dofs.body_dof(static_cast<Index>(body), 3);
+    for (const PrescribedDof& p : step.prescribed)
+      if (turns_body(p.dof, body)) held[static_cast<std::size_t>(p.dof - first)] = true;
+    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> spins(3, count);
+    for (int i = 0, at = 0; i < 3; ++i)
+      if (!held[static_cast<std::size_t>(i)]) spins.col(at++) = tangent.col(i);
+    const Mat<3, 3> r = motion_of.orientation();
+    const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> momenta =
+        r * model.rigid[body].inertia * r.transpose() * spins;
+    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> mass =
+        spins.transpose() * momenta;
+    return momenta * mass.ldlt().solve(spins.transpose() * (moment - spinning)) + spinning;
+  } else {
+    (void)motion_of, (void)body, (void)spinning;
+    return moment;
+  }
 }
 
 template <int Dim>
@@ -74,8 +145,12 @@ void BasicSystem<Dim>::Impl::begin_spins(const State& committed, Rates& rates) c
         for (const auto& entry : load.unit)
           if (entry.first >= first && entry.first < first + 3)
             moment[entry.first - first] += load.ramp.value(0) * entry.second;
-      rates.spins[b] = body::initial_rates(model.rigid[b].inertia, committed.rigid[b],
-                                           rates.velocity.template segment<3>(first), moment);
+      const Vec3 velocity = rates.velocity.template segment<3>(first);
+      const Mat<3, 3> r = committed.rigid[b].orientation();
+      const Vec3 momentum = r * model.rigid[b].inertia * r.transpose() * velocity;
+      rates.spins[b] = body::initial_rates(
+          model.rigid[b].inertia, committed.rigid[b], velocity,
+          turning_moment(committed.rigid[b], b, moment, velocity.cross(momentum)));
       rates.acceleration.template segment<3>(first).setZero();
     }
   }
@@ -93,7 +168,7 @@ void BasicSystem<Dim>::Impl::new_spins(const State& trial, Rates& now) const {
       const Vec3 turn_of = body::turn_between(m.from[b], trial.rigid[b]);
       const Mat<3, 3> to_body = trial.rigid[b].orientation().transpose();
       body::RotationRates<3>& rates = now.spins[b];
-      if (!turns_freely(b)) {
+      if (!m.inertia->body_has_mass(b) || free_rotations(b) == 0) {
         rates = {};
         rates.velocity = to_body * turn_of / m.h;
         now.velocity.template segment<3>(first) = turn_of / m.h;
@@ -103,7 +178,8 @@ void BasicSystem<Dim>::Impl::new_spins(const State& trial, Rates& now) const {
       rates =
           body::inertia_moment(inertia, m.past.spins[b], scheme, m.from[b], trial.rigid[b]).rates;
       if (m.settings.scheme.impact != solve::Impact::average) {
-        const Vec3 by_contact = -moment_on(trial, b, forces.contact);
+        const Vec3 by_contact =
+            turning_moment(trial.rigid[b], b, -moment_on(trial, b, forces.contact), Vec3::Zero());
         const Vec3 in_body = inertia.ldlt().solve(to_body * by_contact);
         rates.moment -= m.factors.impulse_in_rate * by_contact;
         rates.acceleration -= m.factors.impulse_in_rate * in_body;
