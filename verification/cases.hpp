@@ -38,6 +38,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult spinning_disc(const CaseContext& context);
 [[nodiscard]] CaseResult stopped_block(const CaseContext& context);
 [[nodiscard]] CaseResult strip_into_channel(const CaseContext& context);
+[[nodiscard]] CaseResult snap_through(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell_fine(const CaseContext& context);
 

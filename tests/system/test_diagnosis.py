@@ -33,7 +33,7 @@ materials: {s: {st_venant_kirchhoff: {E: 1.0e4, nu: 0}}}
 sections: [{on: arch, material: s, element: plane_strain}]
 steps:
   - {name: load, increments: 10, prescribe: [{on: ends, ux: 0, uy: 0}], body_force: [{on: arch, by: -0.4}]}
-solver: {cutbacks: 6, max_iterations: 8}
+solver: {cutbacks: 6, max_iterations: 8, arc_length: off}
 """
 
 
@@ -133,6 +133,21 @@ class Diagnosis(unittest.TestCase):
         found = self.failure(ARCH)
         self.assertEqual(found["cause"], "instability", self.message)
         self.assertIn("prescribe a displacement instead of the load in step 'load'", found["proposal"])
+
+    def test_a_snap_is_passed_unless_it_is_not_wanted(self):
+        for words in ("auto", "always"):
+            with tempfile.TemporaryDirectory() as folder:
+                with open(os.path.join(folder, "m.yaml"), "w") as file:
+                    file.write(ARCH.replace("arc_length: off", f"arc_length: {words}"))
+                with open(os.path.join(folder, "arch.msh"), "w") as file:
+                    file.write(arch_mesh())
+                done = subprocess.run([PROGRAM, "run", "m.yaml", "--json"], cwd=folder, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            increments = json.loads(done.stdout)["steps"][0]["increments"]
+            times = [one["time"] for one in increments]
+            self.assertEqual(times[-1], 1)
+            self.assertEqual(times == sorted(times), words == "auto")
+            self.assertTrue(any(one["resisted" if words == "auto" else "on_path"] for one in increments))
 
     def test_too_large_an_increment(self):
         found = self.failure(model("{name: press, increments: 1, prescribe: [{on: block.top, ux: 0.5, uy: -0.4}]}",

@@ -30,7 +30,8 @@ struct Remedy {
 constexpr Remedy remedies[] = {
     {"predictor",
      [](model::AnalysisOptions& o) { o.increments.newton.predictor = solve::Predictor::tangent; }},
-    {"cycle cure", [](model::AnalysisOptions& o) { o.increments.newton.cycle_cure = false; }},
+    {"snaps and paths",
+     [](model::AnalysisOptions& o) { o.increments.arc_length.use = solve::PathControl::off; }},
     {"line search",
      [](model::AnalysisOptions& o) { o.increments.newton.line_search = solve::LineSearch::off; }},
 };

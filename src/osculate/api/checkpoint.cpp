@@ -85,8 +85,8 @@ void fields(Archive& a, IterationRecord& record) {
 }
 template <class Archive>
 void fields(Archive& a, IncrementRecord& record) {
-  auto& [fraction, cutbacks, iterations, wasted, resisted] = record;
-  a(fraction, cutbacks, iterations, wasted, resisted);
+  auto& [fraction, cutbacks, iterations, wasted, resisted, on_path] = record;
+  a(fraction, cutbacks, iterations, wasted, resisted, on_path);
 }
 template <class Archive>
 void fields(Archive& a, ExtrapolationMemory& m) {
@@ -95,10 +95,15 @@ void fields(Archive& a, ExtrapolationMemory& m) {
   a(last, before, last_size, before_size, residual, energy, signature, known, smooth, worth);
 }
 template <class Archive>
+void fields(Archive& a, PathPosition& path) {
+  auto& [on, before, length, until, begun, increments] = path;
+  a(on, before, length, until, begun, increments);
+}
+template <class Archive>
 void fields(Archive& a, StepPosition& position) {
-  auto& [nominal, at, size, extrapolation] = position;
+  auto& [nominal, at, size, extrapolation, path] = position;
   ExtrapolationMemory memory = extrapolation.memory();
-  a(nominal, at, size, memory);
+  a(nominal, at, size, memory, path);
   if constexpr (std::is_same_v<Archive, api::Loader>)
     extrapolation = Extrapolation(std::move(memory));
 }

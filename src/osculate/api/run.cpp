@@ -255,7 +255,8 @@ struct Recorder {
         step_name(p), p.increment, p.time, record.iterations.size(), last.residual, last.energy,
         last.counts.open, last.counts.stick, last.counts.slip,
         (record.cutbacks ? fmt::format("  ({} cut-backs)", record.cutbacks) : std::string{}) +
-            (record.resisted ? "  (free motions resisted on the way)" : ""));
+            (record.resisted ? "  (free motions resisted on the way)" : "") +
+            (record.on_path ? "  (on the path)" : ""));
     log << line << "\n";
     if (options.progress) options.progress(line);
   }

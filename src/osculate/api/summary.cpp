@@ -32,6 +32,7 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
           {"cutbacks", record.cutbacks},
           {"wasted_iterations", record.wasted_iterations},
           {"resisted", record.resisted},
+          {"on_path", record.on_path},
           {"open", last.counts.open},
           {"stick", last.counts.stick},
           {"slip", last.counts.slip},

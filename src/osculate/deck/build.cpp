@@ -47,6 +47,10 @@ model::AnalysisOptions analysis_options(const Solver& solver) {
   newton.predictor = solver.predictor == Predictor::tangent ? solve::Predictor::tangent
                                                             : solve::Predictor::automatic;
   options.increments.max_cutbacks = solver.cutbacks.value;
+  options.increments.arc_length.use = solver.arc_length == ArcLength::off ? solve::PathControl::off
+                                      : solver.arc_length == ArcLength::always
+                                          ? solve::PathControl::always
+                                          : solve::PathControl::last_resort;
   return options;
 }
 

@@ -328,6 +328,7 @@ struct Step {
 
 enum class LineSearch { automatic, off };
 enum class Predictor { automatic, tangent };
+enum class ArcLength { automatic, always, off };
 
 struct Solver {
   Number energy, residual;  ///< tolerances; 0 = this measure does not decide
@@ -336,6 +337,7 @@ struct Solver {
   Marked<int> cutbacks;
   std::optional<Number> minimum_fraction;
   Predictor predictor = Predictor::automatic;
+  ArcLength arc_length = ArcLength::automatic;
 };
 
 enum class FieldTimes { every, last, none };

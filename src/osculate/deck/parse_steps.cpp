@@ -326,6 +326,7 @@ Solver parse_solver(const Value& v) {
   s.cutbacks = integer_of(v.at("cutbacks"));
   s.minimum_fraction = number_if(v, "minimum_fraction");
   s.predictor = word_of<Predictor>(v, "predictor").value;
+  s.arc_length = word_of<ArcLength>(v, "arc_length").value;
   return s;
 }
 

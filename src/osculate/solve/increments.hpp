@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 
+#include "osculate/solve/arc_length.hpp"
 #include "osculate/solve/newton.hpp"
 
 namespace osculate::solve {
@@ -13,6 +14,7 @@ struct IncrementOptions {
   NewtonOptions newton;
   int max_cutbacks = 8;     ///< halvings of one nominal increment before giving up
   int easy_iterations = 8;  ///< at most this many: the next sub-increment doubles
+  ArcLengthOptions arc_length;
 };
 
 /// One converged increment, or the last failed attempt.
@@ -22,6 +24,7 @@ struct IncrementRecord {
   std::vector<IterationRecord> iterations;
   int wasted_iterations = 0;  ///< iterations of the dropped attempts
   bool resisted = false;      ///< free motions were resisted on the way (see Resistance)
+  bool on_path = false;       ///< found by arc length: the fraction may have fallen
 };
 
 /// What the extrapolation knows of the last two increments.
@@ -83,6 +86,7 @@ struct StepPosition {
   double at = 0;    ///< fraction of the step that has converged
   double size = 0;  ///< of the next sub-increment
   Extrapolation extrapolation;
+  PathPosition path;
 };
 
 template <class State>
@@ -122,13 +126,6 @@ bool worth_resisting(const NewtonResult<typename S::State>& attempt, bool last) 
 
 namespace detail {
 
-/// Systems whose multipliers are corrected around the solutions (augmented Lagrangian).
-template <class S>
-concept Augments = requires(const S s, const typename S::State& state) {
-  { s.augment(state) } -> std::same_as<std::optional<typename S::State>>;
-  { s.augments_often() } -> std::convertible_to<bool>;
-};
-
 /// Near a solution, for corrections that do not wait for it.
 inline NewtonOptions loosened(NewtonOptions options) {
   constexpr double near_solution = 1e-2;
@@ -142,8 +139,8 @@ inline NewtonOptions loosened(NewtonOptions options) {
 ///
 /// In one loop (`often`) a correction follows as soon as the iterations are near a solution, which
 /// around corrected multipliers takes one of them as a rule; the last solution is a whole one. It
-/// is Newton's method that comes near, with its line search and its cure of circles: iterations
-/// that each begin anew would not know that they run in one.
+/// is Newton's method that comes near, with its line search: iterations that each begin anew would
+/// jump.
 template <System S>
 void augment(S& system, const typename S::State& committed, double time,
              const NewtonOptions& options, la::DirectSolver& solver,
@@ -217,6 +214,162 @@ NewtonResult<typename S::State> attempt_increment(S& system, const typename S::S
   return attempt;
 }
 
+/// One step on its way.
+template <System S>
+struct StepRun {
+  using State = typename S::State;
+  S& system;
+  int nominal_increments;
+  const IncrementOptions& options;
+  la::DirectSolver& solver;
+  const IncrementObserver<State>& on_increment;
+  const CutbackObserver& on_cutback;
+  StepPosition& position;
+  StepResult<State>& result;
+  int cutbacks = 0, wasted = 0;
+
+  [[nodiscard]] double begin() const {
+    return static_cast<double>(position.nominal) / nominal_increments;
+  }
+  [[nodiscard]] double end() const {
+    return static_cast<double>(position.nominal + 1) / nominal_increments;
+  }
+
+  /// Commits a converged increment that ends where `position` stands. False: stopped.
+  bool accept(NewtonResult<State>& attempt, bool resisted, bool on_path) {
+    result.state = system.commit(attempt.state, position.at);
+    result.increments.push_back(
+        {position.at, cutbacks, std::move(attempt.iterations), wasted, resisted, on_path});
+    cutbacks = wasted = 0;
+    if (on_increment(result.state, result.increments.back())) return true;
+    result.outcome = Outcome::stopped;
+    result.reason = "stopped by the user";
+    return false;
+  }
+
+  void drop(const NewtonResult<State>& attempt, double target) {
+    on_cutback(attempt.reason, position.at, target, attempt.iterations);
+    ++cutbacks;
+    wasted += static_cast<int>(attempt.iterations.size());
+  }
+};
+
+/// Load control has failed for good: a path begins there, unless none is wanted or another one was
+/// given up in the same place.
+template <System S>
+bool begin_path(StepRun<S>& run, double size) {
+  StepPosition& position = run.position;
+  PathPosition& path = position.path;
+  const ArcLengthOptions& options = run.options.arc_length;
+  if (options.use == PathControl::off || path.increments >= options.max_increments ||
+      path.begun == position.at)
+    return false;
+  path.on = true;
+  path.before.resize(0);
+  path.length = 0;
+  path.begun = position.at;
+  path.until = options.use == PathControl::always ? 1.0 : run.end();
+  position.size = size;
+  return true;
+}
+
+/// One increment by load control: the nominal increments are a grid that is hit. False: the step
+/// ends here.
+template <System S>
+bool load_increment(StepRun<S>& run) {
+  StepPosition& position = run.position;
+  const IncrementOptions& options = run.options;
+  const double begin = run.begin(), end = run.end();
+  double &at = position.at, &size = position.size;
+  at = std::max(at, begin);
+  if (!(size > 0)) size = end - begin;
+  const double smallest = (end - begin) * std::ldexp(1.0, -options.max_cutbacks);
+  const double target = end - at <= size * (1 + 1e-9) ? end : at + size;
+  const bool may_guess = options.newton.predictor == Predictor::automatic;
+  const Guess guess = may_guess ? position.extrapolation.guess(target - at) : Guess{};
+  const bool last = 0.5 * (target - at) < smallest && options.arc_length.use != PathControl::off;
+  bool resisted = false;
+  NewtonResult<typename S::State> attempt =
+      attempt_increment(run.system, run.result.state, target, options.newton, run.solver, guess,
+                        last, run.wasted, resisted);
+  if (attempt.outcome != Outcome::converged) {
+    position.extrapolation.reset();
+    run.drop(attempt, target);
+    size = 0.5 * (target - at);
+    if (size >= smallest * (1 - 1e-9) || begin_path(run, size)) return true;
+    run.result.outcome = attempt.outcome;
+    run.result.reason = attempt.reason;
+    run.result.last_attempt = std::move(attempt);
+    return false;
+  }
+  position.extrapolation.add(attempt, target - at);
+  at = target;
+  if (static_cast<int>(attempt.iterations.size()) <= options.easy_iterations)
+    size = std::min(2 * size, end - begin);
+  PathPosition& path = position.path;
+  if (options.arc_length.use == PathControl::always && path.increments == 0 && at < 1) {
+    path.on = true;
+    path.before = attempt.total;
+    path.until = 1;
+    path.begun = at;
+  }
+  return run.accept(attempt, resisted, false);
+}
+
+/// The path has passed the fraction where it ends: the increment that ends there.
+template <System S>
+void end_path(StepRun<S>& run, PathPoint<typename S::State>& point) {
+  const double until = run.position.path.until, at = run.position.at;
+  const double share = (until - at) / (point.fraction - at);
+  const Eigen::VectorXd total = share * point.result.total;
+  const typename S::State near_end = run.system.apply(run.result.state, total, until, 1.0);
+  std::vector<IterationRecord> iterations = std::move(point.result.iterations);
+  point.result = newton(run.system, run.result.state, until, run.options.newton, run.solver,
+                        {total, point.result.first_residual, point.result.first_energy}, &near_end);
+  point.result.iterations.insert(point.result.iterations.begin(), iterations.begin(),
+                                 iterations.end());
+  point.fraction = until;
+}
+
+/// Load control goes on from where the path ended, or was given up.
+template <System S>
+void leave_path(StepRun<S>& run) {
+  StepPosition& position = run.position;
+  position.path.on = false;
+  position.extrapolation.reset();
+  const double n = run.nominal_increments;
+  position.nominal = std::max(0, static_cast<int>(std::floor(position.at * n * (1 + 1e-12))));
+  position.size = std::min(1 / n, position.size);
+}
+
+/// One increment on the path. False: the step ends here.
+template <System S>
+bool path_increment(StepRun<S>& run) {
+  StepPosition& position = run.position;
+  PathPosition& path = position.path;
+  const ArcLengthOptions& options = run.options.arc_length;
+  const double nominal = 1.0 / run.nominal_increments;
+  const double size = path.length > 0 ? nominal : position.size;
+  PathPoint<typename S::State> point = follow_path(run.system, run.result.state, position.at, size,
+                                                   path, run.options.newton, run.solver);
+  const auto found = [&] { return point.result.outcome == Outcome::converged; };
+  const bool ends = found() && point.fraction >= path.until;
+  const int iterations = static_cast<int>(point.result.iterations.size());
+  if (ends) end_path(run, point);
+  if (!found()) {
+    run.drop(point.result, point.fraction);
+    path.length = 0.5 * point.length;
+    if (run.cutbacks > options.max_cutbacks || !(path.length > 0)) leave_path(run);
+    return true;
+  }
+  path.before = point.result.total;
+  path.length = (iterations <= options.easy_iterations ? 1.5 : 1.0) * point.length;
+  position.at = point.fraction;
+  ++path.increments;
+  if (ends || path.increments >= options.max_increments) leave_path(run);
+  return run.accept(point.result, false, true);
+}
+
 }  // namespace detail
 
 /// Runs one step from `start` to its end: from its beginning, or from where `position` stands,
@@ -227,56 +380,17 @@ template <System S>
     const IncrementOptions& options, la::DirectSolver& solver,
     const IncrementObserver<typename S::State>& on_increment, const CutbackObserver& on_cutback,
     StepPosition& position) {
-  using State = typename S::State;
-  StepResult<State> result;
+  StepResult<typename S::State> result;
   result.state = start;
-  Extrapolation& extrapolation = position.extrapolation;
-  const bool may_guess = options.newton.predictor == Predictor::automatic;
-  for (; position.nominal < nominal_increments; ++position.nominal) {
-    const double begin = static_cast<double>(position.nominal) / nominal_increments;
-    const double end = static_cast<double>(position.nominal + 1) / nominal_increments;
-    const double smallest = (end - begin) * std::ldexp(1.0, -options.max_cutbacks);
-    double &at = position.at, &size = position.size;
-    if (!(at > begin)) {
-      at = begin;
-      size = end - begin;
+  detail::StepRun<S> run{system,       nominal_increments, options,  solver,
+                         on_increment, on_cutback,         position, result};
+  while (position.nominal < nominal_increments) {
+    if (!position.path.on && position.at >= run.end()) {
+      ++position.nominal;
+      position.size = 0;
+      continue;
     }
-    int cutbacks = 0, wasted = 0;
-    while (at < end) {
-      const double target = end - at <= size * (1 + 1e-9) ? end : at + size;
-      const Guess guess = may_guess ? extrapolation.guess(target - at) : Guess{};
-      const bool last = 0.5 * (target - at) < smallest;
-      bool resisted = false;
-      NewtonResult<State> attempt = detail::attempt_increment(
-          system, result.state, target, options.newton, solver, guess, last, wasted, resisted);
-      if (attempt.outcome != Outcome::converged) {
-        extrapolation.reset();
-        on_cutback(attempt.reason, at, target, attempt.iterations);
-        ++cutbacks;
-        wasted += static_cast<int>(attempt.iterations.size());
-        size = 0.5 * (target - at);
-        if (size < smallest * (1 - 1e-9)) {
-          result.outcome = attempt.outcome;
-          result.reason = attempt.reason;
-          result.last_attempt = std::move(attempt);
-          return result;
-        }
-        continue;
-      }
-      const int iterations = static_cast<int>(attempt.iterations.size());
-      extrapolation.add(attempt, target - at);
-      result.state = system.commit(attempt.state, target);
-      result.increments.push_back(
-          {target, cutbacks, std::move(attempt.iterations), wasted, resisted});
-      cutbacks = wasted = 0;
-      at = target;
-      if (iterations <= options.easy_iterations) size = std::min(2 * size, end - begin);
-      if (!on_increment(result.state, result.increments.back())) {
-        result.outcome = Outcome::stopped;
-        result.reason = "stopped by the user";
-        return result;
-      }
-    }
+    if (!(position.path.on ? detail::path_increment(run) : detail::load_increment(run))) break;
   }
   return result;
 }

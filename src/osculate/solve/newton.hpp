@@ -61,7 +61,6 @@ struct NewtonOptions {
   int max_iterations = 25;
   LineSearch line_search = LineSearch::automatic;
   Predictor predictor = Predictor::automatic;
-  bool cycle_cure = true;  ///< with the line search: half a step where states repeat in a circle
 };
 
 /// A first guess of an increment, and what its convergence is measured by: an extrapolated start
@@ -174,13 +173,16 @@ bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd
   return true;
 }
 
-/// Resistance against free motions, for bodies that nothing holds until contact closes. It is put
-/// on the tangent alone: the residual is the true one, so that nothing artificial is left in a
-/// converged increment, and its work is zero.
+/// Resistance against free motions, for bodies that nothing holds until contact closes, and against
+/// motions of negative stiffness, as of a strip that snaps: these it slows down until they come to
+/// rest. It is put on the tangent alone: the residual is the true one, so that nothing artificial
+/// is left in a converged increment, and its work is zero.
 ///
 /// Formula    (K + c D) du = -R, c such that nothing moves farther than an element in one
-///            iteration and that the work du . R is not positive, and ten times smaller after each
-///            iteration that did not ask for more
+///            iteration and that the work du . R is not positive; ten times smaller after each
+///            iteration that did not ask for more, half after a motion of negative stiffness, which
+///            is fastest just above its own
+/// Limits     with multipliers the work has no sign that means anything, and is not looked at
 /// Tested by  tests/unit/solve/test_resistance.cpp
 template <System S>
 class Resistance {
@@ -190,6 +192,8 @@ class Resistance {
   Resistance(const Resistance&) = delete;
   Resistance& operator=(const Resistance&) = delete;
   [[nodiscard]] bool on() const { return on_; }
+  /// A motion of negative stiffness was met.
+  [[nodiscard]] bool unstable() const { return unstable_; }
 
   /// As solve_correction, with as much resistance as it takes.
   bool solve(la::DirectSolver& solver, const Eigen::VectorXd& residual, Eigen::VectorXd& du,
@@ -203,13 +207,17 @@ class Resistance {
         share_ *= stiffer;
         continue;
       }
-      if (du.dot(residual) > 0) {  // uphill: a mode of negative stiffness, as before a snap
-        share_ *= stiffer;
+      if (!result.evaluation.saddle && du.dot(residual) > 0) {
+        share_ *= unstable_ ? nearly : stiffer;
+        unstable_ = true;
+        since_ = 0;
         continue;
       }
       const double stride = motion(du);
       if (stride <= 1) {
-        if (first) share_ = std::max(0.1 * share_, least);
+        ++since_;
+        const double less = unstable_ && since_ <= patience ? 0.5 : 0.1;
+        if (first) share_ = std::max(less * share_, least);
         return true;
       }
       share_ *= std::clamp(spare * stride, spare, stiffer * stiffer);
@@ -218,19 +226,23 @@ class Resistance {
   }
 
  private:
-  static constexpr double least = 1e-9, usual = 1e-6;
+  static constexpr double least = 1e-9, usual = 1e-6, nearly = 4;
+  static constexpr int patience = 4;
   void set(double share) {
     if constexpr (Resists<S>)
       if (on_) system_.resist(share);
   }
   double motion(const Eigen::VectorXd& du) {
-    if constexpr (Resists<S>) return system_.stride(du);
-    return du.size() > 0 ? 0.0 : 0.0;
+    if constexpr (Resists<S>)
+      return system_.stride(du);
+    else
+      return 0;
   }
 
   S& system_;
-  bool on_;
+  bool on_, unstable_ = false;
   double share_ = usual;
+  int since_ = 0;  ///< solutions since the last motion of negative stiffness
 };
 
 /// Work of the residual on the correction at `step`, with the state and evaluation that belong to
@@ -246,7 +258,7 @@ struct LinePoint {
 template <System S, class At>
 LinePoint<S> bracketed(const At& at, LinePoint<S> low, LinePoint<S> high, double enough,
                        bool falling) {
-  constexpr int most = 10;
+  const int most = falling ? 10 : 20;
   LinePoint<S> best = high;
   double low_work = low.work, high_work = high.work;
   for (int i = 0; i < most && std::abs(best.work) > enough; ++i) {
@@ -279,7 +291,8 @@ LinePoint<S> bracketed(const At& at, LinePoint<S> low, LinePoint<S> high, double
 /// into the states that the next tangent is of.
 ///
 /// With `falling` bodies (see Resistance) the work is small and constant up to the contact and then
-/// large: the bracket is halved, and its far end is taken, where the tangent knows the contact.
+/// large: the bracket is halved, and its far end is taken, where the tangent knows the contact. As
+/// long as the work keeps its sign they go on, though the residual of a snap grows at first.
 template <System S>
 double line_search(S& system, const typename S::State& committed,
                    NewtonResult<typename S::State>& result, const Eigen::VectorXd& du,
@@ -310,7 +323,7 @@ double line_search(S& system, const typename S::State& committed,
   const bool crossed = high.ok && low.work * high.work < 0;
   const bool good =
       high.ok && (high.norm <= 0.5 * low.norm || std::abs(high.work) <= close_enough * reference ||
-                  (!crossed && high.norm <= low.norm));
+                  (!crossed && (falling || high.norm <= low.norm)));
   if (!good && crossed) {
     best = bracketed<S>(at, low, high, close_enough * reference, falling);
   } else if (!good) {
@@ -342,28 +355,6 @@ void predict(S& system, const typename S::State& committed, double time, bool st
     system.predict(committed, time, out, sticking);
   else
     system.predict(committed, time, out);
-}
-
-/// True if the states of the contact points come back after two to four iterations, twice, while
-/// the residual does not fall: Newton's method jumps in a circle. Half a step leads out of it: from
-/// between the two states it sees both.
-///
-/// Tested by  tests/unit/solve/test_cycles.cpp
-inline bool comes_back(const std::vector<IterationRecord>& done) {
-  constexpr std::size_t longest = 4;
-  for (std::size_t period = 2; period <= longest && done.size() >= 2 * period; ++period) {
-    const auto last = done.end() - 1;
-    bool same = last->residual > 0.5 * (last - static_cast<std::ptrdiff_t>(period))->residual;
-    bool flips = false;
-    for (std::size_t k = 0; k < period; ++k) {
-      const auto now = last - static_cast<std::ptrdiff_t>(k);
-      const auto before = now - static_cast<std::ptrdiff_t>(period);
-      same = same && now->counts.signature == before->counts.signature;
-      flips = flips || now->counts.signature != last->counts.signature;
-    }
-    if (same && flips) return true;
-  }
-  return false;
 }
 
 /// Moves to the guess. False (and nothing changed but the evaluation) if it is no good start.
@@ -457,7 +448,7 @@ template <System S>
     return result;
   }
   detail::Resistance<S> resistance(system, guess.resisted);
-  const int most = (resistance.on() ? 2 : 1) * options.max_iterations;
+  int most = (resistance.on() ? 2 : 1) * options.max_iterations;
   for (int i = 1; i <= most; ++i) {
     const Eigen::VectorXd residual = result.evaluation.residual;
     const bool branched = result.evaluation.branch_residual.size() > 0;
@@ -465,6 +456,7 @@ template <System S>
     Eigen::VectorXd du;
     result.state = system.remember(result.state);
     if (!resistance.solve(solver, linearised, du, result)) return result;
+    if (resistance.unstable()) most = 10 * options.max_iterations;  // a snap takes its time
     const double energy_before = std::abs(du.dot(residual));
     if (i == 1 && !result.extrapolated) judge.first_energy = energy_before;
     result.first_energy = judge.first_energy;
@@ -472,9 +464,7 @@ template <System S>
     double step = 1;
     const bool search = options.line_search == LineSearch::automatic;
     const bool smooth = !branched && !result.evaluation.saddle;
-    if (search && options.cycle_cure && detail::comes_back(result.iterations))
-      result.state = system.apply(result.state, du, time, step = 0.5);
-    else if (search && smooth && (i > 1 || result.extrapolated || resistance.on()))
+    if (search && smooth && (i > 1 || result.extrapolated || resistance.on()))
       step = detail::line_search(system, committed, result, du, residual, time, resistance.on());
     else
       result.state = system.apply(result.state, du, time, 1.0);

@@ -89,6 +89,22 @@ TEST_F(Restart, AfterEveryIncrementGivesTheSameBits) {
   EXPECT_EQ(results("pieces"), results("whole"));
 }
 
+TEST_F(Restart, OnAPathThatTurnsBack) {
+  const std::string model = OSCULATE_SOURCE_DIR "/verification/snap_through/roller.yaml";
+  RunOptions whole = options("plane", "whole"), o = options("plane", "pieces");
+  whole.model = o.model = model;
+  ASSERT_EQ(run(whole).status, RunStatus::done);
+  int increments = 0, runs = 0;
+  o.interrupted = [&] { return ++increments % 8 == 0; };
+  while (run(o).status != RunStatus::done) {
+    o.restart = true;
+    ASSERT_LT(++runs, 50);
+  }
+  EXPECT_GE(runs, 8);
+  EXPECT_EQ(results("pieces"), results("whole"));
+  EXPECT_NE(results("whole")["summary.json"].find("\"on_path\":true"), std::string::npos);
+}
+
 TEST_F(Restart, TwoAnalysesAtTheSameTimeHaveTheBitsOfEachAlone) {
   ASSERT_EQ(run(options("plane", "plane1")).status, RunStatus::done);
   ASSERT_EQ(run(options("space", "space1")).status, RunStatus::done);

@@ -189,8 +189,8 @@ TEST(BrokenModels, Words) {
 
 TEST(BrokenModels, KnownButNotAvailable) {
   expect_refusals({
-      {"max_iterations: 25", "arc_length: {}",
-       "model.yaml:35: solver.arc_length: is not available yet"},
+      {"max_iterations: 25", "stabilisation: {}",
+       "model.yaml:35: solver.stabilisation: is not available yet"},
       {"mesh: block.msh", "mesh: block.inp", "model.yaml:3: mesh: Abaqus decks are not read yet"},
       {"mesh: block.msh", "mesh: block.stl",
        "model.yaml:3: mesh: expected a Gmsh file that ends in .msh, got 'block.stl'"},

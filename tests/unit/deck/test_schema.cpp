@@ -170,7 +170,7 @@ TEST(Schema, RefusesWhatTheParserRefuses) {
       {"sampling: nodes", "sampling: {lobatto: 1}"},
       {"sampling: nodes", "sampling: {subdomains: 2}"},
       {"sampling: nodes", "sampling: {gauss: 2, lobatto: 2}"},
-      {"max_iterations: 25", "arc_length: {}"},
+      {"max_iterations: 25", "arc_length: 3"},
       {"increments: 80", "increments: 80.5"},
       {"fields: every", "fields: 0"},
       {"[[0, 0], [0.5, 1], [1, 0]]", "[]"},

@@ -61,6 +61,56 @@ TEST(Resistance, NothingMovesFartherThanOneStride) {
   }
 }
 
+/// F(x) = x^3 - 3 x^2 + 2.5 x rises to 0.636 at x = 0.592, falls, and is 0.636 again at x = 1.816.
+/// It may not move farther than 0.1 in an iteration, nor jump over the falling branch.
+struct Snapping : FreePoint {
+  Snapping() {
+    static_cast<ToySystem&>(*this) =
+        scalar_system([](double x, double t) { return x * (x * (x - 3) + 2.5) - t; },
+                      [](double x) { return x * (3 * x - 6) + 2.5; });
+    limit = 0.1;
+  }
+};
+
+TEST(Resistance, ASnapComesToRest) {
+  Snapping system;
+  la::DirectSolver solver;
+  const auto result =
+      newton<Snapping>(system, {vector({0.55})}, 0.7, {}, solver, {{}, 0, 0, false, true});
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  const double x = result.state.x[0];
+  EXPECT_GT(x, 1.8);
+  EXPECT_NEAR(x * (x * (x - 3) + 2.5), 0.7, 1e-8);
+  EXPECT_EQ(system.share, 0) << "removed";
+}
+
+/// The same with multipliers: the sign of the work says nothing, and nothing is asked of it.
+struct Saddle : Snapping {
+  void evaluate(const State& committed, const State& trial, double time, bool tangent,
+                Evaluation& out) {
+    Snapping::evaluate(committed, trial, time, tangent, out);
+    out.saddle = true;
+  }
+  void predict(const State& state, double time, Evaluation& out) {
+    evaluate(state, state, time, true, out);
+  }
+};
+
+TEST(Resistance, TheWorkOfMultipliersIsNotAskedFor) {
+  // On the falling branch the correction goes uphill, back to where its residual is zero.
+  Saddle system;
+  la::DirectSolver solver;
+  const auto result =
+      newton<Saddle>(system, {vector({1.0})}, 0.49, {}, solver, {{}, 0, 0, false, true});
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  EXPECT_NEAR(result.state.x[0], 1.02, 1e-3);
+  Snapping other;
+  const auto stable =
+      newton<Snapping>(other, {vector({1.0})}, 0.49, {}, solver, {{}, 0, 0, false, true});
+  ASSERT_EQ(stable.outcome, Outcome::converged) << stable.reason;
+  EXPECT_GT(std::abs(stable.state.x[0] - 1), 0.5) << "leaves the unstable branch";
+}
+
 TEST(Resistance, WhatNothingHoldsStillFails) {
   FreePoint system;
   system.force = [](const Eigen::VectorXd&, double t) { return vector({-t}); };
