@@ -96,8 +96,8 @@ void fields(Archive& a, ExtrapolationMemory& m) {
 }
 template <class Archive>
 void fields(Archive& a, PathPosition& path) {
-  auto& [on, before, length, until, begun, increments] = path;
-  a(on, before, length, until, begun, increments);
+  auto& [on, before, length, until, lost, increments] = path;
+  a(on, before, length, until, lost, increments);
 }
 template <class Archive>
 void fields(Archive& a, StepPosition& position) {

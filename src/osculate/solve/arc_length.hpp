@@ -31,7 +31,7 @@ struct PathPosition {
                            ///< fraction rises
   double length = 0;       ///< of the next arc; 0: that of the next load increment
   double until = 1;        ///< the path ends where this fraction is reached
-  double begun = 0;        ///< where load control failed
+  bool lost = false;       ///< one was given up: no other one in this step
   int increments = 0;      ///< on paths since the step began
 };
 

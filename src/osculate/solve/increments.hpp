@@ -237,6 +237,9 @@ struct StepRun {
 
   /// Commits a converged increment that ends where `position` stands. False: stopped.
   bool accept(NewtonResult<State>& attempt, bool resisted, bool on_path) {
+    result.outcome = Outcome::converged;
+    result.reason.clear();
+    result.last_attempt = {};
     result.state = system.commit(attempt.state, position.at);
     result.increments.push_back(
         {position.at, cutbacks, std::move(attempt.iterations), wasted, resisted, on_path});
@@ -254,20 +257,17 @@ struct StepRun {
   }
 };
 
-/// Load control has failed for good: a path begins there, unless none is wanted or another one was
-/// given up in the same place.
+/// Load control has failed for good: a path begins there, unless none is wanted or one was given up
+/// before.
 template <System S>
 bool begin_path(StepRun<S>& run, double size) {
   StepPosition& position = run.position;
   PathPosition& path = position.path;
   const ArcLengthOptions& options = run.options.arc_length;
-  if (options.use == PathControl::off || path.increments >= options.max_increments ||
-      path.begun == position.at)
-    return false;
+  if (options.use == PathControl::off || path.lost) return false;
   path.on = true;
   path.before.resize(0);
   path.length = 0;
-  path.begun = position.at;
   path.until = options.use == PathControl::always ? 1.0 : run.end();
   position.size = size;
   return true;
@@ -296,22 +296,22 @@ bool load_increment(StepRun<S>& run) {
     position.extrapolation.reset();
     run.drop(attempt, target);
     size = 0.5 * (target - at);
-    if (size >= smallest * (1 - 1e-9) || begin_path(run, size)) return true;
+    if (size >= smallest * (1 - 1e-9)) return true;
     run.result.outcome = attempt.outcome;
     run.result.reason = attempt.reason;
     run.result.last_attempt = std::move(attempt);
-    return false;
+    return begin_path(run, size);
   }
   position.extrapolation.add(attempt, target - at);
   at = target;
   if (static_cast<int>(attempt.iterations.size()) <= options.easy_iterations)
     size = std::min(2 * size, end - begin);
   PathPosition& path = position.path;
-  if (options.arc_length.use == PathControl::always && path.increments == 0 && at < 1) {
+  if (options.arc_length.use == PathControl::always && path.increments == 0 && !path.lost &&
+      at < 1) {
     path.on = true;
     path.before = attempt.total;
     path.until = 1;
-    path.begun = at;
   }
   return run.accept(attempt, resisted, false);
 }
@@ -342,7 +342,7 @@ void leave_path(StepRun<S>& run) {
   position.size = std::min(1 / n, position.size);
 }
 
-/// One increment on the path. False: the step ends here.
+/// One increment on the path. False: the step ends here, the path has led nowhere.
 template <System S>
 bool path_increment(StepRun<S>& run) {
   StepPosition& position = run.position;
@@ -359,14 +359,16 @@ bool path_increment(StepRun<S>& run) {
   if (!found()) {
     run.drop(point.result, point.fraction);
     path.length = 0.5 * point.length;
-    if (run.cutbacks > options.max_cutbacks || !(path.length > 0)) leave_path(run);
-    return true;
+    path.lost = run.cutbacks > options.max_cutbacks || !(path.length > 0);
+    if (path.lost) leave_path(run);
+    return !path.lost || run.result.outcome == Outcome::converged;
   }
   path.before = point.result.total;
   path.length = (iterations <= options.easy_iterations ? 1.5 : 1.0) * point.length;
   position.at = point.fraction;
   ++path.increments;
-  if (ends || path.increments >= options.max_increments) leave_path(run);
+  path.lost = !ends && path.increments >= options.max_increments;
+  if (ends || path.lost) leave_path(run);
   return run.accept(point.result, false, true);
 }
 

@@ -107,15 +107,6 @@ TEST(ArcLength, IsTheLastResort) {
   EXPECT_FALSE(std::is_sorted(path.fractions.begin(), path.fractions.end()));
 }
 
-TEST(ArcLength, TheFractionChangesByNoMoreThanAnIncrement) {
-  const Path path = run(snapping(), PathControl::always);
-  double before = 0;
-  for (const double fraction : path.fractions) {
-    EXPECT_LE(std::abs(fraction - before), 0.1 * 1.5);
-    before = fraction;
-  }
-}
-
 /// F(x) = x - x^2 / 2 has no equilibrium beyond 1/2 at all: the path falls for ever.
 TEST(ArcLength, GivesUpWhereThePathDoesNotComeBack) {
   for (const PathControl use : {PathControl::always, PathControl::last_resort}) {

@@ -85,6 +85,7 @@ TEST(Increments, WhatNeverConvergesStopsWithAReason) {
   options.newton.line_search = LineSearch::off;
   options.newton.max_iterations = 5;
   options.max_cutbacks = 3;
+  options.arc_length.use = PathControl::off;
   Log log;
   const auto result = run(system, 1.0, 2, options, log);
   EXPECT_EQ(result.outcome, Outcome::not_converged);
@@ -105,6 +106,7 @@ TEST(Increments, AFailureKeepsWhatConverged) {
   };
   IncrementOptions options;
   options.max_cutbacks = 2;
+  options.arc_length.use = PathControl::off;
   Log log;
   const auto result = run(system, 0.0, 4, options, log);
   EXPECT_EQ(result.outcome, Outcome::numerical_failure);
