@@ -111,7 +111,9 @@ Spec solver_spec() {
               optional(
                   "arc_length",
                   choice("Follow the path of equilibria where it turns back (snap-through, "
-                         "buckling): the fraction of the step is an unknown too, and may fall.",
+                         "buckling): the fraction of the step is an unknown too, and may fall. In "
+                         "steps "
+                         "without inertia.",
                          {word("auto", ArcLength::automatic,
                                "where an increment fails for good and bodies do not come to rest "
                                "behind a snap, until its end is reached"),

@@ -42,9 +42,11 @@ struct Analysis {
       progress.fraction = from;
       if (observer.cutback) observer.cutback(reason, progress, to, iterations);
     };
+    solve::IncrementOptions increments = options.increments;
+    if (step.dynamics) increments.arc_length.use = solve::PathControl::off;  // time does not turn
     solve::StepResult<BasicState<Dim>> done =
-        solve::run_step(system, result.state, step.increments, options.increments, solver,
-                        on_increment, on_cutback, position);
+        solve::run_step(system, result.state, step.increments, increments, solver, on_increment,
+                        on_cutback, position);
     result.state = done.state;
     result.last_iterate = done.state;
     result.outcome = done.outcome;
