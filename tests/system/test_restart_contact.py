@@ -56,6 +56,23 @@ steps:
   - {name: drag, increments: 5, prescribe: [{on: high.front, ux: 0.4}, {on: high.back, ux: 0.4}]}
 output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}]}
 """
+# A ball that turns is thrown on a block, which swings.
+THROWN = """osculate: 1
+mesh: {generate: {low: {box: {x: [-2, 2], y: [-2, 2], z: [-1, 0], elements: [4, 4, 2]}}}}
+materials: {m: {linear_elastic: {E: 1000, nu: 0.3, density: 0.5}}}
+sections: [{on: low, material: m, element: solid}]
+rigid: {ball: {sphere: {center: [0.1, 0.05, 0.99], radius: 1}, mass: 2, inertia: [0.5, 0.8, 1.1, 0.05, -0.1, 0.02]}}
+contact: CONTACT
+initial_velocity: [{on: ball, vx: 3, vz: -1, wx: 20, wy: -10, wz: 30}]
+steps:
+  - {name: press, increments: 3, duration: 0.03, gravity: [0, 0, -9.81], dynamics: {},
+     prescribe: [{on: low.bottom, ux: 0, uy: 0, uz: 0}]}
+  - {name: drag, increments: 5, duration: 0.05, dynamics: {scheme: {generalized_alpha: {radius: 0.7}}, mass: lumped,
+     damping: {stiffness: 1.0e-4}}}
+output: {history: [{on: c, of: normal_force}, {on: ball, of: wx}, {on: ball, of: rx}]}
+"""
+SWUNG = PLANE.replace("nu: 0.3}", "nu: 0.3, density: 0.01}").replace(
+    "name: drag, increments: 8,", "name: drag, increments: 8, duration: 0.08, dynamics: {},")
 FRICTION = "friction: {coulomb: {mu: 0.3}}"
 
 
@@ -129,6 +146,11 @@ class RestartOfContact(RestartCase):
 
     def test_every_kind_of_contact_in_space(self):
         self.in_parts(SPACE, KINDS)
+
+    def test_steps_with_inertia(self):
+        self.in_parts(SWUNG, {"penalty": pair("sampling: nodes"), "mortar": KINDS["mortar"],
+                              "multipliers": KINDS["multipliers at nodes"]})
+        self.in_parts(THROWN, {"ball": "[{name: c, master: ball, slave: low.top, normal: {penalty: 3000}, %s}]" % FRICTION})
 
     def test_contact_of_edges(self):
         self.in_parts(BEAMS, EDGES)

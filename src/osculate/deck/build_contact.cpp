@@ -219,10 +219,13 @@ void check_pair(const BuildContext<Dim>& c, const Contact& contact,
   if (pair.slave.nodes.empty())
     throw core::InputError(contact.slave.mark,
                            fmt::format("contact set '{}' has no facets", contact.slave.value));
+  // Bodies that move only as they are told: there is nothing to solve for.
   const auto all_rigid = [&](const auto& nodes, int count) {
-    for (int k = 0; k < count; ++k)
-      if (c.model().body_of_node[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])] < 0)
-        return false;
+    for (int k = 0; k < count; ++k) {
+      const Index body =
+          c.model().body_of_node[static_cast<std::size_t>(nodes[static_cast<std::size_t>(k)])];
+      if (body < 0 || c.model().rigid[static_cast<std::size_t>(body)].mass > 0) return false;
+    }
     return true;
   };
   bool rigid = all_rigid(pair.slave.nodes, static_cast<int>(pair.slave.nodes.size()));

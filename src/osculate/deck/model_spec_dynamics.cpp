@@ -48,7 +48,8 @@ Spec dynamics_spec() {
   const Spec damping =
       map("Rayleigh damping: both numbers times mass and stiffness give the damping.",
           {optional("mass", number("Factor of the mass.").in("1/time").at_least(0).otherwise("0")),
-           optional("stiffness", number("Factor of the stiffness of the undeformed cells.")
+           optional("stiffness", number("Factor of the stiffness of the cells, as it is at the "
+                                        "beginning of an increment.")
                                      .in("time")
                                      .at_least(0)
                                      .otherwise("0")

@@ -51,8 +51,8 @@ struct PressureLoad {
 
 /// A step in time with inertia.
 ///
-/// Formula    damping forces C v, C = damping_mass M + damping_stiffness K_0 (Rayleigh), K_0 the
-///            stiffness of the undeformed cells: a body that turns far is damped as if it strained
+/// Formula    damping forces C v, C = damping_mass M + damping_stiffness K (Rayleigh), K the
+///            stiffness of the cells at the beginning of the increment: turning is not damped by it
 struct Dynamics {
   solve::TimeScheme scheme;
   bool lumped = false;  ///< masses at the nodes alone

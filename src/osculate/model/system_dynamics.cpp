@@ -27,13 +27,20 @@ void BasicSystem<Dim>::Impl::begin_dynamics() {
   for (const typename BasicInertia<Dim>::CellMass& cell : motion->inertia->cells())
     for (const Index node : cell.nodes)
       if (dofs.body_of(node) >= 0) motion->turns = true;
-  if (!(step.dynamics->damping_stiffness > 0)) return;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::measure_damping(const Eigen::VectorXd& u) {
+  const double factor = motion->settings.damping_stiffness;
+  if (!(factor > 0)) return;
+  const bool first = motion->damping.empty();
+  motion->damping.resize(jobs.size());
   BulkBlock block;
-  const Eigen::VectorXd none =
-      Eigen::VectorXd::Zero(Dim * static_cast<Eigen::Index>(model.reference.size()));
-  for (const CellJob& job : jobs) {
-    evaluate_cell(model, *job.section, job.cell, none, true, block);
-    motion->damping.emplace_back(step.dynamics->damping_stiffness * block.result.tangent);
+  for (std::size_t c = 0; c < jobs.size(); ++c) {
+    const bool finite = jobs[c].section->section.kinematics == solid::Kinematics::finite;
+    if (!first && !finite) continue;
+    evaluate_cell(model, *jobs[c].section, jobs[c].cell, u, true, block);
+    motion->damping[c] = factor * block.result.tangent;
   }
 }
 
@@ -43,7 +50,11 @@ void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double /*fr
   motion->h = duration;
   if (!(duration > 0)) return;
   motion->factors = solve::step_factors(motion->settings.scheme, duration);
-  motion->start = dof_values(committed);
+  Eigen::VectorXd start = dof_values(committed);
+  if (start.size() != motion->start.size() || start != motion->start) {
+    motion->start = std::move(start);
+    measure_damping(committed.u);
+  }
   motion->from = committed.rigid;
   motion->past = committed.rates;
 }
@@ -263,6 +274,7 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   rates.internal = forces.internal;
   rates.external = forces.external;
   rates.contact = forces.contact;
+  measure_damping(committed.u);
   rates.damping = damping_of(rates.velocity);
   Eigen::VectorXd force = rates.external - rates.internal - rates.damping;
   if (motion->settings.scheme.impact == solve::Impact::average) force -= rates.contact;

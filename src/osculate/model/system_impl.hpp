@@ -80,7 +80,7 @@ struct BasicSystem<Dim>::Impl {
     explicit Motion(Index unknowns) : builder(unknowns) {}
     Dynamics settings;
     std::optional<BasicInertia<Dim>> inertia;
-    std::vector<Eigen::MatrixXd> damping;  ///< K_0 of the cells; empty: no such damping
+    std::vector<Eigen::MatrixXd> damping;  ///< of the cells, by stiffness; empty: none
     bool turns = false;                    ///< cells with mass turn with a rigid body
     bool mass_known = false;               ///< the mass matrix is factored
     la::MatrixBuilder builder;             ///< of the mass matrix of the unknowns
@@ -105,6 +105,7 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] double force_factor() const { return timed() ? motion->factors.force : 1.0; }
   [[nodiscard]] Eigen::VectorXd dof_values(const State& s) const;
   void begin_dynamics();
+  void measure_damping(const Eigen::VectorXd& u);
   void begin_increment(const State& committed, double fraction, double duration);
   void add_inertia(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);
   /// Rotations of rigid bodies in space, in system_spins.cpp.
