@@ -1,5 +1,7 @@
 #include "osculate/model/inertia.hpp"
 
+#include <cmath>
+
 #include "osculate/solid/energy.hpp"
 #include "osculate/solid/mass.hpp"
 
@@ -57,6 +59,19 @@ Eigen::VectorXd BasicInertia<Dim>::times(const Vec<Dim>& acceleration) const {
   for (Eigen::Index b = 0; b < bodies; ++b)
     w.template segment<Dim>(Dim * nodes_ + motions * b) = acceleration;
   return multiply(w);
+}
+
+template <int Dim>
+double BasicInertia<Dim>::size() const {
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(nodes_);
+  for (const CellMass& cell : cells_)
+    for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      diagonal[cell.nodes[i]] += cell.mass(k, k);
+    }
+  double sum = diagonal.squaredNorm();
+  for (const Body& body : bodies_) sum += body.mass * body.mass;
+  return std::sqrt(Dim * sum);
 }
 
 template <int Dim>

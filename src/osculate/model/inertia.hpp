@@ -30,6 +30,8 @@ class BasicInertia {
   [[nodiscard]] Mat<body::motions<Dim>, body::motions<Dim>> body_mass(std::size_t body) const;
   [[nodiscard]] bool body_has_mass(std::size_t body) const { return bodies_[body].mass > 0; }
   [[nodiscard]] double total() const;
+  /// Norm of the diagonal of M.
+  [[nodiscard]] double size() const;
 
  private:
   struct Body {

@@ -1,6 +1,7 @@
 // Steps with inertia: the residual and tangent of one step in time, velocities, energies.
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "osculate/model/system_impl.hpp"
@@ -49,6 +50,7 @@ void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double /*fr
                                              double duration) {
   motion->h = duration;
   if (!(duration > 0)) return;
+  if (!(motion->size_of_mass > 0)) motion->size_of_mass = motion->inertia->size();
   motion->factors = solve::step_factors(motion->settings.scheme, duration);
   Eigen::VectorXd start = dof_values(committed);
   if (start.size() != motion->start.size() || start != motion->start) {
@@ -57,6 +59,20 @@ void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double /*fr
   }
   motion->from = committed.rigid;
   motion->past = committed.rates;
+}
+
+template <int Dim>
+double BasicSystem<Dim>::Impl::round_off_in_time(std::span<const Vec<Dim>> x) const {
+  double farthest = 0, springs = 0;
+  for (const Vec<Dim>& p : x) farthest = std::max(farthest, p.norm());
+  for (std::size_t p = 0; p < contact.size(); ++p) {
+    const double penalty = contact::penalty_of(model.pairs[p].definition.normal);
+    for (const pairing::PointResult<Dim>& point : contact[p].points)
+      if (point.status != contact::Status::open)
+        springs += penalty * penalty * point.weight * point.weight;
+  }
+  return 2 * std::numeric_limits<double>::epsilon() * farthest *
+         (motion->factors.mass * motion->size_of_mass + std::sqrt(springs));
 }
 
 template <int Dim>

@@ -92,6 +92,7 @@ struct BasicSystem<Dim>::Impl {
     std::vector<body::BasicRigidMotion<Dim>> from;  ///< rigid bodies of the committed state
     Rates past;                                     ///< of the committed state
     Eigen::VectorXd effective, damping_force;
+    double size_of_mass = 0;  ///< norm of the diagonal of the mass matrix
   };
   std::optional<Motion> motion;
   std::optional<BasicInertia<Dim>> resting;  ///< for gravity in steps without inertia
@@ -101,6 +102,8 @@ struct BasicSystem<Dim>::Impl {
   Impl(const BasicModel<Dim>& m, int thread_count);
 
   // Steps with inertia, in system_dynamics.cpp.
+  /// What the rounding of coordinates does to the forces of inertia and of contact.
+  [[nodiscard]] double round_off_in_time(std::span<const Vec<Dim>> x) const;
   [[nodiscard]] bool timed() const { return motion && motion->h > 0; }
   [[nodiscard]] double force_factor() const { return timed() ? motion->factors.force : 1.0; }
   [[nodiscard]] Eigen::VectorXd dof_values(const State& s) const;

@@ -284,7 +284,8 @@ bool load_increment(StepRun<S>& run) {
   at = std::max(at, begin);
   if (!(size > 0)) size = end - begin;
   const double smallest = (end - begin) * std::ldexp(1.0, -options.max_cutbacks);
-  const double target = end - at <= size * (1 + 1e-9) ? end : at + size;
+  constexpr double sliver = 1e-6;  // not worth an increment, and too short for one in time
+  const double target = end - at <= size * (1 + sliver) ? end : at + size;
   const bool may_guess = options.newton.predictor == Predictor::automatic;
   const Guess guess = may_guess ? position.extrapolation.guess(target - at) : Guess{};
   const bool last = 0.5 * (target - at) < smallest && options.arc_length.use != PathControl::off;
