@@ -37,6 +37,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult smoothed_circle(const CaseContext& context);
 [[nodiscard]] CaseResult spinning_disc(const CaseContext& context);
 [[nodiscard]] CaseResult stopped_block(const CaseContext& context);
+[[nodiscard]] CaseResult turning_block(const CaseContext& context);
 [[nodiscard]] CaseResult strip_into_channel(const CaseContext& context);
 [[nodiscard]] CaseResult snap_through(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell(const CaseContext& context);
