@@ -10,17 +10,25 @@
 namespace osculate::deck {
 namespace {
 
-/// Mass, centre and moments of the homogeneous body that an analytic shape encloses, about its
-/// reference point.
+/// Moments of the homogeneous body that an analytic shape encloses, about its centre of mass. That
+/// becomes the reference point where none is given; a given one must be it.
 template <int Dim>
 std::optional<typename body::Inertia<Dim>::Tensor> moment_of_shape(
-    const model::BasicRigidBody<Dim>& body) {
+    const Rigid& rigid, model::BasicRigidBody<Dim>& body) {
   std::optional<body::VolumeMoments<Dim>> moments;
   if (body.shape) moments = body::enclosed(*body.shape);
   if (!moments || !(std::abs(moments->volume) > 0)) return std::nullopt;
   const body::Inertia<Dim> inertia =
       body::inertia_of(*moments, body.mass / std::abs(moments->volume));
-  return body::tensor_about(inertia, body.reference);
+  constexpr double rounding = 1e-9;
+  const bool off = (body.reference - inertia.center).norm() >
+                   rounding * (body.reference.norm() + inertia.center.norm());
+  if (off && !rigid.reference) body.reference = inertia.center;
+  if (off && rigid.reference && !rigid.inertia)
+    throw core::InputError(rigid.reference->mark,
+                           "a body with a mass needs its centre of mass as reference point, which "
+                           "is the default; for another mass distribution give its inertia");
+  return inertia.tensor;
 }
 
 core::InputError inertia_missing(const Rigid& rigid) {
@@ -33,14 +41,14 @@ core::InputError inertia_missing(const Rigid& rigid) {
 void set_inertia(const Rigid& rigid, model::RigidBody& body) {
   if (rigid.inertia && rigid.inertia->value.size() != 1)
     throw core::InputError(rigid.inertia->mark, "a plane body has one moment of inertia");
-  const auto of_shape = moment_of_shape(body);
+  const auto of_shape = moment_of_shape(rigid, body);
   if (!rigid.inertia && !of_shape) throw inertia_missing(rigid);
   body.inertia = rigid.inertia ? Mat<1, 1>(rigid.inertia->value[0]) : *of_shape;
 }
 
 void set_inertia(const Rigid& rigid, model::RigidBody3& body) {
+  const auto of_shape = moment_of_shape(rigid, body);
   if (!rigid.inertia) {
-    const auto of_shape = moment_of_shape(body);
     if (!of_shape) throw inertia_missing(rigid);
     body.inertia = *of_shape;
     return;

@@ -223,9 +223,8 @@ std::vector<Key> shape_keys() {
 
 Spec rigid_spec() {
   return names(
-             "Rigid bodies, by name: a meshed set or one analytic shape each. All their motions "
-             "are "
-             "held until a step prescribes, loads or releases them.",
+             "Rigid bodies, by name: a meshed set or one analytic shape each. All motions of those "
+             "without a mass are held until a step prescribes, loads or releases them.",
              map("One rigid body: exactly one shape.", rigid_keys())
                  .with(Group::Rule::exactly_one, shape_names())
                  .such_as("{circle: {center: [0, -5], radius: 5}}"))

@@ -58,6 +58,20 @@ TEST(DynamicsKeys, AreRefusedWithTheReason) {
               ::testing::HasSubstr("one moment of inertia"));
 }
 
+// The body of a cylinder with two ends has its centre between them.
+TEST(DynamicsKeys, PutTheReferenceAtTheCentreOfMass) {
+  const std::string with = edited(
+      edited(test_file("dynamics_space.yaml"), "sphere: {center: [0.1, 0.05, 0.9], radius: 1}",
+             "cylinder: {point: [0, 0, 1], axis: [1, 0, 0], radius: 1, length: 6}"),
+      ", inertia: [0.5, 0.8, 1.1, 0.05, -0.1, 0.02]", "");
+  const model::RigidBody3 body = built_from(with).model.rigid.at(0);
+  EXPECT_LT((body.reference - Vec3(3, 0, 1)).norm(), 1e-12);
+  EXPECT_NEAR(body.inertia(0, 0), 0.5 * 2, 1e-12);              // m r^2 / 2
+  EXPECT_NEAR(body.inertia(1, 1), 2 * (3 + 36) / 12.0, 1e-12);  // m (3 r^2 + l^2) / 12
+  EXPECT_THAT(any_refusal(edited(with, "mass: 2", "mass: 2, reference: [0, 0, 1]")),
+              ::testing::HasSubstr("centre of mass"));
+}
+
 template <class AnyProbe>
 void expect_second_order_tangent(AnyProbe& probe, const std::string& what) {
   const auto r = check_tangent_of(probe);
