@@ -51,6 +51,31 @@ TEST(NormalTable, RunsThroughItsPointsAndOnBeyondTheLast) {
   EXPECT_EQ(reach(NormalLaw(table)), 0.01);
 }
 
+// The stored energy is that of the pressure: none at the first touch, and -dU/dgap = p, inside
+// every piece of the law and held points included.
+TEST(NormalLaws, StoreTheWorkOfTheirPressure) {
+  using osculate::testing::check_derivative;
+  const auto one = [](double value) -> Eigen::VectorXd {
+    return Eigen::VectorXd::Constant(1, value);
+  };
+  const auto expect = [&](const NormalLaw& law, double gap, double h) {
+    const auto energy = [&](const Eigen::VectorXd& g) -> Eigen::VectorXd {
+      return Eigen::VectorXd::Constant(1, stored_energy(law, g[0], gap > reach(law)));
+    };
+    const Eigen::VectorXd slope = one(response(law, gap, gap > reach(law)).traction);
+    const auto r = check_derivative(energy, slope, one(gap), one(1), h);
+    EXPECT_TRUE(r.exact || r.error < 1e-9 || std::abs(r.order - 2) < 0.1)
+        << gap << " order " << r.order << " error " << r.error;
+  };
+  for (const double gap : {0.7 * c0, 0.1 * c0, -2 * c0, -5.5 * c0, -9 * c0})
+    expect(NormalExponential{p0, c0}, gap, 0.1 * c0);
+  for (const double gap : {0.006, -0.01, -0.03, -0.09}) expect(table, gap, 1e-3);
+  for (const double gap : {-0.3, 0.2}) expect(NormalPenalty{100.0}, gap, 1e-2);
+  EXPECT_EQ(stored_energy(NormalExponential{p0, c0}, c0), 0.0);
+  EXPECT_EQ(stored_energy(table, 0.01), 0.0);
+  EXPECT_EQ(stored_energy(NormalPenalty{100.0}, 0.1), 0.0);
+}
+
 // The pressure never jumps and never falls with the overclosure.
 TEST(NormalLaws, AreContinuousAndMonotone) {
   for (const NormalLaw& law :
