@@ -180,10 +180,8 @@ void BasicSystem<Dim>::Impl::new_spins(const State& trial, Rates& now) const {
       if (m.settings.scheme.impact != solve::Impact::average) {
         const Vec3 by_contact =
             turning_moment(trial.rigid[b], b, -moment_on(trial, b, forces.contact), Vec3::Zero());
-        const Vec3 in_body = inertia.ldlt().solve(to_body * by_contact);
-        rates.moment -= m.factors.impulse_in_rate * by_contact;
-        rates.acceleration -= m.factors.impulse_in_rate * in_body;
-        rates.velocity += m.h * m.factors.impulse_in_velocity * in_body;
+        rates = body::with_contact(rates, inertia, scheme, trial.rigid[b], by_contact,
+                                   solve::impulse_way(m.settings.scheme.impact));
       }
       now.velocity.template segment<3>(first) = body::spin(trial.rigid[b], rates);
     }
