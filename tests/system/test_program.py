@@ -282,6 +282,23 @@ class Program(unittest.TestCase):
         self.assertEqual(opened["all.normal_force"], 0)
         self.assertAlmostEqual(opened["low.rfy"], 0, delta=1e-6)
 
+    def test_a_disc_is_thrown_on_a_beam_and_bounces(self):
+        model = os.path.join(SOURCE, "examples", "thrown_disc", "thrown_disc.yaml")
+        done = self.run_program("run", model, "-o", self.path("disc"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("disc/history.csv")) as file:
+            rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+        kinetic = 0.5 * 3 * (6 ** 2 + 8 ** 2) + 0.5 * (0.5 * 3 * 2 ** 2) * 20 ** 2
+        self.assertAlmostEqual(rows[0]["energy.kinetic"], kinetic, delta=1e-9)
+        self.assertAlmostEqual(rows[-1]["elapsed"], 1.2, delta=1e-12)
+        for before, after in zip(rows, rows[1:]):  # what friction takes does not come back
+            self.assertLessEqual(after["disc.wz"], before["disc.wz"] + 1e-9)
+            self.assertGreaterEqual(after["energy.friction"], before["energy.friction"])
+        lowest = min(range(len(rows)), key=lambda i: rows[i]["disc.uy"])
+        self.assertLess(rows[lowest]["disc.uy"], -2.5)
+        self.assertGreater(rows[-1]["disc.uy"], 0.5)
+        self.assertEqual(rows[-1]["hit.normal_force"], 0)
+
     def test_the_examples_are_valid(self):
         examples = os.path.join(SOURCE, "examples")
         found = [os.path.join(folder, name) for folder, _, names in os.walk(examples)

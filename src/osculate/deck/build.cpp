@@ -8,6 +8,7 @@
 #include "osculate/core/text.hpp"
 #include "osculate/deck/build_context.hpp"
 #include "osculate/deck/parse.hpp"
+#include "osculate/deck/parse_parts.hpp"
 #include "osculate/mesh/check.hpp"
 
 namespace osculate::deck {
@@ -111,14 +112,11 @@ void build_history(BuildContext<Dim>& c) {
     }
     c.built.history.push_back(std::move(out));
   }
-  const auto has_inertia = [](const Step& step) { return step.dynamics.has_value(); };
-  const std::vector<Step>& steps = c.description.steps;
-  if (std::none_of(steps.begin(), steps.end(), has_inertia)) return;
-  for (const std::string_view name : model::energy_quantities) {
+  const std::vector<std::string> columns = energy_columns(c.description);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
     model::HistoryRequest out;
-    out.name = fmt::format("energy.{}", name);
-    if (name == "elapsed") out.name = name;
-    out.quantity = name;
+    out.name = columns[i];
+    out.quantity = model::energy_quantities[i];
     out.kind = model::HistoryRequest::Kind::whole;
     c.built.history.push_back(std::move(out));
   }

@@ -56,11 +56,12 @@ HistoryRequest request_of(const Value& v, const Description& d) {
   return request;
 }
 
-void require_unique_columns(const std::vector<HistoryRequest>& requests) {
+void require_unique_columns(const std::vector<HistoryRequest>& requests,
+                            const std::vector<std::string>& always) {
   std::map<std::string, int> lines;
   for (const HistoryRequest& request : requests) {
     const std::string& column = request.column;
-    if (column == "step" || column == "increment" || column == "time")
+    if (std::find(always.begin(), always.end(), column) != always.end())
       throw core::InputError(
           request.mark, fmt::format("column '{}' is always there; choose another name", column));
     const auto [at, fresh] = lines.emplace(column, request.mark.line);
@@ -89,6 +90,16 @@ Plot plot_of(const Value& v, const std::vector<std::string>& columns) {
 
 }  // namespace
 
+std::vector<std::string> energy_columns(const Description& description) {
+  const auto has_inertia = [](const Step& step) { return step.dynamics.has_value(); };
+  const std::vector<Step>& steps = description.steps;
+  if (std::none_of(steps.begin(), steps.end(), has_inertia)) return {};
+  std::vector<std::string> columns;
+  for (const std::string_view name : model::energy_quantities)
+    columns.push_back(name == "elapsed" ? std::string(name) : fmt::format("energy.{}", name));
+  return columns;
+}
+
 Output parse_output(const Value& v, const Description& description) {
   Output output;
   const Value& fields = v.at("fields");
@@ -98,8 +109,9 @@ Output parse_output(const Value& v, const Description& description) {
     output.fields = word_of<FieldTimes>(fields).value;
   for (const Value& item : v.at("history").items)
     output.history.push_back(request_of(item, description));
-  require_unique_columns(output.history);
   std::vector<std::string> columns{"step", "increment", "time"};
+  for (std::string& column : energy_columns(description)) columns.push_back(std::move(column));
+  require_unique_columns(output.history, columns);
   for (const HistoryRequest& request : output.history) columns.push_back(request.column);
   for (const Value& item : v.at("plots").items) output.plots.push_back(plot_of(item, columns));
   output.report = flag(v, "report");

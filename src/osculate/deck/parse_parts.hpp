@@ -55,6 +55,9 @@ template <class E>
 [[nodiscard]] Solver parse_solver(const Value& v);
 /// Needs contacts and rigid bodies: they decide what `on` means.
 [[nodiscard]] Output parse_output(const Value& v, const Description& description);
+/// Columns that the history has without being asked: those of model::energy_quantities, where a
+/// step has inertia, in their order.
+[[nodiscard]] std::vector<std::string> energy_columns(const Description& description);
 
 // ---- references between branches --------------------------------------------------------------
 

@@ -58,6 +58,16 @@ TEST(DynamicsKeys, AreRefusedWithTheReason) {
               ::testing::HasSubstr("one moment of inertia"));
 }
 
+// The columns of the energies can be plotted, and their names are taken.
+TEST(DynamicsKeys, HaveColumnsOfTheirOwn) {
+  const std::string model = test_file("dynamics.yaml");
+  const Built built = build_text(model + "  plots: [{x: elapsed, y: [energy.kinetic, disc.vy]}]\n");
+  EXPECT_EQ(built.history.size(), 3 + model::energy_quantities.size());
+  EXPECT_EQ(built.history.back().name, "energy.residual");
+  EXPECT_THAT(refusal_of("{on: disc, of: vy}", "{on: disc, of: vy, name: elapsed}"),
+              ::testing::HasSubstr("column 'elapsed' is always there"));
+}
+
 // The body of a cylinder with two ends has its centre between them.
 TEST(DynamicsKeys, PutTheReferenceAtTheCentreOfMass) {
   const std::string with = edited(
