@@ -84,13 +84,14 @@ def everything(more=""):
     return "{all: {name: c, %s%s}}" % (FRICTION, more)
 
 
-# Not mortar: its sums depend in the last digit on where the heap puts their buffers, so that two processes need not
-# have the same bits, restarted or not.
 KINDS = {
+    "mortar": pair("sampling: mortar"),
     "multipliers at nodes": pair("enforcement: lagrange_multiplier"),
+    "multipliers of mortar": pair("sampling: mortar, enforcement: lagrange_multiplier"),
     "augmented at nodes": pair("enforcement: augmented_lagrange"),
     "augmented in one loop": pair("enforcement: {augmented_lagrange: {loop: single}}"),
     "augmented at Gauss points": pair("sampling: {gauss: 2}, enforcement: augmented_lagrange"),
+    "augmented mortar": pair("sampling: mortar, enforcement: augmented_lagrange"),
     "all": everything(),
     "all, augmented": everything(", enforcement: augmented_lagrange"),
 }
@@ -147,7 +148,7 @@ class RestartOfContact(RestartCase):
         self.in_parts(SPACE, KINDS)
 
     def test_steps_with_inertia(self):
-        self.in_parts(SWUNG, {"penalty": pair("sampling: nodes"), "multipliers": KINDS["multipliers at nodes"]})
+        self.in_parts(SWUNG, {"penalty": pair("sampling: nodes"), "mortar": KINDS["mortar"], "multipliers": KINDS["multipliers at nodes"]})
         self.in_parts(THROWN, {"ball": "[{name: c, master: ball, slave: low.top, normal: {penalty: 3000}, %s}]" % FRICTION})
 
     def test_contact_of_edges(self):

@@ -5,7 +5,8 @@
 namespace osculate::pairing {
 
 /// A matrix whose memory only grows, for buffers that are used again with another size: Eigen's own
-/// gives it back whenever the size changes.
+/// gives it back whenever the size changes. It begins where packets of numbers begin: what is
+/// computed in packets and what one by one, and so the last bits, does not depend on the heap.
 class Sheet {
  public:
   using View = Eigen::Map<Eigen::MatrixXd>;
@@ -22,7 +23,7 @@ class Sheet {
 
  private:
   Eigen::Index rows_ = 0, columns_ = 0;
-  std::vector<double> values_;
+  std::vector<double, Eigen::aligned_allocator<double>> values_;
 };
 
 }  // namespace osculate::pairing
