@@ -148,7 +148,8 @@ class RestartOfContact(RestartCase):
         self.in_parts(SPACE, KINDS)
 
     def test_steps_with_inertia(self):
-        self.in_parts(SWUNG, {"penalty": pair("sampling: nodes"), "mortar": KINDS["mortar"], "multipliers": KINDS["multipliers at nodes"]})
+        of_swung = {"penalty": pair("sampling: nodes"), "mortar": KINDS["mortar"]}
+        self.in_parts(SWUNG, {**of_swung, "multipliers": KINDS["multipliers at nodes"]})
         self.in_parts(THROWN, {"ball": "[{name: c, master: ball, slave: low.top, normal: {penalty: 3000}, %s}]" % FRICTION})
 
     def test_contact_of_edges(self):

@@ -57,8 +57,6 @@ struct StepFactors {
   /// Of (1 - alpha_m) x_n+1 + alpha_m x_n, where x_n+1 is the rate of a momentum as Newmark's
   /// formulas without b give it from the displacement.
   double balance = 1;
-  /// b's share in that x_n+1, and what the velocity still lacks of h b when it is computed from it.
-  double impulse_in_rate = 0, impulse_in_velocity = 0;
 };
 
 [[nodiscard]] constexpr double impulse_way(Impact impact) {
@@ -83,8 +81,6 @@ struct StepFactors {
   f.force = scale * (1 - s.alpha_f);
   f.past_force = scale * s.alpha_f;
   f.balance = scale;
-  f.impulse_in_rate = theta / s.beta;
-  f.impulse_in_velocity = 1 - s.gamma * theta / s.beta;
   return f;
 }
 
