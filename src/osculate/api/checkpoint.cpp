@@ -17,9 +17,9 @@ namespace osculate::contact {
 template <class Archive, int Dim>
 void fields(Archive& a, PointHistory<Dim>& h) {
   auto& [active, facet, feature, xi, gap, traction, slipping, slip, edge, flipped, slid, held, rest,
-         work] = h;
+         work, deepest, damping] = h;
   a(active, facet, feature, xi, gap, traction, slipping, slip, edge, flipped, slid, held, rest,
-    work);
+    work, deepest, damping);
 }
 template <class Archive, int Dim>
 void fields(Archive& a, Multiplier<Dim>& multiplier) {
@@ -118,9 +118,9 @@ void fields(Archive& a, Progress& progress) {
 template <class Archive>
 void fields(Archive& a, Energies& energies) {
   auto& [kinetic, strain, contact, external, friction, damping, numerical, residual, start, before,
-         elapsed] = energies;
+         damped, elapsed] = energies;
   a(kinetic, strain, contact, external, friction, damping, numerical, residual, start, before,
-    elapsed);
+    damped, elapsed);
 }
 template <class Archive>
 void fields(Archive& a, Rates& rates) {
@@ -167,7 +167,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 2;
+constexpr int version = 3;
 
 template <class... T>
 std::string saved(const T&... values) {

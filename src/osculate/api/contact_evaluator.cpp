@@ -66,6 +66,11 @@ void check_laws(const ContactOptions& options) {
   if (wrong.empty() && options.friction) wrong = contact::fault(*options.friction);
   if (wrong.empty() && options.friction && contact::needs_duration(*options.friction))
     wrong = "friction by speed needs a time, which an evaluation does not have";
+  if (wrong.empty() && options.damping) wrong = contact::fault(*options.damping);
+  if (wrong.empty() && options.damping && contact::needs_duration(*options.damping))
+    wrong = "viscous damping needs a time, which an evaluation does not have";
+  if (wrong.empty() && options.damping && options.separation != pairing::Separation::allowed)
+    wrong = "points that are held do not part: damping goes with separation allowed only";
   if (wrong.empty() && options.separation != pairing::Separation::allowed &&
       !contact::holds(normal))
     wrong = "this normal law lets go: separation goes with a penalty only";
@@ -84,6 +89,8 @@ void check_enforcement(const ContactOptions& options) {
   if (options.normal && !contact::augmentable(*options.normal))
     wrong =
         "a law that gives the pressure as a function of the gap is met by itself: use the penalty";
+  else if (options.damping)
+    wrong = "damping is a part of the spring that a penalty is";
   else if (options.separation == pairing::Separation::tied)
     wrong = "tied points are held by penalty only";
   const bool unknown = options.enforcement == Enforcement::lagrange_multiplier;
@@ -242,6 +249,7 @@ BasicContactEvaluator<Dim>::BasicContactEvaluator(const ContactOptions& options,
   pair.slave = pairing::make_slave_side(boundary_of(slave, x.size(), "slave"));
   pair.normal = options.normal.value_or(contact::NormalPenalty{options.normal_penalty});
   pair.enforcement = options.enforcement;
+  pair.damping = options.damping;
   pair.separation = options.separation;
   pair.tolerance = options.tolerance;
   pair.offset = options.offset;

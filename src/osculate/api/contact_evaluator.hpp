@@ -31,6 +31,8 @@ struct ContactOptions {
   contact::TangentForm tangent{};
   pairing::AreaRule area{};                    ///< thickness, or circumference (in the plane)
   std::optional<contact::NormalLaw> normal{};  ///< another law than the penalty
+  /// Restitution only: viscous damping needs a time.
+  std::optional<contact::DampingLaw> damping{};
   pairing::Separation separation = pairing::Separation::allowed;
   double tolerance = 0;          ///< of separation tied, tied_normal: gap of held points
   double offset = 0;             ///< half thicknesses of both sides, taken off the gap

@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "osculate/core/types.hpp"
 #include "osculate/projection/feature.hpp"
 
@@ -29,6 +31,9 @@ struct PointHistory {
   bool held = false;  ///< tied to the master in the normal direction from the start
   double rest = 0;    ///< of a held point: its gap at the start
   double friction_work = 0;  ///< [energy] dissipated here so far; stays when the point opens
+  /// Law gap (NormalResponse::deepest) of damping that remembers; stays while the sides overlap.
+  double deepest = std::numeric_limits<double>::infinity();
+  double damping_work = 0;  ///< [energy] dissipated here by damping so far
 };
 
 }  // namespace osculate::contact

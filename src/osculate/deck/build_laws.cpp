@@ -30,16 +30,22 @@ contact::FrictionLaw friction_law(const CoulombFriction& f) {
   return law;
 }
 
+std::optional<contact::DampingLaw> damping_law(const NormalDescription& n) {
+  if (n.viscous) return contact::Viscous{n.viscous->value};
+  if (n.restitution) return contact::Restitution{n.restitution->value};
+  return std::nullopt;
+}
+
 /// A speed needs a time.
 template <int Dim>
-void check_durations(const BuildContext<Dim>& c, const CoulombFriction& friction) {
-  if (!friction.speed) return;
+void check_durations(const BuildContext<Dim>& c, const std::optional<Number>& by_speed,
+                     const char* what) {
+  if (!by_speed) return;
   for (const Step& step : c.description.steps)
     if (!step.duration)
-      throw core::InputError(friction.speed->mark,
-                             "friction that depends on speed needs the duration of every step, and "
-                             "step '" +
-                                 step.name.value + "' has none");
+      throw core::InputError(
+          by_speed->mark, fmt::format("{} needs the duration of every step, and step '{}' has none",
+                                      what, step.name.value));
 }
 
 template <int Dim>
@@ -74,8 +80,10 @@ void set_laws(const BuildContext<Dim>& c, const Contact& contact,
               pairing::PairDefinition<Dim>& pair) {
   pair.normal = normal_law(contact);
   pair.offset = contact.offset;
+  pair.damping = damping_law(contact.normal);
+  check_durations(c, contact.normal.viscous, "damping that depends on speed");
   if (contact.friction) {
-    check_durations(c, *contact.friction);
+    check_durations(c, contact.friction->speed, "friction that depends on speed");
     pair.friction = friction_law(*contact.friction);
   }
   set_separation(c, contact, pair);

@@ -36,6 +36,10 @@ void check_enforcement(const Contact& contact, bool own) {
   if (contact.normal.law.value != NormalWord::penalty)
     refuse(contact.enforcement.mark,
            "a law that gives the pressure as a function of the gap is met by itself: use penalty");
+  if (contact.normal.viscous || contact.normal.restitution)
+    refuse(contact.enforcement.mark,
+           "damping is a part of the spring that a penalty is, and corrected or unknown tractions "
+           "have none: use penalty, or leave out damping");
   if (contact.normal.separation.value == SeparationWord::tied)
     refuse(contact.enforcement.mark, "tied points are held by penalty only");
   if (contact.edges && !contact.all)

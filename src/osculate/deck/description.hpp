@@ -198,8 +198,9 @@ enum class FrictionWord { coulomb, tresca, rough };
 /// Of the law in the normal direction what is not the penalty.
 struct NormalDescription {
   Marked<NormalWord> law;
-  Number pressure, clearance;                ///< exponential
-  std::vector<std::array<double, 2>> table;  ///< overclosure, pressure
+  Number pressure, clearance;                  ///< exponential
+  std::vector<std::array<double, 2>> table;    ///< overclosure, pressure
+  std::optional<Number> viscous, restitution;  ///< damping: at most one of them
   Marked<SeparationWord> separation;
   std::optional<Number> tolerance;
   Marked<InitialGap> initial_gap;

@@ -71,6 +71,29 @@ std::vector<Key> holding_keys() {
                    .such_as("close"))};
 }
 
+/// What an impact loses.
+Spec damping_spec() {
+  const Spec viscous =
+      number(
+          "A damper beside the spring: pressure per closing speed; every step needs a "
+          "duration.")
+          .in("force time/length^3 (force time/length with weight: node)")
+          .at_least(0)
+          .such_as("0.5");
+  const Spec restitution =
+      number(
+          "Speed after an impact over that before: unloading gives back the share e^2 of the "
+          "work of the pressure. Below 0.02 it acts as 0.02.")
+          .at_least(0)
+          .at_most(1)
+          .such_as("0.5");
+  return map("Damping in the normal direction, which never pulls.",
+             {optional("viscous", viscous), optional("restitution", restitution)})
+      .with(Group::Rule::exactly_one, {"viscous", "restitution"})
+      .otherwise_as("none")
+      .such_as("{restitution: 0.5}");
+}
+
 Spec normal_spec() {
   const Spec exponential =
       map("Pressure that grows exponentially: p = p0 / (e - 1) x (exp(x) - 1), x = 1 - gap / "
@@ -93,7 +116,8 @@ Spec normal_spec() {
       optional("penalty", penalty_spec("Stiffness against penetration, unless there is another "
                                        "law.",
                                        "compression")),
-      optional("exponential", exponential), optional("table", table)};
+      optional("exponential", exponential), optional("table", table),
+      optional("damping", damping_spec())};
   for (Key& key : holding_keys()) keys.push_back(std::move(key));
   return map("Law in the normal direction: a penalty, or one of exponential and table.",
              std::move(keys))

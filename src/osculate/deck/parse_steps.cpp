@@ -69,6 +69,18 @@ std::vector<std::array<double, 2>> table_of(const Value& v) {
   return points;
 }
 
+/// Damping acts on points that come and go, beside the springs of a penalty or another law.
+void read_damping(const Value& v, NormalDescription& n) {
+  const Value* const damping = v.find("damping");
+  if (!damping) return;
+  n.viscous = number_if(*damping, "viscous");
+  n.restitution = number_if(*damping, "restitution");
+  if (n.separation.value != SeparationWord::allowed)
+    throw core::InputError(damping->mark,
+                           "points that are held do not part, and an impact of theirs has no "
+                           "end: damping goes with separation: allowed only");
+}
+
 void read_normal(const Value& v, Contact& c) {
   NormalDescription& n = c.normal;
   n.law = {NormalWord::penalty, v.mark};
@@ -100,6 +112,7 @@ void read_normal(const Value& v, Contact& c) {
     throw core::InputError(n.tolerance->mark,
                            "tolerance says what is tied: it goes with separation: tied or "
                            "tied_normal");
+  read_damping(v, n);
   n.initial_gap = word_of<InitialGap>(v, "initial_gap");
   if (n.initial_gap.value == InitialGap::close && !tied)
     throw core::InputError(n.initial_gap.mark, "closing gaps goes with separation: tied only");

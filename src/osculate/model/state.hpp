@@ -16,14 +16,15 @@ namespace osculate::model {
 struct Energies {
   double kinetic = 0;
   double strain = 0;     ///< stored in the cells
-  double contact = 0;    ///< stored in the springs of the penalties
+  double contact = 0;    ///< stored in the springs of the penalties, those of tied points too
   double external = 0;   ///< work of loads, gravity and supports
   double friction = 0;   ///< dissipated by sliding
-  double damping = 0;    ///< dissipated by Rayleigh damping
+  double damping = 0;    ///< dissipated by Rayleigh damping and by damping of contact
   double numerical = 0;  ///< lost by the time integration and by implicit contact forces
   double residual = 0;   ///< not accounted for
   double start = 0;      ///< kinetic + strain + contact at the beginning
   double friction_before = 0;
+  double damped = 0;   ///< by damping of contact up to this state, steps without inertia included
   double elapsed = 0;  ///< time since the beginning
 };
 

@@ -66,7 +66,9 @@ double BasicSystem<Dim>::Impl::round_off_in_time(std::span<const Vec<Dim>> x) co
   double farthest = 0, springs = 0;
   for (const Vec<Dim>& p : x) farthest = std::max(farthest, p.norm());
   for (std::size_t p = 0; p < contact.size(); ++p) {
-    const double penalty = contact::penalty_of(model.pairs[p].definition.normal);
+    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
+    double penalty = contact::penalty_of(pair.normal);
+    if (pair.damping) penalty = contact::stiffest(*pair.damping, penalty, motion->h);
     for (const pairing::PointResult<Dim>& point : contact[p].points)
       if (point.status != contact::Status::open)
         springs += penalty * penalty * point.weight * point.weight;
@@ -226,18 +228,16 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::accelerations_by(const Eigen::VectorXd& 
 template <int Dim>
 double BasicSystem<Dim>::Impl::contact_energy() const {
   double sum = 0;
-  for (std::size_t p = 0; p < contact.size(); ++p) {
-    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
-    if (pair.enforcement == contact::Enforcement::lagrange_multiplier) continue;
-    const bool springs = pair.enforcement == contact::Enforcement::penalty;
-    for (const pairing::PointResult<Dim>& point : contact[p].points) {
-      if (point.status == contact::Status::open) continue;
-      sum += point.weight * contact::stored_energy(pair.normal, point.gap, true);
-      if (pair.friction && springs)
-        sum += 0.5 * point.weight * point.shear_traction.squaredNorm() /
-               contact::stiffness(*pair.friction);
-    }
-  }
+  for (const pairing::PairEvaluation<Dim>& pair : contact)
+    for (const pairing::PointResult<Dim>& point : pair.points) sum += point.weight * point.stored;
+  return sum;
+}
+
+template <int Dim>
+double BasicSystem<Dim>::Impl::damping_work() const {
+  double sum = 0;
+  for (const pairing::PairEvaluation<Dim>& pair : contact)
+    for (const pairing::PointResult<Dim>& point : pair.points) sum += point.history.damping_work;
   return sum;
 }
 
@@ -302,6 +302,7 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
       0.5 * rates.velocity.dot(motion->inertia->multiply(rates.velocity)) + spin_energy(rates);
   e.strain = strain_energy(model, committed.u);
   e.contact = contact_energy();
+  e.damped = damping_work();
   if (first) {
     e.start = e.kinetic + e.strain + e.contact;
     e.friction_before = friction_work();
@@ -374,10 +375,11 @@ void BasicSystem<Dim>::Impl::add_energies(const State& trial, const Rates& now,
   e.strain = strain_energy(model, trial.u);
   e.contact = contact_energy();
   e.external += external.dot(step_of) + supports;
-  e.damping += damping.dot(step_of);
+  e.damped = damping_work();
+  e.damping += damping.dot(step_of) + (e.damped - before.damped);
   e.friction = friction_work() - e.friction_before;
-  const double of_contact =
-      by_contact.dot(step_of) - (e.contact - before.contact) - (e.friction - before.friction);
+  const double of_contact = by_contact.dot(step_of) - (e.contact - before.contact) -
+                            (e.friction - before.friction) - (e.damped - before.damped);
   const double of_time =
       inertial.dot(step_of) - (e.kinetic - before.kinetic) - (rest.dot(step_of) - supports);
   e.numerical += of_contact + of_time;

@@ -138,6 +138,7 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] Eigen::VectorXd spread(const Eigen::VectorXd& of_unknowns) const;
   [[nodiscard]] double contact_energy() const;
   [[nodiscard]] double friction_work() const;
+  [[nodiscard]] double damping_work() const;  ///< of contact
   [[nodiscard]] Rates begin_rates(const State& committed);
   [[nodiscard]] Rates new_rates(const State& trial);
   void add_energies(const State& trial, const Rates& now, const Eigen::VectorXd& step,

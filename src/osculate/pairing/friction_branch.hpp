@@ -45,20 +45,46 @@ template <int Dim>
          gap - pair.offset - hint.relieved <= contact::reach(pair.normal);
 }
 
-/// The normal law, around the multiplier where there is one.
+/// What a law of damping may ask.
+template <int Dim>
+[[nodiscard]] contact::Closing closing_of(const PairDefinition<Dim>& pair,
+                                          const contact::PointHistory<Dim>& history,
+                                          const BranchHint<Dim>& hint) {
+  return {history.gap - rest_gap(pair, history, hint), history.deepest,
+          history.facet >= 0 ? hint.duration : 0.0};
+}
+
+/// The normal law with its damping, around the multiplier where there is one.
 template <int Dim>
 [[nodiscard]] contact::NormalResponse normal_response(const PairDefinition<Dim>& pair,
                                                       const contact::PointHistory<Dim>& history,
                                                       double gap, const BranchHint<Dim>& hint) {
+  const bool held = is_held(pair, history);
+  const double of_law = gap - rest_gap(pair, history, hint);
+  contact::NormalResponse r;
   if (hint.multiplier) {
-    const bool held = is_held(pair, history);
     if (gap < -pair.depth || (pair.separation == Separation::tied_normal && !held)) return {};
-    return contact::shifted({hint.stiffening * contact::penalty_of(pair.normal)},
-                            gap - rest_gap(pair, history, hint), hint.multiplier->normal, held);
+    r = contact::shifted({hint.stiffening * contact::penalty_of(pair.normal)}, of_law,
+                         hint.multiplier->normal, held);
+    if (r.active && pair.enforcement == contact::Enforcement::augmented_lagrange)
+      r.stored = contact::stored_energy(pair.normal, of_law, true);
+    return r;
   }
   if (!is_closed(pair, history, gap, hint)) return {};
-  return contact::response(pair.normal, gap - rest_gap(pair, history, hint),
-                           is_held(pair, history));
+  if (pair.damping)
+    return contact::damped(*pair.damping, pair.normal, of_law, closing_of(pair, history, hint));
+  r = contact::response(pair.normal, of_law, held);
+  r.stored = contact::stored_energy(pair.normal, of_law, held);
+  return r;
+}
+
+/// What is reported of the normal direction, whether the point is in contact or was let go.
+template <int Dim>
+void report_normal(const contact::NormalResponse& normal, double work_before,
+                   PointResult<Dim>& result) {
+  result.stored = normal.stored;
+  result.history.deepest = normal.deepest;
+  result.history.damping_work = work_before + result.weight * normal.dissipated;
 }
 
 /// The part in contact of a point that was open at the start of the increment (`history`).

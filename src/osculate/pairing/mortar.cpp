@@ -260,6 +260,7 @@ NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
   result.gap = std::numeric_limits<double>::infinity();
   result.weight = node.area;
   result.history.friction_work = committed.points[i].friction_work;
+  result.history.damping_work = committed.points[i].damping_work;
   result.history.held = committed.points[i].held;
   result.history.rest = committed.points[i].rest;
   const bool constrained = start_constraint(pair, hint, i, out.blocks[i]);
@@ -353,7 +354,8 @@ PairState<Dim> initial_mortar_state(const PairDefinition<Dim>& pair, Points<Dim>
     h.slip.setZero();
     h.slid = 0;
     h.slipping = false;
-    h.friction_work = 0;
+    h.friction_work = h.damping_work = 0;
+    h.deepest = std::numeric_limits<double>::infinity();
   }
   return state;
 }

@@ -140,6 +140,7 @@ void report(const PairDefinition<Dim>& pair, const PointHistory<Dim>& old,
   h.feature = projection::Feature::face;
   h.gap = c.gap;
   h.active = c.normal_law.active;
+  report_normal(c.normal_law, old.damping_work, result);
   if (!h.active) return;
   result.status = pair.friction ? c.law.status : Status::slip;
   result.normal_traction = c.normal_law.traction;
@@ -155,6 +156,8 @@ void report(const PairDefinition<Dim>& pair, const PointHistory<Dim>& old,
     h.slip += old.slip;
     h.slid += old.slid;
   }
+  if (pair.enforcement == contact::Enforcement::penalty)
+    result.stored += 0.5 * c.law.traction.squaredNorm() / c.stiffness;
   h.friction_work += node.area * contact::dissipated<Dim>(c.trial, c.law, c.stiffness);
 }
 

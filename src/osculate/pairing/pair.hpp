@@ -46,6 +46,7 @@ struct PairDefinition {
   SlaveSide<Dim> slave;
   contact::NormalLaw normal;
   std::optional<contact::FrictionLaw> friction;
+  std::optional<contact::DampingLaw> damping;  ///< by penalty, with separation allowed
   Separation separation = Separation::allowed;
   double tolerance = 0;  ///< tied, tied_normal: gap at the start of the points that are held
   bool keep_gap = true;  ///< tied: false pulls the points onto the master
@@ -121,6 +122,7 @@ struct PointResult {
   Vec<Dim - 1> shear_traction = Vec<Dim - 1>::Zero();  ///< t in `frame`
   AssumedBranch<Dim> branch;                           ///< the tangent belongs to
   double weight = 1;                                   ///< 1 or the area the traction acts on
+  double stored = 0;  ///< energy of the springs of the penalties, per weight
   Vec<Dim - 1> slip_increment = Vec<Dim - 1>::Zero();  ///< along the master, in `frame`
   Vec<Dim> foot = Vec<Dim>::Zero(), normal = Vec<Dim>::UnitY();
   Mat<Dim, Dim - 1> frame = Mat<Dim, Dim - 1>::Zero();  ///< 2D: unit tangent

@@ -18,6 +18,7 @@ PairDefinition<3> pair_of_crossings(const PairDefinition<3>& pair,
   PairDefinition<3> out;
   out.normal = pair.normal;
   out.friction = pair.friction;
+  out.damping = pair.damping;
   out.separation = pair.separation;
   out.tolerance = pair.tolerance;
   out.offset = pair.offset;

@@ -10,6 +10,7 @@
 namespace osculate::pairing {
 
 using contact::Kinematics;
+using contact::NormalResponse;
 using contact::PointHistory;
 using contact::PointTerms;
 using contact::Status;
@@ -140,12 +141,12 @@ void clear(ContactBlock<Dim>& block) {
   block.constraint.on = false;
 }
 
-/// Where the point is; false where it is not in contact.
+/// Where the point is, and what its normal law says; not active where it is not in contact.
 template <int Dim>
-bool report_place(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHistory<Dim>& history,
-                  const Placed<Dim>& placed, const BranchHint<Dim>& hint,
-                  PointResult<Dim>& result) {
-  if (placed.projection.feature == Feature::none) return false;
+NormalResponse report_place(const PairDefinition<Dim>& pair, Points<Dim> x,
+                            const PointHistory<Dim>& history, const Placed<Dim>& placed,
+                            const BranchHint<Dim>& hint, PointResult<Dim>& result) {
+  if (placed.projection.feature == Feature::none) return {};
   const Kinematics<Dim>& k = placed.kinematics;
   result.gap = k.gap - pair.offset - hint.relieved;
   result.foot = placed.foot;
@@ -153,10 +154,10 @@ bool report_place(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHis
   result.frame = k.frame;
   result.history = next_history<Dim>(pair, x, history, placed, {});
   if (placed.projection.beyond_end) result.history.gap = result.gap = std::abs(k.gap);
-  const bool closed =
-      !placed.projection.beyond_end && normal_response(pair, history, k.gap, hint).active;
-  result.outside_domain = closed && !contact::inside_domain(k);
-  return closed && !result.outside_domain;
+  if (placed.projection.beyond_end) return {};
+  const NormalResponse normal = normal_response(pair, history, k.gap, hint);
+  result.outside_domain = normal.active && !contact::inside_domain(k);
+  return result.outside_domain ? NormalResponse{} : normal;
 }
 
 /// Rows and columns of the multipliers of a point in contact.
@@ -187,11 +188,14 @@ void set_constraint_tangent(const PairDefinition<Dim>& pair, const Kinematics<Di
 template <int Dim>
 void report_contact(const PairDefinition<Dim>& pair, Points<Dim> x,
                     const PointHistory<Dim>& history, const Placed<Dim>& placed,
-                    const Friction<Dim>& f, PointResult<Dim>& result) {
+                    const BranchHint<Dim>& hint, const Friction<Dim>& f, PointResult<Dim>& result) {
   result.history = next_history(pair, x, history, placed, f);
   result.history.friction_work += result.weight * f.dissipated;
+  report_normal(f.traction.normal, history.damping_work, result);
   result.status = !pair.friction ? Status::slip : f.law.status;
   if (pair.friction) result.branch = branch_of<Dim>(f.traction.tangential, placed.kinematics.frame);
+  if (pair.friction && !hint.multiplier)
+    result.stored += 0.5 * f.law.traction.squaredNorm() / f.traction.stiffness;
   result.normal_traction = f.traction.normal.traction;
   result.shear_traction = f.law.traction;
   result.slip_increment = f.slip;
@@ -210,17 +214,21 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   clear(block);
   result.weight = point_weight(pair, out, i);
   result.history.friction_work = history.friction_work;
+  result.history.damping_work = history.damping_work;
   result.history.held = history.held;
   result.history.rest = history.rest;
   result.gap = std::numeric_limits<double>::infinity();
   const bool constrained = start_constraint(pair, hint, i, block);
-  if (!report_place(pair, x, history, placed, hint, result)) return;
+  const NormalResponse normal = report_place(pair, x, history, placed, hint, result);
   const Kinematics<Dim>& k = placed.kinematics;
-  result.weight = facing_weight<Dim>(pair, out, i, k.normal);
+  if (normal.active || normal.stored > 0)
+    result.weight = facing_weight<Dim>(pair, out, i, k.normal);
+  report_normal(normal, history.damping_work, result);
+  if (!normal.active) return;
   const bool exact = with_tangent && pair.tangent.consistent;
   const Friction<Dim> f =
       tractions<Dim>(pair, history, placed, x, hint, exact ? &block.behind : nullptr);
-  report_contact(pair, x, history, placed, f, result);
+  report_contact(pair, x, history, placed, hint, f, result);
 
   const SlavePoint<Dim>& slave = pair.slave.points[i];
   set_nodes(block, pair.master, placed, slave, out.block_nodes);

@@ -236,6 +236,7 @@ void report(const PairDefinition<Dim>& pair, const TiedPoint<Dim>& tie, const Ti
   result.frame = contact::tangent_frame<Dim>(result.normal, s.r[0]);
   result.gap = result.normal.dot(s.apart) - pair.offset;
   result.normal_traction = stiffness * result.normal.dot(s.q);
+  result.stored = 0.5 * stiffness * s.q.squaredNorm();
   result.shear_traction = stiffness * (result.frame.transpose() * s.q);
   contact::PointHistory<Dim>& h = result.history;
   h.active = h.held = true;

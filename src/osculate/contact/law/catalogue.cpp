@@ -61,7 +61,21 @@ std::string fault_of(const Rough& law) {
   return fmt::format("friction needs a stiffness > 0, got {:g}", law.stiffness);
 }
 
+std::string fault_of(const Viscous& law) {
+  if (not_negative(law.coefficient)) return {};
+  return fmt::format("viscous damping needs a coefficient >= 0, got {:g}", law.coefficient);
+}
+
+std::string fault_of(const Restitution& law) {
+  if (law.value >= 0 && law.value <= 1) return {};
+  return fmt::format("a restitution lies between 0 and 1, got {:g}", law.value);
+}
+
 }  // namespace
+
+std::string fault(const DampingLaw& law) {
+  return std::visit([](const auto& l) { return fault_of(l); }, law);
+}
 
 std::string fault(const NormalLaw& law) {
   return std::visit([](const auto& l) { return fault_of(l); }, law);

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/damping.hpp"
 #include "osculate/contact/law/normal_exponential.hpp"
 #include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/contact/law/normal_table.hpp"
@@ -14,6 +15,7 @@ namespace osculate::contact {
 /// The laws there are. A law is dispatched once per call for a point.
 using NormalLaw = std::variant<NormalPenalty, NormalExponential, NormalTable>;
 using FrictionLaw = std::variant<Coulomb, Tresca, Rough>;
+using DampingLaw = std::variant<Viscous, Restitution>;
 
 /// Normal traction at a gap; with `held` also of a point that is pulled, where the law allows it.
 [[nodiscard]] inline NormalResponse response(const NormalLaw& law, double gap, bool held = false) {
@@ -24,6 +26,12 @@ using FrictionLaw = std::variant<Coulomb, Tresca, Rough>;
 /// Tested by  tests/unit/contact/test_normal_laws.cpp
 [[nodiscard]] inline double stored_energy(const NormalLaw& law, double gap, bool held = false) {
   return std::visit([&](const auto& l) { return l.energy(gap, held); }, law);
+}
+/// The normal law with damping.
+[[nodiscard]] inline NormalResponse damped(const DampingLaw& damping, const NormalLaw& law,
+                                           double gap, const Closing& closing) {
+  return std::visit([&](const auto& d, const auto& l) { return d.response(l, gap, closing); },
+                    damping, law);
 }
 /// Largest gap with contact.
 [[nodiscard]] inline double reach(const NormalLaw& law) {
@@ -47,10 +55,16 @@ using FrictionLaw = std::variant<Coulomb, Tresca, Rough>;
 
 /// What is wrong with the numbers of a law; empty: nothing.
 ///
-/// Tested by  tests/unit/contact/test_normal_laws.cpp, test_friction_laws.cpp
+/// Tested by  tests/unit/contact/test_normal_laws.cpp, test_friction_laws.cpp,
+/// test_damping.cpp
 [[nodiscard]] std::string fault(const NormalLaw& law);
 [[nodiscard]] std::string fault(const FrictionLaw& law);
+[[nodiscard]] std::string fault(const DampingLaw& law);
 
+/// Largest slope of the pressure of a penalty with damping.
+[[nodiscard]] inline double stiffest(const DampingLaw& law, double penalty, double duration) {
+  return std::visit([&](const auto& l) { return l.stiffest(penalty, duration); }, law);
+}
 /// eps_T
 [[nodiscard]] inline double stiffness(const FrictionLaw& law) {
   return std::visit([](const auto& l) { return l.stiffness; }, law);
@@ -82,6 +96,9 @@ template <int Dim>
 [[nodiscard]] inline bool needs_duration(const FrictionLaw& law) {
   const auto* const coulomb = std::get_if<Coulomb>(&law);
   return coulomb && coulomb->change && coulomb->change->by == FrictionChange::By::speed;
+}
+[[nodiscard]] inline bool needs_duration(const DampingLaw& law) {
+  return std::holds_alternative<Viscous>(law);
 }
 
 }  // namespace osculate::contact
