@@ -16,9 +16,11 @@ contact::NormalLaw normal_law(const Contact& contact) {
   return contact::NormalPenalty{contact.normal_penalty.value};
 }
 
-contact::FrictionLaw friction_law(const CoulombFriction& f) {
+contact::FrictionLaw friction_law(const CoulombFriction& f, bool may_part) {
+  constexpr double steep = 1e4;  // the angle of friction is 0.006 degrees short of a right angle
   if (f.law == FrictionWord::tresca) return contact::Tresca{f.limit.value, f.penalty.value};
-  if (f.law == FrictionWord::rough) return contact::Rough{f.penalty.value};
+  if (f.law == FrictionWord::rough)
+    return may_part ? contact::Rough{f.penalty.value, steep} : contact::Rough{f.penalty.value};
   contact::Coulomb law{f.mu.value, f.penalty.value};
   if (f.cap) law.cap = f.cap->value;
   if (!f.kinetic) return law;
@@ -84,7 +86,8 @@ void set_laws(const BuildContext<Dim>& c, const Contact& contact,
   check_durations(c, contact.normal.viscous, "damping that depends on speed");
   if (contact.friction) {
     check_durations(c, contact.friction->speed, "friction that depends on speed");
-    pair.friction = friction_law(*contact.friction);
+    pair.friction =
+        friction_law(*contact.friction, contact.normal.separation.value == SeparationWord::allowed);
   }
   set_separation(c, contact, pair);
 }

@@ -106,6 +106,24 @@ TEST(Rough, NeverSlides) {
   EXPECT_EQ(r.traction, Vec2(1e9, -3));
 }
 
+// Where hardly anything presses it is Coulomb's law with its large coefficient, bit by bit.
+TEST(Rough, LetsPartWhatIsSheared) {
+  const Rough law{80.0, 1e4};
+  const Coulomb steep{1e4, 80.0};
+  const Vec2 trial(3, -4);
+  for (const double normal : {-1.0, -5e-4, -1e-4, -1e-9, 0.0}) {
+    const TangentialResponse<3> r = law.response<3>(trial, normal),
+                                c = steep.response<3>(trial, normal);
+    EXPECT_EQ(r.status, normal <= -5e-4 ? Status::stick : Status::slip) << normal;
+    EXPECT_EQ(r.traction, c.traction);
+    EXPECT_EQ(r.d_trial, c.d_trial);
+    EXPECT_EQ(r.d_normal, c.d_normal);
+    EXPECT_EQ(law.predicted_limit(5, -normal, {}).value,
+              steep.predicted_limit(5, -normal, {}).value);
+  }
+  EXPECT_EQ(fault(FrictionLaw(Rough{80, 0})), "rough points need a coefficient > 0, got 0");
+}
+
 /// Order of the derivatives by trial and normal traction, all at once.
 template <int Dim>
 void expect_second_order(const FrictionLaw& law, const Vec<Dim - 1>& trial, double normal,
@@ -125,15 +143,16 @@ void expect_second_order(const FrictionLaw& law, const Vec<Dim - 1>& trial, doub
 }
 
 TEST(FrictionLaws, DerivativesAreOfSecondOrder) {
-  const std::array<FrictionLaw, 9> laws{Coulomb{0.5, 80.0},
-                                        Coulomb{0.5, 80.0, 3.0},
-                                        changing(0.2, 0.1, By::distance),
-                                        changing(0.9, 0.1, By::distance),
-                                        changing(0.2, 0.2, By::speed),
-                                        changing(0.9, 0.2, By::speed),
-                                        changing(0.2, 0.1, By::distance, 3.0),
-                                        Tresca{3.0, 80.0},
-                                        Rough{80.0}};
+  const std::array<FrictionLaw, 10> laws{Coulomb{0.5, 80.0},
+                                         Coulomb{0.5, 80.0, 3.0},
+                                         changing(0.2, 0.1, By::distance),
+                                         changing(0.9, 0.1, By::distance),
+                                         changing(0.2, 0.2, By::speed),
+                                         changing(0.9, 0.2, By::speed),
+                                         changing(0.2, 0.1, By::distance, 3.0),
+                                         Tresca{3.0, 80.0},
+                                         Rough{80.0},
+                                         Rough{80.0, 0.8}};
   for (const FrictionLaw& law : laws)
     for (const double size : {1.0, 9.0, 14.0}) {
       const Sliding sliding{0.02, 0.5};

@@ -57,8 +57,10 @@ std::string fault_of(const Tresca& law) {
 }
 
 std::string fault_of(const Rough& law) {
-  if (positive(law.stiffness)) return {};
-  return fmt::format("friction needs a stiffness > 0, got {:g}", law.stiffness);
+  if (!positive(law.stiffness))
+    return fmt::format("friction needs a stiffness > 0, got {:g}", law.stiffness);
+  if (law.coefficient > 0) return {};
+  return fmt::format("rough points need a coefficient > 0, got {:g}", law.coefficient);
 }
 
 std::string fault_of(const Viscous& law) {

@@ -1,26 +1,39 @@
 #pragma once
+#include <cmath>
 #include <limits>
 #include <string_view>
 
-#include "osculate/contact/law/tangential.hpp"
+#include "osculate/contact/law/coulomb.hpp"
 
 namespace osculate::contact {
 
 /// No sliding while in contact: t = t_tr.
 ///
+/// A point that parts while it is sheared has no equilibrium: sticking its shear traction pulls it
+/// off, open it penetrates. Coulomb's law has one for every coefficient, sliding at little
+/// pressure; so points that may part slide where |t| is above `coefficient` p, p hardly anything.
+/// Held points (no separation) do not.
+///
 /// Tested by  tests/unit/contact/test_friction_laws.cpp
 struct Rough {
   static constexpr std::string_view key = "rough";
-  double stiffness = 0;  ///< eps_T
+  double stiffness = 0;                                          ///< eps_T
+  double coefficient = std::numeric_limits<double>::infinity();  ///< infinity: never slides
 
-  [[nodiscard]] SlipLimit predicted_limit(double, double, const Sliding&) const {
-    return {std::numeric_limits<double>::infinity(), 0, 0};
+  [[nodiscard]] SlipLimit predicted_limit(double trial, double pressure,
+                                          const Sliding& sliding) const {
+    if (!std::isfinite(coefficient)) return {coefficient, 0, 0};
+    return parting().predicted_limit(trial, pressure, sliding);
   }
   template <int Dim>
-  [[nodiscard]] TangentialResponse<Dim> response(const Vec<Dim - 1>& trial, double,
-                                                 const Sliding& = {}) const {
-    return stick_response<Dim>(trial);
+  [[nodiscard]] TangentialResponse<Dim> response(const Vec<Dim - 1>& trial, double normal_traction,
+                                                 const Sliding& sliding = {}) const {
+    if (!std::isfinite(coefficient)) return stick_response<Dim>(trial);
+    return parting().template response<Dim>(trial, normal_traction, sliding);
   }
+
+ private:
+  [[nodiscard]] Coulomb parting() const { return {coefficient, stiffness}; }
 };
 
 }  // namespace osculate::contact
