@@ -30,6 +30,9 @@ function argument(name) {
   return at < 0 ? null : process.argv[at + 1];
 }
 
+const energies = ['kinetic', 'strain', 'contact', 'external', 'friction', 'damping', 'numerical', 'residual']
+  .map((name) => `energy.${name}`);
+
 /** One cell of every type, a rigid line that moves, missing values, nothing in contact at first. */
 function everyCell() {
   const points = [];
@@ -49,7 +52,8 @@ function everyCell() {
     frames: [{ time: 0, u: points.map(() => [0, 0]), fields: { f: values } },
       { time: 1, u: points.map(([x]) => [0, 0.01 * x * x]), fields: { f: values }, contact }],
     rigid: [{ name: 'r', polyline: [[[-1, -1.3], [15, -1.3]], [[-1, -1], [15, -1]]] }],
-    history: { columns: ['time', 'a'], rows: [[0, 1], [1, null]] },
+    history: { columns: ['time', 'a', 'elapsed', ...energies], rows: [[0, 1, 0, 3, 0, 0, 0, 0, 0, 0, 0],
+      [1, null, 1, 1, 1, 0.5, -0.2, 0, 0, 0.3, 1e-16]] },
   };
 }
 
@@ -101,7 +105,7 @@ if (!given) {
     const file = join(dir, `${name}.html`);
     writeFileSync(file, page(data));
     pages.push([file, name === 'bare' ? ['<h1>bare']
-      : ['<h1>', 'id="body"', ...(name === 'space' ? ['id="diagnosis"', 'turning about'] : [])]]);
+      : ['<h1>', 'id="body"', ...(name === 'space' ? ['id="diagnosis"', 'turning about'] : ['id="energy"', 'lost numerically'])]]);
   }
 }
 for (const [file, parts] of pages) {

@@ -1,5 +1,5 @@
 // The deformed body with its controls, and the contact stresses along the surface.
-import { fit, pan, zoom } from './camera.js';
+import { bounds, fit, pan, zoom } from './camera.js';
 import { choice, el, tick, watchWidth } from './dom.js';
 import { num } from './format.js';
 import { plot } from './plot.js';
@@ -28,7 +28,7 @@ export function bodySection(body, frameChanged, { id = 'body', title = 'Deformed
   const section = el('section', { id }, title && el('h2', {}, title),
     controls(self), host, self.player.bar, self.contact.node);
   watchWidth(host, (width) => {
-    resize(view, width, heightFor(body, width));
+    resize(view, width, heightFor(view, state.scale, width));
     fit(view, state.scale);
     refresh(self);
   });
@@ -39,11 +39,9 @@ export function bodySection(body, frameChanged, { id = 'body', title = 'Deformed
   return { section, show: (frame) => showFrame(self, frame) };
 }
 
-function heightFor(body, width) {
-  const [xs, ys] = [0, 1].map((k) => body.points.filter((_, i) => i % 2 === k));
-  const span = (list) => list.reduce((m, v) => Math.max(m, v), -Infinity) -
-    list.reduce((m, v) => Math.min(m, v), Infinity);
-  const aspect = span(ys) / (span(xs) || 1);
+function heightFor(view, scale, width) {
+  const [x0, y0, x1, y1] = bounds(view, scale);
+  const aspect = (y1 - y0) / (x1 - x0 || 1);
   return Math.round(Math.min(Math.max((width - 96) * aspect * 1.2 + 60, 300), Math.max(340, width * 0.62), 620));
 }
 

@@ -9,34 +9,59 @@ export function rigidPoint(line, first, i, scale) {
     first[2 * i + 1] + scale * (line[2 * i + 1] - first[2 * i + 1])];
 }
 
-/** Bounds of the bodies over (up to 40 of) all frames, with what is near of the rigid lines. */
+/** Up to 41 of `count` frames, the first and the last among them. */
+export function someFrames(count) {
+  const stride = Math.ceil(count / 40) || 1;
+  return Array.from({ length: count }, (_, f) => f).filter((f) => f % stride === 0 || f === count - 1);
+}
+
+function add(box, x, y) {
+  if (!Number.isFinite(x) || !Number.isFinite(y)) return;
+  box[0] = Math.min(box[0], x);
+  box[1] = Math.min(box[1], y);
+  box[2] = Math.max(box[2], x);
+  box[3] = Math.max(box[3], y);
+}
+
+const nothing = () => [Infinity, Infinity, -Infinity, -Infinity];
+const sizeOf = ([x0, y0, x1, y1]) => Math.hypot(x1 - x0, y1 - y0);
+
+/** Whether a rigid line is a thing to be seen whole, or one that goes on beyond what matters. */
+function isThing(line, size) {
+  const own = nothing();
+  const n = line.length / 2;
+  for (let i = 0; i < n; ++i) add(own, line[2 * i], line[2 * i + 1]);
+  const extent = sizeOf(own);
+  const open = Math.hypot(line[0] - line[2 * n - 2], line[1] - line[2 * n - 1]) > 1e-6 * extent;
+  return extent <= (open ? 1 : 4) * size;
+}
+
+/** Bounds over (up to 41 of) all frames: bodies, rigid ones wherever they are, and what is near of endless lines. */
 export function bounds(view, scale) {
   const { body } = view;
-  const box = [Infinity, Infinity, -Infinity, -Infinity];
-  const add = (b, x, y) => {
-    if (!Number.isFinite(x) || !Number.isFinite(y)) return;
-    b[0] = Math.min(b[0], x);
-    b[1] = Math.min(b[1], y);
-    b[2] = Math.max(b[2], x);
-    b[3] = Math.max(b[3], y);
-  };
-  const stride = Math.ceil(body.frames.length / 40);
+  const box = nothing();
+  const frames = someFrames(body.frames.length);
   const ends = new Set(body.topo.outline.flatMap((e) => [e.a, e.b]));
-  for (let f = 0; f < body.frames.length; f += stride) {
+  for (const f of frames) {
     const u = body.frames[f].u();
     for (const i of ends) {
       add(box, body.points[2 * i] + scale * u[2 * i], body.points[2 * i + 1] + scale * u[2 * i + 1]);
     }
   }
   if (!(box[0] <= box[2])) return [0, 0, 1, 1];
+  const size = sizeOf(box);
+  const [things, endless] = [[], []];
+  for (const r of body.rigid) (isThing(r.first, size) ? things : endless).push(r);
+  const each = (r, put) => frames.forEach((f) => {
+    const line = r.at(f);
+    for (let i = 0; i < line.length / 2; ++i) put(...rigidPoint(line, r.first, i, scale));
+  });
+  for (const r of things) each(r, (x, y) => add(box, x, y));
   const reach = 0.15 * Math.max(box[2] - box[0], box[3] - box[1]);
   const near = [box[0] - reach, box[1] - reach, box[2] + reach, box[3] + reach];
   const whole = [...box];
-  for (const r of body.rigid) {
-    for (let i = 0; i < r.first.length / 2; ++i) {
-      add(whole, Math.min(near[2], Math.max(near[0], r.first[2 * i])),
-        Math.min(near[3], Math.max(near[1], r.first[2 * i + 1])));
-    }
+  for (const r of endless) {
+    each(r, (x, y) => add(whole, Math.min(near[2], Math.max(near[0], x)), Math.min(near[3], Math.max(near[1], y))));
   }
   return whole;
 }

@@ -73,7 +73,7 @@ export function diagnosisSection(report) {
   if (!motions.length || !report.mesh?.points) return section;
   const host = el('div', {}, picture(report, 0));
   section.append(
-    el('p', {}, `${near(report) ? 'Where the analysis stopped' : 'The undeformed place'} (in the plane: dashed), and ` +
+    el('p', {}, `${near(report) ? 'Where the analysis stopped' : 'The undeformed place'} (dashed), and ` +
       'the body moved as nothing resists it, exaggerated; play it to see it swing.'),
     el('div', { class: 'controls' }, choice('Free motion', motions.map((m, k) => [k, nameOf(m)]), 0,
       (k) => host.replaceChildren(picture(report, Number(k))))),

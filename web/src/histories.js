@@ -1,19 +1,20 @@
 // Histories of the requested quantities, and further curves the program added.
 import { numbers } from './data.js';
 import { el } from './dom.js';
+import { energySection, isLedger } from './energy.js';
 import { num } from './format.js';
 import { plot } from './plot.js';
 
-/** The plots asked for, or every column over time when none was. */
+/** The plots asked for, or every column over time when none was (but those of the ledger of energies). */
 function wanted(report, history) {
   if (report.plots?.length) return report.plots;
   const time = history.names.includes('time') ? 'time' : history.names[0];
   return history.names
-    .filter((name) => !['step', 'increment', 'time', time].includes(name))
+    .filter((name) => !['step', 'increment', 'time', time].includes(name) && !isLedger(name))
     .map((name) => ({ title: name, x: time, y: [name] }));
 }
 
-/** {section, follow(frame)}: `follow` marks the frame shown on all curves. */
+/** {section, energy, follow(frame)}: `follow` marks the frame shown on all curves. */
 export function historySection(report, history, picked) {
   const grid = el('div', { class: 'grid' });
   const section = el('section', { id: 'histories' }, el('h2', {}, 'Histories'), grid);
@@ -36,8 +37,11 @@ export function historySection(report, history, picked) {
       label: c.label ?? '', x: numbers(c.x), y: numbers(c.y),
     })));
   }
+  const energy = energySection(history, (i) => picked(rowOf(history, i)), (i) => rowName(history, i));
+  followers.push(energy.follow);
   return {
     section: grid.children.length ? section : null,
+    energy: energy.section,
     follow: (frame) => {
       const row = history ? rowFor(history, frame) : -1;
       followers.forEach((f) => f(row));

@@ -51,9 +51,11 @@ function build(report) {
     view = { body, show: made.show };
     return made.section;
   });
+  const energy = histories?.energy;
   const convergence = guarded(() => convergenceSection(report, increments, goTo));
   const parts = report.status === 'failed'
-    ? [guarded(() => diagnosisSection(report)), convergence, bodyPart, historyPart] : [bodyPart, historyPart, convergence];
+    ? [guarded(() => diagnosisSection(report)), convergence, bodyPart, historyPart, energy]
+    : [bodyPart, historyPart, energy, convergence];
   parts.push(guarded(() => modelSection(report)), guarded(() => runSection(report, increments)));
   const shown = parts.filter(Boolean);
   const links = shown.filter((s) => s.id).map((s) =>

@@ -52,15 +52,17 @@ function addTriangles(shape, nodes, virtual, tris) {
   for (let i = 0; i < ring.length; ++i) tris.push(ring[i], ring[(i + 1) % ring.length], centre);
 }
 
-function addEdges(shape, nodes, n, edges) {
+function addEdges(shape, nodes, n, edges, cell) {
   for (const [a, b, mid] of shape.edges) {
     const lo = Math.min(nodes[a], nodes[b]);
     const hi = Math.max(nodes[a], nodes[b]);
     const found = edges.get(lo * n + hi);
-    if (found) ++found.cells;
-    else {
+    if (found) {
+      ++found.cells;
+      found.other = cell;
+    } else {
       edges.set(lo * n + hi, {
-        a: nodes[a], b: nodes[b], mid: mid < 0 ? -1 : nodes[mid], cells: 1, line: !!shape.line,
+        a: nodes[a], b: nodes[b], mid: mid < 0 ? -1 : nodes[mid], cells: 1, line: !!shape.line, cell, other: -1,
       });
     }
   }
@@ -68,12 +70,14 @@ function addEdges(shape, nodes, n, edges) {
 
 /**
  * Topology of `cells` = [{type, connectivity: flat number[]}] over n nodes:
- * {n, total, virtual: [{nodes, weights}], tris: Int32Array, inner: edges, outline: edges}.
+ * {n, total, virtual: [{nodes, weights}], tris: Int32Array, inner: edges, outline: edges, corners}:
+ * three corners of every cell; an edge knows its cells {cell, other or -1}.
  */
 export function topology(cells, n) {
   const points = [];
   const tris = [];
   const edges = new Map();
+  const corners = [];
   const virtual = (nodes, weights) => n + points.push({ nodes, weights }) - 1;
   for (const block of cells) {
     const shape = shapes[block.type];
@@ -82,7 +86,8 @@ export function topology(cells, n) {
     for (let c = 0; c + shape.nodes <= list.length; c += shape.nodes) {
       const nodes = list.slice(c, c + shape.nodes);
       addTriangles(shape, nodes, virtual, tris);
-      addEdges(shape, nodes, n, edges);
+      addEdges(shape, nodes, n, edges, corners.length / 3);
+      corners.push(nodes[0], nodes[1], nodes[2] ?? -1);
     }
   }
   const all = [...edges.values()];
@@ -91,9 +96,32 @@ export function topology(cells, n) {
     total: n + points.length,
     virtual: points,
     tris: Int32Array.from(tris),
+    corners,
     inner: all.filter((e) => e.cells > 1 && !e.line),
     outline: all.filter((e) => e.cells === 1 || e.line),
   };
+}
+
+/** Edges joined end to end, as far as they go: lists of nodes, with the middle ones of quadratic edges. */
+export function chains(edges) {
+  const at = new Map();
+  for (const e of edges) for (const node of [e.a, e.b]) at.set(node, [...(at.get(node) ?? []), e]);
+  const left = new Set(edges);
+  const walk = (node) => {
+    const list = [node];
+    for (let e; (e = at.get(list.at(-1)).find((o) => left.has(o)));) {
+      left.delete(e);
+      const next = e.a === list.at(-1) ? e.b : e.a;
+      if (e.mid >= 0) list.push(e.mid);
+      list.push(next);
+      if (at.get(next).length !== 2) break;
+    }
+    return list;
+  };
+  const found = [];
+  for (const [node, here] of at) if (here.length !== 2) here.forEach((e) => left.has(e) && found.push(walk(node)));
+  for (const e of edges) if (left.has(e)) found.push(walk(e.a));
+  return found;
 }
 
 /** Fills the entries of the virtual points in an array of `total` values. */

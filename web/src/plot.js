@@ -12,7 +12,7 @@ import { drawCurve } from './curve.js';
  * Returns {show(curves), mark([[x, y], ...])}.
  */
 export function plot(host, options, curves) {
-  const box = el('div', { class: 'plot' });
+  const box = el('div', { class: 'plot', role: 'img', 'aria-label': options.title });
   const legend = el('div', { class: 'legend' });
   const hint = el('div', { class: 'tip', hidden: true });
   const frame = el('figure', { class: 'plot-frame' },
@@ -65,6 +65,7 @@ function fillLegend(self) {
     class: self.hidden.has(i) ? 'chip off' : 'chip',
     type: 'button',
     title: 'show or hide',
+    'aria-pressed': String(!self.hidden.has(i)),
     onclick: () => {
       if (!self.hidden.delete(i)) self.hidden.add(i);
       fillLegend(self);
@@ -75,7 +76,7 @@ function fillLegend(self) {
 }
 
 function swatch(curve, colour) {
-  const mark = el('span', { class: `swatch ${curve.kind ?? 'line'}` });
+  const mark = el('span', { class: `swatch ${curve.kind ?? 'line'}${curve.dashed ? ' dashed' : ''}` });
   mark.style.setProperty('--c', colour);
   return mark;
 }

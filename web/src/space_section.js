@@ -15,7 +15,7 @@ export function readSpace(report) {
   const n = points.length / 3;
   if (!n || !report.frames?.length) return null;
   const blocks = (report.mesh.cells ?? []).map((block) => ({
-    type: block.type, rigid: !!block.rigid, connectivity: Array.from(numbers(block.connectivity)),
+    type: block.type, rigid: !!block.rigid, endless: !!block.endless, connectivity: Array.from(numbers(block.connectivity)),
   }));
   // One numbering: points of the bodies' faces first, then those of the rigid ones.
   const topo = topology(blocks.filter((b) => !b.rigid), n);
@@ -24,17 +24,31 @@ export function readSpace(report) {
   rigidTopo.tris = rigidTopo.tris.map((i) => (i < n ? i : i + moved));
   Object.assign(topo, { virtual: [...topo.virtual, ...rigidTopo.virtual], total: topo.total + rigidTopo.total - n });
   const deformable = [...new Set(topo.tris)].filter((i) => i < n);
+  const whole = [...deformable, ...blocks.filter((b) => b.rigid && !b.endless).flatMap(thing(points, deformable))];
   const coloured = new Uint8Array(n);
   for (const i of deformable) coloured[i] = 1;
   const frames = report.frames.map((f) => readFrame(f, n, coloured));
   return {
-    n, points, topo, rigidTopo, frames, deformable,
+    n, points, topo, rigidTopo, frames, deformable, whole,
     fieldNames: [...new Set(frames.flatMap((f) => [...f.fields.keys()]))],
     size: Math.hypot(...[0, 1, 2].map((k) => {
       const [low, high] = extent([points.filter((_, i) => i % 3 === k)]);
       return high - low;
     })) || 1,
     range: memo((name) => extent(frames.map((f) => f.field(name)))),
+  };
+}
+
+/** The points of a block of rigid faces that is to be seen whole: one not much larger than the bodies. */
+function thing(points, deformable) {
+  const extentOf = (list) => Math.hypot(...[0, 1, 2].map((k) => {
+    const [low, high] = extent([Float64Array.from(list, (i) => points[3 * i + k])]);
+    return high - low;
+  }));
+  const size = extentOf(deformable);
+  return ({ connectivity }) => {
+    const list = [...new Set(connectivity)];
+    return extentOf(list) <= 4 * size ? list : [];
   };
 }
 
@@ -75,7 +89,7 @@ export function spaceSection(body, frameChanged, { id = 'body', title = 'Deforme
   const preferred = body.fieldNames.find((name) => /mises/i.test(name)) ?? body.fieldNames[0];
   const state = {
     frame: body.frames.length - 1, field: preferred, scale: 1, range: 'all', map: 'sequential',
-    bands: false, lines: true, rigid: true, ...preset,
+    bands: false, lines: true, rigid: true, ghost: false, ...preset,
   };
   const self = { body, view, state, canvas, hint, redraw: onceAFrame(() => drawSpace(view, state)) };
   const shown = () => state.frame;
@@ -129,6 +143,7 @@ function controls(self) {
     choice('Displacements \u00d7', scales, 1, rescale),
     tick('mesh', state.lines, (lines) => change({ lines })),
     tick('bands', state.bands, (bands) => change({ bands })),
+    tick('undeformed', state.ghost, (ghost) => change({ ghost })),
     body.rigidTopo.tris.length > 0 && tick('rigid bodies', state.rigid, (rigid) => change({ rigid })),
     warning,
     el('span', { class: 'buttons' },

@@ -1,8 +1,8 @@
 // The faces of deformed bodies in space on a canvas: orthographic, shaded, coloured by a field.
-import { BAR } from './camera.js';
+import { BAR, someFrames } from './camera.js';
 import { colourMap } from './colour.js';
 import { num } from './format.js';
-import { fillVirtual } from './mesh.js';
+import { chains, fillVirtual } from './mesh.js';
 import { clear, line, target, triangle } from './space_raster.js';
 import { css } from './theme.js';
 import { colourBar, colourRange, scaleBar } from './view.js';
@@ -59,25 +59,27 @@ export function zoomSpace(view, factor, px = view.W / 2, py = view.H / 2) {
   view.k *= factor;
 }
 
-/** Shows the bodies (not the rigid faces) of the frame with room for the colour bar. */
+/** Shows all that is no endless surface, wherever it is in (up to 41 of) all frames, with room for the colour bar. */
 export function fitSpace(view, state) {
-  deform(view, state.frame, state.scale);
   const rows = axes(view);
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   const box = { low: [...low], high: [...high] };
-  const deformable = view.body.deformable;
-  for (const i of deformable) {
-    const p = view.x.map((list) => list[i]);
-    p.forEach((v, k) => {
-      low[k] = Math.min(low[k], v);
-      high[k] = Math.max(high[k], v);
-    });
-    rows.forEach((row, k) => {
-      const v = row[0] * p[0] + row[1] * p[1] + row[2] * p[2];
-      box.low[k] = Math.min(box.low[k], v);
-      box.high[k] = Math.max(box.high[k], v);
-    });
+  const { points, frames, whole } = view.body;
+  for (const f of someFrames(frames.length)) {
+    const u = frames[f].u();
+    for (const i of whole) {
+      const p = [0, 1, 2].map((k) => points[3 * i + k] + state.scale * u[3 * i + k]);
+      p.forEach((v, k) => {
+        low[k] = Math.min(low[k], v);
+        high[k] = Math.max(high[k], v);
+      });
+      rows.forEach((row, k) => {
+        const v = row[0] * p[0] + row[1] * p[1] + row[2] * p[2];
+        box.low[k] = Math.min(box.low[k], v);
+        box.high[k] = Math.max(box.high[k], v);
+      });
+    }
   }
   if (!(low[0] <= high[0])) return;
   view.centre = low.map((v, k) => (v + high[k]) / 2);
@@ -153,6 +155,7 @@ export function drawSpace(view, state) {
   }
   if (state.lines) meshLines(view, state);
   view.ctx.putImageData(view.image, 0, 0);
+  if (state.ghost) ghost(view);
   colourBar(view, state, range, map);
   scaleBar(view);
   triad(view);
@@ -188,6 +191,50 @@ function meshLines(view, state) {
   };
   draw([...view.body.topo.inner, ...view.body.topo.outline]);
   if (state.rigid) draw([...view.body.rigidTopo.inner, ...view.body.rigidTopo.outline]);
+}
+
+/** Normals of the undeformed cells (not of unit length), from three corners each. */
+function normals({ points, topo }) {
+  const { corners } = topo;
+  return Array.from({ length: corners.length / 3 }, (_, c) => {
+    const [a, b, d] = [0, 1, 2].map((k) => 3 * corners[3 * c + k]);
+    const [u, v] = [b, d].map((i) => [0, 1, 2].map((k) => points[i + k] - points[a + k]));
+    return [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+  });
+}
+
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const sharp = Math.cos((30 * Math.PI) / 180);
+
+/** Edges that show the shape of the undeformed bodies: ends of faces, sharp edges, and the rim seen from here. */
+function shapeEdges(view) {
+  const { topo } = view.body;
+  const list = (view.normals ??= normals(view.body));
+  const near = axes(view)[2];
+  return [...topo.outline, ...topo.inner.filter(({ cell, other }) => {
+    const [m, n] = [list[cell], list[other]];
+    return dot(m, n) < sharp * Math.hypot(...m) * Math.hypot(...n) || dot(m, near) > 0 !== dot(n, near) > 0;
+  })];
+}
+
+/** The undeformed shape, dashed; also what bodies hide of it. */
+function ghost(view) {
+  const { ctx, body, dpr, centre: c } = view;
+  const [right, up] = axes(view);
+  ctx.beginPath();
+  for (const chain of chains(shapeEdges(view))) {
+    chain.forEach((i, k) => {
+      const p = [0, 1, 2].map((d) => body.points[3 * i + d] - c[d]);
+      const place = [view.W / 2 + view.px + view.k * dot(right, p), view.H / 2 + view.py - view.k * dot(up, p)];
+      if (k) ctx.lineTo(...place);
+      else ctx.moveTo(...place);
+    });
+  }
+  ctx.setLineDash([5 * dpr, 4 * dpr]);
+  ctx.strokeStyle = css('--muted');
+  ctx.lineWidth = 1.2 * dpr;
+  ctx.stroke();
+  ctx.setLineDash([]);
 }
 
 /** Directions of x, y, z in the lower left corner, above the scale bar. */

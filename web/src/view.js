@@ -3,7 +3,7 @@ import { BAR, rigidPoint, toScreen } from './camera.js';
 import { colourMap, cssColour, packed } from './colour.js';
 import { drawContact, legendOf } from './contact_layer.js';
 import { niceTicks, num, tickLabels } from './format.js';
-import { fillVirtual } from './mesh.js';
+import { chains, fillVirtual } from './mesh.js';
 import { paint } from './raster.js';
 import { css } from './theme.js';
 
@@ -137,9 +137,12 @@ function meshLines(view) {
 function ghost(view) {
   const { ctx, body, dpr } = view;
   ctx.beginPath();
-  for (const { a, b } of body.topo.outline) {
-    ctx.moveTo(...toScreen(view, body.points[2 * a], body.points[2 * a + 1]));
-    ctx.lineTo(...toScreen(view, body.points[2 * b], body.points[2 * b + 1]));
+  for (const chain of (view.chains ??= chains(body.topo.outline))) {
+    chain.forEach((i, k) => {
+      const place = toScreen(view, body.points[2 * i], body.points[2 * i + 1]);
+      if (k) ctx.lineTo(...place);
+      else ctx.moveTo(...place);
+    });
   }
   ctx.setLineDash([4 * dpr, 3 * dpr]);
   ctx.strokeStyle = css('--muted');

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <variant>
@@ -100,6 +101,14 @@ struct QuadsOf {
   }
 };
 
+/// Whether the picture shows only a part of the surface.
+bool is_endless(const geometry::Surface& surface) {
+  if (const auto* const c = std::get_if<geometry::Cylinder>(&surface))
+    return !std::isfinite(c->length);
+  if (const auto* const c = std::get_if<geometry::Cone>(&surface)) return !std::isfinite(c->to);
+  return std::holds_alternative<geometry::Plane>(surface);
+}
+
 nlohmann::json faces_json(const std::vector<mesh::SurfaceFacet>& facets,
                           const std::vector<Index>& place, bool rigid) {
   std::array<std::vector<Index>, cell::cell_type_count> lists;
@@ -197,10 +206,14 @@ nlohmann::json ReportView<3>::mesh() const {
   nlohmann::json cells = faces_json(body_faces_, place_, false);
   for (const auto& block : faces_json(rigid_faces_, place_, true)) cells.push_back(block);
   const std::size_t n = nodes_.size();
-  std::vector<Index> squares(4 * patches_.size());
-  for (std::size_t i = 0; i < squares.size(); ++i) squares[i] = static_cast<Index>(n + i);
-  if (!squares.empty())
+  for (std::size_t b = 0; b < model_.rigid.size(); ++b) {
+    std::vector<Index> squares;
+    for (std::size_t i = 0; i < 4 * patches_.size(); ++i)
+      if (patches_[i / 4].body == b) squares.push_back(static_cast<Index>(n + i));
+    if (squares.empty()) continue;
     cells.push_back({{"type", "quad4"}, {"connectivity", squares}, {"rigid", true}});
+    if (is_endless(*model_.rigid[b].shape)) cells.back()["endless"] = true;
+  }
   const auto point = [&](std::size_t i) -> Vec3 {
     if (i < n) return model_.reference[static_cast<std::size_t>(nodes_[i])];
     return patches_[(i - n) / 4].corners[(i - n) % 4];

@@ -4,25 +4,37 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
-#include "osculate/body/inertia.hpp"
-#include "osculate/deck/build_context.hpp"
+#include "osculate/deck/body_moments.hpp"
 
 namespace osculate::deck {
 namespace {
 
-/// Moments of the homogeneous body that an analytic shape encloses, about its centre of mass. That
-/// becomes the reference point where none is given; a given one must be it.
+/// Mass of the body, and moments of the homogeneous one in its boundary about its centre of mass.
+/// That becomes the reference point where none is given; a given one must be it. Nothing where
+/// the moments are given and need no volume: the surface may be open.
 template <int Dim>
-std::optional<typename body::Inertia<Dim>::Tensor> moment_of_shape(
-    const Rigid& rigid, model::BasicRigidBody<Dim>& body) {
-  std::optional<body::VolumeMoments<Dim>> moments;
-  if (body.shape) moments = body::enclosed(*body.shape);
-  if (!moments || !(std::abs(moments->volume) > 0)) return std::nullopt;
-  const body::Inertia<Dim> inertia =
-      body::inertia_of(*moments, body.mass / std::abs(moments->volume));
+std::optional<typename body::Inertia<Dim>::Tensor> homogeneous(const BuildContext<Dim>& c,
+                                                               const Rigid& rigid,
+                                                               model::BasicRigidBody<Dim>& body) {
+  if (rigid.mass) body.mass = rigid.mass->value;
+  if (rigid.inertia && rigid.mass && !body.shape) return std::nullopt;
+  const EnclosedVolume<Dim> enclosed = enclosed_volume(c, rigid, body);
+  if (!enclosed.moments) {
+    if (rigid.inertia && rigid.mass) return std::nullopt;
+    throw core::InputError(
+        rigid.mass ? rigid.mass->mark : rigid.density->mark,
+        fmt::format("{} bodies that enclose a volume, and '{}' {}: give {}",
+                    rigid.mass ? "inertia is missing: it is known for" : "a density needs",
+                    rigid.name.value, enclosed.why, rigid.mass ? "it" : "mass and inertia"));
+  }
+  const double volume = enclosed.moments->volume;
+  if (rigid.density) body.mass = rigid.density->value * volume;
+  const body::Inertia<Dim> inertia = body::inertia_of(*enclosed.moments, body.mass / volume);
+  if (const std::string wrong = body::validate(inertia); !wrong.empty())
+    throw core::InputError(rigid.mass ? rigid.mass->mark : rigid.density->mark, wrong);
   constexpr double rounding = 1e-9;
-  const bool off = (body.reference - inertia.center).norm() >
-                   rounding * (body.reference.norm() + inertia.center.norm());
+  const double size = body.reference.norm() + inertia.center.norm() + std::pow(volume, 1.0 / Dim);
+  const bool off = (body.reference - inertia.center).norm() > rounding * size;
   if (off && !rigid.reference) body.reference = inertia.center;
   if (off && rigid.reference && !rigid.inertia)
     throw core::InputError(rigid.reference->mark,
@@ -31,26 +43,17 @@ std::optional<typename body::Inertia<Dim>::Tensor> moment_of_shape(
   return inertia.tensor;
 }
 
-core::InputError inertia_missing(const Rigid& rigid) {
-  return {rigid.mass->mark,
-          fmt::format("inertia is missing: it is known for analytic shapes that enclose a volume, "
-                      "and '{}' is none",
-                      rigid.name.value)};
-}
-
-void set_inertia(const Rigid& rigid, model::RigidBody& body) {
+void set_inertia(const BuildContext<2>& c, const Rigid& rigid, model::RigidBody& body) {
   if (rigid.inertia && rigid.inertia->value.size() != 1)
     throw core::InputError(rigid.inertia->mark, "a plane body has one moment of inertia");
-  const auto of_shape = moment_of_shape(rigid, body);
-  if (!rigid.inertia && !of_shape) throw inertia_missing(rigid);
-  body.inertia = rigid.inertia ? Mat<1, 1>(rigid.inertia->value[0]) : *of_shape;
+  const auto computed = homogeneous(c, rigid, body);
+  body.inertia = rigid.inertia ? Mat<1, 1>(rigid.inertia->value[0]) : computed.value();
 }
 
-void set_inertia(const Rigid& rigid, model::RigidBody3& body) {
-  const auto of_shape = moment_of_shape(rigid, body);
+void set_inertia(const BuildContext<3>& c, const Rigid& rigid, model::RigidBody3& body) {
+  const auto computed = homogeneous(c, rigid, body);
   if (!rigid.inertia) {
-    if (!of_shape) throw inertia_missing(rigid);
-    body.inertia = *of_shape;
+    body.inertia = computed.value();
     return;
   }
   const std::vector<double>& v = rigid.inertia->value;
@@ -101,9 +104,7 @@ template <int Dim>
 void build_masses(BuildContext<Dim>& c) {
   for (std::size_t b = 0; b < c.description.rigid.size(); ++b) {
     const Rigid& rigid = c.description.rigid[b];
-    if (!rigid.mass) continue;
-    c.model().rigid[b].mass = rigid.mass->value;
-    set_inertia(rigid, c.model().rigid[b]);
+    if (rigid.mass || rigid.density) set_inertia(c, rigid, c.model().rigid[b]);
   }
 }
 

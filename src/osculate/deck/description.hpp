@@ -149,6 +149,7 @@ struct Rigid {
   std::optional<Marked<std::vector<double>>> reference;
   bool flip = false;  ///< the body is on the other side
   std::optional<Number> mass;
+  std::optional<Number> density;  ///< instead of the mass; in the plane mass per area
   std::optional<Marked<std::vector<double>>> inertia;  ///< 1, 3 or 6 numbers
   [[nodiscard]] bool meshed() const { return std::holds_alternative<SetShape>(shape); }
 };

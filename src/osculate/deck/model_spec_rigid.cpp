@@ -190,7 +190,9 @@ std::vector<Key> rigid_keys() {
           "Point that prescriptions, forces and moments refer to: two coordinates, in space three.",
           number("One coordinate.").in("length"))
           .count(2, 3)
-          .otherwise_as("the centroid of the nodes, the centre of the shape")
+          .otherwise_as(
+              "the centroid of the nodes, the centre of the shape; with a mass that of the "
+              "homogeneous body")
           .such_as("[0, 1]")));
   keys.push_back(optional(
       "mass",
@@ -200,13 +202,20 @@ std::vector<Key> rigid_keys() {
           .above(0)
           .otherwise_as("no mass: the body moves as prescribed")
           .such_as("2.5")));
+  keys.push_back(optional(
+      "density",
+      number("Instead of the mass: times the volume that the body encloses, in the plane the area.")
+          .above(0)
+          .otherwise_as("no mass: the body moves as prescribed")
+          .such_as("7.85e-9")));
   const Spec moment = number("Moment of inertia.").in("mass*length^2");
   keys.push_back(optional(
       "inertia",
       either("Moments of inertia about the reference point.",
              {number("About z (plane models).").in("mass*length^2").above(0),
               list("In space: xx, yy, zz, or xx, yy, zz, xy, yz, zx.", moment).count(3, 6)})
-          .otherwise_as("those of the homogeneous analytic shape; otherwise to be given")
+          .otherwise_as(
+              "those of the homogeneous body that a shape, closed curve or closed surface encloses")
           .such_as("0.4")));
   keys.push_back(optional(
       "flip", boolean("Put the body on the other side of its surface.").otherwise("false")));

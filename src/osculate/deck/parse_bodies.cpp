@@ -64,7 +64,7 @@ Section section_of(const Value& v, const std::vector<Material>& materials) {
 std::string kind_of(const Value& v) {
   for (const ValueEntry& entry : v.entries)
     if (entry.key != "reference" && entry.key != "flip" && entry.key != "mass" &&
-        entry.key != "inertia")
+        entry.key != "density" && entry.key != "inertia")
       return entry.key;
   return {};
 }
@@ -104,11 +104,14 @@ std::vector<Rigid> parse_rigid(const Value& v) {
       rigid.reference = numbers_of(*reference);
     rigid.flip = flag(entry.value, "flip");
     rigid.mass = number_if(entry.value, "mass");
+    rigid.density = number_if(entry.value, "density");
     if (const Value* const inertia = entry.value.find("inertia"))
       rigid.inertia = inertia->alternative == 0
                           ? Marked<std::vector<double>>{{inertia->number}, inertia->mark}
                           : numbers_of(*inertia);
-    if (rigid.inertia && !rigid.mass)
+    if (rigid.mass && rigid.density)
+      throw core::InputError(rigid.density->mark, "give the mass or the density, not both");
+    if (rigid.inertia && !rigid.mass && !rigid.density)
       throw core::InputError(rigid.inertia->mark, "inertia goes with a mass, which is missing");
     out.push_back(std::move(rigid));
   }
