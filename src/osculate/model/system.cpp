@@ -182,6 +182,11 @@ bool BasicSystem<Dim>::augments_often() const {
 }
 
 template <int Dim>
+Index BasicSystem<Dim>::displacements() const {
+  return impl_->dofs.unknowns();
+}
+
+template <int Dim>
 Index BasicSystem<Dim>::unknowns() const {
   return impl_->unknowns;
 }

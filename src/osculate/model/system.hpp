@@ -88,6 +88,7 @@ class BasicSystem {
 
   /// Unknowns of the matrix: those of the dof space, then the multipliers that are unknowns.
   [[nodiscard]] Index unknowns() const;
+  [[nodiscard]] Index displacements() const;  ///< those of the dof space
   [[nodiscard]] const la::SparseMatrix& matrix();
   [[nodiscard]] std::uint64_t pattern_version() const;
   [[nodiscard]] la::Symmetry symmetry() const;

@@ -56,6 +56,23 @@ concept Augments = requires(const S s, const typename S::State& state) {
   { s.augments_often() } -> std::convertible_to<bool>;
 };
 
+/// Systems whose unknowns are displacements and, behind them, multipliers. Those are forces: in
+/// other units the same path would have other lengths, and beside a stiff contact nothing else
+/// would count.
+template <class S>
+concept CountsDisplacements = requires(const S s) {
+  { s.displacements() } -> std::convertible_to<Index>;
+};
+
+/// What of a correction the length of an arc is measured on.
+template <System S>
+[[nodiscard]] Eigen::Ref<const Eigen::VectorXd> moved(const S& system, const Eigen::VectorXd& du) {
+  if constexpr (CountsDisplacements<S>)
+    return du.head(std::min<Eigen::Index>(du.size(), system.displacements()));
+  else
+    return du;
+}
+
 /// du with K du = -d(residual)/d(fraction): how the bodies move with the loads and prescriptions.
 /// The matrix of the last evaluation is used; the derivative is a difference backwards.
 template <System S>
@@ -78,16 +95,16 @@ template <System S>
 /// The change of the fraction with which the whole correction keeps its length, the root that goes
 /// on in the direction of `total`.
 ///
-/// Formula    |total + by_residual + d by_load| = length
+/// Formula    |total + by_residual + d by_load| = length, all of them displacements
 /// Source     Crisfield1981 (cylindrical arc length)
 /// Returns    nothing where there is no root
-[[nodiscard]] inline std::optional<double> keep_length(const Eigen::VectorXd& total,
-                                                       const Eigen::VectorXd& by_residual,
-                                                       const Eigen::VectorXd& by_load,
-                                                       double length) {
-  const Eigen::VectorXd moved = total + by_residual;
-  const double a = by_load.squaredNorm(), b = by_load.dot(moved),
-               c = moved.squaredNorm() - length * length;
+[[nodiscard]] inline std::optional<double> keep_length(
+    const Eigen::Ref<const Eigen::VectorXd>& total,
+    const Eigen::Ref<const Eigen::VectorXd>& by_residual,
+    const Eigen::Ref<const Eigen::VectorXd>& by_load, double length) {
+  const Eigen::VectorXd there = total + by_residual;
+  const double a = by_load.squaredNorm(), b = by_load.dot(there),
+               c = there.squaredNorm() - length * length;
   const double root = b * b - a * c;
   if (!(a > 0) || root < 0) return std::nullopt;
   const double first = (-b + std::sqrt(root)) / a, second = (-b - std::sqrt(root)) / a;
@@ -112,11 +129,12 @@ bool begin_arc(S& system, const typename S::State& committed, double start, doub
   Eigen::VectorXd du;
   result.state = system.remember(committed);
   if (!solve_correction(system, solver, load, du, result)) return false;
-  const double whole = du.norm();
+  const double whole = moved(system, du).norm();
   if (!(whole > 0)) return fail(result, Outcome::not_converged, "nothing moves with the fraction");
   point.length = path.length > 0 ? std::min(path.length, whole) : whole;
   double share = point.length / whole;
-  if (path.before.size() == du.size() && path.before.dot(du) < 0) share = -share;
+  if (path.before.size() == du.size() && moved(system, path.before).dot(moved(system, du)) < 0)
+    share = -share;
   du *= share;
   point.fraction = start + share * size;
   judge.first_energy = std::abs(share * du.dot(load));
@@ -141,7 +159,9 @@ bool correct_arc(S& system, const typename S::State& committed, la::DirectSolver
   const std::optional<Eigen::VectorXd> load =
       load_direction(system, solver, committed, result.state, point.fraction, residual);
   const std::optional<double> step =
-      load ? keep_length(result.total, du, *load, point.length) : std::optional<double>{};
+      load ? keep_length(moved(system, result.total), moved(system, du), moved(system, *load),
+                         point.length)
+           : std::optional<double>{};
   if (!step || !std::isfinite(*step))
     return fail(result, Outcome::not_converged, "the path does not reach as far as the arc");
   du += *step * *load;

@@ -327,6 +327,8 @@ void end_path(StepRun<S>& run, PathPoint<typename S::State>& point) {
   std::vector<IterationRecord> iterations = std::move(point.result.iterations);
   point.result = newton(run.system, run.result.state, until, run.options.newton, run.solver,
                         {total, point.result.first_residual, point.result.first_energy}, &near_end);
+  if constexpr (Augments<S>)
+    augment(run.system, run.result.state, until, run.options.newton, run.solver, point.result);
   point.result.iterations.insert(point.result.iterations.begin(), iterations.begin(),
                                  iterations.end());
   point.fraction = until;

@@ -16,6 +16,24 @@ ToySystem snapping() {
                        [](double x) { return x * (3 * x - 6) + 2.5; });
 }
 
+/// The same with the load as a second unknown, in units in which it is large.
+ToySystem snapping_with_a_multiplier() {
+  constexpr double unit = 1e6;
+  ToySystem system;
+  system.size = 2;
+  system.builder = la::MatrixBuilder{2};
+  system.primary = 1;
+  system.force = [](const Eigen::VectorXd& x, double t) {
+    return vector({force(x[0]) - x[1] / unit, x[1] / unit - t});
+  };
+  system.stiffness = [](const Eigen::VectorXd& x) {
+    Eigen::MatrixXd k(2, 2);
+    k << x[0] * (3 * x[0] - 6) + 2.5, -1 / unit, 0, 1 / unit;
+    return k;
+  };
+  return system;
+}
+
 struct Path {
   StepResult<ToySystem::State> result;
   StepPosition position;
@@ -30,7 +48,8 @@ Path run(ToySystem system, PathControl use, int stop_after = -1, const Path* fro
   la::DirectSolver solver;
   if (from) path.position = from->position;
   path.result = run_step(
-      system, from ? from->result.state : ToySystem::State{vector({0.0})}, 10, options, solver,
+      system, from ? from->result.state : ToySystem::State{Eigen::VectorXd::Zero(system.size)}, 10,
+      options, solver,
       IncrementObserver<ToySystem::State>([&](const ToySystem::State& s, const IncrementRecord& r) {
         path.fractions.push_back(r.fraction);
         path.places.push_back(s.x[0]);
@@ -116,6 +135,88 @@ TEST(ArcLength, GivesUpWhereThePathDoesNotComeBack) {
     EXPECT_NE(path.result.outcome, Outcome::converged);
     EXPECT_FALSE(path.result.reason.empty());
     EXPECT_LE(path.position.path.increments, ArcLengthOptions{}.max_increments);
+  }
+}
+
+// Multipliers are not counted in the length of an arc: the path is the one without them.
+TEST(ArcLength, IsMeasuredOnDisplacements) {
+  const Path alone = run(snapping(), PathControl::always);
+  const Path path = run(snapping_with_a_multiplier(), PathControl::always);
+  ASSERT_EQ(path.result.outcome, Outcome::converged) << path.result.reason;
+  ASSERT_EQ(path.places.size(), alone.places.size());
+  for (std::size_t i = 0; i < path.places.size(); ++i)
+    EXPECT_NEAR(path.places[i], alone.places[i], 1e-7) << i;
+  ToySystem counted = snapping_with_a_multiplier();
+  counted.primary = 2;
+  const Path by_load = run(counted, PathControl::always);
+  EXPECT_TRUE(std::is_sorted(by_load.fractions.begin(), by_load.fractions.end()))
+      << "as long as the load is the length, it cannot fall";
+}
+
+/// Beside the strip that snaps, a spring is pressed against a stop: a penalty and a multiplier that
+/// is corrected around the solutions.
+struct PressedSystem {
+  static constexpr double penalty = 100, stop = 0.1, target = 1e-8;
+  struct State {
+    Eigen::VectorXd x;
+    double multiplier = 0;
+  };
+  bool often = false;
+  la::MatrixBuilder builder{2};
+
+  void predict(const State& state, double time, Evaluation& out) {
+    evaluate(state, state, time, true, out);
+  }
+  void evaluate(const State&, const State& trial, double time, bool, Evaluation& out) {
+    const double x = trial.x[0], y = trial.x[1];
+    const double pressure = trial.multiplier + penalty * (y - stop);
+    const bool touches = pressure > 0;
+    out.ok = true;
+    out.residual = vector({force(x) - time, y + (touches ? pressure : 0) - 3 * time});
+    out.force_scale = 1;
+    builder.clear();
+    builder.add(0, 0, x * (3 * x - 6) + 2.5);
+    builder.add(1, 1, 1 + (touches ? penalty : 0));
+  }
+  [[nodiscard]] static State apply(const State& s, const Eigen::VectorXd& du, double,
+                                   double factor) {
+    return {s.x + factor * du, s.multiplier};
+  }
+  [[nodiscard]] static State remember(const State& state) { return state; }
+  [[nodiscard]] static State commit(const State& state, double) { return state; }
+  [[nodiscard]] static std::optional<State> augment(const State& state) {
+    const double depth = state.x[1] - stop;
+    if (depth <= target) return std::nullopt;
+    return State{state.x, state.multiplier + penalty * depth};
+  }
+  [[nodiscard]] bool augments_often() const { return often; }
+  const la::SparseMatrix& matrix() { return builder.finish(); }
+  [[nodiscard]] std::uint64_t pattern_version() const { return builder.pattern_version(); }
+  [[nodiscard]] static la::Symmetry symmetry() { return la::Symmetry::unsymmetric; }
+};
+
+// The increment that ends a path meets the target of penetration as all others do.
+TEST(ArcLength, TheEndOfAPathIsCorrectedToo) {
+  for (const bool often : {false, true}) {
+    PressedSystem system;
+    system.often = often;
+    IncrementOptions options;
+    options.arc_length.use = PathControl::always;
+    la::DirectSolver solver;
+    std::vector<double> depths;
+    const auto result =
+        run_step(system, PressedSystem::State{Eigen::VectorXd::Zero(2)}, 10, options, solver,
+                 IncrementObserver<PressedSystem::State>(
+                     [&](const PressedSystem::State& s, const IncrementRecord&) {
+                       depths.push_back(s.x[1] - PressedSystem::stop);
+                       return true;
+                     }),
+                 [](const std::string&, double, double, const std::vector<IterationRecord>&) {});
+    ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+    EXPECT_TRUE(result.increments.back().on_path);
+    EXPECT_EQ(result.increments.back().fraction, 1.0);
+    EXPECT_GT(depths.size(), 10U);
+    for (const double depth : depths) EXPECT_LE(depth, PressedSystem::target);
   }
 }
 

@@ -18,6 +18,7 @@ struct ToySystem {
   };
 
   Index size = 1;
+  std::optional<Index> primary{};  ///< unknowns that are displacements; all
   std::function<Vector(const Vector& x, double time)> force;  ///< out-of-balance force
   std::function<Eigen::MatrixXd(const Vector& x)> stiffness;
   std::function<double(const Vector& x, double time)> scale = [](const Vector&, double) {
@@ -74,6 +75,7 @@ struct ToySystem {
   }
   const la::SparseMatrix& matrix() { return builder.finish(); }
   [[nodiscard]] std::uint64_t pattern_version() const { return builder.pattern_version(); }
+  [[nodiscard]] Index displacements() const { return primary.value_or(size); }
   [[nodiscard]] static la::Symmetry symmetry() { return la::Symmetry::unsymmetric; }
 };
 
