@@ -63,6 +63,20 @@ Spec plots_spec() {
       .such_as("[{x: time, y: floor.normal_force}]");
 }
 
+Spec arc_length_spec() {
+  return choice(
+             "Follow the path of equilibria where it turns back (snap-through, buckling): the "
+             "fraction of the step is an unknown too, and may fall. In steps without inertia.",
+             {word("auto", ArcLength::automatic,
+                   "where an increment fails for good and bodies do not come to rest "
+                   "behind a snap, until its end is reached"),
+              word("always", ArcLength::always,
+                   "after the first increment of each step, to its end"),
+              word("off", ArcLength::off,
+                   "never, nor are snaps passed: load control ends at a limit point")})
+      .otherwise("auto");
+}
+
 }  // namespace
 
 Spec solver_spec() {
@@ -108,20 +122,7 @@ Spec solver_spec() {
                                         .otherwise("auto")),
               optional("stabilisation",
                        map("Viscous help until contact closes.", {}).not_available()),
-              optional(
-                  "arc_length",
-                  choice("Follow the path of equilibria where it turns back (snap-through, "
-                         "buckling): the fraction of the step is an unknown too, and may fall. In "
-                         "steps "
-                         "without inertia.",
-                         {word("auto", ArcLength::automatic,
-                               "where an increment fails for good and bodies do not come to rest "
-                               "behind a snap, until its end is reached"),
-                          word("always", ArcLength::always,
-                               "after the first increment of each step, to its end"),
-                          word("off", ArcLength::off,
-                               "never, nor are snaps passed: load control ends at a limit point")})
-                      .otherwise("auto"))})
+              optional("arc_length", arc_length_spec())})
       .otherwise("{}")
       .such_as("{max_iterations: 40, line_search: off}");
 }
