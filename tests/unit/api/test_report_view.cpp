@@ -135,23 +135,7 @@ TEST(ReportView3, ARigidMeshIsItsContactSurface) {
   const nlohmann::json mesh = ReportView<3>(m).mesh();
   ASSERT_EQ(mesh["cells"].size(), 2u);
   EXPECT_EQ(mesh["cells"][1]["rigid"], true);
-  EXPECT_EQ(mesh["cells"][1]["endless"], true);
   EXPECT_EQ(mesh["cells"][1]["connectivity"], (std::vector<int>{8, 9, 10, 11}));
-}
-
-/// Each rigid body is a block of its own, and the view is told which of them have no end.
-TEST(ReportView3, RigidBodiesAreBlocksOfTheirOwn) {
-  model::Model3 m = row_of(1);
-  const geometry::Sphere ball{{0, 0, 3}, 0.5};
-  m.rigid.push_back({"ball", Vec3::Zero(), {}, ball, {}, {}, {}});
-  m.rigid.push_back(
-      {"floor", Vec3::Zero(), {}, geometry::Plane{{0, 0, -1}, {0, 0, 2}}, {}, {}, {}});
-  const nlohmann::json mesh = ReportView<3>(m).mesh();
-  ASSERT_EQ(mesh["cells"].size(), 3u);
-  EXPECT_FALSE(mesh["cells"][1].contains("endless"));
-  EXPECT_EQ(mesh["cells"][1]["connectivity"].size(), 4u * 32 * 16);
-  EXPECT_EQ(mesh["cells"][2]["endless"], true);
-  EXPECT_EQ(mesh["cells"][2]["connectivity"].size(), 4u);
 }
 
 }  // namespace
