@@ -39,6 +39,14 @@ test('after a step without inertia the ledger begins anew, behind the first piec
   assert.equal(found.lost, 3.5);
 });
 
+test('a ledger that begins at rest begins with nothing', () => {
+  const found = ledger(history([
+    [1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+    [1, 1, 1, 0, 0.5, 1, 0, 0, 1, 0, 0, 0, 0]]));
+  assert.deepEqual(found.x, [0, 0.5]);
+  assert.deepEqual(found.total, [0, 1]);
+});
+
 test('a run without inertia has no ledger, and its columns none of it', () => {
   assert.equal(ledger(null), null);
   assert.equal(ledger(readHistory({ history: { columns: ['time', 'a'], rows: [[0, 1]] } })), null);

@@ -15,7 +15,8 @@ export function isLedger(name) {
 function pieces(elapsed, entries) {
   const list = [];
   elapsed.forEach((t, i) => {
-    if (t === 0 && entries.every((e) => !e[i])) return;
+    const begins = i === 0 && elapsed[1] > 0; // at rest
+    if (t === 0 && !begins && entries.every((e) => !e[i])) return;
     const before = list.at(-1)?.at(-1);
     if (before === undefined || before !== i - 1 || t < elapsed[before]) list.push([]);
     list.at(-1).push(i);
