@@ -68,13 +68,12 @@ TEST(BodyMoments, OfABoundaryThatFacesInwardsNeedAFlip) {
 
 // Two half circles and two lines: a square with discs at two ends.
 TEST(BodyMoments, OfCurves) {
-  const model::RigidBody body = plane_body("",
-                                           "composite: {closed: true, parts: ["
-                                           "{polyline: {points: [[-1, 1], [1, 1]]}},"
-                                           "{arc: {center: [1, 0], radius: 1, from: -90, to: 90}},"
-                                           "{polyline: {points: [[1, -1], [-1, -1]]}},"
-                                           "{arc: {center: [-1, 0], radius: 1, from: 90, to: "
-                                           "270}}]}, density: 0.5");
+  const model::RigidBody body =
+      plane_body("",
+                 "composite: [{polyline: {points: [[-1, 1], [1, 1]]}}, "
+                 "{arc: {center: [1, 0], radius: 1, from: -90, to: 90}}, "
+                 "{polyline: {points: [[1, -1], [-1, -1]]}}, "
+                 "{arc: {center: [-1, 0], radius: 1, from: 90, to: 270}}], density: 0.5");
   EXPECT_NEAR(body.mass, 0.5 * (4 + pi), 1e-12);
   EXPECT_LT(body.reference.norm(), 1e-12);
   // square m (2^2 + 2^2) / 12; half discs: all of a disc's and m (1 + 2 * 4 / (3 pi)) of the way
