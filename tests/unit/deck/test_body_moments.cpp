@@ -115,9 +115,10 @@ std::array<double, 2> ball_errors(const std::string& type, int elements) {
   const model::RigidBody3 body = space_body(part, "set: shell, density: 2");
   const double mass = 2 * 4.0 / 3 * pi * std::pow(1.5, 3), moment = 0.4 * mass * 1.5 * 1.5;
   EXPECT_LT((body.reference - Vec3(1, 2, 3)).norm(), 1e-12);
-  const Mat<3, 3> round = body.inertia(0, 0) * Mat<3, 3>::Identity();
-  EXPECT_LT((body.inertia - round).norm(), 1e-12 * moment);  // a cube's symmetry
-  return {std::abs(body.mass / mass - 1), std::abs(body.inertia(0, 0) / moment - 1)};
+  if (type[0] == 'q') {  // triangles have not the symmetry of a cube
+    EXPECT_LT((body.inertia - body.inertia(0, 0) * Mat<3, 3>::Identity()).norm(), 1e-12 * moment);
+  }
+  return {std::abs(body.mass / mass - 1), (body.inertia / moment - Mat<3, 3>::Identity()).norm()};
 }
 
 // Flat facets leave out a share in proportion to their size squared, curved ones to its fourth
