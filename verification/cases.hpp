@@ -23,6 +23,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult hertz_ball(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_sphere(const CaseContext& context);
 [[nodiscard]] CaseResult hyperbolic_surface(const CaseContext& context);
+[[nodiscard]] CaseResult impact_law(const CaseContext& context);
 [[nodiscard]] CaseResult incline(const CaseContext& context);
 [[nodiscard]] CaseResult crossed_edges(const CaseContext& context);
 [[nodiscard]] CaseResult drag_in_space(const CaseContext& context);

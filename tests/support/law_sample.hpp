@@ -19,7 +19,20 @@ struct Law {
   double carried = 7;   ///< shear traction of the last increment
   pairing::Separation separation = pairing::Separation::allowed;
   double offset = 0, rest = 0;
+  std::optional<contact::DampingLaw> damping{};
+  double from = 0, deepest = 0;  ///< of damping: gaps of the last increments
 };
+
+/// A penalty with damping.
+inline Law damping_law(const char* name, const contact::NormalLaw& normal,
+                       const contact::DampingLaw& damping, double from, double deepest,
+                       std::optional<contact::FrictionLaw> friction = {}) {
+  Law law{name, normal, std::move(friction), contact::Status::slip};
+  law.damping = damping;
+  law.from = from;
+  law.deepest = deepest;
+  return law;
+}
 
 inline contact::Coulomb changing(double mu, double kinetic, contact::FrictionChange::By by,
                                  double scale) {
@@ -82,6 +95,16 @@ inline const std::vector<Law>& laws() {
        pairing::Separation::tied_normal, 0.01, 0.2},
       {"offset", contact::NormalPenalty{1000}, contact::Coulomb{0.01, 80}, contact::Status::slip,
        -0.03, 7, pairing::Separation::allowed, 0.12},
+      damping_law("viscous, touches", contact::NormalPenalty{1000}, contact::Viscous{100}, 0.4, 0),
+      damping_law("viscous, closes, Coulomb", contact::NormalPenalty{1000}, contact::Viscous{100},
+                  -0.01, 0, contact::Coulomb{0.01, 80}),
+      damping_law("viscous, opens, table", table, contact::Viscous{20}, -0.2, 0),
+      damping_law("restitution, loads", contact::NormalPenalty{1000}, contact::Restitution{0.5},
+                  -0.01, -0.012),
+      damping_law("restitution, unloads, Coulomb", contact::NormalPenalty{1000},
+                  contact::Restitution{0.8}, -0.01, -0.1, contact::Coulomb{0.01, 80}),
+      damping_law("restitution, unloads, exponential", contact::NormalExponential{20, 0.12},
+                  contact::Restitution{0.8}, -0.01, -0.1),
       {"offset, sticks", contact::NormalPenalty{1000}, contact::Coulomb{10, 80},
        contact::Status::stick, -0.03, 7, pairing::Separation::allowed, 0.12},
   };
@@ -104,6 +127,7 @@ std::vector<int> branches(const pairing::PairDefinition<Dim>& pair, const Law& l
       for (const auto& point : t->points) piece += -gap > point[0] ? 1 : 0;
     if (const auto* const x = std::get_if<contact::NormalExponential>(&law.normal))
       piece += gap < -6 * x->clearance ? 1 : 0;
+    piece += gap > p.history.deepest ? 1000 : 0;
     double steady = 1;
     if (law.friction) {
       steady = contact::steadying(*law.friction, p.normal_traction, duration);
@@ -124,6 +148,7 @@ void set_law(const Law& law, Sample& s) {
   s.pair.friction = law.friction;
   s.pair.separation = law.separation;
   s.pair.offset = law.offset;
+  s.pair.damping = law.damping;
   std::vector<Vec<Dim>> before = s.x;
   Vec<Dim> shift = Vec<Dim>::Constant(0.01);
   shift[0] = 0.04;
@@ -137,6 +162,9 @@ void set_law(const Law& law, Sample& s) {
     h.slid = 0.03;
     h.held = law.separation == pairing::Separation::tied_normal;
     h.rest = law.rest;
+    if (!law.damping) continue;
+    h.gap = law.from;
+    if (std::holds_alternative<contact::Restitution>(*law.damping)) h.deepest = law.deepest;
   }
 }
 

@@ -219,8 +219,11 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
     if (!pair.edges.on) return state;
     // By a whole evaluation: it tells which crossings are the nodes' own contacts.
     evaluate<3>(pair, x, state, false, work);
-    for (std::size_t i = state.points.size(); i < work.points.size(); ++i)
-      state.points.push_back(work.points[i].history);
+    for (std::size_t i = state.points.size(); i < work.points.size(); ++i) {
+      PointHistory<3>& h = state.points.emplace_back(work.points[i].history);
+      h.deepest = std::numeric_limits<double>::infinity();
+      h.damping_work = 0;
+    }
   }
   return state;
 }

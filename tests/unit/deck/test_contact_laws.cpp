@@ -47,8 +47,43 @@ TEST(LawKeys, BecomeLaws) {
   const auto& top = b.model.pairs[2].definition;
   EXPECT_EQ(std::get<contact::NormalTable>(top.normal).points.size(), 3u);
   EXPECT_EQ(std::get<contact::Tresca>(*top.friction).limit_traction, 3);
+  EXPECT_EQ(std::get<contact::Viscous>(*top.damping).coefficient, 0.5);
+  EXPECT_FALSE(floor.damping.has_value());
   EXPECT_EQ(top.offset, 0);
   EXPECT_EQ(top.separation, pairing::Separation::allowed);
+}
+
+TEST(LawKeys, RestitutionGoesWithEveryLaw) {
+  const Built table = built("{viscous: 0.5}", "{restitution: 0.25}");
+  EXPECT_EQ(std::get<contact::Restitution>(*table.model.pairs[2].definition.damping).value, 0.25);
+  const Built exponential = built("clearance: 0.01}}",
+                                  "clearance: 0.01}, damping: {restitution: "
+                                  "0}}");
+  EXPECT_EQ(std::get<contact::Restitution>(*exponential.model.pairs[0].definition.damping).value,
+            0);
+}
+
+/// A model in which nothing but damping could need a time.
+std::string untimed(const std::string& damping) {
+  const std::string text = edited(edited(test_file("laws.yaml"), "{speed: 0.5}", "{distance: 1}"),
+                                  "duration: 0.5, ", "");
+  return edited(text, "{viscous: 0.5}", damping);
+}
+
+TEST(LawKeys, OnlyViscousDampingNeedsATime) {
+  const auto refusal = [](const std::string& text) -> std::string {
+    try {
+      const Description d = parse_model(text, "model.yaml");
+      (void)build(d, load_mesh(d));
+    } catch (const core::InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refusal(untimed("{viscous: 0.5}")),
+            "model.yaml:27: contact[2].normal.damping.viscous: damping that depends on speed needs "
+            "the duration of every step, and step 'one' has none");
+  EXPECT_EQ(refusal(untimed("{restitution: 0.5}")), "");
 }
 
 TEST(LawKeys, DistanceRoughAndWhatIsHeld) {
@@ -125,6 +160,17 @@ TEST(LawKeys, RefuseWhatMakesNoSense) {
        "needs "
        "the duration of every step, and step 'one' has none"},
       {"duration: 0.5, ", "duration: 0, ", "model.yaml:29: steps[0].duration: must be > 0, got 0"},
+      {"{viscous: 0.5}", "{viscous: -1}", top + "normal.damping.viscous: must be >= 0, got -1"},
+      {"{viscous: 0.5}", "{restitution: 1.1}",
+       top + "normal.damping.restitution: must be <= 1, got 1.1"},
+      {"{viscous: 0.5}", "{restitution: 1, viscous: 0}",
+       top + "normal.damping: 'viscous' and 'restitution' exclude each other"},
+      {tied, tied + ", damping: {restitution: 1}",
+       joint + "normal.damping: points that are held do not part, and an impact of theirs has no "
+               "end: damping goes with separation: allowed only"},
+      {tied + "}", "damping: {restitution: 1}}\n    enforcement: augmented_lagrange",
+       "model.yaml:27: contact[1].enforcement: damping is a part of the spring that a penalty is, "
+       "and corrected or unknown tractions have none: use penalty, or leave out damping"},
       {"tresca: {limit: 3, penalty: 500}", "tresca: {limit: 3, penalty: 500}, rough: {penalty: 1}",
        top + "friction: 'tresca' and 'rough' exclude each other"},
   };

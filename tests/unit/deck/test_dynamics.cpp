@@ -136,6 +136,31 @@ TEST(Dynamics, EnergyIsAccountedFor) {
     }
 }
 
+// What damped contact takes stands in the column of the damping, and nothing is left over. With
+// implicit contact the scheme still gives nothing.
+TEST(Dynamics, EnergyOfDampedContactIsAccountedFor) {
+  for (const char* const law : {"{viscous: 0.5}", "{restitution: 0.4}"})
+    for (const char* const impact : impacts) {
+      const std::string text =
+          edited(edited(linear(thrown("newmark", impact)), "{mass: 0.3, stiffness: 1e-3}",
+                        "{mass: 0, stiffness: 0}"),
+                 "normal: {", std::string("normal: {damping: ") + law + ", ");
+      const std::vector<model::Energies> all = energies_of(build_text(text));
+      ASSERT_EQ(all.size(), 41u);
+      const double size = all.front().start;
+      model::Energies before;
+      for (const model::Energies& e : all) {
+        EXPECT_NEAR(e.residual, 0, 2e-3 * size);
+        EXPECT_GE(e.damping, before.damping);
+        if (std::string(impact) == "dissipative") {
+          EXPECT_GE(e.numerical, before.numerical - 2e-3 * size);
+        }
+        before = e;
+      }
+      EXPECT_GT(all.back().damping, 0) << law << impact;
+    }
+}
+
 // Constant acceleration is exact for every scheme: y = h + v t - g t^2 / 2.
 TEST(Dynamics, AThrownBodyFliesOnItsParabola) {
   for (const char* const scheme : schemes) {
