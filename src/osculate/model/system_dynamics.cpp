@@ -63,18 +63,20 @@ void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double /*fr
 
 template <int Dim>
 double BasicSystem<Dim>::Impl::round_off_in_time(std::span<const Vec<Dim>> x) const {
+  const double h = timed() ? motion->h : 0.0;
+  const double of_mass = timed() ? motion->factors.mass * motion->size_of_mass : 0.0;
   double farthest = 0, springs = 0;
   for (const Vec<Dim>& p : x) farthest = std::max(farthest, p.norm());
   for (std::size_t p = 0; p < contact.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
+    if (!timed() && !pair.damping) continue;  // a penalty is not steep enough to show
     double penalty = contact::penalty_of(pair.normal);
-    if (pair.damping) penalty = contact::stiffest(*pair.damping, penalty, motion->h);
+    if (pair.damping) penalty = contact::stiffest(*pair.damping, penalty, h);
     for (const pairing::PointResult<Dim>& point : contact[p].points)
       if (point.status != contact::Status::open)
         springs += penalty * penalty * point.weight * point.weight;
   }
-  return 2 * std::numeric_limits<double>::epsilon() * farthest *
-         (motion->factors.mass * motion->size_of_mass + std::sqrt(springs));
+  return 2 * std::numeric_limits<double>::epsilon() * farthest * (of_mass + std::sqrt(springs));
 }
 
 template <int Dim>

@@ -439,7 +439,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
       std::max({forces.internal.norm(), forces.contact.norm(), forces.external.norm()});
   if (timed()) out.force_scale = std::max(force_factor() * out.force_scale, forces.contact.norm());
   if (with_tangent && resistance.size() == 0) measure_resistance();
-  out.round_off = round_off + (timed() ? round_off_in_time(x) : 0.0);
+  out.round_off = round_off + round_off_in_time(x);
   if (predict) out.force_scale = std::max(out.force_scale, out.residual.norm());
 }
 
