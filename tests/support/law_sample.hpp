@@ -102,9 +102,9 @@ inline const std::vector<Law>& laws() {
       damping_law("restitution, loads", contact::NormalPenalty{1000}, contact::Restitution{0.5},
                   -0.01, -0.012),
       damping_law("restitution, unloads, Coulomb", contact::NormalPenalty{1000},
-                  contact::Restitution{0.8}, -0.01, -0.1, contact::Coulomb{0.01, 80}),
+                  contact::Restitution{0.95}, -0.01, -0.07, contact::Coulomb{0.01, 80}),
       damping_law("restitution, unloads, exponential", contact::NormalExponential{20, 0.12},
-                  contact::Restitution{0.8}, -0.01, -0.1),
+                  contact::Restitution{0.95}, -0.01, -0.07),
       {"offset, sticks", contact::NormalPenalty{1000}, contact::Coulomb{10, 80},
        contact::Status::stick, -0.03, 7, pairing::Separation::allowed, 0.12},
   };

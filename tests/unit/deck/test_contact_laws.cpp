@@ -162,9 +162,9 @@ TEST(LawKeys, RefuseWhatMakesNoSense) {
       {"duration: 0.5, ", "duration: 0, ", "model.yaml:29: steps[0].duration: must be > 0, got 0"},
       {"{viscous: 0.5}", "{viscous: -1}", top + "normal.damping.viscous: must be >= 0, got -1"},
       {"{viscous: 0.5}", "{restitution: 1.1}",
-       top + "normal.damping.restitution: must be <= 1, got 1.1"},
+       top + "normal.damping.restitution: must be >= 0 and <= 1, got 1.1"},
       {"{viscous: 0.5}", "{restitution: 1, viscous: 0}",
-       top + "normal.damping: 'viscous' and 'restitution' exclude each other"},
+       top + "normal.damping: 'restitution' and 'viscous' exclude each other"},
       {tied, tied + ", damping: {restitution: 1}",
        joint + "normal.damping: points that are held do not part, and an impact of theirs has no "
                "end: damping goes with separation: allowed only"},
