@@ -40,7 +40,7 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "st_venant_kirchhoff, neo_hooke"},
       {"penalty: 2.1e6}\n    friction", "penalty: 2.1e6, <<: 1}\n    friction",
        "model.yaml:16: contact[0].normal: unknown key '<<'; known: penalty, exponential, table, "
-       "separation, tolerance, initial_gap"},
+       "damping, separation, tolerance, initial_gap"},
   });
 }
 
