@@ -12,9 +12,9 @@
 namespace osculate::verification {
 namespace {
 
-constexpr double friction = 0.5, slid = 0.6, duration = 3.2;
+constexpr double duration = 3.2;
 
-TurningBlock block_of_case() {
+TurningBlock block_with(double friction, double slid) {
   TurningBlock block;
   block.gravity = 1;
   block.slid = slid;
@@ -24,23 +24,24 @@ TurningBlock block_of_case() {
 }
 
 /// How contact is enforced; the penalty is one that no increment resolves.
-enum class Means { penalty, augmented };
+enum class Means { penalty, augmented, multipliers };
 
-/// With `split` one increment ends at the time of the impact.
-std::string model_text(int increments, Means means, bool split) {
-  const double h = duration / increments, q = std::numbers::sqrt2 / 2;
-  const double penalty = means == Means::penalty ? 100 / (h * h) : 1e4;
+struct Run {
+  Means means;
+  int increments;
+  bool stops;  ///< increments end at impacts
+  bool held;   ///< to 1 %, else information
+};
+
+std::string model_text(const TurningBlock& block, const Run& run) {
+  const double h = duration / run.increments, q = std::numbers::sqrt2 / 2;
+  const double penalty = run.means == Means::penalty ? 100 / (h * h) : 1e4;
+  const char* const enforcement[] = {"penalty", "{augmented_lagrange: {target: 1.0e-7}}",
+                                     "lagrange_multiplier"};
+  const double slid = block.slid;
   const auto at = [&](double along, double out) {
     return fmt::format("[{:.17g}, {:.17g}]", q * (-along + out), q * (along + out));
   };
-  const auto step = [](const char* name, int count, double time) {
-    return fmt::format(
-        "  - {{name: {}, increments: {}, duration: {:.17g}, gravity: [0, -1], dynamics: {{impact: "
-        "plastic}}}}\n",
-        name, count, time);
-  };
-  const double impact = impact_time(block_of_case());
-  const int before = static_cast<int>(std::lround(impact / h));
   return fmt::format(R"(osculate: 1
 mesh: {{generate: {{block: {{line: {{points: [{0}, {1}, {2}, {3}, {0}], elements: [1, 1, 1, 1]}}}}}}}}
 rigid:
@@ -50,13 +51,13 @@ contact:
   - {{name: c, master: valley, slave: body, sampling: nodes, weight: node, normal: {{penalty: {6:.17g}}},
      friction: {{coulomb: {{mu: {7}, penalty: {6:.17g}}}}}, enforcement: {8}}}
 steps:
-{9}{10})",
+  - {{name: turn, increments: {9}, duration: {10:.17g}, gravity: [0, -1],
+     dynamics: {{impact: plastic, impact_times: {11}}}}}
+)",
                      at(slid, 0), at(slid + 1, 0), at(slid + 1, 1), at(slid, 1),
-                     at(slid + 0.5, 0.5), 1.0 / 6, penalty, friction,
-                     means == Means::penalty ? "penalty" : "{augmented_lagrange: {target: 1.0e-7}}",
-                     split ? step("slide", before, impact) : "",
-                     split ? step("turn", increments - before, duration - impact)
-                           : step("turn", increments, duration));
+                     at(slid + 0.5, 0.5), 1.0 / 6, penalty, block.friction,
+                     enforcement[static_cast<std::size_t>(run.means)], run.increments, duration,
+                     run.stops ? "auto" : "off");
 }
 
 struct Sample {
@@ -64,18 +65,17 @@ struct Sample {
   Vec2 force = Vec2::Zero();  ///< on the block
 };
 
-std::vector<Sample> samples_of(int increments, Means means, bool split) {
+std::vector<Sample> samples_of(const TurningBlock& block, const Run& run) {
   std::vector<Sample> all;
-  const model::AnalysisResult result =
-      run_text(model_text(increments, means, split), [&](const Snapshot& now) {
-        Sample s;
-        s.time = now.state.rates.energies.elapsed;
-        s.angle = -now.state.rigid[0].angle;
-        s.rate = -now.state.rates.velocity[now.system.dofs().body_dof(0, 2)];
-        for (Index node = 0; node < 4; ++node)
-          s.force -= now.system.forces().contact.segment<2>(2 * node);
-        all.push_back(s);
-      });
+  const model::AnalysisResult result = run_text(model_text(block, run), [&](const Snapshot& now) {
+    Sample s;
+    s.time = now.state.rates.energies.elapsed;
+    s.angle = -now.state.rigid[0].angle;
+    s.rate = -now.state.rates.velocity[now.system.dofs().body_dof(0, 2)];
+    for (Index node = 0; node < 4; ++node)
+      s.force -= now.system.forces().contact.segment<2>(2 * node);
+    all.push_back(s);
+  });
   if (result.outcome != solve::Outcome::converged) all.clear();
   return all;
 }
@@ -86,10 +86,8 @@ std::size_t first_where(const std::vector<Sample>& all, const Test& test) {
   return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), test) - all.begin());
 }
 
-/// One run; `split` ones are held to 1 %, of the others what follows the impact is information: it
-/// depends on how the increment of the impact ends.
-void add_run(int increments, Means means, bool split, const BlockMotion& motion, CaseResult& out) {
-  const std::vector<Sample> all = samples_of(increments, means, split);
+void add_run(const Run& run, const BlockMotion& motion, CaseResult& out) {
+  const std::vector<Sample> all = samples_of(motion.block, run);
   const double rate = rate_after_impact(motion.block), impact = impact_time(motion.block);
   const std::size_t hit = first_where(all, [&](const Sample& s) { return s.rate > 0.3 * rate; });
   const std::size_t flat =
@@ -97,21 +95,22 @@ void add_run(int increments, Means means, bool split, const BlockMotion& motion,
   constexpr std::size_t settled = 12;  // steps after the impact
   const bool turned = hit + settled < flat && flat < all.size();
   const BlockState end = motion.stages.back().states.back();
-  const std::string name = fmt::format(
-      "{}{}, {} increments", means == Means::penalty ? "penalty" : "augmented Lagrangian",
-      split ? ", an increment ends at the impact" : "", increments);
+  const char* const names[] = {"penalty", "augmented Lagrangian", "multipliers"};
+  const std::string name =
+      fmt::format("mu {}, L {} a: {}{}, {} increments", motion.block.friction, motion.block.slid,
+                  names[static_cast<std::size_t>(run.means)],
+                  run.stops ? "" : ", impacts within increments", run.increments);
   const auto add = [&](const char* what, double value, double wanted, Relation relation) {
     out.rows.push_back({fmt::format("{}: {}", name, what), value, wanted, relation, 0.01,
                         "docs/turning_block.md"});
   };
-  const Relation held = split ? Relation::equal : Relation::info;
+  const Relation held = run.held ? Relation::equal : Relation::info;
   add("time of the impact", hit < all.size() ? all[hit].time : 0, impact, Relation::equal);
   add("rate after it, 3 v / (4 a)", turned ? all[hit + settled].rate : 0, rate, held);
   add("time of the second contact", turned ? all[flat].time : 0, end.time, held);
   add("rate before it", turned ? all[flat - 1].rate : 0, end.rate, held);
   double worst = turned ? 0.0 : 1.0;
-  Curve curve{fmt::format("reaction_{}_{}_{}", means == Means::penalty ? "penalty" : "augmented",
-                          split ? "split" : "even", increments),
+  Curve curve{fmt::format("reaction_{}", out.curves.size() + 1),
               {"t", "Rt", "Rn", "Rt_exact", "Rn_exact"},
               {}};
   constexpr double calm = 0.3;  // the corner hops no more: time since the impact
@@ -137,11 +136,13 @@ void add_run(int increments, Means means, bool split, const BlockMotion& motion,
 
 CaseResult turning_block(const CaseContext&) {
   CaseResult out;
-  const BlockMotion motion = follow(block_of_case());
+  const BlockMotion half = follow(block_with(0.5, 0.6)), third = follow(block_with(0.3, 0.3));
   for (const int increments : {800, 1600, 3200}) {
-    for (const Means means : {Means::penalty, Means::augmented})
-      add_run(increments, means, true, motion, out);
-    add_run(increments, Means::penalty, false, motion, out);
+    add_run({Means::penalty, increments, true, true}, half, out);
+    add_run({Means::augmented, increments, true, true}, half, out);
+    add_run({Means::multipliers, increments, true, false}, half, out);
+    add_run({Means::penalty, increments, false, false}, half, out);
+    add_run({Means::penalty, increments, true, true}, third, out);
   }
   return out;
 }

@@ -121,8 +121,11 @@ void build_dynamics(const BuildContext<Dim>& c, const Step& step, std::vector<do
   if (step.dynamics) {
     require_density(c.description);
     const DynamicsDescription& d = *step.dynamics;
+    const auto times = d.impact_times == ImpactTimesWord::all   ? model::ImpactTimes::all
+                       : d.impact_times == ImpactTimesWord::off ? model::ImpactTimes::off
+                                                                : model::ImpactTimes::automatic;
     out.dynamics = model::Dynamics{scheme_of(d), d.mass == MassWord::lumped, d.damping_mass,
-                                   d.damping_stiffness};
+                                   d.damping_stiffness, times};
   }
   if (gravity.empty() || (all_zero(gravity) && all_zero(before))) return;
   for (std::size_t i = 0; i < Dim; ++i)

@@ -304,6 +304,7 @@ struct Load {
 enum class SchemeWord { newmark, hht, generalized_alpha };
 enum class ImpactWord { dissipative, average, plastic };
 enum class MassWord { consistent, lumped };
+enum class ImpactTimesWord { automatic, all, off };
 
 /// Time integration of a step with inertia.
 struct DynamicsDescription {
@@ -312,6 +313,7 @@ struct DynamicsDescription {
   double parameter = 0;  ///< alpha of hht, radius of generalized_alpha
   ImpactWord impact = ImpactWord::dissipative;
   MassWord mass = MassWord::consistent;
+  ImpactTimesWord impact_times = ImpactTimesWord::automatic;
   double damping_mass = 0, damping_stiffness = 0;
 };
 

@@ -40,6 +40,14 @@ Spec dynamics_spec() {
                    "as dissipative, but what has hit does not bounce within the increment")})
           .otherwise("dissipative")
           .such_as("average");
+  const Spec times =
+      choice("Impacts that increments end at (the nominal ends of increments are kept as well).",
+             {word("auto", ImpactTimesWord::automatic,
+                   "of points of rigid bodies with a mass, unless `impact` is average"),
+              word("all", ImpactTimesWord::all, "of all contact points"),
+              word("off", ImpactTimesWord::off, "of none")})
+          .otherwise("auto")
+          .such_as("all");
   const Spec mass = choice("Distribution of the mass of cells.",
                            {word("consistent", MassWord::consistent, "by the shape functions"),
                             word("lumped", MassWord::lumped, "at the nodes")})
@@ -57,7 +65,8 @@ Spec dynamics_spec() {
           .otherwise("{}")
           .such_as("{stiffness: 1e-4}");
   return map("Inertia: the step is an integration in time, over its duration.",
-             {optional("scheme", scheme_spec()), optional("impact", impact), optional("mass", mass),
+             {optional("scheme", scheme_spec()), optional("impact", impact),
+              optional("impact_times", times), optional("mass", mass),
               optional("damping", damping)})
       .such_as("{scheme: {generalized_alpha: {radius: 0.8}}}");
 }

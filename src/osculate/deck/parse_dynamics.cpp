@@ -15,6 +15,7 @@ DynamicsDescription parse_dynamics(const Value& v) {
   }
   d.impact = word_of<ImpactWord>(v, "impact").value;
   d.mass = word_of<MassWord>(v, "mass").value;
+  d.impact_times = word_of<ImpactTimesWord>(v, "impact_times").value;
   const Value& damping = v.at("damping");
   d.damping_mass = damping.at("mass").number;
   d.damping_stiffness = damping.at("stiffness").number;

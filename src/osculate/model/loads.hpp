@@ -49,6 +49,13 @@ struct PressureLoad {
   Ramp ramp;
 };
 
+/// Which impacts increments in time end at.
+///
+/// automatic  those of points of rigid bodies with a mass, unless contact forces enter as all
+///            others do (solve::Impact::average): then increments resolve them
+/// all        those of all contact points
+enum class ImpactTimes { automatic, all, off };
+
 /// A step in time with inertia.
 ///
 /// Formula    damping forces C v, C = damping_mass M + damping_stiffness K (Rayleigh), K the
@@ -57,6 +64,7 @@ struct Dynamics {
   solve::TimeScheme scheme;
   bool lumped = false;  ///< masses at the nodes alone
   double damping_mass = 0, damping_stiffness = 0;
+  ImpactTimes impact_times = ImpactTimes::automatic;
 };
 
 /// Everything that acts during one step, compiled from the model file.

@@ -156,6 +156,7 @@ BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) co
   }
   for (std::size_t p = 0; p < state.multipliers.size(); ++p)
     state.multipliers[p] = pairing::commit(impl_->contact[p], std::move(state.multipliers[p]));
+  impl_->forget_impulses(state.multipliers);
   return state;
 }
 
@@ -235,6 +236,12 @@ SystemSeconds BasicSystem<Dim>::seconds() const {
     out.contact_parts.evaluation += pair.seconds.evaluation;
   }
   return out;
+}
+template <int Dim>
+bool BasicSystem<Dim>::soften() {
+  if (impl_->unknowns == impl_->dofs.unknowns()) return false;
+  impl_->soften();
+  return true;
 }
 template <int Dim>
 void BasicSystem<Dim>::resist(double share) {

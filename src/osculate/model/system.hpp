@@ -7,6 +7,7 @@
 #include "osculate/la/sparse_matrix.hpp"
 #include "osculate/model/model.hpp"
 #include "osculate/model/state.hpp"
+#include "osculate/solve/impact_ahead.hpp"
 #include "osculate/solve/newton.hpp"
 
 namespace osculate::model {
@@ -85,6 +86,13 @@ class BasicSystem {
   [[nodiscard]] bool augments_often() const;
   /// The converged state with its new history and rates. `trial` must be the last state evaluated.
   [[nodiscard]] State commit(const State& trial, double fraction) const;
+  /// The first impact before `fraction` (or not long after it) if everything goes on with the
+  /// velocity of `committed`: of points that were open, and of points that come upon another part
+  /// of the master at an angle. Nothing where the running step does not end increments at impacts.
+  [[nodiscard]] std::optional<solve::ImpactAhead> impact_ahead(const State& committed,
+                                                               double fraction) const;
+  /// Whether one of these points has met its obstacle in the last state evaluated.
+  [[nodiscard]] bool has_met(const State& committed, const solve::ImpactAhead& expected) const;
 
   /// Unknowns of the matrix: those of the dof space, then the multipliers that are unknowns.
   [[nodiscard]] Index unknowns() const;
@@ -101,6 +109,9 @@ class BasicSystem {
   [[nodiscard]] std::vector<Vec<Dim>> positions(const State& state) const;
   [[nodiscard]] bool prescribed(Index unknown) const;
   [[nodiscard]] SystemSeconds seconds() const;
+  /// Gives every multiplier of the running tangent a little compliance (see solve::Softens).
+  /// Returns false where there are none.
+  bool soften();
   /// Puts `share` of the bodies' own stiffness on the diagonal of the tangent, this one and those
   /// to come, against free motions (solve::Resistance). 0 removes it.
   void resist(double share);

@@ -1,5 +1,6 @@
 // Rows and columns of multipliers that are unknowns (pairing/constraint.hpp).
 #include <algorithm>
+#include <cmath>
 
 #include "osculate/model/system_impl.hpp"
 
@@ -93,6 +94,36 @@ void BasicSystem<Dim>::Impl::add_constraints(std::size_t pair, bool with_tangent
   }
 }
 
+template <int Dim>
+void BasicSystem<Dim>::Impl::soften() {
+  constexpr double share = 1e-8;
+  const la::SparseMatrix& k = builder.finish();
+  const auto value_at = [&](Index row, Index column) {
+    const auto first = k.column.begin() + k.row_start[static_cast<std::size_t>(row)];
+    const auto last = k.column.begin() + k.row_start[static_cast<std::size_t>(row) + 1];
+    const auto at = std::lower_bound(first, last, column);
+    return at != last && *at == column ? k.value[static_cast<std::size_t>(at - k.column.begin())]
+                                       : 0.0;
+  };
+  std::vector<double> compliance(static_cast<std::size_t>(unknowns - dofs.unknowns()));
+  for (Index u = dofs.unknowns(); u < unknowns; ++u)
+    for (Index at = k.row_start[static_cast<std::size_t>(u)];
+         at < k.row_start[static_cast<std::size_t>(u) + 1]; ++at) {
+      const Index j = k.column[static_cast<std::size_t>(at)];
+      const double stiffness = j < dofs.unknowns() ? std::abs(value_at(j, j)) : 0.0;
+      if (stiffness > 0)
+        compliance[static_cast<std::size_t>(u - dofs.unknowns())] +=
+            k.value[static_cast<std::size_t>(at)] * value_at(j, u) / stiffness;
+    }
+  for (std::size_t i = 0; i < compliance.size(); ++i)
+    if (compliance[i] != 0.0) {
+      const Index u = dofs.unknowns() + static_cast<Index>(i);
+      builder.add(u, u, -share * compliance[i]);
+    }
+}
+
+template void BasicSystem<2>::Impl::soften();
+template void BasicSystem<3>::Impl::soften();
 template double BasicSystem<2>::Impl::add_constraint_row(Index, const Eigen::VectorXd*);
 template double BasicSystem<3>::Impl::add_constraint_row(Index, const Eigen::VectorXd*);
 template void BasicSystem<2>::Impl::add_constraint_tangent(const pairing::ContactBlock<2>&, bool,

@@ -92,7 +92,8 @@ struct BasicSystem<Dim>::Impl {
     std::vector<body::BasicRigidMotion<Dim>> from;  ///< rigid bodies of the committed state
     Rates past;                                     ///< of the committed state
     Eigen::VectorXd effective, damping_force;
-    double size_of_mass = 0;  ///< norm of the diagonal of the mass matrix
+    double size_of_mass = 0;                          ///< norm of the diagonal of the mass matrix
+    std::vector<pairing::PairEvaluation<Dim>> paths;  ///< of the pairs, for impacts to come
   };
   std::optional<Motion> motion;
   std::optional<BasicInertia<Dim>> resting;  ///< for gravity in steps without inertia
@@ -145,6 +146,21 @@ struct BasicSystem<Dim>::Impl {
                     Energies& e) const;
   void move_with_bodies(const State& s, Rates& rates) const;
 
+  // Impacts that increments end at, in system_impacts.cpp.
+  [[nodiscard]] bool watches(std::size_t pair, std::size_t point) const;
+  void evaluate_path(const State& committed, std::size_t pair, std::span<const Vec<Dim>> x,
+                     double duration);
+  using PointName = std::array<std::size_t, 2>;  ///< pair and point
+  /// The watched points that have met an obstacle after a time with the committed velocity.
+  std::vector<PointName> met_on_path(const State& committed, double duration);
+  /// How fast points sink into what they have met, from the gaps a little later.
+  std::vector<double> speeds_on_path(const State& committed, const std::vector<PointName>& points,
+                                     double duration, double more);
+  /// Multipliers that are no guess of the next increment's: of impulses.
+  void forget_impulses(std::vector<pairing::PairMultipliers<Dim>>& multipliers) const;
+  [[nodiscard]] std::optional<solve::ImpactAhead> impact_ahead(const State& committed,
+                                                               double fraction);
+
   std::deque<ContactStates> recent;  ///< of the running attempt
   [[nodiscard]] ContactStates contact_states() const;
 
@@ -187,6 +203,8 @@ struct BasicSystem<Dim>::Impl {
                    solve::Evaluation& out);
   void add_contact_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,
                          const Eigen::VectorXd* inc);
+  /// Compliance of all multipliers in the tangent.
+  void soften();
   /// Constraints of a pair whose multipliers are unknowns.
   void add_constraints(std::size_t pair, bool with_tangent, const Eigen::VectorXd* inc);
   void add_constraint_tangent(const pairing::ContactBlock<Dim>& block, bool friction, Index first,

@@ -37,7 +37,9 @@ bool ends_at(const Chain& chain, const Facet& facet, bool high, std::span<const 
 /// The true foot point just beyond an end of the facet, by Newton's steps on the continued curve.
 ///
 /// Between neighbours this covers the tolerance of the projection: clamped to the end, the slip
-/// would stand still there and then jump. At an open end of the chain the facet is continued by
+/// would stand still there and then jump. But a point that is seen from the end at an angle to the
+/// normal belongs to the corner there, however near: between a normal and the next the force of a
+/// point that rests in a valley would jump. At an open end of the chain the facet is continued by
 /// `end_extension` of its range: the last node of a surface must not lose contact because its
 /// master tilts or stretches a little.
 template <class Jet, class Open>
@@ -50,6 +52,13 @@ void release_end(const Jet& jet, const Facet& facet, const Vec2& point, const Op
   const double limit = (open_end ? end_extension : 2 * projection::end_tolerance) * range;
   double xi = foot.xi;
   projection::DistanceJet d = projection::distance_jet(jet(xi), xi, point);
+  const bool beyond = foot.xi == facet.hi ? d.slope < 0 : d.slope > 0;
+  const double least = 1e-10 * range * std::sqrt(d.a11);  // nearer: the angle is rounding
+  if (!open_end && beyond && std::abs(d.slope) > 4 * d.noise &&
+      d.squared_distance > least * least) {
+    foot.at_end = true;
+    return;
+  }
   for (int i = 0; i < 8 && d.bend > 0; ++i) {
     const double step = projection::newton_step(d);
     xi += step;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "osculate/solve/arc_length.hpp"
+#include "osculate/solve/impacts.hpp"
 #include "osculate/solve/newton.hpp"
 
 namespace osculate::solve {
@@ -285,14 +286,21 @@ bool load_increment(StepRun<S>& run) {
   if (!(size > 0)) size = end - begin;
   const double smallest = (end - begin) * std::ldexp(1.0, -options.max_cutbacks);
   constexpr double sliver = 1e-6;  // not worth an increment, and too short for one in time
-  const double target = end - at <= size * (1 + sliver) ? end : at + size;
+  double target = end - at <= size * (1 + sliver) ? end : at + size;
   const bool may_guess = options.newton.predictor == Predictor::automatic;
-  const Guess guess = may_guess ? position.extrapolation.guess(target - at) : Guess{};
-  const bool last = 0.5 * (target - at) < smallest && options.arc_length.use != PathControl::off;
   bool resisted = false;
-  NewtonResult<typename S::State> attempt =
-      attempt_increment(run.system, run.result.state, target, options.newton, run.solver, guess,
-                        last, run.wasted, resisted);
+  const auto reach = [&](double until) {
+    const Guess guess = may_guess ? position.extrapolation.guess(until - at) : Guess{};
+    const bool last = 0.5 * (until - at) < smallest && options.arc_length.use != PathControl::off;
+    return attempt_increment(run.system, run.result.state, until, options.newton, run.solver, guess,
+                             last, run.wasted, resisted);
+  };
+  NewtonResult<typename S::State> attempt;
+  if constexpr (MeetsImpacts<S>)
+    attempt =
+        up_to_impact(run.system, run.result.state, at, target, end - begin, run.wasted, reach);
+  else
+    attempt = reach(target);
   if (attempt.outcome != Outcome::converged) {
     position.extrapolation.reset();
     run.drop(attempt, target);

@@ -144,6 +144,20 @@ concept Resists = requires(S s, const Eigen::VectorXd& du, double share) {
   { s.stride(du) } -> std::convertible_to<double>;  // largest motion over the size of an element
 };
 
+/// Systems with multipliers whose constraints may say the same thing twice, as two nodes of a rigid
+/// face that stick do: their tangent is singular, although the motion is not in doubt.
+///
+/// Formula    the rows G du - D dlambda = -g of the multipliers get D = 1e-8 diag(G diag(K)^-1
+/// G^T):
+///            a step of the proximal point method. The residual stays what it is, so that the
+///            constraints hold exactly where the iterations end; multipliers share what they cannot
+///            tell apart
+/// Tested by  tests/unit/deck/test_redundant_multipliers.cpp
+template <class S>
+concept Softens = requires(S s) {
+  { s.soften() } -> std::same_as<bool>;  // false: it has no multipliers
+};
+
 namespace detail {
 
 template <class State>
@@ -157,8 +171,12 @@ bool fail(NewtonResult<State>& result, Outcome outcome, std::string reason) {
 template <System S>
 bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd& residual,
                       Eigen::VectorXd& du, NewtonResult<typename S::State>& result) {
-  const la::FactorReport report =
-      solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
+  const auto factor = [&] {
+    return solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
+  };
+  la::FactorReport report = factor();
+  if constexpr (Softens<S>)
+    if (report.status == la::SolveStatus::singular && system.soften()) report = factor();
   result.linear = report.status;
   result.bad_row = report.bad_row;
   if (report.status == la::SolveStatus::singular)

@@ -1,0 +1,166 @@
+// Steps with inertia: the impacts that increments end at.
+#include <algorithm>
+#include <cmath>
+
+#include "osculate/model/system_impl.hpp"
+
+namespace osculate::model {
+namespace {
+
+using PointName = std::array<std::size_t, 2>;  ///< pair and point
+
+/// A point that was open is in contact, or one that was in contact has come onto another part of
+/// the master.
+template <int Dim>
+bool met(const contact::PointHistory<Dim>& before, const pairing::PointResult<Dim>& now) {
+  if (now.status == contact::Status::open) return false;
+  return !before.active || before.facet != now.history.facet ||
+         before.feature != now.history.feature;
+}
+
+std::vector<PointName> without(std::vector<PointName> points,
+                               const std::vector<PointName>& skipped) {
+  std::erase_if(points, [&](const PointName& name) {
+    return std::find(skipped.begin(), skipped.end(), name) != skipped.end();
+  });
+  return points;
+}
+
+template <int Dim>
+double largest_acceleration(const BasicDofSpace<Dim>& dofs, const Eigen::VectorXd& acceleration) {
+  double most = 0;
+  for (Index node = 0; node < dofs.nodes(); ++node)
+    most = std::max(most, acceleration.segment<Dim>(Dim * node).norm());
+  for (Dof d = Dim * dofs.nodes(); d < dofs.dofs(); d += body::motions<Dim>)
+    most = std::max(most, acceleration.segment<Dim>(d).norm());
+  return most;
+}
+
+}  // namespace
+
+template <int Dim>
+bool BasicSystem<Dim>::Impl::watches(std::size_t pair, std::size_t point) const {
+  const ImpactTimes times = motion->settings.impact_times;
+  if (times != ImpactTimes::automatic) return times == ImpactTimes::all;
+  const pairing::PairDefinition<Dim>& definition = model.pairs[pair].definition;
+  if (point >= definition.slave.points.size()) return false;  // a crossing of edges
+  const Index body = dofs.body_of(definition.slave.points[point].nearest_node());
+  return body >= 0 && motion->inertia->body_has_mass(static_cast<std::size_t>(body));
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::evaluate_path(const State& committed, std::size_t pair,
+                                           std::span<const Vec<Dim>> x, double duration) {
+  pairing::Assumed<Dim> assumed;
+  assumed.duration = duration;
+  const bool around =
+      pair < committed.multipliers.size() && !committed.multipliers[pair].points.empty();
+  pairing::evaluate<Dim>(model.pairs[pair].definition, x, committed.pairs[pair], false,
+                         motion->paths[pair], assumed,
+                         around ? &committed.multipliers[pair] : nullptr);
+}
+
+/// A contact force far above all other forces stops a mass; the next increment has nothing like it.
+template <int Dim>
+void BasicSystem<Dim>::Impl::forget_impulses(
+    std::vector<pairing::PairMultipliers<Dim>>& multipliers) const {
+  if (!timed() || motion->settings.scheme.impact == solve::Impact::average) return;
+  constexpr double far_above = 3;
+  const double usual = far_above * std::max(forces.internal.norm(), forces.external.norm());
+  for (std::size_t p = 0; p < multipliers.size(); ++p)
+    for (std::size_t i = 0; i < multipliers[p].points.size(); ++i) {
+      const pairing::PointResult<Dim>& point = contact[p].points[i];
+      if (point.weight * std::abs(point.normal_traction) > usual) multipliers[p].points[i] = {};
+    }
+}
+
+template <int Dim>
+std::vector<PointName> BasicSystem<Dim>::Impl::met_on_path(const State& committed,
+                                                           double duration) {
+  std::vector<Vec<Dim>> x = positions(committed.u);
+  for (std::size_t n = 0; n < x.size(); ++n)
+    x[n] += duration *
+            committed.rates.velocity.template segment<Dim>(Dim * static_cast<Eigen::Index>(n));
+  std::vector<PointName> points;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    evaluate_path(committed, p, x, duration);
+    const std::vector<contact::PointHistory<Dim>>& before = committed.pairs[p].points;
+    const std::vector<pairing::PointResult<Dim>>& now = motion->paths[p].points;
+    for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i)
+      if (watches(p, i) && met(before[i], now[i])) points.push_back({p, i});
+  }
+  return points;
+}
+
+template <int Dim>
+std::vector<double> BasicSystem<Dim>::Impl::speeds_on_path(const State& committed,
+                                                           const std::vector<PointName>& points,
+                                                           double duration, double more) {
+  std::vector<double> speeds(points.size());
+  for (const double sign : {1.0, -1.0}) {
+    met_on_path(committed, sign > 0 ? duration + more : duration + 2 * more);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      speeds[i] += sign * motion->paths[points[i][0]].points[points[i][1]].gap / more;
+  }
+  return speeds;
+}
+
+template <int Dim>
+std::optional<solve::ImpactAhead> BasicSystem<Dim>::Impl::impact_ahead(const State& committed,
+                                                                       double fraction) {
+  if (!motion || committed.rates.empty()) return std::nullopt;
+  const ImpactTimes times = motion->settings.impact_times;
+  const bool average = motion->settings.scheme.impact == solve::Impact::average;
+  const double h = time_between(committed, fraction);
+  if (times == ImpactTimes::off || (times == ImpactTimes::automatic && average) || !(h > 0))
+    return std::nullopt;
+  if (motion->paths.size() != model.pairs.size()) {
+    motion->paths.resize(model.pairs.size());
+    for (std::size_t p = 0; p < model.pairs.size(); ++p)  // the same trees in every process
+      evaluate_path(committed, p, model.reference, h);
+  }
+  // Slower than what the forces make of a body at rest within a few increments is no impact but
+  // the trembling of a contact that rests.
+  constexpr double horizon = 1.25, trembling = 4, beyond = 0.01, smallest = 1e-4;
+  const double slowest = trembling * h * largest_acceleration(dofs, committed.rates.acceleration);
+  std::vector<PointName> skipped;
+  for (;;) {
+    double low = 0, high = horizon;
+    std::vector<PointName> points = without(met_on_path(committed, high * h), skipped);
+    if (points.empty()) return std::nullopt;
+    while (high - low > smallest) {
+      const double middle = 0.5 * (low + high);
+      std::vector<PointName> there = without(met_on_path(committed, middle * h), skipped);
+      (there.empty() ? low : high) = middle;
+      if (!there.empty()) points = std::move(there);
+    }
+    const std::vector<double> speeds = speeds_on_path(committed, points, high * h, beyond * h);
+    solve::ImpactAhead ahead{high, {}};
+    for (std::size_t i = 0; i < points.size(); ++i)
+      (speeds[i] > slowest ? ahead.points : skipped).push_back(points[i]);
+    if (!ahead.points.empty()) return ahead;
+  }
+}
+
+template <int Dim>
+std::optional<solve::ImpactAhead> BasicSystem<Dim>::impact_ahead(const State& committed,
+                                                                 double fraction) const {
+  return impl_->impact_ahead(committed, fraction);
+}
+
+template <int Dim>
+bool BasicSystem<Dim>::has_met(const State& committed, const solve::ImpactAhead& expected) const {
+  return std::any_of(expected.points.begin(), expected.points.end(), [&](const PointName& name) {
+    return met(committed.pairs[name[0]].points[name[1]], impl_->contact[name[0]].points[name[1]]);
+  });
+}
+
+template std::optional<solve::ImpactAhead> BasicSystem<2>::impact_ahead(const State&, double) const;
+template std::optional<solve::ImpactAhead> BasicSystem<3>::impact_ahead(const State3&,
+                                                                        double) const;
+template bool BasicSystem<2>::has_met(const State&, const solve::ImpactAhead&) const;
+template bool BasicSystem<3>::has_met(const State3&, const solve::ImpactAhead&) const;
+template struct BasicSystem<2>::Impl;
+template struct BasicSystem<3>::Impl;
+
+}  // namespace osculate::model

@@ -1,0 +1,77 @@
+// Multipliers on a rigid face: two nodes that stick say the same thing twice.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "system_test.hpp"
+
+namespace osculate::deck {
+namespace {
+
+constexpr double weight = 3, size = 1;
+
+/// A rigid block on a floor under gravity, pushed sideways.
+std::string resting(double push, const char* friction) {
+  return fmt::format(R"(osculate: 1
+mesh: {{generate: {{block: {{line: {{points: [[{0}, 0], [0, 0], [0, {0}], [{0}, {0}], [{0}, 0]],
+                                     elements: [1, 1, 1, 1]}}}}}}}}
+rigid:
+  body: {{set: block, reference: [0.5, 0.5], mass: {1}, inertia: 0.5}}
+  floor: {{polyline: {{points: [[-4, 0], [6, 0]]}}}}
+contact:
+  - {{name: c, master: floor, slave: body, sampling: nodes, weight: node, normal: {{penalty: 1000}},
+     friction: {{coulomb: {{mu: 0.5, penalty: 1000}}}}, enforcement: {2}}}
+amplitudes:
+  at_once: [[0, 1], [1, 1]]
+steps:
+  - name: rest
+    increments: 4
+    duration: 0.4
+    gravity: [0, -1]
+    forces: [{{on: body, fx: {3}, amplitude: at_once}}]
+    dynamics: {{impact: dissipative}}
+)",
+                     size, weight, friction, push);
+}
+
+Vec2 force_on_floor(const model::System& system) {
+  Vec2 sum = Vec2::Zero();
+  for (Index node = 0; node < 4; ++node) sum += system.forces().contact.segment<2>(2 * node);
+  return sum;
+}
+
+TEST(RedundantMultipliers, ABlockThatSticksStaysWhereItIs) {
+  const Built built = build_text(resting(0.6, "lagrange_multiplier"));
+  int increments = 0;
+  model::AnalysisObserver observer;
+  observer.converged = [&](model::System& system, const model::State& state, const model::Progress&,
+                           const solve::IncrementRecord* record) {
+    if (!record) return true;
+    ++increments;
+    EXPECT_LT(state.u.lpNorm<Eigen::Infinity>(), 1e-12);
+    EXPECT_LT(state.rates.velocity.lpNorm<Eigen::Infinity>(), 1e-11);
+    const Vec2 force = force_on_floor(system);
+    EXPECT_NEAR(force.x(), 0.6, 1e-9 * weight);
+    EXPECT_NEAR(force.y(), -weight, 1e-9 * weight);
+    EXPECT_LE(record->iterations.size(), 4u);
+    return true;
+  };
+  const model::AnalysisResult result = model::run(built.model, built.options, observer);
+  EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
+  EXPECT_EQ(increments, 4);
+}
+
+TEST(RedundantMultipliers, ABlockThatSlidesHasTheRightAcceleration) {
+  const Built built = build_text(resting(2.1, "lagrange_multiplier"));
+  const model::AnalysisResult result = model::run(built.model, built.options, {});
+  ASSERT_EQ(result.outcome, solve::Outcome::converged) << result.message;
+  const double acceleration = (2.1 - 0.5 * weight) / weight;
+  EXPECT_NEAR(result.state.rigid[0].translation.x(), 0.5 * acceleration * 0.4 * 0.4, 1e-10);
+  EXPECT_NEAR(result.state.rates.energies.friction,
+              0.5 * weight * result.state.rigid[0].translation.x(), 1e-9);
+  EXPECT_NEAR(result.state.rigid[0].angle, 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace osculate::deck
