@@ -84,9 +84,14 @@ void fields(Archive& a, IterationRecord& record) {
   a(residual, energy, step, counts);
 }
 template <class Archive>
+void fields(Archive& a, TimeSteps& steps) {
+  auto& [count, longest, stable, governed] = steps;
+  a(count, longest, stable, governed);
+}
+template <class Archive>
 void fields(Archive& a, IncrementRecord& record) {
-  auto& [fraction, cutbacks, iterations, wasted, resisted, on_path] = record;
-  a(fraction, cutbacks, iterations, wasted, resisted, on_path);
+  auto& [fraction, cutbacks, iterations, wasted, resisted, on_path, time_steps] = record;
+  a(fraction, cutbacks, iterations, wasted, resisted, on_path, time_steps);
 }
 template <class Archive>
 void fields(Archive& a, ExtrapolationMemory& m) {
@@ -123,9 +128,15 @@ void fields(Archive& a, Energies& energies) {
     damped, elapsed);
 }
 template <class Archive>
+void fields(Archive& a, StableStep& stable) {
+  auto& [step, since, cell, contact] = stable;
+  a(step, since, cell, contact);
+}
+template <class Archive>
 void fields(Archive& a, Rates& rates) {
-  auto& [velocity, acceleration, internal, external, contact, damping, spins, energies] = rates;
-  a(velocity, acceleration, internal, external, contact, damping, spins, energies);
+  auto& [velocity, acceleration, internal, external, contact, damping, spins, energies, stable] =
+      rates;
+  a(velocity, acceleration, internal, external, contact, damping, spins, energies, stable);
 }
 template <class Archive, int Dim>
 void fields(Archive& a, BasicState<Dim>& state) {

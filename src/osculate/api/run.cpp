@@ -51,6 +51,8 @@ struct Recorder {
   bool stopping = false;
   int converged_count = 0;  ///< increments
   int iterations = 0;
+  long time_steps = 0;                   ///< of explicit time integration
+  std::string governed_by;               ///< what governed the last of them
   double seconds = 0;                    ///< spent here
   std::vector<double> curvature_shares;  ///< one per converged increment
   std::vector<nlohmann::json> notes;     ///< one per converged increment
@@ -246,7 +248,28 @@ struct Recorder {
           it.counts.slip);
   }
 
+  /// An increment of explicit time integration.
+  void report_time_steps(const model::Progress& p, const solve::IncrementRecord& record) {
+    const solve::TimeSteps& steps = record.time_steps;
+    const solve::StateCounts& counts = record.iterations.back().counts;
+    const std::string line = fmt::format(
+        "{:<12} {:>4}  time {:<9.5g} {:>6} time steps of {:.3g}  open {} stick {} slip {}",
+        step_name(p), p.increment, p.time, steps.count, steps.longest, counts.open, counts.stick,
+        counts.slip);
+    log << line << "\n";
+    if (options.progress) options.progress(line);
+    time_steps += steps.count;
+    if (steps.governed != governed_by)
+      say(fmt::format("the longest stable time step of {:.4g} is estimated from {}", steps.stable,
+                      steps.governed));
+    governed_by = steps.governed;
+  }
+
   void report_increment(const model::Progress& p, const solve::IncrementRecord& record) {
+    if (record.time_steps.count > 0) {
+      report_time_steps(p, record);
+      return;
+    }
     const solve::IterationRecord& last = record.iterations.back();
     iterations += static_cast<int>(record.iterations.size()) + record.wasted_iterations;
     const std::string line = fmt::format(
@@ -295,9 +318,12 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
     if (recorder.write_error.empty()) throw;  // otherwise it has been said already
   }
   outcome.summary_json = summary.dump(1);
-  recorder.say(fmt::format("{}: {} iterations, {:.1f} s, {} unknowns; results in {}",
-                           done ? "done" : "stopped", recorder.iterations, result.seconds,
-                           result.unknowns, recorder.folder));
+  const std::string work = recorder.time_steps > 0 && recorder.iterations == 0
+                               ? fmt::format("{} time steps", recorder.time_steps)
+                               : fmt::format("{} iterations", recorder.iterations);
+  recorder.say(fmt::format("{}: {}, {:.1f} s, {} unknowns; results in {}",
+                           done ? "done" : "stopped", work, result.seconds, result.unknowns,
+                           recorder.folder));
   if (!done) recorder.say(outcome.message);
   return outcome;
 }

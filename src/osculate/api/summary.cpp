@@ -25,6 +25,12 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
   }
   const solve::IterationRecord last =
       record.iterations.empty() ? solve::IterationRecord{} : record.iterations.back();
+  nlohmann::json time_steps = nullptr;
+  if (record.time_steps.count > 0)
+    time_steps = {{"count", record.time_steps.count},
+                  {"longest", number(record.time_steps.longest)},
+                  {"stable", number(record.time_steps.stable)},
+                  {"governed_by", record.time_steps.governed}};
   return {{"time", step_time + record.fraction},
           {"iterations", record.iterations.size()},
           {"residual", number(last.residual)},
@@ -37,6 +43,7 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
           {"stick", last.counts.stick},
           {"slip", last.counts.slip},
           {"friction_work", number(last.counts.friction_work)},
+          {"time_steps", time_steps},
           {"residuals", residuals},
           {"energies", energies}};
 }

@@ -126,6 +126,11 @@ void build_dynamics(const BuildContext<Dim>& c, const Step& step, std::vector<do
                                                                 : model::ImpactTimes::automatic;
     out.dynamics = model::Dynamics{scheme_of(d), d.mass == MassWord::lumped, d.damping_mass,
                                    d.damping_stiffness, times};
+    if (d.scheme == SchemeWord::central_differences) {
+      out.dynamics->lumped = true;
+      out.dynamics->scheme.impact = solve::Impact::average;
+      out.dynamics->explicit_steps = solve::CentralDifferences{d.safety, d.step};
+    }
   }
   if (gravity.empty() || (all_zero(gravity) && all_zero(before))) return;
   for (std::size_t i = 0; i < Dim; ++i)

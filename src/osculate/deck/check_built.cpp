@@ -4,6 +4,7 @@
 
 #include "osculate/deck/build_context.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/model/explicit_obstacle.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -61,11 +62,25 @@ void check_connected(const BuildContext<Dim>& c) {
   }
 }
 
+/// Steps with central differences.
+template <int Dim>
+void check_explicit_steps(const BuildContext<Dim>& c) {
+  for (std::size_t s = 0; s < c.model().steps.size(); ++s) {
+    const model::Step& step = c.model().steps[s];
+    if (!step.dynamics || !step.dynamics->explicit_steps) continue;
+    const std::string obstacle = model::explicit_obstacle(c.model(), step);
+    if (!obstacle.empty())
+      throw core::InputError(c.description.steps[s].dynamics->mark,
+                             "central differences are not possible: " + obstacle);
+  }
+}
+
 }  // namespace
 
 template <int Dim>
 void check_model(BuildContext<Dim>& c) {
   check_connected(c);
+  check_explicit_steps(c);
 }
 
 template void check_model(BuildContext<2>&);

@@ -301,7 +301,7 @@ struct Load {
   std::optional<Name> amplitude;
 };
 
-enum class SchemeWord { newmark, hht, generalized_alpha };
+enum class SchemeWord { newmark, hht, generalized_alpha, central_differences };
 enum class ImpactWord { dissipative, average, plastic };
 enum class MassWord { consistent, lumped };
 enum class ImpactTimesWord { automatic, all, off };
@@ -315,6 +315,7 @@ struct DynamicsDescription {
   MassWord mass = MassWord::consistent;
   ImpactTimesWord impact_times = ImpactTimesWord::automatic;
   double damping_mass = 0, damping_stiffness = 0;
+  double safety = 0, step = 0;  ///< of central_differences
 };
 
 struct Step {

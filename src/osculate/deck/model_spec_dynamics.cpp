@@ -17,12 +17,24 @@ Spec scheme_spec() {
                                   .at_least(0)
                                   .at_most(1)
                                   .such_as("0.8"))});
+  const Spec central =
+      map("Explicit: many short time steps in each increment, none of which solves a system.",
+          {optional("safety", number("Share of the longest stable step that is taken; above 1 "
+                                     "nothing promises stability.")
+                                  .above(0)
+                                  .at_most(2)
+                                  .otherwise("0.9")),
+           optional("step", number("Longest time step.").in("time").above(0).such_as("1e-7"))});
   return either("The time integration.",
                 {choice("Scheme.", {word("newmark", SchemeWord::newmark,
-                                         "Newmark's average acceleration: no dissipation")}),
-                 map("A scheme with dissipation of high frequencies.",
-                     {optional("hht", hht), optional("generalized_alpha", alpha)})
-                     .with(Group::Rule::exactly_one, {"hht", "generalized_alpha"})})
+                                         "Newmark's average acceleration: no dissipation"),
+                                    word("central_differences", SchemeWord::central_differences,
+                                         "explicit, with stable time steps and lumped masses")}),
+                 map("A scheme with numbers: dissipation of high frequencies, or time steps.",
+                     {optional("hht", hht), optional("generalized_alpha", alpha),
+                      optional("central_differences", central)})
+                     .with(Group::Rule::exactly_one,
+                           {"hht", "generalized_alpha", "central_differences"})})
       .otherwise("newmark")
       .such_as("{generalized_alpha: {radius: 0.8}}");
 }

@@ -29,6 +29,34 @@ struct Analysis {
     return go_on;
   }
 
+  /// Central differences: the increments of the step are where results are told.
+  void run_explicit_step(const Step& step,
+                         const solve::IncrementObserver<BasicState<Dim>>& on_increment) {
+    for (; position.nominal < step.increments; ++position.nominal) {
+      const double end = static_cast<double>(position.nominal + 1) / step.increments;
+      if (position.at >= end) continue;  // resumed
+      ExplicitIncrement<BasicState<Dim>> done = system.advance(result.state, end);
+      result.last_iterate = done.state;
+      if (done.outcome != solve::TimeStepping::done) {
+        result.outcome = solve::Outcome::numerical_failure;
+        result.failure = explicit_failure<Dim>(step, done.outcome, done.reason, position.at);
+        result.message = result.failure->message;
+        return;
+      }
+      result.state = std::move(done.state);
+      position.at = end;
+      solve::IncrementRecord record;
+      record.fraction = end;
+      record.iterations.push_back({0, 0, 1, done.counts});
+      record.time_steps = done.time_steps;
+      result.steps.back().increments.push_back(record);
+      if (on_increment(result.state, record)) continue;
+      result.outcome = solve::Outcome::stopped;
+      result.message = "stopped by the user";
+      return;
+    }
+  }
+
   void run_step(const Step& step) {
     const auto on_increment = [&](const BasicState<Dim>& state,
                                   const solve::IncrementRecord& record) {
@@ -42,6 +70,10 @@ struct Analysis {
       progress.fraction = from;
       if (observer.cutback) observer.cutback(reason, progress, to, iterations);
     };
+    if (step.dynamics && step.dynamics->explicit_steps) {
+      run_explicit_step(step, on_increment);
+      return;
+    }
     solve::IncrementOptions increments = options.increments;
     if (step.dynamics) increments.arc_length.use = solve::PathControl::off;  // time does not turn
     solve::StepResult<BasicState<Dim>> done =

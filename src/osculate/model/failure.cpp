@@ -257,6 +257,8 @@ std::string_view cause_name(FailureCause cause) {
       return "flipping contact";
     case FailureCause::instability:
       return "instability";
+    case FailureCause::unstable_time_step:
+      return "unstable time step";
     case FailureCause::too_large_increment:
       return "too large increment";
   }
@@ -329,6 +331,29 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
   return f;
 }
 
+template <int Dim>
+BasicFailure<Dim> explicit_failure(const Step& step, solve::TimeStepping outcome,
+                                   const std::string& reason, double fraction) {
+  BasicFailure<Dim> f;
+  f.reason = reason;
+  f.cause = outcome == solve::TimeStepping::failed ? FailureCause::inverted_element
+                                                   : FailureCause::unstable_time_step;
+  f.proposal =
+      "take shorter time steps with a smaller `central_differences: {safety}`, or a softer "
+      "penalty";
+  if (outcome == solve::TimeStepping::failed)
+    f.proposal =
+        "take shorter time steps with a smaller `central_differences: {safety}`, or look "
+        "for a load or an impact that crushes the cell";
+  if (outcome == solve::TimeStepping::too_many)
+    f.proposal = "take an implicit scheme, larger cells, a softer penalty or more increments";
+  f.message = fmt::format("step '{}' cannot go on from {:.5g} of it: {}. Cause: {}. Proposal: {}.",
+                          step.name, fraction, reason, cause_name(f.cause), f.proposal);
+  return f;
+}
+
+template Failure explicit_failure<2>(const Step&, solve::TimeStepping, const std::string&, double);
+template Failure3 explicit_failure<3>(const Step&, solve::TimeStepping, const std::string&, double);
 template std::vector<Vec2> motion_field(const Model&, const State&, const FreeMotion&);
 template std::vector<Vec3> motion_field(const Model3&, const State3&, const FreeMotion3&);
 template Failure diagnose(System&, const Model&, const Step&, const solve::StepResult<State>&);

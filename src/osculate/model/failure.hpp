@@ -17,6 +17,7 @@ enum class FailureCause {
   stiffness_ratio,     ///< contact so stiff that the digits do not suffice
   flipping,            ///< contact points change between states for ever
   instability,         ///< the tangent has lost its positive definiteness: snap-through, buckling
+  unstable_time_step,  ///< of explicit time integration
   too_large_increment  ///< none of these
 };
 [[nodiscard]] std::string_view cause_name(FailureCause cause);
@@ -54,6 +55,13 @@ template <int Dim>
 [[nodiscard]] BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& model,
                                          const Step& step,
                                          const solve::StepResult<BasicState<Dim>>& result);
+
+/// Why explicit time integration ended before its time, at a fraction of the step.
+///
+/// Tested by  tests/unit/deck/test_explicit.cpp
+template <int Dim>
+[[nodiscard]] BasicFailure<Dim> explicit_failure(const Step& step, solve::TimeStepping outcome,
+                                                 const std::string& reason, double fraction);
 
 /// The motion at the nodes of its body, its largest vector of length 1; zero elsewhere.
 template <int Dim>

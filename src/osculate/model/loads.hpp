@@ -5,6 +5,7 @@
 #include "osculate/cell/cell_type.hpp"
 #include "osculate/core/types.hpp"
 #include "osculate/model/dof_space.hpp"
+#include "osculate/solve/central_differences.hpp"
 #include "osculate/solve/time_scheme.hpp"
 
 namespace osculate::model {
@@ -65,6 +66,8 @@ struct Dynamics {
   bool lumped = false;  ///< masses at the nodes alone
   double damping_mass = 0, damping_stiffness = 0;
   ImpactTimes impact_times = ImpactTimes::automatic;
+  /// Explicit, instead of `scheme`: masses at the nodes, damping by mass alone.
+  std::optional<solve::CentralDifferences> explicit_steps{};
 };
 
 /// Everything that acts during one step, compiled from the model file.

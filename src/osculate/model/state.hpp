@@ -28,6 +28,14 @@ struct Energies {
   double elapsed = 0;  ///< time since the beginning
 };
 
+/// The longest stable step of explicit time integration, as it was estimated last.
+struct StableStep {
+  double step = 0;       ///< 0: not known
+  int since = 0;         ///< time steps since
+  Index cell = -1;       ///< that governs it, counted through all sections
+  bool contact = false;  ///< the springs of contacts govern it
+};
+
 /// What a state has in steps with inertia, over the primary dofs. The acceleration is that of all
 /// forces but those of contact, unless Impact::average. Velocities of rotations in space are
 /// angular velocities in space (not rates of rotation vectors); their accelerations stand in
@@ -37,6 +45,7 @@ struct Rates {
   Eigen::VectorXd internal, external, contact, damping;  ///< forces
   std::vector<body::RotationRates<3>> spins;             ///< of the rigid bodies in space
   Energies energies;
+  StableStep stable{};
   [[nodiscard]] bool empty() const { return velocity.size() == 0; }
 };
 

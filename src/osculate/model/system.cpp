@@ -47,12 +47,16 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
   }
   impl_->assembler.set_prescribed(std::move(flags));
   impl_->begin_dynamics();
+  impl_->begin_explicit();
 }
 
 template <int Dim>
 BasicState<Dim> BasicSystem<Dim>::begin_motion(const State& committed) {
   State state = committed;
-  state.rates = impl_->motion ? impl_->begin_rates(committed) : Rates{};
+  if (impl_->explicit_motion)
+    state.rates = impl_->begin_explicit_rates(committed);
+  else
+    state.rates = impl_->motion ? impl_->begin_rates(committed) : Rates{};
   return state;
 }
 

@@ -7,6 +7,7 @@
 #include "osculate/la/sparse_matrix.hpp"
 #include "osculate/model/model.hpp"
 #include "osculate/model/state.hpp"
+#include "osculate/solve/central_differences.hpp"
 #include "osculate/solve/impact_ahead.hpp"
 #include "osculate/solve/newton.hpp"
 
@@ -36,6 +37,16 @@ struct SystemSeconds {
 struct SystemMemory {
   std::vector<double> starts;          ///< of the prescribed dofs' ramps in the running step
   std::vector<la::MatrixPlace> grown;  ///< entries of contact in the pattern of the matrix
+};
+
+/// One increment of explicit time integration.
+template <class State>
+struct ExplicitIncrement {
+  solve::TimeStepping outcome = solve::TimeStepping::done;
+  std::string reason;  ///< why it is not done
+  State state;         ///< at its end, with history and rates; where it stopped if not done
+  solve::TimeSteps time_steps;
+  solve::StateCounts counts;
 };
 
 /// States of the contact points by pair: 0 open, 1 stick, 2 slip, 3 slip the other way (2D only).
@@ -93,6 +104,10 @@ class BasicSystem {
                                                                double fraction) const;
   /// Whether one of these points has met its obstacle in the last state evaluated.
   [[nodiscard]] bool has_met(const State& committed, const solve::ImpactAhead& expected) const;
+
+  /// Explicit time integration from a committed state to a fraction of the running step, in as many
+  /// time steps as are stable. To be called in steps with central differences only.
+  [[nodiscard]] ExplicitIncrement<State> advance(const State& committed, double fraction);
 
   /// Unknowns of the matrix: those of the dof space, then the multipliers that are unknowns.
   [[nodiscard]] Index unknowns() const;

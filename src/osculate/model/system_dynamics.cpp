@@ -270,18 +270,23 @@ void BasicSystem<Dim>::Impl::move_with_bodies(const State& s, Rates& rates) cons
 }
 
 template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::Impl::start_velocity() const {
+  const auto first = std::find_if(model.steps.begin(), model.steps.end(),
+                                  [](const Step& s) { return s.dynamics.has_value(); });
+  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(dofs.dofs());
+  if (first == model.steps.end() || first->name == step.name)
+    for (const auto& entry : model.initial_velocity) velocity[entry.first] = entry.second;
+  for (Index u = 0; u < dofs.unknowns(); ++u)
+    if (assembler.prescribed(u)) velocity[dofs.dof_of_unknown(u)] = 0;
+  return velocity;
+}
+
+template <int Dim>
 Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   Rates rates = committed.rates;
   const bool first = rates.empty();
-  const auto running = std::find_if(model.steps.begin(), model.steps.end(),
-                                    [](const Step& s) { return s.dynamics.has_value(); });
-  const bool first_with_inertia = running == model.steps.end() || running->name == step.name;
   if (first) {
-    rates.velocity.setZero(dofs.dofs());
-    if (first_with_inertia)
-      for (const auto& entry : model.initial_velocity) rates.velocity[entry.first] = entry.second;
-    for (Index u = 0; u < dofs.unknowns(); ++u)
-      if (assembler.prescribed(u)) rates.velocity[dofs.dof_of_unknown(u)] = 0;
+    rates.velocity = start_velocity();
     move_with_bodies(committed, rates);
   }
   rates.acceleration.setZero(dofs.dofs());

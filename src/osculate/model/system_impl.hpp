@@ -161,6 +161,14 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] std::optional<solve::ImpactAhead> impact_ahead(const State& committed,
                                                                double fraction);
 
+  // Explicit time integration, in system_explicit.cpp; steps without have none.
+  struct Explicit;
+  std::shared_ptr<Explicit> explicit_motion;
+  void begin_explicit();
+  [[nodiscard]] Rates begin_explicit_rates(const State& committed);
+  /// Velocities of a body that no step with inertia has moved so far.
+  [[nodiscard]] Eigen::VectorXd start_velocity() const;
+
   std::deque<ContactStates> recent;  ///< of the running attempt
   [[nodiscard]] ContactStates contact_states() const;
 

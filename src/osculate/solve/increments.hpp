@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "osculate/solve/arc_length.hpp"
+#include "osculate/solve/central_differences.hpp"
 #include "osculate/solve/impacts.hpp"
 #include "osculate/solve/newton.hpp"
 
@@ -26,6 +27,7 @@ struct IncrementRecord {
   int wasted_iterations = 0;  ///< iterations of the dropped attempts
   bool resisted = false;      ///< free motions were resisted on the way (see Resistance)
   bool on_path = false;       ///< found by arc length: the fraction may have fallen
+  TimeSteps time_steps{};     ///< of explicit time integration; none: it is not
 };
 
 /// What the extrapolation knows of the last two increments.

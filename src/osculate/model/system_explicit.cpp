@@ -1,0 +1,335 @@
+// Explicit time integration: the forces and accelerations of one time step.
+#include "osculate/model/system_explicit.hpp"
+
+#include <omp.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+
+#include "osculate/body/free_turn.hpp"
+
+namespace osculate::model {
+
+template <int Dim>
+BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
+    : system(s),
+      options(*s.step.dynamics->explicit_steps),
+      damping(s.step.dynamics->damping_mass),
+      work(static_cast<std::size_t>(s.threads)),
+      assumed(s.model.pairs.size()),
+      turning(s.model.rigid.size()) {
+  const Eigen::Index n = system.dofs.dofs();
+  for (Vector* const v : {&past_internal, &past_contact, &past_external, &past_damping})
+    v->setZero(n);
+  x.resize(system.model.reference.size());
+  make_masses();
+  make_followers();
+  make_gather();
+  inverse.setZero(n);
+  for (Dof d = 0; d < n; ++d) {
+    const Index unknown = system.dofs.unknown_of(d);
+    if (unknown >= 0 && !system.assembler.prescribed(unknown) && mass[d] > 0)
+      inverse[d] = 1 / mass[d];
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::make_masses() {
+  const BasicModel<Dim>& model = system.model;
+  node_mass.assign(model.reference.size(), 0.0);
+  mass.setZero(system.dofs.dofs());
+  for (const typename BasicInertia<Dim>::CellMass& cell : system.motion->inertia->cells())
+    for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      node_mass[static_cast<std::size_t>(cell.nodes[k])] += cell.mass(i, i);
+    }
+  for (std::size_t n = 0; n < node_mass.size(); ++n)
+    if (system.dofs.body_of(static_cast<Index>(n)) < 0)
+      mass.segment<Dim>(Dim * static_cast<Eigen::Index>(n)).setConstant(node_mass[n]);
+  for (std::size_t b = 0; b < model.rigid.size(); ++b)
+    mass.segment<body::motions<Dim>>(system.dofs.body_dof(static_cast<Index>(b), 0)) =
+        system.motion->inertia->body_mass(b).diagonal();
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::make_followers() {
+  for (const PrescribedDof& p : system.step.prescribed) {
+    prescribed.push_back(&p);
+    if (system.dofs.unknown_of(p.dof) >= 0) held.push_back(p.dof);
+  }
+  past_held.setZero(static_cast<Eigen::Index>(held.size()));
+  for (const Equation& equation : system.dofs.equations()) {
+    const Equation::Term& of = equation.terms.front();
+    Follower f{of.dof, -1, 0};
+    if (equation.terms.size() > 1) {
+      f.lead = equation.terms[1].dof;
+      f.factor = -equation.terms[1].factor / of.factor;
+      mass[f.lead] += f.factor * f.factor * mass[f.dof];
+    }
+    mass[f.dof] = 0;
+    followers.push_back(f);
+  }
+  for (std::size_t b = 0; b < system.model.rigid.size(); ++b)
+    turns.push_back(Dim == 3 && system.model.rigid[b].mass > 0 && system.free_rotations(b) > 0);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::make_gather() {
+  std::vector<bool> in_contact(system.model.reference.size(), false);
+  for (const BasicContactPair<Dim>& pair : system.model.pairs) {
+    changes = changes || !(contact::penalty_of(pair.definition.normal) > 0);
+    for (const Index n : pair.definition.slave.nodes)
+      in_contact[static_cast<std::size_t>(n)] = true;
+    for (const auto& f : pair.definition.master.facets)
+      for (std::size_t k = 0; k < static_cast<std::size_t>(f.count); ++k)
+        in_contact[static_cast<std::size_t>(f.nodes[k])] = true;
+  }
+  std::vector<std::vector<std::size_t>> of_node(system.model.reference.size());
+  std::size_t size = 0;
+  for (const CellJob& job : system.jobs) {
+    first_force.push_back(size);
+    touching.push_back(false);
+    changes = changes || job.section->section.kinematics == solid::Kinematics::finite;
+    for (const Index node : cell_nodes(system.model.mesh, job.cell).nodes) {
+      of_node[static_cast<std::size_t>(node)].push_back(size);
+      size += Dim;
+      if (in_contact[static_cast<std::size_t>(node)]) touching.back() = true;
+    }
+  }
+  cell_forces.resize(size);
+  gather.begin.push_back(0);
+  for (const std::vector<std::size_t>& entries : of_node) {
+    gather.entry.insert(gather.entry.end(), entries.begin(), entries.end());
+    gather.begin.push_back(gather.entry.size());
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::place(const Vector& position) {
+  for (std::size_t n = 0; n < x.size(); ++n)
+    x[n] = system.model.reference[n] + position.segment<Dim>(Dim * static_cast<Eigen::Index>(n));
+}
+
+/// Forces of the cells by themselves, then their sums at the nodes in a fixed order: the bits do
+/// not depend on the number of threads.
+template <int Dim>
+bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u) {
+  const Stopwatch watch;
+  const auto count = static_cast<std::ptrdiff_t>(system.jobs.size());
+  const auto nodes = static_cast<std::ptrdiff_t>(x.size());
+  std::ptrdiff_t failed = count;
+#pragma omp parallel num_threads(system.threads)
+  {
+    BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())];
+#pragma omp for schedule(static) reduction(min : failed)
+    for (std::ptrdiff_t c = 0; c < count; ++c) {
+      const CellJob& job = system.jobs[static_cast<std::size_t>(c)];
+      evaluate_cell(system.model, *job.section, job.cell, u, false, block);
+      if (!block.ok) failed = std::min(failed, c);
+      std::copy_n(block.result.force.data(), block.dof_count,
+                  cell_forces.begin() +
+                      static_cast<std::ptrdiff_t>(first_force[static_cast<std::size_t>(c)]));
+    }
+#pragma omp for schedule(static)
+    for (std::ptrdiff_t n = 0; n < nodes; ++n) {
+      const auto at = static_cast<std::size_t>(n);
+      Vec<Dim> sum = Vec<Dim>::Zero();
+      for (std::size_t e = gather.begin[at]; e < gather.begin[at + 1]; ++e)
+        sum += Eigen::Map<const Vec<Dim>>(&cell_forces[gather.entry[e]]);
+      system.forces.internal.template segment<Dim>(Dim * n) = sum;
+    }
+  }
+  system.seconds.bulk += watch.seconds();
+  if (failed == count) return true;
+  const CellJob& job = system.jobs[static_cast<std::size_t>(failed)];
+  evaluate_cell(system.model, *job.section, job.cell, u, false, work.front());
+  trouble = work.front().message;
+  return false;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::add_contact(double h, double fraction) {
+  const Stopwatch watch;
+  system.forces.contact.setZero();
+  for (std::size_t p = 0; p < assumed.size(); ++p) {
+    const pairing::PairDefinition<Dim>& pair = system.model.pairs[p].definition;
+    assumed[p].duration = h;
+    assumed[p].relief = system.relief(pair, fraction);
+    pairing::evaluate<Dim>(pair, x, now.pairs[p], false, system.contact[p], assumed[p]);
+    for (const pairing::ContactBlock<Dim>& block : system.contact[p].blocks)
+      for (int k = 0; k < block.count; ++k)
+        system.forces.contact.segment<Dim>(Dim * block.nodes[static_cast<std::size_t>(k)]) +=
+            block.force.template segment<Dim>(Dim * k);
+  }
+  system.seconds.contact += watch.seconds();
+}
+
+/// As pairing::commit, without new memory.
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::commit_contact() {
+  for (std::size_t p = 0; p < now.pairs.size(); ++p) {
+    const pairing::PairEvaluation<Dim>& evaluation = system.contact[p];
+    now.pairs[p].points.resize(evaluation.points.size());
+    for (std::size_t i = 0; i < evaluation.points.size(); ++i)
+      now.pairs[p].points[i] = evaluation.points[i].history;
+    now.pairs[p].places = evaluation.mortar.places;
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::add_loads(double fraction) {
+  Vector& external = system.forces.external;
+  external.setZero();
+  if (!system.step.pressure.empty()) {
+    now.u = motion.position.head(now.u.size());
+    system.add_pressure(now, fraction, false, nullptr);
+  }
+  system.add_dead_loads(fraction);
+  if (system.step.gravity.empty()) return;
+  Vec<Dim> g;
+  for (int i = 0; i < Dim; ++i)
+    g[i] = system.step.gravity[static_cast<std::size_t>(i)].value(fraction);
+  for (std::size_t n = 0; n < node_mass.size(); ++n)
+    external.segment<Dim>(Dim * static_cast<Eigen::Index>(n)) += node_mass[n] * g;
+  for (std::size_t b = 0; b < now.rigid.size(); ++b)
+    external.segment<Dim>(system.dofs.body_dof(static_cast<Index>(b), 0)) +=
+        system.model.rigid[b].mass * g;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::sum_forces() {
+  const Forces& f = system.forces;
+  total = f.internal + f.contact - f.external;
+  for (std::size_t b = 0; b < now.rigid.size(); ++b) {
+    const Vec<Dim> center = now.rigid[b].center();
+    Vec<Dim> force = Vec<Dim>::Zero();
+    Vec<body::rotations<Dim>> moment = Vec<body::rotations<Dim>>::Zero();
+    for (const Index node : system.model.rigid[b].nodes) {
+      const Vec<Dim> of_node = total.segment<Dim>(Dim * node);
+      const Vec<Dim> arm = x[static_cast<std::size_t>(node)] - center;
+      force += of_node;
+      if constexpr (Dim == 2)
+        moment[0] += turn(arm).dot(of_node);
+      else
+        moment += arm.cross(of_node);
+    }
+    const Dof first = system.dofs.body_dof(static_cast<Index>(b), 0);
+    total.segment<Dim>(first) += force;
+    total.segment<body::rotations<Dim>>(first + Dim) += moment;
+  }
+  for (const Follower& f_of : followers)
+    if (f_of.lead >= 0) total[f_of.lead] += f_of.factor * total[f_of.dof];
+}
+
+/// Damping enters by the velocity at the end of the step, which is the mean of those around it.
+///
+/// Formula    M a = f - alpha M v ,  v = v_half + h/2 a
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::set_accelerations(double h, solve::ExplicitMotion& m) {
+  m.acceleration = -(total.array() * inverse.array()).matrix();
+  if (!(damping > 0)) return;
+  for (Eigen::Index d = 0; d < inverse.size(); ++d) {
+    if (!(inverse[d] > 0)) continue;
+    double& a = m.acceleration[d];
+    a = (a - damping * m.velocity[d]) / (1 + 0.5 * h * damping);
+    damping_force[d] = damping * mass[d] * (m.velocity[d] + 0.5 * h * a);
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::add_works(double h, const solve::ExplicitMotion& m) {
+  const Forces& f = system.forces;
+  const double half = 0.5 * h;
+  works.internal += half * (past_internal + f.internal).dot(m.velocity);
+  if (!assumed.empty()) works.contact += half * (past_contact + f.contact).dot(m.velocity);
+  works.external += half * (past_external + f.external).dot(m.velocity);
+  if (damping > 0) works.damping += half * (past_damping + damping_force).dot(m.velocity);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    double& past = past_held[static_cast<Eigen::Index>(i)];
+    works.supports += half * (past + total[held[i]]) * m.velocity[held[i]];
+    past = total[held[i]];
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::move_body(std::size_t body, double fraction, double h,
+                                                 solve::ExplicitMotion& m) {
+  body::BasicRigidMotion<Dim>& motion_of = now.rigid[body];
+  const body::BasicRigidMotion<Dim> before = motion_of;
+  const Dof first = system.dofs.body_dof(static_cast<Index>(body), 0);
+  for (int i = 0; i < body::motions<Dim>; ++i)
+    motion_of.component(i) = before.component(i) + h * m.velocity[first + i];
+  if constexpr (Dim == 3) motion_of.rotation = before.rotation;
+  for (const PrescribedDof* const p : prescribed) {
+    const Dof i = p->dof - first;
+    if (i < 0 || i >= body::motions<Dim>) continue;
+    motion_of.component(i) = p->ramp.value(fraction);
+    m.velocity[p->dof] = (motion_of.component(i) - before.component(i)) / h;
+  }
+  if constexpr (Dim == 3) {
+    Turning& t = turning[body];
+    Vec3 turn_of;
+    if (turns[body]) {
+      t.momentum += 0.5 * h * t.moment;
+      turn_of =
+          body::free_turn(system.model.rigid[body].inertia, before.orientation(), t.momentum, h);
+      motion_of.rotation = body::rotation_vector_near(
+          body::rotation_matrix(turn_of) * body::rotation_matrix(before.rotation),
+          before.rotation + turn_of);
+      if (!system.total_matters(body)) motion_of = body::rebased(motion_of);
+    } else {
+      turn_of = body::turn_between(before, motion_of);
+    }
+    m.velocity.segment<3>(first + 3) = turn_of / h;
+  }
+  for (const Index node : system.model.rigid[body].nodes) {
+    const Vec<Dim>& material = system.model.reference[static_cast<std::size_t>(node)];
+    m.velocity.segment<Dim>(Dim * node) =
+        (motion_of.position(material) - material - m.position.segment<Dim>(Dim * node)) / h;
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::follow(double time, double h, solve::ExplicitMotion& m) {
+  const double fraction = time / system.step.duration;
+  const Dof nodes = Dim * system.dofs.nodes();
+  for (const PrescribedDof* const p : prescribed)
+    if (p->dof < nodes) m.velocity[p->dof] = (p->ramp.value(fraction) - m.position[p->dof]) / h;
+  for (std::size_t b = 0; b < now.rigid.size(); ++b) move_body(b, fraction, h, m);
+  for (const Follower& f : followers) {
+    const double target =
+        f.lead < 0 ? 0.0 : f.factor * (m.position[f.lead] + h * m.velocity[f.lead]);
+    m.velocity[f.dof] = (target - m.position[f.dof]) / h;
+  }
+}
+
+template <int Dim>
+bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::ExplicitMotion& m) {
+  Forces& f = system.forces;
+  past_internal.swap(f.internal);
+  past_contact.swap(f.contact);
+  past_external.swap(f.external);
+  past_damping.swap(damping_force);
+  place(m.position);
+  const double fraction = time / system.step.duration;
+  if (!add_cells(m.position)) return false;
+  add_contact(h, fraction);
+  commit_contact();
+  add_loads(fraction);
+  sum_forces();
+  set_accelerations(h, m);
+  add_works(h, m);
+  if constexpr (Dim == 3)
+    for (std::size_t b = 0; b < turning.size(); ++b) {
+      turning[b].moment = -total.segment<3>(system.dofs.body_dof(static_cast<Index>(b), 3));
+      turning[b].momentum += 0.5 * h * turning[b].moment;
+    }
+  ++stable.since;
+  return true;
+}
+
+template struct BasicSystem<2>::Impl::Explicit;
+template struct BasicSystem<3>::Impl::Explicit;
+
+}  // namespace osculate::model

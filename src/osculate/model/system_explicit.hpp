@@ -1,0 +1,114 @@
+#pragma once
+// Inside of BasicSystem: explicit time integration; included by its sources only.
+#include <string>
+#include <vector>
+
+#include "osculate/model/system_impl.hpp"
+
+namespace osculate::model {
+
+/// A step with central differences, as solve::ExplicitSystem sees it.
+///
+/// Masses stand at the nodes and in the bodies' centres, so that every dof that moves by itself has
+/// its own. All others follow: prescribed ones their ramps, nodes of rigid bodies these, eliminated
+/// ones their equation. Rotations in space are kept as angular momenta.
+template <int Dim>
+struct BasicSystem<Dim>::Impl::Explicit {
+  using Vector = Eigen::VectorXd;
+
+  /// A displacement that is a multiple of another one, and gives it its forces and its mass.
+  struct Follower {
+    Dof dof, lead;
+    double factor;
+  };
+  /// Where the forces of cells on a node stand in `cell_forces`.
+  struct Gather {
+    std::vector<std::size_t> begin, entry;  ///< per node; one entry per cell
+  };
+  /// A rigid body in space that turns by itself: its angular momentum, and the moment on it.
+  struct Turning {
+    Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero();
+  };
+  /// Works since the increment began.
+  struct Works {
+    double internal = 0, contact = 0, external = 0, damping = 0, supports = 0;
+  };
+
+  Impl& system;
+  solve::CentralDifferences options;
+  double damping;                 ///< by mass
+  std::vector<double> node_mass;  ///< of cells, at all nodes
+  Vector mass, inverse;  ///< of dofs with their followers; inverse: 0 where something follows
+  std::vector<const PrescribedDof*> prescribed;
+  std::vector<Dof> held;  ///< prescribed dofs that are unknowns
+  std::vector<Follower> followers;
+  std::vector<bool> turns;  ///< per body: in space, by itself
+  bool changes = false;  ///< stiffness: of cells with finite kinematics, laws that are not linear
+  std::vector<bool> touching;  ///< cells with nodes in contact pairs
+  std::vector<std::size_t> first_force;
+  std::vector<double> cell_forces;
+  Gather gather;
+  std::vector<BulkBlock> work;  ///< per thread
+  std::vector<pairing::Assumed<Dim>> assumed;
+
+  // The running increment.
+  State now;
+  solve::ExplicitMotion motion;
+  std::vector<Vec<Dim>> x;
+  std::vector<Turning> turning;
+  Vector past_internal, past_contact, past_external, past_damping, damping_force;
+  Vector total;  ///< of all forces on the side of the internal ones, at dofs with their followers
+  Vector past_held;  ///< total at `held`
+  Works works;
+  StableStep stable;
+  double energy_before = 0;     ///< kinetic, at the beginning of the increment
+  double held_before = 0;       ///< that of what is prescribed
+  double energy_available = 0;  ///< what is there and what has been put in
+  std::string trouble;
+
+  explicit Explicit(Impl& s);
+
+  // solve::ExplicitSystem
+  [[nodiscard]] double stable_step(const solve::ExplicitMotion& m);
+  void follow(double time, double h, solve::ExplicitMotion& m);
+  [[nodiscard]] bool accelerate(double time, double h, solve::ExplicitMotion& m);
+  [[nodiscard]] bool grows(const solve::ExplicitMotion& m);
+  [[nodiscard]] const std::string& fault() const { return trouble; }
+
+  [[nodiscard]] Rates begin(const State& committed, Rates rates);
+  [[nodiscard]] ExplicitIncrement<State> increment(const State& committed, double fraction);
+
+  // system_explicit.cpp
+  void make_masses();
+  void make_followers();
+  void make_gather();
+  void load(const State& committed);
+  void place(const Vector& position);
+  [[nodiscard]] bool add_cells(const Vector& u);
+  void add_contact(double h, double fraction);
+  void commit_contact();
+  void add_loads(double fraction);
+  void sum_forces();
+  void set_accelerations(double h, solve::ExplicitMotion& m);
+  void add_works(double h, const solve::ExplicitMotion& m);
+  void move_body(std::size_t body, double fraction, double h, solve::ExplicitMotion& m);
+  [[nodiscard]] double kinetic(const Vector& velocity) const;
+  [[nodiscard]] double kinetic_of_held(const Vector& velocity) const;
+  void finish(double fraction, double duration, ExplicitIncrement<State>& out);
+  void add_energies(Rates& rates);
+  [[nodiscard]] bool is_held(Dof dof) const;
+  [[nodiscard]] Vec3 angular_velocity(std::size_t body) const;
+
+  // system_explicit_step.cpp
+  void measure_stable_step();
+  /// Largest eigenvalue of M^-1 K of a cell by itself.
+  [[nodiscard]] double cell_frequency(std::size_t cell, BulkBlock& block) const;
+  [[nodiscard]] double contact_frequency() const;
+  [[nodiscard]] std::string governed() const;
+  [[nodiscard]] bool moves(Index node) const;
+};
+
+extern template struct BasicSystem<2>::Impl::Explicit;
+extern template struct BasicSystem<3>::Impl::Explicit;
+
+}  // namespace osculate::model

@@ -1,0 +1,269 @@
+// Explicit time integration: increments from one committed state to the next, and their energies.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "osculate/model/system_explicit.hpp"
+
+namespace osculate::model {
+namespace {
+
+constexpr int inspect_after = 50;  ///< time steps between two looks at the stable step
+
+template <int Dim>
+solve::StateCounts counts_of(const std::vector<pairing::PairEvaluation<Dim>>& contact) {
+  solve::StateCounts counts;
+  for (const pairing::PairEvaluation<Dim>& pair : contact)
+    for (const pairing::PointResult<Dim>& point : pair.points) {
+      counts.friction_work += point.history.friction_work;
+      if (point.status == contact::Status::open) ++counts.open;
+      if (point.status == contact::Status::stick) ++counts.stick;
+      if (point.status == contact::Status::slip) ++counts.slip;
+    }
+  return counts;
+}
+
+}  // namespace
+
+template <int Dim>
+Vec3 BasicSystem<Dim>::Impl::Explicit::angular_velocity(std::size_t body) const {
+  if constexpr (Dim == 3) {
+    const Mat<3, 3> r = now.rigid[body].orientation();
+    const Vec3 in_body = r.transpose() * turning[body].momentum;
+    return r * system.model.rigid[body].inertia.inverse() * in_body;
+  } else {
+    (void)body;
+    return Vec3::Zero();
+  }
+}
+
+/// Of the motion at the end of a time step. What follows has its mass where it follows from.
+template <int Dim>
+double BasicSystem<Dim>::Impl::Explicit::kinetic(const Vector& velocity) const {
+  double sum = 0.5 * (mass.array() * velocity.array().square()).sum();
+  for (std::size_t b = 0; b < turns.size(); ++b)
+    if (turns[b]) sum += 0.5 * angular_velocity(b).dot(turning[b].momentum);
+  return sum;
+}
+
+/// The share of what is prescribed.
+template <int Dim>
+double BasicSystem<Dim>::Impl::Explicit::kinetic_of_held(const Vector& velocity) const {
+  double sum = 0;
+  for (const Dof d : held) sum += 0.5 * mass[d] * velocity[d] * velocity[d];
+  return sum;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::load(const State& committed) {
+  const Rates& r = committed.rates;
+  now = committed;
+  motion = {system.dof_values(committed), r.velocity, r.acceleration};
+  system.forces.internal = r.internal;
+  system.forces.contact = r.contact;
+  system.forces.external = r.external;
+  damping_force = r.damping;
+  stable = r.stable;
+  works = {};
+  place(motion.position);
+  sum_forces();
+  for (std::size_t i = 0; i < held.size(); ++i)
+    past_held[static_cast<Eigen::Index>(i)] = total[held[i]];
+  if constexpr (Dim == 3)
+    for (std::size_t b = 0; b < turning.size(); ++b) {
+      if (!turns[b]) continue;
+      const Vec3 in_body = system.model.rigid[b].inertia * r.spins[b].velocity;
+      turning[b] = {now.rigid[b].orientation() * in_body, r.spins[b].moment};
+    }
+  energy_before = kinetic(motion.velocity);
+  held_before = kinetic_of_held(motion.velocity);
+  energy_available = std::max(0.0, r.energies.start + r.energies.external);
+}
+
+/// Forces and accelerations of the configuration in which the step begins, with `rates` that have
+/// its velocities.
+template <int Dim>
+Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rates) {
+  const Eigen::Index n = system.dofs.dofs();
+  for (Vector* const v :
+       {&rates.acceleration, &rates.internal, &rates.external, &rates.contact, &rates.damping})
+    v->setZero(n);
+  rates.spins.assign(Dim == 3 ? system.model.rigid.size() : 0, {});
+  rates.stable = {};
+  State start = committed;
+  start.rates = rates;
+  load(start);
+  if (!add_cells(motion.position)) return rates;  // the first time step says why
+  add_contact(0, 0);
+  add_loads(0);
+  sum_forces();
+  set_accelerations(0, motion);
+  rates.acceleration = motion.acceleration;
+  rates.internal = system.forces.internal;
+  rates.contact = system.forces.contact;
+  rates.external = system.forces.external;
+  rates.damping = damping_force;
+  if constexpr (Dim == 3)
+    for (std::size_t b = 0; b < turning.size(); ++b) {
+      if (!turns[b]) continue;
+      const Dof first = system.dofs.body_dof(static_cast<Index>(b), 3);
+      const Mat<3, 3> r = now.rigid[b].orientation();
+      rates.spins[b].velocity = r.transpose() * rates.velocity.template segment<3>(first);
+      rates.spins[b].moment = -total.segment<3>(first);
+      const Vec3 in_body = system.model.rigid[b].inertia * rates.spins[b].velocity;
+      turning[b] = {r * in_body, rates.spins[b].moment};
+    }
+  system.turn_moments(now, false, nullptr);
+  system.forces.inertia = damping_force + mass.cwiseProduct(motion.acceleration);
+  Energies& e = rates.energies;
+  e.kinetic = kinetic(rates.velocity);
+  e.strain = strain_energy(system.model, committed.u);
+  e.contact = system.contact_energy();
+  return rates;
+}
+
+/// Energy that nothing has put in: the time step is not stable, whatever the estimate says.
+///
+/// Formula    T + work of all forces against the motion = T_0 + sum h^2/8 d(a . M a), which a
+/// stable
+///            step keeps below the energy there is
+template <int Dim>
+bool BasicSystem<Dim>::Impl::Explicit::grows(const solve::ExplicitMotion& m) {
+  const double moving = kinetic(m.velocity);
+  const double put_in = works.external + works.supports + kinetic_of_held(m.velocity) - held_before;
+  const double gain = moving - energy_before + works.internal + works.contact + works.damping -
+                      put_in - now.rates.energies.numerical;
+  constexpr double more_than_exchange = 2;
+  const double available = energy_available + std::max(0.0, put_in);
+  if (std::isfinite(moving) && std::isfinite(gain) && !(gain > more_than_exchange * available))
+    return false;
+  trouble = fmt::format(
+      "the time integration is unstable: {} (time step of at most {:.4g} of a stable one that is "
+      "estimated from {})",
+      std::isfinite(moving)
+          ? fmt::format("the energy has grown by {:.3g}, where {:.3g} was there", gain, available)
+          : std::string("the velocities are no numbers any more"),
+      stable.step, governed());
+  return true;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::add_energies(Rates& rates) {
+  Energies& e = rates.energies;
+  const Energies before = e;
+  works.supports += kinetic_of_held(rates.velocity) - held_before;
+  e.kinetic = kinetic(rates.velocity);
+  e.strain = strain_energy(system.model, now.u);
+  e.contact = system.contact_energy();
+  e.friction = system.friction_work() - e.friction_before;
+  e.external += works.external + works.supports;
+  e.damping += works.damping;
+  const double of_contact =
+      works.contact - (e.contact - before.contact) - (e.friction - before.friction);
+  const double of_time = works.external + works.supports - works.internal - works.contact -
+                         works.damping - (e.kinetic - energy_before);
+  e.numerical += of_contact + of_time;
+  e.residual = e.start + e.external - e.friction - e.damping - e.numerical -
+               (e.kinetic + e.strain + e.contact);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::finish(double fraction, double duration,
+                                              ExplicitIncrement<State>& out) {
+  Rates& rates = now.rates;
+  now.fraction = fraction;
+  now.u = motion.position.head(now.u.size());
+  for (const PrescribedDof* const p : prescribed)
+    if (p->dof < now.u.size()) now.u[p->dof] = p->ramp.value(fraction);
+  rates.velocity = motion.velocity;
+  if constexpr (Dim == 3)
+    for (std::size_t b = 0; b < turning.size(); ++b) {
+      if (!turns[b]) continue;
+      const Vec3 spin = angular_velocity(b);
+      rates.spins[b].velocity = now.rigid[b].orientation().transpose() * spin;
+      rates.spins[b].moment = turning[b].moment;
+      rates.velocity.template segment<3>(system.dofs.body_dof(static_cast<Index>(b), 3)) = spin;
+    }
+  for (const Follower& f : followers)
+    rates.velocity[f.dof] = f.lead < 0 ? 0.0 : f.factor * rates.velocity[f.lead];
+  system.move_with_bodies(now, rates);
+  rates.acceleration = motion.acceleration;
+  rates.internal = system.forces.internal;
+  rates.contact = system.forces.contact;
+  rates.external = system.forces.external;
+  rates.damping = damping_force;
+  rates.stable = stable;
+  rates.energies.elapsed += duration;
+  add_energies(rates);
+  system.turn_moments(now, false, nullptr);
+  system.forces.inertia = damping_force + mass.cwiseProduct(motion.acceleration);
+  out.counts = counts_of(system.contact);
+}
+
+template <int Dim>
+ExplicitIncrement<BasicState<Dim>> BasicSystem<Dim>::Impl::Explicit::increment(
+    const State& committed, double fraction) {
+  ExplicitIncrement<State> out;
+  load(committed);
+  trouble.clear();
+  const double whole = system.step.duration;
+  const double from = committed.fraction < fraction ? committed.fraction : 0.0;
+  out.outcome = solve::advance(*this, motion, from * whole, fraction * whole, options,
+                               out.time_steps, inspect_after);
+  out.time_steps.governed = governed();
+  out.reason = trouble;
+  if (out.outcome == solve::TimeStepping::too_many)
+    out.reason = fmt::format(
+        "the stable time step of {:.3g} is too short for an increment of {:.3g}"
+        " (estimated from {})",
+        stable.step, (fraction - from) * whole, governed());
+  if (out.outcome == solve::TimeStepping::done) {
+    finish(fraction, (fraction - from) * whole, out);
+    if (!std::isfinite(now.rates.energies.kinetic + now.rates.energies.strain)) {
+      out.outcome = solve::TimeStepping::unstable;
+      out.reason = "the time integration is unstable: there are no numbers any more";
+    }
+  } else {
+    now.u = motion.position.head(now.u.size());
+  }
+  out.state = now;
+  return out;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::begin_explicit() {
+  explicit_motion.reset();
+  if (step.dynamics && step.dynamics->explicit_steps)
+    explicit_motion = std::make_shared<Explicit>(*this);
+}
+
+template <int Dim>
+Rates BasicSystem<Dim>::Impl::begin_explicit_rates(const State& committed) {
+  Rates rates = committed.rates;
+  const bool first = rates.empty();
+  if (first) {
+    rates.velocity = start_velocity();
+    move_with_bodies(committed, rates);
+  }
+  rates = explicit_motion->begin(committed, std::move(rates));
+  Energies& e = rates.energies;
+  if (first) {
+    e.start = e.kinetic + e.strain + e.contact;
+    e.friction_before = friction_work();
+  }
+  return rates;
+}
+
+template <int Dim>
+ExplicitIncrement<BasicState<Dim>> BasicSystem<Dim>::advance(const State& committed,
+                                                             double fraction) {
+  return impl_->explicit_motion->increment(committed, fraction);
+}
+
+template struct BasicSystem<2>::Impl;
+template struct BasicSystem<3>::Impl;
+template ExplicitIncrement<State> BasicSystem<2>::advance(const State&, double);
+template ExplicitIncrement<State3> BasicSystem<3>::advance(const State3&, double);
+
+}  // namespace osculate::model
