@@ -17,6 +17,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult contact_patch(const CaseContext& context);
 [[nodiscard]] CaseResult contact_patch_space(const CaseContext& context);
 [[nodiscard]] CaseResult enforcement(const CaseContext& context);
+[[nodiscard]] CaseResult explicit_bar(const CaseContext& context);
 [[nodiscard]] CaseResult free_top(const CaseContext& context);
 [[nodiscard]] CaseResult hard_problems(const CaseContext& context);
 [[nodiscard]] CaseResult hard_problems_all(const CaseContext& context);
@@ -36,6 +37,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult sliding_block(const CaseContext& context);
 [[nodiscard]] CaseResult ironing(const CaseContext& context);
 [[nodiscard]] CaseResult smoothed_circle(const CaseContext& context);
+[[nodiscard]] CaseResult soft_impact(const CaseContext& context);
 [[nodiscard]] CaseResult spinning_disc(const CaseContext& context);
 [[nodiscard]] CaseResult stopped_block(const CaseContext& context);
 [[nodiscard]] CaseResult turning_block(const CaseContext& context);

@@ -36,7 +36,7 @@ struct Analysis {
       const double end = static_cast<double>(position.nominal + 1) / step.increments;
       if (position.at >= end) continue;  // resumed
       ExplicitIncrement<BasicState<Dim>> done = system.advance(result.state, end);
-      result.last_iterate = done.state;
+      result.last_iterate = done.state.u.allFinite() ? done.state : result.state;
       if (done.outcome != solve::TimeStepping::done) {
         result.outcome = solve::Outcome::numerical_failure;
         result.failure = explicit_failure<Dim>(step, done.outcome, done.reason, position.at);

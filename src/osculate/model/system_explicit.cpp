@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
 #include "osculate/body/free_turn.hpp"
 
@@ -318,6 +318,10 @@ bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::
   commit_contact();
   add_loads(fraction);
   sum_forces();
+  if (!std::isfinite(total.squaredNorm())) {
+    lost = true;
+    return false;
+  }
   set_accelerations(h, m);
   add_works(h, m);
   if constexpr (Dim == 3)

@@ -64,6 +64,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   double energy_before = 0;     ///< kinetic, at the beginning of the increment
   double held_before = 0;       ///< that of what is prescribed
   double energy_available = 0;  ///< what is there and what has been put in
+  bool lost = false;            ///< forces are no numbers any more
   std::string trouble;
 
   explicit Explicit(Impl& s);

@@ -207,11 +207,16 @@ ExplicitIncrement<BasicState<Dim>> BasicSystem<Dim>::Impl::Explicit::increment(
   ExplicitIncrement<State> out;
   load(committed);
   trouble.clear();
+  lost = false;
   const double whole = system.step.duration;
   const double from = committed.fraction < fraction ? committed.fraction : 0.0;
   out.outcome = solve::advance(*this, motion, from * whole, fraction * whole, options,
                                out.time_steps, inspect_after);
   out.time_steps.governed = governed();
+  if (lost) {
+    out.outcome = solve::TimeStepping::unstable;
+    trouble = "the time integration is unstable: the forces are no numbers any more";
+  }
   out.reason = trouble;
   if (out.outcome == solve::TimeStepping::too_many)
     out.reason = fmt::format(

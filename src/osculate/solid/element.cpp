@@ -104,7 +104,7 @@ void evaluate(const Section& section, cell::CellType type, const Coordinates& re
   const Eigen::Index dofs = 2 * reference.rows();
   out.status = Status::ok;
   out.force.setZero(dofs);
-  out.tangent.setZero(dofs, dofs);
+  if (with_tangent) out.tangent.setZero(dofs, dofs);
   Points points;
   if (!fill_points(section, type, reference, displacement, points)) {
     out.status = Status::inverted;

@@ -20,8 +20,12 @@ void evaluate_full(const VolumeSection& section, cell::CellType type, const Coor
   const typename Sizes::Nodal x = reference, u = displacement;
   const Eigen::Index n = x.rows();
   typename Sizes::Vector force = Sizes::Vector::Zero(3 * n);
-  typename Sizes::Matrix tangent = Sizes::Matrix::Zero(3 * n, 3 * n);
-  typename Sizes::NodeMatrix geometric = Sizes::NodeMatrix::Zero(n, n);
+  typename Sizes::Matrix tangent;
+  typename Sizes::NodeMatrix geometric;
+  if (with_tangent) {
+    tangent.setZero(3 * n, 3 * n);
+    geometric.setZero(n, n);
+  }
   VolumePoint<N> p;
   for (std::size_t q = 0; q < rule.weights.size(); ++q) {
     if (!fill_point<N>(section.kinematics, rule.shape[q], rule.weights[q], x, u, p)) {
@@ -138,7 +142,7 @@ void evaluate(const VolumeSection& section, cell::CellType type, const Coordinat
   const Eigen::Index dofs = 3 * reference.rows();
   out.status = Status::ok;
   out.force.setZero(dofs);
-  out.tangent.setZero(dofs, dofs);
+  if (with_tangent) out.tangent.setZero(dofs, dofs);
   if (section.formulation == VolumeFormulation::full) {
     if (type == cell::CellType::hex8)
       evaluate_full<8>(section, type, reference, displacement, with_tangent, out);

@@ -1,0 +1,1 @@
+#include "../pairing/allocation_count.cpp"  // NOLINT: this program counts its own
