@@ -45,10 +45,8 @@ struct Stop {
   bool finished = false;
   double worst = 0;   ///< largest error of a displacement over the largest displacement
   double force = 0;   ///< largest error of the support's force over A rho c v
-  double energy = 0;  ///< largest change of the energy that no front disturbs
   double stable = 0;  ///< estimate of the stable step
   int steps = 0;
-  std::string message;
 };
 
 Stop stop(double safety, int increments) {
@@ -73,7 +71,6 @@ Stop stop(double safety, int increments) {
   };
   const model::AnalysisResult result = run_text(model_text(safety, increments, duration), look);
   out.finished = result.outcome == solve::Outcome::converged;
-  out.message = result.message;
   out.worst /= speed * length / wave_speed();
   return out;
 }

@@ -1,6 +1,8 @@
 // Explicit time integration: increments from one committed state to the next, and their energies.
 #include <fmt/format.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
