@@ -104,7 +104,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   void measure_stable_step();
   /// Largest eigenvalue of M^-1 K of a cell by itself.
   [[nodiscard]] double cell_frequency(std::size_t cell, BulkBlock& block) const;
-  [[nodiscard]] double contact_frequency() const;
+  [[nodiscard]] double contact_frequency(bool dampers) const;
   [[nodiscard]] std::string governed() const;
   [[nodiscard]] bool moves(Index node) const;
 };

@@ -122,6 +122,7 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   e.kinetic = kinetic(rates.velocity);
   e.strain = strain_energy(system.model, committed.u);
   e.contact = system.contact_energy();
+  e.damped = system.damping_work();
   return rates;
 }
 
@@ -160,9 +161,10 @@ void BasicSystem<Dim>::Impl::Explicit::add_energies(Rates& rates) {
   e.contact = system.contact_energy();
   e.friction = system.friction_work() - e.friction_before;
   e.external += works.external + works.supports;
-  e.damping += works.damping;
-  const double of_contact =
-      works.contact - (e.contact - before.contact) - (e.friction - before.friction);
+  e.damped = system.damping_work();
+  e.damping += works.damping + (e.damped - before.damped);
+  const double of_contact = works.contact - (e.contact - before.contact) -
+                            (e.friction - before.friction) - (e.damped - before.damped);
   const double of_time = works.external + works.supports - works.internal - works.contact -
                          works.damping - (e.kinetic - energy_before);
   e.numerical += of_contact + of_time;

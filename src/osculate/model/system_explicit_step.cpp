@@ -22,7 +22,16 @@ double stiffest(const pairing::PairDefinition<Dim>& pair, const pairing::PairSta
     if (h.active)
       slope = std::max(
           slope, std::abs(contact::response(pair.normal, h.gap - pair.offset, true).d_traction));
+  if (pair.damping) slope = contact::stiffest(*pair.damping, slope, 0);
   return pair.friction ? std::max(slope, contact::stiffness(*pair.friction)) : slope;
+}
+
+/// Coefficient of the dampers beside the springs, which see the way of the time step before.
+template <int Dim>
+double damper(const pairing::PairDefinition<Dim>& pair) {
+  const auto* const viscous =
+      pair.damping ? std::get_if<contact::Viscous>(&*pair.damping) : nullptr;
+  return viscous ? viscous->coefficient : 0.0;
 }
 
 /// What the stiffness of a slave point is its law's slope times.
@@ -66,13 +75,14 @@ double BasicSystem<Dim>::Impl::Explicit::cell_frequency(std::size_t cell, BulkBl
 ///            m_l' = m_l k N_l / S_l ; S_l: the slope times the area of the master at l, at least
 ///            one spring; of rigid bodies all springs, with arms of at most the body's
 template <int Dim>
-double BasicSystem<Dim>::Impl::Explicit::contact_frequency() const {
+double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
   const BasicModel<Dim>& model = system.model;
   std::vector<double> on_slave(x.size(), 0.0), on_master(x.size(), 0.0);
   std::vector<double> slave_body(model.rigid.size(), 0.0), master_body(model.rigid.size(), 0.0);
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
-    const double slope = stiffest(pair, now.pairs[p]);
+    const double slope = dampers ? damper(pair) : stiffest(pair, now.pairs[p]);
+    if (!(slope > 0)) continue;
     double all = 0, largest = 0;
     for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
       const pairing::SlavePoint<Dim>& point = pair.slave.points[i];
@@ -121,8 +131,11 @@ double BasicSystem<Dim>::Impl::Explicit::contact_frequency() const {
   return side_of(on_slave, slave_body) + side_of(on_master, master_body);
 }
 
-/// Formula    omega^2 <= max(omega_cells^2, omega_touching^2 + omega_contact^2) ,
-///            h = 2 / omega : no system is faster than its fastest cell by itself, and nodes in
+/// Formula    h^2 omega^2 + 2 h B <= 4 , B of the dampers of contacts as omega^2 of their springs:
+/// they
+///            act on u_n - u_n-1 ,
+///            omega^2 <= max(omega_cells^2, omega_touching^2 + omega_contact^2) ,
+///            no system is faster than its fastest cell by itself, and nodes in
 ///            contact give one share of their mass to their cells and the rest to the springs
 /// Source     Belytschko2014, section 6.2: element eigenvalue inequality
 template <int Dim>
@@ -145,10 +158,11 @@ void BasicSystem<Dim>::Impl::Explicit::measure_stable_step() {
     }
     if (touching[c]) beside = std::max(beside, of_cell[c]);
   }
-  const double springs = contact_frequency();
-  stable.contact = springs > 0 && beside + springs > cells;
+  const double springs = contact_frequency(false), damped = contact_frequency(true);
+  stable.contact = (springs > 0 && beside + springs > cells) || damped * damped > 4 * cells;
   const double most = std::max(cells, springs > 0 ? beside + springs : 0.0);
-  stable.step = most > 0 ? 2 / std::sqrt(most) : std::numeric_limits<double>::infinity();
+  stable.step = most > 0 ? 4 / (damped + std::sqrt(damped * damped + 4 * most))
+                         : std::numeric_limits<double>::infinity();
 }
 
 template <int Dim>
