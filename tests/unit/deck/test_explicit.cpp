@@ -132,8 +132,8 @@ TEST(ExplicitBar, KeepsMomentumAndItsBalance) {
                      for (int n = 0; n < 18; ++n) sum += mass(n) * state.rates.velocity[2 * n];
                      momentum.push_back(sum);
                      const model::Energies& e = state.rates.energies;
-                     EXPECT_NEAR(e.residual, 0, 1e-13);
-                     EXPECT_NEAR(e.kinetic + e.strain, e.start - e.numerical, 1e-13);
+                     EXPECT_NEAR(e.residual, 0, 1e-12);
+                     EXPECT_NEAR(e.kinetic + e.strain, e.start - e.numerical, 1e-12);
                    });
   for (const double p : momentum) EXPECT_NEAR(p, momentum.front(), 1e-12);
 }
@@ -179,7 +179,7 @@ TEST(ExplicitImpact, GoesOnFromTheMiddleWithTheSameBits) {
 /// Residual of the ledger and what the scheme has taken, at the end of the impact.
 model::Energies energies_with(double step) {
   const Flight run = run_of(edited(test_file("explicit.yaml"), "{safety: 0.9}",
-                                fmt::format("{{safety: 0.9, step: {}}}", step)));
+                                   fmt::format("{{safety: 0.9, step: {}}}", step)));
   EXPECT_EQ(run.result.outcome, solve::Outcome::converged) << run.result.message;
   return run.energies.back();
 }
@@ -215,17 +215,18 @@ std::size_t allocations(const std::string& text, double fraction, int& steps) {
   model::State state = system.initial_state();
   system.begin_step(built.model.steps.front(), state);
   state = system.begin_motion(state);
-  state = system.advance(state, 0.3).state;
+  state = system.advance(state, 0.6).state;
   const std::size_t before = osculate::testing::allocation_count();
   steps = system.advance(state, fraction).time_steps.count;
   return osculate::testing::allocation_count() - before;
 }
 
 TEST(ExplicitImpact, TimeStepsAllocateNothing) {
-  const std::string text = test_file("explicit.yaml");
+  const std::string text = edited(edited(test_file("explicit.yaml"), "neo_hooke", "linear_elastic"),
+                                  "{safety: 0.9}", "{step: 1e-4}");
   int few = 0, many = 0;
-  const std::size_t short_way = allocations(text, 0.4, few);
-  const std::size_t long_way = allocations(text, 0.9, many);
+  const std::size_t short_way = allocations(text, 0.61, few);
+  const std::size_t long_way = allocations(text, 0.65, many);
   EXPECT_GT(many, 3 * few);
   EXPECT_EQ(short_way, long_way);
 }
@@ -245,7 +246,7 @@ steps: [{name: fly, increments: 20, duration: 4, dynamics: {scheme: {central_dif
 TEST(ExplicitTop, KeepsMomentumAndEnergy) {
   const Built3 built = built_from(top);
   std::optional<Vec3> first;
-  double energy = 0, largest = 0;
+  double energy = 0, least = 1;
   const auto result =
       run_all<3>(built.model, 1,
                  [&](model::System3&, const model::State3& state, const solve::IncrementRecord*) {
@@ -258,12 +259,12 @@ TEST(ExplicitTop, KeepsMomentumAndEnergy) {
                      first = momentum;
                      energy = e.kinetic;
                    }
-                   largest = std::max(largest, std::abs(state.rigid[0].orientation()(0, 0)));
+                   least = std::min(least, r(1, 1));
                    EXPECT_LT((momentum - *first).norm(), 1e-12 * first->norm());
                    EXPECT_NEAR(e.kinetic, energy, 1e-11 * energy);
                  });
   EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
-  EXPECT_GT(largest, 0.5);
+  EXPECT_LT(least, -0.5);  // it turns over: the axis is the middle one
 }
 
 }  // namespace
