@@ -93,7 +93,7 @@ TEST(ExplicitKeys, BodiesWithoutMassMustBeTold) {
              "{on: disc, vx: 0.3, vy: -1, wz: 2}, ", "");
   EXPECT_EQ(any_refusal(text), "");
   EXPECT_THAT(
-      any_refusal(edited(text, "    gravity:", "    force: [{on: disc, fy: -1}]\n    gravity:")),
+      any_refusal(edited(text, "    gravity:", "    forces: [{on: disc, fy: -1}]\n    gravity:")),
       HasSubstr("'disc' is free to move and has no mass"));
 }
 
@@ -114,7 +114,7 @@ TEST(ExplicitBar, IsStableBelowTheCriticalStepAndNotAbove) {
   const Flight stable = run_of(bar(0.99, 1, 3, 99 * 2));
   ASSERT_EQ(stable.result.outcome, solve::Outcome::converged) << stable.result.message;
   const model::Energies& e = stable.energies.back();
-  EXPECT_LT(e.kinetic + e.strain, 2 * e.start);
+  EXPECT_LT(e.kinetic + e.strain, e.start / (1 - 0.99 * 0.99));
   const Flight unstable = run_of(bar(1.01, 1, 3, 99 * 2));
   EXPECT_EQ(unstable.result.outcome, solve::Outcome::numerical_failure);
   EXPECT_THAT(unstable.result.message, HasSubstr("unstable"));
@@ -177,9 +177,9 @@ TEST(ExplicitImpact, GoesOnFromTheMiddleWithTheSameBits) {
 }
 
 /// Residual of the ledger and what the scheme has taken, at the end of the impact.
-model::Energies energies_with(double step) {
-  const Flight run = run_of(edited(test_file("explicit.yaml"), "{safety: 0.9}",
-                                   fmt::format("{{safety: 0.9, step: {}}}", step)));
+model::Energies energies_with(double step, const std::string& text = test_file("explicit.yaml")) {
+  const Flight run =
+      run_of(edited(text, "{safety: 0.9}", fmt::format("{{safety: 0.9, step: {}}}", step)));
   EXPECT_EQ(run.result.outcome, solve::Outcome::converged) << run.result.message;
   return run.energies.back();
 }
@@ -195,7 +195,11 @@ TEST(ExplicitImpact, TheLedgerClosesWithSecondOrder) {
                 1e-12 * e.start);
   EXPECT_LT(std::abs(coarse.residual), 1e-3 * coarse.start);
   EXPECT_LT(std::abs(fine.residual), std::abs(coarse.residual) / 8);
-  EXPECT_LT(std::abs(fine.numerical), 0.5 * std::abs(coarse.numerical));
+  // With friction, the shear springs of points that open let go of theirs, whatever the step.
+  const std::string smooth =
+      edited(test_file("explicit.yaml"), ", friction: {coulomb: {mu: 0.4, penalty: 700}}", "");
+  EXPECT_LT(std::abs(energies_with(2.5e-4, smooth).numerical),
+            std::abs(energies_with(1e-3, smooth).numerical) / 4);
 }
 
 TEST(ExplicitImpact, PrescribedNodesEndOnTheirRamp) {
