@@ -12,10 +12,11 @@ void check_explicit(const Value& v, const DynamicsDescription& d) {
         v.at("mass").mark,
         "central differences need masses at the nodes: lumped, which is what they "
         "have without this key");
-  if (v.at("impact").given)
-    throw core::InputError(v.at("impact").mark,
-                           "is of the implicit schemes; central differences take contact as any "
-                           "other force");
+  for (const char* const key : {"impact", "impact_times"})
+    if (v.at(key).given)
+      throw core::InputError(v.at(key).mark,
+                             "is of the implicit schemes; central differences take contact as any "
+                             "other force");
   if (d.damping_stiffness > 0)
     throw core::InputError(v.at("damping").at("stiffness").mark,
                            "damping by the stiffness makes the stable step of central differences "
