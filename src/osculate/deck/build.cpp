@@ -147,6 +147,7 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   build_equations(context);
   build_steps(context);
   build_initial_velocity(context);
+  warn_of_rest(context);
   build_history(context);
   check_model(context);
   return built;

@@ -71,6 +71,9 @@ void build_dynamics(const BuildContext<Dim>& context, const Step& step,
                     std::vector<double>& gravity, model::Step& out);
 template <int Dim>
 void build_initial_velocity(BuildContext<Dim>& context);
+/// Of steps without inertia that follow others with it.
+template <int Dim>
+void warn_of_rest(BuildContext<Dim>& context);
 template <int Dim>
 void build_equations(BuildContext<Dim>& context);
 template <int Dim>

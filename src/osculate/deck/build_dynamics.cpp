@@ -172,6 +172,19 @@ void build_initial_velocity(BuildContext<Dim>& c) {
   }
 }
 
+template <int Dim>
+void warn_of_rest(BuildContext<Dim>& c) {
+  const std::vector<model::Step>& steps = c.model().steps;
+  for (std::size_t i = 1; i < steps.size(); ++i)
+    if (steps[i - 1].dynamics && !steps[i].dynamics)
+      c.built.warnings.push_back(fmt::format(
+          "step '{}' has no inertia and brings to rest what step '{}' leaves in motion; the "
+          "energies and the elapsed time begin anew after it",
+          steps[i].name, steps[i - 1].name));
+}
+
+template void warn_of_rest(BuildContext<2>&);
+template void warn_of_rest(BuildContext<3>&);
 template void build_masses(BuildContext<2>&);
 template void build_masses(BuildContext<3>&);
 template void build_dynamics(const BuildContext<2>&, const Step&, std::vector<double>&,

@@ -1,14 +1,57 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "osculate/deck/build.hpp"
 #include "osculate/deck/parse_parts.hpp"
 
 namespace osculate::deck {
 
+namespace {
+
+/// Whether a shape exists in the plane and in space.
+struct Lives {
+  bool plane = true, space = true;
+};
+struct LivesOf {
+  Lives operator()(const SetShape&) const { return {true, true}; }
+  Lives operator()(const CircleShape&) const { return {true, false}; }
+  Lives operator()(const ArcShape&) const { return {true, false}; }
+  Lives operator()(const PolylineShape&) const { return {true, false}; }
+  Lives operator()(const HalfPlaneShape&) const { return {true, false}; }
+  Lives operator()(const NurbsShape&) const { return {true, false}; }
+  Lives operator()(const CompositeShape&) const { return {true, false}; }
+  template <class SpaceShape>
+  Lives operator()(const SpaceShape&) const {
+    return {false, true};
+  }
+};
+
+bool any_in_space(const Load& load) {
+  for (std::size_t i = 0; i < component_count; ++i)
+    if (load.values[i] && !is_planar(static_cast<Component>(i))) return true;
+  return false;
+}
+
+/// Rigid bodies, their velocities and gravity tell where a model without sections lives.
+bool has_something_in_space(const Description& d) {
+  for (const Rigid& rigid : d.rigid) {
+    if (!std::visit(LivesOf{}, rigid.shape).plane) return true;
+    if (rigid.reference && rigid.reference->value.size() == 3) return true;
+  }
+  if (std::any_of(d.initial_velocity.begin(), d.initial_velocity.end(), any_in_space)) return true;
+  return std::any_of(d.steps.begin(), d.steps.end(), [](const Step& step) {
+    return (step.gravity && step.gravity->value.size() == 3) ||
+           std::any_of(step.forces.begin(), step.forces.end(), any_in_space);
+  });
+}
+
+}  // namespace
+
 int dimension(const Description& description) {
   for (const Section& section : description.sections)
     if (is_space(section.element.value)) return 3;
-  return 2;
+  return description.sections.empty() && has_something_in_space(description) ? 3 : 2;
 }
 
 core::InputError only_in_space(const core::SourceMark& mark, std::string_view word) {
@@ -29,24 +72,6 @@ void check_sections(const Description& d) {
               "the sections on '{}' and '{}' exclude each other: one is plane, one in space",
               d.sections.front().on.value, section.on.value));
 }
-
-/// Whether a shape exists in the plane and in space.
-struct Lives {
-  bool plane = true, space = true;
-};
-struct LivesOf {
-  Lives operator()(const SetShape&) const { return {true, true}; }
-  Lives operator()(const CircleShape&) const { return {true, false}; }
-  Lives operator()(const ArcShape&) const { return {true, false}; }
-  Lives operator()(const PolylineShape&) const { return {true, false}; }
-  Lives operator()(const HalfPlaneShape&) const { return {true, false}; }
-  Lives operator()(const NurbsShape&) const { return {true, false}; }
-  Lives operator()(const CompositeShape&) const { return {true, false}; }
-  template <class SpaceShape>
-  Lives operator()(const SpaceShape&) const {
-    return {false, true};
-  }
-};
 
 void check_rigid(const Rigid& rigid, int dimension) {
   const Lives lives = std::visit(LivesOf{}, rigid.shape);

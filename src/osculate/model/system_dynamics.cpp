@@ -25,9 +25,16 @@ void BasicSystem<Dim>::Impl::begin_dynamics() {
   motion.emplace(dofs.unknowns());
   motion->settings = *step.dynamics;
   motion->inertia.emplace(model, step.dynamics->lumped);
+  std::vector<bool> carries(model.rigid.size(), false);
   for (const typename BasicInertia<Dim>::CellMass& cell : motion->inertia->cells())
     for (const Index node : cell.nodes)
-      if (dofs.body_of(node) >= 0) motion->turns = true;
+      if (const Index b = dofs.body_of(node); b >= 0) carries[static_cast<std::size_t>(b)] = true;
+  motion->coupled.assign(model.rigid.size(), false);
+  for (std::size_t b = 0; b < model.rigid.size(); ++b) {
+    const bool alone = motion->inertia->body_has_mass(b) && !carries[b] && !turns_by_rule(b);
+    motion->coupled[b] = Dim == 3 && !alone;
+    if (free_rotations(b) > 0 && (carries[b] || motion->coupled[b])) motion->turns = true;
+  }
 }
 
 template <int Dim>
@@ -46,19 +53,32 @@ void BasicSystem<Dim>::Impl::measure_damping(const Eigen::VectorXd& u) {
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double /*fraction*/,
+void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double fraction,
                                              double duration) {
-  motion->h = duration;
+  Motion& m = *motion;
+  const bool same_length = m.h == duration && m.target == fraction;
+  m.h = duration;
+  m.target = fraction;
   if (!(duration > 0)) return;
-  if (!(motion->size_of_mass > 0)) motion->size_of_mass = motion->inertia->size();
-  motion->factors = solve::step_factors(motion->settings.scheme, duration);
+  if (!(m.size_of_mass > 0)) m.size_of_mass = m.inertia->size();
+  m.factors = solve::step_factors(m.settings.scheme, duration);
   Eigen::VectorXd start = dof_values(committed);
-  if (start.size() != motion->start.size() || start != motion->start) {
-    motion->start = std::move(start);
+  const bool same_start = start.size() == m.start.size() && start == m.start &&
+                          m.past.velocity.size() == committed.rates.velocity.size() &&
+                          m.past.velocity == committed.rates.velocity &&
+                          m.past.acceleration == committed.rates.acceleration;
+  if (same_start && same_length) return;
+  if (!same_start) {
+    m.start = std::move(start);
     measure_damping(committed.u);
+    m.from = committed.rigid;
+    m.past = committed.rates;
+    mass_x = positions(committed.u);
+    mass_rigid = committed.rigid;
   }
-  motion->from = committed.rigid;
-  motion->past = committed.rates;
+  move_past_to_bodies();
+  correct_damping();
+  if (m.settings.scheme.impact != solve::Impact::average && !m.mass_known) factor_mass();
 }
 
 template <int Dim>
@@ -104,17 +124,12 @@ void BasicSystem<Dim>::Impl::add_inertia(const State& trial, bool with_tangent,
   const double h = m.h;
   const Eigen::VectorXd ahead = dof_values(trial) - (m.start + h * m.past.velocity +
                                                      h * h * (0.5 - s.beta) * m.past.acceleration);
-  m.effective =
-      m.inertia->multiply(m.factors.mass * ahead + m.factors.past_mass * m.past.acceleration);
+  m.effective = m.inertia->multiply(m.factors.mass * ahead) + m.past_force;
   const bool damped = m.settings.damping_mass > 0 || !m.damping.empty();
   m.damping_force.setZero(ahead.size());
   if (damped)
     m.damping_force = damping_of(m.past.velocity + h * (1 - s.gamma) * m.past.acceleration +
-                                 m.factors.rate * ahead);
-  if (m.factors.past_force != 0.0) {
-    m.effective += m.factors.past_force * (m.past.internal - m.past.external + m.past.damping);
-    if (s.impact == solve::Impact::average) m.effective += m.factors.past_force * m.past.contact;
-  }
+                                 m.factors.rate * ahead + m.correction);
   if constexpr (Dim == 3) add_spins(trial, with_tangent, inc);
   if (!with_tangent) return;
   const double of_mass =
@@ -168,6 +183,7 @@ template <int Dim>
 void BasicSystem<Dim>::Impl::factor_mass() {
   Motion& m = *motion;
   if (m.mass_known && !m.turns) return;
+  m.mass_known = false;
   m.builder.clear();
   BasicAssembler<Dim> into(dofs, m.builder);
   std::vector<bool> prescribed(static_cast<std::size_t>(dofs.unknowns()));
@@ -185,7 +201,14 @@ void BasicSystem<Dim>::Impl::factor_mass() {
     std::vector<Dof> of;
     for (int i = 0; i < body::motions<Dim>; ++i)
       of.push_back(dofs.body_dof(static_cast<Index>(b), i));
-    into.add_block(of, m.inertia->body_mass(b));
+    Mat<body::motions<Dim>, body::motions<Dim>> mass = m.inertia->body_mass(b);
+    if constexpr (Dim == 3)
+      if (m.coupled[b]) {
+        const Mat<3, 3> t = mass_rigid[b].orientation().transpose() *
+                            body::rotation_tangent(mass_rigid[b].rotation);
+        mass.template bottomRightCorner<3, 3>() = t.transpose() * model.rigid[b].inertia * t;
+      }
+    into.add_block(of, mass);
   }
   const la::SparseMatrix& k = m.builder.finish();
   m.massless.assign(static_cast<std::size_t>(dofs.unknowns()), false);
@@ -199,8 +222,12 @@ void BasicSystem<Dim>::Impl::factor_mass() {
   }
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (m.massless[static_cast<std::size_t>(u)]) m.builder.add(u, u, 1.0);
-  m.solver.factor(m.builder.finish(), m.builder.pattern_version(), la::Symmetry::indefinite);
-  m.mass_known = true;
+  const la::FactorReport report =
+      m.solver.factor(m.builder.finish(), m.builder.pattern_version(), la::Symmetry::indefinite);
+  m.mass_known = report.status == la::SolveStatus::ok;
+  if (m.mass_known) return;
+  m.failure = "the mass matrix cannot be factored: ";
+  m.failure += report.status == la::SolveStatus::singular ? "it is singular" : report.message;
 }
 
 template <int Dim>
@@ -217,13 +244,17 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::spread(const Eigen::VectorXd& of_unknown
 
 template <int Dim>
 Eigen::VectorXd BasicSystem<Dim>::Impl::accelerations_by(const Eigen::VectorXd& force) {
-  if (force.isZero(0)) return Eigen::VectorXd::Zero(dofs.dofs());
   assembler.set_configuration(mass_x, mass_rigid);
-  factor_mass();
   Eigen::VectorXd a = assembler.gather(force);
+  if (a.isZero(0)) return Eigen::VectorXd::Zero(dofs.dofs());
+  factor_mass();
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (motion->massless[static_cast<std::size_t>(u)]) a[u] = 0;
-  if (motion->solver.solve(a) != la::SolveStatus::ok) a.setZero();
+  if (!motion->failure.empty()) return Eigen::VectorXd::Zero(dofs.dofs());
+  if (motion->solver.solve(a) != la::SolveStatus::ok || !a.allFinite()) {
+    motion->failure = "the mass matrix cannot be solved with";
+    a.setZero();
+  }
   return spread(a);
 }
 
@@ -251,22 +282,21 @@ double BasicSystem<Dim>::Impl::friction_work() const {
   return sum;
 }
 
+/// Forces of the free unknowns that the last evaluation leaves, as mass times acceleration at the
+/// end of the increment holds them; over the primary dofs.
 template <int Dim>
-void BasicSystem<Dim>::Impl::move_with_bodies(const State& s, Rates& rates) const {
-  const std::vector<Vec<Dim>> x = positions(s.u);
-  for (Index node = 0; node < dofs.nodes(); ++node) {
-    const Index b = dofs.body_of(node);
-    if (b < 0) continue;
-    const Vec<Dim> arm =
-        x[static_cast<std::size_t>(node)] - s.rigid[static_cast<std::size_t>(b)].center();
-    const Dof first = dofs.body_dof(b, 0);
-    Vec<Dim> v = rates.velocity.segment<Dim>(first);
-    if constexpr (Dim == 2)
-      v += rates.velocity[first + 2] * turn(arm);
-    else
-      v += Vec3(rates.velocity.segment<3>(first + 3)).cross(arm);
-    rates.velocity.segment<Dim>(Dim * node) = v;
-  }
+Eigen::VectorXd BasicSystem<Dim>::Impl::unbalanced() const {
+  const Motion& m = *motion;
+  const double factor = 1 / (m.factors.balance * (1 - m.settings.scheme.alpha_m));
+  const Eigen::VectorXd rest = assembler.gather(total_force());
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(dofs.dofs());
+  for (Index u = 0; u < dofs.unknowns(); ++u) out[dofs.dof_of_unknown(u)] = factor * rest[u];
+  return out;
+}
+
+template <int Dim>
+double BasicSystem<Dim>::Impl::kinetic_energy(const Rates& rates) const {
+  return 0.5 * rates.velocity.dot(motion->inertia->multiply(rates.velocity)) + spin_energy(rates);
 }
 
 template <int Dim>
@@ -285,35 +315,42 @@ template <int Dim>
 Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   Rates rates = committed.rates;
   const bool first = rates.empty();
-  if (first) {
-    rates.velocity = start_velocity();
-    move_with_bodies(committed, rates);
-  }
-  rates.acceleration.setZero(dofs.dofs());
-  solve::Evaluation out;
-  assemble(committed, committed, 0.0, false, false, out);
   mass_x = positions(committed.u);
   mass_rigid = committed.rigid;
+  const Driven prescribed = driven(0, 1.0 / step.increments);
+  // With the masses of this step: they may be others than those of the one before.
+  const double brought = first ? 0 : kinetic_energy(rates);
+  if (first)
+    rates.velocity = start_velocity(prescribed);
+  else
+    settle_velocities(rates, prescribed);
+  solve::Evaluation out;
+  assemble(committed, committed, 0.0, false, false, out);
   rates.internal = forces.internal;
   rates.external = forces.external;
   rates.contact = forces.contact;
   measure_damping(committed.u);
   rates.damping = damping_of(rates.velocity);
+  if constexpr (Dim == 3) damp_spins(rates.velocity, rates.damping);
   Eigen::VectorXd force = rates.external - rates.internal - rates.damping;
   if (motion->settings.scheme.impact == solve::Impact::average) force -= rates.contact;
-  rates.acceleration = accelerations_by(force);
-  if constexpr (Dim == 3) begin_spins(committed, rates);
-  forces.inertia = rates.damping + motion->inertia->multiply(rates.acceleration);
+  rates.acceleration.setZero(dofs.dofs());
+  if constexpr (Dim == 3) begin_spins(committed, force, rates);
+  settle_accelerations(rates, prescribed, force);
+  forces.inertia = rates.damping + inertia_of(rates);
   Energies& e = rates.energies;
-  e.kinetic =
-      0.5 * rates.velocity.dot(motion->inertia->multiply(rates.velocity)) + spin_energy(rates);
+  const double kinetic = kinetic_energy(rates);
   e.strain = strain_energy(model, committed.u);
   e.contact = contact_energy();
   e.damped = damping_work();
   if (first) {
-    e.start = e.kinetic + e.strain + e.contact;
+    e.start = kinetic + e.strain + e.contact;
     e.friction_before = friction_work();
+  } else {
+    e.external += kinetic - brought;  // of what is prescribed from now on
+    e.numerical += e.kinetic - brought;
   }
+  e.kinetic = kinetic;
   return rates;
 }
 
@@ -325,6 +362,9 @@ Rates BasicSystem<Dim>::Impl::new_rates(const State& trial) {
   Rates now;
   mass_x = positions(trial.u);
   mass_rigid = trial.rigid;
+  assembler.set_configuration(mass_x, mass_rigid);
+  // What the iterations have left out of balance is no mass times acceleration.
+  const Eigen::VectorXd left_over = unbalanced();
   const Eigen::VectorXd step_of = dof_values(trial) - m.start;
   Eigen::VectorXd ahead =
       step_of - h * m.past.velocity - h * h * (0.5 - s.beta) * m.past.acceleration;
@@ -333,28 +373,26 @@ Rates BasicSystem<Dim>::Impl::new_rates(const State& trial) {
   now.acceleration = (ahead - solve::impulse_way(s.impact) * h * h * impulse) / (s.beta * h * h);
   now.velocity = m.past.velocity +
                  h * ((1 - s.gamma) * m.past.acceleration + s.gamma * now.acceleration + impulse);
-  const auto follow = [&](Dof d) {
-    now.velocity[d] = step_of[d] / h;
-    now.acceleration[d] = 0;
-  };
-  for (Index u = 0; u < dofs.unknowns(); ++u)
-    if (assembler.prescribed(u)) follow(dofs.dof_of_unknown(u));
-  if constexpr (Dim == 3) new_spins(trial, now);
-  move_with_bodies(trial, now);
+  Eigen::VectorXd of_impulse = m.inertia->multiply(impulse);
+  if constexpr (Dim == 3) new_spins(trial, impulse, left_over, now, of_impulse);
+  const Driven prescribed = driven(m.target, h / step.duration);
+  settle_velocities(now, prescribed);
+  settle_accelerations(now, prescribed, -left_over);
   now.internal = forces.internal;
   now.external = forces.external;
   now.contact = forces.contact;
   now.damping = m.damping_force;
   now.energies = m.past.energies;
   now.energies.elapsed += h;
-  add_energies(trial, now, step_of, now.energies);
-  forces.inertia = now.damping + m.inertia->multiply(now.acceleration + impulse);
+  add_energies(trial, now, step_of, s.gamma * left_over.dot(step_of), now.energies);
+  forces.inertia = now.damping + of_impulse + inertia_of(now);
   return now;
 }
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::add_energies(const State& trial, const Rates& now,
-                                          const Eigen::VectorXd& step_of, Energies& e) const {
+                                          const Eigen::VectorXd& step_of, double left_over,
+                                          Energies& e) const {
   const Motion& m = *motion;
   const Energies before = e;
   const bool average = m.settings.scheme.impact == solve::Impact::average;
@@ -365,7 +403,8 @@ void BasicSystem<Dim>::Impl::add_energies(const State& trial, const Rates& now,
   const Eigen::VectorXd external = mean(m.past.external, now.external);
   const Eigen::VectorXd damping = mean(m.past.damping, now.damping);
   const Eigen::VectorXd by_contact = average ? mean(m.past.contact, now.contact) : now.contact;
-  const Eigen::VectorXd inertial = m.inertia->multiply(now.velocity - m.past.velocity) / m.h;
+  const Eigen::VectorXd inertial =
+      m.inertia->multiply(now.velocity - m.past.velocity) / m.h + spin_force(m.past, now);
   const Eigen::VectorXd rest = inertial + internal - external + damping + by_contact;
   // What is left at prescribed unknowns is the force of the supports.
   double supports = 0;
@@ -378,7 +417,7 @@ void BasicSystem<Dim>::Impl::add_energies(const State& trial, const Rates& now,
       if (assembler.prescribed(t.unknown))
         supports += rest[d] * t.factor * step_of[dofs.dof_of_unknown(t.unknown)];
   }
-  e.kinetic = 0.5 * now.velocity.dot(m.inertia->multiply(now.velocity)) + spin_energy(now);
+  e.kinetic = kinetic_energy(now);
   e.strain = strain_energy(model, trial.u);
   e.contact = contact_energy();
   e.external += external.dot(step_of) + supports;
@@ -387,8 +426,8 @@ void BasicSystem<Dim>::Impl::add_energies(const State& trial, const Rates& now,
   e.friction = friction_work() - e.friction_before;
   const double of_contact = by_contact.dot(step_of) - (e.contact - before.contact) -
                             (e.friction - before.friction) - (e.damped - before.damped);
-  const double of_time =
-      inertial.dot(step_of) - (e.kinetic - before.kinetic) - (rest.dot(step_of) - supports);
+  const double of_time = inertial.dot(step_of) - (e.kinetic - before.kinetic) -
+                         (rest.dot(step_of) - supports - left_over);
   e.numerical += of_contact + of_time;
   e.residual = e.start + e.external - e.friction - e.damping - e.numerical -
                (e.kinetic + e.strain + e.contact);

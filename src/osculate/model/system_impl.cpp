@@ -403,6 +403,12 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   out.message.clear();
   clear(with_tangent);
   const std::vector<Vec<Dim>> x = positions(trial.u);
+  if (motion) begin_increment(committed, fraction, time_between(committed, fraction));
+  if (motion && !motion->failure.empty()) {
+    out.ok = false;
+    out.message = motion->failure;
+    return;
+  }
   assembler.set_configuration(x, trial.rigid);
   Eigen::VectorXd inc;
   if (predict) {
@@ -411,7 +417,6 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
         inc.head(Dim * static_cast<Eigen::Index>(x.size())).template lpNorm<Eigen::Infinity>();
   }
   const Eigen::VectorXd* increment = predict ? &inc : nullptr;
-  if (motion) begin_increment(committed, fraction, time_between(committed, fraction));
   if (on(Term::bulk) && !add_bulk(trial, with_tangent, increment, out)) return;
   if (on(Term::contact)) add_contact(committed, trial, fraction, x, with_tangent, increment, out);
   if (on(Term::pressure)) add_pressure(trial, fraction, with_tangent, increment);

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <deque>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "osculate/la/direct_solver.hpp"
@@ -81,16 +82,23 @@ struct BasicSystem<Dim>::Impl {
     Dynamics settings;
     std::optional<BasicInertia<Dim>> inertia;
     std::vector<Eigen::MatrixXd> damping;  ///< of the cells, by stiffness; empty: none
-    bool turns = false;                    ///< cells with mass turn with a rigid body
+    bool turns = false;                    ///< the mass matrix changes with the configuration
+    std::vector<bool> coupled;             ///< bodies in space whose rotation it has
     bool mass_known = false;               ///< the mass matrix is factored
+    std::string failure;                   ///< why it could not be; empty: it could
     la::MatrixBuilder builder;             ///< of the mass matrix of the unknowns
     la::DirectSolver solver{};
     std::vector<bool> massless;  ///< unknowns
     double h = 0;                ///< of the running increment; 0: none
+    double target = 0;           ///< fraction of the step at its end
     solve::StepFactors factors;
     Eigen::VectorXd start;                          ///< primary dofs of the committed state
     std::vector<body::BasicRigidMotion<Dim>> from;  ///< rigid bodies of the committed state
     Rates past;                                     ///< of the committed state
+    /// Forces of the committed state, those on nodes of rigid bodies moved to the bodies (moments
+    /// in space about fixed axes).
+    Eigen::VectorXd past_force;
+    Eigen::VectorXd correction;  ///< of the velocity that damps, for what is prescribed
     Eigen::VectorXd effective, damping_force;
     double size_of_mass = 0;                          ///< norm of the diagonal of the mass matrix
     std::vector<pairing::PairEvaluation<Dim>> paths;  ///< of the pairs, for impacts to come
@@ -114,8 +122,15 @@ struct BasicSystem<Dim>::Impl {
   void add_inertia(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);
   /// Rotations of rigid bodies in space, in system_spins.cpp.
   void add_spins(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);
-  void begin_spins(const State& committed, Rates& rates) const;
-  void new_spins(const State& trial, Rates& now) const;
+  void begin_spins(const State& committed, const Eigen::VectorXd& force, Rates& rates) const;
+  /// Adds the moments that damp turning.
+  void damp_spins(const Eigen::VectorXd& velocity, Eigen::VectorXd& damping) const;
+  /// `impulse`: accelerations by contact, whose moments go to `of_impulse`.
+  void new_spins(const State& trial, const Eigen::VectorXd& impulse,
+                 const Eigen::VectorXd& left_over, Rates& now, Eigen::VectorXd& of_impulse) const;
+  void add_spin_damping(const State& trial, std::size_t body,
+                        const body::InertiaMoment<3>& inertial, bool with_tangent,
+                        const Eigen::VectorXd* inc);
   [[nodiscard]] double spin_energy(const Rates& rates) const;
   /// Moment of forces on the nodes of a rigid body about its centre, axes fixed in space.
   [[nodiscard]] Vec<body::rotations<Dim>> moment_on(const State& s, std::size_t body,
@@ -123,12 +138,12 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] bool turns_body(Dof dof, std::size_t body) const;  ///< is a rotation of it
   /// Number of rotations of a body that the running step does not prescribe.
   [[nodiscard]] int free_rotations(std::size_t body) const;
+  /// Rotations of it are prescribed in the running step, or part of an equation.
+  [[nodiscard]] bool turns_by_rule(std::size_t body) const;
   /// Its total rotation vector is prescribed, now or in a later step, or part of an equation.
   [[nodiscard]] bool total_matters(std::size_t body) const;
   /// Bodies in space that have turned far go on from another base.
   void rebase(State& state) const;
-  [[nodiscard]] Vec3 turning_moment(const body::RigidMotion3& motion_of, std::size_t body,
-                                    const Vec3& moment, const Vec3& spinning) const;
   void add_cell_inertia(std::size_t cell, Eigen::Ref<Eigen::MatrixXd> tangent) const;
   /// What is in balance: all forces on the side of the internal ones.
   [[nodiscard]] Eigen::VectorXd total_force() const;
@@ -142,9 +157,38 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] double damping_work() const;  ///< of contact
   [[nodiscard]] Rates begin_rates(const State& committed);
   [[nodiscard]] Rates new_rates(const State& trial);
+
+  // What is prescribed and what follows, in system_driven.cpp. Rotations of bodies in space count
+  // by the rates of their rotation vectors here.
+  /// Rates of what is prescribed, over the primary dofs; zero elsewhere.
+  struct Driven {
+    Eigen::VectorXd velocity, acceleration;
+  };
+  /// `spacing`: fraction of the step in an increment.
+  [[nodiscard]] Driven driven(double fraction, double spacing) const;
+  /// Velocities of what follows from the unknowns while these stand: the equations' constants.
+  [[nodiscard]] Eigen::VectorXd moving_constants() const;
+  /// Accelerations of what follows while the unknowns are not accelerated, with these velocities.
+  [[nodiscard]] Eigen::VectorXd turning_accelerations(const Eigen::VectorXd& velocity) const;
+  [[nodiscard]] Eigen::VectorXd momenta_of(const Eigen::VectorXd& rates) const;
+  [[nodiscard]] Eigen::VectorXd settled(const Eigen::VectorXd& by_scheme,
+                                        const Eigen::VectorXd& prescribed,
+                                        const Eigen::VectorXd& constant,
+                                        const Eigen::VectorXd& force);
+  [[nodiscard]] Eigen::VectorXd rotation_rates(const Eigen::VectorXd& velocity) const;
+  void set_rotations(const Eigen::VectorXd& rates, Eigen::VectorXd& velocity) const;
+  [[nodiscard]] Eigen::VectorXd given_velocity() const;
+  [[nodiscard]] Eigen::VectorXd start_velocity(const Driven& prescribed);
+  void settle_velocities(Rates& now, const Driven& prescribed);
+  void settle_accelerations(Rates& now, const Driven& prescribed, Eigen::VectorXd force);
+  [[nodiscard]] Eigen::VectorXd inertia_of(const Rates& rates) const;
+  [[nodiscard]] Eigen::VectorXd unbalanced() const;
+  [[nodiscard]] double kinetic_energy(const Rates& rates) const;
+  void correct_damping();
+  void move_past_to_bodies();
+  [[nodiscard]] Eigen::VectorXd spin_force(const Rates& before, const Rates& now) const;
   void add_energies(const State& trial, const Rates& now, const Eigen::VectorXd& step,
-                    Energies& e) const;
-  void move_with_bodies(const State& s, Rates& rates) const;
+                    double left_over, Energies& e) const;
 
   // Impacts that increments end at, in system_impacts.cpp.
   [[nodiscard]] bool watches(std::size_t pair, std::size_t point) const;

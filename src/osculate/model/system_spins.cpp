@@ -1,6 +1,6 @@
 // Steps with inertia: rotations of rigid bodies in space.
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 
@@ -29,11 +29,17 @@ bool BasicSystem<Dim>::Impl::turns_body(Dof dof, std::size_t body) const {
 }
 
 template <int Dim>
-bool BasicSystem<Dim>::Impl::total_matters(std::size_t body) const {
+bool BasicSystem<Dim>::Impl::turns_by_rule(std::size_t body) const {
   if (free_rotations(body) < body::rotations<Dim>) return true;
   for (const Equation& equation : model.equations)
     for (const Equation::Term& term : equation.terms)
       if (turns_body(term.dof, body)) return true;
+  return false;
+}
+
+template <int Dim>
+bool BasicSystem<Dim>::Impl::total_matters(std::size_t body) const {
+  if (turns_by_rule(body)) return true;
   const auto running = std::find_if(model.steps.begin(), model.steps.end(),
                                     [&](const Step& s) { return s.name == step.name; });
   for (auto later = running; later != model.steps.end(); ++later)
@@ -62,37 +68,6 @@ void BasicSystem<Dim>::Impl::rebase(State& state) const {
   }
 }
 
-/// What turns a body: the moment without the part that the supports of its prescribed rotations
-/// take at once. `spinning`: angular velocity times momentum, whose change needs a moment too.
-///
-/// Formula    J P (P^T J P)^-1 P^T (m - w) + w ,  P the spins of the free rotations
-template <int Dim>
-Vec3 BasicSystem<Dim>::Impl::turning_moment(const body::RigidMotion3& motion_of, std::size_t body,
-                                            const Vec3& moment, const Vec3& spinning) const {
-  if constexpr (Dim == 3) {
-    const int count = free_rotations(body);
-    if (count == 3) return moment;
-    if (count == 0) return spinning;
-    const Mat<3, 3> tangent = body::rotation_tangent(motion_of.rotation);
-    std::array<bool, 3> held{};
-    const Dof first = dofs.body_dof(static_cast<Index>(body), 3);
-    for (const PrescribedDof& p : step.prescribed)
-      if (turns_body(p.dof, body)) held[static_cast<std::size_t>(p.dof - first)] = true;
-    Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> spins(3, count);
-    for (int i = 0, at = 0; i < 3; ++i)
-      if (!held[static_cast<std::size_t>(i)]) spins.col(at++) = tangent.col(i);
-    const Mat<3, 3> r = motion_of.orientation();
-    const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> momenta =
-        r * model.rigid[body].inertia * r.transpose() * spins;
-    const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3, 3> mass =
-        spins.transpose() * momenta;
-    return momenta * mass.ldlt().solve(spins.transpose() * (moment - spinning)) + spinning;
-  } else {
-    (void)motion_of, (void)body, (void)spinning;
-    return moment;
-  }
-}
-
 template <int Dim>
 Vec<body::rotations<Dim>> BasicSystem<Dim>::Impl::moment_on(
     const State& s, std::size_t body, const Eigen::VectorXd& forces_on_dofs) const {
@@ -117,74 +92,131 @@ void BasicSystem<Dim>::Impl::add_spins(const State& trial, bool with_tangent,
     Motion& m = *motion;
     const body::RotationScheme scheme = rotation_scheme(m.settings.scheme, m.h);
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
+      const Dof first = dofs.body_dof(static_cast<Index>(b), 3);
+      const std::array<Dof, 3> d{first, first + 1, first + 2};
+      const Vec3 past = m.past_force.template segment<3>(first);
+      m.effective.template segment<3>(first) +=
+          body::rotation_tangent(trial.rigid[b].rotation).transpose() * past - past;
+      if (with_tangent && !past.isZero(0))
+        add_stiffness(d, body::moment_gradient(trial.rigid[b].rotation, past), inc);
       if (!m.inertia->body_has_mass(b)) continue;
       const body::InertiaMoment<3> inertial = body::inertia_moment(
           model.rigid[b].inertia, m.past.spins[b], scheme, m.from[b], trial.rigid[b]);
       const body::RotationForce<3> force =
           body::rotation_force(trial.rigid[b], inertial.moment, inertial.gradient);
-      const Dof first = dofs.body_dof(static_cast<Index>(b), 3);
       m.effective.template segment<3>(first) += m.factors.balance * force.force;
-      const std::array<Dof, 3> d{first, first + 1, first + 2};
       if (with_tangent) add_stiffness(d, Mat<3, 3>(m.factors.balance * force.tangent), inc);
+      if (m.settings.damping_mass > 0) add_spin_damping(trial, b, inertial, with_tangent, inc);
     }
   }
 }
 
+/// Damping by mass: a moment of the angular momentum times its factor.
 template <int Dim>
-void BasicSystem<Dim>::Impl::begin_spins(const State& committed, Rates& rates) const {
+void BasicSystem<Dim>::Impl::add_spin_damping(const State& trial, std::size_t body,
+                                              const body::InertiaMoment<3>& inertial,
+                                              bool with_tangent, const Eigen::VectorXd* inc) {
   if constexpr (Dim == 3) {
-    rates.spins.resize(model.rigid.size());
-    const bool average = motion->settings.scheme.impact == solve::Impact::average;
-    Eigen::VectorXd force = forces.external - forces.internal;
-    if (average) force -= forces.contact;
+    Motion& m = *motion;
+    const solve::TimeScheme& s = m.settings.scheme;
+    const double factor = m.settings.damping_mass;
+    const Vec3 momentum =
+        body::angular_momentum(model.rigid[body].inertia, trial.rigid[body], inertial.rates);
+    // The inertial moment is (1 - alpha_m) / (gamma h) times the momentum, up to what stands.
+    const Mat<3, 3> gradient = factor * s.gamma * m.h / (1 - s.alpha_m) * inertial.gradient;
+    const body::RotationForce<3> force =
+        body::rotation_force(trial.rigid[body], factor * momentum, gradient);
+    const Dof first = dofs.body_dof(static_cast<Index>(body), 3);
+    m.damping_force.template segment<3>(first) += force.force;
+    const std::array<Dof, 3> d{first, first + 1, first + 2};
+    if (with_tangent) add_stiffness(d, Mat<3, 3>(m.factors.force * force.tangent), inc);
+  } else {
+    (void)trial, (void)body, (void)inertial, (void)with_tangent, (void)inc;
+  }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::damp_spins(const Eigen::VectorXd& velocity,
+                                        Eigen::VectorXd& damping) const {
+  if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       if (!motion->inertia->body_has_mass(b)) continue;
       const Dof first = dofs.body_dof(static_cast<Index>(b), 3);
-      Vec3 moment = moment_on(committed, b, force);
-      for (const DeadLoad& load : step.dead)  // about axes fixed in space
-        for (const auto& entry : load.unit)
-          if (entry.first >= first && entry.first < first + 3)
-            moment[entry.first - first] += load.ramp.value(0) * entry.second;
-      const Vec3 velocity = rates.velocity.template segment<3>(first);
-      const Mat<3, 3> r = committed.rigid[b].orientation();
-      const Vec3 momentum = r * model.rigid[b].inertia * r.transpose() * velocity;
-      rates.spins[b] = body::initial_rates(
-          model.rigid[b].inertia, committed.rigid[b], velocity,
-          turning_moment(committed.rigid[b], b, moment, velocity.cross(momentum)));
-      rates.acceleration.template segment<3>(first).setZero();
+      const Mat<3, 3> r = mass_rigid[b].orientation();
+      const Vec3 momentum =
+          r * model.rigid[b].inertia * r.transpose() * velocity.template segment<3>(first);
+      damping.template segment<3>(first) +=
+          motion->settings.damping_mass *
+          (body::rotation_tangent(mass_rigid[b].rotation).transpose() * momentum);
     }
+  } else {
+    (void)velocity, (void)damping;
+  }
+}
+
+/// Of bodies that turn freely; of the others the accelerations follow (settle_accelerations).
+template <int Dim>
+void BasicSystem<Dim>::Impl::begin_spins(const State& committed, const Eigen::VectorXd& force,
+                                         Rates& rates) const {
+  if constexpr (Dim == 3) {
+    rates.spins.assign(model.rigid.size(), {});
+    for (std::size_t b = 0; b < model.rigid.size(); ++b) {
+      if (motion->coupled[b]) continue;
+      const Dof first = dofs.body_dof(static_cast<Index>(b), 3);
+      const Vec3 moment =
+          moment_on(committed, b, force) +
+          body::moment_of(committed.rigid[b], Vec3(force.template segment<3>(first)));
+      rates.spins[b] = body::initial_rates(model.rigid[b].inertia, committed.rigid[b],
+                                           Vec3(rates.velocity.template segment<3>(first)), moment);
+    }
+  } else {
+    (void)committed, (void)force, (void)rates;
   }
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::new_spins(const State& trial, Rates& now) const {
+void BasicSystem<Dim>::Impl::new_spins(const State& trial, const Eigen::VectorXd& impulse,
+                                       const Eigen::VectorXd& left_over, Rates& now,
+                                       Eigen::VectorXd& of_impulse) const {
   if constexpr (Dim == 3) {
     const Motion& m = *motion;
-    const body::RotationScheme scheme = rotation_scheme(m.settings.scheme, m.h);
+    const solve::TimeScheme& s = m.settings.scheme;
+    const body::RotationScheme scheme = rotation_scheme(s, m.h);
     now.spins = m.past.spins;
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       const Dof first = dofs.body_dof(static_cast<Index>(b), 3);
       now.acceleration.template segment<3>(first).setZero();
-      const Vec3 turn_of = body::turn_between(m.from[b], trial.rigid[b]);
-      const Mat<3, 3> to_body = trial.rigid[b].orientation().transpose();
+      of_impulse.template segment<3>(first).setZero();
+      const body::RigidMotion3& to = trial.rigid[b];
       body::RotationRates<3>& rates = now.spins[b];
-      if (!m.inertia->body_has_mass(b) || free_rotations(b) == 0) {
+      if (!m.inertia->body_has_mass(b)) {
+        const Vec3 turn_of = body::turn_between(m.from[b], to);
         rates = {};
-        rates.velocity = to_body * turn_of / m.h;
+        rates.velocity = to.orientation().transpose() * turn_of / m.h;
         now.velocity.template segment<3>(first) = turn_of / m.h;
         continue;
       }
       const Mat<3, 3>& inertia = model.rigid[b].inertia;
-      rates =
-          body::inertia_moment(inertia, m.past.spins[b], scheme, m.from[b], trial.rigid[b]).rates;
-      if (m.settings.scheme.impact != solve::Impact::average) {
+      rates = body::inertia_moment(inertia, m.past.spins[b], scheme, m.from[b], to).rates;
+      if (s.impact != solve::Impact::average) {
+        const Mat<3, 3> tangent = body::rotation_tangent(to.rotation);
+        const Mat<3, 3> r = to.orientation();
         const Vec3 by_contact =
-            turning_moment(trial.rigid[b], b, -moment_on(trial, b, forces.contact), Vec3::Zero());
-        rates = body::with_contact(rates, inertia, scheme, trial.rigid[b], by_contact,
-                                   solve::impulse_way(m.settings.scheme.impact));
+            m.coupled[b]
+                ? Vec3(r * inertia * r.transpose() * tangent * impulse.template segment<3>(first))
+                : Vec3(-moment_on(trial, b, forces.contact));
+        rates = body::with_contact(rates, inertia, scheme, to, by_contact,
+                                   solve::impulse_way(s.impact));
+        of_impulse.template segment<3>(first) = tangent.transpose() * by_contact;
       }
-      now.velocity.template segment<3>(first) = body::spin(trial.rigid[b], rates);
+      now.velocity.template segment<3>(first) = body::spin(to, rates);
+      if (m.coupled[b]) continue;
+      const Vec3 moment = body::moment_of(to, Vec3(left_over.template segment<3>(first)));
+      rates.moment -= moment;
+      rates.acceleration -= inertia.inverse() * (to.orientation().transpose() * moment);
     }
+  } else {
+    (void)trial, (void)impulse, (void)left_over, (void)now, (void)of_impulse;
   }
 }
 
