@@ -96,6 +96,9 @@ const std::vector<Case>& all_cases() {  // long: the one list
        solid_shell},
       {"solid_shell_fine", "The same under large displacements on fine meshes", true,
        solid_shell_fine},
+      {"time_order",
+       "Displacements and velocities are of second order in time with every implicit scheme", false,
+       time_order},
       {"turning_block", "A rigid block slides into a valley and turns over its corner (KSCPP 5.2)",
        false, turning_block},
   };
