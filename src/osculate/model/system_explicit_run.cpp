@@ -250,6 +250,24 @@ void BasicSystem<Dim>::Impl::begin_explicit() {
 }
 
 template <int Dim>
+void BasicSystem<Dim>::Impl::move_with_bodies(const State& s, Rates& rates) const {
+  const std::vector<Vec<Dim>> x = positions(s.u);
+  for (Index node = 0; node < dofs.nodes(); ++node) {
+    const Index b = dofs.body_of(node);
+    if (b < 0) continue;
+    const Vec<Dim> arm =
+        x[static_cast<std::size_t>(node)] - s.rigid[static_cast<std::size_t>(b)].center();
+    const Dof first = dofs.body_dof(b, 0);
+    Vec<Dim> v = rates.velocity.template segment<Dim>(first);
+    if constexpr (Dim == 2)
+      v += rates.velocity[first + 2] * turn(arm);
+    else
+      v += Vec3(rates.velocity.template segment<3>(first + 3)).cross(arm);
+    rates.velocity.template segment<Dim>(Dim * node) = v;
+  }
+}
+
+template <int Dim>
 Rates BasicSystem<Dim>::Impl::begin_explicit_rates(const State& committed) {
   Rates rates = committed.rates;
   const bool first = rates.empty();

@@ -212,6 +212,8 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] Rates begin_explicit_rates(const State& committed);
   /// Velocities of a body that no step with inertia has moved so far.
   [[nodiscard]] Eigen::VectorXd start_velocity() const;
+  /// Nodes of rigid bodies get the velocities of their bodies.
+  void move_with_bodies(const State& s, Rates& rates) const;
 
   std::deque<ContactStates> recent;  ///< of the running attempt
   [[nodiscard]] ContactStates contact_states() const;
