@@ -224,25 +224,24 @@ void BasicSystem<Dim>::Impl::settle_velocities(Rates& now, const Driven& prescri
 }
 
 /// The same for accelerations, with the velocities that they belong to. `force`: what accelerates
-/// beside what they hold already; rotations in space hold it in the moments of `spins`.
+/// beside what they hold already. Rotations in space stand in `spins`: what changes their
+/// accelerations changes the moments with them, and both keep what the scheme has made of them.
 template <int Dim>
 void BasicSystem<Dim>::Impl::settle_accelerations(Rates& now, const Driven& prescribed,
-                                                  Eigen::VectorXd force) {
+                                                  const Eigen::VectorXd& force) {
   const Eigen::VectorXd rates = rotation_rates(now.velocity);
+  Eigen::VectorXd by_scheme = now.acceleration;
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       if (!motion->coupled[b]) continue;
       const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
-      const Mat<3, 3> inertia = inertia_in_space(model.rigid[b].inertia, mass_rigid[b]);
-      const Vec3 spin = now.velocity.segment<3>(first);
-      const Vec3 change = spin_change(mass_rigid[b], rates.segment<3>(first));
-      const Vec3 moment = now.spins[b].moment - inertia * change - spin.cross(inertia * spin);
-      force.segment<3>(first) +=
-          body::rotation_tangent(mass_rigid[b].rotation).transpose() * moment;
+      const Vec3 spinning = mass_rigid[b].orientation() * now.spins[b].acceleration;
+      by_scheme.segment<3>(first) = body::rotation_rate(
+          mass_rigid[b], spinning - spin_change(mass_rigid[b], rates.segment<3>(first)));
     }
   }
   now.acceleration =
-      settled(now.acceleration, prescribed.acceleration, turning_accelerations(rates), force);
+      settled(by_scheme, prescribed.acceleration, turning_accelerations(rates), force);
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
@@ -250,14 +249,37 @@ void BasicSystem<Dim>::Impl::settle_accelerations(Rates& now, const Driven& pres
       now.acceleration.segment<3>(first).setZero();
       if (!motion->coupled[b]) continue;
       const body::RigidMotion3& motion_of = mass_rigid[b];
-      const Vec3 spin = now.velocity.segment<3>(first);
-      const Vec3 change = body::rotation_tangent(motion_of.rotation) * rotation +
-                          spin_change(motion_of, rates.segment<3>(first));
       const Mat<3, 3> to_body = motion_of.orientation().transpose();
-      const Mat<3, 3> inertia = inertia_in_space(model.rigid[b].inertia, motion_of);
-      now.spins[b] = {to_body * spin, to_body * change,
-                      inertia * change + spin.cross(inertia * spin)};
+      const Vec3 spin = now.velocity.segment<3>(first);
+      const Vec3 spinning = body::rotation_tangent(motion_of.rotation) * rotation +
+                            spin_change(motion_of, rates.segment<3>(first));
+      const Vec3 change = to_body * spinning - now.spins[b].acceleration;
+      const Vec3 moment = to_body.transpose() * (model.rigid[b].inertia * change);
+      now.spins[b] = {to_body * spin, to_body * spinning, now.spins[b].moment + moment};
     }
+  }
+}
+
+/// Rotations in space at the start, of bodies that the mass matrix has: as if their rotation
+/// vectors were not accelerated, and the moments that this takes are taken from the force.
+template <int Dim>
+void BasicSystem<Dim>::Impl::begin_coupled_spins(Rates& rates, Eigen::VectorXd& force) const {
+  if constexpr (Dim == 3) {
+    const Eigen::VectorXd turning = rotation_rates(rates.velocity);
+    for (std::size_t b = 0; b < model.rigid.size(); ++b) {
+      if (!motion->coupled[b]) continue;
+      const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
+      const Vec3 spin = rates.velocity.segment<3>(first);
+      const Vec3 change = spin_change(mass_rigid[b], turning.segment<3>(first));
+      const Mat<3, 3> inertia = inertia_in_space(model.rigid[b].inertia, mass_rigid[b]);
+      const Vec3 moment = inertia * change + spin.cross(inertia * spin);
+      const Mat<3, 3> to_body = mass_rigid[b].orientation().transpose();
+      rates.spins[b] = {to_body * spin, to_body * change, moment};
+      force.segment<3>(first) -=
+          body::rotation_tangent(mass_rigid[b].rotation).transpose() * moment;
+    }
+  } else {
+    (void)rates, (void)force;
   }
 }
 

@@ -336,6 +336,7 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   if (motion->settings.scheme.impact == solve::Impact::average) force -= rates.contact;
   rates.acceleration.setZero(dofs.dofs());
   if constexpr (Dim == 3) begin_spins(committed, force, rates);
+  if constexpr (Dim == 3) begin_coupled_spins(rates, force);
   settle_accelerations(rates, prescribed, force);
   forces.inertia = rates.damping + inertia_of(rates);
   Energies& e = rates.energies;

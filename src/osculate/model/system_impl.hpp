@@ -180,7 +180,8 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] Eigen::VectorXd given_velocity() const;
   [[nodiscard]] Eigen::VectorXd start_velocity(const Driven& prescribed);
   void settle_velocities(Rates& now, const Driven& prescribed);
-  void settle_accelerations(Rates& now, const Driven& prescribed, Eigen::VectorXd force);
+  void settle_accelerations(Rates& now, const Driven& prescribed, const Eigen::VectorXd& force);
+  void begin_coupled_spins(Rates& rates, Eigen::VectorXd& force) const;
   [[nodiscard]] Eigen::VectorXd inertia_of(const Rates& rates) const;
   [[nodiscard]] Eigen::VectorXd unbalanced() const;
   [[nodiscard]] double kinetic_energy(const Rates& rates) const;
