@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
