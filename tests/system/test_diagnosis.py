@@ -63,8 +63,8 @@ mesh:
     up: {box: {x: [1, 3], y: [1, 2], elements: [5, 3]}}
 materials: {s: {linear_elastic: {E: 100, nu: 0.3}}}
 sections: [{on: low, material: s, element: plane_strain}, {on: up, material: s, element: plane_strain}]
-contact: [{name: c, master: low.top, slave: up.bottom, normal: {penalty: 1.0e6},
-  friction: {coulomb: {mu: 0.3, penalty: 1.0e6}}}]
+contact: [{name: c, master: low.top, slave: up.bottom, normal: {penalty: 1.0e7},
+  friction: {coulomb: {mu: 0.6, penalty: 1.0e7}}}]
 steps:
   - {name: press, increments: 2, prescribe: [{on: low.bottom, uy: 0, ux: 0}, {on: up.top, uy: -0.1, ux: 0}]}
   - {name: shear, increments: 4, prescribe: [{on: up.top, ux: 0.3}]}

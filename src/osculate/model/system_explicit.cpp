@@ -36,8 +36,8 @@ BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::make_masses() {
-  const BasicModel<Dim>& model = system.model;
-  node_mass.assign(model.reference.size(), 0.0);
+  const BasicModel<Dim>& whole = system.model;
+  node_mass.assign(whole.reference.size(), 0.0);
   mass.setZero(system.dofs.dofs());
   for (const typename BasicInertia<Dim>::CellMass& cell : system.motion->inertia->cells())
     for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
@@ -47,7 +47,7 @@ void BasicSystem<Dim>::Impl::Explicit::make_masses() {
   for (std::size_t n = 0; n < node_mass.size(); ++n)
     if (system.dofs.body_of(static_cast<Index>(n)) < 0)
       mass.segment<Dim>(Dim * static_cast<Eigen::Index>(n)).setConstant(node_mass[n]);
-  for (std::size_t b = 0; b < model.rigid.size(); ++b)
+  for (std::size_t b = 0; b < whole.rigid.size(); ++b)
     mass.segment<body::motions<Dim>>(system.dofs.body_dof(static_cast<Index>(b), 0)) =
         system.motion->inertia->body_mass(b).diagonal();
 }
@@ -159,7 +159,8 @@ void BasicSystem<Dim>::Impl::Explicit::add_contact(double h, double fraction) {
     pairing::evaluate<Dim>(pair, x, now.pairs[p], false, system.contact[p], assumed[p]);
     for (const pairing::ContactBlock<Dim>& block : system.contact[p].blocks)
       for (int k = 0; k < block.count; ++k)
-        system.forces.contact.segment<Dim>(Dim * block.nodes[static_cast<std::size_t>(k)]) +=
+        system.forces.contact.template segment<Dim>(Dim *
+                                                    block.nodes[static_cast<std::size_t>(k)]) +=
             block.force.template segment<Dim>(Dim * k);
   }
   system.seconds.contact += watch.seconds();
