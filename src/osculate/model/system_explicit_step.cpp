@@ -76,11 +76,11 @@ double BasicSystem<Dim>::Impl::Explicit::cell_frequency(std::size_t cell, BulkBl
 ///            one spring; of rigid bodies all springs, with arms of at most the body's
 template <int Dim>
 double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
-  const BasicModel<Dim>& model = system.model;
+  const BasicModel<Dim>& whole = system.model;
   std::vector<double> on_slave(x.size(), 0.0), on_master(x.size(), 0.0);
-  std::vector<double> slave_body(model.rigid.size(), 0.0), master_body(model.rigid.size(), 0.0);
-  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
-    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
+  std::vector<double> slave_body(whole.rigid.size(), 0.0), master_body(whole.rigid.size(), 0.0);
+  for (std::size_t p = 0; p < whole.pairs.size(); ++p) {
+    const pairing::PairDefinition<Dim>& pair = whole.pairs[p].definition;
     const double slope = dampers ? damper(pair) : stiffest(pair, now.pairs[p]);
     if (!(slope > 0)) continue;
     double all = 0, largest = 0;
@@ -103,7 +103,7 @@ double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
     const pairing::SlaveSide<Dim> side = pairing::make_slave_side(pair.master);
     std::vector<double> areas;
     if (pair.weight != pairing::Weight::node)
-      pairing::nodal_areas(side, std::span<const Vec<Dim>>(model.reference), pair.area, areas,
+      pairing::nodal_areas(side, std::span<const Vec<Dim>>(whole.reference), pair.area, areas,
                            nullptr);
     for (std::size_t i = 0; i < side.nodes.size(); ++i)
       on_master[static_cast<std::size_t>(side.nodes[i])] += std::max(
@@ -115,11 +115,11 @@ double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
       if (nodes[n] > 0 && node_mass[n] > 0 && moves(static_cast<Index>(n)))
         most = std::max(most, nodes[n] / node_mass[n]);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const BasicRigidBody<Dim>& body = model.rigid[b];
+      const BasicRigidBody<Dim>& body = whole.rigid[b];
       if (!(bodies[b] > 0) || !(body.mass > 0)) continue;
       double arm = 0;
       for (const Index n : body.nodes)
-        arm = std::max(arm, (model.reference[static_cast<std::size_t>(n)] - body.reference).norm());
+        arm = std::max(arm, (whole.reference[static_cast<std::size_t>(n)] - body.reference).norm());
       constexpr double of_compact_bodies = 3;  // arm^2 mass / inertia: 2 disc, 2.5 ball, 3 rod
       double turning_of = of_compact_bodies / body.mass;
       if (!body.shape && body.parts.empty())
