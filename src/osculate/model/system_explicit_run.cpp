@@ -281,6 +281,8 @@ Rates BasicSystem<Dim>::Impl::begin_explicit_rates(const State& committed) {
   if (first) {
     e.start = e.kinetic + e.strain + e.contact;
     e.friction_before = friction_work();
+  } else {
+    e.numerical += committed.rates.energies.kinetic - e.kinetic;  // of other masses, before
   }
   return rates;
 }

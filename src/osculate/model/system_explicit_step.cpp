@@ -109,11 +109,12 @@ double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
       on_master[static_cast<std::size_t>(side.nodes[i])] += std::max(
           largest, i < areas.size() ? pairing::side_share(pair) * slope * areas[i] : largest);
   }
+  // A node, or a body, that is slave here and master there shares its mass among both.
   const auto side_of = [&](const std::vector<double>& nodes, const std::vector<double>& bodies) {
     double most = 0;
     for (std::size_t n = 0; n < nodes.size(); ++n)
       if (nodes[n] > 0 && node_mass[n] > 0 && moves(static_cast<Index>(n)))
-        most = std::max(most, nodes[n] / node_mass[n]);
+        most = std::max(most, (on_slave[n] + on_master[n]) / node_mass[n]);
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const BasicRigidBody<Dim>& body = whole.rigid[b];
       if (!(bodies[b] > 0) || !(body.mass > 0)) continue;
@@ -124,7 +125,7 @@ double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
       double turning_of = of_compact_bodies / body.mass;
       if (!body.shape && body.parts.empty())
         turning_of = arm * arm / body.inertia.diagonal().minCoeff();
-      most = std::max(most, bodies[b] * (1 / body.mass + turning_of));
+      most = std::max(most, (slave_body[b] + master_body[b]) * (1 / body.mass + turning_of));
     }
     return most;
   };

@@ -40,10 +40,10 @@ double largest_acceleration(const BasicDofSpace<Dim>& dofs, const Eigen::VectorX
 
 template <int Dim>
 bool BasicSystem<Dim>::Impl::watches(std::size_t pair, std::size_t point) const {
-  const ImpactTimes times = motion->settings.impact_times;
-  if (times != ImpactTimes::automatic) return times == ImpactTimes::all;
   const pairing::PairDefinition<Dim>& definition = model.pairs[pair].definition;
   if (point >= definition.slave.points.size()) return false;  // a crossing of edges
+  const ImpactTimes times = motion->settings.impact_times;
+  if (times != ImpactTimes::automatic) return times == ImpactTimes::all;
   const Index body = dofs.body_of(definition.slave.points[point].nearest_node());
   return body >= 0 && motion->inertia->body_has_mass(static_cast<std::size_t>(body));
 }
@@ -53,6 +53,7 @@ void BasicSystem<Dim>::Impl::evaluate_path(const State& committed, std::size_t p
                                            std::span<const Vec<Dim>> x, double duration) {
   pairing::Assumed<Dim> assumed;
   assumed.duration = duration;
+  assumed.relief = relief(model.pairs[pair].definition, committed.fraction);
   const bool around =
       pair < committed.multipliers.size() && !committed.multipliers[pair].points.empty();
   pairing::evaluate<Dim>(model.pairs[pair].definition, x, committed.pairs[pair], false,
@@ -119,10 +120,11 @@ std::optional<solve::ImpactAhead> BasicSystem<Dim>::Impl::impact_ahead(const Sta
     for (std::size_t p = 0; p < model.pairs.size(); ++p)  // the same trees in every process
       evaluate_path(committed, p, model.reference, h);
   }
-  // Slower than what the forces make of a body at rest within a few increments is no impact but
-  // the trembling of a contact that rests.
+  // Slower than what the forces make of a body at rest within a few nominal increments is no impact
+  // but the trembling of a contact that rests.
   constexpr double horizon = 1.25, trembling = 4, beyond = 0.01, smallest = 1e-4;
-  const double slowest = trembling * h * largest_acceleration(dofs, committed.rates.acceleration);
+  const double slowest = trembling * step.duration / step.increments *
+                         largest_acceleration(dofs, committed.rates.acceleration);
   std::vector<PointName> skipped;
   for (;;) {
     double low = 0, high = horizon;
