@@ -7,6 +7,17 @@
 #include "osculate/model/system_impl.hpp"
 
 namespace osculate::model {
+namespace {
+
+template <int Dim, class Value>
+double sum_of_points(const std::vector<pairing::PairEvaluation<Dim>>& contact, const Value& value) {
+  double sum = 0;
+  for (const pairing::PairEvaluation<Dim>& pair : contact)
+    for (const pairing::PointResult<Dim>& point : pair.points) sum += value(point);
+  return sum;
+}
+
+}  // namespace
 
 template <int Dim>
 Eigen::VectorXd BasicSystem<Dim>::Impl::dof_values(const State& s) const {
@@ -260,26 +271,17 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::accelerations_by(const Eigen::VectorXd& 
 
 template <int Dim>
 double BasicSystem<Dim>::Impl::contact_energy() const {
-  double sum = 0;
-  for (const pairing::PairEvaluation<Dim>& pair : contact)
-    for (const pairing::PointResult<Dim>& point : pair.points) sum += point.weight * point.stored;
-  return sum;
+  return sum_of_points<Dim>(contact, [](const auto& p) { return p.weight * p.stored; });
 }
 
 template <int Dim>
 double BasicSystem<Dim>::Impl::damping_work() const {
-  double sum = 0;
-  for (const pairing::PairEvaluation<Dim>& pair : contact)
-    for (const pairing::PointResult<Dim>& point : pair.points) sum += point.history.damping_work;
-  return sum;
+  return sum_of_points<Dim>(contact, [](const auto& p) { return p.history.damping_work; });
 }
 
 template <int Dim>
 double BasicSystem<Dim>::Impl::friction_work() const {
-  double sum = 0;
-  for (const pairing::PairEvaluation<Dim>& pair : contact)
-    for (const pairing::PointResult<Dim>& point : pair.points) sum += point.history.friction_work;
-  return sum;
+  return sum_of_points<Dim>(contact, [](const auto& p) { return p.history.friction_work; });
 }
 
 /// Forces of the free unknowns that the last evaluation leaves, as mass times acceleration at the

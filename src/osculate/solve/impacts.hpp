@@ -63,7 +63,7 @@ NewtonResult<typename S::State> up_to_impact(S& system, const typename S::State&
       if (ahead) expected.insert(expected.end(), ahead->points.begin(), ahead->points.end());
       if (next >= met) next = 0.5 * (free + met);
     }
-    if (!converged || n == most || (free == end && std::abs(next - end) < enough * nominal)) {
+    if (!converged || n == most || (free == end && next - end < enough * nominal)) {
       target = end;
       return result;
     }

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "deck_test.hpp"
 #include "osculate/deck/build.hpp"
+#include "space_test.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -13,15 +13,6 @@ Built built(const std::string& from = "", const std::string& to = "") {
   const std::string text = test_file("laws.yaml");
   const Description d = parse_model(from.empty() ? text : edited(text, from, to), "model.yaml");
   return build(d, load_mesh(d));
-}
-
-std::string refusal_of(const std::string& from, const std::string& to) {
-  try {
-    (void)built(from, to);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 TEST(LawKeys, BecomeLaws) {
@@ -71,19 +62,10 @@ std::string untimed(const std::string& damping) {
 }
 
 TEST(LawKeys, OnlyViscousDampingNeedsATime) {
-  const auto refusal = [](const std::string& text) -> std::string {
-    try {
-      const Description d = parse_model(text, "model.yaml");
-      (void)build(d, load_mesh(d));
-    } catch (const core::InputError& error) {
-      return error.what();
-    }
-    return {};
-  };
-  EXPECT_EQ(refusal(untimed("{viscous: 0.5}")),
+  EXPECT_EQ(any_refusal(untimed("{viscous: 0.5}")),
             "model.yaml:27: contact[2].normal.damping.viscous: damping that depends on speed needs "
             "the duration of every step, and step 'one' has none");
-  EXPECT_EQ(refusal(untimed("{restitution: 0.5}")), "");
+  EXPECT_EQ(any_refusal(untimed("{restitution: 0.5}")), "");
 }
 
 TEST(LawKeys, DistanceRoughAndWhatIsHeld) {
@@ -108,73 +90,86 @@ TEST(LawKeys, SayHowManyPointsAreTied) {
   EXPECT_EQ(count, 1);
 }
 
-TEST(LawKeys, RefuseWhatMakesNoSense) {
-  const std::string floor = "model.yaml:20: contact[0].", joint = "model.yaml:26: contact[1].",
-                    top = "model.yaml:27: contact[2].";
+const std::string floor = "model.yaml:20: contact[0].", joint = "model.yaml:26: contact[1].",
+                  top = "model.yaml:27: contact[2].";
+const std::string tied = "separation: tied, tolerance: 0.02, initial_gap: close";
+
+TEST(LawKeys, RefuseNormalLawsThatMakeNoSense) {
   const std::string exponential = "{exponential: {pressure: 12, clearance: 0.01}}";
-  const std::string tied = "separation: tied, tolerance: 0.02, initial_gap: close";
   const std::string table = "[[-0.01, 0], [0, 5], [0.1, 50]]";
-  struct Refusal {
-    std::string from, to, message;
-  };
-  const std::vector<Refusal> all{
-      {exponential, "{penalty: 1, table: [[0, 0], [1, 1]]}",
-       floor + "normal.penalty: there is another law already: use one of penalty, exponential, "
-               "table"},
-      {"clearance: 0.01}}", "clearance: 0}}",
-       floor + "normal.exponential.clearance: must be > 0, got 0"},
-      {"clearance: 0.01}}", "clearance: 0.01}, separation: no_separation}",
-       floor + "normal.separation: holding points needs a stiffness in tension: it goes with "
-               "penalty only"},
-      {tied, "tolerance: 0.02",
-       joint + "normal.tolerance: tolerance says what is tied: it goes with separation: tied or "
+  expect_refusals(
+      test_file("laws.yaml"),
+      {
+          {exponential, "{penalty: 1, table: [[0, 0], [1, 1]]}",
+           floor + "normal.penalty: there is another law already: use one of penalty, exponential, "
+                   "table"},
+          {"clearance: 0.01}}", "clearance: 0}}",
+           floor + "normal.exponential.clearance: must be > 0, got 0"},
+          {"clearance: 0.01}}", "clearance: 0.01}, separation: no_separation}",
+           floor + "normal.separation: holding points needs a stiffness in tension: it goes with "
+                   "penalty only"},
+          {tied, "tolerance: 0.02",
+           joint +
+               "normal.tolerance: tolerance says what is tied: it goes with separation: tied or "
                "tied_normal"},
-      {tied, "initial_gap: close",
-       joint + "normal.initial_gap: closing gaps goes with separation: tied only"},
-      {"tolerance: 0.02", "tolerance: -1", joint + "normal.tolerance: must be > 0, got -1"},
-      {tied + "}", tied + "}\n    friction: {rough: {penalty: 1}}",
-       "model.yaml:27: contact[1].friction: tied points do not slide: leave out friction, or use "
-       "tied_normal"},
-      {"slave: mid.bottom\n", "slave: high.bottom\n",
-       joint +
-           "normal.separation: no point of the slave 'high.bottom' is within 0.02 of the master "
-           "'low.top': nothing is tied"},
-      {"master: low.top\n", "master: mid.bottom\n",
-       joint + "normal.separation: a surface cannot be tied to itself: name master and slave"},
-      {table, "[[0, 0]]", top + "normal.table: expected at least 2 values, got 1"},
-      {table, "[[0, 1], [1, 2]]",
-       top + "normal.table[0]: the first pressure of the table must be 0"},
-      {table, "[[0, 0], [0, 2]]", top + "normal.table[1]: overclosures must grow: 0 follows 0"},
-      {table, "[[0, 0], [1, 2], [2, 1]]",
-       top + "normal.table[2]: pressures must not fall: 1 follows 2"},
-      {table, "[[0, 0], [1, 0]]", top + "normal.table: the table has no pressure > 0"},
-      {"kinetic: 0.2, decay: {speed: 0.5}", "kinetic: 0.2",
-       "model.yaml:21: contact[0].friction.coulomb.kinetic: how the coefficient changes is "
-       "missing: "
-       "add decay: {distance: ...} or {speed: ...}"},
-      {"kinetic: 0.2, decay", "decay",
-       "model.yaml:21: contact[0].friction.coulomb.decay: decay goes with a kinetic coefficient, "
-       "which is missing"},
-      {"duration: 0.5, ", "",
-       "model.yaml:21: contact[0].friction.coulomb.decay.speed: friction that depends on speed "
-       "needs "
-       "the duration of every step, and step 'one' has none"},
-      {"duration: 0.5, ", "duration: 0, ", "model.yaml:29: steps[0].duration: must be > 0, got 0"},
-      {"{viscous: 0.5}", "{viscous: -1}", top + "normal.damping.viscous: must be >= 0, got -1"},
-      {"{viscous: 0.5}", "{restitution: 1.1}",
-       top + "normal.damping.restitution: must be >= 0 and <= 1, got 1.1"},
-      {"{viscous: 0.5}", "{restitution: 1, viscous: 0}",
-       top + "normal.damping: 'restitution' and 'viscous' exclude each other"},
-      {tied, tied + ", damping: {restitution: 1}",
-       joint + "normal.damping: points that are held do not part, and an impact of theirs has no "
+          {tied, "initial_gap: close",
+           joint + "normal.initial_gap: closing gaps goes with separation: tied only"},
+          {"tolerance: 0.02", "tolerance: -1", joint + "normal.tolerance: must be > 0, got -1"},
+          {tied + "}", tied + "}\n    friction: {rough: {penalty: 1}}",
+           "model.yaml:27: contact[1].friction: tied points do not slide: leave out friction, or "
+           "use "
+           "tied_normal"},
+          {"slave: mid.bottom\n", "slave: high.bottom\n",
+           joint + "normal.separation: no point of the slave 'high.bottom' is within 0.02 of the "
+                   "master "
+                   "'low.top': nothing is tied"},
+          {"master: low.top\n", "master: mid.bottom\n",
+           joint + "normal.separation: a surface cannot be tied to itself: name master and slave"},
+          {table, "[[0, 0]]", top + "normal.table: expected at least 2 values, got 1"},
+          {table, "[[0, 1], [1, 2]]",
+           top + "normal.table[0]: the first pressure of the table must be 0"},
+          {table, "[[0, 0], [0, 2]]", top + "normal.table[1]: overclosures must grow: 0 follows 0"},
+          {table, "[[0, 0], [1, 2], [2, 1]]",
+           top + "normal.table[2]: pressures must not fall: 1 follows 2"},
+          {table, "[[0, 0], [1, 0]]", top + "normal.table: the table has no pressure > 0"},
+      });
+}
+
+TEST(LawKeys, RefuseFrictionAndDampingThatMakeNoSense) {
+  expect_refusals(
+      test_file("laws.yaml"),
+      {
+          {"kinetic: 0.2, decay: {speed: 0.5}", "kinetic: 0.2",
+           "model.yaml:21: contact[0].friction.coulomb.kinetic: how the coefficient changes is "
+           "missing: "
+           "add decay: {distance: ...} or {speed: ...}"},
+          {"kinetic: 0.2, decay", "decay",
+           "model.yaml:21: contact[0].friction.coulomb.decay: decay goes with a kinetic "
+           "coefficient, "
+           "which is missing"},
+          {"duration: 0.5, ", "",
+           "model.yaml:21: contact[0].friction.coulomb.decay.speed: friction that depends on speed "
+           "needs "
+           "the duration of every step, and step 'one' has none"},
+          {"duration: 0.5, ", "duration: 0, ",
+           "model.yaml:29: steps[0].duration: must be > 0, got 0"},
+          {"{viscous: 0.5}", "{viscous: -1}", top + "normal.damping.viscous: must be >= 0, got -1"},
+          {"{viscous: 0.5}", "{restitution: 1.1}",
+           top + "normal.damping.restitution: must be >= 0 and <= 1, got 1.1"},
+          {"{viscous: 0.5}", "{restitution: 1, viscous: 0}",
+           top + "normal.damping: 'restitution' and 'viscous' exclude each other"},
+          {tied, tied + ", damping: {restitution: 1}",
+           joint +
+               "normal.damping: points that are held do not part, and an impact of theirs has no "
                "end: damping goes with separation: allowed only"},
-      {tied + "}", "damping: {restitution: 1}}\n    enforcement: augmented_lagrange",
-       "model.yaml:27: contact[1].enforcement: damping is a part of the spring that a penalty is, "
-       "and corrected or unknown tractions have none: use penalty, or leave out damping"},
-      {"tresca: {limit: 3, penalty: 500}", "tresca: {limit: 3, penalty: 500}, rough: {penalty: 1}",
-       top + "friction: 'tresca' and 'rough' exclude each other"},
-  };
-  for (const Refusal& r : all) EXPECT_EQ(refusal_of(r.from, r.to), r.message) << r.to;
+          {tied + "}", "damping: {restitution: 1}}\n    enforcement: augmented_lagrange",
+           "model.yaml:27: contact[1].enforcement: damping is a part of the spring that a penalty "
+           "is, "
+           "and corrected or unknown tractions have none: use penalty, or leave out damping"},
+          {"tresca: {limit: 3, penalty: 500}",
+           "tresca: {limit: 3, penalty: 500}, rough: {penalty: 1}",
+           top + "friction: 'tresca' and 'rough' exclude each other"},
+      });
 }
 
 }  // namespace
