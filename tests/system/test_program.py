@@ -299,6 +299,24 @@ class Program(unittest.TestCase):
         self.assertGreater(rows[-1]["disc.uy"], 0.5)
         self.assertEqual(rows[-1]["hit.normal_force"], 0)
 
+    def test_a_soft_block_tumbles_down_a_slope(self):
+        model = os.path.join(SOURCE, "examples", "tumbling_block", "tumbling_block.yaml")
+        done = self.run_program("run", model, "-o", self.path("block"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.path("block/history.csv")) as file:
+            rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+        mass = 4 * 2
+        self.assertAlmostEqual(rows[0]["energy.kinetic"], 0.5 * mass * (4 ** 2 + 6 ** 2), delta=1e-9)
+        for row in rows:  # above the slope, but for what the penalty lets in
+            self.assertGreater(0.45 * (2 + row["block.top_right.ux"]) + 3.4 + row["block.top_right.uy"], -0.1)
+        for before, after in zip(rows, rows[1:]):
+            self.assertGreaterEqual(after["energy.friction"], before["energy.friction"])
+            self.assertGreaterEqual(after["energy.damping"], before["energy.damping"])
+        impacts = sum(a["hit.normal_force"] == 0 < b["hit.normal_force"] for a, b in zip(rows, rows[1:]))
+        self.assertGreater(impacts, 3)
+        with open(self.path("block/log.txt")) as file:
+            self.assertIn("time steps of", file.read())
+
     def test_the_examples_are_valid(self):
         examples = os.path.join(SOURCE, "examples")
         found = [os.path.join(folder, name) for folder, _, names in os.walk(examples)

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -22,12 +23,45 @@ nlohmann::json contact_json(const model::System& system, const model::Model& m,
       {"status", f.cstatus}};
 }
 
-void add_points(const geometry::Curve& curve, double reach, std::vector<Vec2>& points) {
-  const double from = std::max(geometry::lo(curve), -reach);
-  const double to = std::min(geometry::hi(curve), reach);
+void add_points(const geometry::Curve& curve, double from, double to, std::vector<Vec2>& points) {
   constexpr int pieces = 120;
   for (int i = 0; i <= pieces; ++i)
     points.push_back(geometry::jet(curve, from + (to - from) * i / pieces).r);
+}
+
+/// Places of the mesh's nodes where the body has its reference position.
+std::vector<Vec2> seen_from(const model::Model& m, const model::State& state,
+                            const body::RigidMotion& motion) {
+  body::RigidMotion turned;
+  turned.angle = -motion.angle;
+  std::vector<Vec2> out;
+  for (std::size_t n = 0; n < m.mesh.nodes.size(); ++n) {
+    const Vec2 x = m.reference[n] + state.u.segment<2>(2 * static_cast<Eigen::Index>(n));
+    out.push_back(motion.reference + turned.position(x - motion.center()));
+  }
+  return out;
+}
+
+/// A curve, or of a line without ends the piece beside all nodes, wherever they have moved.
+void add_shape(const geometry::Curve& curve, const std::vector<Vec2>& nodes,
+               std::vector<Vec2>& points) {
+  double from = geometry::lo(curve), to = geometry::hi(curve);
+  if (!std::isfinite(from)) {
+    const geometry::CurveJet<2> jet = geometry::jet(curve, 0);
+    Vec2 lo = nodes.front(), hi = lo;
+    from = std::numeric_limits<double>::infinity(), to = -from;
+    for (const Vec2& x : nodes) {
+      const double at = (x - jet.r).dot(jet.r1) / jet.r1.squaredNorm();
+      from = std::min(from, at);
+      to = std::max(to, at);
+      lo = lo.cwiseMin(x);
+      hi = hi.cwiseMax(x);
+    }
+    const double margin = 0.2 * (hi - lo).norm();
+    from -= margin;
+    to += margin;
+  }
+  add_points(curve, from, to, points);
 }
 
 /// Boundary of a rigid body in its current place, as a polyline for the picture.
@@ -37,15 +71,10 @@ std::vector<std::array<double, 2>> rigid_outline(const model::Model& m, const mo
   const body::RigidMotion& motion = state.rigid[b];
   std::vector<Vec2> points;
   if (body.shape) {
-    Vec2 lo = m.reference.front(), hi = lo;
-    for (std::size_t n = 0; n < m.mesh.nodes.size(); ++n) {
-      lo = lo.cwiseMin(m.reference[n]);
-      hi = hi.cwiseMax(m.reference[n]);
-    }
-    add_points(*body.shape, (hi - lo).norm(), points);
+    add_shape(*body.shape, seen_from(m, state, motion), points);
   } else if (!body.parts.empty()) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    for (const geometry::Curve& part : body.parts) add_points(part, infinite, points);
+    for (const geometry::Curve& part : body.parts)
+      add_points(part, geometry::lo(part), geometry::hi(part), points);
   } else if (!body.polyline.empty()) {
     points = body.polyline;
   } else {

@@ -57,10 +57,13 @@ std::string obstacle_of_equations(const BasicModel<Dim>& model) {
     if (equation.value != 0.0)
       return "an equation with a constant that is not zero moves a node without telling its "
              "velocity";
-    for (const Equation::Term& term : equation.terms)
-      if (term.dof < Dim * nodes &&
-          model.body_of_node[static_cast<std::size_t>(term.dof / Dim)] >= 0)
+    for (const Equation::Term& term : equation.terms) {
+      const Dof of_body = term.dof - Dim * nodes;
+      if (of_body < 0 && model.body_of_node[static_cast<std::size_t>(term.dof / Dim)] >= 0)
         return "an equation ties a displacement to a node of a rigid body";
+      if (Dim == 3 && of_body >= 0 && of_body % body::motions<Dim> >= Dim)
+        return "an equation has a rotation of a rigid body, which in space is no sum of others";
+    }
   }
   return {};
 }

@@ -176,12 +176,16 @@ void BasicSystem<Dim>::Impl::set_rotations(const Eigen::VectorXd& rates,
 }
 
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::given_velocity() const {
+typename BasicSystem<Dim>::Impl::Given BasicSystem<Dim>::Impl::given_velocity() const {
   const auto running = std::find_if(model.steps.begin(), model.steps.end(),
                                     [](const Step& s) { return s.dynamics.has_value(); });
-  Eigen::VectorXd given = Eigen::VectorXd::Zero(dofs.dofs());
+  Given given{Eigen::VectorXd::Zero(dofs.dofs()),
+              std::vector<bool>(static_cast<std::size_t>(dofs.dofs()))};
   if (running != model.steps.end() && running->name != step.name) return given;
-  for (const auto& entry : model.initial_velocity) given[entry.first] = entry.second;
+  for (const auto& entry : model.initial_velocity) {
+    given.velocity[entry.first] = entry.second;
+    given.told[static_cast<std::size_t>(entry.first)] = true;
+  }
   return given;
 }
 
@@ -189,8 +193,8 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::given_velocity() const {
 /// otherwise has what follows from the unknowns.
 template <int Dim>
 Eigen::VectorXd BasicSystem<Dim>::Impl::start_velocity(const Driven& prescribed) {
-  const Eigen::VectorXd given = given_velocity();
-  Eigen::VectorXd rates = rotation_rates(given);
+  const Given given = given_velocity();
+  Eigen::VectorXd rates = rotation_rates(given.velocity);
   Eigen::VectorXd q(dofs.unknowns());
   for (Index u = 0; u < dofs.unknowns(); ++u) {
     const Dof dof = dofs.dof_of_unknown(u);
@@ -205,9 +209,9 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::start_velocity(const Driven& prescribed)
     const bool free = std::any_of(terms.begin(), terms.end(), [&](const Expansion& e) {
       return !assembler.prescribed(e.unknown);
     });
-    if (!free || rates[d] == 0.0) rates[d] = follows[d];
+    if (!free || !given.told[static_cast<std::size_t>(d)]) rates[d] = follows[d];
   }
-  Eigen::VectorXd velocity = given;
+  Eigen::VectorXd velocity = given.velocity;
   set_rotations(
       settled(rates, prescribed.velocity, moving_constants(), Eigen::VectorXd::Zero(dofs.dofs())),
       velocity);

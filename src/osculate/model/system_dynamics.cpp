@@ -101,11 +101,13 @@ double BasicSystem<Dim>::Impl::round_off_in_time(std::span<const Vec<Dim>> x) co
   for (std::size_t p = 0; p < contact.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     if (!timed() && !pair.damping) continue;  // a penalty is not steep enough to show
-    double penalty = contact::penalty_of(pair.normal);
-    if (pair.damping) penalty = contact::stiffest(*pair.damping, penalty, h);
-    for (const pairing::PointResult<Dim>& point : contact[p].points)
-      if (point.status != contact::Status::open)
-        springs += penalty * penalty * point.weight * point.weight;
+    for (const pairing::PointResult<Dim>& point : contact[p].points) {
+      if (point.status == contact::Status::open) continue;
+      const double gap = point.gap - pair.offset;
+      double slope = std::abs(contact::response(pair.normal, gap, true).d_traction);
+      if (pair.damping) slope = contact::stiffest(*pair.damping, slope, h);
+      springs += slope * slope * point.weight * point.weight;
+    }
   }
   return 2 * std::numeric_limits<double>::epsilon() * farthest * (of_mass + std::sqrt(springs));
 }
@@ -299,18 +301,6 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::unbalanced() const {
 template <int Dim>
 double BasicSystem<Dim>::Impl::kinetic_energy(const Rates& rates) const {
   return 0.5 * rates.velocity.dot(motion->inertia->multiply(rates.velocity)) + spin_energy(rates);
-}
-
-template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::start_velocity() const {
-  const auto first = std::find_if(model.steps.begin(), model.steps.end(),
-                                  [](const Step& s) { return s.dynamics.has_value(); });
-  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(dofs.dofs());
-  if (first == model.steps.end() || first->name == step.name)
-    for (const auto& entry : model.initial_velocity) velocity[entry.first] = entry.second;
-  for (Index u = 0; u < dofs.unknowns(); ++u)
-    if (assembler.prescribed(u)) velocity[dofs.dof_of_unknown(u)] = 0;
-  return velocity;
 }
 
 template <int Dim>

@@ -238,6 +238,25 @@ void BasicSystem<Dim>::Impl::Explicit::set_accelerations(double h, solve::Explic
   }
 }
 
+/// Angular momenta at the end of a time step, damped as the velocities.
+///
+/// Formula    L' = m - alpha L ,  L = L_half + h/2 L'
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::end_turns(double h) {
+  if constexpr (Dim == 3) {
+    for (std::size_t b = 0; b < turning.size(); ++b) {
+      if (!turns[b]) continue;
+      const Dof first = system.dofs.body_dof(static_cast<Index>(b), 3);
+      Turning& t = turning[b];
+      t.moment = (-total.segment<3>(first) - damping * t.momentum) / (1 + 0.5 * h * damping);
+      t.momentum += 0.5 * h * t.moment;
+      damping_force.segment<3>(first) = damping * t.momentum;
+    }
+  } else {
+    (void)h;
+  }
+}
+
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::add_works(double h, const solve::ExplicitMotion& m) {
   const Forces& f = system.forces;
@@ -324,12 +343,8 @@ bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::
     return false;
   }
   set_accelerations(h, m);
+  end_turns(h);
   add_works(h, m);
-  if constexpr (Dim == 3)
-    for (std::size_t b = 0; b < turning.size(); ++b) {
-      turning[b].moment = -total.segment<3>(system.dofs.body_dof(static_cast<Index>(b), 3));
-      turning[b].momentum += 0.5 * h * turning[b].moment;
-    }
   ++stable.since;
   return true;
 }

@@ -91,22 +91,41 @@ struct BasicSystem<Dim>::Impl::Explicit {
   void add_loads(double fraction);
   void sum_forces();
   void set_accelerations(double h, solve::ExplicitMotion& m);
+  void end_turns(double h);
   void add_works(double h, const solve::ExplicitMotion& m);
   void move_body(std::size_t body, double fraction, double h, solve::ExplicitMotion& m);
   [[nodiscard]] double kinetic(const Vector& velocity) const;
   [[nodiscard]] double kinetic_of_held(const Vector& velocity) const;
   void finish(double fraction, double duration, ExplicitIncrement<State>& out);
   void add_energies(Rates& rates);
-  [[nodiscard]] bool is_held(Dof dof) const;
+  /// Velocities and accelerations of what is prescribed at a fraction of the step, beside those of
+  /// the motion; rotations in space have their spin only.
+  void set_rates(double fraction, Rates& rates) const;
+  [[nodiscard]] Vector inertia_forces(const Vector& acceleration) const;
   [[nodiscard]] Vec3 angular_velocity(std::size_t body) const;
 
   // system_explicit_step.cpp
   void measure_stable_step();
   /// Largest eigenvalue of M^-1 K of a cell by itself.
   [[nodiscard]] double cell_frequency(std::size_t cell, BulkBlock& block) const;
-  [[nodiscard]] double contact_frequency(bool dampers) const;
   [[nodiscard]] std::string governed() const;
-  [[nodiscard]] bool moves(Index node) const;
+
+  // system_explicit_contact.cpp
+  /// Springs, or dampers, on one side of the contacts: at nodes, and at rigid bodies on which the
+  /// places of contact are not known.
+  struct Springs {
+    std::vector<double> nodes, bodies;
+  };
+  /// Squared frequencies of dofs that move by themselves, and of rigid bodies.
+  struct Swing {
+    Vector dofs;
+    std::vector<double> bodies;
+  };
+  [[nodiscard]] double contact_frequency(bool dampers) const;
+  void add_springs(const pairing::PairDefinition<Dim>& pair, double slope, Springs& slave,
+                   Springs& master) const;
+  [[nodiscard]] Swing swing_of(const Springs& springs) const;
+  [[nodiscard]] double farthest_from(std::size_t body) const;
 };
 
 extern template struct BasicSystem<2>::Impl::Explicit;

@@ -84,6 +84,34 @@ void BasicSystem<Dim>::Impl::Explicit::load(const State& committed) {
   energy_available = std::max(0.0, r.energies.start + r.energies.external);
 }
 
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::set_rates(double fraction, Rates& rates) const {
+  rates.velocity = motion.velocity;
+  rates.acceleration = motion.acceleration;
+  const Driven told = system.driven(fraction, 1.0 / system.step.increments);
+  for (const Dof d : held) {
+    const Dof of_body = d - Dim * system.dofs.nodes();
+    if (Dim == 3 && of_body >= 0 && of_body % body::motions<Dim> >= Dim) continue;
+    rates.velocity[d] = told.velocity[d];
+    rates.acceleration[d] = told.acceleration[d];
+  }
+}
+
+/// Damping and mass times acceleration, as forces on the dofs (of rotations in space: on the
+/// rotation vectors).
+template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::Impl::Explicit::inertia_forces(const Vector& acceleration) const {
+  Vector out = damping_force + mass.cwiseProduct(acceleration);
+  if constexpr (Dim == 3)
+    for (std::size_t b = 0; b < turning.size(); ++b) {
+      if (!turns[b]) continue;
+      const Dof first = system.dofs.body_dof(static_cast<Index>(b), 3);
+      const Vec3 moment = damping_force.segment<3>(first) + turning[b].moment;
+      out.segment<3>(first) = body::rotation_tangent(now.rigid[b].rotation).transpose() * moment;
+    }
+  return out;
+}
+
 /// Forces and accelerations of the configuration in which the step begins, with `rates` that have
 /// its velocities.
 template <int Dim>
@@ -102,23 +130,25 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   add_loads(0);
   sum_forces();
   set_accelerations(0, motion);
-  rates.acceleration = motion.acceleration;
   rates.internal = system.forces.internal;
   rates.contact = system.forces.contact;
   rates.external = system.forces.external;
-  rates.damping = damping_force;
   if constexpr (Dim == 3)
     for (std::size_t b = 0; b < turning.size(); ++b) {
       if (!turns[b]) continue;
       const Dof first = system.dofs.body_dof(static_cast<Index>(b), 3);
       const Mat<3, 3> r = now.rigid[b].orientation();
       rates.spins[b].velocity = r.transpose() * rates.velocity.template segment<3>(first);
-      rates.spins[b].moment = -total.segment<3>(first);
       const Vec3 in_body = system.model.rigid[b].inertia * rates.spins[b].velocity;
-      turning[b] = {r * in_body, rates.spins[b].moment};
+      turning[b].momentum = r * in_body;
     }
+  end_turns(0);
+  for (std::size_t b = 0; b < rates.spins.size(); ++b)
+    if (turns[b]) rates.spins[b].moment = turning[b].moment;
+  rates.damping = damping_force;
+  set_rates(0, rates);
   system.turn_moments(now, false, nullptr);
-  system.forces.inertia = damping_force + mass.cwiseProduct(motion.acceleration);
+  system.forces.inertia = inertia_forces(rates.acceleration);
   Energies& e = rates.energies;
   e.kinetic = kinetic(rates.velocity);
   e.strain = strain_energy(system.model, committed.u);
@@ -183,7 +213,7 @@ void BasicSystem<Dim>::Impl::Explicit::finish(double fraction, double duration,
   now.u = motion.position.head(now.u.size());
   for (const PrescribedDof* const p : prescribed)
     if (p->dof < now.u.size()) now.u[p->dof] = p->ramp.value(fraction);
-  rates.velocity = motion.velocity;
+  set_rates(fraction, rates);
   if constexpr (Dim == 3)
     for (std::size_t b = 0; b < turning.size(); ++b) {
       if (!turns[b]) continue;
@@ -195,7 +225,6 @@ void BasicSystem<Dim>::Impl::Explicit::finish(double fraction, double duration,
   for (const Follower& f : followers)
     rates.velocity[f.dof] = f.lead < 0 ? 0.0 : f.factor * rates.velocity[f.lead];
   system.move_with_bodies(now, rates);
-  rates.acceleration = motion.acceleration;
   rates.internal = system.forces.internal;
   rates.contact = system.forces.contact;
   rates.external = system.forces.external;
@@ -204,7 +233,7 @@ void BasicSystem<Dim>::Impl::Explicit::finish(double fraction, double duration,
   rates.energies.elapsed += duration;
   add_energies(rates);
   system.turn_moments(now, false, nullptr);
-  system.forces.inertia = damping_force + mass.cwiseProduct(motion.acceleration);
+  system.forces.inertia = inertia_forces(rates.acceleration);
   out.counts = counts_of(system.contact);
 }
 
@@ -273,7 +302,9 @@ Rates BasicSystem<Dim>::Impl::begin_explicit_rates(const State& committed) {
   Rates rates = committed.rates;
   const bool first = rates.empty();
   if (first) {
-    rates.velocity = start_velocity();
+    mass_x = positions(committed.u);
+    mass_rigid = committed.rigid;
+    rates.velocity = start_velocity(driven(0, 1.0 / step.increments));
     move_with_bodies(committed, rates);
   }
   rates = explicit_motion->begin(committed, std::move(rates));

@@ -7,49 +7,13 @@
 #include <limits>
 
 #include "osculate/model/system_explicit.hpp"
-#include "osculate/pairing/point_weight.hpp"
 
 namespace osculate::model {
 namespace {
 
 constexpr int known_for = 100;  ///< time steps until what changes is measured again
 
-/// Largest slope of the normal law over what its points see, and the friction's stiffness.
-template <int Dim>
-double stiffest(const pairing::PairDefinition<Dim>& pair, const pairing::PairState<Dim>& state) {
-  double slope = std::abs(contact::response(pair.normal, 0.0).d_traction);
-  for (const contact::PointHistory<Dim>& h : state.points)
-    if (h.active)
-      slope = std::max(
-          slope, std::abs(contact::response(pair.normal, h.gap - pair.offset, true).d_traction));
-  if (pair.damping) slope = contact::stiffest(*pair.damping, slope, 0);
-  return pair.friction ? std::max(slope, contact::stiffness(*pair.friction)) : slope;
-}
-
-/// Coefficient of the dampers beside the springs, which see the way of the time step before.
-template <int Dim>
-double damper(const pairing::PairDefinition<Dim>& pair) {
-  const auto* const viscous =
-      pair.damping ? std::get_if<contact::Viscous>(&*pair.damping) : nullptr;
-  return viscous ? viscous->coefficient : 0.0;
-}
-
-/// What the stiffness of a slave point is its law's slope times.
-template <int Dim>
-double spring_weight(const pairing::PairDefinition<Dim>& pair, std::size_t point) {
-  const double share = pairing::side_share(pair);
-  const bool by_area = pair.weight != pairing::Weight::node && point < pair.reference_areas.size();
-  return by_area ? share * pair.reference_areas[point] : share;
-}
-
 }  // namespace
-
-template <int Dim>
-bool BasicSystem<Dim>::Impl::Explicit::moves(Index node) const {
-  for (int i = 0; i < Dim; ++i)
-    if (inverse[Dim * node + i] > 0) return true;
-  return false;
-}
 
 template <int Dim>
 double BasicSystem<Dim>::Impl::Explicit::cell_frequency(std::size_t cell, BulkBlock& block) const {
@@ -65,71 +29,6 @@ double BasicSystem<Dim>::Impl::Explicit::cell_frequency(std::size_t cell, BulkBl
   return Eigen::SelfAdjointEigenSolver<Matrix>(scaled, Eigen::EigenvaluesOnly)
       .eigenvalues()
       .maxCoeff();
-}
-
-/// Bound of the largest eigenvalue of M^-1 K of all springs of contacts, as if every point were in
-/// contact. The mass of a node on the master is shared among the points around it in proportion to
-/// their springs.
-///
-/// Formula    k (1/m_s + sum_l N_l^2/m_l') <= k/m_s + max_l S_l/m_l ,  S_l = sum over points k N_l,
-///            m_l' = m_l k N_l / S_l ; S_l: the slope times the area of the master at l, at least
-///            one spring; of rigid bodies all springs, with arms of at most the body's
-template <int Dim>
-double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
-  const BasicModel<Dim>& whole = system.model;
-  std::vector<double> on_slave(x.size(), 0.0), on_master(x.size(), 0.0);
-  std::vector<double> slave_body(whole.rigid.size(), 0.0), master_body(whole.rigid.size(), 0.0);
-  for (std::size_t p = 0; p < whole.pairs.size(); ++p) {
-    const pairing::PairDefinition<Dim>& pair = whole.pairs[p].definition;
-    const double slope = dampers ? damper(pair) : stiffest(pair, now.pairs[p]);
-    if (!(slope > 0)) continue;
-    double all = 0, largest = 0;
-    for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
-      const pairing::SlavePoint<Dim>& point = pair.slave.points[i];
-      const double spring = slope * spring_weight(pair, i);
-      all += spring;
-      largest = std::max(largest, spring);
-      for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k)
-        on_slave[static_cast<std::size_t>(point.nodes[k])] += spring * std::abs(point.shape[k]);
-    }
-    const auto add_body = [&](Index node, std::vector<double>& sums) {
-      const Index b = system.dofs.body_of(node);
-      if (b >= 0) sums[static_cast<std::size_t>(b)] += all;
-      return b >= 0;
-    };
-    if (!pair.slave.points.empty()) add_body(pair.slave.points.front().nodes[0], slave_body);
-    if (pair.master.facets.empty() || add_body(pair.master.facets.front().nodes[0], master_body))
-      continue;
-    const pairing::SlaveSide<Dim> side = pairing::make_slave_side(pair.master);
-    std::vector<double> areas;
-    if (pair.weight != pairing::Weight::node)
-      pairing::nodal_areas(side, std::span<const Vec<Dim>>(whole.reference), pair.area, areas,
-                           nullptr);
-    for (std::size_t i = 0; i < side.nodes.size(); ++i)
-      on_master[static_cast<std::size_t>(side.nodes[i])] += std::max(
-          largest, i < areas.size() ? pairing::side_share(pair) * slope * areas[i] : largest);
-  }
-  // A node, or a body, that is slave here and master there shares its mass among both.
-  const auto side_of = [&](const std::vector<double>& nodes, const std::vector<double>& bodies) {
-    double most = 0;
-    for (std::size_t n = 0; n < nodes.size(); ++n)
-      if (nodes[n] > 0 && node_mass[n] > 0 && moves(static_cast<Index>(n)))
-        most = std::max(most, (on_slave[n] + on_master[n]) / node_mass[n]);
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const BasicRigidBody<Dim>& body = whole.rigid[b];
-      if (!(bodies[b] > 0) || !(body.mass > 0)) continue;
-      double arm = 0;
-      for (const Index n : body.nodes)
-        arm = std::max(arm, (whole.reference[static_cast<std::size_t>(n)] - body.reference).norm());
-      constexpr double of_compact_bodies = 3;  // arm^2 mass / inertia: 2 disc, 2.5 ball, 3 rod
-      double turning_of = of_compact_bodies / body.mass;
-      if (!body.shape && body.parts.empty())
-        turning_of = arm * arm / body.inertia.diagonal().minCoeff();
-      most = std::max(most, (slave_body[b] + master_body[b]) * (1 / body.mass + turning_of));
-    }
-    return most;
-  };
-  return side_of(on_slave, slave_body) + side_of(on_master, master_body);
 }
 
 /// Formula    h^2 omega^2 + 2 h B <= 4 , B of the dampers of contacts as omega^2 of their springs:

@@ -49,6 +49,13 @@ bool BasicSystem<Dim>::Impl::watches(std::size_t pair, std::size_t point) const 
 }
 
 template <int Dim>
+bool BasicSystem<Dim>::Impl::watches_any(std::size_t pair) const {
+  for (std::size_t i = 0; i < model.pairs[pair].definition.slave.points.size(); ++i)
+    if (watches(pair, i)) return true;
+  return false;
+}
+
+template <int Dim>
 void BasicSystem<Dim>::Impl::evaluate_path(const State& committed, std::size_t pair,
                                            std::span<const Vec<Dim>> x, double duration) {
   pairing::Assumed<Dim> assumed;
@@ -84,6 +91,7 @@ std::vector<PointName> BasicSystem<Dim>::Impl::met_on_path(const State& committe
             committed.rates.velocity.template segment<Dim>(Dim * static_cast<Eigen::Index>(n));
   std::vector<PointName> points;
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    if (!watches_any(p)) continue;
     evaluate_path(committed, p, x, duration);
     const std::vector<contact::PointHistory<Dim>>& before = committed.pairs[p].points;
     const std::vector<pairing::PointResult<Dim>>& now = motion->paths[p].points;

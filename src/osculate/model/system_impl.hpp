@@ -177,7 +177,12 @@ struct BasicSystem<Dim>::Impl {
                                         const Eigen::VectorXd& force);
   [[nodiscard]] Eigen::VectorXd rotation_rates(const Eigen::VectorXd& velocity) const;
   void set_rotations(const Eigen::VectorXd& rates, Eigen::VectorXd& velocity) const;
-  [[nodiscard]] Eigen::VectorXd given_velocity() const;
+  /// Velocities given for the beginning, and which dofs have one.
+  struct Given {
+    Eigen::VectorXd velocity;
+    std::vector<bool> told;
+  };
+  [[nodiscard]] Given given_velocity() const;
   [[nodiscard]] Eigen::VectorXd start_velocity(const Driven& prescribed);
   void settle_velocities(Rates& now, const Driven& prescribed);
   void settle_accelerations(Rates& now, const Driven& prescribed, const Eigen::VectorXd& force);
@@ -193,6 +198,7 @@ struct BasicSystem<Dim>::Impl {
 
   // Impacts that increments end at, in system_impacts.cpp.
   [[nodiscard]] bool watches(std::size_t pair, std::size_t point) const;
+  [[nodiscard]] bool watches_any(std::size_t pair) const;
   void evaluate_path(const State& committed, std::size_t pair, std::span<const Vec<Dim>> x,
                      double duration);
   using PointName = std::array<std::size_t, 2>;  ///< pair and point
@@ -212,7 +218,6 @@ struct BasicSystem<Dim>::Impl {
   void begin_explicit();
   [[nodiscard]] Rates begin_explicit_rates(const State& committed);
   /// Velocities of a body that no step with inertia has moved so far.
-  [[nodiscard]] Eigen::VectorXd start_velocity() const;
   /// Nodes of rigid bodies get the velocities of their bodies.
   void move_with_bodies(const State& s, Rates& rates) const;
 

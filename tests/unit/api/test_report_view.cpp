@@ -138,5 +138,42 @@ TEST(ReportView3, ARigidMeshIsItsContactSurface) {
   EXPECT_EQ(mesh["cells"][1]["connectivity"], (std::vector<int>{8, 9, 10, 11}));
 }
 
+/// A line without ends is drawn beside the mesh wherever that has moved, and moves with its body.
+TEST(ReportView2, LinesWithoutEndsGoAlongWithTheMesh) {
+  model::Model m;
+  for (int n = 0; n < 4; ++n) {
+    m.reference.emplace_back(n % 2, n / 2);
+    m.mesh.nodes.emplace_back(n % 2, n / 2, 0);
+  }
+  m.mesh.blocks.push_back({cell::CellType::quad4, {0, 1, 3, 2}});
+  m.rigid.resize(1);
+  m.rigid[0].shape = geometry::InfiniteLine{{0, -1}, Vec2(0.6, 0.8)};
+  model::State state;
+  state.u.resize(8);
+  for (int n = 0; n < 4; ++n) state.u.segment<2>(2 * n) = Vec2(70, -30);
+  state.rigid.resize(1);
+  state.rigid[0].reference = Vec2(2, 3);
+  state.rigid[0].translation = Vec2(5, 1);
+  state.rigid[0].angle = 0.3;
+  const nlohmann::json drawn = ReportView<2>(m).last_iterate(state, {})["rigid"][0]["polyline"];
+  const Vec2 along =
+      Vec2(std::cos(0.3) * 0.8 + std::sin(0.3) * 0.6, std::sin(0.3) * 0.8 - std::cos(0.3) * 0.6);
+  const Vec2 place = state.rigid[0].position(Vec2(0, -1));
+  double first = 1e9, last = -1e9, off = 0;
+  for (const auto& point : drawn) {
+    const Vec2 arm = Vec2(point[0], point[1]) - place;
+    first = std::min(first, arm.dot(along));
+    last = std::max(last, arm.dot(along));
+    off = std::max(off, std::abs(along.x() * arm.y() - along.y() * arm.x()));
+  }
+  EXPECT_LT(off, 1e-12);
+  for (int n = 0; n < 4; ++n) {
+    const double at = (m.reference[static_cast<std::size_t>(n)] + Vec2(70, -30) - place).dot(along);
+    EXPECT_GT(at, first);
+    EXPECT_LT(at, last);
+    EXPECT_LT(last - first, 4);
+  }
+}
+
 }  // namespace
 }  // namespace osculate::api

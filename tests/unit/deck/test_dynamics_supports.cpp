@@ -129,7 +129,8 @@ TEST(DynamicsSupports, ABaseThatMovesEvenlyCarriesItsMassAlong) {
 
 /// A step of ten increments in which everything that `prescribe` names moves by t^2.
 template <class Look>
-void accelerated(const std::string& bodies, const std::string& prescribe, const Look& look) {
+void accelerated(const std::string& bodies, const std::string& prescribe, const Look& look,
+                 const std::string& dynamics = "{impact: average}") {
   const std::string text =
       fmt::format(R"(osculate: 1
 mesh: {{generate: {{block: {{box: {{x: [0, 2], y: [0, 1], elements: [2, 1]}}}}}}}}
@@ -142,11 +143,11 @@ steps:
     increments: 10
     duration: 1
     gravity: [0, -10]
-    dynamics: {{impact: average}}
+    dynamics: {}
     prescribe: {}
 output: {{history: [{{on: block, of: rfy}}]}}
 )",
-                  bodies, table([](double t) { return t * t; }, 1, 10), prescribe);
+                  bodies, table([](double t) { return t * t; }, 1, 10), dynamics, prescribe);
   const Built built = build_text(text);
   model::AnalysisObserver observer;
   int seen = 0;
@@ -174,23 +175,31 @@ double reading(const Built& built, const model::System& system, const model::Sta
   return model::history_value(system, built.model, s, request);
 }
 
+constexpr const char* any_scheme[] = {"{impact: average}", "{scheme: central_differences}"};
+
 // m (a + g) = 6 (2 + 10)
 TEST(DynamicsSupports, ReadTheWeightOfWhatTheyLift) {
-  accelerated("", "[{on: block, ux: 0, uy: 1, amplitude: motion}]",
-              [](const Built& built, const model::System& system, const model::State& s, double t) {
-                EXPECT_NEAR(reading(built, system, s, "rfy", {0, 1, 2, 3, 4, 5}, -1), 72, 1e-9);
-                EXPECT_NEAR(s.rates.velocity[1], 2 * t, 1e-12);
-              });
+  for (const char* const scheme : any_scheme)
+    accelerated(
+        "", "[{on: block, ux: 0, uy: 1, amplitude: motion}]",
+        [](const Built& built, const model::System& system, const model::State& s, double t) {
+          EXPECT_NEAR(reading(built, system, s, "rfy", {0, 1, 2, 3, 4, 5}, -1), 72, 1e-9);
+          EXPECT_NEAR(s.rates.velocity[1], 2 * t, 1e-12);
+        },
+        scheme);
 }
 
 // The same for a rigid body with a mass of 5 and a moment of inertia of 7: 5 (2 + 10) and 7 * 2.
 TEST(DynamicsSupports, ReadTheWeightOfRigidBodies) {
-  accelerated("rigid: {disc: {circle: {center: [0, 5], radius: 1}, mass: 5, inertia: 7}}",
-              "[{on: block, ux: 0, uy: 0}, {on: disc, ux: 0, uy: 1, rz: 1, amplitude: motion}]",
-              [](const Built& built, const model::System& system, const model::State& s, double) {
-                EXPECT_NEAR(reading(built, system, s, "rfy", {}, 0), 60, 1e-9);
-                EXPECT_NEAR(reading(built, system, s, "rmz", {}, 0), 14, 1e-9);
-              });
+  for (const char* const scheme : any_scheme)
+    accelerated(
+        "rigid: {disc: {circle: {center: [0, 5], radius: 1}, mass: 5, inertia: 7}}",
+        "[{on: block, ux: 0, uy: 0}, {on: disc, ux: 0, uy: 1, rz: 1, amplitude: motion}]",
+        [](const Built& built, const model::System& system, const model::State& s, double) {
+          EXPECT_NEAR(reading(built, system, s, "rfy", {}, 0), 60, 1e-9);
+          EXPECT_NEAR(reading(built, system, s, "rmz", {}, 0), 14, 1e-9);
+        },
+        scheme);
 }
 
 // A rigid body that turns with cells on it: their nodes move as the body does.

@@ -270,5 +270,67 @@ TEST(ExplicitTop, KeepsMomentumAndEnergy) {
   EXPECT_LT(least, -0.5);  // it turns over: the axis is the middle one
 }
 
+/// Damping by mass takes the same share of the spin in every time step.
+///
+/// Formula    L_n+1 = L_n (1 - alpha h / 2) / (1 + alpha h / 2)
+TEST(ExplicitTop, IsDampedByItsMass) {
+  const double h = 0.01, alpha = 0.4, share = (1 - 0.5 * alpha * h) / (1 + 0.5 * alpha * h);
+  const Built3 built =
+      built_from(edited(edited(edited(edited(top, "inertia: [1, 2, 3]", "inertia: [2, 2, 2]"),
+                                      "increments: 20", "increments: 1"),
+                               "duration: 4", "duration: 0.2"),
+                        "{step: 0.01}}}}", "{step: 0.01}}, damping: {mass: 0.4}}}"));
+  const Index first = 3 * static_cast<Index>(built.model.reference.size());
+  int seen = 0;
+  const auto look = [&](model::System3& system, const model::State3& state,
+                        const solve::IncrementRecord* record) {
+    if (!record) return;
+    ++seen;
+    ASSERT_EQ(record->time_steps.count, 20);
+    const double left = std::pow(share, 20);
+    const Eigen::VectorXd& v = state.rates.velocity;
+    EXPECT_LT((v.segment<3>(first + 3) - left * Vec3(0.1, 4, 0.1)).norm(), 1e-12);
+    EXPECT_LT(v.segment<3>(first).norm(), 1e-15);
+    const model::Energies& e = state.rates.energies;
+    EXPECT_NEAR(e.damping + e.numerical, e.start - e.kinetic - e.strain, 1e-12 * e.start);
+    EXPECT_NEAR(e.damping, e.start - e.kinetic - e.strain, 1e-5 * e.start);
+    // What moves freely has no reaction.
+    const Eigen::VectorXd rest = model::reactions(system);
+    EXPECT_LT(rest.segment<6>(first).norm(), 1e-12);
+  };
+  const auto result = run_all<3>(built.model, 1, look);
+  EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
+  EXPECT_EQ(seen, 1);
+}
+
+TEST(ExplicitKeys, RotationsInSpaceAreNoTermsOfEquations) {
+  const std::string tied =
+      edited(top, "initial_velocity:",
+             "equations: [{terms: [{on: top, of: rx, factor: 1}, {on: top, of: ry, factor: -1}]}]\n"
+             "initial_velocity:");
+  EXPECT_THAT(any_refusal(tied), HasSubstr("has a rotation of a rigid body"));
+}
+
+/// A node that follows another shares what it was given, also where that is nothing.
+TEST(ExplicitKeys, VelocitiesOfWhatFollowsAreShared) {
+  for (const char* const scheme : {"central_differences", "newmark"})
+    for (const auto& [given, left] :
+         {std::pair{"{on: bar.left, vx: 1}, {on: bar.right, vx: 0}", 0.5},
+          std::pair{"{on: bar.left, vx: 1}", 1.0}}) {
+      const Built built = build_text(fmt::format(R"(osculate: 1
+mesh: {{generate: {{bar: {{box: {{x: [0, 1], y: [0, 1], elements: [1, 1]}}}}}}}}
+materials: {{m: {{linear_elastic: {{E: 1, nu: 0, density: 1}}}}}}
+sections: [{{on: bar, material: m, element: plane_strain}}]
+equal: [{{on: bar, of: ux}}]
+initial_velocity: [{}]
+steps: [{{name: s, increments: 1, duration: 1e-6, dynamics: {{scheme: {}, mass: lumped}}}}]
+)",
+                                                 given, scheme));
+      const model::AnalysisResult result = run_to_end(built, 1, [](auto&, auto&) {});
+      for (Index n = 0; n < 4; ++n)
+        EXPECT_NEAR(result.state.rates.velocity[2 * n], left, 1e-9) << scheme << given;
+    }
+}
+
 }  // namespace
 }  // namespace osculate::deck

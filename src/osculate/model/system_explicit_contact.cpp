@@ -1,0 +1,231 @@
+// Explicit time integration: how fast the springs and dampers of contacts swing.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "osculate/model/system_explicit.hpp"
+#include "osculate/pairing/point_weight.hpp"
+
+namespace osculate::model {
+namespace {
+
+/// Largest slope of the normal law over what its points see, and the friction's stiffness.
+template <int Dim>
+double stiffest(const pairing::PairDefinition<Dim>& pair, const pairing::PairState<Dim>& state) {
+  double slope = std::abs(contact::response(pair.normal, 0.0).d_traction);
+  for (const contact::PointHistory<Dim>& h : state.points)
+    if (h.active)
+      slope = std::max(
+          slope, std::abs(contact::response(pair.normal, h.gap - pair.offset, true).d_traction));
+  if (pair.damping) slope = contact::stiffest(*pair.damping, slope, 0);
+  return pair.friction ? std::max(slope, contact::stiffness(*pair.friction)) : slope;
+}
+
+/// Coefficient of the dampers beside the springs, which see the way of the time step before.
+template <int Dim>
+double damper(const pairing::PairDefinition<Dim>& pair) {
+  const auto* const viscous =
+      pair.damping ? std::get_if<contact::Viscous>(&*pair.damping) : nullptr;
+  return viscous ? viscous->coefficient : 0.0;
+}
+
+/// What the stiffness of a slave point is its law's slope times.
+template <int Dim>
+double spring_weight(const pairing::PairDefinition<Dim>& pair, std::size_t point) {
+  const double share = pairing::side_share(pair);
+  const bool by_area = pair.weight != pairing::Weight::node && point < pair.reference_areas.size();
+  return by_area ? share * pair.reference_areas[point] : share;
+}
+
+template <int Dim>
+std::vector<double> areas_of(const BasicModel<Dim>& model, const pairing::PairDefinition<Dim>& pair,
+                             const pairing::SlaveSide<Dim>& side) {
+  std::vector<double> areas;
+  pairing::nodal_areas(side, std::span<const Vec<Dim>>(model.reference), pair.area, areas, nullptr);
+  return areas;
+}
+
+/// Slave points per area of the master, by which its nodes get springs.
+template <int Dim>
+double density_of(const pairing::PairDefinition<Dim>& pair) {
+  if (pair.weight != pairing::Weight::node) return 1;
+  const std::vector<double>& areas = pair.reference_areas;
+  const double sum = std::accumulate(areas.begin(), areas.end(), 0.0);
+  return sum > 0 ? static_cast<double>(pair.slave.points.size()) / sum : 0;
+}
+
+/// Farthest place of a body from its centre, sampled; infinity: it has no end.
+template <int Dim>
+double reach_of(const BasicModel<Dim>& model, const BasicRigidBody<Dim>& body) {
+  constexpr int samples = 24;
+  double reach = 0;
+  const auto add = [&](const Vec<Dim>& place) {
+    const double arm = (place - body.reference).norm();
+    reach = std::isfinite(arm) ? std::max(reach, arm) : std::numeric_limits<double>::infinity();
+  };
+  const auto see = [&](const RigidShape<Dim>& shape) {
+    const auto from = geometry::lo(shape), to = geometry::hi(shape);
+    for (int i = 0; i <= samples; ++i) {
+      const double a = static_cast<double>(i) / samples;
+      if constexpr (Dim == 2)
+        add(geometry::jet(shape, (1 - a) * from + a * to).r);
+      else
+        for (int j = 0; j <= samples; ++j) {
+          const double b = static_cast<double>(j) / samples;
+          add(geometry::jet(shape,
+                            Vec2((1 - a) * from.x() + a * to.x(), (1 - b) * from.y() + b * to.y()))
+                  .r);
+        }
+    }
+  };
+  if (body.shape) see(*body.shape);
+  for (const RigidShape<Dim>& part : body.parts) see(part);
+  if (!body.shape && body.parts.empty())
+    for (const Index n : body.nodes) add(model.reference[static_cast<std::size_t>(n)]);
+  return reach;
+}
+
+}  // namespace
+
+/// Adds those of a pair, as if all its points were in contact. A node of the master gets its share
+/// of the master's area, or one point at least.
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::add_springs(const pairing::PairDefinition<Dim>& pair,
+                                                   double slope, Springs& slave,
+                                                   Springs& master) const {
+  double all = 0, largest = 0, largest_edge = 0;
+  const auto add = [](Springs& side, Index node, double spring) {
+    side.nodes[static_cast<std::size_t>(node)] += spring;
+  };
+  const auto add_edge = [&](Springs& side, const pairing::SharpEdge& edge, double spring) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(edge.count); ++k)
+      add(side, edge.nodes[k], spring);
+  };
+  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
+    const pairing::SlavePoint<Dim>& point = pair.slave.points[i];
+    const double spring = slope * spring_weight(pair, i);
+    all += spring;
+    largest = std::max(largest, spring);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k)
+      add(slave, point.nodes[k], spring * std::abs(point.shape[k]));
+  }
+  for (std::size_t e = 0; e < pair.edges.slave.size(); ++e) {
+    const bool by_area = pair.weight != pairing::Weight::node;
+    const double spring = slope * pairing::side_share(pair) * (by_area ? pair.edges.areas[e] : 1.0);
+    all += spring;
+    largest_edge = std::max(largest_edge, spring);
+    add_edge(slave, pair.edges.slave[e], spring);
+  }
+  if (pair.master.facets.empty()) return;
+  const Index body = system.dofs.body_of(pair.master.facets.front().nodes[0]);
+  if (body >= 0) {
+    master.bodies[static_cast<std::size_t>(body)] += all;
+    return;
+  }
+  const pairing::SlaveSide<Dim> side = pairing::make_slave_side(pair.master);
+  const std::vector<double> areas = areas_of(system.model, pair, side);
+  const double by_area = slope * pairing::side_share(pair) * density_of(pair);
+  for (std::size_t i = 0; i < side.nodes.size(); ++i)
+    add(master, side.nodes[i], std::max(largest, i < areas.size() ? by_area * areas[i] : 0.0));
+  for (const pairing::SharpEdge& edge : pair.edges.master) add_edge(master, edge, largest_edge);
+}
+
+/// What these springs make of every dof that moves by itself, and of the bodies, as squared
+/// frequencies.
+///
+/// Formula    S_d / m_d , S_d with f^2 times that of a dof that follows by the factor f;
+///            of bodies sum k (1/m + arm^2/I), I the smallest moment of inertia
+template <int Dim>
+typename BasicSystem<Dim>::Impl::Explicit::Swing BasicSystem<Dim>::Impl::Explicit::swing_of(
+    const Springs& springs) const {
+  const BasicModel<Dim>& whole = system.model;
+  Swing out{Vector::Zero(mass.size()), std::vector<double>(whole.rigid.size(), 0.0)};
+  std::vector<double> turning_of(whole.rigid.size(), 0.0);
+  for (std::size_t n = 0; n < springs.nodes.size(); ++n) {
+    if (!(springs.nodes[n] > 0)) continue;
+    const Index b = system.dofs.body_of(static_cast<Index>(n));
+    if (b < 0) {
+      out.dofs.template segment<Dim>(Dim * static_cast<Eigen::Index>(n)).array() +=
+          springs.nodes[n];
+      continue;
+    }
+    const auto body = static_cast<std::size_t>(b);
+    const Vec<Dim> arm = whole.reference[n] - whole.rigid[body].reference;
+    out.bodies[body] += springs.nodes[n];
+    turning_of[body] += springs.nodes[n] * arm.squaredNorm();
+  }
+  for (const Follower& f : followers) {
+    if (f.lead >= 0) out.dofs[f.lead] += f.factor * f.factor * out.dofs[f.dof];
+    out.dofs[f.dof] = 0;
+  }
+  out.dofs = out.dofs.cwiseProduct(inverse).eval();
+  for (std::size_t b = 0; b < out.bodies.size(); ++b) {
+    if (springs.bodies[b] > 0) {
+      const double reach = std::min(reach_of(whole, whole.rigid[b]), farthest_from(b));
+      out.bodies[b] += springs.bodies[b];
+      turning_of[b] += springs.bodies[b] * reach * reach;
+    }
+    const Dof first = system.dofs.body_dof(static_cast<Index>(b), 0);
+    const double moves = inverse.template segment<Dim>(first).maxCoeff();
+    double turns_by = Dim == 2 ? inverse[first + Dim] : 0;
+    if (turns[b])
+      turns_by = 1 / Eigen::SelfAdjointEigenSolver<Mat<body::rotations<Dim>, body::rotations<Dim>>>(
+                         whole.rigid[b].inertia, Eigen::EigenvaluesOnly)
+                         .eigenvalues()
+                         .minCoeff();
+    out.bodies[b] = out.bodies[b] * moves + turning_of[b] * turns_by;
+  }
+  return out;
+}
+
+/// The farthest slave point from the centre of a body.
+template <int Dim>
+double BasicSystem<Dim>::Impl::Explicit::farthest_from(std::size_t body) const {
+  const Vec<Dim> center = now.rigid[body].center();
+  double most = 0;
+  for (const BasicContactPair<Dim>& pair : system.model.pairs) {
+    const auto& facets = pair.definition.master.facets;
+    if (facets.empty() || system.dofs.body_of(facets.front().nodes[0]) != static_cast<Index>(body))
+      continue;
+    for (const Index n : pair.definition.slave.nodes)
+      most = std::max(most, (x[static_cast<std::size_t>(n)] - center).norm());
+  }
+  return most;
+}
+
+/// Bound of the largest eigenvalue of M^-1 K of all springs of contacts, as if every point were in
+/// contact. The mass of a node on the master is shared among the points around it in proportion to
+/// their springs; a node, or a body, that is slave here and master there has the springs of both.
+///
+/// Formula    k (1/m_s + sum_l N_l^2/m_l') <= k/m_s + max_l S_l/m_l ,  S_l = sum over points k N_l,
+///            m_l' = m_l k N_l / S_l ; S_l: the slope times the area of the master at l, at least
+///            one spring
+/// Tested by  tests/unit/deck/test_explicit_contact_step.cpp
+template <int Dim>
+double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
+  const BasicModel<Dim>& whole = system.model;
+  Springs slave{std::vector<double>(x.size(), 0.0), std::vector<double>(whole.rigid.size(), 0.0)};
+  Springs master = slave;
+  for (std::size_t p = 0; p < whole.pairs.size(); ++p) {
+    const pairing::PairDefinition<Dim>& pair = whole.pairs[p].definition;
+    const double slope = dampers ? damper(pair) : stiffest(pair, now.pairs[p]);
+    if (slope > 0) add_springs(pair, slope, slave, master);
+  }
+  const Swing a = swing_of(slave), b = swing_of(master);
+  const auto most_of = [](const Swing& here, const Swing& there) {
+    double most = 0;
+    for (Eigen::Index d = 0; d < here.dofs.size(); ++d)
+      if (here.dofs[d] > 0) most = std::max(most, here.dofs[d] + there.dofs[d]);
+    for (std::size_t i = 0; i < here.bodies.size(); ++i)
+      if (here.bodies[i] > 0) most = std::max(most, here.bodies[i] + there.bodies[i]);
+    return most;
+  };
+  return most_of(a, b) + most_of(b, a);
+}
+
+template struct BasicSystem<2>::Impl::Explicit;
+template struct BasicSystem<3>::Impl::Explicit;
+
+}  // namespace osculate::model
