@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "osculate/model/system_impl.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::model {
 
@@ -90,11 +91,13 @@ double BasicSystem<Dim>::Impl::round_off_in_time(std::span<const Vec<Dim>> x) co
   for (std::size_t p = 0; p < contact.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     if (!timed() && !pair.damping) continue;  // a penalty is not steep enough to show
-    double penalty = contact::penalty_of(pair.normal);
-    if (pair.damping) penalty = contact::stiffest(*pair.damping, penalty, h);
-    for (const pairing::PointResult<Dim>& point : contact[p].points)
-      if (point.status != contact::Status::open)
-        springs += penalty * penalty * point.weight * point.weight;
+    for (std::size_t i = 0; i < contact[p].points.size(); ++i) {
+      const pairing::PointResult<Dim>& point = contact[p].points[i];
+      if (point.status == contact::Status::open) continue;
+      double penalty = pairing::point_penalty(pair, i).normal;
+      if (pair.damping) penalty = contact::stiffest(*pair.damping, penalty, h);
+      springs += penalty * penalty * point.weight * point.weight;
+    }
   }
   return 2 * std::numeric_limits<double>::epsilon() * farthest * (of_mass + std::sqrt(springs));
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "osculate/model/system_explicit.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 #include "osculate/pairing/point_weight.hpp"
 
 namespace osculate::model {
@@ -14,16 +15,24 @@ namespace {
 
 constexpr int known_for = 100;  ///< time steps until what changes is measured again
 
-/// Largest slope of the normal law over what its points see, and the friction's stiffness.
+/// Largest slope of the pair's normal law over what its points see.
 template <int Dim>
-double stiffest(const pairing::PairDefinition<Dim>& pair, const pairing::PairState<Dim>& state) {
+double steepest(const pairing::PairDefinition<Dim>& pair, const pairing::PairState<Dim>& state) {
   double slope = std::abs(contact::response(pair.normal, 0.0).d_traction);
   for (const contact::PointHistory<Dim>& h : state.points)
     if (h.active)
       slope = std::max(
           slope, std::abs(contact::response(pair.normal, h.gap - pair.offset, true).d_traction));
-  if (pair.damping) slope = contact::stiffest(*pair.damping, slope, 0);
-  return pair.friction ? std::max(slope, contact::stiffness(*pair.friction)) : slope;
+  return slope;
+}
+
+/// Largest slope of the laws of one point, where `slope` is that of the pair's normal law: only a
+/// penalty, whose slope it is, has factors of its own.
+template <int Dim>
+double stiffest(const pairing::PairDefinition<Dim>& pair, double slope, std::size_t point) {
+  double own = pairing::relative_stiffness(pair, point).normal * slope;
+  if (pair.damping) own = contact::stiffest(*pair.damping, own, 0);
+  return std::max(own, pairing::point_penalty(pair, point).shear);
 }
 
 /// Coefficient of the dampers beside the springs, which see the way of the time step before.
@@ -73,7 +82,8 @@ double BasicSystem<Dim>::Impl::Explicit::cell_frequency(std::size_t cell, BulkBl
 ///
 /// Formula    k (1/m_s + sum_l N_l^2/m_l') <= k/m_s + max_l S_l/m_l ,  S_l = sum over points k N_l,
 ///            m_l' = m_l k N_l / S_l ; S_l: the slope times the area of the master at l, at least
-///            one spring; of rigid bodies all springs, with arms of at most the body's
+///            one spring, with the largest slope of any point; of rigid bodies all springs, with
+///            arms of at most the body's
 template <int Dim>
 double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
   const BasicModel<Dim>& whole = system.model;
@@ -81,12 +91,14 @@ double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
   std::vector<double> slave_body(whole.rigid.size(), 0.0), master_body(whole.rigid.size(), 0.0);
   for (std::size_t p = 0; p < whole.pairs.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = whole.pairs[p].definition;
-    const double slope = dampers ? damper(pair) : stiffest(pair, now.pairs[p]);
-    if (!(slope > 0)) continue;
-    double all = 0, largest = 0;
+    const double of_pair = dampers ? damper(pair) : steepest(pair, now.pairs[p]);
+    if (!(of_pair > 0) && (dampers || !pair.friction)) continue;
+    double all = 0, largest = 0, slope = 0;
     for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
       const pairing::SlavePoint<Dim>& point = pair.slave.points[i];
-      const double spring = slope * spring_weight(pair, i);
+      const double own = dampers ? of_pair : stiffest(pair, of_pair, i);
+      const double spring = own * spring_weight(pair, i);
+      slope = std::max(slope, own);
       all += spring;
       largest = std::max(largest, spring);
       for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k)
