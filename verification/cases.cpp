@@ -44,6 +44,10 @@ const std::vector<Case>& all_cases() {  // long: the one list
       {"free_top",
        "A free top keeps its momentum, gains no energy, and flips as Euler's equations say", false,
        free_top},
+      {"graded_cells",
+       "Cells of heights 1 to 1000 beside each other: the penetration is small against each of "
+       "them",
+       false, graded_cells},
       {"hard_problems",
        "Problems that are hard for step control finish with default settings, or say why not",
        false, hard_problems},

@@ -19,6 +19,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult enforcement(const CaseContext& context);
 [[nodiscard]] CaseResult explicit_bar(const CaseContext& context);
 [[nodiscard]] CaseResult free_top(const CaseContext& context);
+[[nodiscard]] CaseResult graded_cells(const CaseContext& context);
 [[nodiscard]] CaseResult hard_problems(const CaseContext& context);
 [[nodiscard]] CaseResult hard_problems_all(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_ball(const CaseContext& context);

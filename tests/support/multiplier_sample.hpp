@@ -2,7 +2,7 @@
 // A contact pair whose tractions are unknowns: forces and constraints, and their dense tangent.
 #include <random>
 
-#include "osculate/pairing/pair.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::testing {
 
@@ -19,6 +19,9 @@ struct MultiplierSample {
   [[nodiscard]] Eigen::Index points() const {
     return static_cast<Eigen::Index>(multipliers.size());
   }
+  [[nodiscard]] pairing::PointPenalty penalty_at(Eigen::Index i) const {
+    return pairing::point_penalty(pair, static_cast<std::size_t>(i));
+  }
   [[nodiscard]] Eigen::Index per_point() const { return pair.friction ? Dim + 1 : 1; }
   [[nodiscard]] Eigen::Index size() const { return Dim * nodes() + per_point() * points(); }
 
@@ -29,8 +32,9 @@ struct MultiplierSample {
     for (Eigen::Index i = 0; i < points(); ++i) {
       const contact::Multiplier<Dim>& m = multipliers[static_cast<std::size_t>(i)];
       const Eigen::Index at = Dim * nodes() + per_point() * i;
-      v[at] = m.normal / contact::penalty_of(pair.normal);
-      if (pair.friction) v.segment<Dim>(at + 1) = m.shear / contact::stiffness(*pair.friction);
+      const pairing::PointPenalty penalty = penalty_at(i);
+      v[at] = m.normal / penalty.normal;
+      if (pair.friction) v.segment<Dim>(at + 1) = m.shear / penalty.shear;
     }
     return v;
   }
@@ -44,9 +48,9 @@ struct MultiplierSample {
     for (Eigen::Index i = 0; i < points(); ++i) {
       const Eigen::Index first = Dim * nodes() + per_point() * i;
       around.points.emplace_back();
-      around.points.back().normal = contact::penalty_of(pair.normal) * v[first];
-      if (pair.friction)
-        around.points.back().shear = contact::stiffness(*pair.friction) * v.segment<Dim>(first + 1);
+      const pairing::PointPenalty penalty = penalty_at(i);
+      around.points.back().normal = penalty.normal * v[first];
+      if (pair.friction) around.points.back().shear = penalty.shear * v.segment<Dim>(first + 1);
     }
     pairing::PairEvaluation<Dim> e;
     pairing::Assumed<Dim> assumed;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/api/penetration.hpp"
 #include "osculate/api/run.hpp"
 #include "osculate/api/summary.hpp"
 #include "osculate/mesh/boundary.hpp"
@@ -94,6 +95,7 @@ CheckReport check_built(const std::string& path, const deck::BasicBuilt<Dim>& bu
                      {"overlapping", g.overlapping},
                      {"smallest_gap", g.smallest},
                      {"largest_gap", g.largest}});
+    pairs.back().update(penalty_json(m.pairs[p].definition));
     if (edges.on)
       pairs.back()["edges"] = {{"master", edges.master.size()},
                                {"slave", edges.slave.size()},

@@ -168,6 +168,10 @@ void fields(Archive& a, RunIdentity& i) {
   a(i.program, i.source, i.mesh, i.columns);
 }
 template <class Archive>
+void fields(Archive& a, Penetration& p) {
+  a(p.deepest, p.share, p.needed, p.node);
+}
+template <class Archive>
 void fields(Archive& a, JournalEntry& e) {
   bool recorded = e.record.has_value();
   a(e.progress, recorded);
@@ -178,7 +182,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 3;
+constexpr int version = 4;
 
 template <class... T>
 std::string saved(const T&... values) {

@@ -24,13 +24,21 @@ struct RunIdentity {
 [[nodiscard]] std::string difference(const RunIdentity& before, const RunIdentity& now,
                                      const std::string& file);
 
+/// How deep the points of a pair have been, so far.
+struct Penetration {
+  double deepest = 0;  ///< length
+  double share = 0;    ///< largest part of the height of the cells behind the point
+  double needed = 0;   ///< penalty with which no point would have missed the target
+  Index node = -1;     ///< of `share`: the nearest one
+};
+
 /// What one converged increment adds to the results (the first entry: the initial state).
 struct JournalEntry {
   model::Progress progress;
   std::optional<solve::IncrementRecord> record;  ///< none for the initial state
   std::vector<double> row;                       ///< of the history
   double curvature_share = 0;
-  std::vector<double> deepest{};         ///< penetration so far, by pair
+  std::vector<Penetration> deepest{};    ///< by pair
   std::string note;                      ///< JSON for the summary
   std::string frame;                     ///< of the report (CBOR), empty: none
   std::vector<io::PvdEntry> files;       ///< field files

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "osculate/core/error.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::api {
 namespace {
@@ -348,9 +349,9 @@ pairing::PairMultipliers<Dim> BasicContactEvaluator<Dim>::multipliers_of(
   const pairing::PairDefinition<Dim>& pair = impl_->pair;
   for (std::size_t i = 0; i < out.points.size(); ++i) {
     const double* const at = unknowns.data() + per * i;
-    out.points[i].normal = contact::penalty_of(pair.normal) * at[0];
-    if (pair.friction)
-      out.points[i].shear = contact::stiffness(*pair.friction) * Eigen::Map<const Vec<Dim>>(at + 1);
+    const pairing::PointPenalty penalty = pairing::point_penalty(pair, i);
+    out.points[i].normal = penalty.normal * at[0];
+    if (pair.friction) out.points[i].shear = penalty.shear * Eigen::Map<const Vec<Dim>>(at + 1);
   }
   return out;
 }

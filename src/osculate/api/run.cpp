@@ -10,6 +10,7 @@
 
 #include "osculate/api/checkpoint.hpp"
 #include "osculate/api/field_files.hpp"
+#include "osculate/api/penetration.hpp"
 #include "osculate/api/report_data.hpp"
 #include "osculate/api/result_folder.hpp"
 #include "osculate/api/summary.hpp"
@@ -57,7 +58,7 @@ struct Recorder {
   std::vector<double> curvature_shares;  ///< one per converged increment
   std::vector<nlohmann::json> notes;     ///< one per converged increment
   std::vector<std::string> warned;       ///< of contact in the last increment
-  std::vector<double> deepest;           ///< penetration of each pair so far
+  std::vector<Penetration> deepest;      ///< of each pair so far
 
   Recorder(const RunOptions& o, const deck::Description& d, const deck::BasicBuilt<Dim>& b,
            std::string dir, bool append)
@@ -177,32 +178,19 @@ struct Recorder {
   }
 
   void measure_penetration(const model::BasicSystem<Dim>& system) {
-    deepest.resize(built.model.pairs.size(), 0.0);
+    deepest.resize(built.model.pairs.size());
     for (std::size_t p = 0; p < deepest.size(); ++p)
-      for (const pairing::PointResult<Dim>& point : system.contact()[p].points)
-        if (point.status != contact::Status::open) deepest[p] = std::max(deepest[p], -point.gap);
+      api::measure_penetration(built.model.pairs[p], system.contact()[p], deepest[p]);
   }
 
   /// Penalties used and penetrations reached; says where the target is missed.
   nlohmann::json report_penetration() {
     nlohmann::json list = nlohmann::json::array();
-    deepest.resize(built.model.pairs.size(), 0.0);
+    deepest.resize(built.model.pairs.size());
     for (std::size_t p = 0; p < deepest.size(); ++p) {
-      const model::BasicContactPair<Dim>& pair = built.model.pairs[p];
-      const double target = model::penetration_target * pair.height;
-      list.push_back({{"name", pair.name},
-                      {"penalty", contact::penalty_of(pair.definition.normal)},
-                      {"automatic", pair.automatic},
-                      {"largest_penetration", deepest[p]},
-                      {"penetration_target", target}});
-      if (pair.definition.friction)
-        list.back()["shear_penalty"] = contact::stiffness(*pair.definition.friction);
-      if (target > 0 && deepest[p] > target)
-        say(fmt::format(
-            "warning: contact '{}': penetration up to {:.3g}, {:.2g} of the height of the cells "
-            "behind it (target {:g}); a penalty of {:.3g} would reach the target",
-            pair.name, deepest[p], deepest[p] / pair.height, model::penetration_target,
-            contact::penalty_of(pair.definition.normal) * deepest[p] / target));
+      list.push_back(penetration_json(built.model.pairs[p], deepest[p]));
+      const std::string missed = missed_target(built.model, built.model.pairs[p], deepest[p]);
+      if (!missed.empty()) say(missed);
     }
     return list;
   }

@@ -8,6 +8,7 @@
 
 #include "osculate/core/version.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 #include "osculate/pairing/sampling.hpp"
 
 namespace osculate::api {
@@ -187,6 +188,21 @@ std::string hold_text(const pairing::PairDefinition<Dim>& d) {
   return text;
 }
 
+/// Penalties of the points, where they are not all the pair's.
+template <int Dim>
+std::string range_text(const pairing::PairDefinition<Dim>& d) {
+  if (d.relative_stiffness.empty()) return {};
+  const pairing::PenaltyRange r = pairing::penalty_range(d);
+  std::string text;
+  if (r.smallest.normal < r.largest.normal)
+    text += fmt::format(", of its points {:g} to {:g} (mean {:g})", r.smallest.normal,
+                        r.largest.normal, r.mean.normal);
+  if (r.smallest.shear < r.largest.shear)
+    text += fmt::format(", of their friction {:g} to {:g} (mean {:g})", r.smallest.shear,
+                        r.largest.shear, r.mean.shear);
+  return text;
+}
+
 template <int Dim>
 std::string pair_text(const model::BasicContactPair<Dim>& pair) {
   const pairing::PairDefinition<Dim>& d = pair.definition;
@@ -194,13 +210,13 @@ std::string pair_text(const model::BasicContactPair<Dim>& pair) {
   const std::string edges = d.edges.on ? fmt::format(", {} sharp edges on {}", d.edges.slave.size(),
                                                      d.edges.master.size())
                                        : std::string{};
-  return fmt::format("{} slave {} on {} facets{}, {}{}, {}, {}{}{}", d.slave.points.size(),
+  return fmt::format("{} slave {} on {} facets{}, {}{}{}, {}, {}{}{}", d.slave.points.size(),
                      d.mortar                             ? "nodes by mortar"
                      : pairing::sampled_at_nodes(d.slave) ? "nodes"
                                                           : "points",
                      d.master.facets.size(), edges, law_text(d.normal) + hold_text(d),
-                     pair.automatic ? " (automatic)" : "", friction, weight_name(d.weight),
-                     pair.note.empty() ? "" : "; ", pair.note);
+                     pair.automatic ? " (automatic)" : "", range_text(d), friction,
+                     weight_name(d.weight), pair.note.empty() ? "" : "; ", pair.note);
 }
 
 constexpr int most_listed_pairs = 20;

@@ -13,6 +13,7 @@
 #include "osculate/core/error.hpp"
 #include "osculate/deck/build.hpp"
 #include "osculate/deck/parse.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::api {
 namespace {
@@ -124,10 +125,13 @@ void close_contact(Probe<Dim>& probe, const model::BasicModel<Dim>& m) {
       Vec<Dim> push = -(points[i].gap + depth) * points[i].normal;
       const auto& law = m.pairs[p].definition.friction;
       if (law && i % 2 == 1) {  // every second point slips
-        const double pressed = contact::response(m.pairs[p].definition.normal, -depth).traction;
+        const pairing::RelativeStiffness own =
+            pairing::relative_stiffness(m.pairs[p].definition, i);
+        const double pressed =
+            own.normal * contact::response(m.pairs[p].definition.normal, -depth).traction;
         const double limit = contact::predicted_limit(*law, 0, pressed, {}).value;
         if (std::isfinite(limit))
-          push += 3 * limit / contact::stiffness(*law) * points[i].frame.col(0);
+          push += 3 * limit / (own.shear * contact::stiffness(*law)) * points[i].frame.col(0);
       }
       for (std::size_t n = 0; n < static_cast<std::size_t>(slave[i].count); ++n)
         for (int k = 0; k < Dim; ++k) {

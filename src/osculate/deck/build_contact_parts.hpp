@@ -60,13 +60,26 @@ void build_contact_all(BuildContext<Dim>& c, const Contact& contact);
 /// (docs/decisions/020).
 inline constexpr double automatic_factor = 10;
 
+/// Points whose stiffness differs from the pair's by less than this factor have the pair's:
+/// surfaces of nearly equal cells transmit a uniform pressure exactly (docs/decisions/020).
+inline constexpr double usual_spread = 3;
+
+/// What the penalty of a pair is multiplied by at a point, where the stiffness behind the point is
+/// `ratio` times the mean. Continuous; within a factor of `usual_spread` of the ratio.
+///
+/// Formula    ratio / s for ratio > s ,  s ratio for ratio < 1 / s ,  else 1 ;  s = usual_spread
+/// Tested by  tests/unit/deck/test_point_penalties.cpp
+[[nodiscard]] double own_share(double ratio);
+
 /// The stiffnesses that are left to the program, from the cells behind both sides, and the height
-/// of these cells.
+/// of these cells; for the pair, and for each of its points.
 ///
 /// Formula    eps_N = 10 / (h_s / E_s + h_m / E_m), eps_T the same with the shear moduli; h the
 ///            height of the cells behind the facets, E / h averaged over the area of a side; a
 ///            rigid side gives nothing. weight: node: times the mean area of a slave point.
-/// Tested by  tests/unit/deck/test_automatic_penalty.cpp
+///            Of a point own_share(r) times that, r the ratio of the same formula with the cells
+///            behind the point and behind the nearest place of the master
+/// Tested by  tests/unit/deck/test_automatic_penalty.cpp, test_point_penalties.cpp
 template <int Dim>
 void set_automatic(BuildContext<Dim>& context, const Contact& contact,
                    model::BasicContactPair<Dim>& pair);

@@ -30,12 +30,15 @@ Spec sampling_spec() {
 
 /// A stiffness, or that of the cells behind the contact times a factor.
 Spec penalty_spec(std::string doc, const char* of) {
-  return either(std::move(doc), {number("Stiffness.").in(stiffness_unit).above(0),
-                                 choice("From the stiffness of the bodies.",
-                                        {Choice{"auto",
-                                                std::string("ten times the stiffness against ") +
-                                                    of + " of the cells behind the contact",
-                                                0, true}})})
+  return either(std::move(doc),
+                {number("Stiffness.").in(stiffness_unit).above(0),
+                 choice("From the stiffness of the bodies.",
+                        {Choice{"auto",
+                                std::string("ten times the stiffness against ") + of +
+                                    " of the cells behind the contact; points "
+                                    "with much stiffer or softer cells have more "
+                                    "or less",
+                                0, true}})})
       .otherwise("auto")
       .such_as("2.1e6");
 }

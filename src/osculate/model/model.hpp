@@ -47,11 +47,12 @@ inline constexpr double penetration_target = 0.01;
 template <int Dim>
 struct BasicContactPair {
   std::string name;
-  std::string group{};     ///< name of the `all`, or of the first pass; empty: the user's own pair
-  std::string note{};      ///< who is master, and why
-  double height = 0;       ///< of the thinner cells behind it; 0: unknown
-  bool automatic = false;  ///< the penalty is from the stiffness of the bodies
-  bool reversed = false;   ///< second pass: forces on the pair's slave are those on its master
+  std::string group{};  ///< name of the `all`, or of the first pass; empty: the user's own pair
+  std::string note{};   ///< who is master, and why
+  double height = 0;    ///< of the thinner cells behind it; 0: unknown
+  std::vector<double> heights{};  ///< of the thinnest cell behind each slave point; empty: `height`
+  bool automatic = false;         ///< the penalty is from the stiffness of the bodies
+  bool reversed = false;  ///< second pass: forces on the pair's slave are those on its master
   pairing::PairDefinition<Dim> definition;
 };
 

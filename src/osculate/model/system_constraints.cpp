@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "osculate/model/system_impl.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::model {
 
@@ -13,10 +14,12 @@ void BasicSystem<Dim>::Impl::add_to_multipliers(State& s, const Eigen::VectorXd&
     if (first_multiplier[p] < 0) continue;
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     Index row = first_multiplier[p];
-    for (contact::Multiplier<Dim>& m : s.multipliers[p].points) {
-      m.normal += factor * contact::penalty_of(pair.normal) * du[row++];
+    std::vector<contact::Multiplier<Dim>>& points = s.multipliers[p].points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const pairing::PointPenalty penalty = pairing::point_penalty(pair, i);
+      points[i].normal += factor * penalty.normal * du[row++];
       if (!pair.friction) continue;
-      m.shear += factor * contact::stiffness(*pair.friction) * du.segment<Dim>(row);
+      points[i].shear += factor * penalty.shear * du.segment<Dim>(row);
       row += Dim;
     }
   }

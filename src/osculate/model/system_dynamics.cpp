@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "osculate/model/system_impl.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::model {
 namespace {
@@ -101,10 +102,11 @@ double BasicSystem<Dim>::Impl::round_off_in_time(std::span<const Vec<Dim>> x) co
   for (std::size_t p = 0; p < contact.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     if (!timed() && !pair.damping) continue;  // a penalty is not steep enough to show
-    for (const pairing::PointResult<Dim>& point : contact[p].points) {
+    for (std::size_t i = 0; i < contact[p].points.size(); ++i) {
+      const pairing::PointResult<Dim>& point = contact[p].points[i];
       if (point.status == contact::Status::open) continue;
-      const double gap = point.gap - pair.offset;
-      double slope = std::abs(contact::response(pair.normal, gap, true).d_traction);
+      double slope = std::abs(contact::response(pair.normal, point.gap, true).d_traction) *
+                     pairing::relative_stiffness(pair, i).normal;
       if (pair.damping) slope = contact::stiffest(*pair.damping, slope, h);
       springs += slope * slope * point.weight * point.weight;
     }

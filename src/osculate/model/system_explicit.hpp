@@ -122,8 +122,8 @@ struct BasicSystem<Dim>::Impl::Explicit {
     std::vector<double> bodies;
   };
   [[nodiscard]] double contact_frequency(bool dampers) const;
-  void add_springs(const pairing::PairDefinition<Dim>& pair, double slope, Springs& slave,
-                   Springs& master) const;
+  void add_springs(const pairing::PairDefinition<Dim>& pair, const std::vector<double>& slopes,
+                   Springs& slave, Springs& master) const;
   [[nodiscard]] Swing swing_of(const Springs& springs) const;
   [[nodiscard]] double farthest_from(std::size_t body) const;
 };

@@ -6,21 +6,30 @@
 #include <numeric>
 
 #include "osculate/model/system_explicit.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 #include "osculate/pairing/point_weight.hpp"
 
 namespace osculate::model {
 namespace {
 
-/// Largest slope of the normal law over what its points see, and the friction's stiffness.
+/// Largest slope of the pair's normal law over what its points see.
 template <int Dim>
-double stiffest(const pairing::PairDefinition<Dim>& pair, const pairing::PairState<Dim>& state) {
+double steepest(const pairing::PairDefinition<Dim>& pair, const pairing::PairState<Dim>& state) {
   double slope = std::abs(contact::response(pair.normal, 0.0).d_traction);
   for (const contact::PointHistory<Dim>& h : state.points)
     if (h.active)
       slope = std::max(
           slope, std::abs(contact::response(pair.normal, h.gap - pair.offset, true).d_traction));
-  if (pair.damping) slope = contact::stiffest(*pair.damping, slope, 0);
-  return pair.friction ? std::max(slope, contact::stiffness(*pair.friction)) : slope;
+  return slope;
+}
+
+/// Largest slope of the laws of one point, where `slope` is that of the pair's normal law: only a
+/// penalty, whose slope it is, has factors of its own.
+template <int Dim>
+double stiffest(const pairing::PairDefinition<Dim>& pair, double slope, std::size_t point) {
+  double own = pairing::relative_stiffness(pair, point).normal * slope;
+  if (pair.damping) own = contact::stiffest(*pair.damping, own, 0);
+  return std::max(own, pairing::point_penalty(pair, point).shear);
 }
 
 /// Coefficient of the dampers beside the springs, which see the way of the time step before.
@@ -90,11 +99,13 @@ double reach_of(const BasicModel<Dim>& model, const BasicRigidBody<Dim>& body) {
 }  // namespace
 
 /// Adds those of a pair, as if all its points were in contact. A node of the master gets its share
-/// of the master's area, or one point at least.
+/// of the master's area with the largest slope of any point, or one point at least.
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::add_springs(const pairing::PairDefinition<Dim>& pair,
-                                                   double slope, Springs& slave,
-                                                   Springs& master) const {
+                                                   const std::vector<double>& slopes,
+                                                   Springs& slave, Springs& master) const {
+  const double slope = slopes.empty() ? 0 : *std::max_element(slopes.begin(), slopes.end());
+  if (!(slope > 0)) return;
   double all = 0, largest = 0, largest_edge = 0;
   const auto add = [](Springs& side, Index node, double spring) {
     side.nodes[static_cast<std::size_t>(node)] += spring;
@@ -105,7 +116,7 @@ void BasicSystem<Dim>::Impl::Explicit::add_springs(const pairing::PairDefinition
   };
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
     const pairing::SlavePoint<Dim>& point = pair.slave.points[i];
-    const double spring = slope * spring_weight(pair, i);
+    const double spring = slopes[i] * spring_weight(pair, i);
     all += spring;
     largest = std::max(largest, spring);
     for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k)
@@ -210,8 +221,12 @@ double BasicSystem<Dim>::Impl::Explicit::contact_frequency(bool dampers) const {
   Springs master = slave;
   for (std::size_t p = 0; p < whole.pairs.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = whole.pairs[p].definition;
-    const double slope = dampers ? damper(pair) : stiffest(pair, now.pairs[p]);
-    if (slope > 0) add_springs(pair, slope, slave, master);
+    std::vector<double> slopes(pair.slave.points.size(), dampers ? damper(pair) : 0.0);
+    if (!dampers) {
+      const double steep = steepest(pair, now.pairs[p]);
+      for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i] = stiffest(pair, steep, i);
+    }
+    add_springs(pair, slopes, slave, master);
   }
   const Swing a = swing_of(slave), b = swing_of(master);
   const auto most_of = [](const Swing& here, const Swing& there) {

@@ -54,28 +54,40 @@ template <int Dim>
           history.facet >= 0 ? hint.duration : 0.0};
 }
 
-/// The normal law with its damping, around the multiplier where there is one.
+/// A normal law with its damping, around the multiplier where there is one.
 template <int Dim>
-[[nodiscard]] contact::NormalResponse normal_response(const PairDefinition<Dim>& pair,
-                                                      const contact::PointHistory<Dim>& history,
-                                                      double gap, const BranchHint<Dim>& hint) {
+[[nodiscard]] contact::NormalResponse response_of(const contact::NormalLaw& law,
+                                                  const PairDefinition<Dim>& pair,
+                                                  const contact::PointHistory<Dim>& history,
+                                                  double gap, const BranchHint<Dim>& hint) {
   const bool held = is_held(pair, history);
   const double of_law = gap - rest_gap(pair, history, hint);
   contact::NormalResponse r;
   if (hint.multiplier) {
     if (gap < -pair.depth || (pair.separation == Separation::tied_normal && !held)) return {};
-    r = contact::shifted({hint.stiffening * contact::penalty_of(pair.normal)}, of_law,
+    r = contact::shifted({hint.stiffening * contact::penalty_of(law)}, of_law,
                          hint.multiplier->normal, held);
     if (r.active && pair.enforcement == contact::Enforcement::augmented_lagrange)
-      r.stored = contact::stored_energy(pair.normal, of_law, true);
+      r.stored = contact::stored_energy(law, of_law, true);
     return r;
   }
   if (!is_closed(pair, history, gap, hint)) return {};
   if (pair.damping)
-    return contact::damped(*pair.damping, pair.normal, of_law, closing_of(pair, history, hint));
-  r = contact::response(pair.normal, of_law, held);
-  r.stored = contact::stored_energy(pair.normal, of_law, held);
+    return contact::damped(*pair.damping, law, of_law, closing_of(pair, history, hint));
+  r = contact::response(law, of_law, held);
+  r.stored = contact::stored_energy(law, of_law, held);
   return r;
+}
+
+/// The answer of the point's normal law: the pair's, with the penalty of the point. (Other laws
+/// have none, and are not copied.)
+template <int Dim>
+[[nodiscard]] contact::NormalResponse normal_response(const PairDefinition<Dim>& pair,
+                                                      const contact::PointHistory<Dim>& history,
+                                                      double gap, const BranchHint<Dim>& hint) {
+  if (hint.own.normal == 1) return response_of(pair.normal, pair, history, gap, hint);
+  const contact::NormalPenalty own{hint.own.normal * contact::penalty_of(pair.normal)};
+  return response_of(contact::NormalLaw{own}, pair, history, gap, hint);
 }
 
 /// What is reported of the normal direction, whether the point is in contact or was let go.
@@ -110,7 +122,8 @@ template <int Dim>
 [[nodiscard]] contact::FrictionLaw friction_law(const PairDefinition<Dim>& pair,
                                                 double normal_traction,
                                                 const BranchHint<Dim>& hint) {
-  const contact::FrictionLaw law = contact::stiffened(*pair.friction, hint.stiffening);
+  const contact::FrictionLaw law =
+      contact::stiffened(*pair.friction, hint.stiffening * hint.own.shear);
   if (!hint.multiplier) return law;
   return contact::stiffened(law, contact::steadying(law, normal_traction, hint.duration));
 }

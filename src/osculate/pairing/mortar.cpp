@@ -275,7 +275,8 @@ NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
   if (!c.normal_law.active) return c;
   set_forces<Dim>(node, c, out.blocks[i]);
   if (constrained)
-    set_constraint<Dim>(pair, c, node, constraint_weight(pair, i), *hint.multiplier, out.blocks[i]);
+    set_constraint<Dim>(point_penalty(pair, i), c, node, constraint_weight(pair, i),
+                        *hint.multiplier, out.blocks[i]);
   out.mortar.tractions[i] = c.traction();
   return c;
 }
@@ -323,7 +324,7 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
   out.mortar.contacts.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
     out.mortar.contacts[i] =
-        evaluate_node<Dim>(pair, x, committed, hint_of(assumed, multipliers, i), i, out);
+        evaluate_node<Dim>(pair, x, committed, hint_of(pair, assumed, multipliers, i), i, out);
   }
   for (std::size_t k = n; k < out.blocks.size(); ++k) out.blocks[k].count = 0;
   if (!with_tangent) return;

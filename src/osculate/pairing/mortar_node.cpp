@@ -275,14 +275,14 @@ void set_path(const PairDefinition<Dim>& pair, double constraint_area, const Nod
 }
 
 template <int Dim>
-void set_constraint(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c,
+void set_constraint(const PointPenalty& penalty, const NodeContact<Dim>& c,
                     const MortarNode<Dim>& node, double area,
                     const contact::Multiplier<Dim>& multiplier, ContactBlock<Dim>& block) {
   set_constraint_values<Dim>(area, c.normal_law.traction, c.frame * c.law.traction,
                              c.frame * c.linearised.traction, multiplier, block.constraint);
   const std::size_t own = node.slaves.nodes.size();
   set_multiplier_terms<Dim>(
-      pair, area, c.normal, c.frame * c.linearised.d_trial * c.frame.transpose(),
+      penalty, area, c.normal, c.frame * c.linearised.d_trial * c.frame.transpose(),
       c.frame * c.linearised.d_normal,
       [&](int n) {
         const auto k = static_cast<std::size_t>(n);
@@ -305,9 +305,8 @@ template void set_facet_tangent<2>(const MortarFacet<2>&, std::span<const Index>
 template void set_path<2>(const PairDefinition<2>&, double, const NodeContact<2>&,
                           const MortarPlace&, const NodalNormal<2>&, MortarNode<2>&,
                           ContactBlock<2>&);
-template void set_constraint<2>(const PairDefinition<2>&, const NodeContact<2>&,
-                                const MortarNode<2>&, double, const contact::Multiplier<2>&,
-                                ContactBlock<2>&);
+template void set_constraint<2>(const PointPenalty&, const NodeContact<2>&, const MortarNode<2>&,
+                                double, const contact::Multiplier<2>&, ContactBlock<2>&);
 template NodeContact<3> place_node<3>(const MortarNode<3>&, const NodalNormal<3>&);
 template void set_friction<3>(const PairDefinition<3>&, const PointHistory<3>&, const MortarPlace&,
                               Points<3>, const BranchHint<3>&, NodeContact<3>&);
@@ -322,8 +321,7 @@ template void set_facet_tangent<3>(const MortarFacet<3>&, std::span<const Index>
 template void set_path<3>(const PairDefinition<3>&, double, const NodeContact<3>&,
                           const MortarPlace&, const NodalNormal<3>&, MortarNode<3>&,
                           ContactBlock<3>&);
-template void set_constraint<3>(const PairDefinition<3>&, const NodeContact<3>&,
-                                const MortarNode<3>&, double, const contact::Multiplier<3>&,
-                                ContactBlock<3>&);
+template void set_constraint<3>(const PointPenalty&, const NodeContact<3>&, const MortarNode<3>&,
+                                double, const contact::Multiplier<3>&, ContactBlock<3>&);
 
 }  // namespace osculate::pairing

@@ -47,7 +47,7 @@ void set_path(const PairDefinition<Dim>& pair, double constraint_area, const Nod
 
 /// Values and columns of a node whose tractions are unknowns.
 template <int Dim>
-void set_constraint(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c,
+void set_constraint(const PointPenalty& penalty, const NodeContact<Dim>& c,
                     const MortarNode<Dim>& node, double area,
                     const contact::Multiplier<Dim>& multiplier, ContactBlock<Dim>& block);
 

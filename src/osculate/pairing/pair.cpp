@@ -140,7 +140,7 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   refresh(pair, x, with_tangent, out);
   laps.add_to(out.seconds.search);
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
-    BranchHint<Dim> hint = hint_of(assumed, multipliers, i);
+    BranchHint<Dim> hint = hint_of(pair, assumed, multipliers, i);
     if (!committed.overlap.empty()) hint.relieved = assumed.relief * committed.overlap[i];
     const Placed<Dim> placed =
         place_point(pair, out, x, i, committed.points[i], hint.assumed.kept());
@@ -243,12 +243,13 @@ PairMultipliers<Dim> augmented(const PairDefinition<Dim>& pair,
   constexpr double fast_enough = 0.25, more = 10;
   PairMultipliers<Dim> next = used;
   next.violation = 0;
-  const double normal = used.stiffening * contact::penalty_of(pair.normal);
-  const double shear = pair.friction ? used.stiffening * contact::stiffness(*pair.friction) : 1.0;
   for (std::size_t i = 0; i < next.points.size(); ++i) {
     const PointResult<Dim>& point = evaluation.points[i];
     const contact::Multiplier<Dim>& old = used.points[i];
     next.points[i] = {point.normal_traction, point.shear()};
+    const PointPenalty penalty = point_penalty(pair, i);
+    const double normal = used.stiffening * penalty.normal;
+    const double shear = pair.friction ? used.stiffening * penalty.shear : 1.0;
     next.violation =
         std::max({next.violation, std::abs(point.normal_traction - old.normal) / normal,
                   (next.points[i].shear - old.shear).norm() / shear});

@@ -11,6 +11,7 @@
 #include "osculate/pairing/edges.hpp"
 #include "osculate/pairing/mortar_buffers.hpp"
 #include "osculate/pairing/place.hpp"
+#include "osculate/pairing/relative_stiffness.hpp"
 #include "osculate/pairing/scope.hpp"
 #include "osculate/pairing/slave_side.hpp"
 #include "osculate/pairing/tied_point.hpp"
@@ -46,6 +47,9 @@ struct PairDefinition {
   SlaveSide<Dim> slave;
   contact::NormalLaw normal;
   std::optional<contact::FrictionLaw> friction;
+  /// Factors of the penalties of both laws, one per slave point; empty: all 1. Only a NormalPenalty
+  /// has one in the normal direction. Read by point_penalty.hpp.
+  std::vector<RelativeStiffness> relative_stiffness{};
   std::optional<contact::DampingLaw> damping;  ///< by penalty, with separation allowed
   Separation separation = Separation::allowed;
   double tolerance = 0;  ///< tied, tied_normal: gap at the start of the points that are held

@@ -10,6 +10,15 @@ using contact::Status;
 
 namespace {
 
+/// That of a slave edge is the mean of its ends'.
+RelativeStiffness stiffness_of_edge(const PairDefinition<3>& pair, std::size_t edge) {
+  const auto at_end = [&](std::size_t k) {
+    return relative_stiffness(pair, static_cast<std::size_t>(pair.edges.slave_nodes[edge][k]));
+  };
+  const RelativeStiffness a = at_end(0), b = at_end(1);
+  return {0.5 * (a.normal + b.normal), 0.5 * (a.shear + b.shear)};
+}
+
 /// The pair seen from its crossings: the master is the surface of the edges' differences, with one
 /// facet per crossing and then one per history, the slave point is the origin.
 PairDefinition<3> pair_of_crossings(const PairDefinition<3>& pair,
@@ -30,6 +39,7 @@ PairDefinition<3> pair_of_crossings(const PairDefinition<3>& pair,
   out.slave.nodes.assign(nodes + found.size(), -1);
   sample_nodes(out.slave);
   out.reference_areas.assign(nodes + found.size(), 0.0);
+  if (!pair.relative_stiffness.empty()) out.relative_stiffness.resize(nodes + found.size());
   const auto add = [&](Index master, Index slave, bool flipped) {
     out.master.facets.push_back(crossing_facet(pair.edges.master[static_cast<std::size_t>(master)],
                                                pair.edges.slave[static_cast<std::size_t>(slave)],
@@ -37,7 +47,10 @@ PairDefinition<3> pair_of_crossings(const PairDefinition<3>& pair,
   };
   for (std::size_t c = 0; c < found.size(); ++c) {
     add(found[c].master, found[c].slave, found[c].flipped);
-    out.reference_areas[nodes + c] = pair.edges.areas[static_cast<std::size_t>(found[c].slave)];
+    const auto edge = static_cast<std::size_t>(found[c].slave);
+    out.reference_areas[nodes + c] = pair.edges.areas[edge];
+    if (!pair.relative_stiffness.empty())
+      out.relative_stiffness[nodes + c] = stiffness_of_edge(pair, edge);
   }
   for (const PointHistory<3>& h : histories) add(h.facet, h.edge, h.flipped);
   return out;
@@ -81,11 +94,17 @@ void remember_edges(const PairDefinition<3>& pair, Points<3> x, const Crossing& 
   result.branch.edges = {c.slave, c.master};
 }
 
-BranchHint<3> hint_of(const Crossing& c, const Assumed<3>& assumed) {
-  for (const AssumedBranch<3>& branch : assumed.branch)
-    if (branch.edges == std::array<Index, 2>{c.slave, c.master})
-      return {.assumed = branch, .predict = assumed.predict, .duration = assumed.duration};
-  return {.duration = assumed.duration};
+BranchHint<3> hint_of(const Crossing& c, const Assumed<3>& assumed, const RelativeStiffness& own) {
+  BranchHint<3> hint;
+  hint.duration = assumed.duration;
+  hint.own = own;
+  for (const AssumedBranch<3>& branch : assumed.branch) {
+    if (branch.edges != std::array<Index, 2>{c.slave, c.master}) continue;
+    hint.assumed = branch;
+    hint.predict = assumed.predict;
+    break;
+  }
+  return hint;
 }
 
 }  // namespace
@@ -108,8 +127,9 @@ void evaluate_crossings(const PairDefinition<3>& pair, Points<3> x, const PairSt
       history = histories[static_cast<std::size_t>(known)];
       history.facet = static_cast<Index>(found.size()) + known;
     }
-    evaluate_point<3>(differences, x, history, placed, hint_of(found[c], assumed), with_tangent,
-                      nodes + c, out);
+    const RelativeStiffness own = relative_stiffness(differences, nodes + c);
+    evaluate_point<3>(differences, x, history, placed, hint_of(found[c], assumed, own),
+                      with_tangent, nodes + c, out);
     drop_origin(out.blocks[nodes + c]);
     remember_edges(pair, x, found[c], out.points[nodes + c]);
   }

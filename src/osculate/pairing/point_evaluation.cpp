@@ -162,9 +162,11 @@ NormalResponse report_place(const PairDefinition<Dim>& pair, Points<Dim> x,
 
 /// Rows and columns of the multipliers of a point in contact.
 template <int Dim>
-void set_constraint_tangent(const PairDefinition<Dim>& pair, const Kinematics<Dim>& k,
-                            const Traction<Dim>& t, const Weights<Dim>& w, double area,
+void set_constraint_tangent(const PairDefinition<Dim>& pair, std::size_t i,
+                            const Kinematics<Dim>& k, const Traction<Dim>& t, const Weights<Dim>& w,
                             double weight, ContactBlock<Dim>& block) {
+  const PointPenalty penalty = point_penalty(pair, i);
+  const double area = constraint_weight(pair, i);
   ConstraintBlock<Dim>& c = block.constraint;
   const contact::ShearRate<Dim> rate = contact::shear_rate(k, t);
   for (std::size_t n = 0; n < static_cast<std::size_t>(block.count); ++n) {
@@ -174,13 +176,13 @@ void set_constraint_tangent(const PairDefinition<Dim>& pair, const Kinematics<Di
       gap += w[s][n] * k.d_gap[s];
       along += w[s][n] * rate.variation[s];
     }
-    c.normal_row.push_back({block.nodes[n], area * contact::penalty_of(pair.normal) * gap});
+    c.normal_row.push_back({block.nodes[n], area * penalty.normal * gap});
     if (pair.friction) c.shear_row.push_back({block.nodes[n], area * along});
   }
   for (const NodeMatrix<Dim>& g : block.path())
     c.shear_row.push_back({g.node, area * rate.d_trial * g.value});
   set_multiplier_terms<Dim>(
-      pair, area, k.normal, rate.d_trial, rate.d_push,
+      penalty, area, k.normal, rate.d_trial, rate.d_push,
       [&](int n) { return weight * w[0][static_cast<std::size_t>(n)]; }, block);
 }
 
@@ -250,9 +252,7 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
                                k.frame * f.law.traction, k.frame * f.traction.tangential.traction,
                                *hint.multiplier, block.constraint);
   if (!with_tangent) return;
-  if (constrained)
-    set_constraint_tangent<Dim>(pair, k, f.traction, w, constraint_weight(pair, i), result.weight,
-                                block);
+  if (constrained) set_constraint_tangent<Dim>(pair, i, k, f.traction, w, result.weight, block);
   scatter_tangent<Dim>(w, terms, block.count, result.weight, block.tangent);
   scatter_path(block, w, terms, result.weight);
   if (!exact || pair.weight != Weight::current_area) return;

@@ -1,6 +1,6 @@
 #pragma once
 // One contact point, from its place to forces, tangent and history; for sources of this layer.
-#include "osculate/pairing/pair.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::pairing {
 
@@ -14,13 +14,15 @@ struct BranchHint {
   double relieved = 0;  ///< part <= 0 of the gap that does not count (PairState::overlap)
   const contact::Multiplier<Dim>* multiplier = nullptr;
   double stiffening = 1;
+  RelativeStiffness own{};  ///< factors of the point's penalties
 };
 
 /// The hint of point i.
 template <int Dim>
-[[nodiscard]] BranchHint<Dim> hint_of(const Assumed<Dim>& assumed,
+[[nodiscard]] BranchHint<Dim> hint_of(const PairDefinition<Dim>& pair, const Assumed<Dim>& assumed,
                                       const PairMultipliers<Dim>* multipliers, std::size_t i) {
   BranchHint<Dim> hint;
+  hint.own = relative_stiffness(pair, i);
   if (!assumed.branch.empty()) {
     hint.assumed = assumed.branch[i];
     hint.predict = assumed.predict;
@@ -46,8 +48,8 @@ bool start_constraint(const PairDefinition<Dim>& pair, const BranchHint<Dim>& hi
                       ContactBlock<Dim>& block) {
   if (pair.enforcement != contact::Enforcement::lagrange_multiplier || !hint.multiplier)
     return false;
-  set_open(constraint_weight(pair, i), contact::penalty_of(pair.normal),
-           pair.friction ? contact::stiffness(*pair.friction) : 0.0, hint.multiplier->normal,
+  const PointPenalty penalty = point_penalty(pair, i);
+  set_open(constraint_weight(pair, i), penalty.normal, penalty.shear, hint.multiplier->normal,
            hint.multiplier->shear, block.constraint);
   return true;
 }
@@ -65,12 +67,11 @@ void set_constraint_values(double area, double push, const Vec<Dim>& shear,
 /// Derivatives by the multipliers of a point in contact: of its forces, with `weight(n)` of node n
 /// of the block, and of its constraint. dt = d_trial dLambda + d_push dlambda.
 template <int Dim, class WeightOf>
-void set_multiplier_terms(const PairDefinition<Dim>& pair, double area, const Vec<Dim>& normal,
+void set_multiplier_terms(const PointPenalty& penalty, double area, const Vec<Dim>& normal,
                           const Mat<Dim, Dim>& d_trial, const Vec<Dim>& d_push,
                           const WeightOf& weight, ContactBlock<Dim>& block) {
   ConstraintBlock<Dim>& c = block.constraint;
-  const double push = contact::penalty_of(pair.normal);
-  const double shear = pair.friction ? contact::stiffness(*pair.friction) : 0.0;
+  const double push = penalty.normal, shear = penalty.shear;
   if (c.columns.rows() < Dim * block.count) c.columns.resize(Dim * block.count, Dim + 1);
   for (int n = 0; n < block.count; ++n) {
     auto rows = c.columns.template middleRows<Dim>(Dim * n);

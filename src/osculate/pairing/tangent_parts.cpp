@@ -9,13 +9,14 @@ namespace osculate::pairing {
 namespace {
 
 template <int Dim>
-double share_at(const PairDefinition<Dim>& pair, const SlavePoint<Dim>& slave,
-                const PointResult<Dim>& point, const Placed<Dim>& placed,
-                const contact::TangentForm& parts) {
+double share_at(const PairDefinition<Dim>& pair, std::size_t i, const PointResult<Dim>& point,
+                const Placed<Dim>& placed, const contact::TangentForm& parts) {
+  const SlavePoint<Dim>& slave = pair.slave.points[i];
+  BranchHint<Dim> hint;
+  hint.own = relative_stiffness(pair, i);
   contact::Traction<Dim> traction;
-  traction.normal =
-      normal_response<Dim>(pair, point.history, placed.kinematics.gap, BranchHint<Dim>{});
-  if (!traction.normal.active) traction.normal.d_traction = contact::penalty_of(pair.normal);
+  traction.normal = normal_response<Dim>(pair, point.history, placed.kinematics.gap, hint);
+  if (!traction.normal.active) traction.normal.d_traction = point_penalty(pair, i).normal;
   traction.normal.traction = point.normal_traction;
   const Weights<Dim> w = contact_weights(slave, placed);
   const int count = slave.count + placed.count, size = Dim * count;
@@ -46,8 +47,7 @@ double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
     const contact::PointHistory<Dim>& history = evaluation.points[i].history;
     const Placed<Dim> placed = place_point<Dim>(pair, evaluation, x, i, history);
     if (placed.projection.feature == projection::Feature::none) continue;
-    largest = std::max(largest,
-                       share_at(pair, pair.slave.points[i], evaluation.points[i], placed, parts));
+    largest = std::max(largest, share_at(pair, i, evaluation.points[i], placed, parts));
   }
   return largest;
 }

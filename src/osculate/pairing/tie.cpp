@@ -7,6 +7,7 @@
 #include "osculate/cell/shape.hpp"
 #include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/point_block.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 #include "osculate/pairing/point_weight.hpp"
 
 namespace osculate::pairing {
@@ -263,7 +264,6 @@ template <int Dim>
 void evaluate_ties(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>&,
                    bool with_tangent, PairEvaluation<Dim>& out) {
   const std::size_t n = pair.slave.points.size();
-  const double stiffness = std::get<contact::NormalPenalty>(pair.normal).stiffness;
   out.points.assign(n, {});
   out.blocks.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -273,6 +273,7 @@ void evaluate_ties(const PairDefinition<Dim>& pair, Points<Dim> x, const PairSta
   }
   for (const TiedPoint<Dim>& tie : pair.ties) {
     const std::size_t i = at(tie.point);
+    const double stiffness = point_penalty(pair, i).normal;
     PointResult<Dim>& result = out.points[i];
     const bool by_node = pair.weight == Weight::node;
     result.weight = pair.mortar ? pair.reference_areas[i]
