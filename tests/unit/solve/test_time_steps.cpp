@@ -138,6 +138,7 @@ Taken run_from(TimedSystem& system, const IncrementOptions& options, int increme
         run.errors.push_back(record.time_step.error);
         run.positions.push_back(position);
         run.refused += record.time_step.refused;
+        run.commits = state.commits;
         EXPECT_NEAR(record.time_step.length,
                     record.fraction - (run.ends.size() > 1 ? run.ends[run.ends.size() - 2] : start),
                     1e-15);
@@ -156,8 +157,8 @@ Taken run_all(TimedSystem& system, const TimeAccuracy& accuracy, int increments)
   return run_from(system, options, increments, 0, {});
 }
 
-/// A hundred times as rough in the middle.
-double bump(double t) { return t > 0.4 && t < 0.45 ? 1e4 : 1; }
+/// Thirty times as short steps in the middle.
+double bump(double t) { return t > 0.37 && t < 0.55 ? 1e3 : 1; }
 
 TEST(TimeSteps, HaveTheErrorThatIsAllowed) {
   for (const double error : {1e-2, 1e-3, 1e-4}) {
@@ -175,8 +176,8 @@ TEST(TimeSteps, AreShortWhereItIsRoughOnly) {
   TimedSystem system = timed(bump);
   const Taken run = run_all(system, {1e-2, 0, {}}, 2);
   int within = 0;
-  for (const double end : run.ends) within += end > 0.4 && end < 0.45 ? 1 : 0;
-  EXPECT_GT(within, 40);
+  for (const double end : run.ends) within += end > 0.37 && end < 0.55 ? 1 : 0;
+  EXPECT_GT(within, 50);
   EXPECT_LT(run.ends.size() - static_cast<std::size_t>(within), 40u);
   for (const double e : run.errors) EXPECT_LE(e, 1.5e-2);
   EXPECT_NE(std::find(run.ends.begin(), run.ends.end(), 0.5), run.ends.end());
@@ -206,7 +207,7 @@ TEST(TimeSteps, WithoutErrorsAreTheNominalIncrements) {
 TEST(TimeSteps, RefusedOnesAreDropped) {
   TimedSystem system = timed(bump);
   const Taken run = run_all(system, {1e-2, 0, {}}, 2);
-  EXPECT_GT(run.refused, 2);
+  EXPECT_GE(run.refused, 2);
   EXPECT_EQ(run.commits, static_cast<int>(run.ends.size()));  // of the states on the way
 }
 
@@ -229,7 +230,7 @@ TEST(TimeSteps, ThatFailAreHalvedFromWhereTheyAre) {
   system.wrong = [](const Eigen::VectorXd& x, const Eigen::VectorXd& committed) {
     return x[0] - committed[0] > 3e-3 ? std::string("too far") : std::string();
   };
-  const Taken run = run_all(system, {1e-2, 0, {}}, 1);  // 8e-3 by the error
+  const Taken run = run_all(system, {1e-2, 1e-3, {}}, 1);  // 8e-3 by the error
   EXPECT_EQ(run.ends.back(), 1);
   EXPECT_GT(run.ends.size(), 300u);
 }
