@@ -276,6 +276,24 @@ steps:
   EXPECT_EQ(increments, 2);
 }
 
+/// Flights are parabolas, and an impact that stops a body is no acceleration.
+TEST(TimeSteps, HaveNoErrorsInFlightsAndPlasticImpacts) {
+  const std::string even = test_file("impacts.yaml");
+  std::array<std::vector<double>, 2> times;
+  for (const bool chosen : {false, true}) {
+    const Built built = build_text(
+        chosen ? edited(even, "impact_times: all", "impact_times: all, time_steps: {}") : even);
+    model::AnalysisObserver observer;
+    observer.converged = [&](model::System&, const model::State& state, const model::Progress&,
+                             const solve::IncrementRecord*) {
+      times[chosen].push_back(state.rates.energies.elapsed);
+      return true;
+    };
+    EXPECT_EQ(model::run(built.model, built.options, observer).outcome, solve::Outcome::converged);
+  }
+  EXPECT_EQ(times[0], times[1]);
+}
+
 TEST(TimeSteps, EndAtCorners) {
   const Built built = build_text(swinging());
   std::vector<double> ends;
