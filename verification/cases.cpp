@@ -103,6 +103,9 @@ const std::vector<Case>& all_cases() {  // long: the one list
       {"time_order",
        "Displacements and velocities are of second order in time with every implicit scheme", false,
        time_order},
+      {"time_steps",
+       "Errors are in proportion to what is allowed where time steps are chosen by them", false,
+       time_steps},
       {"turning_block", "A rigid block slides into a valley and turns over its corner (KSCPP 5.2)",
        false, turning_block},
   };

@@ -42,6 +42,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult spinning_disc(const CaseContext& context);
 [[nodiscard]] CaseResult stopped_block(const CaseContext& context);
 [[nodiscard]] CaseResult time_order(const CaseContext& context);
+[[nodiscard]] CaseResult time_steps(const CaseContext& context);
 [[nodiscard]] CaseResult turning_block(const CaseContext& context);
 [[nodiscard]] CaseResult strip_into_channel(const CaseContext& context);
 [[nodiscard]] CaseResult snap_through(const CaseContext& context);

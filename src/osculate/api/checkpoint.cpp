@@ -89,9 +89,19 @@ void fields(Archive& a, TimeSteps& steps) {
   a(count, longest, stable, governed);
 }
 template <class Archive>
+void fields(Archive& a, TimeStepTaken& step) {
+  auto& [length, error, refused] = step;
+  a(length, error, refused);
+}
+template <class Archive>
+void fields(Archive& a, TimePace& pace) {
+  auto& [speed, tried, until] = pace;
+  a(speed, tried, until);
+}
+template <class Archive>
 void fields(Archive& a, IncrementRecord& record) {
-  auto& [fraction, cutbacks, iterations, wasted, resisted, on_path, time_steps] = record;
-  a(fraction, cutbacks, iterations, wasted, resisted, on_path, time_steps);
+  auto& [fraction, cutbacks, iterations, wasted, resisted, on_path, time_steps, time_step] = record;
+  a(fraction, cutbacks, iterations, wasted, resisted, on_path, time_steps, time_step);
 }
 template <class Archive>
 void fields(Archive& a, ExtrapolationMemory& m) {
@@ -106,9 +116,9 @@ void fields(Archive& a, PathPosition& path) {
 }
 template <class Archive>
 void fields(Archive& a, StepPosition& position) {
-  auto& [nominal, at, size, extrapolation, path] = position;
+  auto& [nominal, at, size, extrapolation, path, pace] = position;
   ExtrapolationMemory memory = extrapolation.memory();
-  a(nominal, at, size, memory, path);
+  a(nominal, at, size, memory, path, pace);
   if constexpr (std::is_same_v<Archive, api::Loader>)
     extrapolation = Extrapolation(std::move(memory));
 }
@@ -134,9 +144,9 @@ void fields(Archive& a, StableStep& stable) {
 }
 template <class Archive>
 void fields(Archive& a, Rates& rates) {
-  auto& [velocity, acceleration, internal, external, contact, damping, spins, energies, stable] =
-      rates;
-  a(velocity, acceleration, internal, external, contact, damping, spins, energies, stable);
+  auto& [velocity, acceleration, internal, external, contact, damping, spins, energies, stable,
+         length] = rates;
+  a(velocity, acceleration, internal, external, contact, damping, spins, energies, stable, length);
 }
 template <class Archive, int Dim>
 void fields(Archive& a, BasicState<Dim>& state) {
@@ -314,7 +324,7 @@ void CheckpointWriter<Dim>::save(const model::BasicState<Dim>& state,
   io::AtomicFile file(checkpoint_path(folder_));
   file.write(io::chunk_file_head("checkpoint", version));
   file.write(io::packed({"place", saved(place)}));
-  file.write(io::packed({"control", saved(progress, position, memory.starts)}));
+  file.write(io::packed({"control", saved(progress, position, memory.starts, memory.speeds)}));
   file.write(io::packed({"state", saved(state)}));
   file.commit_keeping(durable_ ? previous_path(folder_) : std::string{}, sync);
   durable_ = sync;
@@ -344,7 +354,7 @@ Checkpoint<Dim> read_one(const std::string& path, const std::string& folder, con
   Place place;
   load(chunk_of(parts, 0, "place", path), place);
   load(chunk_of(parts, 1, "control", path), found.point.progress, found.point.position,
-       found.point.memory.starts);
+       found.point.memory.starts, found.point.memory.speeds);
   load(chunk_of(parts, 2, "state", path), found.point.state);
   const std::string journal = journal_path(folder);
   const std::vector<io::Chunk> entries = io::read_chunks(journal, "journal", version, place.bytes);

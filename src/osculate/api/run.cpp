@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -113,7 +114,12 @@ struct Recorder {
     if (description.output.fields == deck::FieldTimes::last)
       return end_of_step && static_cast<std::size_t>(p.step) + 1 == built.model.steps.size();
     if (p.increment == 0 || end_of_step) return true;
-    return p.increment % description.output.every == 0;
+    const model::Step& step = built.model.steps[static_cast<std::size_t>(p.step)];
+    if (!step.dynamics || !step.dynamics->time_steps)
+      return p.increment % description.output.every == 0;
+    const long nominal = std::lround(p.fraction * step.increments);
+    return p.fraction == static_cast<double>(nominal) / step.increments &&
+           nominal % description.output.every == 0;
   }
 
   bool converged(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
@@ -253,6 +259,28 @@ struct Recorder {
     governed_by = steps.governed;
   }
 
+  [[nodiscard]] static std::string time_step_text(const solve::TimeStepTaken& taken) {
+    if (!(taken.length > 0)) return {};
+    return fmt::format("  step {:.3g} error {:.1e}{}", taken.length, taken.error,
+                       taken.refused ? fmt::format(" ({} refused)", taken.refused) : "");
+  }
+
+  /// Steps whose time steps were chosen by their errors.
+  void report_chosen(const std::vector<model::StepRecord>& steps) {
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      const ChosenTimeSteps chosen = chosen_time_steps(steps[s]);
+      if (chosen.count == 0) continue;
+      say(fmt::format("step '{}': {} time steps from {:.3g} to {:.3g}, {} refused", steps[s].name,
+                      chosen.count, chosen.smallest, chosen.largest, chosen.refused));
+      const double wanted = built.model.steps[s].dynamics->time_steps->error;
+      if (chosen.largest_error > 2 * wanted)
+        say(
+            fmt::format("warning: step '{}': errors up to {:.2g} instead of {:g}, in time steps of "
+                        "the smallest length that is allowed",
+                        steps[s].name, chosen.largest_error, wanted));
+    }
+  }
+
   void report_increment(const model::Progress& p, const solve::IncrementRecord& record) {
     if (record.time_steps.count > 0) {
       report_time_steps(p, record);
@@ -267,7 +295,7 @@ struct Recorder {
         last.counts.open, last.counts.stick, last.counts.slip,
         (record.cutbacks ? fmt::format("  ({} cut-backs)", record.cutbacks) : std::string{}) +
             (record.resisted ? "  (free motions resisted on the way)" : "") +
-            (record.on_path ? "  (on the path)" : ""));
+            (record.on_path ? "  (on the path)" : "") + time_step_text(record.time_step));
     log << line << "\n";
     if (options.progress) options.progress(line);
   }
@@ -298,6 +326,7 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
       summary_json(model, result, done ? "done" : "stopped", {seconds_input, recorder.seconds},
                    recorder.curvature_shares, recorder.notes);
   summary["contact"] = recorder.report_penetration();
+  recorder.report_chosen(result.steps);
   summary["message"] = outcome.message;
   if (result.failure) summary["diagnosis"] = diagnosis_json(recorder.built.model, result);
   try {

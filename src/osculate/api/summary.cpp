@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -32,6 +33,11 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
                   {"longest", number(record.time_steps.longest)},
                   {"stable", number(record.time_steps.stable)},
                   {"governed_by", record.time_steps.governed}};
+  nlohmann::json time_step = nullptr;
+  if (record.time_step.length > 0)
+    time_step = {{"length", number(record.time_step.length)},
+                 {"error", number(record.time_step.error)},
+                 {"refused", record.time_step.refused}};
   return {{"time", step_time + record.fraction},
           {"iterations", record.iterations.size()},
           {"residual", number(last.residual)},
@@ -45,8 +51,19 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
           {"slip", last.counts.slip},
           {"friction_work", number(last.counts.friction_work)},
           {"time_steps", time_steps},
+          {"time_step", time_step},
           {"residuals", residuals},
           {"energies", energies}};
+}
+
+/// Of a step whose time steps were chosen by their errors; null for others.
+nlohmann::json chosen_json(const ChosenTimeSteps& chosen) {
+  if (chosen.count == 0) return nullptr;
+  return {{"count", chosen.count},
+          {"smallest", number(chosen.smallest)},
+          {"largest", number(chosen.largest)},
+          {"refused", chosen.refused},
+          {"largest_error", number(chosen.largest_error)}};
 }
 
 template <class Vector>
@@ -244,6 +261,20 @@ nlohmann::json seconds_json(const model::BasicAnalysisResult<Dim>& result, const
 
 }  // namespace
 
+ChosenTimeSteps chosen_time_steps(const model::StepRecord& step) {
+  ChosenTimeSteps chosen;
+  for (const solve::IncrementRecord& record : step.increments) {
+    const solve::TimeStepTaken& taken = record.time_step;
+    if (!(taken.length > 0)) continue;
+    chosen.smallest = chosen.count == 0 ? taken.length : std::min(chosen.smallest, taken.length);
+    chosen.largest = std::max(chosen.largest, taken.length);
+    chosen.largest_error = std::max(chosen.largest_error, taken.error);
+    chosen.refused += taken.refused;
+    ++chosen.count;
+  }
+  return chosen;
+}
+
 double peak_memory_mb() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -271,7 +302,9 @@ nlohmann::json summary_json(const std::string& model_file,
       cutbacks += record.cutbacks;
       ++increments;
     }
-    steps.push_back({{"name", result.steps[s].name}, {"increments", list}});
+    steps.push_back({{"name", result.steps[s].name},
+                     {"chosen_time_steps", chosen_json(chosen_time_steps(result.steps[s]))},
+                     {"increments", list}});
   }
   const pairing::PairSeconds& parts = result.seconds_system.contact_parts;
   return {

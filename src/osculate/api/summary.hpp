@@ -34,6 +34,15 @@ struct ModelFact {
 template <int Dim>
 [[nodiscard]] std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built);
 
+/// The time steps of a step that were chosen by their errors.
+struct ChosenTimeSteps {
+  int count = 0;  ///< 0: they were not
+  double smallest = 0, largest = 0;
+  int refused = 0;           ///< that were too long, and repeated
+  double largest_error = 0;  ///< rate over the largest speed
+};
+[[nodiscard]] ChosenTimeSteps chosen_time_steps(const model::StepRecord& step);
+
 /// Largest resident memory of this process so far [MB].
 [[nodiscard]] double peak_memory_mb();
 

@@ -124,8 +124,18 @@ void build_dynamics(const BuildContext<Dim>& c, const Step& step, std::vector<do
     const auto times = d.impact_times == ImpactTimesWord::all   ? model::ImpactTimes::all
                        : d.impact_times == ImpactTimesWord::off ? model::ImpactTimes::off
                                                                 : model::ImpactTimes::automatic;
-    out.dynamics = model::Dynamics{scheme_of(d), d.mass == MassWord::lumped, d.damping_mass,
-                                   d.damping_stiffness, times};
+    out.dynamics = model::Dynamics{scheme_of(d),
+                                   d.mass == MassWord::lumped,
+                                   d.damping_mass,
+                                   d.damping_stiffness,
+                                   times,
+                                   {},
+                                   {}};
+    if (d.time_steps)
+      out.dynamics->time_steps = model::TimeStepLengths{
+          d.time_steps->error, d.time_steps->smallest
+                                   ? d.time_steps->smallest->value
+                                   : 1e-3 * step.duration->value / step.increments.value};
     if (d.scheme == SchemeWord::central_differences) {
       out.dynamics->lumped = true;
       out.dynamics->scheme.impact = solve::Impact::average;

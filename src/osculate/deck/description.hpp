@@ -316,6 +316,13 @@ struct DynamicsDescription {
   ImpactTimesWord impact_times = ImpactTimesWord::automatic;
   double damping_mass = 0, damping_stiffness = 0;
   double safety = 0, step = 0;  ///< of central_differences
+  /// Time steps that are chosen by their errors.
+  struct TimeSteps {
+    core::SourceMark mark;
+    double error = 0;
+    std::optional<Number> smallest;
+  };
+  std::optional<TimeSteps> time_steps;
 };
 
 struct Step {

@@ -76,10 +76,26 @@ Spec dynamics_spec() {
                                      .such_as("1e-4"))})
           .otherwise("{}")
           .such_as("{stiffness: 1e-4}");
+  const Spec time_steps =
+      map("Time steps as long as their errors allow, within the nominal increments, whose ends are "
+          "kept; implicit schemes only.",
+          {optional("error", number("Largest error of the displacement in a time step, over the "
+                                    "time step and the largest change of the velocity so far: "
+                                    "about the relative error of the period of a vibration.")
+                                 .above(0)
+                                 .at_most(0.1)
+                                 .otherwise("1e-3")),
+           optional("smallest", number("Time step that is not shortened for its error any more.")
+                                    .in("time")
+                                    .above(0)
+                                    .otherwise_as("1/1000 of a nominal increment")
+                                    .such_as("1e-6"))})
+          .otherwise_as("the nominal increments")
+          .such_as("{error: 1e-3}");
   return map("Inertia: the step is an integration in time, over its duration.",
              {optional("scheme", scheme_spec()), optional("impact", impact),
-              optional("impact_times", times), optional("mass", mass),
-              optional("damping", damping)})
+              optional("impact_times", times), optional("mass", mass), optional("damping", damping),
+              optional("time_steps", time_steps)})
       .such_as("{scheme: {generalized_alpha: {radius: 0.8}}}");
 }
 

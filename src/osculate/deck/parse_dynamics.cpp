@@ -17,6 +17,11 @@ void check_explicit(const Value& v, const DynamicsDescription& d) {
       throw core::InputError(v.at(key).mark,
                              "is of the implicit schemes; central differences take contact as any "
                              "other force");
+  if (d.time_steps)
+    throw core::InputError(
+        d.time_steps->mark,
+        "is of the implicit schemes; central differences take their stable step, "
+        "or less by `scheme: {central_differences: {step}}`");
   if (d.damping_stiffness > 0)
     throw core::InputError(v.at("damping").at("stiffness").mark,
                            "damping by the stiffness makes the stable step of central differences "
@@ -49,6 +54,8 @@ DynamicsDescription parse_dynamics(const Value& v) {
   const Value& damping = v.at("damping");
   d.damping_mass = damping.at("mass").number;
   d.damping_stiffness = damping.at("stiffness").number;
+  if (const Value* const steps = v.find("time_steps"))
+    d.time_steps = {steps->mark, steps->at("error").number, number_if(*steps, "smallest")};
   if (d.scheme == SchemeWord::central_differences) check_explicit(v, d);
   return d;
 }

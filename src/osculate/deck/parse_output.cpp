@@ -97,6 +97,9 @@ std::vector<std::string> energy_columns(const Description& description) {
   std::vector<std::string> columns;
   for (const std::string_view name : model::energy_quantities)
     columns.push_back(name == "elapsed" ? std::string(name) : fmt::format("energy.{}", name));
+  if (std::any_of(steps.begin(), steps.end(),
+                  [](const Step& step) { return step.dynamics && step.dynamics->time_steps; }))
+    columns.emplace_back(model::time_step_quantity);
   return columns;
 }
 

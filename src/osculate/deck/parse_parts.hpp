@@ -56,7 +56,7 @@ template <class E>
 /// Needs contacts and rigid bodies: they decide what `on` means.
 [[nodiscard]] Output parse_output(const Value& v, const Description& description);
 /// Columns that the history has without being asked: those of model::energy_quantities, where a
-/// step has inertia, in their order.
+/// step has inertia, in their order, and the time step where one chooses it by its error.
 [[nodiscard]] std::vector<std::string> energy_columns(const Description& description);
 
 // ---- references between branches --------------------------------------------------------------

@@ -233,6 +233,17 @@ std::vector<Release> releases_of(const Value& v) {
   return out;
 }
 
+void check_smallest(const Step& s) {
+  if (!s.dynamics || !s.dynamics->time_steps || !s.dynamics->time_steps->smallest) return;
+  const Number& smallest = *s.dynamics->time_steps->smallest;
+  const double nominal = s.duration->value / s.increments.value;
+  if (smallest.value > nominal)
+    throw core::InputError(
+        smallest.mark,
+        fmt::format("must be at most a nominal increment, duration / increments = {:g}, got {:g}",
+                    nominal, smallest.value));
+}
+
 Step step_of(const Value& v) {
   Step s;
   s.name = name_of(v.at("name"));
@@ -248,6 +259,7 @@ Step step_of(const Value& v) {
   if (const Value* const dynamics = v.find("dynamics")) s.dynamics = parse_dynamics(*dynamics);
   if (s.dynamics && !s.duration)
     throw core::InputError(s.dynamics->mark, "a step with inertia needs a duration");
+  check_smallest(s);
   return s;
 }
 

@@ -76,6 +76,10 @@ struct Analysis {
     }
     solve::IncrementOptions increments = options.increments;
     if (step.dynamics) increments.arc_length.use = solve::PathControl::off;  // time does not turn
+    if (step.dynamics && step.dynamics->time_steps)
+      increments.time_steps =
+          solve::TimeAccuracy{step.dynamics->time_steps->error,
+                              step.dynamics->time_steps->smallest / step.duration, corners(step)};
     solve::StepResult<BasicState<Dim>> done =
         solve::run_step(system, result.state, step.increments, increments, solver, on_increment,
                         on_cutback, position);

@@ -1,6 +1,26 @@
 #include "osculate/model/loads.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace osculate::model {
+namespace {
+
+void add_corners(const Ramp& ramp, std::vector<double>& out) {
+  constexpr double sharp = 0.1;
+  const Amplitude& table = ramp.amplitude;
+  std::vector<double> slopes{0};  // constant before the first point and after the last
+  for (std::size_t i = 1; i < table.size(); ++i)
+    slopes.push_back((table[i].second - table[i - 1].second) /
+                     (table[i].first - table[i - 1].first));
+  slopes.push_back(0);
+  double steepest = 0;
+  for (const double slope : slopes) steepest = std::max(steepest, std::abs(slope));
+  for (std::size_t i = 0; i < table.size(); ++i)
+    if (std::abs(slopes[i + 1] - slopes[i]) > sharp * steepest) out.push_back(table[i].first);
+}
+
+}  // namespace
 
 double Ramp::value(double fraction) const {
   if (amplitude.empty()) return start + (target - start) * fraction;
@@ -13,6 +33,16 @@ double Ramp::value(double fraction) const {
     return target * (a.second + weight * (b.second - a.second));
   }
   return target * amplitude.back().second;
+}
+
+std::vector<double> corners(const Step& step) {
+  std::vector<double> out;
+  for (const PrescribedDof& p : step.prescribed) add_corners(p.ramp, out);
+  for (const DeadLoad& load : step.dead) add_corners(load.ramp, out);
+  for (const PressureLoad& load : step.pressure) add_corners(load.ramp, out);
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
 }
 
 }  // namespace osculate::model

@@ -57,6 +57,12 @@ struct PressureLoad {
 /// all        those of all contact points
 enum class ImpactTimes { automatic, all, off };
 
+/// How long the time steps of an implicit integration are.
+struct TimeStepLengths {
+  double error = 1e-3;  ///< rate of the error over the largest speed (solve::TimeAccuracy)
+  double smallest = 0;  ///< time step that is not shortened any more
+};
+
 /// A step in time with inertia.
 ///
 /// Formula    damping forces C v, C = damping_mass M + damping_stiffness K (Rayleigh), K the
@@ -68,6 +74,7 @@ struct Dynamics {
   ImpactTimes impact_times = ImpactTimes::automatic;
   /// Explicit, instead of `scheme`: masses at the nodes, damping by mass alone.
   std::optional<solve::CentralDifferences> explicit_steps{};
+  std::optional<TimeStepLengths> time_steps{};  ///< none: the nominal increments
 };
 
 /// Everything that acts during one step, compiled from the model file.
@@ -82,5 +89,11 @@ struct Step {
   std::vector<Ramp> gravity;                    ///< acceleration in every direction; empty: none
   double equation_start = 1, equation_end = 1;  ///< ramp of the constants of the equations
 };
+
+/// Fractions of a step at which tables of amplitudes have corners: where the slope changes by more
+/// than a tenth of the steepest slope of the table. The points of a smooth curve are none.
+///
+/// Tested by  tests/unit/deck/test_time_steps.cpp
+[[nodiscard]] std::vector<double> corners(const Step& step);
 
 }  // namespace osculate::model

@@ -46,6 +46,7 @@ struct Rates {
   std::vector<body::RotationRates<3>> spins;             ///< of the rigid bodies in space
   Energies energies;
   StableStep stable{};
+  double length = 0;  ///< of the last increment, in time; 0: none yet
   [[nodiscard]] bool empty() const { return velocity.size() == 0; }
 };
 

@@ -57,6 +57,8 @@ BasicState<Dim> BasicSystem<Dim>::begin_motion(const State& committed) {
     state.rates = impl_->begin_explicit_rates(committed);
   else
     state.rates = impl_->motion ? impl_->begin_rates(committed) : Rates{};
+  if (impl_->motion && impl_->motion->settings.time_steps)
+    impl_->motion->speeds = impl_->speeds_of(state.rates);
   return state;
 }
 
@@ -66,6 +68,7 @@ SystemMemory BasicSystem<Dim>::memory() const {
   for (const PrescribedDof& p : impl_->step.prescribed) memory.starts.push_back(p.ramp.start);
   impl_->builder.finish();  // what the last evaluation has kept aside belongs to it
   memory.grown = impl_->builder.grown();
+  if (impl_->motion) memory.speeds = impl_->motion->speeds;
   return memory;
 }
 
@@ -79,6 +82,7 @@ void BasicSystem<Dim>::resume_step(const Step& step, const State& committed,
     if (p.hold) p.ramp.target = p.ramp.start;
   }
   impl_->builder.grow_by(memory.grown);
+  if (impl_->motion) impl_->motion->speeds = memory.speeds;
 }
 
 template <int Dim>

@@ -10,6 +10,7 @@
 #include "osculate/solve/central_differences.hpp"
 #include "osculate/solve/impact_ahead.hpp"
 #include "osculate/solve/newton.hpp"
+#include "osculate/solve/time_steps.hpp"
 
 namespace osculate::model {
 
@@ -37,6 +38,7 @@ struct SystemSeconds {
 struct SystemMemory {
   std::vector<double> starts;          ///< of the prescribed dofs' ramps in the running step
   std::vector<la::MatrixPlace> grown;  ///< entries of contact in the pattern of the matrix
+  Eigen::VectorXd speeds;              ///< at the beginning of a step that estimates errors in time
 };
 
 /// One increment of explicit time integration.
@@ -104,6 +106,11 @@ class BasicSystem {
                                                                double fraction) const;
   /// Whether one of these points has met its obstacle in the last state evaluated.
   [[nodiscard]] bool has_met(const State& committed, const solve::ImpactAhead& expected) const;
+
+  /// What the step in time from a committed state to the last one committed is off by. To be called
+  /// in steps whose time steps are chosen by errors. Contact forces have no part in it unless they
+  /// enter as all others do.
+  [[nodiscard]] solve::TimeError time_error(const State& committed, const State& next) const;
 
   /// Explicit time integration from a committed state to a fraction of the running step, in as many
   /// time steps as are stable. To be called in steps with central differences only.

@@ -78,16 +78,17 @@ void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double frac
   const bool same_start = start.size() == m.start.size() && start == m.start &&
                           m.past.velocity.size() == committed.rates.velocity.size() &&
                           m.past.velocity == committed.rates.velocity &&
-                          m.past.acceleration == committed.rates.acceleration;
+                          m.past.acceleration == committed.rates.acceleration &&
+                          m.past.energies.elapsed == committed.rates.energies.elapsed;
   if (same_start && same_length) return;
   if (!same_start) {
     m.start = std::move(start);
     measure_damping(committed.u);
     m.from = committed.rigid;
     m.past = committed.rates;
-    mass_x = positions(committed.u);
-    mass_rigid = committed.rigid;
   }
+  mass_x = positions(committed.u);  // a step of another length may have been committed and dropped
+  mass_rigid = committed.rigid;
   move_past_to_bodies();
   correct_damping();
   if (m.settings.scheme.impact != solve::Impact::average && !m.mass_known) factor_mass();
@@ -308,6 +309,7 @@ double BasicSystem<Dim>::Impl::kinetic_energy(const Rates& rates) const {
 template <int Dim>
 Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   Rates rates = committed.rates;
+  rates.length = 0;
   const bool first = rates.empty();
   mass_x = positions(committed.u);
   mass_rigid = committed.rigid;
@@ -379,6 +381,7 @@ Rates BasicSystem<Dim>::Impl::new_rates(const State& trial) {
   now.damping = m.damping_force;
   now.energies = m.past.energies;
   now.energies.elapsed += h;
+  now.length = h;
   add_energies(trial, now, step_of, s.gamma * left_over.dot(step_of), now.energies);
   forces.inertia = now.damping + of_impulse + inertia_of(now);
   return now;

@@ -300,6 +300,7 @@ void BasicSystem<Dim>::Impl::move_with_bodies(const State& s, Rates& rates) cons
 template <int Dim>
 Rates BasicSystem<Dim>::Impl::begin_explicit_rates(const State& committed) {
   Rates rates = committed.rates;
+  rates.length = 0;
   const bool first = rates.empty();
   if (first) {
     mass_x = positions(committed.u);

@@ -102,6 +102,7 @@ struct BasicSystem<Dim>::Impl {
     Eigen::VectorXd effective, damping_force;
     double size_of_mass = 0;                          ///< norm of the diagonal of the mass matrix
     std::vector<pairing::PairEvaluation<Dim>> paths;  ///< of the pairs, for impacts to come
+    Eigen::VectorXd speeds;  ///< at the beginning of the step; empty: errors are not estimated
   };
   std::optional<Motion> motion;
   std::optional<BasicInertia<Dim>> resting;  ///< for gravity in steps without inertia
@@ -211,6 +212,16 @@ struct BasicSystem<Dim>::Impl {
   void forget_impulses(std::vector<pairing::PairMultipliers<Dim>>& multipliers) const;
   [[nodiscard]] std::optional<solve::ImpactAhead> impact_ahead(const State& committed,
                                                                double fraction);
+
+  // Errors of steps in time, in system_time_error.cpp.
+  /// Velocities of all dofs, those of turning bodies in space about their own axes.
+  [[nodiscard]] Eigen::VectorXd speeds_of(const Rates& rates) const;
+  /// sqrt(w . M w), w as `speeds_of` has it.
+  [[nodiscard]] double size_by_mass(const Eigen::VectorXd& w) const;
+  [[nodiscard]] Eigen::VectorXd free_accelerations(const Rates& before, const Rates& after);
+  void add_spin_errors(const Rates& before, const Rates& after, double h,
+                       Eigen::VectorXd& error) const;
+  [[nodiscard]] solve::TimeError time_error(const State& committed, const State& next);
 
   // Explicit time integration, in system_explicit.cpp; steps without have none.
   struct Explicit;

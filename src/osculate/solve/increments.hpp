@@ -5,8 +5,10 @@
 
 #include "osculate/solve/arc_length.hpp"
 #include "osculate/solve/central_differences.hpp"
+#include "osculate/solve/extrapolation.hpp"
 #include "osculate/solve/impacts.hpp"
 #include "osculate/solve/newton.hpp"
+#include "osculate/solve/time_steps.hpp"
 
 namespace osculate::solve {
 
@@ -17,6 +19,8 @@ struct IncrementOptions {
   int max_cutbacks = 8;     ///< halvings of one nominal increment before giving up
   int easy_iterations = 8;  ///< at most this many: the next sub-increment doubles
   ArcLengthOptions arc_length;
+  /// Steps in time are as long as their errors allow; nominal increments are the longest.
+  std::optional<TimeAccuracy> time_steps;
 };
 
 /// One converged increment, or the last failed attempt.
@@ -28,58 +32,7 @@ struct IncrementRecord {
   bool resisted = false;      ///< free motions were resisted on the way (see Resistance)
   bool on_path = false;       ///< found by arc length: the fraction may have fallen
   TimeSteps time_steps{};     ///< of explicit time integration; none: it is not
-};
-
-/// What the extrapolation knows of the last two increments.
-struct ExtrapolationMemory {
-  Eigen::VectorXd last, before;  ///< their corrections
-  double last_size = 0, before_size = 0;
-  double residual = 0, energy = 0;  ///< per size, of the last start by the tangent
-  std::uint64_t signature = 0;
-  int known = 0;
-  bool smooth = false, worth = false;
-};
-
-/// The last increments, for a guess of the next one.
-///
-/// Formula    du = h v_1 + h (h + h_1) (v_1 - v_2) / (h_1 + h_2), v_i = du_i / h_i: the parabola
-///            through the last three converged states
-/// Used       where the last two increments ended with the same states of all contact points and
-///            the last one took at least three iterations (otherwise there is nothing to save)
-/// Tested by  tests/unit/solve/test_increments.cpp
-class Extrapolation {
- public:
-  Extrapolation() = default;
-  explicit Extrapolation(ExtrapolationMemory memory) : m_(std::move(memory)) {}
-  [[nodiscard]] const ExtrapolationMemory& memory() const { return m_; }
-  void reset() { m_ = {}; }
-
-  /// Takes note of a converged increment of size `h`.
-  template <class State>
-  void add(const NewtonResult<State>& converged, double h) {
-    m_.smooth = m_.known > 0 && converged.evaluation.counts.signature == m_.signature;
-    m_.signature = converged.evaluation.counts.signature;
-    m_.before = std::move(m_.last);
-    m_.before_size = m_.last_size;
-    m_.last = converged.total;
-    m_.last_size = h;
-    m_.known = std::min(m_.known + 1, 2);
-    m_.worth = converged.iterations.size() >= 3 || (converged.extrapolated && m_.worth);
-    if (!converged.extrapolated) {
-      m_.residual = converged.first_residual / h;
-      m_.energy = converged.first_energy / (h * h);
-    }
-  }
-
-  [[nodiscard]] Guess guess(double h) const {
-    if (m_.known < 2 || !m_.smooth || !m_.worth) return {};
-    const Eigen::VectorXd v1 = m_.last / m_.last_size, v2 = m_.before / m_.before_size;
-    const double bend = h * (h + m_.last_size) / (m_.last_size + m_.before_size);
-    return {h * v1 + bend * (v1 - v2), m_.residual * h, m_.energy * h * h};
-  }
-
- private:
-  ExtrapolationMemory m_;
+  TimeStepTaken time_step{};  ///< where lengths are chosen by errors
 };
 
 /// Where the step control stands after a converged increment: with the committed state all that it
@@ -90,6 +43,7 @@ struct StepPosition {
   double size = 0;  ///< of the next sub-increment
   Extrapolation extrapolation;
   PathPosition path;
+  TimePace pace{};
 };
 
 template <class State>
@@ -230,6 +184,7 @@ struct StepRun {
   StepPosition& position;
   StepResult<State>& result;
   int cutbacks = 0, wasted = 0;
+  TimeStepTaken time_step{};  ///< the running one
 
   [[nodiscard]] double begin() const {
     return static_cast<double>(position.nominal) / nominal_increments;
@@ -240,13 +195,24 @@ struct StepRun {
 
   /// Commits a converged increment that ends where `position` stands. False: stopped.
   bool accept(NewtonResult<State>& attempt, bool resisted, bool on_path) {
+    return accept(system.commit(attempt.state, position.at), attempt, resisted, on_path);
+  }
+  /// The same for one whose state has been committed.
+  bool accept(State committed, NewtonResult<State>& attempt, bool resisted, bool on_path) {
     result.outcome = Outcome::converged;
     result.reason.clear();
     result.last_attempt = {};
-    result.state = system.commit(attempt.state, position.at);
-    result.increments.push_back(
-        {position.at, cutbacks, std::move(attempt.iterations), wasted, resisted, on_path});
+    result.state = std::move(committed);
+    result.increments.push_back({position.at,
+                                 cutbacks,
+                                 std::move(attempt.iterations),
+                                 wasted,
+                                 resisted,
+                                 on_path,
+                                 {},
+                                 time_step});
     cutbacks = wasted = 0;
+    time_step = {};
     if (on_increment(result.state, result.increments.back())) return true;
     result.outcome = Outcome::stopped;
     result.reason = "stopped by the user";
@@ -276,6 +242,43 @@ bool begin_path(StepRun<S>& run, double size) {
   return true;
 }
 
+/// One attempt at an increment from where the position stands to `target`, which an impact on the
+/// way brings forward. `unit`: length that times of impacts are measured by; shorter increments
+/// than `smallest` are not tried.
+template <System S>
+NewtonResult<typename S::State> attempt_load(StepRun<S>& run, double& target, double unit,
+                                             double smallest, bool& resisted) {
+  StepPosition& position = run.position;
+  const IncrementOptions& options = run.options;
+  const double at = position.at;
+  const bool may_guess = options.newton.predictor == Predictor::automatic;
+  const auto reach = [&](double until) {
+    const Guess guess = may_guess ? position.extrapolation.guess(until - at) : Guess{};
+    const bool last = 0.5 * (until - at) < smallest && options.arc_length.use != PathControl::off;
+    return attempt_increment(run.system, run.result.state, until, options.newton, run.solver, guess,
+                             last, run.wasted, resisted);
+  };
+  if constexpr (MeetsImpacts<S>)
+    return up_to_impact(run.system, run.result.state, at, target, unit, run.wasted, reach);
+  else
+    return reach(target);
+}
+
+/// Half of a failed increment comes next. False: it would be too small, the step ends here.
+template <System S>
+bool halve(StepRun<S>& run, NewtonResult<typename S::State>& attempt, double target,
+           double smallest) {
+  StepPosition& position = run.position;
+  position.extrapolation.reset();
+  run.drop(attempt, target);
+  position.size = 0.5 * (target - position.at);
+  if (position.size >= smallest * (1 - 1e-9)) return true;
+  run.result.outcome = attempt.outcome;
+  run.result.reason = attempt.reason;
+  run.result.last_attempt = std::move(attempt);
+  return begin_path(run, position.size);
+}
+
 /// One increment by load control: the nominal increments are a grid that is hit. False: the step
 /// ends here.
 template <System S>
@@ -289,30 +292,10 @@ bool load_increment(StepRun<S>& run) {
   const double smallest = (end - begin) * std::ldexp(1.0, -options.max_cutbacks);
   constexpr double sliver = 1e-6;  // not worth an increment, and too short for one in time
   double target = end - at <= size * (1 + sliver) ? end : at + size;
-  const bool may_guess = options.newton.predictor == Predictor::automatic;
   bool resisted = false;
-  const auto reach = [&](double until) {
-    const Guess guess = may_guess ? position.extrapolation.guess(until - at) : Guess{};
-    const bool last = 0.5 * (until - at) < smallest && options.arc_length.use != PathControl::off;
-    return attempt_increment(run.system, run.result.state, until, options.newton, run.solver, guess,
-                             last, run.wasted, resisted);
-  };
-  NewtonResult<typename S::State> attempt;
-  if constexpr (MeetsImpacts<S>)
-    attempt =
-        up_to_impact(run.system, run.result.state, at, target, end - begin, run.wasted, reach);
-  else
-    attempt = reach(target);
-  if (attempt.outcome != Outcome::converged) {
-    position.extrapolation.reset();
-    run.drop(attempt, target);
-    size = 0.5 * (target - at);
-    if (size >= smallest * (1 - 1e-9)) return true;
-    run.result.outcome = attempt.outcome;
-    run.result.reason = attempt.reason;
-    run.result.last_attempt = std::move(attempt);
-    return begin_path(run, size);
-  }
+  NewtonResult<typename S::State> attempt =
+      attempt_load(run, target, end - begin, smallest, resisted);
+  if (attempt.outcome != Outcome::converged) return halve(run, attempt, target, smallest);
   position.extrapolation.add(attempt, target - at);
   at = target;
   if (static_cast<int>(attempt.iterations.size()) <= options.easy_iterations)
@@ -325,6 +308,53 @@ bool load_increment(StepRun<S>& run) {
     path.until = 1;
   }
   return run.accept(attempt, resisted, false);
+}
+
+/// One increment in time whose length its error has chosen. One that is off by too much is dropped
+/// as one that has failed, and a shorter one comes next. False: the step ends here.
+template <System S>
+bool time_increment(StepRun<S>& run, const TimeAccuracy& accuracy) {
+  StepPosition& position = run.position;
+  const double begin = run.begin(), end = run.end(), nominal = end - begin;
+  double &at = position.at, &size = position.size;
+  at = std::max(at, begin);
+  if (!(size > 0)) size = nominal;
+  const double least = std::min(accuracy.smallest, nominal);
+  const double smallest =
+      (least > 0 ? least : nominal) * std::ldexp(1.0, -run.options.max_cutbacks);
+  double target = time_target(at, size, end, accuracy.corners);
+  bool resisted = false;
+  NewtonResult<typename S::State> attempt =
+      attempt_load(run, target, std::min(size, nominal), smallest, resisted);
+  if (attempt.outcome != Outcome::converged) return halve(run, attempt, target, smallest);
+  typename S::State next = run.system.commit(attempt.state, target);
+  const TimeError error = run.system.time_error(run.result.state, next);
+  const double relative = relative_error(error, position.pace), length = target - at;
+  const double share = relative / accuracy.error;
+  const int iterations = static_cast<int>(attempt.iterations.size());
+  if (refuses(length, share, least)) {
+    position.pace = after_refusal(position.pace, error, target);
+    size = shorter(length, share, least);
+    ++run.time_step.refused;
+    run.wasted += iterations;
+    return true;
+  }
+  position.extrapolation.add(attempt, length);
+  position.pace = after_step(position.pace, error, target);
+  size =
+      next_length(size, length, share, iterations <= run.options.easy_iterations, least, nominal);
+  at = target;
+  run.time_step.length = error.length;
+  run.time_step.error = relative;
+  return run.accept(std::move(next), attempt, resisted, false);
+}
+
+/// The next increment off the path.
+template <System S>
+bool free_increment(StepRun<S>& run) {
+  if constexpr (EstimatesTimeErrors<S>)
+    if (run.options.time_steps) return time_increment(run, *run.options.time_steps);
+  return load_increment(run);
 }
 
 /// The path has passed the fraction where it ends: the increment that ends there.
@@ -402,10 +432,10 @@ template <System S>
   while (position.nominal < nominal_increments) {
     if (!position.path.on && position.at >= run.end()) {
       ++position.nominal;
-      position.size = 0;
+      if (!options.time_steps) position.size = 0;
       continue;
     }
-    if (!(position.path.on ? detail::path_increment(run) : detail::load_increment(run))) break;
+    if (!(position.path.on ? detail::path_increment(run) : detail::free_increment(run))) break;
   }
   return result;
 }

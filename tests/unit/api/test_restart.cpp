@@ -41,6 +41,27 @@ constexpr const char* space =
     "  - {name: drag, increments: 4, prescribe: [{on: b.top, ux: 0.03, uy: 0.04}]}\n"
     "output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}]}\n";
 
+/// A disc that is thrown on a block whose base is shaken; time steps by their errors, after another
+/// step with inertia.
+constexpr const char* thrown =
+    "osculate: 1\n"
+    "mesh: {generate: {block: {box: {x: [-2, 2], y: [-1, 0], elements: [4, 2]}}}}\n"
+    "materials: {m: {neo_hooke: {E: 1000, nu: 0.3, density: 0.5}}}\n"
+    "sections: [{on: block, material: m, element: plane_strain}]\n"
+    "rigid: {disc: {circle: {center: [0.3, 1.03], radius: 1}, mass: 2}}\n"
+    "contact: [{name: c, master: disc, slave: block.top, normal: {penalty: 900}, friction: "
+    "{coulomb: {mu: 0.4, penalty: 700}}}]\n"
+    "initial_velocity: [{on: disc, vx: 0.3, vy: -1, wz: 2}]\n"
+    "amplitudes: {shake: [[0, 0], [0.23, 1], [0.4, 0], [1, 0]]}\n"
+    "steps:\n"
+    "  - {name: fly, increments: 2, duration: 0.01, dynamics: {}, prescribe: [{on: block.bottom, "
+    "ux: "
+    "0, uy: 0}]}\n"
+    "  - {name: hit, increments: 3, duration: 0.1, gravity: [0, -9.81], dynamics: {damping: {mass: "
+    "0.3}, time_steps: {error: 0.02}}, prescribe: [{on: block.bottom, ux: 0.01, uy: 0, amplitude: "
+    "shake}]}\n"
+    "output: {history: [{on: c, of: normal_force}, {on: disc, of: vy}], checkpoint: 1}\n";
+
 class Restart : public testing::Test {
  protected:
   fs::path folder_ = fs::path(testing::TempDir()) /
@@ -51,6 +72,7 @@ class Restart : public testing::Test {
     fs::create_directories(folder_);
     std::ofstream(folder_ / "plane.yaml") << plane;
     std::ofstream(folder_ / "space.yaml") << space;
+    std::ofstream(folder_ / "thrown.yaml") << thrown;
   }
   void TearDown() override { fs::remove_all(folder_); }
   [[nodiscard]] RunOptions options(const std::string& model, const std::string& out,
@@ -87,6 +109,28 @@ TEST_F(Restart, AfterEveryIncrementGivesTheSameBits) {
   }
   EXPECT_GE(runs, 10);
   EXPECT_EQ(results("pieces"), results("whole"));
+}
+
+TEST_F(Restart, WithTimeStepsByTheirErrors) {
+  ASSERT_EQ(run(options("thrown", "whole")).status, RunStatus::done);
+  RunOptions o = options("thrown", "pieces");
+  o.interrupted = [] { return true; };
+  int runs = 0;
+  while (run(o).status != RunStatus::done) {
+    o.restart = true;
+    ASSERT_LT(++runs, 500);
+  }
+  EXPECT_GE(runs, 10);
+  EXPECT_EQ(results("pieces"), results("whole"));
+  const nlohmann::json steps = nlohmann::json::parse(results("whole")["summary.json"]);
+  EXPECT_TRUE(steps[0]["chosen_time_steps"].is_null());
+  EXPECT_GT(steps[1]["chosen_time_steps"]["refused"], 0);
+  EXPECT_LT(steps[1]["chosen_time_steps"]["smallest"], 0.5 * 0.1 / 3);
+  EXPECT_EQ(steps[1]["chosen_time_steps"]["count"], steps[1]["increments"].size());
+  // Fields are written at the ends of the nominal increments: initial state, 2 and 3 of them.
+  int fields = 0;
+  for (const auto& entry : results("whole")) fields += entry.first.ends_with(".vtu") ? 1 : 0;
+  EXPECT_EQ(fields % 6, 0);
 }
 
 TEST_F(Restart, OnAPathThatTurnsBack) {
