@@ -7,6 +7,7 @@
 
 #include "../cases.hpp"
 #include "../run_model.hpp"
+#include "parts.hpp"
 #include "reference.hpp"
 
 namespace osculate::verification {
@@ -199,6 +200,10 @@ CaseResult turning_block(const CaseContext&) {
     add_run({Means::penalty, increments, true, increments == 3200, true}, half, out);
     add_run({Means::penalty, increments, true, increments == 3200, true}, third, out);
   }
+  add_projections(out);
+  add_map(out);
+  add_vibration(out);
+  add_side_by_side(out);
   return out;
 }
 

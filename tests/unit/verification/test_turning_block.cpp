@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <numbers>
 
 #include "derivative_check.hpp"
 #include "turning_block/reference.hpp"
+#include "turning_block/spring.hpp"
 
 namespace osculate::verification {
 namespace {
@@ -281,6 +283,38 @@ TEST(TurningBlock, RocksOrSlidesAfterTheSecondImpact) {
   TurningBlock slippery = b;
   slippery.friction = 0.2;
   EXPECT_NEAR(second_impact(slippery, end).velocity.x(), 0.5 * b.edge * end.rate * 0.8, 1e-11);
+}
+
+// exp(z t) with m z^2 + c z + k = 0
+TEST(CornerSpring, PeriodAndDecayAreThoseOfTheRoots) {
+  const double m = 1.3, k = 470;
+  for (const double c : {0.0, 0.7, 21.0}) {
+    const std::complex<double> root =
+        (-c + std::sqrt(std::complex<double>(c * c - 4 * k * m))) / (2 * m);
+    for (const double t : {0.1, 1.7}) {
+      EXPECT_NEAR(damped_share(m, c, t), std::abs(std::exp(root * t)), 1e-14);
+    }
+    if (c > 0) continue;
+    EXPECT_NEAR(spring_period(m, k) * root.imag(), 2 * std::numbers::pi, 1e-14);
+  }
+}
+
+// Two motions with different starts: what they span shrinks by the square of the amplitude.
+TEST(CornerSpring, ImplicitStepsShrinkWhatTwoMotionsSpan) {
+  const double m = 1.3, k = 470;
+  for (const double theta : {0.5, 1.0})
+    for (const double h : {0.002, 0.05}) {
+      Vec2 place(1, 0.3), speed(-2, 5);  // of both motions
+      const double before = place.x() * speed.y() - place.y() * speed.x();
+      constexpr int steps = 7;
+      for (int i = 0; i < steps; ++i) {
+        const Vec2 next = (place + h * speed) / (1 + theta * h * h * k / m);
+        speed -= h * k / m * next;
+        place = next;
+      }
+      const double after = place.x() * speed.y() - place.y() * speed.x();
+      EXPECT_NEAR(after / before / std::pow(implicit_share(m, k, h, theta), 2 * steps), 1, 1e-11);
+    }
 }
 
 }  // namespace
