@@ -96,6 +96,8 @@ struct DirectSolver::Impl {
   DMUMPS_STRUC_C id{};
   DirectOptions options;
   bool open = false, analysed = false, factored = false;
+  std::unique_ptr<Condensation> condensation;  ///< of the whole system to what is factored
+  bool condensed = false;
   Symmetry symmetry = Symmetry::unsymmetric;
   std::uint64_t version = 0;
   Index n = -1;
@@ -123,6 +125,8 @@ struct DirectSolver::Impl {
     if (open) call(end);
     open = analysed = factored = false;
   }
+  /// Of the whole system.
+  [[nodiscard]] Index unknowns() const { return condensed ? condensation->unknowns() : n; }
   [[nodiscard]] bool kept(Index i, Index j) const {
     return symmetry == Symmetry::unsymmetric || i <= j;
   }
@@ -139,6 +143,9 @@ struct DirectSolver::Impl {
   [[nodiscard]] bool looks_singular();
   [[nodiscard]] Index vanishing_row(const SparseMatrix& k);
   SolveStatus substitute(double* rhs, Index count);
+  SolveStatus solve_condensed(Eigen::VectorXd& rhs);
+  SolveStatus solve_factored(Eigen::VectorXd& rhs);
+  FactorReport factor(const SparseMatrix& k, std::uint64_t wanted_version, Symmetry wanted);
   void refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
 };
 
@@ -345,59 +352,102 @@ DirectSolver::~DirectSolver() = default;
 DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
 DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
 
-FactorReport DirectSolver::factor(const SparseMatrix& k, std::uint64_t pattern_version,
-                                  Symmetry symmetry) {
-  if (!impl_) impl_ = std::make_unique<Impl>(DirectOptions{});  // moved from
-  Impl& s = *impl_;
-  const Spent spent(s.seconds);
-  const LibraryCall guard(s.options.blas_threads);
-  s.factored = false;
+FactorReport DirectSolver::Impl::factor(const SparseMatrix& k, std::uint64_t wanted_version,
+                                        Symmetry wanted) {
+  const LibraryCall guard(options.blas_threads);
+  factored = false;
   if (k.n == 0) {
-    s.close();
-    s.n = 0;
-    s.factored = true;
+    close();
+    n = 0;
+    factored = true;
     return {};
   }
-  FactorReport report = s.prepare(k, pattern_version, symmetry);
+  FactorReport report = prepare(k, wanted_version, wanted);
   if (report.status != SolveStatus::ok) return report;
   const double analysis = report.seconds_analysis;
   const auto begun = std::chrono::steady_clock::now();
-  report = s.factorise_with_retries();
-  if (report.status == SolveStatus::ok && s.looks_singular())
+  report = factorise_with_retries();
+  if (report.status == SolveStatus::ok && looks_singular())
     report = failure(SolveStatus::singular, "the matrix is singular to working precision");
-  if (report.status == SolveStatus::singular) report.bad_row = s.vanishing_row(k);
+  if (report.status == SolveStatus::singular) report.bad_row = vanishing_row(k);
   if (report.status == SolveStatus::singular && report.bad_row < 0 &&
       symmetry == Symmetry::positive_definite)
     report = failure(SolveStatus::failed, not_definite);  // it can be factored with pivoting
   report.seconds_analysis = analysis;
   report.seconds_factor = seconds_since(begun);
-  s.factored = report.status == SolveStatus::ok;
+  factored = report.status == SolveStatus::ok;
+  return report;
+}
+
+FactorReport DirectSolver::factor(const SparseMatrix& k, std::uint64_t pattern_version,
+                                  Symmetry symmetry) {
+  return factor(k, pattern_version, symmetry, {});
+}
+
+FactorReport DirectSolver::factor(const SparseMatrix& k, std::uint64_t pattern_version,
+                                  Symmetry symmetry, std::span<const MultiplierGroup> condensable) {
+  if (!impl_) impl_ = std::make_unique<Impl>(DirectOptions{});  // moved from
+  Impl& s = *impl_;
+  const Spent spent(s.seconds);
+  s.factored = false;
+  s.condensed = false;
+  const bool wanted =
+      s.options.condense == Condense::always ||
+      (s.options.condense == Condense::if_unsymmetric && symmetry == Symmetry::unsymmetric);
+  if (wanted && !condensable.empty()) {
+    if (!s.condensation) s.condensation = std::make_unique<Condensation>();
+    s.condensed = s.condensation->reduce(k, condensable);
+  }
+  if (!s.condensed) return s.factor(k, pattern_version, symmetry);
+  const Condensation& c = *s.condensation;
+  FactorReport report = s.factor(c.matrix(), c.pattern_version(), Symmetry::unsymmetric);
+  if (report.bad_row >= 0) report.bad_row = c.unknown(report.bad_row);
   return report;
 }
 
 double DirectSolver::seconds() const { return impl_ ? impl_->seconds : 0.0; }
 
-SolveStatus DirectSolver::solve(Eigen::VectorXd& rhs) const {
-  if (!impl_ || !impl_->factored || rhs.size() != impl_->n || !rhs.allFinite())
-    return SolveStatus::failed;
-  Impl& s = *impl_;
-  if (s.n == 0) return SolveStatus::ok;
-  const Spent spent(s.seconds);
-  const LibraryCall guard(s.options.blas_threads);
+SolveStatus DirectSolver::Impl::solve_factored(Eigen::VectorXd& rhs) {
+  if (n == 0) return SolveStatus::ok;
+  const LibraryCall guard(options.blas_threads);
   const Eigen::VectorXd given = rhs;
-  const SolveStatus status = s.substitute(rhs.data(), 1);
+  const SolveStatus status = substitute(rhs.data(), 1);
   if (status != SolveStatus::ok) return status;
   if (!rhs.allFinite()) return SolveStatus::singular;
-  s.refine(given, rhs);
+  refine(given, rhs);
   return rhs.allFinite() ? SolveStatus::ok : SolveStatus::singular;
 }
 
+SolveStatus DirectSolver::Impl::solve_condensed(Eigen::VectorXd& rhs) {
+  Eigen::VectorXd reduced = condensation->reduced(rhs);
+  const SolveStatus status = solve_factored(reduced);
+  if (status != SolveStatus::ok) return status;
+  rhs = condensation->expanded(reduced, rhs);
+  return rhs.allFinite() ? SolveStatus::ok : SolveStatus::singular;
+}
+
+SolveStatus DirectSolver::solve(Eigen::VectorXd& rhs) const {
+  if (!impl_ || !impl_->factored || rhs.size() != impl_->unknowns() || !rhs.allFinite())
+    return SolveStatus::failed;
+  Impl& s = *impl_;
+  const Spent spent(s.seconds);
+  return s.condensed ? s.solve_condensed(rhs) : s.solve_factored(rhs);
+}
+
 SolveStatus DirectSolver::solve(Eigen::MatrixXd& rhs) const {
-  if (!impl_ || !impl_->factored || rhs.rows() != impl_->n || !rhs.allFinite())
+  if (!impl_ || !impl_->factored || rhs.rows() != impl_->unknowns() || !rhs.allFinite())
     return SolveStatus::failed;
   Impl& s = *impl_;
   if (rhs.size() == 0) return SolveStatus::ok;
   const Spent spent(s.seconds);
+  if (s.condensed) {
+    for (Eigen::Index c = 0; c < rhs.cols(); ++c) {
+      Eigen::VectorXd x = rhs.col(c);
+      if (const SolveStatus status = s.solve_condensed(x); status != SolveStatus::ok) return status;
+      rhs.col(c) = x;
+    }
+    return SolveStatus::ok;
+  }
   const LibraryCall guard(s.options.blas_threads);
   const Eigen::MatrixXd given = rhs;
   const SolveStatus status = s.substitute(rhs.data(), static_cast<Index>(rhs.cols()));

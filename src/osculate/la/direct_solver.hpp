@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
+#include "osculate/la/condensation.hpp"
 #include "osculate/la/sparse_matrix.hpp"
 
 namespace osculate::la {
@@ -25,6 +27,7 @@ struct FactorReport {
 
 struct DirectOptions {
   int blas_threads = 1;  ///< more than one may change the last bits with the load of the machine
+  Condense condense = Condense::never;  ///< the multipliers that `factor` is told of
 };
 
 /// Sparse direct solver (sequential MUMPS with a METIS ordering). The symbolic analysis is kept
@@ -48,6 +51,11 @@ class DirectSolver {
   /// `pattern_version` saves the comparison of patterns where it changed; where it did not, the
   /// pattern is compared all the same.
   FactorReport factor(const SparseMatrix& k, std::uint64_t pattern_version, Symmetry symmetry);
+  /// The same; with the option `condense` multipliers of these groups are eliminated before,
+  /// where they can be: what is factored is smaller then, and unsymmetric. `solve` is that of the
+  /// whole system.
+  FactorReport factor(const SparseMatrix& k, std::uint64_t pattern_version, Symmetry symmetry,
+                      std::span<const MultiplierGroup> condensable);
   /// Replaces the right-hand side by the solution, with one step of refinement where the relative
   /// residual is above 1e-12. `failed` without factors or for a wrong size or a NaN.
   SolveStatus solve(Eigen::VectorXd& rhs_in_solution_out) const;

@@ -17,7 +17,7 @@ struct Analysis {
   const AnalysisOptions& options;
   const BasicAnalysisObserver<Dim>& observer;
   BasicSystem<Dim> system;
-  la::DirectSolver solver{};
+  la::DirectSolver solver{la::DirectOptions{.condense = options.condense}};
   BasicAnalysisResult<Dim> result{};
   Progress progress{};
   solve::StepPosition position{};

@@ -73,6 +73,7 @@ struct BasicSystem<Dim>::Impl {
   std::vector<Index> first_multiplier;            ///< per pair; -1: its tractions are no unknowns
   Index unknowns = 0;                             ///< of the matrix
   Eigen::VectorXd constraint, branch_constraint;  ///< values of the multipliers' rows
+  std::vector<la::MultiplierGroup> condensable;   ///< in the running step
   std::vector<double> path_values;
   std::vector<Dof> path_dofs, contact_dofs;
 
@@ -274,6 +275,7 @@ struct BasicSystem<Dim>::Impl {
                    solve::Evaluation& out);
   void add_contact_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,
                          const Eigen::VectorXd* inc);
+  void find_condensable();
   /// Compliance of all multipliers in the tangent.
   void soften();
   /// Constraints of a pair whose multipliers are unknowns.

@@ -9,6 +9,7 @@
 
 #include "osculate/la/direct_solver.hpp"
 #include "osculate/la/sparse_matrix.hpp"
+#include "osculate/solve/factored.hpp"
 
 namespace osculate::solve {
 
@@ -171,12 +172,10 @@ bool fail(NewtonResult<State>& result, Outcome outcome, std::string reason) {
 template <System S>
 bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd& residual,
                       Eigen::VectorXd& du, NewtonResult<typename S::State>& result) {
-  const auto factor = [&] {
-    return solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
-  };
-  la::FactorReport report = factor();
+  la::FactorReport report = factored(system, solver);
   if constexpr (Softens<S>)
-    if (report.status == la::SolveStatus::singular && system.soften()) report = factor();
+    if (report.status == la::SolveStatus::singular && system.soften())
+      report = factored(system, solver);
   result.linear = report.status;
   result.bad_row = report.bad_row;
   if (report.status == la::SolveStatus::singular)
