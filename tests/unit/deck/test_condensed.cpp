@@ -10,7 +10,7 @@ namespace osculate::deck {
 namespace {
 
 struct Setting {
-  std::string sampling = "nodes", friction = "coulomb: {mu: 0.3, penalty: 1.0e3}", type = "quad4";
+  std::string sampling = "nodes", friction = "coulomb: {mu: 0.3, penalty: 100}", type = "quad4";
   std::string more{};  ///< prescribed beside the usual
 };
 
@@ -21,7 +21,7 @@ std::string contact_of(const Setting& s) {
       s.friction.empty() ? "" : fmt::format(" friction: {{{}}},", s.friction);
   return fmt::format(
       "contact: [{{name: c, master: low.top, slave: up.bottom, sampling: {},{} normal: {{penalty: "
-      "1.0e3}}, enforcement: lagrange_multiplier}}]\n",
+      "100}}, enforcement: lagrange_multiplier}}]\n",
       s.sampling, friction);
 }
 
@@ -36,7 +36,7 @@ materials: {{s: {{linear_elastic: {{E: 100, nu: 0.3}}}}}}
 sections: [{{on: low, material: s, element: plane_strain}}, {{on: up, material: s, element: plane_strain}}]
 {1}steps:
   - {{name: press, increments: 2, prescribe: [{{on: low.bottom, uy: 0, ux: 0}}, {{on: up.top, uy: -0.1, ux: 0}}{2}]}}
-  - {{name: shear, increments: 3, prescribe: [{{on: up.top, ux: 0.05}}]}}
+  - {{name: shear, increments: 3, prescribe: [{{on: up.top, ux: 0.2}}]}}
 solver: {{tolerance: {{residual: 1.0e-11}}}}
 )",
                      s.type, contact_of(s), s.more);
@@ -64,9 +64,9 @@ double difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
 
 /// What was seen in the iterations of an analysis.
 struct Seen {
-  double displacements = 0, multipliers = 0;  ///< largest relative difference of a correction
-  int most_kept = 0;                          ///< multipliers that were not condensed
-  std::set<std::uint64_t> states;             ///< signatures of the points' states
+  double difference = 0;  ///< largest relative one of a correction, multipliers over penalties
+  int most_kept = 0;      ///< multipliers that were not condensed
+  std::set<std::uint64_t> states;  ///< signatures of the points' states
   bool stuck = false, slid = false, open = false;
 
   void add(const solve::StateCounts& c) {
@@ -88,14 +88,15 @@ Seen corrections(const model::BasicModel<Dim>& m) {
   const auto add = [&](const solve::Evaluation& e) -> Eigen::VectorXd {
     Eigen::VectorXd as_it_is = -(e.branch_residual.size() > 0 ? e.branch_residual : e.residual);
     Eigen::VectorXd other = as_it_is;
-    EXPECT_EQ(solve::factored(system, plain).status, la::SolveStatus::ok);
+    if (solve::factored(system, plain).status == la::SolveStatus::singular) {
+      EXPECT_TRUE(system.soften());  // as Newton's method does
+      EXPECT_EQ(solve::factored(system, plain).status, la::SolveStatus::ok);
+    }
     EXPECT_EQ(solve::factored(system, condensing).status, la::SolveStatus::ok);
     EXPECT_EQ(plain.solve(as_it_is), la::SolveStatus::ok);
     EXPECT_EQ(condensing.solve(other), la::SolveStatus::ok);
-    const Index n = system.displacements(), rest = system.unknowns() - n;
-    seen.displacements = std::max(seen.displacements, difference(other.head(n), as_it_is.head(n)));
-    seen.multipliers =
-        std::max(seen.multipliers, difference(other.tail(rest), as_it_is.tail(rest)));
+    const Index n = system.displacements();
+    seen.difference = std::max(seen.difference, difference(other, as_it_is));
     EXPECT_TRUE(condensed.reduce(system.matrix(), system.condensable()));
     seen.most_kept = std::max(seen.most_kept, condensed.matrix().n - n);
     return as_it_is;
@@ -130,8 +131,7 @@ TEST(Condensed, CorrectionsAreTheSameInThePlane) {
   for (const std::string sampling : {"nodes", "mortar"})
     for (const std::string& friction : {none, Setting{}.friction}) {
       const Seen seen = corrections(build_text(plane({sampling, friction})).model);
-      EXPECT_LT(seen.displacements, same) << sampling << friction;
-      EXPECT_LT(seen.multipliers, same) << sampling << friction;
+      EXPECT_LT(seen.difference, same) << sampling << friction;
       EXPECT_EQ(seen.most_kept, 0) << sampling << friction;
       EXPECT_TRUE(seen.open) << "beyond the edge";
       if (friction.empty()) continue;
@@ -143,8 +143,7 @@ TEST(Condensed, CorrectionsAreTheSameInSpace) {
   for (const std::string sampling : {"nodes", "mortar"})
     for (const std::string& friction : {none, Setting{}.friction}) {
       const Seen seen = corrections(built_from(space({sampling, friction})).model);
-      EXPECT_LT(seen.displacements, same) << sampling << friction;
-      EXPECT_LT(seen.multipliers, same) << sampling << friction;
+      EXPECT_LT(seen.difference, same) << sampling << friction;
       EXPECT_EQ(seen.most_kept, 0) << sampling << friction;
       if (friction.empty()) continue;
       EXPECT_TRUE(seen.stuck && seen.slid && seen.states.size() > 3) << sampling;
@@ -157,13 +156,13 @@ TEST(Condensed, PrescribedSlaveNodesAreNoObstacle) {
   for (const std::string sampling : {"nodes", "mortar"}) {
     Setting s{sampling};
     s.more = ", {on: up.front, uy: 0}, {on: low.front, uy: 0}";
+    s.friction = none;  // in the plane nothing tells a node's shear
     const Seen held = corrections(built_from(space(s)).model);
-    EXPECT_LT(held.displacements, same) << sampling;
-    EXPECT_LT(held.multipliers, same) << sampling;
+    EXPECT_LT(held.difference, same) << sampling;
     s.more = ", {on: up.front, uy: 0}";
+    s.friction = Setting{}.friction;
     const Seen free = corrections(built_from(space(s)).model);
-    EXPECT_LT(free.displacements, same) << sampling;
-    EXPECT_LT(free.multipliers, same) << sampling;
+    EXPECT_LT(free.difference, same) << sampling;
     EXPECT_GT(free.most_kept, held.most_kept) << sampling;
     EXPECT_LE(free.most_kept, 4) << "one shear of each node in the plane";
   }
@@ -174,8 +173,7 @@ TEST(Condensed, PrescribedSlaveNodesAreNoObstacle) {
 TEST(Condensed, QuadraticFacetsKeepTheMultipliersOfPartlyCoveredOnes) {
   for (const std::string& friction : {none, Setting{}.friction}) {
     const Seen seen = corrections(build_text(plane({"mortar", friction, "quad8"})).model);
-    EXPECT_LT(seen.displacements, same) << friction;
-    EXPECT_LT(seen.multipliers, same) << friction;
+    EXPECT_LT(seen.difference, same) << friction;
     EXPECT_GT(seen.most_kept, 0);
     EXPECT_LT(seen.most_kept, 11 * (friction.empty() ? 1 : 3)) << "of 11 slave nodes";
   }

@@ -304,10 +304,10 @@ TEST(ExplicitTop, IsDampedByItsMass) {
 }
 
 TEST(ExplicitKeys, RotationsInSpaceAreNoTermsOfEquations) {
-  const std::string tied =
-      edited(top, "initial_velocity:",
-             "equations: [{terms: [{on: top, of: rx, factor: 1}, {on: top, of: ry, factor: -1}]}]\n"
-             "initial_velocity:");
+  const std::string tied = edited(top, "initial_velocity:",
+                                  "equations: [{terms: [{on: cube.bottom_front_left, of: uz, "
+                                  "factor: 1}, {on: top, of: rx, factor: -1}]}]\n"
+                                  "initial_velocity:");
   EXPECT_THAT(any_refusal(tied), HasSubstr("has a rotation of a rigid body"));
 }
 
