@@ -40,6 +40,7 @@ struct Hit {
   double stopped = 0;           ///< largest way of the free end towards the wall
   double gained = 0;            ///< largest energy over the one at the start, relative
   double kept = 0;              ///< energy at the end, relative
+  double left = 0;              ///< largest of what the ledger of energies leaves, relative
 };
 
 Hit hit(const ImpactBar& b, int cells, const std::string& dynamics, double courant) {
@@ -74,6 +75,7 @@ Hit hit(const ImpactBar& b, int cells, const std::string& dynamics, double coura
     out.stopped = std::max(out.stopped, -end);
     out.gained = std::max(out.gained, energy / start - 1);
     out.kept = energy / start;
+    out.left = std::max(out.left, std::abs(start - e.numerical - e.damping - energy) / start);
   };
   const model::AnalysisResult result =
       run_text(model_text(b, cells, dynamics, increments, increments * h), look);
@@ -102,6 +104,8 @@ void add_bar(CaseResult& out, const ImpactBar& b, const std::string& name, int c
   row(": energy at the end / at the start", r.kept, 1, 0.02);
   out.rows.push_back({name + ": largest gain of energy, relative", r.gained, 1e-9,
                       checked ? Relation::at_most : Relation::info, 0, "energy"});
+  out.rows.push_back({name + ": largest gap of the ledger, relative", r.left, 1e-3,
+                      checked ? Relation::at_most : Relation::info, 0, "conservation of energy"});
 }
 
 }  // namespace

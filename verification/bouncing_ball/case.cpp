@@ -36,6 +36,7 @@ struct Bounces {
   double late = 0;       ///< when it is there, against the exact time, over a bounce's period
   double deepest = 0;    ///< largest penetration
   double gained = 0;     ///< largest energy over the one at the start, relative
+  double left = 0;       ///< largest of what the ledger of energies leaves, relative
   double free_fall = 0;  ///< largest error of the height before the first touch, over the height
 };
 
@@ -53,6 +54,9 @@ Bounces bounce(const SpringBall& b, const std::string& dynamics, int steps_a_con
     const model::Energies& e = p.energies;
     const double energy = e.kinetic + e.contact + b.mass * b.gravity * height;
     out.gained = std::max(out.gained, energy / whole - 1);
+    out.left = std::max(out.left, std::abs(e.start + b.mass * b.gravity * (b.height - height) -
+                                           e.damping - e.numerical - e.kinetic - e.contact) /
+                                      whole);
     if (p.time < 0.9 * std::sqrt(2 * b.height / b.gravity))
       out.free_fall = std::max(out.free_fall, std::abs(height - ball_at(b, p.time).height));
     if (p.time < (bounces - 0.3) * period || height < highest) continue;
@@ -93,6 +97,26 @@ void add_dissipative(CaseResult& out) {
   }
 }
 
+/// No scheme gains energy from contact forces that dissipate, and nothing is lost without a name:
+/// of the work, only that of gravity is taken from the heights.
+void add_schemes(CaseResult& out) {
+  const SpringBall b{0.05, 9.81, 2, 5e4};
+  for (const std::string scheme_of :
+       {"newmark", "{hht: {alpha: 0.05}}", "{hht: {alpha: 0.3}}",
+        "{generalized_alpha: {radius: 0}}", "{generalized_alpha: {radius: 0.8}}",
+        "{generalized_alpha: {radius: 1}}"}) {
+    const Bounces soft = bounce(b, "{impact: dissipative, scheme: " + scheme_of + "}", 10);
+    expect(out, scheme_of + ", dissipative: finished", soft.finished, 1, 0, scheme);
+    out.rows.push_back({scheme_of + ", dissipative: largest gain of energy, relative", soft.gained,
+                        1e-9, Relation::at_most, 0, scheme});
+    out.rows.push_back({scheme_of + ", dissipative: largest gap of the ledger, relative", soft.left,
+                        1e-3, Relation::at_most, 0, "conservation of energy"});
+  }
+  const Bounces whole = bounce(b, "{impact: average}", 30);
+  out.rows.push_back({"average: largest gap of the ledger, relative", whole.left, 1e-3,
+                      Relation::at_most, 0, "conservation of energy"});
+}
+
 /// A floor so stiff that the increments are blind for it: the restitution is that of the scheme.
 void add_stiff(CaseResult& out) {
   const SpringBall b{0.2, 9.81, 2, 1e10};
@@ -127,6 +151,7 @@ CaseResult bouncing_ball(const CaseContext&) {
   CaseResult out;
   add_resolved(out);
   add_dissipative(out);
+  add_schemes(out);
   add_stiff(out);
   return out;
 }
