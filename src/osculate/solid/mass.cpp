@@ -70,7 +70,10 @@ NodeMass consistent_mass(const VolumeSection&, cell::CellType type, const Coordi
 
 NodeMass lumped_mass(const NodeMass& consistent) {
   NodeMass lumped = NodeMass::Zero(consistent.rows(), consistent.cols());
-  lumped.diagonal() = consistent.diagonal() * (consistent.sum() / consistent.trace());
+  double sum = 0;  // one by one: the bits of a sum by packets depend on the place in memory
+  for (Eigen::Index j = 0; j < consistent.cols(); ++j)
+    for (Eigen::Index i = 0; i < consistent.rows(); ++i) sum += consistent(i, j);
+  lumped.diagonal() = consistent.diagonal() * (sum / consistent.trace());
   return lumped;
 }
 
