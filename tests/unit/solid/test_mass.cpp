@@ -2,7 +2,9 @@
 #include "osculate/solid/mass.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <memory>
 #include <numbers>
+#include <vector>
 
 #include "section_cases.hpp"
 #include "volume_cases.hpp"
@@ -67,6 +69,25 @@ TEST(Mass, LumpedKeepsTheMassAndIsPositive) {
     EXPECT_NEAR(lumped.sum(), m.sum(), 1e-14 * m.sum());
     EXPECT_GT(lumped.diagonal().minCoeff(), 0);
     EXPECT_EQ((lumped - NodeMass(lumped.diagonal().asDiagonal())).norm(), 0.0);
+  }
+}
+
+/// A restarted analysis computes them elsewhere in memory.
+TEST(Mass, LumpedOnesHaveTheSameBitsWhereverTheyAreComputed) {
+  constexpr std::size_t places = 4;
+  struct alignas(32) Place {
+    std::byte bytes[sizeof(NodeMass) + 8 * places];
+  };
+  const auto memory = std::make_unique<Place>();
+  for (const cell::CellType type : area_types) {
+    const NodeMass m = consistent_mass(Section{}, type, plain_area(type));
+    std::vector<Eigen::VectorXd> diagonals;
+    for (std::size_t k = 0; k < places; ++k) {
+      auto* const placed = new (memory->bytes + 8 * k) NodeMass(m);
+      diagonals.emplace_back(lumped_mass(*placed).diagonal());
+      std::destroy_at(placed);
+    }
+    for (const Eigen::VectorXd& d : diagonals) EXPECT_EQ(d, diagonals.front());
   }
 }
 
