@@ -138,4 +138,11 @@ MultiplierSample<Dim> unknown_tractions(const Sample& s, double lambda, double s
   return m;
 }
 
+template <int Dim>
+std::vector<contact::Status> states(const pairing::PairEvaluation<Dim>& e) {
+  std::vector<contact::Status> out;
+  for (const auto& point : e.points) out.push_back(point.status);
+  return out;
+}
+
 }  // namespace osculate::testing

@@ -5,31 +5,13 @@
 
 #include "../body_path.hpp"
 #include "../cases.hpp"
+#include "model.hpp"
 #include "osculate/model/quantities.hpp"
-#include "reference.hpp"
 
 namespace osculate::verification {
 namespace {
 
 constexpr const char* source = "d'Alembert: rho c v, 2 L / c, restitution 1";
-
-/// A bar of one row of cells that flies in -x against a rigid line at x = -gap. Without Poisson's
-/// ratio its waves are those of the line.
-std::string model_text(const ImpactBar& b, int cells, const std::string& dynamics, int increments,
-                       double duration) {
-  return fmt::format(R"(osculate: 1
-title: A bar that hits a wall
-mesh: {{generate: {{bar: {{box: {{x: [0, {}], y: [0, {}], elements: [{}, 1]}}}}}}}}
-materials: {{m: {{linear_elastic: {{E: {}, nu: 0, density: {}}}}}}}
-sections: [{{on: bar, material: m, element: plane_strain, kinematics: small}}]
-rigid: {{wall: {{line: {{point: [{:.17g}, 0], normal: [1, 0]}}}}}}
-contact: [{{name: c, master: wall, slave: bar.left, normal: {{penalty: {:.17g}}}}}]
-initial_velocity: [{{on: bar, vx: {}}}]
-steps: [{{name: hit, increments: {}, duration: {:.17g}, dynamics: {}}}]
-)",
-                     b.length, b.area, cells, b.modulus, b.density, -b.gap,
-                     20 * b.modulus * cells / b.length, -b.speed, increments, duration, dynamics);
-}
 
 struct Hit {
   bool finished = false;
@@ -78,7 +60,7 @@ Hit hit(const ImpactBar& b, int cells, const std::string& dynamics, double coura
     out.left = std::max(out.left, std::abs(start - e.numerical - e.damping - energy) / start);
   };
   const model::AnalysisResult result =
-      run_text(model_text(b, cells, dynamics, increments, increments * h), look);
+      run_text(bar_model(b, cells, dynamics, increments, increments * h), look);
   out.finished = result.outcome == solve::Outcome::converged;
   out.force /= std::max(1.0, count);
   out.impulse = b.density * b.area * b.length * (out.speed + b.speed);

@@ -5,29 +5,13 @@
 
 #include "../body_path.hpp"
 #include "../cases.hpp"
-#include "reference.hpp"
+#include "model.hpp"
 
 namespace osculate::verification {
 namespace {
 
 constexpr const char* spring = "piecewise: free fall and a spring that only pushes";
 constexpr const char* scheme = "property of the scheme";
-
-/// A rigid disc over a fixed row of nodes: it touches the one below its centre only.
-std::string model_text(const SpringBall& b, const std::string& dynamics, int increments,
-                       double duration) {
-  return fmt::format(R"(osculate: 1
-title: A ball that bounces on a penalty
-mesh: {{generate: {{ground: {{box: {{x: [-1, 1], y: [-1, 0], elements: [2, 1]}}}}}}}}
-materials: {{m: {{linear_elastic: {{E: 1, nu: 0, density: 1}}}}}}
-sections: [{{on: ground, material: m, element: plane_strain}}]
-rigid: {{ball: {{circle: {{center: [0, {:.17g}], radius: 1}}, mass: {}}}}}
-contact: [{{name: c, master: ball, slave: ground.top, weight: node, normal: {{penalty: {}}}}}]
-steps: [{{name: fall, increments: {}, duration: {:.17g}, gravity: [0, {}], dynamics: {},
-  prescribe: [{{on: ground, ux: 0, uy: 0}}]}}]
-)",
-                     1 + b.height, b.mass, b.stiffness, increments, duration, -b.gravity, dynamics);
-}
 
 /// Twenty bounces and the way up to the highest point after them.
 struct Bounces {
@@ -47,7 +31,7 @@ Bounces bounce(const SpringBall& b, const std::string& dynamics, int steps_a_con
   Bounces out;
   double highest = -1;
   const double whole = b.mass * b.gravity * b.height;
-  for (const PathPoint& p : body_path(model_text(b, dynamics, increments, increments * h))) {
+  for (const PathPoint& p : body_path(ball_model(b, dynamics, increments, increments * h))) {
     out.finished = true;
     const double height = b.height + p.translation.y();
     out.deepest = std::max(out.deepest, -height);
@@ -126,7 +110,7 @@ void add_stiff(CaseResult& out) {
   for (const std::string impact : {"plastic", "dissipative"}) {
     double fastest = 0, up = 0, lowest = 0;
     const std::vector<PathPoint> path =
-        body_path(model_text(b, "{impact: " + impact + "}", increments, 1.5 * fall));
+        body_path(ball_model(b, "{impact: " + impact + "}", increments, 1.5 * fall));
     expect(out, impact + ", blind increments: finished", !path.empty(), 1, 0, scheme);
     for (const PathPoint& p : path) {
       lowest = std::min(lowest, b.height + p.translation.y());

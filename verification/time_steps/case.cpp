@@ -5,9 +5,9 @@
 #include <functional>
 #include <numbers>
 
-#include "../bar_impact/reference.hpp"
+#include "../bar_impact/model.hpp"
 #include "../body_path.hpp"
-#include "../bouncing_ball/reference.hpp"
+#include "../bouncing_ball/model.hpp"
 #include "../cases.hpp"
 
 namespace osculate::verification {
@@ -178,20 +178,6 @@ void add_sudden_load(CaseResult& out) {
 
 // ---- a ball that bounces on a spring -----------------------------------------------------------
 
-std::string ball(const SpringBall& b, const std::string& dynamics, int increments, double lasts) {
-  return fmt::format(R"(osculate: 1
-title: A ball that bounces on a penalty
-mesh: {{generate: {{ground: {{box: {{x: [-1, 1], y: [-1, 0], elements: [2, 1]}}}}}}}}
-materials: {{m: {{linear_elastic: {{E: 1, nu: 0, density: 1}}}}}}
-sections: [{{on: ground, material: m, element: plane_strain}}]
-rigid: {{ball: {{circle: {{center: [0, {:.17g}], radius: 1}}, mass: {}}}}}
-contact: [{{name: c, master: ball, slave: ground.top, weight: node, normal: {{penalty: {}}}}}]
-steps: [{{name: fall, increments: {}, duration: {:.17g}, gravity: [0, {}], dynamics: {},
-  prescribe: [{{on: ground, ux: 0, uy: 0}}]}}]
-)",
-                     1 + b.height, b.mass, b.stiffness, increments, lasts, -b.gravity, dynamics);
-}
-
 /// Five bounces. The spring needs steps a hundred times as short as the flight.
 void add_ball(CaseResult& out) {
   const SpringBall b{0.05, 9.81, 2, 5e6};
@@ -204,9 +190,10 @@ void add_ball(CaseResult& out) {
   double errors[3];
   for (int i = 0; i < 3; ++i) {
     const double error = std::pow(10.0, -2 - i);
-    const Quality run = quality(
-        ball(b, fmt::format("{{impact: average, time_steps: {{error: {}}}}}", error), 50, lasts),
-        miss);
+    const Quality run =
+        quality(ball_model(b, fmt::format("{{impact: average, time_steps: {{error: {}}}}}", error),
+                           50, lasts),
+                miss);
     errors[i] = run.error;
     const std::string name = fmt::format("ball, average, error: 1e-{}: ", 2 + i);
     expect(out, name + "finished", run.finished, 1, 0, spring);
@@ -226,19 +213,7 @@ void add_bar(CaseResult& out) {
   const ImpactBar b{10, 0.5, 100, 0.01, 0.1, 0.005};
   constexpr int cells = 50, increments = 60;
   const double lasts = touch_time(b) + 1.6 * contact_duration(b);
-  const std::string text =
-      fmt::format(R"(osculate: 1
-title: A bar that hits a wall
-mesh: {{generate: {{bar: {{box: {{x: [0, {}], y: [0, {}], elements: [{}, 1]}}}}}}}}
-materials: {{m: {{linear_elastic: {{E: {}, nu: 0, density: {}}}}}}}
-sections: [{{on: bar, material: m, element: plane_strain, kinematics: small}}]
-rigid: {{wall: {{line: {{point: [{:.17g}, 0], normal: [1, 0]}}}}}}
-contact: [{{name: c, master: wall, slave: bar.left, normal: {{penalty: {:.17g}}}}}]
-initial_velocity: [{{on: bar, vx: {}}}]
-steps: [{{name: hit, increments: {}, duration: {:.17g}, dynamics: {{time_steps: {{error: 0.05}}}}}}]
-)",
-                  b.length, b.area, cells, b.modulus, b.density, -b.gap,
-                  20 * b.modulus * cells / b.length, -b.speed, increments, lasts);
+  const std::string text = bar_model(b, cells, "{time_steps: {error: 0.05}}", increments, lasts);
   double speed = 0;  // of all of it, at the end
   const Quality run = quality(text, [&](const Snapshot& now) {
     speed = 0;

@@ -86,4 +86,24 @@ inline model::AnalysisResult run_to_end(
   return model::run(built.model, options, observer);
 }
 
+/// States and iterations of every increment.
+struct Course {
+  std::vector<std::uint64_t> states;
+  std::vector<int> iterations;
+  bool operator==(const Course&) const = default;
+};
+
+inline Course course_of(const Built& built) {
+  const model::AnalysisResult result = model::run(built.model, built.options, {});
+  EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
+  Course course;
+  for (const model::StepRecord& step : result.steps)
+    for (const solve::IncrementRecord& record : step.increments) {
+      course.iterations.push_back(static_cast<int>(record.iterations.size()));
+      for (const solve::IterationRecord& it : record.iterations)
+        course.states.push_back(it.counts.signature);
+    }
+  return course;
+}
+
 }  // namespace osculate::deck

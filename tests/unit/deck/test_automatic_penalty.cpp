@@ -83,24 +83,8 @@ steps: [{name: s, increments: 1, prescribe: [{on: low.bottom, ux: 0, uy: 0, uz: 
               10 / (0.25 / 100 + 0.5 / 400), 1e-9);
 }
 
-/// States and iterations of every increment.
-struct Course {
-  std::vector<std::uint64_t> states;
-  std::vector<int> iterations;
-};
-
 Course course_in(double length, double force) {
-  const Built built = build_text(blocks(", friction: {coulomb: {mu: 0.3}}", length, force));
-  const model::AnalysisResult result = model::run(built.model, built.options, {});
-  EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
-  Course course;
-  for (const model::StepRecord& step : result.steps)
-    for (const solve::IncrementRecord& record : step.increments) {
-      course.iterations.push_back(static_cast<int>(record.iterations.size()));
-      for (const solve::IterationRecord& it : record.iterations)
-        course.states.push_back(it.counts.signature);
-    }
-  return course;
+  return course_of(build_text(blocks(", friction: {coulomb: {mu: 0.3}}", length, force)));
 }
 
 TEST(AutomaticPenalty, UnitsDoNotMatter) {

@@ -168,26 +168,10 @@ TEST(PointPenalties, KeepThePenetrationBelowItsTargetEverywhere) {
   }
 }
 
-/// States and iterations of every increment.
-struct Course {
-  std::vector<std::uint64_t> states;
-  std::vector<int> iterations;
-  bool operator==(const Course&) const = default;
-};
-
 Course course_of(const Graded& g) {
   const Built built = build_graded(g);
   EXPECT_FALSE(built.model.pairs.at(0).definition.relative_stiffness.empty());
-  const model::AnalysisResult result = model::run(built.model, built.options, {});
-  EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
-  Course course;
-  for (const model::StepRecord& step : result.steps)
-    for (const solve::IncrementRecord& record : step.increments) {
-      course.iterations.push_back(static_cast<int>(record.iterations.size()));
-      for (const solve::IterationRecord& it : record.iterations)
-        course.states.push_back(it.counts.signature);
-    }
-  return course;
+  return course_of(built);
 }
 
 /// Millimetres and newtons, metres and newtons, centimetres and kilonewtons.

@@ -15,13 +15,6 @@ using contact::Multiplier;
 using contact::Status;
 
 template <int Dim>
-std::vector<Status> states(const pairing::PairEvaluation<Dim>& e) {
-  std::vector<Status> out;
-  for (const auto& point : e.points) out.push_back(point.status);
-  return out;
-}
-
-template <int Dim>
 void expect_second_order(const MultiplierSample<Dim>& s, Status expected, const std::string& what,
                          double h = 2e-3) {
   SCOPED_TRACE(what);

@@ -248,13 +248,6 @@ TEST(PointPenalty, CurvatureShareSeesIt) {
   EXPECT_EQ(share, largest);
 }
 
-template <int Dim>
-std::vector<Status> states(const pairing::PairEvaluation<Dim>& e) {
-  std::vector<Status> out;
-  for (const auto& point : e.points) out.push_back(point.status);
-  return out;
-}
-
 /// No powers of two, and far from each other.
 template <int Dim>
 void give_uneven_factors(pairing::PairDefinition<Dim>& pair) {
