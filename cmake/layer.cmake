@@ -15,6 +15,9 @@ function(osculate_layer name)
     else()
       add_library(${target} STATIC ${sources})
     endif()
+    if(OSCULATE_BATCHES STREQUAL "all")
+      osculate_batches(${target})
+    endif()
     target_link_libraries(${target} PUBLIC ${deps} ${L_LIBS}
       PRIVATE ${L_PRIVATE_LIBS} $<BUILD_INTERFACE:osculate_flags>)
     target_include_directories(${target} PUBLIC

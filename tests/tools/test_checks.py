@@ -25,6 +25,7 @@ def script(name):
 
 
 mutate = script("mutate")
+batches = script("batches")
 LAYERS = {"core": [], "cell": ["core"]}
 CMAKE = "osculate_layer(core LIBS x)\nosculate_layer(cell DEPS core)\n"
 
@@ -164,6 +165,47 @@ class Mutation(unittest.TestCase):
 
     def test_a_one_line_function(self):
         self.assertEqual(self.marked("S f() { return a - b; }  // @eq K:1\n"), ["a - b"])
+
+
+class Batches(unittest.TestCase):
+    def declared(self, text):
+        return batches.Names(text).own
+
+    def numbers(self, *texts, size=8):
+        return batches.batches(size, [batches.Names(text) for text in texts])
+
+    def test_names_at_the_first_column(self):
+        text = ('#include "a.hpp"\nnamespace a {\nusing b::C;\nconstexpr double p = 1, q = 2;\n'
+                "template <int D, class T = Vec<3>>\n[[nodiscard]] std::array<Vec<D>, 2> f(int x) {\n  int y = x;\n}\n"
+                "struct S : T {\n};\nenum class E { a };\nVec<3> S::member(int) {\n}\nusing V = Vec<3>;\n"
+                'const char* text = R"(\nmesh: {}\n)";\nTEST(S, Works) {\n}\n}  // namespace a\n')
+        self.assertEqual(self.declared(text), {"p", "q", "f", "S", "E", "V", "text"})
+
+    def test_files_that_declare_the_same_are_apart(self):
+        self.assertEqual(self.numbers("int a = 1;\n", "double b = 2;\n", "void a();\n", "void c();\n"), [0, 0, 1, 0])
+
+    def test_a_batch_has_its_size(self):
+        self.assertEqual(self.numbers("int a;\n", "int b;\n", "int c;\n", size=2), [0, 0, 1])
+
+    def test_the_same_name_from_elsewhere_is_no_clash(self):
+        self.assertEqual(self.numbers("using x::A;\n", "using x::A;\n", "using y::A;\n", "struct A {\n};\n"), [0, 0, 1, 2])
+
+    def test_nobody_takes_a_helper_for_his_own(self):
+        helper = "namespace {\nint f(int x) {\n}\n}  // namespace\n"
+        self.assertEqual(self.numbers(helper, "void g() {\n  f(3);\n}\n", "void h() {\n  x.f(3);\n}\n"), [0, 1, 0])
+
+    def test_nobody_hides_what_comes_from_a_header(self):
+        header = batches.Names("namespace a {\nstruct Case {\n};\n}  // namespace a\n")
+        user, later = (batches.Names(f"void {name}() {{\n  Case c;\n}}\n", [header]) for name in "gh")
+        other = batches.Names("namespace {\nstruct Case {\n};\n}  // namespace\n")
+        self.assertEqual(batches.batches(8, [user, other, later]), [0, 1, 0])
+
+    def test_classes_are_instantiated_once_in_a_batch(self):
+        self.assertEqual(self.numbers("template struct S<2>::T;\n", "template class S<3>;\n", "template class U<3>;\n"),
+                         [0, 1, 0])
+
+    def test_names_of_an_enumeration_are_alone(self):
+        self.assertEqual(self.numbers("int a;\n", "using enum E;\n", "int b;\n"), [0, 1, 0])
 
 
 if __name__ == "__main__":

@@ -85,6 +85,11 @@ class Composed {
   double size_ = 0;
 };
 
+template <>
+SurfacePlace<2> Composed<2>::place(int piece, const Vec2& xi) const;
+template <>
+SurfacePlace<3> Composed<3>::place(int piece, const Vec2& xi) const;
+
 /// Parameters at the part t of a side of a piece in space, and of its corners.
 [[nodiscard]] Vec2 piece_corner(const SmoothPiece& piece, int corner);
 [[nodiscard]] Vec2 on_side(const SmoothPiece& piece, int side, double t);

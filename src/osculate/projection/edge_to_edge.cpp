@@ -8,6 +8,7 @@
 
 #include "osculate/cell/line_shape.hpp"
 #include "osculate/geometry/curve_jet.hpp"
+#include "osculate/projection/surface_distance.hpp"
 
 namespace osculate::projection {
 namespace {
@@ -47,7 +48,6 @@ Distance distance_at(std::span<const Vec3> first, std::span<const Vec3> second, 
   return d;
 }
 
-bool positive(const Mat<2, 2>& m) { return m(0, 0) > 0 && m.determinant() > 0; }
 
 /// sin^2 of the angle between the tangents, times both squared lengths, is the determinant.
 bool crossing(const Mat<2, 2>& metric) {

@@ -14,10 +14,10 @@
 namespace osculate::api {
 namespace {
 
-class Project : public testing::Test {
+class Project : public ::testing::Test {
  protected:
-  std::string folder_ = testing::TempDir() + "osculate_project_" +
-                        testing::UnitTest::GetInstance()->current_test_info()->name() + "/";
+  std::string folder_ = ::testing::TempDir() + "osculate_project_" +
+                        ::testing::UnitTest::GetInstance()->current_test_info()->name() + "/";
   void SetUp() override { std::filesystem::create_directories(folder_); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
@@ -53,7 +53,7 @@ TEST_F(Project, EveryRowGetsARow) {
   EXPECT_EQ(done.feature[1], 1);
   EXPECT_EQ(done.feature[2], 1);
   EXPECT_EQ(done.feature[3], 1);
-  EXPECT_THAT(done.message, testing::HasSubstr("1 face, 1 edge, 1 corner; 0 ambiguous"));
+  EXPECT_THAT(done.message, ::testing::HasSubstr("1 face, 1 edge, 1 corner; 0 ambiguous"));
   const io::CsvTable table = io::read_csv(folder_ + "out.csv");
   EXPECT_EQ(table.columns,
             (std::vector<std::string>{"id", "feature", "facet", "xi1", "xi2", "x", "y", "z",

@@ -62,11 +62,11 @@ constexpr const char* thrown =
     "shake}]}\n"
     "output: {history: [{on: c, of: normal_force}, {on: disc, of: vy}], checkpoint: 1}\n";
 
-class Restart : public testing::Test {
+class Restart : public ::testing::Test {
  protected:
-  fs::path folder_ = fs::path(testing::TempDir()) /
+  fs::path folder_ = fs::path(::testing::TempDir()) /
                      (std::string("osculate_restart_") +
-                      testing::UnitTest::GetInstance()->current_test_info()->name());
+                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
   void SetUp() override {
     fs::remove_all(folder_);
     fs::create_directories(folder_);

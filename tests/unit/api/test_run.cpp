@@ -40,10 +40,10 @@ std::string edited(std::string text, const std::string& from, const std::string&
   return text.replace(at, from.size(), to);
 }
 
-struct Run : testing::Test {
-  fs::path folder = fs::path(testing::TempDir()) /
+struct Run : ::testing::Test {
+  fs::path folder = fs::path(::testing::TempDir()) /
                     ("osculate_run_" +
-                     std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+                     std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
   fs::path results = folder / "out";
 
   void SetUp() override {

@@ -79,10 +79,10 @@ Array<T> array(const std::string& vtu, const std::string& name) {
   return out;
 }
 
-struct RunSpace : testing::Test {
-  fs::path folder = fs::path(testing::TempDir()) /
+struct RunSpace : ::testing::Test {
+  fs::path folder = fs::path(::testing::TempDir()) /
                     ("osculate_space_" +
-                     std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+                     std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
   fs::path results = folder / "out";
 
   void SetUp() override {

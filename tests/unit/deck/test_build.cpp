@@ -406,7 +406,7 @@ TEST(Build, ADisplacementNamedTwiceInAnEquationIsOneTerm) {
 /// A mesh file that cannot be read: the line of the model that names it, and its own.
 TEST(Build, MeshFileThatCannotBeRead) {
   const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / "osculate_test_build";
+      std::filesystem::path(::testing::TempDir()) / "osculate_test_build";
   std::filesystem::create_directories(folder);
   const auto write = [&](const std::string& name, const std::string& text) {
     std::ofstream(folder / name) << text;

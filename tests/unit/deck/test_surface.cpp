@@ -142,7 +142,7 @@ TEST(Surface, SchemaAndExplanationsComeFromOneSpecification) {
   const auto schema = nlohmann::json::parse(surface_schema());
   EXPECT_TRUE(schema["properties"].contains("facets"));
   EXPECT_TRUE(schema["properties"].contains("torus"));
-  EXPECT_THAT(explain_surface_key("facets"), testing::HasSubstr("in the order of the file"));
+  EXPECT_THAT(explain_surface_key("facets"), ::testing::HasSubstr("in the order of the file"));
 }
 
 /// A cube of eight hexahedra, or whatever the mesh of the test data is: the normals of its boundary
@@ -192,10 +192,10 @@ $Elements
 $EndElements
 )";
 
-class SurfaceFile : public testing::Test {
+class SurfaceFile : public ::testing::Test {
  protected:
-  std::string path_ = testing::TempDir() + "osculate_square_" +
-                      testing::UnitTest::GetInstance()->current_test_info()->name() + ".msh";
+  std::string path_ = ::testing::TempDir() + "osculate_square_" +
+                      ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".msh";
   void write(const std::string& text) const { std::ofstream(path_) << text; }
   void TearDown() override { std::filesystem::remove(path_); }
 };

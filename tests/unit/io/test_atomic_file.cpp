@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class AtomicFileTest : public testing::Test {
+class AtomicFileTest : public ::testing::Test {
  protected:
-  fs::path folder_ = fs::path(testing::TempDir()) /
+  fs::path folder_ = fs::path(::testing::TempDir()) /
                      (std::string("osculate_atomic_") +
-                      testing::UnitTest::GetInstance()->current_test_info()->name());
+                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
   void SetUp() override {
     fs::remove_all(folder_);
     fs::create_directories(folder_);

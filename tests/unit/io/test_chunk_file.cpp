@@ -14,11 +14,11 @@ namespace osculate::io {
 namespace {
 namespace fs = std::filesystem;
 
-class ChunkFile : public testing::Test {
+class ChunkFile : public ::testing::Test {
  protected:
-  fs::path folder_ = fs::path(testing::TempDir()) /
+  fs::path folder_ = fs::path(::testing::TempDir()) /
                      (std::string("osculate_chunk_") +
-                      testing::UnitTest::GetInstance()->current_test_info()->name());
+                      ::testing::UnitTest::GetInstance()->current_test_info()->name());
   std::string path_ = (folder_ / "f.bin").string();
   const std::string good_ = chunk_file_head("test", 3) + packed({"a", "first"}) +
                             packed({"empty", ""}) + packed({"b", std::string(300, 'x')});

@@ -13,10 +13,10 @@
 namespace osculate::io {
 namespace {
 
-class CsvRecordsTest : public testing::Test {
+class CsvRecordsTest : public ::testing::Test {
  protected:
-  std::string path_ = testing::TempDir() + "osculate_records_" +
-                      testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
+  std::string path_ = ::testing::TempDir() + "osculate_records_" +
+                      ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
   void write(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
   void TearDown() override { std::filesystem::remove(path_); }
 
@@ -100,7 +100,7 @@ TEST_F(CsvRecordsTest, MistakesInTheHeader) {
 
 TEST_F(CsvRecordsTest, FilesThatCannotBeRead) {
   EXPECT_THROW((void)CsvRecords(path_ + ".none"), core::InputError);
-  EXPECT_THROW((void)CsvRecords(testing::TempDir()), core::InputError);
+  EXPECT_THROW((void)CsvRecords(::testing::TempDir()), core::InputError);
 }
 
 TEST_F(CsvRecordsTest, LongTablesComeInBlocks) {

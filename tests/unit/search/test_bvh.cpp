@@ -14,7 +14,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 template <class Dimension>
-class BvhOf : public testing::Test {};
+class BvhOf : public ::testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(BvhOf, Dimensions);
 

@@ -57,7 +57,7 @@ Counts reference_counts(double residual_tolerance, double energy_tolerance) {
 TEST(Newton, EveryMeasureStopsWhereItShould) {
   for (const double residual : {1e-2, 1e-5, 1e-9})
     for (const double energy : {1e-3, 1e-8, 1e-16}) {
-      SCOPED_TRACE(testing::Message() << residual << " " << energy);
+      SCOPED_TRACE(::testing::Message() << residual << " " << energy);
       const Counts expected = reference_counts(residual, energy);
       ToySystem system = cubic();
       const auto count = [&](double r, double e) {
