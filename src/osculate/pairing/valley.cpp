@@ -95,7 +95,7 @@ std::optional<Valley> stay_or_leave(const PairDefinition<2>& pair, Points<2> x,
 }
 
 /// A point that was pressed on a facet, and is placed beside it: in the valley if it has come into
-/// the other facet as well, else still on its own.
+/// the other facet as well, else still on its own, unless that lets it go.
 std::optional<Valley> come_or_keep(const PairDefinition<2>& pair, Points<2> x,
                                    const PointHistory<2>& history, std::size_t i, Index facet,
                                    const PairEvaluation<2>& work, Multiplier<2>& around,
@@ -105,7 +105,11 @@ std::optional<Valley> come_or_keep(const PairDefinition<2>& pair, Points<2> x,
   const std::size_t from = v->facets[0] == facet ? 0 : 1;
   const Vec2 offset = position<2>(pair.slave.points[i], x) - v->point;
   const double push = around.normal + point_penalty(pair, i).normal * offset.dot(v->normal[from]);
-  if (push > 0 || too_deep(pair, *v, offset)) return std::nullopt;
+  if (too_deep(pair, *v, offset)) return std::nullopt;
+  if (push > 0) {  // let go: nothing of it belongs to the other facet
+    around = {};
+    return std::nullopt;
+  }
   if (placed.projection.feature != Feature::corner && offset.dot(v->normal[1 - from]) >= 0) {
     placed = place_point<2>(pair, work, x, i, history, facet);
     return std::nullopt;

@@ -211,15 +211,13 @@ TEST(Valley, ForcesBalance) {
 
 TEST(ValleyTangent, IsOfSecondOrder) {
   for (const double mu : {0.0, 0.3})
-    for (const auto& [nodes, bow] : {std::pair(2, 0.0), std::pair(3, 0.05)})
-      for (const bool was_there : {true, false}) {
+    for (const auto weight : {pairing::Weight::node, pairing::Weight::reference_area})
+      for (const auto& [nodes, bow] : {std::pair(2, 0.0), std::pair(3, 0.05)}) {
         Sample s = make_valley({.nodes_per_facet = nodes, .bow = bow}, {0.004, -0.02});
+        s.pair.weight = weight;
+        s.pair.reference_areas = {0.7};
         if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80.0};
-        if (was_there)
-          hold_by(90 * (normal_of({}, 0) + normal_of({}, 1)), s);
-        else
-          press_on(0, -90, Vec2::Zero(), s);
-        if (!was_there) s.multipliers[0] = {0, -90 * normal_of({}, 0)};  // taken over
+        hold_by(90 * (normal_of({}, 0) + normal_of({}, 1)), s);
         const Eigen::VectorXd v = s.packed();
         const auto branch = [&](const Eigen::VectorXd& y) {
           return s.evaluation(y, false).points[0].branch.branch;
