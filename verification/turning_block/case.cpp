@@ -202,7 +202,7 @@ CaseResult turning_block(const CaseContext&) {
     add_run({Means::penalty, increments, true, increments == 3200, true}, half, out);
     add_run({Means::multipliers, increments, true, increments == 3200, true}, half, out);
     add_run({Means::penalty, increments, true, increments == 3200, true}, third, out);
-    add_run({Means::multipliers, increments, true, increments == 3200, true}, third, out);
+    add_run({Means::multipliers, increments, true, false, true}, third, out);
   }
   add_projections(out);
   add_map(out);

@@ -21,10 +21,10 @@ std::string in_groove(double up, double mu, const std::string& loads) {
   const std::string friction =
       mu > 0 ? fmt::format("{{coulomb: {{mu: {}, penalty: 1000}}}}", mu) : std::string("none");
   return fmt::format(R"(osculate: 1
-mesh: {{generate: {{bead: {{line: {{points: [[{0:.17g}, {1:.17g}], [{2:.17g}, {3:.17g}], [{0:.17g}, {4:.17g}],
+mesh: {{generate: {{square: {{line: {{points: [[{0:.17g}, {1:.17g}], [{2:.17g}, {3:.17g}], [{0:.17g}, {4:.17g}],
                                          [{5:.17g}, {3:.17g}], [{0:.17g}, {1:.17g}]], elements: [1, 1, 1, 1]}}}}}}}}
 rigid:
-  bead: {{set: bead, reference: [{0:.17g}, {3:.17g}], mass: 1, inertia: 1}}
+  bead: {{set: square, reference: [{0:.17g}, {3:.17g}], mass: 1, inertia: 1}}
   groove: {{polyline: {{points: [[{6:.17g}, 2], [0, 0], [{7:.17g}, 2]]}}}}
 contact:
   - {{name: c, master: groove, slave: bead, sampling: nodes, weight: node, normal: {{penalty: 1000}},
@@ -91,7 +91,8 @@ TEST(Valleys, ABeadLeavesWhereTheConeEnds) {
           EXPECT_NEAR(at.y(), std::tan(tilt) * std::abs(at.x()), 1e-10);
           EXPECT_GE(at.x(), begun > 0 ? 1e-13 : -1e-12);
         });
-    EXPECT_NEAR(begun / 2, limit, 0.011) << mu;  // load 2 t / 4, increments of 0.02
+    EXPECT_GT(begun / 2, limit) << mu;  // load 2 t / 4, increments of 0.02
+    EXPECT_LT(begun / 2, limit + 0.02) << mu;
   }
 }
 
