@@ -52,20 +52,43 @@ std::optional<Valley> valley_between(const Chain& chain, Index facet, const Proj
   return std::nullopt;
 }
 
+/// The way along the master to the vertex, of a point that was in contact elsewhere.
+double way_to(const Valley& valley, const PairDefinition<2>& pair, const PointHistory<2>& history,
+              Points<2> x) {
+  if (!history.active || history.facet < 0) return 0;
+  return path_length(pair.master, x, {history.facet, history.xi[0]}, {valley.facets[0], valley.end},
+                     nullptr)
+      .value_or(0);
+}
+
+/// The side on which the point has come sliding in this increment; -1: on none.
+int side_of_arrival(const PairDefinition<2>& pair, const PointHistory<2>& history, const Valley& v,
+                    Points<2> x) {
+  if (!pair.friction || rests_in_valley(pair, history, x)) return -1;
+  const double way = way_to(v, pair, history, x);
+  return way > 0 ? 0 : way < 0 ? 1 : -1;
+}
+
+/// Whether a facet's law lets the traction slide.
+bool slides(const PairDefinition<2>& pair, const PointHistory<2>& history, double normal,
+            double shear, const BranchHint<2>& hint) {
+  return !pair.friction || contact::response<2>(friction_law(pair, normal, hint), Vec<1>(shear),
+                                                normal, sliding_of(history, hint))
+                                   .status == Status::slip;
+}
+
 /// The side (0 or 1) on which the traction leaves the valley; -1: it is held.
 int left_side(const PairDefinition<2>& pair, const PointHistory<2>& history, const Valley& v,
-              const Vec2& traction, const BranchHint<2>& hint) {
+              const Vec2& traction, const BranchHint<2>& hint, int arrived) {
   int side = -1;
   double least = 0;
   for (int k = 0; k < 2; ++k) {
     const auto s = static_cast<std::size_t>(k);
     const double normal = traction.dot(v.normal[s]), shear = traction.dot(v.along[s]);
-    if (k == 0 ? shear >= 0 : shear <= 0) continue;
-    const bool slides =
-        !pair.friction || contact::response<2>(friction_law(pair, normal, hint), Vec<1>(shear),
-                                               normal, sliding_of(history, hint))
-                                  .status == Status::slip;
-    if (!slides || (side >= 0 && normal >= least)) continue;
+    const bool away = k == 0 ? shear < 0 : shear > 0;  // it would slide away from the vertex
+    const bool sliding = slides(pair, history, normal, shear, hint);
+    const bool leaves = k == arrived ? away || !sliding : away && sliding;
+    if (!leaves || (side >= 0 && normal >= least)) continue;
     side = k;
     least = normal;
   }
@@ -85,7 +108,8 @@ std::optional<Valley> stay_or_leave(const PairDefinition<2>& pair, Points<2> x,
   if (!v) return std::nullopt;
   const Vec2 offset = position<2>(pair.slave.points[i], x) - v->point;
   const Vec2 traction = around.shear + point_penalty(pair, i).shear * offset;
-  const int left = hint.predict ? -1 : left_side(pair, history, *v, traction, hint);
+  const int arrived = side_of_arrival(pair, history, *v, x);
+  const int left = hint.predict ? -1 : left_side(pair, history, *v, traction, hint, arrived);
   if (left < 0 && !too_deep(pair, *v, offset)) return v;
   const auto side = static_cast<std::size_t>(std::max(left, 0));
   around.normal = around.shear.dot(v->normal[side]);
@@ -168,15 +192,6 @@ Placed<2> place_in(const Valley& valley, const PairDefinition<2>& pair, const Ve
   p.distance = (point - valley.point).norm();
   p.outward = valley.bisector;
   return place(pair.master, p, point, x);
-}
-
-/// The way along the master to the vertex, of a point that was in contact.
-double way_to(const Valley& valley, const PairDefinition<2>& pair, const PointHistory<2>& history,
-              Points<2> x) {
-  if (!history.active || history.facet < 0) return 0;
-  return path_length(pair.master, x, {history.facet, history.xi[0]}, {valley.facets[0], valley.end},
-                     nullptr)
-      .value_or(0);
 }
 
 void report_valley(const PairDefinition<2>& pair, Points<2> x, const PointHistory<2>& history,

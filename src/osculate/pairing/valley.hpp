@@ -22,7 +22,9 @@ namespace osculate::pairing {
 /// Formula    T = Lambda + eps_T (x - v) ; held while for both facets not |T . tau_i| > L_i(T .
 ///            n_i) on the side that leads away from the vertex. With Coulomb's law that is the sum
 ///            of the two cones, in the plane a cone of Coulomb about the bisector with the
-///            coefficient tan(alpha/2 + atan mu), alpha between the normals
+///            coefficient tan(alpha/2 + atan mu), alpha between the normals. In the increment in
+///            which the point has slid to the vertex along facet i, held only while that facet
+///            does not hold it before: |T . tau_i| > L_i against the way it came
 /// Source     docs/decisions/029-valleys.md ; Moreau's decomposition of Lambda + eps (x - v) by
 ///            the cone of the normals where there is no friction
 /// Returns    the valley that holds the point. `hint.multiplier` becomes `around`: the same
