@@ -13,7 +13,8 @@ struct MultiplierSample {
   pairing::PairState<Dim> committed;
   std::vector<Vec<Dim>> x;
   std::vector<contact::Multiplier<Dim>> multipliers;
-  double duration = 0;  ///< of the increment
+  double duration = 0;                                 ///< of the increment
+  std::vector<pairing::AssumedBranch<Dim>> assumed{};  ///< of the last iteration
 
   [[nodiscard]] Eigen::Index nodes() const { return static_cast<Eigen::Index>(x.size()); }
   [[nodiscard]] Eigen::Index points() const {
@@ -22,7 +23,7 @@ struct MultiplierSample {
   [[nodiscard]] pairing::PointPenalty penalty_at(Eigen::Index i) const {
     return pairing::point_penalty(pair, static_cast<std::size_t>(i));
   }
-  [[nodiscard]] Eigen::Index per_point() const { return pair.friction ? Dim + 1 : 1; }
+  [[nodiscard]] Eigen::Index per_point() const { return pairing::has_shear(pair) ? Dim + 1 : 1; }
   [[nodiscard]] Eigen::Index size() const { return Dim * nodes() + per_point() * points(); }
 
   [[nodiscard]] Eigen::VectorXd packed() const {
@@ -34,7 +35,7 @@ struct MultiplierSample {
       const Eigen::Index at = Dim * nodes() + per_point() * i;
       const pairing::PointPenalty penalty = penalty_at(i);
       v[at] = m.normal / penalty.normal;
-      if (pair.friction) v.segment<Dim>(at + 1) = m.shear / penalty.shear;
+      if (pairing::has_shear(pair)) v.segment<Dim>(at + 1) = m.shear / penalty.shear;
     }
     return v;
   }
@@ -50,12 +51,14 @@ struct MultiplierSample {
       around.points.emplace_back();
       const pairing::PointPenalty penalty = penalty_at(i);
       around.points.back().normal = penalty.normal * v[first];
-      if (pair.friction) around.points.back().shear = penalty.shear * v.segment<Dim>(first + 1);
+      if (pairing::has_shear(pair))
+        around.points.back().shear = penalty.shear * v.segment<Dim>(first + 1);
     }
     pairing::PairEvaluation<Dim> e;
-    pairing::Assumed<Dim> assumed;
-    assumed.duration = duration;
-    pairing::evaluate<Dim>(pair, at, committed, tangent, e, assumed, &around);
+    pairing::Assumed<Dim> last;
+    last.branch = assumed;
+    last.duration = duration;
+    pairing::evaluate<Dim>(pair, at, committed, tangent, e, last, &around);
     return e;
   }
 
@@ -70,7 +73,7 @@ struct MultiplierSample {
       if (!block.constraint.on) continue;
       const Eigen::Index at = Dim * nodes() + per_point() * static_cast<Eigen::Index>(b);
       r[at] = block.constraint.normal;
-      if (pair.friction) r.segment<Dim>(at + 1) = block.constraint.shear;
+      if (pairing::has_shear(pair)) r.segment<Dim>(at + 1) = block.constraint.shear;
     }
     return r;
   }

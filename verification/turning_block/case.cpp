@@ -26,6 +26,8 @@ TurningBlock block_with(double friction, double slid) {
 
 /// How contact is enforced; the penalty is one that no increment resolves.
 enum class Means { penalty, augmented, multipliers };
+constexpr const char* enforcements[] = {"penalty", "{augmented_lagrange: {target: 1.0e-7}}",
+                                        "lagrange_multiplier"};
 
 struct Run {
   Means means;
@@ -38,8 +40,6 @@ struct Run {
 std::string rigid_model(const TurningBlock& block, const Run& run) {
   const double h = duration / run.increments, q = std::numbers::sqrt2 / 2;
   const double penalty = run.means == Means::penalty ? 100 / (h * h) : 1e4;
-  const char* const enforcement[] = {"penalty", "{augmented_lagrange: {target: 1.0e-7}}",
-                                     "lagrange_multiplier"};
   const double slid = block.slid;
   const auto at = [&](double along, double out) {
     return fmt::format("[{:.17g}, {:.17g}]", q * (-along + out), q * (along + out));
@@ -58,7 +58,7 @@ steps:
 )",
                      at(slid, 0), at(slid + 1, 0), at(slid + 1, 1), at(slid, 1),
                      at(slid + 0.5, 0.5), 1.0 / 6, penalty, block.friction,
-                     enforcement[static_cast<std::size_t>(run.means)], run.increments, duration,
+                     enforcements[static_cast<std::size_t>(run.means)], run.increments, duration,
                      run.stops ? "auto" : "off");
 }
 
@@ -69,8 +69,9 @@ std::string elastic_model(const TurningBlock& block, const Run& run) {
   const auto pair = [&](const char* face) {
     return fmt::format(R"(
   - {{name: {0}, master: valley, slave: block.{0}, sampling: nodes, weight: node,
-     normal: {{penalty: {1:.17g}}}, friction: {{coulomb: {{mu: {2}, penalty: {1:.17g}}}}}}})",
-                       face, penalty, block.friction);
+     normal: {{penalty: {1:.17g}}}, friction: {{coulomb: {{mu: {2}, penalty: {1:.17g}}}}}, enforcement: {3}}})",
+                       face, penalty, block.friction,
+                       enforcements[static_cast<std::size_t>(run.means)]);
   };
   return fmt::format(R"(osculate: 1
 mesh: {{generate: {{block: {{box: {{x: [{0}, {1}], y: [0, 1], elements: [1, 1], angle: -45,
@@ -194,11 +195,14 @@ CaseResult turning_block(const CaseContext&) {
   for (const int increments : {800, 1600, 3200}) {
     add_run({Means::penalty, increments, true, true}, half, out);
     add_run({Means::augmented, increments, true, true}, half, out);
-    add_run({Means::multipliers, increments, true, false}, half, out);
+    add_run({Means::multipliers, increments, true, true}, half, out);
     add_run({Means::penalty, increments, false, false}, half, out);
     add_run({Means::penalty, increments, true, true}, third, out);
+    add_run({Means::multipliers, increments, true, true}, third, out);
     add_run({Means::penalty, increments, true, increments == 3200, true}, half, out);
+    add_run({Means::multipliers, increments, true, increments == 3200, true}, half, out);
     add_run({Means::penalty, increments, true, increments == 3200, true}, third, out);
+    add_run({Means::multipliers, increments, true, false, true}, third, out);
   }
   add_projections(out);
   add_map(out);

@@ -75,10 +75,14 @@ void add_side_by_side(CaseResult& out) {
         Means{"augmented Lagrangian, plastic", augmented, "plastic", stiff, 0, one, true},
         Means{"augmented Lagrangian, plastic, two masters", augmented, "plastic", stiff, 0, two,
               true},
-        Means{"multipliers, plastic", "lagrange_multiplier", "plastic", stiff, 0, one, false},
+        Means{"multipliers, plastic", "lagrange_multiplier", "plastic", stiff, 0, one, true},
         Means{"multipliers, plastic, two masters", "lagrange_multiplier", "plastic", stiff, 0, two,
               true}})
     add_run(means, 0.6, h, out);
+  for (const Valley valley : {one, two})
+    add_run({valley == one ? "multipliers, plastic" : "multipliers, plastic, two masters",
+             "lagrange_multiplier", "plastic", stiff, 0, valley, true},
+            0.4, 2 * h, out);
   for (const Valley valley : {one, two})  // does not always find the corner
     add_run({valley == one ? "augmented Lagrangian, plastic"
                            : "augmented Lagrangian, plastic, two masters",

@@ -336,6 +336,20 @@ double mean_size(const pairing::Boundary<Dim>& boundary, const std::vector<Vec<D
   return count ? sum / count : 0.0;
 }
 
+/// Concave corners of a rigid master in the plane hold points whose tractions are unknowns. (Those
+/// of a meshed one belong to its mesh, and between thick sides or where overlaps do not count the
+/// corner is elsewhere.)
+void set_valleys(const BuildContext<2>& c, const Contact& contact,
+                 pairing::PairDefinition<2>& pair) {
+  const Rigid* const rigid = rigid_of(c, contact.master);
+  if (!rigid || std::holds_alternative<SetShape>(rigid->shape)) return;
+  pair.valleys = pair.enforcement == contact::Enforcement::lagrange_multiplier && !pair.mortar &&
+                 pair.separation == pairing::Separation::allowed && pair.offset == 0 &&
+                 pair.overlap == pairing::InitialOverlap::acts &&
+                 pairing::has_valley(pair.master, c.model().reference);
+}
+void set_valleys(const BuildContext<3>&, const Contact&, pairing::PairDefinition<3>&) {}
+
 template <int Dim>
 void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMark& mark,
               model::BasicContactPair<Dim> out) {
@@ -344,6 +358,7 @@ void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMa
   set_augmentation(c, contact, pair);
   set_edges(c, contact, pair);
   set_laws(c, contact, pair);
+  set_valleys(c, contact, pair);
   pair.area = area_rule(c, pair);
   try {
     pairing::prepare(pair, c.model().reference);

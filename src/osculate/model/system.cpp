@@ -136,6 +136,8 @@ BasicState<Dim> BasicSystem<Dim>::remember(const State& trial) const {
   for (std::size_t p = 0; p < impl_->contact.size(); ++p)
     state.assumed.push_back(pairing::evaluated_branches(
         impl_->contact[p], p < trial.assumed.size() ? trial.assumed[p] : pairing::Assumed<Dim>{}));
+  for (std::size_t p = 0; p < state.multipliers.size(); ++p)
+    state.multipliers[p] = pairing::taken_over(impl_->contact[p], std::move(state.multipliers[p]));
   constexpr std::size_t most = 8;
   if (impl_->recent.size() == most) impl_->recent.pop_front();
   impl_->recent.push_back(impl_->contact_states());

@@ -62,7 +62,7 @@ void BasicSystem<Dim>::Impl::add_to_multipliers(State& s, const Eigen::VectorXd&
     for (std::size_t i = 0; i < points.size(); ++i) {
       const pairing::PointPenalty penalty = pairing::point_penalty(pair, i);
       points[i].normal += factor * penalty.normal * du[row++];
-      if (!pair.friction) continue;
+      if (!pairing::has_shear(pair)) continue;
       points[i].shear += factor * penalty.shear * du.segment<Dim>(row);
       row += Dim;
     }
@@ -83,10 +83,10 @@ double BasicSystem<Dim>::Impl::add_constraint_row(Index unknown, const Eigen::Ve
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::add_constraint_tangent(const pairing::ContactBlock<Dim>& block,
-                                                    bool friction, Index first,
+                                                    bool shear, Index first,
                                                     const Eigen::VectorXd* inc) {
   const pairing::ConstraintBlock<Dim>& c = block.constraint;
-  const Index count = friction ? Dim + 1 : 1;
+  const Index count = shear ? Dim + 1 : 1;
   constexpr double negligible = 1e-10;
   for (Index row = 0; row < count; ++row) {
     path_dofs.clear();
@@ -124,7 +124,7 @@ template <int Dim>
 void BasicSystem<Dim>::Impl::add_constraints(std::size_t pair, bool with_tangent,
                                              const Eigen::VectorXd* inc) {
   if (first_multiplier[pair] < 0) return;
-  const bool friction = model.pairs[pair].definition.friction.has_value();
+  const bool shear = pairing::has_shear(model.pairs[pair].definition);
   const Index count = multipliers_per_point(model.pairs[pair]);
   Index first = first_multiplier[pair];
   for (std::size_t i = 0; i < model.pairs[pair].definition.slave.points.size(); ++i) {
@@ -132,11 +132,11 @@ void BasicSystem<Dim>::Impl::add_constraints(std::size_t pair, bool with_tangent
     const Index row = first - dofs.unknowns();
     constraint[row] += block.constraint.normal;
     branch_constraint[row] += block.constraint.normal;
-    if (friction) {
+    if (shear) {
       constraint.segment<Dim>(row + 1) += block.constraint.shear;
       branch_constraint.segment<Dim>(row + 1) += block.constraint.branch_shear;
     }
-    if (with_tangent) add_constraint_tangent(block, friction, first, inc);
+    if (with_tangent) add_constraint_tangent(block, shear, first, inc);
     first += count;
   }
 }

@@ -35,7 +35,7 @@ template <int Dim>
 /// Unknowns of one point of a pair whose multipliers are unknowns.
 template <int Dim>
 [[nodiscard]] Index multipliers_per_point(const BasicContactPair<Dim>& pair) {
-  return pair.definition.friction ? Dim + 1 : 1;
+  return pairing::has_shear(pair.definition) ? Dim + 1 : 1;
 }
 
 template <int Dim>
@@ -280,7 +280,7 @@ struct BasicSystem<Dim>::Impl {
   void soften();
   /// Constraints of a pair whose multipliers are unknowns.
   void add_constraints(std::size_t pair, bool with_tangent, const Eigen::VectorXd* inc);
-  void add_constraint_tangent(const pairing::ContactBlock<Dim>& block, bool friction, Index first,
+  void add_constraint_tangent(const pairing::ContactBlock<Dim>& block, bool shear, Index first,
                               const Eigen::VectorXd* inc);
   /// Largest entry of the row.
   double add_constraint_row(Index unknown, const Eigen::VectorXd* inc);

@@ -192,4 +192,27 @@ std::optional<double> path_length(const Chain& chain, std::span<const Vec2> x, c
   return walk(chain, x, from, to, forward, gradient);
 }
 
+std::optional<Valley> valley_after(const Chain& chain, Index facet, std::span<const Vec2> x) {
+  constexpr double least_sine = 1e-6;  // a straight line is no corner, whatever rounding says
+  const Facet& before = chain.facets[static_cast<std::size_t>(facet)];
+  if (before.next < 0 || before.next == facet) return std::nullopt;
+  const Facet& behind = chain.facets[static_cast<std::size_t>(before.next)];
+  const geometry::CurveJet<2> end = facet_jet(before, before.hi, x);
+  Valley v;
+  v.facets = {facet, before.next};
+  v.end = before.hi;
+  v.point = end.r;
+  v.along = {end.r1.normalized(), facet_jet(behind, behind.lo, x).r1.normalized()};
+  v.normal = {turn(v.along[0]), turn(v.along[1])};
+  v.bisector = (v.normal[0] + v.normal[1]).normalized();
+  if (!(v.normal[0].dot(v.along[1]) > least_sine)) return std::nullopt;
+  return v;
+}
+
+bool has_valley(const Chain& chain, std::span<const Vec2> x) {
+  for (std::size_t f = 0; f < chain.facets.size(); ++f)
+    if (valley_after(chain, static_cast<Index>(f), x)) return true;
+  return false;
+}
+
 }  // namespace osculate::pairing

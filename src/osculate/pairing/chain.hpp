@@ -63,6 +63,23 @@ void connect(Chain& chain);
   return facet_jet(facet, facet_shape(facet, xi), x);
 }
 
+/// A vertex at which a chain bends towards its outside: both facets are an obstacle to a point
+/// there, and their forces together hold it.
+struct Valley {
+  std::array<Index, 2> facets{-1, -1};  ///< before and behind the vertex
+  double end = 0;                       ///< coordinate of the vertex on the first one
+  Vec2 point = Vec2::Zero();
+  std::array<Vec2, 2> normal, along;  ///< unit normals and directions of travel there
+  Vec2 bisector = Vec2::UnitY();      ///< of the normals
+};
+
+/// The valley behind a facet, if there is one.
+[[nodiscard]] std::optional<Valley> valley_after(const Chain& chain, Index facet,
+                                                 std::span<const Vec2> x);
+
+/// Whether a chain has a valley (the pair's `valleys` cost unknowns).
+[[nodiscard]] bool has_valley(const Chain& chain, std::span<const Vec2> x);
+
 /// Signed arc length along the chain from `from` to `to` in the current configuration, over all
 /// borders on the way, and its derivative with respect to the node positions at fixed xi.
 ///

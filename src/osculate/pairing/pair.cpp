@@ -11,6 +11,7 @@
 #include "osculate/pairing/point_evaluation.hpp"
 #include "osculate/pairing/sampling.hpp"
 #include "osculate/pairing/tie.hpp"
+#include "osculate/pairing/valley.hpp"
 
 namespace osculate::pairing {
 
@@ -88,6 +89,7 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   const std::size_t n = pair.slave.points.size();
   out.points.resize(n);
   out.blocks.resize(n);
+  out.around.resize(pair.valleys ? n : 0);
   out.block_nodes = largest_block(pair);
   point_normals<Dim>(pair.slave, x, out.normals);
   if (pair.weight == Weight::current_area) {
@@ -111,6 +113,21 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   else
     out.tree = Tree<Dim>(out.boxes);
 }
+/// A point where it was placed, or in the valley beside that place.
+template <int Dim>
+void evaluate_placed(const PairDefinition<Dim>& pair, Points<Dim> x,
+                     const PointHistory<Dim>& history, Placed<Dim>& placed, BranchHint<Dim>& hint,
+                     bool with_tangent, std::size_t i, PairEvaluation<Dim>& out) {
+  if constexpr (Dim == 2)
+    if (pair.valleys && hint.multiplier)
+      if (const std::optional<Valley> valley =
+              find_valley(pair, x, history, i, out, out.around[i], hint, placed)) {
+        evaluate_in_valley(pair, x, history, *valley, hint, with_tangent, i, out);
+        return;
+      }
+  evaluate_point(pair, x, history, placed, hint, with_tangent, i, out);
+}
+
 template <int Dim>
 Mat<Dim, Dim - 1> frame_of_history(const PairDefinition<Dim>& pair, std::size_t i,
                                    const PointHistory<Dim>& h, Points<Dim> x) {
@@ -142,10 +159,9 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
     BranchHint<Dim> hint = hint_of(pair, assumed, multipliers, i);
     if (!committed.overlap.empty()) hint.relieved = assumed.relief * committed.overlap[i];
-    const Placed<Dim> placed =
-        place_point(pair, out, x, i, committed.points[i], hint.assumed.kept());
+    Placed<Dim> placed = place_point(pair, out, x, i, committed.points[i], hint.assumed.kept());
     laps.add_to(out.seconds.projection);
-    evaluate_point(pair, x, committed.points[i], placed, hint, with_tangent, i, out);
+    evaluate_placed(pair, x, committed.points[i], placed, hint, with_tangent, i, out);
     laps.add_to(out.seconds.evaluation);
   }
   if constexpr (Dim == 3) {
@@ -168,6 +184,11 @@ Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair, const PairState
     if (h.active && h.slipping && size > 0 && !sticking)
       branch = {Branch::slip, frame_of_history(pair, i, h, x) * (h.traction / size)};
     if (h.edge >= 0) branch.edges = {h.edge, h.facet};
+    if constexpr (Dim == 2)
+      if (h.active && rests_in_valley(pair, h, x)) {
+        branch = {Branch::valley, Vec2::Zero()};
+        branch.facet = h.facet;
+      }
     assumed.branch.push_back(branch);
   }
   return assumed;
@@ -260,12 +281,20 @@ PairMultipliers<Dim> augmented(const PairDefinition<Dim>& pair,
 
 template <int Dim>
 PairMultipliers<Dim> commit(const PairEvaluation<Dim>& evaluation, PairMultipliers<Dim> used) {
+  used = taken_over(evaluation, std::move(used));
   used.violation = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < used.points.size(); ++i) {
     const PointResult<Dim>& point = evaluation.points[i];
+    if (point.branch.branch == Branch::valley) continue;  // the multiplier is all of the traction
     if (point.status == contact::Status::open) used.points[i].normal = 0;
     used.points[i].shear = point.shear();
   }
+  return used;
+}
+
+template <int Dim>
+PairMultipliers<Dim> taken_over(const PairEvaluation<Dim>& evaluation, PairMultipliers<Dim> used) {
+  if (evaluation.around.size() == used.points.size()) used.points = evaluation.around;
   return used;
 }
 
@@ -297,6 +326,8 @@ template PairMultipliers<2> augmented<2>(const PairDefinition<2>&, const PairEva
                                          const PairMultipliers<2>&);
 template PairMultipliers<2> commit<2>(const PairEvaluation<2>&, PairMultipliers<2>);
 template PairState<2> commit<2>(const PairEvaluation<2>&);
+template PairMultipliers<2> taken_over<2>(const PairEvaluation<2>&, PairMultipliers<2>);
+template PairMultipliers<3> taken_over<3>(const PairEvaluation<3>&, PairMultipliers<3>);
 template PairMultipliers<3> initial_multipliers<3>(const PairDefinition<3>&, const PairState<3>&);
 template PairMultipliers<3> augmented<3>(const PairDefinition<3>&, const PairEvaluation<3>&,
                                          const PairMultipliers<3>&);

@@ -69,6 +69,10 @@ struct PairDefinition {
   double depth = std::numeric_limits<double>::infinity();  ///< deeper points are not in contact
   InitialOverlap overlap = InitialOverlap::acts;
   EdgeContact edges;  ///< in space: also where sharp edges cross
+  /// In the plane, with unknown tractions at nodes: points are held in concave corners of the
+  /// master by a traction of any direction (valley.hpp), so that there is a shear without friction
+  /// too.
+  bool valleys = false;
   /// With `scope.own` both sides of a contact are slaves, and each carries half of the traction.
   Scope<Dim> scope;
   bool mortar = false;  ///< integrals over the slave's facets instead of points (mortar.hpp)
@@ -192,6 +196,8 @@ struct PairEvaluation {
   Tree<Dim> tree;
   ScopeBuffers<Dim> scope;
   MortarBuffers<Dim> mortar;
+  /// With valleys: the multipliers as the states that were found take them, one per slave point.
+  std::vector<contact::Multiplier<Dim>> around;
   bool apart = false;  ///< master and slave are farther from each other than the scope reaches
   PairSeconds seconds;
 };
@@ -248,6 +254,18 @@ template <int Dim>
     if (point.status != contact::Status::open) return true;
   return false;
 }
+
+/// Whether the unknown tractions of a pair's points have a shear.
+template <int Dim>
+[[nodiscard]] bool has_shear(const PairDefinition<Dim>& pair) {
+  return pair.friction.has_value() || pair.valleys;
+}
+
+/// The multipliers of an iteration as the states that its evaluation found take them: a point that
+/// came into a valley or left one has the same traction, but other multipliers.
+template <int Dim>
+[[nodiscard]] PairMultipliers<Dim> taken_over(const PairEvaluation<Dim>& evaluation,
+                                              PairMultipliers<Dim> used);
 
 /// Multipliers to start from: none in contact.
 template <int Dim>

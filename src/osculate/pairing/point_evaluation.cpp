@@ -76,17 +76,6 @@ Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>
 }
 
 template <int Dim>
-void set_nodes(ContactBlock<Dim>& block, const Boundary<Dim>& master, const Placed<Dim>& placed,
-               const SlavePoint<Dim>& slave, int most) {
-  const auto& facet = master.facets[static_cast<std::size_t>(placed.projection.facet)];
-  block.reserve(most);
-  block.count = slave.count + placed.count;
-  block.slave_count = slave.count;
-  std::copy_n(slave.nodes.begin(), slave.count, block.nodes.begin());
-  std::copy_n(facet.nodes.begin(), placed.count, block.nodes.begin() + slave.count);
-}
-
-template <int Dim>
 void scatter_forces(Eigen::VectorXd& force, int count, const Weights<Dim>& w,
                     const PointTerms<Dim>& terms, double area) {
   for (int k = 0; k < count; ++k) {
@@ -130,15 +119,6 @@ PointHistory<Dim> next_history(const PairDefinition<Dim>& pair, Points<Dim> x,
   h.slip += old.slip;
   h.slid += old.slid;
   return h;
-}
-
-template <int Dim>
-void clear(ContactBlock<Dim>& block) {
-  block.count = 0;
-  block.branched = false;
-  block.behind.path.clear();
-  block.area.clear();
-  block.constraint.on = false;
 }
 
 /// Where the point is, and what its normal law says; not active where it is not in contact.
@@ -195,6 +175,7 @@ void report_contact(const PairDefinition<Dim>& pair, Points<Dim> x,
   result.history.friction_work += result.weight * f.dissipated;
   report_normal(f.traction.normal, history.damping_work, result);
   result.status = !pair.friction ? Status::slip : f.law.status;
+  result.branch.branch = contact::Branch::slip;
   if (pair.friction) result.branch = branch_of<Dim>(f.traction.tangential, placed.kinematics.frame);
   if (pair.friction && !hint.multiplier)
     result.stored += 0.5 * f.law.traction.squaredNorm() / f.traction.stiffness;
@@ -213,7 +194,7 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   PointResult<Dim>& result = out.points[i];
   ContactBlock<Dim>& block = out.blocks[i];
   result = {};
-  clear(block);
+  clear_block(block);
   result.weight = point_weight(pair, out, i);
   result.history.friction_work = history.friction_work;
   result.history.damping_work = history.damping_work;

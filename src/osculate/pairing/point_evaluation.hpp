@@ -1,5 +1,7 @@
 #pragma once
 // One contact point, from its place to forces, tangent and history; for sources of this layer.
+#include <algorithm>
+
 #include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::pairing {
@@ -10,6 +12,7 @@ template <int Dim>
 struct BranchHint {
   AssumedBranch<Dim> assumed{};
   bool predict = false;
+  bool known = false;   ///< `assumed` is of an iteration (or predicted), not made up
   double duration = 0;  ///< of the increment
   double relieved = 0;  ///< part <= 0 of the gap that does not count (PairState::overlap)
   const contact::Multiplier<Dim>* multiplier = nullptr;
@@ -26,6 +29,7 @@ template <int Dim>
   if (!assumed.branch.empty()) {
     hint.assumed = assumed.branch[i];
     hint.predict = assumed.predict;
+    hint.known = true;
   }
   hint.duration = assumed.duration;
   if (multipliers && i < multipliers->points.size()) {
@@ -39,6 +43,28 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] double constraint_weight(const PairDefinition<Dim>& pair, std::size_t i) {
   return pair.weight == Weight::node ? 1.0 : pair.reference_areas[i];
+}
+
+/// The nodes of a block: the slave's, then those of the facet it is placed on.
+template <int Dim>
+void set_nodes(ContactBlock<Dim>& block, const Boundary<Dim>& master, const Placed<Dim>& placed,
+               const SlavePoint<Dim>& slave, int most) {
+  const auto& facet = master.facets[static_cast<std::size_t>(placed.projection.facet)];
+  block.reserve(most);
+  block.count = slave.count + placed.count;
+  block.slave_count = slave.count;
+  std::copy_n(slave.nodes.begin(), slave.count, block.nodes.begin());
+  std::copy_n(facet.nodes.begin(), placed.count, block.nodes.begin() + slave.count);
+}
+
+/// The block of a point that is not in contact.
+template <int Dim>
+void clear_block(ContactBlock<Dim>& block) {
+  block.count = 0;
+  block.branched = false;
+  block.behind.path.clear();
+  block.area.clear();
+  block.constraint.on = false;
 }
 
 /// Whether the tractions of the point are unknowns; if so its constraint starts as that of an open

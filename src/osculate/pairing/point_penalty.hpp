@@ -15,18 +15,21 @@ template <int Dim>
 /// eps_N and eps_T of a point, as they are without the stiffening of an augmented Lagrangian.
 struct PointPenalty {
   double normal = 0;  ///< 0: the law has none
-  double shear = 0;   ///< 0: no friction
+  double shear = 0;   ///< 0: no shear traction
 };
 
 /// Penalties of slave point i: everything that asks for the penalty of a point asks here.
 ///
-/// Formula    eps_N,i = f_N,i eps_N ,  eps_T,i = f_T,i eps_T
+/// Formula    eps_N,i = f_N,i eps_N ,  eps_T,i = f_T,i eps_T ; without friction eps_N,i where
+/// valleys
+///            ask for an unknown shear
 /// Tested by  tests/unit/pairing/test_point_penalty.cpp
 template <int Dim>
 [[nodiscard]] PointPenalty point_penalty(const PairDefinition<Dim>& pair, std::size_t i) {
   const RelativeStiffness own = relative_stiffness(pair, i);
-  return {own.normal * contact::penalty_of(pair.normal),
-          pair.friction ? own.shear * contact::stiffness(*pair.friction) : 0.0};
+  const double normal = own.normal * contact::penalty_of(pair.normal);
+  if (pair.friction) return {normal, own.shear * contact::stiffness(*pair.friction)};
+  return {normal, pair.valleys ? normal : 0.0};
 }
 
 /// Penalties of the slave's points.

@@ -48,7 +48,6 @@ Distance distance_at(std::span<const Vec3> first, std::span<const Vec3> second, 
   return d;
 }
 
-
 /// sin^2 of the angle between the tangents, times both squared lengths, is the determinant.
 bool crossing(const Mat<2, 2>& metric) {
   return metric.determinant() > parallel * parallel * metric(0, 0) * metric(1, 1);

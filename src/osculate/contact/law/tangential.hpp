@@ -7,8 +7,9 @@ namespace osculate::contact {
 
 enum class Status : std::uint8_t { open = 0, stick = 1, slip = 2 };
 
-/// The smooth piece of the friction law that an iteration was linearised in.
-enum class Branch : std::uint8_t { none, stick, slip };
+/// The smooth piece of the friction law that an iteration was linearised in; `valley`: the point is
+/// held in a concave corner of the master, where no single facet's law says what it carries.
+enum class Branch : std::uint8_t { none, stick, slip, valley };
 
 /// Tangential traction t in an orthonormal frame of the tangent plane (2D: along tau), and its
 /// derivatives.
