@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "allocation_count.hpp"
 #include "expect_derivative.hpp"
 #include "multiplier_sample.hpp"
 #include "pair_sample.hpp"
@@ -119,6 +120,26 @@ TEST(Valley, HoldsInTheSumOfBothCones) {
         EXPECT_NEAR(force_on_point(e).dot(n), 5 * direction(middle + from_middle).dot(n), 1e-12);
         EXPECT_NEAR(force_on_point(e).norm() / force_on_point(e).dot(n), std::hypot(1, mu), 1e-12);
       }
+    }
+}
+
+/// Arriving along a facet in this increment: there friction is at its limit against the way it
+/// came, and the cone is that of the normals, turned by atan mu.
+TEST(Valley, HoldsWhatTheFacetItCameAlongDidNot) {
+  constexpr int directions = 360;
+  constexpr double mu = 0.3;
+  const Corner corner;
+  const double first = corner.start + half_turn / 2;
+  for (const Index came_along : {0, 1})
+    for (int i = 0; i < directions; ++i) {
+      const double from_first = 2 * half_turn * (i + 0.37) / directions - half_turn;
+      Sample s = make_valley(corner);
+      s.pair.friction = contact::Coulomb{mu, penalty};
+      hold_by(5 * direction(first + from_first), s);
+      s.committed.points[0] = remembered(true, came_along, Feature::face, 0.5, 0, 0);
+      const double turned = from_first + (came_along == 0 ? -1 : 1) * std::atan(mu);
+      const bool held = evaluated(s).points[0].branch.branch == Branch::valley;
+      EXPECT_EQ(held, turned > 0 && turned < corner.angle) << came_along << " " << from_first;
     }
 }
 
@@ -245,6 +266,25 @@ TEST(ValleyTangent, OfFacetsWithoutFriction) {
   EXPECT_LT((k - k.transpose()).norm(), 1e-13 * k.norm());
   const pairing::PairEvaluation<2> e = s.evaluation(v, false);
   EXPECT_NEAR((e.blocks[0].constraint.shear + s.multipliers[0].shear).norm(), 0, 1e-14);
+}
+
+TEST(Valley, NothingIsAllocatedAfterTheFirstCall) {
+  Sample s = make_valley({});
+  s.pair.friction = contact::Coulomb{0.3, penalty};
+  hold_by(5 * (normal_of({}, 0) + normal_of({}, 1)), s);
+  pairing::Assumed<2> assumed;
+  assumed.branch = s.assumed;
+  pairing::PairMultipliers<2> around;
+  around.points = s.multipliers;
+  pairing::PairEvaluation<2> e;
+  const auto evaluate = [&] {
+    pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, assumed, &around);
+  };
+  evaluate();
+  ASSERT_EQ(e.points[0].branch.branch, Branch::valley);
+  const std::size_t before = allocation_count();
+  evaluate();
+  EXPECT_EQ(allocation_count(), before);
 }
 
 /// What rested in the valley is predicted to stay, whatever rounding says.
