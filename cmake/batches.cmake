@@ -10,7 +10,6 @@ endif()
 function(osculate_batches target)
   get_target_property(sources ${target} SOURCES)
   get_target_property(folder ${target} SOURCE_DIR)
-  list(FILTER sources INCLUDE REGEX "^${PROJECT_SOURCE_DIR}/(src|tests|verification|app)/")
   execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tools/batches 8 ${sources}
     OUTPUT_VARIABLE numbers OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   foreach(source number IN ZIP_LISTS sources numbers)

@@ -137,9 +137,11 @@ steps: [{{name: turn, increments: 600, duration: 2.4, gravity: [0, -1], dynamics
   EXPECT_NEAR(first_rate, rate, 0.01 * rate);
 }
 
-/// An elastic block in a channel of 90 facets that turns, `corner` of the block after it.
-Vec2 dragged(int increments) {
-  constexpr int facets = 90;
+/// An elastic block in a channel of facets that turns, `corner` of the block after it. The channel
+/// is given by its points in `shape`.
+Vec2 dragged(int increments, int facets = 90,
+             const std::string& shape = "polyline: {{points: [{}]}}",
+             const std::string& solver = "") {
   std::string points;
   for (int i = 0; i <= facets; ++i) {
     const double angle = std::numbers::pi * (static_cast<double>(i) / facets - 0.5);
@@ -151,7 +153,7 @@ Vec2 dragged(int increments) {
 mesh: {{generate: {{block: {{box: {{x: [-0.1, 0.1], y: [-0.99, -0.79], elements: [4, 4]}}}}}}}}
 materials: {{m: {{neo_hooke: {{E: 100, nu: 0.3}}}}}}
 sections: [{{on: block, element: plane_strain, material: m, kinematics: finite}}]
-rigid: {{channel: {{polyline: {{points: [{0}]}}, reference: [0, 0]}}}}
+rigid: {{channel: {{{0}, reference: [0, 0]}}}}
 contact:
   - {{name: c, master: channel, slave: block.bottom, sampling: nodes, weight: node,
      normal: {{penalty: 1000}}, friction: {{coulomb: {{mu: 0.2, penalty: 1000}}}},
@@ -160,8 +162,9 @@ steps:
   - {{name: press, increments: 4, prescribe: [{{on: block.top, ux: 0, uy: -0.02}},
                                             {{on: channel, rz: 0, ux: 0, uy: 0}}]}}
   - {{name: turn, increments: {1}, prescribe: [{{on: channel, rz: 0.6}}]}}
+{2}
 )",
-                  points, increments),
+                  fmt::format(fmt::runtime(shape), points), increments, solver),
       [&](const model::System& system, const model::State& state) {
         last = corner_of(system, state);
       });
@@ -170,6 +173,17 @@ steps:
 
 /// Valleys that are dragged along under a block do not catch its nodes, whatever the increments.
 TEST(Valleys, SlidingNodesPassThem) { EXPECT_NEAR((dragged(6) - dragged(24)).norm(), 0, 1e-8); }
+
+/// One node is held in a valley when the block is pressed on, and dragged out of it.
+TEST(Valleys, CurvesAndCondensedMultipliersHoldThemAsWell) {
+  const Vec2 last = dragged(6, 30);
+  EXPECT_NEAR((dragged(6, 30, "composite: [{{polyline: {{points: [{}]}}}}]") - last).norm(), 0,
+              1e-10);
+  EXPECT_NEAR(
+      (dragged(6, 30, "polyline: {{points: [{}]}}", "solver: {multipliers: condensed}") - last)
+          .norm(),
+      0, 1e-10);
+}
 
 }  // namespace
 }  // namespace osculate::deck
