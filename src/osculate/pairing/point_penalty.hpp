@@ -20,9 +20,8 @@ struct PointPenalty {
 
 /// Penalties of slave point i: everything that asks for the penalty of a point asks here.
 ///
-/// Formula    eps_N,i = f_N,i eps_N ,  eps_T,i = f_T,i eps_T ; without friction eps_N,i where
-/// valleys
-///            ask for an unknown shear
+/// Formula    eps_N,i = f_N,i eps_N ,  eps_T,i = f_T,i eps_T ; without friction eps_T,i = eps_N,i
+///            where valleys ask for an unknown shear
 /// Tested by  tests/unit/pairing/test_point_penalty.cpp
 template <int Dim>
 [[nodiscard]] PointPenalty point_penalty(const PairDefinition<Dim>& pair, std::size_t i) {
