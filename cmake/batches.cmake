@@ -1,9 +1,6 @@
 # osculate_batches(TARGET): its sources compiled several at a time (tools/batches says which), for
 # builds from nothing: most of their time goes into headers and templates that every source needs.
-# `cases` are tests and verification cases, `all` the layers as well. Whoever edits single files sets
-# OSCULATE_BATCHES to OFF.
-set(OSCULATE_BATCHES OFF CACHE STRING "Compile sources together: OFF, cases or all")
-set_property(CACHE OSCULATE_BATCHES PROPERTY STRINGS OFF cases all)
+option(OSCULATE_BATCHES "Compile sources together" OFF)
 if(OSCULATE_BATCHES)
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
 endif()
@@ -11,7 +8,7 @@ function(osculate_batches target)
   get_target_property(sources ${target} SOURCES)
   get_target_property(folder ${target} SOURCE_DIR)
   execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tools/batches 8 ${sources}
-    OUTPUT_VARIABLE numbers OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+    WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE numbers OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   foreach(source number IN ZIP_LISTS sources numbers)
     set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${number})
   endforeach()

@@ -10,3 +10,8 @@ find_package(MumpsSeq REQUIRED)
 if(OSCULATE_TESTS)
   find_package(GTest 1.12 REQUIRED)
 endif()
+# Eigen as all use it. The library is built with AVX unless OSCULATE_BASELINE is set, a host code
+# perhaps without: both must align small matrices alike, or values change their layout on the way.
+add_library(osculate_values INTERFACE)
+target_link_libraries(osculate_values INTERFACE Eigen3::Eigen)
+target_compile_definitions(osculate_values INTERFACE EIGEN_MAX_ALIGN_BYTES=32 EIGEN_MAX_STATIC_ALIGN_BYTES=32)

@@ -1,11 +1,13 @@
 include(CMakePackageConfigHelpers)
 get_property(layers GLOBAL PROPERTY OSCULATE_LAYERS)
-set(targets "")
+set(targets osculate_values)
 foreach(layer IN LISTS layers)
   list(APPEND targets osculate_${layer})
 endforeach()
-install(TARGETS ${targets} EXPORT OsculateTargets
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
+install(TARGETS ${targets} EXPORT OsculateTargets RUNTIME_DEPENDENCY_SET osculate_needs
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
 install(DIRECTORY src/osculate DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp"
   PATTERN "detail" EXCLUDE)
 install(EXPORT OsculateTargets NAMESPACE Osculate:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Osculate)
@@ -16,6 +18,12 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/OsculateConfigVersion.cmake
 install(FILES ${CMAKE_BINARY_DIR}/OsculateConfig.cmake ${CMAKE_BINARY_DIR}/OsculateConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Osculate)
 if(OSCULATE_APP)
-  install(TARGETS osculate RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(DIRECTORY verification DESTINATION ${CMAKE_INSTALL_DATADIR}/osculate)
+  install(TARGETS osculate RUNTIME_DEPENDENCY_SET osculate_needs
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  if(OSCULATE_VERIFICATION)
+    install(TARGETS osculate-verify RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT verification)
+    install(DIRECTORY verification DESTINATION ${CMAKE_INSTALL_DATADIR}/osculate COMPONENT verification
+      PATTERN "*.?pp" EXCLUDE)
+  endif()
+  include(package)
 endif()

@@ -1,8 +1,8 @@
-# osculate_layer(NAME [SHARED] DEPS layer... LIBS public-libs... PRIVATE_LIBS private-libs...)
+# osculate_layer(NAME [SHARED] [COLD] DEPS layer... LIBS public-libs... PRIVATE_LIBS private-libs...)
 # One folder under src/osculate = one target = one layer. The folder's own sources are collected;
 # the include rules themselves are checked by tools/check_layers.py.
 function(osculate_layer name)
-  cmake_parse_arguments(L "SHARED" "" "DEPS;LIBS;PRIVATE_LIBS" ${ARGN})
+  cmake_parse_arguments(L "SHARED;COLD" "" "DEPS;LIBS;PRIVATE_LIBS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   set(target osculate_${name})
   set(deps "")
@@ -15,11 +15,12 @@ function(osculate_layer name)
     else()
       add_library(${target} STATIC ${sources})
     endif()
-    if(OSCULATE_BATCHES STREQUAL "all")
-      osculate_batches(${target})
+    if(L_COLD)
+      osculate_compile(${target} cold)
+    else()
+      osculate_compile(${target} hot)
     endif()
-    target_link_libraries(${target} PUBLIC ${deps} ${L_LIBS}
-      PRIVATE ${L_PRIVATE_LIBS} $<BUILD_INTERFACE:osculate_flags>)
+    target_link_libraries(${target} PUBLIC ${deps} ${L_LIBS} PRIVATE ${L_PRIVATE_LIBS})
     target_include_directories(${target} PUBLIC
       $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   else()

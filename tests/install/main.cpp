@@ -6,6 +6,7 @@
 
 #include "osculate/api/closest_points.hpp"
 #include "osculate/api/contact_evaluator.hpp"
+#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/geometry/curve_frame.hpp"
 #include "osculate/geometry/curve_jet.hpp"
 #include "osculate/la/direct_solver.hpp"

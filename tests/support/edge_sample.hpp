@@ -2,6 +2,8 @@
 // Two roofs whose ridges cross: contact that no node sees.
 #include "pair_sample3.hpp"
 
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::testing {
 
 struct RoofOptions {

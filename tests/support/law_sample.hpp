@@ -4,7 +4,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "osculate/contact/law/steadying.hpp"
+#include "osculate/contact/law/catalogue.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::testing {
@@ -123,15 +123,15 @@ std::vector<int> branches(const pairing::PairDefinition<Dim>& pair, const Law& l
   for (const pairing::PointResult<Dim>& p : e.points) {
     int piece = p.normal_traction > 0 ? 100 : 0;
     const double gap = p.history.gap - pair.offset;
-    if (const auto* const t = std::get_if<contact::NormalTable>(&law.normal))
+    if (const auto* const t = law.normal.as<contact::NormalTable>())
       for (const auto& point : t->points) piece += -gap > point[0] ? 1 : 0;
-    if (const auto* const x = std::get_if<contact::NormalExponential>(&law.normal))
+    if (const auto* const x = law.normal.as<contact::NormalExponential>())
       piece += gap < -6 * x->clearance ? 1 : 0;
     piece += gap > p.history.deepest ? 1000 : 0;
     double steady = 1;
     if (law.friction) {
       steady = contact::steadying(*law.friction, p.normal_traction, duration);
-      if (const auto* const c = std::get_if<contact::Coulomb>(&*law.friction))
+      if (const auto* const c = law.friction->as<contact::Coulomb>())
         piece += p.shear_traction.norm() > (1 - 1e-9) * c->cap ? 10 : 0;
     }
     out.insert(out.end(), {static_cast<int>(p.status), static_cast<int>(p.history.feature),
@@ -164,7 +164,7 @@ void set_law(const Law& law, Sample& s) {
     h.rest = law.rest;
     if (!law.damping) continue;
     h.gap = law.from;
-    if (std::holds_alternative<contact::Restitution>(*law.damping)) h.deepest = law.deepest;
+    if (law.damping->as<contact::Restitution>()) h.deepest = law.deepest;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::testing {

@@ -6,6 +6,7 @@
 #include "mortar_sample.hpp"
 #include "osculate/cell/quadrature.hpp"
 #include "osculate/cell/shape.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 
 namespace osculate::testing {
 

@@ -7,6 +7,8 @@
 #include "pair_sample.hpp"
 #include "pair_sample3.hpp"
 
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::testing {
 
 /// Corners of a body in the clockwise sense (body on the right of the direction of travel), each

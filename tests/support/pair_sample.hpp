@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <random>
 
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::testing {

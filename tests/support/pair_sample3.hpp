@@ -6,6 +6,7 @@
 #include <string>
 
 #include "osculate/cell/shape.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::testing {

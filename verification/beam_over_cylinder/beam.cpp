@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::verification {
 namespace {
 

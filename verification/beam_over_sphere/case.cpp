@@ -7,6 +7,7 @@
 #include "../cases.hpp"
 #include "../model3.hpp"
 #include "../scene3.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
 
 namespace osculate::verification {

@@ -5,6 +5,8 @@
 
 #include "../cases.hpp"
 #include "in_space.hpp"
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::verification {

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::verification {

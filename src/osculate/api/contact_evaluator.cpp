@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 

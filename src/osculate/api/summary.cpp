@@ -7,6 +7,11 @@
 #include <cmath>
 #include <map>
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_exponential.hpp"
+#include "osculate/contact/law/normal_table.hpp"
+#include "osculate/contact/law/rough.hpp"
+#include "osculate/contact/law/tresca.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/pairing/point_penalty.hpp"
@@ -175,19 +180,19 @@ std::string rigid_text(const model::BasicRigidBody<Dim>& body) {
 }
 
 std::string law_text(const contact::NormalLaw& law) {
-  if (const auto* const l = std::get_if<contact::NormalExponential>(&law))
+  if (const auto* const l = law.as<contact::NormalExponential>())
     return fmt::format("exponential {:g} within {:g}", l->pressure, l->clearance);
-  if (const auto* const l = std::get_if<contact::NormalTable>(&law))
+  if (const auto* const l = law.as<contact::NormalTable>())
     return fmt::format("table of {} points", l->points.size());
-  return fmt::format("penalty {:g}", std::get<contact::NormalPenalty>(law).stiffness);
+  return fmt::format("penalty {:g}", contact::penalty_of(law));
 }
 
 std::string law_text(const contact::FrictionLaw& law) {
   const std::string penalty = fmt::format("penalty {:g}", contact::stiffness(law));
-  if (const auto* const l = std::get_if<contact::Tresca>(&law))
+  if (const auto* const l = law.as<contact::Tresca>())
     return fmt::format("Tresca {:g} ({})", l->limit_traction, penalty);
-  if (std::holds_alternative<contact::Rough>(law)) return fmt::format("rough ({})", penalty);
-  const auto& l = std::get<contact::Coulomb>(law);
+  if (law.as<contact::Rough>()) return fmt::format("rough ({})", penalty);
+  const auto& l = *law.as<contact::Coulomb>();
   std::string text = fmt::format("Coulomb {:g}", l.mu);
   if (l.change) text += fmt::format(" to {:g}", l.change->kinetic);
   if (std::isfinite(l.cap)) text += fmt::format(" up to {:g}", l.cap);

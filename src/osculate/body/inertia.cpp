@@ -1,12 +1,13 @@
 #include "osculate/body/inertia.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <variant>
 #include <vector>
+
+#include "osculate/core/dense.hpp"
 
 namespace osculate::body {
 namespace {
@@ -174,7 +175,7 @@ std::string validate(const Inertia<3>& inertia) {
   const Mat<3, 3>& j = inertia.tensor;
   if (!j.allFinite()) return "the inertia must be given by finite numbers";
   if ((j - j.transpose()).norm() > 1e-12 * j.norm()) return "the inertia must be symmetric";
-  const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat<3, 3>>(j).eigenvalues();
+  const Vec3 principal = core::eigenvalues(j);
   if (!(principal[0] > 1e-12 * principal[2])) return "the moments of inertia must be positive";
   if (principal[2] > (1 + 1e-9) * (principal[0] + principal[1]))
     return "no body has this inertia: one of its principal moments is larger than the sum of the "

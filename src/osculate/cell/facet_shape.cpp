@@ -1,8 +1,7 @@
 #include "osculate/cell/facet_shape.hpp"
 
-#include <Eigen/LU>
-
 #include "osculate/cell/shape.hpp"
+#include "osculate/core/dense.hpp"
 
 namespace osculate::cell {
 namespace {
@@ -45,7 +44,8 @@ Coefficients make_coefficients(CellType type) {
       const auto& p = m.power[static_cast<std::size_t>(i)];
       at_nodes(i, k) = power(x.x(), p[0]) * power(x.y(), p[1]);
     }
-  const Eigen::MatrixXd inverse = at_nodes.inverse();
+  const Eigen::MatrixXd inverse =
+      core::least_squares(at_nodes, Eigen::MatrixXd::Identity(m.count, m.count));
   Coefficients c = Coefficients::Zero();
   c.topLeftCorner(m.count, m.count) = (4.0 * inverse).array().round().matrix() / 4.0;
   return c;

@@ -1,5 +1,5 @@
 #pragma once
-#include "osculate/contact/law/normal_penalty.hpp"
+#include "osculate/contact/law/normal_response.hpp"
 #include "osculate/core/types.hpp"
 
 namespace osculate::contact {
@@ -24,14 +24,14 @@ struct Multiplier {
   Vec<Dim> shear = Vec<Dim>::Zero();  ///< t, as PointResult::shear()
 };
 
-/// The penalty law around a multiplier.
+/// The linear penalty `stiffness` around a multiplier.
 ///
 /// Formula    N = lambda + eps_N gap where that is not positive or the point is held, otherwise 0
-[[nodiscard]] inline NormalResponse shifted(const NormalPenalty& law, double gap, double lambda,
+[[nodiscard]] inline NormalResponse shifted(double stiffness, double gap, double lambda,
                                             bool held = false) {
-  const double traction = lambda + law.stiffness * gap;
+  const double traction = lambda + stiffness * gap;
   if (traction > 0 && !held) return {};
-  return {true, traction, law.stiffness};
+  return {true, traction, stiffness};
 }
 
 }  // namespace osculate::contact

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/deck/layers_behind.hpp"
 
@@ -138,11 +139,8 @@ void set_automatic(BuildContext<Dim>& c, const Contact& contact,
   const double per = pair.weight == pairing::Weight::node ? area_per_point(c, pair, mark) : 1.0;
   if (contact.automatic) pair.normal = contact::NormalPenalty{automatic_factor * normal * per};
   if (shear)
-    std::visit(
-        [&](auto& law) {
-          law.stiffness = automatic_factor * in_series(slave.shear, master.shear) * per;
-        },
-        *pair.friction);
+    pair.friction = contact::with_stiffness(
+        *pair.friction, automatic_factor * in_series(slave.shear, master.shear) * per);
 }
 
 template void set_automatic(BuildContext<2>&, const Contact&, model::ContactPair&);

@@ -1,9 +1,9 @@
 // Steps with inertia: masses, schemes, gravity, initial velocities.
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "osculate/core/dense.hpp"
 #include "osculate/deck/body_moments.hpp"
 
 namespace osculate::deck {
@@ -66,7 +66,7 @@ void set_inertia(const BuildContext<3>& c, const Rigid& rigid, model::RigidBody3
     body.inertia(1, 2) = body.inertia(2, 1) = v[4];
     body.inertia(0, 2) = body.inertia(2, 0) = v[5];
   }
-  const Vec3 principal = Eigen::SelfAdjointEigenSolver<Mat<3, 3>>(body.inertia).eigenvalues();
+  const Vec3 principal = core::eigenvalues(body.inertia);
   if (!(principal[0] > 0) || principal[0] + principal[1] < principal[2] * (1 - 1e-9))
     throw core::InputError(rigid.inertia->mark,
                            "no body has such moments: each principal one must be above zero and at "

@@ -3,6 +3,13 @@
 
 #include <algorithm>
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/damping.hpp"
+#include "osculate/contact/law/normal_exponential.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
+#include "osculate/contact/law/normal_table.hpp"
+#include "osculate/contact/law/rough.hpp"
+#include "osculate/contact/law/tresca.hpp"
 #include "osculate/deck/build_contact_parts.hpp"
 
 namespace osculate::deck {

@@ -2,13 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "osculate/core/dense.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
 
@@ -104,10 +103,10 @@ Eigen::MatrixXd admissible(const BasicSystem<Dim>& system, const Eigen::MatrixXd
   for (Index u = 0; u < system.dofs().unknowns(); ++u)
     if (system.prescribed(u)) gram += z.row(u).transpose() * z.row(u);
   if (gram.isZero(0)) return Eigen::MatrixXd::Identity(m, m);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  const core::Spectrum eigen = core::spectrum(gram);
   Eigen::Index free = 0;
-  while (free < m && eigen.eigenvalues()[free] < smallest * eigen.eigenvalues()[m - 1]) ++free;
-  return eigen.eigenvectors().leftCols(free);
+  while (free < m && eigen.values[free] < smallest * eigen.values[m - 1]) ++free;
+  return eigen.vectors.leftCols(free);
 }
 
 /// Combines columns to plain ones: each has a component of its own (translations first) that the
@@ -188,15 +187,15 @@ std::vector<BasicFreeMotion<Dim>> free_motions(BasicSystem<Dim>& system,
     Eigen::MatrixXd kz(k.n, z.cols());
     for (Eigen::Index j = 0; j < z.cols(); ++j) kz.col(j) = la::multiply(k, z.col(j));
     const Eigen::MatrixXd g = z.transpose() * kz;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(g, Eigen::ComputeFullV);
+    const core::SingularValues svd = core::singular_values(g);
     const auto ratio = [&](Eigen::Index j) {
-      return stiffest > 0 ? svd.singularValues()[j] / stiffest : 0.0;
+      return stiffest > 0 ? svd.values[j] / stiffest : 0.0;
     };
     Eigen::Index first = 0;  // singular values fall
     while (first < g.cols() && ratio(first) > threshold) ++first;
     if (first == g.cols()) continue;
     const Eigen::Index count = g.cols() - first;
-    Eigen::MatrixXd w = free * svd.matrixV().rightCols(count);
+    Eigen::MatrixXd w = free * svd.v.rightCols(count);
     if (count > 1) w = plain_basis(std::move(w));
     const std::string name = body_name(model, nodes.front());
     for (Eigen::Index j = 0; j < count; ++j) {

@@ -1,10 +1,11 @@
 // Explicit time integration: how fast the springs and dampers of contacts swing.
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "osculate/contact/law/damping.hpp"
+#include "osculate/core/dense.hpp"
 #include "osculate/model/system_explicit.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 #include "osculate/pairing/point_weight.hpp"
@@ -36,7 +37,7 @@ double stiffest(const pairing::PairDefinition<Dim>& pair, double slope, std::siz
 template <int Dim>
 double damper(const pairing::PairDefinition<Dim>& pair) {
   const auto* const viscous =
-      pair.damping ? std::get_if<contact::Viscous>(&*pair.damping) : nullptr;
+      pair.damping ? pair.damping->template as<contact::Viscous>() : nullptr;
   return viscous ? viscous->coefficient : 0.0;
 }
 
@@ -181,11 +182,7 @@ typename BasicSystem<Dim>::Impl::Explicit::Swing BasicSystem<Dim>::Impl::Explici
     const Dof first = system.dofs.body_dof(static_cast<Index>(b), 0);
     const double moves = inverse.template segment<Dim>(first).maxCoeff();
     double turns_by = Dim == 2 ? inverse[first + Dim] : 0;
-    if (turns[b])
-      turns_by = 1 / Eigen::SelfAdjointEigenSolver<Mat<body::rotations<Dim>, body::rotations<Dim>>>(
-                         whole.rigid[b].inertia, Eigen::EigenvaluesOnly)
-                         .eigenvalues()
-                         .minCoeff();
+    if (turns[b]) turns_by = 1 / core::eigenvalues(whole.rigid[b].inertia).minCoeff();
     out.bodies[b] = out.bodies[b] * moves + turning_of[b] * turns_by;
   }
   return out;

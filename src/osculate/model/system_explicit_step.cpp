@@ -1,11 +1,11 @@
 // Explicit time integration: the longest stable time step.
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "osculate/core/dense.hpp"
 #include "osculate/model/system_explicit.hpp"
 
 namespace osculate::model {
@@ -18,17 +18,14 @@ constexpr int known_for = 100;  ///< time steps until what changes is measured a
 template <int Dim>
 double BasicSystem<Dim>::Impl::Explicit::cell_frequency(std::size_t cell, BulkBlock& block) const {
   constexpr int most = Dim * BulkTraits<Dim>::max_nodes;
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
   const CellJob& job = system.jobs[cell];
   evaluate_cell(system.model, *job.section, job.cell, motion.position, true, block);
   if (!block.ok) return 0;  // the next time step says so
   const Eigen::MatrixXd& mass_of = system.motion->inertia->cells()[cell].mass;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> root(block.dof_count);
   for (Eigen::Index d = 0; d < root.size(); ++d) root[d] = 1 / std::sqrt(mass_of(d / Dim, d / Dim));
-  const Matrix scaled = root.asDiagonal() * block.result.tangent * root.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Matrix>(scaled, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .maxCoeff();
+  const Eigen::MatrixXd scaled = root.asDiagonal() * block.result.tangent * root.asDiagonal();
+  return core::eigenvalues(scaled).maxCoeff();
 }
 
 /// Formula    h^2 omega^2 + 2 h B <= 4 , B of the dampers of contacts as omega^2 of their springs:

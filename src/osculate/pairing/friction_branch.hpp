@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "osculate/contact/law/steadying.hpp"
 #include "osculate/pairing/point_evaluation.hpp"
 
 namespace osculate::pairing {
@@ -65,7 +64,7 @@ template <int Dim>
   contact::NormalResponse r;
   if (hint.multiplier) {
     if (gap < -pair.depth || (pair.separation == Separation::tied_normal && !held)) return {};
-    r = contact::shifted({hint.stiffening * contact::penalty_of(law)}, of_law,
+    r = contact::shifted(hint.stiffening * contact::penalty_of(law), of_law,
                          hint.multiplier->normal, held);
     if (r.active && pair.enforcement == contact::Enforcement::augmented_lagrange)
       r.stored = contact::stored_energy(law, of_law, true);
@@ -79,15 +78,13 @@ template <int Dim>
   return r;
 }
 
-/// The answer of the point's normal law: the pair's, with the penalty of the point. (Other laws
-/// have none, and are not copied.)
+/// The answer of the point's normal law: the pair's, with the penalty of the point.
 template <int Dim>
 [[nodiscard]] contact::NormalResponse normal_response(const PairDefinition<Dim>& pair,
                                                       const contact::PointHistory<Dim>& history,
                                                       double gap, const BranchHint<Dim>& hint) {
   if (hint.own.normal == 1) return response_of(pair.normal, pair, history, gap, hint);
-  const contact::NormalPenalty own{hint.own.normal * contact::penalty_of(pair.normal)};
-  return response_of(contact::NormalLaw{own}, pair, history, gap, hint);
+  return response_of(pair.normal.stiffened(hint.own.normal), pair, history, gap, hint);
 }
 
 /// What is reported of the normal direction, whether the point is in contact or was let go.
@@ -122,10 +119,9 @@ template <int Dim>
 [[nodiscard]] contact::FrictionLaw friction_law(const PairDefinition<Dim>& pair,
                                                 double normal_traction,
                                                 const BranchHint<Dim>& hint) {
-  const contact::FrictionLaw law =
-      contact::stiffened(*pair.friction, hint.stiffening * hint.own.shear);
+  const contact::FrictionLaw law = pair.friction->stiffened(hint.stiffening * hint.own.shear);
   if (!hint.multiplier) return law;
-  return contact::stiffened(law, contact::steadying(law, normal_traction, hint.duration));
+  return law.stiffened(contact::steadying(law, normal_traction, hint.duration));
 }
 
 /// The law's answer, or the branch that the hint keeps it in.

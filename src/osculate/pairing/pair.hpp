@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "osculate/contact/history.hpp"
-#include "osculate/contact/law/catalogue.hpp"
+#include "osculate/contact/law/law.hpp"
 #include "osculate/contact/multiplier.hpp"
 #include "osculate/contact/point_terms.hpp"
 #include "osculate/pairing/constraint.hpp"

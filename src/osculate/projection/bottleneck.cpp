@@ -1,8 +1,9 @@
 #include "osculate/projection/bottleneck.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "osculate/core/dense.hpp"
 
 namespace osculate::projection {
 namespace {
@@ -70,12 +71,12 @@ PieceSample moved(const Composed<Dim>& s, const PieceSample& from, const Vec2& s
 /// The shortest solution, also where whole families of pairs are equally far apart.
 template <int N>
 Vec<N> solve_symmetric(const Mat<N, N>& matrix, const Vec<N>& right) {
-  const Eigen::SelfAdjointEigenSolver<Mat<N, N>> eigen(matrix);
-  const double zero = 1e-9 * eigen.eigenvalues().cwiseAbs().maxCoeff();
+  const core::Spectrum eigen = core::spectrum(matrix);
+  const double zero = 1e-9 * eigen.values.cwiseAbs().maxCoeff();
   Vec<N> x = Vec<N>::Zero();
   for (int i = 0; i < N; ++i) {
-    const double value = eigen.eigenvalues()[i];
-    const Vec<N> direction = eigen.eigenvectors().col(i);
+    const double value = eigen.values[i];
+    const Vec<N> direction = eigen.vectors.col(i);
     if (std::abs(value) > zero) x += direction.dot(right) / value * direction;
   }
   return x;

@@ -1,5 +1,4 @@
 // Cells, pieces and shared edges out of meshes, NURBS curves and patches.
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +6,7 @@
 #include <string>
 
 #include "osculate/cell/line_shape.hpp"
+#include "osculate/core/dense.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/projection/bernstein.hpp"
 #include "osculate/projection/cells.hpp"
@@ -62,7 +62,7 @@ Points<Dim> through(const Points<Dim>& values) {
       m(k, i) = binomial(degree, i) * std::pow(x, i) * std::pow(1 - x, degree - i);
     v.row(k) = values[static_cast<std::size_t>(k)].transpose();
   }
-  const Eigen::MatrixXd c = m.fullPivLu().solve(v);
+  const Eigen::MatrixXd c = core::least_squares(m, v);
   Points<Dim> out(values.size());
   for (Eigen::Index k = 0; k < count; ++k) out[static_cast<std::size_t>(k)] = c.row(k).transpose();
   out.front() = values.front();

@@ -1,7 +1,6 @@
 #include "osculate/projection/piece_bend.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -140,6 +139,12 @@ double turned_away(const Vectors<Dim>& z, const Cone<Dim>& cone) {
   return most;
 }
 
+double largest_eigenvalue(const Mat<1, 1>& symmetric) { return symmetric(0, 0); }
+double largest_eigenvalue(const Mat<2, 2>& symmetric) {
+  const double mean = 0.5 * (symmetric(0, 0) + symmetric(1, 1));
+  return mean + std::hypot(0.5 * (symmetric(0, 0) - symmetric(1, 1)), symmetric(1, 0));
+}
+
 /// The largest ratio of b + extra against a over pairs of coefficients; infinite where an a is not
 /// positive.
 template <int M>
@@ -153,9 +158,7 @@ double largest_ratio(const std::vector<Mat<M, M>>& a, const std::vector<Mat<M, M
     if (root.info() != Eigen::Success || !own.allFinite()) return infinite;
     const Mat<M, M> side = root.matrixL().solve(bent);
     const Mat<M, M> ratio = root.matrixL().solve(Mat<M, M>(side.transpose()));
-    most = std::max(most, Eigen::SelfAdjointEigenSolver<Mat<M, M>>(ratio, Eigen::EigenvaluesOnly)
-                              .eigenvalues()
-                              .maxCoeff());
+    most = std::max(most, largest_eigenvalue(ratio));
   }
   return std::isfinite(most) ? most : infinite;
 }

@@ -1,8 +1,6 @@
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/QR>
-#include <Eigen/SVD>
 
+#include "osculate/core/dense.hpp"
 #include "osculate/solid/solid_shell.hpp"
 #include "osculate/solid/solid_shell_strain.hpp"
 
@@ -23,12 +21,14 @@ Mat<3, 3> tensor(const Vec<6>& v, double shear) {
 bool cauchy(const Mat<3, 3>& f, const material::Strain3& strain, const Vec<6>& stress,
             Vec<6>& out) {
   const Mat<3, 3> c = Mat<3, 3>::Identity() + 2 * tensor(strain, 0.5);
-  const Eigen::SelfAdjointEigenSolver<Mat<3, 3>> eigen(c);
-  if (!(eigen.eigenvalues()[0] > 0)) return false;
-  const Eigen::JacobiSVD<Mat<3, 3>> polar(f, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Mat<3, 3> rotation = polar.matrixU() * polar.matrixV().transpose();
-  const Mat<3, 3> g = rotation * eigen.operatorSqrt();
-  const Mat<3, 3> s = g * tensor(stress, 1) * g.transpose() / std::sqrt(eigen.eigenvalues().prod());
+  const core::Spectrum eigen = core::spectrum(c);
+  if (!(eigen.values[0] > 0)) return false;
+  const core::SingularValues polar = core::singular_values(f);
+  const Mat<3, 3> rotation = polar.u * polar.v.transpose();
+  const Mat<3, 3> stretch =
+      eigen.vectors * eigen.values.cwiseSqrt().asDiagonal() * eigen.vectors.transpose();
+  const Mat<3, 3> g = rotation * stretch;
+  const Mat<3, 3> s = g * tensor(stress, 1) * g.transpose() / std::sqrt(eigen.values.prod());
   out << s(0, 0), s(1, 1), s(2, 2), s(0, 1), s(1, 2), s(0, 2);
   return true;
 }
@@ -97,7 +97,7 @@ NodalStress3 solid_shell_nodal_stress(const VolumeSection& section, cell::CellTy
     sample.row(q) = basis(p.xi, at.count);
   }
   const Eigen::Matrix<double, Eigen::Dynamic, 12, 0, max_terms, 12> fit =
-      sample.colPivHouseholderQr().solve(values);
+      core::least_squares(sample, values);
   NodalStress3 out;
   out.count = cell::info(type).nodes;
   for (int k = 0; k < out.count; ++k) {

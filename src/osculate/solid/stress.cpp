@@ -1,8 +1,8 @@
 #include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/core/dense.hpp"
 #include "osculate/solid/enhanced.hpp"
 #include "osculate/solid/mean_dilatation.hpp"
 
@@ -100,7 +100,7 @@ NodalStress nodal_stress(const Section& section, cell::CellType type, const Coor
     sample.row(q) = basis(p.xi, at.count);
   }
   const Eigen::Matrix<double, Eigen::Dynamic, 8, 0, max_terms, 8> fit =
-      sample.colPivHouseholderQr().solve(values);
+      core::least_squares(sample, values);
   NodalStress out;
   out.count = cell::info(type).nodes;
   for (int k = 0; k < out.count; ++k) {

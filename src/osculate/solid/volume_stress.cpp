@@ -1,5 +1,5 @@
-#include <Eigen/QR>
 
+#include "osculate/core/dense.hpp"
 #include "osculate/solid/solid_shell.hpp"
 #include "osculate/solid/volume_enhanced.hpp"
 #include "osculate/solid/volume_mean_dilatation.hpp"
@@ -86,7 +86,7 @@ Eigen::MatrixXd make_extrapolation(cell::CellType type) {
     sample.row(q) = basis(rule.points[static_cast<std::size_t>(q)], type);
   for (Eigen::Index k = 0; k < nodes; ++k)
     at_nodes.row(k) = basis(cell::volume_node(type, static_cast<int>(k)), type);
-  return at_nodes * sample.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(points, points));
+  return at_nodes * core::least_squares(sample, Eigen::MatrixXd::Identity(points, points));
 }
 
 const Eigen::MatrixXd& extrapolation(cell::CellType type) {

@@ -5,6 +5,8 @@
 
 #include "expect_derivative.hpp"
 #include "osculate/api/contact_evaluator.hpp"
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_exponential.hpp"
 #include "osculate/core/error.hpp"
 
 namespace osculate::api {

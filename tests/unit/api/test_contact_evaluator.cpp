@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "derivative_check.hpp"
+#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/core/error.hpp"
 
 namespace osculate::api {
@@ -161,10 +162,12 @@ TEST(ContactEvaluator, RefusesWhatItCannotUse) {
             "normal_penalty must be > 0, got 0");
   EXPECT_EQ(refusal([](Sample& s) { s.options.normal_penalty = nan; }),
             "normal_penalty must be > 0, got nan");
-  EXPECT_EQ(refusal([](Sample& s) { std::get<contact::Coulomb>(*s.options.friction).mu = -0.1; }),
+  EXPECT_EQ(refusal([](Sample& s) {
+              s.options.friction = contact::Coulomb{-0.1, 200};
+            }),
             "friction needs mu >= 0 and a stiffness > 0, got -0.1 and 200");
   EXPECT_EQ(refusal([](Sample& s) {
-              std::get<contact::Coulomb>(*s.options.friction).stiffness = INFINITY;
+              s.options.friction = contact::Coulomb{0.3, INFINITY};
             }),
             "friction needs mu >= 0 and a stiffness > 0, got 0.3 and inf");
   EXPECT_EQ(refusal([](Sample& s) { s.options.area.thickness = 0; }),

@@ -7,6 +7,7 @@
 
 #include "derivative_check.hpp"
 #include "osculate/api/contact_evaluator.hpp"
+#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/core/error.hpp"
 
 namespace osculate::api {

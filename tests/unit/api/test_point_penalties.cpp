@@ -5,6 +5,7 @@
 #include "osculate/api/penetration.hpp"
 #include "osculate/api/summary.hpp"
 #include "osculate/api/tangent_check.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 
 namespace osculate::api {
 namespace {

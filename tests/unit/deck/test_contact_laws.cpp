@@ -3,6 +3,12 @@
 
 #include <algorithm>
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/damping.hpp"
+#include "osculate/contact/law/normal_exponential.hpp"
+#include "osculate/contact/law/normal_table.hpp"
+#include "osculate/contact/law/rough.hpp"
+#include "osculate/contact/law/tresca.hpp"
 #include "osculate/deck/build.hpp"
 #include "space_test.hpp"
 
@@ -18,10 +24,10 @@ Built built(const std::string& from = "", const std::string& to = "") {
 TEST(LawKeys, BecomeLaws) {
   const Built b = built();
   const auto& floor = b.model.pairs[0].definition;
-  const auto& exponential = std::get<contact::NormalExponential>(floor.normal);
+  const auto& exponential = *floor.normal.as<contact::NormalExponential>();
   EXPECT_EQ(exponential.pressure, 12);
   EXPECT_EQ(exponential.clearance, 0.01);
-  const auto& coulomb = std::get<contact::Coulomb>(*floor.friction);
+  const auto& coulomb = *floor.friction->as<contact::Coulomb>();
   EXPECT_EQ(coulomb.mu, 0.4);
   EXPECT_EQ(coulomb.stiffness, 500);
   EXPECT_EQ(coulomb.cap, 30);
@@ -36,9 +42,9 @@ TEST(LawKeys, BecomeLaws) {
   EXPECT_FALSE(joint.keep_gap);
   EXPECT_EQ(joint.ties.size(), 6u);
   const auto& top = b.model.pairs[2].definition;
-  EXPECT_EQ(std::get<contact::NormalTable>(top.normal).points.size(), 3u);
-  EXPECT_EQ(std::get<contact::Tresca>(*top.friction).limit_traction, 3);
-  EXPECT_EQ(std::get<contact::Viscous>(*top.damping).coefficient, 0.5);
+  EXPECT_EQ(top.normal.as<contact::NormalTable>()->points.size(), 3u);
+  EXPECT_EQ(top.friction->as<contact::Tresca>()->limit_traction, 3);
+  EXPECT_EQ(top.damping->as<contact::Viscous>()->coefficient, 0.5);
   EXPECT_FALSE(floor.damping.has_value());
   EXPECT_EQ(top.offset, 0);
   EXPECT_EQ(top.separation, pairing::Separation::allowed);
@@ -46,12 +52,11 @@ TEST(LawKeys, BecomeLaws) {
 
 TEST(LawKeys, RestitutionGoesWithEveryLaw) {
   const Built table = built("{viscous: 0.5}", "{restitution: 0.25}");
-  EXPECT_EQ(std::get<contact::Restitution>(*table.model.pairs[2].definition.damping).value, 0.25);
+  EXPECT_EQ(table.model.pairs[2].definition.damping->as<contact::Restitution>()->value, 0.25);
   const Built exponential = built("clearance: 0.01}}",
                                   "clearance: 0.01}, damping: {restitution: "
                                   "0}}");
-  EXPECT_EQ(std::get<contact::Restitution>(*exponential.model.pairs[0].definition.damping).value,
-            0);
+  EXPECT_EQ(exponential.model.pairs[0].definition.damping->as<contact::Restitution>()->value, 0);
 }
 
 /// A model in which nothing but damping could need a time.
@@ -70,10 +75,10 @@ TEST(LawKeys, OnlyViscousDampingNeedsATime) {
 
 TEST(LawKeys, DistanceRoughAndWhatIsHeld) {
   const Built distance = built("decay: {speed: 0.5}", "decay: {distance: 0.1}");
-  EXPECT_EQ(std::get<contact::Coulomb>(*distance.model.pairs[0].definition.friction).change->by,
+  EXPECT_EQ(distance.model.pairs[0].definition.friction->as<contact::Coulomb>()->change->by,
             contact::FrictionChange::By::distance);
   const Built rough = built("tresca: {limit: 3, penalty: 500}", "rough: {penalty: 7}");
-  EXPECT_EQ(std::get<contact::Rough>(*rough.model.pairs[2].definition.friction).stiffness, 7);
+  EXPECT_EQ(rough.model.pairs[2].definition.friction->as<contact::Rough>()->stiffness, 7);
   const std::string tied = "separation: tied, tolerance: 0.02, initial_gap: close";
   EXPECT_EQ(built(tied, "separation: no_separation").model.pairs[1].definition.separation,
             pairing::Separation::no_separation);

@@ -1,5 +1,6 @@
 // `penalty: auto` on surfaces with cells or bodies that differ: each point has its own.
 #include "graded.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 #include "space_test.hpp"
@@ -204,7 +205,7 @@ Bits bits_of(Built built, bool by_factors) {
       continue;
     }
     d.normal = contact::NormalPenalty{4 * contact::penalty_of(d.normal)};
-    if (d.friction) d.friction = contact::stiffened(*d.friction, 0.5);
+    if (d.friction) d.friction = d.friction->stiffened(0.5);
   }
   Bits bits;
   model::AnalysisObserver observer;

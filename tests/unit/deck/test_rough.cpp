@@ -5,6 +5,8 @@
 
 #include "system_test.hpp"
 
+#include "osculate/contact/law/rough.hpp"
+
 namespace osculate::deck {
 namespace {
 
@@ -52,9 +54,9 @@ TEST(Rough, LiftsOffWhileItIsSheared) {
 TEST(Rough, HeldPointsNeverSlide) {
   const Built held = build_text(sheared("penalty", "normal: {separation: no_separation}, "));
   EXPECT_TRUE(
-      std::isinf(std::get<contact::Rough>(*held.model.pairs[0].definition.friction).coefficient));
+      std::isinf(held.model.pairs[0].definition.friction->as<contact::Rough>()->coefficient));
   const Built free = build_text(sheared("penalty"));
-  EXPECT_EQ(std::get<contact::Rough>(*free.model.pairs[0].definition.friction).coefficient, 1e4);
+  EXPECT_EQ(free.model.pairs[0].definition.friction->as<contact::Rough>()->coefficient, 1e4);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <numeric>
 
 #include "block3.hpp"
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/model/fields.hpp"
 #include "osculate/model/quantities.hpp"
 #include "osculate/pairing/sampling.hpp"

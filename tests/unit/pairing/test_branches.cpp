@@ -7,6 +7,9 @@
 #include "derivative_check.hpp"
 #include "pair_sample.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::testing {
 namespace {
 

@@ -1,6 +1,8 @@
 // What the rotational and curvature parts of the normal tangent weigh beside the main part.
 #include <gtest/gtest.h>
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
 #include "pair_sample.hpp"
 #include "pair_sample3.hpp"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/geometry/interpolation.hpp"
 #include "pair_sample.hpp"
 

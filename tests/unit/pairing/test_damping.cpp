@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/damping.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::testing {

@@ -7,6 +7,9 @@
 #include "edge_sample.hpp"
 #include "expect_derivative.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::testing {
 namespace {
 

@@ -8,6 +8,8 @@
 #include "pair_sample.hpp"
 #include "pair_sample3.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+
 namespace osculate::testing {
 namespace {
 

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::testing {
@@ -87,7 +89,7 @@ TEST(FrictionWork, StaysWhenThePointOpensAndGoesOn) {
 
 TEST(FrictionWork, IsPerAreaTimesTheArea) {
   Dragged<2> d;
-  const contact::Coulomb& law = std::get<contact::Coulomb>(*d.pair.friction);
+  const contact::Coulomb& law = *d.pair.friction->as<contact::Coulomb>();
   const Vec<1> trial(2.5 * limit);
   const auto response = law.response<2>(trial, -eps_n * depth);
   EXPECT_NEAR(contact::dissipated<2>(trial, response, law.stiffness), limit * 1.5 * limit / eps_t,

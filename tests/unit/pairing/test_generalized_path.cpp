@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <set>
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/projection/point_to_facet.hpp"
 #include "pair_sample.hpp"
 #include "pair_sample3.hpp"

@@ -8,6 +8,9 @@
 #include "expect_derivative.hpp"
 #include "pair_sample.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::testing {
 namespace {
 

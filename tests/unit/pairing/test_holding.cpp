@@ -3,6 +3,11 @@
 
 #include "pair_sample.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_exponential.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
+#include "osculate/contact/law/rough.hpp"
+
 namespace osculate::testing {
 namespace {
 

@@ -1,4 +1,5 @@
 // Mortar contact in the plane: balance, uniform pressure, derivatives by order.
+#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/pairing/mortar.hpp"
 
 #include <gtest/gtest.h>

@@ -6,6 +6,8 @@
 #include "mortar_checks.hpp"
 #include "mortar_sample3.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+
 namespace osculate::testing {
 namespace {
 

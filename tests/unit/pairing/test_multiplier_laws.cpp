@@ -8,6 +8,8 @@
 #include "multiplier_sample.hpp"
 #include "segment_sample.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+
 namespace osculate::testing {
 namespace {
 

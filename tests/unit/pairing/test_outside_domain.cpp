@@ -6,6 +6,8 @@
 #include "pair_sample.hpp"
 #include "pair_sample3.hpp"
 
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::testing {
 namespace {
 

@@ -5,6 +5,8 @@
 #include <random>
 
 #include "derivative_check.hpp"
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/core/error.hpp"
 #include "own_surface_sample.hpp"
 

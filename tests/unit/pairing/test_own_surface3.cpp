@@ -7,6 +7,9 @@
 #include "derivative_check.hpp"
 #include "own_surface_sample.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::testing {
 namespace {
 

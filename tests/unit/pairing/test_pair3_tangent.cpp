@@ -7,6 +7,9 @@
 #include "expect_derivative.hpp"
 #include "pair_sample3.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::testing {
 namespace {
 

@@ -5,6 +5,9 @@
 
 #include "pair_sample.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::testing {
 namespace {
 

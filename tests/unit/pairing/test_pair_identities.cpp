@@ -5,6 +5,8 @@
 
 #include "pair_sample.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+
 namespace osculate::testing {
 namespace {
 

@@ -7,6 +7,8 @@
 #include "expect_derivative.hpp"
 #include "pair_sample.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+
 namespace osculate::testing {
 namespace {
 

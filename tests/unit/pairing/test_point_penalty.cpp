@@ -1,4 +1,7 @@
 // Penalties of single points: each point is that of a pair which has its penalty.
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/damping.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 
 #include <gtest/gtest.h>
@@ -138,7 +141,7 @@ pairing::PairDefinition<Dim> pair_like(pairing::PairDefinition<Dim> pair, std::s
   const RelativeStiffness own = pair.relative_stiffness[point];
   pair.relative_stiffness.clear();
   pair.normal = contact::NormalPenalty{own.normal * contact::penalty_of(pair.normal)};
-  if (pair.friction) pair.friction = contact::stiffened(*pair.friction, own.shear);
+  if (pair.friction) pair.friction = pair.friction->stiffened(own.shear);
   return pair;
 }
 

@@ -4,6 +4,8 @@
 
 #include "own_surface_sample.hpp"
 
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::testing {
 namespace {
 
@@ -47,8 +49,7 @@ void expect_straight_push(const Sample& sample) {
       force -= p.weight * p.normal_traction;
     }
     const double area = Dim == 2 ? 3 : 3 * 1.0;  // two layers of 0.5
-    EXPECT_NEAR(force, std::get<contact::NormalPenalty>(s.pair.normal).stiffness * depth * area,
-                1e-9)
+    EXPECT_NEAR(force, s.pair.normal.template as<contact::NormalPenalty>()->stiffness * depth * area, 1e-9)
         << beside;
   }
 }

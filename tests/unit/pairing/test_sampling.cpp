@@ -6,6 +6,8 @@
 #include <random>
 
 #include "expect_derivative.hpp"
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/core/error.hpp"
 #include "segment_sample.hpp"
 
@@ -233,7 +235,7 @@ TEST(SegmentForces, OfAUniformGapAreThoseOfAUniformPressure) {
     const pairing::SurfaceFacet& facet = s.pair.slave.boundary.facets[0];
     double total = 0;
     for (const Index node : s.pair.slave.nodes) total -= r[3 * node + 2];
-    EXPECT_NEAR(total, std::get<contact::NormalPenalty>(s.pair.normal).stiffness * depth * 1.78,
+    EXPECT_NEAR(total, s.pair.normal.template as<contact::NormalPenalty>()->stiffness * depth * 1.78,
                 1e-12 * 1000);      // |along x across|
     if (type == CellType::quad8) {  // corners of a parallelogram: -A / 12, middles A / 3
       EXPECT_NEAR(r[3 * facet.nodes[0] + 2], 1000 * depth * 1.78 / 12, 1e-11);

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "allocation_count.hpp"
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 #include "osculate/pairing/sampling.hpp"
 

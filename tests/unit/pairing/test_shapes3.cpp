@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 
 #include "derivative_check.hpp"
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/geometry/surface_frame.hpp"
 #include "osculate/projection/point_to_surface.hpp"
 #include "pair_sample3.hpp"

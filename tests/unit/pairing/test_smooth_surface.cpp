@@ -9,6 +9,8 @@
 #include <tuple>
 
 #include "expect_derivative.hpp"
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/pairing/smoothing.hpp"
 #include "pair_sample3.hpp"

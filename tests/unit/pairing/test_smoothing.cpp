@@ -1,4 +1,5 @@
 // Smooth curves through the nodes of first-order facets.
+#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/pairing/smoothing.hpp"
 
 #include <gtest/gtest.h>

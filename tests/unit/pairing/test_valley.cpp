@@ -10,6 +10,9 @@
 #include "multiplier_sample.hpp"
 #include "pair_sample.hpp"
 
+#include "osculate/contact/law/coulomb.hpp"
+#include "osculate/contact/law/normal_penalty.hpp"
+
 namespace osculate::testing {
 namespace {
 

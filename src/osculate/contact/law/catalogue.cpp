@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
+
 namespace osculate::contact {
 namespace {
 
@@ -73,18 +75,148 @@ std::string fault_of(const Restitution& law) {
   return fmt::format("a restitution lies between 0 and 1, got {:g}", law.value);
 }
 
+/// Calls `f` with the law that it is, with its factor in it.
+template <class F>
+auto visit(const F& f, const NormalLaw& law) {
+  const auto* const penalty = std::get_if<NormalPenalty>(&law.all());
+  if (penalty) return f(NormalPenalty{law.factor() * penalty->stiffness});
+  return std::visit([&](const auto& l) { return f(l); }, law.all());
+}
+template <class F>
+auto visit(const F& f, const FrictionLaw& law) {
+  return std::visit(
+      [&](auto l) {
+        l.stiffness *= law.factor();
+        return f(l);
+      },
+      law.all());
+}
+template <class F>
+auto visit(const F& f, const DampingLaw& law) {
+  return std::visit([&](const auto& l) { return f(l); }, law.all());
+}
+
 }  // namespace
 
-std::string fault(const DampingLaw& law) {
-  return std::visit([](const auto& l) { return fault_of(l); }, law);
+template <class Laws>
+Law<Laws>::Law() : law_(std::make_shared<const Laws>()) {}
+template <class Laws>
+template <class Value>
+std::shared_ptr<const Laws> Law<Laws>::made(const Value& law) {
+  return std::make_shared<const Laws>(law);
+}
+template <class Laws>
+template <class Value>
+const Value* Law<Laws>::found(const Laws& law) {
+  return std::get_if<Value>(&law);
 }
 
+NormalResponse response(const NormalLaw& law, double gap, bool held) {
+  return visit([&](const auto& l) { return l.response(gap, held); }, law);
+}
+double stored_energy(const NormalLaw& law, double gap, bool held) {
+  return visit([&](const auto& l) { return l.energy(gap, held); }, law);
+}
+NormalResponse damped(const DampingLaw& damping, const NormalLaw& law, double gap,
+                      const Closing& closing) {
+  return visit(
+      [&](const auto& d) {
+        return visit([&](const auto& l) { return d.response(l, gap, closing); }, law);
+      },
+      damping);
+}
+double reach(const NormalLaw& law) {
+  return visit([](const auto& l) { return l.reach(); }, law);
+}
+bool augmentable(const NormalLaw& law) {
+  return visit([](const auto& l) { return l.augmentable; }, law);
+}
+bool holds(const NormalLaw& law) { return law.as<NormalPenalty>(); }
+double penalty_of(const NormalLaw& law) {
+  const auto* const penalty = law.as<NormalPenalty>();
+  return penalty ? law.factor() * penalty->stiffness : 0.0;
+}
 std::string fault(const NormalLaw& law) {
-  return std::visit([](const auto& l) { return fault_of(l); }, law);
+  return visit([](const auto& l) { return fault_of(l); }, law);
 }
-
 std::string fault(const FrictionLaw& law) {
-  return std::visit([](const auto& l) { return fault_of(l); }, law);
+  return visit([](const auto& l) { return fault_of(l); }, law);
 }
+std::string fault(const DampingLaw& law) {
+  return visit([](const auto& l) { return fault_of(l); }, law);
+}
+double stiffest(const DampingLaw& law, double penalty, double duration) {
+  return visit([&](const auto& l) { return l.stiffest(penalty, duration); }, law);
+}
+double stiffness(const FrictionLaw& law) {
+  return visit([](const auto& l) { return l.stiffness; }, law);
+}
+FrictionLaw with_stiffness(const FrictionLaw& law, double stiffness) {
+  return std::visit(
+      [&](auto l) {
+        l.stiffness = stiffness;
+        return FrictionLaw(l);
+      },
+      law.all());
+}
+template <int Dim>
+TangentialResponse<Dim> response(const FrictionLaw& law, const Vec<Dim - 1>& trial,
+                                 double normal_traction, const Sliding& sliding) {
+  return visit(
+      [&](const auto& l) { return l.template response<Dim>(trial, normal_traction, sliding); },
+      law);
+}
+SlipLimit predicted_limit(const FrictionLaw& law, double trial, double normal_traction,
+                          const Sliding& sliding) {
+  SlipLimit limit = visit(
+      [&](const auto& l) {
+        return l.predicted_limit(trial, pressure_of(normal_traction), sliding);
+      },
+      law);
+  if (normal_traction > 0) limit.d_pressure = 0;
+  return limit;
+}
+double steadying(const FrictionLaw& law, double normal_traction, double duration) {
+  constexpr double margin = 2, most = 1e12;
+  const auto* const coulomb = law.as<Coulomb>();
+  if (!coulomb || !coulomb->change) return 1;
+  const FrictionChange& change = *coulomb->change;
+  const bool by_speed = change.by == FrictionChange::By::speed;
+  if (by_speed && !(duration > 0)) return 1;
+  const double fall = (coulomb->mu - change.kinetic) * pressure_of(normal_traction) /
+                      (by_speed ? change.scale * duration : change.scale);
+  const double stiffness = law.factor() * coulomb->stiffness;
+  double factor = 1;
+  while (factor * stiffness < margin * fall && factor < most) factor *= 10;
+  return factor;
+}
+bool needs_duration(const FrictionLaw& law) {
+  const auto* const coulomb = law.as<Coulomb>();
+  return coulomb && coulomb->change && coulomb->change->by == FrictionChange::By::speed;
+}
+bool needs_duration(const DampingLaw& law) { return law.as<Viscous>(); }
 
+template class Law<NormalLaws>;
+template class Law<FrictionLaws>;
+template class Law<DampingLaws>;
+template TangentialResponse<2> response<2>(const FrictionLaw&, const Vec<1>&, double,
+                                           const Sliding&);
+template TangentialResponse<3> response<3>(const FrictionLaw&, const Vec<2>&, double,
+                                           const Sliding&);
+
+namespace {
+
+/// What each law of a catalogue is made and found by: whoever names a law calls these two.
+template <class Laws, class... Value>
+constexpr auto access(const std::variant<Value...>*) {
+  return std::tuple{&Law<Laws>::template made<Value>..., &Law<Laws>::template found<Value>...};
+}
+[[gnu::used]] const auto normal_access =
+    access<NormalLaws>(static_cast<const NormalLaws*>(nullptr));
+[[gnu::used]] const auto friction_access =
+    access<FrictionLaws>(static_cast<const FrictionLaws*>(nullptr));
+[[gnu::used]] const auto damping_access =
+    access<DampingLaws>(static_cast<const DampingLaws*>(nullptr));
+
+}  // namespace
 }  // namespace osculate::contact

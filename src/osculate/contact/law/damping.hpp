@@ -2,16 +2,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "osculate/contact/law/normal_response.hpp"
+#include "osculate/contact/law/law.hpp"
 
 namespace osculate::contact {
-
-/// What a law of damping may ask beside the gap; all gaps are those that the normal law sees.
-struct Closing {
-  double from = 0;                                           ///< gap at the last converged state
-  double deepest = std::numeric_limits<double>::infinity();  ///< NormalResponse::deepest there
-  double duration = 0;  ///< of the increment; 0: not known, or `from` is not
-};
 
 /// A damper beside the spring of the normal law, while there is contact.
 ///

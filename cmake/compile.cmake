@@ -1,0 +1,63 @@
+# osculate_compile(TARGET hot|cold|tests): how sources are compiled, the same in every preset of one
+# build type, so that program and tests share the library's objects.
+#   hot    kernels: -O2
+#   cold   readers, reports, commands, cases: -O1 (their time is the compiler's)
+#   tests  as cold, with GoogleTest in the precompiled header
+# Flags are never exported to users. Where sources are compiled together, what one calls a local
+# variable another may call a constant, and a source is an included file.
+option(OSCULATE_PRECOMPILE "Precompile the headers that most sources need" ON)
+add_library(osculate_flags INTERFACE)
+# OpenMP everywhere, so that one precompiled header serves all; Eigen's products are not parallel.
+target_compile_definitions(osculate_flags INTERFACE EIGEN_DONT_PARALLELIZE)
+target_compile_options(osculate_flags INTERFACE -fPIC ${OpenMP_CXX_FLAGS}
+  -Wall -Wextra -Wpedantic -Wnon-virtual-dtor
+  $<IF:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,$<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>,-Wshadow>
+  # The compiler collects garbage only from 1 GB on: a tenth of its time.
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;--param=ggc-min-heapsize=1000000>)
+if(OSCULATE_WERROR)
+  target_compile_options(osculate_flags INTERFACE -Werror)
+endif()
+if(NOT OSCULATE_BASELINE AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  target_compile_options(osculate_flags INTERFACE -march=x86-64-v3)
+endif()
+if(OSCULATE_SANITIZE)  # what AddressSanitizer sees as well need not be checked twice: a third of the time
+  target_compile_options(osculate_flags INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=all
+    -fno-sanitize=null,object-size,pointer-overflow,vptr
+    -fno-omit-frame-pointer)
+  target_link_options(osculate_flags INTERFACE -fsanitize=address,undefined)
+endif()
+find_program(OSCULATE_LLD ld.lld)
+mark_as_advanced(OSCULATE_LLD)
+if(OSCULATE_LLD)
+  target_link_options(osculate_flags INTERFACE -fuse-ld=lld)
+endif()
+
+# The precompiled headers: one for the library, one for tests.
+function(osculate_precompiled name)
+  if(NOT TARGET ${name})
+    file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${name}.cpp CONTENT "")
+    add_library(${name} OBJECT ${CMAKE_BINARY_DIR}/${name}.cpp)
+    target_link_libraries(${name} PRIVATE osculate_flags osculate_values fmt::fmt)
+    target_precompile_headers(${name} PRIVATE ${ARGN})
+  endif()
+endfunction()
+function(osculate_compile target temperature)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:osculate_flags>)
+  if(NOT temperature STREQUAL "hot")
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+  if(OSCULATE_PRECOMPILE)
+    if(temperature STREQUAL "tests")
+      osculate_precompiled(osculate_precompiled_tests ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp
+        <gtest/gtest.h> <gmock/gmock.h>)
+      target_link_libraries(osculate_precompiled_tests PRIVATE GTest::gtest GTest::gmock)
+      target_precompile_headers(${target} REUSE_FROM osculate_precompiled_tests)
+    else()
+      osculate_precompiled(osculate_precompiled_library ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp)
+      target_precompile_headers(${target} REUSE_FROM osculate_precompiled_library)
+    endif()
+  endif()
+  if(OSCULATE_BATCHES)
+    osculate_batches(${target})
+  endif()
+endfunction()

@@ -1,0 +1,117 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "osculate/contact/law/normal_response.hpp"
+#include "osculate/contact/law/tangential.hpp"
+
+namespace osculate::contact {
+
+// The laws as everything sees them that does not ask which one it is. Which laws there are stands
+// in catalogue.hpp alone: a new or changed one compiles the catalogue, not the code.
+
+struct NormalLaws;    ///< the variant of all normal laws, complete in catalogue.hpp
+struct FrictionLaws;  ///< of all friction laws
+struct DampingLaws;   ///< of all laws of damping
+
+/// One law of a catalogue, with a factor of its penalty. Copies share the law.
+template <class Laws>
+class Law {
+ public:
+  Law();  ///< the first of the catalogue, with its defaults
+  /// From a law of the catalogue.
+  template <class Value>
+  requires requires { Value::key; }
+  Law(const Value& law) : law_(made(law)) {}
+
+  [[nodiscard]] const Laws& all() const { return *law_; }
+  [[nodiscard]] double factor() const { return factor_; }
+  /// The law, if it is this one; the factor is not in it.
+  template <class Value>
+  [[nodiscard]] const Value* as() const {
+    return found<Value>(*law_);
+  }
+  /// The same law with another penalty: eps_N of a linear law (others have none), eps_T.
+  [[nodiscard]] Law stiffened(double factor) const {
+    Law law = *this;
+    law.factor_ *= factor;
+    return law;
+  }
+
+  // For the laws of the catalogue; instantiated there.
+  template <class Value>
+  [[nodiscard]] static std::shared_ptr<const Laws> made(const Value& law);
+  template <class Value>
+  [[nodiscard]] static const Value* found(const Laws& law);
+
+ private:
+  std::shared_ptr<const Laws> law_;
+  double factor_ = 1;
+};
+
+using NormalLaw = Law<NormalLaws>;
+using FrictionLaw = Law<FrictionLaws>;
+using DampingLaw = Law<DampingLaws>;
+
+/// What a law of damping may ask beside the gap; all gaps are those that the normal law sees.
+struct Closing {
+  double from = 0;                                           ///< gap at the last converged state
+  double deepest = std::numeric_limits<double>::infinity();  ///< NormalResponse::deepest there
+  double duration = 0;  ///< of the increment; 0: not known, or `from` is not
+};
+
+/// Normal traction at a gap; with `held` also of a point that is pulled, where the law allows it.
+[[nodiscard]] NormalResponse response(const NormalLaw& law, double gap, bool held = false);
+/// Work that the normal traction has taken up at a gap, per weight: -dU/dgap = pressure.
+///
+/// Tested by  tests/unit/contact/test_normal_laws.cpp
+[[nodiscard]] double stored_energy(const NormalLaw& law, double gap, bool held = false);
+/// The normal law with damping.
+[[nodiscard]] NormalResponse damped(const DampingLaw& damping, const NormalLaw& law, double gap,
+                                    const Closing& closing);
+/// Largest gap with contact.
+[[nodiscard]] double reach(const NormalLaw& law);
+/// Whether the law is a means to an end (no penetration) that a multiplier serves better.
+[[nodiscard]] bool augmentable(const NormalLaw& law);
+/// Whether the law goes on where a held point is pulled.
+[[nodiscard]] bool holds(const NormalLaw& law);
+/// eps_N of a linear law; 0: the law has none.
+[[nodiscard]] double penalty_of(const NormalLaw& law);
+
+/// What is wrong with the numbers of a law; empty: nothing.
+///
+/// Tested by  tests/unit/contact/test_normal_laws.cpp, test_friction_laws.cpp,
+/// test_damping.cpp
+[[nodiscard]] std::string fault(const NormalLaw& law);
+[[nodiscard]] std::string fault(const FrictionLaw& law);
+[[nodiscard]] std::string fault(const DampingLaw& law);
+
+/// Largest slope of the pressure of a penalty with damping.
+[[nodiscard]] double stiffest(const DampingLaw& law, double penalty, double duration);
+/// eps_T
+[[nodiscard]] double stiffness(const FrictionLaw& law);
+/// The same law with this eps_T.
+[[nodiscard]] FrictionLaw with_stiffness(const FrictionLaw& law, double stiffness);
+/// The tangential traction at an elastic trial.
+template <int Dim>
+[[nodiscard]] TangentialResponse<Dim> response(const FrictionLaw& law, const Vec<Dim - 1>& trial,
+                                               double normal_traction, const Sliding& sliding);
+/// At which limit a sliding point is expected to go on, before the first iteration.
+[[nodiscard]] SlipLimit predicted_limit(const FrictionLaw& law, double trial,
+                                        double normal_traction, const Sliding& sliding);
+/// What eps_T is multiplied by around a multiplier, so that a limit that falls while the point
+/// slides never falls as steeply as the elastic trial rises. A point that slides by s has the
+/// multiplier t = L(s), hence the trial L(s) + eps_T s; were that below L(0) it would be taken for
+/// sticking, and no iteration could end. eps_T is a means there, the answer does not depend on it.
+///
+/// Formula    the least power of ten with factor eps_T >= 2 max |dL/ds| ,
+///            max |dL/ds| = (mu - mu_k) p / scale, by speed / (scale duration). It is constant but
+///            for jumps, and so it has no derivative
+/// Tested by  tests/unit/contact/test_friction_laws.cpp,
+/// tests/unit/pairing/test_multiplier_laws.cpp
+[[nodiscard]] double steadying(const FrictionLaw& law, double normal_traction, double duration);
+/// Whether the law asks how long an increment lasts.
+[[nodiscard]] bool needs_duration(const FrictionLaw& law);
+[[nodiscard]] bool needs_duration(const DampingLaw& law);
+
+}  // namespace osculate::contact
