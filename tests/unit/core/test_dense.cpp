@@ -32,7 +32,7 @@ TEST(Dense, SingularValuesGiveTheMatrixBack) {
 }
 
 TEST(Dense, LeastSquaresLeaveAResidualAcrossTheColumns) {
-  const Eigen::MatrixXd m = sample(7, 3), right = sample(7, 2);
+  const Eigen::MatrixXd m = sample(7, 3), right = sample(7, 5).rightCols(2);
   const Eigen::MatrixXd rest = m * least_squares(m, right) - right;
   EXPECT_GT(rest.norm(), 0.1);
   EXPECT_LT((m.transpose() * rest).norm(), 1e-13);
