@@ -187,6 +187,11 @@ class Batches(unittest.TestCase):
     def test_a_batch_has_its_size(self):
         self.assertEqual(self.numbers("int a;\n", "int b;\n", "int c;\n", size=2), [0, 0, 1])
 
+    def test_files_with_rare_headers_come_together(self):
+        common, rare = '#include "osculate/a.hpp"\n', '#include "osculate/b.hpp"\n'
+        self.assertEqual(self.numbers(common + "int f;\n", common + "int f;\n" + rare, common + "int h;\n",
+                                      common + "int k;\n" + rare), [0, 1, 0, 1])
+
     def test_the_same_name_from_elsewhere_is_no_clash(self):
         self.assertEqual(self.numbers("using x::A;\n", "using x::A;\n", "using y::A;\n", "struct A {\n};\n"), [0, 0, 1, 2])
 

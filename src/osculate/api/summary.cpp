@@ -7,11 +7,6 @@
 #include <cmath>
 #include <map>
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_exponential.hpp"
-#include "osculate/contact/law/normal_table.hpp"
-#include "osculate/contact/law/rough.hpp"
-#include "osculate/contact/law/tresca.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/pairing/point_penalty.hpp"
@@ -179,26 +174,6 @@ std::string rigid_text(const model::BasicRigidBody<Dim>& body) {
   return fmt::format("{}, reference point ({})", what, place_text<Dim>(body.reference));
 }
 
-std::string law_text(const contact::NormalLaw& law) {
-  if (const auto* const l = law.as<contact::NormalExponential>())
-    return fmt::format("exponential {:g} within {:g}", l->pressure, l->clearance);
-  if (const auto* const l = law.as<contact::NormalTable>())
-    return fmt::format("table of {} points", l->points.size());
-  return fmt::format("penalty {:g}", contact::penalty_of(law));
-}
-
-std::string law_text(const contact::FrictionLaw& law) {
-  const std::string penalty = fmt::format("penalty {:g}", contact::stiffness(law));
-  if (const auto* const l = law.as<contact::Tresca>())
-    return fmt::format("Tresca {:g} ({})", l->limit_traction, penalty);
-  if (law.as<contact::Rough>()) return fmt::format("rough ({})", penalty);
-  const auto& l = *law.as<contact::Coulomb>();
-  std::string text = fmt::format("Coulomb {:g}", l.mu);
-  if (l.change) text += fmt::format(" to {:g}", l.change->kinetic);
-  if (std::isfinite(l.cap)) text += fmt::format(" up to {:g}", l.cap);
-  return fmt::format("{} ({})", text, penalty);
-}
-
 template <int Dim>
 std::string hold_text(const pairing::PairDefinition<Dim>& d) {
   std::string text;
@@ -228,7 +203,8 @@ std::string range_text(const pairing::PairDefinition<Dim>& d) {
 template <int Dim>
 std::string pair_text(const model::BasicContactPair<Dim>& pair) {
   const pairing::PairDefinition<Dim>& d = pair.definition;
-  const std::string friction = d.friction ? law_text(*d.friction) : std::string("frictionless");
+  const std::string friction =
+      d.friction ? contact::text(*d.friction) : std::string("frictionless");
   const std::string edges = d.edges.on ? fmt::format(", {} sharp edges on {}", d.edges.slave.size(),
                                                      d.edges.master.size())
                                        : std::string{};
@@ -236,7 +212,7 @@ std::string pair_text(const model::BasicContactPair<Dim>& pair) {
                      d.mortar                             ? "nodes by mortar"
                      : pairing::sampled_at_nodes(d.slave) ? "nodes"
                                                           : "points",
-                     d.master.facets.size(), edges, law_text(d.normal) + hold_text(d),
+                     d.master.facets.size(), edges, contact::text(d.normal) + hold_text(d),
                      pair.automatic ? " (automatic)" : "", range_text(d), friction,
                      weight_name(d.weight), pair.note.empty() ? "" : "; ", pair.note);
 }

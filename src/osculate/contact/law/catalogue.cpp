@@ -75,6 +75,22 @@ std::string fault_of(const Restitution& law) {
   return fmt::format("a restitution lies between 0 and 1, got {:g}", law.value);
 }
 
+std::string text_of(const NormalPenalty& law) { return fmt::format("penalty {:g}", law.stiffness); }
+std::string text_of(const NormalExponential& law) {
+  return fmt::format("exponential {:g} within {:g}", law.pressure, law.clearance);
+}
+std::string text_of(const NormalTable& law) {
+  return fmt::format("table of {} points", law.points.size());
+}
+std::string text_of(const Coulomb& law) {
+  std::string text = fmt::format("Coulomb {:g}", law.mu);
+  if (law.change) text += fmt::format(" to {:g}", law.change->kinetic);
+  if (std::isfinite(law.cap)) text += fmt::format(" up to {:g}", law.cap);
+  return text;
+}
+std::string text_of(const Tresca& law) { return fmt::format("Tresca {:g}", law.limit_traction); }
+std::string text_of(const Rough&) { return "rough"; }
+
 /// Calls `f` with the law that it is, with its factor in it.
 template <class F>
 auto visit(const F& f, const NormalLaw& law) {
@@ -144,6 +160,13 @@ std::string fault(const FrictionLaw& law) {
 }
 std::string fault(const DampingLaw& law) {
   return visit([](const auto& l) { return fault_of(l); }, law);
+}
+std::string text(const NormalLaw& law) {
+  return visit([](const auto& l) { return text_of(l); }, law);
+}
+std::string text(const FrictionLaw& law) {
+  return visit(
+      [](const auto& l) { return fmt::format("{} (penalty {:g})", text_of(l), l.stiffness); }, law);
 }
 double stiffest(const DampingLaw& law, double penalty, double duration) {
   return visit([&](const auto& l) { return l.stiffest(penalty, duration); }, law);

@@ -86,6 +86,10 @@ struct Closing {
 [[nodiscard]] std::string fault(const FrictionLaw& law);
 [[nodiscard]] std::string fault(const DampingLaw& law);
 
+/// The law and its numbers in a few words, for summaries.
+[[nodiscard]] std::string text(const NormalLaw& law);
+[[nodiscard]] std::string text(const FrictionLaw& law);
+
 /// Largest slope of the pressure of a penalty with damping.
 [[nodiscard]] double stiffest(const DampingLaw& law, double penalty, double duration);
 /// eps_T
