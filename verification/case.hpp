@@ -56,14 +56,15 @@ struct CaseContext {
 };
 
 struct Case {
-  std::string_view name;         ///< folder name
-  std::string_view requirement;  ///< one sentence
-  bool slow = false;             ///< only with --long
-  CaseResult (*run)(const CaseContext&);
+  std::string name;         ///< folder name
+  std::string requirement;  ///< one sentence
+  bool slow = false;        ///< only with --long
+  std::function<CaseResult(const CaseContext&)> run;
 };
 
-/// The one list of cases.
-[[nodiscard]] const std::vector<Case>& all_cases();
+/// The cases that are computed here and those that are data in this folder, sorted by name. Of one
+/// that is both the rows stand one behind the other.
+[[nodiscard]] std::vector<Case> all_cases(const std::string& folder);
 
 [[nodiscard]] double deviation(const Row& row);
 [[nodiscard]] bool passes(const Row& row);

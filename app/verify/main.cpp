@@ -42,14 +42,14 @@ std::string cases_folder() {
                          "the folder of the verification cases was not found beside the program");
 }
 
-std::vector<const Case*> selected(const VerifyOptions& options) {
+std::vector<const Case*> selected(const std::vector<Case>& all, const VerifyOptions& options) {
   std::vector<const Case*> cases;
   std::vector<std::string> known;
-  for (const Case& c : all_cases()) known.emplace_back(c.name);
+  for (const Case& c : all) known.push_back(c.name);
   for (const std::string& name : options.names)
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw core::InputError({}, core::unknown_name_message("verification case", name, known));
-  for (const Case& c : all_cases()) {
+  for (const Case& c : all) {
     const bool named =
         std::find(options.names.begin(), options.names.end(), c.name) != options.names.end();
     if (named || (options.names.empty() && (options.slow || !c.slow))) cases.push_back(&c);
@@ -61,7 +61,7 @@ void write_curves(const std::string& folder, const Case& c, const CaseResult& re
   if (folder.empty()) return;
   std::filesystem::create_directories(folder);
   for (const Curve& curve : result.curves) {
-    std::ofstream file(folder + "/" + std::string(c.name) + "." + curve.name + ".csv");
+    std::ofstream file(folder + "/" + c.name + "." + curve.name + ".csv");
     file << fmt::format("{}\n", fmt::join(curve.columns, ","));
     for (const auto& row : curve.rows) file << fmt::format("{:.10g}\n", fmt::join(row, ","));
   }
@@ -71,10 +71,9 @@ void write_plots(const std::string& folder, const Case& c, const CaseResult& res
   if (folder.empty()) return;
   std::filesystem::create_directories(folder);
   for (const Picture& picture : result.pictures)
-    io::write_file(folder + "/" + std::string(c.name) + "." + picture.name + ".svg",
-                   io::plot_svg(picture.plot));
+    io::write_file(folder + "/" + c.name + "." + picture.name + ".svg", io::plot_svg(picture.plot));
   for (const Drawing& drawing : result.drawings)
-    io::write_file(folder + "/" + std::string(c.name) + "." + drawing.name + ".svg",
+    io::write_file(folder + "/" + c.name + "." + drawing.name + ".svg",
                    io::scene_svg(drawing.scene));
 }
 
@@ -120,7 +119,7 @@ nlohmann::json run_case(const Case& c, const VerifyOptions& options, const std::
   const auto start = std::chrono::steady_clock::now();
   CaseResult result;
   try {
-    result = c.run({folder + "/" + std::string(c.name), options.threads});
+    result = c.run({folder + "/" + c.name, options.threads});
   } catch (const std::exception& error) {
     result.rows.push_back(failure(fmt::format("case ended with: {}", error.what())));
   }
@@ -132,13 +131,14 @@ nlohmann::json run_case(const Case& c, const VerifyOptions& options, const std::
 }
 
 int verify(const VerifyOptions& options) {
+  const std::string folder = cases_folder();
+  const std::vector<Case> all = all_cases(folder);
   if (options.list) {
-    for (const Case& c : all_cases())
+    for (const Case& c : all)
       fmt::print("{:<28} {}{}\n", c.name, c.requirement, c.slow ? " (--long)" : "");
     return done;
   }
-  const std::string folder = cases_folder();
-  const std::vector<const Case*> cases = selected(options);
+  const std::vector<const Case*> cases = selected(all, options);
   nlohmann::json out = nlohmann::json::array();
   int passed = 0, failed = 0, shown = 0;
   const auto print = [&](std::size_t i, const ProcessEnd& end) {

@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -36,6 +37,24 @@ steps:
   - {name: drag, increments: 3, prescribe: [{on: b.top, ux: 0.03, uy: 0.04}]}
 output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}, {on: c, of: force_y},
   {on: c, of: slip}, {on: b.top, of: rfz}]}
+"""
+
+CASE = """requirement: A block on a line carries its weight
+source: statics
+runs:
+  - each: [[{side: 0.1}, {side: 0.2}]]
+    model: block.yaml
+    set: {steps.0.body_force.0.bx: "{side}"}
+    rows:
+      - {quantity: "side {side}: weight", of: c.normal_force, step: more, is: 16, within: 1.0e-9}
+  - {name: flat, model: block.yaml}
+  - name: steep
+    model: block.yaml
+    set: {steps.0.body_force: [{on: block, bx: 0.2, by: -1}]}
+    rows: [{quantity: increments, of: increments, at: sum, is: 3}]
+  - rows:
+      - {quantity: "side that holds it, over the other", run: steep, of: c.shear_force, at: 1,
+         over: {run: flat, of: c.shear_force, at: 1}, at_least: 1.99}
 """
 
 
@@ -144,6 +163,47 @@ class Program(unittest.TestCase):
         wrong = self.run_program("run", name, "--until", "wait")
         self.assertEqual(wrong.returncode, 2)
         self.assertIn("did you mean 'weight'", wrong.stderr)
+
+    def case(self, name, text):
+        """A verification case beside a copy of the program, which finds it there; what is said of it."""
+        program = os.path.join(os.path.dirname(PROGRAM), "osculate-verify")
+        if not os.path.exists(program):
+            self.skipTest("the verification cases were not built")
+        folder = self.path(os.path.join("share", "osculate", "verification", name))
+        os.makedirs(self.path("bin"), exist_ok=True)
+        os.makedirs(folder)
+        copy = self.path(os.path.join("bin", "osculate-verify"))
+        shutil.copy(program, copy)
+        with open(os.path.join(folder, "block.yaml"), "w") as file:
+            file.write(BLOCK.replace("SIDE", "0.1"))
+        with open(os.path.join(folder, "case.yaml"), "w") as file:
+            file.write(text)
+        done = subprocess.run([copy, name, "--json", self.path(name + ".json")], capture_output=True, text=True)
+        with open(self.path(name + ".json")) as file:
+            return done.returncode, json.load(file)
+
+    def test_a_verification_case_is_a_folder(self):
+        code, rows = self.case("weights", CASE)
+        self.assertEqual(code, 0, rows)
+        self.assertEqual([row["quantity"] for row in rows], ["side 0.1: weight", "side 0.2: weight", "increments",
+                                                             "side that holds it, over the other"])
+        self.assertAlmostEqual(rows[3]["computed"], 2, places=8)
+
+    def test_a_bad_verification_case_is_one_failing_row(self):
+        for number, (right, wrong, said) in enumerate((
+                ("within:", "whithin:", "unknown key 'whithin'; did you mean 'within'?"),
+                ("c.normal_force", "c.normal_forc", "did you mean 'normal_force'?"),
+                ("steps.0", "steps.7", "no item '7' in the model"),
+                ("body_force.0.bx", "name.bx", "no key 'bx' in the model"),
+                ("set:", "sett:", "unknown key 'sett'; did you mean 'set'?"),
+                ("at: 1,\n", "less: [[0, 1]],\n", "expected at least 2 values, got 1"),
+                ("model: block", "model: blok", "blok.yaml: cannot be read"),
+                ("run: steep", "run: step", "unknown run 'step'"),
+                ("step: more", "step: moer", "no increment"))):
+            code, rows = self.case(f"wrong{number}", CASE.replace(right, wrong))
+            self.assertEqual((code, len(rows)), (1, 1), rows)
+            self.assertIn(said, rows[0]["quantity"])
+            self.assertRegex(rows[0]["quantity"], r"case\.yaml:[0-9]+: |blok")
 
     def test_the_other_commands(self):
         name = self.model(BLOCK.replace("SIDE", "0.1"))

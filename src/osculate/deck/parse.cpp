@@ -92,6 +92,10 @@ const Amplitude* Description::find_amplitude(const std::string& name) const {
 
 Description parse_model(std::string_view text, std::string file_name) {
   const SourceNode root = read_yaml(text, file_name);
+  return parse_model(root, std::move(file_name));
+}
+
+Description parse_model(const SourceNode& root, std::string file_name) {
   require_document(root, file_name);
   const Value model = check(model_spec(), root, file_name);
   Description d;

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "osculate/deck/description.hpp"
+#include "osculate/deck/source_tree.hpp"
 
 namespace osculate::deck {
 
@@ -16,6 +17,8 @@ namespace osculate::deck {
 /// test_good_models.cpp,
 ///            test_yaml.cpp, test_mutation.cpp
 [[nodiscard]] Description parse_model(std::string_view text, std::string file_name);
+/// The same for a document that was read before.
+[[nodiscard]] Description parse_model(const SourceNode& root, std::string file_name);
 
 /// The same for a file.
 [[nodiscard]] Description read_model(const std::string& path);
