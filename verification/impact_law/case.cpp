@@ -5,7 +5,6 @@
 
 #include "../body_path.hpp"
 #include "../cases.hpp"
-#include "../run_space.hpp"
 #include "osculate/contact/law/damping.hpp"
 #include "reference.hpp"
 
@@ -187,135 +186,6 @@ void add_viscous(CaseResult& out) {
   }
 }
 
-/// A disc hits a rigid block that is free too.
-void add_two_bodies(CaseResult& out) {
-  constexpr double block = 3, speed = 3, k = 1e6;
-  for (const double e : {0.0, 0.5}) {
-    const double h = std::sqrt(mass * block / (mass + block) / k) / 50;
-    const std::string text = fmt::format(R"(osculate: 1
-mesh: {{generate: {{plate: {{box: {{x: [-1, 1], y: [-1, 0], elements: [2, 1]}}}}}}}}
-rigid:
-  ball: {{circle: {{center: [0, {:.17g}], radius: 1}}, mass: {}}}
-  block: {{set: plate, mass: {}, inertia: 2}}
-contact: [{{name: c, master: ball, slave: plate.top, weight: node,
-  normal: {{penalty: {}, damping: {{restitution: {}}}}}}}]
-initial_velocity: [{{on: ball, vy: {}}}]
-steps: [{{name: hit, increments: 200, duration: {:.17g}, dynamics: {{impact: {}}}}}]
-{})",
-                                         1 + 2.3 * h * speed, mass, block, k, e, -speed, 200 * h,
-                                         e > 0 ? "average" : "dissipative", tail);
-    double first = 0, second = 0;
-    model::Energies energies;
-    const model::AnalysisResult result = run_text(text, [&](const Snapshot& now) {
-      const model::Rates& rates = now.state.rates;
-      if (rates.empty()) return;
-      first = rates.velocity[now.state.u.size() + 1];
-      second = rates.velocity[now.state.u.size() + 4];
-      energies = rates.energies;
-    });
-    const std::string name = fmt::format("two rigid bodies, e = {}: ", e);
-    expect(out, name + "finished", result.outcome == solve::Outcome::converged, 1, 0, momentum);
-    expect(out, name + "momentum after / before", (mass * first + block * second) / (-mass * speed),
-           1, 1e-10, momentum);
-    const double parting = (first - second) / speed;
-    if (e > 0) {
-      expect(out, name + "speed of parting / approach", parting, e, 5e-3, newton);
-      expect(out, name + "speed of the first / approach", first / speed,
-             after_impact(mass, -1, block, 0, e).first, 5e-3, newton);
-    } else {
-      out.rows.push_back({name + "|speed of parting| / approach", std::abs(parting),
-                          contact::Restitution::least, Relation::at_most, 0, newton});
-    }
-    expect(out, name + "kinetic energy lost / exact",
-           (energies.start - energies.kinetic - energies.contact) /
-               energy_lost(mass, -speed, block, 0, e),
-           1, 5e-3, newton);
-    expect(out, name + "dissipated by the law / exact",
-           energies.damping / energy_lost(mass, -speed, block, 0, e), 1, e > 0 ? 5e-3 : 0.05,
-           newton);
-  }
-}
-
-/// A rigid block falls flat, on all its nodes, or on one corner.
-void add_blocks(CaseResult& out) {
-  constexpr double e = 0.5, side = 2, k = 1e8;
-  for (const bool slanted : {false, true}) {
-    const double h = std::sqrt(mass / k) / 50, angle = slanted ? 20 : 0;
-    const double turn = angle * std::numbers::pi / 180;
-    // The lowest corner is that at (0, 0), about which the box is turned.
-    const std::string text = fmt::format(R"(osculate: 1
-mesh: {{generate: {{cells: {{box: {{x: [0, {0}], y: [0, {0}], elements: [3, 1], angle: {1}, about: [0, 0]}}}}}}}}
-rigid:
-  floor: {{line: {{point: [0, {2:.17g}], normal: [0, 1]}}}}
-  block: {{set: cells, mass: {3}, inertia: 1.5}}
-contact: [{{name: c, master: floor, slave: cells.bottom, weight: node,
-  normal: {{penalty: {4}, damping: {{restitution: {5}}}}}}}]
-initial_velocity: [{{on: block, vy: -1}}]
-steps: [{{name: hit, increments: 400, duration: {6:.17g}, dynamics: {{impact: average}}}}]
-{7})",
-                                         side, angle, -2.3 * h, mass, k, e, 400 * h, tail);
-    double speed = 0, spin = 0;
-    const model::AnalysisResult result = run_text(text, [&](const Snapshot& now) {
-      const model::Rates& rates = now.state.rates;
-      if (rates.empty()) return;
-      speed = rates.velocity[now.state.u.size() + 4];
-      spin = rates.velocity[now.state.u.size() + 5];
-    });
-    // The corner lies left of the centre by `arm`, and its push turns the block clockwise.
-    const double arm =
-        slanted ? side / std::numbers::sqrt2 * std::sin(std::numbers::pi / 4 - turn) : 0;
-    const SlantHit exact = after_slant_hit(mass, 1.5, arm, 1, e);
-    const std::string name = slanted ? "rigid block on a corner: " : "rigid block on its face: ";
-    expect(out, name + "finished", result.outcome == solve::Outcome::converged, 1, 0, newton);
-    expect(out, name + "speed of the centre after / before", speed, exact.speed, 5e-3, newton);
-    expect(out, name + "spin after", -spin, exact.spin, 5e-3, newton);
-  }
-}
-
-/// In space: a ball on one node, and a rigid block on all its nodes.
-void add_space(CaseResult& out, int threads) {
-  constexpr double e = 0.5, k = 1e6;
-  const double h = std::sqrt(mass / k) / 50;
-  const std::string ball = fmt::format(R"(osculate: 1
-mesh: {{generate: {{ground: {{box: {{x: [-1, 1], y: [-1, 1], z: [-1, 0], elements: [2, 2, 1], type: hex8}}}}}}}}
-materials: {{m: {{linear_elastic: {{E: 1, nu: 0, density: 1}}}}}}
-sections: [{{on: ground, material: m, element: solid}}]
-rigid: {{body: {{sphere: {{center: [0, 0, {:.17g}], radius: 1}}, mass: {}}}}}
-contact: [{{name: c, master: body, slave: ground.top, weight: node,
-  normal: {{penalty: {}, damping: {{restitution: {}}}}}}}]
-initial_velocity: [{{on: body, vz: -1}}]
-steps: [{{name: hit, increments: 200, duration: {:.17g}, dynamics: {{impact: average}},
-  prescribe: [{{on: ground, ux: 0, uy: 0, uz: 0}}]}}]
-{})",
-                                       1 + 2.3 * h, mass, k, e, 200 * h, tail);
-  const std::string block = fmt::format(R"(osculate: 1
-mesh:
-  generate:
-    ground: {{box: {{x: [-1.7, 1.9], y: [-1.9, 1.6], z: [-1, 0], elements: [2, 3, 1], type: hex8}}}}
-    cells: {{box: {{x: [-1, 1], y: [-1, 1], z: [{0:.17g}, 1], elements: [2, 2, 1], type: hex8}}}}
-materials: {{m: {{linear_elastic: {{E: 1, nu: 0, density: 1}}}}}}
-sections: [{{on: ground, material: m, element: solid}}]
-rigid: {{body: {{set: cells, mass: {1}, inertia: [1, 1, 1]}}}}
-contact: [{{name: c, master: ground.top, slave: cells.bottom, weight: node,
-  normal: {{penalty: {2}, damping: {{restitution: {3}}}}}}}]
-initial_velocity: [{{on: body, vz: -1}}]
-steps: [{{name: hit, increments: 200, duration: {4:.17g}, dynamics: {{impact: average}},
-  prescribe: [{{on: ground, ux: 0, uy: 0, uz: 0}}]}}]
-{5})",
-                                        2.3 * h, mass, k / 9, e, 200 * h, tail);
-  for (const bool on_node : {true, false}) {
-    const std::string& text = on_node ? ball : block;
-    double speed = 0;
-    const model::AnalysisResult3 result = run_text3(text, threads, [&](const Snapshot3& now) {
-      if (!now.state.rates.empty()) speed = now.state.rates.velocity[now.state.u.size() + 2];
-    });
-    const std::string name =
-        on_node ? "in space, ball on a node: " : "in space, block on nine nodes: ";
-    expect(out, name + "finished", result.outcome == solve::Outcome::converged, 1, 0, newton);
-    expect(out, name + "speed after / before", speed, e, 5e-3, newton);
-  }
-}
-
 /// An elastic block falls flat on a line, or on another one; the ledger must close, and implicit
 /// contact gives nothing.
 void add_elastic(CaseResult& out) {
@@ -373,16 +243,13 @@ steps: [{{name: hit, increments: 300, duration: 0.15, dynamics: {{}}}}]
 
 }  // namespace
 
-CaseResult impact_law(const CaseContext& context) {
+CaseResult impact_law(const CaseContext&) {
   CaseResult out;
   add_restitution(out);
   add_plastic(out);
   add_speeds(out);
   add_bounces(out);
   add_viscous(out);
-  add_two_bodies(out);
-  add_blocks(out);
-  add_space(out, context.threads);
   add_elastic(out);
   return out;
 }
