@@ -9,7 +9,7 @@ namespace osculate::solid {
 ///
 /// Formula    U = sum over the quadrature points of W(E) dV, E the strain that the material sees
 /// Returns    infinity where the cell has no answer (inverted)
-/// Tested by  tests/unit/solid/test_energy.cpp
+/// Tested by  tests/unit/solid/test_derivatives.cpp
 [[nodiscard]] double strain_energy(const Section& section, cell::CellType type,
                                    const Coordinates& reference, const Coordinates& displacement);
 [[nodiscard]] double strain_energy(const VolumeSection& section, cell::CellType type,

@@ -12,7 +12,7 @@ namespace osculate::solid {
 ///            scale) fills the stiffness, the generalised stresses and their size at modes.alpha,
 ///            false where the law has no answer
 /// Returns    modes.ok: found
-/// Tested by  tests/unit/solid/test_volume.cpp, test_derivatives.cpp, test_solid_shell.cpp
+/// Tested by  tests/unit/solid/test_derivatives.cpp
 template <class Vector, class Modes, class Sample>
 void solve_modes(Modes& modes, const Sample& sample) {
   Vector rest, step = modes.alpha;

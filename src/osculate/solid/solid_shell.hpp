@@ -24,8 +24,8 @@ namespace osculate::solid {
 ///            or the modes have no answer; force and tangent are then not to be used. The tangent
 ///            is symmetric
 /// Requires   type is hex8 or shell18; small kinematics with linear_elastic, finite with the others
-/// Tested by  tests/unit/solid/test_solid_shell.cpp, test_solid_shell_patch.cpp,
-///            test_solid_shell_benchmarks.cpp
+/// Tested by  tests/unit/solid/test_derivatives.cpp, test_solid_shell.cpp,
+///            test_solid_shell_patch.cpp, test_solid_shell_benchmarks.cpp
 void evaluate_solid_shell(const VolumeSection& section, cell::CellType type,
                           const Coordinates3& reference, const Coordinates3& displacement,
                           bool with_tangent, VolumeResult& out);

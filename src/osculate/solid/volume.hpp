@@ -37,7 +37,7 @@ using VolumeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 
 ///            material_failed if the law, or the modes of the enhanced strains, have no answer;
 ///            force and tangent are then not to be used
 /// Requires   unsupported(section, type) is empty
-/// Tested by  tests/unit/solid/test_volume.cpp, test_volume_patch.cpp, test_volume_locking.cpp
+/// Tested by  tests/unit/solid/test_derivatives.cpp, test_volume_patch.cpp, test_volume_locking.cpp
 struct VolumeResult {
   Status status = Status::ok;
   VolumeVector force;
@@ -60,14 +60,14 @@ struct CellStress3 {
   int count = 0;
   std::array<PointStress3, max_volume_points> point;
 };
-/// Tested by  tests/unit/solid/test_volume_stress.cpp
+/// Tested by  tests/unit/solid/test_stress.cpp
 [[nodiscard]] CellStress3 stress_at_points(const VolumeSection& section, cell::CellType type,
                                            const Coordinates3& reference,
                                            const Coordinates3& displacement);
 
 /// The same extrapolated to the nodes by least squares over the quadrature points.
 ///
-/// Tested by  tests/unit/solid/test_volume_stress.cpp
+/// Tested by  tests/unit/solid/test_stress.cpp
 struct NodalStress3 {
   int count = 0;
   std::array<Vec<6>, max_volume_nodes> stress, strain;

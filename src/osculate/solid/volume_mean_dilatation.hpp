@@ -6,13 +6,13 @@ namespace osculate::solid {
 
 /// Small strain: replaces the volumetric part of B, and of the strain, by its mean over the cell.
 ///
-/// Tested by  tests/unit/solid/test_volume.cpp, test_volume_locking.cpp
+/// Tested by  tests/unit/solid/test_derivatives.cpp, test_volume_locking.cpp
 void average_volume_small(HexPoints& points, const Coordinates3& displacement);
 
 /// Finite strain: each point sees F_m = (theta/J)^(1/3) F with theta = int J dV / int dV.
 ///
 /// Formula    E_m = m E + (m - 1)/2 I,  m = (theta/J)^(2/3), as `mean_dilatation` in the plane
-/// Tested by  tests/unit/solid/test_volume.cpp, test_volume_locking.cpp
+/// Tested by  tests/unit/solid/test_derivatives.cpp, test_volume_locking.cpp
 struct MeanDilatation3 {
   std::array<double, 8> scale;            ///< m
   HexPoints point;                        ///< E_m, B_m and F_m

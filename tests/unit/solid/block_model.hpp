@@ -1,6 +1,5 @@
 #pragma once
-// A small dense model of quad cells in a block, for tests that need an answer and not an element.
-#include <Eigen/LU>
+// Small dense models, for tests that need an answer and not an element.
 #include <functional>
 #include <map>
 #include <vector>
@@ -8,6 +7,15 @@
 #include "section_cases.hpp"
 
 namespace osculate::solid::testing {
+
+using Prescribed = std::map<Eigen::Index, double>;
+using DenseSystem =
+    std::function<void(const Eigen::VectorXd& u, Eigen::VectorXd& force, Eigen::MatrixXd& tangent)>;
+
+/// Newton's iteration of `force(u) = load` with some unknowns prescribed, load and unknowns growing
+/// together in equal increments.
+Eigen::VectorXd dense_solution(const DenseSystem& system, const Eigen::VectorXd& load,
+                               const Prescribed& prescribed, int increments, Eigen::VectorXd u);
 
 /// nx x ny quad4 cells; node (i, j) has the number i + j (nx + 1).
 struct BlockModel {
@@ -61,30 +69,11 @@ struct BlockModel {
   }
 
   /// Displacements under dead forces with some unknowns prescribed; Newton from `start` or zero.
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& load,
-                                      const std::map<Eigen::Index, double>& prescribed,
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& load, const Prescribed& prescribed,
                                       int increments = 1, const Eigen::VectorXd& start = {}) const {
-    Eigen::VectorXd u = start.size() > 0 ? start : Eigen::VectorXd::Zero(dofs()), force;
-    Eigen::MatrixXd tangent;
-    for (int step = 1; step <= increments; ++step) {
-      const double part = static_cast<double>(step) / increments;
-      for (int it = 0; it < 30; ++it) {
-        assemble(u, force, tangent);
-        Eigen::VectorXd rest = part * load - force;
-        const double largest = tangent.diagonal().maxCoeff();
-        for (const auto& fixed : prescribed) {
-          const Eigen::Index d = fixed.first;
-          tangent.row(d).setZero();
-          tangent(d, d) = largest;
-          rest[d] = largest * (part * fixed.second - u[d]);
-        }
-        const Eigen::VectorXd step_u = tangent.partialPivLu().solve(rest);
-        u += step_u;
-        if (it > 0 && step_u.norm() <= 1e-9 * u.norm()) break;
-        if (it == 29) ADD_FAILURE() << "not converged, last step " << step_u.norm();
-      }
-    }
-    return u;
+    return dense_solution(
+        [&](const auto& u, auto& force, auto& tangent) { assemble(u, force, tangent); }, load,
+        prescribed, increments, start.size() > 0 ? start : Eigen::VectorXd::Zero(dofs()));
   }
 };
 

@@ -1,103 +1,134 @@
+// Derivatives and stiffness of every cell, in the plane, in space and of shells.
 #include <Eigen/Eigenvalues>
 
+#include "cell_cases.hpp"
 #include "derivative_check.hpp"
-#include "section_cases.hpp"
 
 namespace osculate::solid::testing {
 namespace {
 
-using osculate::testing::check_derivative;
+class EveryCell : public ::testing::TestWithParam<Kind> {};
+class DisplacementCell : public EveryCell {};
 
-void expect_tangent_is_derivative(const SectionCase& c, const Coordinates& x,
-                                  const Coordinates& u) {
-  const Eigen::VectorXd along = flat(sample_displacement(c.type, 0.3, 5));
-  const ElementResult at = evaluated(c, x, u);
-  const auto force = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
-    ElementResult r;
-    evaluate(c.section, c.type, x, unflat(v), false, r);
-    EXPECT_EQ(r.status, Status::ok);
-    return r.force;
-  };
-  const auto r = check_derivative(force, at.tangent * along, flat(u), along);
+std::string kind_name(const ::testing::TestParamInfo<Kind>& tested) {
+  constexpr std::array names{"plane", "space", "shell"};
+  return names[static_cast<std::size_t>(tested.param)];
+}
+INSTANTIATE_TEST_SUITE_P(Of, EveryCell, ::testing::Values(Kind::plane, Kind::space, Kind::shell),
+                         kind_name);
+INSTANTIATE_TEST_SUITE_P(Of, DisplacementCell, ::testing::Values(Kind::plane, Kind::space),
+                         kind_name);
+
+using osculate::testing::DerivativeReport;
+
+void expect_derivative(const CellCase& c, const DerivativeReport& r) {
   EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.1)
       << "order " << r.order << " error " << r.error;
   EXPECT_TRUE(c.finite() || r.exact) << r.error;
 }
 
-TEST(Evaluate, TangentIsTheDerivativeOfTheForce) {
-  for_each_section([](const SectionCase& c) {
-    expect_tangent_is_derivative(c, sample_cell(c.type, 0.12, true),
-                                 sample_displacement(c.type, 0.06));
-  });
-}
-
-TEST(Evaluate, TangentIsTheDerivativeOfTheForceWhenNearlyIncompressible) {
-  for_each_section([](SectionCase c) {
-    std::visit([](auto& law) { law.poisson = 0.49; }, c.section.law);
-    expect_tangent_is_derivative(c, sample_cell(c.type, 0.12, true),
-                                 sample_displacement(c.type, 0.02));
-  });
-}
-
-TEST(Evaluate, TangentIsTheDerivativeOfTheForceAfterALargeRotation) {
-  for_each_section([](const SectionCase& c) {
-    if (!c.finite() || c.axisymmetric()) return;
-    const Coordinates x = sample_cell(c.type, 0.12, true);
-    Mat<2, 2> turn;
-    turn << std::cos(2.5), -std::sin(2.5), std::sin(2.5), std::cos(2.5);
-    const Coordinates u = (x + sample_displacement(c.type, 0.06)) * turn.transpose() - x;
-    expect_tangent_is_derivative(c, x, u);
-  });
-}
-
 // Each formulation has an energy, so that no section needs an unsymmetric solver.
-TEST(Evaluate, TangentIsSymmetric) {
-  for_each_section([](const SectionCase& c) {
-    const Coordinates x = sample_cell(c.type, 0.12, true);
-    const ElementMatrix k = evaluated(c, x, sample_displacement(c.type, 0.06)).tangent;
-    EXPECT_LT((k - k.transpose()).norm(), 1e-14 * k.norm());
+void expect_symmetric(const CellCase& c, const Eigen::MatrixXd& tangent) {
+  const double skew = (tangent - tangent.transpose()).norm();
+  EXPECT_LT(skew, 1e-14 * tangent.norm());
+  if (c.kind == Kind::space) {
+    EXPECT_EQ(skew, 0.0);
+  }
+}
+
+void expect_tangent_is_derivative(const CellCase& c, const Eigen::MatrixXd& x,
+                                  const Eigen::MatrixXd& u) {
+  const bool shell = c.kind == Kind::shell;
+  const Eigen::VectorXd along = flat(motion(c, shell ? 0.06 : 0.3, 5));
+  const CellResult at = evaluated(c, x, u);
+  const auto force = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+    const CellResult r = answer(c, x, unflat(v, c.dim()), false);
+    EXPECT_EQ(r.status, Status::ok);
+    return r.force;
+  };
+  expect_derivative(c, osculate::testing::check_derivative(force, at.tangent * along, flat(u),
+                                                           along, shell ? 4e-3 : 1e-3));
+}
+
+TEST_P(EveryCell, TangentIsTheDerivativeOfTheForce) {
+  for_each_cell(GetParam(),
+                [](const CellCase& c) { expect_tangent_is_derivative(c, curved(c), motion(c)); });
+}
+
+TEST_P(DisplacementCell, TangentIsTheDerivativeOfTheForceWhenNearlyIncompressible) {
+  for_each_cell(GetParam(), [](const CellCase& c) {
+    expect_tangent_is_derivative(c.nearly_incompressible(), curved(c), motion(c, 0.02));
   });
 }
 
-TEST(Evaluate, ForceDoesNotDependOnWhetherTheTangentIsAskedFor) {
-  for_each_section([](const SectionCase& c) {
-    const Coordinates x = sample_cell(c.type, 0.12, true), u = sample_displacement(c.type, 0.06);
-    ElementResult r;
-    evaluate(c.section, c.type, x, u, false, r);
-    EXPECT_EQ(r.force, evaluated(c, x, u).force);
-    EXPECT_EQ(r.tangent.norm(), 0.0);
+TEST_P(EveryCell, TangentIsTheDerivativeOfTheForceAfterALargeRotation) {
+  for_each_cell(GetParam(), [](const CellCase& c) {
+    if (!c.finite() || c.axisymmetric()) return;
+    const Eigen::MatrixXd x = curved(c);
+    const Eigen::MatrixXd u = (x + motion(c)) * rotation(c, 2.5).transpose() - x;
+    expect_tangent_is_derivative(c, x, u);
+    if (c.kind == Kind::shell) expect_symmetric(c, evaluated(c, x, u).tangent);
+  });
+}
+
+TEST_P(EveryCell, TangentIsSymmetricAndTheForceDoesNotDependOnIt) {
+  for_each_cell(GetParam(), [](const CellCase& c) {
+    const Eigen::MatrixXd x = curved(c), u = motion(c);
+    const CellResult with = evaluated(c, x, u), without = answer(c, x, u, false);
+    expect_symmetric(c, with.tangent);
+    EXPECT_EQ(without.force, with.force);
+    EXPECT_EQ(without.tangent.norm(), 0.0);
+  });
+}
+
+TEST_P(DisplacementCell, ForceIsTheDerivativeOfTheStrainEnergy) {
+  for_each_cell(GetParam(), [](const CellCase& c) {
+    const Eigen::MatrixXd x = curved(c), u = motion(c);
+    const Eigen::VectorXd along = flat(motion(c, 0.3, 5));
+    const auto potential = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
+      return Eigen::VectorXd::Constant(1, energy(c, x, unflat(v, c.dim())));
+    };
+    const double work = evaluated(c, x, u).force.dot(along);
+    expect_derivative(c, osculate::testing::check_derivative(
+                             potential, Eigen::VectorXd::Constant(1, work), flat(u), along));
   });
 }
 
 // The limit of finite kinematics at no displacement is small kinematics, formulation by
 // formulation: two codes, one stiffness.
-TEST(Evaluate, FiniteKinematicsStartAsSmallOnes) {
-  for_each_section([](const SectionCase& c) {
+TEST_P(EveryCell, FiniteKinematicsStartAsSmallOnes) {
+  for_each_cell(GetParam(), [](const CellCase& c) {
     if (!c.finite()) return;
-    SectionCase small = c;
-    small.section.kinematics = Kinematics::small;
-    small.section.law = material::LinearElastic{7, 0.3, 0};
-    const Coordinates x = sample_cell(c.type, 0.12, true);
-    const Coordinates none = Coordinates::Zero(x.rows(), 2);
-    const ElementResult a = evaluated(c, x, none), b = evaluated(small, x, none);
+    const Eigen::MatrixXd x = curved(c), none = 0 * x;
+    const CellResult a = evaluated(c, x, none), b = evaluated(c.as_small(), x, none);
     EXPECT_LT((a.tangent - b.tangent).norm(), 1e-14 * b.tangent.norm());
     EXPECT_EQ(a.force.norm(), 0.0);
   });
 }
 
 // Stiffness without rigid motions is positive: no mode of zero energy (hourglass) is left.
-TEST(Evaluate, HasNoZeroEnergyModesButRigidMotions) {
-  for_each_section([](const SectionCase& c) {
-    const Coordinates x = sample_cell(c.type, 0.12, true);
-    const Eigen::MatrixXd k = evaluated(c, x, Coordinates::Zero(x.rows(), 2)).tangent;
+TEST_P(DisplacementCell, HasNoZeroEnergyModesButRigidMotions) {
+  for_each_cell(GetParam(), [](const CellCase& c) {
+    const Eigen::MatrixXd x = curved(c), k = evaluated(c, x, 0 * x).tangent;
     const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
-    const int rigid = c.axisymmetric() ? 1 : 3;
-    const double largest = values[values.size() - 1];
+    const bool plane = c.kind == Kind::plane;
+    const int rigid = c.axisymmetric() ? 1 : plane ? 3 : 6;
+    const double largest = values[values.size() - 1], least = (plane ? 1e-4 : 1e-3) * largest;
     for (int i = 0; i < values.size(); ++i) {
-      EXPECT_TRUE(i < rigid ? std::abs(values[i]) < 1e-14 * largest : values[i] > 1e-4 * largest)
+      EXPECT_TRUE(i < rigid ? std::abs(values[i]) < 1e-14 * largest : values[i] > least)
           << i << ": " << values[i] / largest;
     }
   });
+}
+
+TEST(StrainEnergy, OfAnInvertedCellIsInfinite) {
+  const CellCase c{Kind::plane, SectionCase{{Assumption::plane_strain, Kinematics::finite,
+                                             Formulation::full, 1, material::NeoHooke{1, 0.3, 0}},
+                                            cell::CellType::quad4}};
+  const Eigen::MatrixXd x = sample_cell(cell::CellType::quad4, 0, false);
+  Eigen::MatrixXd folded = -2 * x;
+  folded.col(1).setZero();  // mirrored in one direction
+  EXPECT_TRUE(std::isinf(energy(c, x, folded)));
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ TEST(Loads, TangentOfPressureIsTheDerivative) {
           continue;
         }
         const auto force = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
-          return edge_pressure(s, x, unflat(v), 2.5).force;
+          return edge_pressure(s, x, unflat(v, 2), 2.5).force;
         };
         const auto report =
             osculate::testing::check_derivative(force, r.tangent * flat(d), flat(u), flat(d));

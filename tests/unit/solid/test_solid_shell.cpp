@@ -1,62 +1,20 @@
+// What solid shells do beside what every cell does (test_derivatives.cpp).
 #include <Eigen/Eigenvalues>
 #include <limits>
 
-#include "derivative_check.hpp"
-#include "solid_shell_cases.hpp"
+#include "osculate/solid/solid_shell.hpp"
+#include "volume_cases.hpp"
 
 namespace osculate::solid::testing {
 namespace {
 
-using osculate::testing::check_derivative;
-
 constexpr double thickness = 0.2;
-
-void expect_tangent_is_derivative(const VolumeCase& c, const Coordinates3& x,
-                                  const Coordinates3& u) {
-  Coordinates3 direction = sample_motion(c.type, 0.3, 5);
-  direction *= thickness;
-  const Eigen::VectorXd along = flat(direction);
-  const VolumeResult at = evaluated(c, x, u);
-  const auto force = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
-    VolumeResult r;
-    evaluate(c.section, c.type, x, unflat3(v), false, r);
-    EXPECT_EQ(r.status, Status::ok);
-    return r.force;
-  };
-  const auto r = check_derivative(force, at.tangent * along, flat(u), along, 4e-3);
-  EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.1)
-      << "order " << r.order << " error " << r.error;
-  EXPECT_TRUE(c.finite() || r.exact) << r.error;
-  EXPECT_LT((at.tangent - at.tangent.transpose()).norm(), 1e-14 * at.tangent.norm());
-}
-
-TEST(SolidShell, TangentIsTheDerivativeOfTheForceAndSymmetric) {
-  for_each_shell([](const VolumeCase& c) {
-    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 u = sample_motion(c.type, 0.1 * thickness);
-    expect_tangent_is_derivative(c, x, u);
-    if (!c.finite()) return;
-    const Coordinates3 turned = (x + u) * turn3(2.5).transpose() - x;
-    expect_tangent_is_derivative(c, x, turned);
-  });
-}
-
-TEST(SolidShell, ForceDoesNotDependOnWhetherTheTangentIsAskedFor) {
-  for_each_shell([](const VolumeCase& c) {
-    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 u = sample_motion(c.type, 0.1 * thickness);
-    VolumeResult r;
-    evaluate(c.section, c.type, x, u, false, r);
-    EXPECT_EQ(r.force, evaluated(c, x, u).force);
-    EXPECT_EQ(r.tangent.norm(), 0.0);
-  });
-}
 
 TEST(SolidShell, ForcesAndMomentsBalance) {
   for_each_shell([](const VolumeCase& c) {
     const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
     const Coordinates3 u = sample_motion(c.type, 0.1 * thickness);
-    const Coordinates3 force = unflat3(evaluated(c, x, u).force);
+    const Coordinates3 force = unflat(evaluated(c, x, u).force, 3);
     const Coordinates3 arm = c.finite() ? Coordinates3(x + u) : x;
     Vec3 moment = Vec3::Zero();
     for (Eigen::Index k = 0; k < x.rows(); ++k)
@@ -120,20 +78,6 @@ TEST(SolidShell, AnyNumberingWithTheSameThicknessDirectionGivesTheSame) {
       }
       axes = (turn == 3 ? over : quarter) * axes;
     }
-  });
-}
-
-TEST(SolidShell, FiniteKinematicsStartAsSmallOnes) {
-  for_each_shell([](const VolumeCase& c) {
-    if (!c.finite()) return;
-    VolumeCase small = c;
-    small.section.kinematics = Kinematics::small;
-    small.section.law = material::LinearElastic{7, 0.3, 0};
-    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 none = Coordinates3::Zero(x.rows(), 3);
-    const VolumeResult a = evaluated(c, x, none), b = evaluated(small, x, none);
-    EXPECT_LT((a.tangent - b.tangent).norm(), 1e-14 * b.tangent.norm());
-    EXPECT_EQ(a.force.norm(), 0.0);
   });
 }
 

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "osculate/cell/shape.hpp"
-#include "solid_shell_cases.hpp"
+#include "osculate/solid/solid_shell.hpp"
+#include "volume_cases.hpp"
 
 namespace osculate::solid::testing {
 namespace {
@@ -17,7 +18,7 @@ Coordinates3 prismatic(cell::CellType type) {
   for (int k = 0; k < 8; ++k) {
     corners.row(k) = 0.5 * cell::volume_node(cell::CellType::hex8, k);
     corners(k, 2) *= 0.2;
-    for (int i = 0; i < 2; ++i) corners(k, i) += 0.15 * volume_noise(k % 4, i);
+    for (int i = 0; i < 2; ++i) corners(k, i) += 0.15 * noise(k % 4, i);
   }
   for (int k = 0; k < x.rows(); ++k) {
     const cell::VolumeShape s =

@@ -1,4 +1,5 @@
-#include "solid_shell_cases.hpp"
+#include "osculate/solid/solid_shell.hpp"
+#include "volume_cases.hpp"
 
 namespace osculate::solid::testing {
 namespace {

@@ -1,44 +1,37 @@
+// Stresses and strains at the points and nodes of every cell, in the plane and in space.
 #include <Eigen/LU>
 
-#include "section_cases.hpp"
+#include "cell_cases.hpp"
 
 namespace osculate::solid::testing {
 namespace {
 
-Mat<2, 2> plane_part(const Vec<4>& s) {
-  Mat<2, 2> m;
-  m << s[0], s[3], s[3], s[1];
-  return m;
-}
+class CellStresses : public ::testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Of, CellStresses, ::testing::Values(Kind::plane, Kind::space),
+                         [](const auto& tested) {
+                           return tested.param == Kind::plane ? "plane" : "space";
+                         });
 
 // Total stress power: the forces of the cell are those of its Cauchy stresses, sigma : grad v over
 // the current volume.
-TEST(Stress, HasTheNodalForcesAsItsResultant) {
-  for_each_section([](const SectionCase& c) {
-    if (c.section.formulation != Formulation::full) return;
-    const Coordinates x = sample_cell(c.type, 0.12, true), u = sample_displacement(c.type, 0.06);
-    const CellStress at = stress_at_points(c.section, c.type, x, u);
-    const Coordinates now = c.finite() ? Coordinates(x + u) : x;
-    ElementVector force = ElementVector::Zero(2 * x.rows());
-    for (int q = 0; q < at.count; ++q) {
-      const PointStress& p = at.point[static_cast<std::size_t>(q)];
-      const cell::AreaShape s = cell::area_shape(c.type, p.xi);
-      const Mat<2, 2> j0 = x.transpose() * s.d.topRows(s.count);
-      const Mat<2, 2> j1 = now.transpose() * s.d.topRows(s.count);
-      const Coordinates slope = s.d.topRows(s.count) * j1.inverse();
-      const double r0 = x.col(0).dot(s.n.head(s.count)), r1 = now.col(0).dot(s.n.head(s.count));
-      double growth = j1.determinant() / j0.determinant();
-      if (c.axisymmetric()) growth *= r1 / r0;
-      if (c.section.assumption == Assumption::plane_stress && c.finite())
-        growth *= std::sqrt(1 + 2 * p.strain[2]);
-      for (Eigen::Index k = 0; k < x.rows(); ++k) {
-        const Vec2 f = plane_part(p.stress) * slope.row(k).transpose();
-        force.segment<2>(2 * k) += p.volume * growth * f;
-        if (c.axisymmetric()) force[2 * k] += p.volume * growth * p.stress[2] * s.n[k] / r1;
-      }
+TEST_P(CellStresses, HaveTheNodalForcesAsTheirResultant) {
+  for_each_cell(GetParam(), [](const CellCase& c) {
+    if (!c.full()) return;
+    const Eigen::MatrixXd x = curved(c), u = motion(c);
+    const Eigen::MatrixXd now = c.finite() ? Eigen::MatrixXd(x + u) : x;
+    Eigen::MatrixXd force = 0 * x;
+    for (const PointValues& p : point_values(c, x, u).at) {
+      const ShapeValues s = shape(c, p.xi);
+      const Eigen::MatrixXd j0 = x.transpose() * s.d, j1 = now.transpose() * s.d;
+      const double r0 = x.col(0).dot(s.n), r1 = now.col(0).dot(s.n);
+      double volume = p.volume * j1.determinant() / j0.determinant();
+      if (c.axisymmetric()) volume *= r1 / r0;
+      if (c.plane_stress() && c.finite()) volume *= std::sqrt(1 + 2 * p.strain[2]);
+      force += volume * s.d * j1.inverse() * tensor(c, p.stress);
+      if (c.axisymmetric()) force.col(0) += volume * p.stress[2] / r1 * s.n;
     }
-    const ElementVector exact = evaluated(c, x, u).force;
-    EXPECT_LT((force - exact).norm(), 1e-13 * exact.norm());
+    const Eigen::VectorXd exact = evaluated(c, x, u).force;
+    EXPECT_LT((flat(force) - exact).norm(), 1e-13 * exact.norm());
   });
 }
 
@@ -62,88 +55,86 @@ TEST(Stress, OutOfPlaneIsZeroInPlaneStressAndTheStrainInPlaneStrain) {
 }
 
 // Strain of a linear displacement, in points and nodes, for every formulation.
-TEST(Stress, OfALinearDisplacementIsConstant) {
-  Mat<2, 2> h;
+TEST_P(CellStresses, OfALinearDisplacementAreConstant) {
+  const bool plane = GetParam() == Kind::plane;
+  Eigen::MatrixXd h(2, 2);
   h << 0.03, -0.02, 0.05, 0.01;
-  for_each_section([&](const SectionCase& c) {
+  if (!plane) {
+    h.resize(3, 3);
+    h << 0.03, -0.02, 0.01, 0.05, 0.01, -0.03, 0.02, -0.01, 0.025;
+  }
+  for_each_cell(GetParam(), [&](const CellCase& c) {
     if (c.axisymmetric()) return;
-    const Coordinates x = sample_cell(c.type, 0.15, false), u = x * h.transpose();
-    Mat<2, 2> strain = 0.5 * (h + h.transpose());
+    const Eigen::MatrixXd x = straight(c), u = x * h.transpose();
+    Eigen::MatrixXd strain = 0.5 * (h + h.transpose());
     if (c.finite()) strain += 0.5 * h.transpose() * h;
-    const CellStress at = stress_at_points(c.section, c.type, x, u);
-    const NodalStress nodal = nodal_stress(c.section, c.type, x, u);
-    const Vec<4> first = at.point[0].stress;
-    EXPECT_EQ(nodal.count, cell::info(c.type).nodes);
-    for (int q = 0; q < at.count; ++q) {
-      const PointStress& p = at.point[static_cast<std::size_t>(q)];
-      EXPECT_LT((plane_part(p.strain) - strain).norm(), 1e-15);
+    const CellValues points = point_values(c, x, u), nodes = nodal_values(c, x, u);
+    const Eigen::VectorXd first = points.at[0].stress;
+    EXPECT_EQ(nodes.at.size(), static_cast<std::size_t>(cell::info(c.type()).nodes));
+    for (const PointValues& p : points.at) {
+      EXPECT_LT((tensor(c, p.strain) - strain).norm(), plane ? 1e-15 : 2e-15);
       EXPECT_LT((p.stress - first).norm(), 2e-14);
     }
-    for (int k = 0; k < nodal.count; ++k) {
-      EXPECT_LT((plane_part(nodal.strain[static_cast<std::size_t>(k)]) - strain).norm(), 1e-15);
-      EXPECT_LT((nodal.stress[static_cast<std::size_t>(k)] - first).norm(), 1e-13);
+    for (const PointValues& k : nodes.at) {
+      EXPECT_LT((tensor(c, k.strain) - strain).norm(), plane ? 1e-15 : 4e-15);
+      EXPECT_LT((k.stress - first).norm(), 1e-13);
     }
   });
 }
 
-TEST(Stress, TurnsWithTheBody) {
-  Mat<2, 2> q;
-  q << std::cos(1.9), -std::sin(1.9), std::sin(1.9), std::cos(1.9);
-  for_each_section([&](const SectionCase& c) {
+TEST_P(CellStresses, TurnWithTheBody) {
+  for_each_cell(GetParam(), [](const CellCase& c) {
     if (c.axisymmetric() || !c.finite()) return;
-    const Coordinates x = sample_cell(c.type, 0.12, true), u = sample_displacement(c.type, 0.06);
-    const Coordinates turned = (x + u) * q.transpose() - x;
-    const CellStress a = stress_at_points(c.section, c.type, x, u);
-    const CellStress b = stress_at_points(c.section, c.type, x, turned);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(a.count); ++i) {
-      const Mat<2, 2> expected = q * plane_part(a.point[i].stress) * q.transpose();
-      EXPECT_LT((plane_part(b.point[i].stress) - expected).norm(), 2e-13);
-      EXPECT_LT((b.point[i].strain - a.point[i].strain).norm(), 1e-14);
+    const Eigen::MatrixXd x = curved(c), u = motion(c), q = rotation(c, 1.9);
+    const CellValues a = point_values(c, x, u);
+    const CellValues b = point_values(c, x, (x + u) * q.transpose() - x);
+    const double rounding = c.kind == Kind::plane ? 2e-13 : 1e-13 * stiffness_scale(c, x);
+    for (std::size_t i = 0; i < a.at.size(); ++i) {
+      const Eigen::MatrixXd expected = q * tensor(c, a.at[i].stress) * q.transpose();
+      EXPECT_LT((tensor(c, b.at[i].stress) - expected).norm(), rounding);
+      EXPECT_LT((b.at[i].strain - a.at[i].strain).norm(), 1e-14);
     }
   });
 }
 
 // The material of a bbar cell sees the same change of volume everywhere; what is reported is what
 // it sees, not the displacement's own dilatation, which is noise when nearly incompressible.
-TEST(Stress, OfBbarHasOneChangeOfVolume) {
-  for_each_section([](const SectionCase& c) {
-    if (c.section.formulation != Formulation::bbar) return;
-    const Coordinates x = sample_cell(c.type, 0.12, true), u = sample_displacement(c.type, 0.06);
-    const CellStress at = stress_at_points(c.section, c.type, x, u);
-    const auto volume = [&](const PointStress& p) {
+TEST_P(CellStresses, OfBbarHaveOneChangeOfVolume) {
+  for_each_cell(GetParam(), [](const CellCase& c) {
+    if (!c.bbar()) return;
+    const Eigen::MatrixXd x = curved(c), u = motion(c);
+    const auto change = [&](const PointValues& p) {
       if (!c.finite()) return p.strain.head<3>().sum();
-      const Mat<2, 2> stretch = Mat<2, 2>::Identity() + 2 * plane_part(p.strain);
-      return std::sqrt(stretch.determinant() * (1 + 2 * p.strain[2]));
+      const Eigen::MatrixXd e = tensor(c, p.strain);
+      const Eigen::MatrixXd stretch = Eigen::MatrixXd::Identity(c.dim(), c.dim()) + 2 * e;
+      const double across = c.dim() == 2 ? 1 + 2 * p.strain[2] : 1.0;
+      return std::sqrt(stretch.determinant() * across);
     };
-    for (int q = 1; q < 4; ++q)
-      EXPECT_NEAR(volume(at.point[static_cast<std::size_t>(q)]), volume(at.point[0]), 2e-15);
+    const CellValues seen = point_values(c, x, u);
+    EXPECT_EQ(seen.at.size(), c.dim() == 2 ? 4u : 8u);
+    for (const PointValues& p : seen.at) EXPECT_NEAR(change(p), change(seen.at[0]), 2e-15);
     double now = 0, before = 0;  // and it is the mean of the real one
-    Section plain = c.section;
-    plain.formulation = Formulation::full;
-    const CellStress real = stress_at_points(plain, c.type, x, u);
-    for (std::size_t q = 0; q < 4; ++q) {
-      now += real.point[q].volume * volume(real.point[q]);
-      before += real.point[q].volume;
+    for (const PointValues& p : point_values(c.as_full(), x, u).at) {
+      now += p.volume * change(p);
+      before += p.volume;
     }
-    EXPECT_NEAR(volume(at.point[0]), now / before, 2e-15);
+    EXPECT_NEAR(change(seen.at[0]), now / before, 2e-15);
   });
 }
 
-TEST(Stress, PointsKnowTheirPlaceAndVolume) {
-  for_each_section([](const SectionCase& c) {
-    const Coordinates x = sample_cell(c.type, 0.15, false);
-    const CellStress at = stress_at_points(c.section, c.type, x, Coordinates::Zero(x.rows(), 2));
+TEST_P(CellStresses, PointsKnowTheirPlaceAndVolume) {
+  for_each_cell(GetParam(), [](const CellCase& c) {
+    const Eigen::MatrixXd x = straight(c);
     double sum = 0;
-    Vec2 moment = Vec2::Zero();
-    for (int q = 0; q < at.count; ++q) {
-      const PointStress& p = at.point[static_cast<std::size_t>(q)];
+    Eigen::VectorXd moment = Eigen::VectorXd::Zero(c.dim());
+    for (const PointValues& p : point_values(c, x, 0 * x).at) {
       sum += p.volume;
       moment += p.volume * p.position;
       EXPECT_EQ(p.stress.norm() + p.strain.norm(), 0.0);
     }
-    const ElementVector weights = volume_weights(c.section, c.type, x);
-    EXPECT_NEAR(sum, weights.sum(), 1e-14 * sum);
-    EXPECT_LT((moment - x.transpose() * weights).norm(), 1e-14 * moment.norm());
+    const Eigen::VectorXd all = weights(c, x);
+    EXPECT_NEAR(sum, all.sum(), 1e-14 * sum);
+    EXPECT_LT((moment - x.transpose() * all).norm(), 1e-14 * moment.norm());
   });
 }
 
@@ -161,6 +152,26 @@ TEST(Stress, LinearStressIsExtrapolatedExactly) {
     for (std::size_t k = 0; k < static_cast<std::size_t>(at.count); ++k) {
       const Vec<4> exact(7e-3 * x(static_cast<Eigen::Index>(k), 1), 0, 0, 0);
       EXPECT_LT((at.stress[k] - exact).norm(), 1e-15) << cell::info(type).name << k;
+    }
+  }
+}
+
+TEST(VolumeStress, LinearStressIsExtrapolatedExactly) {
+  using enum cell::CellType;
+  const VolumeSection s{Kinematics::small, VolumeFormulation::full,
+                        material::LinearElastic{7, 0.3, 0}};
+  for (const cell::CellType type : {tet10, wedge15, hex20, hex27}) {
+    const Coordinates3 x = sample_volume(type, 0, false);
+    Coordinates3 u(x.rows(), 3);
+    for (Eigen::Index k = 0; k < x.rows(); ++k) {  // stress 7 k y along x, nothing else
+      const double a = x(k, 0), b = x(k, 1), c = x(k, 2);
+      u.row(k) << 1e-3 * a * b, -0.5e-3 * (a * a + 0.3 * (b * b - c * c)), -0.3e-3 * b * c;
+    }
+    const NodalStress3 at = nodal_stress(s, type, x, u);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(at.count); ++k) {
+      Vec<6> exact = Vec<6>::Zero();
+      exact[0] = 7e-3 * x(static_cast<Eigen::Index>(k), 1);
+      EXPECT_LT((at.stress[k] - exact).norm(), 4e-15) << cell::info(type).name << k;
     }
   }
 }

@@ -94,7 +94,7 @@ TEST(VolumeLoads, TangentOfPressureIsTheDerivative) {
         continue;
       }
       const auto force = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
-        return face_pressure(s, type, x, unflat3(v), 2.5).force;
+        return face_pressure(s, type, x, unflat(v, 3), 2.5).force;
       };
       const auto report =
           osculate::testing::check_derivative(force, r.tangent * flat(d), flat(u), flat(d));

@@ -1,8 +1,6 @@
-#include <Eigen/LU>
-#include <functional>
-#include <map>
 #include <numbers>
 
+#include "block_model.hpp"
 #include "volume_cases.hpp"
 
 namespace osculate::solid::testing {
@@ -72,29 +70,11 @@ struct HexBlock {
   }
 
   /// Displacements under dead forces with some unknowns prescribed; Newton from zero.
-  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& load,
-                                      const std::map<Eigen::Index, double>& prescribed,
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& load, const Prescribed& prescribed,
                                       int increments = 1) const {
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(dofs()), force;
-    Eigen::MatrixXd tangent;
-    for (int step = 1; step <= increments; ++step) {
-      const double part = static_cast<double>(step) / increments;
-      for (int it = 0; it < 30; ++it) {
-        assemble(u, force, tangent);
-        Eigen::VectorXd rest = part * load - force;
-        const double largest = tangent.diagonal().maxCoeff();
-        for (const auto& fixed : prescribed) {
-          tangent.row(fixed.first).setZero();
-          tangent(fixed.first, fixed.first) = largest;
-          rest[fixed.first] = largest * (part * fixed.second - u[fixed.first]);
-        }
-        const Eigen::VectorXd step_u = tangent.partialPivLu().solve(rest);
-        u += step_u;
-        if (it > 0 && step_u.norm() <= 1e-9 * u.norm()) break;
-        if (it == 29) ADD_FAILURE() << "not converged, last step " << step_u.norm();
-      }
-    }
-    return u;
+    return dense_solution(
+        [&](const auto& u, auto& force, auto& tangent) { assemble(u, force, tangent); }, load,
+        prescribed, increments, Eigen::VectorXd::Zero(dofs()));
   }
 };
 

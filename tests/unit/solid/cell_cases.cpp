@@ -1,0 +1,166 @@
+#include "cell_cases.hpp"
+
+#include "osculate/solid/energy.hpp"
+
+namespace osculate::solid::testing {
+namespace {
+
+constexpr double shell_thickness = 0.2;
+
+PointValues values_of(const auto& p) { return {p.xi, p.position, p.stress, p.strain, p.volume}; }
+
+CellValues values_of_points(const auto& cell) {
+  CellValues out{cell.status, {}};
+  for (std::size_t q = 0; q < static_cast<std::size_t>(cell.count); ++q)
+    out.at.push_back(values_of(cell.point[q]));
+  return out;
+}
+
+CellValues values_of_nodes(const auto& cell) {
+  CellValues out{Status::ok, {}};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(cell.count); ++k)
+    out.at.push_back({{}, {}, cell.stress[k], cell.strain[k]});
+  return out;
+}
+
+bool is_plane(const CellCase& c) { return c.kind == Kind::plane; }
+const SectionCase& plane(const CellCase& c) { return std::get<SectionCase>(c.of); }
+const VolumeCase& space(const CellCase& c) { return std::get<VolumeCase>(c.of); }
+
+}  // namespace
+
+cell::CellType CellCase::type() const {
+  return std::visit([](const auto& c) { return c.type; }, of);
+}
+bool CellCase::finite() const {
+  return std::visit([](const auto& c) { return c.finite(); }, of);
+}
+bool CellCase::axisymmetric() const { return is_plane(*this) && plane(*this).axisymmetric(); }
+bool CellCase::plane_stress() const {
+  return is_plane(*this) && plane(*this).section.assumption == Assumption::plane_stress;
+}
+bool CellCase::full() const {
+  return is_plane(*this) ? plane(*this).section.formulation == Formulation::full
+                         : space(*this).section.formulation == VolumeFormulation::full;
+}
+bool CellCase::bbar() const {
+  return is_plane(*this) ? plane(*this).section.formulation == Formulation::bbar
+                         : space(*this).section.formulation == VolumeFormulation::bbar;
+}
+
+CellCase CellCase::as_full() const {
+  CellCase out = *this;
+  std::visit([](auto& c) { c.section.formulation = {}; }, out.of);
+  return out;
+}
+CellCase CellCase::as_small() const {
+  CellCase out = *this;
+  std::visit(
+      [](auto& c) {
+        c.section.kinematics = Kinematics::small;
+        c.section.law = material::LinearElastic{7, 0.3, 0};
+      },
+      out.of);
+  return out;
+}
+CellCase CellCase::nearly_incompressible() const {
+  CellCase out = *this;
+  std::visit([](auto& c) { std::visit([](auto& law) { law.poisson = 0.49; }, c.section.law); },
+             out.of);
+  return out;
+}
+
+void for_each_cell(Kind kind, const std::function<void(const CellCase&)>& visit) {
+  const auto with_kind = [&](const auto& c) { visit({kind, c}); };
+  if (kind == Kind::plane) return for_each_section(with_kind);
+  kind == Kind::space ? for_each_volume(with_kind) : for_each_shell(with_kind);
+}
+
+Eigen::MatrixXd curved(const CellCase& c) {
+  if (is_plane(c)) return sample_cell(c.type(), 0.12, true);
+  if (c.kind == Kind::shell) return sample_shell(c.type(), shell_thickness, 0.06);
+  return sample_volume(c.type(), 0.08, true);
+}
+
+Eigen::MatrixXd straight(const CellCase& c) {
+  if (is_plane(c)) return sample_cell(c.type(), 0.15, false);
+  return sample_volume(c.type(), 0.1, false);
+}
+
+Eigen::MatrixXd regular(const CellCase& c) {
+  if (is_plane(c)) return sample_cell(c.type(), 0, false);
+  return sample_volume(c.type(), 0, false);
+}
+
+Eigen::MatrixXd motion(const CellCase& c) {
+  return motion(c, is_plane(c) ? 0.06 : c.kind == Kind::shell ? 0.1 * shell_thickness : 0.04);
+}
+
+Eigen::MatrixXd motion(const CellCase& c, double size, int seed) {
+  if (is_plane(c)) return sample_displacement(c.type(), size, seed);
+  return sample_motion(c.type(), size, seed);
+}
+
+CellResult answer(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
+                  bool with_tangent) {
+  if (is_plane(c)) {
+    ElementResult r;
+    evaluate(plane(c).section, c.type(), x, u, with_tangent, r);
+    return {r.status, r.force, r.tangent};
+  }
+  VolumeResult r;
+  evaluate(space(c).section, c.type(), x, u, with_tangent, r);
+  return {r.status, r.force, r.tangent};
+}
+
+CellResult evaluated(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
+  const CellResult r = answer(c, x, u, true);
+  EXPECT_EQ(r.status, Status::ok);
+  return r;
+}
+
+double stiffness_scale(const CellCase& c, const Eigen::MatrixXd& x) {
+  return evaluated(c, x, 0 * x).tangent.norm();
+}
+
+double energy(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
+  return is_plane(c) ? strain_energy(plane(c).section, c.type(), x, u)
+                     : strain_energy(space(c).section, c.type(), x, u);
+}
+
+CellValues point_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
+  return is_plane(c) ? values_of_points(stress_at_points(plane(c).section, c.type(), x, u))
+                     : values_of_points(stress_at_points(space(c).section, c.type(), x, u));
+}
+
+CellValues nodal_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
+  return is_plane(c) ? values_of_nodes(nodal_stress(plane(c).section, c.type(), x, u))
+                     : values_of_nodes(nodal_stress(space(c).section, c.type(), x, u));
+}
+
+Eigen::VectorXd weights(const CellCase& c, const Eigen::MatrixXd& x) {
+  if (is_plane(c)) return volume_weights(plane(c).section, c.type(), x);
+  return volume_weights(c.type(), x);
+}
+
+ShapeValues shape(const CellCase& c, const Eigen::VectorXd& xi) {
+  const auto values = [](const auto& s) {
+    return ShapeValues{s.n.head(s.count), s.d.topRows(s.count)};
+  };
+  return is_plane(c) ? values(cell::area_shape(c.type(), Vec2(xi)))
+                     : values(cell::volume_shape(c.type(), Vec3(xi)));
+}
+
+Eigen::MatrixXd tensor(const CellCase& c, const Eigen::VectorXd& components) {
+  if (!is_plane(c)) return tensor(Vec<6>(components));
+  Eigen::MatrixXd out(2, 2);
+  out << components[0], components[3], components[3], components[1];
+  return out;
+}
+
+Eigen::MatrixXd rotation(const CellCase& c, double angle) {
+  if (!is_plane(c)) return turn3(angle);
+  return Eigen::Rotation2Dd(angle).toRotationMatrix();
+}
+
+}  // namespace osculate::solid::testing
