@@ -34,7 +34,7 @@ struct AreaElement {
 }
 
 /// Formula    |x_,1 x x_,2|
-/// Tested by  tests/unit/pairing/test_slave_side3.cpp, test_sampling.cpp
+/// Tested by  tests/unit/pairing/test_slave_side.cpp, test_sampling.cpp
 [[nodiscard]] inline AreaElement<3> area_element(const SurfaceFacet& facet,
                                                  const cell::FacetShape& shape,
                                                  std::span<const Vec3> x, const AreaRule&) {

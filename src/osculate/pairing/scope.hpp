@@ -39,7 +39,7 @@ namespace osculate::pairing {
 /// Areas      of the node's facets only those within 60 degrees of facing the place count (all, if
 ///            none is): the node at the edge of a block that lies flat carries the pressure on its
 ///            lower face, not on the side
-/// Tested by  tests/unit/pairing/test_own_surface.cpp, test_own_surface3.cpp
+/// Tested by  tests/unit/pairing/test_own_surface.cpp
 template <int Dim>
 struct Scope {
   bool own = false;  ///< the master is the slave's own surface, facet by facet

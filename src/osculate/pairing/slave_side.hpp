@@ -91,7 +91,7 @@ void sample_nodes(SlaveSide<Dim>& side) {
 ///            with c_k = int N_k^2 / sum_l int N_l^2 over the reference cell: positive, the total
 ///            is right, but a uniform pressure is not transmitted exactly.
 /// Returns    one value per entry of `nodes`; `gradients` (if given) receives dA_k/dx_l
-/// Tested by  tests/unit/pairing/test_slave_side.cpp, test_slave_side3.cpp
+/// Tested by  tests/unit/pairing/test_slave_side.cpp
 void nodal_areas(const SlaveSide<2>& slave, std::span<const Vec2> x, const AreaRule& rule,
                  std::vector<double>& areas, std::vector<std::vector<NodeGradient<2>>>* gradients);
 void nodal_areas(const SlaveSide<3>& slave, std::span<const Vec3> x, const AreaRule& rule,

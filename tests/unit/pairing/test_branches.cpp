@@ -69,7 +69,7 @@ void expect_tangent_of_branch_force(const PairSample& s, const Assumed<2>& assum
     expected += b.path_rows.topRows<6>() * (g.value * d.segment<2>(2 * g.node));
   const auto branch_force = [&](const Eigen::VectorXd& v) {
     PairSample moved = s;
-    moved.x = unflatten(v);
+    moved.x = unflatten<2>(v);
     return Eigen::VectorXd(evaluated(moved, assumed).blocks[0].branch_force.head<6>());
   };
   const DerivativeReport r = check_derivative(branch_force, expected, flatten(s.x), d, 1e-3);

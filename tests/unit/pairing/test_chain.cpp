@@ -13,7 +13,7 @@ namespace {
 using pairing::Location;
 
 double length(const PairSample& s, const Eigen::VectorXd& v, const Location& a, const Location& b) {
-  return pairing::path_length(s.pair.master, unflatten(v), a, b, nullptr).value();
+  return pairing::path_length(s.pair.master, unflatten<2>(v), a, b, nullptr).value();
 }
 
 /// A closed polygon through `points`, in their order.
@@ -40,7 +40,7 @@ void expect_gradient(const pairing::Chain& chain, const std::vector<Vec2>& x, co
   const DerivativeReport r = check_derivative(
       [&](const Eigen::VectorXd& y) {
         return Eigen::VectorXd(Eigen::VectorXd::Constant(
-            1, pairing::path_length(chain, unflatten(y), from, to, nullptr).value()));
+            1, pairing::path_length(chain, unflatten<2>(y), from, to, nullptr).value()));
       },
       expected, v, d, 2e-3);
   EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.1) << what << " " << r.order << " " << r.error;

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "pair_sample3.hpp"
+#include "pair_sample.hpp"
 
 namespace osculate::testing {
 namespace {

@@ -5,7 +5,6 @@
 #include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
 #include "pair_sample.hpp"
-#include "pair_sample3.hpp"
 
 namespace osculate::testing {
 namespace {
@@ -69,7 +68,7 @@ TEST(CurvatureShare, InThePlane) {
 
 Eigen::MatrixXd tangent_with(PairSample3 s, bool rotational, bool curvature) {
   s.pair.tangent = {false, true, rotational, curvature};
-  return pair_tangent(s, flatten3(s.x));
+  return pair_tangent(s, flatten(s.x));
 }
 
 // On curved facets it is what the tangents of the pair say; neither friction nor the tangent that

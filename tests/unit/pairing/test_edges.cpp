@@ -6,6 +6,7 @@
 
 #include "edge_sample.hpp"
 #include "expect_derivative.hpp"
+#include "pair_checks.hpp"
 
 #include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/normal_penalty.hpp"
@@ -71,12 +72,12 @@ TEST(EdgeContact, GapNormalAndForceOfTwoLines) {
 }
 
 Status status_at(PairSample3 s, const Eigen::VectorXd& v) {
-  s.x = unflatten3(v);
+  s.x = unflatten<3>(v);
   return only(s, evaluated(s)).status;
 }
 
 void expect_second_order(const PairSample3& s, Status status) {
-  const Eigen::VectorXd v = flatten3(s.x);
+  const Eigen::VectorXd v = flatten(s.x);
   ASSERT_EQ(status_at(s, v), status);
   expect_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
                     pair_tangent(s, v), [&](const Eigen::VectorXd& y) { return status_at(s, y); },
@@ -124,22 +125,8 @@ TEST(EdgeContact, FrictionlessIsSymmetricAndOfSecondOrder) {
   for (const CellType type : types) {
     const PairSample3 s = make_roofs(roofs_of(type));
     expect_second_order(s, Status::slip);
-    const Eigen::MatrixXd k = pair_tangent(s, flatten3(s.x));
-    EXPECT_LT((k - k.transpose()).norm(), 1e-13 * k.norm());
+    expect_symmetric_tangent(s);
   }
-}
-
-Vec3 net_force(const Eigen::VectorXd& r) {
-  Vec3 sum = Vec3::Zero();
-  for (Eigen::Index n = 0; n < r.size() / 3; ++n) sum += r.segment<3>(3 * n);
-  return sum;
-}
-
-Vec3 net_moment(const PairSample3& s, const Eigen::VectorXd& r) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t n = 0; n < s.x.size(); ++n)
-    sum += s.x[n].cross(Vec3(r.segment<3>(3 * static_cast<Eigen::Index>(n))));
-  return sum;
 }
 
 TEST(EdgeContact, ForcesBalanceAlwaysMomentsWhenFrictionlessOrFull) {
@@ -148,9 +135,9 @@ TEST(EdgeContact, ForcesBalanceAlwaysMomentsWhenFrictionlessOrFull) {
       for (const ResidualForm form : {ResidualForm::surface, ResidualForm::full}) {
         PairSample3 s = after(roofs_of(type), mu, form, Weight::node, {0.07, -0.04, 0.01});
         if (mu == 0) s.pair.friction.reset();
-        const Eigen::VectorXd r = pair_residual(s, flatten3(s.x));
+        const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
         ASSERT_GT(r.norm(), 1.0);
-        EXPECT_LT(net_force(r).norm(), 1e-13 * r.norm());
+        EXPECT_LT(net_force<3>(r).norm(), 1e-13 * r.norm());
         if (mu == 0 || form == ResidualForm::full) {
           EXPECT_LT(net_moment(s, r).norm(), 1e-12 * r.norm()) << cell::info(type).name;
         }
@@ -163,9 +150,9 @@ TEST(EdgeContact, FrameIndifference) {
     for (const double mu : {0.2, 1e3}) {
       PairSample3 s =
           after(roofs_of(type), mu, ResidualForm::full, Weight::node, {0.07, -0.04, 0.01});
-      const Eigen::VectorXd r = pair_residual(s, flatten3(s.x));
+      const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
       for (Vec3& x : s.x) x = q * x + Vec3(5, -7, 3);
-      Eigen::VectorXd turned = pair_residual(s, flatten3(s.x));
+      Eigen::VectorXd turned = pair_residual(s, flatten(s.x));
       for (Eigen::Index n = 0; n < r.size() / 3; ++n)
         turned.segment<3>(3 * n) = q.transpose() * Vec3(turned.segment<3>(3 * n));
       EXPECT_LT((turned - r).norm(), 1e-11 * r.norm()) << cell::info(type).name;
@@ -175,13 +162,13 @@ TEST(EdgeContact, FrameIndifference) {
 // Exchanged roles: the same force the other way.
 TEST(EdgeContact, MasterAndSlaveMayBeExchanged) {
   PairSample3 s = make_roofs({});
-  const Eigen::VectorXd r = pair_residual(s, flatten3(s.x));
+  const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
   PairSample3 t = s;
   t.pair.master = s.pair.slave.boundary;
   t.pair.slave = pairing::make_slave_side(s.pair.master);
   pairing::prepare(t.pair, t.x);
   t.committed.points.assign(t.pair.slave.nodes.size(), {});
-  EXPECT_LT((pair_residual(t, flatten3(t.x)) - r).norm(), 1e-12 * r.norm());
+  EXPECT_LT((pair_residual(t, flatten(t.x)) - r).norm(), 1e-12 * r.norm());
 }
 
 // --- friction -----------------------------------------------------------------------------------

@@ -4,9 +4,7 @@
 
 #include <random>
 
-#include "expect_derivative.hpp"
-#include "pair_sample.hpp"
-#include "pair_sample3.hpp"
+#include "pair_checks.hpp"
 
 #include "osculate/contact/law/coulomb.hpp"
 
@@ -19,40 +17,11 @@ using contact::Status;
 using pairing::Weight;
 using projection::Feature;
 
-struct Facts {
-  Status status;
-  Feature feature;
-  bool operator==(const Facts&) const = default;
-};
-
-Facts facts(const PairSample& s, const Eigen::VectorXd& v) {
-  pairing::PairEvaluation<2> e;
-  pairing::evaluate(s.pair, unflatten(v), s.committed, false, e);
-  return {e.points[0].status, e.points[0].history.feature};
-}
-Facts facts(const PairSample3& s, const Eigen::VectorXd& v) {
-  const Facts3 f = pair_facts(s, v);
-  return {f.status, f.feature};
-}
-Eigen::VectorXd flat(const PairSample& s) { return flatten(s.x); }
-Eigen::VectorXd flat(const PairSample3& s) { return flatten3(s.x); }
-
-/// Both probes stay in the branch and on the feature, and the error falls with the square of the
-/// step.
-template <class Sample>
-void expect_second_order(const Sample& s, const Facts& wanted, double h) {
-  const Eigen::VectorXd v = flat(s);
-  ASSERT_TRUE(facts(s, v) == wanted);
-  expect_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
-                    pair_tangent(s, v), [&](const Eigen::VectorXd& y) { return facts(s, y); }, v,
-                    h);
-}
-
 /// Friction branch by its coefficient: none, too small to hold, large enough.
 Status status_of(double mu) { return mu > 1 ? Status::stick : Status::slip; }
 
-template <class Sample>
-void set_pair(Sample& s, double mu, ResidualForm form, Weight weight) {
+template <int Dim>
+void set_pair(ContactSample<Dim>& s, double mu, ResidualForm form, Weight weight) {
   if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80.0};
   s.pair.residual = form;
   s.pair.weight = weight;
@@ -76,7 +45,7 @@ TEST_P(FeatureTangent, CornerInThePlane) {
     s.x[slave] = depth * Vec2(0.18, -0.98).normalized();
     set_pair(s, mu, form, weight);
     s.committed.points[0] = remembered(true, 0, Feature::face, 0.9, -0.01, 5.0);
-    expect_second_order(s, {status_of(mu), Feature::corner}, 0.08 * depth);
+    expect_pair_tangent(s, status_of(mu), Feature::corner, 0.08 * depth);
   }
 }
 
@@ -100,7 +69,7 @@ TEST_P(FeatureTangent, EdgeInSpace) {
     const bool triangle = cell::is_triangle(type);
     s.committed.points[0] = remembered(
         triangle ? 3 : 1, triangle ? Vec2(0.1, 0.2) : Vec2(0.9, 0.25), -0.01, {2.0, 1.0});
-    expect_second_order(s, {status_of(mu), Feature::edge}, 0.08 * depth);
+    expect_pair_tangent(s, status_of(mu), Feature::edge, 0.08 * depth);
   }
 }
 
@@ -127,7 +96,7 @@ TEST_P(FeatureTangent, CornerInSpace) {
   s.pair.slave = pairing::make_slave_side(facet);
   set_pair(s, mu, form, weight);
   s.committed.points[0] = remembered(0, {-0.9, -0.95}, -0.01, {2.0, 1.0});
-  expect_second_order(s, {status_of(mu), Feature::corner}, 0.08 * depth);
+  expect_pair_tangent(s, status_of(mu), Feature::corner, 0.08 * depth);
 }
 
 INSTANTIATE_TEST_SUITE_P(

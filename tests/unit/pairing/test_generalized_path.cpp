@@ -10,7 +10,6 @@
 #include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/projection/point_to_facet.hpp"
 #include "pair_sample.hpp"
-#include "pair_sample3.hpp"
 
 namespace osculate::testing {
 namespace {
@@ -141,8 +140,8 @@ TEST(GeneralizedPath, AcrossTheMedialAxisTheNormalJumps) {
 
 /// Newton's iterations of the last node under `load`; what is not `free` stays. Returns the
 /// residual.
-template <int Dim, class Sample>
-double settle(Sample& s, const Vec<Dim>& load, const Mat<Dim, Dim>& free) {
+template <int Dim>
+double settle(ContactSample<Dim>& s, const Vec<Dim>& load, const Mat<Dim, Dim>& free) {
   pairing::PairEvaluation<Dim> e;
   double rest = 0;
   for (int i = 0; i < 12; ++i) {

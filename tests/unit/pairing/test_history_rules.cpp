@@ -5,8 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "expect_derivative.hpp"
-#include "pair_sample.hpp"
+#include "pair_checks.hpp"
 
 #include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/normal_penalty.hpp"
@@ -140,18 +139,6 @@ TEST(HistoryRules, TheContinuousOneDoesNotKnowWhereTheBordersAre) {
 
 // --- derivatives --------------------------------------------------------------------------------
 
-void expect_second_order(const PairSample& s, Status status, Feature feature, double h) {
-  const Eigen::VectorXd v = flatten(s.x);
-  const auto branch = [&](const Eigen::VectorXd& y) {
-    pairing::PairEvaluation<2> e;
-    pairing::evaluate(s.pair, unflatten(y), s.committed, false, e);
-    return std::pair(e.points[0].status, e.points[0].history.feature);
-  };
-  ASSERT_EQ(branch(v), std::pair(status, feature));
-  expect_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
-                    pair_tangent(s, v), branch, v, h);
-}
-
 // [eq:KS2D:84] [eq:KS2D:88]
 TEST(HistoryRules, TangentsAreDerivatives) {
   for (const HistoryRule rule : all_rules)
@@ -166,7 +153,7 @@ TEST(HistoryRules, TangentsAreDerivatives) {
             s.pair.residual = form;
             s.pair.history = rule;
             s.committed.points[0] = remembered(true, from, Feature::face, 0.3, -0.01, 7.0);
-            expect_second_order(s, mu > 1 ? Status::stick : Status::slip, Feature::face, 2e-3);
+            expect_pair_tangent(s, mu > 1 ? Status::stick : Status::slip, Feature::face, 2e-3);
           }
 }
 
@@ -177,7 +164,7 @@ TEST(HistoryRules, TangentsAreDerivativesAtFirstContactAndInAValley) {
     first.pair.friction = contact::Coulomb{10.0, eps_t};
     first.pair.history = rule;
     first.committed.points[0] = remembered(false, 0, Feature::face, 0.9, 0.03, 0);
-    expect_second_order(first, Status::stick, Feature::face, 2e-3);
+    expect_pair_tangent(first, Status::stick, Feature::face, 2e-3);
     for (const Index from : {0, 1}) {
       PairSample s = make_sample({.facets = 2, .angle = 0.0});
       s.x[0] = {-1, 1};
@@ -188,7 +175,7 @@ TEST(HistoryRules, TangentsAreDerivativesAtFirstContactAndInAValley) {
       s.pair.weight = pairing::Weight::node;
       s.pair.history = rule;
       s.committed.points[0] = remembered(true, from, Feature::face, 0.4, -0.01, 5.0);
-      expect_second_order(s, Status::stick, Feature::corner, 2e-3);
+      expect_pair_tangent(s, Status::stick, Feature::corner, 2e-3);
     }
   }
 }

@@ -5,8 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "expect_derivative.hpp"
-#include "pair_sample3.hpp"
+#include "pair_checks.hpp"
 
 #include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/normal_penalty.hpp"
@@ -117,16 +116,6 @@ TEST(HistoryRules3, PerFacetJumpsAtTheBorder) {
   EXPECT_LT((inside.step(0.8, 0.3) - Vec2(0.5, 0.3)).norm(), 1e-13);
 }
 
-void expect_second_order(const PairSample3& s, Status status, Feature feature, double h = 1e-3) {
-  const Eigen::VectorXd v = flatten3(s.x);
-  const Facts3 at = pair_facts(s, v);
-  ASSERT_EQ(at.status, status);
-  ASSERT_EQ(at.feature, feature);
-  expect_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
-                    pair_tangent(s, v), [&](const Eigen::VectorXd& y) { return pair_facts(s, y); },
-                    v, h);
-}
-
 TEST(HistoryRules3, TangentsAreDerivatives) {
   for (const HistoryRule rule : all_rules)
     for (const CellType type : {CellType::tri3, CellType::tri6, CellType::quad4, CellType::quad9})
@@ -145,7 +134,7 @@ TEST(HistoryRules3, TangentsAreDerivatives) {
           s.committed.points[0] =
               remembered(triangle ? from + 1 : from, triangle ? Vec2(0.25, 0.5) : Vec2(0.4, 0.2),
                          -0.01, {4.0, -3.0});
-          expect_second_order(s, mu > 1 ? Status::stick : Status::slip, Feature::face);
+          expect_pair_tangent(s, mu > 1 ? Status::stick : Status::slip, Feature::face, 1e-3);
         }
 }
 
@@ -162,14 +151,14 @@ TEST(HistoryRules3, TangentsAreDerivativesOnEdges) {
         s.pair.weight = pairing::Weight::node;
         s.pair.history = rule;
         s.committed.points[0] = remembered(from, {0.4, 0.25}, -0.01, {2.0, 1.0});
-        expect_second_order(s, Status::stick, Feature::edge);
+        expect_pair_tangent(s, Status::stick, Feature::edge, 1e-3);
       }
   for (const HistoryRule rule : all_rules) {
     PairSample3 s = make_sample3({.bend = 0.02});
     s.pair.friction = contact::Coulomb{10.0, eps_t};
     s.pair.history = rule;
     s.committed.points[0] = remembered(0, {0.1, -0.1}, 0.03, {0, 0}, false);
-    expect_second_order(s, Status::stick, Feature::face);
+    expect_pair_tangent(s, Status::stick, Feature::face, 1e-3);
   }
 }
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "pair_sample.hpp"
-#include "pair_sample3.hpp"
 
 namespace osculate::testing {
 namespace {

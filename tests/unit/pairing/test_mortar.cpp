@@ -18,7 +18,7 @@ class MortarLines : public ::testing::TestWithParam<std::tuple<int, int, Weight>
 TEST_P(MortarLines, TangentIsTheDerivativeOfTheResidual) {
   const auto [slave, master, weight] = GetParam();
   for (const double bend : {0.0, 0.02}) {
-    MortarSample<2> s =
+    ContactSample<2> s =
         make_mortar2({.slave_nodes = slave, .master_nodes = master, .bend = bend, .uneven = 0.2});
     s.pair.weight = weight;
     expect_second_order(s, 2e-3, "bend " + std::to_string(bend));
@@ -27,19 +27,19 @@ TEST_P(MortarLines, TangentIsTheDerivativeOfTheResidual) {
 
 TEST_P(MortarLines, TangentWhereTheSlaveLeavesTheMaster) {
   const auto [slave, master, weight] = GetParam();
-  MortarSample<2> s = make_mortar2({.slave_nodes = slave,
-                                    .master_nodes = master,
-                                    .from = -0.37,
-                                    .to = 4.41,
-                                    .depth = 0.1,
-                                    .bend = 0.01});
+  ContactSample<2> s = make_mortar2({.slave_nodes = slave,
+                                     .master_nodes = master,
+                                     .from = -0.37,
+                                     .to = 4.41,
+                                     .depth = 0.1,
+                                     .bend = 0.01});
   s.pair.weight = weight;
   expect_second_order(s, 1e-3, "over both ends");
 }
 
 TEST_P(MortarLines, ForcesBalance) {
   const auto [slave, master, weight] = GetParam();
-  MortarSample<2> s = make_mortar2({.slave_nodes = slave, .master_nodes = master, .bend = 0.02});
+  ContactSample<2> s = make_mortar2({.slave_nodes = slave, .master_nodes = master, .bend = 0.02});
   s.pair.weight = weight;
   expect_balance(s);
 }
@@ -48,11 +48,11 @@ TEST_P(MortarLines, ForcesBalance) {
 TEST_P(MortarLines, UniformGapIsUniformPressureOnBothSides) {
   const auto [slave, master, weight] = GetParam();
   for (const bool longer : {true, false}) {
-    MortarSample<2> s = make_mortar2({.slave_nodes = slave,
-                                      .master_nodes = master,
-                                      .from = longer ? -0.5 : 0.4,
-                                      .to = longer ? 4.6 : 3.6,
-                                      .uneven = 0.2});
+    ContactSample<2> s = make_mortar2({.slave_nodes = slave,
+                                       .master_nodes = master,
+                                       .from = longer ? -0.5 : 0.4,
+                                       .to = longer ? 4.6 : 3.6,
+                                       .uneven = 0.2});
     s.pair.weight = weight;
     expect_uniform_pressure(s, longer, longer ? 4.0 : 3.2, 1e-11);
   }
@@ -60,34 +60,34 @@ TEST_P(MortarLines, UniformGapIsUniformPressureOnBothSides) {
 
 TEST_P(MortarLines, SidesThatTouchAreInContact) {
   const auto [slave, master, weight] = GetParam();
-  MortarSample<2> s = make_mortar2({.slave_nodes = slave, .master_nodes = master, .depth = 0});
+  ContactSample<2> s = make_mortar2({.slave_nodes = slave, .master_nodes = master, .depth = 0});
   s.pair.weight = weight;
-  for (const Status status : mortar_status(s, flat<2>(s.x))) EXPECT_EQ(status, Status::slip);
+  for (const Status status : pair_status(s, flatten(s.x))) EXPECT_EQ(status, Status::slip);
 }
 
 TEST_P(MortarLines, MatchingMeshes) {
   const auto [slave, master, weight] = GetParam();
-  MortarSample<2> s = make_mortar2({.slave_nodes = slave,
-                                    .master_nodes = master,
-                                    .slave_facets = 3,
-                                    .master_facets = 3,
-                                    .from = 0,
-                                    .to = 4});
+  ContactSample<2> s = make_mortar2({.slave_nodes = slave,
+                                     .master_nodes = master,
+                                     .slave_facets = 3,
+                                     .master_facets = 3,
+                                     .from = 0,
+                                     .to = 4});
   s.pair.weight = weight;
   expect_uniform_pressure(s, true, 4.0, 1e-11);
-  EXPECT_LT(mortar_tangent(s, flat<2>(s.x)).norm(), 1000 * 4.0 * 10);
+  EXPECT_LT(pair_tangent(s, flatten(s.x)).norm(), 1000 * 4.0 * 10);
 }
 
 TEST_P(MortarLines, NothingChangesWithAMotionOfBoth) {
   const auto [slave, master, weight] = GetParam();
-  MortarSample<2> s = make_mortar2({.slave_nodes = slave, .master_nodes = master, .bend = 0.02});
+  ContactSample<2> s = make_mortar2({.slave_nodes = slave, .master_nodes = master, .bend = 0.02});
   s.pair.weight = weight;
-  const Eigen::VectorXd r = mortar_residual(s, flat<2>(s.x));
+  const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
   Mat<2, 2> turned;
   turned << std::cos(1.1), -std::sin(1.1), std::sin(1.1), std::cos(1.1);
   std::vector<Vec2> moved;
   for (const Vec2& p : s.x) moved.push_back(turned * p + Vec2(3, -7));
-  const Eigen::VectorXd after = mortar_residual(s, flat<2>(moved));
+  const Eigen::VectorXd after = pair_residual(s, flatten(moved));
   for (Eigen::Index n = 0; n < r.size() / 2; ++n)
     EXPECT_LT((after.segment<2>(2 * n) - turned * r.segment<2>(2 * n)).norm(), 1e-11 * r.norm());
 }
@@ -104,7 +104,7 @@ TEST(MortarFriction, TangentInEveryBranch) {
     for (const double mu : {10.0, 0.02})
       for (const double carried : {2.0, -3.0})
         for (const bool active : {true, false}) {
-          MortarSample<2> s = make_mortar2({.slave_nodes = slave, .bend = 0.02, .uneven = 0.2});
+          ContactSample<2> s = make_mortar2({.slave_nodes = slave, .bend = 0.02, .uneven = 0.2});
           s.pair.friction = contact::Coulomb{mu, 300.0};
           remember<2>(s, active ? Vec2(0.03, 0.01) : Vec2(0.03, -0.3), Vec<1>(carried), active);
           expect_second_order(s, 5e-4,
@@ -116,10 +116,10 @@ TEST(MortarFriction, TangentInEveryBranch) {
 TEST(MortarFriction, SlipIsTheWayAlongTheMaster) {
   for (const int slave : {2, 3})
     for (const double way : {0.01, 1.3}) {
-      MortarSample<2> s = make_mortar2({.slave_nodes = slave, .from = 1.6, .to = 2.2, .angle = 0});
+      ContactSample<2> s = make_mortar2({.slave_nodes = slave, .from = 1.6, .to = 2.2, .angle = 0});
       s.pair.friction = contact::Coulomb{1e6, 300.0};
       remember<2>(s, Vec2(way, 0), Vec<1>(1.5), true);
-      for (const auto& p : mortar_evaluation(s, flat<2>(s.x)).points) {
+      for (const auto& p : pair_evaluation(s, flatten(s.x)).points) {
         EXPECT_NEAR(p.slip_increment[0], way, 1e-12);
         EXPECT_NEAR(p.shear_traction[0], 1.5 + 300 * way, 1e-9);
         EXPECT_NEAR(p.frame(0, 0), 1.0, 1e-12);
@@ -129,12 +129,12 @@ TEST(MortarFriction, SlipIsTheWayAlongTheMaster) {
 
 // Both bodies turn together by a quarter: no slip, and the shear turns with them.
 TEST(MortarFriction, NothingSlipsWhenBothTurnTogether) {
-  MortarSample<2> s = make_mortar2({.bend = 0.004});
+  ContactSample<2> s = make_mortar2({.bend = 0.004});
   s.pair.friction = contact::Coulomb{1e6, 300.0};
   remember<2>(s, Vec2::Zero(), Vec<1>(1.5), true);
   std::vector<Vec2> moved;
   for (const Vec2& p : s.x) moved.push_back(turn(p) + Vec2(3, -7));
-  for (const auto& p : mortar_evaluation(s, flat<2>(moved)).points) {
+  for (const auto& p : pair_evaluation(s, flatten(moved)).points) {
     EXPECT_NEAR(p.slip_increment[0], 0.0, 1e-12);
     EXPECT_NEAR(p.shear_traction[0], 1.5, 1e-9);
   }
@@ -147,12 +147,12 @@ TEST(MortarFriction, NoJumpAtCrossingsOnAFlatSurface) {
     double largest = 0, total = 0;
     Eigen::VectorXd last;
     for (int i = 0; i <= 400; ++i) {
-      MortarSample<2> s = make_mortar2({.slave_nodes = slave, .from = 0.5, .to = 1.3, .angle = 0});
+      ContactSample<2> s = make_mortar2({.slave_nodes = slave, .from = 0.5, .to = 1.3, .angle = 0});
       s.pair.friction = contact::Coulomb{0.2, 300.0};
       remember<2>(s, Vec2(0.4, 0), Vec<1>(0.0), true);
       const double way = 1.2 * i / 400;
       for (const Index n : s.pair.slave.nodes) s.x[static_cast<std::size_t>(n)].x() += way;
-      const Eigen::VectorXd r = mortar_residual(s, flat<2>(s.x));
+      const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
       Eigen::VectorXd slaves(2 * static_cast<Eigen::Index>(s.pair.slave.nodes.size()));
       for (std::size_t k = 0; k < s.pair.slave.nodes.size(); ++k)
         slaves.segment<2>(2 * static_cast<Eigen::Index>(k)) =

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "mortar_checks.hpp"
-#include "mortar_sample3.hpp"
+#include "mortar_sample.hpp"
 
 #include "osculate/contact/law/coulomb.hpp"
 
@@ -19,35 +19,35 @@ class MortarFacets : public ::testing::TestWithParam<std::tuple<CellType, CellTy
 
 TEST_P(MortarFacets, TangentIsTheDerivativeOfTheResidual) {
   const auto [slave, master, weight] = GetParam();
-  MortarSample<3> s = make_mortar3({.slave = slave,
-                                    .master = master,
-                                    .slave_cells = 1,
-                                    .master_cells = 2,
-                                    .depth = 0.15,
-                                    .skew = 0.1,
-                                    .bend = 0.02});
+  ContactSample<3> s = make_mortar3({.slave = slave,
+                                     .master = master,
+                                     .slave_cells = 1,
+                                     .master_cells = 2,
+                                     .depth = 0.15,
+                                     .skew = 0.1,
+                                     .bend = 0.02});
   s.pair.weight = weight;
   expect_second_order(s, 2e-3, "inside");
 }
 
 TEST_P(MortarFacets, TangentWhereTheSlaveLeavesTheMaster) {
   const auto [slave, master, weight] = GetParam();
-  MortarSample<3> s = make_mortar3({.slave = slave,
-                                    .master = master,
-                                    .slave_cells = 2,
-                                    .master_cells = 1,
-                                    .from = -0.33,
-                                    .to = 3.27,
-                                    .depth = 0.2,
-                                    .skew = 0.05,
-                                    .bend = 0.005});
+  ContactSample<3> s = make_mortar3({.slave = slave,
+                                     .master = master,
+                                     .slave_cells = 2,
+                                     .master_cells = 1,
+                                     .from = -0.33,
+                                     .to = 3.27,
+                                     .depth = 0.2,
+                                     .skew = 0.05,
+                                     .bend = 0.005});
   s.pair.weight = weight;
   expect_second_order(s, 2e-3, "over the border");
 }
 
 TEST_P(MortarFacets, ForcesBalance) {
   const auto [slave, master, weight] = GetParam();
-  MortarSample<3> s = make_mortar3({.slave = slave, .master = master, .skew = 0.1, .bend = 0.02});
+  ContactSample<3> s = make_mortar3({.slave = slave, .master = master, .skew = 0.1, .bend = 0.02});
   s.pair.weight = weight;
   expect_balance(s);
 }
@@ -58,14 +58,14 @@ TEST_P(MortarFacets, UniformGapIsUniformPressureOnBothSides) {
   const auto [slave, master, weight] = GetParam();
   for (const bool longer : {true, false})
     for (const double skew : {0.0, 0.15}) {
-      MortarSample<3> s = make_mortar3({.slave = slave,
-                                        .master = master,
-                                        .slave_cells = 3,
-                                        .master_cells = 2,
-                                        .from = longer ? -0.4 : 0.4,
-                                        .to = longer ? 3.3 : 2.7,
-                                        .skew = skew,
-                                        .keep_border = true});
+      ContactSample<3> s = make_mortar3({.slave = slave,
+                                         .master = master,
+                                         .slave_cells = 3,
+                                         .master_cells = 2,
+                                         .from = longer ? -0.4 : 0.4,
+                                         .to = longer ? 3.3 : 2.7,
+                                         .skew = skew,
+                                         .keep_border = true});
       s.pair.weight = weight;
       expect_uniform_pressure(s, longer, longer ? 9.0 : 2.3 * 2.3, 1e-10);
     }
@@ -74,20 +74,20 @@ TEST_P(MortarFacets, UniformGapIsUniformPressureOnBothSides) {
 // Without a gap all nodes are in contact, whatever the sums leave of it.
 TEST_P(MortarFacets, SidesThatTouchAreInContact) {
   const auto [slave, master, weight] = GetParam();
-  MortarSample<3> s = make_mortar3(
+  ContactSample<3> s = make_mortar3(
       {.slave = slave, .master = master, .depth = 0, .skew = 0.1, .keep_border = true});
   s.pair.weight = weight;
-  for (const Status status : mortar_status(s, flat<3>(s.x))) EXPECT_EQ(status, Status::slip);
+  for (const Status status : pair_status(s, flatten(s.x))) EXPECT_EQ(status, Status::slip);
 }
 
 // The same mesh on both sides: every edge lies on one of the other side.
 TEST_P(MortarFacets, MatchingMeshes) {
   const auto [slave, master, weight] = GetParam();
-  MortarSample<3> s = make_mortar3(
+  ContactSample<3> s = make_mortar3(
       {.slave = slave, .master = master, .slave_cells = 2, .master_cells = 2, .from = 0, .to = 3});
   s.pair.weight = weight;
   expect_uniform_pressure(s, true, 9.0, 1e-10);
-  const Eigen::MatrixXd k = mortar_tangent(s, flat<3>(s.x));
+  const Eigen::MatrixXd k = pair_tangent(s, flatten(s.x));
   EXPECT_TRUE(k.allFinite());
   EXPECT_LT(k.norm(), 1000 * 9.0 * 20);
 }
@@ -107,12 +107,12 @@ class MortarShear : public ::testing::TestWithParam<CellType> {};
 TEST_P(MortarShear, TangentInEveryBranch) {
   for (const double mu : {10.0, 0.002})
     for (const bool active : {true, false}) {
-      MortarSample<3> s = make_mortar3({.slave = GetParam(),
-                                        .slave_cells = 1,
-                                        .master_cells = 2,
-                                        .depth = 0.15,
-                                        .skew = 0.1,
-                                        .bend = 0.02});
+      ContactSample<3> s = make_mortar3({.slave = GetParam(),
+                                         .slave_cells = 1,
+                                         .master_cells = 2,
+                                         .depth = 0.15,
+                                         .skew = 0.1,
+                                         .bend = 0.02});
       s.pair.friction = contact::Coulomb{mu, 300.0};
       const Vec3 shift = turn_of({0.4, -0.3, 0.2}) * Vec3(0.03, -0.02, active ? 0.01 : -0.5);
       remember<3>(s, shift, Vec2(2.0, -3.0), active);
@@ -122,11 +122,12 @@ TEST_P(MortarShear, TangentInEveryBranch) {
 
 // On a flat master without turning the slip is the way, over all borders of facets.
 TEST_P(MortarShear, SlipIsTheWayAlongTheMaster) {
-  MortarSample<3> s = make_mortar3({.slave = GetParam(), .slave_cells = 1, .from = 1.6, .to = 2.2});
+  ContactSample<3> s =
+      make_mortar3({.slave = GetParam(), .slave_cells = 1, .from = 1.6, .to = 2.2});
   s.pair.friction = contact::Coulomb{1e6, 300.0};
   const Vec3 way = turn_of({0.4, -0.3, 0.2}) * Vec3(0.9, 0.5, 0);
   remember<3>(s, way, Vec2(1.5, -0.5), true);
-  for (const auto& p : mortar_evaluation(s, flat<3>(s.x)).points) {
+  for (const auto& p : pair_evaluation(s, flatten(s.x)).points) {
     EXPECT_LT((p.frame * p.slip_increment - way).norm(), 1e-11);
     EXPECT_LT((p.shear_traction - Vec2(1.5, -0.5) - 300 * p.slip_increment).norm(), 1e-9);
     EXPECT_LT((p.frame.transpose() * p.frame - Mat<2, 2>::Identity()).norm(), 1e-14);
@@ -135,15 +136,16 @@ TEST_P(MortarShear, SlipIsTheWayAlongTheMaster) {
 }
 
 TEST_P(MortarShear, NothingSlipsWhenBothTurnTogether) {
-  MortarSample<3> s = make_mortar3({.slave = GetParam(), .depth = 0.15, .skew = 0.1, .bend = 0.01});
+  ContactSample<3> s =
+      make_mortar3({.slave = GetParam(), .depth = 0.15, .skew = 0.1, .bend = 0.01});
   s.pair.friction = contact::Coulomb{1e6, 300.0};
   remember<3>(s, Vec3::Zero(), Vec2(1.5, -0.5), true);
-  const Eigen::VectorXd r = mortar_residual(s, flat<3>(s.x));
+  const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
   const Mat<3, 3> turned = turn_of({1.0, 0.5, -2.0});
   std::vector<Vec3> moved;
   for (const Vec3& p : s.x) moved.push_back(turned * p + Vec3(3, -7, 1));
-  const Eigen::VectorXd after = mortar_residual(s, flat<3>(moved));
-  for (const auto& p : mortar_evaluation(s, flat<3>(moved)).points)
+  const Eigen::VectorXd after = pair_residual(s, flatten(moved));
+  for (const auto& p : pair_evaluation(s, flatten(moved)).points)
     EXPECT_LT(p.slip_increment.norm(), 1e-11);
   for (Eigen::Index n = 0; n < r.size() / 3; ++n)
     EXPECT_LT((after.segment<3>(3 * n) - turned * r.segment<3>(3 * n)).norm(), 1e-10 * r.norm());
@@ -151,16 +153,16 @@ TEST_P(MortarShear, NothingSlipsWhenBothTurnTogether) {
 
 // The slave slides over corners and edges of a flat, skewed master: no slave force changes.
 TEST_P(MortarShear, NoJumpAtCrossingsOnAFlatSurface) {
-  MortarSample<3> s = make_mortar3({.slave = GetParam(),
-                                    .slave_cells = 1,
-                                    .master_cells = 4,
-                                    .from = 0.4,
-                                    .to = 1.1,
-                                    .skew = 0.05,
-                                    .keep_border = true});
+  ContactSample<3> s = make_mortar3({.slave = GetParam(),
+                                     .slave_cells = 1,
+                                     .master_cells = 4,
+                                     .from = 0.4,
+                                     .to = 1.1,
+                                     .skew = 0.05,
+                                     .keep_border = true});
   const Vec3 step = turn_of({0.4, -0.3, 0.2}) * Vec3(0.023, 0.037, 0);
   const auto forces = [&] {
-    const Eigen::VectorXd r = mortar_residual(s, flat<3>(s.x));
+    const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
     Eigen::VectorXd out(3 * static_cast<Eigen::Index>(s.pair.slave.nodes.size()));
     for (std::size_t k = 0; k < s.pair.slave.nodes.size(); ++k)
       out.segment<3>(3 * static_cast<Eigen::Index>(k)) = r.segment<3>(3 * s.pair.slave.nodes[k]);

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "mortar_checks.hpp"
-#include "mortar_sample3.hpp"
+#include "mortar_sample.hpp"
 #include "osculate/pairing/mortar_basis.hpp"
 
 namespace osculate::testing {
@@ -16,14 +16,14 @@ using pairing::MortarFacet;
 /// One slave facet over part of a master, with its cells.
 template <int Dim>
 struct OneFacet {
-  MortarSample<Dim> s;
+  ContactSample<Dim> s;
   std::vector<MortarCell<Dim>> cells;
   MortarFacet<Dim> facet;
 };
 
 template <int Dim>
 void integrate(OneFacet<Dim>& out) {
-  const pairing::PairEvaluation<Dim> e = mortar_evaluation(out.s, flat<Dim>(out.s.x));
+  const pairing::PairEvaluation<Dim> e = pair_evaluation(out.s, flatten(out.s.x));
   const pairing::MortarSides<Dim> sides{&out.s.pair.slave.boundary,
                                         &out.s.pair.master,
                                         {false, {}, out.s.pair.reference},

@@ -4,7 +4,7 @@
 
 #include "expect_derivative.hpp"
 #include "law_sample.hpp"
-#include "mortar_sample3.hpp"
+#include "mortar_sample.hpp"
 #include "multiplier_sample.hpp"
 #include "segment_sample.hpp"
 
@@ -26,8 +26,8 @@ class MultiplierLaw : public ::testing::TestWithParam<std::size_t> {
 };
 
 /// The tractions N = lambda + eps_N gap are those that the law's state asks for.
-template <class Sample, int Dim = dimension<Sample>>
-MultiplierSample<Dim> around_multipliers(const Law& law, Sample s) {
+template <int Dim>
+MultiplierSample<Dim> around_multipliers(const Law& law, ContactSample<Dim> s) {
   set_law(law, s);
   MultiplierSample<Dim> m = unknown_tractions<Dim>(s, -40, law.carried);
   m.duration = duration;
@@ -35,8 +35,9 @@ MultiplierSample<Dim> around_multipliers(const Law& law, Sample s) {
 }
 
 /// Unknown tractions: derivative by positions and multipliers. Corrected ones: by positions.
-template <class Sample, int Dim = dimension<Sample>>
-void expect_second_order(const Law& law, const Sample& sample, Enforcement enforcement, double h) {
+template <int Dim>
+void expect_second_order(const Law& law, const ContactSample<Dim>& sample, Enforcement enforcement,
+                         double h) {
   SCOPED_TRACE(law.name);
   MultiplierSample<Dim> m = around_multipliers(law, sample);
   m.pair.enforcement = enforcement;

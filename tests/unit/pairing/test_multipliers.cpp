@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "expect_derivative.hpp"
-#include "mortar_sample3.hpp"
+#include "mortar_sample.hpp"
 #include "multiplier_sample.hpp"
 #include "pair_sample.hpp"
-#include "pair_sample3.hpp"
 
 #include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/normal_penalty.hpp"
@@ -69,7 +68,7 @@ TEST(MultiplierTangent, SpaceInEveryBranch) {
 }
 
 TEST(MultiplierTangent, MortarInEveryBranch) {
-  MortarSample<2> s = make_mortar2({.bend = 0.01});
+  ContactSample<2> s = make_mortar2({.bend = 0.01});
   remember<2>(s, Vec2(0.05, 0), Vec<1>::Zero(), true);
   expect_second_order(unknown_tractions<2>(s, -90, 0), Status::slip, "frictionless", 1e-4);
   s.pair.friction = contact::Coulomb{10.0, 80.0};
@@ -79,7 +78,7 @@ TEST(MultiplierTangent, MortarInEveryBranch) {
 }
 
 TEST(MultiplierTangent, MortarInSpace) {
-  MortarSample<3> s = make_mortar3({});
+  ContactSample<3> s = make_mortar3({});
   remember<3>(s, Vec3(0.05, 0.02, 0), Vec2::Zero(), true);
   s.pair.friction = contact::Coulomb{10.0, 80.0};
   expect_second_order(unknown_tractions<3>(s, -90, 9), Status::stick, "stick", 1e-4);

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "pair_sample.hpp"
-#include "pair_sample3.hpp"
 
 #include "osculate/contact/law/normal_penalty.hpp"
 

@@ -1,4 +1,5 @@
-// A surface against itself in the plane: what is contact and what is not; forces and tangent.
+// A surface against itself, in the plane and in space: what is contact and what is not; forces and
+// tangent.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -9,12 +10,17 @@
 #include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/core/error.hpp"
 #include "own_surface_sample.hpp"
+#include "pair_checks.hpp"
 
 namespace osculate::testing {
 namespace {
 
+using cell::CellType;
 using contact::ResidualForm;
 using pairing::Weight;
+
+constexpr std::array<CellType, 5> types{CellType::tri3, CellType::tri6, CellType::quad4,
+                                        CellType::quad8, CellType::quad9};
 
 Vec2 turned(const Vec2& p, double angle) { return Eigen::Rotation2Dd(angle) * p; }
 
@@ -33,6 +39,23 @@ TEST(OwnSurface, LipsFaceEachOtherAndNothingElse) {
     }
     if (p.y() < 0.1 || p.y() > 2.1) {
       EXPECT_LT(h.facet, 0) << "outside at " << p.transpose();
+    }
+  }
+}
+
+TEST(OwnSurface, LipsInSpaceFaceEachOtherAndSqueezeIsNoContact) {
+  for (const CellType type : types) {
+    PairSample3 s = own_walls(hairpin(), type);
+    int facing = 0;
+    for (const contact::PointHistory<3>& h : s.committed.points) {
+      EXPECT_FALSE(h.active);
+      if (h.facet >= 0 && std::abs(h.gap - 0.2) < 1e-9) ++facing;
+    }
+    EXPECT_GE(facing, 2 * 7 * 3);
+    for (const double squeeze : {1.0, 0.6, 0.3}) {
+      PairSample3 t = s;
+      move(t, [&](const Vec2& p) { return Vec2(p.x(), squeeze * p.y()); });
+      EXPECT_TRUE(touching(t).empty()) << squeeze;
     }
   }
 }
@@ -120,48 +143,87 @@ PairSample contact_sample(int nodes, double mu) {
   return s;
 }
 
+PairSample3 contact_sample(CellType type, double mu) {
+  PairSample3 s = own_walls(hairpin(), type);
+  s.pair.normal = contact::NormalPenalty{300};
+  if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80};
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> jitter(-0.01, 0.01);
+  const Eigen::AngleAxisd turn(0.8, Vec3(1, 2, -1).normalized());
+  for (Vec3& p : s.x) {
+    const Vec2 q = closed_hairpin(p.head<2>(), 0.33);
+    const double slide = p.x() > 1 && p.y() > 1.1 ? 0.11 : 0.0;
+    const double up = jitter(generator), across = jitter(generator), along = jitter(generator);
+    p = turn * Vec3(q.x() + slide + along, q.y() + across, p.z() + slide + up);
+  }
+  return s;
+}
+
+constexpr std::array<Weight, 3> weights{Weight::node, Weight::reference_area, Weight::current_area};
+
+template <int Dim>
+void expect_balance(ContactSample<Dim> s) {
+  s.pair.residual = ResidualForm::full;
+  const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
+  ASSERT_GT(r.norm(), 1);
+  EXPECT_LT(net_force<Dim>(r).norm(), 1e-12 * r.norm());
+  EXPECT_LT(net_moment(s, r).norm(), 1e-11 * r.norm());
+}
+
 TEST(OwnSurface, ForcesAndMomentsBalance) {
   for (const int nodes : {2, 3})
     for (const double mu : {0.0, 0.05, 10.0})
-      for (const Weight weight : {Weight::node, Weight::reference_area, Weight::current_area}) {
+      for (const Weight weight : weights) {
         PairSample s = contact_sample(nodes, mu);
         s.pair.weight = weight;
-        s.pair.residual = ResidualForm::full;
-        const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
-        ASSERT_GT(r.norm(), 1);
-        Vec2 force = Vec2::Zero();
-        double moment = 0;
-        for (std::size_t n = 0; n < s.x.size(); ++n) {
-          const Vec2 f = r.segment<2>(2 * static_cast<Eigen::Index>(n));
-          force += f;
-          moment += turn(s.x[n]).dot(f);
-        }
-        EXPECT_LT(force.norm(), 1e-12 * r.norm());
-        EXPECT_LT(std::abs(moment), 1e-11 * r.norm());
+        expect_balance(s);
       }
 }
 
+TEST(OwnSurface, ClosedLipsInSpaceTouchInBalance) {
+  for (const CellType type : types)
+    for (const double mu : {0.0, 0.05, 10.0}) {
+      const PairSample3 s = contact_sample(type, mu);
+      EXPECT_GE(touching(s).size(), 6u);
+      expect_balance(s);
+    }
+}
+
 // Slave and master share nodes and dofs.
+template <int Dim>
+void expect_tangent(const ContactSample<Dim>& s) {
+  const Eigen::VectorXd v = flatten(s.x);
+  const std::vector<PointFacts> facts = pair_facts(s, v);
+  const Eigen::VectorXd d = 0.05 * Eigen::VectorXd::Random(v.size());
+  const double h = 2e-3;
+  ASSERT_EQ(pair_facts(s, v + h * d), facts);
+  ASSERT_EQ(pair_facts(s, v - h * d), facts);
+  const DerivativeReport r =
+      check_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
+                       Eigen::VectorXd(pair_tangent(s, v) * d), v, d, h);
+  EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.15) << r.order << " " << r.error;
+}
+
 TEST(OwnSurface, TangentIsTheDerivativeOfTheResidual) {
   for (const int nodes : {2, 3})
     for (const double mu : {0.0, 0.02, 10.0})
-      for (const Weight weight : {Weight::node, Weight::reference_area, Weight::current_area}) {
+      for (const Weight weight : weights) {
         SCOPED_TRACE(std::to_string(nodes) + " nodes, mu " + std::to_string(mu));
         PairSample s = contact_sample(nodes, mu);
         s.pair.weight = weight;
-        const Eigen::VectorXd v = flatten(s.x);
-        const std::vector<contact::Status> status = pair_status(s, v);
-        const Eigen::VectorXd d = 0.05 * Eigen::VectorXd::Random(v.size());
-        const double h = 2e-3;
-        ASSERT_EQ(pair_status(s, v + h * d), status);
-        ASSERT_EQ(pair_status(s, v - h * d), status);
-        const DerivativeReport r =
-            check_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
-                             Eigen::VectorXd(pair_tangent(s, v) * d), v, d, h);
-        EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.15) << r.order << " " << r.error;
-        if (mu > 0 || weight == Weight::current_area) continue;
-        const Eigen::MatrixXd k = pair_tangent(s, v);
-        EXPECT_LT((k - k.transpose()).norm(), 1e-13 * k.norm());
+        expect_tangent(s);
+        if (mu == 0 && weight != Weight::current_area) expect_symmetric_tangent(s);
+      }
+}
+
+TEST(OwnSurface, TangentInSpaceIsTheDerivativeOfTheResidual) {
+  for (const CellType type : {CellType::tri3, CellType::quad4, CellType::quad9})
+    for (const double mu : {0.0, 0.02, 10.0})
+      for (const Weight weight : {Weight::reference_area, Weight::current_area}) {
+        SCOPED_TRACE(std::string(cell::info(type).name) + ", mu " + std::to_string(mu));
+        PairSample3 s = contact_sample(type, mu);
+        s.pair.weight = weight;
+        expect_tangent(s);
       }
 }
 

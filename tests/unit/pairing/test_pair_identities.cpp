@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "pair_sample.hpp"
+#include "pair_checks.hpp"
 
 #include "osculate/contact/law/coulomb.hpp"
 
@@ -21,21 +21,14 @@ PairSample frictional(int nodes, ResidualForm form, double depth) {
   return s;
 }
 
-double moment(const PairSample& s, const Eigen::VectorXd& r) {
-  double sum = 0;
-  for (std::size_t n = 0; n < s.x.size(); ++n)
-    sum += turn(s.x[n]).dot(r.segment<2>(2 * static_cast<Eigen::Index>(n)));
-  return sum;
-}
+double moment(const PairSample& s, const Eigen::VectorXd& r) { return net_moment(s, r).z(); }
 
 TEST(PairIdentities, ForcesBalanceAlwaysMomentsWithTheFullResidual) {
   for (const int nodes : {2, 3, 4})
     for (const ResidualForm form : {ResidualForm::surface, ResidualForm::full}) {
       const PairSample s = frictional(nodes, form, 0.2);
       const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
-      Vec2 sum = Vec2::Zero();
-      for (Eigen::Index n = 0; n < r.size() / 2; ++n) sum += r.segment<2>(2 * n);
-      EXPECT_LT(sum.norm(), 1e-13 * r.norm());
+      EXPECT_LT(net_force<2>(r).norm(), 1e-13 * r.norm());
       const double m = std::abs(moment(s, r)) / r.norm();
       EXPECT_EQ(m < 1e-13, form == ResidualForm::full) << m;
     }

@@ -9,7 +9,6 @@
 #include "edge_sample.hpp"
 #include "expect_derivative.hpp"
 #include "mortar_sample.hpp"
-#include "mortar_sample3.hpp"
 #include "multiplier_sample.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
 #include "segment_sample.hpp"
@@ -34,39 +33,20 @@ struct Case {
   [[nodiscard]] pairing::PairEvaluation<Dim> evaluation(const Eigen::VectorXd& v,
                                                         bool tangent) const {
     pairing::PairEvaluation<Dim> e;
-    pairing::evaluate<Dim>(pair, unflat<Dim>(v), committed, tangent, e, {},
+    pairing::evaluate<Dim>(pair, unflatten<Dim>(v), committed, tangent, e, {},
                            around.points.empty() ? nullptr : &around);
     return e;
   }
   [[nodiscard]] Eigen::VectorXd residual(const Eigen::VectorXd& v) const {
-    Eigen::VectorXd r = Eigen::VectorXd::Zero(v.size());
-    for (const pairing::ContactBlock<Dim>& b : evaluation(v, false).blocks)
-      for (int k = 0; k < b.count; ++k)
-        r.segment<Dim>(Dim * b.nodes[static_cast<std::size_t>(k)]) +=
-            b.force.template segment<Dim>(Dim * k);
-    return r;
+    return assembled_force(evaluation(v, false), v.size());
   }
   [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::VectorXd& v) const {
-    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(v.size(), v.size());
-    for (const pairing::ContactBlock<Dim>& b : evaluation(v, true).blocks)
-      for (int i = 0; i < b.count; ++i) {
-        const Eigen::Index row = Dim * b.nodes[static_cast<std::size_t>(i)];
-        for (int j = 0; b.tangent.size() > 0 && j < b.count; ++j)
-          k.block<Dim, Dim>(row, Dim * b.nodes[static_cast<std::size_t>(j)]) +=
-              b.tangent.template block<Dim, Dim>(Dim * i, Dim * j);
-        for (const pairing::NodeMatrix<Dim>& g : b.path())
-          k.block<Dim, Dim>(row, Dim * g.node) +=
-              b.path_rows.template middleRows<Dim>(Dim * i) * g.value;
-        for (const pairing::NodeGradient<Dim>& g : b.area)
-          k.block<Dim, Dim>(row, Dim * g.node) +=
-              b.area_rows.template segment<Dim>(Dim * i) * g.value.transpose();
-      }
-    return k;
+    return assembled_tangent(evaluation(v, true), v.size());
   }
 };
 
-template <int Dim, class Sample>
-Case<Dim> case_of(const std::string& name, const Sample& s) {
+template <int Dim>
+Case<Dim> case_of(const std::string& name, const ContactSample<Dim>& s) {
   Case<Dim> c{name, s.pair, s.x, s.committed};
   return c;
 }
@@ -79,7 +59,7 @@ std::vector<Case<2>> plane_cases() {
   PairSample gauss = segment_sample({.slave_nodes = 3, .bend = 0.02});
   gauss.pair.weight = pairing::Weight::current_area;
   remember_all<2>(gauss, Vec2(0.03, 0.01), 4);
-  MortarSample<2> mortar = make_mortar2({.bend = 0.01, .uneven = 0.2});
+  ContactSample<2> mortar = make_mortar2({.bend = 0.01, .uneven = 0.2});
   remember<2>(mortar, Vec2(0.05, 0), Vec<1>(4.0), true);
   return {case_of<2>("nodes", nodes), case_of<2>("gauss", gauss), case_of<2>("mortar", mortar)};
 }
@@ -91,7 +71,7 @@ std::vector<Case<3>> space_cases() {
   remember_all<3>(nodes, Vec3(0.03, 0.01, 0.01), 4);
   PairSample3 gauss = segment_sample3({.bend = 0.02});
   remember_all<3>(gauss, Vec3(0.03, 0.01, 0.01), 4);
-  MortarSample<3> mortar = make_mortar3({.bend = 0.01});
+  ContactSample<3> mortar = make_mortar3({.bend = 0.01});
   remember<3>(mortar, Vec3(0.05, 0.02, 0), Vec2(4, 1), true);
   return {case_of<3>("nodes", nodes), case_of<3>("gauss", gauss), case_of<3>("mortar", mortar)};
 }
@@ -191,7 +171,7 @@ void expect_same_point(const pairing::PairEvaluation<Dim>& a, const pairing::Pai
 template <int Dim>
 void expect_points_like_pairs(Case<Dim> c) {
   give_factors(c.pair);
-  const Eigen::VectorXd v = flat<Dim>(c.x);
+  const Eigen::VectorXd v = flatten(c.x);
   const pairing::PairEvaluation<Dim> all = c.evaluation(v, true);
   int closed = 0;
   for (std::size_t i = 0; i < c.pair.slave.points.size(); ++i) {
@@ -236,7 +216,7 @@ TEST(PointPenalty, DampedPointsToo) {
 TEST(PointPenalty, CurvatureShareSeesIt) {
   Case<2> c = plane_cases()[0];
   give_factors(c.pair);
-  const Eigen::VectorXd v = flat<2>(c.x);
+  const Eigen::VectorXd v = flatten(c.x);
   const double share = pairing::curvature_share<2>(c.pair, c.x, c.evaluation(v, true));
   double largest = 0;
   for (std::size_t i = 0; i < c.pair.slave.points.size(); ++i) {
@@ -268,7 +248,7 @@ void expect_second_order(const Case<Dim>& c, double h) {
     const pairing::PairEvaluation<Dim> e = c.evaluation(y, false);
     return std::pair(states<Dim>(e), e.mortar.overlaps);
   };
-  const Eigen::VectorXd v = flat<Dim>(c.x);
+  const Eigen::VectorXd v = flatten(c.x);
   expect_derivative([&](const Eigen::VectorXd& y) { return c.residual(y); }, c.tangent(v), branch,
                     v, h);
 }
@@ -305,7 +285,7 @@ void expect_balance(Case<Dim> c) {
   SCOPED_TRACE(c.name);
   give_uneven_factors(c.pair);
   c.pair.residual = contact::ResidualForm::full;
-  const Eigen::VectorXd r = c.residual(flat<Dim>(c.x));
+  const Eigen::VectorXd r = c.residual(flatten(c.x));
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double arm = 0;
   for (std::size_t n = 0; n < c.x.size(); ++n) {
@@ -338,7 +318,7 @@ TEST(PointPenalty, AViolationIsALength) {
     give_uneven_factors(c.pair);
     c.pair.enforcement = Enforcement::augmented_lagrange;
     c.around.points.assign(c.pair.slave.points.size(), {});
-    const pairing::PairEvaluation<2> e = c.evaluation(flat<2>(c.x), false);
+    const pairing::PairEvaluation<2> e = c.evaluation(flatten(c.x), false);
     double deepest = 0;
     for (const auto& p : e.points)
       if (p.status != Status::open) deepest = std::max(deepest, -p.gap);

@@ -13,8 +13,8 @@ const std::vector<Vec2> plate = outline({{0, 0}, {0, 0.4}, {3, 0.4}, {3, 0}}, 0.
 constexpr double depth = 1e-3;
 
 /// The sample's surface, and the same once more on top of it, as slave.
-template <int Dim, class Sample>
-Sample stacked(Sample s, double beside) {
+template <int Dim>
+ContactSample<Dim> stacked(ContactSample<Dim> s, double beside) {
   const std::size_t count = s.x.size();
   for (std::size_t n = 0; n < count; ++n) {
     Vec<Dim> p = s.x[n];
@@ -35,10 +35,10 @@ Sample stacked(Sample s, double beside) {
   return s;
 }
 
-template <int Dim, class Sample>
-void expect_straight_push(const Sample& sample) {
+template <int Dim>
+void expect_straight_push(const ContactSample<Dim>& sample) {
   for (const double beside : {-1e-3, -1e-8, -1e-11, 0.0, 1e-11, 3e-9, 1e-8, 1e-6, 1e-3}) {
-    const Sample s = stacked<Dim>(sample, beside);
+    const ContactSample<Dim> s = stacked<Dim>(sample, beside);
     pairing::PairEvaluation<Dim> e;
     pairing::evaluate<Dim>(s.pair, s.x, s.committed, true, e);
     double force = 0;
@@ -49,7 +49,8 @@ void expect_straight_push(const Sample& sample) {
       force -= p.weight * p.normal_traction;
     }
     const double area = Dim == 2 ? 3 : 3 * 1.0;  // two layers of 0.5
-    EXPECT_NEAR(force, s.pair.normal.template as<contact::NormalPenalty>()->stiffness * depth * area, 1e-9)
+    EXPECT_NEAR(force,
+                s.pair.normal.template as<contact::NormalPenalty>()->stiffness * depth * area, 1e-9)
         << beside;
   }
 }

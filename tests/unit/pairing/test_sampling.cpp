@@ -123,35 +123,17 @@ TEST(Sampling, RefusesWhatDoesNotExist) {
 
 // ---- tangents ---------------------------------------------------------------------------------
 
-std::vector<Status> statuses(const PairSample& s, const Eigen::VectorXd& v) {
-  return pair_status(s, v);
-}
-/// Status, and facet and feature of every point.
-std::vector<Status> statuses(const PairSample3& s, const Eigen::VectorXd& v) {
-  pairing::PairEvaluation<3> e;
-  pairing::evaluate(s.pair, unflatten3(v), s.committed, false, e);
-  std::vector<Status> status;
-  for (const pairing::PointResult<3>& p : e.points) {
-    status.push_back(p.status);
-    status.push_back(static_cast<Status>(10 + p.history.facet));
-    status.push_back(static_cast<Status>(100 + static_cast<int>(p.history.feature)));
-  }
-  return status;
-}
-
-Eigen::VectorXd flat(const PairSample& s) { return flatten(s.x); }
-Eigen::VectorXd flat(const PairSample3& s) { return flatten3(s.x); }
-
 /// All probes in one branch; the error falls with the square of the step.
-template <class Sample>
-void expect_second_order(const Sample& s, Status expected, double step, const std::string& what) {
+template <int Dim>
+void expect_second_order(const ContactSample<Dim>& s, Status expected, double step,
+                         const std::string& what) {
   SCOPED_TRACE(what);
-  const Eigen::VectorXd v = flat(s);
-  const std::vector<Status> here = statuses(s, v);
+  const Eigen::VectorXd v = flatten(s.x);
+  const std::vector<Status> here = pair_status(s, v);
   ASSERT_GE(std::count(here.begin(), here.end(), expected), 2);
   expect_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
-                    pair_tangent(s, v), [&](const Eigen::VectorXd& y) { return statuses(s, y); }, v,
-                    step, 2);
+                    pair_tangent(s, v), [&](const Eigen::VectorXd& y) { return pair_facts(s, y); },
+                    v, step, 2);
 }
 
 struct Branch {
@@ -208,7 +190,7 @@ TEST(SegmentForces, BalanceWithMoments) {
   s.pair.residual = ResidualForm::full;
   s.pair.friction = contact::Coulomb{0.3, 80.0};
   remember_all<3>(s, Vec3(0.03, 0.02, 0.01), 4.0);
-  const Eigen::VectorXd r = pair_residual(s, flat(s));
+  const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double size = 0;
   for (std::size_t n = 0; n < s.x.size(); ++n) {
@@ -231,11 +213,12 @@ TEST(SegmentForces, OfAUniformGapAreThoseOfAUniformPressure) {
     for (const Index node : s.pair.slave.nodes) s.x[static_cast<std::size_t>(node)].z() = -depth;
     pairing::prepare(s.pair, s.x);
     s.committed = pairing::initial_state<3>(s.pair, s.x);
-    const Eigen::VectorXd r = pair_residual(s, flat(s));
+    const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
     const pairing::SurfaceFacet& facet = s.pair.slave.boundary.facets[0];
     double total = 0;
     for (const Index node : s.pair.slave.nodes) total -= r[3 * node + 2];
-    EXPECT_NEAR(total, s.pair.normal.template as<contact::NormalPenalty>()->stiffness * depth * 1.78,
+    EXPECT_NEAR(total,
+                s.pair.normal.template as<contact::NormalPenalty>()->stiffness * depth * 1.78,
                 1e-12 * 1000);      // |along x across|
     if (type == CellType::quad8) {  // corners of a parallelogram: -A / 12, middles A / 3
       EXPECT_NEAR(r[3 * facet.nodes[0] + 2], 1000 * depth * 1.78 / 12, 1e-11);
@@ -247,9 +230,9 @@ TEST(SegmentForces, OfAUniformGapAreThoseOfAUniformPressure) {
 TEST(SegmentForces, OfAPassAreItsShare) {
   PairSample s = segment_sample({});
   s.committed = pairing::initial_state<2>(s.pair, s.x);
-  const Eigen::VectorXd whole = pair_residual(s, flat(s));
+  const Eigen::VectorXd whole = pair_residual(s, flatten(s.x));
   s.pair.share = 0.5;
-  EXPECT_LT((pair_residual(s, flat(s)) - 0.5 * whole).norm(), 1e-15 * whole.norm());
+  EXPECT_LT((pair_residual(s, flatten(s.x)) - 0.5 * whole).norm(), 1e-15 * whole.norm());
 }
 
 }  // namespace

@@ -11,12 +11,12 @@ namespace {
 using pairing::BranchOutline;
 using pairing::FacetOutline;
 
-template <int Dim, class Sample>
+template <int Dim>
 struct Refreshed {
   std::vector<search::Box<Dim>> boxes;
   pairing::ScopeBuffers<Dim> buffers;
   pairing::Tree<Dim> tree;
-  explicit Refreshed(const Sample& s) {
+  explicit Refreshed(const ContactSample<Dim>& s) {
     pairing::facet_boxes(s.pair.master, s.x, boxes);
     pairing::refresh<Dim>(s.pair.scope, s.pair.master, s.x, boxes, buffers, tree);
   }
@@ -55,7 +55,7 @@ TEST(ScopeTree, BranchesBoundTheHeightAndTheNormalsOfTheirFacets) {
   std::normal_distribution<double> normal;
   for (const cell::CellType type : {cell::CellType::tri3, cell::CellType::quad4}) {
     const PairSample3 s = bent_walls(type);
-    const Refreshed<3, PairSample3> r(s);
+    const Refreshed<3> r(s);
     const std::vector<std::vector<Index>> facets = contents<3>(r.tree);
     int narrow = 0;
     for (std::size_t i = 0; i < facets.size(); ++i) {
@@ -92,9 +92,9 @@ TEST(ScopeTree, ProductBeyondWhichAConeIsWithinALimit) {
 }
 
 /// Places of all slave nodes with and without the branches.
-template <int Dim, class Sample>
-int same_places(const Sample& s) {
-  const Refreshed<Dim, Sample> r(s);
+template <int Dim>
+int same_places(const ContactSample<Dim>& s) {
+  const Refreshed<Dim> r(s);
   int found = 0;
   std::vector<Vec<Dim>> normals;
   pairing::nodal_normals(s.pair.slave, s.x, normals);

@@ -8,7 +8,7 @@
 #include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/geometry/surface_frame.hpp"
 #include "osculate/projection/point_to_surface.hpp"
-#include "pair_sample3.hpp"
+#include "pair_sample.hpp"
 #include "sample_surfaces.hpp"
 
 namespace osculate::testing {
@@ -58,8 +58,8 @@ PairSample3 make_shape_sample(const ShapeSample& o) {
 /// Tangent of the slave's own displacement against the residual (the frame is a rigid body's).
 void expect_exact_tangent(const ShapeSample& o, Status status) {
   const PairSample3 s = make_shape_sample(o);
-  const Eigen::VectorXd v = flatten3(s.x);
-  const Facts3 at = pair_facts(s, v);
+  const Eigen::VectorXd v = flatten(s.x);
+  const PointFacts at = pair_facts(s, v)[0];
   ASSERT_EQ(at.status, status);
   ASSERT_EQ(at.feature, projection::Feature::face);
   for (Eigen::Index i = 0; i < 3; ++i) {
@@ -126,8 +126,8 @@ TEST(Shapes3, ForceDoesNotKnowWhereTheChartsOfASphereMeet) {
             make_shape_sample({.shape = sphere, .place = place, .before = before, .mu = mu});
         const Vec2 xi = projection::closest_point(sphere, place).xi;
         if (std::abs(xi.x() - s.committed.points[0].xi.x()) > 1.5) ++crossed;
-        const Eigen::VectorXd v = flatten3(s.x);
-        ASSERT_NE(pair_facts(s, v).status, Status::open);
+        const Eigen::VectorXd v = flatten(s.x);
+        ASSERT_NE(pair_facts(s, v)[0].status, Status::open);
         const Vec3 force = pair_residual(s, v).segment<3>(12);
         const Mat<3, 3> k = pair_tangent(s, v).block<3, 3>(12, 12);
         if (expected.isZero(0.0)) expected = force, stiffness = k;
@@ -149,9 +149,9 @@ TEST(Shapes3, AFrameThatTurnsCarriesTheShape) {
     const geometry::SurfaceJet jet = geometry::jet(sample.surface, xi);
     PairSample3 s = make_shape_sample(
         {.shape = sample.surface, .place = jet.r, .before = jet.r + 0.05 * jet.r1[0]});
-    const Vec3 force = pair_residual(s, flatten3(s.x)).segment<3>(12);
+    const Vec3 force = pair_residual(s, flatten(s.x)).segment<3>(12);
     for (Vec3& x : s.x) x = turn * x + shift;
-    const Eigen::VectorXd r = pair_residual(s, flatten3(s.x));
+    const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
     EXPECT_LT((r.segment<3>(12) - turn * force).norm(), 1e-11 * force.norm());
     Vec3 sum = Vec3::Zero();
     for (Eigen::Index k = 0; k < r.size() / 3; ++k) sum += r.segment<3>(3 * k);

@@ -13,7 +13,7 @@
 #include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/pairing/smoothing.hpp"
-#include "pair_sample3.hpp"
+#include "pair_sample.hpp"
 
 namespace osculate::testing {
 namespace {
@@ -374,8 +374,8 @@ TEST(SmoothSurface, TangentIsTheDerivative) {
           pairing::prepare(s.pair, s.x);
           s.committed.points = {
               remembered(from == 0 ? at : other, Vec2(0.4, 0.2), -0.01, {4.0, -3.0})};
-          const Eigen::VectorXd v = flatten3(s.x);
-          const Facts3 facts = pair_facts(s, v);
+          const Eigen::VectorXd v = flatten(s.x);
+          const PointFacts facts = pair_facts(s, v)[0];
           ASSERT_EQ(facts.status, mu > 1 ? Status::stick : Status::slip);
           ASSERT_EQ(facts.feature, Feature::face);
           ASSERT_EQ(facts.facet, at);

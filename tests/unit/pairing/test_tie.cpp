@@ -5,7 +5,6 @@
 
 #include "derivative_check.hpp"
 #include "mortar_sample.hpp"
-#include "mortar_sample3.hpp"
 #include "segment_sample.hpp"
 
 namespace osculate::testing {
@@ -16,57 +15,15 @@ using pairing::Separation;
 
 constexpr double eps = 1000;
 
-template <class Sample>
-inline constexpr int dimension = std::is_same_v<decltype(Sample::x), std::vector<Vec2>> ? 2 : 3;
-
 /// Ties what is near in the configuration of the sample.
-template <class Sample, int Dim = dimension<Sample>>
-Sample tied(Sample s, bool keep = true, double tolerance = 0.15) {
+template <int Dim>
+ContactSample<Dim> tied(ContactSample<Dim> s, bool keep = true, double tolerance = 0.15) {
   s.pair.separation = Separation::tied;
   s.pair.tolerance = tolerance;
   s.pair.keep_gap = keep;
   pairing::prepare<Dim>(s.pair, s.x);
   s.committed = pairing::initial_state<Dim>(s.pair, s.x);
   return s;
-}
-
-template <class Sample, int Dim = dimension<Sample>>
-pairing::PairEvaluation<Dim> evaluation(const Sample& s, const Eigen::VectorXd& v) {
-  pairing::PairEvaluation<Dim> e;
-  pairing::evaluate<Dim>(s.pair, unflat<Dim>(v), s.committed, true, e);
-  return e;
-}
-
-template <class Sample, int Dim = dimension<Sample>>
-Eigen::VectorXd residual(const Sample& s, const Eigen::VectorXd& v) {
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(v.size());
-  const pairing::PairEvaluation<Dim> e = evaluation(s, v);
-  for (const pairing::ContactBlock<Dim>& b : e.blocks)
-    for (int k = 0; k < b.count; ++k)
-      r.segment<Dim>(Dim * b.nodes[static_cast<std::size_t>(k)]) +=
-          b.force.template segment<Dim>(Dim * k);
-  return r;
-}
-
-template <class Sample, int Dim = dimension<Sample>>
-Eigen::MatrixXd tangent(const Sample& s, const Eigen::VectorXd& v) {
-  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(v.size(), v.size());
-  const pairing::PairEvaluation<Dim> e = evaluation(s, v);
-  for (const pairing::ContactBlock<Dim>& b : e.blocks)
-    for (int k = 0; k < b.count; ++k)
-      for (int l = 0; l < b.count; ++l)
-        m.block<Dim, Dim>(Dim * b.nodes[static_cast<std::size_t>(k)],
-                          Dim * b.nodes[static_cast<std::size_t>(l)]) +=
-            b.tangent.template block<Dim, Dim>(Dim * k, Dim * l);
-  return m;
-}
-
-Eigen::VectorXd noise(Eigen::Index n, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  Eigen::VectorXd d(n);
-  for (Eigen::Index i = 0; i < n; ++i) d[i] = uniform(generator);
-  return d;
 }
 
 double moment(const Vec2& x, const Vec2& f) { return x.x() * f.y() - x.y() * f.x(); }
@@ -77,14 +34,14 @@ Mat<3, 3> turned(double angle, const Vec3&) {
 }
 
 /// What holds for every pair that is tied with its gaps.
-template <class Sample, int Dim = dimension<Sample>>
-void expect_tie(const Sample& s, const std::string& what) {
+template <int Dim>
+void expect_tie(const ContactSample<Dim>& s, const std::string& what) {
   SCOPED_TRACE(what);
   ASSERT_FALSE(s.pair.ties.empty());
-  const Eigen::VectorXd start = flat<Dim>(s.x);
-  EXPECT_LT(residual(s, start).norm(), 1e-12 * eps);
-  const Eigen::VectorXd v = start + 0.05 * noise(start.size(), 3);
-  const Eigen::VectorXd r = residual(s, v);
+  const Eigen::VectorXd start = flatten(s.x);
+  EXPECT_LT(pair_residual(s, start).norm(), 1e-12 * eps);
+  const Eigen::VectorXd v = start + 0.05 * random_direction(start.size(), 3);
+  const Eigen::VectorXd r = pair_residual(s, v);
   ASSERT_GT(r.norm(), 1);
   // 1. forces and moments balance
   Vec<Dim> force = Vec<Dim>::Zero();
@@ -104,15 +61,16 @@ void expect_tie(const Sample& s, const std::string& what) {
   Eigen::VectorXd moved(v.size());
   for (Eigen::Index n = 0; n < v.size() / Dim; ++n)
     moved.segment<Dim>(Dim * n) = q * v.segment<Dim>(Dim * n) + Vec<Dim>::Constant(3);
-  const Eigen::VectorXd after = residual(s, moved);
+  const Eigen::VectorXd after = pair_residual(s, moved);
   for (Eigen::Index n = 0; n < v.size() / Dim; ++n)
     EXPECT_LT((after.segment<Dim>(Dim * n) - q * r.segment<Dim>(Dim * n)).norm(), 1e-11 * r.norm());
   // 3. the tangent is symmetric, and the derivative
-  const Eigen::MatrixXd k = tangent(s, v);
+  const Eigen::MatrixXd k = pair_tangent(s, v);
   EXPECT_LT((k - k.transpose()).norm(), 1e-13 * k.norm());
-  const Eigen::VectorXd d = noise(v.size(), 5);
-  const DerivativeReport report = check_derivative(
-      [&](const Eigen::VectorXd& y) { return residual(s, y); }, Eigen::VectorXd(k * d), v, d, 1e-2);
+  const Eigen::VectorXd d = random_direction(v.size(), 5);
+  const DerivativeReport report =
+      check_derivative([&](const Eigen::VectorXd& y) { return pair_residual(s, y); },
+                       Eigen::VectorXd(k * d), v, d, 1e-2);
   EXPECT_TRUE(report.exact || std::abs(report.order - 2) < 0.15 || report.error < 1e-11)
       << "order " << report.order << " error " << report.error;
 }
@@ -150,28 +108,28 @@ TEST(Tie, OfMortar) {
 }
 
 /// The whole slave moved by `by`.
-template <class Sample, int Dim = dimension<Sample>>
-Eigen::VectorXd lifted(const Sample& s, const Vec<Dim>& by) {
+template <int Dim>
+Eigen::VectorXd lifted(const ContactSample<Dim>& s, const Vec<Dim>& by) {
   std::vector<Vec<Dim>> x = s.x;
   for (const Index n : s.pair.slave.nodes) x[static_cast<std::size_t>(n)] += by;
-  return flat<Dim>(x);
+  return flatten(x);
 }
 
 // Pulled as stiff as pressed, along the surface as across it; uniform at every point.
 TEST(Tie, CarriesTensionAndShear) {
-  const MortarSample<3> mortar = tied(make_mortar3({.tilt = Vec3::Zero()}));
+  const ContactSample<3> mortar = tied(make_mortar3({.tilt = Vec3::Zero()}));
   const PairSample nodes = tied(make_sample({.depth = 0}));
   for (const double by : {0.02, -0.02}) {
-    for (const auto& p : evaluation(mortar, lifted(mortar, Vec3(0, 0, by))).points) {
+    for (const auto& p : pair_evaluation(mortar, lifted(mortar, Vec3(0, 0, by))).points) {
       EXPECT_EQ(p.status, Status::stick);
       EXPECT_NEAR(std::abs(p.normal_traction), eps * std::abs(by), 1e-9);
       EXPECT_LT(p.shear_traction.norm(), 1e-9);
     }
     const Vec2 along(std::cos(0.3), std::sin(0.3));
-    const auto pulled = evaluation(nodes, lifted(nodes, turn(Vec2(by * along)))).points[0];
+    const auto pulled = pair_evaluation(nodes, lifted(nodes, turn(Vec2(by * along)))).points[0];
     EXPECT_NEAR(pulled.normal_traction, eps * by, 1e-9);
     EXPECT_NEAR(pulled.gap, by, 1e-12);
-    const auto sheared = evaluation(nodes, lifted(nodes, Vec2(by * along))).points[0];
+    const auto sheared = pair_evaluation(nodes, lifted(nodes, Vec2(by * along))).points[0];
     EXPECT_NEAR(sheared.shear_traction[0], eps * by, 1e-9);
     EXPECT_NEAR(sheared.normal_traction, 0, 1e-9);
   }
@@ -179,16 +137,16 @@ TEST(Tie, CarriesTensionAndShear) {
 
 TEST(Tie, ClosesGapsOrKeepsThem) {
   const PairSample keep = tied(make_sample({.depth = -0.08}));
-  EXPECT_NEAR(evaluation(keep, flat<2>(keep.x)).points[0].normal_traction, 0, 1e-11);
-  EXPECT_NEAR(evaluation(keep, flat<2>(keep.x)).points[0].gap, 0.08, 1e-12);
+  EXPECT_NEAR(pair_evaluation(keep, flatten(keep.x)).points[0].normal_traction, 0, 1e-11);
+  EXPECT_NEAR(pair_evaluation(keep, flatten(keep.x)).points[0].gap, 0.08, 1e-12);
   const PairSample close = tied(make_sample({.depth = -0.08}), false);
-  EXPECT_NEAR(evaluation(close, flat<2>(close.x)).points[0].normal_traction, 0.08 * eps, 1e-9);
+  EXPECT_NEAR(pair_evaluation(close, flatten(close.x)).points[0].normal_traction, 0.08 * eps, 1e-9);
 }
 
 TEST(Tie, LeavesFarPointsAlone) {
   PairSample s = tied(make_sample({.depth = -0.2}));
   EXPECT_TRUE(s.pair.ties.empty());
-  const auto point = evaluation(s, lifted(s, Vec2(0, -0.5))).points[0];
+  const auto point = pair_evaluation(s, lifted(s, Vec2(0, -0.5))).points[0];
   EXPECT_EQ(point.status, Status::open);
   EXPECT_FALSE(point.history.held);
   s = tied(make_sample({.depth = -0.2}), true, 0.25);
@@ -203,8 +161,8 @@ TEST(Tie, GapIsMeasuredFromTheOffset) {
   s.pair.offset = 0.45;
   s = tied(s, false);
   ASSERT_EQ(s.pair.ties.size(), 1u);
-  EXPECT_NEAR(evaluation(s, flat<2>(s.x)).points[0].normal_traction, 0.05 * eps, 1e-9);
-  EXPECT_NEAR(evaluation(s, flat<2>(s.x)).points[0].gap, 0.05, 1e-12);
+  EXPECT_NEAR(pair_evaluation(s, flatten(s.x)).points[0].normal_traction, 0.05 * eps, 1e-9);
+  EXPECT_NEAR(pair_evaluation(s, flatten(s.x)).points[0].gap, 0.05, 1e-12);
 }
 
 }  // namespace

@@ -1,37 +1,39 @@
-#pragma once
-// Two surfaces in mortar contact in space.
+#include "mortar_sample.hpp"
+
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 
-#include "mortar_sample.hpp"
 #include "osculate/cell/quadrature.hpp"
-#include "osculate/cell/shape.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 
 namespace osculate::testing {
+namespace {
 
-/// A square of the lower body's top (master, from 0 to 3) and of the upper body's bottom (slave),
-/// `depth` below it. Edges are straight in the plane; `skew` moves the corners of the cells,
-/// `bend` curves both surfaces.
-struct MortarOptions3 {
-  cell::CellType slave = cell::CellType::quad4, master = cell::CellType::quad4;
-  int slave_cells = 2, master_cells = 3;  ///< along each side
-  double from = 0.27, to = 2.81;          ///< of the slave
-  double depth = 0.05, skew = 0.0, bend = 0.0;
-  bool keep_border = false;   ///< the skew vanishes on the border
-  Vec3 tilt{0.4, -0.3, 0.2};  ///< turn of the whole
-};
-
-inline Mat<3, 3> turn_of(const Vec3& w) {
-  const double angle = w.norm();
-  if (angle == 0) return Mat<3, 3>::Identity();
-  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
+void add_line(ContactSample<2>& s, pairing::Chain& chain, int facets, int nodes, double from,
+              double to, const MortarOptions2& o, double height) {
+  const int per = nodes - 1, count = facets * per;
+  const auto first = static_cast<Index>(s.x.size());
+  for (int i = 0; i <= count; ++i) {
+    double t = static_cast<double>(i) / count;
+    if (i % per == 0) t += o.uneven * std::sin(9.0 * t) * t * (1 - t) * std::abs(to - from) / 4;
+    const double x = from + t * (to - from), sign = height < 0 ? 1.0 : -0.6;
+    const double y =
+        height + sign * o.bend * (x - 1.7) * (x - 1.7) + 0.3 * o.bend * std::sin(3 * x);
+    const double c = std::cos(o.angle), si = std::sin(o.angle);
+    s.x.emplace_back(c * x - si * y, si * x + c * y);
+  }
+  for (int f = 0; f < facets; ++f) {
+    std::vector<Index> ids{first + f * per, first + (f + 1) * per};
+    for (int k = 1; k < per; ++k) ids.push_back(first + f * per + k);
+    chain.facets.push_back(pairing::lagrange_facet(ids));
+  }
+  pairing::connect(chain);
 }
 
 /// A grid of facets; `down` turns their normals.
 class MortarGrid {
  public:
-  MortarGrid(MortarSample<3>& s, const MortarOptions3& o, bool slave)
+  MortarGrid(ContactSample<3>& s, const MortarOptions3& o, bool slave)
       : s_(s),
         o_(o),
         type_(slave ? o.slave : o.master),
@@ -47,7 +49,7 @@ class MortarGrid {
   pairing::FacetSurface surface;
 
  private:
-  MortarSample<3>& s_;
+  ContactSample<3>& s_;
   const MortarOptions3& o_;
   cell::CellType type_;
   int cells_;
@@ -96,8 +98,23 @@ class MortarGrid {
   }
 };
 
-inline MortarSample<3> make_mortar3(const MortarOptions3& o) {
-  MortarSample<3> s;
+}  // namespace
+
+ContactSample<2> make_mortar2(const MortarOptions2& o) {
+  ContactSample<2> s;
+  add_line(s, s.pair.master, o.master_facets, o.master_nodes, 0, o.length, o, 0);
+  pairing::Chain slave;
+  add_line(s, slave, o.slave_facets, o.slave_nodes, o.to, o.from, o, -o.depth);
+  s.pair.slave = pairing::make_slave_side(slave);
+  s.pair.normal = contact::NormalPenalty{1000};
+  s.pair.mortar = true;
+  pairing::prepare(s.pair, s.x);
+  s.committed.points.resize(s.pair.slave.nodes.size());
+  return s;
+}
+
+ContactSample<3> make_mortar3(const MortarOptions3& o) {
+  ContactSample<3> s;
   s.pair.master = MortarGrid(s, o, false).surface;
   s.pair.slave = pairing::make_slave_side(MortarGrid(s, o, true).surface);
   s.pair.normal = contact::NormalPenalty{1000};
@@ -107,9 +124,22 @@ inline MortarSample<3> make_mortar3(const MortarOptions3& o) {
   return s;
 }
 
-/// int N_k dA of every node of a surface.
-inline Eigen::VectorXd uniform_shares(const MortarSample<3>& s,
-                                      const pairing::FacetSurface& surface) {
+Mat<3, 3> turn_of(const Vec3& w) {
+  const double angle = w.norm();
+  if (angle == 0) return Mat<3, 3>::Identity();
+  return Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
+}
+
+Eigen::VectorXd uniform_shares(const ContactSample<2>& s, const pairing::Chain& line) {
+  const pairing::SlaveSide<2> side = pairing::make_slave_side(line);
+  std::vector<double> areas;
+  pairing::nodal_areas(side, s.x, {}, areas, nullptr);
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(s.x.size()));
+  for (std::size_t i = 0; i < areas.size(); ++i) out[side.nodes[i]] = areas[i];
+  return out;
+}
+
+Eigen::VectorXd uniform_shares(const ContactSample<3>& s, const pairing::FacetSurface& surface) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(s.x.size()));
   for (const pairing::SurfaceFacet& facet : surface.facets) {
     const cell::Quadrature2D rule =

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "pair_sample.hpp"
-#include "pair_sample3.hpp"
 
 #include "osculate/contact/law/normal_penalty.hpp"
 
@@ -37,8 +36,8 @@ inline Vec2 closed_hairpin(const Vec2& p, double drop) {
 }
 
 /// Makes the sample's master its slave too; prepared where it is.
-template <int Dim, class Sample>
-void touch_itself(Sample& s, double reach) {
+template <int Dim>
+void touch_itself(ContactSample<Dim>& s, double reach) {
   pairing::connect(s.pair.master);
   s.pair.slave = pairing::make_slave_side(s.pair.master);
   s.pair.scope.own = true;
@@ -65,7 +64,7 @@ inline PairSample own_surface(const std::vector<Vec2>& points, int nodes_per_fac
     }
     s.pair.master.facets.push_back(pairing::lagrange_facet(nodes));
   }
-  touch_itself<2>(s, reach);
+  touch_itself(s, reach);
   return s;
 }
 
@@ -99,7 +98,7 @@ inline PairSample3 own_walls(const std::vector<Vec2>& points, cell::CellType typ
       facet(low, along, up);
       if (cell::is_triangle(type)) facet(Vec3(low + along + up), Vec3(-along), Vec3(-up));
     }
-  touch_itself<3>(s, reach);
+  touch_itself(s, reach);
   return s;
 }
 
@@ -114,18 +113,14 @@ inline void move(PairSample3& s, const std::function<Vec2(const Vec2&)>& to) {
   }
 }
 
-template <int Dim, class Sample>
-std::vector<Index> active_nodes(const Sample& s) {
-  pairing::PairEvaluation<Dim> e;
-  pairing::evaluate(s.pair, s.x, s.committed, false, e);
+/// Slave nodes in contact.
+template <int Dim>
+std::vector<Index> touching(const ContactSample<Dim>& s) {
+  const pairing::PairEvaluation<Dim> e = pair_evaluation(s, flatten(s.x));
   std::vector<Index> nodes;
   for (std::size_t i = 0; i < e.points.size(); ++i)
     if (e.blocks[i].active()) nodes.push_back(s.pair.slave.nodes[i]);
   return nodes;
 }
-
-/// Slave nodes in contact.
-inline std::vector<Index> touching(const PairSample& s) { return active_nodes<2>(s); }
-inline std::vector<Index> touching(const PairSample3& s) { return active_nodes<3>(s); }
 
 }  // namespace osculate::testing

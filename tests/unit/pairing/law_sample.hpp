@@ -1,11 +1,10 @@
 #pragma once
 // Every law of contact, each with a state in one of its branches.
 #include <cmath>
-#include <type_traits>
 #include <vector>
 
 #include "osculate/contact/law/catalogue.hpp"
-#include "osculate/pairing/pair.hpp"
+#include "pair_sample.hpp"
 
 namespace osculate::testing {
 
@@ -111,9 +110,6 @@ inline const std::vector<Law>& laws() {
   return all;
 }
 
-template <class Sample>
-inline constexpr int dimension = std::is_same_v<decltype(Sample::x), std::vector<Vec2>> ? 2 : 3;
-
 /// What must not change between two probes of a derivative: statuses, features, facets, pieces of
 /// the laws.
 template <int Dim>
@@ -142,8 +138,8 @@ std::vector<int> branches(const pairing::PairDefinition<Dim>& pair, const Law& l
 }
 
 /// Gives the pair its law, and a last place a little behind.
-template <class Sample, int Dim = dimension<Sample>>
-void set_law(const Law& law, Sample& s) {
+template <int Dim>
+void set_law(const Law& law, ContactSample<Dim>& s) {
   s.pair.normal = law.normal;
   s.pair.friction = law.friction;
   s.pair.separation = law.separation;

@@ -1,8 +1,7 @@
 #pragma once
 // A contact pair whose tractions are unknowns: forces and constraints, and their dense tangent.
-#include <random>
-
 #include "osculate/pairing/point_penalty.hpp"
+#include "pair_sample.hpp"
 
 namespace osculate::testing {
 
@@ -64,45 +63,27 @@ struct MultiplierSample {
 
   [[nodiscard]] Eigen::VectorXd residual(const Eigen::VectorXd& v) const {
     const pairing::PairEvaluation<Dim> e = evaluation(v, false);
-    Eigen::VectorXd r = Eigen::VectorXd::Zero(size());
+    Eigen::VectorXd r = assembled_force(e, size());
     for (std::size_t b = 0; b < e.blocks.size(); ++b) {
-      const pairing::ContactBlock<Dim>& block = e.blocks[b];
-      for (int k = 0; k < block.count; ++k)
-        r.segment<Dim>(Dim * block.nodes[static_cast<std::size_t>(k)]) +=
-            block.force.template segment<Dim>(Dim * k);
-      if (!block.constraint.on) continue;
+      const pairing::ConstraintBlock<Dim>& constraint = e.blocks[b].constraint;
+      if (!constraint.on) continue;
       const Eigen::Index at = Dim * nodes() + per_point() * static_cast<Eigen::Index>(b);
-      r[at] = block.constraint.normal;
-      if (pairing::has_shear(pair)) r.segment<Dim>(at + 1) = block.constraint.shear;
+      r[at] = constraint.normal;
+      if (pairing::has_shear(pair)) r.segment<Dim>(at + 1) = constraint.shear;
     }
     return r;
   }
 
   [[nodiscard]] Eigen::MatrixXd tangent(const Eigen::VectorXd& v) const {
     const pairing::PairEvaluation<Dim> e = evaluation(v, true);
-    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(size(), size());
-    for (std::size_t b = 0; b < e.blocks.size(); ++b) {
-      add_forces(e.blocks[b], k);
+    Eigen::MatrixXd k = assembled_tangent(e, size());
+    for (std::size_t b = 0; b < e.blocks.size(); ++b)
       if (e.blocks[b].constraint.on)
         add_constraint(e.blocks[b], Dim * nodes() + per_point() * static_cast<Eigen::Index>(b), k);
-    }
     return k;
   }
 
  private:
-  void add_forces(const pairing::ContactBlock<Dim>& b, Eigen::MatrixXd& k) const {
-    for (int i = 0; i < Dim * b.count; ++i) {
-      const Eigen::Index row = Dim * b.nodes[static_cast<std::size_t>(i / Dim)] + i % Dim;
-      if (b.tangent.size() > 0)
-        for (int j = 0; j < Dim * b.count; ++j)
-          k(row, Dim * b.nodes[static_cast<std::size_t>(j / Dim)] + j % Dim) += b.tangent(i, j);
-      for (const pairing::NodeMatrix<Dim>& g : b.path())
-        k.block<1, Dim>(row, Dim * g.node) += b.path_rows.row(i) * g.value;
-      for (const pairing::NodeGradient<Dim>& g : b.area)
-        k.block<1, Dim>(row, Dim * g.node) += b.area_rows[i] * g.value.transpose();
-    }
-  }
-
   void add_constraint(const pairing::ContactBlock<Dim>& b, Eigen::Index at,
                       Eigen::MatrixXd& k) const {
     const pairing::ConstraintBlock<Dim>& c = b.constraint;
@@ -126,8 +107,8 @@ Vec<Dim> shear_of(double size) {
   return t;
 }
 
-template <int Dim, class Sample>
-MultiplierSample<Dim> unknown_tractions(const Sample& s, double lambda, double shear) {
+template <int Dim>
+MultiplierSample<Dim> unknown_tractions(const ContactSample<Dim>& s, double lambda, double shear) {
   MultiplierSample<Dim> m;
   m.pair = s.pair;
   m.pair.enforcement = contact::Enforcement::lagrange_multiplier;

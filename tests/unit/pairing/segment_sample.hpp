@@ -2,7 +2,6 @@
 // Pairs whose slave is sampled at points of its facets, which lie in the master over borders.
 #include "osculate/pairing/sampling.hpp"
 #include "pair_sample.hpp"
-#include "pair_sample3.hpp"
 
 namespace osculate::testing {
 
@@ -75,8 +74,8 @@ inline PairSample3 segment_sample3(const SegmentOptions3& o) {
 
 /// History of the slave points in the configuration in which the slave is moved back by `by`, with
 /// this traction along the first direction.
-template <int Dim, class Sample>
-void remember_all(Sample& s, const Vec<Dim>& by, double traction) {
+template <int Dim>
+void remember_all(ContactSample<Dim>& s, const Vec<Dim>& by, double traction) {
   std::vector<Vec<Dim>> x = s.x;
   for (const Index node : s.pair.slave.nodes) x[static_cast<std::size_t>(node)] -= by;
   s.committed = pairing::initial_state<Dim>(s.pair, x);

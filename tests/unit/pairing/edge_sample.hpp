@@ -1,6 +1,6 @@
 #pragma once
 // Two roofs whose ridges cross: contact that no node sees.
-#include "pair_sample3.hpp"
+#include "pair_sample.hpp"
 
 #include "osculate/contact/law/normal_penalty.hpp"
 
