@@ -72,8 +72,7 @@ struct BasicContactResult {
 
 /// In the plane (Dim = 2) or in space (Dim = 3); the same code but for the facets.
 ///
-/// Tested by  tests/unit/api/test_contact_evaluator.cpp, test_contact_evaluator3.cpp,
-///            test_contact_enforcement.cpp
+/// Tested by  tests/unit/api/test_contact_evaluator.cpp, test_contact_enforcement.cpp
 template <int Dim>
 class BasicContactEvaluator {
  public:

@@ -10,7 +10,7 @@ namespace osculate::model {
 /// Adds blocks over primary dofs to the matrix of the unknowns: rigid nodes and eliminated dofs
 /// are expanded, prescribed rows and columns are left out.
 ///
-/// Tested by  tests/unit/model/test_dof_space.cpp, test_dof_space3.cpp
+/// Tested by  tests/unit/model/test_dof_space.cpp
 template <int Dim>
 class BasicAssembler {
  public:
