@@ -12,7 +12,7 @@
 namespace osculate::deck {
 
 inline std::string test_file(const std::string& name) {
-  const std::string path = std::string(OSCULATE_SOURCE_DIR) + "/tests/unit/deck/" + name;
+  const std::string path = OSCULATE_SOURCE_DIR "/tests/unit/deck/" + name;
   std::ifstream file(path);
   if (!file) throw std::runtime_error("cannot read " + path);
   std::ostringstream text;
