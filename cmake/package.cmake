@@ -1,6 +1,6 @@
 # cmake --build --preset release --target package: .deb packages (program, verification cases, library for
 # other codes) and a tarball of the program that runs where none of its libraries are installed.
-install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES LICENSE CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY examples/sliding_block DESTINATION ${CMAKE_INSTALL_DATADIR}/osculate/examples COMPONENT program)
 # Beside the program in the tarball: all but what every Debian has.
 install(RUNTIME_DEPENDENCY_SET osculate_needs COMPONENT libraries DESTINATION ${CMAKE_INSTALL_LIBDIR} EXCLUDE_FROM_ALL
