@@ -359,7 +359,7 @@ def parse(arguments=None):
     parser = argparse.ArgumentParser(description=__doc__.split("\n", 1)[0])
     default = ROOT / "build/release/bin/osculate"
     if not default.exists():
-        default = ROOT / "build/test/bin/osculate"
+        default = ROOT / "build/release/bin/osculate"
     parser.add_argument("--osculate", type=pathlib.Path, default=default, metavar="PROGRAM")
     parser.add_argument("--ccx", default="ccx", metavar="PROGRAM")
     parser.add_argument("--models", nargs="+", type=parse_model, metavar="NXxNY[:INCREMENTS]",
