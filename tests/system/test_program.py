@@ -74,6 +74,13 @@ class Program(unittest.TestCase):
     def run_program(self, *arguments):
         return subprocess.run([PROGRAM, *arguments], cwd=self.folder.name, capture_output=True, text=True)
 
+    def test_without_the_verification_cases_one_sentence_says_what_to_do(self):
+        alone = self.path("osculate")
+        shutil.copy(PROGRAM, alone)
+        done = subprocess.run([alone, "verify", "--list"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("--target osculate-verify", done.stderr)
+
     def test_domain(self):
         saddle = os.path.join(SOURCE, "examples", "domains", "saddle.yaml")
         done = self.run_program("domain", saddle, "-o", "saddle.vtu", "--page", "saddle.html", "--json")
