@@ -6,7 +6,6 @@
 
 #include "osculate/api/closest_points.hpp"
 #include "osculate/api/contact_evaluator.hpp"
-#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/geometry/curve_frame.hpp"
 #include "osculate/geometry/curve_jet.hpp"
 #include "osculate/la/direct_solver.hpp"
@@ -57,7 +56,7 @@ bool contact_evaluator_is_right() {
   using namespace osculate;
   api::ContactOptions options;
   options.normal_penalty = 1000.0;
-  options.friction = contact::Coulomb{0.5, 1000.0};
+  options.friction = contact::coulomb(0.5, 1000.0);
   const std::vector<Index> master{0, 1}, slave{3, 2};  // body on the right of travel: above
   std::vector<double> x{0, 0, 4, 0, 1, -0.01, 2, -0.01};
   api::ContactEvaluator contact(options, {2, master}, {2, slave}, x);

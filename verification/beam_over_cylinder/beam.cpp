@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "osculate/contact/law/normal_penalty.hpp"
 
 namespace osculate::verification {
 namespace {
@@ -89,7 +88,7 @@ model::Model3 beam_model(const BeamModel& o) {
   pairing::connect(cylinder);
   pair.definition.master = std::move(beam);
   pair.definition.slave = pairing::make_slave_side(std::move(cylinder));
-  pair.definition.normal = contact::NormalPenalty{o.penalty};
+  pair.definition.normal = contact::penalty(o.penalty);
   pair.definition.tangent = o.tangent;
   pairing::prepare(pair.definition, b.model.reference);
   b.model.pairs.push_back(std::move(pair));

@@ -7,7 +7,6 @@
 #include "../cases.hpp"
 #include "../model3.hpp"
 #include "../scene3.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
 
 namespace osculate::verification {
@@ -120,7 +119,7 @@ Problem make_problem(const Choice& c) {
   Sphere sphere = add_sphere(b);
   pairing::connect(sphere.upper);
   pair.definition.slave = pairing::make_slave_side(std::move(sphere.upper));
-  pair.definition.normal = contact::NormalPenalty{c.penalty};
+  pair.definition.normal = contact::penalty(c.penalty);
   pair.definition.tangent = c.tangent;
   pairing::prepare(pair.definition, b.model.reference);
   b.model.pairs.push_back(std::move(pair));

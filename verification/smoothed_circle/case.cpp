@@ -5,8 +5,6 @@
 
 #include "../cases.hpp"
 #include "in_space.hpp"
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::verification {
@@ -39,8 +37,8 @@ Ride make_ride(pairing::SmoothingKind kind) {
   ride.x.push_back(on_circle(0, 1 - depth));
   ride.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{corners});
   ride.pair.weight = pairing::Weight::node;
-  ride.pair.normal = contact::NormalPenalty{stiffness};
-  ride.pair.friction = contact::Coulomb{mu, eps_t};
+  ride.pair.normal = contact::penalty(stiffness);
+  ride.pair.friction = contact::coulomb(mu, eps_t);
   pairing::prepare<2>(ride.pair, ride.x);
   return ride;
 }
@@ -78,7 +76,7 @@ Forces ride_round(pairing::SmoothingKind kind) {
 
 /// The same on a round master in space, along one of its great circles.
 Forces ride_round(RoundMaster master, pairing::SmoothingKind kind) {
-  RideInSpace ride = ride_on(std::move(master), kind, stiffness, contact::Coulomb{mu, eps_t});
+  RideInSpace ride = ride_on(std::move(master), kind, stiffness, contact::coulomb(mu, eps_t));
   ride.x.back() = (1 - depth) * ride.outwards(0);
   pairing::PairState<3> state = pairing::initial_state<3>(ride.pair, ride.x);
   pairing::PairEvaluation<3> e;

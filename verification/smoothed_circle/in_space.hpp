@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
+#include "osculate/contact/law/law.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::verification {
@@ -87,7 +86,7 @@ struct RideInSpace {
 };
 
 inline RideInSpace ride_on(RoundMaster master, pairing::SmoothingKind kind, double stiffness,
-                           const contact::Coulomb& friction) {
+                           const contact::FrictionLaw& friction) {
   RideInSpace ride{{}, std::move(master.x), master.first, master.second};
   ride.pair.master = std::move(master.surface);
   pairing::connect(ride.pair.master);
@@ -96,7 +95,7 @@ inline RideInSpace ride_on(RoundMaster master, pairing::SmoothingKind kind, doub
   ride.x.emplace_back(0, 0, 0);
   ride.pair.slave = pairing::make_slave_side(pairing::FacetSurface{}, std::array<Index, 1>{slave});
   ride.pair.weight = pairing::Weight::node;
-  ride.pair.normal = contact::NormalPenalty{stiffness};
+  ride.pair.normal = contact::penalty(stiffness);
   ride.pair.friction = friction;
   pairing::prepare<3>(ride.pair, ride.x);
   return ride;

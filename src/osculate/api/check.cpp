@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "osculate/api/penetration.hpp"
 #include "osculate/api/run.hpp"

@@ -99,9 +99,15 @@ void fields(Archive& a, TimePace& pace) {
   a(speed, tried, until);
 }
 template <class Archive>
+void fields(Archive& a, Precision& precision) {
+  auto& [condition, round_off] = precision;
+  a(condition, round_off);
+}
+template <class Archive>
 void fields(Archive& a, IncrementRecord& record) {
-  auto& [fraction, cutbacks, iterations, wasted, resisted, on_path, time_steps, time_step] = record;
-  a(fraction, cutbacks, iterations, wasted, resisted, on_path, time_steps, time_step);
+  auto& [fraction, cutbacks, iterations, wasted, resisted, on_path, time_steps, time_step,
+         precision] = record;
+  a(fraction, cutbacks, iterations, wasted, resisted, on_path, time_steps, time_step, precision);
 }
 template <class Archive>
 void fields(Archive& a, ExtrapolationMemory& m) {
@@ -192,7 +198,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 4;
+constexpr int version = 5;
 
 template <class... T>
 std::string saved(const T&... values) {

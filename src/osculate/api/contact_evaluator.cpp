@@ -6,7 +6,6 @@
 #include <cmath>
 #include <set>
 
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 
@@ -63,7 +62,7 @@ pairing::FacetSurface boundary_of(const FacetList3& list, std::size_t nodes, con
 /// A text that says what is wrong with a law.
 void check_laws(const ContactOptions& options) {
   const contact::NormalLaw normal =
-      options.normal.value_or(contact::NormalPenalty{options.normal_penalty});
+      options.normal.value_or(contact::penalty(options.normal_penalty));
   std::string wrong = contact::fault(normal);
   if (wrong.empty() && options.friction) wrong = contact::fault(*options.friction);
   if (wrong.empty() && options.friction && contact::needs_duration(*options.friction))
@@ -249,7 +248,7 @@ BasicContactEvaluator<Dim>::BasicContactEvaluator(const ContactOptions& options,
   pairing::PairDefinition<Dim>& pair = impl_->pair;
   pair.master = boundary_of(master, x.size(), "master");
   pair.slave = pairing::make_slave_side(boundary_of(slave, x.size(), "slave"));
-  pair.normal = options.normal.value_or(contact::NormalPenalty{options.normal_penalty});
+  pair.normal = options.normal.value_or(contact::penalty(options.normal_penalty));
   pair.enforcement = options.enforcement;
   pair.damping = options.damping;
   pair.separation = options.separation;

@@ -8,6 +8,7 @@
 #include "osculate/api/domain_picture.hpp"
 #include "osculate/api/report_json.hpp"
 #include "osculate/core/version.hpp"
+#include "osculate/io/report.hpp"
 #include "osculate/io/vtk.hpp"
 
 namespace osculate::api {

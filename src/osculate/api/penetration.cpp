@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/pairing/point_penalty.hpp"

@@ -1,18 +1,40 @@
 #include "osculate/api/report_data.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "osculate/api/summary.hpp"
 #include "osculate/core/version.hpp"
 
 namespace osculate::api {
 
 template <int Dim>
+struct ReportCollector<Dim>::Collected {
+  std::vector<nlohmann::json> frames{};
+  nlohmann::json newest{};
+  nlohmann::json last{};  ///< the latest frame, if it is not among them
+  std::size_t stride = 1, seen = 0;
+  nlohmann::json failure{};
+  nlohmann::json rows = nlohmann::json::array();
+};
+
+template <int Dim>
 ReportCollector<Dim>::ReportCollector(const deck::BasicBuilt<Dim>& built,
                                       const deck::Description& description)
-    : built_(built), description_(description), view_(built.model) {}
+    : built_(built),
+      description_(description),
+      view_(built.model),
+      collected_(std::make_unique<Collected>()) {}
+template <int Dim>
+ReportCollector<Dim>::~ReportCollector() = default;
+
+template <int Dim>
+const nlohmann::json& ReportCollector<Dim>::newest() const {
+  return collected_->newest;
+}
 
 template <int Dim>
 void ReportCollector<Dim>::add_history(const std::vector<double>& row) {
-  rows_.push_back(row);
+  collected_->rows.push_back(row);
 }
 
 template <int Dim>
@@ -28,27 +50,28 @@ void ReportCollector<Dim>::add_frame(const model::BasicSystem<Dim>& system,
 }
 
 template <int Dim>
-void ReportCollector<Dim>::add_frame(nlohmann::json frame) {
+void ReportCollector<Dim>::add_frame(const nlohmann::json& frame) {
   const std::size_t most = view_.max_frames();
   if (most == 0) return;
-  newest_ = frame;
-  last_ = std::move(frame);
-  if (seen_++ % stride_ != 0) return;
-  frames_.push_back(std::move(last_));
-  last_ = nullptr;
-  if (frames_.size() < most) return;
+  Collected& c = *collected_;
+  c.newest = frame;
+  c.last = frame;
+  if (c.seen++ % c.stride != 0) return;
+  c.frames.push_back(std::move(c.last));
+  c.last = nullptr;
+  if (c.frames.size() < most) return;
   std::vector<nlohmann::json> kept;
-  for (std::size_t i = 0; i < frames_.size(); i += 2) kept.push_back(std::move(frames_[i]));
-  if (frames_.size() % 2 == 0) last_ = std::move(frames_.back());
-  frames_ = std::move(kept);
-  stride_ *= 2;
+  for (std::size_t i = 0; i < c.frames.size(); i += 2) kept.push_back(std::move(c.frames[i]));
+  if (c.frames.size() % 2 == 0) c.last = std::move(c.frames.back());
+  c.frames = std::move(kept);
+  c.stride *= 2;
 }
 
 template <int Dim>
 void ReportCollector<Dim>::add_failure(const model::BasicState<Dim>& state,
                                        const model::BasicFailure<Dim>& failure) {
   if (!failure.motions.empty() && state.u.allFinite())
-    failure_ = view_.last_iterate(state, failure);
+    collected_->failure = view_.last_iterate(state, failure);
 }
 
 template <int Dim>
@@ -78,8 +101,9 @@ std::string ReportCollector<Dim>::json(const nlohmann::json& summary) const {
                             {"residuals", inc["residuals"]},
                             {"energies", inc["energies"]}});
   }
-  nlohmann::json frames = frames_;
-  if (!last_.is_null()) frames.push_back(last_);
+  const Collected& c = *collected_;
+  nlohmann::json frames = c.frames;
+  if (!c.last.is_null()) frames.push_back(c.last);
   nlohmann::json data = {{"title", built_.model.title},
                          {"osculate", core::version},
                          {"status", summary["status"] == "done" ? "done" : "failed"},
@@ -87,11 +111,11 @@ std::string ReportCollector<Dim>::json(const nlohmann::json& summary) const {
                          {"model", facts},
                          {"summary", summary},
                          {"iterations", iterations},
-                         {"history", {{"columns", columns}, {"rows", rows_}}},
+                         {"history", {{"columns", columns}, {"rows", c.rows}}},
                          {"mesh", view_.mesh()}};
   view_.finish(frames, data);
   data["frames"] = frames;
-  if (!failure_.is_null()) data["last_iterate"] = failure_;
+  if (!c.failure.is_null()) data["last_iterate"] = c.failure;
   if (!plots.empty()) data["plots"] = plots;
   return data.dump();
 }

@@ -1,5 +1,6 @@
 #pragma once
-#include <nlohmann/json.hpp>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,12 +16,15 @@ template <int Dim>
 class ReportCollector {
  public:
   ReportCollector(const deck::BasicBuilt<Dim>& built, const deck::Description& description);
+  ~ReportCollector();
+  ReportCollector(const ReportCollector&) = delete;
+  ReportCollector& operator=(const ReportCollector&) = delete;
   void add_frame(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
                  const model::Progress& progress);
   /// A frame that was made before: `newest()` of another collector.
-  void add_frame(nlohmann::json frame);
+  void add_frame(const nlohmann::json& frame);
   /// The frame that was added last; null if there is none or the view wants none.
-  [[nodiscard]] const nlohmann::json& newest() const { return newest_; }
+  [[nodiscard]] const nlohmann::json& newest() const;
   /// Where an increment failed for good, and what is free to move there.
   void add_failure(const model::BasicState<Dim>& state, const model::BasicFailure<Dim>& failure);
   void add_history(const std::vector<double>& row);
@@ -31,12 +35,8 @@ class ReportCollector {
   const deck::BasicBuilt<Dim>& built_;
   const deck::Description& description_;
   ReportView<Dim> view_;
-  std::vector<nlohmann::json> frames_;
-  nlohmann::json newest_;
-  nlohmann::json last_;  ///< the latest frame, if it is not among them
-  std::size_t stride_ = 1, seen_ = 0;
-  nlohmann::json failure_;
-  nlohmann::json rows_ = nlohmann::json::array();
+  struct Collected;
+  std::unique_ptr<Collected> collected_;
 };
 
 }  // namespace osculate::api

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "osculate/api/report_json.hpp"
 #include "osculate/api/report_view.hpp"

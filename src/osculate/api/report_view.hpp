@@ -1,6 +1,6 @@
 #pragma once
 #include <array>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "osculate/mesh/surface.hpp"

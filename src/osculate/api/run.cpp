@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "osculate/api/checkpoint.hpp"
@@ -265,6 +266,14 @@ struct Recorder {
                        taken.refused ? fmt::format(" ({} refused)", taken.refused) : "");
   }
 
+  /// Digits that were lost.
+  [[nodiscard]] static std::string precision_text(const solve::Precision& precision) {
+    return (precision.condition > 0
+                ? fmt::format("  (condition of the tangent {:.0e})", precision.condition)
+                : std::string{}) +
+           (precision.round_off ? "  (residual at round-off)" : "");
+  }
+
   /// Steps whose time steps were chosen by their errors.
   void report_chosen(const std::vector<model::StepRecord>& steps) {
     for (std::size_t s = 0; s < steps.size(); ++s) {
@@ -295,7 +304,8 @@ struct Recorder {
         last.counts.open, last.counts.stick, last.counts.slip,
         (record.cutbacks ? fmt::format("  ({} cut-backs)", record.cutbacks) : std::string{}) +
             (record.resisted ? "  (free motions resisted on the way)" : "") +
-            (record.on_path ? "  (on the path)" : "") + time_step_text(record.time_step));
+            (record.on_path ? "  (on the path)" : "") + precision_text(record.precision) +
+            time_step_text(record.time_step));
     log << line << "\n";
     if (options.progress) options.progress(line);
   }

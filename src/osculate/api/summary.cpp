@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,8 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
     time_step = {{"length", number(record.time_step.length)},
                  {"error", number(record.time_step.error)},
                  {"refused", record.time_step.refused}};
+  nlohmann::json condition = nullptr;
+  if (record.precision.condition > 0) condition = number(record.precision.condition);
   return {{"time", step_time + record.fraction},
           {"iterations", record.iterations.size()},
           {"residual", number(last.residual)},
@@ -46,6 +49,8 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
           {"wasted_iterations", record.wasted_iterations},
           {"resisted", record.resisted},
           {"on_path", record.on_path},
+          {"condition", condition},
+          {"round_off", record.precision.round_off},
           {"open", last.counts.open},
           {"stick", last.counts.stick},
           {"slip", last.counts.slip},

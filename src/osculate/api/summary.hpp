@@ -1,6 +1,7 @@
 #pragma once
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "osculate/deck/build.hpp"
 
@@ -20,7 +21,7 @@ template <int Dim>
                                           const model::BasicAnalysisResult<Dim>& result,
                                           const std::string& status, const RunSeconds& seconds,
                                           const std::vector<double>& curvature_shares,
-                                          const std::vector<nlohmann::json>& notes = {});
+                                          const std::vector<nlohmann::json>& notes);
 
 /// `diagnosis` of summary.json: why the analysis stopped before its end; null if it did not fail.
 template <int Dim>

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/deck/layers_behind.hpp"
 
@@ -137,7 +136,7 @@ void set_automatic(BuildContext<Dim>& c, const Contact& contact,
         fmt::format("'auto' finds no deformable cell behind the facets of '{}': give a number",
                     out.name));
   const double per = pair.weight == pairing::Weight::node ? area_per_point(c, pair, mark) : 1.0;
-  if (contact.automatic) pair.normal = contact::NormalPenalty{automatic_factor * normal * per};
+  if (contact.automatic) pair.normal = contact::penalty(automatic_factor * normal * per);
   if (shear)
     pair.friction = contact::with_stiffness(
         *pair.friction, automatic_factor * in_series(slave.shear, master.shear) * per);

@@ -6,7 +6,6 @@
 #include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/damping.hpp"
 #include "osculate/contact/law/normal_exponential.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/contact/law/normal_table.hpp"
 #include "osculate/contact/law/rough.hpp"
 #include "osculate/contact/law/tresca.hpp"
@@ -20,7 +19,7 @@ contact::NormalLaw normal_law(const Contact& contact) {
   if (n.law.value == NormalWord::exponential)
     return contact::NormalExponential{n.pressure.value, n.clearance.value};
   if (n.law.value == NormalWord::table) return contact::NormalTable{n.table};
-  return contact::NormalPenalty{contact.normal_penalty.value};
+  return contact::penalty(contact.normal_penalty.value);
 }
 
 contact::FrictionLaw friction_law(const CoulombFriction& f, bool may_part) {

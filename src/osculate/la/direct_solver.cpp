@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
+#include "osculate/la/accuracy.hpp"
 #include "osculate/la/ordering.hpp"
 
 extern "C" void openblas_set_num_threads(int);
@@ -137,10 +139,11 @@ struct DirectSolver::Impl {
   Index set_values(const SparseMatrix& k);
   FactorReport prepare(const SparseMatrix& k, std::uint64_t wanted_version, Symmetry wanted);
   FactorReport factorise_with_retries();
+  void look_at_accuracy(FactorReport& report);
   [[nodiscard]] FactorReport outcome() const;
   [[nodiscard]] Eigen::VectorXd multiplied(const Eigen::VectorXd& x) const;
-  [[nodiscard]] double lost_accuracy();
-  [[nodiscard]] bool looks_singular();
+  [[nodiscard]] Eigen::VectorXd row_scale() const;
+  [[nodiscard]] double loss();
   [[nodiscard]] Index vanishing_row(const SparseMatrix& k);
   SolveStatus substitute(double* rhs, Index count);
   SolveStatus solve_condensed(Eigen::VectorXd& rhs);
@@ -264,6 +267,16 @@ FactorReport DirectSolver::Impl::factorise_with_retries() {
   }
 }
 
+/// Square roots of the largest entries of the rows, 1 for empty ones.
+Eigen::VectorXd DirectSolver::Impl::row_scale() const {
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(n);
+  for (std::size_t e = 0; e < values.size(); ++e)
+    for (const int i : {rows[e] - 1, columns[e] - 1})
+      scale[i] = std::max(scale[i], std::abs(values[e]));
+  for (double& s : scale) s = s > 0 ? std::sqrt(s) : 1.0;
+  return scale;
+}
+
 Eigen::VectorXd DirectSolver::Impl::multiplied(const Eigen::VectorXd& x) const {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(n);
   for (std::size_t e = 0; e < values.size(); ++e) {
@@ -274,36 +287,14 @@ Eigen::VectorXd DirectSolver::Impl::multiplied(const Eigen::VectorXd& x) const {
   return y;
 }
 
-/// Relative error of the solution for a known vector: about eps times the condition number of the
-/// matrix scaled by its rows, so of order one for a singular one.
-double DirectSolver::Impl::lost_accuracy() {
-  Eigen::VectorXd scale = Eigen::VectorXd::Zero(n);
-  for (std::size_t e = 0; e < values.size(); ++e) {
-    scale[rows[e] - 1] = std::max(scale[rows[e] - 1], std::abs(values[e]));
-    scale[columns[e] - 1] = std::max(scale[columns[e] - 1], std::abs(values[e]));
-  }
-  Eigen::VectorXd known(n);
-  std::uint32_t noise = 1;
-  for (Index i = 0; i < n; ++i) {
-    noise = noise * 1664525U + 1013904223U;
-    const double sign = (noise >> 31U) != 0 ? 1.0 : -1.0;
-    known[i] = scale[i] > 0 ? sign / std::sqrt(scale[i]) : sign;
-  }
-  Eigen::VectorXd x = multiplied(known);
-  if (substitute(x.data(), 1) != SolveStatus::ok) return 1;
-  double worst = 0;
-  for (Index i = 0; i < n; ++i) {
-    const double error = std::abs(x[i] / known[i] - 1);
-    if (!(error <= worst)) worst = std::isfinite(error) ? error : 1;
-  }
-  return worst;
-}
-
-bool DirectSolver::Impl::looks_singular() {
-  constexpr double harmless = 1e-9, digits_left = 1e-3;
+/// What is lost of a number's digits, as a share; 0 where the pivots say that it is harmless.
+double DirectSolver::Impl::loss() {
+  constexpr double harmless = 1e-9;
   const double smallest = id.rinfog[18], largest = id.rinfog[20];  // pivots of the scaled matrix
-  if (smallest > harmless * largest) return false;
-  return lost_accuracy() > digits_left;
+  if (smallest > harmless * largest) return 0;
+  return lost_accuracy(
+      row_scale(), [this](const Eigen::VectorXd& x) { return multiplied(x); },
+      [this](Eigen::VectorXd& x) { return substitute(x.data(), 1) == SolveStatus::ok; });
 }
 
 /// Factors once more with the search for pivots that vanish, which needs pivoting; -1 if none is
@@ -347,6 +338,24 @@ void DirectSolver::Impl::refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) 
   if (Eigen::VectorXd(rhs - multiplied(better)).stableNorm() < before) x = better;
 }
 
+/// Singular to working precision, with what is resisted least, or not so. Without pivoting, small
+/// pivots beside negative ones are the method's: `vanishing_row` decides.
+void DirectSolver::Impl::look_at_accuracy(FactorReport& report) {
+  constexpr double digits_left = 1e-3;
+  const double lost = loss();
+  if (!(lost > digits_left)) return;
+  const bool promised = symmetry == Symmetry::positive_definite;
+  const bool broken = promised && report.negative_pivots > 0;
+  report = failure(SolveStatus::singular, "the matrix is singular to working precision");
+  report.condition = lost / std::numeric_limits<double>::epsilon();
+  if (broken) return;
+  WeakestMode mode = weakest_mode(row_scale(), [this](Eigen::VectorXd& x) {
+    return substitute(x.data(), 1) == SolveStatus::ok;
+  });
+  report.weakest = std::move(mode.values);
+  report.bad_row = mode.row;
+}
+
 DirectSolver::DirectSolver(DirectOptions options) : impl_(std::make_unique<Impl>(options)) {}
 DirectSolver::~DirectSolver() = default;
 DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
@@ -367,15 +376,14 @@ FactorReport DirectSolver::Impl::factor(const SparseMatrix& k, std::uint64_t wan
   const double analysis = report.seconds_analysis;
   const auto begun = std::chrono::steady_clock::now();
   report = factorise_with_retries();
-  if (report.status == SolveStatus::ok && looks_singular())
-    report = failure(SolveStatus::singular, "the matrix is singular to working precision");
-  if (report.status == SolveStatus::singular) report.bad_row = vanishing_row(k);
+  if (report.status == SolveStatus::ok) look_at_accuracy(report);
+  factored = report.status == SolveStatus::ok || report.weakest.size() > 0;
+  if (report.status == SolveStatus::singular && !factored) report.bad_row = vanishing_row(k);
   if (report.status == SolveStatus::singular && report.bad_row < 0 &&
       symmetry == Symmetry::positive_definite)
     report = failure(SolveStatus::failed, not_definite);  // it can be factored with pivoting
   report.seconds_analysis = analysis;
   report.seconds_factor = seconds_since(begun);
-  factored = report.status == SolveStatus::ok;
   return report;
 }
 
@@ -402,6 +410,8 @@ FactorReport DirectSolver::factor(const SparseMatrix& k, std::uint64_t pattern_v
   const Condensation& c = *s.condensation;
   FactorReport report = s.factor(c.matrix(), c.pattern_version(), Symmetry::unsymmetric);
   if (report.bad_row >= 0) report.bad_row = c.unknown(report.bad_row);
+  if (report.weakest.size() > 0)
+    report.weakest = c.expanded(report.weakest, Eigen::VectorXd::Zero(k.n));
   return report;
 }
 

@@ -22,6 +22,12 @@ struct FactorReport {
   int negative_pivots = 0;                          ///< of the symmetric kinds; 0 for unsymmetric
   double seconds_analysis = 0, seconds_factor = 0;  ///< analysis 0: the former one was used again
   std::string message;                              ///< empty when ok
+  /// About, of the matrix scaled by its rows; 0: at most 1e13.
+  double condition = 0;
+  /// Where the matrix was factored, but is `singular` to working precision: what it resists least,
+  /// one value per row. Whoever knows that this is no free motion may `solve` all the same, and
+  /// correct the solution by its residual.
+  Eigen::VectorXd weakest{};
   std::int64_t factor_entries = 0;
 };
 
@@ -35,9 +41,8 @@ struct DirectOptions {
 /// factored other values before gives the same bits as a new one. Several may live at once: one
 /// lock per process around every call of the library.
 ///
-/// Errors     a matrix with 13 or more digits lost is reported as `singular` with the row of a
-///            pivot that vanished (one of the unknowns that move in the free mode); nothing is
-///            thrown but std::bad_alloc
+/// Errors     a matrix with 13 or more digits lost is reported as `singular` with the row of one of
+///            the unknowns that move in the free mode; nothing is thrown but std::bad_alloc
 /// Tested by  tests/unit/la/test_direct_solver.cpp
 class DirectSolver {
  public:

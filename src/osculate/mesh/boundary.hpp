@@ -62,7 +62,7 @@ struct Boundary {
 ///            with other interior nodes than the edge of its parent
 /// Returns    prev/next already set; lines without parent keep the order of the file
 /// Requires   set.dimension == 1
-/// Tested by  tests/unit/mesh/test_boundary.cpp
+/// Tested by  tests/unit/mesh/test_boundary.cpp, test_outer_facets.cpp
 [[nodiscard]] Boundary orient_boundary(const Mesh& mesh, const EdgeTable& table, const Set& set);
 [[nodiscard]] Boundary orient_boundary(const Mesh& mesh, const Set& set);
 

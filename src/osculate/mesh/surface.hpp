@@ -81,7 +81,7 @@ struct Surface {
 /// to
 ///            be turned round
 /// Requires   set.dimension == 2
-/// Tested by  tests/unit/mesh/test_surface.cpp
+/// Tested by  tests/unit/mesh/test_surface.cpp, test_outer_facets.cpp
 [[nodiscard]] Surface orient_surface(const Mesh& mesh, const FaceTable& table, const Set& set);
 [[nodiscard]] Surface orient_surface(const Mesh& mesh, const Set& set);
 

@@ -10,6 +10,7 @@
 #include "osculate/core/dense.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
+#include "osculate/model/system_impl.hpp"
 
 namespace osculate::model {
 namespace {
@@ -206,6 +207,28 @@ std::vector<BasicFreeMotion<Dim>> free_motions(BasicSystem<Dim>& system,
   }
   return found;
 }
+
+/// Formula    |v - Z c| <= 1e-3 |v| over all nodes of deformable bodies, Z c the nearest rigid
+///            motions of the bodies
+template <int Dim>
+bool BasicSystem<Dim>::is_free_motion(const State& state, const Eigen::VectorXd& mode) const {
+  constexpr double nearly = 1e-3;
+  if (mode.size() != displacements()) return true;
+  const std::vector<Vec<Dim>> x = positions(state);
+  double whole = 0, strained = 0;
+  for (const std::vector<Index>& nodes : deformable_bodies(impl_->model)) {
+    const Eigen::MatrixXd z = rigid_modes(*this, nodes, x).z;
+    Eigen::VectorXd moved = mode;  // of this body
+    for (Eigen::Index u = 0; u < z.rows(); ++u)
+      if (z.row(u).isZero(0)) moved[u] = 0;
+    const Eigen::VectorXd rigid = z * core::least_squares(z, moved);
+    whole += moved.squaredNorm();
+    strained += (moved - rigid).squaredNorm();
+  }
+  return strained <= nearly * nearly * whole;
+}
+template bool BasicSystem<2>::is_free_motion(const State&, const Eigen::VectorXd&) const;
+template bool BasicSystem<3>::is_free_motion(const State&, const Eigen::VectorXd&) const;
 
 namespace {
 

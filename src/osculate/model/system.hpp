@@ -136,6 +136,11 @@ class BasicSystem {
   [[nodiscard]] std::vector<Vec<Dim>> positions(const State& state) const;
   [[nodiscard]] bool prescribed(Index unknown) const;
   [[nodiscard]] SystemSeconds seconds() const;
+  /// Whether a motion that the tangent hardly resists leaves every body as it is: then nothing
+  /// holds it. Otherwise something is only very slender or soft. Multipliers: true.
+  ///
+  /// Tested by  tests/unit/model/test_diagnosis.cpp
+  [[nodiscard]] bool is_free_motion(const State& state, const Eigen::VectorXd& mode) const;
   /// Gives every multiplier of the running tangent a little compliance (see solve::Softens).
   /// Returns false where there are none.
   bool soften();

@@ -445,6 +445,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   if (timed()) out.force_scale = std::max(force_factor() * out.force_scale, forces.contact.norm());
   if (with_tangent && resistance.size() == 0) measure_resistance();
   out.round_off = round_off + round_off_in_time(x);
+  out.driven = !timed() && forces.external.norm() > 0;
   if (predict) out.force_scale = std::max(out.force_scale, out.residual.norm());
 }
 

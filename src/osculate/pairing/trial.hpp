@@ -73,7 +73,7 @@ struct PathBuffers {
 /// Returns    as above; no trial when the places are on different pieces of the master, or the
 ///            normals are opposite
 /// Tested by  tests/unit/pairing/test_pair3_tangent.cpp, test_pair3_identities.cpp,
-///            test_history_rules3.cpp
+///            test_history_rules.cpp
 [[nodiscard]] Trial<3> trial(const FacetSurface& master, const contact::PointHistory<3>& history,
                              const Placed<3>& placed, double stiffness, const ContactShare& share,
                              std::span<const Vec3> x, PathBuffers<3>* path,

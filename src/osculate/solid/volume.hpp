@@ -37,7 +37,7 @@ using VolumeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 
 ///            material_failed if the law, or the modes of the enhanced strains, have no answer;
 ///            force and tangent are then not to be used
 /// Requires   unsupported(section, type) is empty
-/// Tested by  tests/unit/solid/test_derivatives.cpp, test_volume_patch.cpp, test_volume_locking.cpp
+/// Tested by  tests/unit/solid/test_derivatives.cpp, test_patch.cpp, test_volume_locking.cpp
 struct VolumeResult {
   Status status = Status::ok;
   VolumeVector force;
@@ -96,7 +96,7 @@ using FaceMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 27, 
 /// small: on the reference face.
 ///
 /// Requires   face is tri3, tri6, quad4, quad8 or quad9
-/// Tested by  tests/unit/solid/test_volume_loads.cpp
+/// Tested by  tests/unit/solid/test_loads.cpp
 struct FacePressure {
   FaceVector force;
   FaceMatrix tangent;

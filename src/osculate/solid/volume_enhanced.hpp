@@ -24,7 +24,7 @@ struct EnhancedModes3 {
 /// Limits     one cell in uniform compression by more than about a third (neo-Hooke) has hourglass
 ///            modes of negative stiffness, as enhanced strains are known to; bbar has none there
 /// Returns    ok is false where the law has no answer or the iteration finds none
-/// Tested by  tests/unit/solid/test_derivatives.cpp, test_volume_patch.cpp, test_volume_locking.cpp
+/// Tested by  tests/unit/solid/test_derivatives.cpp, test_patch.cpp, test_volume_locking.cpp
 [[nodiscard]] EnhancedModes3 enhanced_modes(const VolumeSection& section,
                                             const Coordinates3& reference, const HexPoints& points);
 

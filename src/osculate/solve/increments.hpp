@@ -33,6 +33,7 @@ struct IncrementRecord {
   bool on_path = false;       ///< found by arc length: the fraction may have fallen
   TimeSteps time_steps{};     ///< of explicit time integration; none: it is not
   TimeStepTaken time_step{};  ///< where lengths are chosen by errors
+  Precision precision{};
 };
 
 /// Where the step control stands after a converged increment: with the committed state all that it
@@ -210,7 +211,8 @@ struct StepRun {
                                  resisted,
                                  on_path,
                                  {},
-                                 time_step});
+                                 time_step,
+                                 attempt.precision});
     cutbacks = wasted = 0;
     time_step = {};
     if (on_increment(result.state, result.increments.back())) return true;

@@ -5,7 +5,6 @@
 
 #include "expect_derivative.hpp"
 #include "osculate/api/contact_evaluator.hpp"
-#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/normal_exponential.hpp"
 #include "osculate/core/error.hpp"
 
@@ -18,7 +17,7 @@ using contact::Status;
 /// Two master facets and a slave facet that has sunk into them, in the plane or in space.
 template <int Dim>
 struct Sample {
-  ContactOptions options{.normal_penalty = 100, .friction = contact::Coulomb{0.3, 200}};
+  ContactOptions options{.normal_penalty = 100, .friction = contact::coulomb(0.3, 200)};
   std::vector<double> x;
   std::vector<Index> slave_nodes;
 
@@ -107,7 +106,7 @@ void expect_derivatives(double mu, double lambda, Status expected) {
   Sample<Dim> s;
   s.options.enforcement = Enforcement::lagrange_multiplier;
   s.options.friction.reset();
-  if (mu > 0) s.options.friction = contact::Coulomb{mu, 200};
+  if (mu > 0) s.options.friction = contact::coulomb(mu, 200);
   BasicContactEvaluator<Dim> contact = s.make();
   const Eigen::VectorXd z = unknowns_of<Dim>(contact, lambda);
   const Joined<Dim> joined{contact, static_cast<Eigen::Index>(s.x.size()), z.size()};
@@ -149,7 +148,7 @@ void expect_derivative_around(Status expected, double mu) {
   SCOPED_TRACE(::testing::Message() << Dim << "D, mu " << mu);
   Sample<Dim> s;
   s.options.enforcement = Enforcement::augmented_lagrange;
-  s.options.friction = contact::Coulomb{mu, 200};
+  s.options.friction = contact::coulomb(mu, 200);
   BasicContactEvaluator<Dim> contact = s.make();
   pairing::PairMultipliers<Dim> m = contact.multipliers();
   for (contact::Multiplier<Dim>& point : m.points) {
@@ -247,7 +246,7 @@ std::vector<Reached> by_corrections(double penalty, double target) {
   Host<Dim> host;
   host.s.options.enforcement = Enforcement::augmented_lagrange;
   host.s.options.normal_penalty = penalty;
-  host.s.options.friction = contact::Coulomb{0.3, penalty};
+  host.s.options.friction = contact::coulomb(0.3, penalty);
   BasicContactEvaluator<Dim> contact = host.s.make();
   pairing::PairMultipliers<Dim> m = contact.multipliers();
   Eigen::VectorXd y = vector_of(host.s.x);

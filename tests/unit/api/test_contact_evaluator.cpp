@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "derivative_check.hpp"
-#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/core/error.hpp"
 
 namespace osculate::api {
@@ -61,7 +60,7 @@ void expect_tangent(Evaluator& contact, const std::vector<double>& at, contact::
 
 /// Master 0-1-2 along the x axis, normal up; slave facet 3 -> 4 above it, 0.1 inside.
 struct Sample {
-  ContactOptions options{.normal_penalty = 100, .friction = contact::Coulomb{0.3, 200}};
+  ContactOptions options{.normal_penalty = 100, .friction = contact::coulomb(0.3, 200)};
   std::vector<Index> master{0, 1, 1, 2}, slave{3, 4};
   int master_nodes = 2, slave_nodes = 2;
   std::vector<double> x{0, 0, 2, 0, 4, 0, 3, -0.1, 1, -0.1};
@@ -85,6 +84,20 @@ void expect_forces(const std::vector<double>& force, const std::vector<double>& 
   for (std::size_t i = 0; i < force.size(); ++i) EXPECT_NEAR(force[i], expected[i], 1e-12) << i;
 }
 
+/// 0.1 inside at the penalty 100, without a tangent.
+template <int Dim>
+void expect_points_by_hand(const BasicContactResult<Dim>& result, std::size_t count,
+                           double weight) {
+  EXPECT_TRUE(result.tangent.empty());
+  ASSERT_EQ(result.points.size(), count);
+  for (const pairing::PointResult<Dim>& p : result.points) {
+    EXPECT_NEAR(p.gap, -0.1, 1e-15);
+    EXPECT_NEAR(p.normal_traction, -10, 1e-12);
+    EXPECT_NEAR(p.weight, weight, 1e-15);
+    EXPECT_EQ(p.status, Status::stick);
+  }
+}
+
 TEST(ContactEvaluator, ForcesByHand) {
   const Sample s;
   ContactEvaluator contact = s.make();
@@ -93,14 +106,7 @@ TEST(ContactEvaluator, ForcesByHand) {
   // N = 100 * (-0.1) on an area of 1 each; both feet in the middle of a facet.
   const ContactResult result = contact.evaluate(s.x, false);
   expect_forces(result.force, {0, 5, 0, 10, 0, 5, 0, -10, 0, -10});
-  EXPECT_TRUE(result.tangent.empty());
-  ASSERT_EQ(result.points.size(), 2u);
-  for (const pairing::PointResult<2>& p : result.points) {
-    EXPECT_NEAR(p.gap, -0.1, 1e-15);
-    EXPECT_NEAR(p.normal_traction, -10, 1e-12);
-    EXPECT_NEAR(p.weight, 1.0, 1e-15);
-    EXPECT_EQ(p.status, Status::stick);
-  }
+  expect_points_by_hand(result, 2, 1.0);
   expect_forces(contact.evaluate(s.moved(0, 0.2), false).force, std::vector<double>(10, 0.0));
 }
 
@@ -120,11 +126,10 @@ TEST(ContactEvaluator, WeightsByHand) {
   EXPECT_NEAR(slave_force(pairing::Weight::current_area, 0.25), -27.5, 1e-12);
 }
 
-/// Stick to 0.01, slip at 0.02 (limit 0.3 * 10), and back by 0.005 from there.
-TEST(ContactEvaluator, HistoryIsThatOfTheLastCommit) {
-  const Sample s;
-  ContactEvaluator contact = s.make();
-  const auto shear = [&](double dx) { return contact.evaluate(s.moved(dx, 0), false).force[6]; };
+/// Stick to 0.01, slip at 0.02 (limit 0.3 * 10), and back by 0.005 and far from there; what `open`
+/// takes out of contact forgets.
+void expect_history_of_the_last_commit(auto& contact, const auto& shear, double back,
+                                       const auto& open) {
   EXPECT_NEAR(shear(0.01), 2, 1e-12);
   EXPECT_NEAR(shear(0.02), 3, 1e-12);
   EXPECT_NEAR(shear(0.01), 2, 1e-12) << "evaluations leave no trace";
@@ -133,11 +138,17 @@ TEST(ContactEvaluator, HistoryIsThatOfTheLastCommit) {
   EXPECT_NEAR(shear(0.02), 3, 1e-12);
   EXPECT_NEAR(shear(0.015), 2, 1e-12);
   contact.commit();
-  EXPECT_NEAR(shear(-1.0), -3, 1e-12);
-  // A point that opens forgets.
-  (void)contact.evaluate(s.moved(0, 1), false);
+  EXPECT_NEAR(shear(-back), -3, 1e-12);
+  (void)contact.evaluate(open, false);
   contact.commit();
-  EXPECT_NEAR(shear(0.0), 0, 1e-12);
+  EXPECT_NEAR(shear(0.0), 0, 1e-12) << "a point that opens forgets";
+}
+
+TEST(ContactEvaluator, HistoryIsThatOfTheLastCommit) {
+  const Sample s;
+  ContactEvaluator contact = s.make();
+  const auto shear = [&](double dx) { return contact.evaluate(s.moved(dx, 0), false).force[6]; };
+  expect_history_of_the_last_commit(contact, shear, 1.0, s.moved(0, 1));
 }
 
 TEST(ContactEvaluator, SeveralLiveAtOnceAndMove) {
@@ -187,13 +198,9 @@ TEST(ContactEvaluator, RefusesWhatItCannotUse) {
             "normal_penalty must be > 0, got 0");
   EXPECT_EQ(refusal([](Sample& s) { s.options.normal_penalty = nan; }),
             "normal_penalty must be > 0, got nan");
-  EXPECT_EQ(refusal([](Sample& s) {
-              s.options.friction = contact::Coulomb{-0.1, 200};
-            }),
+  EXPECT_EQ(refusal([](Sample& s) { s.options.friction = contact::coulomb(-0.1, 200); }),
             "friction needs mu >= 0 and a stiffness > 0, got -0.1 and 200");
-  EXPECT_EQ(refusal([](Sample& s) {
-              s.options.friction = contact::Coulomb{0.3, INFINITY};
-            }),
+  EXPECT_EQ(refusal([](Sample& s) { s.options.friction = contact::coulomb(0.3, INFINITY); }),
             "friction needs mu >= 0 and a stiffness > 0, got 0.3 and inf");
   EXPECT_EQ(refusal([](Sample& s) { s.options.area.thickness = 0; }),
             "area.thickness must be > 0, got 0");
@@ -224,7 +231,7 @@ TEST(ContactEvaluator, RefusesWhatItCannotUse) {
 /// quad4 of area 1 above them that looks down, 0.1 inside (nodes 6..9), all feet on the first
 /// facet.
 struct Sample3 {
-  ContactOptions options{.normal_penalty = 100, .friction = contact::Coulomb{0.3, 200}};
+  ContactOptions options{.normal_penalty = 100, .friction = contact::coulomb(0.3, 200)};
   cell::CellType master_type = cell::CellType::quad4, slave_type = cell::CellType::quad4;
   std::vector<Index> master{0, 1, 4, 3, 1, 2, 5, 4}, slave{6, 9, 8, 7};
   std::vector<double> x{0, 0, 0, 2,   0,   0,    4,   0,   0,    0,   2,   0,    2,   2,   0,
@@ -263,14 +270,7 @@ TEST(ContactEvaluator3, ForcesByHand) {
   for (std::size_t n = 6; n < 10; ++n) EXPECT_NEAR(result.force[3 * n + 2], -2.5, 1e-12);
   for (std::size_t n = 0; n < 10; ++n)
     for (const std::size_t i : {0u, 1u}) EXPECT_NEAR(result.force[3 * n + i], 0, 1e-12);
-  EXPECT_TRUE(result.tangent.empty());
-  ASSERT_EQ(result.points.size(), 4u);
-  for (const pairing::PointResult<3>& p : result.points) {
-    EXPECT_NEAR(p.gap, -0.1, 1e-15);
-    EXPECT_NEAR(p.normal_traction, -10, 1e-12);
-    EXPECT_NEAR(p.weight, 0.25, 1e-15);
-    EXPECT_EQ(p.status, Status::stick);
-  }
+  expect_points_by_hand(result, 4, 0.25);
   for (const double f : contact.evaluate(s.moved(0, 0, 0.2), false).force) EXPECT_EQ(f, 0.0);
 }
 
@@ -300,16 +300,7 @@ TEST(ContactEvaluator3, HistoryIsThatOfTheLastCommit) {
     EXPECT_NEAR(0.8 * x, 0.6 * y, 1e-12) << "the force is along the motion";
     return 0.6 * x + 0.8 * y;
   };
-  EXPECT_NEAR(shear(0.01), 2, 1e-12);
-  EXPECT_NEAR(shear(0.02), 3, 1e-12);
-  EXPECT_NEAR(shear(0.01), 2, 1e-12) << "evaluations leave no trace";
-  EXPECT_NEAR(shear(0.02), 3, 1e-12);
-  contact.commit();
-  EXPECT_NEAR(shear(0.02), 3, 1e-12);
-  EXPECT_NEAR(shear(0.015), 2, 1e-12);
-  (void)contact.evaluate(s.moved(0, 0, 1), false);
-  contact.commit();
-  EXPECT_NEAR(shear(0.0), 0, 1e-12) << "a point that opens forgets";
+  expect_history_of_the_last_commit(contact, shear, 0.3, s.moved(0, 0, 1));
 }
 
 TEST(ContactEvaluator3, SeveralLiveAtOnceAndMove) {

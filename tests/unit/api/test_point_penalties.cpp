@@ -5,7 +5,6 @@
 #include "osculate/api/penetration.hpp"
 #include "osculate/api/summary.hpp"
 #include "osculate/api/tangent_check.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 
 namespace osculate::api {
 namespace {
@@ -71,13 +70,13 @@ TEST(Penetration, IsHeldAgainstTheCellsBehindEachPoint) {
       << message;
   const double penalty = contact::penalty_of(pair.definition.normal);
   EXPECT_NEAR(soft.needed, penalty * soft.share / model::penetration_target, 1e-9 * soft.needed);
-  pair.definition.normal = contact::NormalPenalty{1.02 * soft.needed};
+  pair.definition.normal = contact::penalty(1.02 * soft.needed);
   EXPECT_LT(reached(built).share, model::penetration_target);
 }
 
 TEST(Penetration, WithoutCellsIsALength) {
   model::ContactPair pair;
-  pair.definition.normal = contact::NormalPenalty{5};
+  pair.definition.normal = contact::penalty(5);
   pairing::PairEvaluation<2> contact;
   contact.points.resize(2);
   contact.points[0].gap = -0.1;  // open: not in contact

@@ -3,7 +3,6 @@
 #include <map>
 
 #include "deck_test.hpp"
-#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/deck/build.hpp"
 #include "space_test.hpp"
 
@@ -80,7 +79,7 @@ TEST(BuildSpace, ContactSidesPointOutwards) {
   EXPECT_LT((oriented_area(gap.master, x) - Vec3(0, 0, -4)).norm(), 1e-13);
   EXPECT_LT((oriented_area(gap.slave.boundary, x) - Vec3(0, 0, 4)).norm(), 1e-13);
   EXPECT_EQ(gap.master.facets[0].type, cell::CellType::quad8);
-  EXPECT_EQ(gap.friction->as<contact::Coulomb>()->mu, 0.3);
+  EXPECT_EQ(contact::text(*gap.friction), "Coulomb 0.3");
   double area = 0;
   for (const double a : gap.reference_areas) area += a;
   EXPECT_NEAR(area, 4, 1e-13);

@@ -1,6 +1,5 @@
 // `penalty: auto` on surfaces with cells or bodies that differ: each point has its own.
 #include "graded.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 #include "space_test.hpp"
@@ -204,7 +203,7 @@ Bits bits_of(Built built, bool by_factors) {
       d.relative_stiffness.assign(d.slave.points.size(), {4, 0.5});
       continue;
     }
-    d.normal = contact::NormalPenalty{4 * contact::penalty_of(d.normal)};
+    d.normal = contact::penalty(4 * contact::penalty_of(d.normal));
     if (d.friction) d.friction = d.friction->stiffened(0.5);
   }
   Bits bits;

@@ -2,8 +2,6 @@
 // Two roofs whose ridges cross: contact that no node sees.
 #include "pair_sample.hpp"
 
-#include "osculate/contact/law/normal_penalty.hpp"
-
 namespace osculate::testing {
 
 struct RoofOptions {
@@ -62,7 +60,7 @@ inline PairSample3 make_roofs(const RoofOptions& o) {
   pairing::FacetSurface slave = add_roof(
       s.x, o, 1, [&](const Vec3& p) { return Vec3(turn * p + Vec3(0.3, 0, -o.depth) - offset); });
   s.pair.slave = pairing::make_slave_side(slave);
-  s.pair.normal = contact::NormalPenalty{1000.0};
+  s.pair.normal = contact::penalty(1000.0);
   s.pair.weight = pairing::Weight::node;
   s.pair.edges.on = true;
   pairing::prepare(s.pair, s.x);

@@ -36,6 +36,12 @@ void expect_balance(const ContactSample<Dim>& s) {
 }
 
 template <int Dim>
+Eigen::VectorXd slave_forces(const ContactSample<Dim>& s) {
+  const Eigen::MatrixXd all = pair_residual(s, flatten(s.x)).reshaped(Dim, s.x.size());
+  return all(Eigen::all, s.pair.slave.nodes).reshaped();
+}
+
+template <int Dim>
 void expect_uniform_pressure(const ContactSample<Dim>& s, bool master_covered, double area,
                              double tolerance) {
   constexpr double pressure = 50;
@@ -60,6 +66,8 @@ template void expect_second_order(const ContactSample<2>&, double, const std::st
 template void expect_second_order(const ContactSample<3>&, double, const std::string&);
 template void expect_balance(const ContactSample<2>&);
 template void expect_balance(const ContactSample<3>&);
+template Eigen::VectorXd slave_forces(const ContactSample<2>&);
+template Eigen::VectorXd slave_forces(const ContactSample<3>&);
 template void expect_uniform_pressure(const ContactSample<2>&, bool, double, double);
 template void expect_uniform_pressure(const ContactSample<3>&, bool, double, double);
 

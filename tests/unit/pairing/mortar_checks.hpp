@@ -16,6 +16,10 @@ void expect_second_order(const ContactSample<Dim>& s, double h, const std::strin
 template <int Dim>
 void expect_balance(const ContactSample<Dim>& s);
 
+/// Of the slave's nodes alone.
+template <int Dim>
+Eigen::VectorXd slave_forces(const ContactSample<Dim>& s);
+
 /// Flat surfaces at the gap -0.05 with the penalty 1000: the pressure is 50 and the nodal forces of
 /// the side that is wholly covered are those of a uniform pressure.
 template <int Dim>

@@ -6,8 +6,6 @@
 
 #include "pair_sample.hpp"
 
-#include "osculate/contact/law/normal_penalty.hpp"
-
 namespace osculate::testing {
 
 /// Corners of a body in the clockwise sense (body on the right of the direction of travel), each
@@ -42,7 +40,7 @@ void touch_itself(ContactSample<Dim>& s, double reach) {
   s.pair.slave = pairing::make_slave_side(s.pair.master);
   s.pair.scope.own = true;
   s.pair.scope.reach = reach;
-  s.pair.normal = contact::NormalPenalty{1000};
+  s.pair.normal = contact::penalty(1000);
   pairing::prepare(s.pair, s.x);
   s.committed = pairing::initial_state<Dim>(s.pair, s.x);
 }

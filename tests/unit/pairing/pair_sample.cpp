@@ -142,6 +142,46 @@ contact::PointHistory<3> remembered(Index facet, const Vec2& xi, double gap, con
   return h;
 }
 
+template <int Dim>
+void add_sample_slave(ContactSample<Dim>& s, const std::vector<Vec<Dim>>& places) {
+  std::vector<Index> nodes;
+  for (const Vec<Dim>& place : places) {
+    nodes.push_back(static_cast<Index>(s.x.size()));
+    s.x.push_back(place);
+  }
+  pairing::Boundary<Dim> slave;
+  if constexpr (Dim == 2) slave.facets.push_back(pairing::lagrange_facet(nodes));
+  if constexpr (Dim == 3)
+    slave.facets.push_back(pairing::surface_facet(cell::CellType::quad4, nodes));
+  pairing::connect(slave);
+  s.pair.slave = pairing::make_slave_side(slave);
+  s.pair.normal = contact::penalty(1000.0);
+  s.committed.points.resize(places.size());
+}
+template <int Dim>
+void make_last_node_slave(ContactSample<Dim>& s) {
+  pairing::connect(s.pair.master);
+  s.pair.slave = pairing::make_slave_side(pairing::Boundary<Dim>{},
+                                          std::array<Index, 1>{static_cast<Index>(s.x.size()) - 1});
+  s.pair.weight = pairing::Weight::node;
+  s.pair.normal = contact::penalty(1000.0);
+  s.committed.points.resize(1);
+  pairing::prepare(s.pair, s.x);
+}
+
+pairing::Chain line_through(std::size_t nodes) {
+  pairing::Chain line;
+  for (Index i = 0; i + 1 < static_cast<Index>(nodes); ++i)
+    line.facets.push_back(pairing::lagrange_facet(std::array<Index, 2>{i, i + 1}));
+  pairing::connect(line);
+  return line;
+}
+
+template void make_last_node_slave(ContactSample<2>&);
+template void make_last_node_slave(ContactSample<3>&);
+template void add_sample_slave(ContactSample<2>&, const std::vector<Vec2>&);
+template void add_sample_slave(ContactSample<3>&, const std::vector<Vec3>&);
+
 PairSample make_sample(const SampleOptions& o) {
   PairSample s;
   const int per = o.nodes_per_facet - 1;
@@ -167,15 +207,9 @@ PairSample make_sample(const SampleOptions& o) {
   const pairing::Facet& facet = s.pair.master.facets[static_cast<std::size_t>(o.at)];
   const auto jet = pairing::facet_jet(facet, o.xi, s.x);
   const Vec2 normal = turn(jet.r1.normalized());
-  const auto first = static_cast<Index>(s.x.size());
-  s.x.push_back(jet.r - o.depth * normal);
-  s.x.push_back(jet.r + 2.0 * normal - 0.7 * jet.r1.normalized());  // far away: stays open
-  pairing::Chain slave;
-  slave.facets.push_back(pairing::lagrange_facet(std::array<Index, 2>{first, first + 1}));
-  pairing::connect(slave);
-  s.pair.slave = pairing::make_slave_side(slave);
-  s.pair.normal = contact::NormalPenalty{1000.0};
-  s.committed.points.resize(2);
+  // the second one is far away: it stays open
+  add_sample_slave<2>(s,
+                      {jet.r - o.depth * normal, jet.r + 2.0 * normal - 0.7 * jet.r1.normalized()});
   pairing::prepare(s.pair, s.x);
   return s;
 }
@@ -210,18 +244,8 @@ PairSample3 make_sample3(const SampleOptions3& o) {
   const pairing::SurfaceFacet& facet = s.pair.master.facets[static_cast<std::size_t>(o.at)];
   const geometry::SurfaceJet jet = pairing::facet_jet(facet, o.xi, s.x);
   const Vec3 n = pairing::facet_normal(facet, o.xi, s.x);
-  const auto first = static_cast<Index>(s.x.size());
-  s.x.push_back(jet.r - o.depth * n);
-  s.x.push_back(jet.r + Vec3(0, 0.4, 2));
-  s.x.push_back(jet.r + Vec3(0.5, 0.5, 2.1));
-  s.x.push_back(jet.r + Vec3(0.4, 0, 2));
-  pairing::FacetSurface slave;
-  slave.facets.push_back(pairing::surface_facet(
-      cell::CellType::quad4, std::array<Index, 4>{first, first + 1, first + 2, first + 3}));
-  pairing::connect(slave);
-  s.pair.slave = pairing::make_slave_side(slave);
-  s.pair.normal = contact::NormalPenalty{1000.0};
-  s.committed.points.resize(4);
+  add_sample_slave<3>(s, {jet.r - o.depth * n, jet.r + Vec3(0, 0.4, 2), jet.r + Vec3(0.5, 0.5, 2.1),
+                          jet.r + Vec3(0.4, 0, 2)});
   pairing::prepare(s.pair, s.x);
   return s;
 }

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 
 #include "osculate/cell/shape.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
+#include "osculate/contact/law/law.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::testing {
@@ -59,6 +59,17 @@ contact::PointHistory<2> remembered(bool active, Index facet, projection::Featur
                                     double xi, double gap, double traction, bool slipping = false);
 contact::PointHistory<3> remembered(Index facet, const Vec2& xi, double gap, const Vec2& traction,
                                     bool active = true);
+
+/// Adds the places as nodes of a slave of one facet (line2 or quad4), with the normal penalty 1000.
+template <int Dim>
+void add_sample_slave(ContactSample<Dim>& s, const std::vector<Vec<Dim>>& places);
+
+/// Makes the last node the slave: one point of weight 1 with the normal penalty 1000.
+template <int Dim>
+void make_last_node_slave(ContactSample<Dim>& s);
+
+/// Joined line2 facets through nodes 0, 1, ... of that number.
+pairing::Chain line_through(std::size_t nodes);
 
 /// A chain of `facets` Lagrange facets with `nodes_per_facet` nodes from (0, 0) along +x, facet
 /// lengths alternating 1 : 3, bent by `bend` and turned by `angle`; the slave is a short line2

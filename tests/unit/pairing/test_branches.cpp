@@ -7,9 +7,6 @@
 #include "derivative_check.hpp"
 #include "pair_sample.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -25,13 +22,10 @@ constexpr double limit = mu * eps_n * depth;
 PairSample at_rest(double traction, bool slipping) {
   PairSample s;
   s.x = {{0, 0}, {4, 0}, {2, -depth}};
-  s.pair.master.facets = {pairing::lagrange_facet(std::array<Index, 2>{0, 1})};
-  pairing::connect(s.pair.master);
-  s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{2});
-  s.pair.weight = pairing::Weight::node;
-  s.pair.normal = contact::NormalPenalty{eps_n};
-  s.pair.friction = contact::Coulomb{mu, eps_t};
-  pairing::prepare(s.pair, s.x);
+  s.pair.master = line_through(2);
+  make_last_node_slave(s);
+  s.pair.normal = contact::penalty(eps_n);
+  s.pair.friction = contact::coulomb(mu, eps_t);
   s.committed = pairing::initial_state(s.pair, s.x);
   s.committed.points[0].traction[0] = traction;
   s.committed.points[0].slipping = slipping;

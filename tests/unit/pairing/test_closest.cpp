@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "pair_sample.hpp"
+#include "closest_sample.hpp"
 
 namespace osculate::testing {
 namespace {
@@ -13,27 +13,10 @@ using pairing::Projection;
 using projection::Feature;
 
 /// Polyline of line2 facets through points.
-struct Line {
-  std::vector<Vec2> x;
-  pairing::Chain chain;
-  pairing::Tree<2> tree;
-
-  explicit Line(std::vector<Vec2> points) : x(std::move(points)) {
-    for (std::size_t i = 0; i + 1 < x.size(); ++i)
-      chain.facets.push_back(pairing::lagrange_facet(
-          std::array<Index, 2>{static_cast<Index>(i), static_cast<Index>(i + 1)}));
-    pairing::connect(chain);
-    std::vector<search::Box<2>> boxes;
-    pairing::facet_boxes(chain, x, boxes);
-    tree = pairing::Tree<2>(boxes);
-  }
-  [[nodiscard]] Projection<2> at(const Vec2& p, Index history = -1) const {
-    pairing::ProjectionQuery<2> query;
-    query.point = p;
-    query.history = history;
-    return pairing::closest(chain, tree, x, query);
-  }
-};
+Target<2> line_of(std::vector<Vec2> points) {
+  pairing::Chain chain = line_through(points.size());
+  return {std::move(points), std::move(chain)};
+}
 
 double segment_distance(const Vec2& a, const Vec2& b, const Vec2& p) {
   const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
@@ -41,7 +24,7 @@ double segment_distance(const Vec2& a, const Vec2& b, const Vec2& p) {
 }
 
 TEST(ClosestOnChain, EqualsBruteForce) {
-  const Line line({{0, 0}, {1, 0.5}, {2, -0.3}, {3, 0.1}, {3.5, 1.5}, {5, 1}});
+  const Target<2> line = line_of({{0, 0}, {1, 0.5}, {2, -0.3}, {3, 0.1}, {3.5, 1.5}, {5, 1}});
   std::mt19937 generator(7);
   std::uniform_real_distribution<double> u(-1, 6);
   for (int i = 0; i < 20000; ++i) {
@@ -59,13 +42,13 @@ TEST(ClosestOnChain, EqualsBruteForce) {
 }
 
 TEST(ClosestOnChain, KinksBelongToTheVertexOutsideAndToTheNearestFaceInside) {
-  const Line ridge({{-2, -1}, {0, 0}, {2, -1}});  // body below: a convex corner
+  const Target<2> ridge = line_of({{-2, -1}, {0, 0}, {2, -1}});  // body below: a convex corner
   EXPECT_EQ(ridge.at({0, 0.5}).feature, Feature::corner);
   EXPECT_EQ(ridge.at({0.1, -0.5}).facet, 1);
   EXPECT_EQ(ridge.at({0.1, -0.5}).feature, Feature::face);
   EXPECT_EQ(ridge.at({0, -0.5}, 1).facet, 1);  // equidistant: the history's side
   EXPECT_EQ(ridge.at({0, -0.5}, 0).facet, 0);
-  const Line valley({{-2, 1}, {0, 0}, {2, 1}});
+  const Target<2> valley = line_of({{-2, 1}, {0, 0}, {2, 1}});
   EXPECT_EQ(valley.at({0, -0.5}).feature, Feature::corner);
   EXPECT_EQ(valley.at({0.3, 0.5}).feature, Feature::face);
   EXPECT_LT((valley.at({0, -0.5}).outward - Vec2(0, 1)).norm(), 1e-14);
@@ -73,7 +56,7 @@ TEST(ClosestOnChain, KinksBelongToTheVertexOutsideAndToTheNearestFaceInside) {
 
 // Clamped to the end, the slip stood still within the tolerance and then jumped: Newton cycled.
 TEST(ClosestOnChain, TheFootPointMovesSmoothlyOverABorder) {
-  const Line line({{0, 0}, {1, 0}, {2, 0}});
+  const Target<2> line = line_of({{0, 0}, {1, 0}, {2, 0}});
   for (const double step : {1e-9, 3e-9, -1e-9, -3e-9}) {
     const Projection<2> p = line.at({1 + step, -0.1}, 0);
     EXPECT_EQ(p.feature, Feature::face);
@@ -83,7 +66,7 @@ TEST(ClosestOnChain, TheFootPointMovesSmoothlyOverABorder) {
 }
 
 TEST(ClosestOnChain, OpenEndsAreContinuedALittle) {
-  const Line line({{0, 0}, {1, 0}});
+  const Target<2> line = line_of({{0, 0}, {1, 0}});
   const Projection<2> near = line.at({1.02, -0.1});
   EXPECT_EQ(near.feature, Feature::face);
   EXPECT_NEAR(near.xi[0], 1.04, 1e-14);
@@ -94,19 +77,19 @@ TEST(ClosestOnChain, OpenEndsAreContinuedALittle) {
 }
 
 TEST(ClosestOnChain, FacetsFacingTheSameWayAreSkipped) {
-  const Line line({{0, 0}, {1, 0}});
+  const Target<2> line = line_of({{0, 0}, {1, 0}});
   pairing::ProjectionQuery<2> query;
   query.point = {0.5, -0.1};
   query.slave_normal = Vec2(0, 1);  // as the facet: the far side of a thin body
-  EXPECT_EQ(pairing::closest(line.chain, line.tree, line.x, query).feature, Feature::none);
+  EXPECT_EQ(line.at(query).feature, Feature::none);
   query.slave_normal = Vec2(0, -1);
-  EXPECT_EQ(pairing::closest(line.chain, line.tree, line.x, query).feature, Feature::face);
+  EXPECT_EQ(line.at(query).feature, Feature::face);
 }
 
 // Inside a convex corner, on its bisector: without history the point belongs to the vertex, whose
 // normal is the average of both; with a history it stays on its side.
 TEST(ClosestOnChain, EquidistantPointsWithoutHistoryTakeTheAveragedNormal) {
-  const Line line({{-1, 0}, {0, 0}, {0, -1}});
+  const Target<2> line = line_of({{-1, 0}, {0, 0}, {0, -1}});
   const Projection<2> shared = line.at({-0.1, -0.1});
   EXPECT_EQ(shared.feature, Feature::corner);
   EXPECT_LT((shared.outward - Vec2(1, 1).normalized()).norm(), 1e-15);

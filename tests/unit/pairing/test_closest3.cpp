@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <random>
 
-#include "pair_sample.hpp"
+#include "closest_sample.hpp"
 
 namespace osculate::testing {
 namespace {
@@ -13,42 +13,21 @@ using cell::CellType;
 using pairing::Projection;
 using projection::Feature;
 
-/// A surface with its search tree.
-struct Target {
-  std::vector<Vec3> x;
-  pairing::FacetSurface surface;
-  pairing::Tree<3> tree;
-
-  void finish() {
-    pairing::connect(surface);
-    std::vector<search::Box<3>> boxes;
-    pairing::facet_boxes(surface, x, boxes);
-    tree = pairing::Tree<3>(boxes);
-  }
-  [[nodiscard]] Projection<3> at(const Vec3& p, Index history = -1) const {
-    pairing::ProjectionQuery<3> query;
-    query.point = p;
-    query.history = history;
-    return pairing::closest(surface, tree, x, query);
-  }
-};
-
 /// The unit cube -1..1, outward normals. Facets: z-, z+, y-, x+, y+, x-.
-Target cube() {
-  Target t;
-  t.x = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
-         {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+Target<3> cube() {
+  pairing::FacetSurface surface;
+  const std::vector<Vec3> x{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                            {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   for (const std::array<Index, 4>& nodes :
        {std::array<Index, 4>{0, 3, 2, 1}, std::array<Index, 4>{4, 5, 6, 7},
         std::array<Index, 4>{0, 1, 5, 4}, std::array<Index, 4>{1, 2, 6, 5},
         std::array<Index, 4>{2, 3, 7, 6}, std::array<Index, 4>{3, 0, 4, 7}})
-    t.surface.facets.push_back(pairing::surface_facet(CellType::quad4, nodes));
-  t.finish();
-  return t;
+    surface.facets.push_back(pairing::surface_facet(CellType::quad4, nodes));
+  return {x, surface};
 }
 
 TEST(ClosestOnSurface, OfACubeIsExactEverywhereOutside) {
-  const Target t = cube();
+  const Target<3> t = cube();
   std::mt19937 generator(11);
   std::uniform_real_distribution<double> u(-2, 2);
   std::array<int, 4> seen{};
@@ -66,7 +45,7 @@ TEST(ClosestOnSurface, OfACubeIsExactEverywhereOutside) {
     EXPECT_EQ(found.feature, expected);
     ++seen[static_cast<std::size_t>(clamped)];
     EXPECT_FALSE(found.beyond_end);
-    const pairing::SurfaceFacet& facet = t.surface.facets[static_cast<std::size_t>(found.facet)];
+    const pairing::SurfaceFacet& facet = t.boundary.facets[static_cast<std::size_t>(found.facet)];
     EXPECT_LT((pairing::facet_jet(facet, found.xi, t.x).r - foot).norm(), 1e-12);
     if (clamped == 1) continue;
     Vec3 outward = Vec3::Zero();  // average of the faces that meet there
@@ -78,7 +57,7 @@ TEST(ClosestOnSurface, OfACubeIsExactEverywhereOutside) {
 }
 
 TEST(ClosestOnSurface, InsideTheNearestFaceWinsAndEquidistantPointsKeepTheirSide) {
-  const Target t = cube();
+  const Target<3> t = cube();
   EXPECT_EQ(t.at({0.2, 0.1, 0.8}).facet, 1);
   EXPECT_EQ(t.at({0.9, 0.1, 0.8}).facet, 3);
   const Projection<3> shared = t.at({0.9, 0.1, 0.9});
@@ -93,25 +72,28 @@ TEST(ClosestOnSurface, InsideTheNearestFaceWinsAndEquidistantPointsKeepTheirSide
 
 /// The corner (1, 1, 1) of a cube whose top is a fan of `fan` triangles there: the other faces are
 /// one triangle each, so that the top has `fan` normals of three or more.
-Target fanned_corner(int fan) {
-  Target t;
-  t.x = {{1, 1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, -1}};
+Target<3> fanned_corner(int fan) {
+  pairing::FacetSurface surface;
+  std::vector<Vec3> x{{1, 1, 1}, {1, -1, 1}, {-1, 1, 1}, {1, 1, -1}};
   const auto add = [&](Index a, Index b, Index c) {
-    t.surface.facets.push_back(
-        pairing::surface_facet(CellType::tri3, std::array<Index, 3>{a, b, c}));
+    surface.facets.push_back(pairing::surface_facet(CellType::tri3, std::array<Index, 3>{a, b, c}));
   };
   Index last = 2;  // the top, z+, from (-1, 1) round to (1, -1)
   for (int i = 1; i < fan; ++i) {
     const double s = static_cast<double>(i) / fan;
-    t.x.emplace_back(-1 + 2 * s, 1 - 2 * s, 1);
-    add(0, last, static_cast<Index>(t.x.size()) - 1);
-    last = static_cast<Index>(t.x.size()) - 1;
+    x.emplace_back(-1 + 2 * s, 1 - 2 * s, 1);
+    add(0, last, static_cast<Index>(x.size()) - 1);
+    last = static_cast<Index>(x.size()) - 1;
   }
   add(0, last, 1);
   add(0, 1, 3);  // x+
   add(0, 3, 2);  // y+
-  t.finish();
-  return t;
+  return {x, surface};
+}
+
+Target<3> flat_strip() {
+  const PairSample3 s = make_sample3({});
+  return {s.x, s.pair.master};
 }
 
 // A sum over facets leans towards the face that is cut into most of them.
@@ -124,11 +106,7 @@ TEST(ClosestOnSurface, TheCornerOfACubeHasOneNormalHoweverItsFacesAreCut) {
 }
 
 TEST(ClosestOnSurface, SharedEdgesOfAFlatSurfaceHaveNoGap) {
-  const PairSample3 s = make_sample3({});
-  Target t;
-  t.x = s.x;
-  t.surface = s.pair.master;
-  t.finish();
+  const Target<3> t = flat_strip();
   for (const double offset : {-1e-7, -1e-9, -1e-12, 0.0, 1e-12, 1e-9, 1e-7}) {
     const Projection<3> p = t.at({1.0 + offset, 0.3, -0.05});
     EXPECT_EQ(p.feature, Feature::face) << offset;
@@ -137,11 +115,7 @@ TEST(ClosestOnSurface, SharedEdgesOfAFlatSurfaceHaveNoGap) {
 }
 
 TEST(ClosestOnSurface, OpenBordersAreContinuedALittle) {
-  const PairSample3 s = make_sample3({});
-  Target t;
-  t.x = s.x;
-  t.surface = s.pair.master;
-  t.finish();
+  const Target<3> t = flat_strip();
   EXPECT_EQ(t.at({5.04, 0.3, -0.05}).feature, Feature::face);
   EXPECT_FALSE(t.at({5.04, 0.3, -0.05}).beyond_end);
   EXPECT_TRUE(t.at({5.2, 0.3, -0.05}).beyond_end);

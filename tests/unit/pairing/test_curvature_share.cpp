@@ -1,8 +1,6 @@
 // What the rotational and curvature parts of the normal tangent weigh beside the main part.
 #include <gtest/gtest.h>
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
 #include "pair_sample.hpp"
 
@@ -31,12 +29,7 @@ TEST(CurvatureShare, OfASquareFacetIsHalfThePenetration) {
   s.x = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, -0.02}};
   s.pair.master.facets = {
       pairing::surface_facet(CellType::quad4, std::array<Index, 4>{0, 1, 2, 3})};
-  pairing::connect(s.pair.master);
-  s.pair.slave = pairing::make_slave_side(pairing::FacetSurface{}, std::array<Index, 1>{4});
-  s.pair.weight = pairing::Weight::node;
-  s.pair.normal = contact::NormalPenalty{1000};
-  pairing::prepare(s.pair, s.x);
-  s.committed.points.resize(1);
+  make_last_node_slave(s);
   EXPECT_NEAR(share_of(s), 0.01, 1e-15);
   s.x[4].z() = 0.02;  // open
   EXPECT_EQ(share_of(s), 0.0);
@@ -50,7 +43,7 @@ TEST(CurvatureShare, InThePlane) {
   pairing::connect(pair.master);
   pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{2});
   pair.weight = pairing::Weight::node;
-  pair.normal = contact::NormalPenalty{1000};
+  pair.normal = contact::penalty(1000);
   pairing::prepare(pair, x);
   const auto share = [&] {
     pairing::PairState<2> committed;
@@ -91,7 +84,7 @@ TEST(CurvatureShare, IsThatOfThePairsTangents) {
                 norm(tangent_with(s, false, true) - main) / norm(main), 1e-12);
     ASSERT_GT(expected, 1e-4);
     EXPECT_NEAR(share_of(s), expected, 1e-12) << cell::info(type).name;
-    s.pair.friction = contact::Coulomb{0.3, 80.0};
+    s.pair.friction = contact::coulomb(0.3, 80.0);
     EXPECT_NEAR(share_of(s), expected, 1e-12) << cell::info(type).name;
   }
 }

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/geometry/interpolation.hpp"
 #include "pair_sample.hpp"
 
@@ -34,12 +32,8 @@ struct Slider {
   explicit Slider(double mu, bool closed = false) {
     s.x = {{0, 0}, {1, 0}, {0, 1}, {0, 0}};
     pairing::add_curves(channel(), closed, {0, 1, 2}, s.pair.master);
-    pairing::connect(s.pair.master);
-    s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{3});
-    s.pair.weight = pairing::Weight::node;
-    s.pair.normal = contact::NormalPenalty{1000};
-    s.pair.friction = contact::Coulomb{mu, eps_t};
-    pairing::prepare(s.pair, s.x);
+    make_last_node_slave(s);
+    s.pair.friction = contact::coulomb(mu, eps_t);
   }
   /// Turns the frame by `angle` about the origin.
   void turn_by(double angle) {

@@ -4,9 +4,7 @@
 
 #include <cmath>
 
-#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/damping.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::testing {
@@ -26,7 +24,7 @@ struct Falling {
     pairing::connect(pair.master);
     pair.slave = pairing::make_slave_side(pairing::Boundary<2>{}, std::array<Index, 1>{2});
     pair.weight = pairing::Weight::node;
-    pair.normal = contact::NormalPenalty{eps};
+    pair.normal = contact::penalty(eps);
     pair.damping = law;
     pairing::prepare(pair, x);
   }
@@ -110,7 +108,7 @@ pairing::PairEvaluation<2> pulled(pairing::Separation separation) {
   slave.facets.push_back(pairing::lagrange_facet(std::array<Index, 2>{2, 3}));
   pairing::connect(slave);
   pair.slave = pairing::make_slave_side(slave);
-  pair.normal = contact::NormalPenalty{eps};
+  pair.normal = contact::penalty(eps);
   pair.separation = separation;
   pair.tolerance = 0.05;
   pairing::prepare(pair, x);
@@ -149,7 +147,7 @@ TEST(StoredEnergy, LeavesOutTheOverlapThatDoesNotCount) {
 TEST(StoredEnergy, HasTheElasticPartOfTheSlip) {
   Falling f(contact::Restitution{1});
   f.pair.damping.reset();
-  f.pair.friction = contact::Coulomb{0.3, 80};
+  f.pair.friction = contact::coulomb(0.3, 80);
   f.start(-0.01);
   f.step(Vec2(0.02, -0.01));
   const double t = 80 * 0.02;

@@ -8,9 +8,6 @@
 #include "expect_derivative.hpp"
 #include "pair_checks.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -89,7 +86,7 @@ void expect_second_order(const PairSample3& s, Status status) {
 PairSample3 after(const RoofOptions& o, double mu, ResidualForm form, Weight weight,
                   const Vec3& from) {
   PairSample3 s = make_roofs(o);
-  s.pair.friction = contact::Coulomb{mu, 80.0};
+  s.pair.friction = contact::coulomb(mu, 80.0);
   s.pair.residual = form;
   s.pair.weight = weight;
   shift_slave(s, from);
@@ -177,7 +174,7 @@ TEST(EdgeContact, MasterAndSlaveMayBeExchanged) {
 TEST(EdgeContact, StickIsCarriedOverThePiecesOfAnEdgeAndIsReversible) {
   for (const int pieces : {1, 5, 8}) {
     PairSample3 s = make_roofs({.pieces = pieces});
-    s.pair.friction = contact::Coulomb{1e6, 80.0};
+    s.pair.friction = contact::coulomb(1e6, 80.0);
     s.committed = pairing::initial_state(s.pair, s.x);
     ASSERT_TRUE(s.committed.points.back().active);
     double most = 0;
@@ -198,7 +195,7 @@ TEST(EdgeContact, StickIsCarriedOverThePiecesOfAnEdgeAndIsReversible) {
 
 TEST(EdgeContact, SlipIsLimitedAndOpposesTheMotion) {
   PairSample3 s = make_roofs({});
-  s.pair.friction = contact::Coulomb{0.3, 1e4};
+  s.pair.friction = contact::coulomb(0.3, 1e4);
   s.committed = pairing::initial_state(s.pair, s.x);
   shift_slave(s, {0.2, 0, 0});
   const pairing::PairEvaluation<3> e = evaluated(s);
@@ -277,7 +274,7 @@ TEST(EdgeContact, FlushFacesAreTheNodesAffair) {
     s.pair.master = add_box(s.x, {-1, -1, -1}, {1, 1, 0}, 0.0);
     const pairing::FacetSurface slave = add_box(s.x, {-1, -1, -0.01}, {1, 1, 1}, turn);
     s.pair.slave = pairing::make_slave_side(slave);
-    s.pair.normal = contact::NormalPenalty{1000.0};
+    s.pair.normal = contact::penalty(1000.0);
     s.pair.weight = Weight::node;
     s.pair.edges.on = true;
     pairing::prepare(s.pair, s.x);

@@ -6,8 +6,6 @@
 
 #include "pair_checks.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -22,7 +20,7 @@ Status status_of(double mu) { return mu > 1 ? Status::stick : Status::slip; }
 
 template <int Dim>
 void set_pair(ContactSample<Dim>& s, double mu, ResidualForm form, Weight weight) {
-  if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80.0};
+  if (mu > 0) s.pair.friction = contact::coulomb(mu, 80.0);
   s.pair.residual = form;
   s.pair.weight = weight;
   pairing::prepare(s.pair, s.x);

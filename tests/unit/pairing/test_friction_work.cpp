@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 
 namespace osculate::testing {
@@ -27,8 +25,8 @@ struct Dragged {
     x.push_back(Vec<Dim>::Zero());
     pair.slave = pairing::make_slave_side(pairing::Boundary<Dim>{}, std::array<Index, 1>{slave});
     pair.weight = pairing::Weight::node;
-    pair.normal = contact::NormalPenalty{eps_n};
-    pair.friction = contact::Coulomb{mu, eps_t};
+    pair.normal = contact::penalty(eps_n);
+    pair.friction = contact::coulomb(mu, eps_t);
     pairing::prepare(pair, x);
   }
   void place(const Vec<Dim - 1>& at, double below) { x.back() << at, -below; }
@@ -89,13 +87,14 @@ TEST(FrictionWork, StaysWhenThePointOpensAndGoesOn) {
 
 TEST(FrictionWork, IsPerAreaTimesTheArea) {
   Dragged<2> d;
-  const contact::Coulomb& law = *d.pair.friction->as<contact::Coulomb>();
+  const contact::FrictionLaw& law = *d.pair.friction;
   const Vec<1> trial(2.5 * limit);
-  const auto response = law.response<2>(trial, -eps_n * depth);
-  EXPECT_NEAR(contact::dissipated<2>(trial, response, law.stiffness), limit * 1.5 * limit / eps_t,
-              1e-15);
-  EXPECT_EQ(contact::dissipated<2>(Vec<1>(limit), law.response<2>(Vec<1>(limit), -eps_n * depth),
-                                   law.stiffness),
+  const auto response = contact::response<2>(law, trial, -eps_n * depth, {});
+  EXPECT_NEAR(contact::dissipated<2>(trial, response, contact::stiffness(law)),
+              limit * 1.5 * limit / eps_t, 1e-15);
+  EXPECT_EQ(contact::dissipated<2>(Vec<1>(limit),
+                                   contact::response<2>(law, Vec<1>(limit), -eps_n * depth, {}),
+                                   contact::stiffness(law)),
             0.0);
   d.pair.weight = pairing::Weight::reference_area;
   d.pair.reference_areas = {0.7};

@@ -6,8 +6,6 @@
 #include <Eigen/LU>
 #include <set>
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/projection/point_to_facet.hpp"
 #include "pair_sample.hpp"
 
@@ -22,15 +20,9 @@ PairSample3 one_node(std::vector<Vec3> x, const std::vector<std::array<Index, 4>
   PairSample3 s;
   for (const std::array<Index, 4>& nodes : facets)
     s.pair.master.facets.push_back(pairing::surface_facet(CellType::quad4, nodes));
-  pairing::connect(s.pair.master);
   s.x = std::move(x);
   s.x.emplace_back(0, 0, 9);
-  s.pair.slave = pairing::make_slave_side(pairing::FacetSurface{},
-                                          std::array<Index, 1>{static_cast<Index>(s.x.size()) - 1});
-  s.pair.normal = contact::NormalPenalty{1000.0};
-  s.pair.weight = pairing::Weight::node;
-  s.committed.points.resize(1);
-  pairing::prepare(s.pair, s.x);
+  make_last_node_slave(s);
   return s;
 }
 
@@ -121,7 +113,7 @@ TEST(GeneralizedPath, BehindAValleyTheForceIsContinuousToo) {
   EXPECT_EQ(fine.features, all_features);
   expect_continuous(coarse, fine);
   PairSample3 sticking = room();
-  sticking.pair.friction = contact::Coulomb{1e6, 80.0};
+  sticking.pair.friction = contact::coulomb(1e6, 80.0);
   expect_continuous(along(sticking, way, 101), along(sticking, way, 808));
 }
 
@@ -197,14 +189,8 @@ PairSample line_and_node(const std::array<Vec2, 3>& points, const Vec2& node) {
   PairSample s;
   for (const Vec2& p : points) s.x.push_back(p);
   s.x.push_back(node);
-  for (const Index i : {0, 1})
-    s.pair.master.facets.push_back(pairing::lagrange_facet(std::array<Index, 2>{i, i + 1}));
-  pairing::connect(s.pair.master);
-  s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{3});
-  s.pair.normal = contact::NormalPenalty{1000.0};
-  s.pair.weight = pairing::Weight::node;
-  s.committed.points.resize(1);
-  pairing::prepare(s.pair, s.x);
+  s.pair.master = line_through(3);
+  make_last_node_slave(s);
   return s;
 }
 

@@ -1,17 +1,14 @@
 // Points that stay in contact when they are pulled, and contact at a distance.
 #include <gtest/gtest.h>
 
-#include "pair_sample.hpp"
+#include "law_sample.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/normal_exponential.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/contact/law/rough.hpp"
 
 namespace osculate::testing {
 namespace {
 
-using contact::NormalPenalty;
 using contact::Status;
 using pairing::Separation;
 
@@ -27,7 +24,7 @@ struct Node {
     pairing::connect(pair.master);
     pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{2});
     pair.weight = pairing::Weight::node;
-    pair.normal = NormalPenalty{1000};
+    pair.normal = contact::penalty(1000);
   }
   void start(double y) {
     x[2] = {0, y};
@@ -60,7 +57,7 @@ TEST(NoSeparation, HoldsWhatHasTouchedAndLetsItSlide) {
 TEST(NoSeparation, CoulombHasNoLimitLeftInTension) {
   Node node;
   node.pair.separation = Separation::no_separation;
-  node.pair.friction = contact::Coulomb{0.3, 100};
+  node.pair.friction = contact::coulomb(0.3, 100);
   node.start(-0.01);
   EXPECT_NEAR(node.at(0.5, -0.01).shear_traction[0], 3, 1e-12);
   EXPECT_EQ(node.at(0.6, 0.01).shear_traction[0], 0);
@@ -96,7 +93,7 @@ TEST(Rough, SticksWhileInContactAndForgetsWhenItOpens) {
 // Thick sides touch at the sum of their half thicknesses: the same contact, so much higher.
 TEST(Offset, IsTheSameContactFartherAway) {
   Node thin, thick;
-  for (Node* const node : {&thin, &thick}) node->pair.friction = contact::Coulomb{0.3, 100};
+  for (Node* const node : {&thin, &thick}) node->pair.friction = contact::coulomb(0.3, 100);
   thick.pair.offset = 0.4;
   thin.start(0.1);
   thick.start(0.5);
@@ -130,7 +127,7 @@ TEST(Offset, RoundsACorner) {
 TEST(Offset, MomentsBalance) {
   PairSample s = make_sample({.nodes_per_facet = 3, .bend = 0.02, .depth = -0.3});
   s.pair.offset = 0.35;
-  s.pair.friction = contact::Coulomb{0.3, 80.0};
+  s.pair.friction = contact::coulomb(0.3, 80.0);
   s.pair.residual = contact::ResidualForm::full;
   s.committed.points[0] = remembered(true, 1, projection::Feature::face, 0.1, 0.3, 6);
   const Eigen::VectorXd v = flatten(s.x), r = pair_residual(s, v);
@@ -163,10 +160,9 @@ TEST(NormalLaws, FirstContactIsDatedFromTheirReach) {
 
 // Static, then kinetic: the work is the shear times the distance slid, increment by increment.
 TEST(ChangingFriction, DissipatesTractionTimesWay) {
-  for (const auto by :
-       {contact::FrictionChange::By::distance, contact::FrictionChange::By::speed}) {
+  for (const auto by : {ChangeBy::distance, ChangeBy::speed}) {
     Node node;
-    node.pair.friction = contact::Coulomb{0.5, 1e4, 1e9, contact::FrictionChange{0.2, 0.05, by}};
+    node.pair.friction = changing(0.5, 0.2, by, 0.05, 1e4);
     node.start(-0.01);
     double work = 0, last = 0, peak = 0;
     for (int i = 1; i <= 100; ++i) {
@@ -177,7 +173,7 @@ TEST(ChangingFriction, DissipatesTractionTimesWay) {
     }
     EXPECT_NEAR(node.committed.points[0].friction_work, work, 1e-12);
     EXPECT_LE(peak, 5.0);
-    const bool distance = by == contact::FrictionChange::By::distance;
+    const bool distance = by == ChangeBy::distance;
     const double a = distance ? last : 0.003 / 0.1;
     EXPECT_NEAR(node.last.points[0].shear_traction[0], 10 * (0.2 + 0.3 * std::exp(-a / 0.05)),
                 distance ? 1e-10 : 1e-3);

@@ -6,8 +6,6 @@
 #include "mortar_checks.hpp"
 #include "mortar_sample.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -15,77 +13,61 @@ using cell::CellType;
 using contact::Status;
 using pairing::Weight;
 
-class MortarFacets : public ::testing::TestWithParam<std::tuple<CellType, CellType, Weight>> {};
+class MortarFacets : public ::testing::TestWithParam<std::tuple<CellType, CellType, Weight>> {
+ protected:
+  static ContactSample<3> sample(MortarOptions3 o) {
+    const auto [slave, master, weight] = GetParam();
+    o.slave = slave;
+    o.master = master;
+    ContactSample<3> s = make_mortar3(o);
+    s.pair.weight = weight;
+    return s;
+  }
+};
 
 TEST_P(MortarFacets, TangentIsTheDerivativeOfTheResidual) {
-  const auto [slave, master, weight] = GetParam();
-  ContactSample<3> s = make_mortar3({.slave = slave,
-                                     .master = master,
-                                     .slave_cells = 1,
-                                     .master_cells = 2,
-                                     .depth = 0.15,
-                                     .skew = 0.1,
-                                     .bend = 0.02});
-  s.pair.weight = weight;
-  expect_second_order(s, 2e-3, "inside");
+  expect_second_order(
+      sample({.slave_cells = 1, .master_cells = 2, .depth = 0.15, .skew = 0.1, .bend = 0.02}), 2e-3,
+      "inside");
 }
 
 TEST_P(MortarFacets, TangentWhereTheSlaveLeavesTheMaster) {
-  const auto [slave, master, weight] = GetParam();
-  ContactSample<3> s = make_mortar3({.slave = slave,
-                                     .master = master,
-                                     .slave_cells = 2,
-                                     .master_cells = 1,
-                                     .from = -0.33,
-                                     .to = 3.27,
-                                     .depth = 0.2,
-                                     .skew = 0.05,
-                                     .bend = 0.005});
-  s.pair.weight = weight;
-  expect_second_order(s, 2e-3, "over the border");
+  expect_second_order(sample({.slave_cells = 2,
+                              .master_cells = 1,
+                              .from = -0.33,
+                              .to = 3.27,
+                              .depth = 0.2,
+                              .skew = 0.05,
+                              .bend = 0.005}),
+                      2e-3, "over the border");
 }
 
-TEST_P(MortarFacets, ForcesBalance) {
-  const auto [slave, master, weight] = GetParam();
-  ContactSample<3> s = make_mortar3({.slave = slave, .master = master, .skew = 0.1, .bend = 0.02});
-  s.pair.weight = weight;
-  expect_balance(s);
-}
+TEST_P(MortarFacets, ForcesBalance) { expect_balance(sample({.skew = 0.1, .bend = 0.02})); }
 
 // A uniform gap between flat surfaces gives the nodal forces of a uniform pressure on both sides,
 // whichever is wholly covered: the contact patch test without its bodies.
 TEST_P(MortarFacets, UniformGapIsUniformPressureOnBothSides) {
-  const auto [slave, master, weight] = GetParam();
   for (const bool longer : {true, false})
     for (const double skew : {0.0, 0.15}) {
-      ContactSample<3> s = make_mortar3({.slave = slave,
-                                         .master = master,
-                                         .slave_cells = 3,
-                                         .master_cells = 2,
-                                         .from = longer ? -0.4 : 0.4,
-                                         .to = longer ? 3.3 : 2.7,
-                                         .skew = skew,
-                                         .keep_border = true});
-      s.pair.weight = weight;
-      expect_uniform_pressure(s, longer, longer ? 9.0 : 2.3 * 2.3, 1e-10);
+      expect_uniform_pressure(sample({.slave_cells = 3,
+                                      .master_cells = 2,
+                                      .from = longer ? -0.4 : 0.4,
+                                      .to = longer ? 3.3 : 2.7,
+                                      .skew = skew,
+                                      .keep_border = true}),
+                              longer, longer ? 9.0 : 2.3 * 2.3, 1e-10);
     }
 }
 
 // Without a gap all nodes are in contact, whatever the sums leave of it.
 TEST_P(MortarFacets, SidesThatTouchAreInContact) {
-  const auto [slave, master, weight] = GetParam();
-  ContactSample<3> s = make_mortar3(
-      {.slave = slave, .master = master, .depth = 0, .skew = 0.1, .keep_border = true});
-  s.pair.weight = weight;
+  const ContactSample<3> s = sample({.depth = 0, .skew = 0.1, .keep_border = true});
   for (const Status status : pair_status(s, flatten(s.x))) EXPECT_EQ(status, Status::slip);
 }
 
 // The same mesh on both sides: every edge lies on one of the other side.
 TEST_P(MortarFacets, MatchingMeshes) {
-  const auto [slave, master, weight] = GetParam();
-  ContactSample<3> s = make_mortar3(
-      {.slave = slave, .master = master, .slave_cells = 2, .master_cells = 2, .from = 0, .to = 3});
-  s.pair.weight = weight;
+  const ContactSample<3> s = sample({.slave_cells = 2, .master_cells = 2, .from = 0, .to = 3});
   expect_uniform_pressure(s, true, 9.0, 1e-10);
   const Eigen::MatrixXd k = pair_tangent(s, flatten(s.x));
   EXPECT_TRUE(k.allFinite());
@@ -113,7 +95,7 @@ TEST_P(MortarShear, TangentInEveryBranch) {
                                          .depth = 0.15,
                                          .skew = 0.1,
                                          .bend = 0.02});
-      s.pair.friction = contact::Coulomb{mu, 300.0};
+      s.pair.friction = contact::coulomb(mu, 300.0);
       const Vec3 shift = turn_of({0.4, -0.3, 0.2}) * Vec3(0.03, -0.02, active ? 0.01 : -0.5);
       remember<3>(s, shift, Vec2(2.0, -3.0), active);
       expect_second_order(s, 1e-3, "mu " + std::to_string(mu));
@@ -124,7 +106,7 @@ TEST_P(MortarShear, TangentInEveryBranch) {
 TEST_P(MortarShear, SlipIsTheWayAlongTheMaster) {
   ContactSample<3> s =
       make_mortar3({.slave = GetParam(), .slave_cells = 1, .from = 1.6, .to = 2.2});
-  s.pair.friction = contact::Coulomb{1e6, 300.0};
+  s.pair.friction = contact::coulomb(1e6, 300.0);
   const Vec3 way = turn_of({0.4, -0.3, 0.2}) * Vec3(0.9, 0.5, 0);
   remember<3>(s, way, Vec2(1.5, -0.5), true);
   for (const auto& p : pair_evaluation(s, flatten(s.x)).points) {
@@ -138,7 +120,7 @@ TEST_P(MortarShear, SlipIsTheWayAlongTheMaster) {
 TEST_P(MortarShear, NothingSlipsWhenBothTurnTogether) {
   ContactSample<3> s =
       make_mortar3({.slave = GetParam(), .depth = 0.15, .skew = 0.1, .bend = 0.01});
-  s.pair.friction = contact::Coulomb{1e6, 300.0};
+  s.pair.friction = contact::coulomb(1e6, 300.0);
   remember<3>(s, Vec3::Zero(), Vec2(1.5, -0.5), true);
   const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
   const Mat<3, 3> turned = turn_of({1.0, 0.5, -2.0});
@@ -161,17 +143,10 @@ TEST_P(MortarShear, NoJumpAtCrossingsOnAFlatSurface) {
                                      .skew = 0.05,
                                      .keep_border = true});
   const Vec3 step = turn_of({0.4, -0.3, 0.2}) * Vec3(0.023, 0.037, 0);
-  const auto forces = [&] {
-    const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
-    Eigen::VectorXd out(3 * static_cast<Eigen::Index>(s.pair.slave.nodes.size()));
-    for (std::size_t k = 0; k < s.pair.slave.nodes.size(); ++k)
-      out.segment<3>(3 * static_cast<Eigen::Index>(k)) = r.segment<3>(3 * s.pair.slave.nodes[k]);
-    return out;
-  };
-  const Eigen::VectorXd first = forces();
+  const Eigen::VectorXd first = slave_forces(s);
   for (int i = 0; i < 40; ++i) {
     for (const Index n : s.pair.slave.nodes) s.x[static_cast<std::size_t>(n)] += step;
-    EXPECT_LT((forces() - first).norm(), 1e-9 * first.norm()) << i;
+    EXPECT_LT((slave_forces(s) - first).norm(), 1e-9 * first.norm()) << i;
   }
 }
 

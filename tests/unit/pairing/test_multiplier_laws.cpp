@@ -8,8 +8,6 @@
 #include "multiplier_sample.hpp"
 #include "segment_sample.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -104,20 +102,18 @@ INSTANTIATE_TEST_SUITE_P(All, MultiplierLaw, ::testing::Range(std::size_t{0}, la
 /// constraint, with penalties from far too soft to be the trial of a sliding point to stiff ones.
 TEST(MultiplierOfFallingFriction, SlidesHoweverSoftThePenalty) {
   constexpr double lambda = -50, way = 0.03, scale = 0.02;
-  for (const auto by : {contact::FrictionChange::By::distance, contact::FrictionChange::By::speed})
+  for (const auto by : {ChangeBy::distance, ChangeBy::speed})
     for (const double penalty : {1e-3, 1.0, 80.0, 1e5}) {
-      contact::Coulomb law = changing(0.5, 0.2, by, scale);
-      law.stiffness = penalty;
       PairSample s = make_sample({.angle = 0, .depth = 0});
       s.pair.weight = pairing::Weight::node;
-      s.pair.friction = law;
+      s.pair.friction = changing(0.5, 0.2, by, scale, penalty);
       s.committed = pairing::initial_state<2>(s.pair, s.x);
       s.committed.points[0].active = true;
       s.x[s.x.size() - 2].x() += way;
       MultiplierSample<2> m = unknown_tractions<2>(s, lambda, 0);
       m.duration = duration;
-      const double a = by == contact::FrictionChange::By::distance ? way : way / duration;
-      m.multipliers[0].shear = Vec2(law.coefficient(a) * -lambda, 0);
+      const double a = by == ChangeBy::distance ? way : way / duration;
+      m.multipliers[0].shear = Vec2((0.2 + 0.3 * std::exp(-a / scale)) * -lambda, 0);
       const pairing::PairEvaluation<2> e = m.evaluation(m.packed(), false);
       EXPECT_EQ(e.points[0].status, contact::Status::slip) << penalty;
       EXPECT_NEAR(e.blocks[0].constraint.shear.norm(), 0, 1e-10) << penalty;

@@ -6,9 +6,6 @@
 #include "multiplier_sample.hpp"
 #include "pair_sample.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -31,6 +28,14 @@ void expect_second_order(const MultiplierSample<Dim>& s, Status expected, const 
                     v, h);
 }
 
+template <int Dim>
+void expect_friction_branches(ContactSample<Dim>& s, double h = 2e-3) {
+  s.pair.friction = contact::coulomb(10.0, 80.0);
+  expect_second_order(unknown_tractions<Dim>(s, -90, 9), Status::stick, "stick", h);
+  s.pair.friction = contact::coulomb(0.02, 80.0);
+  expect_second_order(unknown_tractions<Dim>(s, -90, 9), Status::slip, "slip", h);
+}
+
 TEST(MultiplierTangent, PlaneInEveryBranch) {
   for (const int nodes : {2, 3})
     for (const auto weight :
@@ -44,10 +49,7 @@ TEST(MultiplierTangent, PlaneInEveryBranch) {
               remembered(true, from, projection::Feature::face, from ? 0.1 : 0.8, -0.01, 0, 0);
           expect_second_order(unknown_tractions<2>(s, -90, 0), Status::slip, "frictionless");
           expect_second_order(unknown_tractions<2>(s, 70, 0), Status::open, "open");
-          s.pair.friction = contact::Coulomb{10.0, 80.0};
-          expect_second_order(unknown_tractions<2>(s, -90, 9), Status::stick, "stick");
-          s.pair.friction = contact::Coulomb{0.02, 80.0};
-          expect_second_order(unknown_tractions<2>(s, -90, 9), Status::slip, "slip");
+          expect_friction_branches(s);
           expect_second_order(unknown_tractions<2>(s, -90, -90), Status::slip, "slip back");
         }
 }
@@ -60,10 +62,7 @@ TEST(MultiplierTangent, SpaceInEveryBranch) {
       s.committed = pairing::initial_state<3>(s.pair, s.x);
       s.committed.points[0].xi += Vec2(0.07, -0.05);
       expect_second_order(unknown_tractions<3>(s, -90, 0), Status::slip, "frictionless", 1e-3);
-      s.pair.friction = contact::Coulomb{10.0, 80.0};
-      expect_second_order(unknown_tractions<3>(s, -90, 9), Status::stick, "stick", 1e-3);
-      s.pair.friction = contact::Coulomb{0.02, 80.0};
-      expect_second_order(unknown_tractions<3>(s, -90, 9), Status::slip, "slip", 1e-3);
+      expect_friction_branches(s, 1e-3);
     }
 }
 
@@ -71,19 +70,13 @@ TEST(MultiplierTangent, MortarInEveryBranch) {
   ContactSample<2> s = make_mortar2({.bend = 0.01});
   remember<2>(s, Vec2(0.05, 0), Vec<1>::Zero(), true);
   expect_second_order(unknown_tractions<2>(s, -90, 0), Status::slip, "frictionless", 1e-4);
-  s.pair.friction = contact::Coulomb{10.0, 80.0};
-  expect_second_order(unknown_tractions<2>(s, -90, 9), Status::stick, "stick", 1e-4);
-  s.pair.friction = contact::Coulomb{0.02, 80.0};
-  expect_second_order(unknown_tractions<2>(s, -90, 9), Status::slip, "slip", 1e-4);
+  expect_friction_branches(s, 1e-4);
 }
 
 TEST(MultiplierTangent, MortarInSpace) {
   ContactSample<3> s = make_mortar3({});
   remember<3>(s, Vec3(0.05, 0.02, 0), Vec2::Zero(), true);
-  s.pair.friction = contact::Coulomb{10.0, 80.0};
-  expect_second_order(unknown_tractions<3>(s, -90, 9), Status::stick, "stick", 1e-4);
-  s.pair.friction = contact::Coulomb{0.02, 80.0};
-  expect_second_order(unknown_tractions<3>(s, -90, 9), Status::slip, "slip", 1e-4);
+  expect_friction_branches(s, 1e-4);
 }
 
 TEST(MultiplierTangent, FrictionlessIsSymmetric) {
@@ -97,7 +90,7 @@ TEST(MultiplierTangent, FrictionlessIsSymmetric) {
 TEST(Multipliers, ConstraintsAreGapAndSlip) {
   PairSample s = make_sample({.depth = 0.03});
   s.pair.weight = pairing::Weight::node;
-  s.pair.friction = contact::Coulomb{10.0, 80.0};
+  s.pair.friction = contact::coulomb(10.0, 80.0);
   s.committed = pairing::initial_state<2>(s.pair, s.x);
   const MultiplierSample<2> m = unknown_tractions<2>(s, -90, 0);
   const pairing::PairEvaluation<2> e = m.evaluation(m.packed(), false);
@@ -116,7 +109,7 @@ TEST(Augmentation, ReachesTheTargetWhateverThePenalty) {
   const std::vector<Vec2> start = s.x;
   constexpr double spring = 100, load = 5, target = 1e-9;
   for (const double penalty : {1e-2, 1e0, 1e2, 1e4, 1e6}) {
-    s.pair.normal = contact::NormalPenalty{penalty};
+    s.pair.normal = contact::penalty(penalty);
     pairing::PairMultipliers<2> m = pairing::initial_multipliers<2>(s.pair, s.committed);
     pairing::PairEvaluation<2> e;
     double gap = 0;

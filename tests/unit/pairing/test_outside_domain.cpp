@@ -5,8 +5,6 @@
 
 #include "pair_sample.hpp"
 
-#include "osculate/contact/law/normal_penalty.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -16,12 +14,7 @@ PairSample disc(const Vec2& node) {
   s.x = {{0, 0}, {1, 0}, {0, 1}, node};
   s.pair.master.facets.push_back(
       pairing::shape_facet(geometry::Circle{Vec2(0, 0), 2.0, false}, {0, 1, 2}));
-  pairing::connect(s.pair.master);
-  s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{3});
-  s.pair.normal = contact::NormalPenalty{1000.0};
-  s.pair.weight = pairing::Weight::node;
-  s.committed.points.resize(1);
-  pairing::prepare(s.pair, s.x);
+  make_last_node_slave(s);
   return s;
 }
 
@@ -49,12 +42,7 @@ TEST(OutsideDomain, CentreOfCurvatureOfAQuadraticFacet) {
   PairSample s;
   s.x = {{-2, -2}, {2, -2}, {0, 0}, {0, -1}};
   s.pair.master.facets.push_back(pairing::lagrange_facet(std::array<Index, 3>{0, 1, 2}));
-  pairing::connect(s.pair.master);
-  s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{3});
-  s.pair.normal = contact::NormalPenalty{1000.0};
-  s.pair.weight = pairing::Weight::node;
-  s.committed.points.resize(1);
-  pairing::prepare(s.pair, s.x);
+  make_last_node_slave(s);
   pairing::PairEvaluation<2> e;
   for (const double deeper : {-0.1, 0.0, 0.1}) {
     s.x[3].y() = -1 - deeper;
@@ -76,12 +64,7 @@ TEST(OutsideDomain, CentreOfASphereAndAxisOfACylinder) {
     PairSample3 s;
     s.x = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
     s.pair.master.facets.push_back(pairing::shape_facet(shape, {0, 1, 2, 3}));
-    pairing::connect(s.pair.master);
-    s.pair.slave = pairing::make_slave_side(pairing::FacetSurface{}, std::array<Index, 1>{4});
-    s.pair.normal = contact::NormalPenalty{1000.0};
-    s.pair.weight = pairing::Weight::node;
-    s.committed.points.resize(1);
-    pairing::prepare(s.pair, s.x);
+    make_last_node_slave(s);
     pairing::PairEvaluation<3> e;
     pairing::evaluate(s.pair, s.x, s.committed, true, e);
     EXPECT_TRUE(e.points[0].outside_domain);

@@ -6,8 +6,6 @@
 #include <random>
 
 #include "derivative_check.hpp"
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/core/error.hpp"
 #include "own_surface_sample.hpp"
 #include "pair_checks.hpp"
@@ -132,21 +130,21 @@ TEST(OwnSurface, AThinLipThatJumpsThroughIsFoundAgain) {
 /// A closed hairpin in general position.
 PairSample contact_sample(int nodes, double mu) {
   PairSample s = own_surface(hairpin(), nodes);
-  s.pair.normal = contact::NormalPenalty{300};
+  s.pair.normal = contact::penalty(300);
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> jitter(-0.01, 0.01);
   move(s, [&](const Vec2& p) {
     return turned(closed_hairpin(p, 0.33) + Vec2(jitter(generator), jitter(generator)), 0.4);
   });
-  if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80};
+  if (mu > 0) s.pair.friction = contact::coulomb(mu, 80);
   pairing::prepare(s.pair, own_surface(hairpin(), nodes).x);
   return s;
 }
 
 PairSample3 contact_sample(CellType type, double mu) {
   PairSample3 s = own_walls(hairpin(), type);
-  s.pair.normal = contact::NormalPenalty{300};
-  if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80};
+  s.pair.normal = contact::penalty(300);
+  if (mu > 0) s.pair.friction = contact::coulomb(mu, 80);
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> jitter(-0.01, 0.01);
   const Eigen::AngleAxisd turn(0.8, Vec3(1, 2, -1).normalized());

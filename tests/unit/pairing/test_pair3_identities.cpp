@@ -7,8 +7,6 @@
 
 #include "pair_checks.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -19,7 +17,7 @@ PairSample3 sample_of(CellType type, double mu, ResidualForm form, double bend =
   SampleOptions3 o{.type = type, .bend = bend, .depth = 0.1};
   if (cell::is_triangle(type)) o.at = 2, o.xi = {0.3, 0.4};
   PairSample3 s = make_sample3(o);
-  if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80.0};
+  if (mu > 0) s.pair.friction = contact::coulomb(mu, 80.0);
   s.pair.residual = form;
   s.committed.points[0] = remembered(o.at, o.xi - Vec2(0.1, 0.05), -0.01, {4, -3});
   return s;
@@ -90,7 +88,7 @@ TEST(Pair3Identities, ThePlaneIsASpecialCase) {
         PairSample plane = make_sample({.depth = 0.05});
         plane.x[1].y() += 0.1;  // kinks
         plane.x[2].y() -= 0.1;
-        plane.pair.friction = contact::Coulomb{mu, 80.0};
+        plane.pair.friction = contact::coulomb(mu, 80.0);
         plane.pair.weight = pairing::Weight::node;
         plane.pair.residual = form;
         plane.pair.slave = pairing::make_slave_side(
@@ -121,7 +119,7 @@ TEST(Pair3Identities, ThePlaneIsASpecialCase) {
 // A point dragged in stick over all facets (1 : 3 : 1 and a kink of 50 degrees) and back.
 TEST(Pair3Identities, StickIsReversibleOverUnequalFacetsAndAKink) {
   PairSample3 s = make_sample3({.type = CellType::quad4, .kink = 1.2});
-  s.pair.friction = contact::Coulomb{1e6, 80.0};
+  s.pair.friction = contact::coulomb(1e6, 80.0);
   s.pair.weight = pairing::Weight::node;
   const std::size_t slave = s.x.size() - 4;
   s.pair.slave = pairing::make_slave_side(pairing::FacetSurface{},

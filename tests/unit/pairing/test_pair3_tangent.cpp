@@ -6,9 +6,6 @@
 
 #include "pair_checks.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -43,7 +40,7 @@ TEST_P(Pair3Tangent, IsTheDerivativeOfTheResidual) {
       SampleOptions3 o{.type = type, .bend = 0.03, .depth = depth};
       if (triangle) o.at = 2, o.xi = {0.3, 0.4};
       PairSample3 s = make_sample3(o);
-      s.pair.friction = contact::Coulomb{branch.mu, 80.0};
+      s.pair.friction = contact::coulomb(branch.mu, 80.0);
       s.pair.residual = form;
       s.pair.weight = weight;
       const Index facet = triangle ? from + 1 : from;
@@ -76,7 +73,7 @@ TEST(Pair3TangentBranches, FrictionlessIsSymmetric) {
 TEST(Pair3TangentBranches, FirstContactInsideTheIncrement) {
   for (const double mu : {10.0, 0.005}) {
     PairSample3 s = make_sample3({.bend = 0.02});
-    s.pair.friction = contact::Coulomb{mu, 80.0};
+    s.pair.friction = contact::coulomb(mu, 80.0);
     s.committed.points[0] = remembered(1, {0.1, -0.1}, 0.03, {0, 0}, false);
     SCOPED_TRACE("mu " + std::to_string(mu));
     expect_pair_tangent(s, mu > 1 ? Status::stick : Status::slip, Feature::face, 1e-3);
@@ -87,7 +84,7 @@ TEST(Pair3TangentBranches, FirstContactInsideTheIncrement) {
 PairSample3 valley(CellType type, double mu, ResidualForm form) {
   PairSample3 s = make_sample3({.type = type, .kink = 1.2});
   s.x[s.x.size() - 4] = {4.02, 0.3, -0.1};
-  s.pair.friction = contact::Coulomb{mu, 80.0};
+  s.pair.friction = contact::coulomb(mu, 80.0);
   s.pair.weight = Weight::node;
   s.pair.residual = form;
   s.committed.points[0] = remembered(1, {0.9, 0.25}, -0.01, {2.0, 1.0});
@@ -115,14 +112,9 @@ PairSample3 inner_corner(double mu) {
   add({0, 4, 5, 1});  // wall, +y
   add({0, 3, 6, 4});  // wall, +x
   // more of the corner's surroundings, so that its borders are inside the surface
-  pairing::connect(s.pair.master);
   s.x.push_back({-0.03, -0.05, -0.04});
-  s.pair.slave = pairing::make_slave_side(pairing::FacetSurface{}, std::array<Index, 1>{7});
-  s.pair.normal = contact::NormalPenalty{1000.0};
-  s.pair.weight = Weight::node;
-  s.pair.friction = contact::Coulomb{mu, 80.0};
-  s.committed.points.resize(1);
-  pairing::prepare(s.pair, s.x);
+  make_last_node_slave(s);
+  s.pair.friction = contact::coulomb(mu, 80.0);
   s.committed.points[0] = remembered(0, {-0.9, -0.95}, -0.01, {2.0, 1.0});
   return s;
 }

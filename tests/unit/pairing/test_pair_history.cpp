@@ -5,9 +5,6 @@
 
 #include "pair_sample.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -21,17 +18,11 @@ struct Walker {
 
   explicit Walker(const std::vector<Vec2>& master, double mu) {
     s.x = master;
-    for (std::size_t i = 0; i + 1 < master.size(); ++i)
-      s.pair.master.facets.push_back(pairing::lagrange_facet(
-          std::array<Index, 2>{static_cast<Index>(i), static_cast<Index>(i + 1)}));
-    pairing::connect(s.pair.master);
+    s.pair.master = line_through(master.size());
     slave = static_cast<Index>(master.size());
     s.x.push_back({0, 0});
-    s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{slave});
-    s.pair.weight = pairing::Weight::node;
-    s.pair.normal = contact::NormalPenalty{1000};
-    s.pair.friction = contact::Coulomb{mu, eps_t};
-    pairing::prepare(s.pair, s.x);
+    make_last_node_slave(s);
+    s.pair.friction = contact::coulomb(mu, eps_t);
   }
   void start(const Vec2& at) {
     s.x.back() = at;

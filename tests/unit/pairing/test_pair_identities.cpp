@@ -5,8 +5,6 @@
 
 #include "pair_checks.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -15,7 +13,7 @@ using contact::ResidualForm;
 PairSample frictional(int nodes, ResidualForm form, double depth) {
   PairSample s =
       make_sample({.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0, .depth = depth});
-  s.pair.friction = contact::Coulomb{0.2, 80.0};
+  s.pair.friction = contact::coulomb(0.2, 80.0);
   s.pair.residual = form;
   s.committed.points[0] = remembered(true, 0, projection::Feature::face, 0.5, -0.01, 3, 0);
   return s;
@@ -113,7 +111,7 @@ TEST(PairIdentities, TheCurvatureTermLeftOutIsCurvatureTimesSinking) {
   pairing::connect(s.pair.master);
   s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{frame + 3});
   s.pair.weight = pairing::Weight::node;
-  s.pair.friction = contact::Coulomb{1e6, 80.0};
+  s.pair.friction = contact::coulomb(1e6, 80.0);
   pairing::prepare(s.pair, s.x);
   s.committed = pairing::initial_state(s.pair, s.x);
   s.committed.points[0].traction[0] = 5.0;

@@ -6,8 +6,6 @@
 
 #include "pair_checks.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -34,7 +32,7 @@ TEST_P(PairTangent, IsTheDerivativeOfTheResidual) {
     for (const int from : {0, 1, 2}) {  // facet of the last increment: behind, the same, ahead
       PairSample s =
           make_sample({.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0, .depth = depth});
-      s.pair.friction = contact::Coulomb{branch.mu, 80.0};
+      s.pair.friction = contact::coulomb(branch.mu, 80.0);
       s.pair.residual = form;
       s.pair.weight = weight;
       const double xi = from == 0 ? 0.8 : from == 1 ? 0.1 : -0.9;
@@ -63,7 +61,7 @@ TEST(PairTangentBranches, FrictionlessStraightAndCurved) {
 TEST(PairTangentBranches, FirstContactInsideTheIncrement) {
   for (const double mu : {10.0, 0.02}) {
     PairSample s = make_sample({});
-    s.pair.friction = contact::Coulomb{mu, 80.0};
+    s.pair.friction = contact::coulomb(mu, 80.0);
     s.committed.points[0] = remembered(false, 1, Feature::face, 0.1, 0.03, 0, 0);
     SCOPED_TRACE("mu " + std::to_string(mu));
     expect_pair_tangent(s, mu > 1 ? Status::stick : Status::slip, Feature::face, 2e-3);
@@ -77,7 +75,7 @@ PairSample valley_sample(double mu, double carried) {
   s.x[1] = {0, 0};
   s.x[2] = {2, 1.5};
   s.x[3] = {0.02, -0.11};
-  s.pair.friction = contact::Coulomb{mu, 80.0};
+  s.pair.friction = contact::coulomb(mu, 80.0);
   s.committed.points[0] = remembered(true, 0, Feature::face, 0.9, -0.01, carried, 0);
   return s;
 }
@@ -108,7 +106,7 @@ TEST(CovariantTangent, PartsHaveTheirExactProperties) {
   for (const int nodes : {2, 3})
     for (const double mu : {10.0, 0.02}) {
       PairSample s = make_sample({.nodes_per_facet = nodes, .bend = nodes > 2 ? 0.02 : 0.0});
-      s.pair.friction = contact::Coulomb{mu, 80.0};
+      s.pair.friction = contact::coulomb(mu, 80.0);
       s.committed.points[0] = remembered(true, 1, Feature::face, 0.1, -0.01, 5, 0);
       const Eigen::VectorXd v = flatten(s.x);
       const auto part = [&](bool main, bool rotational, bool curvature) {

@@ -1,7 +1,5 @@
 // Penalties of single points: each point is that of a pair which has its penalty.
-#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/damping.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 
 #include <gtest/gtest.h>
@@ -82,9 +80,9 @@ std::vector<Case<Dim>> with_laws(const Case<Dim>& c) {
   std::vector<Case<Dim>> all(3, c);
   all[0].name += ", frictionless";
   all[1].name += ", stick";
-  all[1].pair.friction = contact::Coulomb{10.0, 80.0};
+  all[1].pair.friction = contact::coulomb(10.0, 80.0);
   all[2].name += ", slip";
-  all[2].pair.friction = contact::Coulomb{0.01, 80.0};
+  all[2].pair.friction = contact::coulomb(0.01, 80.0);
   return all;
 }
 
@@ -120,7 +118,7 @@ template <int Dim>
 pairing::PairDefinition<Dim> pair_like(pairing::PairDefinition<Dim> pair, std::size_t point) {
   const RelativeStiffness own = pair.relative_stiffness[point];
   pair.relative_stiffness.clear();
-  pair.normal = contact::NormalPenalty{own.normal * contact::penalty_of(pair.normal)};
+  pair.normal = contact::penalty(own.normal * contact::penalty_of(pair.normal));
   if (pair.friction) pair.friction = pair.friction->stiffened(own.shear);
   return pair;
 }
@@ -346,7 +344,7 @@ TEST(PointPenalty, ACrossingHasThatOfItsSlaveEdge) {
 
 TEST(PointPenalty, RangeIsOverThePoints) {
   Case<2> c = plane_cases()[0];
-  c.pair.friction = contact::Coulomb{0.3, 80.0};
+  c.pair.friction = contact::coulomb(0.3, 80.0);
   pairing::PenaltyRange r = pairing::penalty_range(c.pair);
   EXPECT_EQ(r.smallest.normal, 1000);
   EXPECT_EQ(r.largest.shear, 80);

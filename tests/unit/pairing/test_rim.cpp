@@ -4,8 +4,6 @@
 
 #include "own_surface_sample.hpp"
 
-#include "osculate/contact/law/normal_penalty.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -49,9 +47,7 @@ void expect_straight_push(const ContactSample<Dim>& sample) {
       force -= p.weight * p.normal_traction;
     }
     const double area = Dim == 2 ? 3 : 3 * 1.0;  // two layers of 0.5
-    EXPECT_NEAR(force,
-                s.pair.normal.template as<contact::NormalPenalty>()->stiffness * depth * area, 1e-9)
-        << beside;
+    EXPECT_NEAR(force, contact::penalty_of(s.pair.normal) * depth * area, 1e-9) << beside;
   }
 }
 

@@ -6,8 +6,6 @@
 #include <random>
 
 #include "expect_derivative.hpp"
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/core/error.hpp"
 #include "segment_sample.hpp"
 
@@ -155,7 +153,7 @@ TEST(SegmentTangent, IsTheDerivativeOfTheResidual) {
                   {.slave_nodes = nodes, .bend = bend, .depth = 0.1, .sampling = sampling});
               s.pair.residual = form;
               s.pair.weight = weight;
-              s.pair.friction = contact::Coulomb{b.mu, 80.0};
+              s.pair.friction = contact::coulomb(b.mu, 80.0);
               remember_all<2>(s, Vec2(0.3, 0.1), b.carried);
               expect_second_order(
                   s, b.status, 1e-3,
@@ -174,7 +172,7 @@ TEST(SegmentTangent, IsTheDerivativeOfTheResidualInSpace) {
               {.type = slave, .master = master, .bend = 0.01, .depth = 0.08, .sampling = sampling});
           s.pair.residual = b.carried > 0 ? ResidualForm::full : ResidualForm::surface;
           s.pair.weight = b.carried > 0 ? Weight::current_area : Weight::reference_area;
-          s.pair.friction = contact::Coulomb{b.mu, 80.0};
+          s.pair.friction = contact::coulomb(b.mu, 80.0);
           remember_all<3>(s, Vec3(0.03, 0.02, 0.01), b.carried);
           expect_second_order(s, b.status, 2e-4,
                               std::string(cell::info(slave).name) + " on " +
@@ -188,7 +186,7 @@ TEST(SegmentTangent, IsTheDerivativeOfTheResidualInSpace) {
 TEST(SegmentForces, BalanceWithMoments) {
   PairSample3 s = segment_sample3({.bend = 0.01, .sampling = {Rule::gauss, 3, 1}});
   s.pair.residual = ResidualForm::full;
-  s.pair.friction = contact::Coulomb{0.3, 80.0};
+  s.pair.friction = contact::coulomb(0.3, 80.0);
   remember_all<3>(s, Vec3(0.03, 0.02, 0.01), 4.0);
   const Eigen::VectorXd r = pair_residual(s, flatten(s.x));
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
@@ -217,8 +215,7 @@ TEST(SegmentForces, OfAUniformGapAreThoseOfAUniformPressure) {
     const pairing::SurfaceFacet& facet = s.pair.slave.boundary.facets[0];
     double total = 0;
     for (const Index node : s.pair.slave.nodes) total -= r[3 * node + 2];
-    EXPECT_NEAR(total,
-                s.pair.normal.template as<contact::NormalPenalty>()->stiffness * depth * 1.78,
+    EXPECT_NEAR(total, contact::penalty_of(s.pair.normal) * depth * 1.78,
                 1e-12 * 1000);      // |along x across|
     if (type == CellType::quad8) {  // corners of a parallelogram: -A / 12, middles A / 3
       EXPECT_NEAR(r[3 * facet.nodes[0] + 2], 1000 * depth * 1.78 / 12, 1e-11);

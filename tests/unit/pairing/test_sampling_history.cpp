@@ -7,8 +7,6 @@
 #include <set>
 
 #include "allocation_count.hpp"
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/pairing/pair.hpp"
 #include "osculate/pairing/sampling.hpp"
 
@@ -116,8 +114,8 @@ void finish(Carpet<Dim>& c, pairing::Boundary<Dim> slave, const Choice& choice, 
   c.pair.slave = pairing::make_slave_side(std::move(slave));
   if (!choice.mortar) pairing::sample(c.pair.slave, choice.points);
   c.pair.mortar = choice.mortar;
-  c.pair.normal = contact::NormalPenalty{eps_n};
-  c.pair.friction = contact::Coulomb{mu, eps_t};
+  c.pair.normal = contact::penalty(eps_n);
+  c.pair.friction = contact::coulomb(mu, eps_t);
   pairing::prepare<Dim>(c.pair, c.x);
 }
 

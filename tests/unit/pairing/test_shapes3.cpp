@@ -4,8 +4,6 @@
 #include <Eigen/Geometry>
 
 #include "derivative_check.hpp"
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/geometry/surface_frame.hpp"
 #include "osculate/projection/point_to_surface.hpp"
 #include "pair_sample.hpp"
@@ -35,18 +33,10 @@ PairSample3 make_shape_sample(const ShapeSample& o) {
   const Vec2 xi = projection::closest_point(o.shape, o.place).xi;
   const geometry::SurfaceJet jet = geometry::jet(o.shape, xi);
   const Vec3 n = geometry::surface_frame(jet).normal;
-  const auto first = static_cast<Index>(s.x.size());
-  s.x.push_back(jet.r - o.depth * n);
-  for (const Vec3& far : {Vec3(0, 0.4, 0), Vec3(0.5, 0.5, 0.1), Vec3(0.4, 0, 0)})
-    s.x.push_back(jet.r + 0.5 * n + far * 0.1);
-  pairing::FacetSurface slave;
-  slave.facets.push_back(pairing::surface_facet(
-      cell::CellType::quad4, std::array<Index, 4>{first, first + 1, first + 2, first + 3}));
-  pairing::connect(slave);
-  s.pair.slave = pairing::make_slave_side(slave);
-  s.pair.normal = contact::NormalPenalty{1000.0};
-  s.pair.friction = contact::Coulomb{o.mu, 80.0};
-  s.committed.points.resize(4);
+  const Vec3 far = jet.r + 0.5 * n;
+  add_sample_slave<3>(s, {jet.r - o.depth * n, far + Vec3(0, 0.04, 0), far + Vec3(0.05, 0.05, 0.01),
+                          far + Vec3(0.04, 0, 0)});
+  s.pair.friction = contact::coulomb(o.mu, 80.0);
   pairing::prepare(s.pair, s.x);
   const Vec2 old = projection::closest_point(o.shape, o.before).xi;
   const geometry::SurfaceFrame f = geometry::surface_frame(geometry::jet(o.shape, old));

@@ -9,8 +9,6 @@
 #include <tuple>
 
 #include "expect_derivative.hpp"
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/pairing/smoothing.hpp"
 #include "pair_sample.hpp"
@@ -368,8 +366,8 @@ TEST(SmoothSurface, TangentIsTheDerivative) {
           s.pair.slave = pairing::make_slave_side(
               FacetSurface{}, std::array<Index, 1>{static_cast<Index>(s.x.size()) - 1});
           s.pair.weight = pairing::Weight::node;
-          s.pair.normal = contact::NormalPenalty{1000};
-          if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80.0};
+          s.pair.normal = contact::penalty(1000);
+          if (mu > 0) s.pair.friction = contact::coulomb(mu, 80.0);
           s.pair.residual = form;
           pairing::prepare(s.pair, s.x);
           s.committed.points = {

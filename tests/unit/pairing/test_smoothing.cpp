@@ -1,5 +1,4 @@
 // Smooth curves through the nodes of first-order facets.
-#include "osculate/contact/law/coulomb.hpp"
 #include "osculate/pairing/smoothing.hpp"
 
 #include <gtest/gtest.h>
@@ -266,7 +265,7 @@ TEST(Smoothing, TangentIsTheDerivative) {
           smooth(s.pair.master, s.x, Smoothing{kind, 1.0});
           const auto jet = pairing::facet_jet(s.pair.master.facets[2], -0.9, s.x);
           s.x[s.x.size() - 2] = jet.r - 0.04 * turn(jet.r1).normalized();
-          if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80.0};
+          if (mu > 0) s.pair.friction = contact::coulomb(mu, 80.0);
           s.pair.residual = form;
           s.committed.points[0] = remembered(true, from, Feature::face, 0.8, -0.01, 7.0);
           const Eigen::VectorXd v = flatten(s.x);

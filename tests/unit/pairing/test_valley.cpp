@@ -10,9 +10,6 @@
 #include "multiplier_sample.hpp"
 #include "pair_sample.hpp"
 
-#include "osculate/contact/law/coulomb.hpp"
-#include "osculate/contact/law/normal_penalty.hpp"
-
 namespace osculate::testing {
 namespace {
 
@@ -54,7 +51,7 @@ Sample make_valley(const Corner& c, const Vec2& offset = Vec2::Zero()) {
   const auto slave = static_cast<Index>(s.x.size());
   s.x.push_back(at + offset);
   s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{slave});
-  s.pair.normal = contact::NormalPenalty{penalty};
+  s.pair.normal = contact::penalty(penalty);
   s.pair.weight = pairing::Weight::node;
   s.pair.enforcement = contact::Enforcement::lagrange_multiplier;
   s.pair.valleys = true;
@@ -111,7 +108,7 @@ TEST(Valley, HoldsInTheSumOfBothCones) {
       for (int i = 0; i < directions; ++i) {
         const double from_middle = 2 * half_turn * (i + 0.37) / directions - half_turn;
         Sample s = make_valley(corner);
-        if (mu > 0) s.pair.friction = contact::Coulomb{mu, penalty};
+        if (mu > 0) s.pair.friction = contact::coulomb(mu, penalty);
         hold_by(5 * direction(middle + from_middle), s);
         const pairing::PairEvaluation<2> e = evaluated(s);
         const bool held = e.points[0].branch.branch == Branch::valley;
@@ -137,7 +134,7 @@ TEST(Valley, HoldsWhatTheFacetItCameAlongDidNot) {
     for (int i = 0; i < directions; ++i) {
       const double from_first = 2 * half_turn * (i + 0.37) / directions - half_turn;
       Sample s = make_valley(corner);
-      s.pair.friction = contact::Coulomb{mu, penalty};
+      s.pair.friction = contact::coulomb(mu, penalty);
       hold_by(5 * direction(first + from_first), s);
       s.committed.points[0] = remembered(true, came_along, Feature::face, 0.5, 0, 0);
       const double turned = from_first + (came_along == 0 ? -1 : 1) * std::atan(mu);
@@ -148,7 +145,7 @@ TEST(Valley, HoldsWhatTheFacetItCameAlongDidNot) {
 
 TEST(Valley, LetsGoWhereItWouldPull) {
   Sample s = make_valley({});
-  s.pair.friction = contact::Coulomb{0.3, penalty};
+  s.pair.friction = contact::coulomb(0.3, penalty);
   const Vec2 bisector = (normal_of({}, 0) + normal_of({}, 1)).normalized();
   hold_by(-5 * bisector, s);
   EXPECT_EQ(evaluated(s).points[0].status, Status::open);
@@ -161,7 +158,7 @@ TEST(Valley, TakesOverTheTraction) {
              shear = 4 * direction(corner.start);
   for (const double mu : {0.0, 0.3}) {
     Sample s = make_valley(corner, offset);
-    if (mu > 0) s.pair.friction = contact::Coulomb{mu, penalty};
+    if (mu > 0) s.pair.friction = contact::coulomb(mu, penalty);
     press_on(0, -20, mu > 0 ? shear : Vec2(Vec2::Zero()), s);
     const pairing::PairEvaluation<2> e = evaluated(s);
     ASSERT_EQ(e.points[0].branch.branch, Branch::valley);
@@ -214,7 +211,7 @@ TEST(Valley, APressedPointKeepsItsFacet) {
 
 TEST(Valley, ForcesBalance) {
   Sample s = make_valley({.nodes_per_facet = 3, .bow = 0.05});
-  s.pair.friction = contact::Coulomb{0.3, penalty};
+  s.pair.friction = contact::coulomb(0.3, penalty);
   const Vec2 force = 5 * (normal_of({}, 0) + normal_of({}, 1));
   hold_by(force, s);
   const pairing::PairEvaluation<2> e = evaluated(s);
@@ -240,7 +237,7 @@ TEST(ValleyTangent, IsOfSecondOrder) {
         Sample s = make_valley({.nodes_per_facet = nodes, .bow = bow}, {0.004, -0.02});
         s.pair.weight = weight;
         s.pair.reference_areas = {0.7};
-        if (mu > 0) s.pair.friction = contact::Coulomb{mu, 80.0};
+        if (mu > 0) s.pair.friction = contact::coulomb(mu, 80.0);
         hold_by(90 * (normal_of({}, 0) + normal_of({}, 1)), s);
         const Eigen::VectorXd v = s.packed();
         const auto branch = [&](const Eigen::VectorXd& y) {
@@ -273,7 +270,7 @@ TEST(ValleyTangent, OfFacetsWithoutFriction) {
 
 TEST(Valley, NothingIsAllocatedAfterTheFirstCall) {
   Sample s = make_valley({});
-  s.pair.friction = contact::Coulomb{0.3, penalty};
+  s.pair.friction = contact::coulomb(0.3, penalty);
   hold_by(5 * (normal_of({}, 0) + normal_of({}, 1)), s);
   pairing::Assumed<2> assumed;
   assumed.branch = s.assumed;

@@ -7,9 +7,8 @@
 #include <random>
 
 #include "osculate/core/error.hpp"
-#include "osculate/geometry/curve_frame.hpp"
 #include "osculate/geometry/surface_frame.hpp"
-#include "sample_curves.hpp"
+#include "reach_sample.hpp"
 #include "sample_surfaces.hpp"
 
 namespace osculate::projection {
@@ -24,13 +23,6 @@ Reach<3> reach_of(geometry::Surface surface) {
   return reach(Composed<3>(Shape<3>(std::move(surface))));
 }
 
-/// Counter-clockwise: the normals point inwards, so that inside is above.
-NurbsCurve ellipse(double a, double b) {
-  NurbsCurve curve = testing::nurbs_circle(1);
-  for (Vec2& p : curve.control) p = p.cwiseProduct(Vec2(a, b));
-  return curve;
-}
-
 /// Straight piece AB, arcs BC and CD of radius 1 bent to both sides (KSCPP, Fig. 6).
 NurbsCurve figure6() {
   const double w = std::numbers::sqrt2 / 2;
@@ -38,47 +30,6 @@ NurbsCurve figure6() {
           {0, 0, 0, 1, 1, 2, 2, 3, 3, 3},
           {Vec2(-2, 0), Vec2(-1, 0), Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(1, 2), Vec2(2, 2)},
           {1, 1, 1, w, 1, w, 1}};
-}
-
-FacetMesh<2> polyline(const std::vector<Vec2>& points, bool closed) {
-  FacetMesh<2> mesh{points, {}};
-  const auto n = static_cast<Index>(points.size());
-  for (Index i = 0; i + (closed ? 0 : 1) < n; ++i)
-    mesh.facets.push_back({cell::CellType::line2, {i, (i + 1) % n}});
-  return mesh;
-}
-
-/// z = (x^2 - y^2)/2 over 0..1 by nx x ny biquadratic facets, which hold it exactly.
-FacetMesh<3> saddle(int nx, int ny) {
-  FacetMesh<3> mesh;
-  const Index row = 2 * nx + 1;
-  for (int j = 0; j <= 2 * ny; ++j)
-    for (int i = 0; i <= 2 * nx; ++i) {
-      const double x = 0.5 * i / nx, y = 0.5 * j / ny;
-      mesh.nodes.emplace_back(x, y, 0.5 * (x * x - y * y));
-    }
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i) {
-      const Index o = 2 * j * row + 2 * i;
-      mesh.facets.push_back({cell::CellType::quad9,
-                             {o, o + 2, o + 2 + 2 * row, o + 2 * row, o + 1, o + 2 + row,
-                              o + 1 + 2 * row, o + row, o + 1 + row}});
-    }
-  return mesh;
-}
-
-FacetMesh<3> box(const Vec3& size) {
-  FacetMesh<3> mesh;
-  for (int k = 0; k < 8; ++k)
-    mesh.nodes.push_back(size.cwiseProduct(Vec3(k & 1, (k >> 1) & 1, k >> 2)));
-  for (const auto& q : {std::array<Index, 4>{0, 2, 3, 1},
-                        {4, 5, 7, 6},
-                        {0, 1, 5, 4},
-                        {2, 6, 7, 3},
-                        {0, 4, 6, 2},
-                        {1, 3, 7, 5}})
-    mesh.facets.push_back({cell::CellType::quad4, {q[0], q[1], q[2], q[3]}});
-  return mesh;
 }
 
 TEST(Reach, EllipseIsBoundedByItsTips) {
@@ -253,24 +204,6 @@ TEST(Reach, TurnsMovesAndScales) {
     EXPECT_NEAR(is.above.reach.value / scale, curve.above.reach.value, 1e-7);
     EXPECT_NEAR(is.above.bottleneck.value / scale, 0.9, 1e-7);
   }
-}
-
-/// Smallest |q - p|^2/(2 (q - p) . v) over all pairs of dense places: an upper bound of the reach.
-double dense_bound(const NurbsCurve& curve, int side, int samples) {
-  std::vector<Vec2> r, n;
-  for (int i = 0; i <= samples; ++i) {
-    const geometry::CurveJet<2> j = curve.jet(curve.lo() + (curve.hi() - curve.lo()) * i / samples);
-    r.push_back(j.r);
-    n.push_back(side * curve_frame(j).normal);
-  }
-  double best = infinite;
-  for (std::size_t i = 0; i < r.size(); ++i)
-    for (std::size_t j = 0; j < r.size(); ++j) {
-      const Vec2 d = r[j] - r[i];
-      const double height = d.dot(n[i]);
-      if (height > 1e-9) best = std::min(best, d.squaredNorm() / (2 * height));
-    }
-  return best;
 }
 
 /// Local minima of the distance within `limit` whose arm points to the side.

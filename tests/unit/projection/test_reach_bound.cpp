@@ -6,10 +6,9 @@
 #include <numbers>
 #include <random>
 
-#include "osculate/geometry/curve_frame.hpp"
 #include "osculate/geometry/surface_frame.hpp"
 #include "osculate/projection/piece_bend.hpp"
-#include "sample_curves.hpp"
+#include "reach_sample.hpp"
 #include "sample_surfaces.hpp"
 
 namespace osculate::projection {
@@ -20,12 +19,6 @@ using geometry::NurbsCurve;
 using geometry::NurbsPatch;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-NurbsCurve ellipse(double a, double b) {
-  NurbsCurve curve = testing::nurbs_circle(1);
-  for (Vec2& p : curve.control) p = p.cwiseProduct(Vec2(a, b));
-  return curve;
-}
 
 /// A torus of four by four rational biquadratic pieces, normals out of the tube.
 NurbsPatch ring(double radius, double tube) {
@@ -44,14 +37,6 @@ NurbsPatch ring(double radius, double tube) {
       patch.weights.push_back((i % 2 == 0 ? 1 : w) * (j % 2 == 0 ? 1 : w));
     }
   return patch;
-}
-
-FacetMesh<2> polyline(const std::vector<Vec2>& points, bool closed) {
-  FacetMesh<2> mesh{points, {}};
-  const auto n = static_cast<Index>(points.size());
-  for (Index i = 0; i + (closed ? 0 : 1) < n; ++i)
-    mesh.facets.push_back({CellType::line2, {i, (i + 1) % n}});
-  return mesh;
 }
 
 /// A plate of n x n facets over 0..1 x 0..2 at the height z, its normals up or down.
@@ -75,39 +60,6 @@ FacetMesh<3> plates(int n, bool facing, CellType type = CellType::quad4) {
   FacetMesh<3> mesh;
   add_plate(mesh, n, 0, true, type);
   add_plate(mesh, n, 0.4, !facing, type);
-  return mesh;
-}
-
-FacetMesh<3> box(const Vec3& size) {
-  FacetMesh<3> mesh;
-  for (int k = 0; k < 8; ++k)
-    mesh.nodes.push_back(size.cwiseProduct(Vec3(k & 1, (k >> 1) & 1, k >> 2)));
-  for (const auto& q : {std::array<Index, 4>{0, 2, 3, 1},
-                        {4, 5, 7, 6},
-                        {0, 1, 5, 4},
-                        {2, 6, 7, 3},
-                        {0, 4, 6, 2},
-                        {1, 3, 7, 5}})
-    mesh.facets.push_back({CellType::quad4, {q[0], q[1], q[2], q[3]}});
-  return mesh;
-}
-
-/// z = (x^2 - y^2)/2 over 0..1 by n x n biquadratic facets.
-FacetMesh<3> saddle(int n) {
-  FacetMesh<3> mesh;
-  const Index row = 2 * n + 1;
-  for (int j = 0; j <= 2 * n; ++j)
-    for (int i = 0; i <= 2 * n; ++i) {
-      const double x = 0.5 * i / n, y = 0.5 * j / n;
-      mesh.nodes.emplace_back(x, y, 0.5 * (x * x - y * y));
-    }
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      const Index o = 2 * j * row + 2 * i;
-      mesh.facets.push_back({CellType::quad9,
-                             {o, o + 2, o + 2 + 2 * row, o + 2 * row, o + 1, o + 2 + row,
-                              o + 1 + 2 * row, o + row, o + 1 + row}});
-    }
   return mesh;
 }
 
@@ -164,8 +116,8 @@ TEST(ReachBound, EnclosesKnownValuesOfSurfaces) {
   expect_enclosed<3>("plates of many facets", plates(4, true), infinite, 0.2);
   expect_enclosed<3>("plates of triangles", plates(3, true, CellType::tri3), infinite, 0.2);
   expect_enclosed<3>("plates with the same side up", plates(2, false), 0.2, 0.2);
-  expect_enclosed<3>("saddle", saddle(1), 1, 1);
-  expect_enclosed<3>("saddle of many facets", saddle(3), 1, 1);
+  expect_enclosed<3>("saddle", saddle(1, 1), 1, 1);
+  expect_enclosed<3>("saddle of many facets", saddle(3, 3), 1, 1);
 }
 
 TEST(ReachBound, CornersAreZeroOnOneSideAndNothingOnTheOther) {
@@ -193,24 +145,6 @@ TEST(ReachBound, EdgeOverAFace) {
   const ReachBound b = reach_bound<3>(mesh, reach(Composed<3>(mesh)));
   EXPECT_LE(b.above.least, 0.25);
   EXPECT_GE(b.above.least, 0.2474);
-}
-
-/// Smallest |q - p|^2/(2 (q - p) . v) over all pairs of dense places: not below the reach.
-double dense_bound(const NurbsCurve& curve, int side, int samples) {
-  std::vector<Vec2> r, n;
-  for (int i = 0; i <= samples; ++i) {
-    const geometry::CurveJet<2> j = curve.jet(curve.lo() + (curve.hi() - curve.lo()) * i / samples);
-    r.push_back(j.r);
-    n.push_back(side * curve_frame(j).normal);
-  }
-  double best = infinite;
-  for (std::size_t i = 0; i < r.size(); ++i)
-    for (std::size_t j = 0; j < r.size(); ++j) {
-      const Vec2 d = r[j] - r[i];
-      const double height = d.dot(n[i]);
-      if (height > 1e-9) best = std::min(best, d.squaredNorm() / (2 * height));
-    }
-  return best;
 }
 
 TEST(ReachBound, NotBeyondBruteForceOnRandomCurves) {
@@ -250,14 +184,7 @@ double dense_bound(const NurbsPatch& patch, int side, int n) {
       r.push_back(jet.r);
       v.push_back(side * surface_frame(jet).normal);
     }
-  double best = infinite;
-  for (std::size_t i = 0; i < r.size(); ++i)
-    for (std::size_t j = 0; j < r.size(); ++j) {
-      const Vec3 d = r[j] - r[i];
-      const double height = d.dot(v[i]);
-      if (height > 1e-9) best = std::min(best, d.squaredNorm() / (2 * height));
-    }
-  return best;
+  return smallest_ball<3>(r, v);
 }
 
 TEST(ReachBound, NotBeyondBruteForceOnRandomPatches) {
@@ -290,7 +217,7 @@ TEST(ReachBound, NotBeyondBruteForceOnRandomPatches) {
 TEST(ReachBound, TurnsMovesAndScales) {
   const Mat<3, 3> turned = Eigen::AngleAxisd(0.8, Vec3(1, 2, -1).normalized()).toRotationMatrix();
   for (const double scale : {1e-9, 1e9}) {
-    FacetMesh<3> other = saddle(2);
+    FacetMesh<3> other = saddle(2, 2);
     for (Vec3& p : other.nodes) p = scale * (turned * p + Vec3(3, -2, 5));
     Reach<3> found;
     found.below.reach.value = found.above.reach.value = scale;

@@ -29,6 +29,11 @@ const VolumeCase& space(const CellCase& c) { return std::get<VolumeCase>(c.of); 
 
 }  // namespace
 
+std::string kind_name(const ::testing::TestParamInfo<Kind>& tested) {
+  constexpr std::array names{"plane", "space", "shell"};
+  return names[static_cast<std::size_t>(tested.param)];
+}
+
 cell::CellType CellCase::type() const {
   return std::visit([](const auto& c) { return c.type; }, of);
 }
@@ -141,6 +146,81 @@ CellValues nodal_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen
 Eigen::VectorXd weights(const CellCase& c, const Eigen::MatrixXd& x) {
   if (is_plane(c)) return volume_weights(plane(c).section, c.type(), x);
   return volume_weights(c.type(), x);
+}
+
+double least_jacobian(const CellCase& c, const Eigen::MatrixXd& x) {
+  return is_plane(c) ? smallest_jacobian(c.type(), Coordinates(x))
+                     : smallest_jacobian(c.type(), Coordinates3(x));
+}
+
+std::vector<Side> sides(const CellCase& c) {
+  const cell::CellInfo& info = cell::info(c.type());
+  std::vector<Side> out;
+  const auto add = [&](cell::CellType type, const auto& nodes) {
+    const std::size_t count = static_cast<std::size_t>(cell::info(type).nodes);
+    out.push_back({c, {nodes.begin(), nodes.begin() + count}});
+    std::visit([&](auto& side) { side.type = type; }, out.back().as.of);
+  };
+  for (int e = 0; is_plane(c) && e < info.edge_count; ++e) {
+    add(info.edge_type, info.edges[static_cast<std::size_t>(e)]);
+    std::swap(out.back().nodes[0], out.back().nodes[1]);  // cells are on the left of their edges
+  }
+  if (is_plane(c) || c.type() == cell::CellType::shell18) return out;
+  for (int f = 0; f < info.face_count; ++f) {
+    const cell::CellFace& face = info.faces[static_cast<std::size_t>(f)];
+    add(face.type, face.nodes);
+  }
+  return out;
+}
+
+CellResult pressure_on(const CellCase& side, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
+                       double pressure) {
+  const auto result = [](const auto& r) { return CellResult{Status::ok, r.force, r.tangent}; };
+  return is_plane(side) ? result(edge_pressure(plane(side).section, x, u, pressure))
+                        : result(face_pressure(space(side).section, side.type(), x, u, pressure));
+}
+
+Eigen::VectorXd side_weights(const CellCase& side, const Eigen::MatrixXd& x) {
+  if (is_plane(side)) return edge_weights(plane(side).section, x);
+  return face_weights(side.type(), x);
+}
+
+Vec3 in_space(const Eigen::VectorXd& v) { return {v[0], v[1], v.size() == 3 ? v[2] : 0}; }
+
+std::pair<Vec3, Vec3> resultant(const Eigen::VectorXd& force, const Eigen::MatrixXd& places) {
+  std::pair<Vec3, Vec3> sum{Vec3::Zero(), Vec3::Zero()};
+  const Eigen::Index dim = places.cols();
+  for (Eigen::Index k = 0; k < places.rows(); ++k) {
+    const Vec3 f = in_space(force.segment(dim * k, dim));
+    sum.first += f;
+    sum.second += in_space(places.row(k)).cross(f);
+  }
+  return sum;
+}
+
+CellPatch macneal_harder(Kind kind) {
+  if (kind == Kind::plane) {
+    CellPatch p{cell::CellType::quad4,
+                Eigen::MatrixXd(8, 2),
+                {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}}};
+    p.nodes << 0, 0, 0.24, 0, 0.24, 0.12, 0, 0.12, 0.04, 0.02, 0.18, 0.03, 0.16, 0.08, 0.08, 0.08;
+    return p;
+  }
+  CellPatch p{cell::CellType::hex8, Eigen::MatrixXd(16, 3), {{8, 9, 10, 11, 12, 13, 14, 15}}};
+  const cell::CellInfo& info = cell::info(p.type);
+  for (int k = 0; k < 8; ++k) p.nodes.row(k) = 0.5 * (cell::volume_node(p.type, k) + Vec3::Ones());
+  p.nodes.bottomRows<8>() << 0.249, 0.342, 0.192, 0.826, 0.288, 0.288, 0.850, 0.649, 0.263, 0.273,
+      0.750, 0.230, 0.320, 0.186, 0.643, 0.677, 0.305, 0.683, 0.788, 0.693, 0.644, 0.165, 0.745,
+      0.702;
+  for (std::size_t f = 0; f < 6; ++f) {
+    std::vector<Eigen::Index> c(8);  // from the outer face inwards
+    for (std::size_t k = 0; k < 4; ++k) {
+      c[k] = info.faces[f].nodes[3 - k];  // walked so that the inner face lies above
+      c[k + 4] = c[k] + 8;
+    }
+    p.cells.push_back(c);
+  }
+  return p;
 }
 
 ShapeValues shape(const CellCase& c, const Eigen::VectorXd& xi) {

@@ -11,6 +11,8 @@ namespace osculate::solid::testing {
 
 enum class Kind { plane, space, shell };
 
+std::string kind_name(const ::testing::TestParamInfo<Kind>& tested);
+
 struct CellCase {
   Kind kind;
   std::variant<SectionCase, VolumeCase> of;
@@ -67,6 +69,41 @@ struct CellValues {
 CellValues point_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u);
 CellValues nodal_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u);
 Eigen::VectorXd weights(const CellCase& c, const Eigen::MatrixXd& x);
+
+/// Of all places of the cell.
+double least_jacobian(const CellCase& c, const Eigen::MatrixXd& x);
+
+/// A side of a cell with the cell's section. Its nodes run so that the body lies behind it.
+struct Side {
+  CellCase as;  ///< of the type of the side
+  std::vector<Eigen::Index> nodes;
+
+  [[nodiscard]] Eigen::MatrixXd of(const Eigen::MatrixXd& cell) const {
+    return cell(nodes, Eigen::all);
+  }
+};
+/// Those of shell18 are listed through their corners only: none are returned.
+std::vector<Side> sides(const CellCase& c);
+
+/// What loads of sides answer; `side` is of the type of a side.
+CellResult pressure_on(const CellCase& side, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
+                       double pressure);
+Eigen::VectorXd side_weights(const CellCase& side, const Eigen::MatrixXd& x);
+
+/// A vector or place of the plane or of space.
+Vec3 in_space(const Eigen::VectorXd& v);
+
+/// Sum of the forces, and of their moments about the origin.
+std::pair<Vec3, Vec3> resultant(const Eigen::VectorXd& force, const Eigen::MatrixXd& places);
+
+/// MacNeal and Harder's patches: five quadrilaterals in a rectangle, seven hexahedra in a unit
+/// cube. The second half of the nodes lies inside.
+struct CellPatch {
+  cell::CellType type;
+  Eigen::MatrixXd nodes;
+  std::vector<std::vector<Eigen::Index>> cells;
+};
+CellPatch macneal_harder(Kind kind);
 
 struct ShapeValues {
   Eigen::VectorXd n;

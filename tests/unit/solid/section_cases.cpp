@@ -72,22 +72,4 @@ Eigen::MatrixXd unflat(const Eigen::VectorXd& v, int dim) {
   return v.reshaped(dim, v.size() / dim).transpose();
 }
 
-ElementResult evaluated(const SectionCase& c, const Coordinates& x, const Coordinates& u) {
-  ElementResult r;
-  evaluate(c.section, c.type, x, u, true, r);
-  EXPECT_EQ(r.status, Status::ok);
-  return r;
-}
-
-double stiffness_scale(const SectionCase& c, const Coordinates& x) {
-  return evaluated(c, x, Coordinates::Zero(x.rows(), 2)).tangent.norm();
-}
-
-Coordinates edge_of(const cell::CellInfo& info, int edge, const Coordinates& x) {
-  Coordinates nodes(cell::info(info.edge_type).nodes, 2);
-  for (Eigen::Index k = 0; k < nodes.rows(); ++k)
-    nodes.row(k) = x.row(info.edges[static_cast<std::size_t>(edge)][static_cast<std::size_t>(k)]);
-  return nodes;
-}
-
 }  // namespace osculate::solid::testing

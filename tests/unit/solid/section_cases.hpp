@@ -16,6 +16,8 @@ constexpr std::array<cell::CellType, 5> area_types{cell::CellType::tri3, cell::C
                                                    cell::CellType::quad9};
 
 struct SectionCase {
+  using Places = Coordinates;
+  using Result = ElementResult;
   Section section;
   cell::CellType type;
 
@@ -40,11 +42,19 @@ Coordinates sample_displacement(cell::CellType type, double size, int seed = 1);
 Eigen::VectorXd flat(const Eigen::MatrixXd& u);
 Eigen::MatrixXd unflat(const Eigen::VectorXd& v, int dim);
 
-ElementResult evaluated(const SectionCase& c, const Coordinates& x, const Coordinates& u);
+template <class Case>
+typename Case::Result evaluated(const Case& c, const typename Case::Places& x,
+                                const typename Case::Places& u) {
+  typename Case::Result r;
+  evaluate(c.section, c.type, x, u, true, r);
+  EXPECT_EQ(r.status, Status::ok);
+  return r;
+}
 
 /// Size of the forces of a strain of one: what rounding is relative to.
-double stiffness_scale(const SectionCase& c, const Coordinates& x);
-
-Coordinates edge_of(const cell::CellInfo& info, int edge, const Coordinates& x);
+template <class Case>
+double stiffness_scale(const Case& c, const typename Case::Places& x) {
+  return evaluated(c, x, Case::Places::Zero(x.rows(), x.cols())).tangent.norm();
+}
 
 }  // namespace osculate::solid::testing

@@ -10,10 +10,6 @@ namespace {
 class EveryCell : public ::testing::TestWithParam<Kind> {};
 class DisplacementCell : public EveryCell {};
 
-std::string kind_name(const ::testing::TestParamInfo<Kind>& tested) {
-  constexpr std::array names{"plane", "space", "shell"};
-  return names[static_cast<std::size_t>(tested.param)];
-}
 INSTANTIATE_TEST_SUITE_P(Of, EveryCell, ::testing::Values(Kind::plane, Kind::space, Kind::shell),
                          kind_name);
 INSTANTIATE_TEST_SUITE_P(Of, DisplacementCell, ::testing::Values(Kind::plane, Kind::space),

@@ -1,5 +1,6 @@
 // What no section may depend on, what it refuses, and what it answers when it cannot.
 #include <limits>
+#include <span>
 
 #include "cell_cases.hpp"
 
@@ -7,25 +8,7 @@ namespace osculate::solid::testing {
 namespace {
 
 class Invariance : public ::testing::TestWithParam<Kind> {};
-INSTANTIATE_TEST_SUITE_P(Of, Invariance, ::testing::Values(Kind::plane, Kind::space),
-                         [](const auto& tested) {
-                           return tested.param == Kind::plane ? "plane" : "space";
-                         });
-
-/// A vector or place of the plane or of space.
-Vec3 in_space(const Eigen::VectorXd& v) { return {v[0], v[1], v.size() == 3 ? v[2] : 0}; }
-
-/// Sum of the forces, and of their moments about the origin.
-std::pair<Vec3, Vec3> resultant(const Eigen::VectorXd& force, const Eigen::MatrixXd& places) {
-  std::pair<Vec3, Vec3> sum{Vec3::Zero(), Vec3::Zero()};
-  const Eigen::Index dim = places.cols();
-  for (Eigen::Index k = 0; k < places.rows(); ++k) {
-    const Vec3 f = in_space(force.segment(dim * k, dim));
-    sum.first += f;
-    sum.second += in_space(places.row(k)).cross(f);
-  }
-  return sum;
-}
+INSTANTIATE_TEST_SUITE_P(Of, Invariance, ::testing::Values(Kind::plane, Kind::space), kind_name);
 
 TEST_P(Invariance, ForcesBalanceAndTheirMomentsToo) {
   for_each_cell(GetParam(), [](const CellCase& c) {
@@ -157,45 +140,47 @@ TEST(Status, SaysWhenTheMaterialHasNoAnswer) {
   }
 }
 
-TEST(Unsupported, NamesTheReasonInThePlane) {
-  Section s;
+/// Of a section with the formulations besides the full one, which `linear` has and `quadratic` has
+/// not. `other` is of another dimension; `spoil` makes a formulation impossible.
+template <class SectionType, class Names, class Spoil>
+void expect_reasons(SectionType s, cell::CellType linear, cell::CellType quadratic,
+                    cell::CellType other, std::span<const cell::CellType> types,
+                    const Names& formulations, const Spoil& spoil) {
   s.law = material::LinearElastic{7, 0.3, 0};
-  EXPECT_NE(unsupported(s, cell::CellType::line2), "");
+  EXPECT_NE(unsupported(s, other), "");
   EXPECT_NE(unsupported(s, cell::CellType::point1), "");
-  for (const cell::CellType type : area_types) EXPECT_EQ(unsupported(s, type), "");
+  for (const cell::CellType type : types) EXPECT_EQ(unsupported(s, type), "");
   s.kinematics = Kinematics::finite;
-  EXPECT_NE(unsupported(s, cell::CellType::quad4), "");
+  EXPECT_NE(unsupported(s, linear), "");
   s.law = material::NeoHooke{7, 0.3, 0};
-  EXPECT_EQ(unsupported(s, cell::CellType::quad4), "");
-  for (const Formulation f : {Formulation::bbar, Formulation::enhanced}) {
+  EXPECT_EQ(unsupported(s, linear), "");
+  for (const auto f : formulations) {
     s.formulation = f;
-    EXPECT_EQ(unsupported(s, cell::CellType::quad4), "");
-    EXPECT_NE(unsupported(s, cell::CellType::quad8), "");
-    s.assumption = f == Formulation::bbar ? Assumption::plane_stress : Assumption::axisymmetric;
-    EXPECT_NE(unsupported(s, cell::CellType::quad4), "");
-    s.assumption = Assumption::plane_strain;
+    EXPECT_EQ(unsupported(s, linear), "");
+    EXPECT_NE(unsupported(s, quadratic), "");
+    SectionType spoilt = s;
+    cell::CellType type = linear;
+    spoil(spoilt, type);
+    EXPECT_NE(unsupported(spoilt, type), "");
   }
   s.kinematics = Kinematics::small;
-  EXPECT_NE(unsupported(s, cell::CellType::quad4), "");
+  EXPECT_NE(unsupported(s, linear), "");
+}
+
+TEST(Unsupported, NamesTheReasonInThePlane) {
+  expect_reasons(Section{}, cell::CellType::quad4, cell::CellType::quad8, cell::CellType::line2,
+                 area_types, std::array{Formulation::bbar, Formulation::enhanced},
+                 [](Section& s, auto&) {
+                   s.assumption = s.formulation == Formulation::bbar ? Assumption::plane_stress
+                                                                     : Assumption::axisymmetric;
+                 });
 }
 
 TEST(Unsupported, NamesTheReasonInSpace) {
-  VolumeSection s;
-  s.law = material::LinearElastic{7, 0.3, 0};
-  EXPECT_NE(unsupported(s, cell::CellType::quad4), "");
-  EXPECT_NE(unsupported(s, cell::CellType::point1), "");
-  for (const cell::CellType type : volume_types) EXPECT_EQ(unsupported(s, type), "");
-  s.kinematics = Kinematics::finite;
-  EXPECT_NE(unsupported(s, cell::CellType::hex8), "");
-  s.law = material::NeoHooke{7, 0.3, 0};
-  for (const VolumeFormulation f : {VolumeFormulation::bbar, VolumeFormulation::enhanced}) {
-    s.formulation = f;
-    EXPECT_EQ(unsupported(s, cell::CellType::hex8), "");
-    EXPECT_NE(unsupported(s, cell::CellType::hex20), "");
-    EXPECT_NE(unsupported(s, cell::CellType::tet4), "");
-  }
-  s.kinematics = Kinematics::small;
-  EXPECT_NE(unsupported(s, cell::CellType::hex8), "");
+  expect_reasons(VolumeSection{}, cell::CellType::hex8, cell::CellType::hex20,
+                 cell::CellType::quad4, volume_types,
+                 std::array{VolumeFormulation::bbar, VolumeFormulation::enhanced},
+                 [](auto&, cell::CellType& type) { type = cell::CellType::tet4; });
 }
 
 }  // namespace

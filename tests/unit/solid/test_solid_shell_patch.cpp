@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <vector>
 
+#include "cell_cases.hpp"
 #include "osculate/cell/shape.hpp"
 #include "osculate/solid/solid_shell.hpp"
-#include "volume_cases.hpp"
 
 namespace osculate::solid::testing {
 namespace {
@@ -73,25 +73,14 @@ struct Plate {
   std::vector<Coordinates3> cells;
 
   explicit Plate(cell::CellType type) {
-    constexpr std::array<std::array<int, 4>, 5> nodes{
-        {{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}}};
-    const std::array<Vec2, 8> at{{{0, 0},
-                                  {length, 0},
-                                  {length, width},
-                                  {0, width},
-                                  {0.04, 0.02},
-                                  {0.18, 0.03},
-                                  {0.16, 0.08},
-                                  {0.08, 0.08}}};
-    for (const auto& cell : nodes) {
+    const CellPatch patch = macneal_harder(Kind::plane);
+    for (const auto& nodes : patch.cells) {
+      const Eigen::MatrixXd corners = patch.nodes(nodes, Eigen::all);
       Coordinates3 x(cell::info(type).nodes, 3);
       for (int k = 0; k < x.rows(); ++k) {
         const Vec3 xi = cell::volume_node(type, k);
-        const cell::AreaShape s = cell::area_shape(cell::CellType::quad4, xi.head<2>());
-        Vec2 place = Vec2::Zero();
-        for (std::size_t i = 0; i < 4; ++i)
-          place += s.n[static_cast<Eigen::Index>(i)] * at[static_cast<std::size_t>(cell[i])];
-        x.row(k) << place.transpose(), 0.5 * height * xi.z();
+        const cell::AreaShape s = cell::area_shape(patch.type, xi.head<2>());
+        x.row(k) << s.n.head<4>().transpose() * corners, 0.5 * height * xi.z();
       }
       cells.push_back(x);
     }

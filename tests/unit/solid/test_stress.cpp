@@ -7,10 +7,7 @@ namespace osculate::solid::testing {
 namespace {
 
 class CellStresses : public ::testing::TestWithParam<Kind> {};
-INSTANTIATE_TEST_SUITE_P(Of, CellStresses, ::testing::Values(Kind::plane, Kind::space),
-                         [](const auto& tested) {
-                           return tested.param == Kind::plane ? "plane" : "space";
-                         });
+INSTANTIATE_TEST_SUITE_P(Of, CellStresses, ::testing::Values(Kind::plane, Kind::space), kind_name);
 
 // Total stress power: the forces of the cell are those of its Cauchy stresses, sigma : grad v over
 // the current volume.

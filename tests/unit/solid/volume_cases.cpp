@@ -99,17 +99,6 @@ Coordinates3 sample_motion(cell::CellType type, double size, int seed) {
   });
 }
 
-VolumeResult evaluated(const VolumeCase& c, const Coordinates3& x, const Coordinates3& u) {
-  VolumeResult r;
-  evaluate(c.section, c.type, x, u, true, r);
-  EXPECT_EQ(r.status, Status::ok);
-  return r;
-}
-
-double stiffness_scale(const VolumeCase& c, const Coordinates3& x) {
-  return evaluated(c, x, Coordinates3::Zero(x.rows(), 3)).tangent.norm();
-}
-
 Mat<3, 3> turn3(double angle) {
   return Eigen::AngleAxisd(angle, Vec3(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
 }

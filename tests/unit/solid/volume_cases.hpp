@@ -12,6 +12,8 @@ constexpr std::array<cell::CellType, 8> volume_types{
     cell::CellType::hex8, cell::CellType::hex20, cell::CellType::hex27,  cell::CellType::shell18};
 
 struct VolumeCase {
+  using Places = Coordinates3;
+  using Result = VolumeResult;
   VolumeSection section;
   cell::CellType type;
 
@@ -34,11 +36,6 @@ Coordinates3 sample_volume(cell::CellType type, double distortion, bool curved);
 Coordinates3 sample_shell(cell::CellType type, double thickness, double distortion);
 
 Coordinates3 sample_motion(cell::CellType type, double size, int seed = 1);
-
-VolumeResult evaluated(const VolumeCase& c, const Coordinates3& x, const Coordinates3& u);
-
-/// Size of the forces of a strain of one: what rounding is relative to.
-double stiffness_scale(const VolumeCase& c, const Coordinates3& x);
 
 Mat<3, 3> turn3(double angle);
 

@@ -114,6 +114,9 @@ auto visit(const F& f, const DampingLaw& law) {
 
 }  // namespace
 
+NormalLaw penalty(double stiffness) { return NormalPenalty{stiffness}; }
+FrictionLaw coulomb(double mu, double stiffness) { return Coulomb{mu, stiffness}; }
+
 template <class Laws>
 Law<Laws>::Law() : law_(std::make_shared<const Laws>()) {}
 template <class Laws>

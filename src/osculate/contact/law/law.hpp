@@ -53,6 +53,11 @@ using NormalLaw = Law<NormalLaws>;
 using FrictionLaw = Law<FrictionLaws>;
 using DampingLaw = Law<DampingLaws>;
 
+/// The two laws most contacts have, for those who need no other: NormalPenalty{eps_N} and
+/// Coulomb{mu, eps_T}.
+[[nodiscard]] NormalLaw penalty(double stiffness);
+[[nodiscard]] FrictionLaw coulomb(double mu, double stiffness);
+
 /// What a law of damping may ask beside the gap; all gaps are those that the normal law sees.
 struct Closing {
   double from = 0;                                           ///< gap at the last converged state

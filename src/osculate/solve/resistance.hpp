@@ -1,0 +1,141 @@
+#pragma once
+#include <algorithm>
+
+#include "osculate/solve/factored.hpp"
+#include "osculate/solve/iteration.hpp"
+
+namespace osculate::solve {
+
+/// Systems that can put a small artificial stiffness on the diagonal of their tangent.
+template <class S>
+concept Resists = requires(S s, const Eigen::VectorXd& du, double share) {
+  s.resist(share);                                  // of the bodies' own stiffness; 0 removes it
+  { s.stride(du) } -> std::convertible_to<double>;  // largest motion over the size of an element
+};
+
+/// Systems that can tell a body that is free to move from one that is hardly stiff, as a thin
+/// strip: to working precision both have singular tangents. The second's is used, and the
+/// iterations correct what it lacks in digits.
+template <class S>
+concept KnowsFreeMotions = requires(const S s, const typename S::State& state,
+                                    const Eigen::VectorXd& mode) {
+  { s.is_free_motion(state, mode) } -> std::same_as<bool>;  // over the unknowns of the matrix
+};
+
+/// Systems with multipliers whose constraints may say the same thing twice, as two nodes of a rigid
+/// face that stick do: their tangent is singular, although the motion is not in doubt.
+///
+/// Formula    the rows G du - D dlambda = -g of the multipliers get D = 1e-8 diag(G diag(K)^-1
+/// G^T):
+///            a step of the proximal point method. The residual stays what it is, so that the
+///            constraints hold exactly where the iterations end; multipliers share what they cannot
+///            tell apart
+/// Tested by  tests/unit/deck/test_redundant_multipliers.cpp
+template <class S>
+concept Softens = requires(S s) {
+  { s.soften() } -> std::same_as<bool>;  // false: it has no multipliers
+};
+
+namespace detail {
+
+/// du = -K^-1 R. Returns false and fills the result when the tangent cannot be used.
+template <System S>
+bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd& residual,
+                      Eigen::VectorXd& du, NewtonResult<typename S::State>& result) {
+  la::FactorReport report = factored(system, solver);
+  result.precision.condition = std::max(result.precision.condition, report.condition);
+  if constexpr (KnowsFreeMotions<S>)
+    if (report.weakest.size() > 0 && !system.is_free_motion(result.state, report.weakest))
+      report.status = la::SolveStatus::ok;
+  if constexpr (Softens<S>)
+    if (report.status == la::SolveStatus::singular && system.soften())
+      report = factored(system, solver);
+  result.linear = report.status;
+  result.bad_row = report.bad_row;
+  if (report.status == la::SolveStatus::singular)
+    return fail(result, Outcome::numerical_failure, "the tangent is singular");
+  if (report.status != la::SolveStatus::ok)
+    return fail(result, Outcome::numerical_failure, "the linear solver failed: " + report.message);
+  du = -residual;
+  const la::SolveStatus status = solver.solve(du);
+  result.linear = status;
+  if (status != la::SolveStatus::ok || !du.allFinite())
+    return fail(result, Outcome::numerical_failure, "the tangent is singular");
+  return true;
+}
+
+/// Resistance against free motions, for bodies that nothing holds until contact closes, and against
+/// motions of negative stiffness, as of a strip that snaps: these it slows down until they come to
+/// rest. It is put on the tangent alone: the residual is the true one, so that nothing artificial
+/// is left in a converged increment, and its work is zero.
+///
+/// Formula    (K + c D) du = -R, c such that nothing moves farther than an element in one
+///            iteration and that the work du . R is not positive; ten times smaller after each
+///            iteration that did not ask for more, half after a motion of negative stiffness, which
+///            is fastest just above its own
+/// Limits     with multipliers the work has no sign that means anything, and is not looked at
+/// Tested by  tests/unit/solve/test_resistance.cpp
+template <System S>
+class Resistance {
+ public:
+  Resistance(S& system, bool on) : system_(system), on_(on && Resists<S>) {}
+  ~Resistance() { set(0); }
+  Resistance(const Resistance&) = delete;
+  Resistance& operator=(const Resistance&) = delete;
+  [[nodiscard]] bool on() const { return on_; }
+  /// A motion of negative stiffness was met.
+  [[nodiscard]] bool unstable() const { return unstable_; }
+
+  /// As solve_correction, with as much resistance as it takes.
+  bool solve(la::DirectSolver& solver, const Eigen::VectorXd& residual, Eigen::VectorXd& du,
+             NewtonResult<typename S::State>& result) {
+    if (!on_) return solve_correction(system_, solver, residual, du, result);
+    constexpr double most = 1.0, stiffer = 100, spare = 2;
+    for (bool first = true; share_ <= most; first = false) {
+      set(share_);
+      if (!solve_correction(system_, solver, residual, du, result)) {
+        if (result.linear != la::SolveStatus::singular) return false;
+        share_ *= stiffer;
+        continue;
+      }
+      if (!result.evaluation.saddle && du.dot(residual) > 0) {
+        share_ *= unstable_ ? nearly : stiffer;
+        unstable_ = true;
+        since_ = 0;
+        continue;
+      }
+      const double stride = motion(du);
+      if (stride <= 1) {
+        ++since_;
+        const double less = unstable_ && since_ <= patience ? 0.5 : 0.1;
+        if (first) share_ = std::max(less * share_, least);
+        return true;
+      }
+      share_ *= std::clamp(spare * stride, spare, stiffer * stiffer);
+    }
+    return fail(result, Outcome::numerical_failure, "free motions cannot be resisted");
+  }
+
+ private:
+  static constexpr double least = 1e-9, usual = 1e-6, nearly = 4;
+  static constexpr int patience = 4;
+  void set(double share) {
+    if constexpr (Resists<S>)
+      if (on_) system_.resist(share);
+  }
+  double motion(const Eigen::VectorXd& du) {
+    if constexpr (Resists<S>)
+      return system_.stride(du);
+    else
+      return 0;
+  }
+
+  S& system_;
+  bool on_, unstable_ = false;
+  double share_ = usual;
+  int since_ = 0;  ///< solutions since the last motion of negative stiffness
+};
+
+}  // namespace detail
+
+}  // namespace osculate::solve
