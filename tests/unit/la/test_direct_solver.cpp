@@ -218,6 +218,26 @@ TEST(DirectSolver, stiff_penalties_and_slender_beams_are_not_singular) {
   }
 }
 
+/// A free block on a bed of next to nothing: what it resists least are its rigid motions.
+TEST(DirectSolver, what_is_hardly_held_is_told_with_its_weakest_mode) {
+  MatrixBuilder m = test::grid(6, 6, false);
+  const SparseMatrix free = m.finish();
+  MatrixBuilder bed = test::grid(6, 6, false);
+  for (Index i = 0; i < free.n; ++i) bed.add(i, i, 1e-16 * test::dense(free).norm());
+  for (const Symmetry kind : kinds) {
+    DirectSolver solver;
+    const FactorReport report = solver.factor(bed.finish(), 1, kind);
+    ASSERT_EQ(report.status, SolveStatus::singular);
+    EXPECT_GT(report.condition, 1e12);
+    ASSERT_EQ(report.weakest.size(), free.n);
+    EXPECT_LT(multiply(free, report.weakest).norm(),
+              1e-10 * test::dense(free).norm() * report.weakest.norm());
+    EXPECT_GE(report.bad_row, 0);
+    Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(free.n, -1, 2);
+    EXPECT_EQ(solver.solve(x), SolveStatus::ok);  // for those who know that it is held
+  }
+}
+
 TEST(DirectSolver, units_do_not_decide_what_is_singular) {
   for (const double unit : {1e-30, 1e-9, 1e12, 1e30}) {
     MatrixBuilder held = test::grid(8, 8, true), loose = test::grid(8, 8, false);
