@@ -9,7 +9,7 @@ namespace osculate::model {
 /// The masses of a model: of cells by pairs of nodes, of rigid bodies by their centre.
 ///
 /// Units      mass (force / acceleration)
-/// Tested by  tests/unit/deck/test_dynamics.cpp, test_dynamics_supports.cpp
+/// Tested by  tests/unit/model/test_dynamics.cpp, tests/unit/deck/test_dynamics_supports.cpp
 template <int Dim>
 class BasicInertia {
  public:

@@ -61,8 +61,7 @@ using ContactStates = std::vector<std::vector<std::uint8_t>>;
 /// Deterministic: element blocks are computed in parallel and added in a fixed order, so the bits
 /// do not depend on the number of threads.
 ///
-/// Tested by  tests/unit/deck/test_system.cpp (2D), tests/unit/model/test_system3.cpp,
-///            test_contact3.cpp (3D)
+/// Tested by  tests/unit/model/test_system.cpp, test_contact.cpp, test_contact_tangent.cpp
 template <int Dim>
 class BasicSystem {
  public:

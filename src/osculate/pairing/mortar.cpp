@@ -51,6 +51,24 @@ double cover_of(const std::vector<MortarCell<Dim>>& cells, std::size_t count) {
   return cover;
 }
 
+Vec2 normal_of(const Facet& facet, Points<2> x) {
+  return turn(x[at(facet.nodes[1])] - x[at(facet.nodes[0])]).normalized();
+}
+Vec3 normal_of(const SurfaceFacet& facet, Points<3> x) {
+  const bool triangle = cell::info(facet.type).corners == 3;
+  const auto node = [&](std::size_t k) { return x[at(facet.nodes[k])]; };
+  const Vec3 a = triangle ? node(1) - node(0) : node(2) - node(0);
+  return a.cross(triangle ? node(2) - node(0) : node(3) - node(1)).normalized();
+}
+
+/// Facets whose normals are within 60 degrees of opposite. One that stands across the other, as the
+/// side of a punch, is not what lies over it, however near its foot is.
+template <int Dim, class AnyFacet>
+bool face_each_other(const AnyFacet& slave, const AnyFacet& master, Points<Dim> x) {
+  constexpr double facing = -0.5;
+  return normal_of(slave, x).dot(normal_of(master, x)) <= facing;
+}
+
 /// Of several layers of master the nearest: cells are taken by distance while the facet has room.
 template <int Dim>
 void drop_covered(std::vector<MortarCell<Dim>>& cells, std::size_t& count) {
@@ -85,6 +103,7 @@ std::size_t find_cells(const MortarSides<Dim>& sides, const SlaveSide<Dim>& slav
   std::sort(near.begin(), near.end());
   std::size_t count = 0;
   for (const Index m : near) {
+    if (!face_each_other<Dim>(slave.boundary.facets[f], sides.master->facets[at(m)], x)) continue;
     if (out.mortar.cells.size() <= count) out.mortar.cells.emplace_back();
     if (mortar_cell(sides, static_cast<Index>(f), out.mortar.slots[f], m, x, false,
                     out.mortar.cells[count]))

@@ -79,7 +79,7 @@ TEST(BuildSpace, ContactSidesPointOutwards) {
   EXPECT_LT((oriented_area(gap.master, x) - Vec3(0, 0, -4)).norm(), 1e-13);
   EXPECT_LT((oriented_area(gap.slave.boundary, x) - Vec3(0, 0, 4)).norm(), 1e-13);
   EXPECT_EQ(gap.master.facets[0].type, cell::CellType::quad8);
-  EXPECT_EQ(contact::text(*gap.friction), "Coulomb 0.3");
+  EXPECT_EQ(contact::text(*gap.friction), "Coulomb 0.3 (penalty 100)");
   double area = 0;
   for (const double a : gap.reference_areas) area += a;
   EXPECT_NEAR(area, 4, 1e-13);

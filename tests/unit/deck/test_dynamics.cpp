@@ -1,4 +1,4 @@
-// Steps with inertia: keys, tangents, energies.
+// Steps with inertia: what their keys become, and what is refused.
 #include <gmock/gmock.h>
 
 #include "space_test.hpp"
@@ -29,17 +29,66 @@ TEST(DynamicsKeys, BecomeTheModel) {
   const Built built = build_text(thrown(schemes[1], impacts[1]));
   const model::Step& step = built.model.steps.at(0);
   ASSERT_TRUE(step.dynamics.has_value());
-  EXPECT_EQ(step.dynamics->scheme.alpha_f, 0.1);
-  EXPECT_EQ(step.dynamics->scheme.impact, solve::Impact::average);
   EXPECT_EQ(step.dynamics->damping_mass, 0.3);
   EXPECT_EQ(step.dynamics->damping_stiffness, 1e-3);
+  EXPECT_FALSE(step.dynamics->lumped);
+  EXPECT_EQ(step.duration, 0.1);
+  EXPECT_EQ(step.gravity.at(0).value(0), 0.2);
   EXPECT_EQ(step.gravity.at(1).value(0), -9.81);
   EXPECT_EQ(built.model.rigid.at(0).mass, 2);
   EXPECT_NEAR(built.model.rigid.at(0).inertia(0, 0), 1, 1e-12);  // m r^2 / 2
   EXPECT_EQ(built.model.rigid.at(1).mass, 0);
+  const Index body = 2 * static_cast<Index>(built.model.reference.size());
   for (const model::PrescribedDof& p : step.prescribed)
-    EXPECT_TRUE(p.dof < 2 * static_cast<Index>(built.model.reference.size()) ||
-                p.dof >= 2 * static_cast<Index>(built.model.reference.size()) + 3);
+    EXPECT_TRUE(p.dof < body || p.dof >= body + 3);
+  const std::vector<std::pair<model::Dof, double>>& given = built.model.initial_velocity;
+  ASSERT_EQ(given.size(), 3u + 15u);
+  EXPECT_EQ(given[0], std::pair(body, 0.3));
+  EXPECT_EQ(given[1], std::pair(body + 1, -1.0));
+  EXPECT_EQ(given[2], std::pair(body + 2, 2.0));
+  for (std::size_t k = 3; k < given.size(); ++k)
+    EXPECT_TRUE(given[k].first % 2 == 0 && given[k].second == 0.1);
+}
+
+TEST(DynamicsKeys, NameEverySchemeAndImpact) {
+  const solve::TimeScheme meant[] = {solve::newmark(), solve::hht(0.1),
+                                     solve::generalized_alpha(0.6)};
+  const solve::Impact kinds[] = {solve::Impact::dissipative, solve::Impact::average,
+                                 solve::Impact::plastic};
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Built built = build_text(thrown(schemes[i], impacts[k]));
+      const solve::TimeScheme scheme = built.model.steps.at(0).dynamics.value().scheme;
+      EXPECT_EQ(scheme.alpha_m, meant[i].alpha_m);
+      EXPECT_EQ(scheme.alpha_f, meant[i].alpha_f);
+      EXPECT_EQ(scheme.beta, meant[i].beta);
+      EXPECT_EQ(scheme.gamma, meant[i].gamma);
+      EXPECT_EQ(scheme.impact, kinds[k]);
+    }
+}
+
+TEST(DynamicsKeys, BecomeTheModelInSpace) {
+  const model::Model3 m = built_from(test_file("dynamics_space.yaml")).model;
+  Mat<3, 3> inertia;
+  inertia << 0.5, 0.05, 0.02, 0.05, 0.8, -0.1, 0.02, -0.1, 1.1;
+  EXPECT_EQ(m.rigid.at(0).inertia, inertia);
+  EXPECT_EQ(m.rigid[0].mass, 2);
+  EXPECT_EQ(m.pairs.at(0).definition.slave.points.size(), 9u * 9u);
+  const Index body = 3 * static_cast<Index>(m.reference.size());
+  EXPECT_EQ(m.initial_velocity,
+            (std::vector<std::pair<model::Dof, double>>{
+                {body, 0.3}, {body + 2, -1}, {body + 3, 2}, {body + 4, -1}, {body + 5, 3}}));
+  ASSERT_EQ(m.steps.size(), 3u);
+  EXPECT_EQ(m.steps[0].gravity.at(2).value(1), -9.81);
+  EXPECT_EQ(m.steps[0].dead.at(0).unit,
+            (std::vector<std::pair<model::Dof, double>>{{body + 3, 1}}));
+  EXPECT_EQ(m.steps[0].dead.at(1).ramp.target, -0.2);
+  EXPECT_EQ(m.steps[1].dynamics.value().scheme.alpha_f, 0.05);
+  const model::Dynamics& last = m.steps[2].dynamics.value();
+  EXPECT_EQ(last.scheme.alpha_f, solve::generalized_alpha(0.8).alpha_f);
+  EXPECT_TRUE(last.lumped);
+  EXPECT_EQ(last.time_steps.value().error, 0.05);
+  EXPECT_EQ(last.time_steps->smallest, 1e-4);
 }
 
 TEST(DynamicsKeys, AreRefusedWithTheReason) {
@@ -80,164 +129,6 @@ TEST(DynamicsKeys, PutTheReferenceAtTheCentreOfMass) {
   EXPECT_NEAR(body.inertia(1, 1), 2 * (3 + 36) / 12.0, 1e-12);  // m (3 r^2 + l^2) / 12
   EXPECT_THAT(any_refusal(edited(with, "mass: 2", "mass: 2, reference: [0, 0, 1]")),
               ::testing::HasSubstr("centre of mass"));
-}
-
-template <class AnyProbe>
-void expect_second_order_tangent(AnyProbe& probe, const std::string& what) {
-  const auto r = check_tangent_of(probe);
-  EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.15) << what << " order " << r.order;
-}
-
-TEST(Dynamics, TangentIsTheDerivativeForEveryScheme) {
-  for (const char* const scheme : schemes)
-    for (const char* const impact : impacts) {
-      Probe probe(thrown(scheme, impact));
-      probe.start = probe.system.begin_motion(probe.start);
-      expect_second_order_tangent(probe, std::string(scheme) + " " + impact);
-    }
-}
-
-/// Runs to the end and returns the energies of every state.
-std::vector<model::Energies> energies_of(const Built& built) {
-  std::vector<model::Energies> out;
-  model::AnalysisObserver observer;
-  observer.converged = [&](model::System&, const model::State& state, const model::Progress&,
-                           const solve::IncrementRecord*) {
-    out.push_back(state.rates.energies);
-    return true;
-  };
-  const model::AnalysisResult result = model::run(built.model, built.options, observer);
-  EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
-  return out;
-}
-
-std::string linear(const std::string& text) {
-  return edited(edited(text, "neo_hooke", "linear_elastic"), "increments: 4", "increments: 40");
-}
-
-// Linear bodies: every joule has its place, and implicit contact loses energy in every increment.
-TEST(Dynamics, EnergyIsAccountedFor) {
-  for (const char* const scheme : schemes)
-    for (const char* const impact : impacts) {
-      const std::vector<model::Energies> all =
-          energies_of(build_text(linear(thrown(scheme, impact))));
-      ASSERT_EQ(all.size(), 41u);
-      const double size = all.front().start;
-      double before = 0;
-      for (const model::Energies& e : all) {
-        EXPECT_NEAR(e.residual, 0, 2e-3 * size);
-        if (std::string(impact) == "dissipative" && std::string(scheme) == "newmark") {
-          EXPECT_GE(e.numerical, before - 2e-3 * size);
-        }
-        before = e.numerical;
-      }
-      EXPECT_GT(all.back().friction, 0);
-      EXPECT_GT(all.back().damping, 0);
-    }
-}
-
-// What damped contact takes stands in the column of the damping, and nothing is left over. With
-// implicit contact the scheme still gives nothing.
-TEST(Dynamics, EnergyOfDampedContactIsAccountedFor) {
-  for (const char* const law : {"{viscous: 0.5}", "{restitution: 0.4}"})
-    for (const char* const impact : impacts) {
-      const std::string text =
-          edited(edited(linear(thrown("newmark", impact)), "{mass: 0.3, stiffness: 1e-3}",
-                        "{mass: 0, stiffness: 0}"),
-                 "normal: {", std::string("normal: {damping: ") + law + ", ");
-      const std::vector<model::Energies> all = energies_of(build_text(text));
-      ASSERT_EQ(all.size(), 41u);
-      const double size = all.front().start;
-      model::Energies before;
-      for (const model::Energies& e : all) {
-        EXPECT_NEAR(e.residual, 0, 2e-3 * size);
-        EXPECT_GE(e.damping, before.damping);
-        if (std::string(impact) == "dissipative") {
-          EXPECT_GE(e.numerical, before.numerical - 2e-3 * size);
-        }
-        before = e;
-      }
-      EXPECT_GT(all.back().damping, 0) << law << impact;
-    }
-}
-
-// Constant acceleration is exact for every scheme: y = h + v t - g t^2 / 2.
-TEST(Dynamics, AThrownBodyFliesOnItsParabola) {
-  for (const char* const scheme : schemes) {
-    std::string text =
-        edited(thrown(scheme, impacts[0]), "center: [0.3, 0.995]", "center: [0.3, 3]");
-    text = edited(text, "damping: {mass: 0.3, stiffness: 1e-3}", "damping: {}");
-    const Built built = build_text(text);
-    model::State last;
-    (void)run_to_end(built, 1, [&](model::System&, const model::State& s) { last = s; });
-    const double t = 0.1;
-    EXPECT_NEAR(last.rigid[0].translation.y(), -t - 0.5 * 9.81 * t * t, 1e-14);
-    EXPECT_NEAR(last.rigid[0].translation.x(), 0.3 * t + 0.5 * 0.2 * t * t, 1e-14);
-    EXPECT_NEAR(last.rigid[0].angle, 2 * t, 1e-14);
-    const Index first = 2 * static_cast<Index>(built.model.reference.size());
-    EXPECT_NEAR(last.rates.velocity[first + 1], -1 - 9.81 * t, 1e-13);
-  }
-}
-
-/// A body with three different moments of inertia that turns while it slides on a block.
-std::string spinning_ball() { return test_file("dynamics_space.yaml"); }
-
-TEST(Dynamics, TangentIsTheDerivativeInSpace) {
-  for (const char* const scheme : schemes)
-    for (const char* const impact : impacts) {
-      const Built3 built =
-          built_from(edited(edited(spinning_ball(), "newmark", scheme), "dissipative", impact));
-      model::System3 system(built.model, 1);
-      model::State3 start = system.initial_state();
-      system.begin_step(built.model.steps.front(), start);
-      start = system.begin_motion(start);
-      const Eigen::Index n = system.unknowns();
-      const double fraction = 0.5;
-      const auto moved = [&](const model::State3& from, const Eigen::VectorXd& d) {
-        return system.apply(from, d, fraction, 1.0);
-      };
-      const model::State3 base = moved(start, 0.02 * testing::random_direction(n, 3));
-      solve::Evaluation out;
-      system.evaluate(start, base, fraction, true, out);
-      ASSERT_TRUE(out.ok) << out.message;
-      EXPECT_GT(out.counts.stick + out.counts.slip, 0);
-      const std::uint64_t states = out.counts.signature;
-      Eigen::VectorXd d = testing::random_direction(n, 5);
-      for (Index u = 0; u < n; ++u)
-        if (system.prescribed(u)) d[u] = 0;
-      const la::SparseMatrix k = system.matrix();
-      Eigen::VectorXd df = la::multiply(k, d);
-      for (Index u = 0; u < n; ++u)
-        if (system.prescribed(u)) df[u] = 0;
-      bool same = true;
-      const auto residual = [&](const Eigen::VectorXd& v) -> Eigen::VectorXd {
-        solve::Evaluation e;
-        system.evaluate(start, moved(base, v), fraction, false, e);
-        same = same && e.counts.signature == states;
-        return e.residual;
-      };
-      const Eigen::VectorXd zero = Eigen::VectorXd::Zero(n);
-      const auto r = testing::check_derivative(residual, df, zero, d, 1e-4);
-      EXPECT_TRUE(same);
-      EXPECT_NEAR(r.order, 2, 0.15) << scheme << " " << impact << " error " << r.error;
-    }
-}
-
-// Without friction and moments, the angular momentum about a vertical axis cannot change.
-TEST(Dynamics, ABallThatTurnsKeepsItsSpinWithoutFriction) {
-  std::string text = edited(spinning_ball(), ", friction: {coulomb: {mu: 0.4, penalty: 700}}", "");
-  text = edited(text, "    forces: [{on: ball, mx: 0.3, mz: -0.2}]\n", "");
-  text = edited(text, "[0.5, 0.8, 1.1, 0.05, -0.1, 0.02]", "[0.8, 0.8, 0.8]");
-  const Built3 built = built_from(text);
-  model::AnalysisObserver3 observer;
-  const Index spin = 3 * static_cast<Index>(built.model.reference.size()) + 3;
-  observer.converged = [&](model::System3&, const model::State3& s, const model::Progress&,
-                           const solve::IncrementRecord*) {
-    EXPECT_LT((s.rates.velocity.segment<3>(spin) - Vec3(2, -1, 3)).norm(), 1e-10);
-    return true;
-  };
-  const model::AnalysisResult3 result = model::run(built.model, built.options, observer);
-  EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
 }
 
 }  // namespace

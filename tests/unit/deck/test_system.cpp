@@ -1,292 +1,160 @@
-// The assembled system: tangents by order, balance, predictor, reproducibility.
-#include "osculate/model/system.hpp"
-
-#include <cmath>
+// Models of the plane from the text of a model file: what their keys become.
+#include <map>
 #include <numbers>
 
-#include "osculate/model/quantities.hpp"
 #include "system_test.hpp"
 
 namespace osculate::deck {
 namespace {
 
-using model::State;
-using model::System;
-
-/// An elastic block held at its bottom under a rigid tool that overlaps it by about 0.1.
-std::string tool_model(const std::string& tool, const std::string& law, const std::string& contact,
-                       const std::string& step, const std::string& more_mesh = "",
-                       const std::string& element = "plane_strain") {
-  return "osculate: 1\nmesh: {generate: {block: {box: {x: [0, 2], y: [0, 1], elements: [4, 2]}}" +
-         more_mesh + "}}\nmaterials: {m: {" + law +
-         ": {E: 100, nu: 0.3}}}\nsections: [{on: block, material: m, element: " + element +
-         "}]\nrigid: {tool: {" + tool + "}}\ncontact: [{name: c, " + contact +
-         ", normal: {penalty: 500}}]\nsteps: [{name: s, increments: 1, " + step + "}]\n";
-}
-
 struct Tool {
-  std::string name, shape, more_mesh;
+  std::string shape, more_mesh{};
 };
-const std::vector<Tool> tools{
-    {"circle", "circle: {center: [1, 3.9], radius: 3}", ""},
-    {"arc", "arc: {center: [1, 3.9], radius: 3, from: 200, to: 340}", ""},
-    {"nurbs",
-     "nurbs: {degree: 2, knots: [0, 0, 0, 1, 1, 1], control: [[2.5, 1.3, 1], [1, 0.4, 0.8], "
-     "[-0.5, 1.3, 1]]}",
-     ""},
-    {"line", "line: {point: [1, 0.89], normal: [0.1, -1]}", ""},
-    {"polyline", "polyline: {points: [[2.5, 1.2], [1.2, 0.9], [0.3, 0.95], [-0.5, 1.3]]}", ""},
-    {"composite",
-     "composite: [{polyline: {points: [[2.5, 1.2], [1.6, 0.9]]}}, {function: {x: [1.6, 1.2, 0.8, "
-     "0.4], y: [0.9, 0.88, 0.93, 0.9]}}, {polyline: {points: [[0.4, 0.9], [-0.5, 1.3]]}}]",
-     ""},
-    {"meshed", "set: bar", ", bar: {line: {points: [[2.4, 0.93], [-0.4, 0.91]], elements: 3}}"},
-};
-constexpr const char* driven =
-    "prescribe: [{on: block.bottom, ux: 0, uy: 0}], forces: [{on: tool, fx: 1, fy: -5, mz: 0.3}]";
 
-void expect_second_order(const std::string& model, const std::string& what) {
-  SCOPED_TRACE(what);
-  Probe probe(model);
-  const testing::DerivativeReport report = check_tangent_of(probe);
-  EXPECT_TRUE(report.exact || std::abs(report.order - 2.0) < 0.1)
-      << "order " << report.order << ", error " << report.error;
+/// A block under a rigid tool.
+Built with_tool(const Tool& tool, const std::string& contact = "master: tool, slave: block.top",
+                const std::string& law = "neo_hooke", const std::string& element = "plane_strain") {
+  return build_text(
+      "osculate: 1\nmesh: {generate: {block: {box: {x: [0, 2], y: [0, 1], elements: [4, 2]}}" +
+      tool.more_mesh + "}}\nmaterials: {m: {" + law +
+      ": {E: 100, nu: 0.3}}}\nsections: [{on: block, material: m, element: " + element +
+      "}]\nrigid: {tool: {" + tool.shape + "}}\ncontact: [{name: c, " + contact +
+      ", normal: {penalty: 500}}]\n"
+      "equations: [{terms: [{on: block.top_left, of: ux, factor: 2}, {on: block.top_right, of: uy, "
+      "factor: -1}, {on: tool, of: rz, factor: 0.5}], value: 0.02}]\n"
+      "equal: [{on: block.right, of: ux}]\n"
+      "steps: [{name: s, increments: 1, prescribe: [{on: block.bottom, uy: 0.02}, {on: tool, rz: "
+      "0.1}], forces: [{on: tool, fx: 1, fy: -5}, {on: block.top_left, fy: 3}], pressure: [{on: "
+      "block.right, value: 7}]}]\n");
+}
+const Tool circle{"circle: {center: [1, 3.9], radius: 3}"};
+
+template <class Curve>
+Curve shape_of(const Built& built) {
+  return std::get<Curve>(built.model.rigid[0].shape.value());
 }
 
-TEST(System, TangentWithAFreeRigidBody) {
-  for (const Tool& tool : tools)
-    for (const std::string law : {"linear_elastic", "neo_hooke"})
-      for (const std::string friction : {"", ", friction: {coulomb: {mu: 0.3, penalty: 300}}"})
-        for (const std::string form : {"surface", "full"}) {
-          const std::string model = tool_model(
-              tool.shape, law, "master: tool, slave: block.top, residual: " + form + friction,
-              driven, tool.more_mesh);
-          expect_second_order(model, tool.name + " " + law + " " + form + friction);
-          Probe probe(model);
-          EXPECT_GT(
-              probe.at(probe.base, false).counts.stick + probe.at(probe.base, false).counts.slip, 0)
-              << tool.name << " touches nothing";
-          EXPECT_EQ(probe.system.dofs().unknowns(), 2 * 15 + 3);
-        }
-}
-
-TEST(System, TangentWithRigidSlaves) {
-  for (const std::string weight : {"reference_area", "current_area", "node"})
-    expect_second_order(tool_model(tools.back().shape, "neo_hooke",
-                                   "master: block.top, slave: tool, weight: " + weight +
-                                       ", friction: {coulomb: {mu: 0.3, penalty: 300}}",
-                                   driven, tools.back().more_mesh),
-                        weight);
-}
-
-TEST(System, TangentWithAPrescribedRotation) {
-  for (const Tool& tool : tools)
-    expect_second_order(
-        tool_model(tool.shape, "neo_hooke", "master: tool, slave: block.top",
-                   "prescribe: [{on: block.bottom, ux: 0, uy: 0}, {on: tool, rz: 0.1}], "
-                   "forces: [{on: tool, fy: -5}]",
-                   tool.more_mesh),
-        tool.name);
-}
-
-TEST(System, TangentOfFollowerPressureAndAxisymmetry) {
-  for (const std::string element : {"plane_strain", "plane_stress", "axisymmetric"})
-    expect_second_order(
-        tool_model(tools[0].shape, "neo_hooke",
-                   "master: tool, slave: block.top, weight: current_area",
-                   "prescribe: [{on: block.bottom, ux: 0, uy: 0}], forces: [{on: tool, fy: -5}], "
-                   "pressure: [{on: block.right, value: 7}]",
-                   "", element),
-        element);
-}
-
-TEST(System, TangentWithEquations) {
-  const std::string model =
-      tool_model(tools[0].shape, "neo_hooke", "master: tool, slave: block.top", driven) +
-      "equations: [{terms: [{on: block.top_left, of: ux, factor: 2}, {on: block.top_right, of: "
-      "uy, factor: -1}, {on: tool, of: rz, factor: 0.5}], value: 0.02}]\n"
-      "equal: [{on: block.right, of: ux}]\n";
-  const std::string free = edited(model, "{on: block.bottom, ux: 0, uy: 0}",
-                                  "{on: block.bottom, uy: 0}, {on: block.bottom_left, ux: 0}");
-  expect_second_order(free, "equations");
-}
-
-/// The prediction is residual + K du_prescribed: what is left over is of second order.
-TEST(System, PredictsToFirstOrder) {
-  const std::string moved =
-      "prescribe: [{on: block.bottom, ux: 0.05, uy: 0.02}, {on: tool, ux: 0.1, uy: -0.05, rz: "
-      "0.2}], pressure: [{on: block.right, value: 7}]";
-  for (const Tool& tool : tools) {
-    SCOPED_TRACE(tool.name);
-    Probe probe(tool_model(tool.shape, "neo_hooke",
-                           "master: tool, slave: block.top, friction: {coulomb: {mu: 0.3, "
-                           "penalty: 300}}",
-                           moved, tool.more_mesh) +
-                "equations: [{terms: [{on: block.top_left, of: ux, factor: 2}, {on: tool, of: rz, "
-                "factor: 0.5}], value: 0.02}]\n");
-    const Eigen::VectorXd nothing = Eigen::VectorXd::Zero(probe.system.dofs().unknowns());
-    const auto error = [&](double fraction) {
-      solve::Evaluation predicted;
-      probe.system.predict(probe.start, fraction, predicted);
-      const State moved_state = probe.system.apply(probe.start, nothing, fraction, 1.0);
-      return (predicted.residual - probe.at(moved_state, false, fraction).residual).norm();
-    };
-    EXPECT_NEAR(std::log2(error(2e-3) / error(1e-3)), 2.0, 0.05);
+TEST(BuildPlane, AnalyticTools) {
+  const Built disc = with_tool(circle);
+  EXPECT_EQ(shape_of<geometry::Circle>(disc).center, Vec2(1, 3.9));
+  EXPECT_EQ(shape_of<geometry::Circle>(disc).radius, 3);
+  EXPECT_FALSE(shape_of<geometry::Circle>(disc).inside);
+  EXPECT_EQ(disc.model.rigid[0].reference, Vec2(1, 3.9));
+  const Built arc = with_tool({"arc: {center: [1, 3.9], radius: 3, from: 200, to: 340}"});
+  EXPECT_NEAR(shape_of<geometry::Arc>(arc).from, 200 * std::numbers::pi / 180, 1e-15);
+  EXPECT_NEAR(shape_of<geometry::Arc>(arc).to, 340 * std::numbers::pi / 180, 1e-15);
+  const Built nurbs =
+      with_tool({"nurbs: {degree: 2, knots: [0, 0, 0, 1, 1, 1], control: [[2.5, 1.3, 1], [1, 0.4, "
+                 "0.8], [-0.5, 1.3, 1]]}"});
+  EXPECT_EQ(shape_of<geometry::NurbsCurve>(nurbs).weights, (std::vector<double>{1, 0.8, 1}));
+  EXPECT_EQ(shape_of<geometry::NurbsCurve>(nurbs).control[1], Vec2(1, 0.4));
+  EXPECT_LT((nurbs.model.rigid[0].reference - Vec2(1, 1)).norm(), 1e-15);
+  const Built line = with_tool({"line: {point: [1, 0.89], normal: [0.1, -1]}"});
+  const Vec2 normal = shape_of<geometry::InfiniteLine>(line).normal;
+  EXPECT_LT((normal.normalized() - Vec2(0.1, -1).normalized()).norm(), 1e-15);
+  EXPECT_EQ(line.model.rigid[0].reference, Vec2(1, 0.89));
+  for (const Built* built : {&disc, &arc, &nurbs, &line}) {
+    const model::Model& m = built->model;
+    EXPECT_EQ(m.pairs[0].definition.master.facets.size(), 1u);
+    const std::vector<Index>& frame = m.rigid[0].nodes;
+    EXPECT_EQ(frame, (std::vector<Index>{15, 16, 17}));
+    EXPECT_EQ(m.reference[15], Vec2(0, 0));
+    EXPECT_EQ(m.reference[16], Vec2(1, 0));
+    EXPECT_EQ(m.reference[17], Vec2(0, 1));
   }
 }
 
-// ---- balance
-// --------------------------------------------------------------------------------------
-
-/// Sum of a force on all primary dofs, as seen by a rigid motion of everything.
-Vec2 resultant(const Built& built, const Eigen::VectorXd& force) {
-  Vec2 sum = Vec2::Zero();
-  const auto nodes = static_cast<Index>(built.model.reference.size());
-  for (Index n = 0; n < nodes; ++n) sum += force.segment<2>(2 * n);
-  for (std::size_t b = 0; b < built.model.rigid.size(); ++b)
-    sum += force.segment<2>(2 * nodes + 3 * static_cast<Index>(b));
-  return sum;
-}
-
-TEST(System, AForceOnARigidBodyIsCarriedByItsContact) {
-  for (const Tool& tool : tools) {
-    SCOPED_TRACE(tool.name);
-    const Built built = build_text(tool_model(
-        tool.shape, "neo_hooke",
-        "master: tool, slave: block.top, residual: full, friction: {coulomb: {mu: 0.5, penalty: "
-        "300}}",
-        "prescribe: [{on: block.bottom, ux: 0, uy: 0}], forces: [{on: tool, fx: 0.5, fy: -8}]",
-        tool.more_mesh));
-    bool seen = false;
-    const auto result = run_to_end(built, 1, [&](System& system, const State& state) {
-      seen = true;
-      const model::Forces& f = system.forces();
-      EXPECT_LT(resultant(built, f.internal).norm(), 1e-11);
-      EXPECT_LT(resultant(built, f.contact).norm(), 1e-11);
-      EXPECT_EQ(resultant(built, f.external), Vec2(0.5, -8));
-      model::HistoryRequest rigid{"", model::HistoryRequest::Kind::rigid, 0, {}, "rfx"};
-      EXPECT_NEAR(history_value(system, built.model, state, rigid), 0, 1e-7);
-      rigid.quantity = "rfy";
-      EXPECT_NEAR(history_value(system, built.model, state, rigid), 0, 1e-7);
-      const model::HistoryRequest contact{"", model::HistoryRequest::Kind::pair, 0, {}, "force_y"};
-      EXPECT_NEAR(history_value(system, built.model, state, contact), -8, 1e-7);
-      Vec2 support = Vec2::Zero();
-      for (const Index n : built.model.mesh.find_set("block.bottom")->nodes)
-        support += model::reactions(system).segment<2>(2 * n);
-      EXPECT_LT((support - Vec2(-0.5, 8)).norm(), 1e-7);
-    });
-    EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
-    EXPECT_TRUE(seen);
-  }
-}
-
-TEST(System, AxisymmetricPressureActsOnTheWholeRing) {
-  const Built built = build_text(
-      "osculate: 1\nmesh: {generate: {ring: {box: {x: [1, 2], y: [0, 1], elements: [3, 2]}}}}\n"
-      "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
-      "sections: [{on: ring, material: m, element: axisymmetric}]\n"
-      "steps: [{name: s, increments: 1, prescribe: [{on: ring.bottom, uy: 0}], "
-      "pressure: [{on: ring.top, value: 2}]}]\n");
-  double reaction = 0;
-  const auto result = run_to_end(built, 1, [&](System& system, const State& state) {
-    const model::HistoryRequest request{"", model::HistoryRequest::Kind::nodes, -1,
-                                        built.model.mesh.find_set("ring.bottom")->nodes, "rfy"};
-    reaction = history_value(system, built.model, state, request);
-  });
-  EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
-  EXPECT_NEAR(reaction, 2 * std::numbers::pi * (4 - 1), 1e-10);
-}
-
-/// The resultant of a pressure depends on the ends of the current line alone.
-TEST(System, FollowerPressureTurnsWithItsEdge) {
-  Probe probe(tool_model(tools[0].shape, "neo_hooke", "master: tool, slave: block.top",
-                         "prescribe: [{on: block.bottom, ux: 0, uy: 0}], pressure: [{on: "
-                         "block.right, value: 7}]"),
-              0.1);
-  (void)probe.at(probe.base, false);
-  const auto end = [&](const char* name) {
-    const Index n = probe.built.model.mesh.find_set(name)->nodes.front();
-    return probe.system.positions(probe.base)[static_cast<std::size_t>(n)];
-  };
-  const Vec2 along = end("block.bottom_right") - end("block.top_right");  // body on the right
-  const Vec2 force = resultant(probe.built, probe.system.forces().external);
-  EXPECT_LT((force + 3.5 * turn(along)).norm(), 1e-13);  // half of the step: p = 3.5
-}
-
-TEST(System, EquationsHoldAndDoNoWork) {
-  const Built built = build_text(
-      "osculate: 1\nmesh: {generate: {b: {box: {x: [0, 2], y: [0, 1], elements: [4, 2]}}}}\n"
-      "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
-      "sections: [{on: b, material: m, element: plane_stress}]\n"
-      "equations: [{terms: [{on: b.top_right, of: ux, factor: 1}, {on: b.bottom_right, of: uy, "
-      "factor: -2}], value: 0.1}]\nequal: [{on: b.top, of: uy}]\n"
-      "steps: [{name: s, increments: 2, prescribe: [{on: b.left, ux: 0}, {on: b.bottom_left, uy: "
-      "0}], forces: [{on: b.top_left, fy: 3}]}]\n");
-  const auto node = [&](const char* name) {
-    return built.model.mesh.find_set(name)->nodes.front();
-  };
-  bool seen = false;
-  const auto result = run_to_end(built, 1, [&](System& system, const State& state) {
-    seen = true;
-    const Index a = 2 * node("b.top_right"), b = 2 * node("b.bottom_right") + 1;
-    EXPECT_NEAR(state.u[a] - 2 * state.u[b], 0.1, 1e-15);
-    const Eigen::VectorXd r = model::reactions(system);
-    EXPECT_GT(std::abs(r[a]), 0.1);
-    EXPECT_NEAR(r[b], -2 * r[a], 1e-9);
-    double sum = 0;
-    for (const Index n : built.model.mesh.find_set("b.top")->nodes) {
-      EXPECT_NEAR(state.u[2 * n + 1], state.u[2 * node("b.top_left") + 1], 1e-15);
-      sum += r[2 * n + 1];
+TEST(BuildPlane, ToolsOfStraightLines) {
+  const Built polyline =
+      with_tool({"polyline: {points: [[2.5, 1.2], [1.2, 0.9], [0.3, 0.95], [-0.5, 1.3]]}"});
+  const Built meshed =
+      with_tool({"set: bar", ", bar: {line: {points: [[2.4, 0.93], [-0.4, 0.91]], elements: 3}}"});
+  EXPECT_LT((polyline.model.rigid[0].reference - Vec2(0.875, 1.0875)).norm(), 1e-15);
+  EXPECT_LT((meshed.model.rigid[0].reference - Vec2(1, 0.92)).norm(), 1e-15);
+  for (const Built* built : {&polyline, &meshed}) {
+    const model::Model& m = built->model;
+    EXPECT_EQ(m.rigid[0].nodes, (std::vector<Index>{15, 16, 17, 18}));
+    const pairing::Chain& chain = m.pairs[0].definition.master;
+    ASSERT_EQ(chain.facets.size(), 3u);
+    for (Index f = 0; f < 3; ++f) {
+      const pairing::Facet& facet = chain.facets[static_cast<std::size_t>(f)];
+      EXPECT_EQ(facet.next, f < 2 ? f + 1 : -1);
+      EXPECT_GT(turn(facet_jet(facet, 0, m.reference).r1).dot(Vec2(0, -1)), 0);  // body above
     }
-    EXPECT_NEAR(sum, 0, 1e-9);
-  });
-  EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
-  EXPECT_TRUE(seen);
+  }
+  const pairing::SlaveSide<2> slave =
+      with_tool({"set: bar", ", bar: {line: {points: [[2.4, 0.93], [-0.4, 0.91]], elements: 3}}"},
+                "master: block.top, slave: tool")
+          .model.pairs[0]
+          .definition.slave;
+  EXPECT_EQ(slave.nodes, (std::vector<Index>{15, 16, 17, 18}));
+  EXPECT_EQ(slave.boundary.facets.size(), 3u);
 }
 
-/// A body that is moved without resistance: all forces are round-off.
-TEST(System, ABodyCarriedAlongConverges) {
-  for (const std::string law : {"linear_elastic", "neo_hooke"}) {
-    const Built built = build_text(
-        "osculate: 1\nmesh: {generate: {b: {box: {x: [0, 2], y: [0, 1], elements: [4, 2]}}}}\n"
-        "materials: {m: {" +
-        law +
-        ": {E: 2.1e5, nu: 0.3}}}\n"
-        "sections: [{on: b, material: m, element: plane_strain}]\n"
-        "steps: [{name: s, increments: 3, prescribe: [{on: b.left, ux: 10, uy: 3}]}]\n");
-    const auto result = run_to_end(built, 1, [&](System&, const State& state) {
-      for (Index n = 0; n < 15; ++n)
-        EXPECT_LT((state.u.segment<2>(2 * n) - Vec2(10, 3)).norm(), 1e-11);
-    });
-    EXPECT_EQ(result.outcome, solve::Outcome::converged) << law << ": " << result.message;
-    ASSERT_EQ(result.steps.size(), 1u);
-    EXPECT_EQ(result.steps[0].increments.size(), 3u);
+TEST(BuildPlane, FormsAndLaws) {
+  const std::string usual = "master: tool, slave: block.top";
+  const auto pair = [&](const std::string& more) {
+    return with_tool(circle, usual + more).model.pairs[0].definition;
+  };
+  EXPECT_EQ(pair("").residual, contact::ResidualForm::surface);
+  EXPECT_EQ(pair(", residual: full").residual, contact::ResidualForm::full);
+  EXPECT_EQ(pair("").weight, pairing::Weight::reference_area);
+  EXPECT_EQ(pair(", weight: current_area").weight, pairing::Weight::current_area);
+  EXPECT_EQ(pair(", weight: node").weight, pairing::Weight::node);
+  EXPECT_EQ(contact::penalty_of(pair("").normal), 500);
+  EXPECT_FALSE(pair("").friction.has_value());
+  const auto friction = pair(", friction: {coulomb: {mu: 0.3, penalty: 300}}").friction;
+  EXPECT_EQ(contact::text(friction.value()), "Coulomb 0.3 (penalty 300)");
+  for (const std::string element : {"plane_strain", "plane_stress", "axisymmetric"}) {
+    const model::Model m = with_tool(circle, usual, "neo_hooke", element).model;
+    EXPECT_EQ(m.sections[0].section.assumption,
+              element == "plane_strain"   ? solid::Assumption::plane_strain
+              : element == "plane_stress" ? solid::Assumption::plane_stress
+                                          : solid::Assumption::axisymmetric);
+    EXPECT_EQ(m.sections[0].section.kinematics, solid::Kinematics::finite);
+    EXPECT_EQ(m.pairs[0].definition.area.axisymmetric, element == "axisymmetric");
   }
+  const solid::Section small = with_tool(circle, usual, "linear_elastic").model.sections[0].section;
+  EXPECT_EQ(small.kinematics, solid::Kinematics::small);
+  EXPECT_TRUE(std::holds_alternative<material::LinearElastic>(small.law));
 }
 
-// ---- the same bits
-// --------------------------------------------------------------------------------
-
-TEST(System, TheSameBitsWithAnyNumberOfThreads) {
-  const std::string text = edited(
-      tool_model(tools[0].shape, "neo_hooke",
-                 "master: tool, slave: block.top, friction: {coulomb: {mu: 0.3, penalty: 300}}",
-                 "prescribe: [{on: block.bottom, ux: 0, uy: 0}, {on: tool, ux: 0.2, uy: -0.05, rz: "
-                 "0.1}]"),
-      "elements: [4, 2]", "elements: [30, 20]");  // more cells than one tile
-  std::vector<State> states;
-  for (const int threads : {1, 2, 2, 1}) {
-    const Built built = build_text(text);
-    const auto result = run_to_end(built, threads, [](System&, const State&) {});
-    ASSERT_EQ(result.outcome, solve::Outcome::converged) << result.message;
-    states.push_back(result.state);
+TEST(BuildPlane, StepsAndEquationsNameTheRightDofs) {
+  const model::Model m = with_tool(circle).model;
+  const auto node = [&](const char* set) { return m.mesh.find_set(set)->nodes.front(); };
+  const auto body = static_cast<Index>(2 * m.reference.size());
+  std::map<Index, double> prescribed, loads;
+  for (const model::PrescribedDof& p : m.steps[0].prescribed) {
+    EXPECT_FALSE(p.hold);
+    prescribed.emplace(p.dof, p.ramp.target);
   }
-  for (const State& state : states) {
-    EXPECT_EQ(state.u, states.front().u);
-    for (std::size_t i = 0; i < state.pairs[0].points.size(); ++i) {
-      EXPECT_EQ(state.pairs[0].points[i].traction, states.front().pairs[0].points[i].traction);
-      EXPECT_EQ(state.pairs[0].points[i].xi, states.front().pairs[0].points[i].xi);
-    }
+  std::map<Index, double> expected{{body + 2, 0.1}};  // what is loaded is free
+  for (const Index n : m.mesh.find_set("block.bottom")->nodes) expected.emplace(2 * n + 1, 0.02);
+  EXPECT_EQ(prescribed, expected);
+  for (const model::DeadLoad& load : m.steps[0].dead)
+    loads[load.unit.at(0).first] = load.unit[0].second * load.ramp.target;
+  EXPECT_EQ(loads, (std::map<Index, double>{
+                       {body, 1}, {body + 1, -5}, {2 * node("block.top_left") + 1, 3}}));
+  const std::vector<model::PressureLoad::Facet>& sides = m.steps[0].pressure.at(0).facets;
+  ASSERT_EQ(sides.size(), 2u);
+  for (const auto& side : sides)  // downwards, with the body on the right
+    EXPECT_LT((m.reference[static_cast<std::size_t>(side.nodes[1])] -
+               m.reference[static_cast<std::size_t>(side.nodes[0])] - Vec2(0, -0.5))
+                  .norm(),
+              1e-15);
+  EXPECT_EQ(m.steps[0].pressure[0].ramp.target, 7);
+  EXPECT_EQ(m.steps[0].equation_start, 0);
+  ASSERT_EQ(m.equations.size(), 3u);  // one and two of `equal`
+  EXPECT_EQ(m.equations[0].value, 0.02);
+  std::map<Index, double> terms;
+  for (const model::Equation::Term& term : m.equations[0].terms) terms[term.dof] = term.factor;
+  EXPECT_EQ(terms, (std::map<Index, double>{{2 * node("block.top_left"), 2},
+                                            {2 * node("block.top_right") + 1, -1},
+                                            {body + 2, 0.5}}));
+  for (const std::size_t k : {1u, 2u}) {
+    EXPECT_EQ(m.equations[k].value, 0);
+    ASSERT_EQ(m.equations[k].terms.size(), 2u);
+    EXPECT_EQ(m.equations[k].terms[0].factor, -m.equations[k].terms[1].factor);
   }
 }
 

@@ -41,144 +41,45 @@ Table run_space(const Built3& built) {
 }
 
 /// A block on a floor, with what differs from test to test.
-std::string block_on(const std::string& parts, const std::string& floor, const std::string& more,
-                     const std::string& steps, const std::string& history) {
+std::string block_on(const std::string& parts, const std::string& floor, const std::string& steps,
+                     const std::string& history) {
   return "osculate: 1\nmesh:\n  generate:\n    b: {box: {x: [0, 2], y: [0, 1], z: [0, 1], "
          "elements: [4, 2, 2]}}\n" +
          parts +
          "materials: {m: {linear_elastic: {E: 100, nu: 0.25}}}\n"
          "sections: [{on: b, material: m, element: solid}]\nrigid: {floor: " +
-         floor + "}\ncontact: [{name: c, master: floor, slave: b.bottom, normal: {penalty: 1000}" +
-         more + "}]\nsteps: [" + steps + "]\noutput: {history: [" + history + "]}\n";
+         floor +
+         "}\ncontact: [{name: c, master: floor, slave: b.bottom, normal: {penalty: 1000}}]\nsteps: "
+         "[" +
+         steps + "]\noutput: {history: [" + history + "]}\n";
 }
 
-/// Uniform compression: penetration p / 1000 below, strain p / 100 (no lateral restraint).
-///
-/// A top pushed down by d moves the block by p (1/100 + 1/1000), so p = d / 0.011.
-TEST(SystemSpace, ABlockPressedOnAFloorIsInUniformCompression) {
-  const std::string steps =
-      "{name: s, increments: 1, prescribe: [{on: b.top, uz: -0.011}, {on: b.left, ux: 0}, {on: "
-      "b.front, uy: 0}]}";
-  const std::string history =
-      "{on: c, of: normal_force}, {on: c, of: force_z}, {on: c, of: max_penetration}, {on: b.top, "
-      "of: rfz}, {on: b.right, of: ux}, {on: floor, of: rfz}, {on: b.bottom, of: uz}";
+/// Floors of every kind have their body below, and as slaves they have their own nodes.
+TEST(SystemSpace, FloorsPointUpwards) {
+  const std::string steps = "{name: s, increments: 1, prescribe: [{on: b.top, uz: -0.011}]}";
+  const std::string grid = "    g: {grid: {origin: [-1, -1, 0], u: [";
   const std::vector<std::pair<std::string, std::string>> floors{
       {"", "{plane: {point: [0, 0, 0], normal: [0, 0, 3]}}"},
       {"", "{plane: {point: [5, -3, 0], normal: [0, 0, -1]}, flip: true}"},
-      {"    g: {grid: {origin: [-1, -1, 0], u: [4, 0, 0], v: [0, 4, 0], elements: [3, 3]}}\n",
-       "{set: g}"},
-      {"    g: {grid: {origin: [-1, -1, 0], u: [0, 4, 0], v: [4, 0, 0], elements: [3, 3], type: "
-       "tri3}}\n",
-       "{set: g, flip: true}"},
+      {grid + "4, 0, 0], v: [0, 4, 0], elements: [3, 3]}}\n", "{set: g}"},
+      {grid + "0, 4, 0], v: [4, 0, 0], elements: [3, 3], type: tri3}}\n", "{set: g, flip: true}"},
   };
   for (const auto& floor : floors) {
-    const Table t = run_space(build_space(block_on(floor.first, floor.second, "", steps, history)));
-    ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << floor.second << t.result.message;
-    const std::vector<double>& v = t.rows.back();
-    EXPECT_NEAR(v[0], 2, 1e-9) << floor.second;
-    EXPECT_NEAR(v[1], 2, 1e-9);
-    EXPECT_NEAR(v[2], 0.001, 1e-12);
-    EXPECT_NEAR(v[3], -2, 1e-9);
-    EXPECT_NEAR(v[4], 2 * 0.25 * 0.01, 1e-11);
-    EXPECT_NEAR(v[5], 2, 1e-9);
-    EXPECT_NEAR(v[6], -0.001, 1e-12);
+    const model::Model3 m =
+        build_space(block_on(floor.first, floor.second, steps, "{on: c, of: force_z}")).model;
+    const pairing::FacetSurface& master = m.pairs[0].definition.master;
+    EXPECT_EQ(master.facets.size(), floor.first.empty() ? 1u : m.mesh.find_set("g")->cells.size());
+    for (const pairing::SurfaceFacet& facet : master.facets)
+      EXPECT_LT((facet_normal(facet, Vec2(0.2, 0.3), m.reference) - Vec3(0, 0, 1)).norm(), 1e-15);
+    EXPECT_EQ(m.steps[0].prescribed.size(), m.mesh.find_set("b.top")->nodes.size() + 6);
   }
-}
-
-/// The other way round: the meshed surface is the slave.
-TEST(SystemSpace, NodesOfARigidSurfaceAreSlaves) {
-  const std::string swapped = edited(
-      block_on("    g: {grid: {origin: [-0.5, -0.5, 0], u: [3, 0, 0], v: [0, 2, 0], elements: [12, "
-               "8]}}\n",
-               "{set: g}", ", weight: node",
-               "{name: s, increments: 1, prescribe: [{on: b.top, ux: 0, uy: 0, uz: -0.01}]}",
-               "{on: c, of: force_z}, {on: b.top, of: rfz}, {on: floor, of: rfz}"),
-      "master: floor, slave: b.bottom", "master: b.bottom, slave: floor");
-  const Table t = run_space(build_space(edited(swapped, "penalty: 1000", "penalty: 100")));
-  ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
-  const std::vector<double>& v = t.rows.back();
-  EXPECT_LT(v[0], -0.1);  // on the slave, the floor
-  EXPECT_NEAR(v[0], v[1], 1e-9);
-  EXPECT_NEAR(v[2], -v[0], 1e-9);
-}
-
-/// A circular cylinder and a rational patch that is the same surface press the same way.
-TEST(SystemSpace, ACylinderAndItsNurbsPatchPressAlike) {
-  const std::string steps =
-      "{name: s, increments: 2, prescribe: [{on: b.bottom, ux: 0, uy: 0, uz: 0}, {on: floor, uz: "
-      "-0.05, ux: 0.03}]}";
-  const std::string history =
-      "{on: c, of: force_x}, {on: c, of: force_z}, {on: floor, of: rfx}, {on: floor, of: rfz}, "
-      "{on: floor, of: rmy}";
-  const auto run = [&](const std::string& shape) {
-    const std::string text = edited(
-        block_on("", shape, ", friction: {coulomb: {mu: 0.2, penalty: 200}}", steps, history),
-        "slave: b.bottom", "slave: b.top");
-    const Table t = run_space(build_space(text));
-    EXPECT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
-    return t.rows.back();
-  };
-  const std::vector<double> cylinder =
-      run("{cylinder: {point: [1, 0, 4], axis: [0, 1, 0], radius: 3}, reference: [1, 0, 4]}");
-  // The lower half: a quarter to each side of the lowest line, from x = 4 through z = 1 to x = -2.
-  const std::string w = "0.70710678118654757";
-  const auto row = [&](const std::string& xz, const std::string& weight) {
-    const auto comma = xz.find(',');
-    const std::string x = xz.substr(0, comma), z = xz.substr(comma + 1);
-    return "[[" + x + ", -1, " + z + ", " + weight + "], [" + x + ", 2, " + z + ", " + weight +
-           "]]";
-  };
-  const std::string patch =
-      "nurbs_patch: {degree: [2, 1], knots: [[0, 0, 0, 1, 1, 2, 2, 2], [0, "
-      "0, 1, 1]], control: [" +
-      row("4, 4", "1") + ", " + row("4, 1", w) + ", " + row("1, 1", "1") + ", " + row("-2, 1", w) +
-      ", " + row("-2, 4", "1") + "]}";
-  const std::vector<double> nurbs = run("{" + patch + ", reference: [1, 0, 4]}");
-  EXPECT_LT(cylinder[1], -0.01);
-  EXPECT_GT(cylinder[0], 1e-4);
-  for (std::size_t i = 0; i < nurbs.size(); ++i) EXPECT_NEAR(nurbs[i], cylinder[i], 1e-9) << i;
-}
-
-/// A weight on a rigid plate sinks until the block carries it; its moment turns it.
-TEST(SystemSpace, ALoadedRigidPlaneFindsItsPlace) {
-  const std::string text = edited(
-      block_on(
-          "", "{plane: {point: [0, 0, 1], normal: [0, 0, -1]}, reference: [1, 0.5, 1]}", "",
-          "{name: s, increments: 1, prescribe: [{on: b.bottom, ux: 0, uy: 0, uz: 0}], release: "
-          "[{on: floor, of: [rx, ry]}], forces: [{on: floor, fz: -3, mx: 0.02, my: -0.05}]}",
-          "{on: floor, of: rfz}, {on: floor, of: rmx}, {on: floor, of: rmy}, {on: c, of: "
-          "force_z}, {on: floor, of: uz}, {on: floor, of: rx}, {on: floor, of: ry}, {on: "
-          "b.bottom, of: rfz}"),
-      "slave: b.bottom", "slave: b.top");
-  const Table t = run_space(build_space(text));
-  ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
-  const std::vector<double>& v = t.rows.back();
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(v[static_cast<std::size_t>(i)], 0, 1e-7) << i;
-  EXPECT_NEAR(v[3], -3, 1e-7);
-  EXPECT_LT(v[4], 0);
-  EXPECT_GT(v[5], 0);
-  EXPECT_LT(v[6], 0);
-  EXPECT_NEAR(v[7], 3, 1e-7);
-}
-
-TEST(SystemSpace, PressureTractionAndBodyForceAreCarriedByTheSupport) {
-  const std::string text =
-      "osculate: 1\nmesh: {generate: {b: {box: {x: [0, 2], y: [0, 1], z: [0, 3], elements: [2, 1, "
-      "3], type: hex20}}}}\nmaterials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
-      "sections: [{on: b, material: m, element: solid}]\n"
-      "steps: [{name: s, increments: 1, prescribe: [{on: b.bottom, ux: 0, uy: 0, uz: 0}], "
-      "pressure: "
-      "[{on: b.top, value: 5}], traction: [{on: b.left, tx: 1, ty: 2, tz: 3}], body_force: [{on: "
-      "b, "
-      "bx: 0.1, by: 0.2, bz: -0.3}]}]\n"
-      "output: {history: [{on: b.bottom, of: rfx}, {on: b.bottom, of: rfy}, {on: b.bottom, of: "
-      "rfz}]}\n";
-  const Table t = run_space(build_space(text));
-  ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
-  const std::vector<double>& v = t.rows.back();
-  EXPECT_NEAR(v[0], -(3 * 1 + 6 * 0.1), 1e-9);
-  EXPECT_NEAR(v[1], -(3 * 2 + 6 * 0.2), 1e-9);
-  EXPECT_NEAR(v[2], -(3 * 3 - 6 * 0.3 - 2 * 5), 1e-9);
+  const std::string text = block_on(floors[2].first, floors[2].second, steps, "");
+  const model::Model3 swapped =
+      build_space(edited(text, "master: floor, slave: b.bottom", "master: b.bottom, slave: floor"))
+          .model;
+  std::vector<Index> slaves = swapped.pairs[0].definition.slave.nodes;
+  std::sort(slaves.begin(), slaves.end());
+  EXPECT_EQ(slaves, swapped.mesh.find_set("g")->nodes);
 }
 
 /// The example of a model in space runs, balances, and slides at Coulomb's limit.

@@ -3,25 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include "block3.hpp"
+#include "block.hpp"
 
 namespace osculate::model {
 namespace {
 
 struct Case {
-  Model3 m;
-  Case() {
-    add_block(m, {{0, 0, 0},
-                  {2, 1, 1},
-                  {2, 1, 1},
-                  0,
-                  {solid::Kinematics::small, solid::VolumeFormulation::full,
-                   material::LinearElastic{100, 0.3}}});
-    m.steps.emplace_back();
-    m.steps[0].name = "s";
-  }
+  Model3 m = block<3>({{0, 0, 0}, {2, 1, 1}, {2, 1, 1}}, elastic<3>(100));
   void hold(int direction, const std::function<bool(const Vec3&)>& where) {
-    prescribe(m.steps[0], nodes_where(m, where), direction, 0);
+    for (std::size_t n = 0; n < m.reference.size(); ++n)
+      if (where(m.reference[n])) prescribe(m, {static_cast<Index>(n)}, direction, 0);
   }
   [[nodiscard]] std::vector<FreeMotion3> motions() const {
     System3 system(m, 1);
@@ -96,7 +87,7 @@ TEST(FreeMotions3, NoneOfABodyThatIsHeld) {
 TEST(FreeMotions3, EveryBodyHasItsOwn) {
   Case c;
   for (int d = 0; d < 3; ++d) c.hold(d, [](const Vec3& x) { return x.z() < 1e-9; });
-  add_block(c.m, {{5, 0, 0}, {6, 1, 1}, {1, 1, 1}, 0, c.m.sections[0].section}, "loose");
+  add_block(c.m, {{5, 0, 0}, {6, 1, 1}, {1, 1, 1}}, elastic<3>(100), "loose");
   EXPECT_EQ(c.message(),
             "body 'loose' is free to move and turn in every direction: nothing holds it");
 }
