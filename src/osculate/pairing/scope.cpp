@@ -149,8 +149,8 @@ bool admitted(const NodeScope<Dim>& rules, const FacetType& facet, const Coordin
   const double size = (rules.reference[static_cast<std::size_t>(facet.nodes[1])] -
                        rules.reference[static_cast<std::size_t>(facet.nodes[0])])
                           .norm();
-  const bool was_behind = height < -1e-6 * size;
-  return !(was_behind && before.norm() < apart_ratio * distance);
+  const bool was_in_front = height > 1e-6 * size;
+  return was_in_front || before.norm() >= apart_ratio * distance;
 }
 
 }  // namespace

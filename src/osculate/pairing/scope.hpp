@@ -30,12 +30,14 @@ namespace osculate::pairing {
 ///                      is one, and no facet that the node itself belongs to ever is
 ///            across    own surface: the way to the place is within 60 degrees of its normal. (A
 ///                      node of a sharp corner sees the next facets of its own flanks end on.)
-///            apart     own surface: if the node was behind the place in the reference
-///                      configuration too (there is material between them), their distance was
-///                      more than 4 |g|. The other side of a plate that is squeezed to more than a
-///                      quarter, and the other flank of a convex corner that is bent to more than
-///                      30 degrees, fail; the flanks of a notch and the lips of a fold, which
-///                      faced each other or lay in one plane, pass at any depth
+///            apart     own surface: if the node was not in front of the place in the reference
+///                      configuration (there is material between them, or they lay in one plane),
+///                      their distance was at least 4 |g|. The other side of a plate that is
+///                      squeezed to more than a quarter, the other flank of a convex corner that
+///                      is bent to more than 30 degrees, and the other end of a side that bulges
+///                      until both its ends lie on plates, fail; the flanks of a notch, which faced
+///                      each other, pass at any depth, and the lips of a fold while they are not
+///                      deeper than a quarter of the way between them
 /// Areas      of the node's facets only those within 60 degrees of facing the place count (all, if
 ///            none is): the node at the edge of a block that lies flat carries the pressure on its
 ///            lower face, not on the side
