@@ -85,7 +85,8 @@ void set_pairs(const BuildContext<Dim>& c, const Name& on, model::HistoryRequest
   for (std::size_t p = 0; p < c.model().pairs.size(); ++p) {
     const model::BasicContactPair<Dim>& pair = c.model().pairs[p];
     names.push_back(pair.name);
-    if (pair.name != on.value && pair.group != on.value) continue;
+    const bool second_pass = pair.reversed && pair.name == on.value + ".reversed";
+    if (pair.name != on.value && pair.group != on.value && !second_pass) continue;
     if (out.target < 0)
       out.target = static_cast<Index>(p);
     else

@@ -175,6 +175,34 @@ model::BasicContactPair<Dim> pair_of(const Body<Dim>& a, const Body<Dim>& b,
   return out;
 }
 
+/// Two deformable bodies are slaves in turn: nodes of one side alone miss the corners and edges of
+/// the other, and let go of it where they slide off.
+template <int Dim>
+bool has_second_pass(const Body<Dim>& a, const Body<Dim>& b, const Contact& contact) {
+  return &a != &b && !a.rigid && !b.rigid && !contact.edges &&
+         contact.sampling.value.rule == SamplingRule::nodes &&
+         contact.enforcement.value.kind != EnforcementWord::lagrange_multiplier;
+}
+
+template <int Dim>
+void add_pairs(BuildContext<Dim>& c, const Contact& contact, const Body<Dim>& a,
+               const Body<Dim>& b) {
+  model::BasicContactPair<Dim> first = pair_of(a, b, contact);
+  if (!has_second_pass(a, b, contact))
+    return add_pair(c, contact, contact.name.mark, std::move(first));
+  const bool first_is_master = roles(a, b).first_is_master;
+  model::BasicContactPair<Dim> second = first;
+  second.name += ".reversed";
+  second.note = "second pass";
+  second.reversed = true;
+  second.definition.master = first.definition.slave.boundary;
+  second.definition.slave = pairing::make_slave_side(first.definition.master);
+  second.definition.scope.thickness = (first_is_master ? a : b).thickness;
+  first.definition.share = second.definition.share = 0.5;
+  add_pair(c, contact, contact.name.mark, std::move(first));
+  add_pair(c, contact, contact.name.mark, std::move(second));
+}
+
 /// One measurement of each body for all its pairs.
 template <int Dim>
 void measure_bodies(const BuildContext<Dim>& c, std::vector<Body<Dim>>& bodies) {
@@ -214,7 +242,7 @@ void build_contact_all(BuildContext<Dim>& c, const Contact& contact) {
     for (std::size_t j = i; j < bodies.size(); ++j)
       if (!excluded(bodies[i], bodies[j], contact) && !bodies[i].surface.facets.empty() &&
           !bodies[j].surface.facets.empty())
-        add_pair(c, contact, contact.name.mark, pair_of(bodies[i], bodies[j], contact));
+        add_pairs(c, contact, bodies[i], bodies[j]);
   if (c.model().pairs.size() == before)
     throw core::InputError(contact.name.mark, "no pair of bodies is left that may touch");
 }

@@ -122,6 +122,12 @@ void measure(Scope<Dim>& scope, const SlaveSide<Dim>& slave, std::span<const Vec
   }
 }
 
+/// Places that a node never faced may be so far in front of it.
+constexpr double depth_in_reach = 0.25;
+/// And so far if they are on an edge or a vertex: behind a surface the nearest place is on a face,
+/// unless the rules have taken the faces out.
+constexpr double edge_depth_in_reach = 0.03;
+
 /// `admits` for both dimensions.
 template <int Dim, class FacetType, class Coordinates>
 bool admitted(const NodeScope<Dim>& rules, const FacetType& facet, const Coordinates& xi,
@@ -136,6 +142,10 @@ bool admitted(const NodeScope<Dim>& rules, const FacetType& facet, const Coordin
   const double gap = arm.dot(normal);
   if (!rules.facing.empty() && std::abs(gap) < across_cosine * distance) return false;
   if (rules.behind) return gap < 0;
+  constexpr double along = 0.999;
+  const bool on_face = std::abs(gap) >= along * distance;
+  if (!facet.shape && !on_face && gap < 0 && distance > edge_depth_in_reach * rules.reach)
+    return false;
   constexpr double straight = 0.9;  // else a foot at a vertex, which has the last word on the sign
   if (gap >= straight * distance) return true;
   if (!facet.shape && distance > rules.depth) {
@@ -217,7 +227,7 @@ NodeScope<Dim> node_scope(const Scope<Dim>& scope, const SlaveSide<Dim>& slave,
   NodeScope<Dim> rules;
   rules.point = point;
   rules.reach = scope.reach;
-  rules.depth = 0.5 * scope.thickness[i];
+  rules.depth = std::min(0.5 * scope.thickness[i], depth_in_reach * scope.reach);
   rules.outlines = buffers.outlines;
   rules.branches = buffers.branches;
   if (!scope.own) return rules;

@@ -21,9 +21,11 @@ namespace osculate::pairing {
 ///            thin      where the node lies behind it (g < 0), |g| <= t / 2: t is how far the
 ///                      node's own body reaches behind the node in the reference configuration.
 ///                      Through more than its own body no node touches anything: what is seen
-///                      there is the far side of the master. A place near the one that the node
-///                      faced at the end of the last increment is let off (a thin body that moves
-///                      fast)
+///                      there is the far side of the master; nor does it touch anything deeper
+///                      than a quarter of the reach that it never faced, and no edge or vertex
+///                      deeper than 3 % of it. A place near the one that
+///                      the node faced at the end of the last increment is let off (a thin body
+///                      that moves fast)
 ///            facing    own surface: a facet of the node and the place have normals more than 120
 ///                      degrees apart. Where the curvature of the surface is at most k, that takes
 ///                      a way of more than 2 / k along it, so no facet of a smooth neighbourhood
@@ -96,7 +98,7 @@ template <int Dim>
 struct NodeScope {
   Vec<Dim> point = Vec<Dim>::Zero();
   double reach = std::numeric_limits<double>::infinity();
-  double depth = std::numeric_limits<double>::infinity();  ///< t / 2
+  double depth = std::numeric_limits<double>::infinity();  ///< t / 2, or a quarter of the reach
   std::optional<Vec<Dim>> last;  ///< where the place of the last increment is now
   std::span<const FacetOutline<Dim>> outlines;
   std::span<const BranchOutline<Dim>> branches;
