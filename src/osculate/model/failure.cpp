@@ -188,7 +188,7 @@ template <int Dim>
 void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const Step& step,
            const solve::NewtonResult<BasicState<Dim>>& attempt, BasicFailure<Dim>& f) {
   const int more = 4 * std::max(1, step.increments);
-  if (!attempt.evaluation.ok) {
+  if (!attempt.evaluation.ok && !attempt.evaluation.apart) {
     f.cause = FailureCause::inverted_element;
     f.proposal = fmt::format(
         "give step '{}' more increments (`increments: {}`); if the same element fails again, make "

@@ -1,5 +1,6 @@
 #include "osculate/model/system_impl.hpp"
 
+#include <fmt/format.h>
 #include <omp.h>
 
 #include <algorithm>
@@ -395,11 +396,27 @@ void BasicSystem<Dim>::Impl::assemble(const State& committed, const State& trial
   seconds.assembly += watch.seconds() - (seconds.bulk + seconds.contact - elsewhere);
 }
 
+/// A correction by a tangent without digits may leave forces that are small beside those of the
+/// place it leads to.
+template <int Dim>
+bool BasicSystem<Dim>::Impl::flies_apart(const State& committed, const State& trial,
+                                         solve::Evaluation& out) const {
+  constexpr double farthest = 1e4;
+  if (jobs.empty() || !(extent > 0) || trial.u.size() != committed.u.size()) return false;
+  const double way = (trial.u - committed.u).template lpNorm<Eigen::Infinity>() / extent;
+  if (way <= farthest) return false;
+  out.ok = false;
+  out.apart = true;
+  out.message = fmt::format("nodes move by {:.0e} times the size of the model", way);
+  return true;
+}
+
 template <int Dim>
 void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State& trial,
                                             double fraction, bool with_tangent, bool predict,
                                             solve::Evaluation& out) {
   out.ok = true;
+  out.apart = false;
   out.message.clear();
   clear(with_tangent);
   const std::vector<Vec<Dim>> x = positions(trial.u);
@@ -409,6 +426,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
     out.message = motion->failure;
     return;
   }
+  if (flies_apart(committed, trial, out)) return;
   assembler.set_configuration(x, trial.rigid);
   Eigen::VectorXd inc;
   if (predict) {

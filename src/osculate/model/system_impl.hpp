@@ -112,6 +112,9 @@ struct BasicSystem<Dim>::Impl {
 
   Impl(const BasicModel<Dim>& m, int thread_count);
 
+  [[nodiscard]] bool flies_apart(const State& committed, const State& trial,
+                                 solve::Evaluation& out) const;
+
   // Steps with inertia, in system_dynamics.cpp.
   /// What the rounding of coordinates does to the forces of inertia and of contact.
   [[nodiscard]] double round_off_in_time(std::span<const Vec<Dim>> x) const;

@@ -29,6 +29,7 @@ struct StateCounts {
 struct Evaluation {
   bool ok = true;
   std::string message;              ///< why not ok (element, material)
+  bool apart = false;               ///< not ok because nodes are farther away than can be
   Eigen::VectorXd residual;         ///< out-of-balance force of the unknowns [force]
   Eigen::VectorXd branch_residual;  ///< what to linearise from where it differs from `residual`
   double force_scale = 0;  ///< largest of the norms of internal, external and contact forces

@@ -94,6 +94,36 @@ TEST(Newton, NothingToDoIsConverged) {
   EXPECT_EQ(result.state.x[0], 0.0);
 }
 
+/// A tangent that corrects a part of the error alone, and an estimate of rounding above the load.
+TEST(Newton, RoundOffEndsNothingThatStillImproves) {
+  ToySystem system =
+      scalar_system([](double x, double) { return x - 1; }, [](double) { return 1.25; });
+  system.round_off = 100;
+  const auto result = solve_from(system, 0.0, {.line_search = LineSearch::off});
+  ASSERT_EQ(result.outcome, Outcome::converged);
+  EXPECT_NEAR(result.state.x[0], 1, 1e-9);
+  EXPECT_FALSE(result.precision.round_off);
+}
+
+/// A residual that keeps a noise: accepted where the noise is small beside what drives the system
+/// or nothing drives it, and said; else not.
+TEST(Newton, RoundOffIsAcceptedWhereItIsSmallOrAll) {
+  for (const double noise : {1e-7, 1e-2}) {
+    int calls = 0;
+    ToySystem system = scalar_system(
+        [&calls, noise](double x, double) { return x - 1 + (++calls % 2 ? noise : -noise); },
+        [](double) { return 1.0; });
+    system.round_off = 10 * noise;
+    for (const bool driven : {true, false}) {
+      system.driven = driven;
+      const auto result = solve_from(system, 0.0, {.line_search = LineSearch::off});
+      const bool good = noise < 1e-3 || !driven;
+      EXPECT_EQ(result.outcome, good ? Outcome::converged : Outcome::not_converged) << noise;
+      EXPECT_EQ(result.precision.round_off, good) << noise;
+    }
+  }
+}
+
 TEST(Newton, SingularTangent) {
   ToySystem system = scalar_system([](double, double t) { return t; }, [](double) { return 0.0; });
   const auto result = solve_from(system, 0.0, {});

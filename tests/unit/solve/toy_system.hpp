@@ -26,6 +26,8 @@ struct ToySystem {
   };
   std::function<std::string(const Vector& x, const Vector& committed)> wrong;  ///< empty = ok
   std::function<double(double time)> prescribed;
+  double round_off = 0;  ///< the estimate
+  bool driven = true;
   std::vector<Vector> evaluated;  ///< every x that `evaluate` saw
   std::vector<double> predicted_to;
   la::MatrixBuilder builder{size};
@@ -60,6 +62,8 @@ struct ToySystem {
     out.residual = force(trial.x, time);
     if (prescribed) out.residual[0] = 0;
     out.force_scale = scale(trial.x, time);
+    out.round_off = round_off;
+    out.driven = driven;
     if (tangent) fill(trial.x);
   }
   [[nodiscard]] State apply(const State& state, const Vector& du, double time,
