@@ -1,9 +1,18 @@
 #pragma once
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 #include "../program.hpp"
 
 namespace osculate::app {
+
+/// For numbers: not nan, which passes every range, nor infinite.
+[[nodiscard]] CLI::Validator finite();
+
+/// Throws core::InputError if one of the outputs (empty: none) is one of the inputs, which may be
+/// FILE:SET, or another output.
+void keep_inputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
 // One file a command. Each adds its subcommand; the callback stores the exit code.
 void add_run(CLI::App& app, int& exit_code);

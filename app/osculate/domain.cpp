@@ -17,6 +17,7 @@ struct Flags {
 };
 
 int domain(const Flags& flags) {
+  keep_inputs({flags.output, flags.page}, {flags.surface});
   deck::SurfaceInput input = deck::read_surface(flags.surface);
   api::DomainReport report = api::survey_domain(input.target, flags.surface, flags.options);
   report.warnings.insert(report.warnings.begin(), input.warnings.begin(), input.warnings.end());
@@ -44,7 +45,7 @@ void add_domain(CLI::App& app, int& exit_code) {
   command
       ->add_option("--kink", flags->options.kink,
                    "Angle up to which neighbours count as smooth, degrees")
-      ->check(CLI::Range(1e-9, 90.0))
+      ->check(finite() & CLI::Range(1e-9, 90.0))
       ->capture_default_str();
   command->add_option("--samples", flags->options.samples, "Places looked at, about")
       ->check(CLI::Range(10, 10000000))
@@ -52,12 +53,12 @@ void add_domain(CLI::App& app, int& exit_code) {
   command
       ->add_option("--tolerance", flags->options.tolerance,
                    "Between the proved and the found reach, as a part of it")
-      ->check(CLI::Range(1e-6, 0.9))
+      ->check(finite() & CLI::Range(1e-6, 0.9))
       ->capture_default_str();
   command
       ->add_option("--length", flags->options.length,
                    "How far things without end are drawn (default: the size of the surface)")
-      ->check(CLI::PositiveNumber);
+      ->check(finite() & CLI::PositiveNumber);
   command->add_flag("--json", flags->json, "Print JSON on stdout");
   command->callback([flags, &exit_code] { exit_code = domain(*flags); });
 }

@@ -16,6 +16,7 @@ std::atomic<bool> interrupted{false};
 void on_interrupt(int) { interrupted = true; }
 
 int project(api::ProjectOptions& options) {
+  keep_inputs({options.output}, {options.surface, options.points});
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   const bool terminal = isatty(STDERR_FILENO) != 0;

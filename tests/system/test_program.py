@@ -1,5 +1,6 @@
 """The program as a user calls it: exit codes, messages, files. Usage: test_program.py PROGRAM SOURCE_DIR"""
 import csv
+import fcntl
 import json
 import os
 import shutil
@@ -70,6 +71,10 @@ class Program(unittest.TestCase):
         with open(self.path(name), "w") as file:
             file.write(text)
         return name
+
+    def text(self, name):
+        with open(self.path(name)) as file:
+            return file.read()
 
     def run_program(self, *arguments):
         return subprocess.run([PROGRAM, *arguments], cwd=self.folder.name, capture_output=True, text=True)
@@ -159,6 +164,44 @@ class Program(unittest.TestCase):
             with open(self.path("t" + threads + "/history.csv")) as file:
                 texts.append(file.read())
         self.assertEqual(texts[0], texts[1])
+
+    def test_two_models_of_one_name_keep_their_results_apart(self):
+        for folder in ("a", "b"):
+            os.mkdir(self.path(folder))
+        self.model(BLOCK.replace("SIDE", "0.1"), "a/model.yaml")
+        self.model(BLOCK.replace("SIDE", "0.2"), "b/model.yaml")
+        self.assertEqual(self.run_program("run", "a/model.yaml", "-o", "out").returncode, 0)
+        before = self.text("out/history.csv")
+        result = self.run_program("run", "b/model.yaml", "-o", "out")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("holds the results of another 'model.yaml'", result.stderr)
+        self.assertEqual(self.text("out/history.csv"), before)
+        self.assertEqual(self.run_program("run", "a/model.yaml", "-o", "out").returncode, 0)
+
+    def test_files_of_others_in_a_result_folder_stay(self):
+        self.model(BLOCK.replace("SIDE", "0.1"))
+        self.assertEqual(self.run_program("run", "model.yaml", "-o", "out").returncode, 0)
+        kept = ["mine.vtu", "old.pvd", "movie.mkv.part", "bodies_final.vtu", "contacts_00001.vtu"]
+        for name in kept:
+            self.model("mine", os.path.join("out", name))
+        self.assertEqual(self.run_program("run", "model.yaml", "-o", "out").returncode, 0)
+        for name in kept:
+            self.assertEqual(self.text(os.path.join("out", name)), "mine", name)
+
+    def test_one_run_at_a_time_in_a_folder(self):
+        self.model(BLOCK.replace("SIDE", "0.1"))
+        os.mkdir(self.path("out"))
+        lock = open(self.path("out/running.lock"), "w")
+        lock.write("process 4242 on there since then")
+        lock.flush()
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        result = self.run_program("run", "model.yaml", "-o", "out")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("folder 'out' is in use by process 4242 on there since then", result.stderr)
+        self.assertEqual(os.listdir(self.path("out")), ["running.lock"])
+        lock.close()  # its owner is dead: the file alone is nothing
+        self.assertEqual(self.run_program("run", "model.yaml", "-o", "out").returncode, 0)
+        self.assertNotIn("running.lock", os.listdir(self.path("out")))
 
     def test_the_same_bits_with_one_and_two_threads(self):
         self.expect_the_same_bits(self.model(BLOCK.replace("SIDE", "0.1")))
@@ -312,6 +355,24 @@ class Program(unittest.TestCase):
         self.assertEqual(self.run_program("project", good).returncode, 2)
         self.assertIn("tube_radius", self.run_program("doc", "--surface", "torus").stdout)
         self.assertIn("facets", json.loads(self.run_program("schema", "--surface").stdout)["properties"])
+
+    def test_outputs_never_take_the_place_of_an_input(self):
+        surface = "circle: {center: [0, 0], radius: 1}\n"
+        self.model(surface, "s.yaml")
+        self.model("x,y\n2,0\n", "p.csv")
+        for arguments in (("domain", "s.yaml", "-o", "s.yaml"), ("domain", "s.yaml", "--page", "./s.yaml"),
+                          ("project", "s.yaml", "p.csv", "-o", "p.csv"), ("domain", "s.yaml", "-o", "a", "--page", "a")):
+            result = self.run_program(*arguments)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertIn("named for two outputs" if "a" in arguments else "is the input", result.stderr)
+        self.assertEqual(self.text("s.yaml"), surface)
+        self.assertEqual(self.text("p.csv"), "x,y\n2,0\n")
+
+    def test_options_that_are_no_numbers_are_refused(self):
+        self.model("circle: {center: [0, 0], radius: 1}\n", "s.yaml")
+        for option in ("--kink", "--tolerance", "--length"):
+            for value in ("nan", "inf", "-nan"):
+                self.assertEqual(self.run_program("domain", "s.yaml", f"{option}={value}").returncode, 2, option)
 
     def test_interrupted_closest_points_leave_no_file(self):
         surface = self.model("sphere: {center: [0, 0, 0], radius: 1}\n", "good.yaml")

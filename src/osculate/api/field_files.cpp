@@ -8,6 +8,7 @@
 #include <set>
 #include <system_error>
 
+#include "osculate/api/result_folder.hpp"
 #include "osculate/model/fields.hpp"
 #include "osculate/model/quantities.hpp"
 
@@ -193,7 +194,8 @@ void FieldFiles<Dim>::resume(std::vector<io::PvdEntry> written, std::vector<bool
   for (const io::PvdEntry& entry : written) kept.insert(entry.file);
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error))
-    if (entry.path().extension() == ".vtu" && !kept.contains(entry.path().filename().string()))
+    if (entry.path().extension() == ".vtu" && is_result_file(entry.path().filename().string()) &&
+        !kept.contains(entry.path().filename().string()))
       fs::remove(entry.path(), error);
   entries_ = std::move(written);
   frame_ = static_cast<int>(std::count_if(entries_.begin(), entries_.end(),

@@ -2,10 +2,19 @@
 
 #include <fmt/format.h>
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
@@ -17,14 +26,65 @@ namespace osculate::api {
 namespace fs = std::filesystem;
 namespace {
 
-/// Name of the model file an earlier run was made of, empty if this is no result folder.
-std::string model_of(const fs::path& folder) {
+constexpr const char* lock_name = "running.lock";
+
+/// Whose results a folder has; empty texts where it does not say.
+struct Owner {
+  std::string model, path, content;
+};
+
+Owner owner_of(const fs::path& folder) {
   std::ifstream file(folder / "summary.json");
   if (!file) return {};
   const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
-  return json.is_object() && json.contains("model") && json["model"].is_string()
-             ? json["model"].get<std::string>()
-             : std::string{};
+  const auto text = [&](const char* key) {
+    return json.is_object() && json.contains(key) && json[key].is_string()
+               ? json[key].get<std::string>()
+               : std::string{};
+  };
+  return {text("model"), text("model_path"), text("model_content")};
+}
+
+/// FNV-1a of the file's bytes, 16 digits; empty if it cannot be read.
+std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return {};
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (std::istreambuf_iterator<char> at(file), end; at != end; ++at)
+    hash = (hash ^ static_cast<unsigned char>(*at)) * 1099511628211ULL;
+  return fmt::format("{:016x}", hash);
+}
+
+std::string path_of(const std::string& model) {
+  std::error_code error;
+  const fs::path path = fs::weakly_canonical(model, error);
+  return error ? std::string{} : path.string();
+}
+
+/// Folders of earlier versions say the name alone.
+bool same_model(const Owner& owner, const std::string& model) {
+  if (owner.model != fs::path(model).filename().string()) return false;
+  return owner.path.empty() || owner.path == path_of(model) ||
+         (!owner.content.empty() && owner.content == content_of(model));
+}
+
+/// PREFIX, digits, and for fields `_` with at least five more, `.vtu`.
+bool is_field_file(std::string_view name) {
+  constexpr std::string_view ending = ".vtu", bodies = "bodies_", contact = "contact";
+  if (!name.ends_with(ending)) return false;
+  name.remove_suffix(ending.size());
+  const auto digits = [](std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  if (name.starts_with(bodies)) {
+    name.remove_prefix(bodies.size());
+    return name.size() >= 5 && digits(name);
+  }
+  if (!name.starts_with(contact)) return false;
+  name.remove_prefix(contact.size());
+  const std::size_t at = name.find('_');
+  return at != std::string_view::npos && digits(name.substr(0, at)) && name.size() - at > 5 &&
+         digits(name.substr(at + 1));
 }
 
 void require_writable(const std::string& folder) {
@@ -40,11 +100,13 @@ void require_writable(const std::string& folder) {
   }
 }
 
-/// Nothing but what a killed run was about to write.
+/// Nothing but what a killed run was about to write, and its lock.
 bool only_parts(const fs::path& folder) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (entry.path().extension() != ".part") return false;
+    if (const std::string name = entry.path().filename().string();
+        name != lock_name && (!name.ends_with(".part") || !is_result_file(name)))
+      return false;
   return !error;
 }
 
@@ -61,13 +123,36 @@ std::string choose_folder(const std::string& model, const std::string& wanted) {
   if (!fs::is_directory(folder, error))
     throw core::InputError({}, fmt::format("'{}' exists and is not a folder", folder.string()));
   if (fs::is_empty(folder, error) || only_parts(folder)) return folder.string();
-  const std::string earlier = model_of(folder);
-  if (earlier != fs::path(model).filename().string())
-    throw core::InputError(
-        {}, fmt::format(
-                "folder '{}' is not empty and holds no results of '{}'; name another one with -o",
-                folder.string(), fs::path(model).filename().string()));
-  return folder.string();
+  const Owner earlier = owner_of(folder);
+  if (same_model(earlier, model)) return folder.string();
+  const std::string name = fs::path(model).filename().string();
+  if (earlier.model == name)
+    throw core::InputError({}, fmt::format("folder '{}' holds the results of another '{}' ({}); "
+                                           "name another one with -o",
+                                           folder.string(), name, earlier.path));
+  throw core::InputError(
+      {},
+      fmt::format("folder '{}' is not empty and holds no results of '{}'; name another one with -o",
+                  folder.string(), name));
+}
+
+bool is_result_file(std::string_view name) {
+  constexpr std::string_view part = ".part";
+  constexpr std::array names{
+      "history.csv",      "report.json",    "report.html", "log.txt",
+      "journal.bin",      "checkpoint.bin", "results.pvd", "checkpoint.previous.bin",
+      "last_iterate.vtu", "writable.part"};
+  if (std::find(names.begin(), names.end(), name) != names.end() || is_field_file(name))
+    return true;
+  if (!name.ends_with(part)) return false;
+  name.remove_suffix(part.size());
+  return name == "summary.json" || is_result_file(name);
+}
+
+nlohmann::json owner_json(const std::string& model) {
+  return {{"model", fs::path(model).filename().string()},
+          {"model_path", path_of(model)},
+          {"model_content", content_of(model)}};
 }
 
 namespace {
@@ -83,11 +168,68 @@ void create(const std::string& folder) {
 
 }  // namespace
 
+namespace {
+
+std::string now_text() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  std::array<char, 32> text{};
+  if (!localtime_r(&now, &local)) return {};
+  return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M:%S", &local)};
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "?";
+}
+
+/// Whether the open file is still the one of that name: the last owner may just have removed it.
+bool is_at(int file, const std::string& path) {
+  struct stat by_file {
+  }, by_name{};
+  return fstat(file, &by_file) == 0 && stat(path.c_str(), &by_name) == 0 &&
+         by_file.st_ino == by_name.st_ino && by_file.st_dev == by_name.st_dev;
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const std::string& folder, bool create_it)
+    : path_(folder + "/" + lock_name) {
+  if (create_it) create(folder);
+  for (;;) {
+    file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (file_ < 0) return;  // no folder, or none to write to: others say so
+    if (::flock(file_, LOCK_EX | LOCK_NB) != 0) {
+      const bool taken = errno == EWOULDBLOCK;
+      ::close(file_);
+      file_ = -1;
+      if (!taken) return;
+      const std::string owner = read_text(path_);
+      throw core::InputError({}, fmt::format("folder '{}' is in use{}{}; wait for its end, or name "
+                                             "another one with -o",
+                                             folder, owner.empty() ? "" : " by ", owner));
+    }
+    if (is_at(file_, path_)) break;
+    ::close(file_);
+  }
+  const std::string owner =
+      fmt::format("process {} on {} since {}", ::getpid(), host_name(), now_text());
+  if (::ftruncate(file_, 0) != 0 ||
+      ::write(file_, owner.data(), owner.size()) != static_cast<ssize_t>(owner.size()))
+    return;  // the lock holds all the same
+}
+
+FolderLock::~FolderLock() {
+  if (file_ < 0) return;
+  ::unlink(path_.c_str());
+  ::close(file_);
+}
+
 void claim_folder(const std::string& folder, const std::string& model) {
   create(folder);
-  const std::string name = fs::path(model).filename().string();
-  write_text(folder + "/summary.json",
-             nlohmann::json{{"model", name}, {"status", "running"}}.dump(1) + "\n");
+  nlohmann::json summary = owner_json(model);
+  summary["status"] = "running";
+  write_text(folder + "/summary.json", summary.dump(1) + "\n");
 }
 
 void open_folder(const std::string& folder, bool keep) {
@@ -95,13 +237,7 @@ void open_folder(const std::string& folder, bool keep) {
   if (keep) return;
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    const std::string extension = entry.path().extension().string();
-    const bool ours = extension == ".vtu" || extension == ".pvd" || name == "history.csv" ||
-                      name == "report.json" || name == "report.html" || name == "log.txt" ||
-                      name == "journal.bin" || name == "checkpoint.bin" ||
-                      name == "checkpoint.previous.bin" || extension == ".part";
-    if (ours) fs::remove(entry.path(), error);
+    if (is_result_file(entry.path().filename().string())) fs::remove(entry.path(), error);
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
+#include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 
 namespace osculate::api {
 
@@ -7,13 +9,39 @@ namespace osculate::api {
 [[nodiscard]] std::string result_folder(const std::string& model, const std::string& wanted);
 
 /// The folder a run writes to. An occupied folder is refused (core::InputError) unless it holds the
-/// results of the same model file; nothing is changed here.
+/// results of the same model: of the file at the same path, or one of the same name and content.
+/// Nothing is changed here.
 [[nodiscard]] std::string choose_folder(const std::string& model, const std::string& wanted);
+
+/// One run at a time in a folder. The system gives the folder free when its owner ends, however it
+/// does.
+///
+/// Errors     core::InputError that names the owner, and since when it has the folder
+/// Limits     file systems without locks: no protection
+/// Tested by  tests/system/test_program.py
+class FolderLock {
+ public:
+  /// Creates the folder if asked for; none is locked where there is none.
+  FolderLock(const std::string& folder, bool create);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  std::string path_;
+  int file_ = -1;
+};
+
+/// `model`, `model_path` and `model_content` of summary.json.
+[[nodiscard]] nlohmann::json owner_json(const std::string& model);
 
 /// Creates the folder if there is none and says in summary.json whose results these will be. To be
 /// called before anything else: a run that is killed at any later moment leaves a folder that may
 /// be used again. Throws as `open_folder`.
 void claim_folder(const std::string& folder, const std::string& model);
+
+/// Whether a file has a name that only runs give: nothing else in a result folder is ever removed.
+[[nodiscard]] bool is_result_file(std::string_view name);
 
 /// Creates the folder, or removes the files of an earlier run (but its summary.json) unless they
 /// are to be kept. Throws core::InputError, with nothing removed, if nothing can be written there.

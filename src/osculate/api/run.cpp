@@ -338,6 +338,7 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
   summary["contact"] = recorder.report_penetration();
   recorder.report_chosen(result.steps);
   summary["message"] = outcome.message;
+  summary.update(owner_json(recorder.options.model));
   if (result.failure) summary["diagnosis"] = diagnosis_json(recorder.built.model, result);
   try {
     write_results(recorder, summary);
@@ -410,6 +411,7 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
   built.options.until = options.until;
   check_until(options.until, built.model.steps);
   const std::string folder = choose_folder(options.model, options.folder);
+  const FolderLock lock(folder, !options.restart);
   const RunIdentity id = identity(description, built.model.mesh, built.history);
   std::optional<Checkpoint<Dim>> from;
   if (options.restart) from = read_checkpoint<Dim>(folder, id, built.model, options.model);
