@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdlib>
 #include <memory>
 
 #include "commands.hpp"
@@ -12,7 +13,10 @@ namespace osculate::app {
 namespace {
 
 std::atomic<bool> interrupted{false};
-void on_interrupt(int) { interrupted = true; }
+/// The first ends the run after the iteration that is under way, the second at once.
+void on_interrupt(int) {
+  if (interrupted.exchange(true)) std::_Exit(analysis_stopped);
+}
 
 struct RunFlags {
   api::RunOptions options;

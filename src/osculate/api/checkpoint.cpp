@@ -117,8 +117,8 @@ void fields(Archive& a, ExtrapolationMemory& m) {
 }
 template <class Archive>
 void fields(Archive& a, PathPosition& path) {
-  auto& [on, before, length, until, lost, increments] = path;
-  a(on, before, length, until, lost, increments);
+  auto& [on, before, length, until, lost, increments, mark, since_mark] = path;
+  a(on, before, length, until, lost, increments, mark, since_mark);
 }
 template <class Archive>
 void fields(Archive& a, StepPosition& position) {

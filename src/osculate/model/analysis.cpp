@@ -124,6 +124,7 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
   Analysis<Dim> a{model, options, observer, {model, options.threads}};
   BasicAnalysisResult<Dim>& result = a.result;
   result.unknowns = a.system.dofs().unknowns();
+  a.system.interrupt_by(observer.interrupted);
   if (!begin(a, from)) {
     result.outcome = solve::Outcome::stopped;
     result.message = "stopped by the user";

@@ -68,6 +68,8 @@ struct BasicAnalysisObserver {
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
                      const solve::StepPosition&)>
       resumable;
+  /// Asked between two iterations: true ends the analysis with what has converged.
+  std::function<bool()> interrupted;
 };
 
 /// Runs the steps of a model one after the other. Keeps everything converged when a step fails and

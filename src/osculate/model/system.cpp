@@ -253,6 +253,14 @@ SystemSeconds BasicSystem<Dim>::seconds() const {
   return out;
 }
 template <int Dim>
+void BasicSystem<Dim>::interrupt_by(std::function<bool()> asked) {
+  impl_->asked = std::move(asked);
+}
+template <int Dim>
+bool BasicSystem<Dim>::interrupted() const {
+  return impl_->asked && impl_->asked();
+}
+template <int Dim>
 bool BasicSystem<Dim>::soften() {
   if (impl_->unknowns == impl_->dofs.unknowns()) return false;
   impl_->soften();

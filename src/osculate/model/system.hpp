@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -135,6 +136,9 @@ class BasicSystem {
   [[nodiscard]] std::vector<Vec<Dim>> positions(const State& state) const;
   [[nodiscard]] bool prescribed(Index unknown) const;
   [[nodiscard]] SystemSeconds seconds() const;
+  /// Asked between two iterations whether no more are wanted; none: they always are.
+  void interrupt_by(std::function<bool()> asked);
+  [[nodiscard]] bool interrupted() const;
   /// Whether a motion that the tangent hardly resists leaves every body as it is: then nothing
   /// holds it. Otherwise something is only very slender or soft. Multipliers: true.
   ///

@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <deque>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -63,9 +64,10 @@ struct BasicSystem<Dim>::Impl {
   Eigen::VectorXd
       resistance;      ///< stiffness of the bodies' own, one per unknown; empty: not yet measured
   double carried = 0;  ///< largest prescribed increment of the last prediction
-  bool beginning = true;  ///< the first step: initial overlaps are let in
-  double round_off = 0;   ///< of internal forces, from that of the coordinates
-  double extent = 0;      ///< of all cells
+  bool beginning = true;        ///< the first step: initial overlaps are let in
+  double round_off = 0;         ///< of internal forces, from that of the coordinates
+  double extent = 0;            ///< of all cells
+  std::function<bool()> asked;  ///< whether iterations are to end
   Step step;
   std::array<bool, 4> enabled{true, true, true, true};
   la::Symmetry symmetry;

@@ -33,6 +33,8 @@ struct PathPosition {
   double until = 1;        ///< the path ends where this fraction is reached
   bool lost = false;       ///< one was given up: no other one in this step
   int increments = 0;      ///< on paths since the step began
+  double mark = 0;         ///< fraction that the path came away from last
+  int since_mark = 0;      ///< increments since then
 };
 
 /// One point of the path.

@@ -76,7 +76,8 @@ bool worth_sticking(const NewtonResult<typename S::State>& attempt) {
 /// Nothing holds a body, or nothing else is left to try.
 template <System S>
 bool worth_resisting(const NewtonResult<typename S::State>& attempt, bool last) {
-  if (!Resists<S> || attempt.outcome == Outcome::converged) return false;
+  if (!Resists<S> || attempt.outcome == Outcome::converged || attempt.outcome == Outcome::stopped)
+    return false;
   return last || attempt.linear == la::SolveStatus::singular;
 }
 
@@ -150,6 +151,7 @@ NewtonResult<typename S::State> attempt_increment(S& system, const typename S::S
     wasted += static_cast<int>(dropped.iterations.size());
   };
   Result attempt = solve_increment(system, committed, target, options, solver, guess);
+  if (attempt.outcome == Outcome::stopped) return attempt;
   if (attempt.outcome != Outcome::converged && attempt.extrapolated) {
     waste(attempt);
     attempt = solve_increment(system, committed, target, options, solver);
@@ -221,6 +223,13 @@ struct StepRun {
     return false;
   }
 
+  /// No more is wanted: the step ends with what has converged. False, for those who return it.
+  bool stop(const NewtonResult<State>& attempt) {
+    result.outcome = attempt.outcome;
+    result.reason = attempt.reason;
+    return false;
+  }
+
   void drop(const NewtonResult<State>& attempt, double target) {
     on_cutback(attempt.reason, position.at, target, attempt.iterations);
     ++cutbacks;
@@ -271,6 +280,7 @@ template <System S>
 bool halve(StepRun<S>& run, NewtonResult<typename S::State>& attempt, double target,
            double smallest) {
   StepPosition& position = run.position;
+  if (attempt.outcome == Outcome::stopped) return run.stop(attempt);
   position.extrapolation.reset();
   run.drop(attempt, target);
   position.size = 0.5 * (target - position.at);
@@ -387,6 +397,17 @@ void leave_path(StepRun<S>& run) {
   position.size = std::min(1 / n, position.size);
 }
 
+/// Whether many increments of a path together have moved the fraction by next to nothing.
+inline bool leads_nowhere(PathPosition& path, double at, double nominal) {
+  constexpr int many = 25;
+  constexpr double nothing = 1e-4;
+  if (std::abs(at - path.mark) > nothing * nominal) {
+    path.mark = at;
+    path.since_mark = 0;
+  }
+  return ++path.since_mark >= many;
+}
+
 /// One increment on the path. False: the step ends here, the path has led nowhere.
 template <System S>
 bool path_increment(StepRun<S>& run) {
@@ -401,6 +422,7 @@ bool path_increment(StepRun<S>& run) {
   const bool ends = found() && point.fraction >= path.until;
   const int iterations = static_cast<int>(point.result.iterations.size());
   if (ends) end_path(run, point);
+  if (point.result.outcome == Outcome::stopped) return run.stop(point.result);
   if (!found()) {
     run.drop(point.result, point.fraction);
     path.length = 0.5 * point.length;
@@ -412,7 +434,8 @@ bool path_increment(StepRun<S>& run) {
   path.length = (iterations <= options.easy_iterations ? 1.5 : 1.0) * point.length;
   position.at = point.fraction;
   ++path.increments;
-  path.lost = !ends && path.increments >= options.max_increments;
+  path.lost = !ends && (path.increments >= options.max_increments ||
+                        leads_nowhere(path, position.at, nominal));
   if (ends || path.lost) leave_path(run);
   return run.accept(point.result, false, true);
 }

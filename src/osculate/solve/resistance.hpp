@@ -38,10 +38,19 @@ concept Softens = requires(S s) {
 
 namespace detail {
 
+/// Systems that are told between two iterations that no more are wanted.
+template <class S>
+concept Interruptible = requires(const S s) {
+  { s.interrupted() } -> std::same_as<bool>;
+};
+
 /// du = -K^-1 R. Returns false and fills the result when the tangent cannot be used.
 template <System S>
 bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd& residual,
                       Eigen::VectorXd& du, NewtonResult<typename S::State>& result) {
+  result.linear = la::SolveStatus::ok;
+  if constexpr (Interruptible<S>)
+    if (system.interrupted()) return fail(result, Outcome::stopped, "stopped by the user");
   la::FactorReport report = factored(system, solver);
   result.precision.condition = std::max(result.precision.condition, report.condition);
   if constexpr (KnowsFreeMotions<S>)

@@ -214,5 +214,38 @@ TEST(Extrapolation, SavesIterationsAndFindsTheSameStates) {
   for (std::size_t i = 0; i < states[0].size(); ++i) EXPECT_NEAR(states[1][i], states[0][i], 1e-9);
 }
 
+/// Is told to end after some of its linear solutions.
+struct Interrupted : ToySystem {
+  int left = 0;
+  mutable int asked = 0;
+  [[nodiscard]] bool interrupted() const { return ++asked > left; }
+};
+
+TEST(Increments, AnInterruptEndsBetweenIterationsWithWhatHasConverged) {
+  Interrupted system{scalar_system([](double x, double t) { return x * x * x + x - 10 * t; },
+                                   [](double x) { return 3 * x * x + 1; }),
+                     14};
+  la::DirectSolver solver;
+  int dropped = 0;
+  const StepResult<ToySystem::State> done = run_step(
+      system, {vector({0})}, 4, {}, solver, [](const auto&, const auto&) { return true; },
+      [&](const auto&, double, double, const auto&) { ++dropped; });
+  EXPECT_EQ(done.outcome, Outcome::stopped);
+  EXPECT_EQ(done.reason, "stopped by the user");
+  EXPECT_EQ(system.asked, 15);
+  EXPECT_EQ(dropped, 0);
+  ASSERT_GE(done.increments.size(), 1u);
+  ASSERT_LE(done.increments.size(), 3u);
+  const double x = done.state.x[0];
+  EXPECT_NEAR(x * x * x + x, 10 * done.increments.back().fraction, 1e-7);
+}
+
+TEST(Increments, APathThatLeadsNowhereIsGivenUp) {
+  PathPosition still, slow;
+  for (int i = 1; i < 25; ++i) EXPECT_FALSE(detail::leads_nowhere(still, 0.5, 0.1)) << i;
+  EXPECT_TRUE(detail::leads_nowhere(still, 0.5, 0.1));
+  for (int i = 1; i < 200; ++i) EXPECT_FALSE(detail::leads_nowhere(slow, 1e-6 * i, 0.1)) << i;
+}
+
 }  // namespace
 }  // namespace osculate::solve
