@@ -427,6 +427,19 @@ class Program(unittest.TestCase):
         self.assertGreater(rows[-1]["disc.uy"], 0.5)
         self.assertEqual(rows[-1]["hit.normal_force"], 0)
 
+    def test_small_strains_of_a_strip_that_turns_are_told_of(self):
+        strip = """osculate: 1
+mesh: {generate: {s: {box: {x: [0, 10], y: [0, 1], elements: [20, 2]}}}}
+materials: {m: {linear_elastic: {E: 1000, nu: 0.3}}}
+sections: [{on: s, material: m, element: plane_strain}]
+rigid: {grip: {set: s.right, reference: [10, 0.5]}}
+steps: [{name: s, increments: 10, prescribe: [{on: s.left, ux: 0, uy: 0}, {on: grip, rz: ANGLE}]}]
+"""
+        for angle, told in (("0.05", False), ("1.5", True)):
+            done = self.run_program("run", self.model(strip.replace("ANGLE", angle)))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual("section 's' is computed with small strains, but has strains" in done.stderr, told)
+
     def test_a_soft_block_tumbles_down_a_slope(self):
         model = os.path.join(SOURCE, "examples", "tumbling_block", "tumbling_block.yaml")
         done = self.run_program("run", model, "-o", self.path("block"))

@@ -22,6 +22,7 @@
 #include "osculate/io/report.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/diagnosis.hpp"
+#include "osculate/model/small_strain.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
 
 namespace osculate::api {
@@ -59,8 +60,9 @@ struct Recorder {
   double seconds = 0;                    ///< spent here
   std::vector<double> curvature_shares;  ///< one per converged increment
   std::vector<nlohmann::json> notes;     ///< one per converged increment
-  std::vector<std::string> warned;       ///< of contact in the last increment
-  std::vector<Penetration> deepest;      ///< of each pair so far
+  std::vector<model::SmallStrain> small_strains;
+  std::vector<std::string> warned;   ///< of contact in the last increment
+  std::vector<Penetration> deepest;  ///< of each pair so far
 
   Recorder(const RunOptions& o, const deck::Description& d, const deck::BasicBuilt<Dim>& b,
            std::string dir, bool append)
@@ -144,6 +146,7 @@ struct Recorder {
       entry.row.push_back(model::history_value(system, built.model, state, request));
     if (record) {
       measure_penetration(system);
+      model::measure_small_strain(built.model, state.u, small_strains);
       entry.deepest = deepest;
       entry.record = *record;
       entry.curvature_share = curvature_share(system, state);
@@ -200,6 +203,11 @@ struct Recorder {
       if (!missed.empty()) say(missed);
     }
     return list;
+  }
+
+  void report_small_strain() {
+    for (const model::SmallStrain& found : small_strains)
+      if (const std::string text = model::left_small_strain(found); !text.empty()) say(text);
   }
 
   /// Names points without contact normal, on the screen when they are others than before.
@@ -336,6 +344,7 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
       summary_json(model, result, done ? "done" : "stopped", {seconds_input, recorder.seconds},
                    recorder.curvature_shares, recorder.notes);
   summary["contact"] = recorder.report_penetration();
+  recorder.report_small_strain();
   recorder.report_chosen(result.steps);
   summary["message"] = outcome.message;
   summary.update(owner_json(recorder.options.model));
