@@ -37,7 +37,7 @@ int run(RunFlags& flags) {
       std::fflush(stderr);
     };
   }
-  flags.options.interrupted = [] { return interrupted.load(); };
+  flags.options.interrupted = flags.options.abandoned = [] { return interrupted.load(); };
   const api::RunOutcome outcome = api::run(flags.options);
   if (flags.json) fmt::print("{}\n", outcome.summary_json);
   if (flags.quiet && outcome.status != api::RunStatus::done)

@@ -381,7 +381,7 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
                                    const solve::IncrementRecord* record) {
     return recorder.converged(system, state, p, record);
   };
-  observer.interrupted = recorder.options.interrupted;
+  observer.interrupted = recorder.options.abandoned;
   observer.cutback = [&recorder](const std::string& reason, const model::Progress& p, double to,
                                  const std::vector<solve::IterationRecord>& iterations) {
     recorder.log_iterations(iterations);

@@ -15,6 +15,8 @@ struct RunOptions {
   std::function<void(std::string_view)> say;       ///< lines for a person (also in log.txt)
   std::function<void(std::string_view)> progress;  ///< one changing line; may be empty
   std::function<bool()> interrupted;               ///< asked between increments; may be empty
+  /// Asked between two iterations; true ends the run without the increment that is under way.
+  std::function<bool()> abandoned{};
 };
 
 enum class RunStatus { done, stopped };

@@ -316,6 +316,20 @@ TEST_F(Run, AnInterruptKeepsWhatConverged) {
   EXPECT_FALSE(files().contains("last_iterate.vtu"));
 }
 
+TEST_F(Run, AnIncrementThatIsAbandonedLeavesTheOnesBefore) {
+  RunOptions o = options();
+  int calls = 0;
+  o.abandoned = [&] { return ++calls > 3; };
+  const RunOutcome outcome = run(o);
+  EXPECT_EQ(outcome.status, RunStatus::stopped);
+  EXPECT_EQ(outcome.message, "stopped by the user");
+  const std::size_t rows = table(read(results / "history.csv")).size();
+  EXPECT_GT(rows, 2u);  // heading and initial state
+  EXPECT_LT(rows, 2 + 5u);
+  EXPECT_EQ(calls, 4);
+  EXPECT_FALSE(files().contains("last_iterate.vtu"));
+}
+
 TEST_F(Run, AnInterruptBeforeTheFirstIncrementStops) {
   RunOptions o = options();
   o.interrupted = [] { return true; };
