@@ -5,8 +5,6 @@
 
 #include "system_test.hpp"
 
-#include "osculate/contact/law/rough.hpp"
-
 namespace osculate::deck {
 namespace {
 
@@ -53,10 +51,11 @@ TEST(Rough, LiftsOffWhileItIsSheared) {
 // Points that are held do not part, and stick however they are pulled.
 TEST(Rough, HeldPointsNeverSlide) {
   const Built held = build_text(sheared("penalty", "normal: {separation: no_separation}, "));
-  EXPECT_TRUE(
-      std::isinf(held.model.pairs[0].definition.friction->as<contact::Rough>()->coefficient));
+  EXPECT_TRUE(std::isinf(
+      contact::predicted_limit(*held.model.pairs[0].definition.friction, 1, -1, {}).value));
   const Built free = build_text(sheared("penalty"));
-  EXPECT_EQ(free.model.pairs[0].definition.friction->as<contact::Rough>()->coefficient, 1e4);
+  EXPECT_EQ(contact::predicted_limit(*free.model.pairs[0].definition.friction, 1, -1, {}).value,
+            1e4);
 }
 
 }  // namespace

@@ -30,6 +30,8 @@ contact::FrictionLaw changing(double mu, double kinetic, ChangeBy by, double sca
       contact::FrictionChange{kinetic, scale, by == ChangeBy::distance ? By::distance : By::speed}};
 }
 
+contact::FrictionLaw rough(double stiffness) { return contact::Rough{stiffness}; }
+
 // A table, hence its length.
 const std::vector<Law>& laws() {
   static const std::vector<Law> all{

@@ -29,6 +29,8 @@ enum class ChangeBy { distance, speed };
 contact::FrictionLaw changing(double mu, double kinetic, ChangeBy by, double scale,
                               double stiffness = 80);
 
+contact::FrictionLaw rough(double stiffness);
+
 /// The pieces of its laws a point is on.
 int piece_of(const Law& law, double gap, double normal_traction, double shear_traction);
 

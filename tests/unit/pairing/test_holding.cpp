@@ -4,7 +4,6 @@
 #include "law_sample.hpp"
 
 #include "osculate/contact/law/normal_exponential.hpp"
-#include "osculate/contact/law/rough.hpp"
 
 namespace osculate::testing {
 namespace {
@@ -82,7 +81,7 @@ TEST(TiedNormal, KeepsTheGapsOfTheStart) {
 
 TEST(Rough, SticksWhileInContactAndForgetsWhenItOpens) {
   Node node;
-  node.pair.friction = contact::Rough{100};
+  node.pair.friction = rough(100);
   node.start(-1e-6);
   EXPECT_NEAR(node.at(3, -1e-6).shear_traction[0], 300, 1e-9);
   EXPECT_EQ(node.last.points[0].status, Status::stick);
@@ -147,7 +146,7 @@ TEST(Offset, MomentsBalance) {
 TEST(NormalLaws, FirstContactIsDatedFromTheirReach) {
   for (const bool exponential : {true, false}) {
     Node node;
-    node.pair.friction = contact::Rough{100};
+    node.pair.friction = rough(100);
     if (exponential)
       node.pair.normal = contact::NormalExponential{5, 0.1};
     else
