@@ -1,12 +1,15 @@
 #include "program.hpp"
 
-#include <fmt/format.h>
+#include <fcntl.h>
+#include <unistd.h>
 
-#include <cstdio>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <new>
 
 #include "osculate/core/error.hpp"
+#include "osculate/core/memory.hpp"
 #include "osculate/io/atomic_file.hpp"
 
 namespace osculate::app {
@@ -28,30 +31,55 @@ std::string program_folder() {
   return error ? std::string(".") : self.parent_path().string();
 }
 
-int guarded(int (*program)(int argc, char** argv), int argc, char** argv) {
-  if (!cpu_supported()) {
-    std::fputs(
-        "osculate: this build needs a CPU with AVX2 and FMA (x86-64-v3); configure with "
-        "-DOSCULATE_BASELINE=ON for older ones\n",
-        stderr);
-    return defect;
-  }
+namespace {
+
+/// A stream that is closed fails when it is written to: no file of the program takes its place, to
+/// be written into by messages. A pipe that is closed is an error of writing, too.
+void prepare_streams() {
+  std::signal(SIGPIPE, SIG_IGN);
+  for (int stream = 0; stream < 3; ++stream)
+    if (::fcntl(stream, F_GETFD) < 0)
+      (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+int after_printing(int code) {
+  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0;
+  if (lost) print(stderr, "stopped: standard output cannot be written\n");
+  return code == done && (lost || std::ferror(stderr) != 0) ? analysis_stopped : code;
+}
+
+int code_of(int (*program)(int argc, char** argv), int argc, char** argv) {
   try {
     return program(argc, argv);
   } catch (const core::InputError& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
+    print(stderr, "error: {}\n", error.what());
     return bad_input;
   } catch (const io::WriteError& error) {
-    fmt::print(stderr, "stopped: {}; what was written before is kept\n", error.what());
+    print(stderr, "stopped: {}; what was written before is kept\n", error.what());
     return analysis_stopped;
-  } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "error: not enough memory for this model\n");
-    return bad_input;
+  } catch (const std::bad_alloc& error) {
+    print(stderr, "stopped: {}; what was written before is kept\n",
+          core::out_of_memory_text(error));
+    std::fflush(stdout);
+    std::_Exit(
+        analysis_stopped);  // the threads of libraries that wait for memory are not waited for
   } catch (const std::exception& error) {
-    fmt::print(stderr, "osculate: internal error, please report it with your input: {}\n",
-               error.what());
+    print(stderr, "osculate: internal error, please report it with your input: {}\n", error.what());
     return defect;
   }
+}
+
+}  // namespace
+
+int guarded(int (*program)(int argc, char** argv), int argc, char** argv) {
+  prepare_streams();
+  if (!cpu_supported()) {
+    print(stderr,
+          "osculate: this build needs a CPU with AVX2 and FMA (x86-64-v3); configure with "
+          "-DOSCULATE_BASELINE=ON for older ones\n");
+    return defect;
+  }
+  return after_printing(code_of(program, argc, argv));
 }
 
 }  // namespace osculate::app

@@ -1,5 +1,9 @@
 #pragma once
+#include <fmt/format.h>
+
+#include <cstdio>
 #include <string>
+#include <utility>
 
 namespace osculate::app {
 
@@ -9,7 +13,15 @@ enum ExitCode { done = 0, check_failed = 1, bad_input = 2, analysis_stopped = 3,
 /// Folder of the program itself.
 [[nodiscard]] std::string program_folder();
 
-/// Runs a program: what it throws becomes one message and an exit code.
+/// Prints. That it could not be is no reason to end what is under way: `guarded` remembers it.
+template <class... T>
+void print(std::FILE* to, fmt::format_string<T...> text, T&&... values) {
+  const std::string all = fmt::format(text, std::forward<T>(values)...);
+  std::fwrite(all.data(), 1, all.size(), to);
+}
+
+/// Runs a program: what it throws becomes one message and an exit code; so does what could not be
+/// printed (pipe closed, disk full), where there is no worse to tell.
 [[nodiscard]] int guarded(int (*program)(int argc, char** argv), int argc, char** argv);
 
 }  // namespace osculate::app

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "../program.hpp"
+#include "osculate/deck/parameters.hpp"
 
 namespace osculate::app {
 
@@ -13,6 +14,11 @@ namespace osculate::app {
 /// Throws core::InputError if one of the outputs (empty: none) is one of the inputs, which may be
 /// FILE:SET, or another output.
 void keep_inputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
+
+/// Adds `--set NAME=VALUE`, which may be given several times.
+void add_settings(CLI::App& command, std::vector<std::string>& texts);
+/// What was given so. Throws core::InputError for what is no NAME=VALUE and for a name given twice.
+[[nodiscard]] std::vector<deck::Setting> settings_of(const std::vector<std::string>& texts);
 
 // One file a command. Each adds its subcommand; the callback stores the exit code.
 void add_run(CLI::App& app, int& exit_code);

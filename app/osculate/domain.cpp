@@ -24,10 +24,10 @@ int domain(const Flags& flags) {
   if (!flags.output.empty()) api::write_domain(flags.output, report.picture);
   if (!flags.page.empty()) io::write_file(flags.page, api::domain_html(report));
   std::FILE* const to = flags.json ? stderr : stdout;
-  fmt::print(to, "{}", api::to_text(report));
+  print(to, "{}", api::to_text(report));
   for (const std::string& file : {flags.output, flags.page})
-    if (!file.empty()) fmt::print(to, "wrote {}\n", file);
-  if (flags.json) fmt::print("{}\n", api::to_json(report));
+    if (!file.empty()) print(to, "wrote {}\n", file);
+  if (flags.json) print(stdout, "{}\n", api::to_json(report));
   return done;
 }
 

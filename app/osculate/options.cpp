@@ -19,6 +19,28 @@ CLI::Validator finite() {
           "", "finite"};
 }
 
+void add_settings(CLI::App& command, std::vector<std::string>& texts) {
+  command
+      .add_option("--set", texts,
+                  "NAME=VALUE: a value of `parameters` of the model file; again for "
+                  "more")
+      ->allow_extra_args(false);
+}
+
+std::vector<deck::Setting> settings_of(const std::vector<std::string>& texts) {
+  std::vector<deck::Setting> settings;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == text.size())
+      throw core::InputError({}, fmt::format("--set: expected NAME=VALUE, got '{}'", text));
+    settings.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    for (std::size_t i = 0; i + 1 < settings.size(); ++i)
+      if (settings[i].name == settings.back().name)
+        throw core::InputError({}, fmt::format("--set: '{}' is given twice", settings[i].name));
+  }
+  return settings;
+}
+
 void keep_inputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
   std::error_code ignored;
   for (std::size_t i = 0; i < outputs.size(); ++i) {

@@ -21,19 +21,19 @@ int project(api::ProjectOptions& options) {
   std::signal(SIGTERM, on_interrupt);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const char* const clear = terminal ? "\r\033[K" : "";
-  options.say = [clear](std::string_view text) { fmt::print(stderr, "{}{}\n", clear, text); };
+  options.say = [clear](std::string_view text) { print(stderr, "{}{}\n", clear, text); };
   if (terminal)
     options.progress = [clear](std::string_view text) {
-      fmt::print(stderr, "{}{}", clear, text);
+      print(stderr, "{}{}", clear, text);
       std::fflush(stderr);
     };
   options.interrupted = [] { return interrupted.load(); };
   try {
     const api::ProjectOutcome outcome = api::project(options);
-    fmt::print(stderr, "{}{}\n", clear, outcome.message);
+    print(stderr, "{}{}\n", clear, outcome.message);
     return outcome.complete ? done : analysis_stopped;
   } catch (const io::WriteError& error) {
-    fmt::print(stderr, "{}stopped: {}\n", clear, error.what());
+    print(stderr, "{}stopped: {}\n", clear, error.what());
     return analysis_stopped;
   }
 }

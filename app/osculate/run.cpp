@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -18,8 +19,16 @@ void on_interrupt(int) {
   if (interrupted.exchange(true)) std::_Exit(analysis_stopped);
 }
 
+/// What fits on one line of the terminal.
+std::size_t line_width() {
+  winsize size{};
+  const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return known ? size.ws_col - 1U : 79U;
+}
+
 struct RunFlags {
   api::RunOptions options;
+  std::vector<std::string> settings;
   bool json = false, quiet = false;
 };
 
@@ -27,21 +36,24 @@ int run(RunFlags& flags) {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of writing
+  flags.options.settings = settings_of(flags.settings);
   const bool terminal = isatty(STDERR_FILENO) != 0;
+  flags.options.with_outlook = terminal;  // lines in a file are for scripts, too
   if (!flags.quiet) {
     flags.options.say = [terminal](std::string_view text) {
-      fmt::print(stderr, "{}{}\n", terminal ? "\r\033[K" : "", text);
+      print(stderr, "{}{}\n", terminal ? "\r\033[K" : "", text);
     };
     flags.options.progress = [terminal](std::string_view text) {
-      fmt::print(stderr, "{}{}{}", terminal ? "\r\033[K" : "", text, terminal ? "" : "\n");
+      if (terminal) text = text.substr(0, line_width());  // a longer one could not be replaced
+      print(stderr, "{}{}{}", terminal ? "\r\033[K" : "", text, terminal ? "" : "\n");
       std::fflush(stderr);
     };
   }
   flags.options.interrupted = flags.options.abandoned = [] { return interrupted.load(); };
   const api::RunOutcome outcome = api::run(flags.options);
-  if (flags.json) fmt::print("{}\n", outcome.summary_json);
+  if (flags.json) print(stdout, "{}\n", outcome.summary_json);
   if (flags.quiet && outcome.status != api::RunStatus::done)
-    fmt::print(stderr, "stopped: {}\n", outcome.message);
+    print(stderr, "stopped: {}\n", outcome.message);
   return outcome.status == api::RunStatus::done ? done : analysis_stopped;
 }
 
@@ -60,6 +72,16 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_flag("--quiet", flags->quiet, "Print nothing but errors");
   command->add_flag("--restart", flags->options.restart,
                     "Go on from the last checkpoint in the result folder");
+  command
+      ->add_option("--max-iterations", flags->options.max_iterations,
+                   "Stop after so many iterations of all increments together (exit code 3)")
+      ->check(CLI::Range(1, 1'000'000'000));
+  command
+      ->add_option("--max-minutes", flags->options.max_minutes,
+                   "Stop after so many minutes, between two iterations (exit code 3)")
+      ->check(finite())
+      ->check(CLI::PositiveNumber);
+  add_settings(*command, flags->settings);
   command->callback([flags, &exit_code] { exit_code = run(*flags); });
 }
 

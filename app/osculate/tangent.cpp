@@ -14,14 +14,16 @@ struct Flags {
   std::string model, folder;
   int threads = 1;
   int state = 0;
+  std::vector<std::string> settings;
   bool json = false;
 };
 
 int tangent(const Flags& flags) {
   const api::TangentReport report = api::check_tangent(
-      flags.model, flags.threads, flags.state, api::result_folder(flags.model, flags.folder));
-  fmt::print(flags.json ? stderr : stdout, "{}", api::to_text(report));
-  if (flags.json) fmt::print("{}\n", api::to_json(report));
+      flags.model, flags.threads, flags.state, api::result_folder(flags.model, flags.folder),
+      settings_of(flags.settings));
+  print(flags.json ? stderr : stdout, "{}", api::to_text(report));
+  if (flags.json) print(stdout, "{}\n", api::to_json(report));
   if (!flags.folder.empty()) {
     const std::string folder = api::choose_folder(flags.model, flags.folder);
     api::open_folder(folder, true);
@@ -46,6 +48,7 @@ void add_tangent(CLI::App& app, int& exit_code) {
   command->add_option("--threads", flags->threads, "Threads for assembly")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--json", flags->json, "Print JSON on stdout");
+  add_settings(*command, flags->settings);
   command->callback([flags, &exit_code] { exit_code = tangent(*flags); });
 }
 

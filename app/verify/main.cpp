@@ -6,8 +6,8 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "../../verification/case.hpp"
@@ -57,19 +57,23 @@ std::vector<const Case*> selected(const std::vector<Case>& all, const VerifyOpti
   return cases;
 }
 
+void create_folder(const std::string& folder) {
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) throw io::WriteError(folder, "cannot create folder", error.value());
+}
+
 void write_curves(const std::string& folder, const Case& c, const CaseResult& result) {
   if (folder.empty()) return;
-  std::filesystem::create_directories(folder);
   for (const Curve& curve : result.curves) {
-    std::ofstream file(folder + "/" + c.name + "." + curve.name + ".csv");
-    file << fmt::format("{}\n", fmt::join(curve.columns, ","));
-    for (const auto& row : curve.rows) file << fmt::format("{:.10g}\n", fmt::join(row, ","));
+    std::string text = fmt::format("{}\n", fmt::join(curve.columns, ","));
+    for (const auto& row : curve.rows) text += fmt::format("{:.10g}\n", fmt::join(row, ","));
+    io::write_file(folder + "/" + c.name + "." + curve.name + ".csv", text);
   }
 }
 
 void write_plots(const std::string& folder, const Case& c, const CaseResult& result) {
   if (folder.empty()) return;
-  std::filesystem::create_directories(folder);
   for (const Picture& picture : result.pictures)
     io::write_file(folder + "/" + c.name + "." + picture.name + ".svg", io::plot_svg(picture.plot));
   for (const Drawing& drawing : result.drawings)
@@ -135,17 +139,21 @@ int verify(const VerifyOptions& options) {
   const std::vector<Case> all = all_cases(folder);
   if (options.list) {
     for (const Case& c : all)
-      fmt::print("{:<28} {}{}\n", c.name, c.requirement, c.slow ? " (--long)" : "");
+      print(stdout, "{:<28} {}{}\n", c.name, c.requirement, c.slow ? " (--long)" : "");
     return done;
   }
   const std::vector<const Case*> cases = selected(all, options);
+  create_folder(options.curves);
+  create_folder(options.plots);
+  std::optional<io::AtomicFile> json;  // what cannot be written is told of before, not after hours
+  if (!options.json.empty()) json.emplace(options.json);
   nlohmann::json out = nlohmann::json::array();
   int passed = 0, failed = 0, shown = 0;
-  const auto print = [&](std::size_t i, const ProcessEnd& end) {
+  const auto take = [&](std::size_t i, const ProcessEnd& end) {
     nlohmann::json said = nlohmann::json::parse(end.said, nullptr, false);
     if (!end.fault.empty() || said.is_discarded())
       said = answer(*cases[i], {{failure("case ended with: " + end.fault)}, {}, {}, {}}, 0);
-    fmt::print("{}", said["text"].get<std::string>());
+    print(stdout, "{}", said["text"].get<std::string>());
     std::fflush(stdout);
     for (nlohmann::json& row : said["rows"]) {
       if (row["relation"] == relation_text(Relation::info))
@@ -157,13 +165,12 @@ int verify(const VerifyOptions& options) {
   };
   run_processes(
       cases.size(), options.jobs,
-      [&](std::size_t i) { return run_case(*cases[i], options, folder).dump(); }, print);
-  if (!options.json.empty()) {
-    std::ofstream file(options.json);
-    file << out.dump(1) << "\n";
-    if (!file) throw core::InputError({}, "cannot write '" + options.json + "'");
+      [&](std::size_t i) { return run_case(*cases[i], options, folder).dump(); }, take);
+  if (json) {
+    json->write(out.dump(1) + "\n");
+    json->commit();
   }
-  fmt::print("verify: {} passed, {} failed, {} info\n", passed, failed, shown);
+  print(stdout, "verify: {} passed, {} failed, {} info\n", passed, failed, shown);
   return failed == 0 ? done : check_failed;
 }
 

@@ -20,8 +20,8 @@ rigid: {floor: {line: {point: [0, 0], normal: [0, 1]}}}
 contact: [{name: c, master: floor, slave: block.bottom, normal: {penalty: 1.0e6},
   friction: {coulomb: {mu: 0.3, penalty: 1.0e6}}}]
 steps:
-  - {name: weight, increments: 2, body_force: [{on: block, bx: SIDE, by: -1}]}
-  - {name: more, increments: 1, body_force: [{on: block, by: -2}]}
+  - {name: weight, increments: 2, body_force: [{on: block, fx: SIDE, fy: -1}]}
+  - {name: more, increments: 1, body_force: [{on: block, fy: -2}]}
 output: {history: [{on: c, of: normal_force}, {on: c, of: shear_force}]}
 """
 
@@ -45,13 +45,13 @@ source: statics
 runs:
   - each: [[{side: 0.1}, {side: 0.2}]]
     model: block.yaml
-    set: {steps.0.body_force.0.bx: "{side}"}
+    set: {steps.0.body_force.0.fx: "{side}"}
     rows:
       - {quantity: "side {side}: weight", of: c.normal_force, step: more, is: 16, within: 1.0e-9}
   - {name: flat, model: block.yaml}
   - name: steep
     model: block.yaml
-    set: {steps.0.body_force: [{on: block, bx: 0.2, by: -1}]}
+    set: {steps.0.body_force: [{on: block, fx: 0.2, fy: -1}]}
     rows: [{quantity: increments, of: increments, at: sum, is: 3}]
   - rows:
       - {quantity: "side that holds it, over the other", run: steep, of: c.shear_force, at: 1,
@@ -244,7 +244,7 @@ class Program(unittest.TestCase):
                 ("within:", "whithin:", "unknown key 'whithin'; did you mean 'within'?"),
                 ("c.normal_force", "c.normal_forc", "did you mean 'normal_force'?"),
                 ("steps.0", "steps.7", "no item '7' in the model"),
-                ("body_force.0.bx", "name.bx", "no key 'bx' in the model"),
+                ("body_force.0.fx", "name.fx", "no key 'fx' in the model"),
                 ("set:", "sett:", "unknown key 'sett'; did you mean 'set'?"),
                 ("at: 1,\n", "less: [[0, 1]],\n", "expected at least 2 values, got 1"),
                 ("model: block", "model: blok", "blok.yaml: cannot be read"),
@@ -272,6 +272,48 @@ class Program(unittest.TestCase):
         with open(self.path("model.results/report.html")) as file:
             self.assertIn("Block on a slope", file.read())
         self.assertEqual(self.run_program("nonsense").returncode, 2)
+
+    def test_keys_as_words_and_a_search_for_what_analysts_call_it(self):
+        whole = self.run_program("doc", "contact.normal.penalty")
+        self.assertEqual(self.run_program("doc", "contact", "normal", "penalty").stdout, whole.stdout)
+        for arguments in (("axisymmetric",), ("--search", "axisymmetric")):
+            found = self.run_program("doc", *arguments)
+            self.assertEqual(found.returncode, 0, found.stderr)
+            self.assertIn("sections[].element: axisymmetric", found.stdout)
+        for word in ("plasticity", "bolt"):
+            self.assertIn(f"'{word}': not available: see `osculate doc limits`", self.run_program("doc", word).stdout)
+        self.assertIn("# What Osculate cannot do", self.run_program("doc", "limits").stdout)
+        self.assertEqual(self.run_program("doc", "xyzzy").returncode, 2)
+        self.assertEqual(self.run_program("doc", "--search", "xyzzy").returncode, 2)
+
+    def test_a_material_that_is_not_there_is_answered_with_those_that_are(self):
+        name = self.model(BLOCK.replace("SIDE", "0").replace("linear_elastic", "plastic"))
+        done = self.run_program("check", name)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("neo_hooke; plasticity and others are not available", done.stderr)
+
+    def test_parameters_are_set_on_the_command_line(self):
+        name = self.model(BLOCK.replace("title:", "parameters: {side: 0.1}\ntitle:").replace("SIDE", "=side"))
+        run = json.loads(self.run_program("run", name, "--json", "--set", "side=0.2").stdout)
+        self.assertEqual(run["parameters"], {"side": "0.2"})
+        check = json.loads(self.run_program("check", "--set", "side=0.25", name, "--json").stdout)
+        self.assertAlmostEqual(check["steps"][0]["total"]["force"][0], 2)
+        self.assertEqual(self.run_program("tangent", name, "--set", "side=0.2").returncode, 0)
+        for wrong, said in (("sid=1", "did you mean 'side'?"), ("side", "expected NAME=VALUE"),
+                            ("side=x", "expected a number, got the text 'x'")):
+            done = self.run_program("check", name, "--set", wrong)
+            self.assertEqual(done.returncode, 2, wrong)
+            self.assertIn(said, done.stderr)
+
+    def test_a_budget_ends_a_run_in_plain_words(self):
+        name = self.model(BLOCK.replace("SIDE", "0.1"))
+        done = self.run_program("run", name, "--max-iterations", "1")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("the 1 iterations that --max-iterations allows are used up; everything that converged is kept",
+                      done.stderr)
+        self.assertNotIn("\r", done.stderr)
+        self.assertEqual(self.run_program("run", name, "--max-minutes", "60").returncode, 0)
+        self.assertEqual(self.run_program("run", name, "--max-minutes", "0").returncode, 2)
 
     def test_a_block_in_space_is_pressed_and_dragged(self):
         name = self.model(SPACE)

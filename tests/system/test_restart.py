@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 import unittest
+import xml.etree.ElementTree
 
 from restart_case import PROGRAM, RestartCase
 
@@ -55,6 +56,12 @@ class Restart(RestartCase):
                 found[name] = file.read()
         return found
 
+    def expect_a_whole_collection(self, out):
+        if not os.path.exists(self.path(out, "results.pvd")):
+            return
+        for frame in xml.etree.ElementTree.parse(self.path(out, "results.pvd")).getroot().iter("DataSet"):
+            self.assertTrue(os.path.exists(self.path(out, frame.get("file"))))
+
     def kill_at_random(self, model, seed, *more):
         self.write(model)
         begun = time.monotonic()
@@ -72,7 +79,9 @@ class Restart(RestartCase):
                     break
                 except subprocess.TimeoutExpired:
                     program.kill()
+                    program.wait()
                     kills += 1
+                    self.expect_a_whole_collection("killed")
         self.assertEqual(program.returncode, 0, message)
         self.assertGreater(kills, 0)
         self.expect_the_same("killed", "whole")
@@ -200,11 +209,11 @@ class Restart(RestartCase):
                 self.run_to_end("r", "--restart")
                 self.expect_the_same("r", "whole")
 
-    def test_a_folder_that_cannot_be_written_to_ends_with_2(self):
+    def test_a_folder_that_cannot_be_written_to_ends_with_3(self):
         self.write(PLANE)
-        done = self.run_to_end("/proc/results", code=2)
+        done = self.run_to_end("/proc/results", code=3)
         self.assertIn("/proc/results", done.stderr)
-        done = self.run_to_end("/proc/self/fd", code=2)
+        done = self.run_to_end("/proc/self/fd", code=2)  # occupied
         self.assertIn("/proc/self/fd", done.stderr)
 
     def test_the_tangent_at_a_converged_increment(self):

@@ -10,7 +10,7 @@ function wanted(report, history) {
   if (report.plots?.length) return report.plots;
   const time = history.names.includes('time') ? 'time' : history.names[0];
   return history.names
-    .filter((name) => !['step', 'increment', 'time', time].includes(name) && !isLedger(name))
+    .filter((name) => !['step', 'increment', 'time', 'fraction', time].includes(name) && !isLedger(name))
     .map((name) => ({ title: name, x: time, y: [name] }));
 }
 

@@ -4,40 +4,18 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "osculate/api/check_facts.hpp"
+#include "osculate/api/initial_gaps.hpp"
 #include "osculate/api/penetration.hpp"
+#include "osculate/api/result_folder.hpp"
 #include "osculate/api/run.hpp"
 #include "osculate/api/summary.hpp"
+#include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/model/bulk.hpp"
 
 namespace osculate::api {
 namespace {
-
-struct GapFacts {
-  int found = 0, touching = 0, overlapping = 0, crossings = 0;
-  double smallest = 0, largest = 0;
-  std::size_t deepest = 0;  ///< point with the smallest gap
-};
-
-template <int Dim>
-GapFacts gap_facts(const pairing::PairState<Dim>& state) {
-  GapFacts facts;
-  for (std::size_t i = 0; i < state.points.size(); ++i) {
-    const contact::PointHistory<Dim>& point = state.points[i];
-    if (point.edge >= 0) {
-      ++facts.crossings;
-      continue;
-    }
-    if (point.facet < 0) continue;
-    const double gap = point.gap + (i < state.overlap.size() ? state.overlap[i] : 0.0);
-    if (!facts.found || gap < facts.smallest) facts.deepest = i;
-    facts.smallest = facts.found ? std::min(facts.smallest, gap) : gap;
-    facts.largest = facts.found ? std::max(facts.largest, gap) : gap;
-    ++facts.found;
-    if (gap == 0) ++facts.touching;
-    if (gap < 0) ++facts.overlapping;
-  }
-  return facts;
-}
 
 std::string gap_line(const std::string& pair, const GapFacts& g, std::size_t points) {
   return fmt::format(
@@ -64,31 +42,29 @@ std::string overlap_line(const model::BasicModel<Dim>& m, const model::BasicCont
                      -g.smallest, mesh::describe_node(m.mesh, node), deep, fate);
 }
 
+/// Gaps, overlaps and crossings of every pair before the first increment.
 template <int Dim>
-CheckReport check_built(const std::string& path, const deck::BasicBuilt<Dim>& built) {
-  const model::BasicModel<Dim>& m = built.model;
-  model::BasicSystem<Dim> system(m, 1);
-  const model::BasicState<Dim> state = system.initial_state();
-  CheckReport report;
-  nlohmann::json facts = nlohmann::json::array(), pairs = nlohmann::json::array();
-  std::string apart;
-  for (const ModelFact& fact : model_facts(built)) {
-    report.text += fmt::format("{:<13} {:<16} {}\n", fact.heading, fact.name, fact.text);
-    facts.push_back({{"heading", fact.heading}, {"name", fact.name}, {"text", fact.text}});
-  }
-  report.text += fmt::format("{:<13} {}\n", "Unknowns", system.dofs().unknowns());
+std::string contact_text(const model::BasicModel<Dim>& m, nlohmann::json& pairs,
+                         std::vector<std::string>& warnings) {
+  std::string text, apart;
+  double rounding = 0;
+  for (const Vec<Dim>& x : m.reference) rounding = std::max(rounding, 1e-14 * x.norm());
   for (std::size_t p = 0; p < m.pairs.size(); ++p) {
-    const GapFacts g = gap_facts<Dim>(state.pairs[p]);
+    const pairing::PairState<Dim> start =
+        pairing::initial_state<Dim>(m.pairs[p].definition, m.reference);
+    const GapFacts g = gap_facts<Dim>(start, rounding);
+    if (std::string deep = deep_overlap(m, m.pairs[p], start); !deep.empty())
+      warnings.push_back(std::move(deep));
     if (g.found == 0 && !m.pairs[p].group.empty())
       apart += fmt::format("{}{}", apart.empty() ? "" : ", ", m.pairs[p].name);
     else
-      report.text += gap_line(m.pairs[p].name, g, m.pairs[p].definition.slave.points.size()) +
-                     overlap_line(m, m.pairs[p], g);
+      text += gap_line(m.pairs[p].name, g, m.pairs[p].definition.slave.points.size()) +
+              overlap_line(m, m.pairs[p], g);
     const pairing::EdgeContact& edges = m.pairs[p].definition.edges;
     if (edges.on)
-      report.text += fmt::format("{:<13} {:<16} {} of the master, {} of the slave, {} crossings\n",
-                                 "Sharp edges", m.pairs[p].name, edges.master.size(),
-                                 edges.slave.size(), g.crossings);
+      text += fmt::format("{:<13} {:<16} {} of the master, {} of the slave, {} crossings\n",
+                          "Sharp edges", m.pairs[p].name, edges.master.size(), edges.slave.size(),
+                          g.crossings);
     pairs.push_back({{"name", m.pairs[p].name},
                      {"points", m.pairs[p].definition.slave.points.size()},
                      {"facing", g.found},
@@ -103,24 +79,57 @@ CheckReport check_built(const std::string& path, const deck::BasicBuilt<Dim>& bu
                                {"crossings", g.crossings}};
   }
   if (!apart.empty())
-    report.text +=
-        fmt::format("{:<13} no node is near the other side: {}\n", "Initial gaps", apart);
-  for (const std::string& warning : built.warnings) report.text += "warning: " + warning + "\n";
+    text += fmt::format("{:<13} no node is near the other side: {}\n", "Initial gaps", apart);
+  return text;
+}
+
+template <int Dim>
+CheckReport check_built(const std::string& path, const deck::Description& description,
+                        const deck::BasicBuilt<Dim>& built) {
+  const model::BasicModel<Dim>& m = built.model;
+  const model::BasicSystem<Dim> system(m, 1);
+  const Index unknowns = system.dofs().unknowns();
+  CheckReport report;
+  nlohmann::json facts = nlohmann::json::array(), pairs = nlohmann::json::array();
+  nlohmann::json more, steps = nlohmann::json::array();
+  report.text += mesh_text(built, more);
+  for (const ModelFact& fact : model_facts(built)) {
+    report.text += fmt::format("{:<13} {:<16} {}\n", fact.heading, fact.name, fact.text);
+    if (fact.heading == "Steps") {
+      nlohmann::json step;
+      report.text += step_text(description, built, steps.size(), step);
+      steps.push_back(std::move(step));
+    }
+    facts.push_back({{"heading", fact.heading}, {"name", fact.name}, {"text", fact.text}});
+  }
+  report.text += support_text(built, more);
+  report.text += fmt::format("{:<13} {}\n", "Unknowns", unknowns);
+  const MemoryNeed memory = memory_need(m, system.symmetry() == la::Symmetry::unsymmetric);
+  if (memory.entries > 0) report.text += fmt::format("{:<13} {}\n", "Memory", memory.text());
+  std::vector<std::string> warnings = built.warnings;
+  report.text += contact_text(m, pairs, warnings);
+  for (const std::string& warning : warnings) report.text += "warning: " + warning + "\n";
   report.text += "the model file is valid\n";
-  report.json = nlohmann::json{{"model", path},
-                               {"facts", facts},
-                               {"contact", pairs},
-                               {"unknowns", system.dofs().unknowns()},
-                               {"warnings", built.warnings}}
-                    .dump(1);
+  more.update({{"model", path},
+               {"facts", facts},
+               {"steps", steps},
+               {"contact", pairs},
+               {"unknowns", unknowns},
+               {"memory",
+                {{"factor_entries", memory.entries},
+                 {"needed", memory.needed},
+                 {"available", memory.available}}},
+               {"warnings", warnings}});
+  report.json = json_text(more, 1);
   return report;
 }
 
 }  // namespace
 
-CheckReport check(const std::string& path) {
-  const deck::AnyBuilt any = deck::build_any_file(path);
-  return std::visit([&](const auto& built) { return check_built(path, built); }, any);
+CheckReport check(const std::string& path, std::span<const deck::Setting> settings) {
+  const deck::Description description = deck::read_model(path, settings);
+  const deck::AnyBuilt any = deck::build_any(description, deck::load_mesh(description));
+  return std::visit([&](const auto& built) { return check_built(path, description, built); }, any);
 }
 
 }  // namespace osculate::api

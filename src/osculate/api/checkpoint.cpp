@@ -145,8 +145,8 @@ void fields(Archive& a, Energies& energies) {
 }
 template <class Archive>
 void fields(Archive& a, StableStep& stable) {
-  auto& [step, since, cell, contact] = stable;
-  a(step, since, cell, contact);
+  auto& [step, since, cell, contact, faithful] = stable;
+  a(step, since, cell, contact, faithful);
 }
 template <class Archive>
 void fields(Archive& a, Rates& rates) {
@@ -181,11 +181,12 @@ namespace fs = std::filesystem;
 
 template <class Archive>
 void fields(Archive& a, RunIdentity& i) {
-  a(i.program, i.source, i.mesh, i.columns);
+  a(i.program, i.source, i.mesh, i.columns, i.processor);
 }
 template <class Archive>
 void fields(Archive& a, Penetration& p) {
-  a(p.deepest, p.share, p.needed, p.node);
+  a(p.deepest, p.share, p.needed, p.node, p.mean, p.stiffening, p.closed, p.least_gap, p.give,
+    p.way_of_give, p.give_share, p.way);
 }
 template <class Archive>
 void fields(Archive& a, JournalEntry& e) {
@@ -198,7 +199,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 5;
+constexpr int version = 6;
 
 template <class... T>
 std::string saved(const T&... values) {
@@ -243,6 +244,15 @@ std::uint32_t checksum_of_start(const std::string& path, std::uint64_t bytes) {
   return io::checksum(text);
 }
 
+/// As the system calls it; empty where it does not say.
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name"))
+      return line.substr(std::min(line.size(), line.find(": ") + 2));
+  return {};
+}
+
 }  // namespace
 
 RunIdentity identity(const deck::Description& description, const mesh::Mesh& mesh,
@@ -260,6 +270,7 @@ RunIdentity identity(const deck::Description& description, const mesh::Mesh& mes
   for (const mesh::Block& block : mesh.blocks) add(block.connectivity);
   id.mesh = sum;
   for (const model::HistoryRequest& request : history) id.columns.push_back(request.name);
+  id.processor = processor_name();
   return id;
 }
 
@@ -375,6 +386,10 @@ Checkpoint<Dim> read_one(const std::string& path, const std::string& folder, con
         {}, fmt::format("the results in '{}' are of another model: {}; only `solver`, `output` and "
                         "`title` may change before a restart",
                         folder, what));
+  if (before.processor != now.processor)
+    found.note = fmt::format(
+        "what is in '{}' was computed on another processor ({}; this is {}): last bits may differ",
+        folder, before.processor, now.processor);
   for (std::size_t i = 1; i < entries.size(); ++i) {
     JournalEntry entry;
     load(chunk_of(entries, i, "entry", journal), entry);

@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct RunIdentity {
   std::vector<deck::SourceLeaf> source;  ///< of the model file
   std::uint64_t mesh = 0;                ///< checksum of nodes and cells
   std::vector<std::string> columns;      ///< of the history
+  std::string processor;                 ///< its name; another one may change the last bits
 };
 [[nodiscard]] RunIdentity identity(const deck::Description& description, const mesh::Mesh& mesh,
                                    const std::vector<model::HistoryRequest>& history);
@@ -26,10 +28,18 @@ struct RunIdentity {
 
 /// How deep the points of a pair have been, so far.
 struct Penetration {
-  double deepest = 0;  ///< length
-  double share = 0;    ///< largest part of the height of the cells behind the point
-  double needed = 0;   ///< penalty with which no point would have missed the target
-  Index node = -1;     ///< of `share`: the nearest one
+  double deepest = 0;     ///< length
+  double share = 0;       ///< largest part of the height of the cells behind the point
+  double needed = 0;      ///< penalty with which no point would have missed the target
+  Index node = -1;        ///< of `share`: the nearest one
+  double mean = 0;        ///< share in the mean over the forces, the largest so far
+  double stiffening = 1;  ///< of the pair's normal penalty, now
+  bool closed = false;    ///< at some time
+  double least_gap = std::numeric_limits<double>::infinity();
+  double give = 0,
+         way_of_give = 0;  ///< largest give of the friction penalty, and the way till then
+  double give_share = 0;   ///< of the height of the cells
+  double way = 0;          ///< slid so far, all points
 };
 
 /// What one converged increment adds to the results (the first entry: the initial state).
@@ -54,6 +64,7 @@ struct Checkpoint {
   std::uint64_t journal_bytes = 0;
   std::uint32_t journal_checksum = 0;
   std::string warning;  ///< not empty: it is the previous one, and why
+  std::string note;     ///< not empty: of what else the user should know
   [[nodiscard]] int increments() const { return static_cast<int>(entries.size()) - 1; }
 };
 

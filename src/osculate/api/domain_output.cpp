@@ -123,22 +123,22 @@ std::string to_json(const DomainReport& r) {
   nlohmann::json classes = nlohmann::json::object(), flat = nlohmann::json::array();
   for (const auto& [name, count] : r.classes) classes[name] = count;
   for (const FlatPlace& f : r.flat) flat.push_back({{"at", place_json(f.at)}, {"form", f.form}});
-  return nlohmann::json{{"surface", r.surface},
-                        {"dimension", r.dimension},
-                        {"size", r.size},
-                        {"pieces", r.pieces},
-                        {"borders", r.borders},
-                        {"places", r.places},
-                        {"classes", classes},
-                        {"planar_points", flat},
-                        {"above", side_json(r.above)},
-                        {"below", side_json(r.below)},
-                        {"convex", kinks_json(r.ridges)},
-                        {"reentrant", kinks_json(r.valleys)},
-                        {"tolerance", r.tolerance},
-                        {"smallest_sine", r.smallest_sine},
-                        {"warnings", r.warnings}}
-      .dump(1);
+  return json_text({{"surface", r.surface},
+                    {"dimension", r.dimension},
+                    {"size", r.size},
+                    {"pieces", r.pieces},
+                    {"borders", r.borders},
+                    {"places", r.places},
+                    {"classes", classes},
+                    {"planar_points", flat},
+                    {"above", side_json(r.above)},
+                    {"below", side_json(r.below)},
+                    {"convex", kinks_json(r.ridges)},
+                    {"reentrant", kinks_json(r.valleys)},
+                    {"tolerance", r.tolerance},
+                    {"smallest_sine", r.smallest_sine},
+                    {"warnings", r.warnings}},
+                   1);
 }
 
 void write_domain(const std::string& path, const DomainPicture& picture) {
@@ -208,7 +208,7 @@ std::string domain_html(const DomainReport& r) {
                             {"model", {{{"heading", "Domain"}, {"rows", rows}}}},
                             {"mesh", mesh},
                             {"frames", {frame}}};
-  return io::report_html(page.dump());
+  return io::report_html(json_text(page));
 }
 
 }  // namespace osculate::api

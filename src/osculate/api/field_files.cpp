@@ -129,6 +129,7 @@ void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
       tensor_field("S", f.stress), tensor_field("E", f.strain), io::scalar_field("Mises", f.mises)};
   const std::string bodies = fmt::format("bodies_{:05d}.vtu", frame_);
   io::write_vtu(folder_ + "/" + bodies, {built_.model.mesh.nodes, bodies_, fields, {}}, compress_);
+  const std::size_t before = entries_.size();
   entries_.push_back({time, "bodies", bodies});
   const auto& contact = system.contact();
   for (std::size_t p = 0; p < built_.model.pairs.size(); ++p) {
@@ -139,7 +140,8 @@ void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
     entries_.push_back({time, built_.model.pairs[p].name, file});
   }
   ++frame_;
-  io::write_pvd(folder_ + "/results.pvd", entries_);
+  if (!pvd_) pvd_.emplace(folder_ + "/results.pvd", std::span(entries_).first(before));
+  pvd_->add(std::span(entries_).subspan(before));
 }
 
 template <int Dim>
@@ -201,12 +203,7 @@ void FieldFiles<Dim>::resume(std::vector<io::PvdEntry> written, std::vector<bool
   frame_ = static_cast<int>(std::count_if(entries_.begin(), entries_.end(),
                                           [](const auto& e) { return e.part == "bodies"; }));
   touched_ = std::move(touched);
-  close();
-}
-
-template <int Dim>
-void FieldFiles<Dim>::close() {
-  if (!entries_.empty()) io::write_pvd(folder_ + "/results.pvd", entries_);
+  if (!entries_.empty()) pvd_.emplace(folder_ + "/results.pvd", entries_);
 }
 
 template class FieldFiles<2>;

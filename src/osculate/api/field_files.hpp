@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,6 @@ class FieldFiles {
   /// vector field `free_motion_1`, ...
   void write_last_iterate(const model::BasicState<Dim>& state,
                           const model::BasicFailure<Dim>& failure);
-  void close();
-
   [[nodiscard]] const std::vector<io::PvdEntry>& written() const { return entries_; }
   [[nodiscard]] const std::vector<bool>& touched() const { return touched_; }
   /// Goes on after these files, of so many frames; removes what was written of later ones.
@@ -36,6 +35,7 @@ class FieldFiles {
   bool compress_;
   int frame_ = 0;
   std::vector<io::PvdEntry> entries_;
+  std::optional<io::PvdFile> pvd_;   ///< from the first frame on
   std::vector<mesh::Block> bodies_;  ///< cells with a section
   std::vector<bool> touched_;        ///< per pair: it is written from its first contact on
 };

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "osculate/api/result_folder.hpp"
 #include "osculate/api/summary.hpp"
 #include "osculate/core/version.hpp"
 
@@ -117,7 +118,7 @@ std::string ReportCollector<Dim>::json(const nlohmann::json& summary) const {
   data["frames"] = frames;
   if (!c.failure.is_null()) data["last_iterate"] = c.failure;
   if (!plots.empty()) data["plots"] = plots;
-  return data.dump();
+  return json_text(data);
 }
 
 template class ReportCollector<2>;

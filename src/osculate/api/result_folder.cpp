@@ -21,6 +21,7 @@
 
 #include "osculate/core/error.hpp"
 #include "osculate/io/atomic_file.hpp"
+#include "osculate/io/utf8.hpp"
 
 namespace osculate::api {
 namespace fs = std::filesystem;
@@ -55,15 +56,29 @@ std::string content_of(const std::string& path) {
   return fmt::format("{:016x}", hash);
 }
 
+/// As JSON can hold it: in a name that is no UTF-8 the bytes that are not ASCII by their numbers.
+std::string json_name(const std::string& name) {
+  if (io::is_plain_text(name)) return name;
+  std::string text;
+  for (const char c : name)
+    text += c >= ' ' && c <= '~' ? std::string(1, c)
+                                 : fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+  return text;
+}
+
+std::string name_of(const std::string& model) {
+  return json_name(fs::path(model).filename().string());
+}
+
 std::string path_of(const std::string& model) {
   std::error_code error;
   const fs::path path = fs::weakly_canonical(model, error);
-  return error ? std::string{} : path.string();
+  return error ? std::string{} : json_name(path.string());
 }
 
 /// Folders of earlier versions say the name alone.
 bool same_model(const Owner& owner, const std::string& model) {
-  if (owner.model != fs::path(model).filename().string()) return false;
+  if (owner.model != name_of(model)) return false;
   return owner.path.empty() || owner.path == path_of(model) ||
          (!owner.content.empty() && owner.content == content_of(model));
 }
@@ -95,8 +110,7 @@ void require_writable(const std::string& folder) {
     fs::remove(probe, ignored);
   } catch (const io::WriteError& error) {
     fs::remove(probe, ignored);
-    throw core::InputError({}, fmt::format("cannot write to folder '{}': {}", folder,
-                                           std::generic_category().message(error.error_number())));
+    throw io::WriteError(folder, "cannot write to this folder", error.error_number());
   }
 }
 
@@ -125,7 +139,7 @@ std::string choose_folder(const std::string& model, const std::string& wanted) {
   if (fs::is_empty(folder, error) || only_parts(folder)) return folder.string();
   const Owner earlier = owner_of(folder);
   if (same_model(earlier, model)) return folder.string();
-  const std::string name = fs::path(model).filename().string();
+  const std::string name = name_of(model);
   if (earlier.model == name)
     throw core::InputError({}, fmt::format("folder '{}' holds the results of another '{}' ({}); "
                                            "name another one with -o",
@@ -150,7 +164,7 @@ bool is_result_file(std::string_view name) {
 }
 
 nlohmann::json owner_json(const std::string& model) {
-  return {{"model", fs::path(model).filename().string()},
+  return {{"model", name_of(model)},
           {"model_path", path_of(model)},
           {"model_content", content_of(model)}};
 }
@@ -160,9 +174,7 @@ namespace {
 void create(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error)
-    throw core::InputError({},
-                           fmt::format("cannot create folder '{}': {}", folder, error.message()));
+  if (error) throw io::WriteError(folder, "cannot create folder", error.value());
   require_writable(folder);
 }
 
@@ -225,11 +237,11 @@ FolderLock::~FolderLock() {
   ::close(file_);
 }
 
-void claim_folder(const std::string& folder, const std::string& model) {
+void claim_folder(const std::string& folder, const nlohmann::json& owner) {
   create(folder);
-  nlohmann::json summary = owner_json(model);
+  nlohmann::json summary = owner;
   summary["status"] = "running";
-  write_text(folder + "/summary.json", summary.dump(1) + "\n");
+  write_text(folder + "/summary.json", json_text(summary, 1) + "\n");
 }
 
 void open_folder(const std::string& folder, bool keep) {
@@ -239,6 +251,10 @@ void open_folder(const std::string& folder, bool keep) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (is_result_file(entry.path().filename().string())) fs::remove(entry.path(), error);
   }
+}
+
+std::string json_text(const nlohmann::json& json, int indent) {
+  return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 void write_text(const std::string& path, const std::string& text) {

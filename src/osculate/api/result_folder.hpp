@@ -32,20 +32,24 @@ class FolderLock {
   int file_ = -1;
 };
 
-/// `model`, `model_path` and `model_content` of summary.json.
+/// `model`, `model_path` and `model_content` of summary.json, as the file is now: to be taken once,
+/// before the file is read.
 [[nodiscard]] nlohmann::json owner_json(const std::string& model);
 
 /// Creates the folder if there is none and says in summary.json whose results these will be. To be
 /// called before anything else: a run that is killed at any later moment leaves a folder that may
 /// be used again. Throws as `open_folder`.
-void claim_folder(const std::string& folder, const std::string& model);
+void claim_folder(const std::string& folder, const nlohmann::json& owner);
 
 /// Whether a file has a name that only runs give: nothing else in a result folder is ever removed.
 [[nodiscard]] bool is_result_file(std::string_view name);
 
 /// Creates the folder, or removes the files of an earlier run (but its summary.json) unless they
-/// are to be kept. Throws core::InputError, with nothing removed, if nothing can be written there.
+/// are to be kept. Throws io::WriteError, with nothing removed, if nothing can be written there.
 void open_folder(const std::string& folder, bool keep = false);
+
+/// JSON as text, whatever file names and messages are in it: what is no UTF-8 becomes U+FFFD.
+[[nodiscard]] std::string json_text(const nlohmann::json& json, int indent = -1);
 
 /// Writes through a temporary file, so that a reader never sees half of it. Throws io::WriteError.
 void write_text(const std::string& path, const std::string& text);

@@ -6,23 +6,26 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "osculate/api/budget.hpp"
 #include "osculate/api/checkpoint.hpp"
 #include "osculate/api/field_files.hpp"
+#include "osculate/api/increment_text.hpp"
 #include "osculate/api/penetration.hpp"
 #include "osculate/api/report_data.hpp"
 #include "osculate/api/result_folder.hpp"
 #include "osculate/api/summary.hpp"
+#include "osculate/api/watch.hpp"
+#include "osculate/core/memory.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/io/csv.hpp"
 #include "osculate/io/report.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/diagnosis.hpp"
-#include "osculate/model/small_strain.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
 
 namespace osculate::api {
@@ -38,21 +41,30 @@ std::vector<std::string> column_names(const std::vector<model::HistoryRequest>& 
   return names;
 }
 
+std::uint64_t size_of(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return error ? 0 : size;
+}
+
 /// Everything a run writes while it goes on.
 template <int Dim>
 struct Recorder {
   const RunOptions& options;
   const deck::Description& description;
   const deck::BasicBuilt<Dim>& built;
+  const nlohmann::json& owner;  ///< whose results these are
   std::string folder;
-  io::HistoryWriter history;
+  std::optional<io::HistoryWriter> history;
   FieldFiles<Dim> fields;
   ReportCollector<Dim> report;
-  std::ofstream log;
+  io::AppendFile log;
   std::optional<CheckpointWriter<Dim>> checkpoints;
   JournalEntry entry{};     ///< of the increment that has just converged
   std::string write_error;  ///< why the run had to stop, if a file could not be written
   bool stopping = false;
+  Budget budget;
+  double resumed = 0;       ///< share of the work that was done before this run
   int converged_count = 0;  ///< increments
   int iterations = 0;
   long time_steps = 0;                   ///< of explicit time integration
@@ -60,26 +72,32 @@ struct Recorder {
   double seconds = 0;                    ///< spent here
   std::vector<double> curvature_shares;  ///< one per converged increment
   std::vector<nlohmann::json> notes;     ///< one per converged increment
-  std::vector<model::SmallStrain> small_strains;
-  std::vector<std::string> warned;   ///< of contact in the last increment
-  std::vector<Penetration> deepest;  ///< of each pair so far
+  Watch<Dim> watch{built.model};
+  std::vector<std::string> warned;  ///< of contact in the last increment
 
   Recorder(const RunOptions& o, const deck::Description& d, const deck::BasicBuilt<Dim>& b,
-           std::string dir, bool append)
+           const nlohmann::json& o_json, std::string dir, Budget limits)
       : options(o),
         description(d),
         built(b),
+        owner(o_json),
         folder(std::move(dir)),
-        history(folder + "/history.csv", column_names(b.history)),
         fields(folder, b, d.output.compress),
         report(b, d),
-        log(folder + "/log.txt", append ? std::ios::app : std::ios::trunc) {}
+        log(folder + "/log.txt", o.restart ? size_of(folder + "/log.txt") : 0),
+        budget(std::move(limits)) {
+    if (!o.restart) history.emplace(folder + "/history.csv", column_names(b.history));
+  }
 
-  /// Everything as it was when the checkpoint was written.
+  /// Everything as it was when the checkpoint was written. Here the files of the earlier run are
+  /// cut, and not before: the analysis stands where it goes on from.
   void resume(const Checkpoint<Dim>& from) {
+    claim_folder(folder, owner);
     std::vector<io::PvdEntry> files;
+    std::vector<io::HistoryRow> rows;
     for (const JournalEntry& e : from.entries) {
-      add_row(e.progress, e.row);
+      rows.push_back(row_of(e.progress, e.row));
+      report_row(e.progress, e.row);
       if (!e.frame.empty()) report.add_frame(nlohmann::json::from_cbor(e.frame));
       files.insert(files.end(), e.files.begin(), e.files.end());
       if (!e.record) continue;
@@ -87,23 +105,41 @@ struct Recorder {
       iterations += static_cast<int>(e.record->iterations.size()) + e.record->wasted_iterations;
       curvature_shares.push_back(e.curvature_share);
       notes.push_back(nlohmann::json::parse(e.note));
-      deepest = e.deepest;
+      watch.deepest = e.deepest;
     }
+    history.emplace(folder + "/history.csv", column_names(built.history), rows);
     const std::vector<char>& touched = from.entries.back().touched;
     fields.resume(std::move(files), {touched.begin(), touched.end()});
     if (description.output.checkpoint > 0) checkpoints.emplace(folder, from);
   }
 
-  void add_row(const model::Progress& p, std::vector<double> values) {
-    history.row(std::to_string(p.step + 1), p.increment, p.time, values);
+  [[nodiscard]] static io::HistoryRow row_of(const model::Progress& p,
+                                             const std::vector<double>& values) {
+    return {std::to_string(p.step + 1), p.increment, p.time, values};
+  }
+
+  void report_row(const model::Progress& p, std::vector<double> values) {
     values.insert(values.begin(),
                   {static_cast<double>(p.step + 1), static_cast<double>(p.increment), p.time});
     report.add_history(values);
   }
 
+  /// A line of log.txt; one that cannot be written ends the run after this increment.
+  void log_line(const std::string& text) {
+    try {
+      log.append(text + "\n");
+    } catch (const io::WriteError& error) {
+      if (write_error.empty()) write_error = error.what();
+    }
+  }
+
   void say(const std::string& text) {
-    log << text << std::endl;
+    log_line(text);
     if (options.say) options.say(text);
+  }
+
+  void say_all(const std::vector<std::string>& texts) {
+    for (const std::string& text : texts) say(text);
   }
 
   [[nodiscard]] std::string step_name(const model::Progress& p) const {
@@ -114,8 +150,7 @@ struct Recorder {
   [[nodiscard]] bool wants_fields(const model::Progress& p) {
     if (description.output.fields == deck::FieldTimes::none) return false;
     const bool end_of_step = p.fraction >= 1.0;
-    if (description.output.fields == deck::FieldTimes::last)
-      return end_of_step && static_cast<std::size_t>(p.step) + 1 == built.model.steps.size();
+    if (description.output.fields == deck::FieldTimes::last) return end_of_step;
     if (p.increment == 0 || end_of_step) return true;
     const model::Step& step = built.model.steps[static_cast<std::size_t>(p.step)];
     if (!step.dynamics || !step.dynamics->time_steps)
@@ -123,6 +158,15 @@ struct Recorder {
     const long nominal = std::lround(p.fraction * step.increments);
     return p.fraction == static_cast<double>(nominal) / step.increments &&
            nominal % description.output.every == 0;
+  }
+
+  [[nodiscard]] double done(const model::Progress& p) const {
+    return share_done(built.model.steps, options.until, p);
+  }
+  void show_progress(const model::Progress& p, const std::string& line) {
+    if (!options.progress) return;
+    const bool plain = !options.with_outlook;
+    options.progress((plain ? "" : outlook(done(p), resumed, budget.seconds())) + line);
   }
 
   bool converged(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
@@ -134,7 +178,8 @@ struct Recorder {
       write_error = error.what();
     }
     seconds += seconds_since(start);
-    stopping = !write_error.empty() || (options.interrupted && options.interrupted());
+    stopping =
+        !write_error.empty() || (options.interrupted && options.interrupted()) || budget.too_late();
     return !stopping;
   }
 
@@ -144,20 +189,24 @@ struct Recorder {
     entry.progress = p;
     for (const model::HistoryRequest& request : built.history)
       entry.row.push_back(model::history_value(system, built.model, state, request));
-    if (record) {
-      measure_penetration(system);
-      model::measure_small_strain(built.model, state.u, small_strains);
-      entry.deepest = deepest;
+    if (!record) {
+      report_memory(system);
+      say_all(watch.begin(system, state));
+    } else {
+      say_all(watch.take(system, state, p, *record));
+      entry.deepest = watch.deepest;
       entry.record = *record;
       entry.curvature_share = curvature_share(system, state);
-      const nlohmann::json note = {{"outside_domain", report_outside_domain(system)}};
+      const nlohmann::json note = {{"outside_domain", report_outside_domain(system)},
+                                   {"time", p.time}};
       entry.note = note.dump();
       curvature_shares.push_back(entry.curvature_share);
       notes.push_back(note);
       report_increment(p, *record);
       ++converged_count;
     }
-    add_row(p, entry.row);
+    history->row(row_of(p, entry.row));
+    report_row(p, entry.row);
     if (!wants_fields(p)) return;
     const std::size_t before = fields.written().size();
     fields.write(system, state, p.time);
@@ -187,27 +236,19 @@ struct Recorder {
     seconds += seconds_since(start);
   }
 
-  void measure_penetration(const model::BasicSystem<Dim>& system) {
-    deepest.resize(built.model.pairs.size());
-    for (std::size_t p = 0; p < deepest.size(); ++p)
-      api::measure_penetration(built.model.pairs[p], system.contact()[p], deepest[p]);
-  }
-
-  /// Penalties used and penetrations reached; says where the target is missed.
-  nlohmann::json report_penetration() {
+  /// Penalties used and penetrations reached.
+  nlohmann::json penetration_reached() {
     nlohmann::json list = nlohmann::json::array();
-    deepest.resize(built.model.pairs.size());
-    for (std::size_t p = 0; p < deepest.size(); ++p) {
-      list.push_back(penetration_json(built.model.pairs[p], deepest[p]));
-      const std::string missed = missed_target(built.model, built.model.pairs[p], deepest[p]);
-      if (!missed.empty()) say(missed);
-    }
+    watch.deepest.resize(built.model.pairs.size());
+    for (std::size_t p = 0; p < watch.deepest.size(); ++p)
+      list.push_back(penetration_json(built.model.pairs[p], watch.deepest[p]));
     return list;
   }
 
-  void report_small_strain() {
-    for (const model::SmallStrain& found : small_strains)
-      if (const std::string text = model::left_small_strain(found); !text.empty()) say(text);
+  void report_memory(const model::BasicSystem<Dim>& system) {
+    const bool unsymmetric = system.symmetry() == la::Symmetry::unsymmetric;
+    const std::string notice = memory_need(built.model, unsymmetric).notice();
+    if (!notice.empty()) say(notice);
   }
 
   /// Names points without contact normal, on the screen when they are others than before.
@@ -223,7 +264,7 @@ struct Recorder {
       if (std::find(warned.begin(), warned.end(), now.back()) == warned.end())
         say(now.back());
       else
-        log << now.back() << "\n";
+        log_line(now.back());
     }
     warned = std::move(now);
     return list;
@@ -245,41 +286,23 @@ struct Recorder {
   void log_iterations(const std::vector<solve::IterationRecord>& records) {
     int number = 0;
     for (const solve::IterationRecord& it : records)
-      log << fmt::format(
-          "  iteration {:>2}: residual {:.1e} energy {:.1e} step {:.3g} open {} stick {} slip {}\n",
+      log_line(fmt::format(
+          "  iteration {:>2}: residual {:.1e} energy {:.1e} step {:.3g} open {} stick {} slip {}",
           ++number, it.residual, it.energy, it.step, it.counts.open, it.counts.stick,
-          it.counts.slip);
+          it.counts.slip));
   }
 
   /// An increment of explicit time integration.
   void report_time_steps(const model::Progress& p, const solve::IncrementRecord& record) {
     const solve::TimeSteps& steps = record.time_steps;
-    const solve::StateCounts& counts = record.iterations.back().counts;
-    const std::string line = fmt::format(
-        "{:<12} {:>4}  time {:<9.5g} {:>6} time steps of {:.3g}  open {} stick {} slip {}",
-        step_name(p), p.increment, p.time, steps.count, steps.longest, counts.open, counts.stick,
-        counts.slip);
-    log << line << "\n";
-    if (options.progress) options.progress(line);
+    const std::string line = time_steps_text(step_name(p), p, record);
+    log_line(line);
+    show_progress(p, line);
     time_steps += steps.count;
     if (steps.governed != governed_by)
       say(fmt::format("the longest stable time step of {:.4g} is estimated from {}", steps.stable,
                       steps.governed));
     governed_by = steps.governed;
-  }
-
-  [[nodiscard]] static std::string time_step_text(const solve::TimeStepTaken& taken) {
-    if (!(taken.length > 0)) return {};
-    return fmt::format("  step {:.3g} error {:.1e}{}", taken.length, taken.error,
-                       taken.refused ? fmt::format(" ({} refused)", taken.refused) : "");
-  }
-
-  /// Digits that were lost.
-  [[nodiscard]] static std::string precision_text(const solve::Precision& precision) {
-    return (precision.condition > 0
-                ? fmt::format("  (condition of the tangent {:.0e})", precision.condition)
-                : std::string{}) +
-           (precision.round_off ? "  (residual at round-off)" : "");
   }
 
   /// Steps whose time steps were chosen by their errors.
@@ -303,26 +326,16 @@ struct Recorder {
       report_time_steps(p, record);
       return;
     }
-    const solve::IterationRecord& last = record.iterations.back();
     iterations += static_cast<int>(record.iterations.size()) + record.wasted_iterations;
-    const std::string line = fmt::format(
-        "{:<12} {:>4}  time {:<9.5g} {:>3} iterations  residual {:.1e}  energy {:.1e}  open {} "
-        "stick {} slip {}{}",
-        step_name(p), p.increment, p.time, record.iterations.size(), last.residual, last.energy,
-        last.counts.open, last.counts.stick, last.counts.slip,
-        (record.cutbacks ? fmt::format("  ({} cut-backs)", record.cutbacks) : std::string{}) +
-            (record.resisted ? "  (free motions resisted on the way)" : "") +
-            (record.on_path ? "  (on the path)" : "") + precision_text(record.precision) +
-            time_step_text(record.time_step));
-    log << line << "\n";
-    if (options.progress) options.progress(line);
+    const std::string line = increment_text(step_name(p), p, record);
+    log_line(line);
+    show_progress(p, line);
   }
 };
 
 template <int Dim>
 void write_results(Recorder<Dim>& recorder, const nlohmann::json& summary) {
-  write_text(recorder.folder + "/summary.json", summary.dump(1) + "\n");
-  recorder.fields.close();
+  write_text(recorder.folder + "/summary.json", json_text(summary, 1) + "\n");
   if (!recorder.description.output.report) return;
   const std::string data = recorder.report.json(summary);
   write_text(recorder.folder + "/report.json", data);
@@ -339,22 +352,30 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
   outcome.message = recorder.write_error.empty()
                         ? result.message
                         : recorder.write_error + "; what was written before is kept";
-  const std::string model = std::filesystem::path(recorder.options.model).filename().string();
+  if (result.outcome == solve::Outcome::stopped && !recorder.budget.used_up().empty())
+    outcome.message = recorder.budget.used_up() + "; everything that converged is kept";
   nlohmann::json summary =
-      summary_json(model, result, done ? "done" : "stopped", {seconds_input, recorder.seconds},
-                   recorder.curvature_shares, recorder.notes);
-  summary["contact"] = recorder.report_penetration();
-  recorder.report_small_strain();
+      summary_json(recorder.owner.at("model"), result, done ? "done" : "stopped",
+                   {seconds_input, recorder.seconds}, recorder.curvature_shares, recorder.notes);
+  for (const deck::Setting& parameter : recorder.description.parameters)
+    summary["parameters"][parameter.name] = parameter.value;
+  summary["contact"] = recorder.penetration_reached();
+  const std::string& until = recorder.options.until;
+  const std::vector<model::Step>& steps = recorder.built.model.steps;
+  const bool all = done && (until.empty() || steps.empty() || until == steps.back().name);
+  const bool free_to_move =
+      result.failure && result.failure->cause == model::FailureCause::free_motion;
+  recorder.say_all(recorder.watch.end(all || free_to_move));
   recorder.report_chosen(result.steps);
   summary["message"] = outcome.message;
-  summary.update(owner_json(recorder.options.model));
+  summary.update(recorder.owner);
   if (result.failure) summary["diagnosis"] = diagnosis_json(recorder.built.model, result);
   try {
     write_results(recorder, summary);
   } catch (const io::WriteError& error) {
     if (recorder.write_error.empty()) throw;  // otherwise it has been said already
   }
-  outcome.summary_json = summary.dump(1);
+  outcome.summary_json = json_text(summary, 1);
   const std::string work = recorder.time_steps > 0 && recorder.iterations == 0
                                ? fmt::format("{} time steps", recorder.time_steps)
                                : fmt::format("{} iterations", recorder.iterations);
@@ -362,6 +383,10 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
                            done ? "done" : "stopped", work, result.seconds, result.unknowns,
                            recorder.folder));
   if (!done) recorder.say(outcome.message);
+  if (done && !recorder.write_error.empty()) {  // the last lines of the log
+    outcome.status = RunStatus::stopped;
+    outcome.message = recorder.write_error;
+  }
   return outcome;
 }
 
@@ -381,7 +406,10 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
                                    const solve::IncrementRecord* record) {
     return recorder.converged(system, state, p, record);
   };
-  observer.interrupted = recorder.options.abandoned;
+  observer.interrupted = [&recorder] {
+    const std::function<bool()>& abandoned = recorder.options.abandoned;
+    return (abandoned && abandoned()) || !recorder.budget.begin_iteration();
+  };
   observer.cutback = [&recorder](const std::string& reason, const model::Progress& p, double to,
                                  const std::vector<solve::IterationRecord>& iterations) {
     recorder.log_iterations(iterations);
@@ -408,7 +436,8 @@ void introduce(Recorder<Dim>& recorder, const RunIdentity& id) {
 template <int Dim>
 void introduce_restart(Recorder<Dim>& recorder, const Checkpoint<Dim>& from) {
   if (!from.warning.empty()) recorder.say("warning: " + from.warning);
-  recorder.resume(from);
+  if (!from.note.empty()) recorder.say(from.note);
+  recorder.resumed = recorder.done(from.point.progress);
   recorder.say(fmt::format("restart after increment {} of step '{}', time {:.5g}",
                            from.point.progress.increment, recorder.step_name(from.point.progress),
                            from.point.progress.time));
@@ -416,7 +445,8 @@ void introduce_restart(Recorder<Dim>& recorder, const Checkpoint<Dim>& from) {
 
 template <int Dim>
 RunOutcome run_built(const RunOptions& options, const deck::Description& description,
-                     deck::BasicBuilt<Dim>& built, std::chrono::steady_clock::time_point start) {
+                     deck::BasicBuilt<Dim>& built, const nlohmann::json& owner,
+                     std::chrono::steady_clock::time_point start) {
   built.options.threads = options.threads;
   built.options.until = options.until;
   check_until(options.until, built.model.steps);
@@ -425,16 +455,25 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
   const RunIdentity id = identity(description, built.model.mesh, built.history);
   std::optional<Checkpoint<Dim>> from;
   if (options.restart) from = read_checkpoint<Dim>(folder, id, built.model, options.model);
-  claim_folder(folder, options.model);
+  if (!from) claim_folder(folder, owner);
   open_folder(folder, options.restart);
   const double seconds_input = seconds_since(start);
-  Recorder<Dim> recorder(options, description, built, folder, options.restart);
+  Recorder<Dim> recorder(options, description, built, owner, folder,
+                         {options.max_iterations, options.max_minutes, start});
   if (from)
     introduce_restart(recorder, *from);
   else
     introduce(recorder, id);
-  const model::BasicAnalysisResult<Dim> result =
-      model::run(built.model, built.options, observe(recorder), from ? &from->point : nullptr);
+  model::BasicAnalysisObserver<Dim> observer = observe(recorder);
+  if (from) observer.resumed = [&] { recorder.resume(*from); };
+  model::BasicAnalysisResult<Dim> result;
+  try {
+    result = model::run(built.model, built.options, observer, from ? &from->point : nullptr);
+  } catch (const std::bad_alloc& error) {
+    if (!recorder.history) throw;  // of the earlier run nothing has been touched
+    result.outcome = solve::Outcome::out_of_memory;
+    result.message = core::out_of_memory_text(error);
+  }
   if (result.failure) {
     recorder.fields.write_last_iterate(result.last_iterate, *result.failure);
     recorder.report.add_failure(result.last_iterate, *result.failure);
@@ -446,10 +485,11 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
 
 RunOutcome run(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  const deck::Description description = deck::read_model(options.model);
+  const nlohmann::json owner = owner_json(options.model);
+  const deck::Description description = deck::read_model(options.model, options.settings);
   deck::AnyBuilt any = deck::build_any(description, deck::load_mesh(description));
-  return std::visit([&](auto& built) { return run_built(options, description, built, start); },
-                    any);
+  return std::visit(
+      [&](auto& built) { return run_built(options, description, built, owner, start); }, any);
 }
 
 void rewrite_report(const std::string& folder) {

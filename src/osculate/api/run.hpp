@@ -1,7 +1,11 @@
 #pragma once
 #include <functional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "osculate/deck/parameters.hpp"
 
 namespace osculate::api {
 
@@ -11,12 +15,16 @@ struct RunOptions {
   std::string folder;  ///< result folder; empty: the model's stem + `.results`
   std::string until;   ///< last step to run, inclusive; empty: all
   int threads = 1;
-  bool restart = false;                            ///< go on from the folder's last checkpoint
+  std::vector<deck::Setting> settings;  ///< parameters of the model file that are set otherwise
+  bool restart = false;                 ///< go on from the folder's last checkpoint
   std::function<void(std::string_view)> say;       ///< lines for a person (also in log.txt)
   std::function<void(std::string_view)> progress;  ///< one changing line; may be empty
   std::function<bool()> interrupted;               ///< asked between increments; may be empty
   /// Asked between two iterations; true ends the run without the increment that is under way.
   std::function<bool()> abandoned{};
+  bool with_outlook = false;  ///< progress begins with the share that is done and the time left
+  int max_iterations = 0;  ///< of all increments together, then the run stops likewise; 0: no limit
+  double max_minutes = 0;  ///< since its beginning; 0: no limit
 };
 
 enum class RunStatus { done, stopped };
@@ -32,15 +40,17 @@ struct RunOutcome {
 /// report.json, report.html, log.txt and checkpoints. Everything converged is kept whatever
 /// happens; where a file cannot be written (disk full) the analysis stops.
 ///
-/// Errors     core::InputError for bad input, a folder that cannot be written to, a checkpoint that
-///            cannot be used: before anything is written or replaced
+/// Errors     core::InputError for bad input or a checkpoint that cannot be used, io::WriteError
+/// for
+///            a folder that cannot be written to: before anything is written or replaced
 [[nodiscard]] RunOutcome run(const RunOptions& options);
 
 /// Text and JSON of `osculate check`: bodies, pairs, unknowns, initial gaps and overlaps, warnings.
 struct CheckReport {
   std::string text, json;
 };
-[[nodiscard]] CheckReport check(const std::string& model);
+[[nodiscard]] CheckReport check(const std::string& model,
+                                std::span<const deck::Setting> settings = {});
 
 /// Writes FOLDER/report.html again from FOLDER/report.json.
 void rewrite_report(const std::string& folder);

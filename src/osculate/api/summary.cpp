@@ -8,8 +8,10 @@
 #include <cmath>
 #include <map>
 
+#include "osculate/core/memory.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/model/factor_estimate.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 #include "osculate/pairing/sampling.hpp"
 
@@ -334,6 +336,29 @@ std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
   return facts;
 }
 
+std::string MemoryNeed::notice() const {
+  constexpr double large = 1e9;
+  if (needed > available) return "warning: memory: " + text();
+  return needed > large ? fmt::format("{:<13} {}", "Memory", text()) : std::string{};
+}
+
+std::string MemoryNeed::text() const {
+  return fmt::format("about {} for the factors of the tangent ({:.2g} entries), {} available",
+                     core::memory_text(needed), entries, core::memory_text(available));
+}
+
+template <int Dim>
+MemoryNeed memory_need(const model::BasicModel<Dim>& model, bool unsymmetric) {
+  if (!model::factors_tangents(model.steps)) return {};
+  MemoryNeed need;
+  need.entries = model::factor_entries(model) * (unsymmetric ? 2 : 1);
+  need.needed = model::factor_bytes(need.entries);
+  need.available = core::memory_available();
+  return need;
+}
+
+template MemoryNeed memory_need(const model::Model&, bool);
+template MemoryNeed memory_need(const model::Model3&, bool);
 template nlohmann::json summary_json(const std::string&, const model::AnalysisResult&,
                                      const std::string&, const RunSeconds&,
                                      const std::vector<double>&,

@@ -35,6 +35,17 @@ struct ModelFact {
 template <int Dim>
 [[nodiscard]] std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built);
 
+/// What the factors of the tangent need, against what the machine has [bytes].
+struct MemoryNeed {
+  double entries = 0;  ///< of the factors; 0: none are needed
+  double needed = 0, available = 0;
+  [[nodiscard]] std::string text() const;
+  /// For a run that begins: a warning where it is more than there is, a line where it is much.
+  [[nodiscard]] std::string notice() const;
+};
+template <int Dim>
+[[nodiscard]] MemoryNeed memory_need(const model::BasicModel<Dim>& model, bool unsymmetric);
+
 /// The time steps of a step that were chosen by their errors.
 struct ChosenTimeSteps {
   int count = 0;  ///< 0: they were not

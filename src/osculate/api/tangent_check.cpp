@@ -10,6 +10,7 @@
 #include <random>
 
 #include "osculate/api/checkpoint.hpp"
+#include "osculate/api/result_folder.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/deck/build.hpp"
 #include "osculate/deck/parse.hpp"
@@ -326,10 +327,11 @@ TangentReport check_tangent(const std::string& path, int threads) {
 }
 
 TangentReport check_tangent(const std::string& path, int threads, int state,
-                            const std::string& folder) {
-  if (state <= 0) return check_tangent(path, threads);
-  const deck::Description description = deck::read_model(path);
+                            const std::string& folder, std::span<const deck::Setting> settings) {
+  const deck::Description description = deck::read_model(path, settings);
   deck::AnyBuilt any = deck::build_any(description, deck::load_mesh(description));
+  if (state <= 0)
+    return std::visit([&](const auto& built) { return check_tangent(built.model, threads); }, any);
   return std::visit(
       [&](auto& built) {
         const RunIdentity id = identity(description, built.model.mesh, built.history);
@@ -364,9 +366,8 @@ std::string to_json(const TangentReport& report) {
          {"skipped", row.skipped},
          {"pass", row.passed()},
          {"note", row.note}});
-  return nlohmann::json{
-      {"open", report.open}, {"stick", report.stick}, {"slip", report.slip}, {"rows", rows}}
-      .dump(1);
+  return json_text(
+      {{"open", report.open}, {"stick", report.stick}, {"slip", report.slip}, {"rows", rows}}, 1);
 }
 
 }  // namespace osculate::api

@@ -1,7 +1,9 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
+#include "osculate/deck/parameters.hpp"
 #include "osculate/model/model.hpp"
 
 namespace osculate::api {
@@ -34,7 +36,8 @@ struct TangentReport {
 ///
 /// Errors     core::InputError also if the analysis has not so many converged increments
 [[nodiscard]] TangentReport check_tangent(const std::string& model, int threads, int state,
-                                          const std::string& folder);
+                                          const std::string& folder,
+                                          std::span<const deck::Setting> settings = {});
 [[nodiscard]] TangentReport check_tangent(const model::Model& model, int threads);
 [[nodiscard]] TangentReport check_tangent(const model::Model3& model, int threads);
 

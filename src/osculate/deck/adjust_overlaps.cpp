@@ -52,6 +52,7 @@ void adjust(BuildContext<Dim>& c, const Contact& contact) {
   pairing::PairDefinition<Dim> pair;
   pair.master = boundary_of(c, contact.master);
   pair.slave = slave_of(c, contact);
+  face_slave(c, contact, contact.master, pair.slave.nodes, pair.master);
   pair.weight = pairing::Weight::node;
   if (contact.search_depth) pair.depth = contact.search_depth->value;
   refuse_rigid(c, contact, pair.slave.nodes);

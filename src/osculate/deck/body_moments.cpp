@@ -163,7 +163,7 @@ EnclosedVolume<Dim> enclosed_volume(const BuildContext<Dim>& c, const Rigid& rig
     return out;
   }
   if (const auto* const set = std::get_if<SetShape>(&rigid.shape))
-    return by_set(c, *set, rigid.flip);
+    return by_set(c, *set, rigid.flip.value_or(false));
   if constexpr (Dim == 2) return by_curves(rigid, body);
   return nothing<Dim>("encloses none");
 }

@@ -121,8 +121,8 @@ void build_history(BuildContext<Dim>& c) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     model::HistoryRequest out;
     out.name = columns[i];
-    const bool of_energy = i < model::energy_quantities.size();
-    out.quantity = of_energy ? model::energy_quantities[i] : model::time_step_quantity;
+    const bool of_energy = i > 0 && i <= model::energy_quantities.size();
+    out.quantity = of_energy ? model::energy_quantities[i - 1] : columns[i];
     out.kind = model::HistoryRequest::Kind::whole;
     c.built.history.push_back(std::move(out));
   }

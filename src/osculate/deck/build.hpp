@@ -10,14 +10,31 @@
 
 namespace osculate::deck {
 
+/// Force, and moment about the origin.
+struct Resultant {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+};
+
+/// What one load of one step adds up to in the undeformed model.
+struct LoadTotal {
+  std::string kind;       ///< key of the step: `pressure`
+  std::string on;         ///< empty: gravity, which acts on all masses
+  std::string values;     ///< `fx 1, fy -3`
+  std::string amplitude;  ///< empty: a ramp
+  bool kept = false;      ///< unchanged since an earlier step
+  Resultant whole;        ///< at the end of the step; with an amplitude where that is 1
+  Resultant end;          ///< at the end of the step
+};
+
 /// Everything a run needs, built from a description and its mesh.
 template <int Dim>
 struct BasicBuilt {
   model::BasicModel<Dim> model;
   model::AnalysisOptions options;
   std::vector<model::HistoryRequest> history;
-  std::vector<std::string> warnings;  ///< plain sentences, shown by `check` and `run`
-  std::vector<std::string> notes;     ///< what was decided for the user, shown there too
+  std::vector<std::vector<LoadTotal>> loads;  ///< of each step
+  std::vector<std::string> warnings;          ///< plain sentences, shown by `check` and `run`
+  std::vector<std::string> notes;             ///< what was decided for the user, shown there too
 };
 
 using Built = BasicBuilt<2>;

@@ -6,7 +6,6 @@
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
-#include "osculate/pairing/sampling.hpp"
 
 namespace osculate::deck {
 
@@ -94,7 +93,7 @@ pairing::Boundary<Dim> boundary_of(const BuildContext<Dim>& c, const Name& name)
   const SetShape* const meshed = rigid ? std::get_if<SetShape>(&rigid->shape) : nullptr;
   if (!rigid || meshed)
     return boundary_from<Dim>(oriented_facets(c, meshed ? meshed->set : name),
-                              rigid && rigid->flip);
+                              rigid && rigid->flip.value_or(false));
   pairing::Boundary<Dim> boundary;
   add_unmeshed(*rigid, body_of(c, name), boundary);
   pairing::connect(boundary);
@@ -278,23 +277,6 @@ void warn_of_smooth(BuildContext<3>& c, const Contact& contact,
   if (pair.edges.slave.empty()) warn("slave", contact.slave);
 }
 
-/// The areas of the nodes of tri6 and quad8 facets are positive, but not those of a uniform
-/// pressure.
-void warn_of_scatter(BuildContext<2>&, const Contact&, const pairing::PairDefinition<2>&) {}
-void warn_of_scatter(BuildContext<3>& c, const Contact& contact,
-                     const pairing::PairDefinition<3>& pair) {
-  if (!pairing::sampled_at_nodes(pair.slave) || pair.mortar) return;
-  for (const pairing::SurfaceFacet& facet : pair.slave.boundary.facets) {
-    if (facet.type != cell::CellType::tri6 && facet.type != cell::CellType::quad8) continue;
-    if (c.model().body_of_node[static_cast<std::size_t>(facet.nodes[0])] >= 0) continue;
-    c.built.warnings.push_back(fmt::format(
-        "contact '{}': the slave '{}' has {} faces, at whose nodes contact pressures scatter; "
-        "prefer sampling: {{gauss: 3}}, hex27 or first-order cells there, or make it the master",
-        contact.name.value, contact.slave.value, cell::info(facet.type).name));
-    return;
-  }
-}
-
 double edge_length_sum(const pairing::Chain& chain, const std::vector<Vec2>& x, int& count) {
   double sum = 0;
   for (const pairing::Facet& f : chain.facets) {
@@ -373,23 +355,6 @@ void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMa
 
 namespace {
 
-pairing::Sampling rule_of(const Sampling& s) {
-  using Rule = pairing::Sampling::Rule;
-  const Rule rule = s.rule == SamplingRule::gauss     ? Rule::gauss
-                    : s.rule == SamplingRule::lobatto ? Rule::lobatto
-                                                      : Rule::nodes;
-  return {rule, s.points, s.subdomains};
-}
-
-template <int Dim>
-void set_points(const Contact& contact, pairing::SlaveSide<Dim>& slave) {
-  try {
-    pairing::sample(slave, rule_of(contact.sampling.value));
-  } catch (const core::GeometryError& error) {
-    throw core::InputError(contact.sampling.mark, error.what());
-  }
-}
-
 template <int Dim>
 void add_sampled(BuildContext<Dim>& c, const Contact& contact, model::BasicContactPair<Dim> out) {
   out.definition.mortar = contact.sampling.value.rule == SamplingRule::mortar;
@@ -400,8 +365,7 @@ void add_sampled(BuildContext<Dim>& c, const Contact& contact, model::BasicConta
           fmt::format("'{}' is an analytic shape: mortar takes sides with nodes, and other "
                       "samplings any master",
                       contact.master.value));
-  set_points(contact, out.definition.slave);
-  warn_of_scatter(c, contact, out.definition);
+  set_points(c, contact, out.definition);
   add_pair(c, contact, contact.slave.mark, std::move(out));
 }
 
@@ -449,6 +413,7 @@ void build_contact(BuildContext<Dim>& c) {
     else
       pair.slave = slave_of(c, contact);
     check_pair(c, contact, pair);
+    if (!pair.scope.own) face_slave(c, contact, contact.master, pair.slave.nodes, pair.master);
     if (!contact.two_pass) {
       smooth_master(c, contact, pair);
       add_sampled(c, contact, std::move(out));

@@ -180,7 +180,6 @@ model::BasicContactPair<Dim> pair_of(const Body<Dim>& a, const Body<Dim>& b,
 template <int Dim>
 bool has_second_pass(const Body<Dim>& a, const Body<Dim>& b, const Contact& contact) {
   return &a != &b && !a.rigid && !b.rigid && !contact.edges &&
-         contact.sampling.value.rule == SamplingRule::nodes &&
          contact.enforcement.value.kind != EnforcementWord::lagrange_multiplier;
 }
 
@@ -188,6 +187,9 @@ template <int Dim>
 void add_pairs(BuildContext<Dim>& c, const Contact& contact, const Body<Dim>& a,
                const Body<Dim>& b) {
   model::BasicContactPair<Dim> first = pair_of(a, b, contact);
+  if (b.rigid)
+    face_slave(c, contact, {b.label, contact.name.mark}, first.definition.slave.nodes,
+               first.definition.master);
   if (!has_second_pass(a, b, contact))
     return add_pair(c, contact, contact.name.mark, std::move(first));
   const bool first_is_master = roles(a, b).first_is_master;

@@ -13,9 +13,25 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] pairing::Boundary<Dim> boundary_of(const BuildContext<Dim>& c, const Name& name);
 
+/// Turns the connected parts of a meshed master that have no cells behind them, and no `flip` of
+/// their own, to the side where the slave starts: where the cells behind its nodes are, seen from
+/// the nearest place of the part. Says so, and where there are slaves on both sides.
+///
+/// Tested by  tests/unit/deck/test_rigid_side.cpp
+template <int Dim>
+void face_slave(BuildContext<Dim>& c, const Contact& contact, const Name& master,
+                const std::vector<Index>& slave_nodes, pairing::Boundary<Dim>& boundary);
+
 /// Refuses choices that do not go together: what needs nodes as contact points, or one slave, or a
 /// penalty. Throws core::InputError.
 void check_axes(const Contact& contact);
+
+/// Sets the contact points of the slave as `sampling` says, and warns of nodes that are no good
+/// ones.
+///
+/// Tested by  tests/unit/deck/test_sampling.cpp
+template <int Dim>
+void set_points(BuildContext<Dim>& c, const Contact& contact, pairing::PairDefinition<Dim>& pair);
 
 /// The slave that a pair names: facets, or points.
 template <int Dim>

@@ -55,7 +55,7 @@ void add_polyline(BuildContext<2>& c, const Rigid& rigid, Index index, model::Ri
   const auto* const s = std::get_if<PolylineShape>(&rigid.shape);
   if (!s) return;
   body.polyline = s->points.value;
-  if (rigid.flip) std::reverse(body.polyline.begin(), body.polyline.end());
+  if (rigid.flip.value_or(false)) std::reverse(body.polyline.begin(), body.polyline.end());
   for (const Vec2& p : body.polyline) body.nodes.push_back(add_node<2>(c.model(), p, index));
 }
 
@@ -64,7 +64,7 @@ void add_polyline(BuildContext<2>& c, const Rigid& rigid, Index index, model::Ri
 void add_composite(BuildContext<2>& c, const Rigid& rigid, Index index, model::RigidBody& body) {
   const auto* const s = std::get_if<CompositeShape>(&rigid.shape);
   if (!s) return;
-  body.parts = composite_curves(*s, rigid.flip);
+  body.parts = composite_curves(*s, rigid.flip.value_or(false));
   body.closed = s->closed;
   add_frame_nodes(c, index, body);
   std::vector<Vec2> ends;
@@ -96,7 +96,8 @@ model::BasicRigidBody<Dim> rigid_body(BuildContext<Dim>& c, const Rigid& rigid, 
   if constexpr (Dim == 2) add_polyline(c, rigid, index, body);
   body.reference = centroid(c.model(), body.nodes);
   if constexpr (Dim == 2) add_composite(c, rigid, index, body);
-  if (const std::optional<Analytic<Dim>> analytic = analytic_shape<Dim>(rigid.shape, rigid.flip)) {
+  if (const std::optional<Analytic<Dim>> analytic =
+          analytic_shape<Dim>(rigid.shape, rigid.flip.value_or(false))) {
     add_frame(c, rigid, index, analytic->shape, body);
     body.reference = analytic->center;
   }

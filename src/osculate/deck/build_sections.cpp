@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "osculate/deck/build_context.hpp"
+#include "osculate/mesh/shell_cells.hpp"
 #include "osculate/mesh/shell_direction.hpp"
 #include "osculate/model/bulk.hpp"
 
@@ -114,8 +115,9 @@ void check_cell(const BuildContext<Dim>& c, const Section& s,
   if (!reason.empty() && s.element.value == SectionElement::solid_shell)
     throw core::InputError(
         s.element.mark,
-        fmt::format("set '{}' has {} cells: solid_shell is for hex8 and shell18 cells; use solid",
-                    s.on.value, cell::info(type).name));
+        fmt::format(
+            "set '{}' has {} cells: solid_shell is for hex8, shell18 and hex27 cells; use solid",
+            s.on.value, cell::info(type).name));
   if (!reason.empty())
     throw core::InputError(s.formulation.mark, fmt::format("set '{}' has {} cells: {}", s.on.value,
                                                            cell::info(type).name, reason));
@@ -171,6 +173,11 @@ void add_cell(BuildContext<Dim>& c, const Section& s, const model::BasicBulkSect
 template <int Dim>
 void build_sections(BuildContext<Dim>& c) {
   model::BasicModel<Dim>& m = c.model();
+  for (const Section& s : c.description.sections) {
+    if (s.element.value != SectionElement::solid_shell) continue;
+    if (const std::string why = mesh::make_shell18(m.mesh, c.set(s.on).cells); !why.empty())
+      throw core::InputError(s.element.mark, fmt::format("set '{}': {}", s.on.value, why));
+  }
   c.section_of_node.assign(m.mesh.nodes.size(), -1);
   for (const Section& s : c.description.sections) {
     const mesh::Set& set = c.set(s.on);

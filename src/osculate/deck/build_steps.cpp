@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "osculate/deck/build_context.hpp"
+#include "osculate/deck/load_totals.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
@@ -36,12 +36,14 @@ struct Channel {
   double value = 0;  ///< at the end of the last step
   std::vector<std::pair<Dof, double>> unit;
   std::vector<model::PressureLoad::Facet> facets;
+  Resultant resultant;  ///< of the value 1
 };
 
 /// What is in force from step to step.
 struct Running {
   std::map<Dof, core::SourceMark> prescribed;
   std::map<ChannelKey, Channel> channels;
+  std::optional<Masses> masses;  ///< where there is gravity
 };
 
 template <int Dim>
@@ -112,6 +114,26 @@ void check_agreement(const Prescription& first, const Prescription& second, std:
                                        first.on.value, second.on.value, component_names[i]));
 }
 
+/// A length in other units than the mesh, most likely.
+template <int Dim>
+void warn_of_far(const BuildContext<Dim>& c, const deck::Step& step, const Prescription& p,
+                 std::size_t component) {
+  constexpr double far = 10;
+  if (component >= 3 || c.model().mesh.nodes.empty()) return;
+  Vec3 low = c.model().mesh.nodes.front(), high = low;
+  for (const Vec3& x : c.model().mesh.nodes) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  const double size = (high - low).norm(), way = std::abs(p.values[component]->value);
+  if (!(size > 0) || !(way > far * size)) return;
+  c.built.warnings.push_back(fmt::format(
+      "step '{}' moves '{}' by {} = {:g}, {:.2g} times the size of the mesh ({:.3g}): is it in the "
+      "units of the mesh?",
+      step.name.value, p.on.value, component_names[component], p.values[component]->value,
+      way / size, size));
+}
+
 template <int Dim>
 void apply_prescriptions(const BuildContext<Dim>& c, const deck::Step& step, Running& running,
                          model::Step& out) {
@@ -123,6 +145,7 @@ void apply_prescriptions(const BuildContext<Dim>& c, const deck::Step& step, Run
     for (std::size_t i = 0; i < component_count; ++i) {
       const std::optional<Number>& value = p.values[i];
       if (!value) continue;
+      warn_of_far(c, step, p, i);
       for (const Dof d : displacement_dofs(c, p.on, static_cast<Component>(i), Idle::left_out)) {
         if (eliminated.contains(d))
           throw core::InputError(
@@ -222,25 +245,86 @@ std::vector<std::pair<Dof, double>> body_force_unit(const BuildContext<Dim>& c, 
   return unit;
 }
 
-enum Kind { force, traction, body_force, pressure };
+/// Shares of the nodes of a set in one force on all of it: by area, by volume, or equal ones.
+template <int Dim>
+std::vector<std::pair<Dof, double>> total_force_unit(const BuildContext<Dim>& c, const Load& load,
+                                                     int direction) {
+  const mesh::Set& set = c.set(load.on);
+  std::vector<std::pair<Dof, double>> unit;
+  if (set.dimension == Dim - 1 && !set.cells.empty())
+    unit = traction_unit(c, load, direction);
+  else if (set.dimension == Dim && !set.cells.empty())
+    unit = body_force_unit(c, load, direction);
+  else
+    unit = force_unit(c, load, static_cast<Component>(direction));
+  double sum = 0;
+  for (const auto& entry : unit) sum += entry.second;
+  for (auto& entry : unit) entry.second /= sum;
+  return unit;
+}
+
+enum Kind { force, total_force, traction, body_force, pressure };
+constexpr int kind_count = 5;
+
+struct KindWords {
+  const char* key;
+  std::array<const char*, component_count> components;
+};
+constexpr std::array<KindWords, kind_count> kind_words{
+    {{"forces", {"fx", "fy", "fz", "mx", "my", "mz"}},
+     {"total_force", {"fx", "fy", "fz"}},
+     {"traction", {"tx", "ty", "tz"}},
+     {"body_force", {"fx", "fy", "fz"}},
+     {"pressure", {"value"}}}};
 
 template <int Dim>
 Channel new_channel(const BuildContext<Dim>& c, int kind, const Load& load, int i) {
   Channel channel;
   if (kind == force) channel.unit = force_unit(c, load, static_cast<Component>(i));
+  if (kind == total_force) channel.unit = total_force_unit(c, load, i);
   if (kind == traction) channel.unit = traction_unit(c, load, i);
   if (kind == body_force) channel.unit = body_force_unit(c, load, i);
   if (kind == pressure) channel.facets = loaded_sides(c, load.on);
+  channel.resultant = channel.facets.empty() ? resultant(c.model(), channel.unit)
+                                             : resultant(c.model(), channel.facets);
   return channel;
+}
+
+/// A load as the step gives it.
+struct Given {
+  model::Ramp ramp;
+  std::string amplitude;
+};
+
+void add_times(Resultant& sum, double factor, const Resultant& part) {
+  sum.force += factor * part.force;
+  sum.moment += factor * part.moment;
+}
+
+/// Components of one load follow each other. `given` is nullptr where an earlier step's load stays.
+void add_total(const ChannelKey& key, const Channel& channel, const Given* given,
+               std::vector<LoadTotal>& out) {
+  if (!given && channel.value == 0) return;
+  const KindWords& words = kind_words[static_cast<std::size_t>(key.kind)];
+  const std::string amplitude = given ? given->amplitude : std::string{};
+  const bool same = !out.empty() && out.back().kind == words.key && out.back().on == key.on &&
+                    out.back().amplitude == amplitude && out.back().kept == !given;
+  if (!same) out.push_back({words.key, key.on, {}, amplitude, !given, {}, {}});
+  LoadTotal& total = out.back();
+  const double value = given ? given->ramp.target : channel.value;
+  total.values += fmt::format("{}{} {:g}", same ? ", " : "",
+                              words.components[static_cast<std::size_t>(key.component)], value);
+  add_times(total.whole, value, channel.resultant);
+  add_times(total.end, given ? given->ramp.value(1.0) : value, channel.resultant);
 }
 
 template <int Dim>
 void apply_loads(const BuildContext<Dim>& c, const deck::Step& step, Running& running,
                  model::Step& out) {
-  std::map<ChannelKey, model::Ramp> ramps;
-  const std::array<const std::vector<Load>*, 4> kinds{&step.forces, &step.traction,
-                                                      &step.body_force, &step.pressure};
-  for (int kind = 0; kind < 4; ++kind)
+  std::map<ChannelKey, Given> givens;
+  const std::array<const std::vector<Load>*, kind_count> kinds{
+      &step.forces, &step.total_force, &step.traction, &step.body_force, &step.pressure};
+  for (int kind = 0; kind < kind_count; ++kind)
     for (const Load& load : *kinds[static_cast<std::size_t>(kind)])
       for (int i = 0; i < static_cast<int>(component_count); ++i) {
         const std::optional<Number>& value = load.values[static_cast<std::size_t>(i)];
@@ -251,19 +335,38 @@ void apply_loads(const BuildContext<Dim>& c, const deck::Step& step, Running& ru
         if (kind == force && c.rigid_index.contains(load.on.value))
           running.prescribed.erase(
               body_dof(c.model(), c.rigid_index.at(load.on.value), static_cast<Component>(i)));
-        ramps[key] = {running.channels[key].value, value->value, amplitude_of(c, load.amplitude)};
+        givens[key] = {{running.channels[key].value, value->value, amplitude_of(c, load.amplitude)},
+                       load.amplitude ? load.amplitude->value : std::string{}};
       }
   for (auto& entry : running.channels) {
     Channel& channel = entry.second;
-    const auto ramp = ramps.find(entry.first);
+    const auto given = givens.find(entry.first);
+    add_total(entry.first, channel, given != givens.end() ? &given->second : nullptr,
+              c.built.loads.back());
     const model::Ramp r =
-        ramp != ramps.end() ? ramp->second : model::Ramp{channel.value, channel.value, {}};
+        given != givens.end() ? given->second.ramp : model::Ramp{channel.value, channel.value, {}};
     if (channel.facets.empty())
       out.dead.push_back({channel.unit, r});
     else
       out.pressure.push_back({channel.facets, r});
     channel.value = r.value(1.0);
   }
+}
+
+/// The weight of all masses, where there is gravity.
+template <int Dim>
+void add_weight(const BuildContext<Dim>& c, const deck::Step& step, const model::Step& built,
+                Running& running) {
+  if (built.gravity.empty()) return;
+  if (!running.masses) running.masses = masses(c.model());
+  Vec3 gravity = Vec3::Zero();
+  std::string values;
+  for (std::size_t i = 0; i < built.gravity.size(); ++i) {
+    gravity[static_cast<Eigen::Index>(i)] = built.gravity[i].target;
+    values += fmt::format("{}{:g}", i ? ", " : "", built.gravity[i].target);
+  }
+  const Resultant all = weight(*running.masses, gravity);
+  c.built.loads.back().push_back({"gravity", {}, values, {}, !step.gravity, all, all});
 }
 
 }  // namespace
@@ -298,6 +401,8 @@ void build_steps(BuildContext<Dim>& c) {
     first = false;
     build_dynamics(c, step, gravity, out);
     apply_releases(c, step, running);
+    c.built.loads.emplace_back();
+    add_weight(c, step, out, running);
     apply_loads(c, step, running, out);  // forces on a rigid body free its dof
     apply_prescriptions(c, step, running, out);
     c.model().steps.push_back(std::move(out));

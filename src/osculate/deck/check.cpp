@@ -50,16 +50,17 @@ SourceNode fallback_node(const Spec& spec, int line) {
   return node;
 }
 
-void check_group(const Group& group, const SourceNode& node, const Place& place) {
+void check_group(const Spec& spec, const Group& group, const SourceNode& node, const Place& place) {
   std::vector<std::string> given;
   for (const SourceEntry& entry : node.entries)
-    if (std::find(group.keys.begin(), group.keys.end(), entry.key) != group.keys.end())
+    if (const Key* const key = find_key(spec, entry.key);
+        std::find(group.keys.begin(), group.keys.end(), key->name) != group.keys.end())
       given.push_back(entry.key);
   const bool one = group.rule == Group::Rule::exactly_one;
   if (given.empty())
-    throw core::InputError(
-        place.at(node.line),
-        fmt::format("needs {} of {}", one ? "one" : "at least one", core::join(group.keys)));
+    throw core::InputError(place.at(node.line),
+                           fmt::format("needs {} of {}{}", one ? "one" : "at least one",
+                                       core::join(group.keys), spec.hint));
   if (one && given.size() > 1)
     throw core::InputError(place.at(node.line),
                            fmt::format("'{}' and '{}' exclude each other", given[0], given[1]));
@@ -85,12 +86,16 @@ void check_map(const Spec& spec, const SourceNode& node, const Place& place, Val
     if (!key)
       throw core::InputError(
           place.at(entry.line),
-          core::unknown_name_message("key", printable(entry.key), key_names(spec)));
+          core::unknown_name_message("key", printable(entry.key), key_names(spec)) + spec.hint);
     const Place at = place.key(entry.key);
     if (!key->spec.available) throw core::InputError(at.at(entry.line), "is not available yet");
-    value.entries.push_back({entry.key, at.at(entry.line), check_node(key->spec, entry.value, at)});
+    if (!key->former.empty() && value.find(key->name))
+      throw core::InputError(
+          at.at(entry.line),
+          fmt::format("is given as '{}' too", entry.key == key->former ? key->name : key->former));
+    value.entries.push_back({key->name, at.at(entry.line), check_node(key->spec, entry.value, at)});
   }
-  for (const Group& group : spec.groups) check_group(group, node, place);
+  for (const Group& group : spec.groups) check_group(spec, group, node, place);
   add_defaults(spec, node, place, value);
 }
 

@@ -51,7 +51,7 @@ void check_enforcement(const Contact& contact, bool own) {
     refuse(contact.enforcement.mark,
            "with both sides as slaves there are more unknown tractions than nodes that could "
            "carry them: use penalty or augmented_lagrange");
-  if (rule != SamplingRule::nodes && rule != SamplingRule::mortar)
+  if (rule == SamplingRule::gauss || rule == SamplingRule::lobatto)
     refuse(contact.enforcement.mark,
            "facets have more quadrature points than nodes, so their tractions cannot all be "
            "unknown: use sampling: nodes or mortar, or augmented_lagrange");
@@ -67,7 +67,8 @@ void check_enforcement(const Contact& contact, bool own) {
 
 void check_axes(const Contact& contact) {
   const bool own = contact.all || contact.master.value == contact.slave.value;
-  if (contact.sampling.value.rule != SamplingRule::nodes) {
+  const SamplingRule rule = contact.sampling.value.rule;
+  if (rule != SamplingRule::nodes && rule != SamplingRule::automatic) {
     if (own)
       throw core::InputError(contact.sampling.mark,
                              "contact of a surface with itself is sampled at nodes only");

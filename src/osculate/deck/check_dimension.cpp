@@ -111,8 +111,9 @@ void check_planar_step(const Step& step) {
     for (std::size_t i = 0; i < component_count; ++i)
       if (r.of[i]) refuse(static_cast<Component>(i), r.mark);
   refuse_loads(step.forces, {"fx", "fy", "fz", "mx", "my", "mz"});
+  refuse_loads(step.total_force, {"fx", "fy", "fz"});
   refuse_loads(step.traction, {"tx", "ty", "tz"});
-  refuse_loads(step.body_force, {"bx", "by", "bz"});
+  refuse_loads(step.body_force, {"fx", "fy", "fz"});
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "osculate/cell/cell_type.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/types.hpp"
+#include "osculate/deck/parameters.hpp"
 #include "osculate/deck/source_tree.hpp"
 #include "osculate/geometry/catalogue.hpp"
 #include "osculate/geometry/nurbs_patch.hpp"
@@ -56,6 +57,13 @@ struct Box {
   [[nodiscard]] bool solid() const { return !breakpoints[2].value.empty(); }
 };
 
+/// A ring or hollow cylinder: a box of radius, angle [degrees] and, in space, height.
+struct Ring {
+  Box box;
+  Vec3 center{0, 0, 0};
+  int along = 2;  ///< axis of coordinates that it is along
+};
+
 /// A line mesh along straight intervals.
 struct LineMesh {
   Marked<std::vector<Vec2>> points;  ///< consecutive ones differ
@@ -65,7 +73,8 @@ struct LineMesh {
 
 struct GeneratedPart {
   Name name;
-  std::variant<Box, LineMesh, mesh::GridSpec, mesh::TubeSpec, mesh::SphereSpec, mesh::BallSpec>
+  std::variant<Box, Ring, LineMesh, mesh::GridSpec, mesh::TubeSpec, mesh::SphereSpec,
+               mesh::BallSpec>
       shape;
 };
 
@@ -74,6 +83,15 @@ struct MeshSource {
   std::optional<Name> file;              ///< as written
   std::string path;                      ///< `file`, relative to the folder of the model file
   std::vector<GeneratedPart> generated;  ///< empty when `file` is given
+};
+
+/// A set made of other sets: of the mesh, or defined before it.
+struct SetDefinition {
+  Name name;
+  std::vector<Name> all_of;   ///< union; or
+  std::optional<Name> of;     ///< what is in this set
+  std::vector<Name> within;   ///< and in these,
+  std::vector<Name> without;  ///< but not in these
 };
 
 // ---- bodies -----------------------------------------------------------------------------------
@@ -147,7 +165,7 @@ struct Rigid {
   /// Two coordinates in the plane, three in space; absent: centroid of the set, centre of the
   /// shape.
   std::optional<Marked<std::vector<double>>> reference;
-  bool flip = false;  ///< the body is on the other side
+  std::optional<bool> flip;  ///< the body is on the other side; absent: where it belongs
   std::optional<Number> mass;
   std::optional<Number> density;  ///< instead of the mass; in the plane mass per area
   std::optional<Marked<std::vector<double>>> inertia;  ///< 1, 3 or 6 numbers
@@ -156,7 +174,7 @@ struct Rigid {
 
 // ---- contact ----------------------------------------------------------------------------------
 
-enum class SamplingRule { nodes, gauss, lobatto, mortar };
+enum class SamplingRule { automatic, nodes, gauss, lobatto, mortar };
 enum class EnforcementWord { penalty, augmented_lagrange, lagrange_multiplier };
 enum class AugmentLoop { uzawa, single };
 enum class ContactWeight { node, reference_area, current_area };
@@ -292,7 +310,7 @@ struct Release {
   std::array<bool, component_count> of{};
 };
 /// A load on a set; how many of `values` are used depends on the kind of load: forces fx fy fz mx
-/// my mz (like Component), pressure p, traction tx ty tz, body force bx by bz. Absent ones are not
+/// my mz (like Component), pressure p, traction tx ty tz, body force fx fy fz. Absent ones are not
 /// touched.
 struct Load {
   core::SourceMark mark;
@@ -331,7 +349,7 @@ struct Step {
   std::optional<Number> duration;
   std::vector<Prescription> prescribe;
   std::vector<Release> release;
-  std::vector<Load> forces, pressure, traction, body_force;
+  std::vector<Load> forces, total_force, pressure, traction, body_force;
   std::optional<DynamicsDescription> dynamics;
   std::optional<Marked<std::vector<double>>> gravity;
 };
@@ -434,6 +452,8 @@ struct Description {
   std::string file;  ///< name of the model file
   std::string title;
   MeshSource mesh;
+  std::vector<SetDefinition> sets;
+  std::vector<Setting> parameters;  ///< with the values they have had
   std::vector<Material> materials;
   std::vector<Section> sections;
   std::vector<Rigid> rigid;

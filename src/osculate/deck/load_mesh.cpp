@@ -1,7 +1,12 @@
+#include <fmt/format.h>
+
 #include "osculate/deck/build.hpp"
+#include "osculate/deck/parse.hpp"
 #include "osculate/io/gmsh.hpp"
 #include "osculate/mesh/generate.hpp"
+#include "osculate/mesh/generate_ring.hpp"
 #include "osculate/mesh/generate_space.hpp"
+#include "osculate/mesh/set_algebra.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -49,6 +54,12 @@ struct AppendPart {
     else
       mesh::append_box(mesh, flat_box(name.value, box), name.mark);
   }
+  void operator()(const Ring& ring) const {
+    if (ring.box.solid())
+      mesh::append_ring(mesh, solid_box(name.value, ring.box), ring.center, ring.along, name.mark);
+    else
+      mesh::append_ring(mesh, flat_box(name.value, ring.box), ring.center, name.mark);
+  }
   void operator()(const LineMesh& line) const {
     mesh::append_line(mesh, {name.value, line.points.value, line.elements, line.type.value},
                       name.mark);
@@ -61,10 +72,7 @@ struct AppendPart {
   void operator()(const mesh::BallSpec& ball) const { mesh::append_ball(mesh, ball, name.mark); }
 };
 
-}  // namespace
-
-mesh::Mesh load_mesh(const Description& description) {
-  const MeshSource& source = description.mesh;
+mesh::Mesh mesh_of(const MeshSource& source) {
   if (source.file) {
     try {
       return io::read_gmsh(source.path);
@@ -75,6 +83,47 @@ mesh::Mesh load_mesh(const Description& description) {
   mesh::Mesh mesh;
   for (const GeneratedPart& part : source.generated)
     std::visit(AppendPart{mesh, part.name}, part.shape);
+  return mesh;
+}
+
+const mesh::Set& find_set(const Description& description, const mesh::Mesh& mesh,
+                          const Name& name) {
+  if (const mesh::Set* const found = mesh.find_set(name.value)) return *found;
+  if (description.find_rigid(name.value))
+    throw core::InputError(
+        name.mark, fmt::format("'{}' is a rigid body, which is no part of a set", name.value));
+  std::vector<std::string> names;
+  for (const mesh::Set& set : mesh.sets) names.push_back(set.name);
+  throw unknown_set(name, names);
+}
+
+/// Adds what one entry of `sets` defines.
+void add_set(const Description& description, const SetDefinition& definition, mesh::Mesh& mesh) {
+  const std::string& name = definition.name.value;
+  if (mesh.find_set(name))
+    throw core::InputError(definition.name.mark,
+                           fmt::format("the mesh has a set '{}' already", name));
+  const auto find = [&](const Name& part) { return &find_set(description, mesh, part); };
+  mesh::Set set;
+  if (!definition.of) {
+    std::vector<const mesh::Set*> parts;
+    for (const Name& part : definition.all_of) parts.push_back(find(part));
+    set = mesh::unite(mesh, name, parts);
+  } else {
+    set = *find(*definition.of);
+    for (const Name& part : definition.within) set = mesh::common(mesh, name, set, *find(part));
+    for (const Name& part : definition.without) set = mesh::without(mesh, name, set, *find(part));
+  }
+  if (set.nodes.empty())
+    throw core::InputError(definition.name.mark, fmt::format("nothing is in the set '{}'", name));
+  mesh.sets.push_back(std::move(set));
+}
+
+}  // namespace
+
+mesh::Mesh load_mesh(const Description& description) {
+  mesh::Mesh mesh = mesh_of(description.mesh);
+  for (const SetDefinition& definition : description.sets) add_set(description, definition, mesh);
   return mesh;
 }
 

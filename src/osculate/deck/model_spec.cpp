@@ -18,6 +18,43 @@ Spec points_spec(std::string doc, std::size_t least) {
       .such_as("[[0, 0], [4, 0], [4, 1]]");
 }
 
+Spec set_or_sets(std::string doc, const std::string& example) {
+  return either(std::move(doc), {text("Its name.").such_as(example),
+                                 list("Names of several, which count as one set.",
+                                      text("One name.").such_as(example))
+                                     .count(1)})
+      .such_as(example);
+}
+
+Spec parameters_spec() {
+  return names(
+             "Numbers and texts, by name. A value anywhere else that begins with = is computed "
+             "from them (=2*length + 1, with + - * / and brackets; =name for a text), ${name} "
+             "stands for one within a text. `--set NAME=VALUE` of a command replaces a value.",
+             text("A number, a text, or = and how it follows from those above.").such_as("12.5"))
+      .otherwise("{}")
+      .such_as("{length: 20, radius: =length/4}");
+}
+
+Spec sets_spec() {
+  const Spec one =
+      map("A set made of others, of the mesh or defined above it. Sets of cells of one kind give "
+          "such a set; in other cases the result is a set of nodes.",
+          {optional("union", list("Sets of which it has all.", text("One set.").such_as("left"))
+                                 .count(1)
+                                 .such_as("[left, right]")),
+           optional("of", text("The set that it is a part of.").such_as("top")),
+           optional("within",
+                    set_or_sets("Set, or list of sets: only what is in it, too.", "left")),
+           optional("without",
+                    set_or_sets("Set, or list of sets: what is in it is left out.", "rim"))})
+          .with(Group::Rule::exactly_one, {"union", "of"})
+          .such_as("{union: [left, right]}");
+  return names("Sets made of sets, by name, used as those of the mesh.", one)
+      .otherwise("{}")
+      .such_as("{sides: {union: [left, right]}, rest: {of: top, without: rim}}");
+}
+
 Spec materials_spec() {
   const auto constants = [](std::string doc) {
     return map(std::move(doc), {required("E", number("Young's modulus of the unloaded material.")
@@ -43,6 +80,10 @@ Spec materials_spec() {
                          "strain, for large rotations.")),
            optional("neo_hooke", constants("Compressible neo-Hookean solid, for large strains."))})
           .with(Group::Rule::exactly_one, {"linear_elastic", "st_venant_kirchhoff", "neo_hooke"})
+          .or_else(
+              "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the elastic laws "
+              "linear_elastic, st_venant_kirchhoff, neo_hooke; plasticity and others are not "
+              "available (osculate doc limits)")
           .such_as("{linear_elastic: {E: 2.1e5, nu: 0.3}}");
   return names("The materials, by name.", law)
       .otherwise("{}")
@@ -61,7 +102,10 @@ Spec sections_spec() {
            word("solid", SectionElement::solid, "a body in space, of volume cells"),
            word("solid_shell", SectionElement::solid_shell,
                 "a thin body in space, of hex8 or shell18 cells; the thickness goes from the first "
-                "half of their nodes to the second, and hex8 cells in one layer are turned so")})
+                "half of their nodes to the second, and hex8 cells in one layer are turned so. "
+                "hex27 cells (of a second-order Gmsh mesh) become shell18: their nodes halfway "
+                "through the thickness are left out")})
+          .or_else("; shells, beams and others are not available (osculate doc limits)")
           .such_as("plane_strain");
   const Spec kinematics =
       choice("How strains are measured.",
@@ -71,15 +115,19 @@ Spec sections_spec() {
           .such_as("finite");
   const Spec formulation =
       choice("How the element avoids locking.",
-             {word("full", Formulation::full, "plain displacement element, full integration"),
-              word("bbar", Formulation::bbar, "averaged volume change, for nearly incompressible"),
-              word("enhanced", Formulation::enhanced, "enhanced strains, for bending")})
+             {word("full", Formulation::full,
+                   "plain displacement element, full integration: first-order cells are too stiff "
+                   "in bending and near nu = 0.5"),
+              word("bbar", Formulation::bbar,
+                   "averaged volume change, for nearly incompressible (Abaqus' CPE4 and C3D8)"),
+              word("enhanced", Formulation::enhanced,
+                   "enhanced strains, for bending (as CPE4I and C3D8I)")})
           .otherwise("full")
           .such_as("bbar");
   return list("Which cells of the mesh are bulk material, and of what kind.",
               map("One section.",
                   {required("on",
-                            text("Set of area cells, in space of volume cells.").such_as("block")),
+                            set_or_sets("Set of area cells, in space of volume cells.", "block")),
                    required("material", text("Name of a material.").such_as("steel")),
                    required("element", element),
                    optional("thickness", number("Thickness of a plane body.")
@@ -100,7 +148,8 @@ Spec model_spec() {
        optional(
            "title",
            text("What is computed; heads the report.").such_as("Block pressed on a rigid base")),
-       required("mesh", mesh_spec()), optional("materials", materials_spec()),
+       optional("parameters", parameters_spec()), required("mesh", mesh_spec()),
+       optional("sets", sets_spec()), optional("materials", materials_spec()),
        optional("sections", sections_spec()), optional("rigid", rigid_spec()),
        optional("contact", contact_spec()), optional("amplitudes", amplitudes_spec()),
        optional("equations", equations_spec()), optional("equal", equal_spec()),

@@ -10,6 +10,10 @@ namespace osculate::deck {
 
 // Its branches, one file each.
 [[nodiscard]] Spec mesh_spec();
+/// The name of a set, or a list of names.
+[[nodiscard]] Spec set_or_sets(std::string doc, const std::string& example);
+[[nodiscard]] Spec parameters_spec();
+[[nodiscard]] Spec sets_spec();
 [[nodiscard]] Spec materials_spec();
 [[nodiscard]] Spec sections_spec();
 [[nodiscard]] Spec rigid_spec();

@@ -13,18 +13,25 @@ Spec sampling_spec() {
                          .at_most(50)
                          .otherwise("1")
                          .such_as("2");
-  return either("Where the slave side is tested for contact.",
-                {choice("Points of the slave side.",
-                        {word("nodes", SamplingRule::nodes, "the slave nodes"),
-                         word("mortar", SamplingRule::mortar,
-                              "integrals over the overlaps of slave and master facets, "
-                              "weighted by dual functions of the slave's nodes")}),
-                 map("Points of a quadrature rule on the slave facets (segment to segment).",
-                     {optional("gauss", Spec(points).at_least(1).such_as("2")),
-                      optional("lobatto", Spec(points).at_least(2).such_as("5")),
-                      optional("subdomains", parts)})
-                     .with(Group::Rule::exactly_one, {"gauss", "lobatto"})})
-      .otherwise("nodes")
+  return either(
+             "Where the slave side is tested for contact.",
+             {choice(
+                  "Points of the slave side.",
+                  {word("auto", SamplingRule::automatic,
+                        "with normal: {penalty: auto}, where the master has a mesh or nodes would "
+                        "scatter: Gauss points, 2 per direction, 3 on second-order facets; "
+                        "else, with two passes, edges, weight: node, explicit dynamics "
+                        "and tractions that are corrected or unknown: nodes"),
+                   word("nodes", SamplingRule::nodes, "the slave nodes"),
+                   word("mortar", SamplingRule::mortar,
+                        "integrals over the overlaps of slave and master facets, "
+                        "weighted by dual functions of the slave's nodes")}),
+              map("Points of a quadrature rule on the slave facets (segment to segment).",
+                  {optional("gauss", Spec(points).at_least(1).such_as("2")),
+                   optional("lobatto", Spec(points).at_least(2).such_as("5")),
+                   optional("subdomains", parts)})
+                  .with(Group::Rule::exactly_one, {"gauss", "lobatto"})})
+      .otherwise("auto")
       .such_as("{lobatto: 5, subdomains: 2}");
 }
 
@@ -37,7 +44,7 @@ Spec penalty_spec(std::string doc, const char* of) {
                                 std::string("ten times the stiffness against ") + of +
                                     " of the cells behind the contact; points "
                                     "with much stiffer or softer cells have more "
-                                    "or less",
+                                    "or less; the normal one follows the pressure in statics",
                                 0, true}})})
       .otherwise("auto")
       .such_as("2.1e6");
@@ -323,22 +330,23 @@ std::vector<Key> law_keys() {
                          .above(0)
                          .otherwise_as("no limit")
                          .such_as("0.5");
-  return {
-      optional("sampling", sampling_spec()),
-      optional("normal", normal_spec()),
-      optional("friction", friction_spec()),
-      optional("offset", offset_spec()),
-      optional("enforcement", enforcement_spec()),
-      optional("weight", weight_spec()),
-      optional("residual", residual_spec()),
-      optional("tangent", tangent_spec()),
-      optional("history", history_spec()),
-      optional("initial", initial_spec()),
-      optional("two_pass", boolean("Both sides are slaves in turn, each with half of the traction.")
-                               .otherwise("false")
-                               .such_as("true")),
-      optional("edges", edges_spec()),
-      optional("search", map("Where contact is looked for.", {optional("depth", depth)}))};
+  return {optional("sampling", sampling_spec()),
+          optional("normal", normal_spec()),
+          optional("friction", friction_spec()),
+          optional("offset", offset_spec()),
+          optional("enforcement", enforcement_spec()),
+          optional("weight", weight_spec()),
+          optional("residual", residual_spec()),
+          optional("tangent", tangent_spec()),
+          optional("history", history_spec()),
+          optional("initial", initial_spec()),
+          optional("two_pass", boolean("Both sides are slaves in turn, each with half of the "
+                                       "traction; contact: all does so with "
+                                       "two deformable bodies.")
+                                   .otherwise("false")
+                                   .such_as("true")),
+          optional("edges", edges_spec()),
+          optional("search", map("Where contact is looked for.", {optional("depth", depth)}))};
 }
 
 Spec with_laws(std::string doc, std::vector<Key> keys) {
@@ -349,17 +357,18 @@ Spec with_laws(std::string doc, std::vector<Key> keys) {
 Spec pairs_spec() {
   return list(
       "Contact pairs.",
-      with_laws("One contact pair.",
-                {required("name", text("Name of the pair; begins its columns in history.csv.")
-                                      .as(TextRule::name)
-                                      .such_as("floor")),
-                 required("master", text("Rigid body, or set of boundary facets, that the contact "
-                                         "points are projected onto.")
-                                        .such_as("bottom")),
-                 optional("smoothing", smoothing_spec()),
-                 required("slave", text("Meshed rigid body, or set, whose points are projected; "
-                                        "the set that is master, for contact with itself.")
-                                       .such_as("base"))}));
+      with_laws(
+          "One contact pair.",
+          {required("name", text("Name of the pair; begins its columns in history.csv.")
+                                .as(TextRule::name)
+                                .such_as("floor")),
+           required("master", set_or_sets("Rigid body, or set of boundary facets, that the contact "
+                                          "points are projected onto.",
+                                          "bottom")),
+           optional("smoothing", smoothing_spec()),
+           required("slave", set_or_sets("Meshed rigid body, or set, whose points are projected; "
+                                         "the set that is master, for contact with itself.",
+                                         "base"))}));
 }
 
 Spec all_spec() {

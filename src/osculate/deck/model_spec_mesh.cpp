@@ -101,6 +101,44 @@ Spec box_spec() {
                             .such_as("[0, 0, 1]"))});
 }
 
+Spec ring_spec() {
+  const auto axis = [](const char* name, int code) {
+    return Choice{name, "along the coordinate of that name", code, true};
+  };
+  return map(
+      "A ring or a part of one, or with z a hollow cylinder, of structured cells; nodes of curved "
+      "sides lie on the circles.",
+      {required("radius", breakpoints("Radii of the circles, increasing, above 0.")),
+       optional("angle", list("Angles, increasing, by at most 360 in all: then the ring is closed.",
+                              number("One angle.").in("degrees"))
+                             .count(2)
+                             .otherwise("[0, 360]")
+                             .such_as("[0, 90]")),
+       optional("z", breakpoints("Heights along the axis, from the center; makes a hollow cylinder "
+                                 "of volume cells.")),
+       required("elements", per_direction("Numbers of elements through the radius, around (and "
+                                          "along the axis), per interval.",
+                                          interval_count())
+                                .such_as("[4, 32]")),
+       optional("bias", per_direction("Size of the last element of an interval over that of its "
+                                      "first, in the same order.",
+                                      number("Ratio of sizes.").above(0).such_as("2"))
+                            .otherwise_as("1 everywhere")
+                            .such_as("[2, 1]")),
+       optional("type", choice("Kind of cell.", box_cells())
+                            .otherwise_as("quad4, with z hex8")
+                            .such_as("quad9")),
+       optional("center", list("Centre.", number("One coordinate.").in("length"))
+                              .count(2, 3)
+                              .otherwise_as("the origin")
+                              .such_as("[0, 5]")),
+       optional("along", choice("With z: direction of the axis. Angles count from the next one, of "
+                                "z from x, right-handed.",
+                                {axis("x", 0), axis("y", 1), axis("z", 2)})
+                             .otherwise_as("z")
+                             .such_as("x"))});
+}
+
 Spec line_spec() {
   return map(
       "Line cells along straight intervals, body on the right of the direction of travel.",
@@ -197,10 +235,11 @@ Spec ball_spec() {
 
 Spec part_spec() {
   return map("One generated part.",
-             {optional("box", box_spec()), optional("line", line_spec()),
-              optional("grid", grid_spec()), optional("tube", tube_spec()),
-              optional("sphere", sphere_spec()), optional("ball", ball_spec())})
-      .with(Group::Rule::exactly_one, {"box", "line", "grid", "tube", "sphere", "ball"})
+             {optional("box", box_spec()), optional("ring", ring_spec()),
+              optional("line", line_spec()), optional("grid", grid_spec()),
+              optional("tube", tube_spec()), optional("sphere", sphere_spec()),
+              optional("ball", ball_spec())})
+      .with(Group::Rule::exactly_one, {"box", "ring", "line", "grid", "tube", "sphere", "ball"})
       .such_as("{box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}");
 }
 
@@ -216,7 +255,9 @@ Spec mesh_spec() {
                       names(
                           "Parts to generate, by name. Sets: NAME, and NAME.left, .right, .bottom, "
                           ".top, .bottom_left, .bottom_right, .top_right, .top_left of a "
-                          "box without z or a grid; NAME.start and .end of a line or a tube, and "
+                          "box without z or a grid; NAME.inner, .outer, .from, .to (if "
+                          "it is not closed), with z .bottom, .top of a ring; NAME.start and .end "
+                          "of a line or a tube, and "
                           ".from and .to of a tube that is not closed; with z, NAME.left, .right "
                           "(x), .front, .back (y), .bottom, .top (z), the edges .bottom_front and "
                           "so on, the corners .bottom_front_left and so on of a box; NAME.surface, "

@@ -147,7 +147,8 @@ Spec output_spec() {
       either("When ParaView fields are written.",
              {integer("Every n-th increment.").at_least(1),
               choice("A word.", {word("every", FieldTimes::every, "after every increment"),
-                                 word("last", FieldTimes::last, "at the end of every step"),
+                                 word("last", FieldTimes::last,
+                                      "at the end of every step that comes to its end"),
                                  word("none", FieldTimes::none, "never")})})
           .otherwise("every")
           .such_as("10");

@@ -168,8 +168,9 @@ std::vector<Key> space_shapes() {
 
 std::vector<Key> rigid_shape_keys() {
   std::vector<Key> keys{optional(
-      "set", text("Set of line cells or nodes, in space of area cells or nodes, that move as one.")
-                 .such_as("base_line"))};
+      "set",
+      set_or_sets("Set of line cells or nodes, in space of area cells or nodes, that move as one.",
+                  "base_line"))};
   for (Key& key : plane_shapes()) keys.push_back(std::move(key));
   keys.push_back(optional("composite", composite_spec()));
   for (Key& key : space_shapes()) keys.push_back(std::move(key));
@@ -218,7 +219,12 @@ std::vector<Key> rigid_keys() {
               "those of the homogeneous body that a shape, closed curve or closed surface encloses")
           .such_as("0.4")));
   keys.push_back(optional(
-      "flip", boolean("Put the body on the other side of its surface.").otherwise("false")));
+      "flip",
+      boolean("Put the body on the other side of its surface: of a meshed one without cells behind "
+              "it, on the left of its lines, or where the normals of its areas point.")
+          .otherwise_as("false; a meshed surface without cells behind it faces the side where the "
+                        "slave starts")
+          .such_as("true")));
   return keys;
 }
 

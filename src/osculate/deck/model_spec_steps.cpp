@@ -20,14 +20,15 @@ Key amplitude_key() {
                                    .such_as("there_and_back"));
 }
 
-Key on_key(std::string doc, std::string example) {
-  return required("on", text(std::move(doc)).such_as(std::move(example)));
+Key on_key(std::string doc, const std::string& example) {
+  return required("on", set_or_sets(std::move(doc), example));
 }
 
 struct Part {
   const char* name;
   const char* doc;
   const char* unit;
+  const char* former = "";
 };
 
 /// A list of loads on sets: `on`, at least one component, `amplitude`.
@@ -36,6 +37,7 @@ Spec loads(std::string doc, const std::string& one, Key on, const std::vector<Pa
   std::vector<std::string> components;
   for (const Part& part : parts) {
     keys.push_back(optional(part.name, number(part.doc).in(part.unit).such_as("-0.5")));
+    keys.back().former = part.former;
     components.emplace_back(part.name);
   }
   keys.push_back(amplitude_key());
@@ -79,7 +81,8 @@ Spec release_spec() {
 
 Spec forces_spec() {
   return loads(
-             "Forces on every node of a set, or on a rigid body, whose motion they set free.",
+             "Forces on every node of a set (n nodes carry n times as much: `total_force` is one "
+             "force on all of them), or on a rigid body, whose motion they set free.",
              "One force.", on_key("Set of nodes, or rigid body.", "corner"),
              {{"fx", "Force in x at the end of the step.", "force"},
               {"fy", "Force in y at the end of the step.", "force"},
@@ -95,6 +98,20 @@ Spec forces_spec() {
               {"mz", "Moment on a rigid body at the end of the step, positive from x to y.",
                "force*length"}})
       .such_as("[{on: corner, fy: -3}]");
+}
+
+Spec total_force_spec() {
+  return loads(
+             "Forces in total, each shared out over a set: over boundary facets by their area, "
+             "over "
+             "bulk cells by their volume, over the nodes of any other set equally. Of constant "
+             "direction; `osculate check` shows forces and moments of all loads.",
+             "One force on a whole set.",
+             on_key("Set of boundary facets, bulk cells, or nodes.", "top"),
+             {{"fx", "Force in x at the end of the step.", "force"},
+              {"fy", "Force in y at the end of the step.", "force"},
+              {"fz", "Force in z at the end of the step (models in space).", "force"}})
+      .such_as("[{on: top, fy: -3000}]");
 }
 
 Spec pressure_spec() {
@@ -123,11 +140,11 @@ Spec traction_spec() {
 Spec body_force_spec() {
   return loads("Forces per undeformed volume.", "One body force.",
                on_key("Set of bulk cells.", "block"),
-               {{"bx", "Force per volume in x at the end of the step.", "force/length^3"},
-                {"by", "Force per volume in y at the end of the step.", "force/length^3"},
-                {"bz", "Force per volume in z at the end of the step (models in space).",
-                 "force/length^3"}})
-      .such_as("[{on: block, by: -7.7e-5}]");
+               {{"fx", "Force per volume in x at the end of the step.", "force/length^3", "bx"},
+                {"fy", "Force per volume in y at the end of the step.", "force/length^3", "by"},
+                {"fz", "Force per volume in z at the end of the step (models in space).",
+                 "force/length^3", "bz"}})
+      .such_as("[{on: block, fy: -7.7e-5}]");
 }
 
 }  // namespace
@@ -192,9 +209,10 @@ Spec steps_spec() {
                                            .otherwise_as("no time")
                                            .such_as("0.5")),
                   optional("prescribe", prescribe_spec()), optional("release", release_spec()),
-                  optional("forces", forces_spec()), optional("pressure", pressure_spec()),
-                  optional("traction", traction_spec()), optional("body_force", body_force_spec()),
-                  optional("gravity", gravity_spec()), optional("dynamics", dynamics_spec())}))
+                  optional("forces", forces_spec()), optional("total_force", total_force_spec()),
+                  optional("pressure", pressure_spec()), optional("traction", traction_spec()),
+                  optional("body_force", body_force_spec()), optional("gravity", gravity_spec()),
+                  optional("dynamics", dynamics_spec())}))
       .count(1)
       .such_as("[{name: press, increments: 10, prescribe: [{on: top, uy: -0.007}]}]");
 }

@@ -90,15 +90,19 @@ const Amplitude* Description::find_amplitude(const std::string& name) const {
   return find_named(amplitudes, name);
 }
 
-Description parse_model(std::string_view text, std::string file_name) {
-  const SourceNode root = read_yaml(text, file_name);
-  return parse_model(root, std::move(file_name));
+Description parse_model(std::string_view text, std::string file_name,
+                        std::span<const Setting> settings) {
+  SourceNode root = read_yaml(text, file_name);
+  return parse_model(std::move(root), std::move(file_name), settings);
 }
 
-Description parse_model(const SourceNode& root, std::string file_name) {
+Description parse_model(SourceNode root, std::string file_name, std::span<const Setting> settings) {
   require_document(root, file_name);
-  const Value model = check(model_spec(), root, file_name);
   Description d;
+  d.parameters = apply_parameters(root, file_name, settings);
+  Value model = check(model_spec(), root, file_name);
+  d.sets = parse_sets(model.at("sets"));
+  name_unions(model, d.sets);
   d.file = std::move(file_name);
   if (const Value* const title = model.find("title")) d.title = title->text;
   d.mesh = parse_mesh(model.at("mesh"), d.file);
@@ -116,11 +120,11 @@ Description parse_model(const SourceNode& root, std::string file_name) {
   check_references(d);
   check_steps(d);
   d.output = parse_output(model.at("output"), d);
-  d.source = source_leaves(root, {"title", "solver", "output"});
+  d.source = source_leaves(root, {"title", "solver", "output", "parameters"});
   return d;
 }
 
-Description read_model(const std::string& path) {
+Description read_model(const std::string& path, std::span<const Setting> settings) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     throw core::InputError({path, 0, ""}, "cannot be read: it is a folder");
@@ -133,7 +137,7 @@ Description read_model(const std::string& path) {
   std::string text(TextLimits{}.bytes + 1, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
-  return parse_model(text, path);
+  return parse_model(text, path, settings);
 }
 
 core::InputError unknown_set(const Name& on, std::span<const std::string> sets) {

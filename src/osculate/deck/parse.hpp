@@ -16,12 +16,15 @@ namespace osculate::deck {
 /// Tested by  tests/unit/deck/test_broken_models.cpp, test_broken_references.cpp,
 /// test_good_models.cpp,
 ///            test_yaml.cpp, test_mutation.cpp
-[[nodiscard]] Description parse_model(std::string_view text, std::string file_name);
+[[nodiscard]] Description parse_model(std::string_view text, std::string file_name,
+                                      std::span<const Setting> settings = {});
 /// The same for a document that was read before.
-[[nodiscard]] Description parse_model(const SourceNode& root, std::string file_name);
+[[nodiscard]] Description parse_model(SourceNode root, std::string file_name,
+                                      std::span<const Setting> settings = {});
 
 /// The same for a file.
-[[nodiscard]] Description read_model(const std::string& path);
+[[nodiscard]] Description read_model(const std::string& path,
+                                     std::span<const Setting> settings = {});
 
 /// The error for a set that the mesh does not have: `unknown set 'topp'; did you mean 'top'?`,
 /// at the place where the name was read.

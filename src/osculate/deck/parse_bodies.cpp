@@ -82,6 +82,11 @@ std::vector<Material> parse_materials(const Value& v) {
                      number_of(constants->at("E")),
                      number_of(constants->at("nu")),
                      number_of(constants->at("density"))});
+      constexpr double nearest = 1e-10;  // leaves six digits for the shape
+      if (0.5 - out.back().poisson.value < nearest)
+        throw core::InputError(out.back().poisson.mark,
+                               "is so near to 0.5 that the resistance to changes of volume leaves "
+                               "no digits for anything else: use at most 0.4999999999");
     }
   }
   return out;
@@ -102,7 +107,7 @@ std::vector<Rigid> parse_rigid(const Value& v) {
     rigid.kind = kind_of(entry.value);
     if (const Value* const reference = entry.value.find("reference"))
       rigid.reference = numbers_of(*reference);
-    rigid.flip = flag(entry.value, "flip");
+    if (const Value* const flip = entry.value.find("flip")) rigid.flip = flip->code != 0;
     rigid.mass = number_if(entry.value, "mass");
     rigid.density = number_if(entry.value, "density");
     if (const Value* const inertia = entry.value.find("inertia"))

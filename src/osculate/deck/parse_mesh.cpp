@@ -110,7 +110,8 @@ void read_rotation(const Value& v, Box& box) {
   }
 }
 
-Box box_of(const Value& v) {
+/// Breakpoints, numbers of elements and bias in the directions that are called so.
+Box axes_of(const Value& v, const std::array<const char*, 3>& names) {
   Box box;
   const bool solid = v.find("z") != nullptr;
   const Value& elements = v.at("elements");
@@ -119,7 +120,7 @@ Box box_of(const Value& v) {
   if (bias) require_directions(*bias, solid);
   double size = 1;
   for (std::size_t i = 0; i < (solid ? 3 : 2); ++i) {
-    box.breakpoints[i] = breakpoints_of(v.at(axis_names[i]));
+    box.breakpoints[i] = breakpoints_of(v.at(names[i]));
     const std::size_t intervals = box.breakpoints[i].value.size() - 1;
     box.elements[i] = counts_of(elements.items[i], intervals);
     box.bias[i] = bias ? per_interval<double>(bias->items[i], intervals,
@@ -129,6 +130,29 @@ Box box_of(const Value& v) {
   }
   require_size(size, elements.mark);
   box.type = box_type(v, solid);
+  return box;
+}
+
+Ring ring_of(const Value& v) {
+  Ring ring{axes_of(v, {"radius", "angle", "z"})};
+  const bool solid = ring.box.solid();
+  if (const Value* const center = v.find("center")) {
+    if (center->items.size() != (solid ? 3U : 2U))
+      throw core::InputError(
+          center->mark, fmt::format("expected {} values for a ring {} z, got {}", solid ? 3 : 2,
+                                    solid ? "with" : "without", center->items.size()));
+    ring.center = place_of(*center);
+  }
+  if (const Value* const along = v.find("along")) {
+    if (!solid) throw core::InputError(along->mark, "is for rings with z");
+    ring.along = along->code;
+  }
+  return ring;
+}
+
+Box box_of(const Value& v) {
+  Box box = axes_of(v, axis_names);
+  const bool solid = box.solid();
   if (const Value* const crown = v.find("crown")) {
     if (solid) throw core::InputError(crown->mark, "is for boxes without z");
     box.crown = crown_of(*crown, box.breakpoints[0].value);
@@ -221,6 +245,8 @@ GeneratedPart part_of(const Value& v, Name name) {
   const std::string& text = part.name.value;
   if (const Value* const box = v.find("box"))
     part.shape = box_of(*box);
+  else if (const Value* const ring = v.find("ring"))
+    part.shape = ring_of(*ring);
   else if (const Value* const line = v.find("line"))
     part.shape = line_of(*line);
   else if (const Value* const grid = v.find("grid"))

@@ -94,7 +94,7 @@ std::vector<std::string> energy_columns(const Description& description) {
   const auto has_inertia = [](const Step& step) { return step.dynamics.has_value(); };
   const std::vector<Step>& steps = description.steps;
   if (std::none_of(steps.begin(), steps.end(), has_inertia)) return {};
-  std::vector<std::string> columns;
+  std::vector<std::string> columns{std::string(model::fraction_quantity)};
   for (const std::string_view name : model::energy_quantities)
     columns.push_back(name == "elapsed" ? std::string(name) : fmt::format("energy.{}", name));
   if (std::any_of(steps.begin(), steps.end(),

@@ -37,6 +37,9 @@ template <class E>
 // ---- branches ---------------------------------------------------------------------------------
 
 [[nodiscard]] MeshSource parse_mesh(const Value& v, const std::string& file);
+[[nodiscard]] std::vector<SetDefinition> parse_sets(const Value& v);
+/// Where several sets are named in place of one: the set of them all, which this value then names.
+void name_unions(Value& v, std::vector<SetDefinition>& sets);
 [[nodiscard]] std::vector<Material> parse_materials(const Value& v);
 [[nodiscard]] std::vector<Section> parse_sections(const Value& v,
                                                   const std::vector<Material>& materials);

@@ -252,9 +252,10 @@ Step step_of(const Value& v) {
   s.prescribe = prescriptions_of(v.at("prescribe"));
   s.release = releases_of(v.at("release"));
   s.forces = loads_of(v.at("forces"), {"fx", "fy", "fz", "mx", "my", "mz"});
+  s.total_force = loads_of(v.at("total_force"), {"fx", "fy", "fz"});
   s.pressure = loads_of(v.at("pressure"), {"value"});
   s.traction = loads_of(v.at("traction"), {"tx", "ty", "tz"});
-  s.body_force = loads_of(v.at("body_force"), {"bx", "by", "bz"});
+  s.body_force = loads_of(v.at("body_force"), {"fx", "fy", "fz"});
   if (const Value* const gravity = v.find("gravity")) s.gravity = numbers_of(*gravity);
   if (const Value* const dynamics = v.find("dynamics")) s.dynamics = parse_dynamics(*dynamics);
   if (s.dynamics && !s.duration)

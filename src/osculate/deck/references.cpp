@@ -89,10 +89,12 @@ class StepChecker {
       for (std::size_t i = 0; i < component_count; ++i)
         prescribed_[i] = prescribed_[i] || p.values[i];
     check_loads(step.forces, force_names, true);
+    check_loads(step.total_force, {"fx", "fy", "fz"}, false);
     check_loads(step.pressure, {"value"}, false);
     check_loads(step.traction, {"tx", "ty", "tz"}, false);
-    check_loads(step.body_force, {"bx", "by", "bz"}, false);
+    check_loads(step.body_force, {"fx", "fy", "fz"}, false);
     for (const Load& force : step.forces) check_loaded_dof(step, force);
+    for (const Load& force : step.total_force) check_loaded_dof(step, force);
   }
 
  private:

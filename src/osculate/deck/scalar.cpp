@@ -92,9 +92,10 @@ double read_number(const Spec& spec, const SourceNode& node, const core::SourceM
     throw core::InputError(mark, "must be a finite number, got " + printable(node.text));
   std::errc error{};
   const std::optional<double> value = whole<double>(node.text, error);
-  if (error == std::errc::result_out_of_range)
-    throw core::InputError(mark, fmt::format("{} cannot be represented: use numbers between 1e-300 "
-                                             "and 1e300",
+  constexpr double largest = 1e100;  // powers of larger ones overflow
+  if (error == std::errc::result_out_of_range || (value && std::abs(*value) > largest))
+    throw core::InputError(mark, fmt::format("{} is out of range: use numbers between 1e-300 and "
+                                             "1e100",
                                              printable(node.text)));
   if (!value || !std::isfinite(*value)) wrong_type("a number", node, mark);
   check_range(spec, *value, node, mark);
@@ -124,7 +125,8 @@ const Choice& read_choice(const Spec& spec, const SourceNode& node, const core::
                                   [&](const Choice& c) { return c.name == node.text; });
   const std::vector<std::string> known = choice_names(spec);
   if (found == spec.choices.end())
-    throw core::InputError(mark, core::unknown_name_message("value", printable(node.text), known));
+    throw core::InputError(
+        mark, core::unknown_name_message("value", printable(node.text), known) + spec.hint);
   if (!found->available)
     throw core::InputError(
         mark, fmt::format("'{}' is not available yet{}", found->name,

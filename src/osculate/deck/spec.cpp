@@ -80,6 +80,9 @@ Spec Spec::otherwise_as(std::string text) const {
 Spec Spec::such_as(std::string yaml) const {
   return changed(*this, [&](Spec& s) { s.example = std::move(yaml); });
 }
+Spec Spec::or_else(std::string text) const {
+  return changed(*this, [&](Spec& s) { s.hint = std::move(text); });
+}
 Spec Spec::above(double value) const {
   return changed(*this, [&](Spec& s) { s.low = Bound{value, false}; });
 }
@@ -149,8 +152,9 @@ Choice planned(std::string name, std::string doc) {
 }
 
 const Key* find_key(const Spec& spec, std::string_view name) {
-  const auto found = std::find_if(spec.keys.begin(), spec.keys.end(),
-                                  [&](const Key& key) { return key.name == name; });
+  const auto found = std::find_if(spec.keys.begin(), spec.keys.end(), [&](const Key& key) {
+    return key.name == name || (!key.former.empty() && key.former == name);
+  });
   return found == spec.keys.end() ? nullptr : &*found;
 }
 

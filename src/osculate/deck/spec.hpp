@@ -63,6 +63,7 @@ struct Spec {
   std::string fallback;  ///< YAML of the default, filled in when the key is absent
   std::string note;      ///< the default in words, where it is not a constant
   std::string example;   ///< YAML
+  std::string hint;      ///< added to the message for a key or word that is not known
   std::optional<Bound> low, high;
   std::vector<Choice> choices;
   std::vector<Key> keys;
@@ -77,6 +78,7 @@ struct Spec {
   [[nodiscard]] Spec otherwise(std::string yaml) const;     ///< default
   [[nodiscard]] Spec otherwise_as(std::string text) const;  ///< default in words
   [[nodiscard]] Spec such_as(std::string yaml) const;       ///< example
+  [[nodiscard]] Spec or_else(std::string text) const;       ///< hint
   [[nodiscard]] Spec above(double value) const;             ///< > value
   [[nodiscard]] Spec below(double value) const;             ///< < value
   [[nodiscard]] Spec at_least(double value) const;
@@ -92,6 +94,7 @@ struct Key {
   std::string name;
   bool required = false;
   Spec spec;
+  std::string former{};  ///< name of earlier versions, which is read as if it were this one
 };
 
 [[nodiscard]] Key required(std::string name, Spec spec);

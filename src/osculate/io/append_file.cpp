@@ -8,11 +8,14 @@
 
 namespace osculate::io {
 
-AppendFile::AppendFile(std::string path, std::uint64_t keep) : path_(std::move(path)), size_(keep) {
+AppendFile::AppendFile(std::string path, std::uint64_t keep, std::string tail)
+    : path_(std::move(path)), tail_(std::move(tail)), size_(keep) {
   constexpr mode_t readable = 0666;
-  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, readable);
+  const int where = tail_.empty() ? O_APPEND : 0;
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | where, readable);
   if (file_ < 0) throw WriteError(path_, "cannot write", errno);
-  if (::ftruncate(file_, static_cast<off_t>(keep)) == 0 || errno == EINVAL) return;  // a device
+  const auto length = static_cast<off_t>(keep + tail_.size());
+  if (::ftruncate(file_, length) == 0 || errno == EINVAL) return;  // a device
   const int reason = errno;
   ::close(file_);
   throw WriteError(path_, "cannot write", reason);
@@ -20,19 +23,33 @@ AppendFile::AppendFile(std::string path, std::uint64_t keep) : path_(std::move(p
 
 AppendFile::~AppendFile() { ::close(file_); }
 
+/// How much of it; less than all: errno says why.
+std::size_t AppendFile::write(std::string_view bytes, std::uint64_t at) const {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const char* const from = bytes.data() + done;
+    const ssize_t n =
+        tail_.empty() ? ::write(file_, from, bytes.size() - done)
+                      : ::pwrite(file_, from, bytes.size() - done, static_cast<off_t>(at + done));
+    if (n < 0 && errno == EINTR) continue;
+    if (n == 0) errno = ENOSPC;
+    if (n <= 0) return done;
+    done += static_cast<std::size_t>(n);
+  }
+  return done;
+}
+
 void AppendFile::append(std::string_view piece) {
-  std::string_view rest = piece;
-  while (!rest.empty()) {
-    const ssize_t written = ::write(file_, rest.data(), rest.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) {
-      const int reason = written < 0 ? errno : ENOSPC;
-      // What has been written of this piece is worth nothing; where even that cannot be undone
-      // there is nothing better to do.
-      [[maybe_unused]] const int undone = ::ftruncate(file_, static_cast<off_t>(size_));
-      throw WriteError(path_, "cannot write", reason);
-    }
-    rest.remove_prefix(static_cast<std::size_t>(written));
+  const std::string with_tail = tail_.empty() ? std::string{} : std::string(piece) + tail_;
+  const std::string_view all = tail_.empty() ? piece : with_tail;
+  if (write(all, size_) != all.size()) {
+    const int reason = errno;
+    // What has been written of this piece is worth nothing; where even that cannot be undone
+    // there is nothing better to do.
+    [[maybe_unused]] const std::size_t again = tail_.empty() ? 0 : write(tail_, size_);
+    [[maybe_unused]] const int undone =
+        ::ftruncate(file_, static_cast<off_t>(size_ + tail_.size()));
+    throw WriteError(path_, "cannot write", reason);
   }
   size_ += piece.size();
 }

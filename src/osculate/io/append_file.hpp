@@ -8,14 +8,16 @@
 namespace osculate::io {
 
 /// A file that grows by whole pieces: a piece that cannot be written (disk full) is taken back, so
-/// that the file ends with the last good one.
+/// that the file ends with the last good one. With a tail it ends with that after every piece: the
+/// next piece takes its place, in one write, and is followed by it.
 ///
 /// Errors     WriteError
 /// Tested by  tests/unit/io/test_chunk_file.cpp
 class AppendFile {
  public:
-  /// Keeps the first `keep` bytes of a file that is there (0: begins anew).
-  explicit AppendFile(std::string path, std::uint64_t keep = 0);
+  /// Keeps the first `keep` bytes of a file that is there (0: begins anew), which the tail follows
+  /// there already.
+  explicit AppendFile(std::string path, std::uint64_t keep = 0, std::string tail = {});
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
   ~AppendFile();
@@ -26,9 +28,10 @@ class AppendFile {
   [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:
-  std::string path_;
+  [[nodiscard]] std::size_t write(std::string_view bytes, std::uint64_t at) const;
+  std::string path_, tail_;
   int file_ = -1;
-  std::uint64_t size_ = 0;
+  std::uint64_t size_ = 0;  ///< without the tail
 };
 
 }  // namespace osculate::io

@@ -89,22 +89,31 @@ std::string csv_text(const std::string& text) {
 
 // ---- writing ------------------------------------------------------------------------------------
 
-HistoryWriter::HistoryWriter(std::string path, std::vector<std::string> columns)
-    : path_(std::move(path)), columns_(columns.size()), file_(path_) {
-  std::string header = "step,increment,time";
-  for (const std::string& column : columns) header += "," + csv_text(column);
-  file_.append(header + "\n");
+HistoryWriter::HistoryWriter(std::string path, const std::vector<std::string>& columns,
+                             std::span<const HistoryRow> rows)
+    : path_(std::move(path)), columns_(columns.size()), file_(path_, begin(columns, rows)) {}
+
+std::uint64_t HistoryWriter::begin(const std::vector<std::string>& columns,
+                                   std::span<const HistoryRow> rows) const {
+  std::string text = "step,increment,time";
+  for (const std::string& column : columns) text += "," + csv_text(column);
+  text += "\n";
+  for (const HistoryRow& row : rows) text += line(row);
+  write_file(path_, text);
+  return text.size();
 }
 
-void HistoryWriter::row(const std::string& step, int increment, double time,
-                        std::span<const double> values) {
-  if (values.size() != columns_)
+std::string HistoryWriter::line(const HistoryRow& row) const {
+  if (row.values.size() != columns_)
     throw std::invalid_argument(
-        fmt::format("{}: {} values for {} columns", path_, values.size(), columns_));
-  std::string line = fmt::format("{},{},{}", csv_text(step), increment, csv_number(time));
-  for (const double value : values) line += "," + csv_number(value);
-  file_.append(line + "\n");
+        fmt::format("{}: {} values for {} columns", path_, row.values.size(), columns_));
+  std::string text =
+      fmt::format("{},{},{}", csv_text(row.step), row.increment, csv_number(row.time));
+  for (const double value : row.values) text += "," + csv_number(value);
+  return text + "\n";
 }
+
+void HistoryWriter::row(const HistoryRow& row) { file_.append(line(row)); }
 
 // ---- reading ------------------------------------------------------------------------------------
 

@@ -8,6 +8,14 @@
 
 namespace osculate::io {
 
+/// A row of history.csv.
+struct HistoryRow {
+  std::string step;
+  int increment = 0;
+  double time = 0;
+  std::vector<double> values;
+};
+
 /// Writes `history.csv` row by row: `step,increment,time` and one column per request. Every row is
 /// in the file when row() returns, so that a running analysis can be watched, and the file ends
 /// with a whole row even when the disk is full.
@@ -16,10 +24,15 @@ namespace osculate::io {
 /// Tested by  tests/unit/io/test_csv.cpp
 class HistoryWriter {
  public:
-  HistoryWriter(std::string path, std::vector<std::string> columns);
-  void row(const std::string& step, int increment, double time, std::span<const double> values);
+  /// Replaces the file by one of these rows.
+  HistoryWriter(std::string path, const std::vector<std::string>& columns,
+                std::span<const HistoryRow> rows = {});
+  void row(const HistoryRow& row);
 
  private:
+  [[nodiscard]] std::string line(const HistoryRow& row) const;
+  [[nodiscard]] std::uint64_t begin(const std::vector<std::string>& columns,
+                                    std::span<const HistoryRow> rows) const;
   std::string path_;
   std::size_t columns_;
   AppendFile file_;

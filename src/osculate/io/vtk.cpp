@@ -231,20 +231,44 @@ Field on_part(const Field& field, const SurfacePart& part) {
   return out;
 }
 
-void write_pvd(const std::string& path, std::span<const PvdEntry> entries) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-      "  <Collection>\n";
-  std::map<std::string, std::size_t> parts;
+namespace {
+
+constexpr const char* pvd_head =
+    "<?xml version=\"1.0\"?>\n"
+    "<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+    "  <Collection>\n";
+constexpr const char* pvd_tail = "  </Collection>\n</VTKFile>\n";
+
+std::string pvd_lines(std::span<const PvdEntry> entries,
+                      std::map<std::string, std::size_t>& parts) {
+  std::string text;
   for (const PvdEntry& entry : entries) {
     const std::size_t part = parts.try_emplace(entry.part, parts.size()).first->second;
     text += fmt::format(
         "    <DataSet timestep=\"{:.17g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
         entry.time, part, escape_xml(entry.part), escape_xml(entry.file));
   }
-  text += "  </Collection>\n</VTKFile>\n";
-  write_file(path, text);
+  return text;
 }
+
+/// Returns how many bytes stand before the tail.
+std::size_t begin_pvd(const std::string& path, std::span<const PvdEntry> entries,
+                      std::map<std::string, std::size_t>& parts) {
+  const std::string text = pvd_head + pvd_lines(entries, parts);
+  write_file(path, text + pvd_tail);
+  return text.size();
+}
+
+}  // namespace
+
+void write_pvd(const std::string& path, std::span<const PvdEntry> entries) {
+  std::map<std::string, std::size_t> parts;
+  begin_pvd(path, entries, parts);
+}
+
+PvdFile::PvdFile(const std::string& path, std::span<const PvdEntry> entries)
+    : file_(path, begin_pvd(path, entries, parts_), pvd_tail) {}
+
+void PvdFile::add(std::span<const PvdEntry> entries) { file_.append(pvd_lines(entries, parts_)); }
 
 }  // namespace osculate::io

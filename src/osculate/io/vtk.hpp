@@ -1,9 +1,11 @@
 #pragma once
 #include <array>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "osculate/io/append_file.hpp"
 #include "osculate/mesh/mesh.hpp"
 #include "osculate/mesh/surface.hpp"
 
@@ -66,6 +68,22 @@ struct PvdEntry {
 
 /// Writes a ParaView collection. Parts are numbered in the order of their first appearance.
 void write_pvd(const std::string& path, std::span<const PvdEntry> entries);
+
+/// The same for a collection that grows while it is read: whole after every call, and none costs
+/// more than what it adds.
+///
+/// Errors     WriteError
+/// Tested by  tests/unit/io/test_vtk.cpp
+class PvdFile {
+ public:
+  /// Replaces the file by one of these entries.
+  PvdFile(const std::string& path, std::span<const PvdEntry> entries);
+  void add(std::span<const PvdEntry> entries);
+
+ private:
+  std::map<std::string, std::size_t> parts_;
+  AppendFile file_;
+};
 
 /// Text with the five characters of XML escaped; what XML cannot hold becomes `?`.
 [[nodiscard]] std::string escape_xml(const std::string& text);

@@ -8,6 +8,7 @@
 #include <limits>
 #include <mutex>
 
+#include "osculate/core/memory.hpp"
 #include "osculate/la/accuracy.hpp"
 #include "osculate/la/ordering.hpp"
 
@@ -141,6 +142,8 @@ struct DirectSolver::Impl {
   FactorReport factorise_with_retries();
   void look_at_accuracy(FactorReport& report);
   [[nodiscard]] FactorReport outcome() const;
+  [[nodiscard]] double needed_bytes() const;
+  [[nodiscard]] std::string memory_text() const;
   [[nodiscard]] Eigen::VectorXd multiplied(const Eigen::VectorXd& x) const;
   [[nodiscard]] Eigen::VectorXd row_scale() const;
   [[nodiscard]] double loss();
@@ -152,8 +155,17 @@ struct DirectSolver::Impl {
   void refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
 };
 
+/// The BLAS asks the system for its buffers until it gets them: where there is no room for them, it
+/// is not to be called.
+void require_room_for_blas() {
+  constexpr std::size_t buffers = std::size_t{256} << 20U;
+  if (!core::can_allocate(buffers))
+    throw NotEnoughMemory("not enough memory for the linear solver");
+}
+
 bool DirectSolver::Impl::begin(int kind) {
   close();
+  require_room_for_blas();
   id = {};
   id.comm_fortran = use_communicator_world;
   id.par = 1;
@@ -214,12 +226,22 @@ Index DirectSolver::Impl::set_values(const SparseMatrix& k) {
   return -1;
 }
 
+/// Of the factorisation, by the analysis, without the slack; 0 before it.
+double DirectSolver::Impl::needed_bytes() const {
+  return 1e6 * id.infog[16] / (1 + 0.01 * id.icntl[slack]);
+}
+
+std::string DirectSolver::Impl::memory_text() const {
+  return "not enough memory for the factors of the tangent of " + std::to_string(n) + " unknowns" +
+         (needed_bytes() > 0 ? ", about " + core::memory_text(needed_bytes()) : "");
+}
+
 FactorReport DirectSolver::Impl::outcome() const {
   const int code = id.infog[0];
   if (code == -6 || code == -10) return failure(SolveStatus::singular, "a pivot is zero");
   if (code == -40) return failure(SolveStatus::failed, not_definite);
   if (code == -5 || code == -7 || code == -8 || code == -9 || code == -13)
-    return failure(SolveStatus::not_enough_memory, "not enough memory for the factors");
+    throw NotEnoughMemory(memory_text());
   if (code < 0) return failure(SolveStatus::failed, "MUMPS error " + std::to_string(code));
   FactorReport report;
   if (symmetry != Symmetry::unsymmetric) report.negative_pivots = id.infog[11];
@@ -240,7 +262,7 @@ FactorReport DirectSolver::Impl::prepare(const SparseMatrix& k, std::uint64_t wa
   if (!stands) {
     close();
     if (!begin(kind_of(symmetry)))
-      return failure(SolveStatus::not_enough_memory, "the linear solver did not start");
+      return failure(SolveStatus::failed, "the linear solver did not start");
     set_pattern(k);
   }
   const Index bad = set_values(k);
@@ -249,9 +271,13 @@ FactorReport DirectSolver::Impl::prepare(const SparseMatrix& k, std::uint64_t wa
     return failure(SolveStatus::failed, "the matrix has entries that are not finite", bad);
   }
   if (stands) return {};
+  analysed = false;
   call(analyse);
   FactorReport report = outcome();
   analysed = report.status == SolveStatus::ok;
+  // Where there is less in the whole machine, the system would end the program without a word.
+  if (const double all = core::memory_in_all(); all > 0 && needed_bytes() > all)
+    throw NotEnoughMemory(memory_text());
   report.seconds_analysis = seconds_since(begun);
   return report;
 }
@@ -322,8 +348,8 @@ SolveStatus DirectSolver::Impl::substitute(double* rhs, Index count) {
   id.lrhs = n;
   call(back_substitute);
   id.rhs = nullptr;
-  if (id.infog[0] >= 0) return SolveStatus::ok;
-  return id.infog[0] == -13 ? SolveStatus::not_enough_memory : SolveStatus::failed;
+  if (id.infog[0] == -13) throw NotEnoughMemory("not enough memory for a solution");
+  return id.infog[0] >= 0 ? SolveStatus::ok : SolveStatus::failed;
 }
 
 /// One correction from the residual where it is worth it, kept if it helps.

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <new>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "osculate/la/condensation.hpp"
 #include "osculate/la/sparse_matrix.hpp"
@@ -14,7 +16,17 @@ namespace osculate::la {
 enum class Symmetry { unsymmetric, positive_definite, indefinite };
 
 /// Numerical failure is a value, expected and handled by step control.
-enum class SolveStatus { ok, singular, not_enough_memory, failed };
+enum class SolveStatus { ok, singular, failed };
+
+/// The factors of a matrix do not fit into the memory. No smaller increment helps.
+class NotEnoughMemory : public std::bad_alloc {
+ public:
+  explicit NotEnoughMemory(std::string text) : text_(std::move(text)) {}
+  [[nodiscard]] const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  std::string text_;
+};
 
 struct FactorReport {
   SolveStatus status = SolveStatus::ok;
@@ -42,7 +54,8 @@ struct DirectOptions {
 /// lock per process around every call of the library.
 ///
 /// Errors     a matrix with 13 or more digits lost is reported as `singular` with the row of one of
-///            the unknowns that move in the free mode; nothing is thrown but std::bad_alloc
+///            the unknowns that move in the free mode; nothing is thrown but NotEnoughMemory
+///            and std::bad_alloc
 /// Tested by  tests/unit/la/test_direct_solver.cpp
 class DirectSolver {
  public:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <new>
 
 namespace osculate::la {
 namespace {
@@ -51,9 +52,10 @@ std::vector<int> nested_dissection(const SparseMatrix& k) {
   auto n = static_cast<idx_t>(k.n);
   const auto size = static_cast<std::size_t>(k.n);
   std::vector<idx_t> node(size), position(size);
-  if (METIS_NodeND(&n, start.data(), adjacent.data(), nullptr, nullptr, node.data(),
-                   position.data()) != METIS_OK)
-    return {};
+  const int done = METIS_NodeND(&n, start.data(), adjacent.data(), nullptr, nullptr, node.data(),
+                                position.data());
+  if (done == METIS_ERROR_MEMORY) throw std::bad_alloc();
+  if (done != METIS_OK) return {};
   std::vector<int> order;
   order.reserve(size);
   for (const idx_t p : position) order.push_back(static_cast<int>(p) + 1);

@@ -58,7 +58,8 @@ void MatrixBuilder::reserve_block(std::span<const Index> rows, std::span<const I
   for (const Index i : rows)
     for (const Index j : columns)
       if (i >= 0 && j >= 0 && find(i, j) == nullptr) pending_.push_back({i, j});
-  constexpr std::size_t most = 8'000'000;  // bounds the memory of the set-up
+  // Bounds the memory of the set-up, and how often what is there is copied.
+  const std::size_t most = std::max<std::size_t>(8'000'000, matrix_.column.size() / 2);
   if (pending_.size() > most) merge();
 }
 

@@ -128,6 +128,45 @@ std::string orient(const Mesh& mesh, const EdgeTable& table, BoundaryFacet& face
   return {};
 }
 
+/// One direction of travel for lines without parent that hang together: that of most of them.
+void align_lines(Boundary& boundary) {
+  std::vector<BoundaryFacet>& facets = boundary.facets;
+  std::unordered_map<Index, std::vector<std::size_t>> at_node;
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    for (const int end : {0, 1})
+      at_node[facets[f].node[static_cast<std::size_t>(end)]].push_back(f);
+  std::vector<int> sense(facets.size(), 0);
+  std::size_t turned = 0;
+  for (std::size_t first = 0; first < facets.size(); ++first) {
+    if (facets[first].has_parent() || sense[first] != 0) continue;
+    std::vector<std::size_t> line{first};
+    sense[first] = 1;
+    std::size_t against = 0;
+    for (std::size_t i = 0; i < line.size(); ++i)
+      for (const std::size_t end : {0, 1}) {
+        const std::vector<std::size_t>& both = at_node[facets[line[i]].node[end]];
+        const std::size_t next = both.front() == line[i] ? both.back() : both.front();
+        if (both.size() != 2 || facets[next].has_parent() || sense[next] != 0) continue;
+        const bool agrees = facets[next].node[1 - end] == facets[line[i]].node[end];
+        sense[next] = agrees ? sense[line[i]] : -sense[line[i]];
+        against += sense[next] < 0 ? 1 : 0;
+        line.push_back(next);
+      }
+    const int minority = 2 * against > line.size() ? 1 : -1;
+    for (const std::size_t member : line)
+      if (sense[member] == minority) {
+        flip(facets[member]);
+        facets[member].flipped = true;
+        ++turned;
+      }
+  }
+  if (turned > 0)
+    add_message(
+        boundary.warnings,
+        fmt::format("{} of {} lines were turned round so that neighbours face the same side",
+                    turned, facets.size()));
+}
+
 BoundaryFacet line_facet(const Mesh& mesh, CellRef ref) {
   const Block& block = block_of(mesh, ref);
   BoundaryFacet facet;
@@ -210,6 +249,7 @@ Boundary orient_boundary(const Mesh& mesh, const EdgeTable& table, const Set& se
     else
       add_message(boundary.errors, fmt::format("set '{}': {}", set.name, problem));
   }
+  align_lines(boundary);
   connect(mesh, boundary);
   return boundary;
 }

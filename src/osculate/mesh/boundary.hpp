@@ -60,7 +60,8 @@ struct Boundary {
 /// Sign       the normal k x rho_xi points out of the body (also of cells numbered clockwise)
 /// Errors     a line with two parents (inside the body), used twice, with a parent of no area, or
 ///            with other interior nodes than the edge of its parent
-/// Returns    prev/next already set; lines without parent keep the order of the file
+/// Returns    prev/next already set; lines without parent that hang together travel in one
+///            direction, that of most of them in the file
 /// Requires   set.dimension == 1
 /// Tested by  tests/unit/mesh/test_boundary.cpp, test_outer_facets.cpp
 [[nodiscard]] Boundary orient_boundary(const Mesh& mesh, const EdgeTable& table, const Set& set);

@@ -98,6 +98,9 @@ void check_cells(const Mesh& mesh, std::vector<Finding>& findings) {
   report(findings, Flaw::duplicate_line, false, twice[1], "line cell(s) that are there twice");
 }
 
+/// Larger ones overflow in their powers.
+bool is_number(const Vec3& x) { return (x.array().abs() <= 1e100).all(); }
+
 void check_nodes(const Mesh& mesh, std::vector<Finding>& findings) {
   Tally infinite;
   Tally unused;
@@ -108,11 +111,12 @@ void check_nodes(const Mesh& mesh, std::vector<Finding>& findings) {
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     const Vec3& x = mesh.nodes[i];
     const std::string text =
-        (used[i] && x.allFinite()) ? "" : describe_node(mesh, static_cast<Index>(i)).substr(5);
-    if (!x.allFinite()) infinite.add(text);
+        (used[i] && is_number(x)) ? "" : describe_node(mesh, static_cast<Index>(i)).substr(5);
+    if (!is_number(x)) infinite.add(text);
     if (!used[i]) unused.add(text);
   }
-  report(findings, Flaw::not_finite, true, infinite, "node(s) with coordinates that are no number");
+  report(findings, Flaw::not_finite, true, infinite,
+         "node(s) with coordinates that are no number, or beyond 1e100");
   report(findings, Flaw::unused_node, false, unused,
          has_volumes(mesh) ? "node(s) of no cell" : "node(s) of no line or area cell");
 }
@@ -161,11 +165,12 @@ void check_volumes(const Mesh& mesh, std::vector<Finding>& findings) {
          "distorted)");
 }
 
-/// Nodes of one volume set that are at the same place.
+/// Nodes of one set of volumes (in the plane of areas) that are at the same place.
 void check_double_nodes(const Mesh& mesh, std::vector<Finding>& findings) {
   Tally doubles;
+  const int dimension = has_volumes(mesh) ? 3 : 2;
   for (const Set& set : mesh.sets) {
-    if (set.dimension != 3 || set.nodes.empty()) continue;
+    if (set.dimension != dimension || set.nodes.empty()) continue;
     Vec3 low = point(mesh, set.nodes[0]);
     Vec3 high = low;
     for (const Index node : set.nodes) {
@@ -191,6 +196,76 @@ void check_double_nodes(const Mesh& mesh, std::vector<Finding>& findings) {
          "pair(s) of nodes of one body at the same place, so that it may not hang together");
 }
 
+double cross(const Vec3& a, const Vec3& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// On which side of the line from a to b the middle of a cell is: positive on the left.
+double side_of(const Mesh& mesh, CellRef ref, const Vec3& a, const Vec3& b) {
+  Vec3 middle = Vec3::Zero();
+  const int n = info_of(mesh, ref).corners;
+  for (int k = 0; k < n; ++k) middle += point(mesh, nodes_of(mesh, ref)[k]) / n;
+  return cross(b - a, middle - a);
+}
+
+/// Ends of free edges that lie on other free edges, between their ends.
+void add_hanging(const Mesh& mesh, const std::string& set,
+                 const std::vector<std::array<Index, 2>>& free, Tally& hanging) {
+  constexpr double nearly = 1e-6;  // of the edge
+  std::vector<Index> nodes;
+  for (const std::array<Index, 2>& ends : free) nodes.insert(nodes.end(), ends.begin(), ends.end());
+  const auto left = [&](Index n, double x) { return point(mesh, n).x() < x; };
+  std::sort(nodes.begin(), nodes.end(), [&](Index a, Index b) {
+    return std::pair(point(mesh, a).x(), a) < std::pair(point(mesh, b).x(), b);
+  });
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  for (const std::array<Index, 2>& ends : free) {
+    const Vec3 &a = point(mesh, ends[0]), along = point(mesh, ends[1]) - a;
+    const double size = along.squaredNorm(), reach = nearly * std::sqrt(size);
+    const double from = a.x() + std::min(0.0, along.x()) - reach;
+    const double to = a.x() + std::max(0.0, along.x()) + reach;
+    for (auto n = std::lower_bound(nodes.begin(), nodes.end(), from, left);
+         n != nodes.end() && point(mesh, *n).x() <= to; ++n) {
+      const Vec3 arm = point(mesh, *n) - a;
+      const double share = arm.dot(along) / size;
+      if (share > nearly && share < 1 - nearly && std::abs(cross(along, arm)) < nearly * size)
+        hanging.add(fmt::format("{} of '{}'", describe_node(mesh, *n).substr(5), set));
+    }
+  }
+}
+
+/// In the plane an edge has one cell on each side, and free edges have no nodes between their ends.
+void check_plane(const Mesh& mesh, std::vector<Finding>& findings) {
+  const auto is_plane = [](const Vec3& x) { return x.z() == 0 && is_number(x); };
+  if (has_volumes(mesh) || !std::all_of(mesh.nodes.begin(), mesh.nodes.end(), is_plane)) return;
+  Tally overlapping, hanging;
+  for (const Set& set : mesh.sets) {
+    if (set.dimension != 2) continue;
+    const EdgeTable table = edge_table(mesh, set.cells);
+    std::vector<std::array<Index, 2>> free;
+    for (std::size_t i = 0, end = 0; i < table.edges.size(); i = end) {
+      for (end = i + 1; end < table.edges.size() && table.edges[end].key == table.edges[i].key;)
+        ++end;
+      const Edge& edge = table.edges[i];
+      const auto& local = info_of(mesh, edge.cell).edges[static_cast<std::size_t>(edge.local)];
+      const std::array<Index, 2> ends{nodes_of(mesh, edge.cell)[local[0]],
+                                      nodes_of(mesh, edge.cell)[local[1]]};
+      const Vec3 &a = point(mesh, ends[0]), &b = point(mesh, ends[1]);
+      if (end == i + 1) free.push_back(ends);
+      const bool same_side =
+          end == i + 2 &&
+          side_of(mesh, edge.cell, a, b) * side_of(mesh, table.edges[i + 1].cell, a, b) > 0;
+      if (end > i + 2 || same_side)
+        overlapping.add(fmt::format("at the edge from {} to {} of '{}'",
+                                    describe_node(mesh, ends[0]),
+                                    describe_node(mesh, ends[1]).substr(5), set.name));
+    }
+    add_hanging(mesh, set.name, free, hanging);
+  }
+  report(findings, Flaw::overlap, false, overlapping,
+         "place(s) where cells of one body lie over each other");
+  report(findings, Flaw::hanging_node, false, hanging,
+         "node(s) on an edge of another cell of their body, so that it may not hang together");
+}
+
 void check_sets(const Mesh& mesh, std::vector<Finding>& findings) {
   Tally empty;
   for (const Set& set : mesh.sets)
@@ -211,7 +286,12 @@ std::vector<Finding> check_mesh(const Mesh& mesh) {
   check_cells(mesh, findings);
   check_nodes(mesh, findings);
   check_volumes(mesh, findings);
-  check_double_nodes(mesh, findings);
+  const auto has = [&](auto wanted) {
+    return std::any_of(findings.begin(), findings.end(), wanted);
+  };
+  if (!has([](const Finding& f) { return f.flaw == Flaw::not_finite; }))
+    check_double_nodes(mesh, findings);
+  if (!has([](const Finding& f) { return f.is_error; })) check_plane(mesh, findings);
   check_sets(mesh, findings);
   return findings;
 }

@@ -9,14 +9,16 @@ namespace osculate::mesh {
 
 enum class Flaw : std::uint8_t {
   bad_index,         ///< a cell or set names a node or cell that does not exist
-  not_finite,        ///< a coordinate is NaN or infinite
+  not_finite,        ///< a coordinate is NaN, infinite or beyond 1e100
   repeated_node,     ///< a cell names a node twice
   duplicate_volume,  ///< two volume cells on the same nodes
   duplicate_area,    ///< two area cells on the same nodes
   duplicate_line,    ///< two line cells on the same nodes
   inside_out,        ///< a volume cell whose Jacobian is not positive at its nodes and centre
   unused_node,       ///< a node of no cell (points and node sets do not count as use)
-  double_node,       ///< two nodes of one volume set at the same place: parts that are not joined
+  double_node,       ///< two nodes of one body's set at the same place: parts that are not joined
+  hanging_node,      ///< plane: a node on an edge of another cell of its set, between its ends
+  overlap,           ///< plane: two cells on the same side of an edge, or three at one
   empty_set          ///< a set without nodes
 };
 

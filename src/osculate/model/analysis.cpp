@@ -10,6 +10,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// In the time of the analysis.
+double length_of(const Step& step) { return step.dynamics ? step.duration : 1.0; }
+
 /// One analysis on its way.
 template <int Dim>
 struct Analysis {
@@ -20,6 +23,7 @@ struct Analysis {
   la::DirectSolver solver{la::DirectOptions{.condense = options.condense}};
   BasicAnalysisResult<Dim> result{};
   Progress progress{};
+  double begun = 0;  ///< time at the beginning of the running step
   solve::StepPosition position{};
 
   /// Tells the observer; false to stop.
@@ -62,7 +66,7 @@ struct Analysis {
                                   const solve::IncrementRecord& record) {
       ++progress.increment;
       progress.fraction = record.fraction;
-      progress.time = static_cast<double>(progress.step) + record.fraction;
+      progress.time = begun + record.fraction * length_of(step);
       return tell(state, &record);
     };
     const auto on_cutback = [&](const std::string& reason, double from, double to,
@@ -86,8 +90,10 @@ struct Analysis {
     result.state = done.state;
     result.last_iterate = done.state;
     result.outcome = done.outcome;
-    if (done.outcome == solve::Outcome::stopped) result.message = done.reason;
-    if (done.outcome != solve::Outcome::converged && done.outcome != solve::Outcome::stopped) {
+    const bool ended =
+        done.outcome == solve::Outcome::stopped || done.outcome == solve::Outcome::out_of_memory;
+    if (ended) result.message = done.reason;
+    if (done.outcome != solve::Outcome::converged && !ended) {
       result.failure = diagnose(system, model, step, done);
       result.message = result.failure->message;
       result.last_iterate = done.last_attempt.state;
@@ -133,11 +139,14 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
     return result;
   }
   const auto first = static_cast<std::size_t>(a.progress.step);
+  if (from && !model.steps.empty())
+    a.system.resume_step(model.steps[first], result.state, from->memory);
+  if (from && observer.resumed) observer.resumed();
   for (std::size_t s = first; s < model.steps.size(); ++s) {
     const Step& step = model.steps[s];
-    if (from && s == first) {
-      a.system.resume_step(step, result.state, from->memory);
-    } else {
+    a.begun = 0;
+    for (std::size_t before = 0; before < s; ++before) a.begun += length_of(model.steps[before]);
+    if (!from || s != first) {
       a.progress.step = static_cast<Index>(s);
       a.progress.increment = 0;
       a.position = {};

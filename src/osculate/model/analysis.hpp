@@ -22,7 +22,8 @@ struct Progress {
   Index step = 0;       ///< 0-based
   Index increment = 0;  ///< 1-based inside the step, sub-increments counted
   double fraction = 0;
-  double time = 0;  ///< steps completed + fraction
+  /// Of the analysis: steps with inertia last as long as they are told to, others one unit each.
+  double time = 0;
 };
 
 struct StepRecord {
@@ -68,6 +69,8 @@ struct BasicAnalysisObserver {
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
                      const solve::StepPosition&)>
       resumable;
+  /// Where the analysis goes on from a resume point: it stands there, nothing has been solved yet.
+  std::function<void()> resumed{};
   /// Asked between two iterations: true ends the analysis with what has converged.
   std::function<bool()> interrupted;
 };

@@ -105,6 +105,21 @@ double smallest_jacobian(const BasicModel<Dim>& model, const mesh::CellRef& ref)
   return solid::smallest_jacobian(cell.type, reference_of(model, cell.nodes));
 }
 
+template <int Dim>
+BasicDofSpace<Dim> dof_space(const BasicModel<Dim>& model) {
+  std::vector<bool> used(model.reference.size(), false);
+  for (const BasicBulkSection<Dim>& section : model.sections)
+    for (const mesh::CellRef& ref : section.cells)
+      for (const Index node : cell_nodes(model.mesh, ref).nodes)
+        used[static_cast<std::size_t>(node)] = true;
+  std::vector<Index> bodies = model.body_of_node;
+  if (bodies.empty()) bodies.assign(model.reference.size(), -1);
+  return {static_cast<Index>(model.reference.size()), std::move(bodies),
+          static_cast<Index>(model.rigid.size()), model.equations, used};
+}
+
+template DofSpace dof_space(const Model&);
+template DofSpace3 dof_space(const Model3&);
 template SolidCoordinates<2> reference_of(const Model&, std::span<const Index>);
 template SolidCoordinates<3> reference_of(const Model3&, std::span<const Index>);
 template SolidCoordinates<2> displacement_of<2>(const Eigen::VectorXd&, std::span<const Index>);

@@ -56,6 +56,10 @@ struct CellNodes {
 };
 [[nodiscard]] CellNodes cell_nodes(const mesh::Mesh& mesh, const mesh::CellRef& cell);
 
+/// Which displacements of a model are unknowns.
+template <int Dim>
+[[nodiscard]] BasicDofSpace<Dim> dof_space(const BasicModel<Dim>& model);
+
 using BulkBlock = BasicBulkBlock<2>;
 using BulkBlock3 = BasicBulkBlock<3>;
 

@@ -13,9 +13,7 @@
 #include "osculate/model/system_impl.hpp"
 
 namespace osculate::model {
-namespace {
 
-/// Connected groups of the nodes used by bulk cells.
 template <int Dim>
 std::vector<std::vector<Index>> deformable_bodies(const BasicModel<Dim>& model) {
   std::vector<Index> parent(model.reference.size());
@@ -50,6 +48,24 @@ std::vector<std::vector<Index>> deformable_bodies(const BasicModel<Dim>& model) 
   }
   return bodies;
 }
+
+Eigen::MatrixXd plain_basis(Eigen::MatrixXd w) {
+  constexpr double smallest = 1e-6;
+  Eigen::Index done = 0;
+  for (Eigen::Index row = 0; row < w.rows() && done < w.cols(); ++row) {
+    Eigen::Index best = 0;
+    if (w.row(row).tail(w.cols() - done).cwiseAbs().maxCoeff(&best) < smallest) continue;
+    w.col(done).swap(w.col(done + best));
+    w.col(done) /= w(row, done);
+    for (Eigen::Index c = 0; c < w.cols(); ++c)
+      if (c != done) w.col(c) -= w(row, c) * Eigen::VectorXd(w.col(done));
+    ++done;
+  }
+  w.colwise().normalize();
+  return w;
+}
+
+namespace {
 
 template <int Dim>
 std::string body_name(const BasicModel<Dim>& model, Index node) {
@@ -108,24 +124,6 @@ Eigen::MatrixXd admissible(const BasicSystem<Dim>& system, const Eigen::MatrixXd
   Eigen::Index free = 0;
   while (free < m && eigen.values[free] < smallest * eigen.values[m - 1]) ++free;
   return eigen.vectors.leftCols(free);
-}
-
-/// Combines columns to plain ones: each has a component of its own (translations first) that the
-/// others lack.
-Eigen::MatrixXd plain_basis(Eigen::MatrixXd w) {
-  constexpr double smallest = 1e-6;
-  Eigen::Index done = 0;
-  for (Eigen::Index row = 0; row < w.rows() && done < w.cols(); ++row) {
-    Eigen::Index best = 0;
-    if (w.row(row).tail(w.cols() - done).cwiseAbs().maxCoeff(&best) < smallest) continue;
-    w.col(done).swap(w.col(done + best));
-    w.col(done) /= w(row, done);
-    for (Eigen::Index c = 0; c < w.cols(); ++c)
-      if (c != done) w.col(c) -= w(row, c) * Eigen::VectorXd(w.col(done));
-    ++done;
-  }
-  w.colwise().normalize();
-  return w;
 }
 
 /// Points where its largest component is positive; round-off becomes zero.
@@ -311,6 +309,8 @@ std::string outside_domain_message(const BasicModel<Dim>& model, const OutsideDo
       found.pair, who + (found.nodes.size() == 1 ? " lies" : " lie"));
 }
 
+template std::vector<std::vector<Index>> deformable_bodies(const Model&);
+template std::vector<std::vector<Index>> deformable_bodies(const Model3&);
 template std::vector<OutsideDomain> outside_domain(const System&, const Model&);
 template std::vector<OutsideDomain> outside_domain(const System3&, const Model3&);
 template std::string outside_domain_message(const Model&, const OutsideDomain&);

@@ -6,6 +6,14 @@
 
 namespace osculate::model {
 
+/// Connected groups of the nodes used by bulk cells.
+template <int Dim>
+[[nodiscard]] std::vector<std::vector<Index>> deformable_bodies(const BasicModel<Dim>& model);
+
+/// Combines columns to plain ones: each has a component of its own (the first ones first) that the
+/// others lack.
+[[nodiscard]] Eigen::MatrixXd plain_basis(Eigen::MatrixXd w);
+
 /// A rigid motion of one body that the tangent hardly resists.
 template <int Dim>
 struct BasicFreeMotion {

@@ -281,6 +281,7 @@ double history_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& mode
       return pair_value(system, model, request);
     case HistoryRequest::Kind::whole:
       if (request.quantity == time_step_quantity) return state.rates.length;
+      if (request.quantity == fraction_quantity) return state.fraction;
       return energy_value(state.rates.energies, request.quantity);
   }
   return std::numeric_limits<double>::quiet_NaN();

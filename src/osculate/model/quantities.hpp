@@ -33,6 +33,8 @@ inline constexpr std::array<std::string_view, 9> energy_quantities{
     "friction", "damping", "numerical", "residual"};
 /// Length of the last increment in time, where time steps are chosen by their errors.
 inline constexpr std::string_view time_step_quantity = "time_step";
+/// Of the running step that has passed, in models with inertia.
+inline constexpr std::string_view fraction_quantity = "fraction";
 inline constexpr std::array<std::string_view, 6> node_quantities{"ux",  "uy", "rfx",
                                                                  "rfy", "vx", "vy"};
 inline constexpr std::array<std::string_view, 9> rigid_quantities{"ux",  "uy", "rz", "rfx", "rfy",

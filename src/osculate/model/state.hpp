@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "osculate/body/rigid_body.hpp"
@@ -34,6 +35,9 @@ struct StableStep {
   int since = 0;         ///< time steps since
   Index cell = -1;       ///< that governs it, counted through all sections
   bool contact = false;  ///< the springs of contacts govern it
+  /// The longest step that keeps the energy: a point may come and go anywhere within a time step
+  /// of its spring, and mass times the damping is not to turn the velocity round.
+  double faithful = std::numeric_limits<double>::infinity();
 };
 
 /// What a state has in steps with inertia, over the primary dofs. The acceleration is that of all

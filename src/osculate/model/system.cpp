@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/model/penetration.hpp"
 #include "osculate/model/system_impl.hpp"
 
 namespace osculate::model {
@@ -82,6 +83,7 @@ void BasicSystem<Dim>::resume_step(const Step& step, const State& committed,
     p.ramp.start = memory.starts[i];
     if (p.hold) p.ramp.target = p.ramp.start;
   }
+  impl_->reserve_pattern();
   impl_->builder.grow_by(memory.grown);
   if (impl_->motion) impl_->motion->speeds = memory.speeds;
 }
@@ -176,7 +178,14 @@ std::optional<BasicState<Dim>> BasicSystem<Dim>::augment(const State& trial) con
   State next = trial;
   bool missed = false;
   for (std::size_t p = 0; p < trial.multipliers.size(); ++p) {
-    const pairing::PairDefinition<Dim>& pair = impl_->model.pairs[p].definition;
+    const BasicContactPair<Dim>& whole = impl_->model.pairs[p];
+    const pairing::PairDefinition<Dim>& pair = whole.definition;
+    if (adapts_penalty(impl_->model, whole)) {
+      double& stiffening = next.multipliers[p].stiffening;
+      const double more = wanted_stiffening(mean_share(whole, impl_->contact[p]), stiffening);
+      stiffening *= more;
+      missed = missed || more > 1;
+    }
     if (pair.enforcement != contact::Enforcement::augmented_lagrange) continue;
     next.multipliers[p] = pairing::augmented(pair, impl_->contact[p], trial.multipliers[p]);
     if (next.multipliers[p].violation > pair.target) missed = true;
@@ -194,6 +203,13 @@ bool BasicSystem<Dim>::augments_often() const {
 }
 
 template <int Dim>
+bool BasicSystem<Dim>::may_stay() const {
+  return std::ranges::none_of(impl_->model.pairs, [](const BasicContactPair<Dim>& pair) {
+    return pair.definition.enforcement == contact::Enforcement::augmented_lagrange;
+  });
+}
+
+template <int Dim>
 Index BasicSystem<Dim>::displacements() const {
   return impl_->dofs.unknowns();
 }
@@ -206,12 +222,14 @@ Index BasicSystem<Dim>::unknowns() const {
 template <int Dim>
 const la::SparseMatrix& BasicSystem<Dim>::matrix() {
   const Stopwatch watch;
+  impl_->reserve_pattern();
   const la::SparseMatrix& k = impl_->builder.finish();
   impl_->seconds.assembly += watch.seconds();
   return k;
 }
 template <int Dim>
 std::uint64_t BasicSystem<Dim>::pattern_version() const {
+  impl_->reserve_pattern();
   return impl_->builder.pattern_version();
 }
 template <int Dim>
@@ -233,6 +251,10 @@ const Forces& BasicSystem<Dim>::forces() const {
 template <int Dim>
 const std::vector<pairing::PairEvaluation<Dim>>& BasicSystem<Dim>::contact() const {
   return impl_->contact;
+}
+template <int Dim>
+const std::vector<bool>& BasicSystem<Dim>::touched() const {
+  return impl_->touched;
 }
 template <int Dim>
 std::vector<Vec<Dim>> BasicSystem<Dim>::positions(const State& state) const {

@@ -98,6 +98,9 @@ class BasicSystem {
   [[nodiscard]] std::optional<State> augment(const State& trial) const;
   /// Whether the multipliers are corrected after every iteration instead of every solution.
   [[nodiscard]] bool augments_often() const;
+  /// Whether a solution may stay though no solution is found around what `augment` made of it: it
+  /// was only a stiffer penalty.
+  [[nodiscard]] bool may_stay() const;
   /// The converged state with its new history and rates. `trial` must be the last state evaluated.
   [[nodiscard]] State commit(const State& trial, double fraction) const;
   /// The first impact before `fraction` (or not long after it) if everything goes on with the
@@ -131,6 +134,8 @@ class BasicSystem {
   [[nodiscard]] const BasicDofSpace<Dim>& dofs() const;
   [[nodiscard]] const Forces& forces() const;  ///< of the last evaluation
   [[nodiscard]] const std::vector<pairing::PairEvaluation<Dim>>& contact() const;
+  /// By pair: whether it was closed in a time step of explicit integration so far.
+  [[nodiscard]] const std::vector<bool>& touched() const;
   /// At the beginning of the last iterations (at most eight) of the running attempt and at its end.
   [[nodiscard]] std::vector<ContactStates> recent_contact() const;
   [[nodiscard]] std::vector<Vec<Dim>> positions(const State& state) const;

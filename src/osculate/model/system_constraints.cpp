@@ -169,21 +169,7 @@ void BasicSystem<Dim>::Impl::soften() {
     }
 }
 
-template void BasicSystem<2>::Impl::find_condensable();
-template void BasicSystem<3>::Impl::find_condensable();
-template void BasicSystem<2>::Impl::soften();
-template void BasicSystem<3>::Impl::soften();
-template double BasicSystem<2>::Impl::add_constraint_row(Index, const Eigen::VectorXd*);
-template double BasicSystem<3>::Impl::add_constraint_row(Index, const Eigen::VectorXd*);
-template void BasicSystem<2>::Impl::add_constraint_tangent(const pairing::ContactBlock<2>&, bool,
-                                                           Index, const Eigen::VectorXd*);
-template void BasicSystem<3>::Impl::add_constraint_tangent(const pairing::ContactBlock<3>&, bool,
-                                                           Index, const Eigen::VectorXd*);
-template void BasicSystem<2>::Impl::add_constraints(std::size_t, bool, const Eigen::VectorXd*);
-template void BasicSystem<3>::Impl::add_constraints(std::size_t, bool, const Eigen::VectorXd*);
-template void BasicSystem<2>::Impl::add_to_multipliers(State&, const Eigen::VectorXd&,
-                                                       double) const;
-template void BasicSystem<3>::Impl::add_to_multipliers(State&, const Eigen::VectorXd&,
-                                                       double) const;
+template struct BasicSystem<2>::Impl;
+template struct BasicSystem<3>::Impl;
 
 }  // namespace osculate::model

@@ -171,6 +171,7 @@ template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::commit_contact() {
   for (std::size_t p = 0; p < now.pairs.size(); ++p) {
     const pairing::PairEvaluation<Dim>& evaluation = system.contact[p];
+    system.touched[p] = system.touched[p] || pairing::touches(evaluation);
     now.pairs[p].points.resize(evaluation.points.size());
     for (std::size_t i = 0; i < evaluation.points.size(); ++i)
       now.pairs[p].points[i] = evaluation.points[i].history;

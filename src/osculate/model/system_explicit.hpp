@@ -71,6 +71,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
 
   // solve::ExplicitSystem
   [[nodiscard]] double stable_step(const solve::ExplicitMotion& m);
+  [[nodiscard]] double faithful_step() const { return stable.faithful; }
   void follow(double time, double h, solve::ExplicitMotion& m);
   [[nodiscard]] bool accelerate(double time, double h, solve::ExplicitMotion& m);
   [[nodiscard]] bool grows(const solve::ExplicitMotion& m);

@@ -61,8 +61,7 @@ void BasicSystem<Dim>::Impl::evaluate_path(const State& committed, std::size_t p
   pairing::Assumed<Dim> assumed;
   assumed.duration = duration;
   assumed.relief = relief(model.pairs[pair].definition, committed.fraction);
-  const bool around =
-      pair < committed.multipliers.size() && !committed.multipliers[pair].points.empty();
+  const bool around = pair < committed.multipliers.size();
   pairing::evaluate<Dim>(model.pairs[pair].definition, x, committed.pairs[pair], false,
                          motion->paths[pair], assumed,
                          around ? &committed.multipliers[pair] : nullptr);

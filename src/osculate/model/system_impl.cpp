@@ -10,22 +10,6 @@ namespace {
 
 constexpr std::size_t tile = 256;  ///< cells computed in parallel before they are added in order
 
-template <int Dim>
-std::vector<bool> used_nodes(const BasicModel<Dim>& model) {
-  std::vector<bool> used(model.reference.size(), false);
-  for (const BasicBulkSection<Dim>& section : model.sections)
-    for (const mesh::CellRef& ref : section.cells)
-      for (const Index node : cell_nodes(model.mesh, ref).nodes)
-        used[static_cast<std::size_t>(node)] = true;
-  return used;
-}
-
-template <int Dim>
-std::vector<Index> bodies_by_node(const BasicModel<Dim>& model) {
-  return model.body_of_node.empty() ? std::vector<Index>(model.reference.size(), -1)
-                                    : model.body_of_node;
-}
-
 /// A moment about axes fixed in space has no potential: its tangent is unsymmetric.
 template <int Dim>
 bool has_moment_in_space(const BasicModel<Dim>& model, const DeadLoad& load) {
@@ -84,13 +68,13 @@ template <int Dim>
 BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int thread_count)
     : model(m),
       threads(std::max(1, thread_count)),
-      dofs(static_cast<Index>(m.reference.size()), bodies_by_node(m),
-           static_cast<Index>(m.rigid.size()), m.equations, used_nodes(m)),
+      dofs(dof_space(m)),
       builder(dofs.unknowns() + multiplier_unknowns(m)),
       assembler(dofs, builder),
       contact(m.pairs.size()),
       symmetry(needs_unsymmetric(m) ? la::Symmetry::unsymmetric : la::Symmetry::indefinite) {
   unknowns = dofs.unknowns();
+  touched.assign(model.pairs.size(), false);
   for (const BasicContactPair<Dim>& pair : model.pairs) {
     first_multiplier.push_back(constrained(pair) ? unknowns : -1);
     if (constrained(pair))
@@ -101,6 +85,12 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int thread_count)
     for (const mesh::CellRef& cell : section.cells) jobs.push_back({&section, cell});
   blocks.resize(std::min(tile, jobs.size()));
   assembler.set_prescribed(std::vector<bool>(static_cast<std::size_t>(dofs.unknowns()), false));
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::reserve_pattern() {
+  if (pattern_reserved) return;
+  pattern_reserved = true;
   // Contact entries enter the pattern when they first appear and then stay.
   std::vector<Index> of_cell;
   for (const CellJob& job : jobs) {
@@ -126,7 +116,9 @@ void BasicSystem<Dim>::Impl::clear(bool with_tangent) {
   constraint.setZero(unknowns - dofs.unknowns());
   branch_constraint.setZero(unknowns - dofs.unknowns());
   branched = false;
-  if (with_tangent) builder.clear();
+  if (!with_tangent) return;
+  reserve_pattern();
+  builder.clear();
 }
 
 template <int Dim>
@@ -312,7 +304,7 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
                                    : pairing::Assumed<Dim>{};
     assumed.duration = duration;
     assumed.relief = relief(pair, fraction);
-    const bool around = p < trial.multipliers.size() && !trial.multipliers[p].points.empty();
+    const bool around = p < trial.multipliers.size();
     pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed,
                            around ? &trial.multipliers[p] : nullptr);
     seconds.contact += watch.seconds();
@@ -462,8 +454,9 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
       std::max({forces.internal.norm(), forces.contact.norm(), forces.external.norm()});
   if (timed()) out.force_scale = std::max(force_factor() * out.force_scale, forces.contact.norm());
   if (with_tangent && resistance.size() == 0) measure_resistance();
-  out.round_off = round_off + round_off_in_time(x);
-  out.driven = !timed() && forces.external.norm() > 0;
+  out.round_off_in_time = round_off_in_time(x);
+  out.round_off = round_off + out.round_off_in_time;
+  out.loaded = forces.external.norm() > 0;
   if (predict) out.force_scale = std::max(out.force_scale, out.residual.norm());
 }
 

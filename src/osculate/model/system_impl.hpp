@@ -51,6 +51,7 @@ struct BasicSystem<Dim>::Impl {
   int threads;
   BasicDofSpace<Dim> dofs;
   la::MatrixBuilder builder;
+  bool pattern_reserved = false;  ///< whoever asks for no matrix pays for none
   BasicAssembler<Dim> assembler;
   std::vector<CellJob> jobs;
   std::vector<BulkBlock> blocks;
@@ -64,6 +65,7 @@ struct BasicSystem<Dim>::Impl {
   Eigen::VectorXd
       resistance;      ///< stiffness of the bodies' own, one per unknown; empty: not yet measured
   double carried = 0;  ///< largest prescribed increment of the last prediction
+  std::vector<bool> touched;    ///< by pair, in explicit time integration
   bool beginning = true;        ///< the first step: initial overlaps are let in
   double round_off = 0;         ///< of internal forces, from that of the coordinates
   double extent = 0;            ///< of all cells
@@ -113,6 +115,8 @@ struct BasicSystem<Dim>::Impl {
   std::vector<body::BasicRigidMotion<Dim>> mass_rigid;
 
   Impl(const BasicModel<Dim>& m, int thread_count);
+  /// The places of all cells in the matrix.
+  void reserve_pattern();
 
   [[nodiscard]] bool flies_apart(const State& committed, const State& trial,
                                  solve::Evaluation& out) const;

@@ -43,11 +43,6 @@ FacetFoot foot_on_shape(const SurfaceFacet& facet, std::span<const Vec3> x, cons
   return foot;
 }
 
-Vec3 middle_normal(const SurfaceFacet& facet, std::span<const Vec3> x) {
-  const Vec2 middle = cell::is_triangle(facet.type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(Vec2::Zero());
-  return facet_normal(facet, middle, x);
-}
-
 /// Mean of the corners.
 Vec3 middle_of(const SurfaceFacet& facet, std::span<const Vec3> x) {
   Vec3 sum = Vec3::Zero();

@@ -78,13 +78,15 @@ template <int Dim>
   return r;
 }
 
-/// The answer of the point's normal law: the pair's, with the penalty of the point.
+/// The answer of the point's normal law: the pair's, with the penalty of the point. (Around a
+/// multiplier the stiffening comes with it.)
 template <int Dim>
 [[nodiscard]] contact::NormalResponse normal_response(const PairDefinition<Dim>& pair,
                                                       const contact::PointHistory<Dim>& history,
                                                       double gap, const BranchHint<Dim>& hint) {
-  if (hint.own.normal == 1) return response_of(pair.normal, pair, history, gap, hint);
-  return response_of(pair.normal.stiffened(hint.own.normal), pair, history, gap, hint);
+  const double factor = hint.own.normal * (hint.multiplier ? 1 : hint.stiffening);
+  if (factor == 1) return response_of(pair.normal, pair, history, gap, hint);
+  return response_of(pair.normal.stiffened(factor), pair, history, gap, hint);
 }
 
 /// What is reported of the normal direction, whether the point is in contact or was let go.
@@ -119,7 +121,8 @@ template <int Dim>
 [[nodiscard]] contact::FrictionLaw friction_law(const PairDefinition<Dim>& pair,
                                                 double normal_traction,
                                                 const BranchHint<Dim>& hint) {
-  const contact::FrictionLaw law = pair.friction->stiffened(hint.stiffening * hint.own.shear);
+  const double stiffening = hint.multiplier ? hint.stiffening : 1;
+  const contact::FrictionLaw law = pair.friction->stiffened(stiffening * hint.own.shear);
   if (!hint.multiplier) return law;
   return law.stiffened(contact::steadying(law, normal_traction, hint.duration));
 }

@@ -51,22 +51,11 @@ double cover_of(const std::vector<MortarCell<Dim>>& cells, std::size_t count) {
   return cover;
 }
 
-Vec2 normal_of(const Facet& facet, Points<2> x) {
-  return turn(x[at(facet.nodes[1])] - x[at(facet.nodes[0])]).normalized();
-}
-Vec3 normal_of(const SurfaceFacet& facet, Points<3> x) {
-  const bool triangle = cell::info(facet.type).corners == 3;
-  const auto node = [&](std::size_t k) { return x[at(facet.nodes[k])]; };
-  const Vec3 a = triangle ? node(1) - node(0) : node(2) - node(0);
-  return a.cross(triangle ? node(2) - node(0) : node(3) - node(1)).normalized();
-}
-
 /// Facets whose normals are within 60 degrees of opposite. One that stands across the other, as the
 /// side of a punch, is not what lies over it, however near its foot is.
 template <int Dim, class AnyFacet>
 bool face_each_other(const AnyFacet& slave, const AnyFacet& master, Points<Dim> x) {
-  constexpr double facing = -0.5;
-  return normal_of(slave, x).dot(normal_of(master, x)) <= facing;
+  return middle_normal(slave, x).dot(middle_normal(master, x)) <= facing_cosine;
 }
 
 /// Of several layers of master the nearest: cells are taken by distance while the facet has room.

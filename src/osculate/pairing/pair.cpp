@@ -144,6 +144,7 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
               bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed,
               const PairMultipliers<Dim>* multipliers) {
   Laps laps;
+  out.stiffening = multipliers ? multipliers->stiffening : 1;
   if (pair.separation == Separation::tied) {
     evaluate_ties(pair, x, committed, with_tangent, out);
     laps.add_to(out.seconds.evaluation);

@@ -94,7 +94,9 @@ struct PairState {
 template <int Dim>
 struct PairMultipliers {
   std::vector<contact::Multiplier<Dim>> points;
-  double stiffening = 1;  ///< factor of the pair's penalties (augmented Lagrangian)
+  /// Factor of the pair's penalties (augmented Lagrangian), or of a normal penalty that the program
+  /// has chosen and found too soft.
+  double stiffening = 1;
   /// Largest gap or elastic slip of the last correction of the multipliers; how fast it falls tells
   /// whether the penalties are stiff enough.
   double violation = std::numeric_limits<double>::infinity();
@@ -198,7 +200,8 @@ struct PairEvaluation {
   MortarBuffers<Dim> mortar;
   /// With valleys: the multipliers as the states that were found take them, one per slave point.
   std::vector<contact::Multiplier<Dim>> around;
-  bool apart = false;  ///< master and slave are farther from each other than the scope reaches
+  double stiffening = 1;  ///< that was used (PairMultipliers)
+  bool apart = false;     ///< master and slave are farther from each other than the scope reaches
   PairSeconds seconds;
 };
 

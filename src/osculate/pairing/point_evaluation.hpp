@@ -32,9 +32,9 @@ template <int Dim>
     hint.known = true;
   }
   hint.duration = assumed.duration;
-  if (multipliers && i < multipliers->points.size()) {
-    hint.multiplier = &multipliers->points[i];
+  if (multipliers) {
     hint.stiffening = multipliers->stiffening;
+    if (i < multipliers->points.size()) hint.multiplier = &multipliers->points[i];
   }
   return hint;
 }

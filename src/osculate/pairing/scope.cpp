@@ -51,7 +51,7 @@ FacetOutline<Dim> outline(const FacetType& facet, std::span<const Vec<Dim>> x) {
   FacetOutline<Dim> out{Vec<Dim>::Zero(), Vec<Dim>::Zero(), infinite};
   if (facet.shape) return out;
   out.middle = facet_jet(facet, middle_of(facet), x).r;
-  out.normal = normal_at(facet, middle_of(facet), x);
+  out.normal = middle_normal(facet, x);
   out.bulge = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {
     const Vec<Dim> arm = x[static_cast<std::size_t>(facet.nodes[k])] - out.middle;
@@ -164,6 +164,13 @@ bool admitted(const NodeScope<Dim>& rules, const FacetType& facet, const Coordin
 }
 
 }  // namespace
+
+Vec2 middle_normal(const Facet& facet, std::span<const Vec2> x) {
+  return normal_at(facet, middle_of(facet), x);
+}
+Vec3 middle_normal(const SurfaceFacet& facet, std::span<const Vec3> x) {
+  return normal_at(facet, middle_of(facet), x);
+}
 
 template <int Dim>
 void prepare(Scope<Dim>& scope, const Boundary<Dim>& master, const SlaveSide<Dim>& slave,

@@ -1,7 +1,9 @@
 #pragma once
 #include <vector>
 
+#include "osculate/pairing/chain.hpp"
 #include "osculate/pairing/projection.hpp"
+#include "osculate/pairing/surface.hpp"
 
 namespace osculate::pairing {
 
@@ -13,6 +15,10 @@ struct FacetOutline {
   double spread = 0;  ///< its normals are within this angle of the one in the middle
   double facing = 2, same_way = 2;  ///< as of a branch
 };
+
+/// Unit normal in the middle of a facet that is no analytic shape.
+[[nodiscard]] Vec2 middle_normal(const Facet& facet, std::span<const Vec2> x);
+[[nodiscard]] Vec3 middle_normal(const SurfaceFacet& facet, std::span<const Vec3> x);
 
 /// Angles between normals that matter to the rules of a scope.
 inline constexpr double facing_cosine = -0.5;   ///< own surface: only beyond 120 degrees

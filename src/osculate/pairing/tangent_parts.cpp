@@ -10,13 +10,15 @@ namespace {
 
 template <int Dim>
 double share_at(const PairDefinition<Dim>& pair, std::size_t i, const PointResult<Dim>& point,
-                const Placed<Dim>& placed, const contact::TangentForm& parts) {
+                const Placed<Dim>& placed, double stiffening, const contact::TangentForm& parts) {
   const SlavePoint<Dim>& slave = pair.slave.points[i];
   BranchHint<Dim> hint;
   hint.own = relative_stiffness(pair, i);
+  hint.stiffening = stiffening;
   contact::Traction<Dim> traction;
   traction.normal = normal_response<Dim>(pair, point.history, placed.kinematics.gap, hint);
-  if (!traction.normal.active) traction.normal.d_traction = point_penalty(pair, i).normal;
+  if (!traction.normal.active)
+    traction.normal.d_traction = stiffening * point_penalty(pair, i).normal;
   traction.normal.traction = point.normal_traction;
   const Weights<Dim> w = contact_weights(slave, placed);
   const int count = slave.count + placed.count, size = Dim * count;
@@ -47,7 +49,8 @@ double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
     const contact::PointHistory<Dim>& history = evaluation.points[i].history;
     const Placed<Dim> placed = place_point<Dim>(pair, evaluation, x, i, history);
     if (placed.projection.feature == projection::Feature::none) continue;
-    largest = std::max(largest, share_at(pair, i, evaluation.points[i], placed, parts));
+    largest = std::max(
+        largest, share_at(pair, i, evaluation.points[i], placed, evaluation.stiffening, parts));
   }
   return largest;
 }

@@ -56,6 +56,7 @@ template <class S>
 concept Augments = requires(const S s, const typename S::State& state) {
   { s.augment(state) } -> std::same_as<std::optional<typename S::State>>;
   { s.augments_often() } -> std::convertible_to<bool>;
+  { s.may_stay() } -> std::convertible_to<bool>;
 };
 
 /// Systems whose unknowns are displacements and, behind them, multipliers. Those are forces: in
@@ -192,7 +193,8 @@ template <System S>
       more = correct_arc(system, committed, solver, judge, point);
     if (more || result.outcome != Outcome::converged) break;
     if constexpr (Augments<S>)
-      if (const std::optional<typename S::State> next = system.augment(result.state)) {
+      if (const std::optional<typename S::State> next =
+              system.may_stay() ? std::nullopt : system.augment(result.state)) {
         result.state = *next;
         result.outcome = Outcome::not_converged;
         system.evaluate(committed, result.state, point.fraction, true, result.evaluation);

@@ -25,6 +25,7 @@ struct ExplicitMotion {
 template <class S>
 concept ExplicitSystem = requires(S s, ExplicitMotion& m, double time, double h) {
   { s.stable_step(m) } -> std::convertible_to<double>;
+  { s.faithful_step() } -> std::convertible_to<double>;  // what the energy asks for, beside it
   {s.follow(time, h, m)};
   { s.accelerate(time, h, m) } -> std::convertible_to<bool>;
   { s.grows(m) } -> std::convertible_to<bool>;  // energy that nothing has put in
@@ -72,7 +73,7 @@ template <ExplicitSystem S>
   while (time < to) {
     const double stable = system.stable_step(m);
     taken.stable = taken.count == 0 ? stable : std::min(taken.stable, stable);
-    double limit = options.safety * stable;
+    double limit = std::min(options.safety * stable, static_cast<double>(system.faithful_step()));
     if (options.step > 0) limit = std::min(limit, options.step);
     const double wanted = std::ceil((to - time) / limit * (1 - sliver));
     if (!(limit > 0) || wanted > most) return TimeStepping::too_many;

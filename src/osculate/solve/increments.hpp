@@ -1,8 +1,10 @@
 #pragma once
 #include <algorithm>
 #include <functional>
+#include <new>
 #include <optional>
 
+#include "osculate/core/memory.hpp"
 #include "osculate/solve/arc_length.hpp"
 #include "osculate/solve/central_differences.hpp"
 #include "osculate/solve/extrapolation.hpp"
@@ -103,7 +105,7 @@ inline NewtonOptions loosened(NewtonOptions options) {
 template <System S>
 void augment(S& system, const typename S::State& committed, double time,
              const NewtonOptions& options, la::DirectSolver& solver,
-             NewtonResult<typename S::State>& attempt) {
+             NewtonResult<typename S::State>& attempt, bool resisted = false) {
   const bool often = system.augments_often();
   const int most = often ? 200 : 60;
   bool whole = !often;
@@ -112,15 +114,23 @@ void augment(S& system, const typename S::State& committed, double time,
     const std::optional<typename S::State> next = system.augment(attempt.state);
     if (!next && whole) return;
     whole = !often || !next;
-    const Guess guess{attempt.total, attempt.first_residual, attempt.first_energy};
+    const Guess guess{attempt.total, attempt.first_residual, attempt.first_energy, false, resisted};
     NewtonResult<typename S::State> more =
         newton(system, committed, time, whole ? options : loosened(options), solver, guess,
                next ? &*next : &attempt.state);
+    if (more.outcome != Outcome::converged && more.outcome != Outcome::stopped &&
+        system.may_stay()) {
+      attempt.iterations.insert(attempt.iterations.end(), more.iterations.begin(),
+                                more.iterations.end());
+      system.evaluate(committed, attempt.state, time, true, attempt.evaluation);
+      return;
+    }
     more.iterations.insert(more.iterations.begin(), attempt.iterations.begin(),
                            attempt.iterations.end());
     more.extrapolated = attempt.extrapolated;
     attempt = std::move(more);
   }
+  if (system.may_stay()) return;
   fail(attempt, Outcome::not_converged,
        "the penetration is above its target after " + std::to_string(most) +
            " corrections of the multipliers");
@@ -135,7 +145,8 @@ template <System S>
   if constexpr (Augments<S>)
     if (system.augments_often()) first = loosened(options);
   NewtonResult<typename S::State> attempt = newton(system, committed, time, first, solver, guess);
-  if constexpr (Augments<S>) augment(system, committed, time, options, solver, attempt);
+  if constexpr (Augments<S>)
+    augment(system, committed, time, options, solver, attempt, guess.resisted);
   return attempt;
 }
 
@@ -454,13 +465,18 @@ template <System S>
   result.state = start;
   detail::StepRun<S> run{system,       nominal_increments, options,  solver,
                          on_increment, on_cutback,         position, result};
-  while (position.nominal < nominal_increments) {
-    if (!position.path.on && position.at >= run.end()) {
-      ++position.nominal;
-      if (!options.time_steps) position.size = 0;
-      continue;
+  try {
+    while (position.nominal < nominal_increments) {
+      if (!position.path.on && position.at >= run.end()) {
+        ++position.nominal;
+        if (!options.time_steps) position.size = 0;
+        continue;
+      }
+      if (!(position.path.on ? detail::path_increment(run) : detail::free_increment(run))) break;
     }
-    if (!(position.path.on ? detail::path_increment(run) : detail::free_increment(run))) break;
+  } catch (const std::bad_alloc& error) {
+    result.outcome = Outcome::out_of_memory;
+    result.reason = core::out_of_memory_text(error);
   }
   return result;
 }

@@ -15,7 +15,8 @@ enum class Outcome {
   converged,
   not_converged,      ///< iterations used up, or the residual grows without end: cut the increment
   numerical_failure,  ///< singular tangent, inverted element, not a number: cut, and tell where
-  stopped             ///< the observer asked to stop
+  stopped,            ///< the observer asked to stop
+  out_of_memory       ///< no smaller increment needs less
 };
 
 /// States of the contact points, for the log and for state-aware step control.
@@ -34,7 +35,9 @@ struct Evaluation {
   Eigen::VectorXd branch_residual;  ///< what to linearise from where it differs from `residual`
   double force_scale = 0;  ///< largest of the norms of internal, external and contact forces
   double round_off = 0;    ///< a residual below this may be rounding of coordinates times stiffness
-  bool driven = true;  ///< false: no forces act, or only inertia, against which rounding is small
+  double round_off_in_time =
+      0;               ///< the part of it that inertia has: the position is none the worse
+  bool loaded = true;  ///< forces act from outside
   StateCounts counts;
   bool saddle = false;  ///< some unknowns are multipliers: the residual has no potential
 };
@@ -50,10 +53,11 @@ enum class Predictor { automatic, tangent };
 /// |du . R| <= energy * (value of the first iteration). A measure with tolerance 0 is not used.
 /// A correction at round-off (1e-10 of the increment's largest) ends the iteration in any case; so
 /// does a residual that no longer falls, below the estimate of round-off and 1e-3 of the scale,
-/// when the work of the correction has fallen to 1e-10 of the first. Where nothing drives the
-/// system but rounding, such a residual is all there is. Both used (default): after a solve, the
-/// energy is the work of the remaining residual on the last correction. Energy alone: the papers'
-/// rule, which needs the solve it is measured with
+/// when the work of the correction has fallen to 1e-10 of the first. Where no force acts from
+/// outside and the prediction leaves rounding alone, or inertia has it all, such a residual is all
+/// there is. With a tangent without digits corrections must have fallen to 1e-5 of the largest
+/// besides. Both used (default): after a solve, the energy is the work of the remaining residual on
+/// the last correction. Energy alone: the papers' rule, which needs the solve it is measured with
 /// ("counting the last solve").
 ///
 /// Formula    scale = max(force_scale, 1e-3 |R_1|), R_1 the residual of the prediction: a body that

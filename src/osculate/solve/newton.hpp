@@ -31,12 +31,22 @@ struct Judge {
 
   /// What the residual keeps is rounding, and the answer is none the worse for it: the work of the
   /// last correction says that it was the last one.
-  [[nodiscard]] bool only_rounding(const Evaluation& e, double residual,
-                                   double energy_before) const {
+  [[nodiscard]] bool only_rounding(const Evaluation& e, double residual, double energy_before,
+                                   double first_residual) const {
     constexpr double residual_limit = 1e-3, energy_limit = 1e-10;
-    if (stalled == 0 || e.residual.norm() > e.round_off) return false;
-    if (!e.driven) return true;
+    const double size = e.residual.norm();
+    if (stalled == 0 || size > e.round_off) return false;
+    if (size <= e.round_off_in_time) return true;
+    if (!e.loaded && first_residual <= e.round_off) return true;  // nothing drives the system
     return residual <= residual_limit && energy_before <= energy_limit * first_energy;
+  }
+
+  /// A tangent without digits may leave a small residual far from the answer: only corrections that
+  /// have become small beside the first ones say that it is near. Multipliers of constraints that
+  /// say the same twice are free to move for ever: they say nothing.
+  [[nodiscard]] bool settled(double condition, bool saddle, double correction) const {
+    constexpr double small = 1e-5;
+    return condition == 0 || saddle || correction <= small * largest_correction;
   }
 
   void look_at(double residual_norm) {
@@ -136,9 +146,10 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
   judge.largest_correction = std::max(judge.largest_correction, correction);
   judge.look_at(size);
   result.precision.round_off = false;
+  if (!judge.settled(result.precision.condition, e.saddle, correction)) return false;
   if (!judge.done(record.residual, energy_before, energy_after)) {
     const bool rounding =
-        judge.only_rounding(e, record.residual, energy_before) ||
+        judge.only_rounding(e, record.residual, energy_before, result.first_residual) ||
         (result.iterations.size() > 1 && judge.at_round_off(record.residual, correction));
     if (!rounding) return false;
     result.precision.round_off = by_residual && record.residual > judge.options.residual;

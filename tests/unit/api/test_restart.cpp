@@ -1,14 +1,19 @@
 // Restart inside one process, and analyses side by side.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
+#include "osculate/api/checkpoint.hpp"
 #include "osculate/api/run.hpp"
+#include "osculate/deck/parse.hpp"
+#include "osculate/io/csv.hpp"
 
 namespace osculate::api {
 namespace {
@@ -83,6 +88,13 @@ class Restart : public ::testing::Test {
     o.threads = threads;
     return o;
   }
+  void replace(const std::string& name, const std::string& old, const std::string& text) const {
+    std::ostringstream content;
+    content << std::ifstream(folder_ / name).rdbuf();
+    std::string changed = content.str();
+    changed.replace(changed.find(old), old.size(), text);
+    std::ofstream(folder_ / name) << changed;
+  }
   /// Histories and fields, byte by byte, and the steps of the summary.
   [[nodiscard]] std::map<std::string, std::string> results(const std::string& out) const {
     std::map<std::string, std::string> found;
@@ -133,6 +145,23 @@ TEST_F(Restart, WithTimeStepsByTheirErrors) {
   EXPECT_EQ(fields % 6, 0);
 }
 
+TEST_F(Restart, TheTimeOfStepsWithInertiaIsThatOfTheClock) {
+  ASSERT_EQ(run(options("thrown", "whole")).status, RunStatus::done);
+  const io::CsvTable table = io::read_csv((folder_ / "whole/history.csv").string());
+  const auto column = [&](const char* name) { return table.numbers(table.find(name)); };
+  const std::vector<double> time = column("time"), elapsed = column("elapsed"),
+                            fraction = column("fraction"), step = column("step");
+  for (std::size_t i = 0; i < time.size(); ++i) {
+    EXPECT_NEAR(time[i], elapsed[i], 1e-15);
+    EXPECT_NEAR(time[i], step[i] == 1 ? 0.01 * fraction[i] : 0.01 + 0.1 * fraction[i], 1e-15);
+  }
+  EXPECT_NEAR(time.back(), 0.11, 1e-15);
+  const nlohmann::json steps = nlohmann::json::parse(results("whole")["summary.json"]);
+  EXPECT_NEAR(steps[0]["increments"][0]["time"], 0.005, 1e-15);
+  EXPECT_NEAR(steps[1]["increments"].back()["time"], 0.11, 1e-15);
+  EXPECT_NE(results("whole")["results.pvd"].find("timestep=\"0.11"), std::string::npos);
+}
+
 TEST_F(Restart, OnAPathThatTurnsBack) {
   const std::string model = OSCULATE_SOURCE_DIR "/verification/snap_through/roller.yaml";
   RunOptions whole = options("plane", "whole"), o = options("plane", "pieces");
@@ -147,6 +176,100 @@ TEST_F(Restart, OnAPathThatTurnsBack) {
   EXPECT_GE(runs, 8);
   EXPECT_EQ(results("pieces"), results("whole"));
   EXPECT_NE(results("whole")["summary.json"].find("\"on_path\":true"), std::string::npos);
+}
+
+TEST_F(Restart, NothingIsCutBeforeTheAnalysisStandsWhereItGoesOn) {
+  replace("plane.yaml", "output: {", "output: {checkpoint: 5, ");
+  RunOptions o = options("plane", "out");
+  int lines = 0;
+  o.progress = [&](std::string_view) {
+    if (++lines == 9) throw std::runtime_error("killed");
+  };
+  EXPECT_THROW((void)run(o), std::runtime_error);
+  const auto before = results("out");
+  EXPECT_EQ(std::count(before.at("history.csv").begin(), before.at("history.csv").end(), '\n'), 10);
+  o.restart = true;
+  o.progress = nullptr;
+  o.say = [](std::string_view text) {
+    if (text.starts_with("restart after")) throw std::runtime_error("killed");
+  };
+  EXPECT_THROW((void)run(o), std::runtime_error);
+  EXPECT_EQ(results("out"), before);
+  o.say = nullptr;
+  EXPECT_EQ(run(o).status, RunStatus::done);
+  ASSERT_EQ(run(options("plane", "whole")).status, RunStatus::done);
+  EXPECT_EQ(results("out"), results("whole"));
+}
+
+TEST_F(Restart, OnAnotherProcessorItSaysThatLastBitsMayDiffer) {
+  const std::string path = (folder_ / "plane.yaml").string(), out = folder_.string();
+  const deck::Description description = deck::read_model(path);
+  const deck::AnyBuilt any = deck::build_any(description, deck::load_mesh(description));
+  const auto& built = std::get<deck::Built>(any);
+  model::System system(built.model, 1);
+  const model::State state = system.initial_state();
+  const RunIdentity here = identity(description, built.model.mesh, built.history);
+  const auto note_of = [&](const std::string& processor) {
+    RunIdentity there = here;
+    there.processor = processor;
+    CheckpointWriter<2> writer(out, there);
+    writer.add({}, {});
+    writer.save(state, {}, {}, {});
+    return read_checkpoint<2>(out, here, built.model, path).note;
+  };
+  EXPECT_EQ(note_of(here.processor), "");
+  EXPECT_NE(note_of("Abacus 3").find("(Abacus 3; this is " + here.processor + "): last bits may"),
+            std::string::npos);
+}
+
+TEST_F(Restart, LastFieldsAreThoseOfTheEndOfEveryStep) {
+  replace("plane.yaml", "output: {", "output: {fields: last, ");
+  ASSERT_EQ(run(options("plane", "whole")).status, RunStatus::done);
+  const auto times = [&](const std::string& out) {
+    std::vector<std::string> found;
+    const std::string text = results(out)["results.pvd"];
+    for (std::size_t at = 0; (at = text.find("timestep=\"", at)) != std::string::npos; ++at)
+      if (text.find("bodies", at) < text.find('\n', at))
+        found.push_back(text.substr(at + 10, text.find('"', at + 10) - at - 10));
+    return found;
+  };
+  EXPECT_EQ(times("whole"), (std::vector<std::string>{"1", "2"}));
+  RunOptions o = options("plane", "pieces");
+  o.until = "press";
+  ASSERT_EQ(run(o).status, RunStatus::done);
+  EXPECT_EQ(times("pieces"), (std::vector<std::string>{"1"}));
+  o.until = "";
+  o.restart = true;
+  ASSERT_EQ(run(o).status, RunStatus::done);
+  EXPECT_EQ(results("pieces"), results("whole"));
+}
+
+TEST_F(Restart, ALogThatCannotBeWrittenEndsTheRun) {
+  RunOptions o = options("plane", "out");
+  o.until = "press";
+  ASSERT_EQ(run(o).status, RunStatus::done);
+  fs::remove(folder_ / "out/log.txt");
+  fs::create_symlink("/dev/full", folder_ / "out/log.txt");
+  o.until = "";
+  o.restart = true;
+  const RunOutcome outcome = run(o);
+  EXPECT_EQ(outcome.status, RunStatus::stopped);
+  EXPECT_NE(outcome.message.find("log.txt: cannot write: No space left"), std::string::npos);
+}
+
+TEST_F(Restart, AModelFileThatIsEditedMeanwhileIsNotTheOneThatHasRun) {
+  const auto content = [&] {
+    std::ifstream file(folder_ / "out/summary.json");
+    return nlohmann::json::parse(file)["model_content"].get<std::string>();
+  };
+  RunOptions o = options("plane", "out");
+  ASSERT_EQ(run(o).status, RunStatus::done);
+  const std::string before = content();
+  o.say = [&](std::string_view) {
+    std::ofstream(folder_ / "plane.yaml", std::ios::app) << "# edited\n";
+  };
+  ASSERT_EQ(run(o).status, RunStatus::done);
+  EXPECT_EQ(content(), before);
 }
 
 TEST_F(Restart, TwoAnalysesAtTheSameTimeHaveTheBitsOfEachAlone) {

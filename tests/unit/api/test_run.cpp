@@ -330,6 +330,61 @@ TEST_F(Run, AnIncrementThatIsAbandonedLeavesTheOnesBefore) {
   EXPECT_FALSE(files().contains("last_iterate.vtu"));
 }
 
+TEST_F(Run, ABudgetOfIterationsEndsTheRunAndKeepsWhatConverged) {
+  RunOptions o = options();
+  o.max_iterations = 3;
+  const RunOutcome outcome = run(o);
+  EXPECT_EQ(outcome.status, RunStatus::stopped);
+  EXPECT_EQ(outcome.message,
+            "the 3 iterations that --max-iterations allows are used up; everything that converged "
+            "is kept");
+  const nlohmann::json s = summary();
+  EXPECT_EQ(s["message"], outcome.message);
+  EXPECT_LE(s["total"]["iterations"], 3);
+  EXPECT_GE(s["total"]["increments"], 1);
+  o.max_iterations = 0;
+  o.restart = true;
+  EXPECT_EQ(run(o).status, RunStatus::done);
+  EXPECT_EQ(summary()["total"]["increments"], 5);
+}
+
+TEST_F(Run, ABudgetOfTimeEndsTheRunAndKeepsWhatConverged) {
+  RunOptions o = options();
+  o.max_minutes = 1e-9;
+  const RunOutcome outcome = run(o);
+  EXPECT_EQ(outcome.status, RunStatus::stopped);
+  EXPECT_EQ(outcome.message,
+            "the 1e-09 minutes that --max-minutes allows are over; everything that converged is "
+            "kept");
+  EXPECT_EQ(table(read(results / "history.csv")).size(), 1 + 1u);
+}
+
+TEST_F(Run, ProgressTellsTheShareThatIsDone) {
+  RunOptions o = options();
+  std::vector<std::string> lines;
+  o.progress = [&](std::string_view line) { lines.emplace_back(line); };
+  (void)run(o);
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_TRUE(lines[1].starts_with("press ")) << lines[1];
+  lines.clear();
+  o.with_outlook = true;
+  (void)run(o);
+  EXPECT_TRUE(lines[1].starts_with(" 40 % ")) << lines[1];
+  EXPECT_TRUE(lines[4].starts_with("100 % 0 s left ")) << lines[4];
+  EXPECT_EQ(read(results / "log.txt").find('%'), std::string::npos);
+}
+
+TEST_F(Run, ParametersAreInTheSummary) {
+  write("model.yaml", edited(edited(model, "title:", "parameters: {down: -0.02}\ntitle:"),
+                             "uy: -0.02", "uy: =down"));
+  RunOptions o = options();
+  (void)run(o);
+  EXPECT_EQ(summary()["parameters"]["down"], "-0.02");
+  o.settings = {{"down", "-0.03"}};
+  (void)run(o);
+  EXPECT_EQ(summary()["parameters"]["down"], "-0.03");
+}
+
 TEST_F(Run, AnInterruptBeforeTheFirstIncrementStops) {
   RunOptions o = options();
   o.interrupted = [] { return true; };

@@ -29,6 +29,8 @@ inline Description graded_description(const Graded& g) {
       g.rigid
           ? fmt::format("line: {{points: [[{}, 0], [{}, 0]], elements: 50}}", from, to)
           : fmt::format("box: {{x: [{}, {}], y: [{}, 0], elements: [50, 1]}}", from, to, bottom);
+  const bool named = g.keys.find("sampling") != std::string::npos;
+  const std::string keys = named ? g.keys : g.keys + ", sampling: nodes";
   const std::string elastic = "  - {on: low, material: a, element: plane_strain}\n";
   return parse_model(fmt::format(R"(osculate: 1
 mesh:
@@ -48,7 +50,7 @@ steps:
                                  low, 8 * g.length, 2 * g.most * g.length, 100 * stress,
                                  g.modulus_left * stress, g.length, g.rigid ? "" : elastic,
                                  g.rigid ? "low" : "low.bottom", g.rigid ? "floor" : "low.top",
-                                 g.keys, g.push * g.most * g.length, g.slide * g.length),
+                                 keys, g.push * g.most * g.length, g.slide * g.length),
                      "model.yaml");
 }
 

@@ -37,7 +37,11 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "model.yaml:32: steps[1].forces[0]: unknown key 'on?\?'; did you mean 'on'?"},
       {"linear_elastic:", "plastic_flow:",
        "model.yaml:5: materials.steel: unknown key 'plastic_flow'; known: linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke"},
+       "st_venant_kirchhoff, neo_hooke"
+       "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the elastic laws "
+       "linear_elastic, "
+       "st_venant_kirchhoff, neo_hooke; plasticity and others are not available (osculate doc "
+       "limits)"},
       {"penalty: 2.1e6}\n    friction", "penalty: 2.1e6, <<: 1}\n    friction",
        "model.yaml:16: contact[0].normal: unknown key '<<'; known: penalty, exponential, table, "
        "damping, separation, tolerance, initial_gap"},
@@ -73,7 +77,11 @@ TEST(BrokenModels, OneOfSeveralKeys) {
        "model.yaml:9: rigid.base: 'set' and 'circle' exclude each other"},
       {"{linear_elastic: {E: 2.1e4, nu: 0.3}}", "{}",
        "model.yaml:5: materials.steel: needs one of linear_elastic, st_venant_kirchhoff, "
-       "neo_hooke"},
+       "neo_hooke"
+       "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the elastic laws "
+       "linear_elastic, "
+       "st_venant_kirchhoff, neo_hooke; plasticity and others are not available (osculate doc "
+       "limits)"},
       {"uy: -0.007, ux: 0}", "amplitude: wave}",
        "model.yaml:27: steps[0].prescribe[0]: needs at least one of ux, uy, uz, rx, ry, rz"},
       {", fy: -1", "",
@@ -108,7 +116,7 @@ TEST(BrokenModels, WrongTypes) {
       {"radius: 3", "radius: 3, inside: 1",
        "model.yaml:10: rigid.roll.circle.inside: expected true or false, got 1"},
       {"master: bottom", "master: {set: bottom}",
-       "model.yaml:13: contact[0].master: expected a text, got a map"},
+       "model.yaml:13: contact[0].master: expected a text or a list of words, got a map"},
       {"master: bottom", "master: ''", "model.yaml:13: contact[0].master: must not be empty"},
       {"{linear_elastic: {E: 2.1e4, nu: 0.3}}", "linear_elastic",
        "model.yaml:5: materials.steel: expected a map, got the text 'linear_elastic'"},
@@ -137,6 +145,9 @@ TEST(BrokenModels, WrongTypes) {
 TEST(BrokenModels, Ranges) {
   expect_refusals({
       {"E: 2.1e4", "E: -3", "model.yaml:5: materials.steel.linear_elastic.E: must be > 0, got -3"},
+      {"nu: 0.3", "nu: 0.4999999999999",
+       "model.yaml:5: materials.steel.linear_elastic.nu: is so near to 0.5 that the resistance to "
+       "changes of volume leaves no digits for anything else: use at most 0.4999999999"},
       {"nu: 0.3", "nu: 0.5",
        "model.yaml:5: materials.steel.linear_elastic.nu: must be > -1 and < 0.5, got 0.5"},
       {"mu: 0.3", "mu: -1e-3",
@@ -148,8 +159,11 @@ TEST(BrokenModels, Ranges) {
       {"mu: 0.3", "mu: inf",
        "model.yaml:17: contact[0].friction.coulomb.mu: must be a finite number, got inf"},
       {"mu: 0.3", "mu: 1e999",
-       "model.yaml:17: contact[0].friction.coulomb.mu: 1e999 cannot be represented: use numbers "
-       "between 1e-300 and 1e300"},
+       "model.yaml:17: contact[0].friction.coulomb.mu: 1e999 is out of range: use numbers "
+       "between 1e-300 and 1e100"},
+      {"mu: 0.3", "mu: 1e200",
+       "model.yaml:17: contact[0].friction.coulomb.mu: 1e200 is out of range: use numbers "
+       "between 1e-300 and 1e100"},
       {"increments: 80", "increments: 0",
        "model.yaml:29: steps[1].increments: must be >= 1 and <= 1000000, got 0"},
       {"increments: 80", "increments: 99999999999",

@@ -67,7 +67,7 @@ TEST(BrokenSurfaces, Nodes) {
       {"[1, 1, 0]", "[1, nan, 0]", "s.yaml:4: nodes[2][1]: must be a finite number, got nan"},
       {"[1, 1, 0]", "[1, -inf, 0]", "s.yaml:4: nodes[2][1]: must be a finite number, got -inf"},
       {"[1, 1, 0]", "[1, 1e999, 0]",
-       "s.yaml:4: nodes[2][1]: 1e999 cannot be represented: use numbers between 1e-300 and 1e300"},
+       "s.yaml:4: nodes[2][1]: 1e999 is out of range: use numbers between 1e-300 and 1e100"},
       {"[1, 1, 0]", "[1, one, 0]", "s.yaml:4: nodes[2][1]: expected a number, got the text 'one'"},
       {"[1, 1, 0]", "[1, '1', 0]",
        "s.yaml:4: nodes[2][1]: expected a number, got the quoted text '1'"},

@@ -85,7 +85,7 @@ TEST(Build, SetsThatAreMissing) {
       {{{"{on: high.left, tx: 1}", "{on: high.laft, tx: 1}"}},
        "model.yaml:34: steps[0].traction[0].on: unknown set 'high.laft'; did you mean "
        "'high.left'?"},
-      {{{"{on: low, by: -1}", "{on: slow, by: -1}"}},
+      {{{"{on: low, fy: -1}", "{on: slow, fy: -1}"}},
        "model.yaml:35: steps[0].body_force[0].on: unknown set 'slow'; did you mean 'low'?"},
       {{{"{on: low.left, of: [uy]}", "{on: lowleft, of: [uy]}"}},
        "model.yaml:38: steps[1].release[0].on: unknown set 'lowleft'; did you mean 'low.left'?"},
@@ -137,7 +137,7 @@ TEST(Build, RigidBodies) {
       {{{"punch: {circle", "low: {circle"},
         {"master: punch", "master: low"},
         {"{on: punch, uy: -0.1}", "{on: low, uy: -0.1}"},
-        {"{on: low, by: -1}", "{on: high, by: -1}"}},
+        {"{on: low, fy: -1}", "{on: high, fy: -1}"}},
        "model.yaml:15: rigid.low: rigid body 'low' has the name of a set of the mesh; choose "
        "another"},
       {{{"punch: {circle: {center: [2, 4], radius: 2}}", "punch: {set: rail.start}"}},
@@ -246,9 +246,9 @@ TEST(Build, Loads) {
       {{{"{on: high.left, tx: 1}", "{on: high, tx: 1}"}},
        "model.yaml:34: steps[0].traction[0].on: set 'high' has no boundary edges: a load on an "
        "edge needs a set of line cells"},
-      {{{"{on: low, by: -1}", "{on: rail, by: -1}"}},
+      {{{"{on: low, fy: -1}", "{on: rail, fy: -1}"}},
        "model.yaml:35: steps[0].body_force[0].on: set 'rail' has no bulk cells with a section"},
-      {{{"{on: low, by: -1}", "{on: low.top, by: -1}"}},
+      {{{"{on: low, fy: -1}", "{on: low.top, fy: -1}"}},
        "model.yaml:35: steps[0].body_force[0].on: set 'low.top' has no bulk cells with a section"},
       {{{"{on: high.bottom_right, fy: -1}", "{on: rail.start, fy: -1}"}},
        "model.yaml:32: steps[0].forces[0].on: set 'rail.start' has nodes of the rigid body 'base'; "
@@ -333,7 +333,8 @@ TEST(Build, CoordinatesThatAreNoNumber) {
   mesh::Mesh mesh = io::read_gmsh(square_mesh(good_nodes, good_quads), "square.msh");
   mesh.nodes[2].y() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(build_refusal(square_model, mesh),
-            "model.yaml:2: mesh: 1 node(s) with coordinates that are no number: 3 (2, nan)");
+            "model.yaml:2: mesh: 1 node(s) with coordinates that are no number, or beyond 1e100: 3 "
+            "(2, nan)");
 }
 
 TEST(Build, OverlappingSections) {

@@ -271,8 +271,8 @@ TEST(BuildSpace, WhatThePlaneDoesNotHave) {
            "model.yaml:32: steps[0].forces[0].my: 'my'" + why},
           {"{on: high.left, tx: 1}", "{on: high.left, tx: 1, tz: 2}",
            "model.yaml:34: steps[0].traction[0].tz: 'tz'" + why},
-          {"{on: low, by: -1}", "{on: low, bz: -1}",
-           "model.yaml:35: steps[0].body_force[0].bz: 'bz'" + why},
+          {"{on: low, fy: -1}", "{on: low, fz: -1}",
+           "model.yaml:35: steps[0].body_force[0].fz: 'fz'" + why},
           {"{on: low.left, of: [uy]}", "{on: low.left, of: [uy, uz]}",
            "model.yaml:38: steps[1].release[0]: 'uz'" + why},
           {"{on: low.top_left, of: ux, factor: 1}", "{on: low.top_left, of: uz, factor: 1}",
@@ -399,7 +399,7 @@ TEST(BuildSpace, SolidShells) {
   expect_refusals(model,
                   {{"[2, 2, 1]", "[2, 2, 1], type: tet4",
                     "model.yaml:5: sections[0].element: set 'b' has tet4 cells: solid_shell is for "
-                    "hex8 and shell18 cells; use solid"}});
+                    "hex8, shell18 and hex27 cells; use solid"}});
 }
 
 TEST(BuildSpace, VolumesInAPlaneModel) {

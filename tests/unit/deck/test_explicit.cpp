@@ -332,5 +332,41 @@ steps: [{{name: s, increments: 1, duration: 1e-6, dynamics: {{scheme: {}, mass: 
     }
 }
 
+/// A block that falls on a floor with an energy of 2.
+std::string falling(const std::string& penalty, const std::string& more = "") {
+  return fmt::format(R"(osculate: 1
+mesh: {{generate: {{b: {{box: {{x: [0, 1], y: [0.02, 1.02], elements: [6, 6]}}}}}}}}
+materials: {{m: {{linear_elastic: {{E: 1000, nu: 0.3, density: 1}}}}}}
+sections: [{{on: b, material: m, element: plane_strain}}]
+rigid: {{floor: {{line: {{point: [0, 0], normal: [0, 1]}}}}}}
+contact: [{{name: c, master: floor, slave: b.bottom, normal: {{penalty: {}}}}}]
+initial_velocity: [{{on: b, vy: -2}}]
+steps: [{{name: fall, increments: 20, duration: 0.3, dynamics: {{scheme: central_differences{}}}}}]
+)",
+                     penalty, more);
+}
+
+TEST(Explicit, AnImpactOnAStiffContactMakesNoEnergy) {
+  for (const char* penalty : {"1e5", "1e6", "1e8"}) {
+    const Flight flight = run_of(falling(penalty));
+    ASSERT_EQ(flight.result.outcome, solve::Outcome::converged);
+    const model::Energies& e = flight.energies.back();
+    EXPECT_NEAR(e.kinetic + e.strain + e.contact, 2, 0.03) << penalty;
+  }
+}
+
+TEST(Explicit, DampingByMassOnlyTakesEnergyAway) {
+  for (const int mass : {100, 1000, 10000}) {
+    const Flight flight = run_of(falling("1e4", fmt::format(", damping: {{mass: {}}}", mass)));
+    ASSERT_EQ(flight.result.outcome, solve::Outcome::converged);
+    double before = 0;
+    for (const model::Energies& e : flight.energies) {
+      EXPECT_GE(e.damping, before) << mass;
+      before = e.damping;
+    }
+    EXPECT_NEAR(before, 2, 0.2) << mass;
+  }
+}
+
 }  // namespace
 }  // namespace osculate::deck

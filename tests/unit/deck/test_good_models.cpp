@@ -36,6 +36,22 @@ TEST(GoodModels, Block) {
   EXPECT_EQ(d.solver.residual.value, 1e-9);
 }
 
+TEST(GoodModels, BodyForcesAreNamedAsForcesAndReadByTheirFormerNames) {
+  const std::string now = test_file("full.yaml");
+  ASSERT_NE(now.find("body_force: [{on: block, fx: 5, fy: 6,"), std::string::npos);
+  for (const std::string& text : {now, edited(now, "fx: 5, fy: 6,", "bx: 5, by: 6,"),
+                                  edited(now, "fx: 5, fy: 6,", "bx: 5, fy: 6,")}) {
+    const Description d = parse_model(text, "model.yaml");
+    for (const Step& step : d.steps) {
+      if (step.body_force.empty()) continue;
+      EXPECT_EQ(step.body_force[0].values[0]->value, 5);
+      EXPECT_EQ(step.body_force[0].values[1]->value, 6);
+    }
+  }
+  EXPECT_THROW((void)parse_model(edited(now, "fx: 5, fy: 6,", "fx: 5, bx: 6,"), "model.yaml"),
+               core::InputError);
+}
+
 TEST(GoodModels, DefaultsOfTheSmallestModel) {
   const Description d = parse_model(
       "osculate: 1\nmesh: a.msh\nmaterials: {m: {linear_elastic: {E: 1, nu: 0}}, n: {neo_hooke: "

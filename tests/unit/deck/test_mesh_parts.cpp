@@ -35,6 +35,32 @@ TEST(MeshParts, Boxes) {
   EXPECT_EQ(block.axis, Vec3(0, 0, 1));
 }
 
+TEST(MeshParts, Rings) {
+  const Description d = parse_model(test_file("ring.yaml"), "model.yaml");
+  const Built3 built = build3(d, load_mesh(d));
+  const mesh::Mesh& mesh = built.model.mesh;
+  EXPECT_EQ(mesh.find_set("ring")->cells.size(), 24u);
+  EXPECT_EQ(mesh.find_set("ring.from"), nullptr);
+  for (const Index n : mesh.find_set("ring.outer")->nodes)
+    EXPECT_NEAR((mesh.nodes[static_cast<std::size_t>(n)] - Vec3(1, -1, 0)).norm(), 3, 1e-14);
+  EXPECT_EQ(mesh.find_set("pipe")->cells.size(), 24u);
+  // The pressure on a quarter: radius times length in both directions.
+  EXPECT_NEAR(built.loads[0].at(0).whole.force.y(), 8, 1e-12);
+  EXPECT_NEAR(built.loads[0].at(0).whole.force.z(), 8, 1e-12);
+  EXPECT_NEAR(built.loads[0].at(0).whole.force.x(), 0, 1e-12);
+}
+
+TEST(MeshParts, BrokenRings) {
+  const auto refused = [](const std::string& from, const std::string& to) {
+    return refusal(edited(test_file("ring.yaml"), from, to));
+  };
+  EXPECT_EQ(refused("center: [1, -1]", "center: [1, -1, 0]"),
+            "model.yaml:5: mesh.generate.ring.ring.center: expected 2 values for a ring without z, "
+            "got 3");
+  EXPECT_EQ(refused("center: [1, -1]", "along: x"),
+            "model.yaml:5: mesh.generate.ring.ring.along: is for rings with z");
+}
+
 TEST(MeshParts, Surfaces) {
   const Description d = good();
   const auto& roll = part<mesh::TubeSpec>(d, 2);

@@ -275,7 +275,7 @@ mesh:
 materials: {a: {linear_elastic: {E: 100, nu: 0.25}}}
 sections: [{on: high, material: a, element: solid}]
 rigid: {floor: {set: low}}
-contact: [{name: c, master: floor, slave: high.bottom}]
+contact: [{name: c, master: floor, slave: high.bottom, sampling: nodes}]
 steps: [{name: s, increments: 1, prescribe: [{on: high.top, ux: 0, uy: 0, uz: -0.01}]}]
 )";
   const Description description = parse_model(text, "model.yaml");

@@ -17,7 +17,8 @@ std::string sheared(const std::string& enforcement, const std::string& normal = 
          "materials: {m: {linear_elastic: {E: 1000, nu: 0.3}}}\n"
          "sections: [{on: low, material: m, element: plane_strain},\n"
          "  {on: up, material: m, element: plane_strain}]\n"
-         "contact: [{name: c, master: low.top, slave: up.bottom, friction: {rough: {}}, " +
+         "contact: [{name: c, master: low.top, slave: up.bottom, sampling: nodes, friction: "
+         "{rough: {}}, " +
          normal + "enforcement: " + enforcement +
          "}]\n"
          "steps:\n"

@@ -1,4 +1,5 @@
 // The keys sampling and two_pass.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "deck_test.hpp"
@@ -38,6 +39,54 @@ TEST(SamplingKey, SetsTheContactPoints) {
   EXPECT_NEAR(length, 4, 1e-14);
   EXPECT_EQ(lobatto.model.pairs[0].definition.slave.points.size(), 12u);  // each pair its own
   EXPECT_EQ(lobatto.model.pairs[2].definition.slave.points.size(), 15u);  // second pass
+}
+
+/// Between meshes, with the program's penalty: Gauss points. Where they would be too many, or the
+/// master is a plain shape: nodes.
+TEST(SamplingKey, IsChosenByTheSides) {
+  const auto points = [](const std::string& laws, std::size_t pair) {
+    const Description d =
+        parse_model(edited(edited(test_file("bodies.yaml"), gap, "slave: low.top" + laws),
+                           "slave: high.top, normal: {penalty: 1000}", "slave: high.top"),
+                    "model.yaml");
+    return build(d, load_mesh(d)).model.pairs.at(pair).definition.slave.points.size();
+  };
+  constexpr std::size_t nodes = 5, two_on_each = 8;
+  EXPECT_EQ(points("", 1), two_on_each);
+  EXPECT_EQ(points(", normal: {penalty: 1000}", 1), nodes);
+  EXPECT_EQ(points("", 2), nodes);  // the master is a circle
+  for (const std::string key :
+       {"sampling: nodes", "two_pass: true", "weight: node", "enforcement: augmented_lagrange",
+        "enforcement: lagrange_multiplier"})
+    EXPECT_EQ(points(", " + key, 1), nodes) << key;
+}
+
+/// The nodes of the coarser of two deformable sides.
+TEST(SamplingKey, NodesOfTheCoarserSideAreWarnedOf) {
+  const auto warnings = [](const std::string& keys, int columns) {
+    const std::string text = fmt::format(R"(osculate: 1
+mesh: {{generate: {{low: {{box: {{x: [0, 4], y: [0, 1], elements: [{}, 1]}}}},
+  high: {{box: {{x: [0, 4], y: [1, 2], elements: [8, 1]}}}}}}}}
+materials: {{m: {{linear_elastic: {{E: 100, nu: 0.3}}}}}}
+sections: [{{on: low, material: m, element: plane_strain}}, {{on: high, material: m, element: plane_strain}}]
+contact: [{{name: c, master: high.bottom, slave: low.top{}}}]
+steps: [{{name: s, increments: 1, prescribe: [{{on: low.bottom, ux: 0, uy: 0}}]}}]
+)",
+                                         columns, keys);
+    const Description d = parse_model(text, "model.yaml");
+    return build(d, load_mesh(d)).warnings;
+  };
+  const std::vector<std::string> told = warnings(", sampling: nodes", 4);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0],
+            "contact 'c': the facets of the slave 'low.top' are 2 times as long as those of "
+            "'high.bottom', and its nodes alone are tested for contact: pressures are off by some "
+            "per cent; name the finer side slave, or use sampling: {gauss: 2} or mortar");
+  EXPECT_EQ(warnings(", sampling: nodes", 8).size(), 0u);
+  EXPECT_EQ(warnings(", sampling: nodes", 7).size(), 0u);
+  EXPECT_EQ(warnings("", 4).size(), 0u);
+  EXPECT_EQ(warnings(", sampling: mortar", 4).size(), 0u);
+  EXPECT_EQ(warnings(", two_pass: true", 4).size(), 0u);
 }
 
 TEST(SamplingKey, TwoPassesHaveHalfOfTheTractionEach) {

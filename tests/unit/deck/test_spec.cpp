@@ -74,9 +74,10 @@ TEST(Spec, FullModelUsesEveryKey) {
       self(self, entry.value);
     }
   };
-  for (const char* const file : {"full.yaml", "parts.yaml", "solid.yaml", "shapes.yaml", "all.yaml",
-                                 "channel.yaml", "sampling.yaml", "laws.yaml", "enforcement.yaml",
-                                 "dynamics.yaml", "dynamics_space.yaml", "impacts.yaml"})
+  for (const char* const file :
+       {"full.yaml", "parts.yaml", "solid.yaml", "shapes.yaml", "all.yaml", "channel.yaml",
+        "sampling.yaml", "laws.yaml", "enforcement.yaml", "dynamics.yaml", "dynamics_space.yaml",
+        "impacts.yaml", "ring.yaml"})
     visit(visit, read_yaml(test_file(file), file));
   each([&](const std::string&, const Spec& spec) {
     for (const Key& key : spec.keys) {

@@ -161,7 +161,7 @@ TEST(SystemSpace, ABoxFallsEdgeOnEdge) {
         edges +
         "}]\n"
         "steps: [{name: s, increments: 1, prescribe: [{on: low, ux: 0, uy: 0, uz: 0}, {on: up, "
-        "ux: 0, uy: 0}], body_force: [{on: up, bz: -0.5}]}]\n"
+        "ux: 0, uy: 0}], body_force: [{on: up, fz: -0.5}]}]\n"
         "output: {history: [{on: c, of: force_z}, {on: up, of: uz}]}\n"));
   };
   const Table held = run("true");

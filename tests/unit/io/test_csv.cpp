@@ -44,7 +44,7 @@ TEST(Csv, HistoryHoldsEveryBit) {
         while (!std::isnormal(value));
       }
       rows.push_back(row);
-      writer.row("press", i, row[0], row);
+      writer.row({"press", i, row[0], {row.begin(), row.end()}});
     }
   }
   const CsvTable table = read_csv(path);
@@ -65,11 +65,11 @@ TEST(Csv, EveryRowIsOnDiskAtOnce) {
   const std::string path = ::testing::TempDir() + "/history_rows.csv";
   HistoryWriter writer(path, {"a,b"});
   EXPECT_EQ(read_file(path), "step,increment,time,\"a,b\"\n");
-  writer.row("say \"hi\"", 1, 0.1, std::array{-1e300});
+  writer.row({"say \"hi\"", 1, 0.1, {-1e300}});
   EXPECT_EQ(read_file(path),
             "step,increment,time,\"a,b\"\n"
             "\"say \"\"hi\"\"\",1,0.10000000000000001,-1.0000000000000001e+300\n");
-  EXPECT_THROW(writer.row("s", 2, 0, {}), std::invalid_argument);
+  EXPECT_THROW(writer.row({"s", 2, 0, {}}), std::invalid_argument);
   const CsvTable table = read_csv(path);
   EXPECT_EQ(table.columns.back(), "a,b");
   EXPECT_EQ(table.rows[0][0], "say \"hi\"");

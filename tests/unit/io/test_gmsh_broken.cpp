@@ -225,10 +225,9 @@ TEST_P(EverySample, ChangedBytesGiveAMeshOrAnInputError) {
       try {
         const mesh::Mesh mesh = read_gmsh(spoiled, "x");
         ++accepted;
-        for (const mesh::Finding& finding : mesh::check_mesh(mesh)) {
+        for (const Vec3& x : mesh.nodes) ASSERT_TRUE(x.allFinite()) << i;
+        for (const mesh::Finding& finding : mesh::check_mesh(mesh))
           ASSERT_NE(finding.flaw, mesh::Flaw::bad_index) << i;
-          ASSERT_NE(finding.flaw, mesh::Flaw::not_finite) << i;
-        }
         const mesh::FaceTable faces = mesh::face_table(mesh);
         for (const mesh::Set& set : mesh.sets) (void)mesh::surface_of(mesh, faces, set);
       } catch (const core::InputError&) {

@@ -352,6 +352,21 @@ TEST(Pvd, PartsAreNumbered) {
   std::filesystem::remove(path);
 }
 
+TEST(Pvd, GrowsInItsPlaceAndIsWholeAfterEachFrame) {
+  const std::string path = temp("grown.pvd"), whole = temp("whole.pvd");
+  const std::vector<PvdEntry> entries{
+      {0, "body", "0.vtu"}, {1, "body", "1.vtu"}, {1, "c", "1c.vtu"}, {2, "body", "2.vtu"}};
+  const std::span all(entries);
+  PvdFile grown(path, all.first(1));
+  std::filesystem::create_hard_link(path, path + ".same");  // a new file would not be seen there
+  for (const std::size_t until : {3u, 4u}) {
+    grown.add(all.subspan(until == 3 ? 1 : 3, until == 3 ? 2 : 1));
+    write_pvd(whole, all.first(until));
+    EXPECT_EQ(read_file(path + ".same"), read_file(whole));
+  }
+  for (const std::string& name : {path, whole, path + ".same"}) std::filesystem::remove(name);
+}
+
 // ---- failures of the disk
 // ----------------------------------------------------------------------------
 
@@ -416,6 +431,21 @@ class FullDisk {
   rlimit old_{};
   void (*handler_)(int) = nullptr;
 };
+
+TEST(Pvd, StaysWholeOnAFullDisk) {
+  const std::string path = temp("full.pvd");
+  PvdFile grown(path, std::vector<PvdEntry>{{0, "body", "0.vtu"}});
+  const std::string before = read_file(path);
+  const std::vector<PvdEntry> more{{1, "body", "1.vtu"}, {1, "c", "1c.vtu"}};
+  {
+    const FullDisk full(before.size() + 20);
+    EXPECT_THROW(grown.add(more), WriteError);
+  }
+  EXPECT_EQ(read_file(path), before);
+  grown.add(more);
+  EXPECT_THAT(read_file(path), ::testing::EndsWith("</Collection>\n</VTKFile>\n"));
+  std::filesystem::remove(path);
+}
 
 TEST(AtomicFile, FullDiskKeepsTheOldFile) {
   const Sample s = sample(50);

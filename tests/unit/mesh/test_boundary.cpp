@@ -69,7 +69,7 @@ TEST(Boundary, TableFindsParents) {
   EXPECT_THAT(table.find(0, 4), IsEmpty());
 }
 
-TEST(Connect, BranchingAndReversedLinesAreReported) {
+TEST(Connect, BranchingIsReported) {
   Mesh mesh;
   mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
   mesh.blocks = {{CellType::line2, {0, 1, 1, 2, 1, 3}}};
@@ -78,10 +78,20 @@ TEST(Connect, BranchingAndReversedLinesAreReported) {
   EXPECT_THAT(fork.branching, ElementsAre(1));
   EXPECT_THAT(fork.warnings, ElementsAre("3 lines meet at node 2 (1, 0)"));
   for (const BoundaryFacet& facet : fork.facets) EXPECT_TRUE(facet.next == -1 && facet.prev == -1);
-  mesh.blocks[0].connectivity = {0, 1, 2, 1};
-  mesh.sets[0].cells.pop_back();
-  const Boundary clash = orient_boundary(mesh, mesh.sets[0]);
-  EXPECT_THAT(clash.warnings, ElementsAre(HasSubstr("direction of travel changes at node 2")));
+}
+
+// Lines of a rigid wall that the mesher numbered both ways.
+TEST(Connect, LinesWithoutCellsTravelAsMostOfThem) {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 1, 0}};
+  mesh.blocks = {{CellType::line2, {1, 0, 1, 2, 3, 2}}};
+  mesh.sets = {{"wall", 1, {{0, 0}, {0, 1}, {0, 2}}, {0, 1, 2, 3}}};
+  const Boundary wall = orient_boundary(mesh, mesh.sets[0]);
+  EXPECT_THAT(wall.warnings, ElementsAre(HasSubstr("1 of 3 lines were turned round")));
+  ASSERT_THAT(wall.facets, SizeIs(3));
+  EXPECT_EQ(wall.facets[1].node[0], 2);
+  EXPECT_EQ(wall.facets[1].next, 0);
+  EXPECT_EQ(wall.facets[2].next, 1);
 }
 
 // Two unit squares that share one node only.

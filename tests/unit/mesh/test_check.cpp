@@ -56,8 +56,8 @@ TEST(Check, OnlyTheFirstExamplesAreListed) {
 }
 
 TEST(Check, CoordinateThatIsNoNumber) {
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
+                           std::numeric_limits<double>::infinity(), -1e101}) {
     for (int k = 0; k < 3; ++k) {
       Mesh mesh = square();
       mesh.nodes[4][k] = bad;
@@ -178,6 +178,58 @@ TEST(CheckSpace, NodesOfOneBodyAtTheSamePlace) {
              "4 pair(s) of nodes of one body at the same place, so that it may not hang together: "
              "2 and 9 (1, 0, 0) of 'whole', 6 and 13 (1, 0, 1) of 'whole', 4 and 11 (1, 1, 0) of "
              "'whole', 8 and 15 (1, 1, 1) of 'whole'");
+}
+
+/// Two boxes side by side in one set, with `n` cells along the edge of the second.
+Mesh not_merged(int n) {
+  Mesh mesh;
+  for (const double x : {0.0, 1.0}) {
+    BoxSpec spec;
+    spec.name = x == 0 ? "a" : "c";
+    spec.x = {x, x + 1};
+    spec.y = {0, 1};
+    spec.nx = {1};
+    spec.ny = {x == 0 ? 1 : n};
+    append_box(mesh, spec);
+  }
+  EXPECT_THAT(check_mesh(mesh), IsEmpty());  // two bodies that touch
+  Set whole{"whole", 2, {}, {}};
+  for (Index b = 0; b < static_cast<Index>(mesh.blocks.size()); ++b)
+    if (cell::info(mesh.blocks[static_cast<std::size_t>(b)].type).dimension == 2)
+      for (Index k = 0; k < mesh.blocks[static_cast<std::size_t>(b)].size(); ++k)
+        whole.cells.push_back({b, k});
+  for (Index i = 0; i < static_cast<Index>(mesh.nodes.size()); ++i) whole.nodes.push_back(i);
+  mesh.sets.push_back(whole);
+  return mesh;
+}
+
+TEST(Check, NodesOfOneBodyAtTheSamePlaceOfThePlane) {
+  expect_one(not_merged(1), Flaw::double_node, false,
+             "2 pair(s) of nodes of one body at the same place, so that it may not hang together: "
+             "2 and 5 (1, 0) of 'whole', 4 and 7 (1, 1) of 'whole'");
+}
+
+TEST(Check, NodesOnEdgesOfOtherCells) {
+  const std::vector<Finding> findings = check_mesh(not_merged(2));
+  ASSERT_THAT(findings, SizeIs(2));
+  EXPECT_EQ(findings[1].flaw, Flaw::hanging_node);
+  EXPECT_EQ(findings[1].message,
+            "1 node(s) on an edge of another cell of their body, so that it may not hang together: "
+            "7 (1, 0.5) of 'whole'");
+}
+
+TEST(Check, TrianglesOverAQuadrilateral) {
+  Mesh mesh = square();
+  const std::vector<Index> quad(mesh.blocks[0].connectivity.begin(),
+                                mesh.blocks[0].connectivity.begin() + 4);
+  const auto block = static_cast<Index>(mesh.blocks.size());
+  mesh.blocks.push_back({CellType::tri3, {quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]}});
+  for (Set& set : mesh.sets)
+    if (set.name == "b") set.cells.insert(set.cells.end(), {{block, 0}, {block, 1}});
+  const std::vector<Finding> findings = check_mesh(mesh);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_EQ(findings[0].flaw, Flaw::overlap);
+  EXPECT_EQ(findings[0].count, 4u);
 }
 
 TEST(Check, SetWithoutNodes) {

@@ -51,6 +51,47 @@ TEST(FreeMotions3, SixOfABodyThatNothingHolds) {
             "body 'block' is free to move and turn in every direction: nothing holds it");
 }
 
+/// Rigid motions of the body, and one that bends it.
+TEST(FreeMotions3, AreKnownFromModesThatStrain) {
+  const Case c;
+  System3 system(c.m, 1);
+  const State3 state = system.initial_state();
+  system.begin_step(c.m.steps[0], state);
+  Eigen::VectorXd move(system.displacements()), turned = move, bent = move;
+  for (std::size_t n = 0; n < c.m.reference.size(); ++n) {
+    const Vec3& x = c.m.reference[n];
+    const auto at = 3 * static_cast<Eigen::Index>(n);
+    move.segment<3>(at) = Vec3(1, -2, 0.5);
+    turned.segment<3>(at) = Vec3(0.3, 0.1, -1).cross(x);
+    bent.segment<3>(at) = Vec3(0, 0, x.x() * x.x());
+  }
+  EXPECT_TRUE(system.is_free_motion(state, move));
+  EXPECT_TRUE(system.is_free_motion(state, turned));
+  EXPECT_TRUE(system.is_free_motion(state, move + 3 * turned));
+  EXPECT_TRUE(system.is_free_motion(state, move + 1e-6 * bent));
+  EXPECT_FALSE(system.is_free_motion(state, bent));
+  EXPECT_FALSE(system.is_free_motion(state, move + bent));
+  EXPECT_TRUE(system.is_free_motion(state, Eigen::VectorXd::Ones(3)));  // with multipliers
+}
+
+/// A correction by a tangent without digits.
+TEST(FreeMotions3, NodesThatFlyApartAreNoState) {
+  const Case c;
+  System3 system(c.m, 1);
+  const State3 state = system.initial_state();
+  system.begin_step(c.m.steps[0], state);
+  solve::Evaluation e;
+  system.evaluate(state, state, 0.5, true, e);
+  ASSERT_TRUE(e.ok);
+  for (const double way : {1e3, 1e13}) {
+    const Eigen::VectorXd du = Eigen::VectorXd::Constant(system.displacements(), way);
+    system.evaluate(state, system.apply(state, du, 0.5, 1.0), 0.5, false, e);
+    EXPECT_EQ(e.ok, way < 1e4) << way;
+    EXPECT_EQ(e.apart, way > 1e4) << way;
+  }
+  EXPECT_EQ(e.message, "nodes move by 4e+12 times the size of the model");  // 1e13 / |(2, 1, 1)|
+}
+
 TEST(FreeMotions3, ThreeOfABodyOnASmoothTable) {
   Case c;
   c.hold(2, [](const Vec3& x) { return x.z() < 1e-9; });

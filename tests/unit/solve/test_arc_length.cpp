@@ -190,6 +190,7 @@ struct PressedSystem {
     return State{state.x, state.multiplier + penalty * depth};
   }
   [[nodiscard]] bool augments_often() const { return often; }
+  [[nodiscard]] bool may_stay() const { return false; }
   const la::SparseMatrix& matrix() { return builder.finish(); }
   [[nodiscard]] std::uint64_t pattern_version() const { return builder.pattern_version(); }
   [[nodiscard]] static la::Symmetry symmetry() { return la::Symmetry::unsymmetric; }

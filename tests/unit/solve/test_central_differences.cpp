@@ -15,7 +15,7 @@ namespace {
 struct Springs {
   Eigen::VectorXd mass;
   Eigen::MatrixXd stiffness;
-  double alpha = 0, stable = std::numeric_limits<double>::infinity();
+  double alpha = 0, stable = std::numeric_limits<double>::infinity(), faithful = stable;
   double (*driven)(double) = nullptr;
   int looked = 0, refuse_after = 1 << 30, accelerated = 0;
   bool growing = false;
@@ -25,6 +25,7 @@ struct Springs {
     ++looked;
     return stable;
   }
+  [[nodiscard]] double faithful_step() const { return faithful; }
   void follow(double time, double h, ExplicitMotion& m) const {
     if (driven) m.velocity[0] = (driven(time) - m.position[0]) / h;
   }
@@ -163,6 +164,17 @@ TEST(CentralDifferences, TakeEqualStepsUntilTheyLookAgain) {
   taken = {};
   ASSERT_EQ(advance(s, m, 0, 1, {0.9, 0.02}, taken), TimeStepping::done);
   EXPECT_EQ(taken.count, 50);
+}
+
+TEST(CentralDifferences, TakeShorterStepsWhereTheEnergyAsksForThem) {
+  Springs s = oscillator(1);
+  s.stable = 2;
+  s.faithful = 0.25;
+  ExplicitMotion m = start(s, Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1));
+  TimeSteps taken;
+  ASSERT_EQ(advance(s, m, 0, 1, {0.9, 0}, taken), TimeStepping::done);
+  EXPECT_EQ(taken.count, 4);
+  EXPECT_EQ(taken.stable, 2);
 }
 
 TEST(CentralDifferences, SayWhyTheyEnd) {

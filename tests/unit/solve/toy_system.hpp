@@ -26,8 +26,8 @@ struct ToySystem {
   };
   std::function<std::string(const Vector& x, const Vector& committed)> wrong;  ///< empty = ok
   std::function<double(double time)> prescribed;
-  double round_off = 0;  ///< the estimate
-  bool driven = true;
+  double round_off = 0, round_off_in_time = 0;  ///< the estimates
+  bool loaded = true;
   std::vector<Vector> evaluated;  ///< every x that `evaluate` saw
   std::vector<double> predicted_to;
   la::MatrixBuilder builder{size};
@@ -63,7 +63,8 @@ struct ToySystem {
     if (prescribed) out.residual[0] = 0;
     out.force_scale = scale(trial.x, time);
     out.round_off = round_off;
-    out.driven = driven;
+    out.round_off_in_time = round_off_in_time;
+    out.loaded = loaded;
     if (tangent) fill(trial.x);
   }
   [[nodiscard]] State apply(const State& state, const Vector& du, double time,

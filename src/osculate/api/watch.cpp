@@ -1,0 +1,110 @@
+#include "osculate/api/watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "osculate/api/initial_gaps.hpp"
+#include "osculate/api/never_closed.hpp"
+#include "osculate/api/passed_through.hpp"
+#include "osculate/api/penetration.hpp"
+#include "osculate/api/soft_friction.hpp"
+
+namespace osculate::api {
+namespace {
+
+void add(std::string text, std::vector<std::string>& texts) {
+  if (!text.empty()) texts.push_back(std::move(text));
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<std::string> Watch<Dim>::begin(const model::BasicSystem<Dim>& system,
+                                           const model::BasicState<Dim>& state) {
+  std::vector<std::string> texts;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p)
+    if (const std::string deep = deep_overlap(model, model.pairs[p], state.pairs[p]); !deep.empty())
+      texts.push_back("warning: " + deep);
+  open_at = system.positions(state);
+  for (const pairing::PairEvaluation<Dim>& contact : system.contact()) {
+    gaps.push_back(gaps_of(contact));
+    Penetration first;
+    measure_closing(contact, false, first);
+    deepest.emplace_back().least_gap = first.least_gap;
+  }
+  return texts;
+}
+
+template <int Dim>
+std::vector<std::string> Watch<Dim>::take(const model::BasicSystem<Dim>& system,
+                                          const model::BasicState<Dim>& state,
+                                          const model::Progress& progress,
+                                          const solve::IncrementRecord& record) {
+  std::vector<std::string> texts;
+  const std::vector<Vec<Dim>> x = system.positions(state);
+  const std::size_t pairs = model.pairs.size();
+  deepest.resize(pairs);
+  gaps.resize(pairs);
+  passed.resize(pairs);
+  bool open = false;
+  for (std::size_t p = 0; p < pairs; ++p) {
+    const model::BasicContactPair<Dim>& pair = model.pairs[p];
+    const pairing::PairEvaluation<Dim>& contact = system.contact()[p];
+    measure_penetration(pair, contact, deepest[p]);
+    measure_closing(contact, system.touched()[p], deepest[p]);
+    measure_sticking(pair, contact, deepest[p]);
+    open = open || !deepest[p].closed;
+    if (!passed[p]) {
+      const std::string through = passed_through(model, pair, gaps[p], contact, x);
+      passed[p] = !through.empty();
+      add(through, texts);
+    }
+    gaps[p] = gaps_of(contact);
+  }
+  if (open) open_at = x;
+  model::measure_small_strain(model, state.u, small_strains);
+  if (progress.fraction >= 1.0) model::measure_locking(model, state.u, locking);
+  measure_energy(system, state, record);
+  return texts;
+}
+
+/// Of explicit time integration, without what the ends of time steps borrow from their middles: the
+/// work of h^2/8 a . M a (docs/dynamics.md).
+template <int Dim>
+void Watch<Dim>::measure_energy(const model::BasicSystem<Dim>& system,
+                                const model::BasicState<Dim>& state,
+                                const solve::IncrementRecord& record) {
+  if (record.time_steps.count == 0) return;
+  const model::Energies& e = state.rates.energies;
+  const double h = record.time_steps.longest;
+  const double borrowed = h * h / 8 * state.rates.acceleration.dot(system.forces().inertia);
+  const double there = std::max({e.start, e.start + e.external, e.kinetic + e.strain});
+  if (there > 0) grown = (-e.numerical - std::max(0.0, borrowed)) / there;
+}
+
+template <int Dim>
+std::vector<std::string> Watch<Dim>::end(bool open_matters) {
+  std::vector<std::string> texts;
+  deepest.resize(model.pairs.size());
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    add(missed_target(model, model.pairs[p], deepest[p]), texts);
+    add(soft_friction(model.pairs[p], deepest[p]), texts);
+  }
+  if (open_matters && !open_at.empty())
+    for (std::string& text : never_closed(model, deepest, open_at)) add(std::move(text), texts);
+  for (const model::Locking& found : locking) add(model::locks(found), texts);
+  for (const model::SmallStrain& found : small_strains) add(model::left_small_strain(found), texts);
+  constexpr double visible = 0.06;  // a mass that bounces once scatters by 5 %
+  if (grown > visible)
+    add(fmt::format("warning: explicit time integration has made {:.2g} % of the energy out of "
+                    "nothing: take shorter time steps (safety: or step: of central_differences)",
+                    100 * grown),
+        texts);
+  return texts;
+}
+
+template struct Watch<2>;
+template struct Watch<3>;
+
+}  // namespace osculate::api

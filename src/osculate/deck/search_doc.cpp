@@ -1,0 +1,140 @@
+#include "osculate/deck/search_doc.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <vector>
+
+#include "osculate/deck/model_spec.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// What analysts call it, in small letters, and what it is here.
+struct Synonym {
+  std::string_view words;  ///< separated by blanks
+  std::string_view here;
+};
+
+constexpr std::string_view no = "not available: see `osculate doc limits`";
+
+constexpr std::array<Synonym, 23> synonyms{{
+    {"plasticity plastic yield hardening creep viscoelastic damage mises-plasticity", no},
+    {"bolt pretension preload gasket", no},
+    {"thermal temperature heat expansion", no},
+    {"shell membrane beam truss spring dashpot", no},
+    {"hinge joint connector", no},
+    {"eigenfrequency modal buckling harmonic frequency", no},
+    {"fatigue wear crack cohesive", no},
+    {"mpi cluster gpu iterative multigrid", no},
+    {"abaqus inp ansys nastran step iges cad", no},
+    {"rotational-symmetry rotationally axisymmetry axisym",
+     "sections.element: axisymmetric (x is the radius, y the axis)"},
+    {"constraint boundary-condition bc fixed clamp support encastre spc",
+     "steps.prescribe (0 holds), steps.release, equations, equal"},
+    {"mpc coupling rbe2 rbe3 kinematic-coupling",
+     "rigid (nodes that move as one), equations, equal"},
+    {"concentrated-force nodal-force cload", "steps.forces (each node), steps.total_force (a set)"},
+    {"dload distributed-load", "steps.pressure, steps.traction, steps.body_force, steps.gravity"},
+    {"weight self-weight inertia-load", "steps.gravity, with a density in materials"},
+    {"interference press-fit shrink-fit overlap overclosure", "contact.initial: ramp"},
+    {"tie bonded glue glued", "contact.normal.separation: tied"},
+    {"self-contact general-contact all-contact", "contact: {all: ...} (docs/contact_all.md)"},
+    {"dashpot-contact contact-damping", "contact.normal.damping"},
+    {"mu cof", "contact.friction.coulomb.mu"},
+    {"rubber hyperelastic elastomer", "materials.NAME.neo_hooke, with formulation: bbar"},
+    {"transient implicit-dynamics explicit impact crash drop", "steps.dynamics (docs/dynamics.md)"},
+    {"restart checkpoint resume", "`osculate run --restart`, output.checkpoint"},
+}};
+
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return out;
+}
+
+bool holds(std::string_view text, const std::string& word) {
+  return lower(text).find(word) != std::string::npos;
+}
+
+/// The entry of a word, or of the plural of one.
+std::string_view synonym(const std::string& word) {
+  for (const Synonym& entry : synonyms) {
+    const std::string words = " " + std::string(entry.words) + " ";
+    std::string typed = word;
+    for (char& c : typed)
+      if (c == ' ' || c == '_') c = '-';
+    for (int plural = 0; plural < 2; ++plural) {
+      if (words.find(" " + typed + " ") != std::string::npos) return entry.here;
+      if (!typed.ends_with('s')) break;
+      typed.pop_back();
+    }
+  }
+  return {};
+}
+
+constexpr std::size_t most = 12;  ///< keys that are listed
+
+std::string keys_text(const Spec& spec, const std::string& word) {
+  std::vector<std::string> lines;
+  std::set<std::string> seen;
+  const auto add = [&](const std::string& path, const std::string& doc) {
+    if (seen.insert(path).second) lines.push_back(fmt::format("  {:<36} {}", path, doc));
+  };
+  walk(spec, "", [&](const std::string& path, const Spec& key) {
+    if (path.empty() || !key.available) return;
+    const std::string last = path.substr(path.rfind('.') + 1);
+    if (holds(last, word) || holds(key.doc, word)) add(path, key.doc);
+    for (const Choice& c : key.choices)
+      if (c.available && (holds(c.name, word) || holds(c.doc, word)))
+        add(path + ": " + c.name, c.doc);
+  });
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most, lines.size()); ++i) text += lines[i] + "\n";
+  if (lines.size() > most) text += fmt::format("  and {} more\n", lines.size() - most);
+  return text.empty() ? text : "Keys (osculate doc KEY):\n" + text;
+}
+
+std::string pages_text(std::span<const Page> pages, const std::string& word) {
+  constexpr std::size_t per_page = 2, width = 100;
+  std::string text;
+  for (const Page& page : pages) {
+    std::size_t found = 0;
+    for (std::size_t at = 0; at < page.text.size() && found < per_page;) {
+      const std::size_t end = std::min(page.text.find('\n', at), page.text.size());
+      std::string line(page.text.substr(at, end - at));
+      at = end + 1;
+      if (!holds(line, word)) continue;
+      ++found;
+      if (line.size() > width) {
+        const std::size_t place = lower(line).find(word);
+        line = line.substr(place > width / 2 ? place - width / 2 : 0, width);
+        while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0x80U)) line.pop_back();
+        while (!line.empty() && (static_cast<unsigned char>(line.front()) & 0xC0U) == 0x80U)
+          line.erase(0, 1);
+      }
+      text += fmt::format("  docs/{}.md: {}\n", page.name, line);
+    }
+  }
+  return text.empty() ? text : "Pages:\n" + text;
+}
+
+}  // namespace
+
+std::string search(const Spec& spec, std::span<const Page> pages, std::string_view word) {
+  const std::string wanted = lower(word);
+  if (wanted.find_first_not_of(' ') == std::string::npos) return {};
+  std::string text;
+  if (const std::string_view here = synonym(wanted); !here.empty())
+    text += fmt::format("'{}': {}\n", word, here);
+  return text + keys_text(spec, wanted) + pages_text(pages, wanted);
+}
+
+std::string search_model(std::span<const Page> pages, std::string_view word) {
+  return search(model_spec(), pages, word);
+}
+
+}  // namespace osculate::deck

@@ -1,0 +1,37 @@
+#pragma once
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "osculate/model/model.hpp"
+
+namespace osculate::model {
+
+/// How much of a section's energy is in strains that its first-order cells cannot help having, and
+/// that other formulations of the same cells would not have at the same displacements.
+struct Locking {
+  std::string section;
+  double energy = 0;  ///< of quad4 and hex8 cells with full integration
+  double enhanced =
+      0;             ///< what is left with enhanced strains; that of `energy` where there are none
+  double bbar = 0;   ///< with the mean volume change, where Poisson's ratio is near a half
+  double floor = 0;  ///< of strains too small to be told from round-off
+  [[nodiscard]] bool large() const {
+    return energy > floor && energy - std::min(enhanced, bbar) > 0.15 * energy;
+  }
+};
+
+/// Takes a state into account: one entry per section, in the model's order.
+///
+/// Formula    sums of W(u) over cells and states, u the displacements that were found: a share s of
+///            the energy that another formulation would not have makes the body stiffer by about
+///            1 / (1 - s)
+/// Tested by  tests/unit/api/test_locking.cpp
+template <int Dim>
+void measure_locking(const BasicModel<Dim>& model, const Eigen::VectorXd& u,
+                     std::vector<Locking>& found);
+
+/// A warning where it is large, else empty.
+[[nodiscard]] std::string locks(const Locking& found);
+
+}  // namespace osculate::model

@@ -1,0 +1,59 @@
+#pragma once
+#include <algorithm>
+
+#include "osculate/model/model.hpp"
+
+namespace osculate::model {
+
+/// Least height of the cells behind contact point i; 0: unknown.
+template <int Dim>
+[[nodiscard]] double height_behind(const BasicContactPair<Dim>& pair, std::size_t i) {
+  return i < pair.heights.size() ? pair.heights[i] : pair.height;
+}
+
+/// How deep the points of a pair are, in the mean over the force that they carry: a corner whose
+/// pressure has no limit does not count for more than it carries.
+///
+/// Formula    sum A |N| (-gap / h) / sum A |N| over points in contact, h the least height of the
+///            cells behind them
+/// Tested by  tests/unit/model/test_penetration.cpp
+template <int Dim>
+[[nodiscard]] double mean_share(const BasicContactPair<Dim>& pair,
+                                const pairing::PairEvaluation<Dim>& contact) {
+  double sum = 0, force = 0;
+  for (std::size_t i = 0; i < contact.points.size(); ++i) {
+    const pairing::PointResult<Dim>& point = contact.points[i];
+    const double height = height_behind(pair, i);
+    if (point.status == contact::Status::open || !(height > 0)) continue;
+    const double carried = point.weight * std::max(0.0, -point.normal_traction);
+    sum += carried * -point.gap / height;
+    force += carried;
+  }
+  return force > 0 ? sum / force : 0.0;
+}
+
+/// Whether the program may change the normal penalty of a pair: it has chosen it, nothing else
+/// corrects the tractions, and gaps are measured from nothing but contact. Springs that change
+/// would make energy: not in models with inertia.
+template <int Dim>
+[[nodiscard]] bool adapts_penalty(const BasicModel<Dim>& model, const BasicContactPair<Dim>& pair) {
+  const auto moves = [](const Step& step) { return step.dynamics.has_value(); };
+  return pair.automatic && pair.definition.enforcement == contact::Enforcement::penalty &&
+         pair.definition.separation == pairing::Separation::allowed && !pair.definition.edges.on &&
+         std::none_of(model.steps.begin(), model.steps.end(), moves);
+}
+
+/// What a penalty that the program has chosen, and multiplied by `used` since, is multiplied by: it
+/// was chosen for small strains, and pressures above a tenth of the modulus miss the target.
+///
+/// Formula    1 where share <= target, else min(10, 2 share / target): the pressure may double
+///            before the next correction; in all at most 1000
+/// Decision   docs/decisions/036-penalties-that-follow-the-pressure.md
+/// Tested by  tests/unit/model/test_penetration.cpp
+[[nodiscard]] inline double wanted_stiffening(double share, double used) {
+  constexpr double room = 2, most = 10, most_in_all = 1000;
+  if (!(share > penetration_target)) return 1;
+  return std::max(1.0, std::min({most, room * share / penetration_target, most_in_all / used}));
+}
+
+}  // namespace osculate::model

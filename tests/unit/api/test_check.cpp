@@ -1,0 +1,79 @@
+// What `osculate check` says.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "osculate/api/run.hpp"
+
+namespace osculate::api {
+namespace {
+
+using ::testing::HasSubstr;
+
+CheckReport check_text(const std::string& text) {
+  const std::filesystem::path file =
+      std::filesystem::path(::testing::TempDir()) /
+      (std::string("check_") + ::testing::UnitTest::GetInstance()->current_test_info()->name() +
+       ".yaml");
+  std::ofstream(file) << text;
+  CheckReport report = check(file.string());
+  std::filesystem::remove(file);
+  return report;
+}
+
+std::string block(const std::string& initial) {
+  return "osculate: 1\n"
+         "mesh: {generate: {b: {box: {x: [0, 4], y: [-0.01, 2], elements: [8, 4]}}}}\n"
+         "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
+         "sections: [{on: b, material: m, element: plane_strain}]\n"
+         "rigid: {floor: {line: {point: [0, 0], normal: [0, 1]}}}\n"
+         "contact: [{name: c, master: floor, slave: b.bottom, normal: {penalty: 10}" +
+         initial +
+         "}]\n"
+         "steps:\n"
+         "  - {name: press, increments: 2, prescribe: [{on: b.top, ux: 0}], pressure: [{on: b.top, "
+         "value: 3}]}\n"
+         "  - {name: let, increments: 1, release: [{on: b.top, of: [ux]}]}\n";
+}
+
+TEST(Check, AnOverlapIsShownOnceWhateverBecomesOfIt) {
+  for (const std::string initial : {"", ", initial: ramp", ", initial: keep"}) {
+    const CheckReport report = check_text(block(initial));
+    EXPECT_THAT(report.text, HasSubstr("9 overlap, gap -0.01 to -0.01\n")) << initial;
+    EXPECT_NEAR(nlohmann::json::parse(report.json)["contact"][0]["smallest_gap"], -0.01, 1e-14);
+  }
+}
+
+TEST(Check, SizeSetsCellsLoadsAndSupports) {
+  const CheckReport report = check_text(block(""));
+  for (const char* const line :
+       {"Size          mesh             x 0 to 4, y -0.01 to 2; 45 nodes\n",
+        "Sets          areas            b 32\n",
+        "Sets          lines            b.left 4, b.right 4, b.bottom 8, b.top 8\n",
+        "Cell shapes   b                worst 1 of 1 at node 1 (0, -0.01), none below 0.2; edges "
+        "of a cell up to 1 : 1.01\n",
+        "Steps         press            2 increments\n"
+        "  prescribe   b.top            ux = 0 (9 nodes)\n"
+        "  pressure    b.top            value 3: force (0, -12), moment -24 about the origin\n"
+        "Steps         let              1 increments\n"
+        "  release     b.top            ux (9 nodes)\n"
+        "  pressure    b.top            as before, value 3: force (0, -12), moment -24 about the "
+        "origin\n",
+        "Supports      b                9 displacements prescribed; free to move along y and "
+        "turn about (2, 2), but for c\n",
+        "Supports      floor            3 of 3 motions prescribed; no free motion\n",
+        "  then        b                in let: nothing prescribed; free to move and turn, but "
+        "for c\n"})
+    EXPECT_THAT(report.text, HasSubstr(line));
+  const nlohmann::json json = nlohmann::json::parse(report.json);
+  EXPECT_EQ(json["size"]["high"], (std::vector<double>{4, 2}));
+  EXPECT_EQ(json["sets"].size(), 9u);
+  EXPECT_NEAR(json["steps"][0]["total"]["force"][1], -12, 1e-12);
+  EXPECT_EQ(json["quality"][0]["poor_cells"], 0);
+  EXPECT_EQ(json["supports"][0]["free"][0], "move along y");
+}
+
+}  // namespace
+}  // namespace osculate::api

@@ -1,0 +1,72 @@
+// Bodies of first-order cells that are too stiff are told of, with the formulation that is not.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "warnings_of.hpp"
+
+namespace osculate::api {
+namespace {
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+/// A beam 10 x 1 whose end is bent down.
+std::string beam(const std::string& elements, const std::string& section) {
+  return fmt::format(R"(osculate: 1
+mesh: {{generate: {{b: {{box: {{x: [0, 10], y: [0, 1], elements: {}}}}}}}}}
+materials: {{m: {{linear_elastic: {{E: 100, nu: 0.3}}}}}}
+sections: [{{on: b, material: m, {}}}]
+steps: [{{name: bend, increments: 1, prescribe: [{{on: b.left, ux: 0, uy: 0}}, {{on: b.right, uy: -0.1}}]}}]
+output: {{fields: none, report: false}}
+)",
+                     elements, section);
+}
+
+TEST(Locking, ABeamOfOneLayerOfCellsIsTooStiff) {
+  EXPECT_THAT(warnings_of(beam("[10, 1]", "element: plane_stress")),
+              ElementsAre(AllOf(HasSubstr("section 'b'"), HasSubstr("formulation: enhanced"))));
+  EXPECT_THAT(warnings_of(beam("[10, 1]", "element: plane_stress, formulation: enhanced")),
+              IsEmpty());
+  EXPECT_THAT(warnings_of(beam("[60, 6]", "element: plane_stress")), IsEmpty());
+}
+
+TEST(Locking, ABeamInSpaceLikewise) {
+  std::string text = beam("[10, 1, 1]", "element: solid");
+  text.replace(text.find("y: [0, 1],"), 10, "y: [0, 1], z: [0, 1],");
+  text.replace(text.find("uy: 0}"), 6, "uy: 0, uz: 0}");
+  text.replace(text.find("uy: -0.1"), 8, "uz: -0.1");
+  EXPECT_THAT(warnings_of(text), ElementsAre(HasSubstr("formulation: enhanced")));
+}
+
+/// A block whose top is pressed down over its left half, or all over.
+std::string block(const std::string& more, const std::string& where, double poisson = 0.4999) {
+  return fmt::format(R"(osculate: 1
+mesh: {{generate: {{b: {{box: {{x: [0, 1, 2], y: [0, 1], elements: [4, 4]}}}}}}}}
+materials: {{m: {{linear_elastic: {{E: 100, nu: {}}}}}}}
+sections: [{{on: b, material: m, element: plane_strain{}}}]
+rigid: {{punch: {{line: {{point: [0, 1], normal: [0, -1]}}}}}}
+contact: [{{name: c, master: punch, slave: b.top, normal: {{penalty: 1e5}}}}]
+steps: [{{name: press, increments: 1, prescribe: [{}]}}]
+output: {{fields: none, report: false}}
+)",
+                     poisson, more, where);
+}
+
+TEST(Locking, ABlockThatHardlyChangesItsVolumeIsTooStiff) {
+  const std::string pressed =
+      "{on: b.bottom, ux: 0, uy: 0}, {on: b.left, ux: 0}, {on: punch, uy: -0.01}";
+  EXPECT_THAT(warnings_of(block("", pressed)), ElementsAre(AllOf(HasSubstr("nearly incompressible"),
+                                                                 HasSubstr("formulation: bbar"))));
+  EXPECT_THAT(warnings_of(block(", formulation: bbar", pressed)), IsEmpty());
+  EXPECT_THAT(warnings_of(block("", pressed, 0.3)), IsEmpty());
+}
+
+TEST(Locking, UniformCompressionDoesNotLock) {
+  EXPECT_THAT(warnings_of(block("",
+                                "{on: b.bottom, uy: 0}, {on: b.left, ux: 0}, {on: punch, uy: "
+                                "-0.01}")),
+              IsEmpty());
+}
+
+}  // namespace
+}  // namespace osculate::api
