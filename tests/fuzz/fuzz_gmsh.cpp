@@ -12,11 +12,16 @@
 
 namespace {
 
-/// What comes after reading must also stand any mesh that check_mesh calls usable.
+/// What comes after reading must also stand any mesh that check_mesh calls usable. The reader
+/// lets no NaN and no infinity through; finite coordinates that are too large are check_mesh's.
 void use(const osculate::mesh::Mesh& mesh) {
   namespace m = osculate::mesh;
-  for (const m::Finding& finding : m::check_mesh(mesh))
-    if (finding.flaw == m::Flaw::bad_index || finding.flaw == m::Flaw::not_finite) std::abort();
+  for (const m::Vec3& x : mesh.nodes)
+    if (!x.allFinite()) std::abort();
+  for (const m::Finding& finding : m::check_mesh(mesh)) {
+    if (finding.flaw == m::Flaw::bad_index) std::abort();
+    if (finding.flaw == m::Flaw::not_finite) return;
+  }
   const m::EdgeTable table = m::edge_table(mesh);
   const m::FaceTable faces = m::face_table(mesh);
   for (const m::Set& set : mesh.sets) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "osculate/model/penetration.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::api {
@@ -20,7 +21,7 @@ void measure_sticking(const model::BasicContactPair<Dim>& pair,
     const double penalty = pairing::point_penalty(definition, i).shear;
     if (point.status == contact::Status::open || !(penalty > 0)) continue;
     const double own = point.shear_traction.norm() / penalty;
-    const double height = i < pair.heights.size() ? pair.heights[i] : pair.height;
+    const double height = model::height_behind(pair, i);
     give += own;
     found.way += point.slip_increment.norm();
     if (height > 0) found.give_share = std::max(found.give_share, own / height);

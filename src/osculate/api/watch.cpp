@@ -9,6 +9,7 @@
 #include "osculate/api/passed_through.hpp"
 #include "osculate/api/penetration.hpp"
 #include "osculate/api/soft_friction.hpp"
+#include "osculate/model/beyond_slave.hpp"
 
 namespace osculate::api {
 namespace {
@@ -42,7 +43,8 @@ std::vector<std::string> Watch<Dim>::take(const model::BasicSystem<Dim>& system,
                                           const model::Progress& progress,
                                           const solve::IncrementRecord& record) {
   std::vector<std::string> texts;
-  const std::vector<Vec<Dim>> x = system.positions(state);
+  last = system.positions(state);
+  const std::vector<Vec<Dim>>& x = last;
   const std::size_t pairs = model.pairs.size();
   deepest.resize(pairs);
   gaps.resize(pairs);
@@ -93,6 +95,10 @@ std::vector<std::string> Watch<Dim>::end(bool open_matters) {
   }
   if (open_matters && !open_at.empty())
     for (std::string& text : never_closed(model, deepest, open_at)) add(std::move(text), texts);
+  if (open_matters && !last.empty())
+    for (const model::BeyondSlave& found : model::beyond_slave(model, last))
+      texts.push_back(fmt::format("warning: {}: {}", beyond_slave_text(model.mesh, found),
+                                  beyond_slave_cure(found)));
   for (const model::Locking& found : locking) add(model::locks(found), texts);
   for (const model::SmallStrain& found : small_strains) add(model::left_small_strain(found), texts);
   constexpr double visible = 0.06;  // a mass that bounces once scatters by 5 %

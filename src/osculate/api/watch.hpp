@@ -19,6 +19,7 @@ struct Watch {
   double grown = 0;                         ///< share of the energy now that came from nothing
   std::vector<std::vector<double>> gaps{};  ///< of the points of each pair, in the last increment
   std::vector<bool> passed{};               ///< by pair: told that points went through
+  std::vector<Vec<Dim>> last{};             ///< configuration of the last increment
   std::vector<Vec<Dim>> open_at{};  ///< configuration of the last increment with a pair that has
                                     ///< yet to close
 

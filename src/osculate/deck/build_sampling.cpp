@@ -96,8 +96,11 @@ void warn_of_coarse_nodes(BuildContext<Dim>& c, const Contact& contact,
   c.built.warnings.push_back(fmt::format(
       "contact '{}': the facets of the slave '{}' are {:.2g} times as long as those of '{}', and "
       "its nodes alone are tested for contact: pressures are off by some per cent; name the finer "
-      "side slave, or use sampling: {{gauss: 2}} or mortar",
-      contact.name.value, contact.slave.value, slave / master, contact.master.value));
+      "side slave, or use sampling: {}",
+      contact.name.value, contact.slave.value, slave / master, contact.master.value,
+      contact.enforcement.value.kind == EnforcementWord::lagrange_multiplier
+          ? "mortar"
+          : "{gauss: 2} or mortar"));
 }
 
 }  // namespace

@@ -188,7 +188,10 @@ template <int Dim>
 void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const Step& step,
            const solve::NewtonResult<BasicState<Dim>>& attempt, BasicFailure<Dim>& f) {
   const int more = 4 * std::max(1, step.increments);
-  if (!attempt.evaluation.ok && !attempt.evaluation.apart) {
+  if (f.motions.empty() && !f.beyond.empty()) {
+    f.cause = FailureCause::beyond_slave;
+    f.proposal = beyond_slave_cure(f.beyond.front());
+  } else if (!attempt.evaluation.ok && !attempt.evaluation.apart) {
     f.cause = FailureCause::inverted_element;
     f.proposal = fmt::format(
         "give step '{}' more increments (`increments: {}`); if the same element fails again, make "
@@ -232,6 +235,7 @@ std::string paragraph(const BasicModel<Dim>& model, const Step& step,
   if (!f.flips.empty())
     text +=
         "; points that change their state in the last iterations: " + flips_text(model, f.flips);
+  for (const BeyondSlave& beyond : f.beyond) text += "; " + beyond_slave_text(model.mesh, beyond);
   if (f.negative_pivots > 0)
     text += fmt::format("; the tangent has lost its positive definiteness ({} negative pivots)",
                         f.negative_pivots);
@@ -245,6 +249,8 @@ std::string paragraph(const BasicModel<Dim>& model, const Step& step,
 
 std::string_view cause_name(FailureCause cause) {
   switch (cause) {
+    case FailureCause::beyond_slave:
+      return "slave set too small";
     case FailureCause::inverted_element:
       return "inverted element";
     case FailureCause::sliding_motion:
@@ -291,6 +297,7 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
   BasicFailure<Dim> f;
   f.reason = result.reason;
   f.flips = flipping_points(model, system.recent_contact());
+  f.beyond = beyond_slave(model, system.positions(result.state));
   if (attempt.state.u.size() == result.state.u.size() && result.state.u.size() > 0 &&
       attempt.state.u.allFinite())
     f.last_step =

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "osculate/model/beyond_slave.hpp"
 #include "osculate/model/diagnosis.hpp"
 #include "osculate/solve/increments.hpp"
 
@@ -11,6 +12,7 @@ namespace osculate::model {
 /// Why an increment fails for good. In the order in which they are looked for: the first that
 /// applies is named.
 enum class FailureCause {
+  beyond_slave,        ///< a body goes into a master beside its slave set
   inverted_element,    ///< an element is turned inside out
   sliding_motion,      ///< a body in contact is free to slide: without friction, or too little
   free_motion,         ///< nothing resists a rigid motion of a body
@@ -39,7 +41,8 @@ struct BasicFailure {
   std::string proposal;  ///< the one change
   std::vector<FlippingPoint> flips;
   std::vector<BasicFreeMotion<Dim>> motions;
-  double stiffness_ratio = 0;  ///< largest of contact to bulk stiffness on the diagonal
+  std::vector<BeyondSlave> beyond;  ///< at the last converged state
+  double stiffness_ratio = 0;       ///< largest of contact to bulk stiffness on the diagonal
   /// Of the tangent's upper triangle at the last converged state, or, where small increments fail
   /// too, at the last iterate.
   int negative_pivots = 0;

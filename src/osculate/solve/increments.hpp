@@ -120,7 +120,8 @@ void augment(S& system, const typename S::State& committed, double time,
                next ? &*next : &attempt.state);
     if (more.outcome != Outcome::converged && more.outcome != Outcome::stopped &&
         system.may_stay()) {
-      attempt.iterations.insert(attempt.iterations.end(), more.iterations.begin(),
+      // before those of the solution that stays: the last record is the converged one
+      attempt.iterations.insert(attempt.iterations.begin(), more.iterations.begin(),
                                 more.iterations.end());
       system.evaluate(committed, attempt.state, time, true, attempt.evaluation);
       return;
