@@ -71,6 +71,27 @@ steps:
 solver: {cutbacks: 0, line_search: off, max_iterations: 8}
 """
 
+# Its sides bulge onto the plates, which know its lower and upper face alone.
+PRESSED = """osculate: 1
+mesh: {generate: {b: {box: {x: [0, 10], y: [0, 10], elements: [12, 12]}}}}
+materials: {m: {neo_hooke: {E: 3, nu: 0.45}}}
+sections: [{on: b, material: m, element: plane_strain, formulation: bbar}]
+rigid: {low: {line: {point: [0, 0], normal: [0, 1]}}, up: {line: {point: [0, 10], normal: [0, -1]}}}
+contact:
+  - {name: l, master: low, slave: b.bottom, friction: {coulomb: {mu: 0.5}}}
+  - {name: u, master: up, slave: b.top, friction: {coulomb: {mu: 0.5}}}
+steps: [{name: s, increments: 14, prescribe: [{on: low, ux: 0, uy: 0, rz: 0}, {on: up, ux: 0, uy: -7, rz: 0}]}]
+"""
+
+OVER = """osculate: 1
+mesh:
+  generate: {a: {box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}, b: {box: {x: [1, 3], y: [1, 2], elements: [5, 3]}}}
+materials: {m: {linear_elastic: {E: 1000, nu: 0.3}}}
+sections: [{on: a, material: m, element: plane_strain}, {on: b, material: m, element: plane_strain}]
+contact: [{name: c, master: a.top, slave: b.bottom, enforcement: lagrange_multiplier, sampling: SAMPLING}]
+steps: [{name: s, increments: 1, prescribe: [{on: a.top, ux: 0, uy: 0}, {on: b.bottom, ux: 0, uy: -0.01}]}]
+"""
+
 
 class Diagnosis(unittest.TestCase):
     def failure(self, text):
@@ -112,7 +133,7 @@ class Diagnosis(unittest.TestCase):
     def test_a_body_that_nothing_holds(self):
         found = self.failure(model("{name: lift, increments: 2, body_force: [{on: block, by: 1}]}"))
         self.assertEqual(found["cause"], "free motion", self.message)
-        self.assertIn("begin with a step that prescribes the motion of body 'block'", found["proposal"])
+        self.assertIn("look at the signs of the loads in step 'lift': they pull body 'block' off", found["proposal"])
         self.assertEqual(len(found["free_motions"]), 3)
         self.assertIn(b'"free_motion_3"', self.fields)
 
@@ -154,7 +175,23 @@ class Diagnosis(unittest.TestCase):
                                    material="st_venant_kirchhoff", friction="",
                                    solver="cutbacks: 0, max_iterations: 2, arc_length: off"))
         self.assertEqual(found["cause"], "too large increment", self.message)
-        self.assertEqual(found["proposal"], "give step 'press' more increments (`increments: 4`)")
+        self.assertIn("give step 'press' more increments (`increments: 4`)", found["proposal"])
+
+    def test_a_load_with_the_wrong_sign(self):
+        found = self.failure(model("{name: pull, increments: 2, pressure: [{on: block.top, value: -1}]}", friction=""))
+        self.assertEqual(found["cause"], "free motion", self.message)
+        self.assertIn("signs of the loads in step 'pull'", found["proposal"])
+
+    def test_a_slave_set_that_is_too_small(self):
+        found = self.failure(PRESSED)
+        self.assertEqual(found["cause"], "slave set too small", self.message)
+        self.assertIn("('b.left', 'b.right') into the slave of contact", found["proposal"])
+
+    def test_contact_that_is_prescribed_on_both_sides(self):
+        for sampling in ("nodes", "mortar"):
+            found = self.failure(OVER.replace("SAMPLING", sampling))
+            self.assertEqual(found["cause"], "over-constrained contact", self.message)
+            self.assertIn("the gap of 6 of its points", found["proposal"])
 
     def test_flipping_contact(self):
         found = self.failure(FLIPPING)

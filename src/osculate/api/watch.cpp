@@ -6,10 +6,10 @@
 
 #include "osculate/api/initial_gaps.hpp"
 #include "osculate/api/never_closed.hpp"
-#include "osculate/api/passed_through.hpp"
 #include "osculate/api/penetration.hpp"
 #include "osculate/api/soft_friction.hpp"
 #include "osculate/model/beyond_slave.hpp"
+#include "osculate/model/passed_through.hpp"
 
 namespace osculate::api {
 namespace {
@@ -29,11 +29,11 @@ std::vector<std::string> Watch<Dim>::begin(const model::BasicSystem<Dim>& system
       texts.push_back("warning: " + deep);
   open_at = system.positions(state);
   for (const pairing::PairEvaluation<Dim>& contact : system.contact()) {
-    gaps.push_back(gaps_of(contact));
     Penetration first;
     measure_closing(contact, false, first);
     deepest.emplace_back().least_gap = first.least_gap;
   }
+  remember_front(state);
   return texts;
 }
 
@@ -47,7 +47,7 @@ std::vector<std::string> Watch<Dim>::take(const model::BasicSystem<Dim>& system,
   const std::vector<Vec<Dim>>& x = last;
   const std::size_t pairs = model.pairs.size();
   deepest.resize(pairs);
-  gaps.resize(pairs);
+  front.resize(pairs);
   passed.resize(pairs);
   bool open = false;
   for (std::size_t p = 0; p < pairs; ++p) {
@@ -58,17 +58,24 @@ std::vector<std::string> Watch<Dim>::take(const model::BasicSystem<Dim>& system,
     measure_sticking(pair, contact, deepest[p]);
     open = open || !deepest[p].closed;
     if (!passed[p]) {
-      const std::string through = passed_through(model, pair, gaps[p], contact, x);
+      const std::string through = model::passed_through(model, pair, front[p], contact, x);
       passed[p] = !through.empty();
-      add(through, texts);
+      if (passed[p]) texts.push_back("warning: " + through);
     }
-    gaps[p] = gaps_of(contact);
   }
+  remember_front(state);
   if (open) open_at = x;
   model::measure_small_strain(model, state.u, small_strains);
   if (progress.fraction >= 1.0) model::measure_locking(model, state.u, locking);
   measure_energy(system, state, record);
   return texts;
+}
+
+template <int Dim>
+void Watch<Dim>::remember_front(const model::BasicState<Dim>& state) {
+  front.resize(model.pairs.size());
+  for (std::size_t p = 0; p < model.pairs.size(); ++p)
+    front[p] = model::in_front(state.pairs[p], model.pairs[p].definition.offset);
 }
 
 /// Of explicit time integration, without what the ends of time steps borrow from their middles: the
@@ -95,8 +102,9 @@ std::vector<std::string> Watch<Dim>::end(bool open_matters) {
   }
   if (open_matters && !open_at.empty())
     for (std::string& text : never_closed(model, deepest, open_at)) add(std::move(text), texts);
+  constexpr double deep = -0.05;  // of a cell
   if (open_matters && !last.empty())
-    for (const model::BeyondSlave& found : model::beyond_slave(model, last))
+    for (const model::BeyondSlave& found : model::beyond_slave(model, last, deep))
       texts.push_back(fmt::format("warning: {}: {}", beyond_slave_text(model.mesh, found),
                                   beyond_slave_cure(found)));
   for (const model::Locking& found : locking) add(model::locks(found), texts);

@@ -15,11 +15,11 @@ struct Watch {
   const model::BasicModel<Dim>& model;
   std::vector<Penetration> deepest{};  ///< by pair, so far
   std::vector<model::SmallStrain> small_strains{};
-  std::vector<model::Locking> locking{};    ///< at the ends of steps
-  double grown = 0;                         ///< share of the energy now that came from nothing
-  std::vector<std::vector<double>> gaps{};  ///< of the points of each pair, in the last increment
-  std::vector<bool> passed{};               ///< by pair: told that points went through
-  std::vector<Vec<Dim>> last{};             ///< configuration of the last increment
+  std::vector<model::Locking> locking{};   ///< at the ends of steps
+  double grown = 0;                        ///< share of the energy now that came from nothing
+  std::vector<std::vector<char>> front{};  ///< points of each pair, of the last increment
+  std::vector<bool> passed{};              ///< by pair: told that points went through
+  std::vector<Vec<Dim>> last{};            ///< configuration of the last increment
   std::vector<Vec<Dim>> open_at{};  ///< configuration of the last increment with a pair that has
                                     ///< yet to close
 
@@ -35,6 +35,7 @@ struct Watch {
   [[nodiscard]] std::vector<std::string> end(bool open_matters);
 
  private:
+  void remember_front(const model::BasicState<Dim>& state);
   void measure_energy(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
                       const solve::IncrementRecord& record);
 };

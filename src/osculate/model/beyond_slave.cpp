@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -44,23 +46,23 @@ void mark_nodes(const pairing::Boundary<Dim>& boundary, Flags& marked) {
 
 /// One master in two configurations: now, and at the start.
 template <int Dim>
-class Behind {
+class Over {
  public:
-  Behind(const pairing::PairDefinition<Dim>& pair, const std::vector<Vec<Dim>>& x)
+  Over(const pairing::PairDefinition<Dim>& pair, const std::vector<Vec<Dim>>& x)
       : pair_(pair), x_(x) {
     std::vector<search::Box<Dim>> boxes;
     facet_boxes(pair.master, std::span<const Vec<Dim>>(x), boxes);
     tree_.emplace(boxes);
   }
-  /// Of one of its faces, or 0.
-  [[nodiscard]] double depth(Index node) const {
+  /// Over one of its faces; +inf over none.
+  [[nodiscard]] double gap(Index node) const {
     pairing::ProjectionQuery<Dim> query;
     query.point = x_[static_cast<std::size_t>(node)];
     const std::span<const Vec<Dim>> x(x_);
     const pairing::Projection<Dim> p = closest(pair_.master, *tree_, x, query);
-    if (p.feature != projection::Feature::face || p.beyond_end) return 0;
-    const double gap = place(pair_.master, p, query.point, x).kinematics.gap - pair_.offset;
-    return std::max(0.0, -gap);
+    if (p.feature != projection::Feature::face || p.beyond_end)
+      return std::numeric_limits<double>::infinity();
+    return place(pair_.master, p, query.point, x).kinematics.gap - pair_.offset;
   }
 
  private:
@@ -104,29 +106,29 @@ std::string set_of(const mesh::Mesh& mesh, Index node) {
 
 template <int Dim>
 std::vector<BeyondSlave> beyond_slave(const BasicModel<Dim>& model,
-                                      const std::vector<Vec<Dim>>& positions) {
-  constexpr double least = 0.05;  // of a cell
+                                      const std::vector<Vec<Dim>>& positions, double reach) {
   std::vector<BeyondSlave> all;
   if (std::ranges::none_of(model.pairs, judged<Dim>)) return all;
   const std::vector<std::vector<Index>> near = free_neighbours(model);
   for (const BasicContactPair<Dim>& pair : model.pairs) {
     if (!judged(pair)) continue;
-    const Behind<Dim> now(pair.definition, positions), once(pair.definition, model.reference);
+    const Over<Dim> now(pair.definition, positions), once(pair.definition, model.reference);
     Flags visited = seen_by(model, pair.definition), slave(model.reference.size());
     mark_nodes<Dim>(pair.definition.slave.boundary, slave);
     std::vector<Index> next;
     for (std::size_t n = 0; n < slave.size(); ++n)
       if (slave[n]) next.insert(next.end(), near[n].begin(), near[n].end());
-    BeyondSlave found{pair.name, -1, 0, pair.height, {}};
+    const double nearest = reach * pair.height;
+    BeyondSlave found{pair.name, -1, nearest, pair.height, {}};
     while (!next.empty()) {
       const Index node = next.back();
       next.pop_back();
       const auto n = static_cast<std::size_t>(node);
       if (std::exchange(visited[n], 1)) continue;
-      const double depth = now.depth(node);
-      if (depth <= least * pair.height || once.depth(node) > 0) continue;
-      if (depth > found.depth) found.node = node;
-      found.depth = std::max(found.depth, depth);
+      const double gap = now.gap(node);
+      if (gap >= nearest || once.gap(node) < 2 * std::max(0.0, nearest)) continue;
+      if (gap < found.gap) found.node = node;
+      found.gap = std::min(found.gap, gap);
       const std::string set = set_of<Dim>(model.mesh, node);
       if (!set.empty() && std::ranges::find(found.sets, set) == found.sets.end())
         found.sets.push_back(set);
@@ -139,10 +141,14 @@ std::vector<BeyondSlave> beyond_slave(const BasicModel<Dim>& model,
 }
 
 std::string beyond_slave_text(const mesh::Mesh& mesh, const BeyondSlave& found) {
+  const bool inside = found.gap < 0;
   return fmt::format(
-      "contact '{}': beside its slave the body has gone {:.3g} into the master ({:.2g} times the "
-      "height of the cells, at {}), where nothing holds it",
-      found.pair, found.depth, found.depth / found.height, describe_node(mesh, found.node));
+      "contact '{}': beside its slave the body has {} the master ({:.2g} times the height of the "
+      "cells, at {}), where nothing holds it",
+      found.pair,
+      inside ? fmt::format("gone {:.3g} into", -found.gap)
+             : fmt::format("come within {:.3g} of", found.gap),
+      std::abs(found.gap) / found.height, describe_node(mesh, found.node));
 }
 
 std::string beyond_slave_cure(const BeyondSlave& found) {
@@ -155,7 +161,7 @@ std::string beyond_slave_cure(const BeyondSlave& found) {
       sets, found.pair);
 }
 
-template std::vector<BeyondSlave> beyond_slave(const Model&, const std::vector<Vec2>&);
-template std::vector<BeyondSlave> beyond_slave(const Model3&, const std::vector<Vec3>&);
+template std::vector<BeyondSlave> beyond_slave(const Model&, const std::vector<Vec2>&, double);
+template std::vector<BeyondSlave> beyond_slave(const Model3&, const std::vector<Vec3>&, double);
 
 }  // namespace osculate::model

@@ -104,12 +104,15 @@ int negative_pivots(BasicSystem<Dim>& system, const BasicState<Dim>& state) {
       .negative_pivots;
 }
 
-/// The increment has been cut to an eighth or less: it was not just too large.
+/// An increment that has been cut to this was not just too large.
+constexpr double small_cut = 0.125;
+
+/// The increment of the attempt over one of the step's; 1 where it is not known.
 template <int Dim>
-bool cut_small(const Step& step, const BasicState<Dim>& attempt, const BasicState<Dim>& committed) {
+double cut_to(const Step& step, const BasicState<Dim>& attempt, const BasicState<Dim>& committed) {
   double size = attempt.fraction - committed.fraction;
   if (size <= 0) size = attempt.fraction;  // the first of a step
-  return size > 0 && size * std::max(1, step.increments) <= 0.125;
+  return size > 0 ? size * std::max(1, step.increments) : 1.0;
 }
 
 /// The stiffness against the direction of the failed increment, over that of the undeformed bodies:
@@ -145,12 +148,18 @@ Touching<Dim> touching_pairs(const BasicSystem<Dim>& system, const BasicModel<Di
 }
 
 template <int Dim>
-void name_motion(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+void name_motion(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const Step& step,
                  BasicFailure<Dim>& f) {
   const Touching<Dim> touching = touching_pairs(system, model);
   const std::string& body = f.motions.front().body;
   f.cause = FailureCause::sliding_motion;
-  if (!touching.frictional.empty()) {
+  if (f.pulled) {
+    f.cause = FailureCause::free_motion;
+    f.proposal = fmt::format(
+        "look at the signs of the loads in step '{}': they pull body '{}' off what it touches (a "
+        "pressure is positive where it pushes); if that is meant, hold the body",
+        step.name, body);
+  } else if (!touching.frictional.empty()) {
     f.proposal = fmt::format(
         "hold body '{}' against this motion by a prescription, or raise the friction coefficient "
         "of contact '{}': all its points slide, so it resists no more",
@@ -183,22 +192,49 @@ std::string flips_text(const BasicModel<Dim>& model, const std::vector<FlippingP
   return text;
 }
 
+/// Where increments have not been cut: to take more of them. Otherwise that they did not help.
+template <int Dim>
+std::string more_increments(const Step& step, const BasicFailure<Dim>& f) {
+  if (f.smallest > small_cut)
+    return fmt::format("give step '{}' more increments (`increments: {}`); if it fails again, ",
+                       step.name, 4 * std::max(1, step.increments));
+  return fmt::format("increments {:.1g} times as long were tried, more of them will not help: ",
+                     f.smallest);
+}
+
+std::string against_instability(const Step& step) {
+  const bool loaded = !step.dead.empty() || !step.pressure.empty() || !step.gravity.empty();
+  if (loaded)
+    return fmt::format(
+        "prescribe a displacement instead of the load in step '{}': the equilibrium path turns "
+        "back here (snap-through or buckling), and no larger load can be carried nearby",
+        step.name);
+  return fmt::format(
+      "give step '{}' inertia (`dynamics`): its path ends here though all is prescribed "
+      "(buckling, or something that sticks lets go), and the state behind the jump is far",
+      step.name);
+}
+
 /// Cause and proposal from what has been found.
 template <int Dim>
 void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const Step& step,
            const solve::NewtonResult<BasicState<Dim>>& attempt, BasicFailure<Dim>& f) {
-  const int more = 4 * std::max(1, step.increments);
-  if (f.motions.empty() && !f.beyond.empty()) {
+  if (!f.held.empty()) {
+    f.cause = FailureCause::over_constrained;
+    f.proposal = fmt::format(
+        "free one side of contact '{}': the gap of {} of its points ({}) is prescribed, and no "
+        "traction closes it; or use a penalty",
+        f.held.front().pair, f.held.front().count,
+        f.held.front().node < 0 ? "edges" : mesh::describe_node(model.mesh, f.held.front().node));
+  } else if (f.motions.empty() && !f.beyond.empty()) {
     f.cause = FailureCause::beyond_slave;
     f.proposal = beyond_slave_cure(f.beyond.front());
   } else if (!attempt.evaluation.ok && !attempt.evaluation.apart) {
     f.cause = FailureCause::inverted_element;
-    f.proposal = fmt::format(
-        "give step '{}' more increments (`increments: {}`); if the same element fails again, make "
-        "the mesh finer or more regular there",
-        step.name, more);
+    f.proposal = more_increments(step, f) +
+                 "make the mesh finer or more regular there, or round the corner that it meets";
   } else if (!f.motions.empty()) {
-    name_motion(system, model, f);
+    name_motion(system, model, step, f);
   } else if (f.stiffness_ratio > too_stiff) {
     f.cause = FailureCause::stiffness_ratio;
     f.proposal = fmt::format(
@@ -207,11 +243,7 @@ void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const S
         f.stiffness_ratio / 1e3, f.stiffness_ratio);
   } else if (f.negative_pivots > 0 || f.softened) {
     f.cause = FailureCause::instability;
-    f.proposal = fmt::format(
-        "prescribe a displacement instead of the load in step '{}': the equilibrium path turns "
-        "back "
-        "here (snap-through or buckling), and no larger load can be carried nearby",
-        step.name);
+    f.proposal = against_instability(step);
   } else if (!f.flips.empty()) {
     f.cause = FailureCause::flipping;
     f.proposal = fmt::format(
@@ -219,8 +251,10 @@ void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const S
         "every iteration)",
         f.flips.front().pair);
   } else {
-    f.cause = FailureCause::too_large_increment;
-    f.proposal = fmt::format("give step '{}' more increments (`increments: {}`)", step.name, more);
+    f.cause =
+        f.smallest > small_cut ? FailureCause::too_large_increment : FailureCause::no_equilibrium;
+    f.proposal = more_increments(step, f) + "look at last_iterate.vtu there: a sharp corner of a " +
+                 "master is better rounded, a coarse mesh made finer";
   }
 }
 
@@ -242,13 +276,20 @@ std::string paragraph(const BasicModel<Dim>& model, const Step& step,
   if (f.stiffness_ratio > 0)
     text += fmt::format("; contact adds up to {:.1e} times the stiffness of the body",
                         f.stiffness_ratio);
-  return text + fmt::format("; the last iterate moved by {:.2g} of the model's size", f.last_step);
+  text += fmt::format("; the last iterate moved by {:.2g} of the model's size", f.last_step);
+  if (f.last_node >= 0 && f.last_step > 0)
+    text += ", most at " + mesh::describe_node(model.mesh, f.last_node);
+  return text;
 }
 
 }  // namespace
 
 std::string_view cause_name(FailureCause cause) {
   switch (cause) {
+    case FailureCause::over_constrained:
+      return "over-constrained contact";
+    case FailureCause::no_equilibrium:
+      return "no equilibrium found";
     case FailureCause::beyond_slave:
       return "slave set too small";
     case FailureCause::inverted_element:
@@ -297,11 +338,17 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
   BasicFailure<Dim> f;
   f.reason = result.reason;
   f.flips = flipping_points(model, system.recent_contact());
-  f.beyond = beyond_slave(model, system.positions(result.state));
+  constexpr double near = 0.25;  // the corner cell of such a body folds before its side arrives
+  f.beyond = beyond_slave(model, system.positions(result.state), near);
+  f.smallest = cut_to(step, attempt.state, result.state);
   if (attempt.state.u.size() == result.state.u.size() && result.state.u.size() > 0 &&
-      attempt.state.u.allFinite())
+      attempt.state.u.allFinite()) {
+    Eigen::Index largest = 0;
     f.last_step =
-        (attempt.state.u - result.state.u).template lpNorm<Eigen::Infinity>() / model_size(model);
+        (attempt.state.u - result.state.u).cwiseAbs().maxCoeff(&largest) / model_size(model);
+    const auto node = static_cast<std::size_t>(largest / Dim);
+    if (node < model.mesh.nodes.size()) f.last_node = static_cast<Index>(node);
+  }
   const BasicState<Dim>& last = attempt.evaluation.ok ? attempt.state : result.state;
   std::string outside;
   solve::Evaluation evaluation;
@@ -316,19 +363,22 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
       f.motions = before;
       freest = &result.state;
     }
+    f.held = held_points(system, model, last);
     for (const OutsideDomain& found : outside_domain(system, model))
       outside += "; " + outside_domain_message(model, found);
   }
   if (!model.pairs.empty()) f.stiffness_ratio = contact_ratio(system, result.state);
   if (f.motions.empty()) {
     f.negative_pivots = negative_pivots(system, result.state);
-    if (f.negative_pivots == 0 && cut_small(step, attempt.state, result.state))
+    if (f.negative_pivots == 0 && f.smallest <= small_cut)
       f.negative_pivots = negative_pivots(system, last);
     constexpr double hardly_any = 0.05;
-    if (f.negative_pivots == 0 && cut_small(step, attempt.state, result.state) &&
+    if (f.negative_pivots == 0 && f.smallest <= small_cut &&
         softened_to(system, result.state, attempt.total) < hardly_any)
       f.softened = true;
   }
+  system.evaluate(result.state, result.state, 1.0, true, evaluation);  // with its whole loads
+  f.pulled = !f.motions.empty() && pulled_away(system, model, f.motions.front().nodes);
   system.evaluate(last, last, last.fraction, true, evaluation);
   judge(system, model, step, attempt, f);
   f.message =

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "osculate/model/beyond_slave.hpp"
-#include "osculate/model/diagnosis.hpp"
+#include "osculate/model/failure_contact.hpp"
 #include "osculate/solve/increments.hpp"
 
 namespace osculate::model {
@@ -12,15 +12,17 @@ namespace osculate::model {
 /// Why an increment fails for good. In the order in which they are looked for: the first that
 /// applies is named.
 enum class FailureCause {
-  beyond_slave,        ///< a body goes into a master beside its slave set
-  inverted_element,    ///< an element is turned inside out
-  sliding_motion,      ///< a body in contact is free to slide: without friction, or too little
-  free_motion,         ///< nothing resists a rigid motion of a body
-  stiffness_ratio,     ///< contact so stiff that the digits do not suffice
-  flipping,            ///< contact points change between states for ever
-  instability,         ///< the tangent has lost its positive definiteness: snap-through, buckling
-  unstable_time_step,  ///< of explicit time integration
-  too_large_increment  ///< none of these
+  over_constrained,     ///< multipliers of contact points whose gap is prescribed
+  beyond_slave,         ///< a body goes into a master beside its slave set
+  inverted_element,     ///< an element is turned inside out
+  sliding_motion,       ///< a body in contact is free to slide: without friction, or too little
+  free_motion,          ///< nothing resists a rigid motion of a body
+  stiffness_ratio,      ///< contact so stiff that the digits do not suffice
+  flipping,             ///< contact points change between states for ever
+  instability,          ///< the tangent has lost its positive definiteness: snap-through, buckling
+  unstable_time_step,   ///< of explicit time integration
+  too_large_increment,  ///< none of these
+  no_equilibrium        ///< nor does the increment's size matter
 };
 [[nodiscard]] std::string_view cause_name(FailureCause cause);
 
@@ -41,6 +43,8 @@ struct BasicFailure {
   std::string proposal;  ///< the one change
   std::vector<FlippingPoint> flips;
   std::vector<BasicFreeMotion<Dim>> motions;
+  bool pulled = false;           ///< the loads pull the first of these bodies off what it touches
+  std::vector<HeldPoints> held;  ///< of the last iterate
   std::vector<BeyondSlave> beyond;  ///< at the last converged state
   double stiffness_ratio = 0;       ///< largest of contact to bulk stiffness on the diagonal
   /// Of the tangent's upper triangle at the last converged state, or, where small increments fail
@@ -48,6 +52,8 @@ struct BasicFailure {
   int negative_pivots = 0;
   bool softened = false;  ///< next to nothing resists the increment: a limit point is near
   double last_step = 0;   ///< largest displacement of the last iterate, over the model's size
+  Index last_node = -1;   ///< where
+  double smallest = 1;    ///< increment tried, over one of the step's
 };
 
 /// Looks for the cause in the last attempt: its message, the tangent at the last converged state,

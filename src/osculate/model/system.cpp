@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/model/passed_through.hpp"
 #include "osculate/model/penetration.hpp"
 #include "osculate/model/system_impl.hpp"
 
@@ -207,6 +208,21 @@ bool BasicSystem<Dim>::may_stay() const {
   return std::ranges::none_of(impl_->model.pairs, [](const BasicContactPair<Dim>& pair) {
     return pair.definition.enforcement == contact::Enforcement::augmented_lagrange;
   });
+}
+
+template <int Dim>
+std::string BasicSystem<Dim>::refused(const State& committed, const State& trial) const {
+  std::vector<Vec<Dim>> x;
+  for (std::size_t p = 0; p < impl_->model.pairs.size(); ++p) {
+    const BasicContactPair<Dim>& pair = impl_->model.pairs[p];
+    if (pair.definition.scope.limited()) continue;
+    if (x.empty()) x = positions(trial);
+    std::string text =
+        passed_through(impl_->model, pair, in_front(committed.pairs[p], pair.definition.offset),
+                       impl_->contact[p], x);
+    if (!text.empty()) return text;
+  }
+  return {};
 }
 
 template <int Dim>

@@ -101,6 +101,9 @@ class BasicSystem {
   /// Whether a solution may stay though no solution is found around what `augment` made of it: it
   /// was only a stiffer penalty.
   [[nodiscard]] bool may_stay() const;
+  /// Why a solution is none, `trial` the last state evaluated: points went through a master that
+  /// they were in front of, to where no contact is looked for. Else empty.
+  [[nodiscard]] std::string refused(const State& committed, const State& trial) const;
   /// The converged state with its new history and rates. `trial` must be the last state evaluated.
   [[nodiscard]] State commit(const State& trial, double fraction) const;
   /// The first impact before `fraction` (or not long after it) if everything goes on with the

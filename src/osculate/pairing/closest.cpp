@@ -1,6 +1,7 @@
 #include "osculate/pairing/closest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "osculate/pairing/other_side.hpp"
@@ -99,11 +100,13 @@ struct Candidate {
   Index facet = -1;
   CurveFoot foot;
   double distance = std::numeric_limits<double>::infinity();
+  double cosine = -1;  ///< of the angle between the normals of facet and slave
 };
 
 int rank(const Candidate& c, Index history) {
-  if (c.foot.at_end) return 2;
-  return c.facet == history ? 0 : 1;
+  if (c.foot.at_end) return 3;
+  if (c.facet == history) return 0;
+  return across(c.cosine) ? 2 : 1;
 }
 
 bool better(const Candidate& a, const Candidate& b, Index history, double tie) {
@@ -152,12 +155,35 @@ void share(const Chain& chain, std::span<const Vec2> x, Index other,
   resolve_end(chain, x, query, p);
 }
 
-/// A facet that faces the same way as the slave is the far side of a thin body.
-bool faces_away(const Facet& facet, const CurveFoot& foot, std::span<const Vec2> x,
-                const ProjectionQuery<2>& query) {
-  return query.slave_normal &&
-         unit_normal(facet, foot.xi, x).dot(*query.slave_normal) > same_way_cosine;
+/// Of the angle between the normals of facet and slave; -1 where the slave's does not matter. A
+/// facet that faces the same way as the slave is the far side of a thin body.
+double cosine_at(const Facet& facet, const CurveFoot& foot, std::span<const Vec2> x,
+                 const ProjectionQuery<2>& query) {
+  return query.slave_normal ? unit_normal(facet, foot.xi, x).dot(*query.slave_normal) : -1.0;
 }
+
+/// What `entered_through` asks of a candidate.
+struct Look {
+  const Chain& chain;
+  std::span<const Vec2> x;
+  const ProjectionQuery<2>& query;
+
+  [[nodiscard]] const Facet& facet(Index f) const {
+    return chain.facets[static_cast<std::size_t>(f)];
+  }
+  [[nodiscard]] Candidate on(Index f) const {
+    const CurveFoot foot = foot_on_facet(chain, facet(f), x, query);
+    return {f, foot, std::sqrt(foot.squared_distance), cosine_at(facet(f), foot, x, query)};
+  }
+  [[nodiscard]] bool inside(const Candidate& c) const {
+    return c.foot.converged && !c.foot.at_end &&
+           (!query.scope || admits(*query.scope, facet(c.facet), c.foot.xi, x));
+  }
+  [[nodiscard]] double gap(const Candidate& c) const {
+    return (query.point - facet_jet(facet(c.facet), c.foot.xi, x).r)
+        .dot(unit_normal(facet(c.facet), c.foot.xi, x));
+  }
+};
 
 /// Two different foot points inside their facets, equally far away.
 bool equidistant(const Chain& chain, std::span<const Vec2> x, const Candidate& best,
@@ -177,7 +203,8 @@ Projection<2> on_kept_facet(const Chain& chain, std::span<const Vec2> x,
   Projection<2> p;
   const Facet& facet = chain.facets[static_cast<std::size_t>(query.kept)];
   const CurveFoot foot = foot_on_facet(chain, facet, x, query);
-  if (!foot.converged || foot.at_end || faces_away(facet, foot, x, query)) return p;
+  if (!foot.converged || foot.at_end || cosine_at(facet, foot, x, query) > same_way_cosine)
+    return p;
   p.feature = Feature::face;
   p.facet = query.kept;
   p.xi[0] = foot.xi;
@@ -242,9 +269,10 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
     if (query.scope && query.scope->skips(f, query.slave_normal)) return far_away;
     const CurveFoot foot = foot_on_facet(chain, facet, x, query);
     const double distance = std::sqrt(foot.squared_distance);
-    if (!foot.converged || faces_away(facet, foot, x, query)) return far_away;
+    const double cosine = cosine_at(facet, foot, x, query);
+    if (!foot.converged || cosine > same_way_cosine) return far_away;
     if (query.scope && !admits(*query.scope, facet, foot.xi, x)) return far_away;
-    const Candidate candidate{f, foot, distance};
+    const Candidate candidate{f, foot, distance, cosine};
     const double tie = 1e-10 * (node(facet, 1, x) - node(facet, 0, x)).norm();
     const bool wins = better(candidate, best, query.history, tie);
     const Candidate& loser = wins ? best : candidate;
@@ -258,6 +286,10 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
   tree.for_each_nearest_wanted(query.point, tie_distance(chain, x), wanted, visit, reach);
   Projection<2> p;
   if (best.facet < 0) return p;
+  if (query.history >= 0) {
+    const Facet& last = chain.facets[static_cast<std::size_t>(query.history)];
+    best = entered_through(query, best, std::array{last.prev, last.next}, Look{chain, x, query});
+  }
   p.feature = best.foot.at_end ? Feature::corner : Feature::face;
   p.facet = best.facet;
   p.xi[0] = best.foot.xi;

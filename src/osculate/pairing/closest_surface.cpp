@@ -119,12 +119,13 @@ struct Candidate {
   Index facet = -1;
   FacetFoot foot;
   double distance = std::numeric_limits<double>::infinity();
+  double cosine = -1;  ///< of the angle between the normals of facet and slave
 };
 
-/// Faces before borders, the facet of the history first.
+/// Faces before borders, the facet of the history first, then those that face the slave.
 int rank(const Candidate& c, Index history) {
-  const int feature = c.foot.feature == Feature::face ? 0 : c.foot.feature == Feature::edge ? 2 : 4;
-  return feature + (c.facet == history ? 0 : 1);
+  const int feature = c.foot.feature == Feature::face ? 0 : c.foot.feature == Feature::edge ? 3 : 6;
+  return feature + (c.facet == history ? 0 : across(c.cosine) ? 2 : 1);
 }
 
 bool better(const Candidate& a, const Candidate& b, Index history, double tie) {
@@ -244,12 +245,35 @@ void share(const FacetSurface& surface, std::span<const Vec3> x, Index other,
   resolve_edge(surface, x, query, p);
 }
 
-/// A facet that faces the same way as the slave is the far side of a thin body.
-bool faces_away(const SurfaceFacet& facet, const FacetFoot& foot, std::span<const Vec3> x,
-                const ProjectionQuery<3>& query) {
-  return query.slave_normal &&
-         facet_normal(facet, foot.xi, x).dot(*query.slave_normal) > same_way_cosine;
+/// Of the angle between the normals of facet and slave; -1 where the slave's does not matter. A
+/// facet that faces the same way as the slave is the far side of a thin body.
+double cosine_at(const SurfaceFacet& facet, const FacetFoot& foot, std::span<const Vec3> x,
+                 const ProjectionQuery<3>& query) {
+  return query.slave_normal ? facet_normal(facet, foot.xi, x).dot(*query.slave_normal) : -1.0;
 }
+
+/// What `entered_through` asks of a candidate.
+struct Look {
+  const FacetSurface& surface;
+  std::span<const Vec3> x;
+  const ProjectionQuery<3>& query;
+
+  [[nodiscard]] const SurfaceFacet& facet(Index f) const {
+    return surface.facets[static_cast<std::size_t>(f)];
+  }
+  [[nodiscard]] Candidate on(Index f) const {
+    const FacetFoot foot = foot_on_facet(surface, facet(f), x, query);
+    return {f, foot, std::sqrt(foot.squared_distance), cosine_at(facet(f), foot, x, query)};
+  }
+  [[nodiscard]] bool inside(const Candidate& c) const {
+    return c.foot.converged && c.foot.feature == Feature::face &&
+           (!query.scope || admits(*query.scope, facet(c.facet), c.foot.xi, x));
+  }
+  [[nodiscard]] double gap(const Candidate& c) const {
+    return (query.point - facet_jet(facet(c.facet), c.foot.xi, x).r)
+        .dot(facet_normal(facet(c.facet), c.foot.xi, x));
+  }
+};
 
 /// The foot on the facet that the point keeps, if it is still there.
 Projection<3> on_kept_facet(const FacetSurface& surface, std::span<const Vec3> x,
@@ -257,7 +281,8 @@ Projection<3> on_kept_facet(const FacetSurface& surface, std::span<const Vec3> x
   Projection<3> p;
   const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(query.kept)];
   const FacetFoot foot = foot_on_facet(surface, facet, x, query);
-  if (!foot.converged || foot.feature != Feature::face || faces_away(facet, foot, x, query))
+  if (!foot.converged || foot.feature != Feature::face ||
+      cosine_at(facet, foot, x, query) > same_way_cosine)
     return p;
   p.feature = Feature::face;
   p.facet = query.kept;
@@ -310,9 +335,10 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
     if (query.scope && query.scope->skips(f, query.slave_normal)) return far_away;
     const FacetFoot foot = foot_on_facet(surface, facet, x, query);
     const double distance = std::sqrt(foot.squared_distance);
-    if (!foot.converged || faces_away(facet, foot, x, query)) return far_away;
+    const double cosine = cosine_at(facet, foot, x, query);
+    if (!foot.converged || cosine > same_way_cosine) return far_away;
     if (query.scope && !admits(*query.scope, facet, foot.xi, x)) return far_away;
-    const Candidate candidate{f, foot, distance};
+    const Candidate candidate{f, foot, distance, cosine};
     const double tie = 1e-10 * size_of(facet, x);
     const bool wins = better(candidate, best, query.history, tie);
     const Candidate loser = wins ? best : candidate;
@@ -327,6 +353,10 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
                                visit, reach);
   Projection<3> p;
   if (best.facet < 0) return p;
+  if (query.history >= 0) {
+    const SurfaceFacet& last = surface.facets[static_cast<std::size_t>(query.history)];
+    best = entered_through(query, best, last.neighbour, Look{surface, x, query});
+  }
   p.feature = best.foot.feature;
   p.facet = best.facet;
   p.xi = best.foot.xi;

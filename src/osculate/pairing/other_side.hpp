@@ -31,4 +31,36 @@ template <int Dim>
   return convex && normal.dot(beyond) < other_side_cosine && turned_away(query, beyond);
 }
 
+/// Whether two sides do not face each other: their normals are not within 60 degrees of opposite.
+/// `cosine`: of the angle between their normals.
+[[nodiscard]] inline bool across(double cosine) { return cosine > facing_cosine; }
+
+/// A point that came through a facet that faces it stays on it, or on a neighbour that faces it
+/// too, where a face across is nearer: under the corner of a punch the lower face bears, however
+/// near the side face is.
+///
+/// `look.on(f)` is the candidate on facet f {facet, distance, cosine of the normals}, `look.inside`
+/// whether its foot lies inside the facet, `look.gap` its gap.
+///
+/// Tested by  tests/unit/pairing/test_rim.cpp
+template <int Dim, class Candidate, class Neighbours, class Look>
+[[nodiscard]] Candidate entered_through(const ProjectionQuery<Dim>& query, const Candidate& nearest,
+                                        const Neighbours& neighbours, const Look& look) {
+  const bool through =
+      nearest.facet == query.history && query.history_feature == projection::Feature::face;
+  if (!query.slave_normal || query.history < 0 || through || !look.inside(nearest) ||
+      !(look.gap(nearest) < 0) || !across(nearest.cosine))
+    return nearest;
+  Candidate best;
+  const auto visit = [&](Index f) {
+    if (f < 0 || f == nearest.facet) return;
+    const Candidate c = look.on(f);
+    if (look.inside(c) && look.gap(c) < 0 && !across(c.cosine) && c.distance < best.distance)
+      best = c;
+  };
+  visit(query.history);
+  for (const Index f : neighbours) visit(f);
+  return best.facet < 0 ? nearest : best;
+}
+
 }  // namespace osculate::pairing

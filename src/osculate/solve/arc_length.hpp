@@ -59,6 +59,12 @@ concept Augments = requires(const S s, const typename S::State& state) {
   { s.may_stay() } -> std::convertible_to<bool>;
 };
 
+/// Systems that refuse some solutions: those of Newton's method that are not of this increment.
+template <class S>
+concept Refuses = requires(const S s, const typename S::State& state) {
+  { s.refused(state, state) } -> std::same_as<std::string>;
+};
+
 /// Systems whose unknowns are displacements and, behind them, multipliers. Those are forces: in
 /// other units the same path would have other lengths, and beside a stiff contact nothing else
 /// would count.

@@ -148,6 +148,10 @@ template <System S>
   NewtonResult<typename S::State> attempt = newton(system, committed, time, first, solver, guess);
   if constexpr (Augments<S>)
     augment(system, committed, time, options, solver, attempt, guess.resisted);
+  if constexpr (Refuses<S>)
+    if (attempt.outcome == Outcome::converged)
+      if (std::string reason = system.refused(committed, attempt.state); !reason.empty())
+        fail(attempt, Outcome::not_converged, std::move(reason));
   return attempt;
 }
 

@@ -72,5 +72,59 @@ TEST(Rim, ANodeBesideTheBlockIsNotInIt) {
   }
 }
 
+/// A punch 3 wide; the slave looks up at its lower face from 0.05 inside, 0.01 beside its side.
+template <int Dim>
+pairing::Projection<Dim> under_the_corner(const ContactSample<Dim>& punch, Index history,
+                                          double distance = 0.01) {
+  const std::span<const Vec<Dim>> x(punch.x);
+  std::vector<search::Box<Dim>> boxes;
+  facet_boxes(punch.pair.master, x, boxes);
+  const pairing::Tree<Dim> tree(boxes);
+  pairing::ProjectionQuery<Dim> query;
+  query.point = Vec<Dim>::Constant(0.05);
+  query.point[0] = 3 - distance;
+  query.slave_normal = Vec<Dim>::UnitY();
+  query.history = history;
+  query.history_feature = history < 0 ? projection::Feature::none : projection::Feature::face;
+  return closest(punch.pair.master, tree, x, query);
+}
+
+/// Facets whose middle lies on the lower face within `far` of the side x = 3, and on that side.
+template <int Dim>
+std::array<Index, 2> facets_at_the_corner(const ContactSample<Dim>& punch) {
+  std::array<Index, 2> found{-1, -1};
+  for (std::size_t f = 0; f < punch.pair.master.facets.size(); ++f) {
+    const auto& facet = punch.pair.master.facets[f];
+    Vec<Dim> low = punch.x[static_cast<std::size_t>(facet.nodes[0])], high = low;
+    for (std::size_t k = 1; k < static_cast<std::size_t>(facet.count); ++k) {
+      low = low.cwiseMin(punch.x[static_cast<std::size_t>(facet.nodes[k])]);
+      high = high.cwiseMax(punch.x[static_cast<std::size_t>(facet.nodes[k])]);
+    }
+    if (Dim == 3 && low[Dim - 1] > 0.1) continue;  // the first layer
+    if (high[0] > 2.9 && high[1] < 1e-9) found[0] = static_cast<Index>(f);
+    if (low[0] > 2.9 && low[1] < 1e-9) found[1] = static_cast<Index>(f);
+  }
+  return found;
+}
+
+template <int Dim>
+void expect_the_lower_face_to_bear(const ContactSample<Dim>& punch) {
+  const auto [lower, side] = facets_at_the_corner(punch);
+  ASSERT_GE(lower, 0);
+  ASSERT_GE(side, 0);
+  EXPECT_EQ(under_the_corner(punch, -1).facet, side) << "the nearest";
+  EXPECT_EQ(under_the_corner(punch, side).facet, side) << "that came from the side";
+  const pairing::Projection<Dim> p = under_the_corner(punch, lower);
+  EXPECT_EQ(p.facet, lower);
+  EXPECT_EQ(p.feature, projection::Feature::face);
+  EXPECT_NEAR(p.distance, 0.05, 1e-12);
+  EXPECT_NE(under_the_corner(punch, lower, -0.01).facet, lower) << "beside the punch";
+}
+
+TEST(Rim, APointThatCameThroughTheLowerFaceOfAPunchStaysOnIt) {
+  expect_the_lower_face_to_bear(own_surface(plate));
+  expect_the_lower_face_to_bear(own_walls(plate, cell::CellType::quad4));
+}
+
 }  // namespace
 }  // namespace osculate::testing

@@ -1,4 +1,4 @@
-#include "osculate/api/passed_through.hpp"
+#include "osculate/model/passed_through.hpp"
 
 #include <fmt/format.h>
 
@@ -9,19 +9,20 @@
 #include "osculate/pairing/place.hpp"
 #include "osculate/pairing/sampling.hpp"
 
-namespace osculate::api {
+namespace osculate::model {
 
 template <int Dim>
-std::vector<double> gaps_of(const pairing::PairEvaluation<Dim>& contact) {
-  std::vector<double> gaps;
-  for (const pairing::PointResult<Dim>& point : contact.points) gaps.push_back(point.gap);
-  return gaps;
+std::vector<char> in_front(const pairing::PairState<Dim>& state, double offset) {
+  std::vector<char> front;
+  front.reserve(state.points.size());
+  for (const contact::PointHistory<Dim>& point : state.points)
+    front.push_back(point.facet >= 0 && (point.active || point.gap >= offset));
+  return front;
 }
 
 template <int Dim>
-std::string passed_through(const model::BasicModel<Dim>& model,
-                           const model::BasicContactPair<Dim>& pair,
-                           const std::vector<double>& before,
+std::string passed_through(const BasicModel<Dim>& model, const BasicContactPair<Dim>& pair,
+                           const std::vector<char>& before,
                            const pairing::PairEvaluation<Dim>& contact,
                            const std::vector<Vec<Dim>>& positions) {
   const pairing::PairDefinition<Dim>& definition = pair.definition;
@@ -36,7 +37,7 @@ std::string passed_through(const model::BasicModel<Dim>& model,
     const pairing::PointResult<Dim>& now = contact.points[i];
     const bool seen = now.status != contact::Status::open || now.outside_domain ||
                       (std::isfinite(now.gap) && now.gap >= -definition.depth);
-    if (before[i] >= 0 && std::isfinite(before[i]) && !seen) suspects.push_back(i);
+    if (before[i] && !seen) suspects.push_back(i);
   }
   if (suspects.empty()) return {};
   const std::span<const Vec<Dim>> x(positions);
@@ -60,19 +61,17 @@ std::string passed_through(const model::BasicModel<Dim>& model,
   }
   if (node < 0) return {};
   return fmt::format(
-      "warning: contact '{}': the slave went through the master within the increment and is not "
+      "contact '{}': the slave went through the master within the increment and is not "
       "seen behind it ({} is {:.4g} deep): give the step more increments{}",
       pair.name, mesh::describe_node(model.mesh, node), -deepest,
       std::isfinite(definition.depth) ? ", or a larger search: {depth: ...}" : "");
 }
 
-template std::vector<double> gaps_of(const pairing::PairEvaluation<2>&);
-template std::vector<double> gaps_of(const pairing::PairEvaluation<3>&);
-template std::string passed_through(const model::Model&, const model::ContactPair&,
-                                    const std::vector<double>&, const pairing::PairEvaluation<2>&,
-                                    const std::vector<Vec2>&);
-template std::string passed_through(const model::Model3&, const model::ContactPair3&,
-                                    const std::vector<double>&, const pairing::PairEvaluation<3>&,
-                                    const std::vector<Vec3>&);
+template std::vector<char> in_front(const pairing::PairState<2>&, double);
+template std::vector<char> in_front(const pairing::PairState<3>&, double);
+template std::string passed_through(const Model&, const ContactPair&, const std::vector<char>&,
+                                    const pairing::PairEvaluation<2>&, const std::vector<Vec2>&);
+template std::string passed_through(const Model3&, const ContactPair3&, const std::vector<char>&,
+                                    const pairing::PairEvaluation<3>&, const std::vector<Vec3>&);
 
-}  // namespace osculate::api
+}  // namespace osculate::model
