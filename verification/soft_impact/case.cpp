@@ -21,8 +21,8 @@ mesh:
     upper: {{box: {{x: [-0.6, 0.6], y: [0.01, 1.01], elements: [4, 3]}}}}
 materials: {{rubber: {{neo_hooke: {{E: 1000, nu: 0.3, density: 1}}}}}}
 sections:
-  - {{on: lower, material: rubber, element: plane_strain}}
-  - {{on: upper, material: rubber, element: plane_strain}}
+  - {{on: lower, material: rubber, element: plane_strain, formulation: full}}
+  - {{on: upper, material: rubber, element: plane_strain, formulation: full}}
 contact: [{{name: c, master: lower.top, slave: upper.bottom, normal: {{penalty: 2000}}}}]
 initial_velocity: [{{on: upper, vy: {}}}]
 steps:

@@ -153,7 +153,7 @@ std::string on_a_base(bool turns, const std::string& scheme, int increments, int
 title: A block on a base that moves
 mesh: {{generate: {{block: {{box: {{x: [0.2, 1.2], y: [0, 2], elements: [1, 2]}}}}}}}}
 materials: {{m: {{neo_hooke: {{E: 40, nu: 0.3, density: 1}}}}}}
-sections: [{{on: block, material: m, element: plane_strain, kinematics: {}}}]
+sections: [{{on: block, material: m, element: plane_strain, formulation: full, kinematics: {}}}]
 {}amplitudes: {{wave: {}}}
 steps:
   - name: shake
@@ -180,7 +180,7 @@ std::string turning_body(bool plate, const std::string& scheme, int increments, 
 title: A body that turns in space
 mesh: {{generate: {{plate: {{box: {{x: [-1, 1], y: [-0.5, 0.5], z: [0, 0.5], elements: [2, 1, 1]}}}}}}}}
 materials: {{m: {{neo_hooke: {{E: 400, nu: 0.3, density: 0.6}}}}}}
-sections: [{{on: plate, material: m, element: solid, kinematics: finite}}]
+sections: [{{on: plate, material: m, element: solid, formulation: full, kinematics: finite}}]
 rigid: {{body: {}, mass: 2.5, inertia: [1.2, 2.5, 3, 0.4, 0.2, -0.3]}}}}
 amplitudes: {{wave: {}}}
 {}steps:

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <type_traits>
 
 #include "osculate/core/memory.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/model/bulk.hpp"
 #include "osculate/model/factor_estimate.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 #include "osculate/pairing/sampling.hpp"
@@ -121,48 +123,38 @@ const char* weight_name(pairing::Weight weight) {
 const char* assumption_name(solid::Assumption assumption) {
   switch (assumption) {
     case solid::Assumption::plane_strain:
-      return "plane strain";
+      return "plane strain, ";
     case solid::Assumption::plane_stress:
-      return "plane stress";
+      return "plane stress, ";
     case solid::Assumption::axisymmetric:
-      return "axisymmetric";
+      return "axisymmetric, ";
   }
   return "";
 }
 
-const char* formulation_name(solid::VolumeFormulation formulation) {
-  switch (formulation) {
-    case solid::VolumeFormulation::full:
-      return "full integration";
-    case solid::VolumeFormulation::bbar:
-      return "mean dilatation";
-    case solid::VolumeFormulation::enhanced:
-      return "enhanced strains";
-    case solid::VolumeFormulation::solid_shell:
-      return "solid shell";
-  }
-  return "";
+template <class Formulation>
+std::string formulation_name(Formulation formulation) {
+  if constexpr (std::is_same_v<Formulation, solid::VolumeFormulation>)
+    if (formulation == Formulation::solid_shell) return "solid shell";
+  if (formulation == Formulation::bbar) return "mean dilatation";
+  return formulation == Formulation::enhanced ? "enhanced strains" : "full integration";
 }
 
-const char* element_name(const solid::Section& section) {
-  return assumption_name(section.assumption);
-}
-const char* element_name(const solid::VolumeSection& section) {
-  return formulation_name(section.formulation);
-}
-
+/// Cells with their formulations, assumption and kinematics.
 template <int Dim>
 std::string section_text(const model::BasicModel<Dim>& m,
                          const model::BasicBulkSection<Dim>& section) {
   std::map<std::string, int> counts;
-  for (const mesh::CellRef& ref : section.cells)
-    ++counts[std::string(cell::info(m.mesh.blocks[static_cast<std::size_t>(ref.block)].type).name)];
+  for (const mesh::CellRef& ref : section.cells) {
+    const cell::CellType type = m.mesh.blocks[static_cast<std::size_t>(ref.block)].type;
+    ++counts[fmt::format("{}, {}", cell::info(type).name,
+                         formulation_name(model::section_on(section, type).formulation))];
+  }
   std::string text;
-  for (const auto& entry : counts)
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", entry.second, entry.first);
+  for (const auto& entry : counts) text += fmt::format("{} {}, ", entry.second, entry.first);
+  if constexpr (Dim == 2) text += assumption_name(section.section.assumption);
   const bool small = section.section.kinematics == solid::Kinematics::small;
-  return fmt::format("{}, {}, {} strain", text, element_name(section.section),
-                     small ? "small" : "finite");
+  return fmt::format("{}{} strain", text, small ? "small" : "finite");
 }
 
 template <int Dim>

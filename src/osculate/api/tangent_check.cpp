@@ -172,6 +172,7 @@ TangentRow check_part(Probe<Dim>& probe, const std::string& part) {
       same = same && probe.places() == places;
       same = same && plus.ok && minus.ok && plus.counts.signature == here.counts.signature &&
              minus.counts.signature == here.counts.signature;
+      if (!plus.ok || !minus.ok) return 0.0;
       return ((plus.residual - minus.residual) / (2 * step) - df).norm() /
              std::max(df.norm(), 1e-300);
     };

@@ -36,10 +36,18 @@ solid::Assumption assumption_of(SectionElement element) {
   }
 }
 
-/// The formulation that a word stands for in the plane (solid::Formulation) and in space.
+/// What `auto` stands for (decision 037): enhanced strains lock nowhere, but are unstable in the
+/// large compression that neo-Hooke bodies are made for; in plane stress there is no B-bar.
+Formulation best_formulation(const Section& s, const Material& material) {
+  if (material.law.value != MaterialLaw::neo_hooke) return Formulation::enhanced;
+  return s.element.value == SectionElement::plane_stress ? Formulation::full : Formulation::bbar;
+}
+
+/// The formulation of a section in the plane (solid::Formulation) or in space.
 template <class F>
-F formulation_of(Formulation formulation) {
-  switch (formulation) {
+F formulation_of(const Section& s, const Material& material) {
+  const Formulation given = s.formulation.value;
+  switch (given == Formulation::automatic ? best_formulation(s, material) : given) {
     case Formulation::bbar:
       return F::bbar;
     case Formulation::enhanced:
@@ -56,7 +64,7 @@ solid::Section make_solid_section<2>(const Section& s, const Material& material)
   solid::Section out;
   out.assumption = assumption_of(s.element.value);
   out.kinematics = solid_kinematics(s.kinematics.value);
-  out.formulation = formulation_of<solid::Formulation>(s.formulation.value);
+  out.formulation = formulation_of<solid::Formulation>(s, material);
   out.thickness = s.thickness.value;
   out.law = material_law(material);
   return out;
@@ -68,7 +76,7 @@ solid::VolumeSection make_solid_section<3>(const Section& s, const Material& mat
   out.kinematics = solid_kinematics(s.kinematics.value);
   out.formulation = s.element.value == SectionElement::solid_shell
                         ? solid::VolumeFormulation::solid_shell
-                        : formulation_of<solid::VolumeFormulation>(s.formulation.value);
+                        : formulation_of<solid::VolumeFormulation>(s, material);
   out.law = material_law(material);
   return out;
 }
@@ -111,7 +119,12 @@ template <int Dim>
 void check_cell(const BuildContext<Dim>& c, const Section& s,
                 const model::BasicBulkSection<Dim>& section, const mesh::CellRef& ref) {
   const cell::CellType type = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)].type;
-  const std::string_view reason = solid::unsupported(section.section, type);
+  const std::string_view reason =
+      solid::unsupported(s.formulation.value == Formulation::automatic &&
+                                 s.element.value != SectionElement::solid_shell
+                             ? model::section_on(section, type)
+                             : section.section,
+                         type);
   if (!reason.empty() && s.element.value == SectionElement::solid_shell)
     throw core::InputError(
         s.element.mark,

@@ -114,15 +114,22 @@ Spec sections_spec() {
           .otherwise_as("small for linear_elastic, finite for the other materials")
           .such_as("finite");
   const Spec formulation =
-      choice("How the element avoids locking.",
-             {word("full", Formulation::full,
-                   "plain displacement element, full integration: first-order cells are too stiff "
-                   "in bending and near nu = 0.5"),
-              word("bbar", Formulation::bbar,
-                   "averaged volume change, for nearly incompressible (Abaqus' CPE4 and C3D8)"),
-              word("enhanced", Formulation::enhanced,
-                   "enhanced strains, for bending (as CPE4I and C3D8I)")})
-          .otherwise("full")
+      choice(
+          "How first-order quadrilaterals and hexahedra avoid locking; all other cells are plain "
+          "displacement elements.",
+          {word("auto", Formulation::automatic,
+                "enhanced; of neo_hooke, where enhanced strains are unstable in large "
+                "compression, bbar, in plane stress full"),
+           word("full", Formulation::full,
+                "plain displacement element, full integration: too stiff in bending and near "
+                "nu = 0.5 (CalculiX' C3D8, Abaqus' CPS4; Abaqus' C3D8 is bbar)"),
+           word("bbar", Formulation::bbar,
+                "averaged volume change, for nearly incompressible (Abaqus' CPE4, CAX4 and "
+                "C3D8)"),
+           word("enhanced", Formulation::enhanced,
+                "enhanced strains, for bending and nearly incompressible (CalculiX' C3D8I, "
+                "Abaqus' CPS4I, CPE4I, CAX4I and C3D8I)")})
+          .otherwise("auto")
           .such_as("bbar");
   return list("Which cells of the mesh are bulk material, and of what kind.",
               map("One section.",

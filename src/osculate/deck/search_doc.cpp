@@ -44,7 +44,8 @@ constexpr std::array<Synonym, 23> synonyms{{
     {"self-contact general-contact all-contact", "contact: {all: ...} (docs/contact_all.md)"},
     {"dashpot-contact contact-damping", "contact.normal.damping"},
     {"mu cof", "contact.friction.coulomb.mu"},
-    {"rubber hyperelastic elastomer", "materials.NAME.neo_hooke, with formulation: bbar"},
+    {"rubber hyperelastic elastomer",
+     "materials.NAME.neo_hooke (sections.formulation: bbar by default)"},
     {"transient implicit-dynamics explicit impact crash drop", "steps.dynamics (docs/dynamics.md)"},
     {"restart checkpoint resume", "`osculate run --restart`, output.checkpoint"},
 }};

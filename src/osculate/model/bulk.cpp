@@ -44,12 +44,19 @@ SolidCoordinates<Dim> displacement_of(const Eigen::VectorXd& u, std::span<const 
 }
 
 template <int Dim>
+SolidSection<Dim> section_on(const BasicBulkSection<Dim>& section, cell::CellType type) {
+  SolidSection<Dim> own = section.section;
+  if (!solid::unsupported(own, type).empty()) own.formulation = {};
+  return own;
+}
+
+template <int Dim>
 void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
                    const mesh::CellRef& ref, const Eigen::VectorXd& u, bool with_tangent,
                    BasicBulkBlock<Dim>& out) {
   const CellNodes cell = cell_nodes(model.mesh, ref);
   set_dofs(cell.nodes, out);
-  solid::evaluate(section.section, cell.type, reference_of(model, cell.nodes),
+  solid::evaluate(section_on(section, cell.type), cell.type, reference_of(model, cell.nodes),
                   displacement_of<Dim>(u, cell.nodes), with_tangent, out.result);
   out.ok = out.result.status == solid::Status::ok;
   if (out.ok) return;
@@ -124,6 +131,8 @@ template SolidCoordinates<2> reference_of(const Model&, std::span<const Index>);
 template SolidCoordinates<3> reference_of(const Model3&, std::span<const Index>);
 template SolidCoordinates<2> displacement_of<2>(const Eigen::VectorXd&, std::span<const Index>);
 template SolidCoordinates<3> displacement_of<3>(const Eigen::VectorXd&, std::span<const Index>);
+template SolidSection<2> section_on(const BulkSection&, cell::CellType);
+template SolidSection<3> section_on(const BulkSection3&, cell::CellType);
 template void evaluate_cell(const Model&, const BulkSection&, const mesh::CellRef&,
                             const Eigen::VectorXd&, bool, BulkBlock&);
 template void evaluate_cell(const Model3&, const BulkSection3&, const mesh::CellRef&,

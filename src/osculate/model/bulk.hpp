@@ -18,6 +18,11 @@ struct BasicBulkBlock {
   typename BulkTraits<Dim>::Result result;
 };
 
+/// What a cell of a type has of its section: cells without the section's formulation are plain.
+template <int Dim>
+[[nodiscard]] SolidSection<Dim> section_on(const BasicBulkSection<Dim>& section,
+                                           cell::CellType type);
+
 /// Evaluates one cell at the nodal displacements `u`.
 template <int Dim>
 void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,

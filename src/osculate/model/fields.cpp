@@ -21,7 +21,8 @@ void add_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section
               const mesh::CellRef& ref, const BasicState<Dim>& state, BasicNodalFields<Dim>& f,
               std::vector<int>& count) {
   const CellNodes cell = cell_nodes(model.mesh, ref);
-  const auto s = solid::nodal_stress(section.section, cell.type, reference_of(model, cell.nodes),
+  const auto s = solid::nodal_stress(section_on(section, cell.type), cell.type,
+                                     reference_of(model, cell.nodes),
                                      displacement_of<Dim>(state.u, cell.nodes));
   for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
     const auto node = static_cast<std::size_t>(cell.nodes[k]);

@@ -88,7 +88,8 @@ double strain_energy(const BasicModel<Dim>& model, const Eigen::VectorXd& u) {
   for (const BasicBulkSection<Dim>& section : model.sections)
     for (const mesh::CellRef& ref : section.cells) {
       const CellNodes cell = cell_nodes(model.mesh, ref);
-      sum += solid::strain_energy(section.section, cell.type, reference_of(model, cell.nodes),
+      sum += solid::strain_energy(section_on(section, cell.type), cell.type,
+                                  reference_of(model, cell.nodes),
                                   displacement_of<Dim>(u, cell.nodes));
     }
   return sum;

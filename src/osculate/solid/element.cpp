@@ -53,15 +53,16 @@ void evaluate_mean_dilatation(const Section& section, const Points& points, bool
 }
 
 /// Enhanced strains: the mode parameters are condensed out of force and tangent.
+template <int Count>
 void evaluate_enhanced(const Section& section, const Coordinates& reference, const Points& points,
                        bool with_tangent, ElementResult& out) {
-  const EnhancedModes e = enhanced_modes(section, reference, points.geometries(), points.strains());
+  const EnhancedModes e =
+      enhanced_modes<Count>(section, reference, points.geometries(), points.strains());
   if (!e.ok) {
     out.status = Status::material_failed;
     return;
   }
-  Eigen::Matrix<double, enhanced_count, Eigen::Dynamic, 0, enhanced_count, 2 * max_nodes> coupling(
-      enhanced_count, 8);
+  Eigen::Matrix<double, Count, Eigen::Dynamic, 0, Count, 2 * max_nodes> coupling(Count, 8);
   coupling.setZero();
   for (std::size_t q = 0; q < 4; ++q) {
     const PointGeometry& g = points.geometry[q];
@@ -90,12 +91,9 @@ std::string_view unsupported(const Section& section, cell::CellType type) {
     return "the law is one of finite strains; use linear_elastic with small kinematics";
   if (section.formulation == Formulation::full) return {};
   if (type != cell::CellType::quad4)
-    return "formulations bbar and enhanced exist for quad4 cells only; use full";
+    return "formulations bbar and enhanced exist for quad4 cells only; use auto";
   if (section.formulation == Formulation::bbar && section.assumption == Assumption::plane_stress)
     return "formulation bbar has no use in plane stress; use full or enhanced";
-  if (section.formulation == Formulation::enhanced &&
-      section.assumption == Assumption::axisymmetric)
-    return "formulation enhanced is not available for axisymmetric sections; use full or bbar";
   return {};
 }
 
@@ -111,7 +109,10 @@ void evaluate(const Section& section, cell::CellType type, const Coordinates& re
     return;
   }
   if (section.formulation == Formulation::enhanced) {
-    evaluate_enhanced(section, reference, points, with_tangent, out);
+    if (section.assumption == Assumption::axisymmetric)
+      evaluate_enhanced<ring_modes>(section, reference, points, with_tangent, out);
+    else
+      evaluate_enhanced<plane_modes>(section, reference, points, with_tangent, out);
     return;
   }
   if (section.formulation == Formulation::bbar) {

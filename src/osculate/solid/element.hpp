@@ -10,8 +10,8 @@ namespace osculate::solid {
 enum class Assumption { plane_strain, plane_stress, axisymmetric };
 enum class Kinematics { small, finite };
 /// full: plain displacement element. bbar: mean dilatation (quad4; not plane stress), against
-/// volumetric locking. enhanced: four incompatible strain modes (quad4; not axisymmetric), against
-/// bending and volumetric locking.
+/// volumetric locking. enhanced: four incompatible strain modes (quad4; five where axisymmetric),
+/// against bending and volumetric locking.
 enum class Formulation { full, bbar, enhanced };
 
 struct Section {

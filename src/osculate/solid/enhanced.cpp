@@ -7,10 +7,12 @@
 namespace osculate::solid {
 namespace {
 
-/// Four strain modes (xi for 11, eta for 22, xi and eta for 12), brought from the centre of the
-/// cell to the point; their mean is zero, so that the patch test holds (Simo & Rifai 1990).
-Mat<4, enhanced_count> mode_matrix(const Coordinates& reference, const Vec2& xi,
-                                   double determinant) {
+/// Strain modes at the points (xi for 11, eta for 22, xi and eta for 12; in a ring xi eta for the
+/// hoop strain), brought from the centre of the cell; their mean is zero, so that the patch test
+/// holds (Simo & Rifai 1990).
+template <int Count>
+std::array<Mat<4, Count>, 4> mode_matrices(const Section& section, const Coordinates& reference,
+                                           std::span<const PointGeometry> geometry) {
   const cell::AreaShape center = cell::area_shape(cell::CellType::quad4, Vec2::Zero());
   const Mat<2, 2> j = (reference.transpose() * center.d.topRows<4>()).transpose();  // dX_j/dxi_i
   const Mat<2, 2> i = j.inverse();  // i(a, b) = dxi_b/dX_a
@@ -19,23 +21,37 @@ Mat<4, enhanced_count> mode_matrix(const Coordinates& reference, const Vec2& xi,
   t << i(0, 0) * i(0, 0), i(0, 1) * i(0, 1), i(0, 0) * i(0, 1),  //
       i(1, 0) * i(1, 0), i(1, 1) * i(1, 1), i(1, 0) * i(1, 1),   //
       2 * i(0, 0) * i(1, 0), 2 * i(0, 1) * i(1, 1), i(0, 0) * i(1, 1) + i(0, 1) * i(1, 0);
-  Mat<3, enhanced_count> natural = Mat<3, enhanced_count>::Zero();
-  natural(0, 0) = xi.x();
-  natural(1, 1) = xi.y();
-  natural(2, 2) = xi.x();
-  natural(2, 3) = xi.y();
-  const Mat<3, enhanced_count> plane = j.determinant() / determinant * t * natural;
-  Mat<4, enhanced_count> m = Mat<4, enhanced_count>::Zero();
-  m.row(0) = plane.row(0);
-  m.row(1) = plane.row(1);
-  m.row(3) = plane.row(2);
-  return m;
+  constexpr bool ring = Count == ring_modes;
+  const cell::Quadrature2D& rule = quadrature_of(section.assumption, cell::CellType::quad4);
+  Vec3 mean = Vec3::Zero();  // of xi, eta, xi eta over the circumference; zero in the plane
+  double circumference = 0;
+  for (std::size_t q = 0; ring && q < 4; ++q) {
+    const Vec2& xi = rule.points[q];
+    mean += geometry[q].radius * Vec3(xi.x(), xi.y(), xi.x() * xi.y());
+    circumference += geometry[q].radius;
+  }
+  if (ring) mean /= circumference;
+  std::array<Mat<4, Count>, 4> modes;
+  for (std::size_t q = 0; q < 4; ++q) {
+    const Vec2& xi = rule.points[q];
+    Mat<3, 4> natural = Mat<3, 4>::Zero();
+    natural(0, 0) = natural(2, 2) = xi.x() - mean[0];
+    natural(1, 1) = natural(2, 3) = xi.y() - mean[1];
+    const double ratio = j.determinant() / geometry[q].determinant;
+    const Mat<3, 4> plane = ratio * t * natural;
+    modes[q].setZero();
+    modes[q].template topLeftCorner<2, 4>() = plane.topRows<2>();
+    modes[q].template block<1, 4>(3, 0) = plane.row(2);
+    if constexpr (ring) modes[q](2, 4) = ratio * (xi.x() * xi.y() - mean[2]);
+  }
+  return modes;
 }
 
 /// Responses, equations int M^T S dV = 0 and their derivative at the modes of `e`. `scale` is the
 /// size that rounding errors of the equations are relative to. False where the law fails.
+template <int Count>
 bool sample(const Section& section, std::span<const PointGeometry> geometry,
-            std::span<const PointStrain> strain, EnhancedModes& e, Vec<enhanced_count>& rest,
+            std::span<const PointStrain> strain, EnhancedModes<Count>& e, Vec<Count>& rest,
             double& scale) {
   rest.setZero();
   scale = 0;
@@ -45,10 +61,12 @@ bool sample(const Section& section, std::span<const PointGeometry> geometry,
     e.response[q] = point_response(section, total);
     const material::Response& r = e.response[q];
     if (!r.ok) return false;
-    const Mat<4, enhanced_count> weighted = geometry[q].volume * e.matrix[q];
+    const Mat<4, Count> weighted = geometry[q].volume * e.matrix[q];
     rest.noalias() += weighted.transpose() * r.stress;
     e.stiffness.noalias() += weighted.transpose() * r.tangent * e.matrix[q];
-    const Vec<4> size = r.tangent.cwiseAbs() * total.cwiseAbs() + r.stress.cwiseAbs();
+    // before they cancel: modes of a long cell take nearly all of its strain away
+    const Vec<4> parts = strain[q].strain.cwiseAbs() + e.matrix[q].cwiseAbs() * e.alpha.cwiseAbs();
+    const Vec<4> size = r.tangent.cwiseAbs() * parts + r.stress.cwiseAbs();
     scale += (weighted.cwiseAbs().transpose() * size).maxCoeff();
   }
   return true;
@@ -56,18 +74,23 @@ bool sample(const Section& section, std::span<const PointGeometry> geometry,
 
 }  // namespace
 
-EnhancedModes enhanced_modes(const Section& section, const Coordinates& reference,
-                             std::span<const PointGeometry> geometry,
-                             std::span<const PointStrain> strain) {
-  const cell::Quadrature2D& rule = quadrature_of(section.assumption, cell::CellType::quad4);
-  EnhancedModes e;
-  for (std::size_t q = 0; q < 4; ++q)
-    e.matrix[q] = mode_matrix(reference, rule.points[q], geometry[q].determinant);
-  solve_modes<Vec<enhanced_count>>(e,
-                                   [&](EnhancedModes& m, Vec<enhanced_count>& rest, double& scale) {
-                                     return sample(section, geometry, strain, m, rest, scale);
-                                   });
+template <int Count>
+EnhancedModes<Count> enhanced_modes(const Section& section, const Coordinates& reference,
+                                    std::span<const PointGeometry> geometry,
+                                    std::span<const PointStrain> strain) {
+  EnhancedModes<Count> e;
+  e.matrix = mode_matrices<Count>(section, reference, geometry);
+  solve_modes<Vec<Count>>(e, [&](EnhancedModes<Count>& m, Vec<Count>& rest, double& scale) {
+    return sample(section, geometry, strain, m, rest, scale);
+  });
   return e;
 }
+
+template EnhancedModes<plane_modes> enhanced_modes(const Section&, const Coordinates&,
+                                                   std::span<const PointGeometry>,
+                                                   std::span<const PointStrain>);
+template EnhancedModes<ring_modes> enhanced_modes(const Section&, const Coordinates&,
+                                                  std::span<const PointGeometry>,
+                                                  std::span<const PointStrain>);
 
 }  // namespace osculate::solid

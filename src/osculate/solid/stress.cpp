@@ -18,15 +18,23 @@ Vec<4> cauchy(const PointStrain& p, const Vec<4>& s, double f33) {
   return {sigma(0, 0), sigma(1, 1), f33 * f33 * s[2] / j, sigma(0, 1)};
 }
 
+template <int Count>
+Status enhance(const Section& section, const Coordinates& reference, Points& points) {
+  const EnhancedModes e =
+      enhanced_modes<Count>(section, reference, points.geometries(), points.strains());
+  if (!e.ok) return Status::material_failed;
+  for (std::size_t q = 0; q < 4; ++q) points.strain[q].strain += e.matrix[q] * e.alpha;
+  return Status::ok;
+}
+
 /// Replaces the strains of the displacements by those the material sees.
 Status assume_strains(const Section& section, const Coordinates& reference,
                       const Coordinates& displacement, Points& points) {
-  if (section.formulation == Formulation::enhanced) {
-    const EnhancedModes e =
-        enhanced_modes(section, reference, points.geometries(), points.strains());
-    if (!e.ok) return Status::material_failed;
-    for (std::size_t q = 0; q < 4; ++q) points.strain[q].strain += e.matrix[q] * e.alpha;
-  } else if (section.formulation == Formulation::bbar) {
+  if (section.formulation == Formulation::enhanced)
+    return section.assumption == Assumption::axisymmetric
+               ? enhance<ring_modes>(section, reference, points)
+               : enhance<plane_modes>(section, reference, points);
+  if (section.formulation == Formulation::bbar) {
     if (section.kinematics == Kinematics::finite)
       points.strain = mean_dilatation(points.geometries(), points.strains()).strain;
     else

@@ -129,7 +129,7 @@ std::string_view unsupported(const VolumeSection& section, cell::CellType type) 
     return "formulation solid_shell exists for hex8 and shell18 cells only; use full";
   }
   if (type != cell::CellType::hex8)
-    return "formulations bbar and enhanced exist for hex8 cells only; use full";
+    return "formulations bbar and enhanced exist for hex8 cells only; use auto";
   return {};
 }
 

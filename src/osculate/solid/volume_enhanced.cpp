@@ -55,7 +55,9 @@ bool sample(const material::Law& law, const HexPoints& points, EnhancedModes3& e
     const Mat<6, enhanced_count3> stress = r.tangent * e.matrix[q];
     rest.noalias() += weighted.transpose() * r.stress;
     e.stiffness.noalias() += weighted.transpose() * stress;
-    const Vec<6> size = r.tangent.cwiseAbs() * total.cwiseAbs() + r.stress.cwiseAbs();
+    // before they cancel: modes of a long cell take nearly all of its strain away
+    const Vec<6> parts = points[q].strain.cwiseAbs() + e.matrix[q].cwiseAbs() * e.alpha.cwiseAbs();
+    const Vec<6> size = r.tangent.cwiseAbs() * parts + r.stress.cwiseAbs();
     scale += (weighted.cwiseAbs().transpose() * size).maxCoeff();
   }
   return true;

@@ -342,7 +342,7 @@ TEST_F(RunSpace, CheckPrintsGaps) {
       << report.text;
   EXPECT_NE(report.text.find("plane, reference point (0, 0, -0.25)"), std::string::npos)
       << report.text;
-  EXPECT_NE(report.text.find("16 hex8, full integration, small strain"), std::string::npos)
+  EXPECT_NE(report.text.find("16 hex8, enhanced strains, small strain"), std::string::npos)
       << report.text;
   const nlohmann::json json = nlohmann::json::parse(report.json);
   EXPECT_EQ(json["contact"][0]["largest_gap"], 0.25);

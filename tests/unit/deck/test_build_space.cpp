@@ -4,6 +4,7 @@
 
 #include "deck_test.hpp"
 #include "osculate/deck/build.hpp"
+#include "osculate/model/bulk.hpp"
 #include "space_test.hpp"
 
 namespace osculate::deck {
@@ -43,7 +44,8 @@ TEST(BuildSpace, SectionsAndRigidBodies) {
   EXPECT_EQ(m.sections[0].section.formulation, solid::VolumeFormulation::enhanced);
   EXPECT_EQ(m.sections[0].section.kinematics, solid::Kinematics::finite);
   EXPECT_TRUE(std::holds_alternative<material::NeoHooke>(m.sections[0].section.law));
-  EXPECT_EQ(m.sections[1].section.formulation, solid::VolumeFormulation::full);
+  EXPECT_EQ(model::section_on(m.sections[1], cell::CellType::hex20).formulation,
+            solid::VolumeFormulation::full);
   EXPECT_EQ(m.sections[0].cells.size(), 4u);
   ASSERT_EQ(m.rigid.size(), 2u);
   EXPECT_EQ(m.rigid[0].reference, Vec3(1, 1, -0.5));
@@ -331,7 +333,7 @@ TEST(BuildSpace, WhatSpaceDoesNotHave) {
           {"material: steel, element: solid}",
            "material: steel, element: solid, formulation: bbar}",
            "model.yaml:16: sections[1].formulation: set 'high' has hex20 cells: formulations bbar "
-           "and enhanced exist for hex8 cells only; use full"},
+           "and enhanced exist for hex8 cells only; use auto"},
       });
 }
 

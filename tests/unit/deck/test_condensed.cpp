@@ -49,7 +49,7 @@ mesh:
     low: {{box: {{x: [0, 3], y: [0, 2], z: [0, 1], elements: [5, 3, 2]}}}}
     up: {{box: {{x: [0.53, 2.04], y: [0, 1.4], z: [1.001, 2], elements: [3, 2, 2]}}}}
 materials: {{s: {{linear_elastic: {{E: 100, nu: 0.3}}}}}}
-sections: [{{on: low, material: s, element: solid}}, {{on: up, material: s, element: solid}}]
+sections: [{{on: [low, up], material: s, element: solid, formulation: full}}]
 {0}steps:
   - {{name: press, increments: 1, prescribe: [{{on: low.bottom, ux: 0, uy: 0, uz: 0}}, {{on: up.top, ux: 0, uy: 0, uz: -0.08}}{1}]}}
   - {{name: shear, increments: 2, prescribe: [{{on: up.top, ux: 0.05, uy: 0.01}}]}}

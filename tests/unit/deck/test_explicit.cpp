@@ -337,7 +337,7 @@ std::string falling(const std::string& penalty, const std::string& more = "") {
   return fmt::format(R"(osculate: 1
 mesh: {{generate: {{b: {{box: {{x: [0, 1], y: [0.02, 1.02], elements: [6, 6]}}}}}}}}
 materials: {{m: {{linear_elastic: {{E: 1000, nu: 0.3, density: 1}}}}}}
-sections: [{{on: b, material: m, element: plane_strain}}]
+sections: [{{on: b, material: m, element: plane_strain, formulation: full}}]
 rigid: {{floor: {{line: {{point: [0, 0], normal: [0, 1]}}}}}}
 contact: [{{name: c, master: floor, slave: b.bottom, normal: {{penalty: {}}}}}]
 initial_velocity: [{{on: b, vy: -2}}]

@@ -65,7 +65,7 @@ TEST(GoodModels, DefaultsOfTheSmallestModel) {
   EXPECT_EQ(d.sections[0].kinematics.value, Kinematics::small);
   EXPECT_EQ(d.sections[1].kinematics.value, Kinematics::finite);
   EXPECT_EQ(d.sections[0].thickness.value, 1);
-  EXPECT_EQ(d.sections[0].formulation.value, Formulation::full);
+  EXPECT_EQ(d.sections[0].formulation.value, Formulation::automatic);
   const Contact& c = d.contact[0];
   EXPECT_FALSE(c.friction.has_value());
   EXPECT_EQ(c.weight.value, ContactWeight::reference_area);

@@ -15,8 +15,7 @@ std::string sheared(const std::string& enforcement, const std::string& normal = 
          "    low: {box: {x: [-2, 2], y: [-1, 0], elements: [10, 3]}}\n"
          "    up: {box: {x: [-0.95, 1.05], y: [0, 1.5], elements: [6, 5]}}\n"
          "materials: {m: {linear_elastic: {E: 1000, nu: 0.3}}}\n"
-         "sections: [{on: low, material: m, element: plane_strain},\n"
-         "  {on: up, material: m, element: plane_strain}]\n"
+         "sections: [{on: [low, up], material: m, element: plane_strain, formulation: full}]\n"
          "contact: [{name: c, master: low.top, slave: up.bottom, sampling: nodes, friction: "
          "{rough: {}}, " +
          normal + "enforcement: " + enforcement +

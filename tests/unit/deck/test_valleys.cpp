@@ -152,7 +152,7 @@ Vec2 dragged(int increments, int facets = 90,
   run(fmt::format(R"(osculate: 1
 mesh: {{generate: {{block: {{box: {{x: [-0.1, 0.1], y: [-0.99, -0.79], elements: [4, 4]}}}}}}}}
 materials: {{m: {{neo_hooke: {{E: 100, nu: 0.3}}}}}}
-sections: [{{on: block, element: plane_strain, material: m, kinematics: finite}}]
+sections: [{{on: block, element: plane_strain, material: m, formulation: full}}]
 rigid: {{channel: {{{0}, reference: [0, 0]}}}}
 contact:
   - {{name: c, master: channel, slave: block.bottom, sampling: nodes, weight: node,

@@ -32,7 +32,7 @@ void for_each_section(const std::function<void(const SectionCase&)>& visit) {
             ++visited;
             visit(c);
           });
-  EXPECT_EQ(visited, 57);  // 5 cells x 3 assumptions x 3 laws, bbar 2 x 3, enhanced 2 x 3
+  EXPECT_EQ(visited, 60);  // 5 cells x 3 assumptions x 3 laws, bbar 2 x 3, enhanced 3 x 3
 }
 
 double noise(Eigen::Index i, Eigen::Index j, int seed) {

@@ -170,9 +170,11 @@ void expect_reasons(SectionType s, cell::CellType linear, cell::CellType quadrat
 TEST(Unsupported, NamesTheReasonInThePlane) {
   expect_reasons(Section{}, cell::CellType::quad4, cell::CellType::quad8, cell::CellType::line2,
                  area_types, std::array{Formulation::bbar, Formulation::enhanced},
-                 [](Section& s, auto&) {
-                   s.assumption = s.formulation == Formulation::bbar ? Assumption::plane_stress
-                                                                     : Assumption::axisymmetric;
+                 [](Section& s, cell::CellType& type) {
+                   if (s.formulation == Formulation::bbar)
+                     s.assumption = Assumption::plane_stress;
+                   else
+                     type = cell::CellType::tri3;
                  });
 }
 
