@@ -114,8 +114,9 @@ test('a frame has the components and principal values of its stress in both dime
   assert.ok(Math.abs(plane.frames[0].field('principal stress 1 (largest)')[0] - 3) < 1e-6);
   assert.ok(Math.abs(plane.frames[0].field('von Mises stress')[0] - Math.sqrt(3)) < 1e-6);
   const mesh = { dimension: 3, points: square.points.map(([x, y]) => [x, y, 0]), cells: square.cells };
-  const space = readSpace({ mesh, frames: [{ u: [], stress: Array(4).fill([1, 2, 3, 0, 5, 0]) }] });
-  assert.deepEqual([...space.frames[0].field('stress yz')], [5, 5, 5, 5]);
+  const space = readSpace({ mesh, frames: [{ u: [], fields: { f: [7, 8, 9] }, stress: Array(3).fill([1, 2, 3, 0, 5, 0]) }] });
+  assert.deepEqual([...space.frames[0].field('stress yz')], [5, 5, 5, NaN]);
+  assert.deepEqual([...space.frames[0].field('f')], [7, 8, 9, NaN]);
   assert.ok(space.fieldNames.includes('principal stress 3 (smallest)'));
 });
 

@@ -68,7 +68,7 @@ function readFrame(f, n, coloured) {
   for (const [name, values] of Object.entries(f.fields ?? {})) {
     fields.set(name, once(() => {
       const list = numbers(values);
-      return list.length === n ? list.map((v, i) => (coloured[i] ? v : NaN)) : new Float32Array(n).fill(NaN);
+      return Float32Array.from({ length: n }, (_, i) => (coloured[i] ? list[i] ?? NaN : NaN));
     }));
   }
   addStress(f.stress, n, (i, v) => (coloured[i] ? v : NaN), fields);
