@@ -186,6 +186,7 @@ void build_sections(BuildContext<Dim>& c) {
     section.name = s.on.value;
     section.section = solid_section(c, s);
     section.cells = set.cells;
+    section.material = s.material.value;
     if constexpr (Dim == 2) check_mixture(c, s, section);
     if (s.element.value == SectionElement::solid_shell)
       (void)mesh::align_shells(m.mesh, section.cells);
