@@ -79,10 +79,12 @@ function space() {
       dimension: 3, points, cells: [{ type: 'quad4', connectivity: quads.flat() },
         { type: 'quad8', connectivity: eight }, { type: 'tri6', connectivity: six },
         { type: 'tri3', connectivity: [0, 6, 2] },
-        { type: 'quad4', connectivity: [n, n + 1, n + 2, n + 3], rigid: true }],
+        { type: 'quad4', connectivity: [n, n + 1, n + 2, n + 3], rigid: true, body: 1 }],
+      volumes: [{ type: 'hex8', connectivity: [0, 1, 3, 2, 4, 5, 7, 6], body: 0 }],
+      bodies: ['box', 'plate'], sets: [{ name: 'top', point: 4, points: [4, 5, 6, 7] }],
     },
     frames: [0, 1].map((s) => ({
-      step: 1, increment: s, time: s, u: u(s),
+      step: 1, increment: s, time: s, u: u(s), stress: points.map(([x, y, z]) => [x, y, z, 0, x, 0]),
       fields: { f: points.map(([x], i) => (i < 4 ? x : null)), 'von Mises stress': points.map(([x, y, z]) => x + y * z) },
     })),
   };
@@ -105,7 +107,7 @@ if (!given) {
     const file = join(dir, `${name}.html`);
     writeFileSync(file, page(data));
     pages.push([file, name === 'bare' ? ['<h1>bare']
-      : ['<h1>', 'id="body"', ...(name === 'space' ? ['id="diagnosis"', 'turning about'] : ['id="energy"', 'lost numerically'])]]);
+      : ['<h1>', 'id="body"', ...(name === 'space' ? ['id="diagnosis"', 'turning about', 'class="bodies"', 'nodes of top'] : ['id="energy"', 'lost numerically'])]]);
   }
 }
 for (const [file, parts] of pages) {

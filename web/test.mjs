@@ -2,7 +2,15 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-Object.assign(globalThis, { matchMedia: () => ({ addEventListener() {} }), addEventListener() {} });
+Object.assign(globalThis, {
+  matchMedia: () => ({ addEventListener() {} }), addEventListener() {}, document: {},
+  getComputedStyle: () => ({ getPropertyValue: () => '' }),
+});
+const { largestFrame, visible } = await import('./src/bodies.js');
+const { along } = await import('./src/body_section.js');
+const { section, tetrahedra } = await import('./src/cut.js');
+const { labelsOf } = await import('./src/labels.js');
+const { principal } = await import('./src/stress.js');
 const { bounds } = await import('./src/camera.js');
 const { readBody, readHistory } = await import('./src/data.js');
 const { closure, isLedger, ledger } = await import('./src/energy.js');
@@ -88,4 +96,80 @@ test('edges are joined end to end', () => {
   assert.deepEqual(chains([edge(0, 1), edge(1, 2), edge(2, 0)]), [[0, 1, 2, 0]]);
   const star = chains([edge(0, 1), edge(0, 2), edge(0, 3)]);
   assert.deepEqual(star.map((c) => c.length), [2, 2, 2]);
+});
+
+test('principal stresses are the eigenvalues of the tensor, largest first', () => {
+  const near = (found, wanted) => found.forEach((v, i) => assert.ok(Math.abs(v - wanted[i]) < 1e-12, `${found}`));
+  near(principal([1, -2, 0.5, 0, 0, 0]), [1, 0.5, -2]);
+  near(principal([3, 3, 3, 0]), [3, 3, 3]);
+  near(principal([0, 0, 0, 2]), [2, 0, -2]);
+  near(principal([5, 1, 3, 0]), [5, 3, 1]);
+  const [a, b, c] = principal([1, 2, 3, 4, 5, 6]);
+  near([a + b + c, a * b + b * c + c * a, a * b * c], [6, 2 + 6 + 3 - 16 - 25 - 36, 101]);
+});
+
+test('a frame has the components and principal values of its stress in both dimensions', () => {
+  const plane = readBody({ mesh: square, frames: [{ u: [], stress: Array(4).fill([1, 2, 3, 0]) }] });
+  assert.deepEqual([...plane.frames[0].field('stress yy')], [2, 2, 2, 2]);
+  assert.ok(Math.abs(plane.frames[0].field('principal stress 1 (largest)')[0] - 3) < 1e-6);
+  assert.ok(Math.abs(plane.frames[0].field('von Mises stress')[0] - Math.sqrt(3)) < 1e-6);
+  const mesh = { dimension: 3, points: square.points.map(([x, y]) => [x, y, 0]), cells: square.cells };
+  const space = readSpace({ mesh, frames: [{ u: [], fields: { f: [7, 8, 9] }, stress: Array(3).fill([1, 2, 3, 0, 5, 0]) }] });
+  assert.deepEqual([...space.frames[0].field('stress yz')], [5, 5, 5, NaN]);
+  assert.deepEqual([...space.frames[0].field('f')], [7, 8, 9, NaN]);
+  assert.ok(space.fieldNames.includes('principal stress 3 (smallest)'));
+});
+
+test('the plot along the surface runs as the picture does: to the right, else upwards', () => {
+  const contact = (x, pressure) => ({
+    size: pressure.length, x: x.flat(), pressure, shear: pressure.map(() => 0), status: pressure.map(() => 1),
+  });
+  const right = along(contact([[2, 0], [1, 0], [0, 0]], [3, 2, 1]));
+  assert.deepEqual([right.s, right.pressure], [[0, 1, 2], [1, 2, 3]]);
+  assert.deepEqual(along(contact([[0, 0], [1, 0], [2, 0]], [1, 2, 3])).pressure, [1, 2, 3]);
+  assert.deepEqual(along(contact([[0, 2], [0.1, 1], [0, 0]], [3, 2, 1])).pressure, [1, 2, 3]);
+});
+
+test('the first view is that of the largest contact, the latest of equals, else the end', () => {
+  assert.equal(largestFrame([0, 3, 1]), 1);
+  assert.equal(largestFrame([0, 3, 3, 0]), 2);
+  assert.equal(largestFrame([0, 0, 0]), 2);
+});
+
+test('hidden bodies are left out, transparent ones apart', () => {
+  const mesh = { points: [...square.points, [5, 0], [6, 0], [6, 1]], bodies: ['a', 'b'], cells: [
+    { ...square.cells[0], body: 0 }, { type: 'tri3', connectivity: [4, 5, 6], body: 1 }] };
+  const { topo } = readBody({ mesh, frames: [{}] });
+  assert.deepEqual([...visible(topo, ['hidden', 'shown']).tris], [4, 5, 6]);
+  assert.deepEqual([...visible(topo, ['shown', 'faint']).faint], [4, 5, 6]);
+  assert.equal(visible(topo, ['hidden']).outline.length, 3);
+  assert.equal(visible(topo, []).tris.length, 15);
+});
+
+test('a cut through a cube is a square with the values in between', () => {
+  const cube = Array.from({ length: 8 }, (_, i) => [[0, 0], [1, 0], [1, 1], [0, 1]][i % 4].concat(i >> 2));
+  const tets = tetrahedra([{ type: 'hex8', connectivity: [0, 1, 2, 3, 4, 5, 6, 7], body: 4 }]);
+  const [X, Y, Z] = [0, 1, 2].map((k) => cube.map((p) => p[k]));
+  const cut = section(tets, Z.map((z) => z - 0.25), [X, Y, Z]);
+  const [x, y, z] = cut.arrays;
+  assert.ok(z.every((v) => v === 0.25));
+  assert.ok(cut.bodies.every((b) => b === 4));
+  let area = 0;
+  for (let t = 0; t < cut.tris.length; t += 3) {
+    const [a, b, c] = cut.tris.slice(t, t + 3);
+    area += Math.abs((x[b] - x[a]) * (y[c] - y[a]) - (x[c] - x[a]) * (y[b] - y[a])) / 2;
+  }
+  assert.ok(Math.abs(area - 1) < 1e-6);
+  const rim = cut.lines.map(([p, q]) => Math.hypot(x[p] - x[q], y[p] - y[q]));
+  assert.ok(Math.abs(rim.reduce((sum, v) => sum + v, 0) - 4) < 1e-6);
+  assert.equal(section(tets, Z.map((z) => z - 0.25), [X], () => false).tris.length, 0);
+});
+
+test('sets and nodes are labelled as the user calls them', () => {
+  const mesh = { ...square, numbers: [10, 20, 30, 40], sets: [{ name: 'top', point: 2, points: [2, 3] }] };
+  const body = readBody({ mesh, frames: [{}] });
+  assert.deepEqual(labelsOf(body, 'sets'), [[2, 'top']]);
+  assert.deepEqual(labelsOf(body, 'set 0'), [[2, '30'], [3, '40']]);
+  assert.deepEqual(labelsOf(body, 'nodes').map(([, text]) => text).sort(), ['10', '20', '30', '40']);
+  assert.deepEqual(labelsOf(body, 'none'), []);
 });

@@ -1,7 +1,9 @@
 // The deformed body with its controls, and the contact stresses along the surface.
+import { bodyChoices, largestFrame } from './bodies.js';
 import { bounds, fit, pan, zoom } from './camera.js';
 import { choice, el, tick, watchWidth } from './dom.js';
 import { num } from './format.js';
+import { labelChoice } from './labels.js';
 import { plot } from './plot.js';
 import { autoScale, button, frameKeys, onceAFrame, player, savePicture } from './player.js';
 import { onTheme } from './theme.js';
@@ -16,7 +18,7 @@ export function bodySection(body, frameChanged, { id = 'body', title = 'Deformed
   const host = el('div', { class: 'canvas-host' }, canvas, hint);
   const preferred = body.fieldNames.find((name) => /mises/i.test(name)) ?? body.fieldNames[0];
   const state = {
-    frame: body.frames.length - 1, field: preferred, scale: 1, range: 'all', map: 'sequential',
+    frame: largestFrame(body.largestContact), looks: [], labels: 'none', field: preferred, scale: 1, range: 'all', map: 'sequential',
     bands: false, lines: true, ghost: false, contact: 'profile', points: true, ...preset,
   };
   const self = { body, view, state, canvas, host, hint, frameChanged };
@@ -91,6 +93,8 @@ function controls(self) {
     tick('mesh', state.lines, (lines) => change(self, { lines })),
     tick('bands', state.bands, (bands) => change(self, { bands })),
     tick('undeformed', state.ghost, (ghost) => change(self, { ghost })),
+    labelChoice(body, (labels) => change(self, { labels })),
+    bodyChoices(body.bodies, state, () => refresh(self)),
     warning,
     el('span', { class: 'buttons' },
       button('+', 'zoom in', () => zoomBy(self, 1.4)),
@@ -147,22 +151,33 @@ function pointer(self) {
   canvas.addEventListener('dblclick', () => zoomBy(self, 0));
 }
 
-/** Arc length along the contact points, and the values, broken where the surface is. */
-function along(c) {
+/** Points in the direction in which the picture shows them: from left to right, or else upwards. */
+function asSeen(c) {
+  const last = 2 * (c.size - 1);
+  const [dx, dy] = [c.x[last] - c.x[0], c.x[last + 1] - c.x[1]];
+  const order = Array.from({ length: c.size }, (_, i) => i);
+  return (Math.abs(dx) >= 0.2 * Math.abs(dy) ? dx : dy) < 0 ? order.reverse() : order;
+}
+
+/** Arc length along the contact points as the picture runs, and the values, broken where the surface is. */
+export function along(c) {
   const s = [];
   const pressure = [];
   const shear = [];
   const styles = [];
   let length = 0;
-  runs(c.x, c.size).forEach(([from, to], r) => {
+  const order = asSeen(c);
+  const x = order.flatMap((i) => [c.x[2 * i], c.x[2 * i + 1]]);
+  runs(x, c.size).forEach(([from, to], r) => {
     if (r) {
       s.push(length);
       pressure.push(NaN);
       shear.push(NaN);
       styles.push(null);
     }
-    for (let i = from; i < to; ++i) {
-      if (i) length += Math.hypot(c.x[2 * i] - c.x[2 * i - 2], c.x[2 * i + 1] - c.x[2 * i - 1]);
+    for (let k = from; k < to; ++k) {
+      if (k) length += Math.hypot(x[2 * k] - x[2 * k - 2], x[2 * k + 1] - x[2 * k - 1]);
+      const i = order[k];
       s.push(length);
       pressure.push(c.pressure[i]);
       shear.push(c.shear[i]);

@@ -65,7 +65,7 @@ function uniform(path, smoothing) {
 }
 
 const paths = {
-  sequential: (t) => inGamut(0.27 + 0.66 * t, 0.14 + 0.03 * t, 300 - 200 * t),
+  sequential: (t) => inGamut(0.37 + 0.56 * t, 0.14 + 0.03 * t, 300 - 200 * t),
   diverging: (t) => {
     const side = Math.abs(2 * t - 1);
     return inGamut(0.96 - 0.51 * side, 0.19 * side, t < 0.5 ? 255 : 28);

@@ -12,14 +12,15 @@ export function convergenceSection(report, increments, picked) {
   const grid = el('div', { class: 'grid' });
   const section = el('section', { id: 'convergence' }, el('h2', {}, 'Convergence'), grid);
   if (increments.length) iterationBars(grid, increments, picked);
-  if (report.iterations?.length) convergenceCurves(grid, report.iterations);
+  if (report.iterations?.length) convergenceCurves(grid, report.iterations, increments);
   if (increments.some((i) => i.stick || i.slip || i.open)) statePlot(grid, increments, picked);
   return section;
 }
 
 function about(i) {
   return [`${i.step}, increment ${i.index}, time ${num(i.time, 5)}`,
-    `${i.iterations} iterations${i.cutbacks ? `, ${i.cutbacks} cut-backs` : ''}`,
+    `${i.iterations} iterations${i.cutbacks ? `, ${i.cutbacks} cut-backs` : ''}` +
+      (i.wasted_iterations ? `, and ${i.wasted_iterations} of attempts that were given up` : ''),
     `residual ${num(i.residual, 3)}, energy ${num(i.energy, 3)}`,
     `open ${i.open ?? 0}, stick ${i.stick ?? 0}, slip ${i.slip ?? 0}`];
 }
@@ -86,7 +87,7 @@ function cutMark(chart, inc) {
 }
 
 /** One curve per increment (early: dark, late: bright), of the residual or the energy. */
-function convergenceCurves(grid, iterations) {
+function convergenceCurves(grid, iterations, increments) {
   const state = { measure: iterations.some((i) => i.residuals?.length) ? 'residuals' : 'energies', only: 'all' };
   const map = colourMap('sequential');
   const colour = (k) => cssColour(map[Math.round(20 + (k / Math.max(1, iterations.length - 1)) * 190)]);
@@ -107,19 +108,19 @@ function convergenceCurves(grid, iterations) {
     if (state.only !== 'all' || iterations.length <= 12) curve.dots = true;
     return [curve];
   };
+  const name = (k) => `${increments[k]?.step ?? iterations[k].step}, increment ${iterations[k].increment}`;
   const shown = plot(grid, {
     title: 'Convergence within the increments', xlabel: 'iteration', ylabel: 'measure, relative', logY: true,
     integerX: true,
     describe: (c, i) => {
-      const inc = iterations[c.of[i]];
-      return [`${inc.step}, increment ${inc.increment}`, `iteration ${c.x[i]}: ${num(c.y[i], 4)}`];
+      return [name(c.of[i]), `iteration ${c.x[i]}: ${num(c.y[i], 4)}`];
     },
   }, make());
   const update = (patch) => {
     Object.assign(state, patch);
     shown.show(make());
   };
-  const names = iterations.map((i, k) => [k, `${i.step} ${i.increment}`]);
+  const names = iterations.map((_, k) => [k, name(k)]);
   shown.frame.querySelector('figcaption').after(el('div', { class: 'controls' },
     choice('', [['residuals', 'residual'], ['energies', 'energy']], state.measure,
       (measure) => update({ measure })),

@@ -1,6 +1,7 @@
 // Reads the report data (docs/report_data.md) into what the page draws. Big arrays stay encoded
 // until a frame is looked at.
 import { topology } from './mesh.js';
+import { stressFields } from './stress.js';
 
 /** number[] | number[][] | {f32: base64} -> typed array; null entries become NaN. */
 export function numbers(source) {
@@ -53,6 +54,7 @@ function readFrame(f, n) {
       return list.length === n ? list : new Float32Array(n).fill(NaN);
     }));
   }
+  addStress(f.stress, n, (_, v) => v, fields);
   for (const [name, of] of Object.entries(derived)) {
     if (!fields.has(name)) {
       fields.set(name, once(() => Float32Array.from({ length: n }, (_, i) => of(i, u()))));
@@ -65,12 +67,23 @@ function readFrame(f, n) {
   };
 }
 
+/** Adds the fields of the stress tensors to others; `shown(i, value)` is what a point has of them. */
+export function addStress(source, n, shown, fields) {
+  const width = source?.shape?.[1] ?? source?.[0]?.length;
+  const tensors = once(() => numbers(source));
+  if (!width) return;
+  for (const [name, of] of stressFields(width)) {
+    fields.set(name, once(() => Float32Array.from({ length: n }, (_, i) =>
+      shown(i, of(tensors().subarray(width * i, width * i + width))))));
+  }
+}
+
 /** A rigid line as polylines per frame (one for all frames: an array of length 1). */
 function readRigid(r) {
   const source = r.polyline ?? [];
   const perFrame = Array.isArray(source[0]?.[0]) || typeof source[0]?.f32 === 'string';
   const lines = (perFrame ? source : [source]).map(numbers);
-  return { name: r.name ?? '', at: (frame) => lines[Math.min(frame, lines.length - 1)], first: lines[0] };
+  return { name: r.name ?? '', body: r.body ?? -1, at: (frame) => lines[Math.min(frame, lines.length - 1)], first: lines[0] };
 }
 
 /** Smallest and largest finite entry over several arrays; [0, 0] when there is none. */
@@ -93,18 +106,19 @@ export function readBody(report) {
   const n = points.length / 2;
   if (!n || !report.frames?.length) return null;
   const topo = topology((report.mesh.cells ?? []).map((block) => ({
-    type: block.type, connectivity: Array.from(numbers(block.connectivity)),
+    type: block.type, body: block.body, connectivity: Array.from(numbers(block.connectivity)),
   })), n);
   const ends = numbers(report.mesh.edges);
   if (ends.length) {
     topo.outline = Array.from({ length: ends.length >> 1 }, (_, i) => (
-      { a: ends[2 * i], b: ends[2 * i + 1], mid: -1 }));
+      { a: ends[2 * i], b: ends[2 * i + 1], mid: -1, body: -1 }));
   }
   const frames = report.frames.map((f) => readFrame(f, n));
   const names = [...new Set(frames.flatMap((f) => [...f.fields.keys()]))];
   const range = new Map();
   return {
-    n, points, topo, frames, fieldNames: names,
+    n, points, topo, frames, fieldNames: names, ...naming(report.mesh, topo, n),
+    largestContact: frames.map((f) => Math.max(0, ...f.contact().flatMap((c) => [...c.pressure].filter((v) => v === v)))),
     rigid: (report.rigid ?? []).map(readRigid),
     size: diagonal(points),
     /** Range of a field over all frames. */
@@ -119,6 +133,12 @@ export function readBody(report) {
     }),
     pairs: once(() => [...new Set(frames.flatMap((f) => f.contact().map((c) => c.pair)))]),
   };
+}
+
+/** Names of bodies and sets, numbers of nodes, and the nodes of the cells. */
+export function naming(mesh, topo, n) {
+  const nodes = [...new Set(topo.tris)].filter((i) => i < n);
+  return { bodies: mesh.bodies ?? [], sets: mesh.sets ?? [], numbers: mesh.numbers, nodes };
 }
 
 /** Remembers the results of `make` by key. */

@@ -47,7 +47,8 @@ function build(report) {
     const space = report.mesh?.dimension === 3;
     const body = space ? readSpace(report) : readBody(report);
     if (!body) return null;
-    const made = (space ? spaceSection : bodySection)(body, (frame) => histories?.follow(frame));
+    const preset = report.status === 'failed' ? { frame: body.frames.length - 1 } : {};
+    const made = (space ? spaceSection : bodySection)(body, (frame) => histories?.follow(frame), { preset });
     view = { body, show: made.show };
     return made.section;
   });

@@ -52,7 +52,7 @@ function addTriangles(shape, nodes, virtual, tris) {
   for (let i = 0; i < ring.length; ++i) tris.push(ring[i], ring[(i + 1) % ring.length], centre);
 }
 
-function addEdges(shape, nodes, n, edges, cell) {
+function addEdges(shape, nodes, n, edges, cell, body) {
   for (const [a, b, mid] of shape.edges) {
     const lo = Math.min(nodes[a], nodes[b]);
     const hi = Math.max(nodes[a], nodes[b]);
@@ -62,22 +62,24 @@ function addEdges(shape, nodes, n, edges, cell) {
       found.other = cell;
     } else {
       edges.set(lo * n + hi, {
-        a: nodes[a], b: nodes[b], mid: mid < 0 ? -1 : nodes[mid], cells: 1, line: !!shape.line, cell, other: -1,
+        a: nodes[a], b: nodes[b], mid: mid < 0 ? -1 : nodes[mid], cells: 1, line: !!shape.line, cell, other: -1, body,
       });
     }
   }
 }
 
 /**
- * Topology of `cells` = [{type, connectivity: flat number[]}] over n nodes:
- * {n, total, virtual: [{nodes, weights}], tris: Int32Array, inner: edges, outline: edges, corners}:
- * three corners of every cell; an edge knows its cells {cell, other or -1}.
+ * Topology of `cells` = [{type, connectivity: flat number[], body}] over n nodes:
+ * {n, total, virtual: [{nodes, weights}], tris: Int32Array, bodies: one a triangle, inner: edges,
+ * outline: edges, corners}: three corners of every cell; an edge knows its cells {cell, other or -1}
+ * and its body.
  */
 export function topology(cells, n) {
   const points = [];
   const tris = [];
   const edges = new Map();
   const corners = [];
+  const bodies = [];
   const virtual = (nodes, weights) => n + points.push({ nodes, weights }) - 1;
   for (const block of cells) {
     const shape = shapes[block.type];
@@ -86,7 +88,8 @@ export function topology(cells, n) {
     for (let c = 0; c + shape.nodes <= list.length; c += shape.nodes) {
       const nodes = list.slice(c, c + shape.nodes);
       addTriangles(shape, nodes, virtual, tris);
-      addEdges(shape, nodes, n, edges, corners.length / 3);
+      while (bodies.length < tris.length / 3) bodies.push(block.body ?? -1);
+      addEdges(shape, nodes, n, edges, corners.length / 3, block.body ?? -1);
       corners.push(nodes[0], nodes[1], nodes[2] ?? -1);
     }
   }
@@ -97,6 +100,7 @@ export function topology(cells, n) {
     virtual: points,
     tris: Int32Array.from(tris),
     corners,
+    bodies,
     inner: all.filter((e) => e.cells > 1 && !e.line),
     outline: all.filter((e) => e.cells === 1 || e.line),
   };

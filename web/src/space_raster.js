@@ -13,9 +13,11 @@ export function clear(t) {
 
 /**
  * The triangle of points a, b, c with interpolated values. `luts`: 256 packed colours for the
- * triangle's brightness; a value that is NaN is painted `none`.
+ * triangle's brightness; a value that is NaN is painted `none`. With `D` what lies before a cut
+ * (D > 0) is left out.
  */
-export function triangle(t, { X, Y, Z, V }, a, b, c, lut, none) {
+export function triangle(t, { X, Y, Z, V, D }, a, b, c, lut, none) {
+  if (D && D[a] > 0 && D[b] > 0 && D[c] > 0) return;
   const area = (X[b] - X[a]) * (Y[c] - Y[a]) - (X[c] - X[a]) * (Y[b] - Y[a]);
   if (!(area > 1e-9 || area < -1e-9)) return;
   const top = Math.max(0, Math.ceil(Math.min(Y[a], Y[b], Y[c]) - 0.5));
@@ -25,6 +27,7 @@ export function triangle(t, { X, Y, Z, V }, a, b, c, lut, none) {
     ((F[c] - F[a]) * (X[b] - X[a]) - (F[b] - F[a]) * (X[c] - X[a])) / area];
   const [zx, zy] = slope(Z);
   const [vx, vy] = slope(V);
+  const [dx, dy] = D ? slope(D) : [0, 0];
   const known = vx === vx && vy === vy;
   for (let row = top; row <= bottom; ++row) {
     const y = row + 0.5;
@@ -34,8 +37,9 @@ export function triangle(t, { X, Y, Z, V }, a, b, c, lut, none) {
     let at = row * t.width + from;
     let z = Z[a] + zx * (from + 0.5 - X[a]) + zy * (y - Y[a]);
     let v = V[a] + vx * (from + 0.5 - X[a]) + vy * (y - Y[a]);
-    for (let i = from; i <= to; ++i, ++at, z += zx, v += vx) {
-      if (z <= t.depth[at]) continue;
+    let d = D ? D[a] + dx * (from + 0.5 - X[a]) + dy * (y - Y[a]) : 0;
+    for (let i = from; i <= to; ++i, ++at, z += zx, v += vx, d += dx) {
+      if (z <= t.depth[at] || d > 0) continue;
       t.depth[at] = z;
       t.pixels[at] = known ? lut[v <= 0 ? 0 : v >= 255 ? 255 : (v + 0.5) | 0] : none;
     }
@@ -58,8 +62,28 @@ function span(X, Y, a, b, c, y) {
   return [left, right];
 }
 
-/** A line one pixel wide where nothing is nearer by more than `bias`, mixed with what is there. */
-export function line(t, { X, Y, Z }, a, b, [red, green, blue], alpha, bias) {
+/** Mixes what is in front of the picture into it. */
+export function overlay(t, front, alpha) {
+  for (let at = 0; at < t.pixels.length; ++at) {
+    if (!(front.depth[at] > t.depth[at])) continue;
+    const [under, over] = [t.pixels[at], front.pixels[at]];
+    if (!under) {
+      t.pixels[at] = ((over & 0xffffff) | (Math.round(255 * alpha) << 24)) >>> 0;
+      continue;
+    }
+    const mix = (shift) => (((under >>> shift) & 255) * (1 - alpha) + ((over >>> shift) & 255) * alpha) << shift;
+    t.pixels[at] = ((255 << 24) | (mix(16) & 0xff0000) | (mix(8) & 0xff00) | (mix(0) & 0xff)) >>> 0;
+  }
+}
+
+/** Whether a pixel that was painted is dark. */
+const dark = (pixel) => pixel !== 0 && 0.3 * (pixel & 255) + 0.6 * ((pixel >>> 8) & 255) + 0.1 * ((pixel >>> 16) & 255) < 75;
+
+/**
+ * A line one pixel wide where nothing is nearer by more than `bias`, mixed with what is there: black
+ * on bright colours, white on dark ones; `faces` are the pixels without lines.
+ */
+export function line(t, faces, { X, Y, Z, D }, a, b, alpha, bias) {
   const steps = Math.ceil(Math.max(Math.abs(X[b] - X[a]), Math.abs(Y[b] - Y[a]), 1));
   if (!(steps < 20000)) return;
   for (let i = 0; i <= steps; ++i) {
@@ -69,7 +93,9 @@ export function line(t, { X, Y, Z }, a, b, [red, green, blue], alpha, bias) {
     if (x < 0 || y < 0 || x >= t.width || y >= t.height) continue;
     const at = y * t.width + x;
     if (Z[a] + s * (Z[b] - Z[a]) + bias < t.depth[at]) continue;
+    if (D && D[a] + s * (D[b] - D[a]) > 0) continue;
     const old = t.pixels[at];
+    const [red, green, blue] = dark(faces[at]) ? [226, 231, 238] : [20, 26, 34];
     const mix = (from, shift) => (((old >>> shift) & 255) * (1 - alpha) + from * alpha) << shift;
     t.pixels[at] = ((255 << 24) | (mix(blue, 16) & 0xff0000) | (mix(green, 8) & 0xff00) | (mix(red, 0) & 0xff)) >>> 0;
   }

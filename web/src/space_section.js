@@ -1,11 +1,14 @@
 // Deformed bodies in space with their controls.
-import { extent, memo, numbers, once } from './data.js';
+import { bodyChoices, largestFrame } from './bodies.js';
+import { tetrahedra } from './cut.js';
+import { addStress, extent, memo, naming, numbers, once } from './data.js';
 import { choice, el, tick, watchWidth } from './dom.js';
 import { num } from './format.js';
+import { labelChoice } from './labels.js';
 import { topology } from './mesh.js';
 import { autoScale, button, frameKeys, onceAFrame, player, savePicture } from './player.js';
 import {
-  createSpaceView, drawSpace, fitSpace, look, probeSpace, resizeSpace, shift, turn, zoomSpace,
+  createSpaceView, drawSpace, fitSpace, look, probeSpace, resizeSpace, shift, towardsEye, turn, zoomSpace,
 } from './space_view.js';
 import { onTheme } from './theme.js';
 
@@ -15,7 +18,7 @@ export function readSpace(report) {
   const n = points.length / 3;
   if (!n || !report.frames?.length) return null;
   const blocks = (report.mesh.cells ?? []).map((block) => ({
-    type: block.type, rigid: !!block.rigid, endless: !!block.endless, connectivity: Array.from(numbers(block.connectivity)),
+    type: block.type, body: block.body, rigid: !!block.rigid, endless: !!block.endless, connectivity: Array.from(numbers(block.connectivity)),
   }));
   // One numbering: points of the bodies' faces first, then those of the rigid ones.
   const topo = topology(blocks.filter((b) => !b.rigid), n);
@@ -23,13 +26,16 @@ export function readSpace(report) {
   const moved = topo.total - n; // the virtual points of the rigid faces follow the bodies'
   rigidTopo.tris = rigidTopo.tris.map((i) => (i < n ? i : i + moved));
   Object.assign(topo, { virtual: [...topo.virtual, ...rigidTopo.virtual], total: topo.total + rigidTopo.total - n });
-  const deformable = [...new Set(topo.tris)].filter((i) => i < n);
+  const volumes = (report.mesh.volumes ?? []).map((block) => ({ ...block, connectivity: numbers(block.connectivity) }));
+  const deformable = [...new Set([...topo.tris, ...volumes.flatMap((block) => [...block.connectivity])])].filter((i) => i < n);
   const whole = [...deformable, ...blocks.filter((b) => b.rigid && !b.endless).flatMap(thing(points, deformable))];
   const coloured = new Uint8Array(n);
   for (const i of deformable) coloured[i] = 1;
   const frames = report.frames.map((f) => readFrame(f, n, coloured));
   return {
-    n, points, topo, rigidTopo, frames, deformable, whole,
+    n, points, topo, rigidTopo, frames, deformable, whole, ...naming(report.mesh, topo, n),
+    tetrahedra: volumes.length ? once(() => tetrahedra(volumes)) : null,
+    largestContact: frames.map((f) => Math.max(0, extent([f.field('contact pressure')])[1])),
     fieldNames: [...new Set(frames.flatMap((f) => [...f.fields.keys()]))],
     size: Math.hypot(...[0, 1, 2].map((k) => {
       const [low, high] = extent([points.filter((_, i) => i % 3 === k)]);
@@ -62,9 +68,10 @@ function readFrame(f, n, coloured) {
   for (const [name, values] of Object.entries(f.fields ?? {})) {
     fields.set(name, once(() => {
       const list = numbers(values);
-      return list.length === n ? list.map((v, i) => (coloured[i] ? v : NaN)) : new Float32Array(n).fill(NaN);
+      return Float32Array.from({ length: n }, (_, i) => (coloured[i] ? list[i] ?? NaN : NaN));
     }));
   }
+  addStress(f.stress, n, (i, v) => (coloured[i] ? v : NaN), fields);
   const derived = {
     'displacement |u|': (i, d) => Math.hypot(d[3 * i], d[3 * i + 1], d[3 * i + 2]),
     'displacement ux': (i, d) => d[3 * i],
@@ -88,7 +95,7 @@ export function spaceSection(body, frameChanged, { id = 'body', title = 'Deforme
   const host = el('div', { class: 'canvas-host' }, canvas, hint);
   const preferred = body.fieldNames.find((name) => /mises/i.test(name)) ?? body.fieldNames[0];
   const state = {
-    frame: body.frames.length - 1, field: preferred, scale: 1, range: 'all', map: 'sequential',
+    frame: largestFrame(body.largestContact), looks: [], labels: 'none', cut: null, field: preferred, scale: 1, range: 'all', map: 'sequential',
     bands: false, lines: true, rigid: true, ghost: false, ...preset,
   };
   const self = { body, view, state, canvas, hint, redraw: onceAFrame(() => drawSpace(view, state)) };
@@ -144,7 +151,10 @@ function controls(self) {
     tick('mesh', state.lines, (lines) => change({ lines })),
     tick('bands', state.bands, (bands) => change({ bands })),
     tick('undeformed', state.ghost, (ghost) => change({ ghost })),
-    body.rigidTopo.tris.length > 0 && tick('rigid bodies', state.rigid, (rigid) => change({ rigid })),
+    cutControl(self, change),
+    labelChoice(body, (labels) => change({ labels })),
+    bodyChoices(body.bodies, state, () => change({})),
+    body.bodies.length < 2 && body.rigidTopo.tris.length > 0 && tick('rigid bodies', state.rigid, (rigid) => change({ rigid })),
     warning,
     el('span', { class: 'buttons' },
       button('x', 'look along x', from(0, 0)), button('y', 'look along y', from(-Math.PI / 2, 0)),
@@ -152,6 +162,31 @@ function controls(self) {
       button('+', 'zoom in', () => zoomBy(self, 1.4)), button('\u2212', 'zoom out', () => zoomBy(self, 1 / 1.4)),
       button('fit', 'show everything', () => zoomBy(self, 0)),
       button('PNG', 'save the picture', () => savePicture(self.canvas, `frame_${state.frame}.png`))));
+}
+
+/** An axis, a slider through the extent of the bodies in all frames, and which side is left out: first the one before. */
+function cutControl({ state, body, view }, change) {
+  const slider = el('input', {
+    type: 'range', min: 0, max: 1, step: 0.002, value: 0.5, hidden: true, 'aria-label': 'place of the cut',
+    oninput: () => move({}),
+  });
+  const side = tick('other side', false, () => move({ flip: !state.cut.flip }));
+  side.hidden = true;
+  const reach = memo((axis) => extent(body.frames.map((f) => Float64Array.from(body.nodes, (i) =>
+    body.points[3 * i + axis] + f.u()[3 * i + axis]))));
+  const move = (patch) => {
+    const cut = { flip: false, ...state.cut, ...patch };
+    const [low, high] = reach(cut.axis);
+    change({ cut: { ...cut, at: low + Number(slider.value) * (high - low) } });
+  };
+  const choose = (axis) => {
+    slider.hidden = side.hidden = axis === '';
+    if (axis === '') change({ cut: null });
+    else move({ axis: Number(axis), flip: (towardsEye(view)[axis] < 0) !== side.querySelector('input').checked });
+  };
+  return el('span', { class: 'control cut' },
+    choice(body.tetrahedra ? 'Cut' : 'Cut (hollow)', [['', 'none'], ['0', 'across x'], ['1', 'across y'], ['2', 'across z']],
+      '', choose), slider, side);
 }
 
 function zoomBy(self, factor, x, y) {

@@ -1,9 +1,12 @@
 // The faces of deformed bodies in space on a canvas: orthographic, shaded, coloured by a field.
 import { BAR, someFrames } from './camera.js';
+import { visible } from './bodies.js';
 import { colourMap } from './colour.js';
+import { distances, section } from './cut.js';
+import { drawLabels, nodeNumber } from './labels.js';
 import { num } from './format.js';
 import { chains, fillVirtual } from './mesh.js';
-import { clear, line, target, triangle } from './space_raster.js';
+import { clear, line, overlay, target, triangle } from './space_raster.js';
 import { css } from './theme.js';
 import { colourBar, colourRange, scaleBar } from './view.js';
 
@@ -27,7 +30,7 @@ export function resizeSpace(view, width, height) {
   const H = Math.round(height * view.dpr);
   if (W === view.W && H === view.H) return;
   const image = new ImageData(W, H);
-  Object.assign(view, { W, H, image, target: target(W, H, new Uint32Array(image.data.buffer)) });
+  Object.assign(view, { W, H, image, front: null, target: target(W, H, new Uint32Array(image.data.buffer)) });
   Object.assign(view.canvas, { width: W, height: H });
   view.canvas.style.height = `${height}px`;
 }
@@ -37,6 +40,9 @@ function axes({ azimuth, elevation }) {
   const [ca, sa, ce, se] = [Math.cos(azimuth), Math.sin(azimuth), Math.cos(elevation), Math.sin(elevation)];
   return [[-sa, ca, 0], [-se * ca, -se * sa, ce], [ce * ca, ce * sa, se]];
 }
+
+/** The direction towards the eye. */
+export const towardsEye = (view) => axes(view)[2];
 
 /** Turns the picture by a drag of so many pixels. */
 export function turn(view, dx, dy) {
@@ -148,49 +154,70 @@ export function drawSpace(view, state) {
   }
   fillVirtual(view.body.topo, view.V);
   clear(view.target);
-  paintFaces(view, view.body.topo, shades(map), shades(map.map(() => [176, 176, 176])));
-  if (state.rigid) {
-    const grey = shades(map.map(() => [142, 150, 160]));
-    paintFaces(view, view.body.rigidTopo, grey, grey);
-  }
+  view.D = state.cut ? distances(view.x, state.cut) : null;
+  const [bright, none, grey] = [map, map.map(() => [176, 176, 176]), map.map(() => [142, 150, 160])].map(shades);
+  const bodies = visible(view.body.topo, state.looks);
+  const rigid = state.rigid ? visible(view.body.rigidTopo, state.looks) : { tris: [], faint: [] };
+  paintFaces(view.target, view, bodies.tris, bright, none);
+  if (view.D && view.body.tetrahedra) paintSection(view, state, bright, none);
+  paintFaces(view.target, { ...view, D: null }, rigid.tris, grey, grey);
   if (state.lines) meshLines(view, state);
+  if (bodies.faint.length + rigid.faint.length) {
+    view.front ??= target(view.W, view.H, new Uint32Array(view.W * view.H));
+    clear(view.front);
+    paintFaces(view.front, view, bodies.faint, bright, none);
+    paintFaces(view.front, { ...view, D: null }, rigid.faint, grey, grey);
+    overlay(view.target, view.front, 0.3);
+  }
   view.ctx.putImageData(view.image, 0, 0);
   if (state.ghost) ghost(view);
   colourBar(view, state, range, map);
   scaleBar(view);
   triad(view);
+  drawLabels(view, state);
 }
 
-function paintFaces(view, topo, luts, none) {
-  const { tris } = topo;
+/** What the cut goes through. */
+function paintSection(view, state, luts, none) {
+  const seen = (body) => (state.looks[body] ?? 'shown') === 'shown';
+  const { arrays: [X, Y, Z, V], tris, lines } = section(view.body.tetrahedra(), view.D, [view.X, view.Y, view.Z, view.V], seen);
+  const cut = { X, Y, Z, V };
+  paintFaces(view.target, cut, tris, luts, none);
+  if (state.lines) lineNet(view, lines.map(([a, b]) => ({ a, b, mid: -1 })), cut);
+}
+
+function paintFaces(to, view, tris, luts, none) {
   for (let t = 0; t < tris.length; t += 3) {
     const s = levelOf(view, tris[t], tris[t + 1], tris[t + 2]);
-    triangle(view.target, view, tris[t], tris[t + 1], tris[t + 2], luts[s], none[s][0]);
+    triangle(to, view, tris[t], tris[t + 1], tris[t + 2], luts[s], none[s][0]);
   }
 }
 
-/** Lines between elements, fainter as the elements get smaller, none below 5 pixels. */
+/** Lines between elements at places {X, Y, Z, D}, fainter as the elements get smaller, none below 5 pixels. */
+function lineNet(view, edges, at) {
+  const { X, Y, Z } = at;
+  const sample = Math.max(1, Math.floor(edges.length / 200));
+  let sum = 0;
+  let number = 0;
+  for (let i = 0; i < edges.length; i += sample, ++number) {
+    const { a, b } = edges[i];
+    sum += Math.hypot(X[a] - X[b], Y[a] - Y[b], Z[a] - Z[b]);
+  }
+  const size = number ? sum / number / view.dpr : 0;
+  if (size < 5) return;
+  const faces = view.target.pixels.slice();
+  const alpha = Math.min(0.6, 0.12 + size / 50);
+  for (const { a, b, mid } of edges) {
+    for (const [p, q] of mid < 0 ? [[a, b]] : [[a, mid], [mid, b]]) line(view.target, faces, at, p, q, alpha, 1.5 * view.dpr);
+  }
+}
+
 function meshLines(view, state) {
-  const { X, Y, Z } = view;
-  const draw = (edges) => {
-    const sample = Math.max(1, Math.floor(edges.length / 200));
-    let sum = 0;
-    let number = 0;
-    for (let i = 0; i < edges.length; i += sample, ++number) {
-      const { a, b } = edges[i];
-      sum += Math.hypot(X[a] - X[b], Y[a] - Y[b], Z[a] - Z[b]);
-    }
-    const size = number ? sum / number / view.dpr : 0;
-    if (size < 5) return;
-    const alpha = Math.min(0.6, 0.12 + size / 50);
-    for (const { a, b, mid } of edges) {
-      for (const [p, q] of mid < 0 ? [[a, b]] : [[a, mid], [mid, b]]) {
-        line(view.target, view, p, q, [20, 26, 34], alpha, 1.5 * view.dpr);
-      }
-    }
-  };
-  draw([...view.body.topo.inner, ...view.body.topo.outline]);
-  if (state.rigid) draw([...view.body.rigidTopo.inner, ...view.body.rigidTopo.outline]);
+  const bodies = visible(view.body.topo, state.looks);
+  lineNet(view, [...bodies.inner, ...bodies.outline], view);
+  if (!state.rigid) return;
+  const rigid = visible(view.body.rigidTopo, state.looks);
+  lineNet(view, [...rigid.inner, ...rigid.outline], { ...view, D: null });
 }
 
 /** Normals of the undeformed cells (not of unit length), from three corners each. */
@@ -275,6 +302,6 @@ export function probeSpace(view, state, px, py) {
   const frame = body.frames[state.frame];
   const u = frame.u();
   const list = (of) => [0, 1, 2].map((k) => num(of(3 * best + k), 5)).join(', ');
-  return [`${state.field}: ${num(frame.field(state.field)[best], 6)}`,
+  return [`${state.field}: ${num(frame.field(state.field)[best], 6)}`, `node ${nodeNumber(body, best)}`,
     `at ${list((i) => body.points[i] + u[i])}`, `u = ${list((i) => u[i])}`];
 }

@@ -7,7 +7,7 @@ const statusWords = { done: 'done', failed: 'stopped before its end', running: '
 export function header(report, increments) {
   const s = report.summary ?? {};
   const total = Object.values(s.seconds ?? {}).reduce((sum, v) => sum + v, 0);
-  const sum = (key) => increments.reduce((n, i) => n + (i[key] ?? 0), 0);
+  const sum = (key) => s.total?.[key] ?? increments.reduce((n, i) => n + (i[key] ?? 0), 0);
   const tiles = [
     s.unknowns !== undefined && [count(s.unknowns), 'unknowns'],
     increments.length && [count(increments.length), 'increments'],
@@ -59,6 +59,7 @@ function incrementTable(increments) {
   const columns = [['step', 'step'], ['index', 'increment'], ['time', 'time'], ['iterations', 'iterations'],
     ['cutbacks', 'cut-backs'], ['residual', 'residual'], ['energy', 'energy'], ['open', 'open'],
     ['stick', 'stick'], ['slip', 'slip']];
+  if (increments.some((i) => i.wasted_iterations)) columns.splice(4, 0, ['wasted_iterations', 'given up']);
   const cell = (key, v) => el('td', { class: key === 'step' ? '' : 'number' },
     typeof v === 'number' ? num(v, key === 'residual' || key === 'energy' ? 3 : 6) : String(v ?? ''));
   return el('details', {}, el('summary', {}, `All ${increments.length} increments`),

@@ -1,7 +1,9 @@
 // The deformed body on a canvas: fields, mesh lines, rigid lines, colour bar; contact on top.
 import { BAR, rigidPoint, toScreen } from './camera.js';
+import { visible } from './bodies.js';
 import { colourMap, cssColour, packed } from './colour.js';
 import { drawContact, legendOf } from './contact_layer.js';
+import { drawLabels, nodeNumber } from './labels.js';
 import { niceTicks, num, tickLabels } from './format.js';
 import { chains, fillVirtual } from './mesh.js';
 import { paint } from './raster.js';
@@ -73,14 +75,16 @@ export function draw(view, state) {
   const range = colourRange(view, state);
   const map = colourMap(state.map, state.bands ? 10 : 0);
   paintField(view, state, range, map);
-  if (state.lines) meshLines(view);
+  const drawn = visible(view.body.topo, state.looks);
+  if (state.lines) meshLines(view, drawn.inner, state);
   if (state.ghost) ghost(view);
-  outline(view, view.body.topo.outline, css('--edge'), 1.2);
+  outline(view, drawn.outline, css('--edge'), 1.2);
   rigidLines(view, state);
   drawContact(view, state);
   colourBar(view, state, range, map);
   scaleBar(view);
   legendOf(view, state);
+  drawLabels(view, state);
 }
 
 function paintField(view, state, [low, high], map) {
@@ -90,7 +94,10 @@ function paintField(view, state, [low, high], map) {
   for (let i = 0; i < body.n; ++i) V[i] = factor ? (values[i] - low) * factor : 0;
   fillVirtual(body.topo, V);
   view.pixels.fill(0);
-  paint(view.pixels, view.W, view.H, view.X, view.Y, V, body.topo.tris, packed(map), 0xffa0a0a0);
+  const drawn = visible(body.topo, state.looks);
+  const faint = packed(map).map((v) => (v & 0xffffff) | 0x48000000);
+  paint(view.pixels, view.W, view.H, view.X, view.Y, V, drawn.faint, faint, 0x48a0a0a0);
+  paint(view.pixels, view.W, view.H, view.X, view.Y, V, drawn.tris, packed(map), 0xffa0a0a0);
   view.ctx.putImageData(view.image, 0, 0);
 }
 
@@ -116,9 +123,14 @@ function outline(view, edges, colour, width) {
   view.ctx.stroke();
 }
 
+/** Whether most of what is painted has the dark colours. */
+function isDark({ V, body }, { map }) {
+  const sum = body.nodes.reduce((total, i) => total + (V[i] || 0), 0);
+  return map === 'sequential' && sum < 70 * body.nodes.length;
+}
+
 /** Lines between elements, fainter as the elements get smaller, none below 6 pixels. */
-function meshLines(view) {
-  const { inner } = view.body.topo;
+function meshLines(view, inner, state) {
   const sample = Math.max(1, Math.floor(inner.length / 200));
   let sum = 0;
   let number = 0;
@@ -129,7 +141,7 @@ function meshLines(view) {
   const size = number ? sum / number / view.dpr : 0;
   if (size < 6) return;
   view.ctx.globalAlpha = Math.min(0.55, 0.12 + size / 40);
-  outline(view, inner, css('--edge'), 0.6);
+  outline(view, inner, css(isDark(view, state) ? '--edge-on-dark' : '--edge'), 0.6);
   view.ctx.globalAlpha = 1;
 }
 
@@ -155,17 +167,22 @@ function rigidLines(view, state) {
   const { ctx, dpr } = view;
   ctx.strokeStyle = css('--rigid');
   ctx.lineWidth = 2.5 * dpr;
-  ctx.lineJoin = 'round';
+  ctx.lineJoin = ctx.lineCap = 'round';
   for (const r of view.body.rigid) {
+    if (state.looks[r.body] === 'hidden') continue;
+    ctx.globalAlpha = state.looks[r.body] === 'faint' ? 0.35 : 1;
     const line = r.at(state.frame);
     ctx.beginPath();
     for (let i = 0; i < line.length / 2; ++i) {
       const [x, y] = toScreen(view, ...rigidPoint(line, r.first, i, state.scale));
       if (i) ctx.lineTo(x, y);
       else ctx.moveTo(x, y);
+      if (line.length === 2) ctx.lineTo(x, y);
     }
     ctx.stroke();
   }
+  ctx.globalAlpha = 1;
+  ctx.lineCap = 'butt';
 }
 
 /** The colours with their values, on the right. */
@@ -240,7 +257,7 @@ export function probe(view, state, px, py) {
   if (best < 0) return null;
   const u = frame.u();
   return [`${state.field}: ${num(frame.field(state.field)[best], 6)}`,
-    `node ${best} at ${num(body.points[2 * best] + u[2 * best], 5)}, ` +
+    `node ${nodeNumber(body, best)} at ${num(body.points[2 * best] + u[2 * best], 5)}, ` +
     `${num(body.points[2 * best + 1] + u[2 * best + 1], 5)}`,
     `u = ${num(u[2 * best], 5)}, ${num(u[2 * best + 1], 5)}`];
 }

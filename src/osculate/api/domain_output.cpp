@@ -7,6 +7,7 @@
 
 #include "osculate/api/domain_picture.hpp"
 #include "osculate/api/report_json.hpp"
+#include "osculate/api/result_folder.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/io/report.hpp"
 #include "osculate/io/vtk.hpp"

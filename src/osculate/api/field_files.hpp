@@ -1,19 +1,34 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "osculate/api/rigid_pictures.hpp"
 #include "osculate/deck/build.hpp"
 #include "osculate/io/vtk.hpp"
 
 namespace osculate::api {
 
-/// results.pvd with one VTU for the bodies and one per contact pair and frame. Tensors have four
-/// components in the plane (XX YY ZZ XY), six in space (and YZ XZ).
+/// Cells with a section as one data set.
+struct BodyCells {
+  std::vector<mesh::Block> blocks;
+  std::vector<io::Field> fields;    ///< Body, Material, Section (from 1), CellNumber
+  std::vector<io::NameList> names;  ///< Bodies (all, also rigid), Materials, Sections
+  std::size_t deformable = 0;       ///< so many of the bodies
+};
+template <int Dim>
+[[nodiscard]] BodyCells body_cells(const model::BasicModel<Dim>& model);
+
+/// results.pvd with one VTU for the bodies, one for the rigid ones and one per contact pair and
+/// frame; on request the contact points as a table beside it. Tensors have four components in the
+/// plane (XX YY ZZ XY), six in space (and YZ XZ).
+///
+/// Tested by  tests/unit/api/test_field_files.cpp
 template <int Dim>
 class FieldFiles {
  public:
-  FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& built, bool compress);
+  FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& built, const deck::Output& output);
   void write(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
              double time);
   /// The last iterate of a failed increment, as last_iterate.vtu: displacements, `flips` (changes
@@ -28,16 +43,19 @@ class FieldFiles {
 
  private:
   void write_contact(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
-                     std::size_t pair, const std::string& file);
+                     std::size_t pair, const std::string& stem);
+  void write_rigid(const model::BasicState<Dim>& state, const std::string& file);
 
   std::string folder_;
   const deck::BasicBuilt<Dim>& built_;
-  bool compress_;
+  bool compress_, tables_;
   int frame_ = 0;
   std::vector<io::PvdEntry> entries_;
-  std::optional<io::PvdFile> pvd_;   ///< from the first frame on
-  std::vector<mesh::Block> bodies_;  ///< cells with a section
-  std::vector<bool> touched_;        ///< per pair: it is written from its first contact on
+  std::optional<io::PvdFile> pvd_;  ///< from the first frame on
+  BodyCells bodies_;
+  std::conditional_t<Dim == 2, RigidLines, RigidFaces> rigid_;
+  io::Field node_numbers_;
+  std::vector<bool> touched_;  ///< per pair: it is written from its first contact on
 };
 
 }  // namespace osculate::api

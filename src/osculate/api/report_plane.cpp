@@ -1,7 +1,6 @@
-#include <cmath>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "osculate/api/report_json.hpp"
 #include "osculate/api/report_view.hpp"
@@ -24,91 +23,53 @@ nlohmann::json contact_json(const model::System& system, const model::Model& m,
       {"status", f.cstatus}};
 }
 
-void add_points(const geometry::Curve& curve, double from, double to, std::vector<Vec2>& points) {
-  constexpr int pieces = 120;
-  for (int i = 0; i <= pieces; ++i)
-    points.push_back(geometry::jet(curve, from + (to - from) * i / pieces).r);
-}
-
-/// Places of the mesh's nodes where the body has its reference position.
-std::vector<Vec2> seen_from(const model::Model& m, const model::State& state,
-                            const body::RigidMotion& motion) {
-  body::RigidMotion turned;
-  turned.angle = -motion.angle;
-  std::vector<Vec2> out;
-  for (std::size_t n = 0; n < m.mesh.nodes.size(); ++n) {
-    const Vec2 x = m.reference[n] + state.u.segment<2>(2 * static_cast<Eigen::Index>(n));
-    out.push_back(motion.reference + turned.position(x - motion.center()));
-  }
-  return out;
-}
-
-/// A curve, or of a line without ends the piece beside all nodes, wherever they have moved.
-void add_shape(const geometry::Curve& curve, const std::vector<Vec2>& nodes,
-               std::vector<Vec2>& points) {
-  double from = geometry::lo(curve), to = geometry::hi(curve);
-  if (!std::isfinite(from)) {
-    const geometry::CurveJet<2> jet = geometry::jet(curve, 0);
-    Vec2 lo = nodes.front(), hi = lo;
-    from = std::numeric_limits<double>::infinity(), to = -from;
-    for (const Vec2& x : nodes) {
-      const double at = (x - jet.r).dot(jet.r1) / jet.r1.squaredNorm();
-      from = std::min(from, at);
-      to = std::max(to, at);
-      lo = lo.cwiseMin(x);
-      hi = hi.cwiseMax(x);
-    }
-    const double margin = 0.2 * (hi - lo).norm();
-    from -= margin;
-    to += margin;
-  }
-  add_points(curve, from, to, points);
-}
-
-/// Boundary of a rigid body in its current place, as a polyline for the picture.
-std::vector<std::array<double, 2>> rigid_outline(const model::Model& m, const model::State& state,
-                                                 std::size_t b) {
-  const model::RigidBody& body = m.rigid[b];
-  const body::RigidMotion& motion = state.rigid[b];
-  std::vector<Vec2> points;
-  if (body.shape) {
-    add_shape(*body.shape, seen_from(m, state, motion), points);
-  } else if (!body.parts.empty()) {
-    for (const geometry::Curve& part : body.parts)
-      add_points(part, geometry::lo(part), geometry::hi(part), points);
-  } else if (!body.polyline.empty()) {
-    points = body.polyline;
-  } else {
-    for (const Index n : body.nodes) points.push_back(m.reference[static_cast<std::size_t>(n)]);
-  }
-  std::vector<std::array<double, 2>> outline;
-  for (const Vec2& p : points) {
-    const Vec2 now = motion.position(p);
-    outline.push_back({now.x(), now.y()});
-  }
-  return outline;
-}
-
 }  // namespace
+
+ReportView<2>::ReportView(const model::Model& model)
+    : model_(model), bodies_(body_numbers(model)), rigid_(model) {}
 
 nlohmann::json ReportView<2>::mesh() const {
   const model::Model& m = model_;
-  nlohmann::json cells = nlohmann::json::array();
-  std::map<Index, std::vector<Index>> by_block;
+  std::map<std::pair<Index, Index>, std::vector<Index>> lists;  // by body and block
   for (const model::BulkSection& section : m.sections)
     for (const mesh::CellRef& ref : section.cells) {
       const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(ref.block)];
-      const int n = cell::info(block.type).nodes;
-      auto& list = by_block[ref.block];
-      list.insert(list.end(), block.cell(ref.cell), block.cell(ref.cell) + n);
+      auto& list = lists[{bodies_.of(ref), ref.block}];
+      list.insert(list.end(), block.cell(ref.cell),
+                  block.cell(ref.cell) + cell::info(block.type).nodes);
     }
-  for (const auto& entry : by_block) {
-    const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(entry.first)];
-    cells.push_back({{"type", cell::info(block.type).name}, {"connectivity", entry.second}});
-  }
-  return {
+  nlohmann::json cells = nlohmann::json::array();
+  for (const auto& [key, list] : lists)
+    cells.push_back(
+        {{"type", cell::info(m.mesh.blocks[static_cast<std::size_t>(key.second)].type).name},
+         {"connectivity", list},
+         {"body", key.first}});
+  std::vector<Index> place(m.mesh.nodes.size());
+  std::iota(place.begin(), place.end(), 0);
+  nlohmann::json mesh = {
       {"points", vectors<2>(m.mesh.nodes.size(), [&](std::size_t i) { return m.reference[i]; })},
-      {"cells", cells}};
+      {"cells", cells},
+      {"bodies", bodies_.names},
+      {"sets", sets_json(m.mesh, place)}};
+  if (!m.mesh.numbers.empty()) mesh["numbers"] = m.mesh.numbers;
+  return mesh;
+}
+
+/// Polylines of all rigid bodies in their current places.
+nlohmann::json ReportView<2>::rigid_json(const model::State& state) const {
+  nlohmann::json rigid = nlohmann::json::array();
+  for (std::size_t b = 0; b < model_.rigid.size(); ++b)
+    for (const RigidLines::Polyline& line : rigid_.of(state, b)) {
+      nlohmann::json points = nlohmann::json::array();
+      for (const Vec2& p : line) {
+        const Vec2 now = state.rigid[b].position(p);
+        points.push_back({now.x(), now.y()});
+      }
+      rigid.push_back({{"name", model_.rigid[b].name},
+                       {"body", bodies_.deformable + b},
+                       {"polyline", std::move(points)}});
+    }
+  return rigid;
 }
 
 nlohmann::json ReportView<2>::frame(const model::System& system, const model::State& state) const {
@@ -120,40 +81,32 @@ nlohmann::json ReportView<2>::frame(const model::System& system, const model::St
   for (std::size_t p = 0; p < m.pairs.size(); ++p)
     if (m.pairs[p].group.empty() || touches(system.contact()[p]))
       contact.push_back(contact_json(system, m, x, p));
-  nlohmann::json rigid = nlohmann::json::array();
-  for (std::size_t b = 0; b < m.rigid.size(); ++b) rigid.push_back(rigid_outline(m, state, b));
   return {{"u", vectors<2>(n, [&](std::size_t i) { return fields.displacement[i]; })},
-          {"fields",
-           {{"von Mises stress", scalars(n, [&](std::size_t i) { return fields.mises[i]; })},
-            {"stress yy", scalars(n, [&](std::size_t i) { return fields.stress[i][1]; })},
-            {"stress xy", scalars(n, [&](std::size_t i) { return fields.stress[i][3]; })}}},
+          {"stress", rows<4>(n, [&](std::size_t i) { return fields.stress[i]; })},
           {"contact", contact},
-          {"rigid", rigid}};
+          {"rigid", rigid_json(state)}};
 }
 
 nlohmann::json ReportView<2>::last_iterate(const model::State& state,
                                            const model::Failure& failure) const {
   const std::size_t n = model_.mesh.nodes.size();
-  nlohmann::json motions = nlohmann::json::array(), rigid = nlohmann::json::array();
+  nlohmann::json motions = nlohmann::json::array();
   for (const model::FreeMotion& motion : failure.motions) {
     const std::vector<Vec2> field = model::motion_field(model_, state, motion);
     motions.push_back(vectors<2>(n, [&](std::size_t i) { return field[i]; }));
   }
-  for (std::size_t b = 0; b < model_.rigid.size(); ++b)
-    rigid.push_back(
-        {{"name", model_.rigid[b].name}, {"polyline", rigid_outline(model_, state, b)}});
   const auto u = [&](std::size_t i) -> Vec2 {
     return state.u.segment<2>(2 * static_cast<Eigen::Index>(i));
   };
-  return {{"u", vectors<2>(n, u)}, {"motions", motions}, {"rigid", rigid}};
+  return {{"u", vectors<2>(n, u)}, {"motions", motions}, {"rigid", rigid_json(state)}};
 }
 
 void ReportView<2>::finish(nlohmann::json& frames, nlohmann::json& report) const {
-  nlohmann::json rigid = nlohmann::json::array();
-  for (std::size_t b = 0; b < model_.rigid.size(); ++b) {
+  nlohmann::json rigid = frames.empty() ? nlohmann::json::array() : frames[0]["rigid"];
+  for (std::size_t k = 0; k < rigid.size(); ++k) {
     nlohmann::json lines = nlohmann::json::array();
-    for (auto& frame : frames) lines.push_back(frame["rigid"][b]);
-    rigid.push_back({{"name", model_.rigid[b].name}, {"polyline", lines}});
+    for (auto& frame : frames) lines.push_back(std::move(frame["rigid"][k]["polyline"]));
+    rigid[k]["polyline"] = lines;
   }
   for (auto& frame : frames) frame.erase("rigid");
   report["rigid"] = rigid;

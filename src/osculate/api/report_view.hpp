@@ -3,6 +3,8 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "osculate/api/body_numbers.hpp"
+#include "osculate/api/rigid_pictures.hpp"
 #include "osculate/mesh/surface.hpp"
 #include "osculate/model/failure.hpp"
 
@@ -17,7 +19,7 @@ class ReportView;
 template <>
 class ReportView<2> {
  public:
-  explicit ReportView(const model::Model& model) : model_(model) {}
+  explicit ReportView(const model::Model& model);
   [[nodiscard]] nlohmann::json mesh() const;
   /// `u`, `fields`, `contact` and `rigid` of one frame.
   [[nodiscard]] nlohmann::json frame(const model::System& system, const model::State& state) const;
@@ -30,15 +32,19 @@ class ReportView<2> {
   void finish(nlohmann::json& frames, nlohmann::json& report) const;
 
  private:
+  [[nodiscard]] nlohmann::json rigid_json(const model::State& state) const;
+
   const model::Model& model_;
+  BodyNumbers bodies_;
+  RigidLines rigid_;
 };
 
 /// In space: the free faces of the bodies, the faces of meshed rigid bodies, and quadrilaterals of
-/// each analytic surface, on nodes of their own; contact pressure and shear as fields of the
-/// slave's nodes.
+/// each analytic surface, on nodes of their own; contact as fields of the slave's nodes. Where
+/// twenty frames of them fit the cells and their inner nodes too, for sections.
 ///
-/// Size       all frames together are kept below 8 million values, eight a point and frame (a page
-///            of 43 MB); when not even two frames fit, there is no picture
+/// Size       all frames together are kept below 8 million values, fourteen a point and frame (a
+///            page of 43 MB); when not even two frames fit, there is no picture
 /// Tested by  tests/unit/api/test_report_view.cpp
 template <>
 class ReportView<3> {
@@ -58,13 +64,17 @@ class ReportView<3> {
     std::size_t body;
     std::array<Vec3, 4> corners;
   };
-  void add_rigid_faces();
-  void add_patches();
+  void collect_nodes();
+  [[nodiscard]] std::vector<mesh::SurfaceFacet> rigid_faces(std::size_t body) const;
+  [[nodiscard]] nlohmann::json volumes_json() const;
   [[nodiscard]] std::size_t points() const { return nodes_.size() + 4 * patches_.size(); }
 
   const model::Model3& model_;
-  std::vector<mesh::SurfaceFacet> body_faces_, rigid_faces_;
+  BodyNumbers bodies_;
+  RigidFaces rigid_;
+  std::vector<mesh::SurfaceFacet> body_faces_;
   std::vector<Patch> patches_;
+  bool solid_ = false;        ///< inner nodes and cells are sent
   std::vector<Index> nodes_;  ///< of the mesh, sorted
   std::vector<Index> place_;  ///< of each node in `nodes_`, or -1
 };

@@ -83,25 +83,6 @@ bool same_model(const Owner& owner, const std::string& model) {
          (!owner.content.empty() && owner.content == content_of(model));
 }
 
-/// PREFIX, digits, and for fields `_` with at least five more, `.vtu`.
-bool is_field_file(std::string_view name) {
-  constexpr std::string_view ending = ".vtu", bodies = "bodies_", contact = "contact";
-  if (!name.ends_with(ending)) return false;
-  name.remove_suffix(ending.size());
-  const auto digits = [](std::string_view text) {
-    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
-  };
-  if (name.starts_with(bodies)) {
-    name.remove_prefix(bodies.size());
-    return name.size() >= 5 && digits(name);
-  }
-  if (!name.starts_with(contact)) return false;
-  name.remove_prefix(contact.size());
-  const std::size_t at = name.find('_');
-  return at != std::string_view::npos && digits(name.substr(0, at)) && name.size() - at > 5 &&
-         digits(name.substr(at + 1));
-}
-
 void require_writable(const std::string& folder) {
   const fs::path probe = fs::path(folder) / "writable.part";
   std::error_code ignored;
@@ -148,6 +129,26 @@ std::string choose_folder(const std::string& model, const std::string& wanted) {
       {},
       fmt::format("folder '{}' is not empty and holds no results of '{}'; name another one with -o",
                   folder.string(), name));
+}
+
+bool is_field_file(std::string_view name) {
+  constexpr std::string_view contact = "contact";
+  if (!name.ends_with(".vtu") && !(name.ends_with(".csv") && name.starts_with(contact)))
+    return false;
+  name.remove_suffix(4);
+  const auto digits = [](std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  for (const std::string_view bodies : {"bodies_", "rigid_"})
+    if (name.starts_with(bodies)) {
+      name.remove_prefix(bodies.size());
+      return name.size() >= 5 && digits(name);
+    }
+  if (!name.starts_with(contact)) return false;
+  name.remove_prefix(contact.size());
+  const std::size_t at = name.find('_');
+  return at != std::string_view::npos && digits(name.substr(0, at)) && name.size() - at > 5 &&
+         digits(name.substr(at + 1));
 }
 
 bool is_result_file(std::string_view name) {

@@ -43,6 +43,8 @@ void claim_folder(const std::string& folder, const nlohmann::json& owner);
 
 /// Whether a file has a name that only runs give: nothing else in a result folder is ever removed.
 [[nodiscard]] bool is_result_file(std::string_view name);
+/// `bodies_00012.vtu`, `rigid_00012.vtu`, `contact0_00012.vtu` and `contact0_00012.csv`.
+[[nodiscard]] bool is_field_file(std::string_view name);
 
 /// Creates the folder, or removes the files of an earlier run (but its summary.json) unless they
 /// are to be kept. Throws io::WriteError, with nothing removed, if nothing can be written there.

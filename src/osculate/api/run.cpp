@@ -82,7 +82,7 @@ struct Recorder {
         built(b),
         owner(o_json),
         folder(std::move(dir)),
-        fields(folder, b, d.output.compress),
+        fields(folder, b, d.output),
         report(b, d),
         log(folder + "/log.txt", o.restart ? size_of(folder + "/log.txt") : 0),
         budget(std::move(limits)) {

@@ -69,7 +69,8 @@ void check_planar(const Description& description, const mesh::Mesh& mesh) {
     if (std::abs(mesh.nodes[n].z()) > 1e-12 * (1 + mesh.nodes[n].norm()))
       throw core::InputError(
           description.mesh.mark,
-          fmt::format("node {} has z = {:g}; plane problems need z = 0", n + 1, mesh.nodes[n].z()));
+          fmt::format("node {} has z = {:g}; plane problems need z = 0",
+                      mesh::node_number(mesh, static_cast<Index>(n)), mesh.nodes[n].z()));
 }
 
 model::HistoryRequest::Kind kind_of(HistoryTarget target) {

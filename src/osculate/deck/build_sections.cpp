@@ -101,8 +101,8 @@ void check_shape(const BuildContext<Dim>& c, const Section& s, const mesh::CellR
     throw core::InputError(
         s.on.mark, fmt::format("{} cell {} of set '{}' has a negative or zero volume (smallest "
                                "Jacobian {:.3g}); number its nodes {}",
-                               info.name, ref.cell + 1, s.on.value, jacobian,
-                               Dim == 2 ? "counter-clockwise" : "as Gmsh does"));
+                               info.name, mesh::cell_number(c.model().mesh, ref), s.on.value,
+                               jacobian, Dim == 2 ? "counter-clockwise" : "as Gmsh does"));
   if (s.element.value != SectionElement::axisymmetric) return;
   for (int k = 0; k < info.nodes; ++k) {
     const Index node = block.cell(ref.cell)[k];
@@ -199,6 +199,7 @@ void build_sections(BuildContext<Dim>& c) {
     section.name = s.on.value;
     section.section = solid_section(c, s);
     section.cells = set.cells;
+    section.material = s.material.value;
     if constexpr (Dim == 2) check_mixture(c, s, section);
     if (s.element.value == SectionElement::solid_shell)
       (void)mesh::align_shells(m.mesh, section.cells);

@@ -444,7 +444,8 @@ struct Output {
   int every = 1;  ///< with FieldTimes::every: each n-th increment (and the last of each step)
   std::vector<HistoryRequest> history;
   bool report = true, compress = true;
-  int checkpoint = 1;  ///< every so many increments; 0: never
+  bool contact_points = false;  ///< tables of them beside the fields
+  int checkpoint = 1;           ///< every so many increments; 0: never
   std::vector<Plot> plots;
 };
 

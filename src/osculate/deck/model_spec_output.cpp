@@ -173,6 +173,10 @@ Spec output_spec() {
                                       .such_as("[{on: floor, of: normal_force}]")),
               optional("report", boolean("Write report.html.").otherwise("true")),
               optional("compress", boolean("Compress field files.").otherwise("true")),
+              optional("contact_points", boolean("Write the contact points of every field file as "
+                                                 "a table too, contact0_00012.csv: node, place "
+                                                 "and all contact fields.")
+                                             .otherwise("false")),
               optional("checkpoint", checkpoint), optional("plots", plots_spec())})
       .otherwise("{}")
       .such_as("{fields: last, history: [{on: floor, of: normal_force}]}");

@@ -119,6 +119,7 @@ Output parse_output(const Value& v, const Description& description) {
   for (const Value& item : v.at("plots").items) output.plots.push_back(plot_of(item, columns));
   output.report = flag(v, "report");
   output.compress = flag(v, "compress");
+  output.contact_points = flag(v, "contact_points");
   const Value& checkpoint = v.at("checkpoint");
   output.checkpoint = checkpoint.alternative == 0 ? checkpoint.code : 0;
   return output;

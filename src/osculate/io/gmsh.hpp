@@ -8,11 +8,11 @@ namespace osculate::io {
 
 /// Reads a Gmsh mesh: MSH 2.2 or 4.1, text or binary.
 ///
-/// Nodes are ordered by their tag; there is one block per cell type; one set per physical group,
-/// ordered by dimension and tag: named by the file, else `point_7`, `line_7`, `surface_7`,
-/// `volume_7`. Cells without physical group are in no set. A group with a negative tag holds the
-/// lines or areas reversed, as in Gmsh (MSH 2 files hold them so already). Partitions, periodicity,
-/// post-processing views and the like are skipped.
+/// Nodes are ordered by their tag, nodes and cells keep their numbers; there is one block per cell
+/// type; one set per physical group, ordered by dimension and tag: named by the file, else
+/// `point_7`, `line_7`, `surface_7`, `volume_7`. Cells without physical group are in no set. A
+/// group with a negative tag holds the lines or areas reversed, as in Gmsh (MSH 2 files hold them
+/// so already). Partitions, periodicity, post-processing views and the like are skipped.
 ///
 /// Errors     core::InputError with file and line (binary: byte) for everything that is wrong: no
 ///            such file, other versions, foreign byte order, a file that ends early, counts that

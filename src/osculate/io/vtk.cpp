@@ -88,6 +88,23 @@ void add_fields(Document& doc, const char* element, std::span<const Field> field
   doc.header += fmt::format("      </{}>\n", element);
 }
 
+/// Texts as VTK has them: the numbers of their bytes, a zero behind each text.
+void add_names(Document& doc, std::span<const NameList> lists) {
+  if (lists.empty()) return;
+  doc.header += "    <FieldData>\n";
+  for (const NameList& list : lists) {
+    doc.header += fmt::format(
+        "      <DataArray type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">",
+        escape_xml(list.name), list.texts.size());
+    for (const std::string& text : list.texts) {
+      for (const char c : text) doc.header += fmt::format("{} ", static_cast<unsigned char>(c));
+      doc.header += "0 ";
+    }
+    doc.header += "</DataArray>\n";
+  }
+  doc.header += "    </FieldData>\n";
+}
+
 void add_cells(Document& doc, std::span<const mesh::Block> blocks) {
   std::vector<std::int64_t> connectivity;
   std::vector<std::int64_t> offsets;
@@ -152,10 +169,12 @@ void write_vtu(const std::string& path, const VtuData& data, bool compress) {
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
       "header_type=\"UInt64\"{}>\n"
-      "  <UnstructuredGrid>\n"
-      "    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+      "  <UnstructuredGrid>\n",
       std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian",
-      compress ? " compressor=\"vtkZLibDataCompressor\"" : "", data.points.size(), cells);
+      compress ? " compressor=\"vtkZLibDataCompressor\"" : "");
+  add_names(doc, data.names);
+  doc.header += fmt::format("    <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+                            data.points.size(), cells);
   add_fields(doc, "PointData", data.point_fields, data.points.size());
   add_fields(doc, "CellData", data.cell_fields, cells);
   doc.header += "      <Points>\n";

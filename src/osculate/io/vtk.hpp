@@ -25,6 +25,12 @@ struct Field {
 [[nodiscard]] Field tensor_field(std::string name, std::span<const std::array<double, 6>> values);
 [[nodiscard]] Field scalar_field(std::string name, std::vector<double> values);
 
+/// What the numbers of a field stand for, say: texts that belong to the whole file.
+struct NameList {
+  std::string name;
+  std::vector<std::string> texts;
+};
+
 /// What one VTU file shows. Cells count block by block; nodes are in Gmsh order and are put into
 /// VTK's on the way (cells that VTK does not have, by the nodes of their `vtk_type` only).
 struct VtuData {
@@ -32,6 +38,7 @@ struct VtuData {
   std::span<const mesh::Block> blocks;
   std::span<const Field> point_fields;
   std::span<const Field> cell_fields;
+  std::span<const NameList> names{};
 };
 
 /// Writes an unstructured grid: XML with raw appended data, 64-bit sizes, native byte order,

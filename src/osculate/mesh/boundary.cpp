@@ -207,9 +207,10 @@ Boundary free_edges(const Mesh& mesh, const EdgeTable& table, const Wanted& want
 
 std::string describe_node(const Mesh& mesh, Index node) {
   const Vec3& x = point(mesh, node);
+  const std::int64_t number = node_number(mesh, node);
   return has_volumes(mesh) || x.z() != 0
-             ? fmt::format("node {} ({:.6g}, {:.6g}, {:.6g})", node + 1, x.x(), x.y(), x.z())
-             : fmt::format("node {} ({:.6g}, {:.6g})", node + 1, x.x(), x.y());
+             ? fmt::format("node {} ({:.6g}, {:.6g}, {:.6g})", number, x.x(), x.y(), x.z())
+             : fmt::format("node {} ({:.6g}, {:.6g})", number, x.x(), x.y());
 }
 
 std::span<const Edge> EdgeTable::find(Index a, Index b) const {

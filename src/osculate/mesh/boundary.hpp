@@ -47,7 +47,7 @@ struct BoundaryFacet {
 };
 
 /// A directed boundary. If `errors` is not empty the facets they name are missing and the boundary
-/// must not be used. Messages name nodes by their 1-based position in the mesh and its coordinates.
+/// must not be used. Messages name nodes by their number and coordinates.
 struct Boundary {
   std::vector<BoundaryFacet> facets;
   std::vector<std::string> errors;
@@ -93,7 +93,8 @@ enum class Link : std::uint8_t { node, side };
                                                                 std::span<const CellRef> cells,
                                                                 Link link = Link::node);
 
-/// `node 12 (1, 0.5)`: 1-based, with its coordinates (three of them where there are volumes).
+/// `node 12 (1, 0.5)`: its number in the mesh file (else 1-based) and its coordinates (three of
+/// them where there are volumes).
 [[nodiscard]] std::string describe_node(const Mesh& mesh, Index node);
 
 }  // namespace osculate::mesh

@@ -34,10 +34,10 @@ void report(std::vector<Finding>& findings, Flaw flaw, bool is_error, const Tall
       {flaw, is_error, tally.count, fmt::format("{} {}: {}", tally.count, what, tally.examples)});
 }
 
-std::string cell_name(const Block& block, Index c) {
+std::string cell_name(const Mesh& mesh, const Block& block, Index c) {
   std::string nodes;
   for (int k = 0; k < cell::info(block.type).nodes; ++k)
-    nodes += fmt::format("{}{}", k > 0 ? " " : "", std::int64_t{block.cell(c)[k]} + 1);
+    nodes += fmt::format("{}{}", k > 0 ? " " : "", node_number(mesh, block.cell(c)[k]));
   return fmt::format("{} on nodes {}", cell::info(block.type).name, nodes);
 }
 
@@ -79,7 +79,7 @@ void check_cells(const Mesh& mesh, std::vector<Finding>& findings) {
     for (const Index c : order) {
       std::sort(begin_of(c), begin_of(c) + width);
       if (std::adjacent_find(begin_of(c), begin_of(c) + width) != begin_of(c) + width)
-        repeated.add(cell_name(block, c));
+        repeated.add(cell_name(mesh, block, c));
     }
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
       const auto relation = std::lexicographical_compare_three_way(
@@ -89,7 +89,7 @@ void check_cells(const Mesh& mesh, std::vector<Finding>& findings) {
     for (std::size_t i = 1; i < order.size(); ++i)
       if (std::equal(begin_of(order[i - 1]), begin_of(order[i - 1]) + width, begin_of(order[i])))
         twice[static_cast<std::size_t>(cell::info(block.type).dimension)].add(
-            cell_name(block, order[i]));
+            cell_name(mesh, block, order[i]));
   }
   report(findings, Flaw::repeated_node, true, repeated, "cell(s) that name a node twice");
   report(findings, Flaw::duplicate_volume, true, twice[3], "volume cell(s) that are there twice");
@@ -157,7 +157,7 @@ void check_volumes(const Mesh& mesh, std::vector<Finding>& findings) {
     for (Index c = 0; c < block.size(); ++c) {
       const double jacobian = smallest_jacobian(mesh, {static_cast<Index>(b), c}, shapes);
       if (jacobian <= 0)
-        bad.add(fmt::format("{} (smallest Jacobian {:.3g})", cell_name(block, c), jacobian));
+        bad.add(fmt::format("{} (smallest Jacobian {:.3g})", cell_name(mesh, block, c), jacobian));
     }
   }
   report(findings, Flaw::inside_out, true, bad,

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@ namespace osculate::mesh {
 struct Block {
   cell::CellType type;
   std::vector<Index> connectivity;
+  std::vector<std::int64_t> numbers{};  ///< of the cells in the mesh file; empty: none
   [[nodiscard]] Index size() const {
     return static_cast<Index>(connectivity.size()) / cell::info(type).nodes;
   }
@@ -41,6 +43,7 @@ struct Mesh {
   std::vector<Vec3> nodes;
   std::vector<Block> blocks;
   std::vector<Set> sets;
+  std::vector<std::int64_t> numbers{};  ///< of the nodes in the mesh file; empty: 1, 2, ...
 
   [[nodiscard]] const Set* find_set(const std::string& name) const {
     for (const Set& set : sets)
@@ -48,6 +51,20 @@ struct Mesh {
     return nullptr;
   }
 };
+
+/// What the user calls a node: its number in the mesh file.
+[[nodiscard]] inline std::int64_t node_number(const Mesh& mesh, Index node) {
+  return mesh.numbers.empty() ? std::int64_t{node} + 1
+                              : mesh.numbers[static_cast<std::size_t>(node)];
+}
+
+/// What the user calls a cell: its number in the mesh file; of generated meshes that within cells
+/// of its type.
+[[nodiscard]] inline std::int64_t cell_number(const Mesh& mesh, const CellRef& ref) {
+  const Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
+  return block.numbers.empty() ? std::int64_t{ref.cell} + 1
+                               : block.numbers[static_cast<std::size_t>(ref.cell)];
+}
 
 /// True if there are volume cells.
 [[nodiscard]] inline bool has_volumes(const Mesh& mesh) {

@@ -73,6 +73,8 @@ class Renumbering {
     Block& to = blocks_[slot->second];
     moved_[{block, c}] = {static_cast<Index>(slot->second), to.size()};
     to.connectivity.insert(to.connectivity.end(), nodes.begin(), nodes.end());
+    const std::vector<std::int64_t>& numbers = mesh_.blocks[at(block)].numbers;
+    if (!numbers.empty()) to.numbers.push_back(numbers[at(c)]);
   }
 
   void finish(const std::vector<bool>& dropped) {

@@ -14,7 +14,7 @@ namespace {
 std::string describe_facet(const Mesh& mesh, const SurfaceFacet& facet) {
   std::string nodes;
   for (const Index node : facet.nodes())
-    nodes += fmt::format("{}{}", nodes.empty() ? "" : " ", node + 1);
+    nodes += fmt::format("{}{}", nodes.empty() ? "" : " ", node_number(mesh, node));
   return fmt::format("{} on nodes {} at {}", cell::info(facet.type).name, nodes,
                      describe_node(mesh, facet.node[0]));
 }

@@ -59,7 +59,7 @@ struct SurfaceFacet {
 };
 
 /// An oriented surface. If `errors` is not empty the facets they name are missing and the surface
-/// must not be used. Messages name nodes by their 1-based position in the mesh and its coordinates.
+/// must not be used. Messages name nodes by their number and coordinates.
 struct Surface {
   std::vector<SurfaceFacet> facets;
   std::vector<std::string> errors;

@@ -60,10 +60,11 @@ void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& se
                   displacement_of<Dim>(u, cell.nodes), with_tangent, out.result);
   out.ok = out.result.status == solid::Status::ok;
   if (out.ok) return;
-  out.message = fmt::format(
-      "{} cell {} of '{}' {}", cell::info(cell.type).name, ref.cell + 1, section.name,
-      out.result.status == solid::Status::inverted ? "turned inside out"
-                                                   : "has a strain its material cannot answer");
+  out.message = fmt::format("{} cell {} of '{}' {}", cell::info(cell.type).name,
+                            mesh::cell_number(model.mesh, ref), section.name,
+                            out.result.status == solid::Status::inverted
+                                ? "turned inside out"
+                                : "has a strain its material cannot answer");
 }
 
 template <int Dim>

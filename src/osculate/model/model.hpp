@@ -19,6 +19,7 @@ struct BasicBulkSection {
   std::string name;  ///< set it was given on
   SolidSection<Dim> section;
   std::vector<mesh::CellRef> cells;
+  std::string material{};  ///< its name
 };
 
 /// Analytic shape of a rigid body.

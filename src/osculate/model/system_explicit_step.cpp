@@ -78,8 +78,8 @@ std::string BasicSystem<Dim>::Impl::Explicit::governed() const {
   if (stable.cell < 0) return "nothing";
   const CellJob& job = system.jobs[static_cast<std::size_t>(stable.cell)];
   const CellNodes cell = cell_nodes(system.model.mesh, job.cell);
-  return fmt::format("{} cell {} of '{}'", cell::info(cell.type).name, job.cell.cell + 1,
-                     job.section->name);
+  return fmt::format("{} cell {} of '{}'", cell::info(cell.type).name,
+                     mesh::cell_number(system.model.mesh, job.cell), job.section->name);
 }
 
 template struct BasicSystem<2>::Impl::Explicit;

@@ -229,7 +229,7 @@ TEST_F(Restart, LastFieldsAreThoseOfTheEndOfEveryStep) {
     std::vector<std::string> found;
     const std::string text = results(out)["results.pvd"];
     for (std::size_t at = 0; (at = text.find("timestep=\"", at)) != std::string::npos; ++at)
-      if (text.find("bodies", at) < text.find('\n', at))
+      if (text.find("\"bodies\"", at) < text.find('\n', at))
         found.push_back(text.substr(at + 10, text.find('"', at + 10) - at - 10));
     return found;
   };

@@ -109,12 +109,37 @@ TEST_F(Run, WritesItsFiles) {
                                  "journal.bin",  "checkpoint.bin", "checkpoint.previous.bin"};
   for (int i = 0; i < 6; ++i) {
     expected.insert("bodies_0000" + std::to_string(i) + ".vtu");
+    expected.insert("rigid_0000" + std::to_string(i) + ".vtu");
     expected.insert("contact0_0000" + std::to_string(i) + ".vtu");
   }
   EXPECT_EQ(files(), expected);
   const std::string pvd = read(results / "results.pvd");
   for (const std::string& name : expected)
     EXPECT_EQ(pvd.find("\"" + name + "\"") != std::string::npos, name.ends_with(".vtu")) << name;
+}
+
+/// One row a point: number, place, and the fields of the VTU beside it.
+TEST_F(Run, ContactPointsAreTablesOnRequest) {
+  write("model.yaml", edited(model, "output:\n", "output:\n  contact_points: true\n"));
+  EXPECT_EQ(run(options()).status, RunStatus::done);
+  EXPECT_TRUE(files().contains("contact0_00005.csv"));
+  const auto rows = table(read(results / "contact0_00005.csv"));
+  ASSERT_EQ(rows.size(), 6u);
+  const std::vector<std::string> head(rows[0].begin(), rows[0].begin() + 7);
+  EXPECT_EQ(head, (std::vector<std::string>{"NodeNumber", "place_X", "place_Y", "place_Z", "U_X",
+                                            "U_Y", "U_Z"}));
+  EXPECT_EQ(rows[0].size(), 7u + 12);
+  double force = 0;
+  const auto column = std::find(rows[0].begin(), rows[0].end(), "CNFORCE") - rows[0].begin();
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    force += std::stod(rows[i].at(static_cast<std::size_t>(column)));
+  const auto history = table(read(results / "history.csv"));
+  EXPECT_NEAR(force, std::stod(history.back().at(4)), 1e-9 * force);
+  EXPECT_EQ(run(options()).status, RunStatus::done);
+  EXPECT_TRUE(files().contains("contact0_00005.csv"));
+  write("model.yaml", model);
+  EXPECT_EQ(run(options()).status, RunStatus::done);
+  EXPECT_FALSE(files().contains("contact0_00005.csv"));
 }
 
 TEST_F(Run, SummaryTellsWhatHappened) {

@@ -183,6 +183,21 @@ TEST(Gmsh, SparseTagsInAnyOrder) {
   EXPECT_THAT(mesh.nodes, ElementsAre(Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0)));
   EXPECT_THAT(mesh.blocks[0].connectivity, ElementsAre(0, 2, 1));
   EXPECT_THAT(get(mesh, "surface_4").cells, SizeIs(1));
+  EXPECT_THAT(mesh.numbers, ElementsAre(5, 70, 2000000000));
+  EXPECT_THAT(mesh.blocks[0].numbers, ElementsAre(9));
+}
+
+/// Messages and results name nodes and cells as the mesh file does.
+TEST(Gmsh, NumbersOfTheFileAreKept) {
+  for (const char* const file : {"blocks_22.msh", "blocks_22_binary.msh", "blocks_41.msh"}) {
+    const Mesh mesh = sample(file);
+    ASSERT_EQ(mesh.numbers.size(), mesh.nodes.size()) << file;
+    EXPECT_TRUE(std::is_sorted(mesh.numbers.begin(), mesh.numbers.end())) << file;
+    for (const mesh::Block& block : mesh.blocks) {
+      ASSERT_EQ(block.numbers.size(), static_cast<std::size_t>(block.size())) << file;
+      EXPECT_THAT(block.numbers, ::testing::Each(::testing::Gt(0))) << file;
+    }
+  }
 }
 
 TEST(Gmsh, CellsWithoutGroupAreInNoSet) {

@@ -264,6 +264,20 @@ TEST(VtuFile, VolumesAreInTheOrderOfVtk) {
   }
 }
 
+TEST(VtuFile, NamesAreTheNumbersOfTheirBytes) {
+  const Sample s = sample(1);
+  VtuData data = data_of(s);
+  const std::array names{NameList{"Bodies", {"ab", "", "\xc3\xa4"}}};
+  data.names = names;
+  const std::string path = temp("names.vtu");
+  write_vtu(path, data);
+  const std::string content = read_file(path);
+  EXPECT_THAT(content, HasSubstr("<FieldData>"));
+  EXPECT_THAT(content, HasSubstr("<DataArray type=\"String\" Name=\"Bodies\" NumberOfTuples=\"3\" "
+                                 "format=\"ascii\">97 98 0 0 195 164 0 </DataArray>"));
+  std::filesystem::remove(path);
+}
+
 TEST(VtuFields, VectorsAndTensorsNameTheirComponents) {
   const std::vector<Vec3> u{{1, 2, 3}, {4, 5, 6}};
   const Field vector = vector_field("U", u);

@@ -70,18 +70,20 @@ class Builder {
     if (cells.group.empty()) return;
     mesh_.blocks.push_back({info.type, {}});
     mesh_.blocks.back().connectivity.reserve(cells.connectivity.size());
+    mesh_.blocks.back().numbers.reserve(cells.numbers.size());
     known_.clear();
     const auto width = static_cast<std::size_t>(info.nodes);
     for (std::size_t c = 0; c < cells.group.size(); ++c) {
       Nodes nodes{};
       std::copy_n(cells.connectivity.begin() + static_cast<std::ptrdiff_t>(c * width), width,
                   nodes.begin());
-      add_cell(info, nodes, cells.group[c]);
+      add_cell(info, nodes, cells.group[c], cells.numbers[c]);
     }
   }
 
   mesh::Mesh finish(const Cursor& cursor, std::vector<Vec3> nodes) {
     mesh_.nodes = std::move(nodes);
+    mesh_.numbers = raw_.node_map.tags();
     std::set<std::string> used;
     for (auto& [key, set] : sets_) {
       const auto named = raw_.names.find(key);
@@ -97,19 +99,19 @@ class Builder {
   }
 
  private:
-  void add_cell(const cell::CellInfo& info, const Nodes& nodes, Index g) {
+  void add_cell(const cell::CellInfo& info, const Nodes& nodes, Index g, std::int64_t number) {
     const Group& group = raw_.groups[static_cast<std::size_t>(g)];
     const bool shared = is_shared_[static_cast<std::size_t>(g)];
-    if (group.physical.empty()) (void)store(info, nodes);
+    if (group.physical.empty()) (void)store(info, nodes, number);
     for (const std::int64_t physical : group.physical) {
       const Nodes directed = physical < 0 ? reversed(info.type, nodes) : nodes;
       mesh::CellRef ref{};
       if (shared) {
         const auto [place, is_new] = known_.try_emplace({directed, group.entity});
-        if (is_new) place->second = store(info, directed);
+        if (is_new) place->second = store(info, directed, number);
         ref = place->second;
       } else {
-        ref = store(info, directed);
+        ref = store(info, directed, number);
       }
       mesh::Set& set = sets_[{info.dimension, std::abs(physical)}];
       set.dimension = info.dimension;
@@ -118,10 +120,11 @@ class Builder {
     }
   }
 
-  mesh::CellRef store(const cell::CellInfo& info, const Nodes& nodes) {
+  mesh::CellRef store(const cell::CellInfo& info, const Nodes& nodes, std::int64_t number) {
     mesh::Block& block = mesh_.blocks.back();
     const mesh::CellRef ref{static_cast<Index>(mesh_.blocks.size()) - 1, block.size()};
     block.connectivity.insert(block.connectivity.end(), nodes.begin(), nodes.begin() + info.nodes);
+    block.numbers.push_back(number);
     return ref;
   }
 

@@ -49,11 +49,11 @@ std::int64_t read_tag_count(Cursor& cursor) {
 
 void read_text_element(Cursor& cursor, RawMesh& raw, GroupList& groups) {
   cursor.begin_record();
-  (void)cursor.integer("the number of an element");
+  const std::int64_t number = cursor.integer("the number of an element");
   const cell::CellInfo& info = cell_of_type(cursor, cursor.integer("the type of an element"));
   const std::int64_t tags = read_tag_count(cursor);
   const Index group = read_tags(cursor, groups, info.dimension, tags);
-  read_cell_nodes(cursor, raw, info, false, group);
+  read_cell_nodes(cursor, raw, info, false, group, number);
   cursor.end_record();
 }
 
@@ -65,12 +65,12 @@ std::int64_t read_binary_elements(Cursor& cursor, RawMesh& raw, GroupList& group
   if (count < 1 || count > most)
     cursor.fail(fmt::format("{} elements of one type announced where {} are left", count, most));
   const std::int64_t tags = read_tag_count(cursor);
-  const std::int64_t numbers = 1 + tags + info.nodes;
-  cursor.require(count, 1, 4 * static_cast<std::size_t>(numbers), "elements");
+  const std::int64_t width = 1 + tags + info.nodes;
+  cursor.require(count, 1, 4 * static_cast<std::size_t>(width), "elements");
   for (std::int64_t i = 0; i < count; ++i) {
-    (void)cursor.integer("the number of an element");
+    const std::int64_t number = cursor.integer("the number of an element");
     const Index group = read_tags(cursor, groups, info.dimension, tags);
-    read_cell_nodes(cursor, raw, info, false, group);
+    read_cell_nodes(cursor, raw, info, false, group, number);
   }
   return count;
 }

@@ -95,8 +95,8 @@ void read_element_block(Cursor& cursor, RawMesh& raw, std::map<EntityKey, Index>
   }
   for (std::int64_t i = 0; i < head.count; ++i) {
     cursor.begin_record();
-    (void)cursor.count("the tag of an element");
-    read_cell_nodes(cursor, raw, info, true, group->second);
+    const std::int64_t number = cursor.count("the tag of an element");
+    read_cell_nodes(cursor, raw, info, true, group->second, number);
     cursor.end_record();
   }
 }

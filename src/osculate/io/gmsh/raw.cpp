@@ -87,7 +87,7 @@ const cell::CellInfo& cell_of_type(const Cursor& cursor, std::int64_t gmsh_type)
 }
 
 void read_cell_nodes(Cursor& cursor, RawMesh& raw, const cell::CellInfo& info, bool wide,
-                     Index group) {
+                     Index group, std::int64_t number) {
   RawCells& cells = raw.cells[static_cast<std::size_t>(info.type)];
   for (int k = 0; k < info.nodes; ++k) {
     const std::int64_t tag =
@@ -99,6 +99,7 @@ void read_cell_nodes(Cursor& cursor, RawMesh& raw, const cell::CellInfo& info, b
   if (cells.connectivity.size() > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
     cursor.fail("too many elements of one type");
   cells.group.push_back(group);
+  cells.numbers.push_back(number);
 }
 
 }  // namespace osculate::io::gmsh

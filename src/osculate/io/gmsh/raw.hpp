@@ -24,6 +24,7 @@ struct Group {
 struct RawCells {
   std::vector<Index> connectivity;
   std::vector<Index> group;  ///< per cell, position in RawMesh::groups
+  std::vector<std::int64_t> numbers;
 };
 
 /// From node tags to positions in the list of nodes ordered by tag.
@@ -33,6 +34,7 @@ class NodeMap {
   explicit NodeMap(std::vector<std::int64_t> sorted_tags);
   /// -1 if there is no such node.
   [[nodiscard]] Index find(std::int64_t tag) const;
+  [[nodiscard]] const std::vector<std::int64_t>& tags() const { return tags_; }
 
  private:
   std::vector<std::int64_t> tags_;  ///< sorted
@@ -56,9 +58,9 @@ struct RawMesh {
 void finish_nodes(const Cursor& cursor, RawMesh& raw);
 /// The cell type of a Gmsh element type; throws for one we do not have.
 [[nodiscard]] const cell::CellInfo& cell_of_type(const Cursor& cursor, std::int64_t gmsh_type);
-/// Reads the node tags of one cell.
+/// Reads the node tags of the cell `number`.
 void read_cell_nodes(Cursor& cursor, RawMesh& raw, const cell::CellInfo& info, bool wide,
-                     Index group);
+                     Index group, std::int64_t number);
 
 void read_nodes_2(Cursor& cursor, RawMesh& raw);
 void read_elements_2(Cursor& cursor, RawMesh& raw);
