@@ -59,18 +59,25 @@ model::AnalysisOptions analysis_options(const Solver& solver) {
   return options;
 }
 
+}  // namespace
+
+void require_in_plane(const mesh::Mesh& mesh, const core::SourceMark& mark) {
+  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
+    if (std::abs(mesh.nodes[n].z()) > 1e-12 * (1 + mesh.nodes[n].norm()))
+      throw core::InputError(
+          mark, fmt::format("node {} has z = {:g}; plane problems need z = 0",
+                            mesh::node_number(mesh, static_cast<Index>(n)), mesh.nodes[n].z()));
+}
+
+namespace {
+
 /// A plane model needs z = 0; where its sections are of volume cells, that is the mistake.
 void check_planar(const Description& description, const mesh::Mesh& mesh) {
   for (const Section& section : description.sections) {
     const mesh::Set* const set = mesh.find_set(section.on.value);
     if (set && set->dimension == 3) return;  // build_sections says so
   }
-  for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
-    if (std::abs(mesh.nodes[n].z()) > 1e-12 * (1 + mesh.nodes[n].norm()))
-      throw core::InputError(
-          description.mesh.mark,
-          fmt::format("node {} has z = {:g}; plane problems need z = 0",
-                      mesh::node_number(mesh, static_cast<Index>(n)), mesh.nodes[n].z()));
+  require_in_plane(mesh, description.mesh.mark);
 }
 
 model::HistoryRequest::Kind kind_of(HistoryTarget target) {

@@ -18,6 +18,9 @@ using SideTable = std::conditional_t<Dim == 2, mesh::EdgeTable, mesh::FaceTable>
 template <int Dim>
 using Side = std::conditional_t<Dim == 2, mesh::BoundaryFacet, mesh::SurfaceFacet>;
 
+/// Throws core::InputError at `mark` for a node off the plane z = 0.
+void require_in_plane(const mesh::Mesh& mesh, const core::SourceMark& mark);
+
 /// What the parts of `build` share while a model grows.
 template <int Dim>
 struct BuildContext {

@@ -16,6 +16,7 @@
 #include "osculate/geometry/nurbs_patch.hpp"
 #include "osculate/geometry/surfaces.hpp"
 #include "osculate/mesh/generate_space.hpp"
+#include "osculate/mesh/join.hpp"
 
 /// What a model file says, validated and with all defaults filled in, but not yet matched with a
 /// mesh. Plain values; everything that can turn out wrong later carries the place it was read from.
@@ -74,15 +75,21 @@ struct LineMesh {
 struct GeneratedPart {
   Name name;
   std::variant<Box, Ring, LineMesh, mesh::GridSpec, mesh::TubeSpec, mesh::SphereSpec,
-               mesh::BallSpec>
+               mesh::BallSpec, mesh::DiscSpec>
       shape;
+};
+
+struct MeshFile {
+  Name name;         ///< heads the names of its sets; empty for the one file of a model
+  Name file;         ///< as written
+  std::string path;  ///< `file`, relative to the folder of the model file
+  mesh::Placement placement;
 };
 
 struct MeshSource {
   core::SourceMark mark;
-  std::optional<Name> file;              ///< as written
-  std::string path;                      ///< `file`, relative to the folder of the model file
-  std::vector<GeneratedPart> generated;  ///< empty when `file` is given
+  std::vector<MeshFile> files;
+  std::vector<GeneratedPart> generated;
 };
 
 /// A set made of other sets: of the mesh, or defined before it.

@@ -1,7 +1,8 @@
 #include <fmt/format.h>
 
-#include "osculate/deck/build.hpp"
+#include "osculate/deck/build_context.hpp"
 #include "osculate/deck/parse.hpp"
+#include "osculate/deck/parse_parts.hpp"
 #include "osculate/io/gmsh.hpp"
 #include "osculate/mesh/generate.hpp"
 #include "osculate/mesh/generate_ring.hpp"
@@ -70,19 +71,42 @@ struct AppendPart {
     mesh::append_sphere(mesh, sphere, name.mark);
   }
   void operator()(const mesh::BallSpec& ball) const { mesh::append_ball(mesh, ball, name.mark); }
+  void operator()(const mesh::DiscSpec& disc) const { mesh::append_disc(mesh, disc, name.mark); }
 };
 
-mesh::Mesh mesh_of(const MeshSource& source) {
-  if (source.file) {
-    try {
-      return io::read_gmsh(source.path);
-    } catch (const core::InputError& error) {
-      throw core::InputError(source.file->mark, error.what());
-    }
+/// What a file that is put beside others may not have in a plane model.
+void require_plane(const MeshFile& source, const mesh::Mesh& mesh) {
+  if (mesh::has_volumes(mesh))
+    throw core::InputError(
+        source.file.mark,
+        fmt::format("the mesh of {} has volume cells, and this model is plane: no section has the "
+                    "element solid or solid_shell",
+                    quoted(source.file.value)));
+  require_in_plane(mesh, source.file.mark);
+}
+
+mesh::Mesh read_file(const MeshFile& source) {
+  mesh::Mesh mesh;
+  try {
+    mesh = io::read_gmsh(source.path);
+  } catch (const core::InputError& error) {
+    throw core::InputError(source.file.mark, error.what());
   }
+  mesh::place(mesh, source.placement);
+  return mesh;
+}
+
+mesh::Mesh mesh_of(const MeshSource& source, int dimension) {
+  if (source.files.size() == 1 && source.files[0].name.value.empty())
+    return read_file(source.files[0]);
   mesh::Mesh mesh;
   for (const GeneratedPart& part : source.generated)
     std::visit(AppendPart{mesh, part.name}, part.shape);
+  for (const MeshFile& file : source.files) {
+    const mesh::Mesh part = read_file(file);
+    if (dimension == 2) require_plane(file, part);
+    mesh::append_mesh(mesh, part, file.name.value, file.name.mark);
+  }
   return mesh;
 }
 
@@ -122,7 +146,7 @@ void add_set(const Description& description, const SetDefinition& definition, me
 }  // namespace
 
 mesh::Mesh load_mesh(const Description& description) {
-  mesh::Mesh mesh = mesh_of(description.mesh);
+  mesh::Mesh mesh = mesh_of(description.mesh, dimension(description));
   for (const SetDefinition& definition : description.sets) add_set(description, definition, mesh);
   return mesh;
 }

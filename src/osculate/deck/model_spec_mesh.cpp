@@ -101,10 +101,26 @@ Spec box_spec() {
                             .such_as("[0, 0, 1]"))});
 }
 
-Spec ring_spec() {
+Spec center_spec() {
+  return list("Centre.", number("One coordinate.").in("length"))
+      .count(2, 3)
+      .otherwise_as("the origin")
+      .such_as("[0, 5]");
+}
+
+Spec along_spec() {
   const auto axis = [](const char* name, int code) {
     return Choice{name, "along the coordinate of that name", code, true};
   };
+  return choice(
+             "With z: direction of the axis. Angles count from the next one, of z from x, "
+             "right-handed.",
+             {axis("x", 0), axis("y", 1), axis("z", 2)})
+      .otherwise_as("z")
+      .such_as("x");
+}
+
+Spec ring_spec() {
   return map(
       "A ring or a part of one, or with z a hollow cylinder, of structured cells; nodes of curved "
       "sides lie on the circles.",
@@ -128,15 +144,36 @@ Spec ring_spec() {
        optional("type", choice("Kind of cell.", box_cells())
                             .otherwise_as("quad4, with z hex8")
                             .such_as("quad9")),
-       optional("center", list("Centre.", number("One coordinate.").in("length"))
-                              .count(2, 3)
-                              .otherwise_as("the origin")
-                              .such_as("[0, 5]")),
-       optional("along", choice("With z: direction of the axis. Angles count from the next one, of "
-                                "z from x, right-handed.",
-                                {axis("x", 0), axis("y", 1), axis("z", 2)})
-                             .otherwise_as("z")
-                             .such_as("x"))});
+       optional("center", center_spec()), optional("along", along_spec())});
+}
+
+Spec disc_spec() {
+  return map(
+      "A disc or quarters of one, or with z a cylinder, without flat cells: a square of cells in "
+      "its middle and layers around that; nodes of the rim lie on the circle.",
+      {required("radius", radius_spec()),
+       optional("angle", pair_of("First and last angle, 90, 180, 270 or 360 apart.",
+                                 number("One angle.").in("degrees"))
+                             .otherwise("[0, 360]")
+                             .such_as("[180, 360]")),
+       optional("z", breakpoints("Heights along the axis, from the center; makes a cylinder of "
+                                 "volume cells.")),
+       required("elements",
+                per_direction("Numbers of elements along half an edge of the square (8 times as "
+                              "many are on a whole rim), through the layers around it (and along "
+                              "the axis, per interval).",
+                              interval_count())
+                    .such_as("[4, 6]")),
+       optional("bias", per_direction("Size of the outermost element over that of the innermost, "
+                                      "in the square and in the layers (and of the last over the "
+                                      "first along the axis).",
+                                      number("Ratio of sizes.").above(0).such_as("2"))
+                            .otherwise_as("1 everywhere")
+                            .such_as("[1, 0.2]")),
+       optional("type", choice("Kind of cell; of a cylinder not tet4, tet10.", box_cells())
+                            .otherwise_as("quad4, with z hex8")
+                            .such_as("quad9")),
+       optional("center", center_spec()), optional("along", along_spec())});
 }
 
 Spec line_spec() {
@@ -209,12 +246,20 @@ Spec sphere_spec() {
 }
 
 Spec ball_spec() {
+  Key sides = optional(
+      "sides", pair_of("Which side of the centre in x, y and z: 1, -1, or 0 for both. [0, 0, 1] is "
+                       "the upper half.",
+                       integer("One side.").at_least(-1).at_most(1))
+                   .count(3, 3)
+                   .otherwise("[0, 0, 0]")
+                   .such_as("[0, 0, 1]"));
+  sides.former = "octant";
   return map(
-      "An octant of a ball of volume cells: a cube in its middle and layers around that.",
+      "A ball of volume cells, or octants of one: a cube in its middle and layers around that.",
       {required("center", place_spec("Centre.").such_as("[0, 0, 1]")),
        required("radius", radius_spec()),
        required("elements",
-                pair_of("Numbers of elements along each edge of the cube, and of layers.",
+                pair_of("Numbers of elements along half an edge of the cube, and of layers.",
                         interval_count())
                     .such_as("[4, 6]")),
        optional("bias", pair_of("Size of the outermost element over that of the innermost, along "
@@ -222,11 +267,7 @@ Spec ball_spec() {
                                 number("Ratio of sizes.").above(0))
                             .otherwise("[1, 1]")
                             .such_as("[1, 0.2]")),
-       optional("octant", pair_of("Signs of x, y and z from the centre.",
-                                  integer("One sign, 1 or -1.").at_least(-1).at_most(1))
-                              .count(3, 3)
-                              .otherwise("[1, 1, 1]")
-                              .such_as("[1, 1, -1]")),
+       sides,
        optional("type",
                 cell_choice("Kind of cell.",
                             {cell::CellType::hex8, cell::CellType::hex20, cell::CellType::hex27},
@@ -238,33 +279,81 @@ Spec part_spec() {
              {optional("box", box_spec()), optional("ring", ring_spec()),
               optional("line", line_spec()), optional("grid", grid_spec()),
               optional("tube", tube_spec()), optional("sphere", sphere_spec()),
-              optional("ball", ball_spec())})
-      .with(Group::Rule::exactly_one, {"box", "ring", "line", "grid", "tube", "sphere", "ball"})
+              optional("ball", ball_spec()), optional("disc", disc_spec())})
+      .with(Group::Rule::exactly_one,
+            {"box", "ring", "disc", "line", "grid", "tube", "sphere", "ball"})
       .such_as("{box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}");
+}
+
+Spec generated_spec() {
+  return names(
+             "Parts to generate, by name. Sets: NAME, and NAME.left, .right, .bottom, "
+             ".top, .bottom_left, .bottom_right, .top_right, .top_left of a "
+             "box without z or a grid; NAME.inner, .outer, .from, .to (if "
+             "it is not closed), with z .bottom, .top of a ring; NAME.outer, .from, .to (if it is "
+             "not whole), .center, .pole_0, .pole_90, .pole_180, .pole_270 (on the rim, degrees "
+             "from the first angle), with z .bottom, .top, .axis of a disc; NAME.start and .end "
+             "of a line or a tube, and "
+             ".from and .to of a tube that is not closed; with z, NAME.left, .right "
+             "(x), .front, .back (y), .bottom, .top (z), the edges .bottom_front and "
+             "so on, the corners .bottom_front_left and so on of a box; NAME.surface, "
+             ".plane_x, .plane_y, .plane_z (where it is cut), .center, .pole_x, .pole_y, .pole_z, "
+             ".pole_minus_x and so on of a ball.",
+             part_spec())
+      .count(1)
+      .such_as("{block: {box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}}");
+}
+
+Spec file_spec() {
+  return text("Name of a Gmsh file, relative to the folder of the model file.")
+      .such_as("block.msh");
+}
+
+Spec files_spec() {
+  const auto place = [](std::string doc) {
+    return list(std::move(doc), number("One coordinate.").in("length")).count(2, 3);
+  };
+  return names(
+             "Gmsh files by name, the same one as often as you like. Sets: NAME.SET for every "
+             "physical group SET, and NAME, all its cells of the highest dimension.",
+             either("A file, as it is or put somewhere.",
+                    {file_spec(),
+                     map("A file that is scaled, then turned, then moved.",
+                         {required("file", file_spec()),
+                          optional("scale", number("Factor of all coordinates: of a file in metres "
+                                                   "in a model in millimetres 1000.")
+                                                .above(0)
+                                                .otherwise("1")
+                                                .such_as("1000")),
+                          optional("angle", number("Angle that it is turned by, positive from x to "
+                                                   "y, or right-handed about the axis.")
+                                                .in("degrees")
+                                                .otherwise("0")
+                                                .such_as("90")),
+                          optional("about", place("Point that it is turned about.")
+                                                .otherwise_as("the origin")
+                                                .such_as("[0, 0]")),
+                          optional("axis", vector_spec("Direction of the axis that it is turned "
+                                                       "about.")
+                                               .otherwise_as("z")
+                                               .such_as("[0, 0, 1]")),
+                          optional(
+                              "move",
+                              place("Displacement.").otherwise_as("none").such_as("[0, 12.5]"))})}))
+      .count(1)
+      .such_as("{plate: plate.msh, bolt: {file: bolt.msh, move: [0, 0, 5]}}");
 }
 
 }  // namespace
 
 Spec mesh_spec() {
   return either(
-             "The mesh: a Gmsh file, relative to the folder of the model file, or generated parts.",
-             {text("Name of a Gmsh file.").such_as("block.msh"),
-              map("A mesh of simple parts.",
-                  {required(
-                      "generate",
-                      names(
-                          "Parts to generate, by name. Sets: NAME, and NAME.left, .right, .bottom, "
-                          ".top, .bottom_left, .bottom_right, .top_right, .top_left of a "
-                          "box without z or a grid; NAME.inner, .outer, .from, .to (if "
-                          "it is not closed), with z .bottom, .top of a ring; NAME.start and .end "
-                          "of a line or a tube, and "
-                          ".from and .to of a tube that is not closed; with z, NAME.left, .right "
-                          "(x), .front, .back (y), .bottom, .top (z), the edges .bottom_front and "
-                          "so on, the corners .bottom_front_left and so on of a box; NAME.surface, "
-                          ".plane_x, .plane_y, .plane_z, .center, .pole_x, .pole_y, .pole_z of a "
-                          "ball.",
-                          part_spec())
-                          .count(1))})})
+             "The mesh: a Gmsh file, relative to the folder of the model file, or several "
+             "files and generated parts together.",
+             {file_spec(),
+              map("Files and generated parts, which share no nodes.",
+                  {optional("files", files_spec()), optional("generate", generated_spec())})
+                  .with(Group::Rule::at_least_one, {"files", "generate"})})
       .such_as("block.msh");
 }
 

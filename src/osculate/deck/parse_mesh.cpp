@@ -69,7 +69,7 @@ constexpr std::array<const char*, 3> axis_names{"x", "y", "z"};
 void require_directions(const Value& v, bool solid) {
   const std::size_t wanted = solid ? 3 : 2;
   if (v.items.size() == wanted) return;
-  throw core::InputError(v.mark, fmt::format("expected {} values for a box {} z, got {}", wanted,
+  throw core::InputError(v.mark, fmt::format("expected {} values {} z, got {}", wanted,
                                              solid ? "with" : "without", v.items.size()));
 }
 
@@ -83,7 +83,7 @@ Marked<cell::CellType> box_type(const Value& v, bool solid) {
     if (info.dimension == wanted)
       names += fmt::format("{}{}", names.empty() ? "" : ", ", info.name);
   throw core::InputError(
-      type.mark, fmt::format("a box {} z is made of {}; got {}", solid ? "with" : "without", names,
+      type.mark, fmt::format("{} z it is made of {}; got {}", solid ? "with" : "without", names,
                              cell::info(type.value).name));
 }
 
@@ -133,20 +133,24 @@ Box axes_of(const Value& v, const std::array<const char*, 3>& names) {
   return box;
 }
 
+/// `center` and `along` of a round part.
+void read_center(const Value& v, bool solid, Vec3& center, int& along) {
+  if (const Value* const given = v.find("center")) {
+    if (given->items.size() != (solid ? 3U : 2U))
+      throw core::InputError(given->mark,
+                             fmt::format("expected {} values {} z, got {}", solid ? 3 : 2,
+                                         solid ? "with" : "without", given->items.size()));
+    center = place_of(*given);
+  }
+  if (const Value* const given = v.find("along")) {
+    if (!solid) throw core::InputError(given->mark, "needs z");
+    along = given->code;
+  }
+}
+
 Ring ring_of(const Value& v) {
   Ring ring{axes_of(v, {"radius", "angle", "z"})};
-  const bool solid = ring.box.solid();
-  if (const Value* const center = v.find("center")) {
-    if (center->items.size() != (solid ? 3U : 2U))
-      throw core::InputError(
-          center->mark, fmt::format("expected {} values for a ring {} z, got {}", solid ? 3 : 2,
-                                    solid ? "with" : "without", center->items.size()));
-    ring.center = place_of(*center);
-  }
-  if (const Value* const along = v.find("along")) {
-    if (!solid) throw core::InputError(along->mark, "is for rings with z");
-    ring.along = along->code;
-  }
+  read_center(v, ring.box.solid(), ring.center, ring.along);
   return ring;
 }
 
@@ -231,13 +235,53 @@ mesh::BallSpec ball_of(const Value& v, const std::string& name) {
   const Value& bias = v.at("bias");
   ball.core_bias = bias.items[0].number;
   ball.layer_bias = bias.items[1].number;
-  const Value& octant = v.at("octant");
-  for (std::size_t k = 0; k < 3; ++k) {
-    ball.octant[k] = octant.items[k].code;
-    if (ball.octant[k] == 0) throw core::InputError(octant.items[k].mark, "must be 1 or -1, got 0");
-  }
+  for (std::size_t k = 0; k < 3; ++k) ball.sides[k] = v.at("sides").items[k].code;
   ball.type = word_of<cell::CellType>(v, "type").value;
   return ball;
+}
+
+/// Where a quarter ends, and how many there are between the angles of a disc.
+int quarters_of(const Value& angle) {
+  const double turn = angle.items[1].number - angle.items[0].number;
+  for (int quarters = 1; quarters <= 4; ++quarters)
+    if (turn == 90 * quarters) return quarters;
+  throw core::InputError(
+      angle.mark, fmt::format("a disc is made of quarters: the angles must differ by 90, 180, 270 "
+                              "or 360, not {:g}",
+                              turn));
+}
+
+mesh::DiscSpec disc_of(const Value& v, const std::string& name) {
+  const bool solid = v.find("z") != nullptr;
+  mesh::DiscSpec disc;
+  disc.name = name;
+  disc.radius = v.at("radius").number;
+  disc.from = v.at("angle").items[0].number;
+  disc.quarters = quarters_of(v.at("angle"));
+  const Value& elements = v.at("elements");
+  const Value* const bias = v.find("bias");
+  require_directions(elements, solid);
+  if (bias) require_directions(*bias, solid);
+  const auto ratios = [&](std::size_t i, std::size_t intervals) {
+    if (!bias) return std::vector<double>(intervals, 1.0);
+    return per_interval<double>(bias->items[i], intervals,
+                                [](const Value& ratio) { return ratio.number; });
+  };
+  disc.core = counts_of(elements.items[0], 1)[0];
+  disc.layers = counts_of(elements.items[1], 1)[0];
+  disc.core_bias = ratios(0, 1)[0];
+  disc.layer_bias = ratios(1, 1)[0];
+  double size = 1.0 * disc.quarters * disc.core * (disc.core + 2.0 * disc.layers);
+  if (solid) {
+    disc.heights = breakpoints_of(v.at("z")).value;
+    disc.elements = counts_of(elements.items[2], disc.heights.size() - 1);
+    disc.bias = ratios(2, disc.heights.size() - 1);
+    size *= total(disc.elements);
+  }
+  require_size(size, elements.mark);
+  disc.type = box_type(v, solid).value;
+  read_center(v, solid, disc.center, disc.along);
+  return disc;
 }
 
 GeneratedPart part_of(const Value& v, Name name) {
@@ -255,6 +299,8 @@ GeneratedPart part_of(const Value& v, Name name) {
     part.shape = tube_of(*tube, text);
   else if (const Value* const sphere = v.find("sphere"))
     part.shape = sphere_of(*sphere, text);
+  else if (const Value* const disc = v.find("disc"))
+    part.shape = disc_of(*disc, text);
   else
     part.shape = ball_of(v.at("ball"), text);
   return part;
@@ -275,19 +321,40 @@ void require_mesh_format(const Name& file) {
                                                       quoted(file.value)));
 }
 
+mesh::Placement placement_of(const Value& v) {
+  mesh::Placement placement;
+  placement.scale = v.at("scale").number;
+  placement.angle = v.at("angle").number;
+  if (const Value* const about = v.find("about")) placement.about = place_of(*about);
+  if (const Value* const axis = v.find("axis")) placement.axis = direction_of(*axis);
+  if (const Value* const move = v.find("move")) placement.move = place_of(*move);
+  return placement;
+}
+
+MeshFile file_of(const Value& v, Name name, const std::string& model_file) {
+  const bool plain = v.alternative == 0;
+  MeshFile file{std::move(name), name_of(plain ? v : v.at("file")), {}, {}};
+  require_mesh_format(file.file);
+  file.path = path_beside(model_file, file.file.value);
+  if (!plain) file.placement = placement_of(v);
+  return file;
+}
+
 }  // namespace
 
 MeshSource parse_mesh(const Value& v, const std::string& file) {
   MeshSource mesh;
   mesh.mark = v.mark;
   if (v.alternative == 0) {
-    mesh.file = name_of(v);
-    require_mesh_format(*mesh.file);
-    mesh.path = path_beside(file, mesh.file->value);
+    mesh.files.push_back(file_of(v, {}, file));
     return mesh;
   }
-  for (const ValueEntry& entry : v.at("generate").entries)
-    mesh.generated.push_back(part_of(entry.value, {entry.key, entry.key_mark}));
+  if (const Value* const parts = v.find("generate"))
+    for (const ValueEntry& entry : parts->entries)
+      mesh.generated.push_back(part_of(entry.value, {entry.key, entry.key_mark}));
+  if (const Value* const files = v.find("files"))
+    for (const ValueEntry& entry : files->entries)
+      mesh.files.push_back(file_of(entry.value, {entry.key, entry.key_mark}, file));
   return mesh;
 }
 

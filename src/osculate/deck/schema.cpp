@@ -128,13 +128,34 @@ Json schema_of(const Spec& spec) {
   return out;
 }
 
+/// Where there are parameters, any plain value may be a text that follows from them: =2*a, ${a}.
+void accept_computed(Json& schema) {
+  constexpr const char* computed = R"(^=|\$\{)";
+  if (!schema.is_structured()) return;
+  for (Json& child : schema) accept_computed(child);
+  if (schema.is_array()) return;
+  const Json type = schema.value("type", Json());
+  if (type == "number" || type == "integer" || type == "boolean") {
+    schema["type"] = Json::array({type, "string"});
+    schema["pattern"] = computed;
+  } else if (type.is_array() && schema.contains("pattern")) {
+    schema["pattern"] = schema["pattern"].get<std::string>() + "|" + computed;
+  } else if (schema.contains("enum") && schema["enum"].is_array()) {
+    schema["anyOf"] =
+        Json::array({{{"enum", schema["enum"]}}, {{"type", "string"}, {"pattern", computed}}});
+    schema.erase("enum");
+  }
+}
+
 }  // namespace
 
 std::string json_schema(const Spec& spec, const std::string& title) {
   Json out = Json::object();
   out["$schema"] = "https://json-schema.org/draft/2020-12/schema";
   out["title"] = title;
-  out.update(schema_of(spec));
+  Json schema = schema_of(spec);
+  if (find_key(spec, "parameters")) accept_computed(schema);
+  out.update(schema);
   return out.dump(2) + "\n";
 }
 

@@ -20,7 +20,7 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 23> synonyms{{
+constexpr std::array<Synonym, 24> synonyms{{
     {"plasticity plastic yield hardening creep viscoelastic damage mises-plasticity", no},
     {"bolt pretension preload gasket", no},
     {"thermal temperature heat expansion", no},
@@ -47,6 +47,7 @@ constexpr std::array<Synonym, 23> synonyms{{
     {"rubber hyperelastic elastomer",
      "materials.NAME.neo_hooke (sections.formulation: bbar by default)"},
     {"transient implicit-dynamics explicit impact crash drop", "steps.dynamics (docs/dynamics.md)"},
+    {"assembly instance include import-mesh several-meshes", "mesh.files, with mesh.generate"},
     {"restart checkpoint resume", "`osculate run --restart`, output.checkpoint"},
 }};
 

@@ -38,24 +38,56 @@ struct SolidBoxSpec {
 /// Tested by  tests/unit/mesh/test_generate_solid.cpp
 void append_solid_box(Mesh& mesh, const SolidBoxSpec& spec, const core::SourceMark& mark = {});
 
-/// An octant of a ball: a cube of elements in its middle and three caps of layers around that.
+/// A ball, or octants of one: a cube of elements in its middle and caps of layers around that.
 struct BallSpec {
   std::string name;
   Vec3 center{0, 0, 0};
   double radius = 1;
-  int core = 2;                          ///< elements along each edge of the inner cube
-  int layers = 2;                        ///< elements from the cube to the surface
+  int core = 2;    ///< elements along each edge of the inner cube in one octant
+  int layers = 2;  ///< elements from the cube to the surface
   double core_bias = 1, layer_bias = 1;  ///< length of the outermost element / of the innermost
-  std::array<int, 3> octant{1, 1, 1};    ///< signs of x, y, z - center
+  /// Which side of the center in x, y and z: 1, -1, or 0 for both.
+  std::array<int, 3> sides{0, 0, 0};
   cell::CellType type = cell::CellType::hex8;  ///< hex8, hex20, hex27
 };
 
-/// Adds an octant of a ball: volume set `name`; area sets `name.surface` and, on the planes of
-/// symmetry, `name.plane_x` (x = center), `.plane_y`, `.plane_z`; node sets of one node
-/// `name.center`, `.pole_x`, `.pole_y`, `.pole_z`. All nodes of the surface lie on the sphere.
+/// Adds a ball: volume set `name`; area sets `name.surface` and, on the planes that cut it,
+/// `name.plane_x` (x = center), `.plane_y`, `.plane_z`; node sets of one node `name.center`,
+/// `.pole_x`, `.pole_y`, `.pole_z` and, where there are both sides, `.pole_minus_x` and so on. All
+/// nodes of the surface lie on the sphere.
 ///
-/// Tested by  tests/unit/mesh/test_generate_solid.cpp
+/// Tested by  tests/unit/mesh/test_generate_round.cpp
 void append_ball(Mesh& mesh, const BallSpec& spec, const core::SourceMark& mark = {});
+
+/// A disc in quarters: a square of elements in its middle and layers around that; with heights, a
+/// cylinder.
+struct DiscSpec {
+  std::string name;
+  Vec3 center{0, 0, 0};
+  double radius = 1;
+  double from = 0;                       ///< degrees, counterclockwise about the axis
+  int quarters = 4;                      ///< 1 to 4
+  int core = 2;                          ///< elements along half an edge of the inner square
+  int layers = 2;                        ///< elements from the square to the rim
+  double core_bias = 1, layer_bias = 1;  ///< length of the outermost element / of the innermost
+  std::vector<double> heights;  ///< breakpoints along the axis, from the center; empty: a disc
+  std::vector<int> elements;    ///< along the axis, per interval
+  std::vector<double> bias;     ///< per interval: length of the last element / of the first
+  int along = 2;  ///< coordinate axis of the cylinder (0 x, 1 y, 2 z); the angle counts from the
+                  ///< next one (of z: x)
+  /// tri3, tri6, quad4, quad8, quad9; of a cylinder wedge6, wedge15, hex8, hex20, hex27, shell18.
+  cell::CellType type = cell::CellType::quad4;
+};
+
+/// Adds a disc: area set `name`; line sets `name.outer` and, of a part, `.from` and `.to` (the
+/// radii at its first and last angle), directed with the body on the right; node sets of one node
+/// `name.center` and, on the rim, `.pole_0`, `.pole_90` and so on (degrees from `from`). Or a
+/// cylinder: volume set `name`; area sets `.outer`, `.bottom`, `.top` (along the axis), `.from`,
+/// `.to`; line sets `.axis` and `.pole_0` and so on, upwards. All nodes of the rim lie on the
+/// circle.
+///
+/// Tested by  tests/unit/mesh/test_generate_round.cpp
+void append_disc(Mesh& mesh, const DiscSpec& spec, const core::SourceMark& mark = {});
 
 /// A flat parallelogram of area cells.
 struct GridSpec {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -91,6 +92,17 @@ Vec2 direction(double degrees) {
   }
   const double angle = reduced * std::numbers::pi / 180.0;
   return {std::cos(angle), std::sin(angle)};
+}
+
+void turn(std::span<Vec3> nodes, double degrees, const Vec3& about, const Vec3& axis) {
+  const Vec2 d = direction(degrees);
+  if (d.x() == 1.0) return;
+  const Vec3 k = axis / axis.norm();
+  for (Vec3& x : nodes) {
+    const Vec3 arm = x - about;
+    const Vec3 along = k * k.dot(arm);
+    x = about + along + (arm - along) * d.x() + k.cross(arm) * d.y();
+  }
 }
 
 // ---- cells and sets ---------------------------------------------------------------------------

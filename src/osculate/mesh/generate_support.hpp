@@ -40,6 +40,8 @@ void check_size(const Context& context, const Mesh& mesh, double new_nodes);
                                        const std::vector<double>& bias, int order);
 /// (cos, sin) of an angle in degrees, exact for right angles.
 [[nodiscard]] Vec2 direction(double degrees);
+/// Turns nodes by an angle in degrees about the axis (of any length) through `about`.
+void turn(std::span<Vec3> nodes, double degrees, const Vec3& about, const Vec3& axis);
 
 // ---- cells and sets ---------------------------------------------------------------------------
 

@@ -8,7 +8,7 @@ namespace {
 TEST(GoodModels, Block) {
   const Description d = parse_model(test_file("block.yaml"), "some/where/model.yaml");
   EXPECT_EQ(d.title, "Block pressed and sheared on a rigid base");
-  EXPECT_EQ(d.mesh.path, "some/where/block.msh");
+  EXPECT_EQ(d.mesh.files.at(0).path, "some/where/block.msh");
   ASSERT_EQ(d.materials.size(), 1u);
   EXPECT_EQ(d.materials[0].young.value, 2.1e4);
   EXPECT_EQ(d.materials[0].young.mark.line, 5);
@@ -59,7 +59,7 @@ TEST(GoodModels, DefaultsOfTheSmallestModel) {
       "n, element: plane_strain}]\ncontact: [{name: c, master: a, slave: b, normal: {penalty: "
       "1}}]\nsteps: [{name: go, increments: 1}]\n",
       "model.yaml");
-  EXPECT_EQ(d.mesh.path, "a.msh");
+  EXPECT_EQ(d.mesh.files.at(0).path, "a.msh");
   EXPECT_EQ(d.title, "");
   EXPECT_EQ(d.materials[0].density.value, 0);
   EXPECT_EQ(d.sections[0].kinematics.value, Kinematics::small);
@@ -101,7 +101,7 @@ TEST(GoodModels, OneToleranceDecidesAlone) {
 TEST(GoodModels, GeneratedMeshRepeatsPlainNumbers) {
   const Description d = parse_model(test_file("full.yaml"), "model.yaml");
   ASSERT_EQ(d.mesh.generated.size(), 3u);
-  EXPECT_FALSE(d.mesh.file.has_value());
+  EXPECT_TRUE(d.mesh.files.empty());
   const Box& box = std::get<Box>(d.mesh.generated[0].shape);
   EXPECT_EQ(box.elements[0], (std::vector<int>{8, 4}));
   EXPECT_EQ(box.elements[1], (std::vector<int>{3}));

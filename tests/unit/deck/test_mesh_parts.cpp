@@ -55,10 +55,48 @@ TEST(MeshParts, BrokenRings) {
     return refusal(edited(test_file("ring.yaml"), from, to));
   };
   EXPECT_EQ(refused("center: [1, -1]", "center: [1, -1, 0]"),
-            "model.yaml:5: mesh.generate.ring.ring.center: expected 2 values for a ring without z, "
+            "model.yaml:5: mesh.generate.ring.ring.center: expected 2 values without z, "
             "got 3");
   EXPECT_EQ(refused("center: [1, -1]", "along: x"),
-            "model.yaml:5: mesh.generate.ring.ring.along: is for rings with z");
+            "model.yaml:5: mesh.generate.ring.ring.along: needs z");
+}
+
+TEST(MeshParts, DiscsAndCylinders) {
+  const Description d = parse_model(test_file("round.yaml"), "model.yaml");
+  const auto& wheel = part<mesh::DiscSpec>(d, 0);
+  EXPECT_EQ(wheel.quarters, 2);
+  EXPECT_EQ(wheel.from, 180);
+  EXPECT_EQ(wheel.core, 2);
+  EXPECT_EQ(wheel.layer_bias, 0.5);
+  EXPECT_EQ(wheel.center, Vec3(0, 5, 0));
+  EXPECT_TRUE(wheel.heights.empty());
+  const auto& bar = part<mesh::DiscSpec>(d, 1);
+  EXPECT_EQ(bar.quarters, 2);
+  EXPECT_EQ(bar.type, CellType::hex20);
+  EXPECT_EQ(bar.elements, (std::vector<int>{1, 4}));
+  EXPECT_EQ(bar.bias, (std::vector<double>{2, 1}));
+  EXPECT_EQ(bar.along, 1);
+  EXPECT_EQ(part<mesh::BallSpec>(d, 2).sides, (std::array{0, 0, 0}));
+  const Built3 built = build3(d, load_mesh(d));
+  // The pressure on the half cylinder of the bar: diameter times length.
+  EXPECT_NEAR((built.loads[0].at(0).whole.force - Vec3(-2 * 3, 0, 0)).norm(), 0, 1e-12);
+}
+
+TEST(MeshParts, RefusedDiscs) {
+  const auto refused = [](const std::string& from, const std::string& to) {
+    return refusal(edited(test_file("round.yaml"), from, to));
+  };
+  EXPECT_EQ(refused("angle: [180, 360]", "angle: [180, 300]"),
+            "model.yaml:5: mesh.generate.wheel.disc.angle: a disc is made of quarters: the angles "
+            "must differ by 90, 180, 270 or 360, not 120");
+  EXPECT_EQ(refused("elements: [2, 3]", "elements: [[2, 1], 3]"),
+            "model.yaml:5: mesh.generate.wheel.disc.elements[0]: expected one value for each of "
+            "the 1 intervals, got 2");
+  EXPECT_EQ(refused("elements: [2, 3]", "elements: [2, 3, 1]"),
+            "model.yaml:5: mesh.generate.wheel.disc.elements: expected 2 values without z, got 3");
+  EXPECT_EQ(refused("type: hex20", "type: quad8"),
+            "model.yaml:9: mesh.generate.bar.disc.type: with z it is made of tet4, tet10, wedge6, "
+            "wedge15, hex8, hex20, hex27, shell18; got quad8");
 }
 
 TEST(MeshParts, Surfaces) {
@@ -87,8 +125,12 @@ TEST(MeshParts, Surfaces) {
   EXPECT_EQ(drop.core, 2);
   EXPECT_EQ(drop.layers, 3);
   EXPECT_EQ(drop.layer_bias, 0.5);
-  EXPECT_EQ(drop.octant, (std::array{1, 1, -1}));
+  EXPECT_EQ(drop.sides, (std::array{1, 1, -1}));
   EXPECT_EQ(drop.type, CellType::hex27);
+  // `sides` by its former name.
+  const Description before =
+      parse_model(edited(test_file("parts.yaml"), "sides:", "octant:"), "model.yaml");
+  EXPECT_EQ(part<mesh::BallSpec>(before, 6).sides, (std::array{1, 1, -1}));
 }
 
 TEST(MeshParts, AreGenerated) {
@@ -120,20 +162,20 @@ TEST(MeshParts, RefusedBoxes) {
       {"z: [0, 0.5]", "z: [0, 0]",
        "model.yaml:9: mesh.generate.beam.box.z[1]: breakpoints must increase, got 0 after 0"},
       {"elements: [6, [2], 1]", "elements: [6, [2]]",
-       "model.yaml:10: mesh.generate.beam.box.elements: expected 3 values for a box with z, got 2"},
+       "model.yaml:10: mesh.generate.beam.box.elements: expected 3 values with z, got 2"},
       {"bias: [2, 1, [1]]", "bias: [2, 1]",
-       "model.yaml:11: mesh.generate.beam.box.bias: expected 3 values for a box with z, got 2"},
+       "model.yaml:11: mesh.generate.beam.box.bias: expected 3 values with z, got 2"},
       {"z: [0, 1], elements: [1, 1, 1]", "elements: [1, 1, 1]",
-       "model.yaml:16: mesh.generate.block.box.elements: expected 2 values for a box without z, "
+       "model.yaml:16: mesh.generate.block.box.elements: expected 2 values without z, "
        "got 3"},
       {"elements: [1, 1, 1]}", "elements: [300, 300, 300]}",
        "model.yaml:16: mesh.generate.block.box.elements: 27000000 elements are too many; at most "
        "10000000"},
       {"type: shell18", "type: quad9",
-       "model.yaml:12: mesh.generate.beam.box.type: a box with z is made of tet4, tet10, wedge6, "
+       "model.yaml:12: mesh.generate.beam.box.type: with z it is made of tet4, tet10, wedge6, "
        "wedge15, hex8, hex20, hex27, shell18; got quad9"},
       {"z: [0, 1], elements: [1, 1, 1]", "elements: [1, 1], type: hex8",
-       "model.yaml:16: mesh.generate.block.box.type: a box without z is made of tri3, tri6, quad4, "
+       "model.yaml:16: mesh.generate.block.box.type: without z it is made of tri3, tri6, quad4, "
        "quad8, quad9; got hex8"},
       {"elements: [1, 1, 1]}", "elements: [1, 1, 1], crown: {side: top, radius: 9}}",
        "model.yaml:16: mesh.generate.block.box.crown: is for boxes without z"},
@@ -169,8 +211,8 @@ TEST(MeshParts, RefusedSurfacesAndBalls) {
       {"elements: 4, type: tri3", "elements: 4, type: hex8",
        "model.yaml:29: mesh.generate.globe.sphere.type: unknown value 'hex8'; known: "
        "tri3, tri6, quad4, quad8, quad9"},
-      {"octant: [1, 1, -1]", "octant: [1, 0, -1]",
-       "model.yaml:30: mesh.generate.drop.ball.octant[1]: must be 1 or -1, got 0"},
+      {"sides: [1, 1, -1]", "sides: [1, 2, -1]",
+       "model.yaml:30: mesh.generate.drop.ball.sides[1]: must be >= -1 and <= 1, got 2"},
       {"type: hex27", "type: tet4",
        "model.yaml:30: mesh.generate.drop.ball.type: unknown value 'tet4'; known: hex8, "
        "hex20, hex27"},

@@ -7,6 +7,7 @@
 
 #include "deck_test.hpp"
 #include "osculate/deck/model_spec.hpp"
+#include "osculate/deck/parse_surface.hpp"
 #include "osculate/deck/schema.hpp"
 #include "osculate/deck/source_tree.hpp"
 
@@ -147,9 +148,36 @@ TEST(Schema, MentionsEveryKeyWithADescription) {
 
 TEST(Schema, AcceptsTheGoodModels) {
   const Json schema = model_schema_json();
-  for (const char* const file : {"block.yaml", "full.yaml", "parts.yaml", "solid.yaml", "all.yaml",
-                                 "channel.yaml", "laws.yaml"})
+  for (const char* const file :
+       {"block.yaml", "full.yaml", "parts.yaml", "round.yaml", "files.yaml", "solid.yaml",
+        "all.yaml", "channel.yaml", "laws.yaml"})
     EXPECT_EQ(violation(schema, to_json(read_yaml(test_file(file), file))), "") << file;
+}
+
+TEST(Schema, AcceptsWhatFollowsFromParameters) {
+  const Json schema = model_schema_json();
+  const std::vector<std::pair<std::string, std::string>> edits{
+      {"mu: 0.3", "mu: =2*a"},
+      {"mu: 0.3", "mu: \"${a}\""},
+      {"increments: 80", "increments: =8*n"},
+      {"sampling: nodes", "sampling: {gauss: =n}"},
+      {"weight: reference_area", "weight: =kind"},
+      {"{set: base_line}", "{set: \"${side}_line\", flip: =turned}"},
+      {"center: [0, 9]", "center: [0, =a]"},
+  };
+  const std::string block = test_file("block.yaml") +
+                            "parameters: {a: 0.5, n: 10, kind: reference_area, turned: true, "
+                            "side: base}\n";
+  for (const auto& [from, to] : edits) {
+    const std::string text = edited(block, from, to);
+    EXPECT_EQ(refusal(text), "") << to;
+    EXPECT_EQ(violation(schema, to_json(read_yaml(text, "m"))), "") << to;
+  }
+}
+
+// A surface file has no parameters.
+TEST(Schema, OfSurfacesAcceptsNumbersOnly) {
+  EXPECT_EQ(surface_schema().find("\\$"), std::string::npos);
 }
 
 TEST(Schema, RefusesWhatTheParserRefuses) {
@@ -190,7 +218,7 @@ TEST(Schema, DefaultsAndExamplesAreJsonValues) {
   EXPECT_EQ(solver["properties"]["max_iterations"]["default"], 25);
   EXPECT_EQ(solver["properties"]["line_search"]["default"], "auto");
   EXPECT_EQ(solver["properties"]["tolerance"]["properties"]["energy"]["default"], 1e-12);
-  EXPECT_EQ(solver["properties"]["line_search"]["enum"], Json::array({"auto", "off"}));
+  EXPECT_EQ(solver["properties"]["line_search"]["anyOf"][0]["enum"], Json::array({"auto", "off"}));
 }
 
 }  // namespace

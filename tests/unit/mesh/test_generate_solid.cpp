@@ -2,24 +2,26 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
-#include "osculate/cell/volume_shape.hpp"
+#include "measure.hpp"
 #include "osculate/mesh/check.hpp"
-#include "osculate/mesh/generate_space.hpp"
 #include "osculate/mesh/surface.hpp"
 
 namespace osculate::mesh {
 namespace {
 
 using cell::CellType;
+using testing::area_of_set;
+using testing::area_vector;
+using testing::at;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
+using testing::volume_of;
+using testing::volume_of_set;
 
 constexpr std::array volume_types{CellType::tet4,    CellType::tet10,  CellType::wedge6,
                                   CellType::wedge15, CellType::hex8,   CellType::hex20,
@@ -39,63 +41,6 @@ Mesh make(const SolidBoxSpec& spec) {
   Mesh mesh;
   append_solid_box(mesh, spec);
   return mesh;
-}
-
-const Vec3& at(const Mesh& mesh, Index node) { return mesh.nodes[static_cast<std::size_t>(node)]; }
-
-/// Area vector of a facet: half the sum of the cross products of its corners (exact for plane
-/// corners).
-Vec3 area_vector(const Mesh& mesh, std::span<const Index> corners) {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < corners.size(); ++k)
-    sum += 0.5 * at(mesh, corners[k]).cross(at(mesh, corners[(k + 1) % corners.size()]));
-  return sum;
-}
-
-Vec3 area_of_set(const Mesh& mesh, const std::string& name) {
-  Vec3 sum = Vec3::Zero();
-  for (const CellRef ref : mesh.find_set(name)->cells) {
-    const Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
-    sum += area_vector(
-        mesh, {block.cell(ref.cell), static_cast<std::size_t>(cell::info(block.type).corners)});
-  }
-  return sum;
-}
-
-/// Volume of a cell by integrating its Jacobian with 3 x 3 x 3 Gauss points mapped to its shape
-/// from the cube (collapsed for tetrahedra and wedges): exact up to degree four.
-double volume_of(const Mesh& mesh, CellRef ref) {
-  const Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
-  const cell::CellInfo& info = cell::info(block.type);
-  const double g = std::sqrt(0.6);
-  constexpr std::array<double, 3> weight{5.0 / 18, 8.0 / 18, 5.0 / 18};
-  const std::array<double, 3> place{0.5 * (1 - g), 0.5, 0.5 * (1 + g)};
-  double volume = 0;
-  for (std::size_t i = 0; i < 27; ++i) {
-    const double a = place[i % 3], b = place[i / 3 % 3], c = place[i / 9];
-    const double w = weight[i % 3] * weight[i / 3 % 3] * weight[i / 9];
-    Vec3 xi(2 * a - 1, 2 * b - 1, 2 * c - 1);
-    double scale = 8;
-    if (info.corners == 6) {
-      xi = {a, b * (1 - a), 2 * c - 1};
-      scale = 2 * (1 - a);
-    } else if (info.corners == 4) {
-      xi = {a, b * (1 - a), c * (1 - a) * (1 - b)};
-      scale = (1 - a) * (1 - a) * (1 - b);
-    }
-    const cell::VolumeShape shape = cell::volume_shape(block.type, xi);
-    Mat<3, 3> jacobian = Mat<3, 3>::Zero();
-    for (int k = 0; k < shape.count; ++k)
-      jacobian += at(mesh, block.cell(ref.cell)[k]) * shape.d.row(k);
-    volume += w * scale * jacobian.determinant();
-  }
-  return volume;
-}
-
-double volume_of_set(const Mesh& mesh, const std::string& name) {
-  double total = 0;
-  for (const CellRef ref : mesh.find_set(name)->cells) total += volume_of(mesh, ref);
-  return total;
 }
 
 class SolidBox : public ::testing::TestWithParam<CellType> {};
@@ -313,99 +258,6 @@ TEST(SolidBoxes, BadInputIsRefusedAndTheMeshUnchanged) {
   expect_refusal([](SolidBoxSpec& s) { s.axis = {0, 0, 0}; }, "must have a direction");
   expect_refusal([&](SolidBoxSpec& s) { s.angle = nan; }, "finite numbers");
   expect_refusal([](SolidBoxSpec& s) { s.elements = {{{2000, 2}, {2000}, {2000}}}; }, "e+09 nodes");
-}
-
-// ---- balls --------------------------------------------------------------------------------------
-
-Mesh ball(CellType type, int n, std::array<int, 3> octant = {1, 1, 1}) {
-  BallSpec spec;
-  spec.name = "b";
-  spec.center = {1, -2, 3};
-  spec.radius = 2;
-  spec.core = spec.layers = n;
-  spec.octant = octant;
-  spec.type = type;
-  Mesh mesh;
-  append_ball(mesh, spec);
-  return mesh;
-}
-
-class Ball : public ::testing::TestWithParam<CellType> {};
-INSTANTIATE_TEST_SUITE_P(Types, Ball,
-                         ::testing::Values(CellType::hex8, CellType::hex20, CellType::hex27),
-                         [](const auto& tested) {
-                           return std::string(cell::info(tested.param).name);
-                         });
-
-TEST_P(Ball, IsSoundInEveryOctant) {
-  for (int k = 0; k < 8; ++k) {
-    const std::array<int, 3> octant{k % 2 == 0 ? 1 : -1, k / 2 % 2 == 0 ? 1 : -1, k < 4 ? 1 : -1};
-    const Mesh mesh = ball(GetParam(), 2, octant);
-    EXPECT_THAT(check_mesh(mesh), IsEmpty());
-    EXPECT_THAT(mesh.find_set("b")->cells, SizeIs(8 + 3 * 8));
-    EXPECT_THAT(mesh.find_set("b.surface")->cells, SizeIs(3 * 4));
-    EXPECT_THAT(mesh.find_set("b.plane_y")->cells, SizeIs(4 + 2 * 4));
-    for (const Index node : mesh.find_set("b.surface")->nodes) {
-      const Vec3 arm = at(mesh, node) - Vec3(1, -2, 3);
-      EXPECT_NEAR(arm.norm(), 2, 1e-15);
-      for (int c = 0; c < 3; ++c) EXPECT_GE(arm[c] * octant[static_cast<std::size_t>(c)], 0);
-    }
-    for (const Index node : mesh.find_set("b.plane_y")->nodes) EXPECT_EQ(at(mesh, node).y(), -2);
-    EXPECT_EQ(at(mesh, mesh.find_set("b.center")->nodes[0]), Vec3(1, -2, 3));
-    EXPECT_EQ(at(mesh, mesh.find_set("b.pole_z")->nodes[0]), Vec3(1, -2, 3 + 2.0 * octant[2]));
-    const Vec3 out = area_of_set(mesh, "b.surface");
-    const Vec3 in = area_of_set(mesh, "b.plane_x") + area_of_set(mesh, "b.plane_y") +
-                    area_of_set(mesh, "b.plane_z");
-    EXPECT_LE((out + in).norm(), 1e-13);
-    for (int c = 0; c < 3; ++c) EXPECT_GT(out[c] * octant[static_cast<std::size_t>(c)], 0);
-    EXPECT_THAT(surface_facets(mesh, *mesh.find_set("b")).warnings, IsEmpty());
-  }
-}
-
-TEST_P(Ball, VolumeConvergesWithTheOrderOfTheCells) {
-  const double exact = std::numbers::pi / 6 * 8;
-  const double coarse = std::abs(volume_of_set(ball(GetParam(), 4), "b") - exact);
-  const double fine = std::abs(volume_of_set(ball(GetParam(), 8), "b") - exact);
-  EXPECT_NEAR(std::log2(coarse / fine), cell::info(GetParam()).order == 1 ? 2 : 4, 0.1);
-}
-
-TEST(Balls, BiasRefinesTowardsTheSurface) {
-  BallSpec spec;
-  spec.name = "b";
-  spec.layers = 4;
-  spec.layer_bias = 0.125;
-  Mesh mesh;
-  append_ball(mesh, spec);
-  std::vector<double> z;
-  for (const Vec3& x : mesh.nodes)
-    if (x.x() == 0 && x.y() == 0 && x.z() > 0.49) z.push_back(x.z());
-  ASSERT_THAT(z, SizeIs(5));
-  EXPECT_NEAR((z[4] - z[3]) / (z[1] - z[0]), 0.125, 1e-13);
-  EXPECT_EQ(z[4], 1);
-}
-
-TEST(Balls, BadInputIsRefused) {
-  const auto refused = [](const std::function<void(BallSpec&)>& spoil, const char* message) {
-    BallSpec spec;
-    spec.name = "b";
-    spoil(spec);
-    Mesh mesh;
-    try {
-      append_ball(mesh, spec, {"model.yaml", 7, "mesh.generate"});
-      ADD_FAILURE() << "accepted; expected: " << message;
-    } catch (const core::InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(message));
-      EXPECT_THAT(error.what(), HasSubstr("model.yaml:7: mesh.generate: ball 'b': "));
-    }
-    EXPECT_THAT(mesh.nodes, IsEmpty());
-  };
-  refused([](BallSpec& s) { s.type = CellType::tet4; }, "cannot be made of tet4 cells");
-  refused([](BallSpec& s) { s.radius = 0; }, "positive number, not 0");
-  refused([](BallSpec& s) { s.center.x() = std::nan(""); }, "the center must be finite");
-  refused([](BallSpec& s) { s.octant = {1, 0, 1}; }, "not 0");
-  refused([](BallSpec& s) { s.core = 0; }, "0 elements in the core");
-  refused([](BallSpec& s) { s.layer_bias = -1; }, "bias -1 in the layers");
-  refused([](BallSpec& s) { s.core = 2000; }, "nodes; at most");
 }
 
 }  // namespace
