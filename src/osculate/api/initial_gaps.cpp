@@ -45,13 +45,16 @@ std::string deep_overlap(const model::BasicModel<Dim>& model,
   const double share = -(facts.smallest - definition.offset) / pair.height;
   if (facts.overlapping == 0 || !(share > deep)) return {};
   const Index node = definition.slave.points[facts.deepest].nearest_node();
+  const bool all = facts.overlapping == facts.found;
   return fmt::format(
       "contact '{}': the slave begins {:.4g} deep in the master, {:.2g} times the height of the "
-      "cells, at {}, and is pushed out in the first increment: if the overlap is meant, let it in "
-      "over the first step (initial: ramp) or measure gaps from it (keep); else move the nodes "
-      "onto "
-      "the master (adjust), or the body",
-      pair.name, share * pair.height, share, mesh::describe_node(model.mesh, node));
+      "cells, at {}, and is pushed out in the first increment: {}if the overlap is meant, let it "
+      "in over the first step (initial: ramp) or measure gaps from it (keep); else move the nodes "
+      "onto the master (adjust), or the body",
+      pair.name, share * pair.height, share, mesh::describe_node(model.mesh, node),
+      all ? "all of its points are behind the master; if that should face them, turn it round "
+            "(`flip`, `inside`, the order of points); "
+          : "");
 }
 
 template GapFacts gap_facts<2>(const pairing::PairState<2>&, double);

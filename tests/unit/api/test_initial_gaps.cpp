@@ -30,6 +30,7 @@ TEST(InitialGaps, AnOverlapOfEightCellsIsToldOf) {
   EXPECT_THAT(found[0],
               HasSubstr("contact 'c': the slave begins 0.8 deep in the master, 8 times the "
                         "height of the cells, at node"));
+  EXPECT_THAT(found[0], HasSubstr("all of its points are behind the master; if that should face"));
 }
 
 TEST(InitialGaps, SmallOverlapsAndThoseThatAreMeantAreNot) {
