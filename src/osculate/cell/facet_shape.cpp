@@ -112,6 +112,14 @@ void fill_monomials(CellType type, const Vec2& xi, std::size_t count, FacetShape
     }
 }
 
+/// The same bits as of the sum of monomials.
+void fill_triangle(const Vec2& xi, std::size_t count, FacetShape& s) {
+  s.n[0] = {1 - xi.x() - xi.y(), xi.x(), xi.y()};
+  if (count == 1) return;
+  s.n[1] = {-1, 1, 0};
+  s.n[2] = {-1, 0, 1};
+}
+
 }  // namespace
 
 FacetShape facet_shape(CellType type, const Vec2& xi, int order) {
@@ -120,6 +128,8 @@ FacetShape facet_shape(CellType type, const Vec2& xi, int order) {
   const std::size_t count = derivatives[static_cast<std::size_t>(order)];
   if (type == CellType::quad4 || type == CellType::quad9)
     fill_product(type == CellType::quad9, xi, count, s);
+  else if (type == CellType::tri3)
+    fill_triangle(xi, count, s);
   else
     fill_monomials(type, xi, count, s);
   return s;

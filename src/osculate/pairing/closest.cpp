@@ -283,7 +283,12 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
   const auto wanted = [&](Index branch) {
     return !query.scope || !query.scope->misses(branch, query.slave_normal);
   };
-  tree.for_each_nearest_wanted(query.point, tie_distance(chain, x), wanted, visit, reach);
+  // First where the point was: most others are farther away than that.
+  const double tie = tie_distance(chain, x);
+  double bound = reach;
+  if (query.history >= 0) bound = std::min(reach, visit(query.history) + tie);
+  const auto visit_other = [&](Index f) { return f == query.history ? far_away : visit(f); };
+  tree.for_each_nearest_wanted(query.point, tie, wanted, visit_other, bound);
   Projection<2> p;
   if (best.facet < 0) return p;
   if (query.history >= 0) {

@@ -349,8 +349,12 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
   const auto wanted = [&](Index branch) {
     return !query.scope || !query.scope->misses(branch, query.slave_normal);
   };
-  tree.for_each_nearest_wanted(query.point, 1e-10 * size_of(surface.facets.front(), x), wanted,
-                               visit, reach);
+  // First where the point was: most others are farther away than that.
+  const double tie = 1e-10 * size_of(surface.facets.front(), x);
+  double bound = reach;
+  if (query.history >= 0) bound = std::min(reach, visit(query.history) + tie);
+  const auto visit_other = [&](Index f) { return f == query.history ? far_away : visit(f); };
+  tree.for_each_nearest_wanted(query.point, tie, wanted, visit_other, bound);
   Projection<3> p;
   if (best.facet < 0) return p;
   if (query.history >= 0) {

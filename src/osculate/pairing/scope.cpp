@@ -22,6 +22,18 @@ Vec3 normal_at(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> 
   return facet_normal(facet, xi, x);
 }
 
+Vec2 point_at(const Facet& facet, double xi, std::span<const Vec2> x) {
+  return facet_jet(facet, xi, x).r;
+}
+Vec3 point_at(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
+  const cell::FacetShape shape =
+      facet.patch ? facet_shape(facet, xi) : cell::facet_shape(facet.type, xi, 0);
+  Vec3 point = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(shape.count); ++k)
+    point += shape.n[0][k] * x[static_cast<std::size_t>(facet.nodes[k])];
+  return point;
+}
+
 double middle_of(const Facet& facet) { return 0.5 * (facet.lo + facet.hi); }
 Vec2 middle_of(const SurfaceFacet& facet) {
   return cell::is_triangle(facet.type) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(Vec2::Zero());
@@ -46,17 +58,24 @@ double spread_of(const SurfaceFacet& facet, const Vec3& middle, std::span<const 
   return (facet.count > 4 || facet.patch ? 2 : 1.2) * std::acos(std::max(least, -1.0));
 }
 
+bool is_smooth(const Facet& facet) { return facet.bezier != nullptr; }
+bool is_smooth(const SurfaceFacet& facet) { return facet.patch != nullptr; }
+
 template <int Dim, class FacetType>
 FacetOutline<Dim> outline(const FacetType& facet, std::span<const Vec<Dim>> x) {
   FacetOutline<Dim> out{Vec<Dim>::Zero(), Vec<Dim>::Zero(), infinite};
   if (facet.shape) return out;
-  out.middle = facet_jet(facet, middle_of(facet), x).r;
+  out.middle = point_at(facet, middle_of(facet), x);
   out.normal = middle_normal(facet, x);
   out.bulge = 0;
+  double arms = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k) {
     const Vec<Dim> arm = x[static_cast<std::size_t>(facet.nodes[k])] - out.middle;
     out.bulge = std::max(out.bulge, std::abs(arm.dot(out.normal)));
+    arms = std::max(arms, arm.norm());
   }
+  out.overhang = (facet.count > (Dim == 2 ? 2 : 4) || is_smooth(facet) ? 1 : 0.2) * arms;
+  out.radius = arms + out.overhang;
   out.spread = spread_of(facet, out.normal, x);
   out.facing = product_within(facing_cosine, out.spread);
   out.same_way = product_within(same_way_cosine, out.spread);
@@ -128,6 +147,12 @@ constexpr double depth_in_reach = 0.25;
 /// unless the rules have taken the faces out.
 constexpr double edge_depth_in_reach = 0.03;
 
+/// Places farther than the depth are straight in front of the node: others are feet at a vertex,
+/// which has the last word on the sign, ...
+constexpr double straight = 0.9;
+/// ... or nearer to the last place than this part of the node's distance from it.
+constexpr double near_last = 0.9;
+
 /// `admits` for both dimensions.
 template <int Dim, class FacetType, class Coordinates>
 bool admitted(const NodeScope<Dim>& rules, const FacetType& facet, const Coordinates& xi,
@@ -146,11 +171,10 @@ bool admitted(const NodeScope<Dim>& rules, const FacetType& facet, const Coordin
   const bool on_face = std::abs(gap) >= along * distance;
   if (!facet.shape && !on_face && gap < 0 && distance > edge_depth_in_reach * rules.reach)
     return false;
-  constexpr double straight = 0.9;  // else a foot at a vertex, which has the last word on the sign
   if (gap >= straight * distance) return true;
   if (!facet.shape && distance > rules.depth) {
-    constexpr double near = 0.9;
-    if (!rules.last || !((foot - *rules.last).norm() < near * (rules.point - *rules.last).norm()))
+    if (!rules.last ||
+        !((foot - *rules.last).norm() < near_last * (rules.point - *rules.last).norm()))
       return false;
   }
   if (rules.reference.empty()) return true;
@@ -197,6 +221,14 @@ void refresh(const Scope<Dim>& scope, const Boundary<Dim>& master,
 }
 
 template <int Dim>
+bool NodeScope<Dim>::too_slanted(double highest, double nearest, double from_last) const {
+  constexpr double rounding = 1e-9;
+  if (behind || nearest * (1 - rounding) <= depth) return false;
+  if (highest >= straight * (1 - rounding) * nearest) return false;
+  return !last || from_last * (1 - rounding) >= near_last * (point - *last).norm();
+}
+
+template <int Dim>
 bool NodeScope<Dim>::skips(Index facet, const std::optional<Vec<Dim>>& slave_normal) const {
   if (std::find(facets.begin(), facets.end(), facet) != facets.end()) return true;
   const FacetOutline<Dim>& o = outlines[static_cast<std::size_t>(facet)];
@@ -204,9 +236,13 @@ bool NodeScope<Dim>::skips(Index facet, const std::optional<Vec<Dim>>& slave_nor
   const auto may_face = [&](const Vec<Dim>& n) { return n.dot(o.normal) <= o.facing; };
   if (!facing.empty() && std::none_of(facing.begin(), facing.end(), may_face)) return true;
   if (slave_normal && slave_normal->dot(o.normal) > o.same_way) return true;
-  const double height = (point - o.middle).dot(o.normal);
+  const Vec<Dim> arm = point - o.middle;
+  const double height = arm.dot(o.normal), distance = arm.norm();
   if (behind) return height > 2 * o.bulge;
-  return height < -(deepest() + 2 * o.bulge);
+  if (height < -(deepest() + 2 * o.bulge)) return true;
+  const double highest = height + 2 * o.bulge + o.spread * (distance + o.radius);
+  return too_slanted(highest, distance - o.radius,
+                     last ? (*last - o.middle).norm() - o.radius : 0.0);
 }
 
 template <int Dim>
@@ -217,7 +253,11 @@ bool NodeScope<Dim>::misses(Index branch, const std::optional<Vec<Dim>>& slave_n
   if (slave_normal && slave_normal->dot(b.axis) > b.same_way) return true;
   const auto may_face = [&](const Vec<Dim>& n) { return n.dot(b.axis) <= b.facing; };
   if (!facing.empty() && std::none_of(facing.begin(), facing.end(), may_face)) return true;
-  return !behind && b.highest(point) < -(deepest() + 2 * b.bulge);
+  if (behind) return false;
+  const double highest = b.highest(point);
+  if (highest < -(deepest() + 2 * b.bulge)) return true;
+  return too_slanted(highest + 2 * b.bulge + b.overhang, b.nearest(point),
+                     last ? b.nearest(*last) : 0.0);
 }
 
 bool admits(const NodeScope<2>& rules, const Facet& facet, double xi, std::span<const Vec2> x) {

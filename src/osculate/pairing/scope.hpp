@@ -117,6 +117,12 @@ struct NodeScope {
   [[nodiscard]] bool skips(Index facet, const std::optional<Vec<Dim>>& slave_normal) const;
   /// Branches of the tree with nothing but such facets.
   [[nodiscard]] bool misses(Index branch, const std::optional<Vec<Dim>>& slave_normal) const;
+
+ private:
+  /// Whether no place is straight in front of the node, nor near enough for any other: their gaps
+  /// are at most `highest`, their distances from the node and from `last` at least `nearest` and
+  /// `from_last`.
+  [[nodiscard]] bool too_slanted(double highest, double nearest, double from_last) const;
 };
 
 /// Whether the node may touch the facet at `xi`.

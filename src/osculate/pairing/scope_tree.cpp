@@ -21,6 +21,11 @@ double BranchOutline<Dim>::highest(const Vec<Dim>& point) const {
   return (most < 0 ? cosine * most : most) + sine * across;
 }
 
+template <int Dim>
+double BranchOutline<Dim>::nearest(const Vec<Dim>& point) const {
+  return ((point - middle).cwiseAbs() - half).cwiseMax(0.0).norm() - overhang;
+}
+
 namespace {
 
 template <int Dim>
@@ -33,8 +38,9 @@ Cone<Dim> cone_of(const FacetOutline<Dim>& outline) {
 }
 
 template <int Dim>
-void set_cone(const Cone<Dim>& cone, double bulge, BranchOutline<Dim>& out) {
+void set_cone(const Cone<Dim>& cone, double bulge, double overhang, BranchOutline<Dim>& out) {
   out = {};
+  out.overhang = overhang;
   if (!cone.narrow()) return;
   out.axis = cone.axis;
   out.cosine = std::cos(cone.angle);
@@ -67,10 +73,10 @@ void plant(const std::vector<FacetOutline<Dim>>& outlines,
   tree.refit(boxes);
   branches.resize(tree.node_count());
   std::vector<Cone<Dim>> cones(branches.size());
-  const auto set = [&](Index i, const Cone<Dim>& cone, double bulge) {
+  const auto set = [&](Index i, const Cone<Dim>& cone, double bulge, double overhang) {
     const auto at = static_cast<std::size_t>(i);
     cones[at] = cone;
-    set_cone(cone, bulge, branches[at]);
+    set_cone(cone, bulge, overhang, branches[at]);
     const search::Box<Dim>& box = tree.node_box(i);
     branches[at].middle = 0.5 * (box.lo + box.hi);
     branches[at].half = 0.5 * (box.hi - box.lo);
@@ -78,18 +84,20 @@ void plant(const std::vector<FacetOutline<Dim>>& outlines,
   tree.fold(
       [&](Index i, std::span<const Index> facets) {
         Cone<Dim> all = cone_of(outlines[static_cast<std::size_t>(facets.front())]);
-        double bulge = 0;
+        double bulge = 0, overhang = 0;
         for (const Index f : facets) {
           const FacetOutline<Dim>& o = outlines[static_cast<std::size_t>(f)];
           all = projection::join<Dim>(all, cone_of(o));
           bulge = std::max(bulge, o.bulge);
+          overhang = std::max(overhang, o.overhang);
         }
-        set(i, all, bulge);
+        set(i, all, bulge, overhang);
       },
       [&](Index i, Index left, Index right) {
         const auto a = static_cast<std::size_t>(left), b = static_cast<std::size_t>(right);
         set(i, projection::join<Dim>(cones[a], cones[b]),
-            std::max(branches[a].bulge, branches[b].bulge));
+            std::max(branches[a].bulge, branches[b].bulge),
+            std::max(branches[a].overhang, branches[b].overhang));
       });
 }
 

@@ -13,6 +13,8 @@ struct FacetOutline {
   Vec<Dim> middle, normal;
   double bulge = 0;   ///< of its nodes over the plane through the middle; infinite: analytic shape
   double spread = 0;  ///< its normals are within this angle of the one in the middle
+  double radius = 0;  ///< feet are within this of the middle
+  double overhang = 0;              ///< and within this of the box
   double facing = 2, same_way = 2;  ///< as of a branch
 };
 
@@ -31,12 +33,15 @@ struct BranchOutline {
   Vec<Dim> axis = Vec<Dim>::Zero();
   double cosine = 0, sine = 1;                             ///< of the cone's angle
   double bulge = std::numeric_limits<double>::infinity();  ///< the largest
+  double overhang = 0;                                     ///< the largest
   /// A unit vector whose product with the axis is larger has all normals within 120 degrees of
   /// itself (`facing`), within 60 degrees (`same_way`).
   double facing = 2, same_way = 2;
 
   /// Upper bound of (point - middle) . normal of the facets in it.
   [[nodiscard]] double highest(const Vec<Dim>& point) const;
+  /// Lower bound of the distance from their feet.
+  [[nodiscard]] double nearest(const Vec<Dim>& point) const;
 };
 
 /// The product with the axis of a cone of this angle beyond which a unit vector has all its

@@ -129,15 +129,22 @@ geometry::SurfaceJet facet_jet(const SurfaceFacet& facet, const cell::FacetShape
 }
 
 Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
+  const auto node = [&](std::size_t k) -> const Vec3& {
+    return x[static_cast<std::size_t>(facet.nodes[k])];
+  };
   // First derivatives are enough where they come alone.
   const bool plain = !facet.shape && !facet.patch && facet.difference[0] == 0;
-  const cell::FacetShape shape =
-      plain ? cell::facet_shape(facet.type, xi, 1) : facet_shape(facet, xi);
   Vec3 r1 = Vec3::Zero(), r2 = Vec3::Zero();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(shape.count); ++k) {
-    const Vec3& node = x[static_cast<std::size_t>(facet.nodes[k])];
-    r1 += shape.n[1][k] * node;
-    r2 += shape.n[2][k] * node;
+  if (plain && facet.type == cell::CellType::tri3) {
+    r1 = node(1) - node(0);
+    r2 = node(2) - node(0);
+  } else {
+    const cell::FacetShape shape =
+        plain ? cell::facet_shape(facet.type, xi, 1) : facet_shape(facet, xi);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(shape.count); ++k) {
+      r1 += shape.n[1][k] * node(k);
+      r2 += shape.n[2][k] * node(k);
+    }
   }
   const Vec3 normal = r1.cross(r2);
   const double size = normal.norm();
