@@ -32,6 +32,20 @@ void place(Mesh& mesh, const Placement& placement) {
   for (Vec3& x : mesh.nodes) x += placement.move;
 }
 
+namespace {
+
+/// Numbers of a file stay what they are; places count where there are none.
+void append_numbers(const std::vector<std::int64_t>& added, std::size_t before, std::size_t count,
+                    std::vector<std::int64_t>& numbers) {
+  if (added.empty() && numbers.empty()) return;
+  for (std::size_t i = numbers.size(); i < before; ++i)
+    numbers.push_back(static_cast<std::int64_t>(i) + 1);
+  for (std::size_t i = 0; i < count; ++i)
+    numbers.push_back(added.empty() ? static_cast<std::int64_t>(before + i) + 1 : added[i]);
+}
+
+}  // namespace
+
 void append_mesh(Mesh& mesh, const Mesh& part, const std::string& name,
                  const core::SourceMark& mark) {
   const Context context{mark, fmt::format("mesh '{}'", name)};
@@ -40,12 +54,15 @@ void append_mesh(Mesh& mesh, const Mesh& part, const std::string& name,
   check_names(mesh, context, name, std::vector<std::string_view>(names.begin(), names.end()));
   check_size(context, mesh, static_cast<double>(part.nodes.size()));
   const auto first = static_cast<Index>(mesh.nodes.size());
+  append_numbers(part.numbers, mesh.nodes.size(), part.nodes.size(), mesh.numbers);
   mesh.nodes.insert(mesh.nodes.end(), part.nodes.begin(), part.nodes.end());
   std::vector<CellRef> begin;  // of each block of the part
   for (const Block& block : part.blocks) {
     const Index at = block_index(mesh, block.type);
     Block& target = mesh.blocks[static_cast<std::size_t>(at)];
     begin.push_back({at, target.size()});
+    append_numbers(block.numbers, static_cast<std::size_t>(target.size()),
+                   static_cast<std::size_t>(block.size()), target.numbers);
     for (const Index node : block.connectivity) target.connectivity.push_back(first + node);
   }
   const auto add = [&](Set set, std::string full_name) {

@@ -137,6 +137,16 @@ void augment(S& system, const typename S::State& committed, double time,
            " corrections of the multipliers");
 }
 
+/// A solution that the system refuses has failed.
+template <System S>
+void refuse(const S& system, const typename S::State& committed,
+            NewtonResult<typename S::State>& attempt) {
+  if constexpr (Refuses<S>)
+    if (attempt.outcome == Outcome::converged)
+      if (std::string reason = system.refused(committed, attempt.state); !reason.empty())
+        fail(attempt, Outcome::not_converged, std::move(reason));
+}
+
 /// Newton's method with the corrections of `augment`.
 template <System S>
 [[nodiscard]] NewtonResult<typename S::State> solve_increment(
@@ -148,10 +158,7 @@ template <System S>
   NewtonResult<typename S::State> attempt = newton(system, committed, time, first, solver, guess);
   if constexpr (Augments<S>)
     augment(system, committed, time, options, solver, attempt, guess.resisted);
-  if constexpr (Refuses<S>)
-    if (attempt.outcome == Outcome::converged)
-      if (std::string reason = system.refused(committed, attempt.state); !reason.empty())
-        fail(attempt, Outcome::not_converged, std::move(reason));
+  refuse(system, committed, attempt);
   return attempt;
 }
 
@@ -438,6 +445,7 @@ bool path_increment(StepRun<S>& run) {
   const bool ends = found() && point.fraction >= path.until;
   const int iterations = static_cast<int>(point.result.iterations.size());
   if (ends) end_path(run, point);
+  refuse(run.system, run.result.state, point.result);
   if (point.result.outcome == Outcome::stopped) return run.stop(point.result);
   if (!found()) {
     run.drop(point.result, point.fraction);

@@ -36,7 +36,7 @@ TEST(PassedThrough, ASearchThatIsLessDeepThanTheIncrementIsLong) {
 }
 
 TEST(PassedThrough, NoIncrementIsShortEnoughWithoutCuts) {
-  const std::string text = blocks("search: {depth: 0.05}", 1, -0.3) + "solver: {cutbacks: 0}\n";
+  const std::string text = blocks("search: {depth: 0.02}", 1, -0.5) + "solver: {cutbacks: 0}\n";
   (void)warnings_of(text, RunStatus::stopped);
 }
 

@@ -106,7 +106,7 @@ TEST_F(MeshFiles, AFileInSpaceInAPlaneModel) {
                 "model is plane: no section has the element solid or solid_shell"));
   // It may be moved out of the plane too.
   EXPECT_THAT(refused(files_model("{low: box.msh, high: {file: box.msh, move: [0, 2, 1]}}")),
-              HasSubstr("mesh.files.high.file: node 1 has z = 1; plane problems need z = 0"));
+              HasSubstr("mesh.files.high.file: node 10 has z = 1; plane problems need z = 0"));
 }
 
 }  // namespace

@@ -54,6 +54,25 @@ TEST(Join, SetsHaveTheNameOfTheirMeshBeforeTheirs) {
   }
 }
 
+TEST(Join, NumbersOfFilesAreKept) {
+  Mesh mesh = part(cell::CellType::quad4), file = part(cell::CellType::quad4);
+  const std::size_t n = mesh.nodes.size();
+  append_mesh(mesh, file, "plain");
+  EXPECT_EQ(node_number(mesh, static_cast<Index>(n)), static_cast<std::int64_t>(n) + 1);
+  for (std::size_t i = 0; i < n; ++i) file.numbers.push_back(100 + static_cast<std::int64_t>(i));
+  for (Block& block : file.blocks)
+    for (Index c = 0; c < block.size(); ++c) block.numbers.push_back(200 + c);
+  append_mesh(mesh, file, "file");
+  EXPECT_EQ(mesh.numbers.size(), mesh.nodes.size());
+  EXPECT_EQ(node_number(mesh, 1), 2);
+  EXPECT_EQ(node_number(mesh, static_cast<Index>(2 * n) + 1), 101);
+  append_mesh(mesh, part(cell::CellType::quad4), "last");
+  EXPECT_EQ(mesh.numbers.size(), mesh.nodes.size());
+  EXPECT_EQ(node_number(mesh, static_cast<Index>(3 * n)), static_cast<std::int64_t>(3 * n) + 1);
+  EXPECT_EQ(cell_number(mesh, mesh.find_set("file.box")->cells[1]), 201);
+  EXPECT_EQ(cell_number(mesh, mesh.find_set("last.box")->cells[0]), 7);
+}
+
 TEST(Join, IsScaledThenTurnedThenMoved) {
   Mesh mesh = part(cell::CellType::quad4);
   place(mesh, {3, 90, {1, 0, 0}, {0, 0, 2}, {10, 20, 30}});
