@@ -62,7 +62,9 @@ mesh:
     low: {box: {x: [0, 4], y: [0, 1], elements: [12, 3]}}
     up: {box: {x: [1, 3], y: [1, 2], elements: [5, 3]}}
 materials: {s: {linear_elastic: {E: 100, nu: 0.3}}}
-sections: [{on: low, material: s, element: plane_strain}, {on: up, material: s, element: plane_strain}]
+sections:
+  - {on: low, material: s, element: plane_strain, formulation: full}
+  - {on: up, material: s, element: plane_strain, formulation: full}
 contact: [{name: c, master: low.top, slave: up.bottom, normal: {penalty: 1.0e7},
   friction: {coulomb: {mu: 0.6, penalty: 1.0e7}}}]
 steps:
@@ -138,8 +140,9 @@ class Diagnosis(unittest.TestCase):
         self.assertIn(b'"free_motion_3"', self.fields)
 
     def test_an_inverted_element(self):
-        found = self.failure(model("{name: crush, increments: 1, prescribe: [{on: block.top, ux: 0, uy: -2.5}]}",
-                                   material="neo_hooke", solver="cutbacks: 0"))
+        crush = model("{name: crush, increments: 1, prescribe: [{on: block.top, ux: 0, uy: -2.5}]}",
+                      material="neo_hooke", solver="cutbacks: 0")
+        found = self.failure(crush.replace("block.bottom", "[block.bottom, block.left, block.right]"))
         self.assertEqual(found["cause"], "inverted element", self.message)
         self.assertIn("turned inside out", found["reason"])
         self.assertIn("more increments (`increments: 4`)", found["proposal"])
