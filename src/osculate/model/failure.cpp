@@ -219,6 +219,7 @@ std::string against_instability(const Step& step) {
 template <int Dim>
 void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const Step& step,
            const solve::NewtonResult<BasicState<Dim>>& attempt, BasicFailure<Dim>& f) {
+  const bool inverted = !attempt.evaluation.ok && !attempt.evaluation.apart;
   if (!f.held.empty()) {
     f.cause = FailureCause::over_constrained;
     f.proposal = fmt::format(
@@ -226,10 +227,10 @@ void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const S
         "traction closes it; or use a penalty",
         f.held.front().pair, f.held.front().count,
         f.held.front().node < 0 ? "edges" : mesh::describe_node(model.mesh, f.held.front().node));
-  } else if (f.motions.empty() && !f.beyond.empty()) {
+  } else if (f.motions.empty() && !f.beyond.empty() && !(inverted && f.smallest > small_cut)) {
     f.cause = FailureCause::beyond_slave;
     f.proposal = beyond_slave_cure(f.beyond.front());
-  } else if (!attempt.evaluation.ok && !attempt.evaluation.apart) {
+  } else if (inverted) {
     f.cause = FailureCause::inverted_element;
     f.proposal = more_increments(step, f) +
                  "make the mesh finer or more regular there, or round the corner that it meets";
