@@ -16,7 +16,7 @@ namespace {
 /// lets no NaN and no infinity through; finite coordinates that are too large are check_mesh's.
 void use(const osculate::mesh::Mesh& mesh) {
   namespace m = osculate::mesh;
-  for (const m::Vec3& x : mesh.nodes)
+  for (const osculate::Vec3& x : mesh.nodes)
     if (!x.allFinite()) std::abort();
   for (const m::Finding& finding : m::check_mesh(mesh)) {
     if (finding.flaw == m::Flaw::bad_index) std::abort();
