@@ -91,10 +91,22 @@ void BasicSystem<Dim>::resume_step(const Step& step, const State& committed,
 
 template <int Dim>
 void BasicSystem<Dim>::predict(const State& committed, double fraction, solve::Evaluation& out,
-                               bool sticking) {
-  impl_->sticking = sticking;
+                               Prediction friction) {
+  impl_->friction = friction;
   impl_->recent.clear();
   impl_->assemble(committed, committed, fraction, true, true, out);
+}
+
+template <int Dim>
+bool BasicSystem<Dim>::touches_without_shear(const State& state) const {
+  const auto idle = [](const contact::PointHistory<Dim>& h) {
+    return h.active && h.traction.isZero(0);
+  };
+  for (std::size_t p = 0; p < state.pairs.size(); ++p)
+    if (impl_->model.pairs[p].definition.friction &&
+        std::ranges::any_of(state.pairs[p].points, idle))
+      return true;
+  return false;
 }
 
 template <int Dim>

@@ -83,10 +83,11 @@ class BasicSystem {
   /// Begins `step` as it was begun when the memory was taken, in the middle of it.
   void resume_step(const Step& step, const State& committed, const SystemMemory& memory);
 
-  /// Residual and tangent of the first iteration. Points that slid go on sliding; with `sticking`
-  /// they stick, which is what can be solved where sliding points alone do not hold a body.
+  /// Residual and tangent of the first iteration.
   void predict(const State& committed, double fraction, solve::Evaluation& out,
-               bool sticking = false);
+               Prediction friction = Prediction::as_before);
+  /// Points of pairs with friction touch that carry no shear.
+  [[nodiscard]] bool touches_without_shear(const State& state) const;
   void evaluate(const State& committed, const State& trial, double fraction, bool with_tangent,
                 solve::Evaluation& out);
   [[nodiscard]] State apply(const State& state, const Eigen::VectorXd& du, double fraction,

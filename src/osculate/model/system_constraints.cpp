@@ -131,7 +131,7 @@ void BasicSystem<Dim>::Impl::add_constraints(std::size_t pair, bool with_tangent
     const pairing::ContactBlock<Dim>& block = contact[pair].blocks[i];
     const Index row = first - dofs.unknowns();
     constraint[row] += block.constraint.normal;
-    branch_constraint[row] += block.constraint.normal;
+    branch_constraint[row] += block.constraint.branch_normal;
     if (shear) {
       constraint.segment<Dim>(row + 1) += block.constraint.shear;
       branch_constraint.segment<Dim>(row + 1) += block.constraint.branch_shear;

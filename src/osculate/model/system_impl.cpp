@@ -299,7 +299,7 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     const Stopwatch watch;
     pairing::Assumed<Dim> assumed =
-        inc ? pairing::committed_branches<Dim>(pair, committed.pairs[p], x, sticking)
+        inc ? pairing::committed_branches<Dim>(pair, committed.pairs[p], x, friction)
         : p < trial.assumed.size() ? trial.assumed[p]
                                    : pairing::Assumed<Dim>{};
     assumed.duration = duration;

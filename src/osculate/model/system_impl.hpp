@@ -57,8 +57,8 @@ struct BasicSystem<Dim>::Impl {
   std::vector<BulkBlock> blocks;
   std::vector<pairing::PairEvaluation<Dim>> contact;
   Forces forces;
-  Eigen::VectorXd predicted;     ///< K du_prescribed on primary dofs
-  bool sticking = false;         ///< points that slid are predicted to stick
+  Eigen::VectorXd predicted;  ///< K du_prescribed on primary dofs
+  Prediction friction = Prediction::as_before;
   Eigen::VectorXd branch_shift;  ///< force of the linearised branches minus the true force
   bool branched = false;
   double resisted = 0;  ///< share of `resistance` on the diagonal

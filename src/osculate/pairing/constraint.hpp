@@ -22,6 +22,7 @@ struct ConstraintBlock {
   bool on = false;
   double normal = 0;
   Vec<Dim> shear = Vec<Dim>::Zero();
+  double branch_normal = 0;                  ///< of the linearised branch
   Vec<Dim> branch_shear = Vec<Dim>::Zero();  ///< of the linearised branch
   std::vector<NodeGradient<Dim>> normal_row;
   std::vector<NodeMatrix<Dim>> shear_row;
@@ -36,7 +37,7 @@ template <int Dim>
 void set_open(double area, double normal_penalty, double shear_penalty, double lambda,
               const Vec<Dim>& shear, ConstraintBlock<Dim>& block) {
   block.on = true;
-  block.normal = -area * lambda;
+  block.normal = block.branch_normal = -area * lambda;
   block.shear = block.branch_shear = -area * shear;
   block.normal_row.clear();
   block.shear_row.clear();

@@ -138,6 +138,8 @@ template <int Dim>
   if (hint.assumed.branch != contact::Branch::slip) return response;
   const Vec<Dim - 1> before = frame.transpose() * hint.assumed.direction;
   const double size = before.norm();
+  if (!(size > 0) && hint.predict)  // slides whichever way it likes
+    return contact::slip_response<Dim>(Vec<Dim - 1>::Zero(), 0, {});
   if (!(size > 0)) return response;
   if (hint.predict) {
     const contact::SlipLimit limit = contact::predicted_limit(law, trial.norm(), normal, sliding);
@@ -145,6 +147,32 @@ template <int Dim>
   }
   const bool reversed = response.status == contact::Status::slip && before.dot(trial) < 0;
   return reversed ? contact::stick_response<Dim>(trial) : response;
+}
+
+/// Whether an open point is linearised as if it were in contact, and how. Where a body slides along
+/// a curved master, the correction leaves the tangent plane: the gap opens by the square of the
+/// way, while the gap above the tangent plane at the last place, which the correction was to close,
+/// is closed. To open all these points would leave nothing of the contact it was made with.
+template <int Dim>
+[[nodiscard]] std::optional<KeptContact> keeps_contact(
+    const PairDefinition<Dim>& pair, Points<Dim> x, const contact::PointHistory<Dim>& history,
+    const Placed<Dim>& placed, const BranchHint<Dim>& hint, const Vec<Dim>& point) {
+  constexpr int most = 4;
+  const Projection<Dim>& p = placed.projection;
+  const AssumedBranch<Dim>& before = hint.assumed;
+  if (!before.closed || before.kept_on >= most || hint.predict || pair.damping) return {};
+  if (p.feature != projection::Feature::face || p.beyond_end || p.facet != before.facet ||
+      !contact::inside_domain(placed.kinematics) ||
+      normal_response(pair, history, placed.kinematics.gap, hint).active)
+    return {};
+  Projection<Dim> last;
+  last.feature = projection::Feature::face;
+  last.facet = before.facet;
+  last.xi = before.xi;
+  const double linearised = place(pair.master, last, point, x).kinematics.gap;
+  const contact::NormalResponse response = normal_response(pair, history, linearised, hint);
+  if (!response.active) return {};
+  return KeptContact{response, placed.kinematics.gap - linearised};
 }
 
 template <int Dim>

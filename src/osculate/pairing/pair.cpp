@@ -125,6 +125,7 @@ void evaluate_placed(const PairDefinition<Dim>& pair, Points<Dim> x,
         evaluate_in_valley(pair, x, history, *valley, hint, with_tangent, i, out);
         return;
       }
+  hint.kept = keeps_contact(pair, x, history, placed, hint, position<Dim>(pair.slave.points[i], x));
   evaluate_point(pair, x, history, placed, hint, with_tangent, i, out);
 }
 
@@ -174,7 +175,7 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
 
 template <int Dim>
 Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair, const PairState<Dim>& committed,
-                                Points<Dim> x, bool sticking) {
+                                Points<Dim> x, Prediction friction) {
   Assumed<Dim> assumed;
   assumed.predict = true;
   for (std::size_t i = 0; i < committed.points.size(); ++i) {
@@ -182,7 +183,9 @@ Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair, const PairState
     AssumedBranch<Dim> branch;
     if (h.active) branch.branch = Branch::stick;
     const double size = h.traction.norm();
-    if (h.active && h.slipping && size > 0 && !sticking)
+    if (h.active && size == 0 && friction == Prediction::sliding)
+      branch = {Branch::slip, Vec<Dim>::Zero()};
+    if (h.active && h.slipping && size > 0 && friction != Prediction::sticking)
       branch = {Branch::slip, frame_of_history(pair, i, h, x) * (h.traction / size)};
     if (h.edge >= 0) branch.edges = {h.edge, h.facet};
     if constexpr (Dim == 2)
@@ -202,7 +205,10 @@ Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation, const Ass
     const PointResult<Dim>& point = evaluation.points[i];
     AssumedBranch<Dim>& branch = assumed.branch.emplace_back(point.branch);
     const bool touches = point.status != contact::Status::open;
-    branch.facet = touches && branch.edges[0] < 0 ? point.history.facet : -1;
+    branch.facet = (touches || branch.closed) && branch.edges[0] < 0 ? point.history.facet : -1;
+    branch.closed =
+        branch.closed || (touches && branch.facet >= 0 && point.history.feature == Feature::face);
+    branch.xi = point.history.xi;
     if (before.predict || i >= before.branch.size()) continue;
     const AssumedBranch<Dim>& last = before.branch[i];
     const bool changed = branch.facet >= 0 && last.facet >= 0 && branch.facet != last.facet;
@@ -313,9 +319,9 @@ template void prepare<3>(PairDefinition<3>&, Points<3>);
 template PairState<2> initial_state<2>(const PairDefinition<2>&, Points<2>);
 template PairState<3> initial_state<3>(const PairDefinition<3>&, Points<3>);
 template Assumed<2> committed_branches<2>(const PairDefinition<2>&, const PairState<2>&, Points<2>,
-                                          bool);
+                                          Prediction);
 template Assumed<3> committed_branches<3>(const PairDefinition<3>&, const PairState<3>&, Points<3>,
-                                          bool);
+                                          Prediction);
 template Assumed<2> evaluated_branches<2>(const PairEvaluation<2>&, const Assumed<2>&);
 template Assumed<3> evaluated_branches<3>(const PairEvaluation<3>&, const Assumed<3>&);
 template void evaluate<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,

@@ -7,6 +7,7 @@
 #include "osculate/contact/law/law.hpp"
 #include "osculate/contact/multiplier.hpp"
 #include "osculate/contact/point_terms.hpp"
+#include "osculate/core/prediction.hpp"
 #include "osculate/pairing/constraint.hpp"
 #include "osculate/pairing/edges.hpp"
 #include "osculate/pairing/mortar_buffers.hpp"
@@ -113,6 +114,10 @@ struct AssumedBranch {
   /// it find no end.
   Index facet = -1;  ///< in this iteration
   int changes = 0;   ///< of the facet, in this increment
+  /// In contact on a face when it was linearised, and where on `facet` (see keeps_contact).
+  bool closed = false;
+  Vec<Dim - 1> xi = Vec<Dim - 1>::Zero();
+  int kept_on = 0;  ///< iterations in a row that it was kept in contact though it was open
   [[nodiscard]] Index kept() const {
     constexpr int enough = 6;
     return changes >= enough ? facet : -1;
@@ -228,12 +233,11 @@ struct Assumed {
   double relief = 0;     ///< share of the initial overlaps that does not count yet
 };
 
-/// Branches at the end of the last increment; `x` is the configuration then. With `sticking`, all
-/// points in contact stick.
+/// Branches at the end of the last increment; `x` is the configuration then.
 template <int Dim>
 [[nodiscard]] Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair,
                                               const PairState<Dim>& committed, Points<Dim> x,
-                                              bool sticking = false);
+                                              Prediction friction = Prediction::as_before);
 /// Branches of an evaluation, for the next iteration; `before` are those it was made with.
 template <int Dim>
 [[nodiscard]] Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation,

@@ -53,17 +53,18 @@ Friction<Dim> tractions(const PairDefinition<Dim>& pair, const PointHistory<Dim>
                         PathBuffers<Dim>* path) {
   Friction<Dim> f;
   const Kinematics<Dim>& k = placed.kinematics;
-  f.traction.normal = normal_response(pair, history, k.gap, hint);
+  f.traction.normal = hint.kept ? hint.kept->response : normal_response(pair, history, k.gap, hint);
   if (!f.traction.normal.active || !pair.friction) return f;
   const double normal = f.traction.normal.traction;
   const contact::FrictionLaw law = friction_law(pair, normal, hint);
   const double stiffness = contact::stiffness(law);
   const contact::Sliding sliding = sliding_of(history, hint);
+  const double gap = k.gap - (hint.kept ? hint.kept->farther : 0);
   const Trial<Dim> tr =
       hint.multiplier
           ? trial_around<Dim>(pair, *hint.multiplier, stiffness, history, placed, x, path)
-          : trial(pair.master, history, placed, stiffness,
-                  contact_share(pair, history, k.gap, hint), x, path, pair.history);
+          : trial(pair.master, history, placed, stiffness, contact_share(pair, history, gap, hint),
+                  x, path, pair.history);
   f.slip = tr.slip;
   f.law = contact::response<Dim>(law, tr.value, normal, sliding);
   f.slid = contact::slid<Dim>(tr.value, f.law, stiffness);
@@ -184,6 +185,37 @@ void report_contact(const PairDefinition<Dim>& pair, Points<Dim> x,
   result.slip_increment = f.slip;
 }
 
+/// What is remembered of an open point that is linearised in contact.
+template <int Dim>
+void report_kept(const PairDefinition<Dim>& pair, const Placed<Dim>& placed,
+                 const BranchHint<Dim>& hint, const Friction<Dim>& f, PointResult<Dim>& result) {
+  result.branch.branch = contact::Branch::slip;
+  if (pair.friction) result.branch = branch_of<Dim>(f.traction.tangential, placed.kinematics.frame);
+  result.branch.closed = true;
+  result.branch.kept_on = hint.assumed.kept_on + 1;
+}
+
+/// The tractions at the linearised gap, continued along their tangent to the present gap.
+template <int Dim>
+Traction<Dim> pulled(Traction<Dim> t, const KeptContact& kept) {
+  const double more = t.normal.d_traction * kept.farther;
+  t.normal.traction += more;
+  t.tangential.traction += more * t.tangential.d_normal;
+  return t;
+}
+
+template <int Dim>
+void set_kept_constraint(const PairDefinition<Dim>& pair, std::size_t i, const Friction<Dim>& f,
+                         const BranchHint<Dim>& hint, const Mat<Dim, Dim - 1>& frame,
+                         ConstraintBlock<Dim>& c) {
+  const Traction<Dim> t = pulled(f.traction, *hint.kept);
+  const double area = constraint_weight(pair, i);
+  set_constraint_values<Dim>(area, t.normal.traction, frame * t.tangential.traction,
+                             frame * t.tangential.traction, *hint.multiplier, c);
+  c.normal = -area * hint.multiplier->normal;
+  c.shear = -area * hint.multiplier->shear;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -207,11 +239,14 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   if (normal.active || normal.stored > 0)
     result.weight = facing_weight<Dim>(pair, out, i, k.normal);
   report_normal(normal, history.damping_work, result);
-  if (!normal.active) return;
+  if (!normal.active && !hint.kept) return;
   const bool exact = with_tangent && pair.tangent.consistent;
   const Friction<Dim> f =
       tractions<Dim>(pair, history, placed, x, hint, exact ? &block.behind : nullptr);
-  report_contact(pair, x, history, placed, hint, f, result);
+  if (hint.kept)
+    report_kept(pair, placed, hint, f, result);
+  else
+    report_contact(pair, x, history, placed, hint, f, result);
 
   const SlavePoint<Dim>& slave = pair.slave.points[i];
   set_nodes(block, pair.master, placed, slave, out.block_nodes);
@@ -222,7 +257,13 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   scatter_forces(block.branch_force, block.count, w, terms, result.weight);
   block.force = block.branch_force;
   block.branched = pair.friction && f.law.traction != f.traction.tangential.traction;
-  if (block.branched) {
+  if (hint.kept) {
+    block.branched = true;
+    block.force.head(Dim * block.count).setZero();
+    scatter_forces(block.branch_force, block.count, w,
+                   contact::point_forces(k, pulled(f.traction, *hint.kept), pair.residual),
+                   result.weight);
+  } else if (block.branched) {
     Traction<Dim> lawful = f.traction;
     lawful.tangential = f.law;
     scatter_forces(block.force, block.count, w, contact::point_forces(k, lawful, pair.residual),
@@ -232,6 +273,7 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
     set_constraint_values<Dim>(constraint_weight(pair, i), result.normal_traction,
                                k.frame * f.law.traction, k.frame * f.traction.tangential.traction,
                                *hint.multiplier, block.constraint);
+  if (constrained && hint.kept) set_kept_constraint(pair, i, f, hint, k.frame, block.constraint);
   if (!with_tangent) return;
   if (constrained) set_constraint_tangent<Dim>(pair, i, k, f.traction, w, result.weight, block);
   scatter_tangent<Dim>(w, terms, block.count, result.weight, block.tangent);

@@ -1,10 +1,18 @@
 #pragma once
 // One contact point, from its place to forces, tangent and history; for sources of this layer.
 #include <algorithm>
+#include <optional>
 
 #include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::pairing {
+
+/// The normal law's answer at the linearised gap of an open point that stays in contact for the
+/// next correction, and how much farther than that gap the point is (keeps_contact).
+struct KeptContact {
+  contact::NormalResponse response;
+  double farther = 0;
+};
 
 /// What is known of a point before the law is asked: its branch, and the multiplier its penalties
 /// act around.
@@ -18,6 +26,7 @@ struct BranchHint {
   const contact::Multiplier<Dim>* multiplier = nullptr;
   double stiffening = 1;
   RelativeStiffness own{};  ///< factors of the point's penalties
+  std::optional<KeptContact> kept{};
 };
 
 /// The hint of point i.
@@ -85,7 +94,7 @@ template <int Dim>
 void set_constraint_values(double area, double push, const Vec<Dim>& shear,
                            const Vec<Dim>& branch_shear, const contact::Multiplier<Dim>& multiplier,
                            ConstraintBlock<Dim>& c) {
-  c.normal = area * (push - multiplier.normal);
+  c.normal = c.branch_normal = area * (push - multiplier.normal);
   c.shear = area * (shear - multiplier.shear);
   c.branch_shear = area * (branch_shear - multiplier.shear);
 }

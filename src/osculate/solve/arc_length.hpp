@@ -130,8 +130,8 @@ bool begin_arc(S& system, const typename S::State& committed, double start, doub
   NewtonResult<typename S::State>& result = point.result;
   result.state = committed;
   Evaluation rest;
-  predict(system, committed, start, false, rest);
-  predict(system, committed, start + size, false, result.evaluation);
+  predict(system, committed, start, Prediction::as_before, rest);
+  predict(system, committed, start + size, Prediction::as_before, result.evaluation);
   if (!rest.ok || !result.evaluation.ok)
     return fail(result, Outcome::numerical_failure, result.evaluation.message);
   const Eigen::VectorXd load = linearised(result.evaluation) - linearised(rest);

@@ -36,7 +36,8 @@ void augment(S& system, const typename S::State& committed, double time,
     const std::optional<typename S::State> next = system.augment(attempt.state);
     if (!next && whole) return;
     whole = !often || !next;
-    const Guess guess{attempt.total, attempt.first_residual, attempt.first_energy, false, resisted};
+    const Guess guess{attempt.total, attempt.first_residual, attempt.first_energy,
+                      Prediction::as_before, resisted};
     NewtonResult<typename S::State> more =
         newton(system, committed, time, whole ? options : loosened(options), solver, guess,
                next ? &*next : &attempt.state);

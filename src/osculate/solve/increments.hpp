@@ -68,12 +68,20 @@ using CutbackObserver = std::function<void(const std::string& reason, double fro
 
 namespace detail {
 
-/// The tangent was singular: perhaps only sliding points hold a body, as one that is let go while
-/// it slides.
+/// How else the friction of the first iteration may be predicted; `as_before`: no other way.
+///   sticking    the tangent was singular: perhaps only sliding points hold a body, as one that is
+///               let go while it slides
+///   sliding     points touch that have not been sheared: to begin with, nothing may hold them
 template <System S>
-bool worth_sticking(const NewtonResult<typename S::State>& attempt) {
-  return PredictsSticking<S> && attempt.outcome == Outcome::numerical_failure &&
-         attempt.evaluation.ok;
+Prediction another_prediction(const S& system, const typename S::State& committed,
+                              const NewtonResult<typename S::State>& attempt) {
+  if constexpr (PredictsFriction<S>) {
+    const bool failed = attempt.outcome == Outcome::numerical_failure;
+    if (!failed && attempt.outcome != Outcome::not_converged) return Prediction::as_before;
+    if (system.touches_without_shear(committed)) return Prediction::sliding;
+    if (failed && attempt.evaluation.ok) return Prediction::sticking;
+  }
+  return Prediction::as_before;
 }
 
 /// Nothing holds a body, or nothing else is left to try.
@@ -84,8 +92,9 @@ bool worth_resisting(const NewtonResult<typename S::State>& attempt, bool last) 
   return last || attempt.linear == la::SolveStatus::singular;
 }
 
-/// One increment with all that may help it: from the guess, by the tangent, with sliding points
-/// that stick at first, with free motions resisted. Iterations of what did not help are `wasted`.
+/// One increment with all that may help it: from the guess, by the tangent, with another
+/// prediction of friction, with free motions resisted. Iterations of what did not help are
+/// `wasted`.
 template <System S>
 NewtonResult<typename S::State> attempt_increment(S& system, const typename S::State& committed,
                                                   double target, const NewtonOptions& options,
@@ -101,13 +110,14 @@ NewtonResult<typename S::State> attempt_increment(S& system, const typename S::S
     waste(attempt);
     attempt = solve_increment(system, committed, target, options, solver);
   }
-  if (worth_sticking<S>(attempt)) {
+  if (const Prediction other = another_prediction(system, committed, attempt);
+      other != Prediction::as_before) {
     waste(attempt);
-    attempt = solve_increment(system, committed, target, options, solver, {{}, 0, 0, true});
+    attempt = solve_increment(system, committed, target, options, solver, {{}, 0, 0, other});
   }
   if (!worth_resisting<S>(attempt, last)) return attempt;
-  Result held =
-      solve_increment(system, committed, target, options, solver, {{}, 0, 0, false, true});
+  Result held = solve_increment(system, committed, target, options, solver,
+                                {{}, 0, 0, Prediction::as_before, true});
   resisted = held.outcome == Outcome::converged;
   waste(resisted ? attempt : held);
   if (resisted) return held;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "osculate/core/prediction.hpp"
 #include "osculate/la/direct_solver.hpp"
 #include "osculate/la/sparse_matrix.hpp"
 
@@ -73,10 +74,10 @@ struct NewtonOptions {
 /// A first guess of an increment, and what its convergence is measured by: an extrapolated start
 /// is so near that its own first iteration would be no measure.
 struct Guess {
-  Eigen::VectorXd du;     ///< correction of the unknowns; empty = none
-  double residual = 0;    ///< |R| of the last increment that was started by the tangent
-  double energy = 0;      ///< first energy of that increment
-  bool sticking = false;  ///< without du: predict points that slid to stick
+  Eigen::VectorXd du;   ///< correction of the unknowns; empty = none
+  double residual = 0;  ///< |R| of the last increment that was started by the tangent
+  double energy = 0;    ///< first energy of that increment
+  Prediction friction = Prediction::as_before;  ///< without du
   bool resisted = false;  ///< without du: resist free motions (see Resistance)
 };
 

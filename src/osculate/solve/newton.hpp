@@ -33,8 +33,12 @@ struct Judge {
   /// last correction says that it was the last one.
   [[nodiscard]] bool only_rounding(const Evaluation& e, double residual, double energy_before,
                                    double first_residual) const {
-    constexpr double residual_limit = 1e-3, energy_limit = 1e-10;
+    constexpr double residual_limit = 1e-3, energy_limit = 1e-10, standing_limit = 1e-6;
+    constexpr int standing = 3;
     const double size = e.residual.norm();
+    if (stalled >= standing && options.energy > 0 && residual <= standing_limit &&
+        energy_before <= options.energy * first_energy)
+      return true;
     if (stalled == 0 || size > e.round_off) return false;
     if (size <= e.round_off_in_time) return true;
     if (!e.loaded && first_residual <= e.round_off) return true;  // nothing drives the system
@@ -69,17 +73,18 @@ struct Judge {
 
 namespace detail {
 
-/// Systems with points that slide can predict the first iteration with all of them sticking.
+/// Systems with friction can predict the first iteration in other ways.
 template <class S>
-concept PredictsSticking = requires(S s, const typename S::State& state, Evaluation& out) {
-  s.predict(state, 0.0, out, true);
+concept PredictsFriction = requires(S s, const typename S::State& state, Evaluation& out) {
+  s.predict(state, 0.0, out, Prediction::sticking);
+  { s.touches_without_shear(state) } -> std::same_as<bool>;
 };
 
 template <System S>
-void predict(S& system, const typename S::State& committed, double time, bool sticking,
+void predict(S& system, const typename S::State& committed, double time, Prediction friction,
              Evaluation& out) {
-  if constexpr (PredictsSticking<S>)
-    system.predict(committed, time, out, sticking);
+  if constexpr (PredictsFriction<S>)
+    system.predict(committed, time, out, friction);
   else
     system.predict(committed, time, out);
 }
@@ -120,7 +125,7 @@ void begin(S& system, const typename S::State& committed, double time, const Gue
     judge.largest_correction = guess.du.lpNorm<Eigen::Infinity>();
     return;
   }
-  predict(system, committed, time, guess.sticking, result.evaluation);
+  predict(system, committed, time, guess.friction, result.evaluation);
   if (result.evaluation.ok) result.first_residual = result.evaluation.residual.norm();
 }
 
