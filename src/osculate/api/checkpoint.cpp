@@ -75,8 +75,8 @@ void fields(Archive& a, MatrixPlace& place) {
 namespace osculate::solve {
 template <class Archive>
 void fields(Archive& a, StateCounts& counts) {
-  auto& [open, stick, slip, signature, work] = counts;
-  a(open, stick, slip, signature, work);
+  auto& [open, stick, slipping, closed, signature, work] = counts;
+  a(open, stick, slipping, closed, signature, work);
 }
 template <class Archive>
 void fields(Archive& a, IterationRecord& record) {
@@ -199,7 +199,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 6;
+constexpr int version = 7;
 
 template <class... T>
 std::string saved(const T&... values) {

@@ -72,6 +72,7 @@ struct Recorder {
   double seconds = 0;                    ///< spent here
   std::vector<double> curvature_shares;  ///< one per converged increment
   std::vector<nlohmann::json> notes;     ///< one per converged increment
+  PointStates states = point_states(built.model);
   Watch<Dim> watch{built.model};
   std::vector<std::string> warned;  ///< of contact in the last increment
 
@@ -285,17 +286,13 @@ struct Recorder {
   /// What a dropped attempt did, for log.txt only.
   void log_iterations(const std::vector<solve::IterationRecord>& records) {
     int number = 0;
-    for (const solve::IterationRecord& it : records)
-      log_line(fmt::format(
-          "  iteration {:>2}: residual {:.1e} energy {:.1e} step {:.3g} open {} stick {} slip {}",
-          ++number, it.residual, it.energy, it.step, it.counts.open, it.counts.stick,
-          it.counts.slip));
+    for (const solve::IterationRecord& it : records) log_line(iteration_text(++number, it, states));
   }
 
   /// An increment of explicit time integration.
   void report_time_steps(const model::Progress& p, const solve::IncrementRecord& record) {
     const solve::TimeSteps& steps = record.time_steps;
-    const std::string line = time_steps_text(step_name(p), p, record);
+    const std::string line = time_steps_text(step_name(p), p, record, states);
     log_line(line);
     show_progress(p, line);
     time_steps += steps.count;
@@ -322,12 +319,9 @@ struct Recorder {
   }
 
   void report_increment(const model::Progress& p, const solve::IncrementRecord& record) {
-    if (record.time_steps.count > 0) {
-      report_time_steps(p, record);
-      return;
-    }
+    if (record.time_steps.count > 0) return report_time_steps(p, record);
     iterations += static_cast<int>(record.iterations.size()) + record.wasted_iterations;
-    const std::string line = increment_text(step_name(p), p, record);
+    const std::string line = increment_text(step_name(p), p, record, states);
     log_line(line);
     show_progress(p, line);
   }

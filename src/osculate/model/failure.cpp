@@ -13,17 +13,18 @@ namespace {
 
 constexpr double too_stiff = 1e10;  ///< leaves six digits for the rest
 
-const char* state_name(std::uint8_t state) {
-  switch (state) {
-    case 0:
+const char* course_name(const PointCourse& course) {
+  switch (course.state) {
+    case PointState::open:
       return "open";
-    case 1:
+    case PointState::stick:
       return "stick";
-    case 2:
-      return "slip";
-    default:
-      return "slip back";
+    case PointState::slipping:
+      return course.back ? "slip back" : "slip";
+    case PointState::closed:
+      return course.in_valley ? "closed in a valley" : "closed";
   }
+  return "";
 }
 
 template <int Dim>
@@ -44,7 +45,7 @@ std::vector<FlippingPoint> flipping_points(const BasicModel<Dim>& model,
       FlippingPoint point{model.pairs[p].name, node_of(model, p, i), {}, 0};
       for (std::size_t k = 0; k < recent.size(); ++k) {
         if (k > 0 && recent[k][p][i] != recent[k - 1][p][i]) ++point.changes;
-        point.states += fmt::format("{}{}", k ? ", " : "", state_name(recent[k][p][i]));
+        point.states += fmt::format("{}{}", k ? ", " : "", course_name(recent[k][p][i]));
       }
       if (point.changes >= 2) found.push_back(std::move(point));
     }
