@@ -98,7 +98,8 @@ nlohmann::json failure_json(const model::BasicModel<Dim>& model,
                        {"rotation", number(motion.rotation)},
                        {"axis", components(motion.axis)},
                        {"center", components(motion.center)},
-                       {"resistance", number(motion.stiffness_ratio)}});
+                       {"resistance", number(motion.stiffness_ratio)},
+                       {"along", motion.along}});
   return {{"cause", model::cause_name(failure.cause)},
           {"reason", failure.reason},
           {"proposal", failure.proposal},
