@@ -161,6 +161,17 @@ class Diagnosis(unittest.TestCase):
         self.assertEqual(len(found["free_motions"]), 3)
         self.assertIn(b'"free_motion_3"', self.fields)
 
+    def test_a_body_that_is_pulled_off_a_rigid_mesh(self):
+        found = self.failure("""osculate: 1
+mesh: {generate: {base: {box: {x: [0, 4], y: [-1, 0], elements: [4, 1]}}, block: {box: {x: [0, 4], y: [0, 2], elements: [4, 2]}}}}
+materials: {m: {linear_elastic: {E: 1.0e3, nu: 0.3}}}
+sections: [{on: block, material: m, element: plane_strain}]
+rigid: {floor: {set: base}}
+contact: [{name: c, master: base.top, slave: block.bottom, friction: {coulomb: {mu: 0.3}}}]
+steps: [{name: lift, increments: 2, pressure: [{on: block.top, value: -1}]}]
+""")
+        self.assertIn("look at the signs of the loads in step 'lift': they pull body 'block' off", found["proposal"])
+
     def test_a_stack_on_nothing_is_the_fault_of_its_lowest_body(self):
         guided = "prescribe: [" + ", ".join(f"{{on: {n}.left, ux: 0}}" for n in ("up", "low")) + "], "
         for gap, prescribe, motions in ((0, "", 3), (0, guided, 1), (0.01, guided, 1)):
