@@ -123,7 +123,7 @@ function increments(frames, failed) {
     step.increments.push({
       increment: step.increments.length + 1, time: (k + 1) / frames.length, iterations: residuals.length,
       residual: residuals.at(-1), energy: residuals.at(-1) ** 1.6, cutbacks,
-      open: count(0), stick: count(1), slip: count(2),
+      open: count(0), stick: count(1), slipping: count(2), closed: 0,
     });
     iterations.push({
       step: step.name, increment: step.increments.length, residuals, energies: residuals.map((r) => r ** 1.6),

@@ -45,8 +45,8 @@ function everyCell() {
     nodes.forEach(([x, y]) => points.push([x + 2.5 * k, y + (Math.abs(x) < 1 ? 0.2 : 0)]));
   });
   const values = points.map(([x, y], i) => (i === 3 ? null : x + y));
-  const contact = [{ pair: 'p', x: [[-1, -1], [0, -1], [1, -1]], pressure: [0, 2, 1], shear: [0, null, -1],
-    normal: [[0, 1], [0, 1], [0, 1]], status: [0, 1, 2] }];
+  const contact = [{ pair: 'p', x: [[-1, -1], [0, -1], [1, -1], [2, -1]],
+    pressure: [0, 2, 1, 1], shear: [0, null, -1, 0], normal: [[0, 1], [0, 1], [0, 1], [0, 1]], status: [0, 1, 2, 3] }];
   return {
     title: 'every cell', status: 'running', mesh: { points, cells },
     frames: [{ time: 0, u: points.map(() => [0, 0]), fields: { f: values } },

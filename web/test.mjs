@@ -16,6 +16,8 @@ const { readBody, readHistory } = await import('./src/data.js');
 const { closure, isLedger, ledger } = await import('./src/energy.js');
 const { chains } = await import('./src/mesh.js');
 const { readSpace } = await import('./src/space_section.js');
+const { countedStates, stateWords } = await import('./src/states.js');
+const { statusStyle } = await import('./src/contact_layer.js');
 
 const names = ['kinetic', 'strain', 'contact', 'external', 'friction', 'damping', 'numerical', 'residual'];
 const columns = ['step', 'increment', 'time', 'top.ux', 'elapsed', ...names.map((n) => `energy.${n}`)];
@@ -172,4 +174,15 @@ test('sets and nodes are labelled as the user calls them', () => {
   assert.deepEqual(labelsOf(body, 'set 0'), [[2, '30'], [3, '40']]);
   assert.deepEqual(labelsOf(body, 'nodes').map(([, text]) => text).sort(), ['10', '20', '30', '40']);
   assert.deepEqual(labelsOf(body, 'none'), []);
+});
+
+test('only states that there can be are counted, and each has a mark of its own', () => {
+  assert.deepEqual(countedStates([{ open: 3, stick: 0, slipping: 0, closed: 4 }]), ['open', 'closed']);
+  assert.deepEqual(countedStates([{ open: 3 }, { open: 0, stick: 0, slipping: 2, closed: 0 }]),
+    ['open', 'stick', 'slipping']);
+  assert.deepEqual(countedStates([{ stick: 1, closed: 1 }]), ['open', 'stick', 'slipping', 'closed']);
+  assert.equal(new Set(stateWords.map((_, s) => statusStyle(s).shape)).size, 4);
+  const contact = [{ x: [[0, 0], [1, 0]], status: [3, 0] }];
+  const body = readBody({ mesh: square, frames: [{}, { contact }] });
+  assert.deepEqual([...body.states()].sort(), [0, 3]);
 });

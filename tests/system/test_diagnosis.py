@@ -85,6 +85,28 @@ contact:
 steps: [{name: s, increments: 14, prescribe: [{on: low, ux: 0, uy: 0, rz: 0}, {on: up, ux: 0, uy: -7, rz: 0}]}]
 """
 
+# Blocks on each other, pressed from above; nothing but what a test adds carries the lowest.
+STACK = """osculate: 1
+mesh: {generate: {BLOCKS}}
+materials: {m: {linear_elastic: {E: 1000, nu: 0.3}}}
+sections: [SECTIONS]
+rigid: {floor: {line: {point: [0, FLOOR], normal: [0, 1]}}}
+contact: [CONTACTS]
+steps: [{name: press, increments: 2, ALSOpressure: [{on: up.top, value: 1}]}]
+"""
+
+
+def stack(names, gap=0.0, more="", floor=-9.0, also=""):
+    """Of blocks, the lowest first."""
+    where = {n: f"{n}: {{box: {{x: [0, {2 - 0.2 * i}], y: [{i * (1 + gap)}, {i * (1 + gap) + 1}], elements: [{4 - i}, 2]}}}}"
+             for i, n in enumerate(names)}
+    pairs = [f"{{name: {a}_{b}, master: {a}.top, slave: {b}.bottom, friction: {{coulomb: {{mu: 0.3}}}}}}"
+             for a, b in zip(names, names[1:])]
+    return (STACK.replace("BLOCKS", ", ".join(where[n] for n in sorted(names, reverse=True)))
+            .replace("SECTIONS", ", ".join(f"{{on: {n}, material: m, element: plane_strain}}" for n in names))
+            .replace("CONTACTS", ", ".join(pairs) + more).replace("FLOOR", str(floor)).replace("ALSO", also))
+
+
 OVER = """osculate: 1
 mesh:
   generate: {a: {box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}, b: {box: {x: [1, 3], y: [1, 2], elements: [5, 3]}}}
@@ -138,6 +160,41 @@ class Diagnosis(unittest.TestCase):
         self.assertIn("look at the signs of the loads in step 'lift': they pull body 'block' off", found["proposal"])
         self.assertEqual(len(found["free_motions"]), 3)
         self.assertIn(b'"free_motion_3"', self.fields)
+
+    def test_a_body_that_is_pulled_off_a_rigid_mesh(self):
+        found = self.failure("""osculate: 1
+mesh: {generate: {base: {box: {x: [0, 4], y: [-1, 0], elements: [4, 1]}}, block: {box: {x: [0, 4], y: [0, 2], elements: [4, 2]}}}}
+materials: {m: {linear_elastic: {E: 1.0e3, nu: 0.3}}}
+sections: [{on: block, material: m, element: plane_strain}]
+rigid: {floor: {set: base}}
+contact: [{name: c, master: base.top, slave: block.bottom, friction: {coulomb: {mu: 0.3}}}]
+steps: [{name: lift, increments: 2, pressure: [{on: block.top, value: -1}]}]
+""")
+        self.assertIn("look at the signs of the loads in step 'lift': they pull body 'block' off", found["proposal"])
+
+    def test_a_stack_on_nothing_is_the_fault_of_its_lowest_body(self):
+        guided = "prescribe: [" + ", ".join(f"{{on: {n}.left, ux: 0}}" for n in ("up", "low")) + "], "
+        for gap, prescribe, motions in ((0, "", 3), (0, guided, 1), (0.01, guided, 1)):
+            with self.subTest(gap=gap, prescribe=prescribe):
+                found = self.failure(stack(("low", "up"), gap, also=prescribe))
+                self.assertEqual(found["cause"], "free motion", self.message)
+                self.assertIn("hold body 'low' by a prescription, or let it rest on something: what lies on it ('up') is "
+                              "pressed against it, and nothing is behind it", found["proposal"])
+                mine = [m for m in found["free_motions"] if m["body"] == "low"]
+                self.assertEqual(found["free_motions"][:motions], mine)
+                self.assertEqual([m["along"] for m in mine], [["up"]] * motions)
+        found = self.failure(stack(("base", "low", "up")))
+        self.assertIn("hold body 'base' by a prescription", found["proposal"])
+        self.assertEqual(found["free_motions"][0]["along"], ["up", "low"])
+        self.assertIn("body 'base' is free to move and turn in every direction: nothing holds it, and 'up', 'low' come along",
+                      self.message)
+
+    def test_a_stack_that_slides_as_a_whole_slides_under_its_lowest_body(self):
+        found = self.failure(stack(("low", "up"), floor=0, more=", {name: ice, master: floor, slave: low.bottom}",
+                                   also="traction: [{on: up.left, tx: 0.1}], "))
+        self.assertEqual(found["cause"], "sliding motion", self.message)
+        self.assertEqual(found["free_motions"][0]["direction"], [1, 0])
+        self.assertIn("give contact 'ice' a `friction`, or hold body 'low'", found["proposal"])
 
     def test_an_inverted_element(self):
         found = self.failure(model("{name: crush, increments: 1, prescribe: [{on: block.top, ux: 0, uy: -2.5}]}",

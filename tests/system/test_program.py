@@ -37,7 +37,7 @@ steps:
   - {name: press, increments: 2, prescribe: [{on: b.top, ux: 0, uy: 0, uz: -0.02}]}
   - {name: drag, increments: 3, prescribe: [{on: b.top, ux: 0.03, uy: 0.04}]}
 output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}, {on: c, of: force_y},
-  {on: c, of: slip}, {on: b.top, of: rfz}]}
+  {on: c, of: slip}, {on: c, of: slipping}, {on: c, of: closed}, {on: b.top, of: rfz}]}
 """
 
 CASE = """requirement: A block on a line carries its weight
@@ -325,7 +325,8 @@ class Program(unittest.TestCase):
         with open(self.path("model.results/history.csv")) as file:
             last = {k: float(v) for k, v in list(csv.DictReader(file))[-1].items()}
         normal, x, y = (last["c." + q] for q in ("normal_force", "force_x", "force_y"))
-        self.assertEqual(last["c.slip"], 15)
+        self.assertEqual((last["c.slipping"], last["c.closed"]), (15, 15))
+        self.assertTrue(0.02 < last["c.slip"] < 0.05, last["c.slip"])  # the top goes by 0.05, the bottom lags
         self.assertAlmostEqual((x * x + y * y) ** 0.5 / normal, 0.3, places=2)
         self.assertAlmostEqual(last["b.top.rfz"] / normal, -1, places=8)
         with open(self.path("model.results/report.html")) as file:

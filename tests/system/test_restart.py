@@ -227,7 +227,7 @@ class Restart(RestartCase):
                 report = json.loads(done.stdout)
                 self.assertEqual([row["part"] for row in report["rows"]], ["bulk", "contact", "all"])
                 self.assertTrue(all(row["pass"] and not row["skipped"] for row in report["rows"]), done.stdout)
-                self.assertGreater(report["stick"] + report["slip"], 0)
+                self.assertGreater(report["stick"] + report["slipping"], 0)
             done = subprocess.run([PROGRAM, "tangent", "model.yaml", "--state", "99999"], cwd=self.folder.name,
                                   capture_output=True, text=True)
             self.assertEqual(done.returncode, 2)

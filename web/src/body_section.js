@@ -6,6 +6,7 @@ import { num } from './format.js';
 import { labelChoice } from './labels.js';
 import { plot } from './plot.js';
 import { autoScale, button, frameKeys, onceAFrame, player, savePicture } from './player.js';
+import { stateWords } from './states.js';
 import { onTheme } from './theme.js';
 import { createView, draw, probe, resize } from './view.js';
 import { runs, statusStyle } from './contact_layer.js';
@@ -208,7 +209,7 @@ function contactPlots(body) {
       title: `Contact stress along ${pair}`, xlabel: 'length along the surface', ylabel: 'force / area',
       height: 260, yRange: [low, high],
       describe: (curve, i) => [`${curve.label}: ${num(curve.y[i], 5)}`, `at length ${num(curve.x[i], 5)}`,
-        ['open', 'stick', 'slip'][curve.styles?.[i]?.status] ?? ''],
+        stateWords[curve.styles?.[i]?.status] ?? ''],
     }, curvesAt(body.frames.length - 1));
     return (frame) => shown.show(curvesAt(frame));
   });

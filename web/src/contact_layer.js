@@ -2,14 +2,14 @@
 import { rigidPoint, toScreen } from './camera.js';
 import { symbol } from './curve.js';
 import { num } from './format.js';
+import { stateColour, stateWords } from './states.js';
 import { css } from './theme.js';
 
-const words = ['open', 'stick', 'slip'];
-const shapes = ['ring', 'disc', 'diamond'];
+const shapes = ['ring', 'disc', 'diamond', 'triangle'];
 
 export function statusStyle(status) {
-  const s = words[status] ? status : 0;
-  return { shape: shapes[s], colour: css(`--${words[s]}`) };
+  const s = stateWords[status] ? status : 0;
+  return { shape: shapes[s], colour: stateColour(stateWords[s]) };
 }
 
 /** Where contact points are drawn: as they are at scale 1, else carried along by the nearest line. */
@@ -197,7 +197,7 @@ export function legendOf(view, state) {
     x += ctx.measureText(text).width + 28 * dpr;
   };
   if (state.points) {
-    [1, 2, 0].forEach((s) => entry(words[s], (at) => {
+    [1, 2, 3, 0].filter((s) => body.states().has(s)).forEach((s) => entry(stateWords[s], (at) => {
       const style = statusStyle(s);
       symbol(ctx, style.shape, at, y, 3.8 * dpr, style.colour);
     }));

@@ -4,6 +4,7 @@ import { colourMap, cssColour } from './colour.js';
 import { symbol } from './curve.js';
 import { num } from './format.js';
 import { plot } from './plot.js';
+import { countedStates, stateColour } from './states.js';
 import { css } from './theme.js';
 
 /** Section of iteration bars, convergence curves and contact states; null without increments. */
@@ -13,7 +14,7 @@ export function convergenceSection(report, increments, picked) {
   const section = el('section', { id: 'convergence' }, el('h2', {}, 'Convergence'), grid);
   if (increments.length) iterationBars(grid, increments, picked);
   if (report.iterations?.length) convergenceCurves(grid, report.iterations, increments);
-  if (increments.some((i) => i.stick || i.slip || i.open)) statePlot(grid, increments, picked);
+  if (increments.some((i) => i.open || countedStates([i]).length > 1)) statePlot(grid, increments, picked);
   return section;
 }
 
@@ -22,7 +23,7 @@ function about(i) {
     `${i.iterations} iterations${i.cutbacks ? `, ${i.cutbacks} cut-backs` : ''}` +
       (i.wasted_iterations ? `, and ${i.wasted_iterations} of attempts that were given up` : ''),
     `residual ${num(i.residual, 3)}, energy ${num(i.energy, 3)}`,
-    `open ${i.open ?? 0}, stick ${i.stick ?? 0}, slip ${i.slip ?? 0}`];
+    countedStates([i]).map((key) => `${key} ${i[key] ?? 0}`).join(', ')];
 }
 
 /** Where a new step begins, on an axis of increment numbers. */
@@ -128,15 +129,16 @@ function convergenceCurves(grid, iterations, increments) {
 }
 
 function statePlot(grid, increments, picked) {
-  const most = Math.max(...increments.map((i) => Math.max(i.open ?? 0, i.stick ?? 0, i.slip ?? 0)));
+  const states = countedStates(increments);
+  const most = Math.max(...increments.flatMap((i) => states.map((key) => i[key] ?? 0)));
   const x = increments.map((i) => i.number);
   const curve = (key) => ({
-    label: key, x, y: increments.map((i) => i[key] ?? 0), colour: () => css(`--${key}`), dots: false,
+    label: key, x, y: increments.map((i) => i[key] ?? 0), colour: () => stateColour(key), dots: false,
   });
   plot(grid, {
     title: 'Contact states', xlabel: 'increment', ylabel: 'points', integerX: true, yRange: [0, 1.1 * most],
     describe: (_, i) => about(increments[i]),
     picked: (_, i) => picked(increments[i]),
     overlay: (chart) => stepMarks(chart, increments),
-  }, ['stick', 'slip', 'open'].map(curve));
+  }, [...states.slice(1), 'open'].map(curve));
 }

@@ -131,6 +131,7 @@ export function readBody(report) {
       const [low, high] = extent(frames.flatMap((f) => f.contact().map((c) => c[key])));
       return Math.max(-low, high);
     }),
+    states: once(() => new Set(frames.flatMap((f) => f.contact().flatMap((c) => [...c.status])))),
     pairs: once(() => [...new Set(frames.flatMap((f) => f.contact().map((c) => c.pair)))]),
   };
 }

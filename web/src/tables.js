@@ -1,6 +1,7 @@
 // Header, model table, increments, time spent.
 import { el } from './dom.js';
 import { count, num, seconds } from './format.js';
+import { countedStates } from './states.js';
 
 const statusWords = { done: 'done', failed: 'stopped before its end', running: 'still running' };
 
@@ -57,8 +58,8 @@ function phaseBars(phases) {
 
 function incrementTable(increments) {
   const columns = [['step', 'step'], ['index', 'increment'], ['time', 'time'], ['iterations', 'iterations'],
-    ['cutbacks', 'cut-backs'], ['residual', 'residual'], ['energy', 'energy'], ['open', 'open'],
-    ['stick', 'stick'], ['slip', 'slip']];
+    ['cutbacks', 'cut-backs'], ['residual', 'residual'], ['energy', 'energy'],
+    ...countedStates(increments).map((key) => [key, key])];
   if (increments.some((i) => i.wasted_iterations)) columns.splice(4, 0, ['wasted_iterations', 'given up']);
   const cell = (key, v) => el('td', { class: key === 'step' ? '' : 'number' },
     typeof v === 'number' ? num(v, key === 'residual' || key === 'energy' ? 3 : 6) : String(v ?? ''));

@@ -7,6 +7,7 @@ import { drawLabels, nodeNumber } from './labels.js';
 import { niceTicks, num, tickLabels } from './format.js';
 import { chains, fillVirtual } from './mesh.js';
 import { paint } from './raster.js';
+import { stateWords } from './states.js';
 import { css } from './theme.js';
 
 export function createView(canvas, body) {
@@ -244,7 +245,7 @@ export function probe(view, state, px, py) {
   const { X, Y, body } = view;
   for (const c of view.contactPoints ?? []) {
     if (Math.hypot(c.X - px, c.Y - py) < 6 * view.dpr) {
-      return [`${c.pair}, point ${c.i}: ${['open', 'stick', 'slip'][c.status] ?? 'open'}`,
+      return [`${c.pair}, point ${c.i}: ${stateWords[c.status] ?? 'open'}`,
         `pressure ${num(c.pressure, 5)}`, `shear ${num(c.shear, 5)}`];
     }
   }

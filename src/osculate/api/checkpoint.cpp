@@ -75,8 +75,8 @@ void fields(Archive& a, MatrixPlace& place) {
 namespace osculate::solve {
 template <class Archive>
 void fields(Archive& a, StateCounts& counts) {
-  auto& [open, stick, slip, signature, work] = counts;
-  a(open, stick, slip, signature, work);
+  auto& [open, stick, slipping, closed, signature, work] = counts;
+  a(open, stick, slipping, closed, signature, work);
 }
 template <class Archive>
 void fields(Archive& a, IterationRecord& record) {
@@ -162,6 +162,19 @@ void fields(Archive& a, BasicState<Dim>& state) {
 }
 }  // namespace osculate::model
 
+namespace osculate::model {
+template <class Archive>
+void fields(Archive& a, SmallStrain& found) {
+  auto& [section, strain, rotation] = found;
+  a(section, strain, rotation);
+}
+template <class Archive>
+void fields(Archive& a, Locking& found) {
+  auto& [section, energy, enhanced, bbar, floor] = found;
+  a(section, energy, enhanced, bbar, floor);
+}
+}  // namespace osculate::model
+
 namespace osculate::deck {
 template <class Archive>
 void fields(Archive& a, SourceLeaf& leaf) {
@@ -189,6 +202,11 @@ void fields(Archive& a, Penetration& p) {
     p.way_of_give, p.give_share, p.way);
 }
 template <class Archive>
+void fields(Archive& a, WatchMemory& watch) {
+  auto& [small_strains, locking, grown, passed] = watch;
+  a(small_strains, locking, grown, passed);
+}
+template <class Archive>
 void fields(Archive& a, JournalEntry& e) {
   bool recorded = e.record.has_value();
   a(e.progress, recorded);
@@ -199,7 +217,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 6;
+constexpr int version = 7;
 
 template <class... T>
 std::string saved(const T&... values) {
@@ -332,7 +350,7 @@ template <int Dim>
 void CheckpointWriter<Dim>::save(const model::BasicState<Dim>& state,
                                  const model::Progress& progress,
                                  const solve::StepPosition& position,
-                                 const model::SystemMemory& memory) {
+                                 const model::SystemMemory& memory, const WatchMemory& watch) {
   using namespace std::chrono_literals;
   const auto now = std::chrono::steady_clock::now();
   const bool sync = now - synced_ > 1s || progress.fraction >= 1.0;
@@ -343,6 +361,7 @@ void CheckpointWriter<Dim>::save(const model::BasicState<Dim>& state,
   file.write(io::packed({"place", saved(place)}));
   file.write(io::packed({"control", saved(progress, position, memory.starts, memory.speeds)}));
   file.write(io::packed({"state", saved(state)}));
+  file.write(io::packed({"watch", saved(watch)}));
   file.commit_keeping(durable_ ? previous_path(folder_) : std::string{}, sync);
   durable_ = sync;
   if (sync) synced_ = now;
@@ -373,6 +392,7 @@ Checkpoint<Dim> read_one(const std::string& path, const std::string& folder, con
   load(chunk_of(parts, 1, "control", path), found.point.progress, found.point.position,
        found.point.memory.starts, found.point.memory.speeds);
   load(chunk_of(parts, 2, "state", path), found.point.state);
+  load(chunk_of(parts, 3, "watch", path), found.watch);
   const std::string journal = journal_path(folder);
   const std::vector<io::Chunk> entries = io::read_chunks(journal, "journal", version, place.bytes);
   found.journal_bytes = place.bytes;

@@ -8,6 +8,8 @@
 #include "osculate/deck/build.hpp"
 #include "osculate/io/append_file.hpp"
 #include "osculate/io/vtk.hpp"
+#include "osculate/model/locking.hpp"
+#include "osculate/model/small_strain.hpp"
 
 namespace osculate::api {
 
@@ -42,6 +44,14 @@ struct Penetration {
   double way = 0;          ///< slid so far, all points
 };
 
+/// What the warnings of a run remember beside `Penetration` and what the state tells.
+struct WatchMemory {
+  std::vector<model::SmallStrain> small_strains;
+  std::vector<model::Locking> locking;  ///< at the ends of steps
+  double grown = 0;                     ///< share of the energy now that came from nothing
+  std::vector<char> passed;             ///< by pair: told that points went through
+};
+
 /// What one converged increment adds to the results (the first entry: the initial state).
 struct JournalEntry {
   model::Progress progress;
@@ -60,6 +70,7 @@ struct JournalEntry {
 template <int Dim>
 struct Checkpoint {
   model::BasicResumePoint<Dim> point;
+  WatchMemory watch;
   std::vector<JournalEntry> entries;
   std::uint64_t journal_bytes = 0;
   std::uint32_t journal_checksum = 0;
@@ -88,7 +99,8 @@ class CheckpointWriter {
   /// `memory` is that of the system, from which the entry's growth follows.
   void add(JournalEntry entry, const model::SystemMemory& memory);
   void save(const model::BasicState<Dim>& state, const model::Progress& progress,
-            const solve::StepPosition& position, const model::SystemMemory& memory);
+            const solve::StepPosition& position, const model::SystemMemory& memory,
+            const WatchMemory& watch);
 
  private:
   void append(const std::string& bytes);

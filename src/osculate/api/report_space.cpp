@@ -196,7 +196,7 @@ nlohmann::json ReportView<3>::frame(const model::System3& system,
     fields["contact shear"] = packed(c.shear, 1);
     fields["contact gap"] = packed(c.gap, 1);
     fields["contact slip"] = packed(c.slip, 1);
-    fields["contact state (0 open, 1 stick, 2 slip)"] = packed(c.state, 1);
+    fields["contact state (0 open, 1 stick, 2 slip, 3 closed)"] = packed(c.state, 1);
   }
   return {{"u", vectors<3>(points(), u)}, {"stress", rows<6>(n, stress)}, {"fields", fields}};
 }

@@ -72,6 +72,7 @@ struct Recorder {
   double seconds = 0;                    ///< spent here
   std::vector<double> curvature_shares;  ///< one per converged increment
   std::vector<nlohmann::json> notes;     ///< one per converged increment
+  PointStates states = point_states(built.model);
   Watch<Dim> watch{built.model};
   std::vector<std::string> warned;  ///< of contact in the last increment
 
@@ -91,7 +92,8 @@ struct Recorder {
 
   /// Everything as it was when the checkpoint was written. Here the files of the earlier run are
   /// cut, and not before: the analysis stands where it goes on from.
-  void resume(const Checkpoint<Dim>& from) {
+  void resume(const Checkpoint<Dim>& from, const model::BasicSystem<Dim>& system,
+              const model::BasicState<Dim>& state) {
     claim_folder(folder, owner);
     std::vector<io::PvdEntry> files;
     std::vector<io::HistoryRow> rows;
@@ -100,13 +102,14 @@ struct Recorder {
       report_row(e.progress, e.row);
       if (!e.frame.empty()) report.add_frame(nlohmann::json::from_cbor(e.frame));
       files.insert(files.end(), e.files.begin(), e.files.end());
+      watch.deepest = e.deepest;
       if (!e.record) continue;
       ++converged_count;
       iterations += static_cast<int>(e.record->iterations.size()) + e.record->wasted_iterations;
       curvature_shares.push_back(e.curvature_share);
       notes.push_back(nlohmann::json::parse(e.note));
-      watch.deepest = e.deepest;
     }
+    watch.resume(from.watch, system, state, converged_count == 0);
     history.emplace(folder + "/history.csv", column_names(built.history), rows);
     const std::vector<char>& touched = from.entries.back().touched;
     fields.resume(std::move(files), {touched.begin(), touched.end()});
@@ -194,7 +197,6 @@ struct Recorder {
       say_all(watch.begin(system, state));
     } else {
       say_all(watch.take(system, state, p, *record));
-      entry.deepest = watch.deepest;
       entry.record = *record;
       entry.curvature_share = curvature_share(system, state);
       const nlohmann::json note = {{"outside_domain", report_outside_domain(system)},
@@ -205,6 +207,7 @@ struct Recorder {
       report_increment(p, *record);
       ++converged_count;
     }
+    entry.deepest = watch.deepest;
     history->row(row_of(p, entry.row));
     report_row(p, entry.row);
     if (!wants_fields(p)) return;
@@ -229,7 +232,7 @@ struct Recorder {
         converged_count % description.output.checkpoint == 0 || p.fraction >= 1.0 || stopping;
     try {
       checkpoints->add(entry, memory);
-      if (due) checkpoints->save(state, p, position, memory);
+      if (due) checkpoints->save(state, p, position, memory, watch.memory);
     } catch (const io::WriteError& error) {
       write_error = error.what();
     }
@@ -285,17 +288,13 @@ struct Recorder {
   /// What a dropped attempt did, for log.txt only.
   void log_iterations(const std::vector<solve::IterationRecord>& records) {
     int number = 0;
-    for (const solve::IterationRecord& it : records)
-      log_line(fmt::format(
-          "  iteration {:>2}: residual {:.1e} energy {:.1e} step {:.3g} open {} stick {} slip {}",
-          ++number, it.residual, it.energy, it.step, it.counts.open, it.counts.stick,
-          it.counts.slip));
+    for (const solve::IterationRecord& it : records) log_line(iteration_text(++number, it, states));
   }
 
   /// An increment of explicit time integration.
   void report_time_steps(const model::Progress& p, const solve::IncrementRecord& record) {
     const solve::TimeSteps& steps = record.time_steps;
-    const std::string line = time_steps_text(step_name(p), p, record);
+    const std::string line = time_steps_text(step_name(p), p, record, states);
     log_line(line);
     show_progress(p, line);
     time_steps += steps.count;
@@ -322,12 +321,9 @@ struct Recorder {
   }
 
   void report_increment(const model::Progress& p, const solve::IncrementRecord& record) {
-    if (record.time_steps.count > 0) {
-      report_time_steps(p, record);
-      return;
-    }
+    if (record.time_steps.count > 0) return report_time_steps(p, record);
     iterations += static_cast<int>(record.iterations.size()) + record.wasted_iterations;
-    const std::string line = increment_text(step_name(p), p, record);
+    const std::string line = increment_text(step_name(p), p, record, states);
     log_line(line);
     show_progress(p, line);
   }
@@ -465,7 +461,10 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
   else
     introduce(recorder, id);
   model::BasicAnalysisObserver<Dim> observer = observe(recorder);
-  if (from) observer.resumed = [&] { recorder.resume(*from); };
+  if (from)
+    observer.resumed = [&](const auto& system, const auto& state) {
+      recorder.resume(*from, system, state);
+    };
   model::BasicAnalysisResult<Dim> result;
   try {
     result = model::run(built.model, built.options, observer, from ? &from->point : nullptr);

@@ -221,10 +221,8 @@ TangentReport check_probe(Probe<Dim>& probe, const model::BasicModel<Dim>& m) {
   add("contact", true);
   only({Term::bulk, Term::contact, Term::pressure, Term::rigid});
   add("all", true);
-  const solve::Evaluation e = probe.at(probe.base, false);
-  report.open = e.counts.open;
-  report.stick = e.counts.stick;
-  report.slip = e.counts.slip;
+  report.counts = probe.at(probe.base, false).counts;
+  report.states = point_states(m);
   return report;
 }
 
@@ -342,8 +340,8 @@ TangentReport check_tangent(const std::string& path, int threads, int state,
 }
 
 std::string to_text(const TangentReport& report) {
-  std::string text = fmt::format("contact points: {} open, {} stick, {} slip\n", report.open,
-                                 report.stick, report.slip);
+  const std::string counts = counts_text(report.counts, report.states);
+  std::string text = fmt::format("contact points: {}\n", counts.empty() ? "none" : counts);
   text += fmt::format("{:<10} {:>12} {:>8}\n", "part", "error", "order");
   for (const TangentRow& row : report.rows) {
     if (row.skipped)
@@ -367,8 +365,12 @@ std::string to_json(const TangentReport& report) {
          {"skipped", row.skipped},
          {"pass", row.passed()},
          {"note", row.note}});
-  return json_text(
-      {{"open", report.open}, {"stick", report.stick}, {"slip", report.slip}, {"rows", rows}}, 1);
+  return json_text({{"open", report.counts.open},
+                    {"stick", report.counts.stick},
+                    {"slipping", report.counts.slipping},
+                    {"closed", report.counts.closed},
+                    {"rows", rows}},
+                   1);
 }
 
 }  // namespace osculate::api

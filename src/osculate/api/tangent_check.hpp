@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "osculate/api/increment_text.hpp"
 #include "osculate/deck/parameters.hpp"
 #include "osculate/model/model.hpp"
 
@@ -22,7 +23,8 @@ struct TangentRow {
 
 struct TangentReport {
   std::vector<TangentRow> rows;
-  int open = 0, stick = 0, slip = 0;  ///< states at which the check was made
+  solve::StateCounts counts;  ///< states at which the check was made
+  PointStates states;         ///< those that there can be
 };
 
 /// Checks the assembled tangent of a model by convergence order, part by part, near its initial

@@ -27,7 +27,7 @@ std::vector<std::string> Watch<Dim>::begin(const model::BasicSystem<Dim>& system
   for (std::size_t p = 0; p < model.pairs.size(); ++p)
     if (const std::string deep = deep_overlap(model, model.pairs[p], state.pairs[p]); !deep.empty())
       texts.push_back("warning: " + deep);
-  open_at = system.positions(state);
+  now = system.positions(state);
   for (const pairing::PairEvaluation<Dim>& contact : system.contact()) {
     Penetration first;
     measure_closing(contact, false, first);
@@ -38,35 +38,41 @@ std::vector<std::string> Watch<Dim>::begin(const model::BasicSystem<Dim>& system
 }
 
 template <int Dim>
+void Watch<Dim>::resume(const WatchMemory& from, const model::BasicSystem<Dim>& system,
+                        const model::BasicState<Dim>& state, bool first) {
+  memory = from;
+  now = system.positions(state);
+  moved = !first;
+  remember_front(state);
+}
+
+template <int Dim>
 std::vector<std::string> Watch<Dim>::take(const model::BasicSystem<Dim>& system,
                                           const model::BasicState<Dim>& state,
                                           const model::Progress& progress,
                                           const solve::IncrementRecord& record) {
   std::vector<std::string> texts;
-  last = system.positions(state);
-  const std::vector<Vec<Dim>>& x = last;
+  now = system.positions(state);
+  moved = true;
   const std::size_t pairs = model.pairs.size();
   deepest.resize(pairs);
   front.resize(pairs);
-  passed.resize(pairs);
-  bool open = false;
+  memory.passed.resize(pairs);
   for (std::size_t p = 0; p < pairs; ++p) {
     const model::BasicContactPair<Dim>& pair = model.pairs[p];
     const pairing::PairEvaluation<Dim>& contact = system.contact()[p];
     measure_penetration(pair, contact, deepest[p]);
     measure_closing(contact, system.touched()[p], deepest[p]);
     measure_sticking(pair, contact, deepest[p]);
-    open = open || !deepest[p].closed;
-    if (!passed[p]) {
-      const std::string through = model::passed_through(model, pair, front[p], contact, x);
-      passed[p] = !through.empty();
-      if (passed[p]) texts.push_back("warning: " + through);
+    if (!memory.passed[p]) {
+      const std::string through = model::passed_through(model, pair, front[p], contact, now);
+      memory.passed[p] = through.empty() ? 0 : 1;
+      if (!through.empty()) texts.push_back("warning: " + through);
     }
   }
   remember_front(state);
-  if (open) open_at = x;
-  model::measure_small_strain(model, state.u, small_strains);
-  if (progress.fraction >= 1.0) model::measure_locking(model, state.u, locking);
+  model::measure_small_strain(model, state.u, memory.small_strains);
+  if (progress.fraction >= 1.0) model::measure_locking(model, state.u, memory.locking);
   measure_energy(system, state, record);
   return texts;
 }
@@ -89,7 +95,7 @@ void Watch<Dim>::measure_energy(const model::BasicSystem<Dim>& system,
   const double h = record.time_steps.longest;
   const double borrowed = h * h / 8 * state.rates.acceleration.dot(system.forces().inertia);
   const double there = std::max({e.start, e.start + e.external, e.kinetic + e.strain});
-  if (there > 0) grown = (-e.numerical - std::max(0.0, borrowed)) / there;
+  if (there > 0) memory.grown = (-e.numerical - std::max(0.0, borrowed)) / there;
 }
 
 template <int Dim>
@@ -100,20 +106,21 @@ std::vector<std::string> Watch<Dim>::end(bool open_matters) {
     add(missed_target(model, model.pairs[p], deepest[p]), texts);
     add(soft_friction(model.pairs[p], deepest[p]), texts);
   }
-  if (open_matters && !open_at.empty())
-    for (std::string& text : never_closed(model, deepest, open_at)) add(std::move(text), texts);
+  if (open_matters && !now.empty())
+    for (std::string& text : never_closed(model, deepest, now)) add(std::move(text), texts);
   constexpr double deep = -0.05;  // of a cell
-  if (open_matters && !last.empty())
-    for (const model::BeyondSlave& found : model::beyond_slave(model, last, deep))
+  if (open_matters && moved)
+    for (const model::BeyondSlave& found : model::beyond_slave(model, now, deep))
       texts.push_back(fmt::format("warning: {}: {}", beyond_slave_text(model.mesh, found),
                                   beyond_slave_cure(found)));
-  for (const model::Locking& found : locking) add(model::locks(found), texts);
-  for (const model::SmallStrain& found : small_strains) add(model::left_small_strain(found), texts);
+  for (const model::Locking& found : memory.locking) add(model::locks(found), texts);
+  for (const model::SmallStrain& found : memory.small_strains)
+    add(model::left_small_strain(found), texts);
   constexpr double visible = 0.06;  // a mass that bounces once scatters by 5 %
-  if (grown > visible)
+  if (memory.grown > visible)
     add(fmt::format("warning: explicit time integration has made {:.2g} % of the energy out of "
                     "nothing: take shorter time steps (safety: or step: of central_differences)",
-                    100 * grown),
+                    100 * memory.grown),
         texts);
   return texts;
 }

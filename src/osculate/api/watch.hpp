@@ -14,18 +14,17 @@ template <int Dim>
 struct Watch {
   const model::BasicModel<Dim>& model;
   std::vector<Penetration> deepest{};  ///< by pair, so far
-  std::vector<model::SmallStrain> small_strains{};
-  std::vector<model::Locking> locking{};   ///< at the ends of steps
-  double grown = 0;                        ///< share of the energy now that came from nothing
+  WatchMemory memory{};
   std::vector<std::vector<char>> front{};  ///< points of each pair, of the last increment
-  std::vector<bool> passed{};              ///< by pair: told that points went through
-  std::vector<Vec<Dim>> last{};            ///< configuration of the last increment
-  std::vector<Vec<Dim>> open_at{};  ///< configuration of the last increment with a pair that has
-                                    ///< yet to close
+  std::vector<Vec<Dim>> now{};             ///< configuration of the last increment
+  bool moved = false;                      ///< there was an increment
 
   /// Before the first increment.
   [[nodiscard]] std::vector<std::string> begin(const model::BasicSystem<Dim>& system,
                                                const model::BasicState<Dim>& state);
+  /// Instead of `begin`, where a run goes on: after an increment unless `first`.
+  void resume(const WatchMemory& from, const model::BasicSystem<Dim>& system,
+              const model::BasicState<Dim>& state, bool first);
   /// An accepted increment.
   [[nodiscard]] std::vector<std::string> take(const model::BasicSystem<Dim>& system,
                                               const model::BasicState<Dim>& state,

@@ -408,6 +408,8 @@ enum class Quantity {
   max_pressure,
   max_penetration,  // of contact pairs
   stick,
+  slipping,
+  closed,
   slip,
   open,
   area,
@@ -416,13 +418,14 @@ enum class Quantity {
 /// True for the quantities of contact pairs.
 [[nodiscard]] constexpr bool is_contact_quantity(Quantity q) { return q >= Quantity::force_x; }
 /// The words of the model file and of model::HistoryRequest, in the order of Quantity.
-inline constexpr std::array<std::string_view, 30> quantity_names{
+inline constexpr std::array<std::string_view, 32> quantity_names{
     "ux",      "uy",           "uz",          "rx",           "ry",
     "rz",      "rfx",          "rfy",         "rfz",          "rmx",
     "rmy",     "rmz",          "vx",          "vy",           "vz",
     "wx",      "wy",           "wz",          "force_x",      "force_y",
     "force_z", "normal_force", "shear_force", "max_pressure", "max_penetration",
-    "stick",   "slip",         "open",        "area",         "friction_work"};
+    "stick",   "slipping",     "closed",      "slip",         "open",
+    "area",    "friction_work"};
 /// True for what only models in space have.
 [[nodiscard]] constexpr bool is_spatial(Quantity q) {
   return q == Quantity::uz || q == Quantity::rx || q == Quantity::ry || q == Quantity::rfz ||

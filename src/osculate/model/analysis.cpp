@@ -141,7 +141,7 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
   const auto first = static_cast<std::size_t>(a.progress.step);
   if (from && !model.steps.empty())
     a.system.resume_step(model.steps[first], result.state, from->memory);
-  if (from && observer.resumed) observer.resumed();
+  if (from && observer.resumed) observer.resumed(a.system, result.state);
   for (std::size_t s = first; s < model.steps.size(); ++s) {
     const Step& step = model.steps[s];
     a.begun = 0;

@@ -70,7 +70,7 @@ struct BasicAnalysisObserver {
                      const solve::StepPosition&)>
       resumable;
   /// Where the analysis goes on from a resume point: it stands there, nothing has been solved yet.
-  std::function<void()> resumed{};
+  std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&)> resumed{};
   /// Asked between two iterations: true ends the analysis with what has converged.
   std::function<bool()> interrupted;
 };

@@ -5,11 +5,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "osculate/core/dense.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/model/body_resultants.hpp"
 #include "osculate/model/bulk.hpp"
+#include "osculate/model/joint_motions.hpp"
 #include "osculate/model/system_impl.hpp"
 
 namespace osculate::model {
@@ -165,45 +168,99 @@ double stiffest_diagonal(const la::SparseMatrix& k, const std::vector<bool>& pre
   return stiffest;
 }
 
+/// A body, the motions that its prescriptions allow, and which of them nothing resists.
+template <int Dim>
+struct Body {
+  std::vector<Index> nodes;
+  std::string name;
+  Vec<Dim> center = Vec<Dim>::Zero();
+  Eigen::MatrixXd allowed;  ///< combinations of translations and rotations, one a column
+};
+
+/// Plain free motions of a body out of combinations of those it is allowed.
+template <int Dim>
+void add_motions(const Body<Dim>& body, const Eigen::MatrixXd& combinations,
+                 const Eigen::VectorXd& ratios, std::vector<BasicFreeMotion<Dim>>& found) {
+  Eigen::MatrixXd w = body.allowed * combinations;
+  if (w.cols() > 1) w = plain_basis(std::move(w));
+  for (Eigen::Index j = 0; j < w.cols(); ++j) {
+    found.push_back(motion_of<Dim>(w.col(j), body.center, ratios[j]));
+    found.back().body = body.name;
+    found.back().nodes = body.nodes;
+  }
+}
+
+/// The body of some that contact ties together whose motion it is.
+struct Leader {
+  std::size_t member = 0;
+  bool pushed = false;  ///< and nothing is behind it
+};
+
+/// In the direction of the loads of all, others press on it and the least is behind it.
+template <int Dim>
+Leader leader_of(const std::vector<Body<Dim>>& bodies, const JointMotions& joint,
+                 const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                 const Eigen::VectorXd& loads) {
+  Vec<Dim> load = Vec<Dim>::Zero();
+  for (const std::size_t b : joint.bodies)
+    load += resultants(system, model, bodies[b].nodes, loads).load;
+  Leader leader;
+  int most = std::numeric_limits<int>::min();
+  for (std::size_t i = 0; i < joint.bodies.size(); ++i) {
+    if (joint.motions[i].cols() == 0) continue;
+    const int sum = pressed(system, model, bodies[joint.bodies[i]].nodes, load).sum();
+    if (sum > most) leader = {i, sum > 0};
+    most = std::max(most, sum);
+  }
+  return leader;
+}
+
 }  // namespace
 
 template <int Dim>
 std::vector<BasicFreeMotion<Dim>> free_motions(BasicSystem<Dim>& system,
                                                const BasicModel<Dim>& model,
-                                               const BasicState<Dim>& state) {
-  constexpr double threshold = 1e-6;
-  std::vector<BasicFreeMotion<Dim>> found;
+                                               const BasicState<Dim>& state,
+                                               const Eigen::VectorXd& loads) {
   const std::vector<Vec<Dim>> x = system.positions(state);
   const la::SparseMatrix& k = system.matrix();
   std::vector<bool> prescribed(static_cast<std::size_t>(k.n));
   for (Index u = 0; u < k.n; ++u) prescribed[static_cast<std::size_t>(u)] = system.prescribed(u);
-  const double stiffest = stiffest_diagonal(k, prescribed);
-  for (const std::vector<Index>& nodes : deformable_bodies(model)) {
-    const Modes<Dim> modes = rigid_modes(system, nodes, x);
-    const Eigen::MatrixXd free = admissible(system, modes.z);
-    if (free.cols() == 0) continue;
-    const Eigen::MatrixXd z = modes.z * free;
-    Eigen::MatrixXd kz(k.n, z.cols());
-    for (Eigen::Index j = 0; j < z.cols(); ++j) kz.col(j) = la::multiply(k, z.col(j));
-    const Eigen::MatrixXd g = z.transpose() * kz;
-    const core::SingularValues svd = core::singular_values(g);
-    const auto ratio = [&](Eigen::Index j) {
-      return stiffest > 0 ? svd.values[j] / stiffest : 0.0;
-    };
-    Eigen::Index first = 0;  // singular values fall
-    while (first < g.cols() && ratio(first) > threshold) ++first;
-    if (first == g.cols()) continue;
-    const Eigen::Index count = g.cols() - first;
-    Eigen::MatrixXd w = free * svd.v.rightCols(count);
-    if (count > 1) w = plain_basis(std::move(w));
+  std::vector<Body<Dim>> bodies;
+  std::vector<CompactModes> modes;
+  for (std::vector<Index>& nodes : deformable_bodies(model)) {
+    const Modes<Dim> rigid = rigid_modes(system, nodes, x);
+    Eigen::MatrixXd allowed = admissible(system, rigid.z);
+    if (allowed.cols() == 0) continue;
+    modes.push_back(compact(rigid.z * allowed));
     const std::string name = body_name(model, nodes.front());
-    for (Eigen::Index j = 0; j < count; ++j) {
-      found.push_back(motion_of<Dim>(w.col(j), modes.center, ratio(first + j)));
-      found.back().body = name;
-      found.back().nodes = nodes;
+    bodies.push_back({std::move(nodes), name, rigid.center, std::move(allowed)});
+  }
+  const RigidStiffness stiffness(k, modes, stiffest_diagonal(k, prescribed));
+  std::vector<BasicFreeMotion<Dim>> first, found;
+  std::vector<bool> led(bodies.size(), false);
+  for (const JointMotions& joint : joint_motions(stiffness)) {
+    const Leader leader = leader_of(bodies, joint, system, model,
+                                    loads.size() > 0 ? loads : system.forces().external);
+    const std::size_t body = joint.bodies[leader.member], before = first.size();
+    const Eigen::MatrixXd& of_leader = joint.motions[leader.member];
+    add_motions<Dim>(bodies[body], of_leader,
+                     Eigen::VectorXd::Constant(of_leader.cols(), joint.ratio), first);
+    led[body] = true;
+    for (std::size_t m = before; m < first.size(); ++m) {
+      first[m].pushed = leader.pushed;
+      for (std::size_t i = 0; i < joint.bodies.size(); ++i)
+        if (i != leader.member && joint.motions[i].cols() > 0)
+          first[m].along.push_back(bodies[joint.bodies[i]].name);
     }
   }
-  return found;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (led[b]) continue;
+    const FreeCombinations alone = stiffness.free_of({b});
+    if (alone.count() > 0) add_motions<Dim>(bodies[b], alone.columns, alone.ratios, found);
+  }
+  first.insert(first.end(), found.begin(), found.end());
+  return first;
 }
 
 /// Formula    |v - Z c| <= 1e-3 |v| over all nodes of deformable bodies, Z c the nearest rigid
@@ -255,24 +312,21 @@ std::string motion_text(const BasicFreeMotion<Dim>& motion) {
 }  // namespace
 
 template <int Dim>
-std::string free_motion_message(BasicSystem<Dim>& system, const BasicModel<Dim>& model,
-                                const BasicState<Dim>& state) {
-  solve::Evaluation unused;
-  system.evaluate(state, state, state.fraction, true, unused);
-  const std::vector<BasicFreeMotion<Dim>> motions = free_motions(system, model, state);
+std::string free_motion_message(const std::vector<BasicFreeMotion<Dim>>& motions) {
   std::string text;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     std::size_t last = i;
     while (last + 1 < motions.size() && motions[last + 1].center == motions[i].center) ++last;
     if (!text.empty()) text += "; ";
     text += fmt::format("body '{}' is free to ", motions[i].body);
-    if (last + 1 - i == static_cast<std::size_t>(body::motions<Dim>)) {
-      text += "move and turn in every direction: nothing holds it";
-      i = last;
-      continue;
-    }
-    text += fmt::format("{} (resistance {:.1e} of its stiffness)", motion_text(motions[i]),
-                        motions[i].stiffness_ratio);
+    const bool every = last + 1 - i == static_cast<std::size_t>(body::motions<Dim>);
+    text += every ? "move and turn in every direction: nothing holds it"
+                  : fmt::format("{} (resistance {:.1e} of its stiffness)", motion_text(motions[i]),
+                                motions[i].stiffness_ratio);
+    if (!motions[i].along.empty())
+      text += fmt::format(", and '{}' come{} along", fmt::join(motions[i].along, "', '"),
+                          motions[i].along.size() == 1 ? "s" : "");
+    if (every) i = last;
   }
   return text;
 }
@@ -315,9 +369,11 @@ template std::vector<OutsideDomain> outside_domain(const System&, const Model&);
 template std::vector<OutsideDomain> outside_domain(const System3&, const Model3&);
 template std::string outside_domain_message(const Model&, const OutsideDomain&);
 template std::string outside_domain_message(const Model3&, const OutsideDomain&);
-template std::vector<FreeMotion> free_motions(System&, const Model&, const State&);
-template std::vector<FreeMotion3> free_motions(System3&, const Model3&, const State3&);
-template std::string free_motion_message(System&, const Model&, const State&);
-template std::string free_motion_message(System3&, const Model3&, const State3&);
+template std::vector<FreeMotion> free_motions(System&, const Model&, const State&,
+                                              const Eigen::VectorXd&);
+template std::vector<FreeMotion3> free_motions(System3&, const Model3&, const State3&,
+                                               const Eigen::VectorXd&);
+template std::string free_motion_message(const std::vector<FreeMotion>&);
+template std::string free_motion_message(const std::vector<FreeMotion3>&);
 
 }  // namespace osculate::model

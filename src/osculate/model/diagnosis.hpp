@@ -24,6 +24,9 @@ struct BasicFreeMotion {
   Vec<Dim> center = Vec<Dim>::Zero();
   std::vector<Index> nodes{};  ///< of the body
   double stiffness_ratio = 0;  ///< resistance relative to the body's own stiffness
+  /// Bodies in contact with it that have to come along: alone it would be resisted by them.
+  std::vector<std::string> along{};
+  bool pushed = false;  ///< those press it on, and nothing is behind it
 };
 
 /// Rigid-body modes of every deformable body that the tangent of the last evaluation does not
@@ -31,18 +34,21 @@ struct BasicFreeMotion {
 /// the body's size, as far as prescribed nodes allow them) below 1e-6 of the body's own stiffness.
 /// Several modes of one body are combined to plain ones: along x, y, z, then about the axes.
 ///
+/// Bodies that contact ties together may have motions that none of them has alone. They are those
+/// of the body that the others press on in the direction of the loads (`loads`: external forces of
+/// the dofs; empty: of the last evaluation), which comes first.
+///
 /// Tested by  tests/unit/model/test_diagnosis.cpp
 template <int Dim>
 [[nodiscard]] std::vector<BasicFreeMotion<Dim>> free_motions(BasicSystem<Dim>& system,
                                                              const BasicModel<Dim>& model,
-                                                             const BasicState<Dim>& state);
+                                                             const BasicState<Dim>& state,
+                                                             const Eigen::VectorXd& loads = {});
 
 /// `body 'block' is free to move along (0.9578, 0.2873)`, or empty. A body that nothing holds gets
 /// one phrase for all its motions.
 template <int Dim>
-[[nodiscard]] std::string free_motion_message(BasicSystem<Dim>& system,
-                                              const BasicModel<Dim>& model,
-                                              const BasicState<Dim>& state);
+[[nodiscard]] std::string free_motion_message(const std::vector<BasicFreeMotion<Dim>>& motions);
 
 /// Slave nodes of one pair that lie beyond the projection domain of the master in the last
 /// evaluation (pairing::PointResult::outside_domain).

@@ -13,17 +13,18 @@ namespace {
 
 constexpr double too_stiff = 1e10;  ///< leaves six digits for the rest
 
-const char* state_name(std::uint8_t state) {
-  switch (state) {
-    case 0:
+const char* course_name(const PointCourse& course) {
+  switch (course.state) {
+    case PointState::open:
       return "open";
-    case 1:
+    case PointState::stick:
       return "stick";
-    case 2:
-      return "slip";
-    default:
-      return "slip back";
+    case PointState::slipping:
+      return course.back ? "slip back" : "slip";
+    case PointState::closed:
+      return course.in_valley ? "closed in a valley" : "closed";
   }
+  return "";
 }
 
 template <int Dim>
@@ -44,7 +45,7 @@ std::vector<FlippingPoint> flipping_points(const BasicModel<Dim>& model,
       FlippingPoint point{model.pairs[p].name, node_of(model, p, i), {}, 0};
       for (std::size_t k = 0; k < recent.size(); ++k) {
         if (k > 0 && recent[k][p][i] != recent[k - 1][p][i]) ++point.changes;
-        point.states += fmt::format("{}{}", k ? ", " : "", state_name(recent[k][p][i]));
+        point.states += fmt::format("{}{}", k ? ", " : "", course_name(recent[k][p][i]));
       }
       if (point.changes >= 2) found.push_back(std::move(point));
     }
@@ -152,14 +153,21 @@ void name_motion(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, c
                  BasicFailure<Dim>& f) {
   const Touching<Dim> touching = touching_pairs(system, model);
   const std::string& body = f.motions.front().body;
+  const bool joint = !f.motions.front().along.empty();  // friction may stick between them
   f.cause = FailureCause::sliding_motion;
-  if (f.pulled) {
+  if (f.motions.front().pushed) {
+    f.cause = FailureCause::free_motion;
+    f.proposal = fmt::format(
+        "hold body '{}' by a prescription, or let it rest on something: what lies on it ('{}') is "
+        "pressed against it, and nothing is behind it",
+        body, fmt::join(f.motions.front().along, "', '"));
+  } else if (f.pulled) {
     f.cause = FailureCause::free_motion;
     f.proposal = fmt::format(
         "look at the signs of the loads in step '{}': they pull body '{}' off what it touches (a "
         "pressure is positive where it pushes); if that is meant, hold the body",
         step.name, body);
-  } else if (!touching.frictional.empty()) {
+  } else if (!touching.frictional.empty() && !(joint && !touching.frictionless.empty())) {
     f.proposal = fmt::format(
         "hold body '{}' against this motion by a prescription, or raise the friction coefficient "
         "of contact '{}': all its points slide, so it resists no more",
@@ -353,17 +361,16 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
   const BasicState<Dim>& last = attempt.evaluation.ok ? attempt.state : result.state;
   std::string outside;
   solve::Evaluation evaluation;
+  system.evaluate(result.state, result.state, 1.0, false, evaluation);
+  const Eigen::VectorXd whole_loads = system.forces().external;
   // A body may be free from the beginning of the increment, or only where the iterations ended.
   system.evaluate(result.state, result.state, result.state.fraction, true, evaluation);
-  const auto before = free_motions(system, model, result.state);
+  const auto before = free_motions(system, model, result.state, whole_loads);
   system.evaluate(last, last, last.fraction, true, evaluation);
-  const BasicState<Dim>* freest = &last;
   if (evaluation.ok) {
-    f.motions = free_motions(system, model, last);
-    if (before.size() > f.motions.size()) {
-      f.motions = before;
-      freest = &result.state;
-    }
+    f.motions = free_motions(system, model, last, whole_loads);
+    const bool pushed = !f.motions.empty() && f.motions.front().pushed;
+    if (before.size() > f.motions.size() && !pushed) f.motions = before;
     f.held = held_points(system, model, last);
     for (const OutsideDomain& found : outside_domain(system, model))
       outside += "; " + outside_domain_message(model, found);
@@ -382,10 +389,8 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
   f.pulled = !f.motions.empty() && pulled_away(system, model, f.motions.front().nodes);
   system.evaluate(last, last, last.fraction, true, evaluation);
   judge(system, model, step, attempt, f);
-  f.message =
-      paragraph(model, step, result,
-                evaluation.ok ? free_motion_message(system, model, *freest) : std::string{}, f) +
-      outside + fmt::format(". Cause: {}. Proposal: {}.", cause_name(f.cause), f.proposal);
+  f.message = paragraph(model, step, result, free_motion_message(f.motions), f) + outside +
+              fmt::format(". Cause: {}. Proposal: {}.", cause_name(f.cause), f.proposal);
   return f;
 }
 

@@ -137,9 +137,12 @@ double one_pair_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& mod
     }
     if (request.quantity == "max_pressure") sum = std::max(sum, -p.normal_traction);
     if (request.quantity == "max_penetration" && closed) sum = std::max(sum, -p.gap);
-    if (request.quantity == "stick") sum += p.status == contact::Status::stick ? 1 : 0;
-    if (request.quantity == "slip") sum += p.status == contact::Status::slip ? 1 : 0;
+    const PointState state = point_state(of.definition, p);
+    if (request.quantity == "stick") sum += state == PointState::stick ? 1 : 0;
+    if (request.quantity == "slipping") sum += state == PointState::slipping ? 1 : 0;
+    if (request.quantity == "closed") sum += closed ? 1 : 0;
     if (request.quantity == "open") sum += closed ? 0 : 1;
+    if (request.quantity == "slip" && closed) sum = std::max(sum, p.history.slip.norm());
     if (request.quantity == "area" && closed) sum += p.weight;
     if (request.quantity == "friction_work") sum += p.history.friction_work;
   }
@@ -152,7 +155,8 @@ double pair_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
   double value = one_pair_value(system, model, request, request.target);
   for (const Index pair : request.group) {
     const double other = one_pair_value(system, model, request, pair);
-    value = request.quantity.starts_with("max_") ? std::max(value, other) : value + other;
+    const bool largest = request.quantity.starts_with("max_") || request.quantity == "slip";
+    value = largest ? std::max(value, other) : value + other;
   }
   return value;
 }
@@ -178,7 +182,7 @@ struct Shown {
 };
 
 template <int Dim>
-Shown<Dim> shown(const pairing::PointResult<Dim>& p) {
+Shown<Dim> shown(const pairing::PairDefinition<Dim>& pair, const pairing::PointResult<Dim>& p) {
   Shown<Dim> s;
   s.weight = 1;
   s.gap = p.history.facet >= 0 ? p.gap : 0.0;
@@ -186,7 +190,7 @@ Shown<Dim> shown(const pairing::PointResult<Dim>& p) {
   s.area = p.weight;
   s.shear = -p.shear();
   s.slip = p.frame * p.history.slip;
-  s.status = static_cast<double>(p.status);
+  s.status = static_cast<double>(point_state(pair, p));
   s.feature = static_cast<double>(p.history.feature);
   s.normal = p.normal;
   return s;
@@ -226,14 +230,15 @@ void add_shown(const Shown<Dim>& s, BasicContactFields<Dim>& fields) {
 /// kept, and no weight is negative); areas are N_k shares, status and feature those of the point
 /// with the largest weight.
 template <int Dim>
-std::vector<Shown<Dim>> at_nodes(const pairing::SlaveSide<Dim>& slave,
+std::vector<Shown<Dim>> at_nodes(const pairing::PairDefinition<Dim>& pair,
                                  const std::vector<pairing::PointResult<Dim>>& points) {
+  const pairing::SlaveSide<Dim>& slave = pair.slave;
   std::map<Index, std::size_t> slot;
   for (std::size_t n = 0; n < slave.nodes.size(); ++n) slot[slave.nodes[n]] = n;
   std::vector<Shown<Dim>> out(slave.nodes.size());
   std::vector<double> heaviest(out.size(), 0.0);
   for (std::size_t i = 0; i < slave.points.size(); ++i) {
-    const Shown<Dim> p = shown(points[i]);
+    const Shown<Dim> p = shown(pair, points[i]);
     for (std::size_t k = 0; k < static_cast<std::size_t>(slave.points[i].count); ++k) {
       const std::size_t n = slot.at(slave.points[i].nodes[k]);
       const double share = slave.points[i].shape[k], weight = share * share * p.area;
@@ -291,18 +296,18 @@ template <int Dim>
 BasicContactFields<Dim> contact_fields(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
                                        std::size_t pair) {
   BasicContactFields<Dim> fields;
-  const pairing::SlaveSide<Dim>& slave = model.pairs[pair].definition.slave;
+  const pairing::PairDefinition<Dim>& definition = model.pairs[pair].definition;
   const std::vector<pairing::PointResult<Dim>>& points = system.contact()[pair].points;
-  fields.nodes = slave.nodes;
-  if (!pairing::sampled_at_nodes(slave)) {
-    for (const Shown<Dim>& s : at_nodes<Dim>(slave, points)) add_shown(s, fields);
+  fields.nodes = definition.slave.nodes;
+  if (!pairing::sampled_at_nodes(definition.slave)) {
+    for (const Shown<Dim>& s : at_nodes<Dim>(definition, points)) add_shown(s, fields);
     return fields;
   }
   for (const pairing::PointResult<Dim>& p : points) {
     const contact::PointHistory<Dim>& h = p.history;
     if constexpr (Dim == 3)
       if (h.edge >= 0) fields.crossings.push_back({h.edge, h.flipped ? -h.xi[1] : h.xi[1]});
-    add_shown(shown(p), fields);
+    add_shown(shown(definition, p), fields);
   }
   return fields;
 }

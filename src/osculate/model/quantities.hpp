@@ -16,7 +16,7 @@ struct HistoryRequest {
   Index target = -1;         ///< rigid body or pair
   std::vector<Index> nodes;  ///< of a set
   std::string quantity;
-  std::vector<Index> group{};  ///< further pairs: their sum, the largest of `max_*`
+  std::vector<Index> group{};  ///< further pairs: their sum, the largest of `max_*` and `slip`
 };
 
 /// What can be asked of node sets, rigid bodies and contact pairs. Displacements of a set are
@@ -25,9 +25,11 @@ struct HistoryRequest {
 /// its reference point that are fixed in space. Pair forces act on the slave; `shear_force` is
 /// along the master's direction of travel (3D: the length of the resultant of all shear forces).
 /// `friction_work` is what sliding has dissipated since the beginning; the elastic part of the
-/// tangential penalty is not in it.
-/// Velocities are zero in steps without inertia. Of the whole model: the members of Energies, and
-/// the time since inertia began (`elapsed`).
+/// tangential penalty is not in it. `slip` is the largest distance, over the points in contact,
+/// that a point has come along the master since it touched it: what CSLIP* have as a vector, zero
+/// without friction. `stick` and `slipping` count points of pairs with friction (or tied), `closed`
+/// all that are in contact. Velocities are zero in steps without inertia. Of the whole model: the
+/// members of Energies, and the time since inertia began (`elapsed`).
 inline constexpr std::array<std::string_view, 9> energy_quantities{
     "elapsed",  "kinetic", "strain",    "contact", "external",
     "friction", "damping", "numerical", "residual"};
@@ -39,17 +41,29 @@ inline constexpr std::array<std::string_view, 6> node_quantities{"ux",  "uy", "r
                                                                  "rfy", "vx", "vy"};
 inline constexpr std::array<std::string_view, 9> rigid_quantities{"ux",  "uy", "rz", "rfx", "rfy",
                                                                   "rmz", "vx", "vy", "wz"};
-inline constexpr std::array<std::string_view, 11> pair_quantities{
-    "force_x", "force_y", "normal_force", "shear_force", "max_pressure", "max_penetration",
-    "stick",   "slip",    "open",         "area",        "friction_work"};
+inline constexpr std::array<std::string_view, 13> pair_quantities{
+    "force_x",      "force_y",  "normal_force", "shear_force", "max_pressure", "max_penetration",
+    "stick",        "slipping", "closed",       "slip",        "open",         "area",
+    "friction_work"};
 inline constexpr std::array<std::string_view, 9> node_quantities3{"ux",  "uy", "uz", "rfx", "rfy",
                                                                   "rfz", "vx", "vy", "vz"};
 inline constexpr std::array<std::string_view, 18> rigid_quantities3{
     "ux",  "uy",  "uz",  "rx", "ry", "rz", "rfx", "rfy", "rfz",
     "rmx", "rmy", "rmz", "vx", "vy", "vz", "wx",  "wy",  "wz"};
-inline constexpr std::array<std::string_view, 12> pair_quantities3{
-    "force_x",         "force_y", "force_z", "normal_force", "shear_force", "max_pressure",
-    "max_penetration", "stick",   "slip",    "open",         "area",        "friction_work"};
+inline constexpr std::array<std::string_view, 14> pair_quantities3{"force_x",
+                                                                   "force_y",
+                                                                   "force_z",
+                                                                   "normal_force",
+                                                                   "shear_force",
+                                                                   "max_pressure",
+                                                                   "max_penetration",
+                                                                   "stick",
+                                                                   "slipping",
+                                                                   "closed",
+                                                                   "slip",
+                                                                   "open",
+                                                                   "area",
+                                                                   "friction_work"};
 
 /// Value after the last evaluation of `system` at the committed `state`.
 template <int Dim>

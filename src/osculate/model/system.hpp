@@ -8,6 +8,7 @@
 #include "osculate/la/condensation.hpp"
 #include "osculate/la/sparse_matrix.hpp"
 #include "osculate/model/model.hpp"
+#include "osculate/model/point_state.hpp"
 #include "osculate/model/state.hpp"
 #include "osculate/solve/central_differences.hpp"
 #include "osculate/solve/impact_ahead.hpp"
@@ -53,8 +54,14 @@ struct ExplicitIncrement {
   solve::StateCounts counts;
 };
 
-/// States of the contact points by pair: 0 open, 1 stick, 2 slip, 3 slip the other way (2D only).
-using ContactStates = std::vector<std::vector<std::uint8_t>>;
+/// What a contact point did.
+struct PointCourse {
+  PointState state = PointState::open;
+  bool back = false;       ///< slid against the master's direction of travel (2D only)
+  bool in_valley = false;  ///< closed between two parts of a master without friction (valley.hpp)
+  friend bool operator==(const PointCourse&, const PointCourse&) = default;
+};
+using ContactStates = std::vector<std::vector<PointCourse>>;  ///< by pair
 
 /// The system that `solve` sees: assembles residual and tangent of a model.
 ///

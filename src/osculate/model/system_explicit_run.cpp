@@ -15,15 +15,12 @@ namespace {
 constexpr int inspect_after = 50;  ///< time steps between two looks at the stable step
 
 template <int Dim>
-solve::StateCounts counts_of(const std::vector<pairing::PairEvaluation<Dim>>& contact) {
+solve::StateCounts counts_of(const BasicModel<Dim>& model,
+                             const std::vector<pairing::PairEvaluation<Dim>>& contact) {
   solve::StateCounts counts;
-  for (const pairing::PairEvaluation<Dim>& pair : contact)
-    for (const pairing::PointResult<Dim>& point : pair.points) {
-      counts.friction_work += point.history.friction_work;
-      if (point.status == contact::Status::open) ++counts.open;
-      if (point.status == contact::Status::stick) ++counts.stick;
-      if (point.status == contact::Status::slip) ++counts.slip;
-    }
+  for (std::size_t p = 0; p < contact.size(); ++p)
+    for (const pairing::PointResult<Dim>& point : contact[p].points)
+      count_point(model.pairs[p].definition, point, counts);
   return counts;
 }
 
@@ -234,7 +231,7 @@ void BasicSystem<Dim>::Impl::Explicit::finish(double fraction, double duration,
   add_energies(rates);
   system.turn_moments(now, false, nullptr);
   system.forces.inertia = inertia_forces(rates.acceleration);
-  out.counts = counts_of(system.contact);
+  out.counts = counts_of(system.model, system.contact);
 }
 
 template <int Dim>

@@ -53,13 +53,9 @@ void mix(std::uint64_t& hash, std::uint64_t value) {
 }
 
 template <int Dim>
-void count_point(const pairing::PointResult<Dim>& point, solve::StateCounts& counts) {
-  mix(counts.signature, static_cast<std::uint64_t>(point.status));
-  if constexpr (Dim == 2) mix(counts.signature, point.shear_traction[0] > 0 ? 1u : 0u);
-  counts.friction_work += point.history.friction_work;
-  if (point.status == contact::Status::open) ++counts.open;
-  if (point.status == contact::Status::stick) ++counts.stick;
-  if (point.status == contact::Status::slip) ++counts.slip;
+void sign_point(const pairing::PointResult<Dim>& point, std::uint64_t& signature) {
+  mix(signature, static_cast<std::uint64_t>(point.status));
+  if constexpr (Dim == 2) mix(signature, point.shear_traction[0] > 0 ? 1u : 0u);
 }
 
 }  // namespace
@@ -132,14 +128,14 @@ std::vector<Vec<Dim>> BasicSystem<Dim>::Impl::positions(const Eigen::VectorXd& u
 template <int Dim>
 ContactStates BasicSystem<Dim>::Impl::contact_states() const {
   ContactStates states;
-  for (const pairing::PairEvaluation<Dim>& pair : contact) {
+  for (std::size_t p = 0; p < contact.size(); ++p) {
     states.emplace_back();
-    for (const pairing::PointResult<Dim>& point : pair.points) {
-      auto state = static_cast<std::uint8_t>(point.status == contact::Status::open    ? 0
-                                             : point.status == contact::Status::stick ? 1
-                                                                                      : 2);
-      if (Dim == 2 && state == 2 && point.shear_traction[0] < 0) state = 3;
-      states.back().push_back(state);
+    for (const pairing::PointResult<Dim>& point : contact[p].points) {
+      PointCourse course{point_state(model.pairs[p].definition, point)};
+      course.back = Dim == 2 && course.state == PointState::slipping && point.shear_traction[0] < 0;
+      course.in_valley =
+          course.state == PointState::closed && point.status == contact::Status::stick;
+      states.back().push_back(course);
     }
   }
   return states;
@@ -311,7 +307,10 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
     for (const pairing::ContactBlock<Dim>& block : contact[p].blocks)
       if (block.active()) add_contact_block(block, with_tangent, inc);
     add_constraints(p, with_tangent, inc);
-    for (const pairing::PointResult<Dim>& point : contact[p].points) count_point(point, out.counts);
+    for (const pairing::PointResult<Dim>& point : contact[p].points) {
+      sign_point(point, out.counts.signature);
+      count_point(pair, point, out.counts);
+    }
   }
 }
 

@@ -123,8 +123,7 @@ NewtonResult<typename S::State> attempt_increment(S& system, const typename S::S
   if (resisted) return held;
   // It moves and moves: in contact its state shows what is free, the first failure tells why.
   const StateCounts &before = attempt.evaluation.counts, &after = held.evaluation.counts;
-  if (held.outcome == Outcome::not_converged &&
-      after.stick + after.slip > before.stick + before.slip)
+  if (held.outcome == Outcome::not_converged && after.touching() > before.touching())
     attempt.state = std::move(held.state);
   return attempt;
 }

@@ -22,9 +22,11 @@ enum class Outcome {
 
 /// States of the contact points, for the log and for state-aware step control.
 struct StateCounts {
-  int open = 0, stick = 0, slip = 0;
+  int open = 0, stick = 0, slipping = 0;
+  int closed = 0;               ///< in contact where nothing could hold them along the master
   std::uint64_t signature = 0;  ///< hash of the state of every point
   double friction_work = 0;     ///< dissipated by all points since the beginning
+  [[nodiscard]] int touching() const { return stick + slipping + closed; }
 };
 
 /// What a system returns for one configuration. The matrix stays inside the system.

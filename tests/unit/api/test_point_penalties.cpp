@@ -27,9 +27,9 @@ TEST(PointPenaltiesOfAModel, HaveExactTangents) {
               deck::build_graded({.keys = keys, .least = 1, .most = 1000, .rigid = rigid});
           EXPECT_EQ(built.model.pairs[0].definition.relative_stiffness.empty(), false);
           const TangentReport report = check_tangent(built.model, 1);
-          EXPECT_GT(report.stick + report.slip, 4);
+          EXPECT_GT(report.counts.touching(), 4);
           if (!friction.empty()) {
-            EXPECT_GT(report.slip, 0);
+            EXPECT_GT(report.counts.slipping, 0);
           }
           for (const TangentRow& row : report.rows) {
             EXPECT_FALSE(row.skipped) << row.part << ": " << row.note;

@@ -67,6 +67,58 @@ constexpr const char* thrown =
     "shake}]}\n"
     "output: {history: [{on: c, of: normal_force}, {on: disc, of: vy}], checkpoint: 1}\n";
 
+/// Runs that end with warnings of what was on the way: a beam that is bent and straightened again,
+/// a block that moves away from a floor that was nearest at first, a body that goes past its slave,
+/// blocks that go through a floor and that gain energy in explicit time integration.
+constexpr const char* bent =
+    "osculate: 1\n"
+    "mesh: {generate: {b: {box: {x: [0, 10], y: [0, 1], elements: [10, 1]}}}}\n"
+    "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
+    "sections: [{on: b, material: m, element: plane_stress, formulation: full}]\n"
+    "steps:\n"
+    "  - {name: bend, increments: 2, prescribe: [{on: b.left, ux: 0, uy: 0}, {on: b.right, uy: "
+    "-4}]}\n"
+    "  - {name: back, increments: 2, prescribe: [{on: b.right, uy: 0}]}\n";
+constexpr const char* leaving =
+    "osculate: 1\n"
+    "mesh: {generate: {b: {box: {x: [0, 2], y: [0, 1], elements: [2, 2]}}}}\n"
+    "materials: {m: {linear_elastic: {E: 100, nu: 0}}}\n"
+    "sections: [{on: b, material: m, element: plane_strain}]\n"
+    "rigid: {floor: {line: {point: [0, -0.01], normal: [0, 1]}}}\n"
+    "contact: [{name: c, master: floor, slave: b.bottom}]\n"
+    "steps: [{name: s, increments: 2, prescribe: [{on: b.top, ux: 0, uy: 0.02}]}]\n";
+constexpr const char* beside =
+    "osculate: 1\n"
+    "mesh: {generate: {b: {box: {x: [0, 10], y: [0, 10], elements: [8, 8]}}}}\n"
+    "materials: {m: {neo_hooke: {E: 3, nu: 0.45}}}\n"
+    "sections: [{on: b, material: m, element: plane_strain, formulation: bbar}]\n"
+    "rigid: {low: {line: {point: [0, 0], normal: [0, 1]}}, up: {line: {point: [0, 10], normal: "
+    "[0, -1]}}}\n"
+    "contact: [{name: l, master: low, slave: b.bottom, friction: {coulomb: {mu: 0.5}}}, {name: u, "
+    "master: up, slave: b.top, friction: {coulomb: {mu: 0.5}}}]\n"
+    "steps: [{name: s, increments: 12, prescribe: [{on: low, ux: 0, uy: 0, rz: 0}, {on: up, ux: 0, "
+    "uy: -4.2, rz: 0}]}]\n";
+constexpr const char* bouncing =
+    "osculate: 1\n"
+    "mesh: {generate: {cells: {box: {x: [0, 2], y: [0.04, 1], elements: [1, 1]}}}}\n"
+    "rigid: {block: {set: cells, mass: 2, inertia: 1.5}, floor: {line: {point: [0, 0], normal: [0, "
+    "1]}}}\n"
+    "contact: [{name: c, master: floor, slave: cells.bottom, weight: node, normal: {table: [[0, 0],"
+    " [0.001, 0.1], [0.002, 10]]}}]\n"
+    "initial_velocity: [{on: block, vy: -1}]\n"
+    "steps: [{name: fall, increments: 3, duration: 0.3, dynamics: {scheme: "
+    "central_differences}}]\n";
+constexpr const char* falling =
+    "osculate: 1\n"
+    "mesh: {generate: {b: {box: {x: [-1, 1], y: [0.01, 1], elements: [8, 4]}}}}\n"
+    "materials: {m: {neo_hooke: {E: 2.0e3, nu: 0.4, density: 1}}}\n"
+    "sections: [{on: b, material: m, element: plane_strain}]\n"
+    "rigid: {floor: {line: {point: [0, 0], normal: [0, 1]}}}\n"
+    "contact: [{name: c, master: floor, slave: b.bottom, search: {depth: 1.0e-4}}]\n"
+    "initial_velocity: [{on: b, vy: -6}]\n"
+    "steps: [{name: fall, increments: 6, duration: 0.006, dynamics: {scheme: "
+    "central_differences}}]\n";
+
 class Restart : public ::testing::Test {
  protected:
   fs::path folder_ = fs::path(::testing::TempDir()) /
@@ -109,6 +161,52 @@ class Restart : public ::testing::Test {
     return found;
   }
 };
+
+/// Of a run that is stopped after every increment: the last part says what the whole run says at
+/// its end, and what happens on the way is told of once.
+TEST_F(Restart, TheWarningsAreThoseOfTheWholeRun) {
+  const std::map<std::string, std::pair<const char*, std::vector<std::string>>> models{
+      {"bent", {bent, {"they lock", "small strains"}}},
+      {"leaving", {leaving, {"only move apart, from 0.01 to 0.03"}}},
+      {"beside", {beside, {"beside its slave the body has gone"}}},
+      {"bouncing", {bouncing, {"of the energy out of nothing"}}},
+      {"falling", {falling, {"went through the master"}}}};
+  for (const auto& [name, model] : models) {
+    SCOPED_TRACE(name);
+    std::ofstream(folder_ / (name + ".yaml")) << model.first;
+    std::vector<std::string> all, of_part, on_the_way;
+    RunOptions o = options(name, name + "_whole");
+    o.say = [&](std::string_view line) {
+      if (line.starts_with("warning")) all.emplace_back(line);
+    };
+    ASSERT_EQ(run(o).status, RunStatus::done);
+    for (const std::string& text : model.second)
+      EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const std::string& line) {
+        return line.find(text) != std::string::npos;
+      })) << text;
+    o = options(name, name + "_pieces");
+    o.interrupted = [] { return true; };
+    o.say = [&](std::string_view line) {
+      if (!line.starts_with("warning")) return;
+      const bool through = line.find("went through the master") != std::string_view::npos;
+      (through ? on_the_way : of_part).emplace_back(line);
+    };
+    RunStatus status = RunStatus::stopped;
+    for (int runs = 0; status != RunStatus::done && runs < 50; ++runs) {
+      of_part.clear();
+      status = run(o).status;
+      o.restart = true;
+    }
+    ASSERT_EQ(status, RunStatus::done);
+    for (int again = 0; again < 2; ++again) {  // then nothing is left to do
+      std::vector<std::string> said = on_the_way;
+      said.insert(said.end(), of_part.begin(), of_part.end());
+      EXPECT_EQ(said, all);
+      of_part.clear();
+      ASSERT_EQ(run(o).status, RunStatus::done);
+    }
+  }
+}
 
 TEST_F(Restart, AfterEveryIncrementGivesTheSameBits) {
   ASSERT_EQ(run(options("plane", "whole")).status, RunStatus::done);
@@ -214,7 +312,7 @@ TEST_F(Restart, OnAnotherProcessorItSaysThatLastBitsMayDiffer) {
     there.processor = processor;
     CheckpointWriter<2> writer(out, there);
     writer.add({}, {});
-    writer.save(state, {}, {}, {});
+    writer.save(state, {}, {}, {}, {});
     return read_checkpoint<2>(out, here, built.model, path).note;
   };
   EXPECT_EQ(note_of(here.processor), "");

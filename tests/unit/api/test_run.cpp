@@ -165,9 +165,8 @@ TEST_F(Run, SummaryTellsWhatHappened) {
       iterations += increment["iterations"].get<int>();
       EXPECT_LE(increment["residual"], 1e-9);
       EXPECT_LE(increment["energy"], 1e-12);
-      EXPECT_EQ(increment["open"].get<int>() + increment["stick"].get<int>() +
-                    increment["slip"].get<int>(),
-                5);
+      EXPECT_EQ(increment["open"].get<int>() + increment["closed"].get<int>(), 5);
+      EXPECT_EQ(increment["stick"].get<int>() + increment["slipping"].get<int>(), 0);
       EXPECT_EQ(increment["residuals"].size(), increment["iterations"]);
       // on segments of length 1: the largest penetration of points between their ends (KSVD:60)
       const double pressure = 100 / (1 - 0.3 * 0.3) * 0.02 * increment["time"].get<double>() / 2;

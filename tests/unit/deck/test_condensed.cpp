@@ -72,7 +72,7 @@ struct Seen {
   void add(const solve::StateCounts& c) {
     states.insert(c.signature);
     stuck = stuck || c.stick > 0;
-    slid = slid || c.slip > 0;
+    slid = slid || c.slipping > 0;
     open = open || c.open > 0;
   }
 };

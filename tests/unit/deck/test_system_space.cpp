@@ -106,7 +106,7 @@ TEST(SystemSpace, TheExampleSlidesAtTheLimit) {
         return column(a, "high.top.ux") < column(b, "high.top.ux");
       });
   EXPECT_LT(column(*farthest, "joint.force_x"), 0);
-  EXPECT_GT(column(*farthest, "joint.slip"), 0);
+  EXPECT_GT(column(*farthest, "joint.slipping"), 0);
   EXPECT_GT(column(t.rows.back(), "joint.force_x"), 0);
   EXPECT_LT(column(t.rows.back(), "joint.force_y"), 0);
 }
@@ -133,7 +133,7 @@ TEST(SystemSpace, TheExampleOfCrossedBeamsIsHeldByItsEdges) {
     // the limit is 0.2 of a normal force that leans with the bent edges, by up to 0.06
     EXPECT_LE(std::abs(column(row, "cross.force_x")), 0.27 * normal);
   }
-  EXPECT_EQ(column(t.rows.back(), "cross.slip"), 1);  // one crossing, and it slides
+  EXPECT_EQ(column(t.rows.back(), "cross.slipping"), 1);  // one crossing, and it slides
   EXPECT_LT(column(t.rows.back(), "cross.force_x"),
             -0.15 * column(t.rows.back(), "cross.normal_force"));
   built.model.pairs[0].definition.edges.on = false;

@@ -22,12 +22,7 @@ struct Case {
     system.evaluate(state, state, 0.5, true, e);
     return free_motions(system, m, state);
   }
-  [[nodiscard]] std::string message() const {
-    System3 system(m, 1);
-    const State3 state = system.initial_state();
-    system.begin_step(m.steps[0], state);
-    return free_motion_message(system, m, state);
-  }
+  [[nodiscard]] std::string message() const { return free_motion_message(motions()); }
 };
 
 TEST(FreeMotions3, SixOfABodyThatNothingHolds) {

@@ -100,7 +100,7 @@ TYPED_TEST(DynamicsOf, TangentIsTheDerivativeForEveryScheme) {
         probe.start = probe.system.begin_motion(probe.start);
         probe.base = probe.system.apply(probe.start, probe.random(0.01), probe.fraction, 1.0);
         const solve::StateCounts counts = probe.at(probe.base, false).counts;
-        EXPECT_GT(counts.stick + counts.slip, 0);
+        EXPECT_GT(counts.touching(), 0);
         expect_second_order(probe, 1e-4);
       }
 }
@@ -219,7 +219,7 @@ TYPED_TEST(DynamicsOf, ABallThatTurnsKeepsItsSpinWithoutFriction) {
   BasicAnalysisObserver<Dim> observer;
   observer.converged = [&](BasicSystem<Dim>&, const BasicState<Dim>& s, const Progress&,
                            const solve::IncrementRecord* record) {
-    touched = touched || (record && record->iterations.back().counts.slip > 0);
+    touched = touched || (record && record->iterations.back().counts.touching() > 0);
     const auto now = s.rates.velocity.template segment<rotations>(body_dof(m, 0, Dim));
     EXPECT_LT((now - Eigen::Map<const Vec<rotations>>(spin.data() + Dim)).norm(), 1e-10);
     return true;
