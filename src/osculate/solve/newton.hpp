@@ -21,6 +21,7 @@ struct Judge {
   double largest_correction = 0;
   double least_residual = std::numeric_limits<double>::infinity();
   int stalled = 0;  ///< iterations that made the residual hardly smaller, one after the other
+  int tiny_steps = 0;
 
   /// Rounding of the coordinates times a stiff penalty can keep the residual above any tolerance.
   /// A Newton correction 1e-10 times the largest one of the increment cannot improve the answer.
@@ -53,8 +54,13 @@ struct Judge {
     return condition == 0 || saddle || correction <= small * largest_correction;
   }
 
-  void look_at(double residual_norm) {
-    constexpr double better = 0.5;
+  /// Three times in a row no part of the correction that can be told from none lessens what is out of
+  /// balance (a force that jumps): the next iteration would find the same.
+  [[nodiscard]] bool stuck() const { return tiny_steps >= 3; }
+
+  void look_at(double residual_norm, double step) {
+    constexpr double better = 0.5, tiny = 1e-6;
+    tiny_steps = step < tiny ? tiny_steps + 1 : 0;
     stalled = residual_norm > better * least_residual ? stalled + 1 : 0;
     least_residual = std::min(least_residual, residual_norm);
   }
@@ -149,13 +155,16 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
     return !fail(result, Outcome::numerical_failure, "the residual is not a number");
   const double correction = du.lpNorm<Eigen::Infinity>();
   judge.largest_correction = std::max(judge.largest_correction, correction);
-  judge.look_at(size);
+  judge.look_at(size, step);
   result.precision.round_off = false;
   if (!judge.settled(result.precision.condition, e.saddle, correction)) return false;
   if (!judge.done(record.residual, energy_before, energy_after)) {
     const bool rounding =
         judge.only_rounding(e, record.residual, energy_before, result.first_residual) ||
         (result.iterations.size() > 1 && judge.at_round_off(record.residual, correction));
+    if (!rounding && judge.stuck())
+      return !fail(result, Outcome::not_converged,
+                   "no part of the correction lessens the forces out of balance");
     if (!rounding) return false;
     result.precision.round_off = by_residual && record.residual > judge.options.residual;
   }
