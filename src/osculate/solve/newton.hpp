@@ -34,9 +34,11 @@ struct Judge {
   /// last correction says that it was the last one.
   [[nodiscard]] bool only_rounding(const Evaluation& e, double residual, double energy_before,
                                    double first_residual) const {
-    constexpr double residual_limit = 1e-3, energy_limit = 1e-10, standing_limit = 1e-6;
+    constexpr double residual_limit = 1e-3, energy_limit = 1e-10, standing_limit = 1e-6,
+                     far_below = 1e-3;
     constexpr int standing = 3;
     const double size = e.residual.norm();
+    if (stalled >= 2 && residual <= far_below * options.residual) return true;
     if (stalled >= standing && options.energy > 0 && residual <= standing_limit &&
         energy_before <= options.energy * first_energy)
       return true;
@@ -54,8 +56,8 @@ struct Judge {
     return condition == 0 || saddle || correction <= small * largest_correction;
   }
 
-  /// Three times in a row no part of the correction that can be told from none lessens what is out of
-  /// balance (a force that jumps): the next iteration would find the same.
+  /// Three times in a row no part of the correction that can be told from none lessens what is out
+  /// of balance (a force that jumps): the next iteration would find the same.
   [[nodiscard]] bool stuck() const { return tiny_steps >= 3; }
 
   void look_at(double residual_norm, double step) {

@@ -137,6 +137,43 @@ TEST(Newton, RoundOffIsAcceptedWhereItIsSmallOrAll) {
   }
 }
 
+/// Without an estimate: what stands still for three iterations is accepted where a millionth of the
+/// forces is out of balance and its work is below the tolerance, and said.
+TEST(Newton, StandingResidualsAreAcceptedFarBelowTheForces) {
+  for (const double noise : {1e-7, 1e-5}) {
+    int calls = 0;
+    ToySystem system = noisy(noise, calls);
+    system.round_off = 0;
+    const auto result = solve_from(system, 0, {.line_search = LineSearch::off});
+    const bool small = noise < 1e-6;
+    EXPECT_EQ(result.outcome, small ? Outcome::converged : Outcome::not_converged) << noise;
+    EXPECT_EQ(result.precision.round_off, small);
+    EXPECT_EQ(result.iterations.size() < 7, small);
+  }
+}
+
+/// Nothing happens in the increment: the first energy is noise, and so are all others.
+TEST(Newton, ARestThatStandsFarBelowItsToleranceIsConverged) {
+  for (const double noise : {3e-14, 3e-10}) {
+    int calls = 0;
+    ToySystem system = noisy(noise, calls);
+    system.round_off = 0;
+    const auto result = solve_from(system, 1, {.line_search = LineSearch::off});
+    EXPECT_EQ(result.outcome == Outcome::converged, noise < 1e-12) << noise;
+    EXPECT_FALSE(result.precision.round_off);
+  }
+}
+
+/// A force that jumps over zero: corrections shrink to nothing there.
+TEST(Newton, ACorrectionOfWhichNoPartHelpsEndsTheAttempt) {
+  ToySystem system = scalar_system([](double x, double) { return x + (x < 0.1 ? -1 : 1); },
+                                   [](double) { return 1.0; });
+  const auto result = solve_from(system, -0.5, {});
+  EXPECT_EQ(result.outcome, Outcome::not_converged);
+  EXPECT_EQ(result.reason, "no part of the correction lessens the forces out of balance");
+  EXPECT_LT(result.iterations.size(), 10u);
+}
+
 TEST(Newton, SingularTangent) {
   ToySystem system = scalar_system([](double, double t) { return t; }, [](double) { return 0.0; });
   const auto result = solve_from(system, 0.0, {});
