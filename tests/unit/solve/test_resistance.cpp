@@ -53,7 +53,8 @@ TEST(Resistance, BringsAFreePointToItsSpring) {
 TEST(Resistance, NothingMovesFartherThanOneStride) {
   FreePoint system;
   la::DirectSolver solver;
-  (void)newton<FreePoint>(system, {vector({0.0})}, 1.0, {}, solver, {{}, 0, 0, false, true});
+  (void)newton<FreePoint>(system, {vector({0.0})}, 1.0, {}, solver,
+                          {{}, 0, 0, Prediction::as_before, true});
   double before = 0;
   for (const Eigen::VectorXd& x : system.evaluated) {
     EXPECT_LE(std::abs(x[0] - before), system.limit * (1 + 1e-12));
@@ -75,8 +76,8 @@ struct Snapping : FreePoint {
 TEST(Resistance, ASnapComesToRest) {
   Snapping system;
   la::DirectSolver solver;
-  const auto result =
-      newton<Snapping>(system, {vector({0.55})}, 0.7, {}, solver, {{}, 0, 0, false, true});
+  const auto result = newton<Snapping>(system, {vector({0.55})}, 0.7, {}, solver,
+                                       {{}, 0, 0, Prediction::as_before, true});
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
   const double x = result.state.x[0];
   EXPECT_GT(x, 1.8);
@@ -100,13 +101,13 @@ TEST(Resistance, TheWorkOfMultipliersIsNotAskedFor) {
   // On the falling branch the correction goes uphill, back to where its residual is zero.
   Saddle system;
   la::DirectSolver solver;
-  const auto result =
-      newton<Saddle>(system, {vector({1.0})}, 0.49, {}, solver, {{}, 0, 0, false, true});
+  const auto result = newton<Saddle>(system, {vector({1.0})}, 0.49, {}, solver,
+                                     {{}, 0, 0, Prediction::as_before, true});
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
   EXPECT_NEAR(result.state.x[0], 1.02, 1e-3);
   Snapping other;
-  const auto stable =
-      newton<Snapping>(other, {vector({1.0})}, 0.49, {}, solver, {{}, 0, 0, false, true});
+  const auto stable = newton<Snapping>(other, {vector({1.0})}, 0.49, {}, solver,
+                                       {{}, 0, 0, Prediction::as_before, true});
   ASSERT_EQ(stable.outcome, Outcome::converged) << stable.reason;
   EXPECT_GT(std::abs(stable.state.x[0] - 1), 0.5) << "leaves the unstable branch";
 }
