@@ -18,8 +18,7 @@ void measure_sticking(const model::BasicContactPair<Dim>& pair,
   const std::size_t count = std::min(contact.points.size(), definition.slave.points.size());
   for (std::size_t i = 0; i < count; ++i) {
     const pairing::PointResult<Dim>& point = contact.points[i];
-    const double penalty = pairing::shear_stiffening(definition, contact.stiffening) *
-                           pairing::point_penalty(definition, i).shear;
+    const double penalty = pairing::point_penalty(definition, i).shear;
     if (point.status == contact::Status::open || !(penalty > 0)) continue;
     const double own = point.shear_traction.norm() / penalty;
     const double height = model::height_behind(pair, i);
@@ -43,8 +42,7 @@ std::string soft_friction(const model::BasicContactPair<Dim>& pair, const Penetr
       "penalty "
       "of {:.3g} would give way by a hundredth of a cell",
       pair.name, share, found.give_share,
-      pairing::shear_stiffening(pair.definition, found.stiffening) *
-          contact::stiffness(*pair.definition.friction) * found.give_share / 0.01);
+      contact::stiffness(*pair.definition.friction) * found.give_share / 0.01);
 }
 
 template void measure_sticking(const model::ContactPair&, const pairing::PairEvaluation<2>&,

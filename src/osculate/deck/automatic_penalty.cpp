@@ -124,8 +124,6 @@ void set_automatic(BuildContext<Dim>& c, const Contact& contact,
   out.height = slave.size > 0 && master.size > 0 ? std::min(slave.size, master.size)
                                                  : slave.size + master.size;
   out.automatic = contact.automatic;
-  // Where one side is much finer, its cells are pressed one by one: stiff friction chatters there.
-  constexpr double unlike = 4, farthest = 10;
   const bool shear = contact.friction && contact.friction->automatic;
   set_points(c, sides, contact.automatic, shear, out);
   if (!contact.automatic && !shear) return;
@@ -139,10 +137,6 @@ void set_automatic(BuildContext<Dim>& c, const Contact& contact,
                     out.name));
   const double per = pair.weight == pairing::Weight::node ? area_per_point(c, pair, mark) : 1.0;
   if (contact.automatic) pair.normal = contact::penalty(automatic_factor * normal * per);
-  const bool alike =
-      !(master.size > 0) || !(slave.size > 0) ||
-      std::max(master.size, slave.size) <= unlike * std::min(master.size, slave.size);
-  pair.shear_follows = shear && contact.automatic && alike ? farthest : 1;
   if (shear)
     pair.friction = contact::with_stiffness(
         *pair.friction, automatic_factor * in_series(slave.shear, master.shear) * per);

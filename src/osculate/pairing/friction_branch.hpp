@@ -121,8 +121,7 @@ template <int Dim>
 [[nodiscard]] contact::FrictionLaw friction_law(const PairDefinition<Dim>& pair,
                                                 double normal_traction,
                                                 const BranchHint<Dim>& hint) {
-  const double stiffening =
-      hint.multiplier ? hint.stiffening : shear_stiffening(pair, hint.stiffening);
+  const double stiffening = hint.multiplier ? hint.stiffening : 1;
   const contact::FrictionLaw law = pair.friction->stiffened(stiffening * hint.own.shear);
   if (!hint.multiplier) return law;
   return law.stiffened(contact::steadying(law, normal_traction, hint.duration));

@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -62,8 +61,6 @@ struct PairDefinition {
   /// are corrected after each solution, or after each iteration (in one loop).
   double target = 0;
   bool augment_often = false;
-  /// How far the friction's penalty follows a normal penalty that is stiffened (shear_stiffening).
-  double shear_follows = 1;
   Weight weight = Weight::reference_area;
   contact::ResidualForm residual = contact::ResidualForm::surface;
   contact::TangentForm tangent;
@@ -263,12 +260,6 @@ template <int Dim>
   for (const PointResult<Dim>& point : evaluation.points)
     if (point.status != contact::Status::open) return true;
   return false;
-}
-
-/// Factor of the friction's penalty where the normal penalty is stiffened by `normal`.
-template <int Dim>
-[[nodiscard]] double shear_stiffening(const PairDefinition<Dim>& pair, double normal) {
-  return std::min(pair.shear_follows, normal);
 }
 
 /// Whether the unknown tractions of a pair's points have a shear.

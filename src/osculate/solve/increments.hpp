@@ -76,10 +76,10 @@ template <System S>
 Prediction another_prediction(const S& system, const typename S::State& committed,
                               const NewtonResult<typename S::State>& attempt) {
   if constexpr (PredictsFriction<S>) {
-    const bool failed = attempt.outcome == Outcome::numerical_failure;
-    if (!failed && attempt.outcome != Outcome::not_converged) return Prediction::as_before;
-    if (system.touches_without_shear(committed)) return Prediction::sliding;
-    if (failed && attempt.evaluation.ok) return Prediction::sticking;
+    if (attempt.outcome == Outcome::numerical_failure && attempt.evaluation.ok)
+      return Prediction::sticking;
+    if (attempt.outcome == Outcome::not_converged && system.touches_without_shear(committed))
+      return Prediction::sliding;
   }
   return Prediction::as_before;
 }
@@ -112,8 +112,12 @@ NewtonResult<typename S::State> attempt_increment(S& system, const typename S::S
   }
   if (const Prediction other = another_prediction(system, committed, attempt);
       other != Prediction::as_before) {
+    Result next = solve_increment(system, committed, target, options, solver, {{}, 0, 0, other});
+    // One that slid for nothing says less of what is wrong than the one before.
+    if (other == Prediction::sliding && next.outcome != Outcome::converged)
+      std::swap(attempt, next);
     waste(attempt);
-    attempt = solve_increment(system, committed, target, options, solver, {{}, 0, 0, other});
+    attempt = std::move(next);
   }
   if (!worth_resisting<S>(attempt, last)) return attempt;
   Result held = solve_increment(system, committed, target, options, solver,

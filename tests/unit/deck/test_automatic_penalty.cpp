@@ -66,17 +66,6 @@ TEST(AutomaticPenalty, GivenOnesStay) {
   EXPECT_EQ(contact::stiffness(*pair.definition.friction), 3);
 }
 
-TEST(AutomaticPenalty, FrictionFollowsWhereBothAreTheProgramsAndTheCellsAlike) {
-  const auto follows = [](const std::string& text) {
-    return build_text(text).model.pairs.at(0).definition.shear_follows;
-  };
-  const std::string mine = ", friction: {coulomb: {mu: 0.3}}";
-  EXPECT_EQ(follows(blocks(mine)), 10);
-  EXPECT_EQ(follows(blocks(", friction: {coulomb: {mu: 0.3, penalty: 3}}")), 1);
-  EXPECT_EQ(follows(blocks(", normal: {penalty: 7}" + mine)), 1);
-  EXPECT_EQ(follows(edited(blocks(mine), "elements: [3, 4]", "elements: [3, 1]")), 1) << "8 : 1";
-}
-
 TEST(AutomaticPenalty, InSpaceItIsTheSame) {
   const std::string text = R"(osculate: 1
 mesh:

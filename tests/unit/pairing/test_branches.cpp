@@ -1,7 +1,6 @@
 // Branches of the friction law between iterations: prediction, reversal, branch force.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -85,20 +84,6 @@ TEST(Branches, CommittedBranchesPredictThatSlippingGoesOn) {
   expect_branch(assumed.branch[1], stick);
   expect_branch(assumed.branch[2], slip_forward);
   expect_branch(assumed.branch[3], slip_backward);
-}
-
-TEST(Branches, FrictionFollowsAStifferNormalPenaltyUpToItsLimit) {
-  for (const double follows : {1.0, 3.0, 10.0}) {
-    PairSample s = at_rest(0.0, false);
-    s.pair.shear_follows = follows;
-    s.x[2].x() += 1e-3;
-    pairing::PairMultipliers<2> multipliers;
-    multipliers.stiffening = 5;
-    PairEvaluation<2> e;
-    pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, {}, &multipliers);
-    EXPECT_NEAR(e.points[0].normal_traction, -5 * eps_n * depth, 1e-12);
-    EXPECT_NEAR(e.points[0].shear_traction[0], std::min(follows, 5.0) * eps_t * 1e-3, 1e-13);
-  }
 }
 
 TEST(Branches, EvaluatedBranchesAreThoseOfTheTangent) {
