@@ -21,7 +21,8 @@ struct Judge {
   double largest_correction = 0;
   double least_residual = std::numeric_limits<double>::infinity();
   int stalled = 0;  ///< iterations that made the residual hardly smaller, one after the other
-  int tiny_steps = 0;
+  int tiny_steps = 0, short_steps = 0;
+  double last_residual = 0;
 
   /// Rounding of the coordinates times a stiff penalty can keep the residual above any tolerance.
   /// A Newton correction 1e-10 times the largest one of the increment cannot improve the answer.
@@ -60,8 +61,16 @@ struct Judge {
   /// of balance (a force that jumps): the next iteration would find the same.
   [[nodiscard]] bool stuck() const { return tiny_steps >= 3; }
 
-  void look_at(double residual_norm, double step) {
-    constexpr double better = 0.5, tiny = 1e-6;
+  /// Short steps that hardly help, one after the other and near a solution: there the norm of the
+  /// residual is a poor guide, and the next correction is taken as a whole.
+  [[nodiscard]] bool creeps() const { return short_steps >= 3; }
+
+  void look_at(double residual_norm, double step, bool near) {
+    constexpr double better = 0.5, tiny = 1e-6, brief = 0.3, hardly = 0.9;
+    const bool crept =
+        near && step < brief && step > tiny && residual_norm > hardly * last_residual;
+    short_steps = crept ? short_steps + 1 : 0;
+    last_residual = residual_norm;
     tiny_steps = step < tiny ? tiny_steps + 1 : 0;
     stalled = residual_norm > better * least_residual ? stalled + 1 : 0;
     least_residual = std::min(least_residual, residual_norm);
@@ -157,7 +166,7 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
     return !fail(result, Outcome::numerical_failure, "the residual is not a number");
   const double correction = du.lpNorm<Eigen::Infinity>();
   judge.largest_correction = std::max(judge.largest_correction, correction);
-  judge.look_at(size, step);
+  judge.look_at(size, step, record.residual < 1e-3);
   result.precision.round_off = false;
   if (!judge.settled(result.precision.condition, e.saddle, correction)) return false;
   if (!judge.done(record.residual, energy_before, energy_after)) {
@@ -214,7 +223,8 @@ template <System S>
     const bool search = options.line_search == LineSearch::automatic;
     const bool smooth = !branched && !result.evaluation.saddle;
     const bool weak = result.precision.condition > 0;
-    if (search && smooth && (i > 1 || result.extrapolated || resistance.on() || weak))
+    const bool creeps = judge.creeps();
+    if (search && smooth && !creeps && (i > 1 || result.extrapolated || resistance.on() || weak))
       step =
           detail::line_search(system, committed, result, du, residual, time, resistance.on(), weak);
     else

@@ -174,6 +174,33 @@ TEST(Newton, ACorrectionOfWhichNoPartHelpsEndsTheAttempt) {
   EXPECT_LT(result.iterations.size(), 10u);
 }
 
+/// Along a narrow curved valley the residual grows before it vanishes: guided by its norm alone,
+/// steps are short all the way. (Of the first iteration, which is not searched, a tangent leads
+/// there.)
+TEST(Newton, StepsThatCreepNearASolutionGiveWayToAWholeOne) {
+  static constexpr double across = 100;
+  ToySystem system;
+  system.size = 2;
+  system.builder = la::MatrixBuilder{2};
+  system.force = [](const Eigen::VectorXd& x, double) {
+    return Eigen::VectorXd(Eigen::Vector2d(x[0], across * (x[1] - x[0] * x[0])));
+  };
+  system.stiffness = [](const Eigen::VectorXd& x) {
+    Eigen::Matrix2d k;
+    k << 1, 0, -2 * across * x[0], across;
+    if (x[0] > 4) k << 1.25, 0, 0, 25 * across;  // from (5, 0) to (1, 1)
+    return Eigen::MatrixXd(k);
+  };
+  system.scale = [](const Eigen::VectorXd&, double) { return 1e5; };
+  la::DirectSolver solver;
+  const auto result =
+      newton<ToySystem>(system, {Eigen::Vector2d(5, 0)}, 1.0, {.residual = 1e-12}, solver);
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_LT(result.iterations[i].step, 0.3) << i;
+  EXPECT_EQ(result.iterations[4].step, 1);
+  EXPECT_LE(result.iterations.size(), 7u);
+}
+
 TEST(Newton, SingularTangent) {
   ToySystem system = scalar_system([](double, double t) { return t; }, [](double) { return 0.0; });
   const auto result = solve_from(system, 0.0, {});
