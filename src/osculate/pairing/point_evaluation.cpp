@@ -204,6 +204,27 @@ Traction<Dim> pulled(Traction<Dim> t, const KeptContact& kept) {
   return t;
 }
 
+/// The forces of a point in contact, and those of the branch that it is linearised in.
+template <int Dim>
+void set_forces(const PairDefinition<Dim>& pair, const Kinematics<Dim>& k, const Friction<Dim>& f,
+                const BranchHint<Dim>& hint, const Weights<Dim>& w, const PointTerms<Dim>& terms,
+                double weight, ContactBlock<Dim>& block) {
+  scatter_forces(block.branch_force, block.count, w, terms, weight);
+  block.force = block.branch_force;
+  block.branched = pair.friction && f.law.traction != f.traction.tangential.traction;
+  if (hint.kept) {
+    block.branched = true;
+    block.force.head(Dim * block.count).setZero();
+    scatter_forces(block.branch_force, block.count, w,
+                   contact::point_forces(k, pulled(f.traction, *hint.kept), pair.residual), weight);
+  } else if (block.branched) {
+    Traction<Dim> lawful = f.traction;
+    lawful.tangential = f.law;
+    scatter_forces(block.force, block.count, w, contact::point_forces(k, lawful, pair.residual),
+                   weight);
+  }
+}
+
 template <int Dim>
 void set_kept_constraint(const PairDefinition<Dim>& pair, std::size_t i, const Friction<Dim>& f,
                          const BranchHint<Dim>& hint, const Mat<Dim, Dim - 1>& frame,
@@ -254,21 +275,7 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
   const PointTerms<Dim> terms =
       with_tangent ? contact::point_terms(k, f.traction, pair.residual, pair.tangent)
                    : contact::point_forces(k, f.traction, pair.residual);
-  scatter_forces(block.branch_force, block.count, w, terms, result.weight);
-  block.force = block.branch_force;
-  block.branched = pair.friction && f.law.traction != f.traction.tangential.traction;
-  if (hint.kept) {
-    block.branched = true;
-    block.force.head(Dim * block.count).setZero();
-    scatter_forces(block.branch_force, block.count, w,
-                   contact::point_forces(k, pulled(f.traction, *hint.kept), pair.residual),
-                   result.weight);
-  } else if (block.branched) {
-    Traction<Dim> lawful = f.traction;
-    lawful.tangential = f.law;
-    scatter_forces(block.force, block.count, w, contact::point_forces(k, lawful, pair.residual),
-                   result.weight);
-  }
+  set_forces(pair, k, f, hint, w, terms, result.weight, block);
   if (constrained)
     set_constraint_values<Dim>(constraint_weight(pair, i), result.normal_traction,
                                k.frame * f.law.traction, k.frame * f.traction.tangential.traction,
