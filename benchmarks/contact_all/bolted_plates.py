@@ -189,18 +189,20 @@ def main():
         for _ in range(options.turns):
             for name, list_of_runs in results.items():
                 list_of_runs.append(run(options.osculate, folder, name))
-    medians = {}
+    medians, totals = {}, {}
     for name, runs in results.items():
         steps = runs[0][0]["steps"]
         iterations = sum(i["iterations"] for s in steps for i in s["increments"])
         phases = {k: statistics.median(s["contact_seconds"][k] for s, _ in runs) for k in ("search", "projection", "evaluation")}
         medians[name] = phases
+        totals[name] = statistics.median(s["seconds"]["total"] for s, _ in runs)
         print(f"{name:6} {len(mesh.nodes)} nodes, {iterations} iterations, "
-              f"{statistics.median(s['seconds']['total'] for s, _ in runs):.2f} s, contact: "
+              f"{totals[name]:.2f} s, contact: "
               + ", ".join(f"{k} {v:.3f}" for k, v in phases.items()) + f"; force {runs[0][1][-1]:.6g}")
     ratio = {k: medians["all"][k] / medians["named"][k] for k in medians["all"]}
     print("all / named: " + ", ".join(f"{k} {v:.2f}" for k, v in ratio.items())
-          + f", contact {sum(medians['all'].values()) / sum(medians['named'].values()):.2f}")
+          + f", contact {sum(medians['all'].values()) / sum(medians['named'].values()):.2f}, "
+          f"whole run {totals['all'] / totals['named']:.2f}")
     forces = [results[name][0][1] for name in ("named", "all")]
     different = abs(forces[0][-1] - forces[1][-1]) > FORCE_LIMIT * abs(forces[0][-1])  # while all slides
     if different:

@@ -175,6 +175,7 @@ BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) co
   }
   state.fraction = fraction;
   state.assumed.clear();
+  impl_->look_far(trial);
   for (std::size_t p = 0; p < impl_->contact.size(); ++p) {
     std::vector<double> overlap = std::move(state.pairs[p].overlap);
     state.pairs[p] = pairing::commit(impl_->contact[p]);

@@ -299,6 +299,7 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
         : p < trial.assumed.size() ? trial.assumed[p]
                                    : pairing::Assumed<Dim>{};
     assumed.duration = duration;
+    assumed.near = &committed != &trial;  // of a state against itself everything is wanted
     assumed.relief = relief(pair, fraction);
     const bool around = p < trial.multipliers.size();
     pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed,
@@ -312,6 +313,15 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
       count_point(pair, point, out.counts);
     }
   }
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::look_far(const State& trial) {
+  const Stopwatch watch;
+  const std::vector<Vec<Dim>> x = positions(trial.u);
+  for (std::size_t p = 0; p < contact.size(); ++p)
+    pairing::look_far<Dim>(model.pairs[p].definition, x, trial.pairs[p], contact[p]);
+  seconds.contact += watch.seconds();
 }
 
 template <int Dim>

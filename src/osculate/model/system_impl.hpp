@@ -279,6 +279,8 @@ struct BasicSystem<Dim>::Impl {
   void clear(bool with_tangent);
   bool add_bulk(const State& trial, bool with_tangent, const Eigen::VectorXd* inc,
                 solve::Evaluation& out);
+  /// The last evaluation of contact, at `trial`, in whole: see pairing::look_far.
+  void look_far(const State& trial);
   void add_contact(const State& committed, const State& trial, double fraction,
                    std::span<const Vec<Dim>> x, bool with_tangent, const Eigen::VectorXd* inc,
                    solve::Evaluation& out);

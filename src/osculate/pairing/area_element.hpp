@@ -38,14 +38,17 @@ struct AreaElement {
 [[nodiscard]] inline AreaElement<3> area_element(const SurfaceFacet& facet,
                                                  const cell::FacetShape& shape,
                                                  std::span<const Vec3> x, const AreaRule&) {
-  const geometry::SurfaceJet jet = facet_jet(facet, shape, x);
-  const Vec3 normal = jet.r1[0].cross(jet.r1[1]);
+  std::array<Vec3, 2> r{Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+    for (std::size_t d = 0; d < 2; ++d)
+      r[d] += shape.n[1 + d][k] * x[static_cast<std::size_t>(facet.nodes[k])];
+  const Vec3 normal = r[0].cross(r[1]);
   AreaElement<3> out;
   out.value = normal.norm();
   out.gradient.fill(Vec3::Zero());
   if (!(out.value > 0)) return out;
   const Vec3 n = normal / out.value;
-  const Vec3 of_first = jet.r1[1].cross(n), of_second = n.cross(jet.r1[0]);
+  const Vec3 of_first = r[1].cross(n), of_second = n.cross(r[0]);
   for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
     out.gradient[k] = shape.n[1][k] * of_first + shape.n[2][k] * of_second;
   return out;

@@ -70,6 +70,8 @@ template <class Release>
 void release_border(const FacetSurface& surface, const SurfaceFacet& facet, std::span<const Vec3> x,
                     const ProjectionQuery<3>& query, const Release& release, FacetFoot& foot) {
   if (!foot.converged || foot.feature == Feature::face || foot.local < 0) return;
+  FacetFoot beyond = foot;
+  if (!release(end_extension, beyond)) return;  // nor by less
   constexpr double tolerance = 2e-8;
   bool open = false;
   if (foot.feature == Feature::edge) {
@@ -79,15 +81,33 @@ void release_border(const FacetSurface& surface, const SurfaceFacet& facet, std:
     open = ends_at(surface, facet, (foot.local + edges - 1) % edges, x, query) ||
            ends_at(surface, facet, foot.local, x, query);
   }
-  (void)release(open ? end_extension : tolerance, foot);
+  if (open)
+    foot = beyond;
+  else
+    (void)release(tolerance, foot);
 }
 
+/// Upper bound of what `release_border` may take from the distance of a first-order facet.
+double release_room(std::span<const Vec3> nodes) {
+  double longest = 0;  // squared
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    longest = std::max(longest, (nodes[(k + 1) % nodes.size()] - nodes[k]).squaredNorm());
+  return 4 * end_extension * std::sqrt(longest);
+}
+
+/// The foot, clamped to the facet where it is farther than `limit` anyway.
 FacetFoot foot_on_facet(const FacetSurface& surface, const SurfaceFacet& facet,
-                        std::span<const Vec3> x, const ProjectionQuery<3>& query) {
+                        std::span<const Vec3> x, const ProjectionQuery<3>& query,
+                        double limit = std::numeric_limits<double>::infinity()) {
   if (facet.shape) return foot_on_shape(facet, x, query.point);
   FacetNodes buffer;
   const std::span<const Vec3> nodes = nodes_of(facet, x, buffer);
   FacetFoot foot = projection::closest_point(facet.type, nodes, query.point);
+  const double squared_limit = limit * limit;
+  if (foot.squared_distance > squared_limit && facet.count <= 4 && !facet.patch) {
+    const double reached = limit + release_room(nodes);
+    if (foot.feature == Feature::face || foot.squared_distance > reached * reached) return foot;
+  }
   if (facet.patch) {
     const PatchPoints points = patch_points(facet, x);
     const PatchQuery on_patch{facet.type, points, query.point};
@@ -333,13 +353,15 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
   const auto visit = [&](Index f) {
     const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(f)];
     if (query.scope && query.scope->skips(f, query.slave_normal)) return far_away;
-    const FacetFoot foot = foot_on_facet(surface, facet, x, query);
+    const double tie = 1e-10 * size_of(facet, x);
+    const double limit = best.distance + tie;
+    const FacetFoot foot = foot_on_facet(surface, facet, x, query, limit);
     const double distance = std::sqrt(foot.squared_distance);
+    if (distance > limit) return distance;
     const double cosine = cosine_at(facet, foot, x, query);
     if (!foot.converged || cosine > same_way_cosine) return far_away;
     if (query.scope && !admits(*query.scope, facet, foot.xi, x)) return far_away;
     const Candidate candidate{f, foot, distance, cosine};
-    const double tie = 1e-10 * size_of(facet, x);
     const bool wins = better(candidate, best, query.history, tie);
     const Candidate loser = wins ? best : candidate;
     if (loser.facet >= 0 && std::abs(candidate.distance - best.distance) <= tie) tied = loser;

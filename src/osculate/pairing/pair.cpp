@@ -91,7 +91,6 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   out.blocks.resize(n);
   out.around.resize(pair.valleys ? n : 0);
   out.block_nodes = largest_block(pair);
-  point_normals<Dim>(pair.slave, x, out.normals);
   if (pair.weight == Weight::current_area) {
     point_areas<Dim>(pair.slave, x, pair.area, out.areas,
                      with_tangent ? &out.area_gradients : nullptr);
@@ -106,8 +105,10 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
     // The first evaluation gives the tree its shape, so that it does not depend on when they met.
     if (!out.apart || out.tree.size() != out.boxes.size())
       refresh(pair.scope, pair.master, x, out.boxes, out.scope, out.tree);
+    mean_normals(pair.scope, out.scope, out.normals);
     return;
   }
+  point_normals<Dim>(pair.slave, x, out.normals);
   if (before == out.boxes.size() && before > 0)
     out.tree.refit(out.boxes);
   else
@@ -157,6 +158,7 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
     return;
   }
   refresh(pair, x, with_tangent, out);
+  out.near = assumed.near;
   laps.add_to(out.seconds.search);
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
     BranchHint<Dim> hint = hint_of(pair, assumed, multipliers, i);
@@ -171,6 +173,24 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
     evaluate_crossings(pair, x, committed, with_tangent, out, assumed);
     laps.add_to(out.seconds.evaluation);
   }
+}
+
+template <int Dim>
+void look_far(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
+              PairEvaluation<Dim>& out) {
+  if (!out.near || !pair.scope.limited()) return;
+  Laps laps;
+  out.near = false;
+  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
+    const PointResult<Dim>& point = out.points[i];
+    if (point.history.facet >= 0 || point.status != contact::Status::open) continue;
+    const Placed<Dim> placed = place_point(pair, out, x, i, committed.points[i]);
+    if (placed.projection.feature == Feature::none) continue;
+    const double acts_below = pair.offset + contact::reach(pair.normal);
+    if (placed.projection.beyond_end || placed.kinematics.gap > acts_below)
+      report_far(pair, x, committed.points[i], placed, i, out);
+  }
+  laps.add_to(out.seconds.projection);
 }
 
 template <int Dim>
@@ -318,6 +338,10 @@ template void prepare<2>(PairDefinition<2>&, Points<2>);
 template void prepare<3>(PairDefinition<3>&, Points<3>);
 template PairState<2> initial_state<2>(const PairDefinition<2>&, Points<2>);
 template PairState<3> initial_state<3>(const PairDefinition<3>&, Points<3>);
+template void look_far<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&,
+                          PairEvaluation<2>&);
+template void look_far<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&,
+                          PairEvaluation<3>&);
 template Assumed<2> committed_branches<2>(const PairDefinition<2>&, const PairState<2>&, Points<2>,
                                           Prediction);
 template Assumed<3> committed_branches<3>(const PairDefinition<3>&, const PairState<3>&, Points<3>,

@@ -207,6 +207,7 @@ struct PairEvaluation {
   std::vector<contact::Multiplier<Dim>> around;
   double stiffening = 1;  ///< that was used (PairMultipliers)
   bool apart = false;     ///< master and slave are farther from each other than the scope reaches
+  bool near = false;      ///< places far in front of their points were left out (Assumed::near)
   PairSeconds seconds;
 };
 
@@ -231,6 +232,9 @@ struct Assumed {
   bool predict = false;  ///< first iteration: points that slipped go on slipping
   double duration = 0;   ///< of the increment, for laws that depend on speed; 0: not known
   double relief = 0;     ///< share of the initial overlaps that does not count yet
+  /// Points that are far from the master need no place yet: half the reach is searched round them
+  /// (all of it, if they may have come through the master). `look_far` finds what is left out.
+  bool near = false;
 };
 
 /// Branches at the end of the last increment; `x` is the configuration then.
@@ -253,6 +257,12 @@ template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed = {},
               const PairMultipliers<Dim>* multipliers = nullptr);
+
+/// The places that a `near` evaluation at `x` has left out: what points without a place remember
+/// and report, before `commit`.
+template <int Dim>
+void look_far(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
+              PairEvaluation<Dim>& out);
 
 /// True if any point is in contact.
 template <int Dim>

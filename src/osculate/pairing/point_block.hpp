@@ -32,7 +32,24 @@ template <int Dim>
 [[nodiscard]] inline Vec3 place_in_space(const FacetSurface& master,
                                          const contact::PointHistory<3>& h,
                                          std::span<const Vec3> x) {
-  return facet_jet(master.facets[static_cast<std::size_t>(h.facet)], h.xi, x).r;
+  return facet_point(master.facets[static_cast<std::size_t>(h.facet)], h.xi, x);
+}
+
+/// How far from its master a point needs a place in a `near` evaluation.
+template <int Dim>
+[[nodiscard]] double near_reach(const PairDefinition<Dim>& pair) {
+  return std::max(0.5 * pair.scope.reach,
+                  2 * (std::abs(pair.offset) + contact::reach(pair.normal)));
+}
+
+/// Whether the point is farther than that in front of where it was, so that it has not come through
+/// the master since.
+template <int Dim>
+[[nodiscard]] bool far_in_front(const PairDefinition<Dim>& pair,
+                                const contact::PointHistory<Dim>& history, const Vec<Dim>& arm,
+                                Points<Dim> x) {
+  const auto& facet = pair.master.facets[static_cast<std::size_t>(history.facet)];
+  return !facet.shape && arm.norm() > near_reach(pair) && arm.dot(middle_normal(facet, x)) > 0;
 }
 
 /// Closest point of slave point `i` on the master and the kinematics there; no place where none is
@@ -51,9 +68,16 @@ template <int Dim>
   NodeScope<Dim> rules;
   if (pair.scope.limited()) {
     rules = node_scope<Dim>(pair.scope, pair.slave, work.scope, i, query.point);
+    if (work.near) rules.reach = std::min(rules.reach, near_reach(pair));
     if (history.facet >= 0) {
       rules.last = place_in_space(pair.master, history, x);
-      rules.reach = std::max(rules.reach, (query.point - *rules.last).norm());
+      const Vec<Dim> arm = query.point - *rules.last;
+      const double way = arm.norm();
+      rules.edge_depth *= std::max(1.0, way / pair.scope.reach);
+      if (work.near && far_in_front(pair, history, arm, x))
+        query.history = -1;
+      else
+        rules.reach = std::max(rules.reach, way);
     }
     query.scope = &rules;
   }

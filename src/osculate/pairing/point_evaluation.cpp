@@ -291,6 +291,13 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
 }
 
 template <int Dim>
+void report_far(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHistory<Dim>& history,
+                const Placed<Dim>& placed, std::size_t i, PairEvaluation<Dim>& out) {
+  const NormalResponse none = report_place(pair, x, history, placed, {}, out.points[i]);
+  report_normal(none, history.damping_work, out.points[i]);
+}
+
+template <int Dim>
 PointHistory<Dim> history_at(const PairDefinition<Dim>& pair, Points<Dim> x,
                              const Placed<Dim>& placed) {
   return next_history<Dim>(pair, x, {}, placed, {});
@@ -302,6 +309,10 @@ template void evaluate_point<2>(const PairDefinition<2>&, Points<2>, const Point
 template void evaluate_point<3>(const PairDefinition<3>&, Points<3>, const PointHistory<3>&,
                                 const Placed<3>&, const BranchHint<3>&, bool, std::size_t,
                                 PairEvaluation<3>&);
+template void report_far<2>(const PairDefinition<2>&, Points<2>, const PointHistory<2>&,
+                            const Placed<2>&, std::size_t, PairEvaluation<2>&);
+template void report_far<3>(const PairDefinition<3>&, Points<3>, const PointHistory<3>&,
+                            const Placed<3>&, std::size_t, PairEvaluation<3>&);
 template PointHistory<2> history_at<2>(const PairDefinition<2>&, Points<2>, const Placed<2>&);
 template PointHistory<3> history_at<3>(const PairDefinition<3>&, Points<3>, const Placed<3>&);
 

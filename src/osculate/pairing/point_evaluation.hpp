@@ -127,6 +127,12 @@ void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
                     const BranchHint<Dim>& hint, bool with_tangent, std::size_t i,
                     PairEvaluation<Dim>& out);
 
+/// What an open point `i` reports and remembers of the place it has been found far in front of.
+template <int Dim>
+void report_far(const PairDefinition<Dim>& pair, Points<Dim> x,
+                const contact::PointHistory<Dim>& history, const Placed<Dim>& placed, std::size_t i,
+                PairEvaluation<Dim>& out);
+
 /// What a point remembers of a place at which it has not slipped.
 template <int Dim>
 [[nodiscard]] contact::PointHistory<Dim> history_at(const PairDefinition<Dim>& pair, Points<Dim> x,

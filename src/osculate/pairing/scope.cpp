@@ -26,12 +26,7 @@ Vec2 point_at(const Facet& facet, double xi, std::span<const Vec2> x) {
   return facet_jet(facet, xi, x).r;
 }
 Vec3 point_at(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
-  const cell::FacetShape shape =
-      facet.patch ? facet_shape(facet, xi) : cell::facet_shape(facet.type, xi, 0);
-  Vec3 point = Vec3::Zero();
-  for (std::size_t k = 0; k < static_cast<std::size_t>(shape.count); ++k)
-    point += shape.n[0][k] * x[static_cast<std::size_t>(facet.nodes[k])];
-  return point;
+  return facet_point(facet, xi, x);
 }
 
 double middle_of(const Facet& facet) { return 0.5 * (facet.lo + facet.hi); }
@@ -153,11 +148,14 @@ constexpr double straight = 0.9;
 /// ... or nearer to the last place than this part of the node's distance from it.
 constexpr double near_last = 0.9;
 
+/// A place is on a face, not an edge or a vertex, if it is so straight before or behind the node.
+constexpr double along = 0.999;
+
 /// `admits` for both dimensions.
 template <int Dim, class FacetType, class Coordinates>
 bool admitted(const NodeScope<Dim>& rules, const FacetType& facet, const Coordinates& xi,
               std::span<const Vec<Dim>> x) {
-  const Vec<Dim> foot = facet_jet(facet, xi, x).r;
+  const Vec<Dim> foot = point_at(facet, xi, x);
   const Vec<Dim> normal = normal_at(facet, xi, x);
   const auto faces = [&](const Vec<Dim>& n) { return n.dot(normal) < facing_cosine; };
   if (!rules.facing.empty() && std::none_of(rules.facing.begin(), rules.facing.end(), faces))
@@ -167,10 +165,8 @@ bool admitted(const NodeScope<Dim>& rules, const FacetType& facet, const Coordin
   const double gap = arm.dot(normal);
   if (!rules.facing.empty() && std::abs(gap) < across_cosine * distance) return false;
   if (rules.behind) return gap < 0;
-  constexpr double along = 0.999;
   const bool on_face = std::abs(gap) >= along * distance;
-  if (!facet.shape && !on_face && gap < 0 && distance > edge_depth_in_reach * rules.reach)
-    return false;
+  if (!facet.shape && !on_face && gap < 0 && distance > rules.edge_depth) return false;
   if (gap >= straight * distance) return true;
   if (!facet.shape && distance > rules.depth) {
     if (!rules.last ||
@@ -178,7 +174,7 @@ bool admitted(const NodeScope<Dim>& rules, const FacetType& facet, const Coordin
       return false;
   }
   if (rules.reference.empty()) return true;
-  const Vec<Dim> before = rules.home - facet_jet(facet, xi, rules.reference).r;
+  const Vec<Dim> before = rules.home - point_at(facet, xi, rules.reference);
   const double height = before.dot(normal_at(facet, xi, rules.reference));
   const double size = (rules.reference[static_cast<std::size_t>(facet.nodes[1])] -
                        rules.reference[static_cast<std::size_t>(facet.nodes[0])])
@@ -221,11 +217,28 @@ void refresh(const Scope<Dim>& scope, const Boundary<Dim>& master,
 }
 
 template <int Dim>
+void mean_normals(const Scope<Dim>& scope, const ScopeBuffers<Dim>& buffers,
+                  std::vector<Vec<Dim>>& normals) {
+  normals.assign(scope.first.size() - 1, Vec<Dim>::Zero());
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    for (const Vec<Dim>& n : normals_of(scope, buffers, i)) normals[i] += n;
+    if (normals[i].norm() > 1e-12) normals[i].normalize();
+  }
+}
+
+template <int Dim>
 bool NodeScope<Dim>::too_slanted(double highest, double nearest, double from_last) const {
   constexpr double rounding = 1e-9;
   if (behind || nearest * (1 - rounding) <= depth) return false;
   if (highest >= straight * (1 - rounding) * nearest) return false;
   return !last || from_last * (1 - rounding) >= near_last * (point - *last).norm();
+}
+
+template <int Dim>
+bool NodeScope<Dim>::beside_and_behind(double lowest, double highest, double nearest) const {
+  constexpr double rounding = 1e-9;
+  nearest *= 1 - rounding;
+  return highest < 0 && nearest > edge_depth && lowest > -along * nearest;
 }
 
 template <int Dim>
@@ -240,9 +253,10 @@ bool NodeScope<Dim>::skips(Index facet, const std::optional<Vec<Dim>>& slave_nor
   const double height = arm.dot(o.normal), distance = arm.norm();
   if (behind) return height > 2 * o.bulge;
   if (height < -(deepest() + 2 * o.bulge)) return true;
-  const double highest = height + 2 * o.bulge + o.spread * (distance + o.radius);
-  return too_slanted(highest, distance - o.radius,
-                     last ? (*last - o.middle).norm() - o.radius : 0.0);
+  const double room = 2 * o.bulge + o.spread * (distance + o.radius);
+  const double nearest = distance - o.radius;
+  return beside_and_behind(height - room, height + room, nearest) ||
+         too_slanted(height + room, nearest, last ? (*last - o.middle).norm() - o.radius : 0.0);
 }
 
 template <int Dim>
@@ -254,6 +268,7 @@ bool NodeScope<Dim>::misses(Index branch, const std::optional<Vec<Dim>>& slave_n
   const auto may_face = [&](const Vec<Dim>& n) { return n.dot(b.axis) <= b.facing; };
   if (!facing.empty() && std::none_of(facing.begin(), facing.end(), may_face)) return true;
   if (behind) return false;
+  if (b.across > 0.5 * reach) return false;  // too large for what follows to pay
   const double highest = b.highest(point);
   if (highest < -(deepest() + 2 * b.bulge)) return true;
   return too_slanted(highest + 2 * b.bulge + b.overhang, b.nearest(point),
@@ -275,6 +290,7 @@ NodeScope<Dim> node_scope(const Scope<Dim>& scope, const SlaveSide<Dim>& slave,
   rules.point = point;
   rules.reach = scope.reach;
   rules.depth = std::min(0.5 * scope.thickness[i], depth_in_reach * scope.reach);
+  rules.edge_depth = edge_depth_in_reach * scope.reach;
   rules.outlines = buffers.outlines;
   rules.branches = buffers.branches;
   if (!scope.own) return rules;
@@ -293,6 +309,8 @@ template void refresh<2>(const Scope<2>&, const Boundary<2>&, std::span<const Ve
                          const std::vector<search::Box<2>>&, ScopeBuffers<2>&, Tree<2>&);
 template void refresh<3>(const Scope<3>&, const Boundary<3>&, std::span<const Vec3>,
                          const std::vector<search::Box<3>>&, ScopeBuffers<3>&, Tree<3>&);
+template void mean_normals<2>(const Scope<2>&, const ScopeBuffers<2>&, std::vector<Vec2>&);
+template void mean_normals<3>(const Scope<3>&, const ScopeBuffers<3>&, std::vector<Vec3>&);
 template struct NodeScope<2>;
 template struct NodeScope<3>;
 template NodeScope<2> node_scope<2>(const Scope<2>&, const SlaveSide<2>&, const ScopeBuffers<2>&,

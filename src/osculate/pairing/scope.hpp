@@ -80,6 +80,11 @@ void refresh(const Scope<Dim>& scope, const Boundary<Dim>& master,
              const std::vector<search::Box<Dim>>& boxes, ScopeBuffers<Dim>& buffers,
              Tree<Dim>& tree);
 
+/// Unit normals of the slave nodes out of those of their parts, as `nodal_normals`.
+template <int Dim>
+void mean_normals(const Scope<Dim>& scope, const ScopeBuffers<Dim>& buffers,
+                  std::vector<Vec<Dim>>& normals);
+
 /// Parts of slave node `i` that carry the pressure of a contact with this normal of the master:
 /// calls `visit` with the number of each.
 template <int Dim, class Visit>
@@ -99,6 +104,7 @@ struct NodeScope {
   Vec<Dim> point = Vec<Dim>::Zero();
   double reach = std::numeric_limits<double>::infinity();
   double depth = std::numeric_limits<double>::infinity();  ///< t / 2, or a quarter of the reach
+  double edge_depth = std::numeric_limits<double>::infinity();  ///< 3 % of the reach
   std::optional<Vec<Dim>> last;  ///< where the place of the last increment is now
   std::span<const FacetOutline<Dim>> outlines;
   std::span<const BranchOutline<Dim>> branches;
@@ -119,6 +125,9 @@ struct NodeScope {
   [[nodiscard]] bool misses(Index branch, const std::optional<Vec<Dim>>& slave_normal) const;
 
  private:
+  /// Whether the node is behind all places, and beside them: only edges and vertices are there, too
+  /// far away.
+  [[nodiscard]] bool beside_and_behind(double lowest, double highest, double nearest) const;
   /// Whether no place is straight in front of the node, nor near enough for any other: their gaps
   /// are at most `highest`, their distances from the node and from `last` at least `nearest` and
   /// `from_last`.

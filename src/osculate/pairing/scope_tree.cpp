@@ -15,10 +15,11 @@ double product_within(double limit_cosine, double angle) {
 template <int Dim>
 double BranchOutline<Dim>::highest(const Vec<Dim>& point) const {
   const Vec<Dim> arm = point - middle;
-  const double along = arm.dot(axis);
-  const double most = along + half.dot(axis.cwiseAbs());
-  const double across = (arm - along * axis).norm() + half.norm();
-  return (most < 0 ? cosine * most : most) + sine * across;
+  const double height = arm.dot(axis);
+  const double most = height + along;
+  const double flat = most < 0 ? cosine * most : most;
+  if (sine == 0) return flat;
+  return flat + sine * ((arm - height * axis).norm() + across);
 }
 
 template <int Dim>
@@ -80,6 +81,8 @@ void plant(const std::vector<FacetOutline<Dim>>& outlines,
     const search::Box<Dim>& box = tree.node_box(i);
     branches[at].middle = 0.5 * (box.lo + box.hi);
     branches[at].half = 0.5 * (box.hi - box.lo);
+    branches[at].along = branches[at].half.dot(branches[at].axis.cwiseAbs());
+    branches[at].across = branches[at].half.norm();
   };
   tree.fold(
       [&](Index i, std::span<const Index> facets) {

@@ -31,7 +31,8 @@ template <int Dim>
 struct BranchOutline {
   Vec<Dim> middle = Vec<Dim>::Zero(), half = Vec<Dim>::Zero();
   Vec<Dim> axis = Vec<Dim>::Zero();
-  double cosine = 0, sine = 1;                             ///< of the cone's angle
+  double cosine = 0, sine = 1;   ///< of the cone's angle
+  double along = 0, across = 0;  ///< halves of the box along the axis, and of its diagonal
   double bulge = std::numeric_limits<double>::infinity();  ///< the largest
   double overhang = 0;                                     ///< the largest
   /// A unit vector whose product with the axis is larger has all normals within 120 degrees of

@@ -64,6 +64,24 @@ const Rule& rule_of(cell::CellType type) {
   return cell::is_triangle(type) ? triangle : square;
 }
 
+/// Shape functions and their first derivatives at the points of the rule.
+std::vector<cell::FacetShape> make_shapes(cell::CellType type) {
+  std::vector<cell::FacetShape> shapes;
+  for (const Vec2& point : rule_of(type).points)
+    shapes.push_back(cell::facet_shape(type, point, 1));
+  return shapes;
+}
+
+/// The same where the shape functions are those of the facet's type.
+std::span<const cell::FacetShape> known_shapes(const SurfaceFacet& facet) {
+  static const std::vector<cell::FacetShape> triangle = make_shapes(cell::CellType::tri3),
+                                             square = make_shapes(cell::CellType::quad4);
+  if (facet.shape || facet.patch || facet.difference[0] > 0) return {};
+  if (facet.type == cell::CellType::tri3) return triangle;
+  if (facet.type == cell::CellType::quad4) return square;
+  return {};
+}
+
 /// c_k of tri6 and quad8 (see the header).
 std::array<double, cell::max_facet_nodes> make_shares(cell::CellType type) {
   const Rule& rule = rule_of(type);
@@ -95,8 +113,9 @@ void add_facet_area(const SurfaceFacet& facet, std::size_t k, std::span<const Ve
   const Rule& rule = rule_of(facet.type);
   std::array<Vec3, cell::max_facet_nodes> sum;
   sum.fill(Vec3::Zero());
+  const std::span<const cell::FacetShape> known = known_shapes(facet);
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
-    const cell::FacetShape shape = facet_shape(facet, rule.points[q]);
+    const cell::FacetShape shape = known.empty() ? facet_shape(facet, rule.points[q]) : known[q];
     const AreaElement<3> element = area_element(facet, shape, x, {});
     const double weight = rule.weights[q] * share_of(facet.type, shape, k);
     area += weight * element.value;

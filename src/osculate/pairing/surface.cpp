@@ -128,6 +128,21 @@ geometry::SurfaceJet facet_jet(const SurfaceFacet& facet, const cell::FacetShape
   return jet;
 }
 
+Vec3 facet_point(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
+  const auto node = [&](std::size_t k) -> const Vec3& {
+    return x[static_cast<std::size_t>(facet.nodes[k])];
+  };
+  const bool plain = !facet.shape && !facet.patch && facet.difference[0] == 0;
+  if (plain && facet.type == cell::CellType::tri3)
+    return node(0) + xi[0] * (node(1) - node(0)) + xi[1] * (node(2) - node(0));
+  const cell::FacetShape shape =
+      plain ? cell::facet_shape(facet.type, xi, 0) : facet_shape(facet, xi);
+  Vec3 point = Vec3::Zero();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(shape.count); ++k)
+    point += shape.n[0][k] * node(k);
+  return point;
+}
+
 Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x) {
   const auto node = [&](std::size_t k) -> const Vec3& {
     return x[static_cast<std::size_t>(facet.nodes[k])];
@@ -138,6 +153,9 @@ Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec
   if (plain && facet.type == cell::CellType::tri3) {
     r1 = node(1) - node(0);
     r2 = node(2) - node(0);
+  } else if (plain && facet.type == cell::CellType::quad4) {
+    r1 = (1 - xi[1]) * (node(1) - node(0)) + (1 + xi[1]) * (node(2) - node(3));
+    r2 = (1 - xi[0]) * (node(3) - node(0)) + (1 + xi[0]) * (node(2) - node(1));
   } else {
     const cell::FacetShape shape =
         plain ? cell::facet_shape(facet.type, xi, 1) : facet_shape(facet, xi);

@@ -10,13 +10,41 @@
 namespace osculate::projection {
 namespace {
 
-DistanceJet2 distance_jet2(cell::CellType type, std::span<const Vec3> nodes, const Vec2& xi,
-                           const Vec3& point) {
+/// r, r_1, r_2, r_11, r_12, r_22
+using Derivatives = std::array<Vec3, 6>;
+
+Derivatives triangle_at(std::span<const Vec3> nodes, const Vec2& xi) {
+  const Vec3 r1 = nodes[1] - nodes[0], r2 = nodes[2] - nodes[0];
+  return {nodes[0] + xi[0] * r1 + xi[1] * r2, r1, r2, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+}
+
+Derivatives bilinear_at(std::span<const Vec3> nodes, const Vec2& xi) {
+  const Vec3 low = nodes[1] - nodes[0], high = nodes[2] - nodes[3];
+  const Vec3 left = nodes[3] - nodes[0], right = nodes[2] - nodes[1];
+  const double x = 0.5 * (1 + xi[0]), y = 0.5 * (1 + xi[1]);
+  const Vec3 along = low + y * (high - low);
+  return {nodes[0] + y * left + x * along,
+          0.5 * along,
+          0.5 * (left + x * (right - left)),
+          Vec3::Zero(),
+          0.25 * (high - low),
+          Vec3::Zero()};
+}
+
+Derivatives derivatives_at(cell::CellType type, std::span<const Vec3> nodes, const Vec2& xi) {
+  if (type == cell::CellType::tri3) return triangle_at(nodes, xi);
+  if (type == cell::CellType::quad4) return bilinear_at(nodes, xi);
   const cell::FacetShape s = cell::facet_shape(type, xi, 2);
-  std::array<Vec3, 6> r;
+  Derivatives r;
   r.fill(Vec3::Zero());
   for (std::size_t d = 0; d < r.size(); ++d)
     for (std::size_t k = 0; k < nodes.size(); ++k) r[d] += s.n[d][k] * nodes[k];
+  return r;
+}
+
+DistanceJet2 distance_jet2(cell::CellType type, std::span<const Vec3> nodes, const Vec2& xi,
+                           const Vec3& point) {
+  const Derivatives r = derivatives_at(type, nodes, xi);
   return projection::distance_jet2<3>(point - r[0], {r[1], r[2]}, {r[3], r[4], r[5]});
 }
 
@@ -164,6 +192,24 @@ FacetFoot foot_inside(cell::CellType type, std::span<const Vec3> nodes, const Ve
   return foot;
 }
 
+/// The same in closed form: from the middle, since a step from there lands on the foot; the next
+/// one takes away its rounding.
+FacetFoot foot_inside_triangle(std::span<const Vec3> nodes, const Vec3& point) {
+  FacetFoot foot;
+  foot.xi = Vec2(1.0 / 3, 1.0 / 3);
+  DistanceJet2 j = distance_jet2(cell::CellType::tri3, nodes, foot.xi, point);
+  for (int it = 0; it < 2; ++it) {
+    if (!positive(j.metric)) return foot;
+    foot.xi -= j.metric.inverse() * j.slope;
+    j = distance_jet2(cell::CellType::tri3, nodes, foot.xi, point);
+  }
+  if (!foot.xi.allFinite() || outside(cell::CellType::tri3, foot.xi) > 0) return foot;
+  foot.squared_distance = j.squared_distance;
+  foot.converged = true;
+  foot.feature = Feature::face;
+  return foot;
+}
+
 /// An edge as a curve over t = -1..1: straight, or through its middle node.
 struct Edge {
   Vec3 middle, half, bend;  ///< r = middle + t half + t^2 bend
@@ -243,17 +289,40 @@ FacetFoot closest_point_on_edge(cell::CellType type, std::span<const Vec3> nodes
   return foot;
 }
 
-FacetFoot closest_point(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point) {
-  const Start start = nearest_sample(type, nodes, point);
-  FacetFoot best = foot_inside(type, nodes, point, start.xi);
-  if (best.feature != Feature::face) best = {};
-  // Nothing on the border can be nearer than this.
-  if (start.border > 0 && best.squared_distance <= start.border * start.border) return best;
+namespace {
+
+/// The nearest of the edges, if that is nearer than `best`.
+void compare_border(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point,
+                    FacetFoot& best) {
+  constexpr double rounding = 1 - 1e-14;
   const int edges = cell::is_triangle(type) ? 3 : 4;
+  double nearest = best.squared_distance;
+  int at = -1;
   for (int k = 0; k < edges; ++k) {
-    const FacetFoot foot = closest_point_on_edge(type, nodes, k, point);
-    if (foot.converged && foot.squared_distance < best.squared_distance * (1 - 1e-14)) best = foot;
+    double squared = 0;
+    (void)nearest_on_edge(edge_of(type, nodes, k), point, squared);
+    if (squared < nearest * rounding) nearest = squared, at = k;
   }
+  if (at >= 0) best = closest_point_on_edge(type, nodes, at, point);
+}
+
+}  // namespace
+
+FacetFoot closest_point(cell::CellType type, std::span<const Vec3> nodes, const Vec3& point) {
+  FacetFoot best;
+  if (type == cell::CellType::tri3) {
+    best = foot_inside_triangle(nodes, point);
+    if (best.feature == Feature::face) return best;
+  } else {
+    const Start start = nearest_sample(type, nodes, point);
+    best = foot_inside(type, nodes, point, start.xi);
+    // Nothing on the border can be nearer than this.
+    if (start.border > 0 && best.feature == Feature::face &&
+        best.squared_distance <= start.border * start.border)
+      return best;
+  }
+  if (best.feature != Feature::face) best = {};
+  compare_border(type, nodes, point, best);
   return best;
 }
 

@@ -217,18 +217,27 @@ class Bvh {
     for (Index k = 0; k < unbounded_; ++k)
       if (!out_of_reach(boxes_[at(k)])) offer(order_[at(k)]);
     if (nodes_.empty()) return;
-    std::array<Index, stack_size> stack{};
-    std::size_t top = 1;  // the root
+    struct Branch {
+      Index node;
+      double squared_distance;
+    };
+    const auto branch = [&](Index i) {
+      const Box<Dim>& box = nodes_[at(i)].box;
+      return Branch{
+          i, box.empty() ? std::numeric_limits<double>::infinity() : box.squared_distance(point)};
+    };
+    std::array<Branch, stack_size> stack;
+    std::size_t top = 0;
+    stack[top++] = branch(0);
     while (top > 0) {
-      const Index i = stack[--top];
+      const auto [i, squared_distance] = stack[--top];
       const Node& node = nodes_[at(i)];
-      if (out_of_reach(node.box) || !wanted(i)) continue;
+      if (squared_distance > reach || node.box.empty() || !wanted(i)) continue;
       if (node.right >= 0) {
-        const Index left = i + 1;
-        const bool left_first = nodes_[at(left)].box.squared_distance(point) <=
-                                nodes_[at(node.right)].box.squared_distance(point);
-        stack[top++] = left_first ? node.right : left;
-        stack[top++] = left_first ? left : node.right;
+        const Branch left = branch(i + 1), right = branch(node.right);
+        const bool left_first = left.squared_distance <= right.squared_distance;
+        stack[top++] = left_first ? right : left;
+        stack[top++] = left_first ? left : right;
         continue;
       }
       for (Index k = node.begin; k < node.end; ++k)
