@@ -64,22 +64,20 @@ const Rule& rule_of(cell::CellType type) {
   return cell::is_triangle(type) ? triangle : square;
 }
 
-/// Shape functions and their first derivatives at the points of the rule.
-std::vector<cell::FacetShape> make_shapes(cell::CellType type) {
-  std::vector<cell::FacetShape> shapes;
-  for (const Vec2& point : rule_of(type).points)
-    shapes.push_back(cell::facet_shape(type, point, 1));
-  return shapes;
+/// Whether the shape functions are those of the facet's type.
+bool is_plain(const SurfaceFacet& facet) {
+  return !facet.shape && !facet.patch && facet.difference[0] == 0;
 }
 
-/// The same where the shape functions are those of the facet's type.
-std::span<const cell::FacetShape> known_shapes(const SurfaceFacet& facet) {
-  static const std::vector<cell::FacetShape> triangle = make_shapes(cell::CellType::tri3),
-                                             square = make_shapes(cell::CellType::quad4);
-  if (facet.shape || facet.patch || facet.difference[0] > 0) return {};
-  if (facet.type == cell::CellType::tri3) return triangle;
-  if (facet.type == cell::CellType::quad4) return square;
-  return {};
+/// One normal, one area element.
+bool is_plane_triangle(const SurfaceFacet& facet) {
+  return is_plain(facet) && facet.type == cell::CellType::tri3;
+}
+
+/// For areas: linear functions times the area element of a plane triangle need its middle only.
+const Rule& rule_of(const SurfaceFacet& facet) {
+  static const Rule middle{{Vec2(1.0 / 3, 1.0 / 3)}, {0.5}};
+  return is_plane_triangle(facet) ? middle : rule_of(facet.type);
 }
 
 /// c_k of tri6 and quad8 (see the header).
@@ -110,12 +108,13 @@ double share_of(cell::CellType type, const cell::FacetShape& shape, std::size_t 
 /// Adds the share of one facet to the area of its local node `k`.
 void add_facet_area(const SurfaceFacet& facet, std::size_t k, std::span<const Vec3> x, double& area,
                     std::vector<NodeGradient<3>>* gradient) {
-  const Rule& rule = rule_of(facet.type);
+  const Rule& rule = rule_of(facet);
   std::array<Vec3, cell::max_facet_nodes> sum;
   sum.fill(Vec3::Zero());
-  const std::span<const cell::FacetShape> known = known_shapes(facet);
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
-    const cell::FacetShape shape = known.empty() ? facet_shape(facet, rule.points[q]) : known[q];
+    const cell::FacetShape shape = is_plain(facet)
+                                       ? cell::facet_shape(facet.type, rule.points[q], 1)
+                                       : facet_shape(facet, rule.points[q]);
     const AreaElement<3> element = area_element(facet, shape, x, {});
     const double weight = rule.weights[q] * share_of(facet.type, shape, k);
     area += weight * element.value;
@@ -149,16 +148,25 @@ void nodal_areas(const SlaveSide<3>& slave, std::span<const Vec3> x, const AreaR
 }
 
 void nodal_normals(const SlaveSide<3>& slave, std::span<const Vec3> x, std::vector<Vec3>& normals) {
-  normals.assign(slave.nodes.size(), Vec3::Zero());
-  for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
+  const std::vector<SurfaceFacet>& facets = slave.boundary.facets;
+  const std::size_t count = slave.nodes.size();
+  normals.assign(count + facets.size(), Vec3::Zero());  // of the nodes, then of plane facets
+  for (std::size_t f = 0; f < facets.size(); ++f)
+    if (is_plane_triangle(facets[f])) normals[count + f] = facet_normal(facets[f], Vec2::Zero(), x);
+  for (std::size_t i = 0; i < count; ++i) {
     for (const Index f : slave.facets_of[i]) {
-      const SurfaceFacet& facet = slave.boundary.facets[static_cast<std::size_t>(f)];
+      const SurfaceFacet& facet = facets[static_cast<std::size_t>(f)];
+      if (is_plane_triangle(facet)) {
+        normals[i] += normals[count + static_cast<std::size_t>(f)];
+        continue;
+      }
       const Vec2 xi =
           cell::area_node(facet.type, static_cast<int>(local_node(facet, slave.nodes[i])));
       normals[i] += facet_normal(facet, xi, x);
     }
     if (normals[i].norm() > 1e-12) normals[i].normalize();
   }
+  normals.resize(count);
 }
 
 }  // namespace osculate::pairing
