@@ -57,6 +57,7 @@ void connect(FacetSurface& surface);
                                                     std::span<const Vec3> x) {
   return facet_jet(facet, facet_shape(facet, xi), x);
 }
+/// The place alone, without its derivatives.
 [[nodiscard]] Vec3 facet_point(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x);
 /// Unit normal; zero where the facet has none.
 [[nodiscard]] Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x);
