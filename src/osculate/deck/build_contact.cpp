@@ -209,6 +209,26 @@ void set_augmentation(const BuildContext<Dim>& c, const Contact& contact,
   pair.target = usual * size;
 }
 
+/// A press fit lives from its overlap: of a light one the usual target would be a good part.
+///
+/// Formula    min(1e-4 of a facet, 1e-3 of the deepest overlap), and at least 1e-7 of a facet,
+/// below
+///            which an overlap is rounding
+/// Tested by  verification/press_fit
+template <int Dim>
+void set_fit_target(const BuildContext<Dim>& c, const Contact& contact,
+                    pairing::PairDefinition<Dim>& pair) {
+  constexpr double left = 1e-3, least = 1e-3;  // of the overlap; of the usual target
+  if (pair.enforcement != contact::Enforcement::augmented_lagrange ||
+      contact.enforcement.value.target || pair.overlap == pairing::InitialOverlap::kept)
+    return;
+  double deepest = 0;
+  for (const auto& point : pairing::initial_state<Dim>(pair, c.model().reference).points)
+    if (point.active) deepest = std::max(deepest, pair.offset - point.gap);
+  if (deepest > least * pair.target)
+    pair.target = std::clamp(left * deepest, least * pair.target, pair.target);
+}
+
 template <int Dim>
 void check_pair(const BuildContext<Dim>& c, const Contact& contact,
                 const pairing::PairDefinition<Dim>& pair) {
@@ -348,6 +368,7 @@ void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMa
     throw core::InputError(mark, error.what());
   }
   note_tied(c, contact, pair);
+  set_fit_target(c, contact, pair);
   set_automatic(c, contact, out);
   if (!contact.all) warn_of_smooth(c, contact, pair);
   c.model().pairs.push_back(std::move(out));

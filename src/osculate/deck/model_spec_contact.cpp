@@ -226,7 +226,8 @@ Spec enforcement_spec() {
           {optional("target", number("Largest gap and elastic slip that are left.")
                                   .in("length")
                                   .above(0)
-                                  .otherwise_as("1e-4 of the mean length of the facets' edges")
+                                  .otherwise_as("1e-4 of the mean length of the facets' edges, and "
+                                                "no more than 1e-3 of the deepest initial overlap")
                                   .such_as("1e-5")),
            optional("loop",
                     choice("When the tractions are corrected.",

@@ -110,7 +110,7 @@ bool begin(Analysis<Dim>& a, const BasicResumePoint<Dim>* from) {
   a.result.state = a.system.initial_state();
   if (!a.model.steps.empty()) a.system.begin_step(a.model.steps.front(), a.result.state);
   solve::Evaluation initial;
-  a.system.evaluate(a.result.state, a.result.state, 0.0, false, initial);
+  a.system.evaluate(a.result.state, 0.0, false, initial);
   if (!from && !a.model.steps.empty()) a.result.state = a.system.begin_motion(a.result.state);
   if (!from) return a.tell(a.result.state, nullptr);
   a.result.state = from->state;

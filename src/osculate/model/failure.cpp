@@ -82,7 +82,7 @@ double contact_ratio(BasicSystem<Dim>& system, const BasicState<Dim>& state) {
   solve::Evaluation unused;
   const auto diagonal_of = [&](bool contact) {
     system.enable(Term::contact, contact);
-    system.evaluate(state, state, state.fraction, true, unused);
+    system.evaluate(state, state.fraction, true, unused);
     return diagonal(system.matrix());
   };
   const Eigen::VectorXd bulk = diagonal_of(false), all = diagonal_of(true);
@@ -97,7 +97,7 @@ double contact_ratio(BasicSystem<Dim>& system, const BasicState<Dim>& state) {
 template <int Dim>
 int negative_pivots(BasicSystem<Dim>& system, const BasicState<Dim>& state) {
   solve::Evaluation evaluation;
-  system.evaluate(state, state, state.fraction, true, evaluation);
+  system.evaluate(state, state.fraction, true, evaluation);
   const bool saddle = system.matrix().n != system.dofs().unknowns();  // multipliers: always some
   if (!evaluation.ok || saddle) return 0;
   la::DirectSolver solver;
@@ -123,7 +123,7 @@ double softened_to(BasicSystem<Dim>& system, const BasicState<Dim>& committed,
                    const Eigen::VectorXd& along) {
   const auto stiffness = [&](const BasicState<Dim>& state) {
     solve::Evaluation evaluation;
-    system.evaluate(state, state, state.fraction, true, evaluation);
+    system.evaluate(state, state.fraction, true, evaluation);
     const la::SparseMatrix& k = system.matrix();
     return evaluation.ok && k.n == along.size() ? along.dot(la::multiply(k, along)) : 0.0;
   };
@@ -361,12 +361,12 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
   const BasicState<Dim>& last = attempt.evaluation.ok ? attempt.state : result.state;
   std::string outside;
   solve::Evaluation evaluation;
-  system.evaluate(result.state, result.state, 1.0, false, evaluation);
+  system.evaluate(result.state, 1.0, false, evaluation);
   const Eigen::VectorXd whole_loads = system.forces().external;
   // A body may be free from the beginning of the increment, or only where the iterations ended.
-  system.evaluate(result.state, result.state, result.state.fraction, true, evaluation);
+  system.evaluate(result.state, result.state.fraction, true, evaluation);
   const auto before = free_motions(system, model, result.state, whole_loads);
-  system.evaluate(last, last, last.fraction, true, evaluation);
+  system.evaluate(last, last.fraction, true, evaluation);
   if (evaluation.ok) {
     f.motions = free_motions(system, model, last, whole_loads);
     const bool pushed = !f.motions.empty() && f.motions.front().pushed;
@@ -385,9 +385,9 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
         softened_to(system, result.state, attempt.total) < hardly_any)
       f.softened = true;
   }
-  system.evaluate(result.state, result.state, 1.0, true, evaluation);  // with its whole loads
+  system.evaluate(result.state, 1.0, true, evaluation);  // with its whole loads
   f.pulled = !f.motions.empty() && pulled_away(system, model, f.motions.front().nodes);
-  system.evaluate(last, last, last.fraction, true, evaluation);
+  system.evaluate(last, last.fraction, true, evaluation);
   judge(system, model, step, attempt, f);
   f.message = paragraph(model, step, result, free_motion_message(f.motions), f) + outside +
               fmt::format(". Cause: {}. Proposal: {}.", cause_name(f.cause), f.proposal);

@@ -32,6 +32,21 @@ template <int Dim>
   return force > 0 ? sum / force : 0.0;
 }
 
+/// The same of a committed state, as if all points had the same penalty and area.
+template <int Dim>
+[[nodiscard]] double committed_share(const BasicContactPair<Dim>& pair,
+                                     const pairing::PairState<Dim>& state) {
+  double sum = 0, force = 0;
+  for (std::size_t i = 0; i < state.points.size(); ++i) {
+    const contact::PointHistory<Dim>& point = state.points[i];
+    const double height = height_behind(pair, i), deep = std::max(0.0, -point.gap);
+    if (!point.active || !(height > 0)) continue;
+    sum += deep * deep / height;
+    force += deep;
+  }
+  return force > 0 ? sum / force : 0.0;
+}
+
 /// Whether the program may change the normal penalty of a pair: it has chosen it, nothing else
 /// corrects the tractions, and gaps are measured from nothing but contact. Springs that change
 /// would make energy: not in models with inertia.

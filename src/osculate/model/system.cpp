@@ -94,7 +94,7 @@ void BasicSystem<Dim>::predict(const State& committed, double fraction, solve::E
                                Prediction friction) {
   impl_->friction = friction;
   impl_->recent.clear();
-  impl_->assemble(committed, committed, fraction, true, true, out);
+  impl_->assemble(committed, committed, fraction, true, Impl::Pass::predict, out);
 }
 
 template <int Dim>
@@ -112,7 +112,13 @@ bool BasicSystem<Dim>::touches_without_shear(const State& state) const {
 template <int Dim>
 void BasicSystem<Dim>::evaluate(const State& committed, const State& trial, double fraction,
                                 bool with_tangent, solve::Evaluation& out) {
-  impl_->assemble(committed, trial, fraction, with_tangent, false, out);
+  impl_->assemble(committed, trial, fraction, with_tangent, Impl::Pass::iterate, out);
+}
+
+template <int Dim>
+void BasicSystem<Dim>::evaluate(const State& state, double fraction, bool with_tangent,
+                                solve::Evaluation& out) {
+  impl_->assemble(state, state, fraction, with_tangent, Impl::Pass::whole, out);
 }
 
 template <int Dim>
@@ -205,6 +211,42 @@ std::optional<BasicState<Dim>> BasicSystem<Dim>::augment(const State& trial) con
     if (next.multipliers[p].violation > pair.target) missed = true;
   }
   if (!missed) return std::nullopt;
+  next.assumed.clear();
+  return next;
+}
+
+template <int Dim>
+std::optional<BasicState<Dim>> BasicSystem<Dim>::relaxed(const State& trial) const {
+  constexpr double sunk = 0.05, much = 1.0 / 32, pressed = 1e-9;
+  double softer = std::ldexp(1.0, -13);
+  bool any = false;
+  const auto yields = [&](const BasicContactPair<Dim>& pair) {
+    return pair.definition.enforcement != contact::Enforcement::lagrange_multiplier &&
+           pair.definition.separation == pairing::Separation::allowed;
+  };
+  for (std::size_t p = 0; p < trial.multipliers.size(); ++p) {
+    const BasicContactPair<Dim>& pair = impl_->model.pairs[p];
+    const double before = committed_share(pair, trial.pairs[p]);
+    if (!yields(pair) || !(before > pressed)) continue;
+    any = any || mean_share(pair, impl_->contact[p]) > 0;
+    softer = std::max(softer, before / sunk);
+  }
+  if (!any || impl_->timed() || !(softer <= much)) return std::nullopt;
+  State next = trial;
+  for (std::size_t p = 0; p < next.multipliers.size(); ++p)
+    if (yields(impl_->model.pairs[p])) next.multipliers[p].stiffening *= softer;
+  next.assumed.clear();
+  return next;
+}
+
+template <int Dim>
+BasicState<Dim> BasicSystem<Dim>::restored(const State& trial, const State& before,
+                                           double part) const {
+  State next = trial;
+  for (std::size_t p = 0; p < next.multipliers.size(); ++p)
+    next.multipliers[p].stiffening =
+        before.multipliers[p].stiffening *
+        std::pow(trial.multipliers[p].stiffening / before.multipliers[p].stiffening, part);
   next.assumed.clear();
   return next;
 }

@@ -95,8 +95,11 @@ class BasicSystem {
                Prediction friction = Prediction::as_before);
   /// Points of pairs with friction touch that carry no shear.
   [[nodiscard]] bool touches_without_shear(const State& state) const;
+  /// Residual and tangent of a trial state. Places far from the master may be left out.
   void evaluate(const State& committed, const State& trial, double fraction, bool with_tangent,
                 solve::Evaluation& out);
+  /// The same of a state against itself, with every place.
+  void evaluate(const State& state, double fraction, bool with_tangent, solve::Evaluation& out);
   [[nodiscard]] State apply(const State& state, const Eigen::VectorXd& du, double fraction,
                             double factor) const;
   /// The trial state that remembers the branches of the last evaluation, for the next iteration.
@@ -109,6 +112,12 @@ class BasicSystem {
   /// Whether a solution may stay though no solution is found around what `augment` made of it: it
   /// was only a stiffer penalty.
   [[nodiscard]] bool may_stay() const;
+  /// The state with normal penalties so much softer that points sink into the master by half of the
+  /// height of the cells behind them, at most 2^13 times; nothing where none can be softer by much,
+  /// or in steps in time. `trial` must be the last state evaluated.
+  [[nodiscard]] std::optional<State> relaxed(const State& trial) const;
+  /// The state with the penalties of `before` times (now / before)^part.
+  [[nodiscard]] State restored(const State& trial, const State& before, double part) const;
   /// Why a solution is none, `trial` the last state evaluated: points went through a master that
   /// they were in front of, to where no contact is looked for. Else empty.
   [[nodiscard]] std::string refused(const State& committed, const State& trial) const;

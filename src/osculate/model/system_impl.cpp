@@ -286,7 +286,7 @@ void BasicSystem<Dim>::Impl::add_contact_block(const pairing::ContactBlock<Dim>&
 template <int Dim>
 void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& trial,
                                          double fraction, std::span<const Vec<Dim>> x,
-                                         bool with_tangent, const Eigen::VectorXd* inc,
+                                         bool with_tangent, const Eigen::VectorXd* inc, bool near,
                                          solve::Evaluation& out) {
   const double duration = time_between(committed, fraction);
   out.counts = {};
@@ -299,7 +299,7 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
         : p < trial.assumed.size() ? trial.assumed[p]
                                    : pairing::Assumed<Dim>{};
     assumed.duration = duration;
-    assumed.near = &committed != &trial;  // of a state against itself everything is wanted
+    assumed.near = near;
     assumed.relief = relief(pair, fraction);
     const bool around = p < trial.multipliers.size();
     pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed,
@@ -390,10 +390,10 @@ void BasicSystem<Dim>::Impl::add_rigid_geometry(const State& trial, std::span<co
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::assemble(const State& committed, const State& trial, double fraction,
-                                      bool with_tangent, bool predict, solve::Evaluation& out) {
+                                      bool with_tangent, Pass pass, solve::Evaluation& out) {
   const Stopwatch watch;
   const double elsewhere = seconds.bulk + seconds.contact;
-  assemble_terms(committed, trial, fraction, with_tangent, predict, out);
+  assemble_terms(committed, trial, fraction, with_tangent, pass, out);
   seconds.assembly += watch.seconds() - (seconds.bulk + seconds.contact - elsewhere);
 }
 
@@ -414,7 +414,7 @@ bool BasicSystem<Dim>::Impl::flies_apart(const State& committed, const State& tr
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State& trial,
-                                            double fraction, bool with_tangent, bool predict,
+                                            double fraction, bool with_tangent, Pass pass,
                                             solve::Evaluation& out) {
   out.ok = true;
   out.apart = false;
@@ -430,6 +430,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   if (flies_apart(committed, trial, out)) return;
   assembler.set_configuration(x, trial.rigid);
   Eigen::VectorXd inc;
+  const bool predict = pass == Pass::predict;
   if (predict) {
     inc = prescribed_increment(trial, x, fraction);
     carried =
@@ -437,7 +438,8 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   }
   const Eigen::VectorXd* increment = predict ? &inc : nullptr;
   if (on(Term::bulk) && !add_bulk(trial, with_tangent, increment, out)) return;
-  if (on(Term::contact)) add_contact(committed, trial, fraction, x, with_tangent, increment, out);
+  if (on(Term::contact))
+    add_contact(committed, trial, fraction, x, with_tangent, increment, pass == Pass::iterate, out);
   if (on(Term::pressure)) add_pressure(trial, fraction, with_tangent, increment);
   add_dead_loads(fraction);
   add_gravity(fraction);
@@ -466,7 +468,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
   out.round_off_in_time = round_off_in_time(x);
   out.round_off = round_off + out.round_off_in_time;
   out.loaded = forces.external.norm() > 0;
-  if (predict) out.force_scale = std::max(out.force_scale, out.residual.norm());
+  if (pass == Pass::predict) out.force_scale = std::max(out.force_scale, out.residual.norm());
 }
 
 template struct BasicSystem<2>::Impl;

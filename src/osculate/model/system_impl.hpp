@@ -256,10 +256,16 @@ struct BasicSystem<Dim>::Impl {
                                                      double fraction) const;
 
   /// Residual and tangent of `trial`; with `predict` those of the first iteration.
+  /// What an evaluation is for.
+  enum class Pass {
+    predict,  ///< the first iteration: prescribed motions enter through the tangent
+    iterate,  ///< places far from the master are not needed (Assumed::near)
+    whole     ///< of a state against itself: all of it is wanted
+  };
   void assemble(const State& committed, const State& trial, double fraction, bool with_tangent,
-                bool predict, solve::Evaluation& out);
+                Pass pass, solve::Evaluation& out);
   void assemble_terms(const State& committed, const State& trial, double fraction,
-                      bool with_tangent, bool predict, solve::Evaluation& out);
+                      bool with_tangent, Pass pass, solve::Evaluation& out);
 
   /// Time from a committed state to a fraction of the running step. A committed state at the end of
   /// a step is the start of the next one.
@@ -283,7 +289,7 @@ struct BasicSystem<Dim>::Impl {
   void look_far(const State& trial);
   void add_contact(const State& committed, const State& trial, double fraction,
                    std::span<const Vec<Dim>> x, bool with_tangent, const Eigen::VectorXd* inc,
-                   solve::Evaluation& out);
+                   bool near, solve::Evaluation& out);
   void add_contact_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,
                          const Eigen::VectorXd* inc);
   void find_condensable();

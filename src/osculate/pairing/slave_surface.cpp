@@ -64,11 +64,6 @@ const Rule& rule_of(cell::CellType type) {
   return cell::is_triangle(type) ? triangle : square;
 }
 
-/// Whether the shape functions are those of the facet's type.
-bool is_plain(const SurfaceFacet& facet) {
-  return !facet.shape && !facet.patch && facet.difference[0] == 0;
-}
-
 /// One normal, one area element.
 bool is_plane_triangle(const SurfaceFacet& facet) {
   return is_plain(facet) && facet.type == cell::CellType::tri3;

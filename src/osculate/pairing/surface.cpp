@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "osculate/cell/line_shape.hpp"
+#include "osculate/cell/linear_facet.hpp"
 
 namespace osculate::pairing {
 
@@ -132,9 +133,9 @@ Vec3 facet_point(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3
   const auto node = [&](std::size_t k) -> const Vec3& {
     return x[static_cast<std::size_t>(facet.nodes[k])];
   };
-  const bool plain = !facet.shape && !facet.patch && facet.difference[0] == 0;
-  if (plain && facet.type == cell::CellType::tri3)
-    return node(0) + xi[0] * (node(1) - node(0)) + xi[1] * (node(2) - node(0));
+  const bool plain = is_plain(facet);
+  if (plain && cell::is_linear_facet(facet.type))
+    return cell::linear_facet(facet.type, node, xi)[0];
   const cell::FacetShape shape =
       plain ? cell::facet_shape(facet.type, xi, 0) : facet_shape(facet, xi);
   Vec3 point = Vec3::Zero();
@@ -147,15 +148,12 @@ Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec
   const auto node = [&](std::size_t k) -> const Vec3& {
     return x[static_cast<std::size_t>(facet.nodes[k])];
   };
-  // First derivatives are enough where they come alone.
-  const bool plain = !facet.shape && !facet.patch && facet.difference[0] == 0;
+  const bool plain = is_plain(facet);
   Vec3 r1 = Vec3::Zero(), r2 = Vec3::Zero();
-  if (plain && facet.type == cell::CellType::tri3) {
-    r1 = node(1) - node(0);
-    r2 = node(2) - node(0);
-  } else if (plain && facet.type == cell::CellType::quad4) {
-    r1 = (1 - xi[1]) * (node(1) - node(0)) + (1 + xi[1]) * (node(2) - node(3));
-    r2 = (1 - xi[0]) * (node(3) - node(0)) + (1 + xi[0]) * (node(2) - node(1));
+  if (plain && cell::is_linear_facet(facet.type)) {
+    const cell::FacetDerivatives r = cell::linear_facet(facet.type, node, xi);
+    r1 = r[1];
+    r2 = r[2];
   } else {
     const cell::FacetShape shape =
         plain ? cell::facet_shape(facet.type, xi, 1) : facet_shape(facet, xi);

@@ -57,7 +57,11 @@ void connect(FacetSurface& surface);
                                                     std::span<const Vec3> x) {
   return facet_jet(facet, facet_shape(facet, xi), x);
 }
-/// The place alone, without its derivatives.
+/// Whether the shape functions are those of the facet's type.
+[[nodiscard]] inline bool is_plain(const SurfaceFacet& facet) {
+  return !facet.shape && !facet.patch && facet.difference[0] == 0;
+}
+/// Its place at xi without derivatives, `facet_jet(...).r`.
 [[nodiscard]] Vec3 facet_point(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x);
 /// Unit normal; zero where the facet has none.
 [[nodiscard]] Vec3 facet_normal(const SurfaceFacet& facet, const Vec2& xi, std::span<const Vec3> x);

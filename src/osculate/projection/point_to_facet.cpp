@@ -4,38 +4,21 @@
 #include <cmath>
 #include <vector>
 
+#include "osculate/cell/linear_facet.hpp"
 #include "osculate/cell/shape.hpp"
 #include "osculate/projection/surface_distance.hpp"
+#include "osculate/projection/triangle.hpp"
 
 namespace osculate::projection {
 namespace {
 
-/// r, r_1, r_2, r_11, r_12, r_22
-using Derivatives = std::array<Vec3, 6>;
-
-Derivatives triangle_at(std::span<const Vec3> nodes, const Vec2& xi) {
-  const Vec3 r1 = nodes[1] - nodes[0], r2 = nodes[2] - nodes[0];
-  return {nodes[0] + xi[0] * r1 + xi[1] * r2, r1, r2, Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-}
-
-Derivatives bilinear_at(std::span<const Vec3> nodes, const Vec2& xi) {
-  const Vec3 low = nodes[1] - nodes[0], high = nodes[2] - nodes[3];
-  const Vec3 left = nodes[3] - nodes[0], right = nodes[2] - nodes[1];
-  const double x = 0.5 * (1 + xi[0]), y = 0.5 * (1 + xi[1]);
-  const Vec3 along = low + y * (high - low);
-  return {nodes[0] + y * left + x * along,
-          0.5 * along,
-          0.5 * (left + x * (right - left)),
-          Vec3::Zero(),
-          0.25 * (high - low),
-          Vec3::Zero()};
-}
-
-Derivatives derivatives_at(cell::CellType type, std::span<const Vec3> nodes, const Vec2& xi) {
-  if (type == cell::CellType::tri3) return triangle_at(nodes, xi);
-  if (type == cell::CellType::quad4) return bilinear_at(nodes, xi);
+cell::FacetDerivatives derivatives_at(cell::CellType type, std::span<const Vec3> nodes,
+                                      const Vec2& xi) {
+  if (cell::is_linear_facet(type))
+    return cell::linear_facet(
+        type, [&](std::size_t k) -> const Vec3& { return nodes[k]; }, xi);
   const cell::FacetShape s = cell::facet_shape(type, xi, 2);
-  Derivatives r;
+  cell::FacetDerivatives r;
   r.fill(Vec3::Zero());
   for (std::size_t d = 0; d < r.size(); ++d)
     for (std::size_t k = 0; k < nodes.size(); ++k) r[d] += s.n[d][k] * nodes[k];
@@ -44,7 +27,7 @@ Derivatives derivatives_at(cell::CellType type, std::span<const Vec3> nodes, con
 
 DistanceJet2 distance_jet2(cell::CellType type, std::span<const Vec3> nodes, const Vec2& xi,
                            const Vec3& point) {
-  const Derivatives r = derivatives_at(type, nodes, xi);
+  const cell::FacetDerivatives r = derivatives_at(type, nodes, xi);
   return projection::distance_jet2<3>(point - r[0], {r[1], r[2]}, {r[3], r[4], r[5]});
 }
 
@@ -192,19 +175,13 @@ FacetFoot foot_inside(cell::CellType type, std::span<const Vec3> nodes, const Ve
   return foot;
 }
 
-/// The same in closed form: from the middle, since a step from there lands on the foot; the next
-/// one takes away its rounding.
+/// The same in closed form.
 FacetFoot foot_inside_triangle(std::span<const Vec3> nodes, const Vec3& point) {
   FacetFoot foot;
-  foot.xi = Vec2(1.0 / 3, 1.0 / 3);
-  DistanceJet2 j = distance_jet2(cell::CellType::tri3, nodes, foot.xi, point);
-  for (int it = 0; it < 2; ++it) {
-    if (!positive(j.metric)) return foot;
-    foot.xi -= j.metric.inverse() * j.slope;
-    j = distance_jet2(cell::CellType::tri3, nodes, foot.xi, point);
-  }
-  if (!foot.xi.allFinite() || outside(cell::CellType::tri3, foot.xi) > 0) return foot;
-  foot.squared_distance = j.squared_distance;
+  const TriangleFoot nearest = closest_on_triangle(nodes[0], nodes[1], nodes[2], point);
+  if (nearest.pressed != 0 || !std::isfinite(nearest.squared_distance)) return foot;
+  foot.xi = nearest.xi;
+  foot.squared_distance = nearest.squared_distance;
   foot.converged = true;
   foot.feature = Feature::face;
   return foot;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "osculate/solve/line_search.hpp"
+#include "osculate/solve/peeling.hpp"
 #include "osculate/solve/resistance.hpp"
 
 namespace osculate::solve {
@@ -64,6 +65,12 @@ struct Judge {
   /// Short steps that hardly help, one after the other and near a solution: there the norm of the
   /// residual is a poor guide, and the next correction is taken as a whole.
   [[nodiscard]] bool creeps() const { return short_steps >= 3; }
+
+  /// Another problem is solved from here on, on the way to the same solution.
+  void begin_again() {
+    least_residual = std::numeric_limits<double>::infinity();
+    stalled = tiny_steps = short_steps = 0;
+  }
 
   void look_at(double residual_norm, double step, bool near) {
     constexpr double better = 0.5, tiny = 1e-6, brief = 0.3, hardly = 0.9;
@@ -206,14 +213,19 @@ template <System S>
     return result;
   }
   detail::Resistance<S> resistance(system, guess.resisted);
+  detail::Peeling<S> peeling;
   int most = (resistance.on() ? 2 : 1) * options.max_iterations;
-  for (int i = 1; i <= most; ++i) {
+  for (int i = 1; i <= most + peeling.iterations(); ++i) {
     const Eigen::VectorXd residual = result.evaluation.residual;
     const bool branched = result.evaluation.branch_residual.size() > 0;
     const Eigen::VectorXd linearised = branched ? result.evaluation.branch_residual : residual;
     Eigen::VectorXd du;
     result.state = system.remember(result.state);
-    if (!resistance.solve(solver, linearised, du, result)) return result;
+    if (!resistance.solve(solver, linearised, du, result)) {
+      if (!peeling.gives_up(system, committed, time, result)) return result;
+      judge.begin_again();
+      continue;
+    }
     if (resistance.unstable()) most = 10 * options.max_iterations;  // a snap takes its time
     const double energy_before = std::abs(du.dot(residual));
     if (i == 1 && !result.extrapolated) judge.first_energy = energy_before;
@@ -223,8 +235,8 @@ template <System S>
     const bool search = options.line_search == LineSearch::automatic;
     const bool smooth = !branched && !result.evaluation.saddle;
     const bool weak = result.precision.condition > 0;
-    const bool creeps = judge.creeps();
-    if (search && smooth && !creeps && (i > 1 || result.extrapolated || resistance.on() || weak))
+    const bool whole = judge.creeps() || peeling.turned();
+    if (search && smooth && !whole && (i > 1 || result.extrapolated || resistance.on() || weak))
       step =
           detail::line_search(system, committed, result, du, residual, time, resistance.on(), weak);
     else
@@ -232,7 +244,11 @@ template <System S>
     system.evaluate(committed, result.state, time, true, result.evaluation);
     if (result.total.size() == 0) result.total.setZero(du.size());
     result.total += step * du;
-    if (detail::conclude(judge, du, step, energy_before, result)) return result;
+    const bool ended = detail::conclude(judge, du, step, energy_before, result);
+    if (peeling.turns(system, committed, time, ended, result))
+      judge.begin_again();
+    else if (ended)
+      return result;
   }
   detail::fail(result, Outcome::not_converged,
                "not converged after " + std::to_string(most) + " iterations");

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "osculate/cell/linear_facet.hpp"
 #include "osculate/cell/shape.hpp"
 
 namespace osculate::cell {
@@ -33,6 +34,24 @@ TEST(FacetShape, AgreesWithAreaShape) {
       EXPECT_NEAR(s.n[0][i], a.n[k], 1e-15) << info(type).name;
       EXPECT_NEAR(s.n[1][i], a.d(k, 0), 1e-15) << info(type).name;
       EXPECT_NEAR(s.n[2][i], a.d(k, 1), 1e-15) << info(type).name;
+    }
+  }
+}
+
+TEST(LinearFacet, IsTheSumOverItsShapeFunctions) {
+  const std::array<Vec3, 4> x{Vec3(0.1, 0.2, -0.3), Vec3(1.2, 0.1, 0.4), Vec3(1.5, 1.3, -0.2),
+                              Vec3(-0.2, 0.9, 0.5)};
+  const auto node = [&](std::size_t k) -> const Vec3& { return x[k]; };
+  for (const CellType type : facets) {
+    if (!is_linear_facet(type)) continue;
+    for (const Vec2& xi : {Vec2(0.31, 0.22), Vec2(0, 0), Vec2(-0.7, 0.9)}) {
+      const FacetShape s = facet_shape(type, xi, 2);
+      const FacetDerivatives r = linear_facet(type, node, xi);
+      for (std::size_t d = 0; d < r.size(); ++d) {
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t k = 0; k < static_cast<std::size_t>(s.count); ++k) sum += s.n[d][k] * x[k];
+        EXPECT_LT((r[d] - sum).norm(), 1e-15) << info(type).name << " " << d;
+      }
     }
   }
 }

@@ -92,7 +92,7 @@ Frequencies<Dim> frequencies_of(const BuiltModel& built) {
   const model::BasicState<Dim> start = system.initial_state();
   system.begin_step(still, start);
   solve::Evaluation e;
-  system.evaluate(start, start, 1.0, true, e);
+  system.evaluate(start, 1.0, true, e);
   for (const auto& point : system.contact().front().points)
     if (point.status != contact::Status::open) ++out.closed;
   const Index n = system.unknowns();

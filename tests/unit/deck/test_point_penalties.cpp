@@ -215,7 +215,7 @@ Bits bits_of(Built built, bool by_factors) {
     if (record) bits.stable.push_back(record->time_steps.stable);
     solve::Evaluation e;
     if (!record || record->time_steps.count > 0) return true;
-    system.evaluate(state, state, 1, false, e);
+    system.evaluate(state, 1, false, e);
     bits.round_off.push_back(e.round_off);
     return true;
   };

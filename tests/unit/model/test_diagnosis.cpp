@@ -19,7 +19,7 @@ struct Case {
     const State3 state = system.initial_state();
     system.begin_step(m.steps[0], state);
     solve::Evaluation e;
-    system.evaluate(state, state, 0.5, true, e);
+    system.evaluate(state, 0.5, true, e);
     return free_motions(system, m, state);
   }
   [[nodiscard]] std::string message() const { return free_motion_message(motions()); }
@@ -76,7 +76,7 @@ TEST(FreeMotions3, NodesThatFlyApartAreNoState) {
   const State3 state = system.initial_state();
   system.begin_step(c.m.steps[0], state);
   solve::Evaluation e;
-  system.evaluate(state, state, 0.5, true, e);
+  system.evaluate(state, 0.5, true, e);
   ASSERT_TRUE(e.ok);
   for (const double way : {1e3, 1e13}) {
     const Eigen::VectorXd du = Eigen::VectorXd::Constant(system.displacements(), way);

@@ -14,7 +14,7 @@ void expect_about(const BlockSpec& spec) {
   const BasicState<Dim> state = system.initial_state();
   system.begin_step(m.steps[0], state);
   solve::Evaluation out;
-  system.evaluate(state, state, 0, true, out);
+  system.evaluate(state, 0, true, out);
   la::SparseMatrix k = system.matrix();
   for (Index i = 0; i < k.n; ++i)  // held by springs
     for (Index e = k.row_start[static_cast<std::size_t>(i)];
