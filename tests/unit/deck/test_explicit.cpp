@@ -235,7 +235,7 @@ TEST(ExplicitImpact, TimeStepsAllocateNothing) {
 }
 
 /// A free box in space that flies, turns and is hit by nothing.
-const char* const top = R"(osculate: 1
+const char* const free_top = R"(osculate: 1
 title: A free top and a cube
 mesh: {generate: {cube: {box: {x: [5, 6], y: [0, 1], z: [0, 1], elements: [2, 2, 2]}}}}
 materials: {m: {linear_elastic: {E: 100, nu: 0.3, density: 1}}}
@@ -247,7 +247,7 @@ steps: [{name: fly, increments: 20, duration: 4, dynamics: {scheme: {central_dif
 )";
 
 TEST(ExplicitTop, KeepsMomentumAndEnergy) {
-  const Built3 built = built_from(top);
+  const Built3 built = built_from(free_top);
   std::optional<Vec3> first;
   double energy = 0, least = 1;
   const auto result =
@@ -276,7 +276,7 @@ TEST(ExplicitTop, KeepsMomentumAndEnergy) {
 TEST(ExplicitTop, IsDampedByItsMass) {
   const double h = 0.01, alpha = 0.4, share = (1 - 0.5 * alpha * h) / (1 + 0.5 * alpha * h);
   const Built3 built =
-      built_from(edited(edited(edited(edited(top, "inertia: [1, 2, 3]", "inertia: [2, 2, 2]"),
+      built_from(edited(edited(edited(edited(free_top, "inertia: [1, 2, 3]", "inertia: [2, 2, 2]"),
                                       "increments: 20", "increments: 1"),
                                "duration: 4", "duration: 0.2"),
                         "{step: 0.01}}}}", "{step: 0.01}}, damping: {mass: 0.4}}}"));
@@ -304,7 +304,7 @@ TEST(ExplicitTop, IsDampedByItsMass) {
 }
 
 TEST(ExplicitKeys, RotationsInSpaceAreNoTermsOfEquations) {
-  const std::string tied = edited(top, "initial_velocity:",
+  const std::string tied = edited(free_top, "initial_velocity:",
                                   "equations: [{terms: [{on: cube.bottom_front_left, of: uz, "
                                   "factor: 1}, {on: top, of: rx, factor: -1}]}]\n"
                                   "initial_velocity:");

@@ -159,7 +159,7 @@ TEST(TimeError, OfAnElasticBodyIsTheTrueOne) {
         0.004);
 }
 
-constexpr const char* top = R"(osculate: 1
+constexpr const char* thrown_top = R"(osculate: 1
 mesh: {generate: {plate: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [1, 1, 1]}}}}
 materials: {m: {linear_elastic: {E: 400, nu: 0.3, density: 1}}}
 sections: [{on: plate, material: m, element: solid}]
@@ -175,7 +175,7 @@ steps:
 solver: {tolerance: {residual: 1e-13, energy: 0.9}}
 )";
 
-TEST(TimeError, OfATurningBodyIsTheTrueOne) { expect_the_true_error(built_from(top), 0.02); }
+TEST(TimeError, OfATurningBodyIsTheTrueOne) { expect_the_true_error(built_from(thrown_top), 0.02); }
 
 // ---- what a refused step leaves behind ---------------------------------------------------------
 
