@@ -14,9 +14,26 @@ namespace osculate::app {
 namespace {
 
 std::atomic<bool> interrupted{false};
-/// The first ends the run after the iteration that is under way, the second at once.
+constexpr unsigned patience = 2;  ///< seconds
+
+/// The first ends the run after the iteration that is under way, and where that takes its time
+/// (a large factorisation) in the middle of it; the second at once. What has converged is in the
+/// folder, and `--restart` goes on from there.
 void on_interrupt(int) {
   if (interrupted.exchange(true)) std::_Exit(analysis_stopped);
+  alarm(patience);
+}
+void on_alarm(int) {
+  constexpr char text[] =
+      "\nstopped in the middle of an iteration: everything that converged before is kept\n";
+  if (write(STDERR_FILENO, text, sizeof text - 1) < 0) std::_Exit(analysis_stopped);
+  std::_Exit(analysis_stopped);
+}
+/// Asked between two iterations.
+bool was_interrupted() {
+  if (!interrupted.load()) return false;
+  alarm(0);  // the end of the run takes the time it takes
+  return true;
 }
 
 /// What fits on one line of the terminal.
@@ -35,6 +52,7 @@ struct RunFlags {
 int run(RunFlags& flags) {
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
+  std::signal(SIGALRM, on_alarm);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of writing
   flags.options.settings = settings_of(flags.settings);
   const bool terminal = isatty(STDERR_FILENO) != 0;
@@ -49,7 +67,7 @@ int run(RunFlags& flags) {
       std::fflush(stderr);
     };
   }
-  flags.options.interrupted = flags.options.abandoned = [] { return interrupted.load(); };
+  flags.options.interrupted = flags.options.abandoned = was_interrupted;
   const api::RunOutcome outcome = api::run(flags.options);
   if (flags.json) print(stdout, "{}\n", outcome.summary_json);
   if (flags.quiet && outcome.status != api::RunStatus::done)

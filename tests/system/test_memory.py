@@ -2,9 +2,11 @@
 import json
 import os
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 PROGRAM = sys.argv[1]
@@ -36,6 +38,23 @@ class Memory(unittest.TestCase):
         status, usage = os.wait4(program.pid, 0)[1:]
         program.returncode = os.waitstatus_to_exitcode(status)
         return program.returncode, text, usage.ru_maxrss * 1024
+
+    def test_a_long_iteration_is_left_when_asked_to_end(self):
+        with open(os.path.join(self.folder.name, "box.yaml"), "w") as file:
+            file.write(BOX.replace("N", "32"))
+        with subprocess.Popen([PROGRAM, "run", "box.yaml", "-o", "r", "--threads", "1"], cwd=self.folder.name,
+                              stderr=subprocess.PIPE, text=True) as program:
+            for line in program.stderr:
+                if line.startswith("Steps"):
+                    break
+            time.sleep(1)  # it assembles, orders and factors for many seconds
+            program.send_signal(signal.SIGINT)
+            start = time.monotonic()
+            message = program.stderr.read()
+            program.wait()
+            self.assertLess(time.monotonic() - start, 4)
+        self.assertEqual(program.returncode, 3)
+        self.assertIn("stopped in the middle of an iteration", message)
 
     def test_check_needs_not_much_more_than_the_mesh(self):
         code, small, base = self.run_program(2, "check", "box.yaml")

@@ -138,10 +138,20 @@ void build_history(BuildContext<Dim>& c) {
 
 namespace {
 
+/// Nodes of the sets that a contact names.
+std::vector<bool> nodes_in_contact(const Description& description, const mesh::Mesh& mesh) {
+  std::vector<bool> out(mesh.nodes.size());
+  for (const Contact& contact : description.contact)
+    for (const mesh::Set& set : mesh.sets)
+      if (!contact.all && (set.name == contact.master.value || set.name == contact.slave.value))
+        for (const Index node : set.nodes) out[static_cast<std::size_t>(node)] = true;
+  return out;
+}
+
 template <int Dim>
 BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   BasicBuilt<Dim> built;
-  for (const mesh::Finding& finding : mesh::check_mesh(mesh)) {
+  for (const mesh::Finding& finding : mesh::check_mesh(mesh, nodes_in_contact(description, mesh))) {
     if (finding.is_error) throw core::InputError(description.mesh.mark, finding.message);
     built.warnings.push_back(finding.message);
   }

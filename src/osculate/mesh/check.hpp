@@ -31,9 +31,12 @@ struct Finding {
 };
 
 /// Checks what a mesh file or a generator can get wrong. At most one finding per kind; with
-/// bad_index the rest is not examined.
+/// bad_index the rest is not examined. Where two nodes `in_contact` (of a side of one; empty: none)
+/// are at the same place, or one is on an edge between two others, that is meant: parts of one
+/// section, or the lips of a crack, touch there.
 /// Tested by  tests/unit/mesh/test_check.cpp
-[[nodiscard]] std::vector<Finding> check_mesh(const Mesh& mesh);
+[[nodiscard]] std::vector<Finding> check_mesh(const Mesh& mesh,
+                                              const std::vector<bool>& in_contact = {});
 
 /// Smallest Jacobian determinant of a volume cell over its nodes and their middle.
 [[nodiscard]] double smallest_jacobian(const Mesh& mesh, CellRef ref);

@@ -67,7 +67,7 @@ class Peeling {
   }
 
  private:
-  static constexpr int most = 25, window = 5, stages = 2;
+  static constexpr int most = 20, window = 5, long_enough = 10, stages = 2;
 
   /// True where the points in contact seem to stand: what friction does there comes later.
   bool look_at(const StateCounts& counts) {
@@ -82,12 +82,13 @@ class Peeling {
     return still;
   }
 
-  /// States have changed in many iterations, one after the other, and a few more points are open.
+  /// States have changed in many iterations, one after the other, and a few more points are open;
+  /// over an area many come and go, and what tells is that they find no end.
   [[nodiscard]] bool peels() const {
     if (used_ || seen_ <= window) return false;
     const int now = open_[static_cast<std::size_t>((seen_ - 1) % (window + 1))];
     const int before = open_[static_cast<std::size_t>(seen_ % (window + 1))];
-    return now > before && now - before <= 2 * window;
+    return seen_ >= long_enough || (now > before && now - before <= 2 * window);
   }
 
   bool soften(S& system, NewtonResult<typename S::State>& result) {

@@ -218,6 +218,16 @@ TEST(Check, NodesOnEdgesOfOtherCells) {
             "7 (1, 0.5) of 'whole'");
 }
 
+TEST(Check, PartsOfOneSetThatAreInContactAreMeantToTouch) {
+  for (const int cells : {1, 2}) {
+    const Mesh mesh = not_merged(cells);
+    std::vector<bool> in_contact(mesh.nodes.size(), true);
+    EXPECT_THAT(check_mesh(mesh, in_contact), IsEmpty());
+    in_contact[1] = false;  // (1, 0): the end of one side
+    EXPECT_THAT(check_mesh(mesh, in_contact), SizeIs(cells));
+  }
+}
+
 TEST(Check, TrianglesOverAQuadrilateral) {
   Mesh mesh = square();
   const std::vector<Index> quad(mesh.blocks[0].connectivity.begin(),
