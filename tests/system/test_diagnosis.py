@@ -252,6 +252,18 @@ steps: [{name: lift, increments: 2, pressure: [{on: block.top, value: -1}]}]
             self.assertEqual(found["cause"], "over-constrained contact", self.message)
             self.assertIn("the gap of 6 of its points", found["proposal"])
 
+    def test_a_deep_initial_overlap(self):
+        found = self.failure("""osculate: 1
+mesh: {generate: {b: {box: {x: [0, 4], y: [0, 2], elements: [40, 20]}}}}
+materials: {m: {neo_hooke: {E: 100, nu: 0.3}}}
+sections: [{on: b, material: m, element: plane_strain}]
+rigid: {r: {line: {point: [0, 0.8], normal: [0, 1]}}}
+contact: [{name: c, master: r, slave: b.bottom}]
+steps: [{name: s, increments: 4, prescribe: [{on: b.top, ux: 0, uy: 0}]}]
+""")
+        self.assertEqual(found["cause"], "initial overlap", self.message)
+        self.assertIn("its slave begins 0.8 deep in the master, 8 times the height of the cells", found["proposal"])
+
     def test_flipping_contact(self):
         found = self.failure(FLIPPING)
         self.assertEqual(found["cause"], "flipping contact", self.message)

@@ -18,6 +18,13 @@ bool Budget::too_late() {
   return !used_up_.empty();
 }
 
+bool Budget::passed(double interval) {
+  const double now = seconds();
+  if (now - told_ < interval) return false;
+  told_ = now;
+  return true;
+}
+
 double share_done(const std::vector<model::Step>& steps, const std::string& until,
                   const model::Progress& progress) {
   double done = 0, all = 0;

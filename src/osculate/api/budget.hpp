@@ -19,6 +19,8 @@ class Budget {
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(Clock::now() - start_).count();
   }
+  /// So many seconds have passed since this was last true, or since the start.
+  bool passed(double interval);
   /// False where one more iteration is too much.
   bool begin_iteration();
   /// The time is over.
@@ -28,7 +30,7 @@ class Budget {
 
  private:
   int iterations_, begun_ = 0;
-  double minutes_;
+  double minutes_, told_ = 0;
   Clock::time_point start_;
   std::string used_up_;
 };

@@ -168,8 +168,10 @@ struct Recorder {
   }
   void show_progress(const model::Progress& p, const std::string& line) {
     if (!options.progress) return;
-    const bool plain = !options.with_outlook;
-    options.progress((plain ? "" : outlook(done(p), resumed, budget.seconds())) + line);
+    const std::string left = outlook(done(p), resumed, budget.seconds());
+    options.progress((options.with_outlook ? left : "") + line);
+    if (!options.with_outlook && !left.empty() && budget.passed(options.outlook_after))
+      options.progress(left);
   }
 
   bool converged(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,

@@ -23,6 +23,8 @@ struct RunOptions {
   /// Asked between two iterations; true ends the run without the increment that is under way.
   std::function<bool()> abandoned{};
   bool with_outlook = false;  ///< progress begins with the share that is done and the time left
+  /// Without: these stand on a line of their own, so long after the last one at the earliest [s].
+  double outlook_after = 10;
   int max_iterations = 0;  ///< of all increments together, then the run stops likewise; 0: no limit
   double max_minutes = 0;  ///< since its beginning; 0: no limit
 };

@@ -138,20 +138,29 @@ void build_history(BuildContext<Dim>& c) {
 
 namespace {
 
-/// Nodes of the sets that a contact names.
-std::vector<bool> nodes_in_contact(const Description& description, const mesh::Mesh& mesh) {
-  std::vector<bool> out(mesh.nodes.size());
-  for (const Contact& contact : description.contact)
-    for (const mesh::Set& set : mesh.sets)
-      if (!contact.all && (set.name == contact.master.value || set.name == contact.slave.value))
-        for (const Index node : set.nodes) out[static_cast<std::size_t>(node)] = true;
+/// Of the contacts that name two sets of nodes.
+std::vector<mesh::ContactSides> sides_of_contacts(const Description& description,
+                                                  const mesh::Mesh& mesh) {
+  std::vector<mesh::ContactSides> out;
+  for (const Contact& contact : description.contact) {
+    const std::array<std::string, 2> names{contact.master.value, contact.slave.value};
+    if (contact.all || names[0] == names[1]) continue;
+    mesh::ContactSides& sides = out.emplace_back();
+    for (const std::size_t k : {0, 1}) {
+      sides[k].resize(mesh.nodes.size());
+      for (const mesh::Set& set : mesh.sets)
+        if (set.name == names[k])
+          for (const Index node : set.nodes) sides[k][static_cast<std::size_t>(node)] = true;
+    }
+  }
   return out;
 }
 
 template <int Dim>
 BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   BasicBuilt<Dim> built;
-  for (const mesh::Finding& finding : mesh::check_mesh(mesh, nodes_in_contact(description, mesh))) {
+  for (const mesh::Finding& finding :
+       mesh::check_mesh(mesh, sides_of_contacts(description, mesh))) {
     if (finding.is_error) throw core::InputError(description.mesh.mark, finding.message);
     built.warnings.push_back(finding.message);
   }

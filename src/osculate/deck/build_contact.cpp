@@ -211,9 +211,8 @@ void set_augmentation(const BuildContext<Dim>& c, const Contact& contact,
 
 /// A press fit lives from its overlap: of a light one the usual target would be a good part.
 ///
-/// Formula    min(1e-4 of a facet, 1e-3 of the deepest overlap), and at least 1e-7 of a facet,
-/// below
-///            which an overlap is rounding
+/// Formula    min(1e-4 of a facet, 1e-3 of the deepest overlap); at least 1e-7 of a facet: what
+///            overlaps by less is rounding
 /// Tested by  verification/press_fit
 template <int Dim>
 void set_fit_target(const BuildContext<Dim>& c, const Contact& contact,

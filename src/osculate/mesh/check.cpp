@@ -165,15 +165,20 @@ void check_volumes(const Mesh& mesh, std::vector<Finding>& findings) {
          "distorted)");
 }
 
-/// Whether a contact is between these nodes.
-bool touch(const std::vector<bool>& in_contact, std::initializer_list<Index> nodes) {
-  return !in_contact.empty() && std::all_of(nodes.begin(), nodes.end(), [&](Index n) {
-    return in_contact[static_cast<std::size_t>(n)];
+/// Whether a contact is between a node and an edge, or another node.
+bool touch(std::span<const ContactSides> contacts, Index node, std::array<Index, 2> edge) {
+  const auto on = [](const std::vector<bool>& side, Index n) {
+    return side[static_cast<std::size_t>(n)];
+  };
+  return std::any_of(contacts.begin(), contacts.end(), [&](const ContactSides& sides) {
+    const auto& [master, slave] = sides;
+    return (on(master, node) && on(slave, edge[0]) && on(slave, edge[1])) ||
+           (on(slave, node) && on(master, edge[0]) && on(master, edge[1]));
   });
 }
 
 /// Nodes of one set of volumes (in the plane of areas) that are at the same place.
-void check_double_nodes(const Mesh& mesh, const std::vector<bool>& in_contact,
+void check_double_nodes(const Mesh& mesh, std::span<const ContactSides> contacts,
                         std::vector<Finding>& findings) {
   Tally doubles;
   const int dimension = has_volumes(mesh) ? 3 : 2;
@@ -197,7 +202,7 @@ void check_double_nodes(const Mesh& mesh, const std::vector<bool>& in_contact,
     std::sort(spots.begin(), spots.end());
     for (std::size_t i = 1; i < spots.size(); ++i)
       if (spots[i].first == spots[i - 1].first &&
-          !touch(in_contact, {spots[i].second, spots[i - 1].second}))
+          !touch(contacts, spots[i].second, {spots[i - 1].second, spots[i - 1].second}))
         doubles.add(fmt::format("{} and {} of '{}'", spots[i - 1].second + 1,
                                 describe_node(mesh, spots[i].second).substr(5), set.name));
   }
@@ -217,8 +222,8 @@ double side_of(const Mesh& mesh, CellRef ref, const Vec3& a, const Vec3& b) {
 
 /// Ends of free edges that lie on other free edges, between their ends.
 void add_hanging(const Mesh& mesh, const std::string& set,
-                 const std::vector<std::array<Index, 2>>& free, const std::vector<bool>& in_contact,
-                 Tally& hanging) {
+                 const std::vector<std::array<Index, 2>>& free,
+                 std::span<const ContactSides> contacts, Tally& hanging) {
   constexpr double nearly = 1e-6;  // of the edge
   std::vector<Index> nodes;
   for (const std::array<Index, 2>& ends : free) nodes.insert(nodes.end(), ends.begin(), ends.end());
@@ -237,14 +242,14 @@ void add_hanging(const Mesh& mesh, const std::string& set,
       const Vec3 arm = point(mesh, *n) - a;
       const double share = arm.dot(along) / size;
       if (share > nearly && share < 1 - nearly && std::abs(cross(along, arm)) < nearly * size &&
-          !touch(in_contact, {*n, ends[0], ends[1]}))
+          !touch(contacts, *n, ends))
         hanging.add(fmt::format("{} of '{}'", describe_node(mesh, *n).substr(5), set));
     }
   }
 }
 
 /// In the plane an edge has one cell on each side, and free edges have no nodes between their ends.
-void check_plane(const Mesh& mesh, const std::vector<bool>& in_contact,
+void check_plane(const Mesh& mesh, std::span<const ContactSides> contacts,
                  std::vector<Finding>& findings) {
   const auto is_plane = [](const Vec3& x) { return x.z() == 0 && is_number(x); };
   if (has_volumes(mesh) || !std::all_of(mesh.nodes.begin(), mesh.nodes.end(), is_plane)) return;
@@ -270,7 +275,7 @@ void check_plane(const Mesh& mesh, const std::vector<bool>& in_contact,
                                     describe_node(mesh, ends[0]),
                                     describe_node(mesh, ends[1]).substr(5), set.name));
     }
-    add_hanging(mesh, set.name, free, in_contact, hanging);
+    add_hanging(mesh, set.name, free, contacts, hanging);
   }
   report(findings, Flaw::overlap, false, overlapping,
          "place(s) where cells of one body lie over each other");
@@ -291,7 +296,7 @@ double smallest_jacobian(const Mesh& mesh, CellRef ref) {
   return smallest_jacobian(mesh, ref, judged_shapes(block_of(mesh, ref).type));
 }
 
-std::vector<Finding> check_mesh(const Mesh& mesh, const std::vector<bool>& in_contact) {
+std::vector<Finding> check_mesh(const Mesh& mesh, std::span<const ContactSides> contacts) {
   std::vector<Finding> findings;
   report(findings, Flaw::bad_index, true, bad_indices(mesh), "reference(s) to what is not there");
   if (!findings.empty()) return findings;
@@ -302,8 +307,8 @@ std::vector<Finding> check_mesh(const Mesh& mesh, const std::vector<bool>& in_co
     return std::any_of(findings.begin(), findings.end(), wanted);
   };
   if (!has([](const Finding& f) { return f.flaw == Flaw::not_finite; }))
-    check_double_nodes(mesh, in_contact, findings);
-  if (!has([](const Finding& f) { return f.is_error; })) check_plane(mesh, in_contact, findings);
+    check_double_nodes(mesh, contacts, findings);
+  if (!has([](const Finding& f) { return f.is_error; })) check_plane(mesh, contacts, findings);
   check_sets(mesh, findings);
   return findings;
 }

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,13 +32,16 @@ struct Finding {
   std::string message;  ///< the number and the first few examples
 };
 
+/// By node: whether it belongs to the master, to the slave.
+using ContactSides = std::array<std::vector<bool>, 2>;
+
 /// Checks what a mesh file or a generator can get wrong. At most one finding per kind; with
-/// bad_index the rest is not examined. Where two nodes `in_contact` (of a side of one; empty: none)
-/// are at the same place, or one is on an edge between two others, that is meant: parts of one
-/// section, or the lips of a crack, touch there.
+/// bad_index the rest is not examined. Where nodes of both sides of one of the `contacts` are at
+/// the same place, or one is on an edge of the other side, that is meant: parts of one section, or
+/// the lips of a crack, touch there.
 /// Tested by  tests/unit/mesh/test_check.cpp
 [[nodiscard]] std::vector<Finding> check_mesh(const Mesh& mesh,
-                                              const std::vector<bool>& in_contact = {});
+                                              std::span<const ContactSides> contacts = {});
 
 /// Smallest Jacobian determinant of a volume cell over its nodes and their middle.
 [[nodiscard]] double smallest_jacobian(const Mesh& mesh, CellRef ref);

@@ -227,6 +227,7 @@ std::string against_instability(const Step& step) {
 template <int Dim>
 void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const Step& step,
            const solve::NewtonResult<BasicState<Dim>>& attempt, BasicFailure<Dim>& f) {
+  constexpr double deep = 0.5;  // of a cell
   const bool inverted = !attempt.evaluation.ok && !attempt.evaluation.apart;
   if (!f.held.empty()) {
     f.cause = FailureCause::over_constrained;
@@ -235,6 +236,14 @@ void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const S
         "traction closes it; or use a penalty",
         f.held.front().pair, f.held.front().count,
         f.held.front().node < 0 ? "edges" : mesh::describe_node(model.mesh, f.held.front().node));
+  } else if (f.motions.empty() && f.overlap.share > deep) {
+    f.cause = FailureCause::initial_overlap;
+    f.proposal = fmt::format(
+        "let the overlap of contact '{}' in over the step (initial: ramp), measure gaps from it "
+        "(keep), or move the body: its slave begins {:.4g} deep in the master, {:.2g} times the "
+        "height of the cells, at {}",
+        f.overlap.pair, f.overlap.depth, f.overlap.share,
+        mesh::describe_node(model.mesh, f.overlap.node));
   } else if (f.motions.empty() && !f.beyond.empty() && !(inverted && f.smallest > small_cut)) {
     f.cause = FailureCause::beyond_slave;
     f.proposal = beyond_slave_cure(f.beyond.front());
@@ -297,6 +306,8 @@ std::string_view cause_name(FailureCause cause) {
   switch (cause) {
     case FailureCause::over_constrained:
       return "over-constrained contact";
+    case FailureCause::initial_overlap:
+      return "initial overlap";
     case FailureCause::no_equilibrium:
       return "no equilibrium found";
     case FailureCause::beyond_slave:
@@ -350,6 +361,7 @@ BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& mode
   constexpr double near = 0.25;  // the corner cell of such a body folds before its side arrives
   f.beyond = beyond_slave(model, system.positions(result.state), near);
   f.smallest = cut_to(step, attempt.state, result.state);
+  f.overlap = initial_overlap(model, result.state);
   if (attempt.state.u.size() == result.state.u.size() && result.state.u.size() > 0 &&
       attempt.state.u.allFinite()) {
     Eigen::Index largest = 0;

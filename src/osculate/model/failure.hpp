@@ -13,6 +13,7 @@ namespace osculate::model {
 /// applies is named.
 enum class FailureCause {
   over_constrained,     ///< multipliers of contact points whose gap is prescribed
+  initial_overlap,      ///< nothing has moved yet, and the slave is deep in the master
   beyond_slave,         ///< a body goes into a master beside its slave set
   inverted_element,     ///< an element is turned inside out
   sliding_motion,       ///< a body in contact is free to slide: without friction, or too little
@@ -45,6 +46,7 @@ struct BasicFailure {
   std::vector<BasicFreeMotion<Dim>> motions;
   bool pulled = false;           ///< the loads pull the first of these bodies off what it touches
   std::vector<HeldPoints> held;  ///< of the last iterate
+  InitialOverlap overlap;        ///< the deepest, where it has to be pushed out at once
   std::vector<BeyondSlave> beyond;  ///< at the last converged state
   double stiffness_ratio = 0;       ///< largest of contact to bulk stiffness on the diagonal
   /// Of the tangent's upper triangle at the last converged state, or, where small increments fail

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "osculate/model/body_resultants.hpp"
+#include "osculate/model/penetration.hpp"
 
 namespace osculate::model {
 template <int Dim>
@@ -44,6 +45,26 @@ std::vector<HeldPoints> held_points(const BasicSystem<Dim>& system, const BasicM
   return found;
 }
 
+template <int Dim>
+InitialOverlap initial_overlap(const BasicModel<Dim>& model, const BasicState<Dim>& state) {
+  InitialOverlap deepest;
+  if (!state.u.isZero(0)) return deepest;
+  for (std::size_t p = 0; p < model.pairs.size() && p < state.pairs.size(); ++p) {
+    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
+    if (pair.overlap != pairing::InitialOverlap::acts) continue;
+    for (std::size_t i = 0; i < pair.slave.points.size() && i < state.pairs[p].points.size(); ++i) {
+      const contact::PointHistory<Dim>& point = state.pairs[p].points[i];
+      const double height = height_behind(model.pairs[p], i), depth = pair.offset - point.gap;
+      if (!point.active || point.held || !(depth > deepest.share * height) || !(height > 0))
+        continue;
+      deepest = {model.pairs[p].name, pair.slave.points[i].nearest_node(), depth, depth / height};
+    }
+  }
+  return deepest;
+}
+
+template InitialOverlap initial_overlap(const Model&, const State&);
+template InitialOverlap initial_overlap(const Model3&, const State3&);
 template bool pulled_away(const System&, const Model&, const std::vector<Index>&);
 template bool pulled_away(const System3&, const Model3&, const std::vector<Index>&);
 template std::vector<HeldPoints> held_points(const System&, const Model&, const State&);

@@ -28,4 +28,18 @@ template <int Dim>
                                                   const BasicModel<Dim>& model,
                                                   const BasicState<Dim>& state);
 
+/// The deepest overlap of a state in which nothing has moved yet.
+struct InitialOverlap {
+  std::string pair;
+  Index node = -1;              ///< of the slave
+  double depth = 0, share = 0;  ///< length; of the height of the cells behind it
+};
+
+/// Share 0: something has moved, or overlaps do not act at once.
+///
+/// Tested by  tests/system/test_diagnosis.py
+template <int Dim>
+[[nodiscard]] InitialOverlap initial_overlap(const BasicModel<Dim>& model,
+                                             const BasicState<Dim>& state);
+
 }  // namespace osculate::model

@@ -11,6 +11,20 @@ template <int Dim>
   return i < pair.heights.size() ? pair.heights[i] : pair.height;
 }
 
+/// sum force depth / height over sum force; what pulls, and what has no height, does not count.
+class DepthMean {
+ public:
+  void add(double depth, double height, double force) {
+    if (!(height > 0) || !(force > 0)) return;
+    sum_ += force * depth / height;
+    force_ += force;
+  }
+  [[nodiscard]] double share() const { return force_ > 0 ? sum_ / force_ : 0.0; }
+
+ private:
+  double sum_ = 0, force_ = 0;
+};
+
 /// How deep the points of a pair are, in the mean over the force that they carry: a corner whose
 /// pressure has no limit does not count for more than it carries.
 ///
@@ -20,31 +34,24 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] double mean_share(const BasicContactPair<Dim>& pair,
                                 const pairing::PairEvaluation<Dim>& contact) {
-  double sum = 0, force = 0;
+  DepthMean mean;
   for (std::size_t i = 0; i < contact.points.size(); ++i) {
     const pairing::PointResult<Dim>& point = contact.points[i];
-    const double height = height_behind(pair, i);
-    if (point.status == contact::Status::open || !(height > 0)) continue;
-    const double carried = point.weight * std::max(0.0, -point.normal_traction);
-    sum += carried * -point.gap / height;
-    force += carried;
+    if (point.status != contact::Status::open)
+      mean.add(-point.gap, height_behind(pair, i), -point.weight * point.normal_traction);
   }
-  return force > 0 ? sum / force : 0.0;
+  return mean.share();
 }
 
 /// The same of a committed state, as if all points had the same penalty and area.
 template <int Dim>
 [[nodiscard]] double committed_share(const BasicContactPair<Dim>& pair,
                                      const pairing::PairState<Dim>& state) {
-  double sum = 0, force = 0;
-  for (std::size_t i = 0; i < state.points.size(); ++i) {
-    const contact::PointHistory<Dim>& point = state.points[i];
-    const double height = height_behind(pair, i), deep = std::max(0.0, -point.gap);
-    if (!point.active || !(height > 0)) continue;
-    sum += deep * deep / height;
-    force += deep;
-  }
-  return force > 0 ? sum / force : 0.0;
+  DepthMean mean;
+  for (std::size_t i = 0; i < state.points.size(); ++i)
+    if (const contact::PointHistory<Dim>& point = state.points[i]; point.active)
+      mean.add(-point.gap, height_behind(pair, i), -point.gap);
+  return mean.share();
 }
 
 /// Whether the program may change the normal penalty of a pair: it has chosen it, nothing else

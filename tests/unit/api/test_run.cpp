@@ -391,6 +391,13 @@ TEST_F(Run, ProgressTellsTheShareThatIsDone) {
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_TRUE(lines[1].starts_with("press ")) << lines[1];
   lines.clear();
+  o.outlook_after = 0;
+  (void)run(o);
+  ASSERT_EQ(lines.size(), 10u);
+  EXPECT_TRUE(lines[2].starts_with("press ")) << lines[2];
+  EXPECT_TRUE(lines[3].starts_with(" 40 % ")) << lines[3];
+  EXPECT_TRUE(lines[9].starts_with("100 % 0 s left")) << lines[9];
+  lines.clear();
   o.with_outlook = true;
   (void)run(o);
   EXPECT_TRUE(lines[1].starts_with(" 40 % ")) << lines[1];

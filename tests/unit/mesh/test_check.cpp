@@ -221,10 +221,14 @@ TEST(Check, NodesOnEdgesOfOtherCells) {
 TEST(Check, PartsOfOneSetThatAreInContactAreMeantToTouch) {
   for (const int cells : {1, 2}) {
     const Mesh mesh = not_merged(cells);
-    std::vector<bool> in_contact(mesh.nodes.size(), true);
-    EXPECT_THAT(check_mesh(mesh, in_contact), IsEmpty());
-    in_contact[1] = false;  // (1, 0): the end of one side
-    EXPECT_THAT(check_mesh(mesh, in_contact), SizeIs(cells));
+    // Those of the left square and of the right one.
+    ContactSides sides{std::vector<bool>(mesh.nodes.size()), std::vector<bool>(mesh.nodes.size())};
+    for (std::size_t n = 0; n < mesh.nodes.size(); ++n) sides[n < 4 ? 0 : 1][n] = true;
+    EXPECT_THAT(check_mesh(mesh, std::span(&sides, 1)), IsEmpty());
+    sides[0][1] = false;  // (1, 0): the end of one side
+    EXPECT_THAT(check_mesh(mesh, std::span(&sides, 1)), SizeIs(cells));
+    const ContactSides other{sides[0], std::vector<bool>(mesh.nodes.size())};
+    EXPECT_THAT(check_mesh(mesh, std::span(&other, 1)), SizeIs(cells));  // of another body
   }
 }
 
