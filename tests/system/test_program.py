@@ -181,12 +181,25 @@ class Program(unittest.TestCase):
     def test_files_of_others_in_a_result_folder_stay(self):
         self.model(BLOCK.replace("SIDE", "0.1"))
         self.assertEqual(self.run_program("run", "model.yaml", "-o", "out").returncode, 0)
-        kept = ["mine.vtu", "old.pvd", "movie.mkv.part", "bodies_final.vtu", "contacts_00001.vtu"]
+        kept = ["mine.vtu", "old.pvd", "movie.mkv.part", "bodies_final.vtu", "contacts_00001.vtu",
+                "bodies_00777.vtu", "contact0_00777.csv"]
         for name in kept:
             self.model("mine", os.path.join("out", name))
         self.assertEqual(self.run_program("run", "model.yaml", "-o", "out").returncode, 0)
         for name in kept:
             self.assertEqual(self.text(os.path.join("out", name)), "mine", name)
+
+    def test_field_files_of_a_longer_run_do_not_stay(self):
+        self.model(BLOCK.replace("SIDE", "0.1"))
+        self.assertEqual(self.run_program("run", "model.yaml", "-o", "out").returncode, 0)
+        fields = [n for n in os.listdir(self.path("out")) if n.endswith(".vtu")]
+        self.assertGreater(len(fields), 2)
+        self.assertEqual(sorted(self.text("out/written.txt").split()), sorted(fields))
+        done = self.run_program("run", "model.yaml", "-o", "out", "--until", "weight")
+        self.assertEqual(done.returncode, 0)
+        left = [n for n in os.listdir(self.path("out")) if n.endswith(".vtu")]
+        self.assertLess(len(left), len(fields))
+        self.assertEqual(sorted(self.text("out/written.txt").split()), sorted(left))
 
     def test_one_run_at_a_time_in_a_folder(self):
         self.model(BLOCK.replace("SIDE", "0.1"))

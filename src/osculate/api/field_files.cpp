@@ -226,6 +226,7 @@ template <int Dim>
 FieldFiles<Dim>::FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& built,
                             const deck::Output& output)
     : folder_(std::move(folder)),
+      list_(folder_),
       built_(built),
       compress_(output.compress),
       tables_(output.contact_points),
@@ -238,6 +239,12 @@ FieldFiles<Dim>::FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& bui
 }
 
 template <int Dim>
+std::string FieldFiles<Dim>::listed(const std::string& name) {
+  list_.add(name);
+  return folder_ + "/" + name;
+}
+
+template <int Dim>
 void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
                             const model::BasicState<Dim>& state, double time) {
   const model::BasicNodalFields<Dim> f = model::nodal_fields(system, built_.model, state);
@@ -246,7 +253,7 @@ void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
       tensor_field("S", f.stress),        tensor_field("E", f.strain),
       io::scalar_field("Mises", f.mises), node_numbers_};
   const std::string bodies = fmt::format("bodies_{:05d}.vtu", frame_);
-  io::write_vtu(folder_ + "/" + bodies,
+  io::write_vtu(listed(bodies),
                 {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},
                 compress_);
   const std::size_t before = entries_.size();
@@ -292,11 +299,11 @@ void FieldFiles<Dim>::write_contact(const model::BasicSystem<Dim>& system,
   io::Field numbers = numbers_field(m.mesh, c.nodes);  // none of crossings
   numbers.values.resize(points.size(), std::numeric_limits<double>::quiet_NaN());
   fields.insert(fields.begin(), {vector_field("U", u), numbers});
-  io::write_vtu(folder_ + "/" + stem + ".vtu", {points, cells, fields, {}}, compress_);
+  io::write_vtu(listed(stem + ".vtu"), {points, cells, fields, {}}, compress_);
   if (!tables_) return;
   std::swap(fields[0], fields[1]);
   fields.insert(fields.begin() + 1, io::vector_field("place", points));
-  io::write_file(folder_ + "/" + stem + ".csv", table(fields, points.size()));
+  io::write_file(listed(stem + ".csv"), table(fields, points.size()));
 }
 
 /// Rigid bodies in reference coordinates with their displacement.
@@ -320,7 +327,7 @@ void FieldFiles<Dim>::write_rigid(const model::BasicState<Dim>& state, const std
   }
   const std::array fields{io::vector_field("U", grid.u)};
   const std::array cell_fields{body};
-  io::write_vtu(folder_ + "/" + file,
+  io::write_vtu(listed(file),
                 {grid.points, blocks, fields, cell_fields, std::span(bodies_.names).first(1)},
                 compress_);
 }
@@ -353,11 +360,10 @@ void FieldFiles<Dim>::resume(std::vector<io::PvdEntry> written, std::vector<bool
   std::set<std::string> kept;
   for (const io::PvdEntry& entry : written) kept.insert(entry.file);
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder_, error))
-    if (const fs::path name = entry.path().filename();
-        (name == "last_iterate.vtu" || is_field_file(name.string())) &&
-        !kept.contains(fs::path(name).replace_extension(".vtu").string()))
-      fs::remove(entry.path(), error);
+  for (const std::string& name : list_.names())
+    if (!kept.contains(fs::path(name).replace_extension(".vtu").string()))
+      fs::remove(fs::path(folder_) / name, error);
+  fs::remove(fs::path(folder_) / "last_iterate.vtu", error);
   entries_ = std::move(written);
   frame_ = static_cast<int>(std::count_if(entries_.begin(), entries_.end(),
                                           [](const auto& e) { return e.part == "bodies"; }));

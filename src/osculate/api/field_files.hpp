@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "osculate/api/result_folder.hpp"
 #include "osculate/api/rigid_pictures.hpp"
 #include "osculate/deck/build.hpp"
 #include "osculate/io/vtk.hpp"
@@ -46,7 +47,11 @@ class FieldFiles {
                      std::size_t pair, const std::string& stem);
   void write_rigid(const model::BasicState<Dim>& state, const std::string& file);
 
+  /// The path of a file that is about to be written, which is put on the list.
+  [[nodiscard]] std::string listed(const std::string& name);
+
   std::string folder_;
+  FieldList list_;
   const deck::BasicBuilt<Dim>& built_;
   bool compress_, tables_;
   int frame_ = 0;

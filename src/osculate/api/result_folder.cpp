@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
+#include <vector>
 
 #include "osculate/core/error.hpp"
 #include "osculate/io/atomic_file.hpp"
@@ -28,6 +29,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* lock_name = "running.lock";
+constexpr const char* list_name = "written.txt";
 
 /// Whose results a folder has; empty texts where it does not say.
 struct Owner {
@@ -95,12 +97,34 @@ void require_writable(const std::string& folder) {
   }
 }
 
+/// A file of the folder itself, not one somewhere else.
+bool is_plain_name(const std::string& name) {
+  return !name.empty() && name.find('/') == std::string::npos;
+}
+
+/// The files whose names all runs give.
+bool is_common_file(std::string_view name) {
+  constexpr std::array names{
+      "history.csv", "report.json",    "report.html",     "log.txt",
+      "journal.bin", "checkpoint.bin", "results.pvd",     "checkpoint.previous.bin",
+      list_name,     "writable.part",  "last_iterate.vtu"};
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// What a killed run was about to write.
+bool is_part(std::string_view name) {
+  constexpr std::string_view part = ".part";
+  if (!name.ends_with(part)) return false;
+  name.remove_suffix(part.size());
+  return name == "summary.json" || is_common_file(name);
+}
+
 /// Nothing but what a killed run was about to write, and its lock.
 bool only_parts(const fs::path& folder) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
     if (const std::string name = entry.path().filename().string();
-        name != lock_name && (!name.ends_with(".part") || !is_result_file(name)))
+        name != lock_name && !is_part(name))
       return false;
   return !error;
 }
@@ -131,37 +155,20 @@ std::string choose_folder(const std::string& model, const std::string& wanted) {
                   folder.string(), name));
 }
 
-bool is_field_file(std::string_view name) {
-  constexpr std::string_view contact = "contact";
-  if (!name.ends_with(".vtu") && !(name.ends_with(".csv") && name.starts_with(contact)))
-    return false;
-  name.remove_suffix(4);
-  const auto digits = [](std::string_view text) {
-    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
-  };
-  for (const std::string_view bodies : {"bodies_", "rigid_"})
-    if (name.starts_with(bodies)) {
-      name.remove_prefix(bodies.size());
-      return name.size() >= 5 && digits(name);
-    }
-  if (!name.starts_with(contact)) return false;
-  name.remove_prefix(contact.size());
-  const std::size_t at = name.find('_');
-  return at != std::string_view::npos && digits(name.substr(0, at)) && name.size() - at > 5 &&
-         digits(name.substr(at + 1));
+FieldList::FieldList(const std::string& folder) : path_(folder + "/" + list_name) {
+  std::ifstream file(path_);
+  for (std::string name; std::getline(file, name);)
+    if (is_plain_name(name)) names_.insert(name);
 }
 
-bool is_result_file(std::string_view name) {
-  constexpr std::string_view part = ".part";
-  constexpr std::array names{
-      "history.csv",      "report.json",    "report.html", "log.txt",
-      "journal.bin",      "checkpoint.bin", "results.pvd", "checkpoint.previous.bin",
-      "last_iterate.vtu", "writable.part"};
-  if (std::find(names.begin(), names.end(), name) != names.end() || is_field_file(name))
-    return true;
-  if (!name.ends_with(part)) return false;
-  name.remove_suffix(part.size());
-  return name == "summary.json" || is_result_file(name);
+void FieldList::add(const std::string& name) {
+  if (!names_.insert(name).second) return;
+  if (!file_) {
+    std::error_code error;
+    const std::uintmax_t size = fs::file_size(path_, error);
+    file_.emplace(path_, error ? 0 : size);
+  }
+  file_->append(name + "\n");
 }
 
 nlohmann::json owner_json(const std::string& model) {
@@ -249,9 +256,18 @@ void open_folder(const std::string& folder, bool keep) {
   create(folder);
   if (keep) return;
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
-    if (is_result_file(entry.path().filename().string())) fs::remove(entry.path(), error);
+  std::vector<fs::path> old;
+  const FieldList listed(folder);
+  for (const std::string& name : listed.names()) {
+    old.emplace_back(name);
+    old.emplace_back(name + ".part");
   }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (const std::string name = entry.path().filename().string();
+        name != list_name && (is_common_file(name) || is_part(name)))
+      old.emplace_back(name);
+  old.emplace_back(list_name);  // the last one: a run that is killed before can be cleared again
+  for (const fs::path& name : old) fs::remove(folder / name, error);
 }
 
 std::string json_text(const nlohmann::json& json, int indent) {

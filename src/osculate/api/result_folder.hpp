@@ -1,7 +1,11 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
+
+#include "osculate/io/append_file.hpp"
 
 namespace osculate::api {
 
@@ -41,13 +45,27 @@ class FolderLock {
 /// be used again. Throws as `open_folder`.
 void claim_folder(const std::string& folder, const nlohmann::json& owner);
 
-/// Whether a file has a name that only runs give: nothing else in a result folder is ever removed.
-[[nodiscard]] bool is_result_file(std::string_view name);
-/// `bodies_00012.vtu`, `rigid_00012.vtu`, `contact0_00012.vtu` and `contact0_00012.csv`.
-[[nodiscard]] bool is_field_file(std::string_view name);
+/// The field files in a folder that runs have written: each is named in `written.txt` there before
+/// it is begun. One that somebody else has put there is never removed, whatever its name.
+///
+/// Tested by  tests/system/test_program.py
+class FieldList {
+ public:
+  explicit FieldList(const std::string& folder);
+  /// Throws io::WriteError.
+  void add(const std::string& name);
+  [[nodiscard]] bool contains(const std::string& name) const { return names_.contains(name); }
+  [[nodiscard]] const std::set<std::string>& names() const { return names_; }
+
+ private:
+  std::string path_;
+  std::set<std::string> names_;
+  std::optional<io::AppendFile> file_;  ///< from the first name on
+};
 
 /// Creates the folder, or removes the files of an earlier run (but its summary.json) unless they
-/// are to be kept. Throws io::WriteError, with nothing removed, if nothing can be written there.
+/// are to be kept: those that a run has listed, and those with the names all runs give. Throws
+/// io::WriteError, with nothing removed, if nothing can be written there.
 void open_folder(const std::string& folder, bool keep = false);
 
 /// JSON as text, whatever file names and messages are in it: what is no UTF-8 becomes U+FFFD.

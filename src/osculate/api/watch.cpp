@@ -116,7 +116,7 @@ std::vector<std::string> Watch<Dim>::end(bool open_matters) {
   for (const model::Locking& found : memory.locking) add(model::locks(found), texts);
   for (const model::SmallStrain& found : memory.small_strains)
     add(model::left_small_strain(found), texts);
-  constexpr double visible = 0.06;  // a mass that bounces once scatters by 5 %
+  constexpr double visible = 0.01;
   if (memory.grown > visible)
     add(fmt::format("warning: explicit time integration has made {:.2g} % of the energy out of "
                     "nothing: take shorter time steps (safety: or step: of central_differences)",

@@ -155,6 +155,7 @@ void BasicSystem<Dim>::Impl::Explicit::add_contact(double h, double fraction) {
   for (std::size_t p = 0; p < assumed.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = system.model.pairs[p].definition;
     assumed[p].duration = h;
+    assumed[p].mean_onset = h > 0;
     assumed[p].relief = system.relief(pair, fraction);
     pairing::evaluate<Dim>(pair, x, now.pairs[p], false, system.contact[p], assumed[p]);
     for (const pairing::ContactBlock<Dim>& block : system.contact[p].blocks)

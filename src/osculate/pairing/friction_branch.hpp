@@ -33,6 +33,15 @@ void hold(const PairDefinition<Dim>& pair, contact::PointHistory<Dim>& history) 
   if (history.held) history.rest = gap;
 }
 
+/// The way of the gap over the same facet since the last converged state, where it is asked for.
+template <int Dim>
+[[nodiscard]] double way_of_gap(const PairDefinition<Dim>& pair, const Assumed<Dim>& assumed,
+                                const contact::PointHistory<Dim>& history, Index facet,
+                                double gap) {
+  const bool asked = assumed.mean_onset && !pair.damping && history.facet >= 0;
+  return asked && history.facet == facet ? std::abs(gap - history.gap) : 0.0;
+}
+
 /// Whether the normal law gives a traction at this gap.
 template <int Dim>
 [[nodiscard]] bool is_closed(const PairDefinition<Dim>& pair,
@@ -41,7 +50,7 @@ template <int Dim>
   if (gap < -pair.depth) return false;
   if (is_held(pair, history)) return true;
   return pair.separation != Separation::tied_normal &&
-         gap - pair.offset - hint.relieved <= contact::reach(pair.normal);
+         gap - pair.offset - hint.relieved - 0.5 * hint.way <= contact::reach(pair.normal);
 }
 
 /// What a law of damping may ask.
@@ -73,7 +82,8 @@ template <int Dim>
   if (!is_closed(pair, history, gap, hint)) return {};
   if (pair.damping)
     return contact::damped(*pair.damping, law, of_law, closing_of(pair, history, hint));
-  r = contact::response(law, of_law, held);
+  const bool passes = !held && std::abs(of_law - contact::reach(law)) < 0.5 * hint.way;
+  r = passes ? contact::mean_response(law, of_law, hint.way) : contact::response(law, of_law, held);
   r.stored = contact::stored_energy(law, of_law, held);
   return r;
 }
@@ -103,7 +113,7 @@ template <int Dim>
 [[nodiscard]] ContactShare contact_share(const PairDefinition<Dim>& pair,
                                          const contact::PointHistory<Dim>& history, double gap,
                                          const BranchHint<Dim>& hint) {
-  const double onset = rest_gap(pair, history, hint) + contact::reach(pair.normal);
+  const double onset = rest_gap(pair, history, hint) + contact::reach(pair.normal) + 0.5 * hint.way;
   if (history.active || history.facet < 0 || !(history.gap > onset)) return {};
   const double range = history.gap - gap;
   return {(onset - gap) / range, -(history.gap - onset) / (range * range)};

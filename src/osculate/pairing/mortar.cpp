@@ -260,8 +260,10 @@ const MortarPlace& last_place(const PairState<Dim>& committed, std::size_t i) {
 /// Place and traction of slave node `i`.
 template <int Dim>
 NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
-                               const PairState<Dim>& committed, const BranchHint<Dim>& hint,
-                               std::size_t i, PairEvaluation<Dim>& out) {
+                               const PairState<Dim>& committed, const Assumed<Dim>& assumed,
+                               const PairMultipliers<Dim>* multipliers, std::size_t i,
+                               PairEvaluation<Dim>& out) {
+  BranchHint<Dim> hint = hint_of(pair, assumed, multipliers, i);
   const MortarNode<Dim>& node = out.mortar.nodes[i];
   PointResult<Dim>& result = out.points[i];
   clear(out.blocks[i]);
@@ -276,6 +278,7 @@ NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
   NodeContact<Dim> c = place_node<Dim>(node, out.mortar.normals[i]);
   out.mortar.places[i] = node.masters;
   for (double& weight : out.mortar.places[i].weights) weight /= node.area;
+  hint.way = way_of_gap(pair, assumed, committed.points[i], node.facet, c.gap);
   c.normal_law = normal_response(pair, committed.points[i], c.gap, hint);
   if (c.normal_law.active && pair.friction)
     set_friction<Dim>(pair, committed.points[i], last_place<Dim>(committed, i), x, hint, c);
@@ -331,8 +334,7 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
   out.blocks.resize(std::max(n, out.blocks.size()));
   out.mortar.contacts.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
-    out.mortar.contacts[i] =
-        evaluate_node<Dim>(pair, x, committed, hint_of(pair, assumed, multipliers, i), i, out);
+    out.mortar.contacts[i] = evaluate_node<Dim>(pair, x, committed, assumed, multipliers, i, out);
   }
   for (std::size_t k = n; k < out.blocks.size(); ++k) out.blocks[k].count = 0;
   if (!with_tangent) return;

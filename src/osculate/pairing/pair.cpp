@@ -164,6 +164,8 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
     BranchHint<Dim> hint = hint_of(pair, assumed, multipliers, i);
     if (!committed.overlap.empty()) hint.relieved = assumed.relief * committed.overlap[i];
     Placed<Dim> placed = place_point(pair, out, x, i, committed.points[i], hint.assumed.kept());
+    hint.way = way_of_gap(pair, assumed, committed.points[i], placed.projection.facet,
+                          placed.kinematics.gap);
     laps.add_to(out.seconds.projection);
     evaluate_placed(pair, x, committed.points[i], placed, hint, with_tangent, i, out);
     laps.add_to(out.seconds.evaluation);

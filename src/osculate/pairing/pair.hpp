@@ -232,6 +232,9 @@ struct Assumed {
   bool predict = false;  ///< first iteration: points that slipped go on slipping
   double duration = 0;   ///< of the increment, for laws that depend on speed; 0: not known
   double relief = 0;     ///< share of the initial overlaps that does not count yet
+  /// Where contact begins or ends within the increment, its traction is the mean over the way the
+  /// gap has gone in it: explicit time steps neither make nor lose energy there.
+  bool mean_onset = false;
   /// Points that are far from the master need no place yet: half the reach is searched round them
   /// (all of it, if they may have come through the master). `look_far` finds what is left out.
   bool near = false;

@@ -1,7 +1,7 @@
 // Crossings of edges as contact points.
 #include <algorithm>
 
-#include "osculate/pairing/point_evaluation.hpp"
+#include "osculate/pairing/friction_branch.hpp"
 
 namespace osculate::pairing {
 
@@ -128,8 +128,9 @@ void evaluate_crossings(const PairDefinition<3>& pair, Points<3> x, const PairSt
       history.facet = static_cast<Index>(found.size()) + known;
     }
     const RelativeStiffness own = relative_stiffness(differences, nodes + c);
-    evaluate_point<3>(differences, x, history, placed, hint_of(found[c], assumed, own),
-                      with_tangent, nodes + c, out);
+    BranchHint<3> hint = hint_of(found[c], assumed, own);
+    hint.way = way_of_gap(pair, assumed, history, history.facet, placed.kinematics.gap);
+    evaluate_point<3>(differences, x, history, placed, hint, with_tangent, nodes + c, out);
     drop_origin(out.blocks[nodes + c]);
     remember_edges(pair, x, found[c], out.points[nodes + c]);
   }

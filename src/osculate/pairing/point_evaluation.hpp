@@ -23,6 +23,7 @@ struct BranchHint {
   bool known = false;   ///< `assumed` is of an iteration (or predicted), not made up
   double duration = 0;  ///< of the increment
   double relieved = 0;  ///< part <= 0 of the gap that does not count (PairState::overlap)
+  double way = 0;       ///< of the gap in the increment, with Assumed::mean_onset
   const contact::Multiplier<Dim>* multiplier = nullptr;
   double stiffening = 1;
   RelativeStiffness own{};  ///< factors of the point's penalties

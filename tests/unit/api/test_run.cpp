@@ -104,9 +104,9 @@ TEST_F(Run, WritesItsFiles) {
   EXPECT_EQ(outcome.status, RunStatus::done);
   EXPECT_EQ(outcome.message, "");
   EXPECT_EQ(outcome.folder, results.string());
-  std::set<std::string> expected{"summary.json", "history.csv",    "results.pvd",
-                                 "report.json",  "report.html",    "log.txt",
-                                 "journal.bin",  "checkpoint.bin", "checkpoint.previous.bin"};
+  std::set<std::string> expected{
+      "summary.json", "history.csv", "results.pvd", "written.txt",    "report.json",
+      "report.html",  "log.txt",     "journal.bin", "checkpoint.bin", "checkpoint.previous.bin"};
   for (int i = 0; i < 6; ++i) {
     expected.insert("bodies_0000" + std::to_string(i) + ".vtu");
     expected.insert("rigid_0000" + std::to_string(i) + ".vtu");

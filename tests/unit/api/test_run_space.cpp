@@ -106,9 +106,9 @@ struct RunSpace : ::testing::Test {
 TEST_F(RunSpace, WritesItsFiles) {
   const RunOutcome outcome = run_model();
   EXPECT_EQ(outcome.status, RunStatus::done) << outcome.message;
-  std::set<std::string> expected{"summary.json", "history.csv",    "results.pvd",
-                                 "report.json",  "report.html",    "log.txt",
-                                 "journal.bin",  "checkpoint.bin", "checkpoint.previous.bin"};
+  std::set<std::string> expected{
+      "summary.json", "history.csv", "results.pvd", "written.txt",    "report.json",
+      "report.html",  "log.txt",     "journal.bin", "checkpoint.bin", "checkpoint.previous.bin"};
   const std::string pvd = read(results / "results.pvd");
   for (int i = 0; i < 3; ++i)
     for (const char* part : {"bodies", "rigid", "contact0"}) {

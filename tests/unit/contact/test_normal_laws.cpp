@@ -51,6 +51,30 @@ TEST(NormalTable, RunsThroughItsPointsAndOnBeyondTheLast) {
   EXPECT_EQ(reach(NormalLaw(table)), 0.01);
 }
 
+/// A point that comes in at constant speed gets the same impulse wherever in a time step it
+/// touches, and a linear law is its own mean.
+TEST(NormalLaws, GiveTheSameImpulseWhereverInAStepTheyBegin) {
+  constexpr double way = 0.3 * c0;
+  for (const NormalLaw& law :
+       {NormalLaw(NormalPenalty{400}), NormalLaw(NormalExponential{p0, c0}), NormalLaw(table)}) {
+    SCOPED_TRACE(text(law));
+    const double end = -3 * c0;
+    const double whole = stored_energy(law, end);
+    for (const double phase : {0.0, 0.2, 0.5, 0.9}) {
+      const double first = reach(law) + way * (0.5 + phase);
+      double sum = 0, gap = first;
+      for (; gap - 0.5 * way > end; gap -= way) sum -= way * mean_response(law, gap, way).traction;
+      sum += stored_energy(law, end) - stored_energy(law, gap + 0.5 * way);
+      EXPECT_NEAR(sum / whole, 1, 1e-12);
+    }
+    EXPECT_FALSE(mean_response(law, reach(law) + 0.51 * way, way).active);
+    EXPECT_TRUE(mean_response(law, reach(law) + 0.49 * way, way).active);
+  }
+  const NormalLaw linear(NormalPenalty{400});
+  EXPECT_NEAR(mean_response(linear, -c0, way).traction, response(linear, -c0).traction, 1e-12);
+  EXPECT_NEAR(mean_response(linear, -c0, way).d_traction, 400, 1e-9);
+}
+
 // The stored energy is that of the pressure: none at the first touch, and -dU/dgap = p, inside
 // every piece of the law and held points included.
 TEST(NormalLaws, StoreTheWorkOfTheirPressure) {

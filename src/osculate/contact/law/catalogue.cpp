@@ -133,6 +133,18 @@ const Value* Law<Laws>::found(const Laws& law) {
 NormalResponse response(const NormalLaw& law, double gap, bool held) {
   return visit([&](const auto& l) { return l.response(gap, held); }, law);
 }
+NormalResponse mean_response(const NormalLaw& law, double gap, double way) {
+  return visit(
+      [&](const auto& l) {
+        const double from = gap + 0.5 * way, to = gap - 0.5 * way;
+        NormalResponse r;
+        r.active = !(to > l.reach());
+        r.traction = (l.energy(from) - l.energy(to)) / way;
+        r.d_traction = (l.response(from).traction - l.response(to).traction) / way;
+        return r;
+      },
+      law);
+}
 double stored_energy(const NormalLaw& law, double gap, bool held) {
   return visit([&](const auto& l) { return l.energy(gap, held); }, law);
 }

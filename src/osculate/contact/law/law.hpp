@@ -67,6 +67,13 @@ struct Closing {
 
 /// Normal traction at a gap; with `held` also of a point that is pulled, where the law allows it.
 [[nodiscard]] NormalResponse response(const NormalLaw& law, double gap, bool held = false);
+/// Mean traction over the gaps within way / 2 of this one: that of a time step that passes them at
+/// constant speed. A law that begins within the step counts from when it begins on.
+///
+/// Formula    (U(gap + way/2) - U(gap - way/2)) / way ; the law itself where it is linear there
+/// Requires   way > 0
+/// Tested by  tests/unit/contact/test_normal_laws.cpp
+[[nodiscard]] NormalResponse mean_response(const NormalLaw& law, double gap, double way);
 /// Work that the normal traction has taken up at a gap, per weight: -dU/dgap = pressure.
 ///
 /// Tested by  tests/unit/contact/test_normal_laws.cpp
