@@ -15,7 +15,6 @@ struct Setting {
   double penalty = 1e4;
   bool friction = false;
   int increments = 1;
-  bool condensed = false;  ///< multipliers, before the linear solver
 };
 
 /// A small block pressed on a wide one, with meshes that do not match; with friction it is then
@@ -42,10 +41,9 @@ contact: [{{name: c, master: low.top, slave: up.bottom, sampling: {}, enforcemen
   normal: {{penalty: {}}}}}]
 steps:
   - {{name: press, increments: {}, prescribe: [{{on: low.bottom, uy: 0, ux: 0}}, {{on: up.top, uy: -0.1, ux: 0}}]}}{}
-solver: {{tolerance: {{residual: 1.0e-11}}, multipliers: {}}}
+solver: {{tolerance: {{residual: 1.0e-11}}}}
 )",
-                     s.sampling, s.method, friction, s.penalty, s.increments, shear,
-                     s.condensed ? "condensed" : "unknowns");
+                     s.sampling, s.method, friction, s.penalty, s.increments, shear);
 }
 
 /// What the last increment left.
@@ -127,23 +125,6 @@ void add_multipliers(CaseResult& r, const std::string& sampling, bool friction) 
   add(r, name + ": iterations of the penalty 2e5", by_penalty[1].iterations, 0, Relation::info, "");
 }
 
-/// Condensed, the multipliers have the same solution after the same iterations: only the linear
-/// solver knows of it.
-void add_condensed(CaseResult& r, const std::string& sampling, bool friction) {
-  const std::string name = sampling + (friction ? ", friction" : "");
-  const Answer plain = solve({multiplier, sampling, 1e3, friction});
-  const Answer condensed = solve({multiplier, sampling, 1e3, friction, 1, true});
-  add(r, name + ": pressures of condensed and other multipliers differ by",
-      plain.done && condensed.done ? difference(condensed.pressure, plain.pressure) : 1, 1e-9,
-      Relation::at_most, "an exact elimination");
-  if (friction)
-    add(r, name + ": shear of condensed and other multipliers differs by",
-        difference(condensed.shear, plain.shear), 1e-9, Relation::at_most, "an exact elimination");
-  add(r, name + ": more or fewer iterations of condensed multipliers",
-      std::abs(condensed.iterations - plain.iterations), 0, Relation::at_most,
-      "the same Newton method");
-}
-
 /// The target is met whatever the penalty, within six decades around the bodies' own stiffness
 /// (E / height = 100).
 void add_augmentation(CaseResult& r, const std::string& sampling, const std::string& loop,
@@ -177,10 +158,7 @@ void add_augmentation(CaseResult& r, const std::string& sampling, const std::str
 CaseResult enforcement(const CaseContext&) {
   CaseResult r;
   for (const std::string sampling : {"nodes", "mortar"})
-    for (const bool friction : {false, true}) {
-      add_multipliers(r, sampling, friction);
-      add_condensed(r, sampling, friction);
-    }
+    for (const bool friction : {false, true}) add_multipliers(r, sampling, friction);
   for (const std::string sampling : {"nodes", "{gauss: 2}", "mortar"})
     for (const bool friction : {false, true}) add_augmentation(r, sampling, "uzawa", friction);
   add_augmentation(r, "mortar", "single", true);

@@ -52,10 +52,6 @@ model::AnalysisOptions analysis_options(const Solver& solver) {
                                       : solver.arc_length == ArcLength::always
                                           ? solve::PathControl::always
                                           : solve::PathControl::last_resort;
-  options.condense = solver.multipliers == MultiplierSolution::condensed ? la::Condense::always
-                     : solver.multipliers == MultiplierSolution::unknowns
-                         ? la::Condense::never
-                         : la::Condense::if_unsymmetric;
   return options;
 }
 

@@ -366,7 +366,6 @@ struct Step {
 enum class LineSearch { automatic, off };
 enum class Predictor { automatic, tangent };
 enum class ArcLength { automatic, always, off };
-enum class MultiplierSolution { automatic, condensed, unknowns };
 
 struct Solver {
   Number energy, residual;  ///< tolerances; 0 = this measure does not decide
@@ -376,7 +375,6 @@ struct Solver {
   std::optional<Number> minimum_fraction;
   Predictor predictor = Predictor::automatic;
   ArcLength arc_length = ArcLength::automatic;
-  MultiplierSolution multipliers = MultiplierSolution::automatic;
 };
 
 enum class FieldTimes { every, last, none };

@@ -80,20 +80,6 @@ Spec arc_length_spec() {
       .otherwise("auto");
 }
 
-Spec multipliers_spec() {
-  return choice(
-             "What becomes of the unknown tractions of `enforcement: lagrange_multiplier` in the "
-             "linear system; the solution is the same.",
-             {word("auto", MultiplierSolution::automatic,
-                   "condensed where the matrix is unsymmetric anyway (friction, mortar)"),
-              word("unknowns", MultiplierSolution::unknowns, "the solver eliminates them"),
-              word("condensed", MultiplierSolution::condensed,
-                   "they are eliminated before, point by point, where the slave node's own "
-                   "equations can do it")})
-      .otherwise("unknowns")
-      .such_as("condensed");
-}
-
 }  // namespace
 
 Spec solver_spec() {
@@ -139,8 +125,7 @@ Spec solver_spec() {
                                         .otherwise("auto")),
               optional("stabilisation",
                        map("Viscous help until contact closes.", {}).not_available()),
-              optional("arc_length", arc_length_spec()),
-              optional("multipliers", multipliers_spec())})
+              optional("arc_length", arc_length_spec())})
       .otherwise("{}")
       .such_as("{max_iterations: 40, line_search: off}");
 }

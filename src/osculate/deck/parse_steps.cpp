@@ -353,7 +353,6 @@ Solver parse_solver(const Value& v) {
   s.minimum_fraction = number_if(v, "minimum_fraction");
   s.predictor = word_of<Predictor>(v, "predictor").value;
   s.arc_length = word_of<ArcLength>(v, "arc_length").value;
-  s.multipliers = word_of<MultiplierSolution>(v, "multipliers").value;
   return s;
 }
 

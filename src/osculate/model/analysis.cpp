@@ -20,7 +20,7 @@ struct Analysis {
   const AnalysisOptions& options;
   const BasicAnalysisObserver<Dim>& observer;
   BasicSystem<Dim> system;
-  la::DirectSolver solver{la::DirectOptions{.condense = options.condense}};
+  std::unique_ptr<la::LinearSolver> solver = options.linear_solver();
   BasicAnalysisResult<Dim> result{};
   Progress progress{};
   double begun = 0;  ///< time at the beginning of the running step
@@ -85,7 +85,7 @@ struct Analysis {
           solve::TimeAccuracy{step.dynamics->time_steps->error,
                               step.dynamics->time_steps->smallest / step.duration, corners(step)};
     solve::StepResult<BasicState<Dim>> done =
-        solve::run_step(system, result.state, step.increments, increments, solver, on_increment,
+        solve::run_step(system, result.state, step.increments, increments, *solver, on_increment,
                         on_cutback, position);
     result.state = done.state;
     result.last_iterate = done.state;
@@ -158,7 +158,7 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
     if (result.outcome != solve::Outcome::converged || step.name == options.until) break;
   }
   result.seconds_system = a.system.seconds();
-  result.seconds_solver = a.solver.seconds();
+  result.seconds_solver = a.solver->seconds();
   result.seconds = seconds_since(start);
   return result;
 }

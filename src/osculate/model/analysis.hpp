@@ -13,8 +13,8 @@ namespace osculate::model {
 struct AnalysisOptions {
   solve::IncrementOptions increments;
   int threads = 1;
-  la::Condense condense = la::Condense::never;  ///< multipliers, before the linear solver
-  std::string until;                            ///< last step to run (inclusive), empty = all
+  la::MakeSolver linear_solver = la::make_default_solver;
+  std::string until;  ///< last step to run (inclusive), empty = all
 };
 
 /// Where the analysis stands when an observer is called.

@@ -100,8 +100,8 @@ int negative_pivots(BasicSystem<Dim>& system, const BasicState<Dim>& state) {
   system.evaluate(state, state.fraction, true, evaluation);
   const bool saddle = system.matrix().n != system.dofs().unknowns();  // multipliers: always some
   if (!evaluation.ok || saddle) return 0;
-  la::DirectSolver solver;
-  return solver.factor(system.matrix(), system.pattern_version(), la::Symmetry::indefinite)
+  return la::make_default_solver()
+      ->factor(system.matrix(), system.pattern_version(), la::Symmetry::indefinite)
       .negative_pivots;
 }
 

@@ -48,7 +48,6 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
     if (unknown >= 0) flags[static_cast<std::size_t>(unknown)] = true;
   }
   impl_->assembler.set_prescribed(std::move(flags));
-  impl_->find_condensable();
   impl_->begin_dynamics();
   impl_->begin_explicit();
 }
@@ -306,10 +305,6 @@ std::uint64_t BasicSystem<Dim>::pattern_version() const {
 template <int Dim>
 la::Symmetry BasicSystem<Dim>::symmetry() const {
   return impl_->symmetry;
-}
-template <int Dim>
-const std::vector<la::MultiplierGroup>& BasicSystem<Dim>::condensable() const {
-  return impl_->condensable;
 }
 template <int Dim>
 const BasicDofSpace<Dim>& BasicSystem<Dim>::dofs() const {

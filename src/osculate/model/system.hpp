@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "osculate/la/condensation.hpp"
-#include "osculate/la/sparse_matrix.hpp"
+#include "osculate/la/linear_solver.hpp"
 #include "osculate/model/model.hpp"
 #include "osculate/model/point_state.hpp"
 #include "osculate/model/state.hpp"
@@ -146,10 +145,6 @@ class BasicSystem {
   [[nodiscard]] const la::SparseMatrix& matrix();
   [[nodiscard]] std::uint64_t pattern_version() const;
   [[nodiscard]] la::Symmetry symmetry() const;
-  /// Multipliers by contact point, with the unknowns of its slave node that the running step leaves
-  /// free; those of points that have none, and of mortar whose functions are not dual to the
-  /// slave's own shape functions (tri6, quad8), are left out.
-  [[nodiscard]] const std::vector<la::MultiplierGroup>& condensable() const;
 
   [[nodiscard]] const BasicDofSpace<Dim>& dofs() const;
   [[nodiscard]] const Forces& forces() const;  ///< of the last evaluation

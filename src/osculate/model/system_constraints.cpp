@@ -3,54 +3,9 @@
 #include <cmath>
 
 #include "osculate/model/system_impl.hpp"
-#include "osculate/pairing/mortar_basis.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::model {
-namespace {
-
-/// Whether the functions of a slave node's multiplier are dual to the shape functions themselves,
-/// so that its traction acts on this node alone (on facets that are wholly covered).
-template <int Dim>
-bool has_own_node(const pairing::PairDefinition<Dim>& pair, std::size_t point) {
-  if (!pair.mortar) return true;
-  const auto& facets = pair.slave.facets_of[point];
-  return std::all_of(facets.begin(), facets.end(), [&](Index f) {
-    return pairing::multiplier_basis(pair.slave.boundary.facets[static_cast<std::size_t>(f)], true)
-        .isIdentity(0);
-  });
-}
-
-}  // namespace
-
-template <int Dim>
-void BasicSystem<Dim>::Impl::find_condensable() {
-  condensable.clear();
-  std::vector<int> used(static_cast<std::size_t>(dofs.unknowns()), 0);
-  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
-    if (first_multiplier[p] < 0) continue;
-    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
-    const Index count = multipliers_per_point(model.pairs[p]);
-    for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
-      la::MultiplierGroup group{first_multiplier[p] + count * static_cast<Index>(i), count};
-      if (!has_own_node(pair, i)) continue;
-      for (int c = 0; c < Dim; ++c) {
-        const Index u = dofs.unknown_of(dofs.node_dof(pair.slave.points[i].nodes[0], c));
-        if (u < 0 || assembler.prescribed(u)) continue;
-        group.node[static_cast<std::size_t>(c)] = u;
-        ++used[static_cast<std::size_t>(u)];
-      }
-      condensable.push_back(group);
-    }
-  }
-  for (la::MultiplierGroup& group : condensable)
-    for (Index& u : group.node)
-      if (u >= 0 && used[static_cast<std::size_t>(u)] > 1) u = -1;  // a slave twice
-  std::erase_if(condensable, [](const la::MultiplierGroup& group) {
-    return std::all_of(group.node.begin(), group.node.end(), [](Index u) { return u < 0; });
-  });
-}
-
 template <int Dim>
 void BasicSystem<Dim>::Impl::add_to_multipliers(State& s, const Eigen::VectorXd& du,
                                                 double factor) const {

@@ -239,7 +239,7 @@ void BasicSystem<Dim>::Impl::factor_mass() {
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (m.massless[static_cast<std::size_t>(u)]) m.builder.add(u, u, 1.0);
   const la::FactorReport report =
-      m.solver.factor(m.builder.finish(), m.builder.pattern_version(), la::Symmetry::indefinite);
+      m.solver->factor(m.builder.finish(), m.builder.pattern_version(), la::Symmetry::indefinite);
   m.mass_known = report.status == la::SolveStatus::ok;
   if (m.mass_known) return;
   m.failure = "the mass matrix cannot be factored: ";
@@ -267,7 +267,7 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::accelerations_by(const Eigen::VectorXd& 
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (motion->massless[static_cast<std::size_t>(u)]) a[u] = 0;
   if (!motion->failure.empty()) return Eigen::VectorXd::Zero(dofs.dofs());
-  if (motion->solver.solve(a) != la::SolveStatus::ok || !a.allFinite()) {
+  if (motion->solver->solve(a) != la::SolveStatus::ok || !a.allFinite()) {
     motion->failure = "the mass matrix cannot be solved with";
     a.setZero();
   }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "osculate/la/direct_solver.hpp"
+#include "osculate/la/linear_solver.hpp"
 #include "osculate/model/assembler.hpp"
 #include "osculate/model/bulk.hpp"
 #include "osculate/model/inertia.hpp"
@@ -77,7 +77,6 @@ struct BasicSystem<Dim>::Impl {
   std::vector<Index> first_multiplier;            ///< per pair; -1: its tractions are no unknowns
   Index unknowns = 0;                             ///< of the matrix
   Eigen::VectorXd constraint, branch_constraint;  ///< values of the multipliers' rows
-  std::vector<la::MultiplierGroup> condensable;   ///< in the running step
   std::vector<double> path_values;
   std::vector<Dof> path_dofs, contact_dofs;
 
@@ -92,10 +91,10 @@ struct BasicSystem<Dim>::Impl {
     bool mass_known = false;               ///< the mass matrix is factored
     std::string failure;                   ///< why it could not be; empty: it could
     la::MatrixBuilder builder;             ///< of the mass matrix of the unknowns
-    la::DirectSolver solver{};
-    std::vector<bool> massless;  ///< unknowns
-    double h = 0;                ///< of the running increment; 0: none
-    double target = 0;           ///< fraction of the step at its end
+    std::unique_ptr<la::LinearSolver> solver = la::make_default_solver();  ///< of the mass matrix
+    std::vector<bool> massless;                                            ///< unknowns
+    double h = 0;       ///< of the running increment; 0: none
+    double target = 0;  ///< fraction of the step at its end
     solve::StepFactors factors;
     Eigen::VectorXd start;                          ///< primary dofs of the committed state
     std::vector<body::BasicRigidMotion<Dim>> from;  ///< rigid bodies of the committed state
@@ -292,7 +291,6 @@ struct BasicSystem<Dim>::Impl {
                    bool near, solve::Evaluation& out);
   void add_contact_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,
                          const Eigen::VectorXd* inc);
-  void find_condensable();
   /// Compliance of all multipliers in the tangent.
   void soften();
   /// Constraints of a pair whose multipliers are unknowns.

@@ -85,7 +85,7 @@ template <System S>
 /// du with K du = -d(residual)/d(fraction): how the bodies move with the loads and prescriptions.
 /// The matrix of the last evaluation is used; the derivative is a difference backwards.
 template <System S>
-[[nodiscard]] std::optional<Eigen::VectorXd> load_direction(S& system, la::DirectSolver& solver,
+[[nodiscard]] std::optional<Eigen::VectorXd> load_direction(S& system, la::LinearSolver& solver,
                                                             const typename S::State& committed,
                                                             const typename S::State& state,
                                                             double fraction,
@@ -125,7 +125,7 @@ template <System S>
 /// slid go on sliding. `size` is that of a load increment: the fraction changes by no more.
 template <System S>
 bool begin_arc(S& system, const typename S::State& committed, double start, double size,
-               const PathPosition& path, la::DirectSolver& solver, Judge& judge,
+               const PathPosition& path, la::LinearSolver& solver, Judge& judge,
                PathPoint<typename S::State>& point) {
   NewtonResult<typename S::State>& result = point.result;
   result.state = committed;
@@ -158,7 +158,7 @@ bool begin_arc(S& system, const typename S::State& committed, double start, doub
 
 /// One correction at the length of the arc; false if it was the last one, converged or not.
 template <System S>
-bool correct_arc(S& system, const typename S::State& committed, la::DirectSolver& solver,
+bool correct_arc(S& system, const typename S::State& committed, la::LinearSolver& solver,
                  Judge& judge, PathPoint<typename S::State>& point) {
   NewtonResult<typename S::State>& result = point.result;
   const Eigen::VectorXd residual = linearised(result.evaluation);
@@ -188,7 +188,7 @@ bool correct_arc(S& system, const typename S::State& committed, la::DirectSolver
 template <System S>
 [[nodiscard]] PathPoint<typename S::State> follow_path(
     S& system, const typename S::State& committed, double start, double size,
-    const PathPosition& path, const NewtonOptions& options, la::DirectSolver& solver) {
+    const PathPosition& path, const NewtonOptions& options, la::LinearSolver& solver) {
   PathPoint<typename S::State> point;
   NewtonResult<typename S::State>& result = point.result;
   Judge judge{options};

@@ -26,7 +26,7 @@ inline NewtonOptions loosened(NewtonOptions options) {
 /// jump.
 template <System S>
 void augment(S& system, const typename S::State& committed, double time,
-             const NewtonOptions& options, la::DirectSolver& solver,
+             const NewtonOptions& options, la::LinearSolver& solver,
              NewtonResult<typename S::State>& attempt, bool resisted = false) {
   const bool often = system.augments_often();
   const int most = often ? 200 : 60;
@@ -74,7 +74,7 @@ void refuse(const S& system, const typename S::State& committed,
 template <System S>
 [[nodiscard]] NewtonResult<typename S::State> solve_increment(
     S& system, const typename S::State& committed, double time, const NewtonOptions& options,
-    la::DirectSolver& solver, const Guess& guess = {}) {
+    la::LinearSolver& solver, const Guess& guess = {}) {
   NewtonOptions first = options;
   if constexpr (Augments<S>)
     if (system.augments_often()) first = loosened(options);

@@ -98,7 +98,7 @@ bool worth_resisting(const NewtonResult<typename S::State>& attempt, bool last) 
 template <System S>
 NewtonResult<typename S::State> attempt_increment(S& system, const typename S::State& committed,
                                                   double target, const NewtonOptions& options,
-                                                  la::DirectSolver& solver, const Guess& guess,
+                                                  la::LinearSolver& solver, const Guess& guess,
                                                   bool last, int& wasted, bool& resisted) {
   using Result = NewtonResult<typename S::State>;
   const auto waste = [&](const Result& dropped) {
@@ -139,7 +139,7 @@ struct StepRun {
   S& system;
   int nominal_increments;
   const IncrementOptions& options;
-  la::DirectSolver& solver;
+  la::LinearSolver& solver;
   const IncrementObserver<State>& on_increment;
   const CutbackObserver& on_cutback;
   StepPosition& position;
@@ -406,7 +406,7 @@ bool path_increment(StepRun<S>& run) {
 template <System S>
 [[nodiscard]] StepResult<typename S::State> run_step(
     S& system, const typename S::State& start, int nominal_increments,
-    const IncrementOptions& options, la::DirectSolver& solver,
+    const IncrementOptions& options, la::LinearSolver& solver,
     const IncrementObserver<typename S::State>& on_increment, const CutbackObserver& on_cutback,
     StepPosition& position) {
   StepResult<typename S::State> result;
@@ -433,7 +433,7 @@ template <System S>
 template <System S>
 [[nodiscard]] StepResult<typename S::State> run_step(
     S& system, const typename S::State& start, int nominal_increments,
-    const IncrementOptions& options, la::DirectSolver& solver,
+    const IncrementOptions& options, la::LinearSolver& solver,
     const IncrementObserver<typename S::State>& on_increment, const CutbackObserver& on_cutback) {
   StepPosition position;
   return run_step(system, start, nominal_increments, options, solver, on_increment, on_cutback,

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "osculate/core/prediction.hpp"
-#include "osculate/la/direct_solver.hpp"
+#include "osculate/la/linear_solver.hpp"
 #include "osculate/la/sparse_matrix.hpp"
 
 // What Newton's method asks of a system, and what it says of itself.

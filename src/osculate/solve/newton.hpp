@@ -202,7 +202,7 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
 template <System S>
 [[nodiscard]] NewtonResult<typename S::State> newton(S& system, const typename S::State& committed,
                                                      double time, const NewtonOptions& options,
-                                                     la::DirectSolver& solver,
+                                                     la::LinearSolver& solver,
                                                      const Guess& guess = {},
                                                      const typename S::State* warm = nullptr) {
   NewtonResult<typename S::State> result;

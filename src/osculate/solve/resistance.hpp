@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "osculate/solve/factored.hpp"
+#include "osculate/la/linear_solver.hpp"
 #include "osculate/solve/iteration.hpp"
 
 namespace osculate::solve {
@@ -46,19 +46,20 @@ concept Interruptible = requires(const S s) {
 
 /// du = -K^-1 R. Returns false and fills the result when the tangent cannot be used.
 template <System S>
-bool solve_correction(S& system, la::DirectSolver& solver, const Eigen::VectorXd& residual,
+bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd& residual,
                       Eigen::VectorXd& du, NewtonResult<typename S::State>& result) {
   result.linear = la::SolveStatus::ok;
   if constexpr (Interruptible<S>)
     if (system.interrupted()) return fail(result, Outcome::stopped, "stopped by the user");
-  la::FactorReport report = factored(system, solver);
+  la::FactorReport report =
+      solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
   result.precision.condition = std::max(result.precision.condition, report.condition);
   if constexpr (KnowsFreeMotions<S>)
     if (report.weakest.size() > 0 && !system.is_free_motion(result.state, report.weakest))
       report.status = la::SolveStatus::ok;
   if constexpr (Softens<S>)
     if (report.status == la::SolveStatus::singular && system.soften())
-      report = factored(system, solver);
+      report = solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
   result.linear = report.status;
   result.bad_row = report.bad_row;
   if (report.status == la::SolveStatus::singular)
@@ -96,7 +97,7 @@ class Resistance {
   [[nodiscard]] bool unstable() const { return unstable_; }
 
   /// As solve_correction, with as much resistance as it takes.
-  bool solve(la::DirectSolver& solver, const Eigen::VectorXd& residual, Eigen::VectorXd& du,
+  bool solve(la::LinearSolver& solver, const Eigen::VectorXd& residual, Eigen::VectorXd& du,
              NewtonResult<typename S::State>& result) {
     if (!on_) return solve_correction(system_, solver, residual, du, result);
     constexpr double most = 1.0, stiffer = 100, spare = 2;

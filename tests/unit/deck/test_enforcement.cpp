@@ -28,7 +28,6 @@ TEST(EnforcementKeys, BecomeThePairs) {
   const auto& b = built.model.pairs.at(1).definition;
   EXPECT_EQ(b.enforcement, contact::Enforcement::lagrange_multiplier);
   EXPECT_NEAR(contact::penalty_of(b.normal), 10 * 100 / (1.0 + 2.0 / 3), 1e-9);
-  EXPECT_EQ(built.options.condense, la::Condense::always);
 }
 
 TEST(EnforcementKeys, RefuseWhatDoesNotGoTogether) {

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "osculate/la/mumps.hpp"
 #include "osculate/model/inertia.hpp"
 #include "space_test.hpp"
 #include "system_test.hpp"
@@ -180,7 +181,7 @@ TEST(TimeError, OfATurningBodyIsTheTrueOne) { expect_the_true_error(built_from(t
 // ---- what a refused step leaves behind ---------------------------------------------------------
 
 model::State solved(model::System& system, const model::State& from, double until,
-                    la::DirectSolver& solver) {
+                    la::LinearSolver& solver) {
   solve::NewtonOptions options;
   options.residual = 1e-12;
   const solve::NewtonResult<model::State> attempt =
@@ -207,7 +208,7 @@ TEST(TimeSteps, ThatAreRefusedLeaveNothingBehind) {
   std::array<model::State, 2> ends;
   for (const bool refused : {false, true}) {
     model::System system(built.model, 1);
-    la::DirectSolver solver;
+    la::Mumps solver;
     model::State state = system.initial_state();
     system.begin_step(built.model.steps.front(), state);
     state = system.begin_motion(state);

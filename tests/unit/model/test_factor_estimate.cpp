@@ -2,7 +2,7 @@
 #include "osculate/model/factor_estimate.hpp"
 
 #include "block.hpp"
-#include "osculate/la/direct_solver.hpp"
+#include "osculate/la/mumps.hpp"
 
 namespace osculate::model {
 namespace {
@@ -20,7 +20,7 @@ void expect_about(const BlockSpec& spec) {
     for (Index e = k.row_start[static_cast<std::size_t>(i)];
          e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e)
       if (k.column[static_cast<std::size_t>(e)] == i) k.value[static_cast<std::size_t>(e)] *= 1.1;
-  la::DirectSolver solver;
+  la::Mumps solver;
   const la::FactorReport report = solver.factor(k, 1, la::Symmetry::indefinite);
   ASSERT_EQ(report.status, la::SolveStatus::ok) << report.message;
   const double ratio = factor_entries(m) / static_cast<double>(report.factor_entries);

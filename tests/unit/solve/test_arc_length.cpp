@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/la/mumps.hpp"
 #include "toy_system.hpp"
 
 namespace osculate::solve {
@@ -45,7 +46,7 @@ Path run(ToySystem system, PathControl use, int stop_after = -1, const Path* fro
   Path path;
   IncrementOptions options;
   options.arc_length.use = use;
-  la::DirectSolver solver;
+  la::Mumps solver;
   if (from) path.position = from->position;
   path.result = run_step(
       system, from ? from->result.state : ToySystem::State{Eigen::VectorXd::Zero(system.size)}, 10,
@@ -203,7 +204,7 @@ TEST(ArcLength, TheEndOfAPathIsCorrectedToo) {
     system.often = often;
     IncrementOptions options;
     options.arc_length.use = PathControl::always;
-    la::DirectSolver solver;
+    la::Mumps solver;
     std::vector<double> depths;
     const auto result =
         run_step(system, PressedSystem::State{Eigen::VectorXd::Zero(2)}, 10, options, solver,

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "osculate/la/mumps.hpp"
 #include "toy_system.hpp"
 
 namespace osculate::solve {
@@ -43,7 +44,7 @@ FallingSystem falling(double speed, double acceleration) {
 }
 
 std::vector<double> ends_of(FallingSystem& system, int increments, int* wasted = nullptr) {
-  la::DirectSolver solver;
+  la::Mumps solver;
   std::vector<double> ends;
   const auto result =
       run_step(system, ToySystem::State{vector({start, 0})}, increments, {}, solver,

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "osculate/la/mumps.hpp"
 #include "toy_system.hpp"
 
 namespace osculate::solve {
@@ -15,7 +16,7 @@ struct Log {
 
 StepResult<ToySystem::State> run(ToySystem& system, double start, int increments,
                                  const IncrementOptions& options, Log& log, int stop_after = -1) {
-  la::DirectSolver solver;
+  la::Mumps solver;
   return run_step(system, ToySystem::State{vector({start})}, increments, options, solver,
                   IncrementObserver<ToySystem::State>(
                       [&](const ToySystem::State& state, const IncrementRecord& record) {
@@ -136,7 +137,7 @@ TEST(Increments, GoOnFromAnyPosition) {
   std::vector<ToySystem::State> states;
   const auto watched = [&](ToySystem& system, const ToySystem::State& start,
                            StepPosition position) {
-    la::DirectSolver solver;
+    la::Mumps solver;
     std::vector<double> found;
     const auto result = run_step(system, start, 3, options, solver,
                                  IncrementObserver<ToySystem::State>(
@@ -151,7 +152,7 @@ TEST(Increments, GoOnFromAnyPosition) {
     return found;
   };
   ToySystem whole = softening();
-  la::DirectSolver solver;
+  la::Mumps solver;
   StepPosition running;
   (void)run_step(whole, ToySystem::State{vector({3.0})}, 3, options, solver,
                  IncrementObserver<ToySystem::State>(
@@ -225,7 +226,7 @@ TEST(Increments, AnInterruptEndsBetweenIterationsWithWhatHasConverged) {
   Interrupted system{scalar_system([](double x, double t) { return x * x * x + x - 10 * t; },
                                    [](double x) { return 3 * x * x + 1; }),
                      14};
-  la::DirectSolver solver;
+  la::Mumps solver;
   int dropped = 0;
   const StepResult<ToySystem::State> done = run_step(
       system, {vector({0})}, 4, {}, solver, [](const auto&, const auto&) { return true; },

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "osculate/la/mumps.hpp"
 #include "toy_system.hpp"
 
 namespace osculate::solve {
@@ -14,7 +15,7 @@ ToySystem cubic() {
 
 NewtonResult<ToySystem::State> solve_from(ToySystem& system, double x, const NewtonOptions& options,
                                           double time = 1) {
-  la::DirectSolver solver;
+  la::Mumps solver;
   return newton(system, {vector({x})}, time, options, solver);
 }
 
@@ -192,7 +193,7 @@ TEST(Newton, StepsThatCreepNearASolutionGiveWayToAWholeOne) {
     return Eigen::MatrixXd(k);
   };
   system.scale = [](const Eigen::VectorXd&, double) { return 1e5; };
-  la::DirectSolver solver;
+  la::Mumps solver;
   const auto result =
       newton<ToySystem>(system, {Eigen::Vector2d(5, 0)}, 1.0, {.residual = 1e-12}, solver);
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
@@ -259,7 +260,7 @@ ToySystem chain(double stiffening) {
 
 TEST(Newton, PrescribedValuesEnterThroughTheTangent) {
   ToySystem linear = chain(0);
-  la::DirectSolver solver;
+  la::Mumps solver;
   const auto result = newton(linear, {vector({0, 0})}, 1.0, {}, solver);
   ASSERT_EQ(result.outcome, Outcome::converged);
   EXPECT_EQ(result.iterations.size(), 1u);

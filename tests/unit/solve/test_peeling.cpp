@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "osculate/la/mumps.hpp"
 #include "osculate/solve/newton.hpp"
 
 namespace osculate::solve {
@@ -87,7 +88,7 @@ struct RelaxingBeam : Beam {
 
 template <class B>
 NewtonResult<typename B::State> lift(B& beam, double height) {
-  la::DirectSolver solver;
+  la::Mumps solver;
   NewtonOptions options;
   options.max_iterations = 200;
   const typename B::State start{Eigen::VectorXd::Constant(beam.size, -beam.weight / beam.springs)};

@@ -1,6 +1,7 @@
 // Free motions are resisted until contact closes, and nothing of it stays.
 #include <gtest/gtest.h>
 
+#include "osculate/la/mumps.hpp"
 #include "toy_system.hpp"
 
 namespace osculate::solve {
@@ -36,7 +37,7 @@ static_assert(!Resists<ToySystem>);
 
 TEST(Resistance, BringsAFreePointToItsSpring) {
   FreePoint system;
-  la::DirectSolver solver;
+  la::Mumps solver;
   const auto result = run_step<FreePoint>(
       system, {vector({0.0})}, 1, {}, solver,
       [](const auto&, const IncrementRecord&) { return true; },
@@ -52,7 +53,7 @@ TEST(Resistance, BringsAFreePointToItsSpring) {
 
 TEST(Resistance, NothingMovesFartherThanOneStride) {
   FreePoint system;
-  la::DirectSolver solver;
+  la::Mumps solver;
   (void)newton<FreePoint>(system, {vector({0.0})}, 1.0, {}, solver,
                           {{}, 0, 0, Prediction::as_before, true});
   double before = 0;
@@ -75,7 +76,7 @@ struct Snapping : FreePoint {
 
 TEST(Resistance, ASnapComesToRest) {
   Snapping system;
-  la::DirectSolver solver;
+  la::Mumps solver;
   const auto result = newton<Snapping>(system, {vector({0.55})}, 0.7, {}, solver,
                                        {{}, 0, 0, Prediction::as_before, true});
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
@@ -100,7 +101,7 @@ struct Saddle : Snapping {
 TEST(Resistance, TheWorkOfMultipliersIsNotAskedFor) {
   // On the falling branch the correction goes uphill, back to where its residual is zero.
   Saddle system;
-  la::DirectSolver solver;
+  la::Mumps solver;
   const auto result = newton<Saddle>(system, {vector({1.0})}, 0.49, {}, solver,
                                      {{}, 0, 0, Prediction::as_before, true});
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
@@ -116,7 +117,7 @@ TEST(Resistance, WhatNothingHoldsStillFails) {
   FreePoint system;
   system.force = [](const Eigen::VectorXd&, double t) { return vector({-t}); };
   system.stiffness = [](const Eigen::VectorXd&) { return Eigen::MatrixXd::Zero(1, 1); };
-  la::DirectSolver solver;
+  la::Mumps solver;
   const auto result = run_step<FreePoint>(
       system, {vector({0.0})}, 1, {}, solver,
       [](const auto&, const IncrementRecord&) { return true; },

@@ -1,4 +1,5 @@
 // Time steps that are chosen by their errors.
+#include "osculate/la/mumps.hpp"
 #include "osculate/solve/time_steps.hpp"
 
 #include <gtest/gtest.h>
@@ -127,7 +128,7 @@ struct Taken {
 
 Taken run_from(TimedSystem& system, const IncrementOptions& options, int increments, double start,
                StepPosition position) {
-  la::DirectSolver solver;
+  la::Mumps solver;
   Taken run;
   const auto result = run_step(
       system, ToySystem::State{vector({start})}, increments, options, solver,

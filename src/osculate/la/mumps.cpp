@@ -1,4 +1,4 @@
-#include "osculate/la/direct_solver.hpp"
+#include "osculate/la/mumps.hpp"
 
 #include <dmumps_c.h>
 
@@ -95,12 +95,10 @@ class Spent {
 
 }  // namespace
 
-struct DirectSolver::Impl {
+struct Mumps::Impl {
   DMUMPS_STRUC_C id{};
-  DirectOptions options;
+  MumpsOptions options;
   bool open = false, analysed = false, factored = false;
-  std::unique_ptr<Condensation> condensation;  ///< of the whole system to what is factored
-  bool condensed = false;
   Symmetry symmetry = Symmetry::unsymmetric;
   std::uint64_t version = 0;
   Index n = -1;
@@ -109,7 +107,7 @@ struct DirectSolver::Impl {
   std::vector<int> rows, columns, order;  // one-based triplets; the upper triangle if symmetric
   std::vector<double> values;
 
-  explicit Impl(DirectOptions wanted) : options(wanted) {
+  explicit Impl(MumpsOptions wanted) : options(wanted) {
     options.blas_threads = std::max(1, options.blas_threads);
   }
   ~Impl() {
@@ -128,8 +126,6 @@ struct DirectSolver::Impl {
     if (open) call(end);
     open = analysed = factored = false;
   }
-  /// Of the whole system.
-  [[nodiscard]] Index unknowns() const { return condensed ? condensation->unknowns() : n; }
   [[nodiscard]] bool kept(Index i, Index j) const {
     return symmetry == Symmetry::unsymmetric || i <= j;
   }
@@ -149,8 +145,7 @@ struct DirectSolver::Impl {
   [[nodiscard]] double loss();
   [[nodiscard]] Index vanishing_row(const SparseMatrix& k);
   SolveStatus substitute(double* rhs, Index count);
-  SolveStatus solve_condensed(Eigen::VectorXd& rhs);
-  SolveStatus solve_factored(Eigen::VectorXd& rhs);
+  SolveStatus solve(Eigen::VectorXd& rhs);
   FactorReport factor(const SparseMatrix& k, std::uint64_t wanted_version, Symmetry wanted);
   void refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
 };
@@ -163,7 +158,7 @@ void require_room_for_blas() {
     throw NotEnoughMemory("not enough memory for the linear solver");
 }
 
-bool DirectSolver::Impl::begin(int kind) {
+bool Mumps::Impl::begin(int kind) {
   close();
   require_room_for_blas();
   id = {};
@@ -183,7 +178,7 @@ bool DirectSolver::Impl::begin(int kind) {
   return true;
 }
 
-void DirectSolver::Impl::set_pattern(const SparseMatrix& k) {
+void Mumps::Impl::set_pattern(const SparseMatrix& k) {
   rows.clear();
   columns.clear();
   for (Index i = 0; i < k.n; ++i)
@@ -202,7 +197,7 @@ void DirectSolver::Impl::set_pattern(const SparseMatrix& k) {
   id.perm_in = order.empty() ? nullptr : order.data();
 }
 
-bool DirectSolver::Impl::same_pattern(const SparseMatrix& k) const {
+bool Mumps::Impl::same_pattern(const SparseMatrix& k) const {
   std::size_t next = 0;
   for (Index i = 0; i < k.n; ++i)
     for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
@@ -215,7 +210,7 @@ bool DirectSolver::Impl::same_pattern(const SparseMatrix& k) const {
 }
 
 /// Returns the first row with an entry that is not finite, or -1.
-Index DirectSolver::Impl::set_values(const SparseMatrix& k) {
+Index Mumps::Impl::set_values(const SparseMatrix& k) {
   values.clear();
   for (Index i = 0; i < k.n; ++i)
     for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
@@ -227,16 +222,16 @@ Index DirectSolver::Impl::set_values(const SparseMatrix& k) {
 }
 
 /// Of the factorisation, by the analysis, without the slack; 0 before it.
-double DirectSolver::Impl::needed_bytes() const {
+double Mumps::Impl::needed_bytes() const {
   return 1e6 * id.infog[16] / (1 + 0.01 * id.icntl[slack]);
 }
 
-std::string DirectSolver::Impl::memory_text() const {
+std::string Mumps::Impl::memory_text() const {
   return "not enough memory for the factors of the tangent of " + std::to_string(n) + " unknowns" +
          (needed_bytes() > 0 ? ", about " + core::memory_text(needed_bytes()) : "");
 }
 
-FactorReport DirectSolver::Impl::outcome() const {
+FactorReport Mumps::Impl::outcome() const {
   const int code = id.infog[0];
   if (code == -6 || code == -10) return failure(SolveStatus::singular, "a pivot is zero");
   if (code == -40) return failure(SolveStatus::failed, not_definite);
@@ -251,8 +246,8 @@ FactorReport DirectSolver::Impl::outcome() const {
 }
 
 /// Opens the library and analyses where the former analysis does not stand; sets the values.
-FactorReport DirectSolver::Impl::prepare(const SparseMatrix& k, std::uint64_t wanted_version,
-                                         Symmetry wanted) {
+FactorReport Mumps::Impl::prepare(const SparseMatrix& k, std::uint64_t wanted_version,
+                                  Symmetry wanted) {
   const auto begun = std::chrono::steady_clock::now();
   const bool stands =
       analysed && symmetry == wanted && version == wanted_version && n == k.n && same_pattern(k);
@@ -282,7 +277,7 @@ FactorReport DirectSolver::Impl::prepare(const SparseMatrix& k, std::uint64_t wa
   return report;
 }
 
-FactorReport DirectSolver::Impl::factorise_with_retries() {
+FactorReport Mumps::Impl::factorise_with_retries() {
   constexpr int no_space = -8, no_real_space = -9;
   constexpr int most = 3000;
   for (;; slack_percent = slack_percent * 10 / 3) {
@@ -294,7 +289,7 @@ FactorReport DirectSolver::Impl::factorise_with_retries() {
 }
 
 /// Square roots of the largest entries of the rows, 1 for empty ones.
-Eigen::VectorXd DirectSolver::Impl::row_scale() const {
+Eigen::VectorXd Mumps::Impl::row_scale() const {
   Eigen::VectorXd scale = Eigen::VectorXd::Zero(n);
   for (std::size_t e = 0; e < values.size(); ++e)
     for (const int i : {rows[e] - 1, columns[e] - 1})
@@ -303,7 +298,7 @@ Eigen::VectorXd DirectSolver::Impl::row_scale() const {
   return scale;
 }
 
-Eigen::VectorXd DirectSolver::Impl::multiplied(const Eigen::VectorXd& x) const {
+Eigen::VectorXd Mumps::Impl::multiplied(const Eigen::VectorXd& x) const {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(n);
   for (std::size_t e = 0; e < values.size(); ++e) {
     const Index i = rows[e] - 1, j = columns[e] - 1;
@@ -314,7 +309,7 @@ Eigen::VectorXd DirectSolver::Impl::multiplied(const Eigen::VectorXd& x) const {
 }
 
 /// What is lost of a number's digits, as a share; 0 where the pivots say that it is harmless.
-double DirectSolver::Impl::loss() {
+double Mumps::Impl::loss() {
   constexpr double harmless = 1e-9;
   const double smallest = id.rinfog[18], largest = id.rinfog[20];  // pivots of the scaled matrix
   if (smallest > harmless * largest) return 0;
@@ -325,7 +320,7 @@ double DirectSolver::Impl::loss() {
 
 /// Factors once more with the search for pivots that vanish, which needs pivoting; -1 if none is
 /// found. The next factorisation starts from the analysis.
-Index DirectSolver::Impl::vanishing_row(const SparseMatrix& k) {
+Index Mumps::Impl::vanishing_row(const SparseMatrix& k) {
   constexpr double rounding = 1e-14, near = 10;
   const double smallest = id.infog[0] < 0 ? 0 : id.rinfog[18];
   if (!begin(symmetry == Symmetry::unsymmetric ? general : pivoted)) return -1;
@@ -342,7 +337,7 @@ Index DirectSolver::Impl::vanishing_row(const SparseMatrix& k) {
   return row;
 }
 
-SolveStatus DirectSolver::Impl::substitute(double* rhs, Index count) {
+SolveStatus Mumps::Impl::substitute(double* rhs, Index count) {
   id.rhs = rhs;
   id.nrhs = count;
   id.lrhs = n;
@@ -353,7 +348,7 @@ SolveStatus DirectSolver::Impl::substitute(double* rhs, Index count) {
 }
 
 /// One correction from the residual where it is worth it, kept if it helps.
-void DirectSolver::Impl::refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) {
+void Mumps::Impl::refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) {
   constexpr double good = 1e-12;
   const double size = rhs.stableNorm();
   Eigen::VectorXd rest = rhs - multiplied(x);
@@ -366,7 +361,7 @@ void DirectSolver::Impl::refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) 
 
 /// Singular to working precision, with what is resisted least, or not so. Without pivoting, small
 /// pivots beside negative ones are the method's: `vanishing_row` decides.
-void DirectSolver::Impl::look_at_accuracy(FactorReport& report) {
+void Mumps::Impl::look_at_accuracy(FactorReport& report) {
   constexpr double digits_left = 1e-3;
   const double lost = loss();
   if (!(lost > digits_left)) return;
@@ -382,13 +377,11 @@ void DirectSolver::Impl::look_at_accuracy(FactorReport& report) {
   report.bad_row = mode.row;
 }
 
-DirectSolver::DirectSolver(DirectOptions options) : impl_(std::make_unique<Impl>(options)) {}
-DirectSolver::~DirectSolver() = default;
-DirectSolver::DirectSolver(DirectSolver&&) noexcept = default;
-DirectSolver& DirectSolver::operator=(DirectSolver&&) noexcept = default;
+Mumps::Mumps(MumpsOptions options) : impl_(std::make_unique<Impl>(options)) {}
+Mumps::~Mumps() = default;
 
-FactorReport DirectSolver::Impl::factor(const SparseMatrix& k, std::uint64_t wanted_version,
-                                        Symmetry wanted) {
+FactorReport Mumps::Impl::factor(const SparseMatrix& k, std::uint64_t wanted_version,
+                                 Symmetry wanted) {
   const LibraryCall guard(options.blas_threads);
   factored = false;
   if (k.n == 0) {
@@ -413,37 +406,15 @@ FactorReport DirectSolver::Impl::factor(const SparseMatrix& k, std::uint64_t wan
   return report;
 }
 
-FactorReport DirectSolver::factor(const SparseMatrix& k, std::uint64_t pattern_version,
-                                  Symmetry symmetry) {
-  return factor(k, pattern_version, symmetry, {});
+FactorReport Mumps::factor(const SparseMatrix& k, std::uint64_t pattern_version,
+                           Symmetry symmetry) {
+  const Spent spent(impl_->seconds);
+  return impl_->factor(k, pattern_version, symmetry);
 }
 
-FactorReport DirectSolver::factor(const SparseMatrix& k, std::uint64_t pattern_version,
-                                  Symmetry symmetry, std::span<const MultiplierGroup> condensable) {
-  if (!impl_) impl_ = std::make_unique<Impl>(DirectOptions{});  // moved from
-  Impl& s = *impl_;
-  const Spent spent(s.seconds);
-  s.factored = false;
-  s.condensed = false;
-  const bool wanted =
-      s.options.condense == Condense::always ||
-      (s.options.condense == Condense::if_unsymmetric && symmetry == Symmetry::unsymmetric);
-  if (wanted && !condensable.empty()) {
-    if (!s.condensation) s.condensation = std::make_unique<Condensation>();
-    s.condensed = s.condensation->reduce(k, condensable);
-  }
-  if (!s.condensed) return s.factor(k, pattern_version, symmetry);
-  const Condensation& c = *s.condensation;
-  FactorReport report = s.factor(c.matrix(), c.pattern_version(), Symmetry::unsymmetric);
-  if (report.bad_row >= 0) report.bad_row = c.unknown(report.bad_row);
-  if (report.weakest.size() > 0)
-    report.weakest = c.expanded(report.weakest, Eigen::VectorXd::Zero(k.n));
-  return report;
-}
+double Mumps::seconds() const { return impl_->seconds; }
 
-double DirectSolver::seconds() const { return impl_ ? impl_->seconds : 0.0; }
-
-SolveStatus DirectSolver::Impl::solve_factored(Eigen::VectorXd& rhs) {
+SolveStatus Mumps::Impl::solve(Eigen::VectorXd& rhs) {
   if (n == 0) return SolveStatus::ok;
   const LibraryCall guard(options.blas_threads);
   const Eigen::VectorXd given = rhs;
@@ -454,36 +425,18 @@ SolveStatus DirectSolver::Impl::solve_factored(Eigen::VectorXd& rhs) {
   return rhs.allFinite() ? SolveStatus::ok : SolveStatus::singular;
 }
 
-SolveStatus DirectSolver::Impl::solve_condensed(Eigen::VectorXd& rhs) {
-  Eigen::VectorXd reduced = condensation->reduced(rhs);
-  const SolveStatus status = solve_factored(reduced);
-  if (status != SolveStatus::ok) return status;
-  rhs = condensation->expanded(reduced, rhs);
-  return rhs.allFinite() ? SolveStatus::ok : SolveStatus::singular;
-}
-
-SolveStatus DirectSolver::solve(Eigen::VectorXd& rhs) const {
-  if (!impl_ || !impl_->factored || rhs.size() != impl_->unknowns() || !rhs.allFinite())
-    return SolveStatus::failed;
+SolveStatus Mumps::solve(Eigen::VectorXd& rhs) {
   Impl& s = *impl_;
+  if (!s.factored || rhs.size() != s.n || !rhs.allFinite()) return SolveStatus::failed;
   const Spent spent(s.seconds);
-  return s.condensed ? s.solve_condensed(rhs) : s.solve_factored(rhs);
+  return s.solve(rhs);
 }
 
-SolveStatus DirectSolver::solve(Eigen::MatrixXd& rhs) const {
-  if (!impl_ || !impl_->factored || rhs.rows() != impl_->unknowns() || !rhs.allFinite())
-    return SolveStatus::failed;
+SolveStatus Mumps::solve(Eigen::MatrixXd& rhs) {
   Impl& s = *impl_;
+  if (!s.factored || rhs.rows() != s.n || !rhs.allFinite()) return SolveStatus::failed;
   if (rhs.size() == 0) return SolveStatus::ok;
   const Spent spent(s.seconds);
-  if (s.condensed) {
-    for (Eigen::Index c = 0; c < rhs.cols(); ++c) {
-      Eigen::VectorXd x = rhs.col(c);
-      if (const SolveStatus status = s.solve_condensed(x); status != SolveStatus::ok) return status;
-      rhs.col(c) = x;
-    }
-    return SolveStatus::ok;
-  }
   const LibraryCall guard(s.options.blas_threads);
   const Eigen::MatrixXd given = rhs;
   const SolveStatus status = s.substitute(rhs.data(), static_cast<Index>(rhs.cols()));

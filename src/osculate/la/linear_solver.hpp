@@ -1,0 +1,78 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <new>
+#include <string>
+#include <utility>
+
+#include "osculate/la/sparse_matrix.hpp"
+
+namespace osculate::la {
+
+/// What the caller knows of the matrix. For the symmetric kinds only the upper triangle is read.
+/// `positive_definite` does no pivoting: `negative_pivots` > 0 tells that the promise was wrong.
+enum class Symmetry { unsymmetric, positive_definite, indefinite };
+
+/// Numerical failure is a value, expected and handled by step control.
+enum class SolveStatus { ok, singular, failed };
+
+/// The factors of a matrix do not fit into the memory. No smaller increment helps.
+class NotEnoughMemory : public std::bad_alloc {
+ public:
+  explicit NotEnoughMemory(std::string text) : text_(std::move(text)) {}
+  [[nodiscard]] const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  std::string text_;
+};
+
+struct FactorReport {
+  SolveStatus status = SolveStatus::ok;
+  Index bad_row = -1;                               ///< 0-based row of a zero pivot where known
+  int negative_pivots = 0;                          ///< of the symmetric kinds; 0 for unsymmetric
+  double seconds_analysis = 0, seconds_factor = 0;  ///< analysis 0: the former one was used again
+  std::string message;                              ///< empty when ok
+  /// About, of the matrix scaled by its rows; 0: at most 1e13.
+  double condition = 0;
+  /// Where the matrix was factored, but is `singular` to working precision: what it resists least,
+  /// one value per row. Whoever knows that this is no free motion may `solve` all the same, and
+  /// correct the solution by its residual.
+  Eigen::VectorXd weakest{};
+  std::int64_t factor_entries = 0;
+};
+
+/// All that the rest of the program knows of a solver of linear systems. What a solver does not
+/// know (rows of zero pivots, counts of negative ones) it leaves as it is in the report; those
+/// counts decide about stability only where the matrix is of a symmetric kind.
+///
+/// Contract   the bits of a solution depend on the matrix alone, not on what was factored before
+/// Errors     nothing is thrown but NotEnoughMemory and std::bad_alloc
+/// Tested by  tests/unit/la/test_mumps.cpp, tests/unit/deck/test_linear_solver.cpp (another one)
+class LinearSolver {
+ public:
+  LinearSolver() = default;
+  virtual ~LinearSolver() = default;
+  LinearSolver(const LinearSolver&) = delete;
+  LinearSolver& operator=(const LinearSolver&) = delete;
+
+  /// Analyses where pattern or symmetry are not those of the last call, and factors.
+  /// `pattern_version` saves the comparison of patterns where it changed; where it did not, the
+  /// pattern is compared all the same.
+  virtual FactorReport factor(const SparseMatrix& k, std::uint64_t pattern_version,
+                              Symmetry symmetry) = 0;
+  /// Replaces the right-hand side by the solution. `failed` without factors or for a wrong size or
+  /// a NaN.
+  virtual SolveStatus solve(Eigen::VectorXd& rhs_in_solution_out) = 0;
+  /// One right-hand side a column, all at once (last bits may differ from one by one).
+  virtual SolveStatus solve(Eigen::MatrixXd& rhs_in_solution_out) = 0;
+  /// Spent in `factor` and `solve` so far [s].
+  [[nodiscard]] virtual double seconds() const = 0;
+};
+
+using MakeSolver = std::function<std::unique_ptr<LinearSolver>()>;
+
+/// The solver of who asks for none.
+[[nodiscard]] std::unique_ptr<LinearSolver> make_default_solver();
+
+}  // namespace osculate::la
