@@ -1,6 +1,16 @@
 #include "osculate/material/law.hpp"
 
 namespace osculate::material {
+namespace {
+
+/// Of laws that do not say their stress without its derivative.
+template <class T, int N>
+StressOf<N> stress_of(const T& law, const Vec<N>& strain) {
+  const ResponseOf<N> r = respond(law, strain);
+  return {r.ok, r.stress};
+}
+
+}  // namespace
 
 bool finite_strain(const Law& law) {
   return std::visit([](const auto& m) { return m.finite_strain; }, law);
@@ -16,6 +26,14 @@ std::string range_problem(const Law& law) {
 
 Response response(const Law& law, const Strain& strain) {
   return std::visit([&](const auto& m) { return respond(m, strain); }, law);
+}
+
+StressOf<4> stress(const Law& law, const Strain& strain) {
+  return std::visit([&](const auto& m) { return stress_of(m, strain); }, law);
+}
+
+StressOf<6> stress(const Law& law, const Strain3& strain) {
+  return std::visit([&](const auto& m) { return stress_of(m, strain); }, law);
 }
 
 Response plane_stress_response(const Law& law, const Strain& strain, double* strain_33) {

@@ -23,6 +23,12 @@ template <std::same_as<Strain3> S>
   return std::visit([&](const auto& m) { return respond(m, strain); }, law);
 }
 
+/// The stress alone; `ok` as in the response.
+///
+/// Tested by  tests/unit/solid/test_finite_forces.cpp
+[[nodiscard]] StressOf<4> stress(const Law& law, const Strain& strain);
+[[nodiscard]] StressOf<6> stress(const Law& law, const Strain3& strain);
+
 /// The same with S33 = 0: E33 is found (closed form, or Newton to round-off) and condensed, so that
 /// rows and columns 33 of the tangent are zero.
 /// `strain[2]` is ignored; `strain_33` (if given) receives the one found.

@@ -75,31 +75,56 @@ bool find_log_c33(const Lame& c, double log_area, double& y) {
   return false;
 }
 
-}  // namespace
-
-Response respond(const NeoHooke& law, const Strain& e) {
-  const Lame c = lame(law.young, law.poisson);
+/// What stress and tangent need of a strain.
+template <int N>
+struct Stretched {
+  bool ok = false;
+  double log_j = 0;
+  Vec<N> inverse, change;  ///< C^-1, I - C^-1
+};
+Stretched<4> stretched(const Strain& e) {
   const double c33 = 1 + 2 * e[2];
-  Response r;
-  r.ok = plane_is_positive(e) && c33 > 0;
-  if (!r.ok) return r;
-  const double log_j = log_volume_ratio(e);
-  const Vec<4> inv = inverse_stretch(e, c33);
-  r.stress = c.mu * inverse_change(e, e[2], c33) + c.lambda * log_j * inv;
-  r.tangent = c.lambda * inv * inv.transpose() + 2 * (c.mu - c.lambda * log_j) * square(inv);
-  return r;
+  if (!plane_is_positive(e) || !(c33 > 0)) return {};
+  return {true, log_volume_ratio(e), inverse_stretch(e, c33), inverse_change(e, e[2], c33)};
+}
+Stretched<6> stretched(const Strain3& e) {
+  if (!is_positive(e)) return {};
+  const Vec<6> inverse = inverse_stretch(e);
+  return {true, log_volume_ratio(e), inverse, inverse_change(e, inverse)};
 }
 
-Response3 respond(const NeoHooke& law, const Strain3& e) {
+template <int N>
+Vec<N> stress(const Lame& c, const Stretched<N>& s) {
+  return c.mu * s.change + c.lambda * s.log_j * s.inverse;
+}
+template <int N>
+ResponseOf<N> whole_response(const NeoHooke& law, const Stretched<N>& s) {
   const Lame c = lame(law.young, law.poisson);
-  Response3 r;
-  r.ok = is_positive(e);
+  ResponseOf<N> r;
+  r.ok = s.ok;
   if (!r.ok) return r;
-  const double log_j = log_volume_ratio(e);
-  const Vec<6> inv = inverse_stretch(e);
-  r.stress = c.mu * inverse_change(e, inv) + c.lambda * log_j * inv;
-  r.tangent = c.lambda * inv * inv.transpose() + 2 * (c.mu - c.lambda * log_j) * square(inv);
+  r.stress = stress(c, s);
+  r.tangent = c.lambda * s.inverse * s.inverse.transpose() +
+              2 * (c.mu - c.lambda * s.log_j) * square(s.inverse);
   return r;
+}
+template <int N>
+StressOf<N> stress_alone(const NeoHooke& law, const Stretched<N>& s) {
+  if (!s.ok) return {false};
+  return {true, stress(lame(law.young, law.poisson), s)};
+}
+
+}  // namespace
+
+Response respond(const NeoHooke& law, const Strain& e) { return whole_response(law, stretched(e)); }
+Response3 respond(const NeoHooke& law, const Strain3& e) {
+  return whole_response(law, stretched(e));
+}
+StressOf<4> stress_of(const NeoHooke& law, const Strain& e) {
+  return stress_alone(law, stretched(e));
+}
+StressOf<6> stress_of(const NeoHooke& law, const Strain3& e) {
+  return stress_alone(law, stretched(e));
 }
 
 Response respond_plane_stress(const NeoHooke& law, const Strain& e, double& strain_33) {

@@ -21,6 +21,10 @@ struct NeoHooke {
 [[nodiscard]] Response respond(const NeoHooke& law, const Strain& strain);
 [[nodiscard]] Response3 respond(const NeoHooke& law, const Strain3& strain);
 
+/// The stress without its derivative.
+[[nodiscard]] StressOf<4> stress_of(const NeoHooke& law, const Strain& strain);
+[[nodiscard]] StressOf<6> stress_of(const NeoHooke& law, const Strain3& strain);
+
 /// The same with S33 = 0: Newton to round-off for y = ln C33 in
 /// mu (e^y - 1) + lambda/2 (ln det C_plane + y) = 0, which is convex in y. There,
 /// lambda ln J = -2 mu E33, which makes S = mu (I - C^-1 - 2 E33 C^-1) free of lambda.

@@ -27,6 +27,12 @@ struct ResponseOf {
   Vec<N> stress = Vec<N>::Zero();
   Mat<N, N> tangent = Mat<N, N>::Zero();
 };
+/// The stress alone.
+template <int N>
+struct StressOf {
+  bool ok = true;
+  Vec<N> stress = Vec<N>::Zero();
+};
 using Response = ResponseOf<4>;
 using Response3 = ResponseOf<6>;
 

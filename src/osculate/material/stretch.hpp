@@ -42,6 +42,12 @@ template <int N>
   return 0.5 * (std::abs(change) < 0.5 ? std::log1p(change) : std::log(1 + change));
 }
 
+/// det C - 1 where C33 is free and no shear goes across the plane.
+[[nodiscard]] inline double determinant_change(const Strain& e) {
+  const double plane = 2 * (e[0] + e[1]) + 4 * e[0] * e[1] - e[3] * e[3];
+  return plane + 2 * e[2] * (1 + plane);
+}
+
 [[nodiscard]] inline Vec<6> inverse_stretch(const Strain3& e) {
   const double c11 = 1 + 2 * e[0], c22 = 1 + 2 * e[1], c33 = 1 + 2 * e[2];
   const double c12 = e[3], c23 = e[4], c13 = e[5];

@@ -5,6 +5,13 @@
 namespace osculate::model {
 namespace {
 
+template <class Vector>
+std::vector<double> to_vector(const Vector& v) {
+  return {v.begin(), v.end()};
+}
+
+}  // namespace
+
 template <int Dim>
 void set_dofs(std::span<const Index> nodes, BasicBulkBlock<Dim>& out) {
   out.dof_count = Dim * static_cast<int>(nodes.size());
@@ -12,13 +19,6 @@ void set_dofs(std::span<const Index> nodes, BasicBulkBlock<Dim>& out) {
     for (int i = 0; i < Dim; ++i)
       out.dofs[Dim * k + static_cast<std::size_t>(i)] = Dim * nodes[k] + i;
 }
-
-template <class Vector>
-std::vector<double> to_vector(const Vector& v) {
-  return {v.begin(), v.end()};
-}
-
-}  // namespace
 
 CellNodes cell_nodes(const mesh::Mesh& mesh, const mesh::CellRef& ref) {
   const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
@@ -126,6 +126,8 @@ BasicDofSpace<Dim> dof_space(const BasicModel<Dim>& model) {
           static_cast<Index>(model.rigid.size()), model.equations, used};
 }
 
+template void set_dofs(std::span<const Index>, BulkBlock&);
+template void set_dofs(std::span<const Index>, BulkBlock3&);
 template DofSpace dof_space(const Model&);
 template DofSpace3 dof_space(const Model3&);
 template SolidCoordinates<2> reference_of(const Model&, std::span<const Index>);

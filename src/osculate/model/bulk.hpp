@@ -23,6 +23,10 @@ template <int Dim>
 [[nodiscard]] SolidSection<Dim> section_on(const BasicBulkSection<Dim>& section,
                                            cell::CellType type);
 
+/// The dofs of the nodes of a cell or facet.
+template <int Dim>
+void set_dofs(std::span<const Index> nodes, BasicBulkBlock<Dim>& out);
+
 /// Evaluates one cell at the nodal displacements `u`.
 template <int Dim>
 void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,

@@ -48,6 +48,7 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
     if (unknown >= 0) flags[static_cast<std::size_t>(unknown)] = true;
   }
   impl_->assembler.set_prescribed(std::move(flags));
+  impl_->linear.reserve();
   impl_->begin_dynamics();
   impl_->begin_explicit();
 }

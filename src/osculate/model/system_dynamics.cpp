@@ -59,7 +59,7 @@ void BasicSystem<Dim>::Impl::measure_damping(const Eigen::VectorXd& u) {
   for (std::size_t c = 0; c < jobs.size(); ++c) {
     const bool finite = jobs[c].section->section.kinematics == solid::Kinematics::finite;
     if (!first && !finite) continue;
-    evaluate_cell(model, *jobs[c].section, jobs[c].cell, u, true, block);
+    evaluate_job(c, u, true, block);
     motion->damping[c] = factor * block.result.tangent;
   }
 }

@@ -124,8 +124,7 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u) {
     BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())];
 #pragma omp for schedule(static) reduction(min : failed)
     for (std::ptrdiff_t c = 0; c < count; ++c) {
-      const CellJob& job = system.jobs[static_cast<std::size_t>(c)];
-      evaluate_cell(system.model, *job.section, job.cell, u, false, block);
+      system.evaluate_job(static_cast<std::size_t>(c), u, false, block);
       if (!block.ok) failed = std::min(failed, c);
       std::copy_n(block.result.force.data(), block.dof_count,
                   cell_forces.begin() +
@@ -142,8 +141,7 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u) {
   }
   system.seconds.bulk += watch.seconds();
   if (failed == count) return true;
-  const CellJob& job = system.jobs[static_cast<std::size_t>(failed)];
-  evaluate_cell(system.model, *job.section, job.cell, u, false, work.front());
+  system.evaluate_job(static_cast<std::size_t>(failed), u, false, work.front());
   trouble = work.front().message;
   return false;
 }

@@ -78,7 +78,10 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int thread_count)
           multipliers_per_point(pair) * static_cast<Index>(pair.definition.slave.points.size());
   }
   for (const BasicBulkSection<Dim>& section : model.sections)
-    for (const mesh::CellRef& cell : section.cells) jobs.push_back({&section, cell});
+    for (const mesh::CellRef& cell : section.cells) {
+      jobs.push_back({&section, cell});
+      linear.add(section, cell_nodes(model.mesh, cell).type);
+    }
   blocks.resize(std::min(tile, jobs.size()));
   assembler.set_prescribed(std::vector<bool>(static_cast<std::size_t>(dofs.unknowns()), false));
 }
@@ -199,8 +202,7 @@ bool BasicSystem<Dim>::Impl::add_bulk(const State& trial, bool with_tangent,
     const Stopwatch watch;
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::size_t i = 0; i < count; ++i) {
-      const CellJob& job = jobs[start + i];
-      evaluate_cell(model, *job.section, job.cell, trial.u, with_tangent, blocks[i]);
+      evaluate_job(start + i, trial.u, with_tangent, blocks[i]);
     }
     seconds.bulk += watch.seconds();
     for (std::size_t i = 0; i < count; ++i) {

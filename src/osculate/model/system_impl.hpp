@@ -12,6 +12,7 @@
 #include "osculate/model/assembler.hpp"
 #include "osculate/model/bulk.hpp"
 #include "osculate/model/inertia.hpp"
+#include "osculate/model/linear_cells.hpp"
 #include "osculate/model/system.hpp"
 
 namespace osculate::model {
@@ -54,6 +55,7 @@ struct BasicSystem<Dim>::Impl {
   bool pattern_reserved = false;  ///< whoever asks for no matrix pays for none
   BasicAssembler<Dim> assembler;
   std::vector<CellJob> jobs;
+  LinearCells<Dim> linear;  ///< by job
   std::vector<BulkBlock> blocks;
   std::vector<pairing::PairEvaluation<Dim>> contact;
   Forces forces;
@@ -282,6 +284,10 @@ struct BasicSystem<Dim>::Impl {
 
   // The terms. `inc` (may be null) is the prescribed increment that `predicted` takes up.
   void clear(bool with_tangent);
+  /// A cell at the nodal displacements `u`. Different cells may be evaluated at once.
+  void evaluate_job(std::size_t job, const Eigen::VectorXd& u, bool with_tangent, BulkBlock& out) {
+    linear.evaluate(job, model, *jobs[job].section, jobs[job].cell, u, with_tangent, out);
+  }
   bool add_bulk(const State& trial, bool with_tangent, const Eigen::VectorXd* inc,
                 solve::Evaluation& out);
   /// The last evaluation of contact, at `trial`, in whole: see pairing::look_far.

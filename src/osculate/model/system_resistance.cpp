@@ -35,8 +35,8 @@ void BasicSystem<Dim>::Impl::measure_resistance() {
       Eigen::VectorXd::Zero(Dim * static_cast<Eigen::Index>(model.reference.size()));
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(dofs.dofs());
   BulkBlock block;
-  for (const CellJob& job : jobs) {
-    evaluate_cell(model, *job.section, job.cell, rest, true, block);
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    evaluate_job(j, rest, true, block);
     for (int k = 0; block.ok && k < block.dof_count; ++k)
       diagonal[block.dofs[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
   }

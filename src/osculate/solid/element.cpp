@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "osculate/solid/enhanced.hpp"
+#include "osculate/solid/finite_forces.hpp"
 #include "osculate/solid/mean_dilatation.hpp"
 #include "osculate/solid/point_strain.hpp"
 
@@ -79,26 +80,27 @@ void evaluate_enhanced(const Section& section, const Coordinates& reference, con
     out.tangent -= coupling.transpose() * e.stiffness.partialPivLu().solve(coupling);
 }
 
-}  // namespace
-
-std::string_view unsupported(const Section& section, cell::CellType type) {
-  if (cell::info(type).dimension != 2) return "only area cells can be bodies in 2D";
-  const bool finite = section.kinematics == Kinematics::finite;
-  if (finite && !material::finite_strain(section.law))
-    return "linear_elastic is a law of small strains; use st_venant_kirchhoff or neo_hooke with "
-           "finite kinematics";
-  if (!finite && material::finite_strain(section.law))
-    return "the law is one of finite strains; use linear_elastic with small kinematics";
-  if (section.formulation == Formulation::full) return {};
-  if (type != cell::CellType::quad4)
-    return "formulations bbar and enhanced exist for quad4 cells only; use auto";
-  if (section.formulation == Formulation::bbar && section.assumption == Assumption::plane_stress)
-    return "formulation bbar has no use in plane stress; use full or enhanced";
-  return {};
+/// The cells that explicit analyses have by the thousand.
+bool has_forces_alone(const Section& section, cell::CellType type) {
+  return section.kinematics == Kinematics::finite &&
+         section.assumption == Assumption::plane_strain &&
+         section.formulation != Formulation::enhanced && type == cell::CellType::quad4;
 }
 
-void evaluate(const Section& section, cell::CellType type, const Coordinates& reference,
-              const Coordinates& displacement, bool with_tangent, ElementResult& out) {
+void evaluate_forces(const Section& section, cell::CellType type, const Coordinates& reference,
+                     const Coordinates& displacement, ElementResult& out) {
+  const AreaRule& rule = area_rule(section.assumption, type);
+  Mat<4, 2> force;
+  out.status = finite_forces<2, 4, 4>(
+      section.law, section.thickness, section.formulation == Formulation::bbar,
+      std::span<const cell::AreaShape, 4>(rule.shape), std::span<const double, 4>(rule.weights),
+      reference, displacement, force);
+  out.force.resize(8);
+  for (Eigen::Index k = 0; k < 4; ++k) out.force.segment<2>(2 * k) = force.row(k);
+}
+
+void evaluate_whole(const Section& section, cell::CellType type, const Coordinates& reference,
+                    const Coordinates& displacement, bool with_tangent, ElementResult& out) {
   const Eigen::Index dofs = 2 * reference.rows();
   out.status = Status::ok;
   out.force.setZero(dofs);
@@ -125,13 +127,39 @@ void evaluate(const Section& section, cell::CellType type, const Coordinates& re
   evaluate_full(section, points, with_tangent, out);
 }
 
+}  // namespace
+
+std::string_view unsupported(const Section& section, cell::CellType type) {
+  if (cell::info(type).dimension != 2) return "only area cells can be bodies in 2D";
+  const bool finite = section.kinematics == Kinematics::finite;
+  if (finite && !material::finite_strain(section.law))
+    return "linear_elastic is a law of small strains; use st_venant_kirchhoff or neo_hooke with "
+           "finite kinematics";
+  if (!finite && material::finite_strain(section.law))
+    return "the law is one of finite strains; use linear_elastic with small kinematics";
+  if (section.formulation == Formulation::full) return {};
+  if (type != cell::CellType::quad4)
+    return "formulations bbar and enhanced exist for quad4 cells only; use auto";
+  if (section.formulation == Formulation::bbar && section.assumption == Assumption::plane_stress)
+    return "formulation bbar has no use in plane stress; use full or enhanced";
+  return {};
+}
+
+void evaluate(const Section& section, cell::CellType type, const Coordinates& reference,
+              const Coordinates& displacement, bool with_tangent, ElementResult& out) {
+  const bool alone = has_forces_alone(section, type);
+  if (with_tangent || !alone)
+    evaluate_whole(section, type, reference, displacement, with_tangent, out);
+  if (!alone || (with_tangent && out.status != Status::ok)) return;
+  evaluate_forces(section, type, reference, displacement, out);  // the same bits in both ways
+}
+
 ElementVector volume_weights(const Section& section, cell::CellType type,
                              const Coordinates& reference) {
   ElementVector weights = ElementVector::Zero(reference.rows());
-  const cell::Quadrature2D& rule = quadrature_of(section.assumption, type);
+  const AreaRule& rule = area_rule(section.assumption, type);
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
-    const PointGeometry g =
-        point_geometry(section, type, reference, rule.points[q], rule.weights[q]);
+    const PointGeometry g = point_geometry(section, rule.shape[q], reference, rule.weights[q]);
     weights += g.volume * g.shape.n.head(reference.rows());
   }
   return weights;
@@ -145,7 +173,7 @@ double smallest_jacobian(cell::CellType type, const Coordinates& reference) {
     smallest = std::min(smallest, j.determinant());
   };
   for (const Assumption assumption : {Assumption::plane_strain, Assumption::axisymmetric})
-    for (const Vec2& xi : quadrature_of(assumption, type).points) visit(xi);
+    for (const Vec2& xi : area_rule(assumption, type).points) visit(xi);
   for (int k = 0; k < cell::info(type).nodes; ++k) visit(cell::area_node(type, k));
   return smallest;
 }

@@ -22,7 +22,7 @@ std::array<Mat<4, Count>, 4> mode_matrices(const Section& section, const Coordin
       i(1, 0) * i(1, 0), i(1, 1) * i(1, 1), i(1, 0) * i(1, 1),   //
       2 * i(0, 0) * i(1, 0), 2 * i(0, 1) * i(1, 1), i(0, 0) * i(1, 1) + i(0, 1) * i(1, 0);
   constexpr bool ring = Count == ring_modes;
-  const cell::Quadrature2D& rule = quadrature_of(section.assumption, cell::CellType::quad4);
+  const AreaRule& rule = area_rule(section.assumption, cell::CellType::quad4);
   Vec3 mean = Vec3::Zero();  // of xi, eta, xi eta over the circumference; zero in the plane
   double circumference = 0;
   for (std::size_t q = 0; ring && q < 4; ++q) {

@@ -9,7 +9,7 @@ namespace osculate::solid {
 namespace {
 
 /// Exact for N_i N_j times the Jacobian (and the radius of a ring) of a straight-sided cell.
-cell::Quadrature2D area_rule(cell::CellType type) {
+cell::Quadrature2D area_mass_rule(cell::CellType type) {
   switch (type) {
     case cell::CellType::tri3:
       return cell::gauss_triangle(3);
@@ -47,10 +47,10 @@ NodeMass consistent_mass(const Section& section, cell::CellType type,
                          const Coordinates& reference) {
   const Eigen::Index n = reference.rows();
   NodeMass mass = NodeMass::Zero(n, n);
-  const cell::Quadrature2D rule = area_rule(type);
+  const cell::Quadrature2D rule = area_mass_rule(type);
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     const PointGeometry g =
-        point_geometry(section, type, reference, rule.points[q], rule.weights[q]);
+        point_geometry(section, cell::area_shape(type, rule.points[q]), reference, rule.weights[q]);
     mass += g.volume * g.shape.n.head(n) * g.shape.n.head(n).transpose();
   }
   return mass;

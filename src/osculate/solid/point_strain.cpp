@@ -6,26 +6,52 @@
 
 namespace osculate::solid {
 
-const cell::Quadrature2D& quadrature_of(Assumption assumption, cell::CellType type) {
-  static const std::array<cell::Quadrature2D, 5> rules{
-      cell::gauss_triangle(1), cell::gauss_triangle(2), cell::gauss_triangle(4),
-      cell::gauss_quad(2), cell::gauss_quad(3)};
+namespace {
+
+cell::Quadrature2D quadrature_of(Assumption assumption, cell::CellType type) {
   switch (type) {
     case cell::CellType::tri3:  // one point leaves a ring a mode without energy
-      return assumption == Assumption::axisymmetric ? rules[1] : rules[0];
+      return cell::gauss_triangle(assumption == Assumption::axisymmetric ? 2 : 1);
     case cell::CellType::tri6:
-      return rules[2];
+      return cell::gauss_triangle(4);
     case cell::CellType::quad4:
-      return rules[3];
+      return cell::gauss_quad(2);
     default:
-      return rules[4];
+      return cell::gauss_quad(3);
   }
 }
 
-PointGeometry point_geometry(const Section& section, cell::CellType type,
-                             const Coordinates& reference, const Vec2& xi, double weight) {
+AreaRule make_rule(Assumption assumption, cell::CellType type) {
+  const cell::Quadrature2D q = quadrature_of(assumption, type);
+  AreaRule rule{q.points, q.weights, {}};
+  for (const Vec2& xi : q.points) rule.shape.push_back(cell::area_shape(type, xi));
+  return rule;
+}
+
+}  // namespace
+
+const AreaRule& area_rule(Assumption assumption, cell::CellType type) {
+  using enum cell::CellType;
+  constexpr Assumption plane = Assumption::plane_strain, ring = Assumption::axisymmetric;
+  static const std::array<AreaRule, 6> rules{make_rule(plane, tri3),  make_rule(ring, tri3),
+                                             make_rule(plane, tri6),  make_rule(plane, quad4),
+                                             make_rule(plane, quad8), make_rule(plane, quad9)};
+  switch (type) {
+    case tri3:
+      return assumption == ring ? rules[1] : rules[0];
+    case tri6:
+      return rules[2];
+    case quad4:
+      return rules[3];
+    default:
+      return type == quad8 ? rules[4] : rules[5];
+  }
+}
+
+PointGeometry point_geometry(const Section& section, const cell::AreaShape& shape,
+                             const Coordinates& reference, double weight) {
   PointGeometry g;
-  g.shape = cell::area_shape(type, xi);
+  g.shape = shape;
   const Eigen::Index n = g.shape.count;
   const Mat<2, 2> jacobian = reference.transpose() * g.shape.d.topRows(n);  // dX_i/dxi_j
   g.determinant = jacobian.determinant();
@@ -66,11 +92,11 @@ PointStrain point_strain(const Section& section, const PointGeometry& g,
 
 bool fill_points(const Section& section, cell::CellType type, const Coordinates& reference,
                  const Coordinates& displacement, Points& points) {
-  const cell::Quadrature2D& rule = quadrature_of(section.assumption, type);
+  const AreaRule& rule = area_rule(section.assumption, type);
   points.count = rule.points.size();
   bool one_to_one = true;
   for (std::size_t q = 0; q < points.count; ++q) {
-    points.geometry[q] = point_geometry(section, type, reference, rule.points[q], rule.weights[q]);
+    points.geometry[q] = point_geometry(section, rule.shape[q], reference, rule.weights[q]);
     points.strain[q] = point_strain(section, points.geometry[q], displacement);
     if (section.kinematics == Kinematics::finite &&
         !(points.strain[q].f.determinant() > 0 && points.strain[q].f33 > 0))

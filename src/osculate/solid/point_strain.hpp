@@ -2,6 +2,7 @@
 // One quadrature point of a bulk element; shared by element.cpp and stress.cpp.
 #include <array>
 #include <span>
+#include <vector>
 
 #include "osculate/cell/quadrature.hpp"
 #include "osculate/cell/shape.hpp"
@@ -41,11 +42,16 @@ struct Points {
   [[nodiscard]] std::span<PointStrain> strains() { return {strain.data(), count}; }
 };
 
-/// The full rule: no formulation leaves a mode without energy.
-[[nodiscard]] const cell::Quadrature2D& quadrature_of(Assumption assumption, cell::CellType type);
-[[nodiscard]] PointGeometry point_geometry(const Section& section, cell::CellType type,
-                                           const Coordinates& reference, const Vec2& xi,
-                                           double weight);
+/// Quadrature of a cell type with the shape functions at its points. No formulation leaves a mode
+/// without energy.
+struct AreaRule {
+  std::vector<Vec2> points;
+  std::vector<double> weights;
+  std::vector<cell::AreaShape> shape;
+};
+[[nodiscard]] const AreaRule& area_rule(Assumption assumption, cell::CellType type);
+[[nodiscard]] PointGeometry point_geometry(const Section& section, const cell::AreaShape& shape,
+                                           const Coordinates& reference, double weight);
 [[nodiscard]] PointStrain point_strain(const Section& section, const PointGeometry& geometry,
                                        const Coordinates& displacement);
 /// Adds int G^T S G dV, the part of the tangent from the change of B (finite kinematics).

@@ -74,7 +74,7 @@ Basis basis(const Vec2& xi, int points) {
 
 CellStress stress_at_points(const Section& section, cell::CellType type,
                             const Coordinates& reference, const Coordinates& displacement) {
-  const cell::Quadrature2D& rule = quadrature_of(section.assumption, type);
+  const AreaRule& rule = area_rule(section.assumption, type);
   CellStress out;
   Points points;
   const bool one_to_one = fill_points(section, type, reference, displacement, points);

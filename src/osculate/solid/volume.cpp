@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "osculate/solid/finite_forces.hpp"
 #include "osculate/solid/solid_shell.hpp"
 #include "osculate/solid/volume_enhanced.hpp"
 #include "osculate/solid/volume_mean_dilatation.hpp"
@@ -111,30 +112,42 @@ void evaluate_enhanced(const VolumeSection& section, const Coordinates3& referen
   out.tangent = tangent;
 }
 
-bool is_volume(cell::CellType type) { return cell::info(type).dimension == 3; }
-
-}  // namespace
-
-std::string_view unsupported(const VolumeSection& section, cell::CellType type) {
-  if (!is_volume(type)) return "only volume cells can be bodies in 3D";
-  const bool finite = section.kinematics == Kinematics::finite;
-  if (finite && !material::finite_strain(section.law))
-    return "linear_elastic is a law of small strains; use st_venant_kirchhoff or neo_hooke with "
-           "finite kinematics";
-  if (!finite && material::finite_strain(section.law))
-    return "the law is one of finite strains; use linear_elastic with small kinematics";
-  if (section.formulation == VolumeFormulation::full) return {};
-  if (section.formulation == VolumeFormulation::solid_shell) {
-    if (type == cell::CellType::hex8 || type == cell::CellType::shell18) return {};
-    return "formulation solid_shell exists for hex8 and shell18 cells only; use full";
-  }
-  if (type != cell::CellType::hex8)
-    return "formulations bbar and enhanced exist for hex8 cells only; use auto";
-  return {};
+template <int N, int Q>
+void evaluate_forces(const VolumeSection& section, cell::CellType type,
+                     const Coordinates3& reference, const Coordinates3& displacement,
+                     VolumeResult& out) {
+  const VolumeRule& rule = volume_rule(type);
+  Mat<N, 3> force;
+  out.status = finite_forces<3, N, Q>(
+      section.law, 1, section.formulation == VolumeFormulation::bbar,
+      std::span<const cell::VolumeShape, Q>(rule.shape), std::span<const double, Q>(rule.weights),
+      reference, displacement, force);
+  out.force.resize(3 * N);
+  for (Eigen::Index k = 0; k < N; ++k) out.force.segment<3>(3 * k) = force.row(k);
 }
 
-void evaluate(const VolumeSection& section, cell::CellType type, const Coordinates3& reference,
-              const Coordinates3& displacement, bool with_tangent, VolumeResult& out) {
+/// The cells that explicit analyses have by the thousand.
+bool has_forces_alone(const VolumeSection& section, cell::CellType type) {
+  if (section.kinematics != Kinematics::finite) return false;
+  if (type == cell::CellType::tet4) return section.formulation == VolumeFormulation::full;
+  return type == cell::CellType::hex8 && (section.formulation == VolumeFormulation::full ||
+                                          section.formulation == VolumeFormulation::bbar);
+}
+
+void evaluate_forces(const VolumeSection& section, cell::CellType type,
+                     const Coordinates3& reference, const Coordinates3& displacement,
+                     VolumeResult& out) {
+  if (type == cell::CellType::hex8)
+    evaluate_forces<8, 8>(section, type, reference, displacement, out);
+  else
+    evaluate_forces<4, 1>(section, type, reference, displacement, out);
+}
+
+bool is_volume(cell::CellType type) { return cell::info(type).dimension == 3; }
+
+void evaluate_whole(const VolumeSection& section, cell::CellType type,
+                    const Coordinates3& reference, const Coordinates3& displacement,
+                    bool with_tangent, VolumeResult& out) {
   if (section.formulation == VolumeFormulation::solid_shell) {
     evaluate_solid_shell(section, type, reference, displacement, with_tangent, out);
     return;
@@ -161,6 +174,35 @@ void evaluate(const VolumeSection& section, cell::CellType type, const Coordinat
     evaluate_bbar(section, displacement, with_tangent, points, out);
   else
     evaluate_enhanced(section, reference, with_tangent, points, out);
+}
+
+}  // namespace
+
+std::string_view unsupported(const VolumeSection& section, cell::CellType type) {
+  if (!is_volume(type)) return "only volume cells can be bodies in 3D";
+  const bool finite = section.kinematics == Kinematics::finite;
+  if (finite && !material::finite_strain(section.law))
+    return "linear_elastic is a law of small strains; use st_venant_kirchhoff or neo_hooke with "
+           "finite kinematics";
+  if (!finite && material::finite_strain(section.law))
+    return "the law is one of finite strains; use linear_elastic with small kinematics";
+  if (section.formulation == VolumeFormulation::full) return {};
+  if (section.formulation == VolumeFormulation::solid_shell) {
+    if (type == cell::CellType::hex8 || type == cell::CellType::shell18) return {};
+    return "formulation solid_shell exists for hex8 and shell18 cells only; use full";
+  }
+  if (type != cell::CellType::hex8)
+    return "formulations bbar and enhanced exist for hex8 cells only; use auto";
+  return {};
+}
+
+void evaluate(const VolumeSection& section, cell::CellType type, const Coordinates3& reference,
+              const Coordinates3& displacement, bool with_tangent, VolumeResult& out) {
+  const bool alone = has_forces_alone(section, type);
+  if (with_tangent || !alone)
+    evaluate_whole(section, type, reference, displacement, with_tangent, out);
+  if (!alone || (with_tangent && out.status != Status::ok)) return;
+  evaluate_forces(section, type, reference, displacement, out);  // the same bits in both ways
 }
 
 VolumeVector volume_weights(cell::CellType type, const Coordinates3& reference) {
