@@ -8,7 +8,7 @@
 #include "osculate/api/contact_evaluator.hpp"
 #include "osculate/geometry/curve_frame.hpp"
 #include "osculate/geometry/curve_jet.hpp"
-#include "osculate/la/direct_solver.hpp"
+#include "osculate/la/mumps.hpp"
 #include "osculate/projection/point_to_curve.hpp"
 
 namespace {
@@ -38,7 +38,7 @@ bool linear_solver_is_right() {
   k.row_start = {0, 2, 4};
   k.column = {0, 1, 0, 1};
   k.value = {2.0, 1.0, 1.0, 3.0};
-  osculate::la::DirectSolver solver;
+  osculate::la::Mumps solver;
   const bool factored = solver.factor(k, 1, osculate::la::Symmetry::unsymmetric).status ==
                         osculate::la::SolveStatus::ok;
   Eigen::VectorXd x(2);

@@ -32,7 +32,7 @@ struct MatrixPlace {
 ///
 /// Formula    |b - K x| / |b| in the Euclidean norm; 0 for b = 0 and x = 0
 /// Errors     infinite where anything is not a number
-/// Tested by  tests/unit/la/test_direct_solver.cpp
+/// Tested by  tests/unit/la/test_mumps.cpp
 [[nodiscard]] double relative_residual(const SparseMatrix& k, const Eigen::VectorXd& x,
                                        const Eigen::VectorXd& b);
 
@@ -41,7 +41,7 @@ struct MatrixPlace {
 /// `add`, whether or not an entry was in the pattern before: the same calls give the same bits.
 ///
 /// Requires   0 <= row, column < n in `add`; unknowns below n elsewhere (negative ones are skipped)
-/// Tested by  tests/unit/la/test_matrix_builder.cpp
+/// Tested by  tests/unit/la/test_mumps.cpp
 class MatrixBuilder {
  public:
   explicit MatrixBuilder(Index n);

@@ -1,5 +1,7 @@
 #include "osculate/model/linear_cells.hpp"
 
+#include <algorithm>
+
 namespace osculate::model {
 namespace {
 
@@ -10,6 +12,15 @@ bool slides_freely(const BasicBulkSection<Dim>& section, Eigen::Index axis) {
     return axis == 1 || section.section.assumption != solid::Assumption::axisymmetric;
   else
     return true;
+}
+
+/// Whether the product with the stored matrix has the digits of its forces.
+template <int Dim>
+bool keeps_digits(const BasicBulkSection<Dim>& section) {
+  if constexpr (Dim == 2)
+    return true;
+  else
+    return section.section.formulation != solid::VolumeFormulation::solid_shell;
 }
 
 }  // namespace
@@ -25,35 +36,54 @@ void LinearCells<Dim>::add(const BasicBulkSection<Dim>& section, cell::CellType 
 }
 
 template <int Dim>
+void LinearCells<Dim>::keep(std::size_t number, const BasicBulkBlock<Dim>& block) {
+  if (made_[number] || !block.ok) return;
+  const auto& tangent = block.result.tangent;
+  std::copy_n(tangent.data(), tangent.size(), &values_[begin_[number]]);
+  made_[number] = 1;
+}
+
+template <int Dim>
 void LinearCells<Dim>::evaluate(std::size_t number, const BasicModel<Dim>& model,
                                 const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
                                 const Eigen::VectorXd& u, bool with_tangent,
                                 BasicBulkBlock<Dim>& out) {
-  if (begin_[number] == nowhere || values_.empty()) {
-    evaluate_cell(model, section, cell, u, with_tangent, out);
+  const bool known = kept(number) && made_[number];
+  evaluate_cell(model, section, cell, u, with_tangent && !known, out);
+  if (!with_tangent || !kept(number)) return;
+  if (known)
+    out.result.tangent =
+        Eigen::Map<const Eigen::MatrixXd>(&values_[begin_[number]], out.dof_count, out.dof_count);
+  else
+    keep(number, out);
+}
+
+template <int Dim>
+void LinearCells<Dim>::force(std::size_t number, const BasicModel<Dim>& model,
+                             const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
+                             const Eigen::VectorXd& u, BasicBulkBlock<Dim>& out) {
+  if (!kept(number) || !keeps_digits(section)) {
+    evaluate_cell(model, section, cell, u, false, out);
     return;
   }
-  const CellNodes nodes = cell_nodes(model.mesh, cell);
-  const auto dofs = static_cast<Eigen::Index>(Dim * nodes.nodes.size());
-  Eigen::Map<Eigen::MatrixXd> stiffness(&values_[begin_[number]], dofs, dofs);
   if (!made_[number]) {
     evaluate_cell(model, section, cell, u, true, out);
-    if (!out.ok) return;
-    stiffness = out.result.tangent;
-    made_[number] = 1;
+    keep(number, out);
+    if (!made_[number]) return;
   }
-  set_dofs<Dim>(nodes.nodes, out);
+  set_dofs<Dim>(cell_nodes(model.mesh, cell).nodes, out);
   out.ok = true;
   using Displacement =
       Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Dim * BulkTraits<Dim>::max_nodes, 1>;
-  Displacement along(dofs);
-  const auto value = [&](Eigen::Index d) { return u[out.dofs[static_cast<std::size_t>(d)]]; };
-  for (Eigen::Index axis = 0; axis < Dim; ++axis) {
+  Displacement along(out.dof_count);
+  const auto value = [&](int d) { return u[out.dofs[static_cast<std::size_t>(d)]]; };
+  for (int axis = 0; axis < Dim; ++axis) {
     const double common = slides_freely(section, axis) ? value(axis) : 0;
-    for (Eigen::Index d = axis; d < dofs; d += Dim) along[d] = value(d) - common;
+    for (int d = axis; d < out.dof_count; d += Dim) along[d] = value(d) - common;
   }
-  out.result.force.noalias() = stiffness * along;
-  if (with_tangent) out.result.tangent = stiffness;
+  out.result.force.noalias() =
+      Eigen::Map<const Eigen::MatrixXd>(&values_[begin_[number]], out.dof_count, out.dof_count) *
+      along;
 }
 
 template class LinearCells<2>;

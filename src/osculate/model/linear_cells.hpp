@@ -10,6 +10,9 @@ namespace osculate::model {
 /// once, when the cell is first evaluated. What does not fit into `most_bytes` is evaluated anew
 /// each time, as are all other cells.
 ///
+/// Forces of implicit analyses are those of the cell's strains all the same: of a thin cell the
+/// stored matrix has no digits of bending left. Explicit ones take the product, but of solid-shells.
+///
 /// Formula    f = K (u - u_0) , u_0 the displacement of the first node where the cell feels nothing
 ///            of it: what all nodes have in common leaves no rounding in the sum of the forces
 /// Tested by  tests/unit/deck/test_linear_cells.cpp
@@ -26,9 +29,17 @@ class LinearCells {
   void evaluate(std::size_t number, const BasicModel<Dim>& model,
                 const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
                 const Eigen::VectorXd& u, bool with_tangent, BasicBulkBlock<Dim>& out);
+  /// The forces alone, by the formula.
+  void force(std::size_t number, const BasicModel<Dim>& model,
+             const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
+             const Eigen::VectorXd& u, BasicBulkBlock<Dim>& out);
 
  private:
   static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+  [[nodiscard]] bool kept(std::size_t number) const {
+    return begin_[number] != nowhere && !values_.empty();
+  }
+  void keep(std::size_t number, const BasicBulkBlock<Dim>& block);
   std::vector<std::size_t> begin_;  ///< of a cell's matrix in `values_`
   std::vector<char> made_;
   std::vector<double> values_;

@@ -124,7 +124,9 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u) {
     BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())];
 #pragma omp for schedule(static) reduction(min : failed)
     for (std::ptrdiff_t c = 0; c < count; ++c) {
-      system.evaluate_job(static_cast<std::size_t>(c), u, false, block);
+      const CellJob& job = system.jobs[static_cast<std::size_t>(c)];
+      system.linear.force(static_cast<std::size_t>(c), system.model, *job.section, job.cell, u,
+                          block);
       if (!block.ok) failed = std::min(failed, c);
       std::copy_n(block.result.force.data(), block.dof_count,
                   cell_forces.begin() +
