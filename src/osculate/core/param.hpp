@@ -25,7 +25,8 @@ struct Param {
   std::string_view key, unit, doc;
   double T::*slot;
   Range range;
-  bool required = true;
+  bool required = true;  ///< else it has the value of a new object
+  std::string_view example = "1";
 };
 
 /// The range in words, e.g. `-1 < nu < 0.5`, `E > 0`, `density >= 0`, `x is any number`.

@@ -66,7 +66,8 @@ std::vector<Body<Dim>> deformable_bodies(const BuildContext<Dim>& c, const Conta
       if (!first) first = &section;
       if (!body.sections.insert(section.on.value).second) continue;
       const Material* const material = c.description.find_material(section.material.value);
-      if (material) body.young = std::max(body.young, material->young.value);
+      if (material)
+        body.young = std::max(body.young, material::unloaded(material->law.value).young);
     }
     mesh::Set set;
     set.dimension = Dim;

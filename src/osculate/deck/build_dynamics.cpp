@@ -87,8 +87,8 @@ solve::TimeScheme scheme_of(const DynamicsDescription& d) {
 void require_density(const Description& d) {
   for (const Section& section : d.sections) {
     const Material* const material = d.find_material(section.material.value);
-    if (material && !(material->density.value > 0))
-      throw core::InputError(material->density.mark,
+    if (material && !(material::density(material->law.value) > 0))
+      throw core::InputError(material->mark("density"),
                              fmt::format("density of material '{}' is missing: a step has inertia",
                                          material->name.value));
   }

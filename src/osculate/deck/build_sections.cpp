@@ -12,19 +12,6 @@ solid::Kinematics solid_kinematics(Kinematics kinematics) {
   return kinematics == Kinematics::finite ? solid::Kinematics::finite : solid::Kinematics::small;
 }
 
-material::Law material_law(const Material& material) {
-  const double young = material.young.value, poisson = material.poisson.value;
-  const double density = material.density.value;
-  switch (material.law.value) {
-    case MaterialLaw::st_venant_kirchhoff:
-      return material::StVenantKirchhoff{young, poisson, density};
-    case MaterialLaw::neo_hooke:
-      return material::NeoHooke{young, poisson, density};
-    default:
-      return material::LinearElastic{young, poisson, density};
-  }
-}
-
 solid::Assumption assumption_of(SectionElement element) {
   switch (element) {
     case SectionElement::plane_stress:
@@ -37,9 +24,9 @@ solid::Assumption assumption_of(SectionElement element) {
 }
 
 /// What `auto` stands for (decision 037): enhanced strains lock nowhere, but are unstable in the
-/// large compression that neo-Hooke bodies are made for; in plane stress there is no B-bar.
+/// large compression that some laws are made for; in plane stress there is no B-bar.
 Formulation best_formulation(const Section& s, const Material& material) {
-  if (material.law.value != MaterialLaw::neo_hooke) return Formulation::enhanced;
+  if (!material::large_strain(material.law.value)) return Formulation::enhanced;
   return s.element.value == SectionElement::plane_stress ? Formulation::full : Formulation::bbar;
 }
 
@@ -66,7 +53,7 @@ solid::Section make_solid_section<2>(const Section& s, const Material& material)
   out.kinematics = solid_kinematics(s.kinematics.value);
   out.formulation = formulation_of<solid::Formulation>(s, material);
   out.thickness = s.thickness.value;
-  out.law = material_law(material);
+  out.law = material.law.value;
   return out;
 }
 
@@ -77,7 +64,7 @@ solid::VolumeSection make_solid_section<3>(const Section& s, const Material& mat
   out.formulation = s.element.value == SectionElement::solid_shell
                         ? solid::VolumeFormulation::solid_shell
                         : formulation_of<solid::VolumeFormulation>(s, material);
-  out.law = material_law(material);
+  out.law = material.law.value;
   return out;
 }
 

@@ -15,6 +15,7 @@
 #include "osculate/geometry/catalogue.hpp"
 #include "osculate/geometry/nurbs_patch.hpp"
 #include "osculate/geometry/surfaces.hpp"
+#include "osculate/material/law.hpp"
 #include "osculate/mesh/generate_space.hpp"
 #include "osculate/mesh/join.hpp"
 
@@ -103,12 +104,13 @@ struct SetDefinition {
 
 // ---- bodies -----------------------------------------------------------------------------------
 
-enum class MaterialLaw { linear_elastic, st_venant_kirchhoff, neo_hooke };
-
 struct Material {
   Name name;
-  Marked<MaterialLaw> law;
-  Number young, poisson, density;
+  Marked<material::Law> law;
+  std::vector<std::pair<std::string_view, core::SourceMark>> marks;  ///< of its parameters
+
+  /// Where a parameter stands; the law, where it has no such parameter.
+  [[nodiscard]] const core::SourceMark& mark(std::string_view parameter) const;
 };
 
 enum class SectionElement { plane_strain, plane_stress, axisymmetric, solid, solid_shell };

@@ -72,8 +72,7 @@ Masses masses(const model::BasicModel<Dim>& m) {
     sum.moment += mass * in_space<Dim>(at);
   };
   for (const model::BasicBulkSection<Dim>& section : m.sections) {
-    const double density =
-        std::visit([](const auto& law) { return law.density; }, section.section.law);
+    const double density = material::density(section.section.law);
     if (density == 0) continue;
     for (const mesh::CellRef& ref : section.cells) {
       const std::vector<double> shares = model::cell_weights(m, section, ref);

@@ -1,6 +1,10 @@
 #include "osculate/deck/model_spec.hpp"
 
+#include <fmt/format.h>
+
 #include "osculate/deck/description.hpp"
+#include "osculate/deck/params.hpp"
+#include "osculate/material/law.hpp"
 
 namespace osculate::deck {
 
@@ -56,34 +60,19 @@ Spec sets_spec() {
 }
 
 Spec materials_spec() {
-  const auto constants = [](std::string doc) {
-    return map(std::move(doc), {required("E", number("Young's modulus of the unloaded material.")
-                                                  .in("force/length^2")
-                                                  .above(0)
-                                                  .such_as("2.1e5")),
-                                required("nu", number("Poisson's ratio of the unloaded material.")
-                                                   .above(-1)
-                                                   .below(0.5)
-                                                   .such_as("0.3")),
-                                optional("density", number("Mass per reference volume.")
-                                                        .in("mass/length^3")
-                                                        .at_least(0)
-                                                        .otherwise("0")
-                                                        .such_as("7.85e-9"))});
-  };
+  std::vector<Key> laws;
+  std::vector<std::string> keys;
+  material::for_each_law([&]<class T>(const T&) {
+    keys.emplace_back(T::key);
+    laws.push_back(optional(keys.back(), params_spec<T>(std::string(T::doc))));
+  });
   const Spec law =
-      map("A material: exactly one law.",
-          {optional("linear_elastic", constants("Hooke's law between stress and small strain.")),
-           optional(
-               "st_venant_kirchhoff",
-               constants("Hooke's law between second Piola-Kirchhoff stress and Green-Lagrange "
-                         "strain, for large rotations.")),
-           optional("neo_hooke", constants("Compressible neo-Hookean solid, for large strains."))})
-          .with(Group::Rule::exactly_one, {"linear_elastic", "st_venant_kirchhoff", "neo_hooke"})
-          .or_else(
-              "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the elastic laws "
-              "linear_elastic, st_venant_kirchhoff, neo_hooke; plasticity and others are not "
-              "available (osculate doc limits)")
+      map("A material: exactly one law.", std::move(laws))
+          .with(Group::Rule::exactly_one, keys)
+          .or_else(fmt::format(
+              "; a material is NAME: {{LAW: {{E: ..., nu: ...}}}} with one of the elastic laws {}; "
+              "plasticity and others are not available (osculate doc limits)",
+              fmt::join(keys, ", ")))
           .such_as("{linear_elastic: {E: 2.1e5, nu: 0.3}}");
   return names("The materials, by name.", law)
       .otherwise("{}")

@@ -71,6 +71,12 @@ Marked<std::vector<double>> numbers_of(const Value& v) {
 
 std::string quoted(const std::string& text) { return "'" + printable(text) + "'"; }
 
+const core::SourceMark& Material::mark(std::string_view parameter) const {
+  for (const auto& [key, where] : marks)
+    if (key == parameter) return where;
+  return law.mark;
+}
+
 const Material* Description::find_material(const std::string& name) const {
   return find_named(materials, name);
 }

@@ -3,31 +3,24 @@
 #include <algorithm>
 
 #include "osculate/core/text.hpp"
+#include "osculate/deck/params.hpp"
 #include "osculate/deck/parse_parts.hpp"
 
 namespace osculate::deck {
 namespace {
 
-struct LawName {
-  const char* key;
-  MaterialLaw law;
-};
-constexpr std::array<LawName, 3> laws{{{"linear_elastic", MaterialLaw::linear_elastic},
-                                       {"st_venant_kirchhoff", MaterialLaw::st_venant_kirchhoff},
-                                       {"neo_hooke", MaterialLaw::neo_hooke}}};
-
-Kinematics usual_kinematics(MaterialLaw law) {
-  return law == MaterialLaw::linear_elastic ? Kinematics::small : Kinematics::finite;
+Kinematics usual_kinematics(const material::Law& law) {
+  return material::finite_strain(law) ? Kinematics::finite : Kinematics::small;
 }
 
 void require_kinematics(const Section& section, const Material& material) {
-  const MaterialLaw law = material.law.value;
+  const material::Law& law = material.law.value;
   if (section.kinematics.value == usual_kinematics(law)) return;
-  const bool linear = law == MaterialLaw::linear_elastic;
+  const bool finite = material::finite_strain(law);
   throw core::InputError(
       section.kinematics.mark,
       fmt::format("material '{}' is {}, which needs kinematics: {}", material.name.value,
-                  linear ? "linear_elastic" : "hyperelastic", linear ? "small" : "finite"));
+                  finite ? "hyperelastic" : material::key_of(law), finite ? "finite" : "small"));
 }
 
 Section section_of(const Value& v, const std::vector<Material>& materials) {
@@ -74,20 +67,20 @@ std::string kind_of(const Value& v) {
 std::vector<Material> parse_materials(const Value& v) {
   std::vector<Material> out;
   for (const ValueEntry& entry : v.entries) {
-    for (const LawName& law : laws) {
-      const Value* const constants = entry.value.find(law.key);
-      if (!constants) continue;
-      out.push_back({{entry.key, entry.key_mark},
-                     {law.law, constants->mark},
-                     number_of(constants->at("E")),
-                     number_of(constants->at("nu")),
-                     number_of(constants->at("density"))});
+    material::for_each_law([&]<class T>(const T&) {
+      const Value* const constants = entry.value.find(T::key);
+      if (!constants) return;
+      Material& m = out.emplace_back();
+      m.name = {entry.key, entry.key_mark};
+      m.law = {params_of<T>(*constants), constants->mark};
+      for (const core::Param<T>& p : T::params())
+        m.marks.emplace_back(p.key, constants->at(p.key).mark);
       constexpr double nearest = 1e-10;  // leaves six digits for the shape
-      if (0.5 - out.back().poisson.value < nearest)
-        throw core::InputError(out.back().poisson.mark,
+      if (0.5 - material::unloaded(m.law.value).poisson < nearest)
+        throw core::InputError(m.mark("nu"),
                                "is so near to 0.5 that the resistance to changes of volume leaves "
                                "no digits for anything else: use at most 0.4999999999");
-    }
+    });
   }
   return out;
 }

@@ -24,7 +24,12 @@ concept IsLaw = requires(const T& law, const Strain& strain, const Strain3& stra
                          double& strain_33) {
   { T::key } -> std::convertible_to<std::string_view>;
   { T::doc } -> std::convertible_to<std::string_view>;
-  { T::finite_strain } -> std::convertible_to<bool>;
+  { T::finite_strain } -> std::convertible_to<bool>;  ///< of large rotations
+  { T::large_strain } -> std::convertible_to<bool>;   ///< made for large compression
+  { law.density } -> std::convertible_to<double>;
+  { unloaded(law) } -> std::same_as<Isotropic>;
+  { energy_of(law, strain) } -> std::same_as<double>;
+  { energy_of(law, strain3) } -> std::same_as<double>;
   { T::params().front() } -> std::convertible_to<core::Param<T>>;
   { respond(law, strain) } -> std::same_as<Response>;
   { respond(law, strain3) } -> std::same_as<Response3>;

@@ -16,6 +16,18 @@ bool finite_strain(const Law& law) {
   return std::visit([](const auto& m) { return m.finite_strain; }, law);
 }
 
+bool large_strain(const Law& law) {
+  return std::visit([](const auto& m) { return m.large_strain; }, law);
+}
+
+double density(const Law& law) {
+  return std::visit([](const auto& m) { return m.density; }, law);
+}
+
+Isotropic unloaded(const Law& law) {
+  return std::visit([](const auto& m) { return unloaded(m); }, law);
+}
+
 std::string_view key_of(const Law& law) {
   return std::visit([](const auto& m) { return m.key; }, law);
 }

@@ -6,6 +6,11 @@
 namespace osculate::material {
 
 [[nodiscard]] bool finite_strain(const Law& law);
+/// Made for large compression, in which enhanced strains are unstable.
+[[nodiscard]] bool large_strain(const Law& law);
+[[nodiscard]] double density(const Law& law);
+/// Of the unloaded material.
+[[nodiscard]] Isotropic unloaded(const Law& law);
 [[nodiscard]] std::string_view key_of(const Law& law);
 /// Empty if all constants are in their ranges, else which one is not and what is needed.
 [[nodiscard]] std::string range_problem(const Law& law);

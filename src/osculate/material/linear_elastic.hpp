@@ -11,8 +11,8 @@ namespace osculate::material {
 /// Tested by  tests/unit/material/test_laws.cpp
 struct LinearElastic {
   static constexpr std::string_view key = "linear_elastic";
-  static constexpr std::string_view doc = "Hooke's law between stress and small strain";
-  static constexpr bool finite_strain = false;
+  static constexpr std::string_view doc = "Hooke's law between stress and small strain.";
+  static constexpr bool finite_strain = false, large_strain = false;
   double young = 0, poisson = 0, density = 0;
   static constexpr auto params() { return isotropic_params<LinearElastic>(); }
 };
@@ -41,6 +41,15 @@ template <int N>
 [[nodiscard]] inline Response respond_plane_stress(const LinearElastic& law, const Strain& strain,
                                                    double& strain_33) {
   return hooke_plane_stress(law.young, law.poisson, strain, strain_33);
+}
+
+[[nodiscard]] inline Isotropic unloaded(const LinearElastic& law) {
+  return {law.young, law.poisson};
+}
+/// Formula    S . E / 2
+template <int N>
+[[nodiscard]] double energy_of(const LinearElastic& law, const Vec<N>& strain) {
+  return 0.5 * respond(law, strain).stress.dot(strain);
 }
 
 }  // namespace osculate::material

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "osculate/material/stretch.hpp"
 
@@ -114,7 +115,22 @@ StressOf<N> stress_alone(const NeoHooke& law, const Stretched<N>& s) {
   return {true, stress(lame(law.young, law.poisson), s)};
 }
 
+/// det C and the trace of E.
+double energy(const NeoHooke& law, double determinant, double trace) {
+  const Lame k = lame(law.young, law.poisson);
+  if (!(determinant > 0)) return std::numeric_limits<double>::infinity();
+  const double log_j = 0.5 * std::log(determinant);
+  return k.mu * trace - k.mu * log_j + 0.5 * k.lambda * log_j * log_j;
+}
+
 }  // namespace
+
+double energy_of(const NeoHooke& law, const Strain& e) {
+  return energy(law, 1 + determinant_change(e), e.head<3>().sum());
+}
+double energy_of(const NeoHooke& law, const Strain3& e) {
+  return energy(law, 1 + determinant_change(e), e.head<3>().sum());
+}
 
 Response respond(const NeoHooke& law, const Strain& e) { return whole_response(law, stretched(e)); }
 Response3 respond(const NeoHooke& law, const Strain3& e) {

@@ -11,9 +11,8 @@ namespace osculate::material {
 /// Tested by  tests/unit/material/test_laws.cpp
 struct NeoHooke {
   static constexpr std::string_view key = "neo_hooke";
-  static constexpr std::string_view doc =
-      "Compressible neo-Hooke, W = mu/2 (tr C - 3) - mu ln J + lambda/2 (ln J)^2";
-  static constexpr bool finite_strain = true;
+  static constexpr std::string_view doc = "Compressible neo-Hookean solid, for large strains.";
+  static constexpr bool finite_strain = true, large_strain = true;
   double young = 0, poisson = 0, density = 0;
   static constexpr auto params() { return isotropic_params<NeoHooke>(); }
 };
@@ -34,5 +33,10 @@ struct NeoHooke {
 /// Tested by  tests/unit/material/test_plane_stress.cpp
 [[nodiscard]] Response respond_plane_stress(const NeoHooke& law, const Strain& strain,
                                             double& strain_33);
+
+[[nodiscard]] inline Isotropic unloaded(const NeoHooke& law) { return {law.young, law.poisson}; }
+/// W; infinity where det C is not positive.
+[[nodiscard]] double energy_of(const NeoHooke& law, const Strain& strain);
+[[nodiscard]] double energy_of(const NeoHooke& law, const Strain3& strain);
 
 }  // namespace osculate::material

@@ -36,6 +36,11 @@ struct StressOf {
 using Response = ResponseOf<4>;
 using Response3 = ResponseOf<6>;
 
+/// Elastic constants.
+struct Isotropic {
+  double young, poisson;
+};
+
 /// Lame constants.
 struct Lame {
   double lambda, mu;
@@ -47,19 +52,27 @@ struct Lame {
 /// The three constants of an isotropic law with the members young, poisson and density.
 template <class T>
 [[nodiscard]] constexpr std::array<core::Param<T>, 3> isotropic_params() {
-  return {
-      {{"E", "force/length^2", "Young's modulus of the unloaded material", &T::young, {.lower = 0}},
-       {"nu",
-        "1",
-        "Poisson's ratio of the unloaded material",
-        &T::poisson,
-        {.lower = -1, .upper = 0.5}},
-       {"density",
-        "mass/length^3",
-        "Mass per reference volume",
-        &T::density,
-        {.lower = 0, .with_lower = true},
-        false}}};
+  return {{{"E",
+            "force/length^2",
+            "Young's modulus of the unloaded material.",
+            &T::young,
+            {.lower = 0},
+            true,
+            "2.1e5"},
+           {"nu",
+            "1",
+            "Poisson's ratio of the unloaded material.",
+            &T::poisson,
+            {.lower = -1, .upper = 0.5},
+            true,
+            "0.3"},
+           {"density",
+            "mass/length^3",
+            "Mass per reference volume.",
+            &T::density,
+            {.lower = 0, .with_lower = true},
+            false,
+            "7.85e-9"}}};
 }
 
 }  // namespace osculate::material

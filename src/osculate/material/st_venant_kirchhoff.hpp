@@ -12,9 +12,9 @@ namespace osculate::material {
 struct StVenantKirchhoff {
   static constexpr std::string_view key = "st_venant_kirchhoff";
   static constexpr std::string_view doc =
-      "Linear between second Piola-Kirchhoff stress and Green-Lagrange strain; large rotations, "
-      "moderate strains";
-  static constexpr bool finite_strain = true;
+      "Hooke's law between second Piola-Kirchhoff stress and Green-Lagrange strain, for large "
+      "rotations.";
+  static constexpr bool finite_strain = true, large_strain = false;
   double young = 0, poisson = 0, density = 0;
   static constexpr auto params() { return isotropic_params<StVenantKirchhoff>(); }
 };
@@ -31,6 +31,14 @@ struct StVenantKirchhoff {
   Response r = hooke_plane_stress(law.young, law.poisson, strain, strain_33);
   r.ok = 1 + 2 * strain_33 > 0;
   return r;
+}
+
+[[nodiscard]] inline Isotropic unloaded(const StVenantKirchhoff& law) {
+  return {law.young, law.poisson};
+}
+template <int N>
+[[nodiscard]] double energy_of(const StVenantKirchhoff& law, const Vec<N>& strain) {
+  return 0.5 * respond(law, strain).stress.dot(strain);
 }
 
 }  // namespace osculate::material

@@ -72,8 +72,7 @@ std::string obstacle_of_equations(const BasicModel<Dim>& model) {
 template <int Dim>
 std::string obstacle_of_masses(const BasicModel<Dim>& model) {
   for (const BasicBulkSection<Dim>& section : model.sections) {
-    const double density =
-        std::visit([](const auto& law) { return law.density; }, section.section.law);
+    const double density = material::density(section.section.law);
     if (density > 0) continue;
     for (const mesh::CellRef& ref : section.cells)
       for (const Index node : cell_nodes(model.mesh, ref).nodes)

@@ -11,8 +11,7 @@ template <int Dim>
 BasicInertia<Dim>::BasicInertia(const BasicModel<Dim>& model, bool lumped)
     : nodes_(static_cast<Index>(model.reference.size())) {
   for (const BasicBulkSection<Dim>& section : model.sections) {
-    const double density =
-        std::visit([](const auto& law) { return law.density; }, section.section.law);
+    const double density = material::density(section.section.law);
     for (const mesh::CellRef& ref : section.cells) {
       const CellNodes cell = cell_nodes(model.mesh, ref);
       const solid::NodeMass unit =

@@ -19,9 +19,7 @@ Section with(Section section, Formulation formulation, cell::CellType type) {
   return solid::unsupported(other, type).empty() ? other : section;
 }
 
-double poisson_of(const material::Law& law) {
-  return std::visit([](const auto& of) { return of.poisson; }, law);
-}
+double poisson_of(const material::Law& law) { return material::unloaded(law).poisson; }
 
 }  // namespace
 

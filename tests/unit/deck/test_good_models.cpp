@@ -10,10 +10,10 @@ TEST(GoodModels, Block) {
   EXPECT_EQ(d.title, "Block pressed and sheared on a rigid base");
   EXPECT_EQ(d.mesh.files.at(0).path, "some/where/block.msh");
   ASSERT_EQ(d.materials.size(), 1u);
-  EXPECT_EQ(d.materials[0].young.value, 2.1e4);
-  EXPECT_EQ(d.materials[0].young.mark.line, 5);
-  EXPECT_EQ(d.materials[0].young.mark.key, "materials.steel.linear_elastic.E");
-  EXPECT_EQ(d.materials[0].young.mark.file, "some/where/model.yaml");
+  EXPECT_EQ(material::unloaded(d.materials[0].law.value).young, 2.1e4);
+  EXPECT_EQ(d.materials[0].mark("E").line, 5);
+  EXPECT_EQ(d.materials[0].mark("E").key, "materials.steel.linear_elastic.E");
+  EXPECT_EQ(d.materials[0].mark("E").file, "some/where/model.yaml");
   ASSERT_EQ(d.contact.size(), 1u);
   const Contact& floor = d.contact[0];
   EXPECT_EQ(floor.normal_penalty.value, 2.1e6);
@@ -61,7 +61,7 @@ TEST(GoodModels, DefaultsOfTheSmallestModel) {
       "model.yaml");
   EXPECT_EQ(d.mesh.files.at(0).path, "a.msh");
   EXPECT_EQ(d.title, "");
-  EXPECT_EQ(d.materials[0].density.value, 0);
+  EXPECT_EQ(material::density(d.materials[0].law.value), 0);
   EXPECT_EQ(d.sections[0].kinematics.value, Kinematics::small);
   EXPECT_EQ(d.sections[1].kinematics.value, Kinematics::finite);
   EXPECT_EQ(d.sections[0].thickness.value, 1);

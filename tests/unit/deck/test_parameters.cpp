@@ -23,7 +23,8 @@ std::string model(const std::string& parameters, const std::string& young = "=st
 const std::string usual = "parameters: {stiff: 1e4, part: block, side: \"${part}\"}";
 
 double young(const std::string& text, std::vector<Setting> settings = {}) {
-  return parse_model(text, "model.yaml", settings).materials.at(0).young.value;
+  return material::unloaded(parse_model(text, "model.yaml", settings).materials.at(0).law.value)
+      .young;
 }
 
 TEST(Parameters, ValuesNamesAndArithmetic) {
