@@ -39,9 +39,9 @@ void add(const BuildContext<Dim>& c, const mesh::CellRef& ref, double height, do
   const Section& s = c.description.sections[at(section->second)];
   const Material* const material = c.description.find_material(s.material.value);
   if (!material) return;
-  const double young = material->young.value;
+  const auto [young, poisson] = material::unloaded(material->law.value);
   sum.normal += area * young / height;
-  sum.shear += area * young / (2 * (1 + material->poisson.value)) / height;
+  sum.shear += area * young / (2 * (1 + poisson)) / height;
   sum.size += area * height;
   sum.area += area;
   sum.thinnest = std::min(sum.thinnest, height);

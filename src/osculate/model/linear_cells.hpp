@@ -11,7 +11,8 @@ namespace osculate::model {
 /// each time, as are all other cells.
 ///
 /// Forces of implicit analyses are those of the cell's strains all the same: of a thin cell the
-/// stored matrix has no digits of bending left. Explicit ones take the product, but of solid-shells.
+/// stored matrix has no digits of bending left. Explicit ones take the product, but of
+/// solid-shells.
 ///
 /// Formula    f = K (u - u_0) , u_0 the displacement of the first node where the cell feels nothing
 ///            of it: what all nodes have in common leaves no rounding in the sum of the forces
@@ -30,9 +31,8 @@ class LinearCells {
                 const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
                 const Eigen::VectorXd& u, bool with_tangent, BasicBulkBlock<Dim>& out);
   /// The forces alone, by the formula.
-  void force(std::size_t number, const BasicModel<Dim>& model,
-             const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
-             const Eigen::VectorXd& u, BasicBulkBlock<Dim>& out);
+  void force(std::size_t number, const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
+             const mesh::CellRef& cell, const Eigen::VectorXd& u, BasicBulkBlock<Dim>& out);
 
  private:
   static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
