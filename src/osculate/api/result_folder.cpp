@@ -162,13 +162,14 @@ FieldList::FieldList(const std::string& folder) : path_(folder + "/" + list_name
 }
 
 void FieldList::add(const std::string& name) {
-  if (!names_.insert(name).second) return;
+  if (names_.contains(name)) return;
   if (!file_) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(path_, error);
     file_.emplace(path_, error ? 0 : size);
   }
   file_->append(name + "\n");
+  names_.insert(name);
 }
 
 nlohmann::json owner_json(const std::string& model) {

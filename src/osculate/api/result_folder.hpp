@@ -54,7 +54,6 @@ class FieldList {
   explicit FieldList(const std::string& folder);
   /// Throws io::WriteError.
   void add(const std::string& name);
-  [[nodiscard]] bool contains(const std::string& name) const { return names_.contains(name); }
   [[nodiscard]] const std::set<std::string>& names() const { return names_; }
 
  private:

@@ -58,6 +58,7 @@ template <int Dim, int N, int Q, class Shape>
                                    std::span<const Shape, Q> shapes,
                                    std::span<const double, Q> weights, const Mat<N, Dim>& reference,
                                    const Mat<N, Dim>& displacement, Mat<N, Dim>& force) {
+  force.setZero();
   std::array<FinitePoint<Dim, N>, Q> points;
   std::array<double, Q> square{};  // J^2 - 1; ratios without cancellation at small strain
   double volume = 0, growth = 0;   // int dV, int (J - 1) dV
@@ -83,7 +84,6 @@ template <int Dim, int N, int Q, class Shape>
   half_unit.template head<3>().setConstant(0.5);
   std::array<double, Q> pressed{};  // V c
   double total = 0;
-  force.setZero();
   for (std::size_t q = 0; q < Q; ++q) {
     FinitePoint<Dim, N>& p = points[q];
     double m = 1;
