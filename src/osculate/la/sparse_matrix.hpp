@@ -41,7 +41,7 @@ struct MatrixPlace {
 /// `add`, whether or not an entry was in the pattern before: the same calls give the same bits.
 ///
 /// Requires   0 <= row, column < n in `add`; unknowns below n elsewhere (negative ones are skipped)
-/// Tested by  tests/unit/la/test_mumps.cpp
+/// Tested by  tests/unit/la/test_matrix_builder.cpp
 class MatrixBuilder {
  public:
   explicit MatrixBuilder(Index n);
