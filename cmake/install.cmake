@@ -1,15 +1,10 @@
 include(CMakePackageConfigHelpers)
-get_property(layers GLOBAL PROPERTY OSCULATE_LAYERS)
-set(targets osculate_values)
-foreach(layer IN LISTS layers)
-  list(APPEND targets osculate_${layer})
-endforeach()
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
-install(TARGETS ${targets} EXPORT OsculateTargets RUNTIME_DEPENDENCY_SET osculate_needs
-  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+# The program's own shared layer, and Osculate::contact for other codes; everything else is private.
+install(TARGETS osculate_la RUNTIME_DEPENDENCY_SET osculate_needs
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT program)
-install(DIRECTORY src/osculate DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp"
-  PATTERN "detail" EXCLUDE)
+install(TARGETS osculate_library EXPORT OsculateTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY include/osculate DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT OsculateTargets NAMESPACE Osculate:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Osculate)
 configure_package_config_file(cmake/OsculateConfig.cmake.in ${CMAKE_BINARY_DIR}/OsculateConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Osculate PATH_VARS CMAKE_INSTALL_INCLUDEDIR)

@@ -2,7 +2,9 @@
 """Does every file stand where it belongs, and is it small enough?
 
 1. A file under src/osculate/LAYER includes only the layers that tools/layers.txt names for it, as
-   "osculate/LAYER/file.hpp", and the CMake targets have the same edges.
+   "osculate/LAYER/file.hpp", and the CMake targets have the same edges. The public headers
+   (include/osculate, included as "osculate/file.hpp") include each other alone, and of the layers
+   only `embed` includes them.
 2. No header includes itself through others.
 3. Functions: 60 lines warn, 100 fail, unless a comment `long: reason` stands at or in it.
    Files: over 500 lines fail, unless a comment `size: reason` stands in it.
@@ -17,7 +19,8 @@ import sys
 from cpp_text import SOURCE_SUFFIXES, blanked, functions, line_of
 
 FUNCTION_WARN, FUNCTION_FAIL, FILE_FAIL = 60, 100, 500
-SIZED = ("src", "app", "bindings", "verification", "tests", "benchmarks", "examples")
+SIZED = ("src", "include", "app", "bindings", "verification", "tests", "benchmarks", "examples")
+PUBLIC_LAYER = "embed"
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.M)
 
 
@@ -75,6 +78,11 @@ def includes(text):
     return [(line_of(code, m.start()), m.group(1), m.group(2)) for m in INCLUDE.finditer(code)]
 
 
+def is_public(target):
+    """osculate/file.hpp, in no layer."""
+    return target.startswith("osculate/") and target.count("/") == 1
+
+
 def check_includes(root, layers):
     problems, graph = [], {}
     base = root / "src" / "osculate"
@@ -87,7 +95,12 @@ def check_includes(root, layers):
             continue
         for line, bracket, target in includes(path.read_text()):
             where = f"src/{name}:{line}"
-            if target.startswith("osculate/"):
+            if is_public(target):
+                if layer != PUBLIC_LAYER:
+                    problems.append(f"{where}: the public headers are for other codes ({target})")
+                elif not (root / "include" / target).is_file():
+                    problems.append(f"{where}: {target} does not exist")
+            elif target.startswith("osculate/"):
                 if bracket == "<":
                     problems.append(f'{where}: write #include "{target}"')
                 if not (root / "src" / target).is_file():
@@ -99,6 +112,14 @@ def check_includes(root, layers):
             elif bracket == '"':
                 problems.append(f'{where}: write "osculate/<layer>/{pathlib.Path(target).name}", '
                                 f'not "{target}"')
+    for path in sources(root, ["include"]):
+        name = path.relative_to(root / "include").as_posix()
+        graph[name] = set()
+        for line, bracket, target in includes(path.read_text()):
+            if is_public(target) and (root / "include" / target).is_file():
+                graph[name].add(target)
+            elif bracket == '"' or target.startswith("osculate/"):
+                problems.append(f"include/{name}:{line}: {target} is no public header")
     cycle = find_cycle(graph)
     if cycle:
         problems.append("include cycle: " + " -> ".join(cycle))

@@ -36,6 +36,15 @@ test('the ledger has the columns of the history', () => {
   assert.match(closure({ largest: 4, lost: -1, open: 0 }), /1 \(25 %\) has come in .* closes to 0 /);
 });
 
+test('what plastic materials dissipate is in the ledger where there is such a column', () => {
+  const rows = [[1, 0, 0, 0, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0], [1, 1, 1, 0, 0.5, 6, 1, 0.5, 0, 0, 0, 0, 0, 12.5]];
+  const found = ledger(readHistory({ history: { columns: [...columns, 'energy.plastic'], rows } }));
+  assert.deepEqual(found.curves.get('plastic'), [0, 12.5]);
+  assert.equal(found.largest, 12.5);
+  assert.ok(isLedger('energy.plastic'));
+  assert.ok(!ledger(history(rows.map((row) => row.slice(0, -1)))).curves.has('plastic'));
+});
+
 test('after a step without inertia the ledger begins anew, behind the first piece', () => {
   const found = ledger(history([
     [1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],

@@ -6,10 +6,10 @@
 #include <cstdlib>
 #include <ctime>
 #include <functional>
-#include <map>
 #include <random>
 #include <string>
 
+#include "../../tests/support/sample_targets.hpp"
 #include "osculate/projection/projector.hpp"
 #include "peers.hpp"
 
@@ -18,7 +18,6 @@ double benchmark::now() { return static_cast<double>(std::clock()) / CLOCKS_PER_
 namespace {
 
 using benchmark::Answers;
-using osculate::Index;
 using osculate::Vec2;
 using osculate::Vec3;
 using osculate::geometry::NurbsPatch;
@@ -59,35 +58,10 @@ std::vector<Vec3> near_patch(const NurbsPatch& patch, int count, double height) 
   return points;
 }
 
+/// The unit sphere with bumps.
 FacetMesh<3> sphere(int n) {
-  FacetMesh<3> mesh;
-  std::map<std::array<long, 3>, Index> known;
-  const auto node = [&](const Vec3& direction) {
-    Vec3 p = direction.normalized();
-    p *= 1 + 0.05 * std::sin(9 * p[0] + 2) * std::cos(8 * p[1]);  // bumps
-    const std::array<long, 3> key{std::lround(p[0] * 1e9), std::lround(p[1] * 1e9),
-                                  std::lround(p[2] * 1e9)};
-    const auto found = known.try_emplace(key, static_cast<Index>(mesh.nodes.size()));
-    if (found.second) mesh.nodes.push_back(p);
-    return found.first->second;
-  };
-  for (int octant = 0; octant < 8; ++octant) {
-    const double sx = (octant & 1) != 0 ? -1 : 1, sy = (octant & 2) != 0 ? -1 : 1,
-                 sz = (octant & 4) != 0 ? -1 : 1;
-    const bool turned = sx * sy * sz < 0;
-    const auto at = [&](int i, int j) {
-      const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n;
-      return node({sx * (1 - u - v), sy * u, sz * v});
-    };
-    const auto add = [&](Index a, Index b, Index c) {
-      mesh.facets.push_back({osculate::cell::CellType::tri3, {a, turned ? c : b, turned ? b : c}});
-    };
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; i + j < n; ++j) {
-        add(at(i, j), at(i + 1, j), at(i, j + 1));
-        if (i + j + 1 < n) add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-      }
-  }
+  FacetMesh<3> mesh = osculate::testing::sphere_mesh(n);
+  for (Vec3& p : mesh.nodes) p *= 1 + 0.05 * std::sin(9 * p[0] + 2) * std::cos(8 * p[1]);
   return mesh;
 }
 

@@ -4,13 +4,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "osculate/api/tangent_check.hpp"
-#include "osculate/deck/build.hpp"
+#include "expectations.hpp"
 #include "osculate/deck/parse.hpp"
 
 namespace osculate {
@@ -58,33 +56,6 @@ std::string model_text(const Named& slave, const Named& target, const std::strin
       normal_force, normal_force == "force_z" ? "rfz" : "rfy");
 }
 
-/// Order two or round-off in every part; contact must have been there to check.
-void expect_tangent(const api::TangentReport& report) {
-  EXPECT_GT(report.counts.touching(), 0);
-  for (const api::TangentRow& row : report.rows) {
-    EXPECT_FALSE(row.skipped) << row.part << ": " << row.note;
-    EXPECT_TRUE(row.exact || std::abs(row.order - 2) < 0.15)
-        << row.part << ": order " << row.order << ", error " << row.error;
-  }
-}
-
-template <int Dim>
-void expect_increment(const deck::BasicBuilt<Dim>& built) {
-  std::vector<double> row;
-  model::BasicAnalysisObserver<Dim> observer;
-  observer.converged = [&](model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
-                           const model::Progress&, const solve::IncrementRecord*) {
-    row.clear();
-    for (const auto& request : built.history)
-      row.push_back(model::history_value(system, built.model, state, request));
-    return true;
-  };
-  const auto result = model::run(built.model, built.options, observer);
-  ASSERT_EQ(result.outcome, solve::Outcome::converged) << result.message;
-  EXPECT_GT(row[0], 1e-3);
-  EXPECT_NEAR(row[0], -row[1], 1e-7 * row[0]);
-}
-
 template <int Dim>
 void expect_conforming(const std::string& text, bool scatters = false) {
   SCOPED_TRACE(text);
@@ -92,8 +63,8 @@ void expect_conforming(const std::string& text, bool scatters = false) {
   const auto built =
       std::get<deck::BasicBuilt<Dim>>(deck::build_any(description, deck::load_mesh(description)));
   EXPECT_EQ(built.warnings.size(), scatters ? 1u : 0u);
-  expect_tangent(api::check_tangent(built.model, 1));
-  expect_increment<Dim>(built);
+  testing::expect_tangent(api::check_tangent(built.model, 1));
+  testing::expect_increment<Dim>(built);
 }
 
 // ---- space --------------------------------------------------------------------------------------

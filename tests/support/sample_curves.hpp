@@ -32,6 +32,22 @@ inline geometry::NurbsCurve nurbs_circle(double r) {
           {1, w, 1, w, 1, w, 1, w, 1}};
 }
 
+/// Full ellipse, counter-clockwise: the normals point inwards, so that inside is above.
+inline geometry::NurbsCurve ellipse(double a, double b) {
+  geometry::NurbsCurve curve = nurbs_circle(1);
+  for (Vec2& p : curve.control) p = p.cwiseProduct(Vec2(a, b));
+  return curve;
+}
+
+/// Of a circle in the plane z = 0 about the origin, at the angle t.
+inline geometry::CurveJet<3> circle_in_space(double radius, double t) {
+  geometry::CurveJet<3> j;
+  j.r = radius * Vec3(std::cos(t), std::sin(t), 0);
+  j.r1 = radius * Vec3(-std::sin(t), std::cos(t), 0);
+  j.r2 = -j.r;
+  return j;
+}
+
 inline geometry::NurbsCurve nurbs_wave(int degree, int points) {
   geometry::NurbsCurve curve;
   curve.degree = degree;

@@ -70,6 +70,19 @@ class Layers(Tree):
         self.write("src/osculate/core/a.hpp", '#include "b.hpp"\n#include "osculate/core/no.hpp"\n')
         self.assertEqual(len(self.problems()), 2)
 
+    def test_public_headers_stand_alone_and_are_not_for_the_layers(self):
+        self.write("src/osculate/core/a.hpp", "")
+        self.write("include/osculate/b.hpp", "#include <vector>\n")
+        self.write("include/osculate/c.hpp", '#include "osculate/b.hpp"\n')
+        self.assertEqual(self.problems(), [])
+        self.write("include/osculate/d.hpp", '#include "osculate/core/a.hpp"\n')
+        self.assertIn("no public header", self.problems()[0])
+        self.write("include/osculate/d.hpp", "#include <osculate/e.hpp>\n")
+        self.assertIn("no public header", self.problems()[0])
+        self.write("include/osculate/d.hpp", "")
+        self.write("src/osculate/core/a.hpp", '#include "osculate/b.hpp"\n')
+        self.assertIn("for other codes", self.problems()[0])
+
     def test_cmake_must_have_the_same_edges(self):
         self.write("src/osculate/CMakeLists.txt", CMAKE)
         self.assertEqual(check_layers.check_table(self.root, LAYERS), [])

@@ -1,8 +1,9 @@
 #include "targets.hpp"
 
 #include <cmath>
-#include <map>
 #include <numbers>
+
+#include "../../tests/support/sample_targets.hpp"
 
 namespace osculate::verification {
 namespace {
@@ -16,10 +17,8 @@ using projection::Target;
 constexpr double pi = std::numbers::pi;
 
 SampleTarget<2> polyline() {
-  FacetMesh<2> mesh;
-  mesh.nodes = {{0, 0}, {1, 0.3}, {2, -0.4}, {2.5, 1}, {1, 1.5}, {0.3, 0.8}};
-  for (Index k = 0; k < 5; ++k) mesh.facets.push_back({CellType::line2, {k, k + 1}});
-  return {"polyline", mesh, 40, false};
+  const std::vector<Vec2> points{{0, 0}, {1, 0.3}, {2, -0.4}, {2.5, 1}, {1, 1.5}, {0.3, 0.8}};
+  return {"polyline", testing::polyline(points), 40, false};
 }
 
 SampleTarget<2> quadratic_segment() {
@@ -53,54 +52,6 @@ SampleTarget<3> hyperbolic() {
   const double x[9] = {0, 1, 1, 0, 0.5, 1, 0.5, 0, 0.5}, y[9] = {0, 0, 1, 1, 0, 0.5, 1, 0.5, 0.5};
   for (int k = 0; k < 9; ++k) nodes.push_back({x[k], y[k], 0.5 * (x[k] * x[k] - y[k] * y[k])});
   return one_facet("hyperbolic surface", CellType::quad9, nodes);
-}
-
-/// Bicubic-biquadratic, 3 x 2 spans, with weights between 0.6 and 1.4.
-SampleTarget<3> nurbs_patch() {
-  geometry::NurbsPatch patch;
-  patch.degree = {3, 2};
-  patch.knots = {std::vector<double>{0, 0, 0, 0, 0.3, 0.6, 1, 1, 1, 1},
-                 std::vector<double>{0, 0, 0, 0.5, 1, 1, 1}};
-  patch.count = {6, 4};
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 4; ++j) {
-      const double a = std::sin(3.7 * i + 1.3 * j * j + 0.4), b = std::sin(2.1 * i * j + 5.1 * j);
-      patch.control.push_back({0.2 * i + 0.03 * b, j / 3.0 + 0.03 * a, 0.3 * a});
-      patch.weights.push_back(1 + 0.4 * b);
-    }
-  return {"NURBS patch", Shape<3>(patch), 30, false};
-}
-
-/// Triangles between points of the unit sphere (an octahedron cut n times).
-SampleTarget<3> sphere_mesh(int n) {
-  FacetMesh<3> mesh;
-  std::map<std::array<long, 3>, Index> known;
-  const auto node = [&](const Vec3& direction) {
-    const Vec3 p = direction.normalized();
-    const std::array<long, 3> key{std::lround(p[0] * 1e9), std::lround(p[1] * 1e9),
-                                  std::lround(p[2] * 1e9)};
-    const auto found = known.try_emplace(key, static_cast<Index>(mesh.nodes.size()));
-    if (found.second) mesh.nodes.push_back(p);
-    return found.first->second;
-  };
-  for (int octant = 0; octant < 8; ++octant) {
-    const double sx = (octant & 1) != 0 ? -1 : 1, sy = (octant & 2) != 0 ? -1 : 1,
-                 sz = (octant & 4) != 0 ? -1 : 1;
-    const bool turned = sx * sy * sz < 0;
-    const auto at = [&](int i, int j) {
-      const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n;
-      return node({sx * (1 - u - v), sy * u, sz * v});
-    };
-    const auto add = [&](Index a, Index b, Index c) {
-      mesh.facets.push_back({CellType::tri3, {a, turned ? c : b, turned ? b : c}});
-    };
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; i + j < n; ++j) {
-        add(at(i, j), at(i + 1, j), at(i, j + 1));
-        if (i + j + 1 < n) add(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
-      }
-  }
-  return {"sphere of tri3", mesh, 2, false};
 }
 
 SampleTarget<3> cylinder_mesh(int around, int along) {
@@ -156,8 +107,8 @@ std::vector<SampleTarget<3>> space_targets() {
       one_facet("quadratic triangle", CellType::tri6,
                 {{0, 0, 0}, {1, 0, 0}, {0.2, 1, 0.3}, {.5, -.1, .3}, {.7, .6, -.2}, {-.1, .5, .3}}),
       hyperbolic(),
-      nurbs_patch(),
-      sphere_mesh(6),
+      {"NURBS patch", Shape<3>(testing::wavy_patch()), 30, false},
+      {"sphere of tri3", testing::sphere_mesh(6), 2, false},
       cylinder_mesh(16, 6),
       torus_mesh(16, 8)};
 }

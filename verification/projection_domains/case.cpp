@@ -45,7 +45,7 @@ struct CubeCorner {
 
 void look_at_the_cube(CaseResult& out) {
   const CubeCorner cube;
-  const Composed<3> surface(unit_box());
+  const Composed<3> surface(testing::box(Vec3(1, 1, 1)));
   const Vec3 corner(0, 1, 1);  // the box 0..1 seen from this corner is the cube of Fig. 8
   std::mt19937 random(2008);
   std::uniform_real_distribution<double> number(-0.5, 0.5);
@@ -165,13 +165,7 @@ void look_at_figure_7(CaseResult& out) {
 
 /// A curved edge: circle of radius 2 (KSCPP, Fig. 9), local bound against the distance.
 void look_at_figure_9(CaseResult& out) {
-  const auto circle = [](double t) {
-    geometry::CurveJet<3> j;
-    j.r = 2 * Vec3(std::cos(t), std::sin(t), 0);
-    j.r1 = 2 * Vec3(-std::sin(t), std::cos(t), 0);
-    j.r2 = -j.r;
-    return j;
-  };
+  const auto circle = [](double t) { return testing::circle_in_space(2, t); };
   const geometry::CurveJet<3> j = circle(0.3);
   const geometry::SpaceCurveFrame f = space_curve_frame(j);
   for (const int degrees : {0, 60, 120}) {
@@ -308,7 +302,8 @@ void draw_the_cube(CaseResult& out) {
   options.samples = 400;
   options.length = 1.4;
   options.cells = 10;
-  const api::DomainReport r = api::survey_domain(Target<3>(unit_box()), "cube", options);
+  const api::DomainReport r =
+      api::survey_domain(Target<3>(testing::box(Vec3(1, 1, 1))), "cube", options);
   Drawing drawing{"cube_corner", {}};
   drawing.scene.title = "A cube: wedges of its edges and cones of its corners, cut off";
   drawing.scene.label = "edge 0, corner 1";

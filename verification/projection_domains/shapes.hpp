@@ -4,9 +4,13 @@
 #include <numbers>
 #include <vector>
 
-#include "osculate/projection/target.hpp"
+#include "../../tests/support/sample_curves.hpp"
+#include "../../tests/support/sample_targets.hpp"
 
 namespace osculate::verification {
+
+using testing::ellipse;
+using testing::polyline;
 
 /// Straight piece AB, arcs BC and CD of radius 1 bent to both sides.
 inline geometry::NurbsCurve figure_6() {
@@ -15,37 +19,6 @@ inline geometry::NurbsCurve figure_6() {
           {0, 0, 0, 1, 1, 2, 2, 3, 3, 3},
           {Vec2(-2, 0), Vec2(-1, 0), Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(1, 2), Vec2(2, 2)},
           {1, 1, 1, w, 1, w, 1}};
-}
-
-/// Full ellipse, counter-clockwise: the normals point inwards.
-inline geometry::NurbsCurve ellipse(double a, double b) {
-  const double w = std::numbers::sqrt2 / 2;
-  return {2,
-          {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4},
-          {Vec2(a, 0), Vec2(a, b), Vec2(0, b), Vec2(-a, b), Vec2(-a, 0), Vec2(-a, -b), Vec2(0, -b),
-           Vec2(a, -b), Vec2(a, 0)},
-          {1, w, 1, w, 1, w, 1, w, 1}};
-}
-
-inline projection::FacetMesh<2> polyline(const std::vector<Vec2>& points) {
-  projection::FacetMesh<2> mesh{points, {}};
-  for (Index i = 0; i + 1 < static_cast<Index>(points.size()); ++i)
-    mesh.facets.push_back({cell::CellType::line2, {i, i + 1}});
-  return mesh;
-}
-
-/// The box 0..1 with normals outwards.
-inline projection::FacetMesh<3> unit_box() {
-  projection::FacetMesh<3> mesh;
-  for (int k = 0; k < 8; ++k) mesh.nodes.emplace_back(k & 1, (k >> 1) & 1, k >> 2);
-  for (const auto& q : {std::array<Index, 4>{0, 2, 3, 1},
-                        {4, 5, 7, 6},
-                        {0, 1, 5, 4},
-                        {2, 6, 7, 3},
-                        {0, 4, 6, 2},
-                        {1, 3, 7, 5}})
-    mesh.facets.push_back({cell::CellType::quad4, {q[0], q[1], q[2], q[3]}});
-  return mesh;
 }
 
 /// Two plates 1 x 2 at the distance 0.4 that face each other, four facets each.

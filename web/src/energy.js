@@ -4,7 +4,8 @@ import { num } from './format.js';
 import { plot } from './plot.js';
 
 const held = ['kinetic', 'strain', 'contact'];
-const exchanged = ['external', 'friction', 'damping', 'numerical', 'residual'];
+const exchanged = ['external', 'friction', 'damping', 'plastic', 'numerical', 'residual'];
+const optional = ['plastic']; // of models with materials that dissipate
 
 /** Columns that the ledger shows. */
 export function isLedger(name) {
@@ -30,7 +31,8 @@ function pieces(elapsed, entries) {
  */
 export function ledger(history) {
   const elapsed = history?.column('elapsed');
-  const columns = new Map([...held, ...exchanged].map((name) => [name, history?.column(`energy.${name}`)]));
+  const names = [...held, ...exchanged].filter((name) => !optional.includes(name) || history?.column(`energy.${name}`));
+  const columns = new Map(names.map((name) => [name, history?.column(`energy.${name}`)]));
   if (!elapsed || [...columns.values()].some((c) => !c)) return null;
   const parts = pieces(elapsed, [...columns.values()]);
   const rows = parts.flatMap((part, k) => (k ? [-1, ...part] : part));
@@ -47,7 +49,7 @@ export function ledger(history) {
   const most = (list) => list.reduce((m, v) => (Math.abs(v) > m ? Math.abs(v) : m), 0);
   return {
     rows, x, curves, total,
-    largest: Math.max(most(total), ...[...held, ...exchanged.slice(0, 3)].map((name) => most(curves.get(name)))),
+    largest: Math.max(most(total), ...[...held, ...exchanged.slice(0, 4)].filter((name) => curves.has(name)).map((name) => most(curves.get(name)))),
     lost: parts.reduce((sum, part) => sum + columns.get('numerical')[part.at(-1)], 0),
     open: most(curves.get('residual')),
   };
@@ -69,8 +71,8 @@ export function energySection(history, picked, nameOf) {
   if (!found) return { section: null, follow: () => {} };
   const { rows, x, curves, total } = found;
   const grid = el('div', { class: 'grid' });
-  const moves = (name) => curves.get(name).some((v) => v);
-  const still = [...held, ...exchanged].filter((name) => !moves(name));
+  const moves = (name) => curves.get(name)?.some((v) => v);
+  const still = [...curves.keys()].filter((name) => !moves(name));
   const curve = (name) => ({ label: name, x, y: curves.get(name), dots: false, dashed: name === 'residual' });
   const groups = [
     ['Energy that the bodies hold', [...held.filter(moves).map(curve), { label: 'sum', x, y: total, dots: false, dashed: true }]],

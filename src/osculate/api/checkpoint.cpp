@@ -7,45 +7,13 @@
 #include <fstream>
 #include <map>
 
-#include "osculate/api/archive.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/io/chunk_file.hpp"
+#include "osculate/model/material_memory.hpp"
+#include "osculate/pairing/archive.hpp"
 
 // Members of all that is saved, each type taken apart into all of its members: one that is added to
-// a type stops the compiler here, and is to be named.
-namespace osculate::contact {
-template <class Archive, int Dim>
-void fields(Archive& a, PointHistory<Dim>& h) {
-  auto& [active, facet, feature, xi, gap, traction, slipping, slip, edge, flipped, slid, held, rest,
-         work, deepest, damping] = h;
-  a(active, facet, feature, xi, gap, traction, slipping, slip, edge, flipped, slid, held, rest,
-    work, deepest, damping);
-}
-template <class Archive, int Dim>
-void fields(Archive& a, Multiplier<Dim>& multiplier) {
-  auto& [normal, shear] = multiplier;
-  a(normal, shear);
-}
-}  // namespace osculate::contact
-
-namespace osculate::pairing {
-template <class Archive>
-void fields(Archive& a, MortarPlace& place) {
-  auto& [nodes, weights] = place;
-  a(nodes, weights);
-}
-template <class Archive, int Dim>
-void fields(Archive& a, PairState<Dim>& state) {
-  auto& [points, places, overlap] = state;
-  a(points, places, overlap);
-}
-template <class Archive, int Dim>
-void fields(Archive& a, PairMultipliers<Dim>& multipliers) {
-  auto& [points, stiffening, violation] = multipliers;
-  a(points, stiffening, violation);
-}
-}  // namespace osculate::pairing
-
+// a type stops the compiler here, and is to be named. (Those of contact: pairing/archive.hpp.)
 namespace osculate::body {
 template <class Archive, int Dim>
 void fields(Archive& a, RotationRates<Dim>& rates) {
@@ -125,7 +93,7 @@ void fields(Archive& a, StepPosition& position) {
   auto& [nominal, at, size, extrapolation, path, pace] = position;
   ExtrapolationMemory memory = extrapolation.memory();
   a(nominal, at, size, memory, path, pace);
-  if constexpr (std::is_same_v<Archive, api::Loader>)
+  if constexpr (std::is_same_v<Archive, core::Loader>)
     extrapolation = Extrapolation(std::move(memory));
 }
 }  // namespace osculate::solve
@@ -139,9 +107,9 @@ void fields(Archive& a, Progress& progress) {
 template <class Archive>
 void fields(Archive& a, Energies& energies) {
   auto& [kinetic, strain, contact, external, friction, damping, numerical, residual, start, before,
-         damped, elapsed] = energies;
+         damped, elapsed, plastic, plastic_before] = energies;
   a(kinetic, strain, contact, external, friction, damping, numerical, residual, start, before,
-    damped, elapsed);
+    damped, elapsed, plastic, plastic_before);
 }
 template <class Archive>
 void fields(Archive& a, StableStep& stable) {
@@ -156,8 +124,8 @@ void fields(Archive& a, Rates& rates) {
 }
 template <class Archive, int Dim>
 void fields(Archive& a, BasicState<Dim>& state) {
-  auto& [u, rigid, pairs, assumed, multipliers, fraction, rates] = state;
-  a(u, rigid, pairs, multipliers, fraction, rates);
+  auto& [u, rigid, pairs, assumed, multipliers, fraction, rates, memory] = state;
+  a(u, rigid, pairs, multipliers, fraction, rates, memory);
   (void)assumed;  // belongs to trials
 }
 }  // namespace osculate::model
@@ -165,8 +133,8 @@ void fields(Archive& a, BasicState<Dim>& state) {
 namespace osculate::model {
 template <class Archive>
 void fields(Archive& a, SmallStrain& found) {
-  auto& [section, strain, rotation] = found;
-  a(section, strain, rotation);
+  auto& [section, strain, rotation, logarithmic] = found;
+  a(section, strain, rotation, logarithmic);
 }
 template <class Archive>
 void fields(Archive& a, Locking& found) {
@@ -217,18 +185,18 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 7;
+constexpr int version = 8;
 
 template <class... T>
 std::string saved(const T&... values) {
-  Saver saver;
+  core::Saver saver;
   saver(values...);
   return saver.take();
 }
 
 template <class... T>
 void load(const io::Chunk& chunk, T&... values) {
-  Loader loader(chunk.bytes);
+  core::Loader loader(chunk.bytes);
   loader(values...);
   if (!loader.at_end()) throw core::InputError({}, "a checkpoint holds more than it should");
 }
@@ -377,7 +345,8 @@ void fit(const Checkpoint<Dim>& found, const model::BasicModel<Dim>& model,
   const bool fits = state.u.size() == Dim * static_cast<Eigen::Index>(model.reference.size()) &&
                     state.rigid.size() == model.rigid.size() &&
                     state.pairs.size() == model.pairs.size() &&
-                    state.multipliers.size() == model.pairs.size() && !found.entries.empty() &&
+                    state.multipliers.size() == model.pairs.size() &&
+                    state.memory.size() == model::memory_size(model) && !found.entries.empty() &&
                     (step < model.steps.size() || model.steps.empty());
   if (!fits) throw core::InputError({path, 0, ""}, "does not fit the model");
 }

@@ -248,10 +248,12 @@ template <int Dim>
 void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
                             const model::BasicState<Dim>& state, double time) {
   const model::BasicNodalFields<Dim> f = model::nodal_fields(system, built_.model, state);
-  const std::vector<io::Field> fields{
-      vector_field("U", f.displacement),  vector_field("RF", f.reaction),
-      tensor_field("S", f.stress),        tensor_field("E", f.strain),
-      io::scalar_field("Mises", f.mises), node_numbers_};
+  std::vector<io::Field> fields{vector_field("U", f.displacement), vector_field("RF", f.reaction),
+                                tensor_field("S", f.stress), tensor_field("E", f.strain),
+                                io::scalar_field("Mises", f.mises)};
+  for (const auto& [name, values] : f.memory)
+    fields.push_back(io::scalar_field(std::string(name), values));
+  fields.push_back(node_numbers_);
   const std::string bodies = fmt::format("bodies_{:05d}.vtu", frame_);
   io::write_vtu(listed(bodies),
                 {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},

@@ -10,8 +10,8 @@
 #include <mutex>
 #include <optional>
 
-#include "osculate/api/pieces.hpp"
 #include "osculate/core/error.hpp"
+#include "osculate/core/pieces.hpp"
 #include "osculate/deck/parse_surface.hpp"
 #include "osculate/io/atomic_file.hpp"
 #include "osculate/io/csv_records.hpp"
@@ -148,13 +148,14 @@ class Table {
                ProjectOutcome& outcome) {
     pieces_.resize((block.size() + piece - 1) / piece);
     std::atomic<bool> stopped{false};
-    for_pieces(block.size(), piece, options_.threads, [&](std::size_t begin, std::size_t end) {
-      if (options_.interrupted && options_.interrupted()) stopped = true;
-      if (stopped) return;
-      fill(block.subspan(begin, end - begin), outcome.points + static_cast<std::int64_t>(begin),
-           pieces_[begin / piece]);
-      progress.add(end - begin);
-    });
+    core::for_pieces(
+        block.size(), piece, options_.threads, [&](std::size_t begin, std::size_t end) {
+          if (options_.interrupted && options_.interrupted()) stopped = true;
+          if (stopped) return;
+          fill(block.subspan(begin, end - begin), outcome.points + static_cast<std::int64_t>(begin),
+               pieces_[begin / piece]);
+          progress.add(end - begin);
+        });
     if (stopped) return false;
     for (const Piece& p : pieces_) {
       output.write(p.rows);

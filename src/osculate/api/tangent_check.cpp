@@ -83,14 +83,22 @@ struct Probe {
     return 32 * std::numeric_limits<double>::epsilon() * largest / size;
   }
 
-  /// Facet and feature of every point in the last evaluation.
-  [[nodiscard]] std::vector<std::pair<Index, projection::Feature>> places() const {
-    std::vector<std::pair<Index, projection::Feature>> out;
+  /// Facet and feature of every point in the last evaluation, and which material points flow.
+  struct Branches {
+    std::vector<std::pair<Index, projection::Feature>> places;
+    std::vector<bool> flowing;
+    bool operator==(const Branches&) const = default;
+  };
+  [[nodiscard]] Branches branches() const {
+    Branches branches;
+    auto& [out, flowing] = branches;
+    const std::vector<double>& next = system.material_memory();
+    for (std::size_t i = 0; i < next.size(); ++i) flowing.push_back(next[i] != committed.memory[i]);
     for (const auto& pair : system.contact())
       for (const auto& point : pair.points)
         if (point.status != contact::Status::open)
           out.emplace_back(point.history.facet, point.history.feature);
-    return out;
+    return branches;
   }
 };
 
@@ -158,7 +166,7 @@ TangentRow check_part(Probe<Dim>& probe, const std::string& part) {
     return row;
   }
   const la::SparseMatrix k = probe.system.matrix();
-  const auto places = probe.places();
+  const auto branches = probe.branches();
   double h = 1e-3;
   for (int attempt = 0; attempt < 12; ++attempt, h *= 0.25) {
     const Eigen::VectorXd d = probe.random(probe.size);
@@ -167,9 +175,9 @@ TangentRow check_part(Probe<Dim>& probe, const std::string& part) {
       if (probe.system.prescribed(static_cast<Index>(i))) df[i] = 0;
     const auto error = [&](double step, bool& same) {
       const solve::Evaluation plus = probe.at(probe.moved(d, step), false);
-      same = same && probe.places() == places;
+      same = same && probe.branches() == branches;
       const solve::Evaluation minus = probe.at(probe.moved(d, -step), false);
-      same = same && probe.places() == places;
+      same = same && probe.branches() == branches;
       same = same && plus.ok && minus.ok && plus.counts.signature == here.counts.signature &&
              minus.counts.signature == here.counts.signature;
       if (!plus.ok || !minus.ok) return 0.0;

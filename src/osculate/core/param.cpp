@@ -16,6 +16,16 @@ std::string describe(const Range& range, std::string_view name) {
   return fmt::format("{} is any number", name);
 }
 
+std::string bounds(const Range& range) {
+  const bool low = std::isfinite(range.lower), high = std::isfinite(range.upper);
+  if (!low && !high) return "finite";
+  std::string text;
+  if (low) text = fmt::format(">{} {}", range.with_lower ? "=" : "", range.lower);
+  if (low && high) text += " and ";
+  if (high) text += fmt::format("<{} {}", range.with_upper ? "=" : "", range.upper);
+  return text;
+}
+
 std::string out_of_range(std::string_view name, double value, const Range& range) {
   return fmt::format("{} = {}, but {} is needed", name, value, describe(range, name));
 }

@@ -1,5 +1,7 @@
 #include "osculate/core/text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -57,6 +59,11 @@ std::string join(std::span<const std::string> words, std::string_view separator,
     text += words[i];
   }
   return text;
+}
+
+std::string join_with(std::span<const std::string> words, std::string_view last) {
+  if (words.size() < 2) return join(words);
+  return fmt::format("{} {} {}", join(words.first(words.size() - 1)), last, words.back());
 }
 
 std::string unknown_name_message(std::string_view what, std::string_view name,

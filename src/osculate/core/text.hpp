@@ -18,5 +18,7 @@ namespace osculate::core {
 /// `a, b, c` (at most `most` of them, then `, ...`).
 [[nodiscard]] std::string join(std::span<const std::string> words,
                                std::string_view separator = ", ", std::size_t most = 20);
+/// `a, b and c`, with the last word in place of `and`.
+[[nodiscard]] std::string join_with(std::span<const std::string> words, std::string_view last);
 
 }  // namespace osculate::core

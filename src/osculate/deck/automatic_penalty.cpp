@@ -11,9 +11,6 @@
 namespace osculate::deck {
 namespace {
 
-/// Two layers behind each other give way one after the other; a rigid one does not.
-double in_series(double a, double b) { return a > 0 && b > 0 ? a * b / (a + b) : a + b; }
-
 /// Area that belongs to one slave point: what a penalty per area becomes per node.
 template <int Dim>
 double area_per_point(const BuildContext<Dim>& c, const pairing::PairDefinition<Dim>& pair,
@@ -109,12 +106,6 @@ void set_points(BuildContext<Dim>& c, const BothSides& sides, bool normal, bool 
 
 }  // namespace
 
-double own_share(double ratio) {
-  if (ratio > usual_spread) return ratio / usual_spread;
-  if (ratio < 1 / usual_spread) return ratio * usual_spread;
-  return 1;
-}
-
 template <int Dim>
 void set_automatic(BuildContext<Dim>& c, const Contact& contact,
                    model::BasicContactPair<Dim>& out) {
@@ -123,12 +114,12 @@ void set_automatic(BuildContext<Dim>& c, const Contact& contact,
   const Layer &slave = sides.slave, &master = sides.master;
   out.height = slave.size > 0 && master.size > 0 ? std::min(slave.size, master.size)
                                                  : slave.size + master.size;
-  out.automatic = contact.automatic;
+  const GivenLaw<contact::NormalLaw>& law = contact.normal.law;
+  out.automatic = law.automatic;
   const bool shear = contact.friction && contact.friction->automatic;
-  set_points(c, sides, contact.automatic, shear, out);
-  if (!contact.automatic && !shear) return;
-  const core::SourceMark& mark =
-      contact.automatic ? contact.normal_penalty.mark : contact.friction->penalty.mark;
+  set_points(c, sides, law.automatic, shear, out);
+  if (!law.automatic && !shear) return;
+  const core::SourceMark& mark = law.automatic ? law.stiffness : contact.friction->stiffness;
   const double normal = in_series(slave.normal, master.normal);
   if (!(normal > 0))
     throw core::InputError(
@@ -136,7 +127,8 @@ void set_automatic(BuildContext<Dim>& c, const Contact& contact,
         fmt::format("'auto' finds no deformable cell behind the facets of '{}': give a number",
                     out.name));
   const double per = pair.weight == pairing::Weight::node ? area_per_point(c, pair, mark) : 1.0;
-  if (contact.automatic) pair.normal = contact::penalty(automatic_factor * normal * per);
+  if (law.automatic)
+    pair.normal = contact::with_stiffness(pair.normal, automatic_factor * normal * per);
   if (shear)
     pair.friction = contact::with_stiffness(
         *pair.friction, automatic_factor * in_series(slave.shear, master.shear) * per);

@@ -125,8 +125,8 @@ void build_history(BuildContext<Dim>& c) {
   for (std::size_t i = 0; i < columns.size(); ++i) {
     model::HistoryRequest out;
     out.name = columns[i];
-    const bool of_energy = i > 0 && i <= model::energy_quantities.size();
-    out.quantity = of_energy ? model::energy_quantities[i - 1] : columns[i];
+    constexpr std::string_view of_energy = "energy.";
+    out.quantity = columns[i].substr(columns[i].starts_with(of_energy) ? of_energy.size() : 0);
     out.kind = model::HistoryRequest::Kind::whole;
     c.built.history.push_back(std::move(out));
   }

@@ -6,8 +6,12 @@
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
+#include "osculate/pairing/combinations.hpp"
 
 namespace osculate::deck {
+
+using pairing::Trait;
+using pairing::why_not;
 
 template <int Dim>
 std::vector<Side<Dim>> oriented_facets(const BuildContext<Dim>& c, const Name& on) {
@@ -269,14 +273,11 @@ void check_pair(const BuildContext<Dim>& c, const Contact& contact,
 void set_edges(BuildContext<2>&, const Contact&, pairing::PairDefinition<2>&) {}
 void set_edges(BuildContext<3>&, const Contact& contact, pairing::PairDefinition<3>& pair) {
   if (!contact.edges) return;
-  if (pair.scope.own) {  // the edges of one facet cross at its corners
-    if (contact.all) return;
-    throw core::InputError(contact.edges->mark, "the edges of a surface do not touch each other");
-  }
+  if (pair.scope.own) return;  // the edges of one facet cross at its corners
   if (pair.slave.boundary.facets.empty())
     throw core::InputError(contact.edges->mark,
-                           fmt::format("the slave '{}' is a set of points: only facets have edges",
-                                       contact.slave.value));
+                           fmt::format("the slave '{}' is a set of points: {}", contact.slave.value,
+                                       why_not(Trait::edges, Trait::points_only)));
   pair.edges.on = true;
   pair.edges.angle = contact.edges->value * std::numbers::pi / 180;
 }
@@ -296,30 +297,6 @@ void warn_of_smooth(BuildContext<3>& c, const Contact& contact,
   if (pair.edges.slave.empty()) warn("slave", contact.slave);
 }
 
-double edge_length_sum(const pairing::Chain& chain, const std::vector<Vec2>& x, int& count) {
-  double sum = 0;
-  for (const pairing::Facet& f : chain.facets) {
-    if (f.shape) continue;
-    sum +=
-        (x[static_cast<std::size_t>(f.nodes[1])] - x[static_cast<std::size_t>(f.nodes[0])]).norm();
-    ++count;
-  }
-  return sum;
-}
-
-double edge_length_sum(const pairing::FacetSurface& surface, const std::vector<Vec3>& x,
-                       int& count) {
-  double sum = 0;
-  for (const pairing::SurfaceFacet& f : surface.facets)
-    for (int e = 0; e < pairing::edge_count(f); ++e, ++count) {
-      const std::array<int, 2> ends = pairing::edge_corners(f, e);
-      sum += (x[static_cast<std::size_t>(f.nodes[static_cast<std::size_t>(ends[1])])] -
-              x[static_cast<std::size_t>(f.nodes[static_cast<std::size_t>(ends[0])])])
-                 .norm();
-    }
-  return sum;
-}
-
 /// Master and slave are one set: every node of it may touch every facet that is not its own.
 template <int Dim>
 void set_own_surface(const BuildContext<Dim>& c, pairing::PairDefinition<Dim>& pair) {
@@ -330,26 +307,14 @@ void set_own_surface(const BuildContext<Dim>& c, pairing::PairDefinition<Dim>& p
 
 }  // namespace
 
+/// Corners of rigid curves are there on purpose, however blunt; those of meshes may be their way to
+/// be round.
 template <int Dim>
-double mean_size(const pairing::Boundary<Dim>& boundary, const std::vector<Vec<Dim>>& reference) {
-  int count = 0;
-  const double sum = edge_length_sum(boundary, reference, count);
-  return count ? sum / count : 0.0;
-}
-
-/// Concave corners of a rigid master in the plane hold points whose tractions are unknowns. (Those
-/// of a meshed one belong to its mesh, and between thick sides or where overlaps do not count the
-/// corner is elsewhere.)
-void set_valleys(const BuildContext<2>& c, const Contact& contact,
-                 pairing::PairDefinition<2>& pair) {
+void set_valley_angle(const BuildContext<Dim>& c, const Contact& contact,
+                      pairing::PairDefinition<Dim>& pair) {
   const Rigid* const rigid = rigid_of(c, contact.master);
-  if (!rigid || std::holds_alternative<SetShape>(rigid->shape)) return;
-  pair.valleys = pair.enforcement == contact::Enforcement::lagrange_multiplier && !pair.mortar &&
-                 pair.separation == pairing::Separation::allowed && pair.offset == 0 &&
-                 pair.overlap == pairing::InitialOverlap::acts &&
-                 pairing::has_valley(pair.master, c.model().reference);
+  if (rigid && !rigid->meshed()) pair.valley_angle = 0;
 }
-void set_valleys(const BuildContext<3>&, const Contact&, pairing::PairDefinition<3>&) {}
 
 template <int Dim>
 void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMark& mark,
@@ -359,7 +324,7 @@ void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMa
   set_augmentation(c, contact, pair);
   set_edges(c, contact, pair);
   set_laws(c, contact, pair);
-  set_valleys(c, contact, pair);
+  set_valley_angle(c, contact, pair);
   pair.area = area_rule(c, pair);
   try {
     pairing::prepare(pair, c.model().reference);
@@ -380,11 +345,9 @@ void add_sampled(BuildContext<Dim>& c, const Contact& contact, model::BasicConta
   out.definition.mortar = contact.sampling.value.rule == SamplingRule::mortar;
   for (const auto& facet : out.definition.master.facets)
     if (out.definition.mortar && facet.shape)
-      throw core::InputError(
-          contact.sampling.mark,
-          fmt::format("'{}' is an analytic shape: mortar takes sides with nodes, and other "
-                      "samplings any master",
-                      contact.master.value));
+      throw core::InputError(contact.sampling.mark,
+                             fmt::format("'{}' is an analytic shape: {}", contact.master.value,
+                                         why_not(Trait::mortar, Trait::analytic_master)));
   set_points(c, contact, out.definition);
   add_pair(c, contact, contact.slave.mark, std::move(out));
 }
@@ -396,13 +359,12 @@ model::BasicContactPair<Dim> reversed(const Contact& contact,
   for (const auto& facet : first.definition.master.facets)
     if (facet.shape)
       throw core::InputError(*contact.two_pass,
-                             fmt::format("'{}' is an analytic shape, which has no points to be a "
-                                         "slave",
-                                         contact.master.value));
+                             fmt::format("'{}' is an analytic shape: {}", contact.master.value,
+                                         why_not(Trait::two_pass, Trait::analytic_master)));
   if (first.definition.slave.boundary.facets.empty())
-    throw core::InputError(
-        *contact.two_pass,
-        fmt::format("'{}' is a set of points, which cannot be master", contact.slave.value));
+    throw core::InputError(*contact.two_pass,
+                           fmt::format("'{}' is a set of points: {}", contact.slave.value,
+                                       why_not(Trait::two_pass, Trait::points_only)));
   model::BasicContactPair<Dim> out;
   out.name = first.name + ".reversed";
   out.group = first.name;
@@ -448,8 +410,6 @@ void build_contact(BuildContext<Dim>& c) {
   }
 }
 
-template double mean_size<2>(const pairing::Chain&, const std::vector<Vec2>&);
-template double mean_size<3>(const pairing::FacetSurface&, const std::vector<Vec3>&);
 template void add_pair(BuildContext<2>&, const Contact&, const core::SourceMark&,
                        model::ContactPair);
 template void add_pair(BuildContext<3>&, const Contact&, const core::SourceMark&,

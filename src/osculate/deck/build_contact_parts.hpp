@@ -1,6 +1,8 @@
 #pragma once
 // Shared by build_contact.cpp and build_contact_all.cpp; not for users.
 #include "osculate/deck/build_context.hpp"
+#include "osculate/pairing/automatic_stiffness.hpp"
+#include "osculate/pairing/facet_size.hpp"
 
 namespace osculate::deck {
 
@@ -63,29 +65,19 @@ void note_tied(BuildContext<Dim>& c, const Contact& contact,
 /// Mean length of the facets' edges in the reference configuration, 0 without facets.
 template <int Dim>
 [[nodiscard]] double mean_size(const pairing::Boundary<Dim>& boundary,
-                               const std::vector<Vec<Dim>>& reference);
+                               const std::vector<Vec<Dim>>& reference) {
+  return pairing::mean_facet_size(boundary, reference);
+}
 
-/// How far a node looks round, in mean facet sizes, where everything may touch everything.
-inline constexpr double reach_in_facets = 8;
+using pairing::reach_in_facets;
 
 /// The pairs that `contact: {all: ...}` stands for.
 template <int Dim>
 void build_contact_all(BuildContext<Dim>& c, const Contact& contact);
 
-/// A penalty is this many times the stiffness of the cells behind the contact
-/// (docs/decisions/020).
-inline constexpr double automatic_factor = 10;
-
-/// Points whose stiffness differs from the pair's by less than this factor have the pair's:
-/// surfaces of nearly equal cells transmit a uniform pressure exactly (docs/decisions/020).
-inline constexpr double usual_spread = 3;
-
-/// What the penalty of a pair is multiplied by at a point, where the stiffness behind the point is
-/// `ratio` times the mean. Continuous; within a factor of `usual_spread` of the ratio.
-///
-/// Formula    ratio / s for ratio > s ,  s ratio for ratio < 1 / s ,  else 1 ;  s = usual_spread
-/// Tested by  tests/unit/deck/test_point_penalties.cpp
-[[nodiscard]] double own_share(double ratio);
+using pairing::automatic_factor;
+using pairing::in_series;
+using pairing::own_share;
 
 /// The stiffnesses that are left to the program, from the cells behind both sides, and the height
 /// of these cells; for the pair, and for each of its points.

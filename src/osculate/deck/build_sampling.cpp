@@ -40,7 +40,7 @@ bool needs_nodes(const BuildContext<Dim>& c, const Contact& contact) {
   const auto is_explicit = [](const Step& step) {
     return step.dynamics && step.dynamics->scheme == SchemeWord::central_differences;
   };
-  return !contact.automatic || contact.edges || contact.two_pass ||
+  return !contact.normal.law.automatic || contact.edges || contact.two_pass ||
          contact.weight.value == ContactWeight::node ||
          contact.enforcement.value.kind != EnforcementWord::penalty ||
          std::ranges::any_of(c.description.steps, is_explicit);

@@ -23,10 +23,20 @@ solid::Assumption assumption_of(SectionElement element) {
   }
 }
 
-/// What `auto` stands for (decision 037): enhanced strains lock nowhere, but are unstable in the
-/// large compression that some laws are made for; in plane stress there is no B-bar.
+/// The law in the strains of a section.
+material::Law law_of(const Section& s, const Material& material) {
+  return s.kinematics.value == Kinematics::finite
+             ? material::in_logarithmic_strain(material.law.value)
+             : material.law.value;
+}
+
+/// What `auto` stands for (decisions 037, 043): enhanced strains lock nowhere, but are unstable in
+/// the large compression that some laws are made for, and take many iterations where a material
+/// flows without hardening; in plane stress there is no B-bar.
 Formulation best_formulation(const Section& s, const Material& material) {
-  if (!material::large_strain(material.law.value)) return Formulation::enhanced;
+  const material::Law law = law_of(s, material);
+  if (!material::large_strain(law) && material::memory_of(law).empty())
+    return Formulation::enhanced;
   return s.element.value == SectionElement::plane_stress ? Formulation::full : Formulation::bbar;
 }
 
@@ -53,7 +63,7 @@ solid::Section make_solid_section<2>(const Section& s, const Material& material)
   out.kinematics = solid_kinematics(s.kinematics.value);
   out.formulation = formulation_of<solid::Formulation>(s, material);
   out.thickness = s.thickness.value;
-  out.law = material.law.value;
+  out.law = law_of(s, material);
   return out;
 }
 
@@ -64,7 +74,7 @@ solid::VolumeSection make_solid_section<3>(const Section& s, const Material& mat
   out.formulation = s.element.value == SectionElement::solid_shell
                         ? solid::VolumeFormulation::solid_shell
                         : formulation_of<solid::VolumeFormulation>(s, material);
-  out.law = material.law.value;
+  out.law = law_of(s, material);
   return out;
 }
 

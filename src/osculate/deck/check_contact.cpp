@@ -1,89 +1,63 @@
-// Which choices on the axes of a contact pair go together.
+// Which choices on the axes of a contact pair go together: pairing/combinations.hpp has the table.
 #include "osculate/deck/build_contact_parts.hpp"
+#include "osculate/pairing/combinations.hpp"
 
 namespace osculate::deck {
 namespace {
 
-/// What mortar integration has no choice of.
-void check_mortar(const Contact& contact) {
-  if (contact.sampling.value.rule != SamplingRule::mortar) return;
-  const auto refuse = [](const core::SourceMark& mark, const char* why) {
-    throw core::InputError(mark, why);
-  };
-  if (contact.two_pass)
-    refuse(*contact.two_pass, "mortar treats both sides in one pass: leave out two_pass");
-  if (contact.weight.value == ContactWeight::node)
-    refuse(contact.weight.mark, "mortar integrates over areas: use reference_area or current_area");
-  if (contact.residual.value == Residual::full)
-    refuse(contact.residual.mark, "mortar has its own form of the forces: use surface");
-  if (contact.tangent.value.kind != TangentKind::consistent)
-    refuse(contact.tangent.mark, "mortar has the consistent tangent only");
-  if (contact.history.value != HistoryKind::continuous)
-    refuse(contact.history.mark, "mortar has its own history, without borders: use continuous");
-  if (contact.smoothing.value.kind != SmoothingWord::none)
-    refuse(contact.smoothing.mark, "mortar integrates over the facets of the mesh: use none");
-  if (contact.initial.value == InitialWord::ramp || contact.initial.value == InitialWord::keep)
-    refuse(contact.initial.mark, "mortar knows initial overlaps only as they are: use adjust");
-}
+using pairing::Trait;
 
-/// What goes with corrected or unknown tractions.
-void check_enforcement(const Contact& contact, bool own) {
-  const EnforcementWord kind = contact.enforcement.value.kind;
-  const auto refuse = [](const core::SourceMark& mark, const char* why) {
-    throw core::InputError(mark, why);
-  };
-  if (kind == EnforcementWord::penalty) return;
-  if (contact.normal.law.value != NormalWord::penalty)
-    refuse(contact.enforcement.mark,
-           "a law that gives the pressure as a function of the gap is met by itself: use penalty");
-  if (contact.normal.viscous || contact.normal.restitution)
-    refuse(contact.enforcement.mark,
-           "damping is a part of the spring that a penalty is, and corrected or unknown tractions "
-           "have none: use penalty, or leave out damping");
-  if (contact.normal.separation.value == SeparationWord::tied)
-    refuse(contact.enforcement.mark, "tied points are held by penalty only");
-  if (contact.edges && !contact.all)
-    refuse(contact.enforcement.mark,
-           "crossings of edges come and go: they are enforced by penalty only");
-  if (kind != EnforcementWord::lagrange_multiplier) return;
-  const SamplingRule rule = contact.sampling.value.rule;
-  if (own || contact.two_pass)
-    refuse(contact.enforcement.mark,
-           "with both sides as slaves there are more unknown tractions than nodes that could "
-           "carry them: use penalty or augmented_lagrange");
-  if (rule == SamplingRule::gauss || rule == SamplingRule::lobatto)
-    refuse(contact.enforcement.mark,
-           "facets have more quadrature points than nodes, so their tractions cannot all be "
-           "unknown: use sampling: nodes or mortar, or augmented_lagrange");
-  if (contact.residual.value == Residual::full)
-    refuse(contact.residual.mark,
-           "unknown tractions have the form surface only: without "
-           "penetration there is no other");
-  if (contact.tangent.value.kind != TangentKind::consistent)
-    refuse(contact.tangent.mark, "unknown tractions have the consistent tangent only");
+/// What a pair has, and the key that says so. The traits of its sides are not known yet.
+struct Asked {
+  Trait trait;
+  bool there;
+  const core::SourceMark* mark;
+};
+
+std::vector<Asked> asked_of(const Contact& c) {
+  const NormalDescription& n = c.normal;
+  const EnforcementWord enforcement = c.enforcement.value.kind;
+  const SamplingRule rule = c.sampling.value.rule;
+  const SeparationWord separation = n.separation.value;
+  const bool tied = separation == SeparationWord::tied;
+  const core::SourceMark* const edges = c.edges ? &c.edges->mark : &c.name.mark;
+  return {
+      {Trait::own_surface, c.all || c.master.value == c.slave.value, &c.name.mark},
+      {Trait::two_pass, c.two_pass.has_value(), c.two_pass ? &*c.two_pass : &c.name.mark},
+      {Trait::quadrature, rule == SamplingRule::gauss || rule == SamplingRule::lobatto,
+       &c.sampling.mark},
+      {Trait::mortar, rule == SamplingRule::mortar, &c.sampling.mark},
+      {Trait::edges, c.edges.has_value(), edges},
+      {Trait::named_edges, c.edges && !c.all, edges},
+      {Trait::smoothed_master, c.smoothing.value.kind != SmoothingWord::none, &c.smoothing.mark},
+      {Trait::gap_law, !contact::augmentable(n.law.law), &c.name.mark},
+      {Trait::damping, n.damping.has_value(), &c.name.mark},
+      {Trait::held, separation != SeparationWord::allowed, &n.separation.mark},
+      {Trait::held_from_start, tied || separation == SeparationWord::tied_normal,
+       &n.separation.mark},
+      {Trait::tied, tied, &n.separation.mark},
+      {Trait::shifted_overlap,
+       c.initial.value == InitialWord::ramp || c.initial.value == InitialWord::keep,
+       &c.initial.mark},
+      {Trait::corrected, enforcement != EnforcementWord::penalty, &c.enforcement.mark},
+      {Trait::multipliers, enforcement == EnforcementWord::lagrange_multiplier,
+       &c.enforcement.mark},
+      {Trait::nodal_weight, c.weight.value == ContactWeight::node, &c.weight.mark},
+      {Trait::full_residual, c.residual.value == Residual::full, &c.residual.mark},
+      {Trait::covariant_tangent, c.tangent.value.kind != TangentKind::consistent, &c.tangent.mark},
+      {Trait::printed_history, c.history.value != HistoryKind::continuous, &c.history.mark}};
 }
 
 }  // namespace
 
 void check_axes(const Contact& contact) {
-  const bool own = contact.all || contact.master.value == contact.slave.value;
-  const SamplingRule rule = contact.sampling.value.rule;
-  if (rule != SamplingRule::nodes && rule != SamplingRule::automatic) {
-    if (own)
-      throw core::InputError(contact.sampling.mark,
-                             "contact of a surface with itself is sampled at nodes only");
-    if (contact.edges)
-      throw core::InputError(contact.sampling.mark,
-                             "contact of edges goes with sampling: nodes only");
-  }
-  check_mortar(contact);
-  check_enforcement(contact, own);
-  if (!contact.two_pass) return;
-  if (own)
-    throw core::InputError(*contact.two_pass,
-                           "contact of a surface with itself has two passes already");
-  if (contact.edges)
-    throw core::InputError(*contact.two_pass, "crossings of edges have no second pass");
+  pairing::Traits traits;
+  const std::vector<Asked> asked = asked_of(contact);
+  for (const Asked& a : asked) traits.add(a.trait, a.there);
+  const pairing::Refusal* const no = pairing::refusal(traits);
+  if (!no) return;
+  for (const Asked& a : asked)
+    if (a.trait == no->told_at) throw core::InputError(*a.mark, std::string(no->why));
 }
 
 }  // namespace osculate::deck

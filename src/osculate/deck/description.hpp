@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "osculate/cell/cell_type.hpp"
+#include "osculate/contact/law/law.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/core/types.hpp"
 #include "osculate/deck/parameters.hpp"
@@ -218,40 +219,33 @@ struct Sampling {
   int points = 0, subdomains = 1;
 };
 
-enum class NormalWord { penalty, exponential, table };
 enum class SeparationWord { allowed, no_separation, tied_normal, tied };
 enum class InitialGap { keep, close };
-enum class FrictionWord { coulomb, tresca, rough };
 
-/// Of the law in the normal direction what is not the penalty.
+/// A law of contact::Law and where what is asked of it later stands.
+template <class Law>
+struct GivenLaw {
+  Law law;
+  bool automatic = false;                 ///< its stiffness, from that of the bodies
+  core::SourceMark stiffness;             ///< where that is said
+  std::optional<core::SourceMark> timed;  ///< of a parameter that needs durations of the steps
+};
+
 struct NormalDescription {
-  Marked<NormalWord> law;
-  Number pressure, clearance;                  ///< exponential
-  std::vector<std::array<double, 2>> table;    ///< overclosure, pressure
-  std::optional<Number> viscous, restitution;  ///< damping: at most one of them
+  GivenLaw<contact::NormalLaw> law;
+  std::optional<GivenLaw<contact::DampingLaw>> damping;
   Marked<SeparationWord> separation;
   std::optional<Number> tolerance;
   Marked<InitialGap> initial_gap;
-};
-
-/// A law of friction; which members mean something depends on the law.
-struct CoulombFriction {
-  Number mu, penalty;
-  FrictionWord law = FrictionWord::coulomb;
-  std::optional<Number> kinetic, distance, speed, cap;
-  Number limit;            ///< tresca
-  bool automatic = false;  ///< the penalty, from the stiffness of the bodies
 };
 
 struct Contact {
   Name name;
   Name master, slave;  ///< name of a rigid body if there is one, else of a set
   Marked<Sampling> sampling;
-  Number normal_penalty;
   NormalDescription normal;
-  double offset = 0;       ///< of both sides together
-  bool automatic = false;  ///< the normal penalty, from the stiffness of the bodies
-  std::optional<CoulombFriction> friction;
+  double offset = 0;  ///< of both sides together
+  std::optional<GivenLaw<contact::FrictionLaw>> friction;
   Marked<Enforcement> enforcement;
   Marked<ContactWeight> weight;
   Marked<Residual> residual;
@@ -306,26 +300,20 @@ struct Equal {
   Component of = Component::ux;
 };
 
-/// Values at the end of the step, indexed by Component; absent ones are not touched.
-struct Prescription {
-  core::SourceMark mark;
-  Name on;
-  std::array<std::optional<Number>, component_count> values;
-  std::optional<Name> amplitude;
-};
-struct Release {
-  core::SourceMark mark;
-  Name on;
-  std::array<bool, component_count> of{};
-};
-/// A load on a set; how many of `values` are used depends on the kind of load: forces fx fy fz mx
-/// my mz (like Component), pressure p, traction tx ty tz, body force fx fy fz. Absent ones are not
-/// touched.
+/// A load or motion of a set at the end of the step; how many of `values` are used depends on the
+/// kind: motions and forces fx fy fz mx my mz are indexed by Component, pressure p, traction tx ty
+/// tz, body force fx fy fz. Absent ones are not touched.
 struct Load {
   core::SourceMark mark;
   Name on;
   std::array<std::optional<Number>, component_count> values;
   std::optional<Name> amplitude;
+};
+using Prescription = Load;
+struct Release {
+  core::SourceMark mark;
+  Name on;
+  std::array<bool, component_count> of{};
 };
 
 enum class SchemeWord { newmark, hht, generalized_alpha, central_differences };

@@ -66,14 +66,13 @@ Spec materials_spec() {
     keys.emplace_back(T::key);
     laws.push_back(optional(keys.back(), params_spec<T>(std::string(T::doc))));
   });
-  const Spec law =
-      map("A material: exactly one law.", std::move(laws))
-          .with(Group::Rule::exactly_one, keys)
-          .or_else(fmt::format(
-              "; a material is NAME: {{LAW: {{E: ..., nu: ...}}}} with one of the elastic laws {}; "
-              "plasticity and others are not available (osculate doc limits)",
-              fmt::join(keys, ", ")))
-          .such_as("{linear_elastic: {E: 2.1e5, nu: 0.3}}");
+  const Spec law = map("A material: exactly one law.", std::move(laws))
+                       .with(Group::Rule::exactly_one, keys)
+                       .or_else(fmt::format("; a material is NAME: {{LAW: {{E: ..., nu: ...}}}} "
+                                            "with one of the laws {}; others are "
+                                            "not available (osculate doc limits)",
+                                            fmt::join(keys, ", ")))
+                       .such_as("{linear_elastic: {E: 2.1e5, nu: 0.3}}");
   return names("The materials, by name.", law)
       .otherwise("{}")
       .such_as("{steel: {linear_elastic: {E: 2.1e5, nu: 0.3}}}");
@@ -100,15 +99,17 @@ Spec sections_spec() {
       choice("How strains are measured.",
              {word("small", Kinematics::small, "linear in the displacements"),
               word("finite", Kinematics::finite, "exact for any displacement and rotation")})
-          .otherwise_as("small for linear_elastic, finite for the other materials")
+          .otherwise_as(
+              "small for linear_elastic and elastoplastic, finite for the other materials")
           .such_as("finite");
   const Spec formulation =
       choice(
           "How first-order quadrilaterals and hexahedra avoid locking; all other cells are plain "
           "displacement elements.",
           {word("auto", Formulation::automatic,
-                "enhanced; of neo_hooke, where enhanced strains are unstable in large "
-                "compression, bbar, in plane stress full"),
+                "enhanced; of neo_hooke, where enhanced strains are unstable in large compression, "
+                "and of elastoplastic, where they hardly converge without hardening, bbar, in "
+                "plane stress full"),
            word("full", Formulation::full,
                 "plain displacement element, full integration: too stiff in bending and near "
                 "nu = 0.5 (CalculiX' C3D8, Abaqus' CPS4; Abaqus' C3D8 is bbar)"),

@@ -18,6 +18,10 @@ namespace osculate::deck {
 [[nodiscard]] Spec sections_spec();
 [[nodiscard]] Spec rigid_spec();
 [[nodiscard]] Spec contact_spec();
+/// One key a law of the catalogue.
+[[nodiscard]] std::vector<Key> normal_law_keys();
+[[nodiscard]] std::vector<Key> friction_law_keys();
+[[nodiscard]] std::vector<Key> damping_law_keys();
 [[nodiscard]] Spec amplitudes_spec();
 [[nodiscard]] Spec equations_spec();
 [[nodiscard]] Spec equal_spec();
@@ -28,8 +32,9 @@ namespace osculate::deck {
 [[nodiscard]] Spec solver_spec();
 [[nodiscard]] Spec output_spec();
 
-/// The shapes that need no mesh: those of the plane, then those of space.
-[[nodiscard]] std::vector<Key> shape_keys();
+/// The shapes that need no mesh: those of the plane, then those of space; composite ones are for
+/// rigid bodies.
+[[nodiscard]] std::vector<Key> shape_keys(bool with_composite);
 /// Two coordinates.
 [[nodiscard]] Spec point_spec(std::string doc);
 /// Three coordinates.

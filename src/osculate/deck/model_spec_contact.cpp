@@ -1,10 +1,12 @@
-#include "osculate/deck/description.hpp"
+#include <fmt/format.h>
+
+#include "osculate/core/text.hpp"
+#include "osculate/deck/bind.hpp"
 #include "osculate/deck/model_spec.hpp"
+#include "osculate/pairing/combinations.hpp"
 
 namespace osculate::deck {
 namespace {
-
-constexpr const char* stiffness_unit = "force/length^3 (force/length with weight: node)";
 
 Spec sampling_spec() {
   const Spec points = integer("Points per direction of a facet.").at_most(20);
@@ -35,25 +37,19 @@ Spec sampling_spec() {
       .such_as("{lobatto: 5, subdomains: 2}");
 }
 
-/// A stiffness, or that of the cells behind the contact times a factor.
-Spec penalty_spec(std::string doc, const char* of) {
-  return either(std::move(doc),
-                {number("Stiffness.").in(stiffness_unit).above(0),
-                 choice("From the stiffness of the bodies.",
-                        {Choice{"auto",
-                                std::string("ten times the stiffness against ") + of +
-                                    " of the cells behind the contact; points "
-                                    "with much stiffer or softer cells have more "
-                                    "or less; the normal one follows the pressure in statics",
-                                0, true}})})
-      .otherwise("auto")
-      .such_as("2.1e6");
+Marked<Sampling> sampling_of(const Value& v) {
+  if (v.alternative == 0) return {{word_of<SamplingRule>(v).value}, v.mark};
+  const Value* const gauss = v.find("gauss");
+  return {
+      {gauss ? SamplingRule::gauss : SamplingRule::lobatto,
+       integer_of(gauss ? *gauss : v.at("lobatto")).value, integer_of(v.at("subdomains")).value},
+      v.mark};
 }
 
 /// What holds points together that are pulled apart.
-std::vector<Key> holding_keys() {
-  return {
-      optional("separation",
+BoundKeys<NormalDescription> holding_keys() {
+  using N = NormalDescription;
+  return {{may(&N::separation, "separation",
                choice("Whether points that touch may part again.",
                       {word("allowed", SeparationWord::allowed, "they part when they are pulled"),
                        word("no_separation", SeparationWord::no_separation,
@@ -67,119 +63,88 @@ std::vector<Key> holding_keys() {
                             "pressed; no others come into contact")})
                    .otherwise("allowed")
                    .such_as("no_separation")),
-      optional("tolerance", number("Gap at the start up to which points are tied.")
-                                .in("length")
-                                .above(0)
-                                .otherwise_as("a twentieth of the mean size of the master's facets")
-                                .such_as("0.01")),
-      optional("initial_gap",
+           may(&N::tolerance, "tolerance",
+               number("Gap at the start up to which points are tied.")
+                   .in("length")
+                   .above(0)
+                   .otherwise_as("a twentieth of the mean size of the master's facets")
+                   .such_as("0.01")),
+           may(&N::initial_gap, "initial_gap",
                choice("What becomes of the gaps of tied points.",
                       {word("keep", InitialGap::keep, "they stay as they are, without a force"),
                        word("close", InitialGap::close,
                             "they are closed in the first increment, which strains the bodies")})
                    .otherwise("keep")
-                   .such_as("close"))};
+                   .such_as("close"))}};
+}
+
+std::vector<std::string> names_of(const std::vector<Key>& keys) {
+  std::vector<std::string> out;
+  for (const Key& key : keys) out.push_back(key.name);
+  return out;
 }
 
 /// What an impact loses.
 Spec damping_spec() {
-  const Spec viscous =
-      number(
-          "A damper beside the spring: pressure per closing speed; every step needs a "
-          "duration.")
-          .in("force time/length^3 (force time/length with weight: node)")
-          .at_least(0)
-          .such_as("0.5");
-  const Spec restitution =
-      number(
-          "Speed after an impact over that before: unloading gives back the share e^2 of the "
-          "work of the pressure. Below 0.02 it acts as 0.02.")
-          .at_least(0)
-          .at_most(1)
-          .such_as("0.5");
-  return map("Damping in the normal direction, which never pulls.",
-             {optional("viscous", viscous), optional("restitution", restitution)})
-      .with(Group::Rule::exactly_one, {"viscous", "restitution"})
+  const std::vector<Key> laws = damping_law_keys();
+  return map("Damping in the normal direction, which never pulls.", laws)
+      .with(Group::Rule::exactly_one, names_of(laws))
       .otherwise_as("none")
       .such_as("{restitution: 0.5}");
 }
 
 Spec normal_spec() {
-  const Spec exponential =
-      map("Pressure that grows exponentially: p = p0 / (e - 1) x (exp(x) - 1), x = 1 - gap / "
-          "clearance.",
-          {required("pressure",
-                    number("Pressure p0 at zero gap.").in("force/length^2").above(0).such_as("12")),
-           required("clearance",
-                    number("Gap at which it begins.").in("length").above(0).such_as("0.01"))});
-  const Spec point = list("One point [overclosure, pressure].", number("Length, or pressure."))
-                         .count(2, 2)
-                         .such_as("[0.01, 12]");
-  const Spec table =
-      list(
-          "Pressure over overclosure, straight between the points and beyond the last one; the "
-          "first pressure is 0.",
-          point)
-          .count(2)
-          .such_as("[[0, 0], [0.01, 12], [0.02, 40]]");
-  std::vector<Key> keys{
-      optional("penalty", penalty_spec("Stiffness against penetration, unless there is another "
-                                       "law.",
-                                       "compression")),
-      optional("exponential", exponential), optional("table", table),
-      optional("damping", damping_spec())};
-  for (Key& key : holding_keys()) keys.push_back(std::move(key));
-  return map("Law in the normal direction: a penalty, or one of exponential and table.",
-             std::move(keys))
-      .otherwise("{}")
-      .such_as("{penalty: 2.1e6}");
-}
-
-Spec coulomb_spec(const Spec& penalty) {
-  const Spec decay =
-      map("How the coefficient goes from mu to kinetic: mu(a) = kinetic + (mu - kinetic) exp(-a / "
-          "scale).",
-          {optional("distance", number("Scale of the distance slid since the point touched.")
-                                    .in("length")
-                                    .above(0)
-                                    .such_as("0.01")),
-           optional("speed", number("Scale of the sliding speed; every step needs a duration.")
-                                 .in("length/time")
-                                 .above(0)
-                                 .such_as("0.5"))});
-  return map("Coulomb's law with an elastic stick range.",
-             {required("mu", number("Coefficient of friction.").at_least(0).such_as("0.3")),
-              optional("penalty", penalty),
-              optional("kinetic", number("Coefficient of friction after sliding, or at speed.")
-                                      .at_least(0)
-                                      .otherwise_as("mu")
-                                      .such_as("0.2")),
-              optional("decay", Spec(decay)
-                                    .with(Group::Rule::exactly_one, {"distance", "speed"})
-                                    .such_as("{distance: 0.01}")),
-              optional("cap", number("Largest shear traction, whatever the pressure.")
-                                  .in("force/length^2 (force with weight: node)")
-                                  .above(0)
-                                  .otherwise_as("none")
-                                  .such_as("40"))});
+  std::vector<Key> keys = normal_law_keys();
+  std::vector<std::string> others = names_of(keys);
+  const std::string usual = others.front();
+  others.erase(others.begin());
+  std::string doc = fmt::format("Law in the normal direction: a {}, or one of {}.", usual,
+                                core::join_with(others, "and"));
+  keys.push_back(optional("damping", damping_spec()));
+  for (Key& key : holding_keys().spec({}).keys) keys.push_back(std::move(key));
+  return map(std::move(doc), std::move(keys)).otherwise("{}").such_as("{penalty: 2.1e6}");
 }
 
 Spec friction_spec() {
-  const Spec penalty = penalty_spec("Stiffness against sliding while the point sticks.", "shear");
-  const Spec tresca = map("One shear traction for every pressure, with an elastic stick range.",
-                          {required("limit", number("Shear traction while sliding.")
-                                                 .in("force/length^2 (force with weight: node)")
-                                                 .at_least(0)
-                                                 .such_as("40")),
-                           optional("penalty", penalty)});
-  const Spec rough = map("No sliding while in contact.", {optional("penalty", penalty)});
+  const std::vector<Key> laws = friction_law_keys();
   return either("Law in the tangential direction.",
                 {choice("No friction.", {Choice{"none", "no friction", 0, true}}),
-                 map("A law of friction.", {optional("coulomb", coulomb_spec(penalty)),
-                                            optional("tresca", tresca), optional("rough", rough)})
-                     .with(Group::Rule::exactly_one, {"coulomb", "tresca", "rough"})})
+                 map("A law of friction.", laws).with(Group::Rule::exactly_one, names_of(laws))})
       .otherwise("none")
       .such_as("{coulomb: {mu: 0.3, penalty: 2.1e6}}");
+}
+
+/// Damping acts on points that come and go, beside the springs of a penalty or another law.
+void read_damping(const Value& v, NormalDescription& n) {
+  const Value* const damping = v.find("damping");
+  if (!damping) return;
+  n.damping = damping_law_of(*damping);
+  if (n.separation.value != SeparationWord::allowed)
+    throw core::InputError(damping->mark, std::string(pairing::why_not(pairing::Trait::damping,
+                                                                       pairing::Trait::held)));
+}
+
+void read_normal(const Value& v, NormalDescription& n) {
+  n.law = normal_law_of(v);
+  holding_keys().read(v, n);
+  if (!contact::holds(n.law.law) && n.separation.value != SeparationWord::allowed)
+    throw core::InputError(n.separation.mark, std::string(pairing::why_not(
+                                                  pairing::Trait::held, pairing::Trait::gap_law)));
+  const bool tied = n.separation.value == SeparationWord::tied;
+  if (n.tolerance && !tied && n.separation.value != SeparationWord::tied_normal)
+    throw core::InputError(n.tolerance->mark,
+                           "tolerance says what is tied: it goes with separation: tied or "
+                           "tied_normal");
+  read_damping(v, n);
+  if (n.initial_gap.value == InitialGap::close && !tied)
+    throw core::InputError(n.initial_gap.mark, "closing gaps goes with separation: tied only");
+}
+
+void read_friction(Contact& c, const Value& v) {
+  if (v.alternative != 0) c.friction = friction_law_of(v);
+  if (c.friction && c.normal.separation.value == SeparationWord::tied)
+    throw core::InputError(v.mark,
+                           "tied points do not slide: leave out friction, or use tied_normal");
 }
 
 /// Half thicknesses of shells.
@@ -194,19 +159,30 @@ Spec offset_spec() {
       .such_as("{master: 0.5, slave: 0.25}");
 }
 
-Spec tangent_spec() {
-  const auto part = [](std::string doc) { return boolean(std::move(doc)).otherwise("true"); };
-  return either("Derivative of the contact forces that Newton's method uses.",
-                {choice("A complete tangent.", {word("consistent", TangentKind::consistent,
-                                                     "the exact derivative of the residual"),
-                                                word("covariant", TangentKind::covariant,
-                                                     "all parts of the covariant one")}),
-                 map("Parts of the covariant tangent, to study what each is worth.",
-                     {optional("main", part("The part that is left on a flat facet without slip.")),
-                      optional("rotational", part("The part with the rotation of the facet.")),
-                      optional("curvature", part("The part with the curvature of the facet."))})})
-      .otherwise("consistent")
-      .such_as("consistent");
+BoundKey<Contact> tangent_key() {
+  using T = Tangent;
+  const auto part = [](bool T::*member, const char* name, const char* doc) {
+    return may(member, name, boolean(doc).otherwise("true"));
+  };
+  const BoundKeys<T> parts(
+      {part(&T::main, "main", "The part that is left on a flat facet without slip."),
+       part(&T::rotational, "rotational", "The part with the rotation of the facet."),
+       part(&T::curvature, "curvature", "The part with the curvature of the facet.")});
+  Spec spec =
+      either("Derivative of the contact forces that Newton's method uses.",
+             {choice("A complete tangent.",
+                     {word("consistent", TangentKind::consistent,
+                           "the exact derivative of the residual"),
+                      word("covariant", TangentKind::covariant, "all parts of the covariant one")}),
+              parts.spec("Parts of the covariant tangent, to study what each is worth.")})
+          .otherwise("consistent")
+          .such_as("consistent");
+  return {optional("tangent", std::move(spec)), [parts](Contact& c, const Value& v) {
+            c.tangent.mark = v.mark;
+            if (v.alternative == 0) return store(c.tangent.value.kind, v);
+            c.tangent.value.kind = TangentKind::covariant;
+            parts.read(v, c.tangent.value);
+          }};
 }
 
 Spec weight_spec() {
@@ -220,32 +196,41 @@ Spec weight_spec() {
       .such_as("node");
 }
 
-Spec enforcement_spec() {
-  const Spec options =
-      map("Correction of the penalty's tractions.",
-          {optional("target", number("Largest gap and elastic slip that are left.")
-                                  .in("length")
-                                  .above(0)
-                                  .otherwise_as("1e-4 of the mean length of the facets' edges, and "
-                                                "no more than 1e-3 of the deepest initial overlap")
-                                  .such_as("1e-5")),
-           optional("loop",
-                    choice("When the tractions are corrected.",
-                           {word("uzawa", AugmentLoop::uzawa, "after each solution"),
-                            word("single", AugmentLoop::single, "after each iteration near one")})
-                        .otherwise("uzawa")
-                        .such_as("single"))});
-  return either("How the contact conditions are imposed.",
-                {choice("Method.",
-                        {word("penalty", EnforcementWord::penalty, "by the stiffnesses alone"),
-                         word("augmented_lagrange", EnforcementWord::augmented_lagrange,
-                              "by repeated correction of the penalty's tractions"),
-                         word("lagrange_multiplier", EnforcementWord::lagrange_multiplier,
-                              "exactly, by unknown tractions")}),
-                 map("Augmented Lagrangian with its options.",
-                     {required("augmented_lagrange", options)})})
-      .otherwise("penalty")
-      .such_as("augmented_lagrange");
+BoundKey<Contact> enforcement_key() {
+  using E = Enforcement;
+  const BoundKeys<E> options(
+      {may(&E::target, "target",
+           number("Largest gap and elastic slip that are left.")
+               .in("length")
+               .above(0)
+               .otherwise_as("1e-4 of the mean length of the facets' edges, and "
+                             "no more than 1e-3 of the deepest initial overlap")
+               .such_as("1e-5")),
+       may(&E::loop, "loop",
+           choice("When the tractions are corrected.",
+                  {word("uzawa", AugmentLoop::uzawa, "after each solution"),
+                   word("single", AugmentLoop::single, "after each iteration near one")})
+               .otherwise("uzawa")
+               .such_as("single"))});
+  Spec spec =
+      either(
+          "How the contact conditions are imposed.",
+          {choice("Method.", {word("penalty", EnforcementWord::penalty, "by the stiffnesses alone"),
+                              word("augmented_lagrange", EnforcementWord::augmented_lagrange,
+                                   "by repeated correction of the penalty's tractions"),
+                              word("lagrange_multiplier", EnforcementWord::lagrange_multiplier,
+                                   "exactly, by unknown tractions")}),
+           map("Augmented Lagrangian with its options.",
+               {required("augmented_lagrange",
+                         options.spec("Correction of the penalty's tractions."))})})
+          .otherwise("penalty")
+          .such_as("augmented_lagrange");
+  return {optional("enforcement", std::move(spec)), [options](Contact& c, const Value& v) {
+            c.enforcement.mark = v.mark;
+            if (v.alternative == 0) return store(c.enforcement.value.kind, v);
+            c.enforcement.value.kind = EnforcementWord::augmented_lagrange;
+            options.read(v.at("augmented_lagrange"), c.enforcement.value);
+          }};
 }
 
 Spec residual_spec() {
@@ -270,7 +255,8 @@ Spec history_spec() {
       .such_as("continuous");
 }
 
-Spec smoothing_spec() {
+BoundKey<Contact> smoothing_key() {
+  using S = MasterSmoothing;
   const Choice hermite = word("hermite", SmoothingWord::hermite,
                               "cubic pieces with one normal where facets meet"),
                nurbs = word("nurbs", SmoothingWord::nurbs,
@@ -282,15 +268,20 @@ Spec smoothing_spec() {
                          .below(180)
                          .otherwise("30")
                          .such_as("40");
-  return either(
-             "A smooth surface through the nodes of a master of first-order facets.",
+  const BoundKeys<S> keys(
+      {need(&S::kind, "kind", choice("Pieces.", {hermite, nurbs}).such_as("hermite")),
+       may(&S::angle, "angle", angle)});
+  Spec spec =
+      either("A smooth surface through the nodes of a master of first-order facets.",
              {choice("With sharp corners above 30 degrees.",
                      {word("none", SmoothingWord::none, "the facets as they are"), hermite, nurbs}),
-              map("With another angle.",
-                  {required("kind", choice("Pieces.", {hermite, nurbs}).such_as("hermite")),
-                   optional("angle", angle)})})
-      .otherwise("none")
-      .such_as("hermite");
+              keys.spec("With another angle.")})
+          .otherwise("none")
+          .such_as("hermite");
+  return {optional("smoothing", std::move(spec)), [keys](Contact& c, const Value& v) {
+            c.smoothing.mark = v.mark;
+            v.alternative == 0 ? store(c.smoothing.value.kind, v) : keys.read(v, c.smoothing.value);
+          }};
 }
 
 Spec initial_spec() {
@@ -324,81 +315,133 @@ Spec edges_spec() {
       .such_as("true");
 }
 
+void read_initial(Contact& c, const Value& v) {
+  if (v.alternative == 0) {
+    c.initial = word_of<InitialWord>(v);
+    return;
+  }
+  c.initial = {InitialWord::adjust, v.mark};
+  c.initial_tolerance = number_of(v.at("adjust")).value;
+}
+
+std::optional<Number> edges_of(const Value& v) {
+  constexpr double usual = 30;
+  if (v.alternative == 1) return number_of(v.at("angle"));
+  if (v.code == 0) return std::nullopt;
+  return Number{usual, v.mark};
+}
+
 /// The keys that a pair and all pairs together have in common.
-std::vector<Key> law_keys() {
-  const Spec depth = number("Points deeper inside the master than this are not in contact with it.")
-                         .in("length")
-                         .above(0)
-                         .otherwise_as("no limit")
-                         .such_as("0.5");
-  return {optional("sampling", sampling_spec()),
-          optional("normal", normal_spec()),
-          optional("friction", friction_spec()),
-          optional("offset", offset_spec()),
-          optional("enforcement", enforcement_spec()),
-          optional("weight", weight_spec()),
-          optional("residual", residual_spec()),
-          optional("tangent", tangent_spec()),
-          optional("history", history_spec()),
-          optional("initial", initial_spec()),
-          optional("two_pass", boolean("Both sides are slaves in turn, each with half of the "
-                                       "traction; contact: all does so with "
-                                       "two deformable bodies.")
-                                   .otherwise("false")
-                                   .such_as("true")),
-          optional("edges", edges_spec()),
-          optional("search", map("Where contact is looked for.", {optional("depth", depth)}))};
+BoundKeys<Contact> with_laws(std::vector<BoundKey<Contact>> keys) {
+  using C = Contact;
+  const BoundKeys<C> search(
+      {may(&C::search_depth, "depth",
+           number("Points deeper inside the master than this are not in contact with it.")
+               .in("length")
+               .above(0)
+               .otherwise_as("no limit")
+               .such_as("0.5"))});
+  const std::vector<BoundKey<C>> laws{
+      {optional("sampling", sampling_spec()),
+       [](C& c, const Value& v) { c.sampling = sampling_of(v); }},
+      {optional("normal", normal_spec()), [](C& c, const Value& v) { read_normal(v, c.normal); }},
+      {optional("friction", friction_spec()), read_friction},
+      {optional("offset", offset_spec()),
+       [](C& c, const Value& v) { c.offset = v.at("master").number + v.at("slave").number; }},
+      enforcement_key(),
+      may(&C::weight, "weight", weight_spec()),
+      may(&C::residual, "residual", residual_spec()),
+      tangent_key(),
+      may(&C::history, "history", history_spec()),
+      {optional("initial", initial_spec()), read_initial},
+      {optional("two_pass", boolean("Both sides are slaves in turn, each with half of the "
+                                    "traction; contact: all does so with "
+                                    "two deformable bodies.")
+                                .otherwise("false")
+                                .such_as("true")),
+       [](C& c, const Value& v) {
+         if (v.code != 0) c.two_pass = v.mark;
+       }},
+      {optional("edges", edges_spec()), [](C& c, const Value& v) { c.edges = edges_of(v); }},
+      below(search, optional("search", search.spec("Where contact is looked for.")))};
+  keys.insert(keys.end(), laws.begin(), laws.end());
+  return keys;
 }
 
-Spec with_laws(std::string doc, std::vector<Key> keys) {
-  for (Key& key : law_keys()) keys.push_back(std::move(key));
-  return map(std::move(doc), std::move(keys));
+BoundKeys<Contact> pair_keys() {
+  using C = Contact;
+  return with_laws({need(&C::name, "name",
+                         text("Name of the pair; begins its columns in history.csv.")
+                             .as(TextRule::name)
+                             .such_as("floor")),
+                    need(&C::master, "master",
+                         set_or_sets("Rigid body, or set of boundary facets, that the contact "
+                                     "points are projected onto.",
+                                     "bottom")),
+                    smoothing_key(),
+                    need(&C::slave, "slave",
+                         set_or_sets("Meshed rigid body, or set, whose points are projected; "
+                                     "the set that is master, for contact with itself.",
+                                     "base"))});
 }
 
-Spec pairs_spec() {
-  return list(
-      "Contact pairs.",
-      with_laws(
-          "One contact pair.",
-          {required("name", text("Name of the pair; begins its columns in history.csv.")
-                                .as(TextRule::name)
-                                .such_as("floor")),
-           required("master", set_or_sets("Rigid body, or set of boundary facets, that the contact "
-                                          "points are projected onto.",
-                                          "bottom")),
-           optional("smoothing", smoothing_spec()),
-           required("slave", set_or_sets("Meshed rigid body, or set, whose points are projected; "
-                                         "the set that is master, for contact with itself.",
-                                         "base"))}));
-}
-
-Spec all_spec() {
+BoundKeys<Contact> all_keys() {
+  using C = Contact;
   const Spec body = text("Number of a body, set of a section, or rigid body.").such_as("base");
   return with_laws(
-      "All bodies with each other, with the rigid ones and with themselves; pairs are called "
-      "NAME.A-B, bodies are numbered in the order of the mesh.",
-      {optional("name", text("Begins the names of the pairs, and stands for all of them in "
-                             "output.history.")
-                            .as(TextRule::name)
-                            .otherwise("all")
-                            .such_as("all")),
-       optional("exclude", list("Pairs of bodies that do not touch; the same body twice: not "
-                                "itself.",
-                                list("Two bodies.", body).count(2, 2))
-                               .otherwise("[]")
-                               .such_as("[[1, 1], [2, base]]"))});
+      {may(&C::name, "name",
+           text("Begins the names of the pairs, and stands for all of them in "
+                "output.history.")
+               .as(TextRule::name)
+               .otherwise("all")
+               .such_as("all")),
+       {optional("exclude", list("Pairs of bodies that do not touch; the same body twice: not "
+                                 "itself.",
+                                 list("Two bodies.", body).count(2, 2))
+                                .otherwise("[]")
+                                .such_as("[[1, 1], [2, base]]")),
+        [](C& c, const Value& v) {
+          for (const Value& item : v.items)
+            c.exclude.push_back({name_of(item.items[0]), name_of(item.items[1])});
+        }}});
+}
+
+Contact all_of(const Value& v) {
+  Contact c = all_keys().read(v);
+  c.all = true;
+  return c;
 }
 
 }  // namespace
 
 Spec contact_spec() {
-  return either("Who touches whom.",
-                {pairs_spec(),
-                 map("Contact of everything with everything.", {required("all", all_spec())}),
-                 choice("The same, for short.",
-                        {Choice{"all", "all bodies, with the default of every key", 0, true}})})
+  return either(
+             "Who touches whom.",
+             {list("Contact pairs.", pair_keys().spec("One contact pair.")),
+              map("Contact of everything with everything.",
+                  {required("all", all_keys().spec(
+                                       "All bodies with each other, with the rigid ones and with "
+                                       "themselves; pairs are called NAME.A-B, bodies are numbered "
+                                       "in the order of the mesh."))}),
+              choice("The same, for short.",
+                     {Choice{"all", "all bodies, with the default of every key", 0, true}})})
       .otherwise("[]")
       .such_as("[{name: floor, master: bottom, slave: base, normal: {penalty: 2.1e6}}]");
+}
+
+std::vector<Contact> parse_contact(const Value& v) {
+  if (v.alternative == 1) return {all_of(v.at("all"))};
+  if (v.alternative == 2) {  // `all` alone is `{all: {}}`
+    SourceNode nothing, whole;
+    nothing.kind = whole.kind = SourceNode::Kind::map;
+    nothing.line = whole.line = v.mark.line;
+    whole.entries.push_back({"all", v.mark.line, nothing});
+    return {all_of(check(contact_spec(), whole, v.mark.file).at("all"))};
+  }
+  std::vector<Contact> out;
+  const BoundKeys<Contact> keys = pair_keys();
+  for (const Value& item : v.items) out.push_back(keys.read(item));
+  return out;
 }
 
 }  // namespace osculate::deck

@@ -1,4 +1,11 @@
-#include "osculate/deck/description.hpp"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "osculate/core/text.hpp"
+#include "osculate/deck/bind.hpp"
+#include "osculate/deck/build.hpp"
 #include "osculate/deck/model_spec.hpp"
 
 namespace osculate::deck {
@@ -66,24 +73,10 @@ Spec plots_spec() {
       .such_as("[{x: time, y: floor.normal_force}]");
 }
 
-Spec arc_length_spec() {
-  return choice(
-             "Follow the path of equilibria where it turns back (snap-through, buckling): the "
-             "fraction of the step is an unknown too, and may fall. In steps without inertia.",
-             {word("auto", ArcLength::automatic,
-                   "where an increment fails for good and bodies do not come to rest "
-                   "behind a snap, until its end is reached"),
-              word("always", ArcLength::always,
-                   "after the first increment of each step, to its end"),
-              word("off", ArcLength::off,
-                   "never, nor are snaps passed: load control ends at a limit point")})
-      .otherwise("auto");
-}
+using S = Solver;
 
-}  // namespace
-
-Spec solver_spec() {
-  const Spec tolerance =
+BoundKey<S> tolerance_key() {
+  Spec spec =
       map("When an increment has converged; giving only one of the two makes that one decide "
           "alone.",
           {optional("energy", number("Energy of the last correction over that of the first.")
@@ -97,41 +90,78 @@ Spec solver_spec() {
                         .otherwise("1e-9"))})
           .otherwise("{}")
           .such_as("{energy: 1e-12, residual: 1e-9}");
-  return map("How increments are solved.",
-             {optional("tolerance", tolerance),
-              optional("max_iterations", integer("Iterations before an increment is cut.")
-                                             .at_least(1)
-                                             .at_most(100'000)
-                                             .otherwise("25")),
-              optional("line_search", choice("Shorten corrections that overshoot.",
-                                             {word("auto", LineSearch::automatic, "when it helps"),
-                                              word("off", LineSearch::off, "never")})
-                                          .otherwise("auto")),
-              optional("cutbacks", integer("How often in a row an increment may be cut.")
-                                       .at_least(0)
-                                       .at_most(60)
-                                       .otherwise("8")),
-              optional("minimum_fraction", number("Smallest part of a step that is still tried.")
-                                               .above(0)
-                                               .at_most(1)
-                                               .otherwise_as("decided by cutbacks")
-                                               .such_as("1e-6")),
-              optional("predictor", choice("First guess of an increment.",
-                                           {word("auto", Predictor::automatic,
-                                                 "tangent, or where increments follow each other "
-                                                 "smoothly the extrapolation of the last ones"),
-                                            word("tangent", Predictor::tangent,
-                                                 "prescribed motions act through the tangent")})
-                                        .otherwise("auto")),
-              optional("stabilisation",
-                       map("Viscous help until contact closes.", {}).not_available()),
-              optional("arc_length", arc_length_spec())})
-      .otherwise("{}")
-      .such_as("{max_iterations: 40, line_search: off}");
+  return {optional("tolerance", std::move(spec)), [](S& s, const Value& v) {
+            const Value& energy = v.at("energy");
+            const Value& residual = v.at("residual");
+            // Giving one of them takes the default of the other away.
+            const bool alone = energy.given != residual.given;
+            s.energy = {alone && !energy.given ? 0.0 : energy.number, energy.mark};
+            s.residual = {alone && !residual.given ? 0.0 : residual.number, residual.mark};
+          }};
 }
 
-Spec output_spec() {
-  const Spec fields =
+BoundKeys<S> solver_keys() {
+  return {{tolerance_key(),
+           may(&S::max_iterations, "max_iterations",
+               integer("Iterations before an increment is cut.")
+                   .at_least(1)
+                   .at_most(100'000)
+                   .otherwise("25")),
+           may(&S::line_search, "line_search",
+               choice("Shorten corrections that overshoot.",
+                      {word("auto", LineSearch::automatic, "when it helps"),
+                       word("off", LineSearch::off, "never")})
+                   .otherwise("auto")),
+           may(&S::cutbacks, "cutbacks",
+               integer("How often in a row an increment may be cut.")
+                   .at_least(0)
+                   .at_most(60)
+                   .otherwise("8")),
+           may(&S::minimum_fraction, "minimum_fraction",
+               number("Smallest part of a step that is still tried.")
+                   .above(0)
+                   .at_most(1)
+                   .otherwise_as("decided by cutbacks")
+                   .such_as("1e-6")),
+           may(&S::predictor, "predictor",
+               choice("First guess of an increment.",
+                      {word("auto", Predictor::automatic,
+                            "tangent, or where increments follow each other "
+                            "smoothly the extrapolation of the last ones"),
+                       word("tangent", Predictor::tangent,
+                            "prescribed motions act through the tangent")})
+                   .otherwise("auto")),
+           unread<S>(optional("stabilisation",
+                              map("Viscous help until contact closes.", {}).not_available())),
+           may(&S::arc_length, "arc_length",
+               choice("Follow the path of equilibria where it turns back (snap-through, "
+                      "buckling): the "
+                      "fraction of the step is an unknown too, and may fall. In steps without "
+                      "inertia.",
+                      {word("auto", ArcLength::automatic,
+                            "where an increment fails for good and bodies do not come to rest "
+                            "behind a snap, until its end is reached"),
+                       word("always", ArcLength::always,
+                            "after the first increment of each step, to its end"),
+                       word("off", ArcLength::off,
+                            "never, nor are snaps passed: load control ends at a limit point")})
+                   .otherwise("auto"))}};
+}
+
+Spec request_spec() {
+  return map("One column of history.csv.",
+             {required("on", text("Contact pair, rigid body or set.").such_as("floor")),
+              required("of", quantity_spec()),
+              optional("name", text("Heading of the column.")
+                                   .as(TextRule::column)
+                                   .otherwise_as("`on` and `of` joined by a dot")
+                                   .such_as("pull"))});
+}
+
+/// Columns and diagrams are read by who knows what they are of.
+BoundKeys<Output> output_keys() {
+  using O = Output;
+  Spec fields =
       either("When ParaView fields are written.",
              {integer("Every n-th increment.").at_least(1),
               choice("A word.", {word("every", FieldTimes::every, "after every increment"),
@@ -140,34 +170,154 @@ Spec output_spec() {
                                  word("none", FieldTimes::none, "never")})})
           .otherwise("every")
           .such_as("10");
-  const Spec checkpoint =
+  Spec checkpoint =
       either("When a checkpoint is written, from which `osculate run --restart` goes on.",
              {integer("Every n-th increment, and at the end of every step.").at_least(1),
               choice("A word.", {word("none", FieldTimes::none, "never")})})
           .otherwise("1")
           .such_as("10");
-  const Spec request =
-      map("One column of history.csv.",
-          {required("on", text("Contact pair, rigid body or set.").such_as("floor")),
-           required("of", quantity_spec()),
-           optional("name", text("Heading of the column.")
-                                .as(TextRule::column)
-                                .otherwise_as("`on` and `of` joined by a dot")
-                                .such_as("pull"))});
-  return map("What is written.",
-             {optional("fields", fields),
-              optional("history", list("Columns of history.csv, one row per increment.", request)
-                                      .otherwise("[]")
-                                      .such_as("[{on: floor, of: normal_force}]")),
-              optional("report", boolean("Write report.html.").otherwise("true")),
-              optional("compress", boolean("Compress field files.").otherwise("true")),
-              optional("contact_points", boolean("Write the contact points of every field file as "
-                                                 "a table too, contact0_00012.csv: node, place "
-                                                 "and all contact fields.")
-                                             .otherwise("false")),
-              optional("checkpoint", checkpoint), optional("plots", plots_spec())})
+  return {
+      {{optional("fields", std::move(fields)),
+        [](O& o, const Value& v) { v.alternative == 0 ? store(o.every, v) : store(o.fields, v); }},
+       unread<O>(optional("history",
+                          list("Columns of history.csv, one row per increment.", request_spec())
+                              .otherwise("[]")
+                              .such_as("[{on: floor, of: normal_force}]"))),
+       may(&O::report, "report", boolean("Write report.html.").otherwise("true")),
+       may(&O::compress, "compress", boolean("Compress field files.").otherwise("true")),
+       may(&O::contact_points, "contact_points",
+           boolean("Write the contact points of every field file as "
+                   "a table too, contact0_00012.csv: node, place "
+                   "and all contact fields.")
+               .otherwise("false")),
+       {optional("checkpoint", std::move(checkpoint)),
+        [](O& o, const Value& v) { o.checkpoint = v.alternative == 0 ? v.code : 0; }},
+       unread<O>(optional("plots", plots_spec()))}};
+}
+
+bool needs_rigid(Quantity q) {
+  return (q >= Quantity::rx && q <= Quantity::rz) || (q >= Quantity::rmx && q <= Quantity::rmz) ||
+         (q >= Quantity::wx && q <= Quantity::wz);
+}
+
+void require_quantity(const HistoryRequest& request, const std::string& word,
+                      const Description& d) {
+  if (is_spatial(request.of.value) && dimension(d) == 2) throw only_in_space(request.of.mark, word);
+  const bool contact = request.target == HistoryTarget::contact;
+  if (contact && !is_contact_quantity(request.of.value))
+    throw core::InputError(request.of.mark,
+                           fmt::format("'{}' belongs to sets and rigid bodies, but '{}' is a "
+                                       "contact pair",
+                                       word, request.on.value));
+  if (!contact && is_contact_quantity(request.of.value)) {
+    std::vector<std::string> pairs;
+    for (const Contact& c : d.contact) pairs.push_back(c.name.value);
+    throw core::InputError(
+        request.of.mark,
+        fmt::format("'{}' belongs to contact pairs: {}", word,
+                    core::unknown_name_message("pair", printable(request.on.value), pairs)));
+  }
+  if (request.target == HistoryTarget::set && needs_rigid(request.of.value))
+    throw core::InputError(
+        request.of.mark,
+        fmt::format("'{}' needs a rigid body, and {} is not one", word, quoted(request.on.value)));
+}
+
+HistoryRequest request_of(const Value& v, const Description& d) {
+  HistoryRequest request;
+  request.mark = v.mark;
+  request.on = name_of(v.at("on"));
+  request.of = word_of<Quantity>(v, "of");
+  const std::string& on = request.on.value;
+  request.target = d.find_contact(on) ? HistoryTarget::contact
+                   : d.find_rigid(on) ? HistoryTarget::rigid
+                                      : HistoryTarget::set;
+  const std::string& word = v.at("of").text;
+  const Value* const name = v.find("name");
+  request.column = name ? name->text : on + "." + word;
+  if (!name && on.find_first_of(",\"\r\n") != std::string::npos)
+    throw core::InputError(request.on.mark, quoted(on) + " cannot head a column; give a `name`");
+  require_quantity(request, word, d);
+  return request;
+}
+
+void require_unique_columns(const std::vector<HistoryRequest>& requests,
+                            const std::vector<std::string>& always) {
+  std::map<std::string, int> lines;
+  for (const HistoryRequest& request : requests) {
+    const std::string& column = request.column;
+    if (std::find(always.begin(), always.end(), column) != always.end())
+      throw core::InputError(
+          request.mark, fmt::format("column '{}' is always there; choose another name", column));
+    const auto [at, fresh] = lines.emplace(column, request.mark.line);
+    if (!fresh)
+      throw core::InputError(request.mark, fmt::format("column {} is given twice, first on line {}",
+                                                       quoted(column), at->second));
+  }
+}
+
+Name column_of(const Value& v, const std::vector<std::string>& columns) {
+  if (std::find(columns.begin(), columns.end(), v.text) == columns.end())
+    throw core::InputError(v.mark,
+                           core::unknown_name_message("column", printable(v.text), columns));
+  return name_of(v);
+}
+
+Plot plot_of(const Value& v, const std::vector<std::string>& columns) {
+  Plot plot;
+  if (const Value* const title = v.find("title")) plot.title = title->text;
+  plot.x = column_of(v.at("x"), columns);
+  const Value& y = v.at("y");
+  if (y.alternative == 0) plot.y.push_back(column_of(y, columns));
+  for (const Value& item : y.items) plot.y.push_back(column_of(item, columns));
+  return plot;
+}
+
+}  // namespace
+
+Spec solver_spec() {
+  return solver_keys()
+      .spec("How increments are solved.")
+      .otherwise("{}")
+      .such_as("{max_iterations: 40, line_search: off}");
+}
+
+Solver parse_solver(const Value& v) { return solver_keys().read(v); }
+
+Spec output_spec() {
+  return output_keys()
+      .spec("What is written.")
       .otherwise("{}")
       .such_as("{fields: last, history: [{on: floor, of: normal_force}]}");
+}
+
+std::vector<std::string> energy_columns(const Description& description) {
+  const auto has_inertia = [](const Step& step) { return step.dynamics.has_value(); };
+  const std::vector<Step>& steps = description.steps;
+  if (std::none_of(steps.begin(), steps.end(), has_inertia)) return {};
+  std::vector<std::string> columns{std::string(model::fraction_quantity)};
+  const bool dissipates = std::ranges::any_of(description.materials, [](const Material& material) {
+    return !material::memory_of(material.law.value).empty();
+  });
+  for (const std::string_view name : model::energy_quantities)
+    if (name != model::plastic_quantity || dissipates)
+      columns.push_back(name == "elapsed" ? std::string(name) : fmt::format("energy.{}", name));
+  if (std::any_of(steps.begin(), steps.end(),
+                  [](const Step& step) { return step.dynamics && step.dynamics->time_steps; }))
+    columns.emplace_back(model::time_step_quantity);
+  return columns;
+}
+
+Output parse_output(const Value& v, const Description& description) {
+  Output output = output_keys().read(v);
+  for (const Value& item : v.at("history").items)
+    output.history.push_back(request_of(item, description));
+  std::vector<std::string> columns{"step", "increment", "time"};
+  for (std::string& column : energy_columns(description)) columns.push_back(std::move(column));
+  require_unique_columns(output.history, columns);
+  for (const HistoryRequest& request : output.history) columns.push_back(request.column);
+  for (const Value& item : v.at("plots").items) output.plots.push_back(plot_of(item, columns));
+  return output;
 }
 
 }  // namespace osculate::deck

@@ -10,6 +10,43 @@
 
 namespace osculate::deck {
 
+/// A number with the bounds of a range.
+[[nodiscard]] inline Spec within(Spec spec, const core::Range& range) {
+  if (std::isfinite(range.lower))
+    spec = range.with_lower ? spec.at_least(range.lower) : spec.above(range.lower);
+  if (std::isfinite(range.upper))
+    spec = range.with_upper ? spec.at_most(range.upper) : spec.below(range.upper);
+  return spec;
+}
+
+/// What may stand under the key of one parameter.
+template <class T>
+[[nodiscard]] Spec param_spec(const core::Param<T>& p) {
+  std::string doc(p.doc), example(p.example);
+  const auto number_with = [&](std::string sentence) {
+    Spec spec = within(number(std::move(sentence)), p.range);
+    return p.unit == "1" ? spec : spec.in(std::string(p.unit));
+  };
+  if (p.automatic)
+    return either(std::move(doc),
+                  {number_with(std::string(p.automatic->number)),
+                   choice(std::string(p.automatic->word),
+                          {Choice{"auto", std::string(p.automatic->means), 0, true}})})
+        .otherwise("auto")
+        .such_as(std::move(example));
+  if (p.points)
+    return list(std::move(doc),
+                list(std::string(p.points->point), number(std::string(p.points->coordinate)))
+                    .count(2, 2)
+                    .such_as(std::string(p.points->example)))
+        .count(2)
+        .such_as(std::move(example));
+  Spec spec = number_with(std::move(doc)).such_as(std::move(example));
+  if (!p.otherwise.empty()) return spec.otherwise_as(std::string(p.otherwise));
+  const std::optional<double> usual = core::number_in(T{}, p.slot);
+  return p.required || !usual ? spec : spec.otherwise(fmt::format("{:g}", *usual));
+}
+
 /// The map with one key a parameter; what is not required has the value of a new object.
 ///
 /// Tested by  tests/unit/deck/test_params.cpp
@@ -17,23 +54,63 @@ template <class T>
 [[nodiscard]] Spec params_spec(std::string doc) {
   std::vector<Key> keys;
   for (const core::Param<T>& p : T::params()) {
-    Spec spec = number(std::string(p.doc)).such_as(std::string(p.example));
-    if (p.unit != "1") spec = spec.in(std::string(p.unit));
-    if (std::isfinite(p.range.lower))
-      spec = p.range.with_lower ? spec.at_least(p.range.lower) : spec.above(p.range.lower);
-    if (std::isfinite(p.range.upper))
-      spec = p.range.with_upper ? spec.at_most(p.range.upper) : spec.below(p.range.upper);
-    if (!p.required) spec = spec.otherwise(fmt::format("{:g}", T{}.*p.slot));
-    keys.push_back({std::string(p.key), p.required, std::move(spec)});
+    Key key{std::string(p.key), p.required && !p.automatic, param_spec(p)};
+    if (!p.one_of) {
+      keys.push_back(std::move(key));
+      continue;
+    }
+    if (keys.empty() || keys.back().name != p.one_of->key)
+      keys.push_back(
+          optional(std::string(p.one_of->key), map(std::string(p.one_of->doc), {})
+                                                   .with(Group::Rule::exactly_one, {})
+                                                   .such_as(std::string(p.one_of->example))));
+    Spec& group = keys.back().spec;
+    group.groups[0].keys.push_back(key.name);
+    group.keys.push_back(std::move(key));
   }
   return map(std::move(doc), std::move(keys));
 }
 
-/// The object that a value of that map describes.
+/// What may stand under the key of a type: the value of its one parameter, or a map of several.
+template <class T>
+[[nodiscard]] Spec described() {
+  if constexpr (requires { T::doc; }) return params_spec<T>(std::string(T::doc));
+  return param_spec(T::params().front());
+}
+
+/// The value of a parameter in that of an object, or nullptr where there is none.
+template <class T>
+[[nodiscard]] const Value* value_of(const Value& v, const core::Param<T>& p) {
+  if (p.key.empty()) return &v;
+  const Value* const map = p.one_of ? v.find(p.one_of->key) : &v;
+  return map ? map->find(p.key) : nullptr;
+}
+/// Whether the value is the word `auto`.
+template <class T>
+[[nodiscard]] bool is_automatic(const Value& v, const core::Param<T>& p) {
+  return p.automatic && v.alternative == 1;
+}
+
+/// The object that a value describes. Throws core::InputError where its parameters do not go
+/// together.
 template <class T>
 [[nodiscard]] T params_of(const Value& v) {
   T object;
-  for (const core::Param<T>& p : T::params()) object.*p.slot = v.at(p.key).number;
+  for (const core::Param<T>& p : T::params()) {
+    const Value* const value = value_of(v, p);
+    if (!value || is_automatic(*value, p)) continue;
+    core::Table points;
+    for (const Value& item : value->items)
+      points.push_back({item.items[0].number, item.items[1].number});
+    core::set(object, p.slot, value->number);
+    core::set(object, p.slot, std::move(points));
+  }
+  if (const auto fault = core::own_fault(object)) {
+    const Value* const key = fault->key.empty() ? &v : v.find(fault->key);
+    const Value& whole = key ? *key : v;
+    throw core::InputError(fault->item ? whole.items.at(*fault->item).mark : whole.mark,
+                           fault->why);
+  }
   return object;
 }
 

@@ -15,7 +15,8 @@ Kinematics usual_kinematics(const material::Law& law) {
 
 void require_kinematics(const Section& section, const Material& material) {
   const material::Law& law = material.law.value;
-  if (section.kinematics.value == usual_kinematics(law)) return;
+  if (section.kinematics.value == usual_kinematics(law) || material::has_logarithmic_form(law))
+    return;
   const bool finite = material::finite_strain(law);
   throw core::InputError(
       section.kinematics.mark,
@@ -74,7 +75,8 @@ std::vector<Material> parse_materials(const Value& v) {
       m.name = {entry.key, entry.key_mark};
       m.law = {params_of<T>(*constants), constants->mark};
       for (const core::Param<T>& p : T::params())
-        m.marks.emplace_back(p.key, constants->at(p.key).mark);
+        if (const Value* const value = value_of(*constants, p))
+          m.marks.emplace_back(p.key, value->mark);
       constexpr double nearest = 1e-10;  // leaves six digits for the shape
       if (0.5 - material::unloaded(m.law.value).poisson < nearest)
         throw core::InputError(m.mark("nu"),

@@ -49,12 +49,20 @@ void name_unions(Value& v, std::vector<SetDefinition>& sets);
 /// Of the list of its parts.
 [[nodiscard]] CompositeShape parse_composite(const Value& v);
 [[nodiscard]] std::vector<Contact> parse_contact(const Value& v);
+/// The law of a map with at most one of the keys that laws have, beside that of the law of pairs
+/// that name none.
+[[nodiscard]] GivenLaw<contact::NormalLaw> normal_law_of(const Value& v);
+/// The law of a map with one key.
+[[nodiscard]] GivenLaw<contact::FrictionLaw> friction_law_of(const Value& v);
+[[nodiscard]] GivenLaw<contact::DampingLaw> damping_law_of(const Value& v);
 [[nodiscard]] std::vector<Amplitude> parse_amplitudes(const Value& v);
 [[nodiscard]] std::vector<Equation> parse_equations(const Value& v);
 [[nodiscard]] std::vector<Equal> parse_equal(const Value& v);
 [[nodiscard]] std::vector<Step> parse_steps(const Value& v);
 [[nodiscard]] DynamicsDescription parse_dynamics(const Value& v);
 [[nodiscard]] std::vector<Load> parse_initial_velocity(const Value& v);
+/// Loads whose components are called `names`, in this order.
+[[nodiscard]] std::vector<Load> loads_of(const Value& v, const std::vector<std::string>& names);
 [[nodiscard]] Solver parse_solver(const Value& v);
 /// Needs contacts and rigid bodies: they decide what `on` means.
 [[nodiscard]] Output parse_output(const Value& v, const Description& description);

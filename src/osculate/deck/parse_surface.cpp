@@ -228,7 +228,7 @@ FacetMesh<2> polyline_mesh(const PolylineShape& line) {
 AnyTarget shape_of(const SourceEntry& written, const std::string& file) {
   const SourceEntry shape = model_form(written);
   Spec spec;
-  for (const Key& key : shape_keys())
+  for (const Key& key : shape_keys(false))
     if (key.name == shape.key) spec = key.spec;
   const core::SourceMark mark{file, written.line, written.key};
   Value value;

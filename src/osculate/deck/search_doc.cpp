@@ -20,8 +20,10 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 24> synonyms{{
-    {"plasticity plastic yield hardening creep viscoelastic damage mises-plasticity", no},
+constexpr std::array<Synonym, 25> synonyms{{
+    {"plasticity plastic yielding mises-plasticity j2 metal",
+     "materials.elastoplastic: yield, hardening, isotropic, kinematic"},
+    {"creep viscoelastic damage", no},
     {"bolt pretension preload gasket", no},
     {"thermal temperature heat expansion", no},
     {"shell membrane beam truss spring dashpot", no},

@@ -60,10 +60,7 @@ std::string describe_either(const Spec& spec) {
       parts.push_back(describe(part));
     }
   }
-  if (parts.size() < 2) return core::join(parts);
-  const std::string last = parts.back();
-  parts.pop_back();
-  return core::join(parts) + " or " + last;
+  return core::join_with(parts, "or");
 }
 
 }  // namespace

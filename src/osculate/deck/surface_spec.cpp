@@ -70,7 +70,7 @@ Spec surface_spec() {
                             .count(1)
                             .such_as("[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]")),
       optional("facets", facets_spec())};
-  for (Key& key : shape_keys()) {
+  for (Key& key : shape_keys(false)) {
     if (key.name == "nurbs") key.spec = nurbs_spec();
     keys.push_back(std::move(key));
   }

@@ -2,51 +2,78 @@
 // The one list of material laws. A new law is a header of its own and one entry here.
 #include <variant>
 
+#include "osculate/material/j2_plasticity.hpp"
 #include "osculate/material/linear_elastic.hpp"
+#include "osculate/material/logarithmic.hpp"
 #include "osculate/material/neo_hooke.hpp"
 #include "osculate/material/st_venant_kirchhoff.hpp"
 
 namespace osculate::material {
 
-using Law = std::variant<LinearElastic, StVenantKirchhoff, NeoHooke>;
+using Law = std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
+                         Logarithmic<J2Plasticity>>;
 
-/// Calls `visit(T{})` with a default value of each law, in the order of the list.
+/// A law that has a key in the model file; the others are forms of such laws.
+template <class T>
+concept IsNamed = requires {
+  T::params().front();
+};
+
+/// Calls `visit(T{})` with a default value of each law that has a key, in the order of the list.
 template <class Visit>
 constexpr void for_each_law(const Visit& visit) {
+  const auto one = [&]<class T>(T law) {
+    if constexpr (IsNamed<T>) visit(std::move(law));
+  };
   [&]<class... Laws>(const std::variant<Laws...>*) {
-    (visit(Laws{}), ...);
+    (one(Laws{}), ...);
   }(static_cast<const Law*>(nullptr));
 }
 
 /// What every entry offers.
 template <class T>
-concept IsLaw = requires(const T& law, const Strain& strain, const Strain3& strain3,
-                         double& strain_33) {
+concept IsLaw = requires(const T& law) {
   { T::key } -> std::convertible_to<std::string_view>;
   { T::doc } -> std::convertible_to<std::string_view>;
   { T::finite_strain } -> std::convertible_to<bool>;  ///< of large rotations
   { T::large_strain } -> std::convertible_to<bool>;   ///< made for large compression
-  { law.density } -> std::convertible_to<double>;
   { unloaded(law) } -> std::same_as<Isotropic>;
+};
+/// Of laws whose stress follows from the strain alone.
+template <class T>
+concept Forgets = requires(const T& law, const Strain& strain, const Strain3& strain3,
+                           double& strain_33) {
   { energy_of(law, strain) } -> std::same_as<double>;
   { energy_of(law, strain3) } -> std::same_as<double>;
-  { T::params().front() } -> std::convertible_to<core::Param<T>>;
   { respond(law, strain) } -> std::same_as<Response>;
   { respond(law, strain3) } -> std::same_as<Response3>;
   { respond_plane_stress(law, strain, strain_33) } -> std::same_as<Response>;
+};
+/// Of laws that say what they remember (memory.hpp): they get it, and say what is stored and what
+/// is dissipated.
+template <class T>
+concept TakesMemory = requires(const T& law, const Strain& strain, const Strain3& strain3,
+                               double& strain_33, const Memory& memory, const double* state) {
+  { T::memory.front() } -> std::convertible_to<Remembered>;
+  { energy_of(law, strain3, state) } -> std::same_as<double>;
+  { dissipated_by(law, state) } -> std::same_as<double>;
+  { respond(law, strain, memory) } -> std::same_as<Response>;
+  { respond(law, strain3, memory) } -> std::same_as<Response3>;
+  { respond_plane_stress(law, strain, strain_33, memory) } -> std::same_as<Response>;
 };
 
 namespace detail {
 template <class... Laws>
 constexpr bool all_are_laws(const std::variant<Laws...>*) {
-  return (IsLaw<Laws> && ...);
+  return ((IsLaw<Laws> && (Remembers<Laws> ? TakesMemory<Laws> : Forgets<Laws>)) && ...);
 }
 template <class... Laws>
 constexpr bool keys_differ(const std::variant<Laws...>*) {
-  const std::array<std::string_view, sizeof...(Laws)> keys{Laws::key...};
+  const std::array<std::string_view, sizeof...(Laws)> keys{
+      (IsNamed<Laws> ? Laws::key : std::string_view())...};
   for (std::size_t i = 0; i < keys.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (keys[i] == keys[j]) return false;
+      if (!keys[i].empty() && keys[i] == keys[j]) return false;
   return true;
 }
 }  // namespace detail

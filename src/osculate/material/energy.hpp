@@ -3,13 +3,18 @@
 
 namespace osculate::material {
 
-/// Stored energy per reference volume of a strain (as `response` takes it).
+/// Stored energy per reference volume of a strain (as `response` takes it), in a point that
+/// remembers `state` (null: nothing).
 ///
 /// Formula    W with S = dW/dE; linear laws: S . E / 2
 /// Units      force/length^2
 /// Returns    infinity for a strain that the law has no answer to
-/// Tested by  tests/unit/material/test_energy.cpp
-[[nodiscard]] double stored_energy(const Law& law, const Strain& strain);
-[[nodiscard]] double stored_energy(const Law& law, const Strain3& strain);
+/// Tested by  tests/unit/material/test_energy.cpp, test_j2_plasticity.cpp
+[[nodiscard]] double stored_energy(const Law& law, const Strain& strain,
+                                   const double* state = nullptr);
+[[nodiscard]] double stored_energy(const Law& law, const Strain3& strain,
+                                   const double* state = nullptr);
+/// What has been dissipated in such a point.
+[[nodiscard]] double dissipated_energy(const Law& law, const double* state);
 
 }  // namespace osculate::material

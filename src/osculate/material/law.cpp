@@ -9,6 +9,29 @@ StressOf<N> stress_of(const T& law, const Vec<N>& strain) {
   const ResponseOf<N> r = respond(law, strain);
   return {r.ok, r.stress};
 }
+template <class T, int N>
+StressOf<N> stress_of(const T& law, const Vec<N>& strain, const Memory& memory) {
+  const ResponseOf<N> r = respond(law, strain, memory);
+  return {r.ok, r.stress};
+}
+template <class T, int N>
+StressOf<N> stress_alone(const T& law, const Vec<N>& strain,
+                         [[maybe_unused]] const Memory& memory) {
+  if constexpr (Remembers<T>)
+    return stress_of(law, strain, memory);
+  else
+    return stress_of(law, strain);
+}
+
+/// The law with the constants.
+template <class T>
+const T& named(const T& law) {
+  return law;
+}
+template <class T>
+const T& named(const Logarithmic<T>& form) {
+  return form.law;
+}
 
 }  // namespace
 
@@ -20,8 +43,40 @@ bool large_strain(const Law& law) {
   return std::visit([](const auto& m) { return m.large_strain; }, law);
 }
 
+bool linear(const Law& law) {
+  return std::visit(
+      []<class T>(const T&) {
+        return requires { requires T::linear; };
+      },
+      law);
+}
+
+std::span<const Remembered> memory_of(const Law& law) {
+  const auto of = []<class T>(const T&) -> std::span<const Remembered> {
+    if constexpr (Remembers<T>) return T::memory;
+    return {};
+  };
+  return std::visit(of, law);
+}
+
+bool has_logarithmic_form(const Law& law) {
+  return std::visit(
+      []<class T>(const T&) {
+        return requires { requires T::logarithmic; };
+      },
+      law);
+}
+
+Law in_logarithmic_strain(const Law& law) {
+  const auto form = []<class T>(const T& m) -> Law {
+    if constexpr (requires { requires T::logarithmic; }) return Logarithmic<T>{m};
+    return m;
+  };
+  return std::visit(form, law);
+}
+
 double density(const Law& law) {
-  return std::visit([](const auto& m) { return m.density; }, law);
+  return std::visit([](const auto& m) { return named(m).density; }, law);
 }
 
 Isotropic unloaded(const Law& law) {
@@ -33,25 +88,31 @@ std::string_view key_of(const Law& law) {
 }
 
 std::string range_problem(const Law& law) {
-  return std::visit([](const auto& m) { return core::range_problem(m); }, law);
+  return std::visit([](const auto& m) { return core::range_problem(named(m)); }, law);
 }
 
-Response response(const Law& law, const Strain& strain) {
-  return std::visit([&](const auto& m) { return respond(m, strain); }, law);
+Response response(const Law& law, const Strain& strain, const Memory& memory) {
+  return std::visit([&](const auto& m) { return detail::answer(m, strain, memory); }, law);
 }
 
-StressOf<4> stress(const Law& law, const Strain& strain) {
-  return std::visit([&](const auto& m) { return stress_of(m, strain); }, law);
+StressOf<4> stress(const Law& law, const Strain& strain, const Memory& memory) {
+  return std::visit([&](const auto& m) { return stress_alone(m, strain, memory); }, law);
 }
 
-StressOf<6> stress(const Law& law, const Strain3& strain) {
-  return std::visit([&](const auto& m) { return stress_of(m, strain); }, law);
+StressOf<6> stress(const Law& law, const Strain3& strain, const Memory& memory) {
+  return std::visit([&](const auto& m) { return stress_alone(m, strain, memory); }, law);
 }
 
-Response plane_stress_response(const Law& law, const Strain& strain, double* strain_33) {
+Response plane_stress_response(const Law& law, const Strain& strain, double* strain_33,
+                               const Memory& memory) {
   double found = 0;
-  const Response r =
-      std::visit([&](const auto& m) { return respond_plane_stress(m, strain, found); }, law);
+  const auto of = [&]<class T>(const T& m) {
+    if constexpr (Remembers<T>)
+      return respond_plane_stress(m, strain, found, memory);
+    else
+      return respond_plane_stress(m, strain, found);
+  };
+  const Response r = std::visit(of, law);
   if (strain_33) *strain_33 = found;
   return r;
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 
 #include "osculate/material/catalogue.hpp"
@@ -8,6 +9,14 @@ namespace osculate::material {
 [[nodiscard]] bool finite_strain(const Law& law);
 /// Made for large compression, in which enhanced strains are unstable.
 [[nodiscard]] bool large_strain(const Law& law);
+/// The stress is proportional to the strain, whatever happened before.
+[[nodiscard]] bool linear(const Law& law);
+/// What each material point remembers; empty: nothing.
+[[nodiscard]] std::span<const Remembered> memory_of(const Law& law);
+/// A law of small strains that may also be used in the logarithmic strain, and its form for that.
+/// Other laws stay as they are.
+[[nodiscard]] bool has_logarithmic_form(const Law& law);
+[[nodiscard]] Law in_logarithmic_strain(const Law& law);
 [[nodiscard]] double density(const Law& law);
 /// Of the unloaded material.
 [[nodiscard]] Isotropic unloaded(const Law& law);
@@ -15,24 +24,36 @@ namespace osculate::material {
 /// Empty if all constants are in their ranges, else which one is not and what is needed.
 [[nodiscard]] std::string range_problem(const Law& law);
 
+namespace detail {
+template <class T, int N>
+[[nodiscard]] ResponseOf<N> answer(const T& law, const Vec<N>& strain,
+                                   [[maybe_unused]] const Memory& memory) {
+  if constexpr (Remembers<T>)
+    return respond(law, strain, memory);
+  else
+    return respond(law, strain);
+}
+}  // namespace detail
+
 /// Stress for a given strain E = (C - I)/2 (or small strain), all four components free.
 ///
+/// Input      memory: of the point, for laws that remember
 /// Returns    second Piola-Kirchhoff stress and dS/dE (finite), Cauchy stress (small)
 /// Tested by  tests/unit/material/test_laws.cpp
-[[nodiscard]] Response response(const Law& law, const Strain& strain);
+[[nodiscard]] Response response(const Law& law, const Strain& strain, const Memory& memory = {});
 /// The same in space. Only for a value of type Strain3: expressions are strains of four components.
 ///
 /// Tested by  tests/unit/material/test_space.cpp
 template <std::same_as<Strain3> S>
-[[nodiscard]] Response3 response(const Law& law, const S& strain) {
-  return std::visit([&](const auto& m) { return respond(m, strain); }, law);
+[[nodiscard]] Response3 response(const Law& law, const S& strain, const Memory& memory = {}) {
+  return std::visit([&](const auto& m) { return detail::answer(m, strain, memory); }, law);
 }
 
 /// The stress alone; `ok` as in the response.
 ///
 /// Tested by  tests/unit/solid/test_finite_forces.cpp
-[[nodiscard]] StressOf<4> stress(const Law& law, const Strain& strain);
-[[nodiscard]] StressOf<6> stress(const Law& law, const Strain3& strain);
+[[nodiscard]] StressOf<4> stress(const Law& law, const Strain& strain, const Memory& memory = {});
+[[nodiscard]] StressOf<6> stress(const Law& law, const Strain3& strain, const Memory& memory = {});
 
 /// The same with S33 = 0: E33 is found (closed form, or Newton to round-off) and condensed, so that
 /// rows and columns 33 of the tangent are zero.
@@ -40,6 +61,7 @@ template <std::same_as<Strain3> S>
 ///
 /// Tested by  tests/unit/material/test_plane_stress.cpp
 [[nodiscard]] Response plane_stress_response(const Law& law, const Strain& strain,
-                                             double* strain_33 = nullptr);
+                                             double* strain_33 = nullptr,
+                                             const Memory& memory = {});
 
 }  // namespace osculate::material

@@ -12,7 +12,7 @@ namespace osculate::material {
 struct LinearElastic {
   static constexpr std::string_view key = "linear_elastic";
   static constexpr std::string_view doc = "Hooke's law between stress and small strain.";
-  static constexpr bool finite_strain = false, large_strain = false;
+  static constexpr bool finite_strain = false, large_strain = false, linear = true;
   double young = 0, poisson = 0, density = 0;
   static constexpr auto params() { return isotropic_params<LinearElastic>(); }
 };

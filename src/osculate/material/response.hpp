@@ -36,6 +36,24 @@ struct StressOf {
 using Response = ResponseOf<4>;
 using Response3 = ResponseOf<6>;
 
+/// Components of the plane in space, without shear across the plane, and back.
+[[nodiscard]] inline Strain3 in_space(const Strain& e) {
+  Strain3 out = Strain3::Zero();
+  out.head<4>() = e;
+  return out;
+}
+[[nodiscard]] inline const Strain3& in_space(const Strain3& e) { return e; }
+[[nodiscard]] inline Response3 in_space(const Response& r) {
+  Response3 out;
+  out.ok = r.ok;
+  out.stress.head<4>() = r.stress;
+  out.tangent.topLeftCorner<4, 4>() = r.tangent;
+  return out;
+}
+[[nodiscard]] inline Response in_plane(const Response3& r) {
+  return {r.ok, r.stress.head<4>(), r.tangent.topLeftCorner<4, 4>()};
+}
+
 /// Elastic constants.
 struct Isotropic {
   double young, poisson;

@@ -52,12 +52,18 @@ SolidSection<Dim> section_on(const BasicBulkSection<Dim>& section, cell::CellTyp
 
 template <int Dim>
 void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
-                   const mesh::CellRef& ref, const Eigen::VectorXd& u, bool with_tangent,
-                   BasicBulkBlock<Dim>& out) {
+                   const mesh::CellRef& ref, const Eigen::VectorXd& u,
+                   const material::Memory& memory, bool with_tangent, BasicBulkBlock<Dim>& out) {
   const CellNodes cell = cell_nodes(model.mesh, ref);
   set_dofs(cell.nodes, out);
-  solid::evaluate(section_on(section, cell.type), cell.type, reference_of(model, cell.nodes),
-                  displacement_of<Dim>(u, cell.nodes), with_tangent, out.result);
+  const auto evaluate = [&](const SolidSection<Dim>& own) {
+    solid::evaluate(own, cell.type, reference_of(model, cell.nodes),
+                    displacement_of<Dim>(u, cell.nodes), with_tangent, out.result, memory);
+  };
+  if (solid::unsupported(section.section, cell.type).empty())
+    evaluate(section.section);  // no copy of the law
+  else
+    evaluate(section_on(section, cell.type));
   out.ok = out.result.status == solid::Status::ok;
   if (out.ok) return;
   out.message = fmt::format("{} cell {} of '{}' {}", cell::info(cell.type).name,
@@ -137,9 +143,9 @@ template SolidCoordinates<3> displacement_of<3>(const Eigen::VectorXd&, std::spa
 template SolidSection<2> section_on(const BulkSection&, cell::CellType);
 template SolidSection<3> section_on(const BulkSection3&, cell::CellType);
 template void evaluate_cell(const Model&, const BulkSection&, const mesh::CellRef&,
-                            const Eigen::VectorXd&, bool, BulkBlock&);
+                            const Eigen::VectorXd&, const material::Memory&, bool, BulkBlock&);
 template void evaluate_cell(const Model3&, const BulkSection3&, const mesh::CellRef&,
-                            const Eigen::VectorXd&, bool, BulkBlock3&);
+                            const Eigen::VectorXd&, const material::Memory&, bool, BulkBlock3&);
 template void pressure_block(const Model&, const PressureLoad::Facet&, const Eigen::VectorXd&,
                              double, BulkBlock&);
 template void pressure_block(const Model3&, const PressureLoad::Facet&, const Eigen::VectorXd&,

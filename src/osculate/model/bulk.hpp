@@ -27,11 +27,11 @@ template <int Dim>
 template <int Dim>
 void set_dofs(std::span<const Index> nodes, BasicBulkBlock<Dim>& out);
 
-/// Evaluates one cell at the nodal displacements `u`.
+/// Evaluates one cell at the nodal displacements `u`; `memory` is that of its points.
 template <int Dim>
 void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
-                   const mesh::CellRef& cell, const Eigen::VectorXd& u, bool with_tangent,
-                   BasicBulkBlock<Dim>& out);
+                   const mesh::CellRef& cell, const Eigen::VectorXd& u,
+                   const material::Memory& memory, bool with_tangent, BasicBulkBlock<Dim>& out);
 
 /// External nodal forces of a pressure on one boundary facet, and their derivative (follower load).
 template <int Dim>

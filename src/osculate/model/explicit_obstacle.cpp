@@ -6,6 +6,7 @@
 
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
+#include "osculate/pairing/combinations.hpp"
 
 namespace osculate::model {
 namespace {
@@ -87,12 +88,12 @@ std::string obstacle_of_masses(const BasicModel<Dim>& model) {
 
 template <int Dim>
 std::string explicit_obstacle(const BasicModel<Dim>& model, const Step& step) {
-  for (const BasicContactPair<Dim>& pair : model.pairs)
-    if (pair.definition.enforcement != contact::Enforcement::penalty)
-      return fmt::format(
-          "the contact '{}' has multipliers, which central differences cannot find: they need the "
-          "force of a penalty",
-          pair.name);
+  for (const BasicContactPair<Dim>& pair : model.pairs) {
+    pairing::Traits traits = pairing::traits_of(pair.definition);
+    traits.add(pairing::Trait::explicit_time);
+    if (const pairing::Refusal* const no = pairing::refusal(traits))
+      return fmt::format("the contact '{}' has {}", pair.name, no->why);
+  }
   std::string obstacle = obstacle_of_bodies(model, step);
   if (obstacle.empty()) obstacle = obstacle_of_equations(model);
   if (obstacle.empty()) obstacle = obstacle_of_masses(model);

@@ -1,8 +1,9 @@
 #include "osculate/model/fields.hpp"
 
+#include <algorithm>
 #include <cmath>
 
-#include "osculate/model/bulk.hpp"
+#include "osculate/model/material_memory.hpp"
 #include "osculate/model/quantities.hpp"
 
 namespace osculate::model {
@@ -18,18 +19,45 @@ double mises_of(const std::array<double, N>& s) {
 
 template <int Dim>
 void add_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
-              const mesh::CellRef& ref, const BasicState<Dim>& state, BasicNodalFields<Dim>& f,
-              std::vector<int>& count) {
+              const mesh::CellRef& ref, const BasicState<Dim>& state, const CellMemory& memory,
+              BasicNodalFields<Dim>& f, std::vector<int>& count) {
   const CellNodes cell = cell_nodes(model.mesh, ref);
-  const auto s = solid::nodal_stress(section_on(section, cell.type), cell.type,
-                                     reference_of(model, cell.nodes),
-                                     displacement_of<Dim>(state.u, cell.nodes));
+  const auto s = solid::nodal_stress(
+      section_on(section, cell.type), cell.type, reference_of(model, cell.nodes),
+      displacement_of<Dim>(state.u, cell.nodes), memory.of(state.memory));
   for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
     const auto node = static_cast<std::size_t>(cell.nodes[k]);
     ++count[node];
     for (std::size_t i = 0; i < f.stress[node].size(); ++i) {
       f.stress[node][i] += s.stress[k][static_cast<Eigen::Index>(i)];
       f.strain[node][i] += s.strain[k][static_cast<Eigen::Index>(i)];
+    }
+  }
+}
+
+/// Values at the nodes as those of the stress; what cannot be negative is not.
+template <int Dim>
+void add_memory(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
+                const mesh::CellRef& ref, std::span<const double> state, const CellMemory& memory,
+                BasicNodalFields<Dim>& f) {
+  if (memory.size == 0) return;
+  const CellNodes cell = cell_nodes(model.mesh, ref);
+  const auto numbers = static_cast<Eigen::Index>(memory.size);
+  const Eigen::MatrixXd nodal = solid::at_nodes(
+      section_on(section, cell.type), cell.type,
+      Eigen::Map<const Eigen::MatrixXd>(state.data() + memory.first, numbers,
+                                        static_cast<Eigen::Index>(memory.count) / numbers)
+          .transpose());
+  const std::span<const material::Remembered> names = material::memory_of(section.section.law);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    auto field =
+        std::ranges::find(f.memory, names[i].name, [](const auto& of) { return of.first; });
+    if (field == f.memory.end())
+      field = f.memory.insert(field, {names[i].name, std::vector<double>(f.mises.size(), 0.0)});
+    for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
+      const double value = nodal(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i));
+      field->second[static_cast<std::size_t>(cell.nodes[k])] +=
+          names[i].negative ? value : std::max(value, 0.0);
     }
   }
 }
@@ -53,8 +81,10 @@ BasicNodalFields<Dim> nodal_fields(const BasicSystem<Dim>& system, const BasicMo
     f.reaction[i] = reaction.segment<Dim>(first);
   }
   std::vector<int> count(n, 0);
-  for (const BasicBulkSection<Dim>& section : model.sections)
-    for (const mesh::CellRef& ref : section.cells) add_cell(model, section, ref, state, f, count);
+  for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
+    add_cell(model, section, ref, state, m, f, count);
+    add_memory(model, section, ref, state.memory, m, f);
+  });
   for (std::size_t i = 0; i < n; ++i) {
     if (count[i] == 0) continue;
     for (std::size_t c = 0; c < f.stress[i].size(); ++c) {
@@ -62,6 +92,7 @@ BasicNodalFields<Dim> nodal_fields(const BasicSystem<Dim>& system, const BasicMo
       f.strain[i][c] /= count[i];
     }
     f.mises[i] = mises_of(f.stress[i]);
+    for (auto& field : f.memory) field.second[i] /= count[i];
   }
   return f;
 }

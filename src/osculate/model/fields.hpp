@@ -16,6 +16,8 @@ struct BasicNodalFields {
   std::vector<Tensor> stress;  ///< Cauchy
   std::vector<Tensor> strain;  ///< small or Green-Lagrange, half the shear angles
   std::vector<double> mises;
+  /// What the materials remember, by name; zero where they have no such number.
+  std::vector<std::pair<std::string_view, std::vector<double>>> memory;
 };
 
 template <int Dim>

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "osculate/solid/energy.hpp"
+#include "osculate/model/material_memory.hpp"
 #include "osculate/solid/mass.hpp"
 
 namespace osculate::model {
@@ -82,21 +82,25 @@ double BasicInertia<Dim>::total() const {
 }
 
 template <int Dim>
-double strain_energy(const BasicModel<Dim>& model, const Eigen::VectorXd& u) {
-  double sum = 0;
-  for (const BasicBulkSection<Dim>& section : model.sections)
-    for (const mesh::CellRef& ref : section.cells) {
-      const CellNodes cell = cell_nodes(model.mesh, ref);
-      sum += solid::strain_energy(section_on(section, cell.type), cell.type,
-                                  reference_of(model, cell.nodes),
-                                  displacement_of<Dim>(u, cell.nodes));
-    }
+solid::CellEnergy bulk_energy(const BasicModel<Dim>& model, const Eigen::VectorXd& u,
+                              std::span<const double> memory) {
+  solid::CellEnergy sum;
+  for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
+    const CellNodes cell = cell_nodes(model.mesh, ref);
+    const solid::CellEnergy of_cell = solid::cell_energy(
+        section_on(section, cell.type), cell.type, reference_of(model, cell.nodes),
+        displacement_of<Dim>(u, cell.nodes), m.of(memory));
+    sum.stored += of_cell.stored;
+    sum.dissipated += of_cell.dissipated;
+  });
   return sum;
 }
 
 template class BasicInertia<2>;
 template class BasicInertia<3>;
-template double strain_energy(const Model&, const Eigen::VectorXd&);
-template double strain_energy(const Model3&, const Eigen::VectorXd&);
+template solid::CellEnergy bulk_energy(const Model&, const Eigen::VectorXd&,
+                                       std::span<const double>);
+template solid::CellEnergy bulk_energy(const Model3&, const Eigen::VectorXd&,
+                                       std::span<const double>);
 
 }  // namespace osculate::model

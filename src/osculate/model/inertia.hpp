@@ -1,8 +1,10 @@
 #pragma once
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "osculate/model/bulk.hpp"
+#include "osculate/solid/energy.hpp"
 
 namespace osculate::model {
 
@@ -43,8 +45,9 @@ class BasicInertia {
   std::vector<Body> bodies_;
 };
 
-/// Strain energy of all cells.
+/// Stored and dissipated in all cells, whose points remember `memory`.
 template <int Dim>
-[[nodiscard]] double strain_energy(const BasicModel<Dim>& model, const Eigen::VectorXd& u);
+[[nodiscard]] solid::CellEnergy bulk_energy(const BasicModel<Dim>& model, const Eigen::VectorXd& u,
+                                            std::span<const double> memory);
 
 }  // namespace osculate::model

@@ -29,6 +29,7 @@ template <int Dim>
 void LinearCells<Dim>::add(const BasicBulkSection<Dim>& section, cell::CellType type) {
   const std::size_t dofs = Dim * static_cast<std::size_t>(cell::info(type).nodes);
   const bool kept = section.section.kinematics == solid::Kinematics::small &&
+                    material::linear(section.section.law) &&
                     (size_ + dofs * dofs) * sizeof(double) <= most_bytes;
   begin_.push_back(kept ? size_ : nowhere);
   made_.push_back(0);
@@ -46,10 +47,10 @@ void LinearCells<Dim>::keep(std::size_t number, const BasicBulkBlock<Dim>& block
 template <int Dim>
 void LinearCells<Dim>::evaluate(std::size_t number, const BasicModel<Dim>& model,
                                 const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
-                                const Eigen::VectorXd& u, bool with_tangent,
-                                BasicBulkBlock<Dim>& out) {
+                                const Eigen::VectorXd& u, const material::Memory& memory,
+                                bool with_tangent, BasicBulkBlock<Dim>& out) {
   const bool known = kept(number) && made_[number];
-  evaluate_cell(model, section, cell, u, with_tangent && !known, out);
+  evaluate_cell(model, section, cell, u, memory, with_tangent && !known, out);
   if (!with_tangent || !kept(number)) return;
   if (known)
     out.result.tangent =
@@ -61,13 +62,14 @@ void LinearCells<Dim>::evaluate(std::size_t number, const BasicModel<Dim>& model
 template <int Dim>
 void LinearCells<Dim>::force(std::size_t number, const BasicModel<Dim>& model,
                              const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
-                             const Eigen::VectorXd& u, BasicBulkBlock<Dim>& out) {
+                             const Eigen::VectorXd& u, const material::Memory& memory,
+                             BasicBulkBlock<Dim>& out) {
   if (!kept(number) || !keeps_digits(section)) {
-    evaluate_cell(model, section, cell, u, false, out);
+    evaluate_cell(model, section, cell, u, memory, false, out);
     return;
   }
   if (!made_[number]) {
-    evaluate_cell(model, section, cell, u, true, out);
+    evaluate_cell(model, section, cell, u, memory, true, out);
     keep(number, out);
     if (!made_[number]) return;
   }

@@ -6,9 +6,9 @@
 
 namespace osculate::model {
 
-/// Stiffness matrices of cells whose forces are linear in the displacements (small strains): made
-/// once, when the cell is first evaluated. What does not fit into `most_bytes` is evaluated anew
-/// each time, as are all other cells.
+/// Stiffness matrices of cells whose forces are linear in the displacements (small strains of a
+/// linear law): made once, when the cell is first evaluated. What does not fit into `most_bytes` is
+/// evaluated anew each time, as are all other cells.
 ///
 /// Forces of implicit analyses are those of the cell's strains all the same: of a thin cell the
 /// stored matrix has no digits of bending left. Explicit ones take the product, but of
@@ -26,19 +26,22 @@ class LinearCells {
   void add(const BasicBulkSection<Dim>& section, cell::CellType type);
   /// Takes the memory, once; cells that are evaluated before are not kept.
   void reserve() { values_.resize(size_); }
-  /// As evaluate_cell, of cell `number`. Different cells may be evaluated at once.
-  void evaluate(std::size_t number, const BasicModel<Dim>& model,
-                const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
-                const Eigen::VectorXd& u, bool with_tangent, BasicBulkBlock<Dim>& out);
-  /// The forces alone, by the formula.
-  void force(std::size_t number, const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
-             const mesh::CellRef& cell, const Eigen::VectorXd& u, BasicBulkBlock<Dim>& out);
-
- private:
-  static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
+  /// Whether the matrix of a cell is stored, or will be.
   [[nodiscard]] bool kept(std::size_t number) const {
     return begin_[number] != nowhere && !values_.empty();
   }
+  /// As evaluate_cell, of cell `number`. Different cells may be evaluated at once.
+  void evaluate(std::size_t number, const BasicModel<Dim>& model,
+                const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
+                const Eigen::VectorXd& u, const material::Memory& memory, bool with_tangent,
+                BasicBulkBlock<Dim>& out);
+  /// The forces alone, by the formula.
+  void force(std::size_t number, const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
+             const mesh::CellRef& cell, const Eigen::VectorXd& u, const material::Memory& memory,
+             BasicBulkBlock<Dim>& out);
+
+ private:
+  static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
   void keep(std::size_t number, const BasicBulkBlock<Dim>& block);
   std::vector<std::size_t> begin_;  ///< of a cell's matrix in `values_`
   std::vector<char> made_;

@@ -26,9 +26,9 @@ double node_velocity(const BasicState<Dim>& state, const HistoryRequest& request
 }
 
 double energy_value(const Energies& e, std::string_view quantity) {
-  const std::array<double, energy_quantities.size()> values{e.elapsed, e.kinetic,   e.strain,
-                                                            e.contact, e.external,  e.friction,
-                                                            e.damping, e.numerical, e.residual};
+  const std::array<double, energy_quantities.size()> values{
+      e.elapsed,  e.kinetic, e.strain,    e.contact,  e.external,
+      e.friction, e.damping, e.numerical, e.residual, e.plastic};
   for (std::size_t i = 0; i < values.size(); ++i)
     if (energy_quantities[i] == quantity) return values[i];
   return std::numeric_limits<double>::quiet_NaN();

@@ -19,6 +19,9 @@ struct HistoryRequest {
   std::vector<Index> group{};  ///< further pairs: their sum, the largest of `max_*` and `slip`
 };
 
+/// Of models whose materials dissipate.
+inline constexpr std::string_view plastic_quantity = "plastic";
+
 /// What can be asked of node sets, rigid bodies and contact pairs. Displacements of a set are
 /// averages, reactions (rf*) sums of the force the support exerts. Rotations of a rigid body in
 /// space are the components of its rotation vector, reaction moments (rm*) act about axes through
@@ -30,9 +33,9 @@ struct HistoryRequest {
 /// without friction. `stick` and `slipping` count points of pairs with friction (or tied), `closed`
 /// all that are in contact. Velocities are zero in steps without inertia. Of the whole model: the
 /// members of Energies, and the time since inertia began (`elapsed`).
-inline constexpr std::array<std::string_view, 9> energy_quantities{
-    "elapsed",  "kinetic", "strain",    "contact", "external",
-    "friction", "damping", "numerical", "residual"};
+inline constexpr std::array<std::string_view, 10> energy_quantities{
+    "elapsed",  "kinetic", "strain",    "contact",  "external",
+    "friction", "damping", "numerical", "residual", plastic_quantity};
 /// Length of the last increment in time, where time steps are chosen by their errors.
 inline constexpr std::string_view time_step_quantity = "time_step";
 /// Of the running step that has passed, in models with inertia.

@@ -65,6 +65,7 @@ void measure_small_strain(const BasicModel<Dim>& model, const Eigen::VectorXd& u
     if (section.section.kinematics != solid::Kinematics::small) continue;
     if (found.size() <= entry) found.push_back({section.name});
     SmallStrain& here = found[entry++];
+    here.logarithmic = material::has_logarithmic_form(section.section.law);
     for (const mesh::CellRef& ref : section.cells) {
       const Mat<Dim, Dim> f =
           Mat<Dim, Dim>::Identity() +
@@ -80,9 +81,11 @@ std::string left_small_strain(const SmallStrain& found) {
   if (!found.large()) return {};
   return fmt::format(
       "warning: section '{}' is computed with small strains, but has strains up to {:.2g} % and "
-      "rotations up to {:.2g} degrees, which they are not for: give it a material of "
-      "large rotations (st_venant_kirchhoff) or strains (neo_hooke)",
-      found.section, 100 * found.strain, found.rotation * 180 / std::numbers::pi);
+      "rotations up to {:.2g} degrees, which they are not for: give it {}",
+      found.section, 100 * found.strain, found.rotation * 180 / std::numbers::pi,
+      found.logarithmic
+          ? "kinematics: finite"
+          : "a material of large rotations (st_venant_kirchhoff) or strains (neo_hooke)");
 }
 
 template void measure_small_strain(const BasicModel<2>&, const Eigen::VectorXd&,

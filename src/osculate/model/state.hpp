@@ -12,8 +12,9 @@ namespace osculate::model {
 
 /// Where the energy is and where it went since the first step with inertia began.
 ///
-/// Formula    kinetic + strain + contact = start + external - friction - damping - numerical -
-///            residual ; work of a step by the mean of the forces at its beginning and end
+/// Formula    kinetic + strain + contact = start + external - friction - damping - plastic -
+///            numerical - residual ; work of a step by the mean of the forces at its beginning and
+///            end
 struct Energies {
   double kinetic = 0;
   double strain = 0;     ///< stored in the cells
@@ -27,6 +28,8 @@ struct Energies {
   double friction_before = 0;
   double damped = 0;   ///< by damping of contact up to this state, steps without inertia included
   double elapsed = 0;  ///< time since the beginning
+  double plastic = 0;  ///< dissipated in materials
+  double plastic_before = 0;
 };
 
 /// The longest stable step of explicit time integration, as it was estimated last.
@@ -64,6 +67,8 @@ struct BasicState {
   std::vector<pairing::PairMultipliers<Dim>> multipliers;  ///< of the pairs; empty by penalty
   double fraction = 0;                                     ///< of the running step
   Rates rates{};                                           ///< empty in steps without inertia
+  std::vector<double> memory{};  ///< of the material points (MaterialMemory), at the last converged
+                                 ///< increment
 };
 
 using State = BasicState<2>;

@@ -29,6 +29,7 @@ BasicState<Dim> BasicSystem<Dim>::initial_state() {
   for (std::size_t p = 0; p < model.pairs.size(); ++p)
     state.multipliers.push_back(
         pairing::initial_multipliers<Dim>(model.pairs[p].definition, state.pairs[p]));
+  state.memory.assign(impl_->next_memory.size(), 0.0);
   return state;
 }
 
@@ -180,6 +181,7 @@ BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) co
     impl_->rebase(state);
   }
   state.fraction = fraction;
+  state.memory = impl_->next_memory;
   state.assumed.clear();
   impl_->look_far(trial);
   for (std::size_t p = 0; p < impl_->contact.size(); ++p) {
@@ -318,6 +320,10 @@ const Forces& BasicSystem<Dim>::forces() const {
 template <int Dim>
 const std::vector<pairing::PairEvaluation<Dim>>& BasicSystem<Dim>::contact() const {
   return impl_->contact;
+}
+template <int Dim>
+const std::vector<double>& BasicSystem<Dim>::material_memory() const {
+  return impl_->next_memory;
 }
 template <int Dim>
 const std::vector<bool>& BasicSystem<Dim>::touched() const {

@@ -149,6 +149,8 @@ class BasicSystem {
   [[nodiscard]] const BasicDofSpace<Dim>& dofs() const;
   [[nodiscard]] const Forces& forces() const;  ///< of the last evaluation
   [[nodiscard]] const std::vector<pairing::PairEvaluation<Dim>>& contact() const;
+  /// What the material points would remember of the last evaluation.
+  [[nodiscard]] const std::vector<double>& material_memory() const;
   /// By pair: whether it was closed in a time step of explicit integration so far.
   [[nodiscard]] const std::vector<bool>& touched() const;
   /// At the beginning of the last iterations (at most eight) of the running attempt and at its end.

@@ -50,7 +50,7 @@ void BasicSystem<Dim>::Impl::begin_dynamics() {
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::measure_damping(const Eigen::VectorXd& u) {
+void BasicSystem<Dim>::Impl::measure_damping(const State& committed) {
   const double factor = motion->settings.damping_stiffness;
   if (!(factor > 0)) return;
   const bool first = motion->damping.empty();
@@ -59,7 +59,7 @@ void BasicSystem<Dim>::Impl::measure_damping(const Eigen::VectorXd& u) {
   for (std::size_t c = 0; c < jobs.size(); ++c) {
     const bool finite = jobs[c].section->section.kinematics == solid::Kinematics::finite;
     if (!first && !finite) continue;
-    evaluate_job(c, u, true, block);
+    evaluate_job(c, committed.u, committed.memory, {}, true, block);
     motion->damping[c] = factor * block.result.tangent;
   }
 }
@@ -83,7 +83,7 @@ void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double frac
   if (same_start && same_length) return;
   if (!same_start) {
     m.start = std::move(start);
-    measure_damping(committed.u);
+    measure_damping(committed);
     m.from = committed.rigid;
     m.past = committed.rates;
   }
@@ -325,7 +325,7 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   rates.internal = forces.internal;
   rates.external = forces.external;
   rates.contact = forces.contact;
-  measure_damping(committed.u);
+  measure_damping(committed);
   rates.damping = damping_of(rates.velocity);
   if constexpr (Dim == 3) damp_spins(rates.velocity, rates.damping);
   Eigen::VectorXd force = rates.external - rates.internal - rates.damping;
@@ -337,12 +337,14 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   forces.inertia = rates.damping + inertia_of(rates);
   Energies& e = rates.energies;
   const double kinetic = kinetic_energy(rates);
-  e.strain = strain_energy(model, committed.u);
+  const solid::CellEnergy bulk = bulk_energy(model, committed.u, committed.memory);
+  e.strain = bulk.stored;
   e.contact = contact_energy();
   e.damped = damping_work();
   if (first) {
     e.start = kinetic + e.strain + e.contact;
     e.friction_before = friction_work();
+    e.plastic_before = bulk.dissipated;
   } else {
     e.external += kinetic - brought;  // of what is prescribed from now on
     e.numerical += e.kinetic - brought;
@@ -416,7 +418,9 @@ void BasicSystem<Dim>::Impl::add_energies(const State& trial, const Rates& now,
         supports += rest[d] * t.factor * step_of[dofs.dof_of_unknown(t.unknown)];
   }
   e.kinetic = kinetic_energy(now);
-  e.strain = strain_energy(model, trial.u);
+  const solid::CellEnergy bulk = bulk_energy(model, trial.u, next_memory);
+  e.strain = bulk.stored;
+  e.plastic = bulk.dissipated - e.plastic_before;
   e.contact = contact_energy();
   e.external += external.dot(step_of) + supports;
   e.damped = damping_work();
@@ -427,7 +431,7 @@ void BasicSystem<Dim>::Impl::add_energies(const State& trial, const Rates& now,
   const double of_time = inertial.dot(step_of) - (e.kinetic - before.kinetic) -
                          (rest.dot(step_of) - supports - left_over);
   e.numerical += of_contact + of_time;
-  e.residual = e.start + e.external - e.friction - e.damping - e.numerical -
+  e.residual = e.start + e.external - e.friction - e.damping - e.plastic - e.numerical -
                (e.kinetic + e.strain + e.contact);
 }
 

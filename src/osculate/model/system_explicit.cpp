@@ -126,7 +126,7 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u) {
     for (std::ptrdiff_t c = 0; c < count; ++c) {
       const CellJob& job = system.jobs[static_cast<std::size_t>(c)];
       system.linear.force(static_cast<std::size_t>(c), system.model, *job.section, job.cell, u,
-                          block);
+                          job.memory.of(now.memory, system.next_memory), block);
       if (!block.ok) failed = std::min(failed, c);
       std::copy_n(block.result.force.data(), block.dof_count,
                   cell_forces.begin() +
@@ -143,7 +143,7 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u) {
   }
   system.seconds.bulk += watch.seconds();
   if (failed == count) return true;
-  system.evaluate_job(static_cast<std::size_t>(failed), u, false, work.front());
+  system.evaluate_job(static_cast<std::size_t>(failed), u, now.memory, {}, false, work.front());
   trouble = work.front().message;
   return false;
 }
@@ -336,6 +336,7 @@ bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::
   place(m.position);
   const double fraction = time / system.step.duration;
   if (!add_cells(m.position)) return false;
+  now.memory.swap(system.next_memory);
   add_contact(h, fraction);
   commit_contact();
   add_loads(fraction);

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numeric>
 
-#include "osculate/contact/law/damping.hpp"
+#include "osculate/contact/law/law.hpp"
 #include "osculate/core/dense.hpp"
 #include "osculate/model/system_explicit.hpp"
 #include "osculate/pairing/point_penalty.hpp"
@@ -36,9 +36,7 @@ double stiffest(const pairing::PairDefinition<Dim>& pair, double slope, std::siz
 /// Coefficient of the dampers beside the springs, which see the way of the time step before.
 template <int Dim>
 double damper(const pairing::PairDefinition<Dim>& pair) {
-  const auto* const viscous =
-      pair.damping ? pair.damping->template as<contact::Viscous>() : nullptr;
-  return viscous ? viscous->coefficient : 0.0;
+  return pair.damping ? contact::damper(*pair.damping) : 0.0;
 }
 
 /// What the stiffness of a slave point is its law's slope times.

@@ -148,7 +148,9 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   system.forces.inertia = inertia_forces(rates.acceleration);
   Energies& e = rates.energies;
   e.kinetic = kinetic(rates.velocity);
-  e.strain = strain_energy(system.model, committed.u);
+  const solid::CellEnergy bulk = bulk_energy(system.model, committed.u, committed.memory);
+  e.strain = bulk.stored;
+  if (committed.rates.empty()) e.plastic_before = bulk.dissipated;
   e.contact = system.contact_energy();
   e.damped = system.damping_work();
   return rates;
@@ -187,7 +189,9 @@ void BasicSystem<Dim>::Impl::Explicit::add_energies(Rates& rates) {
   const Energies before = e;
   works.supports += kinetic_of_held(rates.velocity) - held_before;
   e.kinetic = kinetic(rates.velocity);
-  e.strain = strain_energy(system.model, now.u);
+  const solid::CellEnergy bulk = bulk_energy(system.model, now.u, now.memory);
+  e.strain = bulk.stored;
+  e.plastic = bulk.dissipated - e.plastic_before;
   e.contact = system.contact_energy();
   e.friction = system.friction_work() - e.friction_before;
   e.external += works.external + works.supports;
@@ -198,7 +202,7 @@ void BasicSystem<Dim>::Impl::Explicit::add_energies(Rates& rates) {
   const double of_time = works.external + works.supports - works.internal - works.contact -
                          works.damping - (e.kinetic - energy_before);
   e.numerical += of_contact + of_time;
-  e.residual = e.start + e.external - e.friction - e.damping - e.numerical -
+  e.residual = e.start + e.external - e.friction - e.damping - e.plastic - e.numerical -
                (e.kinetic + e.strain + e.contact);
 }
 

@@ -13,6 +13,7 @@
 #include "osculate/model/bulk.hpp"
 #include "osculate/model/inertia.hpp"
 #include "osculate/model/linear_cells.hpp"
+#include "osculate/model/material_memory.hpp"
 #include "osculate/model/system.hpp"
 
 namespace osculate::model {
@@ -46,6 +47,7 @@ struct BasicSystem<Dim>::Impl {
   struct CellJob {
     const BasicBulkSection<Dim>* section;
     mesh::CellRef cell;
+    CellMemory memory;
   };
 
   const BasicModel<Dim>& model;
@@ -57,6 +59,7 @@ struct BasicSystem<Dim>::Impl {
   std::vector<CellJob> jobs;
   LinearCells<Dim> linear;  ///< by job
   std::vector<BulkBlock> blocks;
+  std::vector<double> next_memory;  ///< of the material points, at the last trial
   std::vector<pairing::PairEvaluation<Dim>> contact;
   Forces forces;
   Eigen::VectorXd predicted;  ///< K du_prescribed on primary dofs
@@ -129,7 +132,7 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] double force_factor() const { return timed() ? motion->factors.force : 1.0; }
   [[nodiscard]] Eigen::VectorXd dof_values(const State& s) const;
   void begin_dynamics();
-  void measure_damping(const Eigen::VectorXd& u);
+  void measure_damping(const State& committed);
   void begin_increment(const State& committed, double fraction, double duration);
   void add_inertia(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);
   /// Rotations of rigid bodies in space, in system_spins.cpp.
@@ -284,12 +287,16 @@ struct BasicSystem<Dim>::Impl {
 
   // The terms. `inc` (may be null) is the prescribed increment that `predicted` takes up.
   void clear(bool with_tangent);
-  /// A cell at the nodal displacements `u`. Different cells may be evaluated at once.
-  void evaluate_job(std::size_t job, const Eigen::VectorXd& u, bool with_tangent, BulkBlock& out) {
-    linear.evaluate(job, model, *jobs[job].section, jobs[job].cell, u, with_tangent, out);
+  /// A cell at the nodal displacements `u` after what its points remember. Different cells may be
+  /// evaluated at once. `next` may be empty.
+  void evaluate_job(std::size_t job, const Eigen::VectorXd& u, std::span<const double> memory,
+                    std::span<double> next, bool with_tangent, BulkBlock& out) {
+    const CellJob& j = jobs[job];
+    linear.evaluate(job, model, *j.section, j.cell, u, j.memory.of(memory, next), with_tangent,
+                    out);
   }
-  bool add_bulk(const State& trial, bool with_tangent, const Eigen::VectorXd* inc,
-                solve::Evaluation& out);
+  bool add_bulk(const State& committed, const State& trial, bool with_tangent,
+                const Eigen::VectorXd* inc, solve::Evaluation& out);
   /// The last evaluation of contact, at `trial`, in whole: see pairing::look_far.
   void look_far(const State& trial);
   void add_contact(const State& committed, const State& trial, double fraction,

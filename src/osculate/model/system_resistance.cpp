@@ -34,9 +34,10 @@ void BasicSystem<Dim>::Impl::measure_resistance() {
   const Eigen::VectorXd rest =
       Eigen::VectorXd::Zero(Dim * static_cast<Eigen::Index>(model.reference.size()));
   Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(dofs.dofs());
+  const std::vector<double> untouched(next_memory.size(), 0.0);
   BulkBlock block;
   for (std::size_t j = 0; j < jobs.size(); ++j) {
-    evaluate_job(j, rest, true, block);
+    evaluate_job(j, rest, untouched, {}, true, block);
     for (int k = 0; block.ok && k < block.dof_count; ++k)
       diagonal[block.dofs[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
   }

@@ -194,8 +194,10 @@ std::optional<double> path_length(const Chain& chain, std::span<const Vec2> x, c
 
 std::optional<Valley> valley_after(const Chain& chain, Index facet, std::span<const Vec2> x) {
   constexpr double least_sine = 1e-6;  // a straight line is no corner, whatever rounding says
-  const Facet& before = chain.facets[static_cast<std::size_t>(facet)];
+  const auto number = static_cast<std::size_t>(facet);
+  const Facet& before = chain.facets[number];
   if (before.next < 0 || before.next == facet) return std::nullopt;
+  if (number < chain.sharp_behind.size() && !chain.sharp_behind[number]) return std::nullopt;
   const Facet& behind = chain.facets[static_cast<std::size_t>(before.next)];
   const geometry::CurveJet<2> end = facet_jet(before, before.hi, x);
   Valley v;
@@ -209,10 +211,14 @@ std::optional<Valley> valley_after(const Chain& chain, Index facet, std::span<co
   return v;
 }
 
-bool has_valley(const Chain& chain, std::span<const Vec2> x) {
-  for (std::size_t f = 0; f < chain.facets.size(); ++f)
-    if (valley_after(chain, static_cast<Index>(f), x)) return true;
-  return false;
+bool mark_valleys(Chain& chain, std::span<const Vec2> x, double angle) {
+  std::vector<char> sharp(chain.facets.size(), 0);
+  chain.sharp_behind.clear();
+  for (std::size_t f = 0; f < sharp.size(); ++f)
+    if (const std::optional<Valley> v = valley_after(chain, static_cast<Index>(f), x))
+      sharp[f] = std::atan2(v->normal[0].dot(v->along[1]), v->along[0].dot(v->along[1])) > angle;
+  chain.sharp_behind = std::move(sharp);
+  return std::ranges::any_of(chain.sharp_behind, [](char is) { return is != 0; });
 }
 
 }  // namespace osculate::pairing

@@ -34,6 +34,8 @@ struct Facet {
 /// A boundary made of facets; nu = k x rho_xi points out of the body (body on the right of travel).
 struct Chain {
   std::vector<Facet> facets;
+  /// By facet: the vertex behind it may be a valley; empty: any may. Set by `mark_valleys`.
+  std::vector<char> sharp_behind{};
 };
 
 /// A place on a chain.
@@ -77,8 +79,9 @@ struct Valley {
 [[nodiscard]] std::optional<Valley> valley_after(const Chain& chain, Index facet,
                                                  std::span<const Vec2> x);
 
-/// Whether a chain has a valley (the pair's `valleys` cost unknowns).
-[[nodiscard]] bool has_valley(const Chain& chain, std::span<const Vec2> x);
+/// Lets valleys be at those vertices alone whose normals enclose more than `angle` at `x`; whether
+/// there are any (a pair's `valleys` cost unknowns).
+bool mark_valleys(Chain& chain, std::span<const Vec2> x, double angle);
 
 /// Signed arc length along the chain from `from` to `to` in the current configuration, over all
 /// borders on the way, and its derivative with respect to the node positions at fixed xi.

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "osculate/core/error.hpp"
 #include "osculate/pairing/closest.hpp"
 #include "osculate/pairing/mortar_basis.hpp"
 #include "osculate/pairing/mortar_node.hpp"
+#include "osculate/pairing/point_block.hpp"
+#include "osculate/pairing/report.hpp"
 
 namespace osculate::pairing {
 namespace {
@@ -233,16 +234,6 @@ void add_tangents(const PairDefinition<Dim>& pair, Points<Dim> x, PairEvaluation
   for (std::size_t k = used; k < out.blocks.size(); ++k) out.blocks[k].count = 0;
 }
 
-template <int Dim>
-void clear(ContactBlock<Dim>& block) {
-  block.count = 0;
-  block.nodes.clear();
-  block.behind.path.clear();
-  block.tangent.resize(0, 0);
-  block.branched = false;
-  block.constraint.on = false;
-}
-
 /// Parts of a node's area smaller than this are nothing.
 template <int Dim>
 bool covered(const MortarNode<Dim>& node, const NodalNormal<Dim>& normal, double full) {
@@ -259,67 +250,30 @@ const MortarPlace& last_place(const PairState<Dim>& committed, std::size_t i) {
 
 /// Place and traction of slave node `i`.
 template <int Dim>
-NodeContact<Dim> evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
-                               const PairState<Dim>& committed, const Assumed<Dim>& assumed,
-                               const PairMultipliers<Dim>* multipliers, std::size_t i,
-                               PairEvaluation<Dim>& out) {
+NodeContact<Dim> place_and_evaluate(const PairDefinition<Dim>& pair, Points<Dim> x,
+                                    const PairState<Dim>& committed, const Assumed<Dim>& assumed,
+                                    const PairMultipliers<Dim>* multipliers, std::size_t i,
+                                    PairEvaluation<Dim>& out) {
   BranchHint<Dim> hint = hint_of(pair, assumed, multipliers, i);
   const MortarNode<Dim>& node = out.mortar.nodes[i];
-  PointResult<Dim>& result = out.points[i];
-  clear(out.blocks[i]);
-  result.gap = std::numeric_limits<double>::infinity();
-  result.weight = node.area;
-  result.history.friction_work = committed.points[i].friction_work;
-  result.history.damping_work = committed.points[i].damping_work;
-  result.history.held = committed.points[i].held;
-  result.history.rest = committed.points[i].rest;
-  const bool constrained = start_constraint(pair, hint, i, out.blocks[i]);
+  const PointHistory<Dim>& history = committed.points[i];
+  ContactBlock<Dim>& block = out.blocks[i];
+  clear_block(block);
+  block.nodes.clear();
+  block.tangent.resize(0, 0);
+  out.points[i] = open_result(history, node.area);
+  start_constraint(pair, hint, i, block);
   if (!covered<Dim>(node, out.mortar.normals[i], pair.reference_areas[i])) return {};
   NodeContact<Dim> c = place_node<Dim>(node, out.mortar.normals[i]);
   out.mortar.places[i] = node.masters;
   for (double& weight : out.mortar.places[i].weights) weight /= node.area;
-  hint.way = way_of_gap(pair, assumed, committed.points[i], node.facet, c.gap);
-  c.normal_law = normal_response(pair, committed.points[i], c.gap, hint);
-  if (c.normal_law.active && pair.friction)
-    set_friction<Dim>(pair, committed.points[i], last_place<Dim>(committed, i), x, hint, c);
-  report<Dim>(pair, committed.points[i], node, c, result);
-  if (!c.normal_law.active) return c;
-  set_forces<Dim>(node, c, out.blocks[i]);
-  if (constrained)
-    set_constraint<Dim>(point_penalty(pair, i), c, node, constraint_weight(pair, i),
-                        *hint.multiplier, out.blocks[i]);
-  out.mortar.tractions[i] = c.traction();
+  hint.way = way_of_gap(pair, assumed, history, node.facet, c.sample.gap);
+  if (evaluate_node<Dim>(pair, x, history, last_place<Dim>(committed, i), node, hint, i, c, out))
+    out.mortar.tractions[i] = c.traction();
   return c;
 }
 
-bool too_long(const Facet& facet) { return facet.count > max_mortar_line; }
-bool too_long(const SurfaceFacet&) { return false; }
-bool smoothed(const Facet& facet) { return facet.bezier != nullptr; }
-bool smoothed(const SurfaceFacet& facet) { return facet.patch != nullptr; }
-
 }  // namespace
-
-template <int Dim>
-void prepare_mortar(PairDefinition<Dim>& pair, Points<Dim> reference) {
-  const auto refuse = [](const char* why) { throw core::GeometryError(why); };
-  if (pair.weight == Weight::node)
-    refuse("mortar integrates over the slave's area: weight: node is not for it");
-  if (pair.scope.limited() || pair.edges.on)
-    refuse(
-        "contact of a surface with itself, of all bodies, and of edges is sampled at nodes only");
-  if (pair.history != HistoryRule::continuous)
-    refuse("mortar has its own history, without borders");
-  for (const auto& facets : pair.slave.facets_of)
-    if (facets.empty()) refuse("mortar integrates over facets, and the slave is a set of points");
-  for (const Boundary<Dim>* const side : {&pair.master, &pair.slave.boundary})
-    for (const auto& facet : side->facets) {
-      if (facet.shape)
-        refuse("mortar takes meshed sides: an analytic shape has no nodes that carry its share");
-      if (smoothed(facet)) refuse("mortar integrates over the facets of the mesh: no smoothing");
-      if (too_long(facet)) refuse("mortar takes lines of up to 4 nodes");
-    }
-  pair.reference.assign(reference.begin(), reference.end());
-}
 
 template <int Dim>
 void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
@@ -334,7 +288,8 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
   out.blocks.resize(std::max(n, out.blocks.size()));
   out.mortar.contacts.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
-    out.mortar.contacts[i] = evaluate_node<Dim>(pair, x, committed, assumed, multipliers, i, out);
+    out.mortar.contacts[i] =
+        place_and_evaluate<Dim>(pair, x, committed, assumed, multipliers, i, out);
   }
   for (std::size_t k = n; k < out.blocks.size(); ++k) out.blocks[k].count = 0;
   if (!with_tangent) return;
@@ -378,8 +333,6 @@ Mat<Dim, Dim - 1> mortar_frame(const PairDefinition<Dim>& pair, std::size_t i, P
   return normal.frame;
 }
 
-template void prepare_mortar<2>(PairDefinition<2>&, Points<2>);
-template void prepare_mortar<3>(PairDefinition<3>&, Points<3>);
 template void evaluate_mortar<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
                                  PairEvaluation<2>&, const Assumed<2>&, const PairMultipliers<2>*);
 template void evaluate_mortar<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,

@@ -4,13 +4,6 @@
 
 namespace osculate::pairing {
 
-/// Keeps the reference positions. Throws core::GeometryError, with the reason, for a pair that
-/// mortar integration does not take: analytic shapes, a slave without facets, lines of more than 4
-/// nodes, weight: node, edges, a scope,
-/// a smoothed master, another history than the continuous one.
-template <int Dim>
-void prepare_mortar(PairDefinition<Dim>& pair, Points<Dim> reference);
-
 /// Contact sampled by segment-to-segment mortar integration with dual shape functions.
 ///
 /// Formula    tributary area  A_j = d_j = int psi_j dA over what is covered
@@ -36,7 +29,7 @@ void prepare_mortar(PairDefinition<Dim>& pair, Points<Dim> reference);
 ///            what it was, another one is shared out anew
 /// Blocks     one per slave node (its forces and, as path, the derivative of its traction),
 ///            then one per slave facet in contact (the derivatives of D and M times the tractions)
-/// Requires   `prepare`, which throws where the pair is none for mortar
+/// Requires   `prepare`, which throws where the pair is none for mortar (combinations.hpp)
 /// Tested by  tests/unit/pairing/test_mortar.cpp, test_mortar3.cpp
 template <int Dim>
 void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "osculate/pairing/point_block.hpp"
+#include "osculate/pairing/report.hpp"
+
 namespace osculate::pairing {
 
 using contact::PointHistory;
-using contact::Status;
 
 namespace {
 
@@ -61,31 +63,94 @@ struct NodeRates {
 };
 
 template <int Dim>
-NodeRates<Dim> node_rates(const PairDefinition<Dim>& pair, const NodeContact<Dim>& c, double area,
+NodeRates<Dim> node_rates(const NodeContact<Dim>& c, double area,
                           const typename MortarNode<Dim>::Rate& r) {
   const Mat<Dim, Dim> unit = Mat<Dim, Dim>::Identity();
-  const Mat<Dim, Dim> d_foot = (r.other - c.foot * r.area.transpose()) / area;
+  const ContactSample<Dim>& s = c.sample;
+  const contact::Traction<Dim>& t = c.response.traction;
+  const Mat<Dim, Dim> d_foot = (r.other - s.foot * r.area.transpose()) / area;
   const Mat<Dim, Dim> d_apart = (r.own - r.other - c.apart * r.area.transpose()) / area;
   NodeRates<Dim> out;
-  out.gap = c.normal.transpose() * d_apart + c.apart.transpose() * r.normal;
+  out.gap = s.normal.transpose() * d_apart + c.apart.transpose() * r.normal;
   out.shear.setZero();
-  if (!pair.friction) return out;
+  if (!c.response.has_shear) return out;
   Mat<Dim - 1, Dim> d_trial = Mat<Dim - 1, Dim>::Zero();
   for (int i = 0; i < Dim - 1; ++i) {
     const Mat<Dim, Dim>& turning = r.frame[static_cast<std::size_t>(i)];
     d_trial.row(i) = c.around.transpose() * turning;
     if (!c.sliding) continue;
-    const Vec<Dim> e = c.frame.col(i);
+    const Vec<Dim> e = s.frame.col(i);
     d_trial.row(i) +=
-        c.stiffness *
+        t.stiffness *
         (c.share.value * (e.transpose() * (d_foot - r.old * unit) + c.way.transpose() * turning) +
          c.share.d_gap * e.dot(c.way) * out.gap);
   }
-  out.shear = c.frame * (c.linearised.d_trial * d_trial +
-                         c.linearised.d_normal * (c.normal_law.d_traction * out.gap));
+  out.shear = s.frame * (t.tangential.d_trial * d_trial +
+                         t.tangential.d_normal * (t.normal.d_traction * out.gap));
   for (int i = 0; i < Dim - 1; ++i)
-    out.shear += c.linearised.traction[i] * r.frame[static_cast<std::size_t>(i)];
+    out.shear += t.tangential.traction[i] * r.frame[static_cast<std::size_t>(i)];
   return out;
+}
+
+/// The elastic predictor since the last place.
+template <int Dim>
+Trial<Dim> predictor(const PointHistory<Dim>& history, const MortarPlace& last, Points<Dim> x,
+                     const contact::Multiplier<Dim>* multiplier, double stiffness,
+                     const ContactShare& share, NodeContact<Dim>& c) {
+  Trial<Dim> tr;
+  if (multiplier) {
+    c.around = multiplier->shear;
+    tr.value = c.sample.frame.transpose() * c.around;
+  } else if (history.active) {
+    tr.value = history.traction;
+  }
+  c.sliding = !last.nodes.empty();
+  if (!c.sliding) return tr;
+  c.share = share;
+  c.way = c.sample.foot - place_in_space<Dim>(last, x);
+  const Vec<Dim - 1> along = c.sample.frame.transpose() * c.way;
+  tr.slip = share.value * along;
+  tr.value += stiffness * share.value * along;
+  return tr;
+}
+
+template <int Dim>
+double weight_in(const MortarNode<Dim>& node, int k) {
+  const auto n = static_cast<std::size_t>(k);
+  const std::size_t own = node.slaves.nodes.size();
+  return n < own ? node.slaves.weights[n] : -node.masters.weights[n - own];
+}
+
+template <int Dim>
+void set_block(const PairDefinition<Dim>& pair, const MortarNode<Dim>& node,
+               const NodeContact<Dim>& c, const BranchHint<Dim>& hint, std::size_t i,
+               ContactBlock<Dim>& block) {
+  // Weights that are zero but for rounding come and go: room for more than is needed just now.
+  const std::size_t count = node.slaves.nodes.size() + node.masters.nodes.size();
+  const auto rows = Dim * static_cast<Eigen::Index>(count);
+  if (block.nodes.capacity() < count) block.nodes.reserve(2 * count);
+  if (block.force.size() < rows) {
+    grow(block.force, 2 * rows);
+    grow(block.branch_force, 2 * rows);
+    grow(block.path_rows, 2 * rows, Dim);
+  }
+  block.nodes.resize(count);
+  set_nodes<Dim>(node.slaves.nodes, node.masters.nodes, block);
+  const auto w = [&](std::size_t, int k) { return weight_in(node, k); };
+  const auto forces_of = [&](const contact::Traction<Dim>& t) {
+    return std::array<Vec<Dim>, 1>{c.traction(t)};
+  };
+  set_forces<Dim>(c.response, hint.kept, forces_of(c.response.traction), forces_of, w, 1.0, block);
+  const std::array<Mat<Dim, Dim>, 1> unit{Mat<Dim, Dim>::Identity()};
+  scatter_path<Dim>(unit, w, 1.0, block);
+  if (!block.constraint.on) return;
+  const double area = constraint_weight(pair, i);
+  const contact::TangentialResponse<Dim>& shear = c.response.traction.tangential;
+  const Mat<Dim, Dim - 1>& frame = c.sample.frame;
+  set_constraint_values(area, c.response, frame, hint, block.constraint);
+  set_multiplier_terms<Dim>(
+      point_penalty(pair, i), area, c.sample.normal, frame * shear.d_trial * frame.transpose(),
+      frame * shear.d_normal, [&](int k) { return weight_in(node, k); }, block);
 }
 
 }  // namespace
@@ -93,101 +158,38 @@ NodeRates<Dim> node_rates(const PairDefinition<Dim>& pair, const NodeContact<Dim
 template <int Dim>
 NodeContact<Dim> place_node(const MortarNode<Dim>& node, const NodalNormal<Dim>& normal) {
   NodeContact<Dim> c;
-  c.foot = node.other / node.area;
-  c.apart = node.own / node.area - c.foot;
-  c.normal = -normal.value;
-  c.frame = normal.frame;
-  c.gap = c.normal.dot(c.apart);
+  ContactSample<Dim>& s = c.sample;
+  s.facet = node.facet;
+  s.feature = projection::Feature::face;
+  s.foot = node.other / node.area;
+  c.apart = node.own / node.area - s.foot;
+  s.normal = -normal.value;
+  s.frame = normal.frame;
+  s.gap = s.normal.dot(c.apart);
   // Sides that touch without a gap are in contact; the sums leave some rounding of it.
   constexpr double rounding = 1e-13;
-  if (c.gap > 0 && c.gap <= rounding * (node.own.norm() + node.other.norm()) / node.area) c.gap = 0;
+  if (s.gap > 0 && s.gap <= rounding * (node.own.norm() + node.other.norm()) / node.area) s.gap = 0;
   return c;
 }
 
 template <int Dim>
-void set_friction(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,
-                  const MortarPlace& last, Points<Dim> x, const BranchHint<Dim>& hint,
-                  NodeContact<Dim>& c) {
-  const double normal = c.normal_law.traction;
-  const contact::FrictionLaw law = friction_law(pair, normal, hint);
-  const contact::Sliding sliding = sliding_of(history, hint);
-  c.stiffness = contact::stiffness(law);
-  if (hint.multiplier) {
-    c.around = hint.multiplier->shear;
-    c.trial = c.frame.transpose() * c.around;
-  } else if (history.active) {
-    c.trial = history.traction;
-  }
-  c.sliding = !last.nodes.empty();
-  if (c.sliding) {
-    if (!hint.multiplier) c.share = contact_share(pair, history, c.gap, hint);
-    c.way = c.foot - place_in_space<Dim>(last, x);
-    c.trial += c.stiffness * c.share.value * (c.frame.transpose() * c.way);
-  }
-  c.law = contact::response<Dim>(law, c.trial, normal, sliding);
-  c.linearised = linearised_branch<Dim>(law, c.law, c.trial, normal, c.frame, sliding, hint);
-}
-
-template <int Dim>
-void report(const PairDefinition<Dim>& pair, const PointHistory<Dim>& old,
-            const MortarNode<Dim>& node, const NodeContact<Dim>& c, PointResult<Dim>& result) {
-  result.gap = c.gap - pair.offset;
-  result.foot = c.foot;
-  result.normal = c.normal;
-  result.frame = c.frame;
-  PointHistory<Dim>& h = result.history;
-  h.facet = node.facet;
-  h.feature = projection::Feature::face;
-  h.gap = c.gap;
-  h.active = c.normal_law.active;
-  report_normal(c.normal_law, old.damping_work, result);
-  if (!h.active) return;
-  result.status = pair.friction ? c.law.status : Status::slip;
-  result.normal_traction = c.normal_law.traction;
-  if (!pair.friction) return;
-  result.branch = branch_of<Dim>(c.linearised, c.frame);
-  result.shear_traction = c.law.traction;
-  result.slip_increment = c.share.value * (c.frame.transpose() * c.way);
-  h.traction = c.law.traction;
-  h.slipping = c.law.status == Status::slip;
-  h.slip = result.slip_increment;
-  h.slid = contact::slid<Dim>(c.trial, c.law, c.stiffness);
-  if (old.active) {
-    h.slip += old.slip;
-    h.slid += old.slid;
-  }
-  if (pair.enforcement == contact::Enforcement::penalty)
-    result.stored += 0.5 * c.law.traction.squaredNorm() / c.stiffness;
-  h.friction_work += node.area * contact::dissipated<Dim>(c.trial, c.law, c.stiffness);
-}
-
-template <int Dim>
-void set_forces(const MortarNode<Dim>& node, const NodeContact<Dim>& c, ContactBlock<Dim>& block) {
-  const std::size_t own = node.slaves.nodes.size();
-  block.slave_count = static_cast<int>(own);
-  // Weights that are zero but for rounding come and go: room for more than is needed just now.
-  const std::size_t room = 2 * (own + node.masters.nodes.size());
-  if (block.nodes.capacity() < room / 2) block.nodes.reserve(room);
-  block.nodes = node.slaves.nodes;
-  block.nodes.insert(block.nodes.end(), node.masters.nodes.begin(), node.masters.nodes.end());
-  const auto rows = Dim * static_cast<Eigen::Index>(block.nodes.size());
-  const Vec<Dim> push = c.normal_law.traction * c.normal;
-  const Vec<Dim> lawful = push + c.frame * c.law.traction,
-                 linear = push + c.frame * c.linearised.traction;
-  block.count = static_cast<int>(block.nodes.size());
-  block.branched = c.law.traction != c.linearised.traction;
-  if (block.force.size() < rows) {
-    grow(block.force, 2 * rows);
-    grow(block.branch_force, 2 * rows);
-    grow(block.path_rows, 2 * rows, Dim);
-  }
-  for (std::size_t k = 0; k < block.nodes.size(); ++k) {
-    const double weight = k < own ? node.slaves.weights[k] : -node.masters.weights[k - own];
-    const auto row = Dim * static_cast<Eigen::Index>(k);
-    block.force.template segment<Dim>(row) = weight * lawful;
-    block.branch_force.template segment<Dim>(row) = weight * linear;
-    block.path_rows.template middleRows<Dim>(row) = weight * Mat<Dim, Dim>::Identity();
-  }
+bool evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHistory<Dim>& history,
+                   const MortarPlace& last, const MortarNode<Dim>& node,
+                   const BranchHint<Dim>& hint, std::size_t i, NodeContact<Dim>& c,
+                   PairEvaluation<Dim>& out) {
+  PointResult<Dim>& result = out.points[i];
+  const contact::NormalResponse normal = normal_response(pair, history, c.sample.gap, hint);
+  report_place(c.sample, pair.offset, result);
+  report_normal(normal, history.damping_work, result);
+  if (!normal.active) return false;
+  c.response =
+      respond<Dim>(pair, history, c.sample.gap, c.sample.frame, hint, normal,
+                   [&](double stiffness, const ContactShare& share) {
+                     return predictor<Dim>(history, last, x, hint.multiplier, stiffness, share, c);
+                   });
+  report_contact<Dim>(c.response, c.response.law.traction, history, result);
+  set_block(pair, node, c, hint, i, out.blocks[i]);
+  return true;
 }
 
 template <int Dim>
@@ -264,39 +266,21 @@ void set_path(const PairDefinition<Dim>& pair, double constraint_area, const Nod
               ContactBlock<Dim>& block) {
   complete_rates<Dim>(last, normal, node);
   for (const typename MortarNode<Dim>::Rate& r : node.rates) {
-    const NodeRates<Dim> rate = node_rates<Dim>(pair, c, node.area, r);
-    const auto d_push = c.normal_law.d_traction * rate.gap;
+    const NodeRates<Dim> rate = node_rates<Dim>(c, node.area, r);
+    const contact::NormalResponse& push = c.response.traction.normal;
+    const auto d_push = push.d_traction * rate.gap;
     block.behind.path.push_back(
-        {r.node, c.normal * d_push + c.normal_law.traction * r.normal + rate.shear});
+        {r.node, c.sample.normal * d_push + push.traction * r.normal + rate.shear});
     if (!block.constraint.on) continue;
     block.constraint.normal_row.push_back({r.node, constraint_area * d_push.transpose()});
     if (pair.friction) block.constraint.shear_row.push_back({r.node, constraint_area * rate.shear});
   }
 }
 
-template <int Dim>
-void set_constraint(const PointPenalty& penalty, const NodeContact<Dim>& c,
-                    const MortarNode<Dim>& node, double area,
-                    const contact::Multiplier<Dim>& multiplier, ContactBlock<Dim>& block) {
-  set_constraint_values<Dim>(area, c.normal_law.traction, c.frame * c.law.traction,
-                             c.frame * c.linearised.traction, multiplier, block.constraint);
-  const std::size_t own = node.slaves.nodes.size();
-  set_multiplier_terms<Dim>(
-      penalty, area, c.normal, c.frame * c.linearised.d_trial * c.frame.transpose(),
-      c.frame * c.linearised.d_normal,
-      [&](int n) {
-        const auto k = static_cast<std::size_t>(n);
-        return k < own ? node.slaves.weights[k] : -node.masters.weights[k - own];
-      },
-      block);
-}
-
+template bool evaluate_node<2>(const PairDefinition<2>&, Points<2>, const PointHistory<2>&,
+                               const MortarPlace&, const MortarNode<2>&, const BranchHint<2>&,
+                               std::size_t, NodeContact<2>&, PairEvaluation<2>&);
 template NodeContact<2> place_node<2>(const MortarNode<2>&, const NodalNormal<2>&);
-template void set_friction<2>(const PairDefinition<2>&, const PointHistory<2>&, const MortarPlace&,
-                              Points<2>, const BranchHint<2>&, NodeContact<2>&);
-template void report<2>(const PairDefinition<2>&, const PointHistory<2>&, const MortarNode<2>&,
-                        const NodeContact<2>&, PointResult<2>&);
-template void set_forces<2>(const MortarNode<2>&, const NodeContact<2>&, ContactBlock<2>&);
 template void add_rates<2>(const MortarFacet<2>&, std::span<const Index>,
                            std::span<const std::size_t>, Points<2>, std::vector<MortarNode<2>>&);
 template void set_facet_tangent<2>(const MortarFacet<2>&, std::span<const Index>,
@@ -305,14 +289,10 @@ template void set_facet_tangent<2>(const MortarFacet<2>&, std::span<const Index>
 template void set_path<2>(const PairDefinition<2>&, double, const NodeContact<2>&,
                           const MortarPlace&, const NodalNormal<2>&, MortarNode<2>&,
                           ContactBlock<2>&);
-template void set_constraint<2>(const PointPenalty&, const NodeContact<2>&, const MortarNode<2>&,
-                                double, const contact::Multiplier<2>&, ContactBlock<2>&);
+template bool evaluate_node<3>(const PairDefinition<3>&, Points<3>, const PointHistory<3>&,
+                               const MortarPlace&, const MortarNode<3>&, const BranchHint<3>&,
+                               std::size_t, NodeContact<3>&, PairEvaluation<3>&);
 template NodeContact<3> place_node<3>(const MortarNode<3>&, const NodalNormal<3>&);
-template void set_friction<3>(const PairDefinition<3>&, const PointHistory<3>&, const MortarPlace&,
-                              Points<3>, const BranchHint<3>&, NodeContact<3>&);
-template void report<3>(const PairDefinition<3>&, const PointHistory<3>&, const MortarNode<3>&,
-                        const NodeContact<3>&, PointResult<3>&);
-template void set_forces<3>(const MortarNode<3>&, const NodeContact<3>&, ContactBlock<3>&);
 template void add_rates<3>(const MortarFacet<3>&, std::span<const Index>,
                            std::span<const std::size_t>, Points<3>, std::vector<MortarNode<3>>&);
 template void set_facet_tangent<3>(const MortarFacet<3>&, std::span<const Index>,
@@ -321,7 +301,5 @@ template void set_facet_tangent<3>(const MortarFacet<3>&, std::span<const Index>
 template void set_path<3>(const PairDefinition<3>&, double, const NodeContact<3>&,
                           const MortarPlace&, const NodalNormal<3>&, MortarNode<3>&,
                           ContactBlock<3>&);
-template void set_constraint<3>(const PointPenalty&, const NodeContact<3>&, const MortarNode<3>&,
-                                double, const contact::Multiplier<3>&, ContactBlock<3>&);
 
 }  // namespace osculate::pairing

@@ -1,8 +1,8 @@
 #pragma once
 // Slave nodes of a mortar pair: tractions from D and M, forces, derivatives; for sources of this
 // layer.
-#include "osculate/pairing/friction_branch.hpp"
 #include "osculate/pairing/pair.hpp"
+#include "osculate/pairing/response.hpp"
 
 namespace osculate::pairing {
 
@@ -11,18 +11,12 @@ template <int Dim>
 [[nodiscard]] NodeContact<Dim> place_node(const MortarNode<Dim>& node,
                                           const NodalNormal<Dim>& normal);
 
-/// Slip since the last place and the shear traction.
+/// Report, forces and constraint of node `i`, which has been placed: false where it is open.
 template <int Dim>
-void set_friction(const PairDefinition<Dim>& pair, const contact::PointHistory<Dim>& history,
-                  const MortarPlace& last, Points<Dim> x, const BranchHint<Dim>& hint,
-                  NodeContact<Dim>& c);
-
-template <int Dim>
-void report(const PairDefinition<Dim>& pair, const contact::PointHistory<Dim>& old,
-            const MortarNode<Dim>& node, const NodeContact<Dim>& c, PointResult<Dim>& result);
-
-template <int Dim>
-void set_forces(const MortarNode<Dim>& node, const NodeContact<Dim>& c, ContactBlock<Dim>& block);
+bool evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
+                   const contact::PointHistory<Dim>& history, const MortarPlace& last,
+                   const MortarNode<Dim>& node, const BranchHint<Dim>& hint, std::size_t i,
+                   NodeContact<Dim>& c, PairEvaluation<Dim>& out);
 
 /// Adds the derivatives of d_j, sum_k D_jk x_k and sum_l M_jl x_l of a facet's nodes, those of D
 /// and M alone.
@@ -44,11 +38,5 @@ template <int Dim>
 void set_path(const PairDefinition<Dim>& pair, double constraint_area, const NodeContact<Dim>& c,
               const MortarPlace& last, const NodalNormal<Dim>& normal, MortarNode<Dim>& node,
               ContactBlock<Dim>& block);
-
-/// Values and columns of a node whose tractions are unknowns.
-template <int Dim>
-void set_constraint(const PointPenalty& penalty, const NodeContact<Dim>& c,
-                    const MortarNode<Dim>& node, double area,
-                    const contact::Multiplier<Dim>& multiplier, ContactBlock<Dim>& block);
 
 }  // namespace osculate::pairing

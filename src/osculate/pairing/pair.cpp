@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "osculate/core/error.hpp"
-#include "osculate/pairing/friction_branch.hpp"
+#include "osculate/pairing/combinations.hpp"
 #include "osculate/pairing/mortar.hpp"
-#include "osculate/pairing/point_block.hpp"
-#include "osculate/pairing/point_evaluation.hpp"
+#include "osculate/pairing/point_sample.hpp"
+#include "osculate/pairing/response.hpp"
 #include "osculate/pairing/sampling.hpp"
 #include "osculate/pairing/tie.hpp"
 #include "osculate/pairing/valley.hpp"
@@ -32,18 +32,26 @@ void check_areas(const PairDefinition<Dim>& pair) {
               : "a slave facet has no area; use weight: node");
 }
 
+bool find_valleys(PairDefinition<2>& pair, Points<2> reference) {
+  return pair.enforcement == contact::Enforcement::lagrange_multiplier && !pair.mortar &&
+         pair.separation == Separation::allowed && pair.offset == 0 &&
+         pair.overlap == InitialOverlap::acts &&
+         mark_valleys(pair.master, reference, pair.valley_angle);
+}
+bool find_valleys(PairDefinition<3>&, Points<3>) { return false; }
+
 }  // namespace
 
 template <int Dim>
 void prepare(PairDefinition<Dim>& pair, Points<Dim> reference) {
+  if (const Refusal* const no = refusal(traits_of(pair)))
+    throw core::GeometryError(std::string(no->why));
   prepare(pair.scope, pair.master, pair.slave, reference, pair.area);
   point_areas<Dim>(pair.slave, reference, pair.area, pair.reference_areas, nullptr);
-  if (!sampled_at_nodes(pair.slave) && (pair.scope.limited() || pair.edges.on))
-    throw core::GeometryError(
-        "contact of a surface with itself, of all bodies, and of edges is sampled at nodes only");
   if constexpr (Dim == 3)
     prepare_edges(pair.edges, pair.master, pair.slave, pair.reference_areas, reference);
-  if (pair.mortar) prepare_mortar(pair, reference);
+  pair.valleys = find_valleys(pair, reference);
+  if (pair.mortar) pair.reference.assign(reference.begin(), reference.end());
   check_areas(pair);
   prepare_ties(pair, reference);
 }
@@ -76,7 +84,7 @@ bool out_of_reach(const PairDefinition<Dim>& pair, Points<Dim> x,
 /// Nodes of the largest block there can be.
 template <int Dim>
 int largest_block(const PairDefinition<Dim>& pair) {
-  constexpr int of_crossing = 7;
+  constexpr int of_crossing = 6;
   int slave = 1, master = 0;
   for (const SlavePoint<Dim>& p : pair.slave.points) slave = std::max(slave, p.count);
   for (const auto& facet : pair.master.facets) master = std::max(master, facet.count);
@@ -127,7 +135,9 @@ void evaluate_placed(const PairDefinition<Dim>& pair, Points<Dim> x,
         return;
       }
   hint.kept = keeps_contact(pair, x, history, placed, hint, position<Dim>(pair.slave.points[i], x));
-  evaluate_point(pair, x, history, placed, hint, with_tangent, i, out);
+  evaluate_point<Dim>(pair, x, history,
+                      {pair.master, placed, &pair.slave.points[i], 1, pair.history}, hint,
+                      with_tangent, i, out);
 }
 
 template <int Dim>
@@ -190,7 +200,7 @@ void look_far(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
     if (placed.projection.feature == Feature::none) continue;
     const double acts_below = pair.offset + contact::reach(pair.normal);
     if (placed.projection.beyond_end || placed.kinematics.gap > acts_below)
-      report_far(pair, x, committed.points[i], placed, i, out);
+      report_far(pair, committed.points[i], placed, out.points[i]);
   }
   laps.add_to(out.seconds.projection);
 }
@@ -255,7 +265,7 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
     const Placed<Dim> placed = place_point<Dim>(pair, work, x, i, {});
     if (placed.projection.feature == Feature::none) continue;
     PointHistory<Dim>& h = state.points[i];
-    h = history_at<Dim>(pair, x, placed);
+    h = history_at<Dim>(placed);
     if (placed.projection.beyond_end) h.gap = std::abs(h.gap);
     if (placed.projection.beyond_end || !contact::inside_domain(placed.kinematics)) continue;
     hold(pair, h);

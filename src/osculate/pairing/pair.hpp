@@ -1,4 +1,5 @@
 #pragma once
+#include <numbers>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -44,6 +45,7 @@ enum class InitialOverlap : std::uint8_t { acts, ramped, kept };
 /// the plane and in space.
 template <int Dim>
 struct PairDefinition {
+  static constexpr double default_valley_angle = std::numbers::pi / 6;
   Boundary<Dim> master;
   SlaveSide<Dim> slave;
   contact::NormalLaw normal;
@@ -72,7 +74,10 @@ struct PairDefinition {
   EdgeContact edges;  ///< in space: also where sharp edges cross
   /// In the plane, with unknown tractions at nodes: points are held in concave corners of the
   /// master by a traction of any direction (valley.hpp), so that there is a shear without friction
-  /// too.
+  /// too. Corners with a larger angle between their normals count.
+  double valley_angle = default_valley_angle;
+  /// There are such corners; set by `prepare`. Not between thick sides or where points are held or
+  /// overlaps do not count: there the corner is elsewhere.
   bool valleys = false;
   /// With `scope.own` both sides of a contact are slaves, and each carries half of the traction.
   Scope<Dim> scope;
@@ -211,9 +216,9 @@ struct PairEvaluation {
   PairSeconds seconds;
 };
 
-/// Fills the reference areas from the reference coordinates. Throws core::GeometryError when area
-/// weights are asked for and a slave point has no facet or a non-positive area, and when a scope or
-/// edges meet another sampling than the nodes. Prepares the scope.
+/// Fills the reference areas from the reference coordinates, and prepares the scope. Throws
+/// core::GeometryError for choices that do not go together (combinations.hpp), and when area
+/// weights are asked for and a slave point has no facet or a non-positive area.
 template <int Dim>
 void prepare(PairDefinition<Dim>& pair, Points<Dim> reference);
 

@@ -1,7 +1,8 @@
 // Crossings of edges as contact points.
 #include <algorithm>
 
-#include "osculate/pairing/friction_branch.hpp"
+#include "osculate/pairing/point_sample.hpp"
+#include "osculate/pairing/response.hpp"
 
 namespace osculate::pairing {
 
@@ -19,53 +20,18 @@ RelativeStiffness stiffness_of_edge(const PairDefinition<3>& pair, std::size_t e
   return {0.5 * (a.normal + b.normal), 0.5 * (a.shear + b.shear)};
 }
 
-/// The pair seen from its crossings: the master is the surface of the edges' differences, with one
-/// facet per crossing and then one per history, the slave point is the origin.
-PairDefinition<3> pair_of_crossings(const PairDefinition<3>& pair,
-                                    const std::vector<Crossing>& found,
-                                    std::span<const PointHistory<3>> histories) {
-  PairDefinition<3> out;
-  out.normal = pair.normal;
-  out.friction = pair.friction;
-  out.damping = pair.damping;
-  out.separation = pair.separation;
-  out.tolerance = pair.tolerance;
-  out.offset = pair.offset;
-  out.residual = pair.residual;
-  out.tangent = pair.tangent;
-  out.depth = pair.depth;
-  out.weight = pair.weight == Weight::node ? Weight::node : Weight::reference_area;
-  const std::size_t nodes = pair.slave.points.size();
-  out.slave.nodes.assign(nodes + found.size(), -1);
-  sample_nodes(out.slave);
-  out.reference_areas.assign(nodes + found.size(), 0.0);
-  if (!pair.relative_stiffness.empty()) out.relative_stiffness.resize(nodes + found.size());
+/// The surface of the edges' differences, on which the origin is the slave point: one facet per
+/// crossing and then one per history.
+FacetSurface differences_of(const EdgeContact& edges, const std::vector<Crossing>& found,
+                            std::span<const PointHistory<3>> histories) {
+  FacetSurface out;
   const auto add = [&](Index master, Index slave, bool flipped) {
-    out.master.facets.push_back(crossing_facet(pair.edges.master[static_cast<std::size_t>(master)],
-                                               pair.edges.slave[static_cast<std::size_t>(slave)],
-                                               flipped));
+    out.facets.push_back(crossing_facet(edges.master[static_cast<std::size_t>(master)],
+                                        edges.slave[static_cast<std::size_t>(slave)], flipped));
   };
-  for (std::size_t c = 0; c < found.size(); ++c) {
-    add(found[c].master, found[c].slave, found[c].flipped);
-    const auto edge = static_cast<std::size_t>(found[c].slave);
-    out.reference_areas[nodes + c] = pair.edges.areas[edge];
-    if (!pair.relative_stiffness.empty())
-      out.relative_stiffness[nodes + c] = stiffness_of_edge(pair, edge);
-  }
+  for (const Crossing& c : found) add(c.master, c.slave, c.flipped);
   for (const PointHistory<3>& h : histories) add(h.facet, h.edge, h.flipped);
   return out;
-}
-
-/// The origin is no node: its rows and columns go.
-void drop_origin(ContactBlock<3>& block) {
-  if (!block.active()) return;
-  const int size = 3 * --block.count;
-  block.slave_count = 0;
-  std::copy_n(block.nodes.begin() + 1, block.count, block.nodes.begin());
-  block.force.head(size) = block.force.segment(3, size).eval();
-  block.branch_force.head(size) = block.branch_force.segment(3, size).eval();
-  block.tangent.topLeftCorner(size, size) = block.tangent.block(3, 3, size, size).eval();
-  block.path_rows.topRows(size) = block.path_rows.middleRows(3, size).eval();
 }
 
 /// Histories of the crossings of a committed state.
@@ -117,21 +83,22 @@ void evaluate_crossings(const PairDefinition<3>& pair, Points<3> x, const PairSt
   out.points.resize(nodes + found.size());
   out.blocks.resize(nodes + found.size());
   const std::span<const PointHistory<3>> histories = crossing_histories(pair, committed);
-  const PairDefinition<3> differences = pair_of_crossings(pair, found, histories);
+  const FacetSurface differences = differences_of(pair.edges, found, histories);
   for (std::size_t c = 0; c < found.size(); ++c) {
     const auto facet = static_cast<Index>(c);
-    const Placed<3> placed = place_crossing(differences.master.facets[c], facet, found[c].xi, x);
+    const auto edge = static_cast<std::size_t>(found[c].slave);
+    const Placed<3> placed = place_crossing(differences.facets[c], facet, found[c].xi, x);
     PointHistory<3> history;
     const int known = history_of_crossing(pair.edges, histories, found, found[c]);
     if (known >= 0) {
       history = histories[static_cast<std::size_t>(known)];
       history.facet = static_cast<Index>(found.size()) + known;
     }
-    const RelativeStiffness own = relative_stiffness(differences, nodes + c);
-    BranchHint<3> hint = hint_of(found[c], assumed, own);
+    BranchHint<3> hint = hint_of(found[c], assumed, stiffness_of_edge(pair, edge));
     hint.way = way_of_gap(pair, assumed, history, history.facet, placed.kinematics.gap);
-    evaluate_point<3>(differences, x, history, placed, hint, with_tangent, nodes + c, out);
-    drop_origin(out.blocks[nodes + c]);
+    const double weight = pair.weight == Weight::node ? 1.0 : pair.edges.areas[edge];
+    evaluate_point<3>(pair, x, history, {differences, placed, nullptr, weight}, hint, with_tangent,
+                      nodes + c, out);
     remember_edges(pair, x, found[c], out.points[nodes + c]);
   }
 }

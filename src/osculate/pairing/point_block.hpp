@@ -1,111 +1,155 @@
 #pragma once
-// From the terms of one contact point to the matrix of its nodes; for sources of this layer.
+// From the terms of one contact sample to the forces, tangent and constraint of its nodes; for
+// sources of this layer. Weights are functions w(slot, node of the block): how the sample depends
+// on its nodes (contact::PointTerms).
 #include <algorithm>
+#include <span>
 
-#include "osculate/pairing/pair.hpp"
+#include "osculate/pairing/response.hpp"
 
 namespace osculate::pairing {
 
-/// Contact weights by slot: N_k and no derivatives for the slave (1 for a node), -N_k, -N_k,i,
-/// -N_k,ij for the master (KS2D:60, 61 with as many columns per node as there are directions).
+/// The block of a sample that is not in contact.
 template <int Dim>
-using Weights = std::array<std::array<double, max_slave_nodes<Dim> + max_master_nodes<Dim>>,
-                           contact::slots<Dim>>;
-
-template <int Dim>
-[[nodiscard]] Weights<Dim> contact_weights(const SlavePoint<Dim>& slave,
-                                           const Placed<Dim>& placed) {
-  Weights<Dim> w{};
-  const auto first = static_cast<std::size_t>(slave.count);
-  std::copy_n(slave.shape.begin(), first, w[0].begin());
-  for (std::size_t s = 0; s < w.size(); ++s)
-    for (std::size_t k = 0; k < static_cast<std::size_t>(placed.count); ++k)
-      w[s][first + k] = -placed.shape[s][k];  // @eq KS2D:60
-  return w;
+void clear_block(ContactBlock<Dim>& block) {
+  block.count = 0;
+  block.branched = false;
+  block.behind.path.clear();
+  block.area.clear();
+  block.constraint.on = false;
 }
 
-/// Where the place of a history is now.
-[[nodiscard]] inline Vec2 place_in_space(const Chain& master, const contact::PointHistory<2>& h,
-                                         std::span<const Vec2> x) {
-  return facet_jet(master.facets[static_cast<std::size_t>(h.facet)], h.xi[0], x).r;
-}
-[[nodiscard]] inline Vec3 place_in_space(const FacetSurface& master,
-                                         const contact::PointHistory<3>& h,
-                                         std::span<const Vec3> x) {
-  return facet_point(master.facets[static_cast<std::size_t>(h.facet)], h.xi, x);
+/// The nodes of a block: the slave's, then the master's.
+template <int Dim>
+void set_nodes(std::span<const Index> slave, std::span<const Index> master,
+               ContactBlock<Dim>& block) {
+  block.slave_count = static_cast<int>(slave.size());
+  block.count = static_cast<int>(slave.size() + master.size());
+  std::copy(master.begin(), master.end(),
+            std::copy(slave.begin(), slave.end(), block.nodes.begin()));
 }
 
-/// How far from its master a point needs a place in a `near` evaluation.
-template <int Dim>
-[[nodiscard]] double near_reach(const PairDefinition<Dim>& pair) {
-  return std::max(0.5 * pair.scope.reach,
-                  2 * (std::abs(pair.offset) + contact::reach(pair.normal)));
-}
-
-/// Whether the point is farther than that in front of where it was, so that it has not come through
-/// the master since.
-template <int Dim>
-[[nodiscard]] bool far_in_front(const PairDefinition<Dim>& pair,
-                                const contact::PointHistory<Dim>& history, const Vec<Dim>& arm,
-                                Points<Dim> x) {
-  const auto& facet = pair.master.facets[static_cast<std::size_t>(history.facet)];
-  return !facet.shape && arm.norm() > near_reach(pair) && arm.dot(middle_normal(facet, x)) > 0;
-}
-
-/// Closest point of slave point `i` on the master and the kinematics there; no place where none is
-/// found. `work` is refreshed at `x`.
-template <int Dim>
-[[nodiscard]] Placed<Dim> place_point(const PairDefinition<Dim>& pair,
-                                      const PairEvaluation<Dim>& work, Points<Dim> x, std::size_t i,
-                                      const contact::PointHistory<Dim>& history, Index kept = -1) {
-  if (work.apart) return {};
-  ProjectionQuery<Dim> query;
-  query.point = position<Dim>(pair.slave.points[i], x);
-  if (work.normals[i].squaredNorm() > 0) query.slave_normal = work.normals[i];
-  query.history = history.facet;
-  query.history_feature = history.feature;
-  query.kept = kept;
-  NodeScope<Dim> rules;
-  if (pair.scope.limited()) {
-    rules = node_scope<Dim>(pair.scope, pair.slave, work.scope, i, query.point);
-    if (work.near) rules.reach = std::min(rules.reach, near_reach(pair));
-    if (history.facet >= 0) {
-      rules.last = place_in_space(pair.master, history, x);
-      const Vec<Dim> arm = query.point - *rules.last;
-      const double way = arm.norm();
-      rules.edge_depth *= std::max(1.0, way / pair.scope.reach);
-      if (work.near && far_in_front(pair, history, arm, x))
-        query.history = -1;
-      else
-        rules.reach = std::max(rules.reach, way);
-    }
-    query.scope = &rules;
+/// force_k = area sum_a w(a, k) f[a]
+template <int Dim, class WeightOf>
+void scatter_forces(std::span<const Vec<Dim>> f, int count, const WeightOf& w, double area,
+                    Eigen::VectorXd& force) {
+  for (int k = 0; k < count; ++k) {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t a = 0; a < f.size(); ++a) sum += w(a, k) * f[a];
+    force.template segment<Dim>(Dim * k) = area * sum;
   }
-  const Projection<Dim> p = closest(pair.master, work.tree, x, query);
-  if (p.feature == projection::Feature::none) return {};
-  return place(pair.master, p, query.point, x);
+}
+
+/// The same with matrices: what the path behind the sample is multiplied by.
+template <int Dim, class WeightOf>
+void scatter_path(std::span<const Mat<Dim, Dim>> s, const WeightOf& w, double area,
+                  ContactBlock<Dim>& block) {
+  for (int k = 0; k < block.count; ++k) {
+    Mat<Dim, Dim> behind = Mat<Dim, Dim>::Zero();
+    for (std::size_t a = 0; a < s.size(); ++a) behind += w(a, k) * s[a];
+    block.path_rows.template middleRows<Dim>(Dim * k) = area * behind;
+  }
 }
 
 /// Sets the first Dim * count rows and columns of `tangent`.
-template <int Dim>
-void scatter_tangent(const Weights<Dim>& w, const contact::PointTerms<Dim>& terms, int count,
+template <int Dim, class WeightOf>
+void scatter_tangent(const contact::PointTerms<Dim>& terms, int count, const WeightOf& w,
                      double area, Eigen::MatrixXd& tangent) {
   for (int k = 0; k < count; ++k) {
     std::array<Mat<Dim, Dim>, contact::slots<Dim>> row;
     for (std::size_t b = 0; b < terms.used; ++b) {
       row[b].setZero();
       for (std::size_t a = 0; a < terms.used; ++a) {
-        const double weight = w[a][static_cast<std::size_t>(k)];
+        const double weight = w(a, k);
         if (weight != 0.0) row[b] += (area * weight) * terms.m[a][b];
       }
     }
     for (int l = 0; l < count; ++l) {
       Mat<Dim, Dim> sum = Mat<Dim, Dim>::Zero();
-      for (std::size_t b = 0; b < terms.used; ++b)
-        sum += w[b][static_cast<std::size_t>(l)] * row[b];
+      for (std::size_t b = 0; b < terms.used; ++b) sum += w(b, l) * row[b];
       tangent.template block<Dim, Dim>(Dim * k, Dim * l) = sum;
     }
   }
+}
+
+/// Forces of a sample in contact, and those of the branch that it is linearised in; of an open one
+/// that is kept in contact the latter alone. `forces_of(traction)` are its terms f, `linear` those
+/// of the traction that is linearised.
+template <int Dim, class WeightOf, class ForcesOf>
+void set_forces(const Response<Dim>& r, const std::optional<KeptContact>& kept,
+                std::span<const Vec<Dim>> linear, const ForcesOf& forces_of, const WeightOf& w,
+                double area, ContactBlock<Dim>& block) {
+  const auto scatter = [&](const auto& f, Eigen::VectorXd& force) {
+    scatter_forces<Dim>(f, block.count, w, area, force);
+  };
+  const Eigen::Index rows = Dim * block.count;
+  block.branched = kept || r.branched();
+  if (kept) {
+    block.force.head(rows).setZero();
+    scatter(forces_of(pulled(r.traction, *kept)), block.branch_force);
+    return;
+  }
+  scatter(linear, block.branch_force);
+  if (!block.branched) {
+    block.force.head(rows) = block.branch_force.head(rows);
+    return;
+  }
+  contact::Traction<Dim> lawful = r.traction;
+  lawful.tangential = r.law;
+  scatter(forces_of(lawful), block.force);
+}
+
+/// What a constraint is multiplied by: it does not change with the deformation.
+template <int Dim>
+[[nodiscard]] double constraint_weight(const PairDefinition<Dim>& pair, std::size_t i) {
+  return pair.weight == Weight::node ? 1.0 : pair.reference_areas[i];
+}
+
+/// Whether the tractions of the point are unknowns; if so its constraint starts as that of an open
+/// point.
+template <int Dim>
+bool start_constraint(const PairDefinition<Dim>& pair, const BranchHint<Dim>& hint, std::size_t i,
+                      ContactBlock<Dim>& block) {
+  if (pair.enforcement != contact::Enforcement::lagrange_multiplier || !hint.multiplier)
+    return false;
+  const PointPenalty penalty = point_penalty(pair, i);
+  set_open(constraint_weight(pair, i), penalty.normal, penalty.shear, hint.multiplier->normal,
+           hint.multiplier->shear, block.constraint);
+  return true;
+}
+
+/// Values of the constraint of a sample in contact, or of an open one that is linearised as if it
+/// were: see ConstraintBlock.
+template <int Dim>
+void set_constraint_values(double area, const Response<Dim>& r, const Mat<Dim, Dim - 1>& frame,
+                           const BranchHint<Dim>& hint, ConstraintBlock<Dim>& c) {
+  const contact::Multiplier<Dim>& multiplier = *hint.multiplier;
+  const contact::Traction<Dim> linear = hint.kept ? pulled(r.traction, *hint.kept) : r.traction;
+  c.branch_normal = area * (linear.normal.traction - multiplier.normal);
+  c.branch_shear = area * (frame * linear.tangential.traction - multiplier.shear);
+  c.normal = hint.kept ? -area * multiplier.normal : c.branch_normal;
+  c.shear = hint.kept ? Vec<Dim>(-area * multiplier.shear)
+                      : Vec<Dim>(area * (frame * r.law.traction - multiplier.shear));
+}
+
+/// Derivatives by the multipliers of a point in contact: of its forces, with `weight(n)` of node n
+/// of the block, and of its constraint. dt = d_trial dLambda + d_push dlambda.
+template <int Dim, class WeightOf>
+void set_multiplier_terms(const PointPenalty& penalty, double area, const Vec<Dim>& normal,
+                          const Mat<Dim, Dim>& d_trial, const Vec<Dim>& d_push,
+                          const WeightOf& weight, ContactBlock<Dim>& block) {
+  ConstraintBlock<Dim>& c = block.constraint;
+  const double push = penalty.normal, shear = penalty.shear;
+  if (c.columns.rows() < Dim * block.count) c.columns.resize(Dim * block.count, Dim + 1);
+  for (int n = 0; n < block.count; ++n) {
+    auto rows = c.columns.template middleRows<Dim>(Dim * n);
+    rows.col(0) = (weight(n) * push) * (normal + d_push);
+    rows.template rightCols<Dim>() = (weight(n) * shear) * d_trial;
+  }
+  c.own.setZero();
+  c.own.template block<Dim, 1>(1, 0) = area * push * d_push;
+  c.own.template bottomRightCorner<Dim, Dim>() =
+      (area * shear) * (d_trial - Mat<Dim, Dim>::Identity());
 }
 
 }  // namespace osculate::pairing

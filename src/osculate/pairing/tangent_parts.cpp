@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "osculate/pairing/friction_branch.hpp"
 #include "osculate/pairing/point_block.hpp"
+#include "osculate/pairing/point_sample.hpp"
 
 namespace osculate::pairing {
 namespace {
@@ -20,14 +20,14 @@ double share_at(const PairDefinition<Dim>& pair, std::size_t i, const PointResul
   if (!traction.normal.active)
     traction.normal.d_traction = stiffening * point_penalty(pair, i).normal;
   traction.normal.traction = point.normal_traction;
-  const Weights<Dim> w = contact_weights(slave, placed);
+  const Weights<Dim> weights = contact_weights(&slave, placed);
+  const auto w = [&](std::size_t s, int n) { return weights[s][static_cast<std::size_t>(n)]; };
   const int count = slave.count + placed.count, size = Dim * count;
   const auto matrix = [&](bool rotational, bool curvature) {
     const contact::TangentForm form{false, true, rotational, curvature};
     Eigen::MatrixXd k(size, size);
-    scatter_tangent<Dim>(w,
-                         contact::covariant_terms(placed.kinematics, traction, pair.residual, form),
-                         count, 1.0, k);
+    scatter_tangent<Dim>(contact::covariant_terms(placed.kinematics, traction, pair.residual, form),
+                         count, w, 1.0, k);
     return k;
   };
   const Eigen::MatrixXd full = matrix(parts.rotational, parts.curvature),

@@ -7,8 +7,9 @@
 #include "osculate/cell/shape.hpp"
 #include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/point_block.hpp"
-#include "osculate/pairing/point_penalty.hpp"
+#include "osculate/pairing/point_sample.hpp"
 #include "osculate/pairing/point_weight.hpp"
+#include "osculate/pairing/report.hpp"
 
 namespace osculate::pairing {
 namespace {
@@ -40,23 +41,21 @@ Mat<3, 3> cross_matrix(const Vec3& v) {
   return m;
 }
 
-/// d(m) / d(x_k)
-Mat<2, 2> normal_rate(const TiedPoint<2>& tie, const Bases<2>&, std::size_t k) {
+/// d(m) / d(r_,i)
+std::array<Mat<2, 2>, 1> normal_rates(const Bases<2>&) {
   Mat<2, 2> turned;
   turned << 0, -1, 1, 0;
-  return tie.carrier[0][k] * turned;
+  return {turned};
 }
-Mat<3, 3> normal_rate(const TiedPoint<3>& tie, const Bases<3>& r, std::size_t k) {
-  return tie.carrier[1][k] * cross_matrix(r[0]) - tie.carrier[0][k] * cross_matrix(r[1]);
+std::array<Mat<3, 3>, 2> normal_rates(const Bases<3>& r) {
+  return {Mat<3, 3>(-cross_matrix(r[1])), cross_matrix(r[0])};
 }
 
-/// The part of K_kl by the second derivative of m, for c^n A eps = 1.
-Mat<2, 2> second_rate(const TiedPoint<2>&, const Vec2&, std::size_t, std::size_t) {
-  return Mat<2, 2>::Zero();
-}
-Mat<3, 3> second_rate(const TiedPoint<3>& tie, const Vec3& q, std::size_t k, std::size_t l) {
-  const double area = tie.carrier[0][k] * tie.carrier[1][l] - tie.carrier[1][k] * tie.carrier[0][l];
-  return area * cross_matrix(q);
+/// The part of the tangent by the second derivative of m, times c^n q.
+void add_second_rate(const Vec2&, contact::PointTerms<2>&) {}
+void add_second_rate(const Vec3& q, contact::PointTerms<3>& terms) {
+  terms.m[1][2] += cross_matrix(q);
+  terms.m[2][1] -= cross_matrix(q);
 }
 
 // ---- places -------------------------------------------------------------------------------------
@@ -177,75 +176,84 @@ void tie_by_mortar(PairDefinition<Dim>& pair, Points<Dim> x) {
 
 // ---- evaluation ---------------------------------------------------------------------------------
 
-/// What a tied point says at a configuration.
+/// What a tied point says at a configuration: the sample, and q in its direction and across it.
 template <int Dim>
 struct TieState {
   Bases<Dim> r;
-  Vec<Dim> apart, m, q;
+  ContactSample<Dim> sample;
+  Vec<Dim> q;
 };
 
 template <int Dim>
-TieState<Dim> state_of(const TiedPoint<Dim>& tie, Points<Dim> x) {
+TieState<Dim> state_of(const PairDefinition<Dim>& pair, const TiedPoint<Dim>& tie, Points<Dim> x) {
   TieState<Dim> s;
   s.r = bases_of<Dim>(tie, x);
-  s.m = normal_of(s.r);
-  s.apart = distance_of<Dim>(tie, x);
-  s.q = s.apart - tie.kept[Dim - 1] * s.m;
+  const Vec<Dim> m = normal_of(s.r), apart = distance_of<Dim>(tie, x);
+  s.q = apart - tie.kept[Dim - 1] * m;
   for (std::size_t i = 0; i < s.r.size(); ++i)
     s.q -= tie.kept[static_cast<Eigen::Index>(i)] * s.r[i];
+  ContactSample<Dim>& at = s.sample;
+  at.facet = tie.facet;
+  at.feature = tie.feature;
+  at.xi = tie.xi;
+  at.foot = position<Dim>(pair.slave.points[static_cast<std::size_t>(tie.point)], x) - apart;
+  at.normal = tie.side * m / m.norm();
+  at.frame = contact::tangent_frame<Dim>(at.normal, s.r[0]);
+  at.gap = at.normal.dot(apart);
   return s;
 }
 
+/// A law without limit surface: it sticks, pressed and pulled.
 template <int Dim>
-Mat<Dim, Dim> rate_of(const TiedPoint<Dim>& tie, const TieState<Dim>& s, std::size_t k) {
-  double own = tie.weights[k];
-  for (std::size_t i = 0; i < tie.carrier.size(); ++i)
-    own -= tie.kept[static_cast<Eigen::Index>(i)] * tie.carrier[i][k];
-  Mat<Dim, Dim> rate = own * Mat<Dim, Dim>::Identity();
-  rate -= tie.kept[Dim - 1] * normal_rate(tie, s.r, k);
-  return rate;
+Response<Dim> response_of(const TieState<Dim>& s, double stiffness) {
+  Response<Dim> r;
+  r.has_shear = true;
+  r.traction.normal = {true, stiffness * s.sample.normal.dot(s.q), stiffness,
+                       0.5 * stiffness * s.q.squaredNorm()};
+  r.law.traction = r.traction.tangential.traction = stiffness * (s.sample.frame.transpose() * s.q);
+  return r;
 }
 
+/// R_k and K_kl of a tied point by slots: w_k, then b_ik.
 template <int Dim>
-void set_block(const TiedPoint<Dim>& tie, const TieState<Dim>& s, double stiffness,
-               bool with_tangent, ContactBlock<Dim>& block) {
-  const std::size_t n = tie.nodes.size();
-  const auto size = Dim * static_cast<Eigen::Index>(n);
-  block.count = static_cast<int>(n);
-  block.slave_count = tie.slave_count;
-  block.branched = false;
-  block.nodes = tie.nodes;
-  block.force.resize(size);
-  if (with_tangent) block.tangent.resize(size, size);
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto row = Dim * static_cast<Eigen::Index>(k);
-    const Mat<Dim, Dim> of_k = stiffness * rate_of(tie, s, k).transpose();
-    block.force.template segment<Dim>(row) = of_k * s.q;
-    for (std::size_t l = 0; with_tangent && l < n; ++l)
-      block.tangent.template block<Dim, Dim>(row, Dim * static_cast<Eigen::Index>(l)) =
-          of_k * rate_of(tie, s, l) + stiffness * tie.kept[Dim - 1] * second_rate(tie, s.q, k, l);
+contact::PointTerms<Dim> terms_of(const TiedPoint<Dim>& tie, const TieState<Dim>& s,
+                                  double stiffness) {
+  const double along = tie.kept[Dim - 1];
+  std::array<Mat<Dim, Dim>, Dim> rate;  // of q by the sums of each slot
+  rate[0].setIdentity();
+  const std::array<Mat<Dim, Dim>, Dim - 1> turning = normal_rates(s.r);
+  for (std::size_t i = 0; i + 1 < Dim; ++i)
+    rate[i + 1] =
+        -tie.kept[static_cast<Eigen::Index>(i)] * Mat<Dim, Dim>::Identity() - along * turning[i];
+  contact::PointTerms<Dim> terms;
+  terms.used = Dim;
+  for (std::size_t a = 0; a < Dim; ++a) {
+    terms.f[a] = stiffness * (rate[a].transpose() * s.q);
+    for (std::size_t b = 0; b < Dim; ++b)
+      terms.m[a][b] = stiffness * (rate[a].transpose() * rate[b]);
   }
-  block.branch_force = block.force;
+  add_second_rate(Vec<Dim>(stiffness * along * s.q), terms);
+  return terms;
 }
 
 template <int Dim>
-void report(const PairDefinition<Dim>& pair, const TiedPoint<Dim>& tie, const TieState<Dim>& s,
-            double stiffness, PointResult<Dim>& result) {
-  result.status = contact::Status::stick;
-  result.branch.branch = contact::Branch::stick;
-  result.normal = tie.side * s.m / s.m.norm();
-  result.frame = contact::tangent_frame<Dim>(result.normal, s.r[0]);
-  result.gap = result.normal.dot(s.apart) - pair.offset;
-  result.normal_traction = stiffness * result.normal.dot(s.q);
-  result.stored = 0.5 * stiffness * s.q.squaredNorm();
-  result.shear_traction = stiffness * (result.frame.transpose() * s.q);
-  contact::PointHistory<Dim>& h = result.history;
-  h.active = h.held = true;
-  h.facet = tie.facet;
-  h.feature = tie.feature;
-  h.xi = tie.xi;
-  h.gap = result.gap + pair.offset;
-  h.traction = result.shear_traction;
+void set_block(const TiedPoint<Dim>& tie, const Response<Dim>& r,
+               const contact::PointTerms<Dim>& terms, double area, bool with_tangent,
+               ContactBlock<Dim>& block) {
+  const auto size = Dim * static_cast<Eigen::Index>(tie.nodes.size());
+  const auto own = static_cast<std::size_t>(tie.slave_count);
+  block.nodes.resize(tie.nodes.size());
+  block.force.resize(size);
+  block.branch_force.resize(size);
+  if (with_tangent) block.tangent.resize(size, size);
+  set_nodes<Dim>(std::span(tie.nodes).first(own), std::span(tie.nodes).subspan(own), block);
+  const auto w = [&](std::size_t slot, int k) {
+    const auto n = static_cast<std::size_t>(k);
+    return slot == 0 ? tie.weights[n] : tie.carrier[slot - 1][n];
+  };
+  set_forces<Dim>(
+      r, {}, terms.f, [&](const auto&) { return terms.f; }, w, area, block);
+  if (with_tangent) scatter_tangent<Dim>(terms, block.count, w, area, block.tangent);
 }
 
 }  // namespace
@@ -268,20 +276,24 @@ void evaluate_ties(const PairDefinition<Dim>& pair, Points<Dim> x, const PairSta
   out.blocks.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
     out.points[i].gap = std::numeric_limits<double>::infinity();
-    out.blocks[i].count = 0;
+    clear_block(out.blocks[i]);
     out.blocks[i].nodes.clear();
   }
   for (const TiedPoint<Dim>& tie : pair.ties) {
     const std::size_t i = at(tie.point);
     const double stiffness = point_penalty(pair, i).normal;
+    const TieState<Dim> s = state_of<Dim>(pair, tie, x);
+    const Response<Dim> r = response_of(s, stiffness);
     PointResult<Dim>& result = out.points[i];
     const bool by_node = pair.weight == Weight::node;
-    result.weight = pair.mortar ? pair.reference_areas[i]
-                                : pair.share * (by_node ? 1.0 : pair.reference_areas[i]);
-    const TieState<Dim> s = state_of<Dim>(tie, x);
-    result.foot = position<Dim>(pair.slave.points[i], x) - s.apart;
-    report(pair, tie, s, stiffness, result);
-    set_block(tie, s, result.weight * stiffness, with_tangent, out.blocks[i]);
+    result =
+        open_result<Dim>({}, pair.mortar ? pair.reference_areas[i]
+                                         : pair.share * (by_node ? 1.0 : pair.reference_areas[i]));
+    report_place(s.sample, pair.offset, result);
+    report_normal(r.traction.normal, 0, result);
+    report_contact<Dim>(r, r.law.traction, {}, result);
+    result.history.held = true;
+    set_block(tie, r, terms_of(tie, s, stiffness), result.weight, with_tangent, out.blocks[i]);
   }
 }
 

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "osculate/pairing/friction_branch.hpp"
 #include "osculate/pairing/point_block.hpp"
+#include "osculate/pairing/point_sample.hpp"
 #include "osculate/pairing/point_weight.hpp"
+#include "osculate/pairing/report.hpp"
 
 namespace osculate::pairing {
 
@@ -181,69 +182,57 @@ std::optional<Valley> find_valley(const PairDefinition<2>& pair, Points<2> x,
 
 namespace {
 
-/// The place of the vertex on the first of its facets.
-Placed<2> place_in(const Valley& valley, const PairDefinition<2>& pair, const Vec2& point,
-                   Points<2> x) {
-  Projection<2> p;
-  p.feature = Feature::corner;
-  p.facet = valley.facets[0];
-  p.xi[0] = valley.end;
-  p.local = 1;
-  p.distance = (point - valley.point).norm();
-  p.outward = valley.bisector;
-  return place(pair.master, p, point, x);
-}
-
-void report_valley(const PairDefinition<2>& pair, Points<2> x, const PointHistory<2>& history,
-                   const Valley& valley, const Vec2& point, const Vec2& traction,
-                   PointResult<2>& result) {
+/// The vertex on the first of its facets, with the bisector as its normal.
+ContactSample<2> sample_in(const Valley& valley, const Vec2& point) {
   const Vec2 offset = point - valley.point;
-  result.status = Status::stick;
-  result.branch = {Branch::valley, Vec2::Zero()};
-  result.foot = valley.point;
-  result.normal = valley.bisector;
-  result.frame = contact::tangent_frame<2>(valley.bisector, Vec2::UnitX());
-  result.gap = std::min(offset.dot(valley.normal[0]), offset.dot(valley.normal[1]));
-  result.normal_traction = traction.dot(result.normal);
-  result.shear_traction = result.frame.transpose() * traction;
-  result.slip_increment[0] = way_to(valley, pair, history, x);
-  PointHistory<2>& h = result.history;
-  h = history;
-  h.active = true;
-  h.facet = valley.facets[0];
-  h.feature = Feature::corner;
-  h.xi[0] = valley.end;
-  h.gap = result.gap;
-  h.traction = result.shear_traction;
-  h.slipping = false;
-  h.slip = result.slip_increment;
-  h.slid = std::abs(result.slip_increment[0]);
-  if (!history.active) return;
-  h.slip += history.slip;
-  h.slid += history.slid;
+  ContactSample<2> sample;
+  sample.facet = valley.facets[0];
+  sample.feature = Feature::corner;
+  sample.xi[0] = valley.end;
+  sample.gap = std::min(offset.dot(valley.normal[0]), offset.dot(valley.normal[1]));
+  sample.foot = valley.point;
+  sample.normal = valley.bisector;
+  sample.frame = contact::tangent_frame<2>(valley.bisector, Vec2::UnitX());
+  return sample;
 }
 
-/// Derivatives of forces and constraint: T and the constraint are linear in x - v and Lambda.
-void set_tangent(const PairDefinition<2>& pair, std::size_t i, const Weights<2>& w, double weight,
-                 ContactBlock<2>& block) {
-  const PointPenalty penalty = point_penalty(pair, i);
-  const double area = constraint_weight(pair, i);
-  const Mat<2, 2> spring = penalty.shear * Mat<2, 2>::Identity();
-  const Eigen::Index size = 2 * block.count;
-  block.path_rows.topRows(size).setZero();
-  block.area_rows.head(size).setZero();
+/// It sticks with the traction T.
+Response<2> response_in(const ContactSample<2>& sample, const Vec2& traction, double way) {
+  Response<2> r;
+  r.traction.normal = {true, traction.dot(sample.normal), 0};
+  r.law.traction = r.traction.tangential.traction = sample.frame.transpose() * traction;
+  r.has_shear = true;
+  r.slip[0] = way;
+  r.slid = std::abs(way);
+  return r;
+}
+
+/// Weights of the point and of the vertex, which is a node of its facet.
+std::array<double, max_slave_nodes<2> + max_master_nodes<2>> weights_in(const SlavePoint<2>& slave,
+                                                                        const Facet& facet,
+                                                                        double end) {
+  std::array<double, max_slave_nodes<2> + max_master_nodes<2>> w{};
+  const auto first = static_cast<std::size_t>(slave.count);
+  std::copy_n(slave.shape.begin(), first, w.begin());
+  const cell::LineShape shape = facet_shape(facet, end);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
+    w[first + k] = -shape.n[0][k];
+  return w;
+}
+
+/// Derivatives of the constraint and of the forces by the multipliers: the shear's is eps_T (x - v)
+/// = 0, the normal multiplier vanishes.
+template <class WeightOf>
+void set_constraint_tangent(double spring, double area, double weight, const WeightOf& w,
+                            ContactBlock<2>& block) {
   ConstraintBlock<2>& c = block.constraint;
-  if (c.columns.rows() < size) c.columns.resize(size, 3);
-  for (int k = 0; k < block.count; ++k) {
-    const double of_k = w[0][static_cast<std::size_t>(k)];
-    for (int l = 0; l < block.count; ++l)
-      block.tangent.block<2, 2>(2 * k, 2 * l) =
-          (weight * of_k * w[0][static_cast<std::size_t>(l)]) * spring;
-    c.columns.middleRows<2>(2 * k).col(0).setZero();
-    c.columns.middleRows<2>(2 * k).rightCols<2>() = (weight * of_k) * spring;
-    c.shear_row.push_back({block.nodes[static_cast<std::size_t>(k)], area * of_k * spring});
-  }
-  c.own.bottomRightCorner<2, 2>().setZero();
+  for (int k = 0; k < block.count; ++k)
+    c.shear_row.push_back({block.nodes[static_cast<std::size_t>(k)],
+                           area * w(0, k) * spring * Mat<2, 2>::Identity()});
+  set_multiplier_terms<2>(
+      {0, spring}, area, Vec2::Zero(), Mat<2, 2>::Identity(), Vec2::Zero(),
+      [&](int k) { return weight * w(0, k); }, block);
+  c.own(0, 0) = -c.scale[0];
 }
 
 }  // namespace
@@ -254,31 +243,42 @@ void evaluate_in_valley(const PairDefinition<2>& pair, Points<2> x, const PointH
   PointResult<2>& result = out.points[i];
   ContactBlock<2>& block = out.blocks[i];
   const SlavePoint<2>& slave = pair.slave.points[i];
+  const Facet& facet = facet_of(pair.master, valley.facets[0]);
   const Vec2 point = position<2>(slave, x);
-  result = {};
-  clear_block(block);
-  const PointPenalty penalty = point_penalty(pair, i);
-  const Vec2 pull = penalty.shear * (point - valley.point);
-  const Vec2 traction = hint.multiplier->shear + pull;
-  report_valley(pair, x, history, valley, point, traction, result);
-  result.weight = facing_weight<2>(pair, out, i, valley.bisector);
-  start_constraint(pair, hint, i, block);
-  block.constraint.shear = block.constraint.branch_shear = constraint_weight(pair, i) * pull;
+  const double spring = point_penalty(pair, i).shear, area = constraint_weight(pair, i);
+  const Vec2 pull = spring * (point - valley.point);
+  const ContactSample<2> sample = sample_in(valley, point);
+  const Response<2> r =
+      response_in(sample, hint.multiplier->shear + pull, way_to(valley, pair, history, x));
+  result = open_result(history, facing_weight<2>(pair, out, i, valley.bisector));
+  report_place(sample, 0, result);
+  report_normal(r.traction.normal, history.damping_work, result);
+  report_contact(r, r.law.traction, history, result);
+  result.branch = {Branch::valley, Vec2::Zero()};
 
-  const Placed<2> placed = place_in(valley, pair, point, x);
-  set_nodes(block, pair.master, placed, slave, out.block_nodes);
-  const Weights<2> w = contact_weights(slave, placed);
-  const auto scatter = [&](double factor, Eigen::VectorXd& force) {
-    for (int k = 0; k < block.count; ++k)
-      force.segment<2>(2 * k) = (factor * w[0][static_cast<std::size_t>(k)]) * traction;
-  };
-  scatter(result.weight, block.force);
-  scatter(result.weight, block.branch_force);
+  clear_block(block);
+  start_constraint(pair, hint, i, block);
+  block.constraint.shear = block.constraint.branch_shear = area * pull;
+  block.reserve(out.block_nodes);
+  set_nodes<2>(std::span(slave.nodes).first(static_cast<std::size_t>(slave.count)),
+               std::span(facet.nodes).first(static_cast<std::size_t>(facet.count)), block);
+  const auto weights = weights_in(slave, facet, valley.end);
+  const auto w = [&](std::size_t, int k) { return weights[static_cast<std::size_t>(k)]; };
+  contact::PointTerms<2> terms;
+  terms.used = 1;
+  terms.f[0] = hint.multiplier->shear + pull;
+  terms.m[0][0] = spring * Mat<2, 2>::Identity();
+  const auto f = std::span<const Vec2>(terms.f).first(1);
+  set_forces<2>(
+      r, {}, f, [&](const auto&) { return f; }, w, result.weight, block);
   if (!with_tangent) return;
-  set_tangent(pair, i, w, result.weight, block);
+  scatter_tangent<2>(terms, block.count, w, result.weight, block.tangent);
+  block.path_rows.topRows(2 * block.count).setZero();
+  set_constraint_tangent(spring, area, result.weight, w, block);
+  block.area_rows.head(2 * block.count).setZero();
   if (pair.weight != Weight::current_area) return;
   add_area_gradient<2>(pair, out, i, valley.bisector, block.area);
-  scatter(side_share(pair), block.area_rows);
+  scatter_forces<2>(f, block.count, w, side_share(pair), block.area_rows);
 }
 
 }  // namespace osculate::pairing

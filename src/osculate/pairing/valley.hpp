@@ -1,7 +1,7 @@
 #pragma once
 // A slave point with unknown tractions in a concave corner of a master in the plane; for sources of
 // this layer.
-#include "osculate/pairing/point_evaluation.hpp"
+#include "osculate/pairing/point_context.hpp"
 
 namespace osculate::pairing {
 

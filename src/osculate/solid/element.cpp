@@ -12,12 +12,12 @@
 namespace osculate::solid {
 namespace {
 
-void evaluate_full(const Section& section, const Points& points, bool with_tangent,
-                   ElementResult& out) {
+void evaluate_full(const Section& section, const Points& points, const material::Memory& memory,
+                   bool with_tangent, ElementResult& out) {
   for (std::size_t q = 0; q < points.count; ++q) {
     const PointGeometry& g = points.geometry[q];
     const PointStrain& p = points.strain[q];
-    const material::Response r = point_response(section, p.strain);
+    const material::Response r = point_response(section, p.strain, memory.at(q));
     if (!r.ok) {
       out.status = Status::material_failed;
       return;
@@ -31,13 +31,14 @@ void evaluate_full(const Section& section, const Points& points, bool with_tange
 }
 
 /// Finite strain with the same volume ratio at all points.
-void evaluate_mean_dilatation(const Section& section, const Points& points, bool with_tangent,
+void evaluate_mean_dilatation(const Section& section, const Points& points,
+                              const material::Memory& memory, bool with_tangent,
                               ElementResult& out) {
   const MeanDilatation mean = mean_dilatation(points.geometries(), points.strains());
   std::array<material::Response, max_points> response;
   for (std::size_t q = 0; q < points.count; ++q) {
     const PointStrain& p = mean.strain[q];
-    response[q] = point_response(section, p.strain);
+    response[q] = point_response(section, p.strain, memory.at(q));
     if (!response[q].ok) {
       out.status = Status::material_failed;
       return;
@@ -56,9 +57,9 @@ void evaluate_mean_dilatation(const Section& section, const Points& points, bool
 /// Enhanced strains: the mode parameters are condensed out of force and tangent.
 template <int Count>
 void evaluate_enhanced(const Section& section, const Coordinates& reference, const Points& points,
-                       bool with_tangent, ElementResult& out) {
+                       const material::Memory& memory, bool with_tangent, ElementResult& out) {
   const EnhancedModes e =
-      enhanced_modes<Count>(section, reference, points.geometries(), points.strains());
+      enhanced_modes<Count>(section, reference, points.geometries(), points.strains(), memory);
   if (!e.ok) {
     out.status = Status::material_failed;
     return;
@@ -88,19 +89,16 @@ bool has_forces_alone(const Section& section, cell::CellType type) {
 }
 
 void evaluate_forces(const Section& section, cell::CellType type, const Coordinates& reference,
-                     const Coordinates& displacement, ElementResult& out) {
-  const AreaRule& rule = area_rule(section.assumption, type);
-  Mat<4, 2> force;
-  out.status = finite_forces<2, 4, 4>(
+                     const Coordinates& displacement, const material::Memory& memory,
+                     ElementResult& out) {
+  set_finite_forces<2, 4, 4>(
       section.law, section.thickness, section.formulation == Formulation::bbar,
-      std::span<const cell::AreaShape, 4>(rule.shape), std::span<const double, 4>(rule.weights),
-      reference, displacement, force);
-  out.force.resize(8);
-  for (Eigen::Index k = 0; k < 4; ++k) out.force.segment<2>(2 * k) = force.row(k);
+      area_rule(section.assumption, type), reference, displacement, memory, out);
 }
 
 void evaluate_whole(const Section& section, cell::CellType type, const Coordinates& reference,
-                    const Coordinates& displacement, bool with_tangent, ElementResult& out) {
+                    const Coordinates& displacement, const material::Memory& memory,
+                    bool with_tangent, ElementResult& out) {
   const Eigen::Index dofs = 2 * reference.rows();
   out.status = Status::ok;
   out.force.setZero(dofs);
@@ -112,19 +110,19 @@ void evaluate_whole(const Section& section, cell::CellType type, const Coordinat
   }
   if (section.formulation == Formulation::enhanced) {
     if (section.assumption == Assumption::axisymmetric)
-      evaluate_enhanced<ring_modes>(section, reference, points, with_tangent, out);
+      evaluate_enhanced<ring_modes>(section, reference, points, memory, with_tangent, out);
     else
-      evaluate_enhanced<plane_modes>(section, reference, points, with_tangent, out);
+      evaluate_enhanced<plane_modes>(section, reference, points, memory, with_tangent, out);
     return;
   }
   if (section.formulation == Formulation::bbar) {
     if (section.kinematics == Kinematics::finite) {
-      evaluate_mean_dilatation(section, points, with_tangent, out);
+      evaluate_mean_dilatation(section, points, memory, with_tangent, out);
       return;
     }
     average_volume_small(points.geometries(), points.strains(), displacement);
   }
-  evaluate_full(section, points, with_tangent, out);
+  evaluate_full(section, points, memory, with_tangent, out);
 }
 
 }  // namespace
@@ -146,12 +144,14 @@ std::string_view unsupported(const Section& section, cell::CellType type) {
 }
 
 void evaluate(const Section& section, cell::CellType type, const Coordinates& reference,
-              const Coordinates& displacement, bool with_tangent, ElementResult& out) {
+              const Coordinates& displacement, bool with_tangent, ElementResult& out,
+              const material::Memory& memory) {
   const bool alone = has_forces_alone(section, type);
   if (with_tangent || !alone)
-    evaluate_whole(section, type, reference, displacement, with_tangent, out);
+    evaluate_whole(section, type, reference, displacement, memory, with_tangent, out);
   if (!alone || (with_tangent && out.status != Status::ok)) return;
-  evaluate_forces(section, type, reference, displacement, out);  // the same bits in both ways
+  evaluate_forces(section, type, reference, displacement, memory,
+                  out);  // the same bits in both ways
 }
 
 ElementVector volume_weights(const Section& section, cell::CellType type,

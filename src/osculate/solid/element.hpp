@@ -38,6 +38,8 @@ enum class Status { ok, inverted, material_failed };
 ///
 /// Formula    total Lagrange for finite kinematics: E = (F^T F - I)/2, S = dW/dE
 /// Units      force (plane: thickness; axisymmetric about the y axis: full circumference 2 pi R)
+/// Input      memory: of the points of the cell, for laws that remember. Without it nothing has
+///            happened to them yet
 /// Returns    out.status: inverted if det F <= 0 at a quadrature point (finite kinematics),
 ///            material_failed if the law, or the modes of the enhanced strains, have no answer;
 ///            force and tangent are then not to be used. The tangent is symmetric for all sections
@@ -50,7 +52,10 @@ struct ElementResult {
   ElementMatrix tangent;  ///< filled only when asked for
 };
 void evaluate(const Section& section, cell::CellType type, const Coordinates& reference,
-              const Coordinates& displacement, bool with_tangent, ElementResult& out);
+              const Coordinates& displacement, bool with_tangent, ElementResult& out,
+              const material::Memory& memory = {});
+/// Number of quadrature points.
+[[nodiscard]] std::size_t point_count(const Section& section, cell::CellType type);
 
 /// Cauchy stress and strain of one quadrature point (strain: Green-Lagrange or small; components
 /// xx, yy, zz, xy, the last with half the shear angle). Formulations bbar and enhanced: the strain
@@ -69,7 +74,8 @@ struct CellStress {
 /// Tested by  tests/unit/solid/test_stress.cpp
 [[nodiscard]] CellStress stress_at_points(const Section& section, cell::CellType type,
                                           const Coordinates& reference,
-                                          const Coordinates& displacement);
+                                          const Coordinates& displacement,
+                                          const material::Memory& memory = {});
 
 /// The same extrapolated to the nodes by least squares over the quadrature points.
 ///
@@ -80,7 +86,13 @@ struct NodalStress {
 };
 [[nodiscard]] NodalStress nodal_stress(const Section& section, cell::CellType type,
                                        const Coordinates& reference,
-                                       const Coordinates& displacement);
+                                       const Coordinates& displacement,
+                                       const material::Memory& memory = {});
+/// Values of the points at the nodes in the same way: one row a point, one a node.
+///
+/// Tested by  tests/unit/solid/test_memory.cpp
+[[nodiscard]] Eigen::MatrixXd at_nodes(const Section& section, cell::CellType type,
+                                       const Eigen::MatrixXd& of_points);
 
 /// int N_k dV: what a unit body force per volume gives each node.
 [[nodiscard]] ElementVector volume_weights(const Section& section, cell::CellType type,

@@ -19,26 +19,38 @@ material::Strain3 engineering(const Vec<6>& strain) {
 }
 
 template <class CellStressType>
-double sum(const material::Law& law, const CellStressType& cell) {
-  if (cell.status != Status::ok) return std::numeric_limits<double>::infinity();
-  double energy = 0;
-  for (int q = 0; q < cell.count; ++q) {
-    const auto& p = cell.point[static_cast<std::size_t>(q)];
-    energy += p.volume * material::stored_energy(law, engineering(p.strain));
+CellEnergy sum(const material::Law& law, const CellStressType& cell,
+               const material::Memory& memory) {
+  if (cell.status != Status::ok) return {std::numeric_limits<double>::infinity()};
+  CellEnergy energy;
+  for (std::size_t q = 0; q < static_cast<std::size_t>(cell.count); ++q) {
+    const auto& p = cell.point[q];
+    const double* const state = memory.at(q).committed;
+    energy.stored += p.volume * material::stored_energy(law, engineering(p.strain), state);
+    if (state) energy.dissipated += p.volume * material::dissipated_energy(law, state);
   }
   return energy;
 }
 
 }  // namespace
 
-double strain_energy(const Section& section, cell::CellType type, const Coordinates& reference,
-                     const Coordinates& displacement) {
-  return sum(section.law, stress_at_points(section, type, reference, displacement));
+CellEnergy cell_energy(const Section& section, cell::CellType type, const Coordinates& reference,
+                       const Coordinates& displacement, const material::Memory& memory) {
+  return sum(section.law, stress_at_points(section, type, reference, displacement, memory), memory);
+}
+CellEnergy cell_energy(const VolumeSection& section, cell::CellType type,
+                       const Coordinates3& reference, const Coordinates3& displacement,
+                       const material::Memory& memory) {
+  return sum(section.law, stress_at_points(section, type, reference, displacement, memory), memory);
 }
 
+double strain_energy(const Section& section, cell::CellType type, const Coordinates& reference,
+                     const Coordinates& displacement) {
+  return cell_energy(section, type, reference, displacement, {}).stored;
+}
 double strain_energy(const VolumeSection& section, cell::CellType type,
                      const Coordinates3& reference, const Coordinates3& displacement) {
-  return sum(section.law, stress_at_points(section, type, reference, displacement));
+  return cell_energy(section, type, reference, displacement, {}).stored;
 }
 
 }  // namespace osculate::solid

@@ -51,14 +51,14 @@ std::array<Mat<4, Count>, 4> mode_matrices(const Section& section, const Coordin
 /// size that rounding errors of the equations are relative to. False where the law fails.
 template <int Count>
 bool sample(const Section& section, std::span<const PointGeometry> geometry,
-            std::span<const PointStrain> strain, EnhancedModes<Count>& e, Vec<Count>& rest,
-            double& scale) {
+            std::span<const PointStrain> strain, const material::Memory& memory,
+            EnhancedModes<Count>& e, Vec<Count>& rest, double& scale) {
   rest.setZero();
   scale = 0;
   e.stiffness.setZero();
   for (std::size_t q = 0; q < 4; ++q) {
     const material::Strain total = strain[q].strain + e.matrix[q] * e.alpha;
-    e.response[q] = point_response(section, total);
+    e.response[q] = point_response(section, total, memory.at(q));
     const material::Response& r = e.response[q];
     if (!r.ok) return false;
     const Mat<4, Count> weighted = geometry[q].volume * e.matrix[q];
@@ -77,20 +77,24 @@ bool sample(const Section& section, std::span<const PointGeometry> geometry,
 template <int Count>
 EnhancedModes<Count> enhanced_modes(const Section& section, const Coordinates& reference,
                                     std::span<const PointGeometry> geometry,
-                                    std::span<const PointStrain> strain) {
+                                    std::span<const PointStrain> strain,
+                                    const material::Memory& memory) {
   EnhancedModes<Count> e;
   e.matrix = mode_matrices<Count>(section, reference, geometry);
-  solve_modes<Vec<Count>>(e, [&](EnhancedModes<Count>& m, Vec<Count>& rest, double& scale) {
-    return sample(section, geometry, strain, m, rest, scale);
-  });
+  solve_modes<Vec<Count>>(e, memory.size > 0,
+                          [&](EnhancedModes<Count>& m, Vec<Count>& rest, double& scale) {
+                            return sample(section, geometry, strain, memory, m, rest, scale);
+                          });
   return e;
 }
 
 template EnhancedModes<plane_modes> enhanced_modes(const Section&, const Coordinates&,
                                                    std::span<const PointGeometry>,
-                                                   std::span<const PointStrain>);
+                                                   std::span<const PointStrain>,
+                                                   const material::Memory&);
 template EnhancedModes<ring_modes> enhanced_modes(const Section&, const Coordinates&,
                                                   std::span<const PointGeometry>,
-                                                  std::span<const PointStrain>);
+                                                  std::span<const PointStrain>,
+                                                  const material::Memory&);
 
 }  // namespace osculate::solid

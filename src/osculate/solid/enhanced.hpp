@@ -33,6 +33,7 @@ template <int Count>
 [[nodiscard]] EnhancedModes<Count> enhanced_modes(const Section& section,
                                                   const Coordinates& reference,
                                                   std::span<const PointGeometry> geometry,
-                                                  std::span<const PointStrain> strain);
+                                                  std::span<const PointStrain> strain,
+                                                  const material::Memory& memory);
 
 }  // namespace osculate::solid

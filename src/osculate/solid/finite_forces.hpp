@@ -9,6 +9,7 @@
 #include "osculate/material/law.hpp"
 #include "osculate/material/stretch.hpp"
 #include "osculate/solid/element.hpp"
+#include "osculate/solid/stress_tensor.hpp"
 
 namespace osculate::solid {
 
@@ -21,16 +22,6 @@ namespace osculate::solid {
   const Mat<3, 3> hh = h.transpose() * h;
   return {h(0, 0) + 0.5 * hh(0, 0),     h(1, 1) + 0.5 * hh(1, 1),     h(2, 2) + 0.5 * hh(2, 2),
           h(0, 1) + h(1, 0) + hh(0, 1), h(1, 2) + h(2, 1) + hh(1, 2), h(0, 2) + h(2, 0) + hh(0, 2)};
-}
-[[nodiscard]] inline Mat<2, 2> stress_tensor(const material::Stress& s) {
-  Mat<2, 2> t;
-  t << s[0], s[3], s[3], s[1];
-  return t;
-}
-[[nodiscard]] inline Mat<3, 3> stress_tensor(const material::Stress3& s) {
-  Mat<3, 3> t;
-  t << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  return t;
 }
 
 /// One point: what the displacement does there.
@@ -57,7 +48,8 @@ template <int Dim, int N, int Q, class Shape>
 [[nodiscard]] Status finite_forces(const material::Law& law, double depth, bool mean_dilatation,
                                    std::span<const Shape, Q> shapes,
                                    std::span<const double, Q> weights, const Mat<N, Dim>& reference,
-                                   const Mat<N, Dim>& displacement, Mat<N, Dim>& force) {
+                                   const Mat<N, Dim>& displacement, const material::Memory& memory,
+                                   Mat<N, Dim>& force) {
   force.setZero();
   std::array<FinitePoint<Dim, N>, Q> points;
   std::array<double, Q> square{};  // J^2 - 1; ratios without cancellation at small strain
@@ -92,7 +84,7 @@ template <int Dim, int N, int Q, class Shape>
       m = std::cbrt(1 + change);
       p.strain = m * p.strain + change / (1 + m + m * m) * half_unit;
     }
-    const auto s = material::stress(law, p.strain);
+    const auto s = material::stress(law, p.strain, memory.at(q));
     if (!s.ok) return Status::material_failed;
     const Mat<Dim, Dim> pulled = m * p.volume * p.f * stress_tensor(s.stress);
     force.noalias() += p.gradient * pulled.transpose();
@@ -107,6 +99,21 @@ template <int Dim, int N, int Q, class Shape>
     force.noalias() += p.gradient * (factor * p.f.inverse());
   }
   return Status::ok;
+}
+
+/// The same as the result of a cell with the quadrature `rule`.
+template <int Dim, int N, int Q, class Rule, class AnyCoordinates, class Result>
+void set_finite_forces(const material::Law& law, double depth, bool mean_dilatation,
+                       const Rule& rule, const AnyCoordinates& reference,
+                       const AnyCoordinates& displacement, const material::Memory& memory,
+                       Result& out) {
+  using Shape = typename decltype(rule.shape)::value_type;
+  Mat<N, Dim> force;
+  out.status = finite_forces<Dim, N, Q>(
+      law, depth, mean_dilatation, std::span<const Shape, Q>(rule.shape),
+      std::span<const double, Q>(rule.weights), reference, displacement, memory, force);
+  out.force.resize(Dim * N);
+  for (Eigen::Index k = 0; k < N; ++k) out.force.template segment<Dim>(Dim * k) = force.row(k);
 }
 
 }  // namespace osculate::solid

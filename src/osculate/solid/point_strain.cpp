@@ -4,6 +4,8 @@
 #include <array>
 #include <numbers>
 
+#include "osculate/solid/stress_tensor.hpp"
+
 namespace osculate::solid {
 
 namespace {
@@ -46,6 +48,10 @@ const AreaRule& area_rule(Assumption assumption, cell::CellType type) {
     default:
       return type == quad8 ? rules[4] : rules[5];
   }
+}
+
+std::size_t point_count(const Section& section, cell::CellType type) {
+  return area_rule(section.assumption, type).points.size();
 }
 
 PointGeometry point_geometry(const Section& section, const cell::AreaShape& shape,
@@ -108,8 +114,7 @@ bool fill_points(const Section& section, cell::CellType type, const Coordinates&
 void add_geometric(const Section& section, const PointGeometry& g, const material::Stress& s,
                    ElementMatrix& k) {
   const Eigen::Index n = g.shape.count;
-  Mat<2, 2> stress;
-  stress << s[0], s[3], s[3], s[1];
+  const Mat<2, 2> stress = stress_tensor(s);
   for (Eigen::Index a = 0; a < n; ++a)
     for (Eigen::Index b = 0; b < n; ++b) {
       const double value = g.volume * g.gradient.row(a).dot(stress * g.gradient.row(b).transpose());
@@ -121,11 +126,11 @@ void add_geometric(const Section& section, const PointGeometry& g, const materia
 }
 
 material::Response point_response(const Section& section, const material::Strain& strain,
-                                  double* strain_33) {
+                                  const material::Memory& memory, double* strain_33) {
   if (section.assumption == Assumption::plane_stress)
-    return material::plane_stress_response(section.law, strain, strain_33);
+    return material::plane_stress_response(section.law, strain, strain_33, memory);
   if (strain_33) *strain_33 = strain[2];
-  return material::response(section.law, strain);
+  return material::response(section.law, strain, memory);
 }
 
 }  // namespace osculate::solid

@@ -63,6 +63,7 @@ void add_geometric(const Section& section, const PointGeometry& geometry,
                                Points& points);
 [[nodiscard]] material::Response point_response(const Section& section,
                                                 const material::Strain& strain,
+                                                const material::Memory& memory,
                                                 double* strain_33 = nullptr);
 
 }  // namespace osculate::solid

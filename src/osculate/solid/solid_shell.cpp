@@ -75,7 +75,7 @@ void add_geometric(const ShellCell& cell, const SampleStress& stress, VolumeMatr
 
 void evaluate_solid_shell(const VolumeSection& section, cell::CellType type,
                           const Coordinates3& reference, const Coordinates3& displacement,
-                          bool with_tangent, VolumeResult& out) {
+                          bool with_tangent, VolumeResult& out, const material::Memory& memory) {
   const Eigen::Index dofs = 3 * reference.rows();
   out.status = Status::ok;
   out.force.setZero(dofs);
@@ -85,7 +85,7 @@ void evaluate_solid_shell(const VolumeSection& section, cell::CellType type,
     out.status = Status::inverted;
     return;
   }
-  const ShellModes modes = shell_modes(section, cell);
+  const ShellModes modes = shell_modes(section, cell, memory);
   if (!modes.ok) {
     out.status = Status::material_failed;
     return;

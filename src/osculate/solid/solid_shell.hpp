@@ -28,7 +28,8 @@ namespace osculate::solid {
 ///            test_solid_shell_patch.cpp, test_solid_shell_benchmarks.cpp
 void evaluate_solid_shell(const VolumeSection& section, cell::CellType type,
                           const Coordinates3& reference, const Coordinates3& displacement,
-                          bool with_tangent, VolumeResult& out);
+                          bool with_tangent, VolumeResult& out,
+                          const material::Memory& memory = {});
 
 /// Cauchy stress and strain at the quadrature points (the strain is the one the material sees).
 ///
@@ -38,7 +39,8 @@ void evaluate_solid_shell(const VolumeSection& section, cell::CellType type,
 [[nodiscard]] CellStress3 solid_shell_stress_at_points(const VolumeSection& section,
                                                        cell::CellType type,
                                                        const Coordinates3& reference,
-                                                       const Coordinates3& displacement);
+                                                       const Coordinates3& displacement,
+                                                       const material::Memory& memory = {});
 
 /// The same at the nodes: least squares over the quadrature points, linear through the thickness,
 /// linear (hex8) or quadratic (shell18) along the shell.
@@ -47,6 +49,10 @@ void evaluate_solid_shell(const VolumeSection& section, cell::CellType type,
 [[nodiscard]] NodalStress3 solid_shell_nodal_stress(const VolumeSection& section,
                                                     cell::CellType type,
                                                     const Coordinates3& reference,
-                                                    const Coordinates3& displacement);
+                                                    const Coordinates3& displacement,
+                                                    const material::Memory& memory = {});
+/// Values of the points at the nodes in the same way: one row a point, one a node.
+[[nodiscard]] Eigen::MatrixXd solid_shell_at_nodes(cell::CellType type,
+                                                   const Eigen::MatrixXd& of_points);
 
 }  // namespace osculate::solid

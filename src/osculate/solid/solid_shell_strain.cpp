@@ -175,15 +175,17 @@ void set_modes(const ShellRule& rule, const ShellRulePoint& at, const Coordinate
 
 /// Responses, equations int M^T S dV = 0 and their derivative. `scale` is the size that rounding
 /// errors of the equations are relative to. False where the law fails.
-bool sample_modes(const VolumeSection& section, const ShellCell& cell, ShellModes& m,
-                  ShellModeVector& rest, double& scale) {
+bool sample_modes(const VolumeSection& section, const ShellCell& cell,
+                  const material::Memory& memory, ShellModes& m, ShellModeVector& rest,
+                  double& scale) {
   rest.setZero(cell.rule->modes);
   m.stiffness.setZero(cell.rule->modes, cell.rule->modes);
   scale = 0;
   for (std::size_t q = 0; q < cell.rule->points.size(); ++q) {
     const ShellPoint& p = cell.points[q];
     const material::Strain3 total = p.strain + p.modes * m.alpha;
-    const material::Response3& r = m.response[q] = material::response(section.law, total);
+    const material::Response3& r = m.response[q] =
+        material::response(section.law, total, memory.at(q));
     if (!r.ok) return false;
     const ShellModeMatrix weighted = p.volume * p.modes;
     rest.noalias() += weighted.transpose() * r.stress;
@@ -237,12 +239,14 @@ bool fill_shell(const VolumeSection& section, cell::CellType type, const Coordin
   return true;
 }
 
-ShellModes shell_modes(const VolumeSection& section, const ShellCell& cell) {
+ShellModes shell_modes(const VolumeSection& section, const ShellCell& cell,
+                       const material::Memory& memory) {
   ShellModes m;
   m.alpha.setZero(cell.rule->modes);
-  solve_modes<ShellModeVector>(m, [&](ShellModes& modes, ShellModeVector& rest, double& scale) {
-    return sample_modes(section, cell, modes, rest, scale);
-  });
+  solve_modes<ShellModeVector>(m, memory.size > 0,
+                               [&](ShellModes& modes, ShellModeVector& rest, double& scale) {
+                                 return sample_modes(section, cell, memory, modes, rest, scale);
+                               });
   return m;
 }
 

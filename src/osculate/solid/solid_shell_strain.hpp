@@ -126,6 +126,7 @@ struct ShellModes {
 ///            eta in E22, xi and eta in 2 E12 in the basis of the centre, times det G0/det G. So
 ///            every mode has no work with a constant stress
 /// Returns    ok is false where the law has no answer or the iteration finds none
-[[nodiscard]] ShellModes shell_modes(const VolumeSection& section, const ShellCell& cell);
+[[nodiscard]] ShellModes shell_modes(const VolumeSection& section, const ShellCell& cell,
+                                     const material::Memory& memory);
 
 }  // namespace osculate::solid

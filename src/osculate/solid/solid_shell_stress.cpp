@@ -50,7 +50,8 @@ Basis basis(const Vec3& xi, int points) {
 
 CellStress3 solid_shell_stress_at_points(const VolumeSection& section, cell::CellType type,
                                          const Coordinates3& reference,
-                                         const Coordinates3& displacement) {
+                                         const Coordinates3& displacement,
+                                         const material::Memory& memory) {
   CellStress3 out;
   ShellCell cell;
   const bool one_to_one = fill_shell(section, type, reference, displacement, cell);
@@ -58,7 +59,7 @@ CellStress3 solid_shell_stress_at_points(const VolumeSection& section, cell::Cel
   out.status = one_to_one ? Status::ok : Status::inverted;
   out.count = static_cast<int>(rule.points.size());
   ShellModes modes;
-  if (one_to_one) modes = shell_modes(section, cell);
+  if (one_to_one) modes = shell_modes(section, cell, memory);
   if (one_to_one && !modes.ok) out.status = Status::material_failed;
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     PointStress3& to = out.point[q];
@@ -83,10 +84,22 @@ CellStress3 solid_shell_stress_at_points(const VolumeSection& section, cell::Cel
   return out;
 }
 
+Eigen::MatrixXd solid_shell_at_nodes(cell::CellType type, const Eigen::MatrixXd& of_points) {
+  const auto count = static_cast<int>(of_points.rows());
+  const Eigen::Index terms = basis(Vec3::Zero(), count).size(), nodes = cell::info(type).nodes;
+  Eigen::MatrixXd sample(count, terms), to(nodes, terms);
+  for (int q = 0; q < count; ++q)
+    sample.row(q) = basis(shell_rule(type).points[static_cast<std::size_t>(q)].xi, count);
+  for (int k = 0; k < nodes; ++k) to.row(k) = basis(cell::volume_node(type, k), count);
+  return to * core::least_squares(sample, of_points);
+}
+
 NodalStress3 solid_shell_nodal_stress(const VolumeSection& section, cell::CellType type,
                                       const Coordinates3& reference,
-                                      const Coordinates3& displacement) {
-  const CellStress3 at = solid_shell_stress_at_points(section, type, reference, displacement);
+                                      const Coordinates3& displacement,
+                                      const material::Memory& memory) {
+  const CellStress3 at =
+      solid_shell_stress_at_points(section, type, reference, displacement, memory);
   const Eigen::Index terms = basis(Vec3::Zero(), at.count).size();
   Eigen::Matrix<double, Eigen::Dynamic, 12, 0, max_shell_points, 12> values(at.count, 12);
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_shell_points, max_terms> sample(

@@ -5,6 +5,7 @@
 
 #include "osculate/solid/finite_forces.hpp"
 #include "osculate/solid/solid_shell.hpp"
+#include "osculate/solid/solid_shell_strain.hpp"
 #include "osculate/solid/volume_enhanced.hpp"
 #include "osculate/solid/volume_mean_dilatation.hpp"
 #include "osculate/solid/volume_point.hpp"
@@ -14,7 +15,8 @@ namespace {
 
 template <int N>
 void evaluate_full(const VolumeSection& section, cell::CellType type, const Coordinates3& reference,
-                   const Coordinates3& displacement, bool with_tangent, VolumeResult& out) {
+                   const Coordinates3& displacement, const material::Memory& memory,
+                   bool with_tangent, VolumeResult& out) {
   using Sizes = VolumeSizes<N>;
   const VolumeRule& rule = volume_rule(type);
   const bool finite = section.kinematics == Kinematics::finite;
@@ -33,7 +35,7 @@ void evaluate_full(const VolumeSection& section, cell::CellType type, const Coor
       out.status = Status::inverted;
       return;
     }
-    const material::Response3 r = material::response(section.law, p.strain);
+    const material::Response3 r = material::response(section.law, p.strain, memory.at(q));
     if (!r.ok) {
       out.status = Status::material_failed;
       return;
@@ -51,7 +53,8 @@ void evaluate_full(const VolumeSection& section, cell::CellType type, const Coor
 }
 
 void evaluate_bbar(const VolumeSection& section, const Coordinates3& displacement,
-                   bool with_tangent, HexPoints& points, VolumeResult& out) {
+                   const material::Memory& memory, bool with_tangent, HexPoints& points,
+                   VolumeResult& out) {
   const bool finite = section.kinematics == Kinematics::finite;
   MeanDilatation3 mean;
   if (finite)
@@ -65,7 +68,7 @@ void evaluate_bbar(const VolumeSection& section, const Coordinates3& displacemen
   std::array<material::Stress3, 8> stress;
   for (std::size_t q = 0; q < 8; ++q) {
     const HexPoint& p = seen[q];
-    const material::Response3 r = material::response(section.law, p.strain);
+    const material::Response3 r = material::response(section.law, p.strain, memory.at(q));
     if (!r.ok) {
       out.status = Status::material_failed;
       return;
@@ -83,8 +86,9 @@ void evaluate_bbar(const VolumeSection& section, const Coordinates3& displacemen
 
 /// Enhanced strains: the mode parameters are condensed out of force and tangent.
 void evaluate_enhanced(const VolumeSection& section, const Coordinates3& reference,
-                       bool with_tangent, const HexPoints& points, VolumeResult& out) {
-  const EnhancedModes3 e = enhanced_modes(section, reference, points);
+                       const material::Memory& memory, bool with_tangent, const HexPoints& points,
+                       VolumeResult& out) {
+  const EnhancedModes3 e = enhanced_modes(section, reference, points, memory);
   if (!e.ok) {
     out.status = Status::material_failed;
     return;
@@ -112,20 +116,6 @@ void evaluate_enhanced(const VolumeSection& section, const Coordinates3& referen
   out.tangent = tangent;
 }
 
-template <int N, int Q>
-void evaluate_forces(const VolumeSection& section, cell::CellType type,
-                     const Coordinates3& reference, const Coordinates3& displacement,
-                     VolumeResult& out) {
-  const VolumeRule& rule = volume_rule(type);
-  Mat<N, 3> force;
-  out.status = finite_forces<3, N, Q>(
-      section.law, 1, section.formulation == VolumeFormulation::bbar,
-      std::span<const cell::VolumeShape, Q>(rule.shape), std::span<const double, Q>(rule.weights),
-      reference, displacement, force);
-  out.force.resize(3 * N);
-  for (Eigen::Index k = 0; k < N; ++k) out.force.segment<3>(3 * k) = force.row(k);
-}
-
 /// The cells that explicit analyses have by the thousand.
 bool has_forces_alone(const VolumeSection& section, cell::CellType type) {
   if (section.kinematics != Kinematics::finite) return false;
@@ -136,20 +126,22 @@ bool has_forces_alone(const VolumeSection& section, cell::CellType type) {
 
 void evaluate_forces(const VolumeSection& section, cell::CellType type,
                      const Coordinates3& reference, const Coordinates3& displacement,
-                     VolumeResult& out) {
+                     const material::Memory& memory, VolumeResult& out) {
+  const bool mean = section.formulation == VolumeFormulation::bbar;
+  const VolumeRule& rule = volume_rule(type);
   if (type == cell::CellType::hex8)
-    evaluate_forces<8, 8>(section, type, reference, displacement, out);
+    set_finite_forces<3, 8, 8>(section.law, 1, mean, rule, reference, displacement, memory, out);
   else
-    evaluate_forces<4, 1>(section, type, reference, displacement, out);
+    set_finite_forces<3, 4, 1>(section.law, 1, mean, rule, reference, displacement, memory, out);
 }
 
 bool is_volume(cell::CellType type) { return cell::info(type).dimension == 3; }
 
 void evaluate_whole(const VolumeSection& section, cell::CellType type,
                     const Coordinates3& reference, const Coordinates3& displacement,
-                    bool with_tangent, VolumeResult& out) {
+                    const material::Memory& memory, bool with_tangent, VolumeResult& out) {
   if (section.formulation == VolumeFormulation::solid_shell) {
-    evaluate_solid_shell(section, type, reference, displacement, with_tangent, out);
+    evaluate_solid_shell(section, type, reference, displacement, with_tangent, out, memory);
     return;
   }
   const Eigen::Index dofs = 3 * reference.rows();
@@ -158,11 +150,12 @@ void evaluate_whole(const VolumeSection& section, cell::CellType type,
   if (with_tangent) out.tangent.setZero(dofs, dofs);
   if (section.formulation == VolumeFormulation::full) {
     if (type == cell::CellType::hex8)
-      evaluate_full<8>(section, type, reference, displacement, with_tangent, out);
+      evaluate_full<8>(section, type, reference, displacement, memory, with_tangent, out);
     else if (type == cell::CellType::tet4)
-      evaluate_full<4>(section, type, reference, displacement, with_tangent, out);
+      evaluate_full<4>(section, type, reference, displacement, memory, with_tangent, out);
     else
-      evaluate_full<Eigen::Dynamic>(section, type, reference, displacement, with_tangent, out);
+      evaluate_full<Eigen::Dynamic>(section, type, reference, displacement, memory, with_tangent,
+                                    out);
     return;
   }
   HexPoints points;
@@ -171,9 +164,9 @@ void evaluate_whole(const VolumeSection& section, cell::CellType type,
     return;
   }
   if (section.formulation == VolumeFormulation::bbar)
-    evaluate_bbar(section, displacement, with_tangent, points, out);
+    evaluate_bbar(section, displacement, memory, with_tangent, points, out);
   else
-    evaluate_enhanced(section, reference, with_tangent, points, out);
+    evaluate_enhanced(section, reference, memory, with_tangent, points, out);
 }
 
 }  // namespace
@@ -197,12 +190,19 @@ std::string_view unsupported(const VolumeSection& section, cell::CellType type) 
 }
 
 void evaluate(const VolumeSection& section, cell::CellType type, const Coordinates3& reference,
-              const Coordinates3& displacement, bool with_tangent, VolumeResult& out) {
+              const Coordinates3& displacement, bool with_tangent, VolumeResult& out,
+              const material::Memory& memory) {
   const bool alone = has_forces_alone(section, type);
   if (with_tangent || !alone)
-    evaluate_whole(section, type, reference, displacement, with_tangent, out);
+    evaluate_whole(section, type, reference, displacement, memory, with_tangent, out);
   if (!alone || (with_tangent && out.status != Status::ok)) return;
-  evaluate_forces(section, type, reference, displacement, out);  // the same bits in both ways
+  evaluate_forces(section, type, reference, displacement, memory,
+                  out);  // the same bits in both ways
+}
+
+std::size_t point_count(const VolumeSection& section, cell::CellType type) {
+  return section.formulation == VolumeFormulation::solid_shell ? shell_rule(type).points.size()
+                                                               : volume_rule(type).points.size();
 }
 
 VolumeVector volume_weights(cell::CellType type, const Coordinates3& reference) {

@@ -33,6 +33,7 @@ using VolumeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 3 
 /// symmetric.
 ///
 /// Formula    total Lagrange for finite kinematics: E = (F^T F - I)/2, S = dW/dE
+/// Input      memory: of the points of the cell, as in the plane
 /// Returns    out.status: inverted if det F <= 0 at a quadrature point (finite kinematics),
 ///            material_failed if the law, or the modes of the enhanced strains, have no answer;
 ///            force and tangent are then not to be used
@@ -44,7 +45,9 @@ struct VolumeResult {
   VolumeMatrix tangent;  ///< filled only when asked for
 };
 void evaluate(const VolumeSection& section, cell::CellType type, const Coordinates3& reference,
-              const Coordinates3& displacement, bool with_tangent, VolumeResult& out);
+              const Coordinates3& displacement, bool with_tangent, VolumeResult& out,
+              const material::Memory& memory = {});
+[[nodiscard]] std::size_t point_count(const VolumeSection& section, cell::CellType type);
 
 /// Cauchy stress and strain of one quadrature point (strain: Green-Lagrange or small; components
 /// xx, yy, zz, xy, yz, zx, the last three with half the shear angle). Formulations other than full:
@@ -63,7 +66,8 @@ struct CellStress3 {
 /// Tested by  tests/unit/solid/test_stress.cpp
 [[nodiscard]] CellStress3 stress_at_points(const VolumeSection& section, cell::CellType type,
                                            const Coordinates3& reference,
-                                           const Coordinates3& displacement);
+                                           const Coordinates3& displacement,
+                                           const material::Memory& memory = {});
 
 /// The same extrapolated to the nodes by least squares over the quadrature points.
 ///
@@ -74,7 +78,10 @@ struct NodalStress3 {
 };
 [[nodiscard]] NodalStress3 nodal_stress(const VolumeSection& section, cell::CellType type,
                                         const Coordinates3& reference,
-                                        const Coordinates3& displacement);
+                                        const Coordinates3& displacement,
+                                        const material::Memory& memory = {});
+[[nodiscard]] Eigen::MatrixXd at_nodes(const VolumeSection& section, cell::CellType type,
+                                       const Eigen::MatrixXd& of_points);
 
 /// int N_k dV: what a unit body force per volume gives each node.
 [[nodiscard]] VolumeVector volume_weights(cell::CellType type, const Coordinates3& reference);

@@ -41,14 +41,14 @@ Mat<6, enhanced_count3> mode_matrix(const Centre& centre, const Vec3& xi, double
 
 /// Responses, equations int M^T S dV = 0 and their derivative at the modes of `e`. `scale` is the
 /// size that rounding errors of the equations are relative to. False where the law fails.
-bool sample(const material::Law& law, const HexPoints& points, EnhancedModes3& e,
-            Vec<enhanced_count3>& rest, double& scale) {
+bool sample(const material::Law& law, const HexPoints& points, const material::Memory& memory,
+            EnhancedModes3& e, Vec<enhanced_count3>& rest, double& scale) {
   rest.setZero();
   scale = 0;
   e.stiffness.setZero();
   for (std::size_t q = 0; q < 8; ++q) {
     const material::Strain3 total = points[q].strain + e.matrix[q] * e.alpha;
-    e.response[q] = material::response(law, total);
+    e.response[q] = material::response(law, total, memory.at(q));
     const material::Response3& r = e.response[q];
     if (!r.ok) return false;
     const Mat<6, enhanced_count3> weighted = points[q].volume * e.matrix[q];
@@ -66,15 +66,15 @@ bool sample(const material::Law& law, const HexPoints& points, EnhancedModes3& e
 }  // namespace
 
 EnhancedModes3 enhanced_modes(const VolumeSection& section, const Coordinates3& reference,
-                              const HexPoints& points) {
+                              const HexPoints& points, const material::Memory& memory) {
   const VolumeRule& rule = volume_rule(cell::CellType::hex8);
   const Centre centre = centre_of(reference);
   EnhancedModes3 e;
   for (std::size_t q = 0; q < 8; ++q)
     e.matrix[q] = mode_matrix(centre, rule.points[q], points[q].determinant);
   solve_modes<Vec<enhanced_count3>>(
-      e, [&](EnhancedModes3& m, Vec<enhanced_count3>& rest, double& scale) {
-        return sample(section.law, points, m, rest, scale);
+      e, memory.size > 0, [&](EnhancedModes3& m, Vec<enhanced_count3>& rest, double& scale) {
+        return sample(section.law, points, memory, m, rest, scale);
       });
   return e;
 }

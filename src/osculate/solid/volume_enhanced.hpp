@@ -26,6 +26,7 @@ struct EnhancedModes3 {
 /// Returns    ok is false where the law has no answer or the iteration finds none
 /// Tested by  tests/unit/solid/test_derivatives.cpp, test_patch.cpp, test_volume_locking.cpp
 [[nodiscard]] EnhancedModes3 enhanced_modes(const VolumeSection& section,
-                                            const Coordinates3& reference, const HexPoints& points);
+                                            const Coordinates3& reference, const HexPoints& points,
+                                            const material::Memory& memory);
 
 }  // namespace osculate::solid

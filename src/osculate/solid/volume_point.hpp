@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <vector>
 
+#include "osculate/solid/stress_tensor.hpp"
 #include "osculate/solid/volume.hpp"
 
 namespace osculate::solid {
@@ -106,8 +107,7 @@ void add_material(const Strains& b, const material::Tangent3& d, Matrix& lower) 
 /// Adds the lower triangle of grad N_a . s grad N_b, the part of the tangent from the change of B.
 template <class Nodal, class NodeMatrix>
 void add_geometric(const Nodal& gradient, const material::Stress3& s, NodeMatrix& lower) {
-  Mat<3, 3> stress;
-  stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  const Mat<3, 3> stress = stress_tensor(s);
   const Nodal turned = gradient * stress;
   const Eigen::Index n = gradient.rows();
   for (Eigen::Index j = 0; j < n; ++j) {

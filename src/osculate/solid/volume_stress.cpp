@@ -29,14 +29,14 @@ void see_full(const VolumeSection& section, cell::CellType type, const Coordinat
 
 /// The formulations of hex8 that assume strains.
 void see_assumed(const VolumeSection& section, const Coordinates3& reference,
-                 const Coordinates3& displacement, Seen& out) {
+                 const Coordinates3& displacement, const material::Memory& memory, Seen& out) {
   HexPoints points;
   if (!fill_points(section.kinematics, reference, displacement, points)) {
     out.status = Status::inverted;
     return;
   }
   if (section.formulation == VolumeFormulation::enhanced) {
-    const EnhancedModes3 e = enhanced_modes(section, reference, points);
+    const EnhancedModes3 e = enhanced_modes(section, reference, points, memory);
     if (!e.ok) out.status = Status::material_failed;
     for (std::size_t q = 0; q < 8; ++q) points[q].strain += e.matrix[q] * e.alpha;
   } else if (section.kinematics == Kinematics::finite) {
@@ -52,9 +52,7 @@ void see_assumed(const VolumeSection& section, const Coordinates3& reference,
 
 /// Cauchy stress from the second Piola-Kirchhoff stress.
 Vec<6> cauchy(const Mat<3, 3>& f, const material::Stress3& s) {
-  Mat<3, 3> stress;
-  stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-  const Mat<3, 3> t = f * stress * f.transpose() / f.determinant();
+  const Mat<3, 3> t = f * stress_tensor(s) * f.transpose() / f.determinant();
   Vec<6> out;
   out << t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(0, 2);
   return out;
@@ -101,15 +99,16 @@ const Eigen::MatrixXd& extrapolation(cell::CellType type) {
 }  // namespace
 
 CellStress3 stress_at_points(const VolumeSection& section, cell::CellType type,
-                             const Coordinates3& reference, const Coordinates3& displacement) {
+                             const Coordinates3& reference, const Coordinates3& displacement,
+                             const material::Memory& memory) {
   if (section.formulation == VolumeFormulation::solid_shell)
-    return solid_shell_stress_at_points(section, type, reference, displacement);
+    return solid_shell_stress_at_points(section, type, reference, displacement, memory);
   const VolumeRule& rule = volume_rule(type);
   Seen seen;
   if (section.formulation == VolumeFormulation::full)
     see_full(section, type, reference, displacement, seen);
   else
-    see_assumed(section, reference, displacement, seen);
+    see_assumed(section, reference, displacement, memory, seen);
   CellStress3 out;
   out.status = seen.status;
   out.count = static_cast<int>(rule.points.size());
@@ -123,7 +122,7 @@ CellStress3 stress_at_points(const VolumeSection& section, cell::CellType type,
     p.stress.setZero();
     p.strain.setZero();
     if (seen.status == Status::inverted) continue;
-    const material::Response3 r = material::response(section.law, seen.strain[q]);
+    const material::Response3 r = material::response(section.law, seen.strain[q], memory.at(q));
     if (!r.ok) out.status = Status::material_failed;
     p.strain = seen.strain[q];
     p.strain.tail<3>() *= 0.5;
@@ -133,11 +132,19 @@ CellStress3 stress_at_points(const VolumeSection& section, cell::CellType type,
   return out;
 }
 
+Eigen::MatrixXd at_nodes(const VolumeSection& section, cell::CellType type,
+                         const Eigen::MatrixXd& of_points) {
+  return section.formulation == VolumeFormulation::solid_shell
+             ? solid_shell_at_nodes(type, of_points)
+             : Eigen::MatrixXd(extrapolation(type) * of_points);
+}
+
 NodalStress3 nodal_stress(const VolumeSection& section, cell::CellType type,
-                          const Coordinates3& reference, const Coordinates3& displacement) {
+                          const Coordinates3& reference, const Coordinates3& displacement,
+                          const material::Memory& memory) {
   if (section.formulation == VolumeFormulation::solid_shell)
-    return solid_shell_nodal_stress(section, type, reference, displacement);
-  const CellStress3 at = stress_at_points(section, type, reference, displacement);
+    return solid_shell_nodal_stress(section, type, reference, displacement, memory);
+  const CellStress3 at = stress_at_points(section, type, reference, displacement, memory);
   const Eigen::MatrixXd& factor = extrapolation(type);
   NodalStress3 out;
   out.count = cell::info(type).nodes;

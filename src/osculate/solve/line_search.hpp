@@ -42,6 +42,13 @@ LinePoint<S> bracketed(const At& at, LinePoint<S> low, LinePoint<S> high, double
   return falling && std::abs(best.work) > enough ? high : best;
 }
 
+/// How much of a correction is taken, and whether the result has the evaluation there (without a
+/// tangent).
+struct Searched {
+  double step = 1;
+  bool evaluated = false;
+};
+
 /// Finds how much of a correction to take. Friction and contact make the residual along the
 /// correction a piecewise smooth function: a point that slips one way before and the other way
 /// after the full correction has jumped over its narrow sticking range, and plain Newton jumps back
@@ -60,16 +67,18 @@ LinePoint<S> bracketed(const At& at, LinePoint<S> low, LinePoint<S> high, double
 /// A tangent that has lost nearly all digits (`weak`) corrects part of the error alone: more than
 /// the full correction is taken, up to the zero of the work.
 template <System S>
-double line_search(S& system, const typename S::State& committed,
-                   NewtonResult<typename S::State>& result, const Eigen::VectorXd& du,
-                   const Eigen::VectorXd& old_residual, double time, bool falling = false,
-                   bool weak = false) {
+Searched line_search(S& system, const typename S::State& committed,
+                     NewtonResult<typename S::State>& result, const Eigen::VectorXd& du,
+                     const Eigen::VectorXd& old_residual, double time, bool falling = false,
+                     bool weak = false) {
   constexpr int most = 10;
   constexpr double close_enough = 0.05, farthest = 100;
   const typename S::State start = result.state;
   Evaluation trial;
+  double evaluated = 0;  // the step of `trial`
   const auto at = [&](double step) {
     LinePoint<S> point{step};
+    evaluated = step;
     system.evaluate(committed, system.apply(start, du, time, step), time, false, trial);
     point.ok = trial.ok && trial.residual.allFinite();
     if (!point.ok) return point;
@@ -77,13 +86,15 @@ double line_search(S& system, const typename S::State& committed,
     point.norm = trial.residual.norm();
     return point;
   };
+  const auto taken = [&](double step) {
+    result.state = system.apply(start, du, time, step);
+    if (evaluated == step) result.evaluation = std::move(trial);
+    return Searched{step, evaluated == step};
+  };
   LinePoint<S> low{0, du.dot(old_residual), old_residual.norm(), true};
   LinePoint<S> high = at(1.0);
-  if (high.ok &&
-      trial.branch_residual.size() > 0) {  // points that jumped over: the active set decides
-    result.state = system.apply(start, du, time, 1.0);
-    return 1.0;
-  }
+  if (high.ok && trial.branch_residual.size() > 0)
+    return taken(1.0);  // points that jumped over: the active set decides
   for (int i = 0; i < most && !high.ok; ++i) high = at(0.5 * high.step);
   const double reference = std::abs(low.work);
   LinePoint<S> best = high;
@@ -106,8 +117,7 @@ double line_search(S& system, const typename S::State& committed,
     const LinePoint<S> next = at(zero);
     if (next.ok && std::abs(next.work) < std::abs(high.work)) best = next;
   }
-  result.state = system.apply(start, du, time, best.step);
-  return best.step;
+  return taken(best.step);
 }
 
 }  // namespace detail

@@ -153,19 +153,34 @@ void begin(S& system, const typename S::State& committed, double time, const Gue
   if (result.evaluation.ok) result.first_residual = result.evaluation.residual.norm();
 }
 
+/// The residual of an iteration beside the forces.
+template <class State>
+double relative_residual(const NewtonResult<State>& result) {
+  const double least_scale = 1e-3 * result.first_residual;
+  const Evaluation& e = result.evaluation;
+  return relative(e.residual.norm(), std::max(e.force_scale, least_scale));
+}
+
+/// Whether the tolerances are met, so that no tangent is needed any more.
+template <class State>
+bool meets(const Judge& judge, const Eigen::VectorXd& du, double energy_before,
+           const NewtonResult<State>& result) {
+  const Evaluation& e = result.evaluation;
+  return e.ok && judge.done(relative_residual(result), energy_before, std::abs(du.dot(e.residual)));
+}
+
 /// Writes down the iteration with correction `du`; true if it was the last one, converged or not.
 template <class State>
 bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energy_before,
               NewtonResult<State>& result) {
   const Evaluation& e = result.evaluation;
   if (!e.ok) return !fail(result, Outcome::numerical_failure, e.message);
-  const double least_scale = 1e-3 * result.first_residual;
   const double energy_after = std::abs(du.dot(e.residual));
   const bool by_residual = judge.options.residual > 0;
   IterationRecord record;
   record.step = step;
   const double size = e.residual.norm();
-  record.residual = relative(size, std::max(e.force_scale, least_scale));
+  record.residual = relative_residual(result);
   record.energy = relative(by_residual ? energy_after : energy_before, judge.first_energy);
   record.counts = e.counts;
   result.iterations.push_back(record);
@@ -231,20 +246,25 @@ template <System S>
     if (i == 1 && !result.extrapolated) judge.first_energy = energy_before;
     result.first_energy = judge.first_energy;
 
-    double step = 1;
+    detail::Searched searched;
     const bool search = options.line_search == LineSearch::automatic;
     const bool smooth = !branched && !result.evaluation.saddle;
     const bool weak = result.precision.condition > 0;
     const bool whole = judge.creeps() || peeling.turned();
     if (search && smooth && !whole && (i > 1 || result.extrapolated || resistance.on() || weak))
-      step =
+      searched =
           detail::line_search(system, committed, result, du, residual, time, resistance.on(), weak);
     else
       result.state = system.apply(result.state, du, time, 1.0);
-    system.evaluate(committed, result.state, time, true, result.evaluation);
+    const double step = searched.step;
+    // What is converged needs no tangent, and is not evaluated twice.
+    const bool known =
+        searched.evaluated && !resistance.on() && detail::meets(judge, du, energy_before, result);
+    if (!known) system.evaluate(committed, result.state, time, true, result.evaluation);
     if (result.total.size() == 0) result.total.setZero(du.size());
     result.total += step * du;
     const bool ended = detail::conclude(judge, du, step, energy_before, result);
+    if (known && !ended) system.evaluate(committed, result.state, time, true, result.evaluation);
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();
     else if (ended)

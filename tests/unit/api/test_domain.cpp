@@ -10,27 +10,15 @@
 #include <sstream>
 
 #include "osculate/core/error.hpp"
+#include "sample_targets.hpp"
 
 namespace osculate::api {
 namespace {
 
-deck::AnyTarget cube() {
-  projection::FacetMesh<3> mesh;
-  for (int k = 0; k < 8; ++k) mesh.nodes.emplace_back(k & 1, (k >> 1) & 1, k >> 2);
-  for (const auto& q : {std::array<Index, 4>{0, 2, 3, 1},
-                        {4, 5, 7, 6},
-                        {0, 1, 5, 4},
-                        {2, 6, 7, 3},
-                        {0, 4, 6, 2},
-                        {1, 3, 7, 5}})
-    mesh.facets.push_back({cell::CellType::quad4, {q[0], q[1], q[2], q[3]}});
-  return projection::Target<3>(mesh);
-}
+deck::AnyTarget cube() { return projection::Target<3>(testing::box(Vec3(1, 1, 1))); }
 
 deck::AnyTarget roof() {
-  projection::FacetMesh<2> mesh{{Vec2(0, 0), Vec2(1, 1), Vec2(2, 0)}, {}};
-  mesh.facets = {{cell::CellType::line2, {0, 1}}, {cell::CellType::line2, {1, 2}}};
-  return projection::Target<2>(mesh);
+  return projection::Target<2>(testing::polyline({Vec2(0, 0), Vec2(1, 1), Vec2(2, 0)}));
 }
 
 int cells_of_part(const DomainPicture& picture, DomainPart part) {

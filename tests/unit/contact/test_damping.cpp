@@ -169,14 +169,17 @@ TEST(Restitution, NeverPullsAndNeverFallsWithThePenetration) {
 
 TEST(Damping, SaysWhatIsWrongAndHowSteepItIs) {
   EXPECT_EQ(fault(DampingLaw(Viscous{0})), "");
-  EXPECT_NE(fault(DampingLaw(Viscous{-1})), "");
+  EXPECT_EQ(fault(DampingLaw(Viscous{-1})), "damping_viscous must be >= 0, got -1");
   EXPECT_NE(fault(DampingLaw(Viscous{infinity})), "");
   EXPECT_EQ(fault(DampingLaw(Restitution{0})), "");
-  EXPECT_NE(fault(DampingLaw(Restitution{1.01})), "");
+  EXPECT_EQ(fault(DampingLaw(Restitution{1.01})),
+            "damping_restitution must be >= 0 and <= 1, got 1.01");
   EXPECT_NE(fault(DampingLaw(Restitution{std::nan("")})), "");
   EXPECT_TRUE(needs_duration(DampingLaw(Viscous{1})));
   EXPECT_FALSE(needs_duration(DampingLaw(Restitution{1})));
   EXPECT_EQ(stiffest(Viscous{5}, 100, 0.1), 150);
+  EXPECT_EQ(damper(Viscous{5}), 5);
+  EXPECT_EQ(damper(Restitution{0.5}), 0);
   EXPECT_EQ(stiffest(Viscous{5}, 100, 0), 100);
   EXPECT_EQ(stiffest(Restitution{0.5}, 100, 0.1), 400);
 }

@@ -10,10 +10,12 @@ namespace osculate::contact {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-using By = FrictionChange::By;
+enum class By { distance, speed };
 
 Coulomb changing(double kinetic, double scale, By by, double cap = infinite) {
-  return {0.5, 80.0, cap, FrictionChange{kinetic, scale, by}};
+  Coulomb law{0.5, 80.0, cap, kinetic};
+  (by == By::distance ? law.distance : law.speed) = scale;
+  return law;
 }
 
 // The limit satisfies its equation: mu at the distance that the point has slid in the end.
@@ -121,7 +123,7 @@ TEST(Rough, LetsPartWhatIsSheared) {
     EXPECT_EQ(law.predicted_limit(5, -normal, {}).value,
               steep.predicted_limit(5, -normal, {}).value);
   }
-  EXPECT_EQ(fault(FrictionLaw(Rough{80, 0})), "rough points need a coefficient > 0, got 0");
+  EXPECT_EQ(fault(FrictionLaw(Rough{80, 0})), "coefficient = 0, but coefficient > 0 is needed");
 }
 
 /// Order of the derivatives by trial and normal traction, all at once.
@@ -191,12 +193,39 @@ TEST(FrictionLaws, SayWhatIsWrongWithThem) {
   EXPECT_EQ(fault(FrictionLaw(Coulomb{0.3, 80})), "");
   EXPECT_EQ(fault(FrictionLaw(Tresca{0, 80})), "");
   EXPECT_EQ(fault(FrictionLaw(Rough{80})), "");
-  EXPECT_EQ(fault(FrictionLaw(Rough{0})), "friction needs a stiffness > 0, got 0");
-  EXPECT_EQ(fault(FrictionLaw(Tresca{-1, 80})),
-            "friction needs a shear traction >= 0 and a stiffness > 0, got -1 and 80");
-  EXPECT_EQ(fault(FrictionLaw(Coulomb{0.3, 80, 0})), "the cap of friction must be > 0, got 0");
+  EXPECT_EQ(fault(FrictionLaw(Rough{0})), "friction_rough: penalty must be > 0, got 0");
+  EXPECT_EQ(fault(FrictionLaw(Tresca{-1, 80})), "friction_tresca: limit must be >= 0, got -1");
+  EXPECT_EQ(fault(FrictionLaw(Coulomb{0.3, 80, 0})), "friction_coulomb: cap must be > 0, got 0");
   EXPECT_EQ(fault(FrictionLaw(changing(-1, 1, By::speed))),
-            "a change of friction needs a coefficient >= 0 and a scale > 0, got -1 and 1");
+            "friction_coulomb: kinetic must be >= 0, got -1");
+  EXPECT_EQ(fault(FrictionLaw(changing(0.2, 0, By::distance))),
+            "friction_coulomb: distance must be > 0, got 0");
+  Coulomb law{0.5, 80.0};
+  law.kinetic = 0.2;
+  EXPECT_EQ(fault(FrictionLaw(law)),
+            "how the coefficient changes is missing: add decay: {distance: ...} or {speed: ...}");
+  law.distance = law.speed = 1;
+  EXPECT_EQ(fault(FrictionLaw(law)), "distance and speed exclude each other");
+  law.kinetic.reset();
+  EXPECT_EQ(fault(FrictionLaw(law)), "decay goes with a kinetic coefficient, which is missing");
+}
+
+TEST(FrictionLaws, SayTheirNumbersInAFewWords) {
+  EXPECT_EQ(text(FrictionLaw(Coulomb{0.3, 80})), "Coulomb 0.3 (penalty 80)");
+  EXPECT_EQ(text(FrictionLaw(changing(0.2, 1, By::speed))), "Coulomb 0.5 to 0.2 (penalty 80)");
+  EXPECT_EQ(text(FrictionLaw(changing(0.2, 1, By::speed, 4))),
+            "Coulomb 0.5 to 0.2 up to 4 (penalty 80)");
+  EXPECT_EQ(text(FrictionLaw(Coulomb{0.3, 80, 4}).stiffened(2)),
+            "Coulomb 0.3 up to 4 (penalty 160)");
+  EXPECT_EQ(text(FrictionLaw(Tresca{3, 80})), "Tresca 3 (penalty 80)");
+  EXPECT_EQ(text(FrictionLaw(Rough{80})), "rough (penalty 80)");
+}
+
+// Points that may part have the steep law of friction in place of none; other laws are their own.
+TEST(FrictionLaws, OfPointsThatMayPart) {
+  EXPECT_EQ(parting(Rough{80}).as<Rough>()->coefficient, Rough::steep);
+  EXPECT_EQ(parting(Rough{80, 3}).as<Rough>()->coefficient, 3);
+  EXPECT_EQ(parting(Tresca{3, 80}).as<Tresca>()->limit_traction, 3);
 }
 
 }  // namespace

@@ -148,16 +148,27 @@ TEST(NormalLaws, SayWhatIsWrongWithThem) {
   EXPECT_EQ(fault(NormalLaw(NormalExponential{p0, c0})), "");
   EXPECT_EQ(fault(NormalLaw(NormalPenalty{0})), "normal_penalty must be > 0, got 0");
   EXPECT_EQ(fault(NormalLaw(NormalExponential{1, 0})),
-            "an exponential law needs a pressure > 0 and a clearance > 0, got 1 and 0");
+            "normal_exponential: clearance must be > 0, got 0");
   EXPECT_EQ(fault(NormalLaw(NormalTable{})), "a table of pressures needs at least two points");
   EXPECT_EQ(fault(NormalLaw(NormalTable{{{0, 1}, {1, 2}}})),
-            "the first pressure of a table must be 0");
+            "the first pressure of the table must be 0");
   EXPECT_EQ(fault(NormalLaw(NormalTable{{{0, 0}, {0, 2}}})), "overclosures must grow: 0 follows 0");
   EXPECT_EQ(fault(NormalLaw(NormalTable{{{0, 0}, {1, 2}, {2, 1}}})),
             "pressures must not fall: 1 follows 2");
-  EXPECT_EQ(fault(NormalLaw(NormalTable{{{0, 0}, {1, 0}}})), "a table needs a pressure > 0");
+  EXPECT_EQ(fault(NormalLaw(NormalTable{{{0, 0}, {1, 0}}})), "the table has no pressure > 0");
   EXPECT_EQ(fault(NormalLaw(NormalTable{{{0, 0}, {1, INFINITY}}})),
-            "a table of pressures has a value that is not finite");
+            "normal_table must be finite, got inf");
+}
+
+TEST(NormalLaws, SayTheirNumbersInAFewWords) {
+  EXPECT_EQ(text(NormalLaw(NormalPenalty{400}).stiffened(0.5)), "penalty 200");
+  EXPECT_EQ(text(NormalLaw(NormalExponential{12, 0.01})), "exponential 12 within 0.01");
+  EXPECT_EQ(text(NormalLaw(table)), "table of 4 points");
+}
+
+TEST(NormalLaws, StiffnessIsThatOfTheLinearOnes) {
+  EXPECT_EQ(penalty_of(with_stiffness(NormalLaw(NormalPenalty{400}), 7)), 7);
+  EXPECT_EQ(penalty_of(with_stiffness(NormalLaw(table), 7)), 0);
 }
 
 }  // namespace

@@ -31,9 +31,9 @@ TEST(LawKeys, BecomeLaws) {
   EXPECT_EQ(coulomb.mu, 0.4);
   EXPECT_EQ(coulomb.stiffness, 500);
   EXPECT_EQ(coulomb.cap, 30);
-  EXPECT_EQ(coulomb.change->kinetic, 0.2);
-  EXPECT_EQ(coulomb.change->scale, 0.5);
-  EXPECT_EQ(coulomb.change->by, contact::FrictionChange::By::speed);
+  EXPECT_EQ(coulomb.kinetic, 0.2);
+  EXPECT_EQ(coulomb.speed, 0.5);
+  EXPECT_FALSE(coulomb.distance);
   EXPECT_NEAR(floor.offset, 0.03, 1e-16);
   EXPECT_EQ(b.model.steps[0].duration, 0.5);
   const auto& joint = b.model.pairs[1].definition;
@@ -75,8 +75,7 @@ TEST(LawKeys, OnlyViscousDampingNeedsATime) {
 
 TEST(LawKeys, DistanceRoughAndWhatIsHeld) {
   const Built distance = built("decay: {speed: 0.5}", "decay: {distance: 0.1}");
-  EXPECT_EQ(distance.model.pairs[0].definition.friction->as<contact::Coulomb>()->change->by,
-            contact::FrictionChange::By::distance);
+  EXPECT_EQ(distance.model.pairs[0].definition.friction->as<contact::Coulomb>()->distance, 0.1);
   const Built rough = built("tresca: {limit: 3, penalty: 500}", "rough: {penalty: 7}");
   EXPECT_EQ(rough.model.pairs[2].definition.friction->as<contact::Rough>()->stiffness, 7);
   const std::string tied = "separation: tied, tolerance: 0.02, initial_gap: close";

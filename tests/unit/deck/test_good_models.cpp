@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "deck_test.hpp"
+#include "osculate/contact/law/coulomb.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -16,10 +17,10 @@ TEST(GoodModels, Block) {
   EXPECT_EQ(d.materials[0].mark("E").file, "some/where/model.yaml");
   ASSERT_EQ(d.contact.size(), 1u);
   const Contact& floor = d.contact[0];
-  EXPECT_EQ(floor.normal_penalty.value, 2.1e6);
+  EXPECT_EQ(contact::penalty_of(floor.normal.law.law), 2.1e6);
   ASSERT_TRUE(floor.friction.has_value());
-  EXPECT_EQ(floor.friction->mu.value, 0.3);
-  EXPECT_EQ(floor.friction->penalty.value, 2.1e6);
+  EXPECT_EQ(floor.friction->law.as<contact::Coulomb>()->mu, 0.3);
+  EXPECT_EQ(contact::stiffness(floor.friction->law), 2.1e6);
   ASSERT_EQ(d.steps.size(), 2u);
   const Prescription& press = d.steps[0].prescribe[0];
   EXPECT_EQ(press.values[0]->value, 0);
@@ -215,7 +216,8 @@ TEST(GoodModels, NumbersAsYamlWritesThem) {
   const auto mu = [&](const std::string& number) {
     return parse_model(edited(block, "mu: 0.3", "mu: " + number), "m")
         .contact[0]
-        .friction->mu.value;
+        .friction->law.as<contact::Coulomb>()
+        ->mu;
   };
   EXPECT_EQ(mu("+0.5"), 0.5);
   EXPECT_EQ(mu(".5"), 0.5);

@@ -20,13 +20,14 @@ void expect_same(const BuiltModel& built, bool kept) {
   for (const auto& section : m.sections)
     for (const mesh::CellRef& cell : section.cells) {
       model::BasicBulkBlock<Dim> anew, of_store;
+      EXPECT_EQ(cells.kept(number), kept);
       for (const double size : {1e-3, 0.02, 0.0}) {
         Eigen::VectorXd u(Dim * static_cast<Eigen::Index>(m.reference.size()));
         for (Eigen::Index i = 0; i < u.size(); ++i)
           u[i] = size * std::sin(1.7 * static_cast<double>(i) + size);
         for (const bool with_tangent : {false, true}) {
-          model::evaluate_cell(m, section, cell, u, with_tangent, anew);
-          cells.evaluate(number, m, section, cell, u, with_tangent, of_store);
+          model::evaluate_cell(m, section, cell, u, {}, with_tangent, anew);
+          cells.evaluate(number, m, section, cell, u, {}, with_tangent, of_store);
           ASSERT_TRUE(anew.ok && of_store.ok);
           EXPECT_EQ(of_store.dof_count, anew.dof_count);
           EXPECT_EQ(of_store.dofs, anew.dofs);
@@ -36,7 +37,7 @@ void expect_same(const BuiltModel& built, bool kept) {
                       1e-13 * anew.result.tangent.norm());
           }
         }
-        cells.force(number, m, section, cell, u, of_store);
+        cells.force(number, m, section, cell, u, {}, of_store);
         const double scale = kept ? 1e-12 * anew.result.force.norm() : 0.0;
         EXPECT_LE((of_store.result.force - anew.result.force).norm(), scale);
       }

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "deck_test.hpp"
 #include "osculate/deck/model_spec.hpp"
 #include "osculate/deck/params.hpp"
@@ -61,6 +63,102 @@ TEST(Params, AreReadFromThem) {
   EXPECT_THAT(problem("{plateau: 0}"), HasSubstr("> 0"));
   EXPECT_THAT(problem("{plateau: 1, share: 1.5}"), HasSubstr("<= 1"));
   EXPECT_THAT(problem("{plateau: 1, shore: 0.5}"), HasSubstr("share"));
+}
+
+/// A law with everything else that a parameter may be.
+struct Creep {
+  double rate = 0, threshold = std::numeric_limits<double>::infinity();
+  std::optional<double> time, strain;
+  core::Table hardening;
+  static constexpr core::Automatic from_body{"Rate.", "From the body.", "as the body has it"};
+  static constexpr core::OneOf decay{"decay", "How it fades.", "{time: 3}"};
+  static constexpr core::PointWords words{"One point [strain, stress].", "A number.", "[0, 1]"};
+  static constexpr auto params() {
+    return std::array<core::Param<Creep>, 5>{{{.key = "rate",
+                                               .unit = "1/time",
+                                               .doc = "How fast.",
+                                               .slot = &Creep::rate,
+                                               .range = {.lower = 0},
+                                               .required = false,
+                                               .automatic = &from_body},
+                                              {.key = "time",
+                                               .unit = "time",
+                                               .doc = "In time.",
+                                               .slot = &Creep::time,
+                                               .range = {.lower = 0},
+                                               .required = false,
+                                               .one_of = &decay,
+                                               .timed = true},
+                                              {.key = "strain",
+                                               .unit = "1",
+                                               .doc = "By strain.",
+                                               .slot = &Creep::strain,
+                                               .required = false,
+                                               .one_of = &decay},
+                                              {.key = "threshold",
+                                               .unit = "force/length^2",
+                                               .doc = "Least stress.",
+                                               .slot = &Creep::threshold,
+                                               .range = {.lower = 0},
+                                               .required = false,
+                                               .otherwise = "none"},
+                                              {.key = "hardening",
+                                               .unit = "1",
+                                               .doc = "Stress over strain.",
+                                               .slot = &Creep::hardening,
+                                               .example = "[[0, 1], [1, 2]]",
+                                               .points = &words}}};
+  }
+  [[nodiscard]] std::optional<core::Fault> fault() const {
+    if (strain && rate > 5) return core::Fault{"too fast", "decay"};
+    for (std::size_t i = 1; i < hardening.size(); ++i)
+      if (!(hardening[i][0] > hardening[i - 1][0]))
+        return core::Fault{"strains must grow", "hardening", i};
+    return std::nullopt;
+  }
+};
+
+Creep creep(const std::string& yaml) {
+  return params_of<Creep>(check_text(params_spec<Creep>("Creep."), yaml));
+}
+
+TEST(Params, MayBeOptionalTablesGroupsAndLeftToTheProgram) {
+  const Spec spec = params_spec<Creep>("Creep.");
+  EXPECT_EQ(key_names(spec), (std::vector<std::string>{"rate", "decay", "threshold", "hardening"}));
+  EXPECT_EQ(find_key(spec, "rate")->spec.fallback, "auto");
+  EXPECT_EQ(key_names(find_key(spec, "decay")->spec), (std::vector<std::string>{"time", "strain"}));
+  EXPECT_EQ(find_key(spec, "threshold")->spec.note, "none");
+  EXPECT_TRUE(find_key(spec, "hardening")->required);
+
+  const Creep least = creep("{hardening: [[0, 1], [0.5, 2]]}");
+  EXPECT_EQ(least.rate, 0);
+  EXPECT_FALSE(least.time || least.strain);
+  EXPECT_EQ(least.threshold, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(least.hardening, (core::Table{{0, 1}, {0.5, 2}}));
+  const Creep all =
+      creep("{rate: 2, decay: {time: 4}, threshold: 7, hardening: [[0, 1], [0.5, 2]]}");
+  EXPECT_EQ(all.rate, 2);
+  EXPECT_EQ(all.time, 4);
+  EXPECT_FALSE(all.strain);
+  EXPECT_EQ(all.threshold, 7);
+}
+
+TEST(Params, ThatDoNotGoTogetherAreRefusedWhereTheyStand) {
+  const auto problem_of = [](const std::string& yaml) -> std::string {
+    try {
+      (void)creep(yaml);
+    } catch (const core::InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(problem_of("{rate: 6, hardening: [[0, 1], [1, 2]], decay: {strain: 4}}"),
+            "text:1: decay: too fast");
+  EXPECT_EQ(problem_of("{hardening: [[0, 1], [0, 2]]}"), "text:1: hardening[1]: strains must grow");
+  EXPECT_THAT(problem_of("{hardening: [[0, 1], [1, 2]], decay: {strain: 4, time: 1}}"),
+              HasSubstr("exclude each other"));
+  EXPECT_THAT(problem_of("{hardening: [[0, 1]]}"), HasSubstr("at least 2 values"));
+  EXPECT_THAT(problem_of("{rate: 0, hardening: [[0, 1], [1, 2]]}"), HasSubstr("must be > 0"));
 }
 
 /// Every law of the catalogue is a key of `materials`, with its sentence and its parameters.

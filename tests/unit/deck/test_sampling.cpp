@@ -115,10 +115,11 @@ TEST(SamplingKey, RefusesWhatItCannotDo) {
       refusal_of("master: high.bottom, " + gap, "master: low.top, " + gap + ", two_pass: true"),
       "model.yaml:18: contact[1].two_pass: contact of a surface with itself has two passes "
       "already");
-  EXPECT_EQ(refusal_of("slave: high.top, normal: {penalty: 1000}",
-                       "slave: high.top, normal: {penalty: 1000}, two_pass: true"),
-            "model.yaml:19: contact[2].two_pass: 'punch' is an analytic shape, which has no points "
-            "to be a slave");
+  EXPECT_EQ(
+      refusal_of("slave: high.top, normal: {penalty: 1000}",
+                 "slave: high.top, normal: {penalty: 1000}, two_pass: true"),
+      "model.yaml:19: contact[2].two_pass: 'punch' is an analytic shape: it has no points to be "
+      "a slave");
 }
 
 TEST(SamplingKey, MortarIntegratesOverTheFacets) {

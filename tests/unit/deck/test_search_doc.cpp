@@ -20,7 +20,7 @@ TEST(SearchDoc, AWordOfAChoice) {
 }
 
 TEST(SearchDoc, WhatIsNotThereIsSaidToBeMissing) {
-  for (const char* const word : {"plasticity", "Bolt", "bolts", "shells", "temperature"})
+  for (const char* const word : {"viscoelastic", "Bolt", "bolts", "shells", "temperature"})
     EXPECT_THAT(
         search_model(pages, word),
         StartsWith(std::string("'") + word + "': not available: see `osculate doc limits`"));
@@ -28,6 +28,7 @@ TEST(SearchDoc, WhatIsNotThereIsSaidToBeMissing) {
 
 TEST(SearchDoc, WhatIsCalledOtherwiseHere) {
   EXPECT_THAT(search_model(pages, "interference"), HasSubstr("contact.initial: ramp"));
+  EXPECT_THAT(search_model(pages, "plasticity"), HasSubstr("materials.elastoplastic"));
   EXPECT_THAT(search_model(pages, "boundary condition"), HasSubstr("steps.prescribe"));
 }
 

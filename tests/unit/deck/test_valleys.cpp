@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <numbers>
 
@@ -16,16 +17,17 @@ constexpr double tilt = std::numbers::pi / 6;  ///< of both slopes of a groove
 
 /// A square of mass 1 that does not turn, its lowest corner `up` the left slope of a groove, and
 /// loads in steps of 2.
-std::string in_groove(double up, double mu, const std::string& loads) {
+std::string in_groove(double up, double mu, const std::string& loads, bool meshed = false) {
   const double x = -up * std::cos(tilt), y = up * std::sin(tilt), r = 0.05;
   const std::string friction =
       mu > 0 ? fmt::format("{{coulomb: {{mu: {}, penalty: 1000}}}}", mu) : std::string("none");
-  return fmt::format(R"(osculate: 1
+  return fmt::format(
+      R"(osculate: 1
 mesh: {{generate: {{square: {{line: {{points: [[{0:.17g}, {1:.17g}], [{2:.17g}, {3:.17g}], [{0:.17g}, {4:.17g}],
-                                         [{5:.17g}, {3:.17g}], [{0:.17g}, {1:.17g}]], elements: [1, 1, 1, 1]}}}}}}}}
+                                         [{5:.17g}, {3:.17g}], [{0:.17g}, {1:.17g}]], elements: [1, 1, 1, 1]}}}}{11}}}}}
 rigid:
   bead: {{set: square, reference: [{0:.17g}, {3:.17g}], mass: 1, inertia: 1}}
-  groove: {{polyline: {{points: [[{6:.17g}, 2], [0, 0], [{7:.17g}, 2]]}}}}
+  groove: {10}
 contact:
   - {{name: c, master: groove, slave: bead, sampling: nodes, weight: node, normal: {{penalty: 1000}},
      friction: {8}, enforcement: lagrange_multiplier}}
@@ -36,8 +38,15 @@ steps:
   - {{name: move, increments: 200, duration: 4, gravity: [0, -1],
      prescribe: [{{on: bead, rz: 0}}], dynamics: {{impact: plastic}}{9}}}
 )",
-                     x, y, x - r, y + r, y + 2 * r, x + r, -2 / std::tan(tilt), 2 / std::tan(tilt),
-                     friction, loads);
+      x, y, x - r, y + r, y + 2 * r, x + r, -2 / std::tan(tilt), 2 / std::tan(tilt), friction,
+      loads,
+      meshed ? std::string("{set: vee}")
+             : fmt::format("{{polyline: {{points: [[{:.17g}, 2], [0, 0], [{:.17g}, 2]]}}}}",
+                           -2 / std::tan(tilt), 2 / std::tan(tilt)),
+      meshed ? fmt::format(", vee: {{line: {{points: [[{:.17g}, 2], [0, 0], [{:.17g}, 2]], "
+                           "elements: [1, 1]}}}}",
+                           -2 / std::tan(tilt), 2 / std::tan(tilt))
+             : std::string());
 }
 
 using Look = std::function<void(const model::System&, const model::State&)>;
@@ -81,10 +90,10 @@ TEST(Valleys, ABeadWithoutFrictionComesToRest) {
 
 /// A push that grows to twice the weight drives it out where the cone of both faces ends.
 TEST(Valleys, ABeadLeavesWhereTheConeEnds) {
-  for (const double mu : {0.0, 0.3}) {
+  for (const auto& [mu, meshed] : {std::pair{0.0, false}, {0.3, false}, {0.0, true}, {0.3, true}}) {
     const double limit = std::tan(tilt + std::atan(mu));
     double begun = 0;
-    run(in_groove(0, mu, ", forces: [{on: bead, fx: 2, amplitude: grows}]"),
+    run(in_groove(0, mu, ", forces: [{on: bead, fx: 2, amplitude: grows}]", meshed),
         [&](const model::System& system, const model::State& state) {
           const Vec2 at = corner_of(system, state);
           if (begun == 0 && at.norm() > 1e-12) begun = state.rates.energies.elapsed;
@@ -105,6 +114,73 @@ TEST(Valleys, ABeadIsLiftedOff) {
       });
   EXPECT_NEAR(last.x(), 0, 1e-12);
   EXPECT_NEAR(last.y(), 0.5 * 0.02 * 16, 0.01 * 0.16);
+}
+
+/// A block in the corner of an elastic angle, pushed into it: its corner node stays where the
+/// vertex goes, which takes part in the forces of both legs.
+TEST(Valleys, OfAnElasticBodyMoveWithIt) {
+  const std::string file = ::testing::TempDir() + "angle.msh";
+  std::ofstream(file) << R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+1 2 "inner"
+1 3 "foot"
+2 1 "angle"
+$EndPhysicalNames
+$Nodes
+8
+1 0 0 0
+2 1 0 0
+3 2 0 0
+4 0 1 0
+5 1 1 0
+6 2 1 0
+7 0 2 0
+8 1 2 0
+$EndNodes
+$Elements
+7
+1 3 2 1 1 1 2 5 4
+2 3 2 1 1 2 3 6 5
+3 3 2 1 1 4 5 8 7
+4 1 2 2 2 8 5
+5 1 2 2 2 5 6
+6 1 2 3 3 1 2
+7 1 2 3 3 2 3
+$EndElements
+)";
+  for (const double mu : {0.0, 0.3}) {
+    Vec2 corner = Vec2::Zero(), vertex = Vec2::Zero(), sum = Vec2::Zero();
+    run(fmt::format(R"(osculate: 1
+mesh:
+  files: {{angle: {{file: {0}}}}}
+  generate: {{block: {{box: {{x: [1, 1.6], y: [1, 1.5], elements: [2, 2]}}}}}}
+materials: {{m: {{linear_elastic: {{E: 100, nu: 0.3}}}}}}
+sections:
+  - {{on: block, element: plane_strain, material: m}}
+  - {{on: angle.angle, element: plane_strain, material: m}}
+contact:
+  - {{name: c, master: angle.inner, slave: [block.bottom, block.left], sampling: nodes,
+     normal: {{penalty: 1000}}, friction: {1}, enforcement: lagrange_multiplier}}
+steps:
+  - {{name: push, increments: 2, prescribe: [{{on: block.top, ux: -0.02, uy: -0.02}},
+                                            {{on: angle.foot, ux: 0, uy: 0}}]}}
+)",
+                    file, mu > 0 ? "{coulomb: {mu: 0.3, penalty: 1000}}" : "none"),
+        [&](const model::System& system, const model::State& state) {
+          const std::vector<Vec2> x = system.positions(state);
+          corner = x[0];  // the block's nodes come first
+          vertex = x[13];
+          sum.setZero();
+          for (Eigen::Index n = 0; n < system.forces().contact.size() / 2; ++n)
+            sum += system.forces().contact.segment<2>(2 * n);
+        });
+    EXPECT_GT((vertex - Vec2(1, 1)).norm(), 1e-3);
+    EXPECT_LT((corner - vertex).norm(), 1e-10) << mu;
+    EXPECT_LT(sum.norm(), 1e-10);
+  }
 }
 
 /// docs/turning_block.md: the corner stays where it is, and the block turns about it.

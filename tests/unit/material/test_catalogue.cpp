@@ -21,16 +21,17 @@ TEST(Catalogue, EachLawDescribesItselfAndItsParameters) {
       EXPECT_TRUE(names.insert(p.key).second) << law.key;
       EXPECT_FALSE(p.unit.empty() || p.doc.empty()) << law.key << p.key;
     }
-    EXPECT_EQ(names, (std::set<std::string_view>{"E", "nu", "density"}));
+    for (const std::string_view name : {"E", "nu", "density"})
+      EXPECT_TRUE(names.contains(name)) << law.key;
   });
-  EXPECT_EQ(keys,
-            (std::set<std::string_view>{"linear_elastic", "st_venant_kirchhoff", "neo_hooke"}));
+  EXPECT_EQ(keys, (std::set<std::string_view>{"linear_elastic", "st_venant_kirchhoff", "neo_hooke",
+                                              "elastoplastic"}));
 }
 
 TEST(Catalogue, ParametersAreWrittenThroughTheirSlots) {
   for_each_law([](auto law) {
     double value = 1;
-    for (const auto& p : law.params()) law.*p.slot = value *= 0.25;
+    for (const auto& p : law.params()) core::set(law, p.slot, value *= 0.25);
     EXPECT_EQ(law.young, 0.25);
     EXPECT_EQ(law.poisson, 0.0625);
     EXPECT_EQ(law.density, 0.015625);

@@ -25,7 +25,7 @@ Mat<3, 3> stretch(const Strain& e) {
 /// The energy as printed in the header, on full tensors: an oracle of its own.
 double energy(const Law& law, const Strain& e) {
   const auto value = [&](const auto& m) {
-    const Lame c = lame(m.young, m.poisson);
+    const Lame c = lame(unloaded(m).young, unloaded(m).poisson);
     if constexpr (std::is_same_v<std::decay_t<decltype(m)>, NeoHooke>) {
       const Mat<3, 3> stretched = stretch(e);
       const double log_j = 0.5 * std::log(stretched.determinant());

@@ -39,7 +39,7 @@ Vec<6> components(const Mat<3, 3>& t, double shear) {
 /// The energy as printed in the headers, on full tensors: an oracle of its own.
 double energy(const Law& law, const Strain3& strain) {
   const auto value = [&](const auto& m) {
-    const Lame c = lame(m.young, m.poisson);
+    const Lame c = lame(unloaded(m).young, unloaded(m).poisson);
     const Mat<3, 3> e = tensor(strain, 2);
     if constexpr (std::is_same_v<std::decay_t<decltype(m)>, NeoHooke>) {
       const Mat<3, 3> stretched = Mat<3, 3>::Identity() + 2 * e;

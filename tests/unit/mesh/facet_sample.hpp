@@ -1,8 +1,11 @@
 #pragma once
 // The outer facets of boxes of cells: the edges of the plane and the faces of space by one name
 // each.
+#include <gmock/gmock.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 #include <utility>
@@ -13,6 +16,23 @@
 #include "osculate/mesh/surface.hpp"
 
 namespace osculate::mesh::testing {
+
+using cell::CellType;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+inline constexpr std::array area_types{CellType::tri3, CellType::tri6, CellType::quad4,
+                                       CellType::quad8, CellType::quad9};
+inline constexpr std::array volume_types{CellType::tet4,    CellType::tet10,  CellType::wedge6,
+                                         CellType::wedge15, CellType::hex8,   CellType::hex20,
+                                         CellType::hex27,   CellType::shell18};
+
+/// Tests that run for each type of cells bear its name.
+inline std::string type_name(const ::testing::TestParamInfo<CellType>& tested) {
+  return std::string(cell::info(tested.param).name);
+}
 
 inline const Vec3& at(const Mesh& mesh, Index node) {
   return mesh.nodes[static_cast<std::size_t>(node)];
@@ -33,7 +53,7 @@ using Sides = std::vector<std::pair<std::string, Vec3>>;  ///< names and outward
 
 struct Edges {
   static constexpr int dim = 2;
-  static constexpr cell::CellType linear = cell::CellType::quad4;
+  static constexpr CellType linear = CellType::quad4;
   static auto table(const auto&... of) { return edge_table(of...); }
   static auto oriented(const auto&... of) { return orient_boundary(of...); }
   static auto free(const auto&... of) { return boundary_facets(of...); }
@@ -41,7 +61,7 @@ struct Edges {
 
   /// (x0, x1) x 0..1 of nx x `others` cells.
   static void append(Mesh& mesh, const std::string& name, double x0, double x1, int nx, int others,
-                     cell::CellType type) {
+                     CellType type) {
     BoxSpec spec;
     spec.name = name;
     spec.x = {x0, x1};
@@ -93,7 +113,7 @@ struct Edges {
 
 struct Faces {
   static constexpr int dim = 3;
-  static constexpr cell::CellType linear = cell::CellType::hex8;
+  static constexpr CellType linear = CellType::hex8;
   static auto table(const auto&... of) { return face_table(of...); }
   static auto oriented(const auto&... of) { return orient_surface(of...); }
   static auto free(const auto&... of) { return surface_facets(of...); }
@@ -101,7 +121,7 @@ struct Faces {
 
   /// (x0, x1) x 0..1 x 0..1 of nx x `others` x `others` cells.
   static void append(Mesh& mesh, const std::string& name, double x0, double x1, int nx, int others,
-                     cell::CellType type) {
+                     CellType type) {
     SolidBoxSpec spec;
     spec.name = name;
     spec.breaks = {{{x0, x1}, {0, 1}, {0, 1}}};
@@ -144,7 +164,7 @@ struct Faces {
 };
 
 template <class Of>
-Mesh box_mesh(cell::CellType type = Of::linear, int nx = 3, int others = 2) {
+Mesh box_mesh(CellType type = Of::linear, int nx = 3, int others = 2) {
   Mesh mesh;
   Of::append(mesh, "b", 0, 2, nx, others, type);
   return mesh;

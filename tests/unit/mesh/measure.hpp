@@ -1,11 +1,13 @@
 #pragma once
-// Areas and volumes of sets.
+// What generators make and refuse; areas and volumes of sets.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <span>
 #include <string>
+#include <type_traits>
 
 #include "facet_sample.hpp"
 #include "osculate/cell/facet_shape.hpp"
@@ -13,6 +15,41 @@
 #include "osculate/cell/volume_shape.hpp"
 
 namespace osculate::mesh::testing {
+
+template <class Spec>
+using Append = void (*)(Mesh&, const Spec&, const core::SourceMark&);
+
+template <class Spec>
+Mesh generated(Append<Spec> append, const Spec& spec) {
+  Mesh mesh;
+  append(mesh, spec, {});
+  return mesh;
+}
+
+/// A specification that was good is refused: the message names the place, the shape and what is
+/// wrong; the mesh stays as it was.
+template <class Spec>
+void expect_refusal(Append<Spec> append, Spec spec,
+                    const std::type_identity_t<std::function<void(Spec&)>>& spoil,
+                    const std::string& shape, const std::string& message, const Mesh& before = {}) {
+  spoil(spec);
+  Mesh mesh = before;
+  try {
+    append(mesh, spec, {"model.yaml", 7, "mesh.generate"});
+    ADD_FAILURE() << "accepted; expected: " << message;
+  } catch (const core::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("model.yaml:7: mesh.generate: " + shape));
+    EXPECT_THAT(error.what(), HasSubstr(message));
+  }
+  EXPECT_EQ(mesh.nodes.size(), before.nodes.size());
+  EXPECT_EQ(mesh.sets.size(), before.sets.size());
+  EXPECT_EQ(mesh.blocks.size(), before.blocks.size());
+}
+
+inline std::span<const Index> corners_of(const Mesh& mesh, CellRef ref) {
+  const Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
+  return {block.cell(ref.cell), static_cast<std::size_t>(cell::info(block.type).corners)};
+}
 
 /// Area vector of a facet: half the sum of the cross products of its corners (exact for plane
 /// corners).
@@ -23,13 +60,13 @@ inline Vec3 area_vector(const Mesh& mesh, std::span<const Index> corners) {
   return sum;
 }
 
+inline Vec3 area_vector(const Mesh& mesh, CellRef ref) {
+  return area_vector(mesh, corners_of(mesh, ref));
+}
+
 inline Vec3 area_of_set(const Mesh& mesh, const std::string& name) {
   Vec3 sum = Vec3::Zero();
-  for (const CellRef ref : mesh.find_set(name)->cells) {
-    const Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
-    sum += area_vector(
-        mesh, {block.cell(ref.cell), static_cast<std::size_t>(cell::info(block.type).corners)});
-  }
+  for (const CellRef ref : mesh.find_set(name)->cells) sum += area_vector(mesh, ref);
   return sum;
 }
 

@@ -1,18 +1,11 @@
 #include "osculate/mesh/boundary.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "facet_sample.hpp"
 
 namespace osculate::mesh::testing {
 namespace {
-
-using cell::CellType;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 TEST(Boundary, RigidLineKeepsItsDirection) {
   Mesh mesh = box_mesh<Edges>(CellType::quad4);

@@ -1,28 +1,17 @@
 #include "osculate/mesh/check.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "osculate/mesh/generate.hpp"
-#include "osculate/mesh/generate_space.hpp"
+#include "facet_sample.hpp"
 
-namespace osculate::mesh {
+namespace osculate::mesh::testing {
 namespace {
 
-using cell::CellType;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
-
 Mesh square(CellType type = CellType::quad4) {
-  BoxSpec spec;
-  spec.name = "b";
-  spec.x = spec.y = {0, 1};
-  spec.nx = spec.ny = {2};
-  spec.type = type;
   Mesh mesh;
-  append_box(mesh, spec);
+  Edges::append(mesh, "b", 0, 1, 2, 2, type);
   return mesh;
 }
 
@@ -35,8 +24,7 @@ void expect_one(const Mesh& mesh, Flaw flaw, bool is_error, const std::string& m
 }
 
 TEST(Check, GeneratedMeshesHaveNoFlaws) {
-  for (const CellType type :
-       {CellType::tri3, CellType::tri6, CellType::quad4, CellType::quad8, CellType::quad9})
+  for (const CellType type : area_types)
     EXPECT_THAT(check_mesh(square(type)), IsEmpty()) << cell::info(type).name;
 }
 
@@ -96,16 +84,7 @@ TEST(Check, CellThatNamesANodeTwice) {
 
 // ---- in space -----------------------------------------------------------------------------------
 
-Mesh cube(CellType type = CellType::hex8) {
-  SolidBoxSpec spec;
-  spec.name = "b";
-  spec.breaks = {{{0, 2}, {0, 1}, {0, 1}}};
-  spec.elements = {{{2}, {1}, {1}}};
-  spec.type = type;
-  Mesh mesh;
-  append_solid_box(mesh, spec);
-  return mesh;
-}
+Mesh cube(CellType type = CellType::hex8) { return box_mesh<Faces>(type, 2, 1); }
 
 TEST(CheckSpace, JacobianOfABrickIsAnEighthOfItsVolume) {
   const Mesh mesh = cube(CellType::hex27);
@@ -119,9 +98,7 @@ TEST(CheckSpace, UnusedNode) {
 }
 
 TEST(CheckSpace, MirroredCellsAreInsideOut) {
-  for (const CellType type :
-       {CellType::tet4, CellType::tet10, CellType::wedge6, CellType::wedge15, CellType::hex8,
-        CellType::hex20, CellType::hex27, CellType::shell18}) {
+  for (const CellType type : volume_types) {
     Mesh mesh = cube(type);
     EXPECT_THAT(check_mesh(mesh), IsEmpty());
     for (Vec3& x : mesh.nodes) x.y() = -x.y();
@@ -271,4 +248,4 @@ TEST(Check, ReferencesToNothing) {
 }
 
 }  // namespace
-}  // namespace osculate::mesh
+}  // namespace osculate::mesh::testing

@@ -1,26 +1,17 @@
 #include "osculate/mesh/generate.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <numbers>
 
+#include "measure.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/check.hpp"
 
-namespace osculate::mesh {
+namespace osculate::mesh::testing {
 namespace {
-
-using cell::CellType;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
-
-constexpr std::array area_types{CellType::tri3, CellType::tri6, CellType::quad4, CellType::quad8,
-                                CellType::quad9};
 
 BoxSpec graded_box(CellType type) {
   BoxSpec spec;
@@ -35,38 +26,16 @@ BoxSpec graded_box(CellType type) {
   return spec;
 }
 
-Mesh make(const BoxSpec& spec) {
-  Mesh mesh;
-  append_box(mesh, spec);
-  return mesh;
-}
-
-Vec2 at(const Mesh& mesh, Index node) {
-  return mesh.nodes[static_cast<std::size_t>(node)].head<2>();
-}
-
-/// Signed area of the corner polygon.
-double area(const Mesh& mesh, const Block& block, Index c) {
-  const int n = cell::info(block.type).corners;
-  double twice = 0;
-  for (int k = 0; k < n; ++k) {
-    const Vec2 a = at(mesh, block.cell(c)[k]);
-    const Vec2 b = at(mesh, block.cell(c)[(k + 1) % n]);
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return 0.5 * twice;
-}
+Mesh make(const BoxSpec& spec) { return generated(append_box, spec); }
 
 std::vector<Vec2> points_of(const Mesh& mesh, const std::string& set) {
   std::vector<Vec2> points;
-  for (const Index node : mesh.find_set(set)->nodes) points.push_back(at(mesh, node));
+  for (const Index node : mesh.find_set(set)->nodes) points.push_back(at(mesh, node).head<2>());
   return points;
 }
 
 class BoxOf : public ::testing::TestWithParam<CellType> {};
-INSTANTIATE_TEST_SUITE_P(Types, BoxOf, ::testing::ValuesIn(area_types), [](const auto& tested) {
-  return std::string(cell::info(tested.param).name);
-});
+INSTANTIATE_TEST_SUITE_P(Types, BoxOf, ::testing::ValuesIn(area_types), type_name);
 
 TEST_P(BoxOf, NumbersOfNodesAndCells) {
   const Mesh mesh = make(graded_box(GetParam()));
@@ -86,7 +55,7 @@ TEST_P(BoxOf, CellsAreCounterclockwiseAndFillTheBox) {
   const Mesh mesh = make(graded_box(GetParam()));
   double total = 0;
   for (const CellRef ref : mesh.find_set("b")->cells) {
-    const double a = area(mesh, mesh.blocks[static_cast<std::size_t>(ref.block)], ref.cell);
+    const double a = area_vector(mesh, ref).z();
     EXPECT_GT(a, 0);
     total += a;
   }
@@ -100,12 +69,12 @@ TEST_P(BoxOf, FurtherNodesLieBetweenCorners) {
   for (Index c = 0; info.order == 2 && c < block.size(); ++c) {
     for (int e = 0; e < info.edge_count; ++e) {
       const auto& edge = info.edges[static_cast<std::size_t>(e)];
-      const Vec2 middle =
+      const Vec3 middle =
           0.5 * (at(mesh, block.cell(c)[edge[0]]) + at(mesh, block.cell(c)[edge[1]]));
       EXPECT_LE((at(mesh, block.cell(c)[edge[2]]) - middle).norm(), 1e-15);
     }
     if (info.nodes == 9) {
-      const Vec2 middle = 0.5 * (at(mesh, block.cell(c)[0]) + at(mesh, block.cell(c)[2]));
+      const Vec3 middle = 0.5 * (at(mesh, block.cell(c)[0]) + at(mesh, block.cell(c)[2]));
       EXPECT_LE((at(mesh, block.cell(c)[8]) - middle).norm(), 1e-15);
     }
   }
@@ -190,8 +159,8 @@ double crown_integral(CellType type, int n) {
   double sum = 0;
   for (const CellRef ref : bottom->cells) {
     const Index* nodes = mesh.blocks[static_cast<std::size_t>(ref.block)].cell(ref.cell);
-    const Vec2 a = at(mesh, nodes[0]);
-    const Vec2 b = at(mesh, nodes[1]);
+    const Vec3& a = at(mesh, nodes[0]);
+    const Vec3& b = at(mesh, nodes[1]);
     const double h = a.x() - b.x();
     if (cell::info(type).order == 1)
       sum += 0.5 * h * (a.y() + b.y());
@@ -282,20 +251,9 @@ TEST(Line, ClosesOnItself) {
 // -------------------------------------------------------------------------------------
 
 void expect_refusal(const std::function<void(BoxSpec&)>& spoil, const std::string& message) {
-  Mesh mesh;
-  append_line(mesh, {"old", {{0, 0}, {1, 0}}, {1}, CellType::line2});
-  BoxSpec spec = graded_box(CellType::quad4);
-  spoil(spec);
-  try {
-    append_box(mesh, spec, {"model.yaml", 7, "mesh.generate"});
-    ADD_FAILURE() << "accepted; expected: " << message;
-  } catch (const core::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(message));
-    EXPECT_THAT(error.what(), HasSubstr("model.yaml:7: mesh.generate: box '"));
-  }
-  EXPECT_THAT(mesh.nodes, SizeIs(2));
-  EXPECT_THAT(mesh.sets, SizeIs(3));
-  EXPECT_THAT(mesh.blocks, SizeIs(1));
+  const Mesh before =
+      generated(append_line, LineSpec{"old", {{0, 0}, {1, 0}}, {1}, CellType::line2});
+  testing::expect_refusal(append_box, graded_box(CellType::quad4), spoil, "box '", message, before);
 }
 
 TEST(Box, BadInputIsRefusedAndTheMeshUnchanged) {
@@ -358,4 +316,4 @@ TEST(Line, BadInputIsRefused) {
 }
 
 }  // namespace
-}  // namespace osculate::mesh
+}  // namespace osculate::mesh::testing

@@ -1,20 +1,15 @@
 #include "osculate/mesh/generate_ring.hpp"
 
-#include <gmock/gmock.h>
-
 #include <cmath>
 
+#include "facet_sample.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/check.hpp"
 #include "osculate/mesh/quality.hpp"
 #include "osculate/mesh/surface.hpp"
 
-namespace osculate::mesh {
+namespace osculate::mesh::testing {
 namespace {
-
-using cell::CellType;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 std::vector<std::string> names(const Mesh& mesh) {
   std::vector<std::string> out;
@@ -48,7 +43,7 @@ Mesh solid(CellType type, std::vector<double> angle, int along) {
 
 void expect_radius(const Mesh& mesh, const std::string& set, double radius, const Vec3& axis) {
   for (const Index n : mesh.find_set(set)->nodes) {
-    Vec3 arm = mesh.nodes[static_cast<std::size_t>(n)] - Vec3(10, 20, 30);
+    Vec3 arm = at(mesh, n) - Vec3(10, 20, 30);
     if (axis.isZero()) arm.z() = 0;
     arm -= axis * axis.dot(arm);
     EXPECT_NEAR(arm.norm(), radius, 1e-13);
@@ -56,8 +51,7 @@ void expect_radius(const Mesh& mesh, const std::string& set, double radius, cons
 }
 
 TEST(GenerateRing, AClosedRingHasNoSeam) {
-  for (const CellType type :
-       {CellType::quad4, CellType::quad8, CellType::quad9, CellType::tri3, CellType::tri6}) {
+  for (const CellType type : area_types) {
     const Mesh mesh = flat(type, {0, 360});
     EXPECT_THAT(check_mesh(mesh), IsEmpty()) << cell::info(type).name;
     EXPECT_THAT(names(mesh), ElementsAre("r", "r.inner", "r.outer"));
@@ -77,10 +71,8 @@ TEST(GenerateRing, APartHasEnds) {
   const Mesh mesh = flat(CellType::quad4, {0, 90});
   EXPECT_THAT(check_mesh(mesh), IsEmpty());
   EXPECT_THAT(names(mesh), ElementsAre("r", "r.inner", "r.outer", "r.from", "r.to"));
-  for (const Index n : mesh.find_set("r.from")->nodes)
-    EXPECT_EQ(mesh.nodes[static_cast<std::size_t>(n)].y(), 20);
-  for (const Index n : mesh.find_set("r.to")->nodes)
-    EXPECT_EQ(mesh.nodes[static_cast<std::size_t>(n)].x(), 10);
+  for (const Index n : mesh.find_set("r.from")->nodes) EXPECT_EQ(at(mesh, n).y(), 20);
+  for (const Index n : mesh.find_set("r.to")->nodes) EXPECT_EQ(at(mesh, n).x(), 10);
 }
 
 TEST(GenerateRing, AHollowCylinderAlongEachAxis) {
@@ -94,7 +86,7 @@ TEST(GenerateRing, AHollowCylinderAlongEachAxis) {
       EXPECT_EQ(all.facets.size(), 16 + ends);
       EXPECT_THAT(orient_surface(mesh, *mesh.find_set("r.inner")).errors, IsEmpty());
       for (const Index n : mesh.find_set("r.top")->nodes)
-        EXPECT_EQ(mesh.nodes[static_cast<std::size_t>(n)][along], 10 * (along + 1) + 1);
+        EXPECT_EQ(at(mesh, n)[along], 10 * (along + 1) + 1);
     }
 }
 
@@ -135,4 +127,4 @@ TEST(GenerateRing, Mistakes) {
 }
 
 }  // namespace
-}  // namespace osculate::mesh
+}  // namespace osculate::mesh::testing

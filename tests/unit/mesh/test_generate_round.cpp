@@ -1,4 +1,3 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,17 +9,8 @@
 #include "osculate/mesh/check.hpp"
 #include "osculate/mesh/quality.hpp"
 
-namespace osculate::mesh {
+namespace osculate::mesh::testing {
 namespace {
-
-using cell::CellType;
-using testing::area_of_set;
-using testing::at;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
-using testing::surface_of_set;
-using testing::volume_of_set;
 
 // ---- balls --------------------------------------------------------------------------------------
 
@@ -32,17 +22,13 @@ Mesh ball(CellType type, int n, std::array<int, 3> sides = {1, 1, 1}) {
   spec.core = spec.layers = n;
   spec.sides = sides;
   spec.type = type;
-  Mesh mesh;
-  append_ball(mesh, spec);
-  return mesh;
+  return generated(append_ball, spec);
 }
 
 class Ball : public ::testing::TestWithParam<CellType> {};
 INSTANTIATE_TEST_SUITE_P(Types, Ball,
                          ::testing::Values(CellType::hex8, CellType::hex20, CellType::hex27),
-                         [](const auto& tested) {
-                           return std::string(cell::info(tested.param).name);
-                         });
+                         type_name);
 
 TEST_P(Ball, IsSoundInEveryOctant) {
   for (int k = 0; k < 8; ++k) {
@@ -125,18 +111,9 @@ TEST(Balls, BiasRefinesTowardsTheSurface) {
 
 TEST(Balls, BadInputIsRefused) {
   const auto refused = [](const std::function<void(BallSpec&)>& spoil, const char* message) {
-    BallSpec spec;
-    spec.name = "b";
-    spoil(spec);
-    Mesh mesh;
-    try {
-      append_ball(mesh, spec, {"model.yaml", 7, "mesh.generate"});
-      ADD_FAILURE() << "accepted; expected: " << message;
-    } catch (const core::InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(message));
-      EXPECT_THAT(error.what(), HasSubstr("model.yaml:7: mesh.generate: ball 'b': "));
-    }
-    EXPECT_THAT(mesh.nodes, IsEmpty());
+    BallSpec good;
+    good.name = "b";
+    expect_refusal(append_ball, good, spoil, "ball 'b': ", message);
   };
   refused([](BallSpec& s) { s.type = CellType::tet4; }, "cannot be made of tet4 cells");
   refused([](BallSpec& s) { s.radius = 0; }, "positive number, not 0");
@@ -166,26 +143,15 @@ DiscSpec disc_spec(CellType type, int n, int quarters) {
   return spec;
 }
 
-Mesh disc(const DiscSpec& spec) {
-  Mesh mesh;
-  append_disc(mesh, spec);
-  return mesh;
-}
+Mesh disc(const DiscSpec& spec) { return generated(append_disc, spec); }
 
 class Disc : public ::testing::TestWithParam<CellType> {};
-INSTANTIATE_TEST_SUITE_P(Types, Disc,
-                         ::testing::Values(CellType::tri3, CellType::tri6, CellType::quad4,
-                                           CellType::quad8, CellType::quad9),
-                         [](const auto& tested) {
-                           return std::string(cell::info(tested.param).name);
-                         });
+INSTANTIATE_TEST_SUITE_P(Types, Disc, ::testing::ValuesIn(area_types), type_name);
 class Cylinder : public ::testing::TestWithParam<CellType> {};
 INSTANTIATE_TEST_SUITE_P(Types, Cylinder,
                          ::testing::Values(CellType::wedge6, CellType::wedge15, CellType::hex8,
                                            CellType::hex20, CellType::hex27, CellType::shell18),
-                         [](const auto& tested) {
-                           return std::string(cell::info(tested.param).name);
-                         });
+                         type_name);
 
 TEST_P(Disc, IsSoundInEveryNumberOfQuarters) {
   for (int quarters = 1; quarters <= 4; ++quarters) {
@@ -294,17 +260,7 @@ TEST(Discs, ASecondPartLeavesTheFirstAsItIs) {
 
 TEST(Discs, BadInputIsRefused) {
   const auto refused = [](const std::function<void(DiscSpec&)>& spoil, const char* message) {
-    DiscSpec spec = disc_spec(CellType::hex8, 2, 4);
-    spoil(spec);
-    Mesh mesh;
-    try {
-      append_disc(mesh, spec, {"model.yaml", 7, "mesh.generate"});
-      ADD_FAILURE() << "accepted; expected: " << message;
-    } catch (const core::InputError& error) {
-      EXPECT_THAT(error.what(), HasSubstr(message));
-      EXPECT_THAT(error.what(), HasSubstr("model.yaml:7: mesh.generate: disc 'd': "));
-    }
-    EXPECT_THAT(mesh.nodes, IsEmpty());
+    expect_refusal(append_disc, disc_spec(CellType::hex8, 2, 4), spoil, "disc 'd': ", message);
   };
   refused([](DiscSpec& s) { s.type = CellType::tet4; }, "cannot be made of tet4 cells");
   refused([](DiscSpec& s) { s.heights.clear(); }, "of hex8 cells; expected tri3");
@@ -319,4 +275,4 @@ TEST(Discs, BadInputIsRefused) {
 }
 
 }  // namespace
-}  // namespace osculate::mesh
+}  // namespace osculate::mesh::testing

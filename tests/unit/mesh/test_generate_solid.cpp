@@ -1,4 +1,3 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -9,23 +8,8 @@
 #include "osculate/mesh/check.hpp"
 #include "osculate/mesh/surface.hpp"
 
-namespace osculate::mesh {
+namespace osculate::mesh::testing {
 namespace {
-
-using cell::CellType;
-using testing::area_of_set;
-using testing::area_vector;
-using testing::at;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
-using testing::volume_of;
-using testing::volume_of_set;
-
-constexpr std::array volume_types{CellType::tet4,    CellType::tet10,  CellType::wedge6,
-                                  CellType::wedge15, CellType::hex8,   CellType::hex20,
-                                  CellType::hex27,   CellType::shell18};
 
 SolidBoxSpec graded_box(CellType type) {
   SolidBoxSpec spec;
@@ -37,17 +21,10 @@ SolidBoxSpec graded_box(CellType type) {
   return spec;
 }
 
-Mesh make(const SolidBoxSpec& spec) {
-  Mesh mesh;
-  append_solid_box(mesh, spec);
-  return mesh;
-}
+Mesh make(const SolidBoxSpec& spec) { return generated(append_solid_box, spec); }
 
 class SolidBox : public ::testing::TestWithParam<CellType> {};
-INSTANTIATE_TEST_SUITE_P(Types, SolidBox, ::testing::ValuesIn(volume_types),
-                         [](const auto& tested) {
-                           return std::string(cell::info(tested.param).name);
-                         });
+INSTANTIATE_TEST_SUITE_P(Types, SolidBox, ::testing::ValuesIn(volume_types), type_name);
 
 TEST_P(SolidBox, NumbersOfNodesAndCells) {
   const Mesh mesh = make(graded_box(GetParam()));
@@ -228,20 +205,10 @@ TEST(SolidBoxes, ShareBlocksAndLeaveFurtherNodesApart) {
 }
 
 void expect_refusal(const std::function<void(SolidBoxSpec&)>& spoil, const std::string& message) {
-  Mesh mesh;
-  mesh.sets.push_back({"old.top", 2, {}, {0}});
-  SolidBoxSpec spec = graded_box(CellType::hex8);
-  spoil(spec);
-  try {
-    append_solid_box(mesh, spec, {"model.yaml", 7, "mesh.generate"});
-    ADD_FAILURE() << "accepted; expected: " << message;
-  } catch (const core::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(message));
-    EXPECT_THAT(error.what(), HasSubstr("model.yaml:7: mesh.generate: box '"));
-  }
-  EXPECT_THAT(mesh.nodes, IsEmpty());
-  EXPECT_THAT(mesh.sets, SizeIs(1));
-  EXPECT_THAT(mesh.blocks, IsEmpty());
+  Mesh before;
+  before.sets.push_back({"old.top", 2, {}, {0}});
+  testing::expect_refusal(append_solid_box, graded_box(CellType::hex8), spoil, "box '", message,
+                          before);
 }
 
 TEST(SolidBoxes, BadInputIsRefusedAndTheMeshUnchanged) {
@@ -261,4 +228,4 @@ TEST(SolidBoxes, BadInputIsRefusedAndTheMeshUnchanged) {
 }
 
 }  // namespace
-}  // namespace osculate::mesh
+}  // namespace osculate::mesh::testing

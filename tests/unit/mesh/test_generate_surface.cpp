@@ -1,4 +1,3 @@
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -6,23 +5,13 @@
 #include <functional>
 #include <numbers>
 
+#include "measure.hpp"
 #include "osculate/mesh/check.hpp"
 #include "osculate/mesh/generate_space.hpp"
 #include "osculate/mesh/surface.hpp"
 
-namespace osculate::mesh {
+namespace osculate::mesh::testing {
 namespace {
-
-using cell::CellType;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
-
-constexpr std::array area_types{CellType::tri3, CellType::tri6, CellType::quad4, CellType::quad8,
-                                CellType::quad9};
-
-const Vec3& at(const Mesh& mesh, Index node) { return mesh.nodes[static_cast<std::size_t>(node)]; }
 
 struct Facet {
   Vec3 area = Vec3::Zero(), middle = Vec3::Zero();
@@ -32,14 +21,9 @@ struct Facet {
 std::vector<Facet> facets_of(const Mesh& mesh, const std::string& name) {
   std::vector<Facet> facets;
   for (const CellRef ref : mesh.find_set(name)->cells) {
-    const Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
-    const int n = cell::info(block.type).corners;
-    Facet facet;
-    for (int k = 0; k < n; ++k) {
-      const Vec3& a = at(mesh, block.cell(ref.cell)[k]);
-      facet.area += 0.5 * a.cross(at(mesh, block.cell(ref.cell)[(k + 1) % n]));
-      facet.middle += a / n;
-    }
+    const std::span<const Index> corners = corners_of(mesh, ref);
+    Facet facet{area_vector(mesh, corners), Vec3::Zero()};
+    for (const Index n : corners) facet.middle += at(mesh, n) / static_cast<double>(corners.size());
     facets.push_back(facet);
   }
   return facets;
@@ -67,9 +51,7 @@ std::size_t enclosed_facets(const Mesh& mesh, const std::string& name) {
 }
 
 class Surfaces : public ::testing::TestWithParam<CellType> {};
-INSTANTIATE_TEST_SUITE_P(Types, Surfaces, ::testing::ValuesIn(area_types), [](const auto& tested) {
-  return std::string(cell::info(tested.param).name);
-});
+INSTANTIATE_TEST_SUITE_P(Types, Surfaces, ::testing::ValuesIn(area_types), type_name);
 
 TEST_P(Surfaces, GridIsFlatWithTheNormalOfItsSides) {
   GridSpec spec{"g", {1, 2, 3}, {4, 0, 0}, {1, 0, 2}, {4, 3}, GetParam()};
@@ -218,29 +200,12 @@ TEST(Sphere, AreaConvergesWithSecondOrder) {
 
 // ---- refusals -----------------------------------------------------------------------------------
 
-template <class Spec, class Append>
-void expect_refusal(const Spec& good, const Append& append, const std::function<void(Spec&)>& spoil,
-                    const std::string& message) {
-  Mesh mesh;
-  Spec spec = good;
-  spoil(spec);
-  try {
-    append(mesh, spec);
-    ADD_FAILURE() << "accepted; expected: " << message;
-  } catch (const core::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr(message));
-  }
-  EXPECT_THAT(mesh.nodes, IsEmpty());
-  EXPECT_THAT(mesh.sets, IsEmpty());
-}
-
 TEST(SurfaceRefusals, Grid) {
   const auto refused = [](const std::function<void(GridSpec&)>& spoil, const char* message) {
-    expect_refusal<GridSpec>(
-        {"g", {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1}, CellType::quad4},
-        [](Mesh& mesh, const GridSpec& spec) { append_grid(mesh, spec); }, spoil, message);
+    const GridSpec good{"g", {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1}, CellType::quad4};
+    expect_refusal(append_grid, good, spoil, "grid '", message);
   };
-  refused([](GridSpec& s) { s.v = {-2, 0, 0}; }, "grid 'g': the sides u and v must be finite and");
+  refused([](GridSpec& s) { s.v = {-2, 0, 0}; }, "the sides u and v must be finite and");
   refused([](GridSpec& s) { s.u = {std::nan(""), 0, 0}; }, "must be finite");
   refused([](GridSpec& s) { s.origin = {std::nan(""), 0, 0}; }, "the origin must be finite");
   refused([](GridSpec& s) { s.elements = {3, 0}; }, "0 elements; at least 1 is needed");
@@ -251,11 +216,9 @@ TEST(SurfaceRefusals, Grid) {
 
 TEST(SurfaceRefusals, Tube) {
   const auto refused = [](const std::function<void(TubeSpec&)>& spoil, const char* message) {
-    expect_refusal<TubeSpec>(
-        ring(CellType::quad4), [](Mesh& mesh, const TubeSpec& spec) { append_tube(mesh, spec); },
-        spoil, message);
+    expect_refusal(append_tube, ring(CellType::quad4), spoil, "tube 't': ", message);
   };
-  refused([](TubeSpec& s) { s.end = s.start; }, "tube 't': the ends of the axis must be finite");
+  refused([](TubeSpec& s) { s.end = s.start; }, "the ends of the axis must be finite");
   refused([](TubeSpec& s) { s.zero = Vec3(0, 5, 0); }, "must not be along the axis");
   refused([](TubeSpec& s) { s.radius = -1; }, "positive number, not -1");
   refused([](TubeSpec& s) { s.to = 361; }, "at most 360 degrees, not from 0 to 361");
@@ -266,15 +229,13 @@ TEST(SurfaceRefusals, Tube) {
 
 TEST(SurfaceRefusals, Sphere) {
   const auto refused = [](const std::function<void(SphereSpec&)>& spoil, const char* message) {
-    expect_refusal<SphereSpec>(
-        unit_sphere(CellType::quad4, 2),
-        [](Mesh& mesh, const SphereSpec& spec) { append_sphere(mesh, spec); }, spoil, message);
+    expect_refusal(append_sphere, unit_sphere(CellType::quad4, 2), spoil, "sphere 's': ", message);
   };
-  refused([](SphereSpec& s) { s.radius = std::nan(""); }, "sphere 's': the radius must be");
+  refused([](SphereSpec& s) { s.radius = std::nan(""); }, "the radius must be");
   refused([](SphereSpec& s) { s.center.y() = std::nan(""); }, "the center must be finite");
   refused([](SphereSpec& s) { s.elements = 0; }, "0 elements");
   refused([](SphereSpec& s) { s.elements = 100000; }, "nodes; at most");
 }
 
 }  // namespace
-}  // namespace osculate::mesh
+}  // namespace osculate::mesh::testing

@@ -1,17 +1,10 @@
 // What the edges of areas and the faces of volumes do alike.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "facet_sample.hpp"
 
 namespace osculate::mesh::testing {
 namespace {
-
-using cell::CellType;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 class OuterFacetsOf : public ::testing::TestWithParam<CellType> {
  protected:
@@ -20,15 +13,8 @@ class OuterFacetsOf : public ::testing::TestWithParam<CellType> {
     cell::info(GetParam()).dimension == 2 ? what(Edges{}) : what(Faces{});
   }
 };
-INSTANTIATE_TEST_SUITE_P(Types, OuterFacetsOf,
-                         ::testing::Values(CellType::tri3, CellType::tri6, CellType::quad4,
-                                           CellType::quad8, CellType::quad9, CellType::tet4,
-                                           CellType::tet10, CellType::wedge6, CellType::wedge15,
-                                           CellType::hex8, CellType::hex20, CellType::hex27,
-                                           CellType::shell18),
-                         [](const auto& tested) {
-                           return std::string(cell::info(tested.param).name);
-                         });
+INSTANTIATE_TEST_SUITE_P(Areas, OuterFacetsOf, ::testing::ValuesIn(area_types), type_name);
+INSTANTIATE_TEST_SUITE_P(Volumes, OuterFacetsOf, ::testing::ValuesIn(volume_types), type_name);
 
 TEST_P(OuterFacetsOf, NormalsOfTheSidesPointOutwards) {
   check([](auto of) {

@@ -1,18 +1,11 @@
 #include "osculate/mesh/surface.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "facet_sample.hpp"
 
 namespace osculate::mesh::testing {
 namespace {
-
-using cell::CellType;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 TEST(Surface, LineSetIsAnError) {
   const Mesh mesh = box_mesh<Faces>();

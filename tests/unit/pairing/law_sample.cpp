@@ -24,10 +24,9 @@ const contact::NormalTable table{{{-0.08, 0}, {-0.012, 20}, {0.2, 400}}};
 
 contact::FrictionLaw changing(double mu, double kinetic, ChangeBy by, double scale,
                               double stiffness) {
-  using By = contact::FrictionChange::By;
-  return contact::Coulomb{
-      mu, stiffness, std::numeric_limits<double>::infinity(),
-      contact::FrictionChange{kinetic, scale, by == ChangeBy::distance ? By::distance : By::speed}};
+  contact::Coulomb law{mu, stiffness, std::numeric_limits<double>::infinity(), kinetic};
+  (by == ChangeBy::distance ? law.distance : law.speed) = scale;
+  return law;
 }
 
 contact::FrictionLaw rough(double stiffness) { return contact::Rough{stiffness}; }

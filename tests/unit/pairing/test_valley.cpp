@@ -54,7 +54,7 @@ Sample make_valley(const Corner& c, const Vec2& offset = Vec2::Zero()) {
   s.pair.normal = contact::penalty(penalty);
   s.pair.weight = pairing::Weight::node;
   s.pair.enforcement = contact::Enforcement::lagrange_multiplier;
-  s.pair.valleys = true;
+  s.pair.valley_angle = 0;
   s.committed.points.resize(1);
   s.multipliers.resize(1);
   pairing::prepare(s.pair, s.x);
@@ -86,9 +86,9 @@ pairing::PairEvaluation<2> evaluated(const Sample& s) { return s.evaluation(s.pa
 TEST(Valley, IsWhereTheMasterBendsOutwards) {
   const Sample valley = make_valley({}), ridge = make_valley({.angle = -0.3}),
                flat = make_valley({.angle = 0});
-  EXPECT_TRUE(pairing::has_valley(valley.pair.master, valley.x));
-  EXPECT_FALSE(pairing::has_valley(ridge.pair.master, ridge.x));
-  EXPECT_FALSE(pairing::has_valley(flat.pair.master, flat.x));
+  EXPECT_TRUE(valley.pair.valleys);
+  EXPECT_FALSE(ridge.pair.valleys);
+  EXPECT_FALSE(flat.pair.valleys);
   const auto v = pairing::valley_after(valley.pair.master, 0, valley.x);
   ASSERT_TRUE(v);
   EXPECT_NEAR((v->point - valley.x[vertex]).norm(), 0, 1e-15);

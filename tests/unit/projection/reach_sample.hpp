@@ -6,23 +6,13 @@
 #include "osculate/geometry/curve_frame.hpp"
 #include "osculate/projection/reach.hpp"
 #include "sample_curves.hpp"
+#include "sample_targets.hpp"
 
 namespace osculate::projection {
 
-/// Counter-clockwise: the normals point inwards, so that inside is above.
-inline geometry::NurbsCurve ellipse(double a, double b) {
-  geometry::NurbsCurve curve = testing::nurbs_circle(1);
-  for (Vec2& p : curve.control) p = p.cwiseProduct(Vec2(a, b));
-  return curve;
-}
-
-inline FacetMesh<2> polyline(const std::vector<Vec2>& points, bool closed) {
-  FacetMesh<2> mesh{points, {}};
-  const auto n = static_cast<Index>(points.size());
-  for (Index i = 0; i + (closed ? 0 : 1) < n; ++i)
-    mesh.facets.push_back({cell::CellType::line2, {i, (i + 1) % n}});
-  return mesh;
-}
+using testing::box;
+using testing::ellipse;
+using testing::polyline;
 
 /// z = (x^2 - y^2)/2 over 0..1 by nx x ny biquadratic facets, which hold it exactly.
 inline FacetMesh<3> saddle(int nx, int ny) {
@@ -40,20 +30,6 @@ inline FacetMesh<3> saddle(int nx, int ny) {
                              {o, o + 2, o + 2 + 2 * row, o + 2 * row, o + 1, o + 2 + row,
                               o + 1 + 2 * row, o + row, o + 1 + row}});
     }
-  return mesh;
-}
-
-inline FacetMesh<3> box(const Vec3& size) {
-  FacetMesh<3> mesh;
-  for (int k = 0; k < 8; ++k)
-    mesh.nodes.push_back(size.cwiseProduct(Vec3(k & 1, (k >> 1) & 1, k >> 2)));
-  for (const auto& q : {std::array<Index, 4>{0, 2, 3, 1},
-                        {4, 5, 7, 6},
-                        {0, 1, 5, 4},
-                        {2, 6, 7, 3},
-                        {0, 4, 6, 2},
-                        {1, 3, 7, 5}})
-    mesh.facets.push_back({cell::CellType::quad4, {q[0], q[1], q[2], q[3]}});
   return mesh;
 }
 

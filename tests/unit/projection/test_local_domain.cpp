@@ -160,13 +160,7 @@ TEST(LocalDomain, Figure5) {  // [eq:KSCPP:32] [eq:KSCPP:33] a convex arc: O1 O2
 
 TEST(LocalDomain, CurvedEdgeOfFigure9) {
   // [eq:KSCPP:40] [eq:KSCPP:41] [eq:KSCPP:42] a circle of radius 2 in space
-  const auto circle = [](double t) {
-    geometry::CurveJet<3> j;
-    j.r = 2 * Vec3(std::cos(t), std::sin(t), 0);
-    j.r1 = 2 * Vec3(-std::sin(t), std::cos(t), 0);
-    j.r2 = -j.r;
-    return j;
-  };
+  const auto circle = [](double t) { return testing::circle_in_space(2, t); };
   const geometry::CurveJet<3> j = circle(0.7);
   const geometry::SpaceCurveFrame f = space_curve_frame(j);
   for (const double phi : {0.0, 0.5, 1.2, 1.9, 3.0, 4.4, 5.5})

@@ -13,6 +13,7 @@
 #include "osculate/projection/piece_trees.hpp"
 #include "osculate/projection/shape_answer.hpp"
 #include "osculate/projection/triangle.hpp"
+#include "sample_targets.hpp"
 
 namespace {
 
@@ -81,24 +82,9 @@ TEST(Bernstein, DerivativeBoundsHold) {
   }
 }
 
-geometry::NurbsPatch wavy_patch() {
-  geometry::NurbsPatch patch;
-  patch.degree = {3, 2};
-  patch.knots = {std::vector<double>{0, 0, 0, 0, 0.3, 0.6, 1, 1, 1, 1},
-                 std::vector<double>{0, 0, 0, 0.5, 1, 1, 1}};
-  patch.count = {6, 4};
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 4; ++j) {
-      const double a = std::sin(3.7 * i + 1.3 * j), b = std::sin(2.1 * i * j + 5.1 * j);
-      patch.control.push_back({0.2 * i + 0.03 * b, j / 3.0 + 0.03 * a, 0.2 * a});
-      patch.weights.push_back(1 + 0.4 * b);
-    }
-  return patch;
-}
-
 std::vector<CellComplex<3>> sample_complexes() {
   std::vector<CellComplex<3>> all;
-  all.push_back(make_complex(wavy_patch()));
+  all.push_back(make_complex(osculate::testing::wavy_patch()));
   for (const auto type : {cell::CellType::tri3, cell::CellType::tri6, cell::CellType::quad4,
                           cell::CellType::quad8, cell::CellType::quad9}) {
     FacetMesh<3> mesh;
@@ -158,7 +144,7 @@ TEST(Pieces, AreTheirPartOfTheCell) {
 
 /// First and second derivatives by the order of central differences.
 TEST(Pieces, JetsByConvergenceOrder) {
-  const CellComplex<3> all = make_complex(wavy_patch());
+  const CellComplex<3> all = make_complex(osculate::testing::wavy_patch());
   const Piece<3>& piece = all.set.pieces[7];
   const Control<3> control = control_of(piece, all.set.control);
   ASSERT_TRUE(piece.rational);

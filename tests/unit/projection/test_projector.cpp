@@ -8,8 +8,10 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "osculate/core/error.hpp"
+#include "sample_targets.hpp"
 
 namespace {
 
@@ -36,20 +38,13 @@ Projector<3> projector(const geometry::Surface& surface) {
   return Projector<3>(Target<3>(surface));
 }
 
-/// Unit cube, normals outwards; `cut`: a different diagonal split of each face into triangles.
+/// Unit cube, normals outwards; `triangles`: each face cut along a diagonal.
 FacetMesh<3> cube(bool triangles) {
-  FacetMesh<3> mesh;
-  for (int k = 0; k < 8; ++k)
-    mesh.nodes.push_back({k & 1 ? 1.0 : 0.0, k & 2 ? 1.0 : 0.0, k & 4 ? 1.0 : 0.0});
-  const Index faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                             {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  for (const auto& f : faces) {
-    if (!triangles) {
-      mesh.facets.push_back({CellType::quad4, {f[0], f[1], f[2], f[3]}});
-      continue;
-    }
-    mesh.facets.push_back({CellType::tri3, {f[0], f[1], f[2]}});
-    mesh.facets.push_back({CellType::tri3, {f[0], f[2], f[3]}});
+  FacetMesh<3> mesh = osculate::testing::box(Vec3(1, 1, 1));
+  if (!triangles) return mesh;
+  for (const MeshFacet& f : std::exchange(mesh.facets, {})) {
+    mesh.facets.push_back({CellType::tri3, {f.nodes[0], f.nodes[1], f.nodes[2]}});
+    mesh.facets.push_back({CellType::tri3, {f.nodes[0], f.nodes[2], f.nodes[3]}});
   }
   return mesh;
 }

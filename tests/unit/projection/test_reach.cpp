@@ -59,7 +59,7 @@ TEST(Reach, Figure6) {
 
 TEST(Reach, CornersOfFigure7) {
   const std::vector<Vec2> path{Vec2(0, 0), Vec2(2, 1), Vec2(4, 0), Vec2(6, 1)};
-  const Reach<2> both = reach(Composed<2>(polyline(path, false)));
+  const Reach<2> both = reach(Composed<2>(polyline(path)));
   EXPECT_EQ(both.above.reach.value, 0);
   EXPECT_EQ(both.above.reach.limit, Limit::kink);
   EXPECT_EQ(both.above.reach.at, Vec2(4, 0));

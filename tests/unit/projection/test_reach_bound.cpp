@@ -125,7 +125,7 @@ TEST(ReachBound, CornersAreZeroOnOneSideAndNothingOnTheOther) {
   const ReachBound b = reach_bound<3>(cube, reach(Composed<3>(cube)));
   EXPECT_EQ(b.below.least, 0);  // found to be zero: nothing to prove
   EXPECT_EQ(b.above.least, infinite);
-  const Target<2> line = polyline({Vec2(0, 0), Vec2(2, 1), Vec2(4, 0), Vec2(6, 1)}, false);
+  const Target<2> line = polyline({Vec2(0, 0), Vec2(2, 1), Vec2(4, 0), Vec2(6, 1)});
   const ReachBound kinks = reach_bound<2>(line, reach(Composed<2>(line)));
   EXPECT_EQ(kinks.below.least, 0);
   EXPECT_EQ(kinks.above.least, 0);
@@ -276,7 +276,7 @@ TEST(ReachBound, KinksThatOpenToTheOtherSideAreFoundWithoutHelp) {
   };
   EXPECT_EQ(gap_of(box(Vec3(1, 2, 0.5)), -1).gap, Gap::kink);
   EXPECT_EQ(gap_of(box(Vec3(1, 2, 0.5)), 1).least, infinite);
-  const FacetMesh<2> roof = polyline({Vec2(0, 0), Vec2(1, 1), Vec2(2, 0)}, false);
+  const FacetMesh<2> roof = polyline({Vec2(0, 0), Vec2(1, 1), Vec2(2, 0)});
   EXPECT_EQ(gap_of(roof, -1).gap, Gap::kink);
   EXPECT_EQ(gap_of(roof, 1).gap, Gap::none);
   FacetMesh<2> twisted = roof;

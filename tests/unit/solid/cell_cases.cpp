@@ -70,8 +70,9 @@ CellCase CellCase::as_small() const {
 }
 CellCase CellCase::nearly_incompressible() const {
   CellCase out = *this;
-  std::visit([](auto& c) { std::visit([](auto& law) { law.poisson = 0.49; }, c.section.law); },
-             out.of);
+  std::visit(
+      [](auto& c) { std::visit([](auto& law) { constants(law).poisson = 0.49; }, c.section.law); },
+      out.of);
   return out;
 }
 
@@ -107,14 +108,14 @@ Eigen::MatrixXd motion(const CellCase& c, double size, int seed) {
 }
 
 CellResult answer(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
-                  bool with_tangent) {
+                  bool with_tangent, const material::Memory& memory) {
   if (is_plane(c)) {
     ElementResult r;
-    evaluate(plane(c).section, c.type(), x, u, with_tangent, r);
+    evaluate(plane(c).section, c.type(), x, u, with_tangent, r, memory);
     return {r.status, r.force, r.tangent};
   }
   VolumeResult r;
-  evaluate(space(c).section, c.type(), x, u, with_tangent, r);
+  evaluate(space(c).section, c.type(), x, u, with_tangent, r, memory);
   return {r.status, r.force, r.tangent};
 }
 
@@ -133,9 +134,10 @@ double energy(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd
                      : strain_energy(space(c).section, c.type(), x, u);
 }
 
-CellValues point_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
-  return is_plane(c) ? values_of_points(stress_at_points(plane(c).section, c.type(), x, u))
-                     : values_of_points(stress_at_points(space(c).section, c.type(), x, u));
+CellValues point_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
+                        const material::Memory& memory) {
+  return is_plane(c) ? values_of_points(stress_at_points(plane(c).section, c.type(), x, u, memory))
+                     : values_of_points(stress_at_points(space(c).section, c.type(), x, u, memory));
 }
 
 CellValues nodal_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {

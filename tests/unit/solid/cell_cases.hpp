@@ -48,7 +48,7 @@ struct CellResult {
   Eigen::MatrixXd tangent;
 };
 CellResult answer(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
-                  bool with_tangent);
+                  bool with_tangent, const material::Memory& memory = {});
 /// The answer with its tangent, which is expected to be ok.
 CellResult evaluated(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u);
 
@@ -66,7 +66,8 @@ struct CellValues {
   Status status;
   std::vector<PointValues> at;
 };
-CellValues point_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u);
+CellValues point_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
+                        const material::Memory& memory = {});
 CellValues nodal_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u);
 Eigen::VectorXd weights(const CellCase& c, const Eigen::MatrixXd& x);
 

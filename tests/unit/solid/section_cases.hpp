@@ -11,6 +11,28 @@
 
 namespace osculate::solid::testing {
 
+/// The law itself, or the one that is used in the logarithmic strain.
+template <class T>
+T& constants(T& law) {
+  return law;
+}
+template <class T>
+T& constants(material::Logarithmic<T>& form) {
+  return form.law;
+}
+
+/// Every law, and every form of one for finite strains. Those that yield do so where they are made
+/// to: here they are elastic.
+template <class Visit>
+void for_each_form(const Visit& visit) {
+  material::for_each_law([&](auto law) {
+    law.young = 7;
+    law.poisson = 0.3;
+    visit(law);
+    if (material::has_logarithmic_form(law)) visit(material::in_logarithmic_strain(law));
+  });
+}
+
 constexpr std::array<cell::CellType, 5> area_types{cell::CellType::tri3, cell::CellType::tri6,
                                                    cell::CellType::quad4, cell::CellType::quad8,
                                                    cell::CellType::quad9};

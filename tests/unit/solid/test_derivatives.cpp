@@ -53,7 +53,8 @@ TEST_P(EveryCell, TangentIsTheDerivativeOfTheForce) {
 
 TEST_P(DisplacementCell, TangentIsTheDerivativeOfTheForceWhenNearlyIncompressible) {
   for_each_cell(GetParam(), [](const CellCase& c) {
-    expect_tangent_is_derivative(c.nearly_incompressible(), curved(c), motion(c, 0.02));
+    // At 0.02 the modes of an enhanced ring have no stiffness left in compression (enhanced.hpp).
+    expect_tangent_is_derivative(c.nearly_incompressible(), curved(c), motion(c, 0.015));
   });
 }
 

@@ -298,6 +298,19 @@ TEST(Newton, LineSearchFindsTheStickingRange) {
   EXPECT_LT(on.iterations[1].step, 1.0);
 }
 
+/// The search has evaluated the solution: it is not evaluated again for a tangent nobody needs.
+TEST(Newton, WhatTheSearchFoundConvergedIsNotEvaluatedTwice) {
+  ToySystem system = scalar_system([](double x, double) { return x * x * x + x - 2; },
+                                   [](double x) { return 3 * x * x + 1; });
+  const auto result = solve_from(system, 2, {});
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  ASSERT_GT(result.iterations.size(), 3u);
+  const std::vector<Eigen::VectorXd>& seen = system.evaluated;
+  EXPECT_EQ(seen.back(), result.state.x);
+  EXPECT_NE(seen[seen.size() - 2], seen.back());
+  EXPECT_EQ(seen[seen.size() - 3], seen[seen.size() - 2]);  // before the last one: with a tangent
+}
+
 /// An evaluation that has no answer shortens the correction instead of ending the attempt.
 TEST(Newton, LineSearchStaysWhereThereIsAnAnswer) {
   // atan: from 1.45 to -1.551, from there the full correction would go to 1.848.

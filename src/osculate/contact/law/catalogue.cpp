@@ -4,112 +4,114 @@
 
 #include <tuple>
 
+#include "osculate/contact/law/every_law.hpp"
+
 namespace osculate::contact {
 namespace {
 
-bool positive(double value) { return value > 0 && std::isfinite(value); }
-bool not_negative(double value) { return value >= 0 && std::isfinite(value); }
+template <class... Value>
+constexpr bool all_normal(const std::variant<Value...>*) {
+  return (IsNormalLaw<Value> && ...);
+}
+template <class... Value>
+constexpr bool all_friction(const std::variant<Value...>*) {
+  return (IsFrictionLaw<Value> && ...);
+}
+template <class... Value>
+constexpr bool all_damping(const std::variant<Value...>*) {
+  return (IsDampingLaw<Value, NormalPenalty> && ...);
+}
+static_assert(all_normal(static_cast<const NormalLaws*>(nullptr)));
+static_assert(all_friction(static_cast<const FrictionLaws*>(nullptr)));
+static_assert(all_damping(static_cast<const DampingLaws*>(nullptr)));
 
-std::string fault_of(const NormalPenalty& law) {
-  if (positive(law.stiffness)) return {};
-  return fmt::format("normal_penalty must be > 0, got {:g}", law.stiffness);
+/// What a fault calls a parameter: `normal_penalty`, `friction_coulomb: mu`.
+template <class T>
+std::string fault_of(const T& law, std::string_view axis) {
+  if (const auto wrong = core::first_out_of_range(law))
+    return fmt::format("{}_{}{}{} must be {}, got {:g}", axis, T::key,
+                       wrong->key.empty() ? "" : ": ", wrong->key, core::bounds(wrong->range),
+                       wrong->value);
+  const auto fault = core::own_fault(law);
+  return fault ? fault->why : std::string{};
 }
 
-std::string fault_of(const NormalExponential& law) {
-  if (positive(law.pressure) && positive(law.clearance)) return {};
-  return fmt::format(
-      "an exponential law needs a pressure > 0 and a clearance > 0, got {:g} and {:g}",
-      law.pressure, law.clearance);
-}
-
-std::string fault_of(const NormalTable& law) {
-  if (law.points.size() < 2) return "a table of pressures needs at least two points";
-  if (law.points.front()[1] != 0) return "the first pressure of a table must be 0";
-  if (!std::isfinite(law.points.front()[0]))
-    return "a table of pressures has a value that is not finite";
-  for (std::size_t i = 1; i < law.points.size(); ++i) {
-    const std::array<double, 2>&a = law.points[i - 1], &b = law.points[i];
-    if (!std::isfinite(b[0]) || !std::isfinite(b[1]))
-      return "a table of pressures has a value that is not finite";
-    if (!(b[0] > a[0])) return fmt::format("overclosures must grow: {:g} follows {:g}", b[0], a[0]);
-    if (!(b[1] >= a[1]))
-      return fmt::format("pressures must not fall: {:g} follows {:g}", b[1], a[1]);
+/// The value of a parameter in words; empty: that of a new law.
+template <class T>
+std::string value_text(const T& law, std::string_view key) {
+  for (const core::Param<T>& p : T::params()) {
+    if (p.key != key) continue;
+    if (const core::Table* const table = core::table_in(law, p.slot))
+      return fmt::format("{}", table->size());
+    const std::optional<double> value = core::number_in(law, p.slot);
+    const bool usual = !p.required && value == core::number_in(T{}, p.slot);
+    return value && !usual ? fmt::format("{:g}", *value) : std::string{};
   }
-  if (!(law.points.back()[1] > 0)) return "a table needs a pressure > 0";
   return {};
 }
 
-std::string fault_of(const Coulomb& law) {
-  if (!not_negative(law.mu) || !positive(law.stiffness))
-    return fmt::format("friction needs mu >= 0 and a stiffness > 0, got {:g} and {:g}", law.mu,
-                       law.stiffness);
-  if (!(law.cap > 0)) return fmt::format("the cap of friction must be > 0, got {:g}", law.cap);
-  if (law.change && (!not_negative(law.change->kinetic) || !positive(law.change->scale)))
-    return fmt::format(
-        "a change of friction needs a coefficient >= 0 and a scale > 0, got {:g} and "
-        "{:g}",
-        law.change->kinetic, law.change->scale);
-  return {};
-}
-
-std::string fault_of(const Tresca& law) {
-  if (not_negative(law.limit_traction) && positive(law.stiffness)) return {};
-  return fmt::format("friction needs a shear traction >= 0 and a stiffness > 0, got {:g} and {:g}",
-                     law.limit_traction, law.stiffness);
-}
-
-std::string fault_of(const Rough& law) {
-  if (!positive(law.stiffness))
-    return fmt::format("friction needs a stiffness > 0, got {:g}", law.stiffness);
-  if (law.coefficient > 0) return {};
-  return fmt::format("rough points need a coefficient > 0, got {:g}", law.coefficient);
-}
-
-std::string fault_of(const Viscous& law) {
-  if (not_negative(law.coefficient)) return {};
-  return fmt::format("viscous damping needs a coefficient >= 0, got {:g}", law.coefficient);
-}
-
-std::string fault_of(const Restitution& law) {
-  if (law.value >= 0 && law.value <= 1) return {};
-  return fmt::format("a restitution lies between 0 and 1, got {:g}", law.value);
-}
-
-std::string text_of(const NormalPenalty& law) { return fmt::format("penalty {:g}", law.stiffness); }
-std::string text_of(const NormalExponential& law) {
-  return fmt::format("exponential {:g} within {:g}", law.pressure, law.clearance);
-}
-std::string text_of(const NormalTable& law) {
-  return fmt::format("table of {} points", law.points.size());
-}
-std::string text_of(const Coulomb& law) {
-  std::string text = fmt::format("Coulomb {:g}", law.mu);
-  if (law.change) text += fmt::format(" to {:g}", law.change->kinetic);
-  if (std::isfinite(law.cap)) text += fmt::format(" up to {:g}", law.cap);
+/// The words of a law with its values in them.
+template <class T>
+std::string text_of(const T& law) {
+  std::string text;
+  std::size_t part = std::string::npos;  // where what stands in [] begins
+  bool left_out = false;
+  for (std::string_view rest = T::words; !rest.empty();) {
+    const char c = rest.front();
+    const std::size_t end = c == '{' ? rest.find('}') : 0;
+    if (c == '{') {
+      const std::string value = value_text(law, rest.substr(1, end - 1));
+      left_out = left_out || value.empty();
+      text += value;
+    } else if (c == '[') {
+      part = text.size();
+      left_out = false;
+    } else if (c == ']') {
+      if (left_out) text.resize(part);
+    } else {
+      text += c;
+    }
+    rest.remove_prefix(end + 1);
+  }
   return text;
 }
-std::string text_of(const Tresca& law) { return fmt::format("Tresca {:g}", law.limit_traction); }
-std::string text_of(const Rough&) { return "rough"; }
 
 /// Calls `f` with the law that it is, with its factor in it.
-template <class F>
-auto visit(const F& f, const NormalLaw& law) {
-  const auto* const penalty = std::get_if<NormalPenalty>(&law.all());
-  if (penalty) return f(NormalPenalty{law.factor() * penalty->stiffness});
-  return std::visit([&](const auto& l) { return f(l); }, law.all());
-}
-template <class F>
-auto visit(const F& f, const FrictionLaw& law) {
+template <class F, class Laws>
+auto visit(const F& f, const Law<Laws>& law) {
   return std::visit(
-      [&](auto l) {
-        l.stiffness *= law.factor();
-        return f(l);
+      [&](const auto& l) {
+        if constexpr (requires { l.stiffness; }) {
+          auto stiffened = l;
+          stiffened.stiffness *= law.factor();
+          return f(stiffened);
+        } else {
+          return f(l);
+        }
       },
       law.all());
 }
-template <class F>
-auto visit(const F& f, const DampingLaw& law) {
-  return std::visit([&](const auto& l) { return f(l); }, law.all());
+
+template <class Laws>
+Law<Laws> stiffness_set(const Law<Laws>& law, double stiffness) {
+  return std::visit(
+      [&](auto l) {
+        if constexpr (requires { l.stiffness; }) l.stiffness = stiffness;
+        return Law<Laws>(l);
+      },
+      law.all());
+}
+
+template <class Laws>
+bool needs_duration_of(const Law<Laws>& law) {
+  return std::visit(
+      []<class T>(const T& l) {
+        bool timed = false;
+        for (const core::Param<T>& p : T::params())
+          timed = timed || (p.timed && core::number_in(l, p.slot));
+        return timed;
+      },
+      law.all());
 }
 
 }  // namespace
@@ -160,21 +162,40 @@ double reach(const NormalLaw& law) {
   return visit([](const auto& l) { return l.reach(); }, law);
 }
 bool augmentable(const NormalLaw& law) {
-  return visit([](const auto& l) { return l.augmentable; }, law);
+  return visit(
+      [](const auto& l) {
+        if constexpr (requires { l.augmentable; }) return l.augmentable;
+        return false;
+      },
+      law);
 }
-bool holds(const NormalLaw& law) { return law.as<NormalPenalty>(); }
+bool holds(const NormalLaw& law) {
+  return visit(
+      [](const auto& l) {
+        if constexpr (requires { l.holds; }) return l.holds;
+        return false;
+      },
+      law);
+}
 double penalty_of(const NormalLaw& law) {
-  const auto* const penalty = law.as<NormalPenalty>();
-  return penalty ? law.factor() * penalty->stiffness : 0.0;
+  return visit(
+      [](const auto& l) {
+        if constexpr (requires { l.stiffness; }) return l.stiffness;
+        return 0.0;
+      },
+      law);
+}
+NormalLaw with_stiffness(const NormalLaw& law, double stiffness) {
+  return stiffness_set(law, stiffness);
 }
 std::string fault(const NormalLaw& law) {
-  return visit([](const auto& l) { return fault_of(l); }, law);
+  return visit([](const auto& l) { return fault_of(l, "normal"); }, law);
 }
 std::string fault(const FrictionLaw& law) {
-  return visit([](const auto& l) { return fault_of(l); }, law);
+  return visit([](const auto& l) { return fault_of(l, "friction"); }, law);
 }
 std::string fault(const DampingLaw& law) {
-  return visit([](const auto& l) { return fault_of(l); }, law);
+  return visit([](const auto& l) { return fault_of(l, "damping"); }, law);
 }
 std::string text(const NormalLaw& law) {
   return visit([](const auto& l) { return text_of(l); }, law);
@@ -183,6 +204,14 @@ std::string text(const FrictionLaw& law) {
   return visit(
       [](const auto& l) { return fmt::format("{} (penalty {:g})", text_of(l), l.stiffness); }, law);
 }
+double damper(const DampingLaw& law) {
+  return visit(
+      [](const auto& l) {
+        if constexpr (requires { l.damper(); }) return l.damper();
+        return 0.0;
+      },
+      law);
+}
 double stiffest(const DampingLaw& law, double penalty, double duration) {
   return visit([&](const auto& l) { return l.stiffest(penalty, duration); }, law);
 }
@@ -190,10 +219,13 @@ double stiffness(const FrictionLaw& law) {
   return visit([](const auto& l) { return l.stiffness; }, law);
 }
 FrictionLaw with_stiffness(const FrictionLaw& law, double stiffness) {
+  return stiffness_set(law, stiffness);
+}
+FrictionLaw parting(const FrictionLaw& law) {
   return std::visit(
-      [&](auto l) {
-        l.stiffness = stiffness;
-        return FrictionLaw(l);
+      [&](const auto& l) {
+        if constexpr (requires { l.parting(); }) return FrictionLaw(l.parting());
+        return law;
       },
       law.all());
 }
@@ -216,23 +248,19 @@ SlipLimit predicted_limit(const FrictionLaw& law, double trial, double normal_tr
 }
 double steadying(const FrictionLaw& law, double normal_traction, double duration) {
   constexpr double margin = 2, most = 1e12;
-  const auto* const coulomb = law.as<Coulomb>();
-  if (!coulomb || !coulomb->change) return 1;
-  const FrictionChange& change = *coulomb->change;
-  const bool by_speed = change.by == FrictionChange::By::speed;
-  if (by_speed && !(duration > 0)) return 1;
-  const double fall = (coulomb->mu - change.kinetic) * pressure_of(normal_traction) /
-                      (by_speed ? change.scale * duration : change.scale);
-  const double stiffness = law.factor() * coulomb->stiffness;
-  double factor = 1;
-  while (factor * stiffness < margin * fall && factor < most) factor *= 10;
-  return factor;
+  return visit(
+      [&](const auto& l) {
+        double factor = 1;
+        if constexpr (requires { l.fall(1.0, 1.0); }) {
+          const double fall = l.fall(pressure_of(normal_traction), duration);
+          while (factor * l.stiffness < margin * fall && factor < most) factor *= 10;
+        }
+        return factor;
+      },
+      law);
 }
-bool needs_duration(const FrictionLaw& law) {
-  const auto* const coulomb = law.as<Coulomb>();
-  return coulomb && coulomb->change && coulomb->change->by == FrictionChange::By::speed;
-}
-bool needs_duration(const DampingLaw& law) { return law.as<Viscous>(); }
+bool needs_duration(const FrictionLaw& law) { return needs_duration_of(law); }
+bool needs_duration(const DampingLaw& law) { return needs_duration_of(law); }
 
 template class Law<NormalLaws>;
 template class Law<FrictionLaws>;

@@ -1,4 +1,5 @@
 #pragma once
+// The lists of contact laws. A new law is a header of its own and one entry here.
 #include <variant>
 
 #include "osculate/contact/law/coulomb.hpp"
@@ -12,7 +13,7 @@
 
 namespace osculate::contact {
 
-// The laws there are.
+// The laws there are. The first normal law is that of pairs that name none.
 struct NormalLaws : std::variant<NormalPenalty, NormalExponential, NormalTable> {
   using variant::variant;
 };

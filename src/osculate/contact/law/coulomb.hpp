@@ -5,46 +5,69 @@
 #include <optional>
 #include <string_view>
 
+#include "osculate/contact/law/penalty_param.hpp"
 #include "osculate/contact/law/tangential.hpp"
 
 namespace osculate::contact {
 
-/// How a coefficient of friction goes over from the static to the kinetic one.
-///
-/// Formula    mu(a) = mu_k + (mu - mu_k) exp(-a / scale) ,
-///            a = distance slid since the point came into contact, or
-///            a = speed = distance slid in the increment / duration of the increment
-/// Source     by speed: J. T. Oden, J. A. C. Martins, Comput. Methods Appl. Mech. Engrg. 52 (1985)
-///            527-634, section 2, in the usual exponential form; by distance: the same with what
-///            slip-weakening models of faults take for a (Y. Ida, J. Geophys. Res. 77 (1972) 3796)
-struct FrictionChange {
-  enum class By : std::uint8_t { distance, speed };
-  double kinetic = 0;  ///< mu_k; above mu: friction grows
-  double scale = 1;    ///< length, or length per time; > 0
-  By by = By::distance;
-};
-
-/// Coulomb friction by return mapping from an elastic trial, with an optional change of the
-/// coefficient and an optional cap of the shear traction.
+/// Coulomb friction by return mapping from an elastic trial, with an optional change from the
+/// static coefficient to a kinetic one and an optional cap of the shear traction.
 ///
 /// Formula    t = t_tr            if |t_tr| <= L_0                        (stick)
 ///            t = L t_tr / |t_tr| otherwise                               (slip)
 ///            L = min(mu(a) p, cap) , a taken at the end of the increment: it depends on L by
 ///            the distance slid, (|t_tr| - L) / eps_T; L_0 is L without sliding in the increment;
 ///            p = |N| under pressure, 0 where a held point is pulled
-/// Source     KS2D:76, KS2D:57 in physical components (T_i = t . rho_,i), signs of docs/errata.md
+///            mu(a) = mu_k + (mu - mu_k) exp(-a / scale) ,
+///            a = distance slid since the point came into contact, or
+///            a = speed = distance slid in the increment / duration of the increment
+/// Source     KS2D:76, KS2D:57 in physical components (T_i = t . rho_,i), signs of docs/errata.md;
+///            mu(a) by speed: J. T. Oden, J. A. C. Martins, Comput. Methods Appl. Mech. Engrg. 52
+///            (1985) 527-634, section 2, in the usual exponential form; by distance: the same with
+///            what slip-weakening models of faults take for a (Y. Ida, J. Geophys. Res. 77 (1972)
+///            3796)
 /// Sign       the force on the slave's residual is +t for a slip in the direction +t
 /// Tested by  tests/unit/contact/test_laws.cpp, test_friction_laws.cpp
 struct Coulomb {
-  static constexpr std::string_view key = "coulomb";
+  static constexpr std::string_view key = "coulomb",
+                                    words = "Coulomb {mu}[ to {kinetic}][ up to {cap}]",
+                                    doc = "Coulomb's law with an elastic stick range.";
+  static constexpr core::OneOf decay{
+      "decay",
+      "How the coefficient goes from mu to kinetic: mu(a) = kinetic + (mu - kinetic) exp(-a / "
+      "scale).",
+      "{distance: 0.01}"};
   double mu = 0;
   double stiffness = 0;  ///< eps_T, units as eps_N
   double cap = std::numeric_limits<double>::infinity();
-  std::optional<FrictionChange> change{};
+  std::optional<double> kinetic{};  ///< mu_k; above mu: friction grows
+  /// The scale of a: one of them where there is a kinetic coefficient.
+  std::optional<double> distance{}, speed{};
+
+  static constexpr auto params();
+  [[nodiscard]] std::optional<core::Fault> fault() const {
+    const bool changes = distance || speed;
+    if (kinetic && !changes)
+      return core::Fault{
+          "how the coefficient changes is missing: add decay: {distance: ...} or "
+          "{speed: ...}",
+          "kinetic"};
+    if (changes && !kinetic)
+      return core::Fault{"decay goes with a kinetic coefficient, which is missing", "decay"};
+    if (distance && speed) return core::Fault{"distance and speed exclude each other", "decay"};
+    return std::nullopt;
+  }
+  /// Steepest fall of the limit while a point slides: max |dL/ds|; less than zero where it grows.
+  ///
+  /// Formula    (mu - mu_k) p / scale, by speed / (scale duration)
+  [[nodiscard]] double fall(double pressure, double duration) const {
+    if (!kinetic || (speed && !(duration > 0))) return 0;
+    return (mu - *kinetic) * pressure / (speed ? *speed * duration : scale());
+  }
 
   [[nodiscard]] double coefficient(double a) const {
-    if (!change) return mu;
-    return change->kinetic + (mu - change->kinetic) * std::exp(-a / change->scale);
+    if (!kinetic) return mu;
+    return *kinetic + (mu - *kinetic) * std::exp(-a / scale());
   }
 
   /// The limit at which a point that has not slid in the increment begins to.
@@ -55,7 +78,7 @@ struct Coulomb {
 
   /// The limit of a point whose trial is beyond the first limit.
   [[nodiscard]] SlipLimit limit(double trial, double pressure, const Sliding& sliding) const {
-    if (!change || rate(sliding) == 0.0) return first_limit(pressure, sliding);
+    if (!kinetic || rate(sliding) == 0.0) return first_limit(pressure, sliding);
     const double value = solved(trial, pressure, sliding);
     const double a = argument(trial - value, sliding);
     const double growth = slope(a) * rate(sliding) * pressure;  // kappa
@@ -65,9 +88,8 @@ struct Coulomb {
   /// Before the first iteration nothing has slid: at which limit a sliding point will go on.
   [[nodiscard]] SlipLimit predicted_limit(double trial, double pressure,
                                           const Sliding& sliding) const {
-    if (!change || change->by == FrictionChange::By::distance || !(pressure > 0))
-      return first_limit(pressure, sliding);
-    const double low = std::min(mu, change->kinetic), high = std::max(mu, change->kinetic);
+    if (!kinetic || !speed || !(pressure > 0)) return first_limit(pressure, sliding);
+    const double low = std::min(mu, *kinetic), high = std::max(mu, *kinetic);
     const double last = std::clamp(trial / pressure, low, high);  // of the last increment
     return capped({last * pressure, 0, last});
   }
@@ -84,30 +106,31 @@ struct Coulomb {
   }
 
  private:
+  [[nodiscard]] double scale() const { return speed ? *speed : distance.value_or(1); }
   [[nodiscard]] SlipLimit capped(const SlipLimit& limit) const {
     return limit.value > cap ? SlipLimit{cap, 0, 0} : limit;
   }
   /// d(a) / d(distance in the increment) / eps_T
   [[nodiscard]] double rate(const Sliding& sliding) const {
-    if (change->by == FrictionChange::By::distance) return 1 / stiffness;
+    if (!speed) return 1 / stiffness;
     return sliding.duration > 0 ? 1 / (stiffness * sliding.duration) : 0.0;
   }
   /// a after sliding by `excess` / eps_T.
   [[nodiscard]] double argument(double excess, const Sliding& sliding) const {
-    if (!change) return 0;
-    const double before = change->by == FrictionChange::By::distance ? sliding.distance : 0.0;
+    if (!kinetic) return 0;
+    const double before = speed ? 0.0 : sliding.distance;
     return before + std::max(0.0, excess) * rate(sliding);
   }
   /// d(mu) / d(a)
   [[nodiscard]] double slope(double a) const {
-    return (change->kinetic - mu) / change->scale * std::exp(-a / change->scale);
+    return (*kinetic - mu) / scale() * std::exp(-a / scale());
   }
   /// The one root of L = mu(a(L)) p below the trial. Friction that falls: the function is concave
   /// and the tangents' roots rise to it from the least limit; that grows: convex, from above.
   [[nodiscard]] double solved(double trial, double pressure, const Sliding& sliding) const {
     constexpr int most = 50;
     constexpr double rounding = 4e-15;
-    double value = std::min(trial, change->kinetic * pressure);
+    double value = std::min(trial, *kinetic * pressure);
     for (int i = 0; i < most; ++i) {
       const double a = argument(trial - value, sliding);
       const double error = value - coefficient(a) * pressure;
@@ -118,5 +141,49 @@ struct Coulomb {
     return value;
   }
 };
+
+constexpr auto Coulomb::params() {
+  return std::array<core::Param<Coulomb>, 6>{
+      {{.key = "mu",
+        .unit = "1",
+        .doc = "Coefficient of friction.",
+        .slot = &Coulomb::mu,
+        .range = {.lower = 0, .with_lower = true},
+        .example = "0.3"},
+       shear_penalty_param<Coulomb>(),
+       {.key = "kinetic",
+        .unit = "1",
+        .doc = "Coefficient of friction after sliding, or at speed.",
+        .slot = &Coulomb::kinetic,
+        .range = {.lower = 0, .with_lower = true},
+        .required = false,
+        .example = "0.2",
+        .otherwise = "mu"},
+       {.key = "distance",
+        .unit = "length",
+        .doc = "Scale of the distance slid since the point touched.",
+        .slot = &Coulomb::distance,
+        .range = {.lower = 0},
+        .required = false,
+        .example = "0.01",
+        .one_of = &decay},
+       {.key = "speed",
+        .unit = "length/time",
+        .doc = "Scale of the sliding speed; every step needs a duration.",
+        .slot = &Coulomb::speed,
+        .range = {.lower = 0},
+        .required = false,
+        .example = "0.5",
+        .one_of = &decay,
+        .timed = true},
+       {.key = "cap",
+        .unit = "force/length^2 (force with weight: node)",
+        .doc = "Largest shear traction, whatever the pressure.",
+        .slot = &Coulomb::cap,
+        .range = {.lower = 0},
+        .required = false,
+        .example = "40",
+        .otherwise = "none"}}};
+}
 
 }  // namespace osculate::contact

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "osculate/contact/law/law.hpp"
+#include "osculate/core/param.hpp"
 
 namespace osculate::contact {
 
@@ -21,6 +22,18 @@ struct Viscous {
   static constexpr std::string_view key = "viscous";
   double coefficient = 0;  ///< c
 
+  static constexpr auto params() {
+    return std::array<core::Param<Viscous>, 1>{
+        {{.key = "",
+          .unit = "force time/length^3 (force time/length with weight: node)",
+          .doc = "A damper beside the spring: pressure per closing speed; every step needs a "
+                 "duration.",
+          .slot = &Viscous::coefficient,
+          .range = {.lower = 0, .with_lower = true},
+          .example = "0.5",
+          .timed = true}}};
+  }
+
   template <class Law>
   [[nodiscard]] NormalResponse response(const Law& law, double gap, const Closing& closing) const {
     NormalResponse r = law.response(gap);
@@ -38,6 +51,8 @@ struct Viscous {
     r.dissipated = (spring - r.traction) * way;
     return r;
   }
+  /// The damper's coefficient, for who treats it apart from the spring.
+  [[nodiscard]] double damper() const { return coefficient; }
   /// Largest dN/dzeta of a spring with this stiffness.
   [[nodiscard]] double stiffest(double spring, double duration) const {
     return duration > 0 ? spring + coefficient / duration : spring;
@@ -62,6 +77,17 @@ struct Restitution {
   static constexpr double least = 0.02;
   double value = 1;  ///< e
 
+  static constexpr auto params() {
+    return std::array<core::Param<Restitution>, 1>{
+        {{.key = "",
+          .unit = "1",
+          .doc =
+              "Speed after an impact over that before: unloading gives back the share e^2 of the "
+              "work of the pressure. Below 0.02 it acts as 0.02.",
+          .slot = &Restitution::value,
+          .range = {.lower = 0, .upper = 1, .with_lower = true, .with_upper = true},
+          .example = "0.5"}}};
+  }
   [[nodiscard]] double returned() const {
     const double e = std::max(value, least);
     return e * e;

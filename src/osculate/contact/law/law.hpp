@@ -8,7 +8,15 @@
 namespace osculate::contact {
 
 // The laws as everything sees them that does not ask which one it is. Which laws there are stands
-// in catalogue.hpp alone: a new or changed one compiles the catalogue, not the code.
+// in catalogue.hpp alone: a new or changed one compiles the catalogue, not the code. What a law
+// need not have, and what it means if it has it:
+//   augmentable = true   normal: a multiplier may replace its traction
+//   holds = true         normal: it goes on where a held point is pulled
+//   stiffness            normal: it is linear, with this eps_N
+//   parting()            friction: the law of points that may part, where it is another
+//   fall(p, duration)    friction: how steeply its limit falls while a point slides
+//   damper()             damping: the coefficient of a damper that may be treated by itself
+//   fault()              what is wrong with parameters that are in their ranges
 
 struct NormalLaws;    ///< the variant of all normal laws, complete in catalogue.hpp
 struct FrictionLaws;  ///< of all friction laws
@@ -89,8 +97,10 @@ struct Closing {
 [[nodiscard]] bool holds(const NormalLaw& law);
 /// eps_N of a linear law; 0: the law has none.
 [[nodiscard]] double penalty_of(const NormalLaw& law);
+/// The same law with this eps_N, if it has one.
+[[nodiscard]] NormalLaw with_stiffness(const NormalLaw& law, double stiffness);
 
-/// What is wrong with the numbers of a law; empty: nothing.
+/// What is wrong with the numbers of a law; empty: nothing. Ranges are those of its parameters.
 ///
 /// Tested by  tests/unit/contact/test_normal_laws.cpp, test_friction_laws.cpp,
 /// test_damping.cpp
@@ -102,12 +112,16 @@ struct Closing {
 [[nodiscard]] std::string text(const NormalLaw& law);
 [[nodiscard]] std::string text(const FrictionLaw& law);
 
+/// Coefficient of the damper that the law is; 0: it is none.
+[[nodiscard]] double damper(const DampingLaw& law);
 /// Largest slope of the pressure of a penalty with damping.
 [[nodiscard]] double stiffest(const DampingLaw& law, double penalty, double duration);
 /// eps_T
 [[nodiscard]] double stiffness(const FrictionLaw& law);
 /// The same law with this eps_T.
 [[nodiscard]] FrictionLaw with_stiffness(const FrictionLaw& law, double stiffness);
+/// The law of points that may part, as against those that are held.
+[[nodiscard]] FrictionLaw parting(const FrictionLaw& law);
 /// The tangential traction at an elastic trial.
 template <int Dim>
 [[nodiscard]] TangentialResponse<Dim> response(const FrictionLaw& law, const Vec<Dim - 1>& trial,
@@ -121,8 +135,8 @@ template <int Dim>
 /// sticking, and no iteration could end. eps_T is a means there, the answer does not depend on it.
 ///
 /// Formula    the least power of ten with factor eps_T >= 2 max |dL/ds| ,
-///            max |dL/ds| = (mu - mu_k) p / scale, by speed / (scale duration). It is constant but
-///            for jumps, and so it has no derivative
+///            max |dL/ds| as the law says (Coulomb::fall). It is constant but for jumps, and so it
+///            has no derivative
 /// Tested by  tests/unit/contact/test_friction_laws.cpp,
 /// tests/unit/pairing/test_multiplier_laws.cpp
 [[nodiscard]] double steadying(const FrictionLaw& law, double normal_traction, double duration);

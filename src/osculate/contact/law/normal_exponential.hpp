@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "osculate/contact/law/normal_response.hpp"
+#include "osculate/core/param.hpp"
 
 namespace osculate::contact {
 
@@ -18,11 +19,29 @@ namespace osculate::contact {
 /// Units      p_0: force per area (force with weight node); c_0: length
 /// Tested by  tests/unit/contact/test_normal_laws.cpp
 struct NormalExponential {
-  static constexpr std::string_view key = "exponential";
-  static constexpr bool augmentable = false;  ///< the law is physical, not a means
-  double pressure = 0;                        ///< p_0
-  double clearance = 0;                       ///< c_0
-  static constexpr double last = 7;           ///< x at an overclosure of 6 c_0
+  static constexpr std::string_view key = "exponential",
+                                    words = "exponential {pressure} within {clearance}",
+                                    doc =
+                                        "Pressure that grows exponentially: p = p0 / (e - 1) x "
+                                        "(exp(x) - 1), x = 1 - gap / clearance.";
+  double pressure = 0;               ///< p_0
+  double clearance = 0;              ///< c_0
+  static constexpr double last = 7;  ///< x at an overclosure of 6 c_0
+
+  static constexpr auto params() {
+    return std::array<core::Param<NormalExponential>, 2>{{{.key = "pressure",
+                                                           .unit = "force/length^2",
+                                                           .doc = "Pressure p0 at zero gap.",
+                                                           .slot = &NormalExponential::pressure,
+                                                           .range = {.lower = 0},
+                                                           .example = "12"},
+                                                          {.key = "clearance",
+                                                           .unit = "length",
+                                                           .doc = "Gap at which it begins.",
+                                                           .slot = &NormalExponential::clearance,
+                                                           .range = {.lower = 0},
+                                                           .example = "0.01"}}};
+  }
 
   [[nodiscard]] double reach() const { return clearance; }
   [[nodiscard]] NormalResponse response(double gap, bool = false) const {

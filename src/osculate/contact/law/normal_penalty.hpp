@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "osculate/contact/law/normal_response.hpp"
+#include "osculate/contact/law/penalty_param.hpp"
 
 namespace osculate::contact {
 
@@ -13,9 +14,15 @@ namespace osculate::contact {
 /// Units      eps_N: force per length (weight node) or force per length^3 (area weights)
 /// Tested by  tests/unit/contact/test_laws.cpp
 struct NormalPenalty {
-  static constexpr std::string_view key = "penalty";
+  static constexpr std::string_view key = "penalty", words = "penalty {}";
   static constexpr bool augmentable = true;  ///< a multiplier may replace the penalty's traction
+  static constexpr bool holds = true;        ///< it goes on where a held point is pulled
   double stiffness = 0;
+
+  static constexpr auto params() {
+    return std::array{penalty_param<NormalPenalty>(
+        "", "Stiffness against penetration, unless there is another law.", from_compression)};
+  }
 
   [[nodiscard]] double reach() const { return 0; }
   [[nodiscard]] NormalResponse response(double gap, bool held = false) const {

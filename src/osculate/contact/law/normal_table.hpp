@@ -3,9 +3,9 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
-#include <vector>
 
 #include "osculate/contact/law/normal_response.hpp"
+#include "osculate/core/param.hpp"
 
 namespace osculate::contact {
 
@@ -18,9 +18,23 @@ namespace osculate::contact {
 /// Units      h: length; p: force per area (force with weight node)
 /// Tested by  tests/unit/contact/test_normal_laws.cpp
 struct NormalTable {
-  static constexpr std::string_view key = "table";
-  static constexpr bool augmentable = false;
-  std::vector<std::array<double, 2>> points;  ///< overclosure, pressure
+  static constexpr std::string_view key = "table", words = "table of {} points";
+  static constexpr core::PointWords point_words{"One point [overclosure, pressure].",
+                                                "Length, or pressure.", "[0.01, 12]"};
+  core::Table points;  ///< overclosure, pressure
+
+  static constexpr auto params() {
+    return std::array<core::Param<NormalTable>, 1>{
+        {{.key = "",
+          .unit = "1",
+          .doc = "Pressure over overclosure, straight between the points and beyond the last one; "
+                 "the first pressure is 0.",
+          .slot = &NormalTable::points,
+          .example = "[[0, 0], [0.01, 12], [0.02, 40]]",
+          .points = &point_words}}};
+  }
+  /// What is required of the points above, one by one.
+  [[nodiscard]] std::optional<core::Fault> fault() const;
 
   [[nodiscard]] double reach() const { return -points.front()[0]; }
   [[nodiscard]] NormalResponse response(double gap, bool = false) const {

@@ -16,24 +16,34 @@ namespace osculate::contact {
 ///
 /// Tested by  tests/unit/contact/test_friction_laws.cpp
 struct Rough {
-  static constexpr std::string_view key = "rough";
-  double stiffness = 0;                                          ///< eps_T
+  static constexpr std::string_view key = "rough", words = "rough",
+                                    doc = "No sliding while in contact.";
+  static constexpr double steep = 1e4;  ///< 0.006 degrees short of a right angle
+  double stiffness = 0;                 ///< eps_T
   double coefficient = std::numeric_limits<double>::infinity();  ///< infinity: never slides
+
+  static constexpr auto params() { return std::array{shear_penalty_param<Rough>()}; }
+  [[nodiscard]] std::optional<core::Fault> fault() const {
+    if (coefficient > 0) return std::nullopt;
+    return core::Fault{core::out_of_range("coefficient", coefficient, {.lower = 0})};
+  }
+  /// The law of points that may part.
+  [[nodiscard]] Rough parting() const { return {stiffness, std::min(coefficient, steep)}; }
 
   [[nodiscard]] SlipLimit predicted_limit(double trial, double pressure,
                                           const Sliding& sliding) const {
     if (!std::isfinite(coefficient)) return {coefficient, 0, 0};
-    return parting().predicted_limit(trial, pressure, sliding);
+    return sliding_law().predicted_limit(trial, pressure, sliding);
   }
   template <int Dim>
   [[nodiscard]] TangentialResponse<Dim> response(const Vec<Dim - 1>& trial, double normal_traction,
                                                  const Sliding& sliding = {}) const {
     if (!std::isfinite(coefficient)) return stick_response<Dim>(trial);
-    return parting().template response<Dim>(trial, normal_traction, sliding);
+    return sliding_law().template response<Dim>(trial, normal_traction, sliding);
   }
 
  private:
-  [[nodiscard]] Coulomb parting() const { return {coefficient, stiffness}; }
+  [[nodiscard]] Coulomb sliding_law() const { return {coefficient, stiffness}; }
 };
 
 }  // namespace osculate::contact

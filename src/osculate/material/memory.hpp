@@ -1,0 +1,36 @@
+#pragma once
+#include <cstddef>
+#include <string_view>
+
+namespace osculate::material {
+
+/// One number that a law remembers at each material point.
+struct Remembered {
+  std::string_view name;  ///< of the field in the results
+  std::string_view doc;
+  bool negative = true;  ///< it may be
+};
+
+/// What a material point remembers, or the points of a cell one after the other. All zero: nothing
+/// has happened to it yet. A law reads what was committed and writes what would be next; whoever
+/// commits copies. So nothing has to be undone where an increment fails.
+///
+/// Tested by  tests/unit/material/test_j2_plasticity.cpp
+struct Memory {
+  const double* committed = nullptr;  ///< null: all zero
+  double* next = nullptr;             ///< null: not asked for
+  std::size_t size = 0;               ///< numbers a point
+
+  [[nodiscard]] Memory at(std::size_t point) const {
+    return {committed ? committed + point * size : nullptr, next ? next + point * size : nullptr,
+            size};
+  }
+};
+
+/// A law that remembers says what: a static constexpr array `memory`.
+template <class T>
+concept Remembers = requires {
+  T::memory.size();
+};
+
+}  // namespace osculate::material

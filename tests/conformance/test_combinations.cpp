@@ -1,0 +1,137 @@
+// Every sampling with every target, law, enforcement and form: what the table of combinations
+// refuses is refused with its sentence, everything else has the right tangent and converges with
+// forces in balance.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "expectations.hpp"
+#include "osculate/deck/parse.hpp"
+#include "osculate/pairing/combinations.hpp"
+
+namespace osculate {
+namespace {
+
+using pairing::Trait;
+
+/// One value of an axis, as it is written, and what the table calls it.
+struct Value {
+  std::string text;
+  std::vector<Trait> traits{};
+};
+
+const std::vector<Value> samplings{{"nodes"},
+                                   {"{gauss: 2}", {Trait::quadrature}},
+                                   {"{lobatto: 3}", {Trait::quadrature}},
+                                   {"mortar", {Trait::mortar}}};
+const std::vector<Value> targets{{"line", {Trait::analytic_master}},
+                                 {"mesh"},
+                                 {"mesh, smoothing: hermite", {Trait::smoothed_master}}};
+const std::vector<Value> normals{
+    {"penalty: 60"},
+    {"exponential: {pressure: 0.5, clearance: 0.1}", {Trait::gap_law}},
+    {"table: [[0, 0], [0.1, 6]]", {Trait::gap_law}},
+    {"penalty: 60, damping: {restitution: 0.7}", {Trait::damping}},
+    {"penalty: 60, separation: no_separation", {Trait::held}},
+    {"penalty: 60, separation: tied_normal, tolerance: 0.1", {Trait::held, Trait::held_from_start}},
+    {"penalty: 60, separation: tied, tolerance: 0.1",
+     {Trait::held, Trait::held_from_start, Trait::tied}}};
+const std::vector<Value> enforcements{
+    {"penalty"},
+    {"augmented_lagrange", {Trait::corrected}},
+    {"lagrange_multiplier", {Trait::corrected, Trait::multipliers}}};
+const std::vector<Value> forms{{"weight: reference_area"},
+                               {"weight: current_area"},
+                               {"weight: node", {Trait::nodal_weight}},
+                               {"residual: full", {Trait::full_residual}},
+                               {"tangent: covariant", {Trait::covariant_tangent}},
+                               {"history: chord", {Trait::printed_history}},
+                               {"initial: ramp", {Trait::shifted_overlap}},
+                               {"two_pass: true", {Trait::two_pass}}};
+const std::vector<std::string> frictions{"none", "{coulomb: {mu: 0.3, penalty: 40}}",
+                                         "{tresca: {limit: 0.2, penalty: 40}}"};
+
+struct Choice {
+  const Value &sampling, &target, &normal, &enforcement, &form;
+  std::string friction;
+
+  [[nodiscard]] bool on_line() const { return target.text == "line"; }
+  [[nodiscard]] pairing::Traits traits() const {
+    pairing::Traits all;
+    for (const Value* value : {&sampling, &target, &normal, &enforcement, &form})
+      for (const Trait t : value->traits) all.add(t);
+    return all;
+  }
+  [[nodiscard]] std::string model() const {
+    const std::string master = on_line() ? "target" : "base.top" + target.text.substr(4);
+    return fmt::format(
+        "osculate: 1\nmesh:\n  generate:\n"
+        "    block: {{box: {{x: [0, 2], y: [0, 1], elements: [3, 2], type: quad4}}}}\n{}"
+        "materials: {{m: {{neo_hooke: {{E: 100, nu: 0.3}}}}}}\nsections:\n"
+        "  - {{on: block, material: m, element: plane_strain}}\n{}"
+        "contact: [{{name: c, slave: block.bottom, master: {}, sampling: {}, normal: {{{}}}, "
+        "friction: {}, enforcement: {}, {}}}]\n"
+        "steps: [{{name: press, increments: 1, prescribe: [{{on: block.top, ux: 0.01, uy: "
+        "-0.03}}{}]}}]\n"
+        "output: {{history: [{{on: c, of: force_y}}, {{on: block.top, of: rfy}}]}}\n",
+        on_line() ? ""
+                  : "    base: {box: {x: [-1, 3], y: [-1, 0], elements: [5, 2], type: quad4}}\n",
+        on_line() ? "rigid: {target: {line: {point: [0, 0], normal: [0, 1]}}}\n"
+                  : "  - {on: base, material: m, element: plane_strain}\n",
+        master, sampling.text, normal.text, friction, enforcement.text, form.text,
+        on_line() ? "" : ", {on: base.bottom, ux: 0, uy: 0}");
+  }
+};
+
+/// The message it is refused with; empty: none.
+std::string refusal_of(const std::string& text, std::optional<deck::Built>& built) {
+  try {
+    const deck::Description description = deck::parse_model(text, "generated.yaml");
+    built = std::get<deck::Built>(deck::build_any(description, deck::load_mesh(description)));
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+template <class Visit>
+void for_each_choice(const Visit& visit) {
+  std::size_t i = 0;
+  for (const Value& sampling : samplings)
+    for (const Value& normal : normals)
+      for (const Value& enforcement : enforcements)
+        for (const Value& form : forms) {
+          const bool tied = normal.text.find("tied,") != std::string::npos;
+          visit(Choice{sampling, targets[i % targets.size()], normal, enforcement, form,
+                       tied ? "none" : frictions[i / 2 % frictions.size()]});
+          ++i;
+        }
+}
+
+TEST(Combinations, AreRefusedWithTheSentenceOfTheTableOrConform) {
+  int refused = 0, conforming = 0;
+  for_each_choice([&](const Choice& choice) {
+    const std::string text = choice.model();
+    SCOPED_TRACE(text);
+    const pairing::Refusal* const no = pairing::refusal(choice.traits());
+    std::optional<deck::Built> built;
+    const std::string said = refusal_of(text, built);
+    if (no) {
+      EXPECT_NE(said.find(no->why), std::string::npos) << "'" << said << "', not: " << no->why;
+      ++refused;
+      return;
+    }
+    ASSERT_EQ(said, "");
+    ++conforming;
+    testing::expect_tangent(api::check_tangent(built->model, 1));
+    if (choice.form.text != "tangent: covariant") testing::expect_increment<2>(*built);
+  });
+  EXPECT_GT(refused, 200);
+  EXPECT_GT(conforming, 200);
+}
+
+}  // namespace
+}  // namespace osculate

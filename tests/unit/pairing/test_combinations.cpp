@@ -1,0 +1,79 @@
+#include "osculate/pairing/combinations.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "osculate/core/error.hpp"
+#include "osculate/pairing/pair.hpp"
+#include "pair_sample.hpp"
+
+namespace osculate::pairing {
+namespace {
+
+std::string text_of_table() {
+  std::string text;
+  for (const Refusal& r : refusals())
+    text += fmt::format("| {} | {} | {} |\n", name_of(r.told_at), name_of(r.other), r.why);
+  return text;
+}
+
+TEST(Combinations, StandInTheDocumentationAsInTheTable) {
+  std::ifstream file(OSCULATE_SOURCE_DIR "/docs/combinations.md");
+  std::stringstream page;
+  page << file.rdbuf();
+  EXPECT_NE(page.str().find(text_of_table()), std::string::npos)
+      << "the table of docs/combinations.md should be:\n"
+      << text_of_table();
+}
+
+TEST(Combinations, AreRefusedInPairsAlone) {
+  std::set<std::pair<Trait, Trait>> seen;
+  for (const Refusal& r : refusals()) {
+    EXPECT_FALSE(r.why.empty());
+    EXPECT_NE(r.told_at, r.other);
+    EXPECT_TRUE(seen.insert(std::minmax(r.told_at, r.other)).second) << r.why;
+    Traits one;
+    one.add(r.told_at);
+    EXPECT_EQ(refusal(one), nullptr);
+    one.add(r.other);
+    ASSERT_NE(refusal(one), nullptr);
+    EXPECT_EQ(refusal(one)->why, r.why);
+    EXPECT_EQ(why_not(r.told_at, r.other), r.why);
+  }
+}
+
+TEST(Combinations, OfAPairAreReadFromItsDefinition) {
+  const auto refused = [](auto change) -> std::string {
+    testing::PairSample s = testing::make_sample({});
+    change(s.pair);
+    try {
+      prepare<2>(s.pair, s.x);
+    } catch (const core::GeometryError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refused([](PairDefinition<2>&) {}), "");
+  EXPECT_EQ(refused([](PairDefinition<2>& p) {
+              p.mortar = true;
+              p.weight = Weight::node;
+            }),
+            why_not(Trait::nodal_weight, Trait::mortar));
+  EXPECT_EQ(refused([](PairDefinition<2>& p) {
+              p.enforcement = contact::Enforcement::lagrange_multiplier;
+              p.residual = contact::ResidualForm::full;
+            }),
+            why_not(Trait::full_residual, Trait::multipliers));
+  EXPECT_EQ(refused([](PairDefinition<2>& p) {
+              p.enforcement = contact::Enforcement::augmented_lagrange;
+              p.separation = Separation::tied;
+            }),
+            why_not(Trait::corrected, Trait::tied));
+}
+
+}  // namespace
+}  // namespace osculate::pairing
