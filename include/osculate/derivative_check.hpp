@@ -26,7 +26,7 @@ template <int Dim>
 [[nodiscard]] DerivativeCheck check_derivative(const Evaluator<Dim>& evaluator,
                                                std::span<const double> coordinates,
                                                const History<Dim>& committed,
-                                               const ActiveSet<Dim>& assumed,
+                                               const ActiveSet<Dim>& active_set,
                                                const Multipliers<Dim>& multipliers, double step,
                                                const Increment& increment = {});
 

@@ -22,7 +22,7 @@ struct Increment {
   bool tangent = true;
   double duration = 0;  ///< for laws that ask for a speed; 0: not known
   double relief = 0;    ///< InitialOverlap::ramped: share of the overlaps that does not count yet
-  /// With a reach: also report the gaps of points far in front of the master, which give no force.
+  /// With a search distance: also report the gaps of points far in front of the master, which give no force.
   bool far = false;
 };
 
@@ -61,13 +61,13 @@ class Evaluator {
   /// Errors     Refused where the values belong to another contact, or the multipliers that an
   ///            enforcement needs are missing
   void evaluate(std::span<const double> coordinates, const History<Dim>& committed,
-                const ActiveSet<Dim>& assumed, Result<Dim>& out,
+                const ActiveSet<Dim>& active_set, Result<Dim>& out,
                 const Increment& increment = {}) const;
   void evaluate(std::span<const double> coordinates, const History<Dim>& committed,
-                const ActiveSet<Dim>& assumed, const Multipliers<Dim>& multipliers,
+                const ActiveSet<Dim>& active_set, const Multipliers<Dim>& multipliers,
                 Result<Dim>& out, const Increment& increment = {}) const;
 
-  /// Slave points, in the order of Result::points (crossings of edges come behind them).
+  /// Slave points, in the order of Result::points (edge-edge contacts come behind them).
   [[nodiscard]] std::vector<SlavePoint<Dim>> slave_points() const;
   /// Unknowns of one point with Enforcement::lagrange_multiplier: 1, with friction 1 + Dim.
   [[nodiscard]] Index unknowns_per_point() const;

@@ -103,7 +103,7 @@ struct Contact {
   bool reentrant_vertices = false;
   /// Farther from a slave point than this no place of the master is looked at. Contact with itself
   /// has 8 mean facet sizes unless it is given. Sampling at nodes only.
-  std::optional<double> reach;
+  std::optional<double> search_distance;
   double depth = std::numeric_limits<double>::infinity();  ///< deeper points are not in contact
   double part = 1;  ///< of the traction that this contact carries (two passes: 1/2 each)
 };

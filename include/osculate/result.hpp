@@ -15,7 +15,7 @@ struct ContactPoint {
   Status status = Status::open;
   Feature feature = Feature::none;  ///< of the master, at the foot point
   Index facet = -1;                 ///< of the master in the order given; -1: no place found
-  /// Of a crossing of two edges: number of the slave's, while `facet` is that of the master's.
+  /// Of an edge-edge contact: number of the slave's, while `facet` is that of the master's.
   Index edge = -1;
   std::array<double, static_cast<std::size_t>(Dim) - 1> xi{};  ///< on the facet
   double gap = 0;                ///< negative: penetration; infinite: no place of the master found
@@ -65,7 +65,8 @@ class Result {
   [[nodiscard]] std::span<const double> branch_force() const;
   /// d branch_force[row] / d coordinate[column]; empty unless it was asked for.
   [[nodiscard]] std::span<const Entry> tangent() const;
-  [[nodiscard]] std::span<const ContactPoint<Dim>> points() const;  ///< slave points, crossings
+  [[nodiscard]] std::span<const ContactPoint<Dim>> points()
+      const;                                             ///< slave points, edge-edge contacts
   [[nodiscard]] const Constraints& constraints() const;  ///< with unknown tractions, else empty
 
   /// For the next iteration.

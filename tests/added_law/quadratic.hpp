@@ -23,7 +23,7 @@ struct Quadratic {
                                                    .range = {.lower = 0},
                                                    .example = "400"}}};
   }
-  [[nodiscard]] double reach() const { return 0; }
+  [[nodiscard]] double onset_gap() const { return 0; }
   [[nodiscard]] NormalResponse response(double gap, bool = false) const {
     if (gap > 0) return {};
     return {true, -factor * gap * gap, -2 * factor * gap};

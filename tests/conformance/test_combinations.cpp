@@ -49,7 +49,7 @@ const std::vector<Value> forms{{"weight: reference_area"},
                                {"residual: full", {Trait::full_residual}},
                                {"tangent: covariant", {Trait::covariant_tangent}},
                                {"history: chord", {Trait::printed_history}},
-                               {"initial: ramp", {Trait::shifted_overlap}},
+                               {"initial: ramp", {Trait::relieved_overlap}},
                                {"two_pass: true", {Trait::two_pass}}};
 const std::vector<std::string> frictions{"none", "{coulomb: {mu: 0.3, penalty: 40}}",
                                          "{tresca: {limit: 0.2, penalty: 40}}"};

@@ -44,7 +44,7 @@ std::string model_text(const Rods& r) {
       "{on: low.left, ux: 0, uy: 0, uz: 0}, {on: low.right, ux: 0, uy: 0, uz: 0}, {on: up.left, "
       "ux: 0, uy: 0, uz: -0.05}, {on: up.right, ux: 0, uy: 0, uz: -0.05}, ";
   return fmt::format(R"(osculate: 1
-title: Two rods crossing on their edges
+title: Two rods edge_contact on their edges
 mesh: {{generate: {{low: {0}, up: {0}}}}}
 materials: {{s: {{linear_elastic: {{E: 1000, nu: 0.3}}}}}}
 sections: [{{on: low, material: s, element: solid}}, {{on: up, material: s, element: solid}}]

@@ -55,7 +55,7 @@ struct Run {
 };
 
 /// Time within a step at which w_2 is zero, by the cubic through values and rates at both ends.
-double crossing(double h, double a, double da, double b, double db) {
+double edge_contact(double h, double a, double da, double b, double db) {
   double s = a / (a - b);
   for (int i = 0; i < 20; ++i) {
     const double t = 1 - s;
@@ -91,8 +91,8 @@ Run run(RotationScheme scheme, int steps_a_period, int flips) {
     const double a = top.rates.velocity[1], b = next.rates.velocity[1];
     if (i > 0 && a * b < 0) {
       ++seen;
-      out.flip = i * scheme.step +
-                 crossing(scheme.step, a, top.rates.acceleration[1], b, next.rates.acceleration[1]);
+      out.flip = i * scheme.step + edge_contact(scheme.step, a, top.rates.acceleration[1], b,
+                                                next.rates.acceleration[1]);
     }
     top = next;
   }

@@ -144,7 +144,7 @@ double kink(const Draw& d, std::size_t k) {
 }
 
 /// Increments in which the corner leaves a facet of the strip for the next one.
-std::vector<std::size_t> crossings(const Draw& d) {
+std::vector<std::size_t> edge_contacts(const Draw& d) {
   std::vector<std::size_t> out;
   for (std::size_t k = 2; k + 3 < d.moments.size(); ++k)
     if (d.moments[k].on_corner > 0 && d.moments[k - 1].on_corner > 0 &&
@@ -155,7 +155,7 @@ std::vector<std::size_t> crossings(const Draw& d) {
 
 /// Largest kink beside the crossing of border `number`, over the force there.
 double jump(const Draw& d, std::size_t number) {
-  const std::vector<std::size_t> at = crossings(d);
+  const std::vector<std::size_t> at = edge_contacts(d);
   if (number >= at.size()) return 0;
   double largest = 0;
   for (std::size_t k = at[number] - 1; k <= at[number] + 2; ++k)

@@ -40,10 +40,10 @@ std::string pair_of(const BlockRun& run, const char* name, const char* master,
 /// Two masters: each ends with a short piece, whose continuation at its open end (5 % of a facet)
 /// is nothing.
 std::string masters(const BlockRun& run) {
-  if (run.valley == Valley::generalized)
+  if (run.reentrant == ReentrantVertex::generalized)
     return "  valley: {polyline: {points: [[-4, 4], [0, 0], [6, 0]]}}";
   constexpr double piece = 1e-6;
-  const double beyond = run.valley == Valley::overlapping ? 0.3 : 0;
+  const double beyond = run.reentrant == ReentrantVertex::overlapping ? 0.3 : 0;
   const Vec2 down(q, -q), back(-1, 0);
   return fmt::format(
       "  slope: {{polyline: {{points: [[-4, 4], {}, {}]}}}}\n"
@@ -54,7 +54,7 @@ std::string masters(const BlockRun& run) {
 
 std::string pairs(const BlockRun& run) {
   const std::string friction = friction_of(run);
-  if (run.valley == Valley::generalized) return pair_of(run, "c", "valley", friction);
+  if (run.reentrant == ReentrantVertex::generalized) return pair_of(run, "c", "valley", friction);
   return pair_of(run, "s", "slope", run.smooth_slope ? "none" : friction) +
          pair_of(run, "f", "floor", friction);
 }

@@ -11,15 +11,15 @@ namespace osculate::verification {
 ///   generalized  one master: faces and the valley line between them
 ///   faces        two masters that end at the valley line, and nothing between them
 ///   overlapping  two masters at the same time, each goes on beyond the valley line
-enum class Valley { generalized, faces, overlapping };
+enum class ReentrantVertex { generalized, faces, overlapping };
 
 /// A model of the rigid block with m = g = a = 1. Penalties are those of a node, the same for the
 /// normal and the shear.
 struct BlockRun {
   BlockState start;           ///< place of the lower front corner, its velocity, angle and rate
   double friction = 0.5;      ///< infinite: rough
-  bool smooth_slope = false;  ///< friction on the floor only; not with Valley::generalized
-  Valley valley = Valley::generalized;
+  bool smooth_slope = false;  ///< friction on the floor only; not with ReentrantVertex::generalized
+  ReentrantVertex reentrant = ReentrantVertex::generalized;
   double penalty = 1e4;
   double viscous = 0;  ///< damper beside the spring
   const char* enforcement = "penalty";

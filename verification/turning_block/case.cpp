@@ -48,9 +48,9 @@ std::string rigid_model(const TurningBlock& block, const Run& run) {
 mesh: {{generate: {{block: {{line: {{points: [{0}, {1}, {2}, {3}, {0}], elements: [1, 1, 1, 1]}}}}}}}}
 rigid:
   body: {{set: block, reference: {4}, mass: 1, inertia: {5:.17g}}}
-  valley: {{polyline: {{points: [[-4, 4], [0, 0], [6, 0]]}}}}
+  reentrant: {{polyline: {{points: [[-4, 4], [0, 0], [6, 0]]}}}}
 contact:
-  - {{name: c, master: valley, slave: body, sampling: nodes, weight: node, normal: {{penalty: {6:.17g}}},
+  - {{name: c, master: reentrant, slave: body, sampling: nodes, weight: node, normal: {{penalty: {6:.17g}}},
      friction: {{coulomb: {{mu: {7}, penalty: {6:.17g}}}}}, enforcement: {8}}}
 steps:
   - {{name: turn, increments: {9}, duration: {10:.17g}, gravity: [0, -1],
@@ -68,7 +68,7 @@ std::string elastic_model(const TurningBlock& block, const Run& run) {
   const double h = duration / run.increments, penalty = 25 / (h * h);
   const auto pair = [&](const char* face) {
     return fmt::format(R"(
-  - {{name: {0}, master: valley, slave: block.{0}, sampling: nodes, weight: node,
+  - {{name: {0}, master: reentrant, slave: block.{0}, sampling: nodes, weight: node,
      normal: {{penalty: {1:.17g}}}, friction: {{coulomb: {{mu: {2}, penalty: {1:.17g}}}}}, enforcement: {3}}})",
                        face, penalty, block.friction,
                        enforcements[static_cast<std::size_t>(run.means)]);
@@ -78,7 +78,7 @@ mesh: {{generate: {{block: {{box: {{x: [{0}, {1}], y: [0, 1], elements: [1, 1], 
                                   about: [0, 0]}}}}}}}}
 materials: {{hard: {{neo_hooke: {{E: 1.0e9, nu: 0.3, density: 1}}}}}}
 sections: [{{on: block, element: plane_strain, material: hard, kinematics: finite}}]
-rigid: {{valley: {{polyline: {{points: [[-4, 4], [0, 0], [6, 0]]}}}}}}
+rigid: {{reentrant: {{polyline: {{points: [[-4, 4], [0, 0], [6, 0]]}}}}}}
 contact: {2}{3}
 steps:
   - {{name: turn, increments: {4}, duration: {5:.17g}, gravity: [0, -1],

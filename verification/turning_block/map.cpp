@@ -24,7 +24,7 @@ BlockRun run_at(double slid, double friction, double after) {
   BlockRun run;
   run.friction = friction;
   run.smooth_slope = true;
-  run.valley = Valley::overlapping;
+  run.reentrant = ReentrantVertex::overlapping;
   run.start = at_rest(slid);
   TurningBlock block;
   block.gravity = 1;

@@ -73,17 +73,18 @@ void add_soft_spring(CaseResult& out) {
                    {"height over the floor / a", false, {}},
                    {},
                    {{"floor", 0}}}};
-  for (const Valley valley : {Valley::generalized, Valley::faces, Valley::overlapping}) {
-    run.valley = valley;
+  for (const ReentrantVertex reentrant :
+       {ReentrantVertex::generalized, ReentrantVertex::faces, ReentrantVertex::overlapping}) {
+    run.reentrant = reentrant;
     const BlockPath path = path_of(run);
     const Turning t = until_turned(path, impact);
     const Seen s = seen(path, t);
-    const char* const name = names[static_cast<std::size_t>(valley)];
+    const char* const name = names[static_cast<std::size_t>(reentrant)];
     const auto add = [&](const char* what, double value, double wanted, Relation relation) {
       out.rows.push_back({fmt::format("spring of 10 m g / a, {}: {}", name, what), value, wanted,
                           relation, 0, source});
     };
-    const bool holds = valley == Valley::generalized;
+    const bool holds = reentrant == ReentrantVertex::generalized;
     add("highest place of the corner / a", s.highest, holds ? 0 : 0.1,
         holds ? Relation::at_most : Relation::at_least);
     add("share of the time without contact", s.open, holds ? 0 : 0.1,
@@ -111,15 +112,16 @@ void add_plastic(CaseResult& out) {
   const BlockMotion motion = follow(block);
   const BlockState last = motion.stages.back().states.back();
   const double wanted = last.time - impact_time(block);
-  for (const Valley valley : {Valley::generalized, Valley::faces, Valley::overlapping}) {
-    run.valley = valley;
+  for (const ReentrantVertex reentrant :
+       {ReentrantVertex::generalized, ReentrantVertex::faces, ReentrantVertex::overlapping}) {
+    run.reentrant = reentrant;
     const BlockPath path = path_of(run);
     const Turning t = turning(path, impact);
     const Seen s = seen(path, t);
     const std::string name =
-        fmt::format("plastic impact, {}: ", names[static_cast<std::size_t>(valley)]);
+        fmt::format("plastic impact, {}: ", names[static_cast<std::size_t>(reentrant)]);
     const double landed = t.landed ? *t.landed - impact : 0;
-    if (valley == Valley::faces) {
+    if (reentrant == ReentrantVertex::faces) {
       out.rows.push_back({name + "deepest place of the corner / a", s.deepest, -0.01,
                           Relation::at_most, 0, source});
       inform(out, name + "time from impact to second contact", landed, wanted, source);

@@ -19,7 +19,7 @@ struct Means {
   const char* impact;
   double penalty;
   double viscous;
-  Valley valley;
+  ReentrantVertex reentrant;
   bool held;  ///< to 1 %, else information
 };
 
@@ -45,7 +45,7 @@ void add_run(const Means& means, double slid, double h, CaseResult& out) {
   run.impact = means.impact;
   run.penalty = means.penalty;
   run.viscous = means.viscous;
-  run.valley = means.valley;
+  run.reentrant = means.reentrant;
   run.increments = static_cast<int>(1.1 * last.time / h);
   run.duration = h * run.increments;
   const BlockPath path = path_of(run);
@@ -65,7 +65,7 @@ void add_run(const Means& means, double slid, double h, CaseResult& out) {
 
 void add_side_by_side(CaseResult& out) {
   constexpr double h = 2e-3, stiff = 1e4, unresolved = 100 / (h * h);
-  const Valley one = Valley::generalized, two = Valley::overlapping;
+  const ReentrantVertex one = ReentrantVertex::generalized, two = ReentrantVertex::overlapping;
   for (const Means& means :
        {Means{"penalty", "penalty", "average", stiff, 0, one, false},
         Means{"penalty, critical damper", "penalty", "average", stiff, 200, one, false},
@@ -79,14 +79,14 @@ void add_side_by_side(CaseResult& out) {
         Means{"multipliers, plastic, two masters", "lagrange_multiplier", "plastic", stiff, 0, two,
               true}})
     add_run(means, 0.6, h, out);
-  for (const Valley valley : {one, two})
-    add_run({valley == one ? "multipliers, plastic" : "multipliers, plastic, two masters",
-             "lagrange_multiplier", "plastic", stiff, 0, valley, true},
+  for (const ReentrantVertex reentrant : {one, two})
+    add_run({reentrant == one ? "multipliers, plastic" : "multipliers, plastic, two masters",
+             "lagrange_multiplier", "plastic", stiff, 0, reentrant, true},
             0.4, 2 * h, out);
-  for (const Valley valley : {one, two})  // does not always find the corner
-    add_run({valley == one ? "augmented Lagrangian, plastic"
-                           : "augmented Lagrangian, plastic, two masters",
-             augmented, "plastic", stiff, 0, valley, false},
+  for (const ReentrantVertex reentrant : {one, two})  // does not always find the corner
+    add_run({reentrant == one ? "augmented Lagrangian, plastic"
+                              : "augmented Lagrangian, plastic, two masters",
+             augmented, "plastic", stiff, 0, reentrant, false},
             0.4, 2 * h, out);
 }
 

@@ -64,7 +64,7 @@ std::string contact_text(const model::BasicModel<Dim>& m, nlohmann::json& pairs,
     if (edges.on)
       text += fmt::format("{:<13} {:<16} {} of the master, {} of the slave, {} crossings\n",
                           "Sharp edges", m.pairs[p].name, edges.master.size(), edges.slave.size(),
-                          g.crossings);
+                          g.edge_contacts);
     pairs.push_back({{"name", m.pairs[p].name},
                      {"points", m.pairs[p].definition.slave.points.size()},
                      {"facing", g.found},
@@ -76,7 +76,7 @@ std::string contact_text(const model::BasicModel<Dim>& m, nlohmann::json& pairs,
     if (edges.on)
       pairs.back()["edges"] = {{"master", edges.master.size()},
                                {"slave", edges.slave.size()},
-                               {"crossings", g.crossings}};
+                               {"crossings", g.edge_contacts}};
   }
   if (!apart.empty())
     text += fmt::format("{:<13} no node is near the other side: {}\n", "Initial gaps", apart);

@@ -75,18 +75,19 @@ std::vector<mesh::Block> slave_cells(const Facets& facets, const std::map<Index,
   return list;
 }
 
-/// Crossings of edges as single points.
-void add_crossings(const pairing::PairDefinition<3>& pair, const std::vector<Vec3>& reference,
-                   const std::vector<Vec3>& x, const std::vector<model::CrossingSite>& crossings,
-                   std::vector<Vec3>& points, std::vector<Vec3>& u,
-                   std::vector<mesh::Block>& cells) {
-  if (crossings.empty()) return;
+/// Edge-edge contacts as single points.
+void add_edge_contacts(const pairing::PairDefinition<3>& pair, const std::vector<Vec3>& reference,
+                       const std::vector<Vec3>& x,
+                       const std::vector<model::EdgeEdgeSite>& edge_contacts,
+                       std::vector<Vec3>& points, std::vector<Vec3>& u,
+                       std::vector<mesh::Block>& cells) {
+  if (edge_contacts.empty()) return;
   mesh::Block block{cell::CellType::point1, {}};
-  for (const model::CrossingSite& site : crossings) {
+  for (const model::EdgeEdgeSite& site : edge_contacts) {
     const pairing::SharpEdge& edge = pair.edges.slave[static_cast<std::size_t>(site.edge)];
     block.connectivity.push_back(static_cast<Index>(points.size()));
-    points.push_back(pairing::crossing_place(edge, site.xi, reference));
-    u.emplace_back(pairing::crossing_place(edge, site.xi, x) - points.back());
+    points.push_back(pairing::edge_position(edge, site.xi, reference));
+    u.emplace_back(pairing::edge_position(edge, site.xi, x) - points.back());
   }
   cells.push_back(std::move(block));
 }
@@ -295,8 +296,8 @@ void FieldFiles<Dim>::write_contact(const model::BasicSystem<Dim>& system,
   std::vector<mesh::Block> cells =
       slave_cells(m.pairs[pair].definition.slave.boundary.facets, local);
   if constexpr (Dim == 3)
-    add_crossings(m.pairs[pair].definition, m.reference, system.positions(state), c.crossings,
-                  points, u, cells);
+    add_edge_contacts(m.pairs[pair].definition, m.reference, system.positions(state),
+                      c.edge_contacts, points, u, cells);
   std::vector<io::Field> fields = contact_columns(c);
   io::Field numbers = numbers_field(m.mesh, c.nodes);  // none of crossings
   numbers.values.resize(points.size(), std::numeric_limits<double>::quiet_NaN());

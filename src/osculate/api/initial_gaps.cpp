@@ -15,7 +15,7 @@ GapFacts gap_facts(const pairing::PairState<Dim>& state, double rounding) {
   for (std::size_t i = 0; i < state.points.size(); ++i) {
     const contact::PointHistory<Dim>& point = state.points[i];
     if (point.edge >= 0) {
-      ++facts.crossings;
+      ++facts.edge_contacts;
       continue;
     }
     if (point.facet < 0) continue;

@@ -10,7 +10,7 @@ namespace osculate::api {
 /// Gaps of a pair's points before the first increment, as they are, whatever `initial` makes of
 /// them; those below `rounding` are none.
 struct GapFacts {
-  int found = 0, touching = 0, overlapping = 0, crossings = 0;
+  int found = 0, touching = 0, overlapping = 0, edge_contacts = 0;
   double smallest = 0, largest = 0;
   std::size_t deepest = 0;  ///< point with the smallest gap
 };

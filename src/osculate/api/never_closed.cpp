@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "osculate/pairing/place.hpp"
+#include "osculate/pairing/projected_point.hpp"
 #include "osculate/pairing/sampling.hpp"
 
 namespace osculate::api {
@@ -73,7 +73,7 @@ template <int Dim>
 Reason reason(const model::BasicContactPair<Dim>& pair, const Penetration& found,
               const model::BasicModel<Dim>& model, const std::vector<Vec<Dim>>& x) {
   const pairing::PairDefinition<Dim>& definition = pair.definition;
-  if (definition.scope.limited()) return {};
+  if (definition.filter.limited()) return {};
   const Sight now = sight_of<Dim>(definition, definition.slave, x);
   const Sight once = sight_of<Dim>(definition, definition.slave, model.reference);
   if (now.facing == 0 && now.alike > 0)

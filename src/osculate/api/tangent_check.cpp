@@ -104,9 +104,9 @@ struct Probe {
 
 /// Adds `push` to the displacement of the slave's edges that cross edges of the master nearby.
 void push_edges(const Probe<3>& probe, const pairing::PairDefinition<3>& pair,
-                std::span<const pairing::PointResult<3>> crossings, double depth,
+                std::span<const pairing::PointResult<3>> edge_contacts, double depth,
                 Eigen::VectorXd& d) {
-  for (const pairing::PointResult<3>& p : crossings) {
+  for (const pairing::PointResult<3>& p : edge_contacts) {
     if (!(std::abs(p.gap) < 0.1 * probe.size)) continue;
     const Vec3 push = -(p.gap + depth) * p.normal;
     const pairing::SharpEdge& edge = pair.edges.slave[static_cast<std::size_t>(p.history.edge)];

@@ -23,7 +23,7 @@ struct PointHistory {
   Vec<Dim - 1> traction = Vec<Dim - 1>::Zero();  ///< t
   bool slipping = false;                         ///< the friction limit was reached
   Vec<Dim - 1> slip = Vec<Dim - 1>::Zero();      ///< accumulated sliding distance (signed)
-  /// Of a crossing of two edges: number of the slave's, while `facet` is that of the master's, and
+  /// Of an edge-edge contact: number of the slave's, while `facet` is that of the master's, and
   /// whether the slave's edge is run backwards.
   Index edge = -1;
   bool flipped = false;

@@ -18,8 +18,8 @@ Kinematics<Dim>::Kinematics() {
   metric.setZero();
   metric_inverse.setZero();
   curvature.setZero();
-  shifted.setZero();
-  shifted_inverse.setZero();
+  offset_metric.setZero();
+  offset_metric_inverse.setZero();
 }
 
 template <int Dim>
@@ -52,7 +52,8 @@ template <int Dim>
 Form<Dim> convective_variation(const Kinematics<Dim>& k, std::size_t i) {
   Form<Dim> form;
   for (std::size_t j = 0; j < k.moving; ++j) {
-    const double g = k.shifted_inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    const double g =
+        k.offset_metric_inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
     form[0] += g * k.rho1[j];
     form[first_slot(j)] += -k.gap * g * k.normal;
   }
@@ -101,13 +102,13 @@ void complete(Kinematics<Dim>& k) {
       k.metric(static_cast<I>(i), static_cast<I>(j)) = k.rho1[i].dot(k.rho1[j]);
       k.curvature(static_cast<I>(i), static_cast<I>(j)) = k.second(i, j).dot(k.normal);
     }
-  k.shifted = k.metric - k.gap * k.curvature;
+  k.offset_metric = k.metric - k.gap * k.curvature;
   if (k.moving == directions<Dim>) {
     k.metric_inverse = k.metric.inverse();
-    k.shifted_inverse = k.shifted.inverse();
+    k.offset_metric_inverse = k.offset_metric.inverse();
   } else if (k.moving == 1) {
     k.metric_inverse(0, 0) = 1 / k.metric(0, 0);
-    k.shifted_inverse(0, 0) = 1 / k.shifted(0, 0);
+    k.offset_metric_inverse(0, 0) = 1 / k.offset_metric(0, 0);
   }
   for (std::size_t i = 0; i < k.moving; ++i) k.d_xi[i] = convective_variation(k, i);
   for (std::size_t i = 0; i < k.moving; ++i) k.d_rho1[i] = base_variation(k, i);
@@ -186,10 +187,10 @@ template <int Dim>
 double domain_margin(const Kinematics<Dim>& k) {
   if (k.moving == 0) return 1;
   if (Dim == 2 || k.moving == 1) {
-    const double along = k.metric_inverse(0, 0) * k.shifted(0, 0);
+    const double along = k.metric_inverse(0, 0) * k.offset_metric(0, 0);
     return along;
   }
-  if constexpr (Dim == 3) return projection::least_ratio(k.shifted, k.metric);
+  if constexpr (Dim == 3) return projection::least_ratio(k.offset_metric, k.metric);
   return 1;
 }
 

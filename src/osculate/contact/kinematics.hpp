@@ -105,9 +105,9 @@ struct Kinematics {
   std::array<Vec<Dim>, Dim == 2 ? 1 : 4> rho3;  ///< rho_,ijk
   SurfaceMatrix<Dim> metric, metric_inverse;    ///< a_ij, a^ij (zero beyond `moving`)
   SurfaceMatrix<Dim> curvature;                 ///< h_ij
-  SurfaceMatrix<Dim> shifted, shifted_inverse;  ///< g_ij, g^ij; positive where the foot is a
-                                                ///< strict minimum of the distance
-  std::array<Form<Dim>, directions<Dim>> d_xi;  ///< zero beyond `moving`
+  SurfaceMatrix<Dim> offset_metric, offset_metric_inverse;  ///< g_ij, g^ij; positive where the foot
+                                                            ///< is a strict minimum of the distance
+  std::array<Form<Dim>, directions<Dim>> d_xi;          ///< zero beyond `moving`
   std::array<VectorForm<Dim>, directions<Dim>> d_rho1;  ///< of the moving base vectors
   Form<Dim> d_gap;
   VectorForm<Dim> d_normal;

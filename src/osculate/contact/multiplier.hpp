@@ -27,8 +27,8 @@ struct Multiplier {
 /// The linear penalty `stiffness` around a multiplier.
 ///
 /// Formula    N = lambda + eps_N gap where that is not positive or the point is held, otherwise 0
-[[nodiscard]] inline NormalResponse shifted(double stiffness, double gap, double lambda,
-                                            bool held = false) {
+[[nodiscard]] inline NormalResponse augmented(double stiffness, double gap, double lambda,
+                                              bool held = false) {
   const double traction = lambda + stiffness * gap;
   if (traction > 0 && !held) return {};
   return {true, traction, stiffness};

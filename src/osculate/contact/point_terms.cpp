@@ -48,7 +48,7 @@ template <int Dim>
 Vec<Dim - 1> conjugate_traction(const Kinematics<Dim>& k, const Vec<Dim>& t) {
   Vec<Dim - 1> covariant = Vec<Dim - 1>::Zero();
   for (std::size_t i = 0; i < k.moving; ++i) covariant[static_cast<I>(i)] = t.dot(k.rho1[i]);
-  return k.shifted_inverse * covariant;
+  return k.offset_metric_inverse * covariant;
 }
 
 /// d(h_ij) = n . d(rho_,ij) + rho_,ij . d(n)
@@ -62,7 +62,7 @@ Form<Dim> curvature_variation(const Kinematics<Dim>& k, std::size_t i, std::size
 
 /// d(a_ij - gap h_ij)
 template <int Dim>
-Form<Dim> shifted_variation(const Kinematics<Dim>& k, std::size_t i, std::size_t j) {
+Form<Dim> offset_metric_variation(const Kinematics<Dim>& k, std::size_t i, std::size_t j) {
   Form<Dim> form = dot(k.rho1[i], k.d_rho1[j]) + dot(k.rho1[j], k.d_rho1[i]);
   form += -k.curvature(static_cast<I>(i), static_cast<I>(j)) * k.d_gap;
   form += -k.gap * curvature_variation(k, i, j);
@@ -78,11 +78,11 @@ Conjugate<Dim> conjugate(const Kinematics<Dim>& k, const Vec<Dim>& t) {
   for (std::size_t i = 0; i < k.moving; ++i) {
     covariant[i] = dot(t, k.d_rho1[i]);
     for (std::size_t l = 0; l < k.moving; ++l)
-      covariant[i] += -c.value[static_cast<I>(l)] * shifted_variation(k, i, l);
+      covariant[i] += -c.value[static_cast<I>(l)] * offset_metric_variation(k, i, l);
   }
   for (std::size_t j = 0; j < k.moving; ++j)
     for (std::size_t i = 0; i < k.moving; ++i) {
-      const double g = k.shifted_inverse(static_cast<I>(j), static_cast<I>(i));
+      const double g = k.offset_metric_inverse(static_cast<I>(j), static_cast<I>(i));
       c.variation[j] += g * covariant[i];
       c.of_traction[j] += g * k.rho1[i];
     }
@@ -114,7 +114,7 @@ void add_full_shear(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Shea
   for (std::size_t j = 0; j < k.moving; ++j) {
     const double traction = c.value[static_cast<I>(j)];
     const Form<Dim> d_traction = c.variation[j] + dot(c.of_traction[j], shear.variation);
-    const Vec<Dim> of_trial = shear.d_trial.transpose() * c.of_traction[j];
+    const Vec<Dim> of_trial = shear.d_predictor.transpose() * c.of_traction[j];
     add_row(terms, 0, k.rho1[j], d_traction);
     add_row(terms, 0, traction * k.d_rho1[j]);
     terms.s[0] += k.rho1[j] * of_trial.transpose();
@@ -139,9 +139,9 @@ template <int Dim>
 ShearRate<Dim> shear_rate(const Kinematics<Dim>& k, const Traction<Dim>& t) {
   ShearRate<Dim> s;
   s.value = k.frame * t.tangential.traction;
-  s.d_trial = k.frame * t.tangential.d_trial * k.frame.transpose();
+  s.d_predictor = k.frame * t.tangential.d_predictor * k.frame.transpose();
   s.d_push = k.frame * t.tangential.d_normal;
-  s.variation.add(s.d_trial, t.d_trial);
+  s.variation.add(s.d_predictor, t.d_predictor);
   s.variation.add(s.d_push, t.normal.d_traction * k.d_gap);
   s.variation.add(Vec<Dim>(-k.normal), dot(s.value, k.d_normal));
   return s;
@@ -159,13 +159,13 @@ PointTerms<Dim> consistent_terms(const Kinematics<Dim>& k, const Traction<Dim>& 
   add_row(terms, 0, t.normal.traction * k.d_normal);
 
   // 2. the shear force
-  if (t.tangential.status == Status::slip || t.tangential.d_trial(0, 0) != 0.0) {
+  if (t.tangential.status == Status::slip || t.tangential.d_predictor(0, 0) != 0.0) {
     const ShearRate<Dim> shear = shear_rate(k, t);
     if (form == ResidualForm::full) {
       add_full_shear(terms, k, shear);
     } else {
       add_row(terms, 0, shear.variation);
-      terms.s[0] = shear.d_trial;
+      terms.s[0] = shear.d_predictor;
     }
   }
 
@@ -250,7 +250,7 @@ template <int Dim>
 void add_covariant_slip(PointTerms<Dim>& terms, const Kinematics<Dim>& k, const Traction<Dim>& t,
                         const Covariant<Dim>& c, const TangentForm& parts) {
   const Vec<Dim> direction = k.frame * t.tangential.d_normal;
-  const Mat<Dim, Dim> turning = k.frame * t.tangential.d_trial * k.frame.transpose();
+  const Mat<Dim, Dim> turning = k.frame * t.tangential.d_predictor * k.frame.transpose();
   if (parts.main)
     terms.m[0][0] += t.normal.d_traction * direction * k.normal.transpose() + t.stiffness * turning;
   add_covariant_shear(terms, k, c, 2.0, parts);

@@ -24,7 +24,7 @@ template <int Dim>
 struct Traction {
   NormalResponse normal;
   TangentialResponse<Dim> tangential;  ///< components in `Kinematics::frame`
-  VectorForm<Dim> d_trial;             ///< of the trial traction as a vector in space
+  VectorForm<Dim> d_predictor;         ///< of the trial traction as a vector in space
   double stiffness = 0;                ///< eps_T (for the covariant tangent)
 };
 
@@ -59,12 +59,12 @@ template <int Dim>
                                                ResidualForm form);
 
 /// The shear traction as a vector in space and its derivatives,
-///   dt = d_trial d(t_trial) + d_push dN + variation  (the last with the point's own motion, dN and
-///   d(t_trial) by it included).
+///   dt = d_predictor d(t_trial) + d_push dN + variation  (the last with the point's own motion, dN
+///   and d(t_trial) by it included).
 template <int Dim>
 struct ShearRate {
   Vec<Dim> value;
-  Mat<Dim, Dim> d_trial;  ///< E D E^T
+  Mat<Dim, Dim> d_predictor;  ///< E D E^T
   Vec<Dim> d_push;
   VectorForm<Dim> variation;
 };

@@ -262,7 +262,7 @@ void check_pair(const BuildContext<Dim>& c, const Contact& contact,
     for (int k = 0; k < f.count; ++k) {
       const Index n = f.nodes[static_cast<std::size_t>(k)];
       if (!c.takes_part(n)) throw c.idle_node(contact.master, n);
-      if (!pair.scope.own && of_slave[static_cast<std::size_t>(n)])
+      if (!pair.filter.own && of_slave[static_cast<std::size_t>(n)])
         throw core::InputError(
             contact.slave.mark,
             fmt::format("master '{}' and slave '{}' share {}", contact.master.value,
@@ -273,7 +273,7 @@ void check_pair(const BuildContext<Dim>& c, const Contact& contact,
 void set_edges(BuildContext<2>&, const Contact&, pairing::PairDefinition<2>&) {}
 void set_edges(BuildContext<3>&, const Contact& contact, pairing::PairDefinition<3>& pair) {
   if (!contact.edges) return;
-  if (pair.scope.own) return;  // the edges of one facet cross at its corners
+  if (pair.filter.own) return;  // the edges of one facet cross at its corners
   if (pair.slave.boundary.facets.empty())
     throw core::InputError(contact.edges->mark,
                            fmt::format("the slave '{}' is a set of points: {}", contact.slave.value,
@@ -301,8 +301,9 @@ void warn_of_smooth(BuildContext<3>& c, const Contact& contact,
 template <int Dim>
 void set_own_surface(const BuildContext<Dim>& c, pairing::PairDefinition<Dim>& pair) {
   pair.slave = pairing::make_slave_side(pair.master);
-  pair.scope.own = true;
-  pair.scope.reach = reach_in_facets * mean_size<Dim>(pair.master, c.model().reference);
+  pair.filter.own = true;
+  pair.filter.distance =
+      search_distance_in_facets * mean_size<Dim>(pair.master, c.model().reference);
 }
 
 }  // namespace
@@ -310,10 +311,10 @@ void set_own_surface(const BuildContext<Dim>& c, pairing::PairDefinition<Dim>& p
 /// Corners of rigid curves are there on purpose, however blunt; those of meshes may be their way to
 /// be round.
 template <int Dim>
-void set_valley_angle(const BuildContext<Dim>& c, const Contact& contact,
-                      pairing::PairDefinition<Dim>& pair) {
+void set_reentrant_angle(const BuildContext<Dim>& c, const Contact& contact,
+                         pairing::PairDefinition<Dim>& pair) {
   const Rigid* const rigid = rigid_of(c, contact.master);
-  if (rigid && !rigid->meshed()) pair.valley_angle = 0;
+  if (rigid && !rigid->meshed()) pair.reentrant_angle = 0;
 }
 
 template <int Dim>
@@ -324,7 +325,7 @@ void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMa
   set_augmentation(c, contact, pair);
   set_edges(c, contact, pair);
   set_laws(c, contact, pair);
-  set_valley_angle(c, contact, pair);
+  set_reentrant_angle(c, contact, pair);
   pair.area = area_rule(c, pair);
   try {
     pairing::prepare(pair, c.model().reference);
@@ -395,7 +396,7 @@ void build_contact(BuildContext<Dim>& c) {
     else
       pair.slave = slave_of(c, contact);
     check_pair(c, contact, pair);
-    if (!pair.scope.own) face_slave(c, contact, contact.master, pair.slave.nodes, pair.master);
+    if (!pair.filter.own) face_slave(c, contact, contact.master, pair.slave.nodes, pair.master);
     if (!contact.two_pass) {
       smooth_master(c, contact, pair);
       add_sampled(c, contact, std::move(out));
@@ -404,7 +405,7 @@ void build_contact(BuildContext<Dim>& c) {
     model::BasicContactPair<Dim> second = reversed(contact, out);
     smooth_master(c, contact, pair);
     smooth_master(c, contact, second.definition);
-    pair.share = second.definition.share = 0.5;
+    pair.pass_factor = second.definition.share = 0.5;
     add_sampled(c, contact, std::move(out));
     add_sampled(c, contact, std::move(second));
   }

@@ -167,10 +167,11 @@ model::BasicContactPair<Dim> pair_of(const Body<Dim>& a, const Body<Dim>& b,
   const Body<Dim>& slave = who.first_is_master ? b : a;
   pair.master = master.surface;
   pair.slave = pairing::make_slave_side(slave.surface);
-  pair.scope.own = own;
-  pair.scope.thickness = slave.thickness;
+  pair.filter.own = own;
+  pair.filter.thickness = slave.thickness;
   const bool analytic = master.surface.facets.front().shape != nullptr;
-  if (!analytic) pair.scope.reach = reach_in_facets * std::max(master.size, slave.size);
+  if (!analytic)
+    pair.filter.distance = search_distance_in_facets * std::max(master.size, slave.size);
   out.note = own ? fmt::format("body {} with itself", a.label)
                  : fmt::format("slave {}, master {} ({})", slave.label, master.label, who.reason);
   return out;
@@ -200,8 +201,8 @@ void add_pairs(BuildContext<Dim>& c, const Contact& contact, const Body<Dim>& a,
   second.reversed = true;
   second.definition.master = first.definition.slave.boundary;
   second.definition.slave = pairing::make_slave_side(first.definition.master);
-  second.definition.scope.thickness = (first_is_master ? a : b).thickness;
-  first.definition.share = second.definition.share = 0.5;
+  second.definition.filter.thickness = (first_is_master ? a : b).thickness;
+  first.definition.share = second.definition.pass_factor = 0.5;
   add_pair(c, contact, contact.name.mark, std::move(first));
   add_pair(c, contact, contact.name.mark, std::move(second));
 }
@@ -213,11 +214,11 @@ void measure_bodies(const BuildContext<Dim>& c, std::vector<Body<Dim>>& bodies) 
   for (const Body<Dim>& body : bodies) largest = std::max(largest, body.size);
   for (Body<Dim>& body : bodies) {
     if (body.rigid) continue;
-    pairing::Scope<Dim> scope;
-    scope.reach = reach_in_facets * largest;
-    pairing::prepare<Dim>(scope, body.surface, pairing::make_slave_side(body.surface),
+    pairing::CandidateFilter<Dim> filter;
+    filter.distance = search_distance_in_facets * largest;
+    pairing::prepare<Dim>(filter, body.surface, pairing::make_slave_side(body.surface),
                           c.model().reference);
-    body.thickness = std::move(scope.thickness);
+    body.thickness = std::move(filter.thickness);
   }
 }
 

@@ -69,7 +69,7 @@ template <int Dim>
   return pairing::mean_facet_size(boundary, reference);
 }
 
-using pairing::reach_in_facets;
+using pairing::search_distance_in_facets;
 
 /// The pairs that `contact: {all: ...}` stands for.
 template <int Dim>

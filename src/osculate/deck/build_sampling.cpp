@@ -64,7 +64,7 @@ Sampling chosen_sampling(const BuildContext<Dim>& c, const Contact& contact,
   const auto without_facet = [](const std::vector<Index>& of) { return of.empty(); };
   const bool useful =
       std::ranges::any_of(pair.master.facets, has_mesh) || std::ranges::any_of(facets, scatter);
-  if (!useful || needs_nodes(c, contact) || pair.scope.limited() ||
+  if (!useful || needs_nodes(c, contact) || pair.filter.limited() ||
       std::ranges::any_of(pair.slave.facets_of, without_facet))
     return {SamplingRule::nodes};
   return {SamplingRule::gauss, std::ranges::any_of(facets, curved) ? 3 : 2};

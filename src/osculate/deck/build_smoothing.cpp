@@ -24,7 +24,7 @@ std::string wrong_facet(const pairing::SurfaceFacet& facet) {
 template <int Dim>
 void check_smoothing(const Contact& contact, const pairing::PairDefinition<Dim>& pair) {
   const core::SourceMark& mark = contact.smoothing.mark;
-  if (pair.scope.own)
+  if (pair.filter.own)
     throw core::InputError(mark, "a surface that touches itself cannot be smoothed");
   if (contact.edges) throw core::InputError(mark, "`edges` and `smoothing` exclude each other");
   if (Dim == 3 && contact.smoothing.value.kind == SmoothingWord::nurbs)

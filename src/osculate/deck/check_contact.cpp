@@ -36,7 +36,7 @@ std::vector<Asked> asked_of(const Contact& c) {
       {Trait::held_from_start, tied || separation == SeparationWord::tied_normal,
        &n.separation.mark},
       {Trait::tied, tied, &n.separation.mark},
-      {Trait::shifted_overlap,
+      {Trait::relieved_overlap,
        c.initial.value == InitialWord::ramp || c.initial.value == InitialWord::keep,
        &c.initial.mark},
       {Trait::corrected, enforcement != EnforcementWord::penalty, &c.enforcement.mark},

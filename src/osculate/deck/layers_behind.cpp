@@ -110,7 +110,7 @@ struct FacetsOfNodes {
   }
   /// Those that share the place: they have all nodes that have a part in it.
   [[nodiscard]] std::vector<Index> at_place(const pairing::Boundary<Dim>& side,
-                                            const pairing::Placed<Dim>& placed) const {
+                                            const pairing::ProjectedPoint<Dim>& placed) const {
     constexpr double nothing = 1e-6;
     const auto& facet = side.facets[at(placed.projection.facet)];
     std::vector<Index> shared;
@@ -130,13 +130,13 @@ struct FacetsOfNodes {
 
 /// Bodies of `contact: all` that are too far apart to look at each other.
 template <int Dim>
-bool out_of_reach(const pairing::PairDefinition<Dim>& pair, const std::vector<Vec<Dim>>& reference,
-                  const std::vector<search::Box<Dim>>& boxes) {
-  if (!pair.scope.limited()) return false;
+bool beyond_search(const pairing::PairDefinition<Dim>& pair, const std::vector<Vec<Dim>>& reference,
+                   const std::vector<search::Box<Dim>>& boxes) {
+  if (!pair.filter.limited()) return false;
   search::Box<Dim> master, slave;
   for (const search::Box<Dim>& box : boxes) master.extend(box);
   for (const Index node : pair.slave.nodes) slave.extend(reference[at(node)]);
-  return master.squared_distance(slave) > pair.scope.reach * pair.scope.reach;
+  return master.squared_distance(slave) > pair.filter.distance * pair.filter.distance;
 }
 
 }  // namespace
@@ -199,10 +199,10 @@ std::vector<Layer> layers_facing(const pairing::PairDefinition<Dim>& pair,
                                  const std::vector<LayerSum>& of_facets, const Layer& otherwise) {
   const std::span<const Vec<Dim>> x(reference);
   std::vector<Layer> layers(pair.slave.points.size(), otherwise);
-  if (pair.scope.own || !(otherwise.area > 0)) return layers;
+  if (pair.filter.own || !(otherwise.area > 0)) return layers;
   std::vector<search::Box<Dim>> boxes;
   facet_boxes(pair.master, x, boxes);
-  if (out_of_reach(pair, reference, boxes)) return layers;
+  if (beyond_search(pair, reference, boxes)) return layers;
   const pairing::Tree<Dim> tree(boxes);
   const FacetsOfNodes<Dim> facets(pair.master);
   std::vector<Vec<Dim>> normals;
@@ -211,8 +211,8 @@ std::vector<Layer> layers_facing(const pairing::PairDefinition<Dim>& pair,
     pairing::ProjectionQuery<Dim> query;
     query.point = pairing::position<Dim>(pair.slave.points[i], x);
     if (normals[i].squaredNorm() > 0) query.slave_normal = normals[i];
-    bool near = !pair.scope.limited();
-    if (!near) tree.for_each_within(query.point, pair.scope.reach, [&](Index) { near = true; });
+    bool near = !pair.filter.limited();
+    if (!near) tree.for_each_within(query.point, pair.filter.distance, [&](Index) { near = true; });
     if (!near) continue;
     const pairing::Projection<Dim> p = closest(pair.master, tree, x, query);
     if (p.feature == projection::Feature::none) continue;

@@ -65,10 +65,11 @@ void set_sides(const Contact<Dim>& c, const std::vector<Vec<Dim>>& x,
     check_disjoint(pair);
   } else {
     pair.slave = pairing::make_slave_side(pair.master);
-    pair.scope.own = true;
-    pair.scope.reach = pairing::reach_in_facets * pairing::mean_facet_size(pair.master, x);
+    pair.filter.own = true;
+    pair.filter.distance =
+        pairing::search_distance_in_facets * pairing::mean_facet_size(pair.master, x);
   }
-  if (c.reach) pair.scope.reach = *c.reach;
+  if (c.search_distance) pair.filter.distance = *c.search_distance;
 }
 
 template <int Dim>
@@ -91,10 +92,10 @@ void set_forms(const Contact<Dim>& c, pairing::PairDefinition<Dim>& pair) {
   pair.tangent = {c.tangent.consistent, c.tangent.main, c.tangent.rotational, c.tangent.curvature};
   pair.history = same<pairing::HistoryRule>(c.history);
   pair.area = {c.area.thickness, c.area.axisymmetric};
-  pair.share = c.part;
+  pair.pass_factor = c.part;
   pair.depth = c.depth;
   pair.overlap = same<pairing::InitialOverlap>(c.overlap);
-  pair.valley_angle = c.reentrant_vertices ? 0 : std::numeric_limits<double>::infinity();
+  pair.reentrant_angle = c.reentrant_vertices ? 0 : std::numeric_limits<double>::infinity();
   pair.mortar = c.sampling.rule == Sampling::Rule::mortar;
   if (c.edge_angle) {
     pair.edges.on = true;

@@ -23,7 +23,7 @@ template <int Dim>
 struct Probe {
   const Evaluator<Dim>& evaluator;
   const History<Dim>& committed;
-  const ActiveSet<Dim>& assumed;
+  const ActiveSet<Dim>& active_set;
   const Multipliers<Dim>& multipliers;
   Increment increment;
   bool unknown;
@@ -33,7 +33,7 @@ struct Probe {
     now.tangent = tangent;
     Multipliers<Dim> m = multipliers;
     if (unknown) m.points = evaluator.multipliers_of(place.unknowns).points;
-    evaluator.evaluate(place.x, committed, assumed, m, out, now);
+    evaluator.evaluate(place.x, committed, active_set, m, out, now);
   }
 };
 
@@ -82,12 +82,13 @@ double norm(const std::vector<double>& v) {
 template <int Dim>
 DerivativeCheck check_derivative(const Evaluator<Dim>& evaluator,
                                  std::span<const double> coordinates, const History<Dim>& committed,
-                                 const ActiveSet<Dim>& assumed, const Multipliers<Dim>& multipliers,
-                                 double step, const Increment& increment) {
+                                 const ActiveSet<Dim>& active_set,
+                                 const Multipliers<Dim>& multipliers, double step,
+                                 const Increment& increment) {
   if (!(step > 0) || !std::isfinite(step)) throw Refused("the step of a derivative must be > 0");
   constexpr double rounding = 1e-11;
   Result<Dim> here, there;
-  Probe<Dim> probe{evaluator, committed, assumed, multipliers, increment, false};
+  Probe<Dim> probe{evaluator, committed, active_set, multipliers, increment, false};
   Place base{{coordinates.begin(), coordinates.end()}, {}};
   probe.at(base, true, here);
   if (!here.constraints().value.empty()) {

@@ -24,11 +24,11 @@ const embed::HistoryState<Dim>& state_of(const Definition<Dim>& d, const History
 
 /// Nothing assumed, or what belongs to this contact.
 template <int Dim>
-pairing::Assumed<Dim> assumed_of(const Definition<Dim>& d, const ActiveSet<Dim>& active) {
+pairing::ActiveSet<Dim> active_set_of(const Definition<Dim>& d, const ActiveSet<Dim>& active) {
   const auto& value = Access::of(active);
   if (!value) return {};
   if (value->key != d.key) throw Refused("active set: it belongs to another contact");
-  return value->assumed;
+  return value->active_set;
 }
 
 template <int Dim>
@@ -91,8 +91,8 @@ ActiveSet<Dim> Evaluator<Dim>::predicted(const History<Dim>& committed,
   ActiveSet<Dim> out;
   Access::of(out) = std::make_shared<const embed::ActiveState<Dim>>(embed::ActiveState<Dim>{
       definition_->key,
-      pairing::committed_branches<Dim>(definition_->pair, state_of(*definition_, committed).state,
-                                       x, static_cast<Prediction>(guess))});
+      pairing::committed_active_set<Dim>(definition_->pair, state_of(*definition_, committed).state,
+                                         x, static_cast<Prediction>(guess))});
   return out;
 }
 
@@ -106,22 +106,22 @@ Multipliers<Dim> Evaluator<Dim>::initial_multipliers() const {
 
 template <int Dim>
 void Evaluator<Dim>::evaluate(std::span<const double> coordinates, const History<Dim>& committed,
-                              const ActiveSet<Dim>& assumed, Result<Dim>& out,
+                              const ActiveSet<Dim>& active_set, Result<Dim>& out,
                               const Increment& increment) const {
   if (definition_->pair.enforcement != contact::Enforcement::penalty)
     throw Refused("this enforcement is around multipliers: none are given");
-  evaluate(coordinates, committed, assumed, Multipliers<Dim>{}, out, increment);
+  evaluate(coordinates, committed, active_set, Multipliers<Dim>{}, out, increment);
 }
 
 template <int Dim>
 void Evaluator<Dim>::evaluate(std::span<const double> coordinates, const History<Dim>& committed,
-                              const ActiveSet<Dim>& assumed, const Multipliers<Dim>& multipliers,
+                              const ActiveSet<Dim>& active_set, const Multipliers<Dim>& multipliers,
                               Result<Dim>& out, const Increment& increment) const {
   const Definition<Dim>& d = *definition_;
   check(d, multipliers);
   check(d, increment);
   state_of(d, committed);
-  pairing::Assumed<Dim> from = assumed_of(d, assumed);
+  pairing::ActiveSet<Dim> from = active_set_of(d, active_set);
   from.duration = increment.duration;
   from.relief = relief_of(d, increment);
   from.near = !from.predict && !increment.far;
@@ -129,10 +129,10 @@ void Evaluator<Dim>::evaluate(std::span<const double> coordinates, const History
   embed::read_points<Dim>(coordinates, d.nodes, e.x);
   e.of = definition_;
   e.committed = Access::of(committed);
-  e.assumed = std::move(from);
+  e.active_set = std::move(from);
   e.used = embed::to_pair<Dim>(multipliers);
-  pairing::evaluate<Dim>(d.pair, e.x, e.committed->state, increment.tangent, e.contact, e.assumed,
-                         &e.used);
+  pairing::evaluate<Dim>(d.pair, e.x, e.committed->state, increment.tangent, e.contact,
+                         e.active_set, &e.used);
   embed::collect(increment.tangent, e);
 }
 

@@ -54,7 +54,7 @@ ActiveSet<Dim> Result<Dim>::next_active_set() const {
   const embed::Evaluation<Dim>& e = made(*value_);
   ActiveSet<Dim> out;
   Access::of(out) = std::make_shared<const embed::ActiveState<Dim>>(
-      embed::ActiveState<Dim>{e.of->key, pairing::evaluated_branches(e.contact, e.assumed)});
+      embed::ActiveState<Dim>{e.of->key, pairing::evaluated_active_set(e.contact, e.active_set)});
   return out;
 }
 
@@ -75,7 +75,7 @@ template <int Dim>
 History<Dim> Result<Dim>::committed() const {
   const embed::Evaluation<Dim>& e = made(*value_);
   embed::HistoryState<Dim> next{e.of->key, {}};
-  if (e.contact.near && e.of->pair.scope.limited()) {
+  if (e.contact.near && e.of->pair.filter.limited()) {
     pairing::PairEvaluation<Dim> whole = e.contact;
     pairing::look_far<Dim>(e.of->pair, e.x, e.committed->state, whole);
     next.state = pairing::commit(whole);

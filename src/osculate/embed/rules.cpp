@@ -81,7 +81,7 @@ pairing::Traits traits_of(const Contact<Dim>& c, const Choices& is) {
   t.add(Trait::held, is.held);
   t.add(Trait::held_from_start, is.tied || c.separation == Separation::tied_normal);
   t.add(Trait::tied, is.tied);
-  t.add(Trait::shifted_overlap, c.overlap != InitialOverlap::acts);
+  t.add(Trait::relieved_overlap, c.overlap != InitialOverlap::acts);
   t.add(Trait::corrected, is.corrected);
   t.add(Trait::multipliers, is.unknown);
   t.add(Trait::nodal_weight, c.weight == Weight::node);
@@ -96,7 +96,8 @@ std::string wrong_sampling(const Contact<Dim>& c, const Choices& is) {
   if (const pairing::Refusal* const no = pairing::refusal(traits_of(c, is)))
     return std::string(no->why);
   return first_broken({
-      {c.reach && (is.mortar || is.quadrature), "a reach goes with sampling at nodes only"},
+      {c.search_distance && (is.mortar || is.quadrature),
+       "a search distance goes with sampling at nodes only"},
       {is.edges && Dim == 2, "edges touch each other in space only"},
       {is.edges && is.smooth, "edges and smoothing exclude each other"},
       {is.smooth && is.own, "a surface that touches itself cannot be smoothed"},
@@ -130,14 +131,14 @@ std::string wrong_numbers(const Contact<Dim>& c, const Choices& is) {
     double value, least;
     bool strict, finite = true;
   };
-  const double edge = c.edge_angle.value_or(1), reach = c.reach.value_or(1);
+  const double edge = c.edge_angle.value_or(1), search_distance = c.search_distance.value_or(1);
   const std::initializer_list<Number> numbers{
       {"offset", c.offset, 0, false},
       {"tolerance", c.tolerance, 0, false},
       {"area.thickness", c.area.thickness, 0, true},
       {"smoothing.sharp_angle", c.smoothing.sharp_angle, 0, true},
       {"edge_angle", edge, 0, true},
-      {"reach", reach, 0, true, false},
+      {"search_distance", search_distance, 0, true, false},
       {"depth", c.depth, 0, true, false},
       {"part", c.part, 0, true},
   };

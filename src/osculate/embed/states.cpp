@@ -33,19 +33,19 @@ std::vector<std::byte> History<Dim>::bytes() const {
 
 template <int Dim>
 std::size_t ActiveSet<Dim>::size() const {
-  return value_ ? value_->assumed.branch.size() : 0;
+  return value_ ? value_->active_set.branch.size() : 0;
 }
 
 template <int Dim>
 bool ActiveSet<Dim>::predicts() const {
-  return value_ && value_->assumed.predict;
+  return value_ && value_->active_set.predict;
 }
 
 template <int Dim>
 std::vector<std::byte> ActiveSet<Dim>::bytes() const {
   if (!value_) throw Refused("active set: there is none");
   return embed::packed(Kind::active_set, Dim, value_->key,
-                       saved(value_->assumed.branch, value_->assumed.predict));
+                       saved(value_->active_set.branch, value_->active_set.predict));
 }
 
 template <int Dim>
@@ -60,8 +60,8 @@ History<Dim> Evaluator<Dim>::history(std::span<const std::byte> bytes) const {
 template <int Dim>
 ActiveSet<Dim> Evaluator<Dim>::active_set(std::span<const std::byte> bytes) const {
   embed::ActiveState<Dim> state{definition_->key, {}};
-  embed::load(embed::unpacked(Kind::active_set, Dim, state.key, bytes), state.assumed.branch,
-              state.assumed.predict);
+  embed::load(embed::unpacked(Kind::active_set, Dim, state.key, bytes), state.active_set.branch,
+              state.active_set.predict);
   ActiveSet<Dim> out;
   Access::of(out) = std::make_shared<const embed::ActiveState<Dim>>(std::move(state));
   return out;

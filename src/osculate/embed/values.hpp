@@ -29,7 +29,7 @@ struct HistoryState {
 template <int Dim>
 struct ActiveState {
   std::uint64_t key = 0;
-  pairing::Assumed<Dim> assumed;
+  pairing::ActiveSet<Dim> active_set;
 };
 
 /// What a Result is: an evaluation, what it was made from, and its arrays.
@@ -37,7 +37,7 @@ template <int Dim>
 struct Evaluation {
   std::shared_ptr<const Definition<Dim>> of;
   std::shared_ptr<const HistoryState<Dim>> committed;
-  pairing::Assumed<Dim> assumed;
+  pairing::ActiveSet<Dim> active_set;
   pairing::PairMultipliers<Dim> used;
   std::vector<Vec<Dim>> x;
   pairing::PairEvaluation<Dim> contact;

@@ -10,7 +10,7 @@
 
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/surface.hpp"
-#include "osculate/pairing/place.hpp"
+#include "osculate/pairing/projected_point.hpp"
 
 namespace osculate::model {
 namespace {
@@ -62,7 +62,7 @@ class Over {
     const pairing::Projection<Dim> p = closest(pair_.master, *tree_, x, query);
     if (p.feature != projection::Feature::face || p.beyond_end)
       return std::numeric_limits<double>::infinity();
-    return place(pair_.master, p, query.point, x).kinematics.gap - pair_.offset;
+    return projected_point(pair_.master, p, query.point, x).kinematics.gap - pair_.offset;
   }
 
  private:
@@ -75,7 +75,7 @@ template <int Dim>
 bool judged(const BasicContactPair<Dim>& pair) {
   using pairing::Separation;
   const pairing::PairDefinition<Dim>& d = pair.definition;
-  return !d.scope.limited() && d.separation != Separation::tied &&
+  return !d.filter.limited() && d.separation != Separation::tied &&
          d.separation != Separation::tied_normal && pair.height > 0 && !d.master.facets.empty();
 }
 

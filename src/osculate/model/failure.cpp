@@ -22,7 +22,7 @@ const char* course_name(const PointCourse& course) {
     case PointState::slipping:
       return course.back ? "slip back" : "slip";
     case PointState::closed:
-      return course.in_valley ? "closed in a valley" : "closed";
+      return course.in_reentrant_vertex ? "closed in a re-entrant vertex" : "closed";
   }
   return "";
 }
@@ -194,7 +194,7 @@ std::string flips_text(const BasicModel<Dim>& model, const std::vector<FlippingP
   for (std::size_t i = 0; i < std::min(most, flips.size()); ++i)
     text += fmt::format("{}contact '{}' at {}: {}", i ? "; " : "", flips[i].pair,
                         flips[i].node >= 0 ? mesh::describe_node(model.mesh, flips[i].node)
-                                           : std::string("a crossing of edges"),
+                                           : std::string("an edge-edge contact"),
                         flips[i].states);
   if (flips.size() > most) text += fmt::format("; and {} more", flips.size() - most);
   return text;

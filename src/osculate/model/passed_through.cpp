@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "osculate/mesh/boundary.hpp"
-#include "osculate/pairing/place.hpp"
+#include "osculate/pairing/projected_point.hpp"
 #include "osculate/pairing/sampling.hpp"
 
 namespace osculate::model {
@@ -27,7 +27,7 @@ std::string passed_through(const BasicModel<Dim>& model, const BasicContactPair<
                            const std::vector<Vec<Dim>>& positions) {
   const pairing::PairDefinition<Dim>& definition = pair.definition;
   using pairing::Separation;
-  if (definition.scope.limited() || definition.separation == Separation::tied ||
+  if (definition.filter.limited() || definition.separation == Separation::tied ||
       definition.separation == Separation::tied_normal)
     return {};
   std::vector<std::size_t> suspects;
@@ -54,7 +54,7 @@ std::string passed_through(const BasicModel<Dim>& model, const BasicContactPair<
     if (normals[i].squaredNorm() > 0) query.slave_normal = normals[i];
     const pairing::Projection<Dim> p = closest(definition.master, tree, x, query);
     if (p.feature != projection::Feature::face || p.beyond_end) continue;
-    const double gap = place(definition.master, p, query.point, x).kinematics.gap;
+    const double gap = projected_point(definition.master, p, query.point, x).kinematics.gap;
     if (!(gap - definition.offset < deepest)) continue;
     deepest = gap - definition.offset;
     node = definition.slave.points[i].nearest_node();

@@ -93,7 +93,7 @@ double rigid_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
 }
 
 /// First of a block's nodes that is the slave's, and the one after the last: the first ones, at a
-/// crossing those behind the master's edge.
+/// edge-edge contact those behind the master's edge.
 template <int Dim>
 std::array<int, 2> slave_range(const pairing::PairDefinition<Dim>& pair,
                                const pairing::PointResult<Dim>& point,
@@ -306,7 +306,7 @@ BasicContactFields<Dim> contact_fields(const BasicSystem<Dim>& system, const Bas
   for (const pairing::PointResult<Dim>& p : points) {
     const contact::PointHistory<Dim>& h = p.history;
     if constexpr (Dim == 3)
-      if (h.edge >= 0) fields.crossings.push_back({h.edge, h.flipped ? -h.xi[1] : h.xi[1]});
+      if (h.edge >= 0) fields.edge_contacts.push_back({h.edge, h.flipped ? -h.xi[1] : h.xi[1]});
     add_shown(shown(definition, p), fields);
   }
   return fields;

@@ -73,8 +73,8 @@ template <int Dim>
 [[nodiscard]] double history_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
                                    const BasicState<Dim>& state, const HistoryRequest& request);
 
-/// Place of a crossing of two edges on the slave's.
-struct CrossingSite {
+/// Place of an edge-edge contact on the slave's.
+struct EdgeEdgeSite {
   Index edge = -1;  ///< number in pairing::EdgeContact::slave
   double xi = 0;
 };
@@ -92,7 +92,7 @@ struct BasicContactFields {
   std::vector<double> cstatus, cfeature;
   std::vector<double> cshear2, cslip2;  ///< 3D only; `cshear` and `cslip` are along direction 1
   std::vector<Vec<Dim>> normal;
-  std::vector<CrossingSite> crossings;  ///< their values follow those of the nodes
+  std::vector<EdgeEdgeSite> edge_contacts;  ///< their values follow those of the nodes
 };
 template <int Dim>
 [[nodiscard]] BasicContactFields<Dim> contact_fields(const BasicSystem<Dim>& system,

@@ -63,7 +63,8 @@ struct BasicState {
   Eigen::VectorXd u;  ///< displacements of all nodes, x0 y0 (z0) x1 y1 ...
   std::vector<body::BasicRigidMotion<Dim>> rigid;  ///< one per rigid body
   std::vector<pairing::PairState<Dim>> pairs;      ///< history of the last converged increment
-  std::vector<pairing::Assumed<Dim>> assumed;      ///< branches of the last iteration (trials only)
+  std::vector<pairing::ActiveSet<Dim>>
+      active_set;  ///< branches of the last iteration (trials only)
   std::vector<pairing::PairMultipliers<Dim>> multipliers;  ///< of the pairs; empty by penalty
   double fraction = 0;                                     ///< of the running step
   Rates rates{};                                           ///< empty in steps without inertia

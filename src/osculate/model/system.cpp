@@ -154,10 +154,11 @@ BasicState<Dim> BasicSystem<Dim>::apply(const State& state, const Eigen::VectorX
 template <int Dim>
 BasicState<Dim> BasicSystem<Dim>::remember(const State& trial) const {
   State state = trial;
-  state.assumed.clear();
+  state.active_set.clear();
   for (std::size_t p = 0; p < impl_->contact.size(); ++p)
-    state.assumed.push_back(pairing::evaluated_branches(
-        impl_->contact[p], p < trial.assumed.size() ? trial.assumed[p] : pairing::Assumed<Dim>{}));
+    state.active_set.push_back(pairing::evaluated_active_set(
+        impl_->contact[p],
+        p < trial.active_set.size() ? trial.active_set[p] : pairing::ActiveSet<Dim>{}));
   for (std::size_t p = 0; p < state.multipliers.size(); ++p)
     state.multipliers[p] = pairing::taken_over(impl_->contact[p], std::move(state.multipliers[p]));
   constexpr std::size_t most = 8;
@@ -182,7 +183,7 @@ BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) co
   }
   state.fraction = fraction;
   state.memory = impl_->next_memory;
-  state.assumed.clear();
+  state.active_set.clear();
   impl_->look_far(trial);
   for (std::size_t p = 0; p < impl_->contact.size(); ++p) {
     std::vector<double> overlap = std::move(state.pairs[p].overlap);
@@ -213,7 +214,7 @@ std::optional<BasicState<Dim>> BasicSystem<Dim>::augment(const State& trial) con
     if (next.multipliers[p].violation > pair.target) missed = true;
   }
   if (!missed) return std::nullopt;
-  next.assumed.clear();
+  next.active_set.clear();
   return next;
 }
 
@@ -237,7 +238,7 @@ std::optional<BasicState<Dim>> BasicSystem<Dim>::relaxed(const State& trial) con
   State next = trial;
   for (std::size_t p = 0; p < next.multipliers.size(); ++p)
     if (yields(impl_->model.pairs[p])) next.multipliers[p].stiffening *= softer;
-  next.assumed.clear();
+  next.active_set.clear();
   return next;
 }
 
@@ -249,7 +250,7 @@ BasicState<Dim> BasicSystem<Dim>::restored(const State& trial, const State& befo
     next.multipliers[p].stiffening =
         before.multipliers[p].stiffening *
         std::pow(trial.multipliers[p].stiffening / before.multipliers[p].stiffening, part);
-  next.assumed.clear();
+  next.active_set.clear();
   return next;
 }
 
@@ -272,7 +273,7 @@ std::string BasicSystem<Dim>::refused(const State& committed, const State& trial
   std::vector<Vec<Dim>> x;
   for (std::size_t p = 0; p < impl_->model.pairs.size(); ++p) {
     const BasicContactPair<Dim>& pair = impl_->model.pairs[p];
-    if (pair.definition.scope.limited()) continue;
+    if (pair.definition.filter.limited()) continue;
     if (x.empty()) x = positions(trial);
     std::string text =
         passed_through(impl_->model, pair, in_front(committed.pairs[p], pair.definition.offset),

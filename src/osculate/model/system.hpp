@@ -56,8 +56,9 @@ struct ExplicitIncrement {
 /// What a contact point did.
 struct PointCourse {
   PointState state = PointState::open;
-  bool back = false;       ///< slid against the master's direction of travel (2D only)
-  bool in_valley = false;  ///< closed between two parts of a master without friction (valley.hpp)
+  bool back = false;  ///< slid against the master's direction of travel (2D only)
+  bool in_reentrant_vertex =
+      false;  ///< closed between two parts of a master without friction (reentrant_vertex.hpp)
   friend bool operator==(const PointCourse&, const PointCourse&) = default;
 };
 using ContactStates = std::vector<std::vector<PointCourse>>;  ///< by pair

@@ -17,7 +17,7 @@ BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
       options(*s.step.dynamics->explicit_steps),
       damping(s.step.dynamics->damping_mass),
       work(static_cast<std::size_t>(s.threads)),
-      assumed(s.model.pairs.size()),
+      active_set(s.model.pairs.size()),
       turning(s.model.rigid.size()) {
   const Eigen::Index n = system.dofs.dofs();
   for (Vector* const v : {&past_internal, &past_contact, &past_external, &past_damping})
@@ -152,12 +152,12 @@ template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::add_contact(double h, double fraction) {
   const Stopwatch watch;
   system.forces.contact.setZero();
-  for (std::size_t p = 0; p < assumed.size(); ++p) {
+  for (std::size_t p = 0; p < active_set.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = system.model.pairs[p].definition;
-    assumed[p].duration = h;
-    assumed[p].mean_onset = h > 0;
-    assumed[p].relief = system.relief(pair, fraction);
-    pairing::evaluate<Dim>(pair, x, now.pairs[p], false, system.contact[p], assumed[p]);
+    active_set[p].duration = h;
+    active_set[p].mean_onset = h > 0;
+    active_set[p].relief = system.relief(pair, fraction);
+    pairing::evaluate<Dim>(pair, x, now.pairs[p], false, system.contact[p], active_set[p]);
     for (const pairing::ContactBlock<Dim>& block : system.contact[p].blocks)
       for (int k = 0; k < block.count; ++k)
         system.forces.contact.template segment<Dim>(Dim *
@@ -264,7 +264,7 @@ void BasicSystem<Dim>::Impl::Explicit::add_works(double h, const solve::Explicit
   const Forces& f = system.forces;
   const double half = 0.5 * h;
   works.internal += half * (past_internal + f.internal).dot(m.velocity);
-  if (!assumed.empty()) works.contact += half * (past_contact + f.contact).dot(m.velocity);
+  if (!active_set.empty()) works.contact += half * (past_contact + f.contact).dot(m.velocity);
   works.external += half * (past_external + f.external).dot(m.velocity);
   if (damping > 0) works.damping += half * (past_damping + damping_force).dot(m.velocity);
   for (std::size_t i = 0; i < held.size(); ++i) {

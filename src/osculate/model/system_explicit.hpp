@@ -49,7 +49,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   std::vector<double> cell_forces;
   Gather gather;
   std::vector<BulkBlock> work;  ///< per thread
-  std::vector<pairing::Assumed<Dim>> assumed;
+  std::vector<pairing::ActiveSet<Dim>> active_set;
 
   // The running increment.
   State now;

@@ -42,7 +42,7 @@ double damper(const pairing::PairDefinition<Dim>& pair) {
 /// What the stiffness of a slave point is its law's slope times.
 template <int Dim>
 double spring_weight(const pairing::PairDefinition<Dim>& pair, std::size_t point) {
-  const double share = pairing::side_share(pair);
+  const double share = pairing::pass_factor(pair);
   const bool by_area = pair.weight != pairing::Weight::node && point < pair.reference_areas.size();
   return by_area ? share * pair.reference_areas[point] : share;
 }
@@ -123,7 +123,8 @@ void BasicSystem<Dim>::Impl::Explicit::add_springs(const pairing::PairDefinition
   }
   for (std::size_t e = 0; e < pair.edges.slave.size(); ++e) {
     const bool by_area = pair.weight != pairing::Weight::node;
-    const double spring = slope * pairing::side_share(pair) * (by_area ? pair.edges.areas[e] : 1.0);
+    const double spring =
+        slope * pairing::pass_factor(pair) * (by_area ? pair.edges.areas[e] : 1.0);
     all += spring;
     largest_edge = std::max(largest_edge, spring);
     add_edge(slave, pair.edges.slave[e], spring);
@@ -136,7 +137,7 @@ void BasicSystem<Dim>::Impl::Explicit::add_springs(const pairing::PairDefinition
   }
   const pairing::SlaveSide<Dim> side = pairing::make_slave_side(pair.master);
   const std::vector<double> areas = areas_of(system.model, pair, side);
-  const double by_area = slope * pairing::side_share(pair) * density_of(pair);
+  const double by_area = slope * pairing::pass_factor(pair) * density_of(pair);
   for (std::size_t i = 0; i < side.nodes.size(); ++i)
     add(master, side.nodes[i], std::max(largest, i < areas.size() ? by_area * areas[i] : 0.0));
   for (const pairing::SharpEdge& edge : pair.edges.master) add_edge(master, edge, largest_edge);

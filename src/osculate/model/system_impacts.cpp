@@ -41,7 +41,7 @@ double largest_acceleration(const BasicDofSpace<Dim>& dofs, const Eigen::VectorX
 template <int Dim>
 bool BasicSystem<Dim>::Impl::watches(std::size_t pair, std::size_t point) const {
   const pairing::PairDefinition<Dim>& definition = model.pairs[pair].definition;
-  if (point >= definition.slave.points.size()) return false;  // a crossing of edges
+  if (point >= definition.slave.points.size()) return false;  // an edge-edge contact
   const ImpactTimes times = motion->settings.impact_times;
   if (times != ImpactTimes::automatic) return times == ImpactTimes::all;
   const Index body = dofs.body_of(definition.slave.points[point].nearest_node());
@@ -58,13 +58,13 @@ bool BasicSystem<Dim>::Impl::watches_any(std::size_t pair) const {
 template <int Dim>
 void BasicSystem<Dim>::Impl::evaluate_path(const State& committed, std::size_t pair,
                                            std::span<const Vec<Dim>> x, double duration) {
-  pairing::Assumed<Dim> assumed;
-  assumed.duration = duration;
-  assumed.relief = relief(model.pairs[pair].definition, committed.fraction);
-  const bool around = pair < committed.multipliers.size();
+  pairing::ActiveSet<Dim> active_set;
+  active_set.duration = duration;
+  active_set.relief = relief(model.pairs[pair].definition, committed.fraction);
+  const bool has_multipliers = pair < committed.multipliers.size();
   pairing::evaluate<Dim>(model.pairs[pair].definition, x, committed.pairs[pair], false,
-                         motion->paths[pair], assumed,
-                         around ? &committed.multipliers[pair] : nullptr);
+                         motion->paths[pair], active_set,
+                         has_multipliers ? &committed.multipliers[pair] : nullptr);
 }
 
 /// A contact force far above all other forces stops a mass; the next increment has nothing like it.

@@ -136,7 +136,7 @@ ContactStates BasicSystem<Dim>::Impl::contact_states() const {
     for (const pairing::PointResult<Dim>& point : contact[p].points) {
       PointCourse course{point_state(model.pairs[p].definition, point)};
       course.back = Dim == 2 && course.state == PointState::slipping && point.shear_traction[0] < 0;
-      course.in_valley =
+      course.in_reentrant_vertex =
           course.state == PointState::closed && point.status == contact::Status::stick;
       states.back().push_back(course);
     }
@@ -296,16 +296,16 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     const Stopwatch watch;
-    pairing::Assumed<Dim> assumed =
-        inc ? pairing::committed_branches<Dim>(pair, committed.pairs[p], x, friction)
-        : p < trial.assumed.size() ? trial.assumed[p]
-                                   : pairing::Assumed<Dim>{};
-    assumed.duration = duration;
-    assumed.near = near;
-    assumed.relief = relief(pair, fraction);
-    const bool around = p < trial.multipliers.size();
-    pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], assumed,
-                           around ? &trial.multipliers[p] : nullptr);
+    pairing::ActiveSet<Dim> active_set =
+        inc ? pairing::committed_active_set<Dim>(pair, committed.pairs[p], x, friction)
+        : p < trial.active_set.size() ? trial.active_set[p]
+                                      : pairing::ActiveSet<Dim>{};
+    active_set.duration = duration;
+    active_set.near = near;
+    active_set.relief = relief(pair, fraction);
+    const bool has_multipliers = p < trial.multipliers.size();
+    pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], active_set,
+                           has_multipliers ? &trial.multipliers[p] : nullptr);
     seconds.contact += watch.seconds();
     for (const pairing::ContactBlock<Dim>& block : contact[p].blocks)
       if (block.active()) add_contact_block(block, with_tangent, inc);

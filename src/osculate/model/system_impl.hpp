@@ -263,7 +263,7 @@ struct BasicSystem<Dim>::Impl {
   /// What an evaluation is for.
   enum class Pass {
     predict,  ///< the first iteration: prescribed motions enter through the tangent
-    iterate,  ///< places far from the master are not needed (Assumed::near)
+    iterate,  ///< places far from the master are not needed (ActiveSet::near)
     whole     ///< of a state against itself: all of it is wanted
   };
   void assemble(const State& committed, const State& trial, double fraction, bool with_tangent,

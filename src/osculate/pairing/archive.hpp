@@ -36,8 +36,8 @@ void fields(Archive& a, PairMultipliers<Dim>& multipliers) {
   a(points, stiffening, violation);
 }
 template <class Archive, int Dim>
-void fields(Archive& a, AssumedBranch<Dim>& assumed) {
-  auto& [branch, direction, edges, facet, changes, closed, xi, kept_on] = assumed;
+void fields(Archive& a, ActiveBranch<Dim>& active_set) {
+  auto& [branch, direction, edges, facet, changes, closed, xi, kept_on] = active_set;
   a(branch, direction, edges, facet, changes, closed, xi, kept_on);
 }
 }  // namespace osculate::pairing

@@ -192,7 +192,8 @@ std::optional<double> path_length(const Chain& chain, std::span<const Vec2> x, c
   return walk(chain, x, from, to, forward, gradient);
 }
 
-std::optional<Valley> valley_after(const Chain& chain, Index facet, std::span<const Vec2> x) {
+std::optional<ReentrantVertex> reentrant_vertex_after(const Chain& chain, Index facet,
+                                                      std::span<const Vec2> x) {
   constexpr double least_sine = 1e-6;  // a straight line is no corner, whatever rounding says
   const auto number = static_cast<std::size_t>(facet);
   const Facet& before = chain.facets[number];
@@ -200,7 +201,7 @@ std::optional<Valley> valley_after(const Chain& chain, Index facet, std::span<co
   if (number < chain.sharp_behind.size() && !chain.sharp_behind[number]) return std::nullopt;
   const Facet& behind = chain.facets[static_cast<std::size_t>(before.next)];
   const geometry::CurveJet<2> end = facet_jet(before, before.hi, x);
-  Valley v;
+  ReentrantVertex v;
   v.facets = {facet, before.next};
   v.end = before.hi;
   v.point = end.r;
@@ -211,11 +212,12 @@ std::optional<Valley> valley_after(const Chain& chain, Index facet, std::span<co
   return v;
 }
 
-bool mark_valleys(Chain& chain, std::span<const Vec2> x, double angle) {
+bool mark_reentrant_vertices(Chain& chain, std::span<const Vec2> x, double angle) {
   std::vector<char> sharp(chain.facets.size(), 0);
   chain.sharp_behind.clear();
   for (std::size_t f = 0; f < sharp.size(); ++f)
-    if (const std::optional<Valley> v = valley_after(chain, static_cast<Index>(f), x))
+    if (const std::optional<ReentrantVertex> v =
+            reentrant_vertex_after(chain, static_cast<Index>(f), x))
       sharp[f] = std::atan2(v->normal[0].dot(v->along[1]), v->along[0].dot(v->along[1])) > angle;
   chain.sharp_behind = std::move(sharp);
   return std::ranges::any_of(chain.sharp_behind, [](char is) { return is != 0; });

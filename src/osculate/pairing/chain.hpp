@@ -34,7 +34,8 @@ struct Facet {
 /// A boundary made of facets; nu = k x rho_xi points out of the body (body on the right of travel).
 struct Chain {
   std::vector<Facet> facets;
-  /// By facet: the vertex behind it may be a valley; empty: any may. Set by `mark_valleys`.
+  /// By facet: the vertex behind it may be a re-entrant vertex; empty: any may. Set by
+  /// `mark_reentrant_vertices`.
   std::vector<char> sharp_behind{};
 };
 
@@ -67,7 +68,7 @@ void connect(Chain& chain);
 
 /// A vertex at which a chain bends towards its outside: both facets are an obstacle to a point
 /// there, and their forces together hold it.
-struct Valley {
+struct ReentrantVertex {
   std::array<Index, 2> facets{-1, -1};  ///< before and behind the vertex
   double end = 0;                       ///< coordinate of the vertex on the first one
   Vec2 point = Vec2::Zero();
@@ -75,13 +76,13 @@ struct Valley {
   Vec2 bisector = Vec2::UnitY();      ///< of the normals
 };
 
-/// The valley behind a facet, if there is one.
-[[nodiscard]] std::optional<Valley> valley_after(const Chain& chain, Index facet,
-                                                 std::span<const Vec2> x);
+/// The re-entrant vertex behind a facet, if there is one.
+[[nodiscard]] std::optional<ReentrantVertex> reentrant_vertex_after(const Chain& chain, Index facet,
+                                                                    std::span<const Vec2> x);
 
-/// Lets valleys be at those vertices alone whose normals enclose more than `angle` at `x`; whether
-/// there are any (a pair's `valleys` cost unknowns).
-bool mark_valleys(Chain& chain, std::span<const Vec2> x, double angle);
+/// Lets re-entrant vertices be at those vertices alone whose normals enclose more than `angle` at
+/// `x`; whether there are any (a pair's `reentrant_vertices` cost unknowns).
+bool mark_reentrant_vertices(Chain& chain, std::span<const Vec2> x, double angle);
 
 /// Signed arc length along the chain from `from` to `to` in the current configuration, over all
 /// borders on the way, and its derivative with respect to the node positions at fixed xi.

@@ -28,7 +28,7 @@ bool ends_at(const Chain& chain, const Facet& facet, bool high, std::span<const 
              const ProjectionQuery<2>& query) {
   const Index next = high ? facet.next : facet.prev;
   if (next < 0 || query.kept >= 0) return true;
-  if (facet.shape || (!query.slave_normal && !query.scope)) return false;
+  if (facet.shape || (!query.slave_normal && !query.filter)) return false;
   const Facet& other = chain.facets[static_cast<std::size_t>(next)];
   return ends_between<2>(query, unit_normal(facet, high ? facet.hi : facet.lo, x),
                          unit_normal(other, high ? other.lo : other.hi, x),
@@ -40,9 +40,9 @@ bool ends_at(const Chain& chain, const Facet& facet, bool high, std::span<const 
 /// Between neighbours this covers the tolerance of the projection: clamped to the end, the slip
 /// would stand still there and then jump. But a point that is seen from the end at an angle to the
 /// normal belongs to the corner there, however near: between a normal and the next the force of a
-/// point that rests in a valley would jump. At an open end of the chain the facet is continued by
-/// `end_extension` of its range: the last node of a surface must not lose contact because its
-/// master tilts or stretches a little.
+/// point that rests in a re-entrant vertex would jump. At an open end of the chain the facet is
+/// continued by `end_extension` of its range: the last node of a surface must not lose contact
+/// because its master tilts or stretches a little.
 template <class Jet, class Open>
 void release_end(const Jet& jet, const Facet& facet, const Vec2& point, const Open& open,
                  CurveFoot& foot) {
@@ -177,7 +177,7 @@ struct Look {
   }
   [[nodiscard]] bool inside(const Candidate& c) const {
     return c.foot.converged && !c.foot.at_end &&
-           (!query.scope || admits(*query.scope, facet(c.facet), c.foot.xi, x));
+           (!query.filter || admits(*query.filter, facet(c.facet), c.foot.xi, x));
   }
   [[nodiscard]] double gap(const Candidate& c) const {
     return (query.point - facet_jet(facet(c.facet), c.foot.xi, x).r)
@@ -262,16 +262,16 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
     return closest(chain, tree, x, any);
   }
   constexpr double far_away = std::numeric_limits<double>::infinity();
-  const double reach = query.scope ? query.scope->reach : far_away;
+  const double reach = query.filter ? query.filter->distance : far_away;
   Candidate best, tied;
   const auto visit = [&](Index f) {
     const Facet& facet = chain.facets[static_cast<std::size_t>(f)];
-    if (query.scope && query.scope->skips(f, query.slave_normal)) return far_away;
+    if (query.filter && query.filter->skips(f, query.slave_normal)) return far_away;
     const CurveFoot foot = foot_on_facet(chain, facet, x, query);
     const double distance = std::sqrt(foot.squared_distance);
     const double cosine = cosine_at(facet, foot, x, query);
     if (!foot.converged || cosine > same_way_cosine) return far_away;
-    if (query.scope && !admits(*query.scope, facet, foot.xi, x)) return far_away;
+    if (query.filter && !admits(*query.filter, facet, foot.xi, x)) return far_away;
     const Candidate candidate{f, foot, distance, cosine};
     const double tie = 1e-10 * (node(facet, 1, x) - node(facet, 0, x)).norm();
     const bool wins = better(candidate, best, query.history, tie);
@@ -281,7 +281,7 @@ Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const V
     return distance;
   };
   const auto wanted = [&](Index branch) {
-    return !query.scope || !query.scope->misses(branch, query.slave_normal);
+    return !query.filter || !query.filter->misses(branch, query.slave_normal);
   };
   // First where the point was: most others are farther away than that.
   const double tie = tie_distance(chain, x);

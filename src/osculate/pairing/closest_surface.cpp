@@ -56,7 +56,7 @@ bool ends_at(const FacetSurface& surface, const SurfaceFacet& facet, int edge,
              std::span<const Vec3> x, const ProjectionQuery<3>& query) {
   const Index other = facet.neighbour[static_cast<std::size_t>(edge)];
   if (other < 0 || query.kept >= 0) return true;
-  if (!query.slave_normal && !query.scope) return false;
+  if (!query.slave_normal && !query.filter) return false;
   const SurfaceFacet& next = surface.facets[static_cast<std::size_t>(other)];
   return ends_between<3>(query, middle_normal(facet, x), middle_normal(next, x),
                          middle_of(next, x) - middle_of(facet, x));
@@ -287,7 +287,7 @@ struct Look {
   }
   [[nodiscard]] bool inside(const Candidate& c) const {
     return c.foot.converged && c.foot.feature == Feature::face &&
-           (!query.scope || admits(*query.scope, facet(c.facet), c.foot.xi, x));
+           (!query.filter || admits(*query.filter, facet(c.facet), c.foot.xi, x));
   }
   [[nodiscard]] double gap(const Candidate& c) const {
     return (query.point - facet_jet(facet(c.facet), c.foot.xi, x).r)
@@ -348,11 +348,11 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
     return closest(surface, tree, x, any);
   }
   constexpr double far_away = std::numeric_limits<double>::infinity();
-  const double reach = query.scope ? query.scope->reach : far_away;
+  const double reach = query.filter ? query.filter->distance : far_away;
   Candidate best, tied;
   const auto visit = [&](Index f) {
     const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(f)];
-    if (query.scope && query.scope->skips(f, query.slave_normal)) return far_away;
+    if (query.filter && query.filter->skips(f, query.slave_normal)) return far_away;
     const double tie = 1e-10 * size_of(facet, x);
     const double limit = best.distance + tie;
     const FacetFoot foot = foot_on_facet(surface, facet, x, query, limit);
@@ -360,7 +360,7 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
     if (distance > limit) return distance;
     const double cosine = cosine_at(facet, foot, x, query);
     if (!foot.converged || cosine > same_way_cosine) return far_away;
-    if (query.scope && !admits(*query.scope, facet, foot.xi, x)) return far_away;
+    if (query.filter && !admits(*query.filter, facet, foot.xi, x)) return far_away;
     const Candidate candidate{f, foot, distance, cosine};
     const bool wins = better(candidate, best, query.history, tie);
     const Candidate loser = wins ? best : candidate;
@@ -369,7 +369,7 @@ Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::spa
     return distance;
   };
   const auto wanted = [&](Index branch) {
-    return !query.scope || !query.scope->misses(branch, query.slave_normal);
+    return !query.filter || !query.filter->misses(branch, query.slave_normal);
   };
   // First where the point was: most others are farther away than that.
   const double tie = 1e-10 * size_of(surface.facets.front(), x);

@@ -24,7 +24,7 @@ constexpr std::array table{
     Refusal{covariant_tangent, mortar, "mortar has the consistent tangent only"},
     Refusal{printed_history, mortar, "mortar has its own history, without borders: use continuous"},
     Refusal{smoothed_master, mortar, "mortar integrates over the facets of the mesh: use none"},
-    Refusal{shifted_overlap, mortar, "mortar knows initial overlaps only as they are: use adjust"},
+    Refusal{relieved_overlap, mortar, "mortar knows initial overlaps only as they are: use adjust"},
     Refusal{corrected, gap_law,
             "a law that gives the pressure as a function of the gap is met by itself: use penalty"},
     Refusal{corrected, damping,
@@ -32,7 +32,7 @@ constexpr std::array table{
             "have none: use penalty, or leave out damping"},
     Refusal{corrected, tied, "tied points are held by penalty only"},
     Refusal{corrected, named_edges,
-            "crossings of edges come and go: they are enforced by penalty only"},
+            "edge-edge contacts come and go: they are enforced by penalty only"},
     Refusal{multipliers, own_surface,
             "with both sides as slaves there are more unknown tractions than nodes that could "
             "carry them: use penalty or augmented_lagrange"},
@@ -46,7 +46,7 @@ constexpr std::array table{
             "unknown tractions have the form surface only: without penetration there is no other"},
     Refusal{covariant_tangent, multipliers, "unknown tractions have the consistent tangent only"},
     Refusal{two_pass, own_surface, "contact of a surface with itself has two passes already"},
-    Refusal{two_pass, edges, "crossings of edges have no second pass"},
+    Refusal{two_pass, edges, "edge-edge contacts have no second pass"},
     Refusal{edges, points_only, "only facets have edges"},
     Refusal{named_edges, own_surface, "the edges of a surface do not touch each other"},
     Refusal{damping, held,
@@ -57,7 +57,7 @@ constexpr std::array table{
     Refusal{held_from_start, own_surface,
             "a surface cannot be tied to itself: name master and slave"},
     Refusal{held_from_start, edges,
-            "crossings of edges are found while the bodies move: they cannot be tied from the "
+            "edge-edge contacts are found while the bodies move: they cannot be tied from the "
             "start"},
     Refusal{mortar, analytic_master,
             "mortar takes sides with nodes, and other samplings any master"},
@@ -96,8 +96,8 @@ template <int Dim>
 Traits traits_of(const PairDefinition<Dim>& pair) {
   Traits t;
   const auto& facets = pair.master.facets;
-  t.add(own_surface, pair.scope.limited());
-  t.add(two_pass, pair.share != 1 && !pair.scope.limited());
+  t.add(own_surface, pair.filter.limited());
+  t.add(two_pass, pair.pass_factor != 1 && !pair.filter.limited());
   t.add(quadrature, !sampled_at_nodes(pair.slave));
   t.add(mortar, pair.mortar);
   t.add(edges, pair.edges.on);
@@ -113,7 +113,7 @@ Traits traits_of(const PairDefinition<Dim>& pair) {
   t.add(held_from_start,
         pair.separation == Separation::tied_normal || pair.separation == Separation::tied);
   t.add(tied, pair.separation == Separation::tied);
-  t.add(shifted_overlap, pair.overlap != InitialOverlap::acts);
+  t.add(relieved_overlap, pair.overlap != InitialOverlap::acts);
   t.add(corrected, pair.enforcement != contact::Enforcement::penalty);
   t.add(multipliers, pair.enforcement == contact::Enforcement::lagrange_multiplier);
   t.add(nodal_weight, pair.weight == Weight::node);

@@ -23,7 +23,7 @@ enum class Trait : std::uint8_t {
   held,               ///< any separation but `allowed`
   held_from_start,    ///< tied_normal, tied
   tied,               ///< without slip too
-  shifted_overlap,    ///< initial overlaps that are ramped, or do not count
+  relieved_overlap,   ///< initial overlaps that are ramped, or do not count
   corrected,          ///< augmented Lagrangian or multipliers
   multipliers,        ///< the tractions are unknowns
   nodal_weight,       ///< weight: node

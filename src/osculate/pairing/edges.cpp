@@ -96,16 +96,16 @@ search::Box<3> box_of(const SharpEdge& edge, std::span<const Vec3> x) {
   return box;
 }
 
-/// The crossing of two edges, if there is one that counts.
+/// The edge-edge contact of two edges, if there is one that counts.
 bool cross(const EdgeContact& edges, const FacetSurface& master, const FacetSurface& slave,
-           std::span<const Vec3> x, Crossing& c) {
+           std::span<const Vec3> x, EdgeEdgePoint& c) {
   const SharpEdge& m = edges.master[static_cast<std::size_t>(c.master)];
   const SharpEdge& s = edges.slave[static_cast<std::size_t>(c.slave)];
   if (share_a_node(m, s)) return false;
   EdgeNodes of_master, of_slave;
   const projection::EdgesFoot foot =
       projection::closest_points(nodes_of(m, x, of_master), nodes_of(s, x, of_slave));
-  if (!foot.converged || std::sqrt(foot.squared_distance) > edges.reach) return false;
+  if (!foot.converged || std::sqrt(foot.squared_distance) > edges.longest) return false;
   const Vec2 beyond = (foot.xi.cwiseAbs() - Vec2::Ones()).cwiseMax(0.0);
   c.overhang = beyond.sum();
   if (beyond.maxCoeff() > overhang_limit) return false;
@@ -116,14 +116,14 @@ bool cross(const EdgeContact& edges, const FacetSurface& master, const FacetSurf
       continue;
     c.flipped = side > 0;  // r_1 x r_2 = -rho' x s' with both edges forwards
     c.xi = {foot.xi[0], c.flipped ? -foot.xi[1] : foot.xi[1]};
-    c.place = crossing_place(m, foot.xi[0], x);
+    c.place = edge_position(m, foot.xi[0], x);
     return true;
   }
   return false;
 }
 
-/// Whether two crossings of neighbouring edges are the same place.
-bool same_place(const EdgeContact& edges, const Crossing& a, const Crossing& b,
+/// Whether two edge-edge contacts of neighbouring edges are the same place.
+bool same_place(const EdgeContact& edges, const EdgeEdgePoint& a, const EdgeEdgePoint& b,
                 std::span<const Vec3> x) {
   const auto near = [](const std::vector<SharpEdge>& all, Index i, Index j) {
     return i == j ||
@@ -137,13 +137,15 @@ bool same_place(const EdgeContact& edges, const Crossing& a, const Crossing& b,
   return (a.place - b.place).norm() <= 2 * overhang_limit * size;
 }
 
-/// Of crossings at the common place of neighbouring edges the one that lies least beyond its ends
-/// stays, then the first.
-void drop_doubles(const EdgeContact& edges, std::span<const Vec3> x, std::vector<Crossing>& all) {
-  std::vector<Crossing> kept;
-  for (const Crossing& c : all) {
-    const auto rival = std::find_if(kept.begin(), kept.end(),
-                                    [&](const Crossing& k) { return same_place(edges, k, c, x); });
+/// Of edge-edge contacts at the common place of neighbouring edges the one that lies least beyond
+/// its ends stays, then the first.
+void drop_doubles(const EdgeContact& edges, std::span<const Vec3> x,
+                  std::vector<EdgeEdgePoint>& all) {
+  std::vector<EdgeEdgePoint> kept;
+  for (const EdgeEdgePoint& c : all) {
+    const auto rival = std::find_if(kept.begin(), kept.end(), [&](const EdgeEdgePoint& k) {
+      return same_place(edges, k, c, x);
+    });
     if (rival == kept.end())
       kept.push_back(c);
     else if (c.overhang < rival->overhang)
@@ -176,10 +178,10 @@ void prepare_edges(EdgeContact& edges, const FacetSurface& master, const SlaveSi
   edges.slave = sharp_edges(slave.boundary, reference, edges.angle);
   edges.areas.clear();
   edges.slave_nodes.clear();
-  edges.reach = 0;
+  edges.longest = 0;
   for (const auto* list : {&edges.master, &edges.slave})
     for (const SharpEdge& edge : *list)
-      edges.reach = std::max(edges.reach, length(edge, reference));
+      edges.longest = std::max(edges.longest, length(edge, reference));
   std::unordered_map<Index, int> slot;
   for (std::size_t i = 0; i < slave.nodes.size(); ++i) slot[slave.nodes[i]] = static_cast<int>(i);
   for (const SharpEdge& edge : edges.slave) {
@@ -205,21 +207,21 @@ void find_crossings(const EdgeContact& edges, const FacetSurface& master, const 
   for (std::size_t s = 0; s < edges.slave.size(); ++s) {
     if (held[s]) continue;
     search::Box<3> box = box_of(edges.slave[s], x);
-    box.inflate(edges.reach);
+    box.inflate(edges.longest);
     out.tree.for_each_overlap(box, [&](Index m) {
-      Crossing c;
+      EdgeEdgePoint c;
       c.slave = static_cast<Index>(s);
       c.master = m;
       if (cross(edges, master, slave, x, c)) out.found.push_back(c);
     });
   }
-  std::sort(out.found.begin(), out.found.end(), [](const Crossing& a, const Crossing& b) {
+  std::sort(out.found.begin(), out.found.end(), [](const EdgeEdgePoint& a, const EdgeEdgePoint& b) {
     return a.slave != b.slave ? a.slave < b.slave : a.master < b.master;
   });
   drop_doubles(edges, x, out.found);
 }
 
-SurfaceFacet crossing_facet(const SharpEdge& master, const SharpEdge& slave, bool flipped) {
+SurfaceFacet edge_contact_facet(const SharpEdge& master, const SharpEdge& slave, bool flipped) {
   SurfaceFacet facet;
   facet.difference = {master.count, slave.count};
   facet.flipped = flipped;
@@ -229,23 +231,23 @@ SurfaceFacet crossing_facet(const SharpEdge& master, const SharpEdge& slave, boo
   return facet;
 }
 
-Placed<3> place_crossing(const SurfaceFacet& difference, Index facet, const Vec2& xi,
-                         std::span<const Vec3> x) {
-  Placed<3> placed;
-  placed.projection.feature = projection::Feature::edge;
-  placed.projection.facet = facet;
-  placed.projection.xi = xi;
+ProjectedPoint<3> project_edge_edge(const SurfaceFacet& difference, Index facet, const Vec2& xi,
+                                    std::span<const Vec3> x) {
+  ProjectedPoint<3> projected;
+  projected.projection.feature = projection::Feature::edge;
+  projected.projection.facet = facet;
+  projected.projection.xi = xi;
   const cell::FacetShape shape = facet_shape(difference, xi);
   const geometry::SurfaceJet jet = facet_jet(difference, shape, x);
-  placed.foot = jet.r;
-  placed.count = difference.count;
-  for (std::size_t s = 0; s < contact::slots<3>; ++s) placed.shape[s] = shape.n[s];
-  placed.kinematics = contact::face_kinematics(jet, Vec3::Zero());
-  placed.kinematics.feature = projection::Feature::edge;
-  return placed;
+  projected.foot = jet.r;
+  projected.count = difference.count;
+  for (std::size_t s = 0; s < contact::slots<3>; ++s) projected.shape[s] = shape.n[s];
+  projected.kinematics = contact::face_kinematics(jet, Vec3::Zero());
+  projected.kinematics.feature = projection::Feature::edge;
+  return projected;
 }
 
-Vec3 crossing_place(const SharpEdge& edge, double xi, std::span<const Vec3> x) {
+Vec3 edge_position(const SharpEdge& edge, double xi, std::span<const Vec3> x) {
   const cell::LineShape shape = cell::lagrange_line(edge.count, xi);
   Vec3 sum = Vec3::Zero();
   for (std::size_t k = 0; k < static_cast<std::size_t>(edge.count); ++k)
@@ -254,8 +256,8 @@ Vec3 crossing_place(const SharpEdge& edge, double xi, std::span<const Vec3> x) {
 }
 
 int history_of_crossing(const EdgeContact& edges, std::span<const PointHistory<3>> histories,
-                        const std::vector<Crossing>& all, const Crossing& found) {
-  const auto is = [](const PointHistory<3>& h, const Crossing& c) {
+                        const std::vector<EdgeEdgePoint>& all, const EdgeEdgePoint& found) {
+  const auto is = [](const PointHistory<3>& h, const EdgeEdgePoint& c) {
     return h.edge == c.slave && h.facet == c.master;
   };
   for (std::size_t i = 0; i < histories.size(); ++i)
@@ -268,7 +270,7 @@ int history_of_crossing(const EdgeContact& edges, std::span<const PointHistory<3
     const PointHistory<3>& h = histories[i];
     if (!near(edges.slave, h.edge, found.slave) || !near(edges.master, h.facet, found.master))
       continue;
-    if (std::none_of(all.begin(), all.end(), [&](const Crossing& c) { return is(h, c); }))
+    if (std::none_of(all.begin(), all.end(), [&](const EdgeEdgePoint& c) { return is(h, c); }))
       return static_cast<int>(i);
   }
   return -1;

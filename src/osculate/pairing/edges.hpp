@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "osculate/contact/history.hpp"
-#include "osculate/pairing/place.hpp"
+#include "osculate/pairing/projected_point.hpp"
 #include "osculate/pairing/slave_side.hpp"
 
 namespace osculate::pairing {
@@ -18,12 +18,12 @@ struct SharpEdge {
 };
 
 /// Contact of the sharp edges of both sides where they cross: what no slave node can see. A
-/// crossing is a contact point on the edges' nearest places; it counts where
+/// edge-edge contact is a contact point on the edges' nearest places; it counts where
 ///   * both edges support the contact normal: it leans by more than `flush_angle` into both wedges,
 ///     seen from the faces (flush faces are left to the nodes);
 ///   * the edges are more than 5 degrees from parallel (projection::closest_points);
 ///   * no node of the slave's edge is in contact with the same master: that contact is the node's.
-/// So a place is pushed by a node or by a crossing, never by both.
+/// So a place is pushed by a node or by an edge-edge contact, never by both.
 struct EdgeContact {
   static constexpr double default_angle = std::numbers::pi / 6;
   static constexpr double flush_angle = std::numbers::pi / 36;
@@ -33,11 +33,11 @@ struct EdgeContact {
   std::vector<SharpEdge> master, slave;
   std::vector<std::array<int, 3>> slave_nodes;  ///< places of the slave's edge in the node list
   std::vector<double> areas;                    ///< mean of the edge's end nodes
-  double reach = 0;                             ///< longest edge: farther places are no neighbours
+  double longest = 0;                           ///< longest edge: farther places are no neighbours
 };
 
 /// Two edges that cross.
-struct Crossing {
+struct EdgeEdgePoint {
   Index slave = -1, master = -1;  ///< numbers in EdgeContact
   /// Coordinates on the master's edge and, backwards if `flipped`, on the slave's: so that the
   /// difference of both is a surface whose normal r_1 x r_2 points out of the master.
@@ -50,7 +50,7 @@ struct Crossing {
 struct EdgeBuffers {
   std::vector<search::Box<3>> boxes;
   Tree<3> tree;
-  std::vector<Crossing> found;  ///< by slave, then master edge
+  std::vector<EdgeEdgePoint> found;  ///< by slave, then master edge
 };
 
 /// Edges of `surface` with an angle of more than `angle` between their facets' normals at `x`,
@@ -74,20 +74,21 @@ void find_crossings(const EdgeContact& edges, const FacetSurface& master, const 
 /// The nearest places of two edges are the foot of the origin on the surface of their differences,
 /// so contact of edges is contact of a point with a face, gap, normal, slip and all derivatives: no
 /// other formula is needed, and none is approximate.
-[[nodiscard]] SurfaceFacet crossing_facet(const SharpEdge& master, const SharpEdge& slave,
-                                          bool flipped);
+[[nodiscard]] SurfaceFacet edge_contact_facet(const SharpEdge& master, const SharpEdge& slave,
+                                              bool flipped);
 
-/// Kinematics of a crossing that is facet number `facet` of a surface of differences.
-[[nodiscard]] Placed<3> place_crossing(const SurfaceFacet& difference, Index facet, const Vec2& xi,
-                                       std::span<const Vec3> x);
+/// Kinematics of an edge-edge contact that is facet number `facet` of a surface of differences.
+[[nodiscard]] ProjectedPoint<3> project_edge_edge(const SurfaceFacet& difference, Index facet,
+                                                  const Vec2& xi, std::span<const Vec3> x);
 
-/// Place of the master's (`of_slave`: the slave's) edge at a crossing.
-[[nodiscard]] Vec3 crossing_place(const SharpEdge& edge, double xi, std::span<const Vec3> x);
+/// Place of the master's (`of_slave`: the slave's) edge at an edge-edge contact.
+[[nodiscard]] Vec3 edge_position(const SharpEdge& edge, double xi, std::span<const Vec3> x);
 
-/// The crossing a history belongs to, if `found` goes on from it: the same edges, or neighbours on
-/// both sides that do not go on by themselves. -1 if there is none.
+/// The edge-edge contact a history belongs to, if `found` goes on from it: the same edges, or
+/// neighbours on both sides that do not go on by themselves. -1 if there is none.
 [[nodiscard]] int history_of_crossing(const EdgeContact& edges,
                                       std::span<const contact::PointHistory<3>> histories,
-                                      const std::vector<Crossing>& all, const Crossing& found);
+                                      const std::vector<EdgeEdgePoint>& all,
+                                      const EdgeEdgePoint& found);
 
 }  // namespace osculate::pairing

@@ -4,7 +4,7 @@
 namespace osculate::pairing {
 
 /// How far a point looks round where everything may touch everything, in mean facet sizes.
-inline constexpr double reach_in_facets = 8;
+inline constexpr double search_distance_in_facets = 8;
 
 /// Mean length of the facets' edges, 0 without facets. Analytic curves do not count.
 ///

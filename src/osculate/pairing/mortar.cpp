@@ -250,11 +250,12 @@ const MortarPlace& last_place(const PairState<Dim>& committed, std::size_t i) {
 
 /// Place and traction of slave node `i`.
 template <int Dim>
-NodeContact<Dim> place_and_evaluate(const PairDefinition<Dim>& pair, Points<Dim> x,
-                                    const PairState<Dim>& committed, const Assumed<Dim>& assumed,
-                                    const PairMultipliers<Dim>* multipliers, std::size_t i,
-                                    PairEvaluation<Dim>& out) {
-  BranchHint<Dim> hint = hint_of(pair, assumed, multipliers, i);
+NodeContact<Dim> project_and_evaluate(const PairDefinition<Dim>& pair, Points<Dim> x,
+                                      const PairState<Dim>& committed,
+                                      const ActiveSet<Dim>& active_set,
+                                      const PairMultipliers<Dim>* multipliers, std::size_t i,
+                                      PairEvaluation<Dim>& out) {
+  PointContext<Dim> context = context_of(pair, active_set, multipliers, i);
   const MortarNode<Dim>& node = out.mortar.nodes[i];
   const PointHistory<Dim>& history = committed.points[i];
   ContactBlock<Dim>& block = out.blocks[i];
@@ -262,13 +263,13 @@ NodeContact<Dim> place_and_evaluate(const PairDefinition<Dim>& pair, Points<Dim>
   block.nodes.clear();
   block.tangent.resize(0, 0);
   out.points[i] = open_result(history, node.area);
-  start_constraint(pair, hint, i, block);
+  start_constraint(pair, context, i, block);
   if (!covered<Dim>(node, out.mortar.normals[i], pair.reference_areas[i])) return {};
-  NodeContact<Dim> c = place_node<Dim>(node, out.mortar.normals[i]);
+  NodeContact<Dim> c = project_node<Dim>(node, out.mortar.normals[i]);
   out.mortar.places[i] = node.masters;
   for (double& weight : out.mortar.places[i].weights) weight /= node.area;
-  hint.way = way_of_gap(pair, assumed, history, node.facet, c.sample.gap);
-  if (evaluate_node<Dim>(pair, x, history, last_place<Dim>(committed, i), node, hint, i, c, out))
+  context.way = way_of_gap(pair, active_set, history, node.facet, c.sample.gap);
+  if (evaluate_node<Dim>(pair, x, history, last_place<Dim>(committed, i), node, context, i, c, out))
     out.mortar.tractions[i] = c.traction();
   return c;
 }
@@ -278,7 +279,7 @@ NodeContact<Dim> place_and_evaluate(const PairDefinition<Dim>& pair, Points<Dim>
 template <int Dim>
 void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
                      const PairState<Dim>& committed, bool with_tangent, PairEvaluation<Dim>& out,
-                     const Assumed<Dim>& assumed, const PairMultipliers<Dim>* multipliers) {
+                     const ActiveSet<Dim>& active_set, const PairMultipliers<Dim>* multipliers) {
   refresh<Dim>(pair, x, with_tangent, out);
   const std::size_t n = pair.slave.nodes.size();
   out.points.assign(n, {});
@@ -289,7 +290,7 @@ void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
   out.mortar.contacts.assign(n, {});
   for (std::size_t i = 0; i < n; ++i) {
     out.mortar.contacts[i] =
-        place_and_evaluate<Dim>(pair, x, committed, assumed, multipliers, i, out);
+        project_and_evaluate<Dim>(pair, x, committed, active_set, multipliers, i, out);
   }
   for (std::size_t k = n; k < out.blocks.size(); ++k) out.blocks[k].count = 0;
   if (!with_tangent) return;
@@ -334,9 +335,11 @@ Mat<Dim, Dim - 1> mortar_frame(const PairDefinition<Dim>& pair, std::size_t i, P
 }
 
 template void evaluate_mortar<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
-                                 PairEvaluation<2>&, const Assumed<2>&, const PairMultipliers<2>*);
+                                 PairEvaluation<2>&, const ActiveSet<2>&,
+                                 const PairMultipliers<2>*);
 template void evaluate_mortar<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,
-                                 PairEvaluation<3>&, const Assumed<3>&, const PairMultipliers<3>*);
+                                 PairEvaluation<3>&, const ActiveSet<3>&,
+                                 const PairMultipliers<3>*);
 template PairState<2> initial_mortar_state<2>(const PairDefinition<2>&, Points<2>);
 template PairState<3> initial_mortar_state<3>(const PairDefinition<3>&, Points<3>);
 template Mat<2, 1> mortar_frame<2>(const PairDefinition<2>&, std::size_t, Points<2>);

@@ -34,7 +34,7 @@ namespace osculate::pairing {
 template <int Dim>
 void evaluate_mortar(const PairDefinition<Dim>& pair, Points<Dim> x,
                      const PairState<Dim>& committed, bool with_tangent, PairEvaluation<Dim>& out,
-                     const Assumed<Dim>& assumed = {},
+                     const ActiveSet<Dim>& active_set = {},
                      const PairMultipliers<Dim>* multipliers = nullptr);
 
 /// State before the first increment.

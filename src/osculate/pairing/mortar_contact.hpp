@@ -9,9 +9,9 @@ struct NodeContact {
   ContactSample<Dim> sample;
   Vec<Dim> apart = Vec<Dim>::Zero();  ///< x - y, where y is the sample's foot
   bool sliding = false;               ///< there is friction and a last place
-  ContactShare share;
-  Vec<Dim> way = Vec<Dim>::Zero();     ///< y - y_old
-  Vec<Dim> around = Vec<Dim>::Zero();  ///< multiplier of the shear
+  ContactTimeFraction time_fraction;
+  Vec<Dim> way = Vec<Dim>::Zero();               ///< y - y_old
+  Vec<Dim> shear_multiplier = Vec<Dim>::Zero();  ///< multiplier of the shear
   Response<Dim> response;
 
   /// A traction in space; without an argument that of the branch that is linearised.

@@ -74,18 +74,18 @@ NodeRates<Dim> node_rates(const NodeContact<Dim>& c, double area,
   out.gap = s.normal.transpose() * d_apart + c.apart.transpose() * r.normal;
   out.shear.setZero();
   if (!c.response.has_shear) return out;
-  Mat<Dim - 1, Dim> d_trial = Mat<Dim - 1, Dim>::Zero();
+  Mat<Dim - 1, Dim> d_predictor = Mat<Dim - 1, Dim>::Zero();
   for (int i = 0; i < Dim - 1; ++i) {
     const Mat<Dim, Dim>& turning = r.frame[static_cast<std::size_t>(i)];
-    d_trial.row(i) = c.around.transpose() * turning;
+    d_predictor.row(i) = c.shear_multiplier.transpose() * turning;
     if (!c.sliding) continue;
     const Vec<Dim> e = s.frame.col(i);
-    d_trial.row(i) +=
-        t.stiffness *
-        (c.share.value * (e.transpose() * (d_foot - r.old * unit) + c.way.transpose() * turning) +
-         c.share.d_gap * e.dot(c.way) * out.gap);
+    d_predictor.row(i) +=
+        t.stiffness * (c.time_fraction.value *
+                           (e.transpose() * (d_foot - r.old * unit) + c.way.transpose() * turning) +
+                       c.time_fraction.d_gap * e.dot(c.way) * out.gap);
   }
-  out.shear = s.frame * (t.tangential.d_trial * d_trial +
+  out.shear = s.frame * (t.tangential.d_predictor * d_predictor +
                          t.tangential.d_normal * (t.normal.d_traction * out.gap));
   for (int i = 0; i < Dim - 1; ++i)
     out.shear += t.tangential.traction[i] * r.frame[static_cast<std::size_t>(i)];
@@ -94,23 +94,24 @@ NodeRates<Dim> node_rates(const NodeContact<Dim>& c, double area,
 
 /// The elastic predictor since the last place.
 template <int Dim>
-Trial<Dim> predictor(const PointHistory<Dim>& history, const MortarPlace& last, Points<Dim> x,
-                     const contact::Multiplier<Dim>* multiplier, double stiffness,
-                     const ContactShare& share, NodeContact<Dim>& c) {
-  Trial<Dim> tr;
+ElasticPredictor<Dim> predictor(const PointHistory<Dim>& history, const MortarPlace& last,
+                                Points<Dim> x, const contact::Multiplier<Dim>* multiplier,
+                                double stiffness, const ContactTimeFraction& time_fraction,
+                                NodeContact<Dim>& c) {
+  ElasticPredictor<Dim> tr;
   if (multiplier) {
-    c.around = multiplier->shear;
-    tr.value = c.sample.frame.transpose() * c.around;
+    c.shear_multiplier = multiplier->shear;
+    tr.value = c.sample.frame.transpose() * c.shear_multiplier;
   } else if (history.active) {
     tr.value = history.traction;
   }
   c.sliding = !last.nodes.empty();
   if (!c.sliding) return tr;
-  c.share = share;
+  c.time_fraction = time_fraction;
   c.way = c.sample.foot - place_in_space<Dim>(last, x);
   const Vec<Dim - 1> along = c.sample.frame.transpose() * c.way;
-  tr.slip = share.value * along;
-  tr.value += stiffness * share.value * along;
+  tr.slip = time_fraction.value * along;
+  tr.value += stiffness * time_fraction.value * along;
   return tr;
 }
 
@@ -123,7 +124,7 @@ double weight_in(const MortarNode<Dim>& node, int k) {
 
 template <int Dim>
 void set_block(const PairDefinition<Dim>& pair, const MortarNode<Dim>& node,
-               const NodeContact<Dim>& c, const BranchHint<Dim>& hint, std::size_t i,
+               const NodeContact<Dim>& c, const PointContext<Dim>& context, std::size_t i,
                ContactBlock<Dim>& block) {
   // Weights that are zero but for rounding come and go: room for more than is needed just now.
   const std::size_t count = node.slaves.nodes.size() + node.masters.nodes.size();
@@ -140,23 +141,24 @@ void set_block(const PairDefinition<Dim>& pair, const MortarNode<Dim>& node,
   const auto forces_of = [&](const contact::Traction<Dim>& t) {
     return std::array<Vec<Dim>, 1>{c.traction(t)};
   };
-  set_forces<Dim>(c.response, hint.kept, forces_of(c.response.traction), forces_of, w, 1.0, block);
+  set_forces<Dim>(c.response, context.kept, forces_of(c.response.traction), forces_of, w, 1.0,
+                  block);
   const std::array<Mat<Dim, Dim>, 1> unit{Mat<Dim, Dim>::Identity()};
   scatter_path<Dim>(unit, w, 1.0, block);
   if (!block.constraint.on) return;
   const double area = constraint_weight(pair, i);
   const contact::TangentialResponse<Dim>& shear = c.response.traction.tangential;
   const Mat<Dim, Dim - 1>& frame = c.sample.frame;
-  set_constraint_values(area, c.response, frame, hint, block.constraint);
+  set_constraint_values(area, c.response, frame, context, block.constraint);
   set_multiplier_terms<Dim>(
-      point_penalty(pair, i), area, c.sample.normal, frame * shear.d_trial * frame.transpose(),
+      point_penalty(pair, i), area, c.sample.normal, frame * shear.d_predictor * frame.transpose(),
       frame * shear.d_normal, [&](int k) { return weight_in(node, k); }, block);
 }
 
 }  // namespace
 
 template <int Dim>
-NodeContact<Dim> place_node(const MortarNode<Dim>& node, const NodalNormal<Dim>& normal) {
+NodeContact<Dim> project_node(const MortarNode<Dim>& node, const NodalNormal<Dim>& normal) {
   NodeContact<Dim> c;
   ContactSample<Dim>& s = c.sample;
   s.facet = node.facet;
@@ -175,20 +177,20 @@ NodeContact<Dim> place_node(const MortarNode<Dim>& node, const NodalNormal<Dim>&
 template <int Dim>
 bool evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x, const PointHistory<Dim>& history,
                    const MortarPlace& last, const MortarNode<Dim>& node,
-                   const BranchHint<Dim>& hint, std::size_t i, NodeContact<Dim>& c,
+                   const PointContext<Dim>& context, std::size_t i, NodeContact<Dim>& c,
                    PairEvaluation<Dim>& out) {
   PointResult<Dim>& result = out.points[i];
-  const contact::NormalResponse normal = normal_response(pair, history, c.sample.gap, hint);
-  report_place(c.sample, pair.offset, result);
+  const contact::NormalResponse normal = normal_response(pair, history, c.sample.gap, context);
+  report_sample(c.sample, pair.offset, result);
   report_normal(normal, history.damping_work, result);
   if (!normal.active) return false;
-  c.response =
-      respond<Dim>(pair, history, c.sample.gap, c.sample.frame, hint, normal,
-                   [&](double stiffness, const ContactShare& share) {
-                     return predictor<Dim>(history, last, x, hint.multiplier, stiffness, share, c);
-                   });
+  c.response = respond<Dim>(pair, history, c.sample.gap, c.sample.frame, context, normal,
+                            [&](double stiffness, const ContactTimeFraction& time_fraction) {
+                              return predictor<Dim>(history, last, x, context.multiplier, stiffness,
+                                                    time_fraction, c);
+                            });
   report_contact<Dim>(c.response, c.response.law.traction, history, result);
-  set_block(pair, node, c, hint, i, out.blocks[i]);
+  set_block(pair, node, c, context, i, out.blocks[i]);
   return true;
 }
 
@@ -278,9 +280,9 @@ void set_path(const PairDefinition<Dim>& pair, double constraint_area, const Nod
 }
 
 template bool evaluate_node<2>(const PairDefinition<2>&, Points<2>, const PointHistory<2>&,
-                               const MortarPlace&, const MortarNode<2>&, const BranchHint<2>&,
+                               const MortarPlace&, const MortarNode<2>&, const PointContext<2>&,
                                std::size_t, NodeContact<2>&, PairEvaluation<2>&);
-template NodeContact<2> place_node<2>(const MortarNode<2>&, const NodalNormal<2>&);
+template NodeContact<2> project_node<2>(const MortarNode<2>&, const NodalNormal<2>&);
 template void add_rates<2>(const MortarFacet<2>&, std::span<const Index>,
                            std::span<const std::size_t>, Points<2>, std::vector<MortarNode<2>>&);
 template void set_facet_tangent<2>(const MortarFacet<2>&, std::span<const Index>,
@@ -290,9 +292,9 @@ template void set_path<2>(const PairDefinition<2>&, double, const NodeContact<2>
                           const MortarPlace&, const NodalNormal<2>&, MortarNode<2>&,
                           ContactBlock<2>&);
 template bool evaluate_node<3>(const PairDefinition<3>&, Points<3>, const PointHistory<3>&,
-                               const MortarPlace&, const MortarNode<3>&, const BranchHint<3>&,
+                               const MortarPlace&, const MortarNode<3>&, const PointContext<3>&,
                                std::size_t, NodeContact<3>&, PairEvaluation<3>&);
-template NodeContact<3> place_node<3>(const MortarNode<3>&, const NodalNormal<3>&);
+template NodeContact<3> project_node<3>(const MortarNode<3>&, const NodalNormal<3>&);
 template void add_rates<3>(const MortarFacet<3>&, std::span<const Index>,
                            std::span<const std::size_t>, Points<3>, std::vector<MortarNode<3>>&);
 template void set_facet_tangent<3>(const MortarFacet<3>&, std::span<const Index>,

@@ -8,14 +8,14 @@ namespace osculate::pairing {
 
 /// Where the node lies over the master.
 template <int Dim>
-[[nodiscard]] NodeContact<Dim> place_node(const MortarNode<Dim>& node,
-                                          const NodalNormal<Dim>& normal);
+[[nodiscard]] NodeContact<Dim> project_node(const MortarNode<Dim>& node,
+                                            const NodalNormal<Dim>& normal);
 
 /// Report, forces and constraint of node `i`, which has been placed: false where it is open.
 template <int Dim>
 bool evaluate_node(const PairDefinition<Dim>& pair, Points<Dim> x,
                    const contact::PointHistory<Dim>& history, const MortarPlace& last,
-                   const MortarNode<Dim>& node, const BranchHint<Dim>& hint, std::size_t i,
+                   const MortarNode<Dim>& node, const PointContext<Dim>& context, std::size_t i,
                    NodeContact<Dim>& c, PairEvaluation<Dim>& out);
 
 /// Adds the derivatives of d_j, sum_k D_jk x_k and sum_l M_jl x_l of a facet's nodes, those of D

@@ -2,7 +2,7 @@
 // Where a surface ends for one slave point; for sources of this layer.
 #include <algorithm>
 
-#include "osculate/pairing/scope.hpp"
+#include "osculate/pairing/candidate_filter.hpp"
 
 namespace osculate::pairing {
 
@@ -13,9 +13,9 @@ inline constexpr double other_side_cosine = 0.8;
 template <int Dim>
 [[nodiscard]] bool turned_away(const ProjectionQuery<Dim>& query, const Vec<Dim>& normal) {
   if (query.slave_normal && normal.dot(*query.slave_normal) > same_way_cosine) return true;
-  if (!query.scope || query.scope->facing.empty()) return false;
+  if (!query.filter || query.filter->facing.empty()) return false;
   const auto faces = [&](const Vec<Dim>& n) { return n.dot(normal) < facing_cosine; };
-  return std::none_of(query.scope->facing.begin(), query.scope->facing.end(), faces);
+  return std::none_of(query.filter->facing.begin(), query.filter->facing.end(), faces);
 }
 
 /// Whether the surface ends for this point between two facets with these normals, `arm` from the

@@ -8,10 +8,10 @@
 #include "osculate/pairing/combinations.hpp"
 #include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/point_sample.hpp"
+#include "osculate/pairing/reentrant_vertex.hpp"
 #include "osculate/pairing/response.hpp"
 #include "osculate/pairing/sampling.hpp"
 #include "osculate/pairing/tie.hpp"
-#include "osculate/pairing/valley.hpp"
 
 namespace osculate::pairing {
 
@@ -32,13 +32,13 @@ void check_areas(const PairDefinition<Dim>& pair) {
               : "a slave facet has no area; use weight: node");
 }
 
-bool find_valleys(PairDefinition<2>& pair, Points<2> reference) {
+bool find_reentrant_vertices(PairDefinition<2>& pair, Points<2> reference) {
   return pair.enforcement == contact::Enforcement::lagrange_multiplier && !pair.mortar &&
          pair.separation == Separation::allowed && pair.offset == 0 &&
          pair.overlap == InitialOverlap::acts &&
-         mark_valleys(pair.master, reference, pair.valley_angle);
+         mark_reentrant_vertices(pair.master, reference, pair.reentrant_angle);
 }
-bool find_valleys(PairDefinition<3>&, Points<3>) { return false; }
+bool find_reentrant_vertices(PairDefinition<3>&, Points<3>) { return false; }
 
 }  // namespace
 
@@ -46,11 +46,11 @@ template <int Dim>
 void prepare(PairDefinition<Dim>& pair, Points<Dim> reference) {
   if (const Refusal* const no = refusal(traits_of(pair)))
     throw core::GeometryError(std::string(no->why));
-  prepare(pair.scope, pair.master, pair.slave, reference, pair.area);
+  prepare(pair.filter, pair.master, pair.slave, reference, pair.area);
   point_areas<Dim>(pair.slave, reference, pair.area, pair.reference_areas, nullptr);
   if constexpr (Dim == 3)
     prepare_edges(pair.edges, pair.master, pair.slave, pair.reference_areas, reference);
-  pair.valleys = find_valleys(pair, reference);
+  pair.reentrant_vertices = find_reentrant_vertices(pair, reference);
   if (pair.mortar) pair.reference.assign(reference.begin(), reference.end());
   check_areas(pair);
   prepare_ties(pair, reference);
@@ -72,23 +72,23 @@ class Laps {
 };
 
 template <int Dim>
-bool out_of_reach(const PairDefinition<Dim>& pair, Points<Dim> x,
-                  const std::vector<search::Box<Dim>>& boxes) {
-  if (!pair.scope.limited() || pair.scope.own) return false;
+bool beyond_search(const PairDefinition<Dim>& pair, Points<Dim> x,
+                   const std::vector<search::Box<Dim>>& boxes) {
+  if (!pair.filter.limited() || pair.filter.own) return false;
   search::Box<Dim> master, slave;
   for (const search::Box<Dim>& box : boxes) master.extend(box);
   for (const Index node : pair.slave.nodes) slave.extend(x[static_cast<std::size_t>(node)]);
-  return master.squared_distance(slave) > pair.scope.reach * pair.scope.reach;
+  return master.squared_distance(slave) > pair.filter.distance * pair.filter.distance;
 }
 
 /// Nodes of the largest block there can be.
 template <int Dim>
 int largest_block(const PairDefinition<Dim>& pair) {
-  constexpr int of_crossing = 6;
+  constexpr int of_edge_contact = 6;
   int slave = 1, master = 0;
   for (const SlavePoint<Dim>& p : pair.slave.points) slave = std::max(slave, p.count);
   for (const auto& facet : pair.master.facets) master = std::max(master, facet.count);
-  return std::max(slave + master, pair.edges.on ? of_crossing : 0);
+  return std::max(slave + master, pair.edges.on ? of_edge_contact : 0);
 }
 
 template <int Dim>
@@ -97,23 +97,23 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   const std::size_t n = pair.slave.points.size();
   out.points.resize(n);
   out.blocks.resize(n);
-  out.around.resize(pair.valleys ? n : 0);
+  out.taken_multipliers.resize(pair.reentrant_vertices ? n : 0);
   out.block_nodes = largest_block(pair);
   if (pair.weight == Weight::current_area) {
     point_areas<Dim>(pair.slave, x, pair.area, out.areas,
                      with_tangent ? &out.area_gradients : nullptr);
-    if (pair.scope.limited())
-      nodal_areas(pair.scope.parts, x, pair.area, out.scope.areas,
-                  with_tangent ? &out.scope.area_gradients : nullptr);
+    if (pair.filter.limited())
+      nodal_areas(pair.filter.parts, x, pair.area, out.filter.areas,
+                  with_tangent ? &out.filter.area_gradients : nullptr);
   }
   const std::size_t before = out.boxes.size();
   facet_boxes(pair.master, x, out.boxes);
-  out.apart = out_of_reach(pair, x, out.boxes);
-  if (pair.scope.limited()) {
+  out.apart = beyond_search(pair, x, out.boxes);
+  if (pair.filter.limited()) {
     // The first evaluation gives the tree its shape, so that it does not depend on when they met.
     if (!out.apart || out.tree.size() != out.boxes.size())
-      refresh(pair.scope, pair.master, x, out.boxes, out.scope, out.tree);
-    mean_normals(pair.scope, out.scope, out.normals);
+      refresh(pair.filter, pair.master, x, out.boxes, out.filter, out.tree);
+    mean_normals(pair.filter, out.filter, out.normals);
     return;
   }
   point_normals<Dim>(pair.slave, x, out.normals);
@@ -122,21 +122,23 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   else
     out.tree = Tree<Dim>(out.boxes);
 }
-/// A point where it was placed, or in the valley beside that place.
+/// A point where it was placed, or in the re-entrant vertex beside that place.
 template <int Dim>
-void evaluate_placed(const PairDefinition<Dim>& pair, Points<Dim> x,
-                     const PointHistory<Dim>& history, Placed<Dim>& placed, BranchHint<Dim>& hint,
-                     bool with_tangent, std::size_t i, PairEvaluation<Dim>& out) {
+void evaluate_projected(const PairDefinition<Dim>& pair, Points<Dim> x,
+                        const PointHistory<Dim>& history, ProjectedPoint<Dim>& projected,
+                        PointContext<Dim>& context, bool with_tangent, std::size_t i,
+                        PairEvaluation<Dim>& out) {
   if constexpr (Dim == 2)
-    if (pair.valleys && hint.multiplier)
-      if (const std::optional<Valley> valley =
-              find_valley(pair, x, history, i, out, out.around[i], hint, placed)) {
-        evaluate_in_valley(pair, x, history, *valley, hint, with_tangent, i, out);
+    if (pair.reentrant_vertices && context.multiplier)
+      if (const std::optional<ReentrantVertex> reentrant = find_reentrant_vertex(
+              pair, x, history, i, out, out.taken_multipliers[i], context, projected)) {
+        evaluate_reentrant_vertex(pair, x, history, *reentrant, context, with_tangent, i, out);
         return;
       }
-  hint.kept = keeps_contact(pair, x, history, placed, hint, position<Dim>(pair.slave.points[i], x));
+  context.kept =
+      keeps_contact(pair, x, history, projected, context, position<Dim>(pair.slave.points[i], x));
   evaluate_point<Dim>(pair, x, history,
-                      {pair.master, placed, &pair.slave.points[i], 1, pair.history}, hint,
+                      {pair.master, projected, &pair.slave.points[i], 1, pair.history}, context,
                       with_tangent, i, out);
 }
 
@@ -145,7 +147,7 @@ Mat<Dim, Dim - 1> frame_of_history(const PairDefinition<Dim>& pair, std::size_t 
                                    const PointHistory<Dim>& h, Points<Dim> x) {
   if (pair.mortar) return mortar_frame(pair, i, x);
   if constexpr (Dim == 3)
-    if (h.edge >= 0) return crossing_frame(pair, h, x);
+    if (h.edge >= 0) return edge_contact_frame(pair, h, x);
   return stored_frame(pair.master, h.facet, h.xi, x);
 }
 
@@ -153,7 +155,7 @@ Mat<Dim, Dim - 1> frame_of_history(const PairDefinition<Dim>& pair, std::size_t 
 
 template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
-              bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed,
+              bool with_tangent, PairEvaluation<Dim>& out, const ActiveSet<Dim>& active_set,
               const PairMultipliers<Dim>* multipliers) {
   Laps laps;
   out.stiffening = multipliers ? multipliers->stiffening : 1;
@@ -163,26 +165,27 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
     return;
   }
   if (pair.mortar) {
-    evaluate_mortar(pair, x, committed, with_tangent, out, assumed, multipliers);
+    evaluate_mortar(pair, x, committed, with_tangent, out, active_set, multipliers);
     laps.add_to(out.seconds.evaluation);
     return;
   }
   refresh(pair, x, with_tangent, out);
-  out.near = assumed.near;
+  out.near = active_set.near;
   laps.add_to(out.seconds.search);
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
-    BranchHint<Dim> hint = hint_of(pair, assumed, multipliers, i);
-    if (!committed.overlap.empty()) hint.relieved = assumed.relief * committed.overlap[i];
-    Placed<Dim> placed = place_point(pair, out, x, i, committed.points[i], hint.assumed.kept());
-    hint.way = way_of_gap(pair, assumed, committed.points[i], placed.projection.facet,
-                          placed.kinematics.gap);
+    PointContext<Dim> context = context_of(pair, active_set, multipliers, i);
+    if (!committed.overlap.empty()) context.relieved = active_set.relief * committed.overlap[i];
+    ProjectedPoint<Dim> projected =
+        project_point(pair, out, x, i, committed.points[i], context.active.kept());
+    context.way = way_of_gap(pair, active_set, committed.points[i], projected.projection.facet,
+                             projected.kinematics.gap);
     laps.add_to(out.seconds.projection);
-    evaluate_placed(pair, x, committed.points[i], placed, hint, with_tangent, i, out);
+    evaluate_projected(pair, x, committed.points[i], projected, context, with_tangent, i, out);
     laps.add_to(out.seconds.evaluation);
   }
   if constexpr (Dim == 3) {
     if (!pair.edges.on) return;
-    evaluate_crossings(pair, x, committed, with_tangent, out, assumed);
+    evaluate_edge_contacts(pair, x, committed, with_tangent, out, active_set);
     laps.add_to(out.seconds.evaluation);
   }
 }
@@ -190,29 +193,30 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
 template <int Dim>
 void look_far(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
               PairEvaluation<Dim>& out) {
-  if (!out.near || !pair.scope.limited()) return;
+  if (!out.near || !pair.filter.limited()) return;
   Laps laps;
   out.near = false;
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
     const PointResult<Dim>& point = out.points[i];
     if (point.history.facet >= 0 || point.status != contact::Status::open) continue;
-    const Placed<Dim> placed = place_point(pair, out, x, i, committed.points[i]);
-    if (placed.projection.feature == Feature::none) continue;
-    const double acts_below = pair.offset + contact::reach(pair.normal);
-    if (placed.projection.beyond_end || placed.kinematics.gap > acts_below)
-      report_far(pair, committed.points[i], placed, out.points[i]);
+    const ProjectedPoint<Dim> projected = project_point(pair, out, x, i, committed.points[i]);
+    if (projected.projection.feature == Feature::none) continue;
+    const double acts_below = pair.offset + contact::onset_gap(pair.normal);
+    if (projected.projection.beyond_end || projected.kinematics.gap > acts_below)
+      report_far(pair, committed.points[i], projected, out.points[i]);
   }
   laps.add_to(out.seconds.projection);
 }
 
 template <int Dim>
-Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair, const PairState<Dim>& committed,
-                                Points<Dim> x, Prediction friction) {
-  Assumed<Dim> assumed;
-  assumed.predict = true;
+ActiveSet<Dim> committed_active_set(const PairDefinition<Dim>& pair,
+                                    const PairState<Dim>& committed, Points<Dim> x,
+                                    Prediction friction) {
+  ActiveSet<Dim> active_set;
+  active_set.predict = true;
   for (std::size_t i = 0; i < committed.points.size(); ++i) {
     const PointHistory<Dim>& h = committed.points[i];
-    AssumedBranch<Dim> branch;
+    ActiveBranch<Dim> branch;
     if (h.active) branch.branch = Branch::stick;
     const double size = h.traction.norm();
     if (h.active && size == 0 && friction == Prediction::sliding)
@@ -221,33 +225,34 @@ Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair, const PairState
       branch = {Branch::slip, frame_of_history(pair, i, h, x) * (h.traction / size)};
     if (h.edge >= 0) branch.edges = {h.edge, h.facet};
     if constexpr (Dim == 2)
-      if (h.active && rests_in_valley(pair, h, x)) {
-        branch = {Branch::valley, Vec2::Zero()};
+      if (h.active && rests_in_reentrant_vertex(pair, h, x)) {
+        branch = {Branch::reentrant, Vec2::Zero()};
         branch.facet = h.facet;
       }
-    assumed.branch.push_back(branch);
+    active_set.branch.push_back(branch);
   }
-  return assumed;
+  return active_set;
 }
 
 template <int Dim>
-Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation, const Assumed<Dim>& before) {
-  Assumed<Dim> assumed;
+ActiveSet<Dim> evaluated_active_set(const PairEvaluation<Dim>& evaluation,
+                                    const ActiveSet<Dim>& before) {
+  ActiveSet<Dim> active_set;
   for (std::size_t i = 0; i < evaluation.points.size(); ++i) {
     const PointResult<Dim>& point = evaluation.points[i];
-    AssumedBranch<Dim>& branch = assumed.branch.emplace_back(point.branch);
+    ActiveBranch<Dim>& branch = active_set.branch.emplace_back(point.branch);
     const bool touches = point.status != contact::Status::open;
     branch.facet = (touches || branch.closed) && branch.edges[0] < 0 ? point.history.facet : -1;
     branch.closed =
         branch.closed || (touches && branch.facet >= 0 && point.history.feature == Feature::face);
     branch.xi = point.history.xi;
     if (before.predict || i >= before.branch.size()) continue;
-    const AssumedBranch<Dim>& last = before.branch[i];
+    const ActiveBranch<Dim>& last = before.branch[i];
     const bool changed = branch.facet >= 0 && last.facet >= 0 && branch.facet != last.facet;
     branch.changes = last.changes + (changed ? 1 : 0);
     if (branch.facet < 0) branch.facet = last.facet;
   }
-  return assumed;
+  return active_set;
 }
 
 template <int Dim>
@@ -262,12 +267,12 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
   PairState<Dim> state;
   state.points.resize(pair.slave.points.size());
   for (std::size_t i = 0; i < state.points.size(); ++i) {
-    const Placed<Dim> placed = place_point<Dim>(pair, work, x, i, {});
-    if (placed.projection.feature == Feature::none) continue;
+    const ProjectedPoint<Dim> projected = project_point<Dim>(pair, work, x, i, {});
+    if (projected.projection.feature == Feature::none) continue;
     PointHistory<Dim>& h = state.points[i];
-    h = history_at<Dim>(placed);
-    if (placed.projection.beyond_end) h.gap = std::abs(h.gap);
-    if (placed.projection.beyond_end || !contact::inside_domain(placed.kinematics)) continue;
+    h = history_at<Dim>(projected);
+    if (projected.projection.beyond_end) h.gap = std::abs(h.gap);
+    if (projected.projection.beyond_end || !contact::inside_domain(projected.kinematics)) continue;
     hold(pair, h);
     h.active = is_closed(pair, h, h.gap);
   }
@@ -277,7 +282,7 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
     }
   if constexpr (Dim == 3) {
     if (!pair.edges.on) return state;
-    // By a whole evaluation: it tells which crossings are the nodes' own contacts.
+    // By a whole evaluation: it tells which edge-edge contacts are the nodes' own contacts.
     evaluate<3>(pair, x, state, false, work);
     for (std::size_t i = state.points.size(); i < work.points.size(); ++i) {
       PointHistory<3>& h = state.points.emplace_back(work.points[i].history);
@@ -324,7 +329,8 @@ PairMultipliers<Dim> commit(const PairEvaluation<Dim>& evaluation, PairMultiplie
   used.violation = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < used.points.size(); ++i) {
     const PointResult<Dim>& point = evaluation.points[i];
-    if (point.branch.branch == Branch::valley) continue;  // the multiplier is all of the traction
+    if (point.branch.branch == Branch::reentrant)
+      continue;  // the multiplier is all of the traction
     if (point.status == contact::Status::open) used.points[i].normal = 0;
     used.points[i].shear = point.shear();
   }
@@ -333,7 +339,8 @@ PairMultipliers<Dim> commit(const PairEvaluation<Dim>& evaluation, PairMultiplie
 
 template <int Dim>
 PairMultipliers<Dim> taken_over(const PairEvaluation<Dim>& evaluation, PairMultipliers<Dim> used) {
-  if (evaluation.around.size() == used.points.size()) used.points = evaluation.around;
+  if (evaluation.taken_multipliers.size() == used.points.size())
+    used.points = evaluation.taken_multipliers;
   return used;
 }
 
@@ -354,16 +361,16 @@ template void look_far<2>(const PairDefinition<2>&, Points<2>, const PairState<2
                           PairEvaluation<2>&);
 template void look_far<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&,
                           PairEvaluation<3>&);
-template Assumed<2> committed_branches<2>(const PairDefinition<2>&, const PairState<2>&, Points<2>,
-                                          Prediction);
-template Assumed<3> committed_branches<3>(const PairDefinition<3>&, const PairState<3>&, Points<3>,
-                                          Prediction);
-template Assumed<2> evaluated_branches<2>(const PairEvaluation<2>&, const Assumed<2>&);
-template Assumed<3> evaluated_branches<3>(const PairEvaluation<3>&, const Assumed<3>&);
+template ActiveSet<2> committed_active_set<2>(const PairDefinition<2>&, const PairState<2>&,
+                                              Points<2>, Prediction);
+template ActiveSet<3> committed_active_set<3>(const PairDefinition<3>&, const PairState<3>&,
+                                              Points<3>, Prediction);
+template ActiveSet<2> evaluated_active_set<2>(const PairEvaluation<2>&, const ActiveSet<2>&);
+template ActiveSet<3> evaluated_active_set<3>(const PairEvaluation<3>&, const ActiveSet<3>&);
 template void evaluate<2>(const PairDefinition<2>&, Points<2>, const PairState<2>&, bool,
-                          PairEvaluation<2>&, const Assumed<2>&, const PairMultipliers<2>*);
+                          PairEvaluation<2>&, const ActiveSet<2>&, const PairMultipliers<2>*);
 template void evaluate<3>(const PairDefinition<3>&, Points<3>, const PairState<3>&, bool,
-                          PairEvaluation<3>&, const Assumed<3>&, const PairMultipliers<3>*);
+                          PairEvaluation<3>&, const ActiveSet<3>&, const PairMultipliers<3>*);
 template PairMultipliers<2> initial_multipliers<2>(const PairDefinition<2>&, const PairState<2>&);
 template PairMultipliers<2> augmented<2>(const PairDefinition<2>&, const PairEvaluation<2>&,
                                          const PairMultipliers<2>&);

@@ -9,15 +9,15 @@
 #include "osculate/contact/multiplier.hpp"
 #include "osculate/contact/point_terms.hpp"
 #include "osculate/core/prediction.hpp"
+#include "osculate/pairing/candidate_filter.hpp"
 #include "osculate/pairing/constraint.hpp"
 #include "osculate/pairing/edges.hpp"
+#include "osculate/pairing/elastic_predictor.hpp"
 #include "osculate/pairing/mortar_buffers.hpp"
-#include "osculate/pairing/place.hpp"
+#include "osculate/pairing/projected_point.hpp"
 #include "osculate/pairing/relative_stiffness.hpp"
-#include "osculate/pairing/scope.hpp"
 #include "osculate/pairing/slave_side.hpp"
 #include "osculate/pairing/tied_point.hpp"
-#include "osculate/pairing/trial.hpp"
 
 namespace osculate::pairing {
 
@@ -45,7 +45,7 @@ enum class InitialOverlap : std::uint8_t { acts, ramped, kept };
 /// the plane and in space.
 template <int Dim>
 struct PairDefinition {
-  static constexpr double default_valley_angle = std::numbers::pi / 6;
+  static constexpr double default_reentrant_angle = std::numbers::pi / 6;
   Boundary<Dim> master;
   SlaveSide<Dim> slave;
   contact::NormalLaw normal;
@@ -68,26 +68,27 @@ struct PairDefinition {
   contact::TangentForm tangent;
   HistoryRule history = HistoryRule::continuous;
   AreaRule area;
-  double share = 1;  ///< of the traction that this pass carries (two passes: 1/2 each)
+  double pass_factor = 1;  ///< of the traction that this pass carries (two passes: 1/2 each)
   double depth = std::numeric_limits<double>::infinity();  ///< deeper points are not in contact
   InitialOverlap overlap = InitialOverlap::acts;
   EdgeContact edges;  ///< in space: also where sharp edges cross
   /// In the plane, with unknown tractions at nodes: points are held in concave corners of the
-  /// master by a traction of any direction (valley.hpp), so that there is a shear without friction
-  /// too. Corners with a larger angle between their normals count.
-  double valley_angle = default_valley_angle;
+  /// master by a traction of any direction (reentrant_vertex.hpp), so that there is a shear
+  /// without friction too. Corners with a larger angle between their normals count.
+  double reentrant_angle = default_reentrant_angle;
   /// There are such corners; set by `prepare`. Not between thick sides or where points are held or
   /// overlaps do not count: there the corner is elsewhere.
-  bool valleys = false;
-  /// With `scope.own` both sides of a contact are slaves, and each carries half of the traction.
-  Scope<Dim> scope;
+  bool reentrant_vertices = false;
+  /// With `candidate filter.own` both sides of a contact are slaves, and each carries half of the
+  /// traction.
+  CandidateFilter<Dim> filter;
   bool mortar = false;  ///< integrals over the slave's facets instead of points (mortar.hpp)
   std::vector<TiedPoint<Dim>> ties;     ///< filled by `prepare`
   std::vector<double> reference_areas;  ///< of the slave's points; filled by `prepare`
   std::vector<Vec<Dim>> reference;      ///< mortar: positions of all nodes; filled by `prepare`
 };
 
-/// Committed history of a pair: one entry per slave point, then one per crossing of edges.
+/// Committed history of a pair: one entry per slave point, then one per edge-edge contact.
 template <int Dim>
 struct PairState {
   std::vector<contact::PointHistory<Dim>> points;
@@ -110,10 +111,10 @@ struct PairMultipliers {
 
 /// The branch of the friction law a point is linearised in; of a slipping point also where to.
 template <int Dim>
-struct AssumedBranch {
+struct ActiveBranch {
   contact::Branch branch = contact::Branch::none;
   Vec<Dim> direction = Vec<Dim>::Zero();  ///< unit vector of the shear traction while slipping
-  std::array<Index, 2> edges{-1, -1};     ///< of a crossing: the slave's and the master's
+  std::array<Index, 2> edges{-1, -1};     ///< of an edge-edge contact: the slave's and the master's
   /// A point that has gone back and forth over the border of a facet keeps that facet until the
   /// increment is done: between two facets at an angle the force jumps, and iterations that follow
   /// it find no end.
@@ -140,7 +141,7 @@ struct PointResult {
   bool outside_domain = false;
   double normal_traction = 0;                          ///< N <= 0
   Vec<Dim - 1> shear_traction = Vec<Dim - 1>::Zero();  ///< t in `frame`
-  AssumedBranch<Dim> branch;                           ///< the tangent belongs to
+  ActiveBranch<Dim> branch;                            ///< the tangent belongs to
   double weight = 1;                                   ///< 1 or the area the traction acts on
   double stored = 0;  ///< energy of the springs of the penalties, per weight
   Vec<Dim - 1> slip_increment = Vec<Dim - 1>::Zero();  ///< along the master, in `frame`
@@ -195,7 +196,7 @@ struct PairSeconds {
 /// call.
 template <int Dim>
 struct PairEvaluation {
-  std::vector<PointResult<Dim>> points;  ///< one per slave point, then one per crossing of edges
+  std::vector<PointResult<Dim>> points;  ///< one per slave point, then one per edge-edge contact
   /// One per point, `count == 0` where open; mortar: then those of the facets, without forces (and
   /// unused ones with `count == 0`).
   std::vector<ContactBlock<Dim>> blocks;
@@ -206,18 +207,20 @@ struct PairEvaluation {
   std::vector<Vec<Dim>> normals;  ///< of the slave at its points
   std::vector<search::Box<Dim>> boxes;
   Tree<Dim> tree;
-  ScopeBuffers<Dim> scope;
+  FilterBuffers<Dim> filter;
   MortarBuffers<Dim> mortar;
-  /// With valleys: the multipliers as the states that were found take them, one per slave point.
-  std::vector<contact::Multiplier<Dim>> around;
+  /// With re-entrant vertices: the multipliers as the states that were found take them, one per
+  /// slave point.
+  std::vector<contact::Multiplier<Dim>> taken_multipliers;
   double stiffening = 1;  ///< that was used (PairMultipliers)
-  bool apart = false;     ///< master and slave are farther from each other than the scope reaches
-  bool near = false;      ///< places far in front of their points were left out (Assumed::near)
+  bool apart =
+      false;  ///< master and slave are farther from each other than the candidate filter reaches
+  bool near = false;  ///< places far in front of their points were left out (ActiveSet::near)
   PairSeconds seconds;
 };
 
-/// Fills the reference areas from the reference coordinates, and prepares the scope. Throws
-/// core::GeometryError for choices that do not go together (combinations.hpp), and when area
+/// Fills the reference areas from the reference coordinates, and prepares the candidate filter.
+/// Throws core::GeometryError for choices that do not go together (combinations.hpp), and when area
 /// weights are asked for and a slave point has no facet or a non-positive area.
 template <int Dim>
 void prepare(PairDefinition<Dim>& pair, Points<Dim> reference);
@@ -232,8 +235,8 @@ template <int Dim>
 /// in the stick branch (without limit), from where it finds its side (primal-dual active set).
 /// Plain return mapping jumps back and forth there for ever.
 template <int Dim>
-struct Assumed {
-  std::vector<AssumedBranch<Dim>> branch;
+struct ActiveSet {
+  std::vector<ActiveBranch<Dim>> branch;
   bool predict = false;  ///< first iteration: points that slipped go on slipping
   double duration = 0;   ///< of the increment, for laws that depend on speed; 0: not known
   double relief = 0;     ///< share of the initial overlaps that does not count yet
@@ -247,13 +250,13 @@ struct Assumed {
 
 /// Branches at the end of the last increment; `x` is the configuration then.
 template <int Dim>
-[[nodiscard]] Assumed<Dim> committed_branches(const PairDefinition<Dim>& pair,
-                                              const PairState<Dim>& committed, Points<Dim> x,
-                                              Prediction friction = Prediction::as_before);
+[[nodiscard]] ActiveSet<Dim> committed_active_set(const PairDefinition<Dim>& pair,
+                                                  const PairState<Dim>& committed, Points<Dim> x,
+                                                  Prediction friction = Prediction::as_before);
 /// Branches of an evaluation, for the next iteration; `before` are those it was made with.
 template <int Dim>
-[[nodiscard]] Assumed<Dim> evaluated_branches(const PairEvaluation<Dim>& evaluation,
-                                              const Assumed<Dim>& before = {});
+[[nodiscard]] ActiveSet<Dim> evaluated_active_set(const PairEvaluation<Dim>& evaluation,
+                                                  const ActiveSet<Dim>& before = {});
 
 /// One evaluation of all points of the pair: search, projection, kinematics, tractions from the
 /// committed history, residual and (if asked) tangent. `multipliers` are needed where the pair's
@@ -263,7 +266,7 @@ template <int Dim>
 /// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair_history.cpp, and their 3D like
 template <int Dim>
 void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Dim>& committed,
-              bool with_tangent, PairEvaluation<Dim>& out, const Assumed<Dim>& assumed = {},
+              bool with_tangent, PairEvaluation<Dim>& out, const ActiveSet<Dim>& active_set = {},
               const PairMultipliers<Dim>* multipliers = nullptr);
 
 /// The places that a `near` evaluation at `x` has left out: what points without a place remember
@@ -283,11 +286,11 @@ template <int Dim>
 /// Whether the unknown tractions of a pair's points have a shear.
 template <int Dim>
 [[nodiscard]] bool has_shear(const PairDefinition<Dim>& pair) {
-  return pair.friction.has_value() || pair.valleys;
+  return pair.friction.has_value() || pair.reentrant_vertices;
 }
 
 /// The multipliers of an iteration as the states that its evaluation found take them: a point that
-/// came into a valley or left one has the same traction, but other multipliers.
+/// came into a re-entrant vertex or left one has the same traction, but other multipliers.
 template <int Dim>
 [[nodiscard]] PairMultipliers<Dim> taken_over(const PairEvaluation<Dim>& evaluation,
                                               PairMultipliers<Dim> used);

@@ -108,13 +108,13 @@ template <int Dim>
 /// Whether the tractions of the point are unknowns; if so its constraint starts as that of an open
 /// point.
 template <int Dim>
-bool start_constraint(const PairDefinition<Dim>& pair, const BranchHint<Dim>& hint, std::size_t i,
-                      ContactBlock<Dim>& block) {
-  if (pair.enforcement != contact::Enforcement::lagrange_multiplier || !hint.multiplier)
+bool start_constraint(const PairDefinition<Dim>& pair, const PointContext<Dim>& context,
+                      std::size_t i, ContactBlock<Dim>& block) {
+  if (pair.enforcement != contact::Enforcement::lagrange_multiplier || !context.multiplier)
     return false;
   const PointPenalty penalty = point_penalty(pair, i);
-  set_open(constraint_weight(pair, i), penalty.normal, penalty.shear, hint.multiplier->normal,
-           hint.multiplier->shear, block.constraint);
+  set_open(constraint_weight(pair, i), penalty.normal, penalty.shear, context.multiplier->normal,
+           context.multiplier->shear, block.constraint);
   return true;
 }
 
@@ -122,21 +122,22 @@ bool start_constraint(const PairDefinition<Dim>& pair, const BranchHint<Dim>& hi
 /// were: see ConstraintBlock.
 template <int Dim>
 void set_constraint_values(double area, const Response<Dim>& r, const Mat<Dim, Dim - 1>& frame,
-                           const BranchHint<Dim>& hint, ConstraintBlock<Dim>& c) {
-  const contact::Multiplier<Dim>& multiplier = *hint.multiplier;
-  const contact::Traction<Dim> linear = hint.kept ? pulled(r.traction, *hint.kept) : r.traction;
+                           const PointContext<Dim>& context, ConstraintBlock<Dim>& c) {
+  const contact::Multiplier<Dim>& multiplier = *context.multiplier;
+  const contact::Traction<Dim> linear =
+      context.kept ? pulled(r.traction, *context.kept) : r.traction;
   c.branch_normal = area * (linear.normal.traction - multiplier.normal);
   c.branch_shear = area * (frame * linear.tangential.traction - multiplier.shear);
-  c.normal = hint.kept ? -area * multiplier.normal : c.branch_normal;
-  c.shear = hint.kept ? Vec<Dim>(-area * multiplier.shear)
-                      : Vec<Dim>(area * (frame * r.law.traction - multiplier.shear));
+  c.normal = context.kept ? -area * multiplier.normal : c.branch_normal;
+  c.shear = context.kept ? Vec<Dim>(-area * multiplier.shear)
+                         : Vec<Dim>(area * (frame * r.law.traction - multiplier.shear));
 }
 
 /// Derivatives by the multipliers of a point in contact: of its forces, with `weight(n)` of node n
-/// of the block, and of its constraint. dt = d_trial dLambda + d_push dlambda.
+/// of the block, and of its constraint. dt = d_predictor dLambda + d_push dlambda.
 template <int Dim, class WeightOf>
 void set_multiplier_terms(const PointPenalty& penalty, double area, const Vec<Dim>& normal,
-                          const Mat<Dim, Dim>& d_trial, const Vec<Dim>& d_push,
+                          const Mat<Dim, Dim>& d_predictor, const Vec<Dim>& d_push,
                           const WeightOf& weight, ContactBlock<Dim>& block) {
   ConstraintBlock<Dim>& c = block.constraint;
   const double push = penalty.normal, shear = penalty.shear;
@@ -144,12 +145,12 @@ void set_multiplier_terms(const PointPenalty& penalty, double area, const Vec<Di
   for (int n = 0; n < block.count; ++n) {
     auto rows = c.columns.template middleRows<Dim>(Dim * n);
     rows.col(0) = (weight(n) * push) * (normal + d_push);
-    rows.template rightCols<Dim>() = (weight(n) * shear) * d_trial;
+    rows.template rightCols<Dim>() = (weight(n) * shear) * d_predictor;
   }
   c.own.setZero();
   c.own.template block<Dim, 1>(1, 0) = area * push * d_push;
   c.own.template bottomRightCorner<Dim, Dim>() =
-      (area * shear) * (d_trial - Mat<Dim, Dim>::Identity());
+      (area * shear) * (d_predictor - Mat<Dim, Dim>::Identity());
 }
 
 }  // namespace osculate::pairing

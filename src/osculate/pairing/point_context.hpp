@@ -16,36 +16,37 @@ struct KeptContact {
 /// What is known of a point before the law is asked: its branch, and the multiplier its penalties
 /// act around.
 template <int Dim>
-struct BranchHint {
-  AssumedBranch<Dim> assumed{};
+struct PointContext {
+  ActiveBranch<Dim> active{};
   bool predict = false;
-  bool known = false;   ///< `assumed` is of an iteration (or predicted), not made up
+  bool known = false;   ///< `active_set` is of an iteration (or predicted), not made up
   double duration = 0;  ///< of the increment
   double relieved = 0;  ///< part <= 0 of the gap that does not count (PairState::overlap)
-  double way = 0;       ///< of the gap in the increment, with Assumed::mean_onset
+  double way = 0;       ///< of the gap in the increment, with ActiveSet::mean_onset
   const contact::Multiplier<Dim>* multiplier = nullptr;
   double stiffening = 1;
   RelativeStiffness own{};  ///< factors of the point's penalties
   std::optional<KeptContact> kept{};
 };
 
-/// The hint of point i.
+/// The context of point i.
 template <int Dim>
-[[nodiscard]] BranchHint<Dim> hint_of(const PairDefinition<Dim>& pair, const Assumed<Dim>& assumed,
-                                      const PairMultipliers<Dim>* multipliers, std::size_t i) {
-  BranchHint<Dim> hint;
-  hint.own = relative_stiffness(pair, i);
-  if (!assumed.branch.empty()) {
-    hint.assumed = assumed.branch[i];
-    hint.predict = assumed.predict;
-    hint.known = true;
+[[nodiscard]] PointContext<Dim> context_of(const PairDefinition<Dim>& pair,
+                                           const ActiveSet<Dim>& active_set,
+                                           const PairMultipliers<Dim>* multipliers, std::size_t i) {
+  PointContext<Dim> context;
+  context.own = relative_stiffness(pair, i);
+  if (!active_set.branch.empty()) {
+    context.active = active_set.branch[i];
+    context.predict = active_set.predict;
+    context.known = true;
   }
-  hint.duration = assumed.duration;
+  context.duration = active_set.duration;
   if (multipliers) {
-    hint.stiffening = multipliers->stiffening;
-    if (i < multipliers->points.size()) hint.multiplier = &multipliers->points[i];
+    context.stiffening = multipliers->stiffening;
+    if (i < multipliers->points.size()) context.multiplier = &multipliers->points[i];
   }
-  return hint;
+  return context;
 }
 
 }  // namespace osculate::pairing

@@ -21,14 +21,14 @@ struct PointPenalty {
 /// Penalties of slave point i: everything that asks for the penalty of a point asks here.
 ///
 /// Formula    eps_N,i = f_N,i eps_N ,  eps_T,i = f_T,i eps_T ; without friction eps_T,i = eps_N,i
-///            where valleys ask for an unknown shear
+///            where re-entrant vertices ask for an unknown shear
 /// Tested by  tests/unit/pairing/test_point_penalty.cpp
 template <int Dim>
 [[nodiscard]] PointPenalty point_penalty(const PairDefinition<Dim>& pair, std::size_t i) {
   const RelativeStiffness own = relative_stiffness(pair, i);
   const double normal = own.normal * contact::penalty_of(pair.normal);
   if (pair.friction) return {normal, own.shear * contact::stiffness(*pair.friction)};
-  return {normal, pair.valleys ? normal : 0.0};
+  return {normal, pair.reentrant_vertices ? normal : 0.0};
 }
 
 /// Penalties of the slave's points.

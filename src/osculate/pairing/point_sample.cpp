@@ -16,10 +16,10 @@ using projection::Feature;
 namespace {
 
 template <int Dim>
-ContactSample<Dim> sample_at(const Placed<Dim>& placed) {
-  const Kinematics<Dim>& k = placed.kinematics;
-  const Projection<Dim>& p = placed.projection;
-  return {p.facet, p.feature, p.xi, k.gap, placed.foot, k.normal, k.frame};
+ContactSample<Dim> sample_at(const ProjectedPoint<Dim>& projected) {
+  const Kinematics<Dim>& k = projected.kinematics;
+  const Projection<Dim>& p = projected.projection;
+  return {p.facet, p.feature, p.xi, k.gap, projected.foot, k.normal, k.frame};
 }
 
 /// The elastic predictor since the last converged state; around a multiplier what is carried is in
@@ -27,14 +27,15 @@ ContactSample<Dim> sample_at(const Placed<Dim>& placed) {
 ///
 /// Formula    d((I - n n^T) t) = -(n . t) d(n) in the tangent plane
 template <int Dim>
-Trial<Dim> predictor(const PlacedPoint<Dim>& point, PointHistory<Dim> history,
-                     const contact::Multiplier<Dim>* multiplier, double stiffness,
-                     const ContactShare& share, Points<Dim> x, PathBuffers<Dim>* path) {
+ElasticPredictor<Dim> predictor(const SurfaceSample<Dim>& point, PointHistory<Dim> history,
+                                const contact::Multiplier<Dim>* multiplier, double stiffness,
+                                const ContactTimeFraction& time_fraction, Points<Dim> x,
+                                PathBuffers<Dim>* path) {
   if (multiplier) history.active = false;
-  Trial<Dim> tr =
-      trial(point.surface, history, point.placed, stiffness, share, x, path, point.rule);
+  ElasticPredictor<Dim> tr = elastic_predictor(point.surface, history, point.projected, stiffness,
+                                               time_fraction, x, path, point.rule);
   if (!multiplier) return tr;
-  const Kinematics<Dim>& k = point.placed.kinematics;
+  const Kinematics<Dim>& k = point.projected.kinematics;
   tr.value += k.frame.transpose() * multiplier->shear;
   tr.variation.add(Mat<Dim, Dim>(-k.normal.dot(multiplier->shear) * Mat<Dim, Dim>::Identity()),
                    k.d_normal);
@@ -44,16 +45,16 @@ Trial<Dim> predictor(const PlacedPoint<Dim>& point, PointHistory<Dim> history,
 /// Where the point is, and what its normal law says; not active where it is not in contact.
 template <int Dim>
 NormalResponse report_point(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,
-                            const Placed<Dim>& placed, const BranchHint<Dim>& hint,
+                            const ProjectedPoint<Dim>& projected, const PointContext<Dim>& context,
                             PointResult<Dim>& result) {
-  if (placed.projection.feature == Feature::none) return {};
-  const Kinematics<Dim>& k = placed.kinematics;
-  report_place(sample_at(placed), pair.offset + hint.relieved, result);
-  if (placed.projection.beyond_end) {
+  if (projected.projection.feature == Feature::none) return {};
+  const Kinematics<Dim>& k = projected.kinematics;
+  report_sample(sample_at(projected), pair.offset + context.relieved, result);
+  if (projected.projection.beyond_end) {
     result.history.gap = result.gap = std::abs(k.gap);
     return {};
   }
-  const NormalResponse normal = normal_response(pair, history, k.gap, hint);
+  const NormalResponse normal = normal_response(pair, history, k.gap, context);
   result.outside_domain = normal.active && !contact::inside_domain(k);
   return result.outside_domain ? NormalResponse{} : normal;
 }
@@ -79,35 +80,35 @@ void set_constraint_tangent(const PairDefinition<Dim>& pair, std::size_t i,
     if (pair.friction) c.shear_row.push_back({node, area * along});
   }
   for (const NodeMatrix<Dim>& g : block.path())
-    c.shear_row.push_back({g.node, area * rate.d_trial * g.value});
+    c.shear_row.push_back({g.node, area * rate.d_predictor * g.value});
   set_multiplier_terms<Dim>(
-      penalty, area, k.normal, rate.d_trial, rate.d_push, [&](int n) { return weight * w(0, n); },
-      block);
+      penalty, area, k.normal, rate.d_predictor, rate.d_push,
+      [&](int n) { return weight * w(0, n); }, block);
 }
 
 template <int Dim>
-void set_point_nodes(const PlacedPoint<Dim>& point, int most, ContactBlock<Dim>& block) {
-  const auto facet = static_cast<std::size_t>(point.placed.projection.facet);
+void set_point_nodes(const SurfaceSample<Dim>& point, int most, ContactBlock<Dim>& block) {
+  const auto facet = static_cast<std::size_t>(point.projected.projection.facet);
   std::span<const Index> slave;
   if (point.slave)
     slave = std::span(point.slave->nodes).first(static_cast<std::size_t>(point.slave->count));
   block.reserve(most);
   set_nodes<Dim>(slave,
                  std::span<const Index>(point.surface.facets[facet].nodes)
-                     .first(static_cast<std::size_t>(point.placed.count)),
+                     .first(static_cast<std::size_t>(point.projected.count)),
                  block);
 }
 
 /// Forces, tangent and constraint of a point in contact.
 template <int Dim>
-void set_block(const PairDefinition<Dim>& pair, const PlacedPoint<Dim>& point,
-               const Response<Dim>& r, const BranchHint<Dim>& hint, bool with_tangent,
+void set_block(const PairDefinition<Dim>& pair, const SurfaceSample<Dim>& point,
+               const Response<Dim>& r, const PointContext<Dim>& context, bool with_tangent,
                std::size_t i, PairEvaluation<Dim>& out) {
   ContactBlock<Dim>& block = out.blocks[i];
-  const Kinematics<Dim>& k = point.placed.kinematics;
+  const Kinematics<Dim>& k = point.projected.kinematics;
   const double weight = out.points[i].weight;
   set_point_nodes(point, out.block_nodes, block);
-  const Weights<Dim> weights = contact_weights(point.slave, point.placed);
+  const Weights<Dim> weights = contact_weights(point.slave, point.projected);
   const auto w = [&](std::size_t slot, int n) {
     return weights[slot][static_cast<std::size_t>(n)];
   };
@@ -115,77 +116,77 @@ void set_block(const PairDefinition<Dim>& pair, const PlacedPoint<Dim>& point,
       with_tangent ? contact::point_terms(k, r.traction, pair.residual, pair.tangent)
                    : contact::point_forces(k, r.traction, pair.residual);
   set_forces<Dim>(
-      r, hint.kept, terms.f,
+      r, context.kept, terms.f,
       [&](const Traction<Dim>& t) { return contact::point_forces(k, t, pair.residual).f; }, w,
       weight, block);
   if (block.constraint.on)
-    set_constraint_values(constraint_weight(pair, i), r, k.frame, hint, block.constraint);
+    set_constraint_values(constraint_weight(pair, i), r, k.frame, context, block.constraint);
   if (!with_tangent) return;
   if (block.constraint.on) set_constraint_tangent(pair, i, k, r.traction, w, weight, block);
   scatter_tangent<Dim>(terms, block.count, w, weight, block.tangent);
   scatter_path<Dim>(terms.s, w, weight, block);
   if (!pair.tangent.consistent || pair.weight != Weight::current_area || !point.slave) return;
   add_area_gradient<Dim>(pair, out, i, k.normal, block.area);
-  scatter_forces<Dim>(terms.f, block.count, w, side_share(pair), block.area_rows);
+  scatter_forces<Dim>(terms.f, block.count, w, pass_factor(pair), block.area_rows);
 }
 
 }  // namespace
 
 template <int Dim>
 void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
-                    const PointHistory<Dim>& history, const PlacedPoint<Dim>& point,
-                    const BranchHint<Dim>& hint, bool with_tangent, std::size_t i,
+                    const PointHistory<Dim>& history, const SurfaceSample<Dim>& point,
+                    const PointContext<Dim>& context, bool with_tangent, std::size_t i,
                     PairEvaluation<Dim>& out) {
   PointResult<Dim>& result = out.points[i];
   ContactBlock<Dim>& block = out.blocks[i];
-  const Kinematics<Dim>& k = point.placed.kinematics;
+  const Kinematics<Dim>& k = point.projected.kinematics;
   result = open_result(history, point.slave ? point_weight(pair, out, i) : point.weight);
   clear_block(block);
-  start_constraint(pair, hint, i, block);
-  const NormalResponse normal = report_point(pair, history, point.placed, hint, result);
+  start_constraint(pair, context, i, block);
+  const NormalResponse normal = report_point(pair, history, point.projected, context, result);
   if (point.slave && (normal.active || normal.stored > 0))
     result.weight = facing_weight<Dim>(pair, out, i, k.normal);
   report_normal(normal, history.damping_work, result);
-  if (!normal.active && !hint.kept) return;
+  if (!normal.active && !context.kept) return;
   PathBuffers<Dim>* const path = with_tangent && pair.tangent.consistent ? &block.behind : nullptr;
-  const Response<Dim> r =
-      respond<Dim>(pair, history, k.gap, k.frame, hint, normal,
-                   [&](double stiffness, const ContactShare& share) {
-                     return predictor(point, history, hint.multiplier, stiffness, share, x, path);
-                   });
-  if (hint.kept)
-    report_kept(r, hint, result);
+  const Response<Dim> r = respond<Dim>(
+      pair, history, k.gap, k.frame, context, normal,
+      [&](double stiffness, const ContactTimeFraction& time_fraction) {
+        return predictor(point, history, context.multiplier, stiffness, time_fraction, x, path);
+      });
+  if (context.kept)
+    report_kept(r, context, result);
   else
     report_contact<Dim>(
-        r, stored_components(point.surface, point.placed, r.law.traction, x, point.rule), history,
-        result);
-  set_block(pair, point, r, hint, with_tangent, i, out);
+        r, stored_components(point.surface, point.projected, r.law.traction, x, point.rule),
+        history, result);
+  set_block(pair, point, r, context, with_tangent, i, out);
 }
 
 template <int Dim>
 void report_far(const PairDefinition<Dim>& pair, const PointHistory<Dim>& history,
-                const Placed<Dim>& placed, PointResult<Dim>& result) {
-  report_normal(report_point(pair, history, placed, {}, result), history.damping_work, result);
+                const ProjectedPoint<Dim>& projected, PointResult<Dim>& result) {
+  report_normal(report_point(pair, history, projected, {}, result), history.damping_work, result);
 }
 
 template <int Dim>
-PointHistory<Dim> history_at(const Placed<Dim>& placed) {
+PointHistory<Dim> history_at(const ProjectedPoint<Dim>& projected) {
   PointResult<Dim> result;
-  report_place(sample_at(placed), 0, result);
+  report_sample(sample_at(projected), 0, result);
   return result.history;
 }
 
 template void evaluate_point<2>(const PairDefinition<2>&, Points<2>, const PointHistory<2>&,
-                                const PlacedPoint<2>&, const BranchHint<2>&, bool, std::size_t,
+                                const SurfaceSample<2>&, const PointContext<2>&, bool, std::size_t,
                                 PairEvaluation<2>&);
 template void evaluate_point<3>(const PairDefinition<3>&, Points<3>, const PointHistory<3>&,
-                                const PlacedPoint<3>&, const BranchHint<3>&, bool, std::size_t,
+                                const SurfaceSample<3>&, const PointContext<3>&, bool, std::size_t,
                                 PairEvaluation<3>&);
-template void report_far<2>(const PairDefinition<2>&, const PointHistory<2>&, const Placed<2>&,
-                            PointResult<2>&);
-template void report_far<3>(const PairDefinition<3>&, const PointHistory<3>&, const Placed<3>&,
-                            PointResult<3>&);
-template PointHistory<2> history_at<2>(const Placed<2>&);
-template PointHistory<3> history_at<3>(const Placed<3>&);
+template void report_far<2>(const PairDefinition<2>&, const PointHistory<2>&,
+                            const ProjectedPoint<2>&, PointResult<2>&);
+template void report_far<3>(const PairDefinition<3>&, const PointHistory<3>&,
+                            const ProjectedPoint<3>&, PointResult<3>&);
+template PointHistory<2> history_at<2>(const ProjectedPoint<2>&);
+template PointHistory<3> history_at<3>(const ProjectedPoint<3>&);
 
 }  // namespace osculate::pairing

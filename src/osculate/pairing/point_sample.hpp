@@ -12,13 +12,13 @@ using Weights = std::array<std::array<double, max_slave_nodes<Dim> + max_master_
 
 template <int Dim>
 [[nodiscard]] Weights<Dim> contact_weights(const SlavePoint<Dim>* slave,
-                                           const Placed<Dim>& placed) {
+                                           const ProjectedPoint<Dim>& projected) {
   Weights<Dim> w{};
   const std::size_t first = slave ? static_cast<std::size_t>(slave->count) : 0;
   if (slave) std::copy_n(slave->shape.begin(), first, w[0].begin());
   for (std::size_t s = 0; s < w.size(); ++s)
-    for (std::size_t k = 0; k < static_cast<std::size_t>(placed.count); ++k)
-      w[s][first + k] = -placed.shape[s][k];  // @eq KS2D:60
+    for (std::size_t k = 0; k < static_cast<std::size_t>(projected.count); ++k)
+      w[s][first + k] = -projected.shape[s][k];  // @eq KS2D:60
   return w;
 }
 
@@ -35,9 +35,9 @@ template <int Dim>
 
 /// How far from its master a point needs a place in a `near` evaluation.
 template <int Dim>
-[[nodiscard]] double near_reach(const PairDefinition<Dim>& pair) {
-  return std::max(0.5 * pair.scope.reach,
-                  2 * (std::abs(pair.offset) + contact::reach(pair.normal)));
+[[nodiscard]] double near_distance(const PairDefinition<Dim>& pair) {
+  return std::max(0.5 * pair.filter.distance,
+                  2 * (std::abs(pair.offset) + contact::onset_gap(pair.normal)));
 }
 
 /// Whether the point is farther than that in front of where it was, so that it has not come through
@@ -47,15 +47,17 @@ template <int Dim>
                                 const contact::PointHistory<Dim>& history, const Vec<Dim>& arm,
                                 Points<Dim> x) {
   const auto& facet = pair.master.facets[static_cast<std::size_t>(history.facet)];
-  return !facet.shape && arm.norm() > near_reach(pair) && arm.dot(middle_normal(facet, x)) > 0;
+  return !facet.shape && arm.norm() > near_distance(pair) && arm.dot(middle_normal(facet, x)) > 0;
 }
 
 /// Closest point of slave point `i` on the master and the kinematics there; no place where none is
 /// found. `work` is refreshed at `x`.
 template <int Dim>
-[[nodiscard]] Placed<Dim> place_point(const PairDefinition<Dim>& pair,
-                                      const PairEvaluation<Dim>& work, Points<Dim> x, std::size_t i,
-                                      const contact::PointHistory<Dim>& history, Index kept = -1) {
+[[nodiscard]] ProjectedPoint<Dim> project_point(const PairDefinition<Dim>& pair,
+                                                const PairEvaluation<Dim>& work, Points<Dim> x,
+                                                std::size_t i,
+                                                const contact::PointHistory<Dim>& history,
+                                                Index kept = -1) {
   if (work.apart) return {};
   ProjectionQuery<Dim> query;
   query.point = position<Dim>(pair.slave.points[i], x);
@@ -63,61 +65,62 @@ template <int Dim>
   query.history = history.facet;
   query.history_feature = history.feature;
   query.kept = kept;
-  NodeScope<Dim> rules;
-  if (pair.scope.limited()) {
-    rules = node_scope<Dim>(pair.scope, pair.slave, work.scope, i, query.point);
-    if (work.near) rules.reach = std::min(rules.reach, near_reach(pair));
+  NodeFilter<Dim> rules;
+  if (pair.filter.limited()) {
+    rules = node_filter<Dim>(pair.filter, pair.slave, work.filter, i, query.point);
+    if (work.near) rules.distance = std::min(rules.distance, near_distance(pair));
     if (history.facet >= 0) {
       rules.last = place_in_space(pair.master, history, x);
       const Vec<Dim> arm = query.point - *rules.last;
       const double way = arm.norm();
-      rules.edge_depth *= std::max(1.0, way / pair.scope.reach);
+      rules.edge_depth *= std::max(1.0, way / pair.filter.distance);
       if (work.near && far_in_front(pair, history, arm, x))
         query.history = -1;
       else
-        rules.reach = std::max(rules.reach, way);
+        rules.distance = std::max(rules.distance, way);
     }
-    query.scope = &rules;
+    query.filter = &rules;
   }
   const Projection<Dim> p = closest(pair.master, work.tree, x, query);
   if (p.feature == projection::Feature::none) return {};
-  return place(pair.master, p, query.point, x);
+  return projected_point(pair.master, p, query.point, x);
 }
 
 /// A point that is placed on a surface: a slave point on the master, or the origin on the surface
 /// of the differences of edges.
 template <int Dim>
-struct PlacedPoint {
+struct SurfaceSample {
   const Boundary<Dim>& surface;
-  const Placed<Dim>& placed;
-  /// None of a crossing: the origin is no node, and its weight is the area of its edge.
+  const ProjectedPoint<Dim>& projected;
+  /// None of an edge-edge contact: the origin is no node, and its weight is the area of its edge.
   const SlavePoint<Dim>* slave;
-  double weight = 1;  ///< of a crossing
+  double weight = 1;  ///< of an edge-edge contact
   HistoryRule rule = HistoryRule::continuous;
 };
 
 /// Fills `out.points[i]` and `out.blocks[i]` of a sample; `out` is refreshed at `x`.
 template <int Dim>
 void evaluate_point(const PairDefinition<Dim>& pair, Points<Dim> x,
-                    const contact::PointHistory<Dim>& history, const PlacedPoint<Dim>& point,
-                    const BranchHint<Dim>& hint, bool with_tangent, std::size_t i,
+                    const contact::PointHistory<Dim>& history, const SurfaceSample<Dim>& point,
+                    const PointContext<Dim>& context, bool with_tangent, std::size_t i,
                     PairEvaluation<Dim>& out);
 
 /// What an open point reports and remembers of the place it has been found far in front of.
 template <int Dim>
 void report_far(const PairDefinition<Dim>& pair, const contact::PointHistory<Dim>& history,
-                const Placed<Dim>& placed, PointResult<Dim>& result);
+                const ProjectedPoint<Dim>& projected, PointResult<Dim>& result);
 
 /// What a point remembers of a place at which it has not slipped.
 template <int Dim>
-[[nodiscard]] contact::PointHistory<Dim> history_at(const Placed<Dim>& placed);
+[[nodiscard]] contact::PointHistory<Dim> history_at(const ProjectedPoint<Dim>& projected);
 
-/// Points and blocks of the crossings of edges, behind those of the slave's points.
-void evaluate_crossings(const PairDefinition<3>& pair, Points<3> x, const PairState<3>& committed,
-                        bool with_tangent, PairEvaluation<3>& out, const Assumed<3>& assumed);
+/// Points and blocks of the edge-edge contacts, behind those of the slave's points.
+void evaluate_edge_contacts(const PairDefinition<3>& pair, Points<3> x,
+                            const PairState<3>& committed, bool with_tangent,
+                            PairEvaluation<3>& out, const ActiveSet<3>& active_set);
 
-/// Frame of a crossing's stored traction.
-[[nodiscard]] Mat<3, 2> crossing_frame(const PairDefinition<3>& pair,
-                                       const contact::PointHistory<3>& h, Points<3> x);
+/// Frame of an edge-edge contact's stored traction.
+[[nodiscard]] Mat<3, 2> edge_contact_frame(const PairDefinition<3>& pair,
+                                           const contact::PointHistory<3>& h, Points<3> x);
 
 }  // namespace osculate::pairing

@@ -7,15 +7,15 @@ namespace osculate::pairing {
 
 /// Of the traction at a slave point: on its own surface the other side of the contact carries half.
 template <int Dim>
-[[nodiscard]] double side_share(const PairDefinition<Dim>& pair) {
-  return pair.scope.own ? 0.5 : pair.share;
+[[nodiscard]] double pass_factor(const PairDefinition<Dim>& pair) {
+  return pair.filter.own ? 0.5 : pair.pass_factor;
 }
 
 /// What the traction of point i is multiplied by: 1 or its area.
 template <int Dim>
 [[nodiscard]] double point_weight(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& work,
                                   std::size_t i) {
-  const double share = side_share(pair);
+  const double share = pass_factor(pair);
   switch (pair.weight) {
     case Weight::node:
       return share;
@@ -27,16 +27,18 @@ template <int Dim>
   return share;
 }
 
-/// The same for a place with this normal. With a scope only the facets that face the master count.
+/// The same for a place with this normal. With a candidate filter only the facets that face the
+/// master count.
 template <int Dim>
 [[nodiscard]] double facing_weight(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& work,
                                    std::size_t i, const Vec<Dim>& normal) {
-  if (!pair.scope.limited() || pair.weight == Weight::node) return point_weight(pair, work, i);
+  if (!pair.filter.limited() || pair.weight == Weight::node) return point_weight(pair, work, i);
   const std::vector<double>& areas =
-      pair.weight == Weight::reference_area ? pair.scope.areas : work.scope.areas;
+      pair.weight == Weight::reference_area ? pair.filter.areas : work.filter.areas;
   double sum = 0;
-  for_each_facing(pair.scope, work.scope, i, normal, [&](std::size_t part) { sum += areas[part]; });
-  return side_share(pair) * sum;
+  for_each_facing(pair.filter, work.filter, i, normal,
+                  [&](std::size_t part) { sum += areas[part]; });
+  return pass_factor(pair) * sum;
 }
 
 /// Derivatives of the area in it.
@@ -44,12 +46,12 @@ template <int Dim>
 void add_area_gradient(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& work,
                        std::size_t i, const Vec<Dim>& normal,
                        std::vector<NodeGradient<Dim>>& gradient) {
-  if (!pair.scope.limited()) {
+  if (!pair.filter.limited()) {
     gradient = work.area_gradients[i];
     return;
   }
-  for_each_facing(pair.scope, work.scope, i, normal, [&](std::size_t part) {
-    const auto& more = work.scope.area_gradients[part];
+  for_each_facing(pair.filter, work.filter, i, normal, [&](std::size_t part) {
+    const auto& more = work.filter.area_gradients[part];
     gradient.insert(gradient.end(), more.begin(), more.end());
   });
 }

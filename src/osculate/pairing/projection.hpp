@@ -25,7 +25,7 @@ struct Projection {
 };
 
 template <int Dim>
-struct NodeScope;
+struct NodeFilter;
 
 template <int Dim>
 struct ProjectionQuery {
@@ -33,10 +33,11 @@ struct ProjectionQuery {
   std::optional<Vec<Dim>> slave_normal;  ///< facets facing the same way are not candidates
   Index history = -1;                    ///< facet; equidistant: the side of the history wins
   projection::Feature history_feature = projection::Feature::none;
-  /// Facet that a point keeps which went back and forth over its border (AssumedBranch::kept): it
+  /// Facet that a point keeps which went back and forth over its border (ActiveBranch::kept): it
   /// is continued by `end_extension` there; -1: the nearest one.
   Index kept = -1;
-  const NodeScope<Dim>* scope = nullptr;  ///< null: every facet is a candidate (scope.hpp)
+  const NodeFilter<Dim>* filter =
+      nullptr;  ///< null: every facet is a candidate (candidate filter.hpp)
   /// An equidistant point has no side of its own: it belongs to the border between both facets.
   [[nodiscard]] bool shares() const {
     return history < 0 || history_feature == projection::Feature::edge ||

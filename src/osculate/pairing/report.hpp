@@ -20,7 +20,7 @@ template <int Dim>
 
 /// Where the sample is. `apart`: half thicknesses, and what else of the gap does not count.
 template <int Dim>
-void report_place(const ContactSample<Dim>& sample, double apart, PointResult<Dim>& result) {
+void report_sample(const ContactSample<Dim>& sample, double apart, PointResult<Dim>& result) {
   result.gap = sample.gap - apart;
   result.foot = sample.foot;
   result.normal = sample.normal;
@@ -41,8 +41,8 @@ void report_normal(const contact::NormalResponse& normal, double work_before,
 }
 
 template <int Dim>
-[[nodiscard]] AssumedBranch<Dim> branch_of(const contact::TangentialResponse<Dim>& response,
-                                           const Mat<Dim, Dim - 1>& frame) {
+[[nodiscard]] ActiveBranch<Dim> branch_of(const contact::TangentialResponse<Dim>& response,
+                                          const Mat<Dim, Dim - 1>& frame) {
   if (response.status == contact::Status::stick) return {contact::Branch::stick, Vec<Dim>::Zero()};
   const double size = response.traction.norm();
   if (!(size > 0)) return {contact::Branch::slip, Vec<Dim>::Zero()};
@@ -73,11 +73,12 @@ void report_contact(const Response<Dim>& r, const Vec<Dim - 1>& carried,
 
 /// What is remembered of an open sample that is linearised in contact.
 template <int Dim>
-void report_kept(const Response<Dim>& r, const BranchHint<Dim>& hint, PointResult<Dim>& result) {
+void report_kept(const Response<Dim>& r, const PointContext<Dim>& context,
+                 PointResult<Dim>& result) {
   result.branch.branch = contact::Branch::slip;
   if (r.has_shear) result.branch = branch_of<Dim>(r.traction.tangential, result.frame);
   result.branch.closed = true;
-  result.branch.kept_on = hint.assumed.kept_on + 1;
+  result.branch.kept_on = context.active.kept_on + 1;
 }
 
 }  // namespace osculate::pairing

@@ -21,8 +21,8 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] double rest_gap(const PairDefinition<Dim>& pair,
                               const contact::PointHistory<Dim>& history,
-                              const BranchHint<Dim>& hint) {
-  return pair.offset + history.rest + hint.relieved;
+                              const PointContext<Dim>& context) {
+  return pair.offset + history.rest + context.relieved;
 }
 
 /// At the start: holds a point that is near the master.
@@ -36,10 +36,10 @@ void hold(const PairDefinition<Dim>& pair, contact::PointHistory<Dim>& history) 
 
 /// The way of the gap over the same facet since the last converged state, where it is asked for.
 template <int Dim>
-[[nodiscard]] double way_of_gap(const PairDefinition<Dim>& pair, const Assumed<Dim>& assumed,
+[[nodiscard]] double way_of_gap(const PairDefinition<Dim>& pair, const ActiveSet<Dim>& active_set,
                                 const contact::PointHistory<Dim>& history, Index facet,
                                 double gap) {
-  const bool asked = assumed.mean_onset && !pair.damping && history.facet >= 0;
+  const bool asked = active_set.mean_onset && !pair.damping && history.facet >= 0;
   return asked && history.facet == facet ? std::abs(gap - history.gap) : 0.0;
 }
 
@@ -47,20 +47,21 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] bool is_closed(const PairDefinition<Dim>& pair,
                              const contact::PointHistory<Dim>& history, double gap,
-                             const BranchHint<Dim>& hint = {}) {
+                             const PointContext<Dim>& context = {}) {
   if (gap < -pair.depth) return false;
   if (is_held(pair, history)) return true;
   return pair.separation != Separation::tied_normal &&
-         gap - pair.offset - hint.relieved - 0.5 * hint.way <= contact::reach(pair.normal);
+         gap - pair.offset - context.relieved - 0.5 * context.way <=
+             contact::onset_gap(pair.normal);
 }
 
 /// What a law of damping may ask.
 template <int Dim>
 [[nodiscard]] contact::Closing closing_of(const PairDefinition<Dim>& pair,
                                           const contact::PointHistory<Dim>& history,
-                                          const BranchHint<Dim>& hint) {
-  return {history.gap - rest_gap(pair, history, hint), history.deepest,
-          history.facet >= 0 ? hint.duration : 0.0};
+                                          const PointContext<Dim>& context) {
+  return {history.gap - rest_gap(pair, history, context), history.deepest,
+          history.facet >= 0 ? context.duration : 0.0};
 }
 
 /// A normal law with its damping, around the multiplier where there is one.
@@ -68,23 +69,24 @@ template <int Dim>
 [[nodiscard]] contact::NormalResponse response_of(const contact::NormalLaw& law,
                                                   const PairDefinition<Dim>& pair,
                                                   const contact::PointHistory<Dim>& history,
-                                                  double gap, const BranchHint<Dim>& hint) {
+                                                  double gap, const PointContext<Dim>& context) {
   const bool held = is_held(pair, history);
-  const double of_law = gap - rest_gap(pair, history, hint);
+  const double of_law = gap - rest_gap(pair, history, context);
   contact::NormalResponse r;
-  if (hint.multiplier) {
+  if (context.multiplier) {
     if (gap < -pair.depth || (pair.separation == Separation::tied_normal && !held)) return {};
-    r = contact::shifted(hint.stiffening * contact::penalty_of(law), of_law,
-                         hint.multiplier->normal, held);
+    r = contact::augmented(context.stiffening * contact::penalty_of(law), of_law,
+                           context.multiplier->normal, held);
     if (r.active && pair.enforcement == contact::Enforcement::augmented_lagrange)
       r.stored = contact::stored_energy(law, of_law, true);
     return r;
   }
-  if (!is_closed(pair, history, gap, hint)) return {};
+  if (!is_closed(pair, history, gap, context)) return {};
   if (pair.damping)
-    return contact::damped(*pair.damping, law, of_law, closing_of(pair, history, hint));
-  const bool passes = !held && std::abs(of_law - contact::reach(law)) < 0.5 * hint.way;
-  r = passes ? contact::mean_response(law, of_law, hint.way) : contact::response(law, of_law, held);
+    return contact::damped(*pair.damping, law, of_law, closing_of(pair, history, context));
+  const bool passes = !held && std::abs(of_law - contact::onset_gap(law)) < 0.5 * context.way;
+  r = passes ? contact::mean_response(law, of_law, context.way)
+             : contact::response(law, of_law, held);
   r.stored = contact::stored_energy(law, of_law, held);
   return r;
 }
@@ -94,18 +96,21 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] contact::NormalResponse normal_response(const PairDefinition<Dim>& pair,
                                                       const contact::PointHistory<Dim>& history,
-                                                      double gap, const BranchHint<Dim>& hint) {
-  const double factor = hint.own.normal * (hint.multiplier ? 1 : hint.stiffening);
-  if (factor == 1) return response_of(pair.normal, pair, history, gap, hint);
-  return response_of(pair.normal.stiffened(factor), pair, history, gap, hint);
+                                                      double gap,
+                                                      const PointContext<Dim>& context) {
+  const double factor = context.own.normal * (context.multiplier ? 1 : context.stiffening);
+  if (factor == 1) return response_of(pair.normal, pair, history, gap, context);
+  return response_of(pair.normal.stiffened(factor), pair, history, gap, context);
 }
 
 /// The part in contact of a point that was open at the start of the increment (`history`).
 template <int Dim>
-[[nodiscard]] ContactShare contact_share(const PairDefinition<Dim>& pair,
-                                         const contact::PointHistory<Dim>& history, double gap,
-                                         const BranchHint<Dim>& hint) {
-  const double onset = rest_gap(pair, history, hint) + contact::reach(pair.normal) + 0.5 * hint.way;
+[[nodiscard]] ContactTimeFraction contact_time_fraction(const PairDefinition<Dim>& pair,
+                                                        const contact::PointHistory<Dim>& history,
+                                                        double gap,
+                                                        const PointContext<Dim>& context) {
+  const double onset =
+      rest_gap(pair, history, context) + contact::onset_gap(pair.normal) + 0.5 * context.way;
   if (history.active || history.facet < 0 || !(history.gap > onset)) return {};
   const double range = history.gap - gap;
   return {(onset - gap) / range, -(history.gap - onset) / (range * range)};
@@ -114,36 +119,36 @@ template <int Dim>
 /// What the friction law may ask beside the tractions.
 template <int Dim>
 [[nodiscard]] contact::Sliding sliding_of(const contact::PointHistory<Dim>& history,
-                                          const BranchHint<Dim>& hint) {
-  return {history.active ? history.slid : 0.0, hint.duration};
+                                          const PointContext<Dim>& context) {
+  return {history.active ? history.slid : 0.0, context.duration};
 }
 
 /// The friction law with the stiffness it has in this evaluation.
 template <int Dim>
 [[nodiscard]] contact::FrictionLaw friction_law(const PairDefinition<Dim>& pair,
                                                 double normal_traction,
-                                                const BranchHint<Dim>& hint) {
-  const double stiffening = hint.multiplier ? hint.stiffening : 1;
-  const contact::FrictionLaw law = pair.friction->stiffened(stiffening * hint.own.shear);
-  if (!hint.multiplier) return law;
-  return law.stiffened(contact::steadying(law, normal_traction, hint.duration));
+                                                const PointContext<Dim>& context) {
+  const double stiffening = context.multiplier ? context.stiffening : 1;
+  const contact::FrictionLaw law = pair.friction->stiffened(stiffening * context.own.shear);
+  if (!context.multiplier) return law;
+  return law.stiffened(contact::steadying(law, normal_traction, context.duration));
 }
 
-/// The law's answer, or the branch that the hint keeps it in.
+/// The law's answer, or the branch that the context keeps it in.
 template <int Dim>
 [[nodiscard]] contact::TangentialResponse<Dim> linearised_branch(
     const contact::FrictionLaw& law, const contact::TangentialResponse<Dim>& response,
     const Vec<Dim - 1>& trial, double normal, const Mat<Dim, Dim - 1>& frame,
-    const contact::Sliding& sliding, const BranchHint<Dim>& hint) {
-  if (hint.predict && hint.assumed.branch == contact::Branch::stick)
+    const contact::Sliding& sliding, const PointContext<Dim>& context) {
+  if (context.predict && context.active.branch == contact::Branch::stick)
     return contact::stick_response<Dim>(trial);  // also on the limit, whatever round-off says
-  if (hint.assumed.branch != contact::Branch::slip) return response;
-  const Vec<Dim - 1> before = frame.transpose() * hint.assumed.direction;
+  if (context.active.branch != contact::Branch::slip) return response;
+  const Vec<Dim - 1> before = frame.transpose() * context.active.direction;
   const double size = before.norm();
-  if (!(size > 0) && hint.predict)  // slides whichever way it likes
+  if (!(size > 0) && context.predict)  // slides whichever way it likes
     return contact::slip_response<Dim>(Vec<Dim - 1>::Zero(), 0, {});
   if (!(size > 0)) return response;
-  if (hint.predict) {
+  if (context.predict) {
     const contact::SlipLimit limit = contact::predicted_limit(law, trial.norm(), normal, sliding);
     return contact::slip_response<Dim>(before / size, std::max(limit.value, trial.norm()), limit);
   }
@@ -158,23 +163,23 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::optional<KeptContact> keeps_contact(
     const PairDefinition<Dim>& pair, Points<Dim> x, const contact::PointHistory<Dim>& history,
-    const Placed<Dim>& placed, const BranchHint<Dim>& hint, const Vec<Dim>& point) {
+    const ProjectedPoint<Dim>& projected, const PointContext<Dim>& context, const Vec<Dim>& point) {
   constexpr int most = 4;
-  const Projection<Dim>& p = placed.projection;
-  const AssumedBranch<Dim>& before = hint.assumed;
-  if (!before.closed || before.kept_on >= most || hint.predict || pair.damping) return {};
+  const Projection<Dim>& p = projected.projection;
+  const ActiveBranch<Dim>& before = context.active;
+  if (!before.closed || before.kept_on >= most || context.predict || pair.damping) return {};
   if (p.feature != projection::Feature::face || p.beyond_end || p.facet != before.facet ||
-      !contact::inside_domain(placed.kinematics) ||
-      normal_response(pair, history, placed.kinematics.gap, hint).active)
+      !contact::inside_domain(projected.kinematics) ||
+      normal_response(pair, history, projected.kinematics.gap, context).active)
     return {};
   Projection<Dim> last;
   last.feature = projection::Feature::face;
   last.facet = before.facet;
   last.xi = before.xi;
-  const double linearised = place(pair.master, last, point, x).kinematics.gap;
-  const contact::NormalResponse response = normal_response(pair, history, linearised, hint);
+  const double linearised = projected_point(pair.master, last, point, x).kinematics.gap;
+  const contact::NormalResponse response = normal_response(pair, history, linearised, context);
   if (!response.active) return {};
-  return KeptContact{response, placed.kinematics.gap - linearised};
+  return KeptContact{response, projected.kinematics.gap - linearised};
 }
 
 /// The answer of law and enforcement at a sample with this gap and frame, and the branch that the
@@ -187,29 +192,31 @@ template <int Dim>
 template <int Dim, class PredictorOf>
 [[nodiscard]] Response<Dim> respond(const PairDefinition<Dim>& pair,
                                     const contact::PointHistory<Dim>& history, double gap,
-                                    const Mat<Dim, Dim - 1>& frame, const BranchHint<Dim>& hint,
+                                    const Mat<Dim, Dim - 1>& frame,
+                                    const PointContext<Dim>& context,
                                     const contact::NormalResponse& normal_law,
                                     const PredictorOf& predictor) {
   Response<Dim> r;
-  r.traction.normal = hint.kept ? hint.kept->response : normal_law;
+  r.traction.normal = context.kept ? context.kept->response : normal_law;
   r.has_shear = pair.friction.has_value();
   if (!r.traction.normal.active || !pair.friction) return r;
   const double normal = r.traction.normal.traction;
-  const contact::FrictionLaw law = friction_law(pair, normal, hint);
+  const contact::FrictionLaw law = friction_law(pair, normal, context);
   const double stiffness = r.traction.stiffness = contact::stiffness(law);
-  const contact::Sliding sliding = sliding_of(history, hint);
-  const double linearised_gap = gap - (hint.kept ? hint.kept->farther : 0);
-  const Trial<Dim> trial =
-      predictor(stiffness, hint.multiplier ? ContactShare{}
-                                           : contact_share(pair, history, linearised_gap, hint));
+  const contact::Sliding sliding = sliding_of(history, context);
+  const double linearised_gap = gap - (context.kept ? context.kept->farther : 0);
+  const ElasticPredictor<Dim> trial =
+      predictor(stiffness, context.multiplier
+                               ? ContactTimeFraction{}
+                               : contact_time_fraction(pair, history, linearised_gap, context));
   r.slip = trial.slip;
   r.law = contact::response<Dim>(law, trial.value, normal, sliding);
   r.slid = contact::slid<Dim>(trial.value, r.law, stiffness);
   r.dissipated = contact::dissipated<Dim>(trial.value, r.law, stiffness);
-  if (!hint.multiplier) r.stored = 0.5 * r.law.traction.squaredNorm() / stiffness;
+  if (!context.multiplier) r.stored = 0.5 * r.law.traction.squaredNorm() / stiffness;
   r.traction.tangential =
-      linearised_branch<Dim>(law, r.law, trial.value, normal, frame, sliding, hint);
-  r.traction.d_trial = trial.variation;
+      linearised_branch<Dim>(law, r.law, trial.value, normal, frame, sliding, context);
+  r.traction.d_predictor = trial.variation;
   return r;
 }
 

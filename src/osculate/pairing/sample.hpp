@@ -4,12 +4,12 @@
 //
 //   sampler -> ContactSample -> respond -> report, block
 //
-// Slave nodes and quadrature points (point_sample), crossings of edges (pair_crossings), mortar
-// nodes (mortar_node), re-entrant vertices (valley) and ties (tie) are samplers: each says where
-// its sample is and how its gap and slip depend on the nodes. Law, enforcement and active set
-// (response.hpp), history and report (report.hpp), forces and tangent (point_block.hpp) are the
-// same for all.
-#include "osculate/pairing/trial.hpp"
+// Slave nodes and quadrature points (point_sample), edge-edge contacts (pair_crossings), mortar
+// nodes (mortar_node), re-entrant vertices (re-entrant vertex) and ties (tie) are samplers: each
+// says where its sample is and how its gap and slip depend on the nodes. Law, enforcement and
+// active set (response.hpp), history and report (report.hpp), forces and tangent (point_block.hpp)
+// are the same for all.
+#include "osculate/pairing/elastic_predictor.hpp"
 
 namespace osculate::pairing {
 

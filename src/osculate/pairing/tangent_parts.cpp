@@ -10,24 +10,26 @@ namespace {
 
 template <int Dim>
 double share_at(const PairDefinition<Dim>& pair, std::size_t i, const PointResult<Dim>& point,
-                const Placed<Dim>& placed, double stiffening, const contact::TangentForm& parts) {
+                const ProjectedPoint<Dim>& projected, double stiffening,
+                const contact::TangentForm& parts) {
   const SlavePoint<Dim>& slave = pair.slave.points[i];
-  BranchHint<Dim> hint;
-  hint.own = relative_stiffness(pair, i);
-  hint.stiffening = stiffening;
+  PointContext<Dim> context;
+  context.own = relative_stiffness(pair, i);
+  context.stiffening = stiffening;
   contact::Traction<Dim> traction;
-  traction.normal = normal_response<Dim>(pair, point.history, placed.kinematics.gap, hint);
+  traction.normal = normal_response<Dim>(pair, point.history, projected.kinematics.gap, context);
   if (!traction.normal.active)
     traction.normal.d_traction = stiffening * point_penalty(pair, i).normal;
   traction.normal.traction = point.normal_traction;
-  const Weights<Dim> weights = contact_weights(&slave, placed);
+  const Weights<Dim> weights = contact_weights(&slave, projected);
   const auto w = [&](std::size_t s, int n) { return weights[s][static_cast<std::size_t>(n)]; };
-  const int count = slave.count + placed.count, size = Dim * count;
+  const int count = slave.count + projected.count, size = Dim * count;
   const auto matrix = [&](bool rotational, bool curvature) {
     const contact::TangentForm form{false, true, rotational, curvature};
     Eigen::MatrixXd k(size, size);
-    scatter_tangent<Dim>(contact::covariant_terms(placed.kinematics, traction, pair.residual, form),
-                         count, w, 1.0, k);
+    scatter_tangent<Dim>(
+        contact::covariant_terms(projected.kinematics, traction, pair.residual, form), count, w,
+        1.0, k);
     return k;
   };
   const Eigen::MatrixXd full = matrix(parts.rotational, parts.curvature),
@@ -44,13 +46,13 @@ double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
                        const PairEvaluation<Dim>& evaluation, const contact::TangentForm& parts) {
   double largest = 0;
   if (pair.mortar || pair.separation == Separation::tied) return largest;  // one tangent, no parts
-  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {             // not the crossings
+  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {  // not the edge-edge contacts
     if (evaluation.points[i].status == contact::Status::open) continue;
     const contact::PointHistory<Dim>& history = evaluation.points[i].history;
-    const Placed<Dim> placed = place_point<Dim>(pair, evaluation, x, i, history);
-    if (placed.projection.feature == projection::Feature::none) continue;
+    const ProjectedPoint<Dim> projected = project_point<Dim>(pair, evaluation, x, i, history);
+    if (projected.projection.feature == projection::Feature::none) continue;
     largest = std::max(
-        largest, share_at(pair, i, evaluation.points[i], placed, evaluation.stiffening, parts));
+        largest, share_at(pair, i, evaluation.points[i], projected, evaluation.stiffening, parts));
   }
   return largest;
 }

@@ -125,22 +125,22 @@ void tie_points(PairDefinition<Dim>& pair, Points<Dim> x) {
   none.points.resize(pair.slave.points.size());
   evaluate<Dim>(open, x, none, false, work);
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
-    const Placed<Dim> placed = place_point<Dim>(open, work, x, i, {});
-    if (placed.projection.feature == projection::Feature::none) continue;
+    const ProjectedPoint<Dim> projected = project_point<Dim>(open, work, x, i, {});
+    if (projected.projection.feature == projection::Feature::none) continue;
     const SlavePoint<Dim>& point = pair.slave.points[i];
-    const auto& facet = pair.master.facets[at(placed.projection.facet)];
+    const auto& facet = pair.master.facets[at(projected.projection.facet)];
     TiedPoint<Dim> tie;
     tie.point = static_cast<Index>(i);
     for (std::size_t k = 0; k < at(point.count); ++k)
       tie.weights[slot(tie, point.nodes[k])] += point.shape[k];
     tie.slave_count = static_cast<int>(tie.nodes.size());
-    const auto shape = shape_at(facet, placed.projection.xi);
+    const auto shape = shape_at(facet, projected.projection.xi);
     for (std::size_t l = 0; l < at(facet.count); ++l)
       tie.weights[slot(tie, facet.nodes[l])] -= shape.n[0][l];
-    add_carrier<Dim>(facet, placed.projection.xi, tie);
-    tie.facet = placed.projection.facet;
-    tie.feature = placed.projection.feature;
-    tie.xi = placed.projection.xi;
+    add_carrier<Dim>(facet, projected.projection.xi, tie);
+    tie.facet = projected.projection.facet;
+    tie.feature = projected.projection.feature;
+    tie.xi = projected.projection.xi;
     if (keep(pair, x, tie)) pair.ties.push_back(std::move(tie));
   }
 }
@@ -286,10 +286,10 @@ void evaluate_ties(const PairDefinition<Dim>& pair, Points<Dim> x, const PairSta
     const Response<Dim> r = response_of(s, stiffness);
     PointResult<Dim>& result = out.points[i];
     const bool by_node = pair.weight == Weight::node;
-    result =
-        open_result<Dim>({}, pair.mortar ? pair.reference_areas[i]
-                                         : pair.share * (by_node ? 1.0 : pair.reference_areas[i]));
-    report_place(s.sample, pair.offset, result);
+    result = open_result<Dim>(
+        {}, pair.mortar ? pair.reference_areas[i]
+                        : pair.pass_factor * (by_node ? 1.0 : pair.reference_areas[i]));
+    report_sample(s.sample, pair.offset, result);
     report_normal(r.traction.normal, 0, result);
     report_contact<Dim>(r, r.law.traction, {}, result);
     result.history.held = true;

@@ -211,11 +211,11 @@ class Bvh {
   template <class Wanted, class Offer>
   void descend(const Vec<Dim>& point, const double& reach, const Wanted& wanted,
                const Offer& offer) const {
-    const auto out_of_reach = [&](const Box<Dim>& box) {
+    const auto beyond_search = [&](const Box<Dim>& box) {
       return box.empty() || box.squared_distance(point) > reach;
     };
     for (Index k = 0; k < unbounded_; ++k)
-      if (!out_of_reach(boxes_[at(k)])) offer(order_[at(k)]);
+      if (!beyond_search(boxes_[at(k)])) offer(order_[at(k)]);
     if (nodes_.empty()) return;
     struct Branch {
       Index node;
@@ -241,7 +241,7 @@ class Bvh {
         continue;
       }
       for (Index k = node.begin; k < node.end; ++k)
-        if (!out_of_reach(boxes_[at(k)])) offer(order_[at(k)]);
+        if (!beyond_search(boxes_[at(k)])) offer(order_[at(k)]);
     }
   }
 

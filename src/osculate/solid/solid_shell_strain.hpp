@@ -1,5 +1,6 @@
 #pragma once
-// Assumed and enhanced strains of solid-shells; shared by solid_shell.cpp, solid_shell_stress.cpp.
+// ActiveSet and enhanced strains of solid-shells; shared by solid_shell.cpp,
+// solid_shell_stress.cpp.
 #include <array>
 #include <cassert>
 #include <vector>

@@ -41,7 +41,7 @@ TEST(Viscous, AddsADamperToTheSpring) {
 TEST(Viscous, BeginsAtZeroWhereTheContactDoes) {
   const DampingLaw law = Viscous{50};
   for (const NormalLaw& normal : {NormalLaw(spring), NormalLaw(exponential), NormalLaw(table)}) {
-    const double touch = reach(normal);
+    const double touch = onset_gap(normal);
     EXPECT_EQ(damped(law, normal, touch, {touch + 0.3, infinity, 0.1}).traction, 0.0);
     EXPECT_FALSE(damped(law, normal, touch + 1e-9, {touch + 0.3, infinity, 0.1}).active);
     // Only the way within the reach counts.
@@ -88,7 +88,7 @@ TEST(Viscous, HasItsDerivativeInEveryBranch) {
 TEST(Restitution, LoadsAsTheLawAndReturnsItsShareOfTheWork) {
   constexpr double e = 0.6;
   for (const NormalLaw& normal : {NormalLaw(spring), NormalLaw(exponential), NormalLaw(table)}) {
-    const double touch = reach(normal), deepest = touch - 0.04;
+    const double touch = onset_gap(normal), deepest = touch - 0.04;
     const NormalResponse loaded = damped(Restitution{e}, normal, deepest, {1, infinity, 0});
     const double work = stored_energy(normal, deepest);
     EXPECT_EQ(loaded.traction, response(normal, deepest).traction);

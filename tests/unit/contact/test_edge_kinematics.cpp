@@ -1,5 +1,5 @@
 // Variations of the kinematics on edges and at corners in space by convergence order: outside a
-// convex edge and on the penetrated side of a valley, straight and curved, near and far.
+// convex edge and on the penetrated side of a re-entrant vertex, straight and curved, near and far.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -110,7 +110,7 @@ TEST(EdgeKinematics, VariationsAreDerivativesOnBothSides) {
         const double h = 0.02 * std::abs(gap);
         ASSERT_NEAR(foot(count, x), foot_at, 1e-14) << what;
         ASSERT_NEAR(k.gap, gap, 1e-14) << what;
-        EXPECT_NEAR(k.shifted(0, 0), k.rho1[0].squaredNorm() - gap * k.normal.dot(k.rho2[0]),
+        EXPECT_NEAR(k.offset_metric(0, 0), k.rho1[0].squaredNorm() - gap * k.normal.dot(k.rho2[0]),
                     1e-13);
         expect_second_order([&](const Eigen::VectorXd& y) { return single(foot(count, y)); },
                             single(v.of(k.d_xi[0])), x, d, h, what + " xi");

@@ -90,7 +90,7 @@ TEST(Coulomb, HasNoLimitLeftWhereAHeldPointIsPulled) {
   const TangentialResponse<3> r = Coulomb{0.5, 80.0}.response<3>(Vec2(3, 4), 10.0);
   EXPECT_EQ(r.status, Status::slip);
   EXPECT_EQ(r.traction.norm(), 0.0);
-  EXPECT_EQ(r.d_normal.norm() + r.d_trial.norm(), 0.0);
+  EXPECT_EQ(r.d_normal.norm() + r.d_predictor.norm(), 0.0);
 }
 
 TEST(Tresca, KnowsNoPressure) {
@@ -118,7 +118,7 @@ TEST(Rough, LetsPartWhatIsSheared) {
                                 c = steep.response<3>(trial, normal);
     EXPECT_EQ(r.status, normal <= -5e-4 ? Status::stick : Status::slip) << normal;
     EXPECT_EQ(r.traction, c.traction);
-    EXPECT_EQ(r.d_trial, c.d_trial);
+    EXPECT_EQ(r.d_predictor, c.d_predictor);
     EXPECT_EQ(r.d_normal, c.d_normal);
     EXPECT_EQ(law.predicted_limit(5, -normal, {}).value,
               steep.predicted_limit(5, -normal, {}).value);
@@ -139,7 +139,7 @@ void expect_second_order(const FrictionLaw& law, const Vec<Dim - 1>& trial, doub
   y << trial, normal;
   d << Vec<Dim - 1>::Constant(0.7), -0.4;
   d[0] = 1;
-  const V df = at.d_trial * d.head<Dim - 1>() + at.d_normal * d[Dim - 1];
+  const V df = at.d_predictor * d.head<Dim - 1>() + at.d_normal * d[Dim - 1];
   const testing::DerivativeReport r = testing::check_derivative(f, df, y, d, 0.05);
   EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.1) << "order " << r.order << ", " << r.error;
 }

@@ -179,7 +179,7 @@ TEST(FaceKinematics, FrameMetricAndCurvature) {
     EXPECT_NEAR(k.normal.norm(), 1.0, 1e-15);
     EXPECT_LT((k.normal - turn(k.frame.col(0))).norm(), 1e-15);
     EXPECT_NEAR(k.rho1[0].squaredNorm(), k.metric(0, 0), 1e-14);
-    EXPECT_NEAR(k.shifted(0, 0), k.metric(0, 0) - k.gap * k.curvature(0, 0), 1e-15);
+    EXPECT_NEAR(k.offset_metric(0, 0), k.metric(0, 0) - k.gap * k.curvature(0, 0), 1e-15);
     if (m.name == "line2") {
       EXPECT_EQ(k.curvature(0, 0), 0.0);
     }
@@ -193,7 +193,8 @@ TEST(FaceKinematics, FrameMetricAndCurvature) {
 }
 
 TEST(CornerKinematics, VariationsAreDerivatives) {
-  for (const double side : {1.0, -1.0})  // outside the corner, and in the valley below it
+  for (const double side :
+       {1.0, -1.0})  // outside the corner, and in the re-entrant vertex below it
     for (int seed = 1; seed <= 3; ++seed) {
       const Vec2 outward(0.6, 0.8);
       Eigen::VectorXd x(4);

@@ -12,10 +12,10 @@ namespace {
 /// The law in the plane by its scalars.
 struct Plane {
   Status status;
-  double traction, d_trial, d_normal;
+  double traction, d_predictor, d_normal;
 };
 Plane plane(const TangentialResponse<2>& r) {
-  return {r.status, r.traction[0], r.d_trial(0, 0), r.d_normal[0]};
+  return {r.status, r.traction[0], r.d_predictor(0, 0), r.d_normal[0]};
 }
 Plane respond(const Coulomb& law, double trial, double normal) {
   return plane(law.response<2>(Vec<1>(trial), normal));
@@ -37,12 +37,12 @@ TEST(Coulomb, SticksUpToTheLimitAndSlipsBeyond) {
   const Plane at_limit = respond(law, 5.0, -10.0);
   EXPECT_EQ(at_limit.status, Status::stick);
   EXPECT_EQ(at_limit.traction, 5.0);
-  EXPECT_EQ(at_limit.d_trial, 1.0);
+  EXPECT_EQ(at_limit.d_predictor, 1.0);
   for (const double sign : {1.0, -1.0}) {
     const Plane slip = respond(law, sign * 5.0001, -10.0);
     EXPECT_EQ(slip.status, Status::slip);
     EXPECT_EQ(slip.traction, sign * 5.0);
-    EXPECT_EQ(slip.d_trial, 0.0);
+    EXPECT_EQ(slip.d_predictor, 0.0);
     EXPECT_EQ(slip.d_normal, -sign * 0.5);
   }
   EXPECT_EQ(plane(slip_response<2>(Vec<1>(-1.0), 9, law.first_limit(4.0, {}))).traction, -2.0);
@@ -95,7 +95,7 @@ TEST(ContactLaws, DerivativesOfEveryBranch) {
     EXPECT_EQ(at.status, std::abs(trial) > 5 ? Status::slip : Status::stick);
     const auto of_trial = [&](double t) { return respond(law, t, pressure); };
     const auto of_normal = [&](double n) { return respond(law, trial, n); };
-    EXPECT_NEAR(slope(of_trial, trial), at.d_trial, 1e-13);
+    EXPECT_NEAR(slope(of_trial, trial), at.d_predictor, 1e-13);
     EXPECT_NEAR(slope(of_normal, pressure), at.d_normal, 1e-13);
   }
 }

@@ -25,7 +25,7 @@ TEST(NormalExponential, IsZeroAtTheClearanceAndP0AtZero) {
   constexpr double e = std::numbers::e;
   EXPECT_NEAR(law.response(0).d_traction, p0 / c0 * (2 * e - 1) / (e - 1), 1e-12 * p0 / c0);
   EXPECT_NEAR(-law.response(-c0).traction, p0 * 2 * (e + 1), 1e-13 * p0);
-  EXPECT_EQ(reach(law), c0);
+  EXPECT_EQ(onset_gap(law), c0);
   EXPECT_FALSE(augmentable(law));
 }
 
@@ -48,7 +48,7 @@ TEST(NormalTable, RunsThroughItsPointsAndOnBeyondTheLast) {
   EXPECT_NEAR(pressure(table, -0.01), 5, 1e-12);
   EXPECT_NEAR(pressure(table, -0.08), 155, 1e-11);
   EXPECT_EQ(table.response(-0.01).d_traction, 0.0);
-  EXPECT_EQ(reach(NormalLaw(table)), 0.01);
+  EXPECT_EQ(onset_gap(NormalLaw(table)), 0.01);
 }
 
 /// A point that comes in at constant speed gets the same impulse wherever in a time step it
@@ -61,14 +61,14 @@ TEST(NormalLaws, GiveTheSameImpulseWhereverInAStepTheyBegin) {
     const double end = -3 * c0;
     const double whole = stored_energy(law, end);
     for (const double phase : {0.0, 0.2, 0.5, 0.9}) {
-      const double first = reach(law) + way * (0.5 + phase);
+      const double first = onset_gap(law) + way * (0.5 + phase);
       double sum = 0, gap = first;
       for (; gap - 0.5 * way > end; gap -= way) sum -= way * mean_response(law, gap, way).traction;
       sum += stored_energy(law, end) - stored_energy(law, gap + 0.5 * way);
       EXPECT_NEAR(sum / whole, 1, 1e-12);
     }
-    EXPECT_FALSE(mean_response(law, reach(law) + 0.51 * way, way).active);
-    EXPECT_TRUE(mean_response(law, reach(law) + 0.49 * way, way).active);
+    EXPECT_FALSE(mean_response(law, onset_gap(law) + 0.51 * way, way).active);
+    EXPECT_TRUE(mean_response(law, onset_gap(law) + 0.49 * way, way).active);
   }
   const NormalLaw linear(NormalPenalty{400});
   EXPECT_NEAR(mean_response(linear, -c0, way).traction, response(linear, -c0).traction, 1e-12);
@@ -84,9 +84,9 @@ TEST(NormalLaws, StoreTheWorkOfTheirPressure) {
   };
   const auto expect = [&](const NormalLaw& law, double gap, double h) {
     const auto energy = [&](const Eigen::VectorXd& g) -> Eigen::VectorXd {
-      return Eigen::VectorXd::Constant(1, stored_energy(law, g[0], gap > reach(law)));
+      return Eigen::VectorXd::Constant(1, stored_energy(law, g[0], gap > onset_gap(law)));
     };
-    const Eigen::VectorXd slope = one(response(law, gap, gap > reach(law)).traction);
+    const Eigen::VectorXd slope = one(response(law, gap, gap > onset_gap(law)).traction);
     const auto r = check_derivative(energy, slope, one(gap), one(1), h);
     EXPECT_TRUE(r.exact || r.error < 1e-9 || std::abs(r.order - 2) < 0.1)
         << gap << " order " << r.order << " error " << r.error;

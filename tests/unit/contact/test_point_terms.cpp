@@ -23,7 +23,7 @@ TEST(CovariantTerms, PartsInPhysicalComponents) {
     t.normal = {true, normal, 1000.0};
     t.tangential.status = status;
     t.tangential.traction[0] = shear;
-    t.tangential.d_trial(0, 0) = status == Status::stick ? 1.0 : 0.0;
+    t.tangential.d_predictor(0, 0) = status == Status::stick ? 1.0 : 0.0;
     t.tangential.d_normal[0] = status == Status::stick ? 0.0 : -0.3;
     t.stiffness = 80.0;
     const auto part = [&](bool main, bool rotational, bool curvature) {
@@ -59,7 +59,7 @@ Traction<2> sticking(double penalty) {
   t.normal = {true, 0.0, penalty};
   t.tangential = stick_response<2>(Vec<1>(0.0));
   t.stiffness = penalty;
-  t.d_trial.add(Vec2(penalty, 0), touching().d_xi[0]);  // a11 = 1
+  t.d_predictor.add(Vec2(penalty, 0), touching().d_xi[0]);  // a11 = 1
   return t;
 }
 
@@ -91,7 +91,7 @@ TEST(StickStiffness, IsPositiveAndAsPrintedItWouldNotBe) {
     EXPECT_NEAR(values[5], 1.5 * penalty, 1e-10);
     Traction<2> frictionless = sticking(penalty);
     frictionless.stiffness = 0.0;
-    frictionless.d_trial = {};
+    frictionless.d_predictor = {};
     const Eigen::MatrixXd normal = stiffness(
         point_terms(touching(), frictionless, ResidualForm::surface, {.consistent = consistent}));
     const Eigen::MatrixXd printed = normal - (k - normal);  // K_N - |K_T|

@@ -49,8 +49,8 @@ TEST(ContactAll, ChoosesTheMasterByOneRule) {
   EXPECT_EQ(pair_named(built, "any.2-3").note, "slave 2, master 3 (coarser)");
   EXPECT_EQ(pair_named(built, "any.1-floor").note, "slave 1, master floor (rigid)");
   EXPECT_EQ(pair_named(built, "any.1-1").note, "body 1 with itself");
-  EXPECT_TRUE(pair_named(built, "any.1-1").definition.scope.own);
-  EXPECT_FALSE(pair_named(built, "any.1-2").definition.scope.own);
+  EXPECT_TRUE(pair_named(built, "any.1-1").definition.filter.own);
+  EXPECT_FALSE(pair_named(built, "any.1-2").definition.filter.own);
   EXPECT_EQ(pair_named(built, "any.1-2").definition.master.facets.size(), 10u);
   const std::string same = edited(edited(test_file("all.yaml"), "material: hard", "material: soft"),
                                   "elements: [6, 1]", "elements: [3, 1]");
@@ -115,14 +115,14 @@ steps: [{name: s, increments: 1, prescribe: [{on: b.left, ux: 0, uy: 0}]}]
 )");
   ASSERT_EQ(built.model.pairs.size(), 1u);
   const pairing::PairDefinition<2>& pair = built.model.pairs[0].definition;
-  EXPECT_TRUE(pair.scope.own);
+  EXPECT_TRUE(pair.filter.own);
   EXPECT_EQ(pair.slave.nodes.size(), 26u);
   EXPECT_EQ(pair.master.facets.size(), 26u);
-  EXPECT_NEAR(pair.scope.reach, 8 * 0.5, 1e-12);
+  EXPECT_NEAR(pair.filter.distance, 8 * 0.5, 1e-12);
   for (std::size_t i = 0; i < pair.slave.nodes.size(); ++i) {
     const Vec2& x = built.model.reference[static_cast<std::size_t>(pair.slave.nodes[i])];
     if (x.x() > 0.6 && x.x() < 5.4) {
-      EXPECT_NEAR(pair.scope.thickness[i], 0.5, 1e-12);
+      EXPECT_NEAR(pair.filter.thickness[i], 0.5, 1e-12);
     }
   }
 }

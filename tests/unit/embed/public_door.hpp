@@ -86,7 +86,7 @@ template <int Dim>
 Contact<Dim> contact_of(const Door<Dim>& door, const FromFile<Dim>& file) {
   Contact<Dim> contact;
   contact.master = surface_of<Dim>(file.pair.master, door.shapes);
-  if (!file.pair.scope.own) contact.slave = surface_of<Dim>(file.pair.slave.boundary, {});
+  if (!file.pair.filter.own) contact.slave = surface_of<Dim>(file.pair.slave.boundary, {});
   contact.normal = Penalty{1000};
   contact.friction = Coulomb{.mu = 0.3, .stiffness = 1000};
   door.choose(contact);
@@ -106,9 +106,9 @@ std::vector<Vec<Dim>> moved(const FromFile<Dim>& file, double along, double up) 
   // (Facets of contact with itself are master and slave: those above move, from farther away.)
   for (const Index node : file.pair.slave.nodes) {
     const auto n = static_cast<std::size_t>(node);
-    if (file.pair.scope.own && file.reference[n][Dim - 1] < 0.005) continue;
+    if (file.pair.filter.own && file.reference[n][Dim - 1] < 0.005) continue;
     x[n][0] += along;
-    x[n][Dim - 1] += file.pair.scope.own && up < 0 ? up - 0.02 : up;
+    x[n][Dim - 1] += file.pair.filter.own && up < 0 ? up - 0.02 : up;
   }
   // A frame stays a rigid one.
   for (const auto& f : file.pair.master.facets)
@@ -134,22 +134,22 @@ struct Kernel {
   pairing::PairState<Dim> committed = pairing::initial_state<Dim>(file.pair, file.reference);
   pairing::PairMultipliers<Dim> multipliers =
       pairing::initial_multipliers<Dim>(file.pair, committed);
-  pairing::Assumed<Dim> assumed{};
+  pairing::ActiveSet<Dim> active_set{};
   embed::Evaluation<Dim> e{};
 
   void predict(const std::vector<Vec<Dim>>& x) {
-    assumed = pairing::committed_branches<Dim>(file.pair, committed, x);
+    active_set = pairing::committed_active_set<Dim>(file.pair, committed, x);
   }
   void evaluate(const std::vector<Vec<Dim>>& x, const Increment& increment) {
-    assumed.duration = increment.duration;
-    assumed.relief = file.pair.overlap == pairing::InitialOverlap::kept     ? 1
-                     : file.pair.overlap == pairing::InitialOverlap::ramped ? increment.relief
-                                                                            : 0;
-    assumed.near = !assumed.predict;
-    pairing::evaluate<Dim>(file.pair, x, committed, true, e.contact, assumed, &multipliers);
+    active_set.duration = increment.duration;
+    active_set.relief = file.pair.overlap == pairing::InitialOverlap::kept     ? 1
+                        : file.pair.overlap == pairing::InitialOverlap::ramped ? increment.relief
+                                                                               : 0;
+    active_set.near = !active_set.predict;
+    pairing::evaluate<Dim>(file.pair, x, committed, true, e.contact, active_set, &multipliers);
   }
   void next() {
-    assumed = pairing::evaluated_branches(e.contact, assumed);
+    active_set = pairing::evaluated_active_set(e.contact, active_set);
     multipliers = pairing::taken_over(e.contact, multipliers);
   }
   void commit(const std::vector<Vec<Dim>>& x) {

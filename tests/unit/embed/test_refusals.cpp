@@ -136,7 +136,7 @@ TEST(Refusals, Enforcements) {
       {[&](S& s) { unknown(s), s.contact.tangent.consistent = false; },
        "unknown tractions have the consistent tangent only"},
       {[&](S& s) { unknown(s), s.contact.edge_angle = 1; },
-       "crossings of edges come and go: they are enforced by penalty only"},
+       "edge-edge contacts come and go: they are enforced by penalty only"},
       {[&](S& s) { unknown(s), s.contact.reentrant_vertices = true; },
        "re-entrant vertices hold points in the plane, at nodes whose tractions are unknown, and "
        "without separation, offset or overlaps that do not count"},
@@ -150,7 +150,8 @@ TEST(Refusals, Samplings) {
   expect_refusals<3>({
       {[&](S& s) { gauss(s), s.contact.slave.reset(); },
        "contact of a surface with itself is sampled at nodes only"},
-      {[&](S& s) { gauss(s), s.contact.reach = 1; }, "a reach goes with sampling at nodes only"},
+      {[&](S& s) { gauss(s), s.contact.search_distance = 1; },
+       "a search distance goes with sampling at nodes only"},
       {[&](S& s) { gauss(s), s.contact.edge_angle = 1; },
        "contact of edges goes with sampling: nodes only"},
       {[&](S& s) { s.contact.edge_angle = 1, s.contact.smoothing.kind = Smoothing::Kind::hermite; },

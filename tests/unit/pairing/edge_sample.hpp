@@ -79,8 +79,8 @@ inline pairing::PairEvaluation<3> evaluated(const PairSample3& s) {
   return e;
 }
 
-/// Number of crossings in an evaluation.
-inline std::size_t crossings(const PairSample3& s, const pairing::PairEvaluation<3>& e) {
+/// Number of edge-edge contacts in an evaluation.
+inline std::size_t edge_contacts(const PairSample3& s, const pairing::PairEvaluation<3>& e) {
   return e.points.size() - s.pair.slave.nodes.size();
 }
 

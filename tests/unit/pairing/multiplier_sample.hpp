@@ -12,8 +12,8 @@ struct MultiplierSample {
   pairing::PairState<Dim> committed;
   std::vector<Vec<Dim>> x;
   std::vector<contact::Multiplier<Dim>> multipliers;
-  double duration = 0;                                 ///< of the increment
-  std::vector<pairing::AssumedBranch<Dim>> assumed{};  ///< of the last iteration
+  double duration = 0;                                   ///< of the increment
+  std::vector<pairing::ActiveBranch<Dim>> active_set{};  ///< of the last iteration
 
   [[nodiscard]] Eigen::Index nodes() const { return static_cast<Eigen::Index>(x.size()); }
   [[nodiscard]] Eigen::Index points() const {
@@ -44,20 +44,20 @@ struct MultiplierSample {
     std::vector<Vec<Dim>> at(x.size());
     for (Eigen::Index n = 0; n < nodes(); ++n)
       at[static_cast<std::size_t>(n)] = v.segment<Dim>(Dim * n);
-    pairing::PairMultipliers<Dim> around;
+    pairing::PairMultipliers<Dim> multipliers;
     for (Eigen::Index i = 0; i < points(); ++i) {
       const Eigen::Index first = Dim * nodes() + per_point() * i;
-      around.points.emplace_back();
+      multipliers.points.emplace_back();
       const pairing::PointPenalty penalty = penalty_at(i);
-      around.points.back().normal = penalty.normal * v[first];
+      multipliers.points.back().normal = penalty.normal * v[first];
       if (pairing::has_shear(pair))
-        around.points.back().shear = penalty.shear * v.segment<Dim>(first + 1);
+        multipliers.points.back().shear = penalty.shear * v.segment<Dim>(first + 1);
     }
     pairing::PairEvaluation<Dim> e;
-    pairing::Assumed<Dim> last;
-    last.branch = assumed;
+    pairing::ActiveSet<Dim> last;
+    last.branch = active_set;
     last.duration = duration;
-    pairing::evaluate<Dim>(pair, at, committed, tangent, e, last, &around);
+    pairing::evaluate<Dim>(pair, at, committed, tangent, e, last, &multipliers);
     return e;
   }
 

@@ -38,8 +38,8 @@ template <int Dim>
 void touch_itself(ContactSample<Dim>& s, double reach) {
   pairing::connect(s.pair.master);
   s.pair.slave = pairing::make_slave_side(s.pair.master);
-  s.pair.scope.own = true;
-  s.pair.scope.reach = reach;
+  s.pair.filter.own = true;
+  s.pair.filter.distance = reach;
   s.pair.normal = contact::penalty(1000);
   pairing::prepare(s.pair, s.x);
   s.committed = pairing::initial_state<Dim>(s.pair, s.x);

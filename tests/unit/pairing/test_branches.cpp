@@ -12,7 +12,7 @@ namespace {
 
 using contact::Branch;
 using contact::Status;
-using pairing::Assumed;
+using pairing::ActiveSet;
 using pairing::PairEvaluation;
 
 constexpr double eps_n = 1000, eps_t = 80, mu = 0.3, depth = 0.01;
@@ -32,27 +32,27 @@ PairSample at_rest(double traction, bool slipping) {
   return s;
 }
 
-PairEvaluation<2> evaluated(const PairSample& s, const Assumed<2>& assumed) {
+PairEvaluation<2> evaluated(const PairSample& s, const ActiveSet<2>& active_set) {
   PairEvaluation<2> e;
-  pairing::evaluate(s.pair, s.x, s.committed, true, e, assumed);
+  pairing::evaluate(s.pair, s.x, s.committed, true, e, active_set);
   return e;
 }
 
 /// The branches of a point on a master along +x.
-using Hint = pairing::AssumedBranch<2>;
-const Hint none{}, stick{Branch::stick, Vec2::Zero()};
-const Hint slip_forward{Branch::slip, Vec2(1, 0)}, slip_backward{Branch::slip, Vec2(-1, 0)};
+using ActiveBranch = pairing::ActiveBranch<2>;
+const ActiveBranch none{}, stick{Branch::stick, Vec2::Zero()};
+const ActiveBranch slip_forward{Branch::slip, Vec2(1, 0)}, slip_backward{Branch::slip, Vec2(-1, 0)};
 
-Assumed<2> assume(const Hint& branch, bool predict) { return {{branch}, predict}; }
+ActiveSet<2> assume(const ActiveBranch& branch, bool predict) { return {{branch}, predict}; }
 
-void expect_branch(const Hint& found, const Hint& expected) {
+void expect_branch(const ActiveBranch& found, const ActiveBranch& expected) {
   EXPECT_EQ(found.branch, expected.branch);
   EXPECT_EQ(found.direction, expected.direction);
 }
 
 /// The tangent of the block is the derivative of its branch force, not of its force.
-void expect_tangent_of_branch_force(const PairSample& s, const Assumed<2>& assumed) {
-  const PairEvaluation<2> e = evaluated(s, assumed);
+void expect_tangent_of_branch_force(const PairSample& s, const ActiveSet<2>& active_set) {
+  const PairEvaluation<2> e = evaluated(s, active_set);
   const pairing::ContactBlock<2>& b = e.blocks[0];
   Eigen::VectorXd d(6);
   d << 0.3, -0.7, 0.2, 0.5, -0.4, 0.6;
@@ -64,7 +64,7 @@ void expect_tangent_of_branch_force(const PairSample& s, const Assumed<2>& assum
   const auto branch_force = [&](const Eigen::VectorXd& v) {
     PairSample moved = s;
     moved.x = unflatten<2>(v);
-    return Eigen::VectorXd(evaluated(moved, assumed).blocks[0].branch_force.head<6>());
+    return Eigen::VectorXd(evaluated(moved, active_set).blocks[0].branch_force.head<6>());
   };
   const DerivativeReport r = check_derivative(branch_force, expected, flatten(s.x), d, 1e-3);
   EXPECT_TRUE(std::abs(r.order - 2) < 0.1) << r.order << " " << r.error;
@@ -78,12 +78,12 @@ TEST(Branches, CommittedBranchesPredictThatSlippingGoesOn) {
   state.points[2].traction[0] = 1, state.points[3].traction[0] = -1;
   for (auto& point : state.points) point.facet = 0;
   const PairSample s = at_rest(0.0, false);
-  const Assumed<2> assumed = pairing::committed_branches<2>(s.pair, state, s.x);
-  EXPECT_TRUE(assumed.predict);
-  expect_branch(assumed.branch[0], none);
-  expect_branch(assumed.branch[1], stick);
-  expect_branch(assumed.branch[2], slip_forward);
-  expect_branch(assumed.branch[3], slip_backward);
+  const ActiveSet<2> active_set = pairing::committed_active_set<2>(s.pair, state, s.x);
+  EXPECT_TRUE(active_set.predict);
+  expect_branch(active_set.branch[0], none);
+  expect_branch(active_set.branch[1], stick);
+  expect_branch(active_set.branch[2], slip_forward);
+  expect_branch(active_set.branch[3], slip_backward);
 }
 
 TEST(Branches, EvaluatedBranchesAreThoseOfTheTangent) {
@@ -91,7 +91,7 @@ TEST(Branches, EvaluatedBranchesAreThoseOfTheTangent) {
   s.x[2].x() += 1e-3;
   const PairEvaluation<2> e = evaluated(s, {});
   expect_branch(e.points[0].branch, slip_forward);
-  const Assumed<2> next = pairing::evaluated_branches(e);
+  const ActiveSet<2> next = pairing::evaluated_active_set(e);
   EXPECT_FALSE(next.predict);
   ASSERT_EQ(next.branch.size(), 1u);
   expect_branch(next.branch[0], slip_forward);
@@ -104,11 +104,11 @@ TEST(Branches, EvaluatedBranchesAreThoseOfTheTangent) {
 TEST(Branches, PredictionKeepsSlippingPointsSlipping) {
   for (const double sign : {1.0, -1.0}) {
     PairSample s = at_rest(sign * limit, true);
-    const Hint slip = sign > 0 ? slip_forward : slip_backward;
-    const Assumed<2> assumed = pairing::committed_branches<2>(s.pair, s.committed, s.x);
+    const ActiveBranch slip = sign > 0 ? slip_forward : slip_backward;
+    const ActiveSet<2> active_set = pairing::committed_active_set<2>(s.pair, s.committed, s.x);
     for (const double back : {0.0, 1e-3}) {
       s.x[2].x() = 2 - sign * back;
-      const PairEvaluation<2> e = evaluated(s, assumed);
+      const PairEvaluation<2> e = evaluated(s, active_set);
       EXPECT_EQ(e.points[0].status, Status::stick);  // what the law says is what is reported
       EXPECT_NEAR(e.points[0].shear_traction[0], sign * (limit - eps_t * back), 1e-13);
       EXPECT_FALSE(e.points[0].history.slipping);
@@ -118,7 +118,7 @@ TEST(Branches, PredictionKeepsSlippingPointsSlipping) {
       EXPECT_NEAR(b.branch_force[0], sign * limit, 1e-13);
       EXPECT_EQ(b.tangent(0, 0), 0.0);  // no tangential stiffness
       EXPECT_EQ(b.branched, back > 0);
-      expect_tangent_of_branch_force(s, assumed);
+      expect_tangent_of_branch_force(s, active_set);
     }
   }
 }
@@ -130,8 +130,8 @@ TEST(Branches, AReversedSlipIsLinearisedInStick) {
     PairSample s = at_rest(sign * limit, true);
     const double back = 3 * limit / eps_t;  // the trial is -2 limit
     s.x[2].x() -= sign * back;
-    const Assumed<2> assumed = assume(sign > 0 ? slip_forward : slip_backward, false);
-    const PairEvaluation<2> e = evaluated(s, assumed);
+    const ActiveSet<2> active_set = assume(sign > 0 ? slip_forward : slip_backward, false);
+    const PairEvaluation<2> e = evaluated(s, active_set);
     EXPECT_EQ(e.points[0].status, Status::slip);
     EXPECT_NEAR(e.points[0].shear_traction[0], -sign * limit, 1e-13);
     EXPECT_TRUE(e.points[0].history.slipping);
@@ -142,15 +142,15 @@ TEST(Branches, AReversedSlipIsLinearisedInStick) {
     EXPECT_NEAR(b.branch_force[0], -sign * 2 * limit, 1e-12);  // the trial, without its limit
     EXPECT_NEAR(b.branch_force[1], b.force[1], 1e-15);
     EXPECT_NEAR(b.tangent(0, 0), eps_t, 1e-10);
-    expect_tangent_of_branch_force(s, assumed);
+    expect_tangent_of_branch_force(s, active_set);
   }
 }
 
 TEST(Branches, WithoutReversalTheLawDecides) {
   struct Case {
-    Hint assumed;
+    ActiveBranch active_set;
     double moved;  ///< in elastic ranges limit / eps_t, from a traction of zero
-    Hint branch;
+    ActiveBranch branch;
   };
   for (const Case& c :
        {Case{none, 2, slip_forward}, Case{none, 0.5, stick}, Case{stick, -2, slip_backward},
@@ -159,12 +159,12 @@ TEST(Branches, WithoutReversalTheLawDecides) {
         Case{slip_backward, -2, slip_backward}, Case{slip_backward, 0.5, stick}}) {
     PairSample s = at_rest(0.0, false);
     s.x[2].x() += c.moved * limit / eps_t;
-    const Assumed<2> assumed = assume(c.assumed, false);
-    const PairEvaluation<2> e = evaluated(s, assumed);
+    const ActiveSet<2> active_set = assume(c.active_set, false);
+    const PairEvaluation<2> e = evaluated(s, active_set);
     expect_branch(e.points[0].branch, c.branch);
     EXPECT_FALSE(e.blocks[0].branched);
     EXPECT_EQ(e.blocks[0].branch_force.head<6>(), e.blocks[0].force.head<6>());
-    expect_tangent_of_branch_force(s, assumed);
+    expect_tangent_of_branch_force(s, active_set);
   }
 }
 
@@ -175,7 +175,7 @@ TEST(Branches, ForcesAndHistoriesAreThoseOfTheLawWhateverIsAssumed) {
     PairSample s = at_rest(0.7 * limit, true);
     s.x[2].x() += moved * limit / eps_t;
     const PairEvaluation<2> law = evaluated(s, {});
-    for (const Hint& branch : {stick, slip_forward, slip_backward})
+    for (const ActiveBranch& branch : {stick, slip_forward, slip_backward})
       for (const bool predict : {false, true}) {
         const PairEvaluation<2> e = evaluated(s, assume(branch, predict));
         EXPECT_EQ(e.blocks[0].force.head<6>(), law.blocks[0].force.head<6>());

@@ -48,10 +48,10 @@ TEST(ClosestOnChain, KinksBelongToTheVertexOutsideAndToTheNearestFaceInside) {
   EXPECT_EQ(ridge.at({0.1, -0.5}).feature, Feature::face);
   EXPECT_EQ(ridge.at({0, -0.5}, 1).facet, 1);  // equidistant: the history's side
   EXPECT_EQ(ridge.at({0, -0.5}, 0).facet, 0);
-  const Target<2> valley = line_of({{-2, 1}, {0, 0}, {2, 1}});
-  EXPECT_EQ(valley.at({0, -0.5}).feature, Feature::corner);
-  EXPECT_EQ(valley.at({0.3, 0.5}).feature, Feature::face);
-  EXPECT_LT((valley.at({0, -0.5}).outward - Vec2(0, 1)).norm(), 1e-14);
+  const Target<2> reentrant = line_of({{-2, 1}, {0, 0}, {2, 1}});
+  EXPECT_EQ(reentrant.at({0, -0.5}).feature, Feature::corner);
+  EXPECT_EQ(reentrant.at({0.3, 0.5}).feature, Feature::face);
+  EXPECT_LT((reentrant.at({0, -0.5}).outward - Vec2(0, 1)).norm(), 1e-14);
 }
 
 // Clamped to the end, the slip stood still within the tolerance and then jumped: Newton cycled.

@@ -35,9 +35,9 @@ struct Falling {
   /// The pressure at the end of an increment.
   double step(const Vec2& to, double duration = 0.1) {
     x[2] = to;
-    pairing::Assumed<2> assumed;
-    assumed.duration = duration;
-    pairing::evaluate(pair, x, committed, false, e, assumed);
+    pairing::ActiveSet<2> active_set;
+    active_set.duration = duration;
+    pairing::evaluate(pair, x, committed, false, e, active_set);
     committed = pairing::commit(e);
     return -e.points[0].normal_traction;
   }
@@ -138,9 +138,9 @@ TEST(StoredEnergy, LeavesOutTheOverlapThatDoesNotCount) {
   f.pair.overlap = pairing::InitialOverlap::kept;
   f.start(-0.05);
   f.x[2] = {0, -0.07};
-  pairing::Assumed<2> assumed;
-  assumed.relief = 1;
-  pairing::evaluate(f.pair, f.x, f.committed, false, f.e, assumed);
+  pairing::ActiveSet<2> active_set;
+  active_set.relief = 1;
+  pairing::evaluate(f.pair, f.x, f.committed, false, f.e, active_set);
   EXPECT_NEAR(f.e.points[0].stored, 0.5 * eps * 0.02 * 0.02, 1e-14);
 }
 

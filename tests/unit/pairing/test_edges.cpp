@@ -1,5 +1,5 @@
-// Contact of crossing edges: closed form, derivative by order, balance, friction, and one contact
-// for one place.
+// Contact of edge-edge contact edges: closed form, derivative by order, balance, friction, and one
+// contact for one place.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -24,9 +24,9 @@ RoofOptions roofs_of(CellType type, double depth = 0.05) {
   return {.type = type, .bend = cell::info(type).nodes > 4 ? 0.05 : 0.0, .depth = depth};
 }
 
-/// The one contact there is: the crossing.
+/// The one contact there is: the edge-edge contact.
 const pairing::PointResult<3>& only(const PairSample3& s, const pairing::PairEvaluation<3>& e) {
-  if (crossings(s, e) != 1) throw std::runtime_error("not one crossing");
+  if (edge_contacts(s, e) != 1) throw std::runtime_error("not one crossing");
   for (std::size_t i = 0; i < s.pair.slave.nodes.size(); ++i)
     if (e.points[i].status != Status::open) throw std::runtime_error("a node is in contact");
   return e.points.back();
@@ -38,7 +38,7 @@ TEST(EdgeContact, NodesAloneDoNotSeeIt) {
     EXPECT_EQ(only(s, evaluated(s)).status, Status::slip) << cell::info(type).name;
     s.pair.edges.on = false;
     const pairing::PairEvaluation<3> e = evaluated(s);
-    EXPECT_EQ(crossings(s, e), 0u);
+    EXPECT_EQ(edge_contacts(s, e), 0u);
     for (const pairing::PointResult<3>& p : e.points) EXPECT_EQ(p.status, Status::open);
   }
 }
@@ -187,7 +187,8 @@ TEST(EdgeContact, StickIsCarriedOverThePiecesOfAnEdgeAndIsReversible) {
       s.committed = pairing::commit(e);
     };
     for (int i = 0; i < 10; ++i) go(0.11);
-    EXPECT_NEAR(most, 80 * 1.1, 1e-9) << pieces;  // the way of the crossing along the ridge
+    EXPECT_NEAR(most, 80 * 1.1, 1e-9)
+        << pieces;  // the way of the edge-edge contact along the ridge
     for (int i = 0; i < 10; ++i) go(-0.11);
     EXPECT_LT(most, 1e-9) << pieces;
   }
@@ -223,7 +224,7 @@ TEST(EdgeContact, SharpnessIsAnAngle) {
   EXPECT_EQ(pairing::sharp_edges(s.pair.master, s.x, 1.5).size(), 1u);  // 90 degrees
   EXPECT_EQ(pairing::sharp_edges(s.pair.master, s.x, 1.6).size(), 0u);
   for (pairing::SurfaceFacet& f : s.pair.master.facets) std::swap(f.nodes[1], f.nodes[3]);
-  pairing::connect(s.pair.master);  // the body above: a valley
+  pairing::connect(s.pair.master);  // the body above: a re-entrant vertex
   EXPECT_EQ(pairing::sharp_edges(s.pair.master, s.x, 0.5).size(), 0u);
 }
 
@@ -237,7 +238,7 @@ TEST(EdgeContact, ANodeInContactTakesTheCrossing) {
     const pairing::PairEvaluation<3> e = evaluated(s);
     int count = 0;
     for (const pairing::PointResult<3>& p : e.points) count += p.status != Status::open ? 1 : 0;
-    return std::pair<int, std::size_t>(count, crossings(s, e));
+    return std::pair<int, std::size_t>(count, edge_contacts(s, e));
   };
   EXPECT_EQ(contacts(), (std::pair<int, std::size_t>(1, 1)));
   const Vec3 foot = evaluated(s).points.back().foot;
@@ -280,7 +281,7 @@ TEST(EdgeContact, FlushFacesAreTheNodesAffair) {
     pairing::prepare(s.pair, s.x);
     s.committed = pairing::initial_state(s.pair, s.x);
     EXPECT_EQ(s.pair.edges.master.size(), 12u);
-    EXPECT_EQ(crossings(s, evaluated(s)), 0u) << turn;
+    EXPECT_EQ(edge_contacts(s, evaluated(s)), 0u) << turn;
   }
 }
 

@@ -29,7 +29,7 @@ void set_pair(ContactSample<Dim>& s, double mu, ResidualForm form, Weight weight
 class FeatureTangent
     : public ::testing::TestWithParam<std::tuple<double, double, ResidualForm, Weight>> {};
 
-// The wedge of a valley, in the plane: nearest to the vertex between two facets.
+// The wedge of a re-entrant vertex, in the plane: nearest to the vertex between two facets.
 TEST_P(FeatureTangent, CornerInThePlane) {
   const auto [mu, depth, form, weight] = GetParam();
   for (const int nodes : {2, 3}) {
@@ -47,7 +47,7 @@ TEST_P(FeatureTangent, CornerInThePlane) {
   }
 }
 
-// The edge of a valley in space, straight and (quadratic facets) curved.
+// The edge of a re-entrant vertex in space, straight and (quadratic facets) curved.
 TEST_P(FeatureTangent, EdgeInSpace) {
   const auto [mu, depth, form, weight] = GetParam();
   for (const CellType type :

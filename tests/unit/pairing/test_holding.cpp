@@ -32,9 +32,9 @@ struct Node {
   }
   const pairing::PointResult<2>& at(double along, double y, double duration = 0) {
     x[2] = {along, y};
-    pairing::Assumed<2> assumed;
-    assumed.duration = duration;
-    pairing::evaluate<2>(pair, x, committed, false, last, assumed);
+    pairing::ActiveSet<2> active_set;
+    active_set.duration = duration;
+    pairing::evaluate<2>(pair, x, committed, false, last, active_set);
     committed = pairing::commit(last);
     return last.points[0];
   }

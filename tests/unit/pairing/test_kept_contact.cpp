@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "osculate/pairing/place.hpp"
+#include "osculate/pairing/projected_point.hpp"
 #include "pair_sample.hpp"
 
 namespace osculate::testing {
@@ -11,7 +11,7 @@ namespace {
 
 using contact::Branch;
 using contact::Status;
-using pairing::Assumed;
+using pairing::ActiveSet;
 using pairing::PairEvaluation;
 
 constexpr double eps_n = 1000, eps_t = 80, gap = 0.002;
@@ -21,7 +21,7 @@ constexpr double eps_n = 1000, eps_t = 80, gap = 0.002;
 template <int Dim>
 struct OverAHill {
   ContactSample<Dim> s;
-  Assumed<Dim> assumed;
+  ActiveSet<Dim> active_set;
 
   explicit OverAHill(double friction, double distance = gap) {
     if constexpr (Dim == 2)
@@ -34,8 +34,8 @@ struct OverAHill {
     contact::PointHistory<Dim>& h = s.committed.points[0];
     h.active = true;
     h.gap = -1e-3;
-    assumed.branch.resize(s.committed.points.size());
-    pairing::AssumedBranch<Dim>& b = assumed.branch[0];
+    active_set.branch.resize(s.committed.points.size());
+    pairing::ActiveBranch<Dim>& b = active_set.branch[0];
     b.branch = friction > 0 ? Branch::stick : Branch::slip;
     b.closed = true;
     b.facet = h.facet;
@@ -46,14 +46,14 @@ struct OverAHill {
   [[nodiscard]] double linearised() const {
     pairing::Projection<Dim> last;
     last.feature = projection::Feature::face;
-    last.facet = assumed.branch[0].facet;
-    last.xi = assumed.branch[0].xi;
+    last.facet = active_set.branch[0].facet;
+    last.xi = active_set.branch[0].xi;
     const Vec<Dim> point = s.x[static_cast<std::size_t>(s.pair.slave.nodes[0])];
-    return pairing::place(s.pair.master, last, point, s.x).kinematics.gap;
+    return pairing::projected_point(s.pair.master, last, point, s.x).kinematics.gap;
   }
   [[nodiscard]] PairEvaluation<Dim> evaluated() const {
     PairEvaluation<Dim> e;
-    pairing::evaluate<Dim>(s.pair, s.x, s.committed, true, e, assumed);
+    pairing::evaluate<Dim>(s.pair, s.x, s.committed, true, e, active_set);
     return e;
   }
 };
@@ -106,24 +106,24 @@ void expect_dropped() {
   for (int i = 1; i <= 4; ++i) {  // four times in a row, not more
     const PairEvaluation<Dim> e = hill.evaluated();
     EXPECT_TRUE(e.blocks[0].active()) << i;
-    const Vec<Dim - 1> xi = hill.assumed.branch[0].xi;
-    hill.assumed = pairing::evaluated_branches(e, hill.assumed);
-    EXPECT_TRUE(hill.assumed.branch[0].closed);
-    EXPECT_EQ(hill.assumed.branch[0].kept_on, i);
-    hill.assumed.branch[0].xi = xi;  // as if it had moved on again
+    const Vec<Dim - 1> xi = hill.active_set.branch[0].xi;
+    hill.active_set = pairing::evaluated_active_set(e, hill.active_set);
+    EXPECT_TRUE(hill.active_set.branch[0].closed);
+    EXPECT_EQ(hill.active_set.branch[0].kept_on, i);
+    hill.active_set.branch[0].xi = xi;  // as if it had moved on again
   }
   const PairEvaluation<Dim> last = hill.evaluated();
   EXPECT_FALSE(last.blocks[0].active());
-  EXPECT_FALSE(pairing::evaluated_branches(last, hill.assumed).branch[0].closed);
+  EXPECT_FALSE(pairing::evaluated_active_set(last, hill.active_set).branch[0].closed);
 
   OverAHill<Dim> beside(0.3);
-  beside.assumed.branch[0].facet = 0;
+  beside.active_set.branch[0].facet = 0;
   EXPECT_FALSE(beside.evaluated().blocks[0].active()) << "over a border of facets";
   OverAHill<Dim> off(0.3);
-  off.assumed.branch[0].xi = off.s.committed.points[0].xi;
+  off.active_set.branch[0].xi = off.s.committed.points[0].xi;
   EXPECT_FALSE(off.evaluated().blocks[0].active()) << "lifted off";
   OverAHill<Dim> open(0.3);
-  open.assumed.branch[0].closed = false;
+  open.active_set.branch[0].closed = false;
   EXPECT_FALSE(open.evaluated().blocks[0].active()) << "was open before";
 }
 
@@ -137,8 +137,8 @@ template <int Dim>
 double shear_stiffness(Prediction friction) {
   OverAHill<Dim> hill(0.3, -0.01);
   hill.s.committed = pairing::initial_state(hill.s.pair, hill.s.x);
-  hill.assumed =
-      pairing::committed_branches<Dim>(hill.s.pair, hill.s.committed, hill.s.x, friction);
+  hill.active_set =
+      pairing::committed_active_set<Dim>(hill.s.pair, hill.s.committed, hill.s.x, friction);
   const PairEvaluation<Dim> e = hill.evaluated();
   const Vec<Dim> along = e.points[0].frame.col(0);
   return along.dot(e.blocks[0].tangent.template topLeftCorner<Dim, Dim>() * along) /

@@ -21,17 +21,17 @@ PairSample ridge(double ahead) {
   return s;
 }
 
-pairing::Assumed<2> that_changed(Index facet, int times) {
-  pairing::Assumed<2> assumed;
-  assumed.branch.resize(1);
-  assumed.branch[0].facet = facet;
-  assumed.branch[0].changes = times;
-  return assumed;
+pairing::ActiveSet<2> that_changed(Index facet, int times) {
+  pairing::ActiveSet<2> active_set;
+  active_set.branch.resize(1);
+  active_set.branch[0].facet = facet;
+  active_set.branch[0].changes = times;
+  return active_set;
 }
 
-Index facet_with(const PairSample& s, const pairing::Assumed<2>& assumed) {
+Index facet_with(const PairSample& s, const pairing::ActiveSet<2>& active_set) {
   pairing::PairEvaluation<2> e;
-  pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, assumed);
+  pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, active_set);
   return e.points[0].history.facet;
 }
 
@@ -53,14 +53,14 @@ TEST(KeptFacet, IsLeftByAPointThatMovesOn) {
 
 /// The count belongs to the iterations of one increment.
 TEST(KeptFacet, ChangesAreCounted) {
-  pairing::Assumed<2> assumed;
+  pairing::ActiveSet<2> active_set;
   for (int i = 0; i < 8; ++i) {
     const PairSample s = ridge(i % 2 == 0 ? 0.01 : -0.01);
     pairing::PairEvaluation<2> e;
-    pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, assumed);
-    assumed = pairing::evaluated_branches<2>(e, assumed);
-    EXPECT_EQ(assumed.branch[0].changes, std::min(i, 6));
-    EXPECT_EQ(assumed.branch[0].facet, i < 6 ? (i % 2 == 0 ? 1 : 0) : 1);
+    pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, active_set);
+    active_set = pairing::evaluated_active_set<2>(e, active_set);
+    EXPECT_EQ(active_set.branch[0].changes, std::min(i, 6));
+    EXPECT_EQ(active_set.branch[0].facet, i < 6 ? (i % 2 == 0 ? 1 : 0) : 1);
   }
 }
 
@@ -70,12 +70,12 @@ TEST(KeptFacet, InSpace) {
   pairing::PairEvaluation<3> e;
   pairing::evaluate<3>(s.pair, s.x, s.committed, true, e);
   const Index here = e.points[0].history.facet;
-  pairing::Assumed<3> assumed;
-  assumed.branch.resize(4);
+  pairing::ActiveSet<3> active_set;
+  active_set.branch.resize(4);
   for (Index other = 0; other < static_cast<Index>(s.pair.master.facets.size()); ++other) {
-    assumed.branch[0].facet = other;
-    assumed.branch[0].changes = 6;
-    pairing::evaluate<3>(s.pair, s.x, s.committed, true, e, assumed);
+    active_set.branch[0].facet = other;
+    active_set.branch[0].changes = 6;
+    pairing::evaluate<3>(s.pair, s.x, s.committed, true, e, active_set);
     if (other == here) continue;
     const bool near = e.points[0].history.facet == other;
     EXPECT_TRUE(near || e.points[0].history.facet == here);

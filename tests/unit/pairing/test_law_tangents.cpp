@@ -16,9 +16,9 @@ template <int Dim>
 pairing::PairEvaluation<Dim> evaluation(const ContactSample<Dim>& s, const Eigen::VectorXd& v,
                                         bool tangent) {
   pairing::PairEvaluation<Dim> e;
-  pairing::Assumed<Dim> assumed;
-  assumed.duration = duration;
-  pairing::evaluate<Dim>(s.pair, unflatten<Dim>(v), s.committed, tangent, e, assumed);
+  pairing::ActiveSet<Dim> active_set;
+  active_set.duration = duration;
+  pairing::evaluate<Dim>(s.pair, unflatten<Dim>(v), s.committed, tangent, e, active_set);
   return e;
 }
 

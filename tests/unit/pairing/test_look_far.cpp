@@ -13,9 +13,9 @@ constexpr double height = 0.4, reach = 1;
 /// A plate and a second one over it, `gap` at its left end and rising to the right. Facets of 0.25.
 PairSample3 plates(cell::CellType type, double gap) {
   PairSample3 s = own_walls(outline({{0, 0}, {0, height}, {6, height}, {6, 0}}, 0.25), type);
-  s.pair.scope.own = false;
-  s.pair.scope.reach = reach;
-  s.pair.scope.thickness.clear();
+  s.pair.filter.own = false;
+  s.pair.filter.distance = reach;
+  s.pair.filter.thickness.clear();
   const auto count = static_cast<Index>(s.x.size());
   for (Index n = 0; n < count; ++n) {
     const Vec3 low = s.x[static_cast<std::size_t>(n)];
@@ -40,7 +40,7 @@ Both evaluated(PairSample3& s, double way) {
   for (const Index n : s.pair.slave.nodes) s.x[static_cast<std::size_t>(n)].y() -= way;
   Both both;
   pairing::evaluate<3>(s.pair, s.x, committed, true, both.whole);
-  pairing::Assumed<3> near;
+  pairing::ActiveSet<3> near;
   near.near = true;
   pairing::evaluate<3>(s.pair, s.x, committed, true, both.near, near);
   return both;

@@ -25,7 +25,7 @@ class MultiplierLaw : public ::testing::TestWithParam<std::size_t> {
 
 /// The tractions N = lambda + eps_N gap are those that the law's state asks for.
 template <int Dim>
-MultiplierSample<Dim> around_multipliers(const Law& law, ContactSample<Dim> s) {
+MultiplierSample<Dim> with_multipliers(const Law& law, ContactSample<Dim> s) {
   set_law(law, s);
   MultiplierSample<Dim> m = unknown_tractions<Dim>(s, -40, law.carried);
   m.duration = duration;
@@ -37,7 +37,7 @@ template <int Dim>
 void expect_second_order(const Law& law, const ContactSample<Dim>& sample, Enforcement enforcement,
                          double h) {
   SCOPED_TRACE(law.name);
-  MultiplierSample<Dim> m = around_multipliers(law, sample);
+  MultiplierSample<Dim> m = with_multipliers(law, sample);
   m.pair.enforcement = enforcement;
   const Eigen::VectorXd whole = m.packed();
   const Eigen::Index size =

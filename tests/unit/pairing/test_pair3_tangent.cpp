@@ -81,7 +81,7 @@ TEST(Pair3TangentBranches, FirstContactInsideTheIncrement) {
 }
 
 /// The strip is folded up at x = 4: a point under the fold is nearest to the edge.
-PairSample3 valley(CellType type, double mu, ResidualForm form) {
+PairSample3 reentrant(CellType type, double mu, ResidualForm form) {
   PairSample3 s = make_sample3({.type = type, .kink = 1.2});
   s.x[s.x.size() - 4] = {4.02, 0.3, -0.1};
   s.pair.friction = contact::coulomb(mu, 80.0);
@@ -96,7 +96,7 @@ TEST(Pair3TangentBranches, EdgeOfAValley) {
     for (const double mu : {10.0, 0.02})
       for (const ResidualForm form : {ResidualForm::surface, ResidualForm::full}) {
         SCOPED_TRACE("mu " + std::to_string(mu));
-        expect_pair_tangent(valley(type, mu, form), mu > 1 ? Status::stick : Status::slip,
+        expect_pair_tangent(reentrant(type, mu, form), mu > 1 ? Status::stick : Status::slip,
                             Feature::edge, 1e-3);
       }
 }

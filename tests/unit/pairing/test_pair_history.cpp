@@ -44,7 +44,8 @@ std::vector<Vec2> kinked_master() {
   return nodes;
 }
 
-/// Point `depth` under the kinked master at arc length s (on the valley side both normals meet).
+/// Point `depth` under the kinked master at arc length s (on the re-entrant vertex side both
+/// normals meet).
 Vec2 on_kinked(double s, double depth) {
   const double c = std::cos(0.5236), si = std::sin(0.5236);
   if (s <= 4) return {s, -depth};

@@ -68,8 +68,8 @@ TEST(PairTangentBranches, FirstContactInsideTheIncrement) {
   }
 }
 
-/// A valley between two facets: the penetrating point is nearest to the vertex.
-PairSample valley_sample(double mu, double carried) {
+/// A re-entrant vertex between two facets: the penetrating point is nearest to the vertex.
+PairSample reentrant_sample(double mu, double carried) {
   PairSample s = make_sample({.facets = 2, .angle = 0.0});
   s.x[0] = {-1, 1};
   s.x[1] = {0, 0};
@@ -83,7 +83,7 @@ PairSample valley_sample(double mu, double carried) {
 TEST(PairTangentBranches, CornerInTheValley) {
   for (const double mu : {10.0, 0.02})
     for (const ResidualForm form : {ResidualForm::surface, ResidualForm::full}) {
-      PairSample s = valley_sample(mu, 5.0);
+      PairSample s = reentrant_sample(mu, 5.0);
       s.pair.weight = Weight::node;
       s.pair.residual = form;
       pairing::PairEvaluation<2> e;

@@ -25,14 +25,14 @@ struct Case {
   pairing::PairDefinition<Dim> pair;
   std::vector<Vec<Dim>> x;
   pairing::PairState<Dim> committed;
-  pairing::PairMultipliers<Dim> around{};
+  pairing::PairMultipliers<Dim> multipliers{};
   double stick = 0;  ///< friction coefficient with which the points stick
 
   [[nodiscard]] pairing::PairEvaluation<Dim> evaluation(const Eigen::VectorXd& v,
                                                         bool tangent) const {
     pairing::PairEvaluation<Dim> e;
     pairing::evaluate<Dim>(pair, unflatten<Dim>(v), committed, tangent, e, {},
-                           around.points.empty() ? nullptr : &around);
+                           multipliers.points.empty() ? nullptr : &multipliers);
     return e;
   }
   [[nodiscard]] Eigen::VectorXd residual(const Eigen::VectorXd& v) const {
@@ -90,16 +90,16 @@ std::vector<Case<Dim>> with_laws(const Case<Dim>& c) {
 template <int Dim>
 std::vector<Case<Dim>> with_enforcement(const Case<Dim>& c) {
   std::vector<Case<Dim>> all(1, c);
-  Case<Dim> around = c;
-  around.pair.enforcement = Enforcement::augmented_lagrange;
-  around.around.stiffening = 10;
-  around.around.points.assign(c.pair.slave.points.size(), {-20.0, shear_of<Dim>(3)});
-  all.push_back(around);
+  Case<Dim> multipliers = c;
+  multipliers.pair.enforcement = Enforcement::augmented_lagrange;
+  multipliers.multipliers.stiffening = 10;
+  multipliers.multipliers.points.assign(c.pair.slave.points.size(), {-20.0, shear_of<Dim>(3)});
+  all.push_back(multipliers);
   all.back().name += ", augmented";
   if (!pairing::sampled_at_nodes(c.pair.slave)) return all;
-  around.around.stiffening = 1;
-  around.pair.enforcement = Enforcement::lagrange_multiplier;
-  all.push_back(around);
+  multipliers.multipliers.stiffening = 1;
+  multipliers.pair.enforcement = Enforcement::lagrange_multiplier;
+  all.push_back(multipliers);
   all.back().name += ", unknown";
   return all;
 }
@@ -262,7 +262,7 @@ void expect_orders(std::vector<Case<Dim>> cases, double h) {
           continue;
         }
         SCOPED_TRACE(c.name);
-        MultiplierSample<Dim> m{c.pair, c.committed, c.x, c.around.points};
+        MultiplierSample<Dim> m{c.pair, c.committed, c.x, c.multipliers.points};
         const auto branch = [&](const Eigen::VectorXd& y) {
           const pairing::PairEvaluation<Dim> e = m.evaluation(y, false);
           return std::pair(states<Dim>(e), e.mortar.overlaps);
@@ -315,31 +315,31 @@ TEST(PointPenalty, AViolationIsALength) {
     SCOPED_TRACE(c.name);
     give_uneven_factors(c.pair);
     c.pair.enforcement = Enforcement::augmented_lagrange;
-    c.around.points.assign(c.pair.slave.points.size(), {});
+    c.multipliers.points.assign(c.pair.slave.points.size(), {});
     const pairing::PairEvaluation<2> e = c.evaluation(flatten(c.x), false);
     double deepest = 0;
     for (const auto& p : e.points)
       if (p.status != Status::open) deepest = std::max(deepest, -p.gap);
-    const double violation = pairing::augmented<2>(c.pair, e, c.around).violation;
+    const double violation = pairing::augmented<2>(c.pair, e, c.multipliers).violation;
     EXPECT_GT(deepest, 0);
     EXPECT_NEAR(violation, deepest, 1e-15);
   }
 }
 
-/// A crossing of edges has the mean of the ends of its slave edge.
+/// A edge-edge contact has the mean of the ends of its slave edge.
 TEST(PointPenalty, ACrossingHasThatOfItsSlaveEdge) {
   PairSample3 s = make_roofs({});
   const std::size_t nodes = s.pair.slave.points.size();
   const pairing::PairEvaluation<3> usual = evaluated(s);
   ASSERT_GT(usual.points.size(), nodes);
-  const pairing::PointResult<3>& crossing = usual.points[nodes];
-  ASSERT_NE(crossing.status, Status::open);
-  const auto edge = static_cast<std::size_t>(crossing.history.edge);
+  const pairing::PointResult<3>& edge_contact = usual.points[nodes];
+  ASSERT_NE(edge_contact.status, Status::open);
+  const auto edge = static_cast<std::size_t>(edge_contact.history.edge);
   s.pair.relative_stiffness.assign(nodes, {});
   const std::array<int, 3> ends = s.pair.edges.slave_nodes[edge];
   s.pair.relative_stiffness[static_cast<std::size_t>(ends[0])].normal = 2;
   s.pair.relative_stiffness[static_cast<std::size_t>(ends[1])].normal = 6;
-  EXPECT_EQ(evaluated(s).points[nodes].normal_traction, 4 * crossing.normal_traction);
+  EXPECT_EQ(evaluated(s).points[nodes].normal_traction, 4 * edge_contact.normal_traction);
 }
 
 TEST(PointPenalty, RangeIsOverThePoints) {

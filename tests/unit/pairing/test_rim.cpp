@@ -26,8 +26,8 @@ ContactSample<Dim> stacked(ContactSample<Dim> s, double beside) {
       facet.nodes[k] += static_cast<Index>(count);
   pairing::connect(upper);
   s.pair.slave = pairing::make_slave_side(upper);
-  s.pair.scope = {};
-  s.pair.scope.reach = 1;
+  s.pair.filter = {};
+  s.pair.filter.distance = 1;
   pairing::prepare(s.pair, s.x);
   s.committed = pairing::initial_state<Dim>(s.pair, s.x);
   return s;

@@ -115,7 +115,7 @@ TEST(Sampling, RefusesWhatDoesNotExist) {
       pairing::make_slave_side(pairing::Chain{}, std::array<Index, 2>{0, 1});
   EXPECT_THROW(pairing::sample(points, {Rule::gauss, 2, 1}), core::GeometryError);
   PairSample own = segment_sample({});
-  own.pair.scope.reach = 3;
+  own.pair.filter.distance = 3;
   EXPECT_THROW(pairing::prepare(own.pair, own.x), core::GeometryError);
 }
 
@@ -228,7 +228,7 @@ TEST(SegmentForces, OfAPassAreItsShare) {
   PairSample s = segment_sample({});
   s.committed = pairing::initial_state<2>(s.pair, s.x);
   const Eigen::VectorXd whole = pair_residual(s, flatten(s.x));
-  s.pair.share = 0.5;
+  s.pair.pass_factor = 0.5;
   EXPECT_LT((pair_residual(s, flatten(s.x)) - 0.5 * whole).norm(), 1e-15 * whole.norm());
 }
 

@@ -140,7 +140,7 @@ NormalResponse mean_response(const NormalLaw& law, double gap, double way) {
       [&](const auto& l) {
         const double from = gap + 0.5 * way, to = gap - 0.5 * way;
         NormalResponse r;
-        r.active = !(to > l.reach());
+        r.active = !(to > l.onset_gap());
         r.traction = (l.energy(from) - l.energy(to)) / way;
         r.d_traction = (l.response(from).traction - l.response(to).traction) / way;
         return r;
@@ -158,8 +158,8 @@ NormalResponse damped(const DampingLaw& damping, const NormalLaw& law, double ga
       },
       damping);
 }
-double reach(const NormalLaw& law) {
-  return visit([](const auto& l) { return l.reach(); }, law);
+double onset_gap(const NormalLaw& law) {
+  return visit([](const auto& l) { return l.onset_gap(); }, law);
 }
 bool augmentable(const NormalLaw& law) {
   return visit(

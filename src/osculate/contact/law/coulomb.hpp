@@ -10,7 +10,7 @@
 
 namespace osculate::contact {
 
-/// Coulomb friction by return mapping from an elastic trial, with an optional change from the
+/// Coulomb friction by return mapping from an elastic predictor, with an optional change from the
 /// static coefficient to a kinetic one and an optional cap of the shear traction.
 ///
 /// Formula    t = t_tr            if |t_tr| <= L_0                        (stick)

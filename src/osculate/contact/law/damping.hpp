@@ -9,9 +9,9 @@ namespace osculate::contact {
 
 /// A damper beside the spring of the normal law, while there is contact.
 ///
-/// Formula    p = max(0, p_spring(zeta) + c w / h) ,  w = min(zeta_n, reach) - zeta ,
+/// Formula    p = max(0, p_spring(zeta) + c w / h) ,  w = min(zeta_n, onset) - zeta ,
 ///            h the duration of the increment: w is the way of the increment that lies within the
-///            reach of the law, so that p begins at zero where the contact does; in the increment
+///            onset of the law, so that p begins at zero where the contact does; in the increment
 ///            in which it begins w / h is less than the closing speed (first order in h).
 ///            Dissipated p_damper w >= 0, also where the damper would pull and the surfaces let
 ///            go: then it has taken what the spring had
@@ -41,7 +41,7 @@ struct Viscous {
     r.stored = law.energy(gap);
     if (!(closing.duration > 0)) return r;
     const double spring = r.traction, rate = coefficient / closing.duration;
-    const double way = std::min(closing.from, law.reach()) - gap;
+    const double way = std::min(closing.from, law.onset_gap()) - gap;
     r.traction -= rate * way;
     r.d_traction += rate;
     if (r.traction > 0) {
@@ -64,7 +64,7 @@ struct Viscous {
 ///
 /// Formula    p = p_spring(zeta) where zeta <= d ;
 ///            p = p_spring(d + (zeta - d) / e^2) else, d the least gap since zeta was above the
-///            reach of the law: unloading, and loading again up to there. Stored: e^2 U at that
+///            onset of the law: unloading, and loading again up to there. Stored: e^2 U at that
 ///            argument; dissipated (1 - e^2) (U(zeta) - U(d)) where zeta < d. The pressure does
 ///            not fall with the penetration, so that stored + dissipated is convex in zeta
 /// Source     WaltonBraun1986 (linear spring, k_unload = k / e^2), here for any law: e^2 is the
@@ -95,7 +95,7 @@ struct Restitution {
   template <class Law>
   [[nodiscard]] NormalResponse response(const Law& law, double gap, const Closing& closing) const {
     NormalResponse r;
-    if (gap > law.reach()) return r;
+    if (gap > law.onset_gap()) return r;
     const double back = returned(), deepest = closing.deepest;
     if (!(gap > deepest)) {
       r = law.response(gap);

@@ -23,7 +23,7 @@ concept HasWords = requires {
 };
 template <class T>
 concept IsNormalLaw = IsLaw<T> && HasWords<T> && requires(const T& law, double gap, bool held) {
-  { law.reach() } -> std::same_as<double>;
+  { law.onset_gap() } -> std::same_as<double>;
   { law.response(gap, held) } -> std::same_as<NormalResponse>;
   { law.energy(gap, held) } -> std::same_as<double>;
 };

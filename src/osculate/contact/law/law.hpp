@@ -90,7 +90,7 @@ struct Closing {
 [[nodiscard]] NormalResponse damped(const DampingLaw& damping, const NormalLaw& law, double gap,
                                     const Closing& closing);
 /// Largest gap with contact.
-[[nodiscard]] double reach(const NormalLaw& law);
+[[nodiscard]] double onset_gap(const NormalLaw& law);
 /// Whether the law is a means to an end (no penetration) that a multiplier serves better.
 [[nodiscard]] bool augmentable(const NormalLaw& law);
 /// Whether the law goes on where a held point is pulled.
@@ -122,7 +122,7 @@ struct Closing {
 [[nodiscard]] FrictionLaw with_stiffness(const FrictionLaw& law, double stiffness);
 /// The law of points that may part, as against those that are held.
 [[nodiscard]] FrictionLaw parting(const FrictionLaw& law);
-/// The tangential traction at an elastic trial.
+/// The tangential traction at an elastic predictor.
 template <int Dim>
 [[nodiscard]] TangentialResponse<Dim> response(const FrictionLaw& law, const Vec<Dim - 1>& trial,
                                                double normal_traction, const Sliding& sliding);
@@ -130,7 +130,7 @@ template <int Dim>
 [[nodiscard]] SlipLimit predicted_limit(const FrictionLaw& law, double trial,
                                         double normal_traction, const Sliding& sliding);
 /// What eps_T is multiplied by around a multiplier, so that a limit that falls while the point
-/// slides never falls as steeply as the elastic trial rises. A point that slides by s has the
+/// slides never falls as steeply as the elastic predictor rises. A point that slides by s has the
 /// multiplier t = L(s), hence the trial L(s) + eps_T s; were that below L(0) it would be taken for
 /// sticking, and no iteration could end. eps_T is a means there, the answer does not depend on it.
 ///

@@ -43,7 +43,7 @@ struct NormalExponential {
                                                            .example = "0.01"}}};
   }
 
-  [[nodiscard]] double reach() const { return clearance; }
+  [[nodiscard]] double onset_gap() const { return clearance; }
   [[nodiscard]] NormalResponse response(double gap, bool = false) const {
     if (gap > clearance) return {};
     const double x = 1 - gap / clearance;

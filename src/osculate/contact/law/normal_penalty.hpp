@@ -24,7 +24,7 @@ struct NormalPenalty {
         "", "Stiffness against penetration, unless there is another law.", from_compression)};
   }
 
-  [[nodiscard]] double reach() const { return 0; }
+  [[nodiscard]] double onset_gap() const { return 0; }
   [[nodiscard]] NormalResponse response(double gap, bool held = false) const {
     if (gap > 0 && !held) return {};
     const double traction = stiffness * gap;  // @eq KS2D:32

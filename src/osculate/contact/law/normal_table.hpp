@@ -36,7 +36,7 @@ struct NormalTable {
   /// What is required of the points above, one by one.
   [[nodiscard]] std::optional<core::Fault> fault() const;
 
-  [[nodiscard]] double reach() const { return -points.front()[0]; }
+  [[nodiscard]] double onset_gap() const { return -points.front()[0]; }
   [[nodiscard]] NormalResponse response(double gap, bool = false) const {
     const double h = -gap;
     if (h < points.front()[0]) return {};

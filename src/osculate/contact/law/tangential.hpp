@@ -7,9 +7,10 @@ namespace osculate::contact {
 
 enum class Status : std::uint8_t { open = 0, stick = 1, slip = 2 };
 
-/// The smooth piece of the friction law that an iteration was linearised in; `valley`: the point is
-/// held in a concave corner of the master, where no single facet's law says what it carries.
-enum class Branch : std::uint8_t { none, stick, slip, valley };
+/// The smooth piece of the friction law that an iteration was linearised in; `reentrant`:
+/// the point is held in a concave corner of the master, where no single facet's law says what it
+/// carries.
+enum class Branch : std::uint8_t { none, stick, slip, reentrant };
 
 /// Tangential traction t in an orthonormal frame of the tangent plane (2D: along tau), and its
 /// derivatives.
@@ -17,9 +18,9 @@ template <int Dim>
 struct TangentialResponse {
   using Traction = Vec<Dim - 1>;
   Status status = Status::stick;
-  Traction traction = Traction::Zero();                           ///< t
-  Mat<Dim - 1, Dim - 1> d_trial = Mat<Dim - 1, Dim - 1>::Zero();  ///< dt/dt_trial
-  Traction d_normal = Traction::Zero();                           ///< dt/dN
+  Traction traction = Traction::Zero();                               ///< t
+  Mat<Dim - 1, Dim - 1> d_predictor = Mat<Dim - 1, Dim - 1>::Zero();  ///< dt/dt_trial
+  Traction d_normal = Traction::Zero();                               ///< dt/dN
 };
 
 /// What a friction law may depend on beside trial and normal traction.
@@ -31,8 +32,8 @@ struct Sliding {
 /// Largest shear traction of a sliding point, and its derivatives.
 struct SlipLimit {
   double value = 0;
-  double d_trial = 0;     ///< by the length of the trial traction
-  double d_pressure = 0;  ///< by -N
+  double d_predictor = 0;  ///< by the length of the trial traction
+  double d_pressure = 0;   ///< by -N
 };
 
 /// Pressure that a friction law is given: none where a held point is pulled.
@@ -51,7 +52,7 @@ template <int Dim>
 [[nodiscard]] TangentialResponse<Dim> stick_response(const Vec<Dim - 1>& trial) {
   TangentialResponse<Dim> r;
   r.traction = trial;
-  r.d_trial.setIdentity();
+  r.d_predictor.setIdentity();
   return r;
 }
 
@@ -68,9 +69,9 @@ template <int Dim>
   r.traction = limit.value * s;  // @eq KS2D:57
   r.d_normal = -limit.d_pressure * s;
   const Mat<Dim - 1, Dim - 1> along = s * s.transpose();
-  r.d_trial = limit.d_trial * along;
+  r.d_predictor = limit.d_predictor * along;
   if constexpr (Dim == 3)
-    if (size > 0) r.d_trial += limit.value / size * (Mat<2, 2>::Identity() - along);
+    if (size > 0) r.d_predictor += limit.value / size * (Mat<2, 2>::Identity() - along);
   return r;
 }
 

@@ -6,7 +6,8 @@
 
 namespace osculate::contact {
 
-/// Friction with one shear traction for every pressure, by return mapping from an elastic trial.
+/// Friction with one shear traction for every pressure, by return mapping from an elastic
+/// predictor.
 ///
 /// Formula    t = t_tr if |t_tr| <= tau ,  t = tau t_tr / |t_tr| otherwise
 /// Units      tau: force per area; force with weight node

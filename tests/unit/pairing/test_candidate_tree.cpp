@@ -1,4 +1,5 @@
-// The tree of a master with a scope: what it passes over, the projection would have refused.
+// The tree of a master with a candidate filter: what it passes over, the projection would have
+// refused.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -14,11 +15,11 @@ using pairing::FacetOutline;
 template <int Dim>
 struct Refreshed {
   std::vector<search::Box<Dim>> boxes;
-  pairing::ScopeBuffers<Dim> buffers;
+  pairing::FilterBuffers<Dim> buffers;
   pairing::Tree<Dim> tree;
   explicit Refreshed(const ContactSample<Dim>& s) {
     pairing::facet_boxes(s.pair.master, s.x, boxes);
-    pairing::refresh<Dim>(s.pair.scope, s.pair.master, s.x, boxes, buffers, tree);
+    pairing::refresh<Dim>(s.pair.filter, s.pair.master, s.x, boxes, buffers, tree);
   }
 };
 
@@ -50,7 +51,7 @@ PairSample bent_outline(int nodes_per_facet) {
   return s;
 }
 
-TEST(ScopeTree, BranchesBoundTheHeightAndTheNormalsOfTheirFacets) {
+TEST(CandidateTree, BranchesBoundTheHeightAndTheNormalsOfTheirFacets) {
   std::mt19937 generator(3);
   std::normal_distribution<double> normal;
   for (const cell::CellType type : {cell::CellType::tri3, cell::CellType::quad4}) {
@@ -84,7 +85,7 @@ TEST(ScopeTree, BranchesBoundTheHeightAndTheNormalsOfTheirFacets) {
   }
 }
 
-TEST(ScopeTree, ProductBeyondWhichAConeIsWithinALimit) {
+TEST(CandidateTree, ProductBeyondWhichAConeIsWithinALimit) {
   const double a = pairing::product_within(-0.5, 0.2), degree = M_PI / 180;
   EXPECT_NEAR(a, std::cos(120 * degree - 0.2), 1e-8);
   EXPECT_NEAR(pairing::product_within(0.5, 0), 0.5, 1e-8);
@@ -105,10 +106,10 @@ int same_places(const ContactSample<Dim>& s, bool memory) {
     pairing::ProjectionQuery<Dim> query;
     query.point = s.x[static_cast<std::size_t>(s.pair.slave.nodes[i])];
     query.slave_normal = normals[i];
-    pairing::NodeScope<Dim> rules =
-        pairing::node_scope<Dim>(s.pair.scope, s.pair.slave, r.buffers, i, query.point);
+    pairing::NodeFilter<Dim> rules =
+        pairing::node_filter<Dim>(s.pair.filter, s.pair.slave, r.buffers, i, query.point);
     if (memory) rules.last = query.point + Vec<Dim>::Constant(0.2 + 0.01 * static_cast<double>(i));
-    query.scope = &rules;
+    query.filter = &rules;
     const pairing::Projection<Dim> quick = pairing::closest(s.pair.master, r.tree, s.x, query);
     rules.branches = {};
     rules.outlines = unknown;
@@ -127,17 +128,17 @@ int same_places(const ContactSample<Dim>& s) {
   return same_places(s, false);
 }
 
-TEST(ScopeTree, NoPlaceIsLostWithIt) {
+TEST(CandidateTree, NoPlaceIsLostWithIt) {
   for (const int nodes : {2, 3}) EXPECT_GT(same_places(bent_outline(nodes)), 10);
   for (const cell::CellType type :
        {cell::CellType::tri3, cell::CellType::tri6, cell::CellType::quad4, cell::CellType::quad9})
     EXPECT_GT(same_places(bent_walls(type)), 30);
 }
 
-TEST(ScopeTree, NoPlaceOfAnotherSurfaceIsLostWithIt) {
+TEST(CandidateTree, NoPlaceOfAnotherSurfaceIsLostWithIt) {
   for (const cell::CellType type : {cell::CellType::tri3, cell::CellType::quad4}) {
     PairSample3 s = own_walls(outline({{0, 0}, {0, 0.4}, {6, 0.4}, {6, 0}}, 0.25), type);
-    s.pair.scope.own = false;
+    s.pair.filter.own = false;
     const auto count = static_cast<Index>(s.x.size());
     for (Index n = 0; n < count; ++n)  // a second plate on top of it
       s.x.push_back(s.x[static_cast<std::size_t>(n)] + Vec3(0.07, 0.39, 0.03));

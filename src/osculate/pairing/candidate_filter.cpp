@@ -1,4 +1,4 @@
-#include "osculate/pairing/scope.hpp"
+#include "osculate/pairing/candidate_filter.hpp"
 
 #include <algorithm>
 
@@ -79,16 +79,16 @@ FacetOutline<Dim> outline(const FacetType& facet, std::span<const Vec<Dim>> x) {
 
 /// Every node once for each of its facets.
 template <int Dim>
-void set_parts(const SlaveSide<Dim>& slave, Scope<Dim>& scope) {
-  scope.parts = {};
-  scope.parts.boundary = slave.boundary;
-  scope.first.assign(1, 0);
+void set_parts(const SlaveSide<Dim>& slave, CandidateFilter<Dim>& filter) {
+  filter.parts = {};
+  filter.parts.boundary = slave.boundary;
+  filter.first.assign(1, 0);
   for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
     for (const Index f : slave.facets_of[i]) {
-      scope.parts.nodes.push_back(slave.nodes[i]);
-      scope.parts.facets_of.push_back({f});
+      filter.parts.nodes.push_back(slave.nodes[i]);
+      filter.parts.facets_of.push_back({f});
     }
-    scope.first.push_back(scope.parts.nodes.size());
+    filter.first.push_back(filter.parts.nodes.size());
   }
 }
 
@@ -101,46 +101,47 @@ bool same_facets(const Boundary<Dim>& a, const Boundary<Dim>& b) {
 }
 
 template <int Dim>
-std::span<const Vec<Dim>> normals_of(const Scope<Dim>& scope, const ScopeBuffers<Dim>& buffers,
-                                     std::size_t i) {
-  const std::size_t first = scope.first[i];
-  return std::span(buffers.normals).subspan(first, scope.first[i + 1] - first);
+std::span<const Vec<Dim>> normals_of(const CandidateFilter<Dim>& filter,
+                                     const FilterBuffers<Dim>& buffers, std::size_t i) {
+  const std::size_t first = filter.first[i];
+  return std::span(buffers.normals).subspan(first, filter.first[i + 1] - first);
 }
 
 /// How far the body reaches behind each slave node.
 template <int Dim>
-void measure(Scope<Dim>& scope, const SlaveSide<Dim>& slave, std::span<const Vec<Dim>> x) {
-  scope.thickness.assign(slave.nodes.size(), infinite);
+void measure(CandidateFilter<Dim>& filter, const SlaveSide<Dim>& slave,
+             std::span<const Vec<Dim>> x) {
+  filter.thickness.assign(slave.nodes.size(), infinite);
   if (slave.boundary.facets.empty()) return;
-  ScopeBuffers<Dim> buffers;
+  FilterBuffers<Dim> buffers;
   for (const auto& facet : slave.boundary.facets) buffers.outlines.push_back(outline(facet, x));
-  nodal_normals(scope.parts, x, buffers.normals);
+  nodal_normals(filter.parts, x, buffers.normals);
   std::vector<search::Box<Dim>> boxes;
   facet_boxes(slave.boundary, x, boxes);
   Tree<Dim> tree;
-  plant(buffers.outlines, boxes, scope.reach, tree, buffers.branches);
+  plant(buffers.outlines, boxes, filter.distance, tree, buffers.branches);
   for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
-    NodeScope<Dim> rules;
+    NodeFilter<Dim> rules;
     rules.point = x[static_cast<std::size_t>(slave.nodes[i])];
-    rules.reach = 2 * scope.reach;
+    rules.distance = 2 * filter.distance;
     rules.outlines = buffers.outlines;
     rules.branches = buffers.branches;
     rules.facets = slave.facets_of[i];
-    rules.facing = normals_of(scope, buffers, i);
+    rules.facing = normals_of(filter, buffers, i);
     rules.behind = true;
     if (rules.facing.empty()) continue;
     ProjectionQuery<Dim> query;
     query.point = rules.point;
-    query.scope = &rules;
-    scope.thickness[i] = closest(slave.boundary, tree, x, query).distance;
+    query.filter = &rules;
+    filter.thickness[i] = closest(slave.boundary, tree, x, query).distance;
   }
 }
 
 /// Places that a node never faced may be so far in front of it.
-constexpr double depth_in_reach = 0.25;
+constexpr double depth_in_distance = 0.25;
 /// And so far if they are on an edge or a vertex: behind a surface the nearest place is on a face,
 /// unless the rules have taken the faces out.
-constexpr double edge_depth_in_reach = 0.03;
+constexpr double edge_depth_in_distance = 0.03;
 
 /// Places farther than the depth are straight in front of the node: others are feet at a vertex,
 /// which has the last word on the sign, ...
@@ -153,7 +154,7 @@ constexpr double along = 0.999;
 
 /// `admits` for both dimensions.
 template <int Dim, class FacetType, class Coordinates>
-bool admitted(const NodeScope<Dim>& rules, const FacetType& facet, const Coordinates& xi,
+bool admitted(const NodeFilter<Dim>& rules, const FacetType& facet, const Coordinates& xi,
               std::span<const Vec<Dim>> x) {
   const Vec<Dim> foot = point_at(facet, xi, x);
   const Vec<Dim> normal = normal_at(facet, xi, x);
@@ -193,41 +194,41 @@ Vec3 middle_normal(const SurfaceFacet& facet, std::span<const Vec3> x) {
 }
 
 template <int Dim>
-void prepare(Scope<Dim>& scope, const Boundary<Dim>& master, const SlaveSide<Dim>& slave,
+void prepare(CandidateFilter<Dim>& filter, const Boundary<Dim>& master, const SlaveSide<Dim>& slave,
              std::type_identity_t<std::span<const Vec<Dim>>> reference, const AreaRule& rule) {
-  if (!scope.limited()) return;
-  if (scope.own && !same_facets<Dim>(master, slave.boundary))
+  if (!filter.limited()) return;
+  if (filter.own && !same_facets<Dim>(master, slave.boundary))
     throw core::GeometryError("self-contact needs the same facets as master and slave");
-  set_parts(slave, scope);
-  nodal_areas(scope.parts, reference, rule, scope.areas, nullptr);
-  if (scope.own) scope.reference.assign(reference.begin(), reference.end());
-  if (scope.thickness.size() != slave.nodes.size()) measure<Dim>(scope, slave, reference);
+  set_parts(slave, filter);
+  nodal_areas(filter.parts, reference, rule, filter.areas, nullptr);
+  if (filter.own) filter.reference.assign(reference.begin(), reference.end());
+  if (filter.thickness.size() != slave.nodes.size()) measure<Dim>(filter, slave, reference);
 }
 
 template <int Dim>
-void refresh(const Scope<Dim>& scope, const Boundary<Dim>& master,
+void refresh(const CandidateFilter<Dim>& filter, const Boundary<Dim>& master,
              std::type_identity_t<std::span<const Vec<Dim>>> x,
-             const std::vector<search::Box<Dim>>& boxes, ScopeBuffers<Dim>& buffers,
+             const std::vector<search::Box<Dim>>& boxes, FilterBuffers<Dim>& buffers,
              Tree<Dim>& tree) {
-  if (!scope.limited()) return;
+  if (!filter.limited()) return;
   buffers.outlines.clear();
   for (const auto& facet : master.facets) buffers.outlines.push_back(outline(facet, x));
-  nodal_normals(scope.parts, x, buffers.normals);
-  plant(buffers.outlines, boxes, scope.reach, tree, buffers.branches);
+  nodal_normals(filter.parts, x, buffers.normals);
+  plant(buffers.outlines, boxes, filter.distance, tree, buffers.branches);
 }
 
 template <int Dim>
-void mean_normals(const Scope<Dim>& scope, const ScopeBuffers<Dim>& buffers,
+void mean_normals(const CandidateFilter<Dim>& filter, const FilterBuffers<Dim>& buffers,
                   std::vector<Vec<Dim>>& normals) {
-  normals.assign(scope.first.size() - 1, Vec<Dim>::Zero());
+  normals.assign(filter.first.size() - 1, Vec<Dim>::Zero());
   for (std::size_t i = 0; i < normals.size(); ++i) {
-    for (const Vec<Dim>& n : normals_of(scope, buffers, i)) normals[i] += n;
+    for (const Vec<Dim>& n : normals_of(filter, buffers, i)) normals[i] += n;
     if (normals[i].norm() > 1e-12) normals[i].normalize();
   }
 }
 
 template <int Dim>
-bool NodeScope<Dim>::too_slanted(double highest, double nearest, double from_last) const {
+bool NodeFilter<Dim>::too_slanted(double highest, double nearest, double from_last) const {
   constexpr double rounding = 1e-9;
   if (behind || nearest * (1 - rounding) <= depth) return false;
   if (highest >= straight * (1 - rounding) * nearest) return false;
@@ -235,14 +236,14 @@ bool NodeScope<Dim>::too_slanted(double highest, double nearest, double from_las
 }
 
 template <int Dim>
-bool NodeScope<Dim>::beside_and_behind(double lowest, double highest, double nearest) const {
+bool NodeFilter<Dim>::beside_and_behind(double lowest, double highest, double nearest) const {
   constexpr double rounding = 1e-9;
   nearest *= 1 - rounding;
   return highest < 0 && nearest > edge_depth && lowest > -along * nearest;
 }
 
 template <int Dim>
-bool NodeScope<Dim>::skips(Index facet, const std::optional<Vec<Dim>>& slave_normal) const {
+bool NodeFilter<Dim>::skips(Index facet, const std::optional<Vec<Dim>>& slave_normal) const {
   if (std::find(facets.begin(), facets.end(), facet) != facets.end()) return true;
   const FacetOutline<Dim>& o = outlines[static_cast<std::size_t>(facet)];
   if (std::isinf(o.bulge)) return false;
@@ -260,7 +261,7 @@ bool NodeScope<Dim>::skips(Index facet, const std::optional<Vec<Dim>>& slave_nor
 }
 
 template <int Dim>
-bool NodeScope<Dim>::misses(Index branch, const std::optional<Vec<Dim>>& slave_normal) const {
+bool NodeFilter<Dim>::misses(Index branch, const std::optional<Vec<Dim>>& slave_normal) const {
   if (branches.empty()) return false;
   const BranchOutline<Dim>& b = branches[static_cast<std::size_t>(branch)];
   if (std::isinf(b.bulge)) return false;
@@ -268,54 +269,57 @@ bool NodeScope<Dim>::misses(Index branch, const std::optional<Vec<Dim>>& slave_n
   const auto may_face = [&](const Vec<Dim>& n) { return n.dot(b.axis) <= b.facing; };
   if (!facing.empty() && std::none_of(facing.begin(), facing.end(), may_face)) return true;
   if (behind) return false;
-  if (b.across > 0.5 * reach) return false;  // too large for what follows to pay
+  if (b.across > 0.5 * distance) return false;  // too large for what follows to pay
   const double highest = b.highest(point);
   if (highest < -(deepest() + 2 * b.bulge)) return true;
   return too_slanted(highest + 2 * b.bulge + b.overhang, b.nearest(point),
                      last ? b.nearest(*last) : 0.0);
 }
 
-bool admits(const NodeScope<2>& rules, const Facet& facet, double xi, std::span<const Vec2> x) {
+bool admits(const NodeFilter<2>& rules, const Facet& facet, double xi, std::span<const Vec2> x) {
   return admitted<2>(rules, facet, xi, x);
 }
-bool admits(const NodeScope<3>& rules, const SurfaceFacet& facet, const Vec2& xi,
+bool admits(const NodeFilter<3>& rules, const SurfaceFacet& facet, const Vec2& xi,
             std::span<const Vec3> x) {
   return admitted<3>(rules, facet, xi, x);
 }
 
 template <int Dim>
-NodeScope<Dim> node_scope(const Scope<Dim>& scope, const SlaveSide<Dim>& slave,
-                          const ScopeBuffers<Dim>& buffers, std::size_t i, const Vec<Dim>& point) {
-  NodeScope<Dim> rules;
+NodeFilter<Dim> node_filter(const CandidateFilter<Dim>& filter, const SlaveSide<Dim>& slave,
+                            const FilterBuffers<Dim>& buffers, std::size_t i,
+                            const Vec<Dim>& point) {
+  NodeFilter<Dim> rules;
   rules.point = point;
-  rules.reach = scope.reach;
-  rules.depth = std::min(0.5 * scope.thickness[i], depth_in_reach * scope.reach);
-  rules.edge_depth = edge_depth_in_reach * scope.reach;
+  rules.distance = filter.distance;
+  rules.depth = std::min(0.5 * filter.thickness[i], depth_in_distance * filter.distance);
+  rules.edge_depth = edge_depth_in_distance * filter.distance;
   rules.outlines = buffers.outlines;
   rules.branches = buffers.branches;
-  if (!scope.own) return rules;
-  rules.facing = normals_of(scope, buffers, i);
+  if (!filter.own) return rules;
+  rules.facing = normals_of(filter, buffers, i);
   rules.facets = slave.facets_of[i];
-  rules.reference = scope.reference;
-  rules.home = scope.reference[static_cast<std::size_t>(slave.nodes[i])];
+  rules.reference = filter.reference;
+  rules.home = filter.reference[static_cast<std::size_t>(slave.nodes[i])];
   return rules;
 }
 
-template void prepare<2>(Scope<2>&, const Boundary<2>&, const SlaveSide<2>&, std::span<const Vec2>,
-                         const AreaRule&);
-template void prepare<3>(Scope<3>&, const Boundary<3>&, const SlaveSide<3>&, std::span<const Vec3>,
-                         const AreaRule&);
-template void refresh<2>(const Scope<2>&, const Boundary<2>&, std::span<const Vec2>,
-                         const std::vector<search::Box<2>>&, ScopeBuffers<2>&, Tree<2>&);
-template void refresh<3>(const Scope<3>&, const Boundary<3>&, std::span<const Vec3>,
-                         const std::vector<search::Box<3>>&, ScopeBuffers<3>&, Tree<3>&);
-template void mean_normals<2>(const Scope<2>&, const ScopeBuffers<2>&, std::vector<Vec2>&);
-template void mean_normals<3>(const Scope<3>&, const ScopeBuffers<3>&, std::vector<Vec3>&);
-template struct NodeScope<2>;
-template struct NodeScope<3>;
-template NodeScope<2> node_scope<2>(const Scope<2>&, const SlaveSide<2>&, const ScopeBuffers<2>&,
-                                    std::size_t, const Vec2&);
-template NodeScope<3> node_scope<3>(const Scope<3>&, const SlaveSide<3>&, const ScopeBuffers<3>&,
-                                    std::size_t, const Vec3&);
+template void prepare<2>(CandidateFilter<2>&, const Boundary<2>&, const SlaveSide<2>&,
+                         std::span<const Vec2>, const AreaRule&);
+template void prepare<3>(CandidateFilter<3>&, const Boundary<3>&, const SlaveSide<3>&,
+                         std::span<const Vec3>, const AreaRule&);
+template void refresh<2>(const CandidateFilter<2>&, const Boundary<2>&, std::span<const Vec2>,
+                         const std::vector<search::Box<2>>&, FilterBuffers<2>&, Tree<2>&);
+template void refresh<3>(const CandidateFilter<3>&, const Boundary<3>&, std::span<const Vec3>,
+                         const std::vector<search::Box<3>>&, FilterBuffers<3>&, Tree<3>&);
+template void mean_normals<2>(const CandidateFilter<2>&, const FilterBuffers<2>&,
+                              std::vector<Vec2>&);
+template void mean_normals<3>(const CandidateFilter<3>&, const FilterBuffers<3>&,
+                              std::vector<Vec3>&);
+template struct NodeFilter<2>;
+template struct NodeFilter<3>;
+template NodeFilter<2> node_filter<2>(const CandidateFilter<2>&, const SlaveSide<2>&,
+                                      const FilterBuffers<2>&, std::size_t, const Vec2&);
+template NodeFilter<3> node_filter<3>(const CandidateFilter<3>&, const SlaveSide<3>&,
+                                      const FilterBuffers<3>&, std::size_t, const Vec3&);
 
 }  // namespace osculate::pairing

@@ -69,7 +69,7 @@ Vec2 corner_of(const model::System& system, const model::State& state) {
 
 /// Without friction it slides down and up the other side with the cosine of its speed, again and
 /// again, and comes to rest in the valley, which carries its weight.
-TEST(Valleys, ABeadWithoutFrictionComesToRest) {
+TEST(ReentrantVertices, ABeadWithoutFrictionComesToRest) {
   double time = 0, farthest = 0, first_up = 0;
   constexpr double way = 0.2;
   const double down = std::sqrt(2 * way / std::sin(tilt));
@@ -89,7 +89,7 @@ TEST(Valleys, ABeadWithoutFrictionComesToRest) {
 }
 
 /// A push that grows to twice the weight drives it out where the cone of both faces ends.
-TEST(Valleys, ABeadLeavesWhereTheConeEnds) {
+TEST(ReentrantVertices, ABeadLeavesWhereTheConeEnds) {
   for (const auto& [mu, meshed] : {std::pair{0.0, false}, {0.3, false}, {0.0, true}, {0.3, true}}) {
     const double limit = std::tan(tilt + std::atan(mu));
     double begun = 0;
@@ -105,7 +105,7 @@ TEST(Valleys, ABeadLeavesWhereTheConeEnds) {
   }
 }
 
-TEST(Valleys, ABeadIsLiftedOff) {
+TEST(ReentrantVertices, ABeadIsLiftedOff) {
   Vec2 last = Vec2::Zero();
   run(in_groove(0, 0.3, ", forces: [{on: bead, fy: 1.02, amplitude: at_once}]"),
       [&](const model::System& system, const model::State& state) {
@@ -118,7 +118,7 @@ TEST(Valleys, ABeadIsLiftedOff) {
 
 /// A block in the corner of an elastic angle, pushed into it: its corner node stays where the
 /// vertex goes, which takes part in the forces of both legs.
-TEST(Valleys, OfAnElasticBodyMoveWithIt) {
+TEST(ReentrantVertices, OfAnElasticBodyMoveWithIt) {
   const std::string file = ::testing::TempDir() + "angle.msh";
   std::ofstream(file) << R"($MeshFormat
 2.2 0 8
@@ -184,7 +184,7 @@ steps:
 }
 
 /// docs/turning_block.md: the corner stays where it is, and the block turns about it.
-TEST(Valleys, ABlockTurnsAboutItsCorner) {
+TEST(ReentrantVertices, ABlockTurnsAboutItsCorner) {
   constexpr double slid = 0.6, mu = 0.5, q = std::numbers::sqrt2 / 2;
   const double brake = q * (1 - mu), impact = std::sqrt(2 * slid / brake),
                rate = 0.75 * std::sqrt(2 * slid * brake);
@@ -196,9 +196,9 @@ TEST(Valleys, ABlockTurnsAboutItsCorner) {
 mesh: {{generate: {{block: {{line: {{points: [{0}, {1}, {2}, {3}, {0}], elements: [1, 1, 1, 1]}}}}}}}}
 rigid:
   body: {{set: block, reference: {4}, mass: 1, inertia: {5:.17g}}}
-  valley: {{polyline: {{points: [[-4, 4], [0, 0], [6, 0]]}}}}
+  reentrant: {{polyline: {{points: [[-4, 4], [0, 0], [6, 0]]}}}}
 contact:
-  - {{name: c, master: valley, slave: body, sampling: nodes, weight: node, normal: {{penalty: 1.0e4}},
+  - {{name: c, master: reentrant, slave: body, sampling: nodes, weight: node, normal: {{penalty: 1.0e4}},
      friction: {{coulomb: {{mu: {6}, penalty: 1.0e4}}}}, enforcement: lagrange_multiplier}}
 steps: [{{name: turn, increments: 600, duration: 2.4, gravity: [0, -1], dynamics: {{impact: plastic}}}}]
 )",
@@ -245,11 +245,14 @@ steps:
   return last;
 }
 
-/// Valleys that are dragged along under a block do not catch its nodes, whatever the increments.
-TEST(Valleys, SlidingNodesPassThem) { EXPECT_NEAR((dragged(6) - dragged(24)).norm(), 0, 1e-8); }
+/// ReentrantVertices that are dragged along under a block do not catch its nodes, whatever the
+/// increments.
+TEST(ReentrantVertices, SlidingNodesPassThem) {
+  EXPECT_NEAR((dragged(6) - dragged(24)).norm(), 0, 1e-8);
+}
 
 /// One node is held in a valley when the block is pressed on, and dragged out of it.
-TEST(Valleys, CurvesHoldThemAsWell) {
+TEST(ReentrantVertices, CurvesHoldThemAsWell) {
   const Vec2 last = dragged(6, 30);
   EXPECT_NEAR((dragged(6, 30, "composite: [{{polyline: {{points: [{}]}}}}]") - last).norm(), 0,
               1e-10);

@@ -12,7 +12,7 @@ inline constexpr int max_master_nodes = Dim == 2 ? cell::max_line_nodes : cell::
 
 /// A slave point on its place of the master.
 template <int Dim>
-struct Placed {
+struct ProjectedPoint {
   Projection<Dim> projection;
   contact::Kinematics<Dim> kinematics;
   Vec<Dim> foot = Vec<Dim>::Zero();
@@ -26,9 +26,9 @@ struct Placed {
 ///
 /// Requires   p.feature is not none
 /// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair3_tangent.cpp
-[[nodiscard]] Placed<2> place(const Chain& master, const Projection<2>& p, const Vec2& point,
-                              std::span<const Vec2> x);
-[[nodiscard]] Placed<3> place(const FacetSurface& master, const Projection<3>& p, const Vec3& point,
-                              std::span<const Vec3> x);
+[[nodiscard]] ProjectedPoint<2> projected_point(const Chain& master, const Projection<2>& p,
+                                                const Vec2& point, std::span<const Vec2> x);
+[[nodiscard]] ProjectedPoint<3> projected_point(const FacetSurface& master, const Projection<3>& p,
+                                                const Vec3& point, std::span<const Vec3> x);
 
 }  // namespace osculate::pairing

@@ -1,4 +1,4 @@
-#include "osculate/pairing/place.hpp"
+#include "osculate/pairing/projected_point.hpp"
 
 #include "osculate/cell/shape.hpp"
 
@@ -13,32 +13,32 @@ namespace {
 /// Sides that touch without a gap are in contact, also where the rounding of their coordinates has
 /// left one (it would differ with the units of the model).
 template <int Dim>
-void drop_rounding(const Vec<Dim>& point, Placed<Dim>& placed) {
+void drop_rounding(const Vec<Dim>& point, ProjectedPoint<Dim>& projected) {
   constexpr double rounding = 1e-14;
-  double& gap = placed.kinematics.gap;
-  if (gap > 0 && gap <= rounding * (point.norm() + placed.foot.norm())) gap = 0;
+  double& gap = projected.kinematics.gap;
+  if (gap > 0 && gap <= rounding * (point.norm() + projected.foot.norm())) gap = 0;
 }
 
 }  // namespace
 
-Placed<2> place(const Chain& master, const Projection<2>& p, const Vec2& point,
-                std::span<const Vec2> x) {
-  Placed<2> placed;
-  placed.projection = p;
+ProjectedPoint<2> projected_point(const Chain& master, const Projection<2>& p, const Vec2& point,
+                                  std::span<const Vec2> x) {
+  ProjectedPoint<2> projected;
+  projected.projection = p;
   const Facet& facet = master.facets[static_cast<std::size_t>(p.facet)];
   const cell::LineShape shape = facet_shape(facet, p.xi[0]);
   const geometry::CurveJet<2> jet = facet_jet(facet, shape, x);
-  placed.foot = jet.r;
-  placed.count = facet.count;
+  projected.foot = jet.r;
+  projected.count = facet.count;
   const bool corner = p.feature == Feature::corner;
-  placed.kinematics = corner ? contact::corner_kinematics<2>(jet.r, point, p.outward)
-                             : contact::face_kinematics(jet, point);
+  projected.kinematics = corner ? contact::corner_kinematics<2>(jet.r, point, p.outward)
+                                : contact::face_kinematics(jet, point);
   const std::size_t orders = corner ? 1 : 3;
   for (std::size_t s = 0; s < orders; ++s)
     for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
-      placed.shape[s][k] = shape.n[s][k];
-  drop_rounding(point, placed);
-  return placed;
+      projected.shape[s][k] = shape.n[s][k];
+  drop_rounding(point, projected);
+  return projected;
 }
 
 namespace {
@@ -58,9 +58,9 @@ std::array<std::array<double, cell::max_shape_nodes>, 4> along(const cell::Facet
   return n;
 }
 
-void place_on_edge(const SurfaceFacet& facet, const cell::FacetShape& shape, const Vec3& point,
-                   std::span<const Vec3> x, Placed<3>& placed) {
-  const std::array<int, 2> ends = edge_corners(facet, placed.projection.local);
+void project_on_edge(const SurfaceFacet& facet, const cell::FacetShape& shape, const Vec3& point,
+                     std::span<const Vec3> x, ProjectedPoint<3>& projected) {
+  const std::array<int, 2> ends = edge_corners(facet, projected.projection.local);
   const Vec2 direction =
       0.5 * (cell::area_node(facet.type, ends[1]) - cell::area_node(facet.type, ends[0]));
   const auto n = along(shape, direction);
@@ -72,33 +72,33 @@ void place_on_edge(const SurfaceFacet& facet, const cell::FacetShape& shape, con
     jet.r2 += n[2][k] * node;
     jet.r3 += n[3][k] * node;
   }
-  placed.shape[first_slot(0)] = n[1];
-  placed.shape[second_slot<3>(0, 0)] = n[2];
-  placed.kinematics = contact::edge_kinematics(jet, point, placed.projection.outward);
+  projected.shape[first_slot(0)] = n[1];
+  projected.shape[second_slot<3>(0, 0)] = n[2];
+  projected.kinematics = contact::edge_kinematics(jet, point, projected.projection.outward);
 }
 
 }  // namespace
 
-Placed<3> place(const FacetSurface& master, const Projection<3>& p, const Vec3& point,
-                std::span<const Vec3> x) {
-  Placed<3> placed;
-  placed.projection = p;
+ProjectedPoint<3> projected_point(const FacetSurface& master, const Projection<3>& p,
+                                  const Vec3& point, std::span<const Vec3> x) {
+  ProjectedPoint<3> projected;
+  projected.projection = p;
   const SurfaceFacet& facet = master.facets[static_cast<std::size_t>(p.facet)];
   const cell::FacetShape shape = facet_shape(facet, p.xi);
   const geometry::SurfaceJet jet = facet_jet(facet, shape, x);
-  placed.foot = jet.r;
-  placed.count = facet.count;
-  placed.shape[0] = shape.n[0];
+  projected.foot = jet.r;
+  projected.count = facet.count;
+  projected.shape[0] = shape.n[0];
   if (p.feature == Feature::corner) {
-    placed.kinematics = contact::corner_kinematics<3>(jet.r, point, p.outward);
+    projected.kinematics = contact::corner_kinematics<3>(jet.r, point, p.outward);
   } else if (p.feature == Feature::edge && p.local >= 0) {
-    place_on_edge(facet, shape, point, x, placed);
+    project_on_edge(facet, shape, point, x, projected);
   } else {
-    placed.kinematics = contact::face_kinematics(jet, point);
-    for (std::size_t s = 1; s < contact::slots<3>; ++s) placed.shape[s] = shape.n[s];
+    projected.kinematics = contact::face_kinematics(jet, point);
+    for (std::size_t s = 1; s < contact::slots<3>; ++s) projected.shape[s] = shape.n[s];
   }
-  drop_rounding(point, placed);
-  return placed;
+  drop_rounding(point, projected);
+  return projected;
 }
 
 }  // namespace osculate::pairing

@@ -1,4 +1,4 @@
-#include "osculate/pairing/trial.hpp"
+#include "osculate/pairing/elastic_predictor.hpp"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
@@ -42,62 +42,66 @@ Speed speed_at(const Facet& facet, double xi, std::span<const Vec2> x) {
 struct PlaneCase {
   const Chain& master;
   const PointHistory<2>& history;
-  const Placed<2>& placed;
+  const ProjectedPoint<2>& projected;
   double stiffness;
-  const ContactShare& share;
+  const ContactTimeFraction& time_fraction;
   std::span<const Vec2> x;
   PathBuffers<2>* path;
 
   [[nodiscard]] const Facet& facet() const {
-    return master.facets[static_cast<std::size_t>(placed.projection.facet)];
+    return master.facets[static_cast<std::size_t>(projected.projection.facet)];
   }
   [[nodiscard]] const Facet& old_facet() const {
     return master.facets[static_cast<std::size_t>(history.facet)];
   }
   [[nodiscard]] Location from() const { return {history.facet, history.xi[0]}; }
-  [[nodiscard]] Location to() const { return {placed.projection.facet, placed.projection.xi[0]}; }
+  [[nodiscard]] Location to() const {
+    return {projected.projection.facet, projected.projection.xi[0]};
+  }
   [[nodiscard]] double carried() const { return history.active ? history.traction[0] : 0.0; }
 };
 
-Trial<2> by_path(const PlaneCase& c) {
-  Trial<2> out;
-  const Kinematics<2>& k = c.placed.kinematics;
+ElasticPredictor<2> by_path(const PlaneCase& c) {
+  ElasticPredictor<2> out;
+  const Kinematics<2>& k = c.projected.kinematics;
   if (c.path) c.path->scratch.clear();
   const std::optional<double> arc =
       path_length(c.master, c.x, c.from(), c.to(), c.path ? &c.path->scratch : nullptr);
   if (!arc) return out;
   out.known = true;
-  out.slip[0] = c.share.value * *arc;
+  out.slip[0] = c.time_fraction.value * *arc;
   const double value = c.carried() + c.stiffness * out.slip[0];  // @eq KS2D:89, KS2D:74
   out.value[0] = value;
   const Vec2 tau = k.frame;
   if (k.moving > 0)
-    out.variation.add(Vec2(c.stiffness * c.share.value * k.rho1[0].norm() * tau), k.d_xi[0]);
-  out.variation.add(Vec2(c.stiffness * c.share.d_gap * *arc * tau), k.d_gap);
+    out.variation.add(Vec2(c.stiffness * c.time_fraction.value * k.rho1[0].norm() * tau),
+                      k.d_xi[0]);
+  out.variation.add(Vec2(c.stiffness * c.time_fraction.d_gap * *arc * tau), k.d_gap);
   out.variation.add(Mat<2, 2>(value * turn_back()), k.d_normal);
   if (!c.path) return out;
   for (const NodeGradient<2>& g : c.path->scratch)
-    c.path->path.push_back({g.node, c.stiffness * c.share.value * tau * g.value.transpose()});
+    c.path->path.push_back(
+        {g.node, c.stiffness * c.time_fraction.value * tau * g.value.transpose()});
   return out;
 }
 
-Trial<2> by_chord(const PlaneCase& c) {
-  Trial<2> out;
-  const Kinematics<2>& k = c.placed.kinematics;
+ElasticPredictor<2> by_chord(const PlaneCase& c) {
+  ElasticPredictor<2> out;
+  const Kinematics<2>& k = c.projected.kinematics;
   if (!path_length(c.master, c.x, c.from(), c.to(), nullptr)) return out;
   out.known = true;
-  const Speed here = speed_at(c.facet(), c.placed.projection.xi[0], c.x);
+  const Speed here = speed_at(c.facet(), c.projected.projection.xi[0], c.x);
   const cell::LineShape old = facet_shape(c.old_facet(), c.history.xi[0]);
-  const Vec2 chord = c.placed.foot - facet_jet(c.old_facet(), old, c.x).r;
+  const Vec2 chord = c.projected.foot - facet_jet(c.old_facet(), old, c.x).r;
   const Vec2 tau = k.frame;
   const double along = chord.dot(tau);  // @eq KS2D:88 times sqrt(a11)
-  const double penalty = c.stiffness * c.share.value;
+  const double penalty = c.stiffness * c.time_fraction.value;
   const double thinning = -c.carried() / (here.size * here.size);  // of T / sqrt(a11)
-  out.slip[0] = c.share.value * along;
+  out.slip[0] = c.time_fraction.value * along;
   out.value[0] = c.carried() / here.size + penalty * along;
   if (k.moving > 0)
     out.variation.add(Vec2((penalty * here.size + thinning * here.growth) * tau), k.d_xi[0]);
-  out.variation.add(Vec2(c.stiffness * c.share.d_gap * along * tau), k.d_gap);
+  out.variation.add(Vec2(c.stiffness * c.time_fraction.d_gap * along * tau), k.d_gap);
   const Mat<2, 2> turned = turn_back();
   out.variation.add(Mat<2, 2>(out.value[0] * turned + penalty * tau * chord.transpose() * turned),
                     k.d_normal);
@@ -112,21 +116,21 @@ Trial<2> by_chord(const PlaneCase& c) {
   return out;
 }
 
-Trial<2> by_coordinate(const PlaneCase& c) {
-  if (c.history.facet < 0 || c.history.facet == c.placed.projection.facet) return by_path(c);
-  Trial<2> out;
+ElasticPredictor<2> by_coordinate(const PlaneCase& c) {
+  if (c.history.facet < 0 || c.history.facet == c.projected.projection.facet) return by_path(c);
+  ElasticPredictor<2> out;
   out.known = true;
-  const Kinematics<2>& k = c.placed.kinematics;
-  const Speed here = speed_at(c.facet(), c.placed.projection.xi[0], c.x);
-  const double step = c.placed.projection.xi[0] - c.history.xi[0];
+  const Kinematics<2>& k = c.projected.kinematics;
+  const Speed here = speed_at(c.facet(), c.projected.projection.xi[0], c.x);
+  const double step = c.projected.projection.xi[0] - c.history.xi[0];
   const double way = here.size * step;  // @eq KS2D:84, KS2D:85 with their factor a11, by sqrt(a11)
-  const double penalty = c.stiffness * c.share.value;
+  const double penalty = c.stiffness * c.time_fraction.value;
   const Vec2 tau = k.frame;
-  out.slip[0] = c.share.value * way;
+  out.slip[0] = c.time_fraction.value * way;
   out.value[0] = c.carried() + penalty * way;
   if (k.moving > 0)
     out.variation.add(Vec2(penalty * (here.size + step * here.growth) * tau), k.d_xi[0]);
-  out.variation.add(Vec2(c.stiffness * c.share.d_gap * way * tau), k.d_gap);
+  out.variation.add(Vec2(c.stiffness * c.time_fraction.d_gap * way * tau), k.d_gap);
   out.variation.add(Mat<2, 2>(out.value[0] * turn_back()), k.d_normal);
   if (!c.path) return out;
   const Mat<2, 2> stretch = penalty * step * tau * here.tangent.transpose();
@@ -137,10 +141,12 @@ Trial<2> by_coordinate(const PlaneCase& c) {
 
 }  // namespace
 
-Trial<2> trial(const Chain& master, const PointHistory<2>& history, const Placed<2>& placed,
-               double stiffness, const ContactShare& share, std::span<const Vec2> x,
-               PathBuffers<2>* path, HistoryRule rule) {
-  const PlaneCase c{master, history, placed, stiffness, share, x, path};
+ElasticPredictor<2> elastic_predictor(const Chain& master, const PointHistory<2>& history,
+                                      const ProjectedPoint<2>& projected, double stiffness,
+                                      const ContactTimeFraction& time_fraction,
+                                      std::span<const Vec2> x, PathBuffers<2>* path,
+                                      HistoryRule rule) {
+  const PlaneCase c{master, history, projected, stiffness, time_fraction, x, path};
   switch (rule) {
     case HistoryRule::continuous:
       return by_path(c);
@@ -236,22 +242,22 @@ std::array<Mat<3, 3>, 2> frame_gradient(const FacetFrame& f, const Vec2& t,
 /// Derivative of the trial by the nodes of the old facet and, at fixed coordinates, of the present
 /// one.
 void add_path(const SurfaceFacet& old_facet, const FacetFrame& old, const SurfaceFacet& facet,
-              const Placed<3>& placed, const Vec2& traction, double penalty, const Carried& c,
-              std::vector<NodeMatrix<3>>& path) {
+              const ProjectedPoint<3>& projected, const Vec2& traction, double penalty,
+              const Carried& c, std::vector<NodeMatrix<3>>& path) {
   const std::array<Mat<3, 3>, 2> turning = normal_gradient(old);
   const std::array<Mat<3, 3>, 2> framing = frame_gradient(old, traction, turning);
   std::array<Mat<3, 3>, 2> of_base;
   for (std::size_t j = 0; j < 2; ++j) of_base[j] = c.of_vector * framing[j] + c.of_old * turning[j];
   const bool same = &old_facet == &facet;
   for (std::size_t k = 0; k < static_cast<std::size_t>(old_facet.count); ++k) {
-    const double moved = (same ? placed.shape[0][k] : 0.0) - old.shape.n[0][k];
+    const double moved = (same ? projected.shape[0][k] : 0.0) - old.shape.n[0][k];
     path.push_back({old_facet.nodes[k], penalty * moved * c.of_vector +
                                             old.shape.n[1][k] * of_base[0] +
                                             old.shape.n[2][k] * of_base[1]});
   }
   if (same) return;
   for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
-    path.push_back({facet.nodes[k], penalty * placed.shape[0][k] * c.of_vector});
+    path.push_back({facet.nodes[k], penalty * projected.shape[0][k] * c.of_vector});
 }
 
 }  // namespace
@@ -260,37 +266,38 @@ namespace {
 
 /// Motion of the convective coordinates of the facet with those that follow the slave point: an
 /// edge has one, along it.
-Mat<2, 2> coordinate_motion(const SurfaceFacet& facet, const Placed<3>& placed) {
+Mat<2, 2> coordinate_motion(const SurfaceFacet& facet, const ProjectedPoint<3>& projected) {
   Mat<2, 2> motion = Mat<2, 2>::Identity();
-  if (placed.projection.feature != projection::Feature::edge || placed.projection.local < 0)
+  if (projected.projection.feature != projection::Feature::edge || projected.projection.local < 0)
     return motion;
-  const std::array<int, 2> ends = edge_corners(facet, placed.projection.local);
+  const std::array<int, 2> ends = edge_corners(facet, projected.projection.local);
   motion.col(0) =
       0.5 * (cell::area_node(facet.type, ends[1]) - cell::area_node(facet.type, ends[0]));
   return motion;
 }
 
 /// By the difference of the coordinates of two facets, for HistoryRule::per_facet.
-Trial<3> by_coordinates(const SurfaceFacet& facet, const PointHistory<3>& history,
-                        const Placed<3>& placed, double stiffness, const ContactShare& share,
-                        std::span<const Vec3> x, PathBuffers<3>* path) {
-  Trial<3> out;
+ElasticPredictor<3> by_coordinates(const SurfaceFacet& facet, const PointHistory<3>& history,
+                                   const ProjectedPoint<3>& projected, double stiffness,
+                                   const ContactTimeFraction& time_fraction,
+                                   std::span<const Vec3> x, PathBuffers<3>* path) {
+  ElasticPredictor<3> out;
   out.known = true;
-  const Kinematics<3>& k = placed.kinematics;
-  const FacetFrame here = facet_frame(facet, placed.projection.xi, x);
-  const Vec2 step = placed.projection.xi - history.xi;
+  const Kinematics<3>& k = projected.kinematics;
+  const FacetFrame here = facet_frame(facet, projected.projection.xi, x);
+  const Vec2 step = projected.projection.xi - history.xi;
   const Vec2 traction = history.active ? history.traction : Vec2(Vec2::Zero());
   const Vec3 way = step[0] * here.jet.r1[0] + step[1] * here.jet.r1[1];
-  const double penalty = stiffness * share.value;
+  const double penalty = stiffness * time_fraction.value;
   const Carried c = project(here.frame * traction + penalty * way, k.normal);
   out.value = k.frame.transpose() * c.value;
-  out.slip = share.value * k.frame.transpose() * way;
+  out.slip = time_fraction.value * k.frame.transpose() * way;
   std::array<Mat<3, 3>, 2> of_base = frame_gradient(here, traction, normal_gradient(here));
   for (std::size_t j = 0; j < 2; ++j) {
     of_base[j] += penalty * step[static_cast<Eigen::Index>(j)] * Mat<3, 3>::Identity();
     of_base[j] = Mat<3, 3>(c.of_vector * of_base[j]);
   }
-  const Mat<2, 2> motion = coordinate_motion(facet, placed);
+  const Mat<2, 2> motion = coordinate_motion(facet, projected);
   for (std::size_t m = 0; m < k.moving; ++m) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t l = 0; l < 2; ++l) {
@@ -300,7 +307,7 @@ Trial<3> by_coordinates(const SurfaceFacet& facet, const PointHistory<3>& histor
     }
     out.variation.add(sum, k.d_xi[m]);
   }
-  out.variation.add(Vec3(stiffness * share.d_gap * c.of_vector * way), k.d_gap);
+  out.variation.add(Vec3(stiffness * time_fraction.d_gap * c.of_vector * way), k.d_gap);
   out.variation.add(c.of_new, k.d_normal);
   if (!path) return out;
   for (std::size_t i = 0; i < static_cast<std::size_t>(facet.count); ++i)
@@ -311,17 +318,19 @@ Trial<3> by_coordinates(const SurfaceFacet& facet, const PointHistory<3>& histor
 
 }  // namespace
 
-Trial<3> trial(const FacetSurface& master, const PointHistory<3>& history, const Placed<3>& placed,
-               double stiffness, const ContactShare& share, std::span<const Vec3> x,
-               PathBuffers<3>* path, HistoryRule rule) {
-  Trial<3> out;
-  const Kinematics<3>& k = placed.kinematics;
+ElasticPredictor<3> elastic_predictor(const FacetSurface& master, const PointHistory<3>& history,
+                                      const ProjectedPoint<3>& projected, double stiffness,
+                                      const ContactTimeFraction& time_fraction,
+                                      std::span<const Vec3> x, PathBuffers<3>* path,
+                                      HistoryRule rule) {
+  ElasticPredictor<3> out;
+  const Kinematics<3>& k = projected.kinematics;
   if (history.facet < 0) return out;
-  const SurfaceFacet& facet = master.facets[static_cast<std::size_t>(placed.projection.facet)];
+  const SurfaceFacet& facet = master.facets[static_cast<std::size_t>(projected.projection.facet)];
   const SurfaceFacet& old_facet = master.facets[static_cast<std::size_t>(history.facet)];
   if (facet.piece != old_facet.piece) return out;
   if (rule == HistoryRule::per_facet && &facet != &old_facet)
-    return by_coordinates(facet, history, placed, stiffness, share, x, path);
+    return by_coordinates(facet, history, projected, stiffness, time_fraction, x, path);
   const FacetFrame old = facet_frame(old_facet, history.xi, x);
   constexpr double opposite = -0.999;
   if (!(old.normal.dot(k.normal) > opposite)) return out;
@@ -330,32 +339,32 @@ Trial<3> trial(const FacetSurface& master, const PointHistory<3>& history, const
     return rule == HistoryRule::chord ? project(v, k.normal) : carry(v, old.normal, k.normal);
   };
   const Vec2 traction = history.active ? history.traction : Vec2(Vec2::Zero());
-  const Vec3 chord = placed.foot - old.jet.r;
-  const double penalty = stiffness * share.value;
+  const Vec3 chord = projected.foot - old.jet.r;
+  const double penalty = stiffness * time_fraction.value;
   const Carried c = brought(old.frame * traction + penalty * chord);
   out.value = k.frame.transpose() * c.value;
-  out.slip = share.value * k.frame.transpose() * brought(chord).value;
+  out.slip = time_fraction.value * k.frame.transpose() * brought(chord).value;
   for (std::size_t j = 0; j < k.moving; ++j)
     out.variation.add(Vec3(penalty * c.of_vector * k.rho1[j]), k.d_xi[j]);
-  out.variation.add(Vec3(stiffness * share.d_gap * c.of_vector * chord), k.d_gap);
+  out.variation.add(Vec3(stiffness * time_fraction.d_gap * c.of_vector * chord), k.d_gap);
   out.variation.add(c.of_new, k.d_normal);
-  if (path) add_path(old_facet, old, facet, placed, traction, penalty, c, path->path);
+  if (path) add_path(old_facet, old, facet, projected, traction, penalty, c, path->path);
   return out;
 }
 
-Vec<1> stored_components(const Chain& master, const Placed<2>& placed, const Vec<1>& t,
+Vec<1> stored_components(const Chain& master, const ProjectedPoint<2>& projected, const Vec<1>& t,
                          std::span<const Vec2> x, HistoryRule rule) {
   if (rule != HistoryRule::chord) return t;
-  const Facet& facet = master.facets[static_cast<std::size_t>(placed.projection.facet)];
-  return speed_at(facet, placed.projection.xi[0], x).size * t;
+  const Facet& facet = master.facets[static_cast<std::size_t>(projected.projection.facet)];
+  return speed_at(facet, projected.projection.xi[0], x).size * t;
 }
 
-Vec2 stored_components(const FacetSurface& master, const Placed<3>& placed, const Vec2& t,
-                       std::span<const Vec3> x, HistoryRule) {
-  if (placed.projection.feature == projection::Feature::face) return t;
-  const SurfaceFacet& facet = master.facets[static_cast<std::size_t>(placed.projection.facet)];
-  const FacetFrame f = facet_frame(facet, placed.projection.xi, x);
-  const Kinematics<3>& k = placed.kinematics;
+Vec2 stored_components(const FacetSurface& master, const ProjectedPoint<3>& projected,
+                       const Vec2& t, std::span<const Vec3> x, HistoryRule) {
+  if (projected.projection.feature == projection::Feature::face) return t;
+  const SurfaceFacet& facet = master.facets[static_cast<std::size_t>(projected.projection.facet)];
+  const FacetFrame f = facet_frame(facet, projected.projection.xi, x);
+  const Kinematics<3>& k = projected.kinematics;
   if (!(f.normal.dot(k.normal) > -0.999)) return Vec2::Zero();
   return f.frame.transpose() * carry(Vec3(k.frame * t), k.normal, f.normal).value;
 }

@@ -1,4 +1,4 @@
-#include "osculate/pairing/scope_tree.hpp"
+#include "osculate/pairing/candidate_tree.hpp"
 
 #include <cmath>
 
@@ -54,8 +54,8 @@ void set_cone(const Cone<Dim>& cone, double bulge, double overhang, BranchOutlin
 /// The boxes, moved along the normals: sides that face different ways come to lie apart.
 template <int Dim>
 Tree<Dim> sorted_by_normal(const std::vector<FacetOutline<Dim>>& outlines,
-                           std::vector<search::Box<Dim>> boxes, double reach) {
-  const double distance = std::isfinite(reach) ? reach : 0.0;
+                           std::vector<search::Box<Dim>> boxes, double search_distance) {
+  const double distance = std::isfinite(search_distance) ? search_distance : 0.0;
   for (std::size_t f = 0; f < boxes.size(); ++f) {
     if (std::isinf(outlines[f].bulge)) continue;
     boxes[f].lo += distance * outlines[f].normal;
@@ -68,9 +68,9 @@ Tree<Dim> sorted_by_normal(const std::vector<FacetOutline<Dim>>& outlines,
 
 template <int Dim>
 void plant(const std::vector<FacetOutline<Dim>>& outlines,
-           const std::vector<search::Box<Dim>>& boxes, double reach, Tree<Dim>& tree,
+           const std::vector<search::Box<Dim>>& boxes, double search_distance, Tree<Dim>& tree,
            std::vector<BranchOutline<Dim>>& branches) {
-  if (tree.size() != boxes.size()) tree = sorted_by_normal(outlines, boxes, reach);
+  if (tree.size() != boxes.size()) tree = sorted_by_normal(outlines, boxes, search_distance);
   tree.refit(boxes);
   branches.resize(tree.node_count());
   std::vector<Cone<Dim>> cones(branches.size());

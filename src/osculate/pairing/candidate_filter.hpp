@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "osculate/pairing/scope_tree.hpp"
+#include "osculate/pairing/candidate_tree.hpp"
 #include "osculate/pairing/slave_side.hpp"
 
 namespace osculate::pairing {
@@ -45,9 +45,9 @@ namespace osculate::pairing {
 ///            lower face, not on the side
 /// Tested by  tests/unit/pairing/test_own_surface.cpp
 template <int Dim>
-struct Scope {
+struct CandidateFilter {
   bool own = false;  ///< the master is the slave's own surface, facet by facet
-  double reach = std::numeric_limits<double>::infinity();
+  double distance = std::numeric_limits<double>::infinity();
   // Filled by `prepare`:
   std::vector<double> thickness;    ///< per slave node, infinite where more than twice `reach`
   std::vector<Vec<Dim>> reference;  ///< own surface: positions of all nodes
@@ -55,18 +55,18 @@ struct Scope {
   SlaveSide<Dim> parts;             ///< every node once for each facet that holds it
   std::vector<double> areas;        ///< of the parts, reference configuration
 
-  [[nodiscard]] bool limited() const { return own || std::isfinite(reach); }
+  [[nodiscard]] bool limited() const { return own || std::isfinite(distance); }
 };
 
 /// Fills the rest. Throws core::GeometryError where `own` is set and master
 /// and slave are not the same facets. A thickness that is there already is kept.
 template <int Dim>
-void prepare(Scope<Dim>& scope, const Boundary<Dim>& master, const SlaveSide<Dim>& slave,
+void prepare(CandidateFilter<Dim>& filter, const Boundary<Dim>& master, const SlaveSide<Dim>& slave,
              std::type_identity_t<std::span<const Vec<Dim>>> reference, const AreaRule& rule = {});
 
 /// What the nodes of one evaluation share.
 template <int Dim>
-struct ScopeBuffers {
+struct FilterBuffers {
   std::vector<FacetOutline<Dim>> outlines;   ///< of the master
   std::vector<BranchOutline<Dim>> branches;  ///< of the tree over it
   std::vector<Vec<Dim>> normals;             ///< of the parts
@@ -75,34 +75,34 @@ struct ScopeBuffers {
 };
 /// Outlines, normals and tree at `x`; `boxes` are those of the master's facets there.
 template <int Dim>
-void refresh(const Scope<Dim>& scope, const Boundary<Dim>& master,
+void refresh(const CandidateFilter<Dim>& filter, const Boundary<Dim>& master,
              std::type_identity_t<std::span<const Vec<Dim>>> x,
-             const std::vector<search::Box<Dim>>& boxes, ScopeBuffers<Dim>& buffers,
+             const std::vector<search::Box<Dim>>& boxes, FilterBuffers<Dim>& buffers,
              Tree<Dim>& tree);
 
 /// Unit normals of the slave nodes out of those of their parts, as `nodal_normals`.
 template <int Dim>
-void mean_normals(const Scope<Dim>& scope, const ScopeBuffers<Dim>& buffers,
+void mean_normals(const CandidateFilter<Dim>& filter, const FilterBuffers<Dim>& buffers,
                   std::vector<Vec<Dim>>& normals);
 
 /// Parts of slave node `i` that carry the pressure of a contact with this normal of the master:
 /// calls `visit` with the number of each.
 template <int Dim, class Visit>
-void for_each_facing(const Scope<Dim>& scope, const ScopeBuffers<Dim>& buffers, std::size_t i,
-                     const Vec<Dim>& normal, const Visit& visit) {
+void for_each_facing(const CandidateFilter<Dim>& filter, const FilterBuffers<Dim>& buffers,
+                     std::size_t i, const Vec<Dim>& normal, const Visit& visit) {
   constexpr double cosine = -0.5;
   bool any = false;
-  for (std::size_t p = scope.first[i]; p < scope.first[i + 1]; ++p)
+  for (std::size_t p = filter.first[i]; p < filter.first[i + 1]; ++p)
     any = any || buffers.normals[p].dot(normal) < cosine;
-  for (std::size_t p = scope.first[i]; p < scope.first[i + 1]; ++p)
+  for (std::size_t p = filter.first[i]; p < filter.first[i + 1]; ++p)
     if (!any || buffers.normals[p].dot(normal) < cosine) visit(p);
 }
 
 /// The rules for one node at one place in space.
 template <int Dim>
-struct NodeScope {
+struct NodeFilter {
   Vec<Dim> point = Vec<Dim>::Zero();
-  double reach = std::numeric_limits<double>::infinity();
+  double distance = std::numeric_limits<double>::infinity();
   double depth = std::numeric_limits<double>::infinity();  ///< t / 2, or a quarter of the reach
   double edge_depth = std::numeric_limits<double>::infinity();  ///< 3 % of the reach
   std::optional<Vec<Dim>> last;  ///< where the place of the last increment is now
@@ -135,15 +135,16 @@ struct NodeScope {
 };
 
 /// Whether the node may touch the facet at `xi`.
-[[nodiscard]] bool admits(const NodeScope<2>& rules, const Facet& facet, double xi,
+[[nodiscard]] bool admits(const NodeFilter<2>& rules, const Facet& facet, double xi,
                           std::span<const Vec2> x);
-[[nodiscard]] bool admits(const NodeScope<3>& rules, const SurfaceFacet& facet, const Vec2& xi,
+[[nodiscard]] bool admits(const NodeFilter<3>& rules, const SurfaceFacet& facet, const Vec2& xi,
                           std::span<const Vec3> x);
 
 /// The rules for slave node `i`, without `last`.
 template <int Dim>
-[[nodiscard]] NodeScope<Dim> node_scope(const Scope<Dim>& scope, const SlaveSide<Dim>& slave,
-                                        const ScopeBuffers<Dim>& buffers, std::size_t i,
-                                        const Vec<Dim>& point);
+[[nodiscard]] NodeFilter<Dim> node_filter(const CandidateFilter<Dim>& filter,
+                                          const SlaveSide<Dim>& slave,
+                                          const FilterBuffers<Dim>& buffers, std::size_t i,
+                                          const Vec<Dim>& point);
 
 }  // namespace osculate::pairing

@@ -22,7 +22,7 @@ struct FacetOutline {
 [[nodiscard]] Vec2 middle_normal(const Facet& facet, std::span<const Vec2> x);
 [[nodiscard]] Vec3 middle_normal(const SurfaceFacet& facet, std::span<const Vec3> x);
 
-/// Angles between normals that matter to the rules of a scope.
+/// Angles between normals that matter to the rules of a candidate filter.
 inline constexpr double facing_cosine = -0.5;   ///< own surface: only beyond 120 degrees
 inline constexpr double same_way_cosine = 0.5;  ///< other surfaces: never within 60 degrees
 
@@ -54,7 +54,7 @@ struct BranchOutline {
 /// plate but not both. Builds `tree` anew if it has another number of facets, else refits it.
 template <int Dim>
 void plant(const std::vector<FacetOutline<Dim>>& outlines,
-           const std::vector<search::Box<Dim>>& boxes, double reach, Tree<Dim>& tree,
+           const std::vector<search::Box<Dim>>& boxes, double search_distance, Tree<Dim>& tree,
            std::vector<BranchOutline<Dim>>& branches);
 
 }  // namespace osculate::pairing

@@ -1,4 +1,4 @@
-// Crossings of edges as contact points.
+// edge-edge contacts as contact points.
 #include <algorithm>
 
 #include "osculate/pairing/point_sample.hpp"
@@ -21,22 +21,22 @@ RelativeStiffness stiffness_of_edge(const PairDefinition<3>& pair, std::size_t e
 }
 
 /// The surface of the edges' differences, on which the origin is the slave point: one facet per
-/// crossing and then one per history.
-FacetSurface differences_of(const EdgeContact& edges, const std::vector<Crossing>& found,
+/// edge-edge contact and then one per history.
+FacetSurface differences_of(const EdgeContact& edges, const std::vector<EdgeEdgePoint>& found,
                             std::span<const PointHistory<3>> histories) {
   FacetSurface out;
   const auto add = [&](Index master, Index slave, bool flipped) {
-    out.facets.push_back(crossing_facet(edges.master[static_cast<std::size_t>(master)],
-                                        edges.slave[static_cast<std::size_t>(slave)], flipped));
+    out.facets.push_back(edge_contact_facet(edges.master[static_cast<std::size_t>(master)],
+                                            edges.slave[static_cast<std::size_t>(slave)], flipped));
   };
-  for (const Crossing& c : found) add(c.master, c.slave, c.flipped);
+  for (const EdgeEdgePoint& c : found) add(c.master, c.slave, c.flipped);
   for (const PointHistory<3>& h : histories) add(h.facet, h.edge, h.flipped);
   return out;
 }
 
-/// Histories of the crossings of a committed state.
-std::span<const PointHistory<3>> crossing_histories(const PairDefinition<3>& pair,
-                                                    const PairState<3>& state) {
+/// Histories of the edge-edge contacts of a committed state.
+std::span<const PointHistory<3>> edge_contact_histories(const PairDefinition<3>& pair,
+                                                        const PairState<3>& state) {
   const std::size_t nodes = pair.slave.points.size();
   return std::span(state.points).subspan(std::min(nodes, state.points.size()));
 }
@@ -51,63 +51,66 @@ std::vector<bool> held_edges(const PairDefinition<3>& pair, const PairEvaluation
   return held;
 }
 
-void remember_edges(const PairDefinition<3>& pair, Points<3> x, const Crossing& c,
+void remember_edges(const PairDefinition<3>& pair, Points<3> x, const EdgeEdgePoint& c,
                     PointResult<3>& result) {
-  result.foot = crossing_place(pair.edges.master[static_cast<std::size_t>(c.master)], c.xi[0], x);
+  result.foot = edge_position(pair.edges.master[static_cast<std::size_t>(c.master)], c.xi[0], x);
   result.history.facet = c.master;
   result.history.edge = c.slave;
   result.history.flipped = c.flipped;
   result.branch.edges = {c.slave, c.master};
 }
 
-BranchHint<3> hint_of(const Crossing& c, const Assumed<3>& assumed, const RelativeStiffness& own) {
-  BranchHint<3> hint;
-  hint.duration = assumed.duration;
-  hint.own = own;
-  for (const AssumedBranch<3>& branch : assumed.branch) {
+PointContext<3> context_of(const EdgeEdgePoint& c, const ActiveSet<3>& active_set,
+                           const RelativeStiffness& own) {
+  PointContext<3> context;
+  context.duration = active_set.duration;
+  context.own = own;
+  for (const ActiveBranch<3>& branch : active_set.branch) {
     if (branch.edges != std::array<Index, 2>{c.slave, c.master}) continue;
-    hint.assumed = branch;
-    hint.predict = assumed.predict;
+    context.active = branch;
+    context.predict = active_set.predict;
     break;
   }
-  return hint;
+  return context;
 }
 
 }  // namespace
 
-void evaluate_crossings(const PairDefinition<3>& pair, Points<3> x, const PairState<3>& committed,
-                        bool with_tangent, PairEvaluation<3>& out, const Assumed<3>& assumed) {
+void evaluate_edge_contacts(const PairDefinition<3>& pair, Points<3> x,
+                            const PairState<3>& committed, bool with_tangent,
+                            PairEvaluation<3>& out, const ActiveSet<3>& active_set) {
   find_crossings(pair.edges, pair.master, pair.slave.boundary, x, held_edges(pair, out), out.edges);
-  const std::vector<Crossing>& found = out.edges.found;
+  const std::vector<EdgeEdgePoint>& found = out.edges.found;
   const std::size_t nodes = pair.slave.points.size();
   out.points.resize(nodes + found.size());
   out.blocks.resize(nodes + found.size());
-  const std::span<const PointHistory<3>> histories = crossing_histories(pair, committed);
+  const std::span<const PointHistory<3>> histories = edge_contact_histories(pair, committed);
   const FacetSurface differences = differences_of(pair.edges, found, histories);
   for (std::size_t c = 0; c < found.size(); ++c) {
     const auto facet = static_cast<Index>(c);
     const auto edge = static_cast<std::size_t>(found[c].slave);
-    const Placed<3> placed = place_crossing(differences.facets[c], facet, found[c].xi, x);
+    const ProjectedPoint<3> projected =
+        project_edge_edge(differences.facets[c], facet, found[c].xi, x);
     PointHistory<3> history;
     const int known = history_of_crossing(pair.edges, histories, found, found[c]);
     if (known >= 0) {
       history = histories[static_cast<std::size_t>(known)];
       history.facet = static_cast<Index>(found.size()) + known;
     }
-    BranchHint<3> hint = hint_of(found[c], assumed, stiffness_of_edge(pair, edge));
-    hint.way = way_of_gap(pair, assumed, history, history.facet, placed.kinematics.gap);
+    PointContext<3> context = context_of(found[c], active_set, stiffness_of_edge(pair, edge));
+    context.way = way_of_gap(pair, active_set, history, history.facet, projected.kinematics.gap);
     const double weight = pair.weight == Weight::node ? 1.0 : pair.edges.areas[edge];
-    evaluate_point<3>(pair, x, history, {differences, placed, nullptr, weight}, hint, with_tangent,
-                      nodes + c, out);
+    evaluate_point<3>(pair, x, history, {differences, projected, nullptr, weight}, context,
+                      with_tangent, nodes + c, out);
     remember_edges(pair, x, found[c], out.points[nodes + c]);
   }
 }
 
-Mat<3, 2> crossing_frame(const PairDefinition<3>& pair, const PointHistory<3>& h, Points<3> x) {
+Mat<3, 2> edge_contact_frame(const PairDefinition<3>& pair, const PointHistory<3>& h, Points<3> x) {
   FacetSurface one;
-  one.facets.push_back(crossing_facet(pair.edges.master[static_cast<std::size_t>(h.facet)],
-                                      pair.edges.slave[static_cast<std::size_t>(h.edge)],
-                                      h.flipped));
+  one.facets.push_back(edge_contact_facet(pair.edges.master[static_cast<std::size_t>(h.facet)],
+                                          pair.edges.slave[static_cast<std::size_t>(h.edge)],
+                                          h.flipped));
   return stored_frame(one, 0, h.xi, x);
 }
 

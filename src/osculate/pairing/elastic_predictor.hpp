@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "osculate/contact/history.hpp"
-#include "osculate/pairing/place.hpp"
+#include "osculate/pairing/projected_point.hpp"
 
 namespace osculate::pairing {
 
 /// Part of the increment that a point which was open at its start has spent in contact, assuming
 /// a constant approach velocity, and its derivative with respect to the gap.
-struct ContactShare {
+struct ContactTimeFraction {
   double value = 1, d_gap = 0;
 };
 
@@ -23,10 +23,10 @@ struct ContactShare {
 /// The last two are what is printed, and are there to be compared with.
 enum class HistoryRule : std::uint8_t { continuous, chord, per_facet };
 
-/// Elastic trial of the friction law, t_tr = (t of the last increment, carried to the present
+/// Elastic predictor of the friction law, t_tr = (t of the last increment, carried to the present
 /// place) + eps_T (slip of the increment), and its derivative as a vector in space.
 template <int Dim>
-struct Trial {
+struct ElasticPredictor {
   bool known = false;                         ///< the way from the last place is known
   Vec<Dim - 1> value = Vec<Dim - 1>::Zero();  ///< in `Kinematics::frame`
   Vec<Dim - 1> slip = Vec<Dim - 1>::Zero();   ///< of the increment, there
@@ -53,10 +53,10 @@ struct PathBuffers {
 /// Returns    `path->path` (if given) is extended by d(t_tr) of nodes behind the point
 /// Tested by  tests/unit/pairing/test_pair_tangent.cpp, test_pair_history.cpp,
 ///            test_history_rules.cpp
-[[nodiscard]] Trial<2> trial(const Chain& master, const contact::PointHistory<2>& history,
-                             const Placed<2>& placed, double stiffness, const ContactShare& share,
-                             std::span<const Vec2> x, PathBuffers<2>* path,
-                             HistoryRule rule = HistoryRule::continuous);
+[[nodiscard]] ElasticPredictor<2> elastic_predictor(
+    const Chain& master, const contact::PointHistory<2>& history,
+    const ProjectedPoint<2>& projected, double stiffness, const ContactTimeFraction& time_fraction,
+    std::span<const Vec2> x, PathBuffers<2>* path, HistoryRule rule = HistoryRule::continuous);
 
 /// In space the slip is the chord between the last place (on the present nodes) and the present
 /// one, and t the frame components of the last increment on the present nodes; both are carried by
@@ -74,18 +74,18 @@ struct PathBuffers {
 ///            normals are opposite
 /// Tested by  tests/unit/pairing/test_pair3_tangent.cpp, test_pair3_identities.cpp,
 ///            test_history_rules.cpp
-[[nodiscard]] Trial<3> trial(const FacetSurface& master, const contact::PointHistory<3>& history,
-                             const Placed<3>& placed, double stiffness, const ContactShare& share,
-                             std::span<const Vec3> x, PathBuffers<3>* path,
-                             HistoryRule rule = HistoryRule::continuous);
+[[nodiscard]] ElasticPredictor<3> elastic_predictor(
+    const FacetSurface& master, const contact::PointHistory<3>& history,
+    const ProjectedPoint<3>& projected, double stiffness, const ContactTimeFraction& time_fraction,
+    std::span<const Vec3> x, PathBuffers<3>* path, HistoryRule rule = HistoryRule::continuous);
 
 /// Components of the shear `t` (in `Kinematics::frame`) in the frame of the facet that the history
 /// is kept in: the same on faces; from edges and vertices by the minimal rotation to the facet. By
 /// the chord in the plane it is the covariant component sqrt(a11) t.
-[[nodiscard]] Vec<1> stored_components(const Chain& master, const Placed<2>& placed,
+[[nodiscard]] Vec<1> stored_components(const Chain& master, const ProjectedPoint<2>& projected,
                                        const Vec<1>& t, std::span<const Vec2> x,
                                        HistoryRule rule = HistoryRule::continuous);
-[[nodiscard]] Vec2 stored_components(const FacetSurface& master, const Placed<3>& placed,
+[[nodiscard]] Vec2 stored_components(const FacetSurface& master, const ProjectedPoint<3>& projected,
                                      const Vec2& t, std::span<const Vec3> x,
                                      HistoryRule rule = HistoryRule::continuous);
 

@@ -54,26 +54,26 @@ Sample make_valley(const Corner& c, const Vec2& offset = Vec2::Zero()) {
   s.pair.normal = contact::penalty(penalty);
   s.pair.weight = pairing::Weight::node;
   s.pair.enforcement = contact::Enforcement::lagrange_multiplier;
-  s.pair.valley_angle = 0;
+  s.pair.reentrant_angle = 0;
   s.committed.points.resize(1);
   s.multipliers.resize(1);
   pairing::prepare(s.pair, s.x);
   return s;
 }
 
-/// The point was held in the valley, by a force on it.
+/// The point was held in the re-entrant vertex, by a force on it.
 void hold_by(const Vec2& force, Sample& s) {
   s.committed.points[0] = remembered(true, 0, Feature::corner, 1, 0, 0);
-  s.assumed = {{Branch::valley, Vec2::Zero()}};
-  s.assumed[0].facet = 0;
+  s.active_set = {{Branch::reentrant, Vec2::Zero()}};
+  s.active_set[0].facet = 0;
   s.multipliers[0] = {0, -force};
 }
 
 /// The point was pressed on a facet.
 void press_on(Index facet, double normal, const Vec2& shear, Sample& s) {
   s.committed.points[0] = remembered(true, facet, Feature::face, 0.5, 0, 0);
-  s.assumed = {{Branch::stick, Vec2::Zero()}};
-  s.assumed[0].facet = facet;
+  s.active_set = {{Branch::stick, Vec2::Zero()}};
+  s.active_set[0].facet = facet;
   s.multipliers[0] = {normal, shear};
 }
 
@@ -83,22 +83,22 @@ Vec2 force_on_point(const pairing::PairEvaluation<2>& e) {
 
 pairing::PairEvaluation<2> evaluated(const Sample& s) { return s.evaluation(s.packed(), false); }
 
-TEST(Valley, IsWhereTheMasterBendsOutwards) {
-  const Sample valley = make_valley({}), ridge = make_valley({.angle = -0.3}),
+TEST(ReentrantVertex, IsWhereTheMasterBendsOutwards) {
+  const Sample reentrant = make_valley({}), ridge = make_valley({.angle = -0.3}),
                flat = make_valley({.angle = 0});
-  EXPECT_TRUE(valley.pair.valleys);
-  EXPECT_FALSE(ridge.pair.valleys);
-  EXPECT_FALSE(flat.pair.valleys);
-  const auto v = pairing::valley_after(valley.pair.master, 0, valley.x);
+  EXPECT_TRUE(reentrant.pair.reentrant_vertices);
+  EXPECT_FALSE(ridge.pair.reentrant_vertices);
+  EXPECT_FALSE(flat.pair.reentrant_vertices);
+  const auto v = pairing::reentrant_vertex_after(reentrant.pair.master, 0, reentrant.x);
   ASSERT_TRUE(v);
-  EXPECT_NEAR((v->point - valley.x[vertex]).norm(), 0, 1e-15);
+  EXPECT_NEAR((v->point - reentrant.x[vertex]).norm(), 0, 1e-15);
   for (const int k : {0, 1})
     EXPECT_NEAR((v->normal[static_cast<std::size_t>(k)] - normal_of({}, k)).norm(), 0, 1e-14);
-  EXPECT_FALSE(pairing::valley_after(valley.pair.master, 1, valley.x));
+  EXPECT_FALSE(pairing::reentrant_vertex_after(reentrant.pair.master, 1, reentrant.x));
 }
 
 /// The cone of Coulomb about the bisector with tan(alpha / 2 + atan mu) (at pi/2 any force).
-TEST(Valley, HoldsInTheSumOfBothCones) {
+TEST(ReentrantVertex, HoldsInTheSumOfBothCones) {
   constexpr int directions = 720;
   for (const double alpha : {0.2, half_turn / 4, 2.0})
     for (const double mu : {0.0, 0.3, 2.0}) {
@@ -111,7 +111,7 @@ TEST(Valley, HoldsInTheSumOfBothCones) {
         if (mu > 0) s.pair.friction = contact::coulomb(mu, penalty);
         hold_by(5 * direction(middle + from_middle), s);
         const pairing::PairEvaluation<2> e = evaluated(s);
-        const bool held = e.points[0].branch.branch == Branch::valley;
+        const bool held = e.points[0].branch.branch == Branch::reentrant;
         EXPECT_EQ(held, std::abs(from_middle) < half) << alpha << " " << mu << " " << from_middle;
         if (held || e.points[0].status == Status::open) continue;
         EXPECT_EQ(e.points[0].status, Status::slip);
@@ -125,7 +125,7 @@ TEST(Valley, HoldsInTheSumOfBothCones) {
 
 /// Arriving along a facet in this increment: there friction is at its limit against the way it
 /// came, and the cone is that of the normals, turned by atan mu.
-TEST(Valley, HoldsWhatTheFacetItCameAlongDidNot) {
+TEST(ReentrantVertex, HoldsWhatTheFacetItCameAlongDidNot) {
   constexpr int directions = 360;
   constexpr double mu = 0.3;
   const Corner corner;
@@ -138,12 +138,12 @@ TEST(Valley, HoldsWhatTheFacetItCameAlongDidNot) {
       hold_by(5 * direction(first + from_first), s);
       s.committed.points[0] = remembered(true, came_along, Feature::face, 0.5, 0, 0);
       const double turned = from_first + (came_along == 0 ? -1 : 1) * std::atan(mu);
-      const bool held = evaluated(s).points[0].branch.branch == Branch::valley;
+      const bool held = evaluated(s).points[0].branch.branch == Branch::reentrant;
       EXPECT_EQ(held, turned > 0 && turned < corner.angle) << came_along << " " << from_first;
     }
 }
 
-TEST(Valley, LetsGoWhereItWouldPull) {
+TEST(ReentrantVertex, LetsGoWhereItWouldPull) {
   Sample s = make_valley({});
   s.pair.friction = contact::coulomb(0.3, penalty);
   const Vec2 bisector = (normal_of({}, 0) + normal_of({}, 1)).normalized();
@@ -152,7 +152,7 @@ TEST(Valley, LetsGoWhereItWouldPull) {
 }
 
 /// Pressed on the first facet the point has slid beyond the corner, into the second one.
-TEST(Valley, TakesOverTheTraction) {
+TEST(ReentrantVertex, TakesOverTheTraction) {
   const Corner corner;
   const Vec2 offset = 0.01 * direction(corner.start), n = normal_of(corner, 0),
              shear = 4 * direction(corner.start);
@@ -161,7 +161,7 @@ TEST(Valley, TakesOverTheTraction) {
     if (mu > 0) s.pair.friction = contact::coulomb(mu, penalty);
     press_on(0, -20, mu > 0 ? shear : Vec2(Vec2::Zero()), s);
     const pairing::PairEvaluation<2> e = evaluated(s);
-    ASSERT_EQ(e.points[0].branch.branch, Branch::valley);
+    ASSERT_EQ(e.points[0].branch.branch, Branch::reentrant);
     const Vec2 carried = -20 * n + s.multipliers[0].shear;
     EXPECT_NEAR((force_on_point(e) + carried + penalty * offset).norm(), 0, 1e-11);
     EXPECT_NEAR((e.blocks[0].constraint.shear - penalty * offset).norm(), 0, 1e-11);
@@ -180,22 +180,22 @@ TEST(Valley, TakesOverTheTraction) {
 }
 
 /// An open point beyond the corner belongs to the second facet; one in the wedge to the corner.
-TEST(Valley, AnOpenPointIsWhereItsPlaceIs) {
+TEST(ReentrantVertex, AnOpenPointIsWhereItsPlaceIs) {
   const Corner corner;
   Sample s = make_valley(corner, 0.01 * direction(corner.start));
   s.committed.points[0] = remembered(false, 0, Feature::face, 0.5, 0.1, 0);
-  s.assumed = {pairing::AssumedBranch<2>{}};
+  s.active_set = {pairing::ActiveBranch<2>{}};
   EXPECT_EQ(evaluated(s).points[0].history.facet, 1);
   EXPECT_EQ(evaluated(s).points[0].branch.branch, Branch::slip);
   s.x.back() = s.x[vertex] - 0.01 * (normal_of(corner, 0) + normal_of(corner, 1));
-  EXPECT_EQ(evaluated(s).points[0].branch.branch, Branch::valley);
-  s.pair.valleys = false;
+  EXPECT_EQ(evaluated(s).points[0].branch.branch, Branch::reentrant);
+  s.pair.reentrant_vertices = false;
   EXPECT_EQ(evaluated(s).points[0].history.feature, Feature::corner);
   EXPECT_EQ(evaluated(s).points[0].branch.branch, Branch::slip);
 }
 
 /// A pressed point stays on its facet, though the other one is nearer and it has not come into it.
-TEST(Valley, APressedPointKeepsItsFacet) {
+TEST(ReentrantVertex, APressedPointKeepsItsFacet) {
   const Corner groove{.angle = 3.0};
   const Vec2 offset = -0.3 * direction(groove.start) + 0.03 * normal_of(groove, 0);
   ASSERT_GT(offset.dot(normal_of(groove, 1)), 0);
@@ -209,13 +209,13 @@ TEST(Valley, APressedPointKeepsItsFacet) {
   EXPECT_EQ(evaluated(s).points[0].status, Status::open);
 }
 
-TEST(Valley, ForcesBalance) {
+TEST(ReentrantVertex, ForcesBalance) {
   Sample s = make_valley({.nodes_per_facet = 3, .bow = 0.05});
   s.pair.friction = contact::coulomb(0.3, penalty);
   const Vec2 force = 5 * (normal_of({}, 0) + normal_of({}, 1));
   hold_by(force, s);
   const pairing::PairEvaluation<2> e = evaluated(s);
-  ASSERT_EQ(e.points[0].branch.branch, Branch::valley);
+  ASSERT_EQ(e.points[0].branch.branch, Branch::reentrant);
   Vec2 sum = Vec2::Zero();
   double moment = 0;
   for (int k = 0; k < e.blocks[0].count; ++k) {
@@ -230,7 +230,7 @@ TEST(Valley, ForcesBalance) {
   EXPECT_NEAR((p.normal_traction * p.normal + p.shear() + force).norm(), 0, 1e-13);
 }
 
-TEST(ValleyTangent, IsOfSecondOrder) {
+TEST(ReentrantTangent, IsOfSecondOrder) {
   for (const double mu : {0.0, 0.3})
     for (const auto weight : {pairing::Weight::node, pairing::Weight::reference_area})
       for (const auto& [nodes, bow] : {std::pair(2, 0.0), std::pair(3, 0.05)}) {
@@ -243,7 +243,7 @@ TEST(ValleyTangent, IsOfSecondOrder) {
         const auto branch = [&](const Eigen::VectorXd& y) {
           return s.evaluation(y, false).points[0].branch.branch;
         };
-        ASSERT_EQ(branch(v), Branch::valley);
+        ASSERT_EQ(branch(v), Branch::reentrant);
         expect_derivative([&](const Eigen::VectorXd& y) { return s.residual(y); }, s.tangent(v),
                           branch, v, 1e-3);
         const Eigen::MatrixXd k = s.tangent(v);
@@ -252,7 +252,7 @@ TEST(ValleyTangent, IsOfSecondOrder) {
 }
 
 /// The facets' own branches have a shear without friction: it vanishes.
-TEST(ValleyTangent, OfFacetsWithoutFriction) {
+TEST(ReentrantTangent, OfFacetsWithoutFriction) {
   Sample s = make_valley({.nodes_per_facet = 3, .bow = 0.05}, {-0.6, 0.7});
   press_on(0, -90, Vec2(3, 1), s);
   const Eigen::VectorXd v = s.packed();
@@ -268,38 +268,39 @@ TEST(ValleyTangent, OfFacetsWithoutFriction) {
   EXPECT_NEAR((e.blocks[0].constraint.shear + s.multipliers[0].shear).norm(), 0, 1e-14);
 }
 
-TEST(Valley, NothingIsAllocatedAfterTheFirstCall) {
+TEST(ReentrantVertex, NothingIsAllocatedAfterTheFirstCall) {
   Sample s = make_valley({});
   s.pair.friction = contact::coulomb(0.3, penalty);
   hold_by(5 * (normal_of({}, 0) + normal_of({}, 1)), s);
-  pairing::Assumed<2> assumed;
-  assumed.branch = s.assumed;
-  pairing::PairMultipliers<2> around;
-  around.points = s.multipliers;
+  pairing::ActiveSet<2> active_set;
+  active_set.branch = s.active_set;
+  pairing::PairMultipliers<2> taken;
+  taken.points = s.multipliers;
   pairing::PairEvaluation<2> e;
   const auto evaluate = [&] {
-    pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, assumed, &around);
+    pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, active_set, &taken);
   };
   evaluate();
-  ASSERT_EQ(e.points[0].branch.branch, Branch::valley);
+  ASSERT_EQ(e.points[0].branch.branch, Branch::reentrant);
   const std::size_t before = allocation_count();
   evaluate();
   EXPECT_EQ(allocation_count(), before);
 }
 
-/// What rested in the valley is predicted to stay, whatever rounding says.
-TEST(Valley, IsRememberedFromIncrementToIncrement) {
+/// What rested in the re-entrant vertex is predicted to stay, whatever rounding says.
+TEST(ReentrantVertex, IsRememberedFromIncrementToIncrement) {
   Sample s = make_valley({}, Vec2(1e-15, -1e-15));
   s.committed.points[0] = remembered(true, 0, Feature::corner, 1, 0, 0);
-  const pairing::Assumed<2> assumed = pairing::committed_branches<2>(s.pair, s.committed, s.x);
-  EXPECT_EQ(assumed.branch[0].branch, Branch::valley);
+  const pairing::ActiveSet<2> active_set =
+      pairing::committed_active_set<2>(s.pair, s.committed, s.x);
+  EXPECT_EQ(active_set.branch[0].branch, Branch::reentrant);
   pairing::PairEvaluation<2> e;
   pairing::PairMultipliers<2> none;
   none.points.resize(1);
-  pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, assumed, &none);
-  EXPECT_EQ(e.points[0].branch.branch, Branch::valley);
-  s.pair.valleys = false;
-  EXPECT_EQ(pairing::committed_branches<2>(s.pair, s.committed, s.x).branch[0].branch,
+  pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, active_set, &none);
+  EXPECT_EQ(e.points[0].branch.branch, Branch::reentrant);
+  s.pair.reentrant_vertices = false;
+  EXPECT_EQ(pairing::committed_active_set<2>(s.pair, s.committed, s.x).branch[0].branch,
             Branch::stick);
 }
 
