@@ -1,7 +1,7 @@
 #pragma once
 #include <limits>
 
-#include "osculate/core/types.hpp"
+#include "osculate/contact/law/tangential.hpp"
 #include "osculate/projection/feature.hpp"
 
 namespace osculate::contact {
@@ -27,6 +27,7 @@ struct PointHistory {
   /// whether the slave's edge is run backwards.
   Index edge = -1;
   bool flipped = false;
+  LawMemory memory{};  ///< of the friction law
   double slid = 0;    ///< distance slid (without the elastic part) since it came into contact
   bool held = false;  ///< tied to the master in the normal direction from the start
   double rest = 0;    ///< of a held point: its gap at the start

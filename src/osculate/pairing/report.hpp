@@ -68,6 +68,7 @@ void report_contact(const Response<Dim>& r, const Vec<Dim - 1>& carried,
   h.slipping = r.law.status == contact::Status::slip;
   h.slip = before.active ? Vec<Dim - 1>(before.slip + r.slip) : r.slip;
   h.slid = before.active ? before.slid + r.slid : r.slid;
+  h.memory = r.memory;
   h.friction_work += result.weight * r.dissipated;
 }
 

@@ -120,7 +120,8 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] contact::Sliding sliding_of(const contact::PointHistory<Dim>& history,
                                           const PointContext<Dim>& context) {
-  return {history.active ? history.slid : 0.0, context.duration};
+  if (!history.active) return {0.0, context.duration};
+  return {history.slid, context.duration, history.memory};
 }
 
 /// The friction law with the stiffness it has in this evaluation.
@@ -212,6 +213,7 @@ template <int Dim, class PredictorOf>
   r.slip = trial.slip;
   r.law = contact::response<Dim>(law, trial.value, normal, sliding);
   r.slid = contact::slid<Dim>(trial.value, r.law, stiffness);
+  r.memory = contact::remembered(law, r.slid, sliding);
   r.dissipated = contact::dissipated<Dim>(trial.value, r.law, stiffness);
   if (!context.multiplier) r.stored = 0.5 * r.law.traction.squaredNorm() / stiffness;
   r.traction.tangential =

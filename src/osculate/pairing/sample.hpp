@@ -4,8 +4,8 @@
 //
 //   sampler -> ContactSample -> respond -> report, block
 //
-// Slave nodes and quadrature points (point_sample), edge-edge contacts (pair_crossings), mortar
-// nodes (mortar_node), re-entrant vertices (re-entrant vertex) and ties (tie) are samplers: each
+// Slave nodes and quadrature points (point_sample), edge-edge contacts (pair_edge_contacts), mortar
+// nodes (mortar_node), re-entrant vertices (reentrant_vertex) and ties (tie) are samplers: each
 // says where its sample is and how its gap and slip depend on the nodes. Law, enforcement and
 // active set (response.hpp), history and report (report.hpp), forces and tangent (point_block.hpp)
 // are the same for all.
@@ -32,8 +32,9 @@ template <int Dim>
 struct Response {
   contact::Traction<Dim> traction;           ///< of the branch that is linearised
   contact::TangentialResponse<Dim> law{};    ///< what the law says
-  Vec<Dim - 1> slip = Vec<Dim - 1>::Zero();  ///< of the increment, times the share in contact
+  Vec<Dim - 1> slip = Vec<Dim - 1>::Zero();  ///< of the increment, times the contact time fraction
   double slid = 0;                           ///< distance, in the increment
+  contact::LawMemory memory{};               ///< of the friction law, for the next increment
   double dissipated = 0;                     ///< per area (or per node) in the increment
   double stored = 0;                         ///< by the spring of the shear, per area (or node)
   bool has_shear = false;                    ///< else it slides without friction

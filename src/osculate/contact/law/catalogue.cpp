@@ -259,6 +259,14 @@ double steadying(const FrictionLaw& law, double normal_traction, double duration
       },
       law);
 }
+LawMemory remembered(const FrictionLaw& law, double slid, const Sliding& sliding) {
+  return std::visit(
+      [&](const auto& l) {
+        if constexpr (requires { l.remembered(slid, sliding); }) return l.remembered(slid, sliding);
+        return LawMemory{};
+      },
+      law.all());
+}
 bool needs_duration(const FrictionLaw& law) { return needs_duration_of(law); }
 bool needs_duration(const DampingLaw& law) { return needs_duration_of(law); }
 

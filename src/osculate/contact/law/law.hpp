@@ -14,6 +14,8 @@ namespace osculate::contact {
 //   holds = true         normal: it goes on where a held point is pulled
 //   stiffness            normal: it is linear, with this eps_N
 //   parting()            friction: the law of points that may part, where it is another
+//   remembered(slid, sliding)  friction: what it keeps at a point that has slid so far in the
+//                        increment, for the next one (LawMemory)
 //   fall(p, duration)    friction: how steeply its limit falls while a point slides
 //   damper()             damping: the coefficient of a damper that may be treated by itself
 //   fault()              what is wrong with parameters that are in their ranges
@@ -140,6 +142,11 @@ template <int Dim>
 /// Tested by  tests/unit/contact/test_friction_laws.cpp,
 /// tests/unit/pairing/test_multiplier_laws.cpp
 [[nodiscard]] double steadying(const FrictionLaw& law, double normal_traction, double duration);
+/// What the law keeps at a point that slides by `slid` in the increment; nothing, of laws without a
+/// memory of their own.
+///
+/// Tested by  tests/unit/contact/test_rate_and_state.cpp
+[[nodiscard]] LawMemory remembered(const FrictionLaw& law, double slid, const Sliding& sliding);
 /// Whether the law asks how long an increment lasts.
 [[nodiscard]] bool needs_duration(const FrictionLaw& law);
 [[nodiscard]] bool needs_duration(const DampingLaw& law);

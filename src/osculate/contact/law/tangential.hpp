@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include "osculate/core/types.hpp"
@@ -23,10 +24,15 @@ struct TangentialResponse {
   Traction d_normal = Traction::Zero();                               ///< dt/dN
 };
 
+/// What a friction law keeps at a point between increments, as it likes; zero of a point that was
+/// open at the last one.
+using LawMemory = std::array<double, 2>;
+
 /// What a friction law may depend on beside trial and normal traction.
 struct Sliding {
   double distance = 0;  ///< slid since the point came into contact, up to the last increment
   double duration = 0;  ///< of the increment; 0: not known
+  LawMemory memory{};   ///< of the last increment
 };
 
 /// Largest shear traction of a sliding point, and its derivatives.
