@@ -8,6 +8,7 @@
 #include "osculate/contact/law/normal_exponential.hpp"
 #include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/contact/law/normal_table.hpp"
+#include "osculate/contact/law/rate_and_state.hpp"
 #include "osculate/contact/law/rough.hpp"
 #include "osculate/contact/law/tresca.hpp"
 
@@ -17,7 +18,7 @@ namespace osculate::contact {
 struct NormalLaws : std::variant<NormalPenalty, NormalExponential, NormalTable> {
   using variant::variant;
 };
-struct FrictionLaws : std::variant<Coulomb, Tresca, Rough> {
+struct FrictionLaws : std::variant<Coulomb, Tresca, Rough, RateAndState> {
   using variant::variant;
 };
 struct DampingLaws : std::variant<Viscous, Restitution> {
