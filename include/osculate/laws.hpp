@@ -2,12 +2,23 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 // Laws of contact. What they say, with sources: docs/laws.md. Pressures are per area; with
 // Weight::node they are forces. Units are the host's.
 namespace osculate {
+
+/// Any law by its word in model files (docs/laws.md), with its numbers by their keys there; what is
+/// left out has the value of a new law. A law whose one number has no key: by the law's word.
+/// Penalties are numbers here, never `auto`.
+struct NamedLaw {
+  std::string law;
+  std::vector<std::pair<std::string, double>> numbers;
+  std::vector<std::array<double, 2>> points{};  ///< of a law that is a table
+};
 
 // ---- pressure over the gap ---------------------------------------------------------------------
 
@@ -27,7 +38,7 @@ struct Table {
   std::vector<std::array<double, 2>> points;  ///< overclosure (growing), pressure (first one: 0)
 };
 
-using NormalLaw = std::variant<Penalty, Exponential, Table>;
+using NormalLaw = std::variant<Penalty, Exponential, Table, NamedLaw>;
 
 // ---- friction ----------------------------------------------------------------------------------
 
@@ -58,7 +69,7 @@ struct Rough {
   double steep = 1e4;
 };
 
-using FrictionLaw = std::variant<Coulomb, Tresca, Rough>;
+using FrictionLaw = std::variant<Coulomb, Tresca, Rough, NamedLaw>;
 
 // ---- damping beside the pressure ---------------------------------------------------------------
 
@@ -72,6 +83,6 @@ struct Restitution {
   double value = 1;  ///< e, 0 to 1
 };
 
-using DampingLaw = std::variant<Viscous, Restitution>;
+using DampingLaw = std::variant<Viscous, Restitution, NamedLaw>;
 
 }  // namespace osculate

@@ -45,6 +45,6 @@ Penalties automatic_penalties(std::span<const Layer> slave, std::span<const Laye
           pairing::automatic_factor * pairing::in_series(s.shear, m.shear)};
 }
 
-double penalty_factor(double ratio) { return pairing::own_share(ratio); }
+double penalty_factor(double ratio) { return pairing::own_factor(ratio); }
 
 }  // namespace osculate

@@ -1,11 +1,60 @@
 #include "osculate/embed/laws.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "osculate/contact/law/catalogue.hpp"
+#include "osculate/contact/law/every_law.hpp"
+#include "osculate/core/text.hpp"
+#include "osculate/errors.hpp"
 
 namespace osculate::embed {
 namespace {
 
+template <class T>
+T with_numbers(const NamedLaw& given) {
+  T law{};
+  std::vector<std::string> known;
+  bool table = false;
+  for (const core::Param<T>& p : T::params()) {
+    const std::string& key = known.emplace_back(p.key.empty() ? T::key : p.key);
+    const auto found = std::find_if(given.numbers.begin(), given.numbers.end(),
+                                    [&](const auto& number) { return number.first == key; });
+    const bool of_points = core::table_in(law, p.slot) != nullptr;
+    table = table || of_points;
+    if (of_points)
+      core::set(law, p.slot, given.points);
+    else if (found != given.numbers.end())
+      core::set(law, p.slot, found->second);
+    const bool missing = of_points ? given.points.empty() : found == given.numbers.end();
+    if (p.required && missing)
+      throw Refused(
+          fmt::format("{}: {} missing", given.law, of_points ? "points are" : key + " is"));
+  }
+  for (const auto& [key, value] : given.numbers)
+    if (std::find(known.begin(), known.end(), key) == known.end())
+      throw Refused(
+          fmt::format("{}: {}", given.law, core::unknown_name_message("number", key, known)));
+  if (!given.points.empty() && !table)
+    throw Refused(fmt::format("{}: it is no table, points mean nothing", given.law));
+  return law;
+}
+
+template <class Laws>
+contact::Law<Laws> by_name(const NamedLaw& given) {
+  std::optional<contact::Law<Laws>> law;
+  std::vector<std::string> known;
+  contact::for_each_law<Laws>([&]<class T>(const T&) {
+    known.emplace_back(T::key);
+    if (T::key == given.law) law = with_numbers<T>(given);
+  });
+  if (!law) throw Refused(core::unknown_name_message("law", given.law, known));
+  return *law;
+}
+
 struct ToNormal {
+  contact::NormalLaw operator()(const NamedLaw& l) const { return by_name<contact::NormalLaws>(l); }
   contact::NormalLaw operator()(const Penalty& l) const { return contact::penalty(l.stiffness); }
   contact::NormalLaw operator()(const Exponential& l) const {
     return contact::NormalExponential{l.pressure, l.clearance};
@@ -15,6 +64,10 @@ struct ToNormal {
 
 struct ToFriction {
   bool may_part;
+  contact::FrictionLaw operator()(const NamedLaw& l) const {
+    const contact::FrictionLaw law = by_name<contact::FrictionLaws>(l);
+    return may_part ? contact::parting(law) : law;
+  }
   contact::FrictionLaw operator()(const Coulomb& l) const {
     contact::Coulomb law{l.mu, l.stiffness, l.cap};
     if (!l.change) return law;
@@ -31,6 +84,9 @@ struct ToFriction {
 };
 
 struct ToDamping {
+  contact::DampingLaw operator()(const NamedLaw& l) const {
+    return by_name<contact::DampingLaws>(l);
+  }
   contact::DampingLaw operator()(const Viscous& l) const { return contact::Viscous{l.coefficient}; }
   contact::DampingLaw operator()(const Restitution& l) const {
     return contact::Restitution{l.value};

@@ -40,7 +40,7 @@ Choices choices_of(const Contact<Dim>& c) {
       .edges = c.edge_angle.has_value(),
       .tied = c.separation == Separation::tied,
       .held = c.separation != Separation::allowed,
-      .linear = std::holds_alternative<Penalty>(c.normal),
+      .linear = contact::augmentable(law_of(c.normal)),
       .corrected = c.enforcement != Enforcement::penalty,
       .unknown = c.enforcement == Enforcement::lagrange_multiplier,
       .smooth = c.smoothing.kind != Smoothing::Kind::none,

@@ -192,6 +192,25 @@ TEST(PublicDoor, Laws) {
        [](Contact<2>& c) {
          c.friction = Tresca{3, 1000};
        }},
+      {"by rate and state",
+       friction("rate_and_state: {mu: 0.3, a: 0.01, b: 0.02, penalty: 1000, speed: 0.2, distance: "
+                "0.01}"),
+       [](Contact<2>& c) {
+         c.friction = NamedLaw{"rate_and_state",
+                               {{"mu", 0.3},
+                                {"a", 0.01},
+                                {"b", 0.02},
+                                {"penalty", 1000},
+                                {"speed", 0.2},
+                                {"distance", 0.01}}};
+       },
+       {},
+       timed},
+      {"laws by name", normal("penalty: 2000, damping: {restitution: 0.7}"),
+       [](Contact<2>& c) {
+         c.normal = NamedLaw{"penalty", {{"penalty", 2000}}};
+         c.damping = NamedLaw{"restitution", {{"restitution", 0.7}}};
+       }},
       {"capped", friction("coulomb: {mu: 0.3, penalty: 1000, cap: 2}"),
        [](Contact<2>& c) {
          c.friction = Coulomb{0.3, 1000, 2};

@@ -114,6 +114,27 @@ TEST(Refusals, NumbersAndLaws) {
   });
 }
 
+TEST(Refusals, LawsByName) {
+  using S = Sample<2>;
+  const auto friction = [](NamedLaw law) { return [law](S& s) { s.contact.friction = law; }; };
+  expect_refusals<2>({
+      {friction({"colomb", {}}),
+       "unknown law 'colomb', did you mean 'coulomb'? Known: coulomb, tresca, rough, "
+       "rate_and_state"},
+      {friction({"tresca", {{"limit", 1}}}), "tresca: penalty is missing"},
+      {friction({"tresca", {{"limit", 1}, {"penalty", 1}, {"mu", 1}}}),
+       "tresca: unknown number 'mu'; known: limit, penalty"},
+      {friction({"tresca", {{"limit", -1}, {"penalty", 1}}}),
+       "friction_tresca: limit must be >= 0, got -1"},
+      {friction({"rough", {{"penalty", 1}}, {{0, 0}}}),
+       "rough: it is no table, points mean nothing"},
+      {[](S& s) {
+         s.contact.normal = NamedLaw{"table", {}};
+       },
+       "table: points are missing"},
+  });
+}
+
 TEST(Refusals, Enforcements) {
   using S = Sample<3>;
   const auto unknown = [](S& s) { s.contact.enforcement = Enforcement::lagrange_multiplier; };
