@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "osculate/core/error.hpp"
-#include "osculate/io/gmsh.hpp"
+#include "osculate/io/mesh_format.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/check.hpp"
 #include "osculate/mesh/surface.hpp"
@@ -35,7 +35,7 @@ void use(const osculate::mesh::Mesh& mesh) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    use(osculate::io::read_gmsh(std::string_view(reinterpret_cast<const char*>(data), size),
+    use(osculate::io::read_mesh(std::string_view(reinterpret_cast<const char*>(data), size),
                                 "fuzz"));
   } catch (const osculate::core::InputError&) {
   }

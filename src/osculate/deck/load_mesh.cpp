@@ -3,7 +3,7 @@
 #include "osculate/deck/build_context.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/deck/parse_parts.hpp"
-#include "osculate/io/gmsh.hpp"
+#include "osculate/io/mesh_format.hpp"
 #include "osculate/mesh/generate.hpp"
 #include "osculate/mesh/generate_ring.hpp"
 #include "osculate/mesh/generate_space.hpp"
@@ -88,7 +88,7 @@ void require_plane(const MeshFile& source, const mesh::Mesh& mesh) {
 mesh::Mesh read_file(const MeshFile& source) {
   mesh::Mesh mesh;
   try {
-    mesh = io::read_gmsh(source.path);
+    mesh = io::read_mesh(source.path);
   } catch (const core::InputError& error) {
     throw core::InputError(source.file.mark, error.what());
   }

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include "osculate/deck/description.hpp"
 #include "osculate/deck/model_spec.hpp"
+#include "osculate/io/mesh_format.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -305,7 +308,11 @@ Spec generated_spec() {
 }
 
 Spec file_spec() {
-  return text("Name of a Gmsh file, relative to the folder of the model file.")
+  std::string formats;
+  for (const io::MeshFormat& format : io::mesh_formats())
+    formats +=
+        fmt::format("{}{} ({})", formats.empty() ? "" : " or ", format.name, format.extension);
+  return text("Name of a mesh file, " + formats + ", relative to the folder of the model file.")
       .such_as("block.msh");
 }
 
@@ -348,7 +355,7 @@ Spec files_spec() {
 
 Spec mesh_spec() {
   return either(
-             "The mesh: a Gmsh file, relative to the folder of the model file, or several "
+             "The mesh: a file, relative to the folder of the model file, or several "
              "files and generated parts together.",
              {file_spec(),
               map("Files and generated parts, which share no nodes.",

@@ -8,6 +8,7 @@
 #include "osculate/core/text.hpp"
 #include "osculate/deck/parse_surface.hpp"
 #include "osculate/io/gmsh.hpp"
+#include "osculate/io/mesh_format.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/check.hpp"
 #include "osculate/mesh/surface.hpp"
@@ -30,10 +31,6 @@ Named split(const std::string& named) {
       return {named.substr(0, at), named.substr(at + 1)};
   const std::size_t colon = named.rfind(':');
   return {named.substr(0, colon), {}};
-}
-
-bool is_gmsh(const std::string& file, std::string_view content) {
-  return content.starts_with("$") || std::filesystem::path(file).extension() == ".msh";
 }
 
 bool in_space(const mesh::Mesh& mesh) {
@@ -125,11 +122,11 @@ SurfaceInput surface_of_mesh(const mesh::Mesh& mesh, const Named& named) {
 SurfaceInput read_surface(const std::string& path) {
   const Named named = split(path);
   const std::string content = io::read_file(named.file);
-  if (is_gmsh(named.file, content))
-    return surface_of_mesh(io::read_gmsh(content, named.file), named);
+  if (io::mesh_format_of(named.file, content))
+    return surface_of_mesh(io::read_mesh(content, named.file), named);
   if (named.set)
     throw core::InputError({named.file, 0, ""},
-                           fmt::format("only a Gmsh mesh has sets; '{}' cannot be chosen here",
+                           fmt::format("only a mesh has sets; '{}' cannot be chosen here",
                                        printable(*named.set)));
   return {parse_surface(content, named.file), {}};
 }

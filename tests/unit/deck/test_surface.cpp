@@ -263,7 +263,7 @@ TEST_F(SurfaceFile, OnlyGmshMeshesHaveSets) {
   std::ofstream(yaml) << "circle: {center: [0, 0], radius: 1}\n";
   EXPECT_EQ(refusal(yaml), "");
   EXPECT_EQ(refusal(yaml + ":rim"),
-            yaml + ": only a Gmsh mesh has sets; 'rim' cannot be chosen here");
+            yaml + ": only a mesh has sets; 'rim' cannot be chosen here");
   std::filesystem::remove(yaml);
 }
 

@@ -1,0 +1,39 @@
+#include "osculate/io/mesh_format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+
+#include "osculate/io/gmsh.hpp"
+
+namespace osculate::io {
+namespace {
+
+bool looks_like_gmsh(std::string_view content) { return content.starts_with("$"); }
+
+constexpr std::array<MeshFormat, 1> formats{
+    {{"Gmsh", ".msh", looks_like_gmsh, read_gmsh}}};
+
+}  // namespace
+
+std::span<const MeshFormat> mesh_formats() { return formats; }
+
+const MeshFormat* mesh_format_of(const std::string& name, std::string_view content) {
+  std::string extension = std::filesystem::path(name).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const MeshFormat& format : formats)
+    if (format.extension == extension) return &format;
+  for (const MeshFormat& format : formats)
+    if (format.looks_so(content)) return &format;
+  return nullptr;
+}
+
+mesh::Mesh read_mesh(std::string_view content, const std::string& name) {
+  const MeshFormat* const format = mesh_format_of(name, content);
+  return (format ? *format : formats.front()).read(content, name);
+}
+mesh::Mesh read_mesh(const std::string& path) { return read_mesh(read_file(path), path); }
+
+}  // namespace osculate::io
