@@ -6,14 +6,15 @@
 #include <filesystem>
 
 #include "osculate/io/gmsh.hpp"
+#include "osculate/io/stl.hpp"
 
 namespace osculate::io {
 namespace {
 
 bool looks_like_gmsh(std::string_view content) { return content.starts_with("$"); }
 
-constexpr std::array<MeshFormat, 1> formats{
-    {{"Gmsh", ".msh", looks_like_gmsh, read_gmsh}}};
+constexpr std::array<MeshFormat, 2> formats{
+    {{"Gmsh", ".msh", looks_like_gmsh, read_gmsh}, {"STL", ".stl", looks_like_stl, read_stl}}};
 
 }  // namespace
 
