@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
+#include "osculate/model/onto_master.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -56,27 +56,19 @@ void adjust(BuildContext<Dim>& c, const Contact& contact) {
   pair.weight = pairing::Weight::node;
   if (contact.search_depth) pair.depth = contact.search_depth->value;
   refuse_rigid(c, contact, pair.slave.nodes);
-  std::vector<Vec<Dim>> x = c.model().reference;
-  pairing::prepare<Dim>(pair, x);
-  pairing::PairEvaluation<Dim> found;
-  pairing::evaluate<Dim>(pair, x, pairing::initial_state<Dim>(pair, x), false, found);
-  std::vector<bool> moved(x.size());
-  int count = 0;
+  const std::vector<model::MovedNode<Dim>> all =
+      model::onto_master(pair, c.model().reference, contact.initial_tolerance);
+  std::vector<bool> moved(c.model().reference.size());
   double farthest = 0;
-  for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
-    const pairing::PointResult<Dim>& point = found.points[i];
-    const bool inside = point.status != contact::Status::open && point.gap < 0;
-    if (!inside && !(std::abs(point.gap) <= contact.initial_tolerance)) continue;
-    const Index node = pair.slave.points[i].nearest_node();
-    moved[static_cast<std::size_t>(node)] = true;
-    farthest = std::max(farthest, (point.foot - x[static_cast<std::size_t>(node)]).norm());
-    move<Dim>(c, node, point.foot);
-    ++count;
+  for (const model::MovedNode<Dim>& one : all) {
+    moved[static_cast<std::size_t>(one.node)] = true;
+    farthest = std::max(farthest, one.way);
+    move<Dim>(c, one.node, one.to);
   }
   check_cells(c, contact, moved);
   c.built.notes.push_back(fmt::format(
       "'{}': {} slave nodes moved onto the master before the first step, by up to {:.4g}",
-      contact.name.value, count, farthest));
+      contact.name.value, all.size(), farthest));
 }
 
 }  // namespace

@@ -405,7 +405,7 @@ void build_contact(BuildContext<Dim>& c) {
     model::BasicContactPair<Dim> second = reversed(contact, out);
     smooth_master(c, contact, pair);
     smooth_master(c, contact, second.definition);
-    pair.pass_factor = second.definition.share = 0.5;
+    pair.pass_factor = second.definition.pass_factor = 0.5;
     add_sampled(c, contact, std::move(out));
     add_sampled(c, contact, std::move(second));
   }

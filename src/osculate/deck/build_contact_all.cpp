@@ -202,7 +202,7 @@ void add_pairs(BuildContext<Dim>& c, const Contact& contact, const Body<Dim>& a,
   second.definition.master = first.definition.slave.boundary;
   second.definition.slave = pairing::make_slave_side(first.definition.master);
   second.definition.filter.thickness = (first_is_master ? a : b).thickness;
-  first.definition.share = second.definition.pass_factor = 0.5;
+  first.definition.pass_factor = second.definition.pass_factor = 0.5;
   add_pair(c, contact, contact.name.mark, std::move(first));
   add_pair(c, contact, contact.name.mark, std::move(second));
 }

@@ -75,9 +75,6 @@ using pairing::search_distance_in_facets;
 template <int Dim>
 void build_contact_all(BuildContext<Dim>& c, const Contact& contact);
 
-using pairing::automatic_factor;
-using pairing::in_series;
-using pairing::own_share;
 
 /// The stiffnesses that are left to the program, from the cells behind both sides, and the height
 /// of these cells; for the pair, and for each of its points.
@@ -85,7 +82,7 @@ using pairing::own_share;
 /// Formula    eps_N = 10 / (h_s / E_s + h_m / E_m), eps_T the same with the shear moduli; h the
 ///            height of the cells behind the facets, E / h averaged over the area of a side; a
 ///            rigid side gives nothing. weight: node: times the mean area of a slave point.
-///            Of a point own_share(r) times that, r the ratio of the same formula with the cells
+///            Of a point own_factor(r) times that, r the ratio of the same formula with the cells
 ///            behind the point and behind the nearest place of the master
 /// Tested by  tests/unit/deck/test_automatic_penalty.cpp, test_point_penalties.cpp
 template <int Dim>

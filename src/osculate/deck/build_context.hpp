@@ -1,6 +1,7 @@
 #pragma once
 // Shared by the build_*.cpp files; not for users.
 #include <map>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -9,17 +10,22 @@
 #include "osculate/deck/build.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/surface.hpp"
+#include "osculate/model/enclosed_volume.hpp"
+#include "osculate/model/layers_behind.hpp"
 
 namespace osculate::deck {
 
 /// Boundary facets: edges of area cells in the plane, faces of volume cells in space.
 template <int Dim>
 using SideTable = std::conditional_t<Dim == 2, mesh::EdgeTable, mesh::FaceTable>;
-template <int Dim>
-using Side = std::conditional_t<Dim == 2, mesh::BoundaryFacet, mesh::SurfaceFacet>;
+using model::Side;
 
 /// Throws core::InputError at `mark` for a node off the plane z = 0.
 void require_in_plane(const mesh::Mesh& mesh, const core::SourceMark& mark);
+
+/// Where something depends on time (`timed`), every step says how long it takes.
+void check_durations(const Description& description, const std::optional<core::SourceMark>& timed,
+                     std::string_view what);
 
 /// What the parts of `build` share while a model grows.
 template <int Dim>
@@ -29,9 +35,9 @@ struct BuildContext {
   std::vector<std::string> set_names;
   std::unordered_map<std::string, Index> rigid_index;
   std::vector<Index> section_of_node;  ///< first section that uses the node, -1 = none
-  std::map<std::pair<Index, Index>, Index> section_of_cell;    ///< by block and cell
-  SideTable<Dim> sides;                                        ///< of the cells that have a section
-  std::vector<std::vector<mesh::CellRef>> cells_of_node = {};  ///< of sections; made when needed
+  std::map<std::pair<Index, Index>, Index> section_of_cell;  ///< by block and cell
+  SideTable<Dim> sides;                                      ///< of the cells that have a section
+  std::optional<model::CellsOfNodes<Dim>> cells_of_node{};   ///< of sections; made when needed
 
   [[nodiscard]] model::BasicModel<Dim>& model() const { return built.model; }
   /// The set, or the error with the nearest name.

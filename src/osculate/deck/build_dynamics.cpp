@@ -18,7 +18,7 @@ std::optional<typename body::Inertia<Dim>::Tensor> homogeneous(const BuildContex
                                                                model::BasicRigidBody<Dim>& body) {
   if (rigid.mass) body.mass = rigid.mass->value;
   if (rigid.inertia && rigid.mass && !body.shape) return std::nullopt;
-  const EnclosedVolume<Dim> enclosed = enclosed_volume(c, rigid, body);
+  const model::EnclosedVolume<Dim> enclosed = enclosed_volume(c, rigid, body);
   if (!enclosed.moments) {
     if (rigid.inertia && rigid.mass) return std::nullopt;
     throw core::InputError(

@@ -104,7 +104,7 @@ std::vector<Votes> votes_of(const pairing::Boundary<Dim>& boundary, const std::v
     const pairing::Projection<Dim> p = closest(boundary, tree, x, query);
     if (p.feature == projection::Feature::none || p.facet < 0) continue;
     if (part[at(p.facet)] < 0 || (p.beyond_end && !beyond_ends)) continue;
-    const pairing::ProjectedPoint<Dim> placed = place(boundary, p, query.point, x);
+    const pairing::ProjectedPoint<Dim> placed = projected_point(boundary, p, query.point, x);
     const bool on_face = p.feature == projection::Feature::face;
     const Vec<Dim> normal = on_face ? placed.kinematics.normal : p.outward;
     votes[at(part[at(p.facet)])].add(normal.dot(seat.inside - placed.foot), seat.node);

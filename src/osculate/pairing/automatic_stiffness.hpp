@@ -20,7 +20,7 @@ inline constexpr double usual_spread = 3;
 ///
 /// Formula    ratio / s for ratio > s ,  s ratio for ratio < 1 / s ,  else 1 ;  s = usual_spread
 /// Tested by  tests/unit/deck/test_point_penalties.cpp, tests/unit/embed/test_automatic_penalty.cpp
-[[nodiscard]] inline double own_share(double ratio) {
+[[nodiscard]] inline double own_factor(double ratio) {
   if (ratio > usual_spread) return ratio / usual_spread;
   if (ratio < 1 / usual_spread) return ratio * usual_spread;
   return 1;

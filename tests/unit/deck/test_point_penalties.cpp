@@ -10,12 +10,12 @@ namespace {
 using pairing::RelativeStiffness;
 
 TEST(OwnShare, IsOneInTheMiddleAndContinuous) {
-  for (const double ratio : {1.0 / 3, 0.5, 1.0, 2.9, 3.0}) EXPECT_EQ(own_share(ratio), 1) << ratio;
-  EXPECT_DOUBLE_EQ(own_share(300), 100);
-  EXPECT_DOUBLE_EQ(own_share(1.0 / 300), 1.0 / 100);
+  for (const double ratio : {1.0 / 3, 0.5, 1.0, 2.9, 3.0}) EXPECT_EQ(own_factor(ratio), 1) << ratio;
+  EXPECT_DOUBLE_EQ(own_factor(300), 100);
+  EXPECT_DOUBLE_EQ(own_factor(1.0 / 300), 1.0 / 100);
   for (const double border : {3.0, 1.0 / 3})
     for (const double beside : {1 - 1e-9, 1 + 1e-9})
-      EXPECT_NEAR(own_share(border * beside), 1, 2e-9);
+      EXPECT_NEAR(own_factor(border * beside), 1, 2e-9);
 }
 
 /// Height of cell k of the lowest row, and its stiffness.
@@ -53,7 +53,7 @@ void expect_own_penalties(const Graded& g) {
   ASSERT_EQ(pair.relative_stiffness.size(), 41u);
   for (std::size_t i = 0; i < 41; ++i) {
     const auto k = static_cast<int>(std::lround(column_of(g, built, i)));
-    const double own = own_share(stiffness_at(g, k) / mean);
+    const double own = own_factor(stiffness_at(g, k) / mean);
     EXPECT_NEAR(pairing::relative_stiffness(pair, i).normal, own, 1e-9 * own) << k;
     EXPECT_NEAR(pairing::point_penalty(pair, i).normal, 10 * own * mean, 1e-8 * own * mean);
   }
@@ -103,7 +103,7 @@ TEST(PointPenalties, OfQuadraturePointsAreThoseOfTheirFacet) {
   ASSERT_EQ(d.relative_stiffness.size(), 80u);
   for (std::size_t i = 0; i < 80; ++i) {
     const auto k = static_cast<int>(std::floor(column_of(g, built, i)));
-    EXPECT_NEAR(d.relative_stiffness[i].normal, own_share(stiffness_of(g, k) / mean_stiffness(g)),
+    EXPECT_NEAR(d.relative_stiffness[i].normal, own_factor(stiffness_of(g, k) / mean_stiffness(g)),
                 1e-9 * d.relative_stiffness[i].normal);
     EXPECT_NEAR(built.model.pairs.at(0).heights[i], height_of(g, k), 1e-12);
   }
@@ -128,7 +128,7 @@ TEST(PointPenalties, SeeTheNearestPlaceOfTheMaster) {
       if (nodes && std::lround(column) % 40 == 0) continue;  // the floor is longer
       const double own = nodes ? stiffness_at(g, static_cast<int>(std::lround(column)))
                                : stiffness_of(g, static_cast<int>(std::floor(column)));
-      const double factor = own_share(10 * own / 2 / eps);
+      const double factor = own_factor(10 * own / 2 / eps);
       EXPECT_NEAR(pair.definition.relative_stiffness[i].normal, factor, 1e-9 * factor) << column;
       if (nodes) continue;
       EXPECT_NEAR(pair.heights[i], height_of(g, static_cast<int>(std::floor(column))), 1e-12);
@@ -293,7 +293,7 @@ steps: [{name: s, increments: 1, prescribe: [{on: high.top, ux: 0, uy: 0, uz: -0
   for (std::size_t i = 0; i < 10; ++i) {
     const double x = built.model.reference[static_cast<std::size_t>(d.slave.nodes[i])].x();
     const double own = x == 0 ? cell(0) : x == 4 ? cell(3) : 0.5 * (cell(x - 1) + cell(x));
-    EXPECT_NEAR(d.relative_stiffness[i].normal, own_share(own / mean),
+    EXPECT_NEAR(d.relative_stiffness[i].normal, own_factor(own / mean),
                 1e-9 * d.relative_stiffness[i].normal)
         << x;
   }

@@ -1,11 +1,12 @@
 #pragma once
-// What stands behind the surfaces of a contact; not for users.
+// What stands behind the surfaces of a contact.
 #include <limits>
 #include <span>
+#include <vector>
 
-#include "osculate/deck/build_context.hpp"
+#include "osculate/model/model.hpp"
 
-namespace osculate::deck {
+namespace osculate::model {
 
 /// A layer of cells behind a place, a facet or a whole side. All zero: what is there is rigid.
 struct Layer {
@@ -21,6 +22,18 @@ struct LayerSum {
   Layer sum;
 };
 
+/// The deformable cells at each node of a model.
+template <int Dim>
+struct CellsOfNodes {
+  struct Cell {
+    mesh::CellRef ref;
+    double young = 0, shear = 0;  ///< E and G of the unloaded material
+  };
+  std::vector<std::vector<Cell>> at;
+
+  explicit CellsOfNodes(const BasicModel<Dim>& model);
+};
+
 /// Average over the areas of layers that lie beside each other.
 ///
 /// Formula    sum_k A_k v_k / sum_k A_k for E/h, G/h and h
@@ -31,19 +44,22 @@ struct LayerSum {
 /// Formula    height h = twice the distance of the cell's middle from the facet; E and G of the
 ///            unloaded material
 template <int Dim>
-[[nodiscard]] std::vector<LayerSum> layers_behind(BuildContext<Dim>& context,
+[[nodiscard]] std::vector<LayerSum> layers_behind(const BasicModel<Dim>& model,
+                                                  const CellsOfNodes<Dim>& cells,
                                                   const pairing::Boundary<Dim>& side);
 /// The cells around each node, for points without facets.
 ///
 /// Formula    h: the height of a cube whose middle is as far away, 2 distance / sqrt(Dim)
 template <int Dim>
-[[nodiscard]] std::vector<LayerSum> layers_behind(BuildContext<Dim>& context,
+[[nodiscard]] std::vector<LayerSum> layers_behind(const BasicModel<Dim>& model,
+                                                  const CellsOfNodes<Dim>& cells,
                                                   const std::vector<Index>& nodes);
 
 /// The cells behind each point of the slave, from those behind its facets: the facet's own, at
 /// nodes the average of the facets around; at nodes without facets the cells around.
 template <int Dim>
-[[nodiscard]] std::vector<Layer> layers_at_points(BuildContext<Dim>& context,
+[[nodiscard]] std::vector<Layer> layers_at_points(const BasicModel<Dim>& model,
+                                                  const CellsOfNodes<Dim>& cells,
                                                   const pairing::SlaveSide<Dim>& slave,
                                                   const std::vector<LayerSum>& of_facets);
 
@@ -59,4 +75,4 @@ template <int Dim>
                                                const std::vector<LayerSum>& of_facets,
                                                const Layer& otherwise);
 
-}  // namespace osculate::deck
+}  // namespace osculate::model
