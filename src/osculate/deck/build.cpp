@@ -57,6 +57,17 @@ model::AnalysisOptions analysis_options(const Solver& solver) {
 
 }  // namespace
 
+void check_durations(const Description& description, const std::optional<core::SourceMark>& timed,
+                     std::string_view what) {
+  if (!timed) return;
+  for (const Step& step : description.steps)
+    if (!step.duration)
+      throw core::InputError(*timed,
+                             fmt::format("{} needs the duration of every step, and step '{}' has "
+                                         "none",
+                                         what, step.name.value));
+}
+
 void require_in_plane(const mesh::Mesh& mesh, const core::SourceMark& mark) {
   for (std::size_t n = 0; n < mesh.nodes.size(); ++n)
     if (std::abs(mesh.nodes[n].z()) > 1e-12 * (1 + mesh.nodes[n].norm()))

@@ -8,18 +8,6 @@
 namespace osculate::deck {
 namespace {
 
-/// A speed needs a time.
-template <int Dim>
-void check_durations(const BuildContext<Dim>& c, const std::optional<core::SourceMark>& by_speed,
-                     const char* what) {
-  if (!by_speed) return;
-  for (const Step& step : c.description.steps)
-    if (!step.duration)
-      throw core::InputError(
-          *by_speed, fmt::format("{} needs the duration of every step, and step '{}' has none",
-                                 what, step.name.value));
-}
-
 template <int Dim>
 void set_separation(const BuildContext<Dim>& c, const Contact& contact,
                     pairing::PairDefinition<Dim>& pair) {
@@ -50,10 +38,10 @@ void set_laws(const BuildContext<Dim>& c, const Contact& contact,
   pair.offset = contact.offset;
   if (n.damping) {
     pair.damping = n.damping->law;
-    check_durations(c, n.damping->timed, "damping that depends on speed");
+    check_durations(c.description, n.damping->timed, "damping that depends on speed");
   }
   if (contact.friction) {
-    check_durations(c, contact.friction->timed, "friction that depends on speed");
+    check_durations(c.description, contact.friction->timed, "friction that depends on speed");
     const bool may_part = n.separation.value == SeparationWord::allowed;
     pair.friction = may_part ? contact::parting(contact.friction->law) : contact.friction->law;
   }

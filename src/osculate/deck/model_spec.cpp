@@ -2,11 +2,25 @@
 
 #include <fmt/format.h>
 
+#include "osculate/core/text.hpp"
 #include "osculate/deck/description.hpp"
 #include "osculate/deck/params.hpp"
 #include "osculate/material/law.hpp"
 
 namespace osculate::deck {
+namespace {
+
+/// Keys of the materials that are such, one after the other.
+template <class Is>
+std::string keys_of(const Is& is) {
+  std::vector<std::string> keys;
+  material::for_each_law([&](const auto& law) {
+    if (is(law)) keys.emplace_back(law.key);
+  });
+  return core::join(keys);
+}
+
+}  // namespace
 
 Spec point_spec(std::string doc) {
   return list(std::move(doc), number("One coordinate.").in("length")).count(2, 2).such_as("[0, 1]");
@@ -99,8 +113,8 @@ Spec sections_spec() {
       choice("How strains are measured.",
              {word("small", Kinematics::small, "linear in the displacements"),
               word("finite", Kinematics::finite, "exact for any displacement and rotation")})
-          .otherwise_as(
-              "small for linear_elastic and elastoplastic, finite for the other materials")
+          .otherwise_as("small for " + keys_of([](const auto& law) { return !law.finite_strain; }) +
+                        ", finite for the other materials")
           .such_as("finite");
   const Spec formulation =
       choice(
@@ -108,8 +122,9 @@ Spec sections_spec() {
           "displacement elements.",
           {word("auto", Formulation::automatic,
                 "enhanced; of neo_hooke, where enhanced strains are unstable in large compression, "
-                "and of elastoplastic, where they hardly converge without hardening, bbar, in "
-                "plane stress full"),
+                "and of " +
+                    keys_of([]<class T>(const T&) { return material::Remembers<T>; }) +
+                    ", where they hardly converge without hardening, bbar, in plane stress full"),
            word("full", Formulation::full,
                 "plain displacement element, full integration: too stiff in bending and near "
                 "nu = 0.5 (CalculiX' C3D8, Abaqus' CPS4; Abaqus' C3D8 is bbar)"),

@@ -4,44 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "osculate/material/radial_return.hpp"
+
 namespace osculate::material {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-/// What a point remembers.
-struct Plastic {
-  double equivalent = 0;
-  Vec<6> strain = Vec<6>::Zero();  ///< tensor components
-};
-
-Plastic read(const double* state) {
-  if (!state) return {};
-  return {state[0], Eigen::Map<const Vec<6>>(state + 1)};
-}
-
-void write(const Plastic& p, const Memory& memory) {
-  if (!memory.next) return;
-  memory.next[0] = p.equivalent;
-  Eigen::Map<Vec<6>>(memory.next + 1) = p.strain;
-}
-
-Vec<6> deviator(Vec<6> v) {
-  const double mean = v.head<3>().mean();
-  v.head<3>().array() -= mean;
-  return v;
-}
-
-/// Of a symmetric tensor.
-double norm(const Vec<6>& v) {
-  return std::sqrt(v.head<3>().squaredNorm() + 2 * v.tail<3>().squaredNorm());
-}
-
-/// Elastic strain, tensor components.
-Vec<6> elastic_strain(Vec<6> strain, const Vec<6>& plastic) {
-  strain.tail<3>() *= 0.5;
-  return strain - plastic;
-}
 
 bool yields(const J2Plasticity& law) { return law.yield > 0 || !law.hardening.empty(); }
 double initial_yield(const J2Plasticity& law) {
@@ -104,38 +72,27 @@ YieldStress yield_stress(const J2Plasticity& law, double plastic) {
 
 Response3 respond(const J2Plasticity& law, const Strain3& strain, Memory memory) {
   const Lame c = lame(law.young, law.poisson);
-  Plastic now = read(memory.committed);
-  const Vec<6> elastic = elastic_strain(strain, now.strain);
-  Response3 r;
-  r.tangent.topLeftCorner<3, 3>().setConstant(c.lambda);
-  r.tangent.diagonal().head<3>().array() += 2 * c.mu;
-  r.tangent.diagonal().tail<3>().setConstant(c.mu);
-  r.stress = 2 * c.mu * elastic;
-  r.stress.head<3>().array() += c.lambda * elastic.head<3>().sum();
+  Inelastic now = inelastic_of(memory.committed);
+  Response3 r = elastic_predictor(c, elastic_strain(strain, now.strain));
   // The stress of a committed state is on the yield surface but for rounding: it is an elastic one.
   constexpr double rounding = 1e-12;
   const Vec<6> relative = deviator(r.stress) - 2.0 / 3 * law.kinematic * now.strain;
-  const double size = norm(relative), q = std::sqrt(1.5) * size;
+  const double size = tensor_norm(relative), q = std::sqrt(1.5) * size;
   const double limit = yield_stress(law, now.equivalent).value;
   r.ok = std::isfinite(q);
   if (!(q > (1 + rounding) * limit)) {
-    write(now, memory);
+    remember(now, memory);
     return r;
   }
   const auto [increment, slope] = flow(law, now.equivalent, q, 3 * c.mu + law.kinematic);
   const Vec<6> direction = relative / size;
   const Vec<6> step = std::sqrt(1.5) * increment * direction;
-  r.stress -= 2 * c.mu * step;
   now.equivalent += increment;
   now.strain += step;
-  write(now, memory);
-  // D = D_elastic - 2 G (1 - theta) I_dev - 2 G theta_n n n^T , theta = 1 - 3 G d / q
+  remember(now, memory);
   const double lost = 3 * c.mu * increment / q;
-  const double along = 3 * c.mu / (3 * c.mu + law.kinematic + slope) - lost;
-  r.tangent.topLeftCorner<3, 3>().array() += 2 * c.mu * lost / 3;
-  r.tangent.diagonal().head<3>().array() -= 2 * c.mu * lost;
-  r.tangent.diagonal().tail<3>().array() -= c.mu * lost;
-  r.tangent.noalias() -= 2 * c.mu * along * direction * direction.transpose();
+  return_radially(c.mu, step, direction, lost, 3 * c.mu / (3 * c.mu + law.kinematic + slope) - lost,
+                  r);
   return r;
 }
 
@@ -145,38 +102,15 @@ Response respond(const J2Plasticity& law, const Strain& strain, Memory memory) {
 
 Response respond_plane_stress(const J2Plasticity& law, const Strain& strain, double& strain_33,
                               Memory memory) {
-  const Plastic before = read(memory.committed);
-  const double share = -law.poisson / (1 - law.poisson);
-  Strain e = strain;
-  e[2] = before.strain[2] + share * (e[0] + e[1] - before.strain[0] - before.strain[1]);
-  Response r;
-  double smallest = infinite;
-  constexpr int most = 60;
-  for (int i = 0; i < most; ++i) {
-    r = respond(law, e, memory);
-    if (!r.ok) return r;
-    const double size = r.tangent.row(2).cwiseAbs() * e.cwiseAbs() + r.stress.cwiseAbs().sum();
-    const double rest = std::abs(r.stress[2]);
-    // rounding, or nearly so and not getting smaller any more
-    if (rest <= 1e-16 * size || (rest <= 1e-12 * size && rest >= 0.5 * smallest)) break;
-    smallest = std::min(smallest, rest);
-    e[2] -= r.stress[2] / r.tangent(2, 2);
-    r.ok = false;
-  }
-  strain_33 = e[2];
-  const Tangent full = r.tangent;
-  r.tangent -= full.col(2) * full.row(2) / full(2, 2);
-  r.tangent.row(2).setZero();
-  r.tangent.col(2).setZero();
-  r.stress[2] = 0;
-  return r;
+  return return_in_plane_stress(law, strain, strain_33, memory);
 }
 
 double energy_of(const J2Plasticity& law, const Strain3& strain, const double* state) {
   const Lame c = lame(law.young, law.poisson);
-  const Plastic p = read(state);
+  const Inelastic p = inelastic_of(state);
   const Vec<6> elastic = elastic_strain(strain, p.strain);
-  const double trace = elastic.head<3>().sum(), size = norm(elastic), plastic = norm(p.strain);
+  const double trace = elastic.head<3>().sum(), size = tensor_norm(elastic),
+               plastic = tensor_norm(p.strain);
   const double stored =
       0.5 * c.lambda * trace * trace + c.mu * size * size + law.kinematic / 3 * plastic * plastic;
   return yields(law) ? stored + hardening_energy(law, p.equivalent) : stored;

@@ -91,7 +91,6 @@ constexpr std::array<core::Param<J2Plasticity>, 7> J2Plasticity::params() {
 
 [[nodiscard]] Response3 respond(const J2Plasticity& law, const Strain3& strain, Memory memory);
 [[nodiscard]] Response respond(const J2Plasticity& law, const Strain& strain, Memory memory);
-/// S33 = 0 by Newton to round-off for E33, the tangent condensed.
 [[nodiscard]] Response respond_plane_stress(const J2Plasticity& law, const Strain& strain,
                                             double& strain_33, Memory memory);
 

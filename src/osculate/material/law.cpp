@@ -59,6 +59,16 @@ std::span<const Remembered> memory_of(const Law& law) {
   return std::visit(of, law);
 }
 
+bool needs_duration(const Law& law) {
+  return std::visit(
+      [](const auto& m) {
+        bool timed = false;
+        for (const auto& p : std::decay_t<decltype(named(m))>::params()) timed = timed || p.timed;
+        return timed;
+      },
+      law);
+}
+
 bool has_logarithmic_form(const Law& law) {
   return std::visit(
       []<class T>(const T&) {

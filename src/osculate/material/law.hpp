@@ -13,6 +13,8 @@ namespace osculate::material {
 [[nodiscard]] bool linear(const Law& law);
 /// What each material point remembers; empty: nothing.
 [[nodiscard]] std::span<const Remembered> memory_of(const Law& law);
+/// Whether increments have to take time.
+[[nodiscard]] bool needs_duration(const Law& law);
 /// A law of small strains that may also be used in the logarithmic strain, and its form for that.
 /// Other laws stay as they are.
 [[nodiscard]] bool has_logarithmic_form(const Law& law);

@@ -20,10 +20,11 @@ struct Memory {
   const double* committed = nullptr;  ///< null: all zero
   double* next = nullptr;             ///< null: not asked for
   std::size_t size = 0;               ///< numbers a point
+  double duration = 0;                ///< of the increment, for laws that depend on time
 
   [[nodiscard]] Memory at(std::size_t point) const {
     return {committed ? committed + point * size : nullptr, next ? next + point * size : nullptr,
-            size};
+            size, duration};
   }
 };
 

@@ -14,11 +14,11 @@ struct CellMemory {
   std::size_t size = 0;   ///< numbers a point
   std::size_t count = 0;  ///< of the cell
 
-  /// `next` may be empty: what comes next is not asked for.
-  [[nodiscard]] material::Memory of(std::span<const double> committed,
-                                    std::span<double> next = {}) const {
+  /// `next` may be empty: what comes next is not asked for. `duration` of the increment.
+  [[nodiscard]] material::Memory of(std::span<const double> committed, std::span<double> next = {},
+                                    double duration = 0) const {
     if (size == 0) return {};
-    return {committed.data() + first, next.empty() ? nullptr : next.data() + first, size};
+    return {committed.data() + first, next.empty() ? nullptr : next.data() + first, size, duration};
   }
 };
 

@@ -59,7 +59,7 @@ void BasicSystem<Dim>::Impl::measure_damping(const State& committed) {
   for (std::size_t c = 0; c < jobs.size(); ++c) {
     const bool finite = jobs[c].section->section.kinematics == solid::Kinematics::finite;
     if (!first && !finite) continue;
-    evaluate_job(c, committed.u, committed.memory, {}, true, block);
+    evaluate_job(c, committed.u, committed.memory, {}, 0, true, block);
     motion->damping[c] = factor * block.result.tangent;
   }
 }

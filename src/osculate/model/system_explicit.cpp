@@ -114,7 +114,7 @@ void BasicSystem<Dim>::Impl::Explicit::place(const Vector& position) {
 /// Forces of the cells by themselves, then their sums at the nodes in a fixed order: the bits do
 /// not depend on the number of threads.
 template <int Dim>
-bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u) {
+bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
   const Stopwatch watch;
   const auto count = static_cast<std::ptrdiff_t>(system.jobs.size());
   const auto nodes = static_cast<std::ptrdiff_t>(x.size());
@@ -126,7 +126,7 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u) {
     for (std::ptrdiff_t c = 0; c < count; ++c) {
       const CellJob& job = system.jobs[static_cast<std::size_t>(c)];
       system.linear.force(static_cast<std::size_t>(c), system.model, *job.section, job.cell, u,
-                          job.memory.of(now.memory, system.next_memory), block);
+                          job.memory.of(now.memory, system.next_memory, h), block);
       if (!block.ok) failed = std::min(failed, c);
       std::copy_n(block.result.force.data(), block.dof_count,
                   cell_forces.begin() +
@@ -143,7 +143,7 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u) {
   }
   system.seconds.bulk += watch.seconds();
   if (failed == count) return true;
-  system.evaluate_job(static_cast<std::size_t>(failed), u, now.memory, {}, false, work.front());
+  system.evaluate_job(static_cast<std::size_t>(failed), u, now.memory, {}, h, false, work.front());
   trouble = work.front().message;
   return false;
 }
@@ -335,7 +335,7 @@ bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::
   past_damping.swap(damping_force);
   place(m.position);
   const double fraction = time / system.step.duration;
-  if (!add_cells(m.position)) return false;
+  if (!add_cells(m.position, h)) return false;
   now.memory.swap(system.next_memory);
   add_contact(h, fraction);
   commit_contact();

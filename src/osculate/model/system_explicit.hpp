@@ -86,7 +86,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   void make_gather();
   void load(const State& committed);
   void place(const Vector& position);
-  [[nodiscard]] bool add_cells(const Vector& u);
+  [[nodiscard]] bool add_cells(const Vector& u, double h);
   void add_contact(double h, double fraction);
   void commit_contact();
   void add_loads(double fraction);

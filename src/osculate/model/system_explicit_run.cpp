@@ -122,7 +122,7 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   State start = committed;
   start.rates = rates;
   load(start);
-  if (!add_cells(motion.position)) return rates;  // the first time step says why
+  if (!add_cells(motion.position, 0)) return rates;  // the first time step says why
   add_contact(0, 0);
   add_loads(0);
   sum_forces();

@@ -195,14 +195,17 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::prescribed_increment(const State& s,
 }
 
 template <int Dim>
-bool BasicSystem<Dim>::Impl::add_bulk(const State& committed, const State& trial, bool with_tangent,
-                                      const Eigen::VectorXd* inc, solve::Evaluation& out) {
+bool BasicSystem<Dim>::Impl::add_bulk(const State& committed, const State& trial, double fraction,
+                                      bool with_tangent, const Eigen::VectorXd* inc,
+                                      solve::Evaluation& out) {
+  const double duration = time_between(committed, fraction);
   for (std::size_t start = 0; start < jobs.size(); start += tile) {
     const std::size_t count = std::min(tile, jobs.size() - start);
     const Stopwatch watch;
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::size_t i = 0; i < count; ++i) {
-      evaluate_job(start + i, trial.u, committed.memory, next_memory, with_tangent, blocks[i]);
+      evaluate_job(start + i, trial.u, committed.memory, next_memory, duration, with_tangent,
+                   blocks[i]);
     }
     seconds.bulk += watch.seconds();
     for (std::size_t i = 0; i < count; ++i) {
@@ -439,7 +442,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State&
         inc.head(Dim * static_cast<Eigen::Index>(x.size())).template lpNorm<Eigen::Infinity>();
   }
   const Eigen::VectorXd* increment = predict ? &inc : nullptr;
-  if (on(Term::bulk) && !add_bulk(committed, trial, with_tangent, increment, out)) return;
+  if (on(Term::bulk) && !add_bulk(committed, trial, fraction, with_tangent, increment, out)) return;
   if (on(Term::contact))
     add_contact(committed, trial, fraction, x, with_tangent, increment, pass == Pass::iterate, out);
   if (on(Term::pressure)) add_pressure(trial, fraction, with_tangent, increment);

@@ -288,14 +288,14 @@ struct BasicSystem<Dim>::Impl {
   // The terms. `inc` (may be null) is the prescribed increment that `predicted` takes up.
   void clear(bool with_tangent);
   /// A cell at the nodal displacements `u` after what its points remember. Different cells may be
-  /// evaluated at once. `next` may be empty.
+  /// evaluated at once. `next` may be empty; `duration` of the increment.
   void evaluate_job(std::size_t job, const Eigen::VectorXd& u, std::span<const double> memory,
-                    std::span<double> next, bool with_tangent, BulkBlock& out) {
+                    std::span<double> next, double duration, bool with_tangent, BulkBlock& out) {
     const CellJob& j = jobs[job];
-    linear.evaluate(job, model, *j.section, j.cell, u, j.memory.of(memory, next), with_tangent,
-                    out);
+    linear.evaluate(job, model, *j.section, j.cell, u, j.memory.of(memory, next, duration),
+                    with_tangent, out);
   }
-  bool add_bulk(const State& committed, const State& trial, bool with_tangent,
+  bool add_bulk(const State& committed, const State& trial, double fraction, bool with_tangent,
                 const Eigen::VectorXd* inc, solve::Evaluation& out);
   /// The last evaluation of contact, at `trial`, in whole: see pairing::look_far.
   void look_far(const State& trial);

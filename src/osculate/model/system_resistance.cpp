@@ -37,7 +37,7 @@ void BasicSystem<Dim>::Impl::measure_resistance() {
   const std::vector<double> untouched(next_memory.size(), 0.0);
   BulkBlock block;
   for (std::size_t j = 0; j < jobs.size(); ++j) {
-    evaluate_job(j, rest, untouched, {}, true, block);
+    evaluate_job(j, rest, untouched, {}, 0, true, block);
     for (int k = 0; block.ok && k < block.dof_count; ++k)
       diagonal[block.dofs[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
   }
