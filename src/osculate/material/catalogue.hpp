@@ -6,12 +6,13 @@
 #include "osculate/material/linear_elastic.hpp"
 #include "osculate/material/logarithmic.hpp"
 #include "osculate/material/neo_hooke.hpp"
+#include "osculate/material/norton.hpp"
 #include "osculate/material/st_venant_kirchhoff.hpp"
 
 namespace osculate::material {
 
 using Law = std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
-                         Logarithmic<J2Plasticity>>;
+                         Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>>;
 
 /// A law that has a key in the model file; the others are forms of such laws.
 template <class T>

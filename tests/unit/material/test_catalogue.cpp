@@ -25,7 +25,7 @@ TEST(Catalogue, EachLawDescribesItselfAndItsParameters) {
       EXPECT_TRUE(names.contains(name)) << law.key;
   });
   EXPECT_EQ(keys, (std::set<std::string_view>{"linear_elastic", "st_venant_kirchhoff", "neo_hooke",
-                                              "elastoplastic"}));
+                                              "elastoplastic", "norton"}));
 }
 
 TEST(Catalogue, ParametersAreWrittenThroughTheirSlots) {

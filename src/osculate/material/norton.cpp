@@ -1,0 +1,75 @@
+#include "osculate/material/norton.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osculate/material/radial_return.hpp"
+
+namespace osculate::material {
+namespace {
+
+constexpr std::size_t dissipation = 7;  ///< among what is remembered
+
+/// The root q of q + c q^n = q_tr and dq/dq_tr: both sides bound it from above, the function is
+/// convex and rises, so Newton's method comes down to it.
+struct Left {
+  double q, slope;
+};
+Left left_of(double predictor, double c, double n) {
+  if (!(c > 0) || !(predictor > 0)) return {predictor, 1};
+  constexpr int most = 100;
+  constexpr double rounding = 4e-16;
+  double q = std::min(predictor, std::pow(predictor / c, 1 / n));
+  for (int i = 0; i < most; ++i) {
+    const double power = c * std::pow(q, n);
+    const double step = (q + power - predictor) / (1 + n * power / q);
+    q -= step;
+    if (!(step > rounding * q)) break;
+  }
+  return {q, 1 / (1 + n * c * std::pow(q, n - 1))};
+}
+
+}  // namespace
+
+Response3 respond(const Norton& law, const Strain3& strain, Memory memory) {
+  const Lame c = lame(law.young, law.poisson);
+  Inelastic now = inelastic_of(memory.committed);
+  Response3 r = elastic_predictor(c, elastic_strain(strain, now.strain));
+  const Vec<6> s = deviator(r.stress);
+  const double size = tensor_norm(s), predictor = std::sqrt(1.5) * size;
+  const double stiffness = 3 * c.mu;
+  const auto [q, slope] = left_of(predictor, stiffness * memory.duration * law.rate, law.exponent);
+  r.ok = std::isfinite(q);
+  double work = memory.committed ? memory.committed[dissipation] : 0;
+  if (q < predictor) {
+    const double increment = (predictor - q) / stiffness;
+    const Vec<6> direction = s / size, step = std::sqrt(1.5) * increment * direction;
+    now.equivalent += increment;
+    now.strain += step;
+    work += q * increment;
+    return_radially(c.mu, step, direction, 1 - q / predictor, q / predictor - slope, r);
+  }
+  remember(now, memory);
+  if (memory.next) memory.next[dissipation] = work;
+  return r;
+}
+
+Response respond(const Norton& law, const Strain& strain, Memory memory) {
+  return in_plane(respond(law, in_space(strain), memory));
+}
+
+Response respond_plane_stress(const Norton& law, const Strain& strain, double& strain_33,
+                              Memory memory) {
+  return return_in_plane_stress(law, strain, strain_33, memory);
+}
+
+double energy_of(const Norton& law, const Strain3& strain, const double* state) {
+  const Lame c = lame(law.young, law.poisson);
+  const Vec<6> elastic = elastic_strain(strain, inelastic_of(state).strain);
+  const double trace = elastic.head<3>().sum(), size = tensor_norm(elastic);
+  return 0.5 * c.lambda * trace * trace + c.mu * size * size;
+}
+
+double dissipated_by(const Norton&, const double* state) { return state ? state[dissipation] : 0; }
+
+}  // namespace osculate::material
