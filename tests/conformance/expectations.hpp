@@ -2,6 +2,7 @@
 // What every combination of the axes must do.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -38,6 +39,85 @@ void expect_increment(const deck::BasicBuilt<Dim>& built) {
   ASSERT_EQ(result.outcome, solve::Outcome::converged) << result.message;
   EXPECT_GT(row[0], 1e-3);
   EXPECT_NEAR(row[0], -row[1], 1e-7 * row[0]);
+}
+
+/// A contact pair in its model, moved from where it was built.
+template <int Dim>
+struct Moved {
+  const pairing::PairDefinition<Dim>& pair;
+  std::vector<Vec<Dim>> start, x;
+
+  /// The slave pressed by `depth`, and everything a little wavy.
+  Moved(const model::BasicModel<Dim>& model, const Vec<Dim>& motion)
+      : pair(model.pairs[0].definition), start(model.reference), x(model.reference) {
+    for (const Index n : pair.slave.nodes) x[static_cast<std::size_t>(n)] += motion;
+    for (std::size_t n = 0; n < x.size(); ++n)
+      for (int i = 0; i < Dim; ++i)
+        x[n][i] += 1e-3 * std::sin(3.7 * static_cast<double>(n) + 1.9 * i);
+  }
+  [[nodiscard]] pairing::PairState<Dim> initial() const {
+    return pairing::initial_state<Dim>(pair, start);
+  }
+  /// Forces on all nodes; `next` (may be null) is what would be committed.
+  [[nodiscard]] std::vector<Vec<Dim>> forces(const pairing::PairState<Dim>& committed,
+                                             pairing::PairState<Dim>* next = nullptr) const {
+    pairing::PairEvaluation<Dim> e;
+    const auto multipliers = pairing::initial_multipliers<Dim>(pair, committed);
+    const bool corrected = pair.enforcement != contact::Enforcement::penalty;
+    pairing::evaluate<Dim>(pair, x, committed, false, e, {}, corrected ? &multipliers : nullptr);
+    std::vector<Vec<Dim>> sum(x.size(), Vec<Dim>::Zero());
+    for (const pairing::ContactBlock<Dim>& block : e.blocks)
+      for (int k = 0; k < block.count; ++k)
+        sum[static_cast<std::size_t>(block.nodes[static_cast<std::size_t>(k)])] +=
+            block.force.template segment<Dim>(Dim * k);
+    if (next) *next = pairing::commit<Dim>(e);
+    return sum;
+  }
+};
+
+template <int Dim>
+double largest(const std::vector<Vec<Dim>>& forces) {
+  double size = 0;
+  for (const Vec<Dim>& f : forces) size = std::max(size, f.norm());
+  return size;
+}
+
+/// Forces that a contact gives sum up to nothing, and turn with everything.
+inline void expect_balance_and_indifference(const model::Model& model) {
+  Moved<2> here(model, Vec2(0.004, -0.03));
+  const std::vector<Vec2> f = here.forces(here.initial());
+  const double size = largest<2>(f);
+  ASSERT_GT(size, 1e-3);
+  Vec2 sum = Vec2::Zero();
+  for (const Vec2& one : f) sum += one;
+  EXPECT_LT(sum.norm(), 1e-12 * size);
+  const double angle = 0.7;
+  const Mat<2, 2> turned{{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}};
+  Moved<2> there = here;
+  for (std::vector<Vec2>* const all : {&there.start, &there.x})
+    for (Vec2& x : *all) x = turned * x + Vec2(5, -3);
+  const std::vector<Vec2> g = there.forces(there.initial());
+  for (std::size_t n = 0; n < f.size(); ++n)
+    EXPECT_LT((g[n] - turned * f[n]).norm(), 1e-10 * size) << "node " << n;
+}
+
+/// A way along the master while all points stick, and back: the forces are those of before.
+inline void expect_reversibility(const model::Model& model) {
+  Moved<2> here(model, Vec2(0, -0.03));
+  pairing::PairState<2> pressed, dragged;
+  (void)here.forces(here.initial(), &pressed);
+  const std::vector<Vec2> before = here.forces(pressed);
+  Moved<2> away = here;
+  for (const Index n : here.pair.slave.nodes) away.x[static_cast<std::size_t>(n)] += Vec2(5e-4, 0);
+  const std::vector<Vec2> there = away.forces(pressed, &dragged);
+  for (const contact::PointHistory<2>& h : dragged.points) ASSERT_FALSE(h.slipping);
+  const std::vector<Vec2> after = here.forces(dragged);
+  double change = 0;
+  for (std::size_t n = 0; n < after.size(); ++n) {
+    change = std::max(change, (there[n] - before[n]).norm());
+    EXPECT_LT((after[n] - before[n]).norm(), 1e-10 * largest<2>(before)) << "node " << n;
+  }
+  EXPECT_GT(change, 1e-4);
 }
 
 }  // namespace osculate::testing

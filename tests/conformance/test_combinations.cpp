@@ -1,6 +1,6 @@
 // Every sampling with every target, law, enforcement and form: what the table of combinations
-// refuses is refused with its sentence, everything else has the right tangent and converges with
-// forces in balance.
+// refuses is refused with its sentence, everything else has the right tangent, forces in balance
+// that turn with the frame and, where all points stick, come back on the way back; and converges.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -65,6 +65,11 @@ struct Choice {
       for (const Trait t : value->traits) all.add(t);
     return all;
   }
+  /// Springs along the master that keep what was put into them.
+  [[nodiscard]] bool reverses() const {
+    return friction != "none" && enforcement.text == "penalty" &&
+           normal.text.find("damping") == std::string::npos;
+  }
   [[nodiscard]] std::string model() const {
     const std::string master = on_line() ? "target" : "base.top" + target.text.substr(4);
     return fmt::format(
@@ -112,7 +117,7 @@ void for_each_choice(const Visit& visit) {
 }
 
 TEST(Combinations, AreRefusedWithTheSentenceOfTheTableOrConform) {
-  int refused = 0, conforming = 0;
+  int refused = 0, conforming = 0, reversed = 0;
   for_each_choice([&](const Choice& choice) {
     const std::string text = choice.model();
     SCOPED_TRACE(text);
@@ -127,10 +132,16 @@ TEST(Combinations, AreRefusedWithTheSentenceOfTheTableOrConform) {
     ASSERT_EQ(said, "");
     ++conforming;
     testing::expect_tangent(api::check_tangent(built->model, 1));
+    testing::expect_balance_and_indifference(built->model);
+    if (choice.reverses()) {
+      testing::expect_reversibility(built->model);
+      ++reversed;
+    }
     if (choice.form.text != "tangent: covariant") testing::expect_increment<2>(*built);
   });
   EXPECT_GT(refused, 200);
   EXPECT_GT(conforming, 200);
+  EXPECT_GT(reversed, 40);
 }
 
 }  // namespace

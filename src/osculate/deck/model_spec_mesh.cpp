@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "osculate/deck/description.hpp"
 #include "osculate/deck/model_spec.hpp"
 #include "osculate/io/mesh_format.hpp"
@@ -308,11 +306,8 @@ Spec generated_spec() {
 }
 
 Spec file_spec() {
-  std::string formats;
-  for (const io::MeshFormat& format : io::mesh_formats())
-    formats +=
-        fmt::format("{}{} ({})", formats.empty() ? "" : " or ", format.name, format.extension);
-  return text("Name of a mesh file, " + formats + ", relative to the folder of the model file.")
+  return text("Name of a mesh file, " + io::mesh_format_names() +
+              ", relative to the folder of the model file.")
       .such_as("block.msh");
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "osculate/deck/parse_parts.hpp"
+#include "osculate/io/mesh_format.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -313,12 +314,11 @@ std::string path_beside(const std::string& model_file, const std::string& mesh_f
 
 void require_mesh_format(const Name& file) {
   const std::string ending = std::filesystem::path(file.value).extension().string();
-  if (ending == ".msh") return;
+  if (io::mesh_format_of(file.value, {})) return;
   throw core::InputError(file.mark, ending == ".inp"
                                         ? std::string("Abaqus decks are not read yet")
-                                        : fmt::format("expected a Gmsh file that ends in .msh, got "
-                                                      "{}",
-                                                      quoted(file.value)));
+                                        : fmt::format("expected a mesh file, {}, got {}",
+                                                      io::mesh_format_names(), quoted(file.value)));
 }
 
 mesh::Placement placement_of(const Value& v) {

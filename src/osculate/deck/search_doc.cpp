@@ -20,10 +20,13 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 25> synonyms{{
+constexpr std::array<Synonym, 28> synonyms{{
     {"plasticity plastic yielding mises-plasticity j2 metal",
      "materials.elastoplastic: yield, hardening, isotropic, kinematic"},
-    {"creep viscoelastic damage", no},
+    {"creep norton relaxation", "materials.norton: A, n; every step needs a duration"},
+    {"viscoelastic damage", no},
+    {"rate-and-state velocity-weakening dieterich ruina", "contact.friction.rate_and_state"},
+    {"stl cad-surface", "mesh: files with the extension .stl, for rigid bodies"},
     {"bolt pretension preload gasket", no},
     {"thermal temperature heat expansion", no},
     {"shell membrane beam truss spring dashpot", no},

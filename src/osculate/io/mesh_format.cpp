@@ -1,5 +1,7 @@
 #include "osculate/io/mesh_format.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -18,7 +20,12 @@ constexpr std::array<MeshFormat, 2> formats{
 
 }  // namespace
 
-std::span<const MeshFormat> mesh_formats() { return formats; }
+std::string mesh_format_names() {
+  std::string all;
+  for (const MeshFormat& format : formats)
+    all += fmt::format("{}{} ({})", all.empty() ? "" : " or ", format.name, format.extension);
+  return all;
+}
 
 const MeshFormat* mesh_format_of(const std::string& name, std::string_view content) {
   std::string extension = std::filesystem::path(name).extension().string();

@@ -1,5 +1,4 @@
 #pragma once
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,8 +15,8 @@ struct MeshFormat {
   mesh::Mesh (*read)(std::string_view content, const std::string& name);
 };
 
-/// All there are.
-[[nodiscard]] std::span<const MeshFormat> mesh_formats();
+/// All there are in words: `Gmsh (.msh) or STL (.stl)`.
+[[nodiscard]] std::string mesh_format_names();
 
 /// By the extension of the name, else by the content; null: no format.
 [[nodiscard]] const MeshFormat* mesh_format_of(const std::string& name, std::string_view content);

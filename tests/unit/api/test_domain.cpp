@@ -33,7 +33,7 @@ TEST(Domain, CubeHasRidgesAndCones) {
   EXPECT_EQ(r.dimension, 3);
   EXPECT_EQ(r.ridges.count, 12);
   EXPECT_NEAR(r.ridges.largest, 90, 1e-12);
-  EXPECT_EQ(r.reentrant_vertices.count, 0);
+  EXPECT_EQ(r.valleys.count, 0);
   EXPECT_EQ(r.borders, 0);
   ASSERT_EQ(r.classes.size(), 1u);
   EXPECT_EQ(r.classes[0].first, "planar");
