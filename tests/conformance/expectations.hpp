@@ -2,6 +2,7 @@
 // What every combination of the axes must do.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -82,40 +83,61 @@ double largest(const std::vector<Vec<Dim>>& forces) {
   return size;
 }
 
-/// Forces that a contact gives sum up to nothing, and turn with everything.
-inline void expect_balance_and_indifference(const model::Model& model) {
-  Moved<2> here(model, Vec2(0.004, -0.03));
-  const std::vector<Vec2> f = here.forces(here.initial());
-  const double size = largest<2>(f);
-  ASSERT_GT(size, 1e-3);
-  Vec2 sum = Vec2::Zero();
-  for (const Vec2& one : f) sum += one;
-  EXPECT_LT(sum.norm(), 1e-12 * size);
+/// A rotation about an axis that is none of the frame's.
+template <int Dim>
+Mat<Dim, Dim> some_rotation() {
   const double angle = 0.7;
-  const Mat<2, 2> turned{{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}};
-  Moved<2> there = here;
-  for (std::vector<Vec2>* const all : {&there.start, &there.x})
-    for (Vec2& x : *all) x = turned * x + Vec2(5, -3);
-  const std::vector<Vec2> g = there.forces(there.initial());
+  if constexpr (Dim == 2)
+    return Mat<2, 2>{{std::cos(angle), -std::sin(angle)}, {std::sin(angle), std::cos(angle)}};
+  else
+    return Eigen::AngleAxisd(angle, Vec3(1, -2, 3).normalized()).toRotationMatrix();
+}
+
+/// Into the master, or along it.
+template <int Dim>
+Vec<Dim> motion(double along, double into) {
+  Vec<Dim> v = Vec<Dim>::Zero();
+  v[0] = along;
+  v[Dim - 1] = -into;
+  return v;
+}
+
+/// Forces that a contact gives sum up to nothing, and turn with everything.
+template <int Dim>
+void expect_balance_and_indifference(const model::BasicModel<Dim>& model) {
+  Moved<Dim> here(model, motion<Dim>(0.004, 0.03));
+  const std::vector<Vec<Dim>> f = here.forces(here.initial());
+  const double size = largest<Dim>(f);
+  ASSERT_GT(size, 1e-3);
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  for (const Vec<Dim>& one : f) sum += one;
+  EXPECT_LT(sum.norm(), 1e-12 * size);
+  const Mat<Dim, Dim> turned = some_rotation<Dim>();
+  Moved<Dim> there = here;
+  for (std::vector<Vec<Dim>>* const all : {&there.start, &there.x})
+    for (Vec<Dim>& x : *all) x = turned * x + Vec<Dim>::Constant(5);
+  const std::vector<Vec<Dim>> g = there.forces(there.initial());
   for (std::size_t n = 0; n < f.size(); ++n)
     EXPECT_LT((g[n] - turned * f[n]).norm(), 1e-10 * size) << "node " << n;
 }
 
 /// A way along the master while all points stick, and back: the forces are those of before.
-inline void expect_reversibility(const model::Model& model) {
-  Moved<2> here(model, Vec2(0, -0.03));
-  pairing::PairState<2> pressed, dragged;
+template <int Dim>
+void expect_reversibility(const model::BasicModel<Dim>& model) {
+  Moved<Dim> here(model, motion<Dim>(0, 0.03));
+  pairing::PairState<Dim> pressed, dragged;
   (void)here.forces(here.initial(), &pressed);
-  const std::vector<Vec2> before = here.forces(pressed);
-  Moved<2> away = here;
-  for (const Index n : here.pair.slave.nodes) away.x[static_cast<std::size_t>(n)] += Vec2(5e-4, 0);
-  const std::vector<Vec2> there = away.forces(pressed, &dragged);
-  for (const contact::PointHistory<2>& h : dragged.points) ASSERT_FALSE(h.slipping);
-  const std::vector<Vec2> after = here.forces(dragged);
+  const std::vector<Vec<Dim>> before = here.forces(pressed);
+  Moved<Dim> away = here;
+  for (const Index n : here.pair.slave.nodes)
+    away.x[static_cast<std::size_t>(n)] += motion<Dim>(5e-4, 0);
+  const std::vector<Vec<Dim>> there = away.forces(pressed, &dragged);
+  for (const contact::PointHistory<Dim>& h : dragged.points) ASSERT_FALSE(h.slipping);
+  const std::vector<Vec<Dim>> after = here.forces(dragged);
   double change = 0;
   for (std::size_t n = 0; n < after.size(); ++n) {
     change = std::max(change, (there[n] - before[n]).norm());
-    EXPECT_LT((after[n] - before[n]).norm(), 1e-10 * largest<2>(before)) << "node " << n;
+    EXPECT_LT((after[n] - before[n]).norm(), 1e-10 * largest<Dim>(before)) << "node " << n;
   }
   EXPECT_GT(change, 1e-4);
 }

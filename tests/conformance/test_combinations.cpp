@@ -65,37 +65,49 @@ struct Choice {
       for (const Trait t : value->traits) all.add(t);
     return all;
   }
-  /// Springs along the master that keep what was put into them.
+  /// Springs along the master that keep what was put into them; the printed rules of history are
+  /// not exact on the way over a curved one.
   [[nodiscard]] bool reverses() const {
-    return friction != "none" && enforcement.text == "penalty" &&
+    return friction != "none" && enforcement.text == "penalty" && form.text != "history: chord" &&
            normal.text.find("damping") == std::string::npos;
   }
-  [[nodiscard]] std::string model() const {
+  [[nodiscard]] std::string model(int dimension) const {
+    const bool space = dimension == 3;
     const std::string master = on_line() ? "target" : "base.top" + target.text.substr(4);
+    const char* const element = space ? "solid" : "plane_strain";
+    const std::string block =
+        space ? "x: [0, 2], y: [0, 1], z: [0, 1], elements: [2, 2, 1], type: hex8"
+              : "x: [0, 2], y: [0, 1], elements: [3, 2], type: quad4";
+    const std::string base =
+        space ? "x: [-1, 3], y: [-1, 2], z: [-1, 0], elements: [3, 2, 1], type: hex8"
+              : "x: [-1, 3], y: [-1, 0], elements: [5, 2], type: quad4";
     return fmt::format(
-        "osculate: 1\nmesh:\n  generate:\n"
-        "    block: {{box: {{x: [0, 2], y: [0, 1], elements: [3, 2], type: quad4}}}}\n{}"
+        "osculate: 1\nmesh:\n  generate:\n    block: {{box: {{{}}}}}\n{}"
         "materials: {{m: {{neo_hooke: {{E: 100, nu: 0.3}}}}}}\nsections:\n"
-        "  - {{on: block, material: m, element: plane_strain}}\n{}"
+        "  - {{on: block, material: m, element: {}}}\n{}"
         "contact: [{{name: c, slave: block.bottom, master: {}, sampling: {}, normal: {{{}}}, "
         "friction: {}, enforcement: {}, {}}}]\n"
-        "steps: [{{name: press, increments: 1, prescribe: [{{on: block.top, ux: 0.01, uy: "
-        "-0.03}}{}]}}]\n"
-        "output: {{history: [{{on: c, of: force_y}}, {{on: block.top, of: rfy}}]}}\n",
-        on_line() ? ""
-                  : "    base: {box: {x: [-1, 3], y: [-1, 0], elements: [5, 2], type: quad4}}\n",
-        on_line() ? "rigid: {target: {line: {point: [0, 0], normal: [0, 1]}}}\n"
-                  : "  - {on: base, material: m, element: plane_strain}\n",
+        "steps: [{{name: press, increments: 1, prescribe: [{{on: block.top, ux: 0.01, {}}}{}]}}]\n"
+        "output: {{history: [{{on: c, of: force_{}}}, {{on: block.top, of: rf{}}}]}}\n",
+        block, on_line() ? "" : fmt::format("    base: {{box: {{{}}}}}\n", base), element,
+        on_line() ? space ? "rigid: {target: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}}\n"
+                          : "rigid: {target: {line: {point: [0, 0], normal: [0, 1]}}}\n"
+                  : fmt::format("  - {{on: base, material: m, element: {}}}\n", element),
         master, sampling.text, normal.text, friction, enforcement.text, form.text,
-        on_line() ? "" : ", {on: base.bottom, ux: 0, uy: 0}");
+        space ? "uy: 0, uz: -0.03" : "uy: -0.03",
+        on_line() ? ""
+                  : fmt::format(", {{on: base.bottom, ux: 0, uy: 0{}}}", space ? ", uz: 0" : ""),
+        space ? 'z' : 'y', space ? 'z' : 'y');
   }
 };
 
 /// The message it is refused with; empty: none.
-std::string refusal_of(const std::string& text, std::optional<deck::Built>& built) {
+template <int Dim>
+std::string refusal_of(const std::string& text, std::optional<deck::BasicBuilt<Dim>>& built) {
   try {
     const deck::Description description = deck::parse_model(text, "generated.yaml");
-    built = std::get<deck::Built>(deck::build_any(description, deck::load_mesh(description)));
+    built =
+        std::get<deck::BasicBuilt<Dim>>(deck::build_any(description, deck::load_mesh(description)));
   } catch (const core::InputError& error) {
     return error.what();
   }
@@ -116,14 +128,15 @@ void for_each_choice(const Visit& visit) {
         }
 }
 
-TEST(Combinations, AreRefusedWithTheSentenceOfTheTableOrConform) {
+template <int Dim>
+void expect_refusal_or_conformity() {
   int refused = 0, conforming = 0, reversed = 0;
   for_each_choice([&](const Choice& choice) {
-    const std::string text = choice.model();
+    const std::string text = choice.model(Dim);
     SCOPED_TRACE(text);
     const pairing::Refusal* const no = pairing::refusal(choice.traits());
-    std::optional<deck::Built> built;
-    const std::string said = refusal_of(text, built);
+    std::optional<deck::BasicBuilt<Dim>> built;
+    const std::string said = refusal_of<Dim>(text, built);
     if (no) {
       EXPECT_NE(said.find(no->why), std::string::npos) << "'" << said << "', not: " << no->why;
       ++refused;
@@ -132,16 +145,24 @@ TEST(Combinations, AreRefusedWithTheSentenceOfTheTableOrConform) {
     ASSERT_EQ(said, "");
     ++conforming;
     testing::expect_tangent(api::check_tangent(built->model, 1));
-    testing::expect_balance_and_indifference(built->model);
+    testing::expect_balance_and_indifference<Dim>(built->model);
     if (choice.reverses()) {
-      testing::expect_reversibility(built->model);
+      testing::expect_reversibility<Dim>(built->model);
       ++reversed;
     }
-    if (choice.form.text != "tangent: covariant") testing::expect_increment<2>(*built);
+    if (choice.form.text != "tangent: covariant") testing::expect_increment<Dim>(*built);
   });
   EXPECT_GT(refused, 200);
   EXPECT_GT(conforming, 200);
   EXPECT_GT(reversed, 40);
+}
+
+TEST(Combinations, OfThePlaneAreRefusedWithTheSentenceOfTheTableOrConform) {
+  expect_refusal_or_conformity<2>();
+}
+
+TEST(Combinations, OfSpaceAreRefusedWithTheSentenceOfTheTableOrConform) {
+  expect_refusal_or_conformity<3>();
 }
 
 }  // namespace

@@ -13,10 +13,10 @@ constexpr std::size_t dissipation = 7;  ///< among what is remembered
 /// The root q of q + c q^n = q_tr and dq/dq_tr: both sides bound it from above, the function is
 /// convex and rises, so Newton's method comes down to it.
 struct Left {
-  double q, slope;
+  double q, lost, slope;  ///< lost: c q^n
 };
 Left left_of(double predictor, double c, double n) {
-  if (!(c > 0) || !(predictor > 0)) return {predictor, 1};
+  if (!(c > 0) || !(predictor > 0)) return {predictor, 0, 1};
   constexpr int most = 100;
   constexpr double rounding = 4e-16;
   double q = std::min(predictor, std::pow(predictor / c, 1 / n));
@@ -26,7 +26,8 @@ Left left_of(double predictor, double c, double n) {
     q -= step;
     if (!(step > rounding * q)) break;
   }
-  return {q, 1 / (1 + n * c * std::pow(q, n - 1))};
+  const double lost = c * std::pow(q, n);
+  return {q, lost, 1 / (1 + n * lost / q)};
 }
 
 }  // namespace
@@ -38,11 +39,12 @@ Response3 respond(const Norton& law, const Strain3& strain, Memory memory) {
   const Vec<6> s = deviator(r.stress);
   const double size = tensor_norm(s), predictor = std::sqrt(1.5) * size;
   const double stiffness = 3 * c.mu;
-  const auto [q, slope] = left_of(predictor, stiffness * memory.duration * law.rate, law.exponent);
+  const auto [q, lost, slope] =
+      left_of(predictor, stiffness * memory.duration * law.rate, law.exponent);
   r.ok = std::isfinite(q);
   double work = memory.committed ? memory.committed[dissipation] : 0;
-  if (q < predictor) {
-    const double increment = (predictor - q) / stiffness;
+  if (lost > 0) {
+    const double increment = lost / stiffness;
     const Vec<6> direction = s / size, step = std::sqrt(1.5) * increment * direction;
     now.equivalent += increment;
     now.strain += step;

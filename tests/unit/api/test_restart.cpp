@@ -84,6 +84,20 @@ constexpr const char* plastic =
     "  - {name: back, increments: 3, prescribe: [{on: rail, uy: 0.05}, {on: c.right, uy: 0}]}\n"
     "output: {history: [{on: on, of: normal_force}, {on: c.right, of: rfy}]}\n";
 
+/// A creeping block that is dragged over a floor whose friction ages.
+constexpr const char* creeping =
+    "osculate: 1\n"
+    "mesh: {generate: {b: {box: {x: [0, 4], y: [0, 1], elements: [4, 2]}}}}\n"
+    "materials: {m: {norton: {E: 200, nu: 0.3, A: 0.1, n: 3}}}\n"
+    "sections: [{on: b, material: m, element: plane_strain}]\n"
+    "rigid: {floor: {line: {point: [0, 0], normal: [0, 1]}}}\n"
+    "contact: [{name: on, master: floor, slave: b.bottom, normal: {penalty: 1000}, friction: "
+    "{rate_and_state: {mu: 0.5, a: 0.01, b: 0.015, speed: 0.1, distance: 0.02, penalty: 1000}}}]\n"
+    "steps:\n"
+    "  - {name: press, increments: 2, duration: 1, prescribe: [{on: b.top, ux: 0, uy: -0.01}]}\n"
+    "  - {name: drag, increments: 5, duration: 1, prescribe: [{on: b.top, ux: 0.1}]}\n"
+    "output: {history: [{on: on, of: normal_force}, {on: on, of: shear_force}]}\n";
+
 /// Runs that end with warnings of what was on the way: a beam that is bent and straightened again,
 /// a block that moves away from a floor that was nearest at first, a body that goes past its slave,
 /// blocks that go through a floor and that gain energy in explicit time integration.
@@ -148,6 +162,7 @@ class Restart : public ::testing::Test {
     std::ofstream(folder_ / "space.yaml") << space;
     std::ofstream(folder_ / "thrown.yaml") << thrown;
     std::ofstream(folder_ / "plastic.yaml") << plastic;
+    std::ofstream(folder_ / "creeping.yaml") << creeping;
   }
   void TearDown() override { fs::remove_all(folder_); }
   [[nodiscard]] RunOptions options(const std::string& model, const std::string& out,
@@ -227,7 +242,8 @@ TEST_F(Restart, TheWarningsAreThoseOfTheWholeRun) {
 }
 
 TEST_F(Restart, AfterEveryIncrementGivesTheSameBits) {
-  for (const auto& [model, least] : {std::pair("plane", 10), std::pair("plastic", 7)}) {
+  for (const auto& [model, least] :
+       {std::pair("plane", 10), std::pair("plastic", 7), std::pair("creeping", 7)}) {
     const std::string whole = std::string(model) + "_whole",
                       pieces = std::string(model) + "_pieces";
     ASSERT_EQ(run(options(model, whole)).status, RunStatus::done);
@@ -405,7 +421,7 @@ TEST_F(Restart, TwoAnalysesAtTheSameTimeHaveTheBitsOfEachAlone) {
 }
 
 TEST_F(Restart, OneAndTwoThreadsHaveTheSameBits) {
-  for (const std::string model : {"plane", "space", "plastic"}) {
+  for (const std::string model : {"plane", "space", "plastic", "creeping"}) {
     ASSERT_EQ(run(options(model, model + "1")).status, RunStatus::done);
     ASSERT_EQ(run(options(model, model + "2", 2)).status, RunStatus::done);
     EXPECT_EQ(results(model + "2"), results(model + "1"));

@@ -56,7 +56,7 @@ void expect_second_order(const Vec<Dim - 1>& trial, double normal, const Sliding
   d << Vec<Dim - 1>::Constant(0.7), -0.4;
   const V df = at.d_predictor * d.head<Dim - 1>() + at.d_normal * d[Dim - 1];
   const testing::DerivativeReport r = testing::check_derivative(f, df, y, d, 0.2);
-  EXPECT_NEAR(r.order, 2, 0.1) << r.error;
+  EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.1) << r.order << " " << r.error;
 }
 
 TEST(RateAndState, DerivativesAreOfSecondOrder) {

@@ -39,7 +39,8 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "model.yaml:5: materials.steel: unknown key 'plastic_flow'; known: linear_elastic, "
        "st_venant_kirchhoff, neo_hooke, elastoplastic, norton"
        "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the laws linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton; others are not available (osculate doc "
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton; others are not available (osculate "
+       "doc "
        "limits)"},
       {"penalty: 2.1e6}\n    friction", "penalty: 2.1e6, <<: 1}\n    friction",
        "model.yaml:16: contact[0].normal: unknown key '<<'; known: penalty, exponential, table, "
@@ -61,7 +62,7 @@ TEST(BrokenModels, MissingKeysNameTheParent) {
       {"{mu: 0.3, penalty: 2.1e6}", "{penalty: 2.1e6}",
        "model.yaml:17: contact[0].friction.coulomb: required key 'mu' is missing"},
       {"{coulomb: {mu: 0.3, penalty: 2.1e6}}", "{}",
-       "model.yaml:17: contact[0].friction: needs one of coulomb, tresca, rough"},
+       "model.yaml:17: contact[0].friction: needs one of coulomb, tresca, rough, rate_and_state"},
       {"{on: floor, of: normal_force}", "{on: floor}",
        "model.yaml:39: output.history[1]: required key 'of' is missing"},
   });
@@ -78,7 +79,8 @@ TEST(BrokenModels, OneOfSeveralKeys) {
        "model.yaml:5: materials.steel: needs one of linear_elastic, st_venant_kirchhoff, "
        "neo_hooke, elastoplastic, norton"
        "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the laws linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton; others are not available (osculate doc "
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton; others are not available (osculate "
+       "doc "
        "limits)"},
       {"uy: -0.007, ux: 0}", "amplitude: wave}",
        "model.yaml:27: steps[0].prescribe[0]: needs at least one of ux, uy, uz, rx, ry, rz"},

@@ -32,12 +32,12 @@ TEST(ContactAll, MakesThePairsOfAllBodiesButTheExcludedOnes) {
             (std::set<std::string>{"any.1-1", "any.2-2", "any.3-3", "any.1-2", "any.1-2.reversed",
                                    "any.2-3", "any.2-3.reversed", "any.1-floor", "any.2-floor"}));
   for (const char* const name : {"any.1-2", "any.1-2.reversed", "any.2-3", "any.2-3.reversed"})
-    EXPECT_EQ(pair_named(built, name).definition.share, 0.5);
+    EXPECT_EQ(pair_named(built, name).definition.pass_factor, 0.5);
   const auto &there = pair_named(built, "any.1-2"), &back = pair_named(built, "any.1-2.reversed");
   EXPECT_TRUE(back.reversed);
   EXPECT_EQ(back.definition.master.facets.size(), there.definition.slave.boundary.facets.size());
   EXPECT_EQ(there.definition.master.facets.size(), back.definition.slave.boundary.facets.size());
-  EXPECT_EQ(pair_named(built, "any.1-floor").definition.share, 1);
+  EXPECT_EQ(pair_named(built, "any.1-floor").definition.pass_factor, 1);
   ASSERT_EQ(built.notes.size(), 3u);
   EXPECT_EQ(built.notes[1], "body 2 is mid, 14 boundary facets");
 }

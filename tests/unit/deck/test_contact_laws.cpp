@@ -7,9 +7,11 @@
 #include "osculate/contact/law/damping.hpp"
 #include "osculate/contact/law/normal_exponential.hpp"
 #include "osculate/contact/law/normal_table.hpp"
+#include "osculate/contact/law/rate_and_state.hpp"
 #include "osculate/contact/law/rough.hpp"
 #include "osculate/contact/law/tresca.hpp"
 #include "osculate/deck/build.hpp"
+#include "osculate/material/law.hpp"
 #include "space_test.hpp"
 
 namespace osculate::deck {
@@ -48,6 +50,33 @@ TEST(LawKeys, BecomeLaws) {
   EXPECT_FALSE(floor.damping.has_value());
   EXPECT_EQ(top.offset, 0);
   EXPECT_EQ(top.separation, pairing::Separation::allowed);
+}
+
+// Friction by rate and state and creep: their numbers, and what they say of steps without a time.
+TEST(LawKeys, OfWhatDependsOnTime) {
+  const std::string text = test_file("time.yaml");
+  const Description d = parse_model(text, "model.yaml");
+  const Built b = build(d, load_mesh(d));
+  const auto& law = *b.model.pairs[0].definition.friction->as<contact::RateAndState>();
+  EXPECT_EQ(law.mu, 0.5);
+  EXPECT_EQ(law.a, 0.01);
+  EXPECT_EQ(law.b, 0.02);
+  EXPECT_EQ(law.speed, 0.3);
+  EXPECT_EQ(law.distance, 0.02);
+  EXPECT_EQ(law.state, 4);
+  EXPECT_EQ(law.stiffness, 500);
+  const auto& lead = std::get<material::Norton>(b.model.sections[0].section.law);
+  EXPECT_EQ(lead.rate, 0.001);
+  EXPECT_EQ(lead.exponent, 3);
+  const std::string untimed = edited(text, "duration: 0.5, ", "");
+  EXPECT_EQ(
+      any_refusal(untimed),
+      "model.yaml:8: materials.lead.norton: material 'lead', which depends on time, needs the "
+      "duration of every step, and step 'one' has none");
+  EXPECT_EQ(any_refusal(edited(untimed, "{norton: {E: 100, nu: 0.35, density: 2, A: 0.001, n: 3}}",
+                               "{linear_elastic: {E: 100, nu: 0.35}}")),
+            "model.yaml:15: contact[0].friction.rate_and_state.speed: friction that depends on "
+            "speed needs the duration of every step, and step 'one' has none");
 }
 
 TEST(LawKeys, RestitutionGoesWithEveryLaw) {

@@ -1,15 +1,17 @@
 // `penalty: auto` on surfaces with cells or bodies that differ: each point has its own.
 #include "graded.hpp"
 #include "osculate/deck/build_contact_parts.hpp"
+#include "osculate/pairing/automatic_stiffness.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 #include "space_test.hpp"
 
 namespace osculate::deck {
 namespace {
 
+using pairing::own_factor;
 using pairing::RelativeStiffness;
 
-TEST(OwnShare, IsOneInTheMiddleAndContinuous) {
+TEST(OwnFactor, IsOneInTheMiddleAndContinuous) {
   for (const double ratio : {1.0 / 3, 0.5, 1.0, 2.9, 3.0}) EXPECT_EQ(own_factor(ratio), 1) << ratio;
   EXPECT_DOUBLE_EQ(own_factor(300), 100);
   EXPECT_DOUBLE_EQ(own_factor(1.0 / 300), 1.0 / 100);

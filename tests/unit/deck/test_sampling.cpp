@@ -96,12 +96,12 @@ TEST(SamplingKey, TwoPassesHaveHalfOfTheTractionEach) {
   EXPECT_EQ(second.name, "gap.reversed");
   EXPECT_EQ(second.group, "gap");
   EXPECT_TRUE(second.reversed);
-  EXPECT_EQ(first.definition.share, 0.5);
-  EXPECT_EQ(second.definition.share, 0.5);
+  EXPECT_EQ(first.definition.pass_factor, 0.5);
+  EXPECT_EQ(second.definition.pass_factor, 0.5);
   EXPECT_EQ(first.definition.slave.nodes.size(), 5u);
   EXPECT_EQ(second.definition.slave.points.size(), 8u);
   EXPECT_EQ(second.definition.master.facets.size(), first.definition.slave.boundary.facets.size());
-  EXPECT_EQ(b.model.pairs[3].definition.share, 1);
+  EXPECT_EQ(b.model.pairs[3].definition.pass_factor, 1);
 }
 
 TEST(SamplingKey, RefusesWhatItCannotDo) {

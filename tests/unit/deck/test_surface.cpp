@@ -262,8 +262,7 @@ TEST_F(SurfaceFile, OnlyGmshMeshesHaveSets) {
   const std::string yaml = path_ + ".yaml";
   std::ofstream(yaml) << "circle: {center: [0, 0], radius: 1}\n";
   EXPECT_EQ(refusal(yaml), "");
-  EXPECT_EQ(refusal(yaml + ":rim"),
-            yaml + ": only a mesh has sets; 'rim' cannot be chosen here");
+  EXPECT_EQ(refusal(yaml + ":rim"), yaml + ": only a mesh has sets; 'rim' cannot be chosen here");
   std::filesystem::remove(yaml);
 }
 

@@ -30,7 +30,7 @@ void for_each_section(const std::function<void(const SectionCase&)>& visit) {
             ++visited;
             visit(c);
           });
-  EXPECT_EQ(visited, 100);  // 5 cells x 3 assumptions x 5 laws, bbar 2 x 5, enhanced 3 x 5
+  EXPECT_EQ(visited, 20 * form_count);  // 5 cells x 3 assumptions, bbar 2, enhanced 3
 }
 
 double noise(Eigen::Index i, Eigen::Index j, int seed) {

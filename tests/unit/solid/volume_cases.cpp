@@ -43,7 +43,7 @@ void for_each_volume(const std::function<void(const VolumeCase&)>& visit) {
           ++visited;
           visit(c);
         });
-  EXPECT_EQ(visited, 50);  // 8 cells x 5 laws, bbar and enhanced of hex8 x 5 laws
+  EXPECT_EQ(visited, 10 * form_count);  // 8 cells, bbar and enhanced of hex8
 }
 
 void for_each_shell(const std::function<void(const VolumeCase&)>& visit) {
@@ -59,7 +59,7 @@ void for_each_shell(const std::function<void(const VolumeCase&)>& visit) {
       ++visited;
       visit(c);
     });
-  EXPECT_EQ(visited, 10);
+  EXPECT_EQ(visited, 2 * form_count);
 }
 
 Coordinates3 sample_volume(cell::CellType type, double distortion, bool curved) {
