@@ -114,24 +114,26 @@ std::string refusal_of(const std::string& text, std::optional<deck::BasicBuilt<D
   return {};
 }
 
+/// One choice of `stride`: which of them, changes along every axis.
 template <class Visit>
-void for_each_choice(const Visit& visit) {
+void for_each_choice(std::size_t stride, const Visit& visit) {
   std::size_t i = 0;
   for (const Value& sampling : samplings)
     for (const Value& normal : normals)
       for (const Value& enforcement : enforcements)
         for (const Value& form : forms) {
           const bool tied = normal.text.find("tied,") != std::string::npos;
-          visit(Choice{sampling, targets[i % targets.size()], normal, enforcement, form,
-                       tied ? "none" : frictions[i / 2 % frictions.size()]});
+          if (i % stride == 0)
+            visit(Choice{sampling, targets[i % targets.size()], normal, enforcement, form,
+                         tied ? "none" : frictions[i / 2 % frictions.size()]});
           ++i;
         }
 }
 
 template <int Dim>
-void expect_refusal_or_conformity() {
-  int refused = 0, conforming = 0, reversed = 0;
-  for_each_choice([&](const Choice& choice) {
+void expect_refusal_or_conformity(std::size_t stride) {
+  std::size_t refused = 0, conforming = 0, reversed = 0;
+  for_each_choice(stride, [&](const Choice& choice) {
     const std::string text = choice.model(Dim);
     SCOPED_TRACE(text);
     const pairing::Refusal* const no = pairing::refusal(choice.traits());
@@ -152,17 +154,17 @@ void expect_refusal_or_conformity() {
     }
     if (choice.form.text != "tangent: covariant") testing::expect_increment<Dim>(*built);
   });
-  EXPECT_GT(refused, 200);
-  EXPECT_GT(conforming, 200);
-  EXPECT_GT(reversed, 40);
+  EXPECT_GT(refused * stride, 200u);
+  EXPECT_GT(conforming * stride, 200u);
+  EXPECT_GT(reversed * stride, 40u);
 }
 
 TEST(Combinations, OfThePlaneAreRefusedWithTheSentenceOfTheTableOrConform) {
-  expect_refusal_or_conformity<2>();
+  expect_refusal_or_conformity<2>(1);
 }
 
 TEST(Combinations, OfSpaceAreRefusedWithTheSentenceOfTheTableOrConform) {
-  expect_refusal_or_conformity<3>();
+  expect_refusal_or_conformity<3>(5);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST(LawKeys, OfWhatDependsOnTime) {
       "duration of every step, and step 'one' has none");
   EXPECT_EQ(any_refusal(edited(untimed, "{norton: {E: 100, nu: 0.35, density: 2, A: 0.001, n: 3}}",
                                "{linear_elastic: {E: 100, nu: 0.35}}")),
-            "model.yaml:15: contact[0].friction.rate_and_state.speed: friction that depends on "
+            "model.yaml:16: contact[0].friction.rate_and_state.speed: friction that depends on "
             "speed needs the duration of every step, and step 'one' has none");
 }
 
