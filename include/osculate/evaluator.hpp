@@ -22,7 +22,8 @@ struct Increment {
   bool tangent = true;
   double duration = 0;  ///< for laws that ask for a speed; 0: not known
   double relief = 0;    ///< InitialOverlap::ramped: share of the overlaps that does not count yet
-  /// With a search distance: also report the gaps of points far in front of the master, which give no force.
+  /// With a search distance: also report the gaps of points far in front of the master, which give
+  /// no force.
   bool far = false;
 };
 

@@ -39,7 +39,8 @@ Sight sight_of(const pairing::PairDefinition<Dim>& pair, const pairing::SlaveSid
     if (p.feature != projection::Feature::none) {
       ++sight.facing;
       const bool over = p.feature == projection::Feature::face && !p.beyond_end;
-      const double gap = over ? projected_point(pair.master, p, query.point, x).kinematics.gap : p.distance;
+      const double gap =
+          over ? projected_point(pair.master, p, query.point, x).kinematics.gap : p.distance;
       sight.least = std::min(sight.least, gap - pair.offset);
       continue;
     }

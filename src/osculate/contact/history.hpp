@@ -28,9 +28,9 @@ struct PointHistory {
   Index edge = -1;
   bool flipped = false;
   LawMemory memory{};  ///< of the friction law
-  double slid = 0;    ///< distance slid (without the elastic part) since it came into contact
-  bool held = false;  ///< tied to the master in the normal direction from the start
-  double rest = 0;    ///< of a held point: its gap at the start
+  double slid = 0;     ///< distance slid (without the elastic part) since it came into contact
+  bool held = false;   ///< tied to the master in the normal direction from the start
+  double rest = 0;     ///< of a held point: its gap at the start
   double friction_work = 0;  ///< [energy] dissipated here so far; stays when the point opens
   /// Law gap (NormalResponse::deepest) of damping that remembers; stays while the sides overlap.
   double deepest = std::numeric_limits<double>::infinity();

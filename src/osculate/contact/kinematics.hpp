@@ -107,8 +107,8 @@ struct Kinematics {
   SurfaceMatrix<Dim> curvature;                 ///< h_ij
   SurfaceMatrix<Dim> offset_metric, offset_metric_inverse;  ///< g_ij, g^ij; positive where the foot
                                                             ///< is a strict minimum of the distance
-  std::array<Form<Dim>, directions<Dim>> d_xi;          ///< zero beyond `moving`
-  std::array<VectorForm<Dim>, directions<Dim>> d_rho1;  ///< of the moving base vectors
+  std::array<Form<Dim>, directions<Dim>> d_xi;              ///< zero beyond `moving`
+  std::array<VectorForm<Dim>, directions<Dim>> d_rho1;      ///< of the moving base vectors
   Form<Dim> d_gap;
   VectorForm<Dim> d_normal;
 

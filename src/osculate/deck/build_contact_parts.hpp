@@ -75,7 +75,6 @@ using pairing::search_distance_in_facets;
 template <int Dim>
 void build_contact_all(BuildContext<Dim>& c, const Contact& contact);
 
-
 /// The stiffnesses that are left to the program, from the cells behind both sides, and the height
 /// of these cells; for the pair, and for each of its points.
 ///

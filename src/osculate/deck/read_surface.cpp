@@ -125,9 +125,9 @@ SurfaceInput read_surface(const std::string& path) {
   if (io::mesh_format_of(named.file, content))
     return surface_of_mesh(io::read_mesh(content, named.file), named);
   if (named.set)
-    throw core::InputError({named.file, 0, ""},
-                           fmt::format("only a mesh has sets; '{}' cannot be chosen here",
-                                       printable(*named.set)));
+    throw core::InputError(
+        {named.file, 0, ""},
+        fmt::format("only a mesh has sets; '{}' cannot be chosen here", printable(*named.set)));
   return {parse_surface(content, named.file), {}};
 }
 

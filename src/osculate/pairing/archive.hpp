@@ -7,8 +7,8 @@
 namespace osculate::contact {
 template <class Archive, int Dim>
 void fields(Archive& a, PointHistory<Dim>& h) {
-  auto& [active, facet, feature, xi, gap, traction, slipping, slip, edge, flipped, memory, slid, held,
-         rest, work, deepest, damping] = h;
+  auto& [active, facet, feature, xi, gap, traction, slipping, slip, edge, flipped, memory, slid,
+         held, rest, work, deepest, damping] = h;
   a(active, facet, feature, xi, gap, traction, slipping, slip, edge, flipped, memory, slid, held,
     rest, work, deepest, damping);
 }
