@@ -124,9 +124,8 @@ void fields(Archive& a, Rates& rates) {
 }
 template <class Archive, int Dim>
 void fields(Archive& a, BasicState<Dim>& state) {
-  auto& [u, rigid, pairs, active_set, multipliers, fraction, rates, memory] = state;
+  auto& [u, rigid, pairs, multipliers, fraction, rates, memory] = state;
   a(u, rigid, pairs, multipliers, fraction, rates, memory);
-  (void)active_set;  // belongs to trials
 }
 }  // namespace osculate::model
 

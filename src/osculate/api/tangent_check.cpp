@@ -50,9 +50,10 @@ double mean_facet_length(const model::BasicModel<Dim>& m) {
 template <int Dim>
 struct Probe {
   using State = model::BasicState<Dim>;
+  using Trial = model::BasicTrial<Dim>;
   model::BasicSystem<Dim>& system;
   State committed;
-  State base;
+  Trial base;
   double size;          ///< of a displacement that matters
   double fraction = 0;  ///< of the step
   std::mt19937 generator{20260101};
@@ -65,20 +66,20 @@ struct Probe {
     return d;
   }
 
-  State moved(const Eigen::VectorXd& d, double factor) const {
+  Trial moved(const Eigen::VectorXd& d, double factor) const {
     return system.apply(base, d, fraction, factor);
   }
 
-  solve::Evaluation at(const State& state, bool tangent) {
+  solve::Evaluation at(const Trial& trial, bool tangent) {
     solve::Evaluation e;
-    system.evaluate(committed, state, fraction, tangent, e);
+    system.evaluate(committed, trial, fraction, tangent, e);
     return e;
   }
 
   /// Of the coordinates, relative to the displacements of a step of length 1.
   [[nodiscard]] double rounding() const {
     double largest = size;
-    for (const Vec<Dim>& x : system.positions(base))
+    for (const Vec<Dim>& x : system.positions(base.state))
       largest = std::max(largest, x.template lpNorm<Eigen::Infinity>());
     return 32 * std::numeric_limits<double>::epsilon() * largest / size;
   }
@@ -239,7 +240,7 @@ TangentReport check_model(const model::BasicModel<Dim>& m, int threads) {
   model::BasicSystem<Dim> system(m, threads);
   const model::BasicState<Dim> start = system.initial_state();
   if (!m.steps.empty()) system.begin_step(m.steps.front(), start);
-  Probe<Dim> probe{system, start, start, mean_facet_length(m)};
+  Probe<Dim> probe{system, start, {start}, mean_facet_length(m)};
   close_contact(probe, m);
   probe.base = probe.moved(probe.random(1e-3 * probe.size), 1.0);
   return check_probe(probe, m);
@@ -308,9 +309,9 @@ TangentReport check_increment(deck::BasicBuilt<Dim>& built, const RunIdentity& i
   model::BasicSystem<Dim> system(m, threads);
   system.resume_step(m.steps.at(static_cast<std::size_t>(found.end.progress.step)), found.before,
                      found.end.memory);
-  Probe<Dim> probe{system, found.before, found.end.state, mean_facet_length(m),
+  Probe<Dim> probe{system, found.before, {found.end.state}, mean_facet_length(m),
                    found.end.progress.fraction};
-  probe.base.pairs = found.before.pairs;
+  probe.base.state.pairs = found.before.pairs;
   probe.base = probe.moved(probe.random(off_the_borders * probe.size), 1.0);
   return check_probe(probe, m);
 }

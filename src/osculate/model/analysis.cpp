@@ -84,7 +84,7 @@ struct Analysis {
       increments.time_steps =
           solve::TimeAccuracy{step.dynamics->time_steps->error,
                               step.dynamics->time_steps->smallest / step.duration, corners(step)};
-    solve::StepResult<BasicState<Dim>> done =
+    solve::StepResult<BasicState<Dim>, BasicTrial<Dim>> done =
         solve::run_step(system, result.state, step.increments, increments, *solver, on_increment,
                         on_cutback, position);
     result.state = done.state;
@@ -96,7 +96,7 @@ struct Analysis {
     if (done.outcome != solve::Outcome::converged && !ended) {
       result.failure = diagnose(system, model, step, done);
       result.message = result.failure->message;
-      result.last_iterate = done.last_attempt.state;
+      result.last_iterate = done.last_attempt.trial.state;
     }
     std::vector<solve::IncrementRecord>& records = result.steps.back().increments;
     records.insert(records.end(), std::make_move_iterator(done.increments.begin()),

@@ -266,7 +266,8 @@ std::vector<BasicFreeMotion<Dim>> free_motions(BasicSystem<Dim>& system,
 /// Formula    |v - Z c| <= 1e-3 |v| over all nodes of deformable bodies, Z c the nearest rigid
 ///            motions of the bodies
 template <int Dim>
-bool BasicSystem<Dim>::is_free_motion(const State& state, const Eigen::VectorXd& mode) const {
+bool BasicSystem<Dim>::is_free_motion(const Trial& trial, const Eigen::VectorXd& mode) const {
+  const State& state = trial.state;
   constexpr double nearly = 1e-3;
   if (mode.size() != displacements()) return true;
   const std::vector<Vec<Dim>> x = positions(state);
@@ -282,8 +283,8 @@ bool BasicSystem<Dim>::is_free_motion(const State& state, const Eigen::VectorXd&
   }
   return strained <= nearly * nearly * whole;
 }
-template bool BasicSystem<2>::is_free_motion(const State&, const Eigen::VectorXd&) const;
-template bool BasicSystem<3>::is_free_motion(const State&, const Eigen::VectorXd&) const;
+template bool BasicSystem<2>::is_free_motion(const Trial&, const Eigen::VectorXd&) const;
+template bool BasicSystem<3>::is_free_motion(const Trial&, const Eigen::VectorXd&) const;
 
 namespace {
 

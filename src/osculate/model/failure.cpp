@@ -226,7 +226,7 @@ std::string against_instability(const Step& step) {
 /// Cause and proposal from what has been found.
 template <int Dim>
 void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const Step& step,
-           const solve::NewtonResult<BasicState<Dim>>& attempt, BasicFailure<Dim>& f) {
+           const solve::NewtonResult<BasicTrial<Dim>>& attempt, BasicFailure<Dim>& f) {
   constexpr double deep = 0.5;  // of a cell
   const bool inverted = !attempt.evaluation.ok && !attempt.evaluation.apart;
   if (!f.held.empty()) {
@@ -278,7 +278,7 @@ void judge(const BasicSystem<Dim>& system, const BasicModel<Dim>& model, const S
 
 template <int Dim>
 std::string paragraph(const BasicModel<Dim>& model, const Step& step,
-                      const solve::StepResult<BasicState<Dim>>& result,
+                      const solve::StepResult<BasicState<Dim>, BasicTrial<Dim>>& result,
                       const std::string& free_motions, const BasicFailure<Dim>& f) {
   std::string text = fmt::format(
       "step '{}' stopped at {:.4g} of its length: {}", step.name,
@@ -353,24 +353,24 @@ std::vector<Vec<Dim>> motion_field(const BasicModel<Dim>& model, const BasicStat
 
 template <int Dim>
 BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& model, const Step& step,
-                           const solve::StepResult<BasicState<Dim>>& result) {
-  const solve::NewtonResult<BasicState<Dim>>& attempt = result.last_attempt;
+                           const solve::StepResult<BasicState<Dim>, BasicTrial<Dim>>& result) {
+  const solve::NewtonResult<BasicTrial<Dim>>& attempt = result.last_attempt;
   BasicFailure<Dim> f;
   f.reason = result.reason;
   f.flips = flipping_points(model, system.recent_contact());
   constexpr double near = 0.25;  // the corner cell of such a body folds before its side arrives
   f.beyond = beyond_slave(model, system.positions(result.state), near);
-  f.smallest = cut_to(step, attempt.state, result.state);
+  f.smallest = cut_to(step, attempt.trial.state, result.state);
   f.overlap = initial_overlap(model, result.state);
-  if (attempt.state.u.size() == result.state.u.size() && result.state.u.size() > 0 &&
-      attempt.state.u.allFinite()) {
+  if (attempt.trial.state.u.size() == result.state.u.size() && result.state.u.size() > 0 &&
+      attempt.trial.state.u.allFinite()) {
     Eigen::Index largest = 0;
     f.last_step =
-        (attempt.state.u - result.state.u).cwiseAbs().maxCoeff(&largest) / model_size(model);
+        (attempt.trial.state.u - result.state.u).cwiseAbs().maxCoeff(&largest) / model_size(model);
     const auto node = static_cast<std::size_t>(largest / Dim);
     if (node < model.mesh.nodes.size()) f.last_node = static_cast<Index>(node);
   }
-  const BasicState<Dim>& last = attempt.evaluation.ok ? attempt.state : result.state;
+  const BasicState<Dim>& last = attempt.evaluation.ok ? attempt.trial.state : result.state;
   std::string outside;
   solve::Evaluation evaluation;
   system.evaluate(result.state, 1.0, false, evaluation);
@@ -431,7 +431,9 @@ template Failure explicit_failure<2>(const Step&, solve::TimeStepping, const std
 template Failure3 explicit_failure<3>(const Step&, solve::TimeStepping, const std::string&, double);
 template std::vector<Vec2> motion_field(const Model&, const State&, const FreeMotion&);
 template std::vector<Vec3> motion_field(const Model3&, const State3&, const FreeMotion3&);
-template Failure diagnose(System&, const Model&, const Step&, const solve::StepResult<State>&);
-template Failure3 diagnose(System3&, const Model3&, const Step&, const solve::StepResult<State3>&);
+template Failure diagnose(System&, const Model&, const Step&,
+                          const solve::StepResult<State, Trial>&);
+template Failure3 diagnose(System3&, const Model3&, const Step&,
+                           const solve::StepResult<State3, Trial3>&);
 
 }  // namespace osculate::model

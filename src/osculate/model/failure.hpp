@@ -63,9 +63,9 @@ struct BasicFailure {
 ///
 /// Tested by  tests/system/test_diagnosis.py
 template <int Dim>
-[[nodiscard]] BasicFailure<Dim> diagnose(BasicSystem<Dim>& system, const BasicModel<Dim>& model,
-                                         const Step& step,
-                                         const solve::StepResult<BasicState<Dim>>& result);
+[[nodiscard]] BasicFailure<Dim> diagnose(
+    BasicSystem<Dim>& system, const BasicModel<Dim>& model, const Step& step,
+    const solve::StepResult<BasicState<Dim>, BasicTrial<Dim>>& result);
 
 /// Why explicit time integration ended before its time, at a fraction of the step.
 ///

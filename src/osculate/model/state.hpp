@@ -57,14 +57,12 @@ struct Rates {
   [[nodiscard]] bool empty() const { return velocity.size() == 0; }
 };
 
-/// A configuration. Committed states are const; a trial is a new value.
+/// A configuration with its history. Committed states are const.
 template <int Dim>
 struct BasicState {
   Eigen::VectorXd u;  ///< displacements of all nodes, x0 y0 (z0) x1 y1 ...
   std::vector<body::BasicRigidMotion<Dim>> rigid;  ///< one per rigid body
   std::vector<pairing::PairState<Dim>> pairs;      ///< history of the last converged increment
-  std::vector<pairing::ActiveSet<Dim>>
-      active_set;  ///< branches of the last iteration (trials only)
   std::vector<pairing::PairMultipliers<Dim>> multipliers;  ///< of the pairs; empty by penalty
   double fraction = 0;                                     ///< of the running step
   Rates rates{};                                           ///< empty in steps without inertia
@@ -72,7 +70,18 @@ struct BasicState {
                                  ///< increment
 };
 
+/// What an iteration tries: where it is, with the history it started from, and the active set of
+/// the iteration before. A type of its own, so that what is tried and what was committed cannot be
+/// taken for each other; `commit` makes a state of it, nothing else does.
+template <int Dim>
+struct BasicTrial {
+  BasicState<Dim> state;
+  std::vector<pairing::ActiveSet<Dim>> active_set{};  ///< empty: of no iteration
+};
+
 using State = BasicState<2>;
 using State3 = BasicState<3>;
+using Trial = BasicTrial<2>;
+using Trial3 = BasicTrial<3>;
 
 }  // namespace osculate::model

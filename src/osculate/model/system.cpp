@@ -95,7 +95,7 @@ void BasicSystem<Dim>::predict(const State& committed, double fraction, solve::E
                                Prediction friction) {
   impl_->friction = friction;
   impl_->recent.clear();
-  impl_->assemble(committed, committed, fraction, true, Impl::Pass::predict, out);
+  impl_->assemble(committed, {committed}, fraction, true, Impl::Pass::predict, out);
 }
 
 template <int Dim>
@@ -111,7 +111,7 @@ bool BasicSystem<Dim>::touches_without_shear(const State& state) const {
 }
 
 template <int Dim>
-void BasicSystem<Dim>::evaluate(const State& committed, const State& trial, double fraction,
+void BasicSystem<Dim>::evaluate(const State& committed, const Trial& trial, double fraction,
                                 bool with_tangent, solve::Evaluation& out) {
   impl_->assemble(committed, trial, fraction, with_tangent, Impl::Pass::iterate, out);
 }
@@ -119,14 +119,21 @@ void BasicSystem<Dim>::evaluate(const State& committed, const State& trial, doub
 template <int Dim>
 void BasicSystem<Dim>::evaluate(const State& state, double fraction, bool with_tangent,
                                 solve::Evaluation& out) {
-  impl_->assemble(state, state, fraction, with_tangent, Impl::Pass::whole, out);
+  impl_->assemble(state, {state}, fraction, with_tangent, Impl::Pass::whole, out);
 }
 
 template <int Dim>
-BasicState<Dim> BasicSystem<Dim>::apply(const State& state, const Eigen::VectorXd& du,
+BasicTrial<Dim> BasicSystem<Dim>::apply(const State& committed, const Eigen::VectorXd& du,
+                                        double fraction, double factor) const {
+  return apply(Trial{committed}, du, fraction, factor);
+}
+
+template <int Dim>
+BasicTrial<Dim> BasicSystem<Dim>::apply(const Trial& trial, const Eigen::VectorXd& du,
                                         double fraction, double factor) const {
   const BasicDofSpace<Dim>& dofs = impl_->dofs;
-  State next = state;
+  Trial moved = trial;
+  State& next = moved.state;
   next.fraction = fraction;
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (!impl_->assembler.prescribed(u))
@@ -148,23 +155,23 @@ BasicState<Dim> BasicSystem<Dim>::apply(const State& state, const Eigen::VectorX
     const Equation::Term& lead = equation.terms.front();
     impl_->add_to(next, lead.dof, rest / lead.factor - impl_->current_value(next, lead.dof));
   }
-  return next;
+  return moved;
 }
 
 template <int Dim>
-BasicState<Dim> BasicSystem<Dim>::remember(const State& trial) const {
-  State state = trial;
-  state.active_set.clear();
+BasicTrial<Dim> BasicSystem<Dim>::remember(const Trial& trial) const {
+  Trial next{trial.state};
+  std::vector<pairing::PairMultipliers<Dim>>& multipliers = next.state.multipliers;
   for (std::size_t p = 0; p < impl_->contact.size(); ++p)
-    state.active_set.push_back(pairing::evaluated_active_set(
+    next.active_set.push_back(pairing::evaluated_active_set(
         impl_->contact[p],
         p < trial.active_set.size() ? trial.active_set[p] : pairing::ActiveSet<Dim>{}));
-  for (std::size_t p = 0; p < state.multipliers.size(); ++p)
-    state.multipliers[p] = pairing::taken_over(impl_->contact[p], std::move(state.multipliers[p]));
+  for (std::size_t p = 0; p < multipliers.size(); ++p)
+    multipliers[p] = pairing::taken_over(impl_->contact[p], std::move(multipliers[p]));
   constexpr std::size_t most = 8;
   if (impl_->recent.size() == most) impl_->recent.pop_front();
   impl_->recent.push_back(impl_->contact_states());
-  return state;
+  return next;
 }
 
 template <int Dim>
@@ -175,16 +182,15 @@ std::vector<ContactStates> BasicSystem<Dim>::recent_contact() const {
 }
 
 template <int Dim>
-BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) const {
-  State state = trial;
+BasicState<Dim> BasicSystem<Dim>::commit(const Trial& trial, double fraction) const {
+  State state = trial.state;
   if (impl_->timed()) {
-    state.rates = impl_->new_rates(trial);
+    state.rates = impl_->new_rates(trial.state);
     impl_->rebase(state);
   }
   state.fraction = fraction;
   state.memory = impl_->next_memory;
-  state.active_set.clear();
-  impl_->look_far(trial);
+  impl_->look_far(trial.state);
   for (std::size_t p = 0; p < impl_->contact.size(); ++p) {
     std::vector<double> overlap = std::move(state.pairs[p].overlap);
     state.pairs[p] = pairing::commit(impl_->contact[p]);
@@ -197,29 +203,29 @@ BasicState<Dim> BasicSystem<Dim>::commit(const State& trial, double fraction) co
 }
 
 template <int Dim>
-std::optional<BasicState<Dim>> BasicSystem<Dim>::augment(const State& trial) const {
-  State next = trial;
+std::optional<BasicTrial<Dim>> BasicSystem<Dim>::augment(const Trial& trial) const {
+  Trial next{trial.state};
   bool missed = false;
-  for (std::size_t p = 0; p < trial.multipliers.size(); ++p) {
+  for (std::size_t p = 0; p < trial.state.multipliers.size(); ++p) {
     const BasicContactPair<Dim>& whole = impl_->model.pairs[p];
     const pairing::PairDefinition<Dim>& pair = whole.definition;
     if (adapts_penalty(impl_->model, whole)) {
-      double& stiffening = next.multipliers[p].stiffening;
+      double& stiffening = next.state.multipliers[p].stiffening;
       const double more = wanted_stiffening(mean_share(whole, impl_->contact[p]), stiffening);
       stiffening *= more;
       missed = missed || more > 1;
     }
     if (pair.enforcement != contact::Enforcement::augmented_lagrange) continue;
-    next.multipliers[p] = pairing::augmented(pair, impl_->contact[p], trial.multipliers[p]);
-    if (next.multipliers[p].violation > pair.target) missed = true;
+    next.state.multipliers[p] =
+        pairing::augmented(pair, impl_->contact[p], trial.state.multipliers[p]);
+    if (next.state.multipliers[p].violation > pair.target) missed = true;
   }
   if (!missed) return std::nullopt;
-  next.active_set.clear();
   return next;
 }
 
 template <int Dim>
-std::optional<BasicState<Dim>> BasicSystem<Dim>::relaxed(const State& trial) const {
+std::optional<BasicTrial<Dim>> BasicSystem<Dim>::relaxed(const Trial& trial) const {
   constexpr double sunk = 0.05, much = 1.0 / 32, pressed = 1e-9;
   double softer = std::ldexp(1.0, -13);
   bool any = false;
@@ -227,30 +233,29 @@ std::optional<BasicState<Dim>> BasicSystem<Dim>::relaxed(const State& trial) con
     return pair.definition.enforcement != contact::Enforcement::lagrange_multiplier &&
            pair.definition.separation == pairing::Separation::allowed;
   };
-  for (std::size_t p = 0; p < trial.multipliers.size(); ++p) {
+  for (std::size_t p = 0; p < trial.state.multipliers.size(); ++p) {
     const BasicContactPair<Dim>& pair = impl_->model.pairs[p];
-    const double before = committed_share(pair, trial.pairs[p]);
+    const double before = committed_share(pair, trial.state.pairs[p]);
     if (!yields(pair) || !(before > pressed)) continue;
     any = any || mean_share(pair, impl_->contact[p]) > 0;
     softer = std::max(softer, before / sunk);
   }
   if (!any || impl_->timed() || !(softer <= much)) return std::nullopt;
-  State next = trial;
-  for (std::size_t p = 0; p < next.multipliers.size(); ++p)
-    if (yields(impl_->model.pairs[p])) next.multipliers[p].stiffening *= softer;
-  next.active_set.clear();
+  Trial next{trial.state};
+  for (std::size_t p = 0; p < next.state.multipliers.size(); ++p)
+    if (yields(impl_->model.pairs[p])) next.state.multipliers[p].stiffening *= softer;
   return next;
 }
 
 template <int Dim>
-BasicState<Dim> BasicSystem<Dim>::restored(const State& trial, const State& before,
+BasicTrial<Dim> BasicSystem<Dim>::restored(const Trial& trial, const Trial& before,
                                            double part) const {
-  State next = trial;
-  for (std::size_t p = 0; p < next.multipliers.size(); ++p)
-    next.multipliers[p].stiffening =
-        before.multipliers[p].stiffening *
-        std::pow(trial.multipliers[p].stiffening / before.multipliers[p].stiffening, part);
-  next.active_set.clear();
+  Trial next{trial.state};
+  for (std::size_t p = 0; p < next.state.multipliers.size(); ++p)
+    next.state.multipliers[p].stiffening =
+        before.state.multipliers[p].stiffening *
+        std::pow(trial.state.multipliers[p].stiffening / before.state.multipliers[p].stiffening,
+                 part);
   return next;
 }
 
@@ -269,12 +274,12 @@ bool BasicSystem<Dim>::may_stay() const {
 }
 
 template <int Dim>
-std::string BasicSystem<Dim>::refused(const State& committed, const State& trial) const {
+std::string BasicSystem<Dim>::refused(const State& committed, const Trial& trial) const {
   std::vector<Vec<Dim>> x;
   for (std::size_t p = 0; p < impl_->model.pairs.size(); ++p) {
     const BasicContactPair<Dim>& pair = impl_->model.pairs[p];
     if (pair.definition.filter.limited()) continue;
-    if (x.empty()) x = positions(trial);
+    if (x.empty()) x = positions(trial.state);
     std::string text =
         passed_through(impl_->model, pair, in_front(committed.pairs[p], pair.definition.offset),
                        impl_->contact[p], x);

@@ -74,6 +74,7 @@ template <int Dim>
 class BasicSystem {
  public:
   using State = BasicState<Dim>;
+  using Trial = BasicTrial<Dim>;
 
   BasicSystem(const BasicModel<Dim>& model, int threads);
   ~BasicSystem();
@@ -96,17 +97,20 @@ class BasicSystem {
   /// Points of pairs with friction touch that carry no shear.
   [[nodiscard]] bool touches_without_shear(const State& state) const;
   /// Residual and tangent of a trial state. Places far from the master may be left out.
-  void evaluate(const State& committed, const State& trial, double fraction, bool with_tangent,
+  void evaluate(const State& committed, const Trial& trial, double fraction, bool with_tangent,
                 solve::Evaluation& out);
   /// The same of a state against itself, with every place.
   void evaluate(const State& state, double fraction, bool with_tangent, solve::Evaluation& out);
-  [[nodiscard]] State apply(const State& state, const Eigen::VectorXd& du, double fraction,
+  /// The trial moved by a correction, and by what is prescribed; from a committed state the first.
+  [[nodiscard]] Trial apply(const Trial& trial, const Eigen::VectorXd& du, double fraction,
+                            double factor) const;
+  [[nodiscard]] Trial apply(const State& committed, const Eigen::VectorXd& du, double fraction,
                             double factor) const;
   /// The trial state that remembers the branches of the last evaluation, for the next iteration.
-  [[nodiscard]] State remember(const State& trial) const;
+  [[nodiscard]] Trial remember(const Trial& trial) const;
   /// After a solution: the state with corrected multipliers, or nothing where all pairs by
   /// augmented Lagrangian have reached their target. `trial` must be the last state evaluated.
-  [[nodiscard]] std::optional<State> augment(const State& trial) const;
+  [[nodiscard]] std::optional<Trial> augment(const Trial& trial) const;
   /// Whether the multipliers are corrected after every iteration instead of every solution.
   [[nodiscard]] bool augments_often() const;
   /// Whether a solution may stay though no solution is found around what `augment` made of it: it
@@ -115,14 +119,14 @@ class BasicSystem {
   /// The state with normal penalties so much softer that points sink into the master by half of the
   /// height of the cells behind them, at most 2^13 times; nothing where none can be softer by much,
   /// or in steps in time. `trial` must be the last state evaluated.
-  [[nodiscard]] std::optional<State> relaxed(const State& trial) const;
+  [[nodiscard]] std::optional<Trial> relaxed(const Trial& trial) const;
   /// The state with the penalties of `before` times (now / before)^part.
-  [[nodiscard]] State restored(const State& trial, const State& before, double part) const;
+  [[nodiscard]] Trial restored(const Trial& trial, const Trial& before, double part) const;
   /// Why a solution is none, `trial` the last state evaluated: points went through a master that
   /// they were in front of, to where no contact is looked for. Else empty.
-  [[nodiscard]] std::string refused(const State& committed, const State& trial) const;
+  [[nodiscard]] std::string refused(const State& committed, const Trial& trial) const;
   /// The converged state with its new history and rates. `trial` must be the last state evaluated.
-  [[nodiscard]] State commit(const State& trial, double fraction) const;
+  [[nodiscard]] State commit(const Trial& trial, double fraction) const;
   /// The first impact before `fraction` (or not long after it) if everything goes on with the
   /// velocity of `committed`: of points that were open, and of points that come upon another part
   /// of the master at an angle. Nothing where the running step does not end increments at impacts.
@@ -166,7 +170,7 @@ class BasicSystem {
   /// holds it. Otherwise something is only very slender or soft. Multipliers: true.
   ///
   /// Tested by  tests/unit/model/test_diagnosis.cpp
-  [[nodiscard]] bool is_free_motion(const State& state, const Eigen::VectorXd& mode) const;
+  [[nodiscard]] bool is_free_motion(const Trial& trial, const Eigen::VectorXd& mode) const;
   /// Gives every multiplier of the running tangent a little compliance (see solve::Softens).
   /// Returns false where there are none.
   bool soften();

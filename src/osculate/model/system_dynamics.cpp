@@ -321,7 +321,7 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   else
     settle_velocities(rates, prescribed);
   solve::Evaluation out;
-  assemble(committed, committed, 0.0, false, Pass::whole, out);
+  assemble(committed, {committed}, 0.0, false, Pass::whole, out);
   rates.internal = forces.internal;
   rates.external = forces.external;
   rates.contact = forces.contact;

@@ -289,7 +289,7 @@ void BasicSystem<Dim>::Impl::add_contact_block(const pairing::ContactBlock<Dim>&
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& trial,
+void BasicSystem<Dim>::Impl::add_contact(const State& committed, const Trial& trial,
                                          double fraction, std::span<const Vec<Dim>> x,
                                          bool with_tangent, const Eigen::VectorXd* inc, bool near,
                                          solve::Evaluation& out) {
@@ -306,9 +306,9 @@ void BasicSystem<Dim>::Impl::add_contact(const State& committed, const State& tr
     active_set.duration = duration;
     active_set.near = near;
     active_set.relief = relief(pair, fraction);
-    const bool has_multipliers = p < trial.multipliers.size();
+    const bool has_multipliers = p < trial.state.multipliers.size();
     pairing::evaluate<Dim>(pair, x, committed.pairs[p], with_tangent, contact[p], active_set,
-                           has_multipliers ? &trial.multipliers[p] : nullptr);
+                           has_multipliers ? &trial.state.multipliers[p] : nullptr);
     seconds.contact += watch.seconds();
     for (const pairing::ContactBlock<Dim>& block : contact[p].blocks)
       if (block.active()) add_contact_block(block, with_tangent, inc);
@@ -394,7 +394,7 @@ void BasicSystem<Dim>::Impl::add_rigid_geometry(const State& trial, std::span<co
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::assemble(const State& committed, const State& trial, double fraction,
+void BasicSystem<Dim>::Impl::assemble(const State& committed, const Trial& trial, double fraction,
                                       bool with_tangent, Pass pass, solve::Evaluation& out) {
   const Stopwatch watch;
   const double elsewhere = seconds.bulk + seconds.contact;
@@ -418,39 +418,40 @@ bool BasicSystem<Dim>::Impl::flies_apart(const State& committed, const State& tr
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const State& trial,
+void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial& trial,
                                             double fraction, bool with_tangent, Pass pass,
                                             solve::Evaluation& out) {
+  const State& now = trial.state;
   out.ok = true;
   out.apart = false;
   out.message.clear();
   clear(with_tangent);
-  const std::vector<Vec<Dim>> x = positions(trial.u);
+  const std::vector<Vec<Dim>> x = positions(now.u);
   if (motion) begin_increment(committed, fraction, time_between(committed, fraction));
   if (motion && !motion->failure.empty()) {
     out.ok = false;
     out.message = motion->failure;
     return;
   }
-  if (flies_apart(committed, trial, out)) return;
-  assembler.set_configuration(x, trial.rigid);
+  if (flies_apart(committed, now, out)) return;
+  assembler.set_configuration(x, now.rigid);
   Eigen::VectorXd inc;
   const bool predict = pass == Pass::predict;
   if (predict) {
-    inc = prescribed_increment(trial, x, fraction);
+    inc = prescribed_increment(now, x, fraction);
     carried =
         inc.head(Dim * static_cast<Eigen::Index>(x.size())).template lpNorm<Eigen::Infinity>();
   }
   const Eigen::VectorXd* increment = predict ? &inc : nullptr;
-  if (on(Term::bulk) && !add_bulk(committed, trial, fraction, with_tangent, increment, out)) return;
+  if (on(Term::bulk) && !add_bulk(committed, now, fraction, with_tangent, increment, out)) return;
   if (on(Term::contact))
     add_contact(committed, trial, fraction, x, with_tangent, increment, pass == Pass::iterate, out);
-  if (on(Term::pressure)) add_pressure(trial, fraction, with_tangent, increment);
+  if (on(Term::pressure)) add_pressure(now, fraction, with_tangent, increment);
   add_dead_loads(fraction);
   add_gravity(fraction);
-  if (timed()) add_inertia(trial, with_tangent, increment);
-  turn_moments(trial, with_tangent && on(Term::rigid), increment);
-  if (with_tangent && on(Term::rigid)) add_rigid_geometry(trial, x, increment);
+  if (timed()) add_inertia(now, with_tangent, increment);
+  turn_moments(now, with_tangent && on(Term::rigid), increment);
+  if (with_tangent && on(Term::rigid)) add_rigid_geometry(now, x, increment);
   if (with_tangent) assembler.add_prescribed_diagonal(1.0);
   if (with_tangent && resisted > 0) add_resistance(resisted);
   const Eigen::VectorXd total = total_force();

@@ -266,9 +266,9 @@ struct BasicSystem<Dim>::Impl {
     iterate,  ///< places far from the master are not needed (ActiveSet::near)
     whole     ///< of a state against itself: all of it is wanted
   };
-  void assemble(const State& committed, const State& trial, double fraction, bool with_tangent,
+  void assemble(const State& committed, const Trial& trial, double fraction, bool with_tangent,
                 Pass pass, solve::Evaluation& out);
-  void assemble_terms(const State& committed, const State& trial, double fraction,
+  void assemble_terms(const State& committed, const Trial& trial, double fraction,
                       bool with_tangent, Pass pass, solve::Evaluation& out);
 
   /// Time from a committed state to a fraction of the running step. A committed state at the end of
@@ -299,7 +299,7 @@ struct BasicSystem<Dim>::Impl {
                 const Eigen::VectorXd* inc, solve::Evaluation& out);
   /// The last evaluation of contact, at `trial`, in whole: see pairing::look_far.
   void look_far(const State& trial);
-  void add_contact(const State& committed, const State& trial, double fraction,
+  void add_contact(const State& committed, const Trial& trial, double fraction,
                    std::span<const Vec<Dim>> x, bool with_tangent, const Eigen::VectorXd* inc,
                    bool near, solve::Evaluation& out);
   void add_contact_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,

@@ -38,9 +38,9 @@ struct PathPosition {
 };
 
 /// One point of the path.
-template <class State>
+template <class Trial>
 struct PathPoint {
-  NewtonResult<State> result;  ///< `total` is the sum of the corrections
+  NewtonResult<Trial> result;  ///< `total` is the sum of the corrections
   double fraction = 0;
   double length = 0;  ///< of the arc
 };
@@ -53,16 +53,17 @@ inline const Eigen::VectorXd& linearised(const Evaluation& e) {
 
 /// Systems whose multipliers are corrected around the solutions (augmented Lagrangian).
 template <class S>
-concept Augments = requires(const S s, const typename S::State& state) {
-  { s.augment(state) } -> std::same_as<std::optional<typename S::State>>;
+concept Augments = requires(const S s, const typename S::Trial& state) {
+  { s.augment(state) } -> std::same_as<std::optional<typename S::Trial>>;
   { s.augments_often() } -> std::convertible_to<bool>;
   { s.may_stay() } -> std::convertible_to<bool>;
 };
 
 /// Systems that refuse some solutions: those of Newton's method that are not of this increment.
 template <class S>
-concept Refuses = requires(const S s, const typename S::State& state) {
-  { s.refused(state, state) } -> std::same_as<std::string>;
+concept Refuses = requires(const S s, const typename S::State& committed,
+                           const typename S::Trial& trial) {
+  { s.refused(committed, trial) } -> std::same_as<std::string>;
 };
 
 /// Systems whose unknowns are displacements and, behind them, multipliers. Those are forces: in
@@ -87,7 +88,7 @@ template <System S>
 template <System S>
 [[nodiscard]] std::optional<Eigen::VectorXd> load_direction(S& system, la::LinearSolver& solver,
                                                             const typename S::State& committed,
-                                                            const typename S::State& state,
+                                                            const typename S::Trial& state,
                                                             double fraction,
                                                             const Eigen::VectorXd& residual) {
   constexpr double step = 1e-6;
@@ -126,9 +127,9 @@ template <System S>
 template <System S>
 bool begin_arc(S& system, const typename S::State& committed, double start, double size,
                const PathPosition& path, la::LinearSolver& solver, Judge& judge,
-               PathPoint<typename S::State>& point) {
-  NewtonResult<typename S::State>& result = point.result;
-  result.state = committed;
+               PathPoint<typename S::Trial>& point) {
+  NewtonResult<typename S::Trial>& result = point.result;
+  result.trial = typename S::Trial{committed};
   Evaluation rest;
   predict(system, committed, start, Prediction::as_before, rest);
   predict(system, committed, start + size, Prediction::as_before, result.evaluation);
@@ -136,7 +137,7 @@ bool begin_arc(S& system, const typename S::State& committed, double start, doub
     return fail(result, Outcome::numerical_failure, result.evaluation.message);
   const Eigen::VectorXd load = linearised(result.evaluation) - linearised(rest);
   Eigen::VectorXd du;
-  result.state = system.remember(committed);
+  result.trial = system.remember(typename S::Trial{committed});
   if (!solve_correction(system, solver, load, du, result)) return false;
   const double whole = moved(system, du).norm();
   if (!(whole > 0)) return fail(result, Outcome::not_converged, "nothing moves with the fraction");
@@ -151,22 +152,22 @@ bool begin_arc(S& system, const typename S::State& committed, double start, doub
   result.first_residual = std::abs(share) * load.norm();
   result.first_energy = judge.first_energy;
   result.total = du;
-  result.state = system.apply(result.state, du, point.fraction, 1.0);
-  system.evaluate(committed, result.state, point.fraction, true, result.evaluation);
+  result.trial = system.apply(result.trial, du, point.fraction, 1.0);
+  system.evaluate(committed, result.trial, point.fraction, true, result.evaluation);
   return !conclude(judge, du, 1.0, judge.first_energy, result);
 }
 
 /// One correction at the length of the arc; false if it was the last one, converged or not.
 template <System S>
 bool correct_arc(S& system, const typename S::State& committed, la::LinearSolver& solver,
-                 Judge& judge, PathPoint<typename S::State>& point) {
-  NewtonResult<typename S::State>& result = point.result;
+                 Judge& judge, PathPoint<typename S::Trial>& point) {
+  NewtonResult<typename S::Trial>& result = point.result;
   const Eigen::VectorXd residual = linearised(result.evaluation);
   Eigen::VectorXd du;
-  result.state = system.remember(result.state);
+  result.trial = system.remember(result.trial);
   if (!solve_correction(system, solver, residual, du, result)) return false;
   const std::optional<Eigen::VectorXd> load =
-      load_direction(system, solver, committed, result.state, point.fraction, residual);
+      load_direction(system, solver, committed, result.trial, point.fraction, residual);
   const std::optional<double> step =
       load ? keep_length(moved(system, result.total), moved(system, du), moved(system, *load),
                          point.length)
@@ -175,9 +176,9 @@ bool correct_arc(S& system, const typename S::State& committed, la::LinearSolver
     return fail(result, Outcome::not_converged, "the path does not reach as far as the arc");
   du += *step * *load;
   point.fraction += *step;
-  result.state = system.apply(result.state, du, point.fraction, 1.0);
+  result.trial = system.apply(result.trial, du, point.fraction, 1.0);
   result.total += du;
-  system.evaluate(committed, result.state, point.fraction, true, result.evaluation);
+  system.evaluate(committed, result.trial, point.fraction, true, result.evaluation);
   return !conclude(judge, du, 1.0, std::abs(du.dot(residual)), result);
 }
 
@@ -186,11 +187,11 @@ bool correct_arc(S& system, const typename S::State& committed, la::LinearSolver
 ///
 /// Tested by  tests/unit/solve/test_arc_length.cpp
 template <System S>
-[[nodiscard]] PathPoint<typename S::State> follow_path(
+[[nodiscard]] PathPoint<typename S::Trial> follow_path(
     S& system, const typename S::State& committed, double start, double size,
     const PathPosition& path, const NewtonOptions& options, la::LinearSolver& solver) {
-  PathPoint<typename S::State> point;
-  NewtonResult<typename S::State>& result = point.result;
+  PathPoint<typename S::Trial> point;
+  NewtonResult<typename S::Trial>& result = point.result;
   Judge judge{options};
   bool more = begin_arc(system, committed, start, size, path, solver, judge, point);
   constexpr int most = 60;
@@ -199,11 +200,11 @@ template <System S>
       more = correct_arc(system, committed, solver, judge, point);
     if (more || result.outcome != Outcome::converged) break;
     if constexpr (Augments<S>)
-      if (const std::optional<typename S::State> next =
-              system.may_stay() ? std::nullopt : system.augment(result.state)) {
-        result.state = *next;
+      if (const std::optional<typename S::Trial> next =
+              system.may_stay() ? std::nullopt : system.augment(result.trial)) {
+        result.trial = *next;
         result.outcome = Outcome::not_converged;
-        system.evaluate(committed, result.state, point.fraction, true, result.evaluation);
+        system.evaluate(committed, result.trial, point.fraction, true, result.evaluation);
         more = true;
         continue;
       }

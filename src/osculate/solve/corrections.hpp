@@ -27,26 +27,26 @@ inline NewtonOptions loosened(NewtonOptions options) {
 template <System S>
 void augment(S& system, const typename S::State& committed, double time,
              const NewtonOptions& options, la::LinearSolver& solver,
-             NewtonResult<typename S::State>& attempt, bool resisted = false) {
+             NewtonResult<typename S::Trial>& attempt, bool resisted = false) {
   const bool often = system.augments_often();
   const int most = often ? 200 : 60;
   bool whole = !often;
   for (int n = 0; n < most; ++n) {
     if (attempt.outcome != Outcome::converged) return;
-    const std::optional<typename S::State> next = system.augment(attempt.state);
+    const std::optional<typename S::Trial> next = system.augment(attempt.trial);
     if (!next && whole) return;
     whole = !often || !next;
     const Guess guess{attempt.total, attempt.first_residual, attempt.first_energy,
                       Prediction::as_before, resisted};
-    NewtonResult<typename S::State> more =
+    NewtonResult<typename S::Trial> more =
         newton(system, committed, time, whole ? options : loosened(options), solver, guess,
-               next ? &*next : &attempt.state);
+               next ? &*next : &attempt.trial);
     if (more.outcome != Outcome::converged && more.outcome != Outcome::stopped &&
         system.may_stay()) {
       // before those of the solution that stays: the last record is the converged one
       attempt.iterations.insert(attempt.iterations.begin(), more.iterations.begin(),
                                 more.iterations.end());
-      system.evaluate(committed, attempt.state, time, true, attempt.evaluation);
+      system.evaluate(committed, attempt.trial, time, true, attempt.evaluation);
       return;
     }
     more.iterations.insert(more.iterations.begin(), attempt.iterations.begin(),
@@ -63,22 +63,22 @@ void augment(S& system, const typename S::State& committed, double time,
 /// A solution that the system refuses has failed.
 template <System S>
 void refuse(const S& system, const typename S::State& committed,
-            NewtonResult<typename S::State>& attempt) {
+            NewtonResult<typename S::Trial>& attempt) {
   if constexpr (Refuses<S>)
     if (attempt.outcome == Outcome::converged)
-      if (std::string reason = system.refused(committed, attempt.state); !reason.empty())
+      if (std::string reason = system.refused(committed, attempt.trial); !reason.empty())
         fail(attempt, Outcome::not_converged, std::move(reason));
 }
 
 /// Newton's method with the corrections of `augment`.
 template <System S>
-[[nodiscard]] NewtonResult<typename S::State> solve_increment(
+[[nodiscard]] NewtonResult<typename S::Trial> solve_increment(
     S& system, const typename S::State& committed, double time, const NewtonOptions& options,
     la::LinearSolver& solver, const Guess& guess = {}) {
   NewtonOptions first = options;
   if constexpr (Augments<S>)
     if (system.augments_often()) first = loosened(options);
-  NewtonResult<typename S::State> attempt = newton(system, committed, time, first, solver, guess);
+  NewtonResult<typename S::Trial> attempt = newton(system, committed, time, first, solver, guess);
   if constexpr (Augments<S>)
     augment(system, committed, time, options, solver, attempt, guess.resisted);
   refuse(system, committed, attempt);

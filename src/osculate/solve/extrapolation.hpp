@@ -32,8 +32,8 @@ class Extrapolation {
   void reset() { m_ = {}; }
 
   /// Takes note of a converged increment of size `h`.
-  template <class State>
-  void add(const NewtonResult<State>& converged, double h) {
+  template <class Trial>
+  void add(const NewtonResult<Trial>& converged, double h) {
     m_.smooth = m_.known > 0 && converged.evaluation.counts.signature == m_.signature;
     m_.signature = converged.evaluation.counts.signature;
     m_.before = std::move(m_.last);

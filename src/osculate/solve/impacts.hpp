@@ -36,7 +36,7 @@ concept MeetsImpacts = requires(S s, const typename S::State& state, double frac
 ///            happens now: nothing is shortened for it
 /// Tested by  tests/unit/solve/test_impacts.cpp
 template <System S, class Attempt>
-NewtonResult<typename S::State> up_to_impact(S& system, const typename S::State& committed,
+NewtonResult<typename S::Trial> up_to_impact(S& system, const typename S::State& committed,
                                              double at, double& target, double nominal, int& wasted,
                                              const Attempt& attempt) {
   constexpr double now = 0.01, away = 0.005, enough = 0.003;
@@ -50,7 +50,7 @@ NewtonResult<typename S::State> up_to_impact(S& system, const typename S::State&
   };
   double end = shortly_before(at, ahead->share);
   for (int n = 1;; ++n) {
-    NewtonResult<typename S::State> result = attempt(end);
+    NewtonResult<typename S::Trial> result = attempt(end);
     const bool converged = result.outcome == Outcome::converged;
     double next = free + 0.8 * (end - free);
     if (converged && system.has_met(committed, {0, expected})) {
@@ -58,7 +58,7 @@ NewtonResult<typename S::State> up_to_impact(S& system, const typename S::State&
     } else if (converged) {
       if (end == target) return result;
       free = end;
-      ahead = system.impact_ahead(system.commit(result.state, end), target);
+      ahead = system.impact_ahead(system.commit(result.trial, end), target);
       next = ahead ? shortly_before(end, ahead->share) : target;
       if (ahead) expected.insert(expected.end(), ahead->points.begin(), ahead->points.end());
       if (next >= met) next = 0.5 * (free + met);

@@ -50,12 +50,12 @@ struct StepPosition {
   TimePace pace{};
 };
 
-template <class State>
+template <class State, class Trial = State>
 struct StepResult {
   Outcome outcome = Outcome::converged;
   std::string reason;
   State state;                       ///< last converged
-  NewtonResult<State> last_attempt;  ///< filled when the step failed
+  NewtonResult<Trial> last_attempt;  ///< filled when the step failed
   std::vector<IncrementRecord> increments;
 };
 
@@ -74,7 +74,7 @@ namespace detail {
 ///   sliding     points touch that have not been sheared: to begin with, nothing may hold them
 template <System S>
 Prediction another_prediction(const S& system, const typename S::State& committed,
-                              const NewtonResult<typename S::State>& attempt) {
+                              const NewtonResult<typename S::Trial>& attempt) {
   if constexpr (PredictsFriction<S>) {
     if (attempt.outcome == Outcome::numerical_failure && attempt.evaluation.ok)
       return Prediction::sticking;
@@ -86,7 +86,7 @@ Prediction another_prediction(const S& system, const typename S::State& committe
 
 /// Nothing holds a body, or nothing else is left to try.
 template <System S>
-bool worth_resisting(const NewtonResult<typename S::State>& attempt, bool last) {
+bool worth_resisting(const NewtonResult<typename S::Trial>& attempt, bool last) {
   if (!Resists<S> || attempt.outcome == Outcome::converged || attempt.outcome == Outcome::stopped)
     return false;
   return last || attempt.linear == la::SolveStatus::singular;
@@ -96,11 +96,11 @@ bool worth_resisting(const NewtonResult<typename S::State>& attempt, bool last) 
 /// prediction of friction, with free motions resisted. Iterations of what did not help are
 /// `wasted`.
 template <System S>
-NewtonResult<typename S::State> attempt_increment(S& system, const typename S::State& committed,
+NewtonResult<typename S::Trial> attempt_increment(S& system, const typename S::State& committed,
                                                   double target, const NewtonOptions& options,
                                                   la::LinearSolver& solver, const Guess& guess,
                                                   bool last, int& wasted, bool& resisted) {
-  using Result = NewtonResult<typename S::State>;
+  using Result = NewtonResult<typename S::Trial>;
   const auto waste = [&](const Result& dropped) {
     wasted += static_cast<int>(dropped.iterations.size());
   };
@@ -128,7 +128,7 @@ NewtonResult<typename S::State> attempt_increment(S& system, const typename S::S
   // It moves and moves: in contact its state shows what is free, the first failure tells why.
   const StateCounts &before = attempt.evaluation.counts, &after = held.evaluation.counts;
   if (held.outcome == Outcome::not_converged && after.touching() > before.touching())
-    attempt.state = std::move(held.state);
+    attempt.trial = std::move(held.trial);
   return attempt;
 }
 
@@ -143,7 +143,7 @@ struct StepRun {
   const IncrementObserver<State>& on_increment;
   const CutbackObserver& on_cutback;
   StepPosition& position;
-  StepResult<State>& result;
+  StepResult<State, typename S::Trial>& result;
   int cutbacks = 0, wasted = 0;
   TimeStepTaken time_step{};  ///< the running one
 
@@ -155,11 +155,12 @@ struct StepRun {
   }
 
   /// Commits a converged increment that ends where `position` stands. False: stopped.
-  bool accept(NewtonResult<State>& attempt, bool resisted, bool on_path) {
-    return accept(system.commit(attempt.state, position.at), attempt, resisted, on_path);
+  bool accept(NewtonResult<typename S::Trial>& attempt, bool resisted, bool on_path) {
+    return accept(system.commit(attempt.trial, position.at), attempt, resisted, on_path);
   }
   /// The same for one whose state has been committed.
-  bool accept(State committed, NewtonResult<State>& attempt, bool resisted, bool on_path) {
+  bool accept(State committed, NewtonResult<typename S::Trial>& attempt, bool resisted,
+              bool on_path) {
     result.outcome = Outcome::converged;
     result.reason.clear();
     result.last_attempt = {};
@@ -182,13 +183,13 @@ struct StepRun {
   }
 
   /// No more is wanted: the step ends with what has converged. False, for those who return it.
-  bool stop(const NewtonResult<State>& attempt) {
+  bool stop(const NewtonResult<typename S::Trial>& attempt) {
     result.outcome = attempt.outcome;
     result.reason = attempt.reason;
     return false;
   }
 
-  void drop(const NewtonResult<State>& attempt, double target) {
+  void drop(const NewtonResult<typename S::Trial>& attempt, double target) {
     on_cutback(attempt.reason, position.at, target, attempt.iterations);
     ++cutbacks;
     wasted += static_cast<int>(attempt.iterations.size());
@@ -215,7 +216,7 @@ bool begin_path(StepRun<S>& run, double size) {
 /// way brings forward. `unit`: length that times of impacts are measured by; shorter increments
 /// than `smallest` are not tried.
 template <System S>
-NewtonResult<typename S::State> attempt_load(StepRun<S>& run, double& target, double unit,
+NewtonResult<typename S::Trial> attempt_load(StepRun<S>& run, double& target, double unit,
                                              double smallest, bool& resisted) {
   StepPosition& position = run.position;
   const IncrementOptions& options = run.options;
@@ -235,7 +236,7 @@ NewtonResult<typename S::State> attempt_load(StepRun<S>& run, double& target, do
 
 /// Half of a failed increment comes next. False: it would be too small, the step ends here.
 template <System S>
-bool halve(StepRun<S>& run, NewtonResult<typename S::State>& attempt, double target,
+bool halve(StepRun<S>& run, NewtonResult<typename S::Trial>& attempt, double target,
            double smallest) {
   StepPosition& position = run.position;
   if (attempt.outcome == Outcome::stopped) return run.stop(attempt);
@@ -263,7 +264,7 @@ bool load_increment(StepRun<S>& run) {
   constexpr double sliver = 1e-6;  // not worth an increment, and too short for one in time
   double target = end - at <= size * (1 + sliver) ? end : at + size;
   bool resisted = false;
-  NewtonResult<typename S::State> attempt =
+  NewtonResult<typename S::Trial> attempt =
       attempt_load(run, target, end - begin, smallest, resisted);
   if (attempt.outcome != Outcome::converged) return halve(run, attempt, target, smallest);
   position.extrapolation.add(attempt, target - at);
@@ -294,10 +295,10 @@ bool time_increment(StepRun<S>& run, const TimeAccuracy& accuracy) {
       (least > 0 ? least : nominal) * std::ldexp(1.0, -run.options.max_cutbacks);
   double target = time_target(at, size, end, accuracy.corners);
   bool resisted = false;
-  NewtonResult<typename S::State> attempt =
+  NewtonResult<typename S::Trial> attempt =
       attempt_load(run, target, std::min(size, nominal), smallest, resisted);
   if (attempt.outcome != Outcome::converged) return halve(run, attempt, target, smallest);
-  typename S::State next = run.system.commit(attempt.state, target);
+  typename S::State next = run.system.commit(attempt.trial, target);
   const TimeError error = run.system.time_error(run.result.state, next);
   const double relative = relative_error(error, position.pace), length = target - at;
   const double share = relative / accuracy.error;
@@ -329,11 +330,11 @@ bool free_increment(StepRun<S>& run) {
 
 /// The path has passed the fraction where it ends: the increment that ends there.
 template <System S>
-void end_path(StepRun<S>& run, PathPoint<typename S::State>& point) {
+void end_path(StepRun<S>& run, PathPoint<typename S::Trial>& point) {
   const double until = run.position.path.until, at = run.position.at;
   const double share = (until - at) / (point.fraction - at);
   const Eigen::VectorXd total = share * point.result.total;
-  const typename S::State near_end = run.system.apply(run.result.state, total, until, 1.0);
+  const typename S::Trial near_end = run.system.apply(run.result.state, total, until, 1.0);
   std::vector<IterationRecord> iterations = std::move(point.result.iterations);
   point.result = newton(run.system, run.result.state, until, run.options.newton, run.solver,
                         {total, point.result.first_residual, point.result.first_energy}, &near_end);
@@ -374,7 +375,7 @@ bool path_increment(StepRun<S>& run) {
   const ArcLengthOptions& options = run.options.arc_length;
   const double nominal = 1.0 / run.nominal_increments;
   const double size = path.length > 0 ? nominal : position.size;
-  PathPoint<typename S::State> point = follow_path(run.system, run.result.state, position.at, size,
+  PathPoint<typename S::Trial> point = follow_path(run.system, run.result.state, position.at, size,
                                                    path, run.options.newton, run.solver);
   const auto found = [&] { return point.result.outcome == Outcome::converged; };
   const bool ends = found() && point.fraction >= path.until;
@@ -404,12 +405,12 @@ bool path_increment(StepRun<S>& run) {
 /// Runs one step from `start` to its end: from its beginning, or from where `position` stands,
 /// which is kept up to date (and may be read by the observers).
 template <System S>
-[[nodiscard]] StepResult<typename S::State> run_step(
+[[nodiscard]] StepResult<typename S::State, typename S::Trial> run_step(
     S& system, const typename S::State& start, int nominal_increments,
     const IncrementOptions& options, la::LinearSolver& solver,
     const IncrementObserver<typename S::State>& on_increment, const CutbackObserver& on_cutback,
     StepPosition& position) {
-  StepResult<typename S::State> result;
+  StepResult<typename S::State, typename S::Trial> result;
   result.state = start;
   detail::StepRun<S> run{system,       nominal_increments, options,  solver,
                          on_increment, on_cutback,         position, result};
@@ -431,7 +432,7 @@ template <System S>
 
 /// The same from the beginning of the step.
 template <System S>
-[[nodiscard]] StepResult<typename S::State> run_step(
+[[nodiscard]] StepResult<typename S::State, typename S::Trial> run_step(
     S& system, const typename S::State& start, int nominal_increments,
     const IncrementOptions& options, la::LinearSolver& solver,
     const IncrementObserver<typename S::State>& on_increment, const CutbackObserver& on_cutback) {

@@ -99,23 +99,26 @@ struct Precision {
       false;  ///< the residual is above its tolerance, and as small as rounding lets it
 };
 
+/// `State` is what was committed, `Trial` what an iteration tries; they may be one type, but where
+/// they are two, neither can be taken for the other.
 template <class S>
-concept System = requires(S s, const typename S::State& state, const Eigen::VectorXd& du,
-                          Evaluation& out, double time) {
-  {s.predict(state, time, out)};                // residual and tangent at the committed state
-  {s.evaluate(state, state, time, true, out)};  // committed, trial
-  { s.apply(state, du, time, 1.0) } -> std::same_as<typename S::State>;
-  { s.remember(state) } -> std::same_as<typename S::State>;
+concept System = requires(S s, const typename S::State& state, const typename S::Trial& trial,
+                          const Eigen::VectorXd& du, Evaluation& out, double time) {
+  {s.predict(state, time, out)};  // residual and tangent at the committed state
+  {s.evaluate(state, trial, time, true, out)};
+  { s.apply(state, du, time, 1.0) } -> std::same_as<typename S::Trial>;
+  { s.apply(trial, du, time, 1.0) } -> std::same_as<typename S::Trial>;
+  { s.remember(trial) } -> std::same_as<typename S::Trial>;
   { s.matrix() } -> std::same_as<const la::SparseMatrix&>;
   { s.pattern_version() } -> std::convertible_to<std::uint64_t>;
   { s.symmetry() } -> std::same_as<la::Symmetry>;
 };
 
-template <class State>
+template <class Trial>
 struct NewtonResult {
   Outcome outcome = Outcome::not_converged;
   std::string reason;
-  State state;  ///< last iterate (converged or not)
+  Trial trial;  ///< last iterate (converged or not)
   Evaluation evaluation;
   std::vector<IterationRecord> iterations;
   Eigen::VectorXd total;      ///< sum of the corrections
@@ -128,8 +131,8 @@ struct NewtonResult {
 
 namespace detail {
 
-template <class State>
-bool fail(NewtonResult<State>& result, Outcome outcome, std::string reason) {
+template <class Trial>
+bool fail(NewtonResult<Trial>& result, Outcome outcome, std::string reason) {
   result.outcome = outcome;
   result.reason = std::move(reason);
   return false;

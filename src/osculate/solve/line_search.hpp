@@ -68,12 +68,12 @@ struct Searched {
 /// the full correction is taken, up to the zero of the work.
 template <System S>
 Searched line_search(S& system, const typename S::State& committed,
-                     NewtonResult<typename S::State>& result, const Eigen::VectorXd& du,
+                     NewtonResult<typename S::Trial>& result, const Eigen::VectorXd& du,
                      const Eigen::VectorXd& old_residual, double time, bool falling = false,
                      bool weak = false) {
   constexpr int most = 10;
   constexpr double close_enough = 0.05, farthest = 100;
-  const typename S::State start = result.state;
+  const typename S::Trial start = result.trial;
   Evaluation trial;
   double evaluated = 0;  // the step of `trial`
   const auto at = [&](double step) {
@@ -87,7 +87,7 @@ Searched line_search(S& system, const typename S::State& committed,
     return point;
   };
   const auto taken = [&](double step) {
-    result.state = system.apply(start, du, time, step);
+    result.trial = system.apply(start, du, time, step);
     if (evaluated == step) result.evaluation = std::move(trial);
     return Searched{step, evaluated == step};
   };

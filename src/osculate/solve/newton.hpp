@@ -116,14 +116,14 @@ void predict(S& system, const typename S::State& committed, double time, Predict
 /// Moves to the guess. False (and nothing changed but the evaluation) if it is no good start.
 template <System S>
 bool start_from_guess(S& system, const typename S::State& committed, double time,
-                      const Guess& guess, NewtonResult<typename S::State>& result) {
+                      const Guess& guess, NewtonResult<typename S::Trial>& result) {
   if (guess.du.size() == 0) return false;
-  typename S::State state = system.apply(committed, guess.du, time, 1.0);
-  system.evaluate(committed, state, time, true, result.evaluation);
+  typename S::Trial trial = system.apply(committed, guess.du, time, 1.0);
+  system.evaluate(committed, trial, time, true, result.evaluation);
   const Evaluation& e = result.evaluation;
   if (!e.ok || e.branch_residual.size() > 0 || !(e.residual.norm() < 0.5 * guess.residual))
     return false;
-  result.state = std::move(state);
+  result.trial = std::move(trial);
   result.total = guess.du;
   result.extrapolated = true;
   return true;
@@ -132,10 +132,10 @@ bool start_from_guess(S& system, const typename S::State& committed, double time
 /// Starts from `warm`, from the guess, or at the committed state with the tangent's prediction.
 template <System S>
 void begin(S& system, const typename S::State& committed, double time, const Guess& guess,
-           const typename S::State* warm, Judge& judge, NewtonResult<typename S::State>& result) {
-  result.state = committed;
+           const typename S::Trial* warm, Judge& judge, NewtonResult<typename S::Trial>& result) {
+  result.trial = typename S::Trial{committed};
   if (warm) {
-    result.state = *warm;
+    result.trial = *warm;
     system.evaluate(committed, *warm, time, true, result.evaluation);
     judge.first_energy = guess.energy;
     result.first_residual = guess.residual;
@@ -154,25 +154,25 @@ void begin(S& system, const typename S::State& committed, double time, const Gue
 }
 
 /// The residual of an iteration beside the forces.
-template <class State>
-double relative_residual(const NewtonResult<State>& result) {
+template <class Trial>
+double relative_residual(const NewtonResult<Trial>& result) {
   const double least_scale = 1e-3 * result.first_residual;
   const Evaluation& e = result.evaluation;
   return relative(e.residual.norm(), std::max(e.force_scale, least_scale));
 }
 
 /// Whether the tolerances are met, so that no tangent is needed any more.
-template <class State>
+template <class Trial>
 bool meets(const Judge& judge, const Eigen::VectorXd& du, double energy_before,
-           const NewtonResult<State>& result) {
+           const NewtonResult<Trial>& result) {
   const Evaluation& e = result.evaluation;
   return e.ok && judge.done(relative_residual(result), energy_before, std::abs(du.dot(e.residual)));
 }
 
 /// Writes down the iteration with correction `du`; true if it was the last one, converged or not.
-template <class State>
+template <class Trial>
 bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energy_before,
-              NewtonResult<State>& result) {
+              NewtonResult<Trial>& result) {
   const Evaluation& e = result.evaluation;
   if (!e.ok) return !fail(result, Outcome::numerical_failure, e.message);
   const double energy_after = std::abs(du.dot(e.residual));
@@ -215,12 +215,12 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
 /// nothing to undo. With `warm` the iteration goes on from that trial state, and `guess` has the
 /// sum of the corrections so far and the measures of the first iteration.
 template <System S>
-[[nodiscard]] NewtonResult<typename S::State> newton(S& system, const typename S::State& committed,
+[[nodiscard]] NewtonResult<typename S::Trial> newton(S& system, const typename S::State& committed,
                                                      double time, const NewtonOptions& options,
                                                      la::LinearSolver& solver,
                                                      const Guess& guess = {},
-                                                     const typename S::State* warm = nullptr) {
-  NewtonResult<typename S::State> result;
+                                                     const typename S::Trial* warm = nullptr) {
+  NewtonResult<typename S::Trial> result;
   detail::Judge judge{options};
   detail::begin(system, committed, time, guess, warm, judge, result);
   if (!result.evaluation.ok) {
@@ -235,7 +235,7 @@ template <System S>
     const bool branched = result.evaluation.branch_residual.size() > 0;
     const Eigen::VectorXd linearised = branched ? result.evaluation.branch_residual : residual;
     Eigen::VectorXd du;
-    result.state = system.remember(result.state);
+    result.trial = system.remember(result.trial);
     if (!resistance.solve(solver, linearised, du, result)) {
       if (!peeling.gives_up(system, committed, time, result)) return result;
       judge.begin_again();
@@ -255,16 +255,16 @@ template <System S>
       searched =
           detail::line_search(system, committed, result, du, residual, time, resistance.on(), weak);
     else
-      result.state = system.apply(result.state, du, time, 1.0);
+      result.trial = system.apply(result.trial, du, time, 1.0);
     const double step = searched.step;
     // What is converged needs no tangent, and is not evaluated twice.
     const bool known =
         searched.evaluated && !resistance.on() && detail::meets(judge, du, energy_before, result);
-    if (!known) system.evaluate(committed, result.state, time, true, result.evaluation);
+    if (!known) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (result.total.size() == 0) result.total.setZero(du.size());
     result.total += step * du;
     const bool ended = detail::conclude(judge, du, step, energy_before, result);
-    if (known && !ended) system.evaluate(committed, result.state, time, true, result.evaluation);
+    if (known && !ended) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();
     else if (ended)

@@ -10,11 +10,11 @@ namespace osculate::solve {
 
 /// Systems that can make their contact softer for a while.
 template <class S>
-concept Relaxes = requires(const S s, const typename S::State& state) {
+concept Relaxes = requires(const S s, const typename S::Trial& state) {
   // softer than in the last evaluation, which was of `state`; none: nothing can be softer
-  { s.relaxed(state) } -> std::same_as<std::optional<typename S::State>>;
+  { s.relaxed(state) } -> std::same_as<std::optional<typename S::Trial>>;
   // as stiff as in `before`, but for a part (of the exponent) of what it became softer
-  { s.restored(state, state, 0.0) } -> std::same_as<typename S::State>;
+  { s.restored(state, state, 0.0) } -> std::same_as<typename S::Trial>;
 };
 
 namespace detail {
@@ -40,7 +40,7 @@ class Peeling {
   /// After an iteration, the last one if `ended`: true if the contact became softer or stiffer, and
   /// the iterations go on from `result`.
   bool turns(S& system, const typename S::State& committed, double time, bool ended,
-             NewtonResult<typename S::State>& result) {
+             NewtonResult<typename S::Trial>& result) {
     if constexpr (Relaxes<S>) {
       turned_ = false;
       const bool still = look_at(result.evaluation.counts);
@@ -59,7 +59,7 @@ class Peeling {
 
   /// The linear system of the softer contact could not be solved: back to the true one.
   bool gives_up(S& system, const typename S::State& committed, double time,
-                NewtonResult<typename S::State>& result) {
+                NewtonResult<typename S::Trial>& result) {
     if (!softer_ || result.outcome == Outcome::stopped) return false;
     go_back(result);
     go_on(system, committed, time, result);
@@ -91,42 +91,42 @@ class Peeling {
     return seen_ >= long_enough || (now > before && now - before <= 2 * window);
   }
 
-  bool soften(S& system, NewtonResult<typename S::State>& result) {
-    std::optional<typename S::State> softer = system.relaxed(result.state);
+  bool soften(S& system, NewtonResult<typename S::Trial>& result) {
+    std::optional<typename S::Trial> softer = system.relaxed(result.trial);
     if (!softer) return false;
     used_ = true;
-    softer_ = {std::move(result.state), result.total};
-    result.state = std::move(*softer);
+    softer_ = {std::move(result.trial), result.total};
+    result.trial = std::move(*softer);
     seen_ = stage_ = 0;
     return true;
   }
 
   /// To the next stage; to the last one where iterations are spent.
-  void harden(S& system, bool spent, NewtonResult<typename S::State>& result) {
+  void harden(S& system, bool spent, NewtonResult<typename S::Trial>& result) {
     if (!result.evaluation.ok || !result.evaluation.residual.allFinite()) return go_back(result);
     const bool last = spent || ++stage_ == stages;
-    result.state = system.restored(result.state, softer_->state, last ? 0 : 0.5);
+    result.trial = system.restored(result.trial, softer_->trial, last ? 0 : 0.5);
     seen_ = 0;
     if (last) softer_.reset();
   }
 
-  void go_back(NewtonResult<typename S::State>& result) {
-    result.state = std::move(softer_->state);
+  void go_back(NewtonResult<typename S::Trial>& result) {
+    result.trial = std::move(softer_->trial);
     result.total = std::move(softer_->total);
     seen_ = 0;
     softer_.reset();
   }
 
   void go_on(S& system, const typename S::State& committed, double time,
-             NewtonResult<typename S::State>& result) {
+             NewtonResult<typename S::Trial>& result) {
     turned_ = true;
     result.outcome = Outcome::not_converged;
     result.reason.clear();
-    system.evaluate(committed, result.state, time, true, result.evaluation);
+    system.evaluate(committed, result.trial, time, true, result.evaluation);
   }
 
   struct Left {
-    typename S::State state;
+    typename S::Trial trial;
     Eigen::VectorXd total;
   };
   std::optional<Left> softer_;  ///< where the true contact was left; set while it is softer

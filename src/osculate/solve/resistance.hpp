@@ -17,9 +17,9 @@ concept Resists = requires(S s, const Eigen::VectorXd& du, double share) {
 /// strip: to working precision both have singular tangents. The second's is used, and the
 /// iterations correct what it lacks in digits.
 template <class S>
-concept KnowsFreeMotions = requires(const S s, const typename S::State& state,
+concept KnowsFreeMotions = requires(const S s, const typename S::Trial& trial,
                                     const Eigen::VectorXd& mode) {
-  { s.is_free_motion(state, mode) } -> std::same_as<bool>;  // over the unknowns of the matrix
+  { s.is_free_motion(trial, mode) } -> std::same_as<bool>;  // over the unknowns of the matrix
 };
 
 /// Systems with multipliers whose constraints may say the same thing twice, as two nodes of a rigid
@@ -47,7 +47,7 @@ concept Interruptible = requires(const S s) {
 /// du = -K^-1 R. Returns false and fills the result when the tangent cannot be used.
 template <System S>
 bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd& residual,
-                      Eigen::VectorXd& du, NewtonResult<typename S::State>& result) {
+                      Eigen::VectorXd& du, NewtonResult<typename S::Trial>& result) {
   result.linear = la::SolveStatus::ok;
   if constexpr (Interruptible<S>)
     if (system.interrupted()) return fail(result, Outcome::stopped, "stopped by the user");
@@ -55,7 +55,7 @@ bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd
       solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
   result.precision.condition = std::max(result.precision.condition, report.condition);
   if constexpr (KnowsFreeMotions<S>)
-    if (report.weakest.size() > 0 && !system.is_free_motion(result.state, report.weakest))
+    if (report.weakest.size() > 0 && !system.is_free_motion(result.trial, report.weakest))
       report.status = la::SolveStatus::ok;
   if constexpr (Softens<S>)
     if (report.status == la::SolveStatus::singular && system.soften())
@@ -98,7 +98,7 @@ class Resistance {
 
   /// As solve_correction, with as much resistance as it takes.
   bool solve(la::LinearSolver& solver, const Eigen::VectorXd& residual, Eigen::VectorXd& du,
-             NewtonResult<typename S::State>& result) {
+             NewtonResult<typename S::Trial>& result) {
     if (!on_) return solve_correction(system_, solver, residual, du, result);
     constexpr double most = 1.0, stiffer = 100, spare = 2;
     for (bool first = true; share_ <= most; first = false) {

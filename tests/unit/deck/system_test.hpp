@@ -23,7 +23,8 @@ struct Probe {
 
   Built built;
   model::System system{built.model, 1};
-  model::State start, base;
+  model::State start;
+  model::Trial base;
   double fraction = 0.5;
   std::mt19937 generator{11};
 
@@ -34,13 +35,13 @@ struct Probe {
       d[i] = system.prescribed(static_cast<Index>(i)) ? 0.0 : amplitude * uniform(generator);
     return d;
   }
-  solve::Evaluation at(const model::State& state, bool tangent, double when) {
+  solve::Evaluation at(const model::Trial& state, bool tangent, double when) {
     solve::Evaluation e;
     system.evaluate(start, state, when, tangent, e);
     if (!e.ok) throw std::runtime_error(e.message);
     return e;
   }
-  solve::Evaluation at(const model::State& state, bool tangent) {
+  solve::Evaluation at(const model::Trial& state, bool tangent) {
     return at(state, tangent, fraction);
   }
 };

@@ -286,12 +286,12 @@ TEST(DynamicsLedger, WhatIsLeftOverStandsInTheResidual) {
   double left_over = 0;
   for (int i = 1; i <= 5; ++i) {
     const double at = 0.1 * i;
-    const model::State trial = probe.system.apply(state, probe.random(0.01), at, 1.0);
+    const model::Trial trial = probe.system.apply(state, probe.random(0.01), at, 1.0);
     solve::Evaluation e;
     probe.system.evaluate(state, trial, at, false, e);
     for (Index u = 0; u < probe.system.dofs().unknowns(); ++u) {
       const Index d = probe.system.dofs().dof_of_unknown(u);
-      left_over += 0.5 * e.residual[u] * (trial.u[d] - state.u[d]);
+      left_over += 0.5 * e.residual[u] * (trial.state.u[d] - state.u[d]);
     }
     state = probe.system.commit(trial, at);
   }

@@ -70,7 +70,7 @@ TEST(Plasticity, TrialsLeaveWhatIsCommittedAndACommitTakesTheLastOne) {
     const std::vector<double> untouched(probe.start.memory.size(), 0.0);
     ASSERT_EQ(untouched.size(), 8u * 4 * 7);
     solve::Evaluation out;
-    const model::State near = probe.base, far = probe.system.apply(near, probe.random(0.1), 0.5, 1);
+    const model::Trial near = probe.base, far = probe.system.apply(near, probe.random(0.1), 0.5, 1);
     probe.system.evaluate(probe.start, near, 0.5, true, out);
     const Eigen::VectorXd first = out.residual;
     probe.system.evaluate(probe.start, far, 0.5, false, out);
@@ -79,11 +79,11 @@ TEST(Plasticity, TrialsLeaveWhatIsCommittedAndACommitTakesTheLastOne) {
     EXPECT_EQ(out.residual, first);
     const model::State next = probe.system.commit(near, 0.5);
     EXPECT_GT(*std::ranges::max_element(next.memory), 0);
-    EXPECT_EQ(near.memory, untouched);
+    EXPECT_EQ(near.state.memory, untouched);
     // Evaluated again, the committed state flows no further: not a bit changes.
     probe.system.evaluate(next, 0.5, false, out);
     EXPECT_LT((out.residual - first).norm(), 1e-11 * first.norm());
-    EXPECT_EQ(probe.system.commit(next, 0.5).memory, next.memory);
+    EXPECT_EQ(probe.system.commit({next}, 0.5).memory, next.memory);
   }
 }
 

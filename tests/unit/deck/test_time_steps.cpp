@@ -184,10 +184,10 @@ model::State solved(model::System& system, const model::State& from, double unti
                     la::LinearSolver& solver) {
   solve::NewtonOptions options;
   options.residual = 1e-12;
-  const solve::NewtonResult<model::State> attempt =
+  const solve::NewtonResult<model::Trial> attempt =
       solve::detail::solve_increment(system, from, until, options, solver);
   EXPECT_EQ(attempt.outcome, solve::Outcome::converged);
-  return system.commit(attempt.state, until);
+  return system.commit(attempt.trial, until);
 }
 
 constexpr const char* on_a_base = R"(osculate: 1

@@ -318,7 +318,8 @@ struct Probe {
   Probe& operator=(const Probe&) = delete;
 
   BasicSystem<Dim> system;
-  BasicState<Dim> start, base;
+  BasicState<Dim> start;
+  BasicTrial<Dim> base;
   double fraction = 0.5;
   std::mt19937 generator{11};
 
@@ -329,13 +330,13 @@ struct Probe {
       d[i] = system.prescribed(static_cast<Index>(i)) ? 0.0 : amplitude * uniform(generator);
     return d;
   }
-  solve::Evaluation at(const BasicState<Dim>& state, bool tangent, double when) {
+  solve::Evaluation at(const BasicTrial<Dim>& state, bool tangent, double when) {
     solve::Evaluation e;
     system.evaluate(start, state, when, tangent, e);
     if (!e.ok) throw std::runtime_error(e.message);
     return e;
   }
-  solve::Evaluation at(const BasicState<Dim>& state, bool tangent) {
+  solve::Evaluation at(const BasicTrial<Dim>& state, bool tangent) {
     return at(state, tangent, fraction);
   }
 };

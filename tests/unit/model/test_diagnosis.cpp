@@ -60,13 +60,13 @@ TEST(FreeMotions3, AreKnownFromModesThatStrain) {
     turned.segment<3>(at) = Vec3(0.3, 0.1, -1).cross(x);
     bent.segment<3>(at) = Vec3(0, 0, x.x() * x.x());
   }
-  EXPECT_TRUE(system.is_free_motion(state, move));
-  EXPECT_TRUE(system.is_free_motion(state, turned));
-  EXPECT_TRUE(system.is_free_motion(state, move + 3 * turned));
-  EXPECT_TRUE(system.is_free_motion(state, move + 1e-6 * bent));
-  EXPECT_FALSE(system.is_free_motion(state, bent));
-  EXPECT_FALSE(system.is_free_motion(state, move + bent));
-  EXPECT_TRUE(system.is_free_motion(state, Eigen::VectorXd::Ones(3)));  // with multipliers
+  EXPECT_TRUE(system.is_free_motion({state}, move));
+  EXPECT_TRUE(system.is_free_motion({state}, turned));
+  EXPECT_TRUE(system.is_free_motion({state}, move + 3 * turned));
+  EXPECT_TRUE(system.is_free_motion({state}, move + 1e-6 * bent));
+  EXPECT_FALSE(system.is_free_motion({state}, bent));
+  EXPECT_FALSE(system.is_free_motion({state}, move + bent));
+  EXPECT_TRUE(system.is_free_motion({state}, Eigen::VectorXd::Ones(3)));  // with multipliers
 }
 
 /// A correction by a tangent without digits.

@@ -154,7 +154,7 @@ TYPED_TEST(SystemOf, PredictsToFirstOrder) {
   BasicModel<Dim> m = block_with_tool<Dim>(rubber<Dim>(young));
   drive_body(m, either<Dim>({0.1, 0.08, 0.25}, {0.1, -0.05, 0.08, 0.2, -0.3, 0.25}));
   Probe<Dim> probe(m, 0);
-  expect_first_order_prediction(probe, probe.base, 0.5);
+  expect_first_order_prediction(probe, probe.base.state, 0.5);
 }
 
 // ---- balance ------------------------------------------------------------------------------------
@@ -234,7 +234,7 @@ TYPED_TEST(SystemOf, FollowerPressureTurnsWithItsSide) {
   add_pressure(m, "block.right", 7);
   Probe<Dim> probe(m, 0.1);
   (void)probe.at(probe.base, false);
-  const std::vector<Vec<Dim>> x = probe.system.positions(probe.base);
+  const std::vector<Vec<Dim>> x = probe.system.positions(probe.base.state);
   Vec<Dim> area = Vec<Dim>::Zero();  // of polygons: what two have in common drops out of the sum
   for (const PressureLoad::Facet& facet : m.steps[0].pressure[0].facets) {
     const auto corner = [&](std::size_t k) {

@@ -162,6 +162,7 @@ struct PressedSystem {
     Eigen::VectorXd x;
     double multiplier = 0;
   };
+  using Trial = State;
   bool often = false;
   la::MatrixBuilder builder{2};
 

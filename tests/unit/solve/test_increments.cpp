@@ -115,7 +115,7 @@ TEST(Increments, AFailureKeepsWhatConverged) {
   // 0.25, 0.5 converge; of 0.75 (x = 0.375) only the quarter to 0.5625 does.
   EXPECT_EQ(log.fractions, (std::vector<double>{0.25, 0.5, 0.5625}));
   EXPECT_EQ(result.state.x[0], 0.28125);
-  EXPECT_GT(result.last_attempt.state.x[0], 0.3);
+  EXPECT_GT(result.last_attempt.trial.x[0], 0.3);
 }
 
 TEST(Increments, TheObserverCanStop) {

@@ -24,7 +24,7 @@ TEST(Newton, ConvergesQuadratically) {
   const auto result =
       solve_from(system, 1.0, {.residual = 1e-14, .energy = 0, .line_search = LineSearch::off});
   ASSERT_EQ(result.outcome, Outcome::converged);
-  EXPECT_NEAR(result.state.x[0], 2.0, 1e-15);
+  EXPECT_NEAR(result.trial.x[0], 2.0, 1e-15);
   std::vector<double> error;
   for (const Eigen::VectorXd& x : system.evaluated)
     if (std::abs(x[0] - 2.0) > 1e-13) error.push_back(std::abs(x[0] - 2.0));
@@ -92,7 +92,7 @@ TEST(Newton, NothingToDoIsConverged) {
   const auto result = solve_from(system, 0.0, {});
   EXPECT_EQ(result.outcome, Outcome::converged);
   EXPECT_EQ(result.iterations.size(), 1u);
-  EXPECT_EQ(result.state.x[0], 0.0);
+  EXPECT_EQ(result.trial.x[0], 0.0);
 }
 
 /// A tangent that corrects a part of the error alone, and an estimate of rounding above the load.
@@ -102,7 +102,7 @@ TEST(Newton, RoundOffEndsNothingThatStillImproves) {
   system.round_off = 100;
   const auto result = solve_from(system, 0.0, {.line_search = LineSearch::off});
   ASSERT_EQ(result.outcome, Outcome::converged);
-  EXPECT_NEAR(result.state.x[0], 1, 1e-9);
+  EXPECT_NEAR(result.trial.x[0], 1, 1e-9);
   EXPECT_FALSE(result.precision.round_off);
 }
 
@@ -209,7 +209,7 @@ TEST(Newton, SingularTangent) {
   EXPECT_EQ(result.reason, "the tangent is singular");
   EXPECT_EQ(result.linear, la::SolveStatus::singular);
   EXPECT_TRUE(result.iterations.empty());
-  EXPECT_EQ(result.state.x[0], 0.0);
+  EXPECT_EQ(result.trial.x[0], 0.0);
 }
 
 TEST(Newton, FailuresSayWhy) {
@@ -235,7 +235,7 @@ TEST(Newton, FailuresSayWhy) {
   EXPECT_EQ(third.outcome, Outcome::not_converged);
   EXPECT_EQ(third.reason, "not converged after 7 iterations");
   EXPECT_EQ(third.iterations.size(), 7u);
-  EXPECT_NEAR(third.state.x[0], -1.0, 1e-12);
+  EXPECT_NEAR(third.trial.x[0], -1.0, 1e-12);
 }
 
 /// Two springs in a row, the first end moved: the boundary moves with the body, not ahead of it.
@@ -264,8 +264,8 @@ TEST(Newton, PrescribedValuesEnterThroughTheTangent) {
   const auto result = newton(linear, {vector({0, 0})}, 1.0, {}, solver);
   ASSERT_EQ(result.outcome, Outcome::converged);
   EXPECT_EQ(result.iterations.size(), 1u);
-  EXPECT_EQ(result.state.x[0], 2.0);
-  EXPECT_NEAR(result.state.x[1], 1.0, 1e-15);
+  EXPECT_EQ(result.trial.x[0], 2.0);
+  EXPECT_NEAR(result.trial.x[1], 1.0, 1e-15);
 
   ToySystem stiff = chain(5.0);
   const auto second = newton(stiff, {vector({0, 0})}, 1.0, {.residual = 1e-13}, solver);
@@ -274,8 +274,8 @@ TEST(Newton, PrescribedValuesEnterThroughTheTangent) {
   EXPECT_EQ(stiff.evaluated[0], vector({0, 0}));                    // the committed state
   EXPECT_TRUE(stiff.evaluated[1].isApprox(vector({2, 1}), 1e-15));  // its linear answer
   EXPECT_EQ(stiff.predicted_to, std::vector<double>{1.0});
-  const double e = second.state.x[0] - second.state.x[1];
-  EXPECT_NEAR(e + 5 * e * e * e, second.state.x[1], 1e-12);
+  const double e = second.trial.x[0] - second.trial.x[1];
+  EXPECT_NEAR(e + 5 * e * e * e, second.trial.x[1], 1e-12);
 }
 
 /// A point that sticks within 1e-6 and slips with force 1 on either side: Newton jumps over.
@@ -293,7 +293,7 @@ TEST(Newton, LineSearchFindsTheStickingRange) {
   ToySystem searched = friction();
   const auto on = solve_from(searched, -0.5, {});
   ASSERT_EQ(on.outcome, Outcome::converged) << on.reason;
-  EXPECT_NEAR(on.state.x[0], 0.3 / (1e6 + 1), 1e-15);
+  EXPECT_NEAR(on.trial.x[0], 0.3 / (1e6 + 1), 1e-15);
   EXPECT_EQ(on.iterations[0].step, 1.0);
   EXPECT_LT(on.iterations[1].step, 1.0);
 }
@@ -306,7 +306,7 @@ TEST(Newton, WhatTheSearchFoundConvergedIsNotEvaluatedTwice) {
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
   ASSERT_GT(result.iterations.size(), 3u);
   const std::vector<Eigen::VectorXd>& seen = system.evaluated;
-  EXPECT_EQ(seen.back(), result.state.x);
+  EXPECT_EQ(seen.back(), result.trial.x);
   EXPECT_NE(seen[seen.size() - 2], seen.back());
   EXPECT_EQ(seen[seen.size() - 3], seen[seen.size() - 2]);  // before the last one: with a tangent
 }
@@ -321,7 +321,7 @@ TEST(Newton, LineSearchStaysWhereThereIsAnAnswer) {
   };
   const auto result = solve_from(system, 1.45, {});
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
-  EXPECT_NEAR(result.state.x[0], 0, 1e-9);
+  EXPECT_NEAR(result.trial.x[0], 0, 1e-9);
   EXPECT_EQ(result.iterations[1].step, 0.5);
   const auto plain = solve_from(system, 1.45, {.line_search = LineSearch::off});
   EXPECT_EQ(plain.outcome, Outcome::numerical_failure);

@@ -16,6 +16,7 @@ struct Beam {
     Eigen::VectorXd w;
     double stiffness = 1;
   };
+  using Trial = State;
   static constexpr double bending = 600, weight = 0.4, springs = 1e6, length = 20;
   Index size = 101;
   la::MatrixBuilder builder{size};
@@ -105,8 +106,8 @@ TEST(Peeling, TakesFewerIterationsToTheSameSolution) {
     ASSERT_EQ(one_by_one.outcome, Outcome::converged);
     ASSERT_EQ(at_once.outcome, Outcome::converged);
     EXPECT_LT(2 * at_once.iterations.size(), one_by_one.iterations.size());
-    EXPECT_LT((one_by_one.state.w - at_once.state.w).norm(), 1e-9 * one_by_one.state.w.norm());
-    EXPECT_EQ(at_once.state.stiffness, 1);
+    EXPECT_LT((one_by_one.trial.w - at_once.trial.w).norm(), 1e-9 * one_by_one.trial.w.norm());
+    EXPECT_EQ(at_once.trial.stiffness, 1);
     EXPECT_EQ(relaxing.last_stiffness, 1);
   }
 }
@@ -129,8 +130,8 @@ TEST(Peeling, GoesBackWhereTheSoftContactFails) {
   const auto one_by_one = lift(plain, 0.3), back = lift(broken, 0.3);
   ASSERT_EQ(back.outcome, Outcome::converged);
   EXPECT_GT(broken.soft, 1);
-  EXPECT_EQ(back.state.stiffness, 1);
-  EXPECT_LT((one_by_one.state.w - back.state.w).norm(), 1e-9 * one_by_one.state.w.norm());
+  EXPECT_EQ(back.trial.stiffness, 1);
+  EXPECT_LT((one_by_one.trial.w - back.trial.w).norm(), 1e-9 * one_by_one.trial.w.norm());
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ TEST(Resistance, ASnapComesToRest) {
   const auto result = newton<Snapping>(system, {vector({0.55})}, 0.7, {}, solver,
                                        {{}, 0, 0, Prediction::as_before, true});
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
-  const double x = result.state.x[0];
+  const double x = result.trial.x[0];
   EXPECT_GT(x, 1.8);
   EXPECT_NEAR(x * (x * (x - 3) + 2.5), 0.7, 1e-8);
   EXPECT_EQ(system.share, 0) << "removed";
@@ -105,12 +105,12 @@ TEST(Resistance, TheWorkOfMultipliersIsNotAskedFor) {
   const auto result = newton<Saddle>(system, {vector({1.0})}, 0.49, {}, solver,
                                      {{}, 0, 0, Prediction::as_before, true});
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
-  EXPECT_NEAR(result.state.x[0], 1.02, 1e-3);
+  EXPECT_NEAR(result.trial.x[0], 1.02, 1e-3);
   Snapping other;
   const auto stable = newton<Snapping>(other, {vector({1.0})}, 0.49, {}, solver,
                                        {{}, 0, 0, Prediction::as_before, true});
   ASSERT_EQ(stable.outcome, Outcome::converged) << stable.reason;
-  EXPECT_GT(std::abs(stable.state.x[0] - 1), 0.5) << "leaves the unstable branch";
+  EXPECT_GT(std::abs(stable.trial.x[0] - 1), 0.5) << "leaves the unstable branch";
 }
 
 TEST(Resistance, WhatNothingHoldsStillFails) {

@@ -16,6 +16,7 @@ struct ToySystem {
     Vector x;
     int commits = 0;
   };
+  using Trial = State;
 
   Index size = 1;
   std::optional<Index> primary{};  ///< unknowns that are displacements; all
