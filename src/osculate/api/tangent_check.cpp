@@ -309,8 +309,8 @@ TangentReport check_increment(deck::BasicBuilt<Dim>& built, const RunIdentity& i
   model::BasicSystem<Dim> system(m, threads);
   system.resume_step(m.steps.at(static_cast<std::size_t>(found.end.progress.step)), found.before,
                      found.end.memory);
-  Probe<Dim> probe{system, found.before, {found.end.state}, mean_facet_length(m),
-                   found.end.progress.fraction};
+  Probe<Dim> probe{
+      system, found.before, {found.end.state}, mean_facet_length(m), found.end.progress.fraction};
   probe.base.state.pairs = found.before.pairs;
   probe.base = probe.moved(probe.random(off_the_borders * probe.size), 1.0);
   return check_probe(probe, m);

@@ -60,7 +60,13 @@ class Host {
   struct State {
     model::State bulk;
     History<2> history;
+  };
+  struct Trial {
+    model::Trial bulk;
     ActiveSet<2> active;
+    Trial() = default;
+    Trial(model::Trial b, ActiveSet<2> a) : bulk(std::move(b)), active(std::move(a)) {}
+    explicit Trial(const State& s) : bulk{s.bulk} {}
   };
 
   Host(model::Model bodies, const Contact<2>& contact, bool forgets)
@@ -70,8 +76,8 @@ class Host {
     builder_ = std::make_unique<la::MatrixBuilder>(bulk_->unknowns());
   }
   State initial_state() {
-    State s{bulk_->initial_state(), {}, {}};
-    s.history = contact_.initial_history(positions(s));
+    State s{bulk_->initial_state(), {}};
+    s.history = contact_.initial_history(positions(s.bulk));
     return s;
   }
   void begin_step(const model::Step& step, State& s) {
@@ -82,25 +88,28 @@ class Host {
   // What Newton's method asks of a system (solve/iteration.hpp).
   void predict(const State& s, double time, solve::Evaluation& out) {
     bulk_->predict(s.bulk, time, out);
-    const ActiveSet<2> first = contact_.predicted(s.history, positions(s));
-    add_contact(s, s, forgets_ ? ActiveSet<2>() : first, true, out);
+    const ActiveSet<2> first = contact_.predicted(s.history, positions(s.bulk));
+    add_contact(s, s.bulk, forgets_ ? ActiveSet<2>() : first, true, out);
     out.force_scale = std::max(out.force_scale, out.residual.norm());
   }
-  void evaluate(const State& committed, const State& trial, double time, bool tangent,
+  void evaluate(const State& committed, const Trial& trial, double time, bool tangent,
                 solve::Evaluation& out) {
     bulk_->evaluate(committed.bulk, trial.bulk, time, tangent, out);
-    if (out.ok) add_contact(committed, trial, trial.active, tangent, out);
+    if (out.ok) add_contact(committed, trial.bulk.state, trial.active, tangent, out);
   }
-  [[nodiscard]] State apply(const State& s, const Eigen::VectorXd& du, double time,
+  [[nodiscard]] Trial apply(const State& s, const Eigen::VectorXd& du, double time,
                             double factor) const {
-    return {bulk_->apply(s.bulk, du, time, factor), s.history, s.active};
+    return {bulk_->apply(s.bulk, du, time, factor), {}};
   }
-  [[nodiscard]] State remember(const State& s) const {
-    return {bulk_->remember(s.bulk), s.history,
-            forgets_ ? ActiveSet<2>() : result_.next_active_set()};
+  [[nodiscard]] Trial apply(const Trial& t, const Eigen::VectorXd& du, double time,
+                            double factor) const {
+    return {bulk_->apply(t.bulk, du, time, factor), t.active};
   }
-  [[nodiscard]] State commit(const State& s, double time) const {
-    return {bulk_->commit(s.bulk, time), result_.committed(), {}};
+  [[nodiscard]] Trial remember(const Trial& t) const {
+    return {bulk_->remember(t.bulk), forgets_ ? ActiveSet<2>() : result_.next_active_set()};
+  }
+  [[nodiscard]] State commit(const Trial& t, double time) const {
+    return {bulk_->commit(t.bulk, time), result_.committed()};
   }
   const la::SparseMatrix& matrix() { return builder_->finish(); }
   [[nodiscard]] std::uint64_t pattern_version() const { return builder_->pattern_version(); }
@@ -111,16 +120,16 @@ class Host {
   void restart(State& s) { s.history = contact_.history(s.history.bytes()); }
 
  private:
-  [[nodiscard]] std::vector<double> positions(const State& s) const {
-    return flat(bulk_->positions(s.bulk));
+  [[nodiscard]] std::vector<double> positions(const model::State& s) const {
+    return flat(bulk_->positions(s));
   }
   [[nodiscard]] Index unknown_of(Index coordinate) const {
     const Index u = bulk_->dofs().unknown_of(coordinate);
     return u >= 0 && !bulk_->prescribed(u) ? u : -1;
   }
-  void add_contact(const State& committed, const State& trial, const ActiveSet<2>& active,
+  void add_contact(const State& committed, const model::State& now, const ActiveSet<2>& active,
                    bool tangent, solve::Evaluation& out) {
-    contact_.evaluate(positions(trial), committed.history, active, result_, {.tangent = tangent});
+    contact_.evaluate(positions(now), committed.history, active, result_, {.tangent = tangent});
     Eigen::VectorXd shift = Eigen::VectorXd::Zero(out.residual.size());
     double squares = 0;
     for (std::size_t i = 0; i < result_.force().size(); ++i) {
@@ -181,7 +190,7 @@ Course course_of(System& system, State state, const std::vector<model::Step>& st
       auto result = solve::newton(system, state, time, options, *solver);
       course.converged = result.outcome == solve::Outcome::converged;
       if (!course.converged) return course;
-      state = system.commit(result.state, time);
+      state = system.commit(result.trial, time);
       course.iterations.push_back(static_cast<int>(result.iterations.size()));
       course.u.push_back(displacements(state));
       between(state);
