@@ -195,10 +195,9 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::prescribed_increment(const State& s,
 }
 
 template <int Dim>
-bool BasicSystem<Dim>::Impl::add_bulk(const State& committed, const State& trial, double fraction,
+bool BasicSystem<Dim>::Impl::add_bulk(const State& committed, const State& trial, double duration,
                                       bool with_tangent, const Eigen::VectorXd* inc,
                                       solve::Evaluation& out) {
-  const double duration = time_between(committed, fraction);
   for (std::size_t start = 0; start < jobs.size(); start += tile) {
     const std::size_t count = std::min(tile, jobs.size() - start);
     const Stopwatch watch;
@@ -443,7 +442,9 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
         inc.head(Dim * static_cast<Eigen::Index>(x.size())).template lpNorm<Eigen::Infinity>();
   }
   const Eigen::VectorXd* increment = predict ? &inc : nullptr;
-  if (on(Term::bulk) && !add_bulk(committed, now, fraction, with_tangent, increment, out)) return;
+  // A state against itself: no time has passed since what its material points remember.
+  const double duration = pass == Pass::whole ? 0.0 : time_between(committed, fraction);
+  if (on(Term::bulk) && !add_bulk(committed, now, duration, with_tangent, increment, out)) return;
   if (on(Term::contact))
     add_contact(committed, trial, fraction, x, with_tangent, increment, pass == Pass::iterate, out);
   if (on(Term::pressure)) add_pressure(now, fraction, with_tangent, increment);

@@ -295,7 +295,7 @@ struct BasicSystem<Dim>::Impl {
     linear.evaluate(job, model, *j.section, j.cell, u, j.memory.of(memory, next, duration),
                     with_tangent, out);
   }
-  bool add_bulk(const State& committed, const State& trial, double fraction, bool with_tangent,
+  bool add_bulk(const State& committed, const State& trial, double duration, bool with_tangent,
                 const Eigen::VectorXd* inc, solve::Evaluation& out);
   /// The last evaluation of contact, at `trial`, in whole: see pairing::look_far.
   void look_far(const State& trial);

@@ -87,6 +87,25 @@ TEST(Plasticity, TrialsLeaveWhatIsCommittedAndACommitTakesTheLastOne) {
   }
 }
 
+// A committed state is looked at again (reports, causes of failure): no time passes, it stays as it
+// is.
+TEST(Creep, OfACommittedStateGoesNoFurther) {
+  Probe probe(R"(osculate: 1
+mesh: {generate: {a: {box: {x: [0, 1], y: [0, 1], elements: [2, 2]}}}}
+materials: {m: {norton: {E: 200, nu: 0.3, A: 0.01, n: 3}}}
+sections: [{on: a, material: m, element: plane_strain}]
+steps: [{name: s, increments: 1, duration: 2, prescribe: [{on: a.bottom, ux: 0, uy: 0}]}]
+)");
+  solve::Evaluation out;
+  probe.system.evaluate(probe.start, probe.base, 0.5, false, out);
+  const Eigen::VectorXd first = out.residual;
+  const model::State next = probe.system.commit(probe.base, 0.5);
+  EXPECT_GT(*std::ranges::max_element(next.memory), 1e-3);
+  probe.system.evaluate(next, 0.5, false, out);
+  EXPECT_LT((out.residual - first).norm(), 1e-11 * first.norm());
+  EXPECT_EQ(probe.system.material_memory(), next.memory);
+}
+
 TEST(Plasticity, AssembledTangentIsConsistent) {
   for (const char* const kinematics : {"small", "finite"}) {
     Probe probe(with("plane_strain}", std::string("plane_strain, kinematics: ") + kinematics + "}"),
