@@ -64,7 +64,7 @@ struct Moved {
                                              pairing::PairState<Dim>* next = nullptr) const {
     pairing::PairEvaluation<Dim> e;
     const auto multipliers = pairing::initial_multipliers<Dim>(pair, committed);
-    const bool corrected = pair.enforcement != contact::Enforcement::penalty;
+    const bool corrected = !pairing::is<pairing::ByPenalty>(pair.enforcement);
     pairing::evaluate<Dim>(pair, x, committed, false, e, {}, corrected ? &multipliers : nullptr);
     std::vector<Vec<Dim>> sum(x.size(), Vec<Dim>::Zero());
     for (const pairing::ContactBlock<Dim>& block : e.blocks)

@@ -60,10 +60,10 @@ std::string contact_text(const model::BasicModel<Dim>& m, nlohmann::json& pairs,
     else
       text += gap_line(m.pairs[p].name, g, m.pairs[p].definition.slave.points.size()) +
               overlap_line(m, m.pairs[p], g);
-    const pairing::EdgeContact& edges = m.pairs[p].definition.edges;
-    if (edges.on)
+    const pairing::EdgeContact* const edges = pairing::edges_of(m.pairs[p].definition);
+    if (edges)
       text += fmt::format("{:<13} {:<16} {} of the master, {} of the slave, {} crossings\n",
-                          "Sharp edges", m.pairs[p].name, edges.master.size(), edges.slave.size(),
+                          "Sharp edges", m.pairs[p].name, edges->master.size(), edges->slave.size(),
                           g.edge_contacts);
     pairs.push_back({{"name", m.pairs[p].name},
                      {"points", m.pairs[p].definition.slave.points.size()},
@@ -73,9 +73,9 @@ std::string contact_text(const model::BasicModel<Dim>& m, nlohmann::json& pairs,
                      {"smallest_gap", g.smallest},
                      {"largest_gap", g.largest}});
     pairs.back().update(penalty_json(m.pairs[p].definition));
-    if (edges.on)
-      pairs.back()["edges"] = {{"master", edges.master.size()},
-                               {"slave", edges.slave.size()},
+    if (edges)
+      pairs.back()["edges"] = {{"master", edges->master.size()},
+                               {"slave", edges->slave.size()},
                                {"crossings", g.edge_contacts}};
   }
   if (!apart.empty())

@@ -84,7 +84,8 @@ void add_edge_contacts(const pairing::PairDefinition<3>& pair, const std::vector
   if (edge_contacts.empty()) return;
   mesh::Block block{cell::CellType::point1, {}};
   for (const model::EdgeEdgeSite& site : edge_contacts) {
-    const pairing::SharpEdge& edge = pair.edges.slave[static_cast<std::size_t>(site.edge)];
+    const pairing::SharpEdge& edge =
+        pairing::edges_of(pair)->slave[static_cast<std::size_t>(site.edge)];
     block.connectivity.push_back(static_cast<Index>(points.size()));
     points.push_back(pairing::edge_position(edge, site.xi, reference));
     u.emplace_back(pairing::edge_position(edge, site.xi, x) - points.back());

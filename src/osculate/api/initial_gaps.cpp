@@ -35,11 +35,9 @@ std::string deep_overlap(const model::BasicModel<Dim>& model,
                          const model::BasicContactPair<Dim>& pair,
                          const pairing::PairState<Dim>& state) {
   constexpr double deep = 0.5;  // of a cell
-  using pairing::Separation;
   const pairing::PairDefinition<Dim>& definition = pair.definition;
-  if (definition.overlap != pairing::InitialOverlap::acts ||
-      definition.separation == Separation::tied ||
-      definition.separation == Separation::tied_normal || !(pair.height > 0))
+  if (definition.overlap != pairing::InitialOverlap::acts || pairing::held_from_start(definition) ||
+      !(pair.height > 0))
     return {};
   const GapFacts facts = gap_facts<Dim>(state);
   const double share = -(facts.smallest - definition.offset) / pair.height;

@@ -120,10 +120,7 @@ std::vector<std::string> never_closed(const model::BasicModel<Dim>& model,
   for (std::size_t p = 0; p < std::min(model.pairs.size(), found.size()); ++p) {
     const model::BasicContactPair<Dim>& pair = model.pairs[p];
     const std::string& contact = pair.group.empty() ? pair.name : pair.group;
-    using pairing::Separation;
-    const Separation separation = pair.definition.separation;
-    if (found[p].closed || separation == Separation::tied ||
-        separation == Separation::tied_normal) {
+    if (found[p].closed || pairing::held_from_start(pair.definition)) {
       closed.push_back(contact);
       continue;
     }

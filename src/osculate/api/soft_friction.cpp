@@ -13,7 +13,7 @@ template <int Dim>
 void measure_sticking(const model::BasicContactPair<Dim>& pair,
                       const pairing::PairEvaluation<Dim>& contact, Penetration& found) {
   const pairing::PairDefinition<Dim>& definition = pair.definition;
-  if (!definition.friction || definition.enforcement != contact::Enforcement::penalty) return;
+  if (!definition.friction || !pairing::is<pairing::ByPenalty>(definition.enforcement)) return;
   double give = 0;
   const std::size_t count = std::min(contact.points.size(), definition.slave.points.size());
   for (std::size_t i = 0; i < count; ++i) {

@@ -178,10 +178,10 @@ std::string rigid_text(const model::BasicRigidBody<Dim>& body) {
 template <int Dim>
 std::string hold_text(const pairing::PairDefinition<Dim>& d) {
   std::string text;
-  if (d.separation == pairing::Separation::no_separation) text += ", no separation";
-  if (d.separation == pairing::Separation::tied_normal) text += ", tied in the normal direction";
-  if (d.separation == pairing::Separation::tied)
-    text += fmt::format(", {} of them tied", d.ties.size());
+  if (pairing::is<pairing::NeverPart>(d.separation)) text += ", no separation";
+  if (pairing::is<pairing::TiedNormal>(d.separation)) text += ", tied in the normal direction";
+  if (const auto* const tied = std::get_if<pairing::Tied<Dim>>(&d.separation))
+    text += fmt::format(", {} of them tied", tied->ties.size());
   if (d.offset > 0) text += fmt::format(", offset {:g}", d.offset);
   return text;
 }
@@ -206,11 +206,11 @@ std::string pair_text(const model::BasicContactPair<Dim>& pair) {
   const pairing::PairDefinition<Dim>& d = pair.definition;
   const std::string friction =
       d.friction ? contact::text(*d.friction) : std::string("frictionless");
-  const std::string edges = d.edges.on ? fmt::format(", {} sharp edges on {}", d.edges.slave.size(),
-                                                     d.edges.master.size())
-                                       : std::string{};
+  std::string edges;
+  if (const pairing::EdgeContact* const sharp = pairing::edges_of(d))
+    edges = fmt::format(", {} sharp edges on {}", sharp->slave.size(), sharp->master.size());
   return fmt::format("{} slave {} on {} facets{}, {}{}{}, {}, {}{}{}", d.slave.points.size(),
-                     d.mortar                             ? "nodes by mortar"
+                     pairing::by_mortar(d)                ? "nodes by mortar"
                      : pairing::sampled_at_nodes(d.slave) ? "nodes"
                                                           : "points",
                      d.master.facets.size(), edges, contact::text(d.normal) + hold_text(d),

@@ -4,14 +4,6 @@
 
 namespace osculate::contact {
 
-/// How the contact conditions of a pair are met.
-///   penalty               tractions follow from the penetration
-///   augmented_lagrange    the same, around tractions that are corrected after each solution until
-///                         the penetration is below a target (Uzawa)
-///   lagrange_multiplier   the tractions are unknowns of the linear system: no penetration, no
-///                         elastic slip (active set by a semismooth Newton method)
-enum class Enforcement : unsigned char { penalty, augmented_lagrange, lagrange_multiplier };
-
 /// Traction of one contact point that does not follow from its penetration. The penalty laws act
 /// around it: N = lambda + eps_N gap, t_trial = (I - n n^T) t + eps_T slip. The slip is that of the
 /// increment alone; what the point carries from earlier is in `shear`.

@@ -179,30 +179,23 @@ void set_forms(const Contact& contact, pairing::PairDefinition<Dim>& pair) {
   if (contact.search_depth) pair.depth = contact.search_depth->value;
   if (contact.initial.value == InitialWord::ramp) pair.overlap = pairing::InitialOverlap::ramped;
   if (contact.initial.value == InitialWord::keep) pair.overlap = pairing::InitialOverlap::kept;
-  switch (contact.enforcement.value.kind) {
-    case EnforcementWord::penalty:
-      pair.enforcement = contact::Enforcement::penalty;
-      break;
-    case EnforcementWord::augmented_lagrange:
-      pair.enforcement = contact::Enforcement::augmented_lagrange;
-      break;
-    case EnforcementWord::lagrange_multiplier:
-      pair.enforcement = contact::Enforcement::lagrange_multiplier;
-      break;
-  }
 }
 
-/// Target and loop of the augmented Lagrangian.
+/// Corners of rigid curves are there on purpose, however blunt; those of meshes may be their way to
+/// be round.
 template <int Dim>
-void set_augmentation(const BuildContext<Dim>& c, const Contact& contact,
-                      pairing::PairDefinition<Dim>& pair) {
+pairing::ByMultipliers multipliers_of(const BuildContext<Dim>& c, const Contact& contact) {
+  const Rigid* const rigid = rigid_of(c, contact.master);
+  if (rigid && !rigid->meshed()) return {.reentrant_angle = 0};
+  return {};
+}
+
+/// Target of the augmented Lagrangian.
+template <int Dim>
+double target_of(const BuildContext<Dim>& c, const Contact& contact,
+                 const pairing::PairDefinition<Dim>& pair) {
   constexpr double usual = 1e-4;  // of a facet
-  if (pair.enforcement != contact::Enforcement::augmented_lagrange) return;
-  pair.augment_often = contact.enforcement.value.loop == AugmentLoop::single;
-  if (contact.enforcement.value.target) {
-    pair.target = *contact.enforcement.value.target;
-    return;
-  }
+  if (contact.enforcement.value.target) return *contact.enforcement.value.target;
   const double slave = mean_size<Dim>(pair.slave.boundary, c.model().reference);
   const double master = mean_size<Dim>(pair.master, c.model().reference);
   const double size = slave > 0 ? slave : master;
@@ -210,7 +203,24 @@ void set_augmentation(const BuildContext<Dim>& c, const Contact& contact,
     throw core::InputError(contact.enforcement.mark,
                            "neither side has facets whose length a target could be made of: give "
                            "{augmented_lagrange: {target: ...}}");
-  pair.target = usual * size;
+  return usual * size;
+}
+
+template <int Dim>
+void set_enforcement(const BuildContext<Dim>& c, const Contact& contact,
+                     pairing::PairDefinition<Dim>& pair) {
+  const Enforcement& asked = contact.enforcement.value;
+  switch (asked.kind) {
+    case EnforcementWord::penalty:
+      break;
+    case EnforcementWord::augmented_lagrange:
+      pair.enforcement = pairing::ByAugmentedLagrange{target_of(c, contact, pair),
+                                                      asked.loop == AugmentLoop::single};
+      break;
+    case EnforcementWord::lagrange_multiplier:
+      pair.enforcement = multipliers_of(c, contact);
+      break;
+  }
 }
 
 /// A press fit lives from its overlap: of a light one the usual target would be a good part.
@@ -222,14 +232,14 @@ template <int Dim>
 void set_fit_target(const BuildContext<Dim>& c, const Contact& contact,
                     pairing::PairDefinition<Dim>& pair) {
   constexpr double left = 1e-3, least = 1e-3;  // of the overlap; of the usual target
-  if (pair.enforcement != contact::Enforcement::augmented_lagrange ||
-      contact.enforcement.value.target || pair.overlap == pairing::InitialOverlap::kept)
+  auto* const asked = std::get_if<pairing::ByAugmentedLagrange>(&pair.enforcement);
+  if (!asked || contact.enforcement.value.target || pair.overlap == pairing::InitialOverlap::kept)
     return;
   double deepest = 0;
   for (const auto& point : pairing::initial_state<Dim>(pair, c.model().reference).points)
     if (point.active) deepest = std::max(deepest, pair.offset - point.gap);
-  if (deepest > least * pair.target)
-    pair.target = std::clamp(left * deepest, least * pair.target, pair.target);
+  if (deepest > least * asked->target)
+    asked->target = std::clamp(left * deepest, least * asked->target, asked->target);
 }
 
 template <int Dim>
@@ -278,23 +288,23 @@ void set_edges(BuildContext<3>&, const Contact& contact, pairing::PairDefinition
     throw core::InputError(contact.edges->mark,
                            fmt::format("the slave '{}' is a set of points: {}", contact.slave.value,
                                        why_not(Trait::edges, Trait::points_only)));
-  pair.edges.on = true;
-  pair.edges.angle = contact.edges->value * std::numbers::pi / 180;
+  pair.sampler = pairing::AtEdgesToo{.angle = contact.edges->value * std::numbers::pi / 180};
 }
 
 /// Edges were asked for, and one side has none.
 void warn_of_smooth(BuildContext<2>&, const Contact&, const pairing::PairDefinition<2>&) {}
 void warn_of_smooth(BuildContext<3>& c, const Contact& contact,
                     const pairing::PairDefinition<3>& pair) {
-  if (!pair.edges.on) return;
+  const pairing::EdgeContact* const edges = pairing::edges_of(pair);
+  if (!edges) return;
   const auto warn = [&](const char* side, const Name& name) {
     c.built.warnings.push_back(fmt::format(
         "contact '{}': the {} '{}' has no convex edge with more than {:g} degrees between its "
         "facets, so edges: has no effect",
         contact.name.value, side, name.value, contact.edges->value));
   };
-  if (pair.edges.master.empty()) warn("master", contact.master);
-  if (pair.edges.slave.empty()) warn("slave", contact.slave);
+  if (edges->master.empty()) warn("master", contact.master);
+  if (edges->slave.empty()) warn("slave", contact.slave);
 }
 
 /// Master and slave are one set: every node of it may touch every facet that is not its own.
@@ -308,24 +318,14 @@ void set_own_surface(const BuildContext<Dim>& c, pairing::PairDefinition<Dim>& p
 
 }  // namespace
 
-/// Corners of rigid curves are there on purpose, however blunt; those of meshes may be their way to
-/// be round.
-template <int Dim>
-void set_reentrant_angle(const BuildContext<Dim>& c, const Contact& contact,
-                         pairing::PairDefinition<Dim>& pair) {
-  const Rigid* const rigid = rigid_of(c, contact.master);
-  if (rigid && !rigid->meshed()) pair.reentrant_angle = 0;
-}
-
 template <int Dim>
 void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMark& mark,
               model::BasicContactPair<Dim> out) {
   pairing::PairDefinition<Dim>& pair = out.definition;
   set_forms(contact, pair);
-  set_augmentation(c, contact, pair);
+  set_enforcement(c, contact, pair);
   set_edges(c, contact, pair);
   set_laws(c, contact, pair);
-  set_reentrant_angle(c, contact, pair);
   pair.area = area_rule(c, pair);
   try {
     pairing::prepare(pair, c.model().reference);
@@ -343,9 +343,10 @@ namespace {
 
 template <int Dim>
 void add_sampled(BuildContext<Dim>& c, const Contact& contact, model::BasicContactPair<Dim> out) {
-  out.definition.mortar = contact.sampling.value.rule == SamplingRule::mortar;
+  const bool mortar = contact.sampling.value.rule == SamplingRule::mortar;
+  if (mortar) out.definition.sampler = pairing::ByMortar<Dim>{};
   for (const auto& facet : out.definition.master.facets)
-    if (out.definition.mortar && facet.shape)
+    if (mortar && facet.shape)
       throw core::InputError(contact.sampling.mark,
                              fmt::format("'{}' is an analytic shape: {}", contact.master.value,
                                          why_not(Trait::mortar, Trait::analytic_master)));

@@ -11,21 +11,19 @@ namespace {
 template <int Dim>
 void set_separation(const BuildContext<Dim>& c, const Contact& contact,
                     pairing::PairDefinition<Dim>& pair) {
-  using pairing::Separation;
   constexpr double near = 0.05;  // of the facets' size
   const NormalDescription& n = contact.normal;
   const auto refuse = [&](const char* why) { throw core::InputError(n.separation.mark, why); };
-  pair.separation = n.separation.value == SeparationWord::allowed ? Separation::allowed
-                    : n.separation.value == SeparationWord::no_separation
-                        ? Separation::no_separation
-                    : n.separation.value == SeparationWord::tied_normal ? Separation::tied_normal
-                                                                        : Separation::tied;
-  if (pair.separation == Separation::allowed || pair.separation == Separation::no_separation)
-    return;
-  pair.keep_gap = n.initial_gap.value == InitialGap::keep;
+  const SeparationWord word = n.separation.value;
+  if (word == SeparationWord::no_separation) pair.separation = pairing::NeverPart{};
+  if (word == SeparationWord::allowed || word == SeparationWord::no_separation) return;
   const double size = mean_size<Dim>(pair.master, c.model().reference);
   if (!n.tolerance && !(size > 0)) refuse("the master has no facets to measure: give a tolerance");
-  pair.tolerance = n.tolerance ? n.tolerance->value : near * size;
+  const double tolerance = n.tolerance ? n.tolerance->value : near * size;
+  if (word == SeparationWord::tied_normal)
+    pair.separation = pairing::TiedNormal{tolerance};
+  else
+    pair.separation = pairing::Tied<Dim>{tolerance, n.initial_gap.value == InitialGap::keep};
 }
 
 }  // namespace
@@ -51,8 +49,10 @@ void set_laws(const BuildContext<Dim>& c, const Contact& contact,
 template <int Dim>
 void note_tied(BuildContext<Dim>& c, const Contact& contact,
                const pairing::PairDefinition<Dim>& pair) {
-  using pairing::Separation;
-  if (pair.separation != Separation::tied && pair.separation != Separation::tied_normal) return;
+  if (!pairing::held_from_start(pair)) return;
+  const auto* const normal = std::get_if<pairing::TiedNormal>(&pair.separation);
+  const double tolerance =
+      normal ? normal->tolerance : std::get<pairing::Tied<Dim>>(pair.separation).tolerance;
   const auto state = pairing::initial_state<Dim>(pair, c.model().reference);
   const auto held = std::count_if(state.points.begin(), state.points.end(),
                                   [](const auto& point) { return point.held; });
@@ -60,10 +60,9 @@ void note_tied(BuildContext<Dim>& c, const Contact& contact,
     throw core::InputError(
         contact.normal.separation.mark,
         fmt::format("no point of the slave '{}' is within {:g} of the master '{}': nothing is tied",
-                    contact.slave.value, pair.tolerance, contact.master.value));
+                    contact.slave.value, tolerance, contact.master.value));
   c.built.notes.push_back(fmt::format("contact '{}': {} of {} points are tied (within {:g})",
-                                      contact.name.value, held, state.points.size(),
-                                      pair.tolerance));
+                                      contact.name.value, held, state.points.size(), tolerance));
 }
 
 template void set_laws(const BuildContext<2>&, const Contact&, pairing::PairDefinition<2>&);

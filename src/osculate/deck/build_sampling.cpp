@@ -19,7 +19,7 @@ bool scatters(const pairing::SurfaceFacet& facet) {
 void warn_of_scatter(BuildContext<2>&, const Contact&, const pairing::PairDefinition<2>&) {}
 void warn_of_scatter(BuildContext<3>& c, const Contact& contact,
                      const pairing::PairDefinition<3>& pair) {
-  if (!pairing::sampled_at_nodes(pair.slave) || pair.mortar) return;
+  if (!pairing::sampled_at_nodes(pair.slave) || pairing::by_mortar(pair)) return;
   for (const pairing::SurfaceFacet& facet : pair.slave.boundary.facets) {
     if (!scatters(facet)) continue;
     if (c.model().body_of_node[static_cast<std::size_t>(facet.nodes[0])] >= 0) continue;
@@ -83,7 +83,8 @@ template <int Dim>
 void warn_of_coarse_nodes(BuildContext<Dim>& c, const Contact& contact,
                           const pairing::PairDefinition<Dim>& pair) {
   constexpr double coarser = 1.5;
-  if (contact.two_pass || pair.mortar || !pairing::sampled_at_nodes(pair.slave)) return;
+  if (contact.two_pass || pairing::by_mortar(pair) || !pairing::sampled_at_nodes(pair.slave))
+    return;
   const auto rigid = [&](const auto& f) {
     return c.model().body_of_node[static_cast<std::size_t>(f.nodes[0])] >= 0;
   };

@@ -103,7 +103,7 @@ void collect(bool with_tangent, Evaluation<Dim>& e) {
     e.points.push_back(point_of<Dim>(point));
   Constraints& c = e.constraints;
   for (std::vector<Entry>* const list : {&c.rows, &c.columns, &c.own}) list->clear();
-  const bool unknown = pair.enforcement == contact::Enforcement::lagrange_multiplier;
+  const bool unknown = pairing::by_multipliers(pair);
   const Index count = unknown ? unknowns_per_point(pair) : 0;
   c.value.assign(static_cast<std::size_t>(count) * contact.points.size(), 0.0);
   c.branch_value = c.value;

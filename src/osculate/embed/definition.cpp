@@ -19,14 +19,9 @@ constexpr Ours same(Theirs choice) {
   return static_cast<Ours>(choice);
 }
 static_assert(same<pairing::Weight>(Weight::current_area) == pairing::Weight::current_area);
-static_assert(same<pairing::Separation>(Separation::tied_normal) ==
-              pairing::Separation::tied_normal);
-static_assert(same<pairing::Separation>(Separation::tied) == pairing::Separation::tied);
 static_assert(same<pairing::InitialOverlap>(InitialOverlap::kept) == pairing::InitialOverlap::kept);
 static_assert(same<pairing::HistoryRule>(HistoryRule::per_facet) ==
               pairing::HistoryRule::per_facet);
-static_assert(same<contact::Enforcement>(Enforcement::lagrange_multiplier) ==
-              contact::Enforcement::lagrange_multiplier);
 static_assert(same<contact::ResidualForm>(ResidualForm::full) == contact::ResidualForm::full);
 static_assert(same<pairing::SmoothingKind>(Smoothing::Kind::nurbs) ==
               pairing::SmoothingKind::nurbs);
@@ -73,20 +68,48 @@ void set_sides(const Contact<Dim>& c, const std::vector<Vec<Dim>>& x,
 }
 
 template <int Dim>
+pairing::Separation<Dim> separation_of(const Contact<Dim>& c) {
+  switch (c.separation) {
+    case Separation::allowed:
+      break;
+    case Separation::no_separation:
+      return pairing::NeverPart{};
+    case Separation::tied_normal:
+      return pairing::TiedNormal{c.tolerance};
+    case Separation::tied:
+      return pairing::Tied<Dim>{c.tolerance, c.keep_gap};
+  }
+  return pairing::MayPart{};
+}
+
+/// The target of augmented Lagrangians is the host's, who corrects them.
+template <int Dim>
+pairing::Enforcement enforcement_of(const Contact<Dim>& c) {
+  switch (c.enforcement) {
+    case Enforcement::penalty:
+      break;
+    case Enforcement::augmented_lagrange:
+      return pairing::ByAugmentedLagrange{};
+    case Enforcement::lagrange_multiplier:
+      return pairing::ByMultipliers{c.reentrant_vertices ? 0
+                                                         : std::numeric_limits<double>::infinity()};
+  }
+  return pairing::ByPenalty{};
+}
+
+template <int Dim>
 void set_laws(const Contact<Dim>& c, pairing::PairDefinition<Dim>& pair) {
   pair.normal = law_of(c.normal);
   if (c.friction) pair.friction = law_of(*c.friction, c.separation == Separation::allowed);
   if (c.damping) pair.damping = law_of(*c.damping);
   for (const PenaltyFactors& f : c.factors) pair.relative_stiffness.push_back({f.normal, f.shear});
-  pair.separation = same<pairing::Separation>(c.separation);
-  pair.tolerance = c.tolerance;
-  pair.keep_gap = c.keep_gap;
+  pair.separation = separation_of(c);
   pair.offset = c.offset;
 }
 
 template <int Dim>
 void set_forms(const Contact<Dim>& c, pairing::PairDefinition<Dim>& pair) {
-  pair.enforcement = same<contact::Enforcement>(c.enforcement);
+  pair.enforcement = enforcement_of(c);
   pair.weight = same<pairing::Weight>(c.weight);
   pair.residual = same<contact::ResidualForm>(c.residual);
   pair.tangent = {c.tangent.consistent, c.tangent.main, c.tangent.rotational, c.tangent.curvature};
@@ -95,12 +118,8 @@ void set_forms(const Contact<Dim>& c, pairing::PairDefinition<Dim>& pair) {
   pair.pass_factor = c.part;
   pair.depth = c.depth;
   pair.overlap = same<pairing::InitialOverlap>(c.overlap);
-  pair.reentrant_angle = c.reentrant_vertices ? 0 : std::numeric_limits<double>::infinity();
-  pair.mortar = c.sampling.rule == Sampling::Rule::mortar;
-  if (c.edge_angle) {
-    pair.edges.on = true;
-    pair.edges.angle = *c.edge_angle;
-  }
+  if (c.sampling.rule == Sampling::Rule::mortar) pair.sampler = pairing::ByMortar<Dim>{};
+  if (c.edge_angle) pair.sampler = pairing::AtEdgesToo{.angle = *c.edge_angle};
 }
 
 }  // namespace
@@ -117,7 +136,7 @@ Definition<Dim> define(const Contact<Dim>& c, std::span<const double> reference)
   set_laws(c, pair);
   set_forms(c, pair);
   refusing("master: ", [&] { smooth_master<Dim>(c.smoothing, x, pair); });
-  const bool points = !pair.mortar && c.sampling.rule != Sampling::Rule::nodes;
+  const bool points = !pairing::by_mortar(pair) && c.sampling.rule != Sampling::Rule::nodes;
   refusing("slave: ", [&] {
     if (points)
       pairing::sample(pair.slave, {same<pairing::Sampling::Rule>(c.sampling.rule),

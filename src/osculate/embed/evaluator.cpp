@@ -33,7 +33,7 @@ pairing::ActiveSet<Dim> active_set_of(const Definition<Dim>& d, const ActiveSet<
 
 template <int Dim>
 void check(const Definition<Dim>& d, const Multipliers<Dim>& m) {
-  const bool needed = d.pair.enforcement != contact::Enforcement::penalty;
+  const bool needed = !pairing::is<pairing::ByPenalty>(d.pair.enforcement);
   const std::size_t expected = needed ? d.pair.slave.points.size() : 0;
   if (m.points.size() != expected)
     throw Refused(
@@ -99,7 +99,7 @@ ActiveSet<Dim> Evaluator<Dim>::predicted(const History<Dim>& committed,
 template <int Dim>
 Multipliers<Dim> Evaluator<Dim>::initial_multipliers() const {
   Multipliers<Dim> out;
-  if (definition_->pair.enforcement != contact::Enforcement::penalty)
+  if (!pairing::is<pairing::ByPenalty>(definition_->pair.enforcement))
     out.points.resize(definition_->pair.slave.points.size());
   return out;
 }
@@ -108,7 +108,7 @@ template <int Dim>
 void Evaluator<Dim>::evaluate(std::span<const double> coordinates, const History<Dim>& committed,
                               const ActiveSet<Dim>& active_set, Result<Dim>& out,
                               const Increment& increment) const {
-  if (definition_->pair.enforcement != contact::Enforcement::penalty)
+  if (!pairing::is<pairing::ByPenalty>(definition_->pair.enforcement))
     throw Refused("this enforcement is around multipliers: none are given");
   evaluate(coordinates, committed, active_set, Multipliers<Dim>{}, out, increment);
 }

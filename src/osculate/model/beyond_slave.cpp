@@ -73,10 +73,9 @@ class Over {
 
 template <int Dim>
 bool judged(const BasicContactPair<Dim>& pair) {
-  using pairing::Separation;
   const pairing::PairDefinition<Dim>& d = pair.definition;
-  return !d.filter.limited() && d.separation != Separation::tied &&
-         d.separation != Separation::tied_normal && pair.height > 0 && !d.master.facets.empty();
+  return !d.filter.limited() && !pairing::held_from_start(d) && pair.height > 0 &&
+         !d.master.facets.empty();
 }
 
 /// The slaves of this master, in all pairs, and what belongs to it.

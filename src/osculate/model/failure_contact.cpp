@@ -26,7 +26,7 @@ std::vector<HeldPoints> held_points(const BasicSystem<Dim>& system, const BasicM
   };
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
-    if (pair.enforcement != contact::Enforcement::lagrange_multiplier) continue;
+    if (!pairing::by_multipliers(pair)) continue;
     HeldPoints held{model.pairs[p].name, 0, -1};
     const auto& blocks = system.contact()[p].blocks;
     for (std::size_t i = 0; i < blocks.size(); ++i) {

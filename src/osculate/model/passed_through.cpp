@@ -26,10 +26,7 @@ std::string passed_through(const BasicModel<Dim>& model, const BasicContactPair<
                            const pairing::PairEvaluation<Dim>& contact,
                            const std::vector<Vec<Dim>>& positions) {
   const pairing::PairDefinition<Dim>& definition = pair.definition;
-  using pairing::Separation;
-  if (definition.filter.limited() || definition.separation == Separation::tied ||
-      definition.separation == Separation::tied_normal)
-    return {};
+  if (definition.filter.limited() || pairing::held_from_start(definition)) return {};
   std::vector<std::size_t> suspects;
   const std::size_t count =
       std::min({before.size(), contact.points.size(), definition.slave.points.size()});

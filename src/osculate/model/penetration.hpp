@@ -60,8 +60,9 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] bool adapts_penalty(const BasicModel<Dim>& model, const BasicContactPair<Dim>& pair) {
   const auto moves = [](const Step& step) { return step.dynamics.has_value(); };
-  return pair.automatic && pair.definition.enforcement == contact::Enforcement::penalty &&
-         pair.definition.separation == pairing::Separation::allowed && !pair.definition.edges.on &&
+  return pair.automatic && pairing::is<pairing::ByPenalty>(pair.definition.enforcement) &&
+         pairing::is<pairing::MayPart>(pair.definition.separation) &&
+         !pairing::edges_of(pair.definition) &&
          std::none_of(model.steps.begin(), model.steps.end(), moves);
 }
 

@@ -13,7 +13,7 @@ enum class PointState : std::uint8_t { open, stick, slipping, closed };
 /// Whether the points of a pair stick or slide: there is friction, or they are tied.
 template <int Dim>
 [[nodiscard]] bool holds_along(const pairing::PairDefinition<Dim>& pair) {
-  return pair.friction.has_value() || pair.separation == pairing::Separation::tied;
+  return pair.friction.has_value() || pairing::is_tied(pair);
 }
 
 /// Tested by  tests/unit/api/test_point_states.cpp

@@ -100,7 +100,8 @@ std::array<int, 2> slave_range(const pairing::PairDefinition<Dim>& pair,
                                const pairing::ContactBlock<Dim>& block) {
   if (!block.active()) return {0, 0};
   if (point.history.edge < 0) return {0, block.slave_count};
-  return {pair.edges.master[static_cast<std::size_t>(point.history.facet)].count, block.count};
+  return {pairing::edges_of(pair)->master[static_cast<std::size_t>(point.history.facet)].count,
+          block.count};
 }
 
 /// What was assembled: with `residual: full` it is not just the traction times the area. Of a

@@ -215,10 +215,11 @@ std::optional<BasicTrial<Dim>> BasicSystem<Dim>::augment(const Trial& trial) con
       stiffening *= more;
       missed = missed || more > 1;
     }
-    if (pair.enforcement != contact::Enforcement::augmented_lagrange) continue;
+    const auto* const asked = std::get_if<pairing::ByAugmentedLagrange>(&pair.enforcement);
+    if (!asked) continue;
     next.state.multipliers[p] =
         pairing::augmented(pair, impl_->contact[p], trial.state.multipliers[p]);
-    if (next.state.multipliers[p].violation > pair.target) missed = true;
+    if (next.state.multipliers[p].violation > asked->target) missed = true;
   }
   if (!missed) return std::nullopt;
   return next;
@@ -230,8 +231,7 @@ std::optional<BasicTrial<Dim>> BasicSystem<Dim>::relaxed(const Trial& trial) con
   double softer = std::ldexp(1.0, -13);
   bool any = false;
   const auto yields = [&](const BasicContactPair<Dim>& pair) {
-    return pair.definition.enforcement != contact::Enforcement::lagrange_multiplier &&
-           pair.definition.separation == pairing::Separation::allowed;
+    return !constrained(pair) && pairing::is<pairing::MayPart>(pair.definition.separation);
   };
   for (std::size_t p = 0; p < trial.state.multipliers.size(); ++p) {
     const BasicContactPair<Dim>& pair = impl_->model.pairs[p];
@@ -261,15 +261,17 @@ BasicTrial<Dim> BasicSystem<Dim>::restored(const Trial& trial, const Trial& befo
 
 template <int Dim>
 bool BasicSystem<Dim>::augments_often() const {
-  for (const BasicContactPair<Dim>& pair : impl_->model.pairs)
-    if (pair.definition.augment_often) return true;
-  return false;
+  return std::ranges::any_of(impl_->model.pairs, [](const BasicContactPair<Dim>& pair) {
+    const auto* const asked =
+        std::get_if<pairing::ByAugmentedLagrange>(&pair.definition.enforcement);
+    return asked && asked->every_iteration;
+  });
 }
 
 template <int Dim>
 bool BasicSystem<Dim>::may_stay() const {
   return std::ranges::none_of(impl_->model.pairs, [](const BasicContactPair<Dim>& pair) {
-    return pair.definition.enforcement == contact::Enforcement::augmented_lagrange;
+    return pairing::is<pairing::ByAugmentedLagrange>(pair.definition.enforcement);
   });
 }
 

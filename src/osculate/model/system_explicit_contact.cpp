@@ -121,13 +121,13 @@ void BasicSystem<Dim>::Impl::Explicit::add_springs(const pairing::PairDefinition
     for (std::size_t k = 0; k < static_cast<std::size_t>(point.count); ++k)
       add(slave, point.nodes[k], spring * std::abs(point.shape[k]));
   }
-  for (std::size_t e = 0; e < pair.edges.slave.size(); ++e) {
+  const pairing::EdgeContact* const edges = pairing::edges_of(pair);
+  for (std::size_t e = 0; edges && e < edges->slave.size(); ++e) {
     const bool by_area = pair.weight != pairing::Weight::node;
-    const double spring =
-        slope * pairing::pass_factor(pair) * (by_area ? pair.edges.areas[e] : 1.0);
+    const double spring = slope * pairing::pass_factor(pair) * (by_area ? edges->areas[e] : 1.0);
     all += spring;
     largest_edge = std::max(largest_edge, spring);
-    add_edge(slave, pair.edges.slave[e], spring);
+    add_edge(slave, edges->slave[e], spring);
   }
   if (pair.master.facets.empty()) return;
   const Index body = system.dofs.body_of(pair.master.facets.front().nodes[0]);
@@ -140,7 +140,8 @@ void BasicSystem<Dim>::Impl::Explicit::add_springs(const pairing::PairDefinition
   const double by_area = slope * pairing::pass_factor(pair) * density_of(pair);
   for (std::size_t i = 0; i < side.nodes.size(); ++i)
     add(master, side.nodes[i], std::max(largest, i < areas.size() ? by_area * areas[i] : 0.0));
-  for (const pairing::SharpEdge& edge : pair.edges.master) add_edge(master, edge, largest_edge);
+  if (!edges) return;
+  for (const pairing::SharpEdge& edge : edges->master) add_edge(master, edge, largest_edge);
 }
 
 /// What these springs make of every dof that moves by itself, and of the bodies, as squared

@@ -23,8 +23,8 @@ template <int Dim>
 bool needs_unsymmetric(const BasicModel<Dim>& model) {
   for (const BasicContactPair<Dim>& pair : model.pairs) {
     const pairing::PairDefinition<Dim>& d = pair.definition;
-    if (d.separation == pairing::Separation::tied) continue;
-    if (d.friction || d.mortar ||
+    if (pairing::is_tied(d)) continue;
+    if (d.friction || pairing::by_mortar(d) ||
         (d.weight == pairing::Weight::current_area && d.tangent.consistent))
       return true;
   }

@@ -32,7 +32,7 @@ class Stopwatch {
 /// Whether the tractions of a pair are unknowns.
 template <int Dim>
 [[nodiscard]] bool constrained(const BasicContactPair<Dim>& pair) {
-  return pair.definition.enforcement == contact::Enforcement::lagrange_multiplier;
+  return pairing::by_multipliers(pair.definition);
 }
 
 /// Unknowns of one point of a pair whose multipliers are unknowns.

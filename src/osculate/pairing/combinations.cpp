@@ -99,8 +99,8 @@ Traits traits_of(const PairDefinition<Dim>& pair) {
   t.add(own_surface, pair.filter.limited());
   t.add(two_pass, pair.pass_factor != 1 && !pair.filter.limited());
   t.add(quadrature, !sampled_at_nodes(pair.slave));
-  t.add(mortar, pair.mortar);
-  t.add(edges, pair.edges.on);
+  t.add(mortar, by_mortar(pair));
+  t.add(edges, edges_of(pair) != nullptr);
   const auto any = [](const auto& list, const auto& is) { return std::ranges::any_of(list, is); };
   const auto too_long = [](const auto& f) { return is_long(f); };
   t.add(points_only, any(pair.slave.facets_of, [](const auto& of) { return of.empty(); }));
@@ -109,13 +109,12 @@ Traits traits_of(const PairDefinition<Dim>& pair) {
   t.add(long_lines, any(facets, too_long) || any(pair.slave.boundary.facets, too_long));
   t.add(gap_law, !contact::augmentable(pair.normal));
   t.add(damping, pair.damping.has_value());
-  t.add(held, pair.separation != Separation::allowed);
-  t.add(held_from_start,
-        pair.separation == Separation::tied_normal || pair.separation == Separation::tied);
-  t.add(tied, pair.separation == Separation::tied);
+  t.add(held, !is<MayPart>(pair.separation));
+  t.add(Trait::held_from_start, pairing::held_from_start(pair));
+  t.add(tied, is_tied(pair));
   t.add(relieved_overlap, pair.overlap != InitialOverlap::acts);
-  t.add(corrected, pair.enforcement != contact::Enforcement::penalty);
-  t.add(multipliers, pair.enforcement == contact::Enforcement::lagrange_multiplier);
+  t.add(corrected, !is<ByPenalty>(pair.enforcement));
+  t.add(multipliers, by_multipliers(pair));
   t.add(nodal_weight, pair.weight == Weight::node);
   t.add(full_residual, pair.residual == contact::ResidualForm::full);
   t.add(covariant_tangent, !pair.tangent.consistent);

@@ -173,7 +173,6 @@ std::vector<SharpEdge> sharp_edges(const FacetSurface& surface, std::span<const 
 
 void prepare_edges(EdgeContact& edges, const FacetSurface& master, const SlaveSide<3>& slave,
                    const std::vector<double>& areas, std::span<const Vec3> reference) {
-  if (!edges.on) return;
   edges.master = sharp_edges(master, reference, edges.angle);
   edges.slave = sharp_edges(slave.boundary, reference, edges.angle);
   edges.areas.clear();

@@ -27,13 +27,12 @@ struct SharpEdge {
 struct EdgeContact {
   static constexpr double default_angle = std::numbers::pi / 6;
   static constexpr double flush_angle = std::numbers::pi / 36;
-  bool on = false;
   double angle = default_angle;  ///< of the normals, in the reference configuration
   // Filled by `prepare`.
-  std::vector<SharpEdge> master, slave;
-  std::vector<std::array<int, 3>> slave_nodes;  ///< places of the slave's edge in the node list
-  std::vector<double> areas;                    ///< mean of the edge's end nodes
-  double longest = 0;                           ///< longest edge: farther places are no neighbours
+  std::vector<SharpEdge> master{}, slave{};
+  std::vector<std::array<int, 3>> slave_nodes{};  ///< places of the slave's edge in the node list
+  std::vector<double> areas{};                    ///< mean of the edge's end nodes
+  double longest = 0;  ///< longest edge: farther places are no neighbours
 };
 
 /// Two edges that cross.

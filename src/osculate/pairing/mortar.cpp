@@ -142,7 +142,8 @@ template <int Dim>
 MortarSides<Dim> sides_of(const PairDefinition<Dim>& pair, const PairEvaluation<Dim>& out) {
   return {&pair.slave.boundary,
           &pair.master,
-          {pair.weight == Weight::current_area, pair.area, pair.reference},
+          {pair.weight == Weight::current_area, pair.area,
+           std::get<ByMortar<Dim>>(pair.sampler).reference},
           out.mortar.normals};
 }
 
@@ -310,7 +311,7 @@ PairState<Dim> initial_mortar_state(const PairDefinition<Dim>& pair, Points<Dim>
   PairEvaluation<Dim> work;
   evaluate_mortar<Dim>(pair, x, state, false, work);
   state = commit(work);
-  if (pair.separation == Separation::tied_normal) {
+  if (is<TiedNormal>(pair.separation)) {
     for (PointHistory<Dim>& h : state.points)
       if (h.facet >= 0) hold(pair, h);
     evaluate_mortar<Dim>(pair, x, state, false, work);

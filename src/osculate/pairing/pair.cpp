@@ -32,13 +32,15 @@ void check_areas(const PairDefinition<Dim>& pair) {
               : "a slave facet has no area; use weight: node");
 }
 
-bool find_reentrant_vertices(PairDefinition<2>& pair, Points<2> reference) {
-  return pair.enforcement == contact::Enforcement::lagrange_multiplier && !pair.mortar &&
-         pair.separation == Separation::allowed && pair.offset == 0 &&
-         pair.overlap == InitialOverlap::acts &&
-         mark_reentrant_vertices(pair.master, reference, pair.reentrant_angle);
+void find_reentrant_vertices(PairDefinition<2>& pair, Points<2> reference) {
+  auto* const unknown = std::get_if<ByMultipliers>(&pair.enforcement);
+  if (!unknown) return;
+  unknown->reentrant_vertices =
+      !by_mortar(pair) && is<MayPart>(pair.separation) && pair.offset == 0 &&
+      pair.overlap == InitialOverlap::acts &&
+      mark_reentrant_vertices(pair.master, reference, unknown->reentrant_angle);
 }
-bool find_reentrant_vertices(PairDefinition<3>&, Points<3>) { return false; }
+void find_reentrant_vertices(PairDefinition<3>&, Points<3>) {}
 
 }  // namespace
 
@@ -49,9 +51,11 @@ void prepare(PairDefinition<Dim>& pair, Points<Dim> reference) {
   prepare(pair.filter, pair.master, pair.slave, reference, pair.area);
   point_areas<Dim>(pair.slave, reference, pair.area, pair.reference_areas, nullptr);
   if constexpr (Dim == 3)
-    prepare_edges(pair.edges, pair.master, pair.slave, pair.reference_areas, reference);
-  pair.reentrant_vertices = find_reentrant_vertices(pair, reference);
-  if (pair.mortar) pair.reference.assign(reference.begin(), reference.end());
+    if (auto* const edges = std::get_if<AtEdgesToo>(&pair.sampler))
+      prepare_edges(*edges, pair.master, pair.slave, pair.reference_areas, reference);
+  find_reentrant_vertices(pair, reference);
+  if (auto* const mortar = std::get_if<ByMortar<Dim>>(&pair.sampler))
+    mortar->reference.assign(reference.begin(), reference.end());
   check_areas(pair);
   prepare_ties(pair, reference);
 }
@@ -88,7 +92,7 @@ int largest_block(const PairDefinition<Dim>& pair) {
   int slave = 1, master = 0;
   for (const SlavePoint<Dim>& p : pair.slave.points) slave = std::max(slave, p.count);
   for (const auto& facet : pair.master.facets) master = std::max(master, facet.count);
-  return std::max(slave + master, pair.edges.on ? of_edge_contact : 0);
+  return std::max(slave + master, edges_of(pair) ? of_edge_contact : 0);
 }
 
 template <int Dim>
@@ -97,7 +101,7 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   const std::size_t n = pair.slave.points.size();
   out.points.resize(n);
   out.blocks.resize(n);
-  out.taken_multipliers.resize(pair.reentrant_vertices ? n : 0);
+  out.taken_multipliers.resize(has_reentrant_vertices(pair) ? n : 0);
   out.block_nodes = largest_block(pair);
   if (pair.weight == Weight::current_area) {
     point_areas<Dim>(pair.slave, x, pair.area, out.areas,
@@ -129,7 +133,7 @@ void evaluate_projected(const PairDefinition<Dim>& pair, Points<Dim> x,
                         PointContext<Dim>& context, bool with_tangent, std::size_t i,
                         PairEvaluation<Dim>& out) {
   if constexpr (Dim == 2)
-    if (pair.reentrant_vertices && context.multiplier)
+    if (has_reentrant_vertices(pair) && context.multiplier)
       if (const std::optional<ReentrantVertex> reentrant = find_reentrant_vertex(
               pair, x, history, i, out, out.taken_multipliers[i], context, projected)) {
         evaluate_reentrant_vertex(pair, x, history, *reentrant, context, with_tangent, i, out);
@@ -145,7 +149,7 @@ void evaluate_projected(const PairDefinition<Dim>& pair, Points<Dim> x,
 template <int Dim>
 Mat<Dim, Dim - 1> frame_of_history(const PairDefinition<Dim>& pair, std::size_t i,
                                    const PointHistory<Dim>& h, Points<Dim> x) {
-  if (pair.mortar) return mortar_frame(pair, i, x);
+  if (by_mortar(pair)) return mortar_frame(pair, i, x);
   if constexpr (Dim == 3)
     if (h.edge >= 0) return edge_contact_frame(pair, h, x);
   return stored_frame(pair.master, h.facet, h.xi, x);
@@ -159,12 +163,12 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
               const PairMultipliers<Dim>* multipliers) {
   Laps laps;
   out.stiffening = multipliers ? multipliers->stiffening : 1;
-  if (pair.separation == Separation::tied) {
+  if (is_tied(pair)) {
     evaluate_ties(pair, x, committed, with_tangent, out);
     laps.add_to(out.seconds.evaluation);
     return;
   }
-  if (pair.mortar) {
+  if (by_mortar(pair)) {
     evaluate_mortar(pair, x, committed, with_tangent, out, active_set, multipliers);
     laps.add_to(out.seconds.evaluation);
     return;
@@ -184,7 +188,7 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
     laps.add_to(out.seconds.evaluation);
   }
   if constexpr (Dim == 3) {
-    if (!pair.edges.on) return;
+    if (!edges_of(pair)) return;
     evaluate_edge_contacts(pair, x, committed, with_tangent, out, active_set);
     laps.add_to(out.seconds.evaluation);
   }
@@ -258,11 +262,11 @@ ActiveSet<Dim> evaluated_active_set(const PairEvaluation<Dim>& evaluation,
 template <int Dim>
 PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
   PairEvaluation<Dim> work;
-  if (pair.separation == Separation::tied) {
+  if (is_tied(pair)) {
     evaluate(pair, x, {}, false, work);
     return commit(work);
   }
-  if (pair.mortar) return initial_mortar_state(pair, x);
+  if (by_mortar(pair)) return initial_mortar_state(pair, x);
   refresh(pair, x, false, work);
   PairState<Dim> state;
   state.points.resize(pair.slave.points.size());
@@ -281,7 +285,7 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
       state.overlap.push_back(h.active ? std::min(0.0, h.gap - pair.offset) : 0.0);
     }
   if constexpr (Dim == 3) {
-    if (!pair.edges.on) return state;
+    if (!edges_of(pair)) return state;
     // By a whole evaluation: it tells which edge-edge contacts are the nodes' own contacts.
     evaluate<3>(pair, x, state, false, work);
     for (std::size_t i = state.points.size(); i < work.points.size(); ++i) {
@@ -297,7 +301,7 @@ template <int Dim>
 PairMultipliers<Dim> initial_multipliers(const PairDefinition<Dim>& pair,
                                          const PairState<Dim>& state) {
   PairMultipliers<Dim> out;
-  if (pair.enforcement != contact::Enforcement::penalty) out.points.resize(state.points.size());
+  if (!is<ByPenalty>(pair.enforcement)) out.points.resize(state.points.size());
   return out;
 }
 

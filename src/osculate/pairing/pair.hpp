@@ -1,5 +1,4 @@
 #pragma once
-#include <numbers>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -9,15 +8,14 @@
 #include "osculate/contact/multiplier.hpp"
 #include "osculate/contact/point_terms.hpp"
 #include "osculate/core/prediction.hpp"
+#include "osculate/pairing/axes.hpp"
 #include "osculate/pairing/candidate_filter.hpp"
 #include "osculate/pairing/constraint.hpp"
-#include "osculate/pairing/edges.hpp"
 #include "osculate/pairing/elastic_predictor.hpp"
 #include "osculate/pairing/mortar_buffers.hpp"
 #include "osculate/pairing/projected_point.hpp"
 #include "osculate/pairing/relative_stiffness.hpp"
 #include "osculate/pairing/slave_side.hpp"
-#include "osculate/pairing/tied_point.hpp"
 
 namespace osculate::pairing {
 
@@ -28,65 +26,78 @@ using Points = std::type_identity_t<std::span<const Vec<Dim>>>;
 /// What the traction law's result is multiplied by.
 enum class Weight : std::uint8_t { node, reference_area, current_area };
 
-/// Which points stay in contact whatever pulls at them.
-///   allowed        none
-///   no_separation  those that were in contact at the end of the last increment
-///   tied_normal    those near the master at the start; they keep their gap, and no other points
-///                  come into contact
-///   tied           the same, and they do not slide either (tie.hpp); no friction law
-enum class Separation : std::uint8_t { allowed, no_separation, tied_normal, tied };
-
 /// Initial penetrations: they act from the beginning, they are let in over the first step, or they
 /// never count: the gap is measured from them.
 enum class InitialOverlap : std::uint8_t { acts, ramped, kept };
 
-/// One contact pair: one entry per axis (sampling: the slave's points; target: the master; law;
-/// enforcement), plus the forms of residual and tangent. Everything here is the same in
-/// the plane and in space.
+/// One contact pair: a choice on each of the four axes, the forms of residual and tangent, and what
+/// the two sides of it are. Everything here is the same in the plane and in space.
 template <int Dim>
 struct PairDefinition {
-  static constexpr double default_reentrant_angle = std::numbers::pi / 6;
-  Boundary<Dim> master;
+  // Sampling: the slave with its points, and how they are used.
   SlaveSide<Dim> slave;
+  Sampler<Dim> sampler{};
+  Weight weight = Weight::reference_area;
+  AreaRule area;
+  std::vector<double> reference_areas;  ///< of the slave's points; filled by `prepare`
+
+  // Target: what each facet of the master is, and which of them a point may touch. With
+  // `candidate filter.own` both sides of a contact are slaves, and each carries half of the
+  // traction.
+  Boundary<Dim> master;
+  CandidateFilter<Dim> filter;
+  double pass_factor = 1;  ///< of the traction that this pass carries (two passes: 1/2 each)
+  double depth = std::numeric_limits<double>::infinity();  ///< deeper points are not in contact
+
+  // Law.
   contact::NormalLaw normal;
   std::optional<contact::FrictionLaw> friction;
+  std::optional<contact::DampingLaw> damping;  ///< by penalty, where points may part
+  Separation<Dim> separation{};
   /// Factors of the penalties of both laws, one per slave point; empty: all 1. Only a NormalPenalty
   /// has one in the normal direction. Read by point_penalty.hpp.
   std::vector<RelativeStiffness> relative_stiffness{};
-  std::optional<contact::DampingLaw> damping;  ///< by penalty, with separation allowed
-  Separation separation = Separation::allowed;
-  double tolerance = 0;  ///< tied, tied_normal: gap at the start of the points that are held
-  bool keep_gap = true;  ///< tied: false pulls the points onto the master
-  double offset = 0;     ///< half thicknesses of master and slave: the laws see the gap less this
-  contact::Enforcement enforcement = contact::Enforcement::penalty;
-  /// Augmented Lagrangian: the largest gap and elastic slip that are left [length]. The multipliers
-  /// are corrected after each solution, or after each iteration (in one loop).
-  double target = 0;
-  bool augment_often = false;
-  Weight weight = Weight::reference_area;
+  double offset = 0;  ///< half thicknesses of master and slave: the laws see the gap less this
+  InitialOverlap overlap = InitialOverlap::acts;
+
+  // Enforcement.
+  Enforcement enforcement{};
+
+  // Forms of the papers.
   contact::ResidualForm residual = contact::ResidualForm::surface;
   contact::TangentForm tangent;
   HistoryRule history = HistoryRule::continuous;
-  AreaRule area;
-  double pass_factor = 1;  ///< of the traction that this pass carries (two passes: 1/2 each)
-  double depth = std::numeric_limits<double>::infinity();  ///< deeper points are not in contact
-  InitialOverlap overlap = InitialOverlap::acts;
-  EdgeContact edges;  ///< in space: also where sharp edges cross
-  /// In the plane, with unknown tractions at nodes: points are held in concave corners of the
-  /// master by a traction of any direction (reentrant_vertex.hpp), so that there is a shear
-  /// without friction too. Corners with a larger angle between their normals count.
-  double reentrant_angle = default_reentrant_angle;
-  /// There are such corners; set by `prepare`. Not between thick sides or where points are held or
-  /// overlaps do not count: there the corner is elsewhere.
-  bool reentrant_vertices = false;
-  /// With `candidate filter.own` both sides of a contact are slaves, and each carries half of the
-  /// traction.
-  CandidateFilter<Dim> filter;
-  bool mortar = false;  ///< integrals over the slave's facets instead of points (mortar.hpp)
-  std::vector<TiedPoint<Dim>> ties;     ///< filled by `prepare`
-  std::vector<double> reference_areas;  ///< of the slave's points; filled by `prepare`
-  std::vector<Vec<Dim>> reference;      ///< mortar: positions of all nodes; filled by `prepare`
 };
+
+/// Edges of a pair that is sampled where they cross, too; otherwise null.
+template <int Dim>
+[[nodiscard]] const EdgeContact* edges_of(const PairDefinition<Dim>& pair) {
+  return std::get_if<AtEdgesToo>(&pair.sampler);
+}
+template <int Dim>
+[[nodiscard]] bool by_mortar(const PairDefinition<Dim>& pair) {
+  return is<ByMortar<Dim>>(pair.sampler);
+}
+/// Points are tied, and do not slide.
+template <int Dim>
+[[nodiscard]] bool is_tied(const PairDefinition<Dim>& pair) {
+  return is<Tied<Dim>>(pair.separation);
+}
+/// Points are held that were near the master at the start; no others come into contact.
+template <int Dim>
+[[nodiscard]] bool held_from_start(const PairDefinition<Dim>& pair) {
+  return is_tied(pair) || is<TiedNormal>(pair.separation);
+}
+template <int Dim>
+[[nodiscard]] bool by_multipliers(const PairDefinition<Dim>& pair) {
+  return is<ByMultipliers>(pair.enforcement);
+}
+/// Tractions by multipliers, and points that corners of the master hold by them.
+template <int Dim>
+[[nodiscard]] bool has_reentrant_vertices(const PairDefinition<Dim>& pair) {
+  const auto* const unknown = std::get_if<ByMultipliers>(&pair.enforcement);
+  return unknown && unknown->reentrant_vertices;
+}
 
 /// Committed history of a pair: one entry per slave point, then one per edge-edge contact.
 template <int Dim>
@@ -286,7 +297,7 @@ template <int Dim>
 /// Whether the unknown tractions of a pair's points have a shear.
 template <int Dim>
 [[nodiscard]] bool has_shear(const PairDefinition<Dim>& pair) {
-  return pair.friction.has_value() || pair.reentrant_vertices;
+  return pair.friction.has_value() || has_reentrant_vertices(pair);
 }
 
 /// The multipliers of an iteration as the states that its evaluation found take them: a point that

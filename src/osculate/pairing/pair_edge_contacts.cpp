@@ -14,7 +14,8 @@ namespace {
 /// That of a slave edge is the mean of its ends'.
 RelativeStiffness stiffness_of_edge(const PairDefinition<3>& pair, std::size_t edge) {
   const auto at_end = [&](std::size_t k) {
-    return relative_stiffness(pair, static_cast<std::size_t>(pair.edges.slave_nodes[edge][k]));
+    const int node = edges_of(pair)->slave_nodes[edge][k];
+    return relative_stiffness(pair, static_cast<std::size_t>(node));
   };
   const RelativeStiffness a = at_end(0), b = at_end(1);
   return {0.5 * (a.normal + b.normal), 0.5 * (a.shear + b.shear)};
@@ -44,16 +45,16 @@ std::span<const PointHistory<3>> edge_contact_histories(const PairDefinition<3>&
 /// Slave edges with a node in contact.
 std::vector<bool> held_edges(const PairDefinition<3>& pair, const PairEvaluation<3>& out) {
   std::vector<bool> held;
-  for (const std::array<int, 3>& nodes : pair.edges.slave_nodes)
+  for (const std::array<int, 3>& nodes : edges_of(pair)->slave_nodes)
     held.push_back(std::any_of(nodes.begin(), nodes.end(), [&](int i) {
       return i >= 0 && out.points[static_cast<std::size_t>(i)].status != Status::open;
     }));
   return held;
 }
 
-void remember_edges(const PairDefinition<3>& pair, Points<3> x, const EdgeEdgePoint& c,
+void remember_edges(const EdgeContact& edges, Points<3> x, const EdgeEdgePoint& c,
                     PointResult<3>& result) {
-  result.foot = edge_position(pair.edges.master[static_cast<std::size_t>(c.master)], c.xi[0], x);
+  result.foot = edge_position(edges.master[static_cast<std::size_t>(c.master)], c.xi[0], x);
   result.history.facet = c.master;
   result.history.edge = c.slave;
   result.history.flipped = c.flipped;
@@ -79,37 +80,39 @@ PointContext<3> context_of(const EdgeEdgePoint& c, const ActiveSet<3>& active_se
 void evaluate_edge_contacts(const PairDefinition<3>& pair, Points<3> x,
                             const PairState<3>& committed, bool with_tangent,
                             PairEvaluation<3>& out, const ActiveSet<3>& active_set) {
-  find_crossings(pair.edges, pair.master, pair.slave.boundary, x, held_edges(pair, out), out.edges);
+  const EdgeContact& edges = *edges_of(pair);
+  find_crossings(edges, pair.master, pair.slave.boundary, x, held_edges(pair, out), out.edges);
   const std::vector<EdgeEdgePoint>& found = out.edges.found;
   const std::size_t nodes = pair.slave.points.size();
   out.points.resize(nodes + found.size());
   out.blocks.resize(nodes + found.size());
   const std::span<const PointHistory<3>> histories = edge_contact_histories(pair, committed);
-  const FacetSurface differences = differences_of(pair.edges, found, histories);
+  const FacetSurface differences = differences_of(edges, found, histories);
   for (std::size_t c = 0; c < found.size(); ++c) {
     const auto facet = static_cast<Index>(c);
     const auto edge = static_cast<std::size_t>(found[c].slave);
     const ProjectedPoint<3> projected =
         project_edge_edge(differences.facets[c], facet, found[c].xi, x);
     PointHistory<3> history;
-    const int known = history_of_crossing(pair.edges, histories, found, found[c]);
+    const int known = history_of_crossing(edges, histories, found, found[c]);
     if (known >= 0) {
       history = histories[static_cast<std::size_t>(known)];
       history.facet = static_cast<Index>(found.size()) + known;
     }
     PointContext<3> context = context_of(found[c], active_set, stiffness_of_edge(pair, edge));
     context.way = way_of_gap(pair, active_set, history, history.facet, projected.kinematics.gap);
-    const double weight = pair.weight == Weight::node ? 1.0 : pair.edges.areas[edge];
+    const double weight = pair.weight == Weight::node ? 1.0 : edges.areas[edge];
     evaluate_point<3>(pair, x, history, {differences, projected, nullptr, weight}, context,
                       with_tangent, nodes + c, out);
-    remember_edges(pair, x, found[c], out.points[nodes + c]);
+    remember_edges(edges, x, found[c], out.points[nodes + c]);
   }
 }
 
 Mat<3, 2> edge_contact_frame(const PairDefinition<3>& pair, const PointHistory<3>& h, Points<3> x) {
+  const EdgeContact& edges = *edges_of(pair);
   FacetSurface one;
-  one.facets.push_back(edge_contact_facet(pair.edges.master[static_cast<std::size_t>(h.facet)],
-                                          pair.edges.slave[static_cast<std::size_t>(h.edge)],
+  one.facets.push_back(edge_contact_facet(edges.master[static_cast<std::size_t>(h.facet)],
+                                          edges.slave[static_cast<std::size_t>(h.edge)],
                                           h.flipped));
   return stored_frame(one, 0, h.xi, x);
 }

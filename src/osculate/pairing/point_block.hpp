@@ -110,8 +110,7 @@ template <int Dim>
 template <int Dim>
 bool start_constraint(const PairDefinition<Dim>& pair, const PointContext<Dim>& context,
                       std::size_t i, ContactBlock<Dim>& block) {
-  if (pair.enforcement != contact::Enforcement::lagrange_multiplier || !context.multiplier)
-    return false;
+  if (!by_multipliers(pair) || !context.multiplier) return false;
   const PointPenalty penalty = point_penalty(pair, i);
   set_open(constraint_weight(pair, i), penalty.normal, penalty.shear, context.multiplier->normal,
            context.multiplier->shear, block.constraint);

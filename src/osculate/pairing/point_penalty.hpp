@@ -28,7 +28,7 @@ template <int Dim>
   const RelativeStiffness own = relative_stiffness(pair, i);
   const double normal = own.normal * contact::penalty_of(pair.normal);
   if (pair.friction) return {normal, own.shear * contact::stiffness(*pair.friction)};
-  return {normal, pair.reentrant_vertices ? normal : 0.0};
+  return {normal, has_reentrant_vertices(pair) ? normal : 0.0};
 }
 
 /// Penalties of the slave's points.

@@ -164,7 +164,7 @@ std::optional<ReentrantVertex> come_from_outside(const PairDefinition<2>& pair, 
 
 bool rests_in_reentrant_vertex(const PairDefinition<2>& pair, const PointHistory<2>& history,
                                Points<2> x) {
-  if (!pair.reentrant_vertices || history.feature != Feature::corner) return false;
+  if (!has_reentrant_vertices(pair) || history.feature != Feature::corner) return false;
   const Facet& facet = facet_of(pair.master, history.facet);
   return history.xi[0] > 0.5 * (facet.lo + facet.hi) &&
          reentrant_vertex_after(pair.master, history.facet, x).has_value();

@@ -12,8 +12,8 @@ namespace osculate::pairing {
 template <int Dim>
 [[nodiscard]] bool is_held(const PairDefinition<Dim>& pair,
                            const contact::PointHistory<Dim>& history) {
-  if (pair.separation == Separation::no_separation) return history.active;
-  return pair.separation == Separation::tied_normal && history.held;
+  if (is<NeverPart>(pair.separation)) return history.active;
+  return is<TiedNormal>(pair.separation) && history.held;
 }
 
 /// The gap at which the normal law begins to count: half thicknesses, what a held point keeps, and
@@ -28,9 +28,10 @@ template <int Dim>
 /// At the start: holds a point that is near the master.
 template <int Dim>
 void hold(const PairDefinition<Dim>& pair, contact::PointHistory<Dim>& history) {
-  if (pair.separation != Separation::tied_normal) return;
+  const auto* const tied = std::get_if<TiedNormal>(&pair.separation);
+  if (!tied) return;
   const double gap = history.gap - pair.offset;
-  history.held = std::abs(gap) <= pair.tolerance;
+  history.held = std::abs(gap) <= tied->tolerance;
   if (history.held) history.rest = gap;
 }
 
@@ -50,7 +51,7 @@ template <int Dim>
                              const PointContext<Dim>& context = {}) {
   if (gap < -pair.depth) return false;
   if (is_held(pair, history)) return true;
-  return pair.separation != Separation::tied_normal &&
+  return !is<TiedNormal>(pair.separation) &&
          gap - pair.offset - context.relieved - 0.5 * context.way <=
              contact::onset_gap(pair.normal);
 }
@@ -74,10 +75,10 @@ template <int Dim>
   const double of_law = gap - rest_gap(pair, history, context);
   contact::NormalResponse r;
   if (context.multiplier) {
-    if (gap < -pair.depth || (pair.separation == Separation::tied_normal && !held)) return {};
+    if (gap < -pair.depth || (is<TiedNormal>(pair.separation) && !held)) return {};
     r = contact::augmented(context.stiffening * contact::penalty_of(law), of_law,
                            context.multiplier->normal, held);
-    if (r.active && pair.enforcement == contact::Enforcement::augmented_lagrange)
+    if (r.active && is<ByAugmentedLagrange>(pair.enforcement))
       r.stored = contact::stored_energy(law, of_law, true);
     return r;
   }

@@ -45,7 +45,7 @@ template <int Dim>
 double curvature_share(const PairDefinition<Dim>& pair, Points<Dim> x,
                        const PairEvaluation<Dim>& evaluation, const contact::TangentForm& parts) {
   double largest = 0;
-  if (pair.mortar || pair.separation == Separation::tied) return largest;  // one tangent, no parts
+  if (by_mortar(pair) || is_tied(pair)) return largest;         // one tangent, no parts
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {  // not the edge-edge contacts
     if (evaluation.points[i].status == contact::Status::open) continue;
     const contact::PointHistory<Dim>& history = evaluation.points[i].history;

@@ -99,13 +99,14 @@ Bases<Dim> bases_of(const TiedPoint<Dim>& tie, Points<Dim> x) {
 
 /// Sets what is kept; false where the point is too far away, or has no facet to be carried by.
 template <int Dim>
-bool keep(const PairDefinition<Dim>& pair, Points<Dim> x, TiedPoint<Dim>& tie) {
+bool keep(const PairDefinition<Dim>& pair, const Tied<Dim>& tied, Points<Dim> x,
+          TiedPoint<Dim>& tie) {
   const Vec<Dim> apart = distance_of<Dim>(tie, x);
-  if (!(std::abs(apart.norm() - pair.offset) <= pair.tolerance)) return false;
+  if (!(std::abs(apart.norm() - pair.offset) <= tied.tolerance)) return false;
   const Bases<Dim> r = bases_of<Dim>(tie, x);
   const Vec<Dim> m = normal_of(r);
   if (!(m.norm() > 0)) return false;
-  if (pair.keep_gap) {
+  if (tied.keep_gap) {
     Mat<Dim, Dim> base;
     for (int i = 0; i < Dim - 1; ++i) base.col(i) = r[static_cast<std::size_t>(i)];
     base.col(Dim - 1) = m;
@@ -117,9 +118,9 @@ bool keep(const PairDefinition<Dim>& pair, Points<Dim> x, TiedPoint<Dim>& tie) {
 }
 
 template <int Dim>
-void tie_points(PairDefinition<Dim>& pair, Points<Dim> x) {
+void tie_points(const PairDefinition<Dim>& pair, Points<Dim> x, Tied<Dim>& tied) {
   PairDefinition<Dim> open = pair;  // the same, to search in
-  open.separation = Separation::allowed;
+  open.separation = MayPart{};
   PairEvaluation<Dim> work;
   PairState<Dim> none;
   none.points.resize(pair.slave.points.size());
@@ -141,12 +142,12 @@ void tie_points(PairDefinition<Dim>& pair, Points<Dim> x) {
     tie.facet = projected.projection.facet;
     tie.feature = projected.projection.feature;
     tie.xi = projected.projection.xi;
-    if (keep(pair, x, tie)) pair.ties.push_back(std::move(tie));
+    if (keep(pair, tied, x, tie)) tied.ties.push_back(std::move(tie));
   }
 }
 
 template <int Dim>
-void tie_by_mortar(PairDefinition<Dim>& pair, Points<Dim> x) {
+void tie_by_mortar(PairDefinition<Dim>& pair, Points<Dim> x, Tied<Dim>& tied) {
   constexpr double nothing = 1e-8;  // parts of a node's area smaller than this are nothing
   PairEvaluation<Dim> work;
   PairState<Dim> none;
@@ -170,7 +171,7 @@ void tie_by_mortar(PairDefinition<Dim>& pair, Points<Dim> x) {
     tie.slave_count = static_cast<int>(tie.nodes.size());
     for (std::size_t l = 0; l < node.masters.nodes.size(); ++l)
       tie.weights[slot(tie, node.masters.nodes[l])] -= node.masters.weights[l] / node.area;
-    if (keep(pair, x, tie)) pair.ties.push_back(std::move(tie));
+    if (keep(pair, tied, x, tie)) tied.ties.push_back(std::move(tie));
   }
 }
 
@@ -260,12 +261,13 @@ void set_block(const TiedPoint<Dim>& tie, const Response<Dim>& r,
 
 template <int Dim>
 void prepare_ties(PairDefinition<Dim>& pair, Points<Dim> reference) {
-  pair.ties.clear();
-  if (pair.separation != Separation::tied) return;
-  if (pair.mortar)
-    tie_by_mortar<Dim>(pair, reference);
+  auto* const tied = std::get_if<Tied<Dim>>(&pair.separation);
+  if (!tied) return;
+  tied->ties.clear();
+  if (by_mortar(pair))
+    tie_by_mortar<Dim>(pair, reference, *tied);
   else
-    tie_points<Dim>(pair, reference);
+    tie_points<Dim>(pair, reference, *tied);
 }
 
 template <int Dim>
@@ -279,7 +281,7 @@ void evaluate_ties(const PairDefinition<Dim>& pair, Points<Dim> x, const PairSta
     clear_block(out.blocks[i]);
     out.blocks[i].nodes.clear();
   }
-  for (const TiedPoint<Dim>& tie : pair.ties) {
+  for (const TiedPoint<Dim>& tie : std::get<Tied<Dim>>(pair.separation).ties) {
     const std::size_t i = at(tie.point);
     const double stiffness = point_penalty(pair, i).normal;
     const TieState<Dim> s = state_of<Dim>(pair, tie, x);
@@ -287,8 +289,8 @@ void evaluate_ties(const PairDefinition<Dim>& pair, Points<Dim> x, const PairSta
     PointResult<Dim>& result = out.points[i];
     const bool by_node = pair.weight == Weight::node;
     result = open_result<Dim>(
-        {}, pair.mortar ? pair.reference_areas[i]
-                        : pair.pass_factor * (by_node ? 1.0 : pair.reference_areas[i]));
+        {}, by_mortar(pair) ? pair.reference_areas[i]
+                            : pair.pass_factor * (by_node ? 1.0 : pair.reference_areas[i]));
     report_sample(s.sample, pair.offset, result);
     report_normal(r.traction.normal, 0, result);
     report_contact<Dim>(r, r.law.traction, {}, result);

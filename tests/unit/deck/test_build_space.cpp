@@ -235,13 +235,15 @@ TEST(BuildSpace, EdgesOfAPair) {
                   "edges: {angle: 40}", "edges: " + edges);
   };
   const Built3 on = built_from(with("high", "low", "true"));
-  EXPECT_TRUE(on.model.pairs[1].definition.edges.on);
-  EXPECT_NEAR(on.model.pairs[1].definition.edges.angle, std::acos(-1.0) / 6, 1e-15);
-  EXPECT_EQ(on.model.pairs[1].definition.edges.master.size(), 20u);  // two pieces, height one
-  EXPECT_EQ(on.model.pairs[1].definition.edges.slave.size(), 20u);
-  EXPECT_EQ(on.model.pairs[1].definition.edges.master[0].count, 3);
+  const pairing::EdgeContact* const edges = pairing::edges_of(on.model.pairs[1].definition);
+  ASSERT_NE(edges, nullptr);
+  EXPECT_NEAR(edges->angle, std::acos(-1.0) / 6, 1e-15);
+  EXPECT_EQ(edges->master.size(), 20u);  // two pieces, height one
+  EXPECT_EQ(edges->slave.size(), 20u);
+  EXPECT_EQ(edges->master[0].count, 3);
   EXPECT_EQ(on.warnings.size(), 1u);  // of another pair
-  EXPECT_FALSE(built_from(with("high", "low", "false")).model.pairs[1].definition.edges.on);
+  const Built3 off = built_from(with("high", "low", "false"));
+  EXPECT_EQ(pairing::edges_of(off.model.pairs[1].definition), nullptr);
   const Built3 blunt = built_from(with("high", "low", "{angle: 91}"));
   ASSERT_EQ(blunt.warnings.size(), 3u);
   EXPECT_EQ(blunt.warnings[0],

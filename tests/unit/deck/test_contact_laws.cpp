@@ -39,17 +39,18 @@ TEST(LawKeys, BecomeLaws) {
   EXPECT_NEAR(floor.offset, 0.03, 1e-16);
   EXPECT_EQ(b.model.steps[0].duration, 0.5);
   const auto& joint = b.model.pairs[1].definition;
-  EXPECT_EQ(joint.separation, pairing::Separation::tied);
-  EXPECT_EQ(joint.tolerance, 0.02);
-  EXPECT_FALSE(joint.keep_gap);
-  EXPECT_EQ(joint.ties.size(), 6u);
+  ASSERT_TRUE(pairing::is_tied(joint));
+  const auto& tie = std::get<pairing::Tied<2>>(joint.separation);
+  EXPECT_EQ(tie.tolerance, 0.02);
+  EXPECT_FALSE(tie.keep_gap);
+  EXPECT_EQ(tie.ties.size(), 6u);
   const auto& top = b.model.pairs[2].definition;
   EXPECT_EQ(top.normal.as<contact::NormalTable>()->points.size(), 3u);
   EXPECT_EQ(top.friction->as<contact::Tresca>()->limit_traction, 3);
   EXPECT_EQ(top.damping->as<contact::Viscous>()->coefficient, 0.5);
   EXPECT_FALSE(floor.damping.has_value());
   EXPECT_EQ(top.offset, 0);
-  EXPECT_EQ(top.separation, pairing::Separation::allowed);
+  EXPECT_TRUE(pairing::is<pairing::MayPart>(top.separation));
 }
 
 // Friction by rate and state and creep: their numbers, and what they say of steps without a time.
@@ -108,12 +109,13 @@ TEST(LawKeys, DistanceRoughAndWhatIsHeld) {
   const Built rough = built("tresca: {limit: 3, penalty: 500}", "rough: {penalty: 7}");
   EXPECT_EQ(rough.model.pairs[2].definition.friction->as<contact::Rough>()->stiffness, 7);
   const std::string tied = "separation: tied, tolerance: 0.02, initial_gap: close";
-  EXPECT_EQ(built(tied, "separation: no_separation").model.pairs[1].definition.separation,
-            pairing::Separation::no_separation);
+  const Built closed = built(tied, "separation: no_separation");
+  EXPECT_TRUE(pairing::is<pairing::NeverPart>(closed.model.pairs[1].definition.separation));
   const Built normal = built(tied, "separation: tied_normal");
-  EXPECT_EQ(normal.model.pairs[1].definition.separation, pairing::Separation::tied_normal);
-  EXPECT_NEAR(normal.model.pairs[1].definition.tolerance, 0.05, 1e-15);  // 0.05 of facets of 1
-  EXPECT_TRUE(normal.model.pairs[1].definition.ties.empty());
+  const auto* const held =
+      std::get_if<pairing::TiedNormal>(&normal.model.pairs[1].definition.separation);
+  ASSERT_NE(held, nullptr);
+  EXPECT_NEAR(held->tolerance, 0.05, 1e-15);  // 0.05 of facets of 1
 }
 
 TEST(LawKeys, SayHowManyPointsAreTied) {

@@ -22,11 +22,12 @@ TEST(EnforcementKeys, BecomeThePairs) {
   const Description d = parse_model(test_file("enforcement.yaml"), "model.yaml");
   const Built built = build(d, load_mesh(d));
   const auto& a = built.model.pairs.at(0).definition;
-  EXPECT_EQ(a.enforcement, contact::Enforcement::augmented_lagrange);
-  EXPECT_EQ(a.target, 1e-5);
-  EXPECT_TRUE(a.augment_often);
+  const auto* const asked = std::get_if<pairing::ByAugmentedLagrange>(&a.enforcement);
+  ASSERT_NE(asked, nullptr);
+  EXPECT_EQ(asked->target, 1e-5);
+  EXPECT_TRUE(asked->every_iteration);
   const auto& b = built.model.pairs.at(1).definition;
-  EXPECT_EQ(b.enforcement, contact::Enforcement::lagrange_multiplier);
+  EXPECT_TRUE(pairing::by_multipliers(b));
   EXPECT_NEAR(contact::penalty_of(b.normal), 10 * 100 / (1.0 + 2.0 / 3), 1e-9);
 }
 

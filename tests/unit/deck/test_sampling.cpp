@@ -124,8 +124,8 @@ TEST(SamplingKey, RefusesWhatItCannotDo) {
 
 TEST(SamplingKey, MortarIntegratesOverTheFacets) {
   const Built b = built_with("sampling: mortar");
-  EXPECT_TRUE(b.model.pairs[1].definition.mortar);
-  EXPECT_FALSE(b.model.pairs[0].definition.mortar);
+  EXPECT_TRUE(pairing::by_mortar(b.model.pairs[1].definition));
+  EXPECT_FALSE(pairing::by_mortar(b.model.pairs[0].definition));
   EXPECT_EQ(b.model.pairs[1].definition.slave.points.size(), 5u);  // its nodes
   const std::string at = "model.yaml:18: contact[1].";
   const auto refusal = [](const std::string& keys) {

@@ -136,7 +136,7 @@ TEST(SystemSpace, TheExampleOfCrossedBeamsIsHeldByItsEdges) {
   EXPECT_EQ(column(t.rows.back(), "cross.slipping"), 1);  // one crossing, and it slides
   EXPECT_LT(column(t.rows.back(), "cross.force_x"),
             -0.15 * column(t.rows.back(), "cross.normal_force"));
-  built.model.pairs[0].definition.edges.on = false;
+  built.model.pairs[0].definition.sampler = pairing::AtPoints{};
   for (const std::vector<double>& row : run_space(built).rows)
     EXPECT_EQ(column(row, "cross.normal_force"), 0);  // nodes alone see nothing
 }

@@ -261,7 +261,7 @@ Seen drive(const Door<Dim>& door) {
   Visitor<Dim> host{evaluator, first};
   Seen seen;
   std::vector<Vec<Dim>> x = file.reference;
-  const bool corrects = file.pair.enforcement == contact::Enforcement::augmented_lagrange;
+  const bool corrects = pairing::is<pairing::ByAugmentedLagrange>(file.pair.enforcement);
   for (const auto& [along, up] : {std::pair(0.0, -0.01),
                                   {0.001, -0.01},
                                   {0.06, -0.012},

@@ -62,7 +62,7 @@ inline PairSample3 make_roofs(const RoofOptions& o) {
   s.pair.slave = pairing::make_slave_side(slave);
   s.pair.normal = contact::penalty(1000.0);
   s.pair.weight = pairing::Weight::node;
-  s.pair.edges.on = true;
+  s.pair.sampler = pairing::AtEdgesToo{};
   pairing::prepare(s.pair, s.x);
   s.committed.points.resize(s.pair.slave.nodes.size());
   return s;

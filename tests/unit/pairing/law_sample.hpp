@@ -15,7 +15,7 @@ struct Law {
   contact::Status status;
   double depth = 0.05;  ///< penetration
   double carried = 7;   ///< shear traction of the last increment
-  pairing::Separation separation = pairing::Separation::allowed;
+  std::variant<pairing::MayPart, pairing::NeverPart, pairing::TiedNormal> separation{};
   double offset = 0, rest = 0;
   std::optional<contact::DampingLaw> damping{};
   double from = 0, deepest = 0;  ///< of damping: gaps of the last increments
@@ -47,7 +47,7 @@ std::vector<int> branches(const pairing::PairDefinition<Dim>& pair, const Law& l
     double steady = 1;
     if (law.friction) steady = contact::steadying(*law.friction, p.normal_traction, duration);
     out.insert(out.end(), {static_cast<int>(p.status), static_cast<int>(p.history.feature),
-                           static_cast<int>(pair.mortar ? 0 : p.history.facet), piece,
+                           static_cast<int>(pairing::by_mortar(pair) ? 0 : p.history.facet), piece,
                            static_cast<int>(std::log10(steady) + 0.5)});
   }
   return out;
@@ -58,7 +58,7 @@ template <int Dim>
 void set_law(const Law& law, ContactSample<Dim>& s) {
   s.pair.normal = law.normal;
   s.pair.friction = law.friction;
-  s.pair.separation = law.separation;
+  std::visit([&](const auto& kind) { s.pair.separation = kind; }, law.separation);
   s.pair.offset = law.offset;
   s.pair.damping = law.damping;
   std::vector<Vec<Dim>> before = s.x;
@@ -72,7 +72,7 @@ void set_law(const Law& law, ContactSample<Dim>& s) {
     h.traction.setZero();
     h.traction[0] = law.carried;
     h.slid = 0.03;
-    h.held = law.separation == pairing::Separation::tied_normal;
+    h.held = pairing::is<pairing::TiedNormal>(law.separation);
     h.rest = law.rest;
     if (!law.damping) continue;
     h.gap = law.from;

@@ -107,7 +107,7 @@ ContactSample<2> make_mortar2(const MortarOptions2& o) {
   add_line(s, slave, o.slave_facets, o.slave_nodes, o.to, o.from, o, -o.depth);
   s.pair.slave = pairing::make_slave_side(slave);
   s.pair.normal = contact::penalty(1000);
-  s.pair.mortar = true;
+  s.pair.sampler = pairing::ByMortar<2>{};
   pairing::prepare(s.pair, s.x);
   s.committed.points.resize(s.pair.slave.nodes.size());
   return s;
@@ -118,7 +118,7 @@ ContactSample<3> make_mortar3(const MortarOptions3& o) {
   s.pair.master = MortarGrid(s, o, false).surface;
   s.pair.slave = pairing::make_slave_side(MortarGrid(s, o, true).surface);
   s.pair.normal = contact::penalty(1000);
-  s.pair.mortar = true;
+  s.pair.sampler = pairing::ByMortar<3>{};
   pairing::prepare(s.pair, s.x);
   s.committed.points.resize(s.pair.slave.nodes.size());
   return s;

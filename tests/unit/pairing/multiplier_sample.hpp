@@ -111,7 +111,7 @@ template <int Dim>
 MultiplierSample<Dim> unknown_tractions(const ContactSample<Dim>& s, double lambda, double shear) {
   MultiplierSample<Dim> m;
   m.pair = s.pair;
-  m.pair.enforcement = contact::Enforcement::lagrange_multiplier;
+  m.pair.enforcement = pairing::ByMultipliers{};
   m.committed = s.committed;
   m.x = s.x;
   m.multipliers.assign(s.committed.points.size(), contact::Multiplier<Dim>{});

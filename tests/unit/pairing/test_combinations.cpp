@@ -59,18 +59,18 @@ TEST(Combinations, OfAPairAreReadFromItsDefinition) {
   };
   EXPECT_EQ(refused([](PairDefinition<2>&) {}), "");
   EXPECT_EQ(refused([](PairDefinition<2>& p) {
-              p.mortar = true;
+              p.sampler = ByMortar<2>{};
               p.weight = Weight::node;
             }),
             why_not(Trait::nodal_weight, Trait::mortar));
   EXPECT_EQ(refused([](PairDefinition<2>& p) {
-              p.enforcement = contact::Enforcement::lagrange_multiplier;
+              p.enforcement = pairing::ByMultipliers{};
               p.residual = contact::ResidualForm::full;
             }),
             why_not(Trait::full_residual, Trait::multipliers));
   EXPECT_EQ(refused([](PairDefinition<2>& p) {
-              p.enforcement = contact::Enforcement::augmented_lagrange;
-              p.separation = Separation::tied;
+              p.enforcement = pairing::ByAugmentedLagrange{};
+              p.separation = Tied<2>{};
             }),
             why_not(Trait::corrected, Trait::tied));
 }

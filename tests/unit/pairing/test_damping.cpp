@@ -99,7 +99,7 @@ TEST(Damping, SeesTheGapLessTheOffset) {
 }
 
 /// Two nodes of a facet over a flat master, tied or held in the normal direction, then moved.
-pairing::PairEvaluation<2> pulled(pairing::Separation separation) {
+pairing::PairEvaluation<2> pulled(const pairing::Separation<2>& separation) {
   pairing::PairDefinition<2> pair;
   std::vector<Vec2> x{{-1, 0}, {1, 0}, {0.25, 0.01}, {-0.25, 0.01}};
   pair.master.facets.push_back(pairing::lagrange_facet(std::array<Index, 2>{0, 1}));
@@ -110,7 +110,6 @@ pairing::PairEvaluation<2> pulled(pairing::Separation separation) {
   pair.slave = pairing::make_slave_side(slave);
   pair.normal = contact::penalty(eps);
   pair.separation = separation;
-  pair.tolerance = 0.05;
   pairing::prepare(pair, x);
   const pairing::PairState<2> state = pairing::initial_state(pair, x);
   for (const std::size_t n : {2u, 3u}) x[n] += Vec2(0.03, 0.02);
@@ -126,9 +125,8 @@ double held_by(const pairing::PairEvaluation<2>& e) {
 }
 
 TEST(StoredEnergy, OfHeldPointsIsThatOfTheirSprings) {
-  EXPECT_NEAR(held_by(pulled(pairing::Separation::tied_normal)), area * 0.5 * eps * 0.02 * 0.02,
-              1e-14);
-  EXPECT_NEAR(held_by(pulled(pairing::Separation::tied)),
+  EXPECT_NEAR(held_by(pulled(pairing::TiedNormal{0.05})), area * 0.5 * eps * 0.02 * 0.02, 1e-14);
+  EXPECT_NEAR(held_by(pulled(pairing::Tied<2>{0.05})),
               area * 0.5 * eps * (0.02 * 0.02 + 0.03 * 0.03), 1e-14);
 }
 

@@ -36,7 +36,7 @@ TEST(EdgeContact, NodesAloneDoNotSeeIt) {
   for (const CellType type : types) {
     PairSample3 s = make_roofs(roofs_of(type));
     EXPECT_EQ(only(s, evaluated(s)).status, Status::slip) << cell::info(type).name;
-    s.pair.edges.on = false;
+    s.pair.sampler = pairing::AtPoints{};
     const pairing::PairEvaluation<3> e = evaluated(s);
     EXPECT_EQ(edge_contacts(s, e), 0u);
     for (const pairing::PointResult<3>& p : e.points) EXPECT_EQ(p.status, Status::open);
@@ -48,7 +48,8 @@ TEST(EdgeContact, GapNormalAndForceOfTwoLines) {
   const PairSample3 s = make_roofs({});
   const pairing::PairEvaluation<3> e = evaluated(s);
   const pairing::PointResult<3>& p = only(s, e);
-  const pairing::SharpEdge &m = s.pair.edges.master.at(0), &r = s.pair.edges.slave.at(0);
+  const pairing::EdgeContact& edges = *pairing::edges_of(s.pair);
+  const pairing::SharpEdge &m = edges.master.at(0), &r = edges.slave.at(0);
   const auto at = [&](Index n) { return s.x[static_cast<std::size_t>(n)]; };
   const Vec3 a = at(m.nodes[1]) - at(m.nodes[0]), b = at(r.nodes[1]) - at(r.nodes[0]);
   Vec3 n = a.cross(b).normalized();
@@ -231,7 +232,7 @@ TEST(EdgeContact, SharpnessIsAnAngle) {
 // The place belongs to the node: the end of the slave's ridge is inside the master too.
 TEST(EdgeContact, ANodeInContactTakesTheCrossing) {
   PairSample3 s = make_roofs({});
-  const pairing::SharpEdge& ridge = s.pair.edges.slave.at(0);
+  const pairing::SharpEdge& ridge = pairing::edges_of(s.pair)->slave.at(0);
   const auto node = static_cast<std::size_t>(ridge.nodes[1]);
   const Vec3 before = s.x[node];
   const auto contacts = [&] {
@@ -277,10 +278,10 @@ TEST(EdgeContact, FlushFacesAreTheNodesAffair) {
     s.pair.slave = pairing::make_slave_side(slave);
     s.pair.normal = contact::penalty(1000.0);
     s.pair.weight = Weight::node;
-    s.pair.edges.on = true;
+    s.pair.sampler = pairing::AtEdgesToo{};
     pairing::prepare(s.pair, s.x);
     s.committed = pairing::initial_state(s.pair, s.x);
-    EXPECT_EQ(s.pair.edges.master.size(), 12u);
+    EXPECT_EQ(pairing::edges_of(s.pair)->master.size(), 12u);
     EXPECT_EQ(edge_contacts(s, evaluated(s)), 0u) << turn;
   }
 }

@@ -42,20 +42,20 @@ struct Node {
 
 TEST(NoSeparation, HoldsWhatHasTouchedAndLetsItSlide) {
   Node node;
-  node.pair.separation = Separation::no_separation;
+  node.pair.separation = pairing::NeverPart{};
   node.start(0.5);
   EXPECT_EQ(node.at(0, 0.2).status, Status::open);  // not yet
   EXPECT_EQ(node.at(0, -0.01).normal_traction, -10);
   EXPECT_EQ(node.at(0, 0.02).normal_traction, 20);
   EXPECT_EQ(node.at(2, 0.03).normal_traction, 30);
   EXPECT_EQ(node.at(2, -0.01).normal_traction, -10);
-  node.pair.separation = Separation::allowed;
+  node.pair.separation = pairing::MayPart{};
   EXPECT_EQ(node.at(2, 0.03).status, Status::open);
 }
 
 TEST(NoSeparation, CoulombHasNoLimitLeftInTension) {
   Node node;
-  node.pair.separation = Separation::no_separation;
+  node.pair.separation = pairing::NeverPart{};
   node.pair.friction = contact::coulomb(0.3, 100);
   node.start(-0.01);
   EXPECT_NEAR(node.at(0.5, -0.01).shear_traction[0], 3, 1e-12);
@@ -65,16 +65,14 @@ TEST(NoSeparation, CoulombHasNoLimitLeftInTension) {
 
 TEST(TiedNormal, KeepsTheGapsOfTheStart) {
   Node node;
-  node.pair.separation = Separation::tied_normal;
-  node.pair.tolerance = 0.1;
+  node.pair.separation = pairing::TiedNormal{0.1};
   node.start(0.05);
   EXPECT_NEAR(node.at(0, 0.05).normal_traction, 0, 1e-12);
   EXPECT_NEAR(node.at(1, 0.07).normal_traction, 20, 1e-11);
   EXPECT_NEAR(node.at(-2, 0.03).normal_traction, -20, 1e-11);
   EXPECT_TRUE(node.committed.points[0].held);
   Node far;
-  far.pair.separation = Separation::tied_normal;
-  far.pair.tolerance = 0.1;
+  far.pair.separation = pairing::TiedNormal{0.1};
   far.start(0.2);
   EXPECT_EQ(far.at(0, -0.1).status, Status::open);  // takes no part
 }

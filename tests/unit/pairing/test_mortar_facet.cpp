@@ -24,10 +24,11 @@ struct OneFacet {
 template <int Dim>
 void integrate(OneFacet<Dim>& out) {
   const pairing::PairEvaluation<Dim> e = pair_evaluation(out.s, flatten(out.s.x));
-  const pairing::MortarSides<Dim> sides{&out.s.pair.slave.boundary,
-                                        &out.s.pair.master,
-                                        {false, {}, out.s.pair.reference},
-                                        e.mortar.normals};
+  const pairing::MortarSides<Dim> sides{
+      &out.s.pair.slave.boundary,
+      &out.s.pair.master,
+      {false, {}, std::get<pairing::ByMortar<Dim>>(out.s.pair.sampler).reference},
+      e.mortar.normals};
   for (const Index m : e.mortar.overlaps[0]) {
     out.cells.emplace_back();
     ASSERT_TRUE(

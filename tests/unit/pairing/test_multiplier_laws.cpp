@@ -11,7 +11,7 @@
 namespace osculate::testing {
 namespace {
 
-using contact::Enforcement;
+using pairing::Enforcement;
 
 constexpr double duration = 0.5;
 
@@ -34,14 +34,14 @@ MultiplierSample<Dim> with_multipliers(const Law& law, ContactSample<Dim> s) {
 
 /// Unknown tractions: derivative by positions and multipliers. Corrected ones: by positions.
 template <int Dim>
-void expect_second_order(const Law& law, const ContactSample<Dim>& sample, Enforcement enforcement,
-                         double h) {
+void expect_second_order(const Law& law, const ContactSample<Dim>& sample,
+                         const pairing::Enforcement& enforcement, double h) {
   SCOPED_TRACE(law.name);
   MultiplierSample<Dim> m = with_multipliers(law, sample);
   m.pair.enforcement = enforcement;
   const Eigen::VectorXd whole = m.packed();
   const Eigen::Index size =
-      enforcement == Enforcement::lagrange_multiplier ? m.size() : Dim * m.nodes();
+      pairing::is<pairing::ByMultipliers>(enforcement) ? m.size() : Dim * m.nodes();
   const auto filled = [&](const Eigen::VectorXd& y) {
     Eigen::VectorXd v = whole;
     v.head(size) = y;
@@ -57,10 +57,10 @@ void expect_second_order(const Law& law, const ContactSample<Dim>& sample, Enfor
       m.tangent(whole).topLeftCorner(size, size), branch, v, h, 2);
 }
 
-constexpr std::array both{Enforcement::lagrange_multiplier, Enforcement::augmented_lagrange};
+const std::array<Enforcement, 2> both{pairing::ByMultipliers{}, pairing::ByAugmentedLagrange{}};
 
 TEST_P(MultiplierLaw, AtANode) {
-  for (const Enforcement enforcement : both)
+  for (const Enforcement& enforcement : both)
     for (const double bend : {0.0, 0.02}) {
       PairSample s =
           make_sample({.nodes_per_facet = bend > 0 ? 3 : 2, .bend = bend, .depth = law().depth});
@@ -70,7 +70,7 @@ TEST_P(MultiplierLaw, AtANode) {
 }
 
 TEST_P(MultiplierLaw, AtANodeInSpace) {
-  for (const Enforcement enforcement : both) {
+  for (const Enforcement& enforcement : both) {
     PairSample3 s = make_sample3({.bend = 0.03, .depth = law().depth});
     s.pair.weight = pairing::Weight::current_area;
     expect_second_order(law(), s, enforcement, 1e-3);
@@ -79,7 +79,7 @@ TEST_P(MultiplierLaw, AtANodeInSpace) {
 
 TEST_P(MultiplierLaw, AtGaussPoints) {
   const pairing::Sampling gauss{pairing::Sampling::Rule::gauss, 2, 1};
-  const Enforcement corrected = Enforcement::augmented_lagrange;
+  const Enforcement corrected = pairing::ByAugmentedLagrange{};
   expect_second_order(law(),
                       segment_sample({.bend = 0.02, .depth = law().depth, .sampling = gauss}),
                       corrected, 5e-4);
@@ -89,7 +89,7 @@ TEST_P(MultiplierLaw, AtGaussPoints) {
 }
 
 TEST_P(MultiplierLaw, OfMortar) {
-  for (const Enforcement enforcement : both) {
+  for (const Enforcement& enforcement : both) {
     expect_second_order(law(), make_mortar2({.depth = law().depth, .bend = 0.01, .uneven = 0.2}),
                         enforcement, 1e-4);
     expect_second_order(law(), make_mortar3({.depth = law().depth}), enforcement, 1e-4);

@@ -9,7 +9,6 @@
 namespace osculate::testing {
 namespace {
 
-using contact::Enforcement;
 using contact::Multiplier;
 using contact::Status;
 
@@ -105,7 +104,7 @@ TEST(Multipliers, ConstraintsAreGapAndSlip) {
 TEST(Augmentation, ReachesTheTargetWhateverThePenalty) {
   PairSample s = make_sample({.angle = 0, .depth = 0});
   s.pair.weight = pairing::Weight::node;
-  s.pair.enforcement = Enforcement::augmented_lagrange;
+  s.pair.enforcement = pairing::ByAugmentedLagrange{};
   const std::vector<Vec2> start = s.x;
   constexpr double spring = 100, load = 5, target = 1e-9;
   for (const double penalty : {1e-2, 1e0, 1e2, 1e4, 1e6}) {

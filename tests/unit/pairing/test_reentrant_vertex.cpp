@@ -53,8 +53,7 @@ Sample make_valley(const Corner& c, const Vec2& offset = Vec2::Zero()) {
   s.pair.slave = pairing::make_slave_side(pairing::Chain{}, std::array<Index, 1>{slave});
   s.pair.normal = contact::penalty(penalty);
   s.pair.weight = pairing::Weight::node;
-  s.pair.enforcement = contact::Enforcement::lagrange_multiplier;
-  s.pair.reentrant_angle = 0;
+  s.pair.enforcement = pairing::ByMultipliers{.reentrant_angle = 0};
   s.committed.points.resize(1);
   s.multipliers.resize(1);
   pairing::prepare(s.pair, s.x);
@@ -86,9 +85,9 @@ pairing::PairEvaluation<2> evaluated(const Sample& s) { return s.evaluation(s.pa
 TEST(ReentrantVertex, IsWhereTheMasterBendsOutwards) {
   const Sample reentrant = make_valley({}), ridge = make_valley({.angle = -0.3}),
                flat = make_valley({.angle = 0});
-  EXPECT_TRUE(reentrant.pair.reentrant_vertices);
-  EXPECT_FALSE(ridge.pair.reentrant_vertices);
-  EXPECT_FALSE(flat.pair.reentrant_vertices);
+  EXPECT_TRUE(pairing::has_reentrant_vertices(reentrant.pair));
+  EXPECT_FALSE(pairing::has_reentrant_vertices(ridge.pair));
+  EXPECT_FALSE(pairing::has_reentrant_vertices(flat.pair));
   const auto v = pairing::reentrant_vertex_after(reentrant.pair.master, 0, reentrant.x);
   ASSERT_TRUE(v);
   EXPECT_NEAR((v->point - reentrant.x[vertex]).norm(), 0, 1e-15);
@@ -189,7 +188,7 @@ TEST(ReentrantVertex, AnOpenPointIsWhereItsPlaceIs) {
   EXPECT_EQ(evaluated(s).points[0].branch.branch, Branch::slip);
   s.x.back() = s.x[vertex] - 0.01 * (normal_of(corner, 0) + normal_of(corner, 1));
   EXPECT_EQ(evaluated(s).points[0].branch.branch, Branch::reentrant);
-  s.pair.reentrant_vertices = false;
+  s.pair.enforcement = pairing::ByMultipliers{};
   EXPECT_EQ(evaluated(s).points[0].history.feature, Feature::corner);
   EXPECT_EQ(evaluated(s).points[0].branch.branch, Branch::slip);
 }
@@ -299,7 +298,7 @@ TEST(ReentrantVertex, IsRememberedFromIncrementToIncrement) {
   none.points.resize(1);
   pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, active_set, &none);
   EXPECT_EQ(e.points[0].branch.branch, Branch::reentrant);
-  s.pair.reentrant_vertices = false;
+  s.pair.enforcement = pairing::ByMultipliers{};
   EXPECT_EQ(pairing::committed_active_set<2>(s.pair, s.committed, s.x).branch[0].branch,
             Branch::stick);
 }

@@ -113,7 +113,7 @@ void finish(Carpet<Dim>& c, pairing::Boundary<Dim> slave, const Choice& choice, 
   pairing::connect(slave);
   c.pair.slave = pairing::make_slave_side(std::move(slave));
   if (!choice.mortar) pairing::sample(c.pair.slave, choice.points);
-  c.pair.mortar = choice.mortar;
+  if (choice.mortar) c.pair.sampler = pairing::ByMortar<Dim>{};
   c.pair.normal = contact::penalty(eps_n);
   c.pair.friction = contact::coulomb(mu, eps_t);
   pairing::prepare<Dim>(c.pair, c.x);
@@ -175,7 +175,8 @@ TEST(SamplingHistory, StickOverKinksAndBackLeavesNothingInThePlane) {
     SCOPED_TRACE(choice.name);
     Carpet<2> c = carpet<2>(choice, 1e6, five);
     for (std::size_t k = 1; k < 6; k += 2) c.x[k].y() = 0.1;
-    c.pair.reference.assign(c.x.begin(), c.x.end());
+    if (auto* const mortar = std::get_if<pairing::ByMortar<2>>(&c.pair.sampler))
+      mortar->reference.assign(c.x.begin(), c.x.end());
     const auto put = [&](double way) { c.place(Vec2(way, -0.1)); };
     put(0);
     c.start();
