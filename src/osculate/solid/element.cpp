@@ -91,9 +91,10 @@ bool has_forces_alone(const Section& section, cell::CellType type) {
 void evaluate_forces(const Section& section, cell::CellType type, const Coordinates& reference,
                      const Coordinates& displacement, const material::Memory& memory,
                      ElementResult& out) {
-  set_finite_forces<2, 4, 4>(
-      section.law, section.thickness, section.formulation == Formulation::bbar,
-      area_rule(section.assumption, type), reference, displacement, memory, out);
+  static const PointTable<2, 4, 4> quad(area_rule(section.assumption, type));
+  out.status =
+      finite_forces(quad, section.law, section.thickness, section.formulation == Formulation::bbar,
+                    reference, displacement, memory, out.force);
 }
 
 void evaluate_whole(const Section& section, cell::CellType type, const Coordinates& reference,

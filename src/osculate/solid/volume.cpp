@@ -127,12 +127,17 @@ bool has_forces_alone(const VolumeSection& section, cell::CellType type) {
 void evaluate_forces(const VolumeSection& section, cell::CellType type,
                      const Coordinates3& reference, const Coordinates3& displacement,
                      const material::Memory& memory, VolumeResult& out) {
-  const bool mean = section.formulation == VolumeFormulation::bbar;
-  const VolumeRule& rule = volume_rule(type);
+  static const PointTable<3, 8, 8> hex(volume_rule(cell::CellType::hex8));
+  static const PointTable<3, 4, 1> tet(volume_rule(cell::CellType::tet4));
+  const auto set = [&](const auto& table) {
+    out.status =
+        finite_forces(table, section.law, 1, section.formulation == VolumeFormulation::bbar,
+                      reference, displacement, memory, out.force);
+  };
   if (type == cell::CellType::hex8)
-    set_finite_forces<3, 8, 8>(section.law, 1, mean, rule, reference, displacement, memory, out);
+    set(hex);
   else
-    set_finite_forces<3, 4, 1>(section.law, 1, mean, rule, reference, displacement, memory, out);
+    set(tet);
 }
 
 bool is_volume(cell::CellType type) { return cell::info(type).dimension == 3; }
