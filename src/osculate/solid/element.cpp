@@ -34,32 +34,33 @@ void evaluate_full(const Section& section, const Points& points, const material:
 void evaluate_mean_dilatation(const Section& section, const Points& points,
                               const material::Memory& memory, bool with_tangent,
                               ElementResult& out) {
-  const MeanDilatation mean = mean_dilatation(points.geometries(), points.strains());
-  std::array<material::Response, max_points> response;
+  const MeanDilatation<Points> mean = mean_dilatation(points);
+  std::array<material::Stress, max_points> stress;
   for (std::size_t q = 0; q < points.count; ++q) {
-    const PointStrain& p = mean.strain[q];
-    response[q] = point_response(section, p.strain, memory.at(q));
-    if (!response[q].ok) {
+    const PointStrain& p = mean.point.strain[q];
+    const material::Response r = point_response(section, p.strain, memory.at(q));
+    if (!r.ok) {
       out.status = Status::material_failed;
       return;
     }
     const double volume = points.geometry[q].volume;
-    out.force.noalias() += volume * p.b.transpose() * response[q].stress;
+    stress[q] = r.stress;
+    out.force.noalias() += volume * p.b.transpose() * r.stress;
     if (!with_tangent) continue;
-    const StrainMatrix cb = volume * response[q].tangent * p.b;
+    const StrainMatrix cb = volume * r.tangent * p.b;
     out.tangent.noalias() += p.b.transpose() * cb;
+    add_geometric(section, points.geometry[q], mean.scale[q] * r.stress, out.tangent);
   }
   if (with_tangent)
-    add_mean_dilatation_geometric(section, points.geometries(), points.strains(), response, mean,
-                                  out.tangent);
+    add_mean_dilatation_curvature(points, stress, mean,
+                                  section.assumption == Assumption::axisymmetric, out.tangent);
 }
 
 /// Enhanced strains: the mode parameters are condensed out of force and tangent.
 template <int Count>
 void evaluate_enhanced(const Section& section, const Coordinates& reference, const Points& points,
                        const material::Memory& memory, bool with_tangent, ElementResult& out) {
-  const EnhancedModes e =
-      enhanced_modes<Count>(section, reference, points.geometries(), points.strains(), memory);
+  const EnhancedModes<Count> e = enhanced_modes<Count>(section, reference, points, memory);
   if (!e.ok) {
     out.status = Status::material_failed;
     return;
@@ -91,9 +92,10 @@ bool has_forces_alone(const Section& section, cell::CellType type) {
 void evaluate_forces(const Section& section, cell::CellType type, const Coordinates& reference,
                      const Coordinates& displacement, const material::Memory& memory,
                      ElementResult& out) {
-  set_finite_forces<2, 4, 4>(
-      section.law, section.thickness, section.formulation == Formulation::bbar,
-      area_rule(section.assumption, type), reference, displacement, memory, out);
+  static const PointTable<2, 4, 4> quad(area_rule(section.assumption, type));
+  out.status =
+      finite_forces(quad, section.law, section.thickness, section.formulation == Formulation::bbar,
+                    reference, displacement, memory, out.force);
 }
 
 void evaluate_whole(const Section& section, cell::CellType type, const Coordinates& reference,
@@ -120,7 +122,7 @@ void evaluate_whole(const Section& section, cell::CellType type, const Coordinat
       evaluate_mean_dilatation(section, points, memory, with_tangent, out);
       return;
     }
-    average_volume_small(points.geometries(), points.strains(), displacement);
+    average_volume_small(points, displacement);
   }
   evaluate_full(section, points, memory, with_tangent, out);
 }

@@ -7,66 +7,104 @@
 namespace osculate::solid {
 namespace {
 
-/// Strain modes at the points (xi for 11, eta for 22, xi and eta for 12; in a ring xi eta for the
-/// hoop strain), brought from the centre of the cell; their mean is zero, so that the patch test
-/// holds (Simo & Rifai 1990).
+constexpr std::array<std::array<int, 2>, 6> axes{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+
+/// Strains of unit natural strains (11, 22, 33, 12, 23, 13, columns) at the centre of the cell; in
+/// the plane those across it are zero.
+template <int C>
+struct Centre {
+  Mat<C, C> strain = Mat<C, C>::Zero();
+  double determinant;
+};
+
+template <int Dim, int C, class Shape, class AnyCoordinates>
+Centre<C> centre_of(const Shape& shape, const AnyCoordinates& reference) {
+  constexpr int nodes = 1 << Dim;
+  const Mat<Dim, Dim> j = reference.transpose() * shape.d.template topRows<nodes>();  // dX_i/dxi_j
+  const Mat<Dim, Dim> i = j.inverse();                                                // dxi_i/dX_j
+  Centre<C> c;
+  c.determinant = j.determinant();
+  for (Eigen::Index n = 0; n < C; ++n) {
+    const auto [first, second] = axes[static_cast<std::size_t>(n)];
+    if (first >= Dim) continue;
+    const Vec<Dim> a = i.row(first), b = i.row(second);
+    const Mat<Dim, Dim> e = 0.5 * (a * b.transpose() + b * a.transpose());
+    for (Eigen::Index m = 0; m < C; ++m) {
+      const auto [row, column] = axes[static_cast<std::size_t>(m)];
+      if (row < Dim) c.strain(m, n) = (m < 3 ? 1 : 2) * e(row, column);
+    }
+  }
+  return c;
+}
+
+/// Strain and axis of the modes that are linear along the axes.
+constexpr std::array<std::array<Eigen::Index, 2>, 4> plane_linear{{{0, 0}, {1, 1}, {3, 0}, {3, 1}}};
+constexpr std::array<std::array<Eigen::Index, 2>, 9> space_linear{
+    {{0, 0}, {1, 1}, {2, 2}, {3, 0}, {3, 1}, {4, 1}, {4, 2}, {5, 0}, {5, 2}}};
+
+/// The modes, brought from the centre of the cell to a point with the determinants' `ratio`; their
+/// mean is zero, so that the patch test holds (Simo & Rifai 1990). In a ring `mean` is that of xi,
+/// eta and xi eta over the circumference.
 template <int Count>
-std::array<Mat<4, Count>, 4> mode_matrices(const Section& section, const Coordinates& reference,
-                                           std::span<const PointGeometry> geometry) {
-  const cell::AreaShape center = cell::area_shape(cell::CellType::quad4, Vec2::Zero());
-  const Mat<2, 2> j = (reference.transpose() * center.d.topRows<4>()).transpose();  // dX_j/dxi_i
-  const Mat<2, 2> i = j.inverse();  // i(a, b) = dxi_b/dX_a
-  // strain_X = T strain_xi with eps_ab = dxi_i/dX_a dxi_j/dX_b eps_ij
-  Mat<3, 3> t;
-  t << i(0, 0) * i(0, 0), i(0, 1) * i(0, 1), i(0, 0) * i(0, 1),  //
-      i(1, 0) * i(1, 0), i(1, 1) * i(1, 1), i(1, 0) * i(1, 1),   //
-      2 * i(0, 0) * i(1, 0), 2 * i(0, 1) * i(1, 1), i(0, 0) * i(1, 1) + i(0, 1) * i(1, 0);
-  constexpr bool ring = Count == ring_modes;
-  const AreaRule& rule = area_rule(section.assumption, cell::CellType::quad4);
-  Vec3 mean = Vec3::Zero();  // of xi, eta, xi eta over the circumference; zero in the plane
-  double circumference = 0;
-  for (std::size_t q = 0; ring && q < 4; ++q) {
-    const Vec2& xi = rule.points[q];
-    mean += geometry[q].radius * Vec3(xi.x(), xi.y(), xi.x() * xi.y());
-    circumference += geometry[q].radius;
+Mat<4, Count> mode_matrix(const Centre<4>& centre, const Vec2& xi, double ratio, const Vec3& mean) {
+  Mat<4, Count> m = Mat<4, Count>::Zero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto [strain, axis] = plane_linear[k];
+    m.col(static_cast<Eigen::Index>(k)) = (xi[axis] - mean[axis]) * centre.strain.col(strain);
   }
-  if (ring) mean /= circumference;
-  std::array<Mat<4, Count>, 4> modes;
-  for (std::size_t q = 0; q < 4; ++q) {
-    const Vec2& xi = rule.points[q];
-    Mat<3, 4> natural = Mat<3, 4>::Zero();
-    natural(0, 0) = natural(2, 2) = xi.x() - mean[0];
-    natural(1, 1) = natural(2, 3) = xi.y() - mean[1];
-    const double ratio = j.determinant() / geometry[q].determinant;
-    const Mat<3, 4> plane = ratio * t * natural;
-    modes[q].setZero();
-    modes[q].template topLeftCorner<2, 4>() = plane.topRows<2>();
-    modes[q].template block<1, 4>(3, 0) = plane.row(2);
-    if constexpr (ring) modes[q](2, 4) = ratio * (xi.x() * xi.y() - mean[2]);
+  if constexpr (Count == ring_modes) m(2, 4) = xi.x() * xi.y() - mean[2];
+  return ratio * m;
+}
+template <int Count>
+Mat<6, Count> mode_matrix(const Centre<6>& centre, const Vec3& xi, double ratio, const Vec3&) {
+  Mat<6, Count> m = Mat<6, Count>::Zero();
+  for (std::size_t k = 0; k < 9; ++k) {
+    const auto [strain, axis] = space_linear[k];
+    m.col(static_cast<Eigen::Index>(k)) = xi[axis] * centre.strain.col(strain);
   }
-  return modes;
+  for (Eigen::Index k = 0; k < 3; ++k)
+    m.col(9 + k).template head<3>().setConstant(xi[k] * xi[(k + 1) % 3]);
+  return ratio * m;
+}
+
+/// The mean of xi, eta and xi eta over the circumference; zero but in a ring.
+template <int Count, class Rule, class AnyPoints>
+Vec3 mean_place(const Rule& rule, const AnyPoints& points) {
+  Vec3 mean = Vec3::Zero();
+  if constexpr (Count == ring_modes) {
+    double circumference = 0;
+    for (std::size_t q = 0; q < 4; ++q) {
+      const Vec2& xi = rule.points[q];
+      mean += geometry_at(points, q).radius * Vec3(xi.x(), xi.y(), xi.x() * xi.y());
+      circumference += geometry_at(points, q).radius;
+    }
+    mean /= circumference;
+  }
+  return mean;
 }
 
 /// Responses, equations int M^T S dV = 0 and their derivative at the modes of `e`. `scale` is the
 /// size that rounding errors of the equations are relative to. False where the law fails.
-template <int Count>
-bool sample(const Section& section, std::span<const PointGeometry> geometry,
-            std::span<const PointStrain> strain, const material::Memory& memory,
+template <int Count, class AnySection, class AnyPoints>
+bool sample(const AnySection& section, const AnyPoints& points, const material::Memory& memory,
             EnhancedModes<Count>& e, Vec<Count>& rest, double& scale) {
+  constexpr int C = EnhancedModes<Count>::components;
   rest.setZero();
   scale = 0;
   e.stiffness.setZero();
-  for (std::size_t q = 0; q < 4; ++q) {
-    const material::Strain total = strain[q].strain + e.matrix[q] * e.alpha;
+  for (std::size_t q = 0; q < e.matrix.size(); ++q) {
+    const Vec<C>& given = strain_at(points, q).strain;
+    const Vec<C> total = given + e.matrix[q] * e.alpha;
     e.response[q] = point_response(section, total, memory.at(q));
-    const material::Response& r = e.response[q];
+    const material::ResponseOf<C>& r = e.response[q];
     if (!r.ok) return false;
-    const Mat<4, Count> weighted = geometry[q].volume * e.matrix[q];
+    const Mat<C, Count> weighted = geometry_at(points, q).volume * e.matrix[q];
+    const Mat<C, Count> stress = r.tangent * e.matrix[q];
     rest.noalias() += weighted.transpose() * r.stress;
-    e.stiffness.noalias() += weighted.transpose() * r.tangent * e.matrix[q];
+    e.stiffness.noalias() += weighted.transpose() * stress;
     // before they cancel: modes of a long cell take nearly all of its strain away
-    const Vec<4> parts = strain[q].strain.cwiseAbs() + e.matrix[q].cwiseAbs() * e.alpha.cwiseAbs();
-    const Vec<4> size = r.tangent.cwiseAbs() * parts + r.stress.cwiseAbs();
+    const Vec<C> parts = given.cwiseAbs() + e.matrix[q].cwiseAbs() * e.alpha.cwiseAbs();
+    const Vec<C> size = r.tangent.cwiseAbs() * parts + r.stress.cwiseAbs();
     scale += (weighted.cwiseAbs().transpose() * size).maxCoeff();
   }
   return true;
@@ -74,27 +112,34 @@ bool sample(const Section& section, std::span<const PointGeometry> geometry,
 
 }  // namespace
 
-template <int Count>
-EnhancedModes<Count> enhanced_modes(const Section& section, const Coordinates& reference,
-                                    std::span<const PointGeometry> geometry,
-                                    std::span<const PointStrain> strain,
-                                    const material::Memory& memory) {
-  EnhancedModes<Count> e;
-  e.matrix = mode_matrices<Count>(section, reference, geometry);
-  solve_modes<Vec<Count>>(e, memory.size > 0,
-                          [&](EnhancedModes<Count>& m, Vec<Count>& rest, double& scale) {
-                            return sample(section, geometry, strain, memory, m, rest, scale);
-                          });
+template <int Count, class AnySection, class AnyCoordinates, class AnyPoints>
+EnhancedModes<Count> enhanced_modes(const AnySection& section, const AnyCoordinates& reference,
+                                    const AnyPoints& points, const material::Memory& memory) {
+  using Modes = EnhancedModes<Count>;
+  Modes e;
+  const auto fill = [&](const auto& rule, const auto& shape) {
+    const auto centre = centre_of<Modes::dim, Modes::components>(shape, reference);
+    const Vec3 mean = mean_place<Count>(rule, points);
+    for (std::size_t q = 0; q < e.matrix.size(); ++q)
+      e.matrix[q] = mode_matrix<Count>(
+          centre, rule.points[q], centre.determinant / geometry_at(points, q).determinant, mean);
+  };
+  if constexpr (Modes::dim == 2)
+    fill(area_rule(section.assumption, cell::CellType::quad4),
+         cell::area_shape(cell::CellType::quad4, Vec2::Zero()));
+  else
+    fill(volume_rule(cell::CellType::hex8), cell::volume_shape(cell::CellType::hex8, Vec3::Zero()));
+  solve_modes<Vec<Count>>(e, memory.size > 0, [&](Modes& m, Vec<Count>& rest, double& scale) {
+    return sample(section, points, memory, m, rest, scale);
+  });
   return e;
 }
 
 template EnhancedModes<plane_modes> enhanced_modes(const Section&, const Coordinates&,
-                                                   std::span<const PointGeometry>,
-                                                   std::span<const PointStrain>,
-                                                   const material::Memory&);
-template EnhancedModes<ring_modes> enhanced_modes(const Section&, const Coordinates&,
-                                                  std::span<const PointGeometry>,
-                                                  std::span<const PointStrain>,
+                                                   const Points&, const material::Memory&);
+template EnhancedModes<ring_modes> enhanced_modes(const Section&, const Coordinates&, const Points&,
                                                   const material::Memory&);
+template EnhancedModes<space_modes> enhanced_modes(const VolumeSection&, const Coordinates3&,
+                                                   const HexPoints&, const material::Memory&);
 
 }  // namespace osculate::solid

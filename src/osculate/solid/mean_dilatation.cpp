@@ -8,102 +8,150 @@
 namespace osculate::solid {
 namespace {
 
-const Vec<4> half_unit(0.5, 0.5, 0.5, 0);  // I/2 as a strain
+/// I/2 as a strain.
+template <class Strain>
+Strain half_unit() {
+  Strain e = Strain::Zero();
+  e.template head<3>().setConstant(0.5);
+  return e;
+}
+
+material::Strain inverse_stretch(const material::Strain& e) {
+  return material::inverse_stretch(e, 1 + 2 * e[2]);
+}
+material::Strain3 inverse_stretch(const material::Strain3& e) {
+  return material::inverse_stretch(e);
+}
 
 /// Adds factor * d2(ln J)/du2.
-void add_log_j_curvature(const Section& section, const PointGeometry& g, const PointStrain& p,
-                         double factor, ElementMatrix& k) {
-  const Eigen::Index n = g.shape.count;
-  const Coordinates spatial = g.gradient * p.f.inverse();  // dN/dx
-  for (Eigen::Index a = 0; a < n; ++a)
-    for (Eigen::Index b = 0; b < n; ++b) {
-      k.block<2, 2>(2 * a, 2 * b).noalias() -= factor * spatial.row(b).transpose() * spatial.row(a);
-      if (section.assumption == Assumption::axisymmetric) {
+template <class Geometry, class Strain, class Matrix>
+void add_log_j_curvature(const Geometry& g, const Strain& p, double factor,
+                         [[maybe_unused]] bool ring, Matrix& k) {
+  constexpr int dim = decltype(p.f)::RowsAtCompileTime;
+  const auto spatial = (g.gradient * p.f.inverse()).eval();  // dN/dx
+  for (Eigen::Index b = 0; b < spatial.rows(); ++b) {
+    const Vec<dim> scaled = factor * spatial.row(b).transpose();
+    for (Eigen::Index a = dim == 2 ? 0 : b; a < spatial.rows(); ++a) {
+      k.template block<dim, dim>(dim * a, dim * b).noalias() -= scaled * spatial.row(a);
+      if constexpr (dim == 2) {
         const double radius = g.radius * p.f33;
-        k(2 * a, 2 * b) -= factor * g.shape.n[a] * g.shape.n[b] / (radius * radius);
+        if (ring) k(2 * a, 2 * b) -= factor * g.shape.n[a] * g.shape.n[b] / (radius * radius);
       }
     }
+  }
 }
 
 }  // namespace
 
-void average_volume_small(std::span<const PointGeometry> geometry, std::span<PointStrain> strain,
-                          const Coordinates& displacement) {
-  const Eigen::Index dofs = strain[0].b.cols();
-  using Row = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, 2 * max_nodes>;
+template <class AnyPoints, class AnyCoordinates>
+void average_volume_small(AnyPoints& points, const AnyCoordinates& displacement) {
+  using Vector = typename PointsTraits<AnyPoints>::Vector;
+  using Row = Eigen::Matrix<double, 1, Vector::RowsAtCompileTime, Eigen::RowMajor, 1,
+                            Vector::MaxRowsAtCompileTime>;
+  const Eigen::Index dofs = displacement.size(), dim = displacement.cols();
   Row mean = Row::Zero(dofs);
   double volume = 0;
-  for (std::size_t q = 0; q < strain.size(); ++q) {
-    mean += geometry[q].volume * strain[q].b.topRows<3>().colwise().sum();
-    volume += geometry[q].volume;
+  for (std::size_t q = 0; q < count(points); ++q) {
+    const double here = geometry_at(points, q).volume;
+    mean += here * strain_at(points, q).b.template topRows<3>().colwise().sum();
+    volume += here;
   }
   mean /= volume;
-  ElementVector u(dofs);
-  for (Eigen::Index k = 0; k < dofs / 2; ++k) u.segment<2>(2 * k) = displacement.row(k);
-  for (PointStrain& point : strain) {
-    const Row shift = (mean - point.b.topRows<3>().colwise().sum()) / 3.0;
-    for (Eigen::Index i = 0; i < 3; ++i) point.b.row(i) += shift;
-    point.strain = point.b * u;
+  Vector u(dofs);
+  for (Eigen::Index k = 0; k < displacement.rows(); ++k)
+    u.segment(dim * k, dim) = displacement.row(k);
+  for (std::size_t q = 0; q < count(points); ++q) {
+    auto& p = strain_at(points, q);
+    const Row shift = (mean - p.b.template topRows<3>().colwise().sum()) / 3.0;
+    for (Eigen::Index i = 0; i < 3; ++i) p.b.row(i) += shift;
+    p.strain = p.b * u;
   }
 }
 
-MeanDilatation mean_dilatation(std::span<const PointGeometry> geometry,
-                               std::span<const PointStrain> strain) {
-  MeanDilatation mean;
-  std::array<double, max_points> log_j{};
+template <class AnyPoints>
+MeanDilatation<AnyPoints> mean_dilatation(const AnyPoints& points) {
+  MeanDilatation<AnyPoints> mean;
+  std::array<double, MeanDilatation<AnyPoints>::most> log_j{};
   double volume = 0, growth = 0;  // int dV, int (J - 1) dV
-  for (std::size_t q = 0; q < strain.size(); ++q) {
-    log_j[q] = material::log_volume_ratio(strain[q].strain);
-    volume += geometry[q].volume;
-    growth += geometry[q].volume * std::expm1(log_j[q]);
+  for (std::size_t q = 0; q < count(points); ++q) {
+    const double here = geometry_at(points, q).volume;
+    log_j[q] = material::log_volume_ratio(strain_at(points, q).strain);
+    volume += here;
+    growth += here * std::expm1(log_j[q]);
   }
   const double log_theta = std::log1p(growth / volume);
-  mean.log_theta.setZero(strain[0].b.cols());
-  for (std::size_t q = 0; q < strain.size(); ++q) {
-    mean.volume_share[q] = geometry[q].volume * std::exp(log_j[q]) / (volume + growth);
-    mean.log_j[q] = strain[q].b.transpose() *
-                    material::inverse_stretch(strain[q].strain, 1 + 2 * strain[q].strain[2]);
+  mean.log_theta.setZero(strain_at(points, 0).b.cols());
+  for (std::size_t q = 0; q < count(points); ++q) {
+    const auto& p = strain_at(points, q);
+    mean.volume_share[q] = geometry_at(points, q).volume * std::exp(log_j[q]) / (volume + growth);
+    mean.log_j[q].setZero(p.b.cols());
+    add_force(p.b, inverse_stretch(p.strain), mean.log_j[q]);
     mean.log_theta += mean.volume_share[q] * mean.log_j[q];
   }
-  for (std::size_t q = 0; q < strain.size(); ++q) {
+  mean.point = points;
+  for (std::size_t q = 0; q < count(points); ++q) {
     const double log_m = 2.0 / 3 * (log_theta - log_j[q]);
     const double m = std::exp(log_m);
-    PointStrain& p = mean.strain[q];
+    auto& p = strain_at(mean.point, q);
+    const auto half = half_unit<decltype(p.strain)>();
     mean.scale[q] = m;
     mean.log_m[q] = 2.0 / 3 * (mean.log_theta - mean.log_j[q]);
-    p.strain = m * strain[q].strain + std::expm1(log_m) * half_unit;
-    p.b = m * strain[q].b + (p.strain + half_unit) * mean.log_m[q].transpose();
-    p.f = std::sqrt(m) * strain[q].f;
-    p.f33 = std::sqrt(m) * strain[q].f33;
+    p.strain = (m * p.strain + std::expm1(log_m) * half).eval();
+    const auto half_stretch = (p.strain + half).eval();
+    for (Eigen::Index c = 0; c < half.size(); ++c)
+      p.b.row(c) = (m * p.b.row(c) + half_stretch[c] * mean.log_m[q].transpose()).eval();
+    p.f *= std::sqrt(m);
+    if constexpr (requires { p.f33; }) p.f33 *= std::sqrt(m);
   }
   return mean;
 }
 
-void add_mean_dilatation_geometric(const Section& section, std::span<const PointGeometry> geometry,
-                                   std::span<const PointStrain> strain,
-                                   std::span<const material::Response> response,
-                                   const MeanDilatation& mean, ElementMatrix& tangent) {
+template <class AnyPoints, class Stress>
+void add_mean_dilatation_curvature(const AnyPoints& points,
+                                   const std::array<Stress, PointsTraits<AnyPoints>::most>& stress,
+                                   const MeanDilatation<AnyPoints>& mean, bool ring,
+                                   typename PointsTraits<AnyPoints>::Matrix& tangent) {
   // S : d2(E_m) = m S : d2E + (S : dE_m) d(ln m) + d(ln m) (S : dE_m) - c d(ln m) d(ln m)
   //               + c d2(ln m),  c = S : (E_m + I/2),  d2(ln m) = 2/3 (d2(ln theta) - d2(ln J))
-  std::array<double, max_points> weight{};
+  using Vector = typename PointsTraits<AnyPoints>::Vector;
+  const auto add_square = [&](double factor, const Vector& v) {
+    for (Eigen::Index j = 0; j < v.size(); ++j) tangent.col(j) += factor * v[j] * v;
+  };
+  std::array<double, MeanDilatation<AnyPoints>::most> weight{};
   double total = 0;
-  for (std::size_t q = 0; q < strain.size(); ++q) {
-    const double volume = geometry[q].volume;
-    const material::Stress& s = response[q].stress;
-    const double c = s.dot(mean.strain[q].strain + half_unit);
-    const ElementVector work = mean.strain[q].b.transpose() * s - 0.5 * c * mean.log_m[q];
-    tangent.noalias() += volume * work * mean.log_m[q].transpose();
-    tangent.noalias() += volume * mean.log_m[q] * work.transpose();
-    add_geometric(section, geometry[q], mean.scale[q] * s, tangent);
+  for (std::size_t q = 0; q < count(points); ++q) {
+    const double volume = geometry_at(points, q).volume;
+    const auto& p = strain_at(mean.point, q);
+    const Stress half_stretch = p.strain + half_unit<Stress>();
+    const double c = stress[q].dot(half_stretch);
+    const Vector& log_m = mean.log_m[q];
+    Vector work = -0.5 * c * log_m;
+    add_force(p.b, stress[q], work);
+    work *= volume;
+    for (Eigen::Index j = 0; j < work.size(); ++j)
+      tangent.col(j) += log_m[j] * work + work[j] * log_m;
     weight[q] = 2.0 / 3 * volume * c;
     total += weight[q];
   }
-  for (std::size_t q = 0; q < strain.size(); ++q) {
-    const double share = mean.volume_share[q];
-    add_log_j_curvature(section, geometry[q], strain[q], total * share - weight[q], tangent);
-    tangent.noalias() += total * share * mean.log_j[q] * mean.log_j[q].transpose();
+  for (std::size_t q = 0; q < count(points); ++q) {
+    const double share = total * mean.volume_share[q];
+    add_log_j_curvature(geometry_at(points, q), strain_at(points, q), share - weight[q], ring,
+                        tangent);
+    add_square(share, mean.log_j[q]);
   }
-  tangent.noalias() -= total * mean.log_theta * mean.log_theta.transpose();
+  add_square(-total, mean.log_theta);
 }
+
+template void average_volume_small(Points&, const Coordinates&);
+template void average_volume_small(HexPoints&, const Coordinates3&);
+template MeanDilatation<Points> mean_dilatation(const Points&);
+template MeanDilatation<HexPoints> mean_dilatation(const HexPoints&);
+template void add_mean_dilatation_curvature(const Points&,
+                                            const std::array<material::Stress, max_points>&,
+                                            const MeanDilatation<Points>&, bool, ElementMatrix&);
+template void add_mean_dilatation_curvature(const HexPoints&,
+                                            const std::array<material::Stress3, 8>&,
+                                            const MeanDilatation<HexPoints>&, bool,
+                                            HexSizes::Matrix&);
 
 }  // namespace osculate::solid

@@ -1,7 +1,6 @@
 #pragma once
 // One quadrature point of a bulk element; shared by element.cpp and stress.cpp.
 #include <array>
-#include <span>
 #include <vector>
 
 #include "osculate/cell/quadrature.hpp"
@@ -34,12 +33,6 @@ struct Points {
   std::size_t count = 0;
   std::array<PointGeometry, max_points> geometry;
   std::array<PointStrain, max_points> strain;
-
-  [[nodiscard]] std::span<const PointGeometry> geometries() const {
-    return {geometry.data(), count};
-  }
-  [[nodiscard]] std::span<const PointStrain> strains() const { return {strain.data(), count}; }
-  [[nodiscard]] std::span<PointStrain> strains() { return {strain.data(), count}; }
 };
 
 /// Quadrature of a cell type with the shape functions at its points. No formulation leaves a mode

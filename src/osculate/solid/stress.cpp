@@ -20,8 +20,7 @@ Vec<4> cauchy(const PointStrain& p, const Vec<4>& s, double f33) {
 template <int Count>
 Status enhance(const Section& section, const Coordinates& reference, const material::Memory& memory,
                Points& points) {
-  const EnhancedModes e =
-      enhanced_modes<Count>(section, reference, points.geometries(), points.strains(), memory);
+  const EnhancedModes<Count> e = enhanced_modes<Count>(section, reference, points, memory);
   if (!e.ok) return Status::material_failed;
   for (std::size_t q = 0; q < 4; ++q) points.strain[q].strain += e.matrix[q] * e.alpha;
   return Status::ok;
@@ -37,9 +36,9 @@ Status assume_strains(const Section& section, const Coordinates& reference,
                : enhance<plane_modes>(section, reference, memory, points);
   if (section.formulation == Formulation::bbar) {
     if (section.kinematics == Kinematics::finite)
-      points.strain = mean_dilatation(points.geometries(), points.strains()).strain;
+      points = mean_dilatation(points).point;
     else
-      average_volume_small(points.geometries(), points.strains(), displacement);
+      average_volume_small(points, displacement);
   }
   return Status::ok;
 }

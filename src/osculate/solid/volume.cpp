@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "osculate/solid/enhanced.hpp"
 #include "osculate/solid/finite_forces.hpp"
+#include "osculate/solid/mean_dilatation.hpp"
 #include "osculate/solid/solid_shell.hpp"
 #include "osculate/solid/solid_shell_strain.hpp"
-#include "osculate/solid/volume_enhanced.hpp"
-#include "osculate/solid/volume_mean_dilatation.hpp"
 #include "osculate/solid/volume_point.hpp"
 
 namespace osculate::solid {
@@ -56,7 +56,7 @@ void evaluate_bbar(const VolumeSection& section, const Coordinates3& displacemen
                    const material::Memory& memory, bool with_tangent, HexPoints& points,
                    VolumeResult& out) {
   const bool finite = section.kinematics == Kinematics::finite;
-  MeanDilatation3 mean;
+  MeanDilatation<HexPoints> mean;
   if (finite)
     mean = mean_dilatation(points);
   else
@@ -74,12 +74,14 @@ void evaluate_bbar(const VolumeSection& section, const Coordinates3& displacemen
       return;
     }
     stress[q] = r.stress;
-    add_force(p.b, p.volume * r.stress, force);
-    if (with_tangent) add_material(p.b, p.volume * r.tangent, tangent);
+    add_force(p.b, material::Stress3(p.volume * r.stress), force);
+    if (!with_tangent) continue;
+    add_material(p.b, p.volume * r.tangent, tangent);
+    if (finite) add_geometric(p.gradient, p.volume * mean.scale[q] * r.stress, geometric);
   }
   out.force = force;
   if (!with_tangent) return;
-  if (finite) add_mean_dilatation_geometric(points, stress, mean, tangent, geometric);
+  if (finite) add_mean_dilatation_curvature(points, stress, mean, false, tangent);
   finish_tangent(geometric, tangent);
   out.tangent = tangent;
 }
@@ -88,7 +90,8 @@ void evaluate_bbar(const VolumeSection& section, const Coordinates3& displacemen
 void evaluate_enhanced(const VolumeSection& section, const Coordinates3& reference,
                        const material::Memory& memory, bool with_tangent, const HexPoints& points,
                        VolumeResult& out) {
-  const EnhancedModes3 e = enhanced_modes(section, reference, points, memory);
+  const EnhancedModes<space_modes> e =
+      enhanced_modes<space_modes>(section, reference, points, memory);
   if (!e.ok) {
     out.status = Status::material_failed;
     return;
@@ -96,7 +99,7 @@ void evaluate_enhanced(const VolumeSection& section, const Coordinates3& referen
   HexSizes::Vector force = HexSizes::Vector::Zero();
   HexSizes::Matrix tangent = HexSizes::Matrix::Zero();
   HexSizes::NodeMatrix geometric = HexSizes::NodeMatrix::Zero();
-  Mat<enhanced_count3, 24> coupling = Mat<enhanced_count3, 24>::Zero();
+  Mat<space_modes, 24> coupling = Mat<space_modes, 24>::Zero();
   for (std::size_t q = 0; q < 8; ++q) {
     const HexPoint& p = points[q];
     const material::Stress3 stress = p.volume * e.response[q].stress;
@@ -104,13 +107,13 @@ void evaluate_enhanced(const VolumeSection& section, const Coordinates3& referen
     if (!with_tangent) continue;
     const material::Tangent3 d = p.volume * e.response[q].tangent;
     add_material(p.b, d, tangent);
-    const Mat<enhanced_count3, 6> weighted = e.matrix[q].transpose() * d;
+    const Mat<space_modes, 6> weighted = e.matrix[q].transpose() * d;
     coupling.noalias() += weighted * p.b;
     if (section.kinematics == Kinematics::finite) add_geometric(p.gradient, stress, geometric);
   }
   out.force = force;
   if (!with_tangent) return;
-  const Mat<enhanced_count3, 24> modes = e.stiffness.partialPivLu().solve(coupling);
+  const Mat<space_modes, 24> modes = e.stiffness.partialPivLu().solve(coupling);
   tangent.noalias() -= coupling.transpose() * modes;
   finish_tangent(geometric, tangent);
   out.tangent = tangent;
@@ -127,12 +130,17 @@ bool has_forces_alone(const VolumeSection& section, cell::CellType type) {
 void evaluate_forces(const VolumeSection& section, cell::CellType type,
                      const Coordinates3& reference, const Coordinates3& displacement,
                      const material::Memory& memory, VolumeResult& out) {
-  const bool mean = section.formulation == VolumeFormulation::bbar;
-  const VolumeRule& rule = volume_rule(type);
+  static const PointTable<3, 8, 8> hex(volume_rule(cell::CellType::hex8));
+  static const PointTable<3, 4, 1> tet(volume_rule(cell::CellType::tet4));
+  const auto set = [&](const auto& table) {
+    out.status =
+        finite_forces(table, section.law, 1, section.formulation == VolumeFormulation::bbar,
+                      reference, displacement, memory, out.force);
+  };
   if (type == cell::CellType::hex8)
-    set_finite_forces<3, 8, 8>(section.law, 1, mean, rule, reference, displacement, memory, out);
+    set(hex);
   else
-    set_finite_forces<3, 4, 1>(section.law, 1, mean, rule, reference, displacement, memory, out);
+    set(tet);
 }
 
 bool is_volume(cell::CellType type) { return cell::info(type).dimension == 3; }

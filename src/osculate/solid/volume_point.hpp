@@ -81,9 +81,9 @@ template <int N>
 }
 
 /// Adds b^T s.
-template <class Strains, class Vector>
-void add_force(const Strains& b, const material::Stress3& s, Vector& force) {
-  for (Eigen::Index c = 0; c < 6; ++c) force += s[c] * b.row(c).transpose();
+template <class Strains, class Stress, class Vector>
+void add_force(const Strains& b, const Stress& s, Vector& force) {
+  for (Eigen::Index c = 0; c < b.rows(); ++c) force += s[c] * b.row(c).transpose();
 }
 
 /// Adds the lower triangle of b^T d b for a symmetric d. The sums run along contiguous rows of b.

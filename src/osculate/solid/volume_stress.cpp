@@ -1,8 +1,8 @@
 
 #include "osculate/core/dense.hpp"
+#include "osculate/solid/enhanced.hpp"
+#include "osculate/solid/mean_dilatation.hpp"
 #include "osculate/solid/solid_shell.hpp"
-#include "osculate/solid/volume_enhanced.hpp"
-#include "osculate/solid/volume_mean_dilatation.hpp"
 
 namespace osculate::solid {
 namespace {
@@ -36,7 +36,7 @@ void see_assumed(const VolumeSection& section, const Coordinates3& reference,
     return;
   }
   if (section.formulation == VolumeFormulation::enhanced) {
-    const EnhancedModes3 e = enhanced_modes(section, reference, points, memory);
+    const auto e = enhanced_modes<space_modes>(section, reference, points, memory);
     if (!e.ok) out.status = Status::material_failed;
     for (std::size_t q = 0; q < 8; ++q) points[q].strain += e.matrix[q] * e.alpha;
   } else if (section.kinematics == Kinematics::finite) {
