@@ -1,27 +1,6 @@
 #include "osculate/deck/model_spec.hpp"
 
-#include <fmt/format.h>
-
-#include "osculate/core/text.hpp"
-#include "osculate/deck/description.hpp"
-#include "osculate/deck/params.hpp"
-#include "osculate/material/law.hpp"
-
 namespace osculate::deck {
-namespace {
-
-/// Keys of the materials that are such, one after the other.
-template <class Is>
-std::string keys_of(const Is& is) {
-  std::vector<std::string> keys;
-  material::for_each_law([&](const auto& law) {
-    if (is(law)) keys.emplace_back(law.key);
-  });
-  return core::join(keys);
-}
-
-}  // namespace
-
 Spec point_spec(std::string doc) {
   return list(std::move(doc), number("One coordinate.").in("length")).count(2, 2).such_as("[0, 1]");
 }
@@ -52,104 +31,6 @@ Spec parameters_spec() {
              text("A number, a text, or = and how it follows from those above.").such_as("12.5"))
       .otherwise("{}")
       .such_as("{length: 20, radius: =length/4}");
-}
-
-Spec sets_spec() {
-  const Spec one =
-      map("A set made of others, of the mesh or defined above it. Sets of cells of one kind give "
-          "such a set; in other cases the result is a set of nodes.",
-          {optional("union", list("Sets of which it has all.", text("One set.").such_as("left"))
-                                 .count(1)
-                                 .such_as("[left, right]")),
-           optional("of", text("The set that it is a part of.").such_as("top")),
-           optional("within",
-                    set_or_sets("Set, or list of sets: only what is in it, too.", "left")),
-           optional("without",
-                    set_or_sets("Set, or list of sets: what is in it is left out.", "rim"))})
-          .with(Group::Rule::exactly_one, {"union", "of"})
-          .such_as("{union: [left, right]}");
-  return names("Sets made of sets, by name, used as those of the mesh.", one)
-      .otherwise("{}")
-      .such_as("{sides: {union: [left, right]}, rest: {of: top, without: rim}}");
-}
-
-Spec materials_spec() {
-  std::vector<Key> laws;
-  std::vector<std::string> keys;
-  material::for_each_law([&]<class T>(const T&) {
-    keys.emplace_back(T::key);
-    laws.push_back(optional(keys.back(), params_spec<T>(std::string(T::doc))));
-  });
-  const Spec law = map("A material: exactly one law.", std::move(laws))
-                       .with(Group::Rule::exactly_one, keys)
-                       .or_else(fmt::format("; a material is NAME: {{LAW: {{E: ..., nu: ...}}}} "
-                                            "with one of the laws {}; others are "
-                                            "not available (osculate doc limits)",
-                                            fmt::join(keys, ", ")))
-                       .such_as("{linear_elastic: {E: 2.1e5, nu: 0.3}}");
-  return names("The materials, by name.", law)
-      .otherwise("{}")
-      .such_as("{steel: {linear_elastic: {E: 2.1e5, nu: 0.3}}}");
-}
-
-Spec sections_spec() {
-  const Spec element =
-      choice(
-          "Which plane the body lives in, or that it is one in space. All sections of a model are "
-          "plane, all axisymmetric, or all in space.",
-          {word("plane_strain", SectionElement::plane_strain, "no strain out of the plane"),
-           word("plane_stress", SectionElement::plane_stress, "no stress out of the plane"),
-           word("axisymmetric", SectionElement::axisymmetric,
-                "x is the radius, y the axis; forces are those of the whole circumference"),
-           word("solid", SectionElement::solid, "a body in space, of volume cells"),
-           word("solid_shell", SectionElement::solid_shell,
-                "a thin body in space, of hex8 or shell18 cells; the thickness goes from the first "
-                "half of their nodes to the second, and hex8 cells in one layer are turned so. "
-                "hex27 cells (of a second-order Gmsh mesh) become shell18: their nodes halfway "
-                "through the thickness are left out")})
-          .or_else("; shells, beams and others are not available (osculate doc limits)")
-          .such_as("plane_strain");
-  const Spec kinematics =
-      choice("How strains are measured.",
-             {word("small", Kinematics::small, "linear in the displacements"),
-              word("finite", Kinematics::finite, "exact for any displacement and rotation")})
-          .otherwise_as("small for " + keys_of([](const auto& law) { return !law.finite_strain; }) +
-                        ", finite for the other materials")
-          .such_as("finite");
-  const Spec formulation =
-      choice(
-          "How first-order quadrilaterals and hexahedra avoid locking; all other cells are plain "
-          "displacement elements.",
-          {word("auto", Formulation::automatic,
-                "enhanced; of neo_hooke, where enhanced strains are unstable in large compression, "
-                "and of " +
-                    keys_of([]<class T>(const T&) { return material::Remembers<T>; }) +
-                    ", where they hardly converge without hardening, bbar, in plane stress full"),
-           word("full", Formulation::full,
-                "plain displacement element, full integration: too stiff in bending and near "
-                "nu = 0.5 (CalculiX' C3D8, Abaqus' CPS4; Abaqus' C3D8 is bbar)"),
-           word("bbar", Formulation::bbar,
-                "averaged volume change, for nearly incompressible (Abaqus' CPE4, CAX4 and "
-                "C3D8)"),
-           word("enhanced", Formulation::enhanced,
-                "enhanced strains, for bending and nearly incompressible (CalculiX' C3D8I, "
-                "Abaqus' CPS4I, CPE4I, CAX4I and C3D8I)")})
-          .otherwise("auto")
-          .such_as("bbar");
-  return list("Which cells of the mesh are bulk material, and of what kind.",
-              map("One section.",
-                  {required("on",
-                            set_or_sets("Set of area cells, in space of volume cells.", "block")),
-                   required("material", text("Name of a material.").such_as("steel")),
-                   required("element", element),
-                   optional("thickness", number("Thickness of a plane body.")
-                                             .in("length")
-                                             .above(0)
-                                             .otherwise("1")
-                                             .such_as("2.5")),
-                   optional("kinematics", kinematics), optional("formulation", formulation)}))
-      .otherwise("[]")
-      .such_as("[{on: block, material: steel, element: plane_strain}]");
 }
 
 Spec model_spec() {

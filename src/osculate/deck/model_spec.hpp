@@ -32,9 +32,6 @@ namespace osculate::deck {
 [[nodiscard]] Spec solver_spec();
 [[nodiscard]] Spec output_spec();
 
-/// The shapes that need no mesh: those of the plane, then those of space; composite ones are for
-/// rigid bodies.
-[[nodiscard]] std::vector<Key> shape_keys(bool with_composite);
 /// Two coordinates.
 [[nodiscard]] Spec point_spec(std::string doc);
 /// Three coordinates.

@@ -78,12 +78,6 @@ BoundKeys<NormalDescription> holding_keys() {
                    .such_as("close"))}};
 }
 
-std::vector<std::string> names_of(const std::vector<Key>& keys) {
-  std::vector<std::string> out;
-  for (const Key& key : keys) out.push_back(key.name);
-  return out;
-}
-
 /// What an impact loses.
 Spec damping_spec() {
   const std::vector<Key> laws = damping_law_keys();

@@ -80,10 +80,7 @@ BoundKey<D> time_steps_key() {
                              "increments, whose ends are kept; implicit schemes only.")
                        .otherwise_as("the nominal increments")
                        .such_as("{error: 1e-3}")),
-          [keys](D& d, const Value& v) {
-            d.time_steps = keys.read(v);
-            d.time_steps->mark = v.mark;
-          }};
+          [keys](D& d, const Value& v) { d.time_steps = keys.read(v); }};
 }
 
 BoundKey<D> damping_key() {
@@ -166,7 +163,6 @@ Spec dynamics_spec() {
 
 DynamicsDescription parse_dynamics(const Value& v) {
   D d = dynamics_keys().read(v);
-  d.mark = v.mark;
   if (d.scheme == SchemeWord::central_differences) check_explicit(v, d);
   return d;
 }
@@ -178,31 +174,6 @@ Spec gravity_spec() {
              number("One component.").in("length/time^2"))
       .count(2, 3)
       .such_as("[0, -9.81]");
-}
-
-Spec initial_velocity_spec() {
-  const auto component = [](const char* name, const char* doc, const char* unit) {
-    return optional(name, number(doc).in(unit).such_as("-2"));
-  };
-  return list("Velocities at the beginning of the first step with inertia.",
-              map("One velocity.",
-                  {required("on", text("Set of nodes or cells, or rigid body.").such_as("ball")),
-                   component("vx", "Velocity in x.", "length/time"),
-                   component("vy", "Velocity in y.", "length/time"),
-                   component("vz", "Velocity in z (models in space).", "length/time"),
-                   component("wx", "Angular velocity of a rigid body, x (models in space).",
-                             "radians/time"),
-                   component("wy", "Angular velocity of a rigid body, y (models in space).",
-                             "radians/time"),
-                   component("wz", "Angular velocity of a rigid body, positive from x to y.",
-                             "radians/time")})
-                  .with(Group::Rule::at_least_one, {"vx", "vy", "vz", "wx", "wy", "wz"}))
-      .otherwise("[]")
-      .such_as("[{on: ball, vy: -2}]");
-}
-
-std::vector<Load> parse_initial_velocity(const Value& v) {
-  return loads_of(v, {"vx", "vy", "vz", "wx", "wy", "wz"});
 }
 
 }  // namespace osculate::deck

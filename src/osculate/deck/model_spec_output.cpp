@@ -59,18 +59,16 @@ Spec quantity_spec() {
       .such_as("normal_force");
 }
 
-Spec plots_spec() {
+BoundKeys<Plot> plot_keys() {
+  using P = Plot;
   const Spec column =
       text("A column of history.csv: step, increment, time or one of `history`.").such_as("time");
-  return list("Diagrams of the report.",
-              map("One diagram.",
-                  {optional("title", text("Title.").such_as("Pull-out force")),
-                   required("x", column),
-                   required("y", either("Column of the ordinate, or a list of several.",
-                                        {column, list("Columns.", column).count(1)})
-                                     .such_as("[top.rfx, top.rfy]"))}))
-      .otherwise("[]")
-      .such_as("[{x: time, y: floor.normal_force}]");
+  return {{may(&P::title, "title", text("Title.").such_as("Pull-out force")),
+           need(&P::x, "x", column),
+           need(&P::y, "y",
+                either("Column of the ordinate, or a list of several.",
+                       {column, list("Columns.", column).count(1)})
+                    .such_as("[top.rfx, top.rfy]"))}};
 }
 
 using S = Solver;
@@ -101,64 +99,63 @@ BoundKey<S> tolerance_key() {
 }
 
 BoundKeys<S> solver_keys() {
-  return {{tolerance_key(),
-           may(&S::max_iterations, "max_iterations",
-               integer("Iterations before an increment is cut.")
-                   .at_least(1)
-                   .at_most(100'000)
-                   .otherwise("25")),
-           may(&S::line_search, "line_search",
-               choice("Shorten corrections that overshoot.",
-                      {word("auto", LineSearch::automatic, "when it helps"),
-                       word("off", LineSearch::off, "never")})
-                   .otherwise("auto")),
-           may(&S::cutbacks, "cutbacks",
-               integer("How often in a row an increment may be cut.")
-                   .at_least(0)
-                   .at_most(60)
-                   .otherwise("8")),
-           may(&S::minimum_fraction, "minimum_fraction",
-               number("Smallest part of a step that is still tried.")
-                   .above(0)
-                   .at_most(1)
-                   .otherwise_as("decided by cutbacks")
-                   .such_as("1e-6")),
-           may(&S::predictor, "predictor",
-               choice("First guess of an increment.",
-                      {word("auto", Predictor::automatic,
-                            "tangent, or where increments follow each other "
-                            "smoothly the extrapolation of the last ones"),
-                       word("tangent", Predictor::tangent,
-                            "prescribed motions act through the tangent")})
-                   .otherwise("auto")),
-           unread<S>(optional("stabilisation",
-                              map("Viscous help until contact closes.", {}).not_available())),
-           may(&S::arc_length, "arc_length",
-               choice("Follow the path of equilibria where it turns back (snap-through, "
-                      "buckling): the "
-                      "fraction of the step is an unknown too, and may fall. In steps without "
-                      "inertia.",
-                      {word("auto", ArcLength::automatic,
-                            "where an increment fails for good and bodies do not come to rest "
-                            "behind a snap, until its end is reached"),
-                       word("always", ArcLength::always,
-                            "after the first increment of each step, to its end"),
-                       word("off", ArcLength::off,
-                            "never, nor are snaps passed: load control ends at a limit point")})
-                   .otherwise("auto"))}};
+  return {
+      {tolerance_key(),
+       may(&S::max_iterations, "max_iterations",
+           integer("Iterations before an increment is cut.")
+               .at_least(1)
+               .at_most(100'000)
+               .otherwise("25")),
+       may(&S::line_search, "line_search",
+           choice("Shorten corrections that overshoot.",
+                  {word("auto", LineSearch::automatic, "when it helps"),
+                   word("off", LineSearch::off, "never")})
+               .otherwise("auto")),
+       may(&S::cutbacks, "cutbacks",
+           integer("How often in a row an increment may be cut.")
+               .at_least(0)
+               .at_most(60)
+               .otherwise("8")),
+       may(&S::minimum_fraction, "minimum_fraction",
+           number("Smallest part of a step that is still tried.")
+               .above(0)
+               .at_most(1)
+               .otherwise_as("decided by cutbacks")
+               .such_as("1e-6")),
+       may(&S::predictor, "predictor",
+           choice(
+               "First guess of an increment.",
+               {word("auto", Predictor::automatic,
+                     "tangent, or where increments follow each other smoothly the extrapolation of "
+                     "the last ones"),
+                word("tangent", Predictor::tangent, "prescribed motions act through the tangent")})
+               .otherwise("auto")),
+       unread<S>(optional("stabilisation",
+                          map("Viscous help until contact closes.", {}).not_available())),
+       may(&S::arc_length, "arc_length",
+           choice("Follow the path of equilibria where it turns back (snap-through, buckling): the "
+                  "fraction of the step is an unknown too, and may fall. In steps without inertia.",
+                  {word("auto", ArcLength::automatic,
+                        "where an increment fails for good and bodies do not come to rest behind a "
+                        "snap, until its end is reached"),
+                   word("always", ArcLength::always,
+                        "after the first increment of each step, to its end"),
+                   word("off", ArcLength::off,
+                        "never, nor are snaps passed: load control ends at a limit point")})
+               .otherwise("auto"))}};
 }
 
-Spec request_spec() {
-  return map("One column of history.csv.",
-             {required("on", text("Contact pair, rigid body or set.").such_as("floor")),
-              required("of", quantity_spec()),
-              optional("name", text("Heading of the column.")
-                                   .as(TextRule::column)
-                                   .otherwise_as("`on` and `of` joined by a dot")
-                                   .such_as("pull"))});
+BoundKeys<HistoryRequest> request_keys() {
+  using R = HistoryRequest;
+  return {{need(&R::on, "on", text("Contact pair, rigid body or set.").such_as("floor")),
+           need(&R::of, "of", quantity_spec()),
+           may(&R::column, "name",
+               text("Heading of the column.")
+                   .as(TextRule::column)
+                   .otherwise_as("`on` and `of` joined by a dot")
+                   .such_as("pull"))}};
 }
 
-/// Columns and diagrams are read by who knows what they are of.
 BoundKeys<Output> output_keys() {
   using O = Output;
   Spec fields =
@@ -179,20 +176,23 @@ BoundKeys<Output> output_keys() {
   return {
       {{optional("fields", std::move(fields)),
         [](O& o, const Value& v) { v.alternative == 0 ? store(o.every, v) : store(o.fields, v); }},
-       unread<O>(optional("history",
-                          list("Columns of history.csv, one row per increment.", request_spec())
-                              .otherwise("[]")
-                              .such_as("[{on: floor, of: normal_force}]"))),
+       {optional("history", list("Columns of history.csv, one row per increment.",
+                                 request_keys().spec("One column of history.csv."))
+                                .otherwise("[]")
+                                .such_as("[{on: floor, of: normal_force}]")),
+        [](O& o, const Value& v) { o.history = request_keys().read_all(v); }},
        may(&O::report, "report", boolean("Write report.html.").otherwise("true")),
        may(&O::compress, "compress", boolean("Compress field files.").otherwise("true")),
        may(&O::contact_points, "contact_points",
-           boolean("Write the contact points of every field file as "
-                   "a table too, contact0_00012.csv: node, place "
-                   "and all contact fields.")
+           boolean("Write the contact points of every field file as a table too, "
+                   "contact0_00012.csv: node, place and all contact fields.")
                .otherwise("false")),
        {optional("checkpoint", std::move(checkpoint)),
         [](O& o, const Value& v) { o.checkpoint = v.alternative == 0 ? v.code : 0; }},
-       unread<O>(optional("plots", plots_spec()))}};
+       {optional("plots", list("Diagrams of the report.", plot_keys().spec("One diagram."))
+                              .otherwise("[]")
+                              .such_as("[{x: time, y: floor.normal_force}]")),
+        [](O& o, const Value& v) { o.plots = plot_keys().read_all(v); }}}};
 }
 
 bool needs_rigid(Quantity q) {
@@ -205,10 +205,10 @@ void require_quantity(const HistoryRequest& request, const std::string& word,
   if (is_spatial(request.of.value) && dimension(d) == 2) throw only_in_space(request.of.mark, word);
   const bool contact = request.target == HistoryTarget::contact;
   if (contact && !is_contact_quantity(request.of.value))
-    throw core::InputError(request.of.mark,
-                           fmt::format("'{}' belongs to sets and rigid bodies, but '{}' is a "
-                                       "contact pair",
-                                       word, request.on.value));
+    throw core::InputError(
+        request.of.mark,
+        fmt::format("'{}' belongs to sets and rigid bodies, but '{}' is a contact pair", word,
+                    request.on.value));
   if (!contact && is_contact_quantity(request.of.value)) {
     std::vector<std::string> pairs;
     for (const Contact& c : d.contact) pairs.push_back(c.name.value);
@@ -223,22 +223,19 @@ void require_quantity(const HistoryRequest& request, const std::string& word,
         fmt::format("'{}' needs a rigid body, and {} is not one", word, quoted(request.on.value)));
 }
 
-HistoryRequest request_of(const Value& v, const Description& d) {
-  HistoryRequest request;
-  request.mark = v.mark;
-  request.on = name_of(v.at("on"));
-  request.of = word_of<Quantity>(v, "of");
+/// What a request is of, and how its column is called.
+void complete(HistoryRequest& request, const Description& d) {
   const std::string& on = request.on.value;
   request.target = d.find_contact(on) ? HistoryTarget::contact
                    : d.find_rigid(on) ? HistoryTarget::rigid
                                       : HistoryTarget::set;
-  const std::string& word = v.at("of").text;
-  const Value* const name = v.find("name");
-  request.column = name ? name->text : on + "." + word;
-  if (!name && on.find_first_of(",\"\r\n") != std::string::npos)
-    throw core::InputError(request.on.mark, quoted(on) + " cannot head a column; give a `name`");
+  const std::string word(quantity_names[static_cast<std::size_t>(request.of.value)]);
+  if (request.column.empty()) {
+    if (on.find_first_of(",\"\r\n") != std::string::npos)
+      throw core::InputError(request.on.mark, quoted(on) + " cannot head a column; give a `name`");
+    request.column = on + "." + word;
+  }
   require_quantity(request, word, d);
-  return request;
 }
 
 void require_unique_columns(const std::vector<HistoryRequest>& requests,
@@ -256,21 +253,10 @@ void require_unique_columns(const std::vector<HistoryRequest>& requests,
   }
 }
 
-Name column_of(const Value& v, const std::vector<std::string>& columns) {
-  if (std::find(columns.begin(), columns.end(), v.text) == columns.end())
-    throw core::InputError(v.mark,
-                           core::unknown_name_message("column", printable(v.text), columns));
-  return name_of(v);
-}
-
-Plot plot_of(const Value& v, const std::vector<std::string>& columns) {
-  Plot plot;
-  if (const Value* const title = v.find("title")) plot.title = title->text;
-  plot.x = column_of(v.at("x"), columns);
-  const Value& y = v.at("y");
-  if (y.alternative == 0) plot.y.push_back(column_of(y, columns));
-  for (const Value& item : y.items) plot.y.push_back(column_of(item, columns));
-  return plot;
+void require_column(const Name& name, const std::vector<std::string>& columns) {
+  if (std::ranges::find(columns, name.value) == columns.end())
+    throw core::InputError(name.mark,
+                           core::unknown_name_message("column", printable(name.value), columns));
 }
 
 }  // namespace
@@ -310,13 +296,15 @@ std::vector<std::string> energy_columns(const Description& description) {
 
 Output parse_output(const Value& v, const Description& description) {
   Output output = output_keys().read(v);
-  for (const Value& item : v.at("history").items)
-    output.history.push_back(request_of(item, description));
+  for (HistoryRequest& request : output.history) complete(request, description);
   std::vector<std::string> columns{"step", "increment", "time"};
   for (std::string& column : energy_columns(description)) columns.push_back(std::move(column));
   require_unique_columns(output.history, columns);
   for (const HistoryRequest& request : output.history) columns.push_back(request.column);
-  for (const Value& item : v.at("plots").items) output.plots.push_back(plot_of(item, columns));
+  for (const Plot& plot : output.plots) {
+    require_column(plot.x, columns);
+    for (const Name& y : plot.y) require_column(y, columns);
+  }
   return output;
 }
 

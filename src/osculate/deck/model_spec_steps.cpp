@@ -16,28 +16,17 @@ Spec component_spec(std::string doc) {
                  word("rz", Component::rz, "rotation of a rigid body, positive from x to y")});
 }
 
-std::vector<Release> releases_of(const Value& v) {
-  std::vector<Release> out;
-  for (const Value& item : v.items) {
-    Release release{item.mark, name_of(item.at("on")), {}};
-    for (const Value& component : item.at("of").items) {
-      bool& slot = release.of[static_cast<std::size_t>(component.code)];
-      if (slot) throw core::InputError(component.mark, quoted(component.text) + " is given twice");
-      slot = true;
-    }
-    out.push_back(std::move(release));
-  }
-  return out;
+BoundKey<Load> amplitude_key() {
+  return may(&Load::amplitude, "amplitude",
+             text("Name of an amplitude that the values are multiplied with.")
+                 .otherwise_as("a linear ramp over the step")
+                 .such_as("there_and_back"));
 }
 
-Key amplitude_key() {
-  return optional("amplitude", text("Name of an amplitude that the values are multiplied with.")
-                                   .otherwise_as("a linear ramp over the step")
-                                   .such_as("there_and_back"));
-}
-
-Key on_key(std::string doc, const std::string& example) {
-  return required("on", set_or_sets(std::move(doc), example));
+/// Of what describes something of a set.
+template <class T>
+BoundKey<T> on_key(std::string doc, const std::string& example) {
+  return need(&T::on, "on", set_or_sets(std::move(doc), example));
 }
 
 struct Part {
@@ -47,31 +36,44 @@ struct Part {
   const char* former = "";
 };
 
-/// A list of loads on sets: `on`, at least one component, `amplitude`; and where it goes.
-BoundKey<Step> loads(std::vector<Load> Step::*member, const char* name, const char* example,
-                     std::string doc, const std::string& one, Key on,
-                     const std::vector<Part>& parts) {
-  std::vector<Key> keys{std::move(on)};
-  std::vector<std::string> components;
-  for (const Part& part : parts) {
-    keys.push_back(optional(part.name, number(part.doc).in(part.unit).such_as("-0.5")));
-    keys.back().former = part.former;
-    components.emplace_back(part.name);
+/// `on`, and components in the order of the values.
+std::vector<BoundKey<Load>> load_keys(BoundKey<Load> on, const std::vector<Part>& parts,
+                                      const char* example) {
+  std::vector<BoundKey<Load>> keys{std::move(on)};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Part& part = parts[i];
+    keys.push_back({optional(part.name, number(part.doc).in(part.unit).such_as(example)),
+                    [i](Load& load, const Value& v) { store(load.values[i], v); }});
+    keys.back().key.former = part.former;
   }
-  keys.push_back(amplitude_key());
-  Spec spec =
-      list(std::move(doc), map(one, std::move(keys)).with(Group::Rule::at_least_one, components))
-          .otherwise("[]")
-          .such_as(example);
-  return {optional(name, std::move(spec)),
-          [member, components](Step& s, const Value& v) { s.*member = loads_of(v, components); }};
+  return keys;
+}
+
+/// A list of them with at least one component each.
+Spec loads_spec(std::string doc, std::string one, const BoundKeys<Load>& keys,
+                const std::vector<Part>& parts) {
+  std::vector<std::string> components;
+  for (const Part& part : parts) components.emplace_back(part.name);
+  return list(std::move(doc), keys.spec(std::move(one)).with(Group::Rule::at_least_one, components))
+      .otherwise("[]");
+}
+
+/// A list of loads that may have an amplitude, and where it goes.
+BoundKey<Step> loads(std::vector<Load> Step::*member, const char* name, const char* example,
+                     std::string doc, std::string one, BoundKey<Load> on,
+                     const std::vector<Part>& parts) {
+  std::vector<BoundKey<Load>> all = load_keys(std::move(on), parts, "-0.5");
+  all.push_back(amplitude_key());
+  const BoundKeys<Load> keys(std::move(all));
+  return {optional(name, loads_spec(std::move(doc), std::move(one), keys, parts).such_as(example)),
+          [member, keys](Step& s, const Value& v) { s.*member = keys.read_all(v); }};
 }
 
 BoundKey<Step> prescribe_key() {
   return loads(
       &Step::prescribe, "prescribe", "[{on: top, ux: 0, uy: -0.007}]",
       "Displacements to prescribe; they persist until released or prescribed again.",
-      "One prescription.", on_key("Set of nodes, or rigid body.", "top"),
+      "One prescription.", on_key<Load>("Set of nodes, or rigid body.", "top"),
       {{"ux", "Displacement in x at the end of the step.", "length"},
        {"uy", "Displacement in y at the end of the step.", "length"},
        {"uz", "Displacement in z at the end of the step (models in space).", "length"},
@@ -90,17 +92,24 @@ BoundKey<Step> prescribe_key() {
 }
 
 BoundKey<Step> release_key() {
-  Spec spec =
-      list("Prescribed displacements to set free.",
-           map("One release.",
-               {on_key("Set of nodes, or rigid body.", "top"),
-                required("of", list("Which displacements.", component_spec("One displacement."))
-                                   .count(1, component_count)
-                                   .such_as("[ux]"))}))
-          .otherwise("[]")
-          .such_as("[{on: top, of: [ux]}]");
-  return {optional("release", std::move(spec)),
-          [](Step& s, const Value& v) { s.release = releases_of(v); }};
+  using R = Release;
+  const BoundKeys<R> keys(
+      {on_key<R>("Set of nodes, or rigid body.", "top"),
+       {required("of", list("Which displacements.", component_spec("One displacement."))
+                           .count(1, component_count)
+                           .such_as("[ux]")),
+        [](R& release, const Value& v) {
+          for (const Value& item : v.items) {
+            bool& slot = release.of[static_cast<std::size_t>(item.code)];
+            if (slot) throw core::InputError(item.mark, quoted(item.text) + " is given twice");
+            slot = true;
+          }
+        }}});
+  return {
+      optional("release", list("Prescribed displacements to set free.", keys.spec("One release."))
+                              .otherwise("[]")
+                              .such_as("[{on: top, of: [ux]}]")),
+      [keys](Step& s, const Value& v) { s.release = keys.read_all(v); }};
 }
 
 BoundKey<Step> forces_key() {
@@ -108,7 +117,7 @@ BoundKey<Step> forces_key() {
       &Step::forces, "forces", "[{on: corner, fy: -3}]",
       "Forces on every node of a set (n nodes carry n times as much: `total_force` is one "
       "force on all of them), or on a rigid body, whose motion they set free.",
-      "One force.", on_key("Set of nodes, or rigid body.", "corner"),
+      "One force.", on_key<Load>("Set of nodes, or rigid body.", "corner"),
       {{"fx", "Force in x at the end of the step.", "force"},
        {"fy", "Force in y at the end of the step.", "force"},
        {"fz", "Force in z at the end of the step (models in space).", "force"},
@@ -131,33 +140,35 @@ BoundKey<Step> total_force_key() {
                "bulk cells by their volume, over the nodes of any other set equally. Of constant "
                "direction; `osculate check` shows forces and moments of all loads.",
                "One force on a whole set.",
-               on_key("Set of boundary facets, bulk cells, or nodes.", "top"),
+               on_key<Load>("Set of boundary facets, bulk cells, or nodes.", "top"),
                {{"fx", "Force in x at the end of the step.", "force"},
                 {"fy", "Force in y at the end of the step.", "force"},
                 {"fz", "Force in z at the end of the step (models in space).", "force"}});
 }
 
 BoundKey<Step> pressure_key() {
-  Spec spec =
-      list("Pressures on boundary facets; they follow the deformation of finite sections.",
-           map("One pressure.",
-               {on_key("Set of boundary facets.", "top"),
-                required("value", number("Pressure at the end of the step, positive into the "
-                                         "body.")
-                                      .in("force/length^2")
-                                      .such_as("12")),
-                amplitude_key()}))
-          .otherwise("[]")
-          .such_as("[{on: top, value: 12}]");
-  return {optional("pressure", std::move(spec)),
-          [](Step& s, const Value& v) { s.pressure = loads_of(v, {"value"}); }};
+  const BoundKeys<Load> keys(
+      {on_key<Load>("Set of boundary facets.", "top"),
+       {required("value", number("Pressure at the end of the step, positive into the "
+                                 "body.")
+                              .in("force/length^2")
+                              .such_as("12")),
+        [](Load& load, const Value& v) { store(load.values[0], v); }},
+       amplitude_key()});
+  return {
+      optional("pressure",
+               list("Pressures on boundary facets; they follow the deformation of finite sections.",
+                    keys.spec("One pressure."))
+                   .otherwise("[]")
+                   .such_as("[{on: top, value: 12}]")),
+      [keys](Step& s, const Value& v) { s.pressure = keys.read_all(v); }};
 }
 
 BoundKey<Step> traction_key() {
   return loads(
       &Step::traction, "traction", "[{on: top, tx: 3}]",
       "Tractions on boundary facets, per undeformed area, of constant direction.", "One traction.",
-      on_key("Set of boundary facets.", "top"),
+      on_key<Load>("Set of boundary facets.", "top"),
       {{"tx", "Traction in x at the end of the step.", "force/length^2"},
        {"ty", "Traction in y at the end of the step.", "force/length^2"},
        {"tz", "Traction in z at the end of the step (models in space).", "force/length^2"}});
@@ -166,7 +177,7 @@ BoundKey<Step> traction_key() {
 BoundKey<Step> body_force_key() {
   return loads(&Step::body_force, "body_force", "[{on: block, fy: -7.7e-5}]",
                "Forces per undeformed volume.", "One body force.",
-               on_key("Set of bulk cells.", "block"),
+               on_key<Load>("Set of bulk cells.", "block"),
                {{"fx", "Force per volume in x at the end of the step.", "force/length^3", "bx"},
                 {"fy", "Force per volume in y at the end of the step.", "force/length^3", "by"},
                 {"fz", "Force per volume in z at the end of the step (models in space).",
@@ -201,7 +212,7 @@ BoundKeys<Step> step_keys() {
             [](S& s, const Value& v) { s.dynamics = parse_dynamics(v); }}}};
 }
 
-void check_times(const Step& s) {
+void check_times(const Value&, const Step& s) {
   if (s.dynamics && !s.duration)
     throw core::InputError(s.dynamics->mark, "a step with inertia needs a duration");
   if (!s.dynamics || !s.dynamics->time_steps || !s.dynamics->time_steps->smallest) return;
@@ -214,32 +225,53 @@ void check_times(const Step& s) {
                     nominal, smallest.value));
 }
 
-BoundKeys<EquationTerm> term_keys() {
-  using T = EquationTerm;
-  return {{{on_key("Set of nodes, of which each gets the factor, or rigid body.", "corner"),
-            [](T& t, const Value& v) { store(t.on, v); }},
-           need(&T::of, "of", component_spec("Which displacement.").such_as("ux")),
-           {required("factor", number("Factor of the displacement.").such_as("-1")),
-            [](T& t, const Value& v) {
-              if (v.number == 0) throw core::InputError(v.mark, "must not be zero");
-              store(t.factor, v);
-            }}}};
-}
-
 BoundKeys<Equation> equation_keys() {
+  using T = EquationTerm;
   using E = Equation;
-  const BoundKeys<EquationTerm> term = term_keys();
+  const BoundKeys<T> term(
+      {on_key<T>("Set of nodes, of which each gets the factor, or rigid body.", "corner"),
+       need(&T::of, "of", component_spec("Which displacement.").such_as("ux")),
+       checked(need(&T::factor, "factor", number("Factor of the displacement.").such_as("-1")),
+               [](const Value& v) {
+                 if (v.number == 0) throw core::InputError(v.mark, "must not be zero");
+               })});
   return {
       {{required("terms",
                  list("Terms that are summed up.", term.spec("One term of an equation.")).count(1)),
-        [term](E& e, const Value& v) {
-          for (const Value& item : v.items) e.terms.push_back(term.read(item));
-        }},
+        [term](E& e, const Value& v) { e.terms = term.read_all(v); }},
        may(&E::value, "value",
            number("Value of the sum, reached at the end of the first step.")
                .in("length")
                .otherwise("0")
                .such_as("0.1"))}};
+}
+
+BoundKeys<Equal> equal_keys() {
+  using E = Equal;
+  return {{on_key<E>("Set of nodes.", "top"),
+           need(&E::of, "of",
+                choice("Which displacement.",
+                       {word("ux", Component::ux, "displacement in x"),
+                        word("uy", Component::uy, "displacement in y"),
+                        word("uz", Component::uz, "displacement in z (models in space)")})
+                    .such_as("uy"))}};
+}
+
+/// Velocities at the beginning: `on`, and components.
+const std::vector<Part>& velocity_parts() {
+  static const std::vector<Part> parts{
+      {"vx", "Velocity in x.", "length/time"},
+      {"vy", "Velocity in y.", "length/time"},
+      {"vz", "Velocity in z (models in space).", "length/time"},
+      {"wx", "Angular velocity of a rigid body, x (models in space).", "radians/time"},
+      {"wy", "Angular velocity of a rigid body, y (models in space).", "radians/time"},
+      {"wz", "Angular velocity of a rigid body, positive from x to y.", "radians/time"}};
+  return parts;
+}
+BoundKeys<Load> velocity_keys() {
+  return load_keys(
+      need(&Load::on, "on", text("Set of nodes or cells, or rigid body.").such_as("ball")),
+      velocity_parts(), "-2");
 }
 
 Amplitude amplitude_of(const ValueEntry& entry) {
@@ -260,19 +292,6 @@ Amplitude amplitude_of(const ValueEntry& entry) {
 
 }  // namespace
 
-std::vector<Load> loads_of(const Value& v, const std::vector<std::string>& names) {
-  std::vector<Load> out;
-  for (const Value& item : v.items) {
-    Load load;
-    load.mark = item.mark;
-    load.on = name_of(item.at("on"));
-    for (std::size_t i = 0; i < names.size(); ++i) load.values[i] = number_if(item, names[i]);
-    load.amplitude = name_if(item, "amplitude");
-    out.push_back(std::move(load));
-  }
-  return out;
-}
-
 Spec amplitudes_spec() {
   const Spec point = list("One point [t, factor].", number("Fraction of the step, or factor."))
                          .count(2, 2)
@@ -292,27 +311,24 @@ Spec equations_spec() {
       .such_as("[{terms: [{on: A, of: ux, factor: 1}, {on: B, of: ux, factor: -1}]}]");
 }
 
-std::vector<Equation> parse_equations(const Value& v) {
-  const BoundKeys<Equation> keys = equation_keys();
-  std::vector<Equation> out;
-  for (const Value& item : v.items) {
-    out.push_back(keys.read(item));
-    out.back().mark = item.mark;
-  }
-  return out;
-}
+std::vector<Equation> parse_equations(const Value& v) { return equation_keys().read_all(v); }
 
 Spec equal_spec() {
-  const Spec of = choice("Which displacement.",
-                         {word("ux", Component::ux, "displacement in x"),
-                          word("uy", Component::uy, "displacement in y"),
-                          word("uz", Component::uz, "displacement in z (models in space)")})
-                      .such_as("uy");
   return list("Sets whose nodes all share one displacement.",
-              map("One shared displacement.", {on_key("Set of nodes.", "top"), required("of", of)}))
+              equal_keys().spec("One shared displacement."))
       .otherwise("[]")
       .such_as("[{on: top, of: uy}]");
 }
+
+std::vector<Equal> parse_equal(const Value& v) { return equal_keys().read_all(v); }
+
+Spec initial_velocity_spec() {
+  return loads_spec("Velocities at the beginning of the first step with inertia.", "One velocity.",
+                    velocity_keys(), velocity_parts())
+      .such_as("[{on: ball, vy: -2}]");
+}
+
+std::vector<Load> parse_initial_velocity(const Value& v) { return velocity_keys().read_all(v); }
 
 Spec steps_spec() {
   return list(
@@ -323,26 +339,11 @@ Spec steps_spec() {
       .such_as("[{name: press, increments: 10, prescribe: [{on: top, uy: -0.007}]}]");
 }
 
-std::vector<Step> parse_steps(const Value& v) {
-  const BoundKeys<Step> keys = step_keys();
-  std::vector<Step> out;
-  for (const Value& item : v.items) {
-    out.push_back(keys.read(item));
-    check_times(out.back());
-  }
-  return out;
-}
+std::vector<Step> parse_steps(const Value& v) { return step_keys().read_all(v, check_times); }
 
 std::vector<Amplitude> parse_amplitudes(const Value& v) {
   std::vector<Amplitude> out;
   for (const ValueEntry& entry : v.entries) out.push_back(amplitude_of(entry));
-  return out;
-}
-
-std::vector<Equal> parse_equal(const Value& v) {
-  std::vector<Equal> out;
-  for (const Value& item : v.items)
-    out.push_back({item.mark, name_of(item.at("on")), word_of<Component>(item, "of").value});
   return out;
 }
 

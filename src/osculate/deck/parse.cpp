@@ -34,18 +34,6 @@ void require_document(const SourceNode& root, const std::string& file) {
 
 }  // namespace
 
-std::optional<Number> number_if(const Value& map, std::string_view key) {
-  const Value* const value = map.find(key);
-  return value ? std::optional(number_of(*value)) : std::nullopt;
-}
-
-std::optional<Name> name_if(const Value& map, std::string_view key) {
-  const Value* const value = map.find(key);
-  return value ? std::optional(name_of(*value)) : std::nullopt;
-}
-
-bool flag(const Value& map, std::string_view key) { return map.at(key).code != 0; }
-
 Vec2 point_of(const Value& v) { return {v.items[0].number, v.items[1].number}; }
 
 Vec3 place_of(const Value& v) {
@@ -111,7 +99,7 @@ Description parse_model(SourceNode root, std::string file_name, std::span<const 
   name_unions(model, d.sets);
   d.file = std::move(file_name);
   if (const Value* const title = model.find("title")) d.title = title->text;
-  d.mesh = parse_mesh(model.at("mesh"), d.file);
+  d.mesh = parse_mesh(model.at("mesh"));
   d.materials = parse_materials(model.at("materials"));
   d.sections = parse_sections(model.at("sections"), d.materials);
   d.rigid = parse_rigid(model.at("rigid"));

@@ -3,8 +3,9 @@
 #include <algorithm>
 
 #include "osculate/core/text.hpp"
+#include "osculate/deck/bind.hpp"
+#include "osculate/deck/model_spec.hpp"
 #include "osculate/deck/params.hpp"
-#include "osculate/deck/parse_parts.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -24,10 +25,76 @@ void require_kinematics(const Section& section, const Material& material) {
                   finite ? "hyperelastic" : material::key_of(law), finite ? "finite" : "small"));
 }
 
+/// Keys of the materials that are such, one after the other.
+template <class Is>
+std::string laws_that(const Is& is) {
+  std::vector<std::string> keys;
+  material::for_each_law([&](const auto& law) {
+    if (is(law)) keys.emplace_back(law.key);
+  });
+  return core::join(keys);
+}
+
+BoundKeys<Section> section_keys() {
+  using S = Section;
+  const Spec element =
+      choice(
+          "Which plane the body lives in, or that it is one in space. All sections of a model are "
+          "plane, all axisymmetric, or all in space.",
+          {word("plane_strain", SectionElement::plane_strain, "no strain out of the plane"),
+           word("plane_stress", SectionElement::plane_stress, "no stress out of the plane"),
+           word("axisymmetric", SectionElement::axisymmetric,
+                "x is the radius, y the axis; forces are those of the whole circumference"),
+           word("solid", SectionElement::solid, "a body in space, of volume cells"),
+           word("solid_shell", SectionElement::solid_shell,
+                "a thin body in space, of hex8 or shell18 cells; the thickness goes from the first "
+                "half of their nodes to the second, and hex8 cells in one layer are turned so. "
+                "hex27 cells (of a second-order Gmsh mesh) become shell18: their nodes halfway "
+                "through the thickness are left out")})
+          .or_else("; shells, beams and others are not available (osculate doc limits)")
+          .such_as("plane_strain");
+  const Spec kinematics =
+      choice("How strains are measured.",
+             {word("small", Kinematics::small, "linear in the displacements"),
+              word("finite", Kinematics::finite, "exact for any displacement and rotation")})
+          .otherwise_as("small for " +
+                        laws_that([](const auto& law) { return !law.finite_strain; }) +
+                        ", finite for the other materials")
+          .such_as("finite");
+  const Spec formulation =
+      choice(
+          "How first-order quadrilaterals and hexahedra avoid locking; all other cells are plain "
+          "displacement elements.",
+          {word("auto", Formulation::automatic,
+                "enhanced; of neo_hooke, where enhanced strains are unstable in large compression, "
+                "and of " +
+                    laws_that([]<class T>(const T&) { return material::Remembers<T>; }) +
+                    ", where they hardly converge without hardening, bbar, in plane stress full"),
+           word("full", Formulation::full,
+                "plain displacement element, full integration: too stiff in bending and near nu = "
+                "0.5 (CalculiX' C3D8, Abaqus' CPS4; Abaqus' C3D8 is bbar)"),
+           word("bbar", Formulation::bbar,
+                "averaged volume change, for nearly incompressible (Abaqus' CPE4, CAX4 and C3D8)"),
+           word("enhanced", Formulation::enhanced,
+                "enhanced strains, for bending and nearly incompressible (CalculiX' C3D8I, Abaqus' "
+                "CPS4I, CPE4I, CAX4I and C3D8I)")})
+          .otherwise("auto")
+          .such_as("bbar");
+  return {{need(&S::on, "on", set_or_sets("Set of area cells, in space of volume cells.", "block")),
+           need(&S::material, "material", text("Name of a material.").such_as("steel")),
+           need(&S::element, "element", element),
+           may(&S::thickness, "thickness",
+               number("Thickness of a plane body.")
+                   .in("length")
+                   .above(0)
+                   .otherwise("1")
+                   .such_as("2.5")),
+           may(&S::kinematics, "kinematics", kinematics),
+           may(&S::formulation, "formulation", formulation)}};
+}
+
 Section section_of(const Value& v, const std::vector<Material>& materials) {
-  Section s;
-  s.on = name_of(v.at("on"));
-  s.material = name_of(v.at("material"));
+  Section s = section_keys().read(v);
   const auto material = std::find_if(materials.begin(), materials.end(), [&](const Material& m) {
     return m.name.value == s.material.value;
   });
@@ -37,16 +104,11 @@ Section section_of(const Value& v, const std::vector<Material>& materials) {
     throw core::InputError(s.material.mark, core::unknown_name_message(
                                                 "material", printable(s.material.value), known));
   }
-  s.element = word_of<SectionElement>(v, "element");
-  s.thickness = number_of(v.at("thickness"));
   if (s.element.value == SectionElement::axisymmetric && v.at("thickness").given)
     throw core::InputError(s.thickness.mark, "an axisymmetric body has no thickness");
   if (is_space(s.element.value) && v.at("thickness").given)
     throw core::InputError(s.thickness.mark, "is for plane bodies; a body in space has its own");
-  const Value* const kinematics = v.find("kinematics");
-  s.kinematics = kinematics ? word_of<Kinematics>(*kinematics)
-                            : Marked<Kinematics>{usual_kinematics(material->law.value), v.mark};
-  s.formulation = word_of<Formulation>(v, "formulation");
+  if (!v.find("kinematics")) s.kinematics = {usual_kinematics(material->law.value), v.mark};
   if (s.element.value == SectionElement::solid_shell && v.at("formulation").given)
     throw core::InputError(s.formulation.mark,
                            "solid_shell elements have a formulation of their own");
@@ -54,67 +116,58 @@ Section section_of(const Value& v, const std::vector<Material>& materials) {
   return s;
 }
 
-/// The key of the shape: the first one; exactly one of them is given.
-std::string kind_of(const Value& v) {
-  for (const ValueEntry& entry : v.entries)
-    if (entry.key != "reference" && entry.key != "flip" && entry.key != "mass" &&
-        entry.key != "density" && entry.key != "inertia")
-      return entry.key;
-  return {};
+/// One key a law.
+BoundKeys<Material> material_keys() {
+  std::vector<BoundKey<Material>> keys;
+  material::for_each_law([&]<class T>(const T&) {
+    keys.push_back({optional(std::string(T::key), params_spec<T>(std::string(T::doc))),
+                    [](Material& m, const Value& v) {
+                      m.law = {params_of<T>(v), v.mark};
+                      for (const core::Param<T>& p : T::params())
+                        if (const Value* const value = value_of(v, p))
+                          m.marks.emplace_back(p.key, value->mark);
+                    }});
+  });
+  return keys;
+}
+
+void check_material(const Value&, const Material& m) {
+  constexpr double nearest = 1e-10;  // leaves six digits for the shape
+  if (0.5 - material::unloaded(m.law.value).poisson < nearest)
+    throw core::InputError(m.mark("nu"),
+                           "is so near to 0.5 that the resistance to changes of volume leaves no "
+                           "digits for anything else: use at most 0.4999999999");
 }
 
 }  // namespace
 
+Spec materials_spec() {
+  Spec law = material_keys().spec("A material: exactly one law.");
+  const std::vector<std::string> keys = names_of(law.keys);
+  law = law.with(Group::Rule::exactly_one, keys)
+            .or_else(fmt::format("; a material is NAME: {{LAW: {{E: ..., nu: ...}}}} with one of "
+                                 "the laws {}; others are not available (osculate doc limits)",
+                                 fmt::join(keys, ", ")))
+            .such_as("{linear_elastic: {E: 2.1e5, nu: 0.3}}");
+  return names("The materials, by name.", law)
+      .otherwise("{}")
+      .such_as("{steel: {linear_elastic: {E: 2.1e5, nu: 0.3}}}");
+}
+
 std::vector<Material> parse_materials(const Value& v) {
-  std::vector<Material> out;
-  for (const ValueEntry& entry : v.entries) {
-    material::for_each_law([&]<class T>(const T&) {
-      const Value* const constants = entry.value.find(T::key);
-      if (!constants) return;
-      Material& m = out.emplace_back();
-      m.name = {entry.key, entry.key_mark};
-      m.law = {params_of<T>(*constants), constants->mark};
-      for (const core::Param<T>& p : T::params())
-        if (const Value* const value = value_of(*constants, p))
-          m.marks.emplace_back(p.key, value->mark);
-      constexpr double nearest = 1e-10;  // leaves six digits for the shape
-      if (0.5 - material::unloaded(m.law.value).poisson < nearest)
-        throw core::InputError(m.mark("nu"),
-                               "is so near to 0.5 that the resistance to changes of volume leaves "
-                               "no digits for anything else: use at most 0.4999999999");
-    });
-  }
-  return out;
+  return material_keys().read_all(v, check_material);
+}
+
+Spec sections_spec() {
+  return list("Which cells of the mesh are bulk material, and of what kind.",
+              section_keys().spec("One section."))
+      .otherwise("[]")
+      .such_as("[{on: block, material: steel, element: plane_strain}]");
 }
 
 std::vector<Section> parse_sections(const Value& v, const std::vector<Material>& materials) {
   std::vector<Section> out;
   for (const Value& item : v.items) out.push_back(section_of(item, materials));
-  return out;
-}
-
-std::vector<Rigid> parse_rigid(const Value& v) {
-  std::vector<Rigid> out;
-  for (const ValueEntry& entry : v.entries) {
-    Rigid rigid;
-    rigid.name = {entry.key, entry.key_mark};
-    rigid.shape = parse_shape(entry.value);
-    rigid.kind = kind_of(entry.value);
-    if (const Value* const reference = entry.value.find("reference"))
-      rigid.reference = numbers_of(*reference);
-    if (const Value* const flip = entry.value.find("flip")) rigid.flip = flip->code != 0;
-    rigid.mass = number_if(entry.value, "mass");
-    rigid.density = number_if(entry.value, "density");
-    if (const Value* const inertia = entry.value.find("inertia"))
-      rigid.inertia = inertia->alternative == 0
-                          ? Marked<std::vector<double>>{{inertia->number}, inertia->mark}
-                          : numbers_of(*inertia);
-    if (rigid.mass && rigid.density)
-      throw core::InputError(rigid.density->mark, "give the mass or the density, not both");
-    if (rigid.inertia && !rigid.mass && !rigid.density)
-      throw core::InputError(rigid.inertia->mark, "inertia goes with a mass, which is missing");
-    out.push_back(std::move(rigid));
-  }
   return out;
 }
 

@@ -16,14 +16,7 @@ template <class E>
 [[nodiscard]] Marked<E> word_of(const Value& v) {
   return {static_cast<E>(v.code), v.mark};
 }
-template <class E>
-[[nodiscard]] Marked<E> word_of(const Value& map, std::string_view key) {
-  return word_of<E>(map.at(key));
-}
 
-[[nodiscard]] std::optional<Number> number_if(const Value& map, std::string_view key);
-[[nodiscard]] std::optional<Name> name_if(const Value& map, std::string_view key);
-[[nodiscard]] bool flag(const Value& map, std::string_view key);
 [[nodiscard]] Vec2 point_of(const Value& v);
 /// Two or three coordinates; z = 0 where it is not given.
 [[nodiscard]] Vec3 place_of(const Value& v);
@@ -36,7 +29,7 @@ template <class E>
 
 // ---- branches ---------------------------------------------------------------------------------
 
-[[nodiscard]] MeshSource parse_mesh(const Value& v, const std::string& file);
+[[nodiscard]] MeshSource parse_mesh(const Value& v);
 [[nodiscard]] std::vector<SetDefinition> parse_sets(const Value& v);
 /// Where several sets are named in place of one: the set of them all, which this value then names.
 void name_unions(Value& v, std::vector<SetDefinition>& sets);
@@ -44,10 +37,6 @@ void name_unions(Value& v, std::vector<SetDefinition>& sets);
 [[nodiscard]] std::vector<Section> parse_sections(const Value& v,
                                                   const std::vector<Material>& materials);
 [[nodiscard]] std::vector<Rigid> parse_rigid(const Value& v);
-/// Of a map with exactly one shape among its keys.
-[[nodiscard]] RigidShape parse_shape(const Value& v);
-/// Of the list of its parts.
-[[nodiscard]] CompositeShape parse_composite(const Value& v);
 [[nodiscard]] std::vector<Contact> parse_contact(const Value& v);
 /// The law of a map with at most one of the keys that laws have, beside that of the law of pairs
 /// that name none.
@@ -61,8 +50,6 @@ void name_unions(Value& v, std::vector<SetDefinition>& sets);
 [[nodiscard]] std::vector<Step> parse_steps(const Value& v);
 [[nodiscard]] DynamicsDescription parse_dynamics(const Value& v);
 [[nodiscard]] std::vector<Load> parse_initial_velocity(const Value& v);
-/// Loads whose components are called `names`, in this order.
-[[nodiscard]] std::vector<Load> loads_of(const Value& v, const std::vector<std::string>& names);
 [[nodiscard]] Solver parse_solver(const Value& v);
 /// Needs contacts and rigid bodies: they decide what `on` means.
 [[nodiscard]] Output parse_output(const Value& v, const Description& description);

@@ -1,20 +1,29 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "osculate/deck/parse_parts.hpp"
+#include "osculate/deck/bind.hpp"
+#include "osculate/deck/model_spec.hpp"
 
 namespace osculate::deck {
 namespace {
 
-/// One name, or a list of them.
-std::vector<Name> names_of(const Value& map, std::string_view key) {
-  const Value* const value = map.find(key);
-  if (!value) return {};
-  if (value->items.empty()) return {name_of(*value)};
-  std::vector<Name> out;
-  for (const Value& item : value->items) out.push_back(name_of(item));
-  return out;
+BoundKeys<SetDefinition> set_keys() {
+  using S = SetDefinition;
+  return {{may(&S::all_of, "union",
+               list("Sets of which it has all.", text("One set.").such_as("left"))
+                   .count(1)
+                   .such_as("[left, right]")),
+           may(&S::of, "of", text("The set that it is a part of.").such_as("top")),
+           may(&S::within, "within",
+               set_or_sets("Set, or list of sets: only what is in it, too.", "left")),
+           may(&S::without, "without",
+               set_or_sets("Set, or list of sets: what is in it is left out.", "rim"))}};
+}
+
+void check_parts(const Value& v, const SetDefinition& set) {
+  if (!set.of && !(set.within.empty() && set.without.empty()))
+    throw core::InputError(v.mark, "'within' and 'without' go with 'of', not 'union'");
+  if (set.of && set.within.empty() && set.without.empty())
+    throw core::InputError(v.mark, "'of' needs 'within' or 'without'");
 }
 
 /// Keys whose value is a set.
@@ -24,22 +33,21 @@ bool names_a_set(std::string_view key) {
 
 }  // namespace
 
+Spec sets_spec() {
+  const Spec one =
+      set_keys()
+          .spec(
+              "A set made of others, of the mesh or defined above it. Sets of cells of one kind "
+              "give such a set; in other cases the result is a set of nodes.")
+          .with(Group::Rule::exactly_one, {"union", "of"})
+          .such_as("{union: [left, right]}");
+  return names("Sets made of sets, by name, used as those of the mesh.", one)
+      .otherwise("{}")
+      .such_as("{sides: {union: [left, right]}, rest: {of: top, without: rim}}");
+}
+
 std::vector<SetDefinition> parse_sets(const Value& v) {
-  std::vector<SetDefinition> out;
-  for (const ValueEntry& entry : v.entries) {
-    SetDefinition set;
-    set.name = {entry.key, entry.key_mark};
-    set.all_of = names_of(entry.value, "union");
-    set.of = name_if(entry.value, "of");
-    set.within = names_of(entry.value, "within");
-    set.without = names_of(entry.value, "without");
-    if (!set.of && !(set.within.empty() && set.without.empty()))
-      throw core::InputError(entry.value.mark, "'within' and 'without' go with 'of', not 'union'");
-    if (set.of && set.within.empty() && set.without.empty())
-      throw core::InputError(entry.value.mark, "'of' needs 'within' or 'without'");
-    out.push_back(std::move(set));
-  }
-  return out;
+  return set_keys().read_all(v, check_parts);
 }
 
 void name_unions(Value& v, std::vector<SetDefinition>& sets) {

@@ -9,8 +9,8 @@
 #include "osculate/core/text.hpp"
 #include "osculate/deck/analytic_shape.hpp"
 #include "osculate/deck/model_spec.hpp"
-#include "osculate/deck/parse_parts.hpp"
 #include "osculate/deck/scalar.hpp"
+#include "osculate/deck/shapes.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -227,14 +227,11 @@ FacetMesh<2> polyline_mesh(const PolylineShape& line) {
 
 AnyTarget shape_of(const SourceEntry& written, const std::string& file) {
   const SourceEntry shape = model_form(written);
-  Spec spec;
-  for (const Key& key : shape_keys(false))
-    if (key.name == shape.key) spec = key.spec;
+  const std::vector<ShapeKey> keys = shape_keys(false);
+  const auto kind =
+      std::ranges::find(keys, shape.key, [](const ShapeKey& one) { return one.key.name; });
   const core::SourceMark mark{file, written.line, written.key};
-  Value value;
-  value.mark = mark;
-  value.entries.push_back({shape.key, mark, check(spec, shape.value, file, written.key)});
-  const RigidShape read = parse_shape(value);
+  const RigidShape read = kind->read(check(kind->key.spec, shape.value, file, written.key));
   if (const auto* const line = std::get_if<PolylineShape>(&read))
     return projection::Target<2>(polyline_mesh(*line));
   if (std::optional<AnyTarget> curve = shape_in<2>(read, mark)) return std::move(*curve);

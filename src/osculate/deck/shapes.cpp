@@ -3,32 +3,16 @@
 
 #include <numbers>
 
-#include "osculate/deck/bind.hpp"
 #include "osculate/deck/model_spec.hpp"
+#include "osculate/deck/shapes.hpp"
 #include "osculate/geometry/nurbs.hpp"
 
 namespace osculate::deck {
 namespace {
 
-/// A key whose value is a shape.
-struct ShapeKey {
-  Key key;
-  std::function<RigidShape(const Value&)> read;
-};
-
-/// A map of a shape's members, and what else must be so.
-template <class Shape, class Check>
-ShapeKey shape(const char* name, std::string doc, const BoundKeys<Shape>& keys,
-               const Check& check) {
-  return {optional(name, keys.spec(std::move(doc))), [keys, check](const Value& v) {
-            const Shape shape = keys.read(v);
-            check(v, shape);
-            return RigidShape(shape);
-          }};
-}
-template <class Shape>
-ShapeKey shape(const char* name, std::string doc, const BoundKeys<Shape>& keys) {
-  return shape(name, std::move(doc), keys, [](const Value&, const Shape&) {});
+template <class S, class... Check>
+ShapeKey shape(const char* name, std::string doc, const BoundKeys<S>& keys, const Check&... check) {
+  return one_of<RigidShape>(name, std::move(doc), keys, check...);
 }
 
 /// A direction out of the file, of length one in the object.
@@ -47,38 +31,12 @@ double weight_of(const Value& v) {
   return v.number;
 }
 
-Spec nurbs_spec() {
-  return map(
-      "A rational B-spline curve, body on the right of the direction of travel.",
-      {required("degree", integer("Polynomial degree.").at_least(1).at_most(7).such_as("2")),
-       required("knots", list("Knots, non-decreasing, as many as control points + degree + 1.",
-                              number("One knot."))
-                             .count(4)
-                             .such_as("[0, 0, 0, 1, 1, 1]")),
-       required("control",
-                list("Control points [x, y, w], coordinates not multiplied by the weight w > 0.",
-                     list("One control point [x, y, w].", number("Coordinate or weight."))
-                         .count(3, 3)
-                         .such_as("[1, 0, 1]"))
-                    .count(2)
-                    .such_as("[[1, 0, 1], [1, 1, 0.7071067811865476], [0, 1, 1]]"))});
-}
-
-RigidShape nurbs_of(const Value& v) {
-  NurbsShape n;
-  n.degree = integer_of(v.at("degree"));
-  n.knots = numbers_of(v.at("knots"));
-  n.control.mark = v.at("control").mark;
-  for (const Value& item : v.at("control").items) {
-    n.control.value.emplace_back(item.items[0].number, item.items[1].number,
-                                 weight_of(item.items[2]));
-  }
+void check_nurbs(const Value& v, const NurbsShape& n) {
   const std::size_t expected =
       n.control.value.size() + static_cast<std::size_t>(n.degree.value) + 1;
   if (n.control.value.size() <= static_cast<std::size_t>(n.degree.value))
     throw core::InputError(n.control.mark,
-                           fmt::format("degree {} needs at least {} control points, "
-                                       "got {}",
+                           fmt::format("degree {} needs at least {} control points, got {}",
                                        n.degree.value, n.degree.value + 1, n.control.value.size()));
   if (n.knots.value.size() != expected)
     throw core::InputError(n.knots.mark,
@@ -89,7 +47,33 @@ RigidShape nurbs_of(const Value& v) {
     if (knots[i].number < knots[i - 1].number)
       throw core::InputError(knots[i].mark, fmt::format("knots must not decrease, got {} after {}",
                                                         knots[i].text, knots[i - 1].text));
-  return n;
+}
+
+ShapeKey nurbs_key() {
+  using N = NurbsShape;
+  return shape<N>(
+      "nurbs", "A rational B-spline curve, body on the right of the direction of travel.",
+      {{need(&N::degree, "degree",
+             integer("Polynomial degree.").at_least(1).at_most(7).such_as("2")),
+        need(&N::knots, "knots",
+             list("Knots, non-decreasing, as many as control points + degree + 1.",
+                  number("One knot."))
+                 .count(4)
+                 .such_as("[0, 0, 0, 1, 1, 1]")),
+        {required("control",
+                  list("Control points [x, y, w], coordinates not multiplied by the weight w > 0.",
+                       list("One control point [x, y, w].", number("Coordinate or weight."))
+                           .count(3, 3)
+                           .such_as("[1, 0, 1]"))
+                      .count(2)
+                      .such_as("[[1, 0, 1], [1, 1, 0.7071067811865476], [0, 1, 1]]")),
+         [](N& n, const Value& v) {
+           n.control.mark = v.mark;
+           for (const Value& item : v.items)
+             n.control.value.emplace_back(item.items[0].number, item.items[1].number,
+                                          weight_of(item.items[2]));
+         }}}},
+      check_nurbs);
 }
 
 void check_arc(const Value&, const ArcShape& arc) {
@@ -145,85 +129,63 @@ std::vector<ShapeKey> plane_shapes() {
                {{need(&H::point, "point", point_spec("A point of the line.")),
                  unit(&H::normal, "normal",
                       point_spec("Direction out of the body, of any length but zero."))}}),
-      {optional("nurbs", nurbs_spec()), nurbs_of}};
+      nurbs_key()};
 }
 
-/// Curves joined to one surface, for rigid bodies.
-Spec composite_spec() {
-  const Spec values =
-      list("Coordinates in order of travel.", number("One coordinate.").in("length")).count(2);
-  const Spec function =
-      map("The graph y(x) of the cubic spline through given points (its first and second "
-          "derivatives are continuous).",
-          {required("x", values.such_as("[0, 1, 2, 3]")),
-           required("y", values.such_as("[0, 0.1, 0.4, 0.9]"))});
-  std::vector<Key> keys;
-  for (ShapeKey& one : plane_shapes())
-    if (one.key.name == "arc" || one.key.name == "polyline" || one.key.name == "nurbs")
-      keys.push_back(std::move(one.key));
-  keys.push_back(optional("function", function));
-  std::vector<std::string> kinds;
-  for (const Key& key : keys) kinds.push_back(key.name);
-  return list(
-             "Curves of which each begins where the one before ends, smoothly or with a corner, "
-             "body on the right of the direction of travel; closed when the last ends where the "
-             "first begins (plane models).",
-             map("One part: exactly one curve.", keys).with(Group::Rule::exactly_one, kinds))
-      .count(1)
-      .such_as(
-          "[{polyline: {points: [[-2, 0], [0, 0]]}}, {function: {x: [0, 1, 2], y: [0, 0.1, "
-          "0.4]}}]");
-}
-
-Spec nurbs_patch_spec() {
-  return map(
-      "A rational B-spline surface (models in space); its normal, out of the body, is that of the "
-      "first direction crossed with the second.",
-      {required("degree", list("Polynomial degrees of the two directions.",
-                               integer("One degree.").at_least(1).at_most(7))
-                              .count(2, 2)
-                              .such_as("[2, 1]")),
-       required("knots", list("Knots of the two directions, non-decreasing, as many as control "
-                              "points + degree + 1.",
-                              list("Knots of one direction.", number("One knot.")).count(4))
-                             .count(2, 2)
-                             .such_as("[[0, 0, 0, 1, 1, 1], [0, 0, 1, 1]]")),
-       required("control",
-                list("Control points by rows: the first direction runs through the rows, the "
-                     "second along each row; coordinates not multiplied by the weight w > 0.",
-                     list("One row.",
-                          list("One control point [x, y, z, w].", number("Coordinate or weight."))
-                              .count(4, 4))
-                         .count(2))
-                    .count(2)
-                    .such_as("[[[0, 0, 0, 1], [0, 1, 0, 1]], [[1, 0, 1, 1], [1, 1, 1, 1]], "
-                             "[[2, 0, 0, 1], [2, 1, 0, 1]]]"))});
-}
-
-RigidShape patch_of(const Value& v) {
-  geometry::NurbsPatch patch;
-  const Value& control = v.at("control");
-  patch.count = {static_cast<int>(control.items.size()),
-                 static_cast<int>(control.items.front().items.size())};
-  for (const Value& row : control.items) {
+void read_rows(geometry::NurbsPatch& patch, const Value& v) {
+  patch.count = {static_cast<int>(v.items.size()), static_cast<int>(v.items.front().items.size())};
+  for (const Value& row : v.items) {
     if (row.items.size() != static_cast<std::size_t>(patch.count[1]))
       throw core::InputError(row.mark, fmt::format("expected {} points as in the first row, got {}",
                                                    patch.count[1], row.items.size()));
     for (const Value& point : row.items) {
-      patch.control.emplace_back(point.items[0].number, point.items[1].number,
-                                 point.items[2].number);
+      patch.control.push_back(place_of(point));
       patch.weights.push_back(weight_of(point.items[3]));
     }
   }
+}
+
+void check_patch(const Value& v, const geometry::NurbsPatch& patch) {
   for (std::size_t d = 0; d < 2; ++d) {
-    patch.degree[d] = v.at("degree").items[d].code;
-    const Marked<std::vector<double>> knots = numbers_of(v.at("knots").items[d]);
-    patch.knots[d] = knots.value;
     const std::string wrong = geometry::validate_knots(static_cast<std::size_t>(patch.count[d]),
                                                        patch.degree[d], patch.knots[d]);
-    if (!wrong.empty()) throw core::InputError(knots.mark, wrong);
+    if (!wrong.empty()) throw core::InputError(v.at("knots").items[d].mark, wrong);
   }
-  return patch;
+}
+
+ShapeKey patch_key() {
+  using N = geometry::NurbsPatch;
+  return shape<N>(
+      "nurbs_patch",
+      "A rational B-spline surface (models in space); its normal, out of the body, is that of the "
+      "first direction crossed with the second.",
+      {{{required("degree", list("Polynomial degrees of the two directions.",
+                                 integer("One degree.").at_least(1).at_most(7))
+                                .count(2, 2)
+                                .such_as("[2, 1]")),
+         [](N& n, const Value& v) {
+           n.degree = {v.items[0].code, v.items[1].code};
+         }},
+        {required("knots", list("Knots of the two directions, non-decreasing, as many as control "
+                                "points + degree + 1.",
+                                list("Knots of one direction.", number("One knot.")).count(4))
+                               .count(2, 2)
+                               .such_as("[[0, 0, 0, 1, 1, 1], [0, 0, 1, 1]]")),
+         [](N& n, const Value& v) {
+           for (std::size_t d = 0; d < 2; ++d) store(n.knots[d], v.items[d]);
+         }},
+        {required("control",
+                  list("Control points by rows: the first direction runs through the rows, the "
+                       "second along each row; coordinates not multiplied by the weight w > 0.",
+                       list("One row.",
+                            list("One control point [x, y, z, w].", number("Coordinate or weight."))
+                                .count(4, 4))
+                           .count(2))
+                      .count(2)
+                      .such_as("[[[0, 0, 0, 1], [0, 1, 0, 1]], [[1, 0, 1, 1], [1, 1, 1, 1]], "
+                               "[[2, 0, 0, 1], [2, 1, 0, 1]]]")),
+         read_rows}}},
+      check_patch);
 }
 
 void check_cone(const Value& v, const geometry::Cone& s) {
@@ -237,6 +199,17 @@ void check_torus(const Value& v, const geometry::Torus& s) {
     throw core::InputError(
         v.at("tube_radius").mark,
         fmt::format("must be below `radius` ({}), got {}", s.radius, s.tube_radius));
+}
+
+BoundKey<geometry::Cone> half_angle_key() {
+  return {required("half_angle", number("Angle between the axis and the surface.")
+                                     .in("degrees")
+                                     .above(0)
+                                     .below(90)
+                                     .such_as("30")),
+          [](geometry::Cone& c, const Value& v) {
+            c.half_angle = v.number * std::numbers::pi / 180.0;
+          }};
 }
 
 /// Shapes of models in space.
@@ -253,11 +226,6 @@ std::vector<ShapeKey> space_shapes() {
   const Spec radius = length("Radius.").above(0).such_as("5");
   const Spec inside =
       boolean("The body is around the surface, so that it is a hole.").otherwise("false");
-  const Spec half_angle = number("Angle between the axis and the surface.")
-                              .in("degrees")
-                              .above(0)
-                              .below(90)
-                              .such_as("30");
   return {
       shape<P>("plane",
                "A plane without borders; the body is the half space behind it (models in space).",
@@ -281,9 +249,7 @@ std::vector<ShapeKey> space_shapes() {
       shape<C>(
           "cone", "A circular cone that opens along its axis (models in space).",
           {{need(&C::apex, "apex", place_spec("The apex.").such_as("[0, 0, 1]")),
-            unit(&C::axis, "axis", axis),
-            {required("half_angle", half_angle),
-             [](C& c, const Value& v) { c.half_angle = v.number * std::numbers::pi / 180.0; }},
+            unit(&C::axis, "axis", axis), half_angle_key(),
             may(&C::from, "from",
                 length("Where the cone begins, along the axis from the apex.")
                     .at_least(0)
@@ -300,30 +266,16 @@ std::vector<ShapeKey> space_shapes() {
                       length("Radius of the tube.").above(0).such_as("1")),
                  may(&T::inside, "inside", inside)}},
                check_torus),
-      {optional("nurbs_patch", nurbs_patch_spec()), patch_of}};
-}
-
-/// All that a rigid body may be but a set of the mesh.
-std::vector<ShapeKey> all_shapes() {
-  std::vector<ShapeKey> shapes = plane_shapes();
-  shapes.push_back({optional("composite", composite_spec()), parse_composite});
-  for (ShapeKey& one : space_shapes()) shapes.push_back(std::move(one));
-  return shapes;
+      patch_key()};
 }
 
 }  // namespace
 
-std::vector<Key> shape_keys(bool with_composite) {
-  std::vector<Key> keys;
-  for (ShapeKey& one : all_shapes())
-    if (with_composite || one.key.name != "composite") keys.push_back(std::move(one.key));
+std::vector<ShapeKey> shape_keys(bool with_composite) {
+  std::vector<ShapeKey> keys = plane_shapes();
+  if (with_composite) keys.push_back(composite_key());
+  for (ShapeKey& one : space_shapes()) keys.push_back(std::move(one));
   return keys;
-}
-
-RigidShape parse_shape(const Value& v) {
-  for (const ShapeKey& one : all_shapes())
-    if (const Value* const shape = v.find(one.key.name)) return one.read(*shape);
-  return SetShape{name_of(v.at("set"))};
 }
 
 }  // namespace osculate::deck

@@ -3,6 +3,7 @@
 #include "osculate/deck/model_spec.hpp"
 #include "osculate/deck/parse_surface.hpp"
 #include "osculate/deck/schema.hpp"
+#include "osculate/deck/shapes.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -70,7 +71,7 @@ Spec surface_spec() {
                             .count(1)
                             .such_as("[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]")),
       optional("facets", facets_spec())};
-  for (Key& key : shape_keys(false)) {
+  for (Key& key : keys_of(shape_keys(false))) {
     if (key.name == "nurbs") key.spec = nurbs_spec();
     keys.push_back(std::move(key));
   }

@@ -78,5 +78,59 @@ TEST(Bind, TheSameKeysAreTheSpecification) {
   EXPECT_THROW((void)part("{count: 1}"), core::InputError);
 }
 
+struct Case {
+  Name name;
+  core::SourceMark mark;
+  Part part;
+  std::vector<Name> on;
+};
+
+/// The size may not be above the count before it.
+BoundKeys<Case> case_keys() {
+  using P = Part;
+  return {{may(&Case::on, "on",
+               either("Where.", {text("One."), list("Several.", text("One.")).count(1)})),
+           of(&Case::part, may(&P::count, "count", integer("How many."))),
+           checked(of(&Case::part, may(&P::size, "size", number("Its size."))),
+                   [](const Case& c, const Value& v) {
+                     if (v.number > c.part.count) throw core::InputError(v.mark, "too large");
+                   })}};
+}
+
+std::vector<Case> cases(const std::string& yaml) {
+  const BoundKeys<Case> keys = case_keys();
+  return keys.read_all(check_text(names("Cases.", keys.spec("One.")), yaml),
+                       [](const Value& v, const Case& c) {
+                         if (c.on.empty()) throw core::InputError(v.mark, "is nowhere");
+                       });
+}
+
+TEST(Bind, AMapOfNamesGivesOneObjectForEach) {
+  const std::vector<Case> all =
+      cases("a: {on: top, count: 3, size: 3}\nb: {on: [left, right], count: 1}");
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].name.value, "a");
+  EXPECT_EQ(all[0].part.size, 3);
+  EXPECT_EQ(all[0].on.size(), 1u);
+  EXPECT_EQ(all[1].name.mark.line, 2);
+  EXPECT_EQ(all[1].mark.line, 2);
+  EXPECT_EQ(all[1].part.count, 1);
+  EXPECT_EQ(all[1].on[1].value, "right");
+  EXPECT_THROW((void)cases("a: {on: top, count: 2, size: 3}"), core::InputError);
+  EXPECT_THROW((void)cases("a: {count: 2}"), core::InputError);
+}
+
+TEST(Bind, AKeyMayStandForOneOfSeveralThings) {
+  using Any = std::variant<Part, Case>;
+  const std::vector<OneOf<Any>> all{one_of<Any>("part", "A part.", part_keys()),
+                                    one_of<Any>("case", "A case.", case_keys())};
+  EXPECT_EQ(names_of(keys_of(all)), (std::vector<std::string>{"part", "case"}));
+  const Value v = check_text(map("Either.", keys_of(all)), "{case: {count: 5}}");
+  const OneOf<Any>* const found = given_key(all, v);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(std::get<Case>(found->read(v.at("case"))).part.count, 5);
+  EXPECT_FALSE(given_key(all, check_text(map("Either.", keys_of(all)), "{}")));
+}
+
 }  // namespace
 }  // namespace osculate::deck
