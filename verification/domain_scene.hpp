@@ -13,7 +13,7 @@ namespace osculate::verification {
 /// The cells of some parts, seen from both sides; coloured by value(place, part), grey where that
 /// is NaN.
 template <class Wanted, class Value>
-void add_faces(const api::DomainPicture& picture, const Wanted& wanted, const Value& value,
+void add_faces(const result::DomainPicture& picture, const Wanted& wanted, const Value& value,
                std::vector<io::SceneFace>& faces) {
   for (std::size_t b = 0; b < picture.blocks.size(); ++b) {
     const auto nodes = static_cast<std::size_t>(cell::info(picture.blocks[b].type).nodes);
@@ -37,7 +37,7 @@ void add_faces(const api::DomainPicture& picture, const Wanted& wanted, const Va
 }
 
 /// The line cells of one part as one curve, broken where they do not go on.
-inline io::PlotCurve lines_of(const api::DomainPicture& picture, api::DomainPart part,
+inline io::PlotCurve lines_of(const result::DomainPicture& picture, result::DomainPart part,
                               std::string label) {
   io::PlotCurve curve{std::move(label), {}, {}, io::PlotStyle::line};
   constexpr double gap = std::numeric_limits<double>::quiet_NaN();

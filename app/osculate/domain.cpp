@@ -19,15 +19,15 @@ struct Flags {
 int domain(const Flags& flags) {
   keep_inputs({flags.output, flags.page}, {flags.surface});
   deck::SurfaceInput input = deck::read_surface(flags.surface);
-  api::DomainReport report = api::survey_domain(input.target, flags.surface, flags.options);
+  result::DomainReport report = api::survey_domain(input.target, flags.surface, flags.options);
   report.warnings.insert(report.warnings.begin(), input.warnings.begin(), input.warnings.end());
-  if (!flags.output.empty()) api::write_domain(flags.output, report.picture);
-  if (!flags.page.empty()) io::write_file(flags.page, api::domain_html(report));
+  if (!flags.output.empty()) result::write_domain(flags.output, report.picture);
+  if (!flags.page.empty()) io::write_file(flags.page, result::domain_html(report));
   std::FILE* const to = flags.json ? stderr : stdout;
-  print(to, "{}", api::to_text(report));
+  print(to, "{}", result::to_text(report));
   for (const std::string& file : {flags.output, flags.page})
     if (!file.empty()) print(to, "wrote {}\n", file);
-  if (flags.json) print(stdout, "{}\n", api::to_json(report));
+  if (flags.json) print(stdout, "{}\n", result::to_json(report));
   return done;
 }
 

@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "commands.hpp"
-#include "osculate/api/result_folder.hpp"
 #include "osculate/api/tangent_check.hpp"
+#include "osculate/result/result_folder.hpp"
 
 namespace osculate::app {
 namespace {
@@ -20,14 +20,14 @@ struct Flags {
 
 int tangent(const Flags& flags) {
   const api::TangentReport report = api::check_tangent(
-      flags.model, flags.threads, flags.state, api::result_folder(flags.model, flags.folder),
+      flags.model, flags.threads, flags.state, result::result_folder(flags.model, flags.folder),
       settings_of(flags.settings));
   print(flags.json ? stderr : stdout, "{}", api::to_text(report));
   if (flags.json) print(stdout, "{}\n", api::to_json(report));
   if (!flags.folder.empty()) {
-    const std::string folder = api::choose_folder(flags.model, flags.folder);
-    api::open_folder(folder, true);
-    api::write_text(folder + "/tangent.json", api::to_json(report) + "\n");
+    const std::string folder = result::choose_folder(flags.model, flags.folder);
+    result::open_folder(folder, true);
+    result::write_text(folder + "/tangent.json", api::to_json(report) + "\n");
   }
   const bool ok = std::all_of(report.rows.begin(), report.rows.end(),
                               [](const api::TangentRow& row) { return row.passed(); });

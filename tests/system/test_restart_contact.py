@@ -1,6 +1,5 @@
 """Restart in the middle of an analysis, for every kind of contact. Usage: test_restart_contact.py PROGRAM"""
 import json
-import os
 import shutil
 import signal
 import subprocess
@@ -13,28 +12,28 @@ from restart_case import RestartCase
 PLANE = """osculate: 1
 mesh:
   generate:
-    low: {box: {x: [0, 3], y: [0, 1], elements: [14, 4]}}
-    up: {box: {x: [0.3, 1.45], y: [1, 1.8], elements: [7, 4]}}
+    low: {box: {x: [0, 3], y: [0, 1], elements: [12, 3]}}
+    up: {box: {x: [0.3, 1.45], y: [1, 1.8], elements: [6, 3]}}
 materials: {m: {st_venant_kirchhoff: {E: 100, nu: 0.3}}}
 sections: [{on: low, material: m, element: plane_strain}, {on: up, material: m, element: plane_strain}]
 contact: CONTACT
 steps:
   - {name: press, increments: 2, prescribe: [{on: low.bottom, ux: 0, uy: 0}, {on: up.top, ux: 0, uy: -0.03}]}
-  - {name: drag, increments: 8, prescribe: [{on: up.top, ux: 0.5}]}
+  - {name: drag, increments: 6, prescribe: [{on: up.top, ux: 0.4}]}
 output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}, {on: c, of: max_penetration}]}
 """
 SPACE = """osculate: 1
 mesh:
   generate:
-    low: {box: {x: [0, 3], y: [0, 2], z: [0, 1], elements: [6, 4, 2]}}
-    up: {box: {x: [0.3, 1.4], y: [0.4, 1.5], z: [1, 1.8], elements: [4, 4, 2]}}
+    low: {box: {x: [0, 3], y: [0, 2], z: [0, 1], elements: [5, 3, 1]}}
+    up: {box: {x: [0.3, 1.4], y: [0.4, 1.5], z: [1, 1.8], elements: [3, 3, 2]}}
 materials: {m: {linear_elastic: {E: 100, nu: 0.25}}}
 sections: [{on: low, material: m, element: solid}, {on: up, material: m, element: solid}]
 contact: CONTACT
 steps:
   - {name: press, increments: 2, prescribe: [{on: low.bottom, ux: 0, uy: 0, uz: 0},
       {on: up.top, ux: 0, uy: 0, uz: -0.03}]}
-  - {name: drag, increments: 6, prescribe: [{on: up.top, ux: 0.45, uy: 0.1}]}
+  - {name: drag, increments: 5, prescribe: [{on: up.top, ux: 0.45, uy: 0.1}]}
 output: {history: [{on: c, of: normal_force}, {on: c, of: force_x}, {on: c, of: force_y}]}
 """
 # Two beams, each with an edge up: one is dragged over the other, edge on edge.
@@ -72,7 +71,7 @@ steps:
 output: {history: [{on: c, of: normal_force}, {on: ball, of: wx}, {on: ball, of: rx}]}
 """
 SWUNG = PLANE.replace("nu: 0.3}", "nu: 0.3, density: 0.01}").replace(
-    "name: drag, increments: 8,", "name: drag, increments: 8, duration: 0.08, dynamics: {},")
+    "name: drag, increments: 6,", "name: drag, increments: 6, duration: 0.06, dynamics: {},")
 FRICTION = "friction: {coulomb: {mu: 0.3}}"
 
 
@@ -103,41 +102,41 @@ EDGES = {
 
 
 class RestartOfContact(RestartCase):
-    def go_on(self, number):
-        """One process: killed after two increments, or asked to stop after one; its exit code."""
-        restart = ["--restart"] if os.path.exists(self.path("parts", "checkpoint.bin")) else []
-        with subprocess.Popen(self.command("parts", *restart), cwd=self.folder.name,
-                              stderr=subprocess.PIPE, text=True) as program:
+    def go_on(self, iterations, restart, ends):
+        """One process that ends in the middle: after so many iterations, which drops the increment that
+        is under way, or before that `ends` it, a signal and after how many increments it is sent."""
+        with subprocess.Popen(self.command("parts", "--max-iterations", str(iterations), *restart),
+                              cwd=self.folder.name, stderr=subprocess.PIPE, text=True) as program:
             increments = 0
             text = ""
             for line in program.stderr:
                 text += line
                 increments += line.startswith(("press  ", "drag  "))
-                if number % 3 == 2 and increments == 2:
-                    program.kill()
-                if number % 3 != 2 and increments == 1:
-                    program.send_signal(signal.SIGINT)
-        self.assertIn(program.returncode, (0, 3, -signal.SIGKILL), text)
-        return program.returncode
+                if ends and increments == ends[1]:
+                    program.send_signal(ends[0])
+        self.assertIn(program.returncode, (3, -signal.SIGKILL), text)
+        if restart:
+            self.assertIn("restart after increment", text)
 
-    def expect_the_same_in_parts(self, model, contact):
+    def expect_the_same_in_parts(self, model, contact, share):
         self.write(model.replace("CONTACT", contact))
         self.run_to_end("whole")
         with open(self.path("whole", "summary.json")) as file:
-            steps = json.load(file)["steps"]
-        last = [increment for step in steps for increment in step["increments"]][-1]
+            summary = json.load(file)
+        last = [increment for step in summary["steps"] for increment in step["increments"]][-1]
         self.assertGreater(last["stick"] + last["slipping"] + last["closed"], 0)  # still in contact
-        parts = 1
-        while self.go_on(parts) != 0:
-            parts += 1
-            self.assertLess(parts, 200)
-        self.assertGreater(parts, 3)
+        part = summary["total"]["iterations"] // share
+        self.go_on(part, [], None)
+        self.go_on(part, ["--restart"], (signal.SIGKILL, 2))
+        self.go_on(part, ["--restart"], (signal.SIGINT, 1))
+        self.assertIn("restart after increment", self.run_to_end("parts", "--restart").stderr)
         self.expect_the_same("parts", "whole")
 
     def in_parts(self, model, kinds):
-        for name, contact in kinds.items():
+        """Three ends each, from kind to kind in other places."""
+        for number, (name, contact) in enumerate(kinds.items()):
             with self.subTest(kind=name):
-                self.expect_the_same_in_parts(model, contact)
+                self.expect_the_same_in_parts(model, contact, 4 + number % 3)
             for folder in ("whole", "parts"):
                 shutil.rmtree(self.path(folder), ignore_errors=True)
 

@@ -77,9 +77,9 @@ void look_at_c(const Form& form, CaseResult& out) {
 }
 
 /// Classes and the bounds of the whole surface: k1 is largest and k2 smallest at O, both 1.
-api::DomainReport look_at_all(const Form& form, CaseResult& out) {
+result::DomainReport look_at_all(const Form& form, CaseResult& out) {
   using enum Relation;
-  api::DomainReport r = api::survey_domain(form.target, form.name, {.cells = 16});
+  result::DomainReport r = api::survey_domain(form.target, form.name, {.cells = 16});
   int hyperbolic = 0;
   for (const auto& [name, count] : r.classes)
     if (name == "hyperbolic") hyperbolic = count;
@@ -98,8 +98,8 @@ api::DomainReport look_at_all(const Form& form, CaseResult& out) {
   return r;
 }
 
-Drawing drawing_of(const api::DomainPicture& picture) {
-  using api::DomainPart;
+Drawing drawing_of(const result::DomainPicture& picture) {
+  using result::DomainPart;
   Drawing drawing{"sheets", {}};
   io::Scene& scene = drawing.scene;
   scene.title = "z = (x^2 - y^2)/2 and the borders of its projection domain";
@@ -110,16 +110,16 @@ Drawing drawing_of(const api::DomainPicture& picture) {
     io::ScenePanel p{caption, {}};
     add_faces(
         picture, [&](DomainPart part) { return part == DomainPart::surface || part == sheet; },
-        [&](const api::DomainPlace& place, DomainPart part) {
+        [&](const result::DomainPlace& place, DomainPart part) {
           return part == sheet ? bound(place) : std::numeric_limits<double>::quiet_NaN();
         },
         p.faces);
     scene.panels.push_back(std::move(p));
   };
   panel("above: r + R1 n", DomainPart::sheet_above,
-        [](const api::DomainPlace& place) { return place.bound_above; });
+        [](const result::DomainPlace& place) { return place.bound_above; });
   panel("below: r - |R2| n", DomainPart::sheet_below,
-        [](const api::DomainPlace& place) { return place.bound_below; });
+        [](const result::DomainPlace& place) { return place.bound_below; });
   return drawing;
 }
 
@@ -136,7 +136,7 @@ CaseResult hyperbolic_surface(const CaseContext&) {
                                 {"mesh of 4 x 4 quad8", mesh_of(4, CellType::quad8)}};
   for (const Form& form : forms) {
     look_at_c(form, out);
-    const api::DomainReport report = look_at_all(form, out);
+    const result::DomainReport report = look_at_all(form, out);
     if (&form == &forms.front()) out.drawings.push_back(drawing_of(report.picture));
   }
   out.rows.push_back({"k2 at C as printed", -std::numbers::sqrt2 / 2, -0.700, info, 0,

@@ -95,7 +95,8 @@ void look_at_figure_6(CaseResult& out) {
     add(out, "Fig. 6, " + names[k] + ": 1/bound below", -1 / d.below, below[k], 1e-12,
         "KSCPP Table 1");
   }
-  const api::DomainReport r = api::survey_domain(Target<2>(geometry::Curve(figure_6())), "Fig. 6");
+  const result::DomainReport r =
+      api::survey_domain(Target<2>(geometry::Curve(figure_6())), "Fig. 6");
   const auto& place = r.picture.places.front();
   add(out, "Fig. 6: continuous bound on AB above", place.even_above, 1, 1e-9, "KSCPP Table 1");
   add(out, "Fig. 6: continuous bound on AB below", place.even_below, 1, 1e-9, "KSCPP Table 1");
@@ -105,11 +106,11 @@ void look_at_figure_6(CaseResult& out) {
   picture.plot.title = "Line and arcs: bounds jump with the curvature, the smallest one does not";
   picture.plot.x.label = "x";
   picture.plot.y.label = "y";
-  picture.plot.curves = {lines_of(r.picture, api::DomainPart::surface, "curve ABCD"),
-                         lines_of(r.picture, api::DomainPart::sheet_above, "centre, r + n/k"),
-                         lines_of(r.picture, api::DomainPart::sheet_below, "centre, r - n/|k|"),
-                         lines_of(r.picture, api::DomainPart::even_above, "r + R n, above"),
-                         lines_of(r.picture, api::DomainPart::even_below, "r - R n, below")};
+  picture.plot.curves = {lines_of(r.picture, result::DomainPart::surface, "curve ABCD"),
+                         lines_of(r.picture, result::DomainPart::sheet_above, "centre, r + n/k"),
+                         lines_of(r.picture, result::DomainPart::sheet_below, "centre, r - n/|k|"),
+                         lines_of(r.picture, result::DomainPart::even_above, "r + R n, above"),
+                         lines_of(r.picture, result::DomainPart::even_below, "r - R n, below")};
   for (const std::size_t k : {1u, 2u}) picture.plot.curves[k].style = io::PlotStyle::marks;
   out.pictures.push_back(std::move(picture));
 }
@@ -150,16 +151,16 @@ void look_at_figure_7(CaseResult& out) {
   const double jump = largest_jump(curve, Vec2(3.5, 1), Vec2(4.5, 1), 1000);
   add(out, "Fig. 7, over C at height 1: jump of the foot across the bisector", jump, 0.8, 0.01,
       "mirror images, by hand");
-  const api::DomainReport r = api::survey_domain(Target<2>(mesh), "Fig. 7");
+  const result::DomainReport r = api::survey_domain(Target<2>(mesh), "Fig. 7");
   add(out, "Fig. 7: reach above (kink at C)", r.above.reach.value, 0, 0, source);
   add(out, "Fig. 7: reach below (kink at B)", r.below.reach.value, 0, 0, source);
   Picture picture{"figure_7", {}};
   picture.plot.title = "A polygon: wedges of the corners and ends";
   picture.plot.x.label = "x";
   picture.plot.y.label = "y";
-  picture.plot.curves = {lines_of(r.picture, api::DomainPart::surface, "curve ABCD"),
-                         lines_of(r.picture, api::DomainPart::edge_above, "corners, above"),
-                         lines_of(r.picture, api::DomainPart::edge_below, "corners, below")};
+  picture.plot.curves = {lines_of(r.picture, result::DomainPart::surface, "curve ABCD"),
+                         lines_of(r.picture, result::DomainPart::edge_above, "corners, above"),
+                         lines_of(r.picture, result::DomainPart::edge_below, "corners, below")};
   out.pictures.push_back(std::move(picture));
 }
 
@@ -203,7 +204,7 @@ void look_at_the_monkey_saddle(CaseResult& out) {
   add(out, "monkey saddle: lines in the tangent plane",
       point.form == geometry::CubicForm::three_lines ? 3 : 0, 3, 0, source);
   add(out, "monkey saddle: size of the cubic form", std::sqrt(square), 12, 1e-12, source);
-  const api::DomainReport r =
+  const result::DomainReport r =
       api::survey_domain(Target<3>(geometry::Surface(patch)), "monkey", {.cells = 20});
   add(out, "monkey saddle: planar points found", static_cast<double>(r.flat.size()), 1, 0, source);
   add(out, "monkey saddle: reach above / reach below", r.above.reach.value / r.below.reach.value, 1,
@@ -216,12 +217,14 @@ void look_at_the_monkey_saddle(CaseResult& out) {
   const auto panel = [&](const std::string& caption, const auto& value) {
     io::ScenePanel next{caption, {}};
     add_faces(
-        r.picture, [](api::DomainPart part) { return part == api::DomainPart::surface; }, value,
-        next.faces);
+        r.picture, [](result::DomainPart part) { return part == result::DomainPart::surface; },
+        value, next.faces);
     drawing.scene.panels.push_back(std::move(next));
   };
-  panel("k1, the larger", [](const api::DomainPlace& p, api::DomainPart) { return p.larger; });
-  panel("-k2, the smaller", [](const api::DomainPlace& p, api::DomainPart) { return -p.smaller; });
+  panel("k1, the larger",
+        [](const result::DomainPlace& p, result::DomainPart) { return p.larger; });
+  panel("-k2, the smaller",
+        [](const result::DomainPlace& p, result::DomainPart) { return -p.smaller; });
   out.drawings.push_back(std::move(drawing));
 }
 
@@ -280,8 +283,8 @@ void prove_the_reach(CaseResult& out) {
 }
 
 /// The surface grey, wedges and cones above it coloured.
-io::ScenePanel features(const api::DomainReport& r, const std::string& caption, bool cones) {
-  using api::DomainPart;
+io::ScenePanel features(const result::DomainReport& r, const std::string& caption, bool cones) {
+  using result::DomainPart;
   io::ScenePanel panel{caption, {}};
   add_faces(
       r.picture,
@@ -289,7 +292,7 @@ io::ScenePanel features(const api::DomainReport& r, const std::string& caption, 
         return part == DomainPart::surface || part == DomainPart::edge_above ||
                (cones && part == DomainPart::corner_above);
       },
-      [](const api::DomainPlace&, DomainPart part) {
+      [](const result::DomainPlace&, DomainPart part) {
         return part == DomainPart::surface ? std::numeric_limits<double>::quiet_NaN()
                                            : (part == DomainPart::edge_above ? 0.0 : 1.0);
       },
@@ -302,7 +305,7 @@ void draw_the_cube(CaseResult& out) {
   options.samples = 400;
   options.length = 1.4;
   options.cells = 10;
-  const api::DomainReport r =
+  const result::DomainReport r =
       api::survey_domain(Target<3>(testing::box(Vec3(1, 1, 1))), "cube", options);
   Drawing drawing{"cube_corner", {}};
   drawing.scene.title = "A cube: wedges of its edges and cones of its corners, cut off";
@@ -320,7 +323,7 @@ void draw_the_rim(CaseResult& out) {
   options.length = 6;
   options.cells = 4;
   options.kink = 2;  // between the quadratic facets round the bore
-  const api::DomainReport r = api::survey_domain(Target<3>(half_bore()), "rim", options);
+  const result::DomainReport r = api::survey_domain(Target<3>(half_bore()), "rim", options);
   io::ScenePanel panel = features(r, "half of a bore of radius 1 and its upper rim", false);
   std::erase_if(panel.faces, [](const io::SceneFace& face) {  // keep the rim's
     return face.coloured &&

@@ -5,19 +5,19 @@
 #include <nlohmann/json.hpp>
 
 #include "osculate/api/check_facts.hpp"
-#include "osculate/api/initial_gaps.hpp"
-#include "osculate/api/penetration.hpp"
-#include "osculate/api/result_folder.hpp"
 #include "osculate/api/run.hpp"
-#include "osculate/api/summary.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
+#include "osculate/result/initial_gaps.hpp"
+#include "osculate/result/penetration.hpp"
+#include "osculate/result/result_folder.hpp"
+#include "osculate/result/summary.hpp"
 
 namespace osculate::api {
 namespace {
 
-std::string gap_line(const std::string& pair, const GapFacts& g, std::size_t points) {
+std::string gap_line(const std::string& pair, const result::GapFacts& g, std::size_t points) {
   return fmt::format(
       "{:<13} {:<16} {} of {} slave nodes face the master, {} touch, {} overlap, gap {:.4g} to "
       "{:.4g}\n",
@@ -27,7 +27,7 @@ std::string gap_line(const std::string& pair, const GapFacts& g, std::size_t poi
 /// The deepest overlap by name, and what becomes of all of them.
 template <int Dim>
 std::string overlap_line(const model::BasicModel<Dim>& m, const model::BasicContactPair<Dim>& pair,
-                         const GapFacts& g) {
+                         const result::GapFacts& g) {
   if (g.overlapping == 0) return {};
   const char* fate = "they are pushed out in the first increment";
   if (pair.definition.overlap == pairing::InitialOverlap::ramped)
@@ -52,8 +52,8 @@ std::string contact_text(const model::BasicModel<Dim>& m, nlohmann::json& pairs,
   for (std::size_t p = 0; p < m.pairs.size(); ++p) {
     const pairing::PairState<Dim> start =
         pairing::initial_state<Dim>(m.pairs[p].definition, m.reference);
-    const GapFacts g = gap_facts<Dim>(start, rounding);
-    if (std::string deep = deep_overlap(m, m.pairs[p], start); !deep.empty())
+    const result::GapFacts g = result::gap_facts<Dim>(start, rounding);
+    if (std::string deep = result::deep_overlap(m, m.pairs[p], start); !deep.empty())
       warnings.push_back(std::move(deep));
     if (g.found == 0 && !m.pairs[p].group.empty())
       apart += fmt::format("{}{}", apart.empty() ? "" : ", ", m.pairs[p].name);
@@ -72,7 +72,7 @@ std::string contact_text(const model::BasicModel<Dim>& m, nlohmann::json& pairs,
                      {"overlapping", g.overlapping},
                      {"smallest_gap", g.smallest},
                      {"largest_gap", g.largest}});
-    pairs.back().update(penalty_json(m.pairs[p].definition));
+    pairs.back().update(result::penalty_json(m.pairs[p].definition));
     if (edges)
       pairs.back()["edges"] = {{"master", edges->master.size()},
                                {"slave", edges->slave.size()},
@@ -93,7 +93,7 @@ CheckReport check_built(const std::string& path, const deck::Description& descri
   nlohmann::json facts = nlohmann::json::array(), pairs = nlohmann::json::array();
   nlohmann::json more, steps = nlohmann::json::array();
   report.text += mesh_text(built, more);
-  for (const ModelFact& fact : model_facts(built)) {
+  for (const result::ModelFact& fact : result::model_facts(built)) {
     report.text += fmt::format("{:<13} {:<16} {}\n", fact.heading, fact.name, fact.text);
     if (fact.heading == "Steps") {
       nlohmann::json step;
@@ -104,7 +104,8 @@ CheckReport check_built(const std::string& path, const deck::Description& descri
   }
   report.text += support_text(built, more);
   report.text += fmt::format("{:<13} {}\n", "Unknowns", unknowns);
-  const MemoryNeed memory = memory_need(m, system.symmetry() == la::Symmetry::unsymmetric);
+  const result::MemoryNeed memory =
+      result::memory_need(m, system.symmetry() == la::Symmetry::unsymmetric);
   if (memory.entries > 0) report.text += fmt::format("{:<13} {}\n", "Memory", memory.text());
   std::vector<std::string> warnings = built.warnings;
   report.text += contact_text(m, pairs, warnings);
@@ -120,7 +121,7 @@ CheckReport check_built(const std::string& path, const deck::Description& descri
                  {"needed", memory.needed},
                  {"available", memory.available}}},
                {"warnings", warnings}});
-  report.json = json_text(more, 1);
+  report.json = result::json_text(more, 1);
   return report;
 }
 

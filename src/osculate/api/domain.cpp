@@ -7,11 +7,11 @@
 #include <numbers>
 #include <numeric>
 
-#include "osculate/api/domain_picture.hpp"
 #include "osculate/geometry/point_class.hpp"
 #include "osculate/projection/piece_search.hpp"
 #include "osculate/projection/reach.hpp"
 #include "osculate/projection/reach_bound.hpp"
+#include "osculate/result/domain_picture.hpp"
 
 namespace osculate::api {
 namespace {
@@ -19,16 +19,20 @@ namespace {
 using projection::Composed;
 using projection::Joint;
 using projection::SurfacePlace;
+using result::DomainReport;
+using result::in_space;
+using result::text_of;
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 template <int Dim>
-DomainLimit plain(const projection::SideLimit<Dim>& limit) {
+result::DomainLimit plain(const projection::SideLimit<Dim>& limit) {
   return {limit.value, std::string(name(limit.limit)), in_space(limit.at), in_space(limit.other)};
 }
 template <int Dim>
-DomainSide plain(const projection::SideReach<Dim>& side, const projection::SideBound& bound) {
+result::DomainSide plain(const projection::SideReach<Dim>& side,
+                         const projection::SideBound& bound) {
   std::string why;
   if (bound.gap != projection::Gap::none) why = name(bound.gap);
   return {plain(side.curvature), plain(side.bottleneck), plain(side.reach), bound.least,
@@ -71,7 +75,7 @@ class SmoothParts {
 
 template <int Dim>
 void look_at_joints(const Composed<Dim>& s, double kink, DomainReport& report, SmoothParts& parts) {
-  const auto note = [](DomainKinks& kinks, double angle, const Vec3& at) {
+  const auto note = [](result::DomainKinks& kinks, double angle, const Vec3& at) {
     ++kinks.count;
     if (angle > kinks.largest) kinks = {kinks.count, angle, at};
   };
@@ -175,9 +179,9 @@ void look_for_flat_points(const Composed<3>& s, int cells, DomainReport& report)
     if (-most_bent * s.size() < flat) continue;  // flat as a whole
     if (-projection::climb(piece, best, step, 2, bend) * s.size() > flat) continue;
     const geometry::SurfaceJet j = s.jet(p, best);
-    const bool known = std::any_of(report.flat.begin(), report.flat.end(), [&](const FlatPlace& f) {
-      return (f.at - j.r).norm() < 1e-3 * s.size();
-    });
+    const bool known = std::any_of(
+        report.flat.begin(), report.flat.end(),
+        [&](const result::FlatPlace& f) { return (f.at - j.r).norm() < 1e-3 * s.size(); });
     if (known || report.flat.size() >= most) continue;
     const geometry::FlatPoint point = flat_point(j, surface_frame(j), s.size(), flat);
     report.flat.push_back({j.r, std::string(name(point.form))});
@@ -208,7 +212,7 @@ DomainReport survey(const projection::Target<Dim>& target, const DomainOptions& 
   if (smooth_parts == 1)
     even.assign(even.size(), {r.below.curvature.value, r.above.curvature.value});
   const double length = options.length > 0 ? options.length : s.size();
-  report.picture = draw_domain(s, {kink, length, options.cells}, even);
+  report.picture = result::draw_domain(s, {kink, length, options.cells}, even);
   return report;
 }
 

@@ -11,14 +11,6 @@
 #include <optional>
 
 #include "osculate/api/budget.hpp"
-#include "osculate/api/checkpoint.hpp"
-#include "osculate/api/field_files.hpp"
-#include "osculate/api/increment_text.hpp"
-#include "osculate/api/penetration.hpp"
-#include "osculate/api/report_data.hpp"
-#include "osculate/api/result_folder.hpp"
-#include "osculate/api/summary.hpp"
-#include "osculate/api/watch.hpp"
 #include "osculate/core/memory.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/deck/parse.hpp"
@@ -27,6 +19,14 @@
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/diagnosis.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
+#include "osculate/result/checkpoint.hpp"
+#include "osculate/result/field_files.hpp"
+#include "osculate/result/increment_text.hpp"
+#include "osculate/result/penetration.hpp"
+#include "osculate/result/report_data.hpp"
+#include "osculate/result/result_folder.hpp"
+#include "osculate/result/summary.hpp"
+#include "osculate/result/watch.hpp"
 
 namespace osculate::api {
 namespace {
@@ -56,12 +56,12 @@ struct Recorder {
   const nlohmann::json& owner;  ///< whose results these are
   std::string folder;
   std::optional<io::HistoryWriter> history;
-  FieldFiles<Dim> fields;
-  ReportCollector<Dim> report;
+  result::FieldFiles<Dim> fields;
+  result::ReportCollector<Dim> report;
   io::AppendFile log;
-  std::optional<CheckpointWriter<Dim>> checkpoints;
-  JournalEntry entry{};     ///< of the increment that has just converged
-  std::string write_error;  ///< why the run had to stop, if a file could not be written
+  std::optional<result::CheckpointWriter<Dim>> checkpoints;
+  result::JournalEntry entry{};  ///< of the increment that has just converged
+  std::string write_error;       ///< why the run had to stop, if a file could not be written
   bool stopping = false;
   Budget budget;
   double resumed = 0;       ///< share of the work that was done before this run
@@ -72,8 +72,8 @@ struct Recorder {
   double seconds = 0;                    ///< spent here
   std::vector<double> curvature_shares;  ///< one per converged increment
   std::vector<nlohmann::json> notes;     ///< one per converged increment
-  PointStates states = point_states(built.model);
-  Watch<Dim> watch{built.model};
+  result::PointStates states = result::point_states(built.model);
+  result::Watch<Dim> watch{built.model};
   std::vector<std::string> warned;  ///< of contact in the last increment
 
   Recorder(const RunOptions& o, const deck::Description& d, const deck::BasicBuilt<Dim>& b,
@@ -92,12 +92,12 @@ struct Recorder {
 
   /// Everything as it was when the checkpoint was written. Here the files of the earlier run are
   /// cut, and not before: the analysis stands where it goes on from.
-  void resume(const Checkpoint<Dim>& from, const model::BasicSystem<Dim>& system,
+  void resume(const result::Checkpoint<Dim>& from, const model::BasicSystem<Dim>& system,
               const model::BasicState<Dim>& state) {
-    claim_folder(folder, owner);
+    result::claim_folder(folder, owner);
     std::vector<io::PvdEntry> files;
     std::vector<io::HistoryRow> rows;
-    for (const JournalEntry& e : from.entries) {
+    for (const result::JournalEntry& e : from.entries) {
       rows.push_back(row_of(e.progress, e.row));
       report_row(e.progress, e.row);
       if (!e.frame.empty()) report.add_frame(nlohmann::json::from_cbor(e.frame));
@@ -246,13 +246,13 @@ struct Recorder {
     nlohmann::json list = nlohmann::json::array();
     watch.deepest.resize(built.model.pairs.size());
     for (std::size_t p = 0; p < watch.deepest.size(); ++p)
-      list.push_back(penetration_json(built.model.pairs[p], watch.deepest[p]));
+      list.push_back(result::penetration_json(built.model.pairs[p], watch.deepest[p]));
     return list;
   }
 
   void report_memory(const model::BasicSystem<Dim>& system) {
     const bool unsymmetric = system.symmetry() == la::Symmetry::unsymmetric;
-    const std::string notice = memory_need(built.model, unsymmetric).notice();
+    const std::string notice = result::memory_need(built.model, unsymmetric).notice();
     if (!notice.empty()) say(notice);
   }
 
@@ -290,13 +290,14 @@ struct Recorder {
   /// What a dropped attempt did, for log.txt only.
   void log_iterations(const std::vector<solve::IterationRecord>& records) {
     int number = 0;
-    for (const solve::IterationRecord& it : records) log_line(iteration_text(++number, it, states));
+    for (const solve::IterationRecord& it : records)
+      log_line(result::iteration_text(++number, it, states));
   }
 
   /// An increment of explicit time integration.
   void report_time_steps(const model::Progress& p, const solve::IncrementRecord& record) {
     const solve::TimeSteps& steps = record.time_steps;
-    const std::string line = time_steps_text(step_name(p), p, record, states);
+    const std::string line = result::time_steps_text(step_name(p), p, record, states);
     log_line(line);
     show_progress(p, line);
     time_steps += steps.count;
@@ -306,26 +307,10 @@ struct Recorder {
     governed_by = steps.governed;
   }
 
-  /// Steps whose time steps were chosen by their errors.
-  void report_chosen(const std::vector<model::StepRecord>& steps) {
-    for (std::size_t s = 0; s < steps.size(); ++s) {
-      const ChosenTimeSteps chosen = chosen_time_steps(steps[s]);
-      if (chosen.count == 0) continue;
-      say(fmt::format("step '{}': {} time steps from {:.3g} to {:.3g}, {} refused", steps[s].name,
-                      chosen.count, chosen.smallest, chosen.largest, chosen.refused));
-      const double wanted = built.model.steps[s].dynamics->time_steps->error;
-      if (chosen.largest_error > 2 * wanted)
-        say(
-            fmt::format("warning: step '{}': errors up to {:.2g} instead of {:g}, in time steps of "
-                        "the smallest length that is allowed",
-                        steps[s].name, chosen.largest_error, wanted));
-    }
-  }
-
   void report_increment(const model::Progress& p, const solve::IncrementRecord& record) {
     if (record.time_steps.count > 0) return report_time_steps(p, record);
     iterations += static_cast<int>(record.iterations.size()) + record.wasted_iterations;
-    const std::string line = increment_text(step_name(p), p, record, states);
+    const std::string line = result::increment_text(step_name(p), p, record, states);
     log_line(line);
     show_progress(p, line);
   }
@@ -333,11 +318,11 @@ struct Recorder {
 
 template <int Dim>
 void write_results(Recorder<Dim>& recorder, const nlohmann::json& summary) {
-  write_text(recorder.folder + "/summary.json", json_text(summary, 1) + "\n");
+  result::write_text(recorder.folder + "/summary.json", result::json_text(summary, 1) + "\n");
   if (!recorder.description.output.report) return;
   const std::string data = recorder.report.json(summary);
-  write_text(recorder.folder + "/report.json", data);
-  write_text(recorder.folder + "/report.html", io::report_html(data));
+  result::write_text(recorder.folder + "/report.json", data);
+  result::write_text(recorder.folder + "/report.html", io::report_html(data));
 }
 
 template <int Dim>
@@ -352,9 +337,9 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
                         : recorder.write_error + "; what was written before is kept";
   if (result.outcome == solve::Outcome::stopped && !recorder.budget.used_up().empty())
     outcome.message = recorder.budget.used_up() + "; everything that converged is kept";
-  nlohmann::json summary =
-      summary_json(recorder.owner.at("model"), result, done ? "done" : "stopped",
-                   {seconds_input, recorder.seconds}, recorder.curvature_shares, recorder.notes);
+  nlohmann::json summary = result::summary_json(
+      recorder.owner.at("model"), result, done ? "done" : "stopped",
+      {seconds_input, recorder.seconds}, recorder.curvature_shares, recorder.notes);
   for (const deck::Setting& parameter : recorder.description.parameters)
     summary["parameters"][parameter.name] = parameter.value;
   summary["contact"] = recorder.penetration_reached();
@@ -364,16 +349,16 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
   const bool free_to_move =
       result.failure && result.failure->cause == model::FailureCause::free_motion;
   recorder.say_all(recorder.watch.end(all || free_to_move));
-  recorder.report_chosen(result.steps);
+  recorder.say_all(result::chosen_time_steps_text(result.steps, steps));
   summary["message"] = outcome.message;
   summary.update(recorder.owner);
-  if (result.failure) summary["diagnosis"] = diagnosis_json(recorder.built.model, result);
+  if (result.failure) summary["diagnosis"] = result::diagnosis_json(recorder.built.model, result);
   try {
     write_results(recorder, summary);
   } catch (const io::WriteError& error) {
     if (recorder.write_error.empty()) throw;  // otherwise it has been said already
   }
-  outcome.summary_json = json_text(summary, 1);
+  outcome.summary_json = result::json_text(summary, 1);
   const std::string work = recorder.time_steps > 0 && recorder.iterations == 0
                                ? fmt::format("{} time steps", recorder.time_steps)
                                : fmt::format("{} iterations", recorder.iterations);
@@ -424,15 +409,15 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
 
 /// What a run says and writes at its beginning.
 template <int Dim>
-void introduce(Recorder<Dim>& recorder, const RunIdentity& id) {
-  for (const ModelFact& fact : model_facts(recorder.built))
+void introduce(Recorder<Dim>& recorder, const result::RunIdentity& id) {
+  for (const result::ModelFact& fact : result::model_facts(recorder.built))
     recorder.say(fmt::format("{:<13} {:<16} {}", fact.heading, fact.name, fact.text));
   for (const std::string& warning : recorder.built.warnings) recorder.say("warning: " + warning);
   if (recorder.description.output.checkpoint > 0) recorder.checkpoints.emplace(recorder.folder, id);
 }
 
 template <int Dim>
-void introduce_restart(Recorder<Dim>& recorder, const Checkpoint<Dim>& from) {
+void introduce_restart(Recorder<Dim>& recorder, const result::Checkpoint<Dim>& from) {
   if (!from.warning.empty()) recorder.say("warning: " + from.warning);
   if (!from.note.empty()) recorder.say(from.note);
   recorder.resumed = recorder.done(from.point.progress);
@@ -448,13 +433,13 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
   built.options.threads = options.threads;
   built.options.until = options.until;
   check_until(options.until, built.model.steps);
-  const std::string folder = choose_folder(options.model, options.folder);
-  const FolderLock lock(folder, !options.restart);
-  const RunIdentity id = identity(description, built.model.mesh, built.history);
-  std::optional<Checkpoint<Dim>> from;
-  if (options.restart) from = read_checkpoint<Dim>(folder, id, built.model, options.model);
-  if (!from) claim_folder(folder, owner);
-  open_folder(folder, options.restart);
+  const std::string folder = result::choose_folder(options.model, options.folder);
+  const result::FolderLock lock(folder, !options.restart);
+  const result::RunIdentity id = result::identity(description, built.model.mesh, built.history);
+  std::optional<result::Checkpoint<Dim>> from;
+  if (options.restart) from = result::read_checkpoint<Dim>(folder, id, built.model, options.model);
+  if (!from) result::claim_folder(folder, owner);
+  result::open_folder(folder, options.restart);
   const double seconds_input = seconds_since(start);
   Recorder<Dim> recorder(options, description, built, owner, folder,
                          {options.max_iterations, options.max_minutes, start});
@@ -486,7 +471,7 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
 
 RunOutcome run(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
-  const nlohmann::json owner = owner_json(options.model);
+  const nlohmann::json owner = result::owner_json(options.model);
   const deck::Description description = deck::read_model(options.model, options.settings);
   deck::AnyBuilt any = deck::build_any(description, deck::load_mesh(description));
   return std::visit(
@@ -494,7 +479,8 @@ RunOutcome run(const RunOptions& options) {
 }
 
 void rewrite_report(const std::string& folder) {
-  write_text(folder + "/report.html", io::report_html(read_text(folder + "/report.json")));
+  result::write_text(folder + "/report.html",
+                     io::report_html(result::read_text(folder + "/report.json")));
 }
 
 }  // namespace osculate::api

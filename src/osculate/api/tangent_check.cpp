@@ -9,12 +9,12 @@
 #include <optional>
 #include <random>
 
-#include "osculate/api/checkpoint.hpp"
-#include "osculate/api/result_folder.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/deck/build.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/pairing/point_penalty.hpp"
+#include "osculate/result/checkpoint.hpp"
+#include "osculate/result/result_folder.hpp"
 
 namespace osculate::api {
 namespace {
@@ -231,7 +231,7 @@ TangentReport check_probe(Probe<Dim>& probe, const model::BasicModel<Dim>& m) {
   only({Term::bulk, Term::contact, Term::pressure, Term::rigid});
   add("all", true);
   report.counts = probe.at(probe.base, false).counts;
-  report.states = point_states(m);
+  report.states = result::point_states(m);
   return report;
 }
 
@@ -258,7 +258,7 @@ struct Increment {
 /// one.
 template <int Dim>
 Increment<Dim> run_to(const deck::BasicBuilt<Dim>& built, int wanted,
-                      const std::optional<Checkpoint<Dim>>& from) {
+                      const std::optional<result::Checkpoint<Dim>>& from) {
   Increment<Dim> found;
   found.number = from ? from->increments() : -1;
   if (from) found.end.state = from->point.state;
@@ -283,13 +283,15 @@ Increment<Dim> run_to(const deck::BasicBuilt<Dim>& built, int wanted,
 
 /// A checkpoint before the increment, if the folder has one of this model.
 template <int Dim>
-std::optional<Checkpoint<Dim>> checkpoint_before(const deck::BasicBuilt<Dim>& built,
-                                                 const RunIdentity& id, const std::string& model,
-                                                 const std::string& folder, int wanted) {
+std::optional<result::Checkpoint<Dim>> checkpoint_before(const deck::BasicBuilt<Dim>& built,
+                                                         const result::RunIdentity& id,
+                                                         const std::string& model,
+                                                         const std::string& folder, int wanted) {
   for (const bool last : {true, false}) {
     try {
-      Checkpoint<Dim> found = read_checkpoint<Dim>(
-          folder, id, built.model, model, last ? WhichCheckpoint::last : WhichCheckpoint::previous);
+      result::Checkpoint<Dim> found = result::read_checkpoint<Dim>(
+          folder, id, built.model, model,
+          last ? result::WhichCheckpoint::last : result::WhichCheckpoint::previous);
       if (found.increments() < wanted) return found;
     } catch (const core::InputError&) {  // none that helps: the run starts earlier
     }
@@ -298,7 +300,7 @@ std::optional<Checkpoint<Dim>> checkpoint_before(const deck::BasicBuilt<Dim>& bu
 }
 
 template <int Dim>
-TangentReport check_increment(deck::BasicBuilt<Dim>& built, const RunIdentity& id,
+TangentReport check_increment(deck::BasicBuilt<Dim>& built, const result::RunIdentity& id,
                               const std::string& model, int threads, int wanted,
                               const std::string& folder) {
   constexpr double off_the_borders = 1e-6;
@@ -342,14 +344,15 @@ TangentReport check_tangent(const std::string& path, int threads, int state,
     return std::visit([&](const auto& built) { return check_tangent(built.model, threads); }, any);
   return std::visit(
       [&](auto& built) {
-        const RunIdentity id = identity(description, built.model.mesh, built.history);
+        const result::RunIdentity id =
+            result::identity(description, built.model.mesh, built.history);
         return check_increment(built, id, path, threads, state, folder);
       },
       any);
 }
 
 std::string to_text(const TangentReport& report) {
-  const std::string counts = counts_text(report.counts, report.states);
+  const std::string counts = result::counts_text(report.counts, report.states);
   std::string text = fmt::format("contact points: {}\n", counts.empty() ? "none" : counts);
   text += fmt::format("{:<10} {:>12} {:>8}\n", "part", "error", "order");
   for (const TangentRow& row : report.rows) {
@@ -374,12 +377,12 @@ std::string to_json(const TangentReport& report) {
          {"skipped", row.skipped},
          {"pass", row.passed()},
          {"note", row.note}});
-  return json_text({{"open", report.counts.open},
-                    {"stick", report.counts.stick},
-                    {"slipping", report.counts.slipping},
-                    {"closed", report.counts.closed},
-                    {"rows", rows}},
-                   1);
+  return result::json_text({{"open", report.counts.open},
+                            {"stick", report.counts.stick},
+                            {"slipping", report.counts.slipping},
+                            {"closed", report.counts.closed},
+                            {"rows", rows}},
+                           1);
 }
 
 }  // namespace osculate::api

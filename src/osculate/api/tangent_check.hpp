@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "osculate/api/increment_text.hpp"
 #include "osculate/deck/parameters.hpp"
 #include "osculate/model/model.hpp"
+#include "osculate/result/increment_text.hpp"
 
 namespace osculate::api {
 
@@ -23,8 +23,8 @@ struct TangentRow {
 
 struct TangentReport {
   std::vector<TangentRow> rows;
-  solve::StateCounts counts;  ///< states at which the check was made
-  PointStates states;         ///< those that there can be
+  solve::StateCounts counts;   ///< states at which the check was made
+  result::PointStates states;  ///< those that there can be
 };
 
 /// Checks the assembled tangent of a model by convergence order, part by part, near its initial

@@ -15,13 +15,16 @@
 namespace osculate::api {
 namespace {
 
+using result::DomainPart;
+using result::DomainReport;
+
 deck::AnyTarget cube() { return projection::Target<3>(testing::box(Vec3(1, 1, 1))); }
 
 deck::AnyTarget roof() {
   return projection::Target<2>(testing::polyline({Vec2(0, 0), Vec2(1, 1), Vec2(2, 0)}));
 }
 
-int cells_of_part(const DomainPicture& picture, DomainPart part) {
+int cells_of_part(const result::DomainPicture& picture, DomainPart part) {
   int count = 0;
   for (const auto& parts : picture.parts)
     count += static_cast<int>(std::count(parts.begin(), parts.end(), part));

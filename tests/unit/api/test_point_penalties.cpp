@@ -2,9 +2,9 @@
 #include <nlohmann/json.hpp>
 
 #include "../deck/graded.hpp"
-#include "osculate/api/penetration.hpp"
-#include "osculate/api/summary.hpp"
 #include "osculate/api/tangent_check.hpp"
+#include "osculate/result/penetration.hpp"
+#include "osculate/result/summary.hpp"
 
 namespace osculate::api {
 namespace {
@@ -39,12 +39,12 @@ TEST(PointPenaltiesOfAModel, HaveExactTangents) {
 }
 
 /// Runs to the end and measures every increment.
-Penetration reached(const deck::Built& built) {
-  Penetration found;
+result::Penetration reached(const deck::Built& built) {
+  result::Penetration found;
   model::AnalysisObserver observer;
   observer.converged = [&](model::System& system, const model::State&, const model::Progress&,
                            const solve::IncrementRecord* record) {
-    if (record) measure_penetration(built.model.pairs[0], system.contact()[0], found);
+    if (record) result::measure_penetration(built.model.pairs[0], system.contact()[0], found);
     return true;
   };
   const model::AnalysisResult result = model::run(built.model, built.options, observer);
@@ -56,15 +56,15 @@ Penetration reached(const deck::Built& built) {
 /// penalty would do.
 TEST(Penetration, IsHeldAgainstTheCellsBehindEachPoint) {
   deck::Built built = deck::build_graded({});
-  EXPECT_EQ(missed_target(built.model, built.model.pairs[0], reached(built)), "");
+  EXPECT_EQ(result::missed_target(built.model, built.model.pairs[0], reached(built)), "");
   model::ContactPair& pair = built.model.pairs[0];
   pair.definition.relative_stiffness.clear();
   pair.automatic = false;  // or it would follow the pressure
-  const Penetration soft = reached(built);
+  const result::Penetration soft = reached(built);
   EXPECT_GT(soft.share, model::penetration_target);
   const double x = built.model.reference[static_cast<std::size_t>(soft.node)].x();
   EXPECT_GT(x, 7.7);
-  const std::string message = missed_target(built.model, pair, soft);
+  const std::string message = result::missed_target(built.model, pair, soft);
   EXPECT_NE(message.find("warning: contact 'c': penetration up to"), std::string::npos) << message;
   EXPECT_NE(message.find(fmt::format(" at {}", mesh::describe_node(built.model.mesh, soft.node))),
             std::string::npos)
@@ -83,17 +83,17 @@ TEST(Penetration, WithoutCellsIsALength) {
   contact.points[0].gap = -0.1;  // open: not in contact
   contact.points[1].gap = -0.02;
   contact.points[1].status = contact::Status::slip;
-  Penetration found;
-  measure_penetration(pair, contact, found);
+  result::Penetration found;
+  result::measure_penetration(pair, contact, found);
   EXPECT_EQ(found.deepest, 0.02);
   EXPECT_EQ(found.share, 0);
-  EXPECT_EQ(missed_target(model::Model{}, pair, found), "");
+  EXPECT_EQ(result::missed_target(model::Model{}, pair, found), "");
   pair.height = 0.5;
-  measure_penetration(pair, contact, found);
+  result::measure_penetration(pair, contact, found);
   EXPECT_DOUBLE_EQ(found.share, 0.04);
   EXPECT_DOUBLE_EQ(found.needed, 20);
   pair.name = "c";
-  EXPECT_EQ(missed_target(model::Model{}, pair, found),
+  EXPECT_EQ(result::missed_target(model::Model{}, pair, found),
             "warning: contact 'c': penetration up to 0.02, 0.04 of the height of the cells behind "
             "it (target 0.01); a penalty of 20 would reach the target");
 }
@@ -101,7 +101,7 @@ TEST(Penetration, WithoutCellsIsALength) {
 TEST(PointPenaltiesOfAModel, AreReported) {
   const deck::Built built = deck::build_graded({.keys = ", friction: {coulomb: {mu: 0.3}}"});
   const auto& d = built.model.pairs[0].definition;
-  const nlohmann::json json = penalty_json(d);
+  const nlohmann::json json = result::penalty_json(d);
   const auto& points = json.at("penalty_of_points");
   EXPECT_EQ(json.at("penalty"), contact::penalty_of(d.normal));
   EXPECT_LT(points.at("smallest").get<double>(), 0.2 * points.at("mean").get<double>());
@@ -109,12 +109,12 @@ TEST(PointPenaltiesOfAModel, AreReported) {
   EXPECT_NEAR(json.at("shear_penalty_of_points").at("largest").get<double>() * 2.5,
               points.at("largest").get<double>(), 1e-9 * points.at("largest").get<double>());
   std::string text;
-  for (const ModelFact& fact : model_facts(built))
+  for (const result::ModelFact& fact : result::model_facts(built))
     if (fact.name == "c") text = fact.text;
   EXPECT_NE(text.find("(automatic), of its points "), std::string::npos) << text;
   EXPECT_NE(text.find(", of their friction "), std::string::npos) << text;
   const deck::Built even = deck::build_graded({.least = 1});
-  for (const ModelFact& fact : model_facts(even))
+  for (const result::ModelFact& fact : result::model_facts(even))
     EXPECT_EQ(fact.text.find("of its points"), std::string::npos) << fact.text;
 }
 

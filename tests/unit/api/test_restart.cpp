@@ -10,10 +10,10 @@
 #include <stdexcept>
 #include <thread>
 
-#include "osculate/api/checkpoint.hpp"
 #include "osculate/api/run.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/io/csv.hpp"
+#include "osculate/result/checkpoint.hpp"
 
 namespace osculate::api {
 namespace {
@@ -344,14 +344,14 @@ TEST_F(Restart, OnAnotherProcessorItSaysThatLastBitsMayDiffer) {
   const auto& built = std::get<deck::Built>(any);
   model::System system(built.model, 1);
   const model::State state = system.initial_state();
-  const RunIdentity here = identity(description, built.model.mesh, built.history);
+  const result::RunIdentity here = result::identity(description, built.model.mesh, built.history);
   const auto note_of = [&](const std::string& processor) {
-    RunIdentity there = here;
+    result::RunIdentity there = here;
     there.processor = processor;
-    CheckpointWriter<2> writer(out, there);
+    result::CheckpointWriter<2> writer(out, there);
     writer.add({}, {});
     writer.save(state, {}, {}, {}, {});
-    return read_checkpoint<2>(out, here, built.model, path).note;
+    return result::read_checkpoint<2>(out, here, built.model, path).note;
   };
   EXPECT_EQ(note_of(here.processor), "");
   EXPECT_NE(note_of("Abacus 3").find("(Abacus 3; this is " + here.processor + "): last bits may"),

@@ -1,0 +1,66 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "osculate/deck/build.hpp"
+#include "osculate/io/vtk.hpp"
+#include "osculate/result/result_folder.hpp"
+#include "osculate/result/rigid_pictures.hpp"
+
+namespace osculate::result {
+
+/// Cells with a section as one data set.
+struct BodyCells {
+  std::vector<mesh::Block> blocks;
+  std::vector<io::Field> fields;    ///< Body, Material, Section (from 1), CellNumber
+  std::vector<io::NameList> names;  ///< Bodies (all, also rigid), Materials, Sections
+  std::size_t deformable = 0;       ///< so many of the bodies
+};
+template <int Dim>
+[[nodiscard]] BodyCells body_cells(const model::BasicModel<Dim>& model);
+
+/// results.pvd with one VTU for the bodies, one for the rigid ones and one per contact pair and
+/// frame; on request the contact points as a table beside it. Tensors have four components in the
+/// plane (XX YY ZZ XY), six in space (and YZ XZ).
+///
+/// Tested by  tests/unit/result/test_field_files.cpp
+template <int Dim>
+class FieldFiles {
+ public:
+  FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& built, const deck::Output& output);
+  void write(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+             double time);
+  /// The last iterate of a failed increment, as last_iterate.vtu: displacements, `flips` (changes
+  /// of the contact state at a slave node in the last iterations), and every free rigid motion as a
+  /// vector field `free_motion_1`, ...
+  void write_last_iterate(const model::BasicState<Dim>& state,
+                          const model::BasicFailure<Dim>& failure);
+  [[nodiscard]] const std::vector<io::PvdEntry>& written() const { return entries_; }
+  [[nodiscard]] const std::vector<bool>& touched() const { return touched_; }
+  /// Goes on after these files, of so many frames; removes what was written of later ones.
+  void resume(std::vector<io::PvdEntry> written, std::vector<bool> touched);
+
+ private:
+  void write_contact(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+                     std::size_t pair, const std::string& stem);
+  void write_rigid(const model::BasicState<Dim>& state, const std::string& file);
+
+  /// The path of a file that is about to be written, which is put on the list.
+  [[nodiscard]] std::string listed(const std::string& name);
+
+  std::string folder_;
+  FieldList list_;
+  const deck::BasicBuilt<Dim>& built_;
+  bool compress_, tables_;
+  int frame_ = 0;
+  std::vector<io::PvdEntry> entries_;
+  std::optional<io::PvdFile> pvd_;  ///< from the first frame on
+  BodyCells bodies_;
+  std::conditional_t<Dim == 2, RigidLines, RigidFaces> rigid_;
+  io::Field node_numbers_;
+  std::vector<bool> touched_;  ///< per pair: it is written from its first contact on
+};
+
+}  // namespace osculate::result

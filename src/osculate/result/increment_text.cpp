@@ -1,0 +1,77 @@
+#include "osculate/result/increment_text.hpp"
+
+#include <fmt/format.h>
+
+namespace osculate::result {
+namespace {
+
+std::string time_step_text(const solve::TimeStepTaken& taken) {
+  if (!(taken.length > 0)) return {};
+  return fmt::format("  step {:.3g} error {:.1e}{}", taken.length, taken.error,
+                     taken.refused ? fmt::format(" ({} refused)", taken.refused) : "");
+}
+
+/// Digits that were lost.
+std::string precision_text(const solve::Precision& precision) {
+  return (precision.condition > 0
+              ? fmt::format("  (condition of the tangent {:.0e})", precision.condition)
+              : std::string{}) +
+         (precision.round_off ? "  (residual at round-off)" : "");
+}
+
+/// The states after a gap, if there is something to tell.
+std::string counts_column(const char* gap, const solve::StateCounts& counts, PointStates states) {
+  const std::string text = counts_text(counts, states);
+  return text.empty() ? text : gap + text;
+}
+
+}  // namespace
+
+template <int Dim>
+PointStates point_states(const model::BasicModel<Dim>& model) {
+  PointStates states;
+  for (const model::BasicContactPair<Dim>& pair : model.pairs)
+    (model::holds_along(pair.definition) ? states.hold : states.close) = true;
+  return states;
+}
+
+std::string counts_text(const solve::StateCounts& counts, PointStates states) {
+  if (!states.hold && !states.close) return {};
+  return fmt::format("open {}", counts.open) +
+         (states.hold ? fmt::format(" stick {} slipping {}", counts.stick, counts.slipping)
+                      : std::string{}) +
+         (states.close ? fmt::format(" closed {}", counts.closed) : std::string{});
+}
+
+std::string increment_text(const std::string& step, const model::Progress& p,
+                           const solve::IncrementRecord& record, PointStates states) {
+  const solve::IterationRecord& last = record.iterations.back();
+  return fmt::format(
+      "{:<12} {:>4}  time {:<9.5g} {:>3} iterations  residual {:.1e}  energy {:.1e}{}{}", step,
+      p.increment, p.time, record.iterations.size(), last.residual, last.energy,
+      counts_column("  ", last.counts, states),
+      (record.cutbacks ? fmt::format("  ({} cut-backs)", record.cutbacks) : std::string{}) +
+          (record.resisted ? "  (free motions resisted on the way)" : "") +
+          (record.on_path ? "  (on the path)" : "") + precision_text(record.precision) +
+          time_step_text(record.time_step));
+}
+
+std::string time_steps_text(const std::string& step, const model::Progress& p,
+                            const solve::IncrementRecord& record, PointStates states) {
+  const solve::TimeSteps& steps = record.time_steps;
+  return fmt::format("{:<12} {:>4}  time {:<9.5g} {:>6} time steps of {:.3g}{}", step, p.increment,
+                     p.time, steps.count, steps.longest,
+                     counts_column("  ", record.iterations.back().counts, states));
+}
+
+std::string iteration_text(int number, const solve::IterationRecord& iteration,
+                           PointStates states) {
+  return fmt::format("  iteration {:>2}: residual {:.1e} energy {:.1e} step {:.3g}{}", number,
+                     iteration.residual, iteration.energy, iteration.step,
+                     counts_column(" ", iteration.counts, states));
+}
+
+template PointStates point_states(const model::Model&);
+template PointStates point_states(const model::Model3&);
+
+}  // namespace osculate::result
