@@ -4,24 +4,8 @@
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/description.hpp"
-#include "osculate/deck/params.hpp"
-#include "osculate/material/law.hpp"
 
 namespace osculate::deck {
-namespace {
-
-/// Keys of the materials that are such, one after the other.
-template <class Is>
-std::string keys_of(const Is& is) {
-  std::vector<std::string> keys;
-  material::for_each_law([&](const auto& law) {
-    if (is(law)) keys.emplace_back(law.key);
-  });
-  return core::join(keys);
-}
-
-}  // namespace
-
 Spec point_spec(std::string doc) {
   return list(std::move(doc), number("One coordinate.").in("length")).count(2, 2).such_as("[0, 1]");
 }
@@ -73,25 +57,6 @@ Spec sets_spec() {
       .such_as("{sides: {union: [left, right]}, rest: {of: top, without: rim}}");
 }
 
-Spec materials_spec() {
-  std::vector<Key> laws;
-  std::vector<std::string> keys;
-  material::for_each_law([&]<class T>(const T&) {
-    keys.emplace_back(T::key);
-    laws.push_back(optional(keys.back(), params_spec<T>(std::string(T::doc))));
-  });
-  const Spec law = map("A material: exactly one law.", std::move(laws))
-                       .with(Group::Rule::exactly_one, keys)
-                       .or_else(fmt::format("; a material is NAME: {{LAW: {{E: ..., nu: ...}}}} "
-                                            "with one of the laws {}; others are "
-                                            "not available (osculate doc limits)",
-                                            fmt::join(keys, ", ")))
-                       .such_as("{linear_elastic: {E: 2.1e5, nu: 0.3}}");
-  return names("The materials, by name.", law)
-      .otherwise("{}")
-      .such_as("{steel: {linear_elastic: {E: 2.1e5, nu: 0.3}}}");
-}
-
 Spec sections_spec() {
   const Spec element =
       choice(
@@ -113,7 +78,7 @@ Spec sections_spec() {
       choice("How strains are measured.",
              {word("small", Kinematics::small, "linear in the displacements"),
               word("finite", Kinematics::finite, "exact for any displacement and rotation")})
-          .otherwise_as("small for " + keys_of([](const auto& law) { return !law.finite_strain; }) +
+          .otherwise_as("small for " + small_strain_materials() +
                         ", finite for the other materials")
           .such_as("finite");
   const Spec formulation =
@@ -123,7 +88,7 @@ Spec sections_spec() {
           {word("auto", Formulation::automatic,
                 "enhanced; of neo_hooke, where enhanced strains are unstable in large compression, "
                 "and of " +
-                    keys_of([]<class T>(const T&) { return material::Remembers<T>; }) +
+                    remembering_materials() +
                     ", where they hardly converge without hardening, bbar, in plane stress full"),
            word("full", Formulation::full,
                 "plain displacement element, full integration: too stiff in bending and near "

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "osculate/core/text.hpp"
-#include "osculate/deck/params.hpp"
 #include "osculate/deck/parse_parts.hpp"
 
 namespace osculate::deck {
@@ -64,28 +63,6 @@ std::string kind_of(const Value& v) {
 }
 
 }  // namespace
-
-std::vector<Material> parse_materials(const Value& v) {
-  std::vector<Material> out;
-  for (const ValueEntry& entry : v.entries) {
-    material::for_each_law([&]<class T>(const T&) {
-      const Value* const constants = entry.value.find(T::key);
-      if (!constants) return;
-      Material& m = out.emplace_back();
-      m.name = {entry.key, entry.key_mark};
-      m.law = {params_of<T>(*constants), constants->mark};
-      for (const core::Param<T>& p : T::params())
-        if (const Value* const value = value_of(*constants, p))
-          m.marks.emplace_back(p.key, value->mark);
-      constexpr double nearest = 1e-10;  // leaves six digits for the shape
-      if (0.5 - material::unloaded(m.law.value).poisson < nearest)
-        throw core::InputError(m.mark("nu"),
-                               "is so near to 0.5 that the resistance to changes of volume leaves "
-                               "no digits for anything else: use at most 0.4999999999");
-    });
-  }
-  return out;
-}
 
 std::vector<Section> parse_sections(const Value& v, const std::vector<Material>& materials) {
   std::vector<Section> out;

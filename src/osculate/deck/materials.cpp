@@ -1,0 +1,74 @@
+// The materials of the catalogue as keys of the model file: the one source of this layer that knows
+// which materials there are.
+#include <fmt/format.h>
+
+#include "osculate/core/text.hpp"
+#include "osculate/deck/model_spec.hpp"
+#include "osculate/deck/params.hpp"
+#include "osculate/deck/parse_parts.hpp"
+#include "osculate/material/law.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// Keys of the materials that are such, one after the other.
+template <class Is>
+std::string keys_of(const Is& is) {
+  std::vector<std::string> keys;
+  material::for_each_law([&](const auto& law) {
+    if (is(law)) keys.emplace_back(law.key);
+  });
+  return core::join(keys);
+}
+
+}  // namespace
+
+Spec materials_spec() {
+  std::vector<Key> laws;
+  std::vector<std::string> keys;
+  material::for_each_law([&]<class T>(const T&) {
+    keys.emplace_back(T::key);
+    laws.push_back(optional(keys.back(), params_spec<T>(std::string(T::doc))));
+  });
+  const Spec law = map("A material: exactly one law.", std::move(laws))
+                       .with(Group::Rule::exactly_one, keys)
+                       .or_else(fmt::format("; a material is NAME: {{LAW: {{E: ..., nu: ...}}}} "
+                                            "with one of the laws {}; others are "
+                                            "not available (osculate doc limits)",
+                                            fmt::join(keys, ", ")))
+                       .such_as("{linear_elastic: {E: 2.1e5, nu: 0.3}}");
+  return names("The materials, by name.", law)
+      .otherwise("{}")
+      .such_as("{steel: {linear_elastic: {E: 2.1e5, nu: 0.3}}}");
+}
+
+std::string small_strain_materials() {
+  return keys_of([](const auto& law) { return !law.finite_strain; });
+}
+std::string remembering_materials() {
+  return keys_of([]<class T>(const T&) { return material::Remembers<T>; });
+}
+
+std::vector<Material> parse_materials(const Value& v) {
+  std::vector<Material> out;
+  for (const ValueEntry& entry : v.entries) {
+    material::for_each_law([&]<class T>(const T&) {
+      const Value* const constants = entry.value.find(T::key);
+      if (!constants) return;
+      Material& m = out.emplace_back();
+      m.name = {entry.key, entry.key_mark};
+      m.law = {params_of<T>(*constants), constants->mark};
+      for (const core::Param<T>& p : T::params())
+        if (const Value* const value = value_of(*constants, p))
+          m.marks.emplace_back(p.key, value->mark);
+      constexpr double nearest = 1e-10;  // leaves six digits for the shape
+      if (0.5 - material::unloaded(m.law.value).poisson < nearest)
+        throw core::InputError(m.mark("nu"),
+                               "is so near to 0.5 that the resistance to changes of volume leaves "
+                               "no digits for anything else: use at most 0.4999999999");
+    });
+  }
+  return out;
+}
+
+}  // namespace osculate::deck
