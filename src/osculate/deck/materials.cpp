@@ -2,6 +2,8 @@
 // which materials there are.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "osculate/core/text.hpp"
 #include "osculate/deck/model_spec.hpp"
 #include "osculate/deck/params.hpp"
@@ -47,6 +49,24 @@ std::string small_strain_materials() {
 }
 std::string remembering_materials() {
   return keys_of([]<class T>(const T&) { return material::Remembers<T>; });
+}
+
+std::vector<RememberedNumber> remembered_numbers() {
+  std::vector<RememberedNumber> numbers;
+  material::for_each_law([&]<class T>(const T&) {
+    if constexpr (material::Remembers<T>)
+      for (const material::Remembered& of : T::memory) {
+        const auto known = std::ranges::find(numbers, of.name, &RememberedNumber::name);
+        if (known != numbers.end()) {
+          known->materials += fmt::format(", {}", T::key);
+          continue;
+        }
+        std::string word(of.name);
+        for (char& c : word) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        numbers.push_back({std::move(word), of.name, of.doc, std::string(T::key)});
+      }
+  });
+  return numbers;
 }
 
 std::vector<Material> parse_materials(const Value& v) {
