@@ -3,19 +3,15 @@
 // refusals, summaries and a run know them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <sstream>
+#include <cmath>
 
-#include "osculate/api/run.hpp"
 #include "osculate/contact/law/catalogue.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/deck/explain.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/deck/schema.hpp"
+#include "run_model.hpp"
 
 namespace osculate {
 namespace {
@@ -55,33 +51,6 @@ std::string refusal(const std::string& text) {
   return {};
 }
 
-/// A folder of this process with the model in it.
-struct Folder {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("osculate_added_law_" + std::to_string(::getpid()));
-  Folder() {
-    std::filesystem::create_directories(path);
-    std::ofstream(path / "model.yaml") << model;
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
-
-/// The columns of the last line of a table.
-std::map<std::string, double> last_line(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string line, head, word, last;
-  std::getline(in, head);
-  while (std::getline(in, line)) last = line;
-  std::map<std::string, double> values;
-  std::istringstream names(head), numbers(last);
-  while (std::getline(names, word, ',')) {
-    std::string number;
-    std::getline(numbers, number, ',');
-    values[word] = std::strtod(number.c_str(), nullptr);
-  }
-  return values;
-}
-
 TEST(AddedLaw, IsInSchemaAndDocumentation) {
   const std::string schema = deck::model_schema();
   EXPECT_THAT(schema, HasSubstr("\"quadratic\""));
@@ -118,18 +87,11 @@ TEST(AddedLaw, IsRefusedWithItsKeys) {
 // Without lateral strain the pressure is uniform: E (d - h) / H = k h^2 with h = 0.1, p = 4; all
 // nodes slide alike, with the limit at that pressure.
 TEST(AddedLaw, RunsInAModel) {
-  const Folder folder;
-  api::RunOptions options;
-  options.model = (folder.path / "model.yaml").string();
-  const api::RunOutcome outcome = api::run(options);
-  ASSERT_EQ(outcome.status, api::RunStatus::done) << outcome.message;
-  const auto values = last_line(std::filesystem::path(outcome.folder) / "history.csv");
+  const auto [values, text] = results_of(model);
   EXPECT_NEAR(values.at("floor.normal_force"), 8, 1e-7);
   EXPECT_NEAR(values.at("floor.max_penetration"), 0.1, 1e-9);
   // Positive along the floor's direction of travel, which is -x.
   EXPECT_NEAR(values.at("floor.shear_force"), -2 * 3 * (1 - std::exp(-2.0 / 3)), 1e-7);
-  std::ifstream log(std::filesystem::path(outcome.folder) / "log.txt");
-  const std::string text{std::istreambuf_iterator<char>(log), {}};
   EXPECT_THAT(text, HasSubstr("quadratic 400, saturating 0.5 at 3 (penalty 1000)"));
 }
 

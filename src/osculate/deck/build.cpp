@@ -118,8 +118,10 @@ void build_history(BuildContext<Dim>& c) {
   for (const HistoryRequest& request : c.description.output.history) {
     model::HistoryRequest out;
     out.name = request.column;
-    out.quantity = quantity_names[static_cast<std::size_t>(request.of.value)];
-    out.kind = kind_of(request.target);
+    const bool remembered = request.of.value >= Quantity::remembered;
+    out.quantity = remembered ? remembered_number(request.of.value).name
+                              : quantity_names[static_cast<std::size_t>(request.of.value)];
+    out.kind = remembered ? model::HistoryRequest::Kind::remembered : kind_of(request.target);
     if (request.target == HistoryTarget::contact) {
       set_pairs(c, request.on, out);
     } else if (request.target == HistoryTarget::rigid) {

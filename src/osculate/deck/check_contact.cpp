@@ -1,4 +1,8 @@
 // Which choices on the axes of a contact pair go together: pairing/combinations.hpp has the table.
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/pairing/combinations.hpp"
 
@@ -30,8 +34,8 @@ std::vector<Asked> asked_of(const Contact& c) {
       {Trait::edges, c.edges.has_value(), edges},
       {Trait::named_edges, c.edges && !c.all, edges},
       {Trait::smoothed_master, c.smoothing.value.kind != SmoothingWord::none, &c.smoothing.mark},
-      {Trait::gap_law, !contact::augmentable(n.law.law), &c.name.mark},
-      {Trait::damping, n.damping.has_value(), &c.name.mark},
+      {Trait::gap_law, !contact::augmentable(n.law.law), &n.law.mark},
+      {Trait::damping, n.damping.has_value(), n.damping ? &n.damping->mark : &c.name.mark},
       {Trait::held, separation != SeparationWord::allowed, &n.separation.mark},
       {Trait::held_from_start, tied || separation == SeparationWord::tied_normal,
        &n.separation.mark},
@@ -56,8 +60,14 @@ void check_axes(const Contact& contact) {
   for (const Asked& a : asked) traits.add(a.trait, a.there);
   const pairing::Refusal* const no = pairing::refusal(traits);
   if (!no) return;
-  for (const Asked& a : asked)
-    if (a.trait == no->told_at) throw core::InputError(*a.mark, std::string(no->why));
+  const auto mark_of = [&](Trait trait) {
+    return *std::ranges::find(asked, trait, &Asked::trait)->mark;
+  };
+  const core::SourceMark mark = mark_of(no->told_at), other = mark_of(no->other);
+  const bool law = no->other == Trait::gap_law || no->other == Trait::damping;
+  throw core::InputError(mark, law && other.line != mark.line
+                                   ? fmt::format("{} ({}: line {})", no->why, other.key, other.line)
+                                   : std::string(no->why));
 }
 
 }  // namespace osculate::deck

@@ -22,7 +22,7 @@ std::vector<Key> law_keys() {
 
 template <class Laws, class T>
 GivenLaw<contact::Law<Laws>> given(const Value& v) {
-  GivenLaw<contact::Law<Laws>> out{params_of<T>(v), false, v.mark, std::nullopt};
+  GivenLaw<contact::Law<Laws>> out{params_of<T>(v), false, v.mark, std::nullopt, v.mark};
   for (const core::Param<T>& p : T::params()) {
     const Value* const value = value_of(v, p);
     if (!value) continue;

@@ -229,6 +229,7 @@ struct GivenLaw {
   bool automatic = false;                 ///< its stiffness, from that of the bodies
   core::SourceMark stiffness;             ///< where that is said
   std::optional<core::SourceMark> timed;  ///< of a parameter that needs durations of the steps
+  core::SourceMark mark{};                ///< of the law itself
 };
 
 struct NormalDescription {
@@ -401,10 +402,13 @@ enum class Quantity {
   slip,
   open,
   area,
-  friction_work
+  friction_work,
+  remembered  ///< of sets: the first of remembered_numbers(); the others follow
 };
 /// True for the quantities of contact pairs.
-[[nodiscard]] constexpr bool is_contact_quantity(Quantity q) { return q >= Quantity::force_x; }
+[[nodiscard]] constexpr bool is_contact_quantity(Quantity q) {
+  return q >= Quantity::force_x && q < Quantity::remembered;
+}
 /// The words of the model file and of model::HistoryRequest, in the order of Quantity.
 inline constexpr std::array<std::string_view, 32> quantity_names{
     "ux",      "uy",           "uz",          "rx",           "ry",

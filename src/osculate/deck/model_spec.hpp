@@ -15,6 +15,9 @@ namespace osculate::deck {
 [[nodiscard]] Spec parameters_spec();
 [[nodiscard]] Spec sets_spec();
 [[nodiscard]] Spec materials_spec();
+/// Keys of the materials of small strains, and of those that remember: one after the other.
+[[nodiscard]] std::string small_strain_materials();
+[[nodiscard]] std::string remembering_materials();
 [[nodiscard]] Spec sections_spec();
 [[nodiscard]] Spec rigid_spec();
 [[nodiscard]] Spec contact_spec();

@@ -14,8 +14,8 @@ namespace {
 Spec quantity_spec() {
   using Q = Quantity;
   return choice(
-             "What to record: displacements and reactions of sets and rigid bodies, or a quantity "
-             "of a contact pair.",
+             "What to record: displacements and reactions of sets and rigid bodies, a quantity of "
+             "a contact pair, or what the material of a set remembers.",
              {word("ux", Q::ux, "average displacement in x"),
               word("uy", Q::uy, "average displacement in y"),
               word("uz", Q::uz, "average displacement in z (models in space)"),
@@ -57,6 +57,19 @@ Spec quantity_spec() {
               word("friction_work", Q::friction_work,
                    "work that sliding has dissipated since the beginning")})
       .such_as("normal_force");
+}
+
+/// With what materials remember.
+Spec history_quantity_spec() {
+  Spec spec = quantity_spec();
+  int code = static_cast<int>(Quantity::remembered);
+  for (const RememberedNumber& number : remembered_numbers())
+    spec.choices.push_back(
+        {number.word,
+         fmt::format("{}, of largest size at the nodes of a set (field {}; of {})", number.doc,
+                     number.name, number.materials),
+         code++, true});
+  return spec;
 }
 
 BoundKeys<Plot> plot_keys() {
@@ -148,7 +161,7 @@ BoundKeys<S> solver_keys() {
 BoundKeys<HistoryRequest> request_keys() {
   using R = HistoryRequest;
   return {{need(&R::on, "on", text("Contact pair, rigid body or set.").such_as("floor")),
-           need(&R::of, "of", quantity_spec()),
+           need(&R::of, "of", history_quantity_spec()),
            may(&R::column, "name",
                text("Heading of the column.")
                    .as(TextRule::column)
@@ -200,8 +213,28 @@ bool needs_rigid(Quantity q) {
          (q >= Quantity::wx && q <= Quantity::wz);
 }
 
+/// What materials remember has to be of a set, and some material has to remember it.
+void require_remembered(const HistoryRequest& request, const std::string& word,
+                        const Description& d) {
+  if (request.of.value < Quantity::remembered) return;
+  if (request.target != HistoryTarget::set)
+    throw core::InputError(
+        request.of.mark,
+        fmt::format("'{}' belongs to sets, and {} is a {}", word, quoted(request.on.value),
+                    request.target == HistoryTarget::rigid ? "rigid body" : "contact pair"));
+  const RememberedNumber number = remembered_number(request.of.value);
+  for (const Material& material : d.materials)
+    for (const material::Remembered& of : material::memory_of(material.law.value))
+      if (of.name == number.name) return;
+  throw core::InputError(request.of.mark,
+                         fmt::format("'{}' is remembered by materials of the kind {}, and the "
+                                     "model has none",
+                                     word, number.materials));
+}
+
 void require_quantity(const HistoryRequest& request, const std::string& word,
                       const Description& d) {
+  require_remembered(request, word, d);
   if (is_spatial(request.of.value) && dimension(d) == 2) throw only_in_space(request.of.mark, word);
   const bool contact = request.target == HistoryTarget::contact;
   if (contact && !is_contact_quantity(request.of.value))

@@ -5,7 +5,6 @@
 #include "osculate/core/text.hpp"
 #include "osculate/deck/bind.hpp"
 #include "osculate/deck/model_spec.hpp"
-#include "osculate/deck/params.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -23,16 +22,6 @@ void require_kinematics(const Section& section, const Material& material) {
       section.kinematics.mark,
       fmt::format("material '{}' is {}, which needs kinematics: {}", material.name.value,
                   finite ? "hyperelastic" : material::key_of(law), finite ? "finite" : "small"));
-}
-
-/// Keys of the materials that are such, one after the other.
-template <class Is>
-std::string laws_that(const Is& is) {
-  std::vector<std::string> keys;
-  material::for_each_law([&](const auto& law) {
-    if (is(law)) keys.emplace_back(law.key);
-  });
-  return core::join(keys);
 }
 
 BoundKeys<Section> section_keys() {
@@ -57,8 +46,7 @@ BoundKeys<Section> section_keys() {
       choice("How strains are measured.",
              {word("small", Kinematics::small, "linear in the displacements"),
               word("finite", Kinematics::finite, "exact for any displacement and rotation")})
-          .otherwise_as("small for " +
-                        laws_that([](const auto& law) { return !law.finite_strain; }) +
+          .otherwise_as("small for " + small_strain_materials() +
                         ", finite for the other materials")
           .such_as("finite");
   const Spec formulation =
@@ -68,7 +56,7 @@ BoundKeys<Section> section_keys() {
           {word("auto", Formulation::automatic,
                 "enhanced; of neo_hooke, where enhanced strains are unstable in large compression, "
                 "and of " +
-                    laws_that([]<class T>(const T&) { return material::Remembers<T>; }) +
+                    remembering_materials() +
                     ", where they hardly converge without hardening, bbar, in plane stress full"),
            word("full", Formulation::full,
                 "plain displacement element, full integration: too stiff in bending and near nu = "
@@ -116,47 +104,7 @@ Section section_of(const Value& v, const std::vector<Material>& materials) {
   return s;
 }
 
-/// One key a law.
-BoundKeys<Material> material_keys() {
-  std::vector<BoundKey<Material>> keys;
-  material::for_each_law([&]<class T>(const T&) {
-    keys.push_back({optional(std::string(T::key), params_spec<T>(std::string(T::doc))),
-                    [](Material& m, const Value& v) {
-                      m.law = {params_of<T>(v), v.mark};
-                      for (const core::Param<T>& p : T::params())
-                        if (const Value* const value = value_of(v, p))
-                          m.marks.emplace_back(p.key, value->mark);
-                    }});
-  });
-  return keys;
-}
-
-void check_material(const Value&, const Material& m) {
-  constexpr double nearest = 1e-10;  // leaves six digits for the shape
-  if (0.5 - material::unloaded(m.law.value).poisson < nearest)
-    throw core::InputError(m.mark("nu"),
-                           "is so near to 0.5 that the resistance to changes of volume leaves no "
-                           "digits for anything else: use at most 0.4999999999");
-}
-
 }  // namespace
-
-Spec materials_spec() {
-  Spec law = material_keys().spec("A material: exactly one law.");
-  const std::vector<std::string> keys = names_of(law.keys);
-  law = law.with(Group::Rule::exactly_one, keys)
-            .or_else(fmt::format("; a material is NAME: {{LAW: {{E: ..., nu: ...}}}} with one of "
-                                 "the laws {}; others are not available (osculate doc limits)",
-                                 fmt::join(keys, ", ")))
-            .such_as("{linear_elastic: {E: 2.1e5, nu: 0.3}}");
-  return names("The materials, by name.", law)
-      .otherwise("{}")
-      .such_as("{steel: {linear_elastic: {E: 2.1e5, nu: 0.3}}}");
-}
-
-std::vector<Material> parse_materials(const Value& v) {
-  return material_keys().read_all(v, check_material);
-}
 
 Spec sections_spec() {
   return list("Which cells of the mesh are bulk material, and of what kind.",

@@ -34,6 +34,18 @@ template <class E>
 /// Where several sets are named in place of one: the set of them all, which this value then names.
 void name_unions(Value& v, std::vector<SetDefinition>& sets);
 [[nodiscard]] std::vector<Material> parse_materials(const Value& v);
+/// What materials remember: each number of the catalogue once, and the materials that have it.
+struct RememberedNumber {
+  std::string word;            ///< of the history
+  std::string_view name, doc;  ///< material::Remembered
+  std::string materials;       ///< their keys
+};
+[[nodiscard]] std::vector<RememberedNumber> remembered_numbers();
+/// The one of a quantity from Quantity::remembered on.
+[[nodiscard]] inline RememberedNumber remembered_number(Quantity quantity) {
+  return remembered_numbers().at(static_cast<std::size_t>(quantity) -
+                                 static_cast<std::size_t>(Quantity::remembered));
+}
 [[nodiscard]] std::vector<Section> parse_sections(const Value& v,
                                                   const std::vector<Material>& materials);
 [[nodiscard]] std::vector<Rigid> parse_rigid(const Value& v);

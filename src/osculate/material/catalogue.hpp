@@ -11,8 +11,18 @@
 
 namespace osculate::material {
 
-using Law = std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
-                         Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>>;
+/// One of the laws, as a value. Its copies are made in law.cpp: only what asks which laws there are
+/// (that source, energy.cpp and deck/materials.cpp) has them in its code.
+struct Law : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
+                          Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>> {
+  using variant::variant;
+  Law();  ///< the first of the list, with its defaults
+  Law(const Law&);
+  Law(Law&&) noexcept;
+  Law& operator=(const Law&);
+  Law& operator=(Law&&) noexcept;
+  ~Law();
+};
 
 /// A law that has a key in the model file; the others are forms of such laws.
 template <class T>

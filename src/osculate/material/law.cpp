@@ -3,6 +3,14 @@
 namespace osculate::material {
 namespace {
 
+template <class T, int N>
+ResponseOf<N> answer(const T& law, const Vec<N>& strain, [[maybe_unused]] const Memory& memory) {
+  if constexpr (Remembers<T>)
+    return respond(law, strain, memory);
+  else
+    return respond(law, strain);
+}
+
 /// Of laws that do not say their stress without its derivative.
 template <class T, int N>
 StressOf<N> stress_of(const T& law, const Vec<N>& strain) {
@@ -34,6 +42,13 @@ const T& named(const Logarithmic<T>& form) {
 }
 
 }  // namespace
+
+Law::Law() = default;
+Law::Law(const Law&) = default;
+Law::Law(Law&&) noexcept = default;
+Law& Law::operator=(const Law&) = default;
+Law& Law::operator=(Law&&) noexcept = default;
+Law::~Law() = default;
 
 bool finite_strain(const Law& law) {
   return std::visit([](const auto& m) { return m.finite_strain; }, law);
@@ -102,8 +117,13 @@ std::string range_problem(const Law& law) {
 }
 
 Response response(const Law& law, const Strain& strain, const Memory& memory) {
-  return std::visit([&](const auto& m) { return detail::answer(m, strain, memory); }, law);
+  return std::visit([&](const auto& m) { return answer(m, strain, memory); }, law);
 }
+template <std::same_as<Strain3> S>
+Response3 response(const Law& law, const S& strain, const Memory& memory) {
+  return std::visit([&](const auto& m) { return answer(m, strain, memory); }, law);
+}
+template Response3 response(const Law&, const Strain3&, const Memory&);
 
 StressOf<4> stress(const Law& law, const Strain& strain, const Memory& memory) {
   return std::visit([&](const auto& m) { return stress_alone(m, strain, memory); }, law);

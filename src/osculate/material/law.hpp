@@ -26,17 +26,6 @@ namespace osculate::material {
 /// Empty if all constants are in their ranges, else which one is not and what is needed.
 [[nodiscard]] std::string range_problem(const Law& law);
 
-namespace detail {
-template <class T, int N>
-[[nodiscard]] ResponseOf<N> answer(const T& law, const Vec<N>& strain,
-                                   [[maybe_unused]] const Memory& memory) {
-  if constexpr (Remembers<T>)
-    return respond(law, strain, memory);
-  else
-    return respond(law, strain);
-}
-}  // namespace detail
-
 /// Stress for a given strain E = (C - I)/2 (or small strain), all four components free.
 ///
 /// Input      memory: of the point, for laws that remember
@@ -47,9 +36,7 @@ template <class T, int N>
 ///
 /// Tested by  tests/unit/material/test_space.cpp
 template <std::same_as<Strain3> S>
-[[nodiscard]] Response3 response(const Law& law, const S& strain, const Memory& memory = {}) {
-  return std::visit([&](const auto& m) { return detail::answer(m, strain, memory); }, law);
-}
+[[nodiscard]] Response3 response(const Law& law, const S& strain, const Memory& memory = {});
 
 /// The stress alone; `ok` as in the response.
 ///

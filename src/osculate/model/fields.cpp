@@ -97,7 +97,33 @@ BasicNodalFields<Dim> nodal_fields(const BasicSystem<Dim>& system, const BasicMo
   return f;
 }
 
+template <int Dim>
+double largest_remembered(const BasicModel<Dim>& model, const BasicState<Dim>& state,
+                          std::span<const Index> nodes, std::string_view name) {
+  BasicNodalFields<Dim> f;
+  f.mises.assign(model.mesh.nodes.size(), 0.0);
+  std::vector<int> count(model.mesh.nodes.size(), 0);
+  for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
+    for (const Index node : cell_nodes(model.mesh, ref).nodes)
+      ++count[static_cast<std::size_t>(node)];
+    add_memory(model, section, ref, state.memory, m, f);
+  });
+  const auto field = std::ranges::find(f.memory, name, [](const auto& of) { return of.first; });
+  double largest = 0;
+  if (field == f.memory.end()) return largest;
+  for (const Index node : nodes) {
+    const auto n = static_cast<std::size_t>(node);
+    const double value = count[n] > 0 ? field->second[n] / count[n] : 0;
+    if (std::abs(value) > std::abs(largest)) largest = value;
+  }
+  return largest;
+}
+
 template NodalFields nodal_fields(const System&, const Model&, const State&);
 template NodalFields3 nodal_fields(const System3&, const Model3&, const State3&);
+template double largest_remembered(const Model&, const State&, std::span<const Index>,
+                                   std::string_view);
+template double largest_remembered(const Model3&, const State3&, std::span<const Index>,
+                                   std::string_view);
 
 }  // namespace osculate::model

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,14 @@ template <int Dim>
 [[nodiscard]] BasicNodalFields<Dim> nodal_fields(const BasicSystem<Dim>& system,
                                                  const BasicModel<Dim>& model,
                                                  const BasicState<Dim>& state);
+
+/// The value of BasicNodalFields::memory with this name that is largest in size, over some nodes;
+/// 0 if there are none.
+///
+/// Tested by  tests/unit/deck/test_plasticity.cpp
+template <int Dim>
+[[nodiscard]] double largest_remembered(const BasicModel<Dim>& model, const BasicState<Dim>& state,
+                                        std::span<const Index> nodes, std::string_view name);
 
 using NodalFields = BasicNodalFields<2>;
 using NodalFields3 = BasicNodalFields<3>;

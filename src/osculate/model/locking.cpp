@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "osculate/model/bulk.hpp"
+#include "osculate/model/material_memory.hpp"
 #include "osculate/solid/energy.hpp"
 
 namespace osculate::model {
@@ -24,37 +25,42 @@ double poisson_of(const material::Law& law) { return material::unloaded(law).poi
 }  // namespace
 
 template <int Dim>
-void measure_locking(const BasicModel<Dim>& model, const Eigen::VectorXd& u,
+void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
                      std::vector<Locking>& found) {
   using Section = SolidSection<Dim>;
   using Formulation = decltype(Section::formulation);
   constexpr cell::CellType wanted = Dim == 2 ? cell::CellType::quad4 : cell::CellType::hex8;
   found.resize(model.sections.size());
+  CellMemory memory;
   for (std::size_t s = 0; s < model.sections.size(); ++s) {
     const BasicBulkSection<Dim>& section = model.sections[s];
-    found[s].section = section.name;
-    if (section.section.formulation != Formulation::full) continue;
-    if (!material::memory_of(section.section.law).empty()) continue;  // no energy of its own
-    const Section enhanced = with(section.section, Formulation::enhanced, wanted);
+    const Section& full = section.section;
+    Locking& sum = found[s];
+    sum.section = section.name;
+    sum.flows = !material::memory_of(full.law).empty();
     // Elsewhere volume changes are those of bending, as they should be.
     constexpr double nearly_incompressible = 0.45, visible = 1e-6;
-    const bool keeps_volume = poisson_of(section.section.law) > nearly_incompressible;
-    const Section bbar =
-        with(section.section, keeps_volume ? Formulation::bbar : Formulation::full, wanted);
+    const bool keeps_volume = sum.flows || poisson_of(full.law) > nearly_incompressible;
+    const Section enhanced = sum.flows ? full : with(full, Formulation::enhanced, wanted);
+    const Section bbar = keeps_volume ? with(full, Formulation::bbar, wanted) : full;
     for (const mesh::CellRef& ref : section.cells) {
       const CellNodes cell = cell_nodes(model.mesh, ref);
-      if (cell.type != wanted) continue;
+      memory = memory_after(memory, section, cell.type);
+      if (full.formulation != Formulation::full || cell.type != wanted) continue;
       const SolidCoordinates<Dim> reference = reference_of(model, cell.nodes),
-                                  moved = displacement_of<Dim>(u, cell.nodes);
-      found[s].floor += solid::strain_energy(section.section, cell.type, reference,
-                                             SolidCoordinates<Dim>(visible * reference));
-      const double energy = solid::strain_energy(section.section, cell.type, reference, moved);
-      const double left = solid::strain_energy(enhanced, cell.type, reference, moved);
-      const double mean = solid::strain_energy(bbar, cell.type, reference, moved);
+                                  moved = displacement_of<Dim>(state.u, cell.nodes);
+      const auto energy_in = [&](const Section& of) {
+        return solid::cell_energy(of, cell.type, reference, moved, memory.of(state.memory));
+      };
+      const solid::CellEnergy mean = energy_in(bbar), plain = energy_in(full);
+      if (sum.flows && !(mean.dissipated > mean.stored)) continue;
+      const double energy = plain.stored + plain.dissipated;
       if (!std::isfinite(energy)) continue;
-      found[s].energy += energy;
-      found[s].enhanced += std::min(left, energy);
-      found[s].bbar += std::min(mean, energy);
+      sum.floor += solid::strain_energy(full, cell.type, reference,
+                                        SolidCoordinates<Dim>(visible * reference));
+      sum.energy += energy;
+      sum.enhanced += sum.flows ? energy : std::min(energy_in(enhanced).stored, energy);
+      sum.bbar += std::min(mean.stored + mean.dissipated, energy);
     }
   }
 }
@@ -64,14 +70,18 @@ std::string locks(const Locking& found) {
   const bool volume = found.bbar < found.enhanced;
   const double left = volume ? found.bbar : found.enhanced;
   return fmt::format(
-      "warning: section '{}': {:.2g} % of the strain energy is in strains that first-order cells "
+      "warning: section '{}': {:.2g} % of the {} is in strains that first-order cells "
       "cannot avoid (they lock, {}): the body is too stiff; give it formulation: {}, second-order "
       "cells, or more cells",
       found.section, 100 * (1 - left / found.energy),
-      volume ? "being nearly incompressible" : "in bending", volume ? "bbar" : "enhanced");
+      found.flows ? "work done on cells that flow" : "strain energy",
+      found.flows ? "since flow keeps the volume"
+      : volume    ? "being nearly incompressible"
+                  : "in bending",
+      volume ? "bbar" : "enhanced");
 }
 
-template void measure_locking(const BasicModel<2>&, const Eigen::VectorXd&, std::vector<Locking>&);
-template void measure_locking(const BasicModel<3>&, const Eigen::VectorXd&, std::vector<Locking>&);
+template void measure_locking(const BasicModel<2>&, const BasicState<2>&, std::vector<Locking>&);
+template void measure_locking(const BasicModel<3>&, const BasicState<3>&, std::vector<Locking>&);
 
 }  // namespace osculate::model

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "osculate/model/model.hpp"
+#include "osculate/model/state.hpp"
 
 namespace osculate::model {
 
@@ -14,8 +15,10 @@ struct Locking {
   double energy = 0;  ///< of quad4 and hex8 cells with full integration
   double enhanced =
       0;             ///< what is left with enhanced strains; that of `energy` where there are none
-  double bbar = 0;   ///< with the mean volume change, where Poisson's ratio is near a half
+  double bbar = 0;   ///< with the mean volume change, where Poisson's ratio is near a half or the
+                     ///< cell flows
   double floor = 0;  ///< of strains too small to be told from round-off
+  bool flows = false;  ///< the section's law remembers: only cells that flow are in the sums
   [[nodiscard]] bool large() const {
     return energy > floor && energy - std::min(enhanced, bbar) > 0.15 * energy;
   }
@@ -25,10 +28,13 @@ struct Locking {
 ///
 /// Formula    sums of W(u) over cells and states, u the displacements that were found: a share s of
 ///            the energy that another formulation would not have makes the body stiffer by about
-///            1 / (1 - s)
+///            1 / (1 - s). Where a law remembers, W is the work: stored, with the same flow in all
+///            formulations, and dissipated; of cells that have dissipated more than they store.
+///            Those have flown well beyond yield, where the volume changes of a cell that is bent
+///            are no longer real
 /// Tested by  tests/unit/api/test_locking.cpp
 template <int Dim>
-void measure_locking(const BasicModel<Dim>& model, const Eigen::VectorXd& u,
+void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
                      std::vector<Locking>& found);
 
 /// A warning where it is large, else empty.

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "osculate/body/spin.hpp"
+#include "osculate/model/fields.hpp"
 #include "osculate/pairing/sampling.hpp"
 
 namespace osculate::model {
@@ -289,6 +290,8 @@ double history_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& mode
       if (request.quantity == time_step_quantity) return state.rates.length;
       if (request.quantity == fraction_quantity) return state.fraction;
       return energy_value(state.rates.energies, request.quantity);
+    case HistoryRequest::Kind::remembered:
+      return largest_remembered(model, state, request.nodes, request.quantity);
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -10,7 +10,7 @@ namespace osculate::model {
 
 /// One column of history.csv.
 struct HistoryRequest {
-  enum class Kind { nodes, rigid, pair, whole };
+  enum class Kind { nodes, rigid, pair, whole, remembered };
   std::string name;  ///< column name
   Kind kind = Kind::nodes;
   Index target = -1;         ///< rigid body or pair
@@ -32,7 +32,8 @@ inline constexpr std::string_view plastic_quantity = "plastic";
 /// that a point has come along the master since it touched it: what CSLIP* have as a vector, zero
 /// without friction. `stick` and `slipping` count points of pairs with friction (or tied), `closed`
 /// all that are in contact. Velocities are zero in steps without inertia. Of the whole model: the
-/// members of Energies, and the time since inertia began (`elapsed`).
+/// members of Energies, and the time since inertia began (`elapsed`). Of what materials remember
+/// (material::Remembered, by its name): largest_remembered, over the nodes of a set.
 inline constexpr std::array<std::string_view, 10> energy_quantities{
     "elapsed",  "kinetic", "strain",    "contact",  "external",
     "friction", "damping", "numerical", "residual", plastic_quantity};

@@ -137,8 +137,8 @@ void fields(Archive& a, SmallStrain& found) {
 }
 template <class Archive>
 void fields(Archive& a, Locking& found) {
-  auto& [section, energy, enhanced, bbar, floor] = found;
-  a(section, energy, enhanced, bbar, floor);
+  auto& [section, energy, enhanced, bbar, floor, flows] = found;
+  a(section, energy, enhanced, bbar, floor, flows);
 }
 }  // namespace osculate::model
 
@@ -184,7 +184,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 8;
+constexpr int version = 9;
 
 template <class... T>
 std::string saved(const T&... values) {

@@ -83,5 +83,35 @@ TEST(Locking, UniformCompressionDoesNotLock) {
               IsEmpty());
 }
 
+/// The same of a metal that yields at a strain of 0.1 %.
+std::string metal(const std::string& more, const std::string& where) {
+  std::string text = block(more, where);
+  text.replace(text.find("linear_elastic: {E: 100, nu: 0.4999}"), 36,
+               "elastoplastic: {E: 1000, nu: 0.3, yield: 1}");
+  text.replace(text.find("increments: 1,"), 14, "increments: 5,");
+  return text;
+}
+
+TEST(Locking, AMetalThatFlowsIsTooStiff) {
+  const auto pressed = [](double way) {
+    return fmt::format(
+        "{{on: b.bottom, ux: 0, uy: 0}}, {{on: b.left, ux: 0}}, {{on: punch, uy: {}}}", -way);
+  };
+  EXPECT_THAT(
+      warnings_of(metal(", formulation: full", pressed(0.01))),
+      ElementsAre(AllOf(HasSubstr("section 'b'"), HasSubstr("work done on cells that flow"),
+                        HasSubstr("since flow keeps the volume"), HasSubstr("formulation: bbar"))));
+  EXPECT_THAT(warnings_of(metal("", pressed(0.01))), IsEmpty());
+  EXPECT_THAT(warnings_of(metal(", formulation: enhanced", pressed(0.01))), IsEmpty());
+  EXPECT_THAT(warnings_of(metal(", formulation: full", pressed(0.0015))), IsEmpty());  // begins to
+}
+
+TEST(Locking, UniformFlowDoesNotLock) {
+  EXPECT_THAT(warnings_of(metal(", formulation: full",
+                                "{on: b.bottom, uy: 0}, {on: b.left, ux: 0}, {on: punch, uy: "
+                                "-0.01}")),
+              IsEmpty());
+}
+
 }  // namespace
 }  // namespace osculate::api

@@ -168,5 +168,61 @@ TEST(Plasticity, HasAColumnOfItsDissipation) {
       built.history, [](const auto& request) { return request.name == "energy.plastic"; }));
 }
 
+// ---- history of what is remembered --------------------------------------------------------------
+
+constexpr const char* requests = R"(
+output: {history: [{on: b, of: peeq}, {on: b, of: pe11, name: along}, {on: b.left, of: pe22}]}
+)";
+
+TEST(Plasticity, HistoryHasWhatIsRememberedOfLargestSize) {
+  // A bar in plane stress: flow along it, half as much across.
+  const std::string bar = edited(with("plane_strain", "plane_stress"),
+                                 "ux: 0, uy: 0}, {on: b.right, ux: 0.04, uy: 0.03}",
+                                 "ux: 0}, {on: b.bottom, uy: 0}, {on: b.right, ux: -0.04}") +
+                          requests;
+  Built built = build_text(bar);
+  ASSERT_EQ(built.history.size(), 3u);
+  EXPECT_EQ(built.history[0].name, "b.peeq");
+  EXPECT_EQ(built.history[1].name, "along");
+  const auto row = [&](const model::System& system, const model::State& state) {
+    std::vector<double> values;
+    for (const model::HistoryRequest& request : built.history)
+      values.push_back(model::history_value(system, built.model, state, request));
+    return values;
+  };
+  model::System system(built.model, 1);
+  model::State state = system.initial_state();
+  EXPECT_EQ(row(system, state), (std::vector<double>{0, 0, 0}));
+  // every point the same, but for one number of the last one
+  for (std::size_t i = 0; i < state.memory.size(); ++i)
+    state.memory[i] = std::array{0.2, -0.2, 0.1, 0.1, 0.0, 0.0, 0.0}[i % 7];
+  const std::vector<double> values = row(system, state);
+  EXPECT_NEAR(values[0], 0.2, 1e-14);
+  EXPECT_NEAR(values[1], -0.2, 1e-14);
+  EXPECT_NEAR(values[2], 0.1, 1e-14);
+  for (std::size_t i = 1; i < state.memory.size() / 2; i += 7) state.memory[i] = 0.15;
+  EXPECT_NEAR(row(system, state)[1], -0.2, 1e-14);
+}
+
+TEST(Plasticity, HistoryOfWhatNobodyRemembersIsRefused) {
+  const auto refused = [](const std::string& model, const std::string& request) {
+    return refusal(model + "output: {history: [" + request + "]}\n");
+  };
+  EXPECT_EQ(refused(strip, "{on: b, of: peeq}"), "");
+  EXPECT_THAT(refused(strip, "{on: b, of: ceeq}"),
+              HasSubstr("history[0].of: 'ceeq' is remembered by materials of the kind norton, and "
+                        "the model has none"));
+  EXPECT_THAT(refused(strip, "{on: b, of: peq}"), HasSubstr("did you mean 'peeq'"));
+  const std::string rolled =
+      with("steps:", "rigid: {roll: {circle: {center: [0, 3], radius: 1}}}\nsteps:");
+  EXPECT_THAT(refused(rolled, "{on: roll, of: peeq}"),
+              HasSubstr("'peeq' belongs to sets, and 'roll' is a rigid body"));
+  const std::string pair = edited(
+      rolled,
+      "steps:", "contact: [{name: c, master: roll, slave: b.top, normal: {penalty: 1}}]\nsteps:");
+  EXPECT_THAT(refused(pair, "{on: c, of: peeq}"),
+              HasSubstr("'peeq' belongs to sets, and 'c' is a contact pair"));
+}
+
 }  // namespace
 }  // namespace osculate::deck

@@ -33,7 +33,7 @@ void for_each_form(const Visit& visit) {
   });
 }
 
-inline constexpr int form_count = std::variant_size_v<material::Law>;
+inline constexpr int form_count = std::variant_size_v<material::Law::variant>;
 
 constexpr std::array<cell::CellType, 5> area_types{cell::CellType::tri3, cell::CellType::tri6,
                                                    cell::CellType::quad4, cell::CellType::quad8,
