@@ -82,6 +82,16 @@ double BasicInertia<Dim>::total() const {
 }
 
 template <int Dim>
+void CellInertia<Dim>::add_to(std::size_t cell, Eigen::Ref<Eigen::MatrixXd> tangent) const {
+  tangent *= stiffness;
+  if (!damped.empty()) tangent += damping * damped[cell];
+  const Eigen::MatrixXd& of_cell = inertia.cells()[cell].mass;
+  for (Eigen::Index i = 0; i < of_cell.rows(); ++i)
+    for (Eigen::Index j = 0; j < of_cell.cols(); ++j)
+      for (int d = 0; d < Dim; ++d) tangent(Dim * i + d, Dim * j + d) += mass * of_cell(i, j);
+}
+
+template <int Dim>
 solid::CellEnergy bulk_energy(const BasicModel<Dim>& model, const Eigen::VectorXd& u,
                               std::span<const double> memory) {
   solid::CellEnergy sum;
@@ -96,6 +106,8 @@ solid::CellEnergy bulk_energy(const BasicModel<Dim>& model, const Eigen::VectorX
   return sum;
 }
 
+template struct CellInertia<2>;
+template struct CellInertia<3>;
 template class BasicInertia<2>;
 template class BasicInertia<3>;
 template solid::CellEnergy bulk_energy(const Model&, const Eigen::VectorXd&,

@@ -45,6 +45,17 @@ class BasicInertia {
   std::vector<Body> bodies_;
 };
 
+/// What the stiffness of a cell becomes in a step in time.
+///
+/// Formula    stiffness K + damping C + mass M , factors of the time scheme
+template <int Dim>
+struct CellInertia {
+  const BasicInertia<Dim>& inertia;
+  const std::vector<Eigen::MatrixXd>& damped;  ///< C of the cells; empty: none
+  double stiffness, damping, mass;
+  void add_to(std::size_t cell, Eigen::Ref<Eigen::MatrixXd> tangent) const;
+};
+
 /// Stored and dissipated in all cells, whose points remember `memory`.
 template <int Dim>
 [[nodiscard]] solid::CellEnergy bulk_energy(const BasicModel<Dim>& model, const Eigen::VectorXd& u,

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <vector>
 
 #include "osculate/pairing/pair.hpp"
 #include "osculate/solve/iteration.hpp"
@@ -9,6 +10,16 @@ namespace osculate::model {
 /// What is told of a contact point. `closed`: in contact, of a pair that nothing holds along the
 /// master, so that there is nothing that could stick or be overcome.
 enum class PointState : std::uint8_t { open, stick, slipping, closed };
+
+/// What a contact point did.
+struct PointCourse {
+  PointState state = PointState::open;
+  bool back = false;  ///< slid against the master's direction of travel (2D only)
+  bool in_reentrant_vertex =
+      false;  ///< closed between two parts of a master without friction (reentrant_vertex.hpp)
+  friend bool operator==(const PointCourse&, const PointCourse&) = default;
+};
+using ContactStates = std::vector<std::vector<PointCourse>>;  ///< by pair
 
 /// Whether the points of a pair stick or slide: there is friction, or they are tied.
 template <int Dim>

@@ -29,7 +29,7 @@ BasicState<Dim> BasicSystem<Dim>::initial_state() {
   for (std::size_t p = 0; p < model.pairs.size(); ++p)
     state.multipliers.push_back(
         pairing::initial_multipliers<Dim>(model.pairs[p].definition, state.pairs[p]));
-  state.memory.assign(impl_->next_memory.size(), 0.0);
+  state.memory.assign(impl_->last.memory.size(), 0.0);
   return state;
 }
 
@@ -37,7 +37,7 @@ template <int Dim>
 void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
   impl_->step = step;
   const std::vector<Step>& steps = impl_->model.steps;
-  impl_->beginning = steps.empty() || step.name == steps.front().name;
+  impl_->contact.beginning = steps.empty() || step.name == steps.front().name;
   std::vector<bool> flags(static_cast<std::size_t>(impl_->dofs.unknowns()), false);
   for (PrescribedDof& p : impl_->step.prescribed) {
     p.ramp.start = impl_->current_value(committed, p.dof);
@@ -49,7 +49,7 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
     if (unknown >= 0) flags[static_cast<std::size_t>(unknown)] = true;
   }
   impl_->assembler.set_prescribed(std::move(flags));
-  impl_->linear.reserve();
+  impl_->bulk.linear.reserve();
   impl_->begin_dynamics();
   impl_->begin_explicit();
 }
@@ -93,7 +93,7 @@ void BasicSystem<Dim>::resume_step(const Step& step, const State& committed,
 template <int Dim>
 void BasicSystem<Dim>::predict(const State& committed, double fraction, solve::Evaluation& out,
                                Prediction friction) {
-  impl_->friction = friction;
+  impl_->contact.friction = friction;
   impl_->recent.clear();
   impl_->assemble(committed, {committed}, fraction, true, Impl::Pass::predict, out);
 }
@@ -138,7 +138,7 @@ BasicTrial<Dim> BasicSystem<Dim>::apply(const Trial& trial, const Eigen::VectorX
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (!impl_->assembler.prescribed(u))
       impl_->add_to(next, dofs.dof_of_unknown(u), factor * du[u]);
-  impl_->add_to_multipliers(next, du, factor);
+  impl_->constraints.move(next, du, factor);
   for (const PrescribedDof& p : impl_->step.prescribed)
     impl_->add_to(next, p.dof, p.ramp.value(fraction) - impl_->current_value(next, p.dof));
   for (Index node = 0; node < dofs.nodes(); ++node) {
@@ -162,22 +162,22 @@ template <int Dim>
 BasicTrial<Dim> BasicSystem<Dim>::remember(const Trial& trial) const {
   Trial next{trial.state};
   std::vector<pairing::PairMultipliers<Dim>>& multipliers = next.state.multipliers;
-  for (std::size_t p = 0; p < impl_->contact.size(); ++p)
+  for (std::size_t p = 0; p < impl_->last.contact.size(); ++p)
     next.active_set.push_back(pairing::evaluated_active_set(
-        impl_->contact[p],
+        impl_->last.contact[p],
         p < trial.active_set.size() ? trial.active_set[p] : pairing::ActiveSet<Dim>{}));
   for (std::size_t p = 0; p < multipliers.size(); ++p)
-    multipliers[p] = pairing::taken_over(impl_->contact[p], std::move(multipliers[p]));
+    multipliers[p] = pairing::taken_over(impl_->last.contact[p], std::move(multipliers[p]));
   constexpr std::size_t most = 8;
   if (impl_->recent.size() == most) impl_->recent.pop_front();
-  impl_->recent.push_back(impl_->contact_states());
+  impl_->recent.push_back(impl_->contact.states(impl_->last));
   return next;
 }
 
 template <int Dim>
 std::vector<ContactStates> BasicSystem<Dim>::recent_contact() const {
   std::vector<ContactStates> states(impl_->recent.begin(), impl_->recent.end());
-  states.push_back(impl_->contact_states());
+  states.push_back(impl_->contact.states(impl_->last));
   return states;
 }
 
@@ -189,15 +189,15 @@ BasicState<Dim> BasicSystem<Dim>::commit(const Trial& trial, double fraction) co
     impl_->rebase(state);
   }
   state.fraction = fraction;
-  state.memory = impl_->next_memory;
-  impl_->look_far(trial.state);
-  for (std::size_t p = 0; p < impl_->contact.size(); ++p) {
+  state.memory = impl_->last.memory;
+  impl_->contact.look_far(trial.state, positions(trial.state), impl_->last);
+  for (std::size_t p = 0; p < impl_->last.contact.size(); ++p) {
     std::vector<double> overlap = std::move(state.pairs[p].overlap);
-    state.pairs[p] = pairing::commit(impl_->contact[p]);
+    state.pairs[p] = pairing::commit(impl_->last.contact[p]);
     state.pairs[p].overlap = std::move(overlap);
   }
   for (std::size_t p = 0; p < state.multipliers.size(); ++p)
-    state.multipliers[p] = pairing::commit(impl_->contact[p], std::move(state.multipliers[p]));
+    state.multipliers[p] = pairing::commit(impl_->last.contact[p], std::move(state.multipliers[p]));
   impl_->forget_impulses(state.multipliers);
   return state;
 }
@@ -211,14 +211,14 @@ std::optional<BasicTrial<Dim>> BasicSystem<Dim>::augment(const Trial& trial) con
     const pairing::PairDefinition<Dim>& pair = whole.definition;
     if (adapts_penalty(impl_->model, whole)) {
       double& stiffening = next.state.multipliers[p].stiffening;
-      const double more = wanted_stiffening(mean_share(whole, impl_->contact[p]), stiffening);
+      const double more = wanted_stiffening(mean_share(whole, impl_->last.contact[p]), stiffening);
       stiffening *= more;
       missed = missed || more > 1;
     }
     const auto* const asked = std::get_if<pairing::ByAugmentedLagrange>(&pair.enforcement);
     if (!asked) continue;
     next.state.multipliers[p] =
-        pairing::augmented(pair, impl_->contact[p], trial.state.multipliers[p]);
+        pairing::augmented(pair, impl_->last.contact[p], trial.state.multipliers[p]);
     if (next.state.multipliers[p].violation > asked->target) missed = true;
   }
   if (!missed) return std::nullopt;
@@ -231,13 +231,14 @@ std::optional<BasicTrial<Dim>> BasicSystem<Dim>::relaxed(const Trial& trial) con
   double softer = std::ldexp(1.0, -13);
   bool any = false;
   const auto yields = [&](const BasicContactPair<Dim>& pair) {
-    return !constrained(pair) && pairing::is<pairing::MayPart>(pair.definition.separation);
+    return !pairing::by_multipliers(pair.definition) &&
+           pairing::is<pairing::MayPart>(pair.definition.separation);
   };
   for (std::size_t p = 0; p < trial.state.multipliers.size(); ++p) {
     const BasicContactPair<Dim>& pair = impl_->model.pairs[p];
     const double before = committed_share(pair, trial.state.pairs[p]);
     if (!yields(pair) || !(before > pressed)) continue;
-    any = any || mean_share(pair, impl_->contact[p]) > 0;
+    any = any || mean_share(pair, impl_->last.contact[p]) > 0;
     softer = std::max(softer, before / sunk);
   }
   if (!any || impl_->timed() || !(softer <= much)) return std::nullopt;
@@ -284,7 +285,7 @@ std::string BasicSystem<Dim>::refused(const State& committed, const Trial& trial
     if (x.empty()) x = positions(trial.state);
     std::string text =
         passed_through(impl_->model, pair, in_front(committed.pairs[p], pair.definition.offset),
-                       impl_->contact[p], x);
+                       impl_->last.contact[p], x);
     if (!text.empty()) return text;
   }
   return {};
@@ -297,7 +298,7 @@ Index BasicSystem<Dim>::displacements() const {
 
 template <int Dim>
 Index BasicSystem<Dim>::unknowns() const {
-  return impl_->unknowns;
+  return impl_->constraints.end;
 }
 
 template <int Dim>
@@ -305,7 +306,7 @@ const la::SparseMatrix& BasicSystem<Dim>::matrix() {
   const Stopwatch watch;
   impl_->reserve_pattern();
   const la::SparseMatrix& k = impl_->builder.finish();
-  impl_->seconds.assembly += watch.seconds();
+  impl_->assembly_seconds += watch.seconds();
   return k;
 }
 template <int Dim>
@@ -323,15 +324,15 @@ const BasicDofSpace<Dim>& BasicSystem<Dim>::dofs() const {
 }
 template <int Dim>
 const Forces& BasicSystem<Dim>::forces() const {
-  return impl_->forces;
+  return impl_->last.forces;
 }
 template <int Dim>
 const std::vector<pairing::PairEvaluation<Dim>>& BasicSystem<Dim>::contact() const {
-  return impl_->contact;
+  return impl_->last.contact;
 }
 template <int Dim>
 const std::vector<double>& BasicSystem<Dim>::material_memory() const {
-  return impl_->next_memory;
+  return impl_->last.memory;
 }
 template <int Dim>
 const std::vector<bool>& BasicSystem<Dim>::touched() const {
@@ -347,8 +348,11 @@ bool BasicSystem<Dim>::prescribed(Index unknown) const {
 }
 template <int Dim>
 SystemSeconds BasicSystem<Dim>::seconds() const {
-  SystemSeconds out = impl_->seconds;
-  for (const pairing::PairEvaluation<Dim>& pair : impl_->contact) {
+  SystemSeconds out;
+  out.contact = impl_->contact.seconds;
+  out.bulk = impl_->bulk.seconds;
+  out.assembly = impl_->assembly_seconds;
+  for (const pairing::PairEvaluation<Dim>& pair : impl_->last.contact) {
     out.contact_parts.search += pair.seconds.search;
     out.contact_parts.projection += pair.seconds.projection;
     out.contact_parts.evaluation += pair.seconds.evaluation;
@@ -365,16 +369,17 @@ bool BasicSystem<Dim>::interrupted() const {
 }
 template <int Dim>
 bool BasicSystem<Dim>::soften() {
-  if (impl_->unknowns == impl_->dofs.unknowns()) return false;
-  impl_->soften();
+  if (impl_->constraints.count() == 0) return false;
+  impl_->constraints.soften(impl_->builder);
   return true;
 }
 template <int Dim>
 void BasicSystem<Dim>::resist(double share) {
-  if (share == impl_->resisted) return;
-  if (impl_->resistance.size() == 0) impl_->measure_resistance();
-  impl_->add_resistance(share - impl_->resisted);
-  impl_->resisted = share;
+  Resistance<Dim>& resistance = impl_->resistance;
+  if (share == resistance.share) return;
+  if (resistance.diagonal.size() == 0) resistance.measure(impl_->bulk, impl_->dofs);
+  resistance.add(share - resistance.share, impl_->assembler, impl_->builder);
+  resistance.share = share;
 }
 template <int Dim>
 double BasicSystem<Dim>::stride(const Eigen::VectorXd& du) const {
@@ -385,12 +390,12 @@ double BasicSystem<Dim>::stride(const Eigen::VectorXd& du) const {
     if (impl_->assembler.prescribed(u)) continue;
     const Dof dof = dofs.dof_of_unknown(u);
     const bool turns = dof >= first && (dof - first) % body::motions<Dim> >= Dim;
-    largest = std::max(largest, std::abs(du[u]) * (turns ? impl_->extent : 1.0));
+    largest = std::max(largest, std::abs(du[u]) * (turns ? impl_->resistance.extent : 1.0));
   }
   for (const BasicContactPair<Dim>& pair : impl_->model.pairs)
     if (pair.height > 0) height = height > 0 ? std::min(height, pair.height) : pair.height;
-  if (!(height > 0)) height = 0.01 * impl_->extent;
-  return largest / std::max(height, impl_->carried);
+  if (!(height > 0)) height = 0.01 * impl_->resistance.extent;
+  return largest / std::max(height, impl_->last.carried);
 }
 template <int Dim>
 void BasicSystem<Dim>::enable(Term term, bool on) {

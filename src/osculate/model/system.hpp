@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "osculate/la/linear_solver.hpp"
+#include "osculate/model/evaluated.hpp"
 #include "osculate/model/model.hpp"
 #include "osculate/model/point_state.hpp"
 #include "osculate/model/state.hpp"
@@ -18,14 +19,6 @@ namespace osculate::model {
 
 /// Names of the terms of the system whose tangent can be checked part by part.
 enum class Term { bulk, contact, pressure, rigid };
-
-/// Forces of one configuration on all nodes and rigid bodies (primary dofs of the DofSpace).
-struct Forces {
-  Eigen::VectorXd internal;  ///< from the bulk
-  Eigen::VectorXd contact;   ///< from the contact pairs
-  Eigen::VectorXd external;  ///< applied loads
-  Eigen::VectorXd inertia;   ///< mass times acceleration, and damping; of the last converged state
-};
 
 /// Where the time of all evaluations went [s], summed up since the system was made.
 struct SystemSeconds {
@@ -52,16 +45,6 @@ struct ExplicitIncrement {
   solve::TimeSteps time_steps;
   solve::StateCounts counts;
 };
-
-/// What a contact point did.
-struct PointCourse {
-  PointState state = PointState::open;
-  bool back = false;  ///< slid against the master's direction of travel (2D only)
-  bool in_reentrant_vertex =
-      false;  ///< closed between two parts of a master without friction (reentrant_vertex.hpp)
-  friend bool operator==(const PointCourse&, const PointCourse&) = default;
-};
-using ContactStates = std::vector<std::vector<PointCourse>>;  ///< by pair
 
 /// The system that `solve` sees: assembles residual and tangent of a model.
 ///

@@ -54,12 +54,12 @@ void BasicSystem<Dim>::Impl::measure_damping(const State& committed) {
   const double factor = motion->settings.damping_stiffness;
   if (!(factor > 0)) return;
   const bool first = motion->damping.empty();
-  motion->damping.resize(jobs.size());
+  motion->damping.resize(bulk.jobs.size());
   BulkBlock block;
-  for (std::size_t c = 0; c < jobs.size(); ++c) {
-    const bool finite = jobs[c].section->section.kinematics == solid::Kinematics::finite;
+  for (std::size_t c = 0; c < bulk.jobs.size(); ++c) {
+    const bool finite = bulk.jobs[c].section->section.kinematics == solid::Kinematics::finite;
     if (!first && !finite) continue;
-    evaluate_job(c, committed.u, committed.memory, {}, 0, true, block);
+    bulk.evaluate(c, committed.u, committed.memory, {}, 0, true, block);
     motion->damping[c] = factor * block.result.tangent;
   }
 }
@@ -100,11 +100,11 @@ double BasicSystem<Dim>::Impl::round_off_in_time(std::span<const Vec<Dim>> x) co
   const double of_mass = timed() ? motion->factors.mass * motion->size_of_mass : 0.0;
   double farthest = 0, springs = 0;
   for (const Vec<Dim>& p : x) farthest = std::max(farthest, p.norm());
-  for (std::size_t p = 0; p < contact.size(); ++p) {
+  for (std::size_t p = 0; p < last.contact.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
     if (!timed() && !pair.damping) continue;  // a penalty is not steep enough to show
-    for (std::size_t i = 0; i < contact[p].points.size(); ++i) {
-      const pairing::PointResult<Dim>& point = contact[p].points[i];
+    for (std::size_t i = 0; i < last.contact[p].points.size(); ++i) {
+      const pairing::PointResult<Dim>& point = last.contact[p].points[i];
       if (point.status == contact::Status::open) continue;
       double slope = std::abs(contact::response(pair.normal, point.gap, true).d_traction) *
                      pairing::relative_stiffness(pair, i).normal;
@@ -133,8 +133,7 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::damping_of(const Eigen::VectorXd& veloci
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::add_inertia(const State& trial, bool with_tangent,
-                                         const Eigen::VectorXd* inc) {
+void BasicSystem<Dim>::Impl::add_inertia(const State& trial, Assembly<Dim>& to) {
   Motion& m = *motion;
   const solve::TimeScheme& s = m.settings.scheme;
   const double h = m.h;
@@ -146,53 +145,33 @@ void BasicSystem<Dim>::Impl::add_inertia(const State& trial, bool with_tangent,
   if (damped)
     m.damping_force = damping_of(m.past.velocity + h * (1 - s.gamma) * m.past.acceleration +
                                  m.factors.rate * ahead + m.correction);
-  if constexpr (Dim == 3) add_spins(trial, with_tangent, inc);
-  if (!with_tangent) return;
-  const double of_mass =
-      m.factors.mass + m.factors.force * m.factors.rate * m.settings.damping_mass;
+  if constexpr (Dim == 3) add_spins(trial, to);
+  if (!to.with_tangent) return;
+  const double of_mass = cell_inertia().mass;
   for (std::size_t b = 0; b < model.rigid.size(); ++b) {
     if (!m.inertia->body_has_mass(b)) continue;
     std::array<Dof, body::motions<Dim>> d{};
     for (int i = 0; i < body::motions<Dim>; ++i)
       d[static_cast<std::size_t>(i)] = dofs.body_dof(static_cast<Index>(b), i);
-    add_stiffness(d, Mat<body::motions<Dim>, body::motions<Dim>>(of_mass * m.inertia->body_mass(b)),
-                  inc);
+    to.add_stiffness(
+        d, Mat<body::motions<Dim>, body::motions<Dim>>(of_mass * m.inertia->body_mass(b)));
   }
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::add_cell_inertia(std::size_t cell,
-                                              Eigen::Ref<Eigen::MatrixXd> tangent) const {
+CellInertia<Dim> BasicSystem<Dim>::Impl::cell_inertia() const {
   const Motion& m = *motion;
-  tangent *= m.factors.force;
-  if (!m.damping.empty()) tangent += m.factors.force * m.factors.rate * m.damping[cell];
-  const double of_mass =
-      m.factors.mass + m.factors.force * m.factors.rate * m.settings.damping_mass;
-  const Eigen::MatrixXd& mass = m.inertia->cells()[cell].mass;
-  for (Eigen::Index i = 0; i < mass.rows(); ++i)
-    for (Eigen::Index j = 0; j < mass.cols(); ++j)
-      for (int d = 0; d < Dim; ++d) tangent(Dim * i + d, Dim * j + d) += of_mass * mass(i, j);
+  const solve::StepFactors& f = m.factors;
+  return {*m.inertia, m.damping, f.force, f.force * f.rate,
+          f.mass + f.force * f.rate * m.settings.damping_mass};
 }
 
 template <int Dim>
 Eigen::VectorXd BasicSystem<Dim>::Impl::total_force() const {
-  if (!timed()) return forces.internal + forces.contact - forces.external;
-  return motion->effective + forces.contact +
-         motion->factors.force * (forces.internal - forces.external + motion->damping_force);
-}
-
-template <int Dim>
-void BasicSystem<Dim>::Impl::add_gravity(double fraction) {
-  if (step.gravity.empty()) return;
-  Vec<Dim> g;
-  for (int i = 0; i < Dim; ++i) g[i] = step.gravity[static_cast<std::size_t>(i)].value(fraction);
-  if (g.isZero(0)) return;
-  if (motion) {
-    forces.external += motion->inertia->times(g);
-    return;
-  }
-  if (!resting) resting.emplace(model, false);
-  forces.external += resting->times(g);
+  if (!timed()) return last.forces.internal + last.forces.contact - last.forces.external;
+  return motion->effective + last.forces.contact +
+         motion->factors.force *
+             (last.forces.internal - last.forces.external + motion->damping_force);
 }
 
 template <int Dim>
@@ -276,17 +255,17 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::accelerations_by(const Eigen::VectorXd& 
 
 template <int Dim>
 double BasicSystem<Dim>::Impl::contact_energy() const {
-  return sum_of_points<Dim>(contact, [](const auto& p) { return p.weight * p.stored; });
+  return sum_of_points<Dim>(last.contact, [](const auto& p) { return p.weight * p.stored; });
 }
 
 template <int Dim>
 double BasicSystem<Dim>::Impl::damping_work() const {
-  return sum_of_points<Dim>(contact, [](const auto& p) { return p.history.damping_work; });
+  return sum_of_points<Dim>(last.contact, [](const auto& p) { return p.history.damping_work; });
 }
 
 template <int Dim>
 double BasicSystem<Dim>::Impl::friction_work() const {
-  return sum_of_points<Dim>(contact, [](const auto& p) { return p.history.friction_work; });
+  return sum_of_points<Dim>(last.contact, [](const auto& p) { return p.history.friction_work; });
 }
 
 /// Forces of the free unknowns that the last evaluation leaves, as mass times acceleration at the
@@ -322,9 +301,9 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
     settle_velocities(rates, prescribed);
   solve::Evaluation out;
   assemble(committed, {committed}, 0.0, false, Pass::whole, out);
-  rates.internal = forces.internal;
-  rates.external = forces.external;
-  rates.contact = forces.contact;
+  rates.internal = last.forces.internal;
+  rates.external = last.forces.external;
+  rates.contact = last.forces.contact;
   measure_damping(committed);
   rates.damping = damping_of(rates.velocity);
   if constexpr (Dim == 3) damp_spins(rates.velocity, rates.damping);
@@ -334,7 +313,7 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   if constexpr (Dim == 3) begin_spins(committed, force, rates);
   if constexpr (Dim == 3) begin_coupled_spins(rates, force);
   settle_accelerations(rates, prescribed, force);
-  forces.inertia = rates.damping + inertia_of(rates);
+  last.forces.inertia = rates.damping + inertia_of(rates);
   Energies& e = rates.energies;
   const double kinetic = kinetic_energy(rates);
   const solid::CellEnergy bulk = bulk_energy(model, committed.u, committed.memory);
@@ -368,7 +347,7 @@ Rates BasicSystem<Dim>::Impl::new_rates(const State& trial) {
   Eigen::VectorXd ahead =
       step_of - h * m.past.velocity - h * h * (0.5 - s.beta) * m.past.acceleration;
   Eigen::VectorXd impulse = Eigen::VectorXd::Zero(ahead.size());  // acceleration by contact
-  if (s.impact != solve::Impact::average) impulse = accelerations_by(-forces.contact);
+  if (s.impact != solve::Impact::average) impulse = accelerations_by(-last.forces.contact);
   now.acceleration = (ahead - solve::impulse_way(s.impact) * h * h * impulse) / (s.beta * h * h);
   now.velocity = m.past.velocity +
                  h * ((1 - s.gamma) * m.past.acceleration + s.gamma * now.acceleration + impulse);
@@ -377,15 +356,15 @@ Rates BasicSystem<Dim>::Impl::new_rates(const State& trial) {
   const Driven prescribed = driven(m.target, h / step.duration);
   settle_velocities(now, prescribed);
   settle_accelerations(now, prescribed, -left_over);
-  now.internal = forces.internal;
-  now.external = forces.external;
-  now.contact = forces.contact;
+  now.internal = last.forces.internal;
+  now.external = last.forces.external;
+  now.contact = last.forces.contact;
   now.damping = m.damping_force;
   now.energies = m.past.energies;
   now.energies.elapsed += h;
   now.length = h;
   add_energies(trial, now, step_of, s.gamma * left_over.dot(step_of), now.energies);
-  forces.inertia = now.damping + of_impulse + inertia_of(now);
+  last.forces.inertia = now.damping + of_impulse + inertia_of(now);
   return now;
 }
 
@@ -418,7 +397,7 @@ void BasicSystem<Dim>::Impl::add_energies(const State& trial, const Rates& now,
         supports += rest[d] * t.factor * step_of[dofs.dof_of_unknown(t.unknown)];
   }
   e.kinetic = kinetic_energy(now);
-  const solid::CellEnergy bulk = bulk_energy(model, trial.u, next_memory);
+  const solid::CellEnergy bulk = bulk_energy(model, trial.u, last.memory);
   e.strain = bulk.stored;
   e.plastic = bulk.dissipated - e.plastic_before;
   e.contact = contact_energy();

@@ -16,7 +16,7 @@ BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
     : system(s),
       options(*s.step.dynamics->explicit_steps),
       damping(s.step.dynamics->damping_mass),
-      work(static_cast<std::size_t>(s.threads)),
+      work(static_cast<std::size_t>(s.bulk.threads)),
       active_set(s.model.pairs.size()),
       turning(s.model.rigid.size()) {
   const Eigen::Index n = system.dofs.dofs();
@@ -87,7 +87,7 @@ void BasicSystem<Dim>::Impl::Explicit::make_gather() {
   }
   std::vector<std::vector<std::size_t>> of_node(system.model.reference.size());
   std::size_t size = 0;
-  for (const CellJob& job : system.jobs) {
+  for (const typename BulkTerm<Dim>::Job& job : system.bulk.jobs) {
     first_force.push_back(size);
     touching.push_back(false);
     changes = changes || job.section->section.kinematics == solid::Kinematics::finite;
@@ -116,17 +116,17 @@ void BasicSystem<Dim>::Impl::Explicit::place(const Vector& position) {
 template <int Dim>
 bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
   const Stopwatch watch;
-  const auto count = static_cast<std::ptrdiff_t>(system.jobs.size());
+  const auto count = static_cast<std::ptrdiff_t>(system.bulk.jobs.size());
   const auto nodes = static_cast<std::ptrdiff_t>(x.size());
   std::ptrdiff_t failed = count;
-#pragma omp parallel num_threads(system.threads)
+#pragma omp parallel num_threads(system.bulk.threads)
   {
     BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())];
 #pragma omp for schedule(static) reduction(min : failed)
     for (std::ptrdiff_t c = 0; c < count; ++c) {
-      const CellJob& job = system.jobs[static_cast<std::size_t>(c)];
-      system.linear.force(static_cast<std::size_t>(c), system.model, *job.section, job.cell, u,
-                          job.memory.of(now.memory, system.next_memory, h), block);
+      const typename BulkTerm<Dim>::Job& job = system.bulk.jobs[static_cast<std::size_t>(c)];
+      system.bulk.linear.force(static_cast<std::size_t>(c), system.model, *job.section, job.cell, u,
+                               job.memory.of(now.memory, system.last.memory, h), block);
       if (!block.ok) failed = std::min(failed, c);
       std::copy_n(block.result.force.data(), block.dof_count,
                   cell_forces.begin() +
@@ -138,12 +138,12 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
       Vec<Dim> sum = Vec<Dim>::Zero();
       for (std::size_t e = gather.begin[at]; e < gather.begin[at + 1]; ++e)
         sum += Eigen::Map<const Vec<Dim>>(&cell_forces[gather.entry[e]]);
-      system.forces.internal.template segment<Dim>(Dim * n) = sum;
+      system.last.forces.internal.template segment<Dim>(Dim * n) = sum;
     }
   }
-  system.seconds.bulk += watch.seconds();
+  system.bulk.seconds += watch.seconds();
   if (failed == count) return true;
-  system.evaluate_job(static_cast<std::size_t>(failed), u, now.memory, {}, h, false, work.front());
+  system.bulk.evaluate(static_cast<std::size_t>(failed), u, now.memory, {}, h, false, work.front());
   trouble = work.front().message;
   return false;
 }
@@ -151,27 +151,27 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::add_contact(double h, double fraction) {
   const Stopwatch watch;
-  system.forces.contact.setZero();
+  system.last.forces.contact.setZero();
   for (std::size_t p = 0; p < active_set.size(); ++p) {
     const pairing::PairDefinition<Dim>& pair = system.model.pairs[p].definition;
     active_set[p].duration = h;
     active_set[p].mean_onset = h > 0;
-    active_set[p].relief = system.relief(pair, fraction);
-    pairing::evaluate<Dim>(pair, x, now.pairs[p], false, system.contact[p], active_set[p]);
-    for (const pairing::ContactBlock<Dim>& block : system.contact[p].blocks)
+    active_set[p].relief = system.contact.relief(pair, fraction);
+    pairing::evaluate<Dim>(pair, x, now.pairs[p], false, system.last.contact[p], active_set[p]);
+    for (const pairing::ContactBlock<Dim>& block : system.last.contact[p].blocks)
       for (int k = 0; k < block.count; ++k)
-        system.forces.contact.template segment<Dim>(Dim *
-                                                    block.nodes[static_cast<std::size_t>(k)]) +=
+        system.last.forces.contact.template segment<Dim>(
+            Dim * block.nodes[static_cast<std::size_t>(k)]) +=
             block.force.template segment<Dim>(Dim * k);
   }
-  system.seconds.contact += watch.seconds();
+  system.contact.seconds += watch.seconds();
 }
 
 /// As pairing::commit, without new memory.
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::commit_contact() {
   for (std::size_t p = 0; p < now.pairs.size(); ++p) {
-    const pairing::PairEvaluation<Dim>& evaluation = system.contact[p];
+    const pairing::PairEvaluation<Dim>& evaluation = system.last.contact[p];
     system.touched[p] = system.touched[p] || pairing::touches(evaluation);
     now.pairs[p].points.resize(evaluation.points.size());
     for (std::size_t i = 0; i < evaluation.points.size(); ++i)
@@ -182,13 +182,14 @@ void BasicSystem<Dim>::Impl::Explicit::commit_contact() {
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::add_loads(double fraction) {
-  Vector& external = system.forces.external;
+  Vector& external = system.last.forces.external;
   external.setZero();
   if (!system.step.pressure.empty()) {
     now.u = motion.position.head(now.u.size());
-    system.add_pressure(now, fraction, false, nullptr);
+    Assembly<Dim> to = system.assembly();
+    system.loads.add_pressure(system.step, now, fraction, to);
   }
-  system.add_dead_loads(fraction);
+  system.loads.add_dead_loads(system.step, fraction, system.last.forces);
   if (system.step.gravity.empty()) return;
   Vec<Dim> g;
   for (int i = 0; i < Dim; ++i)
@@ -202,7 +203,7 @@ void BasicSystem<Dim>::Impl::Explicit::add_loads(double fraction) {
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::sum_forces() {
-  const Forces& f = system.forces;
+  const Forces& f = system.last.forces;
   total = f.internal + f.contact - f.external;
   for (std::size_t b = 0; b < now.rigid.size(); ++b) {
     const Vec<Dim> center = now.rigid[b].center();
@@ -261,7 +262,7 @@ void BasicSystem<Dim>::Impl::Explicit::end_turns(double h) {
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::add_works(double h, const solve::ExplicitMotion& m) {
-  const Forces& f = system.forces;
+  const Forces& f = system.last.forces;
   const double half = 0.5 * h;
   works.internal += half * (past_internal + f.internal).dot(m.velocity);
   if (!active_set.empty()) works.contact += half * (past_contact + f.contact).dot(m.velocity);
@@ -328,7 +329,7 @@ void BasicSystem<Dim>::Impl::Explicit::follow(double time, double h, solve::Expl
 
 template <int Dim>
 bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::ExplicitMotion& m) {
-  Forces& f = system.forces;
+  Forces& f = system.last.forces;
   past_internal.swap(f.internal);
   past_contact.swap(f.contact);
   past_external.swap(f.external);
@@ -336,7 +337,7 @@ bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::
   place(m.position);
   const double fraction = time / system.step.duration;
   if (!add_cells(m.position, h)) return false;
-  now.memory.swap(system.next_memory);
+  now.memory.swap(system.last.memory);
   add_contact(h, fraction);
   commit_contact();
   add_loads(fraction);

@@ -60,9 +60,9 @@ void BasicSystem<Dim>::Impl::Explicit::load(const State& committed) {
   const Rates& r = committed.rates;
   now = committed;
   motion = {system.dof_values(committed), r.velocity, r.acceleration};
-  system.forces.internal = r.internal;
-  system.forces.contact = r.contact;
-  system.forces.external = r.external;
+  system.last.forces.internal = r.internal;
+  system.last.forces.contact = r.contact;
+  system.last.forces.external = r.external;
   damping_force = r.damping;
   stable = r.stable;
   works = {};
@@ -127,9 +127,9 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   add_loads(0);
   sum_forces();
   set_accelerations(0, motion);
-  rates.internal = system.forces.internal;
-  rates.contact = system.forces.contact;
-  rates.external = system.forces.external;
+  rates.internal = system.last.forces.internal;
+  rates.contact = system.last.forces.contact;
+  rates.external = system.last.forces.external;
   if constexpr (Dim == 3)
     for (std::size_t b = 0; b < turning.size(); ++b) {
       if (!turns[b]) continue;
@@ -144,8 +144,9 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
     if (turns[b]) rates.spins[b].moment = turning[b].moment;
   rates.damping = damping_force;
   set_rates(0, rates);
-  system.turn_moments(now, false, nullptr);
-  system.forces.inertia = inertia_forces(rates.acceleration);
+  Assembly<Dim> to = system.assembly();
+  turn_moments(system.model, now, false, to);
+  system.last.forces.inertia = inertia_forces(rates.acceleration);
   Energies& e = rates.energies;
   e.kinetic = kinetic(rates.velocity);
   const solid::CellEnergy bulk = bulk_energy(system.model, committed.u, committed.memory);
@@ -226,16 +227,17 @@ void BasicSystem<Dim>::Impl::Explicit::finish(double fraction, double duration,
   for (const Follower& f : followers)
     rates.velocity[f.dof] = f.lead < 0 ? 0.0 : f.factor * rates.velocity[f.lead];
   system.move_with_bodies(now, rates);
-  rates.internal = system.forces.internal;
-  rates.contact = system.forces.contact;
-  rates.external = system.forces.external;
+  rates.internal = system.last.forces.internal;
+  rates.contact = system.last.forces.contact;
+  rates.external = system.last.forces.external;
   rates.damping = damping_force;
   rates.stable = stable;
   rates.energies.elapsed += duration;
   add_energies(rates);
-  system.turn_moments(now, false, nullptr);
-  system.forces.inertia = inertia_forces(rates.acceleration);
-  out.counts = counts_of(system.model, system.contact);
+  Assembly<Dim> to = system.assembly();
+  turn_moments(system.model, now, false, to);
+  system.last.forces.inertia = inertia_forces(rates.acceleration);
+  out.counts = counts_of(system.model, system.last.contact);
 }
 
 template <int Dim>

@@ -18,7 +18,7 @@ constexpr int known_for = 100;  ///< time steps until what changes is measured a
 template <int Dim>
 double BasicSystem<Dim>::Impl::Explicit::cell_frequency(std::size_t cell, BulkBlock& block) {
   constexpr int most = Dim * BulkTraits<Dim>::max_nodes;
-  system.evaluate_job(cell, motion.position, now.memory, {}, 0, true, block);
+  system.bulk.evaluate(cell, motion.position, now.memory, {}, 0, true, block);
   if (!block.ok) return 0;  // the next time step says so
   const Eigen::MatrixXd& mass_of = system.motion->inertia->cells()[cell].mass;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> root(block.dof_count);
@@ -36,9 +36,9 @@ double BasicSystem<Dim>::Impl::Explicit::cell_frequency(std::size_t cell, BulkBl
 /// Source     Belytschko2014, section 6.2: element eigenvalue inequality
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::measure_stable_step() {
-  const auto count = static_cast<std::ptrdiff_t>(system.jobs.size());
-  std::vector<double> of_cell(system.jobs.size());
-#pragma omp parallel num_threads(system.threads)
+  const auto count = static_cast<std::ptrdiff_t>(system.bulk.jobs.size());
+  std::vector<double> of_cell(system.bulk.jobs.size());
+#pragma omp parallel num_threads(system.bulk.threads)
   {
     BulkBlock block;
 #pragma omp for schedule(static)
@@ -75,7 +75,7 @@ template <int Dim>
 std::string BasicSystem<Dim>::Impl::Explicit::governed() const {
   if (stable.contact) return "the springs of the contacts";
   if (stable.cell < 0) return "nothing";
-  const CellJob& job = system.jobs[static_cast<std::size_t>(stable.cell)];
+  const typename BulkTerm<Dim>::Job& job = system.bulk.jobs[static_cast<std::size_t>(stable.cell)];
   const CellNodes cell = cell_nodes(system.model.mesh, job.cell);
   return fmt::format("{} cell {} of '{}'", cell::info(cell.type).name,
                      mesh::cell_number(system.model.mesh, job.cell), job.section->name);

@@ -60,7 +60,7 @@ void BasicSystem<Dim>::Impl::evaluate_path(const State& committed, std::size_t p
                                            std::span<const Vec<Dim>> x, double duration) {
   pairing::ActiveSet<Dim> active_set;
   active_set.duration = duration;
-  active_set.relief = relief(model.pairs[pair].definition, committed.fraction);
+  active_set.relief = contact.relief(model.pairs[pair].definition, committed.fraction);
   const bool has_multipliers = pair < committed.multipliers.size();
   pairing::evaluate<Dim>(model.pairs[pair].definition, x, committed.pairs[pair], false,
                          motion->paths[pair], active_set,
@@ -73,10 +73,11 @@ void BasicSystem<Dim>::Impl::forget_impulses(
     std::vector<pairing::PairMultipliers<Dim>>& multipliers) const {
   if (!timed() || motion->settings.scheme.impact == solve::Impact::average) return;
   constexpr double far_above = 3;
-  const double usual = far_above * std::max(forces.internal.norm(), forces.external.norm());
+  const double usual =
+      far_above * std::max(last.forces.internal.norm(), last.forces.external.norm());
   for (std::size_t p = 0; p < multipliers.size(); ++p)
     for (std::size_t i = 0; i < multipliers[p].points.size(); ++i) {
-      const pairing::PointResult<Dim>& point = contact[p].points[i];
+      const pairing::PointResult<Dim>& point = last.contact[p].points[i];
       if (point.weight * std::abs(point.normal_traction) > usual) multipliers[p].points[i] = {};
     }
 }
@@ -160,7 +161,8 @@ std::optional<solve::ImpactAhead> BasicSystem<Dim>::impact_ahead(const State& co
 template <int Dim>
 bool BasicSystem<Dim>::has_met(const State& committed, const solve::ImpactAhead& expected) const {
   return std::any_of(expected.points.begin(), expected.points.end(), [&](const PointName& name) {
-    return met(committed.pairs[name[0]].points[name[1]], impl_->contact[name[0]].points[name[1]]);
+    return met(committed.pairs[name[0]].points[name[1]],
+               impl_->last.contact[name[0]].points[name[1]]);
   });
 }
 

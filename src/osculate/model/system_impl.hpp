@@ -1,7 +1,6 @@
 #pragma once
 // Inside of BasicSystem; included by its sources only.
 #include <array>
-#include <chrono>
 #include <deque>
 #include <functional>
 #include <span>
@@ -9,81 +8,40 @@
 #include <vector>
 
 #include "osculate/la/linear_solver.hpp"
-#include "osculate/model/assembler.hpp"
-#include "osculate/model/bulk.hpp"
-#include "osculate/model/inertia.hpp"
-#include "osculate/model/linear_cells.hpp"
-#include "osculate/model/material_memory.hpp"
+#include "osculate/model/stopwatch.hpp"
 #include "osculate/model/system.hpp"
+#include "osculate/model/terms/contact_term.hpp"
+#include "osculate/model/terms/load_term.hpp"
+#include "osculate/model/terms/resistance.hpp"
+#include "osculate/model/terms/rigid_term.hpp"
 
 namespace osculate::model {
-
-/// Time since it was made.
-class Stopwatch {
- public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-/// Whether the tractions of a pair are unknowns.
-template <int Dim>
-[[nodiscard]] bool constrained(const BasicContactPair<Dim>& pair) {
-  return pairing::by_multipliers(pair.definition);
-}
-
-/// Unknowns of one point of a pair whose multipliers are unknowns.
-template <int Dim>
-[[nodiscard]] Index multipliers_per_point(const BasicContactPair<Dim>& pair) {
-  return pairing::has_shear(pair.definition) ? Dim + 1 : 1;
-}
 
 template <int Dim>
 struct BasicSystem<Dim>::Impl {
   using BulkBlock = BasicBulkBlock<Dim>;
-  struct CellJob {
-    const BasicBulkSection<Dim>* section;
-    mesh::CellRef cell;
-    CellMemory memory;
-  };
 
   const BasicModel<Dim>& model;
-  int threads;
   BasicDofSpace<Dim> dofs;
+  // The terms.
+  BulkTerm<Dim> bulk;
+  ContactTerm<Dim> contact;
+  ConstraintTerm<Dim> constraints;
+  LoadTerm<Dim> loads;
+  Resistance<Dim> resistance;
+  std::array<bool, 4> enabled{true, true, true, true};
+  // What they add to, and what the last evaluation has left behind.
   la::MatrixBuilder builder;
   bool pattern_reserved = false;  ///< whoever asks for no matrix pays for none
   BasicAssembler<Dim> assembler;
-  std::vector<CellJob> jobs;
-  LinearCells<Dim> linear;  ///< by job
-  std::vector<BulkBlock> blocks;
-  std::vector<double> next_memory;  ///< of the material points, at the last trial
-  std::vector<pairing::PairEvaluation<Dim>> contact;
-  Forces forces;
-  Eigen::VectorXd predicted;  ///< K du_prescribed on primary dofs
-  Prediction friction = Prediction::as_before;
-  Eigen::VectorXd branch_shift;  ///< force of the linearised branches minus the true force
-  bool branched = false;
-  double resisted = 0;  ///< share of `resistance` on the diagonal
-  Eigen::VectorXd
-      resistance;      ///< stiffness of the bodies' own, one per unknown; empty: not yet measured
-  double carried = 0;  ///< largest prescribed increment of the last prediction
-  std::vector<bool> touched;    ///< by pair, in explicit time integration
-  bool beginning = true;        ///< the first step: initial overlaps are let in
-  double round_off = 0;         ///< of internal forces, from that of the coordinates
-  double extent = 0;            ///< of all cells
-  std::function<bool()> asked;  ///< whether iterations are to end
-  Step step;
-  std::array<bool, 4> enabled{true, true, true, true};
   la::Symmetry symmetry;
-  SystemSeconds seconds;
-  std::vector<Index> first_multiplier;            ///< per pair; -1: its tractions are no unknowns
-  Index unknowns = 0;                             ///< of the matrix
-  Eigen::VectorXd constraint, branch_constraint;  ///< values of the multipliers' rows
-  std::vector<double> path_values;
-  std::vector<Dof> path_dofs, contact_dofs;
+  Evaluated<Dim> last;
+  std::deque<ContactStates> recent;  ///< of the running attempt
+  double assembly_seconds = 0;       ///< beside those of the terms
+  // The running step.
+  Step step;
+  std::vector<bool> touched;    ///< by pair, in explicit time integration
+  std::function<bool()> asked;  ///< whether iterations are to end
 
   /// A step with inertia: what belongs to the step, and to the running increment.
   struct Motion {
@@ -114,8 +72,7 @@ struct BasicSystem<Dim>::Impl {
     Eigen::VectorXd speeds;  ///< at the beginning of the step; empty: errors are not estimated
   };
   std::optional<Motion> motion;
-  std::optional<BasicInertia<Dim>> resting;  ///< for gravity in steps without inertia
-  std::vector<Vec<Dim>> mass_x;              ///< configuration of the mass matrix
+  std::vector<Vec<Dim>> mass_x;  ///< configuration of the mass matrix
   std::vector<body::BasicRigidMotion<Dim>> mass_rigid;
 
   Impl(const BasicModel<Dim>& m, int thread_count);
@@ -134,9 +91,9 @@ struct BasicSystem<Dim>::Impl {
   void begin_dynamics();
   void measure_damping(const State& committed);
   void begin_increment(const State& committed, double fraction, double duration);
-  void add_inertia(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);
+  void add_inertia(const State& trial, Assembly<Dim>& to);
   /// Rotations of rigid bodies in space, in system_spins.cpp.
-  void add_spins(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);
+  void add_spins(const State& trial, Assembly<Dim>& to);
   void begin_spins(const State& committed, const Eigen::VectorXd& force, Rates& rates) const;
   /// Adds the moments that damp turning.
   void damp_spins(const Eigen::VectorXd& velocity, Eigen::VectorXd& damping) const;
@@ -144,8 +101,7 @@ struct BasicSystem<Dim>::Impl {
   void new_spins(const State& trial, const Eigen::VectorXd& impulse,
                  const Eigen::VectorXd& left_over, Rates& now, Eigen::VectorXd& of_impulse) const;
   void add_spin_damping(const State& trial, std::size_t body,
-                        const body::InertiaMoment<3>& inertial, bool with_tangent,
-                        const Eigen::VectorXd* inc);
+                        const body::InertiaMoment<3>& inertial, Assembly<Dim>& to);
   [[nodiscard]] double spin_energy(const Rates& rates) const;
   /// Moment of forces on the nodes of a rigid body about its centre, axes fixed in space.
   [[nodiscard]] Vec<body::rotations<Dim>> moment_on(const State& s, std::size_t body,
@@ -159,7 +115,7 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] bool total_matters(std::size_t body) const;
   /// Bodies in space that have turned far go on from another base.
   void rebase(State& state) const;
-  void add_cell_inertia(std::size_t cell, Eigen::Ref<Eigen::MatrixXd> tangent) const;
+  [[nodiscard]] CellInertia<Dim> cell_inertia() const;
   /// What is in balance: all forces on the side of the internal ones.
   [[nodiscard]] Eigen::VectorXd total_force() const;
   [[nodiscard]] Eigen::VectorXd damping_of(const Eigen::VectorXd& velocity) const;
@@ -246,15 +202,11 @@ struct BasicSystem<Dim>::Impl {
   /// Nodes of rigid bodies get the velocities of their bodies.
   void move_with_bodies(const State& s, Rates& rates) const;
 
-  std::deque<ContactStates> recent;  ///< of the running attempt
-  [[nodiscard]] ContactStates contact_states() const;
-
   [[nodiscard]] bool on(Term term) const { return enabled[static_cast<std::size_t>(term)]; }
   [[nodiscard]] std::vector<Vec<Dim>> positions(const Eigen::VectorXd& u) const;
   [[nodiscard]] double current_value(const State& s, Dof dof) const;
   [[nodiscard]] double equation_value(const Equation& equation, double fraction) const;
   void add_to(State& s, Dof dof, double value) const;
-  void add_to_multipliers(State& s, const Eigen::VectorXd& du, double factor) const;
   /// Increment of every primary dof that follows from prescriptions alone (unknowns fixed).
   [[nodiscard]] Eigen::VectorXd prescribed_increment(const State& s, std::span<const Vec<Dim>> x,
                                                      double fraction) const;
@@ -268,79 +220,21 @@ struct BasicSystem<Dim>::Impl {
   };
   void assemble(const State& committed, const Trial& trial, double fraction, bool with_tangent,
                 Pass pass, solve::Evaluation& out);
+  /// What terms add to; `inc` may be null.
+  [[nodiscard]] Assembly<Dim> assembly(bool with_tangent = false,
+                                       const Eigen::VectorXd* inc = nullptr) {
+    return {dofs, assembler, builder, last, with_tangent, inc, force_factor()};
+  }
   void assemble_terms(const State& committed, const Trial& trial, double fraction,
                       bool with_tangent, Pass pass, solve::Evaluation& out);
+  /// Residual and its measures, of the last evaluation.
+  void report(std::span<const Vec<Dim>> x, bool predict, solve::Evaluation& out) const;
 
   /// Time from a committed state to a fraction of the running step. A committed state at the end of
   /// a step is the start of the next one.
   [[nodiscard]] double time_between(const State& committed, double fraction) const {
     const double begin = committed.fraction < fraction ? committed.fraction : 0.0;
     return (fraction - begin) * step.duration;
-  }
-  /// Share of the initial overlaps of a pair that does not count at a fraction of the step.
-  [[nodiscard]] double relief(const pairing::PairDefinition<Dim>& pair, double fraction) const {
-    if (pair.overlap == pairing::InitialOverlap::kept) return 1;
-    return pair.overlap == pairing::InitialOverlap::ramped && beginning ? 1 - fraction : 0;
-  }
-  void measure_resistance();
-  void add_resistance(double share);
-
-  // The terms. `inc` (may be null) is the prescribed increment that `predicted` takes up.
-  void clear(bool with_tangent);
-  /// A cell at the nodal displacements `u` after what its points remember. Different cells may be
-  /// evaluated at once. `next` may be empty; `duration` of the increment.
-  void evaluate_job(std::size_t job, const Eigen::VectorXd& u, std::span<const double> memory,
-                    std::span<double> next, double duration, bool with_tangent, BulkBlock& out) {
-    const CellJob& j = jobs[job];
-    linear.evaluate(job, model, *j.section, j.cell, u, j.memory.of(memory, next, duration),
-                    with_tangent, out);
-  }
-  bool add_bulk(const State& committed, const State& trial, double duration, bool with_tangent,
-                const Eigen::VectorXd* inc, solve::Evaluation& out);
-  /// The last evaluation of contact, at `trial`, in whole: see pairing::look_far.
-  void look_far(const State& trial);
-  void add_contact(const State& committed, const Trial& trial, double fraction,
-                   std::span<const Vec<Dim>> x, bool with_tangent, const Eigen::VectorXd* inc,
-                   bool near, solve::Evaluation& out);
-  void add_contact_block(const pairing::ContactBlock<Dim>& block, bool with_tangent,
-                         const Eigen::VectorXd* inc);
-  /// Compliance of all multipliers in the tangent.
-  void soften();
-  /// Constraints of a pair whose multipliers are unknowns.
-  void add_constraints(std::size_t pair, bool with_tangent, const Eigen::VectorXd* inc);
-  void add_constraint_tangent(const pairing::ContactBlock<Dim>& block, bool shear, Index first,
-                              const Eigen::VectorXd* inc);
-  /// Largest entry of the row.
-  double add_constraint_row(Index unknown, const Eigen::VectorXd* inc);
-  /// rows * sum gradient . dx
-  void add_rank_one(std::span<const Dof> row_dofs, const Eigen::VectorXd& rows,
-                    const std::vector<pairing::NodeGradient<Dim>>& gradient,
-                    const Eigen::VectorXd* inc);
-  /// Terms of the nodes behind a contact point: one outer product per direction in space.
-  void add_path(std::span<const Dof> row_dofs, const pairing::ContactBlock<Dim>& block,
-                const Eigen::VectorXd* inc);
-  void add_outer(std::span<const Dof> row_dofs, const double* rows, const Eigen::VectorXd* inc);
-  void add_pressure(const State& trial, double fraction, bool with_tangent,
-                    const Eigen::VectorXd* inc);
-  void add_dead_loads(double fraction);
-  void add_gravity(double fraction);
-  /// What depends on the rotations of rigid bodies beyond the forces themselves: the work of
-  /// moments about fixed axes, and the second-order part of the motion.
-  void turn_moments(const State& trial, bool with_tangent, const Eigen::VectorXd* inc);
-  void add_rigid_geometry(const State& trial, std::span<const Vec<Dim>> x,
-                          const Eigen::VectorXd* inc);
-
-  template <class Block>
-  void add_stiffness(std::span<const Dof> block_dofs, const Block& k, const Eigen::VectorXd* inc) {
-    assembler.add_block(block_dofs, k);
-    if (!inc) return;
-    for (std::size_t j = 0; j < block_dofs.size(); ++j) {
-      const double du = (*inc)[block_dofs[j]];
-      if (du == 0.0) continue;
-      for (std::size_t i = 0; i < block_dofs.size(); ++i)
-        predicted[block_dofs[i]] +=
-            k(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * du;
-    }
   }
 };
 

@@ -86,8 +86,7 @@ Vec<body::rotations<Dim>> BasicSystem<Dim>::Impl::moment_on(
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::add_spins(const State& trial, bool with_tangent,
-                                       const Eigen::VectorXd* inc) {
+void BasicSystem<Dim>::Impl::add_spins(const State& trial, Assembly<Dim>& to) {
   if constexpr (Dim == 3) {
     Motion& m = *motion;
     const body::RotationScheme scheme = rotation_scheme(m.settings.scheme, m.h);
@@ -97,16 +96,16 @@ void BasicSystem<Dim>::Impl::add_spins(const State& trial, bool with_tangent,
       const Vec3 past = m.past_force.template segment<3>(first);
       m.effective.template segment<3>(first) +=
           body::rotation_tangent(trial.rigid[b].rotation).transpose() * past - past;
-      if (with_tangent && !past.isZero(0))
-        add_stiffness(d, body::moment_gradient(trial.rigid[b].rotation, past), inc);
+      if (to.with_tangent && !past.isZero(0))
+        to.add_stiffness(d, body::moment_gradient(trial.rigid[b].rotation, past));
       if (!m.inertia->body_has_mass(b)) continue;
       const body::InertiaMoment<3> inertial = body::inertia_moment(
           model.rigid[b].inertia, m.past.spins[b], scheme, m.from[b], trial.rigid[b]);
       const body::RotationForce<3> force =
           body::rotation_force(trial.rigid[b], inertial.moment, inertial.gradient);
       m.effective.template segment<3>(first) += m.factors.balance * force.force;
-      if (with_tangent) add_stiffness(d, Mat<3, 3>(m.factors.balance * force.tangent), inc);
-      if (m.settings.damping_mass > 0) add_spin_damping(trial, b, inertial, with_tangent, inc);
+      if (to.with_tangent) to.add_stiffness(d, Mat<3, 3>(m.factors.balance * force.tangent));
+      if (m.settings.damping_mass > 0) add_spin_damping(trial, b, inertial, to);
     }
   }
 }
@@ -115,7 +114,7 @@ void BasicSystem<Dim>::Impl::add_spins(const State& trial, bool with_tangent,
 template <int Dim>
 void BasicSystem<Dim>::Impl::add_spin_damping(const State& trial, std::size_t body,
                                               const body::InertiaMoment<3>& inertial,
-                                              bool with_tangent, const Eigen::VectorXd* inc) {
+                                              Assembly<Dim>& to) {
   if constexpr (Dim == 3) {
     Motion& m = *motion;
     const solve::TimeScheme& s = m.settings.scheme;
@@ -129,9 +128,9 @@ void BasicSystem<Dim>::Impl::add_spin_damping(const State& trial, std::size_t bo
     const Dof first = dofs.body_dof(static_cast<Index>(body), 3);
     m.damping_force.template segment<3>(first) += force.force;
     const std::array<Dof, 3> d{first, first + 1, first + 2};
-    if (with_tangent) add_stiffness(d, Mat<3, 3>(m.factors.force * force.tangent), inc);
+    if (to.with_tangent) to.add_stiffness(d, Mat<3, 3>(m.factors.force * force.tangent));
   } else {
-    (void)trial, (void)body, (void)inertial, (void)with_tangent, (void)inc;
+    (void)trial, (void)body, (void)inertial, (void)to;
   }
 }
 
@@ -204,7 +203,7 @@ void BasicSystem<Dim>::Impl::new_spins(const State& trial, const Eigen::VectorXd
         const Vec3 by_contact =
             m.coupled[b]
                 ? Vec3(r * inertia * r.transpose() * tangent * impulse.template segment<3>(first))
-                : Vec3(-moment_on(trial, b, forces.contact));
+                : Vec3(-moment_on(trial, b, last.forces.contact));
         rates = body::with_contact(rates, inertia, scheme, to, by_contact,
                                    solve::impulse_way(s.impact));
         of_impulse.template segment<3>(first) = tangent.transpose() * by_contact;

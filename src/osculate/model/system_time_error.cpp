@@ -98,7 +98,7 @@ solve::TimeError BasicSystem<Dim>::Impl::time_error(const State& committed, cons
     error = std::min(error, size_of(change + accelerations_by(before.contact - after.contact)));
   // What moves less than this share of the bodies' extent in the whole step is at rest.
   constexpr double at_rest = 1e-6;
-  double length = jobs.empty() ? 0.0 : extent;
+  double length = bulk.jobs.empty() ? 0.0 : resistance.extent;
   for (const BasicRigidBody<Dim>& body : model.rigid)
     if (body.mass > 0) length = std::max(length, std::sqrt(body.inertia.trace() / body.mass));
   const double slowest = at_rest * length * std::sqrt(motion->inertia->total()) / step.duration;

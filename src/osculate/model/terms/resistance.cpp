@@ -1,9 +1,8 @@
-// What resists free motions in solve::Resistance: the diagonal of the bodies' own stiffness.
+#include "osculate/model/terms/resistance.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "osculate/model/system_impl.hpp"
 
 namespace osculate::model {
 
@@ -29,47 +28,49 @@ double size_of(const BasicModel<Dim>& model) {
 /// Rigid bodies have no stiffness of their own: they get the mean of the others', their rotations
 /// with the square of a length.
 template <int Dim>
-void BasicSystem<Dim>::Impl::measure_resistance() {
+void Resistance<Dim>::measure(BulkTerm<Dim>& bulk, const BasicDofSpace<Dim>& dofs) {
+  const BasicModel<Dim>& model = bulk.model;
   extent = size_of(model);
   const Eigen::VectorXd rest =
       Eigen::VectorXd::Zero(Dim * static_cast<Eigen::Index>(model.reference.size()));
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Zero(dofs.dofs());
-  const std::vector<double> untouched(next_memory.size(), 0.0);
-  BulkBlock block;
-  for (std::size_t j = 0; j < jobs.size(); ++j) {
-    evaluate_job(j, rest, untouched, {}, 0, true, block);
+  Eigen::VectorXd own = Eigen::VectorXd::Zero(dofs.dofs());
+  const std::vector<double> untouched(memory_size(model), 0.0);
+  BasicBulkBlock<Dim> block;
+  for (std::size_t j = 0; j < bulk.jobs.size(); ++j) {
+    bulk.evaluate(j, rest, untouched, {}, 0, true, block);
     for (int k = 0; block.ok && k < block.dof_count; ++k)
-      diagonal[block.dofs[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
+      own[block.dofs[static_cast<std::size_t>(k)]] += std::abs(block.result.tangent(k, k));
   }
   double sum = 0;
   int count = 0;
-  for (Eigen::Index d = 0; d < diagonal.size(); ++d)
-    if (diagonal[d] > 0) {
-      sum += diagonal[d];
+  for (Eigen::Index d = 0; d < own.size(); ++d)
+    if (own[d] > 0) {
+      sum += own[d];
       ++count;
     }
   double farthest = 0;
-  for (const CellJob& job : jobs)
+  for (const typename BulkTerm<Dim>::Job& job : bulk.jobs)
     for (const Index n : cell_nodes(model.mesh, job.cell).nodes)
       farthest = std::max(farthest, model.reference[static_cast<std::size_t>(n)].norm());
-  round_off = 2 * std::numeric_limits<double>::epsilon() * farthest * diagonal.norm();
+  round_off = 2 * std::numeric_limits<double>::epsilon() * farthest * own.norm();
   const double mean = count ? sum / count : 1.0, arm = extent;
   const Dof first = Dim * dofs.nodes();
-  resistance.resize(dofs.unknowns());
+  diagonal.resize(dofs.unknowns());
   for (Index u = 0; u < dofs.unknowns(); ++u) {
     const Dof dof = dofs.dof_of_unknown(u);
     const bool turns = dof >= first && (dof - first) % body::motions<Dim> >= Dim;
-    resistance[u] = diagonal[dof] > 0 ? diagonal[dof] : mean * (turns ? arm * arm : 1.0);
+    diagonal[u] = own[dof] > 0 ? own[dof] : mean * (turns ? arm * arm : 1.0);
   }
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::add_resistance(double share) {
-  for (Index u = 0; u < dofs.unknowns(); ++u)
-    if (!assembler.prescribed(u)) builder.add(u, u, share * resistance[u]);
+void Resistance<Dim>::add(double part, const BasicAssembler<Dim>& assembler,
+                          la::MatrixBuilder& builder) const {
+  for (Index u = 0; u < diagonal.size(); ++u)
+    if (!assembler.prescribed(u)) builder.add(u, u, part * diagonal[u]);
 }
 
-template struct BasicSystem<2>::Impl;
-template struct BasicSystem<3>::Impl;
+template struct Resistance<2>;
+template struct Resistance<3>;
 
 }  // namespace osculate::model

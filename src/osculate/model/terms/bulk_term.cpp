@@ -1,0 +1,74 @@
+#include "osculate/model/terms/bulk_term.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+
+#include "osculate/model/stopwatch.hpp"
+
+namespace osculate::model {
+namespace {
+
+constexpr std::size_t tile = 256;  ///< cells computed in parallel before they are added in order
+
+}  // namespace
+
+template <int Dim>
+BulkTerm<Dim>::BulkTerm(const BasicModel<Dim>& m, int thread_count)
+    : model(m), threads(thread_count) {
+  for_each_cell(model, [&](const auto& section, const mesh::CellRef& cell, const CellMemory& of) {
+    jobs.push_back({&section, cell, of});
+    linear.add(section, cell_nodes(model.mesh, cell).type);
+  });
+  blocks.resize(std::min(tile, jobs.size()));
+}
+
+template <int Dim>
+void BulkTerm<Dim>::reserve(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& builder) const {
+  std::vector<Index> of_cell;
+  for (const Job& job : jobs) {
+    of_cell.clear();
+    for (const Index node : cell_nodes(model.mesh, job.cell).nodes)
+      for (int i = 0; i < Dim; ++i) {
+        const Index unknown = dofs.unknown_of(dofs.node_dof(node, i));
+        if (unknown >= 0) of_cell.push_back(unknown);
+      }
+    builder.reserve_block(of_cell);
+  }
+}
+
+template <int Dim>
+bool BulkTerm<Dim>::add(const State& committed, const State& trial, double duration,
+                        const CellInertia<Dim>* inertia, Assembly<Dim>& to,
+                        solve::Evaluation& out) {
+  for (std::size_t start = 0; start < jobs.size(); start += tile) {
+    const std::size_t count = std::min(tile, jobs.size() - start);
+    const Stopwatch watch;
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::size_t i = 0; i < count; ++i) {
+      evaluate(start + i, trial.u, committed.memory, to.into.memory, duration, to.with_tangent,
+               blocks[i]);
+    }
+    seconds += watch.seconds();
+    for (std::size_t i = 0; i < count; ++i) {
+      BasicBulkBlock<Dim>& block = blocks[i];
+      if (!block.ok) {
+        out.ok = false;
+        out.message = block.message;
+        return false;
+      }
+      const std::span<const Dof> d(block.dofs.data(), static_cast<std::size_t>(block.dof_count));
+      for (int k = 0; k < block.dof_count; ++k)
+        to.into.forces.internal[d[static_cast<std::size_t>(k)]] += block.result.force[k];
+      if (!to.with_tangent) continue;
+      if (inertia) inertia->add_to(start + i, block.result.tangent);
+      to.add_stiffness(d, block.result.tangent);
+    }
+  }
+  return true;
+}
+
+template struct BulkTerm<2>;
+template struct BulkTerm<3>;
+
+}  // namespace osculate::model

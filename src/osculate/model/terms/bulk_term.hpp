@@ -1,0 +1,54 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "osculate/model/inertia.hpp"
+#include "osculate/model/linear_cells.hpp"
+#include "osculate/model/material_memory.hpp"
+#include "osculate/model/state.hpp"
+#include "osculate/model/terms/assembly.hpp"
+#include "osculate/solve/newton.hpp"
+
+namespace osculate::model {
+
+/// The bodies: internal forces and stiffness of all cells, which are computed in parallel and added
+/// in order.
+///
+/// Tested by  tests/unit/model/test_system.cpp, test_material_memory.cpp
+template <int Dim>
+struct BulkTerm {
+  using State = BasicState<Dim>;
+  struct Job {
+    const BasicBulkSection<Dim>* section;
+    mesh::CellRef cell;
+    CellMemory memory;
+  };
+
+  const BasicModel<Dim>& model;
+  int threads;
+  std::vector<Job> jobs;
+  LinearCells<Dim> linear;  ///< by job
+  std::vector<BasicBulkBlock<Dim>> blocks;
+  double seconds = 0;
+
+  BulkTerm(const BasicModel<Dim>& m, int thread_count);
+  /// The places of all cells in the matrix.
+  void reserve(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& builder) const;
+  /// A cell at the nodal displacements `u` after what its points remember. Different cells may be
+  /// evaluated at once. `next` may be empty; `duration` of the increment.
+  void evaluate(std::size_t job, const Eigen::VectorXd& u, std::span<const double> memory,
+                std::span<double> next, double duration, bool with_tangent,
+                BasicBulkBlock<Dim>& out) {
+    const Job& j = jobs[job];
+    linear.evaluate(job, model, *j.section, j.cell, u, j.memory.of(memory, next, duration),
+                    with_tangent, out);
+  }
+  /// False: a cell cannot be evaluated, `out` says why. `inertia` may be null.
+  bool add(const State& committed, const State& trial, double duration,
+           const CellInertia<Dim>* inertia, Assembly<Dim>& to, solve::Evaluation& out);
+};
+
+extern template struct BulkTerm<2>;
+extern template struct BulkTerm<3>;
+
+}  // namespace osculate::model

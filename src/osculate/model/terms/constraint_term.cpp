@@ -1,0 +1,131 @@
+#include "osculate/model/terms/constraint_term.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "osculate/pairing/point_penalty.hpp"
+
+namespace osculate::model {
+namespace {
+
+/// Whether the tractions of a pair are unknowns.
+template <int Dim>
+[[nodiscard]] bool constrained(const BasicContactPair<Dim>& pair) {
+  return pairing::by_multipliers(pair.definition);
+}
+
+/// Unknowns of one point of a pair whose multipliers are unknowns.
+template <int Dim>
+[[nodiscard]] Index multipliers_per_point(const BasicContactPair<Dim>& pair) {
+  return pairing::has_shear(pair.definition) ? Dim + 1 : 1;
+}
+
+}  // namespace
+
+template <int Dim>
+ConstraintTerm<Dim>::ConstraintTerm(const BasicModel<Dim>& m, Index displacements)
+    : model(m), begin(displacements), end(displacements) {
+  for (const BasicContactPair<Dim>& pair : model.pairs) {
+    first.push_back(constrained(pair) ? end : -1);
+    if (constrained(pair))
+      end += multipliers_per_point(pair) * static_cast<Index>(pair.definition.slave.points.size());
+  }
+}
+
+template <int Dim>
+void ConstraintTerm<Dim>::move(BasicState<Dim>& s, const Eigen::VectorXd& du, double factor) const {
+  for (std::size_t p = 0; p < first.size(); ++p) {
+    if (first[p] < 0) continue;
+    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
+    Index row = first[p];
+    std::vector<contact::Multiplier<Dim>>& points = s.multipliers[p].points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const pairing::PointPenalty penalty = pairing::point_penalty(pair, i);
+      points[i].normal += factor * penalty.normal * du[row++];
+      if (!pairing::has_shear(pair)) continue;
+      points[i].shear += factor * penalty.shear * du.segment<Dim>(row);
+      row += Dim;
+    }
+  }
+}
+
+template <int Dim>
+void ConstraintTerm<Dim>::add_tangent(const pairing::ContactBlock<Dim>& block, bool shear, Index at,
+                                      Assembly<Dim>& to) const {
+  const pairing::ConstraintBlock<Dim>& c = block.constraint;
+  const Index count = shear ? Dim + 1 : 1;
+  constexpr double negligible = 1e-10;
+  for (Index row = 0; row < count; ++row) {
+    to.begin_path();
+    if (row == 0)
+      for (const pairing::NodeGradient<Dim>& g : c.normal_row) to.add_to_path(g.node, g.value);
+    else
+      for (const pairing::NodeMatrix<Dim>& g : c.shear_row)
+        to.add_to_path(g.node, Vec<Dim>(g.value.row(row - 1).transpose()));
+    double largest = to.add_row(at + row);
+    for (Index column = 0; column < count; ++column)
+      if (const double own = c.own(row, column); own != 0.0) {
+        to.builder.add(at + row, at + column, own);
+        largest = std::max(largest, std::abs(own));
+      }
+    // Both sides are prescribed in this direction: the traction stays what it is.
+    if (largest <= negligible * c.scale[row]) to.builder.add(at + row, at + row, -c.scale[row]);
+  }
+  if (!block.active()) return;
+  const std::span<const Dof> d = to.rows_of(block);
+  for (Index column = 0; column < count; ++column)
+    to.assembler.add_column(d, {c.columns.col(column).data(), d.size()}, at + column);
+}
+
+template <int Dim>
+void ConstraintTerm<Dim>::add(std::size_t pair, Assembly<Dim>& to) const {
+  if (first[pair] < 0) return;
+  const bool shear = pairing::has_shear(model.pairs[pair].definition);
+  const Index count = multipliers_per_point(model.pairs[pair]);
+  Index at = first[pair];
+  for (std::size_t i = 0; i < model.pairs[pair].definition.slave.points.size(); ++i) {
+    const pairing::ContactBlock<Dim>& block = to.into.contact[pair].blocks[i];
+    const Index row = at - begin;
+    to.into.constraint[row] += block.constraint.normal;
+    to.into.branch_constraint[row] += block.constraint.branch_normal;
+    if (shear) {
+      to.into.constraint.template segment<Dim>(row + 1) += block.constraint.shear;
+      to.into.branch_constraint.template segment<Dim>(row + 1) += block.constraint.branch_shear;
+    }
+    if (to.with_tangent) add_tangent(block, shear, at, to);
+    at += count;
+  }
+}
+
+template <int Dim>
+void ConstraintTerm<Dim>::soften(la::MatrixBuilder& builder) const {
+  constexpr double share = 1e-8;
+  const la::SparseMatrix& k = builder.finish();
+  const auto value_at = [&](Index row, Index column) {
+    const auto from = k.column.begin() + k.row_start[static_cast<std::size_t>(row)];
+    const auto to = k.column.begin() + k.row_start[static_cast<std::size_t>(row) + 1];
+    const auto at = std::lower_bound(from, to, column);
+    return at != to && *at == column ? k.value[static_cast<std::size_t>(at - k.column.begin())]
+                                     : 0.0;
+  };
+  std::vector<double> compliance(static_cast<std::size_t>(count()));
+  for (Index u = begin; u < end; ++u)
+    for (Index at = k.row_start[static_cast<std::size_t>(u)];
+         at < k.row_start[static_cast<std::size_t>(u) + 1]; ++at) {
+      const Index j = k.column[static_cast<std::size_t>(at)];
+      const double stiffness = j < begin ? std::abs(value_at(j, j)) : 0.0;
+      if (stiffness > 0)
+        compliance[static_cast<std::size_t>(u - begin)] +=
+            k.value[static_cast<std::size_t>(at)] * value_at(j, u) / stiffness;
+    }
+  for (std::size_t i = 0; i < compliance.size(); ++i)
+    if (compliance[i] != 0.0) {
+      const Index u = begin + static_cast<Index>(i);
+      builder.add(u, u, -share * compliance[i]);
+    }
+}
+
+template struct ConstraintTerm<2>;
+template struct ConstraintTerm<3>;
+
+}  // namespace osculate::model

@@ -1,0 +1,38 @@
+#pragma once
+#include <vector>
+
+#include "osculate/model/model.hpp"
+#include "osculate/model/state.hpp"
+#include "osculate/model/terms/assembly.hpp"
+
+namespace osculate::model {
+
+/// The multipliers that are unknowns: rows and columns of the contact pairs that have them
+/// (pairing/constraint.hpp). They follow the unknowns of the dof space.
+///
+/// Tested by  tests/unit/model/test_contact.cpp, test_contact_tangent.cpp
+template <int Dim>
+struct ConstraintTerm {
+  const BasicModel<Dim>& model;
+  std::vector<Index> first;  ///< by pair; -1: its tractions are no unknowns
+  Index begin;               ///< number of unknowns of the dof space
+  Index end;                 ///< of the matrix
+
+  ConstraintTerm(const BasicModel<Dim>& m, Index displacements);
+  [[nodiscard]] Index count() const { return end - begin; }
+  /// Adds a correction of the unknowns to the multipliers of a state.
+  void move(BasicState<Dim>& s, const Eigen::VectorXd& du, double factor) const;
+  /// Constraints of a pair whose multipliers are unknowns.
+  void add(std::size_t pair, Assembly<Dim>& to) const;
+  /// Compliance of all multipliers in the tangent.
+  void soften(la::MatrixBuilder& builder) const;
+
+ private:
+  void add_tangent(const pairing::ContactBlock<Dim>& block, bool shear, Index row,
+                   Assembly<Dim>& to) const;
+};
+
+extern template struct ConstraintTerm<2>;
+extern template struct ConstraintTerm<3>;
+
+}  // namespace osculate::model
