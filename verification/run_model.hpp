@@ -16,13 +16,9 @@ struct Snapshot {
   const solve::IncrementRecord* record;  ///< null for the initial state
 };
 
-/// Builds and runs a model; `look` is called after the initial state and each converged increment.
-/// `edit` may change the built model (penalties, section, steps) before the run.
-inline model::AnalysisResult run_model(const std::string& path,
-                                       const std::function<void(const Snapshot&)>& look,
-                                       const std::function<void(deck::Built&)>& edit = {}) {
-  deck::Built built = deck::build_file(path);
-  if (edit) edit(built);
+/// Runs a built model; `look` is called after the initial state and each converged increment.
+inline model::AnalysisResult run_built(const deck::Built& built,
+                                       const std::function<void(const Snapshot&)>& look) {
   model::AnalysisObserver observer;
   observer.converged = [&](model::System& system, const model::State& state,
                            const model::Progress& progress, const solve::IncrementRecord* record) {
@@ -32,18 +28,21 @@ inline model::AnalysisResult run_model(const std::string& path,
   return model::run(built.model, built.options, observer);
 }
 
+/// Builds and runs a model; `look` is called after the initial state and each converged increment.
+/// `edit` may change the built model (penalties, section, steps) before the run.
+inline model::AnalysisResult run_model(const std::string& path,
+                                       const std::function<void(const Snapshot&)>& look,
+                                       const std::function<void(deck::Built&)>& edit = {}) {
+  deck::Built built = deck::build_file(path);
+  if (edit) edit(built);
+  return run_built(built, look);
+}
+
 /// The same for a model file given as text (cases that refine a mesh write theirs).
 inline model::AnalysisResult run_text(const std::string& text,
                                       const std::function<void(const Snapshot&)>& look) {
   const deck::Description description = deck::parse_model(text, "generated.yaml");
-  const deck::Built built = deck::build(description, deck::load_mesh(description));
-  model::AnalysisObserver observer;
-  observer.converged = [&](model::System& system, const model::State& state,
-                           const model::Progress& progress, const solve::IncrementRecord* record) {
-    if (look) look({system, state, progress, record});
-    return true;
-  };
-  return model::run(built.model, built.options, observer);
+  return run_built(deck::build(description, deck::load_mesh(description)), look);
 }
 
 /// Iterations of all increments, those of dropped attempts included.

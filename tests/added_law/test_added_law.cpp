@@ -11,6 +11,7 @@
 #include "osculate/deck/explain.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/deck/schema.hpp"
+#include "refusal.hpp"
 #include "run_model.hpp"
 
 namespace osculate {
@@ -40,15 +41,6 @@ output: {history: [{on: floor, of: normal_force}, {on: floor, of: shear_force}, 
 std::string edited(const std::string& from, const std::string& to) {
   std::string text = model;
   return text.replace(text.find(from), from.size(), to);
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    (void)deck::parse_model(text, "model.yaml");
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 TEST(AddedLaw, IsInSchemaAndDocumentation) {

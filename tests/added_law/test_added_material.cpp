@@ -12,6 +12,7 @@
 #include "osculate/deck/schema.hpp"
 #include "osculate/material/energy.hpp"
 #include "osculate/material/law.hpp"
+#include "refusal.hpp"
 #include "run_model.hpp"
 
 namespace osculate {
@@ -48,15 +49,6 @@ output: {fields: last, history: [{on: block.top, of: rfz}]}
 
 std::string edited(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
-}
-
-std::string refusal(const std::string& text) {
-  try {
-    (void)deck::parse_model(text, "model.yaml");
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return {};
 }
 
 /// Force per area of the block that becomes `s` times as long and no thinner: s S with C = (1, 1,

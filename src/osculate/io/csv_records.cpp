@@ -9,12 +9,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 #include <set>
 
 #include "osculate/core/error.hpp"
 #include "osculate/core/text.hpp"
+#include "osculate/io/readable.hpp"
 
 namespace osculate::io {
 namespace {
@@ -36,19 +36,6 @@ std::string shown(std::string_view text) {
   for (char& c : out)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
   return text.size() > 40 ? out + "..." : out;
-}
-
-void require_readable(const std::string& path) {
-  const auto fail = [&path](const std::string& message) {
-    throw core::InputError({path, 0, ""}, message);
-  };
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    const bool absent = !error || error == std::errc::no_such_file_or_directory;
-    fail(absent ? "no such file" : "cannot read: " + error.message());
-  }
-  if (std::filesystem::is_directory(status)) fail("is a folder, not a file");
 }
 
 /// One cell after the other.
@@ -120,7 +107,7 @@ bool read_number(std::string_view cell, double& value) {
 }  // namespace
 
 CsvRecords::CsvRecords(std::string path) : path_(std::move(path)) {
-  require_readable(path_);
+  (void)readable_status(path_);
   errno = 0;
   file_.reset(std::fopen(path_.c_str(), "rb"));
   if (!file_) fail(0, std::string("cannot read: ") + std::strerror(errno));

@@ -12,6 +12,7 @@
 
 #include "osculate/core/error.hpp"
 #include "osculate/io/gmsh/raw.hpp"
+#include "osculate/io/readable.hpp"
 #include "osculate/io/utf8.hpp"
 
 namespace osculate::io {
@@ -142,12 +143,7 @@ std::string read_file(const std::string& path) {
     throw core::InputError({path, 0, ""}, message);
   };
   std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    const bool absent = !error || error == std::errc::no_such_file_or_directory;
-    fail(absent ? "no such file" : "cannot read: " + error.message());
-  }
-  if (std::filesystem::is_directory(status)) fail("is a folder, not a file");
+  const std::filesystem::file_status status = readable_status(path);
   if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
     fail("is not a file");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),

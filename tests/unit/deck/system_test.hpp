@@ -13,6 +13,16 @@ inline Built build_text(const std::string& text) {
   return build(description, load_mesh(description));
 }
 
+/// The message that a model text is refused with when it is built.
+inline std::string build_refusal(const std::string& text) {
+  try {
+    (void)build_text(text);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
 /// A system at the beginning of its first step, displaced at random.
 struct Probe {
   explicit Probe(const std::string& text, double amplitude = 0.01) : built(build_text(text)) {

@@ -6,15 +6,6 @@
 namespace osculate::deck {
 namespace {
 
-std::string build_refusal(const std::string& text) {
-  try {
-    (void)build_text(text);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return {};
-}
-
 const model::ContactPair& pair_named(const Built& built, const std::string& name) {
   for (const model::ContactPair& pair : built.model.pairs)
     if (pair.name == name) return pair;

@@ -99,15 +99,6 @@ TEST(HistoryKey, ChoosesTheRule) {
   EXPECT_EQ(rule("per_facet"), HistoryRule::per_facet);
 }
 
-std::string build_refusal(const std::string& text) {
-  try {
-    (void)build_text(text);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return {};
-}
-
 TEST(SmoothingKey, Broken) {
   const std::string at = "model.yaml:5: contact[0].smoothing: ";
   EXPECT_EQ(build_refusal(blocks("smoothing: hermite", "quad9")),

@@ -82,6 +82,12 @@ TEST(SystemSpace, FloorsPointUpwards) {
   EXPECT_EQ(slaves, swapped.mesh.find_set("g")->nodes);
 }
 
+double column_of(const Built3& built, const std::vector<double>& row, const std::string& name) {
+  for (std::size_t k = 0; k < built.history.size(); ++k)
+    if (built.history[k].name == name) return row[k];
+  throw std::runtime_error(name);
+}
+
 /// The example of a model in space runs, balances, and slides at Coulomb's limit.
 TEST(SystemSpace, TheExampleSlidesAtTheLimit) {
   const std::string path = std::string(OSCULATE_SOURCE_DIR) + "/examples/block3d/block3d.yaml";
@@ -90,9 +96,7 @@ TEST(SystemSpace, TheExampleSlidesAtTheLimit) {
   const Table t = run_space(built);
   ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
   const auto column = [&](const std::vector<double>& row, const std::string& name) {
-    for (std::size_t k = 0; k < built.history.size(); ++k)
-      if (built.history[k].name == name) return row[k];
-    throw std::runtime_error(name);
+    return column_of(built, row, name);
   };
   ASSERT_GE(t.rows.size(), 34u);  // one more where rounding leads to a cut-back
   for (const std::vector<double>& row : t.rows) {
@@ -120,9 +124,7 @@ TEST(SystemSpace, TheExampleOfCrossedBeamsIsHeldByItsEdges) {
   const Table t = run_space(built);
   ASSERT_EQ(t.result.outcome, solve::Outcome::converged) << t.result.message;
   const auto column = [&](const std::vector<double>& row, const std::string& name) {
-    for (std::size_t k = 0; k < built.history.size(); ++k)
-      if (built.history[k].name == name) return row[k];
-    throw std::runtime_error(name);
+    return column_of(built, row, name);
   };
   ASSERT_GE(t.rows.size(), 20u);
   for (const std::vector<double>& row : t.rows) {

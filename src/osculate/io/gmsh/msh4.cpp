@@ -101,19 +101,24 @@ void read_element_block(Cursor& cursor, RawMesh& raw, std::map<EntityKey, Index>
   }
 }
 
-}  // namespace
-
-void read_entities_4(Cursor& cursor, RawMesh& raw) {
+/// The entities of all dimensions, each after its tag.
+template <class Read>
+void read_entities(Cursor& cursor, const Read& read) {
   const std::array<std::int64_t, 4> counts = read_four_counts(cursor, "a number of entities");
   for (int dimension = 0; dimension < 4; ++dimension) {
     const std::int64_t n = counts[static_cast<std::size_t>(dimension)];
     cursor.require(n, 8, 36, "entities");
     for (std::int64_t i = 0; i < n; ++i) {
       cursor.begin_record();
-      const std::int64_t tag = cursor.integer("the tag of an entity");
-      read_entity(cursor, raw, {dimension, tag});
+      read({dimension, cursor.integer("the tag of an entity")});
     }
   }
+}
+
+}  // namespace
+
+void read_entities_4(Cursor& cursor, RawMesh& raw) {
+  read_entities(cursor, [&](const EntityKey& entity) { read_entity(cursor, raw, entity); });
 }
 
 void read_partitioned_entities_4(Cursor& cursor, RawMesh& raw) {
@@ -130,21 +135,14 @@ void read_partitioned_entities_4(Cursor& cursor, RawMesh& raw) {
     (void)cursor.integer("a partition");
     cursor.end_record();
   }
-  const std::array<std::int64_t, 4> counts = read_four_counts(cursor, "a number of entities");
-  for (int dimension = 0; dimension < 4; ++dimension) {
-    const std::int64_t n = counts[static_cast<std::size_t>(dimension)];
-    cursor.require(n, 8, 36, "entities");
-    for (std::int64_t i = 0; i < n; ++i) {
-      cursor.begin_record();
-      const std::int64_t tag = cursor.integer("the tag of an entity");
-      const std::int64_t parent = cursor.integer("the dimension of the parent entity");
-      (void)cursor.integer("the tag of the parent entity");
-      (void)read_integers(cursor, "partitions");
-      read_entity(cursor, raw, {dimension, tag});
-      // An interface between partitions is no part of the user's groups, whatever tags it got.
-      if (parent != dimension) raw.entities.erase({dimension, tag});
-    }
-  }
+  read_entities(cursor, [&](const EntityKey& entity) {
+    const std::int64_t parent = cursor.integer("the dimension of the parent entity");
+    (void)cursor.integer("the tag of the parent entity");
+    (void)read_integers(cursor, "partitions");
+    read_entity(cursor, raw, entity);
+    // An interface between partitions is no part of the user's groups, whatever tags it got.
+    if (parent != entity.first) raw.entities.erase(entity);
+  });
 }
 
 void read_nodes_4(Cursor& cursor, RawMesh& raw) {
