@@ -110,7 +110,8 @@ void push_edges(const Probe<3>& probe, const pairing::PairDefinition<3>& pair,
   for (const pairing::PointResult<3>& p : edge_contacts) {
     if (!(std::abs(p.gap) < 0.1 * probe.size)) continue;
     const Vec3 push = -(p.gap + depth) * p.normal;
-    const pairing::SharpEdge& edge = pair.edges.slave[static_cast<std::size_t>(p.history.edge)];
+    const pairing::EdgeContact& edges = *pairing::edges_of(pair);
+    const pairing::SharpEdge& edge = edges.slave[static_cast<std::size_t>(p.history.edge)];
     for (int n = 0; n < edge.count; ++n)
       for (int k = 0; k < 3; ++k) {
         const model::Dof dof =
