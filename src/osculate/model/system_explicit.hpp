@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "osculate/model/system_motion.hpp"
+#include "osculate/model/system_impl.hpp"
 
 namespace osculate::model {
 
