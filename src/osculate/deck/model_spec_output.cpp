@@ -262,7 +262,9 @@ void complete(HistoryRequest& request, const Description& d) {
   request.target = d.find_contact(on) ? HistoryTarget::contact
                    : d.find_rigid(on) ? HistoryTarget::rigid
                                       : HistoryTarget::set;
-  const std::string word(quantity_names[static_cast<std::size_t>(request.of.value)]);
+  const std::string word(request.of.value < Quantity::remembered
+                             ? quantity_names[static_cast<std::size_t>(request.of.value)]
+                             : remembered_number(request.of.value).word);
   if (request.column.empty()) {
     if (on.find_first_of(",\"\r\n") != std::string::npos)
       throw core::InputError(request.on.mark, quoted(on) + " cannot head a column; give a `name`");

@@ -203,8 +203,8 @@ TEST(LawKeys, RefuseFrictionAndDampingThatMakeNoSense) {
            "and corrected or unknown tractions have none: use penalty, or leave out damping "
            "(contact[1].normal.damping.restitution: line 26)"},
           {"slave: low.bottom", "slave: low.bottom\n    enforcement: augmented_lagrange",
-           "model.yaml:21: contact[0].enforcement: a law that gives the pressure as a function of "
-           "the gap is met by itself: use penalty (contact[0].normal.exponential: line 22)"},
+           "model.yaml:20: contact[0].enforcement: a law that gives the pressure as a function of "
+           "the gap is met by itself: use penalty (contact[0].normal.exponential: line 21)"},
           {"tresca: {limit: 3, penalty: 500}",
            "tresca: {limit: 3, penalty: 500}, rough: {penalty: 1}",
            top + "friction: 'tresca' and 'rough' exclude each other"},
