@@ -10,6 +10,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 /// A beam 10 x 1 whose end is bent down.
 std::string beam(const std::string& elements, const std::string& section) {
@@ -97,12 +98,14 @@ TEST(Locking, AMetalThatFlowsIsTooStiff) {
     return fmt::format(
         "{{on: b.bottom, ux: 0, uy: 0}}, {{on: b.left, ux: 0}}, {{on: punch, uy: {}}}", -way);
   };
+  // (beside what is said of such strains with small kinematics)
   EXPECT_THAT(
-      warnings_of(metal(", formulation: full", pressed(0.01))),
-      ElementsAre(AllOf(HasSubstr("section 'b'"), HasSubstr("work done on cells that flow"),
-                        HasSubstr("since flow keeps the volume"), HasSubstr("formulation: bbar"))));
-  EXPECT_THAT(warnings_of(metal("", pressed(0.01))), IsEmpty());
-  EXPECT_THAT(warnings_of(metal(", formulation: enhanced", pressed(0.01))), IsEmpty());
+      warnings_of(metal(", formulation: full", pressed(0.08))),
+      Contains(AllOf(HasSubstr("section 'b'"), HasSubstr("work done on cells that flow"),
+                     HasSubstr("since flow keeps the volume"), HasSubstr("formulation: bbar"))));
+  for (const char* const sound : {"", ", formulation: enhanced"})
+    EXPECT_THAT(warnings_of(metal(sound, pressed(0.08))),
+                Not(Contains(HasSubstr("cells that flow"))));
   EXPECT_THAT(warnings_of(metal(", formulation: full", pressed(0.0015))), IsEmpty());  // begins to
 }
 
