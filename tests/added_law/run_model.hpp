@@ -43,6 +43,7 @@ inline Results results_of(const std::string& model) {
   std::ofstream(path / "model.yaml") << model;
   api::RunOptions options;
   options.model = (path / "model.yaml").string();
+  options.folder = (path / "model.results").string();
   const api::RunOutcome outcome = api::run(options);
   EXPECT_EQ(outcome.status, api::RunStatus::done) << outcome.message;
   std::ifstream log(std::filesystem::path(outcome.folder) / "log.txt");
