@@ -5,7 +5,7 @@
 
 #include "osculate/model/passed_through.hpp"
 #include "osculate/model/penetration.hpp"
-#include "osculate/model/system_impl.hpp"
+#include "osculate/model/system_motion.hpp"
 
 namespace osculate::model {
 
@@ -50,8 +50,7 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
   }
   impl_->assembler.set_prescribed(std::move(flags));
   impl_->bulk.linear.reserve();
-  impl_->begin_dynamics();
-  impl_->begin_explicit();
+  impl_->begin_drivers();
 }
 
 template <int Dim>
@@ -60,9 +59,9 @@ BasicState<Dim> BasicSystem<Dim>::begin_motion(const State& committed) {
   if (impl_->explicit_motion)
     state.rates = impl_->begin_explicit_rates(committed);
   else
-    state.rates = impl_->motion ? impl_->begin_rates(committed) : Rates{};
+    state.rates = impl_->motion ? impl_->motion->begin_rates(committed) : Rates{};
   if (impl_->motion && impl_->motion->settings.time_steps)
-    impl_->motion->speeds = impl_->speeds_of(state.rates);
+    impl_->motion->speeds = impl_->motion->speeds_of(state.rates);
   return state;
 }
 
@@ -185,8 +184,8 @@ template <int Dim>
 BasicState<Dim> BasicSystem<Dim>::commit(const Trial& trial, double fraction) const {
   State state = trial.state;
   if (impl_->timed()) {
-    state.rates = impl_->new_rates(trial.state);
-    impl_->rebase(state);
+    state.rates = impl_->motion->new_rates(trial.state);
+    impl_->motion->rebase(state);
   }
   state.fraction = fraction;
   state.memory = impl_->last.memory;
@@ -198,7 +197,7 @@ BasicState<Dim> BasicSystem<Dim>::commit(const Trial& trial, double fraction) co
   }
   for (std::size_t p = 0; p < state.multipliers.size(); ++p)
     state.multipliers[p] = pairing::commit(impl_->last.contact[p], std::move(state.multipliers[p]));
-  impl_->forget_impulses(state.multipliers);
+  if (impl_->motion) impl_->motion->forget_impulses(state.multipliers);
   return state;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "osculate/model/system_impl.hpp"
+#include "osculate/model/system_motion.hpp"
 
 namespace osculate::model {
 namespace {
@@ -56,8 +56,8 @@ Mat<3, 3> inertia_in_space(const Mat<3, 3>& inertia, const body::RigidMotion3& m
 }  // namespace
 
 template <int Dim>
-typename BasicSystem<Dim>::Impl::Driven BasicSystem<Dim>::Impl::driven(double fraction,
-                                                                       double spacing) const {
+typename BasicSystem<Dim>::Impl::Motion::Driven BasicSystem<Dim>::Impl::Motion::driven(
+    double fraction, double spacing) const {
   Driven out{Eigen::VectorXd::Zero(dofs.dofs()), Eigen::VectorXd::Zero(dofs.dofs())};
   const double t = step.duration;
   for (const PrescribedDof& p : step.prescribed) {
@@ -69,7 +69,7 @@ typename BasicSystem<Dim>::Impl::Driven BasicSystem<Dim>::Impl::driven(double fr
 }
 
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::moving_constants() const {
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::moving_constants() const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(dofs.dofs());
   const double rate = (step.equation_end - step.equation_start) / step.duration;
   for (const Equation& equation : dofs.equations()) {
@@ -82,7 +82,7 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::moving_constants() const {
 }
 
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::turning_accelerations(
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::turning_accelerations(
     const Eigen::VectorXd& velocity) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(dofs.dofs());
   for (std::size_t b = 0; b < model.rigid.size(); ++b) {
@@ -111,11 +111,11 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::turning_accelerations(
 }
 
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::momenta_of(const Eigen::VectorXd& rates) const {
-  Eigen::VectorXd out = motion->inertia->multiply(rates);
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::momenta_of(const Eigen::VectorXd& rates) const {
+  Eigen::VectorXd out = inertia.multiply(rates);
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
-      if (!motion->coupled[b]) continue;
+      if (!coupled[b]) continue;
       const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
       const Mat<3, 3> t = body::rotation_tangent(mass_rigid[b].rotation);
       const Vec3 spin = t * rates.segment<3>(first);
@@ -133,10 +133,10 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::momenta_of(const Eigen::VectorXd& rates)
 ///
 /// Formula    E^T M (w - by_scheme) = E^T force ,  w = E q + constant ,  E of the free unknowns
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::settled(const Eigen::VectorXd& by_scheme,
-                                                const Eigen::VectorXd& prescribed,
-                                                const Eigen::VectorXd& constant,
-                                                const Eigen::VectorXd& force) {
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::settled(const Eigen::VectorXd& by_scheme,
+                                                        const Eigen::VectorXd& prescribed,
+                                                        const Eigen::VectorXd& constant,
+                                                        const Eigen::VectorXd& force) {
   Eigen::VectorXd q(dofs.unknowns());
   for (Index u = 0; u < dofs.unknowns(); ++u) {
     const Dof dof = dofs.dof_of_unknown(u);
@@ -148,7 +148,8 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::settled(const Eigen::VectorXd& by_scheme
 }
 
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::rotation_rates(const Eigen::VectorXd& velocity) const {
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::rotation_rates(
+    const Eigen::VectorXd& velocity) const {
   Eigen::VectorXd rates = velocity;
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
@@ -160,15 +161,15 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::rotation_rates(const Eigen::VectorXd& ve
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::set_rotations(const Eigen::VectorXd& rates,
-                                           Eigen::VectorXd& velocity) const {
+void BasicSystem<Dim>::Impl::Motion::set_rotations(const Eigen::VectorXd& rates,
+                                                   Eigen::VectorXd& velocity) const {
   const Eigen::VectorXd before = velocity;
   velocity = rates;
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
       velocity.segment<3>(first) = before.segment<3>(first);
-      if (motion->coupled[b])
+      if (coupled[b])
         velocity.segment<3>(first) =
             body::rotation_tangent(mass_rigid[b].rotation) * rates.segment<3>(first);
     }
@@ -176,7 +177,8 @@ void BasicSystem<Dim>::Impl::set_rotations(const Eigen::VectorXd& rates,
 }
 
 template <int Dim>
-typename BasicSystem<Dim>::Impl::Given BasicSystem<Dim>::Impl::given_velocity() const {
+typename BasicSystem<Dim>::Impl::Motion::Given BasicSystem<Dim>::Impl::Motion::given_velocity()
+    const {
   const auto running = std::find_if(model.steps.begin(), model.steps.end(),
                                     [](const Step& s) { return s.dynamics.has_value(); });
   Given given{Eigen::VectorXd::Zero(dofs.dofs()),
@@ -192,7 +194,7 @@ typename BasicSystem<Dim>::Impl::Given BasicSystem<Dim>::Impl::given_velocity() 
 /// What follows takes part in velocities that were given for it as after an inelastic impact, and
 /// otherwise has what follows from the unknowns.
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::start_velocity(const Driven& prescribed) {
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::start_velocity(const Driven& prescribed) {
   const Given given = given_velocity();
   Eigen::VectorXd rates = rotation_rates(given.velocity);
   Eigen::VectorXd q(dofs.unknowns());
@@ -220,7 +222,7 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::start_velocity(const Driven& prescribed)
 
 /// Velocities of the scheme become those of bodies that move as they are told.
 template <int Dim>
-void BasicSystem<Dim>::Impl::settle_velocities(Rates& now, const Driven& prescribed) {
+void BasicSystem<Dim>::Impl::Motion::settle_velocities(Rates& now, const Driven& prescribed) {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(dofs.dofs());
   set_rotations(
       settled(rotation_rates(now.velocity), prescribed.velocity, moving_constants(), none),
@@ -231,13 +233,13 @@ void BasicSystem<Dim>::Impl::settle_velocities(Rates& now, const Driven& prescri
 /// beside what they hold already. Rotations in space stand in `spins`: what changes their
 /// accelerations changes the moments with them, and both keep what the scheme has made of them.
 template <int Dim>
-void BasicSystem<Dim>::Impl::settle_accelerations(Rates& now, const Driven& prescribed,
-                                                  const Eigen::VectorXd& force) {
+void BasicSystem<Dim>::Impl::Motion::settle_accelerations(Rates& now, const Driven& prescribed,
+                                                          const Eigen::VectorXd& force) {
   const Eigen::VectorXd rates = rotation_rates(now.velocity);
   Eigen::VectorXd by_scheme = now.acceleration;
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
-      if (!motion->coupled[b]) continue;
+      if (!coupled[b]) continue;
       const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
       const Vec3 spinning = mass_rigid[b].orientation() * now.spins[b].acceleration;
       by_scheme.segment<3>(first) = body::rotation_rate(
@@ -251,7 +253,7 @@ void BasicSystem<Dim>::Impl::settle_accelerations(Rates& now, const Driven& pres
       const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
       const Vec3 rotation = now.acceleration.segment<3>(first);
       now.acceleration.segment<3>(first).setZero();
-      if (!motion->coupled[b]) continue;
+      if (!coupled[b]) continue;
       const body::RigidMotion3& motion_of = mass_rigid[b];
       const Mat<3, 3> to_body = motion_of.orientation().transpose();
       const Vec3 spin = now.velocity.segment<3>(first);
@@ -267,11 +269,12 @@ void BasicSystem<Dim>::Impl::settle_accelerations(Rates& now, const Driven& pres
 /// Rotations in space at the start, of bodies that the mass matrix has: as if their rotation
 /// vectors were not accelerated, and the moments that this takes are taken from the force.
 template <int Dim>
-void BasicSystem<Dim>::Impl::begin_coupled_spins(Rates& rates, Eigen::VectorXd& force) const {
+void BasicSystem<Dim>::Impl::Motion::begin_coupled_spins(Rates& rates,
+                                                         Eigen::VectorXd& force) const {
   if constexpr (Dim == 3) {
     const Eigen::VectorXd turning = rotation_rates(rates.velocity);
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
-      if (!motion->coupled[b]) continue;
+      if (!coupled[b]) continue;
       const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
       const Vec3 spin = rates.velocity.segment<3>(first);
       const Vec3 change = spin_change(mass_rigid[b], turning.segment<3>(first));
@@ -289,11 +292,11 @@ void BasicSystem<Dim>::Impl::begin_coupled_spins(Rates& rates, Eigen::VectorXd& 
 
 /// Mass times acceleration.
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::inertia_of(const Rates& rates) const {
-  Eigen::VectorXd out = motion->inertia->multiply(rates.acceleration);
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::inertia_of(const Rates& rates) const {
+  Eigen::VectorXd out = inertia.multiply(rates.acceleration);
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b)
-      if (motion->inertia->body_has_mass(b))
+      if (inertia.body_has_mass(b))
         out.segment<3>(dofs.body_dof(static_cast<Index>(b), Dim)) +=
             body::rotation_tangent(mass_rigid[b].rotation).transpose() * rates.spins[b].moment;
   }
@@ -303,35 +306,33 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::inertia_of(const Rates& rates) const {
 /// The scheme's velocity at the end of an increment is not that of what is prescribed; the damping
 /// forces are those of the latter.
 template <int Dim>
-void BasicSystem<Dim>::Impl::correct_damping() {
-  Motion& m = *motion;
-  m.correction = Eigen::VectorXd::Zero(dofs.dofs());
-  if (!(m.settings.damping_mass > 0) && m.damping.empty()) return;
-  const Driven at_end = driven(m.target, m.h / step.duration);
-  const double h = m.h;
-  const solve::TimeScheme& s = m.settings.scheme;
+void BasicSystem<Dim>::Impl::Motion::correct_damping() {
+  correction = Eigen::VectorXd::Zero(dofs.dofs());
+  if (!(settings.damping_mass > 0) && damping.empty()) return;
+  const Driven at_end = driven(target, h / step.duration);
+  const solve::TimeScheme& s = settings.scheme;
   Eigen::VectorXd q = Eigen::VectorXd::Zero(dofs.unknowns());
   for (const PrescribedDof& p : step.prescribed) {
     const Index unknown = dofs.unknown_of(p.dof);
     const Dof local = p.dof - Dim * dofs.nodes();
     if (unknown < 0 || (Dim == 3 && local >= 0 && local % body::motions<Dim> >= Dim)) continue;
-    const double v = m.past.velocity[p.dof], a = m.past.acceleration[p.dof];
-    const double way = p.ramp.value(m.target) - m.start[p.dof];
+    const double v = past.velocity[p.dof], a = past.acceleration[p.dof];
+    const double way = p.ramp.value(target) - start[p.dof];
     const double by_scheme =
-        v + h * (1 - s.gamma) * a + m.factors.rate * (way - h * v - h * h * (0.5 - s.beta) * a);
+        v + h * (1 - s.gamma) * a + factors.rate * (way - h * v - h * h * (0.5 - s.beta) * a);
     q[unknown] = at_end.velocity[p.dof] - by_scheme;
   }
   if (q.isZero(0)) return;
   const Eigen::VectorXd told = spread(q);
-  m.correction = told + accelerations_by(-momenta_of(told));
+  correction = told + accelerations_by(-momenta_of(told));
 }
 
 /// Forces of the beginning of an increment act with the arms that they had there.
 template <int Dim>
-void BasicSystem<Dim>::Impl::move_past_to_bodies() {
-  Motion& m = *motion;
+void BasicSystem<Dim>::Impl::Motion::move_past_to_bodies() {
+  Motion& m = *this;
   const solve::StepFactors& f = m.factors;
-  Eigen::VectorXd past = f.past_mass * m.inertia->multiply(m.past.acceleration);
+  Eigen::VectorXd past = f.past_mass * m.inertia.multiply(m.past.acceleration);
   if (f.past_force != 0.0) {
     past += f.past_force * (m.past.internal - m.past.external + m.past.damping);
     if (m.settings.scheme.impact == solve::Impact::average) past += f.past_force * m.past.contact;
@@ -362,23 +363,24 @@ void BasicSystem<Dim>::Impl::move_past_to_bodies() {
 /// Mean of what changes the angular momenta of bodies in space over the increment, as forces on
 /// their rotation vectors.
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::spin_force(const Rates& before, const Rates& now) const {
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::spin_force(const Rates& before,
+                                                           const Rates& now) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(dofs.dofs());
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
-      if (!motion->inertia->body_has_mass(b)) continue;
+      if (!inertia.body_has_mass(b)) continue;
       const Mat<3, 3>& inertia = model.rigid[b].inertia;
       const Vec3 change = body::angular_momentum(inertia, mass_rigid[b], now.spins[b]) -
-                          body::angular_momentum(inertia, motion->from[b], before.spins[b]);
-      const Vec3 between = 0.5 * (motion->from[b].rotation + mass_rigid[b].rotation);
+                          body::angular_momentum(inertia, from[b], before.spins[b]);
+      const Vec3 between = 0.5 * (from[b].rotation + mass_rigid[b].rotation);
       out.segment<3>(dofs.body_dof(static_cast<Index>(b), Dim)) =
-          body::rotation_tangent(between).transpose() * change / motion->h;
+          body::rotation_tangent(between).transpose() * change / h;
     }
   }
   return out;
 }
 
-template struct BasicSystem<2>::Impl;
-template struct BasicSystem<3>::Impl;
+template struct BasicSystem<2>::Impl::Motion;
+template struct BasicSystem<3>::Impl::Motion;
 
 }  // namespace osculate::model

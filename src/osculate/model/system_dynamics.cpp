@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "osculate/model/system_impl.hpp"
+#include "osculate/model/system_motion.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::model {
@@ -21,60 +21,55 @@ double sum_of_points(const std::vector<pairing::PairEvaluation<Dim>>& contact, c
 }  // namespace
 
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::dof_values(const State& s) const {
-  Eigen::VectorXd q(dofs.dofs());
-  q.head(s.u.size()) = s.u;
-  for (std::size_t b = 0; b < s.rigid.size(); ++b)
-    for (int i = 0; i < body::motions<Dim>; ++i)
-      q[dofs.body_dof(static_cast<Index>(b), i)] = s.rigid[b].component(i);
-  return q;
-}
-
-template <int Dim>
-void BasicSystem<Dim>::Impl::begin_dynamics() {
-  motion.reset();
-  if (!step.dynamics) return;
-  motion.emplace(dofs.unknowns());
-  motion->settings = *step.dynamics;
-  motion->inertia.emplace(model, step.dynamics->lumped);
+BasicSystem<Dim>::Impl::Motion::Motion(Impl& whole)
+    : system(whole),
+      model(whole.model),
+      dofs(whole.dofs),
+      step(whole.step),
+      assembler(whole.assembler),
+      last(whole.last),
+      settings(*whole.step.dynamics),
+      inertia(whole.model, whole.step.dynamics->lumped),
+      coupled(whole.model.rigid.size(), false),
+      builder(whole.dofs.unknowns()) {
   std::vector<bool> carries(model.rigid.size(), false);
-  for (const typename BasicInertia<Dim>::CellMass& cell : motion->inertia->cells())
+  for (const typename BasicInertia<Dim>::CellMass& cell : inertia.cells())
     for (const Index node : cell.nodes)
       if (const Index b = dofs.body_of(node); b >= 0) carries[static_cast<std::size_t>(b)] = true;
-  motion->coupled.assign(model.rigid.size(), false);
   for (std::size_t b = 0; b < model.rigid.size(); ++b) {
-    const bool alone = motion->inertia->body_has_mass(b) && !carries[b] && !turns_by_rule(b);
-    motion->coupled[b] = Dim == 3 && !alone;
-    if (free_rotations(b) > 0 && (carries[b] || motion->coupled[b])) motion->turns = true;
+    const bool alone = inertia.body_has_mass(b) && !carries[b] && !turns_by_rule(b);
+    coupled[b] = Dim == 3 && !alone;
+    if (free_rotations(b) > 0 && (carries[b] || coupled[b])) turns = true;
   }
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::measure_damping(const State& committed) {
-  const double factor = motion->settings.damping_stiffness;
+void BasicSystem<Dim>::Impl::Motion::measure_damping(const State& committed) {
+  const double factor = settings.damping_stiffness;
   if (!(factor > 0)) return;
-  const bool first = motion->damping.empty();
-  motion->damping.resize(bulk.jobs.size());
+  const bool first = damping.empty();
+  damping.resize(system.bulk.jobs.size());
   BulkBlock block;
-  for (std::size_t c = 0; c < bulk.jobs.size(); ++c) {
-    const bool finite = bulk.jobs[c].section->section.kinematics == solid::Kinematics::finite;
+  for (std::size_t c = 0; c < system.bulk.jobs.size(); ++c) {
+    const bool finite =
+        system.bulk.jobs[c].section->section.kinematics == solid::Kinematics::finite;
     if (!first && !finite) continue;
-    bulk.evaluate(c, committed.u, committed.memory, {}, 0, true, block);
-    motion->damping[c] = factor * block.result.tangent;
+    system.bulk.evaluate(c, committed.u, committed.memory, {}, 0, true, block);
+    damping[c] = factor * block.result.tangent;
   }
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double fraction,
-                                             double duration) {
-  Motion& m = *motion;
+void BasicSystem<Dim>::Impl::Motion::begin_increment(const State& committed, double fraction,
+                                                     double duration) {
+  Motion& m = *this;
   const bool same_length = m.h == duration && m.target == fraction;
   m.h = duration;
   m.target = fraction;
   if (!(duration > 0)) return;
-  if (!(m.size_of_mass > 0)) m.size_of_mass = m.inertia->size();
+  if (!(m.size_of_mass > 0)) m.size_of_mass = m.inertia.size();
   m.factors = solve::step_factors(m.settings.scheme, duration);
-  Eigen::VectorXd start = dof_values(committed);
+  Eigen::VectorXd start = system.dof_values(committed);
   const bool same_start = start.size() == m.start.size() && start == m.start &&
                           m.past.velocity.size() == committed.rates.velocity.size() &&
                           m.past.velocity == committed.rates.velocity &&
@@ -87,7 +82,8 @@ void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double frac
     m.from = committed.rigid;
     m.past = committed.rates;
   }
-  mass_x = positions(committed.u);  // a step of another length may have been committed and dropped
+  mass_x = system.positions(
+      committed.u);  // a step of another length may have been committed and dropped
   mass_rigid = committed.rigid;
   move_past_to_bodies();
   correct_damping();
@@ -95,37 +91,15 @@ void BasicSystem<Dim>::Impl::begin_increment(const State& committed, double frac
 }
 
 template <int Dim>
-double BasicSystem<Dim>::Impl::round_off_in_time(std::span<const Vec<Dim>> x) const {
-  const double h = timed() ? motion->h : 0.0;
-  const double of_mass = timed() ? motion->factors.mass * motion->size_of_mass : 0.0;
-  double farthest = 0, springs = 0;
-  for (const Vec<Dim>& p : x) farthest = std::max(farthest, p.norm());
-  for (std::size_t p = 0; p < last.contact.size(); ++p) {
-    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
-    if (!timed() && !pair.damping) continue;  // a penalty is not steep enough to show
-    for (std::size_t i = 0; i < last.contact[p].points.size(); ++i) {
-      const pairing::PointResult<Dim>& point = last.contact[p].points[i];
-      if (point.status == contact::Status::open) continue;
-      double slope = std::abs(contact::response(pair.normal, point.gap, true).d_traction) *
-                     pairing::relative_stiffness(pair, i).normal;
-      if (pair.damping) slope = contact::stiffest(*pair.damping, slope, h);
-      springs += slope * slope * point.weight * point.weight;
-    }
-  }
-  return 2 * std::numeric_limits<double>::epsilon() * farthest * (of_mass + std::sqrt(springs));
-}
-
-template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::damping_of(const Eigen::VectorXd& velocity) const {
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::damping_of(const Eigen::VectorXd& velocity) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(velocity.size());
-  if (motion->settings.damping_mass > 0)
-    force = motion->settings.damping_mass * motion->inertia->multiply(velocity);
-  for (std::size_t c = 0; c < motion->damping.size(); ++c) {
-    const std::vector<Index>& nodes = motion->inertia->cells()[c].nodes;
+  if (settings.damping_mass > 0) force = settings.damping_mass * inertia.multiply(velocity);
+  for (std::size_t c = 0; c < damping.size(); ++c) {
+    const std::vector<Index>& nodes = inertia.cells()[c].nodes;
     Eigen::VectorXd v(Dim * static_cast<Eigen::Index>(nodes.size()));
     for (std::size_t k = 0; k < nodes.size(); ++k)
       v.segment<Dim>(Dim * static_cast<Eigen::Index>(k)) = velocity.segment<Dim>(Dim * nodes[k]);
-    const Eigen::VectorXd f = motion->damping[c] * v;
+    const Eigen::VectorXd f = damping[c] * v;
     for (std::size_t k = 0; k < nodes.size(); ++k)
       force.segment<Dim>(Dim * nodes[k]) += f.segment<Dim>(Dim * static_cast<Eigen::Index>(k));
   }
@@ -133,60 +107,56 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::damping_of(const Eigen::VectorXd& veloci
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::add_inertia(const State& trial, Assembly<Dim>& to) {
-  Motion& m = *motion;
-  const solve::TimeScheme& s = m.settings.scheme;
-  const double h = m.h;
-  const Eigen::VectorXd ahead = dof_values(trial) - (m.start + h * m.past.velocity +
-                                                     h * h * (0.5 - s.beta) * m.past.acceleration);
-  m.effective = m.inertia->multiply(m.factors.mass * ahead) + m.past_force;
-  const bool damped = m.settings.damping_mass > 0 || !m.damping.empty();
-  m.damping_force.setZero(ahead.size());
+void BasicSystem<Dim>::Impl::Motion::add_inertia(const State& trial, Assembly<Dim>& to) {
+  const solve::TimeScheme& s = settings.scheme;
+  const Eigen::VectorXd ahead =
+      system.dof_values(trial) -
+      (start + h * past.velocity + h * h * (0.5 - s.beta) * past.acceleration);
+  effective = inertia.multiply(factors.mass * ahead) + past_force;
+  const bool damped = settings.damping_mass > 0 || !damping.empty();
+  damping_force.setZero(ahead.size());
   if (damped)
-    m.damping_force = damping_of(m.past.velocity + h * (1 - s.gamma) * m.past.acceleration +
-                                 m.factors.rate * ahead + m.correction);
+    damping_force = damping_of(past.velocity + h * (1 - s.gamma) * past.acceleration +
+                               factors.rate * ahead + correction);
   if constexpr (Dim == 3) add_spins(trial, to);
   if (!to.with_tangent) return;
   const double of_mass = cell_inertia().mass;
   for (std::size_t b = 0; b < model.rigid.size(); ++b) {
-    if (!m.inertia->body_has_mass(b)) continue;
+    if (!inertia.body_has_mass(b)) continue;
     std::array<Dof, body::motions<Dim>> d{};
     for (int i = 0; i < body::motions<Dim>; ++i)
       d[static_cast<std::size_t>(i)] = dofs.body_dof(static_cast<Index>(b), i);
-    to.add_stiffness(
-        d, Mat<body::motions<Dim>, body::motions<Dim>>(of_mass * m.inertia->body_mass(b)));
+    to.add_stiffness(d,
+                     Mat<body::motions<Dim>, body::motions<Dim>>(of_mass * inertia.body_mass(b)));
   }
 }
 
 template <int Dim>
-CellInertia<Dim> BasicSystem<Dim>::Impl::cell_inertia() const {
-  const Motion& m = *motion;
-  const solve::StepFactors& f = m.factors;
-  return {*m.inertia, m.damping, f.force, f.force * f.rate,
-          f.mass + f.force * f.rate * m.settings.damping_mass};
+CellInertia<Dim> BasicSystem<Dim>::Impl::Motion::cell_inertia() const {
+  const solve::StepFactors& f = factors;
+  return {inertia, damping, f.force, f.force * f.rate,
+          f.mass + f.force * f.rate * settings.damping_mass};
 }
 
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::total_force() const {
-  if (!timed()) return last.forces.internal + last.forces.contact - last.forces.external;
-  return motion->effective + last.forces.contact +
-         motion->factors.force *
-             (last.forces.internal - last.forces.external + motion->damping_force);
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::balance() const {
+  const Forces& forces = last.forces;
+  return effective + forces.contact +
+         factors.force * (forces.internal - forces.external + damping_force);
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::factor_mass() {
-  Motion& m = *motion;
-  if (m.mass_known && !m.turns) return;
-  m.mass_known = false;
-  m.builder.clear();
-  BasicAssembler<Dim> into(dofs, m.builder);
+void BasicSystem<Dim>::Impl::Motion::factor_mass() {
+  if (mass_known && !turns) return;
+  mass_known = false;
+  builder.clear();
+  BasicAssembler<Dim> into(dofs, builder);
   std::vector<bool> prescribed(static_cast<std::size_t>(dofs.unknowns()));
   for (Index u = 0; u < dofs.unknowns(); ++u)
     prescribed[static_cast<std::size_t>(u)] = assembler.prescribed(u);
   into.set_prescribed(prescribed);
   into.set_configuration(mass_x, mass_rigid);
-  for (const typename BasicInertia<Dim>::CellMass& cell : m.inertia->cells())
+  for (const typename BasicInertia<Dim>::CellMass& cell : inertia.cells())
     for (int d = 0; d < Dim; ++d) {
       std::vector<Dof> of;
       for (const Index node : cell.nodes) of.push_back(dofs.node_dof(node, d));
@@ -196,37 +166,37 @@ void BasicSystem<Dim>::Impl::factor_mass() {
     std::vector<Dof> of;
     for (int i = 0; i < body::motions<Dim>; ++i)
       of.push_back(dofs.body_dof(static_cast<Index>(b), i));
-    Mat<body::motions<Dim>, body::motions<Dim>> mass = m.inertia->body_mass(b);
+    Mat<body::motions<Dim>, body::motions<Dim>> mass = inertia.body_mass(b);
     if constexpr (Dim == 3)
-      if (m.coupled[b]) {
+      if (coupled[b]) {
         const Mat<3, 3> t = mass_rigid[b].orientation().transpose() *
                             body::rotation_tangent(mass_rigid[b].rotation);
         mass.template bottomRightCorner<3, 3>() = t.transpose() * model.rigid[b].inertia * t;
       }
     into.add_block(of, mass);
   }
-  const la::SparseMatrix& k = m.builder.finish();
-  m.massless.assign(static_cast<std::size_t>(dofs.unknowns()), false);
+  const la::SparseMatrix& k = builder.finish();
+  massless.assign(static_cast<std::size_t>(dofs.unknowns()), false);
   for (Index u = 0; u < dofs.unknowns(); ++u) {
     double diagonal = 0;
     for (Index at = k.row_start[static_cast<std::size_t>(u)];
          at < k.row_start[static_cast<std::size_t>(u) + 1]; ++at)
       if (k.column[static_cast<std::size_t>(at)] == u)
         diagonal = k.value[static_cast<std::size_t>(at)];
-    m.massless[static_cast<std::size_t>(u)] = !(diagonal > 0);
+    massless[static_cast<std::size_t>(u)] = !(diagonal > 0);
   }
   for (Index u = 0; u < dofs.unknowns(); ++u)
-    if (m.massless[static_cast<std::size_t>(u)]) m.builder.add(u, u, 1.0);
+    if (massless[static_cast<std::size_t>(u)]) builder.add(u, u, 1.0);
   const la::FactorReport report =
-      m.solver->factor(m.builder.finish(), m.builder.pattern_version(), la::Symmetry::indefinite);
-  m.mass_known = report.status == la::SolveStatus::ok;
-  if (m.mass_known) return;
-  m.failure = "the mass matrix cannot be factored: ";
-  m.failure += report.status == la::SolveStatus::singular ? "it is singular" : report.message;
+      solver->factor(builder.finish(), builder.pattern_version(), la::Symmetry::indefinite);
+  mass_known = report.status == la::SolveStatus::ok;
+  if (mass_known) return;
+  failure = "the mass matrix cannot be factored: ";
+  failure += report.status == la::SolveStatus::singular ? "it is singular" : report.message;
 }
 
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::spread(const Eigen::VectorXd& of_unknowns) const {
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::spread(const Eigen::VectorXd& of_unknowns) const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(dofs.dofs());
   std::vector<Expansion> terms;
   for (Dof d = 0; d < dofs.dofs(); ++d) {
@@ -238,59 +208,58 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::spread(const Eigen::VectorXd& of_unknown
 }
 
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::accelerations_by(const Eigen::VectorXd& force) {
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::accelerations_by(const Eigen::VectorXd& force) {
   assembler.set_configuration(mass_x, mass_rigid);
   Eigen::VectorXd a = assembler.gather(force);
   if (a.isZero(0)) return Eigen::VectorXd::Zero(dofs.dofs());
   factor_mass();
   for (Index u = 0; u < dofs.unknowns(); ++u)
-    if (motion->massless[static_cast<std::size_t>(u)]) a[u] = 0;
-  if (!motion->failure.empty()) return Eigen::VectorXd::Zero(dofs.dofs());
-  if (motion->solver->solve(a) != la::SolveStatus::ok || !a.allFinite()) {
-    motion->failure = "the mass matrix cannot be solved with";
+    if (massless[static_cast<std::size_t>(u)]) a[u] = 0;
+  if (!failure.empty()) return Eigen::VectorXd::Zero(dofs.dofs());
+  if (solver->solve(a) != la::SolveStatus::ok || !a.allFinite()) {
+    failure = "the mass matrix cannot be solved with";
     a.setZero();
   }
   return spread(a);
 }
 
 template <int Dim>
-double BasicSystem<Dim>::Impl::contact_energy() const {
+double BasicSystem<Dim>::Impl::Motion::contact_energy() const {
   return sum_of_points<Dim>(last.contact, [](const auto& p) { return p.weight * p.stored; });
 }
 
 template <int Dim>
-double BasicSystem<Dim>::Impl::damping_work() const {
+double BasicSystem<Dim>::Impl::Motion::damping_work() const {
   return sum_of_points<Dim>(last.contact, [](const auto& p) { return p.history.damping_work; });
 }
 
 template <int Dim>
-double BasicSystem<Dim>::Impl::friction_work() const {
+double BasicSystem<Dim>::Impl::Motion::friction_work() const {
   return sum_of_points<Dim>(last.contact, [](const auto& p) { return p.history.friction_work; });
 }
 
 /// Forces of the free unknowns that the last evaluation leaves, as mass times acceleration at the
 /// end of the increment holds them; over the primary dofs.
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::unbalanced() const {
-  const Motion& m = *motion;
-  const double factor = 1 / (m.factors.balance * (1 - m.settings.scheme.alpha_m));
-  const Eigen::VectorXd rest = assembler.gather(total_force());
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::unbalanced() const {
+  const double factor = 1 / (factors.balance * (1 - settings.scheme.alpha_m));
+  const Eigen::VectorXd rest = assembler.gather(balance());
   Eigen::VectorXd out = Eigen::VectorXd::Zero(dofs.dofs());
   for (Index u = 0; u < dofs.unknowns(); ++u) out[dofs.dof_of_unknown(u)] = factor * rest[u];
   return out;
 }
 
 template <int Dim>
-double BasicSystem<Dim>::Impl::kinetic_energy(const Rates& rates) const {
-  return 0.5 * rates.velocity.dot(motion->inertia->multiply(rates.velocity)) + spin_energy(rates);
+double BasicSystem<Dim>::Impl::Motion::kinetic_energy(const Rates& rates) const {
+  return 0.5 * rates.velocity.dot(inertia.multiply(rates.velocity)) + spin_energy(rates);
 }
 
 template <int Dim>
-Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
+Rates BasicSystem<Dim>::Impl::Motion::begin_rates(const State& committed) {
   Rates rates = committed.rates;
   rates.length = 0;
   const bool first = rates.empty();
-  mass_x = positions(committed.u);
+  mass_x = system.positions(committed.u);
   mass_rigid = committed.rigid;
   const Driven prescribed = driven(0, 1.0 / step.increments);
   // With the masses of this step: they may be others than those of the one before.
@@ -300,7 +269,7 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   else
     settle_velocities(rates, prescribed);
   solve::Evaluation out;
-  assemble(committed, {committed}, 0.0, false, Pass::whole, out);
+  system.assemble(committed, {committed}, 0.0, false, Impl::Pass::whole, out);
   rates.internal = last.forces.internal;
   rates.external = last.forces.external;
   rates.contact = last.forces.contact;
@@ -308,7 +277,7 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
   rates.damping = damping_of(rates.velocity);
   if constexpr (Dim == 3) damp_spins(rates.velocity, rates.damping);
   Eigen::VectorXd force = rates.external - rates.internal - rates.damping;
-  if (motion->settings.scheme.impact == solve::Impact::average) force -= rates.contact;
+  if (settings.scheme.impact == solve::Impact::average) force -= rates.contact;
   rates.acceleration.setZero(dofs.dofs());
   if constexpr (Dim == 3) begin_spins(committed, force, rates);
   if constexpr (Dim == 3) begin_coupled_spins(rates, force);
@@ -333,34 +302,31 @@ Rates BasicSystem<Dim>::Impl::begin_rates(const State& committed) {
 }
 
 template <int Dim>
-Rates BasicSystem<Dim>::Impl::new_rates(const State& trial) {
-  const Motion& m = *motion;
-  const solve::TimeScheme& s = m.settings.scheme;
-  const double h = m.h;
+Rates BasicSystem<Dim>::Impl::Motion::new_rates(const State& trial) {
+  const solve::TimeScheme& s = settings.scheme;
   Rates now;
-  mass_x = positions(trial.u);
+  mass_x = system.positions(trial.u);
   mass_rigid = trial.rigid;
   assembler.set_configuration(mass_x, mass_rigid);
   // What the iterations have left out of balance is no mass times acceleration.
   const Eigen::VectorXd left_over = unbalanced();
-  const Eigen::VectorXd step_of = dof_values(trial) - m.start;
-  Eigen::VectorXd ahead =
-      step_of - h * m.past.velocity - h * h * (0.5 - s.beta) * m.past.acceleration;
+  const Eigen::VectorXd step_of = system.dof_values(trial) - start;
+  Eigen::VectorXd ahead = step_of - h * past.velocity - h * h * (0.5 - s.beta) * past.acceleration;
   Eigen::VectorXd impulse = Eigen::VectorXd::Zero(ahead.size());  // acceleration by contact
   if (s.impact != solve::Impact::average) impulse = accelerations_by(-last.forces.contact);
   now.acceleration = (ahead - solve::impulse_way(s.impact) * h * h * impulse) / (s.beta * h * h);
-  now.velocity = m.past.velocity +
-                 h * ((1 - s.gamma) * m.past.acceleration + s.gamma * now.acceleration + impulse);
-  Eigen::VectorXd of_impulse = m.inertia->multiply(impulse);
+  now.velocity = past.velocity +
+                 h * ((1 - s.gamma) * past.acceleration + s.gamma * now.acceleration + impulse);
+  Eigen::VectorXd of_impulse = inertia.multiply(impulse);
   if constexpr (Dim == 3) new_spins(trial, impulse, left_over, now, of_impulse);
-  const Driven prescribed = driven(m.target, h / step.duration);
+  const Driven prescribed = driven(target, h / step.duration);
   settle_velocities(now, prescribed);
   settle_accelerations(now, prescribed, -left_over);
   now.internal = last.forces.internal;
   now.external = last.forces.external;
   now.contact = last.forces.contact;
-  now.damping = m.damping_force;
-  now.energies = m.past.energies;
+  now.damping = damping_force;
+  now.energies = past.energies;
   now.energies.elapsed += h;
   now.length = h;
   add_energies(trial, now, step_of, s.gamma * left_over.dot(step_of), now.energies);
@@ -369,21 +335,20 @@ Rates BasicSystem<Dim>::Impl::new_rates(const State& trial) {
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::add_energies(const State& trial, const Rates& now,
-                                          const Eigen::VectorXd& step_of, double left_over,
-                                          Energies& e) const {
-  const Motion& m = *motion;
+void BasicSystem<Dim>::Impl::Motion::add_energies(const State& trial, const Rates& now,
+                                                  const Eigen::VectorXd& step_of, double left_over,
+                                                  Energies& e) const {
   const Energies before = e;
-  const bool average = m.settings.scheme.impact == solve::Impact::average;
+  const bool average = settings.scheme.impact == solve::Impact::average;
   const auto mean = [](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
     return Eigen::VectorXd(0.5 * (a + b));
   };
-  const Eigen::VectorXd internal = mean(m.past.internal, now.internal);
-  const Eigen::VectorXd external = mean(m.past.external, now.external);
-  const Eigen::VectorXd damping = mean(m.past.damping, now.damping);
-  const Eigen::VectorXd by_contact = average ? mean(m.past.contact, now.contact) : now.contact;
+  const Eigen::VectorXd internal = mean(past.internal, now.internal);
+  const Eigen::VectorXd external = mean(past.external, now.external);
+  const Eigen::VectorXd damping = mean(past.damping, now.damping);
+  const Eigen::VectorXd by_contact = average ? mean(past.contact, now.contact) : now.contact;
   const Eigen::VectorXd inertial =
-      m.inertia->multiply(now.velocity - m.past.velocity) / m.h + spin_force(m.past, now);
+      inertia.multiply(now.velocity - past.velocity) / h + spin_force(past, now);
   const Eigen::VectorXd rest = inertial + internal - external + damping + by_contact;
   // What is left at prescribed unknowns is the force of the supports.
   double supports = 0;
@@ -414,7 +379,7 @@ void BasicSystem<Dim>::Impl::add_energies(const State& trial, const Rates& now,
                (e.kinetic + e.strain + e.contact);
 }
 
-template struct BasicSystem<2>::Impl;
-template struct BasicSystem<3>::Impl;
+template struct BasicSystem<2>::Impl::Motion;
+template struct BasicSystem<3>::Impl::Motion;
 
 }  // namespace osculate::model

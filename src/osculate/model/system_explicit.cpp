@@ -39,7 +39,7 @@ void BasicSystem<Dim>::Impl::Explicit::make_masses() {
   const BasicModel<Dim>& whole = system.model;
   node_mass.assign(whole.reference.size(), 0.0);
   mass.setZero(system.dofs.dofs());
-  for (const typename BasicInertia<Dim>::CellMass& cell : system.motion->inertia->cells())
+  for (const typename BasicInertia<Dim>::CellMass& cell : system.motion->inertia.cells())
     for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       node_mass[static_cast<std::size_t>(cell.nodes[k])] += cell.mass(i, i);
@@ -49,7 +49,7 @@ void BasicSystem<Dim>::Impl::Explicit::make_masses() {
       mass.segment<Dim>(Dim * static_cast<Eigen::Index>(n)).setConstant(node_mass[n]);
   for (std::size_t b = 0; b < whole.rigid.size(); ++b)
     mass.segment<body::motions<Dim>>(system.dofs.body_dof(static_cast<Index>(b), 0)) =
-        system.motion->inertia->body_mass(b).diagonal();
+        system.motion->inertia.body_mass(b).diagonal();
 }
 
 template <int Dim>
@@ -71,7 +71,8 @@ void BasicSystem<Dim>::Impl::Explicit::make_followers() {
     followers.push_back(f);
   }
   for (std::size_t b = 0; b < system.model.rigid.size(); ++b)
-    turns.push_back(Dim == 3 && system.model.rigid[b].mass > 0 && system.free_rotations(b) > 0);
+    turns.push_back(Dim == 3 && system.model.rigid[b].mass > 0 &&
+                    system.motion->free_rotations(b) > 0);
 }
 
 template <int Dim>
@@ -300,7 +301,7 @@ void BasicSystem<Dim>::Impl::Explicit::move_body(std::size_t body, double fracti
       motion_of.rotation = body::rotation_vector_near(
           body::rotation_matrix(turn_of) * body::rotation_matrix(before.rotation),
           before.rotation + turn_of);
-      if (!system.total_matters(body)) motion_of = body::rebased(motion_of);
+      if (!system.motion->total_matters(body)) motion_of = body::rebased(motion_of);
     } else {
       turn_of = body::turn_between(before, motion_of);
     }

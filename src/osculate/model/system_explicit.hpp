@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "osculate/model/system_impl.hpp"
+#include "osculate/model/system_motion.hpp"
 
 namespace osculate::model {
 

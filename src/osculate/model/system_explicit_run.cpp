@@ -85,7 +85,8 @@ template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::set_rates(double fraction, Rates& rates) const {
   rates.velocity = motion.velocity;
   rates.acceleration = motion.acceleration;
-  const Driven told = system.driven(fraction, 1.0 / system.step.increments);
+  const typename Motion::Driven told =
+      system.motion->driven(fraction, 1.0 / system.step.increments);
   for (const Dof d : held) {
     const Dof of_body = d - Dim * system.dofs.nodes();
     if (Dim == 3 && of_body >= 0 && of_body % body::motions<Dim> >= Dim) continue;
@@ -152,8 +153,8 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   const solid::CellEnergy bulk = bulk_energy(system.model, committed.u, committed.memory);
   e.strain = bulk.stored;
   if (committed.rates.empty()) e.plastic_before = bulk.dissipated;
-  e.contact = system.contact_energy();
-  e.damped = system.damping_work();
+  e.contact = system.motion->contact_energy();
+  e.damped = system.motion->damping_work();
   return rates;
 }
 
@@ -193,10 +194,10 @@ void BasicSystem<Dim>::Impl::Explicit::add_energies(Rates& rates) {
   const solid::CellEnergy bulk = bulk_energy(system.model, now.u, now.memory);
   e.strain = bulk.stored;
   e.plastic = bulk.dissipated - e.plastic_before;
-  e.contact = system.contact_energy();
-  e.friction = system.friction_work() - e.friction_before;
+  e.contact = system.motion->contact_energy();
+  e.friction = system.motion->friction_work() - e.friction_before;
   e.external += works.external + works.supports;
-  e.damped = system.damping_work();
+  e.damped = system.motion->damping_work();
   e.damping += works.damping + (e.damped - before.damped);
   const double of_contact = works.contact - (e.contact - before.contact) -
                             (e.friction - before.friction) - (e.damped - before.damped);
@@ -276,13 +277,6 @@ ExplicitIncrement<BasicState<Dim>> BasicSystem<Dim>::Impl::Explicit::increment(
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::begin_explicit() {
-  explicit_motion.reset();
-  if (step.dynamics && step.dynamics->explicit_steps)
-    explicit_motion = std::make_shared<Explicit>(*this);
-}
-
-template <int Dim>
 void BasicSystem<Dim>::Impl::move_with_bodies(const State& s, Rates& rates) const {
   const std::vector<Vec<Dim>> x = positions(s.u);
   for (Index node = 0; node < dofs.nodes(); ++node) {
@@ -306,16 +300,16 @@ Rates BasicSystem<Dim>::Impl::begin_explicit_rates(const State& committed) {
   rates.length = 0;
   const bool first = rates.empty();
   if (first) {
-    mass_x = positions(committed.u);
-    mass_rigid = committed.rigid;
-    rates.velocity = start_velocity(driven(0, 1.0 / step.increments));
+    motion->mass_x = positions(committed.u);
+    motion->mass_rigid = committed.rigid;
+    rates.velocity = motion->start_velocity(motion->driven(0, 1.0 / step.increments));
     move_with_bodies(committed, rates);
   }
   rates = explicit_motion->begin(committed, std::move(rates));
   Energies& e = rates.energies;
   if (first) {
     e.start = e.kinetic + e.strain + e.contact;
-    e.friction_before = friction_work();
+    e.friction_before = motion->friction_work();
   } else {
     e.numerical += committed.rates.energies.kinetic - e.kinetic;  // of other masses, before
   }

@@ -20,7 +20,7 @@ double BasicSystem<Dim>::Impl::Explicit::cell_frequency(std::size_t cell, BulkBl
   constexpr int most = Dim * BulkTraits<Dim>::max_nodes;
   system.bulk.evaluate(cell, motion.position, now.memory, {}, 0, true, block);
   if (!block.ok) return 0;  // the next time step says so
-  const Eigen::MatrixXd& mass_of = system.motion->inertia->cells()[cell].mass;
+  const Eigen::MatrixXd& mass_of = system.motion->inertia.cells()[cell].mass;
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> root(block.dof_count);
   for (Eigen::Index d = 0; d < root.size(); ++d) root[d] = 1 / std::sqrt(mass_of(d / Dim, d / Dim));
   const Eigen::MatrixXd scaled = root.asDiagonal() * block.result.tangent * root.asDiagonal();

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "osculate/model/system_impl.hpp"
+#include "osculate/model/system_motion.hpp"
 
 namespace osculate::model {
 namespace {
@@ -39,39 +39,38 @@ double largest_acceleration(const BasicDofSpace<Dim>& dofs, const Eigen::VectorX
 }  // namespace
 
 template <int Dim>
-bool BasicSystem<Dim>::Impl::watches(std::size_t pair, std::size_t point) const {
+bool BasicSystem<Dim>::Impl::Motion::watches(std::size_t pair, std::size_t point) const {
   const pairing::PairDefinition<Dim>& definition = model.pairs[pair].definition;
   if (point >= definition.slave.points.size()) return false;  // an edge-edge contact
-  const ImpactTimes times = motion->settings.impact_times;
+  const ImpactTimes times = settings.impact_times;
   if (times != ImpactTimes::automatic) return times == ImpactTimes::all;
   const Index body = dofs.body_of(definition.slave.points[point].nearest_node());
-  return body >= 0 && motion->inertia->body_has_mass(static_cast<std::size_t>(body));
+  return body >= 0 && inertia.body_has_mass(static_cast<std::size_t>(body));
 }
 
 template <int Dim>
-bool BasicSystem<Dim>::Impl::watches_any(std::size_t pair) const {
+bool BasicSystem<Dim>::Impl::Motion::watches_any(std::size_t pair) const {
   for (std::size_t i = 0; i < model.pairs[pair].definition.slave.points.size(); ++i)
     if (watches(pair, i)) return true;
   return false;
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::evaluate_path(const State& committed, std::size_t pair,
-                                           std::span<const Vec<Dim>> x, double duration) {
+void BasicSystem<Dim>::Impl::Motion::evaluate_path(const State& committed, std::size_t pair,
+                                                   std::span<const Vec<Dim>> x, double duration) {
   pairing::ActiveSet<Dim> active_set;
   active_set.duration = duration;
-  active_set.relief = contact.relief(model.pairs[pair].definition, committed.fraction);
+  active_set.relief = system.contact.relief(model.pairs[pair].definition, committed.fraction);
   const bool has_multipliers = pair < committed.multipliers.size();
-  pairing::evaluate<Dim>(model.pairs[pair].definition, x, committed.pairs[pair], false,
-                         motion->paths[pair], active_set,
-                         has_multipliers ? &committed.multipliers[pair] : nullptr);
+  pairing::evaluate<Dim>(model.pairs[pair].definition, x, committed.pairs[pair], false, paths[pair],
+                         active_set, has_multipliers ? &committed.multipliers[pair] : nullptr);
 }
 
 /// A contact force far above all other forces stops a mass; the next increment has nothing like it.
 template <int Dim>
-void BasicSystem<Dim>::Impl::forget_impulses(
+void BasicSystem<Dim>::Impl::Motion::forget_impulses(
     std::vector<pairing::PairMultipliers<Dim>>& multipliers) const {
-  if (!timed() || motion->settings.scheme.impact == solve::Impact::average) return;
+  if (!(h > 0) || settings.scheme.impact == solve::Impact::average) return;
   constexpr double far_above = 3;
   const double usual =
       far_above * std::max(last.forces.internal.norm(), last.forces.external.norm());
@@ -83,9 +82,9 @@ void BasicSystem<Dim>::Impl::forget_impulses(
 }
 
 template <int Dim>
-std::vector<PointName> BasicSystem<Dim>::Impl::met_on_path(const State& committed,
-                                                           double duration) {
-  std::vector<Vec<Dim>> x = positions(committed.u);
+std::vector<PointName> BasicSystem<Dim>::Impl::Motion::met_on_path(const State& committed,
+                                                                   double duration) {
+  std::vector<Vec<Dim>> x = system.positions(committed.u);
   for (std::size_t n = 0; n < x.size(); ++n)
     x[n] += duration *
             committed.rates.velocity.template segment<Dim>(Dim * static_cast<Eigen::Index>(n));
@@ -94,7 +93,7 @@ std::vector<PointName> BasicSystem<Dim>::Impl::met_on_path(const State& committe
     if (!watches_any(p)) continue;
     evaluate_path(committed, p, x, duration);
     const std::vector<contact::PointHistory<Dim>>& before = committed.pairs[p].points;
-    const std::vector<pairing::PointResult<Dim>>& now = motion->paths[p].points;
+    const std::vector<pairing::PointResult<Dim>>& now = paths[p].points;
     for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i)
       if (watches(p, i) && met(before[i], now[i])) points.push_back({p, i});
   }
@@ -102,29 +101,28 @@ std::vector<PointName> BasicSystem<Dim>::Impl::met_on_path(const State& committe
 }
 
 template <int Dim>
-std::vector<double> BasicSystem<Dim>::Impl::speeds_on_path(const State& committed,
-                                                           const std::vector<PointName>& points,
-                                                           double duration, double more) {
+std::vector<double> BasicSystem<Dim>::Impl::Motion::speeds_on_path(
+    const State& committed, const std::vector<PointName>& points, double duration, double more) {
   std::vector<double> speeds(points.size());
   for (const double sign : {1.0, -1.0}) {
     met_on_path(committed, sign > 0 ? duration + more : duration + 2 * more);
     for (std::size_t i = 0; i < points.size(); ++i)
-      speeds[i] += sign * motion->paths[points[i][0]].points[points[i][1]].gap / more;
+      speeds[i] += sign * paths[points[i][0]].points[points[i][1]].gap / more;
   }
   return speeds;
 }
 
 template <int Dim>
-std::optional<solve::ImpactAhead> BasicSystem<Dim>::Impl::impact_ahead(const State& committed,
-                                                                       double fraction) {
-  if (!motion || committed.rates.empty()) return std::nullopt;
-  const ImpactTimes times = motion->settings.impact_times;
-  const bool average = motion->settings.scheme.impact == solve::Impact::average;
-  const double h = time_between(committed, fraction);
+std::optional<solve::ImpactAhead> BasicSystem<Dim>::Impl::Motion::impact_ahead(
+    const State& committed, double fraction) {
+  if (committed.rates.empty()) return std::nullopt;
+  const ImpactTimes times = settings.impact_times;
+  const bool average = settings.scheme.impact == solve::Impact::average;
+  const double h = system.time_between(committed, fraction);
   if (times == ImpactTimes::off || (times == ImpactTimes::automatic && average) || !(h > 0))
     return std::nullopt;
-  if (motion->paths.size() != model.pairs.size()) {
-    motion->paths.resize(model.pairs.size());
+  if (paths.size() != model.pairs.size()) {
+    paths.resize(model.pairs.size());
     for (std::size_t p = 0; p < model.pairs.size(); ++p)  // the same trees in every process
       evaluate_path(committed, p, model.reference, h);
   }
@@ -155,7 +153,8 @@ std::optional<solve::ImpactAhead> BasicSystem<Dim>::Impl::impact_ahead(const Sta
 template <int Dim>
 std::optional<solve::ImpactAhead> BasicSystem<Dim>::impact_ahead(const State& committed,
                                                                  double fraction) const {
-  return impl_->impact_ahead(committed, fraction);
+  if (!impl_->motion) return std::nullopt;
+  return impl_->motion->impact_ahead(committed, fraction);
 }
 
 template <int Dim>
@@ -171,7 +170,7 @@ template std::optional<solve::ImpactAhead> BasicSystem<3>::impact_ahead(const St
                                                                         double) const;
 template bool BasicSystem<2>::has_met(const State&, const solve::ImpactAhead&) const;
 template bool BasicSystem<3>::has_met(const State3&, const solve::ImpactAhead&) const;
-template struct BasicSystem<2>::Impl;
-template struct BasicSystem<3>::Impl;
+template struct BasicSystem<2>::Impl::Motion;
+template struct BasicSystem<3>::Impl::Motion;
 
 }  // namespace osculate::model

@@ -1,8 +1,11 @@
-#include "osculate/model/system_impl.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "osculate/model/system_explicit.hpp"
+#include "osculate/pairing/point_penalty.hpp"
 
 namespace osculate::model {
 namespace {
@@ -72,6 +75,16 @@ std::vector<Vec<Dim>> BasicSystem<Dim>::Impl::positions(const Eigen::VectorXd& u
 }
 
 template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::Impl::dof_values(const State& s) const {
+  Eigen::VectorXd q(dofs.dofs());
+  q.head(s.u.size()) = s.u;
+  for (std::size_t b = 0; b < s.rigid.size(); ++b)
+    for (int i = 0; i < body::motions<Dim>; ++i)
+      q[dofs.body_dof(static_cast<Index>(b), i)] = s.rigid[b].component(i);
+  return q;
+}
+
+template <int Dim>
 double BasicSystem<Dim>::Impl::current_value(const State& s, Dof dof) const {
   const Dof local = dof - Dim * dofs.nodes();
   if (local < 0) return s.u[dof];
@@ -93,6 +106,52 @@ template <int Dim>
 double BasicSystem<Dim>::Impl::equation_value(const Equation& equation, double fraction) const {
   return equation.value *
          (step.equation_start + (step.equation_end - step.equation_start) * fraction);
+}
+
+template <int Dim>
+bool BasicSystem<Dim>::Impl::timed() const {
+  return motion && motion->h > 0;
+}
+
+template <int Dim>
+double BasicSystem<Dim>::Impl::force_factor() const {
+  return timed() ? motion->factors.force : 1.0;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::begin_drivers() {
+  motion.reset();
+  explicit_motion.reset();
+  if (!step.dynamics) return;
+  motion = std::make_shared<Motion>(*this);
+  if (step.dynamics->explicit_steps) explicit_motion = std::make_shared<Explicit>(*this);
+}
+
+template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::Impl::total_force() const {
+  if (timed()) return motion->balance();
+  return last.forces.internal + last.forces.contact - last.forces.external;
+}
+
+template <int Dim>
+double BasicSystem<Dim>::Impl::round_off_in_time(std::span<const Vec<Dim>> x) const {
+  const double h = timed() ? motion->h : 0.0;
+  const double of_mass = timed() ? motion->factors.mass * motion->size_of_mass : 0.0;
+  double farthest = 0, springs = 0;
+  for (const Vec<Dim>& p : x) farthest = std::max(farthest, p.norm());
+  for (std::size_t p = 0; p < last.contact.size(); ++p) {
+    const pairing::PairDefinition<Dim>& pair = model.pairs[p].definition;
+    if (!timed() && !pair.damping) continue;  // a penalty is not steep enough to show
+    for (std::size_t i = 0; i < last.contact[p].points.size(); ++i) {
+      const pairing::PointResult<Dim>& point = last.contact[p].points[i];
+      if (point.status == contact::Status::open) continue;
+      double slope = std::abs(contact::response(pair.normal, point.gap, true).d_traction) *
+                     pairing::relative_stiffness(pair, i).normal;
+      if (pair.damping) slope = contact::stiffest(*pair.damping, slope, h);
+      springs += slope * slope * point.weight * point.weight;
+    }
+  }
+  return 2 * std::numeric_limits<double>::epsilon() * farthest * (of_mass + std::sqrt(springs));
 }
 
 template <int Dim>
@@ -160,7 +219,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
     builder.clear();
   }
   const std::vector<Vec<Dim>> x = positions(now.u);
-  if (motion) begin_increment(committed, fraction, time_between(committed, fraction));
+  if (motion) motion->begin_increment(committed, fraction, time_between(committed, fraction));
   if (motion && !motion->failure.empty()) {
     out.ok = false;
     out.message = motion->failure;
@@ -180,7 +239,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   // A state against itself: no time has passed since what its material points remember.
   const double duration = pass == Pass::whole ? 0.0 : length;
   std::optional<CellInertia<Dim>> of_cells;
-  if (timed()) of_cells.emplace(cell_inertia());
+  if (timed()) of_cells.emplace(motion->cell_inertia());
   if (on(Term::bulk) &&
       !bulk.add(committed, now, duration, of_cells ? &*of_cells : nullptr, to, out))
     return;
@@ -188,8 +247,8 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
     contact.add(committed, trial, fraction, length, x, pass == Pass::iterate, constraints, to, out);
   if (on(Term::pressure)) loads.add_pressure(step, now, fraction, to);
   loads.add_dead_loads(step, fraction, last.forces);
-  loads.add_gravity(step, fraction, motion ? &*motion->inertia : nullptr, last.forces);
-  if (timed()) add_inertia(now, to);
+  loads.add_gravity(step, fraction, motion ? &motion->inertia : nullptr, last.forces);
+  if (timed()) motion->add_inertia(now, to);
   turn_moments(model, now, with_tangent && on(Term::rigid), to);
   if (with_tangent && on(Term::rigid)) add_rigid_geometry<Dim>(model, now, x, total_force(), to);
   if (with_tangent) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "osculate/model/system_impl.hpp"
+#include "osculate/model/system_motion.hpp"
 
 namespace osculate::model {
 namespace {
@@ -16,20 +16,20 @@ body::RotationScheme rotation_scheme(const solve::TimeScheme& s, double h) {
 }  // namespace
 
 template <int Dim>
-int BasicSystem<Dim>::Impl::free_rotations(std::size_t body) const {
+int BasicSystem<Dim>::Impl::Motion::free_rotations(std::size_t body) const {
   int count = body::rotations<Dim>;
   for (const PrescribedDof& p : step.prescribed) count -= turns_body(p.dof, body) ? 1 : 0;
   return count;
 }
 
 template <int Dim>
-bool BasicSystem<Dim>::Impl::turns_body(Dof dof, std::size_t body) const {
+bool BasicSystem<Dim>::Impl::Motion::turns_body(Dof dof, std::size_t body) const {
   const Dof first = dofs.body_dof(static_cast<Index>(body), 0);
   return dof >= first + Dim && dof < first + body::motions<Dim>;
 }
 
 template <int Dim>
-bool BasicSystem<Dim>::Impl::turns_by_rule(std::size_t body) const {
+bool BasicSystem<Dim>::Impl::Motion::turns_by_rule(std::size_t body) const {
   if (free_rotations(body) < body::rotations<Dim>) return true;
   for (const Equation& equation : model.equations)
     for (const Equation::Term& term : equation.terms)
@@ -38,7 +38,7 @@ bool BasicSystem<Dim>::Impl::turns_by_rule(std::size_t body) const {
 }
 
 template <int Dim>
-bool BasicSystem<Dim>::Impl::total_matters(std::size_t body) const {
+bool BasicSystem<Dim>::Impl::Motion::total_matters(std::size_t body) const {
   if (turns_by_rule(body)) return true;
   const auto running = std::find_if(model.steps.begin(), model.steps.end(),
                                     [&](const Step& s) { return s.name == step.name; });
@@ -49,7 +49,7 @@ bool BasicSystem<Dim>::Impl::total_matters(std::size_t body) const {
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::rebase(State& state) const {
+void BasicSystem<Dim>::Impl::Motion::rebase(State& state) const {
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < state.rigid.size(); ++b) {
       if (!(model.rigid[b].mass > 0) || total_matters(b)) continue;
@@ -69,7 +69,7 @@ void BasicSystem<Dim>::Impl::rebase(State& state) const {
 }
 
 template <int Dim>
-Vec<body::rotations<Dim>> BasicSystem<Dim>::Impl::moment_on(
+Vec<body::rotations<Dim>> BasicSystem<Dim>::Impl::Motion::moment_on(
     const State& s, std::size_t body, const Eigen::VectorXd& forces_on_dofs) const {
   Vec<body::rotations<Dim>> moment = Vec<body::rotations<Dim>>::Zero();
   const body::BasicRigidMotion<Dim>& motion_of = s.rigid[body];
@@ -86,9 +86,9 @@ Vec<body::rotations<Dim>> BasicSystem<Dim>::Impl::moment_on(
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::add_spins(const State& trial, Assembly<Dim>& to) {
+void BasicSystem<Dim>::Impl::Motion::add_spins(const State& trial, Assembly<Dim>& to) {
   if constexpr (Dim == 3) {
-    Motion& m = *motion;
+    Motion& m = *this;
     const body::RotationScheme scheme = rotation_scheme(m.settings.scheme, m.h);
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       const Dof first = dofs.body_dof(static_cast<Index>(b), 3);
@@ -98,7 +98,7 @@ void BasicSystem<Dim>::Impl::add_spins(const State& trial, Assembly<Dim>& to) {
           body::rotation_tangent(trial.rigid[b].rotation).transpose() * past - past;
       if (to.with_tangent && !past.isZero(0))
         to.add_stiffness(d, body::moment_gradient(trial.rigid[b].rotation, past));
-      if (!m.inertia->body_has_mass(b)) continue;
+      if (!m.inertia.body_has_mass(b)) continue;
       const body::InertiaMoment<3> inertial = body::inertia_moment(
           model.rigid[b].inertia, m.past.spins[b], scheme, m.from[b], trial.rigid[b]);
       const body::RotationForce<3> force =
@@ -112,40 +112,39 @@ void BasicSystem<Dim>::Impl::add_spins(const State& trial, Assembly<Dim>& to) {
 
 /// Damping by mass: a moment of the angular momentum times its factor.
 template <int Dim>
-void BasicSystem<Dim>::Impl::add_spin_damping(const State& trial, std::size_t body,
-                                              const body::InertiaMoment<3>& inertial,
-                                              Assembly<Dim>& to) {
+void BasicSystem<Dim>::Impl::Motion::add_spin_damping(const State& trial, std::size_t body,
+                                                      const body::InertiaMoment<3>& inertial,
+                                                      Assembly<Dim>& to) {
   if constexpr (Dim == 3) {
-    Motion& m = *motion;
-    const solve::TimeScheme& s = m.settings.scheme;
-    const double factor = m.settings.damping_mass;
+    const solve::TimeScheme& s = settings.scheme;
+    const double factor = settings.damping_mass;
     const Vec3 momentum =
         body::angular_momentum(model.rigid[body].inertia, trial.rigid[body], inertial.rates);
     // The inertial moment is (1 - alpha_m) / (gamma h) times the momentum, up to what stands.
-    const Mat<3, 3> gradient = factor * s.gamma * m.h / (1 - s.alpha_m) * inertial.gradient;
+    const Mat<3, 3> gradient = factor * s.gamma * h / (1 - s.alpha_m) * inertial.gradient;
     const body::RotationForce<3> force =
         body::rotation_force(trial.rigid[body], factor * momentum, gradient);
     const Dof first = dofs.body_dof(static_cast<Index>(body), 3);
-    m.damping_force.template segment<3>(first) += force.force;
+    damping_force.template segment<3>(first) += force.force;
     const std::array<Dof, 3> d{first, first + 1, first + 2};
-    if (to.with_tangent) to.add_stiffness(d, Mat<3, 3>(m.factors.force * force.tangent));
+    if (to.with_tangent) to.add_stiffness(d, Mat<3, 3>(factors.force * force.tangent));
   } else {
     (void)trial, (void)body, (void)inertial, (void)to;
   }
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::damp_spins(const Eigen::VectorXd& velocity,
-                                        Eigen::VectorXd& damping) const {
+void BasicSystem<Dim>::Impl::Motion::damp_spins(const Eigen::VectorXd& velocity,
+                                                Eigen::VectorXd& damping) const {
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
-      if (!motion->inertia->body_has_mass(b)) continue;
+      if (!inertia.body_has_mass(b)) continue;
       const Dof first = dofs.body_dof(static_cast<Index>(b), 3);
       const Mat<3, 3> r = mass_rigid[b].orientation();
       const Vec3 momentum =
           r * model.rigid[b].inertia * r.transpose() * velocity.template segment<3>(first);
       damping.template segment<3>(first) +=
-          motion->settings.damping_mass *
+          settings.damping_mass *
           (body::rotation_tangent(mass_rigid[b].rotation).transpose() * momentum);
     }
   } else {
@@ -155,12 +154,12 @@ void BasicSystem<Dim>::Impl::damp_spins(const Eigen::VectorXd& velocity,
 
 /// Of bodies that turn freely; of the others the accelerations follow (settle_accelerations).
 template <int Dim>
-void BasicSystem<Dim>::Impl::begin_spins(const State& committed, const Eigen::VectorXd& force,
-                                         Rates& rates) const {
+void BasicSystem<Dim>::Impl::Motion::begin_spins(const State& committed,
+                                                 const Eigen::VectorXd& force, Rates& rates) const {
   if constexpr (Dim == 3) {
     rates.spins.assign(model.rigid.size(), {});
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
-      if (motion->coupled[b]) continue;
+      if (coupled[b]) continue;
       const Dof first = dofs.body_dof(static_cast<Index>(b), 3);
       const Vec3 moment =
           moment_on(committed, b, force) +
@@ -174,11 +173,11 @@ void BasicSystem<Dim>::Impl::begin_spins(const State& committed, const Eigen::Ve
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::new_spins(const State& trial, const Eigen::VectorXd& impulse,
-                                       const Eigen::VectorXd& left_over, Rates& now,
-                                       Eigen::VectorXd& of_impulse) const {
+void BasicSystem<Dim>::Impl::Motion::new_spins(const State& trial, const Eigen::VectorXd& impulse,
+                                               const Eigen::VectorXd& left_over, Rates& now,
+                                               Eigen::VectorXd& of_impulse) const {
   if constexpr (Dim == 3) {
-    const Motion& m = *motion;
+    const Motion& m = *this;
     const solve::TimeScheme& s = m.settings.scheme;
     const body::RotationScheme scheme = rotation_scheme(s, m.h);
     now.spins = m.past.spins;
@@ -188,7 +187,7 @@ void BasicSystem<Dim>::Impl::new_spins(const State& trial, const Eigen::VectorXd
       of_impulse.template segment<3>(first).setZero();
       const body::RigidMotion3& to = trial.rigid[b];
       body::RotationRates<3>& rates = now.spins[b];
-      if (!m.inertia->body_has_mass(b)) {
+      if (!m.inertia.body_has_mass(b)) {
         const Vec3 turn_of = body::turn_between(m.from[b], to);
         rates = {};
         rates.velocity = to.orientation().transpose() * turn_of / m.h;
@@ -220,16 +219,16 @@ void BasicSystem<Dim>::Impl::new_spins(const State& trial, const Eigen::VectorXd
 }
 
 template <int Dim>
-double BasicSystem<Dim>::Impl::spin_energy(const Rates& rates) const {
+double BasicSystem<Dim>::Impl::Motion::spin_energy(const Rates& rates) const {
   double sum = 0;
   if constexpr (Dim == 3)
     for (std::size_t b = 0; b < rates.spins.size(); ++b)
-      if (motion->inertia->body_has_mass(b))
+      if (inertia.body_has_mass(b))
         sum += body::rotation_energy<3>(model.rigid[b].inertia, rates.spins[b]);
   return sum;
 }
 
-template struct BasicSystem<2>::Impl;
-template struct BasicSystem<3>::Impl;
+template struct BasicSystem<2>::Impl::Motion;
+template struct BasicSystem<3>::Impl::Motion;
 
 }  // namespace osculate::model

@@ -3,27 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "osculate/model/system_impl.hpp"
+#include "osculate/model/system_motion.hpp"
 
 namespace osculate::model {
 
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::speeds_of(const Rates& rates) const {
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::speeds_of(const Rates& rates) const {
   Eigen::VectorXd out = rates.velocity;
   if constexpr (Dim == 3)
     for (std::size_t b = 0; b < model.rigid.size(); ++b)
       out.segment<3>(dofs.body_dof(static_cast<Index>(b), Dim)) =
-          motion->inertia->body_has_mass(b) ? rates.spins[b].velocity : Vec3(Vec3::Zero());
+          inertia.body_has_mass(b) ? rates.spins[b].velocity : Vec3(Vec3::Zero());
   return out;
 }
 
 template <int Dim>
-double BasicSystem<Dim>::Impl::size_by_mass(const Eigen::VectorXd& w) const {
-  double sum = w.dot(motion->inertia->multiply(w));
+double BasicSystem<Dim>::Impl::Motion::size_by_mass(const Eigen::VectorXd& w) const {
+  double sum = w.dot(inertia.multiply(w));
   if constexpr (Dim == 3)
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       const Vec3 turn = w.segment<3>(dofs.body_dof(static_cast<Index>(b), Dim));
-      if (motion->inertia->body_has_mass(b)) sum += turn.dot(model.rigid[b].inertia * turn);
+      if (inertia.body_has_mass(b)) sum += turn.dot(model.rigid[b].inertia * turn);
     }
   return std::sqrt(std::max(sum, 0.0));
 }
@@ -32,12 +32,12 @@ double BasicSystem<Dim>::Impl::size_by_mass(const Eigen::VectorXd& w) const {
 /// prescribed has no error, and the masses between it and the others carry its own accelerations
 /// into theirs: these are taken away as they were put in (decision 027).
 template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::free_accelerations(const Rates& before,
-                                                           const Rates& after) {
+Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::free_accelerations(const Rates& before,
+                                                                   const Rates& after) {
   Eigen::VectorXd change = after.acceleration - before.acceleration;
   if constexpr (Dim == 3)
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
-      if (!motion->coupled[b]) continue;
+      if (!coupled[b]) continue;
       const Vec3 turning = after.spins[b].acceleration - before.spins[b].acceleration;
       change.segment<3>(dofs.body_dof(static_cast<Index>(b), Dim)) =
           body::rotation_rate(mass_rigid[b], Vec3(mass_rigid[b].orientation() * turning));
@@ -54,19 +54,19 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::free_accelerations(const Rates& before,
 /// Source     Magnus1954 (R' = R skew W: second term of the exponent + 1/2 of the commutators)
 /// Tested by  tests/unit/deck/test_time_steps.cpp
 template <int Dim>
-void BasicSystem<Dim>::Impl::add_spin_errors(const Rates& before, const Rates& after, double h,
-                                             Eigen::VectorXd& error) const {
+void BasicSystem<Dim>::Impl::Motion::add_spin_errors(const Rates& before, const Rates& after,
+                                                     double h, Eigen::VectorXd& error) const {
   if constexpr (Dim == 3) {
-    const double factor = solve::error_factor(motion->settings.scheme);
+    const double factor = solve::error_factor(settings.scheme);
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       auto turn = error.segment<3>(dofs.body_dof(static_cast<Index>(b), Dim));
       const body::RigidMotion3& at = mass_rigid[b];
-      if (!motion->inertia->body_has_mass(b) || free_rotations(b) == 0) {
+      if (!inertia.body_has_mass(b) || free_rotations(b) == 0) {
         turn.setZero();
         continue;
       }
       const body::RotationRates<3>&from = before.spins[b], &to = after.spins[b];
-      if (motion->coupled[b])
+      if (coupled[b])
         turn = at.orientation().transpose() * (body::rotation_tangent(at.rotation) * Vec3(turn));
       else
         turn = h * h * factor * (to.acceleration - from.acceleration);
@@ -81,10 +81,11 @@ void BasicSystem<Dim>::Impl::add_spin_errors(const Rates& before, const Rates& a
 }
 
 template <int Dim>
-solve::TimeError BasicSystem<Dim>::Impl::time_error(const State& committed, const State& next) {
+solve::TimeError BasicSystem<Dim>::Impl::Motion::time_error(const State& committed,
+                                                            const State& next) {
   const Rates &before = committed.rates, &after = next.rates;
-  const double h = time_between(committed, next.fraction);
-  const solve::TimeScheme& scheme = motion->settings.scheme;
+  const double h = system.time_between(committed, next.fraction);
+  const solve::TimeScheme& scheme = settings.scheme;
   const auto size_of = [&](const Eigen::VectorXd& change) {
     Eigen::VectorXd error = h * h * solve::error_factor(scheme) * change;
     add_spin_errors(before, after, h, error);
@@ -98,21 +99,21 @@ solve::TimeError BasicSystem<Dim>::Impl::time_error(const State& committed, cons
     error = std::min(error, size_of(change + accelerations_by(before.contact - after.contact)));
   // What moves less than this share of the bodies' extent in the whole step is at rest.
   constexpr double at_rest = 1e-6;
-  double length = bulk.jobs.empty() ? 0.0 : resistance.extent;
+  double length = system.bulk.jobs.empty() ? 0.0 : system.resistance.extent;
   for (const BasicRigidBody<Dim>& body : model.rigid)
     if (body.mass > 0) length = std::max(length, std::sqrt(body.inertia.trace() / body.mass));
-  const double slowest = at_rest * length * std::sqrt(motion->inertia->total()) / step.duration;
-  return {error / h, std::max(slowest, size_by_mass(speeds_of(after) - motion->speeds)), h};
+  const double slowest = at_rest * length * std::sqrt(inertia.total()) / step.duration;
+  return {error / h, std::max(slowest, size_by_mass(speeds_of(after) - speeds)), h};
 }
 
 template <int Dim>
 solve::TimeError BasicSystem<Dim>::time_error(const State& committed, const State& next) const {
-  return impl_->time_error(committed, next);
+  return impl_->motion->time_error(committed, next);
 }
 
 template solve::TimeError BasicSystem<2>::time_error(const State&, const State&) const;
 template solve::TimeError BasicSystem<3>::time_error(const State3&, const State3&) const;
-template struct BasicSystem<2>::Impl;
-template struct BasicSystem<3>::Impl;
+template struct BasicSystem<2>::Impl::Motion;
+template struct BasicSystem<3>::Impl::Motion;
 
 }  // namespace osculate::model

@@ -14,7 +14,7 @@ namespace osculate::model {
 /// The bodies: internal forces and stiffness of all cells, which are computed in parallel and added
 /// in order.
 ///
-/// Tested by  tests/unit/model/test_system.cpp, test_material_memory.cpp
+/// Tested by  tests/unit/model/test_system.cpp, tests/unit/deck/test_linear_cells.cpp
 template <int Dim>
 struct BulkTerm {
   using State = BasicState<Dim>;
