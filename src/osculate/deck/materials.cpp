@@ -48,7 +48,7 @@ void check_material(const Value&, const Material& m) {
 
 }  // namespace
 
-Spec materials_spec() {
+BoundKey<Description> materials_key() {
   Spec law = material_keys().spec("A material: exactly one law.");
   const std::vector<std::string> keys = names_of(law.keys);
   law = law.with(Group::Rule::exactly_one, keys)
@@ -56,9 +56,12 @@ Spec materials_spec() {
                                  "the laws {}; others are not available (osculate doc limits)",
                                  fmt::join(keys, ", ")))
             .such_as("{linear_elastic: {E: 2.1e5, nu: 0.3}}");
-  return names("The materials, by name.", law)
-      .otherwise("{}")
-      .such_as("{steel: {linear_elastic: {E: 2.1e5, nu: 0.3}}}");
+  return {optional("materials", names("The materials, by name.", law)
+                                    .otherwise("{}")
+                                    .such_as("{steel: {linear_elastic: {E: 2.1e5, nu: 0.3}}}")),
+          [](Description& d, const Value& v) {
+            d.materials = material_keys().read_all(v, check_material);
+          }};
 }
 
 std::string small_strain_materials() {
@@ -84,10 +87,6 @@ std::vector<RememberedNumber> remembered_numbers() {
       }
   });
   return numbers;
-}
-
-std::vector<Material> parse_materials(const Value& v) {
-  return material_keys().read_all(v, check_material);
 }
 
 }  // namespace osculate::deck

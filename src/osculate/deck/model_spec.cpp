@@ -23,6 +23,8 @@ Spec set_or_sets(std::string doc, const std::string& example) {
       .such_as(example);
 }
 
+namespace {
+
 Spec parameters_spec() {
   return names(
              "Numbers and texts, by name. A value anywhere else that begins with = is computed "
@@ -33,21 +35,25 @@ Spec parameters_spec() {
       .such_as("{length: 20, radius: =length/4}");
 }
 
-Spec model_spec() {
-  return map(
-      "A model of Osculate. All quantities are in one consistent system of units.",
-      {required("osculate",
-                integer("Version of the model file's format.").at_least(1).at_most(1).such_as("1")),
-       optional(
-           "title",
+}  // namespace
+
+BoundKeys<Description> model_keys() {
+  using D = Description;
+  return {
+      {unread<D>(required(
+           "osculate",
+           integer("Version of the model file's format.").at_least(1).at_most(1).such_as("1"))),
+       may(&D::title, "title",
            text("What is computed; heads the report.").such_as("Block pressed on a rigid base")),
-       optional("parameters", parameters_spec()), required("mesh", mesh_spec()),
-       optional("sets", sets_spec()), optional("materials", materials_spec()),
-       optional("sections", sections_spec()), optional("rigid", rigid_spec()),
-       optional("contact", contact_spec()), optional("amplitudes", amplitudes_spec()),
-       optional("equations", equations_spec()), optional("equal", equal_spec()),
-       optional("initial_velocity", initial_velocity_spec()), required("steps", steps_spec()),
-       optional("solver", solver_spec()), optional("output", output_spec())});
+       unread<D>(optional("parameters", parameters_spec())), mesh_key(), sets_key(),
+       materials_key(), sections_key(), rigid_key(), contact_key(), amplitudes_key(),
+       equations_key(), equal_key(), initial_velocity_key(), steps_key(), solver_key(),
+       output_key()}};
+}
+
+Spec model_spec() {
+  return model_keys().spec(
+      "A model of Osculate. All quantities are in one consistent system of units.");
 }
 
 }  // namespace osculate::deck

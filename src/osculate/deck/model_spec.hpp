@@ -1,39 +1,41 @@
 #pragma once
 #include <string>
 
-#include "osculate/deck/spec.hpp"
+#include "osculate/deck/bind.hpp"
 
 namespace osculate::deck {
 
-/// The keys of the model file: the one list that validation, JSON schema and `osculate doc` share.
+/// The keys of the model file with the members of the description that their values go to: the one
+/// list that validation, reading, JSON schema and `osculate doc` share.
+[[nodiscard]] BoundKeys<Description> model_keys();
 [[nodiscard]] Spec model_spec();
 
-// Its branches, one file each.
-[[nodiscard]] Spec mesh_spec();
+// Its branches, one file each, in the order in which they are read: sections need the materials.
+[[nodiscard]] BoundKey<Description> mesh_key();
+[[nodiscard]] BoundKey<Description> sets_key();
+[[nodiscard]] BoundKey<Description> materials_key();
+[[nodiscard]] BoundKey<Description> sections_key();
+[[nodiscard]] BoundKey<Description> rigid_key();
+[[nodiscard]] BoundKey<Description> contact_key();
+[[nodiscard]] BoundKey<Description> amplitudes_key();
+[[nodiscard]] BoundKey<Description> equations_key();
+[[nodiscard]] BoundKey<Description> equal_key();
+[[nodiscard]] BoundKey<Description> initial_velocity_key();
+[[nodiscard]] BoundKey<Description> steps_key();
+[[nodiscard]] BoundKey<Description> solver_key();
+[[nodiscard]] BoundKey<Description> output_key();
+
+[[nodiscard]] Spec dynamics_spec();
+[[nodiscard]] Spec gravity_spec();
 /// The name of a set, or a list of names.
 [[nodiscard]] Spec set_or_sets(std::string doc, const std::string& example);
-[[nodiscard]] Spec parameters_spec();
-[[nodiscard]] Spec sets_spec();
-[[nodiscard]] Spec materials_spec();
 /// Keys of the materials of small strains, and of those that remember: one after the other.
 [[nodiscard]] std::string small_strain_materials();
 [[nodiscard]] std::string remembering_materials();
-[[nodiscard]] Spec sections_spec();
-[[nodiscard]] Spec rigid_spec();
-[[nodiscard]] Spec contact_spec();
 /// One key a law of the catalogue.
 [[nodiscard]] std::vector<Key> normal_law_keys();
 [[nodiscard]] std::vector<Key> friction_law_keys();
 [[nodiscard]] std::vector<Key> damping_law_keys();
-[[nodiscard]] Spec amplitudes_spec();
-[[nodiscard]] Spec equations_spec();
-[[nodiscard]] Spec equal_spec();
-[[nodiscard]] Spec steps_spec();
-[[nodiscard]] Spec dynamics_spec();
-[[nodiscard]] Spec gravity_spec();
-[[nodiscard]] Spec initial_velocity_spec();
-[[nodiscard]] Spec solver_spec();
-[[nodiscard]] Spec output_spec();
 
 /// Two coordinates.
 [[nodiscard]] Spec point_spec(std::string doc);

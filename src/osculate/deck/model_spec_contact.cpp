@@ -406,36 +406,34 @@ Contact all_of(const Value& v) {
   return c;
 }
 
-}  // namespace
-
-Spec contact_spec() {
-  return either(
-             "Who touches whom.",
-             {list("Contact pairs.", pair_keys().spec("One contact pair.")),
-              map("Contact of everything with everything.",
-                  {required("all", all_keys().spec(
-                                       "All bodies with each other, with the rigid ones and with "
-                                       "themselves; pairs are called NAME.A-B, bodies are numbered "
-                                       "in the order of the mesh."))}),
-              choice("The same, for short.",
-                     {Choice{"all", "all bodies, with the default of every key", 0, true}})})
-      .otherwise("[]")
-      .such_as("[{name: floor, master: bottom, slave: base, normal: {penalty: 2.1e6}}]");
+std::vector<Contact> contacts_of(const Value& v) {
+  if (v.alternative == 0) return pair_keys().read_all(v);
+  if (v.alternative == 1) return {all_of(v.at("all"))};
+  SourceNode nothing;  // `all` alone is `{all: {}}`
+  nothing.kind = SourceNode::Kind::map;
+  nothing.line = v.mark.line;
+  return {all_of(check(all_keys().spec(""), nothing, v.mark.file, v.mark.key + ".all"))};
 }
 
-std::vector<Contact> parse_contact(const Value& v) {
-  if (v.alternative == 1) return {all_of(v.at("all"))};
-  if (v.alternative == 2) {  // `all` alone is `{all: {}}`
-    SourceNode nothing, whole;
-    nothing.kind = whole.kind = SourceNode::Kind::map;
-    nothing.line = whole.line = v.mark.line;
-    whole.entries.push_back({"all", v.mark.line, nothing});
-    return {all_of(check(contact_spec(), whole, v.mark.file).at("all"))};
-  }
-  std::vector<Contact> out;
-  const BoundKeys<Contact> keys = pair_keys();
-  for (const Value& item : v.items) out.push_back(keys.read(item));
-  return out;
+}  // namespace
+
+BoundKey<Description> contact_key() {
+  return {
+      optional(
+          "contact",
+          either("Who touches whom.",
+                 {list("Contact pairs.", pair_keys().spec("One contact pair.")),
+                  map("Contact of everything with everything.",
+                      {required("all",
+                                all_keys().spec(
+                                    "All bodies with each other, with the rigid ones and with "
+                                    "themselves; pairs are called NAME.A-B, bodies are numbered "
+                                    "in the order of the mesh."))}),
+                  choice("The same, for short.",
+                         {Choice{"all", "all bodies, with the default of every key", 0, true}})})
+              .otherwise("[]")
+              .such_as("[{name: floor, master: bottom, slave: base, normal: {penalty: 2.1e6}}]")),
+      [](Description& d, const Value& v) { d.contact = contacts_of(v); }};
 }
 
 }  // namespace osculate::deck

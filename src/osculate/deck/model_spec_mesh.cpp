@@ -322,19 +322,22 @@ void require_direction(const Value& v) {
     throw core::InputError(v.mark, "expected a direction, got a vector of no length");
 }
 
-Spec mesh_spec() {
-  return either(
-             "The mesh: a file, relative to the folder of the model file, or several files and "
-             "generated parts together.",
-             {file_spec(), mesh_keys()
-                               .spec("Files and generated parts, which share no nodes.")
-                               .with(Group::Rule::at_least_one, {"files", "generate"})})
-      .such_as("block.msh");
-}
-
-MeshSource parse_mesh(const Value& v) {
-  if (v.alternative == 0) return {v.mark, {file_of(v, {})}, {}};
-  return mesh_keys().read(v);
+BoundKey<Description> mesh_key() {
+  return {
+      required(
+          "mesh",
+          either("The mesh: a file, relative to the folder of the model file, or several files and "
+                 "generated parts together.",
+                 {file_spec(), mesh_keys()
+                                   .spec("Files and generated parts, which share no nodes.")
+                                   .with(Group::Rule::at_least_one, {"files", "generate"})})
+              .such_as("block.msh")),
+      [](Description& d, const Value& v) {
+        if (v.alternative == 0)
+          d.mesh = {v.mark, {file_of(v, {})}, {}};
+        else
+          d.mesh = mesh_keys().read(v);
+      }};
 }
 
 }  // namespace osculate::deck

@@ -296,20 +296,21 @@ void require_column(const Name& name, const std::vector<std::string>& columns) {
 
 }  // namespace
 
-Spec solver_spec() {
-  return solver_keys()
-      .spec("How increments are solved.")
-      .otherwise("{}")
-      .such_as("{max_iterations: 40, line_search: off}");
+BoundKey<Description> solver_key() {
+  return {optional("solver", solver_keys()
+                                 .spec("How increments are solved.")
+                                 .otherwise("{}")
+                                 .such_as("{max_iterations: 40, line_search: off}")),
+          [](Description& d, const Value& v) { d.solver = solver_keys().read(v); }};
 }
 
-Solver parse_solver(const Value& v) { return solver_keys().read(v); }
-
-Spec output_spec() {
-  return output_keys()
-      .spec("What is written.")
-      .otherwise("{}")
-      .such_as("{fields: last, history: [{on: floor, of: normal_force}]}");
+BoundKey<Description> output_key() {
+  return {
+      optional("output", output_keys()
+                             .spec("What is written.")
+                             .otherwise("{}")
+                             .such_as("{fields: last, history: [{on: floor, of: normal_force}]}")),
+      [](Description& d, const Value& v) { d.output = output_keys().read(v); }};
 }
 
 std::vector<std::string> energy_columns(const Description& description) {
@@ -329,8 +330,8 @@ std::vector<std::string> energy_columns(const Description& description) {
   return columns;
 }
 
-Output parse_output(const Value& v, const Description& description) {
-  Output output = output_keys().read(v);
+void complete_output(Description& description) {
+  Output& output = description.output;
   for (HistoryRequest& request : output.history) complete(request, description);
   std::vector<std::string> columns{"step", "increment", "time"};
   for (std::string& column : energy_columns(description)) columns.push_back(std::move(column));
@@ -340,7 +341,6 @@ Output parse_output(const Value& v, const Description& description) {
     require_column(plot.x, columns);
     for (const Name& y : plot.y) require_column(y, columns);
   }
-  return output;
 }
 
 }  // namespace osculate::deck

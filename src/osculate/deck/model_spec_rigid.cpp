@@ -80,18 +80,18 @@ void check_mass(const Value&, const Rigid& rigid) {
 
 }  // namespace
 
-Spec rigid_spec() {
-  return names(
-             "Rigid bodies, by name: a meshed set or one analytic shape each. All motions of those "
-             "without a mass are held until a step prescribes, loads or releases them.",
-             rigid_keys()
-                 .spec("One rigid body: exactly one shape.")
-                 .with(Group::Rule::exactly_one, names_of(keys_of(all_shapes())))
-                 .such_as("{circle: {center: [0, -5], radius: 5}}"))
-      .otherwise("{}")
-      .such_as("{base: {set: base_line}}");
+BoundKey<Description> rigid_key() {
+  return {optional("rigid",
+                   names("Rigid bodies, by name: a meshed set or one analytic shape each. All "
+                         "motions of those "
+                         "without a mass are held until a step prescribes, loads or releases them.",
+                         rigid_keys()
+                             .spec("One rigid body: exactly one shape.")
+                             .with(Group::Rule::exactly_one, names_of(keys_of(all_shapes())))
+                             .such_as("{circle: {center: [0, -5], radius: 5}}"))
+                       .otherwise("{}")
+                       .such_as("{base: {set: base_line}}")),
+          [](Description& d, const Value& v) { d.rigid = rigid_keys().read_all(v, check_mass); }};
 }
-
-std::vector<Rigid> parse_rigid(const Value& v) { return rigid_keys().read_all(v, check_mass); }
 
 }  // namespace osculate::deck

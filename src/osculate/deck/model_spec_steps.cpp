@@ -292,59 +292,59 @@ Amplitude amplitude_of(const ValueEntry& entry) {
 
 }  // namespace
 
-Spec amplitudes_spec() {
+BoundKey<Description> amplitudes_key() {
   const Spec point = list("One point [t, factor].", number("Fraction of the step, or factor."))
                          .count(2, 2)
                          .such_as("[0.5, 1]");
-  return names("Factors over the fraction t of a step, by name; straight between the points.",
-               list("Points [t, factor], t increasing from 0 to 1.", point)
+  return {
+      optional("amplitudes",
+               names("Factors over the fraction t of a step, by name; straight between the points.",
+                     list("Points [t, factor], t increasing from 0 to 1.", point)
+                         .count(1)
+                         .such_as("[[0, 0], [0.5, 1], [1, 0]]"))
+                   .otherwise("{}")
+                   .such_as("{there_and_back: [[0, 0], [0.5, 1], [1, 0]]}")),
+      [](Description& d, const Value& v) {
+        for (const ValueEntry& entry : v.entries) d.amplitudes.push_back(amplitude_of(entry));
+      }};
+}
+
+BoundKey<Description> equations_key() {
+  return {optional(
+              "equations",
+              list("Linear equations between displacements.",
+                   equation_keys().spec("One equation: the terms sum up to the value."))
+                  .otherwise("[]")
+                  .such_as("[{terms: [{on: A, of: ux, factor: 1}, {on: B, of: ux, factor: -1}]}]")),
+          [](Description& d, const Value& v) { d.equations = equation_keys().read_all(v); }};
+}
+
+BoundKey<Description> equal_key() {
+  return {optional("equal", list("Sets whose nodes all share one displacement.",
+                                 equal_keys().spec("One shared displacement."))
+                                .otherwise("[]")
+                                .such_as("[{on: top, of: uy}]")),
+          [](Description& d, const Value& v) { d.equal = equal_keys().read_all(v); }};
+}
+
+BoundKey<Description> initial_velocity_key() {
+  return {optional("initial_velocity",
+                   loads_spec("Velocities at the beginning of the first step with inertia.",
+                              "One velocity.", velocity_keys(), velocity_parts())
+                       .such_as("[{on: ball, vy: -2}]")),
+          [](Description& d, const Value& v) { d.initial_velocity = velocity_keys().read_all(v); }};
+}
+
+BoundKey<Description> steps_key() {
+  return {
+      required("steps",
+               list("What happens, in order. Values are totals at the end of a step, ramped from "
+                    "those of "
+                    "the last step; everything persists until it is released or changed.",
+                    step_keys().spec("One step."))
                    .count(1)
-                   .such_as("[[0, 0], [0.5, 1], [1, 0]]"))
-      .otherwise("{}")
-      .such_as("{there_and_back: [[0, 0], [0.5, 1], [1, 0]]}");
-}
-
-Spec equations_spec() {
-  return list("Linear equations between displacements.",
-              equation_keys().spec("One equation: the terms sum up to the value."))
-      .otherwise("[]")
-      .such_as("[{terms: [{on: A, of: ux, factor: 1}, {on: B, of: ux, factor: -1}]}]");
-}
-
-std::vector<Equation> parse_equations(const Value& v) { return equation_keys().read_all(v); }
-
-Spec equal_spec() {
-  return list("Sets whose nodes all share one displacement.",
-              equal_keys().spec("One shared displacement."))
-      .otherwise("[]")
-      .such_as("[{on: top, of: uy}]");
-}
-
-std::vector<Equal> parse_equal(const Value& v) { return equal_keys().read_all(v); }
-
-Spec initial_velocity_spec() {
-  return loads_spec("Velocities at the beginning of the first step with inertia.", "One velocity.",
-                    velocity_keys(), velocity_parts())
-      .such_as("[{on: ball, vy: -2}]");
-}
-
-std::vector<Load> parse_initial_velocity(const Value& v) { return velocity_keys().read_all(v); }
-
-Spec steps_spec() {
-  return list(
-             "What happens, in order. Values are totals at the end of a step, ramped from those of "
-             "the last step; everything persists until it is released or changed.",
-             step_keys().spec("One step."))
-      .count(1)
-      .such_as("[{name: press, increments: 10, prescribe: [{on: top, uy: -0.007}]}]");
-}
-
-std::vector<Step> parse_steps(const Value& v) { return step_keys().read_all(v, check_times); }
-
-std::vector<Amplitude> parse_amplitudes(const Value& v) {
-  std::vector<Amplitude> out;
-  for (const ValueEntry& entry : v.entries) out.push_back(amplitude_of(entry));
-  return out;
+                   .such_as("[{name: press, increments: 10, prescribe: [{on: top, uy: -0.007}]}]")),
+      [](Description& d, const Value& v) { d.steps = step_keys().read_all(v, check_times); }};
 }
 
 }  // namespace osculate::deck

@@ -95,25 +95,16 @@ Description parse_model(SourceNode root, std::string file_name, std::span<const 
   Description d;
   d.parameters = apply_parameters(root, file_name, settings);
   Value model = check(model_spec(), root, file_name);
-  d.sets = parse_sets(model.at("sets"));
-  name_unions(model, d.sets);
+  std::vector<SetDefinition> unions;
+  name_unions(model, unions);
   d.file = std::move(file_name);
-  if (const Value* const title = model.find("title")) d.title = title->text;
-  d.mesh = parse_mesh(model.at("mesh"));
-  d.materials = parse_materials(model.at("materials"));
-  d.sections = parse_sections(model.at("sections"), d.materials);
-  d.rigid = parse_rigid(model.at("rigid"));
-  d.contact = parse_contact(model.at("contact"));
-  d.amplitudes = parse_amplitudes(model.at("amplitudes"));
-  d.equations = parse_equations(model.at("equations"));
-  d.equal = parse_equal(model.at("equal"));
-  d.initial_velocity = parse_initial_velocity(model.at("initial_velocity"));
-  d.steps = parse_steps(model.at("steps"));
-  d.solver = parse_solver(model.at("solver"));
+  model_keys().read(model, d);
+  for (SetDefinition& one : unions)
+    if (!find_named(d.sets, one.name.value)) d.sets.push_back(std::move(one));
   check_dimension(d);
   check_references(d);
   check_steps(d);
-  d.output = parse_output(model.at("output"), d);
+  complete_output(d);
   d.source = source_leaves(root, {"title", "solver", "output", "parameters"});
   return d;
 }

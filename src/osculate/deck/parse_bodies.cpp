@@ -106,17 +106,15 @@ Section section_of(const Value& v, const std::vector<Material>& materials) {
 
 }  // namespace
 
-Spec sections_spec() {
-  return list("Which cells of the mesh are bulk material, and of what kind.",
-              section_keys().spec("One section."))
-      .otherwise("[]")
-      .such_as("[{on: block, material: steel, element: plane_strain}]");
-}
-
-std::vector<Section> parse_sections(const Value& v, const std::vector<Material>& materials) {
-  std::vector<Section> out;
-  for (const Value& item : v.items) out.push_back(section_of(item, materials));
-  return out;
+BoundKey<Description> sections_key() {
+  return {
+      optional("sections", list("Which cells of the mesh are bulk material, and of what kind.",
+                                section_keys().spec("One section."))
+                               .otherwise("[]")
+                               .such_as("[{on: block, material: steel, element: plane_strain}]")),
+      [](Description& d, const Value& v) {
+        for (const Value& item : v.items) d.sections.push_back(section_of(item, d.materials));
+      }};
 }
 
 }  // namespace osculate::deck

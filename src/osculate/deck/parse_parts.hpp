@@ -29,11 +29,8 @@ template <class E>
 
 // ---- branches ---------------------------------------------------------------------------------
 
-[[nodiscard]] MeshSource parse_mesh(const Value& v);
-[[nodiscard]] std::vector<SetDefinition> parse_sets(const Value& v);
 /// Where several sets are named in place of one: the set of them all, which this value then names.
 void name_unions(Value& v, std::vector<SetDefinition>& sets);
-[[nodiscard]] std::vector<Material> parse_materials(const Value& v);
 /// What materials remember: each number of the catalogue once, and the materials that have it.
 struct RememberedNumber {
   std::string word;            ///< of the history
@@ -46,25 +43,15 @@ struct RememberedNumber {
   return remembered_numbers().at(static_cast<std::size_t>(quantity) -
                                  static_cast<std::size_t>(Quantity::remembered));
 }
-[[nodiscard]] std::vector<Section> parse_sections(const Value& v,
-                                                  const std::vector<Material>& materials);
-[[nodiscard]] std::vector<Rigid> parse_rigid(const Value& v);
-[[nodiscard]] std::vector<Contact> parse_contact(const Value& v);
 /// The law of a map with at most one of the keys that laws have, beside that of the law of pairs
 /// that name none.
 [[nodiscard]] GivenLaw<contact::NormalLaw> normal_law_of(const Value& v);
 /// The law of a map with one key.
 [[nodiscard]] GivenLaw<contact::FrictionLaw> friction_law_of(const Value& v);
 [[nodiscard]] GivenLaw<contact::DampingLaw> damping_law_of(const Value& v);
-[[nodiscard]] std::vector<Amplitude> parse_amplitudes(const Value& v);
-[[nodiscard]] std::vector<Equation> parse_equations(const Value& v);
-[[nodiscard]] std::vector<Equal> parse_equal(const Value& v);
-[[nodiscard]] std::vector<Step> parse_steps(const Value& v);
 [[nodiscard]] DynamicsDescription parse_dynamics(const Value& v);
-[[nodiscard]] std::vector<Load> parse_initial_velocity(const Value& v);
-[[nodiscard]] Solver parse_solver(const Value& v);
-/// Needs contacts and rigid bodies: they decide what `on` means.
-[[nodiscard]] Output parse_output(const Value& v, const Description& description);
+/// Contacts and rigid bodies decide what `on` means in the output.
+void complete_output(Description& description);
 /// Columns that the history has without being asked: those of model::energy_quantities, where a
 /// step has inertia, in their order, and the time step where one chooses it by its error.
 [[nodiscard]] std::vector<std::string> energy_columns(const Description& description);

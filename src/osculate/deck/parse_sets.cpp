@@ -33,7 +33,7 @@ bool names_a_set(std::string_view key) {
 
 }  // namespace
 
-Spec sets_spec() {
+BoundKey<Description> sets_key() {
   const Spec one =
       set_keys()
           .spec(
@@ -41,13 +41,11 @@ Spec sets_spec() {
               "give such a set; in other cases the result is a set of nodes.")
           .with(Group::Rule::exactly_one, {"union", "of"})
           .such_as("{union: [left, right]}");
-  return names("Sets made of sets, by name, used as those of the mesh.", one)
-      .otherwise("{}")
-      .such_as("{sides: {union: [left, right]}, rest: {of: top, without: rim}}");
-}
-
-std::vector<SetDefinition> parse_sets(const Value& v) {
-  return set_keys().read_all(v, check_parts);
+  return {optional("sets",
+                   names("Sets made of sets, by name, used as those of the mesh.", one)
+                       .otherwise("{}")
+                       .such_as("{sides: {union: [left, right]}, rest: {of: top, without: rim}}")),
+          [](Description& d, const Value& v) { d.sets = set_keys().read_all(v, check_parts); }};
 }
 
 void name_unions(Value& v, std::vector<SetDefinition>& sets) {

@@ -278,8 +278,8 @@ void BasicSystem<Dim>::Impl::Motion::begin_coupled_spins(Rates& rates,
       const Dof first = dofs.body_dof(static_cast<Index>(b), Dim);
       const Vec3 spin = rates.velocity.segment<3>(first);
       const Vec3 change = spin_change(mass_rigid[b], turning.segment<3>(first));
-      const Mat<3, 3> inertia = inertia_in_space(model.rigid[b].inertia, mass_rigid[b]);
-      const Vec3 moment = inertia * change + spin.cross(inertia * spin);
+      const Mat<3, 3> of_body = inertia_in_space(model.rigid[b].inertia, mass_rigid[b]);
+      const Vec3 moment = of_body * change + spin.cross(of_body * spin);
       const Mat<3, 3> to_body = mass_rigid[b].orientation().transpose();
       rates.spins[b] = {to_body * spin, to_body * change, moment};
       force.segment<3>(first) -=
@@ -332,32 +332,32 @@ template <int Dim>
 void BasicSystem<Dim>::Impl::Motion::move_past_to_bodies() {
   Motion& m = *this;
   const solve::StepFactors& f = m.factors;
-  Eigen::VectorXd past = f.past_mass * m.inertia.multiply(m.past.acceleration);
+  Eigen::VectorXd sum = f.past_mass * m.inertia.multiply(m.past.acceleration);
   if (f.past_force != 0.0) {
-    past += f.past_force * (m.past.internal - m.past.external + m.past.damping);
-    if (m.settings.scheme.impact == solve::Impact::average) past += f.past_force * m.past.contact;
+    sum += f.past_force * (m.past.internal - m.past.external + m.past.damping);
+    if (m.settings.scheme.impact == solve::Impact::average) sum += f.past_force * m.past.contact;
   }
   for (std::size_t b = 0; b < model.rigid.size(); ++b) {
-    const body::BasicRigidMotion<Dim>& from = m.from[b];
+    const body::BasicRigidMotion<Dim>& at = m.from[b];
     const Dof first = dofs.body_dof(static_cast<Index>(b), 0);
     if constexpr (Dim == 3) {
-      const Vec3 on_rotation = past.segment<3>(first + 3);
-      past.segment<3>(first + 3) = body::moment_of(from, on_rotation);
+      const Vec3 on_rotation = sum.segment<3>(first + 3);
+      sum.segment<3>(first + 3) = body::moment_of(at, on_rotation);
     }
     for (const Index node : model.rigid[b].nodes) {
-      const Vec<Dim> force = past.segment<Dim>(Dim * node);
+      const Vec<Dim> force = sum.segment<Dim>(Dim * node);
       if (force.isZero(0)) continue;
       const Vec<Dim> arm =
-          from.position(model.reference[static_cast<std::size_t>(node)]) - from.center();
-      past.segment<Dim>(first) += force;
+          at.position(model.reference[static_cast<std::size_t>(node)]) - at.center();
+      sum.segment<Dim>(first) += force;
       if constexpr (Dim == 2)
-        past[first + 2] += turn(arm).dot(force);
+        sum[first + 2] += turn(arm).dot(force);
       else
-        past.segment<3>(first + 3) += arm.cross(force);
-      past.segment<Dim>(Dim * node).setZero();
+        sum.segment<3>(first + 3) += arm.cross(force);
+      sum.segment<Dim>(Dim * node).setZero();
     }
   }
-  m.past_force = std::move(past);
+  m.past_force = std::move(sum);
 }
 
 /// Mean of what changes the angular momenta of bodies in space over the increment, as forces on
@@ -369,9 +369,9 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::spin_force(const Rates& before,
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       if (!inertia.body_has_mass(b)) continue;
-      const Mat<3, 3>& inertia = model.rigid[b].inertia;
-      const Vec3 change = body::angular_momentum(inertia, mass_rigid[b], now.spins[b]) -
-                          body::angular_momentum(inertia, from[b], before.spins[b]);
+      const Mat<3, 3>& of_body = model.rigid[b].inertia;
+      const Vec3 change = body::angular_momentum(of_body, mass_rigid[b], now.spins[b]) -
+                          body::angular_momentum(of_body, from[b], before.spins[b]);
       const Vec3 between = 0.5 * (from[b].rotation + mass_rigid[b].rotation);
       out.segment<3>(dofs.body_dof(static_cast<Index>(b), Dim)) =
           body::rotation_tangent(between).transpose() * change / h;

@@ -69,15 +69,15 @@ void BasicSystem<Dim>::Impl::Motion::begin_increment(const State& committed, dou
   if (!(duration > 0)) return;
   if (!(m.size_of_mass > 0)) m.size_of_mass = m.inertia.size();
   m.factors = solve::step_factors(m.settings.scheme, duration);
-  Eigen::VectorXd start = system.dof_values(committed);
-  const bool same_start = start.size() == m.start.size() && start == m.start &&
+  Eigen::VectorXd values = system.dof_values(committed);
+  const bool same_start = values.size() == m.start.size() && values == m.start &&
                           m.past.velocity.size() == committed.rates.velocity.size() &&
                           m.past.velocity == committed.rates.velocity &&
                           m.past.acceleration == committed.rates.acceleration &&
                           m.past.energies.elapsed == committed.rates.energies.elapsed;
   if (same_start && same_length) return;
   if (!same_start) {
-    m.start = std::move(start);
+    m.start = std::move(values);
     measure_damping(committed);
     m.from = committed.rigid;
     m.past = committed.rates;
@@ -345,11 +345,11 @@ void BasicSystem<Dim>::Impl::Motion::add_energies(const State& trial, const Rate
   };
   const Eigen::VectorXd internal = mean(past.internal, now.internal);
   const Eigen::VectorXd external = mean(past.external, now.external);
-  const Eigen::VectorXd damping = mean(past.damping, now.damping);
+  const Eigen::VectorXd damped = mean(past.damping, now.damping);
   const Eigen::VectorXd by_contact = average ? mean(past.contact, now.contact) : now.contact;
   const Eigen::VectorXd inertial =
       inertia.multiply(now.velocity - past.velocity) / h + spin_force(past, now);
-  const Eigen::VectorXd rest = inertial + internal - external + damping + by_contact;
+  const Eigen::VectorXd rest = inertial + internal - external + damped + by_contact;
   // What is left at prescribed unknowns is the force of the supports.
   double supports = 0;
   std::vector<Expansion> terms;
@@ -368,7 +368,7 @@ void BasicSystem<Dim>::Impl::Motion::add_energies(const State& trial, const Rate
   e.contact = contact_energy();
   e.external += external.dot(step_of) + supports;
   e.damped = damping_work();
-  e.damping += damping.dot(step_of) + (e.damped - before.damped);
+  e.damping += damped.dot(step_of) + (e.damped - before.damped);
   e.friction = friction_work() - e.friction_before;
   const double of_contact = by_contact.dot(step_of) - (e.contact - before.contact) -
                             (e.friction - before.friction) - (e.damped - before.damped);

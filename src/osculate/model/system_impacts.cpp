@@ -103,13 +103,13 @@ std::vector<PointName> BasicSystem<Dim>::Impl::Motion::met_on_path(const State& 
 template <int Dim>
 std::vector<double> BasicSystem<Dim>::Impl::Motion::speeds_on_path(
     const State& committed, const std::vector<PointName>& points, double duration, double more) {
-  std::vector<double> speeds(points.size());
+  std::vector<double> sinking(points.size());
   for (const double sign : {1.0, -1.0}) {
     met_on_path(committed, sign > 0 ? duration + more : duration + 2 * more);
     for (std::size_t i = 0; i < points.size(); ++i)
-      speeds[i] += sign * paths[points[i][0]].points[points[i][1]].gap / more;
+      sinking[i] += sign * paths[points[i][0]].points[points[i][1]].gap / more;
   }
-  return speeds;
+  return sinking;
 }
 
 template <int Dim>
@@ -118,13 +118,13 @@ std::optional<solve::ImpactAhead> BasicSystem<Dim>::Impl::Motion::impact_ahead(
   if (committed.rates.empty()) return std::nullopt;
   const ImpactTimes times = settings.impact_times;
   const bool average = settings.scheme.impact == solve::Impact::average;
-  const double h = system.time_between(committed, fraction);
-  if (times == ImpactTimes::off || (times == ImpactTimes::automatic && average) || !(h > 0))
+  const double span = system.time_between(committed, fraction);
+  if (times == ImpactTimes::off || (times == ImpactTimes::automatic && average) || !(span > 0))
     return std::nullopt;
   if (paths.size() != model.pairs.size()) {
     paths.resize(model.pairs.size());
     for (std::size_t p = 0; p < model.pairs.size(); ++p)  // the same trees in every process
-      evaluate_path(committed, p, model.reference, h);
+      evaluate_path(committed, p, model.reference, span);
   }
   // Slower than what the forces make of a body at rest within a few nominal increments is no impact
   // but the trembling of a contact that rests.
@@ -134,18 +134,19 @@ std::optional<solve::ImpactAhead> BasicSystem<Dim>::Impl::Motion::impact_ahead(
   std::vector<PointName> skipped;
   for (;;) {
     double low = 0, high = horizon;
-    std::vector<PointName> points = without(met_on_path(committed, high * h), skipped);
+    std::vector<PointName> points = without(met_on_path(committed, high * span), skipped);
     if (points.empty()) return std::nullopt;
     while (high - low > smallest) {
       const double middle = 0.5 * (low + high);
-      std::vector<PointName> there = without(met_on_path(committed, middle * h), skipped);
+      std::vector<PointName> there = without(met_on_path(committed, middle * span), skipped);
       (there.empty() ? low : high) = middle;
       if (!there.empty()) points = std::move(there);
     }
-    const std::vector<double> speeds = speeds_on_path(committed, points, high * h, beyond * h);
+    const std::vector<double> sinking =
+        speeds_on_path(committed, points, high * span, beyond * span);
     solve::ImpactAhead ahead{high, {}};
     for (std::size_t i = 0; i < points.size(); ++i)
-      (speeds[i] > slowest ? ahead.points : skipped).push_back(points[i]);
+      (sinking[i] > slowest ? ahead.points : skipped).push_back(points[i]);
     if (!ahead.points.empty()) return ahead;
   }
 }

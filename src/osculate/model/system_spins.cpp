@@ -93,11 +93,11 @@ void BasicSystem<Dim>::Impl::Motion::add_spins(const State& trial, Assembly<Dim>
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       const Dof first = dofs.body_dof(static_cast<Index>(b), 3);
       const std::array<Dof, 3> d{first, first + 1, first + 2};
-      const Vec3 past = m.past_force.template segment<3>(first);
+      const Vec3 before = m.past_force.template segment<3>(first);
       m.effective.template segment<3>(first) +=
-          body::rotation_tangent(trial.rigid[b].rotation).transpose() * past - past;
-      if (to.with_tangent && !past.isZero(0))
-        to.add_stiffness(d, body::moment_gradient(trial.rigid[b].rotation, past));
+          body::rotation_tangent(trial.rigid[b].rotation).transpose() * before - before;
+      if (to.with_tangent && !before.isZero(0))
+        to.add_stiffness(d, body::moment_gradient(trial.rigid[b].rotation, before));
       if (!m.inertia.body_has_mass(b)) continue;
       const body::InertiaMoment<3> inertial = body::inertia_moment(
           model.rigid[b].inertia, m.past.spins[b], scheme, m.from[b], trial.rigid[b]);
@@ -135,7 +135,7 @@ void BasicSystem<Dim>::Impl::Motion::add_spin_damping(const State& trial, std::s
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::Motion::damp_spins(const Eigen::VectorXd& velocity,
-                                                Eigen::VectorXd& damping) const {
+                                                Eigen::VectorXd& to) const {
   if constexpr (Dim == 3) {
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
       if (!inertia.body_has_mass(b)) continue;
@@ -143,12 +143,12 @@ void BasicSystem<Dim>::Impl::Motion::damp_spins(const Eigen::VectorXd& velocity,
       const Mat<3, 3> r = mass_rigid[b].orientation();
       const Vec3 momentum =
           r * model.rigid[b].inertia * r.transpose() * velocity.template segment<3>(first);
-      damping.template segment<3>(first) +=
+      to.template segment<3>(first) +=
           settings.damping_mass *
           (body::rotation_tangent(mass_rigid[b].rotation).transpose() * momentum);
     }
   } else {
-    (void)velocity, (void)damping;
+    (void)velocity, (void)to;
   }
 }
 
@@ -194,16 +194,16 @@ void BasicSystem<Dim>::Impl::Motion::new_spins(const State& trial, const Eigen::
         now.velocity.template segment<3>(first) = turn_of / m.h;
         continue;
       }
-      const Mat<3, 3>& inertia = model.rigid[b].inertia;
-      rates = body::inertia_moment(inertia, m.past.spins[b], scheme, m.from[b], to).rates;
+      const Mat<3, 3>& of_body = model.rigid[b].inertia;
+      rates = body::inertia_moment(of_body, m.past.spins[b], scheme, m.from[b], to).rates;
       if (s.impact != solve::Impact::average) {
         const Mat<3, 3> tangent = body::rotation_tangent(to.rotation);
         const Mat<3, 3> r = to.orientation();
         const Vec3 by_contact =
             m.coupled[b]
-                ? Vec3(r * inertia * r.transpose() * tangent * impulse.template segment<3>(first))
+                ? Vec3(r * of_body * r.transpose() * tangent * impulse.template segment<3>(first))
                 : Vec3(-moment_on(trial, b, last.forces.contact));
-        rates = body::with_contact(rates, inertia, scheme, to, by_contact,
+        rates = body::with_contact(rates, of_body, scheme, to, by_contact,
                                    solve::impulse_way(s.impact));
         of_impulse.template segment<3>(first) = tangent.transpose() * by_contact;
       }
@@ -211,7 +211,7 @@ void BasicSystem<Dim>::Impl::Motion::new_spins(const State& trial, const Eigen::
       if (m.coupled[b]) continue;
       const Vec3 moment = body::moment_of(to, Vec3(left_over.template segment<3>(first)));
       rates.moment -= moment;
-      rates.acceleration -= inertia.inverse() * (to.orientation().transpose() * moment);
+      rates.acceleration -= of_body.inverse() * (to.orientation().transpose() * moment);
     }
   } else {
     (void)trial, (void)impulse, (void)left_over, (void)now, (void)of_impulse;

@@ -55,7 +55,7 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::free_accelerations(const Rates& 
 /// Tested by  tests/unit/deck/test_time_steps.cpp
 template <int Dim>
 void BasicSystem<Dim>::Impl::Motion::add_spin_errors(const Rates& before, const Rates& after,
-                                                     double h, Eigen::VectorXd& error) const {
+                                                     double length, Eigen::VectorXd& error) const {
   if constexpr (Dim == 3) {
     const double factor = solve::error_factor(settings.scheme);
     for (std::size_t b = 0; b < model.rigid.size(); ++b) {
@@ -65,18 +65,18 @@ void BasicSystem<Dim>::Impl::Motion::add_spin_errors(const Rates& before, const 
         turn.setZero();
         continue;
       }
-      const body::RotationRates<3>&from = before.spins[b], &to = after.spins[b];
+      const body::RotationRates<3>&was = before.spins[b], &is = after.spins[b];
       if (coupled[b])
         turn = at.orientation().transpose() * (body::rotation_tangent(at.rotation) * Vec3(turn));
       else
-        turn = h * h * factor * (to.acceleration - from.acceleration);
+        turn = length * length * factor * (is.acceleration - was.acceleration);
       if (free_rotations(b) < body::rotations<Dim>) continue;
-      const Vec3 spin = 0.5 * (from.velocity + to.velocity);
-      const Vec3 change = 0.5 * (from.acceleration + to.acceleration);
-      turn -= h * h * h / 12 * spin.cross(change);
+      const Vec3 spin = 0.5 * (was.velocity + is.velocity);
+      const Vec3 change = 0.5 * (was.acceleration + is.acceleration);
+      turn -= length * length * length / 12 * spin.cross(change);
     }
   } else {
-    (void)before, (void)after, (void)h, (void)error;
+    (void)before, (void)after, (void)length, (void)error;
   }
 }
 
@@ -84,11 +84,11 @@ template <int Dim>
 solve::TimeError BasicSystem<Dim>::Impl::Motion::time_error(const State& committed,
                                                             const State& next) {
   const Rates &before = committed.rates, &after = next.rates;
-  const double h = system.time_between(committed, next.fraction);
+  const double length = system.time_between(committed, next.fraction);
   const solve::TimeScheme& scheme = settings.scheme;
   const auto size_of = [&](const Eigen::VectorXd& change) {
-    Eigen::VectorXd error = h * h * solve::error_factor(scheme) * change;
-    add_spin_errors(before, after, h, error);
+    Eigen::VectorXd error = length * length * solve::error_factor(scheme) * change;
+    add_spin_errors(before, after, length, error);
     return size_by_mass(error);
   };
   const Eigen::VectorXd change = free_accelerations(before, after);
@@ -99,11 +99,11 @@ solve::TimeError BasicSystem<Dim>::Impl::Motion::time_error(const State& committ
     error = std::min(error, size_of(change + accelerations_by(before.contact - after.contact)));
   // What moves less than this share of the bodies' extent in the whole step is at rest.
   constexpr double at_rest = 1e-6;
-  double length = system.bulk.jobs.empty() ? 0.0 : system.resistance.extent;
+  double extent = system.bulk.jobs.empty() ? 0.0 : system.resistance.extent;
   for (const BasicRigidBody<Dim>& body : model.rigid)
-    if (body.mass > 0) length = std::max(length, std::sqrt(body.inertia.trace() / body.mass));
-  const double slowest = at_rest * length * std::sqrt(inertia.total()) / step.duration;
-  return {error / h, std::max(slowest, size_by_mass(speeds_of(after) - speeds)), h};
+    if (body.mass > 0) extent = std::max(extent, std::sqrt(body.inertia.trace() / body.mass));
+  const double slowest = at_rest * extent * std::sqrt(inertia.total()) / step.duration;
+  return {error / length, std::max(slowest, size_by_mass(speeds_of(after) - speeds)), length};
 }
 
 template <int Dim>
