@@ -1,136 +1,183 @@
 #include "osculate/solid/element.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 
 #include "osculate/solid/enhanced.hpp"
 #include "osculate/solid/finite_forces.hpp"
 #include "osculate/solid/mean_dilatation.hpp"
-#include "osculate/solid/point_strain.hpp"
+#include "osculate/solid/points.hpp"
+#include "osculate/solid/solid_shell.hpp"
+#include "osculate/solid/solid_shell_strain.hpp"
 
 namespace osculate::solid {
 namespace {
 
-void evaluate_full(const Section& section, const Points& points, const material::Memory& memory,
-                   bool with_tangent, ElementResult& out) {
-  for (std::size_t q = 0; q < points.count; ++q) {
-    const PointGeometry& g = points.geometry[q];
-    const PointStrain& p = points.strain[q];
-    const material::Response r = point_response(section, p.strain, memory.at(q));
+using cell::CellType;
+
+template <int N, int Dim>
+void evaluate_full(const Section<Dim>& section, CellType type, const Coordinates<Dim>& reference,
+                   const Coordinates<Dim>& displacement, const material::Memory& memory,
+                   bool with_tangent, ElementResult<Dim>& out) {
+  const Rule<Dim>& rule = rule_of(section, type);
+  const typename Sizes<Dim, N>::Nodal x = reference, u = displacement;
+  CellSum<Dim, N> sum(section, x.rows(), with_tangent);
+  Point<Dim, N> p;
+  for (std::size_t q = 0; q < rule.weights.size(); ++q) {
+    if (!fill_point<Dim, N>(section, rule.shape[q], rule.weights[q], x, u, p)) {
+      out.status = Status::inverted;
+      return;
+    }
+    const auto r = point_response(section, p.strain, memory.at(q));
     if (!r.ok) {
       out.status = Status::material_failed;
       return;
     }
-    out.force.noalias() += g.volume * p.b.transpose() * r.stress;
-    if (!with_tangent) continue;
-    const StrainMatrix cb = g.volume * r.tangent * p.b;
-    out.tangent.noalias() += p.b.transpose() * cb;
-    if (section.kinematics == Kinematics::finite) add_geometric(section, g, r.stress, out.tangent);
+    sum.add(p, r);
   }
+  sum.finish(out);
 }
 
-/// Finite strain with the same volume ratio at all points.
-void evaluate_mean_dilatation(const Section& section, const Points& points,
-                              const material::Memory& memory, bool with_tangent,
-                              ElementResult& out) {
-  const MeanDilatation<Points> mean = mean_dilatation(points);
-  std::array<material::Stress, max_points> stress;
-  for (std::size_t q = 0; q < points.count; ++q) {
-    const PointStrain& p = mean.point.strain[q];
-    const material::Response r = point_response(section, p.strain, memory.at(q));
+/// The same volume ratio at all points.
+template <int Dim>
+void evaluate_bbar(const Section<Dim>& section, const Coordinates<Dim>& displacement,
+                   const material::Memory& memory, bool with_tangent, CornerPoints<Dim>& points,
+                   ElementResult<Dim>& out) {
+  const bool finite = section.kinematics == Kinematics::finite;
+  MeanDilatation<Dim> mean;
+  if (finite)
+    mean = mean_dilatation<Dim>(points);
+  else
+    average_volume_small<Dim>(points, displacement);
+  const CornerPoints<Dim>& seen = finite ? mean.point : points;
+  CellSum<Dim, corners<Dim>> sum(section, corners<Dim>, with_tangent);
+  std::array<Vec<components<Dim>>, corners<Dim>> stress;
+  for (std::size_t q = 0; q < seen.size(); ++q) {
+    const auto r = point_response(section, seen[q].strain, memory.at(q));
     if (!r.ok) {
       out.status = Status::material_failed;
       return;
     }
-    const double volume = points.geometry[q].volume;
     stress[q] = r.stress;
-    out.force.noalias() += volume * p.b.transpose() * r.stress;
-    if (!with_tangent) continue;
-    const StrainMatrix cb = volume * r.tangent * p.b;
-    out.tangent.noalias() += p.b.transpose() * cb;
-    add_geometric(section, points.geometry[q], mean.scale[q] * r.stress, out.tangent);
+    sum.add(seen[q], r, finite ? mean.scale[q] : 1);
   }
-  if (with_tangent)
-    add_mean_dilatation_curvature(points, stress, mean,
-                                  section.assumption == Assumption::axisymmetric, out.tangent);
+  if (with_tangent && finite) add_mean_dilatation_curvature<Dim>(points, stress, mean, sum.tangent);
+  sum.finish(out);
 }
 
 /// Enhanced strains: the mode parameters are condensed out of force and tangent.
-template <int Count>
-void evaluate_enhanced(const Section& section, const Coordinates& reference, const Points& points,
-                       const material::Memory& memory, bool with_tangent, ElementResult& out) {
+template <int Count, int Dim>
+void evaluate_enhanced(const Section<Dim>& section, const Coordinates<Dim>& reference,
+                       const material::Memory& memory, bool with_tangent,
+                       const CornerPoints<Dim>& points, ElementResult<Dim>& out) {
+  constexpr int rows = components<Dim>, dofs = CornerSizes<Dim>::dofs;
   const EnhancedModes<Count> e = enhanced_modes<Count>(section, reference, points, memory);
   if (!e.ok) {
     out.status = Status::material_failed;
     return;
   }
-  Eigen::Matrix<double, Count, Eigen::Dynamic, 0, Count, 2 * max_nodes> coupling(Count, 8);
-  coupling.setZero();
-  for (std::size_t q = 0; q < 4; ++q) {
-    const PointGeometry& g = points.geometry[q];
-    const PointStrain& p = points.strain[q];
-    out.force.noalias() += g.volume * p.b.transpose() * e.response[q].stress;
+  CellSum<Dim, corners<Dim>> sum(section, corners<Dim>, with_tangent);
+  Mat<Count, dofs> coupling = Mat<Count, dofs>::Zero();
+  for (std::size_t q = 0; q < points.size(); ++q) {
+    const CornerPoint<Dim>& p = points[q];
+    sum.add(p, e.response[q]);
     if (!with_tangent) continue;
-    const StrainMatrix cb = g.volume * e.response[q].tangent * p.b;
-    out.tangent.noalias() += p.b.transpose() * cb;
-    coupling.noalias() += e.matrix[q].transpose() * cb;
-    if (section.kinematics == Kinematics::finite)
-      add_geometric(section, g, e.response[q].stress, out.tangent);
+    const Mat<rows, rows> d = p.volume * e.response[q].tangent;
+    const Mat<Count, rows> weighted = e.matrix[q].transpose() * d;
+    coupling.noalias() += weighted * p.b;
   }
-  if (with_tangent)
-    out.tangent -= coupling.transpose() * e.stiffness.partialPivLu().solve(coupling);
+  if (with_tangent) {
+    const Mat<Count, dofs> modes = e.stiffness.partialPivLu().solve(coupling);
+    sum.tangent.noalias() -= coupling.transpose() * modes;
+  }
+  sum.finish(out);
 }
 
-/// The cells that explicit analyses have by the thousand.
-bool has_forces_alone(const Section& section, cell::CellType type) {
-  return section.kinematics == Kinematics::finite &&
-         section.assumption == Assumption::plane_strain &&
-         section.formulation != Formulation::enhanced && type == cell::CellType::quad4;
-}
-
-void evaluate_forces(const Section& section, cell::CellType type, const Coordinates& reference,
-                     const Coordinates& displacement, const material::Memory& memory,
-                     ElementResult& out) {
-  static const PointTable<2, 4, 4> quad(area_rule(section.assumption, type));
-  out.status =
-      finite_forces(quad, section.law, section.thickness, section.formulation == Formulation::bbar,
-                    reference, displacement, memory, out.force);
-}
-
-void evaluate_whole(const Section& section, cell::CellType type, const Coordinates& reference,
-                    const Coordinates& displacement, const material::Memory& memory,
-                    bool with_tangent, ElementResult& out) {
-  const Eigen::Index dofs = 2 * reference.rows();
-  out.status = Status::ok;
-  out.force.setZero(dofs);
-  if (with_tangent) out.tangent.setZero(dofs, dofs);
-  Points points;
-  if (!fill_points(section, type, reference, displacement, points)) {
+/// The formulations of quad4 and hex8.
+template <int Dim>
+void evaluate_corners(const Section<Dim>& section, const Coordinates<Dim>& reference,
+                      const Coordinates<Dim>& displacement, const material::Memory& memory,
+                      bool with_tangent, ElementResult<Dim>& out) {
+  CornerPoints<Dim> points;
+  if (!fill_points<Dim>(section, reference, displacement, points)) {
     out.status = Status::inverted;
     return;
   }
-  if (section.formulation == Formulation::enhanced) {
-    if (section.assumption == Assumption::axisymmetric)
-      evaluate_enhanced<ring_modes>(section, reference, points, memory, with_tangent, out);
-    else
-      evaluate_enhanced<plane_modes>(section, reference, points, memory, with_tangent, out);
-    return;
-  }
-  if (section.formulation == Formulation::bbar) {
-    if (section.kinematics == Kinematics::finite) {
-      evaluate_mean_dilatation(section, points, memory, with_tangent, out);
+  if (section.formulation == Formulation::bbar)
+    evaluate_bbar(section, displacement, memory, with_tangent, points, out);
+  else if constexpr (Dim == 3)
+    evaluate_enhanced<space_modes>(section, reference, memory, with_tangent, points, out);
+  else if (is_ring(section))
+    evaluate_enhanced<ring_modes>(section, reference, memory, with_tangent, points, out);
+  else
+    evaluate_enhanced<plane_modes>(section, reference, memory, with_tangent, points, out);
+}
+
+template <int Dim>
+void evaluate_whole(const Section<Dim>& section, CellType type, const Coordinates<Dim>& reference,
+                    const Coordinates<Dim>& displacement, const material::Memory& memory,
+                    bool with_tangent, ElementResult<Dim>& out) {
+  constexpr CellType simplex = Dim == 2 ? CellType::tri3 : CellType::tet4;
+  if constexpr (Dim == 3) {
+    if (section.formulation == Formulation::solid_shell) {
+      evaluate_solid_shell(section, type, reference, displacement, with_tangent, out, memory);
       return;
     }
-    average_volume_small(points, displacement);
   }
-  evaluate_full(section, points, memory, with_tangent, out);
+  const auto evaluate_full_of = [&]<int N>() {
+    evaluate_full<N>(section, type, reference, displacement, memory, with_tangent, out);
+  };
+  out.status = Status::ok;
+  if (section.formulation != Formulation::full)
+    evaluate_corners(section, reference, displacement, memory, with_tangent, out);
+  else if (type == corner_cell<Dim>)
+    evaluate_full_of.template operator()<corners<Dim>>();
+  else if (type == simplex)
+    evaluate_full_of.template operator()<Dim + 1>();
+  else
+    evaluate_full_of.template operator()<Eigen::Dynamic>();
+}
+
+/// The cells that explicit analyses have by the thousand.
+bool has_forces_alone(const Section<2>& section, CellType type) {
+  return section.kinematics == Kinematics::finite &&
+         section.assumption == Assumption::plane_strain &&
+         section.formulation != Formulation::enhanced && type == CellType::quad4;
+}
+bool has_forces_alone(const Section<3>& section, CellType type) {
+  if (section.kinematics != Kinematics::finite) return false;
+  if (type == CellType::tet4) return section.formulation == Formulation::full;
+  return type == CellType::hex8 &&
+         (section.formulation == Formulation::full || section.formulation == Formulation::bbar);
+}
+
+template <int Dim>
+void evaluate_forces(const Section<Dim>& section, CellType type, const Coordinates<Dim>& reference,
+                     const Coordinates<Dim>& displacement, const material::Memory& memory,
+                     ElementResult<Dim>& out) {
+  const auto set = [&](const auto& table) {
+    out.status = finite_forces(table, section.law, depth_at(section, 0),
+                               section.formulation == Formulation::bbar, reference, displacement,
+                               memory, out.force);
+  };
+  static const PointTable<Dim, corners<Dim>, corners<Dim>> corner(rule_of<Dim>(corner_cell<Dim>));
+  if constexpr (Dim == 3) {
+    static const PointTable<3, 4, 1> tet(rule_of<3>(CellType::tet4));
+    if (type == CellType::tet4) {
+      set(tet);
+      return;
+    }
+  }
+  set(corner);
 }
 
 }  // namespace
 
-std::string_view unsupported(const Section& section, cell::CellType type) {
-  if (cell::info(type).dimension != 2) return "only area cells can be bodies in 2D";
+template <int Dim>
+std::string_view unsupported(const Section<Dim>& section, CellType type) {
+  if (cell::info(type).dimension != Dim)
+    return Dim == 2 ? "only area cells can be bodies in 2D"
+                    : "only volume cells can be bodies in 3D";
   const bool finite = section.kinematics == Kinematics::finite;
   if (finite && !material::finite_strain(section.law))
     return "linear_elastic is a law of small strains; use st_venant_kirchhoff or neo_hooke with "
@@ -138,15 +185,23 @@ std::string_view unsupported(const Section& section, cell::CellType type) {
   if (!finite && material::finite_strain(section.law))
     return "the law is one of finite strains; use linear_elastic with small kinematics";
   if (section.formulation == Formulation::full) return {};
-  if (type != cell::CellType::quad4)
-    return "formulations bbar and enhanced exist for quad4 cells only; use auto";
-  if (section.formulation == Formulation::bbar && section.assumption == Assumption::plane_stress)
-    return "formulation bbar has no use in plane stress; use full or enhanced";
+  if (section.formulation == Formulation::solid_shell) {
+    if (type == CellType::hex8 || type == CellType::shell18) return {};
+    return "formulation solid_shell exists for hex8 and shell18 cells only; use full";
+  }
+  if (type != corner_cell<Dim>)
+    return Dim == 2 ? "formulations bbar and enhanced exist for quad4 cells only; use auto"
+                    : "formulations bbar and enhanced exist for hex8 cells only; use auto";
+  if constexpr (Dim == 2) {
+    if (section.formulation == Formulation::bbar && section.assumption == Assumption::plane_stress)
+      return "formulation bbar has no use in plane stress; use full or enhanced";
+  }
   return {};
 }
 
-void evaluate(const Section& section, cell::CellType type, const Coordinates& reference,
-              const Coordinates& displacement, bool with_tangent, ElementResult& out,
+template <int Dim>
+void evaluate(const Section<Dim>& section, CellType type, const Coordinates<Dim>& reference,
+              const Coordinates<Dim>& displacement, bool with_tangent, ElementResult<Dim>& out,
               const material::Memory& memory) {
   const bool alone = has_forces_alone(section, type);
   if (with_tangent || !alone)
@@ -156,28 +211,49 @@ void evaluate(const Section& section, cell::CellType type, const Coordinates& re
                   out);  // the same bits in both ways
 }
 
-ElementVector volume_weights(const Section& section, cell::CellType type,
-                             const Coordinates& reference) {
-  ElementVector weights = ElementVector::Zero(reference.rows());
-  const AreaRule& rule = area_rule(section.assumption, type);
-  for (std::size_t q = 0; q < rule.points.size(); ++q) {
-    const PointGeometry g = point_geometry(section, rule.shape[q], reference, rule.weights[q]);
-    weights += g.volume * g.shape.n.head(reference.rows());
-  }
+template <int Dim>
+std::size_t point_count(const Section<Dim>& section, CellType type) {
+  if (section.formulation == Formulation::solid_shell) return shell_rule(type).points.size();
+  return rule_of(section, type).points.size();
+}
+
+template <int Dim>
+ElementVector<Dim> volume_weights(const Section<Dim>& section, CellType type,
+                                  const Coordinates<Dim>& reference) {
+  const Rule<Dim>& rule = rule_of(section, type);
+  const Eigen::Index n = reference.rows();
+  ElementVector<Dim> weights = ElementVector<Dim>::Zero(n);
+  for (std::size_t q = 0; q < rule.weights.size(); ++q)
+    weights +=
+        volume_at(section, rule.shape[q], rule.weights[q], reference) * rule.shape[q].n.head(n);
   return weights;
 }
 
-double smallest_jacobian(cell::CellType type, const Coordinates& reference) {
+template <int Dim>
+double smallest_jacobian(CellType type, const Coordinates<Dim>& reference) {
   double smallest = std::numeric_limits<double>::infinity();
-  const auto visit = [&](const Vec2& xi) {
-    const cell::AreaShape s = cell::area_shape(type, xi);
-    const Mat<2, 2> j = reference.transpose() * s.d.topRows(s.count);
+  const auto visit = [&](const Shape<Dim>& s) {
+    const Mat<Dim, Dim> j = reference.transpose() * s.d.topRows(s.count);
     smallest = std::min(smallest, j.determinant());
   };
-  for (const Assumption assumption : {Assumption::plane_strain, Assumption::axisymmetric})
-    for (const Vec2& xi : area_rule(assumption, type).points) visit(xi);
-  for (int k = 0; k < cell::info(type).nodes; ++k) visit(cell::area_node(type, k));
+  for (const bool ring : {false, true})
+    for (const Shape<Dim>& s : rule_of<Dim>(type, ring).shape) visit(s);
+  for (int k = 0; k < cell::info(type).nodes; ++k)
+    visit(shape_at<Dim>(type, node_at<Dim>(type, k)));
   return smallest;
 }
+
+template std::string_view unsupported(const Section<2>&, CellType);
+template std::string_view unsupported(const Section<3>&, CellType);
+template void evaluate(const Section<2>&, CellType, const Coordinates<2>&, const Coordinates<2>&,
+                       bool, ElementResult<2>&, const material::Memory&);
+template void evaluate(const Section<3>&, CellType, const Coordinates<3>&, const Coordinates<3>&,
+                       bool, ElementResult<3>&, const material::Memory&);
+template std::size_t point_count(const Section<2>&, CellType);
+template std::size_t point_count(const Section<3>&, CellType);
+template ElementVector<2> volume_weights(const Section<2>&, CellType, const Coordinates<2>&);
+template ElementVector<3> volume_weights(const Section<3>&, CellType, const Coordinates<3>&);
+template double smallest_jacobian<2>(CellType, const Coordinates<2>&);
+template double smallest_jacobian<3>(CellType, const Coordinates<3>&);
 
 }  // namespace osculate::solid

@@ -1,40 +1,65 @@
 #pragma once
 #include <array>
 #include <string_view>
+#include <type_traits>
 
-#include "osculate/cell/cell_type.hpp"
+#include "osculate/cell/volume_shape.hpp"
 #include "osculate/material/law.hpp"
 
 namespace osculate::solid {
 
 enum class Assumption { plane_strain, plane_stress, axisymmetric };
 enum class Kinematics { small, finite };
-/// full: plain displacement element. bbar: mean dilatation (quad4; not plane stress), against
-/// volumetric locking. enhanced: four incompatible strain modes (quad4; five where axisymmetric),
-/// against bending and volumetric locking.
-enum class Formulation { full, bbar, enhanced };
+/// full: plain displacement element. bbar: mean dilatation (quad4, hex8; not plane stress), against
+/// volumetric locking. enhanced: incompatible strain modes (four of quad4, five of it where
+/// axisymmetric, twelve of hex8), against bending and volumetric locking. solid_shell: assumed and
+/// enhanced strains of thin bodies in space (hex8, shell18).
+enum class Formulation { full, bbar, enhanced, solid_shell };
 
-struct Section {
+/// What a body in the plane or in space is made of.
+template <int Dim>
+struct Section;
+template <>
+struct Section<2> {
   Assumption assumption = Assumption::plane_strain;
   Kinematics kinematics = Kinematics::small;
   Formulation formulation = Formulation::full;
   double thickness = 1;
   material::Law law;
 };
+template <>
+struct Section<3> {
+  Kinematics kinematics = Kinematics::small;
+  Formulation formulation = Formulation::full;
+  material::Law law;
+};
 
 /// Empty if the cell type can be used with the section, else the reason in plain words.
-[[nodiscard]] std::string_view unsupported(const Section& section, cell::CellType type);
+template <int Dim>
+[[nodiscard]] std::string_view unsupported(const Section<Dim>& section, cell::CellType type);
 
-inline constexpr int max_nodes = 9;
-inline constexpr int max_points = 9;
-using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, 0, max_nodes, 2>;
-using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 2 * max_nodes, 1>;
+template <int Dim>
+inline constexpr int max_nodes = Dim == 2 ? 9 : cell::max_volume_nodes;
+template <int Dim>
+inline constexpr int max_points = Dim == 2 ? 9 : 27;
+/// Of strains and stresses: xx, yy, zz, xy and, in space, yz, zx.
+template <int Dim>
+inline constexpr int components = Dim == 2 ? 4 : 6;
+
+/// Values of the nodes of a cell, one row a node. Dim is not deduced from them.
+template <int Dim>
+using Coordinates =
+    std::type_identity_t<Eigen::Matrix<double, Eigen::Dynamic, Dim, 0, max_nodes<Dim>, Dim>>;
+template <int Dim, int Nodes = max_nodes<Dim>>
+using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Dim * Nodes, 1>;
+template <int Dim, int Nodes = max_nodes<Dim>>
 using ElementMatrix =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * max_nodes, 2 * max_nodes>;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Dim * Nodes, Dim * Nodes>;
 
 enum class Status { ok, inverted, material_failed };
 
-/// Internal force f = int B^T S dV (order x0, y0, x1, y1, ...) and its derivative.
+/// Internal force f = int B^T S dV (order x0, y0, [z0,] x1, ...) and its derivative, which is
+/// symmetric.
 ///
 /// Formula    total Lagrange for finite kinematics: E = (F^T F - I)/2, S = dW/dE
 /// Units      force (plane: thickness; axisymmetric about the y axis: full circumference 2 pi R)
@@ -42,77 +67,101 @@ enum class Status { ok, inverted, material_failed };
 ///            happened to them yet
 /// Returns    out.status: inverted if det F <= 0 at a quadrature point (finite kinematics),
 ///            material_failed if the law, or the modes of the enhanced strains, have no answer;
-///            force and tangent are then not to be used. The tangent is symmetric for all sections
+///            force and tangent are then not to be used
 /// Requires   unsupported(section, type) is empty
 /// Tested by  tests/unit/solid/test_derivatives.cpp, test_invariance.cpp, test_patch.cpp,
-///            test_locking.cpp
+///            test_locking.cpp, test_volume_locking.cpp
+template <int Dim>
 struct ElementResult {
   Status status = Status::ok;
-  ElementVector force;
-  ElementMatrix tangent;  ///< filled only when asked for
+  ElementVector<Dim> force;
+  ElementMatrix<Dim> tangent;  ///< filled only when asked for
 };
-void evaluate(const Section& section, cell::CellType type, const Coordinates& reference,
-              const Coordinates& displacement, bool with_tangent, ElementResult& out,
+template <int Dim>
+void evaluate(const Section<Dim>& section, cell::CellType type, const Coordinates<Dim>& reference,
+              const Coordinates<Dim>& displacement, bool with_tangent, ElementResult<Dim>& out,
               const material::Memory& memory = {});
 /// Number of quadrature points.
-[[nodiscard]] std::size_t point_count(const Section& section, cell::CellType type);
+template <int Dim>
+[[nodiscard]] std::size_t point_count(const Section<Dim>& section, cell::CellType type);
 
-/// Cauchy stress and strain of one quadrature point (strain: Green-Lagrange or small; components
-/// xx, yy, zz, xy, the last with half the shear angle). Formulations bbar and enhanced: the strain
-/// that the material sees.
+/// Cauchy stress and strain of one quadrature point (strain: Green-Lagrange or small; shear
+/// components are half the shear angle). Formulations other than full: the strain that the material
+/// sees.
+template <int Dim>
 struct PointStress {
-  Vec2 xi;        ///< reference coordinates
-  Vec2 position;  ///< in the undeformed body
-  double volume;  ///< undeformed; plane: times thickness, axisymmetric: full circumference
-  Vec<4> stress, strain;
+  Vec<Dim> xi;        ///< reference coordinates
+  Vec<Dim> position;  ///< in the undeformed body
+  double volume;      ///< undeformed; plane: times thickness, axisymmetric: full circumference
+  Vec<components<Dim>> stress, strain;
 };
+template <int Dim>
 struct CellStress {
   Status status = Status::ok;
   int count = 0;
-  std::array<PointStress, max_points> point;
+  std::array<PointStress<Dim>, max_points<Dim>> point;
 };
 /// Tested by  tests/unit/solid/test_stress.cpp
-[[nodiscard]] CellStress stress_at_points(const Section& section, cell::CellType type,
-                                          const Coordinates& reference,
-                                          const Coordinates& displacement,
-                                          const material::Memory& memory = {});
+template <int Dim>
+[[nodiscard]] CellStress<Dim> stress_at_points(const Section<Dim>& section, cell::CellType type,
+                                               const Coordinates<Dim>& reference,
+                                               const Coordinates<Dim>& displacement,
+                                               const material::Memory& memory = {});
 
 /// The same extrapolated to the nodes by least squares over the quadrature points.
 ///
 /// Tested by  tests/unit/solid/test_stress.cpp
+template <int Dim>
 struct NodalStress {
   int count = 0;
-  std::array<Vec<4>, max_nodes> stress, strain;
+  std::array<Vec<components<Dim>>, max_nodes<Dim>> stress, strain;
 };
-[[nodiscard]] NodalStress nodal_stress(const Section& section, cell::CellType type,
-                                       const Coordinates& reference,
-                                       const Coordinates& displacement,
-                                       const material::Memory& memory = {});
+template <int Dim>
+[[nodiscard]] NodalStress<Dim> nodal_stress(const Section<Dim>& section, cell::CellType type,
+                                            const Coordinates<Dim>& reference,
+                                            const Coordinates<Dim>& displacement,
+                                            const material::Memory& memory = {});
 /// Values of the points at the nodes in the same way: one row a point, one a node.
 ///
 /// Tested by  tests/unit/solid/test_memory.cpp
-[[nodiscard]] Eigen::MatrixXd at_nodes(const Section& section, cell::CellType type,
+template <int Dim>
+[[nodiscard]] Eigen::MatrixXd at_nodes(const Section<Dim>& section, cell::CellType type,
                                        const Eigen::MatrixXd& of_points);
 
 /// int N_k dV: what a unit body force per volume gives each node.
-[[nodiscard]] ElementVector volume_weights(const Section& section, cell::CellType type,
-                                           const Coordinates& reference);
+template <int Dim>
+[[nodiscard]] ElementVector<Dim> volume_weights(const Section<Dim>& section, cell::CellType type,
+                                                const Coordinates<Dim>& reference);
 
 /// Smallest Jacobian determinant over the quadrature points and nodes.
-[[nodiscard]] double smallest_jacobian(cell::CellType type, const Coordinates& reference);
+template <int Dim>
+[[nodiscard]] double smallest_jacobian(cell::CellType type, const Coordinates<Dim>& reference);
 
-/// int N_k dA over an edge (line cell order): what a unit traction gives each node.
-[[nodiscard]] ElementVector edge_weights(const Section& section, const Coordinates& reference);
+/// Sides of cells, edges in the plane (line cells, the body on the right of travel) and faces in
+/// space (tri3, tri6, quad4, quad8 or quad9; the normal r_1 x r_2 points out of the body).
+inline constexpr int max_side_nodes = 9;
 
-/// Nodal forces of a pressure p on an edge whose body is on the right of travel, f = -int p n N dA,
-/// and their derivative. Finite kinematics: on the current edge; small: on the reference edge.
+/// int N_k dA over a side: what a unit traction gives each node.
 ///
 /// Tested by  tests/unit/solid/test_loads.cpp
+template <int Dim>
+[[nodiscard]] ElementVector<Dim, max_side_nodes> side_weights(const Section<Dim>& section,
+                                                              cell::CellType side,
+                                                              const Coordinates<Dim>& reference);
+
+/// Nodal forces of a pressure p on a side, f_k = -int p N_k n dA, and their derivative. Finite
+/// kinematics: on the current side; small: on the reference side.
+///
+/// Tested by  tests/unit/solid/test_loads.cpp
+template <int Dim>
 struct PressureResult {
-  ElementVector force;
-  ElementMatrix tangent;
+  ElementVector<Dim, max_side_nodes> force;
+  ElementMatrix<Dim, max_side_nodes> tangent;
 };
-[[nodiscard]] PressureResult edge_pressure(const Section& section, const Coordinates& reference,
-                                           const Coordinates& displacement, double pressure);
+template <int Dim>
+[[nodiscard]] PressureResult<Dim> side_pressure(const Section<Dim>& section, cell::CellType side,
+                                                const Coordinates<Dim>& reference,
+                                                const Coordinates<Dim>& displacement,
+                                                double pressure);
 
 }  // namespace osculate::solid

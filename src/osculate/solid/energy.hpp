@@ -1,6 +1,5 @@
 #pragma once
 #include "osculate/solid/element.hpp"
-#include "osculate/solid/volume.hpp"
 
 namespace osculate::solid {
 
@@ -14,17 +13,17 @@ struct CellEnergy {
   double stored = 0;
   double dissipated = 0;  ///< so far, in the material
 };
-[[nodiscard]] CellEnergy cell_energy(const Section& section, cell::CellType type,
-                                     const Coordinates& reference, const Coordinates& displacement,
-                                     const material::Memory& memory);
-[[nodiscard]] CellEnergy cell_energy(const VolumeSection& section, cell::CellType type,
-                                     const Coordinates3& reference,
-                                     const Coordinates3& displacement,
+template <int Dim>
+[[nodiscard]] CellEnergy cell_energy(const Section<Dim>& section, cell::CellType type,
+                                     const Coordinates<Dim>& reference,
+                                     const Coordinates<Dim>& displacement,
                                      const material::Memory& memory);
 /// Of a cell to which nothing has happened before.
-[[nodiscard]] double strain_energy(const Section& section, cell::CellType type,
-                                   const Coordinates& reference, const Coordinates& displacement);
-[[nodiscard]] double strain_energy(const VolumeSection& section, cell::CellType type,
-                                   const Coordinates3& reference, const Coordinates3& displacement);
+template <int Dim>
+[[nodiscard]] double strain_energy(const Section<Dim>& section, cell::CellType type,
+                                   const Coordinates<Dim>& reference,
+                                   const Coordinates<Dim>& displacement) {
+  return cell_energy(section, type, reference, displacement, {}).stored;
+}
 
 }  // namespace osculate::solid

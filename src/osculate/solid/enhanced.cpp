@@ -17,11 +17,12 @@ struct Centre {
   double determinant;
 };
 
-template <int Dim, int C, class Shape, class AnyCoordinates>
-Centre<C> centre_of(const Shape& shape, const AnyCoordinates& reference) {
-  constexpr int nodes = 1 << Dim;
-  const Mat<Dim, Dim> j = reference.transpose() * shape.d.template topRows<nodes>();  // dX_i/dxi_j
-  const Mat<Dim, Dim> i = j.inverse();                                                // dxi_i/dX_j
+template <int Dim, int C = components<Dim>>
+Centre<C> centre_of(const Coordinates<Dim>& reference) {
+  const Shape<Dim> shape = shape_at<Dim>(corner_cell<Dim>, Vec<Dim>::Zero());
+  const Mat<Dim, Dim> j =
+      reference.transpose() * shape.d.template topRows<corners<Dim>>();  // dX_i/dxi_j
+  const Mat<Dim, Dim> i = j.inverse();                                   // dxi_i/dX_j
   Centre<C> c;
   c.determinant = j.determinant();
   for (Eigen::Index n = 0; n < C; ++n) {
@@ -68,15 +69,15 @@ Mat<6, Count> mode_matrix(const Centre<6>& centre, const Vec3& xi, double ratio,
 }
 
 /// The mean of xi, eta and xi eta over the circumference; zero but in a ring.
-template <int Count, class Rule, class AnyPoints>
-Vec3 mean_place(const Rule& rule, const AnyPoints& points) {
+template <int Count, int Dim>
+Vec3 mean_place(const Rule<Dim>& rule, const CornerPoints<Dim>& points) {
   Vec3 mean = Vec3::Zero();
   if constexpr (Count == ring_modes) {
     double circumference = 0;
-    for (std::size_t q = 0; q < 4; ++q) {
+    for (std::size_t q = 0; q < points.size(); ++q) {
       const Vec2& xi = rule.points[q];
-      mean += geometry_at(points, q).radius * Vec3(xi.x(), xi.y(), xi.x() * xi.y());
-      circumference += geometry_at(points, q).radius;
+      mean += points[q].radius * Vec3(xi.x(), xi.y(), xi.x() * xi.y());
+      circumference += points[q].radius;
     }
     mean /= circumference;
   }
@@ -85,20 +86,21 @@ Vec3 mean_place(const Rule& rule, const AnyPoints& points) {
 
 /// Responses, equations int M^T S dV = 0 and their derivative at the modes of `e`. `scale` is the
 /// size that rounding errors of the equations are relative to. False where the law fails.
-template <int Count, class AnySection, class AnyPoints>
-bool sample(const AnySection& section, const AnyPoints& points, const material::Memory& memory,
-            EnhancedModes<Count>& e, Vec<Count>& rest, double& scale) {
-  constexpr int C = EnhancedModes<Count>::components;
+template <int Count, int Dim>
+bool sample(const Section<Dim>& section, const CornerPoints<Dim>& points,
+            const material::Memory& memory, EnhancedModes<Count>& e, Vec<Count>& rest,
+            double& scale) {
+  constexpr int C = components<Dim>;
   rest.setZero();
   scale = 0;
   e.stiffness.setZero();
   for (std::size_t q = 0; q < e.matrix.size(); ++q) {
-    const Vec<C>& given = strain_at(points, q).strain;
+    const Vec<C>& given = points[q].strain;
     const Vec<C> total = given + e.matrix[q] * e.alpha;
     e.response[q] = point_response(section, total, memory.at(q));
     const material::ResponseOf<C>& r = e.response[q];
     if (!r.ok) return false;
-    const Mat<C, Count> weighted = geometry_at(points, q).volume * e.matrix[q];
+    const Mat<C, Count> weighted = points[q].volume * e.matrix[q];
     const Mat<C, Count> stress = r.tangent * e.matrix[q];
     rest.noalias() += weighted.transpose() * r.stress;
     e.stiffness.noalias() += weighted.transpose() * stress;
@@ -112,34 +114,29 @@ bool sample(const AnySection& section, const AnyPoints& points, const material::
 
 }  // namespace
 
-template <int Count, class AnySection, class AnyCoordinates, class AnyPoints>
-EnhancedModes<Count> enhanced_modes(const AnySection& section, const AnyCoordinates& reference,
-                                    const AnyPoints& points, const material::Memory& memory) {
-  using Modes = EnhancedModes<Count>;
-  Modes e;
-  const auto fill = [&](const auto& rule, const auto& shape) {
-    const auto centre = centre_of<Modes::dim, Modes::components>(shape, reference);
-    const Vec3 mean = mean_place<Count>(rule, points);
-    for (std::size_t q = 0; q < e.matrix.size(); ++q)
-      e.matrix[q] = mode_matrix<Count>(
-          centre, rule.points[q], centre.determinant / geometry_at(points, q).determinant, mean);
-  };
-  if constexpr (Modes::dim == 2)
-    fill(area_rule(section.assumption, cell::CellType::quad4),
-         cell::area_shape(cell::CellType::quad4, Vec2::Zero()));
-  else
-    fill(volume_rule(cell::CellType::hex8), cell::volume_shape(cell::CellType::hex8, Vec3::Zero()));
-  solve_modes<Vec<Count>>(e, memory.size > 0, [&](Modes& m, Vec<Count>& rest, double& scale) {
-    return sample(section, points, memory, m, rest, scale);
-  });
+template <int Count, int Dim>
+EnhancedModes<Count> enhanced_modes(const Section<Dim>& section, const Coordinates<Dim>& reference,
+                                    const CornerPoints<Dim>& points,
+                                    const material::Memory& memory) {
+  EnhancedModes<Count> e;
+  const Rule<Dim>& rule = rule_of(section, corner_cell<Dim>);
+  const auto centre = centre_of<Dim>(reference);
+  const Vec3 mean = mean_place<Count, Dim>(rule, points);
+  for (std::size_t q = 0; q < points.size(); ++q)
+    e.matrix[q] = mode_matrix<Count>(centre, rule.points[q],
+                                     centre.determinant / points[q].determinant, mean);
+  solve_modes<Vec<Count>>(e, memory.size > 0,
+                          [&](EnhancedModes<Count>& m, Vec<Count>& rest, double& scale) {
+                            return sample<Count, Dim>(section, points, memory, m, rest, scale);
+                          });
   return e;
 }
 
-template EnhancedModes<plane_modes> enhanced_modes(const Section&, const Coordinates&,
-                                                   const Points&, const material::Memory&);
-template EnhancedModes<ring_modes> enhanced_modes(const Section&, const Coordinates&, const Points&,
-                                                  const material::Memory&);
-template EnhancedModes<space_modes> enhanced_modes(const VolumeSection&, const Coordinates3&,
-                                                   const HexPoints&, const material::Memory&);
+template EnhancedModes<plane_modes> enhanced_modes(const Section<2>&, const Coordinates<2>&,
+                                                   const CornerPoints<2>&, const material::Memory&);
+template EnhancedModes<ring_modes> enhanced_modes(const Section<2>&, const Coordinates<2>&,
+                                                  const CornerPoints<2>&, const material::Memory&);
+template EnhancedModes<space_modes> enhanced_modes(const Section<3>&, const Coordinates<3>&,
+                                                   const CornerPoints<3>&, const material::Memory&);
 
 }  // namespace osculate::solid

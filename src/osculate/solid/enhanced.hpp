@@ -1,6 +1,6 @@
 #pragma once
 // Enhanced strains of quad4 and hex8.
-#include "osculate/solid/cell_points.hpp"
+#include "osculate/solid/points.hpp"
 
 namespace osculate::solid {
 
@@ -10,11 +10,10 @@ inline constexpr int plane_modes = 4, ring_modes = 5, space_modes = 12;
 /// State of the incompatible strain modes at given displacements.
 template <int Count>
 struct EnhancedModes {
-  static constexpr int dim = Count == space_modes ? 3 : 2;
-  static constexpr int components = dim == 3 ? 6 : 4, points = dim == 3 ? 8 : 4;
+  static constexpr int dim = Count == space_modes ? 3 : 2, rows = components<dim>;
   bool ok = true;
-  std::array<Mat<components, Count>, points> matrix;  ///< strain per mode at the quadrature points
-  std::array<material::ResponseOf<components>, points> response;  ///< at strain + matrix * alpha
+  std::array<Mat<rows, Count>, corners<dim>> matrix;  ///< strain per mode at the quadrature points
+  std::array<material::ResponseOf<rows>, corners<dim>> response;  ///< at strain + matrix * alpha
   Vec<Count> alpha = Vec<Count>::Zero();
   Mat<Count, Count> stiffness;
 };
@@ -29,15 +28,15 @@ struct EnhancedModes {
 /// Limits     one cell in uniform compression (in space by more than about a third, neo-Hooke) has
 ///            hourglass modes of negative stiffness, as enhanced strains are known to (decision 037
 ///            says from where); bbar has none there
-/// Requires   Count is ring_modes where the section is axisymmetric, space_modes for a
-///            VolumeSection with Coordinates3 and HexPoints, else plane_modes
+/// Requires   Count is ring_modes where the section is axisymmetric, space_modes in space, else
+///            plane_modes
 /// Returns    ok is false where the law has no answer or the iteration finds none
 /// Tested by  tests/unit/solid/test_patch.cpp, test_derivatives.cpp, test_locking.cpp,
 ///            test_volume_locking.cpp
-template <int Count, class AnySection, class AnyCoordinates, class AnyPoints>
-[[nodiscard]] EnhancedModes<Count> enhanced_modes(const AnySection& section,
-                                                  const AnyCoordinates& reference,
-                                                  const AnyPoints& points,
+template <int Count, int Dim>
+[[nodiscard]] EnhancedModes<Count> enhanced_modes(const Section<Dim>& section,
+                                                  const Coordinates<Dim>& reference,
+                                                  const CornerPoints<Dim>& points,
                                                   const material::Memory& memory);
 
 }  // namespace osculate::solid

@@ -161,7 +161,7 @@ struct OneRatio {
 ///            ln m enters with c = S : (E_m + I/2):
 ///            f_k = sum_q V m F S grad N_k + sum_q 2/3 (T share_q - V_q c_q) F^-T grad N_k ,
 ///            T = sum_q V c , share = V J / sum V J
-/// Source     the internal forces of element.hpp and volume.hpp, with d(ln J)/du_k = F^-T grad N_k
+/// Source     the internal forces of element.hpp, with d(ln J)/du_k = F^-T grad N_k
 /// Input      depth: thickness, 1 in space; coordinates with one row a node
 /// Returns    as ElementResult::status
 /// Tested by  tests/unit/solid/test_derivatives.cpp, test_invariance.cpp, test_finite_forces.cpp

@@ -1,6 +1,5 @@
 #pragma once
 #include "osculate/solid/element.hpp"
-#include "osculate/solid/volume.hpp"
 
 namespace osculate::solid {
 
@@ -12,11 +11,10 @@ namespace osculate::solid {
 /// Shapes     as many rows and columns as the cell has nodes
 /// Tested by  tests/unit/solid/test_mass.cpp
 using NodeMass =
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_volume_nodes, max_volume_nodes>;
-[[nodiscard]] NodeMass consistent_mass(const Section& section, cell::CellType type,
-                                       const Coordinates& reference);
-[[nodiscard]] NodeMass consistent_mass(const VolumeSection& section, cell::CellType type,
-                                       const Coordinates3& reference);
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_nodes<3>, max_nodes<3>>;
+template <int Dim>
+[[nodiscard]] NodeMass consistent_mass(const Section<Dim>& section, cell::CellType type,
+                                       const Coordinates<Dim>& reference);
 
 /// The diagonal of the consistent mass, scaled to the mass of the cell: no node of a quadratic cell
 /// has a mass that is zero or negative, as with sums of rows.

@@ -27,7 +27,7 @@ SampleStress sample_stress(const ShellCell& cell, const ShellModes& modes) {
 }
 
 /// int B^T C B dV with the modes condensed.
-void add_material(const ShellCell& cell, const ShellModes& modes, VolumeMatrix& tangent) {
+void add_material(const ShellCell& cell, const ShellModes& modes, ElementMatrix<3>& tangent) {
   const Eigen::Index dofs = cell.sample_b.rows();
   const auto points = static_cast<Eigen::Index>(cell.rule->points.size());
   Stack b(6 * points, dofs), cb(6 * points, dofs);
@@ -52,7 +52,7 @@ void add_material(const ShellCell& cell, const ShellModes& modes, VolumeMatrix& 
 }
 
 /// Adds sum over samples of their stress times the second derivative of their strain.
-void add_geometric(const ShellCell& cell, const SampleStress& stress, VolumeMatrix& tangent) {
+void add_geometric(const ShellCell& cell, const SampleStress& stress, ElementMatrix<3>& tangent) {
   constexpr std::array<std::array<Eigen::Index, 2>, 6> axes{
       {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
   const Eigen::Index nodes = cell.rule->center.rows();
@@ -73,9 +73,10 @@ void add_geometric(const ShellCell& cell, const SampleStress& stress, VolumeMatr
 
 }  // namespace
 
-void evaluate_solid_shell(const VolumeSection& section, cell::CellType type,
-                          const Coordinates3& reference, const Coordinates3& displacement,
-                          bool with_tangent, VolumeResult& out, const material::Memory& memory) {
+void evaluate_solid_shell(const Section<3>& section, cell::CellType type,
+                          const Coordinates<3>& reference, const Coordinates<3>& displacement,
+                          bool with_tangent, ElementResult<3>& out,
+                          const material::Memory& memory) {
   const Eigen::Index dofs = 3 * reference.rows();
   out.status = Status::ok;
   out.force.setZero(dofs);

@@ -1,6 +1,6 @@
 #pragma once
 // Solid-shells: volume cells with displacements only, thin in the direction zeta.
-#include "osculate/solid/volume.hpp"
+#include "osculate/solid/element.hpp"
 
 namespace osculate::solid {
 
@@ -26,9 +26,9 @@ namespace osculate::solid {
 /// Requires   type is hex8 or shell18; small kinematics with linear_elastic, finite with the others
 /// Tested by  tests/unit/solid/test_derivatives.cpp, test_solid_shell.cpp,
 ///            test_solid_shell_patch.cpp, test_solid_shell_benchmarks.cpp
-void evaluate_solid_shell(const VolumeSection& section, cell::CellType type,
-                          const Coordinates3& reference, const Coordinates3& displacement,
-                          bool with_tangent, VolumeResult& out,
+void evaluate_solid_shell(const Section<3>& section, cell::CellType type,
+                          const Coordinates<3>& reference, const Coordinates<3>& displacement,
+                          bool with_tangent, ElementResult<3>& out,
                           const material::Memory& memory = {});
 
 /// Cauchy stress and strain at the quadrature points (the strain is the one the material sees).
@@ -36,23 +36,16 @@ void evaluate_solid_shell(const VolumeSection& section, cell::CellType type,
 /// Formula    finite kinematics: sigma = R U S U R^T / det U with the assumed strain in
 ///            U^2 = I + 2 E and the rotation R of the displacement gradient
 /// Tested by  tests/unit/solid/test_solid_shell_stress.cpp
-[[nodiscard]] CellStress3 solid_shell_stress_at_points(const VolumeSection& section,
-                                                       cell::CellType type,
-                                                       const Coordinates3& reference,
-                                                       const Coordinates3& displacement,
-                                                       const material::Memory& memory = {});
+[[nodiscard]] CellStress<3> solid_shell_stress_at_points(const Section<3>& section,
+                                                         cell::CellType type,
+                                                         const Coordinates<3>& reference,
+                                                         const Coordinates<3>& displacement,
+                                                         const material::Memory& memory = {});
 
-/// The same at the nodes: least squares over the quadrature points, linear through the thickness,
-/// linear (hex8) or quadratic (shell18) along the shell.
+/// Values at the nodes (rows) from those at the points: least squares, linear through the
+/// thickness, linear (hex8) or quadratic (shell18) along the shell.
 ///
 /// Tested by  tests/unit/solid/test_solid_shell_stress.cpp
-[[nodiscard]] NodalStress3 solid_shell_nodal_stress(const VolumeSection& section,
-                                                    cell::CellType type,
-                                                    const Coordinates3& reference,
-                                                    const Coordinates3& displacement,
-                                                    const material::Memory& memory = {});
-/// Values of the points at the nodes in the same way: one row a point, one a node.
-[[nodiscard]] Eigen::MatrixXd solid_shell_at_nodes(cell::CellType type,
-                                                   const Eigen::MatrixXd& of_points);
+[[nodiscard]] const Eigen::MatrixXd& solid_shell_extrapolation(cell::CellType type);
 
 }  // namespace osculate::solid

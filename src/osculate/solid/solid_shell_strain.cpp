@@ -8,7 +8,7 @@
 
 #include "osculate/cell/quadrature.hpp"
 #include "osculate/solid/local_modes.hpp"
-#include "osculate/solid/volume_point.hpp"
+#include "osculate/solid/points.hpp"
 
 namespace osculate::solid {
 namespace {
@@ -91,7 +91,7 @@ ShellRule make_rule(cell::CellType type) {
   ShellRule rule;
   rule.modes = type == cell::CellType::hex8 ? 7 : 4;
   rule.center = gradient(type, Vec3::Zero());
-  const VolumeRule& full = volume_rule(type);
+  const Rule<3>& full = rule_of<3>(type);
   for (std::size_t q = 0; q < full.points.size(); ++q) {
     const Vec3 xi = full.points[q];
     rule.points.push_back(
@@ -122,8 +122,9 @@ Mat<6, 6> cartesian_from(const Mat<3, 3>& basis) {
 }
 
 /// Strain of a sample; its derivative, three values a node, goes to `b`.
-double sample_strain(const ShellSample& s, const Coordinates3& reference,
-                     const Coordinates3& displacement, bool finite, Eigen::Ref<Eigen::VectorXd> b) {
+double sample_strain(const ShellSample& s, const Coordinates<3>& reference,
+                     const Coordinates<3>& displacement, bool finite,
+                     Eigen::Ref<Eigen::VectorXd> b) {
   const auto [i, j] = axes[static_cast<std::size_t>(s.component)];
   const Mat<3, 3> basis = reference.transpose() * s.shape;
   const Mat<3, 3> change = displacement.transpose() * s.shape;
@@ -154,7 +155,7 @@ void add_fit(const ShellRule& rule, const ShellLayer& layer, ShellCell& cell) {
 }
 
 /// Fills p.modes, each scaled by the size of the cell to Cartesian strains of about one.
-void set_modes(const ShellRule& rule, const ShellRulePoint& at, const Coordinates3& reference,
+void set_modes(const ShellRule& rule, const ShellRulePoint& at, const Coordinates<3>& reference,
                double determinant, ShellPoint& p) {
   const Mat<3, 3> center = reference.transpose() * rule.center;
   const Mat<3, 3> mid = reference.transpose() * at.shape_mid;
@@ -175,9 +176,8 @@ void set_modes(const ShellRule& rule, const ShellRulePoint& at, const Coordinate
 
 /// Responses, equations int M^T S dV = 0 and their derivative. `scale` is the size that rounding
 /// errors of the equations are relative to. False where the law fails.
-bool sample_modes(const VolumeSection& section, const ShellCell& cell,
-                  const material::Memory& memory, ShellModes& m, ShellModeVector& rest,
-                  double& scale) {
+bool sample_modes(const Section<3>& section, const ShellCell& cell, const material::Memory& memory,
+                  ShellModes& m, ShellModeVector& rest, double& scale) {
   rest.setZero(cell.rule->modes);
   m.stiffness.setZero(cell.rule->modes, cell.rule->modes);
   scale = 0;
@@ -205,8 +205,8 @@ const ShellRule& shell_rule(cell::CellType type) {
   return type == cell::CellType::hex8 ? eight : eighteen;
 }
 
-bool fill_shell(const VolumeSection& section, cell::CellType type, const Coordinates3& reference,
-                const Coordinates3& displacement, ShellCell& cell) {
+bool fill_shell(const Section<3>& section, cell::CellType type, const Coordinates<3>& reference,
+                const Coordinates<3>& displacement, ShellCell& cell) {
   const ShellRule& rule = shell_rule(type);
   const bool finite = section.kinematics == Kinematics::finite;
   cell.rule = &rule;
@@ -239,7 +239,7 @@ bool fill_shell(const VolumeSection& section, cell::CellType type, const Coordin
   return true;
 }
 
-ShellModes shell_modes(const VolumeSection& section, const ShellCell& cell,
+ShellModes shell_modes(const Section<3>& section, const ShellCell& cell,
                        const material::Memory& memory) {
   ShellModes m;
   m.alpha.setZero(cell.rule->modes);

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <vector>
 
-#include "osculate/solid/volume.hpp"
+#include "osculate/solid/element.hpp"
 
 namespace osculate::solid {
 
@@ -107,8 +107,8 @@ struct ShellCell {
 
 /// False where det G is not positive at a quadrature point, or, in finite kinematics, the current
 /// one.
-[[nodiscard]] bool fill_shell(const VolumeSection& section, cell::CellType type,
-                              const Coordinates3& reference, const Coordinates3& displacement,
+[[nodiscard]] bool fill_shell(const Section<3>& section, cell::CellType type,
+                              const Coordinates<3>& reference, const Coordinates<3>& displacement,
                               ShellCell& cell);
 
 /// State of the enhanced modes at given displacements.
@@ -127,7 +127,7 @@ struct ShellModes {
 ///            eta in E22, xi and eta in 2 E12 in the basis of the centre, times det G0/det G. So
 ///            every mode has no work with a constant stress
 /// Returns    ok is false where the law has no answer or the iteration finds none
-[[nodiscard]] ShellModes shell_modes(const VolumeSection& section, const ShellCell& cell,
+[[nodiscard]] ShellModes shell_modes(const Section<3>& section, const ShellCell& cell,
                                      const material::Memory& memory);
 
 }  // namespace osculate::solid

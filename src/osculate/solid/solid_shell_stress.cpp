@@ -1,6 +1,7 @@
 #include <Eigen/LU>
 
 #include "osculate/core/dense.hpp"
+#include "osculate/solid/points.hpp"
 #include "osculate/solid/solid_shell.hpp"
 #include "osculate/solid/solid_shell_strain.hpp"
 
@@ -34,25 +35,27 @@ bool cauchy(const Mat<3, 3>& f, const material::Strain3& strain, const Vec<6>& s
 }
 
 /// Linear through the thickness, linear or (from nine points a layer on) quadratic along the shell.
-constexpr int max_terms = 12;
-using Basis = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, max_terms>;
-
-Basis basis(const Vec3& xi, int points) {
-  Basis plane(points == 8 ? 3 : 6);
+Eigen::RowVectorXd basis(const Vec3& xi, cell::CellType type) {
+  Eigen::RowVectorXd plane(type == cell::CellType::hex8 ? 3 : 6);
   plane.head<3>() << 1, xi.x(), xi.y();
   if (plane.size() == 6) plane.tail<3>() << xi.x() * xi.y(), xi.x() * xi.x(), xi.y() * xi.y();
-  Basis b(2 * plane.size());
+  Eigen::RowVectorXd b(2 * plane.size());
   b << plane, xi.z() * plane;
   return b;
 }
 
+Eigen::MatrixXd make_extrapolation(cell::CellType type) {
+  return extrapolation<3>(type, rule_of<3>(type).points,
+                          [&](const Vec3& xi) { return basis(xi, type); });
+}
+
 }  // namespace
 
-CellStress3 solid_shell_stress_at_points(const VolumeSection& section, cell::CellType type,
-                                         const Coordinates3& reference,
-                                         const Coordinates3& displacement,
-                                         const material::Memory& memory) {
-  CellStress3 out;
+CellStress<3> solid_shell_stress_at_points(const Section<3>& section, cell::CellType type,
+                                           const Coordinates<3>& reference,
+                                           const Coordinates<3>& displacement,
+                                           const material::Memory& memory) {
+  CellStress<3> out;
   ShellCell cell;
   const bool one_to_one = fill_shell(section, type, reference, displacement, cell);
   const ShellRule& rule = shell_rule(type);
@@ -62,7 +65,7 @@ CellStress3 solid_shell_stress_at_points(const VolumeSection& section, cell::Cel
   if (one_to_one) modes = shell_modes(section, cell, memory);
   if (one_to_one && !modes.ok) out.status = Status::material_failed;
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
-    PointStress3& to = out.point[q];
+    PointStress<3>& to = out.point[q];
     to.xi = rule.points[q].xi;
     const cell::VolumeShape shape = cell::volume_shape(type, to.xi);
     to.position = reference.transpose() * shape.n.head(shape.count);
@@ -84,41 +87,10 @@ CellStress3 solid_shell_stress_at_points(const VolumeSection& section, cell::Cel
   return out;
 }
 
-Eigen::MatrixXd solid_shell_at_nodes(cell::CellType type, const Eigen::MatrixXd& of_points) {
-  const auto count = static_cast<int>(of_points.rows());
-  const Eigen::Index terms = basis(Vec3::Zero(), count).size(), nodes = cell::info(type).nodes;
-  Eigen::MatrixXd sample(count, terms), to(nodes, terms);
-  for (int q = 0; q < count; ++q)
-    sample.row(q) = basis(shell_rule(type).points[static_cast<std::size_t>(q)].xi, count);
-  for (int k = 0; k < nodes; ++k) to.row(k) = basis(cell::volume_node(type, k), count);
-  return to * core::least_squares(sample, of_points);
-}
-
-NodalStress3 solid_shell_nodal_stress(const VolumeSection& section, cell::CellType type,
-                                      const Coordinates3& reference,
-                                      const Coordinates3& displacement,
-                                      const material::Memory& memory) {
-  const CellStress3 at =
-      solid_shell_stress_at_points(section, type, reference, displacement, memory);
-  const Eigen::Index terms = basis(Vec3::Zero(), at.count).size();
-  Eigen::Matrix<double, Eigen::Dynamic, 12, 0, max_shell_points, 12> values(at.count, 12);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_shell_points, max_terms> sample(
-      at.count, terms);
-  for (int q = 0; q < at.count; ++q) {
-    const PointStress3& p = at.point[static_cast<std::size_t>(q)];
-    values.row(q) << p.stress.transpose(), p.strain.transpose();
-    sample.row(q) = basis(p.xi, at.count);
-  }
-  const Eigen::Matrix<double, Eigen::Dynamic, 12, 0, max_terms, 12> fit =
-      core::least_squares(sample, values);
-  NodalStress3 out;
-  out.count = cell::info(type).nodes;
-  for (int k = 0; k < out.count; ++k) {
-    const Mat<1, 12> node = basis(cell::volume_node(type, k), at.count) * fit;
-    out.stress[static_cast<std::size_t>(k)] = node.head<6>().transpose();
-    out.strain[static_cast<std::size_t>(k)] = node.tail<6>().transpose();
-  }
-  return out;
+const Eigen::MatrixXd& solid_shell_extrapolation(cell::CellType type) {
+  static const Eigen::MatrixXd eight = make_extrapolation(cell::CellType::hex8);
+  static const Eigen::MatrixXd eighteen = make_extrapolation(cell::CellType::shell18);
+  return type == cell::CellType::hex8 ? eight : eighteen;
 }
 
 }  // namespace osculate::solid

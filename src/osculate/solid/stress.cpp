@@ -5,133 +5,226 @@
 #include "osculate/core/dense.hpp"
 #include "osculate/solid/enhanced.hpp"
 #include "osculate/solid/mean_dilatation.hpp"
-#include "osculate/solid/stress_tensor.hpp"
+#include "osculate/solid/points.hpp"
+#include "osculate/solid/solid_shell.hpp"
 
 namespace osculate::solid {
 namespace {
 
-/// Cauchy stress of one point from its second Piola-Kirchhoff stress.
-Vec<4> cauchy(const PointStrain& p, const Vec<4>& s, double f33) {
-  const double j = p.f.determinant() * f33;
-  const Mat<2, 2> sigma = p.f * stress_tensor(s) * p.f.transpose() / j;
+using cell::CellType;
+
+/// What the material sees at the quadrature points.
+template <int Dim>
+struct Seen {
+  Status status = Status::ok;
+  std::array<Mat<Dim, Dim>, max_points<Dim>> f;
+  std::array<double, max_points<Dim>> f33;
+  std::array<Vec<components<Dim>>, max_points<Dim>> strain;
+
+  template <int N>
+  void set(std::size_t q, const Point<Dim, N>& p) {
+    f[q] = p.f;
+    if constexpr (Dim == 2) f33[q] = p.f33;
+    strain[q] = p.strain;
+  }
+};
+
+template <int Dim>
+void see_full(const Section<Dim>& section, CellType type, const Coordinates<Dim>& reference,
+              const Coordinates<Dim>& displacement, Seen<Dim>& out) {
+  const Rule<Dim>& rule = rule_of(section, type);
+  for (std::size_t q = 0; q < rule.weights.size(); ++q) {
+    Point<Dim, Eigen::Dynamic> p;
+    if (!fill_point<Dim, Eigen::Dynamic>(section, rule.shape[q], rule.weights[q], reference,
+                                         displacement, p))
+      out.status = Status::inverted;
+    out.set(q, p);
+  }
+}
+
+template <int Count, int Dim>
+void enhance(const Section<Dim>& section, const Coordinates<Dim>& reference,
+             const material::Memory& memory, CornerPoints<Dim>& points, Status& status) {
+  const auto e = enhanced_modes<Count>(section, reference, points, memory);
+  if (!e.ok) status = Status::material_failed;
+  for (std::size_t q = 0; q < points.size(); ++q) points[q].strain += e.matrix[q] * e.alpha;
+}
+
+/// The formulations that assume strains.
+template <int Dim>
+void see_assumed(const Section<Dim>& section, const Coordinates<Dim>& reference,
+                 const Coordinates<Dim>& displacement, const material::Memory& memory,
+                 Seen<Dim>& out) {
+  CornerPoints<Dim> points;
+  if (!fill_points<Dim>(section, reference, displacement, points)) {
+    out.status = Status::inverted;
+    return;
+  }
+  if (section.formulation == Formulation::enhanced) {
+    if constexpr (Dim == 3)
+      enhance<space_modes>(section, reference, memory, points, out.status);
+    else if (is_ring(section))
+      enhance<ring_modes>(section, reference, memory, points, out.status);
+    else
+      enhance<plane_modes>(section, reference, memory, points, out.status);
+  } else if (section.kinematics == Kinematics::finite) {
+    points = mean_dilatation<Dim>(points).point;
+  } else {
+    average_volume_small<Dim>(points, displacement);
+  }
+  for (std::size_t q = 0; q < points.size(); ++q) out.set(q, points[q]);
+}
+
+/// Cauchy stress from the second Piola-Kirchhoff stress.
+Vec<4> cauchy(const Mat<2, 2>& f, double f33, const material::Stress& s) {
+  const double j = f.determinant() * f33;
+  const Mat<2, 2> sigma = f * stress_tensor(s) * f.transpose() / j;
   return {sigma(0, 0), sigma(1, 1), f33 * f33 * s[2] / j, sigma(0, 1)};
 }
-
-template <int Count>
-Status enhance(const Section& section, const Coordinates& reference, const material::Memory& memory,
-               Points& points) {
-  const EnhancedModes<Count> e = enhanced_modes<Count>(section, reference, points, memory);
-  if (!e.ok) return Status::material_failed;
-  for (std::size_t q = 0; q < 4; ++q) points.strain[q].strain += e.matrix[q] * e.alpha;
-  return Status::ok;
-}
-
-/// Replaces the strains of the displacements by those the material sees.
-Status assume_strains(const Section& section, const Coordinates& reference,
-                      const Coordinates& displacement, const material::Memory& memory,
-                      Points& points) {
-  if (section.formulation == Formulation::enhanced)
-    return section.assumption == Assumption::axisymmetric
-               ? enhance<ring_modes>(section, reference, memory, points)
-               : enhance<plane_modes>(section, reference, memory, points);
-  if (section.formulation == Formulation::bbar) {
-    if (section.kinematics == Kinematics::finite)
-      points = mean_dilatation(points).point;
-    else
-      average_volume_small(points, displacement);
-  }
-  return Status::ok;
+Vec<6> cauchy(const Mat<3, 3>& f, double, const material::Stress3& s) {
+  const Mat<3, 3> t = f * stress_tensor(s) * f.transpose() / f.determinant();
+  Vec<6> out;
+  out << t(0, 0), t(1, 1), t(2, 2), t(0, 1), t(1, 2), t(0, 2);
+  return out;
 }
 
 /// Stress and strain of one point; false where the law has no answer.
-bool fill_stress(const Section& section, const PointStrain& p, const material::Memory& memory,
-                 PointStress& out) {
-  double strain_33 = 0;
-  const material::Response r = point_response(section, p.strain, memory, &strain_33);
-  out.strain = p.strain;
-  out.strain[2] = strain_33;
-  out.strain[3] *= 0.5;
-  const double f33 = section.assumption == Assumption::plane_stress
-                         ? std::sqrt(std::max(0.0, 1 + 2 * strain_33))
-                         : p.f33;
-  out.stress =
-      section.kinematics == Kinematics::finite && r.ok ? cauchy(p, r.stress, f33) : r.stress;
+template <int Dim>
+bool fill_stress(const Section<Dim>& section, const Seen<Dim>& seen, std::size_t q,
+                 const material::Memory& memory, PointStress<Dim>& out) {
+  const bool finite = section.kinematics == Kinematics::finite;
+  double f33 = seen.f33[q];
+  out.strain = seen.strain[q];
+  material::ResponseOf<components<Dim>> r;
+  if constexpr (Dim == 2) {
+    r = point_response(section, seen.strain[q], memory, &out.strain[2]);
+    if (section.assumption == Assumption::plane_stress)
+      f33 = std::sqrt(std::max(0.0, 1 + 2 * out.strain[2]));
+  } else {
+    r = point_response(section, seen.strain[q], memory);
+  }
+  out.strain.template tail<components<Dim> - 3>() *= 0.5;
+  out.stress = finite && r.ok ? cauchy(seen.f[q], f33, r.stress) : r.stress;
   return r.ok;
 }
 
-/// Polynomial basis for the extrapolation: as many terms as the points can carry.
-constexpr int max_terms = 6;
-using Basis = Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor, 1, max_terms>;
-
-Basis basis(const Vec2& xi, int points) {
-  Basis b(points == 1 ? 1 : points < 6 ? 3 : 6);
+/// Polynomial basis for the extrapolation: as many terms as the points of the cell can carry.
+Eigen::RowVectorXd basis(CellType, std::size_t points, const Vec2& xi) {
+  Eigen::RowVectorXd b(points == 1 ? 1 : points < 6 ? 3 : 6);
   b[0] = 1;
   if (b.size() >= 3) b.segment<2>(1) << xi.x(), xi.y();
   if (b.size() >= 6) b.segment<3>(3) << xi.x() * xi.y(), xi.x() * xi.x(), xi.y() * xi.y();
   return b;
 }
+Eigen::RowVectorXd basis(CellType type, std::size_t points, const Vec3& xi) {
+  const bool flat = type == CellType::shell18;  // two points along zeta
+  Eigen::RowVectorXd b(points == 1 ? 1 : points < 18 ? 4 : flat ? 9 : 10);
+  b[0] = 1;
+  if (b.size() >= 4) b.segment<3>(1) = xi.transpose();
+  if (b.size() >= 9)
+    b.segment<5>(4) << xi.x() * xi.y(), xi.y() * xi.z(), xi.z() * xi.x(), xi.x() * xi.x(),
+        xi.y() * xi.y();
+  if (b.size() >= 10) b[9] = xi.z() * xi.z();
+  return b;
+}
+
+template <int Dim>
+Eigen::MatrixXd make_extrapolation(CellType type, bool ring = false) {
+  const std::vector<Vec<Dim>>& points = rule_of<Dim>(type, ring).points;
+  return extrapolation<Dim>(type, points,
+                            [&](const Vec<Dim>& xi) { return basis(type, points.size(), xi); });
+}
+
+/// Values at the nodes from those at the points.
+const Eigen::MatrixXd& extrapolation_of(const Section<2>& section, CellType type) {
+  using enum CellType;
+  static const std::array<Eigen::MatrixXd, 5> all{
+      make_extrapolation<2>(tri3), make_extrapolation<2>(tri6), make_extrapolation<2>(quad4),
+      make_extrapolation<2>(quad8), make_extrapolation<2>(quad9)};
+  static const Eigen::MatrixXd ring = make_extrapolation<2>(tri3, true);
+  if (is_ring(section) && type == tri3) return ring;
+  return all[static_cast<std::size_t>(type) - static_cast<std::size_t>(tri3)];
+}
+const Eigen::MatrixXd& extrapolation_of(const Section<3>& section, CellType type) {
+  using enum CellType;
+  static const std::array<Eigen::MatrixXd, 8> all{
+      make_extrapolation<3>(tet4),    make_extrapolation<3>(tet10),  make_extrapolation<3>(wedge6),
+      make_extrapolation<3>(wedge15), make_extrapolation<3>(hex8),   make_extrapolation<3>(hex20),
+      make_extrapolation<3>(hex27),   make_extrapolation<3>(shell18)};
+  if (section.formulation == Formulation::solid_shell) return solid_shell_extrapolation(type);
+  return all[static_cast<std::size_t>(type) - static_cast<std::size_t>(tet4)];
+}
 
 }  // namespace
 
-CellStress stress_at_points(const Section& section, cell::CellType type,
-                            const Coordinates& reference, const Coordinates& displacement,
-                            const material::Memory& memory) {
-  const AreaRule& rule = area_rule(section.assumption, type);
-  CellStress out;
-  Points points;
-  const bool one_to_one = fill_points(section, type, reference, displacement, points);
-  out.status = one_to_one ? assume_strains(section, reference, displacement, memory, points)
-                          : Status::inverted;
+template <int Dim>
+CellStress<Dim> stress_at_points(const Section<Dim>& section, CellType type,
+                                 const Coordinates<Dim>& reference,
+                                 const Coordinates<Dim>& displacement,
+                                 const material::Memory& memory) {
+  if constexpr (Dim == 3) {
+    if (section.formulation == Formulation::solid_shell)
+      return solid_shell_stress_at_points(section, type, reference, displacement, memory);
+  }
+  const Rule<Dim>& rule = rule_of(section, type);
+  Seen<Dim> seen;
+  if (section.formulation == Formulation::full)
+    see_full(section, type, reference, displacement, seen);
+  else
+    see_assumed(section, reference, displacement, memory, seen);
+  CellStress<Dim> out;
+  out.status = seen.status;
   out.count = static_cast<int>(rule.points.size());
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
-    PointStress& p = out.point[q];
-    const PointGeometry& g = points.geometry[q];
+    PointStress<Dim>& p = out.point[q];
+    const Shape<Dim>& s = rule.shape[q];
     p.xi = rule.points[q];
-    p.position = reference.transpose() * g.shape.n.head(g.shape.count);
-    p.volume = g.volume;
+    p.position = reference.transpose() * s.n.head(s.count);
+    p.volume = volume_at(section, s, rule.weights[q], reference);
     p.stress.setZero();
     p.strain.setZero();
-    if (one_to_one && !fill_stress(section, points.strain[q], memory.at(q), p) &&
-        out.status == Status::ok)
+    if (seen.status != Status::inverted && !fill_stress(section, seen, q, memory.at(q), p))
       out.status = Status::material_failed;
   }
   return out;
 }
 
-Eigen::MatrixXd at_nodes(const Section& section, cell::CellType type,
+template <int Dim>
+Eigen::MatrixXd at_nodes(const Section<Dim>& section, CellType type,
                          const Eigen::MatrixXd& of_points) {
-  const auto count = static_cast<int>(of_points.rows());
-  const Eigen::Index terms = basis(Vec2::Zero(), count).size(), nodes = cell::info(type).nodes;
-  const AreaRule& rule = area_rule(section.assumption, type);
-  Eigen::MatrixXd sample(count, terms), to(nodes, terms);
-  for (int q = 0; q < count; ++q)
-    sample.row(q) = basis(rule.points[static_cast<std::size_t>(q)], count);
-  for (int k = 0; k < nodes; ++k) to.row(k) = basis(cell::area_node(type, k), count);
-  return to * core::least_squares(sample, of_points);
+  return extrapolation_of(section, type) * of_points;
 }
 
-NodalStress nodal_stress(const Section& section, cell::CellType type, const Coordinates& reference,
-                         const Coordinates& displacement, const material::Memory& memory) {
-  const CellStress at = stress_at_points(section, type, reference, displacement, memory);
-  const Eigen::Index terms = basis(Vec2::Zero(), at.count).size();
-  Eigen::Matrix<double, Eigen::Dynamic, 8, 0, max_points, 8> values(at.count, 8);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_points, max_terms> sample(at.count,
-                                                                                         terms);
-  for (int q = 0; q < at.count; ++q) {
-    const PointStress& p = at.point[static_cast<std::size_t>(q)];
-    values.row(q) << p.stress.transpose(), p.strain.transpose();
-    sample.row(q) = basis(p.xi, at.count);
-  }
-  const Eigen::Matrix<double, Eigen::Dynamic, 8, 0, max_terms, 8> fit =
-      core::least_squares(sample, values);
-  NodalStress out;
+template <int Dim>
+NodalStress<Dim> nodal_stress(const Section<Dim>& section, CellType type,
+                              const Coordinates<Dim>& reference,
+                              const Coordinates<Dim>& displacement,
+                              const material::Memory& memory) {
+  const CellStress<Dim> at = stress_at_points(section, type, reference, displacement, memory);
+  const Eigen::MatrixXd& factor = extrapolation_of(section, type);
+  NodalStress<Dim> out;
   out.count = cell::info(type).nodes;
-  for (int k = 0; k < out.count; ++k) {
-    const Mat<1, 8> node = basis(cell::area_node(type, k), at.count) * fit;
-    out.stress[static_cast<std::size_t>(k)] = node.head<4>();
-    out.strain[static_cast<std::size_t>(k)] = node.tail<4>();
+  for (std::size_t k = 0; k < static_cast<std::size_t>(out.count); ++k) {
+    out.stress[k].setZero();
+    out.strain[k].setZero();
+    for (std::size_t q = 0; q < static_cast<std::size_t>(at.count); ++q) {
+      const double share = factor(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(q));
+      out.stress[k] += share * at.point[q].stress;
+      out.strain[k] += share * at.point[q].strain;
+    }
   }
   return out;
 }
+
+template CellStress<2> stress_at_points(const Section<2>&, CellType, const Coordinates<2>&,
+                                        const Coordinates<2>&, const material::Memory&);
+template CellStress<3> stress_at_points(const Section<3>&, CellType, const Coordinates<3>&,
+                                        const Coordinates<3>&, const material::Memory&);
+template Eigen::MatrixXd at_nodes(const Section<2>&, CellType, const Eigen::MatrixXd&);
+template Eigen::MatrixXd at_nodes(const Section<3>&, CellType, const Eigen::MatrixXd&);
+template NodalStress<2> nodal_stress(const Section<2>&, CellType, const Coordinates<2>&,
+                                     const Coordinates<2>&, const material::Memory&);
+template NodalStress<3> nodal_stress(const Section<3>&, CellType, const Coordinates<3>&,
+                                     const Coordinates<3>&, const material::Memory&);
 
 }  // namespace osculate::solid
