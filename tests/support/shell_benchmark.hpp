@@ -16,8 +16,8 @@ namespace detail {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-inline solid::Coordinates3 cell_values(const std::vector<Index>& cell, const Eigen::VectorXd& u) {
-  solid::Coordinates3 c(Eigen::Index(cell.size()), 3);
+inline solid::Coordinates<3> cell_values(const std::vector<Index>& cell, const Eigen::VectorXd& u) {
+  solid::Coordinates<3> c(Eigen::Index(cell.size()), 3);
   for (std::size_t k = 0; k < cell.size(); ++k)
     c.row(Eigen::Index(k)) = u.segment<3>(3 * cell[k]).transpose();
   return c;
@@ -28,9 +28,9 @@ inline bool assemble(const ShellProblem& p, const Eigen::VectorXd& u, double fac
                      Eigen::VectorXd& rest, Triplets& k) {
   rest = -factor * p.load;
   k.clear();
-  solid::VolumeResult r;
+  solid::ElementResult<3> r;
   for (const std::vector<Index>& cell : p.mesh.cells) {
-    solid::Coordinates3 x(Eigen::Index(cell.size()), 3);
+    solid::Coordinates<3> x(Eigen::Index(cell.size()), 3);
     for (std::size_t i = 0; i < cell.size(); ++i)
       x.row(Eigen::Index(i)) = p.mesh.nodes[std::size_t(cell[i])].transpose();
     solid::evaluate_solid_shell(p.section, p.mesh.type, x, cell_values(cell, u), true, r);

@@ -74,7 +74,7 @@ model::Model3 beam_model(const BeamModel& o) {
   b.model.title = "Beam bent over a rigid cylinder";
   model::BulkSection3 section;
   section.name = "beam";
-  section.section = {solid::Kinematics::finite, solid::VolumeFormulation::solid_shell,
+  section.section = {solid::Kinematics::finite, solid::Formulation::solid_shell,
                      material::StVenantKirchhoff{beam_modulus, o.poisson, 0}};
   b.model.sections.push_back(section);
   model::ContactPair3 pair;

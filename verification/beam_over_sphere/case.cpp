@@ -109,7 +109,7 @@ Problem make_problem(const Choice& c) {
   b.model.title = "Beam bent over a rigid sphere";
   model::BulkSection3 section;
   section.name = "beam";
-  section.section = {solid::Kinematics::finite, solid::VolumeFormulation::solid_shell,
+  section.section = {solid::Kinematics::finite, solid::Formulation::solid_shell,
                      material::StVenantKirchhoff{1e4, 0.3, 0}};
   b.model.sections.push_back(section);
   model::ContactPair3 pair;

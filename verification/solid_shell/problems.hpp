@@ -62,12 +62,12 @@ struct EndMoment {
 
 struct ShellProblem {
   ShellMesh mesh;
-  solid::VolumeSection section;
+  solid::Section<3> section;
   std::vector<char> fixed;  ///< a flag per unknown
   Eigen::VectorXd load;     ///< dead loads
   EndMoment moment;
 
-  ShellProblem(ShellMesh m, solid::VolumeSection s)
+  ShellProblem(ShellMesh m, solid::Section<3> s)
       : mesh(std::move(m)),
         section(std::move(s)),
         fixed(3 * mesh.nodes.size(), 0),
@@ -129,12 +129,12 @@ inline void add_body_force(ShellProblem& p, const Vec3& force) {
         }
 }
 
-inline solid::VolumeSection linear(double young, double poisson) {
-  return {solid::Kinematics::small, solid::VolumeFormulation::solid_shell,
+inline solid::Section<3> linear(double young, double poisson) {
+  return {solid::Kinematics::small, solid::Formulation::solid_shell,
           material::LinearElastic{young, poisson, 0}};
 }
-inline solid::VolumeSection finite(double young, double poisson) {
-  return {solid::Kinematics::finite, solid::VolumeFormulation::solid_shell,
+inline solid::Section<3> finite(double young, double poisson) {
+  return {solid::Kinematics::finite, solid::Formulation::solid_shell,
           material::StVenantKirchhoff{young, poisson, 0}};
 }
 
@@ -206,8 +206,8 @@ inline ShellProblem scordelis_lo(cell::CellType type, Index cells) {
 /// R 10, h 0.04, a hole of 18 degrees at the pole, two pairs of opposite forces at the equator,
 /// inwards along y and outwards along x: a quarter, half the forces. u: angle from the x axis, v:
 /// from the equator. Material E 6.825e7, nu 0.3.
-inline ShellProblem hemisphere(cell::CellType type, Index cells,
-                               const solid::VolumeSection& section, double force) {
+inline ShellProblem hemisphere(cell::CellType type, Index cells, const solid::Section<3>& section,
+                               double force) {
   using std::numbers::pi;
   ShellProblem p(shell_mesh(type, cells, cells,
                             [](double u, double v, double z) {

@@ -130,12 +130,12 @@ namespace {
 /// Thickness or circumference from the section behind the slave, else behind the master. An area in
 /// space needs neither.
 pairing::AreaRule area_rule(const BuildContext<2>& c, const pairing::PairDefinition<2>& pair) {
-  const auto from = [&](Index node) -> const solid::Section* {
+  const auto from = [&](Index node) -> const solid::Section<2>* {
     if (static_cast<std::size_t>(node) >= c.section_of_node.size()) return nullptr;
     const Index s = c.section_of_node[static_cast<std::size_t>(node)];
     return s < 0 ? nullptr : &c.model().sections[static_cast<std::size_t>(s)].section;
   };
-  const solid::Section* section = nullptr;
+  const solid::Section<2>* section = nullptr;
   for (const Index n : pair.slave.nodes)
     if (!section) section = from(n);
   for (const pairing::Facet& f : pair.master.facets)

@@ -62,8 +62,8 @@ template <int Dim>
                                                      const Name& on);
 /// The element formulation of a section with its material.
 template <int Dim>
-[[nodiscard]] model::SolidSection<Dim> make_solid_section(const Section& section,
-                                                          const Material& material);
+[[nodiscard]] solid::Section<Dim> make_solid_section(const Section& section,
+                                                     const Material& material);
 
 template <int Dim>
 void build_sections(BuildContext<Dim>& context);

@@ -40,40 +40,30 @@ Formulation best_formulation(const Section& s, const Material& material) {
   return s.element.value == SectionElement::plane_stress ? Formulation::full : Formulation::bbar;
 }
 
-/// The formulation of a section in the plane (solid::Formulation) or in space.
-template <class F>
-F formulation_of(const Section& s, const Material& material) {
+solid::Formulation formulation_of(const Section& s, const Material& material) {
   const Formulation given = s.formulation.value;
+  if (s.element.value == SectionElement::solid_shell) return solid::Formulation::solid_shell;
   switch (given == Formulation::automatic ? best_formulation(s, material) : given) {
     case Formulation::bbar:
-      return F::bbar;
+      return solid::Formulation::bbar;
     case Formulation::enhanced:
-      return F::enhanced;
+      return solid::Formulation::enhanced;
     default:
-      return F::full;
+      return solid::Formulation::full;
   }
 }
 
 }  // namespace
 
-template <>
-solid::Section make_solid_section<2>(const Section& s, const Material& material) {
-  solid::Section out;
-  out.assumption = assumption_of(s.element.value);
+template <int Dim>
+solid::Section<Dim> make_solid_section(const Section& s, const Material& material) {
+  solid::Section<Dim> out;
+  if constexpr (Dim == 2) {
+    out.assumption = assumption_of(s.element.value);
+    out.thickness = s.thickness.value;
+  }
   out.kinematics = solid_kinematics(s.kinematics.value);
-  out.formulation = formulation_of<solid::Formulation>(s, material);
-  out.thickness = s.thickness.value;
-  out.law = law_of(s, material);
-  return out;
-}
-
-template <>
-solid::VolumeSection make_solid_section<3>(const Section& s, const Material& material) {
-  solid::VolumeSection out;
-  out.kinematics = solid_kinematics(s.kinematics.value);
-  out.formulation = s.element.value == SectionElement::solid_shell
-                        ? solid::VolumeFormulation::solid_shell
-                        : formulation_of<solid::VolumeFormulation>(s, material);
+  out.formulation = formulation_of(s, material);
   out.law = law_of(s, material);
   return out;
 }
@@ -81,7 +71,7 @@ solid::VolumeSection make_solid_section<3>(const Section& s, const Material& mat
 namespace {
 
 template <int Dim>
-model::SolidSection<Dim> solid_section(const BuildContext<Dim>& c, const Section& s) {
+solid::Section<Dim> solid_section(const BuildContext<Dim>& c, const Section& s) {
   const Material* const material = c.description.find_material(s.material.value);
   if (!material)
     throw core::InputError(s.material.mark, fmt::format("unknown material '{}'", s.material.value));
@@ -215,6 +205,8 @@ void build_sections(BuildContext<Dim>& c) {
     c.sides = mesh::face_table(m.mesh, cells);
 }
 
+template solid::Section<2> make_solid_section(const Section&, const Material&);
+template solid::Section<3> make_solid_section(const Section&, const Material&);
 template void build_sections(BuildContext<2>&);
 template void build_sections(BuildContext<3>&);
 

@@ -204,20 +204,14 @@ std::vector<model::PressureLoad::Facet> loaded_sides(const BuildContext<Dim>& c,
   return facets;
 }
 
-std::vector<double> side_weights(const model::Model& m, const model::PressureLoad::Facet& facet) {
-  return model::edge_weights(m, m.sections[static_cast<std::size_t>(facet.section)].section,
-                             facet.nodes);
-}
-std::vector<double> side_weights(const model::Model3& m, const model::PressureLoad::Facet& facet) {
-  return model::face_weights(m, facet.type, facet.nodes);
-}
-
 template <int Dim>
 std::vector<std::pair<Dof, double>> traction_unit(const BuildContext<Dim>& c, const Load& load,
                                                   int direction) {
   std::vector<std::pair<Dof, double>> unit;
   for (const model::PressureLoad::Facet& facet : loaded_sides(c, load.on)) {
-    const std::vector<double> weights = side_weights(c.model(), facet);
+    const auto& section = c.model().sections[static_cast<std::size_t>(facet.section)].section;
+    const std::vector<double> weights =
+        model::side_weights(c.model(), section, facet.type, facet.nodes);
     for (std::size_t k = 0; k < facet.nodes.size(); ++k)
       unit.emplace_back(Dim * facet.nodes[k] + direction, weights[k]);
   }

@@ -27,8 +27,8 @@ CellNodes cell_nodes(const mesh::Mesh& mesh, const mesh::CellRef& ref) {
 }
 
 template <int Dim>
-SolidCoordinates<Dim> reference_of(const BasicModel<Dim>& model, std::span<const Index> nodes) {
-  SolidCoordinates<Dim> x(static_cast<Eigen::Index>(nodes.size()), Dim);
+solid::Coordinates<Dim> reference_of(const BasicModel<Dim>& model, std::span<const Index> nodes) {
+  solid::Coordinates<Dim> x(static_cast<Eigen::Index>(nodes.size()), Dim);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     x.row(static_cast<Eigen::Index>(k)) =
         model.reference[static_cast<std::size_t>(nodes[k])].transpose();
@@ -36,16 +36,16 @@ SolidCoordinates<Dim> reference_of(const BasicModel<Dim>& model, std::span<const
 }
 
 template <int Dim>
-SolidCoordinates<Dim> displacement_of(const Eigen::VectorXd& u, std::span<const Index> nodes) {
-  SolidCoordinates<Dim> d(static_cast<Eigen::Index>(nodes.size()), Dim);
+solid::Coordinates<Dim> displacement_of(const Eigen::VectorXd& u, std::span<const Index> nodes) {
+  solid::Coordinates<Dim> d(static_cast<Eigen::Index>(nodes.size()), Dim);
   for (std::size_t k = 0; k < nodes.size(); ++k)
     d.row(static_cast<Eigen::Index>(k)) = u.segment<Dim>(Dim * nodes[k]).transpose();
   return d;
 }
 
 template <int Dim>
-SolidSection<Dim> section_on(const BasicBulkSection<Dim>& section, cell::CellType type) {
-  SolidSection<Dim> own = section.section;
+solid::Section<Dim> section_on(const BasicBulkSection<Dim>& section, cell::CellType type) {
+  solid::Section<Dim> own = section.section;
   if (!solid::unsupported(own, type).empty()) own.formulation = {};
   return own;
 }
@@ -56,7 +56,7 @@ void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& se
                    const material::Memory& memory, bool with_tangent, BasicBulkBlock<Dim>& out) {
   const CellNodes cell = cell_nodes(model.mesh, ref);
   set_dofs(cell.nodes, out);
-  const auto evaluate = [&](const SolidSection<Dim>& own) {
+  const auto evaluate = [&](const solid::Section<Dim>& own) {
     solid::evaluate(own, cell.type, reference_of(model, cell.nodes),
                     displacement_of<Dim>(u, cell.nodes), with_tangent, out.result, memory);
   };
@@ -77,46 +77,32 @@ template <int Dim>
 void pressure_block(const BasicModel<Dim>& model, const PressureLoad::Facet& facet,
                     const Eigen::VectorXd& u, double pressure, BasicBulkBlock<Dim>& out) {
   set_dofs(std::span<const Index>(facet.nodes), out);
-  const SolidSection<Dim>& section =
+  const solid::Section<Dim>& section =
       model.sections[static_cast<std::size_t>(facet.section)].section;
-  const auto add = [&](const auto& result) {
-    out.result.force = result.force;
-    out.result.tangent = result.tangent;
-  };
-  if constexpr (Dim == 2)
-    add(solid::edge_pressure(section, reference_of(model, facet.nodes),
-                             displacement_of<2>(u, facet.nodes), pressure));
-  else
-    add(solid::face_pressure(section, facet.type, reference_of(model, facet.nodes),
-                             displacement_of<3>(u, facet.nodes), pressure));
+  const auto side = solid::side_pressure(section, facet.type, reference_of(model, facet.nodes),
+                                         displacement_of<Dim>(u, facet.nodes), pressure);
+  out.result.force = side.force;
+  out.result.tangent = side.tangent;
 }
 
 template <int Dim>
-std::vector<double> cell_weights(const BasicModel<Dim>& model,
-                                 [[maybe_unused]] const BasicBulkSection<Dim>& section,
+std::vector<double> cell_weights(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
                                  const mesh::CellRef& ref) {
   const CellNodes cell = cell_nodes(model.mesh, ref);
-  if constexpr (Dim == 2)
-    return to_vector(
-        solid::volume_weights(section.section, cell.type, reference_of(model, cell.nodes)));
-  else
-    return to_vector(solid::volume_weights(cell.type, reference_of(model, cell.nodes)));
+  return to_vector(
+      solid::volume_weights(section.section, cell.type, reference_of(model, cell.nodes)));
 }
 
-std::vector<double> edge_weights(const Model& model, const solid::Section& section,
-                                 std::span<const Index> nodes) {
-  return to_vector(solid::edge_weights(section, reference_of(model, nodes)));
-}
-
-std::vector<double> face_weights(const Model3& model, cell::CellType type,
-                                 std::span<const Index> nodes) {
-  return to_vector(solid::face_weights(type, reference_of(model, nodes)));
+template <int Dim>
+std::vector<double> side_weights(const BasicModel<Dim>& model, const solid::Section<Dim>& section,
+                                 cell::CellType type, std::span<const Index> nodes) {
+  return to_vector(solid::side_weights(section, type, reference_of(model, nodes)));
 }
 
 template <int Dim>
 double smallest_jacobian(const BasicModel<Dim>& model, const mesh::CellRef& ref) {
   const CellNodes cell = cell_nodes(model.mesh, ref);
-  return solid::smallest_jacobian(cell.type, reference_of(model, cell.nodes));
+  return solid::smallest_jacobian<Dim>(cell.type, reference_of(model, cell.nodes));
 }
 
 template <int Dim>
@@ -136,12 +122,12 @@ template void set_dofs(std::span<const Index>, BulkBlock&);
 template void set_dofs(std::span<const Index>, BulkBlock3&);
 template DofSpace dof_space(const Model&);
 template DofSpace3 dof_space(const Model3&);
-template SolidCoordinates<2> reference_of(const Model&, std::span<const Index>);
-template SolidCoordinates<3> reference_of(const Model3&, std::span<const Index>);
-template SolidCoordinates<2> displacement_of<2>(const Eigen::VectorXd&, std::span<const Index>);
-template SolidCoordinates<3> displacement_of<3>(const Eigen::VectorXd&, std::span<const Index>);
-template SolidSection<2> section_on(const BulkSection&, cell::CellType);
-template SolidSection<3> section_on(const BulkSection3&, cell::CellType);
+template solid::Coordinates<2> reference_of(const Model&, std::span<const Index>);
+template solid::Coordinates<3> reference_of(const Model3&, std::span<const Index>);
+template solid::Coordinates<2> displacement_of<2>(const Eigen::VectorXd&, std::span<const Index>);
+template solid::Coordinates<3> displacement_of<3>(const Eigen::VectorXd&, std::span<const Index>);
+template solid::Section<2> section_on(const BulkSection&, cell::CellType);
+template solid::Section<3> section_on(const BulkSection3&, cell::CellType);
 template void evaluate_cell(const Model&, const BulkSection&, const mesh::CellRef&,
                             const Eigen::VectorXd&, const material::Memory&, bool, BulkBlock&);
 template void evaluate_cell(const Model3&, const BulkSection3&, const mesh::CellRef&,
@@ -152,6 +138,10 @@ template void pressure_block(const Model3&, const PressureLoad::Facet&, const Ei
                              double, BulkBlock3&);
 template std::vector<double> cell_weights(const Model&, const BulkSection&, const mesh::CellRef&);
 template std::vector<double> cell_weights(const Model3&, const BulkSection3&, const mesh::CellRef&);
+template std::vector<double> side_weights(const Model&, const solid::Section<2>&, cell::CellType,
+                                          std::span<const Index>);
+template std::vector<double> side_weights(const Model3&, const solid::Section<3>&, cell::CellType,
+                                          std::span<const Index>);
 template double smallest_jacobian(const Model&, const mesh::CellRef&);
 template double smallest_jacobian(const Model3&, const mesh::CellRef&);
 

@@ -14,14 +14,14 @@ struct BasicBulkBlock {
   bool ok = true;
   std::string message;
   int dof_count = 0;
-  std::array<Dof, Dim * BulkTraits<Dim>::max_nodes> dofs{};
-  typename BulkTraits<Dim>::Result result;
+  std::array<Dof, Dim * solid::max_nodes<Dim>> dofs{};
+  solid::ElementResult<Dim> result;
 };
 
 /// What a cell of a type has of its section: cells without the section's formulation are plain.
 template <int Dim>
-[[nodiscard]] SolidSection<Dim> section_on(const BasicBulkSection<Dim>& section,
-                                           cell::CellType type);
+[[nodiscard]] solid::Section<Dim> section_on(const BasicBulkSection<Dim>& section,
+                                             cell::CellType type);
 
 /// The dofs of the nodes of a cell or facet.
 template <int Dim>
@@ -44,20 +44,20 @@ template <int Dim>
                                                const BasicBulkSection<Dim>& section,
                                                const mesh::CellRef& cell);
 /// Share of each node in a unit traction over an edge (2D) or a face (3D).
-[[nodiscard]] std::vector<double> edge_weights(const Model& model, const solid::Section& section,
-                                               std::span<const Index> nodes);
-[[nodiscard]] std::vector<double> face_weights(const Model3& model, cell::CellType type,
-                                               std::span<const Index> nodes);
+template <int Dim>
+[[nodiscard]] std::vector<double> side_weights(const BasicModel<Dim>& model,
+                                               const solid::Section<Dim>& section,
+                                               cell::CellType type, std::span<const Index> nodes);
 template <int Dim>
 [[nodiscard]] double smallest_jacobian(const BasicModel<Dim>& model, const mesh::CellRef& cell);
 
 /// Reference coordinates and displacements of some nodes.
 template <int Dim>
-[[nodiscard]] SolidCoordinates<Dim> reference_of(const BasicModel<Dim>& model,
-                                                 std::span<const Index> nodes);
+[[nodiscard]] solid::Coordinates<Dim> reference_of(const BasicModel<Dim>& model,
+                                                   std::span<const Index> nodes);
 template <int Dim>
-[[nodiscard]] SolidCoordinates<Dim> displacement_of(const Eigen::VectorXd& u,
-                                                    std::span<const Index> nodes);
+[[nodiscard]] solid::Coordinates<Dim> displacement_of(const Eigen::VectorXd& u,
+                                                      std::span<const Index> nodes);
 /// Nodes and type of a cell.
 struct CellNodes {
   cell::CellType type;

@@ -12,7 +12,7 @@ namespace osculate::model {
 /// there.
 template <int Dim>
 struct BasicNodalFields {
-  using Tensor = std::array<double, BulkTraits<Dim>::tensor>;  ///< xx, yy, zz, xy (3D: yz, xz)
+  using Tensor = std::array<double, solid::components<Dim>>;  ///< xx, yy, zz, xy (3D: yz, xz)
   std::vector<Vec<Dim>> displacement, reaction;
   std::vector<Tensor> stress;  ///< Cauchy
   std::vector<Tensor> strain;  ///< small or Green-Lagrange, half the shear angles

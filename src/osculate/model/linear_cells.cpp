@@ -17,10 +17,7 @@ bool slides_freely(const BasicBulkSection<Dim>& section, Eigen::Index axis) {
 /// Whether the product with the stored matrix has the digits of its forces.
 template <int Dim>
 bool keeps_digits(const BasicBulkSection<Dim>& section) {
-  if constexpr (Dim == 2)
-    return true;
-  else
-    return section.section.formulation != solid::VolumeFormulation::solid_shell;
+  return section.section.formulation != solid::Formulation::solid_shell;
 }
 
 }  // namespace
@@ -75,8 +72,7 @@ void LinearCells<Dim>::force(std::size_t number, const BasicModel<Dim>& model,
   }
   set_dofs<Dim>(cell_nodes(model.mesh, cell).nodes, out);
   out.ok = true;
-  using Displacement =
-      Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Dim * BulkTraits<Dim>::max_nodes, 1>;
+  using Displacement = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Dim * solid::max_nodes<Dim>, 1>;
   Displacement along(out.dof_count);
   const auto value = [&](int d) { return u[out.dofs[static_cast<std::size_t>(d)]]; };
   for (int axis = 0; axis < Dim; ++axis) {

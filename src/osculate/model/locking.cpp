@@ -13,9 +13,10 @@ namespace osculate::model {
 namespace {
 
 /// The same section with another formulation, or as it is where that is not made for its cells.
-template <class Section, class Formulation>
-Section with(Section section, Formulation formulation, cell::CellType type) {
-  Section other = section;
+template <int Dim>
+solid::Section<Dim> with(const solid::Section<Dim>& section, solid::Formulation formulation,
+                         cell::CellType type) {
+  solid::Section<Dim> other = section;
   other.formulation = formulation;
   return solid::unsupported(other, type).empty() ? other : section;
 }
@@ -27,8 +28,8 @@ double poisson_of(const material::Law& law) { return material::unloaded(law).poi
 template <int Dim>
 void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
                      std::vector<Locking>& found) {
-  using Section = SolidSection<Dim>;
-  using Formulation = decltype(Section::formulation);
+  using Section = solid::Section<Dim>;
+  using solid::Formulation;
   constexpr cell::CellType wanted = Dim == 2 ? cell::CellType::quad4 : cell::CellType::hex8;
   found.resize(model.sections.size());
   CellMemory memory;
@@ -47,8 +48,8 @@ void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
       const CellNodes cell = cell_nodes(model.mesh, ref);
       memory = memory_after(memory, section, cell.type);
       if (full.formulation != Formulation::full || cell.type != wanted) continue;
-      const SolidCoordinates<Dim> reference = reference_of(model, cell.nodes),
-                                  moved = displacement_of<Dim>(state.u, cell.nodes);
+      const solid::Coordinates<Dim> reference = reference_of(model, cell.nodes),
+                                    moved = displacement_of<Dim>(state.u, cell.nodes);
       const auto energy_in = [&](const Section& of) {
         return solid::cell_energy(of, cell.type, reference, moved, memory.of(state.memory));
       };
@@ -57,7 +58,7 @@ void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
       const double energy = plain.stored + plain.dissipated;
       if (!std::isfinite(energy)) continue;
       sum.floor += solid::strain_energy(full, cell.type, reference,
-                                        SolidCoordinates<Dim>(visible * reference));
+                                        solid::Coordinates<Dim>(visible * reference));
       sum.energy += energy;
       sum.enhanced += sum.flows ? energy : std::min(energy_in(enhanced).stored, energy);
       sum.bbar += std::min(mean.stored + mean.dissipated, energy);

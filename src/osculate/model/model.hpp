@@ -6,10 +6,10 @@
 
 #include "osculate/geometry/surface_catalogue.hpp"
 #include "osculate/mesh/mesh.hpp"
-#include "osculate/model/bulk_traits.hpp"
 #include "osculate/model/dof_space.hpp"
 #include "osculate/model/loads.hpp"
 #include "osculate/pairing/pair.hpp"
+#include "osculate/solid/element.hpp"
 
 namespace osculate::model {
 
@@ -17,7 +17,7 @@ namespace osculate::model {
 template <int Dim>
 struct BasicBulkSection {
   std::string name;  ///< set it was given on
-  SolidSection<Dim> section;
+  solid::Section<Dim> section;
   std::vector<mesh::CellRef> cells;
   std::string material{};  ///< its name
 };

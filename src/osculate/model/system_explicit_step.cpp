@@ -17,7 +17,7 @@ constexpr int known_for = 100;  ///< time steps until what changes is measured a
 
 template <int Dim>
 double BasicSystem<Dim>::Impl::Explicit::cell_frequency(std::size_t cell, BulkBlock& block) {
-  constexpr int most = Dim * BulkTraits<Dim>::max_nodes;
+  constexpr int most = Dim * solid::max_nodes<Dim>;
   system.bulk.evaluate(cell, motion.position, now.memory, {}, 0, true, block);
   if (!block.ok) return 0;  // the next time step says so
   const Eigen::MatrixXd& mass_of = system.motion->inertia.cells()[cell].mass;

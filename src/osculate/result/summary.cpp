@@ -134,12 +134,18 @@ const char* assumption_name(solid::Assumption assumption) {
   return "";
 }
 
-template <class Formulation>
-std::string formulation_name(Formulation formulation) {
-  if constexpr (std::is_same_v<Formulation, solid::VolumeFormulation>)
-    if (formulation == Formulation::solid_shell) return "solid shell";
-  if (formulation == Formulation::bbar) return "mean dilatation";
-  return formulation == Formulation::enhanced ? "enhanced strains" : "full integration";
+const char* formulation_name(solid::Formulation formulation) {
+  switch (formulation) {
+    case solid::Formulation::full:
+      return "full integration";
+    case solid::Formulation::bbar:
+      return "mean dilatation";
+    case solid::Formulation::enhanced:
+      return "enhanced strains";
+    case solid::Formulation::solid_shell:
+      return "solid shell";
+  }
+  return "";
 }
 
 /// Cells with their formulations, assumption and kinematics.

@@ -41,11 +41,11 @@ TEST(BuildSpace, SectionsAndRigidBodies) {
                 "or make it the "
                 "master"}));
   ASSERT_EQ(m.sections.size(), 2u);
-  EXPECT_EQ(m.sections[0].section.formulation, solid::VolumeFormulation::enhanced);
+  EXPECT_EQ(m.sections[0].section.formulation, solid::Formulation::enhanced);
   EXPECT_EQ(m.sections[0].section.kinematics, solid::Kinematics::finite);
   EXPECT_TRUE(std::holds_alternative<material::NeoHooke>(m.sections[0].section.law));
   EXPECT_EQ(model::section_on(m.sections[1], cell::CellType::hex20).formulation,
-            solid::VolumeFormulation::full);
+            solid::Formulation::full);
   EXPECT_EQ(m.sections[0].cells.size(), 4u);
   ASSERT_EQ(m.rigid.size(), 2u);
   EXPECT_EQ(m.rigid[0].reference, Vec3(1, 1, -0.5));
@@ -395,7 +395,7 @@ TEST(BuildSpace, SolidShells) {
       "  - {on: b, material: m, element: solid_shell}\n"
       "steps: [{name: s, increments: 1, prescribe: [{on: b.left, ux: 0, uy: 0}]}]\n";
   EXPECT_EQ(built_from(model).model.sections[0].section.formulation,
-            solid::VolumeFormulation::solid_shell);
+            solid::Formulation::solid_shell);
   EXPECT_EQ(built_from(edited(model, "[2, 2, 1]", "[2, 2, 1], type: shell18"))
                 .model.sections[0]
                 .cells.size(),

@@ -45,7 +45,7 @@ TEST(Formulation, OtherCellsOfTheSectionArePlain) {
 }
 
 TEST(Formulation, InSpaceLikewise) {
-  using enum solid::VolumeFormulation;
+  using enum solid::Formulation;
   const std::string space =
       "osculate: 1\n"
       "mesh: {generate: {b: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [1, 1, 1]}}}}\n"

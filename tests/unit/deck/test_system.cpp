@@ -114,7 +114,8 @@ TEST(BuildPlane, FormsAndLaws) {
     EXPECT_EQ(m.sections[0].section.kinematics, solid::Kinematics::finite);
     EXPECT_EQ(m.pairs[0].definition.area.axisymmetric, element == "axisymmetric");
   }
-  const solid::Section small = with_tool(circle, usual, "linear_elastic").model.sections[0].section;
+  const solid::Section<2> small =
+      with_tool(circle, usual, "linear_elastic").model.sections[0].section;
   EXPECT_EQ(small.kinematics, solid::Kinematics::small);
   EXPECT_TRUE(std::holds_alternative<material::LinearElastic>(small.law));
 }

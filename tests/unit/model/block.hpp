@@ -52,18 +52,18 @@ inline std::string with_axis(const std::string& name, int axis) {
 }
 
 template <int Dim>
-SolidSection<Dim> section_of(solid::Kinematics kinematics, const material::Law& law) {
-  SolidSection<Dim> section;
+solid::Section<Dim> section_of(solid::Kinematics kinematics, const material::Law& law) {
+  solid::Section<Dim> section;
   section.kinematics = kinematics;
   section.law = law;
   return section;
 }
 template <int Dim>
-SolidSection<Dim> elastic(double young, double poisson = 0.3) {
+solid::Section<Dim> elastic(double young, double poisson = 0.3) {
   return section_of<Dim>(solid::Kinematics::small, material::LinearElastic{young, poisson});
 }
 template <int Dim>
-SolidSection<Dim> rubber(double young, double poisson = 0.3) {
+solid::Section<Dim> rubber(double young, double poisson = 0.3) {
   return section_of<Dim>(solid::Kinematics::finite, material::NeoHooke{young, poisson});
 }
 
@@ -123,7 +123,7 @@ void take_over(BasicModel<Dim>& m, std::size_t first) {
 
 /// Appends a block as one section of the same name.
 template <int Dim>
-void add_block(BasicModel<Dim>& m, const BlockSpec& b, const SolidSection<Dim>& section,
+void add_block(BasicModel<Dim>& m, const BlockSpec& b, const solid::Section<Dim>& section,
                const std::string& name = "block") {
   const std::size_t first = m.mesh.nodes.size();
   append(m.mesh, b, name, Vec<Dim>{});
@@ -134,7 +134,7 @@ void add_block(BasicModel<Dim>& m, const BlockSpec& b, const SolidSection<Dim>& 
 
 /// A block and one step.
 template <int Dim>
-BasicModel<Dim> block(const BlockSpec& b, const SolidSection<Dim>& section) {
+BasicModel<Dim> block(const BlockSpec& b, const solid::Section<Dim>& section) {
   BasicModel<Dim> m;
   add_block(m, b, section);
   m.steps.emplace_back();
@@ -202,11 +202,8 @@ void add_traction(BasicModel<Dim>& m, const std::string& set, const Vec<Dim>& tr
   DeadLoad load;
   load.ramp = {0, 1, {}};
   for (const auto& side : sides_of(m, set)) {
-    std::vector<double> weights;
-    if constexpr (Dim == 2)
-      weights = edge_weights(m, m.sections[0].section, side.nodes());
-    else
-      weights = face_weights(m, side.type, side.nodes());
+    const std::vector<double> weights =
+        side_weights(m, m.sections[0].section, side.type, side.nodes());
     for (std::size_t k = 0; k < weights.size(); ++k)
       for (int d = 0; d < Dim; ++d)
         load.unit.emplace_back(Dim * side.nodes()[k] + d, weights[k] * traction[d]);

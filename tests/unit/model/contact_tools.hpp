@@ -14,10 +14,10 @@ struct PairChoices {
   double eps_n = 500, eps_t = 300;
 };
 
-inline pairing::AreaRule area_rule(const solid::Section& section) {
+inline pairing::AreaRule area_rule(const solid::Section<2>& section) {
   return {section.thickness, section.assumption == solid::Assumption::axisymmetric};
 }
-inline pairing::AreaRule area_rule(const solid::VolumeSection&) { return {}; }
+inline pairing::AreaRule area_rule(const solid::Section<3>&) { return {}; }
 
 template <int Dim>
 void add_pair(BasicModel<Dim>& m, pairing::Boundary<Dim> master, pairing::Boundary<Dim> slave,
@@ -186,7 +186,7 @@ inline pairing::FacetSurface add_slaves(Model3& m) { return add_dome(m, true); }
 
 /// A block under the tool, held at its bottom.
 template <int Dim>
-BasicModel<Dim> block_under(const Tool<Dim>& tool, const SolidSection<Dim>& section,
+BasicModel<Dim> block_under(const Tool<Dim>& tool, const solid::Section<Dim>& section,
                             const PairChoices& choices = {},
                             const std::array<int, 3>& n = {Dim == 2 ? 4 : 2, 2, 2}) {
   BasicModel<Dim> m = block<Dim>({{0, 0, 0}, {2, 1, 1}, n, 0.2}, section);

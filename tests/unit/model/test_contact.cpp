@@ -115,8 +115,8 @@ std::vector<Floor<3>> floors(Vec3) {
 }
 
 template <int Dim>
-SolidSection<Dim> uniaxial() {
-  SolidSection<Dim> section = elastic<Dim>(young);
+solid::Section<Dim> uniaxial() {
+  solid::Section<Dim> section = elastic<Dim>(young);
   if constexpr (Dim == 2) section.assumption = solid::Assumption::plane_stress;
   return section;
 }

@@ -22,7 +22,7 @@ solve::StateCounts counts_of(Probe<Dim>& probe) {
 }
 
 template <int Dim>
-void check_free_tool(const Tool<Dim>& tool, const SolidSection<Dim>& section,
+void check_free_tool(const Tool<Dim>& tool, const solid::Section<Dim>& section,
                      const PairChoices& choices) {
   SCOPED_TRACE(tool.name + " mu " + std::to_string(choices.mu));
   BasicModel<Dim> m = block_under(tool, section, choices);
@@ -40,7 +40,7 @@ void check_free_tool(const Tool<Dim>& tool, const SolidSection<Dim>& section,
 TYPED_TEST(ContactTangentOf, AFreeRigidMaster) {
   constexpr int Dim = TypeParam::value;
   for (const Tool<Dim>& tool : tools<Dim>())
-    for (const SolidSection<Dim>& section : {elastic<Dim>(young), rubber<Dim>(young)})
+    for (const solid::Section<Dim>& section : {elastic<Dim>(young), rubber<Dim>(young)})
       for (const contact::ResidualForm form :
            {contact::ResidualForm::surface, contact::ResidualForm::full})
         for (const double mu : {0.0, 0.003, 0.3, 5.0})
@@ -80,8 +80,8 @@ TYPED_TEST(ContactTangentOf, APrescribedRotation) {
 }
 
 template <int Dim>
-std::vector<SolidSection<Dim>> all_sections() {
-  std::vector<SolidSection<Dim>> sections{rubber<Dim>(young)};
+std::vector<solid::Section<Dim>> all_sections() {
+  std::vector<solid::Section<Dim>> sections{rubber<Dim>(young)};
   if constexpr (Dim == 2)
     for (const auto assumption :
          {solid::Assumption::plane_stress, solid::Assumption::axisymmetric}) {
@@ -94,7 +94,7 @@ std::vector<SolidSection<Dim>> all_sections() {
 TYPED_TEST(ContactTangentOf, FollowerPressureBesideContact) {
   constexpr int Dim = TypeParam::value;
   const Tool<Dim> tool = tools<Dim>()[0];
-  for (const SolidSection<Dim>& section : all_sections<Dim>()) {
+  for (const solid::Section<Dim>& section : all_sections<Dim>()) {
     BasicModel<Dim> m = block_under(tool, section, {0, pairing::Weight::current_area});
     drive_body(m, either<Dim>({0}, {0, 0}));
     drive_body(m, either<Dim>({0}, {0, 0, 0}), Dim);

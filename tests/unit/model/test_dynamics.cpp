@@ -52,7 +52,7 @@ Numbers velocities() {
 template <int Dim>
 BasicModel<Dim> thrown(const Throw& t) {
   const double young = 1000, poisson = 0.3, density = 0.5;
-  const SolidSection<Dim> section =
+  const solid::Section<Dim> section =
       t.finite
           ? section_of<Dim>(solid::Kinematics::finite, material::NeoHooke{young, poisson, density})
           : section_of<Dim>(solid::Kinematics::small,

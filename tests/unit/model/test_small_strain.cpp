@@ -20,7 +20,7 @@ Mat<Dim, Dim> turned_by(double angle) {
 
 /// Every node of the block moved by F.
 template <int Dim>
-SmallStrain measured(const Mat<Dim, Dim>& f, const SolidSection<Dim>& section) {
+SmallStrain measured(const Mat<Dim, Dim>& f, const solid::Section<Dim>& section) {
   const auto m = block<Dim>({}, section);
   Eigen::VectorXd u(Dim * static_cast<Eigen::Index>(m.reference.size()));
   for (std::size_t n = 0; n < m.reference.size(); ++n)

@@ -18,7 +18,7 @@ TYPED_TEST_SUITE(SystemOf, Dimensions, DimensionNames);
 /// stress across it.
 template <int Dim>
 BasicModel<Dim> supported_block() {
-  SolidSection<Dim> section = elastic<Dim>(young);
+  solid::Section<Dim> section = elastic<Dim>(young);
   if constexpr (Dim == 2) {
     section.assumption = solid::Assumption::plane_stress;
     section.thickness = thickness;
@@ -108,7 +108,7 @@ TYPED_TEST(SystemOf, PressureTractionAndBodyForceAreCarriedByTheSupport) {
 
 /// A block that is held at its bottom and whose top is glued to a rigid body.
 template <int Dim>
-BasicModel<Dim> block_with_tool(const SolidSection<Dim>& section) {
+BasicModel<Dim> block_with_tool(const solid::Section<Dim>& section) {
   BasicModel<Dim> m = block<Dim>({{0, 0, 0}, {2, 1, 1.5}, {2, 2, 2}, 0.2}, section);
   add_rigid<Dim>(m, either<Dim>(Vec3(0.7, 0.4, 2)), nodes_of(m, "block.top"));
   hold(m, "block.bottom");
@@ -122,7 +122,7 @@ void add_tool_load(BasicModel<Dim>& m) {
 
 TYPED_TEST(SystemOf, TangentIsTheDerivativeOfTheResidual) {
   constexpr int Dim = TypeParam::value;
-  for (const SolidSection<Dim>& section : {elastic<Dim>(young), rubber<Dim>(young)})
+  for (const solid::Section<Dim>& section : {elastic<Dim>(young), rubber<Dim>(young)})
     for (const bool turned : {false, true}) {
       SCOPED_TRACE(turned);
       BasicModel<Dim> m = block_with_tool<Dim>(section);
@@ -251,7 +251,7 @@ TYPED_TEST(SystemOf, FollowerPressureTurnsWithItsSide) {
 }
 
 TEST(System, AxisymmetricPressureActsOnTheWholeRing) {
-  solid::Section section = elastic<2>(100);
+  solid::Section<2> section = elastic<2>(100);
   section.assumption = solid::Assumption::axisymmetric;
   Model m = block<2>({{1, 0, 0}, {2, 0, 1}, {3, 1, 2}}, section);
   prescribe(m, nodes_of(m, "block.bottom"), 1, 0);
@@ -264,7 +264,7 @@ TEST(System, AxisymmetricPressureActsOnTheWholeRing) {
 
 TYPED_TEST(SystemOf, EquationsHoldAndDoNoWork) {
   constexpr int Dim = TypeParam::value;
-  SolidSection<Dim> section = elastic<Dim>(100);
+  solid::Section<Dim> section = elastic<Dim>(100);
   if constexpr (Dim == 2) section.assumption = solid::Assumption::plane_stress;
   BasicModel<Dim> m = block<Dim>({{0, 0, 0}, {2, 1, 1}, {4, 2, 2}}, section);
   const Index first = node_at(m, {0, 0, 1});
@@ -299,7 +299,7 @@ TYPED_TEST(SystemOf, EquationsHoldAndDoNoWork) {
 TYPED_TEST(SystemOf, ABodyCarriedAlongConverges) {
   constexpr int Dim = TypeParam::value;
   const Vec<Dim> way = either<Dim>(Vec3(10, -2, 3));
-  for (const SolidSection<Dim>& section : {elastic<Dim>(2.1e5), rubber<Dim>(2.1e5)}) {
+  for (const solid::Section<Dim>& section : {elastic<Dim>(2.1e5), rubber<Dim>(2.1e5)}) {
     BasicModel<Dim> m = block<Dim>({{0, 0, 0}, {2, 1, 1}, {4, 2, 2}}, section);
     for (int d = 0; d < Dim; ++d) prescribe(m, nodes_of(m, "block.left"), d, way[d]);
     m.steps[0].increments = 3;

@@ -19,11 +19,11 @@ Eigen::VectorXd dense_solution(const DenseSystem& system, const Eigen::VectorXd&
 
 /// nx x ny quad4 cells; node (i, j) has the number i + j (nx + 1).
 struct BlockModel {
-  Section section;
+  Section<2> section;
   int nx, ny;
   std::vector<Vec2> nodes;
 
-  BlockModel(const Section& s, int columns, int rows,
+  BlockModel(const Section<2>& s, int columns, int rows,
              const std::function<Vec2(double, double)>& map)
       : section(s), nx(columns), ny(rows) {
     for (int j = 0; j <= ny; ++j)
@@ -35,15 +35,15 @@ struct BlockModel {
   [[nodiscard]] std::array<int, 4> cell(int i, int j) const {
     return {node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)};
   }
-  [[nodiscard]] Coordinates reference(const std::array<int, 4>& cell) const {
-    Coordinates x(4, 2);
+  [[nodiscard]] Coordinates<2> reference(const std::array<int, 4>& cell) const {
+    Coordinates<2> x(4, 2);
     for (std::size_t k = 0; k < 4; ++k)
       x.row(static_cast<Eigen::Index>(k)) = nodes[static_cast<std::size_t>(cell[k])];
     return x;
   }
-  [[nodiscard]] static Coordinates gather(const Eigen::VectorXd& u,
-                                          const std::array<int, 4>& cell) {
-    Coordinates at(4, 2);
+  [[nodiscard]] static Coordinates<2> gather(const Eigen::VectorXd& u,
+                                             const std::array<int, 4>& cell) {
+    Coordinates<2> at(4, 2);
     for (std::size_t k = 0; k < 4; ++k)
       at.row(static_cast<Eigen::Index>(k)) = u.segment<2>(2 * cell[k]);
     return at;
@@ -52,7 +52,7 @@ struct BlockModel {
   void assemble(const Eigen::VectorXd& u, Eigen::VectorXd& force, Eigen::MatrixXd& tangent) const {
     force.setZero(dofs());
     tangent.setZero(dofs(), dofs());
-    ElementResult r;
+    ElementResult<2> r;
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) {
         const std::array<int, 4> c = cell(i, j);

@@ -45,12 +45,10 @@ bool CellCase::plane_stress() const {
   return is_plane(*this) && plane(*this).section.assumption == Assumption::plane_stress;
 }
 bool CellCase::full() const {
-  return is_plane(*this) ? plane(*this).section.formulation == Formulation::full
-                         : space(*this).section.formulation == VolumeFormulation::full;
+  return std::visit([](const auto& c) { return c.section.formulation == Formulation::full; }, of);
 }
 bool CellCase::bbar() const {
-  return is_plane(*this) ? plane(*this).section.formulation == Formulation::bbar
-                         : space(*this).section.formulation == VolumeFormulation::bbar;
+  return std::visit([](const auto& c) { return c.section.formulation == Formulation::bbar; }, of);
 }
 
 CellCase CellCase::as_full() const {
@@ -109,14 +107,13 @@ Eigen::MatrixXd motion(const CellCase& c, double size, int seed) {
 
 CellResult answer(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
                   bool with_tangent, const material::Memory& memory) {
-  if (is_plane(c)) {
-    ElementResult r;
-    evaluate(plane(c).section, c.type(), x, u, with_tangent, r, memory);
-    return {r.status, r.force, r.tangent};
-  }
-  VolumeResult r;
-  evaluate(space(c).section, c.type(), x, u, with_tangent, r, memory);
-  return {r.status, r.force, r.tangent};
+  return std::visit(
+      [&](const auto& of) {
+        typename std::decay_t<decltype(of)>::Result r;
+        evaluate(of.section, of.type, x, u, with_tangent, r, memory);
+        return CellResult{r.status, r.force, r.tangent};
+      },
+      c.of);
 }
 
 CellResult evaluated(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
@@ -130,29 +127,32 @@ double stiffness_scale(const CellCase& c, const Eigen::MatrixXd& x) {
 }
 
 double energy(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
-  return is_plane(c) ? strain_energy(plane(c).section, c.type(), x, u)
-                     : strain_energy(space(c).section, c.type(), x, u);
+  return std::visit([&](const auto& of) { return strain_energy(of.section, of.type, x, u); }, c.of);
 }
 
 CellValues point_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
                         const material::Memory& memory) {
-  return is_plane(c) ? values_of_points(stress_at_points(plane(c).section, c.type(), x, u, memory))
-                     : values_of_points(stress_at_points(space(c).section, c.type(), x, u, memory));
+  return std::visit(
+      [&](const auto& of) {
+        return values_of_points(stress_at_points(of.section, of.type, x, u, memory));
+      },
+      c.of);
 }
 
 CellValues nodal_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
-  return is_plane(c) ? values_of_nodes(nodal_stress(plane(c).section, c.type(), x, u))
-                     : values_of_nodes(nodal_stress(space(c).section, c.type(), x, u));
+  return std::visit(
+      [&](const auto& of) { return values_of_nodes(nodal_stress(of.section, of.type, x, u)); },
+      c.of);
 }
 
 Eigen::VectorXd weights(const CellCase& c, const Eigen::MatrixXd& x) {
-  if (is_plane(c)) return volume_weights(plane(c).section, c.type(), x);
-  return volume_weights(c.type(), x);
+  return std::visit(
+      [&](const auto& of) -> Eigen::VectorXd { return volume_weights(of.section, of.type, x); },
+      c.of);
 }
 
 double least_jacobian(const CellCase& c, const Eigen::MatrixXd& x) {
-  return is_plane(c) ? smallest_jacobian(c.type(), Coordinates(x))
-                     : smallest_jacobian(c.type(), Coordinates3(x));
+  return is_plane(c) ? smallest_jacobian<2>(c.type(), x) : smallest_jacobian<3>(c.type(), x);
 }
 
 std::vector<Side> sides(const CellCase& c) {
@@ -177,14 +177,18 @@ std::vector<Side> sides(const CellCase& c) {
 
 CellResult pressure_on(const CellCase& side, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
                        double pressure) {
-  const auto result = [](const auto& r) { return CellResult{Status::ok, r.force, r.tangent}; };
-  return is_plane(side) ? result(edge_pressure(plane(side).section, x, u, pressure))
-                        : result(face_pressure(space(side).section, side.type(), x, u, pressure));
+  return std::visit(
+      [&](const auto& of) {
+        const auto r = side_pressure(of.section, of.type, x, u, pressure);
+        return CellResult{Status::ok, r.force, r.tangent};
+      },
+      side.of);
 }
 
 Eigen::VectorXd side_weights(const CellCase& side, const Eigen::MatrixXd& x) {
-  if (is_plane(side)) return edge_weights(plane(side).section, x);
-  return face_weights(side.type(), x);
+  return std::visit(
+      [&](const auto& of) -> Eigen::VectorXd { return side_weights(of.section, of.type, x); },
+      side.of);
 }
 
 Vec3 in_space(const Eigen::VectorXd& v) { return {v[0], v[1], v.size() == 3 ? v[2] : 0}; }

@@ -40,10 +40,10 @@ double noise(Eigen::Index i, Eigen::Index j, int seed) {
   return 2 * (x - std::floor(x)) - 1;
 }
 
-Coordinates sample_cell(cell::CellType type, double distortion, bool curved) {
+Coordinates<2> sample_cell(cell::CellType type, double distortion, bool curved) {
   const cell::CellInfo& info = cell::info(type);
   const double scale = info.corners == 3 ? 1.0 : 0.5;
-  Coordinates x(info.nodes, 2);
+  Coordinates<2> x(info.nodes, 2);
   for (int k = 0; k < info.nodes; ++k) {
     x.row(k) = scale * cell::area_node(type, k) + Vec2(3, 0.4);
     const bool moves = curved || k < info.corners;
@@ -58,10 +58,10 @@ Coordinates sample_cell(cell::CellType type, double distortion, bool curved) {
   return x;
 }
 
-Coordinates sample_displacement(cell::CellType type, double size, int seed) {
-  return Coordinates::NullaryExpr(cell::info(type).nodes, 2, [&](Eigen::Index k, Eigen::Index i) {
-    return size * noise(k, i, seed);
-  });
+Coordinates<2> sample_displacement(cell::CellType type, double size, int seed) {
+  return Coordinates<2>::NullaryExpr(
+      cell::info(type).nodes, 2,
+      [&](Eigen::Index k, Eigen::Index i) { return size * noise(k, i, seed); });
 }
 
 Eigen::VectorXd flat(const Eigen::MatrixXd& u) { return u.transpose().reshaped(); }

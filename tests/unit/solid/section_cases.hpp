@@ -40,9 +40,9 @@ constexpr std::array<cell::CellType, 5> area_types{cell::CellType::tri3, cell::C
                                                    cell::CellType::quad9};
 
 struct SectionCase {
-  using Places = Coordinates;
-  using Result = ElementResult;
-  Section section;
+  using Places = Coordinates<2>;
+  using Result = ElementResult<2>;
+  Section<2> section;
   cell::CellType type;
 
   [[nodiscard]] std::string name() const;
@@ -58,9 +58,9 @@ double noise(Eigen::Index i, Eigen::Index j, int seed = 0);
 
 /// A cell of size about 1 at radius about 3. Corners are displaced by `distortion`; nodes on edges
 /// stay in the middle unless `curved`.
-Coordinates sample_cell(cell::CellType type, double distortion, bool curved);
+Coordinates<2> sample_cell(cell::CellType type, double distortion, bool curved);
 
-Coordinates sample_displacement(cell::CellType type, double size, int seed = 1);
+Coordinates<2> sample_displacement(cell::CellType type, double size, int seed = 1);
 
 /// A row per node in one column, and back.
 Eigen::VectorXd flat(const Eigen::MatrixXd& u);

@@ -8,7 +8,6 @@
 #include "osculate/material/pointwise.hpp"
 #include "osculate/solid/element.hpp"
 #include "osculate/solid/finite_forces.hpp"
-#include "osculate/solid/volume.hpp"
 
 namespace osculate::solid {
 namespace {
@@ -18,15 +17,15 @@ const material::StVenantKirchhoff steel{100, 0.3, 0};
 
 /// A cell that is turned inside out is told of in both ways.
 TEST(FiniteForces, SayWhereACellIsInverted) {
-  Section section;
+  Section<2> section;
   section.kinematics = Kinematics::finite;
   section.law = rubber;
-  Coordinates x(4, 2), u(4, 2);
+  Coordinates<2> x(4, 2), u(4, 2);
   for (int i = 0; i < 4; ++i) x.row(i) = cell::area_node(cell::CellType::quad4, i);
   u.setZero();
   u.row(0) << 3, 3;
   for (const bool with_tangent : {false, true}) {
-    ElementResult out;
+    ElementResult<2> out;
     evaluate(section, cell::CellType::quad4, x, u, with_tangent, out);
     EXPECT_EQ(out.status, Status::inverted);
   }

@@ -84,15 +84,15 @@ TEST(VolumeInvariance, ForcesDoNotDependOnTheFirstCorner) {
       tipped{3, 2, 6, 7, 0, 1, 5, 4};
   for_each_volume([&](const VolumeCase& c) {
     if (c.type != cell::CellType::hex8) return;
-    const Coordinates3 x = sample_volume(c.type, 0.08, true), u = sample_motion(c.type, 0.04);
-    const VolumeResult a = evaluated(c, x, u);
+    const Coordinates<3> x = sample_volume(c.type, 0.08, true), u = sample_motion(c.type, 0.04);
+    const ElementResult<3> a = evaluated(c, x, u);
     for (const auto& order : {turned, tipped}) {
-      Coordinates3 xs(8, 3), us(8, 3);
+      Coordinates<3> xs(8, 3), us(8, 3);
       for (std::size_t k = 0; k < 8; ++k) {
         xs.row(static_cast<Eigen::Index>(k)) = x.row(order[k]);
         us.row(static_cast<Eigen::Index>(k)) = u.row(order[k]);
       }
-      const VolumeResult b = evaluated(c, xs, us);
+      const ElementResult<3> b = evaluated(c, xs, us);
       for (std::size_t k = 0; k < 8; ++k)
         EXPECT_LT((b.force.segment<3>(3 * static_cast<Eigen::Index>(k)) -
                    a.force.segment<3>(3 * order[k]))
@@ -105,8 +105,8 @@ TEST(VolumeInvariance, ForcesDoNotDependOnTheFirstCorner) {
 TEST(SectionInvariance, ForcesAreProportionalToThicknessAndModulus) {
   for_each_section([](const SectionCase& given) {
     SectionCase c = given;
-    const Coordinates x = sample_cell(c.type, 0.12, true), u = sample_displacement(c.type, 0.06);
-    const ElementVector before = evaluated(c, x, u).force;
+    const Coordinates<2> x = sample_cell(c.type, 0.12, true), u = sample_displacement(c.type, 0.06);
+    const ElementVector<2> before = evaluated(c, x, u).force;
     std::visit([](auto& law) { constants(law).young *= 4; }, c.section.law);
     c.section.thickness *= 2;
     const double factor = c.axisymmetric() ? 4 : 8;
@@ -128,12 +128,12 @@ TEST_P(Invariance, SaysInvertedWhenACellTurnsInsideOut) {
 }
 
 TEST(Status, SaysWhenTheMaterialHasNoAnswer) {
-  Section s{Assumption::plane_stress, Kinematics::finite, Formulation::full, 1,
-            material::StVenantKirchhoff{7, 0.3, 0}};
-  const Coordinates x = sample_cell(cell::CellType::quad4, 0, false);
+  Section<2> s{Assumption::plane_stress, Kinematics::finite, Formulation::full, 1,
+               material::StVenantKirchhoff{7, 0.3, 0}};
+  const Coordinates<2> x = sample_cell(cell::CellType::quad4, 0, false);
   for (const Formulation f : {Formulation::full, Formulation::enhanced}) {
     s.formulation = f;
-    ElementResult r;
+    ElementResult<2> r;
     evaluate(s, cell::CellType::quad4, x, x, true, r);  // twice as large: no thickness is left
     EXPECT_EQ(r.status, Status::material_failed);
     EXPECT_EQ(stress_at_points(s, cell::CellType::quad4, x, x).status, Status::material_failed);
@@ -168,9 +168,9 @@ void expect_reasons(SectionType s, cell::CellType linear, cell::CellType quadrat
 }
 
 TEST(Unsupported, NamesTheReasonInThePlane) {
-  expect_reasons(Section{}, cell::CellType::quad4, cell::CellType::quad8, cell::CellType::line2,
+  expect_reasons(Section<2>{}, cell::CellType::quad4, cell::CellType::quad8, cell::CellType::line2,
                  area_types, std::array{Formulation::bbar, Formulation::enhanced},
-                 [](Section& s, cell::CellType& type) {
+                 [](Section<2>& s, cell::CellType& type) {
                    if (s.formulation == Formulation::bbar)
                      s.assumption = Assumption::plane_stress;
                    else
@@ -179,9 +179,8 @@ TEST(Unsupported, NamesTheReasonInThePlane) {
 }
 
 TEST(Unsupported, NamesTheReasonInSpace) {
-  expect_reasons(VolumeSection{}, cell::CellType::hex8, cell::CellType::hex20,
-                 cell::CellType::quad4, volume_types,
-                 std::array{VolumeFormulation::bbar, VolumeFormulation::enhanced},
+  expect_reasons(Section<3>{}, cell::CellType::hex8, cell::CellType::hex20, cell::CellType::quad4,
+                 volume_types, std::array{Formulation::bbar, Formulation::enhanced},
                  [](auto&, cell::CellType& type) { type = cell::CellType::tet4; });
 }
 

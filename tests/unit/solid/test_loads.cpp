@@ -22,7 +22,7 @@ void for_each_side(Kind kind, const std::function<void(const CellCase&)>& visit)
   };
   for (const Kinematics k : {Kinematics::small, Kinematics::finite}) {
     for (const cell::CellType type : {tri3, tri6, quad4, quad8, quad9}) {
-      const VolumeCase c{{k, VolumeFormulation::full, law}, type};
+      const VolumeCase c{{k, Formulation::full, law}, type};
       if (kind == Kind::space) with_name({kind, c}, c.name());
     }
     for (const cell::CellType type : {line2, line3, line4})
@@ -115,11 +115,11 @@ TEST_P(Loads, SideWeightsSumToTheArea) {
 }
 
 TEST(PlaneLoads, PressurePushesIntoTheBodyOnTheRightOfTravel) {
-  const Section s{Assumption::plane_strain, Kinematics::small, Formulation::full, 1.7,
-                  material::NeoHooke{7, 0.3, 0}};
-  Coordinates x(2, 2);
+  const Section<2> s{Assumption::plane_strain, Kinematics::small, Formulation::full, 1.7,
+                     material::NeoHooke{7, 0.3, 0}};
+  Coordinates<2> x(2, 2);
   x << 0, 1, 2, 1;  // to the right: the body is below
-  const PressureResult r = edge_pressure(s, x, x * 0, 5);
+  const PressureResult<2> r = side_pressure(s, line2, x, x * 0, 5);
   EXPECT_LT((r.force - Vec<4>(0, -5 * 1.7, 0, -5 * 1.7)).norm(), 1e-14);
   EXPECT_EQ(r.tangent.norm(), 0.0);
 }

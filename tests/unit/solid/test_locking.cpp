@@ -6,19 +6,19 @@
 namespace osculate::solid::testing {
 namespace {
 
-Section plane(Assumption assumption, Formulation formulation, double young, double poisson) {
+Section<2> plane(Assumption assumption, Formulation formulation, double young, double poisson) {
   return {assumption, Kinematics::small, formulation, 1,
           material::LinearElastic{young, poisson, 0}};
 }
 
 /// Bending moment of one a x b cell whose corners have the displacements u = k x y of bending with
 /// curvature k.
-double moment_of_one_cell(const Section& s, double a, double b, double curvature) {
-  Coordinates x(4, 2), u(4, 2);
+double moment_of_one_cell(const Section<2>& s, double a, double b, double curvature) {
+  Coordinates<2> x(4, 2), u(4, 2);
   x << -a / 2, -b / 2, a / 2, -b / 2, a / 2, b / 2, -a / 2, b / 2;
   u.setZero();
   u.col(0) = curvature * x.col(0).cwiseProduct(x.col(1));
-  ElementResult r;
+  ElementResult<2> r;
   evaluate(s, cell::CellType::quad4, x, u, false, r);
   EXPECT_EQ(r.status, Status::ok);
   return (r.force[2] * x(1, 1) + r.force[4] * x(2, 1));
@@ -49,18 +49,18 @@ TEST(Locking, ModesOfVeryLongCellsAreFound) {
   for (const Assumption a :
        {Assumption::plane_strain, Assumption::plane_stress, Assumption::axisymmetric})
     for (const double aspect : {1e3, 1e6}) {
-      Coordinates x(4, 2), u(4, 2);
+      Coordinates<2> x(4, 2), u(4, 2);
       x << 1, 0, 1 + aspect, 0, 1 + aspect, 1, 1, 1;
-      u = Coordinates::NullaryExpr(
+      u = Coordinates<2>::NullaryExpr(
           4, 2, [](Eigen::Index k, Eigen::Index i) { return 1e-3 * noise(k, i); });
-      ElementResult r;
+      ElementResult<2> r;
       evaluate(plane(a, Formulation::enhanced, 5, 0.25), cell::CellType::quad4, x, u, true, r);
       EXPECT_EQ(r.status, Status::ok) << aspect;
     }
 }
 
 /// Deflection of a cantilever of one row of cells over that of Timoshenko's beam.
-double cantilever(Section s, int cells, double slant) {
+double cantilever(Section<2> s, int cells, double slant) {
   const double length = 10, height = 1, young = 1000, nu = 0.3, load = 1e-3;
   const BlockModel m(s, cells, 1, [&](double x, double y) {
     return Vec2(length * x + (x > 0 && x < 1 ? slant * (y - 0.5) : 0.0), height * (y - 0.5));
@@ -76,12 +76,12 @@ double cantilever(Section s, int cells, double slant) {
 }
 
 TEST(Locking, CantileverOfOneRowOfCells) {
-  const Section full = plane(Assumption::plane_stress, Formulation::full, 1000, 0.3);
-  const Section enhanced = plane(Assumption::plane_stress, Formulation::enhanced, 1000, 0.3);
+  const Section<2> full = plane(Assumption::plane_stress, Formulation::full, 1000, 0.3);
+  const Section<2> enhanced = plane(Assumption::plane_stress, Formulation::enhanced, 1000, 0.3);
   EXPECT_LT(cantilever(full, 10, 0), 0.7);
   EXPECT_NEAR(cantilever(enhanced, 10, 0), 1, 4e-3);
   EXPECT_NEAR(cantilever(enhanced, 40, 0), 1, 1e-3);
-  Section finite = enhanced;  // at a small load the same
+  Section<2> finite = enhanced;  // at a small load the same
   finite.kinematics = Kinematics::finite;
   for (const material::Law& law : {material::Law{material::StVenantKirchhoff{1000, 0.3, 0}},
                                    material::Law{material::NeoHooke{1000, 0.3, 0}}}) {
@@ -94,7 +94,7 @@ TEST(Locking, CantileverOfOneRowOfCells) {
 /// bring it, over that of the beam.
 double moment_of_arc(Formulation formulation, int cells, double angle) {
   const double length = 10, height = 0.1, young = 1000, radius = length / angle;
-  Section s = plane(Assumption::plane_stress, formulation, young, 0);
+  Section<2> s = plane(Assumption::plane_stress, formulation, young, 0);
   s.kinematics = Kinematics::finite;
   s.law = material::StVenantKirchhoff{young, 0, 0};
   const BlockModel m(s, cells, 1,
@@ -131,7 +131,7 @@ TEST(Locking, EnhancedStripBendsIntoACircularArc) {
 }
 
 /// Radial displacement of the bore of a thick cylinder under inner pressure over Lame's solution.
-double cylinder(const Section& s, int cells) {
+double cylinder(const Section<2>& s, int cells) {
   const double inner = 1, outer = 2, pressure = 1e-6;
   const bool ring = s.assumption == Assumption::axisymmetric;
   const double height = 1;
@@ -141,11 +141,13 @@ double cylinder(const Section& s, int cells) {
   });
   Eigen::VectorXd f = Eigen::VectorXd::Zero(m.dofs());
   for (int j = 0; j < m.ny; ++j) {
-    Coordinates edge(2, 2);  // downwards: the body, at larger radius, is on the left, so -pressure
+    Coordinates<2> edge(2,
+                        2);  // downwards: the body, at larger radius, is on the left, so -pressure
     edge.row(0) = m.nodes[static_cast<std::size_t>(m.node(0, j))];
     edge.row(1) = m.nodes[static_cast<std::size_t>(m.node(0, j + 1))];
-    const ElementVector load =
-        edge_pressure(s, edge, Coordinates::Zero(2, 2), pressure).force;  // body on the right
+    const ElementVector<2, max_side_nodes> load =
+        side_pressure(s, cell::CellType::line2, edge, Coordinates<2>::Zero(2, 2), pressure)
+            .force;  // body on the right
     f.segment<2>(2 * m.node(0, j)) += load.segment<2>(0);
     f.segment<2>(2 * m.node(0, j + 1)) += load.segment<2>(2);
   }
@@ -174,7 +176,7 @@ TEST(Locking, ThickCylinderIsNoStifferWhenIncompressible) {
     EXPECT_LT(cylinder(plane(a, Formulation::full, 1, 0.499999), 8), 0.1);
   }
   for (const Assumption a : {Assumption::plane_strain, Assumption::axisymmetric}) {
-    const Section enhanced = plane(a, Formulation::enhanced, 1, 0.499999);
+    const Section<2> enhanced = plane(a, Formulation::enhanced, 1, 0.499999);
     const double coarse = 1 - cylinder(enhanced, 8), fine = 1 - cylinder(enhanced, 16);
     EXPECT_LT(std::abs(fine), 6e-3);
     EXPECT_NEAR(std::log2(std::abs(coarse / fine)), 2, 0.2) << coarse << " " << fine;
@@ -183,8 +185,8 @@ TEST(Locking, ThickCylinderIsNoStifferWhenIncompressible) {
 
 TEST(Locking, FiniteKinematicsDoNotLockEither) {
   for (const Assumption a : {Assumption::plane_strain, Assumption::axisymmetric}) {
-    const Section small = plane(a, Formulation::bbar, 1, 0.4999);
-    Section finite = small;
+    const Section<2> small = plane(a, Formulation::bbar, 1, 0.4999);
+    Section<2> finite = small;
     finite.kinematics = Kinematics::finite;
     finite.law = material::NeoHooke{1, 0.4999, 0};
     EXPECT_NEAR(cylinder(finite, 4), cylinder(small, 4), 1e-4);
@@ -195,8 +197,8 @@ TEST(Locking, FiniteKinematicsDoNotLockEither) {
 
 // Rubber squeezed by 30 % between rough plates: it gives way to the sides.
 TEST(Locking, RubberBlockKeepsItsVolumeAtLargeStrain) {
-  Section s{Assumption::plane_strain, Kinematics::finite, Formulation::bbar, 1,
-            material::NeoHooke{1, 0.499, 0}};
+  Section<2> s{Assumption::plane_strain, Kinematics::finite, Formulation::bbar, 1,
+               material::NeoHooke{1, 0.499, 0}};
   const int n = 6;
   const BlockModel m(s, n, n, [](double x, double y) { return Vec2(x, y); });
   std::map<Eigen::Index, double> fixed;
@@ -217,7 +219,7 @@ TEST(Locking, RubberBlockKeepsItsVolumeAtLargeStrain) {
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i) {
         const auto c = m.cell(i, j);
-        const Coordinates x = m.reference(c) + BlockModel::gather(u, c);
+        const Coordinates<2> x = m.reference(c) + BlockModel::gather(u, c);
         const Vec2 d1 = (x.row(2) - x.row(0)).transpose(), d2 = (x.row(3) - x.row(1)).transpose();
         area += 0.5 * (d1.x() * d2.y() - d1.y() * d2.x());
       }

@@ -13,8 +13,8 @@ namespace osculate::solid::testing {
 namespace {
 
 /// Unit square, or its triangle x + y <= 1, with the nodes of the type.
-Coordinates plain_area(cell::CellType type) {
-  Coordinates x(cell::info(type).nodes, 2);
+Coordinates<2> plain_area(cell::CellType type) {
+  Coordinates<2> x(cell::info(type).nodes, 2);
   const bool quad = cell::info(type).corners == 4;
   for (int k = 0; k < x.rows(); ++k) {
     const Vec2 xi = cell::area_node(type, k);
@@ -26,9 +26,9 @@ Coordinates plain_area(cell::CellType type) {
 // The moments of the square and of the triangle up to the second order.
 TEST(Mass, OfAreaCellsHasTheirMoments) {
   for (const cell::CellType type : area_types) {
-    Section section;
+    Section<2> section;
     section.thickness = 2;
-    const Coordinates x = plain_area(type);
+    const Coordinates<2> x = plain_area(type);
     const NodeMass m = consistent_mass(section, type, x);
     const bool quad = cell::info(type).corners == 4;
     const double area = quad ? 1 : 0.5, first = quad ? 0.5 : 1.0 / 6,
@@ -44,7 +44,7 @@ TEST(Mass, OfAreaCellsHasTheirMoments) {
 
 // A ring: x is the radius, int 2 pi x dA over the unit square is pi.
 TEST(Mass, OfARingIsOfItsWholeCircumference) {
-  Section section;
+  Section<2> section;
   section.assumption = Assumption::axisymmetric;
   const NodeMass m =
       consistent_mass(section, cell::CellType::quad4, plain_area(cell::CellType::quad4));
@@ -54,9 +54,10 @@ TEST(Mass, OfARingIsOfItsWholeCircumference) {
 // int 1 dV of any cell is that of its weights; linear fields are integrated as with a finer rule.
 TEST(Mass, OfVolumeCellsIsThatOfTheirWeights) {
   for (const cell::CellType type : volume_types) {
-    const Coordinates3 x = sample_volume(type, 0.05, false);
-    const NodeMass m = consistent_mass(VolumeSection{}, type, x);
-    EXPECT_NEAR(m.sum(), volume_weights(type, x).sum(), 2e-15 * std::abs(m.sum()) + 1e-12);
+    const Coordinates<3> x = sample_volume(type, 0.05, false);
+    const NodeMass m = consistent_mass(Section<3>{}, type, x);
+    EXPECT_NEAR(m.sum(), volume_weights(Section<3>{}, type, x).sum(),
+                2e-15 * std::abs(m.sum()) + 1e-12);
     EXPECT_LT((m - m.transpose()).norm(), 1e-15);
     EXPECT_GT(m.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff(), 0);
   }
@@ -64,8 +65,8 @@ TEST(Mass, OfVolumeCellsIsThatOfTheirWeights) {
 
 TEST(Mass, LumpedKeepsTheMassAndIsPositive) {
   for (const cell::CellType type : volume_types) {
-    const Coordinates3 x = sample_volume(type, 0.05, false);
-    const NodeMass m = consistent_mass(VolumeSection{}, type, x), lumped = lumped_mass(m);
+    const Coordinates<3> x = sample_volume(type, 0.05, false);
+    const NodeMass m = consistent_mass(Section<3>{}, type, x), lumped = lumped_mass(m);
     EXPECT_NEAR(lumped.sum(), m.sum(), 1e-14 * m.sum());
     EXPECT_GT(lumped.diagonal().minCoeff(), 0);
     EXPECT_EQ((lumped - NodeMass(lumped.diagonal().asDiagonal())).norm(), 0.0);
@@ -80,7 +81,7 @@ TEST(Mass, LumpedOnesHaveTheSameBitsWhereverTheyAreComputed) {
   };
   const auto memory = std::make_unique<Place>();
   for (const cell::CellType type : area_types) {
-    const NodeMass m = consistent_mass(Section{}, type, plain_area(type));
+    const NodeMass m = consistent_mass(Section<2>{}, type, plain_area(type));
     std::vector<Eigen::VectorXd> diagonals;
     for (std::size_t k = 0; k < places; ++k) {
       auto* const placed = new (memory->bytes + 8 * k) NodeMass(m);

@@ -12,10 +12,10 @@ constexpr double thickness = 0.2;
 
 TEST(SolidShell, ForcesAndMomentsBalance) {
   for_each_shell([](const VolumeCase& c) {
-    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 u = sample_motion(c.type, 0.1 * thickness);
-    const Coordinates3 force = unflat(evaluated(c, x, u).force, 3);
-    const Coordinates3 arm = c.finite() ? Coordinates3(x + u) : x;
+    const Coordinates<3> x = sample_shell(c.type, thickness, 0.06);
+    const Coordinates<3> u = sample_motion(c.type, 0.1 * thickness);
+    const Coordinates<3> force = unflat(evaluated(c, x, u).force, 3);
+    const Coordinates<3> arm = c.finite() ? Coordinates<3>(x + u) : x;
     Vec3 moment = Vec3::Zero();
     for (Eigen::Index k = 0; k < x.rows(); ++k)
       moment += Vec3(arm.row(k)).cross(Vec3(force.row(k)));
@@ -26,22 +26,22 @@ TEST(SolidShell, ForcesAndMomentsBalance) {
 
 TEST(SolidShell, ForceTurnsWithTheBody) {
   for_each_shell([](const VolumeCase& c) {
-    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 u = sample_motion(c.type, 0.1 * thickness);
-    const VolumeResult before = evaluated(c, x, u);
+    const Coordinates<3> x = sample_shell(c.type, thickness, 0.06);
+    const Coordinates<3> u = sample_motion(c.type, 0.1 * thickness);
+    const ElementResult<3> before = evaluated(c, x, u);
     const Mat<3, 3> turn = turn3(2.8);
     Eigen::MatrixXd turns = Eigen::MatrixXd::Zero(3 * x.rows(), 3 * x.rows());
     for (Eigen::Index k = 0; k < x.rows(); ++k) turns.block<3, 3>(3 * k, 3 * k) = turn;
-    const auto expect_turned = [&](const VolumeResult& after) {
+    const auto expect_turned = [&](const ElementResult<3>& after) {
       EXPECT_LT((after.force - turns * before.force).norm(), 1e-12 * before.force.norm());
       EXPECT_LT((after.tangent - turns * before.tangent * turns.transpose()).norm(),
                 1e-13 * before.tangent.norm());
     };
     expect_turned(evaluated(c, x * turn.transpose(), u * turn.transpose()));
     if (!c.finite()) return;
-    const Coordinates3 moved = (x + u) * turn.transpose() - x;
+    const Coordinates<3> moved = (x + u) * turn.transpose() - x;
     expect_turned(evaluated(c, x, moved.rowwise() + Vec3(3, -2, 5).transpose()));
-    const Coordinates3 rigid = x * turn.transpose() - x;
+    const Coordinates<3> rigid = x * turn.transpose() - x;
     EXPECT_LT(evaluated(c, x, rigid).force.norm(), 1e-14 * before.tangent.norm());
   });
 }
@@ -63,14 +63,14 @@ TEST(SolidShell, AnyNumberingWithTheSameThicknessDirectionGivesTheSame) {
   quarter << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   over << 1, 0, 0, 0, -1, 0, 0, 0, -1;
   for_each_shell([&](const VolumeCase& c) {
-    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 u = sample_motion(c.type, 0.1 * thickness);
-    const VolumeResult one = evaluated(c, x, u);
+    const Coordinates<3> x = sample_shell(c.type, thickness, 0.06);
+    const Coordinates<3> u = sample_motion(c.type, 0.1 * thickness);
+    const ElementResult<3> one = evaluated(c, x, u);
     Mat<3, 3> axes = Mat<3, 3>::Identity();
     for (int turn = 0; turn < 8; ++turn) {
       const std::vector<Eigen::Index> order = renumbered(c.type, axes);
       ASSERT_EQ(order.size(), static_cast<std::size_t>(x.rows()));
-      const VolumeResult other = evaluated(c, x(order, Eigen::all), u(order, Eigen::all));
+      const ElementResult<3> other = evaluated(c, x(order, Eigen::all), u(order, Eigen::all));
       for (std::size_t k = 0; k < order.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(k);
         EXPECT_LT((other.force.segment<3>(3 * at) - one.force.segment<3>(3 * order[k])).norm(),
@@ -86,8 +86,8 @@ TEST(SolidShell, HasNoZeroEnergyModesButRigidMotions) {
   for_each_shell([](const VolumeCase& c) {
     for (const double height : {1.0, 0.1})
       for (const double distortion : {0.0, 0.06}) {
-        const Coordinates3 x = sample_shell(c.type, height, distortion);
-        const Eigen::MatrixXd k = evaluated(c, x, Coordinates3::Zero(x.rows(), 3)).tangent;
+        const Coordinates<3> x = sample_shell(c.type, height, distortion);
+        const Eigen::MatrixXd k = evaluated(c, x, Coordinates<3>::Zero(x.rows(), 3)).tangent;
         const Eigen::VectorXd values =
             Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
         const double largest = values[values.size() - 1];
@@ -102,14 +102,14 @@ TEST(SolidShell, HasNoZeroEnergyModesButRigidMotions) {
 
 TEST(SolidShell, MirroredFlatAndInvertedCellsAreRefused) {
   for_each_shell([](const VolumeCase& c) {
-    const Coordinates3 x = sample_shell(c.type, thickness, 0.06);
-    const Coordinates3 none = Coordinates3::Zero(x.rows(), 3);
-    const auto status = [&](const Coordinates3& at, const Coordinates3& u) {
-      VolumeResult r;
+    const Coordinates<3> x = sample_shell(c.type, thickness, 0.06);
+    const Coordinates<3> none = Coordinates<3>::Zero(x.rows(), 3);
+    const auto status = [&](const Coordinates<3>& at, const Coordinates<3>& u) {
+      ElementResult<3> r;
       evaluate(c.section, c.type, at, u, true, r);
       return r.status;
     };
-    Coordinates3 mirrored = x, flattened = x, wrong = none;
+    Coordinates<3> mirrored = x, flattened = x, wrong = none;
     mirrored.col(2) *= -1;
     flattened.col(2).setZero();
     EXPECT_EQ(status(mirrored, none), Status::inverted);

@@ -12,9 +12,9 @@ namespace osculate::solid::testing {
 namespace {
 
 /// Prismatic cell, of thickness 0.2, distorted in its plane with straight edges.
-Coordinates3 prismatic(cell::CellType type) {
-  Coordinates3 x(cell::info(type).nodes, 3);
-  Coordinates3 corners(8, 3);
+Coordinates<3> prismatic(cell::CellType type) {
+  Coordinates<3> x(cell::info(type).nodes, 3);
+  Coordinates<3> corners(8, 3);
   for (int k = 0; k < 8; ++k) {
     corners.row(k) = 0.5 * cell::volume_node(cell::CellType::hex8, k);
     corners(k, 2) *= 0.2;
@@ -29,12 +29,12 @@ Coordinates3 prismatic(cell::CellType type) {
 }
 
 /// The plain displacement cell has the exact forces of a linear displacement.
-void expect_forces_of_displacement_cell(const VolumeCase& c, const Coordinates3& x,
+void expect_forces_of_displacement_cell(const VolumeCase& c, const Coordinates<3>& x,
                                         const Mat<3, 3>& h) {
   VolumeCase plain = c;
-  plain.section.formulation = VolumeFormulation::full;
-  const Coordinates3 u = x * h.transpose();
-  const VolumeVector found = evaluated(c, x, u).force, exact = evaluated(plain, x, u).force;
+  plain.section.formulation = Formulation::full;
+  const Coordinates<3> u = x * h.transpose();
+  const ElementVector<3> found = evaluated(c, x, u).force, exact = evaluated(plain, x, u).force;
   EXPECT_LT((found - exact).norm(), 1e-15 * stiffness_scale(c, x) * x.norm());
 }
 
@@ -43,7 +43,7 @@ TEST(SolidShellPatch, AnyLinearDisplacementIsExactInAnAffineCell) {
   shape << 0.3, -0.2, 0.4, 0.5, 0.1, -0.3, 0.2, -0.1, 0.25;
   affine << 1.2, 0.4, 0.3, -0.3, 0.9, 0.5, 0.1, 0.2, 0.7;
   for_each_shell([&](const VolumeCase& c) {
-    const Coordinates3 x = sample_shell(c.type, 0.2, 0) * affine.transpose();
+    const Coordinates<3> x = sample_shell(c.type, 0.2, 0) * affine.transpose();
     for (const double size : {1e-3, 0.3}) expect_forces_of_displacement_cell(c, x, size * shape);
   });
 }
@@ -56,7 +56,7 @@ TEST(SolidShellPatch, LinearDisplacementWithoutTransverseShearIsExactInADistorte
   spin << 0, -0.5, 0.3, 0.5, 0, -0.2, -0.3, 0.2, 0;
   const Mat<3, 3> one = Mat<3, 3>::Identity(), to = turn3(0.9);
   for_each_shell([&](const VolumeCase& c) {
-    const Coordinates3 x = prismatic(c.type) * to.transpose();
+    const Coordinates<3> x = prismatic(c.type) * to.transpose();
     for (const double size : {1e-3, 0.3}) {
       const Mat<3, 3> stretched = one + size * strain;
       const Mat<3, 3> h =
@@ -70,13 +70,13 @@ TEST(SolidShellPatch, LinearDisplacementWithoutTransverseShearIsExactInADistorte
 /// by cell; forces at equal places add up.
 struct Plate {
   static constexpr double height = 0.01, length = 0.24, width = 0.12;
-  std::vector<Coordinates3> cells;
+  std::vector<Coordinates<3>> cells;
 
   explicit Plate(cell::CellType type) {
     const CellPatch patch = macneal_harder(Kind::plane);
     for (const auto& nodes : patch.cells) {
       const Eigen::MatrixXd corners = patch.nodes(nodes, Eigen::all);
-      Coordinates3 x(cell::info(type).nodes, 3);
+      Coordinates<3> x(cell::info(type).nodes, 3);
       for (int k = 0; k < x.rows(); ++k) {
         const Vec3 xi = cell::volume_node(type, k);
         const cell::AreaShape s = cell::area_shape(patch.type, xi.head<2>());
@@ -101,7 +101,7 @@ PlateResult solve_plate(const VolumeCase& c, double energy, const Motion& motion
   const Plate plate(c.type);
   std::vector<Vec3> nodes;
   std::vector<std::vector<Eigen::Index>> numbers;
-  for (const Coordinates3& x : plate.cells) {
+  for (const Coordinates<3>& x : plate.cells) {
     numbers.emplace_back();
     for (Eigen::Index k = 0; k < x.rows(); ++k) {
       const Vec3 place = x.row(k);
@@ -122,10 +122,10 @@ PlateResult solve_plate(const VolumeCase& c, double energy, const Motion& motion
     for (Eigen::Index i = 0; i < 3 && !Plate::at_border(nodes[n]); ++i) inside.push_back(at + i);
   }
   for (std::size_t e = 0; e < plate.cells.size(); ++e) {
-    const Coordinates3& x = plate.cells[e];
-    Coordinates3 u(x.rows(), 3);
+    const Coordinates<3>& x = plate.cells[e];
+    Coordinates<3> u(x.rows(), 3);
     for (Eigen::Index i = 0; i < x.rows(); ++i) u.row(i) = motion(Vec3(x.row(i)));
-    const VolumeResult cell = evaluated(c, x, u);
+    const ElementResult<3> cell = evaluated(c, x, u);
     work += cell.force.dot(flat(u));
     for (Eigen::Index a = 0; a < x.rows(); ++a)
       force.segment<3>(3 * numbers[e][static_cast<std::size_t>(a)]) += cell.force.segment<3>(3 * a);
@@ -141,9 +141,8 @@ PlateResult solve_plate(const VolumeCase& c, double energy, const Motion& motion
 }
 
 VolumeCase plate_case(cell::CellType type, double poisson) {
-  return {
-      {Kinematics::small, VolumeFormulation::solid_shell, material::LinearElastic{1e6, poisson, 0}},
-      type};
+  return {{Kinematics::small, Formulation::solid_shell, material::LinearElastic{1e6, poisson, 0}},
+          type};
 }
 
 constexpr double area = Plate::length * Plate::width;

@@ -34,11 +34,11 @@ TEST_P(CellStresses, HaveTheNodalForcesAsTheirResultant) {
 
 TEST(Stress, OutOfPlaneIsZeroInPlaneStressAndTheStrainInPlaneStrain) {
   for_each_section([](const SectionCase& c) {
-    const Coordinates x = sample_cell(c.type, 0.12, true), u = sample_displacement(c.type, 0.06);
-    const CellStress at = stress_at_points(c.section, c.type, x, u);
+    const Coordinates<2> x = sample_cell(c.type, 0.12, true), u = sample_displacement(c.type, 0.06);
+    const CellStress<2> at = stress_at_points(c.section, c.type, x, u);
     EXPECT_EQ(at.status, Status::ok);
     for (int q = 0; q < at.count; ++q) {
-      const PointStress& p = at.point[static_cast<std::size_t>(q)];
+      const PointStress<2>& p = at.point[static_cast<std::size_t>(q)];
       if (c.section.assumption == Assumption::plane_stress) {
         EXPECT_EQ(p.stress[2], 0.0);
         EXPECT_NE(p.strain[2], 0.0);
@@ -137,15 +137,15 @@ TEST_P(CellStresses, PointsKnowTheirPlaceAndVolume) {
 
 // Linear stress of pure bending is found again at the nodes of a quadratic cell.
 TEST(Stress, LinearStressIsExtrapolatedExactly) {
-  const Section s{Assumption::plane_stress, Kinematics::small, Formulation::full, 1,
-                  material::LinearElastic{7, 0.3, 0}};
+  const Section<2> s{Assumption::plane_stress, Kinematics::small, Formulation::full, 1,
+                     material::LinearElastic{7, 0.3, 0}};
   for (const cell::CellType type :
        {cell::CellType::tri6, cell::CellType::quad8, cell::CellType::quad9}) {
-    const Coordinates x = sample_cell(type, 0, false);
-    Coordinates u(x.rows(), 2);
+    const Coordinates<2> x = sample_cell(type, 0, false);
+    Coordinates<2> u(x.rows(), 2);
     for (Eigen::Index k = 0; k < x.rows(); ++k)  // stress 7 k y along x, nothing else
       u.row(k) << 1e-3 * x(k, 0) * x(k, 1), -0.5e-3 * (x(k, 0) * x(k, 0) + 0.3 * x(k, 1) * x(k, 1));
-    const NodalStress at = nodal_stress(s, type, x, u);
+    const NodalStress<2> at = nodal_stress(s, type, x, u);
     for (std::size_t k = 0; k < static_cast<std::size_t>(at.count); ++k) {
       const Vec<4> exact(7e-3 * x(static_cast<Eigen::Index>(k), 1), 0, 0, 0);
       EXPECT_LT((at.stress[k] - exact).norm(), 1e-15) << cell::info(type).name << k;
@@ -155,16 +155,15 @@ TEST(Stress, LinearStressIsExtrapolatedExactly) {
 
 TEST(VolumeStress, LinearStressIsExtrapolatedExactly) {
   using enum cell::CellType;
-  const VolumeSection s{Kinematics::small, VolumeFormulation::full,
-                        material::LinearElastic{7, 0.3, 0}};
+  const Section<3> s{Kinematics::small, Formulation::full, material::LinearElastic{7, 0.3, 0}};
   for (const cell::CellType type : {tet10, wedge15, hex20, hex27}) {
-    const Coordinates3 x = sample_volume(type, 0, false);
-    Coordinates3 u(x.rows(), 3);
+    const Coordinates<3> x = sample_volume(type, 0, false);
+    Coordinates<3> u(x.rows(), 3);
     for (Eigen::Index k = 0; k < x.rows(); ++k) {  // stress 7 k y along x, nothing else
       const double a = x(k, 0), b = x(k, 1), c = x(k, 2);
       u.row(k) << 1e-3 * a * b, -0.5e-3 * (a * a + 0.3 * (b * b - c * c)), -0.3e-3 * b * c;
     }
-    const NodalStress3 at = nodal_stress(s, type, x, u);
+    const NodalStress<3> at = nodal_stress(s, type, x, u);
     for (std::size_t k = 0; k < static_cast<std::size_t>(at.count); ++k) {
       Vec<6> exact = Vec<6>::Zero();
       exact[0] = 7e-3 * x(static_cast<Eigen::Index>(k), 1);

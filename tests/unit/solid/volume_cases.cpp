@@ -6,7 +6,7 @@ namespace osculate::solid::testing {
 namespace {
 
 /// Position at xi of the cell with the same corners, linear between them.
-Vec3 between_corners(cell::CellType type, const Coordinates3& x, const Vec3& xi) {
+Vec3 between_corners(cell::CellType type, const Coordinates<3>& x, const Vec3& xi) {
   using enum cell::CellType;
   const int corners = cell::info(type).corners;
   const cell::VolumeShape s = cell::volume_shape(corners == 4   ? tet4
@@ -31,11 +31,11 @@ std::string VolumeCase::name() const {
 }
 
 void for_each_volume(const std::function<void(const VolumeCase&)>& visit) {
-  using enum VolumeFormulation;
+  using enum Formulation;
   int visited = 0;
   for (const cell::CellType type : volume_types)
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite})
-      for (const VolumeFormulation formulation : {full, bbar, enhanced})
+      for (const Formulation formulation : {full, bbar, enhanced})
         for_each_form([&](const material::Law& law) {
           const VolumeCase c{{kinematics, formulation, law}, type};
           if (!unsupported(c.section, type).empty()) return;
@@ -52,8 +52,7 @@ void for_each_shell(const std::function<void(const VolumeCase&)>& visit) {
     for_each_form([&](const material::Law& law) {
       const bool finite = material::finite_strain(law);
       const VolumeCase c{
-          {finite ? Kinematics::finite : Kinematics::small, VolumeFormulation::solid_shell, law},
-          type};
+          {finite ? Kinematics::finite : Kinematics::small, Formulation::solid_shell, law}, type};
       const ::testing::ScopedTrace trace(__FILE__, __LINE__, c.name());
       EXPECT_EQ(unsupported(c.section, type), "");
       ++visited;
@@ -62,9 +61,9 @@ void for_each_shell(const std::function<void(const VolumeCase&)>& visit) {
   EXPECT_EQ(visited, 2 * form_count);
 }
 
-Coordinates3 sample_volume(cell::CellType type, double distortion, bool curved) {
+Coordinates<3> sample_volume(cell::CellType type, double distortion, bool curved) {
   const cell::CellInfo& info = cell::info(type);
-  Coordinates3 x(info.nodes, 3);
+  Coordinates<3> x(info.nodes, 3);
   for (int k = 0; k < info.nodes; ++k) {
     const Vec3 xi = cell::volume_node(type, k);
     const double across = info.corners == 6 ? 0.5 : 1;  // wedges are two high
@@ -73,14 +72,14 @@ Coordinates3 sample_volume(cell::CellType type, double distortion, bool curved) 
     for (Eigen::Index i = 0; i < 3; ++i) x(k, i) += distortion * noise(k, i);
   }
   if (curved) return x;
-  const Coordinates3 corners = x;
+  const Coordinates<3> corners = x;
   for (int k = 0; k < info.nodes; ++k)
     x.row(k) = between_corners(type, corners, cell::volume_node(type, k));
   return x;
 }
 
-Coordinates3 sample_shell(cell::CellType type, double thickness, double distortion) {
-  Coordinates3 x(cell::info(type).nodes, 3);
+Coordinates<3> sample_shell(cell::CellType type, double thickness, double distortion) {
+  Coordinates<3> x(cell::info(type).nodes, 3);
   for (int k = 0; k < x.rows(); ++k) {
     const Vec3 at = 0.5 * cell::volume_node(type, k);
     for (int i = 0; i < 3; ++i) x(k, i) = at[i] + distortion * noise(k, i);
@@ -89,10 +88,10 @@ Coordinates3 sample_shell(cell::CellType type, double thickness, double distorti
   return x;
 }
 
-Coordinates3 sample_motion(cell::CellType type, double size, int seed) {
-  return Coordinates3::NullaryExpr(cell::info(type).nodes, 3, [&](Eigen::Index k, Eigen::Index i) {
-    return size * noise(k, i, seed);
-  });
+Coordinates<3> sample_motion(cell::CellType type, double size, int seed) {
+  return Coordinates<3>::NullaryExpr(
+      cell::info(type).nodes, 3,
+      [&](Eigen::Index k, Eigen::Index i) { return size * noise(k, i, seed); });
 }
 
 Mat<3, 3> turn3(double angle) {
@@ -105,8 +104,8 @@ Mat<3, 3> tensor(const Vec<6>& s) {
   return t;
 }
 
-Coordinates3 face_of(const cell::CellFace& face, const Coordinates3& x) {
-  Coordinates3 nodes(cell::info(face.type).nodes, 3);
+Coordinates<3> face_of(const cell::CellFace& face, const Coordinates<3>& x) {
+  Coordinates<3> nodes(cell::info(face.type).nodes, 3);
   for (Eigen::Index k = 0; k < nodes.rows(); ++k)
     nodes.row(k) = x.row(face.nodes[static_cast<std::size_t>(k)]);
   return nodes;

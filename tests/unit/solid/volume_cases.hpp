@@ -2,7 +2,7 @@
 // Every section in space, on every volume cell, for conformance tests.
 #include <Eigen/Geometry>
 
-#include "osculate/solid/volume.hpp"
+#include "osculate/solid/element.hpp"
 #include "section_cases.hpp"
 
 namespace osculate::solid::testing {
@@ -12,9 +12,9 @@ constexpr std::array<cell::CellType, 8> volume_types{
     cell::CellType::hex8, cell::CellType::hex20, cell::CellType::hex27,  cell::CellType::shell18};
 
 struct VolumeCase {
-  using Places = Coordinates3;
-  using Result = VolumeResult;
-  VolumeSection section;
+  using Places = Coordinates<3>;
+  using Result = ElementResult<3>;
+  Section<3> section;
   cell::CellType type;
 
   [[nodiscard]] std::string name() const;
@@ -29,18 +29,18 @@ void for_each_shell(const std::function<void(const VolumeCase&)>& visit);
 
 /// A cell of size about 1. Corners are displaced by `distortion`; nodes on edges and faces stay in
 /// the middle unless `curved`.
-Coordinates3 sample_volume(cell::CellType type, double distortion, bool curved);
+Coordinates<3> sample_volume(cell::CellType type, double distortion, bool curved);
 
 /// A cell of length 1 and the given thickness. `distortion` moves nodes in all directions, up to
 /// that share of the cell's size along each axis.
-Coordinates3 sample_shell(cell::CellType type, double thickness, double distortion);
+Coordinates<3> sample_shell(cell::CellType type, double thickness, double distortion);
 
-Coordinates3 sample_motion(cell::CellType type, double size, int seed = 1);
+Coordinates<3> sample_motion(cell::CellType type, double size, int seed = 1);
 
 Mat<3, 3> turn3(double angle);
 
 Mat<3, 3> tensor(const Vec<6>& s);
 
-Coordinates3 face_of(const cell::CellFace& face, const Coordinates3& x);
+Coordinates<3> face_of(const cell::CellFace& face, const Coordinates<3>& x);
 
 }  // namespace osculate::solid::testing
