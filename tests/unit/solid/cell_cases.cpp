@@ -25,7 +25,6 @@ CellValues values_of_nodes(const auto& cell) {
 
 bool is_plane(const CellCase& c) { return c.kind == Kind::plane; }
 const SectionCase& plane(const CellCase& c) { return std::get<SectionCase>(c.of); }
-const VolumeCase& space(const CellCase& c) { return std::get<VolumeCase>(c.of); }
 
 }  // namespace
 
