@@ -7,7 +7,9 @@
 #include <cctype>
 #include <filesystem>
 
+#include "osculate/core/text.hpp"
 #include "osculate/io/gmsh.hpp"
+#include "osculate/io/inp.hpp"
 #include "osculate/io/stl.hpp"
 
 namespace osculate::io {
@@ -15,16 +17,18 @@ namespace {
 
 bool looks_like_gmsh(std::string_view content) { return content.starts_with("$"); }
 
-constexpr std::array<MeshFormat, 2> formats{
-    {{"Gmsh", ".msh", looks_like_gmsh, read_gmsh}, {"STL", ".stl", looks_like_stl, read_stl}}};
+constexpr std::array<MeshFormat, 3> formats{
+    {{"Gmsh", ".msh", looks_like_gmsh, read_gmsh},
+     {"Abaqus or CalculiX", ".inp", looks_like_inp, read_inp},
+     {"STL", ".stl", looks_like_stl, read_stl}}};
 
 }  // namespace
 
 std::string mesh_format_names() {
-  std::string all;
+  std::vector<std::string> all;
   for (const MeshFormat& format : formats)
-    all += fmt::format("{}{} ({})", all.empty() ? "" : " or ", format.name, format.extension);
-  return all;
+    all.push_back(fmt::format("{} ({})", format.name, format.extension));
+  return core::join_with(all, "or");
 }
 
 const MeshFormat* mesh_format_of(const std::string& name, std::string_view content) {

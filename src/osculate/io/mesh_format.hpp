@@ -15,7 +15,7 @@ struct MeshFormat {
   mesh::Mesh (*read)(std::string_view content, const std::string& name);
 };
 
-/// All there are in words: `Gmsh (.msh) or STL (.stl)`.
+/// All there are in words: `Gmsh (.msh), ... or STL (.stl)`.
 [[nodiscard]] std::string mesh_format_names();
 
 /// By the extension of the name, else by the content; null: no format.
@@ -24,7 +24,7 @@ struct MeshFormat {
 /// Reads a mesh in the format it has; where none is found, as the first one (which says what it
 /// expected).
 ///
-/// Tested by  tests/unit/io/test_stl.cpp, tests/fuzz/fuzz_gmsh.cpp
+/// Tested by  tests/unit/io/test_stl.cpp, test_inp.cpp, tests/fuzz/fuzz_gmsh.cpp
 [[nodiscard]] mesh::Mesh read_mesh(const std::string& path);
 [[nodiscard]] mesh::Mesh read_mesh(std::string_view content, const std::string& name);
 

@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "osculate/cell/cell_type.hpp"
@@ -35,7 +37,15 @@ struct Set {
   int dimension = 0;
   std::vector<CellRef> cells;
   std::vector<Index> nodes;
+  bool any_case = false;  ///< its name may be written in capital and small letters alike
 };
+
+/// Whether names differ at most in capital and small letters (of ASCII).
+[[nodiscard]] inline bool same_but_for_case(std::string_view a, std::string_view b) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return small(x) == small(y); });
+}
 
 /// Nodes, cells and named sets; nothing else. Coordinates always have three components
 /// (z = 0 for plane problems).
@@ -45,9 +55,12 @@ struct Mesh {
   std::vector<Set> sets;
   std::vector<std::int64_t> numbers{};  ///< of the nodes in the mesh file; empty: 1, 2, ...
 
-  [[nodiscard]] const Set* find_set(const std::string& name) const {
+  /// The set of that name, else one that is called so but for capital letters.
+  [[nodiscard]] const Set* find_set(std::string_view name) const {
     for (const Set& set : sets)
       if (set.name == name) return &set;
+    for (const Set& set : sets)
+      if (set.any_case && same_but_for_case(set.name, name)) return &set;
     return nullptr;
   }
 };

@@ -83,7 +83,7 @@ class Builder {
 
   mesh::Mesh finish(const Cursor& cursor, std::vector<Vec3> nodes) {
     mesh_.nodes = std::move(nodes);
-    mesh_.numbers = raw_.node_map.tags();
+    mesh_.numbers = raw_.node_map.numbers();
     std::set<std::string> used;
     for (auto& [key, set] : sets_) {
       const auto named = raw_.names.find(key);

@@ -22,22 +22,6 @@ constexpr std::array<std::pair<int, const char*>, 22> foreign_types{{
 
 }  // namespace
 
-NodeMap::NodeMap(std::vector<std::int64_t> sorted_tags) : tags_(std::move(sorted_tags)) {
-  if (tags_.empty()) return;
-  const auto span = static_cast<std::uint64_t>(tags_.back() - tags_.front()) + 1;
-  if (span > 2 * tags_.size() + 1024) return;
-  dense_.assign(span, -1);
-  for (std::size_t i = 0; i < tags_.size(); ++i)
-    dense_[static_cast<std::size_t>(tags_[i] - tags_.front())] = static_cast<Index>(i);
-}
-
-Index NodeMap::find(std::int64_t tag) const {
-  if (tags_.empty() || tag < tags_.front() || tag > tags_.back()) return -1;
-  if (!dense_.empty()) return dense_[static_cast<std::size_t>(tag - tags_.front())];
-  const auto place = std::lower_bound(tags_.begin(), tags_.end(), tag);
-  return *place == tag ? static_cast<Index>(place - tags_.begin()) : -1;
-}
-
 void finish_nodes(const Cursor& cursor, RawMesh& raw) {
   const std::size_t n = raw.tags.size();
   if (n == 0) cursor.fail("the mesh has no nodes");
@@ -65,7 +49,7 @@ void finish_nodes(const Cursor& cursor, RawMesh& raw) {
     cursor.fail_at(raw.places[static_cast<std::size_t>(twice - raw.tags.begin()) + 1],
                    fmt::format("node {} is there twice", *twice));
   raw.places = {};
-  raw.node_map = NodeMap(std::move(raw.tags));
+  raw.node_map = NumberMap(std::move(raw.tags));
   raw.tags = {};
   raw.has_nodes = true;
 }

@@ -8,6 +8,7 @@
 
 #include "osculate/cell/cell_type.hpp"
 #include "osculate/io/gmsh/cursor.hpp"
+#include "osculate/io/number_map.hpp"
 #include "osculate/mesh/mesh.hpp"
 
 namespace osculate::io::gmsh {
@@ -27,20 +28,6 @@ struct RawCells {
   std::vector<std::int64_t> numbers;
 };
 
-/// From node tags to positions in the list of nodes ordered by tag.
-class NodeMap {
- public:
-  NodeMap() = default;
-  explicit NodeMap(std::vector<std::int64_t> sorted_tags);
-  /// -1 if there is no such node.
-  [[nodiscard]] Index find(std::int64_t tag) const;
-  [[nodiscard]] const std::vector<std::int64_t>& tags() const { return tags_; }
-
- private:
-  std::vector<std::int64_t> tags_;  ///< sorted
-  std::vector<Index> dense_;        ///< by tag - first tag, where that does not waste memory
-};
-
 /// What a file says, before sets are made of it.
 struct RawMesh {
   std::map<EntityKey, std::string> names;
@@ -48,7 +35,7 @@ struct RawMesh {
   std::vector<std::int64_t> tags;   ///< of the nodes, in file order; emptied by finish_nodes
   std::vector<std::size_t> places;  ///< of the nodes in the file; emptied by finish_nodes
   std::vector<Vec3> nodes;          ///< ordered by tag after finish_nodes
-  NodeMap node_map;
+  NumberMap node_map;
   bool has_nodes = false, has_cells = false;
   std::array<RawCells, cell::cell_type_count> cells;  ///< by cell type
   std::vector<Group> groups;

@@ -1,0 +1,123 @@
+#include "osculate/io/inp/deck_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "osculate/io/inp/sides.hpp"
+
+namespace osculate::io::inp {
+namespace {
+
+constexpr std::array<std::string_view, 3> endings{".cells", ".surface", ".nodes"};
+
+class Builder {
+ public:
+  explicit Builder(const Deck& deck)
+      : deck_(deck),
+        raw_(collect(deck)),
+        numbering_(add_cells(deck, raw_, out_.mesh)),
+        members_(deck, raw_, numbering_, out_.mesh),
+        sides_(deck, numbering_, out_.mesh) {}
+
+  /// Sets of elements first: they keep their names.
+  DeckMesh build() {
+    for (std::uint32_t s = 0; s < raw_.scopes.size(); ++s)
+      for (const auto& [key, raw] : raw_.scopes[s].element_sets) add_elements(s, raw);
+    for (std::uint32_t s = 0; s < raw_.scopes.size(); ++s)
+      for (const auto& [key, raw] : raw_.scopes[s].surfaces) add_surface(s, raw);
+    for (std::uint32_t s = 0; s < raw_.scopes.size(); ++s)
+      for (const auto& [key, raw] : raw_.scopes[s].node_sets) {
+        mesh::Set set = named(s, raw.name);
+        set.nodes = members_.of(Kind::nodes, s, raw.name, raw.at);
+        add(SetKind::nodes, std::move(set), raw.at);
+      }
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] mesh::Set named(std::uint32_t scope, const std::string& name) const {
+    mesh::Set set;
+    set.name = scope == 0 ? name : raw_.scopes[scope].name + "." + name;
+    set.any_case = true;
+    return set;
+  }
+  [[nodiscard]] const mesh::Block& block(const mesh::CellRef& ref) const {
+    return out_.mesh.blocks[static_cast<std::size_t>(ref.block)];
+  }
+
+  /// Dimension and nodes of a set of cells.
+  void finish(mesh::Set& set) const {
+    for (const mesh::CellRef& ref : set.cells) {
+      const cell::CellInfo& info = cell::info(block(ref).type);
+      const Index* const nodes = block(ref).cell(ref.cell);
+      set.dimension = info.dimension;
+      set.nodes.insert(set.nodes.end(), nodes, nodes + info.nodes);
+    }
+    std::sort(set.nodes.begin(), set.nodes.end());
+    set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
+  }
+
+  /// A set holds cells of one dimension: of others there is one set more.
+  void add_elements(std::uint32_t scope, const RawSet& raw) {
+    std::array<std::vector<mesh::CellRef>, 4> cells;
+    for (const Index element : members_.of(Kind::elements, scope, raw.name, raw.at)) {
+      const mesh::CellRef ref = numbering_.elements[static_cast<std::size_t>(element)].cell;
+      cells[static_cast<std::size_t>(cell::info(block(ref).type).dimension)].push_back(ref);
+    }
+    constexpr std::array<std::string_view, 4> kinds{".points", ".lines", ".areas", ".volumes"};
+    bool whole = true;
+    for (std::size_t dimension = cells.size(); dimension-- > 0;) {
+      if (cells[dimension].empty() && (dimension > 0 || !whole)) continue;
+      mesh::Set set = named(scope, raw.name);
+      if (!whole) set.name += kinds[dimension];
+      whole = false;
+      set.cells = std::move(cells[dimension]);
+      finish(set);
+      add(SetKind::elements, std::move(set), raw.at);
+    }
+  }
+
+  void add_surface(std::uint32_t scope, const RawSurface& raw) {
+    mesh::Set set = named(scope, raw.name);
+    if (raw.of_nodes)
+      set.nodes = members_.of(Kind::nodes, scope, raw.nodes);
+    else
+      set.cells = sides_.of(raw, scope, members_);
+    finish(set);
+    add(SetKind::surface, std::move(set), raw.at);
+  }
+
+  /// A set that has the nodes of one of the same name is that one; others get an ending.
+  void add(SetKind kind, mesh::Set set, Place at) {
+    std::string name = set.name;
+    for (const bool first : {true, false}) {
+      const auto [used, is_new] = used_.try_emplace(capitals(set.name), out_.mesh.sets.size());
+      if (is_new) break;
+      const mesh::Set& other = out_.mesh.sets[used->second];
+      if (kind != SetKind::elements && other.nodes == set.nodes &&
+          (other.dimension == set.dimension || set.cells.empty())) {
+        out_.sets.push_back({kind, std::move(name), used->second});
+        return;
+      }
+      if (!first) fail(deck_, at, fmt::format("two sets have the name '{}'", set.name));
+      set.name += endings[static_cast<std::size_t>(kind)];
+    }
+    out_.sets.push_back({kind, std::move(name), out_.mesh.sets.size()});
+    out_.mesh.sets.push_back(std::move(set));
+  }
+
+  const Deck& deck_;
+  DeckMesh out_;
+  RawMesh raw_;
+  Numbering numbering_;
+  Members members_;
+  Sides sides_;
+  Named<std::size_t> used_;  ///< names of sets in capitals, and the sets
+};
+
+}  // namespace
+
+DeckMesh deck_mesh(const Deck& deck) { return Builder(deck).build(); }
+
+}  // namespace osculate::io::inp

@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "osculate/io/inp/cards.hpp"
+#include "osculate/mesh/mesh.hpp"
+
+namespace osculate::io::inp {
+
+/// A deck has three kinds of names, each for itself.
+enum class SetKind : std::uint8_t { elements, surface, nodes };
+
+/// What a name of the deck became.
+struct DeckSet {
+  SetKind kind;
+  std::string name;  ///< as first written; of instances `instance.name`
+  std::size_t set;   ///< place in Mesh::sets
+};
+
+struct DeckMesh {
+  mesh::Mesh mesh;
+  std::vector<DeckSet> sets;
+};
+
+/// The mesh that the cards of a deck describe, see io::read_inp.
+///
+/// Tested by  tests/unit/io/test_inp.cpp, test_inp_parts.cpp, test_inp_broken.cpp
+[[nodiscard]] DeckMesh deck_mesh(const Deck& deck);
+
+}  // namespace osculate::io::inp

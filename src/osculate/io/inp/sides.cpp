@@ -1,0 +1,137 @@
+#include "osculate/io/inp/sides.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace osculate::io::inp {
+namespace {
+
+using Nodes = std::array<Index, mesh::most_facet_nodes>;
+
+/// The nodes of a face or edge of a cell: outwards, or with a body numbered counterclockwise on
+/// the right.
+cell::CellType side_nodes(const mesh::Block& block, Index cell, const Side& side, Nodes& nodes) {
+  const cell::CellInfo& info = cell::info(block.type);
+  const Index* const from = block.cell(cell);
+  const auto at = static_cast<std::size_t>(side.local);
+  if (side.kind == Side::Kind::reversed) {
+    std::copy_n(from, info.nodes, nodes.begin());
+    mesh::reverse_area(block.type, {nodes.data(), static_cast<std::size_t>(info.nodes)});
+    return block.type;
+  }
+  if (side.kind == Side::Kind::face) {
+    const cell::CellFace& face = info.faces[at];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(cell::info(face.type).nodes); ++k)
+      nodes[k] = from[face.nodes[k]];
+    return face.type;
+  }
+  const auto& edge = info.edges[at];
+  nodes[0] = from[edge[1]];
+  nodes[1] = from[edge[0]];
+  if (edge[2] >= 0) nodes[2] = from[edge[2]];
+  return info.edge_type;
+}
+
+}  // namespace
+
+mesh::CellRef Sides::facet(cell::CellType type, std::span<const Index> nodes,
+                           mesh::CellRef parent) {
+  mesh::FaceKey corners{-1, -1, -1, -1};
+  std::copy_n(nodes.begin(), cell::info(type).corners, corners.begin());
+  std::sort(corners.begin(), corners.end());
+  const auto [found, is_new] = known_.try_emplace({corners, {parent.block, parent.cell}});
+  if (!is_new) return found->second;
+  const Index at = block_of_type(mesh_, type);
+  const std::vector<std::int64_t>& parents =
+      mesh_.blocks[static_cast<std::size_t>(parent.block)].numbers;
+  mesh::Block& block = mesh_.blocks[static_cast<std::size_t>(at)];
+  found->second = {at, block.size()};
+  if (!parents.empty()) {
+    const std::int64_t number = parents[static_cast<std::size_t>(parent.cell)];
+    block.numbers.push_back(number);
+  }
+  block.connectivity.insert(block.connectivity.end(), nodes.begin(), nodes.end());
+  return found->second;
+}
+
+void Sides::add_side(const SurfaceEntry& entry, Index element, std::vector<mesh::CellRef>& cells) {
+  const auto& [type, ref] = numbering_.elements[static_cast<std::size_t>(element)];
+  const Side side = find_side(*type, entry.side);
+  if (side.kind == Side::Kind::none)
+    fail(deck_, entry.set.at,
+         fmt::format("element {} of type {} has no side {}; expected {}",
+                     mesh::cell_number(mesh_, ref), type->name, shown(entry.side),
+                     side_names(*type)));
+  if (side.kind == Side::Kind::whole) return cells.push_back(ref);
+  Nodes nodes{};
+  const cell::CellType made =
+      side_nodes(mesh_.blocks[static_cast<std::size_t>(ref.block)], ref.cell, side, nodes);
+  cells.push_back(
+      facet(made, std::span(nodes).first(static_cast<std::size_t>(cell::info(made).nodes)), ref));
+}
+
+template <class Facets>
+void Sides::add_facets(const SurfaceEntry& entry, const Facets& facets,
+                       std::vector<mesh::CellRef>& cells) {
+  if (!facets.errors.empty()) fail(deck_, entry.set.at, facets.errors.front());
+  for (const auto& one : facets.facets) cells.push_back(facet(one.type, one.nodes(), one.parent));
+}
+
+std::vector<mesh::CellRef> Sides::all_cells(int dimension) const {
+  std::vector<mesh::CellRef> cells;
+  for (const Element& element : numbering_.elements)
+    if (cell::info(element.type->cell).dimension == dimension) cells.push_back(element.cell);
+  return cells;
+}
+
+/// The free faces of solids, the free edges of plane elements, and shells as they are.
+void Sides::add_free(const SurfaceEntry& entry, const std::vector<Index>& elements,
+                     std::vector<mesh::CellRef>& cells) {
+  mesh::Set solids{"", 3, {}, {}}, areas{"", 2, {}, {}};
+  for (const Index element : elements) {
+    const auto& [type, ref] = numbering_.elements[static_cast<std::size_t>(element)];
+    if (type->family == Family::solid) solids.cells.push_back(ref);
+    if (type->family == Family::plane) areas.cells.push_back(ref);
+    if (type->family == Family::surface || type->family == Family::line) cells.push_back(ref);
+  }
+  if (!solids.cells.empty()) {
+    if (!faces_) faces_ = mesh::face_table(mesh_, all_cells(3));
+    add_facets(entry, mesh::surface_facets(mesh_, *faces_, solids), cells);
+  }
+  if (!areas.cells.empty()) {
+    if (!edges_) edges_ = mesh::edge_table(mesh_, all_cells(2));
+    add_facets(entry, mesh::boundary_facets(mesh_, *edges_, areas), cells);
+  }
+}
+
+std::vector<mesh::CellRef> Sides::of(const RawSurface& surface, std::uint32_t scope,
+                                     Members& members) {
+  std::vector<mesh::CellRef> cells;
+  for (const SurfaceEntry& entry : surface.entries) {
+    const std::uint32_t meant = entry.set.scope == own_scope ? scope : entry.set.scope;
+    const std::vector<Index> elements =
+        entry.number > 0 ? std::vector{members.element(meant, entry.number, entry.set.at)}
+                         : members.of(Kind::elements, meant, entry.set.name, entry.set.at);
+    if (entry.side.empty()) {
+      add_free(entry, elements, cells);
+      continue;
+    }
+    for (const Index element : elements) add_side(entry, element, cells);
+  }
+  const auto dimension = [&](const mesh::CellRef& ref) {
+    return cell::info(mesh_.blocks[static_cast<std::size_t>(ref.block)].type).dimension;
+  };
+  for (const mesh::CellRef& ref : cells)
+    if (dimension(ref) != dimension(cells.front()))
+      fail(deck_, surface.at,
+           fmt::format("the surface '{}' has edges and faces; expected one of them", surface.name));
+  const auto less = [](const mesh::CellRef& a, const mesh::CellRef& b) {
+    return std::pair(a.block, a.cell) < std::pair(b.block, b.cell);
+  };
+  std::sort(cells.begin(), cells.end(), less);
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
+}  // namespace osculate::io::inp

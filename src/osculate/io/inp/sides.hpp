@@ -1,0 +1,48 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "osculate/io/inp/members.hpp"
+#include "osculate/mesh/boundary.hpp"
+#include "osculate/mesh/surface.hpp"
+
+namespace osculate::io::inp {
+
+/// Adds the facets of element-based surfaces to the mesh as cells of their own, each once: faces
+/// of solids as areas with the normal outwards, edges of plane elements as lines with the body on
+/// the right, edges of shells as lines; a shell seen from above is its own cell.
+///
+/// Errors     core::InputError: sides that an element does not have, surfaces of lines and areas
+/// Tested by  tests/unit/io/test_inp_elements.cpp, test_inp.cpp, test_inp_broken.cpp
+class Sides {
+ public:
+  Sides(const Deck& deck, const Numbering& numbering, mesh::Mesh& mesh)
+      : deck_(deck), numbering_(numbering), mesh_(mesh) {}
+
+  /// The cells of a surface that stands in a scope.
+  [[nodiscard]] std::vector<mesh::CellRef> of(const RawSurface& surface, std::uint32_t scope,
+                                              Members& members);
+
+ private:
+  /// Sorted corners, and the cell that it belongs to.
+  using Key = std::pair<mesh::FaceKey, std::pair<Index, Index>>;
+
+  void add_side(const SurfaceEntry& entry, Index element, std::vector<mesh::CellRef>& cells);
+  void add_free(const SurfaceEntry& entry, const std::vector<Index>& elements,
+                std::vector<mesh::CellRef>& cells);
+  mesh::CellRef facet(cell::CellType type, std::span<const Index> nodes, mesh::CellRef parent);
+  template <class Facets>
+  void add_facets(const SurfaceEntry& entry, const Facets& facets,
+                  std::vector<mesh::CellRef>& cells);
+  [[nodiscard]] std::vector<mesh::CellRef> all_cells(int dimension) const;
+
+  const Deck& deck_;
+  const Numbering& numbering_;
+  mesh::Mesh& mesh_;
+  std::map<Key, mesh::CellRef> known_;
+  std::optional<mesh::FaceTable> faces_;
+  std::optional<mesh::EdgeTable> edges_;
+};
+
+}  // namespace osculate::io::inp
