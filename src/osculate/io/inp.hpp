@@ -14,7 +14,8 @@ namespace osculate::io {
 /// surfaces of elements are sets of the facets (areas, in the plane lines), of nodes sets of nodes.
 /// Sets of an instance are called `INSTANCE.SET`. Names are found in capital and small letters. A
 /// deck may give one name to elements, to a surface and to nodes: then the elements have it, and
-/// what has other nodes is called `NAME.surface`, `NAME.nodes`. A set of elements of several
+/// what has other nodes is called `NAME.surface`, `NAME.nodes`,
+/// `NAME.surface_nodes`. A set of elements of several
 /// dimensions is that of the highest one, beside `NAME.areas`, `NAME.lines`.
 ///
 /// Errors     core::InputError with file and line: see inp::read_cards, inp::collect,

@@ -75,10 +75,7 @@ class Reader {
   void take(std::string_view line) {
     if (line.empty() || line.starts_with("**")) return;
     if (line.front() == '*') return begin_card(line);
-    if (deck_.cards.empty())
-      fail(deck_, at_,
-           "expected a keyword like '*NODE', found " + shown(line) +
-               ": not an Abaqus or CalculiX input file");
+    if (deck_.cards.empty()) return;
     deck_.lines.push_back({line, at_});
     ++deck_.cards.back().line_count;
   }
@@ -172,6 +169,8 @@ class Reader {
 Deck read_cards(std::string_view content, const std::string& name, const Opener& open) {
   Deck deck;
   Reader(deck, open).read(content, name);
+  if (deck.cards.empty())
+    fail(deck, Place{}, "there is no keyword like '*NODE': not an Abaqus or CalculiX input file");
   return deck;
 }
 

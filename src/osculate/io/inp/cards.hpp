@@ -55,11 +55,12 @@ using Opener = std::function<std::string(const std::string& path)>;
 /// of `*INCLUDE` are relative to the file that names them.
 ///
 /// A line that begins with a star is a keyword, `KEYWORD, NAME=value, FLAG`, and goes on in the
-/// next one where it ends in a comma; two stars begin a comment. Keywords and names of parameters
-/// are the same in capital and small letters, with and without blanks.
+/// next one where it ends in a comma; two stars begin a comment. What stands before the first
+/// keyword is skipped. Keywords and names of parameters are the same in capital and small letters,
+/// with and without blanks.
 ///
-/// Errors     core::InputError with file and line: data before the first keyword, a star without
-///            keyword, a quotation without end, an included file that includes itself or is missing
+/// Errors     core::InputError with file and line: no keyword at all, a star without keyword, a
+///            quotation without end, an included file that includes itself or is missing
 /// Tested by  tests/unit/io/test_inp_cards.cpp, test_inp_broken.cpp, tests/fuzz/fuzz_inp.cpp
 [[nodiscard]] Deck read_cards(std::string_view content, const std::string& name,
                               const Opener& open);

@@ -110,9 +110,13 @@ class Collector {
 
   // ---- sets -----------------------------------------------------------------------------------
 
-  RawSet& set_in(Named<RawSet>& sets, const Card& card, const std::string& name) const {
+  template <class Set>
+  static Set& set_in(Named<Set>& sets, const Card& card, const std::string& name) {
     const auto [found, is_new] = sets.try_emplace(capitals(name));
-    if (is_new) found->second = {name, card.at, {}, {}};
+    if (is_new) {
+      found->second.name = name;
+      found->second.at = card.at;
+    }
     return found->second;
   }
 
@@ -195,13 +199,15 @@ class Collector {
     if (find_parameter(card, "COMBINE"))
       fail(deck_, card, "surfaces made of surfaces (COMBINE) are not read");
     const std::string name = name_in(card, "NAME");
-    const auto [found, is_new] = here().surfaces.try_emplace(capitals(name));
-    RawSurface& surface = found->second;
-    if (is_new) surface = {name, card.at, {}, kind == "NODE", {name, card.at, {}, {}}};
-    if (surface.of_nodes != (kind == "NODE"))
-      fail(deck_, card,
-           fmt::format("the surface '{}' is of nodes and of elements (see line {})", name,
-                       surface.at.line));
+    if (kind == "NODE") {
+      RawSet& set = set_in(here().node_surfaces, card, name);
+      for (const Line& line : lines_of(deck_, card)) {
+        Fields fields(deck_, line);  // behind the first one stands an area
+        add_member(set, fields.next().value_or(""), own_scope, line.at);
+      }
+      return;
+    }
+    RawSurface& surface = set_in(here().surfaces, card, name);
     for (const Line& line : lines_of(deck_, card)) add_entry(surface, line);
   }
 
@@ -209,7 +215,6 @@ class Collector {
     Fields fields(deck_, line);
     const std::string_view first = fields.next().value_or("");
     if (first.empty()) fields.fail("expected a number or the name of a set");
-    if (surface.of_nodes) return add_member(surface.nodes, first, own_scope, line.at);
     SurfaceEntry entry;
     entry.set = {name_of(first), own_scope, line.at, true};
     if (!is_number(entry.set.name)) entry.set.scope = take_instance(entry.set.name);
@@ -236,7 +241,6 @@ class Collector {
       Fields fields(deck_, line);
       const std::int32_t number = fields.number("the number of a node");
       Vec3 x = Vec3::Zero();
-      if (fields.done()) fields.fail(fmt::format("node {} has no coordinates", number));
       for (Eigen::Index k = 0; k < 3; ++k) x[k] = fields.real_or_zero("a coordinate");
       for (int k = 0; k < 3; ++k) (void)fields.real_or_zero("a direction");
       fields.expect_end();
@@ -288,7 +292,9 @@ class Collector {
       }
       elements.nodes.push_back(fields.number("the number of a node"));
     }
-    fields.expect_end();
+    if (!fields.done())
+      fields.fail(fmt::format("element {} has more than the {} nodes of {}",
+                              elements.numbers.back(), count, elements.type->name));
     return i;
   }
 

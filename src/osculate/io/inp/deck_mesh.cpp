@@ -9,7 +9,8 @@
 namespace osculate::io::inp {
 namespace {
 
-constexpr std::array<std::string_view, 3> endings{".cells", ".surface", ".nodes"};
+/// By kind of set, where the name is taken.
+constexpr std::array<std::string_view, 4> endings{".cells", ".surface", ".nodes", ".surface_nodes"};
 
 class Builder {
  public:
@@ -26,12 +27,12 @@ class Builder {
       for (const auto& [key, raw] : raw_.scopes[s].element_sets) add_elements(s, raw);
     for (std::uint32_t s = 0; s < raw_.scopes.size(); ++s)
       for (const auto& [key, raw] : raw_.scopes[s].surfaces) add_surface(s, raw);
-    for (std::uint32_t s = 0; s < raw_.scopes.size(); ++s)
-      for (const auto& [key, raw] : raw_.scopes[s].node_sets) {
-        mesh::Set set = named(s, raw.name);
-        set.nodes = members_.of(Kind::nodes, s, raw.name, raw.at);
-        add(SetKind::nodes, std::move(set), raw.at);
-      }
+    for (std::uint32_t s = 0; s < raw_.scopes.size(); ++s) {
+      for (const auto& [key, raw] : raw_.scopes[s].node_sets)
+        add_nodes(SetKind::nodes, s, raw, members_.of(Kind::nodes, s, raw.name, raw.at));
+      for (const auto& [key, raw] : raw_.scopes[s].node_surfaces)
+        add_nodes(SetKind::node_surface, s, raw, members_.of(Kind::nodes, s, raw));
+    }
     return std::move(out_);
   }
 
@@ -80,12 +81,15 @@ class Builder {
 
   void add_surface(std::uint32_t scope, const RawSurface& raw) {
     mesh::Set set = named(scope, raw.name);
-    if (raw.of_nodes)
-      set.nodes = members_.of(Kind::nodes, scope, raw.nodes);
-    else
-      set.cells = sides_.of(raw, scope, members_);
+    set.cells = sides_.of(raw, scope, members_);
     finish(set);
     add(SetKind::surface, std::move(set), raw.at);
+  }
+
+  void add_nodes(SetKind kind, std::uint32_t scope, const RawSet& raw, std::vector<Index> nodes) {
+    mesh::Set set = named(scope, raw.name);
+    set.nodes = std::move(nodes);
+    add(kind, std::move(set), raw.at);
   }
 
   /// A set that has the nodes of one of the same name is that one; others get an ending.

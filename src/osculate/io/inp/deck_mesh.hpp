@@ -7,8 +7,8 @@
 
 namespace osculate::io::inp {
 
-/// A deck has three kinds of names, each for itself.
-enum class SetKind : std::uint8_t { elements, surface, nodes };
+/// A deck has four kinds of names, each for itself.
+enum class SetKind : std::uint8_t { elements, surface, nodes, node_surface };
 
 /// What a name of the deck became.
 struct DeckSet {

@@ -48,8 +48,6 @@ struct RawSurface {
   std::string name;
   Place at{};
   std::vector<SurfaceEntry> entries;
-  bool of_nodes = false;
-  RawSet nodes{};  ///< of a surface of nodes, in place of entries
 };
 
 /// Elements of one card.
@@ -70,8 +68,8 @@ struct Scope {
   std::vector<Vec3> nodes;
   std::vector<Place> node_at;
   std::vector<RawElements> elements;
-  Named<RawSet> node_sets, element_sets;
-  Named<RawSurface> surfaces;
+  Named<RawSet> node_sets, element_sets, node_surfaces;
+  Named<RawSurface> surfaces;  ///< of elements
 };
 
 /// What the cards of a deck say of its mesh.
