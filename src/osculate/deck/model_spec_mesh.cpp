@@ -224,17 +224,17 @@ Spec generated_spec() {
 }
 
 void require_mesh_format(const Name& file) {
-  const std::string ending = std::filesystem::path(file.value).extension().string();
   if (io::mesh_format_of(file.value, {})) return;
-  throw core::InputError(file.mark, ending == ".inp"
-                                        ? std::string("Abaqus decks are not read yet")
-                                        : fmt::format("expected a mesh file, {}, got {}",
-                                                      io::mesh_format_names(), quoted(file.value)));
+  throw core::InputError(file.mark, fmt::format("expected a mesh file, {}, got {}",
+                                                io::mesh_format_names(), quoted(file.value)));
 }
 
 Spec file_spec() {
   return text("Name of a mesh file, " + io::mesh_format_names() +
-              ", relative to the folder of the model file.")
+              ", relative to the folder of the model file. Of .inp files the mesh alone is read; "
+              "its sets of elements and of nodes and its surfaces are sets, found in capital and "
+              "small letters, those of an instance as INSTANCE.SET. Where a set of elements has "
+              "the name too, they are NAME.surface and NAME.nodes.")
       .such_as("block.msh");
 }
 
@@ -290,8 +290,8 @@ MeshFile file_of(const Value& v, Name name) {
 
 Spec files_spec() {
   return names(
-             "Gmsh files by name, the same one as often as you like. Sets: NAME.SET for every "
-             "physical group SET, and NAME, all its cells of the highest dimension.",
+             "Mesh files by name, the same one as often as you like. Sets: NAME.SET for every "
+             "physical group or set SET, and NAME, all its cells of the highest dimension.",
              either("A file, as it is or put somewhere.",
                     {file_spec(),
                      file_keys().spec("A file that is scaled, then turned, then moved.")}))

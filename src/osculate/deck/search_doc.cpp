@@ -20,7 +20,7 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 28> synonyms{{
+constexpr std::array<Synonym, 29> synonyms{{
     {"plasticity plastic yielding mises-plasticity j2 metal",
      "materials.elastoplastic: yield, hardening, isotropic, kinematic"},
     {"creep norton relaxation", "materials.norton: A, n; every step needs a duration"},
@@ -34,7 +34,9 @@ constexpr std::array<Synonym, 28> synonyms{{
     {"eigenfrequency modal buckling harmonic frequency", no},
     {"fatigue wear crack cohesive", no},
     {"mpi cluster gpu iterative multigrid", no},
-    {"abaqus inp ansys nastran step iges cad", no},
+    {"abaqus calculix inp deck nset elset",
+     "mesh: files with the extension .inp, their mesh alone"},
+    {"ansys nastran step iges cad", no},
     {"rotational-symmetry rotationally axisymmetry axisym",
      "sections.element: axisymmetric (x is the radius, y the axis)"},
     {"constraint boundary-condition bc fixed clamp support encastre spc",

@@ -205,9 +205,9 @@ TEST(BrokenModels, KnownButNotAvailable) {
   expect_refusals({
       {"max_iterations: 25", "stabilisation: {}",
        "model.yaml:35: solver.stabilisation: is not available yet"},
-      {"mesh: block.msh", "mesh: block.inp", "model.yaml:3: mesh: Abaqus decks are not read yet"},
       {"mesh: block.msh", "mesh: block.step",
-       "model.yaml:3: mesh: expected a mesh file, Gmsh (.msh) or STL (.stl), got 'block.step'"},
+       "model.yaml:3: mesh: expected a mesh file, Gmsh (.msh), Abaqus or CalculiX (.inp) or STL "
+       "(.stl), got 'block.step'"},
       {"osculate: 1", "osculate: 2", "model.yaml:1: osculate: must be 1, got 2"},
   });
 }

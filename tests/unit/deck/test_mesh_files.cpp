@@ -87,7 +87,9 @@ TEST_F(MeshFiles, Mistakes) {
   refuses("{low: box.msh, high: box.msh, rail: box.msh}",
           ".rail: mesh 'rail': there is already a set of that name");
   refuses("{low: box.msh, high: none.msh}", ".high: ");
-  refuses("{low: box.msh, high: box.inp}", ".high: Abaqus decks are not read yet");
+  refuses("{low: box.msh, high: box.step}",
+          ".high: expected a mesh file, Gmsh (.msh), Abaqus or CalculiX (.inp) or STL (.stl), got "
+          "'box.step'");
   refuses("{low: box.msh, high: {file: box.msh, scale: 0}}", ".high.scale: must be > 0, got 0");
   refuses("{low: box.msh, high: {move: [1, 1]}}", ".high: ");
   refuses("{low: box.msh, low.top: box.msh}", ": 'low.top' cannot be a name");
