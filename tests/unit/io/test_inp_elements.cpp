@@ -284,16 +284,15 @@ TEST(InpElements, ShellsAndMembranesAreSurfacesWithTwoSides) {
   }
 }
 
-TEST(InpElements, BeamsHaveTheirMiddleBetweenTheEnds) {
-  const mesh::Mesh mesh = read_inp(
-      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 4, 0, 0\n*ELEMENT, TYPE=B32R, ELSET=A\n1, 1, 2, 3\n"
-      "*ELEMENT, TYPE=T3D2, ELSET=B\n2, 1, 2\n",
-      "a.inp");
-  const mesh::CellRef beam = mesh.find_set("A")->cells[0];
-  const mesh::Block& block = mesh.blocks[std::size_t(beam.block)];
-  EXPECT_EQ(block.type, line3);
-  EXPECT_THAT(block.connectivity, ::testing::ElementsAre(0, 2, 1));
-  EXPECT_EQ(mesh.find_set("b")->cells.size(), 1u);
+TEST(InpElements, BeamsAndTrussesHaveTheirMiddleBetweenTheEnds) {
+  for (const std::string type : {"B32R", "B22", "T3D3", "T2D3"}) {
+    const mesh::Mesh mesh =
+        read_inp("*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 4, 0, 0\n*ELEMENT, TYPE=" + type +
+                     ", ELSET=A\n1, 1, 2, 3\n",
+                 "a.inp");
+    EXPECT_EQ(mesh.blocks[0].type, line3);
+    EXPECT_THAT(mesh.blocks[0].connectivity, ::testing::ElementsAre(0, 2, 1)) << type;
+  }
 }
 
 TEST(InpElements, VariantsOfAllNamesThatAreKnown) {

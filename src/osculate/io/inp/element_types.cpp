@@ -11,7 +11,7 @@ using enum cell::CellType;
 using enum Family;
 
 constexpr std::string_view continuum = "RIHMTS", shell = "RST5W", beam = "RHST";
-constexpr std::array<ElementType, 45> types{{
+constexpr std::array<ElementType, 47> types{{
     {"C3D4", continuum, tet4, solid},
     {"C3D6", continuum, wedge6, solid},
     {"C3D8", continuum, hex8, solid},
@@ -57,6 +57,8 @@ constexpr std::array<ElementType, 45> types{{
     {"B22", beam, line3, line},
     {"B32", beam, line3, line},
     {"M3D9", "R", quad9, surface},
+    {"T2D3", "HT", line3, line},
+    {"T3D3", "HT", line3, line},
 }};
 
 constexpr std::array<std::int8_t, 9> same{0, 1, 2, 3, 4, 5, 6, 7, 8};
