@@ -1,0 +1,163 @@
+#include "osculate/deck/inp_keywords.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace osculate::deck {
+namespace {
+
+using enum KeywordUse;
+
+constexpr std::array<InpKeyword, 115> keywords{{
+    {"HEADING", "", "a title", silent, ""},
+    {"INCLUDE", "INPUT", "", mesh, "the lines of the file"},
+    {"NODE", "NSET SYSTEM INPUT", "number, x, y, z", mesh, "nodes, and a set of them"},
+    {"ELEMENT", "TYPE ELSET INPUT", "number, nodes", mesh, "cells, and a set of them"},
+    {"NSET", "NSET GENERATE ELSET INSTANCE", "numbers, names of sets", mesh, "a set of nodes"},
+    {"ELSET", "ELSET GENERATE INSTANCE", "numbers, names of sets", mesh, "a set of cells"},
+    {"SURFACE", "NAME TYPE", "elements or sets with sides; nodes", mesh,
+     "a set of facets, or of nodes"},
+    {"PART", "NAME", "", mesh, "what instances place"},
+    {"END PART", "", "", mesh, ""},
+    {"ASSEMBLY", "NAME", "", mesh, ""},
+    {"END ASSEMBLY", "", "", mesh, ""},
+    {"INSTANCE", "NAME PART", "translation; rotation", mesh,
+     "nodes, cells and sets `INSTANCE.SET`"},
+    {"END INSTANCE", "", "", mesh, ""},
+    {"NGEN", "NSET LINE", "end, end, step", none, "write all nodes"},
+    {"NFILL", "NSET", "sets", none, "write all nodes"},
+    {"NCOPY", "OLD SET, CHANGE NUMBER", "", none, "write all nodes"},
+    {"NMAP", "NSET TYPE", "", none, "write all nodes"},
+    {"ELGEN", "ELSET", "", none, "write all elements"},
+    {"ELCOPY", "OLD SET", "", none, "write all elements"},
+    {"SYSTEM", "", "axes", none, "write all nodes in the global axes"},
+    {"MATERIAL", "NAME", "", ours, "`materials`"},
+    {"ELASTIC", "TYPE", "E, nu, temperature", ours,
+     "`linear_elastic`, `st_venant_kirchhoff` (isotropic, one temperature)"},
+    {"PLASTIC", "HARDENING", "stress, plastic strain, temperature", ours,
+     "`elastoplastic: hardening` (isotropic) or `kinematic`"},
+    {"CYCLIC HARDENING", "", "stress, plastic strain", none, "no such material"},
+    {"CREEP", "LAW", "A, n, m", ours, "`norton: {A, n}` (LAW=NORTON, m = 0)"},
+    {"HYPERELASTIC", "NEO HOOKE, N, ...", "constants", ours, "`neo_hooke` (NEO HOOKE only)"},
+    {"HYPERFOAM", "N", "constants", none, "no such material"},
+    {"DEFORMATION PLASTICITY", "", "E, nu, stress, n, alpha", none, "no such material"},
+    {"USER MATERIAL", "CONSTANTS", "constants", none, "materials are made in C++"},
+    {"DEPVAR", "", "number of state variables", none, "materials are made in C++"},
+    {"DENSITY", "", "density, temperature", ours, "`density` of the material"},
+    {"EXPANSION", "ZERO", "coefficient", none, "no temperatures"},
+    {"CONDUCTIVITY", "TYPE", "conductivity", none, "no temperatures"},
+    {"SPECIFIC HEAT", "", "specific heat", none, "no temperatures"},
+    {"DAMPING", "ALPHA BETA", "", ours, "`steps.dynamics: damping`"},
+    {"SOLID SECTION", "ELSET MATERIAL ORIENTATION", "thickness", ours,
+     "`sections`: on, material, element, thickness"},
+    {"SHELL SECTION", "ELSET MATERIAL", "thickness", none, "no shells but `solid_shell`"},
+    {"MEMBRANE SECTION", "ELSET MATERIAL", "thickness", none, "no membranes"},
+    {"BEAM SECTION", "ELSET MATERIAL SECTION", "dimensions; axis", none, "no beams"},
+    {"BEAM GENERAL SECTION", "ELSET MATERIAL SECTION", "properties; axis", none, "no beams"},
+    {"NODAL THICKNESS", "", "nodes, thickness", none, "no shells but `solid_shell`"},
+    {"NORMAL", "", "element, node, normal", none, "no shells but `solid_shell`"},
+    {"ORIENTATION", "NAME SYSTEM", "points; axis, angle", none, "materials are isotropic"},
+    {"SPRING", "ELSET", "dofs; stiffness", none, "no springs"},
+    {"DASHPOT", "ELSET", "dofs; coefficient", none, "no dashpots"},
+    {"MASS", "ELSET", "mass", none, "no point masses"},
+    {"GAP", "ELSET", "clearance, direction", none, "no gap elements: `contact` of surfaces"},
+    {"BOUNDARY", "OP AMPLITUDE FIXED", "node or set, first dof, last dof, value", ours,
+     "`steps.prescribe`, `steps.release`"},
+    {"EQUATION", "", "number of terms; node, dof, factor", ours, "`equations`"},
+    {"MPC", "", "kind, nodes", ours, "`equations`, `equal`"},
+    {"TIE", "NAME POSITION TOLERANCE ADJUST", "slave, master", ours,
+     "`contact` with `separation: tied`"},
+    {"RIGID BODY", "NSET ELSET REF NODE", "", ours, "`rigid`"},
+    {"COUPLING", "CONSTRAINT NAME REF NODE SURFACE", "", none,
+     "`rigid` ties nodes that move as one"},
+    {"KINEMATIC", "", "first dof, last dof", none, "`rigid` ties nodes that move as one"},
+    {"DISTRIBUTING", "", "first dof, last dof", none, "`total_force` loads a set"},
+    {"DISTRIBUTING COUPLING", "ELSET", "nodes, weights", none, "`total_force` loads a set"},
+    {"TRANSFORM", "NSET TYPE", "points", none, "directions are x, y and z"},
+    {"CYCLIC SYMMETRY MODEL", "N TIE NAME", "axis", none, "no cyclic symmetry"},
+    {"PRE-TENSION SECTION", "SURFACE NODE", "normal", none, "no pretension of a section"},
+    {"CONTACT PAIR", "INTERACTION TYPE ADJUST SMALL SLIDING", "slave, master", ours,
+     "`contact`: slave, master, sampling"},
+    {"CONTACT", "", "", ours, "`contact: {all: ...}`"},
+    {"CONTACT INCLUSIONS", "ALL EXTERIOR", "pairs of surfaces", ours, "`contact: {all: ...}`"},
+    {"CONTACT PROPERTY ASSIGNMENT", "", "surfaces, interaction", ours, "`contact: {all: ...}`"},
+    {"SURFACE INTERACTION", "NAME", "", ours, "`contact`: normal, friction"},
+    {"SURFACE BEHAVIOR", "PRESSURE-OVERCLOSURE", "stiffness, tension; table", ours,
+     "`contact.normal`"},
+    {"FRICTION", "", "mu, stick slope", ours, "`contact.friction.coulomb`: mu, penalty"},
+    {"CLEARANCE", "MASTER SLAVE VALUE", "", ours, "`contact.offset`"},
+    {"CONTACT DAMPING", "", "coefficient", ours, "`contact.normal.damping`"},
+    {"CONTACT CONTROLS", "", "", silent, ""},
+    {"GAP CONDUCTANCE", "", "conductance", none, "no temperatures"},
+    {"CHANGE FRICTION", "INTERACTION", "", none, "laws stay the same through all steps"},
+    {"CHANGE SURFACE BEHAVIOR", "INTERACTION", "", none, "laws stay the same through all steps"},
+    {"CHANGE MATERIAL", "NAME", "", none, "materials stay the same through all steps"},
+    {"CHANGE PLASTIC", "", "", none, "materials stay the same through all steps"},
+    {"CHANGE SOLID SECTION", "", "", none, "sections stay the same through all steps"},
+    {"MODEL CHANGE", "TYPE ADD REMOVE", "", none, "pairs and cells stay through all steps"},
+    {"STEP", "NLGEOM INC", "", ours, "`steps`; `kinematics: finite` for NLGEOM"},
+    {"END STEP", "", "", ours, "`steps`"},
+    {"STATIC", "DIRECT", "increment, time", ours, "`steps.increments`"},
+    {"VISCO", "CETOL", "increment, time", ours, "`steps.duration`, `steps.increments`"},
+    {"DYNAMIC", "ALPHA EXPLICIT DIRECT", "increment, time", ours, "`steps.dynamics`"},
+    {"FREQUENCY", "STORAGE", "number of modes", none, "no eigenmodes"},
+    {"COMPLEX FREQUENCY", "", "number of modes", none, "no eigenmodes"},
+    {"BUCKLE", "", "number of modes", none, "no eigenmodes"},
+    {"MODAL DYNAMIC", "", "increment, time", none, "no eigenmodes"},
+    {"MODAL DAMPING", "", "modes, damping", none, "no eigenmodes"},
+    {"STEADY STATE DYNAMICS", "", "frequencies", none, "no eigenmodes"},
+    {"SELECT CYCLIC SYMMETRY MODES", "NMIN NMAX", "", none, "no eigenmodes"},
+    {"HEAT TRANSFER", "", "increment, time", none, "no temperatures"},
+    {"COUPLED TEMPERATURE-DISPLACEMENT", "", "increment, time", none, "no temperatures"},
+    {"UNCOUPLED TEMPERATURE-DISPLACEMENT", "", "increment, time", none, "no temperatures"},
+    {"AMPLITUDE", "NAME TIME", "time, factor", ours, "`amplitudes`"},
+    {"INITIAL CONDITIONS", "TYPE", "node or set, values", ours,
+     "`initial_velocity` (TYPE=VELOCITY)"},
+    {"CLOAD", "OP AMPLITUDE", "node or set, dof, force", ours, "`steps.forces`"},
+    {"DLOAD", "OP AMPLITUDE", "element or set, load, size", ours,
+     "`pressure`, `gravity`, `body_force`"},
+    {"DSLOAD", "AMPLITUDE", "surface, P, size", ours, "`steps.pressure`"},
+    {"TEMPERATURE", "OP AMPLITUDE", "node or set, temperature", none, "no temperatures"},
+    {"CONTROLS", "PARAMETERS", "numbers", ours, "`solver`, `control`"},
+    {"SUBMODEL", "TYPE INPUT", "sets", none, "no submodels"},
+    {"RESTART", "READ WRITE STEP", "", ours, "`osculate run --restart`, `output.checkpoint`"},
+    {"NO ANALYSIS", "", "", ours, "`osculate check`"},
+    {"TIME POINTS", "NAME", "times", silent, ""},
+    {"NODE PRINT", "NSET", "names of results", silent, "`output.history`"},
+    {"EL PRINT", "ELSET", "names of results", silent, "`output.history`"},
+    {"CONTACT PRINT", "", "names of results", silent, "`output.contact_points`"},
+    {"FACE PRINT", "SURFACE", "names of results", silent, ""},
+    {"SECTION PRINT", "SURFACE", "names of results", silent, ""},
+    {"NODE FILE", "NSET", "names of results", silent, "`output.fields`"},
+    {"EL FILE", "", "names of results", silent, "`output.fields`"},
+    {"CONTACT FILE", "", "names of results", silent, "`output.fields`"},
+    {"NODE OUTPUT", "", "names of results", silent, "`output.fields`"},
+    {"ELEMENT OUTPUT", "", "names of results", silent, "`output.fields`"},
+    {"CONTACT OUTPUT", "", "names of results", silent, "`output.fields`"},
+    {"OUTPUT", "FIELD HISTORY", "", silent, "`output`"},
+    {"PREPRINT", "", "", silent, ""},
+}};
+
+/// Whether a keyword is the name but for its blanks.
+bool is_called(std::string_view keyword, std::string_view name) {
+  std::size_t at = 0;
+  for (const char c : keyword) {
+    if (c == ' ') continue;
+    if (at == name.size() || name[at] != c) return false;
+    ++at;
+  }
+  return at == name.size();
+}
+
+}  // namespace
+
+std::span<const InpKeyword> inp_keywords() { return keywords; }
+
+const InpKeyword* find_inp_keyword(std::string_view keyword) {
+  const auto found = std::find_if(
+      keywords.begin(), keywords.end(),
+      [keyword](const InpKeyword& known) { return is_called(known.keyword, keyword); });
+  return found == keywords.end() ? nullptr : &*found;
+}
+
+}  // namespace osculate::deck
