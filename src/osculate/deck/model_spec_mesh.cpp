@@ -231,10 +231,7 @@ void require_mesh_format(const Name& file) {
 
 Spec file_spec() {
   return text("Name of a mesh file, " + io::mesh_format_names() +
-              ", relative to the folder of the model file. Of .inp files the mesh alone is read; "
-              "its sets of elements and of nodes and its surfaces are sets, found in capital and "
-              "small letters, those of an instance as INSTANCE.SET. Where a set of elements has "
-              "the name too, they are NAME.surface and NAME.nodes.")
+              ", relative to the folder of the model file.")
       .such_as("block.msh");
 }
 
@@ -326,8 +323,12 @@ BoundKey<Description> mesh_key() {
   return {
       required(
           "mesh",
-          either("The mesh: a file, relative to the folder of the model file, or several files and "
-                 "generated parts together.",
+          either("The mesh: a file, " + io::mesh_format_names() +
+                     ", relative to the folder of the model file, or several files and generated "
+                     "parts together. Of .inp files the mesh alone is read (docs/inp.md): its sets "
+                     "of elements and of nodes and its surfaces are sets, those of an instance "
+                     "INSTANCE.SET, in capital or small letters. Where a set of elements has the "
+                     "same name, they are NAME.surface and NAME.nodes.",
                  {file_spec(), mesh_keys()
                                    .spec("Files and generated parts, which share no nodes.")
                                    .with(Group::Rule::at_least_one, {"files", "generate"})})
