@@ -30,5 +30,6 @@ void add_report(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
 void add_doc(CLI::App& app, int& exit_code);
 void add_domain(CLI::App& app, int& exit_code);
+void add_convert(CLI::App& app, int& exit_code);
 
 }  // namespace osculate::app

@@ -19,6 +19,7 @@ int run_program(int argc, char** argv) {
   add_schema(app, exit_code);
   add_doc(app, exit_code);
   add_domain(app, exit_code);
+  add_convert(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -168,6 +168,7 @@ std::vector<mesh::ContactSides> sides_of_contacts(const Description& description
 template <int Dim>
 BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   BasicBuilt<Dim> built;
+  built.input_notes = description.notes;
   for (const mesh::Finding& finding :
        mesh::check_mesh(mesh, sides_of_contacts(description, mesh))) {
     if (finding.is_error) throw core::InputError(description.mesh.mark, finding.message);

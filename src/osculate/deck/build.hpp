@@ -35,6 +35,7 @@ struct BasicBuilt {
   std::vector<std::vector<LoadTotal>> loads;  ///< of each step
   std::vector<std::string> warnings;          ///< plain sentences, shown by `check` and `run`
   std::vector<std::string> notes;             ///< what was decided for the user, shown there too
+  std::vector<std::string> input_notes;       ///< the same of the files that were read
 };
 
 using Built = BasicBuilt<2>;

@@ -470,6 +470,7 @@ struct Description {
   Output output;
   /// What the results depend on, as it was written: everything but `title`, `solver`, `output`.
   std::vector<SourceLeaf> source;
+  std::vector<std::string> notes;  ///< what was decided for the user while reading
 
   [[nodiscard]] const Material* find_material(const std::string& name) const;
   [[nodiscard]] const Rigid* find_rigid(const std::string& name) const;

@@ -10,9 +10,11 @@
 #include <sstream>
 
 #include "osculate/core/text.hpp"
+#include "osculate/deck/inp_translate.hpp"
 #include "osculate/deck/model_spec.hpp"
 #include "osculate/deck/parse_parts.hpp"
 #include "osculate/deck/scalar.hpp"
+#include "osculate/io/gmsh.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -109,8 +111,21 @@ Description parse_model(SourceNode root, std::string file_name, std::span<const 
   return d;
 }
 
+namespace {
+
+Description read_deck(const std::string& path, std::span<const Setting> settings) {
+  const std::string content = io::read_file(path);
+  TranslatedDeck deck = translate_deck(content, path);
+  Description d = parse_model(std::move(deck.root), path, settings);
+  d.notes = std::move(deck.notes);
+  return d;
+}
+
+}  // namespace
+
 Description read_model(const std::string& path, std::span<const Setting> settings) {
   std::error_code ignored;
+  if (names_a_deck(path)) return read_deck(path, settings);
   if (std::filesystem::is_directory(path, ignored))
     throw core::InputError({path, 0, ""}, "cannot be read: it is a folder");
   std::ifstream file(path, std::ios::binary);

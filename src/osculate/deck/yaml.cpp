@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "osculate/deck/inp_translate.hpp"
 #include "osculate/deck/source_text.hpp"
 #include "osculate/deck/source_tree.hpp"
 
@@ -239,6 +240,43 @@ SourceNode read_yaml(std::string_view text, const std::string& file, const TextL
     throw core::InputError({file, line, ""}, "not valid YAML: " + error.msg + hint(error.msg));
   }
   return builder.root();
+}
+
+namespace {
+
+bool holds_no_list(const SourceNode& node) {
+  const auto is_scalar = [](const SourceNode& child) { return child.kind == Kind::scalar; };
+  return std::all_of(node.items.begin(), node.items.end(), is_scalar) &&
+         std::all_of(node.entries.begin(), node.entries.end(),
+                     [&](const SourceEntry& entry) { return is_scalar(entry.value); });
+}
+
+void emit(const SourceNode& node, YAML::Emitter& out) {
+  if (node.kind == Kind::nothing) out << YAML::Null;
+  if (node.kind == Kind::scalar) out << node.text;
+  if (node.kind == Kind::list || node.kind == Kind::map)
+    if (holds_no_list(node)) out << YAML::Flow;
+  if (node.kind == Kind::list) {
+    out << YAML::BeginSeq;
+    for (const SourceNode& item : node.items) emit(item, out);
+    out << YAML::EndSeq;
+  }
+  if (node.kind != Kind::map) return;
+  out << YAML::BeginMap;
+  for (const SourceEntry& entry : node.entries) {
+    out << YAML::Key << entry.key << YAML::Value;
+    emit(entry.value, out);
+  }
+  out << YAML::EndMap;
+}
+
+}  // namespace
+
+std::string to_yaml(const SourceNode& root) {
+  YAML::Emitter out;
+  out.SetIndent(2);
+  emit(root, out);
+  return std::string(out.c_str()) + "\n";
 }
 
 }  // namespace osculate::deck

@@ -340,6 +340,7 @@ template <int Dim>
 std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
   const model::BasicModel<Dim>& m = built.model;
   std::vector<ModelFact> facts;
+  for (const std::string& note : built.input_notes) facts.push_back({"Input", "", note});
   for (const model::BasicBulkSection<Dim>& section : m.sections)
     facts.push_back({"Bodies", section.name, section_text(m, section)});
   for (const model::BasicRigidBody<Dim>& body : m.rigid)

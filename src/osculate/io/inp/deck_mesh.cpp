@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "osculate/io/inp/loaded_sets.hpp"
 #include "osculate/io/inp/sides.hpp"
 
 namespace osculate::io::inp {
@@ -12,11 +13,17 @@ namespace {
 /// By kind of set, where the name is taken.
 constexpr std::array<std::string_view, 4> endings{".cells", ".surface", ".nodes", ".surface_nodes"};
 
+RawMesh raw_mesh(const Deck& deck) {
+  RawMesh mesh = collect(deck);
+  add_loaded_sets(deck, mesh);
+  return mesh;
+}
+
 class Builder {
  public:
   explicit Builder(const Deck& deck)
       : deck_(deck),
-        raw_(collect(deck)),
+        raw_(raw_mesh(deck)),
         numbering_(add_cells(deck, raw_, out_.mesh)),
         members_(deck, raw_, numbering_, out_.mesh),
         sides_(deck, numbering_, out_.mesh) {}

@@ -1,0 +1,263 @@
+// Materials, sections and equations of a deck.
+#include <fmt/format.h>
+
+#include <set>
+
+#include "osculate/deck/inp_parts.hpp"
+#include "osculate/io/inp/element_types.hpp"
+#include "osculate/io/inp/loaded_sets.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using io::inp::Card;
+using io::inp::Fields;
+using io::inp::Line;
+using io::inp::SetKind;
+
+/// The cards of one `*MATERIAL`.
+struct MaterialCards {
+  const Card* material = nullptr;
+  const Card *elastic = nullptr, *plastic = nullptr, *density = nullptr, *creep = nullptr;
+};
+
+std::vector<MaterialCards> material_cards(const InpModel& m) {
+  std::vector<MaterialCards> all;
+  const auto set = [&](const Card& card, const Card* MaterialCards::*which) {
+    if (all.empty()) io::inp::fail(m.deck, card, "stands before the first *MATERIAL");
+    if (all.back().*which)
+      io::inp::fail(
+          m.deck, card,
+          fmt::format("the material has one already, in line {}", (all.back().*which)->at.line));
+    all.back().*which = &card;
+  };
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword == "MATERIAL") all.push_back({&card});
+    if (card.keyword == "ELASTIC") set(card, &MaterialCards::elastic);
+    if (card.keyword == "PLASTIC") set(card, &MaterialCards::plastic);
+    if (card.keyword == "DENSITY") set(card, &MaterialCards::density);
+    if (card.keyword == "CREEP") set(card, &MaterialCards::creep);
+  }
+  return all;
+}
+
+/// The only line of a card whose numbers do not depend on the temperature.
+const Line& constant_line(const InpModel& m, const Card& card, const char* what) {
+  const auto lines = io::inp::lines_of(m.deck, card);
+  if (lines.size() > 1)
+    io::inp::fail(
+        m.deck, lines[1].at,
+        fmt::format("*{}: numbers that depend on the temperature are not supported", card.keyword));
+  return only_line(m, card, what);
+}
+
+double density_of(const InpModel& m, const MaterialCards& c) {
+  if (!c.density) return 0;
+  return Fields(m.deck, constant_line(m, *c.density, "the density")).real("the density");
+}
+
+void put_elastic(const InpModel& m, const MaterialCards& c, SourceNode& law) {
+  const std::string type = option_of(*c.elastic, "TYPE");
+  if (!type.empty() && type != "ISO" && type != "ISOTROPIC")
+    io::inp::fail(m.deck, *c.elastic,
+                  fmt::format("TYPE={} is not supported: materials are isotropic", type));
+  const Line& line = constant_line(m, *c.elastic, "E and nu");
+  Fields fields(m.deck, line);
+  put(law, "E", inp_number(fields.real("Young's modulus"), line_of(line.at)));
+  put(law, "nu", inp_number(fields.real_or_zero("Poisson's ratio"), line_of(line.at)));
+  if (const double density = density_of(m, c); density > 0)
+    put(law, "density", inp_number(density, line_of(c.density->at)));
+}
+
+/// Pairs of stress and plastic strain.
+std::vector<std::array<double, 2>> hardening_of(const InpModel& m, const Card& card) {
+  std::vector<std::array<double, 2>> points;
+  for (const Line& line : io::inp::lines_of(m.deck, card)) {
+    Fields fields(m.deck, line);
+    const double stress = fields.real("the yield stress");
+    const double strain = fields.real_or_zero("the plastic strain");
+    if (!points.empty() && !(strain > points.back()[1]))
+      fields.fail(
+          "expected a larger plastic strain than in the line before (tables for several "
+          "temperatures are not supported)");
+    points.push_back({stress, strain});
+  }
+  if (points.empty()) io::inp::fail(m.deck, card, "expected lines with stress and plastic strain");
+  return points;
+}
+
+void put_plastic(const InpModel& m, const Card& card, SourceNode& law) {
+  const std::string kind = option_of(card, "HARDENING");
+  const auto points = hardening_of(m, card);
+  const int line = line_of(card.at);
+  if (kind == "KINEMATIC") {
+    if (points.size() > 2)
+      io::inp::fail(m.deck, card, "kinematic hardening is linear here: give two points");
+    put(law, "yield", inp_number(points[0][0], line));
+    if (points.size() == 2)
+      put(law, "kinematic",
+          inp_number((points[1][0] - points[0][0]) / (points[1][1] - points[0][1]), line));
+    return;
+  }
+  if (!kind.empty() && kind != "ISOTROPIC")
+    io::inp::fail(m.deck, card,
+                  fmt::format("HARDENING={} is not supported: ISOTROPIC or "
+                              "KINEMATIC",
+                              kind));
+  SourceNode& table = put(law, "hardening", inp_list(line));
+  for (const auto& [stress, strain] : points) {
+    SourceNode& row = table.items.emplace_back(inp_list(line));
+    row.items = {inp_number(stress, line), inp_number(strain, line)};
+  }
+}
+
+void put_creep(const InpModel& m, const Card& card, SourceNode& law) {
+  const std::string kind = option_of(card, "LAW");
+  if (!kind.empty() && kind != "NORTON" && kind != "STRAIN")
+    io::inp::fail(m.deck, card, fmt::format("LAW={} is not supported: NORTON", kind));
+  const Line& line = constant_line(m, card, "A, n and m");
+  Fields fields(m.deck, line);
+  put(law, "A", inp_number(fields.real("A"), line_of(line.at)));
+  put(law, "n", inp_number(fields.real("n"), line_of(line.at)));
+  if (fields.real_or_zero("m") != 0)
+    fields.fail("creep that depends on the time (m not 0) is not supported");
+}
+
+const char* law_of(const InpModel& m, const MaterialCards& c) {
+  if (c.plastic && c.creep)
+    io::inp::fail(m.deck, *c.creep, "a material that both flows and creeps is not supported");
+  if (c.plastic) return "elastoplastic";
+  if (c.creep) return "norton";
+  return m.finite ? "st_venant_kirchhoff" : "linear_elastic";
+}
+
+/// What `element` of a section a set of elements in the plane is.
+const char* plane_element(const InpModel& m, const Card& section, std::string_view elements) {
+  std::set<std::string> all, own;
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "ELEMENT") continue;
+    const std::string type = option_of(card, "TYPE");
+    const std::string family = type.substr(0, 3);
+    if (family != "CPE" && family != "CPS" && family != "CAX") continue;
+    all.insert(family);
+    if (option_of(card, "ELSET") == io::inp::capitals(elements)) own.insert(family);
+  }
+  const std::set<std::string>& found = all.size() == 1 ? all : own;
+  if (found.size() != 1)
+    io::inp::fail(
+        m.deck, section,
+        fmt::format("the elements of '{}' are of several kinds (or in sets of sets): name "
+                    "a set of *ELEMENT, of one kind",
+                    printable(elements)));
+  if (*found.begin() == "CPE") return "plane_strain";
+  return *found.begin() == "CPS" ? "plane_stress" : "axisymmetric";
+}
+
+void note_reduced(InpModel& m) {
+  std::set<std::string> reduced;
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "ELEMENT") continue;
+    const std::string type = option_of(card, "TYPE");
+    if (type.ends_with("R") || type.ends_with("RH")) reduced.insert(type);
+  }
+  if (reduced.empty()) return;
+  std::string text;
+  for (const std::string& one : reduced) text += (text.empty() ? "" : ", ") + one;
+  m.notes.push_back(fmt::format(
+      "elements {} are integrated fully here, those of first order with `formulation: auto`",
+      text));
+}
+
+}  // namespace
+
+SourceNode inp_materials(InpModel& m) {
+  SourceNode materials = inp_map(1);
+  for (const MaterialCards& c : material_cards(m)) {
+    const int line = line_of(c.material->at);
+    const std::string name = plain_name(value_of(m, *c.material, "NAME"));
+    if (find(materials, name))
+      io::inp::fail(m.deck, *c.material, fmt::format("a second material is called '{}'", name));
+    if (!c.elastic) io::inp::fail(m.deck, *c.material, "its *ELASTIC is missing");
+    SourceNode& material = put(materials, name, inp_map(line));
+    SourceNode& law = put(material, law_of(m, c), inp_map(line));
+    put_elastic(m, c, law);
+    if (c.plastic) put_plastic(m, *c.plastic, law);
+    if (c.creep) put_creep(m, *c.creep, law);
+  }
+  return materials;
+}
+
+SourceNode inp_sections(InpModel& m) {
+  SourceNode sections = inp_list(1);
+  note_reduced(m);
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "SOLIDSECTION") continue;
+    const int line = line_of(card.at);
+    if (!option_of(card, "ORIENTATION").empty())
+      io::inp::fail(m.deck, card, "ORIENTATION is not supported: materials are isotropic");
+    const std::string& elements = value_of(m, card, "ELSET");
+    const std::string& set = set_of(m, card.at, elements, {SetKind::elements});
+    SourceNode& section = sections.items.emplace_back(inp_map(line));
+    put(section, "on", inp_text(set, line));
+    put(section, "material", inp_text(plain_name(value_of(m, card, "MATERIAL")), line));
+    const mesh::Set* const cells = m.mesh.mesh.find_set(set);
+    const bool solid = cells && cells->dimension == 3;
+    const char* const element = solid ? "solid" : plane_element(m, card, elements);
+    put(section, "element", inp_text(element, line));
+    put(section, "kinematics", inp_text(m.finite ? "finite" : "small", line));
+    const auto lines = io::inp::lines_of(m.deck, card);
+    if (solid || lines.empty() || std::string_view(element) == "axisymmetric") continue;
+    const double thickness = Fields(m.deck, lines[0]).real_or_zero("the thickness");
+    if (thickness > 0) put(section, "thickness", inp_number(thickness, line_of(lines[0].at)));
+  }
+  return sections;
+}
+
+std::optional<double> density_on(const InpModel& m, std::string_view elements) {
+  for (const Card& section : m.deck.cards) {
+    if (section.keyword != "SOLIDSECTION") continue;
+    if (option_of(section, "ELSET") != io::inp::capitals(elements)) continue;
+    const std::string material = plain_name(option_of(section, "MATERIAL"));
+    for (const MaterialCards& c : material_cards(m))
+      if (io::inp::capitals(plain_name(value_of(m, *c.material, "NAME"))) == material)
+        return density_of(m, c);
+  }
+  return std::nullopt;
+}
+
+SourceNode inp_equations(const InpModel& m) {
+  SourceNode equations = inp_list(1);
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "EQUATION") continue;
+    std::int32_t missing = 0;
+    SourceNode* terms = nullptr;
+    for (const Line& line : io::inp::lines_of(m.deck, card)) {
+      Fields fields(m.deck, line);
+      const int at = line_of(line.at);
+      if (missing == 0) {
+        missing = fields.number("the number of terms");
+        fields.expect_end();
+        SourceNode& equation = equations.items.emplace_back(inp_map(at));
+        terms = &put(equation, "terms", inp_list(at));
+        continue;
+      }
+      for (; !fields.done() && missing > 0; --missing) {
+        const std::string node = io::inp::name_of(fields.next().value_or(""));
+        const auto number = io::inp::number_of(node);
+        const std::int32_t dof = fields.number("the number of a direction");
+        if (dof > 3) fields.fail("only directions 1, 2 and 3 are supported in equations");
+        SourceNode& term = terms->items.emplace_back(inp_map(at));
+        put(term, "on",
+            inp_text(set_of(m, line.at, number ? io::inp::node_set_name(*number) : node,
+                            {SetKind::nodes}),
+                     at));
+        put(term, "of", inp_text(std::string("u") + "xyz"[dof - 1], at));
+        put(term, "factor", inp_number(fields.real("the factor"), at));
+      }
+    }
+    if (missing > 0) io::inp::fail(m.deck, card, fmt::format("{} terms are missing", missing));
+  }
+  return equations;
+}
+
+}  // namespace osculate::deck

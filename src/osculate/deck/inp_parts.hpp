@@ -1,0 +1,69 @@
+#pragma once
+// The parts of the translation of an Abaqus or CalculiX deck into a model file; for inp_*.cpp.
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "osculate/deck/source_tree.hpp"
+#include "osculate/io/inp/deck_mesh.hpp"
+
+namespace osculate::deck {
+
+/// What the parts share.
+struct InpModel {
+  const io::inp::Deck& deck;
+  io::inp::DeckMesh mesh;
+  bool finite = false;  ///< some step has NLGEOM
+  std::vector<std::string> notes;
+};
+
+/// Line of a place of the deck's first file; 0: it stands in an included one.
+[[nodiscard]] inline int line_of(io::inp::Place at) {
+  return at.file == 0 ? static_cast<int>(at.line) : 0;
+}
+
+// ---- the tree ---------------------------------------------------------------------------------
+
+[[nodiscard]] SourceNode inp_text(std::string text, int line);
+[[nodiscard]] SourceNode inp_number(double value, int line);
+[[nodiscard]] SourceNode inp_list(int line);
+[[nodiscard]] SourceNode inp_map(int line);
+/// Adds an entry; returns its value, which stays where it is until the next one is added.
+SourceNode& put(SourceNode& map, std::string key, SourceNode value);
+/// The value of a key, if it is there.
+[[nodiscard]] SourceNode* find(SourceNode& map, std::string_view key);
+
+// ---- cards ------------------------------------------------------------------------------------
+
+/// A name of the deck as a name of a model file: letters, digits, _ and -.
+[[nodiscard]] std::string plain_name(std::string_view name);
+/// Value of a parameter that must be there.
+[[nodiscard]] const std::string& value_of(const InpModel& m, const io::inp::Card& card,
+                                          std::string_view parameter);
+/// In capitals; empty: not given.
+[[nodiscard]] std::string option_of(const io::inp::Card& card, std::string_view parameter);
+/// The only line of data.
+[[nodiscard]] const io::inp::Line& only_line(const InpModel& m, const io::inp::Card& card,
+                                             const char* what);
+/// A set of the mesh by its name in the deck, of one of the kinds; fails with the nearest name.
+[[nodiscard]] const std::string& set_of(const InpModel& m, io::inp::Place at, std::string_view name,
+                                        std::initializer_list<io::inp::SetKind> kinds);
+
+// ---- the keys of a model file -----------------------------------------------------------------
+
+[[nodiscard]] SourceNode inp_materials(InpModel& m);
+[[nodiscard]] SourceNode inp_sections(InpModel& m);
+/// Mass per volume of the material of a section; none: no section has this set of elements.
+[[nodiscard]] std::optional<double> density_on(const InpModel& m, std::string_view elements);
+[[nodiscard]] SourceNode inp_contact(InpModel& m);
+[[nodiscard]] SourceNode inp_equations(const InpModel& m);
+
+/// The steps, with the amplitudes that they use.
+struct InpSteps {
+  SourceNode steps, amplitudes;
+};
+[[nodiscard]] InpSteps inp_steps(InpModel& m);
+
+}  // namespace osculate::deck

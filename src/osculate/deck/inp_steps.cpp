@@ -1,0 +1,394 @@
+// Steps of a deck: boundary conditions and loads, which persist as they do in a model file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "osculate/core/text.hpp"
+#include "osculate/deck/inp_parts.hpp"
+#include "osculate/io/inp/loaded_sets.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using io::inp::Card;
+using io::inp::Fields;
+using io::inp::Line;
+using io::inp::SetKind;
+
+struct Value {
+  double size = 0;
+  std::string amplitude;  ///< name in the deck, in capitals; empty: a ramp
+  int line = 0;
+  bool fresh = true;  ///< said in this step
+};
+/// By set and direction 1 to 3; of pressures always 1.
+using Values = std::map<std::pair<std::string, int>, Value>;
+
+struct Table {
+  std::string name;
+  bool of_total_time = false;
+  std::vector<std::array<double, 2>> points;
+  int line = 0;
+};
+
+double at(const Table& table, double time) {
+  const auto& p = table.points;
+  if (time <= p.front()[0]) return p.front()[1];
+  for (std::size_t k = 1; k < p.size(); ++k)
+    if (time <= p[k][0])
+      return p[k - 1][1] + (p[k][1] - p[k - 1][1]) * (time - p[k - 1][0]) / (p[k][0] - p[k - 1][0]);
+  return p.back()[1];
+}
+
+class Steps {
+ public:
+  explicit Steps(InpModel& m) : m_(m) {}
+
+  InpSteps translate() {
+    out_.steps = inp_list(1);
+    out_.amplitudes = inp_map(1);
+    for (const Card& card : m_.deck.cards) take(card);
+    if (step_) io::inp::fail(m_.deck, *step_, "its *END STEP is missing");
+    if (out_.steps.items.empty())
+      throw core::InputError({m_.deck.files[0], 0, ""}, "the deck has no *STEP");
+    return std::move(out_);
+  }
+
+ private:
+  void take(const Card& card) {
+    const std::string& key = card.keyword;
+    if (key == "STEP") begin(card);
+    if (key == "ENDSTEP") end(card);
+    if (key == "AMPLITUDE") read_amplitude(card);
+    if (key == "STATIC" || key == "VISCO") read_time(card);
+    if (key == "INITIALCONDITIONS") check_initial(card);
+    if (key == "BOUNDARY") read_boundary(card);
+    if (key == "CLOAD") read_forces(card);
+    if (key == "DLOAD") read_distributed(card);
+    if (key == "DSLOAD") read_on_surfaces(card);
+  }
+
+  // ---- steps ----------------------------------------------------------------------------------
+
+  void begin(const Card& card) {
+    if (step_)
+      io::inp::fail(m_.deck, card,
+                    fmt::format("the step of line {} has no *END STEP", step_->at.line));
+    step_ = &card;
+    procedure_ = nullptr;
+    period_ = 1;
+    increments_ = 1;
+    released_.clear();
+    for (Values* const values : {&prescribed_, &forces_, &pressures_, &body_forces_})
+      for (auto& [key, value] : *values) value.fresh = false;
+    if (out_.steps.items.empty())
+      for (auto& [key, value] : prescribed_) value.fresh = true;  // said before the first step
+  }
+
+  void read_time(const Card& card) {
+    if (!step_) io::inp::fail(m_.deck, card, "stands outside of a step");
+    procedure_ = &card;
+    const bool direct = io::inp::find_parameter(card, "DIRECT") != nullptr;
+    const auto lines = io::inp::lines_of(m_.deck, card);
+    if (lines.empty()) return;
+    Fields fields(m_.deck, lines[0]);
+    const double given = fields.real_or_zero("the first increment");
+    const double period = fields.real_or_zero("the time of the step");
+    period_ = period > 0 ? period : 1;
+    const double first = given > 0 ? std::min(given, period_) : period_;
+    constexpr double slack = 1e-9, most = 1e6;
+    const double count = std::ceil(period_ / first * (1 - slack));
+    if (!(count <= most)) fields.fail("more than a million increments");
+    constexpr int of_automatic = 10;  // they are cut where they must be
+    increments_ = static_cast<int>(count);
+    if (!direct) increments_ = std::min(increments_, of_automatic);
+  }
+
+  void end(const Card& card) {
+    if (!step_) io::inp::fail(m_.deck, card, "there is no *STEP that it could end");
+    if (!procedure_) io::inp::fail(m_.deck, *step_, "the step has no procedure such as *STATIC");
+    const int line = line_of(step_->at);
+    const std::size_t number = out_.steps.items.size() + 1;
+    SourceNode& step = out_.steps.items.emplace_back(inp_map(line));
+    put(step, "name", inp_text(fmt::format("step_{}", number), line));
+    put(step, "increments", inp_number(increments_, line_of(procedure_->at)));
+    put(step, "duration", inp_number(period_, line_of(procedure_->at)));
+    put_directions(step, "prescribe", "ux", prescribed_);
+    put_releases(step);
+    put_directions(step, "forces", "fx", forces_);
+    put_pressures(step);
+    put_directions(step, "body_force", "fx", body_forces_);
+    forget_removed();
+    total_time_ += period_;
+    step_ = nullptr;
+  }
+
+  // ---- amplitudes -----------------------------------------------------------------------------
+
+  void read_amplitude(const Card& card) {
+    Table table;
+    table.name = value_of(m_, card, "NAME");
+    table.line = line_of(card.at);
+    const std::string time = option_of(card, "TIME");
+    if (!time.empty() && time != "STEPTIME" && time != "TOTALTIME")
+      io::inp::fail(m_.deck, card, fmt::format("expected TIME=TOTAL TIME, found {}", time));
+    table.of_total_time = time == "TOTALTIME";
+    for (const char* const other : {"DEFINITION", "VALUE", "SHIFTX", "SHIFTY", "USER"})
+      if (io::inp::find_parameter(card, other) && option_of(card, other) != "TABULAR" &&
+          option_of(card, other) != "RELATIVE")
+        io::inp::fail(m_.deck, card, fmt::format("{} is not supported", other));
+    for (const Line& line : io::inp::lines_of(m_.deck, card)) {
+      Fields fields(m_.deck, line);
+      while (!fields.done()) {
+        const double t = fields.real("a time");
+        const double factor = fields.real("a factor");
+        if (!table.points.empty() && !(t > table.points.back()[0]))
+          fields.fail("expected a later time than the one before");
+        table.points.push_back({t, factor});
+      }
+    }
+    if (table.points.empty()) io::inp::fail(m_.deck, card, "expected pairs of time and factor");
+    tables_[io::inp::capitals(table.name)] = std::move(table);
+  }
+
+  const Table& table_of(const Card& card, const std::string& name) const {
+    const auto found = tables_.find(name);
+    if (found != tables_.end()) return found->second;
+    std::vector<std::string> names;
+    for (const auto& [key, table] : tables_) names.push_back(table.name);
+    io::inp::fail(m_.deck, card, core::unknown_name_message("amplitude", printable(name), names));
+  }
+
+  /// Name of the part of a table that is this step, over its fraction.
+  std::string amplitude_here(const std::string& name) {
+    const Table& table = tables_.at(name);
+    const double start = table.of_total_time ? total_time_ : 0;
+    const std::string here = plain_name(fmt::format("{}_{}", table.name, out_.steps.items.size()));
+    if (find(out_.amplitudes, here)) return here;
+    SourceNode& points = put(out_.amplitudes, here, inp_list(table.line));
+    const auto add = [&](double fraction, double factor) {
+      SourceNode& row = points.items.emplace_back(inp_list(table.line));
+      row.items = {inp_number(fraction, table.line), inp_number(factor, table.line)};
+    };
+    add(0, at(table, start));
+    for (const auto& [time, factor] : table.points) {
+      const double fraction = (time - start) / period_;
+      constexpr double near = 1e-9;
+      if (fraction > near && fraction < 1 - near) add(fraction, factor);
+    }
+    add(1, at(table, start + period_));
+    return here;
+  }
+
+  // ---- conditions and loads -------------------------------------------------------------------
+
+  /// What a card adds to what stood before; with OP=NEW that is gone.
+  std::string start(const Card& card, Values& values, bool may_stand_before_steps = false) {
+    if (!step_ && !may_stand_before_steps) io::inp::fail(m_.deck, card, "stands outside of a step");
+    for (const char* const other : {"USER", "SUBMODEL", "LOADCASE", "SECTOR", "OMEGA0", "FIXED"})
+      if (io::inp::find_parameter(card, other))
+        io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
+    const std::string op = option_of(card, "OP");
+    if (!op.empty() && op != "NEW" && op != "MOD")
+      io::inp::fail(m_.deck, card, fmt::format("expected OP=NEW or MOD, found {}", printable(op)));
+    if (op == "NEW") {
+      for (auto& [key, value] : values)
+        if (!value.fresh) {
+          value.size = 0;
+          value.amplitude.clear();
+          released_.insert({&values, key});
+        }
+    }
+    std::string amplitude = option_of(card, "AMPLITUDE");
+    if (!amplitude.empty()) (void)table_of(card, amplitude);
+    return amplitude;
+  }
+
+  /// Of one step the sizes add up where `adds`.
+  void set(Values& values, const std::string& on, int direction, double size,
+           const std::string& amplitude, const Line& line, bool adds) {
+    const std::pair<std::string, int> key{on, direction};
+    const bool removed = released_.erase({&values, key}) > 0;
+    const auto [found, is_new] = values.try_emplace(key);
+    Value& value = found->second;
+    const bool sum = adds && !is_new && !removed && value.fresh;
+    if (sum && value.amplitude != amplitude)
+      io::inp::fail(m_.deck, line.at,
+                    fmt::format("'{}' has this load with another amplitude in the same step", on));
+    value = {sum ? value.size + size : size, amplitude, line_of(line.at), true};
+  }
+
+  const std::string& node_set(const Line& line, std::string_view field) const {
+    const std::string name = io::inp::name_of(field);
+    const auto number = io::inp::number_of(name);
+    return set_of(m_, line.at, number ? io::inp::node_set_name(*number) : name, {SetKind::nodes});
+  }
+
+  void check_initial(const Card& card) const {
+    const std::string type = option_of(card, "TYPE");
+    if (type != "TEMPERATURE")
+      io::inp::fail(m_.deck, card,
+                    fmt::format("TYPE={} is not translated: in a model file `initial_velocity`",
+                                printable(type)));
+  }
+
+  void read_boundary(const Card& card) {
+    const std::string amplitude = start(card, prescribed_, true);
+    for (const Line& line : io::inp::lines_of(m_.deck, card)) {
+      Fields fields(m_.deck, line);
+      const std::string& set_name = node_set(line, fields.next().value_or(""));
+      const std::int32_t first = fields.number("the first direction");
+      std::int32_t last = first;
+      if (const auto field = fields.next(); field && !field->empty())
+        last = io::inp::number_of(m_.deck, line.at, *field, "the last direction");
+      const double size = fields.real_or_zero("the displacement");
+      if (last > 3 || last < first)
+        fields.fail(fmt::format("expected directions 1 to 3, found {} to {}", first, last));
+      for (std::int32_t k = first; k <= std::min<std::int32_t>(last, dimension()); ++k)
+        set(prescribed_, set_name, k, size, amplitude, line, false);
+    }
+  }
+
+  void read_forces(const Card& card) {
+    const std::string amplitude = start(card, forces_);
+    for (const Line& line : io::inp::lines_of(m_.deck, card)) {
+      Fields fields(m_.deck, line);
+      const std::string& set_name = node_set(line, fields.next().value_or(""));
+      const std::int32_t direction = fields.number("the direction");
+      if (direction > dimension())
+        fields.fail(fmt::format("expected a direction 1 to {}, found {}", dimension(), direction));
+      set(forces_, set_name, direction, fields.real("the force"), amplitude, line, true);
+    }
+  }
+
+  void read_distributed(const Card& card) {
+    // one card of OP=NEW removes pressures and body forces
+    const std::string amplitude = start(card, pressures_);
+    (void)start(card, body_forces_);
+    for (const Line& line : io::inp::lines_of(m_.deck, card)) {
+      Fields fields(m_.deck, line);
+      const std::string elements = io::inp::name_of(fields.next().value_or(""));
+      const std::string load = io::inp::capitals(io::inp::name_of(fields.next().value_or("")));
+      if (io::inp::is_side_load(load)) {
+        const std::string& on =
+            set_of(m_, line.at, io::inp::side_set_name(load, elements), {SetKind::surface});
+        set(pressures_, on, 1, fields.real("the pressure"), amplitude, line, true);
+      } else if (load == "GRAV") {
+        read_gravity(fields, elements, amplitude, line);
+      } else {
+        fields.fail(
+            fmt::format("load {} is not supported: P1 to P6 or GRAV", io::inp::shown(load)));
+      }
+    }
+  }
+
+  void read_gravity(Fields& fields, const std::string& elements, const std::string& amplitude,
+                    const Line& line) {
+    const double size = fields.real("the acceleration");
+    Vec3 direction = Vec3::Zero();
+    for (Eigen::Index k = 0; k < 3; ++k) direction[k] = fields.real_or_zero("a direction");
+    if (!(direction.norm() > 0)) fields.fail("expected the direction of gravity");
+    const std::optional<double> density = density_on(m_, elements);
+    if (!density)
+      fields.fail(fmt::format("GRAV acts on a set of elements that has a *SOLID SECTION, not on {}",
+                              io::inp::shown(elements)));
+    const std::string& on = set_of(m_, line.at, elements, {SetKind::elements});
+    for (int k = 0; k < dimension(); ++k)
+      set(body_forces_, on, k + 1, *density * size * direction.normalized()[k], amplitude, line,
+          true);
+  }
+
+  void read_on_surfaces(const Card& card) {
+    const std::string amplitude = start(card, pressures_);
+    for (const Line& line : io::inp::lines_of(m_.deck, card)) {
+      Fields fields(m_.deck, line);
+      const std::string surface = io::inp::name_of(fields.next().value_or(""));
+      const std::string& on = set_of(m_, line.at, surface, {SetKind::surface});
+      const std::string load = io::inp::capitals(io::inp::name_of(fields.next().value_or("")));
+      if (load != "P")
+        fields.fail(fmt::format("load {} is not supported: P", io::inp::shown(load)));
+      set(pressures_, on, 1, fields.real("the pressure"), amplitude, line, true);
+    }
+  }
+
+  /// 3 as soon as there is a volume.
+  [[nodiscard]] int dimension() const {
+    for (const mesh::Block& block : m_.mesh.mesh.blocks)
+      if (cell::info(block.type).dimension == 3 && block.size() > 0) return 3;
+    return 2;
+  }
+
+  // ---- the step -------------------------------------------------------------------------------
+
+  /// Said now, or with an amplitude that goes on.
+  bool is_active(Values& values, const Values::value_type& one) const {
+    const bool released = released_.contains({&values, one.first});
+    if (&values == &prescribed_ && released) return false;
+    return one.second.fresh || released || !one.second.amplitude.empty();
+  }
+
+  void put_directions(SourceNode& step, const char* key, std::string component, Values& values) {
+    SourceNode list = inp_list(line_of(step_->at));
+    for (const auto& one : values) {
+      if (!is_active(values, one)) continue;
+      const auto& [set_and_direction, value] = one;
+      component[1] = "xyz"[set_and_direction.second - 1];
+      SourceNode& entry = list.items.emplace_back(inp_map(value.line));
+      put(entry, "on", inp_text(set_and_direction.first, value.line));
+      put(entry, component, inp_number(value.size, value.line));
+      put_amplitude(entry, value);
+    }
+    if (!list.items.empty()) put(step, key, std::move(list));
+  }
+
+  void put_pressures(SourceNode& step) {
+    SourceNode list = inp_list(line_of(step_->at));
+    for (const auto& one : pressures_) {
+      if (!is_active(pressures_, one)) continue;
+      SourceNode& entry = list.items.emplace_back(inp_map(one.second.line));
+      put(entry, "on", inp_text(one.first.first, one.second.line));
+      put(entry, "value", inp_number(one.second.size, one.second.line));
+      put_amplitude(entry, one.second);
+    }
+    if (!list.items.empty()) put(step, "pressure", std::move(list));
+  }
+
+  void put_amplitude(SourceNode& entry, const Value& value) {
+    if (value.amplitude.empty()) return;
+    put(entry, "amplitude", inp_text(amplitude_here(value.amplitude), value.line));
+  }
+
+  void put_releases(SourceNode& step) {
+    SourceNode list = inp_list(line_of(step_->at));
+    for (const auto& [values, key] : released_) {
+      if (values != &prescribed_) continue;
+      SourceNode& entry = list.items.emplace_back(inp_map(line_of(step_->at)));
+      put(entry, "on", inp_text(key.first, line_of(step_->at)));
+      SourceNode& of = put(entry, "of", inp_list(line_of(step_->at)));
+      of.items.push_back(inp_text(std::string("u") + "xyz"[key.second - 1], line_of(step_->at)));
+    }
+    if (!list.items.empty()) put(step, "release", std::move(list));
+  }
+
+  void forget_removed() {
+    for (const auto& [values, key] : released_) values->erase(key);
+  }
+
+  InpModel& m_;
+  InpSteps out_;
+  const Card *step_ = nullptr, *procedure_ = nullptr;
+  double period_ = 1, total_time_ = 0;
+  int increments_ = 1;
+  std::map<std::string, Table> tables_;
+  Values prescribed_, forces_, pressures_, body_forces_;
+  std::set<std::pair<Values*, Values::key_type>> released_;
+};
+
+}  // namespace
+
+InpSteps inp_steps(InpModel& m) { return Steps(m).translate(); }
+
+}  // namespace osculate::deck

@@ -1,0 +1,206 @@
+#include "osculate/deck/inp_translate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <set>
+
+#include "osculate/core/text.hpp"
+#include "osculate/deck/inp_keywords.hpp"
+#include "osculate/deck/inp_parts.hpp"
+
+namespace osculate::deck {
+
+using io::inp::Card;
+using io::inp::Line;
+using io::inp::Parameter;
+using io::inp::Place;
+
+SourceNode inp_text(std::string text, int line) {
+  SourceNode node;
+  node.kind = SourceNode::Kind::scalar;
+  node.quoted = true;
+  node.line = line;
+  node.text = std::move(text);
+  return node;
+}
+SourceNode inp_number(double value, int line) {
+  SourceNode node = inp_text(fmt::format("{}", value), line);
+  node.quoted = false;
+  return node;
+}
+SourceNode inp_list(int line) {
+  SourceNode node;
+  node.kind = SourceNode::Kind::list;
+  node.line = line;
+  return node;
+}
+SourceNode inp_map(int line) {
+  SourceNode node = inp_list(line);
+  node.kind = SourceNode::Kind::map;
+  return node;
+}
+SourceNode& put(SourceNode& map, std::string key, SourceNode value) {
+  const int line = value.line;
+  map.entries.push_back({std::move(key), line, std::move(value)});
+  return map.entries.back().value;
+}
+SourceNode* find(SourceNode& map, std::string_view key) {
+  for (SourceEntry& entry : map.entries)
+    if (entry.key == key) return &entry.value;
+  return nullptr;
+}
+
+std::string plain_name(std::string_view name) {
+  std::string plain(name);
+  const auto is_plain = [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-';
+  };
+  for (char& c : plain)
+    if (!is_plain(c)) c = '_';
+  return plain;
+}
+
+const std::string& value_of(const InpModel& m, const Card& card, std::string_view parameter) {
+  const Parameter* const found = io::inp::find_parameter(card, parameter);
+  if (!found || found->value.empty())
+    io::inp::fail(m.deck, card, fmt::format("expected '{}=' with a name", parameter));
+  return found->value;
+}
+std::string option_of(const Card& card, std::string_view parameter) {
+  const Parameter* const found = io::inp::find_parameter(card, parameter);
+  return found ? io::inp::capitals(found->value) : std::string();
+}
+const Line& only_line(const InpModel& m, const Card& card, const char* what) {
+  const auto lines = io::inp::lines_of(m.deck, card);
+  if (lines.empty()) io::inp::fail(m.deck, card, fmt::format("expected a line with {}", what));
+  if (lines.size() > 1)
+    io::inp::fail(m.deck, lines[1].at,
+                  fmt::format("*{}: one line with {} is read, no second one", card.keyword, what));
+  return lines[0];
+}
+
+const std::string& set_of(const InpModel& m, Place at, std::string_view name,
+                          std::initializer_list<io::inp::SetKind> kinds) {
+  const std::string wanted = io::inp::capitals(name);
+  std::vector<std::string> names;
+  for (const io::inp::DeckSet& set : m.mesh.sets) {
+    if (std::find(kinds.begin(), kinds.end(), set.kind) == kinds.end()) continue;
+    if (io::inp::capitals(set.name) == wanted) return m.mesh.mesh.sets[set.set].name;
+    names.push_back(set.name);
+  }
+  const bool surfaces = *kinds.begin() == io::inp::SetKind::surface;
+  const bool nodes = *kinds.begin() == io::inp::SetKind::nodes;
+  const char* const what = surfaces ? "surface" : nodes ? "set of nodes" : "set of elements";
+  io::inp::fail(m.deck, at, core::unknown_name_message(what, printable(name), names));
+}
+
+namespace {
+
+/// What the translation makes something of, beside the mesh.
+constexpr std::array<std::string_view, 22> translated{"MATERIAL",
+                                                      "ELASTIC",
+                                                      "PLASTIC",
+                                                      "CREEP",
+                                                      "DENSITY",
+                                                      "BOUNDARY",
+                                                      "SOLIDSECTION",
+                                                      "EQUATION",
+                                                      "CONTACTPAIR",
+                                                      "SURFACEINTERACTION",
+                                                      "TIE",
+                                                      "FRICTION",
+                                                      "STEP",
+                                                      "ENDSTEP",
+                                                      "SURFACEBEHAVIOR",
+                                                      "STATIC",
+                                                      "VISCO",
+                                                      "AMPLITUDE",
+                                                      "CLOAD",
+                                                      "DLOAD",
+                                                      "DSLOAD",
+                                                      "INITIALCONDITIONS"};
+/// What says how a solver goes about it, not what the answer is.
+constexpr std::array<std::string_view, 4> of_the_solver{"CONTROLS", "RESTART", "TIMEPOINTS",
+                                                        "CONTACTCONTROLS"};
+
+template <class Names>
+bool is_among(const Names& names, std::string_view keyword) {
+  return std::find(names.begin(), names.end(), keyword) != names.end();
+}
+
+/// A keyword without counterpart stops; others that are left out are told of once.
+void check_keywords(InpModel& m) {
+  std::set<std::string> left_out;
+  for (const Card& card : m.deck.cards) {
+    const InpKeyword* const known = find_inp_keyword(card.keyword);
+    if (!known) {
+      std::vector<std::string> names;
+      for (const InpKeyword& one : inp_keywords()) names.emplace_back(one.keyword);
+      io::inp::fail(m.deck, card.at, core::unknown_name_message("keyword", card.keyword, names));
+    }
+    if (known->use == KeywordUse::mesh || is_among(translated, card.keyword)) continue;
+    if (known->use == KeywordUse::silent || is_among(of_the_solver, card.keyword)) {
+      if (known->keyword != "HEADING") left_out.insert(fmt::format("*{}", known->keyword));
+      continue;
+    }
+    if (known->use == KeywordUse::none)
+      io::inp::fail(m.deck, card, fmt::format("is not supported: {}", known->here));
+    io::inp::fail(m.deck, card,
+                  fmt::format("is not translated; a model file says it with {}", known->here));
+  }
+  if (left_out.empty()) return;
+  std::string text;
+  for (const std::string& one : left_out) text += (text.empty() ? "" : ", ") + one;
+  m.notes.push_back(fmt::format("of '{}' these are left out: {}", m.deck.files[0], text));
+}
+
+bool is_finite(const InpModel& m) {
+  return std::any_of(m.deck.cards.begin(), m.deck.cards.end(), [](const Card& card) {
+    const Parameter* const found = io::inp::find_parameter(card, "NLGEOM");
+    return card.keyword == "STEP" && found && io::inp::capitals(found->value) != "NO";
+  });
+}
+
+std::string heading_of(const InpModel& m) {
+  for (const Card& card : m.deck.cards)
+    if (card.keyword == "HEADING" && !io::inp::lines_of(m.deck, card).empty())
+      return printable(io::inp::lines_of(m.deck, card)[0].text);
+  return {};
+}
+
+}  // namespace
+
+bool names_a_deck(std::string_view file) {
+  return file.size() > 4 && io::inp::capitals(file.substr(file.size() - 4)) == ".INP";
+}
+
+TranslatedDeck translate_deck(std::string_view content, const std::string& file) {
+  const io::inp::Deck deck = io::inp::read_cards(content, file);
+  InpModel m{deck, {}, false, {}};
+  check_keywords(m);
+  m.finite = is_finite(m);
+  m.mesh = io::inp::deck_mesh(deck);
+  TranslatedDeck out;
+  out.root = inp_map(1);
+  put(out.root, "osculate", inp_number(1, 1));
+  const std::string title = heading_of(m);
+  if (!title.empty()) put(out.root, "title", inp_text(title, 1));
+  put(out.root, "mesh", inp_text(std::filesystem::path(file).filename().string(), 1));
+  const auto put_unless_empty = [&](const char* key, SourceNode node) {
+    if (!node.entries.empty() || !node.items.empty()) put(out.root, key, std::move(node));
+  };
+  put_unless_empty("materials", inp_materials(m));
+  put_unless_empty("sections", inp_sections(m));
+  put_unless_empty("contact", inp_contact(m));
+  put_unless_empty("equations", inp_equations(m));
+  InpSteps steps = inp_steps(m);
+  put_unless_empty("amplitudes", std::move(steps.amplitudes));
+  put(out.root, "steps", std::move(steps.steps));
+  out.notes = std::move(m.notes);
+  return out;
+}
+
+}  // namespace osculate::deck

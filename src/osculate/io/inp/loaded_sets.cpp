@@ -1,0 +1,77 @@
+#include "osculate/io/inp/loaded_sets.hpp"
+
+#include <fmt/format.h>
+
+namespace osculate::io::inp {
+namespace {
+
+void add_node(std::string_view field, Place at, RawMesh& mesh) {
+  const std::optional<std::int32_t> number = number_of(field);
+  if (!number) return;
+  const std::string name = node_set_name(*number);
+  RawSet& set = mesh.scopes[0].node_sets[capitals(name)];
+  if (!set.name.empty()) return;
+  set.name = name;
+  set.at = at;
+  set.ranges.push_back({*number, *number, 1, own_scope, at, false});
+}
+
+void add_side(const Deck& deck, const Line& line, RawMesh& mesh) {
+  Fields fields(deck, line);
+  const std::string elements = name_of(fields.next().value_or(""));
+  const std::string load = capitals(name_of(fields.next().value_or("")));
+  if (elements.empty() || !is_side_load(load)) return;
+  const std::string name = side_set_name(load, elements);
+  RawSurface& surface = mesh.scopes[0].surfaces[capitals(name)];
+  if (!surface.name.empty()) return;
+  surface.name = name;
+  surface.at = line.at;
+  SurfaceEntry entry;
+  entry.set = {elements, own_scope, line.at, true};
+  if (is_number(elements)) entry.number = number_of(deck, line.at, elements, "an element");
+  entry.side = "S" + load.substr(1);
+  surface.entries.push_back(std::move(entry));
+}
+
+/// Of `*EQUATION`: a line with the number of terms, then node, dof and factor of each.
+void add_nodes_of_equations(const Deck& deck, const Card& card, RawMesh& mesh) {
+  std::int32_t missing = 0;  // of the terms
+  for (const Line& line : lines_of(deck, card)) {
+    Fields fields(deck, line);
+    if (missing == 0) {
+      missing = number_of(fields.next().value_or("")).value_or(0);
+      continue;
+    }
+    while (!fields.done() && missing > 0) {
+      add_node(fields.next().value_or(""), line.at, mesh);
+      (void)fields.next();
+      (void)fields.next();
+      --missing;
+    }
+  }
+}
+
+}  // namespace
+
+std::string node_set_name(std::int32_t number) { return fmt::format("node {}", number); }
+
+std::string side_set_name(std::string_view load, std::string_view elements) {
+  return fmt::format("{} of {}{}", load, is_number(elements) ? "element " : "", elements);
+}
+
+bool is_side_load(std::string_view load) {
+  return load.size() == 2 && load[0] == 'P' && load[1] >= '1' && load[1] <= '6';
+}
+
+void add_loaded_sets(const Deck& deck, RawMesh& mesh) {
+  for (const Card& card : deck.cards) {
+    if (card.keyword == "EQUATION") add_nodes_of_equations(deck, card, mesh);
+    for (const Line& line : lines_of(deck, card)) {
+      if (card.keyword == "DLOAD") add_side(deck, line, mesh);
+      if (card.keyword == "BOUNDARY" || card.keyword == "CLOAD")
+        add_node(Fields(deck, line).next().value_or(""), line.at, mesh);
+    }
+  }
+}
+
+}  // namespace osculate::io::inp
