@@ -18,14 +18,14 @@ using io::inp::Fields;
 using io::inp::Line;
 using io::inp::SetKind;
 
-struct Value {
+struct Condition {
   double size = 0;
   std::string amplitude;  ///< name in the deck, in capitals; empty: a ramp
   int line = 0;
   bool fresh = true;  ///< said in this step
 };
 /// By set and direction 1 to 3; of pressures always 1.
-using Values = std::map<std::pair<std::string, int>, Value>;
+using Conditions = std::map<std::pair<std::string, int>, Condition>;
 
 struct Table {
   std::string name;
@@ -82,7 +82,7 @@ class Steps {
     period_ = 1;
     increments_ = 1;
     released_.clear();
-    for (Values* const values : {&prescribed_, &forces_, &pressures_, &body_forces_})
+    for (Conditions* const values : {&prescribed_, &forces_, &pressures_, &body_forces_})
       for (auto& [key, value] : *values) value.fresh = false;
     if (out_.steps.items.empty())
       for (auto& [key, value] : prescribed_) value.fresh = true;  // said before the first step
@@ -186,7 +186,7 @@ class Steps {
   // ---- conditions and loads -------------------------------------------------------------------
 
   /// What a card adds to what stood before; with OP=NEW that is gone.
-  std::string start(const Card& card, Values& values, bool may_stand_before_steps = false) {
+  std::string start(const Card& card, Conditions& values, bool may_stand_before_steps = false) {
     if (!step_ && !may_stand_before_steps) io::inp::fail(m_.deck, card, "stands outside of a step");
     for (const char* const other : {"USER", "SUBMODEL", "LOADCASE", "SECTOR", "OMEGA0", "FIXED"})
       if (io::inp::find_parameter(card, other))
@@ -208,12 +208,12 @@ class Steps {
   }
 
   /// Of one step the sizes add up where `adds`.
-  void set(Values& values, const std::string& on, int direction, double size,
+  void set(Conditions& values, const std::string& on, int direction, double size,
            const std::string& amplitude, const Line& line, bool adds) {
     const std::pair<std::string, int> key{on, direction};
     const bool removed = released_.erase({&values, key}) > 0;
     const auto [found, is_new] = values.try_emplace(key);
-    Value& value = found->second;
+    Condition& value = found->second;
     const bool sum = adds && !is_new && !removed && value.fresh;
     if (sum && value.amplitude != amplitude)
       io::inp::fail(m_.deck, line.at,
@@ -324,13 +324,14 @@ class Steps {
   // ---- the step -------------------------------------------------------------------------------
 
   /// Said now, or with an amplitude that goes on.
-  bool is_active(Values& values, const Values::value_type& one) const {
+  bool is_active(Conditions& values, const Conditions::value_type& one) const {
     const bool released = released_.contains({&values, one.first});
     if (&values == &prescribed_ && released) return false;
     return one.second.fresh || released || !one.second.amplitude.empty();
   }
 
-  void put_directions(SourceNode& step, const char* key, std::string component, Values& values) {
+  void put_directions(SourceNode& step, const char* key, std::string component,
+                      Conditions& values) {
     SourceNode list = inp_list(line_of(step_->at));
     for (const auto& one : values) {
       if (!is_active(values, one)) continue;
@@ -356,7 +357,7 @@ class Steps {
     if (!list.items.empty()) put(step, "pressure", std::move(list));
   }
 
-  void put_amplitude(SourceNode& entry, const Value& value) {
+  void put_amplitude(SourceNode& entry, const Condition& value) {
     if (value.amplitude.empty()) return;
     put(entry, "amplitude", inp_text(amplitude_here(value.amplitude), value.line));
   }
@@ -383,8 +384,8 @@ class Steps {
   double period_ = 1, total_time_ = 0;
   int increments_ = 1;
   std::map<std::string, Table> tables_;
-  Values prescribed_, forces_, pressures_, body_forces_;
-  std::set<std::pair<Values*, Values::key_type>> released_;
+  Conditions prescribed_, forces_, pressures_, body_forces_;
+  std::set<std::pair<Conditions*, Conditions::key_type>> released_;
 };
 
 }  // namespace
