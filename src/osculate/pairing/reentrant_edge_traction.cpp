@@ -100,6 +100,11 @@ std::array<Number, 2> pressing(const Vector& traction, const std::array<Vector, 
   return parts;
 }
 
+/// Whether a facet takes part in the friction along the edge: it is pressed, or neither is.
+bool bears(const std::array<double, 2>& normal, std::size_t k) {
+  return normal[k] < 0 || !(normal[1 - k] < 0);
+}
+
 /// The limit at which a point that slid is expected to go on, towards `way`.
 EdgeFriction predicted_friction(const contact::FrictionLaw& law, double predictor,
                                 const std::array<double, 2>& normal,
@@ -109,6 +114,7 @@ EdgeFriction predicted_friction(const contact::FrictionLaw& law, double predicto
   out.d_predictor = 0;
   double limit = 0;
   for (std::size_t k = 0; k < 2; ++k) {
+    if (!bears(normal, k)) continue;
     const contact::SlipLimit of =
         contact::predicted_limit(law, std::abs(predictor), normal[k], sliding);
     limit += of.value;
@@ -224,6 +230,7 @@ EdgeFriction friction_of_both(const contact::FrictionLaw& law, double predictor,
   for (int i = 0; i < most; ++i) {
     double change = 0;
     for (const std::size_t k : {0u, 1u}) {
+      if (!bears(normal, k)) continue;
       r[k] = contact::response<2>(law, Vec<1>(predictor - t[1 - k]), normal[k], sliding);
       if (r[k].status == Status::stick) return {false, predictor};
       change = std::max(change, std::abs(r[k].traction[0] - t[k]));
