@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "allocation_count.hpp"
-#include "edge_sample.hpp"
 #include "expect_derivative.hpp"
 #include "groove_sample.hpp"
 #include "osculate/contact/law/catalogue.hpp"
