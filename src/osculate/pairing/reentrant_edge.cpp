@@ -93,21 +93,21 @@ std::optional<EdgePlace> stay_or_leave(const PairDefinition<3>& pair, Points<3> 
   if (!last) return std::nullopt;
   const Vec3 point = position<3>(pair.slave.points[i], x);
   const EdgePlace place = follow_edge(edges_in(pair), pair.master, last->edge, x, point);
-  if (!pair.friction) taken.shear -= taken.shear.dot(place.tangent) * place.tangent;
+  const auto leave = [&](const Vec3& normal) {
+    if (!pair.friction) taken.shear -= taken.shear.dot(place.tangent) * place.tangent;
+    take_to(normal, taken);
+  };
   if (place.beyond) {
-    take_to(projected.kinematics.normal, taken);
+    leave(projected.kinematics.normal);
     return std::nullopt;
   }
   const Vec3 offset = point - place.point;
   const Vec3 traction = bounded_traction(
       pair, history, place, taken.shear + point_penalty(pair, i).shear * offset, context, x);
   const int left = context.predict ? -1 : side_left(pair, history, place, traction, context, x);
-  if (left < 0 && !too_deep<3>(pair, place.normal, offset)) {
-    take_into(pair, place, Vec3::Zero(), taken);
-    return place;
-  }
+  if (left < 0 && !too_deep<3>(pair, place.normal, offset)) return place;
   const auto side = static_cast<std::size_t>(std::max(left, 0));
-  take_to(place.normal[side], taken);
+  leave(place.normal[side]);
   projected = project_point<3>(pair, work, x, i, history, edge_of(pair, place).facets[side]);
   return std::nullopt;
 }

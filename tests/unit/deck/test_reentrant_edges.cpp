@@ -76,14 +76,18 @@ steps:
       fixed, drag);
 }
 
-Vec3 contact_force(const model::System3& system, Index nodes_of_masters) {
+constexpr std::size_t first_node = 8 + 8, last_node = first_node + 5 * 3 * 3;  // of the block
+
+Vec3 force_on_block(const model::System3& system) {
   Vec3 sum = Vec3::Zero();
-  for (Eigen::Index n = nodes_of_masters; n < system.forces().contact.size() / 3; ++n)
-    sum += system.forces().contact.segment<3>(3 * n);
+  for (std::size_t n = first_node; n < last_node; ++n)
+    sum += system.forces().contact.segment<3>(3 * static_cast<Eigen::Index>(n));
   return sum;
 }
-
-constexpr Index of_masters = 12 + 8 + 8;  // nodes of file and grids come before the block's
+std::vector<Vec3> places_of_block(const model::System3& system, const model::State3& state) {
+  const std::vector<Vec3> x = system.positions(state);
+  return {x.begin() + first_node, x.begin() + last_node};
+}
 
 /// Dragged along, the edge of the block meets mu F / sin(beta), beta the half angle of the groove;
 /// without friction nothing. Two masters say the same, and the nodes are at the same place.
@@ -94,9 +98,8 @@ TEST(ReentrantEdges, ABlockIsDraggedAlongAGroove) {
     std::array<std::vector<Vec3>, 2> places;
     for (const bool one : {true, false})
       run(groove(mu, one, drag), [&](const model::System3& system, const model::State3& state) {
-        const std::vector<Vec3> x = system.positions(state);
-        force[one] = contact_force(system, of_masters);
-        places[one].assign(x.begin() + of_masters, x.end());
+        force[one] = force_on_block(system);
+        places[one] = places_of_block(system, state);
         if (!one) return;
         for (const Vec3& p : places[one]) EXPECT_GE(p.z(), 0.5 * std::abs(p.y()) - 1e-12);
       });
@@ -115,15 +118,12 @@ TEST(ReentrantEdges, ABlockLeavesAGroove) {
       "  - {name: push, increments: 8, prescribe: [{on: upper, uy: 0.3}]}\n"
       "  - {name: lift, increments: 1, prescribe: [{on: upper, uz: 0.4}]}\n";
   for (const double mu : {0.0, 0.3}) {
-    double last = 0, farthest = 0, lowest = 1;
+    double last = 0, farthest = 0;
     run(groove(mu, true, out), [&](const model::System3& system, const model::State3& state) {
-      const std::vector<Vec3> x = system.positions(state);
-      for (auto p = x.begin() + of_masters; p != x.end(); ++p) {
-        EXPECT_GE(p->z(), 0.5 * std::abs(p->y()) - 1e-12);
-        lowest = std::min(lowest, p->z());
-      }
-      last = contact_force(system, of_masters).norm();
-      farthest = std::max(farthest, x[static_cast<std::size_t>(of_masters)].y());
+      const std::vector<Vec3> x = places_of_block(system, state);
+      for (const Vec3& p : x) EXPECT_GE(p.z(), 0.5 * std::abs(p.y()) - 1e-12);
+      last = force_on_block(system).norm();
+      farthest = std::max(farthest, x[0].y());
     });
     EXPECT_EQ(last, 0);
     EXPECT_GT(farthest, 0.05);
@@ -175,11 +175,11 @@ steps:
                     file, mu > 0 ? "{coulomb: {mu: 0.3, penalty: 1000}}" : "none"),
         [&](const model::System3& system, const model::State3& state) {
           const std::vector<Vec3> x = system.positions(state);
-          const Vec3 a = x[4], along = (x[12] - x[4]).normalized();
+          const Vec3 a = x[27 + 4], along = (x[27 + 12] - a).normalized();  // the block has 27
           moved = (Vec3(a - Vec3(1, 1, 0))).norm();
           apart = 0;
           for (const std::size_t n : {0u, 9u, 18u}) {  // the block's edge x = y = 1
-            const Vec3 arm = x[16 + n] - a;
+            const Vec3 arm = x[n] - a;
             apart = std::max(apart, (arm - arm.dot(along) * along).norm());
           }
           sum.setZero();

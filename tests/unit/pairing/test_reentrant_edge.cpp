@@ -31,8 +31,9 @@ pairing::EdgePlace place_of(const Sample& s, const Vec3& point) {
   return pairing::follow_edge(edges_of(s), s.pair.master, 0, s.x, point);
 }
 
-/// The point was held in the edge at the committed place `from`, by a force on it.
-void hold_by(const Vec3& force, Sample& s, const Vec3& from, int sliding = 0) {
+/// The point was held in the edge at the committed place `from`, by a force on it; it slid with a
+/// traction towards `sliding`.
+void hold_by(const Vec3& force, Sample& s, const Vec3& from, const Vec3& sliding = Vec3::Zero()) {
   const pairing::EdgePlace place = place_of(s, from);
   const pairing::SharpEdge& edge = edges_of(s).list[static_cast<std::size_t>(place.edge)];
   contact::PointHistory<3>& h = s.committed.points[0];
@@ -42,7 +43,7 @@ void hold_by(const Vec3& force, Sample& s, const Vec3& from, int sliding = 0) {
   branch.branch = Branch::reentrant;
   branch.facet = h.facet;
   branch.xi = h.xi;
-  branch.direction = sliding * place.tangent;
+  branch.direction = sliding;
   s.active_set = {branch};
   s.multipliers[0] = {0, -force};
 }
@@ -63,7 +64,7 @@ Vec3 force_on_point(const pairing::PairEvaluation<3>& e) {
 struct Facts {
   Branch branch;
   Status status;
-  bool towards;  ///< of the linearised slip
+  bool towards;  ///< x, of the linearised slip
   bool operator==(const Facts&) const = default;
 };
 
@@ -114,7 +115,7 @@ TEST(ReentrantEdgeTangent, IsOfSecondOrder) {
         const Vec3 push = 60 * (groove_normal(o, 0) + groove_normal(o, 1)),
                    along = o.pose * Vec3(40, 0, 0);
         s.x.back() = groove_point(o, 0.3, 0) + o.pose * Vec3(0, 0.004, -0.02);
-        hold_by(push - along, s, groove_point(o, 0.27, 0), mu == 0.1 ? 1 : 0);
+        hold_by(push - along, s, groove_point(o, 0.27, 0), (mu == 0.1 ? 1.0 : 0.0) * o.pose.col(0));
         SCOPED_TRACE(std::string(cell::info(type).name) + " mu " + std::to_string(mu));
         expect_tangent(s, mu == 0.1 ? Status::slip : Status::stick);
         if (mu > 0) continue;
