@@ -98,8 +98,9 @@ struct Contact {
   /// In space: sharp edges of both sides touch each other where they cross, those whose facets'
   /// normals differ by more than this angle.
   std::optional<double> edge_angle;
-  /// In the plane, with unknown tractions at nodes: points in a re-entrant vertex of the master are
-  /// held by a traction of any direction.
+  /// With unknown tractions at nodes: points in a re-entrant vertex of the master (in space: in an
+  /// edge between facets of first or second order whose normals enclose more than 30 degrees) are
+  /// held by a traction of any direction, and slide along the edge.
   bool reentrant_vertices = false;
   /// Farther from a slave point than this no place of the master is looked at. Contact with itself
   /// has 8 mean facet sizes unless it is given. Sampling at nodes only.

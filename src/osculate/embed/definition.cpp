@@ -90,9 +90,13 @@ pairing::Enforcement enforcement_of(const Contact<Dim>& c) {
       break;
     case Enforcement::augmented_lagrange:
       return pairing::ByAugmentedLagrange{};
-    case Enforcement::lagrange_multiplier:
-      return pairing::ByMultipliers{c.reentrant_vertices ? 0
+    case Enforcement::lagrange_multiplier: {
+      // In the plane all corners; in space meshes have them in every fold that is meant to be
+      // round.
+      const double least = Dim == 2 ? 0 : pairing::ByMultipliers::default_reentrant_angle;
+      return pairing::ByMultipliers{c.reentrant_vertices ? least
                                                          : std::numeric_limits<double>::infinity()};
+    }
   }
   return pairing::ByPenalty{};
 }

@@ -111,9 +111,9 @@ template <int Dim>
 std::string wrong_laws(const Contact<Dim>& c, const Choices& is) {
   const std::string wrong = first_broken({
       {is.tied && c.friction.has_value(), "tied points do not slide: leave out friction"},
-      {c.reentrant_vertices && (Dim == 3 || !is.unknown || is.mortar || is.held || c.offset != 0 ||
+      {c.reentrant_vertices && (!is.unknown || is.mortar || is.held || c.offset != 0 ||
                                 c.overlap != InitialOverlap::acts),
-       "re-entrant vertices hold points in the plane, at nodes whose tractions are unknown, and "
+       "re-entrant vertices and edges hold points at nodes whose tractions are unknown, and "
        "without separation, offset or overlaps that do not count"},
   });
   if (!wrong.empty()) return wrong;

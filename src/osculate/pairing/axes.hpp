@@ -3,6 +3,7 @@
 // kind alone. (The target needs no list: every facet of a master says itself what it is, so that
 // one master may be of several kinds. The laws are catalogues: contact/law.)
 #include <numbers>
+#include <unordered_map>
 #include <variant>
 #include <vector>
 
@@ -60,17 +61,25 @@ struct ByAugmentedLagrange {
   double target = 0;             ///< the largest gap and elastic slip that are left [length]
   bool every_iteration = false;  ///< corrected after each iteration, not after each solution
 };
+/// Concave edges of a master in space, as `sharp_edges` finds them, and which of them meet in a
+/// node that is an end of theirs.
+struct ReentrantEdges {
+  std::vector<SharpEdge> list{};
+  std::unordered_map<Index, std::vector<Index>> at{};
+};
+
 /// The tractions are unknowns of the linear system: no penetration, no elastic slip (active set by
 /// a semismooth Newton method).
 struct ByMultipliers {
   static constexpr double default_reentrant_angle = std::numbers::pi / 6;
-  /// In the plane, at nodes: points are held in concave corners of the master by a traction of any
-  /// direction (reentrant_vertex.hpp), so that there is a shear without friction too. Corners with
-  /// a larger angle between their normals count.
+  /// At nodes: points are held in concave corners (in space edges) of the master by a traction of
+  /// any direction (reentrant_vertex.hpp, reentrant_edge.hpp), so that there is a shear without
+  /// friction too. Those with a larger angle between their normals count.
   double reentrant_angle = default_reentrant_angle;
   /// There are such corners; set by `prepare`. Not between thick sides or where points are held or
   /// overlaps do not count: there the corner is elsewhere.
   bool reentrant_vertices = false;
+  ReentrantEdges reentrant_edges{};  ///< in space; set by `prepare`
 };
 using Enforcement = std::variant<ByPenalty, ByAugmentedLagrange, ByMultipliers>;
 

@@ -157,7 +157,7 @@ void drop_doubles(const EdgeContact& edges, std::span<const Vec3> x,
 }  // namespace
 
 std::vector<SharpEdge> sharp_edges(const FacetSurface& surface, std::span<const Vec3> x,
-                                   double angle) {
+                                   double angle, Bend bend) {
   std::vector<SharpEdge> out;
   for (std::size_t f = 0; f < surface.facets.size(); ++f)
     for (int e = 0; e < edge_count(surface.facets[f]); ++e) {
@@ -165,8 +165,9 @@ std::vector<SharpEdge> sharp_edges(const FacetSurface& surface, std::span<const 
       if (other <= static_cast<Index>(f)) continue;  // open, or already seen from the other side
       const SharpEdge edge = edge_of(surface, f, e);
       const Vec3 a = side_normal(surface, edge, 0, 0, x), b = side_normal(surface, edge, 1, 0, x);
-      const bool convex = b.dot(a.cross(tangent(edge, 0, x))) < 0;  // a falls away from b
-      if (convex && std::atan2(a.cross(b).norm(), a.dot(b)) > angle) out.push_back(edge);
+      const double rise = b.dot(a.cross(tangent(edge, 0, x)));  // < 0: a falls away from b
+      const bool bends = bend == Bend::convex ? rise < 0 : rise > 0;
+      if (bends && std::atan2(a.cross(b).norm(), a.dot(b)) > angle) out.push_back(edge);
     }
   return out;
 }

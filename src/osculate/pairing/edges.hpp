@@ -8,8 +8,7 @@
 
 namespace osculate::pairing {
 
-/// An edge between two facets whose normals stand at a large angle to each other; the body lies in
-/// the wedge.
+/// An edge between two facets whose normals stand at a large angle to each other.
 struct SharpEdge {
   int count = 0;                            ///< 2 nodes, or 3 with the one in the middle
   std::array<Index, 3> nodes{};             ///< both ends first
@@ -52,10 +51,15 @@ struct EdgeBuffers {
   std::vector<EdgeEdgePoint> found;  ///< by slave, then master edge
 };
 
-/// Edges of `surface` with an angle of more than `angle` between their facets' normals at `x`,
-/// convex ones only. Open borders and analytic shapes have none.
+/// Where the facets of an edge lie: below each other's planes, the body in the wedge, or above
+/// them.
+enum class Bend : std::uint8_t { convex, concave };
+
+/// Edges of `surface` with an angle of more than `angle` between their facets' normals at `x` that
+/// bend this way. Open borders and analytic shapes have none.
 [[nodiscard]] std::vector<SharpEdge> sharp_edges(const FacetSurface& surface,
-                                                 std::span<const Vec3> x, double angle);
+                                                 std::span<const Vec3> x, double angle,
+                                                 Bend bend = Bend::convex);
 
 /// Finds the sharp edges of both sides. `areas`: of the slave's nodes.
 void prepare_edges(EdgeContact& edges, const FacetSurface& master, const SlaveSide<3>& slave,

@@ -8,6 +8,7 @@
 #include "osculate/pairing/combinations.hpp"
 #include "osculate/pairing/mortar.hpp"
 #include "osculate/pairing/point_sample.hpp"
+#include "osculate/pairing/reentrant_edge.hpp"
 #include "osculate/pairing/reentrant_vertex.hpp"
 #include "osculate/pairing/response.hpp"
 #include "osculate/pairing/sampling.hpp"
@@ -32,15 +33,21 @@ void check_areas(const PairDefinition<Dim>& pair) {
               : "a slave facet has no area; use weight: node");
 }
 
-void find_reentrant_vertices(PairDefinition<2>& pair, Points<2> reference) {
+bool find_reentrant(Chain& master, Points<2> reference, ByMultipliers& unknown) {
+  return mark_reentrant_vertices(master, reference, unknown.reentrant_angle);
+}
+bool find_reentrant(const FacetSurface& master, Points<3> reference, ByMultipliers& unknown) {
+  return find_reentrant_edges(master, reference, unknown.reentrant_angle, unknown.reentrant_edges);
+}
+
+template <int Dim>
+void find_reentrant_vertices(PairDefinition<Dim>& pair, Points<Dim> reference) {
   auto* const unknown = std::get_if<ByMultipliers>(&pair.enforcement);
   if (!unknown) return;
-  unknown->reentrant_vertices =
-      !by_mortar(pair) && is<MayPart>(pair.separation) && pair.offset == 0 &&
-      pair.overlap == InitialOverlap::acts &&
-      mark_reentrant_vertices(pair.master, reference, unknown->reentrant_angle);
+  unknown->reentrant_vertices = !by_mortar(pair) && is<MayPart>(pair.separation) &&
+                                pair.offset == 0 && pair.overlap == InitialOverlap::acts &&
+                                find_reentrant(pair.master, reference, *unknown);
 }
-void find_reentrant_vertices(PairDefinition<3>&, Points<3>) {}
 
 }  // namespace
 
@@ -92,7 +99,8 @@ int largest_block(const PairDefinition<Dim>& pair) {
   int slave = 1, master = 0;
   for (const SlavePoint<Dim>& p : pair.slave.points) slave = std::max(slave, p.count);
   for (const auto& facet : pair.master.facets) master = std::max(master, facet.count);
-  return std::max(slave + master, edges_of(pair) ? of_edge_contact : 0);
+  const bool both_facets = Dim == 3 && has_reentrant_vertices(pair);
+  return std::max(slave + (both_facets ? 2 : 1) * master, edges_of(pair) ? of_edge_contact : 0);
 }
 
 template <int Dim>
@@ -137,6 +145,13 @@ void evaluate_projected(const PairDefinition<Dim>& pair, Points<Dim> x,
       if (const std::optional<ReentrantVertex> reentrant = find_reentrant_vertex(
               pair, x, history, i, out, out.taken_multipliers[i], context, projected)) {
         evaluate_reentrant_vertex(pair, x, history, *reentrant, context, with_tangent, i, out);
+        return;
+      }
+  if constexpr (Dim == 3)
+    if (has_reentrant_vertices(pair) && context.multiplier)
+      if (const std::optional<EdgePlace> place = find_reentrant_edge(
+              pair, x, history, i, out, out.taken_multipliers[i], context, projected)) {
+        evaluate_reentrant_edge(pair, x, history, *place, context, with_tangent, i, out);
         return;
       }
   context.kept =
@@ -233,6 +248,9 @@ ActiveSet<Dim> committed_active_set(const PairDefinition<Dim>& pair,
         branch = {Branch::reentrant, Vec2::Zero()};
         branch.facet = h.facet;
       }
+    if constexpr (Dim == 3)
+      if (h.active && rests_in_reentrant_edge(pair, h))
+        branch = predicted_in_edge(pair, h, x, friction);
     active_set.branch.push_back(branch);
   }
   return active_set;
@@ -252,7 +270,9 @@ ActiveSet<Dim> evaluated_active_set(const PairEvaluation<Dim>& evaluation,
     branch.xi = point.history.xi;
     if (before.predict || i >= before.branch.size()) continue;
     const ActiveBranch<Dim>& last = before.branch[i];
-    const bool changed = branch.facet >= 0 && last.facet >= 0 && branch.facet != last.facet;
+    const bool along_edge = Dim == 3 && branch.branch == Branch::reentrant;  // no border of a side
+    const bool changed =
+        !along_edge && branch.facet >= 0 && last.facet >= 0 && branch.facet != last.facet;
     branch.changes = last.changes + (changed ? 1 : 0);
     if (branch.facet < 0) branch.facet = last.facet;
   }

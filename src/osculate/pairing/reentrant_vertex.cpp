@@ -6,6 +6,7 @@
 #include "osculate/pairing/point_block.hpp"
 #include "osculate/pairing/point_sample.hpp"
 #include "osculate/pairing/point_weight.hpp"
+#include "osculate/pairing/reentrant_state.hpp"
 #include "osculate/pairing/report.hpp"
 
 namespace osculate::pairing {
@@ -20,23 +21,6 @@ namespace {
 
 const Facet& facet_of(const Chain& chain, Index facet) {
   return chain.facets[static_cast<std::size_t>(facet)];
-}
-
-/// The state that the tractions of a point belong to: the re-entrant vertex behind a facet, a
-/// facet, or neither where it was open.
-struct Before {
-  bool reentrant = false;
-  Index facet = -1;
-};
-
-Before state_before(const PairDefinition<2>& pair, const PointHistory<2>& history,
-                    const PointContext<2>& context, Points<2> x) {
-  if (context.active.branch == Branch::reentrant) return {true, context.active.facet};
-  if (context.active.branch != Branch::none && context.active.facet >= 0)
-    return {false, context.active.facet};
-  const bool of_history = context.predict || !context.known;
-  if (!of_history || !history.active) return {};
-  return {rests_in_reentrant_vertex(pair, history, x), history.facet};
 }
 
 /// The re-entrant vertex between a facet and the place beside it that a point has moved to.
@@ -70,35 +54,15 @@ int side_of_arrival(const PairDefinition<2>& pair, const PointHistory<2>& histor
   return way > 0 ? 0 : way < 0 ? 1 : -1;
 }
 
-/// Whether a facet's law lets the traction slide.
-bool slides(const PairDefinition<2>& pair, const PointHistory<2>& history, double normal,
-            double shear, const PointContext<2>& context) {
-  return !pair.friction || contact::response<2>(friction_law(pair, normal, context), Vec<1>(shear),
-                                                normal, sliding_of(history, context))
-                                   .status == Status::slip;
-}
-
 /// The side (0 or 1) on which the traction leaves the re-entrant vertex; -1: it is held.
-int left_side(const PairDefinition<2>& pair, const PointHistory<2>& history,
+int side_left(const PairDefinition<2>& pair, const PointHistory<2>& history,
               const ReentrantVertex& v, const Vec2& traction, const PointContext<2>& context,
               int arrived) {
-  int side = -1;
-  double least = 0;
-  for (int k = 0; k < 2; ++k) {
+  return left_side<2>(traction, v.normal, {-v.along[0], v.along[1]}, arrived, [&](int k) {
     const auto s = static_cast<std::size_t>(k);
-    const double normal = traction.dot(v.normal[s]), shear = traction.dot(v.along[s]);
-    const bool away = k == 0 ? shear < 0 : shear > 0;  // it would slide away from the vertex
-    const bool sliding = slides(pair, history, normal, shear, context);
-    const bool leaves = k == arrived ? away || !sliding : away && sliding;
-    if (!leaves || (side >= 0 && normal >= least)) continue;
-    side = k;
-    least = normal;
-  }
-  return side;
-}
-
-bool too_deep(const PairDefinition<2>& pair, const ReentrantVertex& v, const Vec2& offset) {
-  return std::min(offset.dot(v.normal[0]), offset.dot(v.normal[1])) < -pair.depth;
+    return slides_on_facet<2>(pair, history, traction.dot(v.normal[s]),
+                              Vec<1>(traction.dot(v.along[s])), context);
+  });
 }
 
 /// A point that was in the re-entrant vertex stays, or goes to a facet with its traction.
@@ -112,8 +76,8 @@ std::optional<ReentrantVertex> stay_or_leave(const PairDefinition<2>& pair, Poin
   const Vec2 offset = position<2>(pair.slave.points[i], x) - v->point;
   const Vec2 traction = taken.shear + point_penalty(pair, i).shear * offset;
   const int arrived = side_of_arrival(pair, history, *v, x);
-  const int left = context.predict ? -1 : left_side(pair, history, *v, traction, context, arrived);
-  if (left < 0 && !too_deep(pair, *v, offset)) return v;
+  const int left = context.predict ? -1 : side_left(pair, history, *v, traction, context, arrived);
+  if (left < 0 && !too_deep<2>(pair, v->normal, offset)) return v;
   const auto side = static_cast<std::size_t>(std::max(left, 0));
   taken.normal = taken.shear.dot(v->normal[side]);
   taken.shear -= taken.normal * v->normal[side];
@@ -133,7 +97,7 @@ std::optional<ReentrantVertex> come_or_keep(const PairDefinition<2>& pair, Point
   const std::size_t from = v->facets[0] == facet ? 0 : 1;
   const Vec2 offset = position<2>(pair.slave.points[i], x) - v->point;
   const double push = taken.normal + point_penalty(pair, i).normal * offset.dot(v->normal[from]);
-  if (too_deep(pair, *v, offset)) return std::nullopt;
+  if (too_deep<2>(pair, v->normal, offset)) return std::nullopt;
   if (push > 0) {  // let go: nothing of it belongs to the other facet
     taken = {};
     return std::nullopt;
@@ -179,7 +143,8 @@ std::optional<ReentrantVertex> find_reentrant_vertex(const PairDefinition<2>& pa
   context.multiplier = &taken;
   if (projected.projection.feature == Feature::none || context.active.kept() >= 0)
     return std::nullopt;
-  const Before before = state_before(pair, history, context, x);
+  const StateBefore<2> before = state_before<2>(
+      history, context, [&] { return rests_in_reentrant_vertex(pair, history, x); });
   if (before.reentrant)
     return stay_or_leave(pair, x, history, i, before.facet, work, context, taken, projected);
   if (before.facet >= 0)

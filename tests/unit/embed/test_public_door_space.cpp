@@ -1,4 +1,6 @@
 // Every choice on every axis through the public library, in space.
+#include <fstream>
+
 #include "public_door.hpp"
 
 namespace osculate {
@@ -124,6 +126,52 @@ TEST(PublicDoor, EdgesAndOwnSurfaceInSpace) {
                                         "master: low.top", "master: skin"),
                                  "slave: high.bottom", "slave: skin");
   expect_doors<3>({{"own surface", own, [](Contact<3>&) {}}});
+}
+
+/// A floor and a wall that lean on each other, and a row of nodes in the edge between them.
+TEST(PublicDoor, ReentrantEdges) {
+  const std::string file = ::testing::TempDir() + "floor_and_wall.msh";
+  std::ofstream(file) << R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+1
+2 1 "sides"
+$EndPhysicalNames
+$Nodes
+9
+1 -1 0 0.5
+2 -1 0.57 0
+3 -1 4 0
+4 1.3 0 0.5
+5 1.3 0.57 0
+6 1.3 4 0
+7 4 0 0.5
+8 4 0.57 0
+9 4 4 0
+$EndNodes
+$Elements
+4
+1 3 2 1 1 1 4 5 2
+2 3 2 1 1 2 5 6 3
+3 3 2 1 1 4 7 8 5
+4 3 2 1 1 5 8 9 6
+$EndElements
+)";
+  const std::string model =
+      edited(space_model(", enforcement: lagrange_multiplier", "set: sides.sides"), "mesh:\n",
+             "mesh:\n  files: {sides: {file: " + file + "}}\n");
+  ASSERT_TRUE(pairing::has_reentrant_vertices(from_file<3>(model).pair));
+  expect_doors<3>({{"floor and wall",
+                    model,
+                    [](Contact<3>& c) {
+                      c.enforcement = Enforcement::lagrange_multiplier;
+                      c.reentrant_vertices = true;
+                    },
+                    {},
+                    {},
+                    false}},
+                  false);
 }
 
 }  // namespace

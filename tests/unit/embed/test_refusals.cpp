@@ -156,8 +156,11 @@ TEST(Refusals, Enforcements) {
        "unknown tractions have the consistent tangent only"},
       {[&](S& s) { unknown(s), s.contact.edge_angle = 1; },
        "edge-edge contacts come and go: they are enforced by penalty only"},
-      {[&](S& s) { unknown(s), s.contact.reentrant_vertices = true; },
-       "re-entrant vertices hold points in the plane, at nodes whose tractions are unknown, and "
+      {[&](S& s) { unknown(s), s.contact.reentrant_vertices = true, s.contact.offset = 0.1; },
+       "re-entrant vertices and edges hold points at nodes whose tractions are unknown, and "
+       "without separation, offset or overlaps that do not count"},
+      {[&](S& s) { s.contact.reentrant_vertices = true; },
+       "re-entrant vertices and edges hold points at nodes whose tractions are unknown, and "
        "without separation, offset or overlaps that do not count"},
   });
 }
