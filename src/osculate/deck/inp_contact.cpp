@@ -48,6 +48,10 @@ const Interaction& interaction_of(const InpModel& m, const std::vector<Interacti
                 core::unknown_name_message("surface interaction", printable(name), names));
 }
 
+bool is_tied(const Interaction& law) {
+  return law.behavior && option_of(*law.behavior, "PRESSURE-OVERCLOSURE") == "TIED";
+}
+
 void put_table(const InpModel& m, const Card& card, SourceNode& normal) {
   const int at = line_of(card.at);
   SourceNode& table = put(normal, "table", inp_list(at));
@@ -97,34 +101,39 @@ void put_friction(const InpModel& m, const Card& card, SourceNode& pair) {
     put(coulomb, "penalty", inp_number(slope, at));
 }
 
-/// Gauss points, two per direction of a facet, three of one of second order.
-SourceNode gauss_on(const InpModel& m, const std::string& set, int line) {
-  bool second_order = false;
-  for (const mesh::CellRef& ref : m.mesh.mesh.find_set(set)->cells)
-    second_order |=
-        cell::info(m.mesh.mesh.blocks[static_cast<std::size_t>(ref.block)].type).order > 1;
-  SourceNode sampling = inp_map(line);
-  put(sampling, "gauss", inp_number(second_order ? 3 : 2, line));
-  return sampling;
+bool is_of_second_order(const InpModel& m, const mesh::Set& set) {
+  return std::any_of(set.cells.begin(), set.cells.end(), [&](const mesh::CellRef& ref) {
+    return cell::info(m.mesh.mesh.blocks[static_cast<std::size_t>(ref.block)].type).order > 1;
+  });
 }
 
-void put_sampling(const InpModel& m, const Card& card, const std::string& slave, SourceNode& pair) {
+/// Nodes, or Gauss points: two per direction of a facet, three of one of second order, whose
+/// corners have no positive area.
+void put_sampling(InpModel& m, const Card& card, const std::string& slave, SourceNode& pair) {
   const int at = line_of(card.at);
   const std::string type = option_of(card, "TYPE");
   const mesh::Set* const set = m.mesh.mesh.find_set(slave);
-  if (type == "NODETOSURFACE" || (set && set->cells.empty())) {
-    put(pair, "sampling", inp_text("nodes", at));
-  } else if (type == "SURFACETOSURFACE" || type.empty()) {
-    put(pair, "sampling", gauss_on(m, slave, at));
-  } else if (type == "MORTAR" || type == "LINMORTAR" || type == "PGLINMORTAR") {
+  const bool has_facets = set && !set->cells.empty();
+  const bool second_order = has_facets && is_of_second_order(m, *set);
+  if (type == "MORTAR" || type == "LINMORTAR" || type == "PGLINMORTAR") {
     put(pair, "sampling", inp_text("mortar", at));
     put(pair, "enforcement", inp_text("lagrange_multiplier", at));
-  } else {
+    return;
+  }
+  if (!type.empty() && type != "NODETOSURFACE" && type != "SURFACETOSURFACE")
     io::inp::fail(m.deck, card,
                   fmt::format("TYPE={} is not supported: NODE TO SURFACE, SURFACE TO SURFACE or "
                               "MORTAR",
                               printable(type)));
+  if (!has_facets || (type == "NODETOSURFACE" && !second_order)) {
+    put(pair, "sampling", inp_text("nodes", at));
+    return;
   }
+  if (type == "NODETOSURFACE")
+    m.notes.push_back(fmt::format(
+        "line {}: '{}' is sampled at Gauss points: corners of second-order facets have no area",
+        card.at.line, slave));
+  put(put(pair, "sampling", inp_map(at)), "gauss", inp_number(second_order ? 3 : 2, at));
 }
 
 /// `slave_master`, with a number where that is taken.
@@ -161,7 +170,7 @@ void add_contact_pair(InpModel& m, const Card& card, const Interaction& law, Sou
     SourceNode& pair = add_pair(m, card, line, pairs);
     put_sampling(m, card, find(pair, "slave")->text, pair);
     put(pair, "normal", normal_of(m, law));
-    if (law.friction) put_friction(m, *law.friction, pair);
+    if (law.friction && !is_tied(law)) put_friction(m, *law.friction, pair);
     const io::inp::Parameter* const adjust = io::inp::find_parameter(card, "ADJUST");
     if (!adjust) continue;
     const io::inp::Line value{adjust->value, card.at};

@@ -7,10 +7,11 @@ namespace osculate::deck {
 
 /// What becomes of a keyword of an Abaqus or CalculiX input file.
 enum class KeywordUse : std::uint8_t {
-  mesh,    ///< makes the mesh: read where the file is a model's mesh
-  silent,  ///< changes no answer: titles, what is printed and written
-  ours,    ///< says what a model file has a key for
-  none     ///< says what there is no counterpart for
+  mesh,        ///< makes the mesh: read where the file is a model's mesh, too
+  silent,      ///< changes no answer: titles, what is printed and written
+  translated,  ///< becomes a key of a model file
+  ours,        ///< says what a model file has a key for, but is not translated
+  none         ///< says what there is no counterpart for
 };
 
 struct InpKeyword {

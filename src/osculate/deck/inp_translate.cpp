@@ -99,38 +99,6 @@ const std::string& set_of(const InpModel& m, Place at, std::string_view name,
 
 namespace {
 
-/// What the translation makes something of, beside the mesh.
-constexpr std::array<std::string_view, 22> translated{"MATERIAL",
-                                                      "ELASTIC",
-                                                      "PLASTIC",
-                                                      "CREEP",
-                                                      "DENSITY",
-                                                      "BOUNDARY",
-                                                      "SOLIDSECTION",
-                                                      "EQUATION",
-                                                      "CONTACTPAIR",
-                                                      "SURFACEINTERACTION",
-                                                      "TIE",
-                                                      "FRICTION",
-                                                      "STEP",
-                                                      "ENDSTEP",
-                                                      "SURFACEBEHAVIOR",
-                                                      "STATIC",
-                                                      "VISCO",
-                                                      "AMPLITUDE",
-                                                      "CLOAD",
-                                                      "DLOAD",
-                                                      "DSLOAD",
-                                                      "INITIALCONDITIONS"};
-/// What says how a solver goes about it, not what the answer is.
-constexpr std::array<std::string_view, 4> of_the_solver{"CONTROLS", "RESTART", "TIMEPOINTS",
-                                                        "CONTACTCONTROLS"};
-
-template <class Names>
-bool is_among(const Names& names, std::string_view keyword) {
-  return std::find(names.begin(), names.end(), keyword) != names.end();
-}
-
 /// A keyword without counterpart stops; others that are left out are told of once.
 void check_keywords(InpModel& m) {
   std::set<std::string> left_out;
@@ -141,8 +109,8 @@ void check_keywords(InpModel& m) {
       for (const InpKeyword& one : inp_keywords()) names.emplace_back(one.keyword);
       io::inp::fail(m.deck, card.at, core::unknown_name_message("keyword", card.keyword, names));
     }
-    if (known->use == KeywordUse::mesh || is_among(translated, card.keyword)) continue;
-    if (known->use == KeywordUse::silent || is_among(of_the_solver, card.keyword)) {
+    if (known->use == KeywordUse::mesh || known->use == KeywordUse::translated) continue;
+    if (known->use == KeywordUse::silent) {
       if (known->keyword != "HEADING") left_out.insert(fmt::format("*{}", known->keyword));
       continue;
     }

@@ -17,6 +17,8 @@ std::string text_of_table() {
         return "read";
       case KeywordUse::silent:
         return "no effect";
+      case KeywordUse::translated:
+        return "translated";
       case KeywordUse::ours:
         return "by hand";
       default:
