@@ -1,4 +1,5 @@
-// Whatever the bytes are: the mesh of an input file without broken references, or an InputError.
+// Whatever the bytes are: the mesh of an input file without broken references and the model that it
+// describes, or an InputError.
 // What follows a zero byte is the next file, `1`, `2`, ..., which *INCLUDE finds.
 #include <algorithm>
 #include <cstddef>
@@ -8,6 +9,8 @@
 #include <vector>
 
 #include "osculate/core/error.hpp"
+#include "osculate/deck/inp_translate.hpp"
+#include "osculate/deck/parse.hpp"
 #include "osculate/io/inp/deck_mesh.hpp"
 #include "use_mesh.hpp"
 
@@ -30,6 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const io::inp::Deck deck = io::inp::read_cards(files[0], "fuzz", open);
     use_mesh(io::inp::deck_mesh(deck).mesh);
+    (void)osculate::deck::parse_model(osculate::deck::translate_deck(deck).root, "fuzz");
   } catch (const InputError&) {
   }
   return 0;

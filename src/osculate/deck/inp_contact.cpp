@@ -88,10 +88,9 @@ SourceNode normal_of(const InpModel& m, const Interaction& law) {
 }
 
 void put_friction(const InpModel& m, const Card& card, SourceNode& pair) {
-  const auto lines = io::inp::lines_of(m.deck, card);
-  if (lines.empty()) io::inp::fail(m.deck, card, "expected a line with the coefficient");
-  Fields fields(m.deck, lines[0]);
-  const int at = line_of(lines[0].at);
+  const Line& line = only_line(m, card, "the coefficient and the stick slope");
+  Fields fields(m.deck, line);
+  const int at = line_of(line.at);
   const double mu = fields.real("the coefficient of friction");
   if (mu == 0) return;
   SourceNode& friction = put(pair, "friction", inp_map(line_of(card.at)));

@@ -15,7 +15,8 @@ namespace osculate::deck {
 struct InpModel {
   const io::inp::Deck& deck;
   io::inp::DeckMesh mesh;
-  bool finite = false;  ///< some step has NLGEOM
+  std::map<std::pair<io::inp::SetKind, std::string>, std::size_t> sets;  ///< by name in capitals
+  bool finite = false;                                                   ///< some step has NLGEOM
   std::vector<std::string> notes;
 };
 

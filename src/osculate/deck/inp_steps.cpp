@@ -77,6 +77,8 @@ class Steps {
     if (step_)
       io::inp::fail(m_.deck, card,
                     fmt::format("the step of line {} has no *END STEP", step_->at.line));
+    if (io::inp::find_parameter(card, "PERTURBATION"))
+      io::inp::fail(m_.deck, card, "PERTURBATION is not supported: steps go on from the last one");
     step_ = &card;
     procedure_ = nullptr;
     period_ = 1;
@@ -90,6 +92,12 @@ class Steps {
 
   void read_time(const Card& card) {
     if (!step_) io::inp::fail(m_.deck, card, "stands outside of a step");
+    if (procedure_)
+      io::inp::fail(
+          m_.deck, card,
+          fmt::format("the step has a procedure already, in line {}", procedure_->at.line));
+    if (io::inp::find_parameter(card, "RIKS"))
+      io::inp::fail(m_.deck, card, "RIKS is not supported; `solver: arc_length` of a model file");
     procedure_ = &card;
     const bool direct = io::inp::find_parameter(card, "DIRECT") != nullptr;
     const auto lines = io::inp::lines_of(m_.deck, card);
@@ -295,6 +303,8 @@ class Steps {
     if (!density)
       fields.fail(fmt::format("GRAV acts on a set of elements that has a *SOLID SECTION, not on {}",
                               io::inp::shown(elements)));
+    if (!(*density > 0))
+      fields.fail(fmt::format("the material of {} has no *DENSITY", io::inp::shown(elements)));
     const std::string& on = set_of(m_, line.at, elements, {SetKind::elements});
     for (int k = 0; k < dimension(); ++k)
       set(body_forces_, on, k + 1, *density * size * direction.normalized()[k], amplitude, line,

@@ -84,13 +84,12 @@ const Line& only_line(const InpModel& m, const Card& card, const char* what) {
 
 const std::string& set_of(const InpModel& m, Place at, std::string_view name,
                           std::initializer_list<io::inp::SetKind> kinds) {
-  const std::string wanted = io::inp::capitals(name);
+  for (const io::inp::SetKind kind : kinds)
+    if (const auto found = m.sets.find({kind, io::inp::capitals(name)}); found != m.sets.end())
+      return m.mesh.mesh.sets[found->second].name;
   std::vector<std::string> names;
-  for (const io::inp::DeckSet& set : m.mesh.sets) {
-    if (std::find(kinds.begin(), kinds.end(), set.kind) == kinds.end()) continue;
-    if (io::inp::capitals(set.name) == wanted) return m.mesh.mesh.sets[set.set].name;
-    names.push_back(set.name);
-  }
+  for (const io::inp::DeckSet& set : m.mesh.sets)
+    if (std::find(kinds.begin(), kinds.end(), set.kind) != kinds.end()) names.push_back(set.name);
   const bool surfaces = *kinds.begin() == io::inp::SetKind::surface;
   const bool nodes = *kinds.begin() == io::inp::SetKind::nodes;
   const char* const what = surfaces ? "surface" : nodes ? "set of nodes" : "set of elements";
@@ -146,11 +145,17 @@ bool names_a_deck(std::string_view file) {
 }
 
 TranslatedDeck translate_deck(std::string_view content, const std::string& file) {
-  const io::inp::Deck deck = io::inp::read_cards(content, file);
-  InpModel m{deck, {}, false, {}};
+  return translate_deck(io::inp::read_cards(content, file));
+}
+
+TranslatedDeck translate_deck(const io::inp::Deck& deck) {
+  const std::string& file = deck.files[0];
+  InpModel m{deck, {}, {}, false, {}};
   check_keywords(m);
   m.finite = is_finite(m);
   m.mesh = io::inp::deck_mesh(deck);
+  for (const io::inp::DeckSet& set : m.mesh.sets)
+    m.sets.emplace(std::pair(set.kind, io::inp::capitals(set.name)), set.set);
   TranslatedDeck out;
   out.root = inp_map(1);
   put(out.root, "osculate", inp_number(1, 1));

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "osculate/deck/source_tree.hpp"
+#include "osculate/io/inp/cards.hpp"
 
 namespace osculate::deck {
 
@@ -22,8 +23,9 @@ struct TranslatedDeck {
 ///
 /// Input      file: name of the deck as the user gave it; included files are relative to it
 /// Errors     core::InputError with file and line
-/// Tested by  tests/unit/deck/test_inp_translate.cpp, test_inp_runs.cpp
+/// Tested by  tests/unit/deck/test_inp_translate.cpp, tests/fuzz/fuzz_inp.cpp
 [[nodiscard]] TranslatedDeck translate_deck(std::string_view content, const std::string& file);
+[[nodiscard]] TranslatedDeck translate_deck(const io::inp::Deck& deck);
 
 /// Whether a file is a deck by its name: it ends in .inp.
 [[nodiscard]] bool names_a_deck(std::string_view file);

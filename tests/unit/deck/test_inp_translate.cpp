@@ -225,6 +225,19 @@ TEST(InpTranslate, WhatIsNotUnderstoodStopsWithItsLine) {
        "unknown surface 'MASTRE'; did you mean 'MASTER'?"},
       {"amplitude", blocks + steel + "*STEP\n*STATIC\n*CLOAD, AMPLITUDE=A\nTOP, 3, 1.\n*END STEP\n",
        "unknown amplitude 'A'"},
+      {"density",
+       blocks + "*MATERIAL, NAME=A\n*ELASTIC\n1., .3\n*SOLID SECTION, ELSET=UP, MATERIAL=A\n"
+                "*STEP\n*STATIC\n*DLOAD\nUP, GRAV, 9., 0., 0., -1.\n*END STEP\n",
+       "the material of 'UP' has no *DENSITY"},
+      {"perturbation", blocks + steel + "*STEP, PERTURBATION\n*STATIC\n*END STEP\n",
+       "PERTURBATION is not supported"},
+      {"riks", blocks + steel + "*STEP\n*STATIC, RIKS\n*END STEP\n", "RIKS is not supported"},
+      {"friction",
+       blocks + steel +
+           "*SURFACE INTERACTION, NAME=A\n*FRICTION\n.1, 1.\n.2, 2.\n*CONTACT "
+           "PAIR, INTERACTION=A\nSLAVE, MASTER\n" +
+           step,
+       "one line with the coefficient and the stick slope is read, no second one"},
       {"terms", blocks + steel + "*EQUATION\n3\n16, 1, 1., 17, 1, -1.\n" + step,
        "1 terms are missing"},
   };

@@ -1,0 +1,88 @@
+"""Decks of Abaqus and CalculiX as they are. Usage: test_decks.py PROGRAM"""
+import csv
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = sys.argv[1]
+YOUNG, POISSON, PRESSURE = 100.0, 0.3, 1.0
+
+
+def deck(cells):
+    """A column 1 x 2 of two bodies in plane strain, cells along its width, pressed on its top."""
+    lines = ["*HEADING", "a column", "*NODE"]
+    tag = lambda body, i, j: 1000 * (body + 1) + 100 * j + i + 1
+    corners = lambda body: [(i, j) for j in range(2) for i in range(cells + 1)]
+    for body in range(2):
+        lines += [f"{tag(body, i, j)}, {i / cells}, {body + j}" for i, j in corners(body)]
+    for body, name in enumerate(("LOW", "HIGH")):
+        lines.append(f"*ELEMENT, TYPE=CPE4, ELSET={name}")
+        lines += [f"{100 * body + i + 1}, {tag(body, i, 0)}, {tag(body, i + 1, 0)}, {tag(body, i + 1, 1)}, "
+                  f"{tag(body, i, 1)}" for i in range(cells)]
+    lines += ["*NSET, NSET=BASE", *(f"{tag(0, i, 0)}," for i in range(cells + 1)),
+              "*NSET, NSET=SIDE", *(f"{tag(body, 0, j)}," for body in range(2) for j in range(2)),
+              "*SURFACE, NAME=ROOF", "LOW, S3", "*SURFACE, NAME=FLOOR", "HIGH, S1",
+              "*MATERIAL, NAME=RUBBER", "*ELASTIC", f"{YOUNG}, {POISSON}",
+              "*SOLID SECTION, ELSET=LOW, MATERIAL=RUBBER", "1.,", "*SOLID SECTION, ELSET=HIGH, MATERIAL=RUBBER",
+              "*SURFACE INTERACTION, NAME=SI", "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", "1.E6",
+              "*CONTACT PAIR, INTERACTION=SI, TYPE=SURFACE TO SURFACE", "FLOOR, ROOF",
+              "*BOUNDARY", "BASE, 2", "SIDE, 1",
+              "*STEP", "*STATIC", "1., 1.", "*DLOAD", f"HIGH, P3, {PRESSURE}", "*NODE PRINT, NSET=BASE", "RF",
+              "*END STEP", ""]
+    return "\n".join(lines)
+
+
+class Decks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.write("column.inp", deck(3))
+
+    def write(self, name, text):
+        with open(os.path.join(self.folder, name), "w") as file:
+            file.write(text)
+
+    def run_program(self, *arguments):
+        return subprocess.run([PROGRAM, *arguments], cwd=self.folder, capture_output=True, text=True)
+
+    def test_a_deck_runs(self):
+        done = self.run_program("run", "column.inp", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(json.loads(done.stdout)["status"], "done")
+        self.assertTrue(os.path.exists(os.path.join(self.folder, "column.results", "report.html")))
+        said = self.run_program("check", "column.inp").stdout
+        self.assertIn("of 'column.inp' these are left out: *NODE PRINT", said)
+
+    def test_the_model_file_of_a_deck_has_the_closed_solution(self):
+        done = self.run_program("convert", "column.inp", "-o", "column.yaml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(os.path.join(self.folder, "column.yaml"), "a") as file:
+            file.write("output: {history: [{on: P3 of HIGH, of: uy}, {on: BASE, of: rfy}]}\n")
+        done = self.run_program("run", "column.yaml")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        with open(os.path.join(self.folder, "column.results", "history.csv")) as file:
+            row = list(csv.DictReader(file))[-1]
+        sunk = 2 * PRESSURE * (1 - POISSON**2) / YOUNG + PRESSURE / 1e6
+        self.assertAlmostEqual(float(row["P3 of HIGH.uy"]), -sunk, delta=1e-12)
+        self.assertAlmostEqual(float(row["BASE.rfy"]), PRESSURE, delta=1e-12)
+
+    def test_what_is_not_understood_is_bad_input(self):
+        for right, wrong in (("*STATIC", "*FREQUENCY"), ("SIDE, 1", "SIED, 1")):
+            self.write("broken.inp", deck(1).replace(right, wrong))
+            done = self.run_program("run", "broken.inp")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("broken.inp:", done.stderr)
+            self.assertIn(wrong.split(",")[0], done.stderr)
+            self.assertFalse(os.path.exists(os.path.join(self.folder, "broken.results")))
+
+    def test_convert_writes_over_no_deck(self):
+        self.assertEqual(self.run_program("convert", "column.inp", "-o", "column.inp").returncode, 2)
+        self.assertEqual(self.run_program("convert", "column.yaml").returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0]])
