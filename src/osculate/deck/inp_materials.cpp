@@ -153,6 +153,27 @@ const char* plane_element(const InpModel& m, const Card& section, std::string_vi
   return *found.begin() == "CPS" ? "plane_stress" : "axisymmetric";
 }
 
+/// Fails for cells of the highest dimension that no section has: they would not be there.
+void require_sections(const InpModel& m, SourceNode& sections) {
+  const mesh::Mesh& mesh = m.mesh.mesh;
+  int highest = 0;
+  for (const mesh::Block& block : mesh.blocks)
+    if (block.size() > 0) highest = std::max(highest, cell::info(block.type).dimension);
+  std::set<std::pair<Index, Index>> in_section;
+  for (SourceNode& section : sections.items)
+    for (const mesh::CellRef& ref : mesh.find_set(find(section, "on")->text)->cells)
+      in_section.insert({ref.block, ref.cell});
+  for (Index b = 0; b < static_cast<Index>(mesh.blocks.size()); ++b) {
+    const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(b)];
+    if (cell::info(block.type).dimension != highest) continue;
+    for (Index c = 0; c < block.size(); ++c)
+      if (!in_section.contains({b, c}))
+        throw core::InputError(
+            {m.deck.files[0], 0, ""},
+            fmt::format("element {} has no *SOLID SECTION", mesh::cell_number(mesh, {b, c})));
+  }
+}
+
 void note_reduced(InpModel& m) {
   std::set<std::string> reduced;
   for (const Card& card : m.deck.cards) {
@@ -210,6 +231,7 @@ SourceNode inp_sections(InpModel& m) {
     const double thickness = Fields(m.deck, lines[0]).real_or_zero("the thickness");
     if (thickness > 0) put(section, "thickness", inp_number(thickness, line_of(lines[0].at)));
   }
+  require_sections(m, sections);
   return sections;
 }
 

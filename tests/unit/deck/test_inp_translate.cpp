@@ -226,9 +226,14 @@ TEST(InpTranslate, WhatIsNotUnderstoodStopsWithItsLine) {
       {"amplitude", blocks + steel + "*STEP\n*STATIC\n*CLOAD, AMPLITUDE=A\nTOP, 3, 1.\n*END STEP\n",
        "unknown amplitude 'A'"},
       {"density",
-       blocks + "*MATERIAL, NAME=A\n*ELASTIC\n1., .3\n*SOLID SECTION, ELSET=UP, MATERIAL=A\n"
+       blocks + "*MATERIAL, NAME=A\n*ELASTIC\n1., .3\n*SOLID SECTION, ELSET=UP, MATERIAL=A\n*SOLID "
+                "SECTION, ELSET=LOW, MATERIAL=A\n"
                 "*STEP\n*STATIC\n*DLOAD\nUP, GRAV, 9., 0., 0., -1.\n*END STEP\n",
        "the material of 'UP' has no *DENSITY"},
+      {"section",
+       blocks + "*MATERIAL, NAME=A\n*ELASTIC\n1., .3\n*SOLID SECTION, ELSET=UP, MATERIAL=A\n" +
+           step,
+       "cubes.inp: element 1 has no *SOLID SECTION"},
       {"perturbation", blocks + steel + "*STEP, PERTURBATION\n*STATIC\n*END STEP\n",
        "PERTURBATION is not supported"},
       {"riks", blocks + steel + "*STEP\n*STATIC, RIKS\n*END STEP\n", "RIKS is not supported"},
