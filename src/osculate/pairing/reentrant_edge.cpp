@@ -123,6 +123,12 @@ bool is_on_edge(const PairDefinition<3>& pair, const ProjectedPoint<3>& projecte
                           edge_xi(edge_of(pair, place), 0, place.s));
 }
 
+/// Whether an edge is one of the facet, or begins or ends at it.
+bool touches(const SurfaceFacet& facet, const SharpEdge& edge) {
+  const auto is_end = [&](Index node) { return node == edge.nodes[0] || node == edge.nodes[1]; };
+  return std::any_of(facet.nodes.begin(), facet.nodes.begin() + facet.count, is_end);
+}
+
 /// A point that was pressed on a facet, and is placed beside it: in the edge if it has come into
 /// the facet behind it as well, else still on its own, unless that lets it go.
 std::optional<EdgePlace> come_or_keep(const PairDefinition<3>& pair, Points<3> x,
@@ -136,6 +142,8 @@ std::optional<EdgePlace> come_or_keep(const PairDefinition<3>& pair, Points<3> x
       edge_between(edges_in(pair), pair.master, {facet, p.facet}, x, point);
   if (!place || place->beyond) return std::nullopt;
   const SharpEdge& edge = edge_of(pair, *place);
+  for (const Index f : {facet, p.facet})  // it lies between them
+    if (!touches(pair.master.facets[static_cast<std::size_t>(f)], edge)) return std::nullopt;
   const std::size_t from = side_of(edge, *place, pair.master, facet, x);
   const bool on_edge = is_on_edge(pair, projected, *place);
   if (!on_edge &&
@@ -192,7 +200,10 @@ std::optional<EdgePlace> find_reentrant_edge(const PairDefinition<3>& pair, Poin
   }
   const StateBefore<3> before =
       state_before<3>(history, context, [&] { return rests_in_reentrant_edge(pair, history); });
-  if (before.reentrant)
+  constexpr double none = 1e-6;  // what was in an edge has no multiplier along a normal
+  const bool of_facet =
+      (context.predict || !context.known) && std::abs(taken.normal) > none * taken.shear.norm();
+  if (before.reentrant && !of_facet)
     return stay_or_leave(pair, x, history, i, before, work, context, taken, projected);
   if (before.facet >= 0)
     return come_or_keep(pair, x, history, i, before.facet, work, taken, projected);

@@ -108,7 +108,10 @@ EdgePlace place_on(const ReentrantEdges& edges, const FacetSurface& master, Inde
     p.away[k] = (k == 0 ? 1.0 : -1.0) * p.normal[k].cross(p.tangent);
   }
   p.bisector = (p.normal[0] + p.normal[1]).normalized();
-  if (std::abs(p.s) <= 1 + rounding) return p;
+  constexpr double least_sine = 1e-6;  // flat or turned over: no such edge now
+  const double bend = p.first.squaredNorm() - p.second.dot(point - p.point);
+  if (!(p.away[0].dot(p.normal[1]) > least_sine && bend > 0)) p.beyond = true;
+  if (p.beyond || std::abs(p.s) <= 1 + rounding) return p;
   const Index end = edge.nodes[p.s > 0 ? 1 : 0];
   const bool continued = at_open_border(master, end) || goes_on(edges, number, end, x);
   p.beyond = !continued || std::abs(p.s) > 1 + edge_end_extension;
