@@ -363,6 +363,37 @@ TEST(ReentrantEdge, IsRememberedFromIncrementToIncrement) {
             Branch::reentrant);
 }
 
+/// An elastic master may bend its groove flat, or over.
+TEST(ReentrantEdge, ThatIsFlatOrTurnedOverHoldsNoPoint) {
+  for (const double mu : {0.0, 0.3})
+    for (const double slope : {0.1, 0.0, -0.1}) {
+      Sample s = make_groove({});
+      if (mu > 0) s.pair.friction = contact::coulomb(mu, penalty);
+      hold_by(Vec3(0, 0, 5), s, s.x.back());
+      for (std::size_t k = 0; k + 1 < s.x.size(); ++k) s.x[k].z() = slope * std::abs(s.x[k].y());
+      const pairing::PairEvaluation<3> e = evaluated(s);
+      EXPECT_EQ(e.points[0].branch.branch == Branch::reentrant, slope > 0) << slope;
+      // Without friction a side of the ridge carries what is normal to it.
+      const double carried = slope < 0 && mu == 0 ? 5 / (1 + slope * slope) : 5;
+      EXPECT_NEAR(force_on_point(e).z(), carried, 1e-12) << slope;
+    }
+}
+
+/// A point that a facet held at the edge's place is not taken for one that the edge held.
+TEST(ReentrantEdge, AFacetsMultiplierIsNotLostAtTheNextIncrement) {
+  const GrooveOptions o{};
+  Sample s = make_groove(o);
+  s.pair.friction = contact::coulomb(0.3, penalty);
+  hold_by(Vec3(0, 0, 5), s, s.x.back());
+  s.multipliers[0] = {-20, Vec3::Zero()};
+  const pairing::ActiveSet<3> next = pairing::committed_active_set<3>(s.pair, s.committed, s.x);
+  pairing::PairMultipliers<3> given;
+  given.points = s.multipliers;
+  pairing::PairEvaluation<3> e;
+  pairing::evaluate<3>(s.pair, s.x, s.committed, false, e, next, &given);
+  EXPECT_NEAR(force_on_point(e).norm(), 20, 1e-12);
+}
+
 TEST(ReentrantEdge, NothingIsAllocatedAfterTheFirstCall) {
   Sample s = make_groove({});
   s.pair.friction = contact::coulomb(0.3, penalty);
