@@ -101,6 +101,9 @@ std::vector<Case> computed_cases() {  // long: the one list
        time_steps},
       {"turning_block", "A rigid block slides into a valley and turns over its corner (KSCPP 5.2)",
        false, turning_block},
+      {"vibrations",
+       "Free vibrations about a state are those of bars on walls, free bodies, strings", false,
+       vibrations},
   };
 }
 

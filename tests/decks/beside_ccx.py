@@ -143,7 +143,7 @@ def compare(row, options):
             [options.osculate, "run", "deck.inp", "--json", "-o", "ours"], folder, options.limit)
         if code != 0:
             return result | {"wrong": "osculate: " + (error.strip().splitlines() or ["?"])[-1][:160]}
-        result["iterations"] = json.loads(said).get("iterations")
+        result["iterations"] = sum(i["iterations"] for s in json.loads(said)["steps"] for i in s["increments"])
         ours = displacements_of_vtu(sorted((folder / "ours").glob("bodies_*.vtu"))[-1])
         code, said, error, result["ccx_seconds"] = run([options.ccx, "-i", "deck"], folder, options.limit)
         said += error

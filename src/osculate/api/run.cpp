@@ -399,6 +399,17 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
     recorder.say(fmt::format("{}: no convergence from {:.5g} to {:.5g} of the step: {}; halving",
                              recorder.step_name(p), p.fraction, to, reason));
   };
+  observer.vibrates = [&recorder](const model::BasicSystem<Dim>&,
+                                  const model::BasicState<Dim>& state, const model::Progress& p,
+                                  const model::Vibrations& modes) {
+    const std::string step = recorder.step_name(p);
+    for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i)
+      recorder.say(fmt::format("{:<12} mode {:3}  {:.6g} per time  (omega^2 {:.6g})", step, i + 1,
+                               model::frequency(modes.omega_squared[i]), modes.omega_squared[i]));
+    for (const std::string& warning : result::doubts(modes))
+      recorder.say(fmt::format("warning: step '{}': {}", step, warning));
+    recorder.fields.write_modes(step, state, modes);
+  };
   observer.resumable = [&recorder](const model::BasicSystem<Dim>& system,
                                    const model::BasicState<Dim>& state, const model::Progress& p,
                                    const solve::StepPosition& position) {

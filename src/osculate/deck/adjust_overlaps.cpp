@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/mesh/boundary.hpp"
@@ -47,6 +48,11 @@ void move(BuildContext<Dim>& c, Index node, const Vec<Dim>& to) {
   c.model().mesh.nodes[static_cast<std::size_t>(node)].template head<Dim>() = to;
 }
 
+double tolerance_of(const Contact& contact) {
+  return contact.initial_nodes ? std::numeric_limits<double>::max()
+                               : contact.initial_tolerance;
+}
+
 template <int Dim>
 void adjust(BuildContext<Dim>& c, const Contact& contact) {
   pairing::PairDefinition<Dim> pair;
@@ -56,8 +62,14 @@ void adjust(BuildContext<Dim>& c, const Contact& contact) {
   pair.weight = pairing::Weight::node;
   if (contact.search_depth) pair.depth = contact.search_depth->value;
   refuse_rigid(c, contact, pair.slave.nodes);
-  const std::vector<model::MovedNode<Dim>> all =
-      model::onto_master(pair, c.model().reference, contact.initial_tolerance);
+  std::vector<model::MovedNode<Dim>> all =
+      model::onto_master(pair, c.model().reference, tolerance_of(contact));
+  if (contact.initial_nodes) {
+    const std::vector<Index>& only = c.set(*contact.initial_nodes).nodes;
+    std::erase_if(all, [&](const model::MovedNode<Dim>& one) {
+      return std::find(only.begin(), only.end(), one.node) == only.end();
+    });
+  }
   std::vector<bool> moved(c.model().reference.size());
   double farthest = 0;
   for (const model::MovedNode<Dim>& one : all) {

@@ -189,6 +189,7 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   build_contact(context);
   build_equations(context);
   build_steps(context);
+  build_pair_changes(context);
   build_initial_velocity(context);
   warn_of_rest(context);
   build_history(context);

@@ -87,6 +87,11 @@ template <int Dim>
 void build_equations(BuildContext<Dim>& context);
 template <int Dim>
 void build_steps(BuildContext<Dim>& context);
+/// What changes of pairs from step to step.
+///
+/// Tested by  tests/unit/deck/test_pair_changes.cpp
+template <int Dim>
+void build_pair_changes(BuildContext<Dim>& context);
 template <int Dim>
 void build_history(BuildContext<Dim>& context);
 /// Whole-model checks: unconnected bodies, contradictory prescriptions, nothing to solve.

@@ -390,6 +390,7 @@ void build_steps(BuildContext<Dim>& c) {
     model::Step out;
     out.name = step.name.value;
     out.increments = step.increments.value;
+    if (step.modes) out.frequencies = model::Frequencies{step.modes->value};
     if (step.duration) out.duration = step.duration->value;
     out.equation_start = first ? 0.0 : 1.0;
     first = false;

@@ -255,6 +255,7 @@ struct Contact {
   Marked<MasterSmoothing> smoothing;
   Marked<InitialWord> initial;               ///< what becomes of initial overlaps
   double initial_tolerance = 0;              ///< of adjust: gaps up to this are closed too
+  std::optional<Name> initial_nodes;         ///< of adjust: these are moved, and no others
   std::optional<core::SourceMark> two_pass;  ///< where it was asked for
   std::optional<Number> search_depth;
   std::optional<Number> edges;  ///< angle [degrees] of edges that are sharp; absent: without edges
@@ -262,6 +263,16 @@ struct Contact {
   /// are made of the mesh, named NAME.A-B. Master and slave are empty then.
   bool all = false;
   std::vector<std::array<Name, 2>> exclude;  ///< of `all`: bodies by number, section or rigid name
+};
+
+/// What changes of a pair at the beginning of a step, and stays so.
+struct ContactChange {
+  core::SourceMark mark;
+  Name pair;
+  std::optional<bool> active;
+  std::optional<NormalDescription> normal;
+  /// Empty: stays; with an empty law: no friction.
+  std::optional<std::optional<GivenLaw<contact::FrictionLaw>>> friction;
 };
 
 // ---- loading ----------------------------------------------------------------------------------
@@ -350,6 +361,8 @@ struct Step {
   std::vector<Load> forces, total_force, pressure, traction, body_force;
   std::optional<DynamicsDescription> dynamics;
   std::optional<Marked<std::vector<double>>> gravity;
+  std::vector<ContactChange> contact;
+  std::optional<Marked<int>> modes;  ///< vibrations instead of increments
 };
 
 // ---- solution and output ----------------------------------------------------------------------

@@ -1,10 +1,13 @@
 // Contact pairs and tied surfaces of a deck.
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <set>
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/inp_parts.hpp"
+#include "osculate/mesh/surface.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -17,7 +20,7 @@ using io::inp::SetKind;
 /// The cards of one `*SURFACE INTERACTION`.
 struct Interaction {
   const Card* card = nullptr;
-  const Card *behavior = nullptr, *friction = nullptr;
+  const Card *behavior = nullptr, *friction = nullptr, *damping = nullptr;
   std::string name;
 };
 
@@ -28,10 +31,12 @@ std::vector<Interaction> interactions_of(const InpModel& m) {
     all.back().*which = &card;
   };
   for (const Card& card : m.deck.cards) {
+    if (card.keyword == "STEP") break;  // what follows changes one: inp_changes.cpp
     if (card.keyword == "SURFACEINTERACTION")
-      all.push_back({&card, nullptr, nullptr, value_of(m, card, "NAME")});
+      all.push_back({&card, nullptr, nullptr, nullptr, value_of(m, card, "NAME")});
     if (card.keyword == "SURFACEBEHAVIOR") set(card, &Interaction::behavior);
     if (card.keyword == "FRICTION") set(card, &Interaction::friction);
+    if (card.keyword == "CONTACTDAMPING") set(card, &Interaction::damping);
   }
   return all;
 }
@@ -46,58 +51,6 @@ const Interaction& interaction_of(const InpModel& m, const std::vector<Interacti
   }
   io::inp::fail(m.deck, pair,
                 core::unknown_name_message("surface interaction", printable(name), names));
-}
-
-bool is_tied(const Interaction& law) {
-  return law.behavior && option_of(*law.behavior, "PRESSURE-OVERCLOSURE") == "TIED";
-}
-
-void put_table(const InpModel& m, const Card& card, SourceNode& normal) {
-  const int at = line_of(card.at);
-  SourceNode& table = put(normal, "table", inp_list(at));
-  for (const Line& line : io::inp::lines_of(m.deck, card)) {
-    Fields fields(m.deck, line);
-    const double pressure = fields.real("the pressure");
-    const double overclosure = fields.real("the overclosure");
-    SourceNode& row = table.items.emplace_back(inp_list(line_of(line.at)));
-    row.items = {inp_number(overclosure, line_of(line.at)), inp_number(pressure, line_of(line.at))};
-  }
-}
-
-SourceNode normal_of(const InpModel& m, const Interaction& law) {
-  SourceNode normal = inp_map(line_of(law.card->at));
-  if (!law.behavior) return normal;  // hard
-  const Card& card = *law.behavior;
-  const std::string kind = option_of(card, "PRESSURE-OVERCLOSURE");
-  if (kind.empty() || kind == "HARD") return normal;
-  if (kind == "TABULAR") {
-    put_table(m, card, normal);
-    return normal;
-  }
-  if (kind != "LINEAR" && kind != "TIED")
-    io::inp::fail(m.deck, card,
-                  fmt::format("PRESSURE-OVERCLOSURE={} is not supported: HARD, LINEAR, TABULAR or "
-                              "TIED",
-                              printable(kind)));
-  const auto lines = io::inp::lines_of(m.deck, card);
-  if (lines.empty()) io::inp::fail(m.deck, card, "expected a line with the stiffness");
-  put(normal, "penalty",
-      inp_number(Fields(m.deck, lines[0]).real("the stiffness"), line_of(lines[0].at)));
-  if (kind == "TIED") put(normal, "separation", inp_text("tied", line_of(card.at)));
-  return normal;
-}
-
-void put_friction(const InpModel& m, const Card& card, SourceNode& pair) {
-  const Line& line = only_line(m, card, "the coefficient and the stick slope");
-  Fields fields(m.deck, line);
-  const int at = line_of(line.at);
-  const double mu = fields.real("the coefficient of friction");
-  if (mu == 0) return;
-  SourceNode& friction = put(pair, "friction", inp_map(line_of(card.at)));
-  SourceNode& coulomb = put(friction, "coulomb", inp_map(at));
-  put(coulomb, "mu", inp_number(mu, at));
-  if (const double slope = fields.real_or_zero("the stick slope"); slope > 0)
-    put(coulomb, "penalty", inp_number(slope, at));
 }
 
 bool is_of_second_order(const InpModel& m, const mesh::Set& set) {
@@ -162,23 +115,79 @@ SourceNode& add_pair(const InpModel& m, const Card& card, const Line& line, Sour
   return pair;
 }
 
+double area_of(const mesh::Mesh& mesh, std::span<const Index> corners) {
+  const auto at = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(corners[k])]; };
+  double area = 0;
+  for (std::size_t k = 2; k < corners.size(); ++k)
+    area += 0.5 * (at(k - 1) - at(0)).cross(at(k) - at(0)).norm();
+  return area;
+}
+
+/// The area that a slave node without facets has in ccx: its share of the free faces of the solids
+/// round it, here the mean over the nodes; 1 where there are no solids.
+double mean_area(const mesh::Mesh& mesh, const mesh::Set& nodes) {
+  const std::set<Index> wanted(nodes.nodes.begin(), nodes.nodes.end());
+  const mesh::FaceTable table = mesh::face_table(mesh);
+  double area = 0;
+  for (std::size_t i = 0; i < table.faces.size(); ++i) {
+    const mesh::Face& face = table.faces[i];
+    const bool shared = (i > 0 && table.faces[i - 1].key == face.key) ||
+                        (i + 1 < table.faces.size() && table.faces[i + 1].key == face.key);
+    if (shared) continue;
+    const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(face.cell.block)];
+    const cell::CellFace& local =
+        cell::info(block.type).faces[static_cast<std::size_t>(face.local)];
+    std::vector<Index> corners;
+    for (int k = 0; k < cell::info(local.type).corners; ++k)
+      corners.push_back(block.cell(
+          face.cell.cell)[static_cast<std::size_t>(local.nodes[static_cast<std::size_t>(k)])]);
+    const auto of_slave =
+        std::count_if(corners.begin(), corners.end(), [&](Index n) { return wanted.contains(n); });
+    area += area_of(mesh, corners) * static_cast<double>(of_slave) /
+            static_cast<double>(corners.size());
+  }
+  return area > 0 ? area / static_cast<double>(wanted.size()) : 1;
+}
+
+/// What the laws are multiplied by: 1 where points have areas of their own.
+double put_weight(InpModel& m, const Card& card, SourceNode& pair) {
+  const mesh::Set* const slave = m.mesh.mesh.find_set(find(pair, "slave")->text);
+  if (!slave || !slave->cells.empty()) return 1;
+  const double area = mean_area(m.mesh.mesh, *slave);
+  put(pair, "weight", inp_text("node", line_of(card.at)));
+  m.notes.push_back(
+      fmt::format("line {}: nodes of '{}' have no facets: each has {:g} of the free faces round it",
+                  card.at.line, slave->name, area));
+  return area;
+}
+
+void put_adjust(const InpModel& m, const Card& card, const std::string& value, SourceNode& pair) {
+  const int at = line_of(card.at);
+  SourceNode& initial = put(pair, "initial", inp_map(at));
+  if (value.find_first_of("0123456789.+-") == 0) {
+    put(initial, "adjust",
+        inp_number(Fields(m.deck, {value, card.at}).real("ADJUST as a distance"), at));
+    return;
+  }
+  put(initial, "nodes", inp_text(set_of(m, card.at, value, {SetKind::nodes}), at));
+}
+
 void add_contact_pair(InpModel& m, const Card& card, const Interaction& law, SourceNode& pairs) {
   const auto lines = io::inp::lines_of(m.deck, card);
   if (lines.empty()) io::inp::fail(m.deck, card, "expected a line with two surfaces");
   for (const Line& line : lines) {
     SourceNode& pair = add_pair(m, card, line, pairs);
     put_sampling(m, card, find(pair, "slave")->text, pair);
-    put(pair, "normal", normal_of(m, law));
-    if (law.friction && !is_tied(law)) put_friction(m, *law.friction, pair);
-    const io::inp::Parameter* const adjust = io::inp::find_parameter(card, "ADJUST");
-    if (!adjust) continue;
-    const io::inp::Line value{adjust->value, card.at};
-    SourceNode& initial = put(pair, "initial", inp_map(line_of(card.at)));
-    put(initial, "adjust",
-        inp_number(Fields(m.deck, value)
-                       .real("ADJUST as a distance (sets of nodes are not "
-                             "supported)"),
-                   line_of(card.at)));
+    const double area = put_weight(m, card, pair);
+    m.pairs.push_back({find(pair, "name")->text, io::inp::capitals(law.name),
+                       find(pair, "slave")->text, find(pair, "master")->text, area});
+    SourceNode& normal =
+        put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at), area));
+    if (law.damping) put_damping(m, *law.damping, area, normal);
+    if (law.friction && !inp_is_tied(law.behavior))
+      put(pair, "friction", inp_friction(m, *law.friction, area));
+    if (const io::inp::Parameter* const adjust = io::inp::find_parameter(card, "ADJUST"))
+      put_adjust(m, card, adjust->value, pair);
   }
   if (io::inp::find_parameter(card, "SMALLSLIDING"))
     m.notes.push_back(fmt::format("line {}: sliding is finite, not SMALL SLIDING", card.at.line));

@@ -2,6 +2,7 @@
 // The parts of the translation of an Abaqus or CalculiX deck into a model file; for inp_*.cpp.
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,13 @@
 
 namespace osculate::deck {
 
+/// A contact pair as it was translated.
+struct InpPair {
+  std::string name, interaction;  ///< the latter in capitals
+  std::string slave, master;      ///< sets of the mesh
+  double area = 1;                ///< that its laws are multiplied by
+};
+
 /// What the parts share.
 struct InpModel {
   const io::inp::Deck& deck;
@@ -18,6 +26,7 @@ struct InpModel {
   std::map<std::pair<io::inp::SetKind, std::string>, std::size_t> sets;  ///< by name in capitals
   bool finite = false;                                                   ///< some step has NLGEOM
   std::vector<std::string> notes;
+  std::vector<InpPair> pairs{};
 };
 
 /// Line of a place of the deck's first file; 0: it stands in an included one.
@@ -59,7 +68,18 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 /// Mass per volume of the material of a section; none: no section has this set of elements.
 [[nodiscard]] std::optional<double> density_on(const InpModel& m, std::string_view elements);
 [[nodiscard]] SourceNode inp_contact(InpModel& m);
+/// What the cards of a step change of contact pairs; empty: nothing.
+[[nodiscard]] SourceNode inp_changes(const InpModel& m, std::span<const io::inp::Card> step);
+// The laws of a `*SURFACE INTERACTION`; pressures and stiffnesses are multiplied by an area.
+[[nodiscard]] SourceNode inp_normal(const InpModel& m, const io::inp::Card* behavior, int line,
+                                    double area);
+[[nodiscard]] bool inp_is_tied(const io::inp::Card* behavior);
+[[nodiscard]] SourceNode inp_friction(const InpModel& m, const io::inp::Card& card, double area);
+void put_damping(const InpModel& m, const io::inp::Card& card, double area, SourceNode& normal);
 [[nodiscard]] SourceNode inp_equations(const InpModel& m);
+
+/// Time integration of a `*DYNAMIC`.
+[[nodiscard]] SourceNode inp_dynamics(const InpModel& m, const io::inp::Card& card);
 
 /// The steps, with the amplitudes that they use.
 struct InpSteps {

@@ -63,7 +63,8 @@ class Steps {
     if (key == "STEP") begin(card);
     if (key == "ENDSTEP") end(card);
     if (key == "AMPLITUDE") read_amplitude(card);
-    if (key == "STATIC" || key == "VISCO") read_time(card);
+    if (key == "STATIC" || key == "VISCO" || key == "DYNAMIC") read_time(card);
+    if (key == "FREQUENCY") read_modes(card);
     if (key == "INITIALCONDITIONS") check_initial(card);
     if (key == "BOUNDARY") read_boundary(card);
     if (key == "CLOAD") read_forces(card);
@@ -77,10 +78,10 @@ class Steps {
     if (step_)
       io::inp::fail(m_.deck, card,
                     fmt::format("the step of line {} has no *END STEP", step_->at.line));
-    if (io::inp::find_parameter(card, "PERTURBATION"))
-      io::inp::fail(m_.deck, card, "PERTURBATION is not supported: steps go on from the last one");
     step_ = &card;
     procedure_ = nullptr;
+    at_once_ = option_of(card, "AMPLITUDE") == "STEP";
+    modes_ = 0;
     period_ = 1;
     increments_ = 1;
     released_.clear();
@@ -90,15 +91,35 @@ class Steps {
       for (auto& [key, value] : prescribed_) value.fresh = true;  // said before the first step
   }
 
-  void read_time(const Card& card) {
+  void begin_procedure(const Card& card) {
     if (!step_) io::inp::fail(m_.deck, card, "stands outside of a step");
     if (procedure_)
       io::inp::fail(
           m_.deck, card,
           fmt::format("the step has a procedure already, in line {}", procedure_->at.line));
+    procedure_ = &card;
+  }
+
+  /// Vibrations about what the steps before led to: with PERTURBATION, or of the first step.
+  void read_modes(const Card& card) {
+    begin_procedure(card);
+    const bool about_last = io::inp::find_parameter(*step_, "PERTURBATION") != nullptr;
+    if (!about_last && moved_)
+      io::inp::fail(m_.deck, *step_,
+                    "expected PERTURBATION: vibrations are those about the state that the steps "
+                    "before led to");
+    modes_ = Fields(m_.deck, only_line(m_, card, "the number of vibrations"))
+                 .number("the number of vibrations");
+  }
+
+  void read_time(const Card& card) {
+    begin_procedure(card);
+    if (io::inp::find_parameter(*step_, "PERTURBATION"))
+      io::inp::fail(m_.deck, *step_,
+                    "PERTURBATION is not supported: steps go on from the last one");
     if (io::inp::find_parameter(card, "RIKS"))
       io::inp::fail(m_.deck, card, "RIKS is not supported; `solver: arc_length` of a model file");
-    procedure_ = &card;
+    if (card.keyword == "DYNAMIC") at_once_ = true;
     const bool direct = io::inp::find_parameter(card, "DIRECT") != nullptr;
     const auto lines = io::inp::lines_of(m_.deck, card);
     if (lines.empty()) return;
@@ -110,7 +131,8 @@ class Steps {
     constexpr double slack = 1e-9, most = 1e6;
     const double count = std::ceil(period_ / first * (1 - slack));
     if (!(count <= most)) fields.fail("more than a million increments");
-    constexpr int of_automatic = 10;  // they are cut where they must be
+    // They are cut where they must be, those in time also for their errors.
+    const int of_automatic = card.keyword == "DYNAMIC" ? 100 : 10;
     increments_ = static_cast<int>(count);
     if (!direct) increments_ = std::min(increments_, of_automatic);
   }
@@ -122,15 +144,33 @@ class Steps {
     const std::size_t number = out_.steps.items.size() + 1;
     SourceNode& step = out_.steps.items.emplace_back(inp_map(line));
     put(step, "name", inp_text(fmt::format("step_{}", number), line));
+    if (modes_ > 0) {
+      put(step, "modes", inp_number(modes_, line_of(procedure_->at)));
+      end_of_modes(card, step);
+      return;
+    }
+    moved_ = true;
     put(step, "increments", inp_number(increments_, line_of(procedure_->at)));
     put(step, "duration", inp_number(period_, line_of(procedure_->at)));
+    if (procedure_->keyword == "DYNAMIC") put(step, "dynamics", inp_dynamics(m_, *procedure_));
     put_directions(step, "prescribe", "ux", prescribed_);
     put_releases(step);
     put_directions(step, "forces", "fx", forces_);
     put_pressures(step);
     put_directions(step, "body_force", "fx", body_forces_);
+    SourceNode changes = inp_changes(m_, std::span(step_, &card));
+    if (!changes.items.empty()) put(step, "contact", std::move(changes));
     forget_removed();
     total_time_ += period_;
+    step_ = nullptr;
+  }
+
+  /// Loads of the step are of no account; supports that it names are.
+  void end_of_modes(const Card& card, SourceNode& step) {
+    put_releases(step);
+    SourceNode changes = inp_changes(m_, std::span(step_, &card));
+    if (!changes.items.empty()) put(step, "contact", std::move(changes));
+    forget_removed();
     step_ = nullptr;
   }
 
@@ -350,7 +390,7 @@ class Steps {
       SourceNode& entry = list.items.emplace_back(inp_map(value.line));
       put(entry, "on", inp_text(set_and_direction.first, value.line));
       put(entry, component, inp_number(value.size, value.line));
-      put_amplitude(entry, value);
+      put_amplitude(entry, value, &values != &prescribed_);
     }
     if (!list.items.empty()) put(step, key, std::move(list));
   }
@@ -367,9 +407,23 @@ class Steps {
     if (!list.items.empty()) put(step, "pressure", std::move(list));
   }
 
-  void put_amplitude(SourceNode& entry, const Condition& value) {
-    if (value.amplitude.empty()) return;
-    put(entry, "amplitude", inp_text(amplitude_here(value.amplitude), value.line));
+  /// Loads of steps in time act at once and displacements are ramped, where they name no amplitude.
+  void put_amplitude(SourceNode& entry, const Condition& value, bool is_load = true) {
+    if (!value.amplitude.empty())
+      put(entry, "amplitude", inp_text(amplitude_here(value.amplitude), value.line));
+    else if (at_once_ && is_load)
+      put(entry, "amplitude", inp_text(amplitude_at_once(), value.line));
+  }
+
+  std::string amplitude_at_once() {
+    const std::string name = "at_once";
+    if (find(out_.amplitudes, name)) return name;
+    SourceNode& points = put(out_.amplitudes, name, inp_list(1));
+    for (const double fraction : {0.0, 1.0}) {
+      SourceNode& row = points.items.emplace_back(inp_list(1));
+      row.items = {inp_number(fraction, 1), inp_number(1, 1)};
+    }
+    return name;
   }
 
   void put_releases(SourceNode& step) {
@@ -392,7 +446,8 @@ class Steps {
   InpSteps out_;
   const Card *step_ = nullptr, *procedure_ = nullptr;
   double period_ = 1, total_time_ = 0;
-  int increments_ = 1;
+  int increments_ = 1, modes_ = 0;
+  bool at_once_ = false, moved_ = false;
   std::map<std::string, Table> tables_;
   Conditions prescribed_, forces_, pressures_, body_forces_;
   std::set<std::pair<Conditions*, Conditions::key_type>> released_;

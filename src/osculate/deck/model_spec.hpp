@@ -25,6 +25,7 @@ namespace osculate::deck {
 [[nodiscard]] BoundKey<Description> solver_key();
 [[nodiscard]] BoundKey<Description> output_key();
 
+[[nodiscard]] BoundKey<Step> contact_changes_key();
 [[nodiscard]] Spec dynamics_spec();
 [[nodiscard]] Spec gravity_spec();
 /// The name of a set, or a list of names.

@@ -281,6 +281,7 @@ BoundKey<Contact> smoothing_key() {
 Spec initial_spec() {
   const Spec tolerance =
       number("Initial gaps up to this are closed too.").in("length").at_least(0).such_as("0.01");
+  const Spec nodes = text("Adjust these slave nodes alone, whatever their gap.").such_as("rim");
   return either("What becomes of slave points that are inside the master from the beginning.",
                 {choice("One of these.",
                         {word("ignore", InitialWord::ignore, "they are pushed out at once"),
@@ -291,7 +292,9 @@ Spec initial_spec() {
                          word("adjust", InitialWord::adjust,
                               "the slave nodes are moved onto the master without strain, before "
                               "anything is computed")}),
-                 map("Adjust with a tolerance.", {required("adjust", tolerance)})})
+                 map("Adjust with a tolerance, or certain nodes.",
+                     {optional("adjust", tolerance), optional("nodes", nodes)})
+                     .with(Group::Rule::exactly_one, {"adjust", "nodes"})})
       .otherwise("ignore")
       .such_as("ramp");
 }
@@ -315,7 +318,10 @@ void read_initial(Contact& c, const Value& v) {
     return;
   }
   c.initial = {InitialWord::adjust, v.mark};
-  c.initial_tolerance = number_of(v.at("adjust")).value;
+  if (const Value* const nodes = v.find("nodes"))
+    c.initial_nodes = name_of(*nodes);
+  else
+    c.initial_tolerance = number_of(v.at("adjust")).value;
 }
 
 std::optional<Number> edges_of(const Value& v) {
@@ -415,7 +421,36 @@ std::vector<Contact> contacts_of(const Value& v) {
   return {all_of(check(all_keys().spec(""), nothing, v.mark.file, v.mark.key + ".all"))};
 }
 
+BoundKeys<ContactChange> change_keys() {
+  using C = ContactChange;
+  return {{need(&C::pair, "pair", text("Name of the pair.").such_as("floor")),
+           may(&C::active, "active",
+               boolean("Whether its sides see each other; they do from the beginning. Points that "
+                       "do again begin without shear.")
+                   .such_as("false")),
+           {optional("normal", normal_spec()),
+            [](C& c, const Value& v) {
+              if (v.given) read_normal(v, c.normal.emplace());
+            }},
+           {optional("friction", friction_spec()), [](C& c, const Value& v) {
+              if (!v.given) return;
+              c.friction.emplace();
+              if (v.alternative != 0) *c.friction = friction_law_of(v);
+            }}}};
+}
+
 }  // namespace
+
+BoundKey<Step> contact_changes_key() {
+  const BoundKeys<ContactChange> keys = change_keys();
+  return {optional("contact",
+                   list("What changes of contact pairs when the step begins, and stays so.",
+                        keys.spec("Change of one pair.")
+                            .with(Group::Rule::at_least_one, {"active", "normal", "friction"}))
+                       .otherwise("[]")
+                       .such_as("[{pair: floor, friction: {coulomb: {mu: 0.1, penalty: 2e6}}}]")),
+          [keys](Step& s, const Value& v) { s.contact = keys.read_all(v); }};
+}
 
 BoundKey<Description> contact_key() {
   return {

@@ -187,11 +187,19 @@ BoundKey<Step> body_force_key() {
 BoundKeys<Step> step_keys() {
   using S = Step;
   return {{need(&S::name, "name", text("Name of the step.").as(TextRule::name).such_as("press")),
-           need(&S::increments, "increments",
-                integer("Number of equal increments to begin with.")
-                    .at_least(1)
-                    .at_most(1'000'000)
-                    .such_as("10")),
+           may(&S::increments, "increments",
+               integer("Number of equal increments to begin with; every step has some, but those "
+                       "with `modes`.")
+                   .at_least(1)
+                   .at_most(1'000'000)
+                   .such_as("10")),
+           may(&S::modes, "modes",
+               integer("So many free vibrations, the slowest first, about the state that the steps "
+                       "before led to; nothing else happens in the step. Closed contacts stay "
+                       "closed, and stick if they have friction.")
+                   .at_least(1)
+                   .at_most(10'000)
+                   .such_as("10")),
            may(&S::duration, "duration",
                number("Time from the beginning of the step to its end; "
                       "inertia and friction that depends on speed ask for "
@@ -208,8 +216,24 @@ BoundKeys<Step> step_keys() {
            traction_key(),
            body_force_key(),
            may(&S::gravity, "gravity", gravity_spec()),
+           contact_changes_key(),
            {optional("dynamics", dynamics_spec()),
             [](S& s, const Value& v) { s.dynamics = parse_dynamics(v); }}}};
+}
+
+/// Either increments, or modes and nothing that moves.
+void check_modes(const Value& v, Step& s) {
+  if (s.modes) {
+    for (const ValueEntry& entry : v.entries)
+      if (entry.value.given && entry.key != "name" && entry.key != "modes" &&
+          entry.key != "contact" && entry.key != "release")
+        throw core::InputError(entry.key_mark,
+                               "a step with `modes` moves nothing: only its name, `release` and "
+                               "`contact` go with it");
+    s.increments = {1, s.modes->mark};
+  } else if (s.increments.value == 0) {
+    throw core::InputError(v.mark, "required key 'increments' is missing");
+  }
 }
 
 void check_times(const Value&, const Step& s) {
@@ -344,7 +368,12 @@ BoundKey<Description> steps_key() {
                     step_keys().spec("One step."))
                    .count(1)
                    .such_as("[{name: press, increments: 10, prescribe: [{on: top, uy: -0.007}]}]")),
-      [](Description& d, const Value& v) { d.steps = step_keys().read_all(v, check_times); }};
+      [](Description& d, const Value& v) {
+        d.steps = step_keys().read_all(v, [](const Value& item, Step& s) {
+          check_modes(item, s);
+          check_times(item, s);
+        });
+      }};
 }
 
 }  // namespace osculate::deck

@@ -1,7 +1,11 @@
 #include "osculate/model/analysis.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <iterator>
+
+#include "osculate/model/pair_changes.hpp"
 
 namespace osculate::model {
 namespace {
@@ -61,7 +65,21 @@ struct Analysis {
     }
   }
 
+  void find_vibrations(const Step& step) {
+    Vibrations modes = system.vibrations(result.state, step.frequencies->modes, *solver);
+    result.last_iterate = result.state;
+    if (!modes.failure.empty()) {
+      result.outcome = solve::Outcome::numerical_failure;
+      result.message =
+          fmt::format("no vibrations were found in step '{}': {}", step.name, modes.failure);
+      return;
+    }
+    if (observer.vibrates) observer.vibrates(system, result.state, progress, modes);
+    result.steps.back().vibrations = std::move(modes);
+  }
+
   void run_step(const Step& step) {
+    if (step.frequencies) return find_vibrations(step);
     const auto on_increment = [&](const BasicState<Dim>& state,
                                   const solve::IncrementRecord& record) {
       ++progress.increment;
@@ -127,7 +145,12 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
                              const BasicAnalysisObserver<Dim>& observer,
                              const BasicResumePoint<Dim>* from) {
   const auto start = std::chrono::steady_clock::now();
-  Analysis<Dim> a{model, options, observer, {model, options.threads}};
+  std::optional<BasicModel<Dim>> changing;  // where pairs change from step to step
+  if (!model.pair_changes.empty()) changing = model;
+  if (changing)
+    change_pairs(model, from ? static_cast<std::size_t>(from->progress.step) : 0, *changing);
+  const BasicModel<Dim>& now = changing ? *changing : model;
+  Analysis<Dim> a{now, options, observer, {now, options.threads}};
   BasicAnalysisResult<Dim>& result = a.result;
   result.unknowns = a.system.dofs().unknowns();
   a.system.interrupt_by(observer.interrupted);
@@ -150,6 +173,10 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
       a.progress.step = static_cast<Index>(s);
       a.progress.increment = 0;
       a.position = {};
+      if (changing) {
+        change_pairs(model, s, *changing);
+        result.state = begin_anew(model, s, *changing, std::move(result.state));
+      }
       a.system.begin_step(step, result.state);
       result.state = a.system.begin_motion(result.state);
     }

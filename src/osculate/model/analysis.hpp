@@ -29,6 +29,7 @@ struct Progress {
 struct StepRecord {
   std::string name;
   std::vector<solve::IncrementRecord> increments;
+  std::optional<Vibrations> vibrations{};  ///< of a step that looks for them
 };
 
 /// A converged increment and all that is needed to go on from there with the same bits.
@@ -69,6 +70,10 @@ struct BasicAnalysisObserver {
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
                      const solve::StepPosition&)>
       resumable;
+  /// Vibrations have been found about a state.
+  std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
+                     const Vibrations&)>
+      vibrates{};
   /// Where the analysis goes on from a resume point: it stands there, nothing has been solved yet.
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&)> resumed{};
   /// Asked between two iterations: true ends the analysis with what has converged.

@@ -77,6 +77,11 @@ struct Dynamics {
   std::optional<TimeStepLengths> time_steps{};  ///< none: the nominal increments
 };
 
+/// Free vibrations about the state that the steps before led to.
+struct Frequencies {
+  int modes = 1;
+};
+
 /// Everything that acts during one step, compiled from the model file.
 struct Step {
   std::string name;
@@ -86,6 +91,7 @@ struct Step {
   std::vector<DeadLoad> dead;
   std::vector<PressureLoad> pressure;
   std::optional<Dynamics> dynamics;             ///< empty: without inertia
+  std::optional<Frequencies> frequencies{};     ///< nothing moves: vibrations are looked for
   std::vector<Ramp> gravity;                    ///< acceleration in every direction; empty: none
   double equation_start = 1, equation_end = 1;  ///< ramp of the constants of the equations
 };

@@ -57,6 +57,17 @@ struct BasicContactPair {
   pairing::PairDefinition<Dim> definition;
 };
 
+/// What becomes of a pair when a step begins, until it changes again: its laws, and whether its
+/// sides see each other.
+template <int Dim>
+struct BasicPairChange {
+  std::size_t step = 0, pair = 0;
+  bool active = true;
+  contact::NormalLaw normal;
+  std::optional<contact::FrictionLaw> friction;
+  pairing::Separation<Dim> separation{};
+};
+
 /// A whole analysis, ready to assemble; built by `deck`, or by hand. Plain data, const during the
 /// analysis. Nodes: the mesh's, then the frame nodes of analytic rigid bodies.
 template <int Dim>
@@ -68,6 +79,7 @@ struct BasicModel {
   std::vector<BasicRigidBody<Dim>> rigid;
   std::vector<Index> body_of_node;  ///< rigid body of each node, -1 = deformable
   std::vector<BasicContactPair<Dim>> pairs;
+  std::vector<BasicPairChange<Dim>> pair_changes{};  ///< in the order of the steps
   std::vector<Equation> equations;
   std::vector<Step> steps;
   std::vector<std::pair<Dof, double>> initial_velocity;  ///< of primary dofs; zero elsewhere

@@ -10,6 +10,7 @@
 #include "osculate/model/model.hpp"
 #include "osculate/model/point_state.hpp"
 #include "osculate/model/state.hpp"
+#include "osculate/model/vibrations.hpp"
 #include "osculate/solve/central_differences.hpp"
 #include "osculate/solve/impact_ahead.hpp"
 #include "osculate/solve/newton.hpp"
@@ -122,6 +123,11 @@ class BasicSystem {
   /// in steps whose time steps are chosen by errors. Contact forces have no part in it unless they
   /// enter as all others do.
   [[nodiscard]] solve::TimeError time_error(const State& committed, const State& next) const;
+
+  /// Free vibrations about a committed state in the running step: `count` of them.
+  ///
+  /// Tested by  tests/unit/model/test_vibrations.cpp, verification/vibrations
+  [[nodiscard]] Vibrations vibrations(const State& state, int count, la::LinearSolver& solver);
 
   /// Explicit time integration from a committed state to a fraction of the running step, in as many
   /// time steps as are stable. To be called in steps with central differences only.

@@ -23,11 +23,13 @@ template <int Dim>
 bool needs_unsymmetric(const BasicModel<Dim>& model) {
   for (const BasicContactPair<Dim>& pair : model.pairs) {
     const pairing::PairDefinition<Dim>& d = pair.definition;
-    if (pairing::is_tied(d)) continue;
+    if (pairing::is_tied(d) && model.pair_changes.empty()) continue;
     if (d.friction || pairing::by_mortar(d) ||
         (d.weight == pairing::Weight::current_area && d.tangent.consistent))
       return true;
   }
+  for (const BasicPairChange<Dim>& change : model.pair_changes)
+    if (change.friction) return true;
   bool has_mass = false;
   for (const BasicRigidBody<Dim>& body : model.rigid) has_mass = has_mass || body.mass > 0;
   for (const Step& step : model.steps) {

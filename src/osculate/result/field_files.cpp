@@ -359,6 +359,33 @@ void FieldFiles<Dim>::write_last_iterate(const model::BasicState<Dim>& state,
 }
 
 template <int Dim>
+void FieldFiles<Dim>::write_modes(const std::string& step, const model::BasicState<Dim>& state,
+                                  const model::Vibrations& modes) {
+  const std::size_t nodes = built_.model.mesh.nodes.size();
+  const auto field = [&](const Eigen::VectorXd& of_all, double factor) {
+    std::vector<Vec<Dim>> u;
+    for (std::size_t i = 0; i < nodes; ++i)
+      u.push_back(factor * of_all.template segment<Dim>(Dim * static_cast<Eigen::Index>(i)));
+    return u;
+  };
+  std::vector<io::Field> fields{vector_field("U", field(state.u, 1)), node_numbers_};
+  std::string rows = "number,omega_squared,frequency\n";
+  for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
+    const Eigen::VectorXd shape = modes.shapes.col(i);
+    double largest = 0;
+    for (const Vec<Dim>& u : field(shape, 1)) largest = std::max(largest, u.norm());
+    fields.push_back(
+        vector_field(fmt::format("mode_{}", i + 1), field(shape, largest > 0 ? 1 / largest : 1)));
+    const double omega_squared = modes.omega_squared[i];
+    rows += fmt::format("{},{},{}\n", i + 1, omega_squared, model::frequency(omega_squared));
+  }
+  io::write_vtu(listed(fmt::format("modes_{}.vtu", step)),
+                {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},
+                compress_);
+  io::write_file(listed(fmt::format("modes_{}.csv", step)), rows);
+}
+
+template <int Dim>
 void FieldFiles<Dim>::resume(std::vector<io::PvdEntry> written, std::vector<bool> touched) {
   namespace fs = std::filesystem;
   std::set<std::string> kept;

@@ -37,6 +37,10 @@ class FieldFiles {
   /// vector field `free_motion_1`, ...
   void write_last_iterate(const model::BasicState<Dim>& state,
                           const model::BasicFailure<Dim>& failure);
+  /// Vibrations of a step: modes_STEP.vtu, displacements of the state and a vector field `mode_1`,
+  /// ... for each, its largest displacement 1; modes_STEP.csv, their frequencies.
+  void write_modes(const std::string& step, const model::BasicState<Dim>& state,
+                   const model::Vibrations& modes);
   [[nodiscard]] const std::vector<io::PvdEntry>& written() const { return entries_; }
   [[nodiscard]] const std::vector<bool>& touched() const { return touched_; }
   /// Goes on after these files, of so many frames; removes what was written of later ones.

@@ -71,6 +71,20 @@ std::string iteration_text(int number, const solve::IterationRecord& iteration,
                      counts_column(" ", iteration.counts, states));
 }
 
+std::vector<std::string> doubts(const model::Vibrations& modes) {
+  constexpr double rough = 1e-6;
+  std::vector<std::string> texts;
+  if (modes.missing > 0)
+    texts.push_back(fmt::format("{} vibrations below the last one are missing", modes.missing));
+  if (modes.missing < 0) texts.emplace_back("whether all vibrations are there is not known");
+  if (modes.residual > rough)
+    texts.push_back(fmt::format("the vibrations are known to {:.0e} only", modes.residual));
+  if (modes.omega_squared.size() > 0 && modes.omega_squared[0] < 0 &&
+      -modes.omega_squared[0] > rough * std::abs(modes.omega_squared.tail<1>()[0]))
+    texts.emplace_back("the state is unstable: omega^2 < 0");
+  return texts;
+}
+
 template PointStates point_states(const model::Model&);
 template PointStates point_states(const model::Model3&);
 

@@ -25,6 +25,8 @@ template <int Dim>
 [[nodiscard]] std::string time_steps_text(const std::string& step, const model::Progress& p,
                                           const solve::IncrementRecord& record, PointStates states);
 
+/// What speaks against vibrations that were found: some are missing, or they are not exact.
+[[nodiscard]] std::vector<std::string> doubts(const model::Vibrations& modes);
 /// The line of one iteration of an attempt that was dropped; they count from 1.
 [[nodiscard]] std::string iteration_text(int number, const solve::IterationRecord& iteration,
                                          PointStates states);

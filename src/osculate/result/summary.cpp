@@ -76,6 +76,16 @@ nlohmann::json chosen_json(const ChosenTimeSteps& chosen) {
           {"largest_error", number(chosen.largest_error)}};
 }
 
+/// Of a step that looks for vibrations; null for others.
+nlohmann::json modes_json(const std::optional<model::Vibrations>& modes) {
+  if (!modes) return nullptr;
+  nlohmann::json list = nlohmann::json::array();
+  for (const double value : modes->omega_squared)
+    list.push_back(
+        {{"omega_squared", number(value)}, {"frequency", number(model::frequency(value))}});
+  return {{"found", list}, {"missing", modes->missing}, {"residual", number(modes->residual)}};
+}
+
 template <class Vector>
 nlohmann::json components(const Vector& v) {
   nlohmann::json list = nlohmann::json::array();
@@ -311,6 +321,7 @@ nlohmann::json summary_json(const std::string& model_file,
     }
     steps.push_back({{"name", result.steps[s].name},
                      {"chosen_time_steps", chosen_json(chosen_time_steps(result.steps[s]))},
+                     {"modes", modes_json(result.steps[s].vibrations)},
                      {"increments", list}});
   }
   const pairing::PairSeconds& parts = result.seconds_system.contact_parts;
@@ -352,7 +363,9 @@ std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
   for (const auto& entry : unlisted)
     facts.push_back({"Contact", entry.first, fmt::format("{} pairs of bodies", entry.second)});
   for (const model::Step& step : m.steps)
-    facts.push_back({"Steps", step.name, fmt::format("{} increments", step.increments)});
+    facts.push_back({"Steps", step.name,
+                     step.frequencies ? fmt::format("{} vibrations", step.frequencies->modes)
+                                      : fmt::format("{} increments", step.increments)});
   return facts;
 }
 

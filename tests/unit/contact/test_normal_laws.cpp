@@ -40,6 +40,24 @@ TEST(NormalExponential, GoesOnWithItsTangentAndNeverOverflows) {
   EXPECT_TRUE(std::isfinite(law.response(-1e6).traction));
 }
 
+TEST(NormalDecaying, FallsToAHundredthOverEveryClearanceAndEndsAfterThree) {
+  const NormalDecaying law{p0, c0};
+  const double rest = 1e-6 * p0;
+  EXPECT_NEAR(-law.response(0).traction, p0 - rest, 1e-13 * p0);
+  EXPECT_NEAR(-law.response(c0).traction, 0.01 * p0 - rest, 1e-13 * p0);
+  EXPECT_NEAR(-law.response(-c0).traction, 100 * p0 - rest, 1e-11 * p0);
+  EXPECT_EQ(onset_gap(law), 3 * c0);
+  EXPECT_TRUE(law.response(3 * c0).active);
+  EXPECT_EQ(law.response(3 * c0).traction, 0.0);
+  EXPECT_FALSE(law.response(3.0001 * c0).active);
+  EXPECT_FALSE(holds(law));
+  const double joint = -3 * c0, h = 1e-9 * c0;
+  EXPECT_NEAR(law.response(joint - h).d_traction / law.response(joint + h).d_traction, 1, 1e-8);
+  EXPECT_NEAR((law.response(2 * joint).traction - law.response(joint).traction) / joint,
+              law.response(joint).d_traction, 1e-9 * law.response(joint).d_traction);
+  EXPECT_TRUE(std::isfinite(law.response(-1e6).traction));
+}
+
 TEST(NormalTable, RunsThroughItsPointsAndOnBeyondTheLast) {
   EXPECT_FALSE(table.response(0.0100001).active);
   EXPECT_TRUE(table.response(0.01).active);
@@ -93,9 +111,12 @@ TEST(NormalLaws, StoreTheWorkOfTheirPressure) {
   };
   for (const double gap : {0.7 * c0, 0.1 * c0, -2 * c0, -5.5 * c0, -9 * c0})
     expect(NormalExponential{p0, c0}, gap, 0.1 * c0);
+  for (const double gap : {2.7 * c0, 0.1 * c0, -2 * c0, -9 * c0})
+    expect(NormalDecaying{p0, c0}, gap, 0.05 * c0);
   for (const double gap : {0.006, -0.01, -0.03, -0.09}) expect(table, gap, 1e-3);
   for (const double gap : {-0.3, 0.2}) expect(NormalPenalty{100.0}, gap, 1e-2);
   EXPECT_EQ(stored_energy(NormalExponential{p0, c0}, c0), 0.0);
+  EXPECT_EQ(stored_energy(NormalDecaying{p0, c0}, 3 * c0), 0.0);
   EXPECT_EQ(stored_energy(table, 0.01), 0.0);
   EXPECT_EQ(stored_energy(NormalPenalty{100.0}, 0.1), 0.0);
 }
@@ -115,15 +136,16 @@ TEST(NormalLaws, AreContinuousAndMonotone) {
 }
 
 TEST(NormalLaws, DerivativesAreOfSecondOrder) {
-  const NormalExponential law{p0, c0};
-  for (const double gap : {0.9 * c0, 0.1 * c0, -0.7 * c0, -3 * c0}) {
-    using V = Eigen::VectorXd;
-    const auto f = [&](const V& g) { return V::Constant(1, law.response(g[0]).traction); };
-    const testing::DerivativeReport r =
-        testing::check_derivative(f, V(V::Constant(1, law.response(gap).d_traction)),
-                                  V(V::Constant(1, gap)), V(V::Constant(1, 1.0)), 0.05 * c0);
-    EXPECT_NEAR(r.order, 2, 0.1) << gap;
-  }
+  for (const NormalLaw& law :
+       {NormalLaw(NormalExponential{p0, c0}), NormalLaw(NormalDecaying{p0, c0})})
+    for (const double gap : {0.9 * c0, 0.1 * c0, -0.7 * c0, -2.9 * c0}) {
+      using V = Eigen::VectorXd;
+      const auto f = [&](const V& g) { return V::Constant(1, response(law, g[0]).traction); };
+      const testing::DerivativeReport r =
+          testing::check_derivative(f, V(V::Constant(1, response(law, gap).d_traction)),
+                                    V(V::Constant(1, gap)), V(V::Constant(1, 1.0)), 0.02 * c0);
+      EXPECT_NEAR(r.order, 2, 0.1) << text(law) << gap;
+    }
   for (const double gap : {0.005, -0.01, -0.03, -0.2}) {
     constexpr double h = 1e-4;
     const double slope =

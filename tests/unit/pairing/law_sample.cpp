@@ -45,6 +45,8 @@ const std::vector<Law>& laws() {
        contact::Status::stick, -0.04},
       {"exponential and slip", contact::NormalExponential{20, 0.12}, contact::Coulomb{0.01, 80},
        contact::Status::slip, -0.04},
+      {"decaying and slip", contact::NormalDecaying{20, 0.12}, contact::Coulomb{0.01, 80},
+       contact::Status::slip, -0.04},
       {"table, first piece", table, {}, contact::Status::slip, -0.06},
       {"table, last piece", table, contact::Coulomb{0.01, 80}, contact::Status::slip},
       {"capped, sticks", contact::NormalPenalty{1000}, contact::Coulomb{10, 80, 500},

@@ -5,6 +5,7 @@
 #include "osculate/contact/law/coulomb.hpp"
 #include "osculate/contact/law/damping.hpp"
 #include "osculate/contact/law/law.hpp"
+#include "osculate/contact/law/normal_decaying.hpp"
 #include "osculate/contact/law/normal_exponential.hpp"
 #include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/contact/law/normal_table.hpp"
@@ -15,7 +16,7 @@
 namespace osculate::contact {
 
 // The laws there are. The first normal law is that of pairs that name none.
-struct NormalLaws : std::variant<NormalPenalty, NormalExponential, NormalTable> {
+struct NormalLaws : std::variant<NormalPenalty, NormalExponential, NormalTable, NormalDecaying> {
   using variant::variant;
 };
 struct FrictionLaws : std::variant<Coulomb, Tresca, Rough, RateAndState> {

@@ -1,0 +1,129 @@
+// What becomes of contact pairs from step to step.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "osculate/core/text.hpp"
+#include "osculate/deck/build_contact_parts.hpp"
+#include "osculate/pairing/combinations.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// The pairs that a name stands for: one, or those of an `all` or of both passes.
+template <int Dim>
+std::vector<std::size_t> pairs_called(const BuildContext<Dim>& c, const Name& name) {
+  std::vector<std::size_t> found;
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < c.model().pairs.size(); ++p) {
+    const model::BasicContactPair<Dim>& pair = c.model().pairs[p];
+    if (pair.name == name.value || (!pair.group.empty() && pair.group == name.value))
+      found.push_back(p);
+    names.push_back(pair.name);
+  }
+  if (found.empty())
+    throw core::InputError(name.mark,
+                           core::unknown_name_message("contact pair", name.value, names));
+  return found;
+}
+
+void refuse_automatic(const core::SourceMark& mark, const char* what) {
+  throw core::InputError(
+      mark, fmt::format("a {} that changes in a step needs its penalty as a number", what));
+}
+
+/// What holds the points of a pair then; those that are tied were so from the start.
+template <int Dim>
+pairing::Separation<Dim> separation_of(const NormalDescription& n,
+                                       const pairing::PairDefinition<Dim>& pair) {
+  const SeparationWord word = n.separation.value;
+  if (word == SeparationWord::allowed) return pairing::MayPart{};
+  if (word == SeparationWord::no_separation) return pairing::NeverPart{};
+  if (!pairing::held_from_start(pair) || pairing::is_tied(pair) != (word == SeparationWord::tied))
+    throw core::InputError(n.separation.mark,
+                           "points are tied from the start of the analysis, not from a later step");
+  return pair.separation;
+}
+
+template <int Dim>
+void apply(const BuildContext<Dim>& c, const ContactChange& change,
+           const pairing::PairDefinition<Dim>& pair, model::BasicPairChange<Dim>& to) {
+  if (change.active) to.active = *change.active;
+  if (change.normal) {
+    const NormalDescription& n = *change.normal;
+    if (n.damping)
+      throw core::InputError(n.damping->mark, "damping stays the same through all steps");
+    if (n.law.automatic) refuse_automatic(n.law.stiffness, "normal law");
+    to.normal = n.law.law;
+    to.separation = separation_of(n, pair);
+  }
+  if (!change.friction) return;
+  to.friction.reset();
+  if (!*change.friction) return;
+  const GivenLaw<contact::FrictionLaw>& friction = **change.friction;
+  if (friction.automatic) refuse_automatic(friction.stiffness, "friction law");
+  check_durations(c.description, friction.timed, "friction that depends on speed");
+  const bool may_part = pairing::is<pairing::MayPart>(to.separation);
+  to.friction = may_part ? contact::parting(friction.law) : friction.law;
+}
+
+/// Fails where the pair as it is then would have been refused.
+template <int Dim>
+void check_changed(const ContactChange& change, pairing::PairDefinition<Dim> pair,
+                   const model::BasicPairChange<Dim>& to) {
+  if (!pairing::is<pairing::ByPenalty>(pair.enforcement) || pairing::by_mortar(pair))
+    throw core::InputError(change.mark,
+                           fmt::format("'{}' cannot change: that goes with enforcement: penalty, "
+                                       "and with any sampling but mortar",
+                                       change.pair.value));
+  pair.normal = to.normal;
+  pair.friction = to.friction;
+  pair.separation = to.separation;
+  if (pairing::is_tied(pair) && pair.friction)
+    throw core::InputError(change.mark, "tied points do not slide: they have no friction");
+  if (const pairing::Refusal* const refused = pairing::refusal(pairing::traits_of(pair)))
+    throw core::InputError(change.mark, std::string(refused->why));
+}
+
+/// Explicit steps take their pairs from the model as it begins.
+template <int Dim>
+void refuse_explicit(const BuildContext<Dim>& c) {
+  const std::vector<model::Step>& steps = c.model().steps;
+  if (std::none_of(steps.begin(), steps.end(), [](const model::Step& step) {
+        return step.dynamics && step.dynamics->explicit_steps;
+      }))
+    return;
+  for (const Step& step : c.description.steps)
+    if (!step.contact.empty())
+      throw core::InputError(step.contact.front().mark,
+                             "pairs do not change in analyses with explicit steps");
+}
+
+}  // namespace
+
+template <int Dim>
+void build_pair_changes(BuildContext<Dim>& c) {
+  refuse_explicit(c);
+  std::map<std::size_t, model::BasicPairChange<Dim>> running;
+  for (std::size_t s = 0; s < c.description.steps.size(); ++s)
+    for (const ContactChange& change : c.description.steps[s].contact)
+      for (const std::size_t p : pairs_called(c, change.pair)) {
+        const pairing::PairDefinition<Dim>& pair = c.model().pairs[p].definition;
+        const auto [at, fresh] = running.try_emplace(p);
+        model::BasicPairChange<Dim>& now = at->second;
+        if (fresh) now = {s, p, true, pair.normal, pair.friction, pair.separation};
+        if (!fresh && now.step == s)
+          throw core::InputError(change.mark,
+                                 fmt::format("'{}' changes twice in this step", change.pair.value));
+        now.step = s;
+        apply(c, change, pair, now);
+        check_changed(change, pair, now);
+        c.model().pair_changes.push_back(now);
+      }
+}
+
+template void build_pair_changes(BuildContext<2>&);
+template void build_pair_changes(BuildContext<3>&);
+
+}  // namespace osculate::deck

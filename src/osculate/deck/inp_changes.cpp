@@ -1,0 +1,99 @@
+// What a step of a deck changes of its contact pairs.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "osculate/core/text.hpp"
+#include "osculate/deck/inp_parts.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using io::inp::Card;
+using io::inp::Line;
+using io::inp::SetKind;
+
+/// The entry of a pair, made where it is missing.
+SourceNode& entry_of(SourceNode& list, const std::string& pair, int line) {
+  for (SourceNode& entry : list.items)
+    if (entry.entries[0].value.text == pair) return entry;
+  SourceNode& entry = list.items.emplace_back(inp_map(line));
+  put(entry, "pair", inp_text(pair, line));
+  return entry;
+}
+
+/// Puts one law into all pairs of an interaction.
+template <class Make>
+void change_law(const InpModel& m, const Card& change, const char* key, const Make& make,
+                SourceNode& list) {
+  const std::string& name = value_of(m, change, "INTERACTION");
+  bool found = false;
+  std::vector<std::string> names;
+  for (const InpPair& pair : m.pairs) {
+    names.push_back(pair.interaction);
+    if (pair.interaction != io::inp::capitals(name)) continue;
+    found = true;
+    put(entry_of(list, pair.name, line_of(change.at)), key, make(pair));
+  }
+  if (!found)
+    io::inp::fail(m.deck, change,
+                  core::unknown_name_message("surface interaction of a contact pair",
+                                             printable(name), names));
+}
+
+void change_activity(const InpModel& m, const Card& card, SourceNode& list) {
+  const bool removes = io::inp::find_parameter(card, "REMOVE") != nullptr;
+  if (option_of(card, "TYPE") != "CONTACTPAIR")
+    io::inp::fail(m.deck, card, "expected TYPE=CONTACT PAIR: elements stay through all steps");
+  if (removes == (io::inp::find_parameter(card, "ADD") != nullptr))
+    io::inp::fail(m.deck, card, "expected ADD or REMOVE");
+  for (const Line& line : io::inp::lines_of(m.deck, card)) {
+    io::inp::Fields fields(m.deck, line);
+    const std::string names[]{io::inp::name_of(fields.next().value_or("")),
+                              io::inp::name_of(fields.next().value_or(""))};
+    const std::string& slave =
+        set_of(m, line.at, names[0], {SetKind::surface, SetKind::node_surface});
+    const std::string& master = set_of(m, line.at, names[1], {SetKind::surface});
+    const auto pair = std::find_if(m.pairs.begin(), m.pairs.end(), [&](const InpPair& one) {
+      return one.slave == slave && one.master == master;
+    });
+    if (pair == m.pairs.end())
+      io::inp::fail(m.deck, line.at,
+                    fmt::format("there is no *CONTACT PAIR of '{}' and '{}'", printable(names[0]),
+                                printable(names[1])));
+    const int at = line_of(line.at);
+    SourceNode active = inp_text(removes ? "false" : "true", at);
+    active.quoted = false;
+    put(entry_of(list, pair->name, at), "active", std::move(active));
+  }
+}
+
+}  // namespace
+
+SourceNode inp_changes(const InpModel& m, std::span<const Card> step) {
+  SourceNode list = inp_list(step.empty() ? 1 : line_of(step.front().at));
+  const Card* change = nullptr;
+  for (const Card& card : step) {
+    if (card.keyword == "MODELCHANGE") change_activity(m, card, list);
+    if (card.keyword == "CHANGEFRICTION" || card.keyword == "CHANGESURFACEBEHAVIOR") change = &card;
+    const bool is_friction = card.keyword == "FRICTION";
+    if (!is_friction && card.keyword != "SURFACEBEHAVIOR") continue;
+    if (!change || (change->keyword == "CHANGEFRICTION") != is_friction)
+      io::inp::fail(m.deck, card,
+                    fmt::format("in a step it follows *CHANGE {}",
+                                is_friction ? "FRICTION" : "SURFACE BEHAVIOR"));
+    if (is_friction)
+      change_law(
+          m, *change, "friction",
+          [&](const InpPair& pair) { return inp_friction(m, card, pair.area); }, list);
+    else
+      change_law(
+          m, *change, "normal",
+          [&](const InpPair& pair) { return inp_normal(m, &card, line_of(card.at), pair.area); },
+          list);
+    change = nullptr;
+  }
+  return list;
+}
+
+}  // namespace osculate::deck

@@ -1,0 +1,177 @@
+#include "osculate/la/eigenpairs.hpp"
+
+#include <Spectra/SymGEigsShiftSolver.h>
+#include <fmt/format.h>
+
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+
+namespace osculate::la {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor, Index>;
+
+Sparse sparse(const SparseMatrix& a) {
+  return Eigen::Map<const Sparse>(a.n, a.n, static_cast<Index>(a.value.size()), a.row_start.data(),
+                                  a.column.data(), a.value.data());
+}
+
+SparseMatrix plain(Sparse a) {
+  a.makeCompressed();
+  const auto entries = static_cast<std::size_t>(a.nonZeros());
+  SparseMatrix out;
+  out.n = static_cast<Index>(a.rows());
+  out.row_start.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1);
+  out.column.assign(a.innerIndexPtr(), a.innerIndexPtr() + entries);
+  out.value.assign(a.valuePtr(), a.valuePtr() + entries);
+  return out;
+}
+
+/// K - s M as Spectra wants to see it, factored.
+struct Inverse {
+  using Scalar = double;
+  Eigen::Index n;
+  LinearSolver& solver;
+  bool& failed;
+  [[nodiscard]] Eigen::Index rows() const { return n; }
+  [[nodiscard]] Eigen::Index cols() const { return n; }
+  void set_shift(double) {}  // it is in the factors
+  void perform_op(const double* in, double* out) const {
+    Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(in, n);
+    if (solver.solve(x) != SolveStatus::ok) failed = true;
+    if (failed) x.setZero();
+    Eigen::Map<Eigen::VectorXd>(out, n) = x;
+  }
+};
+
+struct Mass {
+  using Scalar = double;
+  const Sparse& m;
+  [[nodiscard]] Eigen::Index rows() const { return m.rows(); }
+  [[nodiscard]] Eigen::Index cols() const { return m.cols(); }
+  void perform_op(const double* in, double* out) const {
+    Eigen::Map<Eigen::VectorXd>(out, m.rows()) =
+        m * Eigen::Map<const Eigen::VectorXd>(in, m.rows());
+  }
+};
+
+struct Problem {
+  Sparse k, m;
+  LinearSolver& solver;
+  std::uint64_t version = 1;
+
+  /// Factors K - shift M.
+  FactorReport factor(double shift) {
+    const Sparse shifted = k - shift * m;
+    return solver.factor(plain(shifted), version, Symmetry::indefinite);
+  }
+  /// Something small beside the largest eigenvalue.
+  [[nodiscard]] double small_shift() const {
+    constexpr double share = 1e-6;
+    double largest = 0;
+    const Eigen::VectorXd dk = k.diagonal(), dm = m.diagonal();
+    for (Eigen::Index i = 0; i < dk.size(); ++i)
+      if (dm[i] > 0) largest = std::max(largest, std::abs(dk[i]) / dm[i]);
+    return share * largest;
+  }
+};
+
+/// Vectors of the space in which M is not zero, normalised; and how good they are.
+void clean(Problem& p, Eigenpairs& pairs) {
+  p.solver.solve(pairs.vectors = p.m * pairs.vectors);
+  for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
+    auto v = pairs.vectors.col(i);
+    v /= std::sqrt(v.dot(p.m * v));
+    const Eigen::VectorXd mv = p.m * v;
+    const double scale = (std::abs(pairs.values[i]) + std::abs(pairs.shift)) * mv.norm();
+    pairs.residual = std::max(pairs.residual, (p.k * v - pairs.values[i] * mv).norm() / scale);
+  }
+}
+
+/// Eigenvalues up to the last one that are not there.
+int count_missing(Problem& p, const Eigenpairs& pairs) {
+  constexpr double above = 1e-6;
+  const Eigen::Index n = pairs.values.size();
+  const double last = pairs.values[n - 1];
+  const double at = last + above * (std::abs(last) + std::abs(pairs.shift));
+  // Rows without mass are in balance at once: their pivots do not depend on the shift.
+  const FactorReport without =
+      p.factor(pairs.values[0] - 1e3 * (std::abs(pairs.values[0]) + std::abs(pairs.shift)));
+  const FactorReport with = p.factor(at);
+  if (with.status == SolveStatus::failed || without.status == SolveStatus::failed) return -1;
+  return with.negative_pivots - without.negative_pivots - static_cast<int>(n);
+}
+
+Eigenpairs found_around(Problem& p, double shift, Eigen::Index count) {
+  Eigenpairs pairs;
+  pairs.shift = shift;
+  const Eigen::Index n = p.k.rows();
+  bool failed = false;
+  Inverse inverse{n, p.solver, failed};
+  Mass mass{p.m};
+  const Eigen::Index space = std::min(n, std::max(2 * count + 1, count + 20));
+  Spectra::SymGEigsShiftSolver<Inverse, Mass, Spectra::GEigsMode::ShiftInvert> lanczos(
+      inverse, mass, count, space, shift);
+  // It starts in the space where M is not zero.
+  Eigen::VectorXd start(n);
+  for (Eigen::Index i = 0; i < n; ++i) start[i] = 1 + 0.5 * std::sin(1.7 * static_cast<double>(i));
+  start = p.m * start;
+  if (p.solver.solve(start) != SolveStatus::ok || !(start.norm() > 0)) {
+    pairs.failure = "the stiffness cannot be solved for";
+    return pairs;
+  }
+  lanczos.init(start.data());
+  constexpr int most = 1000;
+  constexpr double tolerance = 1e-11;
+  lanczos.compute(Spectra::SortRule::LargestMagn, most, tolerance, Spectra::SortRule::SmallestAlge);
+  if (failed || lanczos.info() != Spectra::CompInfo::Successful) {
+    pairs.failure = "Lanczos' method did not converge";
+    return pairs;
+  }
+  pairs.values = lanczos.eigenvalues();
+  pairs.vectors = lanczos.eigenvectors();
+  clean(p, pairs);
+  return pairs;
+}
+
+}  // namespace
+
+Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count,
+                               LinearSolver& solver) {
+  const Sparse all = sparse(k);
+  Problem p{0.5 * (all + Sparse(all.transpose())), sparse(m), solver};
+  Eigenpairs none;
+  Eigen::Index with_mass = 0;
+  const Eigen::VectorXd diagonal = p.m.diagonal();
+  for (Eigen::Index i = 0; i < diagonal.size(); ++i) with_mass += diagonal[i] > 0 ? 1 : 0;
+  const Eigen::Index wanted = std::min<Eigen::Index>(count, with_mass - 1);
+  if (wanted < 1) {
+    none.failure = fmt::format("{} unknowns have a mass: too few", with_mass);
+    return none;
+  }
+  double shift = 0;
+  FactorReport report = p.factor(shift);
+  if (report.status != SolveStatus::ok) {
+    shift = -p.small_shift();
+    report = p.factor(shift);
+  }
+  if (report.status == SolveStatus::failed) {
+    none.failure = report.message;
+    return none;
+  }
+  constexpr int tries = 3;
+  Eigenpairs pairs;
+  Eigen::Index more = wanted;
+  for (int i = 0; i < tries; ++i) {
+    pairs = found_around(p, shift, more);
+    if (!pairs.failure.empty()) return pairs;
+    pairs.missing = count_missing(p, pairs);
+    if (pairs.missing <= 0 || more + pairs.missing >= with_mass) break;
+    more += pairs.missing;
+    if (p.factor(shift).status == SolveStatus::failed) break;
+  }
+  return pairs;
+}
+
+}  // namespace osculate::la

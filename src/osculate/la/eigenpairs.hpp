@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+
+#include "osculate/la/linear_solver.hpp"
+
+namespace osculate::la {
+
+/// Eigenvalues next to the shift and above it, smallest first, with their vectors.
+struct Eigenpairs {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;  ///< columns, v . M v = 1
+  double shift = 0;         ///< that they were found around
+  double residual = 0;      ///< largest |K v - lambda M v| / ((|lambda| + |shift|) |M v|)
+  /// Eigenvalues up to the last one that are missing, by the signs of the pivots of K - s M, s
+  /// above it (Sylvester's law of inertia): 0 is proof that all are there.
+  int missing = 0;
+  std::string failure;  ///< why there are none; empty: there are
+};
+
+/// Smallest eigenvalues of K v = lambda M v by Lanczos' method with a shift that is inverted
+/// (Spectra). Without a shift of its own, 0, and below it where K is singular.
+///
+/// Formula    K and M symmetric (of K the symmetric part), M positive semidefinite
+/// Requires   the pattern of M within that of K; 0 < count
+/// Errors     `failure` in words; NotEnoughMemory
+/// Tested by  tests/unit/la/test_eigenpairs.cpp
+[[nodiscard]] Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m,
+                                             int count, LinearSolver& solver);
+
+}  // namespace osculate::la

@@ -1,0 +1,100 @@
+// Free vibrations about a state.
+#include "osculate/model/system_motion.hpp"
+
+namespace osculate::model {
+namespace {
+
+/// Inertia of a rigid body in the directions of its dofs: of rotations in space those of its
+/// rotation vector on top of the base.
+Mat<3, 3> mass_of_body(const BasicInertia<2>& inertia, const BasicRigidBody<2>&,
+                       const body::RigidMotion&, std::size_t b) {
+  return inertia.body_mass(b);
+}
+Mat<6, 6> mass_of_body(const BasicInertia<3>& inertia, const BasicRigidBody<3>& body,
+                       const body::RigidMotion3& motion, std::size_t b) {
+  Mat<6, 6> mass = inertia.body_mass(b);
+  const Mat<3, 3> turn = motion.orientation(), t = body::rotation_tangent(motion.rotation);
+  mass.bottomRightCorner<3, 3>() = t.transpose() * turn * body.inertia * turn.transpose() * t;
+  return mass;
+}
+
+}  // namespace
+
+template <int Dim>
+Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::LinearSolver& solver) {
+  Impl& s = *impl_;
+  Vibrations out;
+  const BasicInertia<Dim> inertia(s.model, false);
+  if (!(inertia.total() > 0)) {
+    out.failure = "nothing has a mass";
+    return out;
+  }
+  const std::vector<Vec<Dim>> x = s.positions(state.u);
+  s.reserve_pattern();
+  s.builder.clear();
+  s.assembler.set_configuration(x, state.rigid);
+  for (const auto& cell : inertia.cells()) {
+    std::vector<Dof> dofs;
+    const auto nodes = static_cast<Eigen::Index>(cell.nodes.size());
+    Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(Dim * nodes, Dim * nodes);
+    for (Eigen::Index i = 0; i < nodes; ++i) {
+      for (int d = 0; d < Dim; ++d)
+        dofs.push_back(s.dofs.node_dof(cell.nodes[static_cast<std::size_t>(i)], d));
+      for (Eigen::Index j = 0; j < nodes; ++j)
+        mass.template block<Dim, Dim>(Dim * i, Dim * j).diagonal().setConstant(cell.mass(i, j));
+    }
+    s.assembler.add_block(dofs, mass);
+  }
+  for (std::size_t b = 0; b < s.model.rigid.size(); ++b) {
+    if (!inertia.body_has_mass(b)) continue;
+    std::array<Dof, body::motions<Dim>> dofs{};
+    for (int i = 0; i < body::motions<Dim>; ++i)
+      dofs[static_cast<std::size_t>(i)] = s.dofs.body_dof(static_cast<Index>(b), i);
+    s.assembler.add_block(dofs, mass_of_body(inertia, s.model.rigid[b], state.rigid[b], b));
+  }
+  const la::SparseMatrix mass = s.builder.finish();
+  solve::Evaluation evaluation;
+  predict(state, 1.0, evaluation, Prediction::sticking);
+  if (!evaluation.ok) {
+    out.failure = evaluation.message;
+    return out;
+  }
+  const la::Eigenpairs pairs = la::smallest_eigenpairs(s.builder.finish(), mass, count, solver);
+  out.failure = pairs.failure;
+  out.omega_squared = pairs.values;
+  out.residual = pairs.residual;
+  out.missing = pairs.missing;
+  out.shapes.resize(state.u.size(), pairs.values.size());
+  for (Eigen::Index i = 0; i < pairs.values.size(); ++i)
+    out.shapes.col(i) = s.motion_of_nodes(state, pairs.vectors.col(i));
+  return out;
+}
+
+/// Linear in the motion: rigid bodies turn by little.
+template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::Impl::motion_of_nodes(const State& state,
+                                                        const Eigen::VectorXd& unknowns) const {
+  const std::vector<Vec<Dim>> x = positions(state.u);
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs.dofs());
+  for (Index u = 0; u < dofs.unknowns(); ++u)
+    if (!assembler.prescribed(u)) all[dofs.dof_of_unknown(u)] = unknowns[u];
+  for (Index node = 0; node < dofs.nodes(); ++node) {
+    const Index b = dofs.body_of(node);
+    if (b < 0) continue;
+    const Mat<Dim, body::motions<Dim>> j = body::motion_gradient(
+        state.rigid[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(node)]);
+    all.segment<Dim>(Dim * node) = j * all.segment<body::motions<Dim>>(dofs.body_dof(b, 0));
+  }
+  for (const Equation& equation : dofs.equations()) {
+    double sum = 0;
+    for (std::size_t t = 1; t < equation.terms.size(); ++t)
+      sum += equation.terms[t].factor * all[equation.terms[t].dof];
+    all[equation.terms.front().dof] = -sum / equation.terms.front().factor;
+  }
+  return all.head(state.u.size());
+}
+
+template Vibrations BasicSystem<2>::vibrations(const State&, int, la::LinearSolver&);
+template Vibrations BasicSystem<3>::vibrations(const State&, int, la::LinearSolver&);
+
+}  // namespace osculate::model

@@ -1,0 +1,30 @@
+#pragma once
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "osculate/la/eigenpairs.hpp"
+
+namespace osculate::model {
+
+/// Free vibrations about a state, smallest frequency first.
+///
+/// Formula    K phi = omega^2 M phi , phi . M phi = 1 ; K the symmetric part of the tangent of the
+///            state, with its stresses, loads that follow, and contacts: closed ones stay closed
+///            and stick, if they have friction; open ones stay open
+/// Sign       omega^2 < 0: the state is unstable
+/// Units      omega in radians per time
+struct Vibrations {
+  Eigen::VectorXd omega_squared;
+  Eigen::MatrixXd shapes;  ///< columns; displacements of all nodes, x0 y0 (z0) x1 y1 ...
+  double residual = 0;     ///< see la::Eigenpairs
+  int missing = 0;         ///< likewise
+  std::string failure;     ///< why there are none; empty: there are
+};
+
+/// Vibrations per time; negative where the state is unstable.
+[[nodiscard]] inline double frequency(double omega_squared) {
+  return std::copysign(std::sqrt(std::abs(omega_squared)), omega_squared) / (2 * std::numbers::pi);
+}
+
+}  // namespace osculate::model

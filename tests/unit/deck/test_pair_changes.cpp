@@ -1,0 +1,91 @@
+// Contact pairs that change from step to step: what is understood, and what is refused. That they
+// do what they should is verification/pair_changes.
+#include <gtest/gtest.h>
+
+#include "osculate/core/error.hpp"
+#include "osculate/deck/build.hpp"
+#include "osculate/deck/parse.hpp"
+#include "osculate/model/pair_changes.hpp"
+
+namespace osculate::deck {
+namespace {
+
+std::string text_of(const std::string& pair, const std::string& first, const std::string& second) {
+  return "osculate: 1\n"
+         "mesh: {generate: {block: {box: {x: [0, 2], y: [0, 1], elements: [2, 2]}}, rail: {line: "
+         "{points: [[-1, 0], [3, 0]], elements: 1}}}}\n"
+         "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
+         "sections: [{on: block, material: m, element: plane_strain}]\n"
+         "rigid: {base: {set: rail}}\n"
+         "contact: [{name: floor, master: base, slave: block.bottom, " +
+         pair +
+         "}]\n"
+         "steps:\n"
+         "  - {name: one, increments: 1, prescribe: [{on: block.top, ux: 0, uy: 0}]" +
+         first + "}\n  - {name: two, increments: 1" + second + "}\n";
+}
+
+Built built(const std::string& pair, const std::string& first, const std::string& second) {
+  const Description d = parse_model(text_of(pair, first, second), "m.yaml");
+  return build(d, load_mesh(d));
+}
+
+std::string refusal(const std::string& pair, const std::string& first, const std::string& second) {
+  try {
+    (void)built(pair, first, second);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(PairChanges, StayFromStepToStep) {
+  const Built b = built("normal: {penalty: 500}, friction: {coulomb: {mu: 0.1, penalty: 200}}",
+                        ", contact: [{pair: floor, active: false}]",
+                        ", contact: [{pair: floor, active: true, normal: {penalty: 700}}]");
+  ASSERT_EQ(b.model.pair_changes.size(), 2u);
+  model::Model now = b.model;
+  model::change_pairs(b.model, 0, now);
+  EXPECT_EQ(now.pairs[0].definition.depth, -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(now.pairs[0].definition.normal.as<contact::NormalPenalty>()->stiffness, 500);
+  model::change_pairs(b.model, 1, now);
+  EXPECT_EQ(now.pairs[0].definition.depth, b.model.pairs[0].definition.depth);
+  EXPECT_EQ(now.pairs[0].definition.normal.as<contact::NormalPenalty>()->stiffness, 700);
+  ASSERT_TRUE(now.pairs[0].definition.friction);
+  EXPECT_EQ(now.pairs[0].definition.friction->as<contact::Coulomb>()->mu, 0.1);
+}
+
+TEST(PairChanges, AreRefusedWithTheReason) {
+  const std::string plain = "normal: {penalty: 500}";
+  const auto expect = [&](const std::string& pair, const std::string& change,
+                          const std::string& why) {
+    const std::string said = refusal(pair, "", ", contact: [{" + change + "}]");
+    EXPECT_NE(said.find(why), std::string::npos) << said;
+    EXPECT_NE(said.find("m.yaml:9"), std::string::npos) << said;
+  };
+  expect(plain, "pair: flor, active: false", "did you mean 'floor'");
+  expect(plain, "pair: floor", "one of");
+  expect(plain, "pair: floor, normal: {penalty: auto}", "needs its penalty as a number");
+  expect(plain, "pair: floor, friction: {coulomb: {mu: 0.1}}", "needs its penalty as a number");
+  expect(plain, "pair: floor, normal: {penalty: 500, separation: tied}",
+         "tied from the start of the analysis");
+  expect(plain + ", enforcement: lagrange_multiplier", "pair: floor, active: false",
+         "enforcement: penalty");
+  expect("normal: {penalty: 500, separation: tied}",
+         "pair: floor, friction: {coulomb: {mu: 0.1, penalty: 200}}", "do not slide");
+  expect("normal: {penalty: 500, damping: {restitution: 0.5}}",
+         "pair: floor, normal: {penalty: 5, damping: {restitution: 0.5}}",
+         "damping stays the same");
+  expect(plain, "pair: floor, active: false}, {pair: floor, active: true",
+         "changes twice in this step");
+}
+
+TEST(PairChanges, DoNotGoWithExplicitSteps) {
+  const std::string said =
+      refusal("normal: {penalty: 500}", ", contact: [{pair: floor, active: false}]",
+              ", duration: 1, dynamics: {scheme: central_differences}");
+  EXPECT_NE(said.find("explicit steps"), std::string::npos) << said;
+}
+
+}  // namespace
+}  // namespace osculate::deck

@@ -1,0 +1,104 @@
+// Smallest eigenvalues: a chain of springs with its closed solution, several equal ones, free
+// motions, rows without mass, and what is said where there are none.
+#include "osculate/la/eigenpairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace osculate::la {
+namespace {
+
+/// Masses 1 in a row between springs 1; the first and the last one hang on walls where `held`.
+void add_chain(Index first, Index n, bool held, MatrixBuilder& k) {
+  for (Index i = 0; i < n; ++i) {
+    k.add(first + i, first + i, held || (i > 0 && i + 1 < n) ? 2 : 1);
+    if (i + 1 == n) continue;
+    k.add(first + i, first + i + 1, -1);
+    k.add(first + i + 1, first + i, -1);
+  }
+}
+
+SparseMatrix unit(Index n, Index without_mass = -1) {
+  MatrixBuilder m(n);
+  for (Index i = 0; i < n; ++i) m.add(i, i, i == without_mass ? 0 : 1);
+  return m.finish();
+}
+
+double of_chain(int mode, Index n) {
+  const double s = std::sin(mode * std::numbers::pi / (2 * (n + 1)));
+  return 4 * s * s;
+}
+
+TEST(Eigenpairs, OfAChainAreThoseOfItsClosedSolution) {
+  constexpr Index n = 60;
+  MatrixBuilder k(n);
+  add_chain(0, n, true, k);
+  const auto solver = make_default_solver();
+  const Eigenpairs found = smallest_eigenpairs(k.finish(), unit(n), 6, *solver);
+  ASSERT_EQ(found.failure, "");
+  ASSERT_EQ(found.values.size(), 6);
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(found.values[i] / of_chain(i + 1, n), 1, 1e-11);
+  EXPECT_NEAR((found.vectors.transpose() * found.vectors - Eigen::MatrixXd::Identity(6, 6)).norm(),
+              0, 1e-9);
+  EXPECT_LT(found.residual, 1e-9);
+  EXPECT_EQ(found.missing, 0);
+  EXPECT_EQ(found.shift, 0);
+}
+
+// Three chains next to each other: every eigenvalue three times.
+TEST(Eigenpairs, FindEqualOnesAsOftenAsTheyAre) {
+  constexpr Index n = 30;
+  MatrixBuilder k(3 * n);
+  for (Index c = 0; c < 3; ++c) add_chain(c * n, n, true, k);
+  const auto solver = make_default_solver();
+  const Eigenpairs found = smallest_eigenpairs(k.finish(), unit(3 * n), 6, *solver);
+  ASSERT_EQ(found.failure, "");
+  EXPECT_EQ(found.missing, 0);
+  for (Eigen::Index i = 0; i < 6; ++i)
+    EXPECT_NEAR(found.values[i] / of_chain(1 + static_cast<int>(i) / 3, n), 1, 1e-9) << i;
+}
+
+TEST(Eigenpairs, OfFreeChainsBeginWithZeros) {
+  constexpr Index n = 40;
+  MatrixBuilder k(2 * n);
+  for (Index c = 0; c < 2; ++c) add_chain(c * n, n, false, k);
+  const auto solver = make_default_solver();
+  const Eigenpairs found = smallest_eigenpairs(k.finish(), unit(2 * n), 4, *solver);
+  ASSERT_EQ(found.failure, "");
+  EXPECT_LT(found.shift, 0);
+  EXPECT_EQ(found.missing, 0);
+  const double s = std::sin(std::numbers::pi / (2 * n));
+  EXPECT_NEAR(found.values[0], 0, 1e-10);
+  EXPECT_NEAR(found.values[1], 0, 1e-10);
+  EXPECT_NEAR(found.values[2] / (4 * s * s), 1, 1e-8);
+  EXPECT_NEAR(found.values[3] / (4 * s * s), 1, 1e-8);
+}
+
+// A point without mass between two springs follows, also one that is pushed away.
+TEST(Eigenpairs, LeaveOutWhatHasNoMass) {
+  for (const double own : {2.0, -5.0}) {
+    MatrixBuilder k(3);
+    k.add(0, 0, 2), k.add(2, 2, 2), k.add(1, 1, own);
+    for (const Index i : {0, 2}) k.add(i, 1, -1), k.add(1, i, -1);
+    const auto solver = make_default_solver();
+    const Eigenpairs found = smallest_eigenpairs(k.finish(), unit(3, 1), 1, *solver);
+    ASSERT_EQ(found.failure, "");
+    EXPECT_EQ(found.missing, 0) << own;
+    EXPECT_NEAR(found.values[0], std::min(2.0, 2 - 2 / own), 1e-12);
+    EXPECT_NEAR(found.vectors(1, 0), (found.vectors(0, 0) + found.vectors(2, 0)) / own, 1e-12);
+  }
+}
+
+TEST(Eigenpairs, SayWhyThereAreNone) {
+  MatrixBuilder k(3);
+  add_chain(0, 3, true, k);
+  const auto solver = make_default_solver();
+  MatrixBuilder nothing(3);
+  const Eigenpairs none = smallest_eigenpairs(k.finish(), nothing.finish(), 1, *solver);
+  EXPECT_NE(none.failure.find("too few"), std::string::npos) << none.failure;
+}
+
+}  // namespace
+}  // namespace osculate::la
