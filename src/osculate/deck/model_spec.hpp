@@ -25,6 +25,10 @@ namespace osculate::deck {
 [[nodiscard]] BoundKey<Description> solver_key();
 [[nodiscard]] BoundKey<Description> output_key();
 
+/// Of `output`: results in the files of CalculiX.
+[[nodiscard]] BoundKey<Output> frd_key();
+[[nodiscard]] BoundKey<Output> dat_key();
+
 [[nodiscard]] Spec dynamics_spec();
 [[nodiscard]] Spec gravity_spec();
 /// The name of a set, or a list of names.
