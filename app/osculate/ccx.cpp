@@ -45,7 +45,7 @@ api::RunOutcome run_job(const std::string& job) {
 
 int solve(std::string job) {
   const auto start = std::chrono::steady_clock::now();
-  if (job.ends_with(".inp")) job.resize(job.size() - 4);
+  if (job.ends_with(".inp")) job.erase(job.rfind(".inp"));
   print(stdout, "\nOsculate {}, called as CalculiX 2.20 is\n\n", core::version);
   std::string error;
   try {

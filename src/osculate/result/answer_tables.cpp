@@ -29,7 +29,7 @@ std::string name_in_deck(const deck::AnswerRequest& request) {
   if (request.on.empty()) return "all";
   std::string name = request.on[0].value;
   for (const std::string_view ending : {".nodes", ".cells"})
-    if (name.ends_with(ending)) name.resize(name.size() - ending.size());
+    if (name.ends_with(ending)) name.erase(name.rfind(ending));
   std::ranges::transform(name, name.begin(), [](char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
   });
