@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "../program.hpp"
+#include "osculate/api/run.hpp"
 #include "osculate/deck/parameters.hpp"
 
 namespace osculate::app {
@@ -20,6 +21,9 @@ void add_settings(CLI::App& command, std::vector<std::string>& texts);
 /// What was given so. Throws core::InputError for what is no NAME=VALUE and for a name given twice.
 [[nodiscard]] std::vector<deck::Setting> settings_of(const std::vector<std::string>& texts);
 
+/// api::run, which the signals of the terminal end in good order.
+[[nodiscard]] api::RunOutcome run_until_interrupted(api::RunOptions& options);
+
 // One file a command. Each adds its subcommand; the callback stores the exit code.
 void add_run(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
@@ -31,5 +35,6 @@ void add_schema(CLI::App& app, int& exit_code);
 void add_doc(CLI::App& app, int& exit_code);
 void add_domain(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
+void add_ccx(CLI::App& app, int& exit_code);
 
 }  // namespace osculate::app

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <filesystem>
+
 #include "commands.hpp"
 #include "osculate/core/version.hpp"
 
@@ -20,8 +23,14 @@ int run_program(int argc, char** argv) {
   add_doc(app, exit_code);
   add_domain(app, exit_code);
   add_convert(app, exit_code);
+  add_ccx(app, exit_code);
+  // A link of the name ccx stands for `osculate ccx`: programs call it without a command.
+  std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  if (argc > 0 && std::filesystem::path(argv[0]).stem() == "ccx")
+    arguments.insert(arguments.begin(), "ccx");
+  std::ranges::reverse(arguments);
   try {
-    app.parse(argc, argv);
+    app.parse(arguments);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? done : bad_input;
   }

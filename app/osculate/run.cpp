@@ -43,6 +43,19 @@ std::size_t line_width() {
   return known ? size.ws_col - 1U : 79U;
 }
 
+}  // namespace
+
+api::RunOutcome run_until_interrupted(api::RunOptions& options) {
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  std::signal(SIGALRM, on_alarm);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of writing
+  options.interrupted = options.abandoned = was_interrupted;
+  return api::run(options);
+}
+
+namespace {
+
 struct RunFlags {
   api::RunOptions options;
   std::vector<std::string> settings;
@@ -50,10 +63,6 @@ struct RunFlags {
 };
 
 int run(RunFlags& flags) {
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
-  std::signal(SIGALRM, on_alarm);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is an error of writing
   flags.options.settings = settings_of(flags.settings);
   const bool terminal = isatty(STDERR_FILENO) != 0;
   flags.options.with_outlook = terminal;  // lines in a file are for scripts, too
@@ -67,8 +76,7 @@ int run(RunFlags& flags) {
       std::fflush(stderr);
     };
   }
-  flags.options.interrupted = flags.options.abandoned = was_interrupted;
-  const api::RunOutcome outcome = api::run(flags.options);
+  const api::RunOutcome outcome = run_until_interrupted(flags.options);
   if (flags.json) print(stdout, "{}\n", outcome.summary_json);
   if (flags.quiet && outcome.status != api::RunStatus::done)
     print(stderr, "stopped: {}\n", outcome.message);

@@ -19,6 +19,7 @@
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/diagnosis.hpp"
 #include "osculate/pairing/tangent_parts.hpp"
+#include "osculate/result/answer_files.hpp"
 #include "osculate/result/checkpoint.hpp"
 #include "osculate/result/field_files.hpp"
 #include "osculate/result/increment_text.hpp"
@@ -75,6 +76,7 @@ struct Recorder {
   result::PointStates states = result::point_states(built.model);
   result::Watch<Dim> watch{built.model};
   std::vector<std::string> warned;  ///< of contact in the last increment
+  std::optional<result::AnswerFiles<Dim>> answers{};
 
   Recorder(const RunOptions& o, const deck::Description& d, const deck::BasicBuilt<Dim>& b,
            const nlohmann::json& o_json, std::string dir, Budget limits)
@@ -87,7 +89,16 @@ struct Recorder {
         report(b, d),
         log(folder + "/log.txt", o.restart ? size_of(folder + "/log.txt") : 0),
         budget(std::move(limits)) {
-    if (!o.restart) history.emplace(folder + "/history.csv", column_names(b.history));
+    if (o.restart) return;
+    history.emplace(folder + "/history.csv", column_names(b.history));
+    open_answers({});
+  }
+
+  void open_answers(std::span<const std::uint64_t> marks) {
+    const std::string stem = options.answers.empty()
+                                 ? result::answer_stem(description.output, options.model, folder)
+                                 : options.answers;
+    if (!stem.empty()) answers.emplace(stem, built, description.output, marks);
   }
 
   /// Everything as it was when the checkpoint was written. Here the files of the earlier run are
@@ -113,6 +124,7 @@ struct Recorder {
     history.emplace(folder + "/history.csv", column_names(built.history), rows);
     const std::vector<char>& touched = from.entries.back().touched;
     fields.resume(std::move(files), {touched.begin(), touched.end()});
+    open_answers(from.entries.back().answers);
     if (description.output.checkpoint > 0) checkpoints.emplace(folder, from);
   }
 
@@ -207,6 +219,7 @@ struct Recorder {
       curvature_shares.push_back(entry.curvature_share);
       notes.push_back(note);
       report_increment(p, *record);
+      if (answers) answers->converged(system, state, p, *record);
       ++converged_count;
     }
     entry.deepest = watch.deepest;
@@ -230,6 +243,7 @@ struct Recorder {
     const auto start = std::chrono::steady_clock::now();
     const model::SystemMemory memory = system.memory();
     entry.touched.assign(fields.touched().begin(), fields.touched().end());
+    if (answers) entry.answers = answers->marks();
     const bool due =
         converged_count % description.output.checkpoint == 0 || p.fraction >= 1.0 || stopping;
     try {
@@ -396,6 +410,7 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
   observer.cutback = [&recorder](const std::string& reason, const model::Progress& p, double to,
                                  const std::vector<solve::IterationRecord>& iterations) {
     recorder.log_iterations(iterations);
+    if (recorder.answers) recorder.answers->dropped(p, to, iterations);
     recorder.say(fmt::format("{}: no convergence from {:.5g} to {:.5g} of the step: {}; halving",
                              recorder.step_name(p), p.fraction, to, reason));
   };

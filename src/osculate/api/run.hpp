@@ -13,7 +13,10 @@ namespace osculate::api {
 struct RunOptions {
   std::string model;   ///< path of the model file
   std::string folder;  ///< result folder; empty: the model's stem + `.results`
-  std::string until;   ///< last step to run, inclusive; empty: all
+  /// Files of CalculiX (result::AnswerFiles), without their endings; empty: in the folder, where
+  /// the model asks for some.
+  std::string answers{};
+  std::string until;  ///< last step to run, inclusive; empty: all
   int threads = 1;
   std::vector<deck::Setting> settings;  ///< parameters of the model file that are set otherwise
   bool restart = false;                 ///< go on from the folder's last checkpoint

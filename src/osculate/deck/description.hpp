@@ -454,6 +454,20 @@ struct Plot {
   std::vector<Name> y;
 };
 
+/// What files for the tools around CalculiX hold, by the words of that program. `contact` are COPEN,
+/// CSLIP*, CPRESS, CSHEAR* together.
+enum class Answer { u, rf, s, e, peeq, contact, evol, energy, cdis, cstr, cnum };
+enum class Totals { none, also, only };
+
+/// A result of the nodes in MODEL.frd, or a table in MODEL.dat.
+struct AnswerRequest {
+  std::vector<Name> on;  ///< a set, of tables; none: everywhere
+  std::vector<Answer> of;
+  Totals totals = Totals::none;  ///< of tables: sums over the set
+  int every = 1;                 ///< n-th increment, and the last of each step
+  std::vector<Name> steps;       ///< none: all
+};
+
 struct Output {
   FieldTimes fields = FieldTimes::every;
   int every = 1;  ///< with FieldTimes::every: each n-th increment (and the last of each step)
@@ -462,6 +476,7 @@ struct Output {
   bool contact_points = false;  ///< tables of them beside the fields
   int checkpoint = 1;           ///< every so many increments; 0: never
   std::vector<Plot> plots;
+  std::vector<AnswerRequest> frd, dat;
 };
 
 struct Description {

@@ -86,5 +86,7 @@ struct InpSteps {
   SourceNode steps, amplitudes;
 };
 [[nodiscard]] InpSteps inp_steps(InpModel& m);
+/// Results in the files of CalculiX.
+[[nodiscard]] SourceNode inp_output(InpModel& m);
 
 }  // namespace osculate::deck

@@ -172,6 +172,7 @@ TranslatedDeck translate_deck(const io::inp::Deck& deck) {
   InpSteps steps = inp_steps(m);
   put_unless_empty("amplitudes", std::move(steps.amplitudes));
   put(out.root, "steps", std::move(steps.steps));
+  put_unless_empty("output", inp_output(m));
   out.notes = std::move(m.notes);
   return out;
 }

@@ -26,6 +26,10 @@ namespace osculate::deck {
 [[nodiscard]] BoundKey<Description> output_key();
 
 [[nodiscard]] BoundKey<Step> contact_changes_key();
+/// Of `output`: results in the files of CalculiX.
+[[nodiscard]] BoundKey<Output> frd_key();
+[[nodiscard]] BoundKey<Output> dat_key();
+
 [[nodiscard]] Spec dynamics_spec();
 [[nodiscard]] Spec gravity_spec();
 /// The name of a set, or a list of names.

@@ -205,7 +205,9 @@ BoundKeys<Output> output_keys() {
        {optional("plots", list("Diagrams of the report.", plot_keys().spec("One diagram."))
                               .otherwise("[]")
                               .such_as("[{x: time, y: floor.normal_force}]")),
-        [](O& o, const Value& v) { o.plots = plot_keys().read_all(v); }}}};
+        [](O& o, const Value& v) { o.plots = plot_keys().read_all(v); }},
+       frd_key(),
+       dat_key()}};
 }
 
 bool needs_rigid(Quantity q) {
@@ -337,6 +339,7 @@ void complete_output(Description& description) {
   for (std::string& column : energy_columns(description)) columns.push_back(std::move(column));
   require_unique_columns(output.history, columns);
   for (const HistoryRequest& request : output.history) columns.push_back(request.column);
+  check_answers(description);
   for (const Plot& plot : output.plots) {
     require_column(plot.x, columns);
     for (const Name& y : plot.y) require_column(y, columns);

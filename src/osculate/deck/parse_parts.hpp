@@ -52,6 +52,8 @@ struct RememberedNumber {
 [[nodiscard]] DynamicsDescription parse_dynamics(const Value& v);
 /// Contacts and rigid bodies decide what `on` means in the output.
 void complete_output(Description& description);
+/// The steps that results are asked of.
+void check_answers(const Description& description);
 /// Columns that the history has without being asked: those of model::energy_quantities, where a
 /// step has inertia, in their order, and the time step where one chooses it by its error.
 [[nodiscard]] std::vector<std::string> energy_columns(const Description& description);

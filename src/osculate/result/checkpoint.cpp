@@ -179,12 +179,12 @@ void fields(Archive& a, JournalEntry& e) {
   a(e.progress, recorded);
   if (recorded && !e.record) e.record.emplace();
   if (recorded) a(*e.record);
-  a(e.row, e.curvature_share, e.deepest, e.note, e.frame, e.files, e.touched, e.grown);
+  a(e.row, e.curvature_share, e.deepest, e.note, e.frame, e.files, e.touched, e.grown, e.answers);
 }
 
 namespace {
 
-constexpr int version = 9;
+constexpr int version = 10;
 
 template <class... T>
 std::string saved(const T&... values) {

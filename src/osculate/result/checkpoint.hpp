@@ -64,6 +64,7 @@ struct JournalEntry {
   std::vector<io::PvdEntry> files;       ///< field files
   std::vector<char> touched;             ///< by pair, for the field files to come
   std::vector<la::MatrixPlace> grown{};  ///< what the pattern of the matrix has grown by
+  std::vector<std::uint64_t> answers{};  ///< marks of AnswerFiles; empty: there are none
 };
 
 /// A checkpoint that has been read, with all entries of the journal up to it.

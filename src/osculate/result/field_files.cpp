@@ -392,7 +392,8 @@ void FieldFiles<Dim>::resume(std::vector<io::PvdEntry> written, std::vector<bool
   for (const io::PvdEntry& entry : written) kept.insert(entry.file);
   std::error_code error;
   for (const std::string& name : list_.names())
-    if (!kept.contains(fs::path(name).replace_extension(".vtu").string()))
+    if ((name.ends_with(".vtu") || name.ends_with(".csv")) &&
+        !kept.contains(fs::path(name).replace_extension(".vtu").string()))
       fs::remove(fs::path(folder_) / name, error);
   fs::remove(fs::path(folder_) / "last_iterate.vtu", error);
   entries_ = std::move(written);

@@ -94,6 +94,7 @@ TOP, 3, -2.
 17, 3, -1.5
 *NODE FILE
 U
+*RESTART, WRITE
 *END STEP
 )");
   EXPECT_EQ(to_yaml(deck.root), R"(osculate: 1
@@ -154,9 +155,13 @@ steps:
       - {on: node 17, fz: -2.5}
     pressure:
       - {on: P2 of UP, value: 10, amplitude: UPANDDOWN_2}
+output:
+  frd:
+    - of: [U]
+      steps: [step_2]
 )");
   ASSERT_EQ(deck.notes.size(), 2U);
-  EXPECT_EQ(deck.notes[0], "of 'cubes.inp' these are left out: *NODE FILE");
+  EXPECT_EQ(deck.notes[0], "of 'cubes.inp' these are left out: *RESTART");
   const Description d = parse_model(deck.root, "cubes.inp");
   EXPECT_EQ(d.steps.size(), 2U);
   EXPECT_EQ(d.materials[0].law.mark.line, 32);  // of *MATERIAL

@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+// Lines of the text files that CalculiX writes beside its results (jobname.dat, .sta, .cvg), column
+// by column, so that whatever reads those reads these.
+//
+// Source     files written by ccx 2.20
+// Tested by  tests/unit/io/test_dat.cpp, tests/system/test_answers.py
+namespace osculate::io {
+
+/// As Fortran writes it with so many digits in so many columns: 0.5000000E+00.
+[[nodiscard]] std::string fortran_real(double value, int columns, int digits);
+
+/// ` displacements (vx,vy,vz) for set TOP and time  0.5000000E+00` between two blank lines.
+[[nodiscard]] std::string dat_title(std::string_view what, double time);
+/// Number of a node or cell (point > 0: and of one of its points), then values.
+void append_dat_row(std::string& out, std::int64_t number, int point,
+                    std::span<const double> values);
+/// A row of totals.
+void append_dat_total(std::string& out, std::span<const double> values);
+
+/// An attempt to solve an increment. Numbers count from 1.
+struct Attempt {
+  int step = 1, increment = 1, attempt = 1, iterations = 0;
+  bool converged = true;
+  double total_time = 0, step_time = 0, increment_time = 0;  ///< at its end; the last one tried
+};
+[[nodiscard]] std::string sta_head();
+[[nodiscard]] std::string sta_row(const Attempt& attempt);
+
+/// An iteration of it: points in contact, residual and correction relative to the largest force and
+/// displacement.
+[[nodiscard]] std::string cvg_head();
+[[nodiscard]] std::string cvg_row(const Attempt& attempt, int iteration, int contacts,
+                                  double residual, double correction);
+
+}  // namespace osculate::io

@@ -1,0 +1,238 @@
+#include "osculate/result/answer_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <set>
+
+#include "osculate/core/version.hpp"
+#include "osculate/model/fields.hpp"
+#include "osculate/result/result_folder.hpp"
+
+namespace osculate::result {
+namespace {
+
+using deck::Answer;
+
+constexpr std::size_t mark_count = 6;
+
+std::uint64_t mark(std::span<const std::uint64_t> marks, std::size_t k) {
+  return marks.size() == mark_count ? marks[k] : 0;
+}
+
+/// What the format calls a field and its components.
+std::vector<std::string_view> names_of(Answer what) {
+  switch (what) {
+    case Answer::u:
+      return {"DISP", "D1", "D2", "D3"};
+    case Answer::s:
+      return {"STRESS", "SXX", "SYY", "SZZ", "SXY", "SYZ", "SZX"};
+    case Answer::e:
+      return {"TOSTRAIN", "EXX", "EYY", "EZZ", "EXY", "EYZ", "EZX"};
+    case Answer::rf:
+      return {"FORC", "F1", "F2", "F3"};
+    case Answer::peeq:
+      return {"PE", "PE"};
+    default:
+      return {"CONTACT", "COPEN", "CSLIP1", "CSLIP2", "CPRESS", "CSHEAR1", "CSHEAR2"};
+  }
+}
+
+/// Puts results of the nodes one after the other, zeros where there are less components.
+class Column {
+ public:
+  explicit Column(std::size_t width, std::size_t nodes) : width_(width) {
+    values_.reserve(width * nodes);
+  }
+  void add(std::span<const double> of_node) {
+    values_.insert(values_.end(), of_node.begin(), of_node.end());
+    values_.resize(values_.size() + width_ - of_node.size(), 0.0);
+  }
+  [[nodiscard]] const std::vector<double>& values() const { return values_; }
+
+ private:
+  std::size_t width_;
+  std::vector<double> values_;
+};
+
+/// Values of a field at the nodes of the file.
+template <int Dim>
+std::vector<double> field_values(Answer what, const AnswerModel<Dim>& answers,
+                                 const model::BasicSystem<Dim>& system,
+                                 const model::BasicNodalFields<Dim>& f) {
+  const std::vector<Index>& nodes = answers.mesh.nodes;
+  Column column(names_of(what).size() - 1, nodes.size());
+  if (what == Answer::contact) {
+    std::vector<std::array<double, 6>> values(answers.model.mesh.nodes.size());
+    for (const NodeContact& c : node_contacts(system, answers.model))
+      values[static_cast<std::size_t>(c.node)] = c.values;
+    for (const Index n : nodes) column.add(values[static_cast<std::size_t>(n)]);
+    return column.values();
+  }
+  const auto plastic = std::ranges::find(f.memory, "PEEQ", [](const auto& m) { return m.first; });
+  for (const Index node : nodes) {
+    const auto n = static_cast<std::size_t>(node);
+    if (what == Answer::u) column.add({f.displacement[n].data(), Dim});
+    if (what == Answer::s) column.add(f.stress[n]);
+    if (what == Answer::e) column.add(f.strain[n]);
+    if (what == Answer::rf) column.add({answers.force(system, node).data(), 3});
+    if (what == Answer::peeq) {
+      const double value = plastic == f.memory.end() ? 0.0 : plastic->second[n];
+      column.add({&value, 1});
+    }
+  }
+  return column.values();
+}
+
+std::string now(const char* format) {
+  const std::time_t time = std::time(nullptr);
+  std::tm local{};
+  std::array<char, 32> text{};
+  if (!localtime_r(&time, &local)) return {};
+  std::string out(text.data(), std::strftime(text.data(), text.size(), format, &local));
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+/// Points that touch.
+int contacts(const solve::IterationRecord& record) { return record.counts.touching(); }
+
+}  // namespace
+
+std::string answer_stem(const deck::Output& output, const std::string& model,
+                        const std::string& folder) {
+  if (output.frd.empty() && output.dat.empty()) return {};
+  const std::string name = std::filesystem::path(model).stem().string();
+  FieldList list(folder);
+  for (const char* const ending : {".frd", ".dat", ".sta", ".cvg"}) list.add(name + ending);
+  return folder + "/" + name;
+}
+
+template <int Dim>
+AnswerFiles<Dim>::AnswerFiles(const std::string& stem, const deck::BasicBuilt<Dim>& built,
+                              const deck::Output& output, std::span<const std::uint64_t> marks)
+    : built_(built),
+      output_(output),
+      answers_(built.model),
+      frd_(stem + ".frd", mark(marks, 0), std::string(io::frd_end)),
+      dat_(stem + ".dat", mark(marks, 1)),
+      sta_(stem + ".sta", mark(marks, 2)),
+      cvg_(stem + ".cvg", mark(marks, 3)),
+      pieces_(static_cast<int>(mark(marks, 4))),
+      sets_(static_cast<int>(mark(marks, 5))) {
+  if (mark(marks, 0) > 0) return;
+  frd_.append(head() + io::frd_nodes(answers_.mesh, built.model.mesh) +
+              io::frd_cells(answers_.mesh, built.model.mesh));
+  sta_.append(io::sta_head());
+  cvg_.append(io::cvg_head());
+}
+
+template <int Dim>
+std::string AnswerFiles<Dim>::head() const {
+  std::vector<std::string> materials;
+  for (const auto& section : built_.model.sections)
+    if (std::ranges::find(materials, section.material) == materials.end())
+      materials.push_back(section.material);
+  return io::frd_head({built_.model.title, "Osculate", std::string(core::version), now("%d.%B.%Y"),
+                       now("%H:%M:%S"), materials});
+}
+
+template <int Dim>
+double AnswerFiles<Dim>::duration_of(Index step) const {
+  const double duration = built_.model.steps[static_cast<std::size_t>(step)].duration;
+  return duration > 0 ? duration : 1;
+}
+
+template <int Dim>
+double AnswerFiles<Dim>::time_of(Index step, double fraction) const {
+  double time = 0;
+  for (Index s = 0; s < step; ++s) time += duration_of(s);
+  return time + fraction * duration_of(step);
+}
+
+template <int Dim>
+void AnswerFiles<Dim>::converged(const model::BasicSystem<Dim>& system,
+                                 const model::BasicState<Dim>& state,
+                                 const model::Progress& progress,
+                                 const solve::IncrementRecord& record) {
+  if (progress.increment == 1) reached_ = 0;
+  const double time = time_of(progress.step, progress.fraction);
+  const double duration = duration_of(progress.step);
+  write_attempt(
+      {progress.step + 1, progress.increment, attempt_, static_cast<int>(record.iterations.size()),
+       true, time, progress.fraction * duration, (progress.fraction - reached_) * duration},
+      record.iterations);
+  attempt_ = 1;
+  reached_ = progress.fraction;
+  write_fields(system, state, progress);
+  const std::string& step = built_.model.steps[static_cast<std::size_t>(progress.step)].name;
+  std::string tables;
+  for (const deck::AnswerRequest& request : output_.dat)
+    if (is_due(request, step, progress))
+      tables += answer_tables(answers_, system, state, request, time);
+  if (!tables.empty()) dat_.append(tables);
+}
+
+template <int Dim>
+void AnswerFiles<Dim>::dropped(const model::Progress& progress, double to,
+                               const std::vector<solve::IterationRecord>& iterations) {
+  const double duration = duration_of(progress.step);
+  write_attempt(
+      {progress.step + 1, progress.increment + 1, attempt_, static_cast<int>(iterations.size()),
+       false, time_of(progress.step, progress.fraction), progress.fraction * duration,
+       (to - progress.fraction) * duration},
+      iterations);
+  ++attempt_;
+}
+
+template <int Dim>
+void AnswerFiles<Dim>::write_attempt(const io::Attempt& attempt,
+                                     const std::vector<solve::IterationRecord>& iterations) {
+  sta_.append(io::sta_row(attempt));
+  std::string rows;
+  for (std::size_t i = 0; i < iterations.size(); ++i)
+    rows += io::cvg_row(attempt, static_cast<int>(i) + 1, contacts(iterations[i]),
+                        iterations[i].residual, std::sqrt(std::abs(iterations[i].energy)));
+  if (!rows.empty()) cvg_.append(rows);
+}
+
+template <int Dim>
+void AnswerFiles<Dim>::write_fields(const model::BasicSystem<Dim>& system,
+                                    const model::BasicState<Dim>& state,
+                                    const model::Progress& progress) {
+  const std::string& step = built_.model.steps[static_cast<std::size_t>(progress.step)].name;
+  std::set<Answer> wanted;
+  for (const deck::AnswerRequest& request : output_.frd)
+    if (is_due(request, step, progress)) wanted.insert(request.of.begin(), request.of.end());
+  if (wanted.empty()) return;
+  const model::BasicNodalFields<Dim> f = model::nodal_fields(system, built_.model, state);
+  ++sets_;
+  for (const Answer what :
+       {Answer::u, Answer::s, Answer::e, Answer::rf, Answer::peeq, Answer::contact}) {
+    if (!wanted.contains(what)) continue;
+    const io::FrdTime at{++pieces_, static_cast<int>(progress.increment),
+                         static_cast<int>(progress.step) + 1, sets_,
+                         time_of(progress.step, progress.fraction)};
+    frd_.append(io::frd_field(answers_.mesh, at, what == Answer::u || what == Answer::rf,
+                              names_of(what), field_values(what, answers_, system, f)));
+  }
+}
+
+template <int Dim>
+std::vector<std::uint64_t> AnswerFiles<Dim>::marks() const {
+  return {frd_.size(),
+          dat_.size(),
+          sta_.size(),
+          cvg_.size(),
+          static_cast<std::uint64_t>(pieces_),
+          static_cast<std::uint64_t>(sets_)};
+}
+
+template class AnswerFiles<2>;
+template class AnswerFiles<3>;
+
+}  // namespace osculate::result

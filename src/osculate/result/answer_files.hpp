@@ -1,0 +1,58 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "osculate/io/append_file.hpp"
+#include "osculate/io/dat.hpp"
+#include "osculate/result/answer_tables.hpp"
+
+namespace osculate::result {
+
+/// Where a run puts such files among its results, which are told of them; empty: the model asks for
+/// none.
+[[nodiscard]] std::string answer_stem(const deck::Output& output, const std::string& model,
+                                      const std::string& folder);
+
+/// Results in the files that CalculiX writes and the tools around it read: STEM.frd (fields at the
+/// nodes), .dat (tables), .sta (increments) and .cvg (iterations). All are whole after each
+/// increment.
+///
+/// Errors     io::WriteError
+/// Tested by  tests/unit/api/test_answers.cpp, tests/system/test_answers.py
+template <int Dim>
+class AnswerFiles {
+ public:
+  /// Input      marks: where a run goes on, those of the last increment; empty: from the beginning
+  AnswerFiles(const std::string& stem, const deck::BasicBuilt<Dim>& built,
+              const deck::Output& output, std::span<const std::uint64_t> marks = {});
+  /// An accepted increment.
+  void converged(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+                 const model::Progress& progress, const solve::IncrementRecord& record);
+  /// An attempt that was dropped, from `progress` to a fraction of the step.
+  void dropped(const model::Progress& progress, double to,
+               const std::vector<solve::IterationRecord>& iterations);
+  /// Where the files end now.
+  [[nodiscard]] std::vector<std::uint64_t> marks() const;
+
+ private:
+  [[nodiscard]] std::string head() const;
+  /// Of the analysis, all steps' durations counted.
+  [[nodiscard]] double time_of(Index step, double fraction) const;
+  [[nodiscard]] double duration_of(Index step) const;
+  void write_fields(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+                    const model::Progress& progress);
+  void write_attempt(const io::Attempt& attempt,
+                     const std::vector<solve::IterationRecord>& iterations);
+
+  const deck::BasicBuilt<Dim>& built_;
+  const deck::Output& output_;
+  AnswerModel<Dim> answers_;
+  io::AppendFile frd_, dat_, sta_, cvg_;
+  int pieces_ = 0, sets_ = 0;  ///< written to the frd file
+  int attempt_ = 1;
+  double reached_ = 0;  ///< fraction of the step
+};
+
+}  // namespace osculate::result

@@ -1,0 +1,325 @@
+#include "osculate/result/answer_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "osculate/io/dat.hpp"
+#include "osculate/model/bulk.hpp"
+#include "osculate/model/quantities.hpp"
+#include "osculate/solid/energy.hpp"
+
+namespace osculate::result {
+namespace {
+
+using deck::Answer;
+using deck::Totals;
+
+constexpr double sector_of_ring = 1.0 / 180;
+
+bool is_ring(const solid::Section<2>& section) {
+  return section.assumption == solid::Assumption::axisymmetric;
+}
+bool is_ring(const solid::Section<3>&) { return false; }
+
+/// As the deck spells it: an ending that tells sets of one name apart is ours.
+std::string name_in_deck(const deck::AnswerRequest& request) {
+  if (request.on.empty()) return "all";
+  std::string name = request.on[0].value;
+  for (const std::string_view ending : {".nodes", ".cells"})
+    if (name.ends_with(ending)) name.erase(name.rfind(ending));
+  std::ranges::transform(name, name.begin(), [](char c) {
+    return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
+  });
+  return name;
+}
+
+template <int Dim>
+struct Tables {
+  const AnswerModel<Dim>& a;
+  const model::BasicSystem<Dim>& system;
+  const model::BasicState<Dim>& state;
+  const deck::AnswerRequest& request;
+  double time;
+  std::string name = name_in_deck(request);
+  std::string out{};
+
+  void title(std::string_view what) {
+    out += io::dat_title(fmt::format("{} for set {} and", what, name), time);
+  }
+  [[nodiscard]] const mesh::Set* set() const {
+    return request.on.empty() ? nullptr : a.model.mesh.find_set(request.on[0].value);
+  }
+
+  [[nodiscard]] std::vector<Index> nodes() const {
+    if (!set()) return a.mesh.nodes;
+    std::vector<Index> list = set()->nodes;
+    std::ranges::sort(list, {},
+                      [&](Index n) { return a.node_number[static_cast<std::size_t>(n)]; });
+    return list;
+  }
+
+  /// Cells of `a.mesh` that are in the set.
+  [[nodiscard]] std::vector<std::size_t> cells() const {
+    std::vector<std::size_t> list;
+    std::vector<std::vector<char>> wanted;
+    for (const mesh::Block& block : a.model.mesh.blocks)
+      wanted.emplace_back(static_cast<std::size_t>(block.size()), set() ? 0 : 1);
+    if (set())
+      for (const mesh::CellRef& ref : set()->cells)
+        wanted[static_cast<std::size_t>(ref.block)][static_cast<std::size_t>(ref.cell)] = 1;
+    for (std::size_t c = 0; c < a.mesh.cells.size(); ++c) {
+      const mesh::CellRef& ref = a.mesh.cells[c].ref;
+      if (wanted[static_cast<std::size_t>(ref.block)][static_cast<std::size_t>(ref.cell)] != 0)
+        list.push_back(c);
+    }
+    return list;
+  }
+
+  // ---- nodes ----------------------------------------------------------------------------------
+
+  void displacements() {
+    if (request.totals == Totals::only) return;
+    title("displacements (vx,vy,vz)");
+    for (const Index n : nodes()) {
+      Vec3 u = Vec3::Zero();
+      u.template head<Dim>() = state.u.template segment<Dim>(Dim * n);
+      io::append_dat_row(out, a.node_number[static_cast<std::size_t>(n)], 0, {u.data(), 3});
+    }
+  }
+
+  void forces() {
+    Vec3 sum = Vec3::Zero();
+    if (request.totals != Totals::only) title("forces (fx,fy,fz)");
+    for (const Index n : nodes()) {
+      const Vec3 force = a.force(system, n);
+      sum += force;
+      if (request.totals != Totals::only)
+        io::append_dat_row(out, a.node_number[static_cast<std::size_t>(n)], 0, {force.data(), 3});
+    }
+    if (request.totals == Totals::none) return;
+    title("total force (fx,fy,fz)");
+    io::append_dat_total(out, {sum.data(), 3});
+  }
+
+  // ---- cells ----------------------------------------------------------------------------------
+
+  /// Points of a cell by their place: along the first direction, then the second, then the third.
+  [[nodiscard]] static std::vector<std::size_t> in_order(const solid::CellStress<Dim>& stress) {
+    std::vector<std::size_t> order(static_cast<std::size_t>(stress.count));
+    std::iota(order.begin(), order.end(), 0U);
+    constexpr double same = 1e-6;
+    std::ranges::sort(order, [&](std::size_t p, std::size_t q) {
+      for (Eigen::Index i = Dim; i-- > 0;) {
+        const double difference = stress.point[p].xi[i] - stress.point[q].xi[i];
+        if (std::abs(difference) > same) return difference < 0;
+      }
+      return false;
+    });
+    return order;
+  }
+
+  [[nodiscard]] solid::CellStress<Dim> stress_of(std::size_t cell) const {
+    const auto& [section, memory] = a.places[cell];
+    const model::CellNodes c = model::cell_nodes(a.model.mesh, a.mesh.cells[cell].ref);
+    return solid::stress_at_points(
+        model::section_on(*section, c.type), c.type, model::reference_of(a.model, c.nodes),
+        model::displacement_of<Dim>(state.u, c.nodes), memory.of(state.memory));
+  }
+
+  /// xx, yy, zz, xy, xz, yz.
+  [[nodiscard]] static std::array<double, 6> tensor(const Vec<solid::components<Dim>>& s) {
+    if constexpr (Dim == 2)
+      return {s[0], s[1], s[2], s[3], 0, 0};
+    else
+      return {s[0], s[1], s[2], s[3], s[5], s[4]};
+  }
+
+  void at_points(Answer what) {
+    if (request.totals == Totals::only) return;
+    title(what == Answer::s   ? "stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz)"
+          : what == Answer::e ? "strains (elem, integ.pnt.,exx,eyy,ezz,exy,exz,eyz)"
+                              : "equivalent plastic strain (elem, integ.pnt.,pe)");
+    for (const std::size_t cell : cells()) {
+      const solid::CellStress<Dim> stress = stress_of(cell);
+      int number = 0;
+      for (const std::size_t p : in_order(stress)) {
+        ++number;
+        if (what == Answer::peeq) {
+          const double value = equivalent_plastic_strain(cell, p);
+          io::append_dat_row(out, a.mesh.cells[cell].number, number, {&value, 1});
+        } else {
+          const auto& point = stress.point[p];
+          io::append_dat_row(out, a.mesh.cells[cell].number, number,
+                             tensor(what == Answer::s ? point.stress : point.strain));
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] double equivalent_plastic_strain(std::size_t cell, std::size_t point) const {
+    const auto& [section, memory] = a.places[cell];
+    const auto names = material::memory_of(section->section.law);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if (names[i].name == "PEEQ") return state.memory[memory.first + point * memory.size + i];
+    return 0;
+  }
+
+  [[nodiscard]] double of_cell(Answer what, std::size_t cell) const {
+    double value = 0;
+    if (what == Answer::evol) {
+      const solid::CellStress<Dim> stress = stress_of(cell);
+      for (int p = 0; p < stress.count; ++p)
+        value += stress.point[static_cast<std::size_t>(p)].volume;
+    } else {
+      const auto& [section, memory] = a.places[cell];
+      const model::CellNodes c = model::cell_nodes(a.model.mesh, a.mesh.cells[cell].ref);
+      value =
+          solid::cell_energy(model::section_on(*section, c.type), c.type,
+                             model::reference_of(a.model, c.nodes),
+                             model::displacement_of<Dim>(state.u, c.nodes), memory.of(state.memory))
+              .stored;
+    }
+    return a.sector * value;
+  }
+
+  void by_cell(Answer what) {
+    const bool volume = what == Answer::evol;
+    double sum = 0;
+    if (request.totals != Totals::only)
+      title(volume ? "volume (element, volume)" : "internal energy (element, energy)");
+    for (const std::size_t cell : cells()) {
+      const double value = of_cell(what, cell);
+      sum += value;
+      if (request.totals != Totals::only)
+        io::append_dat_row(out, a.mesh.cells[cell].number, 0, {&value, 1});
+    }
+    if (request.totals == Totals::none) return;
+    title(volume ? "total volume" : "total internal energy");
+    io::append_dat_total(out, {&sum, 1});
+  }
+
+  // ---- contact --------------------------------------------------------------------------------
+
+  void contact(Answer what) {
+    const std::vector<NodeContact> nodes = node_contacts(system, a.model);
+    if (what == Answer::cnum) {
+      out += io::dat_title("total number of contact elements for", time);
+      out += fmt::format("{:17}\n", std::ranges::count_if(nodes, &NodeContact::closed));
+      return;
+    }
+    if (request.totals == Totals::only) return;
+    const bool stress = what == Answer::cstr;
+    const std::string_view title =
+        stress ? "contact stress (slave node,press,tang1,tang2) for all contact elements and"
+               : "relative contact displacement (slave node,normal,tang1,tang2) for all contact "
+                 "elements and";
+    out += fmt::format("\n {} time{}\n\n", title, io::fortran_real(time, 14, 7));
+    for (const NodeContact& c : nodes)
+      if (c.closed)
+        io::append_dat_row(out, a.node_number[static_cast<std::size_t>(c.node)], 0,
+                           std::span(c.values).subspan(stress ? 3 : 0, 3));
+  }
+
+  void add(Answer what) {
+    switch (what) {
+      case Answer::u:
+        return displacements();
+      case Answer::rf:
+        return forces();
+      case Answer::s:
+      case Answer::e:
+      case Answer::peeq:
+        return at_points(what);
+      case Answer::evol:
+      case Answer::energy:
+        return by_cell(what);
+      default:
+        return contact(what);
+    }
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+AnswerModel<Dim>::AnswerModel(const model::BasicModel<Dim>& of) : model(of) {
+  std::vector<io::FrdMesh::Cell> cells;
+  std::map<std::pair<Index, Index>, Place> found;
+  std::vector<std::string> materials;
+  model::for_each_cell(of, [&](const auto& section, const mesh::CellRef& ref, const auto& memory) {
+    const auto material = std::ranges::find(materials, section.material);
+    cells.push_back({ref, static_cast<int>(material - materials.begin()) + 1});
+    if (material == materials.end()) materials.push_back(section.material);
+    found[{ref.block, ref.cell}] = {&section, memory};
+    if (is_ring(section.section)) sector = sector_of_ring;
+  });
+  mesh = io::frd_mesh(of.mesh, std::move(cells));
+  for (const io::FrdMesh::Cell& cell : mesh.cells)
+    places.push_back(found.at({cell.ref.block, cell.ref.cell}));
+  for (std::size_t n = 0; n < of.mesh.nodes.size(); ++n)
+    node_number.push_back(mesh::node_number(of.mesh, static_cast<Index>(n)));
+  for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
+    node_number[static_cast<std::size_t>(mesh.nodes[i])] = mesh.numbers[i];
+}
+
+template <int Dim>
+Vec3 AnswerModel<Dim>::force(const model::BasicSystem<Dim>& system, Index node) const {
+  const model::Forces& f = system.forces();
+  Vec3 force = Vec3::Zero();
+  force.head<Dim>() = sector * (f.internal.segment<Dim>(Dim * node) +  //
+                                f.contact.segment<Dim>(Dim * node));
+  return force;
+}
+
+bool is_due(const deck::AnswerRequest& request, std::string_view step,
+            const model::Progress& progress) {
+  if (progress.increment == 0) return false;
+  const auto named = [&](const deck::Name& name) { return name.value == step; };
+  if (!request.steps.empty() && std::ranges::none_of(request.steps, named)) return false;
+  return progress.increment % request.every == 0 || progress.fraction >= 1;
+}
+
+template <int Dim>
+std::string answer_tables(const AnswerModel<Dim>& answers, const model::BasicSystem<Dim>& system,
+                          const model::BasicState<Dim>& state, const deck::AnswerRequest& request,
+                          double time) {
+  Tables<Dim> tables{answers, system, state, request, time};
+  for (const Answer what : request.of) tables.add(what);
+  return std::move(tables.out);
+}
+
+template <int Dim>
+std::vector<NodeContact> node_contacts(const model::BasicSystem<Dim>& system,
+                                       const model::BasicModel<Dim>& model) {
+  std::map<Index, NodeContact> by_node;
+  for (std::size_t p = 0; p < model.pairs.size(); ++p) {
+    const model::BasicContactFields<Dim> c = model::contact_fields(system, model, p);
+    for (std::size_t i = 0; i < c.nodes.size(); ++i) {
+      NodeContact now{
+          c.nodes[i], c.cstatus[i] > 0, {c.copen[i], c.cslip[i], 0, c.cpress[i], c.cshear[i], 0}};
+      if constexpr (Dim == 3) {
+        now.values[2] = c.cslip2[i];
+        now.values[5] = c.cshear2[i];
+      }
+      const auto [at, fresh] = by_node.try_emplace(c.nodes[i], now);
+      if (!fresh && now.closed && now.values[3] >= at->second.values[3]) at->second = now;
+    }
+  }
+  std::vector<NodeContact> list;
+  for (const auto& [node, contact] : by_node) list.push_back(contact);
+  return list;
+}
+
+template struct AnswerModel<2>;
+template struct AnswerModel<3>;
+template std::string answer_tables(const AnswerModel<2>&, const model::System&, const model::State&,
+                                   const deck::AnswerRequest&, double);
+template std::string answer_tables(const AnswerModel<3>&, const model::System3&,
+                                   const model::State3&, const deck::AnswerRequest&, double);
+template std::vector<NodeContact> node_contacts(const model::System&, const model::Model&);
+template std::vector<NodeContact> node_contacts(const model::System3&, const model::Model3&);
+
+}  // namespace osculate::result

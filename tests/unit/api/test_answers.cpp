@@ -1,0 +1,219 @@
+// Results in the files of CalculiX: analyses whose answers are known in closed form.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "osculate/api/run.hpp"
+#include "osculate/core/error.hpp"
+#include "osculate/result/answer_tables.hpp"
+
+namespace osculate::api {
+namespace {
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A block of E = 100, nu = 0, 2 x 1 x 1, pulled by 0.01 of its length.
+constexpr const char* space =
+    "osculate: 1\n"
+    "title: Pulled block\n"
+    "mesh: {generate: {b: {box: {x: [0, 2], y: [0, 1], z: [0, 1], elements: [2, 1, 1]}}}}\n"
+    "materials: {m: {linear_elastic: {E: 100, nu: 0}}}\n"
+    "sections: [{on: b, material: m, element: solid}]\n"
+    "steps:\n"
+    "  - {name: pull, increments: 4, prescribe: [{on: b.left, ux: 0, uy: 0, uz: 0}, {on: b.right, "
+    "ux: 0.02, uy: 0, uz: 0}]}\n"
+    "  - {name: more, increments: 2, duration: 3, prescribe: [{on: b.right, ux: 0.04}]}\n"
+    "output:\n"
+    "  frd: [{of: [U, S, E, RF, PEEQ], every: 3, steps: [pull]}, {of: [U], steps: [more]}]\n"
+    "  dat:\n"
+    "    - {on: b.right, of: [U, RF], totals: also, every: 4, steps: [pull]}\n"
+    "    - {on: b, of: [S, EVOL, ELSE], every: 4, totals: also, steps: [pull]}\n"
+    "    - {on: b.right, of: [RF, CNUM], totals: only, every: 2, steps: [more]}\n";
+
+/// A ring of radii 1 and 2, pressed along its axis on a floor by 0.01 of its height.
+constexpr const char* ring =
+    "osculate: 1\n"
+    "mesh: {generate: {b: {box: {x: [1, 2], y: [0, 1], elements: [1, 1]}}}}\n"
+    "materials: {m: {linear_elastic: {E: 100, nu: 0}}}\n"
+    "sections: [{on: b, material: m, element: axisymmetric}]\n"
+    "rigid: {floor: {line: {point: [0, 0], normal: [0, 1]}}}\n"
+    "contact: [{name: c, master: floor, slave: b.bottom, normal: {penalty: 1e5}, weight: "
+    "reference_area}]\n"
+    "steps: [{name: press, increments: 1, prescribe: [{on: b, ux: 0}, {on: b.top, uy: -0.01}]}]\n"
+    "output:\n"
+    "  frd: [{of: [CONTACT, RF]}]\n"
+    "  dat: [{on: b, of: [EVOL]}, {on: b.top, of: [RF], totals: only}, {of: [CSTR, CNUM]}]\n";
+
+struct Answers : ::testing::Test {
+  fs::path folder = fs::path(::testing::TempDir()) /
+                    ("osculate_answers_" +
+                     std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+  void SetUp() override {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  [[nodiscard]] RunOptions options(const std::string& name, const std::string& text) const {
+    std::ofstream(folder / (name + ".yaml")) << text;
+    RunOptions o;
+    o.model = (folder / (name + ".yaml")).string();
+    o.folder = (folder / "out").string();
+    return o;
+  }
+  [[nodiscard]] std::string read(const std::string& name) const {
+    std::ifstream file(folder / "out" / name, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+};
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1))
+    ++found;
+  return found;
+}
+
+/// The rows behind a title, as numbers.
+std::vector<std::vector<double>> rows(const std::string& text, const std::string& title) {
+  std::vector<std::vector<double>> out;
+  const std::size_t at = text.find(title);
+  EXPECT_NE(at, std::string::npos) << title;
+  if (at == std::string::npos) return out;
+  std::istringstream lines(text.substr(at));
+  std::string line;
+  std::getline(lines, line);
+  std::getline(lines, line);
+  while (std::getline(lines, line) && !line.empty()) {
+    std::istringstream values(line);
+    out.emplace_back();
+    for (double value = 0; values >> value;) out.back().push_back(value);
+  }
+  return out;
+}
+
+TEST_F(Answers, TablesOfAPulledBlockHaveItsClosedSolution) {
+  ASSERT_EQ(run(options("block", space)).status, RunStatus::done);
+  const std::string dat = read("block.dat");
+  for (const auto& row :
+       rows(dat, " displacements (vx,vy,vz) for set B.RIGHT and time  0.1000000E+01")) {
+    ASSERT_EQ(row.size(), 4U);
+    EXPECT_NEAR(row[1], 0.02, 1e-8);
+  }
+  EXPECT_EQ(rows(dat, " forces (fx,fy,fz) for set B.RIGHT").size(), 4U);
+  EXPECT_NEAR(rows(dat, " total force (fx,fy,fz) for set B.RIGHT and time  0.1000000E+01")[0][0], 1,
+              1e-6);
+  EXPECT_NEAR(rows(dat, " total force (fx,fy,fz) for set B.RIGHT and time  0.4000000E+01")[0][0], 2,
+              1e-6);
+  const auto stresses =
+      rows(dat, " stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz) for set B ");
+  ASSERT_EQ(stresses.size(), 16U);
+  for (const auto& row : stresses) EXPECT_NEAR(row[2], 1, 1e-6);
+  EXPECT_EQ(stresses[8][0], 2);
+  EXPECT_EQ(stresses[15][1], 8);
+  EXPECT_NEAR(rows(dat, " total volume for set B and")[0][0], 2, 1e-6);
+  EXPECT_NEAR(rows(dat, " internal energy (element, energy) for set B and")[1][1], 0.005, 1e-8);
+  EXPECT_NEAR(rows(dat, " total internal energy for set B and")[0][0], 0.01, 1e-8);
+  EXPECT_EQ(count(dat, "total number of contact elements"), 1U);
+  EXPECT_EQ(count(dat, "forces ("), 1U);  // of `totals: only` the sums alone
+}
+
+TEST_F(Answers, FieldsAreWrittenWhenTheyAreDue) {
+  ASSERT_EQ(run(options("block", space)).status, RunStatus::done);
+  const std::string frd = read("block.frd");
+  EXPECT_THAT(frd, HasSubstr("    1UPulled block"));
+  EXPECT_TRUE(frd.ends_with(" -3\n 9999\n"));
+  EXPECT_EQ(count(frd, " -4  STRESS"), 2U);  // increments 3 and 4 of the first step
+  EXPECT_EQ(count(frd, " -4  DISP"), 4U);
+  EXPECT_EQ(count(frd, "    1PSTEP"), 12U);
+  EXPECT_EQ(count(frd,
+                  "    1PSTEP                        12           2           2          \n"
+                  "  100CL  104 4.000000000          12"),
+            1U);
+  EXPECT_EQ(count(read("block.sta"), "\n"), 2U + 6U);
+  EXPECT_THAT(read("block.sta"), HasSubstr("     2          1     1"));
+  EXPECT_THAT(read("block.sta"), HasSubstr("  0.250000E+01  0.150000E+01  0.150000E+01\n"));
+  EXPECT_GE(count(read("block.cvg"), "\n"), 4U + 6U);
+}
+
+TEST_F(Answers, ForcesOfARingAreThoseOfASectorOfTwoDegrees) {
+  ASSERT_EQ(run(options("ring", ring)).status, RunStatus::done);
+  constexpr double pi = 3.14159265358979;
+  const std::string dat = read("ring.dat");
+  EXPECT_NEAR(rows(dat, " volume (element, volume) for set B")[0][1], 3 * pi / 180, 1e-6);
+  const double pressure = 100 * 0.01 / (1 + 100 / 1e5);
+  EXPECT_NEAR(rows(dat, " total force (fx,fy,fz) for set B.TOP")[0][1], -3 * pi * pressure / 180,
+              1e-6);
+  const auto contact = rows(dat,
+                            " contact stress (slave node,press,tang1,tang2) for all contact "
+                            "elements and time 0.1000000E+01");
+  ASSERT_EQ(contact.size(), 2U);
+  for (const auto& row : contact) EXPECT_NEAR(row[1], pressure, 1e-6);
+  EXPECT_EQ(rows(dat, " total number of contact elements for time  0.1000000E+01")[0][0], 2);
+  EXPECT_EQ(count(read("ring.frd"), " -4  CONTACT     6    1"), 1U);
+}
+
+TEST_F(Answers, ARestartWritesTheSameFiles) {
+  RunOptions o = options("block", space);
+  ASSERT_EQ(run(o).status, RunStatus::done);
+  std::vector<std::string> whole;
+  for (const char* const ending : {".dat", ".sta", ".cvg"})
+    whole.push_back(read(std::string("block") + ending));
+  const std::string frd = read("block.frd");
+  for (const int before : {1, 3, 5}) {
+    o.restart = false;
+    int increments = 0;
+    o.interrupted = [&] { return ++increments > before; };
+    ASSERT_EQ(run(o).status, RunStatus::stopped);
+    EXPECT_NE(read("block.frd"), frd);
+    std::ofstream(folder / "out" / "block.dat", std::ios::app) << "half a ta";
+    o.interrupted = {};
+    o.restart = true;
+    ASSERT_EQ(run(o).status, RunStatus::done);
+    EXPECT_EQ(read("block.dat"), whole[0]);
+    EXPECT_EQ(read("block.sta"), whole[1]);
+    EXPECT_EQ(read("block.cvg"), whole[2]);
+    const std::string again = read("block.frd");  // but the time of day
+    EXPECT_EQ(again.substr(again.find("    1UHOST")), frd.substr(frd.find("    1UHOST")));
+  }
+}
+
+TEST_F(Answers, NoneAreWrittenUnlessAskedFor) {
+  std::string text = space;
+  text.resize(text.find("output:"));
+  ASSERT_EQ(run(options("block", text)).status, RunStatus::done);
+  EXPECT_FALSE(fs::exists(folder / "out" / "block.frd"));
+  RunOptions o = options("block", text);
+  o.answers = (folder / "job").string();
+  ASSERT_EQ(run(o).status, RunStatus::done);
+  EXPECT_TRUE(fs::exists(folder / "job.sta"));
+  EXPECT_EQ(fs::file_size(folder / "job.dat"), 0U);
+  EXPECT_THROW((void)run(options("block", std::string(space).replace(
+                                              std::string(space).find("on: b.right, of: [U"), 11,
+                                              "on: b.rigth"))),
+               core::InputError);
+}
+
+TEST(AnswerIsDue, AtEveryNthIncrementAndTheLastOfTheStepsAskedFor) {
+  deck::AnswerRequest request;
+  request.every = 3;
+  const auto due = [&](const char* step, Index increment, double fraction) {
+    return result::is_due(request, step, {0, increment, fraction, 0});
+  };
+  EXPECT_FALSE(due("a", 0, 0));
+  EXPECT_FALSE(due("a", 2, 0.5));
+  EXPECT_TRUE(due("a", 3, 0.6));
+  EXPECT_TRUE(due("a", 4, 1));
+  request.steps = {{"b", {}}};
+  EXPECT_FALSE(due("a", 3, 1));
+  EXPECT_TRUE(due("b", 3, 0.6));
+}
+
+}  // namespace
+}  // namespace osculate::api

@@ -1,0 +1,45 @@
+#include "osculate/io/dat.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <limits>
+
+namespace osculate::io {
+namespace {
+
+TEST(Dat, RealsAsFortranWritesThem) {
+  EXPECT_EQ(fortran_real(0.5, 14, 7), " 0.5000000E+00");
+  EXPECT_EQ(fortran_real(1, 14, 6), "  0.100000E+01");
+  EXPECT_EQ(fortran_real(-1234.5678, 14, 7), "-0.1234568E+04");
+  EXPECT_EQ(fortran_real(0.00390625, 14, 6), "  0.390625E-02");
+  EXPECT_EQ(fortran_real(99999999, 14, 7), " 0.1000000E+09");
+  EXPECT_EQ(fortran_real(0, 12, 4), "  0.0000E+00");
+  EXPECT_EQ(fortran_real(std::numeric_limits<double>::quiet_NaN(), 12, 4), "         NaN");
+}
+
+TEST(Dat, RowsStandInTheColumnsOfTheFormat) {
+  const std::array u{1.975008e-4, -1.999906e-4, 0.0};
+  std::string text;
+  append_dat_row(text, 11, 0, u);
+  append_dat_row(text, 5, 2, u);
+  append_dat_total(text, u);
+  EXPECT_EQ(text,
+            "        11  1.975008E-04 -1.999906E-04  0.000000E+00\n"
+            "         5   2  1.975008E-04 -1.999906E-04  0.000000E+00\n"
+            "        1.975008E-04 -1.999906E-04  0.000000E+00\n");
+  EXPECT_EQ(dat_title("forces (fx,fy,fz) for set FIX and", 0.5),
+            "\n forces (fx,fy,fz) for set FIX and time  0.5000000E+00\n\n");
+}
+
+TEST(Dat, RowsOfIncrementsAndIterations) {
+  EXPECT_EQ(sta_row({2, 1, 1, 2, true, 2, 1, 1}),
+            "     2          1     1     2  0.200000E+01  0.100000E+01  0.100000E+01\n");
+  EXPECT_EQ(sta_row({1, 2, 3, 6, false, 0.00390625, 0.00390625, 0.5}),
+            "     1          2     3U    6  0.390625E-02  0.390625E-02  0.500000E+00\n");
+  EXPECT_EQ(cvg_row({2, 1, 1, 2}, 1, 28, 0.4778e-3, 1),
+            "     2     1     1     1       28  0.4778E-01  0.1000E+03  0.0000E+00  0.0000E+00\n");
+}
+
+}  // namespace
+}  // namespace osculate::io
