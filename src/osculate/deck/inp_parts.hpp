@@ -56,6 +56,15 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 
 [[nodiscard]] SourceNode inp_materials(InpModel& m);
 [[nodiscard]] SourceNode inp_sections(InpModel& m);
+/// A set of elements, and the words of a section that their types stand for.
+struct InpElements {
+  std::string set;
+  std::string_view element, formulation;
+};
+/// The elements of a `*SOLID SECTION`: all of them, or by their types where these differ in that.
+///
+/// Tested by  tests/unit/deck/test_inp_elements.cpp
+[[nodiscard]] std::vector<InpElements> elements_of(const InpModel& m, const io::inp::Card& section);
 /// Mass per volume of the material of a section; none: no section has this set of elements.
 [[nodiscard]] std::optional<double> density_on(const InpModel& m, std::string_view elements);
 [[nodiscard]] SourceNode inp_contact(InpModel& m);

@@ -49,6 +49,10 @@ bool CellCase::full() const {
 bool CellCase::bbar() const {
   return std::visit([](const auto& c) { return c.section.formulation == Formulation::bbar; }, of);
 }
+bool CellCase::reduced() const {
+  return std::visit([](const auto& c) { return c.section.formulation == Formulation::reduced; },
+                    of);
+}
 
 CellCase CellCase::as_full() const {
   CellCase out = *this;

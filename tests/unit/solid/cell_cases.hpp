@@ -24,6 +24,7 @@ struct CellCase {
   [[nodiscard]] bool plane_stress() const;
   [[nodiscard]] bool full() const;  ///< plain displacement formulation
   [[nodiscard]] bool bbar() const;
+  [[nodiscard]] bool reduced() const;
 
   [[nodiscard]] CellCase as_full() const;
   [[nodiscard]] CellCase as_small() const;  ///< and linear elastic
