@@ -17,7 +17,8 @@ using io::inp::SetKind;
 /// The cards of one `*MATERIAL`.
 struct MaterialCards {
   const Card* material = nullptr;
-  const Card *elastic = nullptr, *plastic = nullptr, *density = nullptr, *creep = nullptr;
+  const Card *elastic = nullptr, *plastic = nullptr, *density = nullptr, *creep = nullptr,
+             *expansion = nullptr;
 };
 
 std::vector<MaterialCards> material_cards(const InpModel& m) {
@@ -36,18 +37,24 @@ std::vector<MaterialCards> material_cards(const InpModel& m) {
     if (card.keyword == "PLASTIC") set(card, &MaterialCards::plastic);
     if (card.keyword == "DENSITY") set(card, &MaterialCards::density);
     if (card.keyword == "CREEP") set(card, &MaterialCards::creep);
+    if (card.keyword == "EXPANSION") set(card, &MaterialCards::expansion);
   }
   return all;
 }
 
-/// The only line of a card whose numbers do not depend on the temperature.
+/// The first line of a card whose numbers do not depend on the temperature, which stands last.
 const Line& constant_line(const InpModel& m, const Card& card, const char* what) {
   const auto lines = io::inp::lines_of(m.deck, card);
-  if (lines.size() > 1)
-    io::inp::fail(
-        m.deck, lines[1].at,
-        fmt::format("*{}: numbers that depend on the temperature are not supported", card.keyword));
-  return only_line(m, card, what);
+  if (lines.size() < 2) return only_line(m, card, what);
+  const auto numbers = [&](const Line& line) {
+    return line.text.substr(0, line.text.find_last_of(','));
+  };
+  for (const Line& line : lines)
+    if (numbers(line) != numbers(lines[0]))
+      io::inp::fail(m.deck, line.at,
+                    fmt::format("*{}: numbers that depend on the temperature are not supported",
+                                card.keyword));
+  return lines[0];
 }
 
 double density_of(const InpModel& m, const MaterialCards& c) {
@@ -166,6 +173,8 @@ SourceNode inp_materials(InpModel& m) {
     put_elastic(m, c, law);
     if (c.plastic) put_plastic(m, *c.plastic, law);
     if (c.creep) put_creep(m, *c.creep, law);
+    if (c.expansion && has_temperatures(m))
+      put(material, "expansion", inp_expansion(m, *c.expansion));
   }
   return materials;
 }

@@ -67,6 +67,19 @@ struct InpElements {
 [[nodiscard]] std::vector<InpElements> elements_of(const InpModel& m, const io::inp::Card& section);
 /// Mass per volume of the material of a section; none: no section has this set of elements.
 [[nodiscard]] std::optional<double> density_on(const InpModel& m, std::string_view elements);
+
+/// Whether some step has temperatures: without, materials need no expansion.
+[[nodiscard]] bool has_temperatures(const InpModel& m);
+/// A set of nodes and its temperature.
+struct NodeValue {
+  std::string on;
+  double value;
+};
+[[nodiscard]] NodeValue temperature_of(const InpModel& m, const io::inp::Line& line);
+/// `expansion` of a material, from its `*EXPANSION`.
+[[nodiscard]] SourceNode inp_expansion(const InpModel& m, const io::inp::Card& card);
+[[nodiscard]] SourceNode inp_initial_temperature(const InpModel& m);
+
 [[nodiscard]] SourceNode inp_contact(InpModel& m);
 [[nodiscard]] SourceNode inp_equations(const InpModel& m);
 
