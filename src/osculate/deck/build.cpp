@@ -190,6 +190,7 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   build_masses(context);
   build_contact(context);
   build_equations(context);
+  build_initial_temperature(context);
   build_steps(context);
   build_pair_changes(context);
   build_initial_velocity(context);

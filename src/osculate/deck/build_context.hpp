@@ -80,6 +80,12 @@ void build_dynamics(const BuildContext<Dim>& context, const Step& step,
                     std::vector<double>& gravity, model::Step& out);
 template <int Dim>
 void build_initial_velocity(BuildContext<Dim>& context);
+template <int Dim>
+void build_initial_temperature(BuildContext<Dim>& context);
+/// Temperatures of one step; `now` are those at the end of the steps before, and then of it.
+template <int Dim>
+void build_temperatures(const BuildContext<Dim>& context, const Step& step,
+                        std::vector<double>& now, model::Step& out);
 /// Of steps without inertia that follow others with it.
 template <int Dim>
 void warn_of_rest(BuildContext<Dim>& context);

@@ -48,6 +48,8 @@ solid::Formulation formulation_of(const Section& s, const Material& material) {
       return solid::Formulation::bbar;
     case Formulation::enhanced:
       return solid::Formulation::enhanced;
+    case Formulation::reduced:
+      return solid::Formulation::reduced;
     default:
       return solid::Formulation::full;
   }
@@ -65,6 +67,7 @@ solid::Section<Dim> make_solid_section(const Section& s, const Material& materia
   out.kinematics = solid_kinematics(s.kinematics.value);
   out.formulation = formulation_of(s, material);
   out.law = law_of(s, material);
+  out.expansion = material.expansion;
   return out;
 }
 

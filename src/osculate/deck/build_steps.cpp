@@ -379,7 +379,7 @@ bool held_from_the_beginning(const model::BasicRigidBody<Dim>& body, Component c
 template <int Dim>
 void build_steps(BuildContext<Dim>& c) {
   Running running;
-  std::vector<double> gravity;
+  std::vector<double> gravity, temperatures = c.model().initial_temperature;
   for (std::size_t b = 0; b < c.model().rigid.size(); ++b)
     for (std::size_t i = 0; i < component_count; ++i)
       if (held_from_the_beginning(c.model().rigid[b], static_cast<Component>(i)))
@@ -399,6 +399,7 @@ void build_steps(BuildContext<Dim>& c) {
     c.built.loads.emplace_back();
     add_weight(c, step, out, running);
     apply_loads(c, step, running, out);  // forces on a rigid body free its dof
+    build_temperatures(c, step, temperatures, out);
     apply_prescriptions(c, step, running, out);
     c.model().steps.push_back(std::move(out));
   }

@@ -16,6 +16,7 @@
 #include "osculate/geometry/catalogue.hpp"
 #include "osculate/geometry/nurbs_patch.hpp"
 #include "osculate/geometry/surfaces.hpp"
+#include "osculate/material/expansion.hpp"
 #include "osculate/material/law.hpp"
 #include "osculate/mesh/generate_space.hpp"
 #include "osculate/mesh/join.hpp"
@@ -108,6 +109,7 @@ struct SetDefinition {
 struct Material {
   Name name;
   Marked<material::Law> law;
+  material::Expansion expansion{};
   std::vector<std::pair<std::string_view, core::SourceMark>> marks;  ///< of its parameters
 
   /// Where a parameter stands; the law, where it has no such parameter.
@@ -118,7 +120,7 @@ enum class SectionElement { plane_strain, plane_stress, axisymmetric, solid, sol
 /// True for bodies in space.
 [[nodiscard]] constexpr bool is_space(SectionElement e) { return e >= SectionElement::solid; }
 enum class Kinematics { small, finite };
-enum class Formulation { automatic, full, bbar, enhanced };
+enum class Formulation { automatic, full, bbar, enhanced, reduced };
 
 struct Section {
   Name on;
@@ -359,6 +361,7 @@ struct Step {
   std::vector<Prescription> prescribe;
   std::vector<Release> release;
   std::vector<Load> forces, total_force, pressure, traction, body_force;
+  std::vector<Load> temperature;  ///< the first value
   std::optional<DynamicsDescription> dynamics;
   std::optional<Marked<std::vector<double>>> gravity;
   std::vector<ContactChange> contact;
@@ -492,7 +495,8 @@ struct Description {
   std::vector<Amplitude> amplitudes;
   std::vector<Equation> equations;
   std::vector<Equal> equal;
-  std::vector<Load> initial_velocity;  ///< vx vy vz wx wy wz
+  std::vector<Load> initial_velocity;     ///< vx vy vz wx wy wz
+  std::vector<Load> initial_temperature;  ///< the first value
   std::vector<Step> steps;
   Solver solver;
   Output output;

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "osculate/deck/inp_parts.hpp"
-#include "osculate/io/inp/element_types.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
 
 namespace osculate::deck {
@@ -18,7 +17,8 @@ using io::inp::SetKind;
 /// The cards of one `*MATERIAL`.
 struct MaterialCards {
   const Card* material = nullptr;
-  const Card *elastic = nullptr, *plastic = nullptr, *density = nullptr, *creep = nullptr;
+  const Card *elastic = nullptr, *plastic = nullptr, *density = nullptr, *creep = nullptr,
+             *expansion = nullptr;
 };
 
 std::vector<MaterialCards> material_cards(const InpModel& m) {
@@ -37,18 +37,24 @@ std::vector<MaterialCards> material_cards(const InpModel& m) {
     if (card.keyword == "PLASTIC") set(card, &MaterialCards::plastic);
     if (card.keyword == "DENSITY") set(card, &MaterialCards::density);
     if (card.keyword == "CREEP") set(card, &MaterialCards::creep);
+    if (card.keyword == "EXPANSION") set(card, &MaterialCards::expansion);
   }
   return all;
 }
 
-/// The only line of a card whose numbers do not depend on the temperature.
+/// The first line of a card whose numbers do not depend on the temperature, which stands last.
 const Line& constant_line(const InpModel& m, const Card& card, const char* what) {
   const auto lines = io::inp::lines_of(m.deck, card);
-  if (lines.size() > 1)
-    io::inp::fail(
-        m.deck, lines[1].at,
-        fmt::format("*{}: numbers that depend on the temperature are not supported", card.keyword));
-  return only_line(m, card, what);
+  if (lines.size() < 2) return only_line(m, card, what);
+  const auto numbers = [&](const Line& line) {
+    return line.text.substr(0, line.text.find_last_of(','));
+  };
+  for (const Line& line : lines)
+    if (numbers(line) != numbers(lines[0]))
+      io::inp::fail(m.deck, line.at,
+                    fmt::format("*{}: numbers that depend on the temperature are not supported",
+                                card.keyword));
+  return lines[0];
 }
 
 double density_of(const InpModel& m, const MaterialCards& c) {
@@ -131,28 +137,6 @@ const char* law_of(const InpModel& m, const MaterialCards& c) {
   return m.finite ? "st_venant_kirchhoff" : "linear_elastic";
 }
 
-/// What `element` of a section a set of elements in the plane is.
-const char* plane_element(const InpModel& m, const Card& section, std::string_view elements) {
-  std::set<std::string> all, own;
-  for (const Card& card : m.deck.cards) {
-    if (card.keyword != "ELEMENT") continue;
-    const std::string type = option_of(card, "TYPE");
-    const std::string family = type.substr(0, 3);
-    if (family != "CPE" && family != "CPS" && family != "CAX") continue;
-    all.insert(family);
-    if (option_of(card, "ELSET") == io::inp::capitals(elements)) own.insert(family);
-  }
-  const std::set<std::string>& found = all.size() == 1 ? all : own;
-  if (found.size() != 1)
-    io::inp::fail(
-        m.deck, section,
-        fmt::format("the elements of '{}' are of several kinds (or in sets of sets): name "
-                    "a set of *ELEMENT, of one kind",
-                    printable(elements)));
-  if (*found.begin() == "CPE") return "plane_strain";
-  return *found.begin() == "CPS" ? "plane_stress" : "axisymmetric";
-}
-
 /// Fails for cells of the highest dimension that no section has: they would not be there.
 void require_sections(const InpModel& m, SourceNode& sections) {
   const mesh::Mesh& mesh = m.mesh.mesh;
@@ -174,21 +158,6 @@ void require_sections(const InpModel& m, SourceNode& sections) {
   }
 }
 
-void note_reduced(InpModel& m) {
-  std::set<std::string> reduced;
-  for (const Card& card : m.deck.cards) {
-    if (card.keyword != "ELEMENT") continue;
-    const std::string type = option_of(card, "TYPE");
-    if (type.ends_with("R") || type.ends_with("RH")) reduced.insert(type);
-  }
-  if (reduced.empty()) return;
-  std::string text;
-  for (const std::string& one : reduced) text += (text.empty() ? "" : ", ") + one;
-  m.notes.push_back(fmt::format(
-      "elements {} are integrated fully here, those of first order with `formulation: auto`",
-      text));
-}
-
 }  // namespace
 
 SourceNode inp_materials(InpModel& m) {
@@ -204,32 +173,31 @@ SourceNode inp_materials(InpModel& m) {
     put_elastic(m, c, law);
     if (c.plastic) put_plastic(m, *c.plastic, law);
     if (c.creep) put_creep(m, *c.creep, law);
+    if (c.expansion && has_temperatures(m))
+      put(material, "expansion", inp_expansion(m, *c.expansion));
   }
   return materials;
 }
 
 SourceNode inp_sections(InpModel& m) {
   SourceNode sections = inp_list(1);
-  note_reduced(m);
   for (const Card& card : m.deck.cards) {
     if (card.keyword != "SOLIDSECTION") continue;
     const int line = line_of(card.at);
     if (!option_of(card, "ORIENTATION").empty())
       io::inp::fail(m.deck, card, "ORIENTATION is not supported: materials are isotropic");
-    const std::string& elements = value_of(m, card, "ELSET");
-    const std::string& set = set_of(m, card.at, elements, {SetKind::elements});
-    SourceNode& section = sections.items.emplace_back(inp_map(line));
-    put(section, "on", inp_text(set, line));
-    put(section, "material", inp_text(plain_name(value_of(m, card, "MATERIAL")), line));
-    const mesh::Set* const cells = m.mesh.mesh.find_set(set);
-    const bool solid = cells && cells->dimension == 3;
-    const char* const element = solid ? "solid" : plane_element(m, card, elements);
-    put(section, "element", inp_text(element, line));
-    put(section, "kinematics", inp_text(m.finite ? "finite" : "small", line));
-    const auto lines = io::inp::lines_of(m.deck, card);
-    if (solid || lines.empty() || std::string_view(element) == "axisymmetric") continue;
-    const double thickness = Fields(m.deck, lines[0]).real_or_zero("the thickness");
-    if (thickness > 0) put(section, "thickness", inp_number(thickness, line_of(lines[0].at)));
+    for (const InpElements& part : elements_of(m, card)) {
+      SourceNode& section = sections.items.emplace_back(inp_map(line));
+      put(section, "on", inp_text(part.set, line));
+      put(section, "material", inp_text(plain_name(value_of(m, card, "MATERIAL")), line));
+      put(section, "element", inp_text(std::string(part.element), line));
+      put(section, "kinematics", inp_text(m.finite ? "finite" : "small", line));
+      put(section, "formulation", inp_text(std::string(part.formulation), line));
+      const auto lines = io::inp::lines_of(m.deck, card);
+      if (lines.empty() || part.element == "solid" || part.element == "axisymmetric") continue;
+      const double thickness = Fields(m.deck, lines[0]).real_or_zero("the thickness");
+      if (thickness > 0) put(section, "thickness", inp_number(thickness, line_of(lines[0].at)));
+    }
   }
   require_sections(m, sections);
   return sections;

@@ -65,8 +65,30 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 
 [[nodiscard]] SourceNode inp_materials(InpModel& m);
 [[nodiscard]] SourceNode inp_sections(InpModel& m);
+/// A set of elements, and the words of a section that their types stand for.
+struct InpElements {
+  std::string set;
+  std::string_view element, formulation;
+};
+/// The elements of a `*SOLID SECTION`: all of them, or by their types where these differ in that.
+///
+/// Tested by  tests/unit/deck/test_inp_elements.cpp
+[[nodiscard]] std::vector<InpElements> elements_of(const InpModel& m, const io::inp::Card& section);
 /// Mass per volume of the material of a section; none: no section has this set of elements.
 [[nodiscard]] std::optional<double> density_on(const InpModel& m, std::string_view elements);
+
+/// Whether some step has temperatures: without, materials need no expansion.
+[[nodiscard]] bool has_temperatures(const InpModel& m);
+/// A set of nodes and its temperature.
+struct NodeValue {
+  std::string on;
+  double value;
+};
+[[nodiscard]] NodeValue temperature_of(const InpModel& m, const io::inp::Line& line);
+/// `expansion` of a material, from its `*EXPANSION`.
+[[nodiscard]] SourceNode inp_expansion(const InpModel& m, const io::inp::Card& card);
+[[nodiscard]] SourceNode inp_initial_temperature(const InpModel& m);
+
 [[nodiscard]] SourceNode inp_contact(InpModel& m);
 /// What the cards of a step change of contact pairs; empty: nothing.
 [[nodiscard]] SourceNode inp_changes(const InpModel& m, std::span<const io::inp::Card> step);

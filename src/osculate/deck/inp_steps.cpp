@@ -70,6 +70,7 @@ class Steps {
     if (key == "CLOAD") read_forces(card);
     if (key == "DLOAD") read_distributed(card);
     if (key == "DSLOAD") read_on_surfaces(card);
+    if (key == "TEMPERATURE") read_temperatures(card);
   }
 
   // ---- steps ----------------------------------------------------------------------------------
@@ -87,6 +88,7 @@ class Steps {
     released_.clear();
     for (Conditions* const values : {&prescribed_, &forces_, &pressures_, &body_forces_})
       for (auto& [key, value] : *values) value.fresh = false;
+    for (auto& [on, value] : temperatures_) value.fresh = false;
     if (out_.steps.items.empty())
       for (auto& [key, value] : prescribed_) value.fresh = true;  // said before the first step
   }
@@ -160,6 +162,7 @@ class Steps {
     put_directions(step, "body_force", "fx", body_forces_);
     SourceNode changes = inp_changes(m_, std::span(step_, &card));
     if (!changes.items.empty()) put(step, "contact", std::move(changes));
+    put_temperatures(step);
     forget_removed();
     total_time_ += period_;
     step_ = nullptr;
@@ -364,6 +367,25 @@ class Steps {
     }
   }
 
+  void read_temperatures(const Card& card) {
+    for (const char* const other : {"FILE", "USER", "BSTEP"})
+      if (io::inp::find_parameter(card, other))
+        io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
+    Conditions none;
+    const std::string amplitude = start(card, none);
+    const auto old = [](const auto& one) { return !one.second.fresh; };
+    if (option_of(card, "OP") == "NEW" && std::ranges::any_of(temperatures_, old))
+      io::inp::fail(m_.deck, card,
+                    "OP=NEW is not supported after a step with temperatures: write those that "
+                    "nodes go back to");
+    for (const Line& line : io::inp::lines_of(m_.deck, card)) {
+      NodeValue of = temperature_of(m_, line);
+      std::erase_if(temperatures_, [&](const auto& one) { return one.first == of.on; });
+      temperatures_.emplace_back(std::move(of.on),
+                                 Condition{of.value, amplitude, line_of(line.at), true});
+    }
+  }
+
   /// 3 as soon as there is a volume.
   [[nodiscard]] int dimension() const {
     for (const mesh::Block& block : m_.mesh.mesh.blocks)
@@ -405,6 +427,19 @@ class Steps {
       put_amplitude(entry, one.second);
     }
     if (!list.items.empty()) put(step, "pressure", std::move(list));
+  }
+
+  /// In the order of the deck: of a node in several sets the last counts.
+  void put_temperatures(SourceNode& step) {
+    SourceNode list = inp_list(line_of(step_->at));
+    for (const auto& [on, value] : temperatures_) {
+      if (!value.fresh && value.amplitude.empty()) continue;
+      SourceNode& entry = list.items.emplace_back(inp_map(value.line));
+      put(entry, "on", inp_text(on, value.line));
+      put(entry, "value", inp_number(value.size, value.line));
+      put_amplitude(entry, value);
+    }
+    if (!list.items.empty()) put(step, "temperature", std::move(list));
   }
 
   /// Loads of steps in time act at once and displacements are ramped, where they name no amplitude.
@@ -451,6 +486,7 @@ class Steps {
   std::map<std::string, Table> tables_;
   Conditions prescribed_, forces_, pressures_, body_forces_;
   std::set<std::pair<Conditions*, Conditions::key_type>> released_;
+  std::vector<std::pair<std::string, Condition>> temperatures_;
 };
 
 }  // namespace

@@ -169,6 +169,7 @@ TranslatedDeck translate_deck(const io::inp::Deck& deck) {
   put_unless_empty("sections", inp_sections(m));
   put_unless_empty("contact", inp_contact(m));
   put_unless_empty("equations", inp_equations(m));
+  put_unless_empty("initial_temperature", inp_initial_temperature(m));
   InpSteps steps = inp_steps(m);
   put_unless_empty("amplitudes", std::move(steps.amplitudes));
   put(out.root, "steps", std::move(steps.steps));

@@ -23,7 +23,41 @@ std::string keys_of(const Is& is) {
   return core::join(keys);
 }
 
-/// One key a law.
+/// Pairs of temperature and coefficient, or one coefficient.
+BoundKey<Material> expansion_key() {
+  const Spec pair = list("One pair [T, alpha].", number("Temperature, or coefficient."))
+                        .count(2, 2)
+                        .such_as("[100, 1.2e-5]");
+  const Spec alpha =
+      either("Mean coefficient of thermal expansion from the reference temperature on.",
+             {number("One for all temperatures.").in("1/temperature"),
+              list("Pairs [T, alpha], T increasing; straight between them, constant beyond.", pair)
+                  .count(1)})
+          .such_as("1.2e-5");
+  const Spec reference =
+      number(
+          "Temperature that the coefficients of a table count from. It does not matter for one "
+          "coefficient: free of stress is the initial temperature.")
+          .in("temperature")
+          .otherwise("0")
+          .such_as("20");
+  return {
+      optional("expansion", map("Strain by the temperature.",
+                                {required("alpha", alpha), optional("reference", reference)})
+                                .such_as("{alpha: 1.2e-5}")),
+      [](Material& m, const Value& v) {
+        m.expansion.reference = v.at("reference").number;
+        const Value& given = v.at("alpha");
+        if (given.alternative == 0) m.expansion.table.push_back({0, given.number});
+        for (const Value& row : given.items) {
+          if (!m.expansion.table.empty() && !(row.items[0].number > m.expansion.table.back()[0]))
+            throw core::InputError(row.mark, "temperatures must increase");
+          m.expansion.table.push_back({row.items[0].number, row.items[1].number});
+        }
+      }};
+}
+
+/// One key a law, and the expansion.
 BoundKeys<Material> material_keys() {
   std::vector<BoundKey<Material>> keys;
   material::for_each_law([&]<class T>(const T&) {
@@ -35,6 +69,7 @@ BoundKeys<Material> material_keys() {
                           m.marks.emplace_back(p.key, value->mark);
                     }});
   });
+  keys.push_back(expansion_key());
   return keys;
 }
 
@@ -50,7 +85,8 @@ void check_material(const Value&, const Material& m) {
 
 BoundKey<Description> materials_key() {
   Spec law = material_keys().spec("A material: exactly one law.");
-  const std::vector<std::string> keys = names_of(law.keys);
+  std::vector<std::string> keys = names_of(law.keys);
+  keys.pop_back();  // the expansion
   law = law.with(Group::Rule::exactly_one, keys)
             .or_else(fmt::format("; a material is NAME: {{LAW: {{E: ..., nu: ...}}}} with one of "
                                  "the laws {}; others are not available (osculate doc limits)",

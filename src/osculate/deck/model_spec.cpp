@@ -47,8 +47,8 @@ BoundKeys<Description> model_keys() {
            text("What is computed; heads the report.").such_as("Block pressed on a rigid base")),
        unread<D>(optional("parameters", parameters_spec())), mesh_key(), sets_key(),
        materials_key(), sections_key(), rigid_key(), contact_key(), amplitudes_key(),
-       equations_key(), equal_key(), initial_velocity_key(), steps_key(), solver_key(),
-       output_key()}};
+       equations_key(), equal_key(), initial_velocity_key(), initial_temperature_key(), steps_key(),
+       solver_key(), output_key()}};
 }
 
 Spec model_spec() {

@@ -21,6 +21,7 @@ namespace osculate::deck {
 [[nodiscard]] BoundKey<Description> equations_key();
 [[nodiscard]] BoundKey<Description> equal_key();
 [[nodiscard]] BoundKey<Description> initial_velocity_key();
+[[nodiscard]] BoundKey<Description> initial_temperature_key();
 [[nodiscard]] BoundKey<Description> steps_key();
 [[nodiscard]] BoundKey<Description> solver_key();
 [[nodiscard]] BoundKey<Description> output_key();

@@ -164,6 +164,28 @@ BoundKey<Step> pressure_key() {
       [keys](Step& s, const Value& v) { s.pressure = keys.read_all(v); }};
 }
 
+/// `on` and `value`: temperatures, of a step with an amplitude.
+BoundKeys<Load> temperature_keys(bool of_step) {
+  std::vector<BoundKey<Load>> keys{
+      on_key<Load>("Set, of whose nodes it is.", "block"),
+      {required("value", number(of_step ? "Temperature at the end of the step."
+                                        : "Temperature at the beginning, free of strain.")
+                             .in("temperature")
+                             .such_as("80")),
+       [](Load& load, const Value& v) { store(load.values[0], v); }}};
+  if (of_step) keys.push_back(amplitude_key());
+  return keys;
+}
+BoundKey<Step> temperature_key() {
+  return {optional("temperature",
+                   list("Temperatures of nodes, for materials with an `expansion`; of a node in "
+                        "several sets the last counts.",
+                        temperature_keys(true).spec("One temperature."))
+                       .otherwise("[]")
+                       .such_as("[{on: block, value: 80}]")),
+          [](Step& s, const Value& v) { s.temperature = temperature_keys(true).read_all(v); }};
+}
+
 BoundKey<Step> traction_key() {
   return loads(
       &Step::traction, "traction", "[{on: top, tx: 3}]",
@@ -215,6 +237,7 @@ BoundKeys<Step> step_keys() {
            pressure_key(),
            traction_key(),
            body_force_key(),
+           temperature_key(),
            may(&S::gravity, "gravity", gravity_spec()),
            contact_changes_key(),
            {optional("dynamics", dynamics_spec()),
@@ -357,6 +380,18 @@ BoundKey<Description> initial_velocity_key() {
                               "One velocity.", velocity_keys(), velocity_parts())
                        .such_as("[{on: ball, vy: -2}]")),
           [](Description& d, const Value& v) { d.initial_velocity = velocity_keys().read_all(v); }};
+}
+
+BoundKey<Description> initial_temperature_key() {
+  return {optional("initial_temperature",
+                   list("Temperatures of nodes before the first step, at which bodies are free of "
+                        "strain; 0 where none is given.",
+                        temperature_keys(false).spec("One temperature."))
+                       .otherwise("[]")
+                       .such_as("[{on: block, value: 20}]")),
+          [](Description& d, const Value& v) {
+            d.initial_temperature = temperature_keys(false).read_all(v);
+          }};
 }
 
 BoundKey<Description> steps_key() {

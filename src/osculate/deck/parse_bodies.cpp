@@ -52,7 +52,7 @@ BoundKeys<Section> section_keys() {
   const Spec formulation =
       choice(
           "How first-order quadrilaterals and hexahedra avoid locking; all other cells are plain "
-          "displacement elements.",
+          "displacement elements, those of second order, on demand, of reduced integration.",
           {word("auto", Formulation::automatic,
                 "enhanced; of neo_hooke, where enhanced strains are unstable in large compression, "
                 "and of " +
@@ -65,7 +65,10 @@ BoundKeys<Section> section_keys() {
                 "averaged volume change, for nearly incompressible (Abaqus' CPE4, CAX4 and C3D8)"),
            word("enhanced", Formulation::enhanced,
                 "enhanced strains, for bending and nearly incompressible (CalculiX' C3D8I, Abaqus' "
-                "CPS4I, CPE4I, CAX4I and C3D8I)")})
+                "CPS4I, CPE4I, CAX4I and C3D8I)"),
+           word("reduced", Formulation::reduced,
+                "fewer points: of quad4 and hex8 one, with hourglass control, of quad8 and hex20 "
+                "two along each axis (Abaqus' and CalculiX' elements whose names end in R)")})
           .otherwise("auto")
           .such_as("bbar");
   return {{need(&S::on, "on", set_or_sets("Set of area cells, in space of volume cells.", "block")),

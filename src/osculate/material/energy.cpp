@@ -1,26 +1,31 @@
 #include "osculate/material/energy.hpp"
 
+#include "osculate/material/expansion.hpp"
+#include "osculate/material/law.hpp"
+
 namespace osculate::material {
 namespace {
 
 template <class StrainType>
-double energy(const Law& law, const StrainType& strain, [[maybe_unused]] const double* state) {
+double energy(const Law& law, const StrainType& strain, const Memory& memory) {
+  const Expanded by(finite_strain(law), memory);
+  const StrainType elastic = by.elastic(strain);
   const auto of = [&]<class T>(const T& l) {
     if constexpr (Remembers<T>)
-      return energy_of(l, in_space(strain), state);
+      return energy_of(l, in_space(elastic), memory.committed);
     else
-      return energy_of(l, strain);
+      return energy_of(l, elastic);
   };
-  return std::visit(of, law);
+  return by.volume() * std::visit(of, law);
 }
 
 }  // namespace
 
-double stored_energy(const Law& law, const Strain& strain, const double* state) {
-  return energy(law, strain, state);
+double stored_energy(const Law& law, const Strain& strain, const Memory& memory) {
+  return energy(law, strain, memory);
 }
-double stored_energy(const Law& law, const Strain3& strain, const double* state) {
-  return energy(law, strain, state);
+double stored_energy(const Law& law, const Strain3& strain, const Memory& memory) {
+  return energy(law, strain, memory);
 }
 
 double dissipated_energy(const Law& law, const double* state) {

@@ -1,5 +1,7 @@
 #include "osculate/material/law.hpp"
 
+#include "osculate/material/expansion.hpp"
+
 namespace osculate::material {
 namespace {
 
@@ -29,6 +31,27 @@ StressOf<N> stress_alone(const T& law, const Vec<N>& strain,
     return stress_of(law, strain, memory);
   else
     return stress_of(law, strain);
+}
+
+template <int N>
+ResponseOf<N> expanded_answer(const Law& law, const Vec<N>& strain, const Memory& memory) {
+  const auto at = [&](const Vec<N>& elastic) {
+    return std::visit([&](const auto& m) { return answer(m, elastic, memory); }, law);
+  };
+  if (!memory.expansion) return at(strain);
+  const Expanded by(finite_strain(law), memory);
+  return by.response(at(by.elastic(strain)));
+}
+template <int N>
+StressOf<N> expanded_stress(const Law& law, const Vec<N>& strain, const Memory& memory) {
+  const auto at = [&](const Vec<N>& elastic) {
+    return std::visit([&](const auto& m) { return stress_alone(m, elastic, memory); }, law);
+  };
+  if (!memory.expansion) return at(strain);
+  const Expanded by(finite_strain(law), memory);
+  StressOf<N> s = at(by.elastic(strain));
+  s.stress *= by.stretch();
+  return s;
 }
 
 /// The law with the constants.
@@ -117,33 +140,35 @@ std::string range_problem(const Law& law) {
 }
 
 Response response(const Law& law, const Strain& strain, const Memory& memory) {
-  return std::visit([&](const auto& m) { return answer(m, strain, memory); }, law);
+  return expanded_answer(law, strain, memory);
 }
 template <std::same_as<Strain3> S>
 Response3 response(const Law& law, const S& strain, const Memory& memory) {
-  return std::visit([&](const auto& m) { return answer(m, strain, memory); }, law);
+  return expanded_answer(law, strain, memory);
 }
 template Response3 response(const Law&, const Strain3&, const Memory&);
 
 StressOf<4> stress(const Law& law, const Strain& strain, const Memory& memory) {
-  return std::visit([&](const auto& m) { return stress_alone(m, strain, memory); }, law);
+  return expanded_stress(law, strain, memory);
 }
 
 StressOf<6> stress(const Law& law, const Strain3& strain, const Memory& memory) {
-  return std::visit([&](const auto& m) { return stress_alone(m, strain, memory); }, law);
+  return expanded_stress(law, strain, memory);
 }
 
 Response plane_stress_response(const Law& law, const Strain& strain, double* strain_33,
                                const Memory& memory) {
+  const Expanded by(finite_strain(law), memory);
+  const Strain elastic = by.elastic(strain);
   double found = 0;
   const auto of = [&]<class T>(const T& m) {
     if constexpr (Remembers<T>)
-      return respond_plane_stress(m, strain, found, memory);
+      return respond_plane_stress(m, elastic, found, memory);
     else
-      return respond_plane_stress(m, strain, found);
+      return respond_plane_stress(m, elastic, found);
   };
-  const Response r = std::visit(of, law);
-  if (strain_33) *strain_33 = found;
+  const Response r = by.response(Response(std::visit(of, law)));
+  if (strain_33) *strain_33 = by.total(found);
   return r;
 }
 

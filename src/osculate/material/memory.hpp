@@ -21,10 +21,11 @@ struct Memory {
   double* next = nullptr;             ///< null: not asked for
   std::size_t size = 0;               ///< numbers a point
   double duration = 0;                ///< of the increment, for laws that depend on time
+  const double* expansion = nullptr;  ///< strain by the temperature, one number a point; null: none
 
   [[nodiscard]] Memory at(std::size_t point) const {
     return {committed ? committed + point * size : nullptr, next ? next + point * size : nullptr,
-            size, duration};
+            size, duration, expansion ? expansion + point : nullptr};
   }
 };
 

@@ -43,11 +43,11 @@ void add_memory(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& secti
   if (memory.size == 0) return;
   const CellNodes cell = cell_nodes(model.mesh, ref);
   const auto numbers = static_cast<Eigen::Index>(memory.size);
-  const Eigen::MatrixXd nodal = solid::at_nodes(
-      section_on(section, cell.type), cell.type,
-      Eigen::Map<const Eigen::MatrixXd>(state.data() + memory.first, numbers,
-                                        static_cast<Eigen::Index>(memory.count) / numbers)
-          .transpose());
+  const Eigen::MatrixXd nodal =
+      solid::at_nodes(section_on(section, cell.type), cell.type,
+                      Eigen::Map<const Eigen::MatrixXd>(state.data() + memory.first, numbers,
+                                                        static_cast<Eigen::Index>(memory.points))
+                          .transpose());
   const std::span<const material::Remembered> names = material::memory_of(section.section.law);
   for (std::size_t i = 0; i < names.size(); ++i) {
     auto field =

@@ -61,7 +61,7 @@ void LinearCells<Dim>::force(std::size_t number, const BasicModel<Dim>& model,
                              const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
                              const Eigen::VectorXd& u, const material::Memory& memory,
                              BasicBulkBlock<Dim>& out) {
-  if (!kept(number) || !keeps_digits(section)) {
+  if (!kept(number) || !keeps_digits(section) || memory.expansion) {
     evaluate_cell(model, section, cell, u, memory, false, out);
     return;
   }

@@ -82,6 +82,20 @@ struct Frequencies {
   int modes = 1;
 };
 
+/// Temperatures of nodes over a step.
+///
+/// Tested by  tests/unit/model/test_temperatures.cpp
+struct Temperatures {
+  struct Change {
+    std::vector<Index> nodes;
+    double target = 0;
+    Amplitude amplitude;
+  };
+  std::vector<double> start;    ///< of all nodes; empty: no temperature is known
+  std::vector<Change> changes;  ///< the last one of a node counts
+  [[nodiscard]] std::vector<double> at(double fraction) const;
+};
+
 /// Everything that acts during one step, compiled from the model file.
 struct Step {
   std::string name;
@@ -90,8 +104,9 @@ struct Step {
   std::vector<PrescribedDof> prescribed;
   std::vector<DeadLoad> dead;
   std::vector<PressureLoad> pressure;
-  std::optional<Dynamics> dynamics;             ///< empty: without inertia
-  std::optional<Frequencies> frequencies{};     ///< nothing moves: vibrations are looked for
+  std::optional<Dynamics> dynamics;          ///< empty: without inertia
+  std::optional<Frequencies> frequencies{};  ///< nothing moves: vibrations are looked for
+  Temperatures temperature;
   std::vector<Ramp> gravity;                    ///< acceleration in every direction; empty: none
   double equation_start = 1, equation_end = 1;  ///< ramp of the constants of the equations
 };

@@ -8,17 +8,27 @@
 namespace osculate::model {
 
 /// Where the material points of all cells keep what they remember: numbers one after the other, in
-/// the order of sections, cells and points. Cells of laws that remember nothing have none.
+/// the order of sections, cells and points. Cells of laws that remember nothing have none. Behind
+/// them stand the strains by the temperature, one a point, of cells that expand.
 struct CellMemory {
-  std::size_t first = 0;  ///< of the cell's numbers
-  std::size_t size = 0;   ///< numbers a point
-  std::size_t count = 0;  ///< of the cell
+  std::size_t first = 0;   ///< of the cell's numbers
+  std::size_t size = 0;    ///< numbers of the law a point
+  std::size_t count = 0;   ///< of the cell
+  std::size_t points = 0;  ///< where there are numbers
+  bool expands = false;
 
   /// `next` may be empty: what comes next is not asked for. `duration` of the increment.
   [[nodiscard]] material::Memory of(std::span<const double> committed, std::span<double> next = {},
                                     double duration = 0) const {
-    if (size == 0) return {};
-    return {committed.data() + first, next.empty() ? nullptr : next.data() + first, size, duration};
+    if (count == 0) return {};
+    material::Memory memory{committed.data() + first, next.empty() ? nullptr : next.data() + first,
+                            size, duration};
+    if (expands) memory.expansion = (memory.next ? memory.next : memory.committed) + size * points;
+    return memory;
+  }
+  /// The strains by the temperature.
+  [[nodiscard]] std::span<double> expansion(std::span<double> of) const {
+    return of.subspan(first + size * points, expands ? points : 0);
   }
 };
 
@@ -29,7 +39,10 @@ template <int Dim>
 [[nodiscard]] CellMemory memory_after(const CellMemory& before,
                                       const BasicBulkSection<Dim>& section, cell::CellType type) {
   CellMemory here{before.first + before.count, material::memory_of(section.section.law).size()};
-  if (here.size > 0) here.count = here.size * solid::point_count(section_on(section, type), type);
+  here.expands = !section.section.expansion.table.empty();
+  if (here.size == 0 && !here.expands) return here;
+  here.points = solid::point_count(section_on(section, type), type);
+  here.count = (here.size + (here.expands ? 1 : 0)) * here.points;
   return here;
 }
 

@@ -83,6 +83,7 @@ struct BasicModel {
   std::vector<Equation> equations;
   std::vector<Step> steps;
   std::vector<std::pair<Dof, double>> initial_velocity;  ///< of primary dofs; zero elsewhere
+  std::vector<double> initial_temperature;               ///< of all nodes; empty: none is known
 };
 
 using BulkSection = BasicBulkSection<2>;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "osculate/model/system_explicit.hpp"
+#include "osculate/model/temperatures.hpp"
 
 namespace osculate::model {
 namespace {
@@ -123,6 +124,7 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   State start = committed;
   start.rates = rates;
   load(start);
+  expand(system.model, system.step.temperature, 0, system.last.memory);
   if (!add_cells(motion.position, 0)) return rates;  // the first time step says why
   add_contact(0, 0);
   add_loads(0);

@@ -154,6 +154,8 @@ const char* formulation_name(solid::Formulation formulation) {
       return "enhanced strains";
     case solid::Formulation::solid_shell:
       return "solid shell";
+    case solid::Formulation::reduced:
+      return "reduced integration";
   }
   return "";
 }

@@ -7,6 +7,7 @@
 #include "osculate/solid/finite_forces.hpp"
 #include "osculate/solid/mean_dilatation.hpp"
 #include "osculate/solid/points.hpp"
+#include "osculate/solid/reduced.hpp"
 #include "osculate/solid/solid_shell.hpp"
 #include "osculate/solid/solid_shell_strain.hpp"
 
@@ -35,6 +36,29 @@ void evaluate_full(const Section<Dim>& section, CellType type, const Coordinates
     }
     sum.add(p, r);
   }
+  sum.finish(out);
+}
+
+/// One point, and the energy of the modes that it does not see.
+template <int Dim>
+void evaluate_one_point(const Section<Dim>& section, const Coordinates<Dim>& reference,
+                        const Coordinates<Dim>& displacement, const material::Memory& memory,
+                        bool with_tangent, ElementResult<Dim>& out) {
+  CornerPoint<Dim> p;
+  if (!fill_mean_point<Dim>(section, reference, displacement, p)) {
+    out.status = Status::inverted;
+    return;
+  }
+  const auto r = point_response(section, p.strain, memory);
+  if (!r.ok) {
+    out.status = Status::material_failed;
+    return;
+  }
+  const Hourglass<Dim> rest = hourglass<Dim>(section, reference, displacement, p, with_tangent);
+  CellSum<Dim, corners<Dim>> sum(section, corners<Dim>, with_tangent);
+  sum.add(p, r);
+  sum.force += rest.force;
+  if (with_tangent) sum.tangent += rest.tangent;
   sum.finish(out);
 }
 
@@ -128,7 +152,10 @@ void evaluate_whole(const Section<Dim>& section, CellType type, const Coordinate
     evaluate_full<N>(section, type, reference, displacement, memory, with_tangent, out);
   };
   out.status = Status::ok;
-  if (section.formulation != Formulation::full)
+  const bool reduced = section.formulation == Formulation::reduced;
+  if (reduced && type == corner_cell<Dim>)
+    evaluate_one_point<Dim>(section, reference, displacement, memory, with_tangent, out);
+  else if (!reduced && section.formulation != Formulation::full)
     evaluate_corners(section, reference, displacement, memory, with_tangent, out);
   else if (type == corner_cell<Dim>)
     evaluate_full_of.template operator()<corners<Dim>>();
@@ -138,17 +165,19 @@ void evaluate_whole(const Section<Dim>& section, CellType type, const Coordinate
     evaluate_full_of.template operator()<Eigen::Dynamic>();
 }
 
+bool full_or_bbar(Formulation formulation) {
+  return formulation == Formulation::full || formulation == Formulation::bbar;
+}
 /// The cells that explicit analyses have by the thousand.
 bool has_forces_alone(const Section<2>& section, CellType type) {
   return section.kinematics == Kinematics::finite &&
-         section.assumption == Assumption::plane_strain &&
-         section.formulation != Formulation::enhanced && type == CellType::quad4;
+         section.assumption == Assumption::plane_strain && full_or_bbar(section.formulation) &&
+         type == CellType::quad4;
 }
 bool has_forces_alone(const Section<3>& section, CellType type) {
   if (section.kinematics != Kinematics::finite) return false;
   if (type == CellType::tet4) return section.formulation == Formulation::full;
-  return type == CellType::hex8 &&
-         (section.formulation == Formulation::full || section.formulation == Formulation::bbar);
+  return type == CellType::hex8 && full_or_bbar(section.formulation);
 }
 
 template <int Dim>
@@ -171,6 +200,15 @@ void evaluate_forces(const Section<Dim>& section, CellType type, const Coordinat
   set(corner);
 }
 
+/// Reference coordinates of a point.
+template <int Dim>
+Vec<Dim> point_of(const Section<Dim>& section, CellType type, std::size_t point) {
+  if constexpr (Dim == 3) {
+    if (section.formulation == Formulation::solid_shell) return shell_rule(type).points[point].xi;
+  }
+  return rule_of(section, type).points[point];
+}
+
 }  // namespace
 
 template <int Dim>
@@ -188,6 +226,11 @@ std::string_view unsupported(const Section<Dim>& section, CellType type) {
   if (section.formulation == Formulation::solid_shell) {
     if (type == CellType::hex8 || type == CellType::shell18) return {};
     return "formulation solid_shell exists for hex8 and shell18 cells only; use full";
+  }
+  if (section.formulation == Formulation::reduced) {
+    if (type == corner_cell<Dim> || type == CellType::quad8 || type == CellType::hex20) return {};
+    return Dim == 2 ? "formulation reduced exists for quad4 and quad8 cells only; use auto"
+                    : "formulation reduced exists for hex8 and hex20 cells only; use auto";
   }
   if (type != corner_cell<Dim>)
     return Dim == 2 ? "formulations bbar and enhanced exist for quad4 cells only; use auto"
@@ -218,9 +261,27 @@ std::size_t point_count(const Section<Dim>& section, CellType type) {
 }
 
 template <int Dim>
+std::array<double, static_cast<std::size_t>(max_points<Dim>)> expansion_at_points(
+    const Section<Dim>& section, CellType type, std::span<const double> temperature,
+    std::span<const double> before) {
+  std::array<double, static_cast<std::size_t>(max_points<Dim>)> out{};
+  const std::size_t count = point_count(section, type);
+  for (std::size_t q = 0; q < count; ++q) {
+    const Vec<Dim> xi = point_of(section, type, q);
+    const Shape<Dim> shape = shape_at<Dim>(type, xi);
+    const auto at = [&](std::span<const double> nodal) {
+      return shape.n.head(shape.count)
+          .dot(Eigen::Map<const Eigen::VectorXd>(nodal.data(), shape.count));
+    };
+    out[q] = material::expansion(section.expansion, at(temperature), at(before));
+  }
+  return out;
+}
+
+template <int Dim>
 ElementVector<Dim> volume_weights(const Section<Dim>& section, CellType type,
                                   const Coordinates<Dim>& reference) {
-  const Rule<Dim>& rule = rule_of(section, type);
+  const Rule<Dim>& rule = rule_of<Dim>(type, is_ring(section));
   const Eigen::Index n = reference.rows();
   ElementVector<Dim> weights = ElementVector<Dim>::Zero(n);
   for (std::size_t q = 0; q < rule.weights.size(); ++q)
@@ -251,6 +312,12 @@ template void evaluate(const Section<3>&, CellType, const Coordinates<3>&, const
                        bool, ElementResult<3>&, const material::Memory&);
 template std::size_t point_count(const Section<2>&, CellType);
 template std::size_t point_count(const Section<3>&, CellType);
+template std::array<double, 9> expansion_at_points(const Section<2>&, CellType,
+                                                   std::span<const double>,
+                                                   std::span<const double>);
+template std::array<double, 27> expansion_at_points(const Section<3>&, CellType,
+                                                    std::span<const double>,
+                                                    std::span<const double>);
 template ElementVector<2> volume_weights(const Section<2>&, CellType, const Coordinates<2>&);
 template ElementVector<3> volume_weights(const Section<3>&, CellType, const Coordinates<3>&);
 template double smallest_jacobian<2>(CellType, const Coordinates<2>&);

@@ -1,9 +1,11 @@
 #pragma once
 #include <array>
+#include <span>
 #include <string_view>
 #include <type_traits>
 
 #include "osculate/cell/volume_shape.hpp"
+#include "osculate/material/expansion.hpp"
 #include "osculate/material/law.hpp"
 
 namespace osculate::solid {
@@ -13,8 +15,11 @@ enum class Kinematics { small, finite };
 /// full: plain displacement element. bbar: mean dilatation (quad4, hex8; not plane stress), against
 /// volumetric locking. enhanced: incompatible strain modes (four of quad4, five of it where
 /// axisymmetric, twelve of hex8), against bending and volumetric locking. solid_shell: assumed and
-/// enhanced strains of thin bodies in space (hex8, shell18).
-enum class Formulation { full, bbar, enhanced, solid_shell };
+/// enhanced strains of thin bodies in space (hex8, shell18). reduced: one point for quad4 and hex8,
+/// whose other modes are stabilised (reduced.hpp), two along each axis for quad8 and hex20, of
+/// which one cell alone keeps one mode (quad8) or six (hex20) without energy; cells that share
+/// sides do not have them together, but where they are few.
+enum class Formulation { full, bbar, enhanced, solid_shell, reduced };
 
 /// What a body in the plane or in space is made of.
 template <int Dim>
@@ -26,12 +31,14 @@ struct Section<2> {
   Formulation formulation = Formulation::full;
   double thickness = 1;
   material::Law law;
+  material::Expansion expansion{};
 };
 template <>
 struct Section<3> {
   Kinematics kinematics = Kinematics::small;
   Formulation formulation = Formulation::full;
   material::Law law;
+  material::Expansion expansion{};
 };
 
 /// Empty if the cell type can be used with the section, else the reason in plain words.
@@ -63,8 +70,8 @@ enum class Status { ok, inverted, material_failed };
 ///
 /// Formula    total Lagrange for finite kinematics: E = (F^T F - I)/2, S = dW/dE
 /// Units      force (plane: thickness; axisymmetric about the y axis: full circumference 2 pi R)
-/// Input      memory: of the points of the cell, for laws that remember. Without it nothing has
-///            happened to them yet
+/// Input      memory: of the points of the cell, for laws that remember and for temperatures.
+///            Without it nothing has happened to them yet
 /// Returns    out.status: inverted if det F <= 0 at a quadrature point (finite kinematics),
 ///            material_failed if the law, or the modes of the enhanced strains, have no answer;
 ///            force and tangent are then not to be used
@@ -127,6 +134,15 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Eigen::MatrixXd at_nodes(const Section<Dim>& section, cell::CellType type,
                                        const Eigen::MatrixXd& of_points);
+
+/// Strains that the temperatures give the points of a cell, for Memory::expansion.
+///
+/// Input      temperature, before: of the nodes, now and at first
+/// Tested by  tests/unit/solid/test_expansion.cpp
+template <int Dim>
+[[nodiscard]] std::array<double, static_cast<std::size_t>(max_points<Dim>)> expansion_at_points(
+    const Section<Dim>& section, cell::CellType type, std::span<const double> temperature,
+    std::span<const double> before);
 
 /// int N_k dV: what a unit body force per volume gives each node.
 template <int Dim>

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "osculate/material/energy.hpp"
+#include "osculate/solid/reduced.hpp"
 
 namespace osculate::solid {
 
@@ -18,8 +19,13 @@ CellEnergy cell_energy(const Section<Dim>& section, cell::CellType type,
     const double* const state = memory.at(q).committed;
     Vec<components<Dim>> strain = p.strain;
     strain.template tail<components<Dim> - 3>() *= 2;
-    energy.stored += p.volume * material::stored_energy(section.law, strain, state);
+    energy.stored += p.volume * material::stored_energy(section.law, strain, memory.at(q));
     if (state) energy.dissipated += p.volume * material::dissipated_energy(section.law, state);
+  }
+  if (section.formulation == Formulation::reduced && type == corner_cell<Dim>) {
+    CornerPoint<Dim> p;
+    if (fill_mean_point<Dim>(section, reference, displacement, p))
+      energy.stored += hourglass<Dim>(section, reference, displacement, p, false).energy;
   }
   return energy;
 }

@@ -103,6 +103,19 @@ const Rule<3>& rule_of<3>(cell::CellType type, bool) {
 }
 
 template <>
+const Rule<2>& reduced_rule_of<2>(cell::CellType type) {
+  static const Rule<2> one = with_shapes<2>(quad4, cell::gauss_quad(1)),
+                       four = with_shapes<2>(quad8, cell::gauss_quad(2));
+  return type == quad4 ? one : four;
+}
+template <>
+const Rule<3>& reduced_rule_of<3>(cell::CellType type) {
+  static const Rule<3> one = with_shapes<3>(hex8, cell::gauss_hex(1)),
+                       eight = with_shapes<3>(hex20, cell::gauss_hex(2));
+  return type == hex8 ? one : eight;
+}
+
+template <>
 Rule<2> mass_rule<2>(cell::CellType type) {
   return with_shapes<2>(type, area_mass_rule(type));
 }

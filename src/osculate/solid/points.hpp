@@ -31,8 +31,8 @@ template <int Dim>
     return cell::volume_node(type, node);
 }
 
-/// Quadrature of a cell type with the shape functions at its points. No formulation leaves a mode
-/// without energy.
+/// Quadrature of a cell type with the shape functions at its points. Fully integrated no cell has a
+/// mode without energy.
 template <int Dim>
 struct Rule {
   std::vector<Vec<Dim>> points;
@@ -41,6 +41,9 @@ struct Rule {
 };
 template <int Dim>
 [[nodiscard]] const Rule<Dim>& rule_of(cell::CellType type, bool ring = false);
+/// Two points along each axis for quad8 and hex20, one for quad4 and hex8.
+template <int Dim>
+[[nodiscard]] const Rule<Dim>& reduced_rule_of(cell::CellType type);
 /// One that is exact for N_i N_j times the Jacobian (and the radius of a ring) of a straight-sided
 /// cell.
 template <int Dim>
@@ -52,6 +55,7 @@ template <int Dim>
 [[nodiscard]] inline bool is_ring(const Section<3>&) { return false; }
 template <int Dim>
 [[nodiscard]] const Rule<Dim>& rule_of(const Section<Dim>& section, cell::CellType type) {
+  if (section.formulation == Formulation::reduced) return reduced_rule_of<Dim>(type);
   return rule_of<Dim>(type, is_ring(section));
 }
 
@@ -146,18 +150,47 @@ void fill_strain_matrix(const Mat<3, 3>& f, const Nodal& gradient, Strains& b) {
 }
 
 /// The strain of the circumference and its derivative.
+///
+/// Input      hoop: radial displacement over radius
+/// Requires   p.hoop
+template <int N>
+void fill_hoop_strain(bool finite, double hoop, Point<2, N>& p) {
+  p.ring = true;
+  p.f33 = 1 + hoop;
+  p.strain[2] = finite ? hoop + 0.5 * hoop * hoop : hoop;
+  for (Eigen::Index k = 0; k < p.hoop.size(); ++k)
+    p.b(2, 2 * k) = (finite ? p.f33 : 1.0) * p.hoop[k];
+}
 template <int N>
 void add_hoop(bool finite, const cell::AreaShape& shape,
               const typename Sizes<2, N>::Nodal& reference,
               const typename Sizes<2, N>::Nodal& displacement, Point<2, N>& p) {
   const Eigen::Index n = reference.rows();
-  p.ring = true;
   p.radius = reference.col(0).dot(shape.n.head(n));
   p.hoop = shape.n.head(n) / p.radius;
-  const double hoop = displacement.col(0).dot(shape.n.head(n)) / p.radius;
-  p.f33 = 1 + hoop;
-  p.strain[2] = finite ? hoop + 0.5 * hoop * hoop : hoop;
-  for (Eigen::Index k = 0; k < n; ++k) p.b(2, 2 * k) = (finite ? p.f33 : 1.0) * p.hoop[k];
+  fill_hoop_strain<N>(finite, displacement.col(0).dot(shape.n.head(n)) / p.radius, p);
+}
+
+/// Strain and its derivative from the gradients of the shape functions, but for circumferences.
+template <int Dim, int N>
+void fill_strains(bool finite, const typename Sizes<Dim, N>::Nodal& displacement,
+                  Point<Dim, N>& p) {
+  using Square = Mat<Dim, Dim>;
+  const Square h = displacement.transpose() * p.gradient;  // du_i/dX_j
+  p.f = Square::Identity() + h;
+  p.strain = strain_of(h);
+  if (finite) p.strain += 0.5 * strain_of(Square(h.transpose() * h));
+  p.b.resize(components<Dim>, Dim * displacement.rows());
+  fill_strain_matrix(finite ? p.f : Square(Square::Identity()), p.gradient, p.b);
+}
+/// Of finite kinematics; true for small ones.
+template <int Dim, int N>
+[[nodiscard]] bool one_to_one(bool finite, const Point<Dim, N>& p) {
+  if (!finite) return true;
+  if constexpr (Dim == 2) {
+    if (!(p.f33 > 0)) return false;
+  }
+  return p.f.determinant() > 0;
 }
 
 /// Fills `p`; false if det F is not positive (finite kinematics).
@@ -171,23 +204,14 @@ template <int Dim, int N>
   const Square jacobian = reference.transpose() * shape.d.topRows(n);  // dX_i/dxi_j
   p.determinant = jacobian.determinant();
   p.gradient.noalias() = shape.d.topRows(n) * jacobian.inverse();
-  const Square h = displacement.transpose() * p.gradient;  // du_i/dX_j
-  p.f = Square::Identity() + h;
-  p.strain = strain_of(h);
-  if (finite) p.strain += 0.5 * strain_of(Square(h.transpose() * h));
-  p.b.resize(components<Dim>, Dim * n);
-  fill_strain_matrix(finite ? p.f : Square(Square::Identity()), p.gradient, p.b);
+  fill_strains<Dim, N>(finite, displacement, p);
   double radius = 0;
   if constexpr (Dim == 2) {
     if (is_ring(section)) add_hoop<N>(finite, shape, reference, displacement, p);
     radius = p.radius;
   }
   p.volume = weight * p.determinant * depth_at(section, radius);
-  if (!finite) return true;
-  if constexpr (Dim == 2) {
-    if (!(p.f33 > 0)) return false;
-  }
-  return p.f.determinant() > 0;
+  return one_to_one(finite, p);
 }
 
 [[nodiscard]] inline material::Response point_response(const Section<2>& section,

@@ -6,6 +6,7 @@
 #include "osculate/solid/enhanced.hpp"
 #include "osculate/solid/mean_dilatation.hpp"
 #include "osculate/solid/points.hpp"
+#include "osculate/solid/reduced.hpp"
 #include "osculate/solid/solid_shell.hpp"
 
 namespace osculate::solid {
@@ -40,6 +41,14 @@ void see_full(const Section<Dim>& section, CellType type, const Coordinates<Dim>
       out.status = Status::inverted;
     out.set(q, p);
   }
+}
+
+template <int Dim>
+void see_one_point(const Section<Dim>& section, const Coordinates<Dim>& reference,
+                   const Coordinates<Dim>& displacement, Seen<Dim>& out) {
+  CornerPoint<Dim> p;
+  if (!fill_mean_point<Dim>(section, reference, displacement, p)) out.status = Status::inverted;
+  out.set(0, p);
 }
 
 template <int Count, int Dim>
@@ -128,6 +137,32 @@ Eigen::RowVectorXd basis(CellType type, std::size_t points, const Vec3& xi) {
   return b;
 }
 
+/// As many terms as there are points along the axes.
+Eigen::RowVectorXd reduced_basis(std::size_t points, const Vec2& xi) {
+  if (points == 1) return Eigen::RowVectorXd::Ones(1);
+  return Eigen::RowVector4d(1, xi.x(), xi.y(), xi.prod());
+}
+Eigen::RowVectorXd reduced_basis(std::size_t points, const Vec3& xi) {
+  if (points == 1) return Eigen::RowVectorXd::Ones(1);
+  Eigen::RowVectorXd b(8);
+  b << reduced_basis(4, Vec2(xi.head<2>())), xi.z() * reduced_basis(4, Vec2(xi.head<2>()));
+  return b;
+}
+
+template <int Dim>
+Eigen::MatrixXd make_reduced_extrapolation(CellType type) {
+  const std::vector<Vec<Dim>>& points = reduced_rule_of<Dim>(type).points;
+  return extrapolation<Dim>(type, points,
+                            [&](const Vec<Dim>& xi) { return reduced_basis(points.size(), xi); });
+}
+template <int Dim>
+const Eigen::MatrixXd& reduced_extrapolation_of(CellType type) {
+  static const Eigen::MatrixXd one = make_reduced_extrapolation<Dim>(corner_cell<Dim>),
+                               two = make_reduced_extrapolation<Dim>(Dim == 2 ? CellType::quad8
+                                                                              : CellType::hex20);
+  return type == corner_cell<Dim> ? one : two;
+}
+
 template <int Dim>
 Eigen::MatrixXd make_extrapolation(CellType type, bool ring = false) {
   const std::vector<Vec<Dim>>& points = rule_of<Dim>(type, ring).points;
@@ -137,6 +172,7 @@ Eigen::MatrixXd make_extrapolation(CellType type, bool ring = false) {
 
 /// Values at the nodes from those at the points.
 const Eigen::MatrixXd& extrapolation_of(const Section<2>& section, CellType type) {
+  if (section.formulation == Formulation::reduced) return reduced_extrapolation_of<2>(type);
   using enum CellType;
   static const std::array<Eigen::MatrixXd, 5> all{
       make_extrapolation<2>(tri3), make_extrapolation<2>(tri6), make_extrapolation<2>(quad4),
@@ -146,6 +182,7 @@ const Eigen::MatrixXd& extrapolation_of(const Section<2>& section, CellType type
   return all[static_cast<std::size_t>(type) - static_cast<std::size_t>(tri3)];
 }
 const Eigen::MatrixXd& extrapolation_of(const Section<3>& section, CellType type) {
+  if (section.formulation == Formulation::reduced) return reduced_extrapolation_of<3>(type);
   using enum CellType;
   static const std::array<Eigen::MatrixXd, 8> all{
       make_extrapolation<3>(tet4),    make_extrapolation<3>(tet10),  make_extrapolation<3>(wedge6),
@@ -168,7 +205,11 @@ CellStress<Dim> stress_at_points(const Section<Dim>& section, CellType type,
   }
   const Rule<Dim>& rule = rule_of(section, type);
   Seen<Dim> seen;
-  if (section.formulation == Formulation::full)
+  const bool reduced = section.formulation == Formulation::reduced,
+             one = reduced && type == corner_cell<Dim>;
+  if (one)
+    see_one_point(section, reference, displacement, seen);
+  else if (reduced || section.formulation == Formulation::full)
     see_full(section, type, reference, displacement, seen);
   else
     see_assumed(section, reference, displacement, memory, seen);
@@ -181,6 +222,11 @@ CellStress<Dim> stress_at_points(const Section<Dim>& section, CellType type,
     p.xi = rule.points[q];
     p.position = reference.transpose() * s.n.head(s.count);
     p.volume = volume_at(section, s, rule.weights[q], reference);
+    if (one) {
+      const ElementVector<Dim> share = volume_weights(section, type, reference);
+      p.volume = share.sum();
+      p.position = reference.transpose() * share / p.volume;
+    }
     p.stress.setZero();
     p.strain.setZero();
     if (seen.status != Status::inverted && !fill_stress(section, seen, q, memory.at(q), p))

@@ -49,6 +49,10 @@ bool CellCase::full() const {
 bool CellCase::bbar() const {
   return std::visit([](const auto& c) { return c.section.formulation == Formulation::bbar; }, of);
 }
+bool CellCase::reduced() const {
+  return std::visit([](const auto& c) { return c.section.formulation == Formulation::reduced; },
+                    of);
+}
 
 CellCase CellCase::as_full() const {
   CellCase out = *this;
@@ -125,8 +129,10 @@ double stiffness_scale(const CellCase& c, const Eigen::MatrixXd& x) {
   return evaluated(c, x, 0 * x).tangent.norm();
 }
 
-double energy(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
-  return std::visit([&](const auto& of) { return strain_energy(of.section, of.type, x, u); }, c.of);
+double energy(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
+              const material::Memory& memory) {
+  return std::visit(
+      [&](const auto& of) { return cell_energy(of.section, of.type, x, u, memory).stored; }, c.of);
 }
 
 CellValues point_values(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,

@@ -24,6 +24,7 @@ struct CellCase {
   [[nodiscard]] bool plane_stress() const;
   [[nodiscard]] bool full() const;  ///< plain displacement formulation
   [[nodiscard]] bool bbar() const;
+  [[nodiscard]] bool reduced() const;
 
   [[nodiscard]] CellCase as_full() const;
   [[nodiscard]] CellCase as_small() const;  ///< and linear elastic
@@ -55,7 +56,8 @@ CellResult evaluated(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::M
 /// Size of the forces of a strain of one: what rounding is relative to.
 double stiffness_scale(const CellCase& c, const Eigen::MatrixXd& x);
 
-double energy(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u);
+double energy(const CellCase& c, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u,
+              const material::Memory& memory = {});
 
 /// Stress and strain have the components of the cell; a node has no volume.
 struct PointValues {

@@ -7,7 +7,7 @@ namespace osculate::solid::testing {
 std::string SectionCase::name() const {
   constexpr std::array assumptions{"plane strain", "plane stress", "axisymmetric"};
   constexpr std::array kinds{"small", "finite"};
-  constexpr std::array formulations{"full", "bbar", "enhanced"};
+  constexpr std::array formulations{"full", "bbar", "enhanced", "solid_shell", "reduced"};
   return std::string(cell::info(type).name) + " " +
          assumptions[static_cast<std::size_t>(section.assumption)] + " " +
          kinds[static_cast<std::size_t>(section.kinematics)] + " " +
@@ -22,7 +22,7 @@ void for_each_section(const std::function<void(const SectionCase&)>& visit) {
   for (const cell::CellType type : area_types)
     for (const Assumption assumption : {plane_strain, plane_stress, axisymmetric})
       for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite})
-        for (const Formulation formulation : {full, bbar, enhanced})
+        for (const Formulation formulation : {full, bbar, enhanced, reduced})
           for_each_form([&](const material::Law& law) {
             const SectionCase c{{assumption, kinematics, formulation, 1.7, law}, type};
             if (!unsupported(c.section, type).empty()) return;
@@ -30,7 +30,7 @@ void for_each_section(const std::function<void(const SectionCase&)>& visit) {
             ++visited;
             visit(c);
           });
-  EXPECT_EQ(visited, 20 * form_count);  // 5 cells x 3 assumptions, bbar 2, enhanced 3
+  EXPECT_EQ(visited, 26 * form_count);  // 5 cells x 3 assumptions, bbar 2, enhanced 3, reduced 6
 }
 
 double noise(Eigen::Index i, Eigen::Index j, int seed) {

@@ -103,14 +103,25 @@ TEST_P(EveryCell, FiniteKinematicsStartAsSmallOnes) {
   });
 }
 
+/// Modes that one cell with two points along each axis deforms in without energy. In a ring they
+/// have that of the hoop strain.
+int hourglass_modes(const CellCase& c) {
+  if (!c.reduced() || c.axisymmetric()) return 0;
+  return c.type() == cell::CellType::quad8 ? 1 : c.type() == cell::CellType::hex20 ? 6 : 0;
+}
+
 // Stiffness without rigid motions is positive: no mode of zero energy (hourglass) is left.
 TEST_P(DisplacementCell, HasNoZeroEnergyModesButRigidMotions) {
   for_each_cell(GetParam(), [](const CellCase& c) {
     const Eigen::MatrixXd x = curved(c), k = evaluated(c, x, 0 * x).tangent;
     const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
     const bool plane = c.kind == Kind::plane;
-    const int rigid = c.axisymmetric() ? 1 : plane ? 3 : 6;
-    const double largest = values[values.size() - 1], least = (plane ? 1e-4 : 1e-3) * largest;
+    const int rigid = (c.axisymmetric() ? 1 : plane ? 3 : 6) + hourglass_modes(c);
+    const bool hoop_only = c.reduced() && c.axisymmetric() && c.type() == cell::CellType::quad8;
+    const double largest = values[values.size() - 1], least = (hoop_only ? 1e-6
+                                                               : plane   ? 1e-4
+                                                                         : 1e-3) *
+                                                              largest;
     for (int i = 0; i < values.size(); ++i) {
       EXPECT_TRUE(i < rigid ? std::abs(values[i]) < 1e-14 * largest : values[i] > least)
           << i << ": " << values[i] / largest;

@@ -265,6 +265,7 @@ class Collector {
     Scope& scope = here();
     RawElements& elements = scope.elements.emplace_back();
     elements.type = &type_of(card);
+    elements.variant = capitals(find_parameter(card, "TYPE")->value);
     RawSet* const set = find_parameter(card, "ELSET")
                             ? &set_in(scope.element_sets, card, name_in(card, "ELSET"))
                             : nullptr;

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "osculate/io/inp/loaded_sets.hpp"
 #include "osculate/io/inp/sides.hpp"
@@ -19,10 +21,21 @@ RawMesh raw_mesh(const Deck& deck) {
   return mesh;
 }
 
+/// Sets of elements that have a section, in capitals.
+std::set<std::string> section_sets(const Deck& deck) {
+  std::set<std::string> names;
+  for (const Card& card : deck.cards)
+    if (card.keyword == "SOLIDSECTION")
+      if (const Parameter* const set = find_parameter(card, "ELSET"))
+        names.insert(capitals(set->value));
+  return names;
+}
+
 class Builder {
  public:
   explicit Builder(const Deck& deck)
       : deck_(deck),
+        sections_(section_sets(deck)),
         raw_(raw_mesh(deck)),
         numbering_(add_cells(deck, raw_, out_.mesh)),
         members_(deck, raw_, numbering_, out_.mesh),
@@ -66,12 +79,31 @@ class Builder {
     set.nodes.erase(std::unique(set.nodes.begin(), set.nodes.end()), set.nodes.end());
   }
 
+  /// One type of elements, and which they are.
+  using Typed = std::map<std::string_view, std::vector<mesh::CellRef>>;
+
+  /// Solid and plane elements of a section by their types, where there are several.
+  void add_typed_elements(std::uint32_t scope, const RawSet& raw, const Typed& typed) {
+    if (typed.size() < 2 || !sections_.contains(capitals(named(scope, raw.name).name))) return;
+    for (const auto& [type, cells] : typed) {
+      mesh::Set set = named(scope, typed_set_name(raw.name, type));
+      set.cells = cells;
+      finish(set);
+      add(SetKind::elements, std::move(set), raw.at);
+      out_.sets.back().type = type;
+    }
+  }
+
   /// A set holds cells of one dimension: of others there is one set more.
   void add_elements(std::uint32_t scope, const RawSet& raw) {
     std::array<std::vector<mesh::CellRef>, 4> cells;
-    for (const Index element : members_.of(Kind::elements, scope, raw.name, raw.at)) {
-      const mesh::CellRef ref = numbering_.elements[static_cast<std::size_t>(element)].cell;
+    Typed typed;
+    for (const Index index : members_.of(Kind::elements, scope, raw.name, raw.at)) {
+      const Element& element = numbering_.elements[static_cast<std::size_t>(index)];
+      const mesh::CellRef ref = element.cell;
       cells[static_cast<std::size_t>(cell::info(block(ref).type).dimension)].push_back(ref);
+      if (element.type->family == Family::plane || element.type->family == Family::solid)
+        typed[numbering_.variants[element.variant]].push_back(ref);
     }
     constexpr std::array<std::string_view, 4> kinds{".points", ".lines", ".areas", ".volumes"};
     bool whole = true;
@@ -83,7 +115,9 @@ class Builder {
       set.cells = std::move(cells[dimension]);
       finish(set);
       add(SetKind::elements, std::move(set), raw.at);
+      if (typed.size() == 1) out_.sets.back().type = typed.begin()->first;
     }
+    add_typed_elements(scope, raw, typed);
   }
 
   void add_surface(std::uint32_t scope, const RawSurface& raw) {
@@ -119,6 +153,7 @@ class Builder {
   }
 
   const Deck& deck_;
+  std::set<std::string> sections_;
   DeckMesh out_;
   RawMesh raw_;
   Numbering numbering_;
@@ -128,6 +163,10 @@ class Builder {
 };
 
 }  // namespace
+
+std::string typed_set_name(std::string_view elements, std::string_view type) {
+  return fmt::format("{} of {}", elements, type);
+}
 
 DeckMesh deck_mesh(const Deck& deck) { return Builder(deck).build(); }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "osculate/io/inp/cards.hpp"
@@ -15,7 +16,13 @@ struct DeckSet {
   SetKind kind;
   std::string name;  ///< as first written; of instances `instance.name`
   std::size_t set;   ///< place in Mesh::sets
+  /// Of elements: the one type that they have, in capitals; else empty.
+  std::string type{};
 };
+
+/// The elements of one type (in capitals) of a set that `*SOLID SECTION` names, where it has
+/// several: `BLOCK of C3D20R`.
+[[nodiscard]] std::string typed_set_name(std::string_view elements, std::string_view type);
 
 struct DeckMesh {
   mesh::Mesh mesh;

@@ -33,6 +33,15 @@ void add_side(const Deck& deck, const Line& line, RawMesh& mesh) {
   surface.entries.push_back(std::move(entry));
 }
 
+/// Whether the lines of a card begin with a node or a set of nodes.
+bool begins_with_nodes(const Card& card) {
+  if (card.keyword == "INITIALCONDITIONS") {
+    const Parameter* const type = find_parameter(card, "TYPE");
+    return type && capitals(type->value) == "TEMPERATURE";
+  }
+  return card.keyword == "BOUNDARY" || card.keyword == "CLOAD" || card.keyword == "TEMPERATURE";
+}
+
 /// Of `*EQUATION`: a line with the number of terms, then node, dof and factor of each.
 void add_nodes_of_equations(const Deck& deck, const Card& card, RawMesh& mesh) {
   std::int32_t missing = 0;  // of the terms
@@ -66,10 +75,10 @@ bool is_side_load(std::string_view load) {
 void add_loaded_sets(const Deck& deck, RawMesh& mesh) {
   for (const Card& card : deck.cards) {
     if (card.keyword == "EQUATION") add_nodes_of_equations(deck, card, mesh);
+    const bool of_nodes = begins_with_nodes(card);
     for (const Line& line : lines_of(deck, card)) {
       if (card.keyword == "DLOAD") add_side(deck, line, mesh);
-      if (card.keyword == "BOUNDARY" || card.keyword == "CLOAD")
-        add_node(Fields(deck, line).next().value_or(""), line.at, mesh);
+      if (of_nodes) add_node(Fields(deck, line).next().value_or(""), line.at, mesh);
     }
   }
 }

@@ -10,6 +10,7 @@ namespace osculate::io::inp {
 struct Element {
   const ElementType* type = nullptr;
   mesh::CellRef cell{};
+  std::size_t variant = 0;  ///< place in Numbering::variants
 };
 
 /// Where the nodes and elements of one scope are in the mesh.
@@ -23,6 +24,7 @@ struct ScopeNumbers {
 struct Numbering {
   std::vector<ScopeNumbers> scopes;  ///< as those of RawMesh
   std::vector<Element> elements;
+  std::vector<std::string> variants;  ///< C3D20R and others, in capitals
 };
 
 /// Makes nodes and cells of what the scopes hold, which is moved from: those of instances first,

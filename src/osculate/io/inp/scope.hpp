@@ -53,6 +53,7 @@ struct RawSurface {
 /// Elements of one card.
 struct RawElements {
   const ElementType* type = nullptr;
+  std::string variant;                       ///< the type as the card names it, in capitals
   std::vector<std::int32_t> numbers, nodes;  ///< nodes in the deck's order, by number
   std::vector<Place> at;
 };

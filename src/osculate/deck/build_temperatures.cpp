@@ -1,0 +1,59 @@
+// Temperatures of nodes: at first, and over the steps.
+#include <algorithm>
+
+#include "osculate/deck/build_context.hpp"
+
+namespace osculate::deck {
+namespace {
+
+template <int Dim>
+const std::vector<Index>& heated_nodes(const BuildContext<Dim>& c, const Name& on) {
+  const std::vector<Index>& nodes = c.set(on).nodes;
+  if (nodes.empty())
+    throw core::InputError(on.mark, "set '" + on.value + "' has no nodes to have a temperature");
+  return nodes;
+}
+
+bool any_temperature(const Description& d) {
+  if (!d.initial_temperature.empty()) return true;
+  return std::any_of(d.steps.begin(), d.steps.end(),
+                     [](const Step& s) { return !s.temperature.empty(); });
+}
+
+}  // namespace
+
+template <int Dim>
+void build_initial_temperature(BuildContext<Dim>& c) {
+  if (!any_temperature(c.description)) return;
+  std::vector<double>& of = c.model().initial_temperature;
+  of.assign(c.model().reference.size(), 0.0);
+  for (const Load& load : c.description.initial_temperature)
+    for (const Index node : heated_nodes(c, load.on))
+      of[static_cast<std::size_t>(node)] = load.values[0]->value;
+  const auto expands = [](const Material& m) { return !m.expansion.table.empty(); };
+  const std::vector<Material>& materials = c.description.materials;
+  if (std::none_of(materials.begin(), materials.end(), expands))
+    c.built.warnings.emplace_back("temperatures have no effect: no material has an `expansion`");
+}
+
+template <int Dim>
+void build_temperatures(const BuildContext<Dim>& c, const Step& step, std::vector<double>& now,
+                        model::Step& out) {
+  out.temperature.start = now;
+  for (const Load& load : step.temperature) {
+    model::Amplitude amplitude;
+    if (load.amplitude) amplitude = c.description.find_amplitude(load.amplitude->value)->points;
+    out.temperature.changes.push_back(
+        {heated_nodes(c, load.on), load.values[0]->value, std::move(amplitude)});
+  }
+  now = out.temperature.at(1);
+}
+
+template void build_initial_temperature(BuildContext<2>&);
+template void build_initial_temperature(BuildContext<3>&);
+template void build_temperatures(const BuildContext<2>&, const Step&, std::vector<double>&,
+                                 model::Step&);
+template void build_temperatures(const BuildContext<3>&, const Step&, std::vector<double>&,
+                                 model::Step&);
+
+}  // namespace osculate::deck

@@ -1,0 +1,78 @@
+// Temperatures of a deck: how materials expand, and what nodes have at first.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "osculate/deck/inp_parts.hpp"
+#include "osculate/io/inp/loaded_sets.hpp"
+
+namespace osculate::deck {
+
+using io::inp::Card;
+using io::inp::Fields;
+using io::inp::Line;
+using io::inp::SetKind;
+
+bool has_temperatures(const InpModel& m) {
+  return std::any_of(m.deck.cards.begin(), m.deck.cards.end(),
+                     [](const Card& card) { return card.keyword == "TEMPERATURE"; });
+}
+
+NodeValue temperature_of(const InpModel& m, const Line& line) {
+  Fields fields(m.deck, line);
+  const std::string name = io::inp::name_of(fields.next().value_or(""));
+  const auto number = io::inp::number_of(name);
+  NodeValue value{
+      set_of(m, line.at, number ? io::inp::node_set_name(*number) : name, {SetKind::nodes}),
+      fields.real("the temperature")};
+  if (fields.real_or_zero("a gradient") != 0)
+    fields.fail("gradients of the temperature through shells and beams are not supported");
+  return value;
+}
+
+SourceNode inp_expansion(const InpModel& m, const Card& card) {
+  const std::string type = option_of(card, "TYPE");
+  if (!type.empty() && type != "ISO" && type != "ISOTROPIC")
+    io::inp::fail(m.deck, card,
+                  fmt::format("TYPE={} is not supported: materials are isotropic", type));
+  const int line = line_of(card.at);
+  const auto lines = io::inp::lines_of(m.deck, card);
+  if (lines.empty()) io::inp::fail(m.deck, card, "expected lines of coefficient and temperature");
+  SourceNode expansion = inp_map(line);
+  SourceNode table = inp_list(line);
+  for (const Line& one : lines) {
+    Fields fields(m.deck, one);
+    const double alpha = fields.real("the coefficient of expansion");
+    const double temperature = fields.real_or_zero("a temperature");
+    fields.expect_end();
+    SourceNode& row = table.items.emplace_back(inp_list(line_of(one.at)));
+    row.items = {inp_number(temperature, row.line), inp_number(alpha, row.line)};
+  }
+  const bool constant = table.items.size() == 1;
+  put(expansion, "alpha", constant ? table.items[0].items[1] : std::move(table));
+  if (const io::inp::Parameter* const zero = io::inp::find_parameter(card, "ZERO")) {
+    Line value;
+    value.text = zero->value;
+    value.at = card.at;
+    put(expansion, "reference",
+        inp_number(Fields(m.deck, value).real("the temperature ZERO"), line));
+  }
+  return expansion;
+}
+
+SourceNode inp_initial_temperature(const InpModel& m) {
+  SourceNode list = inp_list(1);
+  if (!has_temperatures(m)) return list;
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "INITIALCONDITIONS" || option_of(card, "TYPE") != "TEMPERATURE") continue;
+    for (const Line& line : io::inp::lines_of(m.deck, card)) {
+      const NodeValue value = temperature_of(m, line);
+      SourceNode& entry = list.items.emplace_back(inp_map(line_of(line.at)));
+      put(entry, "on", inp_text(value.on, entry.line));
+      put(entry, "value", inp_number(value.value, entry.line));
+    }
+  }
+  return list;
+}
+
+}  // namespace osculate::deck

@@ -1,0 +1,51 @@
+#pragma once
+// One point for quad4 and hex8, with what keeps their other modes from having no energy.
+#include "osculate/solid/points.hpp"
+
+namespace osculate::solid {
+
+/// The one point of a cell: the means of the strain matrix over the cell, so that the nodal forces
+/// of a constant stress are exact however the cell is distorted, in rings too.
+///
+/// Formula    dN_k/dX = 1/V int dN_k/dX dV , N_k/R = 1/V int N_k/R dV , V = int dV
+/// Source     Flanagan & Belytschko 1981 (uniform strain)
+/// Returns    false if det F is not positive (finite kinematics)
+/// Tested by  tests/unit/solid/test_patch.cpp, test_stress.cpp
+template <int Dim>
+[[nodiscard]] bool fill_mean_point(const Section<Dim>& section, const Coordinates<Dim>& reference,
+                                   const Coordinates<Dim>& displacement, CornerPoint<Dim>& p);
+
+/// Energy of the modes that the mean strain does not see, its derivative, and the lower triangle of
+/// the second one.
+///
+/// Formula    h_a the products of two and three of (xi, eta, zeta); q_a = sum_k gamma_ak u_k with
+///            gamma_a = (h_a - sum_i (h_a . X_i) dN/dX_i) / 2^dim , blind to linear motions;
+///            Q_ai = q_a . g_i , g_i = sum_k x_k dN_k/dxi_i at the centre (small: of X). The modes
+///            then strain the cell by sum_a Q_ai dh_a/dxi_i along xi_i (to first order in q), and,
+///            across xi_k, by (Q_ii + Q_jj) xi_k between xi_i and xi_j. With the stress along each
+///            axis taken alone, as in bending, and no other shear (it would lock), integrated over
+///            the cell with the metric of its centre,
+///            W = V/2 [ E' sum_i (sum_{a != i} Q_ai^2 / 3 + Q_4i^2 / 9) / |G_i|^4
+///                      + mu sum_{i<j} (Q_ii + Q_jj)^2 / 3 / (|G_i| |G_j|)^2 ]
+///            (plane: V/2 E' sum_i Q_1i^2 / 3 / |G_i|^4). E' = E, where the plane is strained
+///            E/(1 - nu^2), mu = E/2/(1 + nu) of the unloaded material: cells that flow keep them.
+///            Rings also: V/2 E' sum_i D_i^2 / 3 , D_i = d(u_r/R)/dxi_i at the centre, without
+///            which a ring that rolls has no energy
+/// Source     modes: Flanagan & Belytschko 1981; strains without locking: Belytschko & Bindeman
+///            1991, 1993; g_i q_a makes it indifferent to rotations
+/// Limits     the constants are those of the unloaded material
+/// Tested by  tests/unit/solid/test_reduced.cpp, test_derivatives.cpp, test_invariance.cpp
+template <int Dim>
+struct Hourglass {
+  double energy = 0;
+  typename CornerSizes<Dim>::Vector force;
+  typename CornerSizes<Dim>::Matrix tangent;  ///< filled only when asked for
+};
+/// Input      p: of fill_mean_point
+template <int Dim>
+[[nodiscard]] Hourglass<Dim> hourglass(const Section<Dim>& section,
+                                       const Coordinates<Dim>& reference,
+                                       const Coordinates<Dim>& displacement,
+                                       const CornerPoint<Dim>& p, bool with_tangent);
+
+}  // namespace osculate::solid
