@@ -129,6 +129,29 @@ def difference(ours, theirs):
     return largest, max(math.dist(ours[n], theirs[n]) for n in common) / largest, len(common)
 
 
+def eigenvalues_of_dat(path):
+    """Of all steps, one behind the other."""
+    values, inside = [], False
+    for line in open(path, errors="replace"):
+        words = line.split()
+        if "E I G E N V A L U E" in line:
+            inside = True
+        elif "P A R T I C I P A T I O N" in line:
+            inside = False
+        elif inside and len(words) >= 4 and words[0].isdigit():
+            values.append(float(words[1]))
+    return values
+
+
+def eigenvalue_difference(ours, theirs):
+    """Largest difference of frequencies over the largest of the step's that are compared."""
+    if not ours or len(ours) > len(theirs):
+        return math.nan
+    root = lambda v: math.copysign(math.sqrt(abs(v)), v)
+    return max(abs(root(a) - root(b)) / max(abs(root(b)), 1e-6 * root(max(theirs)))
+               for a, b in zip(ours, theirs))
+
+
 def compare(row, options):
     """What both programs made of a deck, as a dictionary; `wrong` says why there is no number."""
     result = {"deck": row.deck}
@@ -143,16 +166,23 @@ def compare(row, options):
             [options.osculate, "run", "deck.inp", "--json", "-o", "ours"], folder, options.limit)
         if code != 0:
             return result | {"wrong": "osculate: " + (error.strip().splitlines() or ["?"])[-1][:160]}
+        vibrations = [mode["omega_squared"] for step in json.loads(said)["steps"] if step.get("modes")
+                      for mode in step["modes"]["found"]]
         result["iterations"] = sum(i["iterations"] for s in json.loads(said)["steps"] for i in s["increments"])
         ours = displacements_of_vtu(sorted((folder / "ours").glob("bodies_*.vtu"))[-1])
         code, said, error, result["ccx_seconds"] = run([options.ccx, "-i", "deck"], folder, options.limit)
         said += error
         theirs = displacements_of_frd(folder / "deck.frd") if (folder / "deck.frd").exists() else None
+        theirs = theirs or (row.kind == "modes" and (folder / "deck.dat").exists())
         if code is None or "*ERROR" in said or not theirs:
             at = said.find("*ERROR")
             return result | {"wrong": "ccx: " + (said[at:at + 120].replace("\n", " ") if at >= 0 else error)}
-        result["ccx_iterations"] = sum(line[:1] == " " and line.strip()[:1].isdigit()
-                                       for line in (folder / "deck.cvg").read_text().splitlines())
+        cvg = folder / "deck.cvg"
+        result["ccx_iterations"] = not cvg.exists() or sum(line[:1] == " " and line.strip()[:1].isdigit()
+                                       for line in cvg.read_text().splitlines())
+        if row.kind == "modes":
+            return result | {"nodes": 0, "difference":
+                             eigenvalue_difference(vibrations, eigenvalues_of_dat(folder / "deck.dat"))}
         result["largest"], result["difference"], result["nodes"] = difference(ours, theirs)
     return result
 

@@ -60,8 +60,11 @@ bool is_of_second_order(const InpModel& m, const mesh::Set& set) {
 }
 
 /// Nodes, or Gauss points: two per direction of a facet, three of one of second order, whose
-/// corners have no positive area.
-void put_sampling(InpModel& m, const Card& card, const std::string& slave, SourceNode& pair) {
+/// corners have no positive area, and six of one that is tied: ccx integrates over the parts of the
+/// facets that lie on one facet of the master, and ties of coarse facets on fine ones need as many
+/// to come near that (docs/inp.md).
+void put_sampling(InpModel& m, const Card& card, const std::string& slave, bool tied,
+                  SourceNode& pair) {
   const int at = line_of(card.at);
   const std::string type = option_of(card, "TYPE");
   const mesh::Set* const set = m.mesh.mesh.find_set(slave);
@@ -85,7 +88,11 @@ void put_sampling(InpModel& m, const Card& card, const std::string& slave, Sourc
     m.notes.push_back(fmt::format(
         "line {}: '{}' is sampled at Gauss points: corners of second-order facets have no area",
         card.at.line, slave));
-  put(put(pair, "sampling", inp_map(at)), "gauss", inp_number(second_order ? 3 : 2, at));
+  put(put(pair, "sampling", inp_map(at)), "gauss",
+      inp_number(!second_order ? 2
+                 : tied        ? 6
+                               : 3,
+                 at));
 }
 
 /// `slave_master`, with a number where that is taken.
@@ -177,7 +184,7 @@ void add_contact_pair(InpModel& m, const Card& card, const Interaction& law, Sou
   if (lines.empty()) io::inp::fail(m.deck, card, "expected a line with two surfaces");
   for (const Line& line : lines) {
     SourceNode& pair = add_pair(m, card, line, pairs);
-    put_sampling(m, card, find(pair, "slave")->text, pair);
+    put_sampling(m, card, find(pair, "slave")->text, inp_is_tied(law.behavior), pair);
     const double area = put_weight(m, card, pair);
     m.pairs.push_back({find(pair, "name")->text, io::inp::capitals(law.name),
                        find(pair, "slave")->text, find(pair, "master")->text, area});
