@@ -7,8 +7,9 @@
 rows.txt has the decks, what they may differ by, and why. The decks are those of Debian's package
 calculix-ccx-test, ccx that of calculix-ccx. Both read the same deck, but for its requests of
 output: at the end of each step the displacements of all nodes. What is compared is the state that
-either leaves at the end: the largest difference of a node's displacement over the largest
-displacement. Seconds are those of the processor, of both cores together.
+either leaves at the end: the largest difference of a node's displacement over the largest displacement,
+likewise of its force (reaction and load), and the largest contact pressures; of decks that look for
+vibrations at their end the frequencies. Seconds are those of the processor, of both cores together.
 """
 import argparse
 import gzip
@@ -19,11 +20,9 @@ import pathlib
 import re
 import resource
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
-import zlib
 
 HERE = pathlib.Path(__file__).resolve().parent
 EXAMPLES = "/usr/share/doc/calculix-ccx-test/examples/test"
@@ -54,15 +53,18 @@ def text_of(examples, deck):
     raise FileNotFoundError(f"no deck '{deck}' in {examples}")
 
 
-def asking_for_displacements(text):
-    """The deck whose steps write the displacements of all nodes, and nothing else."""
+def asking_for_results(text):
+    """The deck whose steps write displacements and forces of all nodes and contact, and nothing else."""
     lines, skipped = [], False
+    wanted = ["*NODE FILE, OUTPUT=2D", "U, RF"]
+    if re.search(r"^\*\s*contact\s*pair", text, re.I | re.M):
+        wanted += ["*CONTACT FILE", "CDIS, CSTR"]
     for line in text.splitlines():
         if line.startswith("*") and not line.startswith("**"):
             keyword = line[1:].split(",")[0].replace(" ", "").upper()
             skipped = keyword in OUTPUT
             if keyword == "ENDSTEP":
-                lines += ["*NODE FILE, OUTPUT=2D", "U"]
+                lines += wanted
         if not skipped:
             lines.append(line)
     return "\n".join(lines) + "\n"
@@ -81,52 +83,33 @@ def run(command, folder, limit, threads=1):
     return code, said, error, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def displacements_of_vtu(path):
-    """Displacements of a file of bodies by the numbers of nodes in the deck."""
-    content = path.read_bytes()
-    head = content.index(b"<AppendedData")
-    start = content.index(b"_", head) + 1
-    arrays = {}
-    pattern = rb'<DataArray type="(\w+)" Name="(\w+)"[^>]*?NumberOfComponents="(\d+)"[^>]*?offset="(\d+)"'
-    for kind, name, components, offset in re.findall(pattern, content[:head]):
-        if name not in (b"U", b"NodeNumber"):
-            continue
-        at = start + int(offset)
-        blocks = struct.unpack_from("<Q", content, at)[0]
-        sizes = struct.unpack_from(f"<{blocks}Q", content, at + 24)
-        at += 24 + 8 * blocks
-        data = b""
-        for size in sizes:
-            data += zlib.decompress(content[at:at + size])
-            at += size
-        letter = {b"Float64": "d", b"Int64": "q", b"Int32": "i"}[kind]
-        values = [v[0] for v in struct.iter_unpack("<" + letter, data)]
-        width = int(components)
-        arrays[name] = [values[k:k + width] for k in range(0, len(values), width)]
-    return {int(n[0]): (u + [0.0])[:3] for n, u in zip(arrays[b"NodeNumber"], arrays[b"U"])}
-
-
-def displacements_of_frd(path):
-    """The last displacements of a result file of ccx."""
-    last, block = None, None
+def blocks_of_frd(path):
+    """The last results of every kind in a result file: by name, by node, the components."""
+    found, name = {}, None
     with open(path, errors="replace") as file:
         for line in file:
-            if line.startswith(" -4  DISP"):
-                block = {}
-            elif block is not None and line.startswith(" -1"):
-                block[int(line[3:13])] = [float(line[13 + 12 * k:25 + 12 * k]) for k in range(3)]
-            elif block is not None and line.startswith(" -3"):
-                last, block = block, None
-    return last
+            if line.startswith(" -4"):
+                name, block = line.split()[1], {}
+            elif name and line.startswith(" -1"):
+                block[int(line[3:13])] = [float(line[k:k + 12]) for k in range(13, len(line.rstrip()) - 11, 12)]
+            elif name and line.startswith(" -3"):
+                found[name], name = block, None
+    return found
 
 
 def difference(ours, theirs):
-    """(Largest displacement, largest difference over it, number of nodes that both have.)"""
+    """(Largest vector, largest difference over it, number of nodes that both have.)"""
     common = [node for node in ours if node in theirs]
-    largest = max((math.hypot(*u) for u in theirs.values()), default=0.0)
+    largest = max((math.hypot(*u[:3]) for u in theirs.values()), default=0.0)
     if not common or largest == 0.0:
         return largest, math.nan, len(common)
-    return largest, max(math.dist(ours[n], theirs[n]) for n in common) / largest, len(common)
+    return largest, max(math.dist(ours[n][:3], theirs[n][:3]) for n in common) / largest, len(common)
+
+
+def pressure_difference(ours, theirs):
+    """Of the largest contact pressures; nan where a file has none."""
+    largest = [max((v[3] for v in block.values() if len(v) > 3), default=0.0) for block in (ours, theirs)]
+    return abs(largest[0] / largest[1] - 1) if min(largest) > 0 else math.nan
 
 
 def eigenvalues_of_dat(path):
@@ -157,7 +140,7 @@ def compare(row, options):
     result = {"deck": row.deck}
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        text = asking_for_displacements(text_of(options.examples, row.deck))
+        text = asking_for_results(text_of(options.examples, row.deck))
         (folder / "deck.inp").write_text(text)
         for file in pathlib.Path(options.examples).glob(row.deck + ".*"):
             if not file.name.startswith((row.deck + ".inp", row.deck + ".dat", row.deck + ".frd")):
@@ -169,29 +152,35 @@ def compare(row, options):
         vibrations = [mode["omega_squared"] for step in json.loads(said)["steps"] if step.get("modes")
                       for mode in step["modes"]["found"]]
         result["iterations"] = sum(i["iterations"] for s in json.loads(said)["steps"] for i in s["increments"])
-        ours = displacements_of_vtu(sorted((folder / "ours").glob("bodies_*.vtu"))[-1])
         code, said, error, result["ccx_seconds"] = run([options.ccx, "-i", "deck"], folder, options.limit)
         said += error
-        theirs = displacements_of_frd(folder / "deck.frd") if (folder / "deck.frd").exists() else None
-        theirs = theirs or (row.kind == "modes" and (folder / "deck.dat").exists())
-        if code is None or "*ERROR" in said or not theirs:
+        theirs = blocks_of_frd(folder / "deck.frd") if (folder / "deck.frd").exists() else {}
+        if code is None or "*ERROR" in said or not (theirs or row.kind.endswith("modes")):
             at = said.find("*ERROR")
             return result | {"wrong": "ccx: " + (said[at:at + 120].replace("\n", " ") if at >= 0 else error)}
         cvg = folder / "deck.cvg"
         result["ccx_iterations"] = not cvg.exists() or sum(line[:1] == " " and line.strip()[:1].isdigit()
                                        for line in cvg.read_text().splitlines())
-        if row.kind == "modes":
+        if row.kind.endswith("modes"):
             return result | {"nodes": 0, "difference":
                              eigenvalue_difference(vibrations, eigenvalues_of_dat(folder / "deck.dat"))}
-        result["largest"], result["difference"], result["nodes"] = difference(ours, theirs)
+        ours = blocks_of_frd(next((folder / "ours").glob("*.frd")))
+        _, result["difference"], result["nodes"] = difference(ours["DISP"], theirs["DISP"])
+        _, result["forces"], _ = difference(ours.get("FORC", {}), theirs.get("FORC", {}))
+        result["pressure"] = pressure_difference(ours.get("CONTACT", {}), theirs.get("CONTACT", {}))
     return result
+
+
+def percent(value):
+    return "" if value is None or math.isnan(value) else f"{100 * value:.2g} %"
 
 
 def line_of(row, result):
     reason = row.reason.replace("|", "/")
     if "wrong" in result:
-        return f"| {row.deck} | | | | | {(reason + ' ' + result['wrong']).strip()} |"
-    return (f"| {row.deck} | {result['nodes']} | {100 * result['difference']:.2g} % | "
+        return f"| {row.deck} | | | | | | | {(reason + ' ' + result['wrong']).strip()} |"
+    return (f"| {row.deck} | {result['nodes'] or ''} | {percent(result['difference'])} | "
+            f"{percent(result.get('forces'))} | {percent(result.get('pressure'))} | "
             f"{result['iterations']} / {result['ccx_iterations']} | "
             f"{result['seconds']:.2f} / {result['ccx_seconds']:.2f} | {reason} |")
 
@@ -221,7 +210,8 @@ def main():
             print("no ccx or no decks (Debian: calculix-ccx, calculix-ccx-test)")
             return 77
         chosen = [row for row in chosen if row.speed == "quick"]
-    lines = ["| deck | nodes | difference of displacements | iterations | seconds | |", "|---|---|---|---|---|---|"]
+    lines = ["| deck | nodes | displacements | forces | pressure | iterations | seconds | |",
+             "|---|---|---|---|---|---|---|---|"]
     failed = 0
     for row in chosen:
         result = compare(row, options)

@@ -197,8 +197,8 @@ TEST(InpTranslate, WhatIsNotUnderstoodStopsWithItsLine) {
   } cases[]{
       {"keyword", blocks + "*BOUNDRY\n",
        "cubes.inp:32: unknown keyword 'BOUNDRY'; did you mean 'BOUNDARY'?"},
-      {"eigenmodes", blocks + "*STEP\n*FREQUENCY\n3\n*END STEP\n",
-       "cubes.inp:33: *FREQUENCY: is not supported: no eigenmodes"},
+      {"eigenmodes", blocks + "*STEP\n*BUCKLE\n3\n*END STEP\n",
+       "cubes.inp:33: *BUCKLE: is not supported: no eigenmodes"},
       {"by hand", blocks + "*RIGID BODY, NSET=TOP, REF NODE=1\n",
        "cubes.inp:32: *RIGIDBODY: is not translated; a model file says it with `rigid`"},
       {"no step", blocks + steel, "cubes.inp: the deck has no *STEP"},
@@ -221,9 +221,9 @@ TEST(InpTranslate, WhatIsNotUnderstoodStopsWithItsLine) {
       {"law",
        blocks + steel +
            "*SURFACE INTERACTION, NAME=A\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE="
-           "EXPONENTIAL\n1., 1.\n*CONTACT PAIR, INTERACTION=A\nSLAVE, MASTER\n" +
+           "QUADRATIC\n1., 1.\n*CONTACT PAIR, INTERACTION=A\nSLAVE, MASTER\n" +
            step,
-       "PRESSURE-OVERCLOSURE=EXPONENTIAL is not supported"},
+       "PRESSURE-OVERCLOSURE=QUADRATIC is not supported"},
       {"interaction", blocks + steel + "*CONTACT PAIR, INTERACTION=A\nSLAVE, MASTER\n" + step,
        "unknown surface interaction 'A'"},
       {"surface", blocks + steel + pair + "SLAVE, MASTRE\n" + step,

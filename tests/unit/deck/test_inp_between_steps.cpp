@@ -1,0 +1,198 @@
+// Decks: what changes of contact from step to step, other laws, steps in time, vibrations.
+#include <gtest/gtest.h>
+
+#include "osculate/deck/inp_translate.hpp"
+#include "osculate/deck/parse.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// A cube under one that is half as wide; lines 1 to 27.
+const std::string cubes = R"(*NODE, NSET=NALL
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+11, 0, 0, 1
+12, 0.5, 0, 1
+13, 0.5, 0.5, 1
+14, 0, 0.5, 1
+15, 0, 0, 2
+16, 0.5, 0, 2
+17, 0.5, 0.5, 2
+18, 0, 0.5, 2
+*ELEMENT, TYPE=C3D8, ELSET=LOW
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*ELEMENT, TYPE=C3D8, ELSET=UP
+2, 11, 12, 13, 14, 15, 16, 17, 18
+*NSET, NSET=FOOT
+11, 12, 13, 14
+*SURFACE, NAME=MASTER
+LOW, S2
+*SURFACE, NAME=SLAVE
+UP, S1
+*SURFACE, NAME=FEET, TYPE=NODE
+FOOT
+)";
+const std::string steel = R"(*MATERIAL, NAME=STEEL
+*ELASTIC
+210000., 0.3
+*DENSITY
+7.8E-9
+*DAMPING, ALPHA=3., BETA=1.E-4
+*SOLID SECTION, ELSET=LOW, MATERIAL=STEEL
+*SOLID SECTION, ELSET=UP, MATERIAL=STEEL
+*BOUNDARY
+1, 1, 3
+)";
+const std::string dry = R"(*SURFACE INTERACTION, NAME=DRY
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR
+1.E6
+*FRICTION
+0.2, 5.E4
+)";
+const std::string pair = "*CONTACT PAIR, INTERACTION=DRY, TYPE=NODE TO SURFACE\nSLAVE, MASTER\n";
+const std::string press = "*STEP\n*STATIC\n*DLOAD\nUP, P2, 10.\n*END STEP\n";
+
+TranslatedDeck translated(const std::string& rest) {
+  return translate_deck(cubes + steel + rest, "cubes.inp");
+}
+/// The lines of a key of the model file, and those that belong to it.
+std::string part(const std::string& rest, const std::string& key) {
+  const std::string text = to_yaml(translated(rest).root);
+  const std::size_t begin = text.find("\n" + key + ":\n");
+  if (begin == std::string::npos) return "no " + key + " in\n" + text;
+  std::size_t end = begin + 1;
+  do end = text.find('\n', end) + 1;
+  while (end < text.size() && text[end] == ' ');
+  return text.substr(begin + 1, end - begin - 1);
+}
+std::string message_of(const std::string& rest) {
+  try {
+    (void)parse_model(translated(rest).root, "cubes.inp");
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+void expect_in(const std::string& text, const std::string& what) {
+  EXPECT_NE(text.find(what), std::string::npos) << what << "\nis not in\n" << text;
+}
+
+TEST(InpBetweenSteps, LawsChangeAndPairsComeAndGo) {
+  const std::string steps = part(dry + pair + press + R"(*STEP
+*STATIC
+*CHANGE FRICTION, INTERACTION=dry
+*FRICTION
+0.4, 7.E4
+*CHANGE SURFACE BEHAVIOR, INTERACTION=DRY
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR
+2.E6
+*END STEP
+*STEP
+*STATIC
+*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE
+SLAVE, MASTER
+*END STEP
+*STEP
+*STATIC
+*MODEL CHANGE, TYPE=CONTACT PAIR, ADD
+SLAVE, MASTER
+*CHANGE FRICTION, INTERACTION=DRY
+*FRICTION
+0.
+*END STEP
+)",
+                                 "steps");
+  expect_in(steps, "coulomb: {mu: 0.4, penalty: 70000}");
+  expect_in(steps, "normal: {penalty: 2000000}");
+  expect_in(steps, "{pair: SLAVE_MASTER, active: false}");
+  expect_in(steps, "{pair: SLAVE_MASTER, active: true, friction: none}");
+}
+
+TEST(InpBetweenSteps, WhatCannotChangeIsTold) {
+  const auto step = [](const std::string& cards) {
+    return dry + pair + press + "*STEP\n*STATIC\n" + cards + "*END STEP\n";
+  };
+  expect_in(message_of(step("*FRICTION\n0.4, 7.E4\n")), "in a step it follows *CHANGE FRICTION");
+  expect_in(message_of(step("*CHANGE FRICTION, INTERACTION=WET\n*FRICTION\n0.4, 7.E4\n")),
+            "surface interaction of a contact pair");
+  expect_in(message_of(step("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nUP\n")),
+            "expected TYPE=CONTACT PAIR");
+  expect_in(message_of(step("*MODEL CHANGE, TYPE=CONTACT PAIR\nSLAVE, MASTER\n")),
+            "expected ADD or REMOVE");
+  expect_in(message_of(step("*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nFEET, MASTER\n")),
+            "there is no *CONTACT PAIR of 'FEET' and 'MASTER'");
+}
+
+TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
+  const std::string exponential = R"(*SURFACE INTERACTION, NAME=SOFT
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL
+1.E-3, 6.
+)";
+  const std::string soft =
+      "*CONTACT PAIR, INTERACTION=SOFT, TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n";
+  expect_in(part(exponential + soft + press, "contact"),
+            "decaying: {pressure: 6, clearance: 0.001}");
+  expect_in(part(dry + "*CONTACT DAMPING\n0.5\n" + pair + press, "contact"),
+            "damping: {viscous: 0.5}");
+  expect_in(message_of(dry + "*CONTACT DAMPING, TANGENT FRACTION=1.\n0.5\n" + pair + press),
+            "no damping in the surface");
+  // A set of nodes is moved, a distance is one.
+  const std::string adjusted =
+      "*CONTACT PAIR, INTERACTION=DRY, TYPE=NODE TO SURFACE, ADJUST=FOOT\nSLAVE, MASTER\n";
+  expect_in(part(dry + adjusted + press, "contact"), "initial: {nodes: FOOT}");
+  EXPECT_EQ(message_of(dry + adjusted + press), "no error");
+}
+
+// Each of the four nodes has a quarter of the faces of the small cube that it is a corner of: 0.25
+// below, two of 0.5 beside it.
+TEST(InpBetweenSteps, NodesWithoutFacetsHaveTheirShareOfTheFreeFaces) {
+  const std::string nodes = "*CONTACT PAIR, INTERACTION=DRY, TYPE=NODE TO SURFACE\nFEET, MASTER\n";
+  const std::string contact = part(dry + nodes + press, "contact");
+  expect_in(contact, "weight: node");
+  expect_in(contact, "penalty: 312500}");
+  expect_in(contact, "{mu: 0.2, penalty: 15625}");
+}
+
+TEST(InpBetweenSteps, StepsInTime) {
+  const std::string deck = dry + pair + R"(*STEP
+*DYNAMIC, DIRECT, ALPHA=-0.1
+1.E-5, 1.E-3
+*CLOAD
+15, 3, -1.
+*BOUNDARY
+16, 3, 3, -0.1
+*END STEP
+)";
+  const std::string steps = part(deck, "steps");
+  expect_in(steps, "increments: 100\n    duration: 0.001\n");
+  expect_in(steps, "hht: {alpha: 0.1}");
+  expect_in(steps, "damping: {mass: 3, stiffness: 0.0001}");
+  expect_in(steps, "{on: node 15, fz: -1, amplitude: at_once}");
+  expect_in(steps, "{on: node 16, uz: -0.1}");
+  expect_in(part(deck, "amplitudes"), "at_once: [[0, 1], [1, 1]]");
+  EXPECT_EQ(message_of(deck), "no error");
+  const std::string explicit_deck = "*STEP\n*DYNAMIC, EXPLICIT\n1.E-5, 1.E-4\n*END STEP\n";
+  expect_in(part(explicit_deck, "steps"), "scheme: central_differences");
+  expect_in(message_of("*STEP\n*DYNAMIC, ALPHA=-0.5\n1.E-5, 1.E-4\n*END STEP\n"),
+            "expected ALPHA from -1/3 to 0");
+}
+
+TEST(InpBetweenSteps, Vibrations) {
+  const std::string frequency = "*FREQUENCY\n12\n*END STEP\n";
+  const std::string deck = dry + pair + press + "*STEP, PERTURBATION\n" + frequency;
+  expect_in(part(deck, "steps"), "{name: step_2, modes: 12}");
+  EXPECT_EQ(message_of(deck), "no error");
+  EXPECT_EQ(message_of("*STEP\n" + frequency + press), "no error");
+  expect_in(message_of(press + "*STEP\n" + frequency), "expected PERTURBATION");
+  expect_in(message_of("*STEP, PERTURBATION\n*STATIC\n*END STEP\n"),
+            "steps go on from the last one");
+}
+
+}  // namespace
+}  // namespace osculate::deck
