@@ -239,7 +239,8 @@ class Steps {
   /// What a card adds to what stood before; with OP=NEW that is gone.
   std::string start(const Card& card, Conditions& values, bool may_stand_before_steps = false) {
     if (!step_ && !may_stand_before_steps) io::inp::fail(m_.deck, card, "stands outside of a step");
-    for (const char* const other : {"USER", "SUBMODEL", "LOADCASE", "SECTOR", "OMEGA0", "FIXED"})
+    for (const char* const other :
+         {"USER", "SUBMODEL", "LOADCASE", "SECTOR", "OMEGA0", "FIXED", "TIMEDELAY"})
       if (io::inp::find_parameter(card, other))
         io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
     const std::string op = option_of(card, "OP");

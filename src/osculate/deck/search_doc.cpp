@@ -20,7 +20,7 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 29> synonyms{{
+constexpr std::array<Synonym, 31> synonyms{{
     {"plasticity plastic yielding mises-plasticity j2 metal",
      "materials.elastoplastic: yield, hardening, isotropic, kinematic"},
     {"creep norton relaxation", "materials.norton: A, n; every step needs a duration"},
@@ -28,7 +28,10 @@ constexpr std::array<Synonym, 29> synonyms{{
     {"rate-and-state velocity-weakening dieterich ruina", "contact.friction.rate_and_state"},
     {"stl cad-surface", "mesh: files with the extension .stl, for rigid bodies"},
     {"bolt pretension preload gasket", no},
-    {"thermal temperature heat expansion", no},
+    {"heat conduction", no},
+    {"thermal temperature cte",
+     "materials.NAME.expansion, steps.temperature, initial_temperature (no heat flow)"},
+    {"hourglass reduced-integration c3d8r c3d20r", "sections.formulation: reduced"},
     {"shell membrane beam truss spring dashpot", no},
     {"hinge joint connector", no},
     {"eigenfrequency modal buckling harmonic frequency", no},

@@ -250,7 +250,7 @@ TEST(J2Plasticity, WorkIsStoredOrDissipated) {
         before = r.stress;
       }
       const Strain3 end = first + second;
-      return work - stored_energy(law, end, point.now.data()) -
+      return work - stored_energy(law, end, {point.now.data()}) -
              dissipated_energy(law, point.now.data());
     };
     EXPECT_LT(std::abs(missed(4000)), 1e-6) << missed(4000);
