@@ -95,9 +95,8 @@ struct Recorder {
   }
 
   void open_answers(std::span<const std::uint64_t> marks) {
-    const std::string stem = options.answers.empty()
-                                 ? result::answer_stem(description.output, options.model, folder)
-                                 : options.answers;
+    const auto stem =
+        result::answer_stem(description.output, options.model, folder, options.answers);
     if (!stem.empty()) answers.emplace(stem, built, description.output, marks);
   }
 
