@@ -72,7 +72,9 @@ int ccx(const Flags& flags) {
           core::version);
     return ccx_error;
   }
-  const std::string& job = flags.job.empty() ? flags.other_job : flags.job;
+  // FreeCAD says "-i ", whose blank is taken for the name
+  const bool named = flags.job.find_first_not_of(' ') != std::string::npos;
+  const std::string& job = named ? flags.job : flags.other_job;
   if (!job.empty()) return solve(job);
   print(stdout, "Usage: CalculiX.exe -i jobname (here: osculate ccx -i jobname)\n");
   return ccx_error;

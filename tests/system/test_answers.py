@@ -334,7 +334,7 @@ class Answers(unittest.TestCase):
     def test_a_link_of_the_name_is_called_without_a_command(self):
         os.symlink(os.path.abspath(PROGRAM), self.path("ccx"))
         self.write("blocks.inp", BLOCKS)
-        done = self.call("./ccx", "-i", "blocks", OMP_NUM_THREADS="2")
+        done = self.call("./ccx", "-i ", "blocks", OMP_NUM_THREADS="2")  # as FreeCAD does, with a blank
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertTrue(os.path.exists(self.path("blocks.frd")))
 

@@ -2,7 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "osculate/core/error.hpp"
+#include "osculate/core/text.hpp"
+
 namespace osculate::api {
+
+void check_until(const std::string& until, const std::vector<model::Step>& steps) {
+  if (until.empty()) return;
+  std::vector<std::string> names;
+  for (const model::Step& step : steps) names.push_back(step.name);
+  if (std::find(names.begin(), names.end(), until) == names.end())
+    throw core::InputError({}, "--until: " + core::unknown_name_message("step", until, names));
+}
 
 bool Budget::begin_iteration() {
   if (iterations_ > 0 && begun_ >= iterations_)

@@ -35,6 +35,9 @@ class Budget {
   std::string used_up_;
 };
 
+/// Throws core::InputError if there is no step of this name (empty: all are wanted).
+void check_until(const std::string& until, const std::vector<model::Step>& steps);
+
 /// Share of the increments up to a step (empty: all) that are done.
 [[nodiscard]] double share_done(const std::vector<model::Step>& steps, const std::string& until,
                                 const model::Progress& progress);

@@ -95,9 +95,8 @@ struct Recorder {
   }
 
   void open_answers(std::span<const std::uint64_t> marks) {
-    const std::string stem = options.answers.empty()
-                                 ? result::answer_stem(description.output, options.model, folder)
-                                 : options.answers;
+    const auto stem =
+        result::answer_stem(description.output, options.model, folder, options.answers);
     if (!stem.empty()) answers.emplace(stem, built, description.output, marks);
   }
 
@@ -387,14 +386,6 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
   return outcome;
 }
 
-void check_until(const std::string& until, const std::vector<model::Step>& steps) {
-  if (until.empty()) return;
-  std::vector<std::string> names;
-  for (const model::Step& step : steps) names.push_back(step.name);
-  if (std::find(names.begin(), names.end(), until) == names.end())
-    throw core::InputError({}, "--until: " + core::unknown_name_message("step", until, names));
-}
-
 template <int Dim>
 model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
   model::BasicAnalysisObserver<Dim> observer;
@@ -418,11 +409,7 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
                                   const model::BasicState<Dim>& state, const model::Progress& p,
                                   const model::Vibrations& modes) {
     const std::string step = recorder.step_name(p);
-    for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i)
-      recorder.say(fmt::format("{:<12} mode {:3}  {:.6g} per time  (omega^2 {:.6g})", step, i + 1,
-                               model::frequency(modes.omega_squared[i]), modes.omega_squared[i]));
-    for (const std::string& warning : result::doubts(modes))
-      recorder.say(fmt::format("warning: step '{}': {}", step, warning));
+    recorder.say_all(result::vibrations_text(step, modes));
     recorder.fields.write_modes(step, state, modes);
   };
   observer.resumable = [&recorder](const model::BasicSystem<Dim>& system,

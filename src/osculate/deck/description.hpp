@@ -457,8 +457,8 @@ struct Plot {
   std::vector<Name> y;
 };
 
-/// What files for the tools around CalculiX hold, by the words of that program. `contact` are COPEN,
-/// CSLIP*, CPRESS, CSHEAR* together.
+/// What files for the tools around CalculiX hold, by the words of that program. `contact` are
+/// COPEN, CSLIP*, CPRESS, CSHEAR* together.
 enum class Answer { u, rf, s, e, peeq, contact, evol, energy, cdis, cstr, cnum };
 enum class Totals { none, also, only };
 

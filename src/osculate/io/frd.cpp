@@ -19,6 +19,14 @@ void append_real(std::string& out, double value) {
   fmt::format_to(std::back_inserter(out), "{:12.5E}", std::clamp(value, -most, most));
 }
 
+/// Ten columns.
+void append_number(std::string& out, std::int64_t number) {
+  constexpr std::size_t columns = 10;
+  const fmt::format_int text(number);
+  if (text.size() < columns) out.append(columns - text.size(), ' ');
+  out.append(text.data(), text.size());
+}
+
 /// Twelve columns with as many digits as they hold.
 std::string time_text(double time) {
   if (!(time >= 1 && time < 1e10)) return fmt::format("{:12.5E}", time);
@@ -125,7 +133,8 @@ FrdMesh frd_mesh(const mesh::Mesh& mesh, std::vector<FrdMesh::Cell> cells) {
 std::string frd_nodes(const FrdMesh& part, const mesh::Mesh& mesh) {
   std::string out = fmt::format("    2C{:30}{:38}\n", part.nodes.size(), 1);
   for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-    fmt::format_to(std::back_inserter(out), " -1{:10}", part.numbers[i]);
+    out += " -1";
+    append_number(out, part.numbers[i]);
     const Vec3& x = mesh.nodes[static_cast<std::size_t>(part.nodes[i])];
     for (const double value : {x.x(), x.y(), x.z()}) append_real(out, value);
     out += '\n';
@@ -149,8 +158,7 @@ std::string frd_cells(const FrdMesh& part, const mesh::Mesh& mesh) {
     const Index* const nodes = mesh.blocks[block].cell(one.ref.cell);
     for (std::size_t k = 0; k < shape.nodes.size(); ++k) {
       if (k % in_a_line == 0) out += k > 0 ? "\n -2" : " -2";
-      fmt::format_to(std::back_inserter(out), "{:10}",
-                     number[static_cast<std::size_t>(nodes[shape.nodes[k]])]);
+      append_number(out, number[static_cast<std::size_t>(nodes[shape.nodes[k]])]);
     }
     out += '\n';
   }
@@ -180,7 +188,8 @@ std::string frd_field(const FrdMesh& part, const FrdTime& at, bool vector,
   if (vector) out += " -5  ALL         1    2    0    0    1ALL\n";
   out.reserve(out.size() + part.nodes.size() * (14 + 12 * width) + 4);
   for (std::size_t i = 0; i < part.nodes.size(); ++i) {
-    fmt::format_to(std::back_inserter(out), " -1{:10}", part.numbers[i]);
+    out += " -1";
+    append_number(out, part.numbers[i]);
     for (std::size_t k = 0; k < width; ++k) append_real(out, values[width * i + k]);
     out += '\n';
   }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cctype>
 #include <cmath>
 #include <ctime>
@@ -18,7 +20,7 @@ namespace {
 
 using deck::Answer;
 
-constexpr std::size_t mark_count = 6;
+constexpr std::size_t mark_count = 7;
 
 std::uint64_t mark(std::span<const std::uint64_t> marks, std::size_t k) {
   return marks.size() == mark_count ? marks[k] : 0;
@@ -104,7 +106,8 @@ int contacts(const solve::IterationRecord& record) { return record.counts.touchi
 }  // namespace
 
 std::string answer_stem(const deck::Output& output, const std::string& model,
-                        const std::string& folder) {
+                        const std::string& folder, const std::string& wanted) {
+  if (!wanted.empty()) return wanted;
   if (output.frd.empty() && output.dat.empty()) return {};
   const std::string name = std::filesystem::path(model).stem().string();
   FieldList list(folder);
@@ -123,7 +126,8 @@ AnswerFiles<Dim>::AnswerFiles(const std::string& stem, const deck::BasicBuilt<Di
       sta_(stem + ".sta", mark(marks, 2)),
       cvg_(stem + ".cvg", mark(marks, 3)),
       pieces_(static_cast<int>(mark(marks, 4))),
-      sets_(static_cast<int>(mark(marks, 5))) {
+      sets_(static_cast<int>(mark(marks, 5))),
+      reached_(std::bit_cast<double>(mark(marks, 6))) {
   if (mark(marks, 0) > 0) return;
   frd_.append(head() + io::frd_nodes(answers_.mesh, built.model.mesh) +
               io::frd_cells(answers_.mesh, built.model.mesh));
@@ -229,7 +233,8 @@ std::vector<std::uint64_t> AnswerFiles<Dim>::marks() const {
           sta_.size(),
           cvg_.size(),
           static_cast<std::uint64_t>(pieces_),
-          static_cast<std::uint64_t>(sets_)};
+          static_cast<std::uint64_t>(sets_),
+          std::bit_cast<std::uint64_t>(reached_)};
 }
 
 template class AnswerFiles<2>;

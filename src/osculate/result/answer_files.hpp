@@ -10,10 +10,10 @@
 
 namespace osculate::result {
 
-/// Where a run puts such files among its results, which are told of them; empty: the model asks for
-/// none.
+/// Where a run puts such files, without their endings: where they are wanted, else in the folder,
+/// which then lists them. Empty: the model asks for none.
 [[nodiscard]] std::string answer_stem(const deck::Output& output, const std::string& model,
-                                      const std::string& folder);
+                                      const std::string& folder, const std::string& wanted);
 
 /// Results in the files that CalculiX writes and the tools around it read: STEM.frd (fields at the
 /// nodes), .dat (tables), .sta (increments) and .cvg (iterations). All are whole after each

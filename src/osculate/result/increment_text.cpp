@@ -71,17 +71,23 @@ std::string iteration_text(int number, const solve::IterationRecord& iteration,
                      counts_column(" ", iteration.counts, states));
 }
 
-std::vector<std::string> doubts(const model::Vibrations& modes) {
+std::vector<std::string> vibrations_text(const std::string& step, const model::Vibrations& modes) {
   constexpr double rough = 1e-6;
   std::vector<std::string> texts;
+  for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i)
+    texts.push_back(fmt::format("{:<12} mode {:3}  {:.6g} per time  (omega^2 {:.6g})", step, i + 1,
+                                model::frequency(modes.omega_squared[i]), modes.omega_squared[i]));
+  const auto doubt = [&](const std::string& text) {
+    texts.push_back(fmt::format("warning: step '{}': {}", step, text));
+  };
   if (modes.missing > 0)
-    texts.push_back(fmt::format("{} vibrations below the last one are missing", modes.missing));
-  if (modes.missing < 0) texts.emplace_back("whether all vibrations are there is not known");
+    doubt(fmt::format("{} vibrations below the last one are missing", modes.missing));
+  if (modes.missing < 0) doubt("whether all vibrations are there is not known");
   if (modes.residual > rough)
-    texts.push_back(fmt::format("the vibrations are known to {:.0e} only", modes.residual));
+    doubt(fmt::format("the vibrations are known to {:.0e} only", modes.residual));
   if (modes.omega_squared.size() > 0 && modes.omega_squared[0] < 0 &&
       -modes.omega_squared[0] > rough * std::abs(modes.omega_squared.tail<1>()[0]))
-    texts.emplace_back("the state is unstable: omega^2 < 0");
+    doubt("the state is unstable: omega^2 < 0");
   return texts;
 }
 

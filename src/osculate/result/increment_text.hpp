@@ -25,8 +25,10 @@ template <int Dim>
 [[nodiscard]] std::string time_steps_text(const std::string& step, const model::Progress& p,
                                           const solve::IncrementRecord& record, PointStates states);
 
-/// What speaks against vibrations that were found: some are missing, or they are not exact.
-[[nodiscard]] std::vector<std::string> doubts(const model::Vibrations& modes);
+/// The vibrations that a step has found, then what speaks against them: some are missing, or they
+/// are not exact.
+[[nodiscard]] std::vector<std::string> vibrations_text(const std::string& step,
+                                                       const model::Vibrations& modes);
 /// The line of one iteration of an attempt that was dropped; they count from 1.
 [[nodiscard]] std::string iteration_text(int number, const solve::IterationRecord& iteration,
                                          PointStates states);

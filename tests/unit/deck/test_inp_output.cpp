@@ -103,7 +103,7 @@ TEST(InpOutput, AnUnknownSetStopsWithItsLine) {
     (void)read("*STEP\n*STATIC\n*NODE PRINT, NSET=PRAT\nU\n*END STEP\n");
     FAIL() << "expected an error";
   } catch (const core::InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("square.inp:15"));
+    EXPECT_THAT(error.what(), HasSubstr("square.inp:16"));
     EXPECT_THAT(error.what(), HasSubstr("PRAT"));
   }
 }
