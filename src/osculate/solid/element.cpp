@@ -200,13 +200,14 @@ void evaluate_forces(const Section<Dim>& section, CellType type, const Coordinat
   set(corner);
 }
 
-/// Reference coordinates of a point.
+/// Shape functions at a point.
 template <int Dim>
-Vec<Dim> point_of(const Section<Dim>& section, CellType type, std::size_t point) {
+Shape<Dim> shape_at_point(const Section<Dim>& section, CellType type, std::size_t point) {
   if constexpr (Dim == 3) {
-    if (section.formulation == Formulation::solid_shell) return shell_rule(type).points[point].xi;
+    if (section.formulation == Formulation::solid_shell)
+      return shape_at<3>(type, shell_rule(type).points[point].xi);
   }
-  return rule_of(section, type).points[point];
+  return rule_of(section, type).shape[point];
 }
 
 }  // namespace
@@ -267,8 +268,7 @@ std::array<double, static_cast<std::size_t>(max_points<Dim>)> expansion_at_point
   std::array<double, static_cast<std::size_t>(max_points<Dim>)> out{};
   const std::size_t count = point_count(section, type);
   for (std::size_t q = 0; q < count; ++q) {
-    const Vec<Dim> xi = point_of(section, type, q);
-    const Shape<Dim> shape = shape_at<Dim>(type, xi);
+    const Shape<Dim> shape = shape_at_point(section, type, q);
     const auto at = [&](std::span<const double> nodal) {
       return shape.n.head(shape.count)
           .dot(Eigen::Map<const Eigen::VectorXd>(nodal.data(), shape.count));
