@@ -1,4 +1,5 @@
 #pragma once
+// size: all that a model file may say, in one place
 #include <array>
 #include <optional>
 #include <string>
