@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "deck_test.hpp"
+#include "osculate/deck/build.hpp"
 
 namespace osculate::deck {
 namespace {
