@@ -104,6 +104,10 @@ void put_damping(const InpModel& m, const io::inp::Card& card, double area, Sour
 
 /// Time integration of a `*DYNAMIC`.
 [[nodiscard]] SourceNode inp_dynamics(const InpModel& m, const io::inp::Card& card);
+/// 3 as soon as there is a volume.
+[[nodiscard]] int inp_dimension(const InpModel& m);
+/// Of supports and forces: 6 with shells and beams, whose nodes turn.
+[[nodiscard]] int highest_direction(const InpModel& m);
 /// What moves: a set of nodes or a rigid body, and a direction 1 to 6.
 using InpTarget = std::pair<std::string, int>;
 /// What a support or load of a set of nodes acts on: the set, its nodes that are in no knot, the

@@ -297,12 +297,13 @@ class Steps {
       if (const auto field = fields.next(); field && !field->empty())
         last = io::inp::number_of(m_.deck, line.at, *field, "the last direction");
       const double size = fields.real_or_zero("the displacement");
-      if (last > highest_direction() || last < first)
-        fields.fail(fmt::format("expected directions 1 to {}, found {} to {}", highest_direction(),
-                                first, last));
+      const int highest = std::max(highest_direction(m_), 3);  // uz = 0 of plane ones may be said
+      if (last > highest || last < first)
+        fields.fail(
+            fmt::format("expected directions 1 to {}, found {} to {}", highest, first, last));
       for (std::int32_t k = first; k <= last; ++k)
         for (const auto& [on, direction] : targets_of(m_, set_name, k))
-          if (direction <= dimension() || k > 3)
+          if (direction <= inp_dimension(m_) || k > 3)
             set(prescribed_, on, direction, size, amplitude, line, false);
     }
   }
@@ -313,7 +314,7 @@ class Steps {
       Fields fields(m_.deck, line);
       const std::string& set_name = node_set(line, fields.next().value_or(""));
       const std::int32_t direction = fields.number("the direction");
-      const int highest = dimension() == 3 ? highest_direction() : dimension();
+      const int highest = highest_direction(m_);
       if (direction > highest)
         fields.fail(fmt::format("expected a direction 1 to {}, found {}", highest, direction));
       const std::vector<InpTarget> targets = targets_of(m_, set_name, direction);
@@ -357,7 +358,7 @@ class Steps {
     if (!(*density > 0))
       fields.fail(fmt::format("the material of {} has no *DENSITY", io::inp::shown(elements)));
     const std::string& on = set_of(m_, line.at, elements, {SetKind::elements});
-    for (int k = 0; k < dimension(); ++k)
+    for (int k = 0; k < inp_dimension(m_); ++k)
       set(body_forces_, on, k + 1, *density * size * direction.normalized()[k], amplitude, line,
           true);
   }
@@ -392,18 +393,6 @@ class Steps {
       temperatures_.emplace_back(std::move(of.on),
                                  Condition{of.value, amplitude, line_of(line.at), true});
     }
-  }
-
-  /// Rotations are those of nodes of shells and beams.
-  [[nodiscard]] int highest_direction() const {
-    return m_.mesh.mesh.relations.empty() && m_.mesh.knots.empty() ? 3 : 6;
-  }
-
-  /// 3 as soon as there is a volume.
-  [[nodiscard]] int dimension() const {
-    for (const mesh::Block& block : m_.mesh.mesh.blocks)
-      if (cell::info(block.type).dimension == 3 && block.size() > 0) return 3;
-    return 2;
   }
 
   // ---- the step -------------------------------------------------------------------------------

@@ -22,6 +22,16 @@ const std::string* find_nodes(const InpModel& m, const std::string& set) {
 
 }  // namespace
 
+int inp_dimension(const InpModel& m) {
+  for (const mesh::Block& block : m.mesh.mesh.blocks)
+    if (cell::info(block.type).dimension == 3 && block.size() > 0) return 3;
+  return 2;
+}
+
+int highest_direction(const InpModel& m) {
+  return m.mesh.mesh.relations.empty() && m.mesh.knots.empty() ? inp_dimension(m) : 6;
+}
+
 SourceNode inp_knots(const InpModel& m) {
   SourceNode bodies = inp_map(1);
   for (const DeckKnot& knot : m.mesh.knots) {

@@ -59,8 +59,8 @@ struct Relation {
                     [&](char x, char y) { return small(x) == small(y); });
 }
 
-/// Nodes, cells, named sets and relations of nodes; nothing else. Coordinates always have three components
-/// (z = 0 for plane problems).
+/// Nodes, cells, named sets and relations of nodes; nothing else. Coordinates always have three
+/// components (z = 0 for plane problems).
 struct Mesh {
   std::vector<Vec3> nodes;
   std::vector<Block> blocks;
