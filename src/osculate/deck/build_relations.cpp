@@ -129,13 +129,15 @@ void build_relations(BuildContext<Dim>& c) {
   Reduced reduced(given_dofs(c));
   for (const mesh::Relation& relation : relations) {
     std::vector<std::pair<Dof, double>> terms;
-    bool idle = false;  // a plane model, or cells without section
+    bool idle = relation.terms.size() > 1;  // of cells without section
+    bool in_space = true;
     for (const mesh::Relation::Term& term : relation.terms) {
-      idle = idle || term.direction >= Dim ||
-             (!c.takes_part(term.node) && term.node != relation.terms.front().node);
+      in_space = in_space && term.direction < Dim;
+      idle = idle && !c.takes_part(term.node);
       terms.emplace_back(Dim * term.node + term.direction, term.factor);
     }
-    if (!idle && !reduced.add_relation(terms))
+    if (idle || !in_space) continue;
+    if (!reduced.add_relation(terms))
       throw core::InputError(
           c.description.mesh.mark,
           fmt::format("what {} depends on is prescribed as well, or follows from equations",

@@ -117,12 +117,14 @@ TEST(InpExpand, NodesOfTheDeckStayAndMoveInTheMean) {
   EXPECT_THAT(deck.mesh.find_set("N")->nodes, SizeIs(9));
 }
 
-TEST(InpExpand, ThicknessOfNodes) {
-  const DeckMesh deck = read(plate("S8",
-                                   "*SHELL SECTION, ELSET=E, MATERIAL=M\n0.25\n*NODAL THICKNESS\n"
-                                   "1, 0.1\n4, 0.1\n8, 0.1\n2, 0.5\n3, 0.5\n6, 0.5\n5, 0.3\n"
-                                   "7, 0.3\n"));
-  EXPECT_NEAR(moments(deck.mesh, "E")[0], 2 * 3 * 0.3, 1e-12);
+TEST(InpExpand, ThicknessOfNodesWhereTheSectionSaysSo) {
+  const std::string nodes =
+      "*NODAL THICKNESS\n1, 0.1\n4, 0.1\n8, 0.1\n2, 0.5\n3, 0.5\n6, 0.5\n5, 0.3\n7, 0.3\n";
+  const std::string section = "*SHELL SECTION, ELSET=E, MATERIAL=M";
+  const DeckMesh with = read(plate("S8", section + ", NODAL THICKNESS\n" + nodes));
+  EXPECT_NEAR(moments(with.mesh, "E")[0], 2 * 3 * 0.3, 1e-12);
+  const DeckMesh without = read(plate("S8", section + "\n0.25\n" + nodes));
+  EXPECT_NEAR(moments(without.mesh, "E")[0], 2 * 3 * 0.25, 1e-12);
 }
 
 /// A quarter of a cylinder of radius 1 around y, 2 wide, of n elements S8, normals outwards.

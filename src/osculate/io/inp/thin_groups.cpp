@@ -90,7 +90,8 @@ class Grouper {
     c.section =
         &cards_.sections[static_cast<std::size_t>(cards_.section_of[static_cast<std::size_t>(e)])];
     const auto thickness = cards_.thickness.find(node);
-    c.thickness = thickness == cards_.thickness.end() ? c.section->thickness : thickness->second;
+    const bool of_node = !(c.section->thickness[0] > 0) && thickness != cards_.thickness.end();
+    c.thickness = of_node ? thickness->second : c.section->thickness;
     if (!(c.thickness[0] > 0))
       fail_at(e, fmt::format("has no thickness at node {}", mesh::node_number(mesh_, node)));
     const auto normal = cards_.normals.find({e, node});

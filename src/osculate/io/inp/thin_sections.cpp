@@ -70,7 +70,7 @@ class Reader {
     if (elements.empty()) return;
     const std::span<const Line> lines = lines_of(deck_, card);
     const bool plate = card.keyword == "SHELLSECTION";
-    const bool of_nodes = plate && find_parameter(card, "NODALTHICKNESS") != nullptr;
+    const bool of_nodes = find_parameter(card, "NODALTHICKNESS") != nullptr;
     ThinSection section;
     if (!plate)
       section.shape =
