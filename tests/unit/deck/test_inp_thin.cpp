@@ -39,8 +39,9 @@ TEST(InpThin, SectionsAreSolids) {
   ASSERT_THAT(d.sections, SizeIs(1));
   EXPECT_EQ(d.sections[0].on.value, "E");
   EXPECT_EQ(d.sections[0].formulation.value, Formulation::enhanced);
-  ASSERT_THAT(d.steps[0].body_force, SizeIs(1));
-  EXPECT_EQ(d.steps[0].body_force[0].values[2]->value, -6);
+  ASSERT_THAT(d.steps[0].body_force, SizeIs(3));  // one a direction
+  EXPECT_EQ(d.steps[0].body_force[2].on.value, "E");
+  EXPECT_EQ(d.steps[0].body_force[2].values[2]->value, -6);
 }
 
 TEST(InpThin, AKnotIsARigidBodyThatIsReleased) {
