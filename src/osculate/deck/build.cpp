@@ -27,6 +27,13 @@ bool BuildContext<Dim>::takes_part(Index node) const {
 }
 
 template <int Dim>
+bool BuildContext<Dim>::takes_part(Index node, int direction) const {
+  if (takes_part(node)) return true;
+  const auto dof = static_cast<std::size_t>(Dim * node + direction);
+  return dof < related.size() && related[dof];
+}
+
+template <int Dim>
 core::InputError BuildContext<Dim>::idle_node(const Name& on, Index node) const {
   return {on.mark, fmt::format("{} of '{}' belongs to no section and to no rigid body",
                                mesh::describe_node(model().mesh, node), on.value)};
@@ -185,12 +192,19 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   m.body_of_node.assign(m.reference.size(), -1);
   BuildContext<Dim> context{description, built, {}, {}, {}, {}, {}};
   for (const mesh::Set& set : m.mesh.sets) context.set_names.push_back(set.name);
+  for (const mesh::Relation& relation : m.mesh.relations) {
+    context.related.resize(m.reference.size() * Dim, false);
+    for (const mesh::Relation::Term& term : relation.terms)
+      if (term.direction < Dim)
+        context.related[static_cast<std::size_t>(Dim * term.node + term.direction)] = true;
+  }
   build_sections(context);
   build_rigid(context);
   build_masses(context);
   build_contact(context);
   build_equations(context);
   build_initial_temperature(context);
+  build_relations(context);
   build_steps(context);
   build_pair_changes(context);
   build_initial_velocity(context);

@@ -38,12 +38,15 @@ struct BuildContext {
   std::map<std::pair<Index, Index>, Index> section_of_cell;  ///< by block and cell
   SideTable<Dim> sides;                                      ///< of the cells that have a section
   std::optional<model::CellsOfNodes<Dim>> cells_of_node{};   ///< of sections; made when needed
+  std::vector<bool> related{};  ///< displacements that relations of the mesh name; empty: none
 
   [[nodiscard]] model::BasicModel<Dim>& model() const { return built.model; }
   /// The set, or the error with the nearest name.
   [[nodiscard]] const mesh::Set& set(const Name& on) const;
   /// A node that moves with the solution: of a section or of a rigid body.
   [[nodiscard]] bool takes_part(Index node) const;
+  /// So does a displacement that a relation of the mesh names.
+  [[nodiscard]] bool takes_part(Index node, int direction) const;
   /// The error for a set with nodes that do not take part.
   [[nodiscard]] core::InputError idle_node(const Name& on, Index node) const;
 };
@@ -91,6 +94,8 @@ template <int Dim>
 void warn_of_rest(BuildContext<Dim>& context);
 template <int Dim>
 void build_equations(BuildContext<Dim>& context);
+template <int Dim>
+void build_relations(BuildContext<Dim>& context);
 template <int Dim>
 void build_steps(BuildContext<Dim>& context);
 /// What changes of pairs from step to step.

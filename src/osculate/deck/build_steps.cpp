@@ -72,7 +72,7 @@ std::vector<Dof> displacement_dofs(const BuildContext<Dim>& c, const Name& on, C
           on.mark, fmt::format("set '{}' has nodes of the rigid body '{}'; name "
                                "the rigid body instead",
                                on.value, c.model().rigid[static_cast<std::size_t>(body)].name));
-    if (c.takes_part(node))
+    if (c.takes_part(node, motion_of<Dim>(component)))
       dofs.push_back(Dim * node + motion_of<Dim>(component));
     else if (idle == Idle::refused)
       throw c.idle_node(on, node);

@@ -1,10 +1,12 @@
 // Materials, sections and equations of a deck.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 
 #include "osculate/deck/inp_parts.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
+#include "osculate/io/inp/thin_sections.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -158,6 +160,18 @@ void require_sections(const InpModel& m, SourceNode& sections) {
   }
 }
 
+/// A section of shells or beams; what cannot be expanded stops.
+bool is_thin(const InpModel& m, const Card& card) {
+  if (io::inp::is_thin_section(card)) return true;
+  if (card.keyword == "SHELLSECTION")
+    io::inp::fail(m.deck, card, "COMPOSITE is not supported: one material, one thickness");
+  if (card.keyword == "BEAMSECTION" || card.keyword == "BEAMGENERALSECTION")
+    io::inp::fail(m.deck, card,
+                  fmt::format("SECTION={} is not supported: RECT or CIRC",
+                              printable(option_of(card, "SECTION"))));
+  return false;
+}
+
 }  // namespace
 
 SourceNode inp_materials(InpModel& m) {
@@ -182,7 +196,7 @@ SourceNode inp_materials(InpModel& m) {
 SourceNode inp_sections(InpModel& m) {
   SourceNode sections = inp_list(1);
   for (const Card& card : m.deck.cards) {
-    if (card.keyword != "SOLIDSECTION") continue;
+    if (card.keyword != "SOLIDSECTION" && !is_thin(m, card)) continue;
     const int line = line_of(card.at);
     if (!option_of(card, "ORIENTATION").empty())
       io::inp::fail(m.deck, card, "ORIENTATION is not supported: materials are isotropic");
@@ -205,7 +219,7 @@ SourceNode inp_sections(InpModel& m) {
 
 std::optional<double> density_on(const InpModel& m, std::string_view elements) {
   for (const Card& section : m.deck.cards) {
-    if (section.keyword != "SOLIDSECTION") continue;
+    if (section.keyword != "SOLIDSECTION" && !is_thin(m, section)) continue;
     if (option_of(section, "ELSET") != io::inp::capitals(elements)) continue;
     const std::string material = plain_name(option_of(section, "MATERIAL"));
     for (const MaterialCards& c : material_cards(m))

@@ -2,9 +2,11 @@
 // The parts of the translation of an Abaqus or CalculiX deck into a model file; for inp_*.cpp.
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "osculate/deck/source_tree.hpp"
@@ -102,6 +104,25 @@ void put_damping(const InpModel& m, const io::inp::Card& card, double area, Sour
 
 /// Time integration of a `*DYNAMIC`.
 [[nodiscard]] SourceNode inp_dynamics(const InpModel& m, const io::inp::Card& card);
+/// 3 as soon as there is a volume.
+[[nodiscard]] int inp_dimension(const InpModel& m);
+/// Of supports and forces: 6 with shells and beams, whose nodes turn.
+[[nodiscard]] int highest_direction(const InpModel& m);
+/// What moves: a set of nodes or a rigid body, and a direction 1 to 6.
+using InpTarget = std::pair<std::string, int>;
+/// What a support or load of a set of nodes acts on: the set, its nodes that are in no knot, the
+/// knots, its rotations. Empty: nodes without rotations.
+///
+/// Tested by  tests/unit/deck/test_inp_thin.cpp
+[[nodiscard]] std::vector<InpTarget> targets_of(const InpModel& m, const std::string& set,
+                                                int direction);
+/// `ux` to `rz` of kind u, `fx` to `mz` of kind f.
+[[nodiscard]] std::string component_of(char kind, int direction);
+/// Knots of shells and beams as rigid bodies.
+[[nodiscard]] SourceNode inp_knots(const InpModel& m);
+/// `release` of the first step: the motions of knots that are not `prescribed`.
+[[nodiscard]] SourceNode released_knots(const InpModel& m, const std::set<InpTarget>& prescribed,
+                                        int line);
 
 /// The steps, with the amplitudes that they use.
 struct InpSteps {

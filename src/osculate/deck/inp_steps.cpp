@@ -155,11 +155,11 @@ class Steps {
     put(step, "increments", inp_number(increments_, line_of(procedure_->at)));
     put(step, "duration", inp_number(period_, line_of(procedure_->at)));
     if (procedure_->keyword == "DYNAMIC") put(step, "dynamics", inp_dynamics(m_, *procedure_));
-    put_directions(step, "prescribe", "ux", prescribed_);
+    put_directions(step, "prescribe", 'u', prescribed_);
     put_releases(step);
-    put_directions(step, "forces", "fx", forces_);
+    put_directions(step, "forces", 'f', forces_);
     put_pressures(step);
-    put_directions(step, "body_force", "fx", body_forces_);
+    put_directions(step, "body_force", 'f', body_forces_);
     SourceNode changes = inp_changes(m_, std::span(step_, &card));
     if (!changes.items.empty()) put(step, "contact", std::move(changes));
     put_temperatures(step);
@@ -297,10 +297,14 @@ class Steps {
       if (const auto field = fields.next(); field && !field->empty())
         last = io::inp::number_of(m_.deck, line.at, *field, "the last direction");
       const double size = fields.real_or_zero("the displacement");
-      if (last > 3 || last < first)
-        fields.fail(fmt::format("expected directions 1 to 3, found {} to {}", first, last));
-      for (std::int32_t k = first; k <= std::min<std::int32_t>(last, dimension()); ++k)
-        set(prescribed_, set_name, k, size, amplitude, line, false);
+      const int highest = std::max(highest_direction(m_), 3);  // uz = 0 of plane ones may be said
+      if (last > highest || last < first)
+        fields.fail(
+            fmt::format("expected directions 1 to {}, found {} to {}", highest, first, last));
+      for (std::int32_t k = first; k <= last; ++k)
+        for (const auto& [on, direction] : targets_of(m_, set_name, k))
+          if (direction <= inp_dimension(m_) || k > 3)
+            set(prescribed_, on, direction, size, amplitude, line, false);
     }
   }
 
@@ -310,9 +314,13 @@ class Steps {
       Fields fields(m_.deck, line);
       const std::string& set_name = node_set(line, fields.next().value_or(""));
       const std::int32_t direction = fields.number("the direction");
-      if (direction > dimension())
-        fields.fail(fmt::format("expected a direction 1 to {}, found {}", dimension(), direction));
-      set(forces_, set_name, direction, fields.real("the force"), amplitude, line, true);
+      const int highest = highest_direction(m_);
+      if (direction > highest)
+        fields.fail(fmt::format("expected a direction 1 to {}, found {}", highest, direction));
+      const std::vector<InpTarget> targets = targets_of(m_, set_name, direction);
+      if (targets.empty()) fields.fail("no shell or beam can take a moment here");
+      const double size = fields.real("the force");
+      for (const auto& [on, along] : targets) set(forces_, on, along, size, amplitude, line, true);
     }
   }
 
@@ -350,7 +358,7 @@ class Steps {
     if (!(*density > 0))
       fields.fail(fmt::format("the material of {} has no *DENSITY", io::inp::shown(elements)));
     const std::string& on = set_of(m_, line.at, elements, {SetKind::elements});
-    for (int k = 0; k < dimension(); ++k)
+    for (int k = 0; k < inp_dimension(m_); ++k)
       set(body_forces_, on, k + 1, *density * size * direction.normalized()[k], amplitude, line,
           true);
   }
@@ -387,13 +395,6 @@ class Steps {
     }
   }
 
-  /// 3 as soon as there is a volume.
-  [[nodiscard]] int dimension() const {
-    for (const mesh::Block& block : m_.mesh.mesh.blocks)
-      if (cell::info(block.type).dimension == 3 && block.size() > 0) return 3;
-    return 2;
-  }
-
   // ---- the step -------------------------------------------------------------------------------
 
   /// Said now, or with an amplitude that goes on.
@@ -403,16 +404,14 @@ class Steps {
     return one.second.fresh || released || !one.second.amplitude.empty();
   }
 
-  void put_directions(SourceNode& step, const char* key, std::string component,
-                      Conditions& values) {
+  void put_directions(SourceNode& step, const char* key, char kind, Conditions& values) {
     SourceNode list = inp_list(line_of(step_->at));
     for (const auto& one : values) {
       if (!is_active(values, one)) continue;
       const auto& [set_and_direction, value] = one;
-      component[1] = "xyz"[set_and_direction.second - 1];
       SourceNode& entry = list.items.emplace_back(inp_map(value.line));
       put(entry, "on", inp_text(set_and_direction.first, value.line));
-      put(entry, component, inp_number(value.size, value.line));
+      put(entry, component_of(kind, set_and_direction.second), inp_number(value.size, value.line));
       put_amplitude(entry, value, &values != &prescribed_);
     }
     if (!list.items.empty()) put(step, key, std::move(list));
@@ -463,13 +462,17 @@ class Steps {
   }
 
   void put_releases(SourceNode& step) {
-    SourceNode list = inp_list(line_of(step_->at));
+    std::set<InpTarget> prescribed;
+    for (const auto& [key, value] : prescribed_) prescribed.insert(key);
+    const bool first = out_.steps.items.size() == 1;
+    SourceNode list =
+        first ? released_knots(m_, prescribed, line_of(step_->at)) : inp_list(line_of(step_->at));
     for (const auto& [values, key] : released_) {
       if (values != &prescribed_) continue;
       SourceNode& entry = list.items.emplace_back(inp_map(line_of(step_->at)));
       put(entry, "on", inp_text(key.first, line_of(step_->at)));
       SourceNode& of = put(entry, "of", inp_list(line_of(step_->at)));
-      of.items.push_back(inp_text(std::string("u") + "xyz"[key.second - 1], line_of(step_->at)));
+      of.items.push_back(inp_text(component_of('u', key.second), line_of(step_->at)));
     }
     if (!list.items.empty()) put(step, "release", std::move(list));
   }

@@ -10,6 +10,7 @@
 #include "osculate/core/text.hpp"
 #include "osculate/deck/inp_keywords.hpp"
 #include "osculate/deck/inp_parts.hpp"
+#include "osculate/io/inp/thin_sections.hpp"
 
 namespace osculate::deck {
 
@@ -124,13 +125,6 @@ void check_keywords(InpModel& m) {
   m.notes.push_back(fmt::format("of '{}' these are left out: {}", m.deck.files[0], text));
 }
 
-bool is_finite(const InpModel& m) {
-  return std::any_of(m.deck.cards.begin(), m.deck.cards.end(), [](const Card& card) {
-    const Parameter* const found = io::inp::find_parameter(card, "NLGEOM");
-    return card.keyword == "STEP" && found && io::inp::capitals(found->value) != "NO";
-  });
-}
-
 std::string heading_of(const InpModel& m) {
   for (const Card& card : m.deck.cards)
     if (card.keyword == "HEADING" && !io::inp::lines_of(m.deck, card).empty())
@@ -152,7 +146,7 @@ TranslatedDeck translate_deck(const io::inp::Deck& deck) {
   const std::string& file = deck.files[0];
   InpModel m{deck, {}, {}, false, {}};
   check_keywords(m);
-  m.finite = is_finite(m);
+  m.finite = io::inp::has_finite_step(deck);
   m.mesh = io::inp::deck_mesh(deck);
   for (const io::inp::DeckSet& set : m.mesh.sets)
     m.sets.emplace(std::pair(set.kind, io::inp::capitals(set.name)), set.set);
@@ -167,6 +161,7 @@ TranslatedDeck translate_deck(const io::inp::Deck& deck) {
   };
   put_unless_empty("materials", inp_materials(m));
   put_unless_empty("sections", inp_sections(m));
+  put_unless_empty("rigid", inp_knots(m));
   put_unless_empty("contact", inp_contact(m));
   put_unless_empty("equations", inp_equations(m));
   put_unless_empty("initial_temperature", inp_initial_temperature(m));

@@ -108,6 +108,9 @@ void check_nodes(const Mesh& mesh, std::vector<Finding>& findings) {
   for (const Block& block : mesh.blocks)
     if (cell::info(block.type).dimension > 0)
       for (const Index node : block.connectivity) used[static_cast<std::size_t>(node)] = true;
+  for (const Relation& relation : mesh.relations)
+    for (const Relation::Term& term : relation.terms)
+      used[static_cast<std::size_t>(term.node)] = true;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     const Vec3& x = mesh.nodes[i];
     const std::string text =

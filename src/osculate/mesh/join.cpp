@@ -74,6 +74,10 @@ void append_mesh(Mesh& mesh, const Mesh& part, const std::string& name,
     }
     mesh.sets.push_back(std::move(set));
   };
+  for (Relation relation : part.relations) {
+    for (Relation::Term& term : relation.terms) term.node += first;
+    mesh.relations.push_back(std::move(relation));
+  }
   add(whole_of(part), name);
   for (std::size_t s = 0; s < part.sets.size(); ++s) add(part.sets[s], name + names[s]);
 }

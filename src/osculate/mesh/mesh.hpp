@@ -40,6 +40,18 @@ struct Set {
   bool any_case = false;  ///< its name may be written in capital and small letters alike
 };
 
+/// Displacements that depend on each other by what a mesh stands for: sum of factor * u = 0. A node
+/// of a shell or beam moves as the mean of the nodes that it was expanded to (io::read_inp). The
+/// first term is what follows from the others.
+struct Relation {
+  struct Term {
+    Index node;
+    int direction;
+    double factor;
+  };
+  std::vector<Term> terms;
+};
+
 /// Whether names differ at most in capital and small letters (of ASCII).
 [[nodiscard]] inline bool same_but_for_case(std::string_view a, std::string_view b) {
   const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
@@ -47,13 +59,14 @@ struct Set {
                     [&](char x, char y) { return small(x) == small(y); });
 }
 
-/// Nodes, cells and named sets; nothing else. Coordinates always have three components
-/// (z = 0 for plane problems).
+/// Nodes, cells, named sets and relations of nodes; nothing else. Coordinates always have three
+/// components (z = 0 for plane problems).
 struct Mesh {
   std::vector<Vec3> nodes;
   std::vector<Block> blocks;
   std::vector<Set> sets;
   std::vector<std::int64_t> numbers{};  ///< of the nodes in the mesh file; empty: 1, 2, ...
+  std::vector<Relation> relations{};
 
   /// The set of that name, else one that is called so but for capital letters.
   [[nodiscard]] const Set* find_set(std::string_view name) const {

@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "osculate/io/inp/expand.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
 #include "osculate/io/inp/sides.hpp"
 
@@ -25,7 +26,7 @@ RawMesh raw_mesh(const Deck& deck) {
 std::set<std::string> section_sets(const Deck& deck) {
   std::set<std::string> names;
   for (const Card& card : deck.cards)
-    if (card.keyword == "SOLIDSECTION")
+    if (card.keyword == "SOLIDSECTION" || is_thin_section(card))
       if (const Parameter* const set = find_parameter(card, "ELSET"))
         names.insert(capitals(set->value));
   return names;
@@ -43,13 +44,17 @@ class Builder {
 
   /// Sets of elements first: they keep their names.
   DeckMesh build() {
+    expand_thin();
     for (std::uint32_t s = 0; s < raw_.scopes.size(); ++s)
       for (const auto& [key, raw] : raw_.scopes[s].element_sets) add_elements(s, raw);
     for (std::uint32_t s = 0; s < raw_.scopes.size(); ++s)
       for (const auto& [key, raw] : raw_.scopes[s].surfaces) add_surface(s, raw);
     for (std::uint32_t s = 0; s < raw_.scopes.size(); ++s) {
-      for (const auto& [key, raw] : raw_.scopes[s].node_sets)
-        add_nodes(SetKind::nodes, s, raw, members_.of(Kind::nodes, s, raw.name, raw.at));
+      for (const auto& [key, raw] : raw_.scopes[s].node_sets) {
+        const std::vector<Index>& nodes = members_.of(Kind::nodes, s, raw.name, raw.at);
+        add_nodes(SetKind::nodes, s, raw, nodes);
+        add_thin_sets(s, raw, nodes);
+      }
       for (const auto& [key, raw] : raw_.scopes[s].node_surfaces)
         add_nodes(SetKind::node_surface, s, raw, members_.of(Kind::nodes, s, raw));
     }
@@ -57,6 +62,40 @@ class Builder {
   }
 
  private:
+  /// Makes solids of shells and beams, and sets of their knots.
+  void expand_thin() {
+    const ThinCards cards = thin_cards(deck_, raw_, numbering_, members_);
+    if (cards.sections.empty()) return;
+    expansion_ = expand(deck_, cards, numbering_, out_.mesh);
+    for (Knot& knot : expansion_.knots) {
+      const std::int64_t number = mesh::node_number(out_.mesh, knot.node);
+      mesh::Set set{fmt::format("knot {}", number), 0, {}, std::move(knot.nodes), true};
+      std::sort(set.nodes.begin(), set.nodes.end());
+      out_.knots.push_back({knot.node, set.name});
+      out_.mesh.sets.push_back(std::move(set));
+      in_knot_.insert(knot.node);
+    }
+  }
+
+  /// Beside a set of nodes those of its rotations, and those that are in no knot.
+  void add_thin_sets(std::uint32_t scope, const RawSet& raw, const std::vector<Index>& nodes) {
+    std::vector<Index> turns, free;
+    for (const Index node : nodes) {
+      if (!in_knot_.contains(node)) free.push_back(node);
+      const auto found = expansion_.rotations.find(node);
+      if (found != expansion_.rotations.end()) turns.push_back(found->second);
+    }
+    RawSet other{"", raw.at, {}, {}};
+    if (!turns.empty()) {
+      std::sort(turns.begin(), turns.end());
+      other.name = set_of_rotations(raw.name);
+      add_nodes(SetKind::nodes, scope, other, std::move(turns));
+    }
+    if (free.empty() || free.size() == nodes.size()) return;
+    other.name = set_without_knots(raw.name);
+    add_nodes(SetKind::nodes, scope, other, std::move(free));
+  }
+
   [[nodiscard]] mesh::Set named(std::uint32_t scope, const std::string& name) const {
     mesh::Set set;
     set.name = scope == 0 ? name : raw_.scopes[scope].name + "." + name;
@@ -159,6 +198,8 @@ class Builder {
   Numbering numbering_;
   Members members_;
   Sides sides_;
+  Expansion expansion_;
+  std::set<Index> in_knot_;
   Named<std::size_t> used_;  ///< names of sets in capitals, and the sets
 };
 
@@ -166,6 +207,12 @@ class Builder {
 
 std::string typed_set_name(std::string_view elements, std::string_view type) {
   return fmt::format("{} of {}", elements, type);
+}
+std::string set_without_knots(std::string_view nodes) {
+  return fmt::format("{} without knots", nodes);
+}
+std::string set_of_rotations(std::string_view nodes) {
+  return fmt::format("rotations of {}", nodes);
 }
 
 DeckMesh deck_mesh(const Deck& deck) { return Builder(deck).build(); }

@@ -24,10 +24,22 @@ struct DeckSet {
 /// several: `BLOCK of C3D20R`.
 [[nodiscard]] std::string typed_set_name(std::string_view elements, std::string_view type);
 
+/// Nodes that move as one where shells or beams meet.
+struct DeckKnot {
+  Index node;       ///< the deck's, to which its supports and loads refer
+  std::string set;  ///< of all of them: `knot 17`
+};
+
 struct DeckMesh {
   mesh::Mesh mesh;
   std::vector<DeckSet> sets;
+  std::vector<DeckKnot> knots{};
 };
+
+/// Of a set of nodes with some in knots: the set of the others.
+[[nodiscard]] std::string set_without_knots(std::string_view nodes);
+/// Of a set of nodes: the set of the nodes whose displacements are their rotations.
+[[nodiscard]] std::string set_of_rotations(std::string_view nodes);
 
 /// The mesh that the cards of a deck describe, see io::read_inp.
 ///

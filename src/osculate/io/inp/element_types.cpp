@@ -144,6 +144,18 @@ Side find_side(const ElementType& type, std::string_view label) {
   return {Side::Kind::face, cell_faces(type.cell)[static_cast<std::size_t>(number - 1)]};
 }
 
+std::string solid_side(std::string_view label, bool of_load, Family family) {
+  if (of_load) {
+    if (family == surface) return "S1";
+    if (family == line && label == "P2") return "S5";
+    return "S" + std::string(label.substr(1));
+  }
+  if (label == "SNEG") return "S1";
+  if (label == "SPOS") return "S2";
+  if (label.size() == 2 && label[0] == 'E') return {'S', static_cast<char>(label[1] + 2)};
+  return std::string(label);
+}
+
 std::string side_names(const ElementType& type) {
   const cell::CellInfo& info = cell::info(type.cell);
   if (type.family == line) return "none";

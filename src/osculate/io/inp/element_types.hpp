@@ -44,6 +44,10 @@ struct Side {
 /// has no such side. Of solids S1... are faces, of plane elements edges. Of shells SNEG is S1, SPOS
 /// is S2, and S3... are edges as in CalculiX, E1... as in Abaqus.
 [[nodiscard]] Side find_side(const ElementType& type, std::string_view label);
+/// What a side (S1, SPOS, E1, ...) or, `of_load`, the side that a load P, P1, ... acts on is called
+/// on a solid. Of shells and beams (`family` surface and line) this is the solid that they are
+/// expanded to, and their loads push along the normal, along the first and the second axis.
+[[nodiscard]] std::string solid_side(std::string_view label, bool of_load, Family family);
 /// What may be written: `S1 to S6`.
 [[nodiscard]] std::string side_names(const ElementType& type);
 

@@ -29,7 +29,8 @@ void add_side(const Deck& deck, const Line& line, RawMesh& mesh) {
   SurfaceEntry entry;
   entry.set = {elements, own_scope, line.at, true};
   if (is_number(elements)) entry.number = number_of(deck, line.at, elements, "an element");
-  entry.side = "S" + load.substr(1);
+  entry.side = load;
+  entry.of_load = true;
   surface.entries.push_back(std::move(entry));
 }
 
@@ -69,6 +70,7 @@ std::string side_set_name(std::string_view load, std::string_view elements) {
 }
 
 bool is_side_load(std::string_view load) {
+  if (load == "P") return true;
   return load.size() == 2 && load[0] == 'P' && load[1] >= '1' && load[1] <= '6';
 }
 

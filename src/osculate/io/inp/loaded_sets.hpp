@@ -11,7 +11,8 @@ namespace osculate::io::inp {
 /// The facets of a set of elements (or of the element of a number) that a load `P3` acts on:
 /// `P3 of BLOCK`.
 [[nodiscard]] std::string side_set_name(std::string_view load, std::string_view elements);
-/// Whether a load of `*DLOAD` (in capitals) is a pressure on a numbered side: P1, P2, ...
+/// Whether a load of `*DLOAD` (in capitals) is a pressure on a numbered side: P1, P2, ..., of
+/// shells P as well.
 [[nodiscard]] bool is_side_load(std::string_view load);
 
 /// Adds sets for what boundary conditions, loads and equations name by numbers of nodes, and for

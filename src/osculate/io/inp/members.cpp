@@ -72,7 +72,10 @@ std::vector<Index> Members::of(Kind kind, std::uint32_t scope, const RawSet& set
 }
 
 void Members::add_nodes_of(Index element, std::vector<Index>& members) const {
-  const mesh::CellRef ref = numbering_.elements[static_cast<std::size_t>(element)].cell;
+  const auto& [type, ref, variant, deck_nodes, family] =
+      numbering_.elements[static_cast<std::size_t>(element)];
+  members.insert(members.end(), deck_nodes.begin(), deck_nodes.end());
+  if (!deck_nodes.empty()) return;
   const mesh::Block& block = mesh_.blocks[static_cast<std::size_t>(ref.block)];
   const Index* const nodes = block.cell(ref.cell);
   members.insert(members.end(), nodes, nodes + cell::info(block.type).nodes);

@@ -84,14 +84,6 @@ void add_element(const Deck& deck, const RawElements& from, const Listed& listed
   }
 }
 
-std::size_t variant_place(Numbering& numbering, const std::string& variant) {
-  std::vector<std::string>& all = numbering.variants;
-  const auto known = std::find(all.begin(), all.end(), variant);
-  const auto place = static_cast<std::size_t>(known - all.begin());
-  if (known == all.end()) all.push_back(variant);
-  return place;
-}
-
 void add_elements(const Deck& deck, Scope& scope, mesh::Mesh& mesh, Numbering& numbering,
                   ScopeNumbers& numbers) {
   const std::vector<Listed> list = sorted_elements(deck, scope);
@@ -103,8 +95,11 @@ void add_elements(const Deck& deck, Scope& scope, mesh::Mesh& mesh, Numbering& n
     const Index at = block_of_type(mesh, from.type->cell);
     mesh::Block& block = mesh.blocks[static_cast<std::size_t>(at)];
     add_element(deck, from, listed, numbers, block);
-    numbering.elements.push_back(
-        {from.type, {at, block.size() - 1}, variant_place(numbering, from.variant)});
+    numbering.elements.push_back({from.type,
+                                  {at, block.size() - 1},
+                                  variant_place(numbering, from.variant),
+                                  {},
+                                  from.type->family});
     sorted.push_back(listed.number);
   }
   numbers.elements = NumberMap(std::move(sorted));
@@ -133,6 +128,14 @@ void keep_numbers(const Numbering& numbering, mesh::Mesh& mesh) {
 }
 
 }  // namespace
+
+std::size_t variant_place(Numbering& numbering, const std::string& variant) {
+  std::vector<std::string>& all = numbering.variants;
+  const auto known = std::find(all.begin(), all.end(), variant);
+  const auto place = static_cast<std::size_t>(known - all.begin());
+  if (known == all.end()) all.push_back(variant);
+  return place;
+}
 
 Index block_of_type(mesh::Mesh& mesh, cell::CellType type) {
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b)

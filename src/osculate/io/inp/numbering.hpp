@@ -10,7 +10,9 @@ namespace osculate::io::inp {
 struct Element {
   const ElementType* type = nullptr;
   mesh::CellRef cell{};
-  std::size_t variant = 0;  ///< place in Numbering::variants
+  std::size_t variant = 0;             ///< place in Numbering::variants
+  std::vector<Index> deck_nodes{};     ///< of one that was expanded: those that the deck names
+  Family deck_family = Family::solid;  ///< of one that was expanded: surface or line
 };
 
 /// Where the nodes and elements of one scope are in the mesh.
@@ -33,6 +35,9 @@ struct Numbering {
 /// Errors     core::InputError: numbers used twice, nodes that do not exist, no nodes, no elements
 /// Tested by  tests/unit/io/test_inp.cpp, test_inp_parts.cpp, test_inp_broken.cpp
 [[nodiscard]] Numbering add_cells(const Deck& deck, RawMesh& raw, mesh::Mesh& mesh);
+
+/// Place of a variant among those of the numbering; a new one if it is not there.
+[[nodiscard]] std::size_t variant_place(Numbering& numbering, const std::string& variant);
 
 /// The block of that type; a new one if there is none.
 [[nodiscard]] Index block_of_type(mesh::Mesh& mesh, cell::CellType type);

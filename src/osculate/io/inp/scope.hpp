@@ -42,6 +42,7 @@ struct SurfaceEntry {
   SetName set;
   std::int32_t number = 0;  ///< instead of a set
   std::string side;         ///< in capitals; empty: all free ones
+  bool of_load = false;     ///< `side` is what a pressure is called: P1
 };
 
 struct RawSurface {

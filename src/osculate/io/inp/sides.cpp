@@ -56,8 +56,11 @@ mesh::CellRef Sides::facet(cell::CellType type, std::span<const Index> nodes,
 }
 
 void Sides::add_side(const SurfaceEntry& entry, Index element, std::vector<mesh::CellRef>& cells) {
-  const auto& [type, ref, variant] = numbering_.elements[static_cast<std::size_t>(element)];
-  const Side side = find_side(*type, entry.side);
+  const auto& [type, ref, variant, deck_nodes, family] =
+      numbering_.elements[static_cast<std::size_t>(element)];
+  const bool as_it_is = deck_nodes.empty() && !entry.of_load;
+  const Side side =
+      find_side(*type, as_it_is ? entry.side : solid_side(entry.side, entry.of_load, family));
   if (side.kind == Side::Kind::none)
     fail(deck_, entry.set.at,
          fmt::format("element {} of type {} has no side {}; expected {}",
@@ -90,7 +93,8 @@ void Sides::add_free(const SurfaceEntry& entry, const std::vector<Index>& elemen
                      std::vector<mesh::CellRef>& cells) {
   mesh::Set solids{"", 3, {}, {}}, areas{"", 2, {}, {}};
   for (const Index element : elements) {
-    const auto& [type, ref, variant] = numbering_.elements[static_cast<std::size_t>(element)];
+    const auto& [type, ref, variant, deck_nodes, family] =
+        numbering_.elements[static_cast<std::size_t>(element)];
     if (type->family == Family::solid) solids.cells.push_back(ref);
     if (type->family == Family::plane) areas.cells.push_back(ref);
     if (type->family == Family::surface || type->family == Family::line) cells.push_back(ref);

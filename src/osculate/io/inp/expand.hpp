@@ -1,0 +1,39 @@
+#pragma once
+#include <map>
+#include <vector>
+
+#include "osculate/io/inp/thin_sections.hpp"
+
+namespace osculate::io::inp {
+
+/// A node at which several expansions meet, and all that move with it as one, itself included.
+struct Knot {
+  Index node = 0;
+  std::vector<Index> nodes;
+};
+
+struct Expansion {
+  std::vector<Knot> knots;
+  std::map<Index, Index> rotations;  ///< by node: the node whose displacements are its rotation
+};
+
+/// Makes solids of shells, beams and trusses: S3 to C3D6, S4 to C3D8, S6 to C3D15, S8 to C3D20,
+/// lines of two and three nodes to C3D8 and C3D20. First in a cell is the side that the normal of a
+/// shell, the first axis of a beam points away from.
+///
+/// The nodes of the deck remain: a relation of the mesh says that each moves as the mean of the
+/// corners it was expanded to. Where elements do not continue each other (thin_groups) it is a knot
+/// instead: with finite steps a set of nodes that move as one, else relations, with which it may
+/// stretch. Where a node is held the middles of the edges of second-order sections stay straight.
+/// Rotations that the deck holds or loads are small, the mean over the corners of the
+/// rotation about the axes; a node of its own has them as displacements. Ends of trusses are joined
+/// by the means alone; that the first end does not turn about the truss is one relation more.
+///
+/// Numbers    new nodes go on after the largest one of the deck; cells have those of the elements
+/// Source     CalculiX CrunchiX User's Manual, "Expansion of the one-dimensional and
+///            two-dimensional elements"
+/// Tested by  tests/unit/io/test_inp_expand.cpp, tests/system/test_shells.cpp
+[[nodiscard]] Expansion expand(const Deck& deck, const ThinCards& cards, Numbering& numbering,
+                               mesh::Mesh& mesh);
+
+}  // namespace osculate::io::inp

@@ -1,0 +1,200 @@
+#include "osculate/io/inp/thin_sections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osculate::io::inp {
+namespace {
+
+using Shape = ThinSection::Shape;
+
+std::string option(const Card& card, std::string_view name) {
+  const Parameter* const found = find_parameter(card, name);
+  return found ? capitals(found->value) : std::string();
+}
+
+bool is_shell(const ElementType& type) {
+  return type.family == Family::surface && type.name[0] == 'S' && type.name[1] != 'F';
+}
+bool is_truss(const ElementType& type) { return type.name.starts_with("T3D"); }
+bool is_beam(const ElementType& type) { return type.name.starts_with("B3"); }
+
+double number_or(const Card& card, std::string_view name, double fallback, const Deck& deck) {
+  const Parameter* const found = find_parameter(card, name);
+  if (!found) return fallback;
+  return Fields(deck, {found->value, card.at}).real("a number");
+}
+
+class Reader {
+ public:
+  Reader(const Deck& deck, const RawMesh& raw, const Numbering& numbering, Members& members)
+      : deck_(deck), raw_(raw), numbering_(numbering), members_(members) {}
+
+  ThinCards read() {
+    out_.finite = has_finite_step(deck_);
+    out_.section_of.assign(numbering_.elements.size(), -1);
+    for (const Card& card : deck_.cards) {
+      if (card.keyword == "SHELLSECTION" || card.keyword == "BEAMSECTION") read_section(card);
+      if (card.keyword == "SOLIDSECTION") read_trusses(card);
+    }
+    if (out_.sections.empty()) return std::move(out_);
+    for (const Card& card : deck_.cards) {
+      if (card.keyword == "NODALTHICKNESS") read_thickness(card);
+      if (card.keyword == "NORMAL") read_normals(card);
+      if (card.keyword == "BOUNDARY") read_directions(card, true);
+      if (card.keyword == "CLOAD") read_directions(card, false);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  /// The elements of a section; none where the set is that of a part.
+  [[nodiscard]] std::vector<Index> elements_of(const Card& card) {
+    const std::string set = option(card, "ELSET");
+    if (!raw_.scopes[0].element_sets.contains(set)) return {};
+    return members_.of(Kind::elements, 0, set, card.at);
+  }
+
+  [[nodiscard]] double thickness(Fields& fields, bool needed) const {
+    const double size = fields.real_or_zero("a thickness");
+    if (size < 0 || (size == 0 && needed))
+      fields.fail(fmt::format("expected a thickness above 0, found {}", size));
+    return size;
+  }
+
+  void read_section(const Card& card) {
+    if (!is_thin_section(card)) return;
+    const std::vector<Index> elements = elements_of(card);
+    if (elements.empty()) return;
+    const std::span<const Line> lines = lines_of(deck_, card);
+    const bool plate = card.keyword == "SHELLSECTION";
+    const bool of_nodes = find_parameter(card, "NODALTHICKNESS") != nullptr;
+    ThinSection section;
+    if (!plate)
+      section.shape =
+          option(card, "SECTION").starts_with("RECT") ? Shape::rectangle : Shape::ellipse;
+    if (lines.empty() && !of_nodes) fail(deck_, card, "expected a line with the thickness");
+    if (!lines.empty() && !of_nodes) {
+      Fields fields(deck_, lines[0]);
+      section.thickness[0] = thickness(fields, true);
+      if (!plate) section.thickness[1] = thickness(fields, false);
+      if (!plate && section.thickness[1] == 0) section.thickness[1] = section.thickness[0];
+    }
+    if (plate) {
+      section.offset[0] = number_or(card, "OFFSET", 0, deck_);
+    } else {
+      section.offset = {number_or(card, "OFFSET1", 0, deck_), number_or(card, "OFFSET2", 0, deck_)};
+      if (lines.size() > 1) read_axis(lines[1], section.axis);
+    }
+    for (const Index element : elements) {
+      const ElementType& type = *numbering_.elements[static_cast<std::size_t>(element)].type;
+      if (plate ? !is_shell(type) : !is_beam(type))
+        fail(deck_, card,
+             fmt::format("its elements are of type {}, which is no {}", type.name,
+                         plate ? "shell" : "beam in space"));
+      out_.section_of[static_cast<std::size_t>(element)] = static_cast<int>(out_.sections.size());
+    }
+    out_.sections.push_back(section);
+  }
+
+  void read_axis(const Line& line, Vec3& axis) const {
+    Fields fields(deck_, line);
+    for (Eigen::Index k = 0; k < 3; ++k) axis[k] = fields.real_or_zero("a direction");
+    if (!(axis.norm() > 0)) fields.fail("expected the first axis of the section");
+  }
+
+  /// Trusses are squares of the area that the section gives.
+  void read_trusses(const Card& card) {
+    std::vector<Index> trusses;
+    for (const Index element : elements_of(card))
+      if (is_truss(*numbering_.elements[static_cast<std::size_t>(element)].type))
+        trusses.push_back(element);
+    if (trusses.empty()) return;
+    const std::span<const Line> lines = lines_of(deck_, card);
+    if (lines.empty()) fail(deck_, card, "expected a line with the area of the trusses");
+    Fields fields(deck_, lines[0]);
+    ThinSection section;
+    section.shape = Shape::rectangle;
+    section.hinged = true;
+    section.thickness.fill(std::sqrt(thickness(fields, true)));
+    for (const Index element : trusses)
+      out_.section_of[static_cast<std::size_t>(element)] = static_cast<int>(out_.sections.size());
+    out_.sections.push_back(section);
+  }
+
+  [[nodiscard]] std::vector<Index> nodes_of(std::string_view field, Place at) {
+    const std::string name = name_of(field);
+    if (const std::optional<std::int32_t> number = number_of(name)) {
+      const Index place = numbering_.scopes[0].nodes.find(*number);
+      if (place < 0) fail(deck_, at, fmt::format("node {} does not exist", *number));
+      return {numbering_.scopes[0].first_node + place};
+    }
+    return members_.of(Kind::nodes, 0, name, at);
+  }
+
+  void read_thickness(const Card& card) {
+    for (const Line& line : lines_of(deck_, card)) {
+      Fields fields(deck_, line);
+      const std::vector<Index> nodes = nodes_of(fields.next().value_or(""), line.at);
+      const double first = thickness(fields, true), second = thickness(fields, false);
+      for (const Index node : nodes) out_.thickness[node] = {first, second > 0 ? second : first};
+    }
+  }
+
+  void read_normals(const Card& card) {
+    for (const Line& line : lines_of(deck_, card)) {
+      Fields fields(deck_, line);
+      const Index element = members_.element(0, fields.number("the number of an element"), line.at);
+      const std::vector<Index> nodes = nodes_of(fields.next().value_or(""), line.at);
+      Vec3 normal = Vec3::Zero();
+      for (Eigen::Index k = 0; k < 3; ++k) normal[k] = fields.real_or_zero("a direction");
+      if (!(normal.norm() > 0)) fields.fail("expected a normal that is not zero");
+      for (const Index node : nodes) out_.normals[{element, node}] = normal.normalized();
+    }
+  }
+
+  /// Directions of nodes that are held or loaded; what is wrong in the lines the translation tells.
+  void read_directions(const Card& card, bool of_boundary) {
+    for (const Line& line : lines_of(deck_, card)) {
+      Fields fields(deck_, line);
+      const std::string_view nodes = fields.next().value_or("");
+      const auto first = number_of(fields.next().value_or(""));
+      const auto last = of_boundary ? number_of(fields.next().value_or("")) : first;
+      for (int k = first.value_or(7); k <= std::min(last.value_or(*first), 6); ++k) {
+        if (k < 4 && !of_boundary) continue;
+        for (const Index node : nodes_of(nodes, line.at))
+          (k < 4 ? out_.held : out_.rotations)[node][static_cast<std::size_t>((k - 1) % 3)] = true;
+      }
+    }
+  }
+
+  const Deck& deck_;
+  const RawMesh& raw_;
+  const Numbering& numbering_;
+  Members& members_;
+  ThinCards out_;
+};
+
+}  // namespace
+
+bool has_finite_step(const Deck& deck) {
+  return std::any_of(deck.cards.begin(), deck.cards.end(), [](const Card& card) {
+    return card.keyword == "STEP" && find_parameter(card, "NLGEOM") &&
+           option(card, "NLGEOM") != "NO";
+  });
+}
+
+bool is_thin_section(const Card& card) {
+  if (card.keyword == "SHELLSECTION") return find_parameter(card, "COMPOSITE") == nullptr;
+  const std::string shape = option(card, "SECTION");
+  return card.keyword == "BEAMSECTION" && (shape.starts_with("RECT") || shape.starts_with("CIRC"));
+}
+
+ThinCards thin_cards(const Deck& deck, const RawMesh& raw, const Numbering& numbering,
+                     Members& members) {
+  return Reader(deck, raw, numbering, members).read();
+}
+
+}  // namespace osculate::io::inp

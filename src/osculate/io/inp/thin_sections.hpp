@@ -1,0 +1,46 @@
+#pragma once
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "osculate/io/inp/members.hpp"
+
+namespace osculate::io::inp {
+
+/// How shells, beams and trusses fill space. Lengths of beams are along their first and second
+/// axis.
+struct ThinSection {
+  enum class Shape : std::uint8_t { plate, rectangle, ellipse } shape = Shape::plate;
+  bool hinged = false;                ///< of trusses: ends turn freely
+  std::array<double, 2> thickness{};  ///< 0: of the nodes
+  std::array<double, 2> offset{};     ///< of the reference from the middle, in thicknesses
+  Vec3 axis = -Vec3::UnitZ();         ///< beams: along the first axis
+};
+
+/// What a deck says of elements that are expanded to solids.
+struct ThinCards {
+  bool finite = false;  ///< has_finite_step
+  std::vector<ThinSection> sections;
+  std::vector<int> section_of;                       ///< by element; -1: not expanded
+  std::map<Index, std::array<double, 2>> thickness;  ///< by node
+  std::map<std::pair<Index, Index>, Vec3> normals;   ///< by element and node
+  std::map<Index, std::array<bool, 3>> rotations;    ///< by node: held, turned or with a moment
+  std::map<Index, std::array<bool, 3>> held;         ///< by node: displacements of `*BOUNDARY`
+};
+
+/// Whether a step has NLGEOM: displacements and rotations are of any size.
+[[nodiscard]] bool has_finite_step(const Deck& deck);
+/// Whether a section card is one whose elements are expanded: shells of one layer, beams with
+/// rectangular and elliptic sections.
+[[nodiscard]] bool is_thin_section(const Card& card);
+
+/// From `*SHELL SECTION`, `*BEAM SECTION`, `*SOLID SECTION` of trusses, `*NODAL THICKNESS`,
+/// `*NORMAL`, and rotations in `*BOUNDARY` and `*CLOAD`. Sections within parts are left alone.
+///
+/// Errors     core::InputError: a thickness that is not positive, elements that are neither
+/// Tested by  tests/unit/io/test_inp_expand.cpp
+[[nodiscard]] ThinCards thin_cards(const Deck& deck, const RawMesh& raw, const Numbering& numbering,
+                                   Members& members);
+
+}  // namespace osculate::io::inp

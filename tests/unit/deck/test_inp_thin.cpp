@@ -1,0 +1,104 @@
+// Shells and beams of decks: sections, knots, rotations.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "osculate/core/error.hpp"
+#include "osculate/deck/inp_translate.hpp"
+#include "osculate/deck/parse.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::SizeIs;
+
+/// A beam with a corner at node 2, and its end 3.
+const std::string elbow =
+    "*NODE, NSET=N\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n*ELEMENT, TYPE=B31, ELSET=E\n1, 1, 2\n"
+    "2, 2, 3\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*DENSITY\n2.\n"
+    "*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=RECT\n0.1, 0.2\n0, 0, 1\n";
+
+Description described(const std::string& text) {
+  return parse_model(translate_deck(text, "a.inp").root, "a.inp");
+}
+std::string message(const std::string& text) {
+  try {
+    (void)described(text);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(InpThin, SectionsAreSolids) {
+  const Description d =
+      described(elbow + "*STEP, NLGEOM\n*STATIC\n*DLOAD\nE, GRAV, 3, 0, 0, -1\n*END STEP\n");
+  ASSERT_THAT(d.sections, SizeIs(1));
+  EXPECT_EQ(d.sections[0].on.value, "E");
+  EXPECT_EQ(d.sections[0].formulation.value, Formulation::enhanced);
+  ASSERT_THAT(d.steps[0].body_force, SizeIs(3));  // one a direction
+  EXPECT_EQ(d.steps[0].body_force[2].on.value, "E");
+  EXPECT_EQ(d.steps[0].body_force[2].values[2]->value, -6);
+}
+
+TEST(InpThin, AKnotIsARigidBodyThatIsReleased) {
+  const Description d =
+      described(elbow + "*BOUNDARY\n2, 3\n2, 5, 6\n*STEP, NLGEOM\n*STATIC\n*END STEP\n");
+  ASSERT_THAT(d.rigid, SizeIs(1));
+  EXPECT_EQ(d.rigid[0].name.value, "knot_2");
+  EXPECT_EQ(std::get<SetShape>(d.rigid[0].shape).set.value, "knot 2");
+  EXPECT_THAT(d.rigid[0].reference->value, ElementsAre(1, 0, 0));
+  ASSERT_THAT(d.steps[0].release, SizeIs(1));
+  const Release& release = d.steps[0].release[0];
+  EXPECT_EQ(release.on.value, "knot_2");
+  EXPECT_THAT(release.of, ElementsAre(true, true, false, true, false, false));
+  ASSERT_THAT(d.steps[0].prescribe, SizeIs(3));
+  for (const Prescription& p : d.steps[0].prescribe) EXPECT_EQ(p.on.value, "knot_2");
+}
+
+TEST(InpThin, ASetWithAKnotIsSupportedInParts) {
+  const Description d =
+      described(elbow + "*BOUNDARY\nN, 3\nN, 5\n*STEP, NLGEOM\n*STATIC\n*END STEP\n");
+  std::vector<std::string> on;
+  for (const Prescription& p : d.steps[0].prescribe)
+    for (std::size_t k = 0; k < p.values.size(); ++k)
+      if (p.values[k]) on.push_back(p.on.value + std::to_string(k));
+  EXPECT_THAT(on, ::testing::UnorderedElementsAre("N without knots2", "knot_22", "rotations of N1",
+                                                  "knot_24"));
+}
+
+TEST(InpThin, MomentsTurnNodesAndKnots) {
+  const Description d = described(
+      elbow + "*STEP, NLGEOM\n*STATIC\n*CLOAD\n2, 4, 7.\n3, 6, 8.\n3, 1, 9.\n*END STEP\n");
+  std::map<std::string, double> sizes;
+  for (const Load& load : d.steps[0].forces)
+    for (std::size_t k = 0; k < load.values.size(); ++k)
+      if (load.values[k]) sizes[load.on.value + std::to_string(k)] = load.values[k]->value;
+  EXPECT_THAT(sizes, ::testing::UnorderedElementsAre(::testing::Pair("knot_23", 7),
+                                                     ::testing::Pair("node 30", 9),
+                                                     ::testing::Pair("rotations of node 32", 8)));
+}
+
+TEST(InpThin, WhatIsNotExpandedStops) {
+  const std::string step = "*STEP, NLGEOM\n*STATIC\n*END STEP\n";
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = elbow + step;
+    return message(text.replace(text.find(from), from.size(), to));
+  };
+  EXPECT_EQ(message(elbow + step), "");
+  EXPECT_THAT(with("SECTION=RECT", "SECTION=I"), HasSubstr("SECTION=I is not supported"));
+  EXPECT_THAT(
+      message("*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n*ELEMENT, TYPE=S3, ELSET=E\n1, 1, "
+              "2, 3\n*MATERIAL, NAME=M\n*ELASTIC\n1, 0\n*SHELL SECTION, ELSET=E, "
+              "COMPOSITE\n1., , M\n" +
+              step),
+      HasSubstr("COMPOSITE is not supported"));
+  EXPECT_THAT(message(elbow + "*STEP, NLGEOM\n*STATIC\n*BOUNDARY\n1, 7\n*END STEP\n"),
+              HasSubstr("expected directions 1 to 6, found 7 to 7"));
+}
+
+}  // namespace
+}  // namespace osculate::deck
