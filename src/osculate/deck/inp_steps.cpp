@@ -7,6 +7,7 @@
 #include <set>
 
 #include "osculate/core/text.hpp"
+#include "osculate/deck/inp_conditions.hpp"
 #include "osculate/deck/inp_parts.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
 
@@ -17,31 +18,6 @@ using io::inp::Card;
 using io::inp::Fields;
 using io::inp::Line;
 using io::inp::SetKind;
-
-struct Condition {
-  double size = 0;
-  std::string amplitude;  ///< name in the deck, in capitals; empty: a ramp
-  int line = 0;
-  bool fresh = true;  ///< said in this step
-};
-/// By set and direction 1 to 3; of pressures always 1.
-using Conditions = std::map<std::pair<std::string, int>, Condition>;
-
-struct Table {
-  std::string name;
-  bool of_total_time = false;
-  std::vector<std::array<double, 2>> points;
-  int line = 0;
-};
-
-double at(const Table& table, double time) {
-  const auto& p = table.points;
-  if (time <= p.front()[0]) return p.front()[1];
-  for (std::size_t k = 1; k < p.size(); ++k)
-    if (time <= p[k][0])
-      return p[k - 1][1] + (p[k][1] - p[k - 1][1]) * (time - p[k - 1][0]) / (p[k][0] - p[k - 1][0]);
-  return p.back()[1];
-}
 
 class Steps {
  public:
@@ -170,6 +146,12 @@ class Steps {
 
   /// Loads of the step are of no account; supports that it names are.
   void end_of_modes(const Card& card, SourceNode& step) {
+    Conditions held = prescribed_;
+    std::erase_if(held, [](const auto& one) { return !one.second.fresh; });
+    for (const auto& [key, value] : held)
+      if (value.size != 0)
+        io::inp::fail(m_.deck, card, "a step with *FREQUENCY moves nothing: *BOUNDARY with 0 only");
+    put_directions(step, "prescribe", 'u', held);
     put_releases(step);
     SourceNode changes = inp_changes(m_, std::span(step_, &card));
     if (!changes.items.empty()) put(step, "contact", std::move(changes));

@@ -249,10 +249,16 @@ void check_modes(const Value& v, Step& s) {
   if (s.modes) {
     for (const ValueEntry& entry : v.entries)
       if (entry.value.given && entry.key != "name" && entry.key != "modes" &&
-          entry.key != "contact" && entry.key != "release")
+          entry.key != "contact" && entry.key != "release" && entry.key != "prescribe")
         throw core::InputError(entry.key_mark,
-                               "a step with `modes` moves nothing: only its name, `release` and "
-                               "`contact` go with it");
+                               "a step with `modes` moves nothing: only its name, `prescribe` "
+                               "(where it is held), `release` and `contact` go with it");
+    for (const Prescription& p : s.prescribe)
+      for (const std::optional<Number>& value : p.values)
+        if (value && value->value != 0)
+          throw core::InputError(value->mark,
+                                 "a step with `modes` moves nothing: what it holds is prescribed "
+                                 "as 0 and stays where it is");
     s.increments = {1, s.modes->mark};
   } else if (s.increments.value == 0) {
     throw core::InputError(v.mark, "required key 'increments' is missing");

@@ -27,6 +27,7 @@ std::string passed_through(const BasicModel<Dim>& model, const BasicContactPair<
                            const std::vector<Vec<Dim>>& positions) {
   const pairing::PairDefinition<Dim>& definition = pair.definition;
   if (definition.filter.limited() || pairing::held_from_start(definition)) return {};
+  if (definition.depth < 0) return {};  // not active: pair_changes.hpp
   std::vector<std::size_t> suspects;
   const std::size_t count =
       std::min({before.size(), contact.points.size(), definition.slave.points.size()});
