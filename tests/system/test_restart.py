@@ -161,9 +161,9 @@ class Restart(RestartCase):
             done = restart_with(2, **{"journal.bin": broken})
             self.assertIn("journal.bin", done.stderr)
         self.expect_the_same_after(restart_with, journal + b"half an entry of the increment that was killed")
-        done = restart_with(2, **{"checkpoint.bin": re.sub(rb"\Aosculate checkpoint \d\n", b"osculate checkpoint 8\n", last),
+        done = restart_with(2, **{"checkpoint.bin": re.sub(rb"\Aosculate checkpoint \d\n", b"osculate checkpoint 7\n", last),
                                   "checkpoint.previous.bin": None})
-        self.assertIn("is of another version: 'osculate checkpoint 8', expected 'osculate checkpoint ", done.stderr)
+        self.assertIn("is of another version: 'osculate checkpoint 7', expected 'osculate checkpoint ", done.stderr)
         done = restart_with(2, **{"checkpoint.bin": None, "checkpoint.previous.bin": None})
         self.assertIn("there is no checkpoint in 'r'", done.stderr)
 

@@ -59,6 +59,7 @@ struct Mass {
 struct Problem {
   Sparse k, m;
   LinearSolver& solver;
+  Eigen::Index with_mass = 0;  ///< unknowns that have one
   std::uint64_t version = 1;
 
   /// Factors K - shift M.
@@ -110,7 +111,7 @@ Eigenpairs found_around(Problem& p, double shift, Eigen::Index count) {
   bool failed = false;
   Inverse inverse{n, p.solver, failed};
   Mass mass{p.m};
-  const Eigen::Index space = std::min(n, std::max(2 * count + 1, count + 20));
+  const Eigen::Index space = std::min(p.with_mass, std::max(2 * count + 1, count + 20));
   Spectra::SymGEigsShiftSolver<Inverse, Mass, Spectra::GEigsMode::ShiftInvert> lanczos(
       inverse, mass, count, space, shift);
   // It starts in the space where M is not zero.
@@ -142,12 +143,11 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int
   const Sparse all = sparse(k);
   Problem p{0.5 * (all + Sparse(all.transpose())), sparse(m), solver};
   Eigenpairs none;
-  Eigen::Index with_mass = 0;
   const Eigen::VectorXd diagonal = p.m.diagonal();
-  for (Eigen::Index i = 0; i < diagonal.size(); ++i) with_mass += diagonal[i] > 0 ? 1 : 0;
-  const Eigen::Index wanted = std::min<Eigen::Index>(count, with_mass - 1);
+  for (Eigen::Index i = 0; i < diagonal.size(); ++i) p.with_mass += diagonal[i] > 0 ? 1 : 0;
+  const Eigen::Index wanted = std::min<Eigen::Index>(count, p.with_mass - 1);
   if (wanted < 1) {
-    none.failure = fmt::format("{} unknowns have a mass: too few", with_mass);
+    none.failure = fmt::format("{} unknowns have a mass: too few", p.with_mass);
     return none;
   }
   double shift = 0;
@@ -167,7 +167,7 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int
     pairs = found_around(p, shift, more);
     if (!pairs.failure.empty()) return pairs;
     pairs.missing = count_missing(p, pairs);
-    if (pairs.missing <= 0 || more + pairs.missing >= with_mass) break;
+    if (pairs.missing <= 0 || more + pairs.missing >= p.with_mass) break;
     more += pairs.missing;
     if (p.factor(shift).status == SolveStatus::failed) break;
   }

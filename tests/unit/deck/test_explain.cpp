@@ -64,7 +64,8 @@ TEST(Explain, ManyWaysToNameAKey) {
   const std::string mu = explain_model_key("contact.friction.coulomb.mu");
   for (const char* const key : {"contact[0].friction.coulomb.mu", "contact[].friction.coulomb.mu"})
     EXPECT_EQ(explain_model_key(key), mu) << key;
-  const std::string both = mu + "\n" + explain_model_key("contact.all.friction.coulomb.mu");
+  const std::string both = mu + "\n" + explain_model_key("contact.all.friction.coulomb.mu") + "\n" +
+                           explain_model_key("steps.contact.friction.coulomb.mu");
   for (const char* const key : {"coulomb.mu", "friction.coulomb.mu"})
     EXPECT_EQ(explain_model_key(key), both) << key;
   const std::string young = explain_model_key("materials.NAME.neo_hooke.E");

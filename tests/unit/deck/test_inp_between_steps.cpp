@@ -175,7 +175,7 @@ TEST(InpBetweenSteps, StepsInTime) {
   expect_in(steps, "damping: {mass: 3, stiffness: 0.0001}");
   expect_in(steps, "{on: node 15, fz: -1, amplitude: at_once}");
   expect_in(steps, "{on: node 16, uz: -0.1}");
-  expect_in(part(deck, "amplitudes"), "at_once: [[0, 1], [1, 1]]");
+  expect_in(part(deck, "amplitudes"), "at_once:\n    - [0, 1]\n    - [1, 1]\n");
   EXPECT_EQ(message_of(deck), "no error");
   const std::string explicit_deck = "*STEP\n*DYNAMIC, EXPLICIT\n1.E-5, 1.E-4\n*END STEP\n";
   expect_in(part(explicit_deck, "steps"), "scheme: central_differences");

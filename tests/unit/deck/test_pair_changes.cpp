@@ -15,7 +15,7 @@ std::string text_of(const std::string& pair, const std::string& first, const std
   return "osculate: 1\n"
          "mesh: {generate: {block: {box: {x: [0, 2], y: [0, 1], elements: [2, 2]}}, rail: {line: "
          "{points: [[-1, 0], [3, 0]], elements: 1}}}}\n"
-         "materials: {m: {linear_elastic: {E: 100, nu: 0.3}}}\n"
+         "materials: {m: {linear_elastic: {E: 100, nu: 0.3, density: 1}}}\n"
          "sections: [{on: block, material: m, element: plane_strain}]\n"
          "rigid: {base: {set: rail}}\n"
          "contact: [{name: floor, master: base, slave: block.bottom, " +
