@@ -58,16 +58,16 @@ void add_free_block(const std::string& folder, CaseResult& result, int& missing)
       {"free bar: fourth frequency", all.at(0)[3], 0.5, Relation::at_least, 0, ""});
 }
 
-/// Pinned: f_1 rises by sqrt(1 + T L^2 / (E I pi^2)), T / (E I) = 12 strain / h^2.
+/// Guided, as pinned: f_1 rises by sqrt(1 + T L^2 / (E I pi^2)), T / (E I) = 12 strain / h^2.
 void add_strip(const std::string& folder, CaseResult& result, int& missing) {
   const std::vector<Eigen::VectorXd> all =
       frequencies(run_model(folder + "/strip.yaml", {}), missing);
   const double h = 0.02, strain = 1e-3, bending = std::numbers::pi * std::numbers::pi;
   const double expected = std::sqrt(1 + 12 * strain / (h * h) / bending);
-  result.rows.push_back({"strip under tension: f1 / f1 without", all.at(1)[0] / all.at(0)[0],
+  result.rows.push_back({"strip under tension: f1 / f1 without", all.at(1)[1] / all.at(0)[1],
                          expected, Relation::equal, 5e-3, "Timoshenko, Young, Weaver 1974"});
   const double f1 = std::numbers::pi / 2 * std::sqrt(1000.0 / 12) * h;
-  result.rows.push_back({"strip: f1", all.at(0)[0], f1, Relation::equal, 5e-3, "Euler's beam"});
+  result.rows.push_back({"strip: f1", all.at(0)[1], f1, Relation::equal, 5e-3, "Euler's beam"});
 }
 
 }  // namespace

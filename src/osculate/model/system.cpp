@@ -50,6 +50,8 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
   }
   impl_->assembler.set_prescribed(std::move(flags));
   impl_->bulk.linear.reserve();
+  if (!impl_->model.pair_changes.empty())  // buffers of ties are no good for points that part
+    for (pairing::PairEvaluation<Dim>& contact : impl_->last.contact) contact = {};
   impl_->begin_drivers();
 }
 

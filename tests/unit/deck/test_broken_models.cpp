@@ -37,7 +37,7 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "model.yaml:32: steps[1].forces[0]: unknown key 'on?\?'; did you mean 'on'?"},
       {"linear_elastic:", "plastic_flow:",
        "model.yaml:5: materials.steel: unknown key 'plastic_flow'; known: linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton"
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, expansion"
        "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the laws linear_elastic, "
        "st_venant_kirchhoff, neo_hooke, elastoplastic, norton; others are not available (osculate "
        "doc "
