@@ -112,27 +112,27 @@ def pressure_difference(ours, theirs):
     return abs(largest[0] / largest[1] - 1) if min(largest) > 0 else math.nan
 
 
-def eigenvalues_of_dat(path):
-    """Of all steps, one behind the other."""
-    values, inside = [], False
+def frequencies_of_dat(path):
+    """Of all steps, one behind the other, each in order."""
+    steps, inside = [], False
     for line in open(path, errors="replace"):
         words = line.split()
         if "E I G E N V A L U E" in line:
+            steps.append([])
             inside = True
         elif "P A R T I C I P A T I O N" in line:
             inside = False
-        elif inside and len(words) >= 4 and words[0].isdigit():
-            values.append(float(words[1]))
-    return values
+        elif inside and len(words) in (4, 5) and words[0].isdigit():
+            steps[-1].append(float(words[-2]))
+    return [sorted(step) for step in steps]
 
 
-def eigenvalue_difference(ours, theirs):
-    """Largest difference of frequencies over the largest of the step's that are compared."""
-    if not ours or len(ours) > len(theirs):
+def frequency_difference(ours, theirs):
+    """Largest difference of frequencies over the largest of their step; of those that both have."""
+    if len(ours) != len(theirs) or not ours:
         return math.nan
-    root = lambda v: math.copysign(math.sqrt(abs(v)), v)
-    return max(abs(root(a) - root(b)) / max(abs(root(b)), 1e-6 * root(max(theirs)))
-               for a, b in zip(ours, theirs))
+    return max(abs(a - b) / max(map(abs, there))
+               for here, there in zip(ours, theirs) for a, b in zip(here, there))
 
 
 def compare(row, options):
@@ -149,8 +149,8 @@ def compare(row, options):
             [options.osculate, "run", "deck.inp", "--json", "-o", "ours"], folder, options.limit)
         if code != 0:
             return result | {"wrong": "osculate: " + (error.strip().splitlines() or ["?"])[-1][:160]}
-        vibrations = [mode["omega_squared"] for step in json.loads(said)["steps"] if step.get("modes")
-                      for mode in step["modes"]["found"]]
+        vibrations = [[mode["frequency"] for mode in step["modes"]["found"]]
+                      for step in json.loads(said)["steps"] if step.get("modes")]
         result["iterations"] = sum(i["iterations"] for s in json.loads(said)["steps"] for i in s["increments"])
         code, said, error, result["ccx_seconds"] = run([options.ccx, "-i", "deck"], folder, options.limit)
         said += error
@@ -163,7 +163,7 @@ def compare(row, options):
                                        for line in cvg.read_text().splitlines())
         if row.kind.endswith("modes"):
             return result | {"nodes": 0, "difference":
-                             eigenvalue_difference(vibrations, eigenvalues_of_dat(folder / "deck.dat"))}
+                             frequency_difference(vibrations, frequencies_of_dat(folder / "deck.dat"))}
         ours = blocks_of_frd(next((folder / "ours").glob("*.frd")))
         _, result["difference"], result["nodes"] = difference(ours["DISP"], theirs["DISP"])
         _, result["forces"], _ = difference(ours.get("FORC", {}), theirs.get("FORC", {}))
