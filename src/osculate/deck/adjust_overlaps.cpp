@@ -49,8 +49,7 @@ void move(BuildContext<Dim>& c, Index node, const Vec<Dim>& to) {
 }
 
 double tolerance_of(const Contact& contact) {
-  return contact.initial_nodes ? std::numeric_limits<double>::max()
-                               : contact.initial_tolerance;
+  return contact.initial_nodes ? std::numeric_limits<double>::max() : contact.initial_tolerance;
 }
 
 template <int Dim>

@@ -124,8 +124,8 @@ void fields(Archive& a, Rates& rates) {
 }
 template <class Archive, int Dim>
 void fields(Archive& a, BasicState<Dim>& state) {
-  auto& [u, rigid, pairs, multipliers, fraction, rates, memory] = state;
-  a(u, rigid, pairs, multipliers, fraction, rates, memory);
+  auto& [u, rigid, pairs, multipliers, fraction, rates, memory, constraint_forces] = state;
+  a(u, rigid, pairs, multipliers, fraction, rates, memory, constraint_forces);
 }
 }  // namespace osculate::model
 
