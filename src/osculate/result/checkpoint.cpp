@@ -184,7 +184,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 10;
+constexpr int version = 11;
 
 template <class... T>
 std::string saved(const T&... values) {

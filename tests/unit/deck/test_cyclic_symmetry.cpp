@@ -91,5 +91,11 @@ TEST(CyclicSymmetry, FacesThatAreNoSector) {
             "'r.from': a node is 0.0951638 away from it");
 }
 
+TEST(CyclicSymmetry, SaysNothingOfVibrations) {
+  EXPECT_NE(any_refusal(edited(ring(30, 2, 12), "increments: 1", "modes: 3"))
+                .find("has not the free vibrations of the whole"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace osculate::deck
