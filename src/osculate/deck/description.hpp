@@ -21,6 +21,7 @@
 #include "osculate/mesh/generate_space.hpp"
 #include "osculate/mesh/join.hpp"
 
+// size: one value for all that a model file says
 /// What a model file says, validated and with all defaults filled in, but not yet matched with a
 /// mesh. Plain values; everything that can turn out wrong later carries the place it was read from.
 namespace osculate::deck {

@@ -1,3 +1,4 @@
+// size: one walk through the cards of the steps, whose parts share what it has read
 // Steps of a deck: boundary conditions and loads, which persist as they do in a model file.
 #include <fmt/format.h>
 
