@@ -3,6 +3,7 @@
 
 #include "../cases.hpp"
 #include "../run_model.hpp"
+#include "osculate/contact/law/catalogue.hpp"
 
 namespace osculate::verification {
 namespace {

@@ -91,9 +91,9 @@ void put_pretension(InpModel& m, const Card& card, SourceNode& root) {
     axis = read_place(fields);
     if (axis.norm() > 0) put(entry, "axis", place_list(axis, inp_dimension(m), line));
   }
-  // CalculiX measures how far the section opens along a normal out of the surface's elements.
+  // CalculiX measures how far the surface's elements move along the normal: out of them they close.
   const bool inwards = axis.dot(mean_normal(m.mesh.mesh, *m.mesh.mesh.find_set(surface))) < 0;
-  m.body_nodes[only_node(m, node)] = {name, 1, false, inwards ? 1.0 : -1.0};
+  m.body_nodes[only_node(m, node)] = {name, 1, false, inwards ? -1.0 : 1.0};
 }
 
 /// The tie of a cyclic symmetry: the one that is named, or the only one.

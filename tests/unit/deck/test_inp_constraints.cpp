@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "inp_run_test.hpp"
 
@@ -183,7 +184,7 @@ TEST(InpConstraints, NodesStayInAPlaneOnALineAndAtTheirDistance) {
 TEST(InpConstraints, PretensionIsAForceAndThenLocked) {
   const std::string section =
       "*SURFACE, NAME=CUT\n2, S2\n*PRE-TENSION SECTION, SURFACE=CUT, "
-      "NODE=901\n-1., 0., 0.\n";
+      "NODE=901\n1., 0., 0.\n";
   const DeckRun run =
       run_deck(bar(4) + section + fixed + step("*BOUNDARY\nFINISH, 1, 3\n*CLOAD\n901, 1, 5.\n") +
                step("*BOUNDARY, FIXED\n901, 1, 1\n*BOUNDARY\nFINISH, 1, 1, 0.04\n"));
@@ -196,6 +197,22 @@ TEST(InpConstraints, PretensionIsAForceAndThenLocked) {
   EXPECT_NEAR(run.u[0][3 * shortening], 0.2, 1e-9);
   EXPECT_NEAR(run.u[1][3 * shortening], 0.2, 1e-9);
   EXPECT_NEAR(run.reaction_of("FINISH", 1).x(), 5 + 100 * 0.04 / 4, 1e-9);
+}
+
+/// As CalculiX has it: a normal into the elements of the surface turns the sign round.
+TEST(InpConstraints, PretensionHasTheSignOfTheNormal) {
+  const std::string ends = fixed + step("*BOUNDARY\nFINISH, 1, 3\n*CLOAD\n901, 1, 5.\n");
+  for (const auto& [surface, normal, pull] :
+       {std::tuple("2, S2", "1., 0., 0.", 5.0), std::tuple("2, S2", "-1., 0., 0.", -5.0),
+        std::tuple("3, S1", "1., 0., 0.", -5.0), std::tuple("3, S1", "0., 0., 0.", 5.0)}) {
+    const DeckRun run =
+        run_deck(bar(4) +
+                 fmt::format("*SURFACE, NAME=CUT\n{}\n*PRE-TENSION SECTION, SURFACE=CUT, "
+                             "NODE=901\n{}\n",
+                             surface, normal) +
+                 ends);
+    EXPECT_NEAR(run.reaction_of("FINISH").x(), pull, 1e-9) << surface << " " << normal;
+  }
 }
 
 /// Turning bar, fixed at the axis: u(L) = rho w^2 L^3 / (3 E), N(0) = rho w^2 L^2 / 2.

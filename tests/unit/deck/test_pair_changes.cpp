@@ -2,6 +2,7 @@
 // do what they should is verification/pair_changes.
 #include <gtest/gtest.h>
 
+#include "osculate/contact/law/catalogue.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/deck/build.hpp"
 #include "osculate/deck/parse.hpp"
