@@ -161,7 +161,7 @@ class Restart(RestartCase):
             done = restart_with(2, **{"journal.bin": broken})
             self.assertIn("journal.bin", done.stderr)
         self.expect_the_same_after(restart_with, journal + b"half an entry of the increment that was killed")
-        done = restart_with(2, **{"checkpoint.bin": re.sub(rb"\Aosculate checkpoint \d\n", b"osculate checkpoint 7\n", last),
+        done = restart_with(2, **{"checkpoint.bin": re.sub(rb"\Aosculate checkpoint \d+\n", b"osculate checkpoint 7\n", last),
                                   "checkpoint.previous.bin": None})
         self.assertIn("is of another version: 'osculate checkpoint 7', expected 'osculate checkpoint ", done.stderr)
         done = restart_with(2, **{"checkpoint.bin": None, "checkpoint.previous.bin": None})
