@@ -79,10 +79,6 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] Eigen::VectorXd prescribed_increment(const State& s, std::span<const Vec<Dim>> x,
                                                      double fraction) const;
 
-  /// Displacements of all nodes by a small motion of the unknowns, without what is prescribed.
-  [[nodiscard]] Eigen::VectorXd motion_of_nodes(const State& state,
-                                                const Eigen::VectorXd& unknowns) const;
-
   /// What an evaluation is for.
   enum class Pass {
     predict,  ///< the first iteration: prescribed motions enter through the tangent

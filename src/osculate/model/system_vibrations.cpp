@@ -18,6 +18,32 @@ Mat<6, 6> mass_of_body(const BasicInertia<3>& inertia, const BasicRigidBody<3>& 
   return mass;
 }
 
+/// Displacements of all nodes by a small motion of the unknowns, without what is prescribed. Linear
+/// in the motion: rigid bodies turn by little.
+template <int Dim>
+Eigen::VectorXd motion_of_nodes(const BasicDofSpace<Dim>& dofs,
+                                const BasicAssembler<Dim>& assembler, std::span<const Vec<Dim>> x,
+                                const BasicState<Dim>& state, const Eigen::VectorXd& unknowns) {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs.dofs());
+  for (Index u = 0; u < dofs.unknowns(); ++u)
+    if (!assembler.prescribed(u)) all[dofs.dof_of_unknown(u)] = unknowns[u];
+  for (Index node = 0; node < dofs.nodes(); ++node) {
+    const Index b = dofs.body_of(node);
+    if (b < 0) continue;
+    const Mat<Dim, body::motions<Dim>> j = body::motion_gradient(
+        state.rigid[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(node)]);
+    all.template segment<Dim>(Dim * node) =
+        j * all.template segment<body::motions<Dim>>(dofs.body_dof(b, 0));
+  }
+  for (const Equation& equation : dofs.equations()) {
+    double sum = 0;
+    for (std::size_t t = 1; t < equation.terms.size(); ++t)
+      sum += equation.terms[t].factor * all[equation.terms[t].dof];
+    all[equation.terms.front().dof] = -sum / equation.terms.front().factor;
+  }
+  return all.head(state.u.size());
+}
+
 }  // namespace
 
 template <int Dim>
@@ -66,32 +92,8 @@ Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::Linea
   out.missing = pairs.missing;
   out.shapes.resize(state.u.size(), pairs.values.size());
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i)
-    out.shapes.col(i) = s.motion_of_nodes(state, pairs.vectors.col(i));
+    out.shapes.col(i) = motion_of_nodes<Dim>(s.dofs, s.assembler, x, state, pairs.vectors.col(i));
   return out;
-}
-
-/// Linear in the motion: rigid bodies turn by little.
-template <int Dim>
-Eigen::VectorXd BasicSystem<Dim>::Impl::motion_of_nodes(const State& state,
-                                                        const Eigen::VectorXd& unknowns) const {
-  const std::vector<Vec<Dim>> x = positions(state.u);
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs.dofs());
-  for (Index u = 0; u < dofs.unknowns(); ++u)
-    if (!assembler.prescribed(u)) all[dofs.dof_of_unknown(u)] = unknowns[u];
-  for (Index node = 0; node < dofs.nodes(); ++node) {
-    const Index b = dofs.body_of(node);
-    if (b < 0) continue;
-    const Mat<Dim, body::motions<Dim>> j = body::motion_gradient(
-        state.rigid[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(node)]);
-    all.segment<Dim>(Dim * node) = j * all.segment<body::motions<Dim>>(dofs.body_dof(b, 0));
-  }
-  for (const Equation& equation : dofs.equations()) {
-    double sum = 0;
-    for (std::size_t t = 1; t < equation.terms.size(); ++t)
-      sum += equation.terms[t].factor * all[equation.terms[t].dof];
-    all[equation.terms.front().dof] = -sum / equation.terms.front().factor;
-  }
-  return all.head(state.u.size());
 }
 
 template Vibrations BasicSystem<2>::vibrations(const State&, int, la::LinearSolver&);
