@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "osculate/core/text.hpp"
-#include "osculate/deck/build_context.hpp"
+#include "osculate/deck/build_displacements.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/deck/parse_parts.hpp"
 #include "osculate/mesh/check.hpp"
@@ -23,7 +23,8 @@ const mesh::Set& BuildContext<Dim>::set(const Name& on) const {
 template <int Dim>
 bool BuildContext<Dim>::takes_part(Index node) const {
   const auto n = static_cast<std::size_t>(node);
-  return (n < section_of_node.size() && section_of_node[n] >= 0) || model().body_of_node[n] >= 0;
+  return (n < section_of_node.size() && section_of_node[n] >= 0) || model().body_of_node[n] >= 0 ||
+         control_nodes.contains(node);
 }
 
 template <int Dim>
@@ -200,11 +201,12 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   }
   build_sections(context);
   build_rigid(context);
+  build_axes(context);
   build_masses(context);
   build_contact(context);
   build_equations(context);
   build_initial_temperature(context);
-  build_relations(context);
+  build_node_constraints(context);
   build_steps(context);
   build_pair_changes(context);
   build_initial_velocity(context);

@@ -2,6 +2,7 @@
 // Shared by the build_*.cpp files; not for users.
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <type_traits>
 #include <unordered_map>
@@ -27,6 +28,14 @@ void require_in_plane(const mesh::Mesh& mesh, const core::SourceMark& mark);
 void check_durations(const Description& description, const std::optional<core::SourceMark>& timed,
                      std::string_view what);
 
+/// Axes of a node's displacement components, by columns, and the node that carries them as
+/// unknowns; -1: none does.
+template <int Dim>
+struct NodeAxes {
+  Mat<Dim, Dim> axes;
+  Index local = -1;
+};
+
 /// What the parts of `build` share while a model grows.
 template <int Dim>
 struct BuildContext {
@@ -39,6 +48,8 @@ struct BuildContext {
   SideTable<Dim> sides;                                      ///< of the cells that have a section
   std::optional<model::CellsOfNodes<Dim>> cells_of_node{};   ///< of sections; made when needed
   std::vector<bool> related{};  ///< displacements that relations of the mesh name; empty: none
+  std::unordered_map<Index, NodeAxes<Dim>> axes{};  ///< of nodes that `axes` names
+  std::set<Index> control_nodes{};                  ///< of no cell: unknowns that equations name
 
   [[nodiscard]] model::BasicModel<Dim>& model() const { return built.model; }
   /// The set, or the error with the nearest name.
@@ -94,8 +105,9 @@ template <int Dim>
 void warn_of_rest(BuildContext<Dim>& context);
 template <int Dim>
 void build_equations(BuildContext<Dim>& context);
+/// Conditions of nodes that have multipliers, and couplings.
 template <int Dim>
-void build_relations(BuildContext<Dim>& context);
+void build_node_constraints(BuildContext<Dim>& context);
 template <int Dim>
 void build_steps(BuildContext<Dim>& context);
 /// What changes of pairs from step to step.

@@ -4,31 +4,24 @@
 #include <cmath>
 #include <set>
 
+#include "osculate/deck/build_displacements.hpp"
 #include "osculate/deck/load_totals.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
+#include "osculate/solid/mass.hpp"
 
 namespace osculate::deck {
 namespace {
 
 using model::Dof;
 
-const char* name_of(Component component) {
-  return component_names[static_cast<std::size_t>(component)];
-}
-
-template <int Dim>
-Dof body_dof(const model::BasicModel<Dim>& m, Index body, Component component) {
-  return Dim * static_cast<Dof>(m.reference.size()) + body::motions<Dim> * body +
-         motion_of<Dim>(component);
-}
-
-/// Channel of a load: same kind, same place, same component.
+/// Channel of a load: same kind, same place, same component, same axis.
 struct ChannelKey {
   int kind;
   std::string on;
   int component;
+  std::array<double, 6> axis{};
   auto operator<=>(const ChannelKey&) const = default;
 };
 
@@ -52,58 +45,37 @@ model::Amplitude amplitude_of(const BuildContext<Dim>& c, const std::optional<Na
   return c.description.find_amplitude(name->value)->points;
 }
 
-/// What happens to nodes of a set that take no part in the analysis.
-enum class Idle { refused, left_out };
-
-/// Primary dofs that `on` names for one displacement component.
-template <int Dim>
-std::vector<Dof> displacement_dofs(const BuildContext<Dim>& c, const Name& on, Component component,
-                                   Idle idle) {
-  const auto rigid = c.rigid_index.find(on.value);
-  if (rigid != c.rigid_index.end()) return {body_dof(c.model(), rigid->second, component)};
-  if (is_rotation(component))
-    throw core::InputError(on.mark, fmt::format("{} needs a rigid body, and '{}' is a set",
-                                                name_of(component), on.value));
-  std::vector<Dof> dofs;
-  for (const Index node : c.set(on).nodes) {
-    const Index body = c.model().body_of_node[static_cast<std::size_t>(node)];
-    if (body >= 0)
-      throw core::InputError(
-          on.mark, fmt::format("set '{}' has nodes of the rigid body '{}'; name "
-                               "the rigid body instead",
-                               on.value, c.model().rigid[static_cast<std::size_t>(body)].name));
-    if (c.takes_part(node, motion_of<Dim>(component)))
-      dofs.push_back(Dim * node + motion_of<Dim>(component));
-    else if (idle == Idle::refused)
-      throw c.idle_node(on, node);
-  }
-  if (!dofs.empty()) return dofs;
-  if (!c.set(on).nodes.empty()) throw c.idle_node(on, c.set(on).nodes.front());
-  throw core::InputError(on.mark, fmt::format("set '{}' has no nodes", on.value));
-}
-
 template <int Dim>
 void apply_releases(const BuildContext<Dim>& c, const deck::Step& step, Running& running) {
   for (const Release& release : step.release)
     for (std::size_t i = 0; i < component_count; ++i)
       if (release.of[i])
-        for (const Dof d :
-             displacement_dofs(c, release.on, static_cast<Component>(i), Idle::left_out))
-          if (running.prescribed.erase(d) == 0)
+        for (const OneDisplacement& d :
+             displacements(c, release.on, static_cast<Component>(i), Idle::left_out))
+          if (running.prescribed.erase(d.dof) == 0)
             throw core::InputError(
                 release.mark, fmt::format("'{}.{}' is not prescribed, so it cannot be released",
                                           release.on.value, component_names[i]));
 }
 
+/// What is held stays where it is, like what an earlier step has prescribed.
+template <int Dim>
+void apply_holds(const BuildContext<Dim>& c, const deck::Step& step, Running& running) {
+  for (const Release& hold : step.hold)
+    for (std::size_t i = 0; i < component_count; ++i)
+      if (hold.of[i])
+        for (const OneDisplacement& d :
+             displacements(c, hold.on, static_cast<Component>(i), Idle::left_out))
+          running.prescribed[d.dof] = hold.mark;
+}
+
 /// Two prescriptions of one dof: the same, or a contradiction.
-void check_agreement(const Prescription& first, const Prescription& second, std::size_t i) {
-  const Number& one = *first.values[i];
-  const Number& two = *second.values[i];
-  if (one.value != two.value)
+void check_agreement(const Prescription& first, double one, const Prescription& second,
+                     double other, const Number& two, std::size_t i) {
+  if (one != other)
     throw core::InputError(
-        two.mark,
-        fmt::format("'{}' and '{}' share a node and prescribe different {} ({} and {})",
-                    first.on.value, second.on.value, component_names[i], one.value, two.value));
+        two.mark, fmt::format("'{}' and '{}' share a node and prescribe different {} ({} and {})",
+                              first.on.value, second.on.value, component_names[i], one, other));
   const auto name = [](const Prescription& p) {
     return p.amplitude ? p.amplitude->value : std::string{};
   };
@@ -140,23 +112,25 @@ void apply_prescriptions(const BuildContext<Dim>& c, const deck::Step& step, Run
   std::set<Dof> eliminated;
   for (const model::Equation& equation : c.model().equations)
     eliminated.insert(equation.terms.front().dof);
-  std::map<Dof, const Prescription*> here;
+  std::map<Dof, std::pair<const Prescription*, double>> here;
   for (const Prescription& p : step.prescribe)
     for (std::size_t i = 0; i < component_count; ++i) {
       const std::optional<Number>& value = p.values[i];
       if (!value) continue;
       warn_of_far(c, step, p, i);
-      for (const Dof d : displacement_dofs(c, p.on, static_cast<Component>(i), Idle::left_out)) {
+      for (const auto& [d, sign] :
+           displacements(c, p.on, static_cast<Component>(i), Idle::left_out)) {
         if (eliminated.contains(d))
           throw core::InputError(
               value->mark,
               fmt::format("{} of a node of '{}' already follows from `equations` or `equal`",
                           component_names[i], p.on.value));
-        const auto [at, fresh] = here.emplace(d, &p);
-        if (!fresh) check_agreement(*at->second, p, i);
+        const double size = sign * value->value;
+        const auto [at, fresh] = here.emplace(d, std::pair(&p, size));
+        if (!fresh) check_agreement(*at->second.first, at->second.second, p, size, *value, i);
         if (!fresh) continue;
         running.prescribed[d] = p.mark;
-        out.prescribed.push_back({d, {0, value->value, amplitude_of(c, p.amplitude)}, false});
+        out.prescribed.push_back({d, {0, size, amplitude_of(c, p.amplitude)}, false});
       }
     }
   for (const auto& entry : running.prescribed)
@@ -168,7 +142,13 @@ template <int Dim>
 std::vector<std::pair<Dof, double>> force_unit(const BuildContext<Dim>& c, const Load& load,
                                                Component i) {
   std::vector<std::pair<Dof, double>> unit;
-  for (const Dof d : displacement_dofs(c, load.on, i, Idle::refused)) unit.emplace_back(d, 1.0);
+  if (const auto rigid = c.rigid_index.find(load.on.value); rigid != c.rigid_index.end())
+    return {{body_dof(c.model(), rigid->second, i), 1.0}};
+  for (const Index node : moving_nodes(c, load.on, Idle::refused)) {
+    const Vec<Dim> direction = direction_of(c, node, i);
+    for (int k = 0; k < Dim; ++k)
+      if (direction[k] != 0.0) unit.emplace_back(Dim * node + k, direction[k]);
+  }
   return unit;
 }
 
@@ -257,8 +237,47 @@ std::vector<std::pair<Dof, double>> total_force_unit(const BuildContext<Dim>& c,
   return unit;
 }
 
-enum Kind { force, total_force, traction, body_force, pressure };
-constexpr int kind_count = 5;
+/// Centrifugal forces of the cells of a set, of the square 1 of the angular velocity.
+///
+/// Formula    f_i = rho sum_j M_ij (1 - e e^T) (X_j - X_0) , e along the axis, M = int N N dV
+template <int Dim>
+std::vector<std::pair<Dof, double>> centrifugal_unit(const BuildContext<Dim>& c, const Load& load) {
+  const Vec3 axis = load.to - load.from;
+  if (!(axis.norm() > 0)) throw core::InputError(load.mark, "the points of the axis coincide");
+  const Vec3 e = axis.normalized();
+  const mesh::Set& set = c.set(load.on);
+  std::set<std::pair<Index, Index>> wanted;
+  for (const mesh::CellRef& ref : set.cells) wanted.emplace(ref.block, ref.cell);
+  std::vector<std::pair<Dof, double>> unit;
+  for (const model::BasicBulkSection<Dim>& section : c.model().sections)
+    for (const mesh::CellRef& ref : section.cells) {
+      if (!wanted.contains({ref.block, ref.cell})) continue;
+      const double density = material::density(section.section.law);
+      if (!(density > 0))
+        throw core::InputError(load.on.mark,
+                               fmt::format("the material of '{}' has no density", section.name));
+      const model::CellNodes cell = model::cell_nodes(c.model().mesh, ref);
+      const solid::NodeMass mass = solid::consistent_mass<Dim>(
+          section.section, cell.type, model::reference_of(c.model(), cell.nodes));
+      for (std::size_t i = 0; i < cell.nodes.size(); ++i) {
+        Vec3 force = Vec3::Zero();
+        for (std::size_t j = 0; j < cell.nodes.size(); ++j) {
+          const Vec3 arm =
+              c.model().mesh.nodes[static_cast<std::size_t>(cell.nodes[j])] - load.from;
+          force += density * mass(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) *
+                   (arm - arm.dot(e) * e);
+        }
+        for (int k = 0; k < Dim; ++k) unit.emplace_back(Dim * cell.nodes[i] + k, force[k]);
+      }
+    }
+  if (unit.empty())
+    throw core::InputError(load.on.mark,
+                           fmt::format("set '{}' has no bulk cells with a section", load.on.value));
+  return unit;
+}
+
+enum Kind { force, total_force, traction, body_force, centrifugal, pressure };
+constexpr int kind_count = 6;
 
 struct KindWords {
   const char* key;
@@ -269,6 +288,7 @@ constexpr std::array<KindWords, kind_count> kind_words{
      {"total_force", {"fx", "fy", "fz"}},
      {"traction", {"tx", "ty", "tz"}},
      {"body_force", {"fx", "fy", "fz"}},
+     {"centrifugal", {"speed_squared"}},
      {"pressure", {"value"}}}};
 
 template <int Dim>
@@ -278,6 +298,7 @@ Channel new_channel(const BuildContext<Dim>& c, int kind, const Load& load, int 
   if (kind == total_force) channel.unit = total_force_unit(c, load, i);
   if (kind == traction) channel.unit = traction_unit(c, load, i);
   if (kind == body_force) channel.unit = body_force_unit(c, load, i);
+  if (kind == centrifugal) channel.unit = centrifugal_unit(c, load);
   if (kind == pressure) channel.facets = loaded_sides(c, load.on);
   channel.resultant = channel.facets.empty() ? resultant(c.model(), channel.unit)
                                              : resultant(c.model(), channel.facets);
@@ -316,14 +337,19 @@ template <int Dim>
 void apply_loads(const BuildContext<Dim>& c, const deck::Step& step, Running& running,
                  model::Step& out) {
   std::map<ChannelKey, Given> givens;
-  const std::array<const std::vector<Load>*, kind_count> kinds{
-      &step.forces, &step.total_force, &step.traction, &step.body_force, &step.pressure};
+  const std::array<const std::vector<Load>*, kind_count> kinds{&step.forces,      &step.total_force,
+                                                               &step.traction,    &step.body_force,
+                                                               &step.centrifugal, &step.pressure};
   for (int kind = 0; kind < kind_count; ++kind)
     for (const Load& load : *kinds[static_cast<std::size_t>(kind)])
       for (int i = 0; i < static_cast<int>(component_count); ++i) {
         const std::optional<Number>& value = load.values[static_cast<std::size_t>(i)];
         if (!value) continue;
-        const ChannelKey key{kind, load.on.value, i};
+        const ChannelKey key{
+            kind,
+            load.on.value,
+            i,
+            {load.from[0], load.from[1], load.from[2], load.to[0], load.to[1], load.to[2]}};
         if (!running.channels.contains(key))
           running.channels.emplace(key, new_channel(c, kind, load, i));
         if (kind == force && c.rigid_index.contains(load.on.value))
@@ -400,68 +426,13 @@ void build_steps(BuildContext<Dim>& c) {
     add_weight(c, step, out, running);
     apply_loads(c, step, running, out);  // forces on a rigid body free its dof
     build_temperatures(c, step, temperatures, out);
+    apply_holds(c, step, running);
     apply_prescriptions(c, step, running, out);
     c.model().steps.push_back(std::move(out));
   }
 }
 
-namespace {
-
-/// Adds a term; a displacement named before gets the sum of its factors.
-void add_term(model::Equation& equation, Dof dof, double factor) {
-  for (model::Equation::Term& term : equation.terms)
-    if (term.dof == dof) {
-      term.factor += factor;
-      return;
-    }
-  equation.terms.push_back({dof, factor});
-}
-
-}  // namespace
-
-template <int Dim>
-void build_equations(BuildContext<Dim>& c) {
-  std::set<Dof> eliminated, used;
-  // A dof is eliminated at most once and only in favour of dofs that stay: no chains, no cycles.
-  const auto add = [&](model::Equation equation, const core::SourceMark& mark) {
-    for (const model::Equation::Term& term : equation.terms)
-      if (eliminated.contains(term.dof))
-        throw core::InputError(
-            mark, fmt::format("{} of {} already follows from another equation",
-                              component_names[static_cast<std::size_t>(term.dof % Dim)],
-                              mesh::describe_node(c.model().mesh, term.dof / Dim)));
-    const auto lead = std::find_if(
-        equation.terms.begin(), equation.terms.end(), [&](const model::Equation::Term& term) {
-          return term.factor != 0.0 && !used.contains(term.dof) &&
-                 term.dof < Dim * static_cast<Dof>(c.model().reference.size());
-        });
-    if (lead == equation.terms.end())
-      throw core::InputError(mark,
-                             "no displacement of a node can be eliminated: all are used by other "
-                             "equations, have the factor 0 or belong to rigid bodies");
-    std::iter_swap(equation.terms.begin(), lead);
-    eliminated.insert(equation.terms[0].dof);
-    for (const model::Equation::Term& term : equation.terms) used.insert(term.dof);
-    c.model().equations.push_back(std::move(equation));
-  };
-  for (const deck::Equation& e : c.description.equations) {
-    model::Equation equation;
-    equation.value = e.value.value;
-    for (const EquationTerm& term : e.terms)
-      for (const Dof d : displacement_dofs(c, term.on, term.of, Idle::refused))
-        add_term(equation, d, term.factor.value);
-    add(std::move(equation), e.mark);
-  }
-  for (const Equal& equal : c.description.equal) {
-    const std::vector<Dof> dofs = displacement_dofs(c, equal.on, equal.of, Idle::refused);
-    for (std::size_t i = 1; i < dofs.size(); ++i)
-      add({{{dofs[i], 1.0}, {dofs[0], -1.0}}, 0.0}, equal.mark);
-  }
-}
-
 template void build_steps(BuildContext<2>&);
 template void build_steps(BuildContext<3>&);
-template void build_equations(BuildContext<2>&);
-template void build_equations(BuildContext<3>&);
 
 }  // namespace osculate::deck

@@ -107,9 +107,10 @@ void check_planar_step(const Step& step) {
   for (const Prescription& p : step.prescribe)
     for (std::size_t i = 0; i < component_count; ++i)
       if (p.values[i]) refuse(static_cast<Component>(i), p.values[i]->mark);
-  for (const Release& r : step.release)
-    for (std::size_t i = 0; i < component_count; ++i)
-      if (r.of[i]) refuse(static_cast<Component>(i), r.mark);
+  for (const auto* const list : {&step.release, &step.hold})
+    for (const Release& r : *list)
+      for (std::size_t i = 0; i < component_count; ++i)
+        if (r.of[i]) refuse(static_cast<Component>(i), r.mark);
   refuse_loads(step.forces, {"fx", "fy", "fz", "mx", "my", "mz"});
   refuse_loads(step.total_force, {"fx", "fy", "fz"});
   refuse_loads(step.traction, {"tx", "ty", "tz"});

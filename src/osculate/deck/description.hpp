@@ -22,6 +22,7 @@
 #include "osculate/mesh/generate_space.hpp"
 #include "osculate/mesh/join.hpp"
 
+// size: one value for all that a model file says
 /// What a model file says, validated and with all defaults filled in, but not yet matched with a
 /// mesh. Plain values; everything that can turn out wrong later carries the place it was read from.
 namespace osculate::deck {
@@ -288,6 +289,15 @@ inline constexpr std::array<const char*, component_count> component_names{"ux", 
   return c == Component::ux || c == Component::uy || c == Component::rz;
 }
 
+/// Axes of the displacement components of a set's nodes: of a cylinder through two points of its
+/// axis, or rectangular ones by the first axis and a direction in the plane of the first two.
+struct LocalAxes {
+  core::SourceMark mark;
+  Name on;
+  bool cylindrical = false;
+  Vec3 a{0, 0, 0}, b{0, 0, 0};
+};
+
 struct EquationTerm {
   Name on;
   Component of = Component::ux;
@@ -306,6 +316,32 @@ struct Equal {
   Component of = Component::ux;
 };
 
+/// The nodes of a set stay in one plane, on one line, or (two of them) at their distance.
+struct NodeCondition {
+  core::SourceMark mark;
+  Name on;
+};
+/// The mean motion of a set's nodes is that of a rigid body.
+struct Coupling {
+  core::SourceMark mark;
+  Name on, rigid;
+};
+/// A cut through a body, at a set of facets inside of it: its name is that of a set of one node
+/// whose ux is by how much the cut shortens the body.
+struct Pretension {
+  Name name;
+  Name on;
+  std::optional<Marked<Vec3>> axis;
+};
+/// One of `sectors` equal parts round an axis: its dependent face moves as the independent one of
+/// its neighbour.
+struct CyclicSymmetry {
+  core::SourceMark mark;
+  Name dependent, independent;
+  Marked<int> sectors;
+  Vec3 from{0, 0, 0}, to{0, 0, 1};
+};
+
 /// A load or motion of a set at the end of the step; how many of `values` are used depends on the
 /// kind: motions and forces fx fy fz mx my mz are indexed by Component, pressure p, traction tx ty
 /// tz, body force fx fy fz. Absent ones are not touched.
@@ -314,6 +350,7 @@ struct Load {
   Name on;
   std::array<std::optional<Number>, component_count> values;
   std::optional<Name> amplitude;
+  Vec3 from{0, 0, 0}, to{0, 0, 1};  ///< points of the axis, of centrifugal loads
 };
 using Prescription = Load;
 struct Release {
@@ -351,8 +388,8 @@ struct Step {
   Marked<int> increments;
   std::optional<Number> duration;
   std::vector<Prescription> prescribe;
-  std::vector<Release> release;
-  std::vector<Load> forces, total_force, pressure, traction, body_force;
+  std::vector<Release> release, hold;
+  std::vector<Load> forces, total_force, pressure, traction, body_force, centrifugal;
   std::vector<Load> temperature;  ///< the first value
   std::optional<DynamicsDescription> dynamics;
   std::optional<Marked<std::vector<double>>> gravity;
@@ -387,8 +424,13 @@ struct Description {
   std::vector<Rigid> rigid;
   std::vector<Contact> contact;
   std::vector<Amplitude> amplitudes;
+  std::vector<LocalAxes> axes;
   std::vector<Equation> equations;
   std::vector<Equal> equal;
+  std::vector<NodeCondition> coplanar, collinear, fixed_distance;
+  std::vector<Coupling> coupling;
+  std::vector<Pretension> pretension;
+  std::vector<CyclicSymmetry> cyclic_symmetry;
   std::vector<Load> initial_velocity;     ///< vx vy vz wx wy wz
   std::vector<Load> initial_temperature;  ///< the first value
   std::vector<Step> steps;

@@ -12,9 +12,10 @@ struct Condition {
   double size = 0;
   std::string amplitude;  ///< name in the deck, in capitals; empty: a ramp
   int line = 0;
-  bool fresh = true;  ///< said in this step
+  bool fresh = true;   ///< said in this step
+  bool fixed = false;  ///< a displacement that stays where it is
 };
-/// By set and direction 1 to 3; of pressures always 1.
+/// By set or rigid body and direction 1 to 6; of pressures always 1.
 using Conditions = std::map<std::pair<std::string, int>, Condition>;
 
 struct Table {

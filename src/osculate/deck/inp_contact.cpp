@@ -221,7 +221,7 @@ SourceNode inp_contact(InpModel& m) {
   for (const Card& card : m.deck.cards) {
     if (card.keyword == "CONTACTPAIR")
       add_contact_pair(m, card, interaction_of(m, interactions, card), pairs);
-    if (card.keyword == "TIE") add_ties(m, card, pairs);
+    if (card.keyword == "TIE" && !is_cyclic_tie(card)) add_ties(m, card, pairs);
   }
   return pairs;
 }

@@ -1,4 +1,4 @@
-// Materials, sections and equations of a deck.
+// Materials and sections of a deck.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -193,6 +193,18 @@ SourceNode inp_materials(InpModel& m) {
   return materials;
 }
 
+namespace {
+
+/// A set of DCOUP3D, which have no section though decks give them one.
+bool is_coupling_element(const InpModel& m, const std::string& elements) {
+  return std::any_of(m.deck.cards.begin(), m.deck.cards.end(), [&](const Card& card) {
+    return card.keyword == "ELEMENT" && option_of(card, "TYPE") == "DCOUP3D" &&
+           option_of(card, "ELSET") == io::inp::capitals(elements);
+  });
+}
+
+}  // namespace
+
 SourceNode inp_sections(InpModel& m) {
   SourceNode sections = inp_list(1);
   for (const Card& card : m.deck.cards) {
@@ -200,6 +212,7 @@ SourceNode inp_sections(InpModel& m) {
     const int line = line_of(card.at);
     if (!option_of(card, "ORIENTATION").empty())
       io::inp::fail(m.deck, card, "ORIENTATION is not supported: materials are isotropic");
+    if (is_coupling_element(m, value_of(m, card, "ELSET"))) continue;
     for (const InpElements& part : elements_of(m, card)) {
       SourceNode& section = sections.items.emplace_back(inp_map(line));
       put(section, "on", inp_text(part.set, line));
@@ -227,41 +240,6 @@ std::optional<double> density_on(const InpModel& m, std::string_view elements) {
         return density_of(m, c);
   }
   return std::nullopt;
-}
-
-SourceNode inp_equations(const InpModel& m) {
-  SourceNode equations = inp_list(1);
-  for (const Card& card : m.deck.cards) {
-    if (card.keyword != "EQUATION") continue;
-    std::int32_t missing = 0;
-    SourceNode* terms = nullptr;
-    for (const Line& line : io::inp::lines_of(m.deck, card)) {
-      Fields fields(m.deck, line);
-      const int at = line_of(line.at);
-      if (missing == 0) {
-        missing = fields.number("the number of terms");
-        fields.expect_end();
-        SourceNode& equation = equations.items.emplace_back(inp_map(at));
-        terms = &put(equation, "terms", inp_list(at));
-        continue;
-      }
-      for (; !fields.done() && missing > 0; --missing) {
-        const std::string node = io::inp::name_of(fields.next().value_or(""));
-        const auto number = io::inp::number_of(node);
-        const std::int32_t dof = fields.number("the number of a direction");
-        if (dof > 3) fields.fail("only directions 1, 2 and 3 are supported in equations");
-        SourceNode& term = terms->items.emplace_back(inp_map(at));
-        put(term, "on",
-            inp_text(set_of(m, line.at, number ? io::inp::node_set_name(*number) : node,
-                            {SetKind::nodes}),
-                     at));
-        put(term, "of", inp_text(std::string("u") + "xyz"[dof - 1], at));
-        put(term, "factor", inp_number(fields.real("the factor"), at));
-      }
-    }
-    if (missing > 0) io::inp::fail(m.deck, card, fmt::format("{} terms are missing", missing));
-  }
-  return equations;
 }
 
 }  // namespace osculate::deck

@@ -21,6 +21,14 @@ struct InpPair {
   double area = 1;                ///< that its laws are multiplied by
 };
 
+/// A node that stands for the motions of a rigid body: from this one on, 1 to 6.
+struct InpBodyNode {
+  std::string body;   ///< its name in the model file
+  int first = 1;      ///< motion that direction 1 of the node is: 4 of one for rotations
+  bool rigid = true;  ///< else it is the shortening of a section under pretension
+  double sign = 1;    ///< of the node's direction
+};
+
 /// What the parts share.
 struct InpModel {
   const io::inp::Deck& deck;
@@ -29,6 +37,8 @@ struct InpModel {
   bool finite = false;                                                   ///< some step has NLGEOM
   std::vector<std::string> notes;
   std::vector<InpPair> pairs{};
+  std::map<Index, InpBodyNode> body_nodes{};  ///< by node of the mesh
+  std::set<Index> transformed{};              ///< nodes with a `*TRANSFORM`
 };
 
 /// Line of a place of the deck's first file; 0: it stands in an included one.
@@ -76,6 +86,8 @@ struct InpElements {
 ///
 /// Tested by  tests/unit/deck/test_inp_elements.cpp
 [[nodiscard]] std::vector<InpElements> elements_of(const InpModel& m, const io::inp::Card& section);
+/// Elements of several sections stay in the last one; the sets of what is left of the others.
+[[nodiscard]] SourceNode inp_overlaps(const InpModel& m, SourceNode& sections);
 /// Mass per volume of the material of a section; none: no section has this set of elements.
 [[nodiscard]] std::optional<double> density_on(const InpModel& m, std::string_view elements);
 
@@ -100,29 +112,53 @@ struct NodeValue {
 [[nodiscard]] bool inp_is_tied(const io::inp::Card* behavior);
 [[nodiscard]] SourceNode inp_friction(const InpModel& m, const io::inp::Card& card, double area);
 void put_damping(const InpModel& m, const io::inp::Card& card, double area, SourceNode& normal);
+[[nodiscard]] SourceNode inp_axes(InpModel& m);
 [[nodiscard]] SourceNode inp_equations(const InpModel& m);
+/// Rigid bodies of `*RIGID BODY` and `*COUPLING`, and the knots of shells and beams, with the nodes
+/// that stand for them.
+[[nodiscard]] SourceNode inp_rigid(InpModel& m);
+
+/// Adds multi-point constraints, couplings, sections under pretension and cyclic symmetry.
+void put_constraints(InpModel& m, SourceNode& root);
+/// Of a `*TIE`: it is one of the two faces of a sector.
+[[nodiscard]] bool is_cyclic_tie(const io::inp::Card& card);
+/// The node of a set of one node, or -1.
+[[nodiscard]] Index only_node(const InpModel& m, std::string_view set);
+/// The set of the node that a parameter gives the number of; empty without the parameter.
+[[nodiscard]] std::string node_parameter(const InpModel& m, const io::inp::Card& card,
+                                         std::string_view name);
+/// The card of a `*COUPLING` that says how, after it.
+[[nodiscard]] const io::inp::Card& kind_of_coupling(const InpModel& m,
+                                                    const io::inp::Card& coupling);
+/// Name of the rigid body of a card's reference node.
+[[nodiscard]] std::string reference_body(const InpModel& m, const io::inp::Card& card);
+
+/// What a boundary condition, a force or a term of an equation acts on.
+struct InpPlace {
+  std::string on;     ///< set of nodes or rigid body
+  int direction = 1;  ///< 1 to 3, of rigid bodies also 4 to 6
+  double sign = 1;
+};
+/// What direction 1 to 6 of a set of nodes acts on: the set, the bodies that its nodes stand for
+/// and the others, its rotations. Empty: nodes without rotations.
+///
+/// Tested by  tests/unit/deck/test_inp_thin.cpp, test_inp_constraints.cpp
+[[nodiscard]] std::vector<InpPlace> inp_places(const InpModel& m, const std::string& set,
+                                               int direction);
+/// Of supports and forces of a set: 6 of rigid bodies and with shells and beams, whose nodes turn.
+[[nodiscard]] int highest_direction(const InpModel& m, const std::string& set);
+/// The set of a field: the name of one, or the number of a node.
+[[nodiscard]] const std::string& node_set_of(const InpModel& m, const io::inp::Line& line,
+                                             std::string_view field);
+/// Name of a component: `u` and 2 give uy, `f` and 4 mx.
+[[nodiscard]] std::string inp_component(char kind, int direction);
+/// 3 as soon as there is a volume.
+[[nodiscard]] int inp_dimension(const InpModel& m);
 
 /// Time integration of a `*DYNAMIC`.
 [[nodiscard]] SourceNode inp_dynamics(const InpModel& m, const io::inp::Card& card);
-/// 3 as soon as there is a volume.
-[[nodiscard]] int inp_dimension(const InpModel& m);
-/// Of supports and forces: 6 with shells and beams, whose nodes turn.
-[[nodiscard]] int highest_direction(const InpModel& m);
-/// What moves: a set of nodes or a rigid body, and a direction 1 to 6.
-using InpTarget = std::pair<std::string, int>;
-/// What a support or load of a set of nodes acts on: the set, its nodes that are in no knot, the
-/// knots, its rotations. Empty: nodes without rotations.
-///
-/// Tested by  tests/unit/deck/test_inp_thin.cpp
-[[nodiscard]] std::vector<InpTarget> targets_of(const InpModel& m, const std::string& set,
-                                                int direction);
-/// `ux` to `rz` of kind u, `fx` to `mz` of kind f.
-[[nodiscard]] std::string component_of(char kind, int direction);
-/// Knots of shells and beams as rigid bodies.
-[[nodiscard]] SourceNode inp_knots(const InpModel& m);
-/// `release` of the first step: the motions of knots that are not `prescribed`.
-[[nodiscard]] SourceNode released_knots(const InpModel& m, const std::set<InpTarget>& prescribed,
-                                        int line);
+/// Adds the knots of shells and beams to rigid bodies.
+void put_knots(InpModel& m, SourceNode& bodies);
 
 /// The steps, with the amplitudes that they use.
 struct InpSteps {

@@ -1,3 +1,4 @@
+// size: one walk through the cards of the steps, whose parts share what it has read
 // Steps of a deck: boundary conditions and loads, which persist as they do in a model file.
 #include <fmt/format.h>
 
@@ -62,7 +63,8 @@ class Steps {
     period_ = 1;
     increments_ = 1;
     released_.clear();
-    for (Conditions* const values : {&prescribed_, &forces_, &pressures_, &body_forces_})
+    for (Conditions* const values :
+         {&prescribed_, &forces_, &pressures_, &body_forces_, &centrifugal_})
       for (auto& [key, value] : *values) value.fresh = false;
     for (auto& [on, value] : temperatures_) value.fresh = false;
     if (out_.steps.items.empty())
@@ -133,9 +135,11 @@ class Steps {
     if (procedure_->keyword == "DYNAMIC") put(step, "dynamics", inp_dynamics(m_, *procedure_));
     put_directions(step, "prescribe", 'u', prescribed_);
     put_releases(step);
+    put_holds(step);
     put_directions(step, "forces", 'f', forces_);
     put_pressures(step);
     put_directions(step, "body_force", 'f', body_forces_);
+    put_centrifugal(step);
     SourceNode changes = inp_changes(m_, std::span(step_, &card));
     if (!changes.items.empty()) put(step, "contact", std::move(changes));
     put_temperatures(step);
@@ -222,7 +226,7 @@ class Steps {
   std::string start(const Card& card, Conditions& values, bool may_stand_before_steps = false) {
     if (!step_ && !may_stand_before_steps) io::inp::fail(m_.deck, card, "stands outside of a step");
     for (const char* const other :
-         {"USER", "SUBMODEL", "LOADCASE", "SECTOR", "OMEGA0", "FIXED", "TIMEDELAY"})
+         {"USER", "SUBMODEL", "LOADCASE", "SECTOR", "OMEGA0", "TIMEDELAY"})
       if (io::inp::find_parameter(card, other))
         io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
     const std::string op = option_of(card, "OP");
@@ -252,13 +256,7 @@ class Steps {
     if (sum && value.amplitude != amplitude)
       io::inp::fail(m_.deck, line.at,
                     fmt::format("'{}' has this load with another amplitude in the same step", on));
-    value = {sum ? value.size + size : size, amplitude, line_of(line.at), true};
-  }
-
-  const std::string& node_set(const Line& line, std::string_view field) const {
-    const std::string name = io::inp::name_of(field);
-    const auto number = io::inp::number_of(name);
-    return set_of(m_, line.at, number ? io::inp::node_set_name(*number) : name, {SetKind::nodes});
+    value = {sum ? value.size + size : size, amplitude, line_of(line.at), true, false};
   }
 
   void check_initial(const Card& card) const {
@@ -271,22 +269,23 @@ class Steps {
 
   void read_boundary(const Card& card) {
     const std::string amplitude = start(card, prescribed_, true);
+    const bool fixed = io::inp::find_parameter(card, "FIXED") != nullptr;
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
-      const std::string& set_name = node_set(line, fields.next().value_or(""));
+      const std::string& set_name = node_set_of(m_, line, fields.next().value_or(""));
       const std::int32_t first = fields.number("the first direction");
       std::int32_t last = first;
       if (const auto field = fields.next(); field && !field->empty())
         last = io::inp::number_of(m_.deck, line.at, *field, "the last direction");
       const double size = fields.real_or_zero("the displacement");
-      const int highest = std::max(highest_direction(m_), 3);  // uz = 0 of plane ones may be said
-      if (last > highest || last < first)
-        fields.fail(
-            fmt::format("expected directions 1 to {}, found {} to {}", highest, first, last));
+      if (last > 6 || last < first)
+        fields.fail(fmt::format("expected directions 1 to 6, found {} to {}", first, last));
       for (std::int32_t k = first; k <= last; ++k)
-        for (const auto& [on, direction] : targets_of(m_, set_name, k))
-          if (direction <= inp_dimension(m_) || k > 3)
-            set(prescribed_, on, direction, size, amplitude, line, false);
+        for (const InpPlace& place : places(fields, set_name, k)) {
+          if (!exists(place.direction)) continue;
+          set(prescribed_, place.on, place.direction, place.sign * size, amplitude, line, false);
+          prescribed_.at({place.on, place.direction}).fixed = fixed;
+        }
     }
   }
 
@@ -294,22 +293,40 @@ class Steps {
     const std::string amplitude = start(card, forces_);
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
-      const std::string& set_name = node_set(line, fields.next().value_or(""));
+      const std::string& set_name = node_set_of(m_, line, fields.next().value_or(""));
       const std::int32_t direction = fields.number("the direction");
-      const int highest = highest_direction(m_);
-      if (direction > highest)
-        fields.fail(fmt::format("expected a direction 1 to {}, found {}", highest, direction));
-      const std::vector<InpTarget> targets = targets_of(m_, set_name, direction);
-      if (targets.empty()) fields.fail("no shell or beam can take a moment here");
+      const std::vector<InpPlace> on = places(fields, set_name, direction);
+      if (on.empty()) fields.fail("no shell or beam can take a moment here");
       const double size = fields.real("the force");
-      for (const auto& [on, along] : targets) set(forces_, on, along, size, amplitude, line, true);
+      for (const InpPlace& place : on) {
+        if (!exists(place.direction))
+          fields.fail(
+              fmt::format("expected a direction 1 to {}, found {}", inp_dimension(m_), direction));
+        set(forces_, place.on, place.direction, place.sign * size, amplitude, line, true);
+      }
     }
+  }
+
+  /// Directions above 3 are rotations, which nodes of rigid bodies, shells and beams stand for.
+  std::vector<InpPlace> places(const Fields& fields, const std::string& set_name,
+                               int direction) const {
+    const int highest = highest_direction(m_, set_name);
+    if (direction < 1 || direction > highest)
+      fields.fail(highest == 3 && direction <= 6
+                      ? fmt::format("expected directions 1 to 3, found {}", direction)
+                      : fmt::format("'{}' has no direction {}", set_name, direction));
+    return inp_places(m_, set_name, direction);
+  }
+  /// In the plane there are the directions 1, 2 and 6.
+  [[nodiscard]] bool exists(int direction) const {
+    return inp_dimension(m_) == 3 || direction <= 2 || direction == 6;
   }
 
   void read_distributed(const Card& card) {
     // one card of OP=NEW removes pressures and body forces
     const std::string amplitude = start(card, pressures_);
     (void)start(card, body_forces_);
+    (void)start(card, centrifugal_);
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
       const std::string elements = io::inp::name_of(fields.next().value_or(""));
@@ -320,9 +337,11 @@ class Steps {
         set(pressures_, on, 1, fields.real("the pressure"), amplitude, line, true);
       } else if (load == "GRAV") {
         read_gravity(fields, elements, amplitude, line);
+      } else if (load == "CENTRIF") {
+        read_centrifugal(fields, elements, amplitude, line);
       } else {
-        fields.fail(
-            fmt::format("load {} is not supported: P1 to P6 or GRAV", io::inp::shown(load)));
+        fields.fail(fmt::format("load {} is not supported: P1 to P6, GRAV or CENTRIF",
+                                io::inp::shown(load)));
       }
     }
   }
@@ -343,6 +362,19 @@ class Steps {
     for (int k = 0; k < inp_dimension(m_); ++k)
       set(body_forces_, on, k + 1, *density * size * direction.normalized()[k], amplitude, line,
           true);
+  }
+
+  /// By set and number of the axis.
+  void read_centrifugal(Fields& fields, const std::string& elements, const std::string& amplitude,
+                        const Line& line) {
+    const double speed = fields.real("the square of the angular velocity");
+    std::array<double, 6> axis{};
+    for (double& c : axis) c = fields.real_or_zero("a point or direction of the axis");
+    for (std::size_t k = 3; k < 6; ++k) axis[k] += axis[k - 3];
+    auto known = std::find(axes_.begin(), axes_.end(), axis);
+    if (known == axes_.end()) known = axes_.insert(axes_.end(), axis);
+    const std::string& on = set_of(m_, line.at, elements, {SetKind::elements});
+    set(centrifugal_, on, static_cast<int>(known - axes_.begin()), speed, amplitude, line, true);
   }
 
   void read_on_surfaces(const Card& card) {
@@ -373,7 +405,7 @@ class Steps {
       NodeValue of = temperature_of(m_, line);
       std::erase_if(temperatures_, [&](const auto& one) { return one.first == of.on; });
       temperatures_.emplace_back(std::move(of.on),
-                                 Condition{of.value, amplitude, line_of(line.at), true});
+                                 Condition{of.value, amplitude, line_of(line.at), true, false});
     }
   }
 
@@ -389,11 +421,11 @@ class Steps {
   void put_directions(SourceNode& step, const char* key, char kind, Conditions& values) {
     SourceNode list = inp_list(line_of(step_->at));
     for (const auto& one : values) {
-      if (!is_active(values, one)) continue;
+      if (!is_active(values, one) || one.second.fixed) continue;
       const auto& [set_and_direction, value] = one;
       SourceNode& entry = list.items.emplace_back(inp_map(value.line));
       put(entry, "on", inp_text(set_and_direction.first, value.line));
-      put(entry, component_of(kind, set_and_direction.second), inp_number(value.size, value.line));
+      put(entry, inp_component(kind, set_and_direction.second), inp_number(value.size, value.line));
       put_amplitude(entry, value, &values != &prescribed_);
     }
     if (!list.items.empty()) put(step, key, std::move(list));
@@ -424,6 +456,24 @@ class Steps {
     if (!list.items.empty()) put(step, "temperature", std::move(list));
   }
 
+  void put_centrifugal(SourceNode& step) {
+    SourceNode list = inp_list(line_of(step_->at));
+    for (const auto& one : centrifugal_) {
+      if (!is_active(centrifugal_, one)) continue;
+      const int line = one.second.line;
+      const std::array<double, 6>& axis = axes_[static_cast<std::size_t>(one.first.second)];
+      SourceNode& entry = list.items.emplace_back(inp_map(line));
+      put(entry, "on", inp_text(one.first.first, line));
+      put(entry, "speed_squared", inp_number(one.second.size, line));
+      for (const std::size_t k : {0, 3}) {
+        SourceNode& point = put(entry, k == 0 ? "from" : "to", inp_list(line));
+        for (std::size_t i = 0; i < 3; ++i) point.items.push_back(inp_number(axis[k + i], line));
+      }
+      put_amplitude(entry, one.second);
+    }
+    if (!list.items.empty()) put(step, "centrifugal", std::move(list));
+  }
+
   /// Loads of steps in time act at once and displacements are ramped, where they name no amplitude.
   void put_amplitude(SourceNode& entry, const Condition& value, bool is_load = true) {
     if (!value.amplitude.empty())
@@ -443,20 +493,39 @@ class Steps {
     return name;
   }
 
+  void put_of(SourceNode& list, const std::string& on, const std::vector<int>& directions) const {
+    if (directions.empty()) return;
+    const int line = line_of(step_->at);
+    SourceNode& entry = list.items.emplace_back(inp_map(line));
+    put(entry, "on", inp_text(on, line));
+    SourceNode& of = put(entry, "of", inp_list(line));
+    for (const int k : directions) of.items.push_back(inp_text(inp_component('u', k), line));
+  }
+
+  /// Nodes of a deck's rigid bodies are free at first, bodies of a model file are held.
   void put_releases(SourceNode& step) {
-    std::set<InpTarget> prescribed;
-    for (const auto& [key, value] : prescribed_) prescribed.insert(key);
-    const bool first = out_.steps.items.size() == 1;
-    SourceNode list =
-        first ? released_knots(m_, prescribed, line_of(step_->at)) : inp_list(line_of(step_->at));
-    for (const auto& [values, key] : released_) {
-      if (values != &prescribed_) continue;
-      SourceNode& entry = list.items.emplace_back(inp_map(line_of(step_->at)));
-      put(entry, "on", inp_text(key.first, line_of(step_->at)));
-      SourceNode& of = put(entry, "of", inp_list(line_of(step_->at)));
-      of.items.push_back(inp_text(component_of('u', key.second), line_of(step_->at)));
+    SourceNode list = inp_list(line_of(step_->at));
+    std::set<std::string> bodies;
+    if (out_.steps.items.size() == 1)
+      for (const auto& [node, body] : m_.body_nodes)
+        if (body.rigid) bodies.insert(body.body);
+    for (const std::string& body : bodies) {
+      std::vector<int> free;
+      for (int k = 1; k <= 6; ++k)
+        if (exists(k) && !prescribed_.contains({body, k})) free.push_back(k);
+      put_of(list, body, free);
     }
+    for (const auto& [values, key] : released_)
+      if (values == &prescribed_) put_of(list, key.first, {key.second});
     if (!list.items.empty()) put(step, "release", std::move(list));
+  }
+
+  void put_holds(SourceNode& step) {
+    SourceNode list = inp_list(line_of(step_->at));
+    for (const auto& [key, value] : prescribed_)
+      if (value.fixed && value.fresh && !released_.contains({&prescribed_, key}))
+        put_of(list, key.first, {key.second});
+    if (!list.items.empty()) put(step, "hold", std::move(list));
   }
 
   void forget_removed() {
@@ -470,7 +539,8 @@ class Steps {
   int increments_ = 1, modes_ = 0;
   bool at_once_ = false, moved_ = false;
   std::map<std::string, Table> tables_;
-  Conditions prescribed_, forces_, pressures_, body_forces_;
+  Conditions prescribed_, forces_, pressures_, body_forces_, centrifugal_;
+  std::vector<std::array<double, 6>> axes_;  ///< of centrifugal loads: points of them
   std::set<std::pair<Conditions*, Conditions::key_type>> released_;
   std::vector<std::pair<std::string, Condition>> temperatures_;
 };

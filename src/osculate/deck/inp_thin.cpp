@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "osculate/deck/inp_parts.hpp"
+#include "osculate/mesh/boundary.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -28,59 +29,58 @@ int inp_dimension(const InpModel& m) {
   return 2;
 }
 
-int highest_direction(const InpModel& m) {
-  return m.mesh.mesh.relations.empty() && m.mesh.knots.empty() ? inp_dimension(m) : 6;
+int highest_direction(const InpModel& m, const std::string& set) {
+  const auto body = m.body_nodes.find(only_node(m, set));
+  if (body == m.body_nodes.end())
+    return m.mesh.mesh.relations.empty() && m.mesh.knots.empty() ? 3 : 6;
+  if (!body->second.rigid) return 1;
+  return 7 - body->second.first;
 }
 
-SourceNode inp_knots(const InpModel& m) {
-  SourceNode bodies = inp_map(1);
+void put_knots(InpModel& m, SourceNode& bodies) {
   for (const DeckKnot& knot : m.mesh.knots) {
-    SourceNode& body = put(bodies, knot_name(m, knot), inp_map(1));
+    const std::string name = knot_name(m, knot);
+    if (!m.body_nodes.try_emplace(knot.node, InpBodyNode{name}).second)
+      throw core::InputError(
+          {m.deck.files[0], 0, ""},
+          fmt::format("{} stands for a rigid body and is one of shells or beams, too",
+                      mesh::describe_node(m.mesh.mesh, knot.node)));
+    SourceNode& body = put(bodies, name, inp_map(1));
     put(body, "set", inp_text(knot.set, 1));
     SourceNode& reference = put(body, "reference", inp_list(1));
     for (const double x : m.mesh.mesh.nodes[static_cast<std::size_t>(knot.node)])
       reference.items.push_back(inp_number(x, 1));
   }
-  return bodies;
 }
 
-SourceNode released_knots(const InpModel& m, const std::set<InpTarget>& prescribed, int line) {
-  SourceNode list = inp_list(line);
-  for (const DeckKnot& knot : m.mesh.knots) {
-    SourceNode entry = inp_map(line);
-    const std::string name = knot_name(m, knot);
-    put(entry, "on", inp_text(name, line));
-    SourceNode& of = put(entry, "of", inp_list(line));
-    for (int k = 1; k <= 6; ++k)
-      if (!prescribed.contains({name, k})) of.items.push_back(inp_text(component_of('u', k), line));
-    if (!of.items.empty()) list.items.push_back(std::move(entry));
-  }
-  return list;
-}
-
-std::string component_of(char kind, int direction) {
-  const char turned = kind == 'u' ? 'r' : 'm';
-  return {direction > 3 ? turned : kind, "xyz"[(direction - 1) % 3]};
-}
-
-std::vector<InpTarget> targets_of(const InpModel& m, const std::string& set, int direction) {
-  std::vector<InpTarget> targets;
+std::vector<InpPlace> inp_places(const InpModel& m, const std::string& set, int direction) {
   const std::vector<Index>& nodes = m.mesh.mesh.find_set(set)->nodes;
-  bool in_knots = false;
-  for (const DeckKnot& knot : m.mesh.knots)
-    if (std::binary_search(nodes.begin(), nodes.end(), knot.node)) {
-      targets.emplace_back(knot_name(m, knot), direction);
-      in_knots = true;
-    }
+  std::vector<InpPlace> places;
+  bool in_bodies = false;
+  for (const Index node : nodes) {
+    const auto body = m.body_nodes.find(node);
+    if (body == m.body_nodes.end()) continue;
+    in_bodies = true;
+    int motion = direction + body->second.first - 1;
+    if (inp_dimension(m) == 2 && motion == 3) motion = 4;  // a displacement that is none in a plane
+    places.push_back({body->second.body, motion, body->second.sign});
+  }
   if (direction > 3) {
     if (const std::string* const turns = find_nodes(m, io::inp::set_of_rotations(set)))
-      targets.emplace_back(*turns, direction - 3);
-    return targets;
+      places.push_back({*turns, direction - 3});
+  } else if (!in_bodies) {
+    return {{set, direction}};
+  } else if (const std::string* const others = find_nodes(m, io::inp::set_without_knots(set))) {
+    places.push_back({*others, direction});
   }
-  if (!in_knots) return {{set, direction}};
-  if (const std::string* const others = find_nodes(m, io::inp::set_without_knots(set)))
-    targets.emplace_back(*others, direction);
-  return targets;
+  for (const Index node : nodes)
+    if (!places.empty() && m.transformed.contains(node))
+      throw core::InputError(
+          {m.deck.files[0], 0, ""},
+          fmt::format("{} has a *TRANSFORM: not supported for nodes of rigid bodies and for "
+                      "rotations of shells and beams",
+                      mesh::describe_node(m.mesh.mesh, node)));
+  return places;
 }
 
 }  // namespace osculate::deck

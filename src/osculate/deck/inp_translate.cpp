@@ -144,7 +144,7 @@ TranslatedDeck translate_deck(std::string_view content, const std::string& file)
 
 TranslatedDeck translate_deck(const io::inp::Deck& deck) {
   const std::string& file = deck.files[0];
-  InpModel m{deck, {}, {}, false, {}};
+  InpModel m{deck, {}, {}, false, {}, {}};
   check_keywords(m);
   m.finite = io::inp::has_finite_step(deck);
   m.mesh = io::inp::deck_mesh(deck);
@@ -160,9 +160,13 @@ TranslatedDeck translate_deck(const io::inp::Deck& deck) {
     if (!node.entries.empty() || !node.items.empty()) put(out.root, key, std::move(node));
   };
   put_unless_empty("materials", inp_materials(m));
-  put_unless_empty("sections", inp_sections(m));
-  put_unless_empty("rigid", inp_knots(m));
+  SourceNode sections = inp_sections(m);
+  put_unless_empty("sets", inp_overlaps(m, sections));
+  put_unless_empty("sections", std::move(sections));
+  put_unless_empty("rigid", inp_rigid(m));
   put_unless_empty("contact", inp_contact(m));
+  put_unless_empty("axes", inp_axes(m));
+  put_constraints(m, out.root);
   put_unless_empty("equations", inp_equations(m));
   put_unless_empty("initial_temperature", inp_initial_temperature(m));
   InpSteps steps = inp_steps(m);

@@ -3,6 +3,7 @@
 #include "osculate/deck/build_context.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/deck/parse_parts.hpp"
+#include "osculate/deck/pretension.hpp"
 #include "osculate/io/mesh_format.hpp"
 #include "osculate/mesh/generate.hpp"
 #include "osculate/mesh/generate_ring.hpp"
@@ -148,6 +149,7 @@ void add_set(const Description& description, const SetDefinition& definition, me
 mesh::Mesh load_mesh(const Description& description) {
   mesh::Mesh mesh = mesh_of(description.mesh, dimension(description));
   for (const SetDefinition& definition : description.sets) add_set(description, definition, mesh);
+  for (const Pretension& pretension : description.pretension) cut(pretension, mesh);
   return mesh;
 }
 

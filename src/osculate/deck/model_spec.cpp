@@ -39,16 +39,28 @@ Spec parameters_spec() {
 
 BoundKeys<Description> model_keys() {
   using D = Description;
-  return {
-      {unread<D>(required(
-           "osculate",
-           integer("Version of the model file's format.").at_least(1).at_most(1).such_as("1"))),
-       may(&D::title, "title",
-           text("What is computed; heads the report.").such_as("Block pressed on a rigid base")),
-       unread<D>(optional("parameters", parameters_spec())), mesh_key(), sets_key(),
-       materials_key(), sections_key(), rigid_key(), contact_key(), amplitudes_key(),
-       equations_key(), equal_key(), initial_velocity_key(), initial_temperature_key(), steps_key(),
-       solver_key(), output_key()}};
+  std::vector<BoundKey<D>> keys{
+      unread<D>(required(
+          "osculate",
+          integer("Version of the model file's format.").at_least(1).at_most(1).such_as("1"))),
+      may(&D::title, "title",
+          text("What is computed; heads the report.").such_as("Block pressed on a rigid base")),
+      unread<D>(optional("parameters", parameters_spec())),
+      mesh_key(),
+      sets_key(),
+      materials_key(),
+      sections_key(),
+      rigid_key(),
+      contact_key(),
+      amplitudes_key(),
+      axes_key(),
+      equations_key(),
+      equal_key()};
+  for (BoundKey<D>& key : constraint_keys()) keys.push_back(std::move(key));
+  for (BoundKey<D> key :
+       {initial_velocity_key(), initial_temperature_key(), steps_key(), solver_key(), output_key()})
+    keys.push_back(std::move(key));
+  return {std::move(keys)};
 }
 
 Spec model_spec() {

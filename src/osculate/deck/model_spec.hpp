@@ -18,8 +18,11 @@ namespace osculate::deck {
 [[nodiscard]] BoundKey<Description> rigid_key();
 [[nodiscard]] BoundKey<Description> contact_key();
 [[nodiscard]] BoundKey<Description> amplitudes_key();
+[[nodiscard]] BoundKey<Description> axes_key();
 [[nodiscard]] BoundKey<Description> equations_key();
 [[nodiscard]] BoundKey<Description> equal_key();
+/// Conditions of nodes beside equations, couplings, sections under pretension, cyclic symmetry.
+[[nodiscard]] std::vector<BoundKey<Description>> constraint_keys();
 [[nodiscard]] BoundKey<Description> initial_velocity_key();
 [[nodiscard]] BoundKey<Description> initial_temperature_key();
 [[nodiscard]] BoundKey<Description> steps_key();

@@ -91,25 +91,39 @@ BoundKey<Step> prescribe_key() {
         "radians"}});
 }
 
-BoundKey<Step> release_key() {
+/// Sets or rigid bodies, and which of their displacements.
+BoundKeys<Release> of_keys(std::string doc) {
   using R = Release;
-  const BoundKeys<R> keys(
-      {on_key<R>("Set of nodes, or rigid body.", "top"),
-       {required("of", list("Which displacements.", component_spec("One displacement."))
-                           .count(1, component_count)
-                           .such_as("[ux]")),
-        [](R& release, const Value& v) {
-          for (const Value& item : v.items) {
-            bool& slot = release.of[static_cast<std::size_t>(item.code)];
-            if (slot) throw core::InputError(item.mark, quoted(item.text) + " is given twice");
-            slot = true;
-          }
-        }}});
+  return {{on_key<R>(std::move(doc), "top"),
+           {required("of", list("Which displacements.", component_spec("One displacement."))
+                               .count(1, component_count)
+                               .such_as("[ux]")),
+            [](R& release, const Value& v) {
+              for (const Value& item : v.items) {
+                bool& slot = release.of[static_cast<std::size_t>(item.code)];
+                if (slot) throw core::InputError(item.mark, quoted(item.text) + " is given twice");
+                slot = true;
+              }
+            }}}};
+}
+
+BoundKey<Step> release_key() {
+  const BoundKeys<Release> keys = of_keys("Set of nodes, or rigid body.");
   return {
       optional("release", list("Prescribed displacements to set free.", keys.spec("One release."))
                               .otherwise("[]")
                               .such_as("[{on: top, of: [ux]}]")),
       [keys](Step& s, const Value& v) { s.release = keys.read_all(v); }};
+}
+
+BoundKey<Step> hold_key() {
+  const BoundKeys<Release> keys = of_keys("Set of nodes, or rigid body.");
+  return {optional("hold", list("Displacements that stay, until they are released or prescribed, "
+                                "where they are when the step begins.",
+                                keys.spec("What is held."))
+                               .otherwise("[]")
+                               .such_as("[{on: top, of: [ux]}]")),
+          [keys](Step& s, const Value& v) { s.hold = keys.read_all(v); }};
 }
 
 BoundKey<Step> forces_key() {
@@ -206,6 +220,32 @@ BoundKey<Step> body_force_key() {
                  "force/length^3", "bz"}});
 }
 
+BoundKey<Step> centrifugal_key() {
+  const auto place = [](std::string doc, std::string otherwise) {
+    return list(std::move(doc), number("One coordinate.").in("length"))
+        .count(2, 3)
+        .otherwise(std::move(otherwise));
+  };
+  const BoundKeys<Load> keys(
+      {on_key<Load>("Set of bulk cells, whose material has a density.", "disc"),
+       {required("speed_squared", number("Square of the angular velocity at the end of the step.")
+                                      .in("radians^2/time^2")
+                                      .at_least(0)
+                                      .such_as("1e6")),
+        [](Load& load, const Value& v) { store(load.values[0], v); }},
+       may(&Load::from, "from", place("A point of the axis.", "[0, 0, 0]")),
+       {optional("to", place("Another one.", "[0, 0, 1]")),
+        [](Load& load, const Value& v) { load.to = place_of(v); }},
+       amplitude_key()});
+  return {optional("centrifugal",
+                   list("Centrifugal forces of bodies that turn about an axis, at their undeformed "
+                        "places.",
+                        keys.spec("One centrifugal load."))
+                       .otherwise("[]")
+                       .such_as("[{on: disc, speed_squared: 1e6}]")),
+          [keys](Step& s, const Value& v) { s.centrifugal = keys.read_all(v); }};
+}
+
 BoundKeys<Step> step_keys() {
   using S = Step;
   return {{need(&S::name, "name", text("Name of the step.").as(TextRule::name).such_as("press")),
@@ -232,12 +272,14 @@ BoundKeys<Step> step_keys() {
                    .such_as("0.5")),
            prescribe_key(),
            release_key(),
+           hold_key(),
            forces_key(),
            total_force_key(),
            pressure_key(),
            traction_key(),
            body_force_key(),
            temperature_key(),
+           centrifugal_key(),
            may(&S::gravity, "gravity", gravity_spec()),
            contact_changes_key(),
            {optional("dynamics", dynamics_spec()),
@@ -360,6 +402,49 @@ BoundKey<Description> amplitudes_key() {
       [](Description& d, const Value& v) {
         for (const ValueEntry& entry : v.entries) d.amplitudes.push_back(amplitude_of(entry));
       }};
+}
+
+namespace {
+
+BoundKeys<LocalAxes> axes_keys() {
+  using A = LocalAxes;
+  const auto place = [](std::string doc) {
+    return list(std::move(doc), number("One coordinate.")).count(2, 3);
+  };
+  const BoundKeys<A> rectangular({need(&A::a, "x", place("Direction of the first axis.")),
+                                  need(&A::b, "xy",
+                                       place("A direction in the plane of the first "
+                                             "and the second axis."))});
+  const BoundKeys<A> cylinder(
+      {need(&A::a, "from", place("A point of the cylinder's axis.")),
+       {optional("to", place("Another one, in models in space.").such_as("[0, 0, 1]")),
+        [](A& axes, const Value& v) { axes.b = place_of(v); }}});
+  return {{on_key<A>("Set of nodes.", "rim"),
+           {optional("rectangular", rectangular.spec("Three directions, the same for all nodes.")
+                                        .such_as("{x: [1, 1, 0], xy: [0, 1, 0]}")),
+            [rectangular](A& axes, const Value& v) { rectangular.read(v, axes); }},
+           {optional("cylindrical", cylinder.spec("Radial, around the axis and along it.")
+                                        .such_as("{from: [0, 0, 0], to: [0, 0, 1]}")),
+            [cylinder](A& axes, const Value& v) {
+              axes.cylindrical = true;
+              cylinder.read(v, axes);
+              if (!v.find("to")) axes.b = axes.a + Vec3::UnitZ();
+            }}}};
+}
+
+}  // namespace
+
+BoundKey<Description> axes_key() {
+  return {optional("axes",
+                   list("Axes that ux, uy, uz and fx, fy, fz mean, in place of x, y and z, for the "
+                        "nodes of a set: in `prescribe`, `hold`, `release`, `forces`, `equations` "
+                        "and `equal`. Results are in global axes.",
+                        axes_keys()
+                            .spec("The axes of one set.")
+                            .with(Group::Rule::exactly_one, {"rectangular", "cylindrical"}))
+                       .otherwise("[]")
+                       .such_as("[{on: rim, cylindrical: {from: [0, 0, 0], to: [0, 0, 1]}}]")),
+          [](Description& d, const Value& v) { d.axes = axes_keys().read_all(v); }};
 }
 
 BoundKey<Description> equations_key() {

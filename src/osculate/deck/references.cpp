@@ -65,6 +65,8 @@ void check_constraints(const Description& d) {
     for (const EquationTerm& term : equation.terms)
       if (is_rotation(term.of))
         require_rigid(d, term.on, term.on.mark, component_names[static_cast<std::size_t>(term.of)]);
+  for (const Coupling& coupling : d.coupling)
+    require_rigid(d, coupling.rigid, coupling.rigid.mark, "rigid");
   std::map<std::string, int> equal;
   for (const Equal& e : d.equal) {
     if (d.find_rigid(e.on.value))
@@ -82,9 +84,14 @@ class StepChecker {
   explicit StepChecker(const Description& d) : d_(d) {}
 
   void check(const Step& step) {
+    if (step.modes && !d_.cyclic_symmetry.empty())
+      throw core::InputError(step.modes->mark,
+                             "a sector of a cyclic symmetry has not the free vibrations of the "
+                             "whole: those that differ between sectors would be missing");
     std::map<std::string, int> seen;
     for (const Prescription& p : step.prescribe) check_prescription(p, seen);
     for (const Release& r : step.release) check_release(r, seen);
+    for (const Release& hold : step.hold) check_hold(hold, seen);
     for (const Prescription& p : step.prescribe)
       for (std::size_t i = 0; i < component_count; ++i)
         prescribed_[i] = prescribed_[i] || p.values[i];
@@ -94,6 +101,7 @@ class StepChecker {
     check_loads(step.traction, {"tx", "ty", "tz"}, false);
     check_loads(step.body_force, {"fx", "fy", "fz"}, false);
     check_loads(step.temperature, {"value"}, false);
+    check_loads(step.centrifugal, {"speed_squared"}, false);
     for (const Load& force : step.forces) check_loaded_dof(step, force);
     for (const Load& force : step.total_force) check_loaded_dof(step, force);
   }
@@ -135,6 +143,16 @@ class StepChecker {
         throw core::InputError(r.mark, fmt::format("no earlier step prescribes {}, so it cannot be "
                                                    "released",
                                                    component));
+    }
+  }
+
+  void check_hold(const Release& hold, std::map<std::string, int>& seen) {
+    for (std::size_t i = 0; i < component_count; ++i) {
+      if (!hold.of[i]) continue;
+      if (is_rotation(static_cast<Component>(i)))
+        require_rigid(d_, hold.on, hold.mark, component_names[i]);
+      add_unique(seen, hold.on.value + "." + component_names[i], hold.mark, "prescription of");
+      prescribed_[i] = true;
     }
   }
 

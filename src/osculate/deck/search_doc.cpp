@@ -20,14 +20,18 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 31> synonyms{{
+constexpr std::array<Synonym, 35> synonyms{{
     {"plasticity plastic yielding mises-plasticity j2 metal",
      "materials.elastoplastic: yield, hardening, isotropic, kinematic"},
     {"creep norton relaxation", "materials.norton: A, n; every step needs a duration"},
     {"viscoelastic damage", no},
     {"rate-and-state velocity-weakening dieterich ruina", "contact.friction.rate_and_state"},
     {"stl cad-surface", "mesh: files with the extension .stl, for rigid bodies"},
-    {"bolt pretension preload gasket", no},
+    {"bolt pretension preload", "pretension (docs/constraints.md), steps.hold"},
+    {"gasket", no},
+    {"local-axes transform coordinate-system inclined cylindrical-axes", "axes"},
+    {"cyclic-symmetry sector periodic", "cyclic_symmetry (docs/constraints.md)"},
+    {"centrifugal spinning rotating", "steps.centrifugal"},
     {"heat conduction", no},
     {"thermal temperature cte",
      "materials.NAME.expansion, steps.temperature, initial_temperature (no heat flow)"},
@@ -45,9 +49,11 @@ constexpr std::array<Synonym, 31> synonyms{{
     {"constraint boundary-condition bc fixed clamp support encastre spc",
      "steps.prescribe (0 holds), steps.release, equations, equal"},
     {"mpc coupling rbe2 rbe3 kinematic-coupling",
-     "rigid (nodes that move as one), equations, equal"},
+     "rigid (nodes that move as one), coupling (their mean), equations, equal, coplanar, "
+     "collinear, fixed_distance (docs/constraints.md)"},
     {"concentrated-force nodal-force cload", "steps.forces (each node), steps.total_force (a set)"},
-    {"dload distributed-load", "steps.pressure, steps.traction, steps.body_force, steps.gravity"},
+    {"dload distributed-load",
+     "steps.pressure, steps.traction, steps.body_force, steps.gravity, steps.centrifugal"},
     {"weight self-weight inertia-load", "steps.gravity, with a density in materials"},
     {"interference press-fit shrink-fit overlap overclosure", "contact.initial: ramp"},
     {"tie bonded glue glued", "contact.normal.separation: tied"},

@@ -13,18 +13,18 @@ BasicDofSpace<Dim>::BasicDofSpace(Index nodes, std::vector<Index> body_of_node, 
   const auto total = static_cast<std::size_t>(dofs());
   unknown_of_.assign(total, -1);
   equation_of_.assign(total, -1);
-  std::vector<bool> in_equation(total, false);
-  for (const Equation& equation : equations_)
-    for (const Equation::Term& term : equation.terms)
-      in_equation[static_cast<std::size_t>(term.dof)] = true;
-  for (std::size_t e = 0; e < equations_.size(); ++e)
+  std::vector<bool> named(total, false);  // an equation gives a dof without cells its stiffness
+  for (std::size_t e = 0; e < equations_.size(); ++e) {
     equation_of_[static_cast<std::size_t>(equations_[e].terms.front().dof)] = static_cast<Index>(e);
+    for (const Equation::Term& term : equations_[e].terms)
+      named[static_cast<std::size_t>(term.dof)] = true;
+  }
   for (Dof dof = 0; dof < dofs(); ++dof) {
     const auto d = static_cast<std::size_t>(dof);
     if (equation_of_[d] >= 0) continue;
     if (dof < Dim * nodes_) {
       const auto node = d / Dim;
-      if (body_of_node_[node] >= 0 || (!used_node[node] && !in_equation[d])) continue;
+      if (body_of_node_[node] >= 0 || !(used_node[node] || named[d])) continue;
     }
     unknown_of_[d] = unknowns_++;
     dof_of_unknown_.push_back(dof);

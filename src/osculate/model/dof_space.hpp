@@ -29,8 +29,8 @@ struct Expansion {
 };
 
 /// Which dofs are unknowns and how the others follow from them: nodes of rigid bodies from the
-/// body's motion, eliminated dofs from their equation. What nodes outside of `used_node` have in
-/// equations are unknowns, too. Fixed for the whole analysis; which
+/// body's motion, eliminated dofs from their equation. Dofs of nodes without cells are unknowns
+/// where an equation names them. Fixed for the whole analysis; which
 /// unknowns are prescribed changes from step to step and is kept in `prescribed`.
 template <int Dim>
 class BasicDofSpace {

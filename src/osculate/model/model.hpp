@@ -8,6 +8,7 @@
 #include "osculate/mesh/mesh.hpp"
 #include "osculate/model/dof_space.hpp"
 #include "osculate/model/loads.hpp"
+#include "osculate/model/node_constraint.hpp"
 #include "osculate/pairing/pair.hpp"
 #include "osculate/solid/element.hpp"
 
@@ -81,6 +82,7 @@ struct BasicModel {
   std::vector<BasicContactPair<Dim>> pairs;
   std::vector<BasicPairChange<Dim>> pair_changes{};  ///< in the order of the steps
   std::vector<Equation> equations;
+  std::vector<NodeConstraint> node_constraints{};
   std::vector<Step> steps;
   std::vector<std::pair<Dof, double>> initial_velocity;  ///< of primary dofs; zero elsewhere
   std::vector<double> initial_temperature;               ///< of all nodes; empty: none is known

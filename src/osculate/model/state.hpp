@@ -68,6 +68,7 @@ struct BasicState {
   Rates rates{};                                           ///< empty in steps without inertia
   std::vector<double> memory{};  ///< of the material points (MaterialMemory), at the last converged
                                  ///< increment
+  Eigen::VectorXd constraint_forces{};  ///< multipliers of the constraints of nodes
 };
 
 /// What an iteration tries: where it is, with the history it started from, and the active set of

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "osculate/core/dense.hpp"
@@ -127,6 +128,7 @@ struct Bodies {
   std::vector<Held<Dim>> held;  ///< deformable ones, then rigid ones
   std::vector<Index> of_node;
   std::size_t first_rigid = 0;
+  std::map<Dof, std::vector<std::size_t>> given_by{};  ///< equations that give others by a dof
 
   explicit Bodies(const BasicModel<Dim>& model) : m(model), of_node(model.reference.size(), -1) {
     for (const std::vector<Index>& nodes : deformable_bodies(m)) {
@@ -134,6 +136,9 @@ struct Bodies {
         of_node[static_cast<std::size_t>(n)] = static_cast<Index>(held.size());
       held.push_back(deformable(m, nodes));
     }
+    for (std::size_t e = 0; e < m.equations.size(); ++e)
+      for (std::size_t t = 1; t < m.equations[e].terms.size(); ++t)
+        given_by[m.equations[e].terms[t].dof].push_back(e);
     first_rigid = held.size();
     for (const BasicBulkSection<Dim>& section : m.sections)
       for (const mesh::CellRef& ref : section.cells) {
@@ -166,7 +171,7 @@ struct Bodies {
   void prescribe(Dof dof) {
     if (dof < node_dofs()) {
       const auto node = static_cast<Index>(dof / Dim);
-      if (of_node[static_cast<std::size_t>(node)] < 0) return;
+      if (of_node[static_cast<std::size_t>(node)] < 0) return prescribe_given_by(dof);
       Held<Dim>& body = held[body_of(node)];
       ++body.support.held;
       body.hold(body.row(m.reference[static_cast<std::size_t>(node)], dof % Dim));
@@ -180,6 +185,28 @@ struct Bodies {
     for (const std::size_t b : moved)
       held[b].hold(motion < Dim ? held[b].row(m.rigid[rigid].reference, motion)
                                 : held[b].rotation(motion - Dim));
+  }
+
+  /// What follows from a dof without cells is held along a direction: local displacements.
+  void prescribe_given_by(Dof dof) {
+    std::map<std::size_t, Vec<Dim>> directions;  // by node
+    for (const std::size_t e : given_by[dof]) {
+      const Equation& equation = m.equations[e];
+      const Dof lead = equation.terms.front().dof;
+      if (lead >= node_dofs() || of_node[static_cast<std::size_t>(lead / Dim)] < 0) continue;
+      Vec<Dim>& direction =
+          directions.try_emplace(static_cast<std::size_t>(lead / Dim), Vec<Dim>::Zero())
+              .first->second;
+      for (const Equation::Term& term : equation.terms)
+        if (term.dof == dof) direction[lead % Dim] -= term.factor / equation.terms.front().factor;
+    }
+    for (const auto& [node, direction] : directions) {
+      Held<Dim>& body = held[static_cast<std::size_t>(of_node[node])];
+      ++body.support.held;
+      typename Held<Dim>::Row row = Held<Dim>::Row::Zero();
+      for (int i = 0; i < Dim; ++i) row += direction[i] * body.row(m.reference[node], i);
+      body.hold(row);
+    }
   }
 
   /// An equation between nodes of one body.
@@ -220,6 +247,12 @@ std::vector<Support> supports(const BasicModel<Dim>& model, const Step& step) {
     const std::string& name = pair.group.empty() ? pair.name : pair.group;
     for (const Index n : pair.definition.slave.nodes) bodies.touch(n, name);
     for (const auto& f : pair.definition.master.facets) bodies.touch(f.nodes[0], name);
+  }
+  for (const NodeConstraint& c : model.node_constraints) {
+    for (const Index n : c.nodes) bodies.touch(n, c.name);
+    if (c.body >= 0)
+      bodies.held[bodies.first_rigid + static_cast<std::size_t>(c.body)].support.contact.push_back(
+          c.name);
   }
   for (std::size_t r = 0; r < model.rigid.size(); ++r)
     for (const std::size_t b : bodies.joined_to(r))

@@ -30,6 +30,7 @@ BasicState<Dim> BasicSystem<Dim>::initial_state() {
     state.multipliers.push_back(
         pairing::initial_multipliers<Dim>(model.pairs[p].definition, state.pairs[p]));
   state.memory.assign(impl_->last.memory.size(), 0.0);
+  state.constraint_forces.setZero(impl_->constraints.end - impl_->constraints.of_nodes);
   return state;
 }
 

@@ -124,8 +124,8 @@ void fields(Archive& a, Rates& rates) {
 }
 template <class Archive, int Dim>
 void fields(Archive& a, BasicState<Dim>& state) {
-  auto& [u, rigid, pairs, multipliers, fraction, rates, memory] = state;
-  a(u, rigid, pairs, multipliers, fraction, rates, memory);
+  auto& [u, rigid, pairs, multipliers, fraction, rates, memory, constraint_forces] = state;
+  a(u, rigid, pairs, multipliers, fraction, rates, memory, constraint_forces);
 }
 }  // namespace osculate::model
 
@@ -184,7 +184,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 10;
+constexpr int version = 11;
 
 template <class... T>
 std::string saved(const T&... values) {

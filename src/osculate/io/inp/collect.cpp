@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "osculate/core/text.hpp"
+#include "osculate/io/inp/loaded_sets.hpp"
 #include "osculate/io/inp/scope.hpp"
 #include "osculate/io/utf8.hpp"
 
@@ -262,6 +263,7 @@ class Collector {
   }
 
   void read_elements(const Card& card) {
+    if (is_coupling(card)) return;
     Scope& scope = here();
     RawElements& elements = scope.elements.emplace_back();
     elements.type = &type_of(card);

@@ -40,7 +40,9 @@ bool begins_with_nodes(const Card& card) {
     const Parameter* const type = find_parameter(card, "TYPE");
     return type && capitals(type->value) == "TEMPERATURE";
   }
-  return card.keyword == "BOUNDARY" || card.keyword == "CLOAD" || card.keyword == "TEMPERATURE";
+  for (const char* const keyword : {"BOUNDARY", "CLOAD", "TEMPERATURE", "DISTRIBUTINGCOUPLING"})
+    if (card.keyword == keyword) return true;
+  return false;
 }
 
 /// Of `*EQUATION`: a line with the number of terms, then node, dof and factor of each.
@@ -63,6 +65,11 @@ void add_nodes_of_equations(const Deck& deck, const Card& card, RawMesh& mesh) {
 
 }  // namespace
 
+bool is_coupling(const Card& element) {
+  const Parameter* const type = find_parameter(element, "TYPE");
+  return type && capitals(type->value) == "DCOUP3D";
+}
+
 std::string node_set_name(std::int32_t number) { return fmt::format("node {}", number); }
 
 std::string side_set_name(std::string_view load, std::string_view elements) {
@@ -76,6 +83,19 @@ bool is_side_load(std::string_view load) {
 
 void add_loaded_sets(const Deck& deck, RawMesh& mesh) {
   for (const Card& card : deck.cards) {
+    for (const char* const name : {"REFNODE", "ROTNODE", "NODE"})
+      if (const Parameter* const node = find_parameter(card, name))
+        add_node(name_of(node->value), card.at, mesh);
+    if (card.keyword == "ELEMENT" && is_coupling(card))
+      for (const Line& line : lines_of(deck, card)) {
+        Fields fields(deck, line);
+        (void)fields.next();
+        add_node(fields.next().value_or(""), line.at, mesh);
+      }
+    if (card.keyword == "MPC")
+      for (const Line& line : lines_of(deck, card))
+        for (Fields fields(deck, line); !fields.done();)
+          add_node(fields.next().value_or(""), line.at, mesh);
     if (card.keyword == "EQUATION") add_nodes_of_equations(deck, card, mesh);
     const bool of_nodes = begins_with_nodes(card);
     for (const Line& line : lines_of(deck, card)) {

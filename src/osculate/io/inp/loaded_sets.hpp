@@ -6,6 +6,8 @@
 
 namespace osculate::io::inp {
 
+/// Of an `*ELEMENT`: it has one node, which `*DISTRIBUTING COUPLING` ties to others.
+[[nodiscard]] bool is_coupling(const Card& element);
 /// The set of one node: `node 17`.
 [[nodiscard]] std::string node_set_name(std::int32_t number);
 /// The facets of a set of elements (or of the element of a number) that a load `P3` acts on:

@@ -1,6 +1,7 @@
 #include "osculate/model/terms/constraint_term.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "osculate/pairing/point_penalty.hpp"
@@ -30,6 +31,8 @@ ConstraintTerm<Dim>::ConstraintTerm(const BasicModel<Dim>& m, Index displacement
     if (constrained(pair))
       end += multipliers_per_point(pair) * static_cast<Index>(pair.definition.slave.points.size());
   }
+  of_nodes = end;
+  for (const NodeConstraint& c : model.node_constraints) end += rows<Dim>(c);
 }
 
 template <int Dim>
@@ -46,6 +49,88 @@ void ConstraintTerm<Dim>::move(BasicState<Dim>& s, const Eigen::VectorXd& du, do
       points[i].shear += factor * penalty.shear * du.segment<Dim>(row);
       row += Dim;
     }
+  }
+  s.constraint_forces += factor * du.segment(of_nodes, end - of_nodes);
+}
+
+namespace {
+
+/// Dofs of the nodes of a constraint, then those of its body.
+template <int Dim>
+std::vector<Dof> dofs_of(const NodeConstraint& c, const BasicDofSpace<Dim>& dofs) {
+  std::vector<Dof> out;
+  for (const Index node : c.nodes)
+    for (int i = 0; i < Dim; ++i) out.push_back(dofs.node_dof(node, i));
+  for (int i = 0; c.body >= 0 && i < body::motions<Dim>; ++i)
+    out.push_back(dofs.body_dof(c.body, i));
+  return out;
+}
+
+template <int Dim>
+void add_curvature(const NodeConstraintValue<Dim>& g, std::span<const Dof> d, Assembly<Dim>& to) {
+  constexpr int turns = body::rotations<Dim>;
+  const auto of_nodes = static_cast<std::size_t>(g.gradient.cols());
+  if (g.curvature.size() > 0)
+    to.add_stiffness(d.first(of_nodes), Eigen::MatrixXd(to.share * g.curvature));
+  if (g.mixed.size() == 0) return;
+  const std::span<const Dof> turning = d.last(turns);
+  to.add_stiffness(turning, Eigen::MatrixXd(to.share * g.body_curvature));
+  for (std::size_t i = 0; i < of_nodes; i += Dim) {
+    std::array<Dof, Dim + turns> pair{};
+    std::copy_n(d.begin() + static_cast<std::ptrdiff_t>(i), Dim, pair.begin());
+    std::copy(turning.begin(), turning.end(), pair.begin() + Dim);
+    Mat<Dim + turns, Dim + turns> k = Mat<Dim + turns, Dim + turns>::Zero();
+    k.template topRightCorner<Dim, turns>() =
+        to.share * g.mixed.template middleRows<Dim>(static_cast<Eigen::Index>(i));
+    k.template bottomLeftCorner<turns, Dim>() = k.template topRightCorner<Dim, turns>().transpose();
+    to.add_stiffness(pair, k);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void ConstraintTerm<Dim>::add_one(const NodeConstraint& c, Index at, const BasicState<Dim>& s,
+                                  std::span<const Vec<Dim>> x, Assembly<Dim>& to) const {
+  std::vector<Vec<Dim>> reference, now;
+  for (const Index node : c.nodes) {
+    reference.push_back(model.reference[static_cast<std::size_t>(node)]);
+    now.push_back(x[static_cast<std::size_t>(node)]);
+  }
+  const Eigen::VectorXd lambda = s.constraint_forces.segment(at - of_nodes, rows<Dim>(c));
+  const NodeConstraintValue<Dim> g =
+      evaluate<Dim>(c, reference, now,
+                    c.body >= 0 ? &s.rigid[static_cast<std::size_t>(c.body)] : nullptr, lambda);
+  const std::vector<Dof> d = dofs_of(c, to.dofs);
+  for (Eigen::Index row = 0; row < g.value.size(); ++row) {
+    const Index unknown = at + static_cast<Index>(row);
+    Eigen::VectorXd gradient(static_cast<Eigen::Index>(d.size()));
+    gradient << g.gradient.row(row).transpose(),
+        g.of_body.size() > 0 ? Eigen::VectorXd(g.of_body.row(row)) : Eigen::VectorXd();
+    for (std::size_t k = 0; k < d.size(); ++k)
+      to.into.forces.internal[d[k]] += lambda[row] * gradient[static_cast<Eigen::Index>(k)];
+    to.into.constraint[unknown - begin] += g.value[row];
+    to.into.branch_constraint[unknown - begin] += g.value[row];
+    if (!to.with_tangent) continue;
+    to.path_dofs = d;
+    to.path_values.assign(gradient.begin(), gradient.end());
+    constexpr double negligible = 1e-10;
+    const double largest = to.add_row(unknown);
+    // All that it depends on is prescribed: the multiplier stays what it is.
+    if (largest <= negligible * gradient.norm()) to.builder.add(unknown, unknown, -c.stiffness);
+    gradient *= to.share;
+    to.assembler.add_column(d, {gradient.data(), d.size()}, unknown);
+  }
+  if (to.with_tangent) add_curvature(g, d, to);
+}
+
+template <int Dim>
+void ConstraintTerm<Dim>::add_nodes(const BasicState<Dim>& s, std::span<const Vec<Dim>> x,
+                                    Assembly<Dim>& to) const {
+  Index at = of_nodes;
+  for (const NodeConstraint& c : model.node_constraints) {
+    add_one(c, at, s, x, to);
+    at += rows<Dim>(c);
   }
 }
 

@@ -1,0 +1,76 @@
+#pragma once
+// Displacements that loads, prescriptions and equations name; shared by build_*.cpp, not for users.
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "osculate/deck/build_context.hpp"
+#include "osculate/deck/reduce_equations.hpp"
+
+namespace osculate::deck {
+
+/// What happens to nodes of a set that take no part in the analysis.
+enum class Idle { refused, left_out };
+
+/// A displacement component: a dof of the model, or (where local axes run against the global ones)
+/// minus one.
+struct OneDisplacement {
+  model::Dof dof;
+  double sign = 1;
+};
+
+template <int Dim>
+[[nodiscard]] model::Dof body_dof(const model::BasicModel<Dim>& m, Index body,
+                                  Component component) {
+  return Dim * static_cast<model::Dof>(m.reference.size()) + body::motions<Dim> * body +
+         motion_of<Dim>(component);
+}
+
+/// Axes of nodes that `axes` names, and the nodes that carry their local displacements where some
+/// are prescribed; nodes without cells that equations name become unknowns. Before all that names
+/// displacements.
+template <int Dim>
+void build_axes(BuildContext<Dim>& context);
+
+/// Nodes of a set that move with the solution and with no rigid body, or in one direction by a
+/// relation of the mesh. Throws for others.
+template <int Dim>
+[[nodiscard]] std::vector<Index> moving_nodes(const BuildContext<Dim>& context, const Name& on,
+                                              Idle idle, std::optional<int> direction = {});
+
+/// What `on` names for one component, of a rigid body or of each node, as prescriptions see it.
+///
+/// Tested by  tests/unit/deck/test_axes.cpp
+template <int Dim>
+[[nodiscard]] std::vector<OneDisplacement> displacements(const BuildContext<Dim>& context,
+                                                         const Name& on, Component component,
+                                                         Idle idle);
+
+/// Direction in the global axes of a component of a node.
+template <int Dim>
+[[nodiscard]] Vec<Dim> direction_of(const BuildContext<Dim>& context, Index node,
+                                    Component component);
+
+/// Adds factor times the displacement of a node along a direction to an equation: in local
+/// displacements where the node has some.
+template <int Dim>
+void add_displacement(const BuildContext<Dim>& context, Index node, const Vec<Dim>& direction,
+                      double factor, model::Equation& equation);
+/// The same of a dof that is known already; what is named twice gets the sum of its factors.
+void add_term(model::Equation& equation, model::Dof dof, double factor);
+
+/// Equations of the mesh, of what takes part and is not prescribed by itself. What rigid bodies
+/// move joins what is prescribed.
+template <int Dim>
+[[nodiscard]] std::vector<MarkedEquation> relations(const BuildContext<Dim>& context,
+                                                    PrescribedCourses& courses);
+
+/// Equations of cyclic symmetry.
+///
+/// Formula    u = Q sum N_k u_k : a node of the dependent face and the facet of the independent one
+///            at its place, turned by Q about the axis
+/// Tested by  tests/unit/deck/test_cyclic_symmetry.cpp
+template <int Dim>
+void add_cyclic_symmetry(const BuildContext<Dim>& context, std::vector<MarkedEquation>& all);
+
+}  // namespace osculate::deck

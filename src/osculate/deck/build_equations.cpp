@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "osculate/deck/build_displacements.hpp"
+#include "osculate/deck/pretension.hpp"
+#include "osculate/deck/reduce_equations.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using model::Dof;
+
+/// What the steps prescribe. A dof that is not prescribed through all steps has no course.
+template <int Dim>
+PrescribedCourses prescribed_courses(const BuildContext<Dim>& c) {
+  PrescribedCourses courses;
+  const std::vector<Step>& steps = c.description.steps;
+  for (std::size_t s = 0; s < steps.size(); ++s) {
+    for (auto& [dof, course] : courses)
+      if (!course.steps.empty()) course.steps.push_back({course.steps.back().value, {}});
+    const auto each = [&](const Name& on, std::size_t i, const auto& act) {
+      for (const OneDisplacement& d :
+           displacements(c, on, static_cast<Component>(i), Idle::left_out))
+        act(d);
+    };
+    for (const auto* const list : {&steps[s].release, &steps[s].hold})
+      for (const Release& r : *list)
+        for (std::size_t i = 0; i < component_count; ++i)
+          if (r.of[i])
+            each(r.on, i, [&](const OneDisplacement& d) { courses[d.dof].steps.clear(); });
+    for (const Prescription& p : steps[s].prescribe)
+      for (std::size_t i = 0; i < component_count; ++i) {
+        if (!p.values[i]) continue;
+        each(p.on, i, [&](const OneDisplacement& d) {
+          const auto [at, fresh] = courses.try_emplace(d.dof);
+          if (fresh && s == 0) at->second.steps.emplace_back();
+          if (!at->second.steps.empty())
+            at->second.steps.back() = {d.sign * p.values[i]->value,
+                                       p.amplitude ? p.amplitude->value : std::string{}};
+        });
+      }
+  }
+  return courses;
+}
+
+/// Adds factor times a component of a rigid body, or of every node of a set.
+template <int Dim>
+void add_component(const BuildContext<Dim>& c, const Name& on, Component component, double factor,
+                   model::Equation& equation) {
+  if (c.rigid_index.contains(on.value) || is_rotation(component)) {
+    for (const OneDisplacement& d : displacements(c, on, component, Idle::refused))
+      add_term(equation, d.dof, factor);
+    return;
+  }
+  for (const Index node : moving_nodes(c, on, Idle::refused, motion_of<Dim>(component)))
+    add_displacement(c, node, direction_of(c, node, component), factor, equation);
+}
+
+/// The displacements of nodes that have local ones follow from these.
+///
+/// Formula    u = T u_local
+template <int Dim>
+void add_local_axes(BuildContext<Dim>& c) {
+  std::vector<Index> nodes;
+  for (const auto& [node, axes] : c.axes)
+    if (axes.local >= 0) nodes.push_back(node);
+  std::sort(nodes.begin(), nodes.end());
+  for (const Index node : nodes) {
+    const NodeAxes<Dim>& own = c.axes.at(node);
+    for (int i = 0; i < Dim; ++i) {
+      model::Equation equation;
+      equation.terms.push_back({Dim * node + i, 1.0});
+      for (int j = 0; j < Dim; ++j)
+        if (own.axes(i, j) != 0.0) equation.terms.push_back({Dim * own.local + j, -own.axes(i, j)});
+      c.model().equations.push_back(std::move(equation));
+    }
+  }
+}
+
+/// Both sides of a section move alike but for the shortening along its axis.
+///
+/// Formula    u_front = u_behind - axis * shortening
+template <int Dim>
+void add_pretensions(const BuildContext<Dim>& c, std::vector<MarkedEquation>& all) {
+  for (const Pretension& pretension : c.description.pretension) {
+    const Cut cut = cut_of(pretension, c.model().mesh);
+    for (const auto& [behind, front] : cut.nodes)
+      for (int i = 0; i < Dim; ++i) {
+        model::Equation equation;
+        add_displacement(c, front, Vec<Dim>(Vec<Dim>::Unit(i)), 1.0, equation);
+        add_displacement(c, behind, Vec<Dim>(Vec<Dim>::Unit(i)), -1.0, equation);
+        if (cut.axis[i] != 0.0) add_term(equation, Dim * cut.node, cut.axis[i]);
+        all.push_back({std::move(equation), pretension.on.mark, false});
+      }
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void build_equations(BuildContext<Dim>& c) {
+  std::vector<MarkedEquation> all;
+  for (const deck::Equation& e : c.description.equations) {
+    model::Equation equation;
+    equation.value = e.value.value;
+    for (const EquationTerm& term : e.terms)
+      add_component(c, term.on, term.of, term.factor.value, equation);
+    all.push_back({std::move(equation), e.mark, false});
+  }
+  for (const Equal& equal : c.description.equal) {
+    const std::vector<Index> nodes = moving_nodes(c, equal.on, Idle::refused);
+    for (std::size_t i = 1; i < nodes.size(); ++i) {
+      model::Equation equation;
+      add_displacement(c, nodes[i], direction_of(c, nodes[i], equal.of), 1.0, equation);
+      add_displacement(c, nodes[0], direction_of(c, nodes[0], equal.of), -1.0, equation);
+      all.push_back({std::move(equation), equal.mark, false});
+    }
+  }
+  add_pretensions(c, all);
+  add_cyclic_symmetry(c, all);
+  if (!all.empty() || !c.model().mesh.relations.empty()) {
+    PrescribedCourses courses = prescribed_courses(c);
+    std::vector<MarkedEquation> first = relations(c, courses);
+    first.insert(first.end(), all.begin(), all.end());
+    c.model().equations =
+        reduced_equations(first, courses, Dim * static_cast<Dof>(c.model().reference.size()));
+  }
+  add_local_axes(c);
+}
+
+template void build_equations(BuildContext<2>&);
+template void build_equations(BuildContext<3>&);
+
+}  // namespace osculate::deck

@@ -1,0 +1,241 @@
+// Axes, equations and rigid bodies of a deck.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "osculate/deck/inp_parts.hpp"
+#include "osculate/io/inp/loaded_sets.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using io::inp::Card;
+using io::inp::Fields;
+using io::inp::Line;
+using io::inp::SetKind;
+
+SourceNode place_node(const Vec3& place, int dimension, int line) {
+  SourceNode node = inp_list(line);
+  for (int i = 0; i < dimension; ++i) node.items.push_back(inp_number(place[i], line));
+  return node;
+}
+
+Vec3 next_place(Fields& fields) {
+  Vec3 place;
+  for (double& c : place) c = fields.real_or_zero("a coordinate");
+  return place;
+}
+
+/// A rigid body of the nodes of a set (if it has some) and its reference node.
+void put_rigid(InpModel& m, const Card& card, const std::string& nodes, SourceNode& rigid) {
+  const int line = line_of(card.at);
+  const std::string name = reference_body(m, card);
+  const std::string reference = node_parameter(m, card, "REFNODE");
+  const Index node = only_node(m, reference);
+  if (!m.body_nodes.try_emplace(node, InpBodyNode{name}).second)
+    io::inp::fail(m.deck, card, "its reference node belongs to another body already");
+  if (const std::string turning = node_parameter(m, card, "ROTNODE"); !turning.empty())
+    m.body_nodes[only_node(m, turning)] = {name, 4, true};
+  SourceNode& body = put(rigid, name, inp_map(line));
+  SourceNode& sets = put(body, "set", inp_list(line));
+  if (!nodes.empty()) sets.items.push_back(inp_text(nodes, line));
+  sets.items.push_back(inp_text(reference, line));
+  put(body, "reference",
+      place_node(m.mesh.mesh.nodes[static_cast<std::size_t>(node)], inp_dimension(m), line));
+}
+
+/// All displacements, or a refusal.
+void require_all_directions(const InpModel& m, const Card& kinematic) {
+  std::array<bool, 6> coupled{};
+  const auto lines = io::inp::lines_of(m.deck, kinematic);
+  for (const Line& line : lines) {
+    Fields fields(m.deck, line);
+    const std::int32_t first = fields.number("the first direction");
+    std::int32_t last = first;
+    if (const auto field = fields.next(); field && !field->empty())
+      last = io::inp::number_of(m.deck, line.at, *field, "the last direction");
+    for (std::int32_t k = first; k <= std::min<std::int32_t>(last, 6); ++k)
+      coupled[static_cast<std::size_t>(k - 1)] = true;
+  }
+  for (int k = 0; k < inp_dimension(m); ++k)
+    if (!lines.empty() && !coupled[static_cast<std::size_t>(k)])
+      io::inp::fail(m.deck, kinematic,
+                    "nodes are coupled in all directions here, which are those from 1 to 3");
+}
+
+}  // namespace
+
+SourceNode inp_axes(InpModel& m) {
+  SourceNode axes = inp_list(1);
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "TRANSFORM") continue;
+    const std::string type = option_of(card, "TYPE");
+    if (!type.empty() && type != "R" && type != "C")
+      io::inp::fail(m.deck, card, fmt::format("expected TYPE=R or C, found {}", printable(type)));
+    const int line = line_of(card.at), dimension = inp_dimension(m);
+    Fields fields(m.deck, only_line(m, card, "two points"));
+    const Vec3 a = next_place(fields), b = next_place(fields);
+    SourceNode& entry = axes.items.emplace_back(inp_map(line));
+    const std::string& on = set_of(m, card.at, value_of(m, card, "NSET"), {SetKind::nodes});
+    put(entry, "on", inp_text(on, line));
+    const std::vector<Index>& nodes = m.mesh.mesh.find_set(on)->nodes;
+    m.transformed.insert(nodes.begin(), nodes.end());
+    if (type == "C") {
+      SourceNode& cylinder = put(entry, "cylindrical", inp_map(line));
+      put(cylinder, "from", place_node(a, dimension, line));
+      if (dimension == 3) put(cylinder, "to", place_node(b, 3, line));
+    } else {
+      SourceNode& directions = put(entry, "rectangular", inp_map(line));
+      put(directions, "x", place_node(a, dimension, line));
+      put(directions, "xy", place_node(b, dimension, line));
+    }
+  }
+  return axes;
+}
+
+namespace {
+
+/// The set of the one node of a coupling's element.
+std::string coupled_node(const InpModel& m, const Card& coupling) {
+  const std::string elements = io::inp::capitals(value_of(m, coupling, "ELSET"));
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "ELEMENT" || option_of(card, "ELSET") != elements) continue;
+    const Line& line = only_line(m, card, "an element and its node");
+    Fields fields(m.deck, line);
+    (void)fields.next();
+    return node_set_of(m, line, fields.next().value_or(""));
+  }
+  io::inp::fail(m.deck, coupling, "there is no *ELEMENT with this ELSET");
+}
+
+/// The displacement of a node is the weighted mean of others.
+void put_distributing(const InpModel& m, const Card& card, SourceNode& equations) {
+  const std::string node = coupled_node(m, card);
+  for (int k = 1; k <= inp_dimension(m); ++k) {
+    const int line = line_of(card.at);
+    SourceNode& terms = put(equations.items.emplace_back(inp_map(line)), "terms", inp_list(line));
+    const auto add = [&](const std::string& on, double factor) {
+      SourceNode& term = terms.items.emplace_back(inp_map(line));
+      put(term, "on", inp_text(on, line));
+      put(term, "of", inp_text(inp_component('u', k), line));
+      put(term, "factor", inp_number(factor, line));
+    };
+    double sum = 0;
+    for (const Line& data : io::inp::lines_of(m.deck, card)) {
+      Fields fields(m.deck, data);
+      const std::string& set = node_set_of(m, data, fields.next().value_or(""));
+      const double weight = fields.real("the weight");
+      sum += weight * static_cast<double>(m.mesh.mesh.find_set(set)->nodes.size());
+      add(set, -weight);
+    }
+    add(node, sum);
+    std::rotate(terms.items.rbegin(), terms.items.rbegin() + 1, terms.items.rend());
+  }
+}
+
+}  // namespace
+
+SourceNode inp_equations(const InpModel& m) {
+  SourceNode equations = inp_list(1);
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword == "DISTRIBUTINGCOUPLING") put_distributing(m, card, equations);
+    if (card.keyword != "EQUATION") continue;
+    std::int32_t missing = 0;
+    SourceNode* terms = nullptr;
+    for (const Line& line : io::inp::lines_of(m.deck, card)) {
+      Fields fields(m.deck, line);
+      const int at = line_of(line.at);
+      if (missing == 0) {
+        missing = fields.number("the number of terms");
+        fields.expect_end();
+        SourceNode& equation = equations.items.emplace_back(inp_map(at));
+        terms = &put(equation, "terms", inp_list(at));
+        continue;
+      }
+      for (; !fields.done() && missing > 0; --missing) {
+        const std::string& set = node_set_of(m, line, fields.next().value_or(""));
+        const std::int32_t dof = fields.number("the number of a direction");
+        if (dof < 1 || dof > highest_direction(m, set))
+          fields.fail(fmt::format("'{}' has no direction {}", set, dof));
+        const std::vector<InpPlace> places = inp_places(m, set, dof);
+        if (places.size() != 1) fields.fail("expected one node here, or nodes that are no knots");
+        const InpPlace& place = places[0];
+        SourceNode& term = terms->items.emplace_back(inp_map(at));
+        put(term, "on", inp_text(place.on, at));
+        put(term, "of", inp_text(inp_component('u', place.direction), at));
+        put(term, "factor", inp_number(place.sign * fields.real("the factor"), at));
+      }
+    }
+    if (missing > 0) io::inp::fail(m.deck, card, fmt::format("{} terms are missing", missing));
+  }
+  return equations;
+}
+
+SourceNode inp_rigid(InpModel& m) {
+  SourceNode rigid = inp_map(1);
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword == "RIGIDBODY") {
+      const bool by_nodes = io::inp::find_parameter(card, "NSET") != nullptr;
+      put_rigid(m, card,
+                set_of(m, card.at, value_of(m, card, by_nodes ? "NSET" : "ELSET"),
+                       {by_nodes ? SetKind::nodes : SetKind::elements}),
+                rigid);
+    }
+    if (card.keyword == "COUPLING") {
+      const Card& kind = kind_of_coupling(m, card);
+      if (kind.keyword == "DISTRIBUTING") {
+        put_rigid(m, card, "", rigid);
+        continue;
+      }
+      require_all_directions(m, kind);
+      put_rigid(m, card,
+                set_of(m, card.at, value_of(m, card, "SURFACE"),
+                       {SetKind::surface, SetKind::node_surface}),
+                rigid);
+    }
+  }
+  put_knots(m, rigid);
+  return rigid;
+}
+
+Index only_node(const InpModel& m, std::string_view set) {
+  const mesh::Set* const found = m.mesh.mesh.find_set(set);
+  return found && found->nodes.size() == 1 ? found->nodes[0] : -1;
+}
+
+std::string node_parameter(const InpModel& m, const Card& card, std::string_view name) {
+  const io::inp::Parameter* const given = io::inp::find_parameter(card, name);
+  if (!given) return {};
+  const auto number = io::inp::number_of(io::inp::name_of(given->value));
+  if (!number)
+    io::inp::fail(m.deck, card, fmt::format("expected the number of a node in '{}='", name));
+  return set_of(m, card.at, io::inp::node_set_name(*number), {SetKind::nodes});
+}
+
+const Card& kind_of_coupling(const InpModel& m, const Card& coupling) {
+  const Card* const next = &coupling + 1;
+  if (next == m.deck.cards.data() + m.deck.cards.size() ||
+      (next->keyword != "KINEMATIC" && next->keyword != "DISTRIBUTING"))
+    io::inp::fail(m.deck, coupling, "expected *KINEMATIC or *DISTRIBUTING after it");
+  return *next;
+}
+
+std::string reference_body(const InpModel& m, const Card& card) {
+  const std::string reference = node_parameter(m, card, "REFNODE");
+  if (reference.empty()) io::inp::fail(m.deck, card, "expected 'REF NODE=' with a number");
+  return plain_name(fmt::format("body of {}", reference));
+}
+
+const std::string& node_set_of(const InpModel& m, const Line& line, std::string_view field) {
+  const std::string name = io::inp::name_of(field);
+  const auto number = io::inp::number_of(name);
+  return set_of(m, line.at, number ? io::inp::node_set_name(*number) : name, {SetKind::nodes});
+}
+
+std::string inp_component(char kind, int direction) {
+  if (direction > 3) kind = kind == 'u' ? 'r' : 'm';
+  return {kind, "xyz"[(direction - 1) % 3]};
+}
+
+}  // namespace osculate::deck

@@ -1,0 +1,229 @@
+// Axes, multi-point constraints, rigid bodies and their loads in decks.
+#include <fmt/format.h>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "inp_run_test.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// A bar of `count` cubes along an axis of a frame turned about z, E = 100, nu = 0.
+/// Nodes 10 k + 1 to 10 k + 4 lie in the plane k.
+std::string bar(int count, double degrees = 0, double nu = 0) {
+  const double c = std::cos(degrees * std::numbers::pi / 180),
+               s = std::sin(degrees * std::numbers::pi / 180);
+  std::string text = "*NODE, NSET=NALL\n";
+  for (int k = 0; k <= count; ++k)
+    for (int i = 0; i < 4; ++i) {
+      const double x = k, y = i == 1 || i == 2 ? 1 : 0, z = i >= 2 ? 1 : 0;
+      text += fmt::format("{}, {:.17g}, {:.17g}, {}\n", 10 * k + i + 1, c * x - s * y,
+                          s * x + c * y, z);
+    }
+  text += fmt::format("*NODE\n901, {}, 0.5, 0.5\n902, 0, 0, 0\n*ELEMENT, TYPE=C3D8, ELSET=BAR\n",
+                      count);
+  for (int k = 0; k < count; ++k)
+    text += fmt::format("{}, {}, {}, {}, {}, {}, {}, {}, {}\n", k + 1, 10 * k + 1, 10 * k + 2,
+                        10 * k + 3, 10 * k + 4, 10 * k + 11, 10 * k + 12, 10 * k + 13, 10 * k + 14);
+  text += "*NSET, NSET=START\n1, 2, 3, 4\n*NSET, NSET=FINISH\n";
+  for (int i = 1; i <= 4; ++i) text += fmt::format("{},\n", 10 * count + i);
+  text += "*SURFACE, NAME=TIP\n" + fmt::format("{}, S2\n", count);
+  text += fmt::format("*MATERIAL, NAME=M\n*ELASTIC\n100., {}\n*DENSITY\n3.\n", nu);
+  return text + "*SOLID SECTION, ELSET=BAR, MATERIAL=M\n";
+}
+const std::string fixed = "*BOUNDARY\nSTART, 1, 3\n";
+std::string step(const std::string& what, const std::string& parameters = "") {
+  return "*STEP" + parameters + "\n*STATIC\n1., 1.\n" + what + "*END STEP\n";
+}
+
+TEST(InpConstraints, AxesTurnWhatIsPrescribedReleasedAndLoaded) {
+  const double c = std::cos(std::numbers::pi / 6), s = 0.5;
+  const DeckRun run =
+      run_deck(bar(2, 30, 0.25) + "*TRANSFORM, NSET=NALL, TYPE=R\n" +
+               fmt::format("{:.17g}, {}, 0, {}, {:.17g}, 0\n", c, s, -s, c) +
+               "*BOUNDARY\nSTART, 1\n1, 2, 3\n2, 3\n11, 2, 3\n21, 2, 3\n12, 3\n22, 3\n" +
+               step("*BOUNDARY\nFINISH, 1, 1, 0.1\n") +
+               step("*BOUNDARY, OP=NEW\nSTART, 1\n1, 2, 3\n2, 3\n*CLOAD\nFINISH, 1, -0.5\n"));
+  // stretched by 0.05 along the bar: 5 on an area of 1
+  const Vec3 force = run.reaction_of("FINISH");
+  EXPECT_NEAR(force.x(), 5 * c, 1e-9);
+  EXPECT_NEAR(force.y(), 5 * s, 1e-9);
+  EXPECT_NEAR(run.reaction_of("START").x(), -5 * c, 1e-9);
+  const Vec3 far_corner = run.displacement(23);  // across the bar -nu 0.05 in both directions
+  EXPECT_NEAR(far_corner.x(), 0.1 * c + 0.0125 * s, 1e-12);
+  EXPECT_NEAR(far_corner.y(), 0.1 * s - 0.0125 * c, 1e-12);
+  EXPECT_NEAR(far_corner.z(), -0.0125, 1e-12);
+  // released and pushed by 2 in total
+  const Vec3 pushed = run.displacement(21, 1);
+  EXPECT_NEAR(pushed.x(), -0.04 * c, 1e-12);
+  EXPECT_NEAR(pushed.y(), -0.04 * s, 1e-12);
+  EXPECT_NEAR(run.reaction_of("FINISH", 1).norm(), 0, 1e-9);
+  EXPECT_NEAR(run.reaction_of("START", 1).x(), 2 * c, 1e-9);
+}
+
+/// Radial displacement of a ring of hexahedra by its own coordinates: the same everywhere.
+TEST(InpConstraints, CylindricalAxesFollowTheNodes) {
+  const DeckRun run =
+      run_deck(bar(1) + "*TRANSFORM, NSET=NALL, TYPE=C\n-1, -1, 0, -1, -1, 1\n" +
+               step("*BOUNDARY\nNALL, 1, 1, 0.01\nNALL, 2, 2, 0.02\nNALL, 3, 3, 0\n"));
+  for (const int number : {1, 2, 3, 4, 11, 12, 13, 14}) {
+    const Vec3 x = run.built.model.mesh.nodes[static_cast<std::size_t>(run.node(number))];
+    const Vec3 radial = Vec3(x.x() + 1, x.y() + 1, 0).normalized(),
+               around = Vec3(-radial.y(), radial.x(), 0);
+    EXPECT_LT((run.displacement(number) - 0.01 * radial - 0.02 * around).norm(), 1e-13);
+  }
+}
+
+TEST(InpConstraints, EquationsMeanLocalDirections) {
+  const double c = std::cos(std::numbers::pi / 6), s = 0.5;
+  const DeckRun run = run_deck(bar(1, 30) + "*TRANSFORM, NSET=FINISH, TYPE=R\n" +
+                               fmt::format("{:.17g}, {}, 0, {}, {:.17g}, 0\n", c, s, -s, c) +
+                               "*EQUATION\n2\n11, 1, 1., 901, 1, -1.\n2\n12, 1, 1., 901, 1, -1.\n"
+                               "2\n13, 1, 1., 901, 1, -1.\n2\n14, 1, 1., 901, 1, -1.\n" +
+                               fixed + step("*BOUNDARY\nFINISH, 2, 3\n*CLOAD\n901, 1, 5.\n"));
+  for (const int number : {11, 12, 13, 14})
+    EXPECT_LT((run.displacement(number) - 0.05 * Vec3(c, s, 0)).norm(), 1e-12);
+  EXPECT_NEAR(run.displacement(901).x(), 0.05, 1e-12);
+}
+
+TEST(InpConstraints, RigidBodyIsMovedAndTurnedByItsNodes) {
+  const std::string body = "*RIGID BODY, NSET=FINISH, REF NODE=901, ROT NODE=902\n";
+  const DeckRun pulled = run_deck(bar(2) + body + fixed + step("*CLOAD\n901, 1, 5.\n"));
+  EXPECT_NEAR(pulled.displacement(901).x(), 0.1, 1e-9);
+  EXPECT_NEAR(pulled.displacement(22).x(), 0.1, 1e-9);
+  EXPECT_NEAR(pulled.reaction_of("START").x(), -5, 1e-9);
+  // half a turn about z and back, of any size
+  const DeckRun turned =
+      run_deck(bar(1) + "*RIGID BODY, ELSET=BAR, REF NODE=901, ROT NODE=902\n" +
+               step("*BOUNDARY\n901, 1, 3\n902, 1, 2\n902, 3, 3, 3.141592653589793\n", ", NLGEOM"));
+  EXPECT_LT((turned.displacement(12) - Vec3(0, -1, 0)).norm(), 1e-12);
+  EXPECT_LT((turned.displacement(1) - Vec3(2, 1, 0)).norm(), 1e-12);
+}
+
+TEST(InpConstraints, KinematicCouplingIsARigidBody) {
+  const std::string text = bar(2) +
+                           "*COUPLING, REF NODE=901, SURFACE=TIP, CONSTRAINT NAME=C\n*KINEMATIC\n"
+                           "1, 3\n" +
+                           fixed + step("*CLOAD\n901, 1, 5.\n");
+  const DeckRun run = run_deck(text);
+  for (const int number : {21, 22, 23, 24, 901})
+    EXPECT_NEAR(run.displacement(number).x(), 0.1, 1e-9);
+}
+
+/// Force and moment at the middle of the face arrive at the clamped end.
+TEST(InpConstraints, DistributingCouplingSharesForcesOut) {
+  const DeckRun run = run_deck(bar(2) +
+                               "*COUPLING, REF NODE=901, SURFACE=TIP, CONSTRAINT NAME=C\n"
+                               "*DISTRIBUTING\n" +
+                               fixed + step("*CLOAD\n901, 1, 5.\n901, 2, 1.E-5\n901, 6, 3.E-5\n"));
+  const Vec3 sum = run.reaction_of("START");
+  EXPECT_NEAR(sum.x(), -5, 1e-8);
+  EXPECT_NEAR(sum.y(), -1e-5, 1e-10);
+  double moment = 0;  // about the reference node
+  for (const int number : {1, 2, 3, 4}) {
+    const Index n = run.node(number);
+    const Vec3 arm = run.built.model.mesh.nodes[static_cast<std::size_t>(n)] - Vec3(2, 0.5, 0.5) -
+                     run.displacement(901);
+    moment += arm.cross(Vec3(run.reaction[0].segment<3>(3 * n))).z();
+  }
+  EXPECT_NEAR(moment, -3e-5, 2e-6);  // small strains: arms of the undeformed bar inside of it
+  Vec3 mean = Vec3::Zero();
+  for (const int number : {21, 22, 23, 24}) mean += 0.25 * run.displacement(number);
+  EXPECT_LT((run.displacement(901) - mean).norm(), 1e-12);
+  EXPECT_NEAR(mean.x(), 0.1, 1e-6);
+}
+
+TEST(InpConstraints, DistributingCouplingElementIsTheMeanOfItsNodes) {
+  const DeckRun run = run_deck(bar(2) +
+                               "*ELEMENT, TYPE=DCOUP3D, ELSET=D\n77, 901\n"
+                               "*DISTRIBUTING COUPLING, ELSET=D\nFINISH, 1.\n"
+                               "*SOLID SECTION, ELSET=D, MATERIAL=M\n" +
+                               fixed + step("*CLOAD\n901, 1, 8.\n901, 2, 0.1\n"));
+  Vec3 mean = Vec3::Zero();
+  for (const int number : {21, 22, 23, 24}) mean += 0.25 * run.displacement(number);
+  EXPECT_LT((run.displacement(901) - mean).norm(), 1e-12);
+  EXPECT_NEAR(mean.x(), 0.16, 1e-9);
+  EXPECT_NEAR(run.reaction_of("START").x(), -8, 1e-9);
+  EXPECT_NEAR(run.reaction_of("START").y(), -0.1, 1e-9);
+}
+
+/// The places of nodes after a load that would take them apart.
+TEST(InpConstraints, NodesStayInAPlaneOnALineAndAtTheirDistance) {
+  const std::string load = step("*CLOAD\n22, 1, 4.\n23, 2, 3.\n", ", NLGEOM");
+  const auto place = [](const DeckRun& run, int number) {
+    return Vec3(run.built.model.mesh.nodes[static_cast<std::size_t>(run.node(number))] +
+                run.displacement(number));
+  };
+  const auto volume = [&](const DeckRun& run) {
+    return (place(run, 22) - place(run, 21))
+        .cross(Vec3(place(run, 23) - place(run, 21)))
+        .dot(place(run, 24) - place(run, 21));
+  };
+  const auto bend = [&](const DeckRun& run) {
+    return (place(run, 12) - place(run, 2)).cross(Vec3(place(run, 22) - place(run, 2))).norm();
+  };
+  const auto stretch = [&](const DeckRun& run) {
+    return (place(run, 21) - place(run, 23)).norm() - std::sqrt(2.0);
+  };
+  const DeckRun free = run_deck(bar(2) + fixed + load);
+  EXPECT_GT(std::abs(volume(free)), 1e-3);
+  EXPECT_GT(bend(free), 1e-2);
+  EXPECT_GT(std::abs(stretch(free)), 1e-3);
+  const DeckRun plane = run_deck(bar(2) + fixed + "*MPC\nPLANE, FINISH\n" + load);
+  EXPECT_NEAR(volume(plane), 0, 1e-9);
+  EXPECT_NEAR(plane.reaction_of("START").x(), -4, 1e-7);
+  const DeckRun line = run_deck(bar(2) + fixed + "*MPC\nSTRAIGHT, 2, 12, 22\n" + load);
+  EXPECT_NEAR(bend(line), 0, 1e-9);
+  const DeckRun rod = run_deck(bar(2) + fixed + "*MPC\nBEAM, 21, 23\n" + load);
+  EXPECT_NEAR(stretch(rod), 0, 1e-9);
+  EXPECT_NEAR(rod.reaction_of("START").y(), -3, 1e-7);
+}
+
+/// Pulled together by a force, then kept as it is while the bar is pulled: F = E A delta / L.
+TEST(InpConstraints, PretensionIsAForceAndThenLocked) {
+  const std::string section =
+      "*SURFACE, NAME=CUT\n2, S2\n*PRE-TENSION SECTION, SURFACE=CUT, "
+      "NODE=901\n1., 0., 0.\n";
+  const DeckRun run =
+      run_deck(bar(4) + section + fixed + step("*BOUNDARY\nFINISH, 1, 3\n*CLOAD\n901, 1, 5.\n") +
+               step("*BOUNDARY, FIXED\n901, 1, 1\n*BOUNDARY\nFINISH, 1, 1, 0.04\n"));
+  EXPECT_NEAR(run.reaction_of("FINISH").x(), 5, 1e-9);
+  EXPECT_NEAR(run.reaction_of("START").x(), -5, 1e-9);
+  // 4 long: shortened by F L / (E A)
+  const model::Equation& equation = run.built.model.equations.front();
+  EXPECT_EQ(equation.terms.size(), 3u);
+  const Index shortening = run.built.model.mesh.find_set("pretension_of_node_901")->nodes[0];
+  EXPECT_NEAR(run.u[0][3 * shortening], 0.2, 1e-9);
+  EXPECT_NEAR(run.u[1][3 * shortening], 0.2, 1e-9);
+  EXPECT_NEAR(run.reaction_of("FINISH", 1).x(), 5 + 100 * 0.04 / 4, 1e-9);
+}
+
+/// As CalculiX has it: a normal into the elements of the surface turns the sign round.
+TEST(InpConstraints, PretensionHasTheSignOfTheNormal) {
+  const std::string ends = fixed + step("*BOUNDARY\nFINISH, 1, 3\n*CLOAD\n901, 1, 5.\n");
+  for (const auto& [surface, normal, pull] :
+       {std::tuple("2, S2", "1., 0., 0.", 5.0), std::tuple("2, S2", "-1., 0., 0.", -5.0),
+        std::tuple("3, S1", "1., 0., 0.", -5.0), std::tuple("3, S1", "0., 0., 0.", 5.0)}) {
+    const DeckRun run =
+        run_deck(bar(4) +
+                 fmt::format("*SURFACE, NAME=CUT\n{}\n*PRE-TENSION SECTION, SURFACE=CUT, "
+                             "NODE=901\n{}\n",
+                             surface, normal) +
+                 ends);
+    EXPECT_NEAR(run.reaction_of("FINISH").x(), pull, 1e-9) << surface << " " << normal;
+  }
+}
+
+/// Turning bar, fixed at the axis: u(L) = rho w^2 L^3 / (3 E), N(0) = rho w^2 L^2 / 2.
+TEST(InpConstraints, CentrifugalForceOfABar) {
+  const DeckRun run =
+      run_deck(bar(4) + "*BOUNDARY\nNALL, 2, 3\nSTART, 1\n" +
+               step("*DLOAD\nBAR, CENTRIF, 0.2, 0, 0, 0, 0, 0, 1\nBAR, CENTRIF, 0.3, 0, 0, 0, 0, "
+                    "0, 1\n"));
+  EXPECT_NEAR(run.reaction_of("START").x(), -3 * 0.5 * 16 / 2, 1e-9);
+  EXPECT_NEAR(run.displacement(41).x(), 3 * 0.5 * 64 / 300, 1e-9);
+}
+
+}  // namespace
+}  // namespace osculate::deck
