@@ -15,18 +15,6 @@ using io::inp::Fields;
 using io::inp::Line;
 using io::inp::SetKind;
 
-SourceNode place_node(const Vec3& place, int dimension, int line) {
-  SourceNode node = inp_list(line);
-  for (int i = 0; i < dimension; ++i) node.items.push_back(inp_number(place[i], line));
-  return node;
-}
-
-Vec3 next_place(Fields& fields) {
-  Vec3 place;
-  for (double& c : place) c = fields.real_or_zero("a coordinate");
-  return place;
-}
-
 /// A rigid body of the nodes of a set (if it has some) and its reference node.
 void put_rigid(InpModel& m, const Card& card, const std::string& nodes, SourceNode& rigid) {
   const int line = line_of(card.at);
@@ -42,7 +30,7 @@ void put_rigid(InpModel& m, const Card& card, const std::string& nodes, SourceNo
   if (!nodes.empty()) sets.items.push_back(inp_text(nodes, line));
   sets.items.push_back(inp_text(reference, line));
   put(body, "reference",
-      place_node(m.mesh.mesh.nodes[static_cast<std::size_t>(node)], inp_dimension(m), line));
+      inp_point(m.mesh.mesh.nodes[static_cast<std::size_t>(node)], inp_dimension(m), line));
 }
 
 /// All displacements, or a refusal.
@@ -75,7 +63,7 @@ SourceNode inp_axes(InpModel& m) {
       io::inp::fail(m.deck, card, fmt::format("expected TYPE=R or C, found {}", printable(type)));
     const int line = line_of(card.at), dimension = inp_dimension(m);
     Fields fields(m.deck, only_line(m, card, "two points"));
-    const Vec3 a = next_place(fields), b = next_place(fields);
+    const Vec3 a = point_of(fields), b = point_of(fields);
     SourceNode& entry = axes.items.emplace_back(inp_map(line));
     const std::string& on = set_of(m, card.at, value_of(m, card, "NSET"), {SetKind::nodes});
     put(entry, "on", inp_text(on, line));
@@ -83,12 +71,12 @@ SourceNode inp_axes(InpModel& m) {
     m.transformed.insert(nodes.begin(), nodes.end());
     if (type == "C") {
       SourceNode& cylinder = put(entry, "cylindrical", inp_map(line));
-      put(cylinder, "from", place_node(a, dimension, line));
-      if (dimension == 3) put(cylinder, "to", place_node(b, 3, line));
+      put(cylinder, "from", inp_point(a, dimension, line));
+      if (dimension == 3) put(cylinder, "to", inp_point(b, 3, line));
     } else {
       SourceNode& directions = put(entry, "rectangular", inp_map(line));
-      put(directions, "x", place_node(a, dimension, line));
-      put(directions, "xy", place_node(b, dimension, line));
+      put(directions, "x", inp_point(a, dimension, line));
+      put(directions, "xy", inp_point(b, dimension, line));
     }
   }
   return axes;
@@ -197,6 +185,18 @@ SourceNode inp_rigid(InpModel& m) {
   }
   put_knots(m, rigid);
   return rigid;
+}
+
+SourceNode inp_point(const Vec3& place, int dimension, int line) {
+  SourceNode node = inp_list(line);
+  for (int i = 0; i < dimension; ++i) node.items.push_back(inp_number(place[i], line));
+  return node;
+}
+
+Vec3 point_of(Fields& fields) {
+  Vec3 place;
+  for (double& c : place) c = fields.real_or_zero("a coordinate");
+  return place;
 }
 
 Index only_node(const InpModel& m, std::string_view set) {

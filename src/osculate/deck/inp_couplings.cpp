@@ -15,18 +15,6 @@ using io::inp::Fields;
 using io::inp::Line;
 using io::inp::SetKind;
 
-SourceNode place_list(const Vec3& place, int dimension, int line) {
-  SourceNode node = inp_list(line);
-  for (int i = 0; i < dimension; ++i) node.items.push_back(inp_number(place[i], line));
-  return node;
-}
-
-Vec3 read_place(Fields& fields) {
-  Vec3 place;
-  for (double& c : place) c = fields.real_or_zero("a coordinate");
-  return place;
-}
-
 /// The list of a key, made when it is first needed.
 SourceNode& list_of(SourceNode& root, const char* key, int line) {
   if (SourceNode* const found = find(root, key)) return *found;
@@ -88,8 +76,8 @@ void put_pretension(InpModel& m, const Card& card, SourceNode& root) {
   Vec3 axis = Vec3::Zero();
   if (const auto lines = io::inp::lines_of(m.deck, card); !lines.empty()) {
     Fields fields(m.deck, lines[0]);
-    axis = read_place(fields);
-    if (axis.norm() > 0) put(entry, "axis", place_list(axis, inp_dimension(m), line));
+    axis = point_of(fields);
+    if (axis.norm() > 0) put(entry, "axis", inp_point(axis, inp_dimension(m), line));
   }
   // CalculiX measures how far the surface's elements move along the normal: out of them they close.
   const bool inwards = axis.dot(mean_normal(m.mesh.mesh, *m.mesh.mesh.find_set(surface))) < 0;
@@ -125,9 +113,9 @@ void put_cyclic_symmetry(const InpModel& m, const Card& card, SourceNode& root) 
   put(entry, "sectors",
       inp_number(io::inp::number_of(m.deck, card.at, count, "the number of sectors"), line));
   Fields fields(m.deck, only_line(m, card, "two points of the axis"));
-  const Vec3 from = read_place(fields), to = read_place(fields);
-  put(entry, "from", place_list(from, inp_dimension(m), line));
-  put(entry, "to", place_list(to, inp_dimension(m), line));
+  const Vec3 from = point_of(fields), to = point_of(fields);
+  put(entry, "from", inp_point(from, inp_dimension(m), line));
+  put(entry, "to", inp_point(to, inp_dimension(m), line));
 }
 
 }  // namespace

@@ -73,6 +73,11 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 [[nodiscard]] const std::string& set_of(const InpModel& m, io::inp::Place at, std::string_view name,
                                         std::initializer_list<io::inp::SetKind> kinds);
 
+/// A point in the plane or in space.
+[[nodiscard]] SourceNode inp_point(const Vec3& place, int dimension, int line);
+/// Three coordinates; those that are not given are 0.
+[[nodiscard]] Vec3 point_of(io::inp::Fields& fields);
+
 // ---- the keys of a model file -----------------------------------------------------------------
 
 [[nodiscard]] SourceNode inp_materials(InpModel& m);

@@ -36,8 +36,15 @@ namespace osculate::deck {
 
 [[nodiscard]] Spec dynamics_spec();
 [[nodiscard]] Spec gravity_spec();
+/// A displacement or rotation.
+[[nodiscard]] Spec component_spec(std::string doc);
 /// The name of a set, or a list of names.
 [[nodiscard]] Spec set_or_sets(std::string doc, const std::string& example);
+/// The set that something is of.
+template <class T>
+[[nodiscard]] BoundKey<T> on_key(std::string doc, const std::string& example) {
+  return need(&T::on, "on", set_or_sets(std::move(doc), example));
+}
 /// Keys of the materials of small strains, and of those that remember: one after the other.
 [[nodiscard]] std::string small_strain_materials();
 [[nodiscard]] std::string remembering_materials();

@@ -4,9 +4,62 @@
 namespace osculate::deck {
 namespace {
 
-template <class T>
-BoundKey<T> on_key(std::string doc, const std::string& example) {
-  return need(&T::on, "on", set_or_sets(std::move(doc), example));
+BoundKeys<Equation> equation_keys() {
+  using T = EquationTerm;
+  using E = Equation;
+  const BoundKeys<T> term(
+      {on_key<T>("Set of nodes, of which each gets the factor, or rigid body.", "corner"),
+       need(&T::of, "of", component_spec("Which displacement.").such_as("ux")),
+       checked(need(&T::factor, "factor", number("Factor of the displacement.").such_as("-1")),
+               [](const Value& v) {
+                 if (v.number == 0) throw core::InputError(v.mark, "must not be zero");
+               })});
+  return {
+      {{required("terms",
+                 list("Terms that are summed up.", term.spec("One term of an equation.")).count(1)),
+        [term](E& e, const Value& v) { e.terms = term.read_all(v); }},
+       may(&E::value, "value",
+           number("Value of the sum, reached at the end of the first step.")
+               .in("length")
+               .otherwise("0")
+               .such_as("0.1"))}};
+}
+
+BoundKeys<Equal> equal_keys() {
+  using E = Equal;
+  return {{on_key<E>("Set of nodes.", "top"),
+           need(&E::of, "of",
+                choice("Which displacement.",
+                       {word("ux", Component::ux, "displacement in x"),
+                        word("uy", Component::uy, "displacement in y"),
+                        word("uz", Component::uz, "displacement in z (models in space)")})
+                    .such_as("uy"))}};
+}
+
+BoundKeys<LocalAxes> axes_keys() {
+  using A = LocalAxes;
+  const auto place = [](std::string doc) {
+    return list(std::move(doc), number("One coordinate.")).count(2, 3);
+  };
+  const BoundKeys<A> rectangular({need(&A::a, "x", place("Direction of the first axis.")),
+                                  need(&A::b, "xy",
+                                       place("A direction in the plane of the first "
+                                             "and the second axis."))});
+  const BoundKeys<A> cylinder(
+      {need(&A::a, "from", place("A point of the cylinder's axis.")),
+       {optional("to", place("Another one, in models in space.").such_as("[0, 0, 1]")),
+        [](A& axes, const Value& v) { axes.b = place_of(v); }}});
+  return {{on_key<A>("Set of nodes.", "rim"),
+           {optional("rectangular", rectangular.spec("Three directions, the same for all nodes.")
+                                        .such_as("{x: [1, 1, 0], xy: [0, 1, 0]}")),
+            [rectangular](A& axes, const Value& v) { rectangular.read(v, axes); }},
+           {optional("cylindrical", cylinder.spec("Radial, around the axis and along it.")
+                                        .such_as("{from: [0, 0, 0], to: [0, 0, 1]}")),
+            [cylinder](A& axes, const Value& v) {
+              axes.cylindrical = true;
+              cylinder.read(v, axes);
+              if (!v.find("to")) axes.b = axes.a + Vec3::UnitZ();
+            }}}};
 }
 
 BoundKey<Description> condition_key(std::vector<NodeCondition> Description::*member,
@@ -84,6 +137,37 @@ BoundKey<Description> cyclic_key() {
 }
 
 }  // namespace
+
+BoundKey<Description> axes_key() {
+  return {optional("axes",
+                   list("Axes that ux, uy, uz and fx, fy, fz mean, in place of x, y and z, for the "
+                        "nodes of a set: in `prescribe`, `hold`, `release`, `forces`, `equations` "
+                        "and `equal`. Results are in global axes.",
+                        axes_keys()
+                            .spec("The axes of one set.")
+                            .with(Group::Rule::exactly_one, {"rectangular", "cylindrical"}))
+                       .otherwise("[]")
+                       .such_as("[{on: rim, cylindrical: {from: [0, 0, 0], to: [0, 0, 1]}}]")),
+          [](Description& d, const Value& v) { d.axes = axes_keys().read_all(v); }};
+}
+
+BoundKey<Description> equations_key() {
+  return {optional(
+              "equations",
+              list("Linear equations between displacements.",
+                   equation_keys().spec("One equation: the terms sum up to the value."))
+                  .otherwise("[]")
+                  .such_as("[{terms: [{on: A, of: ux, factor: 1}, {on: B, of: ux, factor: -1}]}]")),
+          [](Description& d, const Value& v) { d.equations = equation_keys().read_all(v); }};
+}
+
+BoundKey<Description> equal_key() {
+  return {optional("equal", list("Sets whose nodes all share one displacement.",
+                                 equal_keys().spec("One shared displacement."))
+                                .otherwise("[]")
+                                .such_as("[{on: top, of: uy}]")),
+          [](Description& d, const Value& v) { d.equal = equal_keys().read_all(v); }};
+}
 
 std::vector<BoundKey<Description>> constraint_keys() {
   using D = Description;
