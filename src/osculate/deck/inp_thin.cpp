@@ -47,9 +47,7 @@ void put_knots(InpModel& m, SourceNode& bodies) {
                       mesh::describe_node(m.mesh.mesh, knot.node)));
     SourceNode& body = put(bodies, name, inp_map(1));
     put(body, "set", inp_text(knot.set, 1));
-    SourceNode& reference = put(body, "reference", inp_list(1));
-    for (const double x : m.mesh.mesh.nodes[static_cast<std::size_t>(knot.node)])
-      reference.items.push_back(inp_number(x, 1));
+    put(body, "reference", inp_point(m.mesh.mesh.nodes[static_cast<std::size_t>(knot.node)], 3, 1));
   }
 }
 
