@@ -43,6 +43,20 @@ void add_bar(const std::string& folder, CaseResult& result, int& missing) {
   }
 }
 
+/// Each takes part in a motion of the whole bar by 8 / ((2 n - 1) pi)^2 of its mass.
+void add_masses(const std::string& folder, CaseResult& result) {
+  const model::AnalysisResult run = run_model(folder + "/bar.yaml", {});
+  const model::Vibrations& away = run.steps.at(1).vibrations.value();
+  const double mass = 0.1;
+  for (int n = 0; n < 3; ++n) {
+    const double angle = (2 * n + 1) * std::numbers::pi;
+    const double part = away.participation(n, 0);
+    result.rows.push_back({"bar, free end: share of the mass in vibration " + std::to_string(n + 1),
+                           part * part / mass, 8 / (angle * angle), Relation::equal, 2e-5,
+                           "wave equation"});
+  }
+}
+
 /// Without supports: 3 in the plane.
 void add_free_block(const std::string& folder, CaseResult& result, int& missing) {
   const model::AnalysisResult run = run_model(folder + "/free.yaml", {});
@@ -50,6 +64,12 @@ void add_free_block(const std::string& folder, CaseResult& result, int& missing)
   result.rows.push_back({"free bar: third frequency / fourth",
                          std::abs(all.at(0)[2] / all.at(0)[3]), 1e-4, Relation::at_most, 0,
                          "rigid motions"});
+  const model::Vibrations& free = run.steps.back().vibrations.value();
+  for (const int k : {0, 1, 5})
+    result.rows.push_back(
+        {"free bar: mass in all vibrations / mass, motion " + std::to_string(k + 1),
+         free.participation.col(k).squaredNorm() / free.moving_mass[k], 1, Relation::equal, 1e-9,
+         "rigid motions take it all"});
   result.rows.push_back(
       {"free bar: fourth frequency", all.at(0)[3], 0.5, Relation::at_least, 0, ""});
 }
@@ -72,6 +92,7 @@ CaseResult vibrations(const CaseContext& context) {
   CaseResult result;
   int missing = 0;
   add_bar(context.folder, result, missing);
+  add_masses(context.folder, result);
   add_free_block(context.folder, result, missing);
   add_strip(context.folder, result, missing);
   result.rows.push_back({"vibrations that are missing", static_cast<double>(missing), 0,

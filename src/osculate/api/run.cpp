@@ -411,6 +411,7 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
     const std::string step = recorder.step_name(p);
     recorder.say_all(result::vibrations_text(step, modes));
     recorder.fields.write_modes(step, state, modes);
+    if (recorder.answers) recorder.answers->vibrations(p, modes);
   };
   observer.resumable = [&recorder](const model::BasicSystem<Dim>& system,
                                    const model::BasicState<Dim>& state, const model::Progress& p,

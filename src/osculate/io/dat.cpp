@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 namespace osculate::io {
 namespace {
@@ -52,6 +53,39 @@ void append_dat_total(std::string& out, std::span<const double> values) {
     append_real(out, value, 13, 6);
   }
   out += '\n';
+}
+
+std::string dat_eigenvalues(std::span<const double> omega_squared) {
+  std::string out =
+      "\n     E I G E N V A L U E   O U T P U T\n\n"
+      " MODE NO    EIGENVALUE                       FREQUENCY   \n"
+      "                                     REAL PART            IMAGINARY PART\n"
+      "                           (RAD/TIME)      (CYCLES/TIME     (RAD/TIME)\n\n";
+  for (std::size_t i = 0; i < omega_squared.size(); ++i) {
+    const double value = omega_squared[i], omega = std::sqrt(std::abs(value));
+    const double real = value < 0 ? 0 : omega, imaginary = value < 0 ? omega : 0;
+    out += fmt::format(
+        "{:7}  {}  {}  {}  {}\n", i + 1, fortran_real(value, 14, 7), fortran_real(real, 14, 7),
+        fortran_real(real / (2 * std::numbers::pi), 14, 7), fortran_real(imaginary, 14, 7));
+  }
+  return out;
+}
+
+std::string dat_modal_table(std::string_view title, std::span<const std::array<double, 6>> rows,
+                            std::string_view last_head,
+                            const std::optional<std::array<double, 6>>& last) {
+  std::string out = fmt::format(
+      "\n     {}\n\nMODE NO.   X-COMPONENT     Y-COMPONENT     Z-COMPONENT     X-ROTATION      "
+      "Y-ROTATION      Z-ROTATION\n\n",
+      title);
+  const auto add = [&](std::string_view head, const std::array<double, 6>& values) {
+    out += fmt::format("{:<7}", head);
+    for (const double value : values) out += "  " + fortran_real(value, 14, 7);
+    out += '\n';
+  };
+  for (std::size_t i = 0; i < rows.size(); ++i) add(fmt::format("{:7}", i + 1), rows[i]);
+  if (last) add(last_head, *last);
+  return out;
 }
 
 std::string sta_head() {

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +23,14 @@ void append_dat_row(std::string& out, std::int64_t number, int point,
                     std::span<const double> values);
 /// A row of totals.
 void append_dat_total(std::string& out, std::span<const double> values);
+
+/// Vibrations found: omega^2 in rad/time.
+[[nodiscard]] std::string dat_eigenvalues(std::span<const double> omega_squared);
+/// A table of six numbers a vibration: along x, y, z, and around these; `last` has no number.
+[[nodiscard]] std::string dat_modal_table(std::string_view title,
+                                          std::span<const std::array<double, 6>> rows,
+                                          std::string_view last_head,
+                                          const std::optional<std::array<double, 6>>& last);
 
 /// An attempt to solve an increment. Numbers count from 1.
 struct Attempt {

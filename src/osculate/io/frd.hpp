@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -57,6 +58,12 @@ struct FrdCell {
 struct FrdTime {
   int piece = 1, increment = 1, step = 1, set = 1;
   double time = 0;
+  /// Of a vibration, in place of the time: number from 1, omega^2 and vibrations per time.
+  struct Mode {
+    int number = 1;
+    double omega_squared = 0, frequency = 0;
+  };
+  std::optional<Mode> mode{};
 };
 /// Values of the nodes, in the order of `part.nodes`: one number a node, three of a vector, else
 /// six (a tensor XX, YY, ZZ, XY, YZ, ZX, or what is shown like one).

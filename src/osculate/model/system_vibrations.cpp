@@ -1,4 +1,6 @@
 // Free vibrations about a state.
+#include <array>
+
 #include "osculate/model/system_motion.hpp"
 
 namespace osculate::model {
@@ -42,6 +44,50 @@ Eigen::VectorXd motion_of_nodes(const BasicDofSpace<Dim>& dofs,
     all[equation.terms.front().dof] = -sum / equation.terms.front().factor;
   }
   return all.head(state.u.size());
+}
+
+/// Rotation vectors' rates of a body that turns with the unit angular velocities.
+Mat<1, 1> rates_of_turns(const body::RigidMotion&) { return Mat<1, 1>::Identity(); }
+Mat<3, 3> rates_of_turns(const body::RigidMotion3& motion) {
+  return body::rotation_tangent(motion.rotation).inverse();
+}
+
+/// The unknowns' parts of the rigid motions of the whole: by columns displacements along the axes
+/// and rotations around them, in the plane around the last one.
+template <int Dim>
+Eigen::MatrixXd rigid_motions(const BasicDofSpace<Dim>& dofs, const BasicAssembler<Dim>& assembler,
+                              std::span<const Vec<Dim>> x, const BasicState<Dim>& state) {
+  constexpr int motions = body::motions<Dim>;
+  Eigen::MatrixXd r = Eigen::MatrixXd::Zero(dofs.unknowns(), motions);
+  const body::BasicRigidMotion<Dim> still{};
+  for (Index u = 0; u < dofs.unknowns(); ++u) {
+    if (assembler.prescribed(u)) continue;
+    const Dof dof = dofs.dof_of_unknown(u);
+    if (dof < Dim * dofs.nodes()) {
+      r.row(u) = body::motion_gradient(still, x[static_cast<std::size_t>(dof / Dim)])
+                     .row(static_cast<Eigen::Index>(dof % Dim));
+      continue;
+    }
+    const Dof of_bodies = dof - Dim * dofs.nodes();
+    if (of_bodies >= motions * static_cast<Dof>(state.rigid.size())) continue;
+    const body::BasicRigidMotion<Dim>& motion =
+        state.rigid[static_cast<std::size_t>(of_bodies / motions)];
+    const auto i = static_cast<int>(of_bodies % motions);
+    if (i < Dim)
+      r.row(u) = body::motion_gradient(still, motion.center()).row(i);
+    else
+      r.row(u).template tail<motions - Dim>() = rates_of_turns(motion).row(i - Dim);
+  }
+  return r;
+}
+
+/// Columns of the plane in those of space: x, y, z, and rotations around these.
+template <int Dim>
+std::array<Eigen::Index, body::motions<Dim>> places_in_space() {
+  if constexpr (Dim == 2)
+    return {0, 1, 5};
+  else
+    return {0, 1, 2, 3, 4, 5};
 }
 
 }  // namespace
@@ -90,6 +136,15 @@ Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::Linea
   out.omega_squared = pairs.values;
   out.residual = pairs.residual;
   out.missing = pairs.missing;
+  const Eigen::MatrixXd r = rigid_motions<Dim>(s.dofs, s.assembler, x, state);
+  out.participation.setZero(pairs.values.size(), 6);
+  const auto places = places_in_space<Dim>();
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Eigen::VectorXd motion = r.col(static_cast<Eigen::Index>(k));
+    const Eigen::VectorXd momentum = la::multiply(mass, motion);
+    out.participation.col(places[k]) = pairs.vectors.transpose() * momentum;
+    out.moving_mass[places[k]] = motion.dot(momentum);
+  }
   out.shapes.resize(state.u.size(), pairs.values.size());
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i)
     out.shapes.col(i) = motion_of_nodes<Dim>(s.dofs, s.assembler, x, state, pairs.vectors.col(i));

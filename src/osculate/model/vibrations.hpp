@@ -17,9 +17,14 @@ namespace osculate::model {
 struct Vibrations {
   Eigen::VectorXd omega_squared;
   Eigen::MatrixXd shapes;  ///< columns; displacements of all nodes, x0 y0 (z0) x1 y1 ...
-  double residual = 0;     ///< see la::Eigenpairs
-  int missing = 0;         ///< likewise
-  std::string failure;     ///< why there are none; empty: there are
+  /// How much of each rigid motion a vibration takes part in: its rows phi . M r, r of a unit
+  /// displacement along x, y, z and a unit rotation around these, and r . M r. Where the model is
+  /// held, r is 0. In the plane z and rotations around x and y are 0.
+  Eigen::Matrix<double, Eigen::Dynamic, 6> participation;
+  Eigen::Matrix<double, 1, 6> moving_mass = Eigen::Matrix<double, 1, 6>::Zero();
+  double residual = 0;  ///< see la::Eigenpairs
+  int missing = 0;      ///< likewise
+  std::string failure;  ///< why there are none; empty: there are
 };
 
 /// Vibrations per time; negative where the state is unstable.

@@ -226,6 +226,52 @@ void AnswerFiles<Dim>::write_fields(const model::BasicSystem<Dim>& system,
   }
 }
 
+/// The tables that CalculiX writes of every search for vibrations.
+std::string tables_of(const model::Vibrations& modes) {
+  std::vector<std::array<double, 6>> factors, masses;
+  std::array<double, 6> sums{}, moving{};
+  for (Eigen::Index i = 0; i < modes.participation.rows(); ++i) {
+    std::array<double, 6>& factor = factors.emplace_back();
+    std::array<double, 6>& mass = masses.emplace_back();
+    for (std::size_t k = 0; k < 6; ++k) {
+      factor[k] = modes.participation(i, static_cast<Eigen::Index>(k));
+      mass[k] = factor[k] * factor[k];
+      sums[k] += mass[k];
+    }
+  }
+  for (std::size_t k = 0; k < 6; ++k) moving[k] = modes.moving_mass[static_cast<Eigen::Index>(k)];
+  return io::dat_eigenvalues({modes.omega_squared.data(), factors.size()}) +
+         io::dat_modal_table("P A R T I C I P A T I O N   F A C T O R S", factors, "", {}) +
+         io::dat_modal_table("E F F E C T I V E   M O D A L   M A S S", masses, "TOTAL", sums) +
+         io::dat_modal_table("T O T A L   E F F E C T I V E   M A S S", {}, "", moving);
+}
+
+template <int Dim>
+void AnswerFiles<Dim>::vibrations(const model::Progress& progress, const model::Vibrations& modes) {
+  dat_.append(tables_of(modes));
+  const std::string& step = built_.model.steps[static_cast<std::size_t>(progress.step)].name;
+  const auto wanted = [&](const deck::AnswerRequest& request) {
+    const auto named = [&](const deck::Name& name) { return name.value == step; };
+    return std::ranges::find(request.of, Answer::u) != request.of.end() &&
+           (request.steps.empty() || std::ranges::any_of(request.steps, named));
+  };
+  if (std::ranges::none_of(output_.frd, wanted)) return;
+  for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
+    Column column(3, answers_.mesh.nodes.size());
+    for (const Index node : answers_.mesh.nodes)
+      column.add({modes.shapes.col(i).data() + Dim * node, Dim});
+    const double omega_squared = modes.omega_squared[i];
+    const io::FrdTime at{
+        ++pieces_,
+        1,
+        static_cast<int>(progress.step) + 1,
+        ++sets_,
+        0,
+        io::FrdTime::Mode{static_cast<int>(i) + 1, omega_squared, model::frequency(omega_squared)}};
+    frd_.append(io::frd_field(answers_.mesh, at, true, names_of(Answer::u), column.values()));
+  }
+}
+
 template <int Dim>
 std::vector<std::uint64_t> AnswerFiles<Dim>::marks() const {
   return {frd_.size(),

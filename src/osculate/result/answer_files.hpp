@@ -33,6 +33,9 @@ class AnswerFiles {
   /// An attempt that was dropped, from `progress` to a fraction of the step.
   void dropped(const model::Progress& progress, double to,
                const std::vector<solve::IterationRecord>& iterations);
+  /// Vibrations about a state: their numbers in .dat, their shapes (with phi . M phi = 1) in .frd
+  /// where displacements are wanted.
+  void vibrations(const model::Progress& progress, const model::Vibrations& modes);
   /// Where the files end now.
   [[nodiscard]] std::vector<std::uint64_t> marks() const;
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <limits>
+#include <vector>
 
 namespace osculate::io {
 namespace {
@@ -30,6 +31,25 @@ TEST(Dat, RowsStandInTheColumnsOfTheFormat) {
             "        1.975008E-04 -1.999906E-04  0.000000E+00\n");
   EXPECT_EQ(dat_title("forces (fx,fy,fz) for set FIX and", 0.5),
             "\n forces (fx,fy,fz) for set FIX and time  0.5000000E+00\n\n");
+}
+
+TEST(Dat, VibrationsAsTheFormatHasThem) {
+  const std::array found{0.6770787e10, -4.0};
+  const std::string text = dat_eigenvalues(found);
+  EXPECT_TRUE(text.starts_with("\n     E I G E N V A L U E   O U T P U T\n\n MODE NO "));
+  EXPECT_TRUE(
+      text.ends_with("      1   0.6770787E+10   0.8228479E+05   0.1309603E+05   0.0000000E+00\n"
+                     "      2  -0.4000000E+01   0.0000000E+00   0.0000000E+00   0.2000000E+01\n"))
+      << text;
+  const std::vector<std::array<double, 6>> rows{{0.5, -1, 0, 0, 0, 2}};
+  const std::string table = dat_modal_table("M A S S", rows, "TOTAL", rows[0]);
+  EXPECT_TRUE(table.starts_with("\n     M A S S\n\nMODE NO.   X-COMPONENT     Y-COMPONENT"));
+  EXPECT_TRUE(
+      table.ends_with("      1   0.5000000E+00  -0.1000000E+01   0.0000000E+00   "
+                      "0.0000000E+00   0.0000000E+00   0.2000000E+01\n"
+                      "TOTAL     0.5000000E+00  -0.1000000E+01   0.0000000E+00   "
+                      "0.0000000E+00   0.0000000E+00   0.2000000E+01\n"))
+      << table;
 }
 
 TEST(Dat, RowsOfIncrementsAndIterations) {

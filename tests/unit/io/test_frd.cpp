@@ -152,6 +152,16 @@ TEST(Frd, FieldsStandInTheColumnsOfTheFormat) {
       frd_field(part, {1, 1, 1, 1, 1234.5}, false, scalar, std::vector<double>{1, 2, 3, 4});
   EXPECT_THAT(text, HasSubstr("  100CL  101 1234.500000           4"));
   EXPECT_THAT(text, HasSubstr(" -4  PE          1    1\n -5  PE          1    1    0    0\n"));
+  FrdTime mode{5, 1, 1, 2, 0, FrdTime::Mode{2, 1.473508e10, 19319.52008}};
+  EXPECT_THAT(frd_field(part, mode, true, names, values),
+              StartsWith("    1PSTEP                         5           1           1          \n"
+                         "    1PGM                1.000000E+00                                  \n"
+                         "    1PGK                1.473508E+10                                  \n"
+                         "    1PHID                         -1                                  \n"
+                         "    1PSUBC                         0                                  \n"
+                         "    1PMODE                         2                                  \n"
+                         "  100CL  102 19319.52008           4                     2    2MODAL  "
+                         "    1\n -4  DISP        4    1\n"));
   const std::vector<std::string_view> tensor{"STRESS", "SXX", "SYY", "SZZ", "SXY", "SYZ", "SZX"};
   const std::vector<double> six(24, 1.0);
   EXPECT_THAT(frd_field(part, {1, 1, 1, 1, 1}, false, tensor, six),
