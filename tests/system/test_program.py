@@ -293,7 +293,7 @@ class Program(unittest.TestCase):
             found = self.run_program("doc", *arguments)
             self.assertEqual(found.returncode, 0, found.stderr)
             self.assertIn("sections[].element: axisymmetric", found.stdout)
-        for word in ("viscoelastic", "bolt"):
+        for word in ("viscoelastic", "gasket"):
             self.assertIn(f"'{word}': not available: see `osculate doc limits`", self.run_program("doc", word).stdout)
         self.assertIn("# What Osculate cannot do", self.run_program("doc", "limits").stdout)
         self.assertEqual(self.run_program("doc", "xyzzy").returncode, 2)

@@ -109,7 +109,8 @@ void build_equations(BuildContext<Dim>& c) {
     all.push_back({std::move(equation), e.mark, false});
   }
   for (const Equal& equal : c.description.equal) {
-    const std::vector<Index> nodes = moving_nodes(c, equal.on, Idle::refused);
+    const std::vector<Index> nodes =
+        moving_nodes(c, equal.on, Idle::refused, motion_of<Dim>(equal.of));
     for (std::size_t i = 1; i < nodes.size(); ++i) {
       model::Equation equation;
       add_displacement(c, nodes[i], direction_of(c, nodes[i], equal.of), 1.0, equation);

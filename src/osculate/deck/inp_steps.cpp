@@ -278,8 +278,9 @@ class Steps {
       if (const auto field = fields.next(); field && !field->empty())
         last = io::inp::number_of(m_.deck, line.at, *field, "the last direction");
       const double size = fields.real_or_zero("the displacement");
-      if (last > 6 || last < first)
-        fields.fail(fmt::format("expected directions 1 to 6, found {} to {}", first, last));
+      if (const int highest = highest_direction(m_, set_name); last > highest || last < first)
+        fields.fail(
+            fmt::format("expected directions 1 to {}, found {} to {}", highest, first, last));
       for (std::int32_t k = first; k <= last; ++k)
         for (const InpPlace& place : places(fields, set_name, k)) {
           if (!exists(place.direction)) continue;
@@ -312,9 +313,7 @@ class Steps {
                                int direction) const {
     const int highest = highest_direction(m_, set_name);
     if (direction < 1 || direction > highest)
-      fields.fail(highest == 3 && direction <= 6
-                      ? fmt::format("expected directions 1 to 3, found {}", direction)
-                      : fmt::format("'{}' has no direction {}", set_name, direction));
+      fields.fail(fmt::format("expected a direction 1 to {}, found {}", highest, direction));
     return inp_places(m_, set_name, direction);
   }
   /// In the plane there are the directions 1, 2 and 6.
