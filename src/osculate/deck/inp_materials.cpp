@@ -20,7 +20,7 @@ using io::inp::SetKind;
 struct MaterialCards {
   const Card* material = nullptr;
   const Card *elastic = nullptr, *plastic = nullptr, *density = nullptr, *creep = nullptr,
-             *expansion = nullptr;
+             *expansion = nullptr, *hyperelastic = nullptr;
 };
 
 std::vector<MaterialCards> material_cards(const InpModel& m) {
@@ -36,6 +36,7 @@ std::vector<MaterialCards> material_cards(const InpModel& m) {
   for (const Card& card : m.deck.cards) {
     if (card.keyword == "MATERIAL") all.push_back({&card});
     if (card.keyword == "ELASTIC") set(card, &MaterialCards::elastic);
+    if (card.keyword == "HYPERELASTIC") set(card, &MaterialCards::hyperelastic);
     if (card.keyword == "PLASTIC") set(card, &MaterialCards::plastic);
     if (card.keyword == "DENSITY") set(card, &MaterialCards::density);
     if (card.keyword == "CREEP") set(card, &MaterialCards::creep);
@@ -73,8 +74,6 @@ void put_elastic(const InpModel& m, const MaterialCards& c, SourceNode& law) {
   Fields fields(m.deck, line);
   put(law, "E", inp_number(fields.real("Young's modulus"), line_of(line.at)));
   put(law, "nu", inp_number(fields.real_or_zero("Poisson's ratio"), line_of(line.at)));
-  if (const double density = density_of(m, c); density > 0)
-    put(law, "density", inp_number(density, line_of(c.density->at)));
 }
 
 /// Pairs of stress and plastic strain.
@@ -132,6 +131,10 @@ void put_creep(const InpModel& m, const Card& card, SourceNode& law) {
 }
 
 const char* law_of(const InpModel& m, const MaterialCards& c) {
+  for (const Card* const other : {c.elastic, c.plastic, c.creep})
+    if (c.hyperelastic && other)
+      io::inp::fail(m.deck, *other, "of a material with *HYPERELASTIC this is not supported");
+  if (c.hyperelastic) return "rubber";
   if (c.plastic && c.creep)
     io::inp::fail(m.deck, *c.creep, "a material that both flows and creeps is not supported");
   if (c.plastic) return "elastoplastic";
@@ -181,10 +184,16 @@ SourceNode inp_materials(InpModel& m) {
     const std::string name = plain_name(value_of(m, *c.material, "NAME"));
     if (find(materials, name))
       io::inp::fail(m.deck, *c.material, fmt::format("a second material is called '{}'", name));
-    if (!c.elastic) io::inp::fail(m.deck, *c.material, "its *ELASTIC is missing");
+    if (!c.elastic && !c.hyperelastic)
+      io::inp::fail(m.deck, *c.material, "its *ELASTIC or *HYPERELASTIC is missing");
     SourceNode& material = put(materials, name, inp_map(line));
     SourceNode& law = put(material, law_of(m, c), inp_map(line));
-    put_elastic(m, c, law);
+    if (c.hyperelastic)
+      put_hyperelastic(m, *c.hyperelastic, law);
+    else
+      put_elastic(m, c, law);
+    if (const double density = density_of(m, c); density > 0)
+      put(law, "density", inp_number(density, line_of(c.density->at)));
     if (c.plastic) put_plastic(m, *c.plastic, law);
     if (c.creep) put_creep(m, *c.creep, law);
     if (c.expansion && has_temperatures(m))

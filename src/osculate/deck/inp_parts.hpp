@@ -81,6 +81,8 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 // ---- the keys of a model file -----------------------------------------------------------------
 
 [[nodiscard]] SourceNode inp_materials(InpModel& m);
+/// Constants of a `*HYPERELASTIC`.
+void put_hyperelastic(const InpModel& m, const io::inp::Card& card, SourceNode& law);
 [[nodiscard]] SourceNode inp_sections(InpModel& m);
 /// A set of elements, and the words of a section that their types stand for.
 struct InpElements {

@@ -7,6 +7,7 @@
 #include "osculate/material/logarithmic.hpp"
 #include "osculate/material/neo_hooke.hpp"
 #include "osculate/material/norton.hpp"
+#include "osculate/material/rubber.hpp"
 #include "osculate/material/st_venant_kirchhoff.hpp"
 
 namespace osculate::material {
@@ -14,7 +15,7 @@ namespace osculate::material {
 /// One of the laws, as a value. Its copies are made in law.cpp: only what asks which laws there are
 /// (that source, energy.cpp and deck/materials.cpp) has them in its code.
 struct Law : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
-                          Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>> {
+                          Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>, Rubber> {
   using variant::variant;
   Law();  ///< the first of the list, with its defaults
   Law(const Law&);

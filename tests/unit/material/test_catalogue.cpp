@@ -21,16 +21,17 @@ TEST(Catalogue, EachLawDescribesItselfAndItsParameters) {
       EXPECT_TRUE(names.insert(p.key).second) << law.key;
       EXPECT_FALSE(p.unit.empty() || p.doc.empty()) << law.key << p.key;
     }
-    for (const std::string_view name : {"E", "nu", "density"})
-      EXPECT_TRUE(names.contains(name)) << law.key;
+    EXPECT_TRUE(names.contains("density")) << law.key;
+    EXPECT_EQ(names.contains("E"), names.contains("nu")) << law.key;
   });
   EXPECT_EQ(keys, (std::set<std::string_view>{"linear_elastic", "st_venant_kirchhoff", "neo_hooke",
-                                              "elastoplastic", "norton"}));
+                                              "elastoplastic", "norton", "rubber"}));
 }
 
 TEST(Catalogue, ParametersAreWrittenThroughTheirSlots) {
   for_each_law([](auto law) {
     double value = 1;
+    if constexpr (std::is_same_v<decltype(law), Rubber>) return;  // has others
     for (const auto& p : law.params()) core::set(law, p.slot, value *= 0.25);
     EXPECT_EQ(law.young, 0.25);
     EXPECT_EQ(law.poisson, 0.0625);

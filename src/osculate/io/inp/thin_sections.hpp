@@ -29,7 +29,8 @@ struct ThinCards {
   std::map<Index, std::array<bool, 3>> held;         ///< by node: displacements of `*BOUNDARY`
 };
 
-/// Whether a step has NLGEOM: displacements and rotations are of any size.
+/// Whether a step has NLGEOM or a material is hyperelastic: displacements and rotations are of any
+/// size.
 [[nodiscard]] bool has_finite_step(const Deck& deck);
 /// Whether a section card is one whose elements are expanded: shells of one layer, beams with
 /// rectangular and elliptic sections.
