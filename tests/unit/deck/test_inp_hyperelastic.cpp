@@ -59,8 +59,8 @@ TEST(InpHyperelastic, FormsOfTheLaw) {
 }
 
 TEST(InpHyperelastic, ItMovesFarWithoutNlgeom) {
-  EXPECT_EQ(described("*HYPERELASTIC, NEO HOOKE\n1.5, 0.02\n").sections.at(0).kinematics,
-            solid::Kinematics::finite);
+  EXPECT_EQ(described("*HYPERELASTIC, NEO HOOKE\n1.5, 0.02\n").sections.at(0).kinematics.value,
+            Kinematics::finite);
 }
 
 /// Poisson's ratio is 0.475 where no constant gives the bulk modulus.
