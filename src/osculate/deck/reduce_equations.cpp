@@ -47,8 +47,7 @@ class Reduction {
     std::erase_if(row.factors, [](const auto& entry) { return entry.second == 0.0; });
     for (const Dof dof : order) replace(row, dof);
     for (const auto& entry : row.factors) order.push_back(entry.first);
-    Dof lead = lead_of(row, order);
-    if (given.first_leads && may_lead(row, order.front())) lead = order.front();
+    const Dof lead = given.first_leads ? dependent_of(row, order.front()) : lead_of(row, order);
     if (lead < 0) {
       if (!repeats(row)) throw core::InputError(given.mark, why_not(row));
       return;
@@ -114,6 +113,20 @@ class Reduction {
       if (shared < 0) shared = dof;
     }
     return shared;
+  }
+
+  /// The first displacement where it may lead, else the one with the largest factor.
+  [[nodiscard]] Dof dependent_of(const Row& row, Dof first) const {
+    if (may_lead(row, first)) return first;
+    constexpr double close = 1 - 1e-9;  // of equal ones the first
+    Dof best = -1;
+    double largest = 0;
+    for (const auto& [dof, factor] : row.factors)
+      if (may_lead(row, dof) && std::abs(factor) * close > largest) {
+        best = dof;
+        largest = std::abs(factor);
+      }
+    return best;
   }
 
   /// What the steps prescribe meets the equation at all times.

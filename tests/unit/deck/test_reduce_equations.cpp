@@ -48,6 +48,27 @@ TEST(ReduceEquations, FirstDofThatIsNamedOnceIsEliminated) {
   EXPECT_EQ(two[1].terms[0].dof, 7);
 }
 
+TEST(ReduceEquations, WhatIsMeantToFollowFromOthersDoes) {
+  const auto follows = [](std::vector<Equation::Term> terms) {
+    MarkedEquation one = sum(std::move(terms));
+    one.first_leads = true;
+    return one;
+  };
+  // 1 follows from 2 and 3 though both name it, 4 from 1: in the end from 2 and 3
+  const auto two =
+      reduced({follows({{1, 1.0}, {2, -0.5}, {3, -0.5}}), follows({{4, 1.0}, {1, -2.0}})});
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[0].terms[0].dof, 1);
+  EXPECT_EQ(two[1].terms[0].dof, 4);
+  EXPECT_EQ(factor(two[1], 1), 0.0);
+  EXPECT_EQ(factor(two[1], 2), -1.0);
+  // where steps prescribe the first one the largest factor leads, of equal ones the first
+  const auto given =
+      reduced({follows({{1, 1.0}, {2, -0.001}, {3, -0.5}, {5, -0.5}})}, {{1, to({2.0})}});
+  ASSERT_EQ(given.size(), 1u);
+  EXPECT_EQ(given[0].terms[0].dof, 3);
+}
+
 TEST(ReduceEquations, ChainsAndCyclesEndInWhatStays) {
   // 1 = 2, 2 = 3, 3 = 1 + 0: the last one says nothing new
   const auto chain =
