@@ -215,7 +215,9 @@ def compare(row, options):
 
 
 def percent(value):
-    return "" if value is None or math.isnan(value) else f"{100 * value:.2g} %"
+    if value is None or math.isnan(value):
+        return ""
+    return f"{100 * value:.0f} %" if value >= 1 else f"{100 * value:.2g} %"
 
 
 def line_of(row, result):
@@ -296,15 +298,16 @@ def page(lines, good, options):
     text = [
         "# CalculiX' own decks", "",
         f"The decks that come with CalculiX {version} (Debian's package calculix-ccx-test) in Osculate and in CalculiX. Both read the",
-        "same deck; the state that either leaves at the end is compared. Displacements: largest difference at a node over",
-        "the largest displacement, of decks that end with vibrations that of frequencies over the largest of their step. Forces: likewise,",
-        "but CalculiX' have those of constraints (sections of shells, equations, wedges of axisymmetric models) as well. Pressure: of the",
-        "largest contact pressures. Iterations and seconds (of the processor) are those of Osculate / CalculiX, the latter counted",
-        "where CalculiX iterates. [rows.txt](../tests/decks/rows.txt) has what a deck may differ by, and why; its quick rows are a test.",
+        "same deck; the state that either leaves at the end is compared. Displacements: largest difference at a node over the",
+        "largest displacement; of decks that end with vibrations the same of their frequencies. Forces: likewise, but CalculiX'",
+        "have those of constraints (sections of shells, equations) as well, and in axisymmetric models those of the whole ring where",
+        "those here are of 2 degrees. Pressure: of the largest contact pressures. Iterations and seconds (of the processor) are those",
+        "of Osculate / CalculiX, which counts iterations of nonlinear steps alone. [rows.txt](../tests/decks/rows.txt) has what a",
+        "deck may differ by, and why; its quick rows are a test.", "",
         "To make this page again:", "", "```",
         "apt install calculix-ccx calculix-ccx-test",
         "tests/decks/beside_ccx.py --osculate build/release/bin/osculate --write docs/decks.md", "```", "",
-        f"{len(good)} decks have a row, {sum(good)} of them hold; {count} are refused.", "",
+        f"{len(good)} decks have a row, {sum(good)} of them hold, the others say why not; {count} decks are refused.", "",
         "## Beside CalculiX", "", *lines, "",
         "## Refused", "",
         "By the analysis that Osculate has none of, else by the first message: behind it there may be others.", "",
