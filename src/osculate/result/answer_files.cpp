@@ -81,7 +81,10 @@ std::vector<double> field_values(Answer what, const AnswerModel<Dim>& answers,
     if (what == Answer::u) column.add({f.displacement[n].data(), Dim});
     if (what == Answer::s) column.add(f.stress[n]);
     if (what == Answer::e) column.add(f.strain[n]);
-    if (what == Answer::rf) column.add({answers.force(system, node).data(), 3});
+    if (what == Answer::rf) {  // of the whole ring in .frd
+      const Vec3 force = answers.force(system, node) / answers.sector;
+      column.add({force.data(), 3});
+    }
     if (what == Answer::peeq) {
       const double value = plastic == f.memory.end() ? 0.0 : plastic->second[n];
       column.add({&value, 1});
