@@ -31,11 +31,15 @@ TEST(Catalogue, EachLawDescribesItselfAndItsParameters) {
 TEST(Catalogue, ParametersAreWrittenThroughTheirSlots) {
   for_each_law([](auto law) {
     double value = 1;
-    if constexpr (std::is_same_v<decltype(law), Rubber>) return;  // has others
     for (const auto& p : law.params()) core::set(law, p.slot, value *= 0.25);
-    EXPECT_EQ(law.young, 0.25);
-    EXPECT_EQ(law.poisson, 0.0625);
-    EXPECT_EQ(law.density, 0.015625);
+    if constexpr (requires { law.young; }) {
+      EXPECT_EQ(law.young, 0.25);
+      EXPECT_EQ(law.poisson, 0.0625);
+      EXPECT_EQ(law.density, 0.015625);
+    } else {
+      EXPECT_EQ(law.c10, 0.25);
+      EXPECT_EQ(law.c01, 0.0625);
+    }
   });
 }
 

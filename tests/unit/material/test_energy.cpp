@@ -5,6 +5,7 @@
 
 #include "derivative_check.hpp"
 #include "osculate/material/law.hpp"
+#include "sample_laws.hpp"
 
 namespace osculate::material {
 namespace {
@@ -21,8 +22,7 @@ void expect_potential(const Law& law, const StrainType& at, const StrainType& al
 
 TEST(StoredEnergy, HasTheStressAsItsDerivative) {
   for_each_law([](auto law) {
-    law.young = 7;
-    law.poisson = 0.3;
+    osculate::testing::set_elastic(law, 7, 0.3);
     const Strain at(0.1, -0.05, 0.07, 0.2), along(0.3, 0.8, -0.4, 0.5);
     expect_potential(law, at, along);
     Strain3 at3, along3;

@@ -72,7 +72,9 @@ CellCase CellCase::as_small() const {
 CellCase CellCase::nearly_incompressible() const {
   CellCase out = *this;
   std::visit(
-      [](auto& c) { std::visit([](auto& law) { constants(law).poisson = 0.49; }, c.section.law); },
+      [](auto& c) {
+        std::visit([](auto& law) { osculate::testing::set_elastic(law, 7, 0.49); }, c.section.law);
+      },
       out.of);
   return out;
 }

@@ -8,6 +8,7 @@
 
 #include "osculate/cell/shape.hpp"
 #include "osculate/solid/element.hpp"
+#include "sample_laws.hpp"
 
 namespace osculate::solid::testing {
 
@@ -26,8 +27,7 @@ T& constants(material::Logarithmic<T>& form) {
 template <class Visit>
 void for_each_form(const Visit& visit) {
   material::for_each_law([&](auto law) {
-    law.young = 7;
-    law.poisson = 0.3;
+    osculate::testing::set_elastic(law, 7, 0.3);
     visit(law);
     if (material::has_logarithmic_form(law)) visit(material::in_logarithmic_strain(law));
   });
