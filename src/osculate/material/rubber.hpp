@@ -45,7 +45,7 @@ struct Rubber {
     P first = c("c10", "Factor of I1 - 3; the shear modulus is 2 (c10 + c01).", &Rubber::c10);
     first.required = true;
     first.example = "0.5";
-    P bulk = d("d1", "2 / K, K the bulk modulus.", &Rubber::d1);
+    P bulk = d("d1", "Compliance of the volume: 2 / K, K the bulk modulus.", &Rubber::d1);
     bulk.required = true;
     bulk.range = {.lower = 0};
     return std::array<P, 13>{{first,
@@ -58,8 +58,8 @@ struct Rubber {
                               c("c12", "Factor of (I1 - 3) (I2 - 3)^2.", &Rubber::c12),
                               c("c03", "Factor of (I2 - 3)^3.", &Rubber::c03),
                               bulk,
-                              d("d2", "1 / factor of (J - 1)^4; 0: none.", &Rubber::d2),
-                              d("d3", "1 / factor of (J - 1)^6; 0: none.", &Rubber::d3),
+                              d("d2", "Inverse of the factor of (J - 1)^4; 0: none.", &Rubber::d2),
+                              d("d3", "Inverse of the factor of (J - 1)^6; 0: none.", &Rubber::d3),
                               {.key = "density",
                                .unit = "mass/length^3",
                                .doc = "Mass per reference volume.",

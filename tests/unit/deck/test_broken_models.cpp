@@ -37,9 +37,10 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "model.yaml:32: steps[1].forces[0]: unknown key 'on?\?'; did you mean 'on'?"},
       {"linear_elastic:", "plastic_flow:",
        "model.yaml:5: materials.steel: unknown key 'plastic_flow'; known: linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, expansion"
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber, expansion"
        "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the laws linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton; others are not available (osculate "
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber; others are not available "
+       "(osculate "
        "doc "
        "limits)"},
       {"penalty: 2.1e6}\n    friction", "penalty: 2.1e6, <<: 1}\n    friction",
@@ -78,9 +79,10 @@ TEST(BrokenModels, OneOfSeveralKeys) {
        "model.yaml:9: rigid.base: 'set' and 'circle' exclude each other"},
       {"{linear_elastic: {E: 2.1e4, nu: 0.3}}", "{}",
        "model.yaml:5: materials.steel: needs one of linear_elastic, st_venant_kirchhoff, "
-       "neo_hooke, elastoplastic, norton"
+       "neo_hooke, elastoplastic, norton, rubber"
        "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the laws linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton; others are not available (osculate "
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber; others are not available "
+       "(osculate "
        "doc "
        "limits)"},
       {"uy: -0.007, ux: 0}", "amplitude: wave}",

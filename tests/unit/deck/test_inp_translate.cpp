@@ -216,7 +216,7 @@ TEST(InpTranslate, WhatIsNotUnderstoodStopsWithItsLine) {
       {"temperature", blocks + "*MATERIAL, NAME=A\n*ELASTIC\n1., .3, 20.\n2., .3, 100.\n",
        "cubes.inp:35: *ELASTIC: numbers that depend on the temperature are not supported"},
       {"elastic", blocks + "*MATERIAL, NAME=A\n*DENSITY\n1.\n" + step,
-       "cubes.inp:32: *MATERIAL: its *ELASTIC is missing"},
+       "cubes.inp:32: *MATERIAL: its *ELASTIC or *HYPERELASTIC is missing"},
       {"outside", blocks + "*ELASTIC\n1., .3\n", "stands before the first *MATERIAL"},
       {"law",
        blocks + steel +

@@ -36,7 +36,7 @@ TEST(Temperatures, WithoutEffectAreToldOf) {
 
 TEST(Temperatures, OfATableIncrease) {
   EXPECT_EQ(refusal(edited(test_file("heat.yaml"), "[100, 4e-5]", "[0, 4e-5]")),
-            "model.yaml:5: materials.lead.expansion.alpha[1]: temperatures must increase");
+            "model.yaml:6: materials.lead.expansion.alpha[1]: temperatures must increase");
 }
 
 }  // namespace

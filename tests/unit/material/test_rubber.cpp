@@ -117,7 +117,8 @@ TEST(Rubber, PlaneStressIsItsOwnDerivative) {
       ASSERT_TRUE(r.ok);
       Strain full = e;
       full[2] = found;
-      EXPECT_NEAR(respond(law, full).stress[2], 0, 1e-12);
+      const Response there = respond(law, full);
+      EXPECT_NEAR(there.stress[2], 0, 1e-14 * there.tangent.norm());
       const auto check = testing::check_derivative(stress, r.tangent * along, e, along);
       EXPECT_TRUE(check.exact || std::abs(check.order - 2) < 0.1) << check.order;
     }
