@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "osculate/material/condense.hpp"
 #include "osculate/material/neo_hooke.hpp"
 
 namespace osculate::material {
@@ -57,12 +58,7 @@ template <int N>
     if (std::abs(step) < 1e-15) break;
     strain_33 -= step;
   }
-  const Tangent full = r.tangent;
-  r.tangent -= full.col(2) * full.row(2) / full(2, 2);
-  r.tangent.row(2).setZero();
-  r.tangent.col(2).setZero();
-  r.stress[2] = 0;
-  return r;
+  return without_stress_across(r);
 }
 
 }  // namespace osculate::material

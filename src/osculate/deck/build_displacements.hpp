@@ -46,6 +46,17 @@ template <int Dim>
                                                          const Name& on, Component component,
                                                          Idle idle);
 
+/// Calls `visit(displacement, component)` for all that a `release` or `hold` names.
+template <int Dim, class Visit>
+void for_each_displacement(const BuildContext<Dim>& context, const Release& of,
+                           const Visit& visit) {
+  for (std::size_t i = 0; i < component_count; ++i)
+    if (of.of[i])
+      for (const OneDisplacement& d :
+           displacements(context, of.on, static_cast<Component>(i), Idle::left_out))
+        visit(d, i);
+}
+
 /// Direction in the global axes of a component of a node.
 template <int Dim>
 [[nodiscard]] Vec<Dim> direction_of(const BuildContext<Dim>& context, Index node,

@@ -19,26 +19,21 @@ PrescribedCourses prescribed_courses(const BuildContext<Dim>& c) {
   for (std::size_t s = 0; s < steps.size(); ++s) {
     for (auto& [dof, course] : courses)
       if (!course.steps.empty()) course.steps.push_back({course.steps.back().value, {}});
-    const auto each = [&](const Name& on, std::size_t i, const auto& act) {
-      for (const OneDisplacement& d :
-           displacements(c, on, static_cast<Component>(i), Idle::left_out))
-        act(d);
-    };
     for (const auto* const list : {&steps[s].release, &steps[s].hold})
       for (const Release& r : *list)
-        for (std::size_t i = 0; i < component_count; ++i)
-          if (r.of[i])
-            each(r.on, i, [&](const OneDisplacement& d) { courses[d.dof].steps.clear(); });
+        for_each_displacement(
+            c, r, [&](const OneDisplacement& d, std::size_t) { courses[d.dof].steps.clear(); });
     for (const Prescription& p : steps[s].prescribe)
       for (std::size_t i = 0; i < component_count; ++i) {
         if (!p.values[i]) continue;
-        each(p.on, i, [&](const OneDisplacement& d) {
+        for (const OneDisplacement& d :
+             displacements(c, p.on, static_cast<Component>(i), Idle::left_out)) {
           const auto [at, fresh] = courses.try_emplace(d.dof);
           if (fresh && s == 0) at->second.steps.emplace_back();
           if (!at->second.steps.empty())
             at->second.steps.back() = {d.sign * p.values[i]->value,
                                        p.amplitude ? p.amplitude->value : std::string{}};
-        });
+        }
       }
   }
   return courses;

@@ -48,25 +48,21 @@ model::Amplitude amplitude_of(const BuildContext<Dim>& c, const std::optional<Na
 template <int Dim>
 void apply_releases(const BuildContext<Dim>& c, const deck::Step& step, Running& running) {
   for (const Release& release : step.release)
-    for (std::size_t i = 0; i < component_count; ++i)
-      if (release.of[i])
-        for (const OneDisplacement& d :
-             displacements(c, release.on, static_cast<Component>(i), Idle::left_out))
-          if (running.prescribed.erase(d.dof) == 0)
-            throw core::InputError(
-                release.mark, fmt::format("'{}.{}' is not prescribed, so it cannot be released",
-                                          release.on.value, component_names[i]));
+    for_each_displacement(c, release, [&](const OneDisplacement& d, std::size_t i) {
+      if (running.prescribed.erase(d.dof) == 0)
+        throw core::InputError(release.mark,
+                               fmt::format("'{}.{}' is not prescribed, so it cannot be released",
+                                           release.on.value, component_names[i]));
+    });
 }
 
 /// What is held stays where it is, like what an earlier step has prescribed.
 template <int Dim>
 void apply_holds(const BuildContext<Dim>& c, const deck::Step& step, Running& running) {
   for (const Release& hold : step.hold)
-    for (std::size_t i = 0; i < component_count; ++i)
-      if (hold.of[i])
-        for (const OneDisplacement& d :
-             displacements(c, hold.on, static_cast<Component>(i), Idle::left_out))
-          running.prescribed[d.dof] = hold.mark;
+    for_each_displacement(c, hold, [&](const OneDisplacement& d, std::size_t) {
+      running.prescribed[d.dof] = hold.mark;
+    });
 }
 
 /// Two prescriptions of one dof: the same, or a contradiction.

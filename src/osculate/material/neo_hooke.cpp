@@ -12,55 +12,6 @@ namespace {
 /// The plane part of C is positive definite. False for NaN.
 bool plane_is_positive(const Strain& e) { return plane_determinant(e) > 0 && 1 + 2 * e[0] > 0; }
 
-/// I - C^-1 = 2 C^-1 E, which keeps all digits at small strain.
-Vec<4> inverse_change(const Strain& e, double strain_33, double c33) {
-  const double c11 = 1 + 2 * e[0], c22 = 1 + 2 * e[1], c12 = e[3];
-  return Vec<4>(2 * e[0] * c22 - c12 * c12, 2 * e[1] * c11 - c12 * c12, 0, c12) /
-             plane_determinant(e) +
-         Vec<4>(0, 0, 2 * strain_33 / c33, 0);
-}
-
-/// Derivative of -C^-1 with respect to E, over two: the symmetrised square of C^-1.
-Tangent square(const Vec<4>& inv) {
-  Tangent t;
-  t << inv[0] * inv[0], inv[3] * inv[3], 0, inv[0] * inv[3],  //
-      inv[3] * inv[3], inv[1] * inv[1], 0, inv[1] * inv[3],   //
-      0, 0, inv[2] * inv[2], 0,                               //
-      inv[0] * inv[3], inv[1] * inv[3], 0, 0.5 * (inv[0] * inv[1] + inv[3] * inv[3]);
-  return t;
-}
-
-/// C is positive definite. False for NaN.
-bool is_positive(const Strain3& e) {
-  return 1 + 2 * e[0] > 0 && plane_determinant(e) > 0 && 1 + determinant_change(e) > 0;
-}
-
-/// I - C^-1 = 2 E C^-1 in six components.
-Vec<6> inverse_change(const Strain3& e, const Vec<6>& inv) {
-  return {2 * e[0] * inv[0] + e[3] * inv[3] + e[5] * inv[5],
-          e[3] * inv[3] + 2 * e[1] * inv[1] + e[4] * inv[4],
-          e[5] * inv[5] + e[4] * inv[4] + 2 * e[2] * inv[2],
-          -inv[3],
-          -inv[4],
-          -inv[5]};
-}
-
-Tangent3 square(const Vec<6>& inv) {
-  constexpr std::array<std::array<int, 3>, 3> place{{{0, 3, 5}, {3, 1, 4}, {5, 4, 2}}};
-  constexpr std::array<std::array<std::size_t, 2>, 6> axes{
-      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
-  const auto at = [&](std::size_t i, std::size_t j) { return inv[place[i][j]]; };
-  Tangent3 t;
-  for (std::size_t a = 0; a < 6; ++a)
-    for (std::size_t b = 0; b <= a; ++b) {
-      const auto [i, j] = axes[a];
-      const auto [k, l] = axes[b];
-      const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
-      t(row, column) = t(column, row) = 0.5 * (at(i, k) * at(j, l) + at(i, l) * at(j, k));
-    }
-  return t;
-}
-
 /// y = ln C33 at S33 = 0; false if there is none. Started at y = 0, Newton is monotone from its
 /// second iterate on.
 bool find_log_c33(const Lame& c, double log_area, double& y) {

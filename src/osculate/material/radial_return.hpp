@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "osculate/material/condense.hpp"
 #include "osculate/material/memory.hpp"
 #include "osculate/material/response.hpp"
 
@@ -89,12 +90,7 @@ template <class T>
     r.ok = false;
   }
   strain_33 = e[2];
-  const Tangent full = r.tangent;
-  r.tangent -= full.col(2) * full.row(2) / full(2, 2);
-  r.tangent.row(2).setZero();
-  r.tangent.col(2).setZero();
-  r.stress[2] = 0;
-  return r;
+  return without_stress_across(r);
 }
 
 }  // namespace osculate::material

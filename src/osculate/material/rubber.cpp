@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "osculate/material/condense.hpp"
 #include "osculate/material/stretch.hpp"
 
 namespace osculate::material {
@@ -20,7 +21,7 @@ struct Invariants {
 
 Invariants invariants_of(const Strain3& e) {
   Invariants v;
-  v.ok = 1 + 2 * e[0] > 0 && plane_determinant(e) > 0 && 1 + determinant_change(e) > 0;
+  v.ok = is_positive(e);
   if (!v.ok) return v;
   v.first = 2 * (e[0] + e[1] + e[2]);
   v.second = 2 * v.first + 4 * (e[0] * e[1] + e[1] * e[2] + e[2] * e[0]) - e[3] * e[3] -
@@ -61,23 +62,6 @@ Derivatives derivatives(const Rubber& c, const Invariants& v) {
   return w;
 }
 
-/// Derivative of -C^-1 with respect to E, over two.
-Tangent3 square_of_inverse(const Vec<6>& inv) {
-  Mat<3, 3> c;
-  c << inv[0], inv[3], inv[5], inv[3], inv[1], inv[4], inv[5], inv[4], inv[2];
-  constexpr std::array<std::array<Eigen::Index, 2>, 6> axes{
-      {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
-  Tangent3 t;
-  for (std::size_t p = 0; p < 6; ++p)
-    for (std::size_t q = 0; q < 6; ++q) {
-      const auto [i, j] = axes[p];
-      const auto [k, l] = axes[q];
-      t(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)) =
-          0.5 * (c(i, k) * c(j, l) + c(i, l) * c(j, k));
-    }
-  return t;
-}
-
 /// S = dW/dE by the derivatives of the invariants
 ///   dI1/dE = 2 J^(-2/3) (I - tr C / 3 C^-1) ,
 ///   dI2/dE = 2 J^(-4/3) (tr C I - C - 2/3 I2(C) C^-1) ,  dJ/dE = J C^-1 .
@@ -88,17 +72,15 @@ Response3 whole_response(const Rubber& law, const Strain3& e) {
   if (!r.ok) return r;
   const Derivatives w = derivatives(law, v);
   const Vec<6> inv = inverse_stretch(e), one(1, 1, 1, 0, 0, 0);
-  const Vec<6> twice(2 * e[0], 2 * e[1], 2 * e[2], e[3], e[4], e[5]);     // C - I
-  const Vec<6> change(twice[0] * inv[0] + e[3] * inv[3] + e[5] * inv[5],  // I - C^-1
-                      e[3] * inv[3] + twice[1] * inv[1] + e[4] * inv[4],
-                      e[5] * inv[5] + e[4] * inv[4] + twice[2] * inv[2], -inv[3], -inv[4], -inv[5]);
+  const Vec<6> twice(2 * e[0], 2 * e[1], 2 * e[2], e[3], e[4], e[5]);  // C - I
+  const Vec<6> change = inverse_change(e, inv);                        // I - C^-1
   const double j = std::exp(v.log_j);
   const double f1 = 2 * std::exp(-2.0 / 3 * v.log_j), f2 = 2 * std::exp(-4.0 / 3 * v.log_j);
   const Vec<6> a1 = f1 * (change - v.first / 3 * inv);
   const Vec<6> a2 = f2 * (2 * change + v.first * one - twice - 2.0 / 3 * v.second * inv);
   r.stress = w.d1 * a1 + w.d2 * a2 + w.dj * j * inv;
 
-  const Tangent3 square = square_of_inverse(inv), inverses = inv * inv.transpose();
+  const Tangent3 squared = square(inv), inverses = inv * inv.transpose();
   Vec<6> d_of_c(2, 2, 2, 1, 1, 1);  // derivative of C
   const double first = 3 + v.first, second = 3 + v.second;
   const Vec<6> slope = (2 + v.first) * one - twice;  // tr C I - C
@@ -106,11 +88,12 @@ Response3 whole_response(const Rubber& law, const Strain3& e) {
     return x * y.transpose() + y * x.transpose();
   };
   r.tangent = w.d11 * a1 * a1.transpose() + w.d12 * mixed(a1, a2) + w.d22 * a2 * a2.transpose() +
-              w.djj * j * j * inverses + w.dj * j * (inverses - 2 * square);
-  r.tangent += w.d1 * f1 *
-               (-2.0 / 3 * mixed(one, inv) + 2.0 / 9 * first * inverses + 2.0 / 3 * first * square);
+              w.djj * j * j * inverses + w.dj * j * (inverses - 2 * squared);
+  r.tangent +=
+      w.d1 * f1 *
+      (-2.0 / 3 * mixed(one, inv) + 2.0 / 9 * first * inverses + 2.0 / 3 * first * squared);
   Tangent3 second_part = -4.0 / 3 * mixed(slope, inv) + 8.0 / 9 * second * inverses +
-                         4.0 / 3 * second * square + 2 * one * one.transpose();
+                         4.0 / 3 * second * squared + 2 * one * one.transpose();
   second_part.diagonal() -= d_of_c;
   r.tangent += w.d2 * f2 * second_part;
   return r;
@@ -153,12 +136,7 @@ Response respond_plane_stress(const Rubber& law, const Strain& strain, double& s
     e[2] += 0.5 * c33 * std::expm1(std::clamp(step, -1.0, 1.0));
   }
   strain_33 = e[2];
-  const Tangent full = r.tangent;
-  r.tangent -= full.col(2) * full.row(2) / full(2, 2);
-  r.tangent.row(2).setZero();
-  r.tangent.col(2).setZero();
-  r.stress[2] = 0;
-  return r;
+  return without_stress_across(r);
 }
 
 }  // namespace osculate::material

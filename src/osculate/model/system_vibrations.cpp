@@ -2,6 +2,7 @@
 #include <array>
 
 #include "osculate/model/system_motion.hpp"
+#include "osculate/solid/points.hpp"
 
 namespace osculate::model {
 namespace {
@@ -53,12 +54,14 @@ Mat<3, 3> rates_of_turns(const body::RigidMotion3& motion) {
 }
 
 /// The unknowns' parts of the rigid motions of the whole: by columns displacements along the axes
-/// and rotations around them, in the plane around the last one.
+/// and rotations around them, in the plane around the last one. A row of each of `rows` unknowns:
+/// multipliers, which come last, do not move.
 template <int Dim>
 Eigen::MatrixXd rigid_motions(const BasicDofSpace<Dim>& dofs, const BasicAssembler<Dim>& assembler,
-                              std::span<const Vec<Dim>> x, const BasicState<Dim>& state) {
+                              std::span<const Vec<Dim>> x, const BasicState<Dim>& state,
+                              Index rows) {
   constexpr int motions = body::motions<Dim>;
-  Eigen::MatrixXd r = Eigen::MatrixXd::Zero(dofs.unknowns(), motions);
+  Eigen::MatrixXd r = Eigen::MatrixXd::Zero(rows, motions);
   const body::BasicRigidMotion<Dim> still{};
   for (Index u = 0; u < dofs.unknowns(); ++u) {
     if (assembler.prescribed(u)) continue;
@@ -81,13 +84,15 @@ Eigen::MatrixXd rigid_motions(const BasicDofSpace<Dim>& dofs, const BasicAssembl
   return r;
 }
 
-/// Columns of the plane in those of space: x, y, z, and rotations around these.
-template <int Dim>
-std::array<Eigen::Index, body::motions<Dim>> places_in_space() {
-  if constexpr (Dim == 2)
-    return {0, 1, 5};
-  else
-    return {0, 1, 2, 3, 4, 5};
+/// Which columns are rigid motions, and their places in space: x, y, z, rotations around these. A
+/// ring has one of them, along its axis.
+std::vector<std::array<Eigen::Index, 2>> places_in_space(const BasicModel<2>& model) {
+  for (const BasicBulkSection<2>& section : model.sections)
+    if (solid::is_ring(section.section)) return {{1, 1}};
+  return {{0, 0}, {1, 1}, {2, 5}};
+}
+std::vector<std::array<Eigen::Index, 2>> places_in_space(const BasicModel<3>&) {
+  return {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {4, 4}, {5, 5}};
 }
 
 }  // namespace
@@ -136,14 +141,13 @@ Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::Linea
   out.omega_squared = pairs.values;
   out.residual = pairs.residual;
   out.missing = pairs.missing;
-  const Eigen::MatrixXd r = rigid_motions<Dim>(s.dofs, s.assembler, x, state);
+  const Eigen::MatrixXd r = rigid_motions<Dim>(s.dofs, s.assembler, x, state, mass.n);
   out.participation.setZero(pairs.values.size(), 6);
-  const auto places = places_in_space<Dim>();
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const Eigen::VectorXd motion = r.col(static_cast<Eigen::Index>(k));
+  for (const auto& [column, place] : places_in_space(s.model)) {
+    const Eigen::VectorXd motion = r.col(column);
     const Eigen::VectorXd momentum = la::multiply(mass, motion);
-    out.participation.col(places[k]) = pairs.vectors.transpose() * momentum;
-    out.moving_mass[places[k]] = motion.dot(momentum);
+    out.participation.col(place) = pairs.vectors.transpose() * momentum;
+    out.moving_mass[place] = motion.dot(momentum);
   }
   out.shapes.resize(state.u.size(), pairs.values.size());
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i)

@@ -19,7 +19,7 @@ struct Vibrations {
   Eigen::MatrixXd shapes;  ///< columns; displacements of all nodes, x0 y0 (z0) x1 y1 ...
   /// How much of each rigid motion a vibration takes part in: its rows phi . M r, r of a unit
   /// displacement along x, y, z and a unit rotation around these, and r . M r. Where the model is
-  /// held, r is 0. In the plane z and rotations around x and y are 0.
+  /// held, r is 0. In the plane z and rotations around x and y are 0, of rings all but y.
   Eigen::Matrix<double, Eigen::Dynamic, 6> participation;
   Eigen::Matrix<double, 1, 6> moving_mass = Eigen::Matrix<double, 1, 6>::Zero();
   double residual = 0;  ///< see la::Eigenpairs

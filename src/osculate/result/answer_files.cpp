@@ -229,20 +229,21 @@ void AnswerFiles<Dim>::write_fields(const model::BasicSystem<Dim>& system,
   }
 }
 
-/// The tables that CalculiX writes of every search for vibrations.
-std::string tables_of(const model::Vibrations& modes) {
+/// The tables that CalculiX writes of every search for vibrations, of a sector of a ring.
+std::string tables_of(const model::Vibrations& modes, double sector) {
   std::vector<std::array<double, 6>> factors, masses;
   std::array<double, 6> sums{}, moving{};
   for (Eigen::Index i = 0; i < modes.participation.rows(); ++i) {
     std::array<double, 6>& factor = factors.emplace_back();
     std::array<double, 6>& mass = masses.emplace_back();
     for (std::size_t k = 0; k < 6; ++k) {
-      factor[k] = modes.participation(i, static_cast<Eigen::Index>(k));
+      factor[k] = std::sqrt(sector) * modes.participation(i, static_cast<Eigen::Index>(k));
       mass[k] = factor[k] * factor[k];
       sums[k] += mass[k];
     }
   }
-  for (std::size_t k = 0; k < 6; ++k) moving[k] = modes.moving_mass[static_cast<Eigen::Index>(k)];
+  for (std::size_t k = 0; k < 6; ++k)
+    moving[k] = sector * modes.moving_mass[static_cast<Eigen::Index>(k)];
   return io::dat_eigenvalues({modes.omega_squared.data(), factors.size()}) +
          io::dat_modal_table("P A R T I C I P A T I O N   F A C T O R S", factors, "", {}) +
          io::dat_modal_table("E F F E C T I V E   M O D A L   M A S S", masses, "TOTAL", sums) +
@@ -251,7 +252,7 @@ std::string tables_of(const model::Vibrations& modes) {
 
 template <int Dim>
 void AnswerFiles<Dim>::vibrations(const model::Progress& progress, const model::Vibrations& modes) {
-  dat_.append(tables_of(modes));
+  dat_.append(tables_of(modes, answers_.sector));
   const std::string& step = built_.model.steps[static_cast<std::size_t>(progress.step)].name;
   const auto wanted = [&](const deck::AnswerRequest& request) {
     const auto named = [&](const deck::Name& name) { return name.value == step; };
@@ -261,8 +262,8 @@ void AnswerFiles<Dim>::vibrations(const model::Progress& progress, const model::
   if (std::ranges::none_of(output_.frd, wanted)) return;
   for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
     Column column(3, answers_.mesh.nodes.size());
-    for (const Index node : answers_.mesh.nodes)
-      column.add({modes.shapes.col(i).data() + Dim * node, Dim});
+    const Eigen::VectorXd shape = modes.shapes.col(i) / std::sqrt(answers_.sector);
+    for (const Index node : answers_.mesh.nodes) column.add({shape.data() + Dim * node, Dim});
     const double omega_squared = modes.omega_squared[i];
     const io::FrdTime at{
         ++pieces_,
