@@ -51,7 +51,7 @@ TEST(AddedLaw, IsInSchemaAndDocumentation) {
   EXPECT_THAT(deck::explain_model_key("contact.normal"),
               HasSubstr("a penalty, or one of exponential, table, decaying and quadratic."));
   EXPECT_THAT(deck::explain_model_key("friction"),
-              HasSubstr("Exactly one of: coulomb, tresca, rough, rate_and_state, saturating"));
+              HasSubstr("Exactly one of: coulomb, tresca, rough, rate_and_state, viscous, saturating"));
   EXPECT_THAT(deck::explain_model_key("saturating.least"), HasSubstr("default: none"));
   EXPECT_THAT(deck::explain_model_key("saturating.penalty"), HasSubstr("against shear"));
 }

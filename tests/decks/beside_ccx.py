@@ -57,13 +57,13 @@ def text_of(examples, deck):
 
 
 def nodes_of_lines(text):
-    """Of the shells, beams and trusses: these become solids, of which the deck's own nodes are no part."""
+    """Of shells, beams and trusses, which become solids of which these are no part, and of springs."""
     nodes, inside, element = set(), False, True
     for line in text.splitlines():
         if line.startswith("**") or not line.strip():
             continue
         if line.startswith("*"):
-            inside = bool(re.match(r"\*\s*element\b[^\n]*type\s*=\s*(B3|S\d|T3D)", line, re.I))
+            inside = bool(re.match(r"\*\s*element\b[^\n]*type\s*=\s*(B3|S\d|T3D|SPRING|DASHPOT|GAP|MASS)", line, re.I))
             element = True
         elif inside:
             numbers = [int(word) for word in re.split(r"[,\s]+", line) if word.isdigit()]
@@ -160,7 +160,7 @@ def frequencies_of_dat(path):
     steps, inside = [], False
     for line in open(path, errors="replace"):
         words = line.split()
-        if "E I G E N V A L U E" in line:
+        if "E I G E N V A L U E   O U T P U T" in line:
             steps.append([])
             inside = True
         elif "P A R T I C I P A T I O N" in line:

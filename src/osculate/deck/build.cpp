@@ -157,7 +157,33 @@ void build_history(BuildContext<Dim>& c) {
 
 namespace {
 
-/// Of the contacts that name two sets of nodes.
+/// Nodes of the sets that a model names one by one: of springs, masses, equations.
+std::vector<bool> nodes_of(const std::vector<std::string>& sets, const mesh::Mesh& mesh) {
+  std::vector<bool> out(mesh.nodes.size());
+  for (const std::string& name : sets)
+    if (const mesh::Set* const set = mesh.find_set(name))
+      for (const Index node : set->nodes) out[static_cast<std::size_t>(node)] = true;
+  return out;
+}
+
+/// What sets the model names that need no cells.
+std::vector<std::string> sets_without_cells(const Description& description) {
+  std::vector<std::string> names;
+  const auto add = [&names](const Name& on) { names.push_back(on.value); };
+  for (const Spring& spring : description.springs) {
+    std::ranges::for_each(spring.between, add);
+    for (const EquationTerm& term : spring.terms) add(term.on);
+  }
+  for (const PointMass& one : description.masses) add(one.on);
+  for (const Equation& equation : description.equations)
+    for (const EquationTerm& term : equation.terms) add(term.on);
+  for (const Pretension& pretension : description.pretension) add(pretension.name);
+  for (const Rigid& rigid : description.rigid)
+    if (const auto* const shape = std::get_if<SetShape>(&rigid.shape)) add(shape->set);
+  return names;
+}
+
+/// Of the contacts that name two sets of nodes, and of springs that join nodes.
 std::vector<mesh::ContactSides> sides_of_contacts(const Description& description,
                                                   const mesh::Mesh& mesh) {
   std::vector<mesh::ContactSides> out;
@@ -165,13 +191,13 @@ std::vector<mesh::ContactSides> sides_of_contacts(const Description& description
     const std::array<std::string, 2> names{contact.master.value, contact.slave.value};
     if (contact.all || names[0] == names[1]) continue;
     mesh::ContactSides& sides = out.emplace_back();
-    for (const std::size_t k : {0, 1}) {
-      sides[k].resize(mesh.nodes.size());
-      for (const mesh::Set& set : mesh.sets)
-        if (set.name == names[k])
-          for (const Index node : set.nodes) sides[k][static_cast<std::size_t>(node)] = true;
-    }
+    for (const std::size_t k : {0, 1}) sides[k] = nodes_of({names[k]}, mesh);
   }
+  std::vector<std::string> first, others;
+  for (const Spring& spring : description.springs)
+    for (std::size_t k = 0; k < spring.terms.size(); ++k)
+      (k == 0 ? first : others).push_back(spring.terms[k].on.value);
+  if (!others.empty()) out.push_back({nodes_of(first, mesh), nodes_of(others, mesh)});
   return out;
 }
 
@@ -180,7 +206,8 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   BasicBuilt<Dim> built;
   built.input_notes = description.notes;
   for (const mesh::Finding& finding :
-       mesh::check_mesh(mesh, sides_of_contacts(description, mesh))) {
+       mesh::check_mesh(mesh, sides_of_contacts(description, mesh),
+                        nodes_of(sets_without_cells(description), mesh))) {
     if (finding.is_error) throw core::InputError(description.mesh.mark, finding.message);
     built.warnings.push_back(finding.message);
   }
@@ -207,6 +234,7 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   build_equations(context);
   build_initial_temperature(context);
   build_node_constraints(context);
+  build_springs(context);
   build_steps(context);
   build_pair_changes(context);
   build_initial_velocity(context);

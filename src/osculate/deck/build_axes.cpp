@@ -71,17 +71,25 @@ void read_axes(BuildContext<Dim>& c) {
   }
 }
 
-/// Nodes of no cell that an equation names by itself.
+/// Nodes of no cell that an equation or a spring names by itself, or that have a mass.
 template <int Dim>
 void find_control_nodes(BuildContext<Dim>& c) {
   for (const Pretension& pretension : c.description.pretension)
     c.control_nodes.insert(cut_of(pretension, c.model().mesh).node);
+  const auto by_itself = [&](const Name& on) {
+    if (c.rigid_index.contains(on.value)) return;
+    const std::vector<Index>& nodes = c.set(on).nodes;
+    if (nodes.size() == 1 && !c.takes_part(nodes[0])) c.control_nodes.insert(nodes[0]);
+  };
   for (const Equation& equation : c.description.equations)
-    for (const EquationTerm& term : equation.terms) {
-      if (c.rigid_index.contains(term.on.value)) continue;
-      const std::vector<Index>& nodes = c.set(term.on).nodes;
-      if (nodes.size() == 1 && !c.takes_part(nodes[0])) c.control_nodes.insert(nodes[0]);
-    }
+    for (const EquationTerm& term : equation.terms) by_itself(term.on);
+  for (const Spring& spring : c.description.springs) {
+    for (const Name& on : spring.between) by_itself(on);
+    for (const EquationTerm& term : spring.terms) by_itself(term.on);
+  }
+  for (const PointMass& one : c.description.masses)
+    for (const Index node : c.set(one.on).nodes)
+      if (!c.takes_part(node)) c.control_nodes.insert(node);
 }
 
 /// A node for the local displacements of every node of a set that needs one.
@@ -188,6 +196,18 @@ void add_displacement(const BuildContext<Dim>& c, Index node, const Vec<Dim>& di
       add_term(equation, Dim * (local ? found->second.local : node) + i, factor * parts[i]);
 }
 
+template <int Dim>
+void add_component(const BuildContext<Dim>& c, const Name& on, Component component, double factor,
+                   model::Equation& equation) {
+  if (c.rigid_index.contains(on.value) || is_rotation(component)) {
+    for (const OneDisplacement& d : displacements(c, on, component, Idle::refused))
+      add_term(equation, d.dof, factor);
+    return;
+  }
+  for (const Index node : moving_nodes(c, on, Idle::refused, motion_of<Dim>(component)))
+    add_displacement(c, node, direction_of(c, node, component), factor, equation);
+}
+
 template void build_axes(BuildContext<2>&);
 template void build_axes(BuildContext<3>&);
 template std::vector<Index> moving_nodes(const BuildContext<2>&, const Name&, Idle,
@@ -204,5 +224,10 @@ template void add_displacement(const BuildContext<2>&, Index, const Vec<2>&, dou
                                model::Equation&);
 template void add_displacement(const BuildContext<3>&, Index, const Vec<3>&, double,
                                model::Equation&);
+
+template void add_component(const BuildContext<2>&, const Name&, Component, double,
+                            model::Equation&);
+template void add_component(const BuildContext<3>&, const Name&, Component, double,
+                            model::Equation&);
 
 }  // namespace osculate::deck

@@ -327,6 +327,7 @@ void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMa
   set_edges(c, contact, pair);
   set_laws(c, contact, pair);
   pair.area = area_rule(c, pair);
+  pair.area.given = contact.area;
   try {
     pairing::prepare(pair, c.model().reference);
   } catch (const core::GeometryError& error) {

@@ -108,6 +108,11 @@ void build_equations(BuildContext<Dim>& context);
 /// Conditions of nodes that have multipliers, and couplings.
 template <int Dim>
 void build_node_constraints(BuildContext<Dim>& context);
+/// Springs, dampers and masses at nodes.
+///
+/// Tested by  tests/unit/deck/test_springs.cpp
+template <int Dim>
+void build_springs(BuildContext<Dim>& context);
 template <int Dim>
 void build_steps(BuildContext<Dim>& context);
 /// What changes of pairs from step to step.

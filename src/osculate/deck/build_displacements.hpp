@@ -27,8 +27,8 @@ template <int Dim>
 }
 
 /// Axes of nodes that `axes` names, and the nodes that carry their local displacements where some
-/// are prescribed; nodes without cells that equations name become unknowns. Before all that names
-/// displacements.
+/// are prescribed; nodes without cells that equations or springs name, or that have a mass, become
+/// unknowns. Before all that names displacements.
 template <int Dim>
 void build_axes(BuildContext<Dim>& context);
 
@@ -67,6 +67,10 @@ template <int Dim>
 template <int Dim>
 void add_displacement(const BuildContext<Dim>& context, Index node, const Vec<Dim>& direction,
                       double factor, model::Equation& equation);
+/// Adds factor times a component of a rigid body, or of every node of a set.
+template <int Dim>
+void add_component(const BuildContext<Dim>& context, const Name& on, Component component,
+                   double factor, model::Equation& equation);
 /// The same of a dof that is known already; what is named twice gets the sum of its factors.
 void add_term(model::Equation& equation, model::Dof dof, double factor);
 

@@ -39,19 +39,6 @@ PrescribedCourses prescribed_courses(const BuildContext<Dim>& c) {
   return courses;
 }
 
-/// Adds factor times a component of a rigid body, or of every node of a set.
-template <int Dim>
-void add_component(const BuildContext<Dim>& c, const Name& on, Component component, double factor,
-                   model::Equation& equation) {
-  if (c.rigid_index.contains(on.value) || is_rotation(component)) {
-    for (const OneDisplacement& d : displacements(c, on, component, Idle::refused))
-      add_term(equation, d.dof, factor);
-    return;
-  }
-  for (const Index node : moving_nodes(c, on, Idle::refused, motion_of<Dim>(component)))
-    add_displacement(c, node, direction_of(c, node, component), factor, equation);
-}
-
 /// The displacements of nodes that have local ones follow from these.
 ///
 /// Formula    u = T u_local

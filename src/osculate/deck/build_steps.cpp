@@ -398,6 +398,19 @@ bool held_from_the_beginning(const model::BasicRigidBody<Dim>& body, Component c
 
 }  // namespace
 
+namespace {
+
+/// Nothing acts in a step of vibrations about the start.
+template <int Dim>
+void unload(const BuildContext<Dim>& c, model::Step& step) {
+  step.pressure.clear();
+  step.dead.clear();
+  step.gravity.clear();
+  step.temperature = {c.model().initial_temperature, {}};
+}
+
+}  // namespace
+
 template <int Dim>
 void build_steps(BuildContext<Dim>& c) {
   Running running;
@@ -412,7 +425,8 @@ void build_steps(BuildContext<Dim>& c) {
     model::Step out;
     out.name = step.name.value;
     out.increments = step.increments.value;
-    if (step.modes) out.frequencies = model::Frequencies{step.modes->value};
+    const bool unloaded = step.about == ModesAbout::start;
+    if (step.modes) out.frequencies = model::Frequencies{step.modes->value, unloaded};
     if (step.duration) out.duration = step.duration->value;
     out.equation_start = first ? 0.0 : 1.0;
     first = false;
@@ -424,6 +438,7 @@ void build_steps(BuildContext<Dim>& c) {
     build_temperatures(c, step, temperatures, out);
     apply_holds(c, step, running);
     apply_prescriptions(c, step, running, out);
+    if (unloaded) unload(c, out);
     c.model().steps.push_back(std::move(out));
   }
 }

@@ -9,7 +9,7 @@
 namespace osculate::deck {
 namespace {
 
-/// Nodes of rigid bodies, contacts, prescriptions and equations.
+/// Nodes of rigid bodies, contacts, prescriptions, equations and springs.
 template <int Dim>
 std::vector<bool> held_nodes(const model::BasicModel<Dim>& m) {
   std::vector<bool> held(m.reference.size(), false);
@@ -27,6 +27,13 @@ std::vector<bool> held_nodes(const model::BasicModel<Dim>& m) {
     for (const model::Equation::Term& t : e.terms)
       if (t.dof < Dim * static_cast<Index>(m.reference.size()))
         held[static_cast<std::size_t>(t.dof / Dim)] = true;
+  for (const model::Spring& spring : m.springs) {
+    for (const Index n : spring.ends)
+      if (n >= 0) held[static_cast<std::size_t>(n)] = true;
+    for (const model::Equation::Term& t : spring.terms)
+      if (t.dof < Dim * static_cast<Index>(m.reference.size()))
+        held[static_cast<std::size_t>(t.dof / Dim)] = true;
+  }
   for (std::size_t n = 0; n < held.size(); ++n)
     if (m.body_of_node[n] >= 0) held[n] = true;
   return held;

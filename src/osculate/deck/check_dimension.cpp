@@ -42,7 +42,8 @@ bool has_something_in_space(const Description& d) {
   if (std::any_of(d.initial_velocity.begin(), d.initial_velocity.end(), any_in_space)) return true;
   return std::any_of(d.steps.begin(), d.steps.end(), [](const Step& step) {
     return (step.gravity && step.gravity->value.size() == 3) ||
-           std::any_of(step.forces.begin(), step.forces.end(), any_in_space);
+           std::any_of(step.forces.begin(), step.forces.end(), any_in_space) ||
+           std::any_of(step.prescribe.begin(), step.prescribe.end(), any_in_space);
   });
 }
 
@@ -128,6 +129,8 @@ void check_dimension(const Description& d) {
     if (contact.edges) throw only_in_space(contact.edges->mark, "edges");
   for (const Equation& equation : d.equations)
     for (const EquationTerm& term : equation.terms) refuse(term.of, term.on.mark);
+  for (const Spring& spring : d.springs)
+    for (const EquationTerm& term : spring.terms) refuse(term.of, term.on.mark);
   for (const Equal& equal : d.equal) refuse(equal.of, equal.mark);
   for (const Step& step : d.steps) check_planar_step(step);
 }

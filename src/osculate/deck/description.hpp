@@ -244,6 +244,7 @@ struct Contact {
   std::optional<GivenLaw<contact::FrictionLaw>> friction;
   Marked<Enforcement> enforcement;
   Marked<ContactWeight> weight;
+  double area = 0;  ///< of each slave node; 0: that of its facets
   Marked<Residual> residual;
   Marked<Tangent> tangent;
   Marked<HistoryKind> history;
@@ -326,6 +327,22 @@ struct Coupling {
   core::SourceMark mark;
   Name on, rigid;
 };
+/// A force that depends on one elongation: of the line between two nodes, or of a sum of
+/// displacements as in equations.
+struct Spring {
+  core::SourceMark mark;
+  std::vector<Name> between;  ///< sets of one node; none: it has terms
+  std::vector<EquationTerm> terms;
+  std::optional<Number> stiffness;
+  Marked<std::vector<Vec2>> table;  ///< elongation, force
+  double damping = 0;
+  Kinematics kinematics = Kinematics::finite;
+};
+struct PointMass {
+  core::SourceMark mark;
+  Name on;
+  Number mass;  ///< of each node
+};
 /// A cut through a body, at a set of facets inside of it: its name is that of a set of one node
 /// whose ux is by how much the cut shortens the body.
 struct Pretension {
@@ -383,6 +400,9 @@ struct DynamicsDescription {
   std::optional<TimeSteps> time_steps;
 };
 
+/// The state that vibrations are about: the one before the first step, or what steps led to.
+enum class ModesAbout { last, start };
+
 struct Step {
   Name name;
   Marked<int> increments;
@@ -395,6 +415,7 @@ struct Step {
   std::optional<Marked<std::vector<double>>> gravity;
   std::vector<ContactChange> contact;
   std::optional<Marked<int>> modes;  ///< vibrations instead of increments
+  ModesAbout about = ModesAbout::last;
 };
 
 // ---- solution and output ----------------------------------------------------------------------
@@ -429,6 +450,8 @@ struct Description {
   std::vector<Equal> equal;
   std::vector<NodeCondition> coplanar, collinear, fixed_distance;
   std::vector<Coupling> coupling;
+  std::vector<Spring> springs;
+  std::vector<PointMass> masses;
   std::vector<Pretension> pretension;
   std::vector<CyclicSymmetry> cyclic_symmetry;
   std::vector<Load> initial_velocity;     ///< vx vy vz wx wy wz

@@ -23,8 +23,7 @@ SourceNode& entry_of(SourceNode& list, const std::string& pair, int line) {
 }
 
 /// Puts one law into all pairs of an interaction.
-template <class Make>
-void change_law(const InpModel& m, const Card& change, const char* key, const Make& make,
+void change_law(const InpModel& m, const Card& change, const char* key, const SourceNode& law,
                 SourceNode& list) {
   const std::string& name = value_of(m, change, "INTERACTION");
   bool found = false;
@@ -33,7 +32,7 @@ void change_law(const InpModel& m, const Card& change, const char* key, const Ma
     names.push_back(pair.interaction);
     if (pair.interaction != io::inp::capitals(name)) continue;
     found = true;
-    put(entry_of(list, pair.name, line_of(change.at)), key, make(pair));
+    put(entry_of(list, pair.name, line_of(change.at)), key, law);
   }
   if (!found)
     io::inp::fail(m.deck, change,
@@ -83,14 +82,9 @@ SourceNode inp_changes(const InpModel& m, std::span<const Card> step) {
                     fmt::format("in a step it follows *CHANGE {}",
                                 is_friction ? "FRICTION" : "SURFACE BEHAVIOR"));
     if (is_friction)
-      change_law(
-          m, *change, "friction",
-          [&](const InpPair& pair) { return inp_friction(m, card, pair.area); }, list);
+      change_law(m, *change, "friction", inp_friction(m, card), list);
     else
-      change_law(
-          m, *change, "normal",
-          [&](const InpPair& pair) { return inp_normal(m, &card, line_of(card.at), pair.area); },
-          list);
+      change_law(m, *change, "normal", inp_normal(m, &card, line_of(card.at)), list);
     change = nullptr;
   }
   return list;

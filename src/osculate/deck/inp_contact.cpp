@@ -130,9 +130,20 @@ double area_of(const mesh::Mesh& mesh, std::span<const Index> corners) {
   return area;
 }
 
+double mean_area_of_facets(const mesh::Mesh& mesh, const mesh::Set& facets) {
+  double area = 0;
+  for (const mesh::CellRef& ref : facets.cells) {
+    const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
+    const auto corners = static_cast<std::size_t>(cell::info(block.type).corners);
+    area += area_of(mesh, {block.cell(ref.cell), corners});
+  }
+  return facets.cells.empty() ? 0 : area / static_cast<double>(facets.cells.size());
+}
+
 /// The area that a slave node without facets has in ccx: its share of the free faces of the solids
-/// round it, here the mean over the nodes; 1 where there are no solids.
-double mean_area(const mesh::Mesh& mesh, const mesh::Set& nodes) {
+/// round it, here the mean over the nodes; where there are no solids that of a facet of the master,
+/// or 1.
+double mean_area(const mesh::Mesh& mesh, const mesh::Set& nodes, const mesh::Set* master) {
   const std::set<Index> wanted(nodes.nodes.begin(), nodes.nodes.end());
   const mesh::FaceTable table = mesh::face_table(mesh);
   double area = 0;
@@ -153,19 +164,23 @@ double mean_area(const mesh::Mesh& mesh, const mesh::Set& nodes) {
     area += area_of(mesh, corners) * static_cast<double>(of_slave) /
             static_cast<double>(corners.size());
   }
-  return area > 0 ? area / static_cast<double>(wanted.size()) : 1;
+  if (area > 0) return area / static_cast<double>(wanted.size());
+  const double of_master = master ? mean_area_of_facets(mesh, *master) : 0;
+  return of_master > 0 ? of_master : 1;
 }
 
-/// What the laws are multiplied by: 1 where points have areas of their own.
-double put_weight(InpModel& m, const Card& card, SourceNode& pair) {
+/// Slave nodes without facets get an area.
+void put_weight(InpModel& m, const Card& card, SourceNode& pair) {
   const mesh::Set* const slave = m.mesh.mesh.find_set(find(pair, "slave")->text);
-  if (!slave || !slave->cells.empty()) return 1;
-  const double area = mean_area(m.mesh.mesh, *slave);
-  put(pair, "weight", inp_text("node", line_of(card.at)));
-  m.notes.push_back(
-      fmt::format("line {}: nodes of '{}' have no facets: each has {:g} of the free faces round it",
-                  card.at.line, slave->name, area));
-  return area;
+  if (!slave || !slave->cells.empty()) return;
+  const double area =
+      mean_area(m.mesh.mesh, *slave, m.mesh.mesh.find_set(find(pair, "master")->text));
+  const int line = line_of(card.at);
+  put(put(pair, "weight", inp_map(line)), "area", inp_number(area, line));
+  m.notes.push_back(fmt::format(
+      "line {}: nodes of '{}' have no facets: each has the area {:g} of the faces round "
+      "it",
+      card.at.line, slave->name, area));
 }
 
 void put_adjust(const InpModel& m, const Card& card, const std::string& value, SourceNode& pair) {
@@ -179,20 +194,31 @@ void put_adjust(const InpModel& m, const Card& card, const std::string& value, S
   put(initial, "nodes", inp_text(set_of(m, card.at, value, {SetKind::nodes}), at));
 }
 
+/// Friction, or damping along the surface.
+void put_friction(const InpModel& m, const Interaction& law, SourceNode& pair) {
+  if (inp_is_tied(law.behavior)) return;
+  SourceNode film = law.damping ? inp_film(m, *law.damping) : inp_map(0);
+  if (!film.entries.empty() && law.friction)
+    io::inp::fail(m.deck, *law.damping,
+                  "TANGENT FRACTION is not supported beside *FRICTION: there is one law of shear");
+  if (law.friction)
+    put(pair, "friction", inp_friction(m, *law.friction));
+  else if (!film.entries.empty())
+    put(pair, "friction", std::move(film));
+}
+
 void add_contact_pair(InpModel& m, const Card& card, const Interaction& law, SourceNode& pairs) {
   const auto lines = io::inp::lines_of(m.deck, card);
   if (lines.empty()) io::inp::fail(m.deck, card, "expected a line with two surfaces");
   for (const Line& line : lines) {
     SourceNode& pair = add_pair(m, card, line, pairs);
     put_sampling(m, card, find(pair, "slave")->text, inp_is_tied(law.behavior), pair);
-    const double area = put_weight(m, card, pair);
+    put_weight(m, card, pair);
     m.pairs.push_back({find(pair, "name")->text, io::inp::capitals(law.name),
-                       find(pair, "slave")->text, find(pair, "master")->text, area});
-    SourceNode& normal =
-        put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at), area));
-    if (law.damping) put_damping(m, *law.damping, area, normal);
-    if (law.friction && !inp_is_tied(law.behavior))
-      put(pair, "friction", inp_friction(m, *law.friction, area));
+                       find(pair, "slave")->text, find(pair, "master")->text});
+    SourceNode& normal = put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at)));
+    if (law.damping) put_damping(m, *law.damping, normal);
+    put_friction(m, law, pair);
     if (const io::inp::Parameter* const adjust = io::inp::find_parameter(card, "ADJUST"))
       put_adjust(m, card, adjust->value, pair);
   }
@@ -200,11 +226,12 @@ void add_contact_pair(InpModel& m, const Card& card, const Interaction& law, Sou
     m.notes.push_back(fmt::format("line {}: sliding is finite, not SMALL SLIDING", card.at.line));
 }
 
-void add_ties(const InpModel& m, const Card& card, SourceNode& pairs) {
+void add_ties(InpModel& m, const Card& card, SourceNode& pairs) {
   for (const Line& line : io::inp::lines_of(m.deck, card)) {
     SourceNode& pair = add_pair(m, card, line, pairs);
     const int at = line_of(line.at);
     put(pair, "sampling", inp_text("nodes", at));
+    put_weight(m, card, pair);
     SourceNode& normal = put(pair, "normal", inp_map(at));
     put(normal, "separation", inp_text("tied", at));
     if (const auto* const tolerance = io::inp::find_parameter(card, "POSITIONTOLERANCE"))

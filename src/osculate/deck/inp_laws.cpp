@@ -10,7 +10,7 @@ using io::inp::Card;
 using io::inp::Fields;
 using io::inp::Line;
 
-void put_table(const InpModel& m, const Card& card, double area, SourceNode& normal) {
+void put_table(const InpModel& m, const Card& card, SourceNode& normal) {
   const int at = line_of(card.at);
   SourceNode& table = put(normal, "table", inp_list(at));
   for (const Line& line : io::inp::lines_of(m.deck, card)) {
@@ -18,17 +18,16 @@ void put_table(const InpModel& m, const Card& card, double area, SourceNode& nor
     const double pressure = fields.real("the pressure");
     const double overclosure = fields.real("the overclosure");
     SourceNode& row = table.items.emplace_back(inp_list(line_of(line.at)));
-    row.items = {inp_number(overclosure, line_of(line.at)),
-                 inp_number(area * pressure, line_of(line.at))};
+    row.items = {inp_number(overclosure, line_of(line.at)), inp_number(pressure, line_of(line.at))};
   }
 }
 
 /// As ccx has it; Abaqus' law is `exponential`, with the same numbers.
-void put_decaying(const Line& line, Fields& fields, double area, SourceNode& normal) {
+void put_decaying(const Line& line, Fields& fields, SourceNode& normal) {
   const int at = line_of(line.at);
   const double clearance = fields.real("the clearance");
   SourceNode& law = put(normal, "decaying", inp_map(at));
-  put(law, "pressure", inp_number(area * fields.real("the pressure"), at));
+  put(law, "pressure", inp_number(fields.real("the pressure"), at));
   put(law, "clearance", inp_number(clearance, at));
 }
 
@@ -38,13 +37,13 @@ bool inp_is_tied(const Card* behavior) {
   return behavior && option_of(*behavior, "PRESSURE-OVERCLOSURE") == "TIED";
 }
 
-SourceNode inp_normal(const InpModel& m, const Card* behavior, int line, double area) {
+SourceNode inp_normal(const InpModel& m, const Card* behavior, int line) {
   SourceNode normal = inp_map(line);
   if (!behavior) return normal;  // hard
   const std::string kind = option_of(*behavior, "PRESSURE-OVERCLOSURE");
   if (kind.empty() || kind == "HARD") return normal;
   if (kind == "TABULAR") {
-    put_table(m, *behavior, area, normal);
+    put_table(m, *behavior, normal);
     return normal;
   }
   if (kind != "LINEAR" && kind != "TIED" && kind != "EXPONENTIAL")
@@ -57,15 +56,15 @@ SourceNode inp_normal(const InpModel& m, const Card* behavior, int line, double 
   if (lines.empty()) io::inp::fail(m.deck, *behavior, "expected a line of numbers");
   Fields fields(m.deck, lines[0]);
   if (kind == "EXPONENTIAL") {
-    put_decaying(lines[0], fields, area, normal);
+    put_decaying(lines[0], fields, normal);
     return normal;
   }
-  put(normal, "penalty", inp_number(area * fields.real("the stiffness"), line_of(lines[0].at)));
+  put(normal, "penalty", inp_number(fields.real("the stiffness"), line_of(lines[0].at)));
   if (kind == "TIED") put(normal, "separation", inp_text("tied", line_of(behavior->at)));
   return normal;
 }
 
-SourceNode inp_friction(const InpModel& m, const Card& card, double area) {
+SourceNode inp_friction(const InpModel& m, const Card& card) {
   const Line& line = only_line(m, card, "the coefficient and the stick slope");
   Fields fields(m.deck, line);
   const int at = line_of(line.at);
@@ -75,18 +74,29 @@ SourceNode inp_friction(const InpModel& m, const Card& card, double area) {
   SourceNode& coulomb = put(friction, "coulomb", inp_map(at));
   put(coulomb, "mu", inp_number(mu, at));
   if (const double slope = fields.real_or_zero("the stick slope"); slope > 0)
-    put(coulomb, "penalty", inp_number(area * slope, at));
+    put(coulomb, "penalty", inp_number(slope, at));
   return friction;
 }
 
-void put_damping(const InpModel& m, const Card& card, double area, SourceNode& normal) {
-  if (io::inp::find_parameter(card, "TANGENTFRACTION"))
-    io::inp::fail(m.deck, card, "TANGENT FRACTION is not supported: no damping in the surface");
+void put_damping(const InpModel& m, const Card& card, SourceNode& normal) {
   const Line& line = only_line(m, card, "the damping coefficient");
   const int at = line_of(line.at);
   SourceNode& damping = put(normal, "damping", inp_map(at));
-  put(damping, "viscous",
-      inp_number(area * Fields(m.deck, line).real("the damping coefficient"), at));
+  put(damping, "viscous", inp_number(Fields(m.deck, line).real("the damping coefficient"), at));
+}
+
+SourceNode inp_film(const InpModel& m, const Card& damping) {
+  const io::inp::Parameter* const fraction = io::inp::find_parameter(damping, "TANGENTFRACTION");
+  const Line& line = only_line(m, damping, "the damping coefficient");
+  const int at = line_of(line.at);
+  const double share =
+      fraction ? Fields(m.deck, {fraction->value, damping.at}).real("TANGENT FRACTION") : 0;
+  SourceNode friction = inp_map(at);
+  if (!(share > 0)) return friction;
+  SourceNode& film = put(friction, "viscous", inp_map(at));
+  put(film, "coefficient",
+      inp_number(share * Fields(m.deck, line).real("the damping coefficient"), at));
+  return friction;
 }
 
 }  // namespace osculate::deck

@@ -204,10 +204,10 @@ SourceNode inp_materials(InpModel& m) {
 
 namespace {
 
-/// A set of DCOUP3D, which have no section though decks give them one.
-bool is_coupling_element(const InpModel& m, const std::string& elements) {
+/// A set of elements that are no cells, which have no section though decks give them one.
+bool is_discrete(const InpModel& m, const std::string& elements) {
   return std::any_of(m.deck.cards.begin(), m.deck.cards.end(), [&](const Card& card) {
-    return card.keyword == "ELEMENT" && option_of(card, "TYPE") == "DCOUP3D" &&
+    return card.keyword == "ELEMENT" && io::inp::discrete_nodes(card) > 0 &&
            option_of(card, "ELSET") == io::inp::capitals(elements);
   });
 }
@@ -221,7 +221,7 @@ SourceNode inp_sections(InpModel& m) {
     const int line = line_of(card.at);
     if (!option_of(card, "ORIENTATION").empty())
       io::inp::fail(m.deck, card, "ORIENTATION is not supported: materials are isotropic");
-    if (is_coupling_element(m, value_of(m, card, "ELSET"))) continue;
+    if (is_discrete(m, value_of(m, card, "ELSET"))) continue;
     for (const InpElements& part : elements_of(m, card)) {
       SourceNode& section = sections.items.emplace_back(inp_map(line));
       put(section, "on", inp_text(part.set, line));
@@ -239,16 +239,53 @@ SourceNode inp_sections(InpModel& m) {
   return sections;
 }
 
-std::optional<double> density_on(const InpModel& m, std::string_view elements) {
-  for (const Card& section : m.deck.cards) {
-    if (section.keyword != "SOLIDSECTION" && !is_thin(m, section)) continue;
-    if (option_of(section, "ELSET") != io::inp::capitals(elements)) continue;
-    const std::string material = plain_name(option_of(section, "MATERIAL"));
-    for (const MaterialCards& c : material_cards(m))
-      if (io::inp::capitals(plain_name(value_of(m, *c.material, "NAME"))) == material)
-        return density_of(m, c);
+namespace {
+
+using Cells = std::set<std::pair<Index, Index>>;
+
+/// Of a set of the mesh, or of a section that has what others leave of one.
+Cells cells_of(InpModel& m, const std::string& name) {
+  Cells cells;
+  if (const mesh::Set* const set = m.mesh.mesh.find_set(name)) {
+    for (const mesh::CellRef& ref : set->cells) cells.insert({ref.block, ref.cell});
+  } else if (SourceNode* const made = find(m.new_sets, name)) {
+    cells = cells_of(m, find(*made, "of")->text);
+    for (const SourceNode& other : find(*made, "without")->items)
+      for (const auto& cell : cells_of(m, other.text)) cells.erase(cell);
   }
-  return std::nullopt;
+  return cells;
+}
+
+/// The cells of a set that are in a section: one of both, or a new set. Empty: none is.
+std::string part_in(InpModel& m, const std::string& elements, const SourceNode& section,
+                    const std::string& on) {
+  const Cells wanted = cells_of(m, elements), cells = cells_of(m, on);
+  const auto shared = static_cast<std::size_t>(std::count_if(
+      cells.begin(), cells.end(), [&](const auto& cell) { return wanted.contains(cell); }));
+  if (shared == 0) return {};
+  if (shared == cells.size()) return on;
+  if (shared == wanted.size()) return elements;
+  std::string part = plain_name(fmt::format("{} in {}", elements, on));
+  if (find(m.new_sets, part)) return part;
+  SourceNode& set = put(m.new_sets, part, inp_map(section.line));
+  put(set, "of", inp_text(elements, section.line));
+  put(set, "within", inp_list(section.line)).items = {inp_text(on, section.line)};
+  return part;
+}
+
+}  // namespace
+
+std::vector<InpDensity> densities_on(InpModel& m, const std::string& elements) {
+  std::vector<InpDensity> out;
+  for (SourceNode& section : m.sections.items) {
+    const std::string part = part_in(m, elements, section, find(section, "on")->text);
+    if (part.empty()) continue;
+    const std::string& material = find(section, "material")->text;
+    for (const MaterialCards& c : material_cards(m))
+      if (plain_name(value_of(m, *c.material, "NAME")) == material)
+        out.push_back({part, density_of(m, c)});
+  }
+  return out;
 }
 
 }  // namespace osculate::deck

@@ -18,7 +18,6 @@ namespace osculate::deck {
 struct InpPair {
   std::string name, interaction;  ///< the latter in capitals
   std::string slave, master;      ///< sets of the mesh
-  double area = 1;                ///< that its laws are multiplied by
 };
 
 /// A node that stands for the motions of a rigid body: from this one on, 1 to 6.
@@ -39,6 +38,7 @@ struct InpModel {
   std::vector<InpPair> pairs{};
   std::map<Index, InpBodyNode> body_nodes{};  ///< by node of the mesh
   std::set<Index> transformed{};              ///< nodes with a `*TRANSFORM`
+  SourceNode sections{}, new_sets{};          ///< keys of the model file: as far as they are known
 };
 
 /// Line of a place of the deck's first file; 0: it stands in an included one.
@@ -95,8 +95,13 @@ struct InpElements {
 [[nodiscard]] std::vector<InpElements> elements_of(const InpModel& m, const io::inp::Card& section);
 /// Elements of several sections stay in the last one; the sets of what is left of the others.
 [[nodiscard]] SourceNode inp_overlaps(const InpModel& m, SourceNode& sections);
-/// Mass per volume of the material of a section; none: no section has this set of elements.
-[[nodiscard]] std::optional<double> density_on(const InpModel& m, std::string_view elements);
+/// A set of elements of one material, and its mass per volume.
+struct InpDensity {
+  std::string on;
+  double density = 0;
+};
+/// The parts of a set of elements by their materials; those that are no sets yet become some.
+[[nodiscard]] std::vector<InpDensity> densities_on(InpModel& m, const std::string& elements);
 
 /// Whether some step has temperatures: without, materials need no expansion.
 [[nodiscard]] bool has_temperatures(const InpModel& m);
@@ -113,12 +118,13 @@ struct NodeValue {
 [[nodiscard]] SourceNode inp_contact(InpModel& m);
 /// What the cards of a step change of contact pairs; empty: nothing.
 [[nodiscard]] SourceNode inp_changes(const InpModel& m, std::span<const io::inp::Card> step);
-// The laws of a `*SURFACE INTERACTION`; pressures and stiffnesses are multiplied by an area.
-[[nodiscard]] SourceNode inp_normal(const InpModel& m, const io::inp::Card* behavior, int line,
-                                    double area);
+// The laws of a `*SURFACE INTERACTION`.
+[[nodiscard]] SourceNode inp_normal(const InpModel& m, const io::inp::Card* behavior, int line);
 [[nodiscard]] bool inp_is_tied(const io::inp::Card* behavior);
-[[nodiscard]] SourceNode inp_friction(const InpModel& m, const io::inp::Card& card, double area);
-void put_damping(const InpModel& m, const io::inp::Card& card, double area, SourceNode& normal);
+[[nodiscard]] SourceNode inp_friction(const InpModel& m, const io::inp::Card& card);
+void put_damping(const InpModel& m, const io::inp::Card& card, SourceNode& normal);
+/// Damping along the surface as friction; empty: there is none.
+[[nodiscard]] SourceNode inp_film(const InpModel& m, const io::inp::Card& damping);
 [[nodiscard]] SourceNode inp_axes(InpModel& m);
 [[nodiscard]] SourceNode inp_equations(const InpModel& m);
 /// Rigid bodies of `*RIGID BODY` and `*COUPLING`, and the knots of shells and beams, with the nodes
@@ -127,6 +133,10 @@ void put_damping(const InpModel& m, const io::inp::Card& card, double area, Sour
 
 /// Adds multi-point constraints, couplings, sections under pretension and cyclic symmetry.
 void put_constraints(InpModel& m, SourceNode& root);
+/// Adds springs, dampers, gaps and masses.
+///
+/// Tested by  tests/unit/deck/test_inp_springs.cpp
+void put_springs(const InpModel& m, SourceNode& root);
 /// Of a `*TIE`: it is one of the two faces of a sector.
 [[nodiscard]] bool is_cyclic_tie(const io::inp::Card& card);
 /// The node of a set of one node, or -1.
@@ -159,7 +169,7 @@ struct InpPlace {
                                              std::string_view field);
 /// Name of a component: `u` and 2 give uy, `f` and 4 mx.
 [[nodiscard]] std::string inp_component(char kind, int direction);
-/// 3 as soon as there is a volume.
+/// 3 as soon as there is a volume, and without any cell.
 [[nodiscard]] int inp_dimension(const InpModel& m);
 
 /// Time integration of a `*DYNAMIC`.

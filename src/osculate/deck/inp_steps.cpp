@@ -80,14 +80,10 @@ class Steps {
     procedure_ = &card;
   }
 
-  /// Vibrations about what the steps before led to: with PERTURBATION, or of the first step.
+  /// Vibrations about what the steps before led to with PERTURBATION, else without loads.
   void read_modes(const Card& card) {
     begin_procedure(card);
-    const bool about_last = io::inp::find_parameter(*step_, "PERTURBATION") != nullptr;
-    if (!about_last && moved_)
-      io::inp::fail(m_.deck, *step_,
-                    "expected PERTURBATION: vibrations are those about the state that the steps "
-                    "before led to");
+    about_start_ = moved_ && !io::inp::find_parameter(*step_, "PERTURBATION");
     modes_ = Fields(m_.deck, only_line(m_, card, "the number of vibrations"))
                  .number("the number of vibrations");
   }
@@ -125,7 +121,14 @@ class Steps {
     SourceNode& step = out_.steps.items.emplace_back(inp_map(line));
     put(step, "name", inp_text(fmt::format("step_{}", number), line));
     if (modes_ > 0) {
-      put(step, "modes", inp_number(modes_, line_of(procedure_->at)));
+      SourceNode count = inp_number(modes_, line_of(procedure_->at));
+      if (about_start_) {
+        SourceNode& modes = put(step, "modes", inp_map(count.line));
+        put(modes, "count", std::move(count));
+        put(modes, "about", inp_text("start", line_of(procedure_->at)));
+      } else {
+        put(step, "modes", std::move(count));
+      }
       end_of_modes(card, step);
       return;
     }
@@ -351,16 +354,19 @@ class Steps {
     Vec3 direction = Vec3::Zero();
     for (Eigen::Index k = 0; k < 3; ++k) direction[k] = fields.real_or_zero("a direction");
     if (!(direction.norm() > 0)) fields.fail("expected the direction of gravity");
-    const std::optional<double> density = density_on(m_, elements);
-    if (!density)
-      fields.fail(fmt::format("GRAV acts on a set of elements that has a *SOLID SECTION, not on {}",
+    const std::string& on =
+        set_of(m_, line.at, io::inp::element_set_name(elements), {SetKind::elements});
+    const std::vector<InpDensity> parts = densities_on(m_, on);
+    if (parts.empty())
+      fields.fail(fmt::format("GRAV acts on elements that have a section, not on {}",
                               io::inp::shown(elements)));
-    if (!(*density > 0))
-      fields.fail(fmt::format("the material of {} has no *DENSITY", io::inp::shown(elements)));
-    const std::string& on = set_of(m_, line.at, elements, {SetKind::elements});
-    for (int k = 0; k < inp_dimension(m_); ++k)
-      set(body_forces_, on, k + 1, *density * size * direction.normalized()[k], amplitude, line,
-          true);
+    for (const InpDensity& part : parts) {
+      if (!(part.density > 0))
+        fields.fail(fmt::format("the material of {} has no *DENSITY", io::inp::shown(part.on)));
+      for (int k = 0; k < inp_dimension(m_); ++k)
+        set(body_forces_, part.on, k + 1, part.density * size * direction.normalized()[k],
+            amplitude, line, true);
+    }
   }
 
   /// By set and number of the axis.
@@ -372,7 +378,8 @@ class Steps {
     for (std::size_t k = 3; k < 6; ++k) axis[k] += axis[k - 3];
     auto known = std::find(axes_.begin(), axes_.end(), axis);
     if (known == axes_.end()) known = axes_.insert(axes_.end(), axis);
-    const std::string& on = set_of(m_, line.at, elements, {SetKind::elements});
+    const std::string& on =
+        set_of(m_, line.at, io::inp::element_set_name(elements), {SetKind::elements});
     set(centrifugal_, on, static_cast<int>(known - axes_.begin()), speed, amplitude, line, true);
   }
 
@@ -536,7 +543,7 @@ class Steps {
   const Card *step_ = nullptr, *procedure_ = nullptr;
   double period_ = 1, total_time_ = 0;
   int increments_ = 1, modes_ = 0;
-  bool at_once_ = false, moved_ = false;
+  bool at_once_ = false, moved_ = false, about_start_ = false;
   std::map<std::string, Table> tables_;
   Conditions prescribed_, forces_, pressures_, body_forces_, centrifugal_;
   std::vector<std::array<double, 6>> axes_;  ///< of centrifugal loads: points of them

@@ -24,6 +24,7 @@ const std::string* find_nodes(const InpModel& m, const std::string& set) {
 }  // namespace
 
 int inp_dimension(const InpModel& m) {
+  if (m.mesh.mesh.blocks.empty()) return 3;  // springs alone
   for (const mesh::Block& block : m.mesh.mesh.blocks)
     if (cell::info(block.type).dimension == 3 && block.size() > 0) return 3;
   return 2;

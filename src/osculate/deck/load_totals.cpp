@@ -81,6 +81,8 @@ Masses masses(const model::BasicModel<Dim>& m) {
         add_mass(density * shares[k], m.reference[static_cast<std::size_t>(nodes[k])]);
     }
   }
+  for (const model::PointMass& point : m.masses)
+    add_mass(point.mass, m.reference[static_cast<std::size_t>(point.node)]);
   for (const model::BasicRigidBody<Dim>& body : m.rigid) add_mass(body.mass, body.reference);
   return sum;
 }

@@ -21,6 +21,9 @@ namespace osculate::deck {
 [[nodiscard]] BoundKey<Description> axes_key();
 [[nodiscard]] BoundKey<Description> equations_key();
 [[nodiscard]] BoundKey<Description> equal_key();
+/// One term of an equation, and of the elongation of a spring.
+[[nodiscard]] BoundKeys<EquationTerm> term_keys();
+[[nodiscard]] std::vector<BoundKey<Description>> spring_keys();
 /// Conditions of nodes beside equations, couplings, sections under pretension, cyclic symmetry.
 [[nodiscard]] std::vector<BoundKey<Description>> constraint_keys();
 [[nodiscard]] BoundKey<Description> initial_velocity_key();

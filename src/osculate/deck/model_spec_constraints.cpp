@@ -5,15 +5,8 @@ namespace osculate::deck {
 namespace {
 
 BoundKeys<Equation> equation_keys() {
-  using T = EquationTerm;
   using E = Equation;
-  const BoundKeys<T> term(
-      {on_key<T>("Set of nodes, of which each gets the factor, or rigid body.", "corner"),
-       need(&T::of, "of", component_spec("Which displacement.").such_as("ux")),
-       checked(need(&T::factor, "factor", number("Factor of the displacement.").such_as("-1")),
-               [](const Value& v) {
-                 if (v.number == 0) throw core::InputError(v.mark, "must not be zero");
-               })});
+  const BoundKeys<EquationTerm> term = term_keys();
   return {
       {{required("terms",
                  list("Terms that are summed up.", term.spec("One term of an equation.")).count(1)),
@@ -137,6 +130,16 @@ BoundKey<Description> cyclic_key() {
 }
 
 }  // namespace
+
+BoundKeys<EquationTerm> term_keys() {
+  using T = EquationTerm;
+  return {{on_key<T>("Set of nodes, of which each gets the factor, or rigid body.", "corner"),
+           need(&T::of, "of", component_spec("Which displacement.").such_as("ux")),
+           checked(need(&T::factor, "factor", number("Factor of the displacement.").such_as("-1")),
+                   [](const Value& v) {
+                     if (v.number == 0) throw core::InputError(v.mark, "must not be zero");
+                   })}};
+}
 
 BoundKey<Description> axes_key() {
   return {optional("axes",

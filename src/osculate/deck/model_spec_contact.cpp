@@ -179,15 +179,30 @@ BoundKey<Contact> tangent_key() {
           }};
 }
 
-Spec weight_spec() {
-  return choice("What the traction of a contact point is multiplied by.",
-                {word("node", ContactWeight::node, "one: the penalty is a force per length"),
-                 word("reference_area", ContactWeight::reference_area,
-                      "the undeformed area of the slave point"),
-                 word("current_area", ContactWeight::current_area,
-                      "the deformed area of the slave point")})
-      .otherwise("reference_area")
-      .such_as("node");
+BoundKey<Contact> weight_key() {
+  const BoundKeys<Contact> given({may(&Contact::area, "area",
+                                      number("Area of each slave node, also of those without "
+                                             "facets.")
+                                          .in("length^2")
+                                          .above(0)
+                                          .otherwise_as("that of its facets")
+                                          .such_as("0.25"))});
+  Spec spec =
+      either("What the traction of a contact point is multiplied by.",
+             {choice("One of these.",
+                     {word("node", ContactWeight::node, "one: the penalty is a force per length"),
+                      word("reference_area", ContactWeight::reference_area,
+                           "the undeformed area of the slave point"),
+                      word("current_area", ContactWeight::current_area,
+                           "the deformed area of the slave point")}),
+              given.spec("A given area.").with(Group::Rule::exactly_one, {"area"})})
+          .otherwise("reference_area")
+          .such_as("node");
+  return {optional("weight", std::move(spec)), [given](Contact& c, const Value& v) {
+            c.weight = {ContactWeight::reference_area, v.mark};
+            if (v.alternative == 1) return given.read(v, c);
+            store(c.weight, v);
+          }};
 }
 
 BoundKey<Contact> enforcement_key() {
@@ -349,7 +364,7 @@ BoundKeys<Contact> with_laws(std::vector<BoundKey<Contact>> keys) {
       {optional("offset", offset_spec()),
        [](C& c, const Value& v) { c.offset = v.at("master").number + v.at("slave").number; }},
       enforcement_key(),
-      may(&C::weight, "weight", weight_spec()),
+      weight_key(),
       may(&C::residual, "residual", residual_spec()),
       tangent_key(),
       may(&C::history, "history", history_spec()),

@@ -240,6 +240,32 @@ BoundKey<Step> centrifugal_key() {
           [keys](Step& s, const Value& v) { s.centrifugal = keys.read_all(v); }};
 }
 
+BoundKey<Step> modes_key() {
+  using S = Step;
+  const auto count = [](std::string doc) {
+    return integer(std::move(doc)).at_least(1).at_most(10'000).such_as("10");
+  };
+  const BoundKeys<S> keys(
+      {need(&S::modes, "count", count("So many.")),
+       may(&S::about, "about",
+           choice(
+               "The state they are about.",
+               {word("last", ModesAbout::last, "the one that the steps before led to"),
+                word("start", ModesAbout::start, "the one before the first step, without loads")})
+               .otherwise("last")
+               .such_as("start"))});
+  Spec spec = either(
+                  "So many free vibrations, the slowest first, about the state that the steps "
+                  "before led to; nothing else happens in the step. Closed contacts stay "
+                  "closed, and stick if they have friction.",
+                  {count("So many."), keys.spec("How many, and about which state.")})
+                  .such_as("10");
+  return {optional("modes", std::move(spec)), [keys](S& s, const Value& v) {
+            if (v.alternative == 1) return keys.read(v, s);
+            s.modes = Marked<int>{v.code, v.mark};
+          }};
+}
+
 BoundKeys<Step> step_keys() {
   using S = Step;
   return {{need(&S::name, "name", text("Name of the step.").as(TextRule::name).such_as("press")),
@@ -249,13 +275,7 @@ BoundKeys<Step> step_keys() {
                    .at_least(1)
                    .at_most(1'000'000)
                    .such_as("10")),
-           may(&S::modes, "modes",
-               integer("So many free vibrations, the slowest first, about the state that the steps "
-                       "before led to; nothing else happens in the step. Closed contacts stay "
-                       "closed, and stick if they have friction.")
-                   .at_least(1)
-                   .at_most(10'000)
-                   .such_as("10")),
+           modes_key(),
            may(&S::duration, "duration",
                number("Time from the beginning of the step to its end; "
                       "inertia and friction that depends on speed ask for "

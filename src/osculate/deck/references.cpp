@@ -65,6 +65,10 @@ void check_constraints(const Description& d) {
     for (const EquationTerm& term : equation.terms)
       if (is_rotation(term.of))
         require_rigid(d, term.on, term.on.mark, component_names[static_cast<std::size_t>(term.of)]);
+  for (const Spring& spring : d.springs)
+    for (const EquationTerm& term : spring.terms)
+      if (is_rotation(term.of))
+        require_rigid(d, term.on, term.on.mark, component_names[static_cast<std::size_t>(term.of)]);
   for (const Coupling& coupling : d.coupling)
     require_rigid(d, coupling.rigid, coupling.rigid.mark, "rigid");
   std::map<std::string, int> equal;

@@ -3,6 +3,7 @@
 #include <Spectra/SymGEigsShiftSolver.h>
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
@@ -136,6 +137,42 @@ Eigenpairs found_around(Problem& p, double shift, Eigen::Index count) {
   return pairs;
 }
 
+/// All there are, where few unknowns have a mass.
+///
+/// Formula    M = F F^T ,  (F^T (K - s M)^-1 F) z = z / (lambda - s) ,
+///            v = (lambda - s) (K - s M)^-1 F z
+Eigenpairs all_around(Problem& p, double shift, Eigen::Index count) {
+  Eigenpairs pairs;
+  pairs.shift = shift;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of_mass{Eigen::MatrixXd(p.m)};
+  const Eigen::VectorXd& d = of_mass.eigenvalues();
+  constexpr double rounding = 1e-12;
+  const Eigen::Index rank = (d.array() > rounding * d.maxCoeff()).count();
+  const Eigen::MatrixXd f =
+      of_mass.eigenvectors().rightCols(rank) * d.tail(rank).cwiseSqrt().asDiagonal();
+  Eigen::MatrixXd x = f;
+  if (p.solver.solve(x) != SolveStatus::ok) {
+    pairs.failure = "the stiffness cannot be solved for";
+    return pairs;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> flexible{Eigen::MatrixXd(f.transpose() * x)};
+  std::vector<std::pair<double, Eigen::Index>> order;
+  for (Eigen::Index i = 0; i < rank; ++i)
+    if (const double theta = flexible.eigenvalues()[i]; theta != 0)
+      order.emplace_back(shift + 1 / theta, i);
+  std::sort(order.begin(), order.end());
+  const Eigen::Index n = std::min(count, static_cast<Eigen::Index>(order.size()));
+  pairs.values.resize(n);
+  pairs.vectors.resize(p.k.rows(), n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& [value, at] = order[static_cast<std::size_t>(i)];
+    pairs.values[i] = value;
+    pairs.vectors.col(i) = (value - shift) * (x * flexible.eigenvectors().col(at));
+  }
+  if (n > 0) clean(p, pairs);
+  return pairs;
+}
+
 }  // namespace
 
 Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count,
@@ -145,7 +182,10 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int
   Eigenpairs none;
   const Eigen::VectorXd diagonal = p.m.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i) p.with_mass += diagonal[i] > 0 ? 1 : 0;
-  const Eigen::Index wanted = std::min<Eigen::Index>(count, p.with_mass - 1);
+  constexpr Eigen::Index few = 40;  // Lanczos' method needs some more than are wanted
+  const bool all_of_them = count >= p.with_mass && p.k.rows() <= few;
+  const Eigen::Index wanted =
+      std::min<Eigen::Index>(count, all_of_them ? p.with_mass : p.with_mass - 1);
   if (wanted < 1) {
     none.failure = fmt::format("{} unknowns have a mass: too few", p.with_mass);
     return none;
@@ -160,6 +200,7 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int
     none.failure = report.message;
     return none;
   }
+  if (all_of_them) return all_around(p, shift, wanted);
   constexpr int tries = 3;
   Eigenpairs pairs;
   Eigen::Index more = wanted;

@@ -101,10 +101,12 @@ void check_cells(const Mesh& mesh, std::vector<Finding>& findings) {
 /// Larger ones overflow in their powers.
 bool is_number(const Vec3& x) { return (x.array().abs() <= 1e100).all(); }
 
-void check_nodes(const Mesh& mesh, std::vector<Finding>& findings) {
+void check_nodes(const Mesh& mesh, const std::vector<bool>& also_used,
+                 std::vector<Finding>& findings) {
   Tally infinite;
   Tally unused;
-  std::vector<bool> used(mesh.nodes.size());
+  std::vector<bool> used = also_used;
+  used.resize(mesh.nodes.size());
   for (const Block& block : mesh.blocks)
     if (cell::info(block.type).dimension > 0)
       for (const Index node : block.connectivity) used[static_cast<std::size_t>(node)] = true;
@@ -299,12 +301,13 @@ double smallest_jacobian(const Mesh& mesh, CellRef ref) {
   return smallest_jacobian(mesh, ref, judged_shapes(block_of(mesh, ref).type));
 }
 
-std::vector<Finding> check_mesh(const Mesh& mesh, std::span<const ContactSides> contacts) {
+std::vector<Finding> check_mesh(const Mesh& mesh, std::span<const ContactSides> contacts,
+                                const std::vector<bool>& also_used) {
   std::vector<Finding> findings;
   report(findings, Flaw::bad_index, true, bad_indices(mesh), "reference(s) to what is not there");
   if (!findings.empty()) return findings;
   check_cells(mesh, findings);
-  check_nodes(mesh, findings);
+  check_nodes(mesh, also_used, findings);
   check_volumes(mesh, findings);
   const auto has = [&](auto wanted) {
     return std::any_of(findings.begin(), findings.end(), wanted);

@@ -66,7 +66,9 @@ struct Analysis {
   }
 
   void find_vibrations(const Step& step) {
-    Vibrations modes = system.vibrations(result.state, step.frequencies->modes, *solver);
+    const BasicState<Dim> about =
+        step.frequencies->unloaded ? system.initial_state() : result.state;
+    Vibrations modes = system.vibrations(about, step.frequencies->modes, *solver);
     result.last_iterate = result.state;
     if (!modes.failure.empty()) {
       result.outcome = solve::Outcome::numerical_failure;
@@ -74,7 +76,7 @@ struct Analysis {
           fmt::format("no vibrations were found in step '{}': {}", step.name, modes.failure);
       return;
     }
-    if (observer.vibrates) observer.vibrates(system, result.state, progress, modes);
+    if (observer.vibrates) observer.vibrates(system, about, progress, modes);
     result.steps.back().vibrations = std::move(modes);
   }
 

@@ -112,10 +112,22 @@ BasicDofSpace<Dim> dof_space(const BasicModel<Dim>& model) {
     for (const mesh::CellRef& ref : section.cells)
       for (const Index node : cell_nodes(model.mesh, ref).nodes)
         used[static_cast<std::size_t>(node)] = true;
+  std::vector<Dof> also_used;
+  for (const Spring& spring : model.springs) {
+    for (const Index node : spring.ends)
+      if (node >= 0) used[static_cast<std::size_t>(node)] = true;
+    for (const Equation::Term& term : spring.terms)
+      if (term.dof < Dim * static_cast<Dof>(used.size())) also_used.push_back(term.dof);
+  }
+  for (const PointMass& point : model.masses) used[static_cast<std::size_t>(point.node)] = true;
   std::vector<Index> bodies = model.body_of_node;
   if (bodies.empty()) bodies.assign(model.reference.size(), -1);
-  return {static_cast<Index>(model.reference.size()), std::move(bodies),
-          static_cast<Index>(model.rigid.size()), model.equations, used};
+  return {static_cast<Index>(model.reference.size()),
+          std::move(bodies),
+          static_cast<Index>(model.rigid.size()),
+          model.equations,
+          used,
+          also_used};
 }
 
 template void set_dofs(std::span<const Index>, BulkBlock&);

@@ -5,7 +5,8 @@ namespace osculate::model {
 template <int Dim>
 BasicDofSpace<Dim>::BasicDofSpace(Index nodes, std::vector<Index> body_of_node, Index bodies,
                                   std::vector<Equation> equations,
-                                  const std::vector<bool>& used_node)
+                                  const std::vector<bool>& used_node,
+                                  std::span<const Dof> also_used)
     : nodes_(nodes),
       bodies_(bodies),
       body_of_node_(std::move(body_of_node)),
@@ -14,6 +15,7 @@ BasicDofSpace<Dim>::BasicDofSpace(Index nodes, std::vector<Index> body_of_node, 
   unknown_of_.assign(total, -1);
   equation_of_.assign(total, -1);
   std::vector<bool> named(total, false);  // an equation gives a dof without cells its stiffness
+  for (const Dof dof : also_used) named[static_cast<std::size_t>(dof)] = true;
   for (std::size_t e = 0; e < equations_.size(); ++e) {
     equation_of_[static_cast<std::size_t>(equations_[e].terms.front().dof)] = static_cast<Index>(e);
     for (const Equation::Term& term : equations_[e].terms)

@@ -30,13 +30,14 @@ struct Expansion {
 
 /// Which dofs are unknowns and how the others follow from them: nodes of rigid bodies from the
 /// body's motion, eliminated dofs from their equation. Dofs of nodes without cells are unknowns
-/// where an equation names them. Fixed for the whole analysis; which
-/// unknowns are prescribed changes from step to step and is kept in `prescribed`.
+/// where an equation names them, or `also_used` does. Fixed for the whole analysis; which unknowns
+/// are prescribed changes from step to step and is kept in `prescribed`.
 template <int Dim>
 class BasicDofSpace {
  public:
   BasicDofSpace(Index nodes, std::vector<Index> body_of_node, Index bodies,
-                std::vector<Equation> equations, const std::vector<bool>& used_node);
+                std::vector<Equation> equations, const std::vector<bool>& used_node,
+                std::span<const Dof> also_used = {});
 
   [[nodiscard]] Index nodes() const { return nodes_; }
   [[nodiscard]] Index bodies() const { return bodies_; }

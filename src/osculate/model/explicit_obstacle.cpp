@@ -50,6 +50,7 @@ std::string obstacle_of_bodies(const BasicModel<Dim>& model, const Step& step) {
 
 template <int Dim>
 std::string obstacle_of_equations(const BasicModel<Dim>& model) {
+  if (!model.springs.empty()) return "springs are not in the explicit time integration";
   if (!model.node_constraints.empty())
     return "constraints of nodes have multipliers, for which no mass is there";
   const auto nodes = static_cast<Dof>(model.reference.size());

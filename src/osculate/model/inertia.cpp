@@ -20,6 +20,8 @@ BasicInertia<Dim>::BasicInertia(const BasicModel<Dim>& model, bool lumped)
                         density * (lumped ? solid::lumped_mass(unit) : unit)});
     }
   }
+  for (const PointMass& point : model.masses)
+    cells_.push_back({{point.node}, Eigen::MatrixXd::Constant(1, 1, point.mass)});
   for (const BasicRigidBody<Dim>& body : model.rigid) bodies_.push_back({body.mass, body.inertia});
 }
 

@@ -8,7 +8,7 @@
 
 namespace osculate::model {
 
-/// The masses of a model: of cells by pairs of nodes, of rigid bodies by their centre.
+/// The masses of a model: of cells by pairs of nodes, of nodes, of rigid bodies by their centre.
 ///
 /// Units      mass (force / acceleration)
 /// Tested by  tests/unit/model/test_dynamics.cpp, tests/unit/deck/test_dynamics_supports.cpp
@@ -18,6 +18,7 @@ class BasicInertia {
   BasicInertia(const BasicModel<Dim>& model, bool lumped);
 
   /// Mass matrix of a cell, cells counted through all sections in order, with the nodes of it.
+  /// Behind the cells stand the masses of nodes.
   struct CellMass {
     std::vector<Index> nodes;
     Eigen::MatrixXd mass;

@@ -77,9 +77,10 @@ struct Dynamics {
   std::optional<TimeStepLengths> time_steps{};  ///< none: the nominal increments
 };
 
-/// Free vibrations about the state that the steps before led to.
+/// Free vibrations about the state that the steps before led to, or about the one they began with.
 struct Frequencies {
   int modes = 1;
+  bool unloaded = false;  ///< about the latter
 };
 
 /// Temperatures of nodes over a step.

@@ -9,6 +9,7 @@
 #include "osculate/model/dof_space.hpp"
 #include "osculate/model/loads.hpp"
 #include "osculate/model/node_constraint.hpp"
+#include "osculate/model/spring.hpp"
 #include "osculate/pairing/pair.hpp"
 #include "osculate/solid/element.hpp"
 
@@ -69,6 +70,12 @@ struct BasicPairChange {
   pairing::Separation<Dim> separation{};
 };
 
+/// A mass at a node.
+struct PointMass {
+  Index node;
+  double mass;
+};
+
 /// A whole analysis, ready to assemble; built by `deck`, or by hand. Plain data, const during the
 /// analysis. Nodes: the mesh's, then the frame nodes of analytic rigid bodies.
 template <int Dim>
@@ -83,6 +90,8 @@ struct BasicModel {
   std::vector<BasicPairChange<Dim>> pair_changes{};  ///< in the order of the steps
   std::vector<Equation> equations;
   std::vector<NodeConstraint> node_constraints{};
+  std::vector<Spring> springs{};
+  std::vector<PointMass> masses{};
   std::vector<Step> steps;
   std::vector<std::pair<Dof, double>> initial_velocity;  ///< of primary dofs; zero elsewhere
   std::vector<double> initial_temperature;               ///< of all nodes; empty: none is known

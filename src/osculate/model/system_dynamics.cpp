@@ -45,6 +45,7 @@ BasicSystem<Dim>::Impl::Motion::Motion(Impl& whole)
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::Motion::measure_damping(const State& committed) {
+  dampers = system.springs.dampers(committed, system.positions(committed.u));
   const double factor = settings.damping_stiffness;
   if (!(factor > 0)) return;
   const bool first = damping.empty();
@@ -103,6 +104,13 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::damping_of(const Eigen::VectorXd
     for (std::size_t k = 0; k < nodes.size(); ++k)
       force.segment<Dim>(Dim * nodes[k]) += f.segment<Dim>(Dim * static_cast<Eigen::Index>(k));
   }
+  for (const auto& [coefficient, motion] : dampers) {
+    double rate = 0;
+    for (std::size_t i = 0; i < motion.dofs.size(); ++i)
+      rate += motion.gradient[static_cast<Eigen::Index>(i)] * velocity[motion.dofs[i]];
+    for (std::size_t i = 0; i < motion.dofs.size(); ++i)
+      force[motion.dofs[i]] += coefficient * rate * motion.gradient[static_cast<Eigen::Index>(i)];
+  }
   return force;
 }
 
@@ -113,14 +121,22 @@ void BasicSystem<Dim>::Impl::Motion::add_inertia(const State& trial, Assembly<Di
       system.dof_values(trial) -
       (start + h * past.velocity + h * h * (0.5 - s.beta) * past.acceleration);
   effective = inertia.multiply(factors.mass * ahead) + past_force;
-  const bool damped = settings.damping_mass > 0 || !damping.empty();
+  const bool damped = settings.damping_mass > 0 || !damping.empty() || !dampers.empty();
   damping_force.setZero(ahead.size());
   if (damped)
     damping_force = damping_of(past.velocity + h * (1 - s.gamma) * past.acceleration +
                                factors.rate * ahead + correction);
   if constexpr (Dim == 3) add_spins(trial, to);
   if (!to.with_tangent) return;
-  const double of_mass = cell_inertia().mass;
+  for (const auto& [coefficient, motion] : dampers)
+    to.add_stiffness(motion.dofs, Eigen::MatrixXd(factors.force * factors.rate * coefficient *
+                                                  motion.gradient * motion.gradient.transpose()));
+  const CellInertia<Dim> factors_of = cell_inertia();
+  for (const PointMass& point : model.masses)
+    for (int i = 0; i < Dim; ++i)
+      to.add_stiffness(std::array{dofs.node_dof(point.node, i)},
+                       Mat<1, 1>(factors_of.mass * point.mass));
+  const double of_mass = factors_of.mass;
   for (std::size_t b = 0; b < model.rigid.size(); ++b) {
     if (!inertia.body_has_mass(b)) continue;
     std::array<Dof, body::motions<Dim>> d{};
@@ -286,7 +302,7 @@ Rates BasicSystem<Dim>::Impl::Motion::begin_rates(const State& committed) {
   Energies& e = rates.energies;
   const double kinetic = kinetic_energy(rates);
   const solid::CellEnergy bulk = bulk_energy(model, committed.u, committed.memory);
-  e.strain = bulk.stored;
+  e.strain = bulk.stored + system.springs.stored(committed, mass_x);
   e.contact = contact_energy();
   e.damped = damping_work();
   if (first) {
@@ -363,7 +379,7 @@ void BasicSystem<Dim>::Impl::Motion::add_energies(const State& trial, const Rate
   }
   e.kinetic = kinetic_energy(now);
   const solid::CellEnergy bulk = bulk_energy(model, trial.u, last.memory);
-  e.strain = bulk.stored;
+  e.strain = bulk.stored + system.springs.stored(trial, system.positions(trial.u));
   e.plastic = bulk.dissipated - e.plastic_before;
   e.contact = contact_energy();
   e.external += external.dot(step_of) + supports;

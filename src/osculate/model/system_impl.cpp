@@ -51,6 +51,7 @@ BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads)
       bulk(m, std::max(1, threads)),
       contact{m},
       constraints(m, dofs.unknowns()),
+      springs{m},
       loads{m},
       builder(constraints.end),
       assembler(dofs, builder),
@@ -247,6 +248,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   if (on(Term::bulk) &&
       !bulk.add(committed, now, duration, of_cells ? &*of_cells : nullptr, to, out))
     return;
+  if (on(Term::bulk)) springs.add(now, x, to);
   if (on(Term::contact))
     contact.add(committed, trial, fraction, length, x, pass == Pass::iterate, constraints, to, out);
   if (on(Term::rigid)) constraints.add_nodes(now, x, to);

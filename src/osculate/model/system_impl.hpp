@@ -14,6 +14,7 @@
 #include "osculate/model/terms/load_term.hpp"
 #include "osculate/model/terms/resistance.hpp"
 #include "osculate/model/terms/rigid_term.hpp"
+#include "osculate/model/terms/spring_term.hpp"
 
 namespace osculate::model {
 
@@ -27,6 +28,7 @@ struct BasicSystem<Dim>::Impl {
   BulkTerm<Dim> bulk;
   ContactTerm<Dim> contact;
   ConstraintTerm<Dim> constraints;
+  SpringTerm<Dim> springs;
   LoadTerm<Dim> loads;
   Resistance<Dim> resistance;
   std::array<bool, 4> enabled{true, true, true, true};

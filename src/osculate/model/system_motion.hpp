@@ -19,11 +19,12 @@ struct BasicSystem<Dim>::Impl::Motion {
   Dynamics settings;
   BasicInertia<Dim> inertia;
   std::vector<Eigen::MatrixXd> damping;  ///< of the cells, by stiffness; empty: none
-  bool turns = false;                    ///< the mass matrix changes with the configuration
-  std::vector<bool> coupled;             ///< bodies in space whose rotation it has
-  bool mass_known = false;               ///< the mass matrix is factored
-  std::string failure;                   ///< why it could not be; empty: it could
-  la::MatrixBuilder builder;             ///< of the mass matrix of the unknowns
+  std::vector<typename SpringTerm<Dim>::Damper> dampers;  ///< of springs
+  bool turns = false;         ///< the mass matrix changes with the configuration
+  std::vector<bool> coupled;  ///< bodies in space whose rotation it has
+  bool mass_known = false;    ///< the mass matrix is factored
+  std::string failure;        ///< why it could not be; empty: it could
+  la::MatrixBuilder builder;  ///< of the mass matrix of the unknowns
   std::unique_ptr<la::LinearSolver> solver = la::make_default_solver();  ///< of the mass matrix
   std::vector<bool> massless;                                            ///< unknowns
   // The running increment.

@@ -170,6 +170,11 @@ template <int Dim>
 void point_areas(const SlaveSide<Dim>& side, std::type_identity_t<std::span<const Vec<Dim>>> x,
                  const AreaRule& rule, std::vector<double>& areas,
                  std::type_identity_t<std::vector<std::vector<NodeGradient<Dim>>>*> gradients) {
+  if (rule.given > 0 && sampled_at_nodes(side)) {
+    areas.assign(side.points.size(), rule.given);
+    if (gradients) gradients->assign(side.points.size(), {});
+    return;
+  }
   if (sampled_at_nodes(side)) {
     nodal_areas(side, x, rule, areas, gradients);
     return;

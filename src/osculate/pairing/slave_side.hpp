@@ -29,6 +29,7 @@ using Boundary = typename BoundaryOf<Dim>::Type;
 struct AreaRule {
   double thickness = 1;
   bool axisymmetric = false;  ///< x is the radius, y the axis
+  double given = 0;           ///< of each node, whatever its facets are; 0: theirs
 };
 
 template <int Dim>

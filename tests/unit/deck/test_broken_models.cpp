@@ -64,7 +64,8 @@ TEST(BrokenModels, MissingKeysNameTheParent) {
       {"{mu: 0.3, penalty: 2.1e6}", "{penalty: 2.1e6}",
        "model.yaml:17: contact[0].friction.coulomb: required key 'mu' is missing"},
       {"{coulomb: {mu: 0.3, penalty: 2.1e6}}", "{}",
-       "model.yaml:17: contact[0].friction: needs one of coulomb, tresca, rough, rate_and_state"},
+       "model.yaml:17: contact[0].friction: needs one of coulomb, tresca, rough, rate_and_state, "
+       "viscous"},
       {"{on: floor, of: normal_force}", "{on: floor}",
        "model.yaml:39: output.history[1]: required key 'of' is missing"},
   });
@@ -189,10 +190,12 @@ TEST(BrokenModels, Words) {
        "model.yaml:19: contact[0].weight: unknown value 'referenc_area'; did you mean "
        "'reference_area'?"},
       {"weight: reference_area", "weight: x",
-       "model.yaml:19: contact[0].weight: unknown value 'x'; known: node, reference_area, "
-       "current_area"},
+       "model.yaml:19: contact[0].weight: expected node, reference_area, current_area or a map, got "
+       "the text 'x'"},
+      {"weight: reference_area", "weight: current_aria",
+       "model.yaml:19: contact[0].weight: unknown value 'current_aria'; did you mean 'current_area'?"},
       {"weight: reference_area", "weight: [node]",
-       "model.yaml:19: contact[0].weight: expected one of node, reference_area, current_area, got "
+       "model.yaml:19: contact[0].weight: expected node, reference_area, current_area or a map, got "
        "a list"},
       {"fields: every", "fields: evry",
        "model.yaml:38: output.fields: unknown value 'evry'; did you mean 'every'?"},

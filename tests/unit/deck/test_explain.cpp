@@ -53,7 +53,8 @@ TEST(Explain, KeysBelow) {
       "range. (a map)\n"
       "    rough                No sliding while in contact. (a map)\n"
       "    rate_and_state       Friction by sliding speed and by the age of the contact. (a map)\n"
-      "    Exactly one of: coulomb, tresca, rough, rate_and_state\n"
+      "    viscous              Shear traction in proportion to the sliding speed. (a map)\n"
+      "    Exactly one of: coulomb, tresca, rough, rate_and_state, viscous\n"
       "  Example: friction: {coulomb: {mu: 0.3, penalty: 2.1e6}}\n");
   const std::string root = explain_model_key("");
   for (const Key& key : model_spec().keys)

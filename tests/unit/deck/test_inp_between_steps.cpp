@@ -141,7 +141,7 @@ TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
   expect_in(part(dry + "*CONTACT DAMPING\n0.5\n" + pair + press, "contact"),
             "damping: {viscous: 0.5}");
   expect_in(message_of(dry + "*CONTACT DAMPING, TANGENT FRACTION=1.\n0.5\n" + pair + press),
-            "no damping in the surface");
+            "there is one law of shear");
   // A set of nodes is moved, a distance is one.
   const std::string adjusted =
       "*CONTACT PAIR, INTERACTION=DRY, TYPE=NODE TO SURFACE, ADJUST=FOOT\nSLAVE, MASTER\n";
@@ -154,9 +154,9 @@ TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
 TEST(InpBetweenSteps, NodesWithoutFacetsHaveTheirShareOfTheFreeFaces) {
   const std::string nodes = "*CONTACT PAIR, INTERACTION=DRY, TYPE=NODE TO SURFACE\nFEET, MASTER\n";
   const std::string contact = part(dry + nodes + press, "contact");
-  expect_in(contact, "weight: node");
-  expect_in(contact, "penalty: 312500}");
-  expect_in(contact, "{mu: 0.2, penalty: 15625}");
+  expect_in(contact, "weight: {area: 0.3125}");
+  expect_in(contact, "normal: {penalty: 1000000}");
+  expect_in(contact, "{mu: 0.2, penalty: 50000}");
 }
 
 TEST(InpBetweenSteps, StepsInTime) {
@@ -189,7 +189,7 @@ TEST(InpBetweenSteps, Vibrations) {
   expect_in(part(deck, "steps"), "{name: step_2, modes: 12}");
   EXPECT_EQ(message_of(deck), "no error");
   EXPECT_EQ(message_of("*STEP\n" + frequency + press), "no error");
-  expect_in(message_of(press + "*STEP\n" + frequency), "expected PERTURBATION");
+  expect_in(part(press + "*STEP\n" + frequency, "steps"), "modes: {count: 12, about: start}");
   expect_in(message_of("*STEP, PERTURBATION\n*STATIC\n*END STEP\n"),
             "steps go on from the last one");
 }

@@ -62,7 +62,7 @@ TEST(InpBroken, Elements) {
       {{with("*ELEMENT\n2, 1, 2, 3, 4\n"), "a.inp:9: *ELEMENT: expected 'TYPE=' with a type"},
        {with("*ELEMENT, TYPE=C3D9\n"),
         "a.inp:9: *ELEMENT: elements of type 'C3D9' are not supported; supported are C3D4, C3D6"},
-       {with("*ELEMENT, TYPE=SPRINGA\n2, 1, 2\n"), "elements of type 'SPRINGA' are not supported"},
+       {with("*ELEMENT, TYPE=CONN3D2\n2, 1, 2\n"), "elements of type 'CONN3D2' are not supported"},
        {with("*ELEMENT, TYPE=C3D4\n2, 1, 2, 3, 5\n"),
         "a.inp:10: element 2 names node 5, which does not exist"},
        {with("*ELEMENT, TYPE=C3D4\n2, 1, 2, 3\n"),

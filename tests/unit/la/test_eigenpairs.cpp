@@ -91,6 +91,25 @@ TEST(Eigenpairs, LeaveOutWhatHasNoMass) {
   }
 }
 
+// As many as there are masses, one alone among them; rows without mass follow.
+TEST(Eigenpairs, AreAllThereWhereFewHaveAMass) {
+  constexpr Index n = 5;
+  MatrixBuilder k(n);
+  add_chain(0, n, true, k);
+  const auto solver = make_default_solver();
+  const Eigenpairs all = smallest_eigenpairs(k.finish(), unit(n), 9, *solver);
+  ASSERT_EQ(all.failure, "");
+  ASSERT_EQ(all.values.size(), n);
+  for (int i = 0; i < n; ++i) EXPECT_NEAR(all.values[i], of_chain(i + 1, n), 1e-13);
+  EXPECT_LT(all.residual, 1e-12);
+  MatrixBuilder m(n);
+  for (Index i = 0; i < n; ++i) m.add(i, i, i == 2 ? 4 : 0);
+  const Eigenpairs one = smallest_eigenpairs(k.finish(), m.finish(), 1, *solver);
+  ASSERT_EQ(one.failure, "");
+  EXPECT_NEAR(one.values[0], (2 - 4.0 / 3) / 4, 1e-14);  // two springs 1/3 beside it
+  EXPECT_NEAR(one.vectors(1, 0), 2.0 / 3 * one.vectors(2, 0), 1e-14);
+}
+
 TEST(Eigenpairs, SayWhyThereAreNone) {
   MatrixBuilder k(3);
   add_chain(0, 3, true, k);

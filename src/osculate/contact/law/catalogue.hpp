@@ -12,6 +12,7 @@
 #include "osculate/contact/law/rate_and_state.hpp"
 #include "osculate/contact/law/rough.hpp"
 #include "osculate/contact/law/tresca.hpp"
+#include "osculate/contact/law/viscous_friction.hpp"
 
 namespace osculate::contact {
 
@@ -19,7 +20,7 @@ namespace osculate::contact {
 struct NormalLaws : std::variant<NormalPenalty, NormalExponential, NormalTable, NormalDecaying> {
   using variant::variant;
 };
-struct FrictionLaws : std::variant<Coulomb, Tresca, Rough, RateAndState> {
+struct FrictionLaws : std::variant<Coulomb, Tresca, Rough, RateAndState, ViscousFriction> {
   using variant::variant;
 };
 struct DampingLaws : std::variant<Viscous, Restitution> {

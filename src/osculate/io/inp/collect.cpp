@@ -263,7 +263,7 @@ class Collector {
   }
 
   void read_elements(const Card& card) {
-    if (is_coupling(card)) return;
+    if (discrete_nodes(card) > 0) return;
     Scope& scope = here();
     RawElements& elements = scope.elements.emplace_back();
     elements.type = &type_of(card);
@@ -295,6 +295,9 @@ class Collector {
       }
       elements.nodes.push_back(fields.number("the number of a node"));
     }
+    // CalculiX once had three nodes more in it, for its incompatible modes
+    if (elements.variant.starts_with("C3D8I"))
+      for (int k = 0; k < 3 && !fields.done(); ++k) (void)fields.number("the number of a node");
     if (!fields.done())
       fields.fail(fmt::format("element {} has more than the {} nodes of {}",
                               elements.numbers.back(), count, elements.type->name));

@@ -16,10 +16,23 @@ void add_node(std::string_view field, Place at, RawMesh& mesh) {
   set.ranges.push_back({*number, *number, 1, own_scope, at, false});
 }
 
+/// The set of the element that a body force names by its number.
+void add_element(std::string_view elements, Place at, RawMesh& mesh) {
+  const std::optional<std::int32_t> number = number_of(elements);
+  if (!number) return;
+  const std::string name = element_set_name(elements);
+  RawSet& set = mesh.scopes[0].element_sets[capitals(name)];
+  if (!set.name.empty()) return;
+  set.name = name;
+  set.at = at;
+  set.ranges.push_back({*number, *number, 1, own_scope, at, false});
+}
+
 void add_side(const Deck& deck, const Line& line, RawMesh& mesh) {
   Fields fields(deck, line);
   const std::string elements = name_of(fields.next().value_or(""));
   const std::string load = capitals(name_of(fields.next().value_or("")));
+  if (load == "GRAV" || load == "CENTRIF") add_element(elements, line.at, mesh);
   if (elements.empty() || !is_side_load(load)) return;
   const std::string name = side_set_name(load, elements);
   RawSurface& surface = mesh.scopes[0].surfaces[capitals(name)];
@@ -65,15 +78,25 @@ void add_nodes_of_equations(const Deck& deck, const Card& card, RawMesh& mesh) {
 
 }  // namespace
 
-bool is_coupling(const Card& element) {
+int discrete_nodes(const Card& element) {
   const Parameter* const type = find_parameter(element, "TYPE");
-  return type && capitals(type->value) == "DCOUP3D";
+  if (!type) return 0;
+  const std::string name = capitals(type->value);
+  for (const char* const one : {"DCOUP3D", "MASS", "SPRING1", "DASHPOT1"})
+    if (name == one) return 1;
+  for (const char* const one : {"SPRINGA", "SPRING2", "DASHPOTA", "DASHPOT2", "GAPUNI"})
+    if (name == one) return 2;
+  return 0;
 }
 
 std::string node_set_name(std::int32_t number) { return fmt::format("node {}", number); }
 
+std::string element_set_name(std::string_view elements) {
+  return is_number(elements) ? fmt::format("element {}", elements) : std::string(elements);
+}
+
 std::string side_set_name(std::string_view load, std::string_view elements) {
-  return fmt::format("{} of {}{}", load, is_number(elements) ? "element " : "", elements);
+  return fmt::format("{} of {}", load, element_set_name(elements));
 }
 
 bool is_side_load(std::string_view load) {
@@ -86,11 +109,11 @@ void add_loaded_sets(const Deck& deck, RawMesh& mesh) {
     for (const char* const name : {"REFNODE", "ROTNODE", "NODE"})
       if (const Parameter* const node = find_parameter(card, name))
         add_node(name_of(node->value), card.at, mesh);
-    if (card.keyword == "ELEMENT" && is_coupling(card))
+    if (const int count = card.keyword == "ELEMENT" ? discrete_nodes(card) : 0; count > 0)
       for (const Line& line : lines_of(deck, card)) {
         Fields fields(deck, line);
         (void)fields.next();
-        add_node(fields.next().value_or(""), line.at, mesh);
+        for (int k = 0; k < count; ++k) add_node(fields.next().value_or(""), line.at, mesh);
       }
     if (card.keyword == "MPC")
       for (const Line& line : lines_of(deck, card))

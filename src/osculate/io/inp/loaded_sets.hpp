@@ -6,10 +6,13 @@
 
 namespace osculate::io::inp {
 
-/// Of an `*ELEMENT`: it has one node, which `*DISTRIBUTING COUPLING` ties to others.
-[[nodiscard]] bool is_coupling(const Card& element);
+/// Number of nodes of an `*ELEMENT` that is no cell: springs, dampers, masses, gaps, and DCOUP3D,
+/// whose node `*DISTRIBUTING COUPLING` ties to others. 0: it is one.
+[[nodiscard]] int discrete_nodes(const Card& element);
 /// The set of one node: `node 17`.
 [[nodiscard]] std::string node_set_name(std::int32_t number);
+/// The set of elements that a body force acts on: its name, or `element 17` for a number.
+[[nodiscard]] std::string element_set_name(std::string_view elements);
 /// The facets of a set of elements (or of the element of a number) that a load `P3` acts on:
 /// `P3 of BLOCK`.
 [[nodiscard]] std::string side_set_name(std::string_view load, std::string_view elements);

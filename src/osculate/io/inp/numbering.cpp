@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "osculate/io/inp/loaded_sets.hpp"
+
 namespace osculate::io::inp {
 namespace {
 
@@ -154,7 +156,11 @@ Numbering add_cells(const Deck& deck, RawMesh& raw, mesh::Mesh& mesh) {
   }
   const Place whole{};
   if (mesh.nodes.empty()) fail(deck, whole, "there are no nodes (*NODE)");
-  if (numbering.elements.empty()) fail(deck, whole, "there are no elements (*ELEMENT)");
+  const auto is_discrete = [](const Card& card) {
+    return card.keyword == "ELEMENT" && discrete_nodes(card) > 0;
+  };
+  if (numbering.elements.empty() && std::none_of(deck.cards.begin(), deck.cards.end(), is_discrete))
+    fail(deck, whole, "there are no elements (*ELEMENT)");
   keep_numbers(numbering, mesh);
   return numbering;
 }

@@ -1,0 +1,206 @@
+// Springs, dampers, gaps and masses of a deck.
+#include <fmt/format.h>
+
+#include "osculate/deck/inp_parts.hpp"
+#include "osculate/io/inp/loaded_sets.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using io::inp::Card;
+using io::inp::Fields;
+using io::inp::Line;
+using io::inp::SetKind;
+
+/// An element that is no cell: the sets of its nodes.
+struct Discrete {
+  std::string type;
+  std::vector<std::string> nodes;
+};
+
+/// The elements that a property card is about, which `*ELEMENT` puts into its set.
+std::vector<Discrete> elements_with(const InpModel& m, const Card& property) {
+  const std::string set = io::inp::capitals(value_of(m, property, "ELSET"));
+  std::vector<Discrete> found;
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "ELEMENT" || option_of(card, "ELSET") != set) continue;
+    const int count = io::inp::discrete_nodes(card);
+    for (const Line& line : io::inp::lines_of(m.deck, card)) {
+      if (count == 0) break;
+      Fields fields(m.deck, line);
+      (void)fields.number("the number of an element");
+      Discrete& one = found.emplace_back(Discrete{option_of(card, "TYPE"), {}});
+      for (int k = 0; k < count; ++k)
+        one.nodes.push_back(node_set_of(m, line, fields.next().value_or("")));
+      fields.expect_end();
+    }
+  }
+  if (found.empty())
+    io::inp::fail(m.deck, property, "there is no *ELEMENT of its kind with this ELSET");
+  return found;
+}
+
+/// Fails for elements of other kinds.
+void require_kind(const InpModel& m, const Card& property, const Discrete& element,
+                  std::string_view kind) {
+  if (!element.type.starts_with(kind))
+    io::inp::fail(m.deck, property,
+                  fmt::format("its ELSET has elements of type {}", printable(element.type)));
+}
+
+/// factor times a direction of a node as a term.
+void put_term(const InpModel& m, const Line& line, const std::string& node, int direction,
+              double factor, SourceNode& terms) {
+  const std::vector<InpPlace> places =
+      direction >= 1 && direction <= 6 ? inp_places(m, node, direction) : std::vector<InpPlace>{};
+  if (places.size() != 1)
+    io::inp::fail(m.deck, line.at, fmt::format("'{}' has no direction {}", node, direction));
+  const int at = line_of(line.at);
+  SourceNode& term = terms.items.emplace_back(inp_map(at));
+  put(term, "on", inp_text(places[0].on, at));
+  put(term, "of", inp_text(inp_component('u', places[0].direction), at));
+  put(term, "factor", inp_number(places[0].sign * factor, at));
+}
+
+/// Along which line or of which displacements it acts. `directions`: the first line of data.
+void put_motion(const InpModel& m, const Card& card, const Discrete& element,
+                const Line* directions, SourceNode& spring) {
+  const int line = line_of(card.at);
+  if (element.type.ends_with('A')) {
+    SourceNode& between = put(spring, "between", inp_list(line));
+    for (const std::string& node : element.nodes) between.items.push_back(inp_text(node, line));
+    put(spring, "kinematics", inp_text(m.finite ? "finite" : "small", line));
+    return;
+  }
+  if (!directions) io::inp::fail(m.deck, card, "expected a line with the direction");
+  Fields fields(m.deck, *directions);
+  SourceNode& terms = put(spring, "terms", inp_list(line));
+  for (std::size_t k = 0; k < element.nodes.size(); ++k)
+    put_term(m, *directions, element.nodes[k], fields.number("a direction"),
+             k + 1 == element.nodes.size() ? 1.0 : -1.0, terms);
+  fields.expect_end();
+}
+
+SourceNode& new_spring(SourceNode& root, int line) {
+  if (!find(root, "springs")) put(root, "springs", inp_list(line));
+  return find(root, "springs")->items.emplace_back(inp_map(line));
+}
+
+/// Behind the line with directions, which springs along their nodes do not have: blank lines are
+/// none.
+std::span<const Line> numbers_of(const InpModel& m, const Card& card, const Discrete& element,
+                                 const Line*& directions) {
+  std::span<const Line> lines = io::inp::lines_of(m.deck, card);
+  directions = nullptr;
+  if (!element.type.ends_with('A') && !lines.empty()) {
+    directions = &lines.front();
+    lines = lines.subspan(1);
+  }
+  if (lines.empty()) io::inp::fail(m.deck, card, "expected a line with numbers");
+  return lines;
+}
+
+void put_spring(const InpModel& m, const Card& card, SourceNode& root) {
+  if (!option_of(card, "ORIENTATION").empty())
+    io::inp::fail(m.deck, card, "ORIENTATION is not supported");
+  const bool curve = io::inp::find_parameter(card, "NONLINEAR") != nullptr;
+  for (const Discrete& element : elements_with(m, card)) {
+    require_kind(m, card, element, "SPRING");
+    const Line* directions = nullptr;
+    const std::span<const Line> lines = numbers_of(m, card, element, directions);
+    const int line = line_of(card.at);
+    SourceNode& spring = new_spring(root, line);
+    put_motion(m, card, element, directions, spring);
+    if (!curve) {
+      if (lines.size() > 1)
+        io::inp::fail(m.deck, lines[1].at,
+                      "*SPRING: a stiffness that depends on the temperature "
+                      "is not supported");
+      Fields fields(m.deck, lines[0]);
+      put(spring, "stiffness", inp_number(fields.real("the stiffness"), line_of(lines[0].at)));
+      continue;
+    }
+    SourceNode& table = put(spring, "table", inp_list(line));
+    for (const Line& data : lines) {
+      Fields fields(m.deck, data);
+      const double force = fields.real("the force"), elongation = fields.real("the elongation");
+      SourceNode& point = table.items.emplace_back(inp_list(line_of(data.at)));
+      point.items = {inp_number(elongation, line_of(data.at)), inp_number(force, line_of(data.at))};
+    }
+  }
+}
+
+void put_dashpot(const InpModel& m, const Card& card, SourceNode& root) {
+  if (!option_of(card, "ORIENTATION").empty())
+    io::inp::fail(m.deck, card, "ORIENTATION is not supported");
+  for (const Discrete& element : elements_with(m, card)) {
+    require_kind(m, card, element, "DASHPOT");
+    const Line* directions = nullptr;
+    const std::span<const Line> lines = numbers_of(m, card, element, directions);
+    if (lines.size() > 1)
+      io::inp::fail(m.deck, lines[1].at, "*DASHPOT: one coefficient is read, no second one");
+    SourceNode& spring = new_spring(root, line_of(card.at));
+    put_motion(m, card, element, directions, spring);
+    put(spring, "damping",
+        inp_number(Fields(m.deck, lines[0]).real("the coefficient"), line_of(lines[0].at)));
+  }
+}
+
+/// Nodes that are free to part, and pushed apart as soon as they are nearer than the clearance.
+///
+/// Formula    q = n . (u2 - u1) , F = k (q + d) where q < -d , 0 elsewhere
+void put_gap(const InpModel& m, const Card& card, SourceNode& root) {
+  constexpr double usual_stiffness = 1e12;  // of CalculiX
+  for (const Discrete& element : elements_with(m, card)) {
+    require_kind(m, card, element, "GAP");
+    const Line& data = only_line(m, card, "clearance and direction");
+    Fields fields(m.deck, data);
+    const double clearance = fields.real("the clearance");
+    const Vec3 direction = point_of(fields);
+    if (!(direction.norm() > 0)) fields.fail("expected the direction of the gap");
+    (void)fields.next();
+    const double given = fields.real_or_zero("the stiffness");
+    if (fields.real_or_zero("the force in tension") != 0)
+      fields.fail("a force in tension is not supported");
+    const double stiffness = given > 0 ? given : usual_stiffness;
+    const int line = line_of(data.at);
+    SourceNode& spring = new_spring(root, line);
+    SourceNode& terms = put(spring, "terms", inp_list(line));
+    for (int k = 0; k < inp_dimension(m); ++k)
+      if (const double n = direction.normalized()[k]; n != 0) {
+        put_term(m, data, element.nodes[0], k + 1, -n, terms);
+        put_term(m, data, element.nodes[1], k + 1, n, terms);
+      }
+    SourceNode& table = put(spring, "table", inp_list(line));
+    const double far = 1e3 * (1 + std::abs(clearance));
+    for (const std::array<double, 2>& point : {std::array{-clearance - far, -stiffness * far},
+                                               std::array{-clearance, 0.0}, std::array{far, 0.0}})
+      table.items.emplace_back(inp_list(line)).items = {inp_number(point[0], line),
+                                                        inp_number(point[1], line)};
+  }
+}
+
+void put_mass(const InpModel& m, const Card& card, SourceNode& root) {
+  const Line& data = only_line(m, card, "the mass");
+  for (const Discrete& element : elements_with(m, card)) {
+    require_kind(m, card, element, "MASS");
+    const int line = line_of(data.at);
+    if (!find(root, "masses")) put(root, "masses", inp_list(line));
+    SourceNode& mass = find(root, "masses")->items.emplace_back(inp_map(line));
+    put(mass, "on", inp_text(element.nodes[0], line));
+    put(mass, "mass", inp_number(Fields(m.deck, data).real("the mass"), line));
+  }
+}
+
+}  // namespace
+
+void put_springs(const InpModel& m, SourceNode& root) {
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword == "SPRING") put_spring(m, card, root);
+    if (card.keyword == "DASHPOT") put_dashpot(m, card, root);
+    if (card.keyword == "GAP") put_gap(m, card, root);
+    if (card.keyword == "MASS") put_mass(m, card, root);
+  }
+}
+
+}  // namespace osculate::deck

@@ -1,0 +1,90 @@
+#include "osculate/model/spring.hpp"
+
+#include <algorithm>
+
+namespace osculate::model {
+namespace {
+
+/// Area below the curve from its first point to the elongation, whose force is known.
+double area_until(const core::Table& table, double elongation, double force) {
+  const auto& first = table.front();
+  if (elongation <= first[0]) return (elongation - first[0]) * first[1];
+  double area = 0;
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    const auto &a = table[i - 1], &b = table[i];
+    if (elongation <= b[0]) return area + 0.5 * (elongation - a[0]) * (a[1] + force);
+    area += 0.5 * (b[0] - a[0]) * (a[1] + b[1]);
+  }
+  return area + (elongation - table.back()[0]) * force;
+}
+
+/// At a corner of the curve its slope behind it.
+SpringResponse by_table(const core::Table& table, double elongation) {
+  SpringResponse r;
+  if (elongation < table.front()[0]) {
+    r.force = table.front()[1];
+    return r;
+  }
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    const auto &a = table[i - 1], &b = table[i];
+    if (elongation >= b[0]) continue;
+    r.slope = (b[1] - a[1]) / (b[0] - a[0]);
+    r.force = a[1] + r.slope * (elongation - a[0]);
+    return r;
+  }
+  r.force = table.back()[1];
+  return r;
+}
+
+}  // namespace
+
+SpringResponse response(const Spring& spring, double elongation) {
+  if (spring.table.empty()) {
+    const double k = spring.stiffness;
+    return {k * elongation, k, 0.5 * k * elongation * elongation};
+  }
+  SpringResponse r = by_table(spring.table, elongation);
+  const double at_zero = by_table(spring.table, 0.0).force;
+  r.stored = area_until(spring.table, elongation, r.force) - area_until(spring.table, 0.0, at_zero);
+  return r;
+}
+
+template <int Dim>
+SpringMotion motion_of(const Spring& spring, std::span<const Vec<Dim>> reference,
+                       std::span<const Vec<Dim>> x, const std::function<double(Dof)>& value) {
+  SpringMotion m;
+  if (!spring.joins()) {
+    m.gradient.resize(static_cast<Eigen::Index>(spring.terms.size()));
+    for (std::size_t i = 0; i < spring.terms.size(); ++i) {
+      m.dofs.push_back(spring.terms[i].dof);
+      m.gradient[static_cast<Eigen::Index>(i)] = spring.terms[i].factor;
+      m.elongation += spring.terms[i].factor * value(spring.terms[i].dof);
+    }
+    return m;
+  }
+  for (const Index node : spring.ends)
+    for (int i = 0; i < Dim; ++i) m.dofs.push_back(Dim * node + i);
+  const auto between = [&](std::span<const Vec<Dim>> at) {
+    return Vec<Dim>(at[static_cast<std::size_t>(spring.ends[1])] -
+                    at[static_cast<std::size_t>(spring.ends[0])]);
+  };
+  const Vec<Dim> before = between(reference), now = between(x);
+  const double length = now.norm();
+  const bool turns = spring.turns && length > 0;
+  const Vec<Dim> n = turns ? Vec<Dim>(now / length) : Vec<Dim>(before.normalized());
+  m.elongation = turns ? length - before.norm() : n.dot(now - before);
+  m.gradient.resize(2 * Dim);
+  m.gradient << -n, n;
+  if (!turns) return m;
+  const Mat<Dim, Dim> across = (Mat<Dim, Dim>::Identity() - n * n.transpose()) / length;
+  m.curvature.resize(2 * Dim, 2 * Dim);
+  m.curvature << across, -across, -across, across;
+  return m;
+}
+
+template SpringMotion motion_of(const Spring&, std::span<const Vec<2>>, std::span<const Vec<2>>,
+                                const std::function<double(Dof)>&);
+template SpringMotion motion_of(const Spring&, std::span<const Vec<3>>, std::span<const Vec<3>>,
+                                const std::function<double(Dof)>&);
+
+}  // namespace osculate::model

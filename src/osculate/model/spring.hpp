@@ -1,0 +1,61 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "osculate/core/param.hpp"
+#include "osculate/model/dof_space.hpp"
+
+namespace osculate::model {
+
+/// A force that depends on one elongation q, and a damper beside it.
+///
+/// Formula    of two nodes  q = |x2 - x1| - |X2 - X1| , along the line that joins them, or (if it
+///            does not turn) q = e . (u2 - u1) , e along that of the reference configuration;
+///            of displacements  q = sum factor u ;
+///            F = k q , or by straight lines between the points of a table, constant beyond its
+///            ends; plus c dq/dt in steps with inertia
+/// Units      force over length; k force/length, c force time/length
+struct Spring {
+  std::string name{};
+  std::array<Index, 2> ends{-1, -1};  ///< nodes that it joins; -1: it has terms
+  bool turns = true;                  ///< with the line between the nodes
+  std::vector<Equation::Term> terms{};
+  double stiffness = 0;
+  core::Table table{};  ///< elongation (increasing), force; empty: linear
+  double damping = 0;
+
+  [[nodiscard]] bool joins() const { return ends[0] >= 0; }
+};
+
+/// Force, its slope and the energy stored since the elongation was zero.
+///
+/// Tested by  tests/unit/model/test_spring.cpp
+struct SpringResponse {
+  double force = 0, slope = 0, stored = 0;
+};
+[[nodiscard]] SpringResponse response(const Spring& spring, double elongation);
+
+/// The elongation, its gradient, and its curvature (empty: none) by the dofs.
+///
+/// Formula    dq/dx = (-n, n) , d2q/dx2 = (1 - n n) / |x2 - x1| with the signs of the nodes; n the
+///            unit vector from the first node to the second
+struct SpringMotion {
+  double elongation = 0;
+  std::vector<Dof> dofs;
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd curvature;
+};
+
+/// `value` of a dof. Nodes at one place have the direction they had at first.
+///
+/// Tested by  tests/unit/model/test_spring.cpp
+template <int Dim>
+[[nodiscard]] SpringMotion motion_of(const Spring& spring, std::span<const Vec<Dim>> reference,
+                                     std::span<const Vec<Dim>> x,
+                                     const std::function<double(Dof)>& value);
+
+}  // namespace osculate::model

@@ -1,0 +1,103 @@
+// Springs, dampers, gaps and masses of decks.
+#include <fmt/format.h>
+
+#include "inp_run_test.hpp"
+#include "osculate/deck/inp_translate.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// A unit cube, held or not, with nodes 21 and 22 beside it.
+const std::string cube =
+    "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n"
+    "21,4,0,0\n22,1,0,0\n"
+    "*ELEMENT, TYPE=C3D8, ELSET=CUBE\n1,1,2,3,4,5,6,7,8\n"
+    "*NSET, NSET=ALL\n1,2,3,4,5,6,7,8\n"
+    "*MATERIAL, NAME=M\n*ELASTIC\n1e9, 0.\n*DENSITY\n1e-9\n"
+    "*SOLID SECTION, ELSET=CUBE, MATERIAL=M\n";
+const std::string held = "*BOUNDARY\nALL, 2, 3\n2, 1, 1, 0.\n21, 1, 3\n22, 2, 3\n";
+std::string step(const std::string& what, const std::string& parameters = "") {
+  return "*STEP" + parameters + "\n*STATIC\n1., 1.\n" + what + "*END STEP\n";
+}
+std::string fault(const std::string& text) {
+  try {
+    (void)translate_deck(text, "d.inp");
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Along the line between nodes, in directions of one and of two nodes, by a table.
+TEST(InpSprings, OfAllKinds) {
+  const std::string spring = "*ELEMENT, TYPE=SPRINGA, ELSET=A\n2, 22, 21\n*SPRING, ELSET=A\n\n5.\n";
+  const std::string ground = "*ELEMENT, TYPE=SPRING1, ELSET=B\n3, 22\n*SPRING, ELSET=B\n1\n3.\n";
+  const std::string two =
+      "*ELEMENT, TYPE=SPRING2, ELSET=C\n4, 21, 22\n*SPRING, ELSET=C\n1, 1\n2.\n";
+  const std::string table =
+      "*ELEMENT, TYPE=SPRINGA, ELSET=D\n5, 22, 21\n*SPRING, ELSET=D, NONLINEAR\n\n-6., -2.\n0., "
+      "0.\n"
+      "1., 1.\n";
+  const auto way = [&](const std::string& springs) {
+    return run_deck(cube + springs + held + step("*CLOAD\n22, 1, 1.5\n", ", NLGEOM"))
+        .displacement(22)
+        .x();
+  };
+  EXPECT_NEAR(way(spring), 1.5 / 5, 1e-9);
+  EXPECT_NEAR(way(spring + ground), 1.5 / 8, 1e-9);
+  EXPECT_NEAR(way(two + ground), 1.5 / 5, 1e-9);
+  EXPECT_NEAR(way(table), 0.5, 1e-9);
+}
+
+TEST(InpSprings, WithoutAnyCell) {
+  const DeckRun run = run_deck(
+      "*NODE\n1,0,0,0\n2,0,0,3\n*ELEMENT, TYPE=SPRINGA, ELSET=S\n1,1,2\n*SPRING, ELSET=S\n\n4.\n"
+      "*BOUNDARY\n1,1,3\n2,1,2\n" +
+      step("*CLOAD\n2,3,2.\n"));
+  EXPECT_NEAR(run.displacement(2).z(), 0.5, 1e-12);
+}
+
+/// Free until the gap has closed, then stiff.
+TEST(InpSprings, GapsClose) {
+  const auto way = [&](double prescribed) {
+    const DeckRun run = run_deck(
+        cube +
+        "*ELEMENT, TYPE=GAPUNI, ELSET=G\n2, 22, 21\n*GAP, ELSET=G\n0.25, 1., 0., 0., , 1e4\n" +
+        "*ELEMENT, TYPE=SPRING1, ELSET=B\n3, 22\n*SPRING, ELSET=B\n1\n1.\n" + held +
+        step(fmt::format("*CLOAD\n22, 1, {}\n", prescribed)));
+    return run.displacement(22).x();
+  };
+  EXPECT_NEAR(way(-2), -2, 1e-9);
+  EXPECT_NEAR(way(0.2), 0.2, 1e-9);
+  EXPECT_NEAR(way(3), (3 + 0.25 * 1e4) / (1e4 + 1), 1e-9);
+}
+
+TEST(InpSprings, DampersAndMasses) {
+  const TranslatedDeck deck =
+      translate_deck(cube +
+                         "*ELEMENT, TYPE=DASHPOTA, ELSET=D\n2, 22, 21\n*DASHPOT, ELSET=D\n\n0.5\n"
+                         "*ELEMENT, TYPE=MASS, ELSET=P\n3, 22\n*MASS, ELSET=P\n2.5\n" +
+                         held + step(""),
+                     "d.inp");
+  const std::string yaml = to_yaml(deck.root);
+  EXPECT_NE(yaml.find("damping: 0.5"), std::string::npos) << yaml;
+  EXPECT_NE(yaml.find("mass: 2.5"), std::string::npos) << yaml;
+}
+
+TEST(InpSprings, WhatIsWrong) {
+  const auto of = [&](const std::string& cards) { return fault(cube + cards + held + step("")); };
+  EXPECT_EQ(of("*SPRING, ELSET=NONE\n\n1.\n"),
+            "d.inp:22: *SPRING: there is no *ELEMENT of its kind with this ELSET");
+  EXPECT_EQ(of("*ELEMENT, TYPE=SPRINGA, ELSET=A\n2, 22, 21\n*MASS, ELSET=A\n1.\n"),
+            "d.inp:24: *MASS: its ELSET has elements of type SPRINGA");
+  EXPECT_EQ(of("*ELEMENT, TYPE=SPRING1, ELSET=A\n2, 22\n*SPRING, ELSET=A\n4\n1.\n"),
+            "d.inp:25: 'node 22' has no direction 4");
+  EXPECT_EQ(
+      of("*ELEMENT, TYPE=SPRINGA, ELSET=A\n2, 22, 21\n*SPRING, ELSET=A\n\n1.,,0.\n2.,,100.\n"),
+      "d.inp:27: *SPRING: a stiffness that depends on the temperature is not supported");
+  EXPECT_EQ(of("*ELEMENT, TYPE=GAPUNI, ELSET=A\n2, 22, 21\n*GAP, ELSET=A\n0.1\n"),
+            "d.inp:25: expected the direction of the gap");
+}
+
+}  // namespace
+}  // namespace osculate::deck
