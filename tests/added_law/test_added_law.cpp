@@ -50,8 +50,9 @@ TEST(AddedLaw, IsInSchemaAndDocumentation) {
   EXPECT_THAT(schema, HasSubstr("\"saturating\""));
   EXPECT_THAT(deck::explain_model_key("contact.normal"),
               HasSubstr("a penalty, or one of exponential, table, decaying and quadratic."));
-  EXPECT_THAT(deck::explain_model_key("friction"),
-              HasSubstr("Exactly one of: coulomb, tresca, rough, rate_and_state, viscous, saturating"));
+  EXPECT_THAT(
+      deck::explain_model_key("friction"),
+      HasSubstr("Exactly one of: coulomb, tresca, rough, rate_and_state, viscous, saturating"));
   EXPECT_THAT(deck::explain_model_key("saturating.least"), HasSubstr("default: none"));
   EXPECT_THAT(deck::explain_model_key("saturating.penalty"), HasSubstr("against shear"));
 }

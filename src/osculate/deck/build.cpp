@@ -9,6 +9,7 @@
 #include "osculate/deck/build_displacements.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/deck/parse_parts.hpp"
+#include "osculate/deck/pretension.hpp"
 #include "osculate/mesh/check.hpp"
 
 namespace osculate::deck {
@@ -166,9 +167,12 @@ std::vector<bool> nodes_of(const std::vector<std::string>& sets, const mesh::Mes
   return out;
 }
 
-/// What sets the model names that need no cells.
-std::vector<std::string> sets_without_cells(const Description& description) {
+/// What sets the model names that need no cells, and those of one node: who names one means it.
+std::vector<std::string> sets_without_cells(const Description& description,
+                                            const mesh::Mesh& mesh) {
   std::vector<std::string> names;
+  for (const mesh::Set& set : mesh.sets)
+    if (set.nodes.size() == 1) names.push_back(set.name);
   const auto add = [&names](const Name& on) { names.push_back(on.value); };
   for (const Spring& spring : description.springs) {
     std::ranges::for_each(spring.between, add);
@@ -198,6 +202,14 @@ std::vector<mesh::ContactSides> sides_of_contacts(const Description& description
     for (std::size_t k = 0; k < spring.terms.size(); ++k)
       (k == 0 ? first : others).push_back(spring.terms[k].on.value);
   if (!others.empty()) out.push_back({nodes_of(first, mesh), nodes_of(others, mesh)});
+  for (const Pretension& pretension : description.pretension) {
+    mesh::ContactSides& sides = out.emplace_back();
+    for (std::vector<bool>& side : sides) side.resize(mesh.nodes.size());
+    for (const auto& [behind, front] : cut_of(pretension, mesh).nodes) {
+      sides[0][static_cast<std::size_t>(behind)] = true;
+      sides[1][static_cast<std::size_t>(front)] = true;
+    }
+  }
   return out;
 }
 
@@ -207,7 +219,7 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   built.input_notes = description.notes;
   for (const mesh::Finding& finding :
        mesh::check_mesh(mesh, sides_of_contacts(description, mesh),
-                        nodes_of(sets_without_cells(description), mesh))) {
+                        nodes_of(sets_without_cells(description, mesh), mesh))) {
     if (finding.is_error) throw core::InputError(description.mesh.mark, finding.message);
     built.warnings.push_back(finding.message);
   }

@@ -59,11 +59,11 @@ enum class Predictor { automatic, tangent };
 /// when the work of the correction has fallen to 1e-10 of the first. Where no force acts from
 /// outside and the prediction leaves rounding alone, or inertia has it all, such a residual is all
 /// there is. A residual that stands still for three iterations ends them too, at 1e-6 of the scale
-/// with an energy below its tolerance, or at 1e-3 of its own tolerance. With a tangent without
-/// digits corrections must have fallen to 1e-5 of the largest besides. Both used (default): after a
-/// solve, the energy is the work of the remaining residual on the last correction. Energy alone:
-/// the papers' rule, which needs the solve it is measured with
-/// ("counting the last solve").
+/// with an energy below its tolerance, or one for two at 1e-3 of its own tolerance, at 0.1 of it
+/// where the increment began below that. With a tangent without digits corrections must have fallen
+/// to 1e-5 of the largest besides. Both used (default): after a solve, the energy is the work of
+/// the remaining residual on the last correction. Energy alone: the papers' rule, which needs the
+/// solve it is measured with ("counting the last solve").
 ///
 /// Formula    scale = max(force_scale, 1e-3 |R_1|), R_1 the residual of the prediction: a body that
 ///            is carried along without resistance has no forces but round-off to compare with

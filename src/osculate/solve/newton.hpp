@@ -37,10 +37,13 @@ struct Judge {
   [[nodiscard]] bool only_rounding(const Evaluation& e, double residual, double energy_before,
                                    double first_residual) const {
     constexpr double residual_limit = 1e-3, energy_limit = 1e-10, standing_limit = 1e-6,
-                     far_below = 1e-3;
+                     far_below = 1e-3, below = 0.1;
     constexpr int standing = 3;
     const double size = e.residual.norm();
-    if (stalled >= 2 && residual <= far_below * options.residual) return true;
+    // The increment began in balance: its first energy is none to be compared with.
+    const bool nothing_new = first_residual <= below * options.residual * e.force_scale;
+    if (stalled >= 2 && residual <= (nothing_new ? below : far_below) * options.residual)
+      return true;
     if (stalled >= standing && options.energy > 0 && residual <= standing_limit &&
         energy_before <= options.energy * first_energy)
       return true;

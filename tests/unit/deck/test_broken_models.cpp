@@ -190,12 +190,15 @@ TEST(BrokenModels, Words) {
        "model.yaml:19: contact[0].weight: unknown value 'referenc_area'; did you mean "
        "'reference_area'?"},
       {"weight: reference_area", "weight: x",
-       "model.yaml:19: contact[0].weight: expected node, reference_area, current_area or a map, got "
+       "model.yaml:19: contact[0].weight: expected node, reference_area, current_area or a map, "
+       "got "
        "the text 'x'"},
       {"weight: reference_area", "weight: current_aria",
-       "model.yaml:19: contact[0].weight: unknown value 'current_aria'; did you mean 'current_area'?"},
+       "model.yaml:19: contact[0].weight: unknown value 'current_aria'; did you mean "
+       "'current_area'?"},
       {"weight: reference_area", "weight: [node]",
-       "model.yaml:19: contact[0].weight: expected node, reference_area, current_area or a map, got "
+       "model.yaml:19: contact[0].weight: expected node, reference_area, current_area or a map, "
+       "got "
        "a list"},
       {"fields: every", "fields: evry",
        "model.yaml:38: output.fields: unknown value 'evry'; did you mean 'every'?"},

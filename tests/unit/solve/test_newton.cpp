@@ -155,12 +155,12 @@ TEST(Newton, StandingResidualsAreAcceptedFarBelowTheForces) {
 
 /// Nothing happens in the increment: the first energy is noise, and so are all others.
 TEST(Newton, ARestThatStandsFarBelowItsToleranceIsConverged) {
-  for (const double noise : {3e-14, 3e-10}) {
+  for (const double noise : {3e-14, 3e-11, 3e-10}) {
     int calls = 0;
     ToySystem system = noisy(noise, calls);
     system.round_off = 0;
     const auto result = solve_from(system, 1, {.line_search = LineSearch::off});
-    EXPECT_EQ(result.outcome == Outcome::converged, noise < 1e-12) << noise;
+    EXPECT_EQ(result.outcome == Outcome::converged, noise < 1e-10) << noise;
     EXPECT_FALSE(result.precision.round_off);
   }
 }
