@@ -210,6 +210,22 @@ bool is_oriented(const InpModel& m, const Card& section) {
   return directional && !option_of(section, "ORIENTATION").empty();
 }
 
+/// Results that the deck wants in the axes of a section's material.
+void tell_of_local_results(InpModel& m) {
+  const auto any = [&](const auto& is) {
+    return std::any_of(m.deck.cards.begin(), m.deck.cards.end(), is);
+  };
+  const bool oriented = any([](const Card& card) {
+    return card.keyword == "SOLIDSECTION" && !option_of(card, "ORIENTATION").empty();
+  });
+  const bool local = any([](const Card& card) {
+    const std::string global = option_of(card, "GLOBAL");
+    return card.keyword == "ELPRINT" ? global != "YES" : card.keyword == "ELFILE" && global == "NO";
+  });
+  if (oriented && local)
+    m.notes.emplace_back("stresses and strains are in global axes, as with GLOBAL=YES");
+}
+
 }  // namespace
 
 SourceNode inp_sections(InpModel& m) {
@@ -234,6 +250,7 @@ SourceNode inp_sections(InpModel& m) {
     }
   }
   require_sections(m, sections);
+  tell_of_local_results(m);
   return sections;
 }
 

@@ -125,10 +125,10 @@ template <class T>
     core::Table points;
     for (const Value& item : value->items)
       points.push_back({item.items[0].number, item.items[1].number});
-    if (p.over && !points.empty()) {
+    if (core::Table* const over = core::table_over(object, p); over && !points.empty()) {
       check_temperatures(p, *value);
       core::set(object, p.slot, points.front()[1]);
-      *core::table_over(object, p) = std::move(points);
+      *over = std::move(points);
       continue;
     }
     core::set(object, p.slot, value->number);

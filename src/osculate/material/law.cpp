@@ -101,11 +101,10 @@ bool large_strain(const Law& law) {
 }
 
 bool linear(const Law& law) {
-  return !over_temperature(law) && std::visit(
-                                       []<class T>(const T&) {
-                                         return requires { requires T::linear; };
-                                       },
-                                       law);
+  const auto of = []<class T>(const T&) {
+    return requires { requires T::linear; };
+  };
+  return !over_temperature(law) && std::visit(of, law);
 }
 
 std::span<const Remembered> memory_of(const Law& law) {

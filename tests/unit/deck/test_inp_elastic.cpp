@@ -104,6 +104,24 @@ TEST(InpElastic, OrientationsAreThoseOfTheirSections) {
             Kind::global);
 }
 
+TEST(InpElastic, TellsOfResultsInLocalAxes) {
+  const auto notes = [](const std::string& print) {
+    return translate_deck(
+               "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n"
+               "7, 1, 1, 1\n8, 0, 1, 1\n*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+               "*ORIENTATION, NAME=O\n0., 0., 1., 1., 0., 0.\n*MATERIAL, NAME=M\n" +
+                   wood +
+                   "*SOLID SECTION, ELSET=E, MATERIAL=M, ORIENTATION=O\n*STEP\n*STATIC\n*BOUNDARY\n"
+                   "1, 1, 3\n*EL PRINT, ELSET=E" +
+                   print + "\nS\n*END STEP\n",
+               "a.inp")
+        .notes;
+  };
+  EXPECT_THAT(notes(""),
+              ::testing::Contains("stresses and strains are in global axes, as with GLOBAL=YES"));
+  EXPECT_TRUE(notes(", GLOBAL=YES").empty());
+}
+
 TEST(InpElastic, SaysWhatIsNotSupported) {
   EXPECT_THAT(message({"*ELASTIC, TYPE=LAMINA\n1., 2.\n"}),
               HasSubstr("TYPE=LAMINA is not supported: ISO, ORTHO, ENGINEERING CONSTANTS, ANISO"));

@@ -1,7 +1,6 @@
 #include <algorithm>
 
-#include "deck_test.hpp"
-#include "osculate/deck/build.hpp"
+#include "system_test.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -56,21 +55,33 @@ TEST(Temperatures, ElasticConstantsAreTablesOverThem) {
             "model.yaml:6: materials.lead.linear_elastic.E[1][1]: E = -60, but E > 0 is needed");
 }
 
-TEST(Temperatures, AreNeededWhereConstantsDependOnThem) {
-  const Description d = parse_model(
-      "osculate: 1\nmesh: {generate: {b: {box: {x: [0, 1], y: [0, 1], elements: [1, 1]}}}}\n"
-      "materials: {m: {linear_elastic: {E: [[0, 1], [1, 2]], nu: 0.3}}}\n"
-      "sections: [{on: b, material: m, element: plane_strain}]\n"
-      "steps: [{name: s, increments: 1, prescribe: [{on: b, ux: 0, uy: 0}]}]\n",
-      "model.yaml");
-  try {
-    (void)build(d, load_mesh(d));
-    FAIL();
-  } catch (const core::InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "model.yaml:3: materials.m.linear_elastic: material 'm' depends on the "
-                 "temperature, which is given nowhere: add `initial_temperature`");
+// Points know their temperature before the first step (which may look for vibrations), and then
+// that of the moment; beside it stands the strain.
+TEST(Temperatures, OfPointsAreRememberedFromTheStartOn) {
+  Probe probe(test_file("heat.yaml"));  // one point a cell
+  const std::vector<double>& at_first = probe.start.memory;
+  ASSERT_EQ(at_first.size(), 16U);
+  for (std::size_t cell = 0; cell < 8; ++cell) {
+    EXPECT_EQ(at_first[2 * cell], 0.0);
+    EXPECT_EQ(at_first[2 * cell + 1], 20.0);
   }
+  (void)probe.at(probe.base, false, 1.0);
+  const std::vector<double>& now = probe.system.material_memory();
+  // the top of the upper row is at 50, all else at 30
+  for (std::size_t cell = 0; cell < 8; ++cell)
+    EXPECT_NEAR(now[2 * cell + 1], cell < 4 ? 30 : 40, 1e-12) << cell;
+  EXPECT_NEAR(now[0], (3e-5 + 0.3 * 1e-5) * 10, 1e-18);
+}
+
+TEST(Temperatures, AreNeededWhereConstantsDependOnThem) {
+  EXPECT_EQ(
+      build_refusal(
+          "osculate: 1\nmesh: {generate: {b: {box: {x: [0, 1], y: [0, 1], elements: [1, 1]}}}}\n"
+          "materials: {m: {linear_elastic: {E: [[0, 1], [1, 2]], nu: 0.3}}}\n"
+          "sections: [{on: b, material: m, element: plane_strain}]\n"
+          "steps: [{name: s, increments: 1, prescribe: [{on: b, ux: 0, uy: 0}]}]\n"),
+      "model.yaml:3: materials.m.linear_elastic: material 'm' depends on the temperature, which "
+      "is given nowhere: add `initial_temperature`");
 }
 
 }  // namespace

@@ -63,8 +63,9 @@ TEST_P(OrientedCell, HasAForceThatIsTheDerivativeOfItsEnergy) {
       return Eigen::VectorXd::Constant(1, energy(c, x, unflat(v, c.dim())));
     };
     const double work = answer(c, x, u, false).force.dot(along);
+    const double step = c.finite() ? 4e-3 : 0.05;  // of small strain it is quadratic
     const auto r = osculate::testing::check_derivative(
-        potential, Eigen::VectorXd::Constant(1, work), flat(u), along, 4e-3);
+        potential, Eigen::VectorXd::Constant(1, work), flat(u), along, step);
     EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.1) << r.order << " " << r.error;
   });
 }
