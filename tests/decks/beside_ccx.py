@@ -257,8 +257,6 @@ def refusal(text, message):
             return reason
     lines = [line for line in message.splitlines() if line.startswith("error:")] or [message.strip()]
     said = re.sub(r"^error: (deck\.inp:)?\s*(\d+: )?([\w\[\].]+: )?('[^']*' and '[^']*': )?", "", lines[0])
-    if "isotropic" in said:
-        return "materials that are not isotropic (`*ELASTIC`, `*ORIENTATION`)"
     said = re.sub(r"; known: .*|: in a model file.*|; a model file.*", "", said)
     keyword = re.match(r"\*(\w[\w-]*): (.*)", said)
     if not keyword:

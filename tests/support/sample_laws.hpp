@@ -9,6 +9,15 @@ void set_elastic(T& law, double young, double poisson) {
   if constexpr (requires { law.young; }) {
     law.young = young;
     law.poisson = poisson;
+  } else if constexpr (requires { law.e1; }) {
+    law.e1 = law.e2 = law.e3 = young;
+    law.nu12 = law.nu13 = law.nu23 = poisson;
+    law.g12 = law.g13 = law.g23 = young / (2 * (1 + poisson));
+  } else if constexpr (requires { law.d1111; }) {
+    const material::Lame c = material::lame(young, poisson);
+    law.d1111 = law.d2222 = law.d3333 = c.lambda + 2 * c.mu;
+    law.d1122 = law.d1133 = law.d2233 = c.lambda;
+    law.d1212 = law.d1313 = law.d2323 = c.mu;
   } else {
     const double mu = young / (2 * (1 + poisson)), bulk = young / (3 * (1 - 2 * poisson));
     law.c10 = 0.4 * mu;
@@ -20,6 +29,10 @@ void set_elastic(T& law, double young, double poisson) {
 }
 template <class T>
 void set_elastic(material::Logarithmic<T>& form, double young, double poisson) {
+  set_elastic(form.law, young, poisson);
+}
+template <class T>
+void set_elastic(material::GreenLagrange<T>& form, double young, double poisson) {
   set_elastic(form.law, young, poisson);
 }
 

@@ -66,6 +66,7 @@ struct Param {
   const OneOf* one_of = nullptr;         ///< the map it stands in
   const PointWords* points = nullptr;    ///< of a table: what its points are
   bool timed = false;                    ///< means something only where increments take time
+  Table T::*over = nullptr;  ///< a table over the temperature may be given in place of the number
 };
 
 /// What is wrong with an object whose parameters are in their ranges: a type with parameters may
@@ -106,6 +107,14 @@ template <class T>
 [[nodiscard]] const Table* table_in(const T& object, const Slot<T>& slot) {
   return member_in<Table>(object, slot);
 }
+/// The table over the temperature of a parameter that may have one.
+template <class T>
+[[nodiscard]] auto* table_over(T& object, const Param<std::remove_const_t<T>>& param) {
+  using Member = std::conditional_t<std::is_const_v<T>, const Table, Table>;
+  if constexpr (sizeof(T) >= sizeof(Table))
+    if (param.over) return &(object.*param.over);
+  return static_cast<Member*>(nullptr);
+}
 template <class T>
 void set(T& object, const Slot<T>& slot, double value) {
   if (double* const number = member_in<double>(object, slot)) *number = value;
@@ -130,6 +139,10 @@ template <class T>
       for (const std::array<double, 2>& point : *table)
         for (const double value : point)
           if (!std::isfinite(value)) return OutOfRange{param.key, value};
+    if (const Table* const table = table_over(object, param))
+      for (const auto& [temperature, value] : *table)
+        if (!std::isfinite(temperature) || !param.range.contains(value))
+          return OutOfRange{param.key, value, param.range};
     const std::optional<double> value = number_in(object, param.slot);
     if (!value || param.range.contains(*value)) continue;
     if (!param.required && !param.automatic && value == number_in(T{}, param.slot)) continue;

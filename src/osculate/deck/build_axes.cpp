@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -9,34 +8,6 @@
 
 namespace osculate::deck {
 namespace {
-
-/// Two unit vectors and the third one, orthogonal to them; the first along `a`, the second in the
-/// plane of `a` and `b`.
-///
-/// Requires   a and b are not parallel
-Mat<3, 3> axes_along(const Vec3& a, const Vec3& b) {
-  Mat<3, 3> axes;
-  axes.col(0) = a.normalized();
-  axes.col(2) = a.cross(b).normalized();
-  axes.col(1) = axes.col(2).cross(axes.col(0));
-  return axes;
-}
-
-Vec3 any_across(const Vec3& axis) {
-  Eigen::Index least = 0;
-  axis.cwiseAbs().minCoeff(&least);
-  return axis.cross(Vec3::Unit(least)).cross(axis);
-}
-
-/// Radial, around and along the axis; on the axis any radial direction does.
-Mat<3, 3> cylindrical_axes(const LocalAxes& axes, const Vec3& x) {
-  const Vec3 along = (axes.b - axes.a).normalized();
-  const Vec3 arm = x - axes.a;
-  Vec3 radial = arm - arm.dot(along) * along;
-  constexpr double on_axis = 1e-10;
-  if (!(radial.norm() > on_axis * (1 + arm.norm()))) radial = any_across(along);
-  return axes_along(radial, along.cross(radial));
-}
 
 /// Entries of rounding are none.
 Mat<3, 3> cleaned(Mat<3, 3> axes) {
@@ -55,17 +26,11 @@ bool is_aligned(const Mat<Dim, Dim>& axes) {
 template <int Dim>
 void read_axes(BuildContext<Dim>& c) {
   for (const LocalAxes& axes : c.description.axes) {
-    const Vec3 third = axes.cylindrical ? axes.b - axes.a : axes.a.cross(axes.b);
-    if (!(third.norm() > 0))
-      throw core::InputError(axes.mark,
-                             "the two points do not give axes: they coincide, or lie "
-                             "in one direction");
+    require_axes(axes.along, axes.mark);
     for (const Index node : c.set(axes.on).nodes) {
       const auto n = static_cast<std::size_t>(node);
       if (c.model().body_of_node[n] >= 0) continue;
-      const Mat<3, 3> in_space =
-          cleaned(axes.cylindrical ? cylindrical_axes(axes, c.model().mesh.nodes[n])
-                                   : axes_along(axes.a, axes.b));
+      const Mat<3, 3> in_space = cleaned(material::axes_at(axes.along, c.model().mesh.nodes[n]));
       c.axes[node] = {in_space.template topLeftCorner<Dim, Dim>(), -1};
     }
   }
@@ -109,6 +74,12 @@ void add_local_nodes(BuildContext<Dim>& c, const Name& on) {
 }
 
 }  // namespace
+
+void require_axes(const material::Orientation& axes, const core::SourceMark& mark) {
+  if (!material::gives_axes(axes))
+    throw core::InputError(
+        mark, "the two points do not give axes: they coincide, or lie in one direction");
+}
 
 template <int Dim>
 void build_axes(BuildContext<Dim>& c) {

@@ -126,4 +126,7 @@ void build_history(BuildContext<Dim>& context);
 template <int Dim>
 void check_model(BuildContext<Dim>& context);
 
+/// Fails where two points give no axes.
+void require_axes(const material::Orientation& axes, const core::SourceMark& mark);
+
 }  // namespace osculate::deck

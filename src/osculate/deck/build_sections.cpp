@@ -25,9 +25,8 @@ solid::Assumption assumption_of(SectionElement element) {
 
 /// The law in the strains of a section.
 material::Law law_of(const Section& s, const Material& material) {
-  return s.kinematics.value == Kinematics::finite
-             ? material::in_logarithmic_strain(material.law.value)
-             : material.law.value;
+  return s.kinematics.value == Kinematics::finite ? material::in_finite_strain(material.law.value)
+                                                  : material.law.value;
 }
 
 /// What `auto` stands for (decisions 037, 043): enhanced strains lock nowhere, but are unstable in
@@ -68,6 +67,7 @@ solid::Section<Dim> make_solid_section(const Section& s, const Material& materia
   out.formulation = formulation_of(s, material);
   out.law = law_of(s, material);
   out.expansion = material.expansion;
+  out.orientation = s.orientation.value;
   return out;
 }
 
@@ -130,6 +130,42 @@ void check_cell(const BuildContext<Dim>& c, const Section& s,
   check_shape(c, s, ref);
 }
 
+/// Axes that are given mean something, and are some.
+template <int Dim>
+void check_orientation(BuildContext<Dim>& c, const Section& s, const material::Law& law) {
+  const material::Orientation& axes = s.orientation.value;
+  if (axes.kind == material::Orientation::Kind::global) return;
+  require_axes(axes, s.orientation.mark);
+  if (!material::directional(law))
+    c.built.warnings.push_back(
+        fmt::format("sections: the orientation on '{}' has no effect: material '{}' is the same in "
+                    "all directions",
+                    s.on.value, s.material.value));
+}
+
+/// In the plane nothing may shear across it: neither strain of the plane makes such a stress, nor
+/// the other way.
+void check_plane(const BuildContext<2>& c, const Section& s, const model::BulkSection& section,
+                 const mesh::CellRef& ref) {
+  if (!material::directional(section.section.law)) return;
+  const mesh::Block& block = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)];
+  const int nodes = cell::info(block.type).nodes;
+  Vec3 middle = Vec3::Zero();
+  for (int k = 0; k < nodes; ++k)
+    middle += c.model().mesh.nodes[static_cast<std::size_t>(block.cell(ref.cell)[k])] / nodes;
+  const material::Tangent3 d =
+      material::turned(material::stiffness_of(section.section.law),
+                       material::axes_at(section.section.orientation, middle));
+  constexpr double rounding = 1e-12;
+  if (d.topRightCorner<4, 2>().cwiseAbs().maxCoeff() <= rounding * d.cwiseAbs().maxCoeff()) return;
+  const bool given = section.section.orientation.kind != material::Orientation::Kind::global;
+  throw core::InputError(
+      given ? s.orientation.mark : s.material.mark,
+      fmt::format("material '{}' answers strains of the plane with shear across it: in the plane "
+                  "one of its axes is across it, and its constants have no such terms",
+                  s.material.value));
+}
+
 void check_mixture(const BuildContext<2>& c, const Section& s, const model::BulkSection& section) {
   for (const model::BulkSection& other : c.model().sections)
     if ((other.section.assumption == solid::Assumption::axisymmetric) !=
@@ -167,6 +203,7 @@ void add_cell(BuildContext<Dim>& c, const Section& s, const model::BasicBulkSect
                     at->second == index ? section.name
                                         : m.sections[static_cast<std::size_t>(at->second)].name));
   check_cell(c, s, section, ref);
+  if constexpr (Dim == 2) check_plane(c, s, section, ref);
   const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(ref.block)];
   for (int k = 0; k < cell::info(block.type).nodes; ++k) {
     Index& slot = c.section_of_node[static_cast<std::size_t>(block.cell(ref.cell)[k])];
@@ -193,6 +230,7 @@ void build_sections(BuildContext<Dim>& c) {
     section.section = solid_section(c, s);
     section.cells = set.cells;
     section.material = s.material.value;
+    check_orientation(c, s, section.section.law);
     if constexpr (Dim == 2) check_mixture(c, s, section);
     if (s.element.value == SectionElement::solid_shell)
       (void)mesh::align_shells(m.mesh, section.cells);

@@ -1,4 +1,6 @@
 // Temperatures of nodes: at first, and over the steps.
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "osculate/deck/build_context.hpp"
@@ -24,16 +26,28 @@ bool any_temperature(const Description& d) {
 
 template <int Dim>
 void build_initial_temperature(BuildContext<Dim>& c) {
-  if (!any_temperature(c.description)) return;
+  const auto warms = [](const Material& m) { return material::over_temperature(m.law.value); };
+  if (!any_temperature(c.description)) {
+    for (const Material& m : c.description.materials)
+      if (warms(m))
+        throw core::InputError(
+            m.law.mark,
+            fmt::format("material '{}' depends on the temperature, which is given nowhere: "
+                        "add `initial_temperature`",
+                        m.name.value));
+    return;
+  }
   std::vector<double>& of = c.model().initial_temperature;
   of.assign(c.model().reference.size(), 0.0);
   for (const Load& load : c.description.initial_temperature)
     for (const Index node : heated_nodes(c, load.on))
       of[static_cast<std::size_t>(node)] = load.values[0]->value;
-  const auto expands = [](const Material& m) { return !m.expansion.table.empty(); };
+  const auto feels = [&](const Material& m) { return !m.expansion.table.empty() || warms(m); };
   const std::vector<Material>& materials = c.description.materials;
-  if (std::none_of(materials.begin(), materials.end(), expands))
-    c.built.warnings.emplace_back("temperatures have no effect: no material has an `expansion`");
+  if (std::none_of(materials.begin(), materials.end(), feels))
+    c.built.warnings.emplace_back(
+        "temperatures have no effect: no material has an `expansion` or a "
+        "table over the temperature");
 }
 
 template <int Dim>

@@ -19,6 +19,7 @@
 #include "osculate/geometry/surfaces.hpp"
 #include "osculate/material/expansion.hpp"
 #include "osculate/material/law.hpp"
+#include "osculate/material/orientation.hpp"
 #include "osculate/mesh/generate_space.hpp"
 #include "osculate/mesh/join.hpp"
 
@@ -122,6 +123,7 @@ struct Section {
   Number thickness;
   Marked<Kinematics> kinematics;  ///< the material's default is already applied
   Marked<Formulation> formulation;
+  Marked<material::Orientation> orientation{};  ///< of the axes of its material
 };
 
 struct SetShape {
@@ -295,8 +297,7 @@ inline constexpr std::array<const char*, component_count> component_names{"ux", 
 struct LocalAxes {
   core::SourceMark mark;
   Name on;
-  bool cylindrical = false;
-  Vec3 a{0, 0, 0}, b{0, 0, 0};
+  material::Orientation along;
 };
 
 struct EquationTerm {

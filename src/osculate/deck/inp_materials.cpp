@@ -45,35 +45,9 @@ std::vector<MaterialCards> material_cards(const InpModel& m) {
   return all;
 }
 
-/// The first line of a card whose numbers do not depend on the temperature, which stands last.
-const Line& constant_line(const InpModel& m, const Card& card, const char* what) {
-  const auto lines = io::inp::lines_of(m.deck, card);
-  if (lines.size() < 2) return only_line(m, card, what);
-  const auto numbers = [&](const Line& line) {
-    return line.text.substr(0, line.text.find_last_of(','));
-  };
-  for (const Line& line : lines)
-    if (numbers(line) != numbers(lines[0]))
-      io::inp::fail(m.deck, line.at,
-                    fmt::format("*{}: numbers that depend on the temperature are not supported",
-                                card.keyword));
-  return lines[0];
-}
-
 double density_of(const InpModel& m, const MaterialCards& c) {
   if (!c.density) return 0;
   return Fields(m.deck, constant_line(m, *c.density, "the density")).real("the density");
-}
-
-void put_elastic(const InpModel& m, const MaterialCards& c, SourceNode& law) {
-  const std::string type = option_of(*c.elastic, "TYPE");
-  if (!type.empty() && type != "ISO" && type != "ISOTROPIC")
-    io::inp::fail(m.deck, *c.elastic,
-                  fmt::format("TYPE={} is not supported: materials are isotropic", type));
-  const Line& line = constant_line(m, *c.elastic, "E and nu");
-  Fields fields(m.deck, line);
-  put(law, "E", inp_number(fields.real("Young's modulus"), line_of(line.at)));
-  put(law, "nu", inp_number(fields.real_or_zero("Poisson's ratio"), line_of(line.at)));
 }
 
 /// Pairs of stress and plastic strain.
@@ -130,16 +104,21 @@ void put_creep(const InpModel& m, const Card& card, SourceNode& law) {
     fields.fail("creep that depends on the time (m not 0) is not supported");
 }
 
-const char* law_of(const InpModel& m, const MaterialCards& c) {
+std::string_view law_of(const InpModel& m, const MaterialCards& c) {
   for (const Card* const other : {c.elastic, c.plastic, c.creep})
     if (c.hyperelastic && other)
       io::inp::fail(m.deck, *other, "of a material with *HYPERELASTIC this is not supported");
   if (c.hyperelastic) return "rubber";
+  for (const Card* const other : {c.plastic, c.creep})
+    if (other && is_directional(*c.elastic))
+      io::inp::fail(m.deck, *other, "of a material that is not isotropic this is not supported");
+    else if (other)
+      (void)constant_line(m, *c.elastic, "E and nu");
   if (c.plastic && c.creep)
     io::inp::fail(m.deck, *c.creep, "a material that both flows and creeps is not supported");
   if (c.plastic) return "elastoplastic";
   if (c.creep) return "norton";
-  return m.finite ? "st_venant_kirchhoff" : "linear_elastic";
+  return elastic_law(m, *c.elastic);
 }
 
 /// Fails for cells of the highest dimension that no section has: they would not be there.
@@ -187,11 +166,11 @@ SourceNode inp_materials(InpModel& m) {
     if (!c.elastic && !c.hyperelastic)
       io::inp::fail(m.deck, *c.material, "its *ELASTIC or *HYPERELASTIC is missing");
     SourceNode& material = put(materials, name, inp_map(line));
-    SourceNode& law = put(material, law_of(m, c), inp_map(line));
+    SourceNode& law = put(material, std::string(law_of(m, c)), inp_map(line));
     if (c.hyperelastic)
       put_hyperelastic(m, *c.hyperelastic, law);
     else
-      put_elastic(m, c, law);
+      put_elastic(m, *c.elastic, law);
     if (const double density = density_of(m, c); density > 0)
       put(law, "density", inp_number(density, line_of(c.density->at)));
     if (c.plastic) put_plastic(m, *c.plastic, law);
@@ -212,6 +191,41 @@ bool is_discrete(const InpModel& m, const std::string& elements) {
   });
 }
 
+/// The `*ELASTIC` of a section's material.
+const Card* elastic_of(const InpModel& m, const Card& section) {
+  const std::string material = plain_name(option_of(section, "MATERIAL"));
+  for (const MaterialCards& c : material_cards(m))
+    if (io::inp::capitals(plain_name(value_of(m, *c.material, "NAME"))) == material)
+      return c.elastic;
+  return nullptr;
+}
+
+/// Whether a section has axes that its material needs. Shells and beams have none here.
+bool is_oriented(const InpModel& m, const Card& section) {
+  const Card* const elastic = elastic_of(m, section);
+  const bool directional = elastic && is_directional(*elastic);
+  if (directional && io::inp::is_thin_section(section))
+    io::inp::fail(m.deck, section,
+                  "shells and beams of a material that is not isotropic are not supported");
+  return directional && !option_of(section, "ORIENTATION").empty();
+}
+
+/// Results that the deck wants in the axes of a section's material.
+void tell_of_local_results(InpModel& m) {
+  const auto any = [&](const auto& is) {
+    return std::any_of(m.deck.cards.begin(), m.deck.cards.end(), is);
+  };
+  const bool oriented = any([](const Card& card) {
+    return card.keyword == "SOLIDSECTION" && !option_of(card, "ORIENTATION").empty();
+  });
+  const bool local = any([](const Card& card) {
+    const std::string global = option_of(card, "GLOBAL");
+    return card.keyword == "ELPRINT" ? global != "YES" : card.keyword == "ELFILE" && global == "NO";
+  });
+  if (oriented && local)
+    m.notes.emplace_back("stresses and strains are in global axes, as with GLOBAL=YES");
+}
+
 }  // namespace
 
 SourceNode inp_sections(InpModel& m) {
@@ -219,9 +233,8 @@ SourceNode inp_sections(InpModel& m) {
   for (const Card& card : m.deck.cards) {
     if (card.keyword != "SOLIDSECTION" && !is_thin(m, card)) continue;
     const int line = line_of(card.at);
-    if (!option_of(card, "ORIENTATION").empty())
-      io::inp::fail(m.deck, card, "ORIENTATION is not supported: materials are isotropic");
     if (is_discrete(m, value_of(m, card, "ELSET"))) continue;
+    const bool oriented = is_oriented(m, card);
     for (const InpElements& part : elements_of(m, card)) {
       SourceNode& section = sections.items.emplace_back(inp_map(line));
       put(section, "on", inp_text(part.set, line));
@@ -229,6 +242,7 @@ SourceNode inp_sections(InpModel& m) {
       put(section, "element", inp_text(std::string(part.element), line));
       put(section, "kinematics", inp_text(m.finite ? "finite" : "small", line));
       put(section, "formulation", inp_text(std::string(part.formulation), line));
+      if (oriented) put(section, "orientation", inp_orientation(m, card));
       const auto lines = io::inp::lines_of(m.deck, card);
       if (lines.empty() || part.element == "solid" || part.element == "axisymmetric") continue;
       const double thickness = Fields(m.deck, lines[0]).real_or_zero("the thickness");
@@ -236,6 +250,7 @@ SourceNode inp_sections(InpModel& m) {
     }
   }
   require_sections(m, sections);
+  tell_of_local_results(m);
   return sections;
 }
 

@@ -81,6 +81,21 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 // ---- the keys of a model file -----------------------------------------------------------------
 
 [[nodiscard]] SourceNode inp_materials(InpModel& m);
+/// Whether the numbers of all lines are the same; the temperature, which stands last, is not read.
+[[nodiscard]] bool has_constant_lines(const InpModel& m, const io::inp::Card& card);
+/// The first line of such a card.
+[[nodiscard]] const io::inp::Line& constant_line(const InpModel& m, const io::inp::Card& card,
+                                                 const char* what);
+/// Of a `*ELASTIC`: the law that it means, whether that is other than isotropic, or has constants
+/// that depend on the temperature, and its constants.
+///
+/// Tested by  tests/unit/deck/test_inp_elastic.cpp
+[[nodiscard]] std::string_view elastic_law(const InpModel& m, const io::inp::Card& elastic);
+[[nodiscard]] bool is_directional(const io::inp::Card& elastic);
+[[nodiscard]] bool depends_on_temperature(const InpModel& m, const io::inp::Card& elastic);
+void put_elastic(const InpModel& m, const io::inp::Card& elastic, SourceNode& law);
+/// The `*ORIENTATION` that a section names.
+[[nodiscard]] SourceNode inp_orientation(const InpModel& m, const io::inp::Card& section);
 /// Constants of a `*HYPERELASTIC`.
 void put_hyperelastic(const InpModel& m, const io::inp::Card& card, SourceNode& law);
 [[nodiscard]] SourceNode inp_sections(InpModel& m);
@@ -103,7 +118,8 @@ struct InpDensity {
 /// The parts of a set of elements by their materials; those that are no sets yet become some.
 [[nodiscard]] std::vector<InpDensity> densities_on(InpModel& m, const std::string& elements);
 
-/// Whether some step has temperatures: without, materials need no expansion.
+/// Whether some step has temperatures, or they are given at first and a material depends on them:
+/// without, materials need no expansion.
 [[nodiscard]] bool has_temperatures(const InpModel& m);
 /// A set of nodes and its temperature.
 struct NodeValue {

@@ -14,8 +14,16 @@ using io::inp::Line;
 using io::inp::SetKind;
 
 bool has_temperatures(const InpModel& m) {
-  return std::any_of(m.deck.cards.begin(), m.deck.cards.end(),
-                     [](const Card& card) { return card.keyword == "TEMPERATURE"; });
+  const auto any = [&](const auto& is) {
+    return std::any_of(m.deck.cards.begin(), m.deck.cards.end(), is);
+  };
+  if (any([](const Card& card) { return card.keyword == "TEMPERATURE"; })) return true;
+  return any([&](const Card& card) {
+           return card.keyword == "ELASTIC" && depends_on_temperature(m, card);
+         }) &&
+         any([](const Card& card) {
+           return card.keyword == "INITIALCONDITIONS" && option_of(card, "TYPE") == "TEMPERATURE";
+         });
 }
 
 NodeValue temperature_of(const InpModel& m, const Line& line) {

@@ -48,6 +48,10 @@ template <class T>
 [[nodiscard]] BoundKey<T> on_key(std::string doc, const std::string& example) {
   return need(&T::on, "on", set_or_sets(std::move(doc), example));
 }
+/// Two points that give axes: one of two keys.
+[[nodiscard]] std::vector<BoundKey<material::Orientation>> orientation_keys();
+/// Where the axes of a section's material point.
+[[nodiscard]] BoundKey<Section> orientation_key();
 /// Keys of the materials of small strains, and of those that remember: one after the other.
 [[nodiscard]] std::string small_strain_materials();
 [[nodiscard]] std::string remembering_materials();

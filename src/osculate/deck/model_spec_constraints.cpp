@@ -30,29 +30,10 @@ BoundKeys<Equal> equal_keys() {
 }
 
 BoundKeys<LocalAxes> axes_keys() {
-  using A = LocalAxes;
-  const auto place = [](std::string doc) {
-    return list(std::move(doc), number("One coordinate.")).count(2, 3);
-  };
-  const BoundKeys<A> rectangular({need(&A::a, "x", place("Direction of the first axis.")),
-                                  need(&A::b, "xy",
-                                       place("A direction in the plane of the first "
-                                             "and the second axis."))});
-  const BoundKeys<A> cylinder(
-      {need(&A::a, "from", place("A point of the cylinder's axis.")),
-       {optional("to", place("Another one, in models in space.").such_as("[0, 0, 1]")),
-        [](A& axes, const Value& v) { axes.b = place_of(v); }}});
-  return {{on_key<A>("Set of nodes.", "rim"),
-           {optional("rectangular", rectangular.spec("Three directions, the same for all nodes.")
-                                        .such_as("{x: [1, 1, 0], xy: [0, 1, 0]}")),
-            [rectangular](A& axes, const Value& v) { rectangular.read(v, axes); }},
-           {optional("cylindrical", cylinder.spec("Radial, around the axis and along it.")
-                                        .such_as("{from: [0, 0, 0], to: [0, 0, 1]}")),
-            [cylinder](A& axes, const Value& v) {
-              axes.cylindrical = true;
-              cylinder.read(v, axes);
-              if (!v.find("to")) axes.b = axes.a + Vec3::UnitZ();
-            }}}};
+  std::vector<BoundKey<LocalAxes>> keys{on_key<LocalAxes>("Set of nodes.", "rim")};
+  for (BoundKey<material::Orientation>& key : orientation_keys())
+    keys.push_back(of(&LocalAxes::along, std::move(key)));
+  return keys;
 }
 
 BoundKey<Description> condition_key(std::vector<NodeCondition> Description::*member,

@@ -41,6 +41,17 @@ template <class T>
                     .such_as(std::string(p.points->example)))
         .count(2)
         .such_as(std::move(example));
+  if (p.over) {
+    const Spec pair = list("One pair, of a temperature and the value there.", number("A number."))
+                          .count(2, 2)
+                          .such_as("[20, " + example + "]");
+    return either(std::move(doc),
+                  {number_with("One for all temperatures."),
+                   list("Pairs [T, value], T increasing; straight between them, constant beyond.",
+                        pair)
+                       .count(1)})
+        .such_as(std::move(example));
+  }
   Spec spec = number_with(std::move(doc)).such_as(std::move(example));
   if (!p.otherwise.empty()) return spec.otherwise_as(std::string(p.otherwise));
   const std::optional<double> usual = core::number_in(T{}, p.slot);
@@ -91,6 +102,18 @@ template <class T>
   return p.automatic && v.alternative == 1;
 }
 
+/// The pairs of a table over the temperature are in order and in the range of the parameter.
+template <class T>
+void check_temperatures(const core::Param<T>& p, const Value& table) {
+  for (std::size_t i = 0; i < table.items.size(); ++i) {
+    const std::vector<Value>& pair = table.items[i].items;
+    if (i > 0 && !(pair[0].number > table.items[i - 1].items[0].number))
+      throw core::InputError(table.items[i].mark, "temperatures must increase");
+    if (!p.range.contains(pair[1].number))
+      throw core::InputError(pair[1].mark, core::out_of_range(p.key, pair[1].number, p.range));
+  }
+}
+
 /// The object that a value describes. Throws core::InputError where its parameters do not go
 /// together.
 template <class T>
@@ -102,6 +125,12 @@ template <class T>
     core::Table points;
     for (const Value& item : value->items)
       points.push_back({item.items[0].number, item.items[1].number});
+    if (core::Table* const over = core::table_over(object, p); over && !points.empty()) {
+      check_temperatures(p, *value);
+      core::set(object, p.slot, points.front()[1]);
+      *over = std::move(points);
+      continue;
+    }
     core::set(object, p.slot, value->number);
     core::set(object, p.slot, std::move(points));
   }

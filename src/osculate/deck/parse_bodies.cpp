@@ -15,8 +15,7 @@ Kinematics usual_kinematics(const material::Law& law) {
 
 void require_kinematics(const Section& section, const Material& material) {
   const material::Law& law = material.law.value;
-  if (section.kinematics.value == usual_kinematics(law) || material::has_logarithmic_form(law))
-    return;
+  if (section.kinematics.value == usual_kinematics(law) || material::has_finite_form(law)) return;
   const bool finite = material::finite_strain(law);
   throw core::InputError(
       section.kinematics.mark,
@@ -81,7 +80,7 @@ BoundKeys<Section> section_keys() {
                    .otherwise("1")
                    .such_as("2.5")),
            may(&S::kinematics, "kinematics", kinematics),
-           may(&S::formulation, "formulation", formulation)}};
+           may(&S::formulation, "formulation", formulation), orientation_key()}};
 }
 
 Section section_of(const Value& v, const std::vector<Material>& materials) {

@@ -20,10 +20,12 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 35> synonyms{{
+constexpr std::array<Synonym, 36> synonyms{{
     {"plasticity plastic yielding mises-plasticity j2 metal",
      "materials.elastoplastic: yield, hardening, isotropic, kinematic"},
     {"creep norton relaxation", "materials.norton: A, n; every step needs a duration"},
+    {"orthotropic anisotropic lamina fibre ply wood material-axes orientation",
+     "materials.NAME.orthotropic, anisotropic; sections.orientation"},
     {"viscoelastic damage", no},
     {"rate-and-state velocity-weakening dieterich ruina", "contact.friction.rate_and_state"},
     {"stl cad-surface", "mesh: files with the extension .stl, for rigid bodies"},

@@ -2,11 +2,13 @@
 // The one list of material laws. A new law is a header of its own and one entry here.
 #include <variant>
 
+#include "osculate/material/anisotropic.hpp"
 #include "osculate/material/j2_plasticity.hpp"
 #include "osculate/material/linear_elastic.hpp"
 #include "osculate/material/logarithmic.hpp"
 #include "osculate/material/neo_hooke.hpp"
 #include "osculate/material/norton.hpp"
+#include "osculate/material/orthotropic.hpp"
 #include "osculate/material/rubber.hpp"
 #include "osculate/material/st_venant_kirchhoff.hpp"
 
@@ -14,8 +16,10 @@ namespace osculate::material {
 
 /// One of the laws, as a value. Its copies are made in law.cpp: only what asks which laws there are
 /// (that source, energy.cpp and deck/materials.cpp) has them in its code.
-struct Law : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
-                          Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>, Rubber> {
+struct Law
+    : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
+                   Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>, Rubber, Orthotropic,
+                   GreenLagrange<Orthotropic>, Anisotropic, GreenLagrange<Anisotropic>> {
   using variant::variant;
   Law();  ///< the first of the list, with its defaults
   Law(const Law&);
@@ -51,7 +55,7 @@ concept IsLaw = requires(const T& law) {
   { T::large_strain } -> std::convertible_to<bool>;   ///< made for large compression
   { unloaded(law) } -> std::same_as<Isotropic>;
 };
-/// Of laws whose stress follows from the strain alone.
+/// Of laws whose stress follows from the strain alone, the same in all directions.
 template <class T>
 concept Forgets = requires(const T& law, const Strain& strain, const Strain3& strain3,
                            double& strain_33) {
@@ -77,7 +81,9 @@ concept TakesMemory = requires(const T& law, const Strain& strain, const Strain3
 namespace detail {
 template <class... Laws>
 constexpr bool all_are_laws(const std::variant<Laws...>*) {
-  return ((IsLaw<Laws> && (Remembers<Laws> ? TakesMemory<Laws> : Forgets<Laws>)) && ...);
+  return ((IsLaw<Laws> &&
+           (Directional<Laws> || (Remembers<Laws> ? TakesMemory<Laws> : Forgets<Laws>))) &&
+          ...);
 }
 template <class... Laws>
 constexpr bool keys_differ(const std::variant<Laws...>*) {

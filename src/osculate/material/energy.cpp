@@ -2,6 +2,7 @@
 
 #include "osculate/material/expansion.hpp"
 #include "osculate/material/law.hpp"
+#include "osculate/material/over_temperature.hpp"
 
 namespace osculate::material {
 namespace {
@@ -11,8 +12,12 @@ double energy(const Law& law, const StrainType& strain, const Memory& memory) {
   const Expanded by(finite_strain(law), memory);
   const StrainType elastic = by.elastic(strain);
   const auto of = [&]<class T>(const T& l) {
-    if constexpr (Remembers<T>)
+    if constexpr (Directional<T>)
+      return 0.5 * elastic.dot(proportional(stiffness_at(l, memory), elastic).stress);
+    else if constexpr (Remembers<T>)
       return energy_of(l, in_space(elastic), memory.committed);
+    else if constexpr (OverTemperature<T>)
+      return energy_of(at_point(l, memory), elastic);
     else
       return energy_of(l, elastic);
   };

@@ -1,7 +1,4 @@
 #pragma once
-#include <array>
-#include <vector>
-
 #include "osculate/material/memory.hpp"
 #include "osculate/material/response.hpp"
 
@@ -10,7 +7,7 @@ namespace osculate::material {
 /// How a material expands with its temperature: pairs of a temperature and the mean coefficient
 /// from `reference` to it, linear between them and constant beyond. Empty: it does not.
 struct Expansion {
-  std::vector<std::array<double, 2>> table;
+  core::Table table;
   double reference = 0;
 };
 

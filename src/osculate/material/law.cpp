@@ -1,14 +1,19 @@
 #include "osculate/material/law.hpp"
 
 #include "osculate/material/expansion.hpp"
+#include "osculate/material/over_temperature.hpp"
 
 namespace osculate::material {
 namespace {
 
 template <class T, int N>
 ResponseOf<N> answer(const T& law, const Vec<N>& strain, [[maybe_unused]] const Memory& memory) {
-  if constexpr (Remembers<T>)
+  if constexpr (Directional<T>)
+    return proportional<N>(stiffness_at(law, memory), strain);
+  else if constexpr (Remembers<T>)
     return respond(law, strain, memory);
+  else if constexpr (OverTemperature<T>)
+    return respond(at_point(law, memory), strain);
   else
     return respond(law, strain);
 }
@@ -27,8 +32,12 @@ StressOf<N> stress_of(const T& law, const Vec<N>& strain, const Memory& memory) 
 template <class T, int N>
 StressOf<N> stress_alone(const T& law, const Vec<N>& strain,
                          [[maybe_unused]] const Memory& memory) {
-  if constexpr (Remembers<T>)
+  if constexpr (Directional<T>)
+    return {true, stiffness_at(law, memory).template topLeftCorner<N, N>() * strain};
+  else if constexpr (Remembers<T>)
     return stress_of(law, strain, memory);
+  else if constexpr (OverTemperature<T>)
+    return stress_of(at_point(law, memory), strain);
   else
     return stress_of(law, strain);
 }
@@ -63,6 +72,16 @@ template <class T>
 const T& named(const Logarithmic<T>& form) {
   return form.law;
 }
+template <class T>
+const T& named(const GreenLagrange<T>& form) {
+  return form.law;
+}
+
+template <class T>
+bool has_tables([[maybe_unused]] const T& law) {
+  if constexpr (OverTemperature<T>) return !law.young_over.empty() || !law.poisson_over.empty();
+  return false;
+}
 
 }  // namespace
 
@@ -82,11 +101,10 @@ bool large_strain(const Law& law) {
 }
 
 bool linear(const Law& law) {
-  return std::visit(
-      []<class T>(const T&) {
-        return requires { requires T::linear; };
-      },
-      law);
+  const auto of = []<class T>(const T&) {
+    return requires { requires T::linear; };
+  };
+  return !over_temperature(law) && std::visit(of, law);
 }
 
 std::span<const Remembered> memory_of(const Law& law) {
@@ -107,20 +125,43 @@ bool needs_duration(const Law& law) {
       law);
 }
 
-bool has_logarithmic_form(const Law& law) {
+bool has_finite_form(const Law& law) {
   return std::visit(
       []<class T>(const T&) {
-        return requires { requires T::logarithmic; };
+        return (Directional<T> && !T::finite_strain) || requires { requires T::logarithmic; };
       },
       law);
 }
 
-Law in_logarithmic_strain(const Law& law) {
+Law in_finite_strain(const Law& law) {
   const auto form = []<class T>(const T& m) -> Law {
-    if constexpr (requires { requires T::logarithmic; }) return Logarithmic<T>{m};
-    return m;
+    if constexpr (requires { requires T::logarithmic; })
+      return Logarithmic<T>{m};
+    else if constexpr (Directional<T> && !T::finite_strain)
+      return GreenLagrange<T>{m};
+    else
+      return m;
   };
   return std::visit(form, law);
+}
+
+bool directional(const Law& law) {
+  return std::visit([]<class T>(const T&) { return Directional<T>; }, law);
+}
+
+bool over_temperature(const Law& law) {
+  return std::visit([](const auto& m) { return has_tables(m); }, law);
+}
+
+Tangent3 stiffness_of(const Law& law) {
+  return std::visit(
+      []<class T>([[maybe_unused]] const T& m) -> Tangent3 {
+        if constexpr (Directional<T>)
+          return stiffness(m);
+        else
+          return Tangent3::Zero();
+      },
+      law);
 }
 
 double density(const Law& law) {
@@ -162,10 +203,17 @@ Response plane_stress_response(const Law& law, const Strain& strain, double* str
   const Strain elastic = by.elastic(strain);
   double found = 0;
   const auto of = [&]<class T>(const T& m) {
-    if constexpr (Remembers<T>)
+    if constexpr (Directional<T>) {
+      Response across = proportional_plane_stress(stiffness_at(m, memory), elastic, found);
+      if (T::finite_strain) across.ok = 1 + 2 * found > 0;
+      return across;
+    } else if constexpr (Remembers<T>) {
       return respond_plane_stress(m, elastic, found, memory);
-    else
+    } else if constexpr (OverTemperature<T>) {
+      return respond_plane_stress(at_point(m, memory), elastic, found);
+    } else {
       return respond_plane_stress(m, elastic, found);
+    }
   };
   const Response r = by.response(Response(std::visit(of, law)));
   if (strain_33) *strain_33 = by.total(found);

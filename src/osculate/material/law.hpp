@@ -9,16 +9,22 @@ namespace osculate::material {
 [[nodiscard]] bool finite_strain(const Law& law);
 /// Made for large compression, in which enhanced strains are unstable.
 [[nodiscard]] bool large_strain(const Law& law);
-/// The stress is proportional to the strain, whatever happened before.
+/// The stress is proportional to the strain, always by the same factors.
 [[nodiscard]] bool linear(const Law& law);
 /// What each material point remembers; empty: nothing.
 [[nodiscard]] std::span<const Remembered> memory_of(const Law& law);
 /// Whether increments have to take time.
 [[nodiscard]] bool needs_duration(const Law& law);
-/// A law of small strains that may also be used in the logarithmic strain, and its form for that.
-/// Other laws stay as they are.
-[[nodiscard]] bool has_logarithmic_form(const Law& law);
-[[nodiscard]] Law in_logarithmic_strain(const Law& law);
+/// A law of small strains that may also be used in a finite one (the logarithmic strain, Green and
+/// Lagrange's), and its form for that. Other laws stay as they are.
+[[nodiscard]] bool has_finite_form(const Law& law);
+[[nodiscard]] Law in_finite_strain(const Law& law);
+/// The stress depends on where the axes of the material point (Memory::axes).
+[[nodiscard]] bool directional(const Law& law);
+/// Some constants are tables over the temperature (Memory::temperature).
+[[nodiscard]] bool over_temperature(const Law& law);
+/// Of a directional law, in its axes; zero of others.
+[[nodiscard]] Tangent3 stiffness_of(const Law& law);
 [[nodiscard]] double density(const Law& law);
 /// Of the unloaded material.
 [[nodiscard]] Isotropic unloaded(const Law& law);

@@ -14,6 +14,7 @@ struct LinearElastic {
   static constexpr std::string_view doc = "Hooke's law between stress and small strain.";
   static constexpr bool finite_strain = false, large_strain = false, linear = true;
   double young = 0, poisson = 0, density = 0;
+  core::Table young_over = {}, poisson_over = {};  ///< over the temperature, in place of them
   static constexpr auto params() { return isotropic_params<LinearElastic>(); }
 };
 

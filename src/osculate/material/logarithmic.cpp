@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "osculate/material/orientation.hpp"
+
 namespace osculate::material {
 namespace {
 
@@ -49,20 +51,6 @@ void turn_pair(Mat<3, 3>& a, Mat<3, 3>& axes, Eigen::Index p, Eigen::Index q) {
 double first_difference(double a, double b) {
   const double from = 1 + 2 * b, way = 2 * (a - b) / from;
   return (way == 0 ? 1.0 : std::log1p(way) / way) / from;
-}
-
-/// Components of a strain in the axes from those in space.
-Mat<6, 6> into_axes(const Mat<3, 3>& axes) {
-  Mat<6, 6> turned;
-  for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = 0; j < 6; ++j) {
-      const auto [a, b] = pairs[i];
-      const auto [k, l] = pairs[j];
-      const double sum = axes(k, a) * axes(l, b) + axes(l, a) * axes(k, b);
-      turned(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          0.5 * (i < 3 ? 1 : 2) * sum;
-    }
-  return turned;
 }
 
 }  // namespace

@@ -22,10 +22,17 @@ struct Memory {
   std::size_t size = 0;               ///< numbers a point
   double duration = 0;                ///< of the increment, for laws that depend on time
   const double* expansion = nullptr;  ///< strain by the temperature, one number a point; null: none
+  const double* temperature = nullptr;  ///< one number a point; null: that of the law's constants
+  const double* axes = nullptr;  ///< of the material, nine numbers a point by columns; null: global
 
   [[nodiscard]] Memory at(std::size_t point) const {
-    return {committed ? committed + point * size : nullptr, next ? next + point * size : nullptr,
-            size, duration, expansion ? expansion + point : nullptr};
+    return {committed ? committed + point * size : nullptr,
+            next ? next + point * size : nullptr,
+            size,
+            duration,
+            expansion ? expansion + point : nullptr,
+            temperature ? temperature + point : nullptr,
+            axes ? axes + 9 * point : nullptr};
   }
 };
 

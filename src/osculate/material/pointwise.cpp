@@ -65,7 +65,7 @@ bool stresses(const Law& law, const Pointwise<N, Q>& strain, const Memory& memor
     else
       return one_by_one<N, Q>(law, strain, memory, out);
   };
-  if (memory.expansion) return one_by_one<N, Q>(law, strain, memory, out);
+  if (memory.expansion || memory.temperature) return one_by_one<N, Q>(law, strain, memory, out);
   return std::visit(of, law);
 }
 

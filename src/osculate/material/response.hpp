@@ -67,30 +67,36 @@ struct Lame {
   return {young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))};
 }
 
-/// The three constants of an isotropic law with the members young, poisson and density.
+/// The three constants of an isotropic law with the members young, poisson and density; those with
+/// young_over and poisson_over may be tables over the temperature.
 template <class T>
 [[nodiscard]] constexpr std::array<core::Param<T>, 3> isotropic_params() {
-  return {{{"E",
-            "force/length^2",
-            "Young's modulus of the unloaded material.",
-            &T::young,
-            {.lower = 0},
-            true,
-            "2.1e5"},
-           {"nu",
-            "1",
-            "Poisson's ratio of the unloaded material.",
-            &T::poisson,
-            {.lower = -1, .upper = 0.5},
-            true,
-            "0.3"},
-           {"density",
-            "mass/length^3",
-            "Mass per reference volume.",
-            &T::density,
-            {.lower = 0, .with_lower = true},
-            false,
-            "7.85e-9"}}};
+  std::array<core::Param<T>, 3> params{{{"E",
+                                         "force/length^2",
+                                         "Young's modulus of the unloaded material.",
+                                         &T::young,
+                                         {.lower = 0},
+                                         true,
+                                         "2.1e5"},
+                                        {"nu",
+                                         "1",
+                                         "Poisson's ratio of the unloaded material.",
+                                         &T::poisson,
+                                         {.lower = -1, .upper = 0.5},
+                                         true,
+                                         "0.3"},
+                                        {"density",
+                                         "mass/length^3",
+                                         "Mass per reference volume.",
+                                         &T::density,
+                                         {.lower = 0, .with_lower = true},
+                                         false,
+                                         "7.85e-9"}}};
+  if constexpr (requires(T law) { law.young_over; }) {
+    params[0].over = &T::young_over;
+    params[1].over = &T::poisson_over;
+  }
+  return params;
 }
 
 }  // namespace osculate::material

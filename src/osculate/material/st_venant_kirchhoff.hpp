@@ -16,6 +16,7 @@ struct StVenantKirchhoff {
       "rotations.";
   static constexpr bool finite_strain = true, large_strain = false;
   double young = 0, poisson = 0, density = 0;
+  core::Table young_over = {}, poisson_over = {};  ///< over the temperature, in place of them
   static constexpr auto params() { return isotropic_params<StVenantKirchhoff>(); }
 };
 

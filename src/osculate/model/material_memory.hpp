@@ -9,13 +9,14 @@ namespace osculate::model {
 
 /// Where the material points of all cells keep what they remember: numbers one after the other, in
 /// the order of sections, cells and points. Cells of laws that remember nothing have none. Behind
-/// them stand the strains by the temperature, one a point, of cells that expand.
+/// them stand the strains by the temperature, one a point, of cells that expand, and then the
+/// temperatures of those whose constants depend on them.
 struct CellMemory {
   std::size_t first = 0;   ///< of the cell's numbers
   std::size_t size = 0;    ///< numbers of the law a point
   std::size_t count = 0;   ///< of the cell
   std::size_t points = 0;  ///< where there are numbers
-  bool expands = false;
+  bool expands = false, warms = false;
 
   /// `next` may be empty: what comes next is not asked for. `duration` of the increment.
   [[nodiscard]] material::Memory of(std::span<const double> committed, std::span<double> next = {},
@@ -23,12 +24,17 @@ struct CellMemory {
     if (count == 0) return {};
     material::Memory memory{committed.data() + first, next.empty() ? nullptr : next.data() + first,
                             size, duration};
-    if (expands) memory.expansion = (memory.next ? memory.next : memory.committed) + size * points;
+    const double* const behind = (memory.next ? memory.next : memory.committed) + size * points;
+    if (expands) memory.expansion = behind;
+    if (warms) memory.temperature = behind + (expands ? points : 0);
     return memory;
   }
   /// The strains by the temperature.
   [[nodiscard]] std::span<double> expansion(std::span<double> of) const {
     return of.subspan(first + size * points, expands ? points : 0);
+  }
+  [[nodiscard]] std::span<double> temperature(std::span<double> of) const {
+    return of.subspan(first + (size + (expands ? 1 : 0)) * points, warms ? points : 0);
   }
 };
 
@@ -40,9 +46,11 @@ template <int Dim>
                                       const BasicBulkSection<Dim>& section, cell::CellType type) {
   CellMemory here{before.first + before.count, material::memory_of(section.section.law).size()};
   here.expands = !section.section.expansion.table.empty();
-  if (here.size == 0 && !here.expands) return here;
+  here.warms = material::over_temperature(section.section.law);
+  const std::size_t each = here.size + (here.expands ? 1 : 0) + (here.warms ? 1 : 0);
+  if (each == 0) return here;
   here.points = solid::point_count(section_on(section, type), type);
-  here.count = (here.size + (here.expands ? 1 : 0)) * here.points;
+  here.count = each * here.points;
   return here;
 }
 

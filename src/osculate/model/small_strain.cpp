@@ -65,7 +65,7 @@ void measure_small_strain(const BasicModel<Dim>& model, const Eigen::VectorXd& u
     if (section.section.kinematics != solid::Kinematics::small) continue;
     if (found.size() <= entry) found.push_back({section.name});
     SmallStrain& here = found[entry++];
-    here.logarithmic = material::has_logarithmic_form(section.section.law);
+    here.may_be_finite = material::has_finite_form(section.section.law);
     for (const mesh::CellRef& ref : section.cells) {
       const Mat<Dim, Dim> f =
           Mat<Dim, Dim>::Identity() +
@@ -83,7 +83,7 @@ std::string left_small_strain(const SmallStrain& found) {
       "warning: section '{}' is computed with small strains, but has strains up to {:.2g} % and "
       "rotations up to {:.2g} degrees, which they are not for: give it {}",
       found.section, 100 * found.strain, found.rotation * 180 / std::numbers::pi,
-      found.logarithmic
+      found.may_be_finite
           ? "kinematics: finite"
           : "a material of large rotations (st_venant_kirchhoff) or strains (neo_hooke)");
 }

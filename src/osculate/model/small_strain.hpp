@@ -9,9 +9,9 @@ namespace osculate::model {
 /// How far a section that is computed with small strains has left what they are for.
 struct SmallStrain {
   std::string section;
-  double strain = 0;         ///< largest of a cell: norm of the mean Green strain
-  double rotation = 0;       ///< largest of a cell [radians]
-  bool logarithmic = false;  ///< its law may be used with finite strains, too
+  double strain = 0;           ///< largest of a cell: norm of the mean Green strain
+  double rotation = 0;         ///< largest of a cell [radians]
+  bool may_be_finite = false;  ///< its law may be used with finite strains, too
   [[nodiscard]] bool large() const { return strain > 0.1 || rotation > 0.1745; }  // 10 degrees
 };
 

@@ -6,6 +6,7 @@
 #include "osculate/model/passed_through.hpp"
 #include "osculate/model/penetration.hpp"
 #include "osculate/model/system_motion.hpp"
+#include "osculate/model/temperatures.hpp"
 
 namespace osculate::model {
 
@@ -30,6 +31,7 @@ BasicState<Dim> BasicSystem<Dim>::initial_state() {
     state.multipliers.push_back(
         pairing::initial_multipliers<Dim>(model.pairs[p].definition, state.pairs[p]));
   state.memory.assign(impl_->last.memory.size(), 0.0);
+  warm(model, Temperatures{model.initial_temperature, {}}, 0, state.memory);
   state.constraint_forces.setZero(impl_->constraints.end - impl_->constraints.of_nodes);
   return state;
 }

@@ -338,7 +338,7 @@ bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::
   past_damping.swap(damping_force);
   place(m.position);
   const double fraction = time / system.step.duration;
-  expand(system.model, system.step.temperature, fraction, system.last.memory);
+  warm(system.model, system.step.temperature, fraction, system.last.memory);
   if (!add_cells(m.position, h)) return false;
   now.memory.swap(system.last.memory);
   add_contact(h, fraction);

@@ -124,7 +124,7 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   State start = committed;
   start.rates = rates;
   load(start);
-  expand(system.model, system.step.temperature, 0, system.last.memory);
+  warm(system.model, system.step.temperature, 0, system.last.memory);
   if (!add_cells(motion.position, 0)) return rates;  // the first time step says why
   add_contact(0, 0);
   add_loads(0);

@@ -244,7 +244,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   const double duration = pass == Pass::whole ? 0.0 : length;
   std::optional<CellInertia<Dim>> of_cells;
   if (timed()) of_cells.emplace(motion->cell_inertia());
-  expand(model, step.temperature, fraction, last.memory);
+  warm(model, step.temperature, fraction, last.memory);
   if (on(Term::bulk) &&
       !bulk.add(committed, now, duration, of_cells ? &*of_cells : nullptr, to, out))
     return;

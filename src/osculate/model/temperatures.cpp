@@ -17,13 +17,13 @@ std::vector<double> Temperatures::at(double fraction) const {
 }
 
 template <int Dim>
-void expand(const BasicModel<Dim>& model, const Temperatures& temperature, double fraction,
-            std::span<double> memory) {
+void warm(const BasicModel<Dim>& model, const Temperatures& temperature, double fraction,
+          std::span<double> memory) {
   if (temperature.start.empty()) return;
   const std::vector<double> nodal = temperature.at(fraction);
   std::vector<double> now, before;
   for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
-    if (!m.expands) return;
+    if (!m.expands && !m.warms) return;
     const CellNodes cell = cell_nodes(model.mesh, ref);
     now.clear();
     before.clear();
@@ -31,14 +31,17 @@ void expand(const BasicModel<Dim>& model, const Temperatures& temperature, doubl
       now.push_back(nodal[static_cast<std::size_t>(node)]);
       before.push_back(model.initial_temperature[static_cast<std::size_t>(node)]);
     }
-    const auto strains =
-        solid::expansion_at_points(section_on(section, cell.type), cell.type, now, before);
-    const std::span<double> to = m.expansion(memory);
-    std::copy_n(strains.begin(), to.size(), to.begin());
+    const auto of = section_on(section, cell.type);
+    const auto write = [](const auto& values, std::span<double> to) {
+      std::copy_n(values.begin(), to.size(), to.begin());
+    };
+    if (m.expands)
+      write(solid::expansion_at_points(of, cell.type, now, before), m.expansion(memory));
+    if (m.warms) write(solid::values_at_points(of, cell.type, now), m.temperature(memory));
   });
 }
 
-template void expand(const Model&, const Temperatures&, double, std::span<double>);
-template void expand(const Model3&, const Temperatures&, double, std::span<double>);
+template void warm(const Model&, const Temperatures&, double, std::span<double>);
+template void warm(const Model3&, const Temperatures&, double, std::span<double>);
 
 }  // namespace osculate::model

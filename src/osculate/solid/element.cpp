@@ -6,6 +6,7 @@
 #include "osculate/solid/enhanced.hpp"
 #include "osculate/solid/finite_forces.hpp"
 #include "osculate/solid/mean_dilatation.hpp"
+#include "osculate/solid/point_axes.hpp"
 #include "osculate/solid/points.hpp"
 #include "osculate/solid/reduced.hpp"
 #include "osculate/solid/solid_shell.hpp"
@@ -200,16 +201,6 @@ void evaluate_forces(const Section<Dim>& section, CellType type, const Coordinat
   set(corner);
 }
 
-/// Shape functions at a point.
-template <int Dim>
-Shape<Dim> shape_at_point(const Section<Dim>& section, CellType type, std::size_t point) {
-  if constexpr (Dim == 3) {
-    if (section.formulation == Formulation::solid_shell)
-      return shape_at<3>(type, shell_rule(type).points[point].xi);
-  }
-  return rule_of(section, type).shape[point];
-}
-
 }  // namespace
 
 template <int Dim>
@@ -248,10 +239,12 @@ void evaluate(const Section<Dim>& section, CellType type, const Coordinates<Dim>
               const Coordinates<Dim>& displacement, bool with_tangent, ElementResult<Dim>& out,
               const material::Memory& memory) {
   const bool alone = has_forces_alone(section, type);
+  const PointAxes<Dim> placed(section, type, reference);
+  const material::Memory here = placed.in(memory);
   if (with_tangent || !alone)
-    evaluate_whole(section, type, reference, displacement, memory, with_tangent, out);
+    evaluate_whole(section, type, reference, displacement, here, with_tangent, out);
   if (!alone || (with_tangent && out.status != Status::ok)) return;
-  evaluate_forces(section, type, reference, displacement, memory,
+  evaluate_forces(section, type, reference, displacement, here,
                   out);  // the same bits in both ways
 }
 
@@ -259,23 +252,6 @@ template <int Dim>
 std::size_t point_count(const Section<Dim>& section, CellType type) {
   if (section.formulation == Formulation::solid_shell) return shell_rule(type).points.size();
   return rule_of(section, type).points.size();
-}
-
-template <int Dim>
-std::array<double, static_cast<std::size_t>(max_points<Dim>)> expansion_at_points(
-    const Section<Dim>& section, CellType type, std::span<const double> temperature,
-    std::span<const double> before) {
-  std::array<double, static_cast<std::size_t>(max_points<Dim>)> out{};
-  const std::size_t count = point_count(section, type);
-  for (std::size_t q = 0; q < count; ++q) {
-    const Shape<Dim> shape = shape_at_point(section, type, q);
-    const auto at = [&](std::span<const double> nodal) {
-      return shape.n.head(shape.count)
-          .dot(Eigen::Map<const Eigen::VectorXd>(nodal.data(), shape.count));
-    };
-    out[q] = material::expansion(section.expansion, at(temperature), at(before));
-  }
-  return out;
 }
 
 template <int Dim>
@@ -312,12 +288,6 @@ template void evaluate(const Section<3>&, CellType, const Coordinates<3>&, const
                        bool, ElementResult<3>&, const material::Memory&);
 template std::size_t point_count(const Section<2>&, CellType);
 template std::size_t point_count(const Section<3>&, CellType);
-template std::array<double, 9> expansion_at_points(const Section<2>&, CellType,
-                                                   std::span<const double>,
-                                                   std::span<const double>);
-template std::array<double, 27> expansion_at_points(const Section<3>&, CellType,
-                                                    std::span<const double>,
-                                                    std::span<const double>);
 template ElementVector<2> volume_weights(const Section<2>&, CellType, const Coordinates<2>&);
 template ElementVector<3> volume_weights(const Section<3>&, CellType, const Coordinates<3>&);
 template double smallest_jacobian<2>(CellType, const Coordinates<2>&);

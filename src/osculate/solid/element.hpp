@@ -7,6 +7,7 @@
 #include "osculate/cell/volume_shape.hpp"
 #include "osculate/material/expansion.hpp"
 #include "osculate/material/law.hpp"
+#include "osculate/material/orientation.hpp"
 
 namespace osculate::solid {
 
@@ -32,6 +33,7 @@ struct Section<2> {
   double thickness = 1;
   material::Law law;
   material::Expansion expansion{};
+  material::Orientation orientation{};  ///< of the axes of a directional law
 };
 template <>
 struct Section<3> {
@@ -39,6 +41,7 @@ struct Section<3> {
   Formulation formulation = Formulation::full;
   material::Law law;
   material::Expansion expansion{};
+  material::Orientation orientation{};  ///< of the axes of a directional law
 };
 
 /// Empty if the cell type can be used with the section, else the reason in plain words.
@@ -135,6 +138,10 @@ template <int Dim>
 [[nodiscard]] Eigen::MatrixXd at_nodes(const Section<Dim>& section, cell::CellType type,
                                        const Eigen::MatrixXd& of_points);
 
+/// Values of the nodes at the points of a cell, by the shape functions.
+template <int Dim>
+[[nodiscard]] std::array<double, static_cast<std::size_t>(max_points<Dim>)> values_at_points(
+    const Section<Dim>& section, cell::CellType type, std::span<const double> nodal);
 /// Strains that the temperatures give the points of a cell, for Memory::expansion.
 ///
 /// Input      temperature, before: of the nodes, now and at first

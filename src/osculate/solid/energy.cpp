@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "osculate/material/energy.hpp"
+#include "osculate/solid/point_axes.hpp"
 #include "osculate/solid/reduced.hpp"
 
 namespace osculate::solid {
@@ -14,12 +15,14 @@ CellEnergy cell_energy(const Section<Dim>& section, cell::CellType type,
   const CellStress<Dim> cell = stress_at_points(section, type, reference, displacement, memory);
   if (cell.status != Status::ok) return {std::numeric_limits<double>::infinity()};
   CellEnergy energy;
+  const PointAxes<Dim> placed(section, type, reference);
+  const material::Memory here = placed.in(memory);
   for (std::size_t q = 0; q < static_cast<std::size_t>(cell.count); ++q) {
     const PointStress<Dim>& p = cell.point[q];
     const double* const state = memory.at(q).committed;
     Vec<components<Dim>> strain = p.strain;
     strain.template tail<components<Dim> - 3>() *= 2;
-    energy.stored += p.volume * material::stored_energy(section.law, strain, memory.at(q));
+    energy.stored += p.volume * material::stored_energy(section.law, strain, here.at(q));
     if (state) energy.dissipated += p.volume * material::dissipated_energy(section.law, state);
   }
   if (section.formulation == Formulation::reduced && type == corner_cell<Dim>) {

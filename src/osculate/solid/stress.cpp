@@ -5,6 +5,7 @@
 #include "osculate/core/dense.hpp"
 #include "osculate/solid/enhanced.hpp"
 #include "osculate/solid/mean_dilatation.hpp"
+#include "osculate/solid/point_axes.hpp"
 #include "osculate/solid/points.hpp"
 #include "osculate/solid/reduced.hpp"
 #include "osculate/solid/solid_shell.hpp"
@@ -198,7 +199,9 @@ template <int Dim>
 CellStress<Dim> stress_at_points(const Section<Dim>& section, CellType type,
                                  const Coordinates<Dim>& reference,
                                  const Coordinates<Dim>& displacement,
-                                 const material::Memory& memory) {
+                                 const material::Memory& remembered) {
+  const PointAxes<Dim> placed(section, type, reference);
+  const material::Memory memory = placed.in(remembered);
   if constexpr (Dim == 3) {
     if (section.formulation == Formulation::solid_shell)
       return solid_shell_stress_at_points(section, type, reference, displacement, memory);

@@ -37,9 +37,11 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "model.yaml:32: steps[1].forces[0]: unknown key 'on?\?'; did you mean 'on'?"},
       {"linear_elastic:", "plastic_flow:",
        "model.yaml:5: materials.steel: unknown key 'plastic_flow'; known: linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber, expansion"
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber, orthotropic, anisotropic, "
+       "expansion"
        "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the laws linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber; others are not available "
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber, orthotropic, anisotropic; "
+       "others are not available "
        "(osculate "
        "doc "
        "limits)"},
@@ -80,9 +82,10 @@ TEST(BrokenModels, OneOfSeveralKeys) {
        "model.yaml:9: rigid.base: 'set' and 'circle' exclude each other"},
       {"{linear_elastic: {E: 2.1e4, nu: 0.3}}", "{}",
        "model.yaml:5: materials.steel: needs one of linear_elastic, st_venant_kirchhoff, "
-       "neo_hooke, elastoplastic, norton, rubber"
+       "neo_hooke, elastoplastic, norton, rubber, orthotropic, anisotropic"
        "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the laws linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber; others are not available "
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber, orthotropic, anisotropic; "
+       "others are not available "
        "(osculate "
        "doc "
        "limits)"},

@@ -214,7 +214,8 @@ TEST(InpTranslate, WhatIsNotUnderstoodStopsWithItsLine) {
       {"load", blocks + steel + "*STEP\n*STATIC\n*DLOAD\nUP, NEWTON, 1.\n*END STEP\n",
        "load 'NEWTON' is not supported: P1 to P6, GRAV or CENTRIF"},
       {"temperature", blocks + "*MATERIAL, NAME=A\n*ELASTIC\n1., .3, 20.\n2., .3, 100.\n",
-       "cubes.inp:35: *ELASTIC: numbers that depend on the temperature are not supported"},
+       "cubes.inp:33: *ELASTIC: depends on the temperature, which is given nowhere (*INITIAL "
+       "CONDITIONS, *TEMPERATURE)"},
       {"elastic", blocks + "*MATERIAL, NAME=A\n*DENSITY\n1.\n" + step,
        "cubes.inp:32: *MATERIAL: its *ELASTIC or *HYPERELASTIC is missing"},
       {"outside", blocks + "*ELASTIC\n1., .3\n", "stands before the first *MATERIAL"},

@@ -1,7 +1,6 @@
 #include <algorithm>
 
-#include "deck_test.hpp"
-#include "osculate/deck/build.hpp"
+#include "system_test.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -25,18 +24,64 @@ TEST(Temperatures, GoOnFromStepToStep) {
 }
 
 TEST(Temperatures, WithoutEffectAreToldOf) {
-  const std::string text = edited(
-      test_file("heat.yaml"), ", expansion: {alpha: [[0, 3e-5], [100, 4e-5]], reference: 20}", "");
+  const std::string text =
+      edited(edited(test_file("heat.yaml"),
+                    ", expansion: {alpha: [[0, 3e-5], [100, 4e-5]], reference: 20}", ""),
+             "E: [[0, 100], [100, 60]]", "E: 100");
   const Description d = parse_model(text, "model.yaml");
   const Built b = build(d, load_mesh(d));
   EXPECT_EQ(std::count(b.warnings.begin(), b.warnings.end(),
-                       "temperatures have no effect: no material has an `expansion`"),
+                       "temperatures have no effect: no material has an `expansion` or a table "
+                       "over the temperature"),
             1);
 }
 
 TEST(Temperatures, OfATableIncrease) {
   EXPECT_EQ(refusal(edited(test_file("heat.yaml"), "[100, 4e-5]", "[0, 4e-5]")),
             "model.yaml:6: materials.lead.expansion.alpha[1]: temperatures must increase");
+}
+
+TEST(Temperatures, ElasticConstantsAreTablesOverThem) {
+  const std::string text = test_file("heat.yaml");
+  const Description d = parse_model(text, "model.yaml");
+  const auto law = std::get<material::LinearElastic>(d.find_material("lead")->law.value);
+  EXPECT_EQ(law.young, 100);
+  EXPECT_EQ(law.young_over, (core::Table{{0, 100}, {100, 60}}));
+  EXPECT_TRUE(law.poisson_over.empty());
+  EXPECT_FALSE(material::linear(law));
+  EXPECT_EQ(refusal(edited(text, "[100, 60]", "[0, 60]")),
+            "model.yaml:6: materials.lead.linear_elastic.E[1]: temperatures must increase");
+  EXPECT_EQ(refusal(edited(text, "[100, 60]", "[100, -60]")),
+            "model.yaml:6: materials.lead.linear_elastic.E[1][1]: E = -60, but E > 0 is needed");
+}
+
+// Points know their temperature before the first step (which may look for vibrations), and then
+// that of the moment; beside it stands the strain.
+TEST(Temperatures, OfPointsAreRememberedFromTheStartOn) {
+  Probe probe(test_file("heat.yaml"));  // one point a cell
+  const std::vector<double>& at_first = probe.start.memory;
+  ASSERT_EQ(at_first.size(), 16U);
+  for (std::size_t cell = 0; cell < 8; ++cell) {
+    EXPECT_EQ(at_first[2 * cell], 0.0);
+    EXPECT_EQ(at_first[2 * cell + 1], 20.0);
+  }
+  (void)probe.at(probe.base, false, 1.0);
+  const std::vector<double>& now = probe.system.material_memory();
+  // the top of the upper row is at 50, all else at 30
+  for (std::size_t cell = 0; cell < 8; ++cell)
+    EXPECT_NEAR(now[2 * cell + 1], cell < 4 ? 30 : 40, 1e-12) << cell;
+  EXPECT_NEAR(now[0], (3e-5 + 0.3 * 1e-5) * 10, 1e-18);
+}
+
+TEST(Temperatures, AreNeededWhereConstantsDependOnThem) {
+  EXPECT_EQ(
+      build_refusal(
+          "osculate: 1\nmesh: {generate: {b: {box: {x: [0, 1], y: [0, 1], elements: [1, 1]}}}}\n"
+          "materials: {m: {linear_elastic: {E: [[0, 1], [1, 2]], nu: 0.3}}}\n"
+          "sections: [{on: b, material: m, element: plane_strain}]\n"
+          "steps: [{name: s, increments: 1, prescribe: [{on: b, ux: 0, uy: 0}]}]\n"),
+      "model.yaml:3: materials.m.linear_elastic: material 'm' depends on the temperature, which "
+      "is given nowhere: add `initial_temperature`");
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ TEST(Catalogue, EachLawDescribesItselfAndItsParameters) {
     EXPECT_EQ(names.contains("E"), names.contains("nu")) << law.key;
   });
   EXPECT_EQ(keys, (std::set<std::string_view>{"linear_elastic", "st_venant_kirchhoff", "neo_hooke",
-                                              "elastoplastic", "norton", "rubber"}));
+                                              "elastoplastic", "norton", "rubber", "orthotropic",
+                                              "anisotropic"}));
 }
 
 TEST(Catalogue, ParametersAreWrittenThroughTheirSlots) {
@@ -36,6 +37,13 @@ TEST(Catalogue, ParametersAreWrittenThroughTheirSlots) {
       EXPECT_EQ(law.young, 0.25);
       EXPECT_EQ(law.poisson, 0.0625);
       EXPECT_EQ(law.density, 0.015625);
+    } else if constexpr (requires { law.e1; }) {
+      EXPECT_EQ(law.e1, 0.25);
+      EXPECT_EQ(law.nu12, std::pow(0.25, 4));
+      EXPECT_EQ(law.density, std::pow(0.25, 10));
+    } else if constexpr (requires { law.d1111; }) {
+      EXPECT_EQ(law.d1122, 0.0625);
+      EXPECT_EQ(law.d2323, std::pow(0.25, 21));
     } else {
       EXPECT_EQ(law.c10, 0.25);
       EXPECT_EQ(law.c01, 0.0625);

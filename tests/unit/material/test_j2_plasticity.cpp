@@ -108,7 +108,7 @@ void expect_consistent(const Law& law, const StrainType& before, const StrainTyp
 
 TEST(J2Plasticity, TangentIsConsistentInBothBranches) {
   for (const J2Plasticity& small : all_laws)
-    for (const Law& law : {Law(small), in_logarithmic_strain(small)}) {
+    for (const Law& law : {Law(small), in_finite_strain(small)}) {
       expect_consistent<Strain3>(law, first, second, along, true);
       expect_consistent<Strain3>(law, first, 0.92 * first, along, false);
       const auto plane = [](const Strain3& e) { return Strain(e.head<4>()); };
@@ -119,7 +119,7 @@ TEST(J2Plasticity, TangentIsConsistentInBothBranches) {
 
 TEST(J2Plasticity, LargeStrainsHaveAConsistentTangent) {
   for (const J2Plasticity& small : all_laws)
-    expect_consistent<Strain3>(in_logarithmic_strain(small), 30 * first, 25 * second, along, true);
+    expect_consistent<Strain3>(in_finite_strain(small), 30 * first, 25 * second, along, true);
 }
 
 TEST(J2Plasticity, UnloadsElasticallyAndRemembersNothingNew) {
@@ -203,7 +203,7 @@ TEST(J2Plasticity, CyclesOfABarAreTheClosedSolution) {
 
 TEST(J2Plasticity, PlaneStressIsTheOneOfTheThicknessFound) {
   for (const J2Plasticity& small : all_laws)
-    for (const Law& law : {Law(small), in_logarithmic_strain(small)}) {
+    for (const Law& law : {Law(small), in_finite_strain(small)}) {
       State now{};
       for (const Strain& e : {Strain(0.012, -0.004, 0, 0.01), Strain(-0.006, 0.02, 0, -0.01),
                               Strain(-0.004, 0.019, 0, -0.01)}) {
@@ -266,7 +266,7 @@ TEST(J2Plasticity, LogarithmicFormIsTheSmallOneAtSmallStrain) {
       law.isotropic /= size;
       law.kinematic /= size;
       for (auto& point : law.hardening) point[1] *= size;
-      Point<Strain3> small{law}, large{in_logarithmic_strain(law)};
+      Point<Strain3> small{law}, large{in_finite_strain(law)};
       Stress3 a, b;
       for (const Strain3& e : {Strain3(size * 100 * first), Strain3(size * 100 * second)}) {
         a = small.commit(e).stress;
@@ -283,7 +283,7 @@ TEST(J2Plasticity, LogarithmicFormIsTheSmallOneAtSmallStrain) {
 
 TEST(J2Plasticity, SaysWhatIsWrongWithItsHardening) {
   EXPECT_EQ(range_problem(Law(table)), "");
-  EXPECT_EQ(range_problem(in_logarithmic_strain(perfect)), "");
+  EXPECT_EQ(range_problem(in_finite_strain(perfect)), "");
   const auto wrong = [](core::Table points) {
     return range_problem(J2Plasticity{200, 0.3, 0, 0, 0, 0, std::move(points)});
   };

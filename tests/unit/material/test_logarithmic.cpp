@@ -74,7 +74,7 @@ TEST(LogarithmicStrain, HasNoneWithoutVolume) {
   EXPECT_FALSE(LogarithmicStrain(strain_of({-0.6, -0.6, 0})).ok());
   EXPECT_FALSE(LogarithmicStrain(Strain3(Strain3::Constant(std::nan("")))).ok());
   EXPECT_TRUE(LogarithmicStrain(strain_of({-0.499, 0, 0})).ok());
-  const Law law = in_logarithmic_strain(elastic);
+  const Law law = in_finite_strain(elastic);
   EXPECT_FALSE(response(law, strain_of({-0.5, 0, 0})).ok);
   EXPECT_FALSE(plane_stress_response(law, Strain(-0.5, 0, 0, 0)).ok);
   EXPECT_TRUE(std::isinf(stored_energy(law, strain_of({-0.5, 0, 0}))));
@@ -138,7 +138,7 @@ TEST(LogarithmicStrain, SecondDerivativeIsOfOrderTwo) {
 }
 
 TEST(Logarithmic, TangentIsTheDerivativeOfTheStress) {
-  const Law law = in_logarithmic_strain(elastic);
+  const Law law = in_finite_strain(elastic);
   const Strain3 along{{0.5, -0.3, 0.2, 0.7, -0.4, 0.6}};
   for (const Strain3& e : all_strains()) {
     const auto stress = [&](const Strain3& at) -> Eigen::VectorXd {
@@ -151,7 +151,7 @@ TEST(Logarithmic, TangentIsTheDerivativeOfTheStress) {
 }
 
 TEST(Logarithmic, StressIsTheDerivativeOfTheEnergyAndTheSameAlone) {
-  const Law law = in_logarithmic_strain(elastic);
+  const Law law = in_finite_strain(elastic);
   const Strain3 along{{0.5, -0.3, 0.2, 0.7, -0.4, 0.6}};
   for (const Strain3& e : all_strains()) {
     const Stress3 s = response(law, e).stress;
@@ -169,7 +169,7 @@ TEST(Logarithmic, StressIsTheDerivativeOfTheEnergyAndTheSameAlone) {
 // A bar that is stretched and thins by nu in logarithmic strain: force per reference area
 // E ln(stretch) / stretch times the volume ratio.
 TEST(Logarithmic, BarHasHenckysStress) {
-  const Law law = in_logarithmic_strain(elastic);
+  const Law law = in_finite_strain(elastic);
   for (const double stretch : {0.3, 0.9, 1.2, 3.0}) {
     const double log = std::log(stretch), across = std::exp(-0.3 * log);
     const Strain3 e{{(stretch * stretch - 1) / 2, (across * across - 1) / 2,

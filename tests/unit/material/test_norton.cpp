@@ -87,7 +87,7 @@ void expect_consistent(const Law& law, const StrainType& before, const StrainTyp
 
 TEST(Norton, TangentIsConsistent) {
   for (const Norton& small : {fourth, viscous})
-    for (const Law& law : {Law(small), in_logarithmic_strain(small)}) {
+    for (const Law& law : {Law(small), in_finite_strain(small)}) {
       expect_consistent<Strain3>(law, first, second, along);
       const auto plane = [](const Strain3& e) { return Strain(e.head<4>()); };
       expect_consistent<Strain>(law, plane(first), plane(second), plane(along));
@@ -134,7 +134,7 @@ TEST(Norton, RelaxesAsItShould) {
 
 TEST(Norton, AsksForDurations) {
   EXPECT_TRUE(needs_duration(fourth));
-  EXPECT_TRUE(needs_duration(in_logarithmic_strain(fourth)));
+  EXPECT_TRUE(needs_duration(in_finite_strain(fourth)));
   EXPECT_FALSE(needs_duration(J2Plasticity{200, 0.3, 0, 1}));
 }
 

@@ -12,13 +12,17 @@
 
 namespace osculate::solid::testing {
 
-/// The law itself, or the one that is used in the logarithmic strain.
+/// The law itself, or the one that is used in a finite strain.
 template <class T>
 T& constants(T& law) {
   return law;
 }
 template <class T>
 T& constants(material::Logarithmic<T>& form) {
+  return form.law;
+}
+template <class T>
+T& constants(material::GreenLagrange<T>& form) {
   return form.law;
 }
 
@@ -29,7 +33,7 @@ void for_each_form(const Visit& visit) {
   material::for_each_law([&](auto law) {
     osculate::testing::set_elastic(law, 7, 0.3);
     visit(law);
-    if (material::has_logarithmic_form(law)) visit(material::in_logarithmic_strain(law));
+    if (material::has_finite_form(law)) visit(material::in_finite_strain(law));
   });
 }
 

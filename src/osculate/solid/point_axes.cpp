@@ -1,0 +1,77 @@
+// What the points of a cell have by their place: the axes of the material, temperatures.
+#include "osculate/solid/point_axes.hpp"
+
+#include "osculate/solid/points.hpp"
+#include "osculate/solid/solid_shell_strain.hpp"
+
+namespace osculate::solid {
+namespace {
+
+using cell::CellType;
+
+/// Shape functions at a point.
+template <int Dim>
+Shape<Dim> shape_at_point(const Section<Dim>& section, CellType type, std::size_t point) {
+  if constexpr (Dim == 3) {
+    if (section.formulation == Formulation::solid_shell)
+      return shape_at<3>(type, shell_rule(type).points[point].xi);
+  }
+  return rule_of(section, type).shape[point];
+}
+
+}  // namespace
+
+template <int Dim>
+PointAxes<Dim>::PointAxes(const Section<Dim>& section, CellType type,
+                          const Coordinates<Dim>& reference)
+    : any_(section.orientation.kind != material::Orientation::Kind::global &&
+           material::directional(section.law)) {
+  if (!any_) return;
+  const std::size_t count = point_count(section, type);
+  for (std::size_t q = 0; q < count; ++q) {
+    const Shape<Dim> shape = shape_at_point(section, type, q);
+    Vec3 place = Vec3::Zero();
+    place.head<Dim>() = reference.transpose() * shape.n.head(shape.count);
+    Eigen::Map<Mat<3, 3>> here(&values_[9 * q]);
+    here = material::axes_at(section.orientation, place);
+  }
+}
+
+template <int Dim>
+std::array<double, static_cast<std::size_t>(max_points<Dim>)> values_at_points(
+    const Section<Dim>& section, CellType type, std::span<const double> nodal) {
+  std::array<double, static_cast<std::size_t>(max_points<Dim>)> out{};
+  const std::size_t count = point_count(section, type);
+  for (std::size_t q = 0; q < count; ++q) {
+    const Shape<Dim> shape = shape_at_point(section, type, q);
+    out[q] =
+        shape.n.head(shape.count).dot(Eigen::Map<const Eigen::VectorXd>(nodal.data(), shape.count));
+  }
+  return out;
+}
+
+template <int Dim>
+std::array<double, static_cast<std::size_t>(max_points<Dim>)> expansion_at_points(
+    const Section<Dim>& section, CellType type, std::span<const double> temperature,
+    std::span<const double> before) {
+  auto out = values_at_points(section, type, temperature);
+  const auto first = values_at_points(section, type, before);
+  for (std::size_t q = 0; q < out.size(); ++q)
+    out[q] = material::expansion(section.expansion, out[q], first[q]);
+  return out;
+}
+
+template class PointAxes<2>;
+template class PointAxes<3>;
+template std::array<double, 9> values_at_points(const Section<2>&, CellType,
+                                                std::span<const double>);
+template std::array<double, 27> values_at_points(const Section<3>&, CellType,
+                                                 std::span<const double>);
+template std::array<double, 9> expansion_at_points(const Section<2>&, CellType,
+                                                   std::span<const double>,
+                                                   std::span<const double>);
+template std::array<double, 27> expansion_at_points(const Section<3>&, CellType,
+                                                    std::span<const double>,
+                                                    std::span<const double>);
+
+}  // namespace osculate::solid
