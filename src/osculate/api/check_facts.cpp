@@ -120,8 +120,9 @@ std::string quality_text(const deck::BasicBuilt<Dim>& built, nlohmann::json& jso
 // ---- steps ------------------------------------------------------------------------------------
 
 bool is_axisymmetric(const model::Model& m) {
-  return !m.sections.empty() &&
-         m.sections.front().section.assumption == solid::Assumption::axisymmetric;
+  return std::any_of(m.sections.begin(), m.sections.end(), [](const auto& section) {
+    return section.section.assumption == solid::Assumption::axisymmetric;
+  });
 }
 bool is_axisymmetric(const model::Model3&) { return false; }
 

@@ -166,16 +166,6 @@ void check_plane(const BuildContext<2>& c, const Section& s, const model::BulkSe
                   s.material.value));
 }
 
-void check_mixture(const BuildContext<2>& c, const Section& s, const model::BulkSection& section) {
-  for (const model::BulkSection& other : c.model().sections)
-    if ((other.section.assumption == solid::Assumption::axisymmetric) !=
-        (section.section.assumption == solid::Assumption::axisymmetric))
-      throw core::InputError(
-          s.element.mark,
-          fmt::format("'{}' and '{}': axisymmetric and plane sections exclude each other",
-                      other.name, section.name));
-}
-
 template <int Dim>
 void check_set(const Section& s, const mesh::Set& set) {
   if (set.dimension == Dim && !set.cells.empty()) return;
@@ -231,7 +221,6 @@ void build_sections(BuildContext<Dim>& c) {
     section.cells = set.cells;
     section.material = s.material.value;
     check_orientation(c, s, section.section.law);
-    if constexpr (Dim == 2) check_mixture(c, s, section);
     if (s.element.value == SectionElement::solid_shell)
       (void)mesh::align_shells(m.mesh, section.cells);
     for (const mesh::CellRef& ref : section.cells) add_cell(c, s, section, ref);

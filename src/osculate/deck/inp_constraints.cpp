@@ -238,7 +238,7 @@ const std::string& node_set_of(const InpModel& m, const Line& line, std::string_
 }
 
 std::string inp_component(char kind, int direction) {
-  if (direction > 3) kind = kind == 'u' ? 'r' : 'm';
+  if (direction > 3) kind = kind == 'u' ? 'r' : kind == 'v' ? 'w' : 'm';
   return {kind, "xyz"[(direction - 1) % 3]};
 }
 

@@ -77,10 +77,14 @@ void put_pretension(InpModel& m, const Card& card, SourceNode& root) {
   if (const auto lines = io::inp::lines_of(m.deck, card); !lines.empty()) {
     Fields fields(m.deck, lines[0]);
     axis = point_of(fields);
-    if (axis.norm() > 0) put(entry, "axis", inp_point(axis, inp_dimension(m), line));
   }
   // CalculiX measures how far the surface's elements move along the normal: out of them they close.
-  const bool inwards = axis.dot(mean_normal(m.mesh.mesh, *m.mesh.mesh.find_set(surface))) < 0;
+  const Vec3 outwards = mean_normal(m.mesh.mesh, *m.mesh.mesh.find_set(surface));
+  const bool inwards = axis.dot(outwards) < 0;
+  // The side that the axis points to has nodes of its own: that of the elements, as in CalculiX.
+  // Both sides meet along it whichever way it points.
+  if (!(axis.norm() > 0)) axis = outwards;
+  put(entry, "axis", inp_point(inwards ? axis : Vec3(Vec3::Zero() - axis), inp_dimension(m), line));
   m.body_nodes[only_node(m, node)] = {name, 1, false, inwards ? -1.0 : 1.0};
 }
 

@@ -121,7 +121,7 @@ constexpr std::array<InpKeyword, 115> keywords{{
     {"UNCOUPLED TEMPERATURE-DISPLACEMENT", "", "increment, time", none, "no temperatures"},
     {"AMPLITUDE", "NAME TIME", "time, factor", translated, "`amplitudes`"},
     {"INITIAL CONDITIONS", "TYPE", "node or set, values", translated,
-     "`initial_temperature` (TYPE=TEMPERATURE); `initial_velocity`"},
+     "`initial_temperature`, `initial_velocity` (TYPE=VELOCITY)"},
     {"CLOAD", "OP AMPLITUDE", "node or set, dof, force", translated, "`steps.forces`"},
     {"DLOAD", "OP AMPLITUDE", "element or set, load, size", translated,
      "`pressure`, `body_force`, `centrifugal`"},

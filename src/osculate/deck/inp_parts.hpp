@@ -130,6 +130,7 @@ struct NodeValue {
 /// `expansion` of a material, from its `*EXPANSION`.
 [[nodiscard]] SourceNode inp_expansion(const InpModel& m, const io::inp::Card& card);
 [[nodiscard]] SourceNode inp_initial_temperature(const InpModel& m);
+[[nodiscard]] SourceNode inp_initial_velocity(const InpModel& m);
 
 [[nodiscard]] SourceNode inp_contact(InpModel& m);
 /// What the cards of a step change of contact pairs; empty: nothing.

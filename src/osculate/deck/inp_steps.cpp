@@ -264,10 +264,10 @@ class Steps {
 
   void check_initial(const Card& card) const {
     const std::string type = option_of(card, "TYPE");
-    if (type != "TEMPERATURE")
-      io::inp::fail(m_.deck, card,
-                    fmt::format("TYPE={} is not translated: in a model file `initial_velocity`",
-                                printable(type)));
+    if (type != "TEMPERATURE" && type != "VELOCITY")
+      io::inp::fail(
+          m_.deck, card,
+          fmt::format("TYPE={} is not supported: TEMPERATURE or VELOCITY", printable(type)));
   }
 
   void read_boundary(const Card& card) {

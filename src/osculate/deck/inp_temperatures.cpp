@@ -1,4 +1,4 @@
-// Temperatures of a deck: how materials expand, and what nodes have at first.
+// Temperatures of a deck: how materials expand, and what nodes have at first, velocities as well.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -78,6 +78,31 @@ SourceNode inp_initial_temperature(const InpModel& m) {
       SourceNode& entry = list.items.emplace_back(inp_map(line_of(line.at)));
       put(entry, "on", inp_text(value.on, entry.line));
       put(entry, "value", inp_number(value.value, entry.line));
+    }
+  }
+  return list;
+}
+
+SourceNode inp_initial_velocity(const InpModel& m) {
+  SourceNode list = inp_list(1);
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "INITIALCONDITIONS" || option_of(card, "TYPE") != "VELOCITY") continue;
+    for (const Line& line : io::inp::lines_of(m.deck, card)) {
+      Fields fields(m.deck, line);
+      const std::string& set = node_set_of(m, line, fields.next().value_or(""));
+      const std::int32_t direction = fields.number("a direction");
+      const std::vector<InpPlace> places = direction >= 1 && direction <= inp_dimension(m)
+                                               ? inp_places(m, set, direction)
+                                               : std::vector<InpPlace>{};
+      if (places.empty())
+        fields.fail(
+            fmt::format("expected a direction 1 to {}, found {}", inp_dimension(m), direction));
+      const double speed = fields.real("the velocity");
+      for (const InpPlace& place : places) {
+        SourceNode& entry = list.items.emplace_back(inp_map(line_of(line.at)));
+        put(entry, "on", inp_text(place.on, entry.line));
+        put(entry, inp_component('v', place.direction), inp_number(place.sign * speed, entry.line));
+      }
     }
   }
   return list;

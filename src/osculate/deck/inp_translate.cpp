@@ -170,6 +170,7 @@ TranslatedDeck translate_deck(const io::inp::Deck& deck) {
   put_springs(m, out.root);
   put_unless_empty("equations", inp_equations(m));
   put_unless_empty("initial_temperature", inp_initial_temperature(m));
+  put_unless_empty("initial_velocity", inp_initial_velocity(m));
   InpSteps steps = inp_steps(m);
   put_unless_empty("sets", std::move(m.new_sets));
   put_unless_empty("amplitudes", std::move(steps.amplitudes));

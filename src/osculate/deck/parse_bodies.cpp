@@ -28,7 +28,8 @@ BoundKeys<Section> section_keys() {
   const Spec element =
       choice(
           "Which plane the body lives in, or that it is one in space. All sections of a model are "
-          "plane, all axisymmetric, or all in space.",
+          "in space, or none is; plane ones beside axisymmetric ones stand for all that is spread "
+          "round the circumference.",
           {word("plane_strain", SectionElement::plane_strain, "no strain out of the plane"),
            word("plane_stress", SectionElement::plane_stress, "no stress out of the plane"),
            word("axisymmetric", SectionElement::axisymmetric,

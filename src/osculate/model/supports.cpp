@@ -15,11 +15,10 @@
 namespace osculate::model {
 namespace {
 
-bool is_axisymmetric(const Model& m) {
-  return !m.sections.empty() &&
-         m.sections.front().section.assumption == solid::Assumption::axisymmetric;
+bool is_ring(const BulkSection& section) {
+  return section.section.assumption == solid::Assumption::axisymmetric;
 }
-bool is_axisymmetric(const Model3&) { return false; }
+bool is_ring(const BulkSection3&) { return false; }
 
 Mat<2, 1> turned(const Vec2& arm) { return turn(arm); }
 Mat<3, 3> turned(const Vec3& arm) { return -body::cross_matrix(arm); }
@@ -29,6 +28,7 @@ template <int Dim>
 struct Held {
   static constexpr int motions = body::motions<Dim>;
   Support support;
+  bool ring = false;  ///< some of its cells are axisymmetric
   Vec<Dim> center = Vec<Dim>::Zero();
   double size = 1;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(motions, motions);
@@ -101,9 +101,9 @@ std::string motion_text(const Held<Dim>& body, const Eigen::VectorXd& w) {
 }
 
 template <int Dim>
-void name_free_motions(Held<Dim>& body, bool axisymmetric) {
+void name_free_motions(Held<Dim>& body) {
   constexpr double smallest = 1e-10;
-  if (axisymmetric) {
+  if (body.ring) {
     body.support.all_free = body.gram(1, 1) == 0;
     if (body.support.all_free) body.support.free = {"move along y"};
     return;
@@ -145,6 +145,7 @@ struct Bodies {
         const Index node = cell_nodes(m.mesh, ref).nodes[0];
         std::string& name = held[body_of(node)].support.body;
         if (name.empty()) name = section.name;
+        held[body_of(node)].ring = held[body_of(node)].ring || is_ring(section);
       }
     for (const BasicRigidBody<Dim>& body : m.rigid) {
       Held<Dim> one;
@@ -259,7 +260,7 @@ std::vector<Support> supports(const BasicModel<Dim>& model, const Step& step) {
       bodies.held[b].support.contact.push_back(model.rigid[r].name);
   std::vector<Support> out;
   for (Held<Dim>& body : bodies.held) {
-    name_free_motions(body, is_axisymmetric(model));
+    name_free_motions(body);
     out.push_back(std::move(body.support));
   }
   return out;

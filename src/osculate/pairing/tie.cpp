@@ -125,6 +125,8 @@ void tie_points(const PairDefinition<Dim>& pair, Points<Dim> x, Tied<Dim>& tied)
   PairState<Dim> none;
   none.points.resize(pair.slave.points.size());
   evaluate<Dim>(open, x, none, false, work);
+  // what moves as one may look whichever way
+  work.normals.assign(pair.slave.points.size(), Vec<Dim>::Zero());
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
     const ProjectedPoint<Dim> projected = project_point<Dim>(open, work, x, i, {});
     if (projected.projection.feature == projection::Feature::none) continue;

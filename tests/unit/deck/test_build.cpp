@@ -118,10 +118,6 @@ TEST(Build, Sections) {
          "{on: low, material: steel, element: plane_stress, formulation: bbar}"}},
        "model.yaml:11: sections[0].formulation: set 'low' has quad4 cells: formulation bbar has no "
        "use in plane stress; use full or enhanced"},
-      {{{"{on: high, material: steel, element: plane_strain}",
-         "{on: high, material: steel, element: axisymmetric}"}},
-       "model.yaml:12: sections[1].element: 'low' and 'high': axisymmetric and plane sections "
-       "exclude each other"},
       {{{"{on: low, material: steel, element: plane_strain}",
          "{on: low, material: steel, element: axisymmetric}"},
         {"{on: high, material: steel, element: plane_strain}",

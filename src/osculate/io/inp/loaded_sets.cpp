@@ -51,7 +51,7 @@ void add_side(const Deck& deck, const Line& line, RawMesh& mesh) {
 bool begins_with_nodes(const Card& card) {
   if (card.keyword == "INITIALCONDITIONS") {
     const Parameter* const type = find_parameter(card, "TYPE");
-    return type && capitals(type->value) == "TEMPERATURE";
+    return type && (capitals(type->value) == "TEMPERATURE" || capitals(type->value) == "VELOCITY");
   }
   for (const char* const keyword : {"BOUNDARY", "CLOAD", "TEMPERATURE", "DISTRIBUTINGCOUPLING"})
     if (card.keyword == keyword) return true;
