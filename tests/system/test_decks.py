@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
@@ -85,6 +86,18 @@ class Decks(unittest.TestCase):
     def test_convert_writes_over_no_deck(self):
         self.assertEqual(self.run_program("convert", "column.inp", "-o", "column.inp").returncode, 2)
         self.assertEqual(self.run_program("convert", "column.yaml").returncode, 2)
+
+    def test_the_bolted_joint_of_the_tutorial(self):
+        """The bolt keeps its 10 kN while the flanges press on each other, and takes all once they have parted."""
+        joint = pathlib.Path(__file__).resolve().parents[2] / "examples/bolted_joint/joint.inp"
+        text = joint.read_text()
+        for pull, expected, within in ((600, 9989.5, 1), (2000, 20000, 0.1)):
+            self.write("joint.inp", text.replace(", 3, 600\n", f", 3, {pull}\n").replace(", 3, 300\n", f", 3, {pull / 2}\n"))
+            done = self.run_program("ccx", "-i", "joint")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            rows = [line.split() for line in open(os.path.join(self.folder, "joint.dat")) if line.split()[:1] == ["760"]]
+            self.assertEqual(len(rows), 4)
+            self.assertAlmostEqual(float(rows[-1][1]), expected, delta=within)
 
 
 if __name__ == "__main__":

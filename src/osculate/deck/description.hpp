@@ -191,6 +191,8 @@ enum class HistoryKind { continuous, chord, per_facet };
 enum class InitialWord { ignore, ramp, keep, adjust };
 enum class SmoothingWord { none, hermite, nurbs };
 
+enum class AreaWord { around };
+
 /// Of the master's surface.
 struct MasterSmoothing {
   SmoothingWord kind = SmoothingWord::none;
@@ -246,7 +248,8 @@ struct Contact {
   std::optional<GivenLaw<contact::FrictionLaw>> friction;
   Marked<Enforcement> enforcement;
   Marked<ContactWeight> weight;
-  double area = 0;  ///< of each slave node; 0: that of its facets
+  double area = 0;           ///< of each slave node; 0: that of its facets, or
+  bool area_around = false;  ///< of the free faces round it
   Marked<Residual> residual;
   Marked<Tangent> tangent;
   Marked<HistoryKind> history;
@@ -349,6 +352,7 @@ struct PointMass {
 struct Pretension {
   Name name;
   Name on;
+  std::optional<Name> node;  ///< set of the one node, where the mesh has it
   std::optional<Marked<Vec3>> axis;
 };
 /// One of `sectors` equal parts round an axis: its dependent face moves as the independent one of

@@ -1,13 +1,12 @@
 // Contact pairs and tied surfaces of a deck.
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <set>
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/inp_parts.hpp"
-#include "osculate/mesh/surface.hpp"
+#include "osculate/mesh/node_areas.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -122,65 +121,43 @@ SourceNode& add_pair(const InpModel& m, const Card& card, const Line& line, Sour
   return pair;
 }
 
-double area_of(const mesh::Mesh& mesh, std::span<const Index> corners) {
-  const auto at = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(corners[k])]; };
-  double area = 0;
-  for (std::size_t k = 2; k < corners.size(); ++k)
-    area += 0.5 * (at(k - 1) - at(0)).cross(at(k) - at(0)).norm();
-  return area;
-}
-
-double mean_area_of_facets(const mesh::Mesh& mesh, const mesh::Set& facets) {
+/// Mean area of the facets of a set.
+double mean_area(const mesh::Mesh& mesh, const mesh::Set& facets) {
   double area = 0;
   for (const mesh::CellRef& ref : facets.cells) {
     const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
     const auto corners = static_cast<std::size_t>(cell::info(block.type).corners);
-    area += area_of(mesh, {block.cell(ref.cell), corners});
+    area += mesh::polygon_area(mesh, {block.cell(ref.cell), corners});
   }
   return facets.cells.empty() ? 0 : area / static_cast<double>(facets.cells.size());
 }
 
-/// The area that a slave node without facets has in ccx: its share of the free faces of the solids
-/// round it, here the mean over the nodes; where there are no solids that of a facet of the master,
-/// or 1.
-double mean_area(const mesh::Mesh& mesh, const mesh::Set& nodes, const mesh::Set* master) {
-  const std::set<Index> wanted(nodes.nodes.begin(), nodes.nodes.end());
-  const mesh::FaceTable table = mesh::face_table(mesh);
-  double area = 0;
-  for (std::size_t i = 0; i < table.faces.size(); ++i) {
-    const mesh::Face& face = table.faces[i];
-    const bool shared = (i > 0 && table.faces[i - 1].key == face.key) ||
-                        (i + 1 < table.faces.size() && table.faces[i + 1].key == face.key);
-    if (shared) continue;
-    const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(face.cell.block)];
-    const cell::CellFace& local =
-        cell::info(block.type).faces[static_cast<std::size_t>(face.local)];
-    std::vector<Index> corners;
-    for (int k = 0; k < cell::info(local.type).corners; ++k)
-      corners.push_back(block.cell(
-          face.cell.cell)[static_cast<std::size_t>(local.nodes[static_cast<std::size_t>(k)])]);
-    const auto of_slave =
-        std::count_if(corners.begin(), corners.end(), [&](Index n) { return wanted.contains(n); });
-    area += area_of(mesh, corners) * static_cast<double>(of_slave) /
-            static_cast<double>(corners.size());
-  }
-  if (area > 0) return area / static_cast<double>(wanted.size());
-  const double of_master = master ? mean_area_of_facets(mesh, *master) : 0;
-  return of_master > 0 ? of_master : 1;
-}
-
-/// Slave nodes without facets get an area.
+/// Slave nodes without facets have their share of the free faces of the solids round them, as in
+/// CalculiX; where there are no solids that of a facet of the master, or 1.
 void put_weight(InpModel& m, const Card& card, SourceNode& pair) {
   const mesh::Set* const slave = m.mesh.mesh.find_set(find(pair, "slave")->text);
-  if (!slave || !slave->cells.empty()) return;
-  const double area =
-      mean_area(m.mesh.mesh, *slave, m.mesh.mesh.find_set(find(pair, "master")->text));
+  const mesh::Set* const master = m.mesh.mesh.find_set(find(pair, "master")->text);
+  if (!slave || !master || !slave->cells.empty()) return;
   const int line = line_of(card.at);
-  put(put(pair, "weight", inp_map(line)), "area", inp_number(area, line));
-  m.notes.push_back(fmt::format(
-      "line {}: nodes of '{}' have no facets: each has the area {:g} of the faces round "
-      "it",
-      card.at.line, slave->name, area));
+  SourceNode& weight = put(pair, "weight", inp_map(line));
+  const std::vector<double> areas = mesh::free_areas(m.mesh.mesh, mesh::face_table(m.mesh.mesh));
+  const bool around = std::any_of(slave->nodes.begin(), slave->nodes.end(),
+                                  [&](Index n) { return areas[static_cast<std::size_t>(n)] > 0; });
+  if (around || inp_dimension(m) == 2) {
+    put(weight, "area", inp_text("around", line));
+    m.notes.push_back(
+        fmt::format("line {}: nodes of '{}' have no facets: each has its share of the "
+                    "free faces round it",
+                    card.at.line, slave->name));
+    return;
+  }
+  const double of_master = mean_area(m.mesh.mesh, *master);
+  const double area = of_master > 0 ? of_master : 1;
+  put(weight, "area", inp_number(area, line));
+  m.notes.push_back(
+      fmt::format("line {}: nodes of '{}' have no facets: each has the area {:g} of a "
+                  "facet of the master",
+                  card.at.line, slave->name, area));
 }
 
 void put_adjust(const InpModel& m, const Card& card, const std::string& value, SourceNode& pair) {

@@ -72,6 +72,7 @@ void put_pretension(InpModel& m, const Card& card, SourceNode& root) {
   SourceNode& entry = put(*find(root, "pretension"), name, inp_map(line));
   put(entry, "on",
       inp_text(set_of(m, card.at, value_of(m, card, "SURFACE"), {SetKind::surface}), line));
+  put(entry, "node", inp_text(node, line));
   const std::string surface = find(entry, "on")->text;
   Vec3 axis = Vec3::Zero();
   if (const auto lines = io::inp::lines_of(m.deck, card); !lines.empty()) {

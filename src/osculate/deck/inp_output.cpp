@@ -6,6 +6,7 @@
 #include <set>
 
 #include "osculate/deck/inp_parts.hpp"
+#include "osculate/mesh/boundary.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -109,7 +110,24 @@ class Requests {
       Fields fields(m_.deck, line);
       while (!fields.done()) add(io::inp::capitals(io::inp::name_of(*fields.next())), kind, wanted);
     }
-    if (!wanted.of.empty()) wanted_[group].push_back(std::move(wanted));
+    if (!wanted.of.empty()) {
+      tell_of_bodies(wanted);
+      wanted_[group].push_back(std::move(wanted));
+    }
+  }
+
+  /// Forces of a rigid body are those of its nodes: its reference node alone has none.
+  void tell_of_bodies(const Wanted& wanted) {
+    if (wanted.on.empty() || std::ranges::find(wanted.of, "RF") == wanted.of.end()) return;
+    for (const Index node : m_.mesh.mesh.find_set(wanted.on)->nodes) {
+      const auto body = m_.body_nodes.find(node);
+      if (body == m_.body_nodes.end() || !body->second.rigid) continue;
+      m_.notes.push_back(
+          fmt::format("RF of {} in the tables is not that of its rigid body '{}': ask for rfx, ... "
+                      "in a history",
+                      mesh::describe_node(m_.mesh.mesh, node), body->second.body));
+      return;
+    }
   }
 
   void add(const std::string& name, const Kind& kind, Wanted& wanted) {

@@ -64,6 +64,10 @@ BoundKey<Description> pretension_key() {
   using P = Pretension;
   const BoundKeys<P> keys(
       {on_key<P>("Set of facets inside of a body that cut it through.", "middle"),
+       may(&P::node, "node",
+           text("Set of one node of no cell that carries the shortening.")
+               .otherwise_as("a new node in the middle of the section")
+               .such_as("reference")),
        {optional("axis", list("Direction of the bolt.", number("One coordinate."))
                              .count(2, 3)
                              .otherwise_as("the mean normal of the facets")

@@ -180,13 +180,19 @@ BoundKey<Contact> tangent_key() {
 }
 
 BoundKey<Contact> weight_key() {
-  const BoundKeys<Contact> given({may(&Contact::area, "area",
-                                      number("Area of each slave node, also of those without "
-                                             "facets.")
-                                          .in("length^2")
-                                          .above(0)
-                                          .otherwise_as("that of its facets")
-                                          .such_as("0.25"))});
+  Spec area =
+      either("Area of each slave node, also of those without facets.",
+             {number("The same for all.").in("length^2").above(0).such_as("0.25"),
+              choice("Of its surroundings.", {word("around", AreaWord::around,
+                                                   "its share of the free faces that it is a "
+                                                   "corner of")})})
+          .otherwise_as("that of its facets")
+          .such_as("0.25");
+  const BoundKeys<Contact> given(
+      {{optional("area", std::move(area)), [](Contact& c, const Value& v) {
+          c.area_around = v.alternative == 1;
+          if (v.alternative == 0) c.area = v.number;
+        }}});
   Spec spec =
       either("What the traction of a contact point is multiplied by.",
              {choice("One of these.",

@@ -224,6 +224,23 @@ void renew_sets(const std::map<Index, Index>& fresh, const std::vector<CellRef>&
   }
 }
 
+/// The node of the mesh that carries the shortening; -1: none is named.
+Index carrier_of(const Pretension& p, const mesh::Mesh& mesh) {
+  if (!p.node) return -1;
+  const mesh::Set* const set = mesh.find_set(p.node->value);
+  if (!set)
+    throw core::InputError(p.node->mark, fmt::format("the mesh has no set '{}'", p.node->value));
+  if (set->nodes.size() != 1)
+    throw core::InputError(p.node->mark, fmt::format("set '{}' has {} nodes, not one",
+                                                     p.node->value, set->nodes.size()));
+  for (const mesh::Block& block : mesh.blocks)
+    if (std::find(block.connectivity.begin(), block.connectivity.end(), set->nodes[0]) !=
+        block.connectivity.end())
+      throw core::InputError(p.node->mark,
+                             fmt::format("the node of '{}' belongs to a cell", p.node->value));
+  return set->nodes[0];
+}
+
 }  // namespace
 
 void cut(const Pretension& p, mesh::Mesh& mesh) {
@@ -249,7 +266,9 @@ void cut(const Pretension& p, mesh::Mesh& mesh) {
   for (const auto& entry : fresh) fresh_nodes.push_back(entry.second);
   mesh.sets.push_back({p.name.value + ".behind", 0, {}, section.nodes});
   mesh.sets.push_back({p.name.value + ".front", 0, {}, std::move(fresh_nodes)});
-  mesh.sets.push_back({p.name.value, 0, {}, {add_node(centre(mesh, section.nodes), mesh)}});
+  const Index node = carrier_of(p, mesh);
+  mesh.sets.push_back(
+      {p.name.value, 0, {}, {node >= 0 ? node : add_node(centre(mesh, section.nodes), mesh)}});
 }
 
 Vec3 mean_normal(const mesh::Mesh& mesh, const mesh::Set& set) {

@@ -14,6 +14,7 @@ BasicDofSpace<Dim>::BasicDofSpace(Index nodes, std::vector<Index> body_of_node, 
   const auto total = static_cast<std::size_t>(dofs());
   unknown_of_.assign(total, -1);
   equation_of_.assign(total, -1);
+  alone_.assign(total, false);
   std::vector<bool> named(total, false);  // an equation gives a dof without cells its stiffness
   for (const Dof dof : also_used) named[static_cast<std::size_t>(dof)] = true;
   for (std::size_t e = 0; e < equations_.size(); ++e) {
@@ -27,6 +28,7 @@ BasicDofSpace<Dim>::BasicDofSpace(Index nodes, std::vector<Index> body_of_node, 
     if (dof < Dim * nodes_) {
       const auto node = d / Dim;
       if (body_of_node_[node] >= 0 || !(used_node[node] || named[d])) continue;
+      alone_[d] = !used_node[node];
     }
     unknown_of_[d] = unknowns_++;
     dof_of_unknown_.push_back(dof);

@@ -57,6 +57,8 @@ class BasicDofSpace {
   [[nodiscard]] Dof dof_of_unknown(Index unknown) const {
     return dof_of_unknown_[static_cast<std::size_t>(unknown)];
   }
+  /// Of a node without cells: an equation or a spring has made it an unknown.
+  [[nodiscard]] bool stands_alone(Dof dof) const { return alone_[static_cast<std::size_t>(dof)]; }
   [[nodiscard]] const std::vector<Equation>& equations() const { return equations_; }
   /// Index of the equation that eliminates the dof, or -1.
   [[nodiscard]] Index equation_of(Dof dof) const {
@@ -74,6 +76,7 @@ class BasicDofSpace {
   std::vector<Equation> equations_;
   std::vector<Index> unknown_of_, equation_of_;
   std::vector<Dof> dof_of_unknown_;
+  std::vector<bool> alone_;
 };
 
 using DofSpace = BasicDofSpace<2>;

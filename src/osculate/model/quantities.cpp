@@ -270,10 +270,30 @@ std::vector<Shown<Dim>> at_nodes(const pairing::PairDefinition<Dim>& pair,
 }  // namespace
 
 template <int Dim>
+void pass_on(const BasicDofSpace<Dim>& dofs, Eigen::VectorXd& forces) {
+  const Eigen::VectorXd before = forces;
+  for (const Equation& equation : dofs.equations())
+    for (std::size_t t = 1; t < equation.terms.size(); ++t) {
+      const auto& [dof, factor] = equation.terms[t];
+      const Equation::Term& lead = equation.terms.front();
+      if (dofs.stands_alone(dof)) forces[dof] -= before[lead.dof] * factor / lead.factor;
+    }
+}
+
+template <int Dim>
+Eigen::VectorXd nodal_forces(const BasicSystem<Dim>& system) {
+  Eigen::VectorXd all = system.forces().internal + system.forces().contact;
+  pass_on(system.dofs(), all);
+  return all;
+}
+
+template <int Dim>
 Eigen::VectorXd reactions(const BasicSystem<Dim>& system) {
   const Forces& f = system.forces();
-  if (f.inertia.size() == 0) return f.internal + f.contact - f.external;
-  return f.internal + f.contact - f.external + f.inertia;
+  Eigen::VectorXd all = f.internal + f.contact - f.external;
+  if (f.inertia.size() > 0) all += f.inertia;
+  pass_on(system.dofs(), all);
+  return all;
 }
 
 template <int Dim>
@@ -316,6 +336,10 @@ BasicContactFields<Dim> contact_fields(const BasicSystem<Dim>& system, const Bas
   return fields;
 }
 
+template Eigen::VectorXd nodal_forces(const System&);
+template Eigen::VectorXd nodal_forces(const System3&);
+template void pass_on(const DofSpace&, Eigen::VectorXd&);
+template void pass_on(const DofSpace3&, Eigen::VectorXd&);
 template Eigen::VectorXd reactions(const System&);
 template Eigen::VectorXd reactions(const System3&);
 template double history_value(const System&, const Model&, const State&, const HistoryRequest&);

@@ -100,8 +100,16 @@ template <int Dim>
                                                      const BasicModel<Dim>& model,
                                                      std::size_t pair);
 
+/// Forces that cells and contacts put on nodes, nodes of no cell what equations pass on to them.
+template <int Dim>
+[[nodiscard]] Eigen::VectorXd nodal_forces(const BasicSystem<Dim>& system);
+/// Adds to nodes of no cell what equations pass on to them of the forces on others.
+template <int Dim>
+void pass_on(const BasicDofSpace<Dim>& dofs, Eigen::VectorXd& forces);
+
 /// Nodal reaction: internal + contact - external, with inertia and damping (zero at free nodes of a
-/// converged state; with inertia up to what the scheme leaves).
+/// converged state; with inertia up to what the scheme leaves). Nodes of no cell, as those of
+/// sections under pretension, have what the equations that name them pass on.
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd reactions(const BasicSystem<Dim>& system);
 

@@ -170,8 +170,8 @@ template <int Dim>
 void point_areas(const SlaveSide<Dim>& side, std::type_identity_t<std::span<const Vec<Dim>>> x,
                  const AreaRule& rule, std::vector<double>& areas,
                  std::type_identity_t<std::vector<std::vector<NodeGradient<Dim>>>*> gradients) {
-  if (rule.given > 0 && sampled_at_nodes(side)) {
-    areas.assign(side.points.size(), rule.given);
+  if (!rule.given.empty()) {
+    areas = rule.given;
     if (gradients) gradients->assign(side.points.size(), {});
     return;
   }

@@ -28,8 +28,8 @@ using Boundary = typename BoundaryOf<Dim>::Type;
 /// is an area.)
 struct AreaRule {
   double thickness = 1;
-  bool axisymmetric = false;  ///< x is the radius, y the axis
-  double given = 0;           ///< of each node, whatever its facets are; 0: theirs
+  bool axisymmetric = false;    ///< x is the radius, y the axis
+  std::vector<double> given{};  ///< by point, whatever the facets are; empty: theirs
 };
 
 template <int Dim>

@@ -13,6 +13,7 @@
 
 #include "osculate/core/version.hpp"
 #include "osculate/model/fields.hpp"
+#include "osculate/model/quantities.hpp"
 #include "osculate/result/result_folder.hpp"
 
 namespace osculate::result {
@@ -76,13 +77,15 @@ std::vector<double> field_values(Answer what, const AnswerModel<Dim>& answers,
     return column.values();
   }
   const auto plastic = std::ranges::find(f.memory, "PEEQ", [](const auto& m) { return m.first; });
+  const Eigen::VectorXd forces =
+      what == Answer::rf ? model::nodal_forces(system) : Eigen::VectorXd();
   for (const Index node : nodes) {
     const auto n = static_cast<std::size_t>(node);
     if (what == Answer::u) column.add({f.displacement[n].data(), Dim});
     if (what == Answer::s) column.add(f.stress[n]);
     if (what == Answer::e) column.add(f.strain[n]);
     if (what == Answer::rf) {  // of the whole ring in .frd
-      const Vec3 force = answers.force(system, node) / answers.sector;
+      const Vec3 force = answers.force(forces, node) / answers.sector;
       column.add({force.data(), 3});
     }
     if (what == Answer::peeq) {

@@ -93,8 +93,9 @@ struct Tables {
   void forces() {
     Vec3 sum = Vec3::Zero();
     if (request.totals != Totals::only) title("forces (fx,fy,fz)");
+    const Eigen::VectorXd of_nodes = model::nodal_forces(system);
     for (const Index n : nodes()) {
-      const Vec3 force = a.force(system, n);
+      const Vec3 force = a.force(of_nodes, n);
       sum += force;
       if (request.totals != Totals::only)
         io::append_dat_row(out, a.node_number[static_cast<std::size_t>(n)], 0, {force.data(), 3});
@@ -266,11 +267,9 @@ AnswerModel<Dim>::AnswerModel(const model::BasicModel<Dim>& of) : model(of) {
 }
 
 template <int Dim>
-Vec3 AnswerModel<Dim>::force(const model::BasicSystem<Dim>& system, Index node) const {
-  const model::Forces& f = system.forces();
+Vec3 AnswerModel<Dim>::force(const Eigen::VectorXd& nodal_forces, Index node) const {
   Vec3 force = Vec3::Zero();
-  force.head<Dim>() = sector * (f.internal.segment<Dim>(Dim * node) +  //
-                                f.contact.segment<Dim>(Dim * node));
+  force.head<Dim>() = sector * nodal_forces.segment<Dim>(Dim * node);
   return force;
 }
 

@@ -27,7 +27,7 @@ struct AnswerModel {
 
   explicit AnswerModel(const model::BasicModel<Dim>& of);
   /// Forces of a node from outside: loads and reactions. Inertia is no part of them.
-  [[nodiscard]] Vec3 force(const model::BasicSystem<Dim>& system, Index node) const;
+  [[nodiscard]] Vec3 force(const Eigen::VectorXd& nodal_forces, Index node) const;
 };
 
 /// Whether results are due: after every n-th increment of the steps asked for and the last of each.

@@ -195,6 +195,7 @@ TEST(InpConstraints, PretensionIsAForceAndThenLocked) {
   const model::Equation& equation = run.built.model.equations.front();
   EXPECT_EQ(equation.terms.size(), 3u);
   const Index shortening = run.built.model.mesh.find_set("pretension_of_node_901")->nodes[0];
+  EXPECT_EQ(shortening, run.node(901));
   EXPECT_NEAR(run.u[0][3 * shortening], 0.2, 1e-9);
   EXPECT_NEAR(run.u[1][3 * shortening], 0.2, 1e-9);
   EXPECT_NEAR(run.reaction_of("FINISH", 1).x(), 5 + 100 * 0.04 / 4, 1e-9);
