@@ -95,7 +95,8 @@ class Decks(unittest.TestCase):
             self.write("joint.inp", text.replace(", 3, 600\n", f", 3, {pull}\n").replace(", 3, 300\n", f", 3, {pull / 2}\n"))
             done = self.run_program("ccx", "-i", "joint")
             self.assertEqual(done.returncode, 0, done.stderr)
-            rows = [line.split() for line in open(os.path.join(self.folder, "joint.dat")) if line.split()[:1] == ["760"]]
+            lines = (pathlib.Path(self.folder) / "joint.dat").read_text().splitlines()
+            rows = [line.split() for line in lines if line.split()[:1] == ["760"]]
             self.assertEqual(len(rows), 4)
             self.assertAlmostEqual(float(rows[-1][1]), expected, delta=within)
 
