@@ -21,12 +21,12 @@ Mat<6, 6> mass_of_body(const BasicInertia<3>& inertia, const BasicRigidBody<3>& 
   return mass;
 }
 
-/// Displacements of all nodes by a small motion of the unknowns, without what is prescribed. Linear
-/// in the motion: rigid bodies turn by little.
+/// Motions of all nodes and rigid bodies by a small one of the unknowns, without what is
+/// prescribed. Linear in the motion: rigid bodies turn by little.
 template <int Dim>
-Eigen::VectorXd motion_of_nodes(const BasicDofSpace<Dim>& dofs,
-                                const BasicAssembler<Dim>& assembler, std::span<const Vec<Dim>> x,
-                                const BasicState<Dim>& state, const Eigen::VectorXd& unknowns) {
+Eigen::VectorXd motion_of_all(const BasicDofSpace<Dim>& dofs, const BasicAssembler<Dim>& assembler,
+                              std::span<const Vec<Dim>> x, const BasicState<Dim>& state,
+                              const Eigen::VectorXd& unknowns) {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs.dofs());
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (!assembler.prescribed(u)) all[dofs.dof_of_unknown(u)] = unknowns[u];
@@ -44,7 +44,7 @@ Eigen::VectorXd motion_of_nodes(const BasicDofSpace<Dim>& dofs,
       sum += equation.terms[t].factor * all[equation.terms[t].dof];
     all[equation.terms.front().dof] = -sum / equation.terms.front().factor;
   }
-  return all.head(state.u.size());
+  return all;
 }
 
 /// Rotation vectors' rates of a body that turns with the unit angular velocities.
@@ -149,9 +149,11 @@ Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::Linea
     out.participation.col(place) = pairs.vectors.transpose() * momentum;
     out.moving_mass[place] = motion.dot(momentum);
   }
-  out.shapes.resize(state.u.size(), pairs.values.size());
+  out.vectors = pairs.vectors;
+  out.motions.resize(s.dofs.dofs(), pairs.values.size());
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i)
-    out.shapes.col(i) = motion_of_nodes<Dim>(s.dofs, s.assembler, x, state, pairs.vectors.col(i));
+    out.motions.col(i) = motion_of_all<Dim>(s.dofs, s.assembler, x, state, pairs.vectors.col(i));
+  out.shapes = out.motions.topRows(state.u.size());
   return out;
 }
 

@@ -1,0 +1,53 @@
+#pragma once
+#include <vector>
+
+#include "osculate/model/system.hpp"
+
+namespace osculate::model {
+
+/// A linear motion about a state, as amounts of its vibrations.
+///
+/// Formula    q'' + c q' + omega^2 q = phi . (loads - loads at the state) for each vibration phi;
+///            c = 2 ratio omega + mass + stiffness omega^2 + phi . C phi , C of the dampers
+/// Sign       nothing but the vibrations moves: no part of the others, not even a static one
+///
+/// Tested by  tests/unit/deck/test_modal.cpp, verification/modal_dynamics
+template <int Dim>
+struct BasicSuperposition {
+  BasicState<Dim> standing;  ///< that the steps before led to, and that others go on from
+  BasicState<Dim> about;     ///< of the vibrations: this one, or that before the first step
+  Vibrations modes;
+  Eigen::VectorXd resting;        ///< forces of the loads at the state
+  std::vector<bool> rubs;         ///< by pair: it has friction
+  std::vector<bool> touching;     ///< the points in contact there
+  double elapsed = 0;             ///< time since they were at rest
+  VibrationMotion now{};          ///< of the end of the last increment
+  std::vector<double> dampers{};  ///< phi . C phi
+};
+
+/// At rest, of vibrations that `step` has found (the running one, begun from `standing`). Its
+/// loads are those at the state. `failure`: why it cannot be; empty: it can.
+template <int Dim>
+[[nodiscard]] BasicSuperposition<Dim> superposition(const BasicModel<Dim>& model,
+                                                    BasicSystem<Dim>& system, const Step& step,
+                                                    const BasicState<Dim>& standing,
+                                                    Vibrations modes, std::string& failure);
+
+/// Moves it over an increment of the running step, counted from 0. Loads are straight between the
+/// corners of their tables: exact.
+template <int Dim>
+void advance(BasicSystem<Dim>& system, const Step& step, int increment,
+             BasicSuperposition<Dim>& motion);
+
+/// A state in the motion, and its evaluation.
+template <int Dim>
+struct Superposed {
+  BasicState<Dim> state;
+  solve::Evaluation evaluation;
+  std::string failure;  ///< why it is none; empty: it is one
+};
+template <int Dim>
+[[nodiscard]] Superposed<Dim> superposed(BasicSystem<Dim>& system, double fraction,
+                                         const BasicSuperposition<Dim>& motion);
+
+}  // namespace osculate::model
