@@ -134,6 +134,27 @@ TEST(Modal, IsTheMotionInTime) {
   EXPECT_NEAR(modal.reaction.back(), stepped.reaction.back(), 0.02);
 }
 
+/// Gravity acts at once, and on all of a body that nothing holds.
+TEST(Modal, FallsFreely) {
+  const Swing r = swing(modal_bar + "  - {name: free, modes: 4}\n" +
+                        modal_step("3", "duration: 0.3, modal: {}, gravity: [-10, 0]"));
+  ASSERT_EQ(r.result.outcome, solve::Outcome::converged) << r.result.message;
+  EXPECT_NEAR(r.place.back(), -0.45, 1e-7);
+  EXPECT_NEAR(r.rate.back(), -3, 1e-6);
+}
+
+/// A damper that is no part of one vibration alone would have to join them.
+TEST(Modal, DampersMayNotJoinVibrations) {
+  const std::string damped =
+      edited(modal_bar, "steps:\n",
+             "sets: {tip: {union: [bar.top_right]}}\nsprings: [{terms: [{on: tip, of: ux, factor: "
+             "1}], damping: 0.1}]\nsteps:\n");
+  const std::string step = modal_step("2", "duration: 0.3, modal: {}, " + bar_pulled);
+  EXPECT_NE(swing(damped + bar_held + bar_free + step).result.message.find("dampers join"),
+            std::string::npos);
+  EXPECT_EQ(swing(damped + bar_held + "  - {name: free, modes: 1}\n" + step).result.message, "");
+}
+
 /// Contacts stay as they are, or the motion ends with a message.
 TEST(Modal, ContactsMayNotChange) {
   const std::string wall = edited(
