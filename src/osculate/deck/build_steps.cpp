@@ -467,7 +467,12 @@ void build_steps(BuildContext<Dim>& c) {
                              "with it held: `release` it in the step with `modes`");
     build_temperatures(c, step, temperatures, out);
     apply_holds(c, step, running);
+    const std::size_t of_vibrations = running.prescribed.size();
     apply_prescriptions(c, step, running, out);
+    if (step.modal && running.prescribed.size() != of_vibrations)
+      throw core::InputError(step.prescribe.front().mark,
+                             "prescribes what the vibrations leave free: hold it by `prescribe` "
+                             "with 0 in the step with `modes`");
     if (unloaded) unload(c, out);
     if (step.modes) about_start = unloaded;
     if (step.modal && about_start) out.temperature = {c.model().initial_temperature, {}};

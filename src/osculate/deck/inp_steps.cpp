@@ -152,6 +152,10 @@ class Steps {
                     vibrations_));
       check_supports();
       check_loads();
+      Conditions moved = prescribed_;
+      std::erase_if(moved,
+                    [](const auto& one) { return !one.second.fresh || one.second.size == 0; });
+      put_directions(step, "prescribe", 'u', moved);
     } else {
       put_directions(step, "prescribe", 'u', prescribed_);
       put_releases(step);
@@ -239,13 +243,9 @@ class Steps {
         io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
   }
 
-  /// Vibrations are those of supports at rest, as the step that has found them knows them.
+  /// Supports are those that the step which has found the vibrations knows.
   void check_supports() const {
     for (const auto& [key, value] : prescribed_) {
-      if (value.fresh && value.size != 0)
-        io::inp::fail(
-            m_.deck, *procedure_,
-            fmt::format("supports that move are not supported (*BOUNDARY of line {})", value.line));
       if (!held_.contains(key))
         io::inp::fail(
             m_.deck, *procedure_,

@@ -75,12 +75,12 @@ BoundKey<Step> modal_key() {
 
 void check_modal(const Value& step, const Step& s) {
   if (!s.modal) return;
-  constexpr std::array<std::string_view, 6> others{"prescribe",   "release", "hold",
-                                                   "temperature", "contact", "dynamics"};
+  constexpr std::array<std::string_view, 5> others{"release", "hold", "temperature", "contact",
+                                                   "dynamics"};
   for (const ValueEntry& entry : step.entries)
     if (entry.value.given && std::ranges::find(others, entry.key) != others.end())
       throw core::InputError(entry.key_mark,
-                             fmt::format("a step with `modal` moves vibrations by its loads: "
+                             fmt::format("a step with `modal` moves what vibrates by its loads: "
                                          "`{}` does not go with it{}",
                                          entry.key,
                                          entry.key == "dynamics"
@@ -91,14 +91,21 @@ void check_modal(const Value& step, const Step& s) {
 
 /// The step before has what moves.
 void check_modal_steps(const Description& d) {
-  const Step* found = nullptr;
+  const Step *found = nullptr, *before = nullptr;
   bool dynamic = false;
   for (const Step& step : d.steps) {
     dynamic = dynamic || step.dynamics;
     if (!step.modal) {
       found = step.modes ? &step : nullptr;
+      before = nullptr;
       continue;
     }
+    const auto moves = [](const Step* s) { return s && !s->prescribe.empty(); };
+    if (before && (moves(before) || moves(&step)))
+      throw core::InputError(
+          (moves(before) ? *before : step).prescribe.front().mark,
+          "supports move in the only step with `modal`, none before or behind it");
+    before = &step;
     if (!found)
       throw core::InputError(step.modal->mark,
                              "there are no vibrations that could move: the step before needs the "

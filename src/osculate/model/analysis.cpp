@@ -115,6 +115,8 @@ struct Analysis {
       for (int i = 0; i < model.steps[before].increments; ++i)
         advance(system, model.steps[before], i, *superposition);
     }
+    if (failure.empty() && s == of + 1)
+      carry(system, model.steps[s], *options.linear_solver(), *superposition, failure);
     system.begin_step(model.steps[s], standing);
     if (failure.empty()) return true;
     result.outcome = solve::Outcome::numerical_failure;

@@ -44,6 +44,7 @@ std::vector<double> pieces(const Step& step, double from, double to) {
   };
   for (const DeadLoad& load : step.dead) add(load.ramp);
   for (const PressureLoad& load : step.pressure) add(load.ramp);
+  for (const PrescribedDof& p : step.prescribed) add(p.ramp);
   std::ranges::sort(ends);
   ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   return ends;
@@ -95,6 +96,61 @@ BasicSuperposition<Dim> superposition(const BasicModel<Dim>& model, BasicSystem<
 }
 
 template <int Dim>
+void carry(BasicSystem<Dim>& system, const Step& step, la::LinearSolver& solver,
+           BasicSuperposition<Dim>& motion, std::string& failure) {
+  std::vector<Amplitude> tables;
+  for (const PrescribedDof& p : step.prescribed)
+    if (!p.hold && std::ranges::find(tables, p.ramp.amplitude) == tables.end())
+      tables.push_back(p.ramp.amplitude);
+  for (const Amplitude& table : tables) {
+    if (!table.empty() && !(table.front().second == 0 && table.front().first == 0)) {
+      failure = "a support jumps: its amplitude must begin with 0";
+      return;
+    }
+    Step part = step;
+    for (PrescribedDof& p : part.prescribed) {
+      if (!table.empty() && !p.hold && p.ramp.amplitude == table &&
+          system.value(motion.about, p.dof) != 0) {
+        failure = "a support has moved before: it may go on without an amplitude only";
+        return;
+      }
+      p.hold = p.hold || p.ramp.amplitude != table;
+      p.ramp.amplitude.clear();
+    }
+    system.begin_step(part, motion.about);
+    Carried carried{system.carried_along(motion.about, solver, failure), {}, {0, 1, table}};
+    if (!failure.empty()) return;
+    if (carried.motion.isZero(0)) continue;
+    if (std::ranges::any_of(motion.dampers, [](double c) { return c != 0; }))
+      failure = "supports move, and dampers of springs with them: use `dynamics`";
+    carried.momenta = system.momenta_along(motion.modes, motion.about, carried.motion);
+    motion.carried.push_back(std::move(carried));
+  }
+}
+
+namespace {
+
+/// The supports go on for h to a fraction of the step: the impulse at its beginning, and the force
+/// of the damping by mass until then.
+Eigen::VectorXd go_on(double from, double end, double h, double by_mass,
+                      std::vector<Carried>& supports, VibrationMotion& now) {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(now.rate.size());
+  for (std::size_t i = 0; i < supports.size(); ++i) {
+    Carried& s = supports[i];
+    const double factor = s.factor.value(end), slope = (factor - s.factor.value(from)) / h;
+    now.rate -= (slope - s.slope) * s.momenta;
+    force -= by_mass * slope * s.momenta;
+    s.slope = slope;
+    if (i == 0) now.carried = now.carried_rate = Eigen::VectorXd::Zero(s.motion.size());
+    now.carried += factor * s.motion;
+    now.carried_rate += slope * s.motion;
+  }
+  return force;
+}
+
+}  // namespace
+
+template <int Dim>
 void advance(BasicSystem<Dim>& system, const Step& step, int increment,
              BasicSuperposition<Dim>& motion) {
   double from = static_cast<double>(increment) / step.increments;
@@ -104,15 +160,18 @@ void advance(BasicSystem<Dim>& system, const Step& step, int increment,
   for (const double end : pieces(step, from, to)) {
     const Eigen::VectorXd next = system.forces_on(motion.modes, motion.about, end) - motion.resting;
     const double h = (end - from) * step.duration;
+    const Eigen::VectorXd dragged =
+        go_on(from, end, h, step.modal->mass, motion.carried, motion.now);
     for (Eigen::Index i = 0; i < now.place.size(); ++i) {
       const auto mode = static_cast<std::size_t>(i);
       const solve::Oscillator o =
           oscillator(*step.modal, mode, motion.modes.omega_squared[i], motion.dampers[mode]);
-      const solve::OscillatorMotion q = solve::moved(
-          o, solve::impulse_response(o, h), h, {now.place[i], now.rate[i]}, force[i], next[i]);
+      const solve::OscillatorMotion q =
+          solve::moved(o, solve::impulse_response(o, h), h, {now.place[i], now.rate[i]},
+                       force[i] + dragged[i], next[i] + dragged[i]);
       now.place[i] = q.place;
       now.rate[i] = q.rate;
-      now.acceleration[i] = next[i] - o.c * q.rate - o.k * q.place;
+      now.acceleration[i] = next[i] + dragged[i] - o.c * q.rate - o.k * q.place;
     }
     motion.elapsed += h;
     force = next;
@@ -150,6 +209,8 @@ template BasicSuperposition<2> superposition(const Model&, System&, const Step&,
                                              Vibrations, std::string&);
 template BasicSuperposition<3> superposition(const Model3&, System3&, const Step&, const State3&,
                                              Vibrations, std::string&);
+template void carry(System&, const Step&, la::LinearSolver&, BasicSuperposition<2>&, std::string&);
+template void carry(System3&, const Step&, la::LinearSolver&, BasicSuperposition<3>&, std::string&);
 template void advance(System&, const Step&, int, BasicSuperposition<2>&);
 template void advance(System3&, const Step&, int, BasicSuperposition<3>&);
 template Superposed<2> superposed(System&, double, const BasicSuperposition<2>&);

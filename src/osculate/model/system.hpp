@@ -136,6 +136,15 @@ class BasicSystem {
                                           double fraction);
   /// phi . C phi of the dampers of springs, vibration by vibration.
   [[nodiscard]] Eigen::MatrixXd dampers_on(const Vibrations& modes, const State& about) const;
+  /// Displacement or rotation of a dof.
+  [[nodiscard]] double value(const State& state, Dof dof) const;
+  /// What the motions that the running step prescribes make of all nodes and rigid bodies up to its
+  /// end, linearly and without inertia. `failure`: why it is not known.
+  [[nodiscard]] Eigen::VectorXd carried_along(const State& about, la::LinearSolver& solver,
+                                              std::string& failure);
+  /// phi . M w of a motion of all nodes and rigid bodies.
+  [[nodiscard]] Eigen::VectorXd momenta_along(const Vibrations& modes, const State& about,
+                                              const Eigen::VectorXd& w);
   /// The state moved along vibrations, linearly: rigid bodies turn by little. Its rates are theirs.
   [[nodiscard]] State moved_along(const Vibrations& modes, const State& about,
                                   const VibrationMotion& by, double fraction) const;

@@ -20,6 +20,11 @@ Eigen::VectorXd BasicSystem<Dim>::forces_on(const Vibrations& modes, const State
 }
 
 template <int Dim>
+double BasicSystem<Dim>::value(const State& state, Dof dof) const {
+  return impl_->current_value(state, dof);
+}
+
+template <int Dim>
 Eigen::MatrixXd BasicSystem<Dim>::dampers_on(const Vibrations& modes, const State& about) const {
   const Eigen::Index count = modes.omega_squared.size();
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(count, count);
@@ -40,13 +45,15 @@ BasicState<Dim> BasicSystem<Dim>::moved_along(const Vibrations& modes, const Sta
   const BasicDofSpace<Dim>& dofs = impl_->dofs;
   State state = about;
   state.fraction = fraction;
-  const Eigen::VectorXd moved = modes.motions * by.place;
+  Eigen::VectorXd moved = modes.motions * by.place;
+  if (by.carried.size() > 0) moved += by.carried;
   state.u += moved.head(state.u.size());
   for (std::size_t b = 0; b < state.rigid.size(); ++b)
     for (int i = 0; i < body::motions<Dim>; ++i)
       state.rigid[b].component(i) += moved[dofs.body_dof(static_cast<Index>(b), i)];
   state.rates = {};
   state.rates.velocity = modes.motions * by.rate;
+  if (by.carried.size() > 0) state.rates.velocity += by.carried_rate;
   state.rates.acceleration = modes.motions * by.acceleration;
   if constexpr (Dim == 3)
     for (std::size_t b = 0; b < state.rigid.size(); ++b) {
@@ -66,6 +73,8 @@ void BasicSystem<Dim>::add_inertia_of(const State& state) {
 
 template Eigen::VectorXd BasicSystem<2>::forces_on(const Vibrations&, const State&, double);
 template Eigen::VectorXd BasicSystem<3>::forces_on(const Vibrations&, const State3&, double);
+template double BasicSystem<2>::value(const State&, Dof) const;
+template double BasicSystem<3>::value(const State3&, Dof) const;
 template Eigen::MatrixXd BasicSystem<2>::dampers_on(const Vibrations&, const State&) const;
 template Eigen::MatrixXd BasicSystem<3>::dampers_on(const Vibrations&, const State3&) const;
 template State BasicSystem<2>::moved_along(const Vibrations&, const State&, const VibrationMotion&,

@@ -157,6 +157,47 @@ Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::Linea
   return out;
 }
 
+template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::carried_along(const State& about, la::LinearSolver& solver,
+                                                std::string& failure) {
+  Impl& s = *impl_;
+  const std::vector<Vec<Dim>> x = s.positions(about.u);
+  solve::Evaluation evaluation;
+  predict(about, 1.0, evaluation, Prediction::sticking);
+  if (!evaluation.ok) failure = evaluation.message;
+  if (s.constraints.count() > 0) failure = "supports move, and contacts have multipliers";
+  if (!failure.empty()) return {};
+  s.assembler.set_configuration(x, about.rigid);
+  Eigen::VectorXd rest = -s.assembler.gather(s.last.predicted);
+  const la::FactorReport report = solver.factor(matrix(), pattern_version(), symmetry());
+  if (report.status != la::SolveStatus::ok || solver.solve(rest) != la::SolveStatus::ok) {
+    failure = "supports move, and something is free to move without inertia";
+    return {};
+  }
+  Eigen::VectorXd all = s.prescribed_increment(about, x, 1.0);
+  const Eigen::VectorXd free = motion_of_all<Dim>(s.dofs, s.assembler, x, about, rest);
+  return all + free;
+}
+
+template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::momenta_along(const Vibrations& modes, const State& about,
+                                                const Eigen::VectorXd& w) {
+  Impl& s = *impl_;
+  const std::vector<Vec<Dim>> x = s.positions(about.u);
+  s.assembler.set_configuration(x, about.rigid);
+  const Eigen::VectorXd momentum =
+      s.assembler.gather(BasicInertia<Dim>(s.model, false).multiply(w));
+  return modes.vectors.topRows(momentum.size()).transpose() * momentum;
+}
+
+template Eigen::VectorXd BasicSystem<2>::carried_along(const State&, la::LinearSolver&,
+                                                       std::string&);
+template Eigen::VectorXd BasicSystem<3>::carried_along(const State3&, la::LinearSolver&,
+                                                       std::string&);
+template Eigen::VectorXd BasicSystem<2>::momenta_along(const Vibrations&, const State&,
+                                                       const Eigen::VectorXd&);
+template Eigen::VectorXd BasicSystem<3>::momenta_along(const Vibrations&, const State3&,
+                                                       const Eigen::VectorXd&);
 template Vibrations BasicSystem<2>::vibrations(const State&, int, la::LinearSolver&);
 template Vibrations BasicSystem<3>::vibrations(const State&, int, la::LinearSolver&);
 

@@ -38,6 +38,7 @@ struct Vibrations {
 /// Vibrations that move: amounts of their shapes, and the rates of these.
 struct VibrationMotion {
   Eigen::VectorXd place, rate, acceleration;
+  Eigen::VectorXd carried{}, carried_rate{};  ///< by supports, of all dofs; empty: they rest
 };
 
 /// Vibrations per time; negative where the state is unstable.

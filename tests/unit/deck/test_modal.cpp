@@ -155,6 +155,31 @@ TEST(Modal, DampersMayNotJoinVibrations) {
   EXPECT_EQ(swing(damped + bar_held + "  - {name: free, modes: 1}\n" + step).result.message, "");
 }
 
+/// The root of the bar moves: by all vibrations it is the motion in time, damped by the mass.
+TEST(Modal, SupportsMove) {
+  const std::string root = "prescribe: [{on: bar.left, ux: 0.2, amplitude: shake}]";
+  const std::string shaken = edited(
+      modal_bar, "amplitudes: {", "amplitudes: {shake: [[0, 0], [0.4, 1], [0.7, -1], [1, 0.5]], ");
+  const Swing modal =
+      swing(shaken + bar_held + "  - {name: free, modes: 40}\n" +
+            modal_step("40", "duration: 0.3, modal: {damping: {mass: 2}}, " + root));
+  const Swing stepped =
+      swing(shaken + bar_held +
+            modal_step("3000", "duration: 0.3, dynamics: {damping: {mass: 2}}, " + root));
+  ASSERT_EQ(modal.result.outcome, solve::Outcome::converged) << modal.result.message;
+  EXPECT_GT(std::abs(modal.place.back()), 0.05);
+  for (const std::size_t i : {10, 20, 35, 40})
+    EXPECT_NEAR(modal.place[i], stepped.place[75 * i], 2e-3) << i;
+  const Swing few = swing(shaken + bar_held + "  - {name: free, modes: 40}\n" +
+                          modal_step("1", "duration: 0.3, modal: {damping: {mass: 2}}, " + root));
+  EXPECT_NEAR(few.place.back(), modal.place.back(), 1e-11);
+  const std::string twice = modal_step("1", "duration: 0.3, modal: {}, " + root);
+  EXPECT_NE(
+      swing(edited(shaken, "shake: [[0, 0]", "shake: [[0, 0.1]") + bar_held + bar_free + twice)
+          .result.message.find("its amplitude must begin with 0"),
+      std::string::npos);
+}
+
 /// Contacts stay as they are, or the motion ends with a message.
 TEST(Modal, ContactsMayNotChange) {
   const std::string wall = edited(
@@ -196,9 +221,14 @@ TEST(Modal, Refusals) {
   };
   expect(bar_free, "", "the step before needs the key 'modes'");
   expect("duration: 0.3, ", "", "a step with inertia needs a duration");
+  expect(bar_pulled, "prescribe: [{on: bar.right, ux: 0.1}]",
+         "prescribes what the vibrations leave free");
   expect(
-      "modal: {}", "modal: {}, prescribe: [{on: bar.left, ux: 0.1}]",
-      "`prescribe` does not go with it, supports and contacts are those of the step with `modes`");
+      bar_pulled,
+      "prescribe: [{on: bar.left, ux: 0.1}]}\n  - {name: on, increments: 1, duration: 1, modal: {}",
+      "supports move in the only step with `modal`");
+  expect("modal: {}", "modal: {}, release: [{on: bar.left, of: [ux]}]",
+         "`release` does not go with it, supports and contacts are those of the step with `modes`");
   expect("modal: {}", "modal: {}, dynamics: {}", "it is another integration in time");
   expect("modal: {}", "modal: {damping: {ratios: [{first: 2, last: 4, ratio: 0.1}]}}",
          "step 'free' looks for 3 vibrations");
