@@ -64,13 +64,16 @@ BoundKeys<M> modal_keys() { return {{modal_damping_key()}}; }
 }  // namespace
 
 BoundKey<Step> modal_key() {
-  return {optional("modal",
-                   modal_keys()
-                       .spec("Linear motion in time, over the duration: the vibrations that a step "
-                             "with `modes` before it has found move by the loads, and nothing "
-                             "else does.")
-                       .such_as("{damping: {ratio: 0.02}}")),
-          [](Step& s, const Value& v) { s.modal = modal_keys().read(v); }};
+  return {
+      optional(
+          "modal",
+          modal_keys()
+              .spec(
+                  "Linear motion in time, over the duration: the vibrations that a step "
+                  "with `modes` before it has found move by the loads and by supports, and nothing "
+                  "else does.")
+              .such_as("{damping: {ratio: 0.02}}")),
+      [](Step& s, const Value& v) { s.modal = modal_keys().read(v); }};
 }
 
 void check_modal(const Value& step, const Step& s) {

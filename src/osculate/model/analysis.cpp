@@ -98,6 +98,12 @@ struct Analysis {
     if (superposition) return true;
     std::size_t of = s;
     while (of > 0 && !model.steps[of].frequencies) --of;
+    if (!model.steps[of].frequencies) {
+      result.outcome = solve::Outcome::numerical_failure;
+      result.message =
+          fmt::format("step '{}': no step before it has found vibrations", model.steps[s].name);
+      return false;
+    }
     const BasicState<Dim> standing = result.state;
     system.begin_step(model.steps[of], standing);
     std::optional<Vibrations>& known = result.steps[of].vibrations;
