@@ -92,6 +92,8 @@ void build_masses(BuildContext<Dim>& context);
 template <int Dim>
 void build_dynamics(const BuildContext<Dim>& context, const Step& step,
                     std::vector<double>& gravity, model::Step& out);
+/// The damping of vibrations that move.
+void build_modal(const Step& step, model::Step& out);
 template <int Dim>
 void build_initial_velocity(BuildContext<Dim>& context);
 template <int Dim>

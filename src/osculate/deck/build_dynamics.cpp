@@ -144,7 +144,7 @@ void build_dynamics(const BuildContext<Dim>& c, const Step& step, std::vector<do
   }
   if (gravity.empty() || (all_zero(gravity) && all_zero(before))) return;
   for (std::size_t i = 0; i < Dim; ++i)
-    out.gravity.push_back({step.dynamics ? gravity[i] : before[i], gravity[i], {}});
+    out.gravity.push_back({step.dynamics || step.modal ? gravity[i] : before[i], gravity[i], {}});
 }
 
 template <int Dim>

@@ -411,34 +411,71 @@ void unload(const BuildContext<Dim>& c, model::Step& step) {
 
 }  // namespace
 
+namespace {
+
+/// What acts before motions along vibrations, which leave nothing behind.
+struct Aside {
+  std::map<ChannelKey, double> values;
+  std::vector<double> gravity;
+};
+void set_aside(const deck::Step& step, Running& running, std::vector<double>& gravity,
+               std::optional<Aside>& aside) {
+  if (step.modal && !aside) {
+    aside.emplace().gravity = gravity;
+    for (const auto& [key, channel] : running.channels) aside->values[key] = channel.value;
+  }
+  if (step.modal || !aside) return;
+  gravity = aside->gravity;
+  for (auto& [key, channel] : running.channels)
+    channel.value = aside->values.contains(key) ? aside->values.at(key) : 0.0;
+  aside.reset();
+}
+
+}  // namespace
+
 template <int Dim>
 void build_steps(BuildContext<Dim>& c) {
   Running running;
+  std::optional<Aside> aside;
   std::vector<double> gravity, temperatures = c.model().initial_temperature;
   for (std::size_t b = 0; b < c.model().rigid.size(); ++b)
     for (std::size_t i = 0; i < component_count; ++i)
       if (held_from_the_beginning(c.model().rigid[b], static_cast<Component>(i)))
         running
             .prescribed[body_dof(c.model(), static_cast<Index>(b), static_cast<Component>(i))] = {};
-  bool first = true;
+  bool first = true, about_start = false;  // the last vibrations are about the latter
   for (const deck::Step& step : c.description.steps) {
     model::Step out;
     out.name = step.name.value;
     out.increments = step.increments.value;
     const bool unloaded = step.about == ModesAbout::start;
     if (step.modes) out.frequencies = model::Frequencies{step.modes->value, unloaded};
+    if (step.modal) build_modal(step, out);
     if (step.duration) out.duration = step.duration->value;
     out.equation_start = first ? 0.0 : 1.0;
     first = false;
+    set_aside(step, running, gravity, aside);
     build_dynamics(c, step, gravity, out);
     apply_releases(c, step, running);
     c.built.loads.emplace_back();
     add_weight(c, step, out, running);
+    const std::size_t held = running.prescribed.size();
     apply_loads(c, step, running, out);  // forces on a rigid body free its dof
+    if (step.modal && running.prescribed.size() != held)
+      throw core::InputError(step.modal->mark,
+                             "a force on a rigid body sets it free, but the vibrations were found "
+                             "with it held: `release` it in the step with `modes`");
     build_temperatures(c, step, temperatures, out);
     apply_holds(c, step, running);
+    const std::size_t of_vibrations = running.prescribed.size();
     apply_prescriptions(c, step, running, out);
+    if (step.modal && running.prescribed.size() != of_vibrations)
+      throw core::InputError(step.prescribe.front().mark,
+                             "prescribes what the vibrations leave free: hold it by `prescribe` "
+                             "with 0 in the step with `modes`");
     if (unloaded) unload(c, out);
+    if (step.modes) about_start = unloaded;
+    if (step.modal && about_start) out.temperature = {c.model().initial_temperature, {}};
     c.model().steps.push_back(std::move(out));
   }
 }

@@ -43,7 +43,9 @@ std::vector<bool> held_nodes(const model::BasicModel<Dim>& m) {
 template <int Dim>
 void check_connected(const BuildContext<Dim>& c) {
   const model::BasicModel<Dim>& m = c.model();
-  const auto inert = [](const model::Step& step) { return step.dynamics || step.frequencies; };
+  const auto inert = [](const model::Step& step) {
+    return model::takes_time(step) || step.frequencies;
+  };
   if (std::all_of(m.steps.begin(), m.steps.end(), inert)) return;
   const std::vector<bool> held = held_nodes(m);
   std::vector<mesh::CellRef> cells;

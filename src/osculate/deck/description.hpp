@@ -405,6 +405,19 @@ struct DynamicsDescription {
   std::optional<TimeSteps> time_steps;
 };
 
+/// Linear motion of the vibrations that the step before has found.
+struct ModalDescription {
+  core::SourceMark mark;
+  struct Ratio {
+    core::SourceMark mark;
+    Marked<int> first, last;
+    double ratio = 0;
+  };
+  double ratio = 0;
+  std::vector<Ratio> ratios;
+  double damping_mass = 0, damping_stiffness = 0;
+};
+
 /// The state that vibrations are about: the one before the first step, or what steps led to.
 enum class ModesAbout { last, start };
 
@@ -417,6 +430,7 @@ struct Step {
   std::vector<Load> forces, total_force, pressure, traction, body_force, centrifugal;
   std::vector<Load> temperature;  ///< the first value
   std::optional<DynamicsDescription> dynamics;
+  std::optional<ModalDescription> modal;
   std::optional<Marked<std::vector<double>>> gravity;
   std::vector<ContactChange> contact;
   std::optional<Marked<int>> modes;  ///< vibrations instead of increments

@@ -80,6 +80,10 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 
 // ---- the keys of a model file -----------------------------------------------------------------
 
+/// `modal` of a step that ends with the last of these cards, with so many vibrations: the last
+/// damping of the deck holds, as in CalculiX. In inp_modal.cpp.
+[[nodiscard]] SourceNode inp_modal(const InpModel& m, std::span<const io::inp::Card> until,
+                                   int line, int vibrations);
 [[nodiscard]] SourceNode inp_materials(InpModel& m);
 /// Whether the numbers of all lines are the same; the temperature, which stands last, is not read.
 [[nodiscard]] bool has_constant_lines(const InpModel& m, const io::inp::Card& card);

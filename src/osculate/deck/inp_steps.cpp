@@ -40,7 +40,8 @@ class Steps {
     if (key == "STEP") begin(card);
     if (key == "ENDSTEP") end(card);
     if (key == "AMPLITUDE") read_amplitude(card);
-    if (key == "STATIC" || key == "VISCO" || key == "DYNAMIC") read_time(card);
+    if (key == "STATIC" || key == "VISCO" || key == "DYNAMIC" || key == "MODALDYNAMIC")
+      read_time(card);
     if (key == "FREQUENCY") read_modes(card);
     if (key == "INITIALCONDITIONS") check_initial(card);
     if (key == "BOUNDARY") read_boundary(card);
@@ -78,6 +79,9 @@ class Steps {
           m_.deck, card,
           fmt::format("the step has a procedure already, in line {}", procedure_->at.line));
     procedure_ = &card;
+    if (superposed_ && card.keyword != "MODALDYNAMIC")
+      io::inp::fail(m_.deck, card, "only *MODAL DYNAMIC follows *MODAL DYNAMIC here");
+    superposed_ = card.keyword == "MODALDYNAMIC";
   }
 
   /// Vibrations about what the steps before led to with PERTURBATION, else without loads.
@@ -90,13 +94,16 @@ class Steps {
 
   void read_time(const Card& card) {
     begin_procedure(card);
-    if (io::inp::find_parameter(*step_, "PERTURBATION"))
+    const bool modal = card.keyword == "MODALDYNAMIC";
+    if (modal) check_vibrations(card);
+    if (!modal && io::inp::find_parameter(*step_, "PERTURBATION"))
       io::inp::fail(m_.deck, *step_,
                     "PERTURBATION is not supported: steps go on from the last one");
     if (io::inp::find_parameter(card, "RIKS"))
       io::inp::fail(m_.deck, card, "RIKS is not supported; `solver: arc_length` of a model file");
-    if (card.keyword == "DYNAMIC") at_once_ = true;
-    const bool direct = io::inp::find_parameter(card, "DIRECT") != nullptr;
+    if (card.keyword == "DYNAMIC" || modal) at_once_ = true;
+    const bool direct = modal ? option_of(card, "DIRECT") != "NO"
+                              : io::inp::find_parameter(card, "DIRECT") != nullptr;
     const auto lines = io::inp::lines_of(m_.deck, card);
     if (lines.empty()) return;
     Fields fields(m_.deck, lines[0]);
@@ -108,7 +115,7 @@ class Steps {
     const double count = std::ceil(period_ / first * (1 - slack));
     if (!(count <= most)) fields.fail("more than a million increments");
     // They are cut where they must be, those in time also for their errors.
-    const int of_automatic = card.keyword == "DYNAMIC" ? 100 : 10;
+    const int of_automatic = card.keyword == "STATIC" || card.keyword == "VISCO" ? 10 : 100;
     increments_ = static_cast<int>(count);
     if (!direct) increments_ = std::min(increments_, of_automatic);
   }
@@ -132,23 +139,45 @@ class Steps {
       end_of_modes(card, step);
       return;
     }
-    moved_ = true;
+    const bool modal = procedure_->keyword == "MODALDYNAMIC";
+    moved_ = moved_ || !modal;
+    if (!modal) stand();
+    if (!modal) vibrations_ = 0;
     put(step, "increments", inp_number(increments_, line_of(procedure_->at)));
     put(step, "duration", inp_number(period_, line_of(procedure_->at)));
     if (procedure_->keyword == "DYNAMIC") put(step, "dynamics", inp_dynamics(m_, *procedure_));
-    put_directions(step, "prescribe", 'u', prescribed_);
-    put_releases(step);
-    put_holds(step);
+    if (modal) {
+      put(step, "modal",
+          inp_modal(m_, std::span(m_.deck.cards.data(), &card), line_of(procedure_->at),
+                    vibrations_));
+      check_supports();
+      check_loads();
+      Conditions moved = prescribed_;
+      std::erase_if(moved,
+                    [](const auto& one) { return !one.second.fresh || one.second.size == 0; });
+      put_directions(step, "prescribe", 'u', moved);
+    } else {
+      put_directions(step, "prescribe", 'u', prescribed_);
+      put_releases(step);
+      put_holds(step);
+    }
     put_directions(step, "forces", 'f', forces_);
     put_pressures(step);
     put_directions(step, "body_force", 'f', body_forces_);
     put_centrifugal(step);
     SourceNode changes = inp_changes(m_, std::span(step_, &card));
     if (!changes.items.empty()) put(step, "contact", std::move(changes));
-    put_temperatures(step);
+    if (!modal) put_temperatures(step);
     forget_removed();
     total_time_ += period_;
     step_ = nullptr;
+  }
+
+  /// Loads that the state of later vibrations has.
+  void stand() {
+    standing_.clear();
+    for (Conditions* const loads : {&forces_, &pressures_, &body_forces_, &centrifugal_})
+      for (const auto& [key, value] : *loads) standing_[{loads, key}] = value.size;
   }
 
   /// Loads of the step are of no account; supports that it names are.
@@ -163,7 +192,79 @@ class Steps {
     SourceNode changes = inp_changes(m_, std::span(step_, &card));
     if (!changes.items.empty()) put(step, "contact", std::move(changes));
     forget_removed();
+    vibrations_ = modes_;
+    forgotten_ = 0;
+    for (const Conditions* const loads : {&forces_, &pressures_, &body_forces_, &centrifugal_})
+      for (const auto& [key, value] : *loads)
+        if (value.fresh) forgotten_ = std::max(value.line, 1);
+    held_.clear();
+    for (const auto& [key, value] : prescribed_) held_.insert(key);
     step_ = nullptr;
+  }
+
+  /// What CalculiX does to loads of steps before: they go on in a step without PERTURBATION, unless
+  /// they have an amplitude, and are the state in one with it.
+  void check_loads() {
+    const auto fail = [&](const std::string& text) { io::inp::fail(m_.deck, *procedure_, text); };
+    if (forgotten_ > 0)
+      fail(fmt::format("the load of the step with *FREQUENCY (line {}) belongs into this one",
+                       forgotten_));
+    const bool on_top = io::inp::find_parameter(*step_, "PERTURBATION") != nullptr;
+    if (moved_ && on_top == about_start_)
+      fail("PERTURBATION must be said of this step and of that with *FREQUENCY, or of none");
+    for (Conditions* const loads : {&forces_, &pressures_, &body_forces_, &centrifugal_})
+      for (auto& [key, value] : *loads) {
+        const auto before = standing_.find({loads, key});
+        if (!value.fresh && !value.amplitude.empty() && value.size != 0)
+          fail(
+              fmt::format("the load of line {} has an amplitude and ends with its step: say it "
+                          "again, or OP=NEW",
+                          value.line));
+        if (!on_top || before == standing_.end() || !value.fresh) continue;
+        if (!value.amplitude.empty())
+          fail(
+              fmt::format("the load of line {} has an amplitude, and stands on top of one of the "
+                          "same set in a step before: give it another set",
+                          value.line));
+        value.size += before->second;
+      }
+  }
+
+  void check_vibrations(const Card& card) const {
+    if (vibrations_ == 0)
+      io::inp::fail(
+          m_.deck, card,
+          "the step before it must have a *FREQUENCY: vibrations are not read from files");
+    if (io::inp::find_parameter(card, "STEADYSTATE"))
+      io::inp::fail(m_.deck, card,
+                    "STEADY STATE is not supported: give a period that is long enough");
+    for (const char* const other : {"CYCLICSYMMETRY", "NSET"})
+      if (io::inp::find_parameter(card, other))
+        io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
+  }
+
+  /// Supports are those that the step which has found the vibrations knows.
+  void check_supports() const {
+    for (const auto& [key, value] : prescribed_) {
+      if (!held_.contains(key))
+        io::inp::fail(
+            m_.deck, *procedure_,
+            fmt::format("supports must be those of the step with *FREQUENCY (*BOUNDARY of "
+                        "line {})",
+                        value.line));
+    }
+    for (const auto& [values, key] : released_)
+      if (values == &prescribed_)
+        io::inp::fail(
+            m_.deck, *procedure_,
+            fmt::format("supports must be those of the step with *FREQUENCY ('{}' is free "
+                        "here)",
+                        key.first));
+    for (const auto& [on, value] : temperatures_)
+      if (value.fresh)
+        io::inp::fail(
+            m_.deck, *procedure_,
+            fmt::format("no temperatures change in it (*TEMPERATURE of line {})", value.line));
   }
 
   // ---- amplitudes -----------------------------------------------------------------------------
@@ -543,6 +644,11 @@ class Steps {
   const Card *step_ = nullptr, *procedure_ = nullptr;
   double period_ = 1, total_time_ = 0;
   int increments_ = 1, modes_ = 0;
+  int vibrations_ = 0;  ///< that a step has found for those behind it
+  int forgotten_ = 0;   ///< line of a load of that step
+  std::map<std::pair<Conditions*, Conditions::key_type>, double> standing_;
+  std::set<Conditions::key_type> held_;  ///< then
+  bool superposed_ = false;              ///< a step has moved vibrations
   bool at_once_ = false, moved_ = false, about_start_ = false;
   std::map<std::string, Table> tables_;
   Conditions prescribed_, forces_, pressures_, body_forces_, centrifugal_;

@@ -297,7 +297,8 @@ BoundKeys<Step> step_keys() {
            may(&S::gravity, "gravity", gravity_spec()),
            contact_changes_key(),
            {optional("dynamics", dynamics_spec()),
-            [](S& s, const Value& v) { s.dynamics = parse_dynamics(v); }}}};
+            [](S& s, const Value& v) { s.dynamics = parse_dynamics(v); }},
+           modal_key()}};
 }
 
 /// Either increments, or modes and nothing that moves.
@@ -322,8 +323,9 @@ void check_modes(const Value& v, Step& s) {
 }
 
 void check_times(const Value&, const Step& s) {
-  if (s.dynamics && !s.duration)
-    throw core::InputError(s.dynamics->mark, "a step with inertia needs a duration");
+  if ((s.dynamics || s.modal) && !s.duration)
+    throw core::InputError(s.dynamics ? s.dynamics->mark : s.modal->mark,
+                           "a step with inertia needs a duration");
   if (!s.dynamics || !s.dynamics->time_steps || !s.dynamics->time_steps->smallest) return;
   const Number& smallest = *s.dynamics->time_steps->smallest;
   const double nominal = s.duration->value / s.increments.value;
@@ -418,6 +420,7 @@ BoundKey<Description> steps_key() {
       [](Description& d, const Value& v) {
         d.steps = step_keys().read_all(v, [](const Value& item, Step& s) {
           check_modes(item, s);
+          check_modal(item, s);
           check_times(item, s);
         });
       }};

@@ -63,6 +63,7 @@ void check_answers(const Description& description);
 /// Names used twice, names of nothing, contradictions within a step. Throws core::InputError.
 void check_references(const Description& description);
 void check_steps(const Description& description);
+void check_modal_steps(const Description& description);
 /// Sections, shapes, displacements and loads that do not exist in a model of this dimension. Throws
 /// core::InputError.
 void check_dimension(const Description& description);

@@ -213,6 +213,7 @@ void check_steps(const Description& d) {
     add_unique(names, step.name.value, step.name.mark, "step");
     checker.check(step);
   }
+  check_modal_steps(d);
 }
 
 }  // namespace osculate::deck

@@ -20,7 +20,7 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 36> synonyms{{
+constexpr std::array<Synonym, 37> synonyms{{
     {"plasticity plastic yielding mises-plasticity j2 metal",
      "materials.elastoplastic: yield, hardening, isotropic, kinematic"},
     {"creep norton relaxation", "materials.norton: A, n; every step needs a duration"},
@@ -64,6 +64,8 @@ constexpr std::array<Synonym, 36> synonyms{{
     {"mu cof", "contact.friction.coulomb.mu"},
     {"hyperelastic elastomer mooney-rivlin mooney yeoh",
      "materials.NAME.rubber, neo_hooke (sections.formulation: bbar by default)"},
+    {"modal-dynamics superposition eigenmodes eigenfrequencies",
+     "steps.modes, steps.modal (docs/dynamics.md)"},
     {"transient implicit-dynamics explicit impact crash drop", "steps.dynamics (docs/dynamics.md)"},
     {"assembly instance include import-mesh several-meshes", "mesh.files, with mesh.generate"},
     {"restart checkpoint resume", "`osculate run --restart`, output.checkpoint"},

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "osculate/model/pair_changes.hpp"
+#include "osculate/model/superposition.hpp"
 
 namespace osculate::model {
 namespace {
@@ -15,7 +16,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 /// In the time of the analysis.
-double length_of(const Step& step) { return step.dynamics ? step.duration : 1.0; }
+double length_of(const Step& step) { return takes_time(step) ? step.duration : 1.0; }
 
 /// One analysis on its way.
 template <int Dim>
@@ -29,12 +30,21 @@ struct Analysis {
   Progress progress{};
   double begun = 0;  ///< time at the beginning of the running step
   solve::StepPosition position{};
+  std::optional<BasicSuperposition<Dim>> superposition{};  ///< of the last vibrations that moved
 
-  /// Tells the observer; false to stop.
+  /// Tells the observer; false to stop. Motions along vibrations leave no trace in the state that a
+  /// later run goes on from: it repeats them.
   bool tell(const BasicState<Dim>& state, const solve::IncrementRecord* record) {
     const bool go_on = !observer.converged || observer.converged(system, state, progress, record);
-    if (observer.resumable) observer.resumable(system, state, progress, position);
+    const bool passes = superposition && record;
+    if (observer.resumable)
+      observer.resumable(system, passes ? superposition->standing : state, progress, position);
     return go_on;
+  }
+  /// Steps begin where those that are no motions along vibrations have led to.
+  void forget_motion(const Step& step) {
+    if (superposition) result.state = superposition->standing;
+    if (!step.modal) superposition.reset();
   }
 
   /// Central differences: the increments of the step are where results are told.
@@ -77,7 +87,75 @@ struct Analysis {
       return;
     }
     if (observer.vibrates) observer.vibrates(system, about, progress, modes);
+    const auto next = static_cast<std::size_t>(progress.step) + 1;
+    if (next == model.steps.size() || !model.steps[next].modal) modes.forget_unknowns();
     result.steps.back().vibrations = std::move(modes);
+  }
+
+  /// What vibrations move in the running step, which may have been resumed: at rest, or as the step
+  /// before left them. False: they cannot.
+  bool begin_superposition(std::size_t s) {
+    if (superposition) return true;
+    std::size_t of = s;
+    while (of > 0 && !model.steps[of].frequencies) --of;
+    if (!model.steps[of].frequencies) {
+      result.outcome = solve::Outcome::numerical_failure;
+      result.message =
+          fmt::format("step '{}': no step before it has found vibrations", model.steps[s].name);
+      return false;
+    }
+    const BasicState<Dim> standing = result.state;
+    system.begin_step(model.steps[of], standing);
+    std::optional<Vibrations>& known = result.steps[of].vibrations;
+    const bool unloaded = model.steps[of].frequencies->unloaded;
+    if (!known || known->vectors.size() == 0)
+      known = system.vibrations(unloaded ? system.initial_state() : standing,
+                                model.steps[of].frequencies->modes, *solver);
+    std::string failure = known->failure;
+    if (failure.empty())
+      superposition =
+          model::superposition(model, system, model.steps[of], standing, *known, failure);
+    known->forget_unknowns();
+    for (std::size_t before = of + 1; before < s && failure.empty(); ++before) {
+      system.begin_step(model.steps[before], standing);
+      for (int i = 0; i < model.steps[before].increments; ++i)
+        advance(system, model.steps[before], i, *superposition);
+    }
+    if (failure.empty() && s == of + 1)
+      carry(system, model.steps[s], *options.linear_solver(), *superposition, failure);
+    system.begin_step(model.steps[s], standing);
+    if (failure.empty()) return true;
+    result.outcome = solve::Outcome::numerical_failure;
+    result.message = fmt::format("step '{}': {}", model.steps[s].name, failure);
+    return false;
+  }
+
+  /// Motion along vibrations. Increments that a resumed run has behind it are repeated.
+  void run_superposition(const Step& step,
+                         const solve::IncrementObserver<BasicState<Dim>>& on_increment) {
+    if (!begin_superposition(static_cast<std::size_t>(progress.step))) return;
+    for (int i = 0; i < step.increments; ++i) {
+      advance(system, step, i, *superposition);
+      if (i < position.nominal) continue;
+      const double end = static_cast<double>(i + 1) / step.increments;
+      Superposed<Dim> now = superposed(system, end, *superposition);
+      if (!now.failure.empty()) {
+        result.outcome = solve::Outcome::numerical_failure;
+        result.message =
+            fmt::format("increment {} of step '{}': {}", i + 1, step.name, now.failure);
+        return;
+      }
+      result.last_iterate = result.state = std::move(now.state);
+      position.at = end;
+      position.nominal = i + 1;
+      solve::IncrementRecord record;
+      record.fraction = end;
+      result.steps.back().increments.push_back(record);
+      if (on_increment(result.state, record)) continue;
+      result.outcome = solve::Outcome::stopped;
+      result.message = "stopped by the user";
+      return;
+    }
   }
 
   void run_step(const Step& step) {
@@ -94,6 +172,7 @@ struct Analysis {
       progress.fraction = from;
       if (observer.cutback) observer.cutback(reason, progress, to, iterations);
     };
+    if (step.modal) return run_superposition(step, on_increment);
     if (step.dynamics && step.dynamics->explicit_steps) {
       run_explicit_step(step, on_increment);
       return;
@@ -175,6 +254,7 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
       a.progress.step = static_cast<Index>(s);
       a.progress.increment = 0;
       a.position = {};
+      a.forget_motion(step);
       if (changing) {
         change_pairs(model, s, *changing);
         result.state = begin_anew(model, s, *changing, std::move(result.state));

@@ -83,6 +83,17 @@ struct Frequencies {
   bool unloaded = false;  ///< about the latter
 };
 
+/// Damping of vibrations that are superposed: a ratio, of some of them another one, and Rayleigh's.
+struct ModalDamping {
+  struct Ratio {
+    std::size_t first = 1, last = 1;  ///< vibrations from 1 on, both included
+    double ratio = 0;
+  };
+  double ratio = 0;
+  std::vector<Ratio> ratios{};  ///< the last one of a vibration counts
+  double mass = 0, stiffness = 0;
+};
+
 /// Temperatures of nodes over a step.
 ///
 /// Tested by  tests/unit/model/test_temperatures.cpp
@@ -107,10 +118,15 @@ struct Step {
   std::vector<PressureLoad> pressure;
   std::optional<Dynamics> dynamics;          ///< empty: without inertia
   std::optional<Frequencies> frequencies{};  ///< nothing moves: vibrations are looked for
+  /// The vibrations of the last step that looks for them move, and nothing else.
+  std::optional<ModalDamping> modal{};
   Temperatures temperature;
   std::vector<Ramp> gravity;                    ///< acceleration in every direction; empty: none
   double equation_start = 1, equation_end = 1;  ///< ramp of the constants of the equations
 };
+
+/// True for steps over whose duration bodies with a mass move.
+[[nodiscard]] inline bool takes_time(const Step& step) { return step.dynamics || step.modal; }
 
 /// Fractions of a step at which tables of amplitudes have corners: where the slope changes by more
 /// than a tenth of the steepest slope of the table. The points of a smooth curve are none.

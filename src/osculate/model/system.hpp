@@ -129,6 +129,28 @@ class BasicSystem {
   /// Tested by  tests/unit/model/test_vibrations.cpp, verification/vibrations
   [[nodiscard]] Vibrations vibrations(const State& state, int count, la::LinearSolver& solver);
 
+  /// Forces of the loads of the running step on vibrations about a state.
+  ///
+  /// Formula    phi . F , F at the places of that state
+  [[nodiscard]] Eigen::VectorXd forces_on(const Vibrations& modes, const State& about,
+                                          double fraction);
+  /// phi . C phi of the dampers of springs, vibration by vibration.
+  [[nodiscard]] Eigen::MatrixXd dampers_on(const Vibrations& modes, const State& about) const;
+  /// Displacement or rotation of a dof.
+  [[nodiscard]] double value(const State& state, Dof dof) const;
+  /// What the motions that the running step prescribes make of all nodes and rigid bodies up to its
+  /// end, linearly and without inertia. `failure`: why it is not known.
+  [[nodiscard]] Eigen::VectorXd carried_along(const State& about, la::LinearSolver& solver,
+                                              std::string& failure);
+  /// phi . M w of a motion of all nodes and rigid bodies.
+  [[nodiscard]] Eigen::VectorXd momenta_along(const Vibrations& modes, const State& about,
+                                              const Eigen::VectorXd& w);
+  /// The state moved along vibrations, linearly: rigid bodies turn by little. Its rates are theirs.
+  [[nodiscard]] State moved_along(const Vibrations& modes, const State& about,
+                                  const VibrationMotion& by, double fraction) const;
+  /// Adds mass times acceleration of a state to the forces of the last evaluation.
+  void add_inertia_of(const State& state);
+
   /// Explicit time integration from a committed state to a fraction of the running step, in as many
   /// time steps as are stable. To be called in steps with central differences only.
   [[nodiscard]] ExplicitIncrement<State> advance(const State& committed, double fraction);

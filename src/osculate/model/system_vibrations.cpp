@@ -21,12 +21,12 @@ Mat<6, 6> mass_of_body(const BasicInertia<3>& inertia, const BasicRigidBody<3>& 
   return mass;
 }
 
-/// Displacements of all nodes by a small motion of the unknowns, without what is prescribed. Linear
-/// in the motion: rigid bodies turn by little.
+/// Motions of all nodes and rigid bodies by a small one of the unknowns, without what is
+/// prescribed. Linear in the motion: rigid bodies turn by little.
 template <int Dim>
-Eigen::VectorXd motion_of_nodes(const BasicDofSpace<Dim>& dofs,
-                                const BasicAssembler<Dim>& assembler, std::span<const Vec<Dim>> x,
-                                const BasicState<Dim>& state, const Eigen::VectorXd& unknowns) {
+Eigen::VectorXd motion_of_all(const BasicDofSpace<Dim>& dofs, const BasicAssembler<Dim>& assembler,
+                              std::span<const Vec<Dim>> x, const BasicState<Dim>& state,
+                              const Eigen::VectorXd& unknowns) {
   Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs.dofs());
   for (Index u = 0; u < dofs.unknowns(); ++u)
     if (!assembler.prescribed(u)) all[dofs.dof_of_unknown(u)] = unknowns[u];
@@ -44,7 +44,7 @@ Eigen::VectorXd motion_of_nodes(const BasicDofSpace<Dim>& dofs,
       sum += equation.terms[t].factor * all[equation.terms[t].dof];
     all[equation.terms.front().dof] = -sum / equation.terms.front().factor;
   }
-  return all.head(state.u.size());
+  return all;
 }
 
 /// Rotation vectors' rates of a body that turns with the unit angular velocities.
@@ -149,12 +149,55 @@ Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::Linea
     out.participation.col(place) = pairs.vectors.transpose() * momentum;
     out.moving_mass[place] = motion.dot(momentum);
   }
-  out.shapes.resize(state.u.size(), pairs.values.size());
+  out.vectors = pairs.vectors;
+  out.motions.resize(s.dofs.dofs(), pairs.values.size());
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i)
-    out.shapes.col(i) = motion_of_nodes<Dim>(s.dofs, s.assembler, x, state, pairs.vectors.col(i));
+    out.motions.col(i) = motion_of_all<Dim>(s.dofs, s.assembler, x, state, pairs.vectors.col(i));
+  out.shapes = out.motions.topRows(state.u.size());
   return out;
 }
 
+template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::carried_along(const State& about, la::LinearSolver& solver,
+                                                std::string& failure) {
+  Impl& s = *impl_;
+  const std::vector<Vec<Dim>> x = s.positions(about.u);
+  solve::Evaluation evaluation;
+  predict(about, 1.0, evaluation, Prediction::sticking);
+  if (!evaluation.ok) failure = evaluation.message;
+  if (s.constraints.count() > 0) failure = "supports move, and contacts have multipliers";
+  if (!failure.empty()) return {};
+  s.assembler.set_configuration(x, about.rigid);
+  Eigen::VectorXd rest = -s.assembler.gather(s.last.predicted);
+  const la::FactorReport report = solver.factor(matrix(), pattern_version(), symmetry());
+  if (report.status != la::SolveStatus::ok || solver.solve(rest) != la::SolveStatus::ok) {
+    failure = "supports move, and something is free to move without inertia";
+    return {};
+  }
+  Eigen::VectorXd all = s.prescribed_increment(about, x, 1.0);
+  const Eigen::VectorXd free = motion_of_all<Dim>(s.dofs, s.assembler, x, about, rest);
+  return all + free;
+}
+
+template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::momenta_along(const Vibrations& modes, const State& about,
+                                                const Eigen::VectorXd& w) {
+  Impl& s = *impl_;
+  const std::vector<Vec<Dim>> x = s.positions(about.u);
+  s.assembler.set_configuration(x, about.rigid);
+  const Eigen::VectorXd momentum =
+      s.assembler.gather(BasicInertia<Dim>(s.model, false).multiply(w));
+  return modes.vectors.topRows(momentum.size()).transpose() * momentum;
+}
+
+template Eigen::VectorXd BasicSystem<2>::carried_along(const State&, la::LinearSolver&,
+                                                       std::string&);
+template Eigen::VectorXd BasicSystem<3>::carried_along(const State3&, la::LinearSolver&,
+                                                       std::string&);
+template Eigen::VectorXd BasicSystem<2>::momenta_along(const Vibrations&, const State&,
+                                                       const Eigen::VectorXd&);
+template Eigen::VectorXd BasicSystem<3>::momenta_along(const Vibrations&, const State3&,
+                                                       const Eigen::VectorXd&);
 template Vibrations BasicSystem<2>::vibrations(const State&, int, la::LinearSolver&);
 template Vibrations BasicSystem<3>::vibrations(const State&, int, la::LinearSolver&);
 

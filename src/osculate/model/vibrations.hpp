@@ -16,7 +16,9 @@ namespace osculate::model {
 /// Units      omega in radians per time
 struct Vibrations {
   Eigen::VectorXd omega_squared;
-  Eigen::MatrixXd shapes;  ///< columns; displacements of all nodes, x0 y0 (z0) x1 y1 ...
+  Eigen::MatrixXd shapes;     ///< columns; displacements of all nodes, x0 y0 (z0) x1 y1 ...
+  Eigen::MatrixXd vectors{};  ///< columns; the same by the unknowns, multipliers included
+  Eigen::MatrixXd motions{};  ///< columns; the same of all nodes and rigid bodies
   /// How much of each rigid motion a vibration takes part in: its rows phi . M r, r of a unit
   /// displacement along x, y, z and a unit rotation around these, and r . M r. Where the model is
   /// held, r is 0. In the plane z and rotations around x and y are 0, of rings all but y.
@@ -25,6 +27,18 @@ struct Vibrations {
   double residual = 0;  ///< see la::Eigenpairs
   int missing = 0;      ///< likewise
   std::string failure;  ///< why there are none; empty: there are
+
+  /// What only those need that move along them.
+  void forget_unknowns() {
+    vectors.resize(0, 0);
+    motions.resize(0, 0);
+  }
+};
+
+/// Vibrations that move: amounts of their shapes, and the rates of these.
+struct VibrationMotion {
+  Eigen::VectorXd place, rate, acceleration;
+  Eigen::VectorXd carried{}, carried_rate{};  ///< by supports, of all dofs; empty: they rest
 };
 
 /// Vibrations per time; negative where the state is unstable.

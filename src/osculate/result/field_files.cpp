@@ -392,7 +392,7 @@ void FieldFiles<Dim>::resume(std::vector<io::PvdEntry> written, std::vector<bool
   for (const io::PvdEntry& entry : written) kept.insert(entry.file);
   std::error_code error;
   for (const std::string& name : list_.names())
-    if ((name.ends_with(".vtu") || name.ends_with(".csv")) &&
+    if ((name.ends_with(".vtu") || name.ends_with(".csv")) && !name.starts_with("modes_") &&
         !kept.contains(fs::path(name).replace_extension(".vtu").string()))
       fs::remove(fs::path(folder_) / name, error);
   fs::remove(fs::path(folder_) / "last_iterate.vtu", error);

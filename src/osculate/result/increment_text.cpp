@@ -45,6 +45,8 @@ std::string counts_text(const solve::StateCounts& counts, PointStates states) {
 
 std::string increment_text(const std::string& step, const model::Progress& p,
                            const solve::IncrementRecord& record, PointStates states) {
+  if (record.iterations.empty())
+    return fmt::format("{:<12} {:>4}  time {:<9.5g} superposed", step, p.increment, p.time);
   const solve::IterationRecord& last = record.iterations.back();
   return fmt::format(
       "{:<12} {:>4}  time {:<9.5g} {:>3} iterations  residual {:.1e}  energy {:.1e}{}{}", step,

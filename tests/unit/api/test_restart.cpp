@@ -98,6 +98,24 @@ constexpr const char* creeping =
     "  - {name: drag, increments: 5, duration: 1, prescribe: [{on: b.top, ux: 0.1}]}\n"
     "output: {history: [{on: on, of: normal_force}, {on: on, of: shear_force}]}\n";
 
+/// A bar that is stretched, and then moves along its vibrations in two steps.
+constexpr const char* ringing =
+    "osculate: 1\n"
+    "mesh: {generate: {b: {box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}}}\n"
+    "materials: {m: {st_venant_kirchhoff: {E: 100, nu: 0.3, density: 1}}}\n"
+    "sections: [{on: b, material: m, element: plane_strain}]\n"
+    "amplitudes: {bent: [[0, 1], [0.3, 0], [1, 2]]}\n"
+    "steps:\n"
+    "  - {name: stretch, increments: 2, prescribe: [{on: b.left, ux: 0, uy: 0}], total_force: "
+    "[{on: "
+    "b.right, fx: 1}]}\n"
+    "  - {name: free, modes: 3}\n"
+    "  - {name: ring, increments: 3, duration: 2, modal: {damping: {ratio: 0.02}}, total_force: "
+    "[{on: "
+    "b.right, fy: 0.1, amplitude: bent}]}\n"
+    "  - {name: on, increments: 2, duration: 1, modal: {}}\n"
+    "output: {history: [{on: b.right, of: uy}, {on: b.right, of: vy}, {on: b.left, of: rfy}]}\n";
+
 /// Runs that end with warnings of what was on the way: a beam that is bent and straightened again,
 /// a block that moves away from a floor that was nearest at first, a body that goes past its slave,
 /// blocks that go through a floor and that gain energy in explicit time integration.
@@ -163,6 +181,7 @@ class Restart : public ::testing::Test {
     std::ofstream(folder_ / "thrown.yaml") << thrown;
     std::ofstream(folder_ / "plastic.yaml") << plastic;
     std::ofstream(folder_ / "creeping.yaml") << creeping;
+    std::ofstream(folder_ / "ringing.yaml") << ringing;
   }
   void TearDown() override { fs::remove_all(folder_); }
   [[nodiscard]] RunOptions options(const std::string& model, const std::string& out,
@@ -242,8 +261,8 @@ TEST_F(Restart, TheWarningsAreThoseOfTheWholeRun) {
 }
 
 TEST_F(Restart, AfterEveryIncrementGivesTheSameBits) {
-  for (const auto& [model, least] :
-       {std::pair("plane", 10), std::pair("plastic", 7), std::pair("creeping", 7)}) {
+  for (const auto& [model, least] : {std::pair("plane", 10), std::pair("plastic", 7),
+                                     std::pair("creeping", 7), std::pair("ringing", 6)}) {
     const std::string whole = std::string(model) + "_whole",
                       pieces = std::string(model) + "_pieces";
     ASSERT_EQ(run(options(model, whole)).status, RunStatus::done);

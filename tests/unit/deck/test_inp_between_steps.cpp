@@ -194,5 +194,38 @@ TEST(InpBetweenSteps, Vibrations) {
             "steps go on from the last one");
 }
 
+TEST(InpBetweenSteps, MotionsAlongVibrations) {
+  const std::string frequency = "*STEP\n*FREQUENCY, STORAGE=YES\n12\n*END STEP\n";
+  const std::string moves = "*STEP\n*MODAL DYNAMIC\n1.E-5, 1.E-4\n";
+  const std::string load = "*CLOAD\n15, 3, -1.\n";
+  const std::string steps = part(frequency + moves + load +
+                                     "*MODAL DAMPING\n1, 5, .5\n7, 99, 0.1\n"
+                                     "*END STEP\n" +
+                                     moves +
+                                     "*MODAL DAMPING, RAYLEIGH\n,, 3., 1.E-4\n"
+                                     "*END STEP\n" +
+                                     moves + "*END STEP\n",
+                                 "steps");
+  expect_in(steps, "{first: 1, last: 5, ratio: 0.5}");
+  expect_in(steps, "{first: 7, last: 12, ratio: 0.1}");
+  expect_in(steps, "damping: {mass: 3, stiffness: 0.0001}");
+  EXPECT_NE(steps.find("mass: 3"), steps.rfind("mass: 3"));  // it stays
+  expect_in(steps, "increments: 10\n    duration: 0.0001");
+  expect_in(steps, "fz: -1, amplitude: at_once}");
+  const std::string end = "*END STEP\n";
+  expect_in(message_of(moves + load + end), "the step before it must have a *FREQUENCY");
+  expect_in(message_of(frequency + "*STEP\n*MODAL DYNAMIC, STEADY STATE\n1.E-5, 1.E-4\n" + end),
+            "STEADY STATE is not supported");
+  expect_in(message_of(frequency + moves + "*BOUNDARY\n15, 3, 3\n" + end),
+            "supports must be those of the step with *FREQUENCY");
+  const std::string table = "*AMPLITUDE, NAME=A\n0., 1., 1., 1.\n";
+  expect_in(message_of(table + frequency + moves + "*CLOAD, AMPLITUDE=A\n15, 3, -1.\n" + end +
+                       moves + end),
+            "has an amplitude and ends with its step");
+  expect_in(message_of(press + "*STEP, PERTURBATION\n*FREQUENCY\n12\n*END STEP\n" + moves + end),
+            "PERTURBATION must be said of this step");
+  expect_in(message_of(frequency + moves + end + press), "only *MODAL DYNAMIC follows");
+}
+
 }  // namespace
 }  // namespace osculate::deck

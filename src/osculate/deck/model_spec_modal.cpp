@@ -1,0 +1,127 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "osculate/deck/bind.hpp"
+#include "osculate/deck/model_spec.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using M = ModalDescription;
+
+Spec ratio_spec(std::string doc) {
+  return number(std::move(doc)).at_least(0).at_most(100).such_as("0.02");
+}
+
+BoundKey<M> ratios_key() {
+  using R = M::Ratio;
+  const auto place = [](std::string doc, const char* example) {
+    return integer(std::move(doc)).at_least(1).at_most(10'000).such_as(example);
+  };
+  const BoundKeys<R> keys({need(&R::first, "first", place("The first of them, from 1 on.", "1")),
+                           need(&R::last, "last", place("The last of them.", "5")),
+                           need(&R::ratio, "ratio", ratio_spec("Theirs."))});
+  return {optional("ratios", list("Ratios of some vibrations, instead of `ratio`; of one that is "
+                                  "named twice the last counts.",
+                                  keys.spec("Some vibrations, by their numbers."))
+                                 .otherwise("[]")
+                                 .such_as("[{first: 1, last: 5, ratio: 0.02}]")),
+          [keys](M& m, const Value& v) {
+            m.ratios = keys.read_all(v, [](const Value&, const R& r) {
+              if (r.last.value < r.first.value)
+                throw core::InputError(r.last.mark,
+                                       fmt::format("must not be below the first one, {}, got {}",
+                                                   r.first.value, r.last.value));
+            });
+          }};
+}
+
+BoundKey<M> modal_damping_key() {
+  const BoundKeys<M> keys(
+      {may(&M::ratio, "ratio",
+           ratio_spec("Ratio of the damping to the critical one, of all vibrations.")
+               .otherwise("0")),
+       ratios_key(),
+       may(&M::damping_mass, "mass",
+           number("Factor of the mass.").in("1/time").at_least(0).otherwise("0")),
+       may(&M::damping_stiffness, "stiffness",
+           number("Factor of the stiffness.")
+               .in("time")
+               .at_least(0)
+               .otherwise("0")
+               .such_as("1e-4"))});
+  return below(keys, optional("damping", keys.spec("Damping of each vibration by itself: a ratio, "
+                                                   "and Rayleigh's by mass and stiffness.")
+                                             .otherwise("{}")
+                                             .such_as("{ratio: 0.02}")));
+}
+
+BoundKeys<M> modal_keys() { return {{modal_damping_key()}}; }
+
+}  // namespace
+
+BoundKey<Step> modal_key() {
+  return {
+      optional(
+          "modal",
+          modal_keys()
+              .spec(
+                  "Linear motion in time, over the duration: the vibrations that a step "
+                  "with `modes` before it has found move by the loads and by supports, and nothing "
+                  "else does.")
+              .such_as("{damping: {ratio: 0.02}}")),
+      [](Step& s, const Value& v) { s.modal = modal_keys().read(v); }};
+}
+
+void check_modal(const Value& step, const Step& s) {
+  if (!s.modal) return;
+  constexpr std::array<std::string_view, 5> others{"release", "hold", "temperature", "contact",
+                                                   "dynamics"};
+  for (const ValueEntry& entry : step.entries)
+    if (entry.value.given && std::ranges::find(others, entry.key) != others.end())
+      throw core::InputError(entry.key_mark,
+                             fmt::format("a step with `modal` moves what vibrates by its loads: "
+                                         "`{}` does not go with it{}",
+                                         entry.key,
+                                         entry.key == "dynamics"
+                                             ? ", it is another integration in time"
+                                             : ", supports and contacts are those of the step with "
+                                               "`modes`"));
+}
+
+/// The step before has what moves.
+void check_modal_steps(const Description& d) {
+  const Step *found = nullptr, *before = nullptr;
+  bool dynamic = false;
+  for (const Step& step : d.steps) {
+    dynamic = dynamic || step.dynamics;
+    if (!step.modal) {
+      found = step.modes ? &step : nullptr;
+      before = nullptr;
+      continue;
+    }
+    const auto moves = [](const Step* s) { return s && !s->prescribe.empty(); };
+    if (before && (moves(before) || moves(&step)))
+      throw core::InputError(
+          (moves(before) ? *before : step).prescribe.front().mark,
+          "supports move in the only step with `modal`, none before or behind it");
+    before = &step;
+    if (!found)
+      throw core::InputError(step.modal->mark,
+                             "there are no vibrations that could move: the step before needs the "
+                             "key 'modes'");
+    for (const ModalDescription::Ratio& r : step.modal->ratios)
+      if (r.last.value > found->modes->value)
+        throw core::InputError(r.last.mark, fmt::format("step '{}' looks for {} vibrations",
+                                                        found->name.value, found->modes->value));
+    if (!d.initial_velocity.empty() && !dynamic)
+      throw core::InputError(d.initial_velocity.front().mark,
+                             "a step with `modal` begins at rest; a velocity is one of steps with "
+                             "`dynamics`");
+  }
+}
+
+}  // namespace osculate::deck
