@@ -8,6 +8,7 @@
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/node_areas.hpp"
 #include "osculate/pairing/combinations.hpp"
+#include "osculate/pairing/sampling.hpp"
 
 namespace osculate::deck {
 
@@ -181,8 +182,10 @@ template <int Dim>
 std::vector<double> given_areas(const BuildContext<Dim>& c, const Contact& contact,
                                 const pairing::PairDefinition<Dim>& pair) {
   const std::size_t count = pair.slave.points.size();
+  if (!(contact.area > 0) && !contact.area_around) return {};
+  if (!pairing::sampled_at_nodes(pair.slave) || pairing::by_mortar(pair))
+    throw core::InputError(contact.weight.mark, "a given area of nodes goes with sampling: nodes");
   if (contact.area > 0) return std::vector<double>(count, contact.area);
-  if (!contact.area_around) return {};
   const std::vector<double> all = areas_around(c);
   std::vector<double> areas;
   double sum = 0;

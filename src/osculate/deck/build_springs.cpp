@@ -1,6 +1,8 @@
 // Springs, dampers and masses at nodes.
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "osculate/deck/build_displacements.hpp"
 
 namespace osculate::deck {
@@ -27,6 +29,22 @@ void join(const BuildContext<Dim>& c, const Spring& spring, model::Spring& out) 
                                        spring.between[0].value, spring.between[1].value));
 }
 
+/// As in equations, but of the nodes' own displacements where these have local ones: the forces are
+/// those of the nodes.
+template <int Dim>
+void add_to_elongation(const BuildContext<Dim>& c, const EquationTerm& term,
+                       model::Equation& elongation) {
+  if (c.rigid_index.contains(term.on.value) || is_rotation(term.of))
+    return add_component(c, term.on, term.of, term.factor.value, elongation);
+  constexpr double rounding = 1e-14;
+  for (const Index node : moving_nodes(c, term.on, Idle::refused, motion_of<Dim>(term.of))) {
+    const Vec<Dim> direction = direction_of(c, node, term.of);
+    for (int i = 0; i < Dim; ++i)
+      if (std::abs(direction[i]) > rounding)
+        add_term(elongation, Dim * node + i, term.factor.value * direction[i]);
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -39,8 +57,7 @@ void build_springs(BuildContext<Dim>& c) {
     for (const Vec2& point : spring.table.value) out.table.push_back({point[0], point[1]});
     if (!spring.between.empty()) join(c, spring, out);
     model::Equation elongation;
-    for (const EquationTerm& term : spring.terms)
-      add_component(c, term.on, term.of, term.factor.value, elongation);
+    for (const EquationTerm& term : spring.terms) add_to_elongation(c, term, elongation);
     out.terms = std::move(elongation.terms);
     c.model().springs.push_back(std::move(out));
   }

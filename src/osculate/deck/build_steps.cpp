@@ -473,7 +473,10 @@ void build_steps(BuildContext<Dim>& c) {
       throw core::InputError(step.prescribe.front().mark,
                              "prescribes what the vibrations leave free: hold it by `prescribe` "
                              "with 0 in the step with `modes`");
-    if (unloaded) unload(c, out);
+    if (unloaded) {
+      unload(c, out);
+      c.built.loads.back().clear();
+    }
     if (step.modes) about_start = unloaded;
     if (step.modal && about_start) out.temperature = {c.model().initial_temperature, {}};
     c.model().steps.push_back(std::move(out));

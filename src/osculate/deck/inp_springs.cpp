@@ -1,6 +1,8 @@
 // Springs, dampers, gaps and masses of a deck.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "osculate/deck/inp_parts.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
 
@@ -55,11 +57,28 @@ void put_term(const InpModel& m, const Line& line, const std::string& node, int 
       direction >= 1 && direction <= 6 ? inp_places(m, node, direction) : std::vector<InpPlace>{};
   if (places.size() != 1)
     io::inp::fail(m.deck, line.at, fmt::format("'{}' has no direction {}", node, direction));
+  if (m.transformed.contains(only_node(m, node)))
+    io::inp::fail(m.deck, line.at,
+                  fmt::format("'{}' has a *TRANSFORM, whose axes are not those of springs: not "
+                              "supported",
+                              node));
   const int at = line_of(line.at);
   SourceNode& term = terms.items.emplace_back(inp_map(at));
   put(term, "on", inp_text(places[0].on, at));
   put(term, "of", inp_text(inp_component('u', places[0].direction), at));
   put(term, "factor", inp_number(places[0].sign * factor, at));
+}
+
+/// Springs of nodes of rings act on a sector of 2 degrees in CalculiX.
+double sectors(const InpModel& m, const Discrete& element) {
+  constexpr double in_a_circle = 180;
+  for (const io::inp::DeckSet& set : m.mesh.sets) {
+    if (set.kind != SetKind::elements || !set.type.starts_with("CAX")) continue;
+    const std::vector<Index>& ring = m.mesh.mesh.sets[set.set].nodes;
+    for (const std::string& node : element.nodes)
+      if (std::binary_search(ring.begin(), ring.end(), only_node(m, node))) return in_a_circle;
+  }
+  return 1;
 }
 
 /// Along which line or of which displacements it acts. `directions`: the first line of data.
@@ -76,8 +95,8 @@ void put_motion(const InpModel& m, const Card& card, const Discrete& element,
   Fields fields(m.deck, *directions);
   SourceNode& terms = put(spring, "terms", inp_list(line));
   for (std::size_t k = 0; k < element.nodes.size(); ++k)
-    put_term(m, *directions, element.nodes[k], fields.number("a direction"),
-             k + 1 == element.nodes.size() ? 1.0 : -1.0, terms);
+    put_term(m, *directions, element.nodes[k], fields.number("a direction"), k == 0 ? 1.0 : -1.0,
+             terms);
   fields.expect_end();
 }
 
@@ -117,13 +136,17 @@ void put_spring(const InpModel& m, const Card& card, SourceNode& root) {
                       "*SPRING: a stiffness that depends on the temperature "
                       "is not supported");
       Fields fields(m.deck, lines[0]);
-      put(spring, "stiffness", inp_number(fields.real("the stiffness"), line_of(lines[0].at)));
+      put(spring, "stiffness",
+          inp_number(sectors(m, element) * fields.real("the stiffness"), line_of(lines[0].at)));
       continue;
     }
     SourceNode& table = put(spring, "table", inp_list(line));
     for (const Line& data : lines) {
       Fields fields(m.deck, data);
-      const double force = fields.real("the force"), elongation = fields.real("the elongation");
+      const double force = sectors(m, element) * fields.real("the force"),
+                   elongation = fields.real("the elongation");
+      if (fields.real_or_zero("a temperature") != 0)
+        fields.fail("*SPRING: a table that depends on the temperature is not supported");
       SourceNode& point = table.items.emplace_back(inp_list(line_of(data.at)));
       point.items = {inp_number(elongation, line_of(data.at)), inp_number(force, line_of(data.at))};
     }
@@ -142,7 +165,8 @@ void put_dashpot(const InpModel& m, const Card& card, SourceNode& root) {
     SourceNode& spring = new_spring(root, line_of(card.at));
     put_motion(m, card, element, directions, spring);
     put(spring, "damping",
-        inp_number(Fields(m.deck, lines[0]).real("the coefficient"), line_of(lines[0].at)));
+        inp_number(sectors(m, element) * Fields(m.deck, lines[0]).real("the coefficient"),
+                   line_of(lines[0].at)));
   }
 }
 
@@ -162,7 +186,7 @@ void put_gap(const InpModel& m, const Card& card, SourceNode& root) {
     const double given = fields.real_or_zero("the stiffness");
     if (fields.real_or_zero("the force in tension") != 0)
       fields.fail("a force in tension is not supported");
-    const double stiffness = given > 0 ? given : usual_stiffness;
+    const double stiffness = sectors(m, element) * (given > 0 ? given : usual_stiffness);
     const int line = line_of(data.at);
     SourceNode& spring = new_spring(root, line);
     SourceNode& terms = put(spring, "terms", inp_list(line));
@@ -192,9 +216,24 @@ void put_mass(const InpModel& m, const Card& card, SourceNode& root) {
   }
 }
 
+/// Whether a card says what the springs, dampers, ... of an `*ELEMENT` are.
+bool has_properties(const InpModel& m, const Card& element) {
+  const std::string set = option_of(element, "ELSET");
+  return !set.empty() &&
+         std::any_of(m.deck.cards.begin(), m.deck.cards.end(), [&](const Card& card) {
+           for (const char* const keyword : {"SPRING", "DASHPOT", "GAP", "MASS"})
+             if (card.keyword == keyword && option_of(card, "ELSET") == set) return true;
+           return false;
+         });
+}
+
 }  // namespace
 
 void put_springs(const InpModel& m, SourceNode& root) {
+  for (const Card& card : m.deck.cards)
+    if (card.keyword == "ELEMENT" && io::inp::discrete_nodes(card) > 0 &&
+        option_of(card, "TYPE") != "DCOUP3D" && !has_properties(m, card))
+      io::inp::fail(m.deck, card, "no *SPRING, *DASHPOT, *GAP or *MASS names its ELSET");
   for (const Card& card : m.deck.cards) {
     if (card.keyword == "SPRING") put_spring(m, card, root);
     if (card.keyword == "DASHPOT") put_dashpot(m, card, root);

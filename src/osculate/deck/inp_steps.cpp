@@ -429,6 +429,7 @@ class Steps {
     // one card of OP=NEW removes pressures and body forces
     const std::string amplitude = start(card, pressures_);
     (void)start(card, body_forces_);
+    if (option_of(card, "OP") == "NEW") gravity_.clear();
     (void)start(card, centrifugal_);
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
@@ -449,6 +450,25 @@ class Steps {
     }
   }
 
+  /// Of a part of the bodies: by which set, along which direction and in which step.
+  struct Gravity {
+    std::string set;
+    Vec3 direction;
+    std::size_t step;
+  };
+  /// In a later step the same load is replaced, but others would add to what is there.
+  void note_gravity(const Fields& fields, const std::string& part, const Gravity& now) {
+    std::vector<Gravity>& all = gravity_[part];
+    const bool before = std::any_of(all.begin(), all.end(),
+                                    [&](const Gravity& one) { return one.step < now.step; });
+    if (before && (all.size() > 1 || all[0].set != now.set || all[0].direction != now.direction))
+      fields.fail(
+          "GRAV of another set or direction than in a step before is not supported: write "
+          "OP=NEW and all of it");
+    if (before) all.clear();
+    all.push_back(now);
+  }
+
   void read_gravity(Fields& fields, const std::string& elements, const std::string& amplitude,
                     const Line& line) {
     const double size = fields.real("the acceleration");
@@ -461,12 +481,15 @@ class Steps {
     if (parts.empty())
       fields.fail(fmt::format("GRAV acts on elements that have a section, not on {}",
                               io::inp::shown(elements)));
+    direction.normalize();
     for (const InpDensity& part : parts) {
       if (!(part.density > 0))
         fields.fail(fmt::format("the material of {} has no *DENSITY", io::inp::shown(part.on)));
+      note_gravity(fields, part.on, {on, direction, out_.steps.items.size()});
       for (int k = 0; k < inp_dimension(m_); ++k)
-        set(body_forces_, part.on, k + 1, part.density * size * direction.normalized()[k],
-            amplitude, line, true);
+        if (direction[k] != 0)
+          set(body_forces_, part.on, k + 1, part.density * size * direction[k], amplitude, line,
+              true);
     }
   }
 
@@ -652,7 +675,8 @@ class Steps {
   bool at_once_ = false, moved_ = false, about_start_ = false;
   std::map<std::string, Table> tables_;
   Conditions prescribed_, forces_, pressures_, body_forces_, centrifugal_;
-  std::vector<std::array<double, 6>> axes_;  ///< of centrifugal loads: points of them
+  std::map<std::string, std::vector<Gravity>> gravity_;  ///< by part
+  std::vector<std::array<double, 6>> axes_;              ///< of centrifugal loads: points of them
   std::set<std::pair<Conditions*, Conditions::key_type>> released_;
   std::vector<std::pair<std::string, Condition>> temperatures_;
 };

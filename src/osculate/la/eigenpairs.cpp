@@ -156,9 +156,11 @@ Eigenpairs all_around(Problem& p, double shift, Eigen::Index count) {
     return pairs;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> flexible{Eigen::MatrixXd(f.transpose() * x)};
+  // What multipliers hold has none.
+  const double stiffest = flexible.eigenvalues().cwiseAbs().maxCoeff();
   std::vector<std::pair<double, Eigen::Index>> order;
   for (Eigen::Index i = 0; i < rank; ++i)
-    if (const double theta = flexible.eigenvalues()[i]; theta != 0)
+    if (const double theta = flexible.eigenvalues()[i]; std::abs(theta) > rounding * stiffest)
       order.emplace_back(shift + 1 / theta, i);
   std::sort(order.begin(), order.end());
   const Eigen::Index n = std::min(count, static_cast<Eigen::Index>(order.size()));

@@ -24,12 +24,11 @@ BasicDofSpace<Dim>::BasicDofSpace(Index nodes, std::vector<Index> body_of_node, 
   }
   for (Dof dof = 0; dof < dofs(); ++dof) {
     const auto d = static_cast<std::size_t>(dof);
+    const auto node = d / Dim;
+    const bool of_node = dof < Dim * nodes_;
+    alone_[d] = of_node && body_of_node_[node] < 0 && !used_node[node] && named[d];
     if (equation_of_[d] >= 0) continue;
-    if (dof < Dim * nodes_) {
-      const auto node = d / Dim;
-      if (body_of_node_[node] >= 0 || !(used_node[node] || named[d])) continue;
-      alone_[d] = !used_node[node];
-    }
+    if (of_node && (body_of_node_[node] >= 0 || !(used_node[node] || named[d]))) continue;
     unknown_of_[d] = unknowns_++;
     dof_of_unknown_.push_back(dof);
   }

@@ -57,7 +57,7 @@ class BasicDofSpace {
   [[nodiscard]] Dof dof_of_unknown(Index unknown) const {
     return dof_of_unknown_[static_cast<std::size_t>(unknown)];
   }
-  /// Of a node without cells: an equation or a spring has made it an unknown.
+  /// Of a node without cells: an equation or a spring names it.
   [[nodiscard]] bool stands_alone(Dof dof) const { return alone_[static_cast<std::size_t>(dof)]; }
   [[nodiscard]] const std::vector<Equation>& equations() const { return equations_; }
   /// Index of the equation that eliminates the dof, or -1.

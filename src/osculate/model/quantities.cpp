@@ -283,6 +283,10 @@ void pass_on(const BasicDofSpace<Dim>& dofs, Eigen::VectorXd& forces) {
 template <int Dim>
 Eigen::VectorXd nodal_forces(const BasicSystem<Dim>& system) {
   Eigen::VectorXd all = system.forces().internal + system.forces().contact;
+  // What follows from others has but its load.
+  for (const Equation& equation : system.dofs().equations())
+    if (const Dof lead = equation.terms.front().dof; system.dofs().stands_alone(lead))
+      all[lead] += system.forces().external[lead];
   pass_on(system.dofs(), all);
   return all;
 }

@@ -1,22 +1,9 @@
 #include "osculate/model/spring.hpp"
 
-#include <algorithm>
+#include <cmath>
 
 namespace osculate::model {
 namespace {
-
-/// Area below the curve from its first point to the elongation, whose force is known.
-double area_until(const core::Table& table, double elongation, double force) {
-  const auto& first = table.front();
-  if (elongation <= first[0]) return (elongation - first[0]) * first[1];
-  double area = 0;
-  for (std::size_t i = 1; i < table.size(); ++i) {
-    const auto &a = table[i - 1], &b = table[i];
-    if (elongation <= b[0]) return area + 0.5 * (elongation - a[0]) * (a[1] + force);
-    area += 0.5 * (b[0] - a[0]) * (a[1] + b[1]);
-  }
-  return area + (elongation - table.back()[0]) * force;
-}
 
 /// At a corner of the curve its slope behind it.
 SpringResponse by_table(const core::Table& table, double elongation) {
@@ -29,11 +16,27 @@ SpringResponse by_table(const core::Table& table, double elongation) {
     const auto &a = table[i - 1], &b = table[i];
     if (elongation >= b[0]) continue;
     r.slope = (b[1] - a[1]) / (b[0] - a[0]);
-    r.force = a[1] + r.slope * (elongation - a[0]);
+    // From the end with the smaller force: that of a stiff stop is nothing but rounding elsewhere.
+    const auto& from = std::abs(a[1]) < std::abs(b[1]) ? a : b;
+    r.force = from[1] + r.slope * (elongation - from[0]);
     return r;
   }
   r.force = table.back()[1];
   return r;
+}
+
+/// Area below the curve between two elongations, the first one smaller.
+double area_between(const core::Table& table, double low, double high) {
+  double area = 0, at = low, force = by_table(table, low).force;
+  const auto go_to = [&](double elongation, double next) {
+    area += 0.5 * (elongation - at) * (force + next);
+    at = elongation;
+    force = next;
+  };
+  for (const auto& point : table)
+    if (point[0] > low && point[0] < high) go_to(point[0], point[1]);
+  go_to(high, by_table(table, high).force);
+  return area;
 }
 
 }  // namespace
@@ -44,8 +47,8 @@ SpringResponse response(const Spring& spring, double elongation) {
     return {k * elongation, k, 0.5 * k * elongation * elongation};
   }
   SpringResponse r = by_table(spring.table, elongation);
-  const double at_zero = by_table(spring.table, 0.0).force;
-  r.stored = area_until(spring.table, elongation, r.force) - area_until(spring.table, 0.0, at_zero);
+  r.stored = elongation < 0 ? -area_between(spring.table, elongation, 0)
+                            : area_between(spring.table, 0, elongation);
   return r;
 }
 

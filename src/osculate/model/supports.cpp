@@ -249,6 +249,13 @@ std::vector<Support> supports(const BasicModel<Dim>& model, const Step& step) {
     for (const Index n : pair.definition.slave.nodes) bodies.touch(n, name);
     for (const auto& f : pair.definition.master.facets) bodies.touch(f.nodes[0], name);
   }
+  for (const Spring& spring : model.springs) {
+    for (const Index n : spring.ends)
+      if (n >= 0) bodies.touch(n, "springs");
+    for (const Equation::Term& term : spring.terms)
+      if (term.dof < bodies.node_dofs())
+        bodies.touch(static_cast<Index>(term.dof / Dim), "springs");
+  }
   for (const NodeConstraint& c : model.node_constraints) {
     for (const Index n : c.nodes) bodies.touch(n, c.name);
     if (c.body >= 0)

@@ -49,6 +49,33 @@ TEST(InpSprings, OfAllKinds) {
   EXPECT_NEAR(way(table), 0.5, 1e-9);
 }
 
+/// Of two nodes the elongation is the first's displacement less the second's.
+TEST(InpSprings, OfTwoNodesKnowsWhichIsFirst) {
+  const auto way = [&](const char* nodes, double force) {
+    const std::string spring = fmt::format(
+        "*ELEMENT, TYPE=SPRING2, ELSET=C\n4, {}\n*SPRING, ELSET=C, NONLINEAR\n1, 1\n-10., -1.\n0., "
+        "0.\n40., 1.\n",
+        nodes);
+    return run_deck(cube + spring + held + step(fmt::format("*CLOAD\n22, 1, {}\n", force)))
+        .displacement(22)
+        .x();
+  };
+  EXPECT_NEAR(way("22, 21", 5), 0.125, 1e-9);
+  EXPECT_NEAR(way("22, 21", -5), -0.5, 1e-9);
+  EXPECT_NEAR(way("21, 22", 5), 0.5, 1e-9);
+  EXPECT_NEAR(way("21, 22", -5), -0.125, 1e-9);
+}
+
+TEST(InpSprings, OfRingsActOnASector) {
+  const TranslatedDeck deck = translate_deck(
+      "*NODE\n1,1,0\n2,2,0\n3,2,1\n4,1,1\n*ELEMENT, TYPE=CAX4, ELSET=E\n1,1,2,3,4\n*ELEMENT, "
+      "TYPE=SPRING1, ELSET=S\n2,3\n*SPRING, ELSET=S\n2\n5.\n*MATERIAL, NAME=M\n*ELASTIC\n1e3,0.\n"
+      "*SOLID SECTION, ELSET=E, MATERIAL=M\n" +
+          step(""),
+      "d.inp");
+  EXPECT_NE(to_yaml(deck.root).find("stiffness: 900"), std::string::npos) << to_yaml(deck.root);
+}
+
 TEST(InpSprings, WithoutAnyCell) {
   const DeckRun run = run_deck(
       "*NODE\n1,0,0,0\n2,0,0,3\n*ELEMENT, TYPE=SPRINGA, ELSET=S\n1,1,2\n*SPRING, ELSET=S\n\n4.\n"
@@ -70,6 +97,11 @@ TEST(InpSprings, GapsClose) {
   EXPECT_NEAR(way(-2), -2, 1e-9);
   EXPECT_NEAR(way(0.2), 0.2, 1e-9);
   EXPECT_NEAR(way(3), (3 + 0.25 * 1e4) / (1e4 + 1), 1e-9);
+  const DeckRun usual = run_deck(  // a stiffness of 1e12 in a soft model
+      cube + "*ELEMENT, TYPE=GAPUNI, ELSET=G\n2, 22, 21\n*GAP, ELSET=G\n0.25, 1., 0., 0.\n" +
+      "*ELEMENT, TYPE=SPRING1, ELSET=B\n3, 22\n*SPRING, ELSET=B\n1\n1.\n" + held +
+      step("*CLOAD\n22, 1, 3.\n"));
+  EXPECT_NEAR(usual.displacement(22).x(), 0.25, 1e-9);
 }
 
 TEST(InpSprings, DampersAndMasses) {
@@ -95,6 +127,16 @@ TEST(InpSprings, WhatIsWrong) {
   EXPECT_EQ(
       of("*ELEMENT, TYPE=SPRINGA, ELSET=A\n2, 22, 21\n*SPRING, ELSET=A\n\n1.,,0.\n2.,,100.\n"),
       "d.inp:27: *SPRING: a stiffness that depends on the temperature is not supported");
+  EXPECT_EQ(
+      of("*ELEMENT, TYPE=SPRINGA, ELSET=A\n2, 22, 21\n*SPRING, ELSET=A, NONLINEAR\n\n0., 0.\n1., "
+         "1., 100.\n"),
+      "d.inp:27: *SPRING: a table that depends on the temperature is not supported");
+  EXPECT_EQ(of("*ELEMENT, TYPE=SPRINGA, ELSET=A\n2, 22, 21\n"),
+            "d.inp:22: *ELEMENT: no *SPRING, *DASHPOT, *GAP or *MASS names its ELSET");
+  EXPECT_EQ(of("*NSET, NSET=T\n22\n*TRANSFORM, NSET=T\n1,1,0,-1,1,0\n*ELEMENT, TYPE=SPRING1, "
+               "ELSET=A\n2, 22\n*SPRING, ELSET=A\n1\n1.\n"),
+            "d.inp:29: 'node 22' has a *TRANSFORM, whose axes are not those of springs: not "
+            "supported");
   EXPECT_EQ(of("*ELEMENT, TYPE=GAPUNI, ELSET=A\n2, 22, 21\n*GAP, ELSET=A\n0.1\n"),
             "d.inp:25: expected the direction of the gap");
 }

@@ -33,15 +33,28 @@ std::string message(const std::string& text) {
   return "";
 }
 
+/// In a later step the same GRAV is replaced; another one would add to it.
+TEST(InpThin, GravityOfLaterSteps) {
+  const auto deck = [](const std::string& second) {
+    return elbow + "*STEP\n*STATIC\n*DLOAD\nE, GRAV, 3, 0, 0, -1\n*END STEP\n*STEP\n*STATIC\n" +
+           second + "*END STEP\n";
+  };
+  const Description d = described(deck("*DLOAD\nE, GRAV, 5, 0, 0, -1\n"));
+  EXPECT_EQ(d.steps[1].body_force[0].values[2]->value, -10);
+  EXPECT_THROW((void)described(deck("*DLOAD\nE, GRAV, 5, 1, 0, 0\n")), core::InputError);
+  const Description anew = described(deck("*DLOAD, OP=NEW\nE, GRAV, 5, 1, 0, 0\n"));
+  EXPECT_EQ(anew.steps[1].body_force.size(), 2u);  // that along z becomes 0
+}
+
 TEST(InpThin, SectionsAreSolids) {
   const Description d =
       described(elbow + "*STEP, NLGEOM\n*STATIC\n*DLOAD\nE, GRAV, 3, 0, 0, -1\n*END STEP\n");
   ASSERT_THAT(d.sections, SizeIs(1));
   EXPECT_EQ(d.sections[0].on.value, "E");
   EXPECT_EQ(d.sections[0].formulation.value, Formulation::enhanced);
-  ASSERT_THAT(d.steps[0].body_force, SizeIs(3));  // one a direction
-  EXPECT_EQ(d.steps[0].body_force[2].on.value, "E");
-  EXPECT_EQ(d.steps[0].body_force[2].values[2]->value, -6);
+  ASSERT_THAT(d.steps[0].body_force, SizeIs(1));
+  EXPECT_EQ(d.steps[0].body_force[0].on.value, "E");
+  EXPECT_EQ(d.steps[0].body_force[0].values[2]->value, -6);
 }
 
 TEST(InpThin, AKnotIsARigidBodyThatIsReleased) {

@@ -198,7 +198,7 @@ TEST(InpTranslate, WhatIsNotUnderstoodStopsWithItsLine) {
       {"keyword", blocks + "*BOUNDRY\n",
        "cubes.inp:32: unknown keyword 'BOUNDRY'; did you mean 'BOUNDARY'?"},
       {"eigenmodes", blocks + "*STEP\n*BUCKLE\n3\n*END STEP\n",
-       "cubes.inp:33: *BUCKLE: is not supported: no eigenmodes"},
+       "cubes.inp:33: *BUCKLE: is not supported: no buckling"},
       {"by hand", blocks + "*NO ANALYSIS\n",
        "cubes.inp:32: *NOANALYSIS: is not translated; a model file says it with `osculate check`"},
       {"no step", blocks + steel, "cubes.inp: the deck has no *STEP"},

@@ -6,6 +6,7 @@
 
 #include "osculate/deck/build.hpp"
 #include "osculate/deck/parse.hpp"
+#include "osculate/model/quantities.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -143,6 +144,25 @@ TEST(Springs, VibrationsAboutTheLastStateAndTheFirst) {
   };
   EXPECT_NEAR(omega_squared("1"), 15, 1e-6);
   EXPECT_NEAR(omega_squared("{count: 1, about: start}"), 2.5, 1e-6);
+}
+
+/// In axes of their own the springs' forces are those of the nodes, and balance.
+TEST(Springs, InLocalAxes) {
+  const Outcome r =
+      run(square +
+          "axes: [{on: b.right, rectangular: {x: [1, 1], xy: [0, 1]}}]\n"
+          "springs: [{terms: [{on: b.top_right, of: ux, factor: 1}], stiffness: 50}]\n"
+          "steps:\n"
+          "  - {name: pull, increments: 1, prescribe: [{on: b.left, ux: 0, uy: 0}, {on: "
+          "b.right, ux: 0.01}]}\n"
+          "  - {name: free, increments: 1, release: [{on: b.right, of: [ux]}]}\n");
+  model::System system(r.built.model, 1);
+  system.begin_step(r.built.model.steps[1], r.result.state);
+  solve::Evaluation out;
+  system.evaluate(r.result.state, 1.0, false, out);
+  const Eigen::VectorXd reaction = model::reactions(system);
+  for (const Index n : r.built.model.mesh.find_set("b.right")->nodes)
+    EXPECT_LT(reaction.segment<2>(2 * n).norm(), 1e-6);
 }
 
 TEST(Springs, WhatIsWrong) {

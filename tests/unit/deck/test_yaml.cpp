@@ -122,7 +122,8 @@ TEST(Yaml, DifferentLineEndsAndByteOrderMark) {
 
 TEST(Yaml, MessagesShowUsersTextSafely) {
   EXPECT_EQ(printable("a\nb\x1b[31m"), "a?b?[31m");
-  EXPECT_EQ(printable(std::string(41, 'x')), std::string(40, 'x') + "...");
+  const std::string shown(40, 'x');
+  EXPECT_EQ(printable(std::string(41, 'x')), shown + "...");
   EXPECT_EQ(printable("\xC3\xA9\xC3"), "\xC3\xA9?");
 }
 

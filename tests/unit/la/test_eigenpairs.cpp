@@ -110,6 +110,24 @@ TEST(Eigenpairs, AreAllThereWhereFewHaveAMass) {
   EXPECT_NEAR(one.vectors(1, 0), 2.0 / 3 * one.vectors(2, 0), 1e-14);
 }
 
+// A multiplier holds two masses together: it makes no vibration of its own.
+TEST(Eigenpairs, OfFewMassesThatAMultiplierHolds) {
+  MatrixBuilder k(4);
+  add_chain(0, 3, true, k);
+  k.add(0, 3, 1);
+  k.add(3, 0, 1);
+  k.add(1, 3, -1);
+  k.add(3, 1, -1);
+  MatrixBuilder m(4);
+  for (Index i = 0; i < 3; ++i) m.add(i, i, 1);
+  const auto solver = make_default_solver();
+  const Eigenpairs found = smallest_eigenpairs(k.finish(), m.finish(), 4, *solver);
+  ASSERT_EQ(found.failure, "");
+  ASSERT_EQ(found.values.size(), 2);  // of masses 2 and 1 on springs 1, 1 and 1
+  EXPECT_NEAR(found.values[0], (3 - std::sqrt(3.0)) / 2, 1e-12);
+  EXPECT_NEAR(found.values[1], (3 + std::sqrt(3.0)) / 2, 1e-12);
+}
+
 TEST(Eigenpairs, SayWhyThereAreNone) {
   MatrixBuilder k(3);
   add_chain(0, 3, true, k);
