@@ -78,6 +78,10 @@ TEST(LawKeys, OfWhatDependsOnTime) {
                                "{linear_elastic: {E: 100, nu: 0.35}}")),
             "model.yaml:16: contact[0].friction.rate_and_state.speed: friction that depends on "
             "speed needs the duration of every step, and step 'one' has none");
+  const std::string vibrating = edited(text, "steps: [", "steps: [{name: sound, modes: 2}, ");
+  EXPECT_EQ(any_refusal(vibrating),
+            "model.yaml:16: contact[0].friction.rate_and_state.speed: friction that depends on "
+            "speed does not go with the vibrations of step 'sound'");
 }
 
 TEST(LawKeys, RestitutionGoesWithEveryLaw) {
