@@ -3,6 +3,7 @@
 
 #include "commands.hpp"
 #include "osculate/core/version.hpp"
+#include "osculate/la/blas_threads.hpp"
 
 namespace {
 
@@ -39,4 +40,7 @@ int run_program(int argc, char** argv) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return osculate::app::guarded(run_program, argc, argv); }
+int main(int argc, char** argv) {
+  osculate::la::end_idle_blas_threads();
+  return osculate::app::guarded(run_program, argc, argv);
+}

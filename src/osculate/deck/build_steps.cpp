@@ -82,18 +82,24 @@ void check_agreement(const Prescription& first, double one, const Prescription& 
                                        first.on.value, second.on.value, component_names[i]));
 }
 
-/// A length in other units than the mesh, most likely.
-template <int Dim>
-void warn_of_far(const BuildContext<Dim>& c, const deck::Step& step, const Prescription& p,
-                 std::size_t component) {
-  constexpr double far = 10;
-  if (component >= 3 || c.model().mesh.nodes.empty()) return;
-  Vec3 low = c.model().mesh.nodes.front(), high = low;
-  for (const Vec3& x : c.model().mesh.nodes) {
+/// The diagonal of the box round all nodes.
+double size_of(const mesh::Mesh& mesh) {
+  if (mesh.nodes.empty()) return 0;
+  Vec3 low = mesh.nodes.front(), high = low;
+  for (const Vec3& x : mesh.nodes) {
     low = low.cwiseMin(x);
     high = high.cwiseMax(x);
   }
-  const double size = (high - low).norm(), way = std::abs(p.values[component]->value);
+  return (high - low).norm();
+}
+
+/// A length in other units than the mesh of this size, most likely.
+template <int Dim>
+void warn_of_far(const BuildContext<Dim>& c, const deck::Step& step, const Prescription& p,
+                 std::size_t component, double size) {
+  constexpr double far = 10;
+  if (component >= 3) return;
+  const double way = std::abs(p.values[component]->value);
   if (!(size > 0) || !(way > far * size)) return;
   c.built.warnings.push_back(fmt::format(
       "step '{}' moves '{}' by {} = {:g}, {:.2g} times the size of the mesh ({:.3g}): is it in the "
@@ -109,11 +115,12 @@ void apply_prescriptions(const BuildContext<Dim>& c, const deck::Step& step, Run
   for (const model::Equation& equation : c.model().equations)
     eliminated.insert(equation.terms.front().dof);
   std::map<Dof, std::pair<const Prescription*, double>> here;
+  const double size_of_mesh = size_of(c.model().mesh);
   for (const Prescription& p : step.prescribe)
     for (std::size_t i = 0; i < component_count; ++i) {
       const std::optional<Number>& value = p.values[i];
       if (!value) continue;
-      warn_of_far(c, step, p, i);
+      warn_of_far(c, step, p, i, size_of_mesh);
       for (const auto& [d, sign] :
            displacements(c, p.on, static_cast<Component>(i), Idle::left_out)) {
         if (eliminated.contains(d))

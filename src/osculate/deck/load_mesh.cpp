@@ -148,6 +148,7 @@ void add_set(const Description& description, const SetDefinition& definition, me
 
 mesh::Mesh load_mesh(const Description& description) {
   mesh::Mesh mesh = mesh_of(description.mesh, dimension(description));
+  mesh::remember_names(mesh);
   for (const SetDefinition& definition : description.sets) add_set(description, definition, mesh);
   for (const Pretension& pretension : description.pretension) cut(pretension, mesh);
   return mesh;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "osculate/cell/volume_shape.hpp"
@@ -182,6 +183,38 @@ bool touch(std::span<const ContactSides> contacts, Index node, std::array<Index,
   });
 }
 
+/// Which of the bodies of a set (cells that hang together) each node belongs to: one of its nodes.
+std::vector<Index> bodies_of(const Mesh& mesh, const Set& set) {
+  std::vector<Index> parent(mesh.nodes.size());
+  std::iota(parent.begin(), parent.end(), Index{0});
+  const auto root = [&](Index n) {
+    for (; parent[static_cast<std::size_t>(n)] != n; n = parent[static_cast<std::size_t>(n)])
+      parent[static_cast<std::size_t>(n)] =
+          parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(n)])];
+    return n;
+  };
+  for (const CellRef& ref : set.cells) {
+    const Index* const nodes = nodes_of(mesh, ref);
+    for (int k = 1; k < info_of(mesh, ref).nodes; ++k)
+      parent[static_cast<std::size_t>(root(nodes[k]))] = root(nodes[0]);
+  }
+  for (Index& n : parent) n = root(n);
+  return parent;
+}
+
+/// Whether some contact keeps two bodies of a set apart.
+bool in_contact(std::span<const ContactSides> contacts, const std::vector<Index>& bodies, Index a,
+                Index b) {
+  const auto has = [&](const std::vector<bool>& side, Index body) {
+    for (std::size_t n = 0; n < side.size(); ++n)
+      if (side[n] && bodies[n] == body) return true;
+    return false;
+  };
+  return a != b && std::ranges::any_of(contacts, [&](const ContactSides& sides) {
+           return (has(sides[0], a) && has(sides[1], b)) || (has(sides[0], b) && has(sides[1], a));
+         });
+}
+
 /// Nodes of one set of volumes (in the plane of areas) that are at the same place.
 void check_double_nodes(const Mesh& mesh, std::span<const ContactSides> contacts,
                         std::vector<Finding>& findings) {
@@ -205,11 +238,22 @@ void check_double_nodes(const Mesh& mesh, std::span<const ContactSides> contacts
           Spot{std::llround(scaled.x()), std::llround(scaled.y()), std::llround(scaled.z())}, node);
     }
     std::sort(spots.begin(), spots.end());
-    for (std::size_t i = 1; i < spots.size(); ++i)
-      if (spots[i].first == spots[i - 1].first &&
-          !touch(contacts, spots[i].second, {spots[i - 1].second, spots[i - 1].second}))
-        doubles.add(fmt::format("{} and {} of '{}'", spots[i - 1].second + 1,
-                                describe_node(mesh, spots[i].second).substr(5), set.name));
+    std::vector<Index> bodies;
+    std::map<std::pair<Index, Index>, bool> apart;  // by two bodies
+    for (std::size_t i = 1; i < spots.size(); ++i) {
+      const Index one = spots[i - 1].second, other = spots[i].second;
+      if (spots[i].first != spots[i - 1].first || touch(contacts, other, {one, one})) continue;
+      if (bodies.empty() && !contacts.empty()) bodies = bodies_of(mesh, set);
+      if (!bodies.empty()) {
+        const std::pair two(bodies[static_cast<std::size_t>(one)],
+                            bodies[static_cast<std::size_t>(other)]);
+        const auto [known, is_new] = apart.try_emplace(two, false);
+        if (is_new) known->second = in_contact(contacts, bodies, two.first, two.second);
+        if (known->second) continue;
+      }
+      doubles.add(fmt::format("{} and {} of '{}'", node_number(mesh, one),
+                              describe_node(mesh, other).substr(5), set.name));
+    }
   }
   report(findings, Flaw::double_node, false, doubles,
          "pair(s) of nodes of one body at the same place, so that it may not hang together");

@@ -38,7 +38,8 @@ using ContactSides = std::array<std::vector<bool>, 2>;
 /// Checks what a mesh file or a generator can get wrong. At most one finding per kind; with
 /// bad_index the rest is not examined. Where nodes of both sides of one of the `contacts` are at
 /// the same place, or one is on an edge of the other side, that is meant: parts of one section, or
-/// the lips of a crack, touch there. Nodes of no cell are meant where they are `also_used` (by
+/// the lips of a crack, touch there; likewise nodes of two bodies of a set that a contact keeps
+/// apart elsewhere. Nodes of no cell are meant where they are `also_used` (by
 /// node; empty: none). Tested by  tests/unit/mesh/test_check.cpp
 [[nodiscard]] std::vector<Finding> check_mesh(const Mesh& mesh,
                                               std::span<const ContactSides> contacts = {},

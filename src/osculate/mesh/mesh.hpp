@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "osculate/cell/cell_type.hpp"
@@ -67,9 +68,12 @@ struct Mesh {
   std::vector<Set> sets;
   std::vector<std::int64_t> numbers{};  ///< of the nodes in the mesh file; empty: 1, 2, ...
   std::vector<Relation> relations{};
+  std::unordered_map<std::string, std::size_t> place_of_set{};  ///< of `remember_names`, a hint
 
   /// The set of that name, else one that is called so but for capital letters.
   [[nodiscard]] const Set* find_set(std::string_view name) const {
+    if (const auto hint = place_of_set.find(std::string(name)); hint != place_of_set.end())
+      if (hint->second < sets.size() && sets[hint->second].name == name) return &sets[hint->second];
     for (const Set& set : sets)
       if (set.name == name) return &set;
     for (const Set& set : sets)
@@ -77,6 +81,13 @@ struct Mesh {
     return nullptr;
   }
 };
+
+/// Notes where sets stand, for meshes of thousands of sets (decks that name nodes one by one).
+inline void remember_names(Mesh& mesh) {
+  mesh.place_of_set.clear();
+  for (std::size_t s = 0; s < mesh.sets.size(); ++s)
+    mesh.place_of_set.try_emplace(mesh.sets[s].name, s);
+}
 
 /// What the user calls a node: its number in the mesh file.
 [[nodiscard]] inline std::int64_t node_number(const Mesh& mesh, Index node) {

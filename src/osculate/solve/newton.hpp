@@ -164,6 +164,15 @@ double relative_residual(const NewtonResult<Trial>& result) {
   return relative(e.residual.norm(), std::max(e.force_scale, least_scale));
 }
 
+/// Bodies that come free of their first penetrations, facet by facet, and the like: what is out of
+/// balance still falls, and an increment half as long would begin with the same.
+inline bool gains(const std::vector<IterationRecord>& iterations) {
+  constexpr std::size_t window = 10;
+  constexpr double enough = 0.5;
+  const std::size_t n = iterations.size();
+  return n > window && iterations[n - 1].residual < enough * iterations[n - 1 - window].residual;
+}
+
 /// Whether the tolerances are met, so that no tangent is needed any more.
 template <class Trial>
 bool meets(const Judge& judge, const Eigen::VectorXd& du, double energy_before,
@@ -233,6 +242,7 @@ template <System S>
   detail::Resistance<S> resistance(system, guess.resisted);
   detail::Peeling<S> peeling;
   int most = (resistance.on() ? 2 : 1) * options.max_iterations;
+  const int more = options.max_iterations / 2, limit = 4 * most;
   for (int i = 1; i <= most + peeling.iterations(); ++i) {
     const Eigen::VectorXd residual = result.evaluation.residual;
     const bool branched = result.evaluation.branch_residual.size() > 0;
@@ -272,6 +282,8 @@ template <System S>
       judge.begin_again();
     else if (ended)
       return result;
+    if (i == most + peeling.iterations() && most < limit && detail::gains(result.iterations))
+      most += more;
   }
   detail::fail(result, Outcome::not_converged,
                "not converged after " + std::to_string(most) + " iterations");

@@ -58,6 +58,7 @@ class Builder {
       for (const auto& [key, raw] : raw_.scopes[s].node_surfaces)
         add_nodes(SetKind::node_surface, s, raw, members_.of(Kind::nodes, s, raw));
     }
+    mesh::remember_names(out_.mesh);
     return std::move(out_);
   }
 
