@@ -46,7 +46,8 @@ struct FactorReport {
 /// know (rows of zero pivots, counts of negative ones) it leaves as it is in the report; those
 /// counts decide about stability only where the matrix is of a symmetric kind.
 ///
-/// Contract   the bits of a solution depend on the matrix alone, not on what was factored before
+/// Contract   the bits of a solution depend on the matrix (and on what may change of it) alone, not
+///            on what was factored before
 /// Errors     nothing is thrown but NotEnoughMemory and std::bad_alloc
 /// Tested by  tests/unit/la/test_mumps.cpp, tests/unit/deck/test_linear_solver.cpp (another one)
 class LinearSolver {
@@ -56,6 +57,9 @@ class LinearSolver {
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
 
+  /// Between which unknowns alone entries are likely to change from one matrix to the next; none
+  /// where nobody knows. A solver may make use of it, or not.
+  virtual void may_change(std::vector<Index> /*unknowns*/) {}
   /// Analyses where pattern or symmetry are not those of the last call, and factors.
   /// `pattern_version` saves the comparison of patterns where it changed; where it did not, the
   /// pattern is compared all the same.

@@ -6,68 +6,22 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
 #include "osculate/core/memory.hpp"
 #include "osculate/la/accuracy.hpp"
+#include "osculate/la/mumps_library.hpp"
 #include "osculate/la/ordering.hpp"
 
-extern "C" void openblas_set_num_threads(int);
-extern "C" int openblas_get_num_threads(void);
-
 namespace osculate::la {
+
+using namespace mumps;  // NOLINT(google-build-using-namespace): the words of one library
+
 namespace {
 
 constexpr const char* not_definite = "the matrix is not positive definite";
-constexpr int use_communicator_world = -987654;
-enum Job { start = -1, end = -2, analyse = 1, factorise = 2, back_substitute = 3 };
-
-/// The library's control numbers, zero-based; the manual counts from one.
-enum Control {
-  error_unit = 0,
-  warning_unit = 1,
-  info_unit = 2,
-  print_level = 3,
-  transversal = 5,
-  ordering = 6,
-  scaling = 7,
-  slack = 13,
-  openmp_threads = 15,
-  null_pivots = 23
-};
-constexpr int null_pivot_threshold = 2;  // CNTL(3)
-
-/// The whole library is called by one thread at a time, with the host's BLAS threads set aside.
-class LibraryCall {
- public:
-  explicit LibraryCall(int blas_threads) : guard_(mutex()), before_(openblas_get_num_threads()) {
-    if (before_ != blas_threads) openblas_set_num_threads(blas_threads);
-    changed_ = before_ != blas_threads;
-  }
-  ~LibraryCall() {
-    if (changed_) openblas_set_num_threads(before_);
-  }
-  LibraryCall(const LibraryCall&) = delete;
-  LibraryCall& operator=(const LibraryCall&) = delete;
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex lock;
-    return lock;
-  }
-  std::lock_guard<std::mutex> guard_;
-  int before_;
-  bool changed_ = false;
-};
 
 double seconds_since(std::chrono::steady_clock::time_point from) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-}
-
-constexpr int general = 0, definite = 1, pivoted = 2;  // the library's SYM
-constexpr int kind_of(Symmetry symmetry) {
-  if (symmetry == Symmetry::unsymmetric) return general;
-  return symmetry == Symmetry::positive_definite ? definite : pivoted;
 }
 
 constexpr std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -150,9 +104,7 @@ struct Mumps::Impl {
   void refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
 };
 
-/// The BLAS asks the system for its buffers until it gets them: where there is no room for them, it
-/// is not to be called.
-void require_room_for_blas() {
+void mumps::require_room_for_blas() {
   constexpr std::size_t buffers = std::size_t{256} << 20U;
   if (!core::can_allocate(buffers))
     throw NotEnoughMemory("not enough memory for the linear solver");

@@ -159,6 +159,7 @@ struct Analysis {
   }
 
   void run_step(const Step& step) {
+    solver->may_change(step.frequencies ? std::vector<Index>{} : system.changing_unknowns());
     if (step.frequencies) return find_vibrations(step);
     const auto on_increment = [&](const BasicState<Dim>& state,
                                   const solve::IncrementRecord& record) {

@@ -1,4 +1,5 @@
 #include "osculate/model/system.hpp"
+#include "osculate/model/changing_unknowns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -293,6 +294,13 @@ std::string BasicSystem<Dim>::refused(const State& committed, const Trial& trial
     if (!text.empty()) return text;
   }
   return {};
+}
+
+template <int Dim>
+std::vector<Index> BasicSystem<Dim>::changing_unknowns() const {
+  // Multipliers make the small matrix indefinite, which only its unsymmetric factors bear.
+  if (impl_->constraints.count() > 0 && impl_->symmetry != la::Symmetry::unsymmetric) return {};
+  return model::changing_unknowns(impl_->model, impl_->dofs, impl_->constraints.count());
 }
 
 template <int Dim>

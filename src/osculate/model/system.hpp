@@ -161,6 +161,8 @@ class BasicSystem {
   [[nodiscard]] const la::SparseMatrix& matrix();
   [[nodiscard]] std::uint64_t pattern_version() const;
   [[nodiscard]] la::Symmetry symmetry() const;
+  /// See model/changing_unknowns.hpp; for la::LinearSolver::may_change.
+  [[nodiscard]] std::vector<Index> changing_unknowns() const;
 
   [[nodiscard]] const BasicDofSpace<Dim>& dofs() const;
   [[nodiscard]] const Forces& forces() const;  ///< of the last evaluation

@@ -1,0 +1,255 @@
+#include "osculate/la/condensed.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "osculate/la/accuracy.hpp"
+
+namespace osculate::la {
+namespace {
+
+/// The dense matrix of the unknowns that may change, scaled by its diagonal.
+class Dense {
+ public:
+  /// False: singular; of symmetric kinds also where it is not positive definite.
+  bool factor(Eigen::MatrixXd s, bool symmetric) {
+    symmetric_ = symmetric;
+    scale_.resize(s.rows());
+    for (Eigen::Index i = 0; i < s.rows(); ++i) {
+      const double size = s.row(i).lpNorm<Eigen::Infinity>();
+      if (!(size > 0) || !std::isfinite(size)) return false;
+      scale_[i] = 1 / std::sqrt(size);
+    }
+    s = scale_.asDiagonal() * s * scale_.asDiagonal();
+    Eigen::ArrayXd pivots;
+    if (symmetric) {
+      cholesky_.compute(s);
+      if (cholesky_.info() != Eigen::Success) return false;
+      pivots = cholesky_.matrixLLT().diagonal().array().square();
+    } else {
+      lu_.compute(s);
+      pivots = lu_.matrixLU().diagonal().array().abs();
+    }
+    ratio_ = pivots.minCoeff() / pivots.maxCoeff();
+    return ratio_ > 0;
+  }
+  void solve(Eigen::MatrixXd& b) const {
+    b = scale_.asDiagonal() * b;
+    if (symmetric_)
+      cholesky_.solveInPlace(b);
+    else
+      b = lu_.solve(b);
+    b = scale_.asDiagonal() * b;
+  }
+  [[nodiscard]] double pivot_ratio() const { return ratio_; }
+
+ private:
+  Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
+  Eigen::LLT<Eigen::MatrixXd> cholesky_;
+  Eigen::VectorXd scale_;
+  bool symmetric_ = false;
+  double ratio_ = 0;
+};
+
+/// Square roots of the largest entries of rows and columns, 1 for empty ones.
+Eigen::VectorXd scale_of(const SparseMatrix& k, bool symmetric) {
+  Eigen::VectorXd scale = Eigen::VectorXd::Zero(k.n);
+  for (Index i = 0; i < k.n; ++i)
+    for (Index e = k.row_start[static_cast<std::size_t>(i)];
+         e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e) {
+      const Index j = k.column[static_cast<std::size_t>(e)];
+      if (symmetric && i > j) continue;
+      const double size = std::abs(k.value[static_cast<std::size_t>(e)]);
+      scale[i] = std::max(scale[i], size);
+      scale[j] = std::max(scale[j], size);
+    }
+  for (double& s : scale) s = s > 0 ? std::sqrt(s) : 1.0;
+  return scale;
+}
+
+Eigen::VectorXd product(const SparseMatrix& k, const Eigen::VectorXd& x, bool symmetric) {
+  if (!symmetric) return multiply(k, x);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(k.n);
+  for (Index i = 0; i < k.n; ++i)
+    for (Index e = k.row_start[static_cast<std::size_t>(i)];
+         e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e) {
+      const Index j = k.column[static_cast<std::size_t>(e)];
+      const double value = k.value[static_cast<std::size_t>(e)];
+      if (i > j) continue;
+      y[i] += value * x[j];
+      if (i != j) y[j] += value * x[i];
+    }
+  return y;
+}
+
+}  // namespace
+
+struct Condensed::Impl {
+  Mumps whole;
+  SchurFactors inside;
+  Dense dense;
+  std::vector<Index> changing;
+  bool condensed = false;  ///< the last factors
+  SparseMatrix matrix;     ///< theirs, where condensed
+  bool symmetric = false;
+  double seconds = 0;
+  Count count;
+
+  explicit Impl(MumpsOptions options) : whole(options), inside(options.blas_threads) {}
+  ~Impl() = default;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  [[nodiscard]] bool pays(const SparseMatrix& k, Symmetry symmetry);
+  bool condense(const SparseMatrix& k, FactorReport& report);
+  [[nodiscard]] Eigen::MatrixXd small_matrix(const SparseMatrix& k) const;
+  [[nodiscard]] bool accurate();
+  bool substitute(Eigen::MatrixXd& x);
+  bool substitute(Eigen::VectorXd& x);
+};
+
+/// A dense matrix of the few beside the sparse one of the many, in operations: a function of the
+/// pattern alone.
+bool Condensed::Impl::pays(const SparseMatrix& k, Symmetry symmetry) {
+  constexpr double fewest = 4, worth_it = 3;
+  const auto c = static_cast<double>(changing.size());
+  if (changing.empty() || fewest * c > k.n) return false;
+  if (!inside.analyse(k, symmetry, changing)) return false;
+  const double dense_operations = (symmetric ? 1.0 : 2.0) / 3.0 * c * c * c;
+  return inside.operations() > worth_it * dense_operations;
+}
+
+Eigen::MatrixXd Condensed::Impl::small_matrix(const SparseMatrix& k) const {
+  std::vector<Eigen::Index> place(static_cast<std::size_t>(k.n), -1);
+  for (std::size_t a = 0; a < changing.size(); ++a)
+    place[static_cast<std::size_t>(changing[a])] = static_cast<Eigen::Index>(a);
+  Eigen::MatrixXd s = inside.complement();
+  for (const Index i : changing)
+    for (Index e = k.row_start[static_cast<std::size_t>(i)];
+         e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e) {
+      const Index j = k.column[static_cast<std::size_t>(e)];
+      if (place[static_cast<std::size_t>(j)] < 0 || (symmetric && i > j)) continue;
+      const Eigen::Index a = place[static_cast<std::size_t>(i)];
+      const Eigen::Index b = place[static_cast<std::size_t>(j)];
+      s(a, b) += k.value[static_cast<std::size_t>(e)];
+      if (symmetric && a != b) s(b, a) += k.value[static_cast<std::size_t>(e)];
+    }
+  return s;
+}
+
+bool Condensed::Impl::substitute(Eigen::MatrixXd& x) {
+  Eigen::MatrixXd of_c;
+  if (!inside.reduce(x, of_c)) return false;
+  dense.solve(of_c);
+  return inside.expand(of_c, x);
+}
+
+bool Condensed::Impl::substitute(Eigen::VectorXd& x) {
+  Eigen::MatrixXd as_matrix = x;
+  if (!substitute(as_matrix)) return false;
+  x = as_matrix.col(0);
+  return true;
+}
+
+/// At most half of the digits are lost: else Mumps looks at the whole.
+bool Condensed::Impl::accurate() {
+  constexpr double harmless = 1e-9, digits_left = 1e-6;
+  if (inside.pivot_ratio() > harmless && dense.pivot_ratio() > harmless) return true;
+  const double lost = lost_accuracy(
+      scale_of(matrix, symmetric),
+      [this](const Eigen::VectorXd& x) { return product(matrix, x, symmetric); },
+      [this](Eigen::VectorXd& x) { return substitute(x); });
+  return lost < digits_left;
+}
+
+/// False: Mumps is to do it.
+bool Condensed::Impl::condense(const SparseMatrix& k, FactorReport& report) {
+  if (!inside.factor(k)) return false;
+  if (!dense.factor(small_matrix(k), symmetric)) return false;
+  matrix = k;
+  if (!accurate()) return false;
+  report = {};
+  report.negative_pivots = inside.negative_pivots();
+  report.factor_entries =
+      inside.factor_entries() + static_cast<std::int64_t>(changing.size() * changing.size());
+  return true;
+}
+
+Condensed::Condensed(MumpsOptions options) : impl_(std::make_unique<Impl>(options)) {}
+Condensed::~Condensed() = default;
+
+void Condensed::may_change(std::vector<Index> unknowns) {
+  std::ranges::sort(unknowns);
+  unknowns.erase(std::unique(unknowns.begin(), unknowns.end()), unknowns.end());
+  impl_->changing = std::move(unknowns);
+}
+
+FactorReport Condensed::factor(const SparseMatrix& k, std::uint64_t pattern_version,
+                               Symmetry symmetry) {
+  Impl& s = *impl_;
+  const auto begun = std::chrono::steady_clock::now();
+  const double before = s.whole.seconds();
+  FactorReport report;
+  s.symmetric = symmetry != Symmetry::unsymmetric;
+  s.condensed = s.pays(k, symmetry) && s.condense(k, report);
+  const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
+  s.seconds += spent.count();
+  if (s.condensed) {
+    report.seconds_factor = spent.count();
+    ++s.count.small;
+    return report;
+  }
+  ++s.count.whole;
+  report = s.whole.factor(k, pattern_version, symmetry);
+  s.seconds += s.whole.seconds() - before;
+  return report;
+}
+
+SolveStatus Condensed::solve(Eigen::MatrixXd& rhs) {
+  Impl& s = *impl_;
+  const auto begun = std::chrono::steady_clock::now();
+  SolveStatus status = SolveStatus::ok;
+  if (!s.condensed) {
+    status = s.whole.solve(rhs);
+  } else if (rhs.rows() != s.matrix.n || !rhs.allFinite()) {
+    return SolveStatus::failed;
+  } else if (rhs.size() > 0) {
+    constexpr double good = 1e-12;
+    const Eigen::MatrixXd given = rhs;
+    if (!s.substitute(rhs)) return SolveStatus::failed;
+    for (Eigen::Index c = 0; c < rhs.cols() && rhs.allFinite(); ++c) {
+      Eigen::VectorXd rest = given.col(c) - product(s.matrix, rhs.col(c), s.symmetric);
+      const double off = rest.stableNorm();
+      if (!(off > good * given.col(c).stableNorm()) || !s.substitute(rest)) continue;
+      const Eigen::VectorXd better = rhs.col(c) + rest;
+      if ((given.col(c) - product(s.matrix, better, s.symmetric)).stableNorm() < off)
+        rhs.col(c) = better;
+    }
+    if (!rhs.allFinite()) status = SolveStatus::singular;
+  }
+  s.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  return status;
+}
+
+SolveStatus Condensed::solve(Eigen::VectorXd& rhs) {
+  Impl& s = *impl_;
+  if (!s.condensed) {
+    const double before = s.whole.seconds();
+    const SolveStatus status = s.whole.solve(rhs);
+    s.seconds += s.whole.seconds() - before;
+    return status;
+  }
+  Eigen::MatrixXd as_matrix = rhs;
+  const SolveStatus status = solve(as_matrix);
+  if (as_matrix.size() == rhs.size()) rhs = as_matrix.reshaped();
+  return status;
+}
+
+double Condensed::seconds() const { return impl_->seconds; }
+Condensed::Count Condensed::count() const { return impl_->count; }
+
+}  // namespace osculate::la
