@@ -115,7 +115,8 @@ BoundKeys<S> solver_keys() {
   return {
       {tolerance_key(),
        may(&S::max_iterations, "max_iterations",
-           integer("Iterations before an increment is cut.")
+           integer("Iterations before an increment is cut; up to four times as many while what is "
+                   "out of balance halves every ten.")
                .at_least(1)
                .at_most(100'000)
                .otherwise("25")),

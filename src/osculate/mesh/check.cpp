@@ -202,18 +202,40 @@ std::vector<Index> bodies_of(const Mesh& mesh, const Set& set) {
   return parent;
 }
 
-/// Whether some contact keeps two bodies of a set apart.
-bool in_contact(std::span<const ContactSides> contacts, const std::vector<Index>& bodies, Index a,
-                Index b) {
-  const auto has = [&](const std::vector<bool>& side, Index body) {
-    for (std::size_t n = 0; n < side.size(); ++n)
-      if (side[n] && bodies[n] == body) return true;
-    return false;
-  };
-  return a != b && std::ranges::any_of(contacts, [&](const ContactSides& sides) {
-           return (has(sides[0], a) && has(sides[1], b)) || (has(sides[0], b) && has(sides[1], a));
-         });
-}
+/// Which nodes of a set belong to two bodies that some contact keeps apart.
+class Apart {
+ public:
+  Apart(const Mesh& mesh, const Set& set, std::span<const ContactSides> contacts)
+      : mesh_(mesh), set_(set), contacts_(contacts) {}
+
+  bool operator()(Index one, Index other) {
+    if (contacts_.empty()) return false;
+    if (bodies_.empty()) bodies_ = bodies_of(mesh_, set_);
+    const std::pair two(bodies_[static_cast<std::size_t>(one)],
+                        bodies_[static_cast<std::size_t>(other)]);
+    const auto [known, is_new] = known_.try_emplace(two, false);
+    if (is_new) known->second = two.first != two.second && in_contact(two.first, two.second);
+    return known->second;
+  }
+
+ private:
+  [[nodiscard]] bool in_contact(Index a, Index b) const {
+    const auto has = [&](const std::vector<bool>& side, Index body) {
+      for (std::size_t n = 0; n < side.size(); ++n)
+        if (side[n] && bodies_[n] == body) return true;
+      return false;
+    };
+    return std::ranges::any_of(contacts_, [&](const ContactSides& sides) {
+      return (has(sides[0], a) && has(sides[1], b)) || (has(sides[0], b) && has(sides[1], a));
+    });
+  }
+
+  const Mesh& mesh_;
+  const Set& set_;
+  std::span<const ContactSides> contacts_;
+  std::vector<Index> bodies_;
+  std::map<std::pair<Index, Index>, bool> known_;  ///< by two bodies
+};
 
 /// Nodes of one set of volumes (in the plane of areas) that are at the same place.
 void check_double_nodes(const Mesh& mesh, std::span<const ContactSides> contacts,
@@ -238,19 +260,11 @@ void check_double_nodes(const Mesh& mesh, std::span<const ContactSides> contacts
           Spot{std::llround(scaled.x()), std::llround(scaled.y()), std::llround(scaled.z())}, node);
     }
     std::sort(spots.begin(), spots.end());
-    std::vector<Index> bodies;
-    std::map<std::pair<Index, Index>, bool> apart;  // by two bodies
+    Apart apart(mesh, set, contacts);
     for (std::size_t i = 1; i < spots.size(); ++i) {
       const Index one = spots[i - 1].second, other = spots[i].second;
       if (spots[i].first != spots[i - 1].first || touch(contacts, other, {one, one})) continue;
-      if (bodies.empty() && !contacts.empty()) bodies = bodies_of(mesh, set);
-      if (!bodies.empty()) {
-        const std::pair two(bodies[static_cast<std::size_t>(one)],
-                            bodies[static_cast<std::size_t>(other)]);
-        const auto [known, is_new] = apart.try_emplace(two, false);
-        if (is_new) known->second = in_contact(contacts, bodies, two.first, two.second);
-        if (known->second) continue;
-      }
+      if (apart(one, other)) continue;
       doubles.add(fmt::format("{} and {} of '{}'", node_number(mesh, one),
                               describe_node(mesh, other).substr(5), set.name));
     }
@@ -270,10 +284,10 @@ double side_of(const Mesh& mesh, CellRef ref, const Vec3& a, const Vec3& b) {
 }
 
 /// Ends of free edges that lie on other free edges, between their ends.
-void add_hanging(const Mesh& mesh, const std::string& set,
-                 const std::vector<std::array<Index, 2>>& free,
+void add_hanging(const Mesh& mesh, const Set& set, const std::vector<std::array<Index, 2>>& free,
                  std::span<const ContactSides> contacts, Tally& hanging) {
   constexpr double nearly = 1e-6;  // of the edge
+  Apart apart(mesh, set, contacts);
   std::vector<Index> nodes;
   for (const std::array<Index, 2>& ends : free) nodes.insert(nodes.end(), ends.begin(), ends.end());
   const auto left = [&](Index n, double x) { return point(mesh, n).x() < x; };
@@ -291,8 +305,8 @@ void add_hanging(const Mesh& mesh, const std::string& set,
       const Vec3 arm = point(mesh, *n) - a;
       const double share = arm.dot(along) / size;
       if (share > nearly && share < 1 - nearly && std::abs(cross(along, arm)) < nearly * size &&
-          !touch(contacts, *n, ends))
-        hanging.add(fmt::format("{} of '{}'", describe_node(mesh, *n).substr(5), set));
+          !touch(contacts, *n, ends) && !apart(*n, ends[0]))
+        hanging.add(fmt::format("{} of '{}'", describe_node(mesh, *n).substr(5), set.name));
     }
   }
 }
@@ -324,7 +338,7 @@ void check_plane(const Mesh& mesh, std::span<const ContactSides> contacts,
                                     describe_node(mesh, ends[0]),
                                     describe_node(mesh, ends[1]).substr(5), set.name));
     }
-    add_hanging(mesh, set.name, free, contacts, hanging);
+    add_hanging(mesh, set, free, contacts, hanging);
   }
   report(findings, Flaw::overlap, false, overlapping,
          "place(s) where cells of one body lie over each other");

@@ -56,8 +56,8 @@ void mark_cells(const BasicModel<Dim>& model, Marks<Dim>& marks) {
                         material::linear(section.section.law);
     for (const mesh::CellRef& cell : section.cells) {
       const std::span<const Index> nodes = cell_nodes(model.mesh, cell).nodes;
-      const bool turns = std::ranges::any_of(
-          nodes, [&](Index n) { return model.body_of_node[static_cast<std::size_t>(n)] >= 0; });
+      const bool turns =
+          std::ranges::any_of(nodes, [&](Index n) { return marks.dofs.body_of(n) >= 0; });
       if (!linear || turns) marks.nodes(nodes);
       marks.of_cells = marks.of_cells || !linear;
     }
