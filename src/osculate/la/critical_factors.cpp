@@ -1,0 +1,215 @@
+#include "osculate/la/critical_factors.hpp"
+
+#include <Spectra/SymGEigsSolver.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "osculate/la/spectra_matrix.hpp"
+
+namespace osculate::la {
+namespace {
+
+/// Eigenvalues 1 / lambda below it, over the largest one in size, are those of what has no stress.
+constexpr double unloaded = 1e-11;
+
+struct Pencil {
+  Sparse k, a;
+  LinearSolver& solver;
+  std::uint64_t version = 1;
+
+  FactorReport factor(double s) {
+    const Sparse shifted = k + s * a;
+    return solver.factor(plain(shifted), version, Symmetry::indefinite);
+  }
+};
+
+/// -A.
+struct Loosening {
+  using Scalar = double;
+  const Sparse& a;
+  [[nodiscard]] Eigen::Index rows() const { return a.rows(); }
+  [[nodiscard]] Eigen::Index cols() const { return a.cols(); }
+  void perform_op(const double* in, double* out) const {
+    Eigen::Map<Eigen::VectorXd>(out, a.rows()) =
+        -(a * Eigen::Map<const Eigen::VectorXd>(in, a.rows()));
+  }
+};
+
+/// K, factored.
+struct Holding {
+  using Scalar = double;
+  const Sparse& k;
+  LinearSolver& solver;
+  bool& failed;
+  [[nodiscard]] Eigen::Index rows() const { return k.rows(); }
+  [[nodiscard]] Eigen::Index cols() const { return k.cols(); }
+  void perform_op(const double* in, double* out) const {
+    Eigen::Map<Eigen::VectorXd>(out, k.rows()) =
+        k * Eigen::Map<const Eigen::VectorXd>(in, k.rows());
+  }
+  void solve(const double* in, double* out) const {
+    Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(in, k.rows());
+    if (solver.solve(x) != SolveStatus::ok) failed = true;
+    if (failed) x.setZero();
+    Eigen::Map<Eigen::VectorXd>(out, k.rows()) = x;
+  }
+};
+
+/// Eigenvalues 1 / lambda, those of `rule` first, and their vectors.
+struct Flexible {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;
+  bool ok = true;
+};
+
+Flexible by_lanczos(Pencil& p, Spectra::SortRule rule, Eigen::Index count) {
+  Flexible out;
+  const Eigen::Index n = p.k.rows();
+  bool failed = false;
+  Loosening loosening{p.a};
+  Holding holding{p.k, p.solver, failed};
+  const Eigen::Index space = std::min(n, std::max(2 * count + 1, count + 20));
+  Spectra::SymGEigsSolver<Loosening, Holding, Spectra::GEigsMode::RegularInverse> lanczos(
+      loosening, holding, count, space);
+  // It starts with what multipliers allow.
+  Eigen::VectorXd start(n);
+  for (Eigen::Index i = 0; i < n; ++i) start[i] = 1 + 0.5 * std::sin(1.7 * static_cast<double>(i));
+  start = p.a * start;
+  out.ok = p.solver.solve(start) == SolveStatus::ok && start.norm() > 0;
+  if (!out.ok) return out;
+  lanczos.init(start.data());
+  constexpr int most = 300;
+  constexpr double tolerance = 1e-11;
+  lanczos.compute(rule, most, tolerance, rule);
+  out.ok = !failed;
+  out.values = lanczos.eigenvalues();  // those that have converged
+  out.vectors = lanczos.eigenvectors();
+  return out;
+}
+
+/// All there are, where unknowns are few.
+///
+/// Formula    G = K^-1 on the unknowns that are no multipliers, G = L L^T ,
+///            (L^T (-A) L) z = z / lambda , v = K^-1 (-A) L z lambda
+Flexible all_at_once(Pencil& p, Eigen::Index displacements) {
+  Flexible out;
+  const Eigen::Index n = p.k.rows(), m = displacements;
+  Eigen::MatrixXd g = Eigen::MatrixXd::Identity(n, m);
+  out.ok = p.solver.solve(g) == SolveStatus::ok;
+  if (!out.ok) return out;
+  const Eigen::MatrixXd own = 0.5 * (g.topRows(m) + g.topRows(m).transpose());
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of_g{own};
+  const Eigen::MatrixXd l =
+      of_g.eigenvectors() * of_g.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  const Eigen::MatrixXd loosened = -(Eigen::MatrixXd(p.a).topLeftCorner(m, m) * l);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> all{
+      Eigen::MatrixXd(l.transpose() * loosened)};
+  out.values = all.eigenvalues().reverse();
+  out.vectors = g * (loosened * all.eigenvectors()).rowwise().reverse();
+  return out;
+}
+
+/// Positive ones, at most so many, as factors with clean vectors.
+void take(Pencil& p, const Flexible& found, Eigen::Index count, CriticalFactors& out) {
+  const double largest = found.values.size() > 0 ? found.values.cwiseAbs().maxCoeff() : 0;
+  std::vector<std::pair<double, Eigen::Index>> order;
+  for (Eigen::Index i = 0; i < found.values.size(); ++i)
+    if (found.values[i] > unloaded * largest) order.emplace_back(1 / found.values[i], i);
+  std::sort(order.begin(), order.end());
+  const Eigen::Index n = std::min(count, static_cast<Eigen::Index>(order.size()));
+  out.values.resize(n);
+  out.vectors.resize(p.k.rows(), n);
+  out.residual = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto& [value, at] = order[static_cast<std::size_t>(i)];
+    Eigen::VectorXd v = p.a * found.vectors.col(at);
+    if (p.solver.solve(v) != SolveStatus::ok) v = found.vectors.col(at);
+    const Eigen::VectorXd kv = p.k * v;
+    out.residual = std::max(out.residual, (kv + value * (p.a * v)).norm() / kv.norm());
+    out.values[i] = value;
+    out.vectors.col(i) = v / std::sqrt(v.dot(kv));
+  }
+}
+
+/// Factors up to the last one that are not there.
+int count_missing_factors(Pencil& p, const CriticalFactors& found, int multipliers) {
+  constexpr double above = 1e-6;
+  const Eigen::Index n = found.values.size();
+  const FactorReport beyond = p.factor((1 + above) * found.values[n - 1]);
+  if (beyond.status == SolveStatus::failed) return -1;
+  return beyond.negative_pivots - multipliers - static_cast<int>(n);
+}
+
+/// Negative pivots of a stable state: those of multipliers that hold something.
+int pivots_of_multipliers(Pencil& p, int multipliers) {
+  if (multipliers == 0) return 0;
+  const Sparse k = p.k;
+  constexpr double stiff = 1e3;
+  for (Eigen::Index i = 0; i < k.rows() - multipliers; ++i)
+    p.k.coeffRef(i, i) += stiff * std::abs(p.k.coeff(i, i));
+  const FactorReport stiffer = p.factor(0);
+  p.k = k;
+  return stiffer.status == SolveStatus::failed ? -1 : stiffer.negative_pivots;
+}
+
+void find_reversed(Pencil& p, const Flexible& all, CriticalFactors& out) {
+  Flexible found = all;
+  if (all.values.size() == 0) found = by_lanczos(p, Spectra::SortRule::SmallestAlge, 1);
+  if (!found.ok || found.values.size() == 0) return;
+  const double least = found.values.minCoeff();
+  const double largest =
+      out.values.size() > 0 ? 1 / out.values[0] : std::numeric_limits<double>::min();
+  if (least < -unloaded * std::max(largest, std::abs(least))) out.reversed = 1 / least;
+}
+
+}  // namespace
+
+CriticalFactors critical_factors(const SparseMatrix& k, const SparseMatrix& a, int multipliers,
+                                 int count, LinearSolver& solver) {
+  const Sparse of_k = sparse(k), of_a = sparse(a);
+  Pencil p{0.5 * (of_k + Sparse(of_k.transpose())), 0.5 * (of_a + Sparse(of_a.transpose())),
+           solver};
+  CriticalFactors out;
+  const int holding = pivots_of_multipliers(p, multipliers);
+  const FactorReport report = p.factor(0);
+  if (report.status != SolveStatus::ok || holding < 0) {
+    out.failure =
+        report.status == SolveStatus::failed ? report.message : "something is free to move";
+    return out;
+  }
+  if (report.negative_pivots != holding) {
+    out.failure = "the state before is not stable itself";
+    return out;
+  }
+  constexpr Eigen::Index few = 150;
+  const Eigen::Index n = p.k.rows(), displacements = n - multipliers;
+  Flexible all;
+  if (n <= few) {
+    all = all_at_once(p, displacements);
+    if (all.ok) take(p, all, count, out);
+    if (all.ok) find_reversed(p, all, out);
+    if (!all.ok) out.failure = "the stiffness cannot be solved for";
+    return out;
+  }
+  constexpr int tries = 3;
+  Eigen::Index more = count;
+  for (int i = 0; i < tries; ++i) {
+    const Flexible found = by_lanczos(p, Spectra::SortRule::LargestAlge, std::min(more, n / 3));
+    if (!found.ok) {
+      out.failure = "the stiffness cannot be solved for";
+      return out;
+    }
+    take(p, found, more, out);
+    if (i == 0) find_reversed(p, {}, out);
+    if (out.values.size() == 0) break;
+    out.missing = count_missing_factors(p, out, holding);
+    if (p.factor(0).status == SolveStatus::failed || out.missing <= 0) break;
+    more = out.values.size() + out.missing;
+  }
+  return out;
+}
+
+}  // namespace osculate::la
