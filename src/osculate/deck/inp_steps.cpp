@@ -104,7 +104,6 @@ class Steps {
     about_start_ = moved_ && !io::inp::find_parameter(*step_, "PERTURBATION");
     factors_ = Fields(m_.deck, only_line(m_, card, "the number of buckling factors"))
                    .number("the number of buckling factors");
-    if (factors_ < 1) io::inp::fail(m_.deck, card, "expected at least one buckling factor");
   }
 
   void read_time(const Card& card) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "osculate/la/spectra_matrix.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 constexpr double unloaded = 1e-11;
 
 struct Pencil {
-  Sparse k, a;
+  Sparse k, a, own;
   LinearSolver& solver;
   std::uint64_t version = 1;
 
@@ -38,17 +39,19 @@ struct Loosening {
   }
 };
 
-/// K, factored.
+/// K, factored; its product is that of the unknowns that are no multipliers (`own`), which the
+/// others have no part in: what they allow they do no work on.
 struct Holding {
   using Scalar = double;
   const Sparse& k;
+  const Sparse& own;
   LinearSolver& solver;
   bool& failed;
   [[nodiscard]] Eigen::Index rows() const { return k.rows(); }
   [[nodiscard]] Eigen::Index cols() const { return k.cols(); }
   void perform_op(const double* in, double* out) const {
     Eigen::Map<Eigen::VectorXd>(out, k.rows()) =
-        k * Eigen::Map<const Eigen::VectorXd>(in, k.rows());
+        own * Eigen::Map<const Eigen::VectorXd>(in, k.rows());
   }
   void solve(const double* in, double* out) const {
     Eigen::VectorXd x = Eigen::Map<const Eigen::VectorXd>(in, k.rows());
@@ -70,7 +73,7 @@ Flexible by_lanczos(Pencil& p, Spectra::SortRule rule, Eigen::Index count) {
   const Eigen::Index n = p.k.rows();
   bool failed = false;
   Loosening loosening{p.a};
-  Holding holding{p.k, p.solver, failed};
+  Holding holding{p.k, p.own, p.solver, failed};
   const Eigen::Index space = std::min(n, std::max(2 * count + 1, count + 20));
   Spectra::SymGEigsSolver<Loosening, Holding, Spectra::GEigsMode::RegularInverse> lanczos(
       loosening, holding, count, space);
@@ -81,10 +84,15 @@ Flexible by_lanczos(Pencil& p, Spectra::SortRule rule, Eigen::Index count) {
   out.ok = p.solver.solve(start) == SolveStatus::ok && start.norm() > 0;
   if (!out.ok) return out;
   lanczos.init(start.data());
-  constexpr int most = 300;
+  constexpr int most = 100;
   constexpr double tolerance = 1e-11;
-  lanczos.compute(rule, most, tolerance, rule);
+  try {
+    lanczos.compute(rule, most, tolerance, rule);
+  } catch (const std::runtime_error&) {  // of its own small problem
+    failed = true;
+  }
   out.ok = !failed;
+  if (failed) return out;
   out.values = lanczos.eigenvalues();  // those that have converged
   out.vectors = lanczos.eigenvectors();
   return out;
@@ -170,8 +178,11 @@ void find_reversed(Pencil& p, const Flexible& all, CriticalFactors& out) {
 CriticalFactors critical_factors(const SparseMatrix& k, const SparseMatrix& a, int multipliers,
                                  int count, LinearSolver& solver) {
   const Sparse of_k = sparse(k), of_a = sparse(a);
-  Pencil p{0.5 * (of_k + Sparse(of_k.transpose())), 0.5 * (of_a + Sparse(of_a.transpose())),
-           solver};
+  Pencil p{
+      0.5 * (of_k + Sparse(of_k.transpose())), 0.5 * (of_a + Sparse(of_a.transpose())), {}, solver};
+  p.own = p.k;
+  const Eigen::Index last = p.k.rows() - multipliers;
+  p.own.prune([&](Index row, Index column, double) { return row < last && column < last; });
   CriticalFactors out;
   const int holding = pivots_of_multipliers(p, multipliers);
   const FactorReport report = p.factor(0);
@@ -199,7 +210,7 @@ CriticalFactors critical_factors(const SparseMatrix& k, const SparseMatrix& a, i
   for (int i = 0; i < tries; ++i) {
     const Flexible found = by_lanczos(p, Spectra::SortRule::LargestAlge, std::min(more, n / 3));
     if (!found.ok) {
-      out.failure = "the stiffness cannot be solved for";
+      out.failure = "Lanczos' method did not converge";
       return out;
     }
     take(p, found, more, out);
