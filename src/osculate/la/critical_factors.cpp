@@ -15,6 +15,8 @@ namespace {
 
 /// Eigenvalues 1 / lambda below it, over the largest one in size, are those of what has no stress.
 constexpr double unloaded = 1e-11;
+/// Of Lanczos' method: for what is wanted, and for what is only told of where it is found.
+constexpr int restarts = 100, few_restarts = 10;
 
 struct Pencil {
   Sparse k, a, own;
@@ -68,7 +70,7 @@ struct Flexible {
   bool ok = true;
 };
 
-Flexible by_lanczos(Pencil& p, Spectra::SortRule rule, Eigen::Index count) {
+Flexible by_lanczos(Pencil& p, Spectra::SortRule rule, Eigen::Index count, int most) {
   Flexible out;
   const Eigen::Index n = p.k.rows();
   bool failed = false;
@@ -84,7 +86,6 @@ Flexible by_lanczos(Pencil& p, Spectra::SortRule rule, Eigen::Index count) {
   out.ok = p.solver.solve(start) == SolveStatus::ok && start.norm() > 0;
   if (!out.ok) return out;
   lanczos.init(start.data());
-  constexpr int most = 100;
   constexpr double tolerance = 1e-11;
   try {
     lanczos.compute(rule, most, tolerance, rule);
@@ -120,8 +121,18 @@ Flexible all_at_once(Pencil& p, Eigen::Index displacements) {
   return out;
 }
 
-/// Positive ones, at most so many, as factors with clean vectors.
-void take(Pencil& p, const Flexible& found, Eigen::Index count, CriticalFactors& out) {
+/// What the rounding of K does to a factor, relative to it: |v| . |K| |v| / v . K v in its digits.
+double round_off(const Sparse& k, const Eigen::VectorXd& v, double work) {
+  double size = 0;
+  for (Eigen::Index i = 0; i < k.outerSize(); ++i)
+    for (Sparse::InnerIterator at(k, i); at; ++at)
+      size += std::abs(v[at.row()] * at.value() * v[at.col()]);
+  return std::numeric_limits<double>::epsilon() * size / work;
+}
+
+/// Positive ones, at most so many, as factors with clean vectors. Returns their relative accuracy.
+double take(Pencil& p, const Flexible& found, Eigen::Index count, CriticalFactors& out) {
+  double accuracy = 0;
   const double largest = found.values.size() > 0 ? found.values.cwiseAbs().maxCoeff() : 0;
   std::vector<std::pair<double, Eigen::Index>> order;
   for (Eigen::Index i = 0; i < found.values.size(); ++i)
@@ -137,14 +148,19 @@ void take(Pencil& p, const Flexible& found, Eigen::Index count, CriticalFactors&
     if (p.solver.solve(v) != SolveStatus::ok) v = found.vectors.col(at);
     const Eigen::VectorXd kv = p.k * v;
     out.residual = std::max(out.residual, (kv + value * (p.a * v)).norm() / kv.norm());
+    const double work = v.dot(kv);
+    accuracy = std::max(accuracy, round_off(p.k, v, work));
     out.values[i] = value;
-    out.vectors.col(i) = v / std::sqrt(v.dot(kv));
+    out.vectors.col(i) = v / std::sqrt(work);
   }
+  return accuracy;
 }
 
 /// Factors up to the last one that are not there.
-int count_missing_factors(Pencil& p, const CriticalFactors& found, int multipliers) {
-  constexpr double above = 1e-6;
+int count_missing_factors(Pencil& p, const CriticalFactors& found, double accuracy,
+                          int multipliers) {
+  constexpr double least = 1e-6, most = 1e-2;
+  const double above = std::clamp(10 * accuracy, least, most);
   const Eigen::Index n = found.values.size();
   const FactorReport beyond = p.factor((1 + above) * found.values[n - 1]);
   if (beyond.status == SolveStatus::failed) return -1;
@@ -165,7 +181,8 @@ int pivots_of_multipliers(Pencil& p, int multipliers) {
 
 void find_reversed(Pencil& p, const Flexible& all, CriticalFactors& out) {
   Flexible found = all;
-  if (all.values.size() == 0) found = by_lanczos(p, Spectra::SortRule::SmallestAlge, 1);
+  if (all.values.size() == 0)
+    found = by_lanczos(p, Spectra::SortRule::SmallestAlge, 1, few_restarts);
   if (!found.ok || found.values.size() == 0) return;
   const double least = found.values.minCoeff();
   const double largest =
@@ -208,17 +225,22 @@ CriticalFactors critical_factors(const SparseMatrix& k, const SparseMatrix& a, i
   constexpr int tries = 3;
   Eigen::Index more = count;
   for (int i = 0; i < tries; ++i) {
-    const Flexible found = by_lanczos(p, Spectra::SortRule::LargestAlge, std::min(more, n / 3));
+    const Flexible found =
+        by_lanczos(p, Spectra::SortRule::LargestAlge, std::min(more, n / 3), restarts);
     if (!found.ok) {
       out.failure = "Lanczos' method did not converge";
       return out;
     }
-    take(p, found, more, out);
+    const double accuracy = take(p, found, more, out);
     if (i == 0) find_reversed(p, {}, out);
     if (out.values.size() == 0) break;
-    out.missing = count_missing_factors(p, out, holding);
+    out.missing = count_missing_factors(p, out, accuracy, holding);
     if (p.factor(0).status == SolveStatus::failed || out.missing <= 0) break;
     more = out.values.size() + out.missing;
+  }
+  if (out.values.size() > count) {  // more of those that are nearly equal to the last one
+    out.values.conservativeResize(count);
+    out.vectors.conservativeResize(Eigen::NoChange, count);
   }
   return out;
 }

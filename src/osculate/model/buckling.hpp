@@ -25,6 +25,7 @@ struct Buckling {
   std::optional<double> reversed;  ///< factor with the loads reversed; negative
   double residual = 0;             ///< see la::CriticalFactors
   int missing = 0;                 ///< likewise
+  int closed = 0;                  ///< contact points that stay closed; those of ties do not count
   std::string failure;             ///< why there are none; empty: there are, or there is none
 };
 

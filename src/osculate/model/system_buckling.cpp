@@ -50,6 +50,12 @@ Buckling BasicSystem<Dim>::buckling(const State& state, int count, la::LinearSol
     out.failure = "supports move, and contacts have multipliers";
   if (!out.failure.empty()) return out;
   const la::SparseMatrix k = s.builder.finish();
+  for (std::size_t p = 0; p < s.last.contact.size(); ++p)
+    if (!pairing::is_tied(s.model.pairs[p].definition))
+      out.closed +=
+          static_cast<int>(std::ranges::count_if(s.last.contact[p].points, [](const auto& point) {
+            return point.status != contact::Status::open;
+          }));
   s.assembler.set_configuration(x, state.rigid);
   Eigen::VectorXd rest = Eigen::VectorXd::Zero(unknowns());
   rest.head(displacements()) = -s.assembler.gather(with_loads - s.total_force());

@@ -298,7 +298,7 @@ void AnswerFiles<Dim>::buckling(const model::Progress& progress, const model::Bu
   write_shape(progress, found.added, at);
   for (Eigen::Index i = 0; i < found.factors.size(); ++i) {
     at.time = found.factors[i];
-    write_shape(progress, found.shapes.col(i), at);
+    write_shape(progress, found.shapes.col(i) / std::sqrt(answers_.sector), at);
   }
 }
 

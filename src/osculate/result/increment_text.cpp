@@ -101,6 +101,9 @@ std::vector<std::string> buckling_text(const std::string& step, const model::Buc
         fmt::format("{:<12} buckling {:3}  {:.6g} times the loads", step, i + 1, found.factors[i]));
   if (found.factors.size() == 0)
     texts.push_back(fmt::format("{:<12} no factor of the loads buckles it", step));
+  if (found.closed > 0)
+    texts.push_back(
+        fmt::format("{:<12} {} contact points stay closed meanwhile", step, found.closed));
   if (found.reversed)
     texts.push_back(fmt::format("{:<12} buckling      {:.6g} times the loads, reversed", step,
                                 *found.reversed));

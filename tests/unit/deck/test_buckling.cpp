@@ -109,7 +109,7 @@ TEST(Buckling, ByTemperatures) {
   const double by_force =
       factors_of(buckled(column("  - {name: b, buckling: 1, " + clamped +
                                 ", total_force: [{on: c.right, fx: -0.05}]}\n")))[0];
-  const std::string material = "linear_elastic: {E: 1000, nu: 0}, expansion: 1e-5";
+  const std::string material = "linear_elastic: {E: 1000, nu: 0}, expansion: {alpha: 1e-5}";
   const double by_heat = factors_of(buckled(
       column("  - {name: b, buckling: 1, " + walls + ", temperature: [{on: c, value: 10}]}\n", "",
              material)))[0];
@@ -145,6 +145,38 @@ TEST(Buckling, OfARigidHeadOnAShortColumn) {
     (std::tan(k) * k * 2 < 1 ? low : high) = k;
   }
   EXPECT_NEAR(factors_of(buckled(text))[0] / (stiffness * low * low), 1, 2e-3);
+}
+
+// Two halves whose joint stays as it is are the whole column: tied, or pressed together with
+// friction, also by multipliers.
+TEST(Buckling, OfTwoHalvesWithAJointThatHolds) {
+  const double whole = factors_of(buckled(column("  - {name: b, buckling: 1, " + clamped +
+                                                 ", total_force: [{on: c.right, fx: -1}]}\n")))[0];
+  const std::string friction = "normal: {penalty: 1e5}, friction: {coulomb: {mu: 1, penalty: 1e5}}";
+  for (const std::string& joint :
+       {std::string("sampling: {gauss: 3}, normal: {penalty: 1e5, separation: tied}"),
+        "sampling: {gauss: 3}, " + friction,
+        "sampling: nodes, enforcement: lagrange_multiplier, " + friction}) {
+    const model::AnalysisResult result = buckled(
+        "osculate: 1\n"
+        "mesh: {generate: {a: {box: {x: [0, 5], y: [0, 0.5], elements: [8, 1], type: quad8}}, b: "
+        "{box: {x: [5, 10], y: [0, 0.5], elements: [8, 1], type: quad8}}}}\n"
+        "materials: {m: {linear_elastic: {E: 1000, nu: 0}}}\n"
+        "sections: [{on: a, material: m, element: plane_stress}, {on: b, material: m, element: "
+        "plane_stress}]\n"
+        "contact: [{name: joint, master: a.right, slave: b.left, " +
+        joint +
+        "}]\n"
+        "steps:\n"
+        "  - {name: p, increments: 1, prescribe: [{on: a.left, ux: 0, uy: 0}, {on: b.right, uy: "
+        "0}], "
+        "total_force: [{on: b.right, fx: -0.2}]}\n"
+        "  - {name: b, buckling: 1, release: [{on: b.right, of: [uy]}], total_force: [{on: "
+        "b.right, "
+        "fx: -1}]}\n");
+    EXPECT_NEAR((0.2 + factors_of(result)[0]) / whole, 1, 2e-3) << joint;
+    EXPECT_EQ(result.steps.back().buckling->closed, joint.find("tied") < joint.size() ? 0 : 3);
+  }
 }
 
 TEST(Buckling, WhatItIsNotFor) {
