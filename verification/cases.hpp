@@ -27,6 +27,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult impact_law(const CaseContext& context);
 [[nodiscard]] CaseResult crossed_edges(const CaseContext& context);
 [[nodiscard]] CaseResult hertz_line(const CaseContext& context);
+[[nodiscard]] CaseResult buckling(const CaseContext& context);
 [[nodiscard]] CaseResult vibrations(const CaseContext& context);
 [[nodiscard]] CaseResult large_rotation(const CaseContext& context);
 [[nodiscard]] CaseResult projection_domains(const CaseContext& context);

@@ -10,7 +10,7 @@ calculix-ccx-test, ccx that of calculix-ccx. Both read the same deck, but for it
 output: at the end of each step the displacements of all nodes. What is compared is the state that
 either leaves at the end: the largest difference of a node's displacement over the largest displacement,
 likewise of its force (reaction and load), and the largest contact pressures; of decks that look for
-vibrations at their end the frequencies. Nodes of shells, beams and trusses, which have no cell of the
+vibrations at their end the frequencies, of those that look for buckling loads the factors. Nodes of shells, beams and trusses, which have no cell of the
 solids that those become, are compared by the tables of displacements (.dat), all others by the result files (.frd). Seconds are those of the processor, of both cores together.
 """
 import argparse
@@ -170,8 +170,23 @@ def frequencies_of_dat(path):
     return [sorted(step) for step in steps]
 
 
+def factors_of_dat(path):
+    """Of all steps that look for buckling loads, in order."""
+    steps, inside = [], False
+    for line in open(path, errors="replace"):
+        words = line.split()
+        if "B U C K L I N G   F A C T O R" in line:
+            steps.append([])
+            inside = True
+        elif inside and len(words) == 2 and words[0].isdigit():
+            steps[-1].append(float(words[1]))
+        elif inside and len(words) > 2:
+            inside = False
+    return steps
+
+
 def frequency_difference(ours, theirs):
-    """Largest difference of frequencies over the largest of their step; of those that both have."""
+    """Largest difference of frequencies (or factors) over the largest of their step; of those that both have."""
     if len(ours) != len(theirs) or not ours:
         return math.nan
     return max(abs(a - b) / max(map(abs, there))
@@ -194,16 +209,20 @@ def compare(row, options):
             return result | {"wrong": "osculate: " + (error.strip().splitlines() or ["?"])[-1][:160]}
         vibrations = [[mode["frequency"] for mode in step["modes"]["found"]]
                       for step in json.loads(said)["steps"] if step.get("modes")]
+        factors = [step["buckling"]["factors"] for step in json.loads(said)["steps"] if step.get("buckling")]
         result["iterations"] = sum(i["iterations"] for s in json.loads(said)["steps"] for i in s["increments"])
         code, said, error, result["ccx_seconds"] = run([options.ccx, "-i", "deck"], folder, options.limit)
         said += error
         theirs = blocks_of_frd(folder / "deck.frd") if (folder / "deck.frd").exists() else {}
-        if code is None or "*ERROR" in said or not (theirs or row.kind.endswith("modes")):
+        if code is None or "*ERROR" in said or not (theirs or row.kind.endswith("modes") or row.kind == "buckling"):
             at = said.find("*ERROR")
             return result | {"wrong": "ccx: " + (said[at:at + 120].replace("\n", " ") if at >= 0 else error)}
         cvg = folder / "deck.cvg"
         result["ccx_iterations"] = not cvg.exists() or sum(line[:1] == " " and line.strip()[:1].isdigit()
                                        for line in cvg.read_text().splitlines())
+        if row.kind == "buckling":
+            return result | {"nodes": 0, "difference":
+                             frequency_difference(factors, factors_of_dat(folder / "deck.dat"))}
         if row.kind.endswith("modes"):
             return result | {"nodes": 0, "difference":
                              frequency_difference(vibrations, frequencies_of_dat(folder / "deck.dat"))}
@@ -240,7 +259,6 @@ ANALYSES = {
     "STEADYSTATEDYNAMICS": "`*STEADY STATE DYNAMICS`",
     "COMPLEXFREQUENCY": "`*COMPLEX FREQUENCY`",
     "SELECTCYCLICSYMMETRYMODES": "`*SELECT CYCLIC SYMMETRY MODES`",
-    "BUCKLE": "`*BUCKLE`",
     "SENSITIVITY": "sensitivities",
     "DESIGNVARIABLES": "sensitivities",
     "SUBSTRUCTUREGENERATE": "`*SUBSTRUCTURE GENERATE`",
@@ -296,7 +314,7 @@ def page(lines, good, options):
         "# CalculiX' own decks", "",
         f"The decks that come with CalculiX {version} (Debian's package calculix-ccx-test) in Osculate and in CalculiX. Both read the",
         "same deck; the state that either leaves at the end is compared. Displacements: largest difference at a node over the",
-        "largest displacement; of decks that end with vibrations the same of their frequencies. Forces: likewise, but CalculiX'",
+        "largest displacement; of decks that end with vibrations the same of their frequencies, of those with buckling loads the same of the factors. Forces: likewise, but CalculiX'",
         "have those of constraints (sections of shells, equations) as well. Pressure: of the largest contact pressures. Iterations and seconds (of the processor) are those",
         "of Osculate / CalculiX, which counts iterations of nonlinear steps alone. [rows.txt](../tests/decks/rows.txt) has what a",
         "deck may differ by, and why; its quick rows are a test.", "",

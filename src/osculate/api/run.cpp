@@ -413,6 +413,14 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
     recorder.fields.write_modes(step, state, modes);
     if (recorder.answers) recorder.answers->vibrations(p, modes);
   };
+  observer.buckles = [&recorder](const model::BasicSystem<Dim>&,
+                                 const model::BasicState<Dim>& state, const model::Progress& p,
+                                 const model::Buckling& found) {
+    const std::string step = recorder.step_name(p);
+    recorder.say_all(result::buckling_text(step, found));
+    recorder.fields.write_buckling(step, state, found);
+    if (recorder.answers) recorder.answers->buckling(p, found);
+  };
   observer.resumable = [&recorder](const model::BasicSystem<Dim>& system,
                                    const model::BasicState<Dim>& state, const model::Progress& p,
                                    const solve::StepPosition& position) {

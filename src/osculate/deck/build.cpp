@@ -70,7 +70,7 @@ void check_durations(const Description& description, const std::optional<core::S
                      std::string_view what) {
   if (!timed) return;
   for (const Step& step : description.steps)
-    if (!step.duration && !step.modes)
+    if (!step.duration && !step.modes && !step.buckling)
       throw core::InputError(*timed,
                              fmt::format("{} needs the duration of every step, and step '{}' has "
                                          "none",

@@ -94,6 +94,14 @@ void build_dynamics(const BuildContext<Dim>& context, const Step& step,
                     std::vector<double>& gravity, model::Step& out);
 /// The damping of vibrations that move.
 void build_modal(const Step& step, model::Step& out);
+/// What a step that looks for buckling loads needs; `temperatures` are those before it.
+///
+/// Tested by  tests/unit/deck/test_buckling.cpp
+template <int Dim>
+void build_buckling(const BuildContext<Dim>& context, const Step& step,
+                    std::vector<double>& temperatures, model::Step& out);
+/// Its loads, once they are built, are what is added to those that stand (of the start: to none).
+void add_to_standing(const Step& step, model::Step& out);
 template <int Dim>
 void build_initial_velocity(BuildContext<Dim>& context);
 template <int Dim>

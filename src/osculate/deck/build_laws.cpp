@@ -41,11 +41,12 @@ void set_laws(const BuildContext<Dim>& c, const Contact& contact,
   if (contact.friction) {
     check_durations(c.description, contact.friction->timed, "friction that depends on speed");
     for (const Step& step : c.description.steps)  // there it would hold
-      if (contact.friction->timed && step.modes)
-        throw core::InputError(*contact.friction->timed,
-                               fmt::format("friction that depends on speed does not go with the "
-                                           "vibrations of step '{}'",
-                                           step.name.value));
+      if (contact.friction->timed && (step.modes || step.buckling))
+        throw core::InputError(
+            *contact.friction->timed,
+            fmt::format("friction that depends on speed does not go with the "
+                        "{} of step '{}'",
+                        step.modes ? "vibrations" : "buckling", step.name.value));
     const bool may_part = n.separation.value == SeparationWord::allowed;
     pair.friction = may_part ? contact::parting(contact.friction->law) : contact.friction->law;
   }

@@ -358,7 +358,9 @@ void apply_loads(const BuildContext<Dim>& c, const deck::Step& step, Running& ru
         if (kind == force && c.rigid_index.contains(load.on.value))
           running.prescribed.erase(
               body_dof(c.model(), c.rigid_index.at(load.on.value), static_cast<Component>(i)));
-        givens[key] = {{running.channels[key].value, value->value, amplitude_of(c, load.amplitude)},
+        const double start = running.channels[key].value;
+        const double end = step.buckling ? start + value->value : value->value;
+        givens[key] = {{start, end, amplitude_of(c, load.amplitude)},
                        load.amplitude ? load.amplitude->value : std::string{}};
       }
   for (auto& entry : running.channels) {
@@ -420,22 +422,22 @@ void unload(const BuildContext<Dim>& c, model::Step& step) {
 
 namespace {
 
-/// What acts before motions along vibrations, which leave nothing behind.
+/// What acts before motions along vibrations and buckling, which leave nothing behind.
 struct Aside {
   std::map<ChannelKey, double> values;
   std::vector<double> gravity;
 };
 void set_aside(const deck::Step& step, Running& running, std::vector<double>& gravity,
                std::optional<Aside>& aside) {
-  if (step.modal && !aside) {
-    aside.emplace().gravity = gravity;
-    for (const auto& [key, channel] : running.channels) aside->values[key] = channel.value;
+  if (!step.modal && aside) {
+    gravity = aside->gravity;
+    for (auto& [key, channel] : running.channels)
+      channel.value = aside->values.contains(key) ? aside->values.at(key) : 0.0;
+    aside.reset();
   }
-  if (step.modal || !aside) return;
-  gravity = aside->gravity;
-  for (auto& [key, channel] : running.channels)
-    channel.value = aside->values.contains(key) ? aside->values.at(key) : 0.0;
-  aside.reset();
+  if (aside || (!step.modal && !step.buckling)) return;
+  aside.emplace().gravity = gravity;
+  for (const auto& [key, channel] : running.channels) aside->values[key] = channel.value;
 }
 
 }  // namespace
@@ -472,7 +474,9 @@ void build_steps(BuildContext<Dim>& c) {
       throw core::InputError(step.modal->mark,
                              "a force on a rigid body sets it free, but the vibrations were found "
                              "with it held: `release` it in the step with `modes`");
-    build_temperatures(c, step, temperatures, out);
+    std::vector<double> passing = temperatures;
+    if (step.buckling) build_buckling(c, step, passing, out);
+    build_temperatures(c, step, step.buckling ? passing : temperatures, out);
     apply_holds(c, step, running);
     const std::size_t of_vibrations = running.prescribed.size();
     apply_prescriptions(c, step, running, out);
@@ -480,7 +484,8 @@ void build_steps(BuildContext<Dim>& c) {
       throw core::InputError(step.prescribe.front().mark,
                              "prescribes what the vibrations leave free: hold it by `prescribe` "
                              "with 0 in the step with `modes`");
-    if (unloaded) {
+    add_to_standing(step, out);
+    if (unloaded && step.modes) {
       unload(c, out);
       c.built.loads.back().clear();
     }

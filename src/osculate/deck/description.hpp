@@ -418,7 +418,8 @@ struct ModalDescription {
   double damping_mass = 0, damping_stiffness = 0;
 };
 
-/// The state that vibrations are about: the one before the first step, or what steps led to.
+/// The state that vibrations are about, or that buckles: the one before the first step, or what
+/// steps led to.
 enum class ModesAbout { last, start };
 
 struct Step {
@@ -433,7 +434,8 @@ struct Step {
   std::optional<ModalDescription> modal;
   std::optional<Marked<std::vector<double>>> gravity;
   std::vector<ContactChange> contact;
-  std::optional<Marked<int>> modes;  ///< vibrations instead of increments
+  std::optional<Marked<int>> modes;     ///< vibrations instead of increments
+  std::optional<Marked<int>> buckling;  ///< critical loads instead of increments
   ModesAbout about = ModesAbout::last;
 };
 

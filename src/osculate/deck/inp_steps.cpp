@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/inp_conditions.hpp"
@@ -43,6 +44,7 @@ class Steps {
     if (key == "STATIC" || key == "VISCO" || key == "DYNAMIC" || key == "MODALDYNAMIC")
       read_time(card);
     if (key == "FREQUENCY") read_modes(card);
+    if (key == "BUCKLE") read_buckling(card);
     if (key == "INITIALCONDITIONS") check_initial(card);
     if (key == "BOUNDARY") read_boundary(card);
     if (key == "CLOAD") read_forces(card);
@@ -61,6 +63,7 @@ class Steps {
     procedure_ = nullptr;
     at_once_ = option_of(card, "AMPLITUDE") == "STEP";
     modes_ = 0;
+    factors_ = 0;
     period_ = 1;
     increments_ = 1;
     released_.clear();
@@ -68,6 +71,8 @@ class Steps {
          {&prescribed_, &forces_, &pressures_, &body_forces_, &centrifugal_})
       for (auto& [key, value] : *values) value.fresh = false;
     for (auto& [on, value] : temperatures_) value.fresh = false;
+    before_ = {forces_, pressures_, body_forces_, centrifugal_};
+    temperatures_before_ = temperatures_;
     if (out_.steps.items.empty())
       for (auto& [key, value] : prescribed_) value.fresh = true;  // said before the first step
   }
@@ -90,6 +95,15 @@ class Steps {
     about_start_ = moved_ && !io::inp::find_parameter(*step_, "PERTURBATION");
     modes_ = Fields(m_.deck, only_line(m_, card, "the number of vibrations"))
                  .number("the number of vibrations");
+  }
+
+  /// Factors of the loads of the step alone: with PERTURBATION on top of what the steps before led
+  /// to, else of a body without loads.
+  void read_buckling(const Card& card) {
+    begin_procedure(card);
+    about_start_ = moved_ && !io::inp::find_parameter(*step_, "PERTURBATION");
+    factors_ = Fields(m_.deck, only_line(m_, card, "the number of buckling factors"))
+                   .number("the number of buckling factors");
   }
 
   void read_time(const Card& card) {
@@ -128,15 +142,13 @@ class Steps {
     SourceNode& step = out_.steps.items.emplace_back(inp_map(line));
     put(step, "name", inp_text(fmt::format("step_{}", number), line));
     if (modes_ > 0) {
-      SourceNode count = inp_number(modes_, line_of(procedure_->at));
-      if (about_start_) {
-        SourceNode& modes = put(step, "modes", inp_map(count.line));
-        put(modes, "count", std::move(count));
-        put(modes, "about", inp_text("start", line_of(procedure_->at)));
-      } else {
-        put(step, "modes", std::move(count));
-      }
+      put_search(step, "modes", modes_);
       end_of_modes(card, step);
+      return;
+    }
+    if (factors_ > 0) {
+      put_search(step, "buckling", factors_);
+      end_of_buckling(card, step);
       return;
     }
     const bool modal = procedure_->keyword == "MODALDYNAMIC";
@@ -170,6 +182,53 @@ class Steps {
     if (!modal) put_temperatures(step);
     forget_removed();
     total_time_ += period_;
+    step_ = nullptr;
+  }
+
+  /// How many, and about which state.
+  void put_search(SourceNode& step, const char* key, int number) {
+    const int line = line_of(procedure_->at);
+    if (!about_start_) {
+      put(step, key, inp_number(number, line));
+      return;
+    }
+    SourceNode& search = put(step, key, inp_map(line));
+    put(search, "count", inp_number(number, line));
+    put(search, "about", inp_text("start", line));
+  }
+
+  /// What the step says, and nothing of what stood before, which stands again after it.
+  void end_of_buckling(const Card& card, SourceNode& step) {
+    const auto only_here = [&](auto& values) {
+      std::erase_if(values, [](const auto& one) { return !one.second.fresh; });
+      for (const auto& [key, value] : values)
+        if (!value.amplitude.empty())
+          io::inp::fail(
+              m_.deck, card,
+              fmt::format("loads of a step with *BUCKLE have no amplitude (line {})", value.line));
+    };
+    Conditions moved = prescribed_;
+    only_here(moved);
+    for (auto& [key, value] : moved)
+      if (value.fixed) value.size = 0, value.fixed = false;
+    put_directions(step, "prescribe", 'u', moved);
+    put_releases(step);
+    for (Conditions* const loads : {&forces_, &pressures_, &body_forces_, &centrifugal_})
+      only_here(*loads);
+    only_here(temperatures_);
+    at_once_ = false;
+    put_directions(step, "forces", 'f', forces_);
+    put_pressures(step);
+    put_directions(step, "body_force", 'f', body_forces_);
+    put_centrifugal(step);
+    put_temperatures(step);
+    SourceNode changes = inp_changes(m_, std::span(step_, &card));
+    if (!changes.items.empty()) put(step, "contact", std::move(changes));
+    std::tie(forces_, pressures_, body_forces_, centrifugal_) = before_;
+    temperatures_ = temperatures_before_;
+    std::erase_if(released_, [&](const auto& one) { return one.first != &prescribed_; });
+    forget_removed();
+    vibrations_ = 0;
     step_ = nullptr;
   }
 
@@ -666,7 +725,8 @@ class Steps {
   InpSteps out_;
   const Card *step_ = nullptr, *procedure_ = nullptr;
   double period_ = 1, total_time_ = 0;
-  int increments_ = 1, modes_ = 0;
+  int increments_ = 1, modes_ = 0, factors_ = 0;
+  std::tuple<Conditions, Conditions, Conditions, Conditions> before_;  ///< loads, of the last steps
   int vibrations_ = 0;  ///< that a step has found for those behind it
   int forgotten_ = 0;   ///< line of a load of that step
   std::map<std::pair<Conditions*, Conditions::key_type>, double> standing_;
@@ -678,7 +738,7 @@ class Steps {
   std::map<std::string, std::vector<Gravity>> gravity_;  ///< by part
   std::vector<std::array<double, 6>> axes_;              ///< of centrifugal loads: points of them
   std::set<std::pair<Conditions*, Conditions::key_type>> released_;
-  std::vector<std::pair<std::string, Condition>> temperatures_;
+  std::vector<std::pair<std::string, Condition>> temperatures_, temperatures_before_;
 };
 
 }  // namespace

@@ -39,6 +39,9 @@ namespace osculate::deck {
 
 [[nodiscard]] Spec dynamics_spec();
 [[nodiscard]] BoundKey<Step> modal_key();
+[[nodiscard]] BoundKey<Step> buckling_key();
+/// What goes with `buckling` in a step; its increments.
+void check_buckling(const Value& step, Step& s);
 /// What goes with `modal` in a step.
 void check_modal(const Value& step, const Step& s);
 [[nodiscard]] Spec gravity_spec();

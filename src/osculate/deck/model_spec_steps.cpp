@@ -271,11 +271,12 @@ BoundKeys<Step> step_keys() {
   return {{need(&S::name, "name", text("Name of the step.").as(TextRule::name).such_as("press")),
            may(&S::increments, "increments",
                integer("Number of equal increments to begin with; every step has some, but those "
-                       "with `modes`.")
+                       "with `modes` or `buckling`.")
                    .at_least(1)
                    .at_most(1'000'000)
                    .such_as("10")),
            modes_key(),
+           buckling_key(),
            may(&S::duration, "duration",
                number("Time from the beginning of the step to its end; "
                       "inertia and friction that depends on speed ask for "
@@ -419,6 +420,7 @@ BoundKey<Description> steps_key() {
                    .such_as("[{name: press, increments: 10, prescribe: [{on: top, uy: -0.007}]}]")),
       [](Description& d, const Value& v) {
         d.steps = step_keys().read_all(v, [](const Value& item, Step& s) {
+          check_buckling(item, s);
           check_modes(item, s);
           check_modal(item, s);
           check_times(item, s);

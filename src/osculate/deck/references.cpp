@@ -92,6 +92,10 @@ class StepChecker {
       throw core::InputError(step.modes->mark,
                              "a sector of a cyclic symmetry has not the free vibrations of the "
                              "whole: those that differ between sectors would be missing");
+    if (step.buckling && !d_.cyclic_symmetry.empty())
+      throw core::InputError(step.buckling->mark,
+                             "a sector of a cyclic symmetry buckles otherwise than the whole: what "
+                             "differs between sectors would be missing");
     std::map<std::string, int> seen;
     for (const Prescription& p : step.prescribe) check_prescription(p, seen);
     for (const Release& r : step.release) check_release(r, seen);

@@ -71,6 +71,16 @@ std::string dat_eigenvalues(std::span<const double> omega_squared) {
   return out;
 }
 
+std::string dat_buckling(std::span<const double> factors) {
+  std::string out =
+      "\n     B U C K L I N G   F A C T O R   O U T P U T\n\n"
+      " MODE NO       BUCKLING\n"
+      "                FACTOR\n\n";
+  for (std::size_t i = 0; i < factors.size(); ++i)
+    out += fmt::format("{:7}  {}\n", i + 1, fortran_real(factors[i], 14, 7));
+  return out;
+}
+
 std::string dat_modal_table(std::string_view title, std::span<const std::array<double, 6>> rows,
                             std::string_view last_head,
                             const std::optional<std::array<double, 6>>& last) {

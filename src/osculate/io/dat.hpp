@@ -26,6 +26,8 @@ void append_dat_total(std::string& out, std::span<const double> values);
 
 /// Vibrations found: omega^2 in rad/time.
 [[nodiscard]] std::string dat_eigenvalues(std::span<const double> omega_squared);
+/// Factors by which loads buckle what there is.
+[[nodiscard]] std::string dat_buckling(std::span<const double> factors);
 /// A table of six numbers a vibration: along x, y, z, and around these; `last` has no number.
 [[nodiscard]] std::string dat_modal_table(std::string_view title,
                                           std::span<const std::array<double, 6>> rows,

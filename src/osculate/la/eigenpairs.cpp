@@ -4,30 +4,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/la/spectra_matrix.hpp"
+
 namespace osculate::la {
 namespace {
-
-using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor, Index>;
-
-Sparse sparse(const SparseMatrix& a) {
-  return Eigen::Map<const Sparse>(a.n, a.n, static_cast<Index>(a.value.size()), a.row_start.data(),
-                                  a.column.data(), a.value.data());
-}
-
-SparseMatrix plain(Sparse a) {
-  a.makeCompressed();
-  const auto entries = static_cast<std::size_t>(a.nonZeros());
-  SparseMatrix out;
-  out.n = static_cast<Index>(a.rows());
-  out.row_start.assign(a.outerIndexPtr(), a.outerIndexPtr() + a.rows() + 1);
-  out.column.assign(a.innerIndexPtr(), a.innerIndexPtr() + entries);
-  out.value.assign(a.valuePtr(), a.valuePtr() + entries);
-  return out;
-}
 
 /// K - s M as Spectra wants to see it, factored.
 struct Inverse {

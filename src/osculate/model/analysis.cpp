@@ -92,6 +92,22 @@ struct Analysis {
     result.steps.back().vibrations = std::move(modes);
   }
 
+  void find_buckling(const Step& step) {
+    const bool unloaded = step.buckling->unloaded;
+    const BasicState<Dim> of = unloaded ? system.initial_state() : result.state;
+    if (unloaded) system.begin_step(step, of);
+    Buckling found = system.buckling(of, step.buckling->factors, *solver);
+    result.last_iterate = result.state;
+    if (!found.failure.empty()) {
+      result.outcome = solve::Outcome::numerical_failure;
+      result.message =
+          fmt::format("no buckling load was found in step '{}': {}", step.name, found.failure);
+      return;
+    }
+    if (observer.buckles) observer.buckles(system, of, progress, found);
+    result.steps.back().buckling = std::move(found);
+  }
+
   /// What vibrations move in the running step, which may have been resumed: at rest, or as the step
   /// before left them. False: they cannot.
   bool begin_superposition(std::size_t s) {
@@ -161,6 +177,7 @@ struct Analysis {
   void run_step(const Step& step) {
     solver->may_change(step.frequencies ? std::vector<Index>{} : system.changing_unknowns());
     if (step.frequencies) return find_vibrations(step);
+    if (step.buckling) return find_buckling(step);
     const auto on_increment = [&](const BasicState<Dim>& state,
                                   const solve::IncrementRecord& record) {
       ++progress.increment;

@@ -30,6 +30,7 @@ struct StepRecord {
   std::string name;
   std::vector<solve::IncrementRecord> increments;
   std::optional<Vibrations> vibrations{};  ///< of a step that looks for them
+  std::optional<Buckling> buckling{};      ///< likewise
 };
 
 /// A converged increment and all that is needed to go on from there with the same bits.
@@ -74,6 +75,10 @@ struct BasicAnalysisObserver {
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
                      const Vibrations&)>
       vibrates{};
+  /// Factors at which a state buckles have been found.
+  std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
+                     const Buckling&)>
+      buckles{};
   /// Where the analysis goes on from a resume point: it stands there, nothing has been solved yet.
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&)> resumed{};
   /// Asked between two iterations: true ends the analysis with what has converged.

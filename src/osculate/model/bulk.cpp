@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "osculate/solid/stress_stiffness.hpp"
+
 namespace osculate::model {
 namespace {
 
@@ -71,6 +73,29 @@ void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& se
                             out.result.status == solid::Status::inverted
                                 ? "turned inside out"
                                 : "has a strain its material cannot answer");
+}
+
+template <int Dim>
+void stressed_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
+                   const mesh::CellRef& ref, const Eigen::VectorXd& u,
+                   const material::Memory& memory, const Eigen::VectorXd* less,
+                   const material::Memory& memory_of_less, BasicBulkBlock<Dim>& out) {
+  const CellNodes cell = cell_nodes(model.mesh, ref);
+  set_dofs(cell.nodes, out);
+  const solid::Section<Dim> own = section_on(section, cell.type);
+  const solid::Coordinates<Dim> x = reference_of(model, cell.nodes);
+  const auto stress_at = [&](const Eigen::VectorXd& of, const material::Memory& with) {
+    return solid::stress_at_points(own, cell.type, x, displacement_of<Dim>(of, cell.nodes), with);
+  };
+  solid::CellStress<Dim> stress = stress_at(u, memory);
+  const auto points = static_cast<std::size_t>(stress.count);
+  if (less) {
+    const solid::CellStress<Dim> before = stress_at(*less, memory_of_less);
+    for (std::size_t q = 0; q < points; ++q) stress.point[q].stress -= before.point[q].stress;
+  }
+  out.ok = false;
+  for (std::size_t q = 0; q < points; ++q) out.ok = out.ok || !stress.point[q].stress.isZero(0);
+  if (out.ok) out.result.tangent = solid::stress_stiffness(own, cell.type, x, stress);
 }
 
 template <int Dim>
@@ -144,6 +169,12 @@ template void evaluate_cell(const Model&, const BulkSection&, const mesh::CellRe
                             const Eigen::VectorXd&, const material::Memory&, bool, BulkBlock&);
 template void evaluate_cell(const Model3&, const BulkSection3&, const mesh::CellRef&,
                             const Eigen::VectorXd&, const material::Memory&, bool, BulkBlock3&);
+template void stressed_cell(const Model&, const BulkSection&, const mesh::CellRef&,
+                            const Eigen::VectorXd&, const material::Memory&, const Eigen::VectorXd*,
+                            const material::Memory&, BulkBlock&);
+template void stressed_cell(const Model3&, const BulkSection3&, const mesh::CellRef&,
+                            const Eigen::VectorXd&, const material::Memory&, const Eigen::VectorXd*,
+                            const material::Memory&, BulkBlock3&);
 template void pressure_block(const Model&, const PressureLoad::Facet&, const Eigen::VectorXd&,
                              double, BulkBlock&);
 template void pressure_block(const Model3&, const PressureLoad::Facet&, const Eigen::VectorXd&,

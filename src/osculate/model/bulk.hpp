@@ -33,6 +33,22 @@ void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& se
                    const mesh::CellRef& cell, const Eigen::VectorXd& u,
                    const material::Memory& memory, bool with_tangent, BasicBulkBlock<Dim>& out);
 
+/// A state of the bodies, as far as their stresses go.
+struct Strained {
+  const Eigen::VectorXd& u;        ///< displacements of the nodes
+  std::span<const double> memory;  ///< of all points, temperatures and expansions included
+};
+/// What stresses of a cell of small strain do to its stiffness, in place of the tangent: those of
+/// `at`, less those of `less` (null: none). `out.ok` is false where there are no stresses.
+///
+/// Formula    solid::stress_stiffness
+/// Requires   small kinematics
+template <int Dim>
+void stressed_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
+                   const mesh::CellRef& cell, const Eigen::VectorXd& u,
+                   const material::Memory& memory, const Eigen::VectorXd* less,
+                   const material::Memory& memory_of_less, BasicBulkBlock<Dim>& out);
+
 /// External nodal forces of a pressure on one boundary facet, and their derivative (follower load).
 template <int Dim>
 void pressure_block(const BasicModel<Dim>& model, const PressureLoad::Facet& facet,

@@ -27,6 +27,7 @@ struct PrescribedDof {
   Dof dof;
   Ramp ramp;
   bool hold = false;
+  bool further = false;  ///< its target counts from where it is when the step begins
 };
 
 /// Dead load: factor(t) times a force vector over the primary dofs (sparse). What acts on the
@@ -83,6 +84,12 @@ struct Frequencies {
   bool unloaded = false;  ///< about the latter
 };
 
+/// Buckling of such a state by what the loads of the step add to it.
+struct BucklingSearch {
+  int factors = 1;
+  bool unloaded = false;  ///< of the state before the first step
+};
+
 /// Damping of vibrations that are superposed: a ratio, of some of them another one, and Rayleigh's.
 struct ModalDamping {
   struct Ratio {
@@ -118,6 +125,7 @@ struct Step {
   std::vector<PressureLoad> pressure;
   std::optional<Dynamics> dynamics;          ///< empty: without inertia
   std::optional<Frequencies> frequencies{};  ///< nothing moves: vibrations are looked for
+  std::optional<BucklingSearch> buckling{};  ///< nothing moves: critical loads are looked for
   /// The vibrations of the last step that looks for them move, and nothing else.
   std::optional<ModalDamping> modal{};
   Temperatures temperature;

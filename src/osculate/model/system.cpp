@@ -49,6 +49,7 @@ void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
       p.ramp.target = p.ramp.start;
       p.ramp.amplitude.clear();
     }
+    if (p.further) p.ramp.target += p.ramp.start;
     const Index unknown = impl_->dofs.unknown_of(p.dof);
     if (unknown >= 0) flags[static_cast<std::size_t>(unknown)] = true;
   }
@@ -89,6 +90,7 @@ void BasicSystem<Dim>::resume_step(const Step& step, const State& committed,
     PrescribedDof& p = impl_->step.prescribed.at(i);
     p.ramp.start = memory.starts[i];
     if (p.hold) p.ramp.target = p.ramp.start;
+    if (p.further) p.ramp.target = p.ramp.start + step.prescribed.at(i).ramp.target;
   }
   impl_->reserve_pattern();
   impl_->builder.grow_by(memory.grown);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "osculate/la/linear_solver.hpp"
+#include "osculate/model/buckling.hpp"
 #include "osculate/model/evaluated.hpp"
 #include "osculate/model/model.hpp"
 #include "osculate/model/point_state.hpp"
@@ -128,6 +129,13 @@ class BasicSystem {
   ///
   /// Tested by  tests/unit/model/test_vibrations.cpp, verification/vibrations
   [[nodiscard]] Vibrations vibrations(const State& state, int count, la::LinearSolver& solver);
+
+  /// Buckling of a committed state by what the loads of the running step add to it from its
+  /// beginning to its end: `count` of the smallest factors.
+  ///
+  /// Requires   sections of small strain and linear laws, springs that do not turn
+  /// Tested by  tests/unit/deck/test_buckling.cpp, verification/buckling
+  [[nodiscard]] Buckling buckling(const State& state, int count, la::LinearSolver& solver);
 
   /// Forces of the loads of the running step on vibrations about a state.
   ///

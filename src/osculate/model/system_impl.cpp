@@ -248,6 +248,11 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   if (on(Term::bulk) &&
       !bulk.add(committed, now, duration, of_cells ? &*of_cells : nullptr, to, out))
     return;
+  if (with_stresses && with_tangent) {
+    std::vector<double> memory = committed.memory;
+    warm(model, step.temperature, fraction, memory);
+    bulk.add_stresses({now.u, memory}, nullptr, to);
+  }
   if (on(Term::bulk)) springs.add(now, x, to);
   if (on(Term::contact))
     contact.add(committed, trial, fraction, length, x, pass == Pass::iterate, constraints, to, out);

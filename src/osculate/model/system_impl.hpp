@@ -40,6 +40,7 @@ struct BasicSystem<Dim>::Impl {
   Evaluated<Dim> last;
   std::deque<ContactStates> recent;  ///< of the running attempt
   double assembly_seconds = 0;       ///< beside those of the terms
+  bool with_stresses = false;        ///< tangents have what stresses do in small strain
   // The running step.
   Step step;
   std::vector<bool> touched;    ///< by pair, in explicit time integration
@@ -59,6 +60,17 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] double force_factor() const;
   /// What the rounding of coordinates does to the forces of inertia and of contact.
   [[nodiscard]] double round_off_in_time(std::span<const Vec<Dim>> x) const;
+  // States that are left by little, in system_vibrations.cpp.
+  /// Prediction from a state, contacts sticking, with what its stresses do to the stiffness.
+  void predict_about(const State& state, double fraction, solve::Evaluation& out);
+  /// Motions of all nodes and rigid bodies by a small one of the unknowns, without what is
+  /// prescribed. Linear in the motion: rigid bodies turn by little.
+  [[nodiscard]] Eigen::VectorXd motion_of_all(std::span<const Vec<Dim>> x, const State& state,
+                                              const Eigen::VectorXd& unknowns) const;
+  // Of buckling, in system_buckling.cpp.
+  [[nodiscard]] Eigen::VectorXd added_internal(const Strained& before, const Strained& after);
+  [[nodiscard]] Eigen::VectorXd added_external(const State& state);
+
   /// What is in balance: all forces on the side of the internal ones.
   [[nodiscard]] Eigen::VectorXd total_force() const;
   /// The drivers of the running step.

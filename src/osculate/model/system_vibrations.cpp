@@ -21,32 +21,6 @@ Mat<6, 6> mass_of_body(const BasicInertia<3>& inertia, const BasicRigidBody<3>& 
   return mass;
 }
 
-/// Motions of all nodes and rigid bodies by a small one of the unknowns, without what is
-/// prescribed. Linear in the motion: rigid bodies turn by little.
-template <int Dim>
-Eigen::VectorXd motion_of_all(const BasicDofSpace<Dim>& dofs, const BasicAssembler<Dim>& assembler,
-                              std::span<const Vec<Dim>> x, const BasicState<Dim>& state,
-                              const Eigen::VectorXd& unknowns) {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs.dofs());
-  for (Index u = 0; u < dofs.unknowns(); ++u)
-    if (!assembler.prescribed(u)) all[dofs.dof_of_unknown(u)] = unknowns[u];
-  for (Index node = 0; node < dofs.nodes(); ++node) {
-    const Index b = dofs.body_of(node);
-    if (b < 0) continue;
-    const Mat<Dim, body::motions<Dim>> j = body::motion_gradient(
-        state.rigid[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(node)]);
-    all.template segment<Dim>(Dim * node) =
-        j * all.template segment<body::motions<Dim>>(dofs.body_dof(b, 0));
-  }
-  for (const Equation& equation : dofs.equations()) {
-    double sum = 0;
-    for (std::size_t t = 1; t < equation.terms.size(); ++t)
-      sum += equation.terms[t].factor * all[equation.terms[t].dof];
-    all[equation.terms.front().dof] = -sum / equation.terms.front().factor;
-  }
-  return all;
-}
-
 /// Rotation vectors' rates of a body that turns with the unit angular velocities.
 Mat<1, 1> rates_of_turns(const body::RigidMotion&) { return Mat<1, 1>::Identity(); }
 Mat<3, 3> rates_of_turns(const body::RigidMotion3& motion) {
@@ -98,6 +72,40 @@ std::vector<std::array<Eigen::Index, 2>> places_in_space(const BasicModel<3>&) {
 }  // namespace
 
 template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::Impl::motion_of_all(std::span<const Vec<Dim>> x,
+                                                      const State& state,
+                                                      const Eigen::VectorXd& unknowns) const {
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(dofs.dofs());
+  for (Index u = 0; u < dofs.unknowns(); ++u)
+    if (!assembler.prescribed(u)) all[dofs.dof_of_unknown(u)] = unknowns[u];
+  for (Index node = 0; node < dofs.nodes(); ++node) {
+    const Index b = dofs.body_of(node);
+    if (b < 0) continue;
+    const Mat<Dim, body::motions<Dim>> j = body::motion_gradient(
+        state.rigid[static_cast<std::size_t>(b)], x[static_cast<std::size_t>(node)]);
+    all.template segment<Dim>(Dim * node) =
+        j * all.template segment<body::motions<Dim>>(dofs.body_dof(b, 0));
+  }
+  for (const Equation& equation : dofs.equations()) {
+    double sum = 0;
+    for (std::size_t t = 1; t < equation.terms.size(); ++t)
+      sum += equation.terms[t].factor * all[equation.terms[t].dof];
+    all[equation.terms.front().dof] = -sum / equation.terms.front().factor;
+  }
+  return all;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::predict_about(const State& state, double fraction,
+                                           solve::Evaluation& out) {
+  contact.friction = Prediction::sticking;
+  recent.clear();
+  with_stresses = true;
+  assemble(state, {state}, fraction, true, Pass::predict, out);
+  with_stresses = false;
+}
+
+template <int Dim>
 Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::LinearSolver& solver) {
   Impl& s = *impl_;
   Vibrations out;
@@ -131,7 +139,7 @@ Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::Linea
   }
   const la::SparseMatrix mass = s.builder.finish();
   solve::Evaluation evaluation;
-  predict(state, 1.0, evaluation, Prediction::sticking);
+  s.predict_about(state, 1.0, evaluation);
   if (!evaluation.ok) {
     out.failure = evaluation.message;
     return out;
@@ -152,7 +160,7 @@ Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::Linea
   out.vectors = pairs.vectors;
   out.motions.resize(s.dofs.dofs(), pairs.values.size());
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i)
-    out.motions.col(i) = motion_of_all<Dim>(s.dofs, s.assembler, x, state, pairs.vectors.col(i));
+    out.motions.col(i) = s.motion_of_all(x, state, pairs.vectors.col(i));
   out.shapes = out.motions.topRows(state.u.size());
   return out;
 }
@@ -163,7 +171,7 @@ Eigen::VectorXd BasicSystem<Dim>::carried_along(const State& about, la::LinearSo
   Impl& s = *impl_;
   const std::vector<Vec<Dim>> x = s.positions(about.u);
   solve::Evaluation evaluation;
-  predict(about, 1.0, evaluation, Prediction::sticking);
+  s.predict_about(about, 1.0, evaluation);
   if (!evaluation.ok) failure = evaluation.message;
   if (s.constraints.count() > 0) failure = "supports move, and contacts have multipliers";
   if (!failure.empty()) return {};
@@ -175,7 +183,7 @@ Eigen::VectorXd BasicSystem<Dim>::carried_along(const State& about, la::LinearSo
     return {};
   }
   Eigen::VectorXd all = s.prescribed_increment(about, x, 1.0);
-  const Eigen::VectorXd free = motion_of_all<Dim>(s.dofs, s.assembler, x, about, rest);
+  const Eigen::VectorXd free = s.motion_of_all(x, about, rest);
   return all + free;
 }
 
@@ -190,6 +198,12 @@ Eigen::VectorXd BasicSystem<Dim>::momenta_along(const Vibrations& modes, const S
   return modes.vectors.topRows(momentum.size()).transpose() * momentum;
 }
 
+template Eigen::VectorXd BasicSystem<2>::Impl::motion_of_all(std::span<const Vec<2>>, const State&,
+                                                             const Eigen::VectorXd&) const;
+template Eigen::VectorXd BasicSystem<3>::Impl::motion_of_all(std::span<const Vec<3>>, const State3&,
+                                                             const Eigen::VectorXd&) const;
+template void BasicSystem<2>::Impl::predict_about(const State&, double, solve::Evaluation&);
+template void BasicSystem<3>::Impl::predict_about(const State3&, double, solve::Evaluation&);
 template Eigen::VectorXd BasicSystem<2>::carried_along(const State&, la::LinearSolver&,
                                                        std::string&);
 template Eigen::VectorXd BasicSystem<3>::carried_along(const State3&, la::LinearSolver&,

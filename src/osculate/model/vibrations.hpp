@@ -10,8 +10,9 @@ namespace osculate::model {
 /// Free vibrations about a state, smallest frequency first.
 ///
 /// Formula    K phi = omega^2 M phi , phi . M phi = 1 ; K the symmetric part of the tangent of the
-///            state, with its stresses, loads that follow, and contacts: closed ones stay closed
-///            and stick, if they have friction; open ones stay open
+///            state, with its stresses (also those of small strain: solid::stress_stiffness), loads
+///            that follow, and contacts: closed ones stay closed and stick, if they have friction;
+///            open ones stay open
 /// Sign       omega^2 < 0: the state is unstable
 /// Units      omega in radians per time
 struct Vibrations {

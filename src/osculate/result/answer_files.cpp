@@ -253,29 +253,52 @@ std::string tables_of(const model::Vibrations& modes, double sector) {
          io::dat_modal_table("T O T A L   E F F E C T I V E   M A S S", {}, "", moving);
 }
 
+/// Displacements of a step without increments are wanted in .frd.
 template <int Dim>
-void AnswerFiles<Dim>::vibrations(const model::Progress& progress, const model::Vibrations& modes) {
-  dat_.append(tables_of(modes, answers_.sector));
+bool AnswerFiles<Dim>::wants_shapes(const model::Progress& progress) const {
   const std::string& step = built_.model.steps[static_cast<std::size_t>(progress.step)].name;
-  const auto wanted = [&](const deck::AnswerRequest& request) {
+  return std::ranges::any_of(output_.frd, [&](const deck::AnswerRequest& request) {
     const auto named = [&](const deck::Name& name) { return name.value == step; };
     return std::ranges::find(request.of, Answer::u) != request.of.end() &&
            (request.steps.empty() || std::ranges::any_of(request.steps, named));
-  };
-  if (std::ranges::none_of(output_.frd, wanted)) return;
+  });
+}
+
+template <int Dim>
+void AnswerFiles<Dim>::write_shape(const model::Progress& progress, const Eigen::VectorXd& shape,
+                                   io::FrdTime at) {
+  Column column(3, answers_.mesh.nodes.size());
+  for (const Index node : answers_.mesh.nodes) column.add({shape.data() + Dim * node, Dim});
+  at.piece = ++pieces_;
+  at.increment = 1;
+  at.step = static_cast<int>(progress.step) + 1;
+  at.set = ++sets_;
+  frd_.append(io::frd_field(answers_.mesh, at, true, names_of(Answer::u), column.values()));
+}
+
+template <int Dim>
+void AnswerFiles<Dim>::vibrations(const model::Progress& progress, const model::Vibrations& modes) {
+  dat_.append(tables_of(modes, answers_.sector));
+  if (!wants_shapes(progress)) return;
   for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
-    Column column(3, answers_.mesh.nodes.size());
-    const Eigen::VectorXd shape = modes.shapes.col(i) / std::sqrt(answers_.sector);
-    for (const Index node : answers_.mesh.nodes) column.add({shape.data() + Dim * node, Dim});
-    const double omega_squared = modes.omega_squared[i];
-    const io::FrdTime at{
-        ++pieces_,
-        1,
-        static_cast<int>(progress.step) + 1,
-        ++sets_,
-        0,
-        io::FrdTime::Mode{static_cast<int>(i) + 1, omega_squared, model::frequency(omega_squared)}};
-    frd_.append(io::frd_field(answers_.mesh, at, true, names_of(Answer::u), column.values()));
+    io::FrdTime at;
+    at.mode = io::FrdTime::Mode{static_cast<int>(i) + 1, modes.omega_squared[i],
+                                model::frequency(modes.omega_squared[i])};
+    write_shape(progress, modes.shapes.col(i) / std::sqrt(answers_.sector), at);
+  }
+}
+
+template <int Dim>
+void AnswerFiles<Dim>::buckling(const model::Progress& progress, const model::Buckling& found) {
+  dat_.append(
+      io::dat_buckling({found.factors.data(), static_cast<std::size_t>(found.factors.size())}));
+  if (!wants_shapes(progress)) return;
+  io::FrdTime at;
+  at.buckles = true;
+  write_shape(progress, found.added, at);
+  for (Eigen::Index i = 0; i < found.factors.size(); ++i) {
+    at.time = found.factors[i];
+    write_shape(progress, found.shapes.col(i) / std::sqrt(answers_.sector), at);
   }
 }
 

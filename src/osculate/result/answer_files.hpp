@@ -36,10 +36,15 @@ class AnswerFiles {
   /// Vibrations about a state: their numbers in .dat, their shapes (with phi . M phi = 1) in .frd
   /// where displacements are wanted.
   void vibrations(const model::Progress& progress, const model::Vibrations& modes);
+  /// Buckling of a state: factors in .dat, the displacements that the loads add and the shapes
+  /// (with phi . K phi = 1) in .frd where displacements are wanted.
+  void buckling(const model::Progress& progress, const model::Buckling& found);
   /// Where the files end now.
   [[nodiscard]] std::vector<std::uint64_t> marks() const;
 
  private:
+  [[nodiscard]] bool wants_shapes(const model::Progress& progress) const;
+  void write_shape(const model::Progress& progress, const Eigen::VectorXd& shape, io::FrdTime at);
   [[nodiscard]] std::string head() const;
   /// Of the analysis, all steps' durations counted.
   [[nodiscard]] double time_of(Index step, double fraction) const;

@@ -358,31 +358,63 @@ void FieldFiles<Dim>::write_last_iterate(const model::BasicState<Dim>& state,
                 compress_);
 }
 
+namespace {
+
+/// Displacements of the nodes of the mesh, times a factor.
+template <int Dim>
+std::vector<Vec<Dim>> of_mesh(std::size_t nodes, const Eigen::VectorXd& of_all, double factor) {
+  std::vector<Vec<Dim>> u;
+  for (std::size_t i = 0; i < nodes; ++i)
+    u.push_back(factor * of_all.template segment<Dim>(Dim * static_cast<Eigen::Index>(i)));
+  return u;
+}
+
+/// A field NAME_1, ... for each column, its largest displacement 1.
+template <int Dim>
+void add_shapes(std::size_t nodes, const std::string& name, const Eigen::MatrixXd& shapes,
+                std::vector<io::Field>& fields) {
+  for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
+    const Eigen::VectorXd shape = shapes.col(i);
+    double largest = 0;
+    for (const Vec<Dim>& u : of_mesh<Dim>(nodes, shape, 1)) largest = std::max(largest, u.norm());
+    fields.push_back(vector_field(fmt::format("{}_{}", name, i + 1),
+                                  of_mesh<Dim>(nodes, shape, largest > 0 ? 1 / largest : 1)));
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 void FieldFiles<Dim>::write_modes(const std::string& step, const model::BasicState<Dim>& state,
                                   const model::Vibrations& modes) {
   const std::size_t nodes = built_.model.mesh.nodes.size();
-  const auto field = [&](const Eigen::VectorXd& of_all, double factor) {
-    std::vector<Vec<Dim>> u;
-    for (std::size_t i = 0; i < nodes; ++i)
-      u.push_back(factor * of_all.template segment<Dim>(Dim * static_cast<Eigen::Index>(i)));
-    return u;
-  };
-  std::vector<io::Field> fields{vector_field("U", field(state.u, 1)), node_numbers_};
+  std::vector<io::Field> fields{vector_field("U", of_mesh<Dim>(nodes, state.u, 1)), node_numbers_};
+  add_shapes<Dim>(nodes, "mode", modes.shapes, fields);
   std::string rows = "number,omega_squared,frequency\n";
-  for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
-    const Eigen::VectorXd shape = modes.shapes.col(i);
-    double largest = 0;
-    for (const Vec<Dim>& u : field(shape, 1)) largest = std::max(largest, u.norm());
-    fields.push_back(
-        vector_field(fmt::format("mode_{}", i + 1), field(shape, largest > 0 ? 1 / largest : 1)));
-    const double omega_squared = modes.omega_squared[i];
-    rows += fmt::format("{},{},{}\n", i + 1, omega_squared, model::frequency(omega_squared));
-  }
+  for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i)
+    rows += fmt::format("{},{},{}\n", i + 1, modes.omega_squared[i],
+                        model::frequency(modes.omega_squared[i]));
   io::write_vtu(listed(fmt::format("modes_{}.vtu", step)),
                 {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},
                 compress_);
   io::write_file(listed(fmt::format("modes_{}.csv", step)), rows);
+}
+
+template <int Dim>
+void FieldFiles<Dim>::write_buckling(const std::string& step, const model::BasicState<Dim>& state,
+                                     const model::Buckling& found) {
+  const std::size_t nodes = built_.model.mesh.nodes.size();
+  std::vector<io::Field> fields{vector_field("U", of_mesh<Dim>(nodes, state.u, 1)),
+                                vector_field("added", of_mesh<Dim>(nodes, found.added, 1)),
+                                node_numbers_};
+  add_shapes<Dim>(nodes, "shape", found.shapes, fields);
+  std::string rows = "number,factor\n";
+  for (Eigen::Index i = 0; i < found.factors.size(); ++i)
+    rows += fmt::format("{},{}\n", i + 1, found.factors[i]);
+  io::write_vtu(listed(fmt::format("buckling_{}.vtu", step)),
+                {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},
+                compress_);
+  io::write_file(listed(fmt::format("buckling_{}.csv", step)), rows);
 }
 
 template <int Dim>
@@ -393,6 +425,7 @@ void FieldFiles<Dim>::resume(std::vector<io::PvdEntry> written, std::vector<bool
   std::error_code error;
   for (const std::string& name : list_.names())
     if ((name.ends_with(".vtu") || name.ends_with(".csv")) && !name.starts_with("modes_") &&
+        !name.starts_with("buckling_") &&
         !kept.contains(fs::path(name).replace_extension(".vtu").string()))
       fs::remove(fs::path(folder_) / name, error);
   fs::remove(fs::path(folder_) / "last_iterate.vtu", error);

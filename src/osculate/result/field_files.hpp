@@ -41,6 +41,11 @@ class FieldFiles {
   /// ... for each, its largest displacement 1; modes_STEP.csv, their frequencies.
   void write_modes(const std::string& step, const model::BasicState<Dim>& state,
                    const model::Vibrations& modes);
+  /// Buckling of a step: buckling_STEP.vtu, displacements of the state, of what the loads add
+  /// (`added`), and a vector field `shape_1`, ... for each factor, its largest displacement 1;
+  /// buckling_STEP.csv, the factors.
+  void write_buckling(const std::string& step, const model::BasicState<Dim>& state,
+                      const model::Buckling& found);
   [[nodiscard]] const std::vector<io::PvdEntry>& written() const { return entries_; }
   [[nodiscard]] const std::vector<bool>& touched() const { return touched_; }
   /// Goes on after these files, of so many frames; removes what was written of later ones.

@@ -93,6 +93,31 @@ std::vector<std::string> vibrations_text(const std::string& step, const model::V
   return texts;
 }
 
+std::vector<std::string> buckling_text(const std::string& step, const model::Buckling& found) {
+  constexpr double rough = 1e-6;
+  std::vector<std::string> texts;
+  for (Eigen::Index i = 0; i < found.factors.size(); ++i)
+    texts.push_back(
+        fmt::format("{:<12} buckling {:3}  {:.6g} times the loads", step, i + 1, found.factors[i]));
+  if (found.factors.size() == 0)
+    texts.push_back(fmt::format("{:<12} no factor of the loads buckles it", step));
+  if (found.closed > 0)
+    texts.push_back(
+        fmt::format("{:<12} {} contact points stay closed meanwhile", step, found.closed));
+  if (found.reversed)
+    texts.push_back(fmt::format("{:<12} buckling      {:.6g} times the loads, reversed", step,
+                                *found.reversed));
+  const auto doubt = [&](const std::string& text) {
+    texts.push_back(fmt::format("warning: step '{}': {}", step, text));
+  };
+  if (found.missing > 0)
+    doubt(fmt::format("{} factors below the last one are missing", found.missing));
+  if (found.missing < 0) doubt("whether all factors are there is not known");
+  if (found.residual > rough)
+    doubt(fmt::format("the buckling shapes are known to {:.0e} only", found.residual));
+  return texts;
+}
+
 template PointStates point_states(const model::Model&);
 template PointStates point_states(const model::Model3&);
 

@@ -29,6 +29,9 @@ template <int Dim>
 /// are not exact.
 [[nodiscard]] std::vector<std::string> vibrations_text(const std::string& step,
                                                        const model::Vibrations& modes);
+/// The factors that a step has found at which its loads buckle what there is, and doubts.
+[[nodiscard]] std::vector<std::string> buckling_text(const std::string& step,
+                                                     const model::Buckling& found);
 /// The line of one iteration of an attempt that was dropped; they count from 1.
 [[nodiscard]] std::string iteration_text(int number, const solve::IterationRecord& iteration,
                                          PointStates states);

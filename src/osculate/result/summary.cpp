@@ -86,6 +86,17 @@ nlohmann::json modes_json(const std::optional<model::Vibrations>& modes) {
   return {{"found", list}, {"missing", modes->missing}, {"residual", number(modes->residual)}};
 }
 
+/// Of a step that looks for buckling loads; null for others.
+nlohmann::json buckling_json(const std::optional<model::Buckling>& found) {
+  if (!found) return nullptr;
+  nlohmann::json list = nlohmann::json::array();
+  for (const double value : found->factors) list.push_back(number(value));
+  return {{"factors", list},
+          {"reversed", found->reversed ? number(*found->reversed) : nullptr},
+          {"missing", found->missing},
+          {"residual", number(found->residual)}};
+}
+
 template <class Vector>
 nlohmann::json components(const Vector& v) {
   nlohmann::json list = nlohmann::json::array();
@@ -324,6 +335,7 @@ nlohmann::json summary_json(const std::string& model_file,
     steps.push_back({{"name", result.steps[s].name},
                      {"chosen_time_steps", chosen_json(chosen_time_steps(result.steps[s]))},
                      {"modes", modes_json(result.steps[s].vibrations)},
+                     {"buckling", buckling_json(result.steps[s].buckling)},
                      {"increments", list}});
   }
   const pairing::PairSeconds& parts = result.seconds_system.contact_parts;
@@ -367,6 +379,7 @@ std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
   for (const model::Step& step : m.steps)
     facts.push_back({"Steps", step.name,
                      step.frequencies ? fmt::format("{} vibrations", step.frequencies->modes)
+                     : step.buckling  ? fmt::format("{} buckling loads", step.buckling->factors)
                                       : fmt::format("{} increments", step.increments)});
   return facts;
 }

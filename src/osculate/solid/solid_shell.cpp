@@ -14,12 +14,14 @@ using ModeStack =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_rows, max_shell_modes>;
 using SampleStress = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_shell_samples, 1>;
 
-/// Weighted stress that works on each sample.
-SampleStress sample_stress(const ShellCell& cell, const ShellModes& modes) {
+/// Weighted stress that works on each sample. Input: of_point(q), the stress of a point.
+template <class OfPoint>
+SampleStress sample_stress(const ShellCell& cell, const OfPoint& of_point) {
   SampleStress stress = SampleStress::Zero(cell.sample_b.cols());
   for (std::size_t q = 0; q < cell.rule->points.size(); ++q) {
     const ShellPoint& p = cell.points[q];
-    const Vec<6> convected = p.volume * p.from_convected.transpose() * modes.response[q].stress;
+    const material::Stress3& given = of_point(q);
+    const Vec<6> convected = p.volume * p.from_convected.transpose() * given;
     for (const ShellShare& share : p.shares)
       stress[static_cast<Eigen::Index>(share.sample)] += share.weight * convected[share.component];
   }
@@ -91,11 +93,24 @@ void evaluate_solid_shell(const Section<3>& section, cell::CellType type,
     out.status = Status::material_failed;
     return;
   }
-  const SampleStress stress = sample_stress(cell, modes);
+  const SampleStress stress = sample_stress(
+      cell, [&](std::size_t q) -> const material::Stress3& { return modes.response[q].stress; });
   out.force.noalias() = cell.sample_b * stress;
   if (!with_tangent) return;
   add_material(cell, modes, out.tangent);
   if (section.kinematics == Kinematics::finite) add_geometric(cell, stress, out.tangent);
+}
+
+void add_solid_shell_stress_stiffness(const Section<3>& section, cell::CellType type,
+                                      const Coordinates<3>& reference, const CellStress<3>& stress,
+                                      ElementMatrix<3>& to) {
+  ShellCell cell;
+  (void)fill_shell(section, type, reference, Coordinates<3>::Zero(reference.rows(), 3), cell);
+  add_geometric(
+      cell,
+      sample_stress(
+          cell, [&](std::size_t q) -> const material::Stress3& { return stress.point[q].stress; }),
+      to);
 }
 
 }  // namespace osculate::solid

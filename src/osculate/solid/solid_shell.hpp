@@ -42,6 +42,14 @@ void evaluate_solid_shell(const Section<3>& section, cell::CellType type,
                                                          const Coordinates<3>& displacement,
                                                          const material::Memory& memory = {});
 
+/// Adds what stresses at the quadrature points do to the stiffness (stress_stiffness.hpp).
+///
+/// Requires   the cell is not inverted
+/// Tested by  tests/unit/solid/test_stress_stiffness.cpp
+void add_solid_shell_stress_stiffness(const Section<3>& section, cell::CellType type,
+                                      const Coordinates<3>& reference, const CellStress<3>& stress,
+                                      ElementMatrix<3>& to);
+
 /// Values at the nodes (rows) from those at the points: least squares, linear through the
 /// thickness, linear (hex8) or quadratic (shell18) along the shell.
 ///

@@ -215,5 +215,32 @@ TEST(AnswerIsDue, AtEveryNthIncrementAndTheLastOfTheStepsAskedFor) {
   EXPECT_TRUE(due("b", 3, 0.6));
 }
 
+/// A column of E = 1000, height 0.5 and length 10, clamped at one end: 0.257.
+TEST_F(Answers, BucklingFactorsAndShapes) {
+  const RunOutcome outcome = run(options(
+      "column",
+      "osculate: 1\n"
+      "mesh: {generate: {c: {box: {x: [0, 10], y: [0, 0.5], elements: [10, 1], type: quad8}}}}\n"
+      "materials: {m: {linear_elastic: {E: 1000, nu: 0}}}\n"
+      "sections: [{on: c, material: m, element: plane_stress}]\n"
+      "steps: [{name: critical, buckling: 2, prescribe: [{on: c.left, ux: 0, uy: 0}], "
+      "total_force: [{on: c.right, fx: -1}]}]\n"
+      "output: {frd: [{of: [U]}]}\n"));
+  ASSERT_EQ(outcome.status, RunStatus::done) << outcome.message;
+  const std::string dat = read("column.dat"), frd = read("column.frd");
+  EXPECT_THAT(dat, HasSubstr("     B U C K L I N G   F A C T O R   O U T P U T\n"));
+  EXPECT_THAT(dat, HasSubstr("\n      1   0.256"));
+  EXPECT_EQ(count(frd, " -4  DISP"), 3U);  // what the load adds, and two shapes
+  EXPECT_THAT(frd, HasSubstr("  100CL  101 0.00000E+00"));
+  EXPECT_THAT(frd, HasSubstr("                     4    2           1\n"));
+  EXPECT_THAT(read("buckling_critical.csv"), HasSubstr("number,factor\n1,0.256"));
+  const std::string vtu = read("buckling_critical.vtu");
+  for (const char* const field : {"\"added\"", "\"shape_1\"", "\"shape_2\""})
+    EXPECT_THAT(vtu, HasSubstr(field));
+  const std::string summary = read("summary.json");
+  EXPECT_THAT(summary, HasSubstr("\"buckling\""));
+  EXPECT_THAT(read("log.txt"), HasSubstr("critical     buckling   1  0.256"));
+}
+
 }  // namespace
 }  // namespace osculate::api

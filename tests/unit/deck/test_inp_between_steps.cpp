@@ -194,6 +194,24 @@ TEST(InpBetweenSteps, Vibrations) {
             "steps go on from the last one");
 }
 
+// Only what the step says is multiplied; what stood before stands again after it.
+TEST(InpBetweenSteps, Buckling) {
+  const std::string buckle = "*BUCKLE\n3, 0.01\n*CLOAD\n15, 3, -1.\n*END STEP\n";
+  const std::string after = "*STEP\n*STATIC\n*DLOAD\nUP, P2, 20.\n*END STEP\n";
+  const std::string steps =
+      part(dry + pair + press + "*STEP, PERTURBATION\n" + buckle + after, "steps");
+  expect_in(steps, "- name: step_2\n    buckling: 3\n    forces:\n      - {on: node 15, fz: -1}\n");
+  EXPECT_EQ(steps.find("fz", steps.find("step_3")), std::string::npos) << steps;
+  EXPECT_EQ(message_of("*STEP\n" + buckle), "no error");
+  expect_in(part("*STEP\n" + buckle, "steps"), "buckling: 3");
+  expect_in(part(press + "*STEP\n" + buckle, "steps"), "buckling: {count: 3, about: start}");
+  const std::string table = "*AMPLITUDE, NAME=A\n0., 1., 1., 1.\n";
+  expect_in(message_of(table + "*STEP\n*BUCKLE\n3\n*CLOAD, AMPLITUDE=A\n15, 3, -1.\n*END STEP\n"),
+            "loads of a step with *BUCKLE have no amplitude");
+  expect_in(message_of("*STEP\n*BUCKLE\n0\n*END STEP\n"),
+            "expected the number of buckling factors");
+}
+
 TEST(InpBetweenSteps, MotionsAlongVibrations) {
   const std::string frequency = "*STEP\n*FREQUENCY, STORAGE=YES\n12\n*END STEP\n";
   const std::string moves = "*STEP\n*MODAL DYNAMIC\n1.E-5, 1.E-4\n";

@@ -197,8 +197,8 @@ TEST(InpTranslate, WhatIsNotUnderstoodStopsWithItsLine) {
   } cases[]{
       {"keyword", blocks + "*BOUNDRY\n",
        "cubes.inp:32: unknown keyword 'BOUNDRY'; did you mean 'BOUNDARY'?"},
-      {"eigenmodes", blocks + "*STEP\n*BUCKLE\n3\n*END STEP\n",
-       "cubes.inp:33: *BUCKLE: is not supported: no buckling"},
+      {"eigenmodes", blocks + "*STEP\n*COMPLEX FREQUENCY\n3\n*END STEP\n",
+       "cubes.inp:33: *COMPLEXFREQUENCY: is not supported: no complex vibrations"},
       {"by hand", blocks + "*NO ANALYSIS\n",
        "cubes.inp:32: *NOANALYSIS: is not translated; a model file says it with `osculate check`"},
       {"no step", blocks + steel, "cubes.inp: the deck has no *STEP"},

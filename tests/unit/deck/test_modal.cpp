@@ -103,18 +103,22 @@ TEST(Modal, LoadsCountFromTheState) {
   const Swing still = swing(modal_bar + bar_held + stretched + bar_free +
                             modal_step("3", "duration: 0.2, modal: {}"));
   for (std::size_t i = 2; i < 5; ++i) EXPECT_NEAR(still.place[i], 0.3, 1e-12);
-  const std::string more =
-      "duration: 0.2, modal: {}, total_force: [{on: bar.right, fx: 5, "
-      "amplitude: at_once}]";
+  const auto more = [](const std::string& force) {
+    return "duration: 0.2, modal: {}, total_force: [{on: bar.right, fx: " + force +
+           ", amplitude: at_once}]";
+  };
   const std::string two =
       "duration: 0.2, modal: {}, total_force: [{on: bar.right, fx: 2, "
       "amplitude: at_once}]";
-  const Swing on_top =
-      swing(modal_bar + bar_held + stretched + bar_free + modal_step("2", more) +
-            "  - {name: after, increments: 1, total_force: [{on: bar.right, fx: 3}]}\n");
+  const auto on_top = [&](const std::string& force) {
+    return swing(modal_bar + bar_held + stretched + bar_free + modal_step("2", more(force)) +
+                 "  - {name: after, increments: 1, total_force: [{on: bar.right, fx: 3}]}\n");
+  };
+  const Swing five = on_top("5"), seven = on_top("7");
+  EXPECT_GT(std::abs(five.place[3] - 0.3), 0.1);
+  EXPECT_NEAR(seven.place[3] - 0.3, 2 * (five.place[3] - 0.3), 1e-11);
+  EXPECT_NEAR(five.place[4], 0.3, 1e-12);
   const Swing alone = swing(modal_bar + bar_held + bar_free + modal_step("2", two));
-  EXPECT_NEAR(on_top.place[3] - 0.3, alone.place[2], 1e-11);
-  EXPECT_NEAR(on_top.place[4], 0.3, 1e-12);
   const Swing about_start =
       swing(modal_bar + bar_held + stretched +
             "  - {name: free, modes: {count: 3, about: start}}\n" + modal_step("2", two));

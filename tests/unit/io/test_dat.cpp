@@ -9,6 +9,17 @@
 namespace osculate::io {
 namespace {
 
+// Copied from what ccx 2.20 writes of its deck beamb.
+TEST(Dat, FactorsOfBucklingStandInTheirColumns) {
+  const std::array<double, 2> factors{48.15456, 1063.175};
+  EXPECT_EQ(dat_buckling(factors),
+            "\n     B U C K L I N G   F A C T O R   O U T P U T\n\n"
+            " MODE NO       BUCKLING\n"
+            "                FACTOR\n\n"
+            "      1   0.4815456E+02\n"
+            "      2   0.1063175E+04\n");
+}
+
 TEST(Dat, RealsAsFortranWritesThem) {
   EXPECT_EQ(fortran_real(0.5, 14, 7), " 0.5000000E+00");
   EXPECT_EQ(fortran_real(1, 14, 6), "  0.100000E+01");

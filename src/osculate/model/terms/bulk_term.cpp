@@ -68,6 +68,27 @@ bool BulkTerm<Dim>::add(const State& committed, const State& trial, double durat
   return true;
 }
 
+template <int Dim>
+void BulkTerm<Dim>::add_stresses(const Strained& at, const Strained* less, Assembly<Dim>& to) {
+  for (std::size_t start = 0; start < jobs.size(); start += tile) {
+    const std::size_t count = std::min(tile, jobs.size() - start);
+#pragma omp parallel for num_threads(threads) schedule(static)
+    for (std::size_t i = 0; i < count; ++i) {
+      const Job& job = jobs[start + i];
+      blocks[i].ok = false;
+      if (job.section->section.kinematics == solid::Kinematics::small)
+        stressed_cell(model, *job.section, job.cell, at.u, job.memory.of(at.memory),
+                      less ? &less->u : nullptr,
+                      less ? job.memory.of(less->memory) : material::Memory{}, blocks[i]);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!blocks[i].ok) continue;
+      const auto size = static_cast<std::size_t>(blocks[i].dof_count);
+      to.add_stiffness(std::span<const Dof>(blocks[i].dofs.data(), size), blocks[i].result.tangent);
+    }
+  }
+}
+
 template struct BulkTerm<2>;
 template struct BulkTerm<3>;
 

@@ -46,6 +46,12 @@ struct BulkTerm {
   /// False: a cell cannot be evaluated, `out` says why. `inertia` may be null.
   bool add(const State& committed, const State& trial, double duration,
            const CellInertia<Dim>* inertia, Assembly<Dim>& to, solve::Evaluation& out);
+  /// What stresses do to the stiffness, of cells of small strain (those of finite strain have it in
+  /// their tangent): those of `at`, less those of `less` (null: none).
+  ///
+  /// Formula    solid::stress_stiffness
+  /// Tested by  tests/unit/deck/test_vibrations.cpp, test_buckling.cpp
+  void add_stresses(const Strained& at, const Strained* less, Assembly<Dim>& to);
 };
 
 extern template struct BulkTerm<2>;
