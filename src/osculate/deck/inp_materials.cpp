@@ -20,7 +20,7 @@ using io::inp::SetKind;
 struct MaterialCards {
   const Card* material = nullptr;
   const Card *elastic = nullptr, *plastic = nullptr, *density = nullptr, *creep = nullptr,
-             *expansion = nullptr, *hyperelastic = nullptr;
+             *expansion = nullptr, *hyperelastic = nullptr, *user = nullptr, *depvar = nullptr;
 };
 
 std::vector<MaterialCards> material_cards(const InpModel& m) {
@@ -40,6 +40,8 @@ std::vector<MaterialCards> material_cards(const InpModel& m) {
     if (card.keyword == "PLASTIC") set(card, &MaterialCards::plastic);
     if (card.keyword == "DENSITY") set(card, &MaterialCards::density);
     if (card.keyword == "CREEP") set(card, &MaterialCards::creep);
+    if (card.keyword == "USERMATERIAL") set(card, &MaterialCards::user);
+    if (card.keyword == "DEPVAR") set(card, &MaterialCards::depvar);
     if (card.keyword == "EXPANSION") set(card, &MaterialCards::expansion);
   }
   return all;
@@ -105,6 +107,12 @@ void put_creep(const InpModel& m, const Card& card, SourceNode& law) {
 }
 
 std::string_view law_of(const InpModel& m, const MaterialCards& c) {
+  for (const Card* const other : {c.elastic, c.plastic, c.creep, c.hyperelastic})
+    if (c.user && other)
+      io::inp::fail(m.deck, *other, "of a material with *USER MATERIAL this is not supported");
+  if (c.depvar && !c.user)
+    io::inp::fail(m.deck, *c.depvar, "belongs to a *USER MATERIAL, and the material has none");
+  if (c.user) return user_law(m, *c.material);
   for (const Card* const other : {c.elastic, c.plastic, c.creep})
     if (c.hyperelastic && other)
       io::inp::fail(m.deck, *other, "of a material with *HYPERELASTIC this is not supported");
@@ -163,11 +171,14 @@ SourceNode inp_materials(InpModel& m) {
     const std::string name = plain_name(value_of(m, *c.material, "NAME"));
     if (find(materials, name))
       io::inp::fail(m.deck, *c.material, fmt::format("a second material is called '{}'", name));
-    if (!c.elastic && !c.hyperelastic)
-      io::inp::fail(m.deck, *c.material, "its *ELASTIC or *HYPERELASTIC is missing");
+    if (!c.elastic && !c.hyperelastic && !c.user)
+      io::inp::fail(m.deck, *c.material,
+                    "its *ELASTIC, *HYPERELASTIC or *USER MATERIAL is missing");
     SourceNode& material = put(materials, name, inp_map(line));
     SourceNode& law = put(material, std::string(law_of(m, c)), inp_map(line));
-    if (c.hyperelastic)
+    if (c.user)
+      put_user(m, *c.material, *c.user, c.depvar, law);
+    else if (c.hyperelastic)
       put_hyperelastic(m, *c.hyperelastic, law);
     else
       put_elastic(m, *c.elastic, law);
@@ -191,18 +202,20 @@ bool is_discrete(const InpModel& m, const std::string& elements) {
   });
 }
 
-/// The `*ELASTIC` of a section's material.
-const Card* elastic_of(const InpModel& m, const Card& section) {
+/// The cards of a section's material.
+MaterialCards material_of(const InpModel& m, const Card& section) {
   const std::string material = plain_name(option_of(section, "MATERIAL"));
   for (const MaterialCards& c : material_cards(m))
-    if (io::inp::capitals(plain_name(value_of(m, *c.material, "NAME"))) == material)
-      return c.elastic;
-  return nullptr;
+    if (io::inp::capitals(plain_name(value_of(m, *c.material, "NAME"))) == material) return c;
+  return {};
 }
 
 /// Whether a section has axes that its material needs. Shells and beams have none here.
 bool is_oriented(const InpModel& m, const Card& section) {
-  const Card* const elastic = elastic_of(m, section);
+  const MaterialCards material = material_of(m, section);
+  const Card* const elastic = material.elastic;
+  if (material.user && !option_of(section, "ORIENTATION").empty())
+    io::inp::fail(m.deck, section, "a *USER MATERIAL in axes of its own is not supported");
   const bool directional = elastic && is_directional(*elastic);
   if (directional && io::inp::is_thin_section(section))
     io::inp::fail(m.deck, section,
