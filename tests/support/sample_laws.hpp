@@ -36,6 +36,16 @@ void set_elastic(T& law, double young, double poisson) {
     law.d1111 = law.d2222 = law.d3333 = c.lambda + 2 * c.mu;
     law.d1122 = law.d1133 = law.d2233 = c.lambda;
     law.d1212 = law.d1313 = law.d2323 = c.mu;
+  } else if constexpr (requires { law.alpha1; }) {
+    const double mu = young / (2 * (1 + poisson));
+    law.mu1 = 0.7 * mu;
+    law.alpha1 = 2.5;
+    law.mu2 = 0.3 * mu;
+    law.alpha2 = -1.5;
+    if constexpr (requires { law.d1; })
+      law.d1 = 6 * (1 - 2 * poisson) / young;
+    else
+      law.nu1 = law.nu2 = poisson;
   } else if constexpr (requires { law.routine; }) {
     law.constants = {young, poisson};
     (void)law.use(user_hooke);

@@ -100,7 +100,8 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 void put_elastic(const InpModel& m, const io::inp::Card& elastic, SourceNode& law);
 /// The `*ORIENTATION` that a section names.
 [[nodiscard]] SourceNode inp_orientation(const InpModel& m, const io::inp::Card& section);
-/// Constants of a `*HYPERELASTIC`.
+/// The law that a `*HYPERELASTIC` or `*HYPERFOAM` means, and its constants.
+[[nodiscard]] std::string_view hyperelastic_law(const io::inp::Card& card);
 void put_hyperelastic(const InpModel& m, const io::inp::Card& card, SourceNode& law);
 /// Of a `*USER MATERIAL`: the law that it means, by the name of the material, and its keys. The
 /// library of `user` is that of the environment variable OSCULATE_USER_MATERIAL; without it the

@@ -114,7 +114,7 @@ std::string small_strain_materials() {
   return keys_of([](const auto& law) { return !law.finite_strain; });
 }
 std::string remembering_materials() {
-  return keys_of([]<class T>(const T&) { return material::Remembers<T>; });
+  return keys_of([](const auto& law) { return !material::memory_of(law).empty(); });
 }
 
 std::vector<RememberedNumber> remembered_numbers() {

@@ -126,9 +126,14 @@ Response3 respond(const UserMaterial& law, const Strain3& strain, Memory memory)
   const double volume = volume_of(law, strain);
   // A state against itself has the stress that it has.
   const bool itself = memory.duration == 0 && is_itself(p, before, strain);
-  if (itself) p.stress = before.stress;
+  if (itself) {
+    p.stress = before.stress;
+    p.stored = before.stored;
+    p.plastic = before.plastic;
+    p.creep = before.creep;
+  }
   r.stress = volume * p.stress;
-  r.tangent = volume * p.tangent;
+  r.tangent = 0.5 * volume * (p.tangent + p.tangent.transpose());
   if (!memory.next) return r;
   const double work = work_of(law, before, p, strain);
   remember_user({strain, p.stress, p.stored, p.plastic, p.creep, before.work + work,

@@ -37,10 +37,14 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "model.yaml:32: steps[1].forces[0]: unknown key 'on?\?'; did you mean 'on'?"},
       {"linear_elastic:", "plastic_flow:",
        "model.yaml:5: materials.steel: unknown key 'plastic_flow'; known: linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber, orthotropic, anisotropic, "
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, deformation_plasticity, rubber, "
+       "ogden, hyperfoam, "
+       "orthotropic, anisotropic, "
        "user, expansion"
        "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the laws linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber, orthotropic, anisotropic, "
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, deformation_plasticity, rubber, "
+       "ogden, hyperfoam, "
+       "orthotropic, anisotropic, "
        "user; "
        "others are not available "
        "(osculate "
@@ -83,9 +87,12 @@ TEST(BrokenModels, OneOfSeveralKeys) {
        "model.yaml:9: rigid.base: 'set' and 'circle' exclude each other"},
       {"{linear_elastic: {E: 2.1e4, nu: 0.3}}", "{}",
        "model.yaml:5: materials.steel: needs one of linear_elastic, st_venant_kirchhoff, "
-       "neo_hooke, elastoplastic, norton, rubber, orthotropic, anisotropic, user"
+       "neo_hooke, elastoplastic, norton, deformation_plasticity, rubber, ogden, hyperfoam, "
+       "orthotropic, anisotropic, user"
        "; a material is NAME: {LAW: {E: ..., nu: ...}} with one of the laws linear_elastic, "
-       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, rubber, orthotropic, anisotropic, "
+       "st_venant_kirchhoff, neo_hooke, elastoplastic, norton, deformation_plasticity, rubber, "
+       "ogden, hyperfoam, "
+       "orthotropic, anisotropic, "
        "user; "
        "others are not available "
        "(osculate "
