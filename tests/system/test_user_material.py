@@ -145,6 +145,30 @@ static int inside;
             self.assertEqual(done.returncode, 0, done.stderr)
         self.assertAlmostEqual(self.last_force("parts"), self.last_force("whole"), delta=1e-14)
 
+    def test_a_routine_is_told_the_temperature(self):
+        (self.folder / "warm.c").write_text((EXAMPLES / "metal.c").read_text().replace(
+            "const double young = props[0]", "const double young = props[0] * (1 - 0.001 * (*temp + *dtemp))").replace(
+            "  for (i = 0; i < *ntens; ++i)\n    elastic", """  if (*dtime > 1e-9 && fabs(*temp - 20 - statev[0]) > 1e-9) *pnewdt = 0.1;
+  if (*dtime > 1e-9) statev[0] += *dtemp;
+  for (i = 0; i < *ntens; ++i)
+    elastic""", 1))
+        self.compile("warm.so", self.folder / "warm.c")
+        (self.folder / "warm.yaml").write_text("""osculate: 1
+mesh: {generate: {b: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [1, 1, 1], type: hex8}}}}
+materials: {m: {user: {library: warm.so, constants: [200, 0], state: 1}}}
+sections: [{on: b, material: m, element: solid}]
+initial_temperature: [{on: b, value: 20}]
+steps:
+  - {name: heat, increments: 2, duration: 1, temperature: [{on: b, value: 220}],
+     prescribe: [{on: b.bottom, uz: 0}, {on: b.left, ux: 0}, {on: b.front, uy: 0}, {on: b.top, uz: 0.01}]}
+  - {name: cool, increments: 4, duration: 1, temperature: [{on: b, value: 120}]}
+output: {history: [{on: b.top, of: rfz}]}
+""")
+        done = self.run_program("run", "warm.yaml", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([len(step["increments"]) for step in json.loads(done.stdout)["steps"]], [2, 4])
+        self.assertAlmostEqual(self.last_force("warm"), 0.01 * 200 * (1 - 0.12), delta=1e-12)
+
     def deck_displacement(self):
         path = next((self.folder / "brick.results").glob("*.dat"))
         return float(path.read_text().split()[-1])

@@ -23,8 +23,8 @@ struct Memory {
   double duration = 0;                ///< of the increment, for laws that depend on time
   const double* expansion = nullptr;  ///< strain by the temperature, one number a point; null: none
   const double* temperature = nullptr;  ///< one number a point; null: that of the law's constants
-  const double* temperature_before = nullptr;  ///< at the beginning of the increment, likewise
   const double* axes = nullptr;  ///< of the material, nine numbers a point by columns; null: global
+  const double* temperature_before = nullptr;  ///< at the beginning of the increment, likewise
 
   [[nodiscard]] Memory at(std::size_t point) const {
     return {committed ? committed + point * size : nullptr,
@@ -33,8 +33,8 @@ struct Memory {
             duration,
             expansion ? expansion + point : nullptr,
             temperature ? temperature + point : nullptr,
-            temperature_before ? temperature_before + point : nullptr,
-            axes ? axes + 9 * point : nullptr};
+            axes ? axes + 9 * point : nullptr,
+            temperature_before ? temperature_before + point : nullptr};
   }
 };
 
