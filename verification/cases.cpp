@@ -107,6 +107,9 @@ std::vector<Case> computed_cases() {  // long: the one list
       {"vibrations",
        "Free vibrations about a state are those of bars on walls, free bodies, strings", false,
        vibrations},
+      {"user_material",
+       "A metal that is a routine of the user equals the closed solution and the built-in metal",
+       false, user_material},
   };
 }
 

@@ -44,5 +44,6 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult snap_through(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell(const CaseContext& context);
 [[nodiscard]] CaseResult solid_shell_fine(const CaseContext& context);
+[[nodiscard]] CaseResult user_material(const CaseContext& context);
 
 }  // namespace osculate::verification

@@ -193,6 +193,16 @@ def frequency_difference(ours, theirs):
                for here, there in zip(ours, theirs) for a, b in zip(here, there))
 
 
+def user_material(options, folder):
+    """The library of decks with *USER MATERIAL: Hooke's law, as CalculiX has compiled in; none: no compiler."""
+    compiler, source = shutil.which("cc"), HERE.parent.parent
+    library = pathlib.Path(folder) / "metal.so"
+    if compiler:
+        subprocess.run([compiler, "-shared", "-fPIC", "-O2", "-I", source / "include", "-o", library,
+                        source / "examples" / "user_material" / "metal.c", "-lm"], check=True)
+        os.environ["OSCULATE_USER_MATERIAL"] = str(library)
+
+
 def compare(row, options):
     """What both programs made of a deck, as a dictionary; `wrong` says why there is no number."""
     result = {"deck": row.deck}
@@ -200,6 +210,8 @@ def compare(row, options):
         folder = pathlib.Path(name)
         text = asking_for_results(text_of(options.examples, row.deck))
         (folder / "deck.inp").write_text(text)
+        if re.search(r"^\*\s*USER\s*MATERIAL", text, re.I | re.M):
+            user_material(options, folder)
         for file in pathlib.Path(options.examples).glob(row.deck + ".*"):
             if not file.name.startswith((row.deck + ".inp", row.deck + ".dat", row.deck + ".frd")):
                 shutil.copy(file, folder)

@@ -3,6 +3,24 @@
 
 namespace osculate::testing {
 
+/// Hooke's law as a routine of a user: sigma = D eps, with E and nu as constants.
+inline void user_hooke(double* stress, double*, double* ddsdde, double*, double*, double*, double*,
+                       double*, double*, double*, double* stran, double* dstran, double*, double*,
+                       double*, double*, double*, double*, char*, int*, int*, int*, int*,
+                       double* props, int*, double*, double*, double*, double*, double*, double*,
+                       int*, int*, int*, int*, int*, int*, std::size_t) {
+  const material::Lame c = material::lame(props[0], props[1]);
+  for (int i = 0; i < 6; ++i) {
+    stress[i] = 0;
+    for (int j = 0; j < 6; ++j) {
+      double& d = ddsdde[6 * j + i];
+      d = i < 3 && j < 3 ? c.lambda : 0;
+      if (i == j) d += i < 3 ? 2 * c.mu : c.mu;
+      stress[i] += d * (stran[j] + dstran[j]);
+    }
+  }
+}
+
 /// Gives a material the elastic constants; those of rubber have terms of every kind.
 template <class T>
 void set_elastic(T& law, double young, double poisson) {
@@ -18,6 +36,19 @@ void set_elastic(T& law, double young, double poisson) {
     law.d1111 = law.d2222 = law.d3333 = c.lambda + 2 * c.mu;
     law.d1122 = law.d1133 = law.d2233 = c.lambda;
     law.d1212 = law.d1313 = law.d2323 = c.mu;
+  } else if constexpr (requires { law.alpha1; }) {
+    const double mu = young / (2 * (1 + poisson));
+    law.mu1 = 0.7 * mu;
+    law.alpha1 = 2.5;
+    law.mu2 = 0.3 * mu;
+    law.alpha2 = -1.5;
+    if constexpr (requires { law.d1; })
+      law.d1 = 6 * (1 - 2 * poisson) / young;
+    else
+      law.nu1 = law.nu2 = poisson;
+  } else if constexpr (requires { law.routine; }) {
+    law.constants = {young, poisson};
+    (void)law.use(user_hooke);
   } else {
     const double mu = young / (2 * (1 + poisson)), bulk = young / (3 * (1 - 2 * poisson));
     law.c10 = 0.4 * mu;

@@ -30,7 +30,8 @@ using Table = std::vector<std::array<double, 2>>;
 
 /// Where an object of type `T` keeps the value of a parameter.
 template <class T>
-using Slot = std::variant<double T::*, std::optional<double> T::*, Table T::*>;
+using Slot = std::variant<double T::*, std::optional<double> T::*, Table T::*, std::string T::*,
+                          std::vector<double> T::*>;
 
 /// Sentences of a parameter that may be left to the program by the word `auto`.
 struct Automatic {
@@ -95,7 +96,7 @@ template <class M, class T>
   return static_cast<Member*>(nullptr);
 }
 
-/// The number of a parameter; none: it is optional and not there, or a table.
+/// The number of a parameter; none: it is optional and not there, or none.
 template <class T>
 [[nodiscard]] std::optional<double> number_in(const T& object, const Slot<T>& slot) {
   if (const double* const number = member_in<double>(object, slot)) return *number;
@@ -106,6 +107,14 @@ template <class T>
 template <class T>
 [[nodiscard]] const Table* table_in(const T& object, const Slot<T>& slot) {
   return member_in<Table>(object, slot);
+}
+template <class T>
+[[nodiscard]] bool is_text(const T& object, const Slot<T>& slot) {
+  return member_in<std::string>(object, slot) != nullptr;
+}
+template <class T>
+[[nodiscard]] bool is_list(const T& object, const Slot<T>& slot) {
+  return member_in<std::vector<double>>(object, slot) != nullptr;
 }
 /// The table over the temperature of a parameter that may have one.
 template <class T>
@@ -123,6 +132,15 @@ void set(T& object, const Slot<T>& slot, double value) {
 template <class T>
 void set(T& object, const Slot<T>& slot, Table points) {
   if (Table* const table = member_in<Table>(object, slot)) *table = std::move(points);
+}
+
+template <class T>
+void set(T& object, const Slot<T>& slot, std::string text) {
+  if (auto* const own = member_in<std::string>(object, slot)) *own = std::move(text);
+}
+template <class T>
+void set(T& object, const Slot<T>& slot, std::vector<double> numbers) {
+  if (auto* const own = member_in<std::vector<double>>(object, slot)) *own = std::move(numbers);
 }
 
 /// A parameter with a number that it may not have.

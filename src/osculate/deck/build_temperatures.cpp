@@ -42,7 +42,9 @@ void build_initial_temperature(BuildContext<Dim>& c) {
   for (const Load& load : c.description.initial_temperature)
     for (const Index node : heated_nodes(c, load.on))
       of[static_cast<std::size_t>(node)] = load.values[0]->value;
-  const auto feels = [&](const Material& m) { return !m.expansion.table.empty() || warms(m); };
+  const auto feels = [](const Material& m) {
+    return !m.expansion.table.empty() || material::takes_temperature(m.law.value);
+  };
   const std::vector<Material>& materials = c.description.materials;
   if (std::none_of(materials.begin(), materials.end(), feels))
     c.built.warnings.emplace_back(

@@ -1,4 +1,4 @@
-// `*HYPERELASTIC` of a deck as `rubber`.
+// `*HYPERELASTIC` and `*HYPERFOAM` of a deck as `rubber`, `ogden` and `hyperfoam`.
 #include <fmt/format.h>
 
 #include <array>
@@ -21,7 +21,7 @@ constexpr std::array<const char*, 9> polynomial{"c10", "c01", "c20", "c11", "c02
                                                 "c30", "c21", "c12", "c03"};
 constexpr std::array<const char*, 3> of_first{"c10", "c20", "c30"};
 
-/// N of POLYNOMIAL and REDUCED POLYNOMIAL.
+/// N of POLYNOMIAL, REDUCED POLYNOMIAL, OGDEN and `*HYPERFOAM`.
 int order_of(const InpModel& m, const Card& card) {
   const std::string text = option_of(card, "N");
   const int n = text.empty() ? 1 : io::inp::number_of(m.deck, card.at, text, "N");
@@ -34,14 +34,12 @@ Form form_of(const InpModel& m, const Card& card) {
   if (is("NEOHOOKE")) return {{"c10"}, 1};
   if (is("MOONEY-RIVLIN")) return {{"c10", "c01"}, 1};
   if (is("YEOH")) return {{of_first.begin(), of_first.end()}, 3};
-  for (const char* const other : {"OGDEN", "ARRUDA-BOYCE", "MARLOW", "VANDERWAALS", "USER"})
+  for (const char* const other : {"ARRUDA-BOYCE", "MARLOW", "VANDERWAALS", "USER"})
     if (is(other))
       io::inp::fail(m.deck, card,
-                    fmt::format("{} is not supported: NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL "
-                                "or REDUCED POLYNOMIAL",
+                    fmt::format("{} is not supported: NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, "
+                                "REDUCED POLYNOMIAL or OGDEN",
                                 other));
-  if (is("TESTDATAINPUT"))
-    io::inp::fail(m.deck, card, "constants from test data are not supported: give them");
   const int n = order_of(m, card);
   if (is("REDUCEDPOLYNOMIAL")) return {{of_first.begin(), of_first.begin() + n}, n};
   constexpr std::array<int, 4> count{0, 2, 5, 9};
@@ -57,9 +55,51 @@ std::vector<double> numbers_of(const InpModel& m, const Card& card) {
   return numbers;
 }
 
+/// 2 / K of what gives no d1, as there (by its answers): a ratio of Poisson of 0.475.
+double usual_compliance(double shear) { return 0.1 / shear; }
+
+/// Numbers of N terms of three; those of the volume, which stand last, may be left out.
+std::vector<double> numbers_of_terms(const InpModel& m, const Card& card, std::size_t n) {
+  std::vector<double> numbers = numbers_of(m, card);
+  if (numbers.size() < 2 * n)
+    io::inp::fail(m.deck, card,
+                  fmt::format("expected {} constants, found {}", 2 * n, numbers.size()));
+  if (numbers.size() > 3 * n + 1)
+    io::inp::fail(m.deck, card, "constants that depend on the temperature are not supported");
+  numbers.resize(3 * n);
+  return numbers;
+}
+
+/// mu and alpha of each term, then what it says of the volume.
+void put_terms(const InpModel& m, const Card& card, std::string_view volume, SourceNode& law) {
+  const auto n = static_cast<std::size_t>(order_of(m, card));
+  std::vector<double> numbers = numbers_of_terms(m, card, n);
+  const int line = line_of(card.at);
+  double shear = 0;
+  for (std::size_t p = 0; p < n; ++p) {
+    shear += numbers[2 * p];
+    put(law, fmt::format("mu{}", p + 1), inp_number(numbers[2 * p], line));
+    put(law, fmt::format("alpha{}", p + 1), inp_number(numbers[2 * p + 1], line));
+  }
+  if (volume == "d" && numbers[2 * n] == 0) numbers[2 * n] = usual_compliance(shear);
+  for (std::size_t p = 0; p < n; ++p)
+    if (numbers[2 * n + p] != 0)
+      put(law, fmt::format("{}{}", volume, p + 1), inp_number(numbers[2 * n + p], line));
+}
+
 }  // namespace
 
+std::string_view hyperelastic_law(const Card& card) {
+  if (card.keyword == "HYPERFOAM") return "hyperfoam";
+  return io::inp::find_parameter(card, "OGDEN") ? "ogden" : "rubber";
+}
+
 void put_hyperelastic(const InpModel& m, const Card& card, SourceNode& law) {
+  const std::string_view kind = hyperelastic_law(card);
+  if (io::inp::find_parameter(card, "TESTDATAINPUT"))
+    io::inp::fail(m.deck, card, "constants from test data are not supported: give them");
+  if (kind == "hyperfoam") return put_terms(m, card, "nu", law);
+  if (kind == "ogden") return put_terms(m, card, "d", law);
   const Form form = form_of(m, card);
   const std::vector<double> numbers = numbers_of(m, card);
   const std::size_t factors = form.factors.size(),
@@ -78,8 +118,7 @@ void put_hyperelastic(const InpModel& m, const Card& card, SourceNode& law) {
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(form.order); ++k) {
     double d = factors + k < numbers.size() ? numbers[factors + k] : 0;
-    constexpr double nu = 0.475;  // of what gives no d1: 2 / K with this ratio of Poisson, as there
-    if (k == 0 && d == 0) d = 3 * (1 - 2 * nu) / (2 * half_shear * (1 + nu));
+    if (k == 0 && d == 0) d = usual_compliance(2 * half_shear);
     if (d != 0) put(law, fmt::format("d{}", k + 1), inp_number(d, line));
   }
 }

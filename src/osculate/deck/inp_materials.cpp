@@ -20,7 +20,8 @@ using io::inp::SetKind;
 struct MaterialCards {
   const Card* material = nullptr;
   const Card *elastic = nullptr, *plastic = nullptr, *density = nullptr, *creep = nullptr,
-             *expansion = nullptr, *hyperelastic = nullptr;
+             *expansion = nullptr, *hyperelastic = nullptr, *user = nullptr, *depvar = nullptr,
+             *cyclic = nullptr, *deformation = nullptr;
 };
 
 std::vector<MaterialCards> material_cards(const InpModel& m) {
@@ -36,10 +37,15 @@ std::vector<MaterialCards> material_cards(const InpModel& m) {
   for (const Card& card : m.deck.cards) {
     if (card.keyword == "MATERIAL") all.push_back({&card});
     if (card.keyword == "ELASTIC") set(card, &MaterialCards::elastic);
-    if (card.keyword == "HYPERELASTIC") set(card, &MaterialCards::hyperelastic);
+    if (card.keyword == "HYPERELASTIC" || card.keyword == "HYPERFOAM")
+      set(card, &MaterialCards::hyperelastic);
     if (card.keyword == "PLASTIC") set(card, &MaterialCards::plastic);
+    if (card.keyword == "CYCLICHARDENING") set(card, &MaterialCards::cyclic);
+    if (card.keyword == "DEFORMATIONPLASTICITY") set(card, &MaterialCards::deformation);
     if (card.keyword == "DENSITY") set(card, &MaterialCards::density);
     if (card.keyword == "CREEP") set(card, &MaterialCards::creep);
+    if (card.keyword == "USERMATERIAL") set(card, &MaterialCards::user);
+    if (card.keyword == "DEPVAR") set(card, &MaterialCards::depvar);
     if (card.keyword == "EXPANSION") set(card, &MaterialCards::expansion);
   }
   return all;
@@ -67,29 +73,59 @@ std::vector<std::array<double, 2>> hardening_of(const InpModel& m, const Card& c
   return points;
 }
 
-void put_plastic(const InpModel& m, const Card& card, SourceNode& law) {
-  const std::string kind = option_of(card, "HARDENING");
-  const auto points = hardening_of(m, card);
-  const int line = line_of(card.at);
-  if (kind == "KINEMATIC") {
-    if (points.size() > 2)
-      io::inp::fail(m.deck, card, "kinematic hardening is linear here: give two points");
+void put_yield_table(const std::vector<std::array<double, 2>>& points, int line, SourceNode& law) {
+  if (points.size() == 1) {
     put(law, "yield", inp_number(points[0][0], line));
-    if (points.size() == 2)
-      put(law, "kinematic",
-          inp_number((points[1][0] - points[0][0]) / (points[1][1] - points[0][1]), line));
     return;
   }
-  if (!kind.empty() && kind != "ISOTROPIC")
-    io::inp::fail(m.deck, card,
-                  fmt::format("HARDENING={} is not supported: ISOTROPIC or "
-                              "KINEMATIC",
-                              kind));
   SourceNode& table = put(law, "hardening", inp_list(line));
   for (const auto& [stress, strain] : points) {
     SourceNode& row = table.items.emplace_back(inp_list(line));
     row.items = {inp_number(stress, line), inp_number(strain, line)};
   }
+}
+
+/// The middle of the yield surface moves by the slope of the two points of `*PLASTIC`; its size is
+/// that of `*CYCLIC HARDENING`, without which it stays.
+void put_kinematic(const InpModel& m, const Card& card, const Card* cyclic, SourceNode& law) {
+  const auto points = hardening_of(m, card);
+  const int line = line_of(card.at);
+  if (points.size() > 2)
+    io::inp::fail(m.deck, card, "kinematic hardening is linear here: give two points");
+  if (cyclic)
+    put_yield_table(hardening_of(m, *cyclic), line_of(cyclic->at), law);
+  else
+    put(law, "yield", inp_number(points[0][0], line));
+  if (points.size() == 2)
+    put(law, "kinematic",
+        inp_number((points[1][0] - points[0][0]) / (points[1][1] - points[0][1]), line));
+}
+
+void put_plastic(const InpModel& m, const Card& card, const Card* cyclic, SourceNode& law) {
+  const std::string kind = option_of(card, "HARDENING"), data = option_of(card, "DATATYPE");
+  if (!kind.empty() && kind != "ISOTROPIC" && kind != "KINEMATIC" && kind != "COMBINED")
+    io::inp::fail(
+        m.deck, card,
+        fmt::format("HARDENING={} is not supported: ISOTROPIC, KINEMATIC or COMBINED", kind));
+  if (!data.empty())
+    io::inp::fail(m.deck, card,
+                  fmt::format("DATA TYPE={} is not supported: give stress and plastic strain, as "
+                              "CalculiX reads them",
+                              data));
+  if (cyclic && kind != "COMBINED")
+    io::inp::fail(m.deck, *cyclic, "belongs to *PLASTIC, HARDENING=COMBINED");
+  if (kind == "KINEMATIC" || kind == "COMBINED")
+    put_kinematic(m, card, cyclic, law);
+  else
+    put_yield_table(hardening_of(m, card), line_of(card.at), law);
+}
+
+/// Numbers of `*DEFORMATION PLASTICITY`, which has E and nu of its own.
+void put_deformation(const InpModel& m, const Card& card, SourceNode& law) {
+  const Line& line = constant_line(m, card, "E, nu, the yield stress, n and alpha");
+  Fields fields(m.deck, line);
+  for (const char* const key : {"E", "nu", "yield", "n", "alpha"})
+    put(law, key, inp_number(fields.real(key), line_of(line.at)));
 }
 
 void put_creep(const InpModel& m, const Card& card, SourceNode& law) {
@@ -104,18 +140,42 @@ void put_creep(const InpModel& m, const Card& card, SourceNode& law) {
     fields.fail("creep that depends on the time (m not 0) is not supported");
 }
 
+/// A yield stress of 0 without hardening: beside `*CREEP` all that flows is what creeps.
+bool flows_at_once(const InpModel& m, const Card& plastic) {
+  return std::ranges::all_of(hardening_of(m, plastic),
+                             [](const auto& point) { return point[0] == 0; });
+}
+
 std::string_view law_of(const InpModel& m, const MaterialCards& c) {
+  for (const Card* const other : {c.elastic, c.plastic, c.creep, c.hyperelastic})
+    if (c.user && other)
+      io::inp::fail(m.deck, *other, "of a material with *USER MATERIAL this is not supported");
+  for (const Card* const other : {c.elastic, c.plastic, c.creep, c.hyperelastic, c.user})
+    if (c.deformation && other)
+      io::inp::fail(m.deck, *other,
+                    "of a material with *DEFORMATION PLASTICITY this is not supported");
+  if (c.depvar && !c.user)
+    io::inp::fail(m.deck, *c.depvar, "belongs to a *USER MATERIAL, and the material has none");
+  if (c.user) return user_law(m, *c.material);
+  if (c.deformation) return "deformation_plasticity";
   for (const Card* const other : {c.elastic, c.plastic, c.creep})
     if (c.hyperelastic && other)
-      io::inp::fail(m.deck, *other, "of a material with *HYPERELASTIC this is not supported");
-  if (c.hyperelastic) return "rubber";
+      io::inp::fail(m.deck, *other,
+                    "of a material with *HYPERELASTIC or *HYPERFOAM this is not supported");
+  if (c.cyclic && !c.plastic)
+    io::inp::fail(m.deck, *c.cyclic, "belongs to *PLASTIC, HARDENING=COMBINED");
+  if (c.hyperelastic) return hyperelastic_law(*c.hyperelastic);
   for (const Card* const other : {c.plastic, c.creep})
     if (other && is_directional(*c.elastic))
       io::inp::fail(m.deck, *other, "of a material that is not isotropic this is not supported");
     else if (other)
       (void)constant_line(m, *c.elastic, "E and nu");
+  if (c.plastic && c.creep && flows_at_once(m, *c.plastic)) return "norton";
   if (c.plastic && c.creep)
-    io::inp::fail(m.deck, *c.creep, "a material that both flows and creeps is not supported");
+    io::inp::fail(m.deck, *c.creep,
+                  "a material that both flows and creeps is not supported, but with a yield stress "
+                  "of 0, which "
+                  "is creep alone");
   if (c.plastic) return "elastoplastic";
   if (c.creep) return "norton";
   return elastic_law(m, *c.elastic);
@@ -163,17 +223,22 @@ SourceNode inp_materials(InpModel& m) {
     const std::string name = plain_name(value_of(m, *c.material, "NAME"));
     if (find(materials, name))
       io::inp::fail(m.deck, *c.material, fmt::format("a second material is called '{}'", name));
-    if (!c.elastic && !c.hyperelastic)
-      io::inp::fail(m.deck, *c.material, "its *ELASTIC or *HYPERELASTIC is missing");
+    if (!c.elastic && !c.hyperelastic && !c.user && !c.deformation)
+      io::inp::fail(m.deck, *c.material,
+                    "its *ELASTIC, *HYPERELASTIC or *USER MATERIAL is missing");
     SourceNode& material = put(materials, name, inp_map(line));
     SourceNode& law = put(material, std::string(law_of(m, c)), inp_map(line));
-    if (c.hyperelastic)
+    if (c.user)
+      put_user(m, *c.material, *c.user, c.depvar, law);
+    else if (c.deformation)
+      put_deformation(m, *c.deformation, law);
+    else if (c.hyperelastic)
       put_hyperelastic(m, *c.hyperelastic, law);
     else
       put_elastic(m, *c.elastic, law);
     if (const double density = density_of(m, c); density > 0)
       put(law, "density", inp_number(density, line_of(c.density->at)));
-    if (c.plastic) put_plastic(m, *c.plastic, law);
+    if (c.plastic && !c.creep) put_plastic(m, *c.plastic, c.cyclic, law);
     if (c.creep) put_creep(m, *c.creep, law);
     if (c.expansion && has_temperatures(m))
       put(material, "expansion", inp_expansion(m, *c.expansion));
@@ -191,18 +256,20 @@ bool is_discrete(const InpModel& m, const std::string& elements) {
   });
 }
 
-/// The `*ELASTIC` of a section's material.
-const Card* elastic_of(const InpModel& m, const Card& section) {
+/// The cards of a section's material.
+MaterialCards material_of(const InpModel& m, const Card& section) {
   const std::string material = plain_name(option_of(section, "MATERIAL"));
   for (const MaterialCards& c : material_cards(m))
-    if (io::inp::capitals(plain_name(value_of(m, *c.material, "NAME"))) == material)
-      return c.elastic;
-  return nullptr;
+    if (io::inp::capitals(plain_name(value_of(m, *c.material, "NAME"))) == material) return c;
+  return {};
 }
 
 /// Whether a section has axes that its material needs. Shells and beams have none here.
 bool is_oriented(const InpModel& m, const Card& section) {
-  const Card* const elastic = elastic_of(m, section);
+  const MaterialCards material = material_of(m, section);
+  const Card* const elastic = material.elastic;
+  if (material.user && !option_of(section, "ORIENTATION").empty())
+    io::inp::fail(m.deck, section, "a *USER MATERIAL in axes of its own is not supported");
   const bool directional = elastic && is_directional(*elastic);
   if (directional && io::inp::is_thin_section(section))
     io::inp::fail(m.deck, section,

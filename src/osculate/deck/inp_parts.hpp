@@ -100,8 +100,17 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 void put_elastic(const InpModel& m, const io::inp::Card& elastic, SourceNode& law);
 /// The `*ORIENTATION` that a section names.
 [[nodiscard]] SourceNode inp_orientation(const InpModel& m, const io::inp::Card& section);
-/// Constants of a `*HYPERELASTIC`.
+/// The law that a `*HYPERELASTIC` or `*HYPERFOAM` means, and its constants.
+[[nodiscard]] std::string_view hyperelastic_law(const io::inp::Card& card);
 void put_hyperelastic(const InpModel& m, const io::inp::Card& card, SourceNode& law);
+/// Of a `*USER MATERIAL`: the law that it means, by the name of the material, and its keys. The
+/// library of `user` is that of the environment variable OSCULATE_USER_MATERIAL; without it the
+/// deck is refused.
+///
+/// Tested by  tests/unit/deck/test_inp_user.cpp
+[[nodiscard]] std::string_view user_law(const InpModel& m, const io::inp::Card& material);
+void put_user(const InpModel& m, const io::inp::Card& material, const io::inp::Card& user,
+              const io::inp::Card* depvar, SourceNode& law);
 [[nodiscard]] SourceNode inp_sections(InpModel& m);
 /// A set of elements, and the words of a section that their types stand for.
 struct InpElements {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/bind.hpp"
@@ -57,13 +58,22 @@ BoundKey<Material> expansion_key() {
       }};
 }
 
+/// The law of a value; one whose formulas stand in a library, with them.
+template <class T>
+T law_of(const Value& v) {
+  T law = params_of<T>(v);
+  if constexpr (requires { law.open(std::string()); })
+    require_none(law.open(std::filesystem::path(v.mark.file).parent_path().string()), v);
+  return law;
+}
+
 /// One key a law, and the expansion.
 BoundKeys<Material> material_keys() {
   std::vector<BoundKey<Material>> keys;
   material::for_each_law([&]<class T>(const T&) {
     keys.push_back({optional(std::string(T::key), params_spec<T>(std::string(T::doc))),
                     [](Material& m, const Value& v) {
-                      m.law = {params_of<T>(v), v.mark};
+                      m.law = {law_of<T>(v), v.mark};
                       for (const core::Param<T>& p : T::params())
                         if (const Value* const value = value_of(v, p))
                           m.marks.emplace_back(p.key, value->mark);
@@ -104,7 +114,7 @@ std::string small_strain_materials() {
   return keys_of([](const auto& law) { return !law.finite_strain; });
 }
 std::string remembering_materials() {
-  return keys_of([]<class T>(const T&) { return material::Remembers<T>; });
+  return keys_of([](const auto& law) { return !material::memory_of(law).empty(); });
 }
 
 std::vector<RememberedNumber> remembered_numbers() {
@@ -112,6 +122,7 @@ std::vector<RememberedNumber> remembered_numbers() {
   material::for_each_law([&]<class T>(const T&) {
     if constexpr (material::Remembers<T>)
       for (const material::Remembered& of : T::memory) {
+        if (of.name.empty()) continue;
         const auto known = std::ranges::find(numbers, of.name, &RememberedNumber::name);
         if (known != numbers.end()) {
           known->materials += fmt::format(", {}", T::key);

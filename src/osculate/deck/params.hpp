@@ -27,6 +27,12 @@ template <class T>
     Spec spec = within(number(std::move(sentence)), p.range);
     return p.unit == "1" ? spec : spec.in(std::string(p.unit));
   };
+  if (core::is_text(T{}, p.slot) || core::is_list(T{}, p.slot)) {
+    Spec spec = core::is_text(T{}, p.slot) ? text(std::move(doc))
+                                           : list(std::move(doc), number("One number."));
+    spec = spec.such_as(std::move(example));
+    return p.otherwise.empty() ? spec : spec.otherwise_as(std::string(p.otherwise));
+  }
   if (p.automatic)
     return either(std::move(doc),
                   {number_with(std::string(p.automatic->number)),
@@ -114,6 +120,14 @@ void check_temperatures(const core::Param<T>& p, const Value& table) {
   }
 }
 
+/// Throws core::InputError with what is wrong, if anything is, at the place of its key.
+inline void require_none(const std::optional<core::Fault>& fault, const Value& v) {
+  if (!fault) return;
+  const Value* const key = fault->key.empty() ? &v : v.find(fault->key);
+  const Value& whole = key ? *key : v;
+  throw core::InputError(fault->item ? whole.items.at(*fault->item).mark : whole.mark, fault->why);
+}
+
 /// The object that a value describes. Throws core::InputError where its parameters do not go
 /// together.
 template <class T>
@@ -122,6 +136,16 @@ template <class T>
   for (const core::Param<T>& p : T::params()) {
     const Value* const value = value_of(v, p);
     if (!value || is_automatic(*value, p)) continue;
+    if (core::is_text(object, p.slot)) {
+      core::set(object, p.slot, value->text);
+      continue;
+    }
+    if (core::is_list(object, p.slot)) {
+      std::vector<double> numbers;
+      for (const Value& item : value->items) numbers.push_back(item.number);
+      core::set(object, p.slot, std::move(numbers));
+      continue;
+    }
     core::Table points;
     for (const Value& item : value->items)
       points.push_back({item.items[0].number, item.items[1].number});
@@ -134,12 +158,7 @@ template <class T>
     core::set(object, p.slot, value->number);
     core::set(object, p.slot, std::move(points));
   }
-  if (const auto fault = core::own_fault(object)) {
-    const Value* const key = fault->key.empty() ? &v : v.find(fault->key);
-    const Value& whole = key ? *key : v;
-    throw core::InputError(fault->item ? whole.items.at(*fault->item).mark : whole.mark,
-                           fault->why);
-  }
+  require_none(core::own_fault(object), v);
   return object;
 }
 

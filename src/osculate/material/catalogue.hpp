@@ -3,23 +3,28 @@
 #include <variant>
 
 #include "osculate/material/anisotropic.hpp"
+#include "osculate/material/deformation_plasticity.hpp"
+#include "osculate/material/hyperfoam.hpp"
 #include "osculate/material/j2_plasticity.hpp"
 #include "osculate/material/linear_elastic.hpp"
 #include "osculate/material/logarithmic.hpp"
 #include "osculate/material/neo_hooke.hpp"
 #include "osculate/material/norton.hpp"
+#include "osculate/material/ogden.hpp"
 #include "osculate/material/orthotropic.hpp"
 #include "osculate/material/rubber.hpp"
 #include "osculate/material/st_venant_kirchhoff.hpp"
+#include "osculate/material/user_material.hpp"
 
 namespace osculate::material {
 
 /// One of the laws, as a value. Its copies are made in law.cpp: only what asks which laws there are
 /// (that source, energy.cpp and deck/materials.cpp) has them in its code.
-struct Law
-    : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
-                   Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>, Rubber, Orthotropic,
-                   GreenLagrange<Orthotropic>, Anisotropic, GreenLagrange<Anisotropic>> {
+struct Law : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
+                          Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>,
+                          DeformationPlasticity, Logarithmic<DeformationPlasticity>, Rubber, Ogden,
+                          Hyperfoam, Orthotropic, GreenLagrange<Orthotropic>, Anisotropic,
+                          GreenLagrange<Anisotropic>, UserMaterial, Logarithmic<UserMaterial>> {
   using variant::variant;
   Law();  ///< the first of the list, with its defaults
   Law(const Law&);

@@ -108,8 +108,12 @@ bool linear(const Law& law) {
 }
 
 std::span<const Remembered> memory_of(const Law& law) {
-  const auto of = []<class T>(const T&) -> std::span<const Remembered> {
-    if constexpr (Remembers<T>) return T::memory;
+  const auto of =
+      []<class T>([[maybe_unused]] const T& law_of_type) -> std::span<const Remembered> {
+    if constexpr (requires(const T& m) { remembered_by(named(m)); })
+      return remembered_by(named(law_of_type));
+    else if constexpr (Remembers<T>)
+      return T::memory;
     return {};
   };
   return std::visit(of, law);
@@ -135,7 +139,11 @@ bool has_finite_form(const Law& law) {
 
 Law in_finite_strain(const Law& law) {
   const auto form = []<class T>(const T& m) -> Law {
-    if constexpr (requires { requires T::logarithmic; })
+    if constexpr (requires(T of) { of.finite = true; }) {
+      T in_logarithm = m;
+      in_logarithm.finite = true;
+      return Logarithmic<T>{std::move(in_logarithm)};
+    } else if constexpr (requires { requires T::logarithmic; })
       return Logarithmic<T>{m};
     else if constexpr (Directional<T> && !T::finite_strain)
       return GreenLagrange<T>{m};
@@ -151,6 +159,21 @@ bool directional(const Law& law) {
 
 bool over_temperature(const Law& law) {
   return std::visit([](const auto& m) { return has_tables(m); }, law);
+}
+
+bool takes_temperature(const Law& law) {
+  const auto of = []<class T>(const T& m) {
+    return requires { requires std::decay_t<decltype(named(m))>::takes_temperature; };
+  };
+  return over_temperature(law) || std::visit(of, law);
+}
+
+std::string complaint(const Law& law) {
+  const auto of = [](const auto& m) -> std::string {
+    if constexpr (requires { complaint_of(named(m)); }) return complaint_of(named(m));
+    return {};
+  };
+  return std::visit(of, law);
 }
 
 Tangent3 stiffness_of(const Law& law) {

@@ -23,6 +23,10 @@ namespace osculate::material {
 [[nodiscard]] bool directional(const Law& law);
 /// Some constants are tables over the temperature (Memory::temperature).
 [[nodiscard]] bool over_temperature(const Law& law);
+/// The law wants to know the temperature of the point (Memory::temperature).
+[[nodiscard]] bool takes_temperature(const Law& law);
+/// Why a law had no answer, where it can say so.
+[[nodiscard]] std::string complaint(const Law& law);
 /// Of a directional law, in its axes; zero of others.
 [[nodiscard]] Tangent3 stiffness_of(const Law& law);
 [[nodiscard]] double density(const Law& law);

@@ -89,6 +89,16 @@ Strain3 LogarithmicStrain::strain() const {
   return components(axes_ * log.asDiagonal() * axes_.transpose(), 2);
 }
 
+PrincipalStrain LogarithmicStrain::principal() const {
+  PrincipalStrain out;
+  out.value = strain_.unaryExpr([](double e) { return 0.5 * std::log1p(2 * e); });
+  for (Eigen::Index i = 0; i < 3; ++i)
+    for (Eigen::Index j = 0; j < 3; ++j)
+      out.difference(i, j) = first_(i, j) * (strain_[i] - strain_[j]);
+  out.mean_slope = first_;
+  return out;
+}
+
 Stress3 LogarithmicStrain::stress(const Stress3& of_logarithm) const {
   const Mat<3, 3> t = axes_.transpose() * tensor(of_logarithm, 1) * axes_;
   return components(axes_ * first_.cwiseProduct(t) * axes_.transpose(), 1);

@@ -7,6 +7,13 @@
 
 namespace osculate::material {
 
+/// Logarithms eps_i of the principal stretches, with all digits of what they differ by.
+struct PrincipalStrain {
+  Vec3 value = Vec3::Zero();
+  Mat<3, 3> difference = Mat<3, 3>::Zero();  ///< eps_i - eps_j
+  Mat<3, 3> mean_slope = Mat<3, 3>::Zero();  ///< (eps_i - eps_j) / (E_i - E_j)
+};
+
 /// A strain E = (C - I)/2 in the basis of its own axes.
 ///
 /// Tested by  tests/unit/material/test_logarithmic.cpp
@@ -16,6 +23,8 @@ class LogarithmicStrain {
   [[nodiscard]] bool ok() const { return ok_; }  ///< C is positive definite
   /// ln(C)/2
   [[nodiscard]] Strain3 strain() const;
+  [[nodiscard]] PrincipalStrain principal() const;
+  [[nodiscard]] const Mat<3, 3>& axes() const { return axes_; }  ///< of C, columns
   /// Second Piola-Kirchhoff stress from the stress that works on the logarithmic strain.
   [[nodiscard]] Stress3 stress(const Stress3& of_logarithm) const;
   /// Stress and dS/dE from stress and tangent in the logarithmic strain.

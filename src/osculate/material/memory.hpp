@@ -6,8 +6,8 @@ namespace osculate::material {
 
 /// One number that a law remembers at each material point.
 struct Remembered {
-  std::string_view name;  ///< of the field in the results
-  std::string_view doc;
+  std::string_view name{};  ///< of the field in the results; empty: it is none
+  std::string_view doc{};
   bool negative = true;  ///< it may be
 };
 
@@ -24,6 +24,7 @@ struct Memory {
   const double* expansion = nullptr;  ///< strain by the temperature, one number a point; null: none
   const double* temperature = nullptr;  ///< one number a point; null: that of the law's constants
   const double* axes = nullptr;  ///< of the material, nine numbers a point by columns; null: global
+  const double* temperature_before = nullptr;  ///< at the beginning of the increment, likewise
 
   [[nodiscard]] Memory at(std::size_t point) const {
     return {committed ? committed + point * size : nullptr,
@@ -32,7 +33,8 @@ struct Memory {
             duration,
             expansion ? expansion + point : nullptr,
             temperature ? temperature + point : nullptr,
-            axes ? axes + 9 * point : nullptr};
+            axes ? axes + 9 * point : nullptr,
+            temperature_before ? temperature_before + point : nullptr};
   }
 };
 

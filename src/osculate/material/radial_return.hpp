@@ -67,14 +67,10 @@ inline void return_radially(double mu, const Vec<6>& step, const Vec<6>& directi
   r.tangent.noalias() -= 2 * mu * along * direction * direction.transpose();
 }
 
-/// S33 = 0 by Newton to round-off for E33, the tangent condensed.
+/// S33 = 0 by Newton to round-off for E33, from that of `e` on, the tangent condensed.
 template <class T>
-[[nodiscard]] Response return_in_plane_stress(const T& law, const Strain& strain, double& strain_33,
-                                              const Memory& memory) {
-  const Inelastic before = inelastic_of(memory.committed);
-  const double across = -law.poisson / (1 - law.poisson);
-  Strain e = strain;
-  e[2] = before.strain[2] + across * (e[0] + e[1] - before.strain[0] - before.strain[1]);
+[[nodiscard]] Response without_stress_across(const T& law, Strain e, double& strain_33,
+                                             const Memory& memory) {
   Response r;
   double smallest = std::numeric_limits<double>::infinity();
   constexpr int most = 60;
@@ -91,6 +87,16 @@ template <class T>
   }
   strain_33 = e[2];
   return without_stress_across(r);
+}
+/// The same from what is elastic.
+template <class T>
+[[nodiscard]] Response return_in_plane_stress(const T& law, const Strain& strain, double& strain_33,
+                                              const Memory& memory) {
+  const Inelastic before = inelastic_of(memory.committed);
+  const double across = -law.poisson / (1 - law.poisson);
+  Strain e = strain;
+  e[2] = before.strain[2] + across * (e[0] + e[1] - before.strain[0] - before.strain[1]);
+  return without_stress_across(law, e, strain_33, memory);
 }
 
 }  // namespace osculate::material

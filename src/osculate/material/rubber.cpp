@@ -1,12 +1,10 @@
 #include "osculate/material/rubber.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "osculate/material/condense.hpp"
-#include "osculate/material/stretch.hpp"
+#include "osculate/material/free_thickness.hpp"
 
 namespace osculate::material {
 namespace {
@@ -118,25 +116,7 @@ Response respond(const Rubber& law, const Strain& e) {
 }
 
 Response respond_plane_stress(const Rubber& law, const Strain& strain, double& strain_33) {
-  Response r;
-  Strain e = strain;
-  const double area = plane_determinant(e);
-  r.ok = area > 0 && 1 + 2 * e[0] > 0;
-  if (!r.ok) return r;
-  constexpr double round_off = 1e-14;
-  constexpr int most = 100;
-  e[2] = 0.5 * std::expm1(-log_plane_determinant(e));  // of what keeps its volume
-  for (int i = 0;; ++i) {
-    r = respond(law, e);
-    if (!r.ok || !(r.tangent(2, 2) > 0) || i == most) return {false, {}, {}};
-    const double c33 = 1 + 2 * e[2];
-    // as a change of ln C33, which leaves C33 positive
-    const double step = -2 * r.stress[2] / (r.tangent(2, 2) * c33);
-    if (std::abs(step) <= round_off * (1 + std::abs(std::log(c33)))) break;
-    e[2] += 0.5 * c33 * std::expm1(std::clamp(step, -1.0, 1.0));
-  }
-  strain_33 = e[2];
-  return without_stress_across(r);
+  return find_free_thickness(law, strain, 1, strain_33);
 }
 
 }  // namespace osculate::material

@@ -68,11 +68,13 @@ void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& se
     evaluate(section_on(section, cell.type));
   out.ok = out.result.status == solid::Status::ok;
   if (out.ok) return;
-  out.message = fmt::format("{} cell {} of '{}' {}", cell::info(cell.type).name,
-                            mesh::cell_number(model.mesh, ref), section.name,
-                            out.result.status == solid::Status::inverted
-                                ? "turned inside out"
-                                : "has a strain its material cannot answer");
+  const bool inverted = out.result.status == solid::Status::inverted;
+  out.message = fmt::format(
+      "{} cell {} of '{}' {}", cell::info(cell.type).name, mesh::cell_number(model.mesh, ref),
+      section.name, inverted ? "turned inside out" : "has a strain its material cannot answer");
+  if (const std::string why = inverted ? "" : material::complaint(section.section.law);
+      !why.empty())
+    out.message += ": " + why;
 }
 
 template <int Dim>

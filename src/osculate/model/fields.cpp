@@ -50,6 +50,7 @@ void add_memory(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& secti
                           .transpose());
   const std::span<const material::Remembered> names = material::memory_of(section.section.law);
   for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i].name.empty()) continue;
     auto field =
         std::ranges::find(f.memory, names[i].name, [](const auto& of) { return of.first; });
     if (field == f.memory.end())

@@ -26,7 +26,10 @@ struct CellMemory {
                             size, duration};
     const double* const behind = (memory.next ? memory.next : memory.committed) + size * points;
     if (expands) memory.expansion = behind;
-    if (warms) memory.temperature = behind + (expands ? points : 0);
+    if (!warms) return memory;
+    const std::size_t strains = expands ? points : 0;
+    memory.temperature = behind + strains;
+    memory.temperature_before = memory.committed + size * points + strains;
     return memory;
   }
   /// The strains by the temperature.
@@ -46,7 +49,7 @@ template <int Dim>
                                       const BasicBulkSection<Dim>& section, cell::CellType type) {
   CellMemory here{before.first + before.count, material::memory_of(section.section.law).size()};
   here.expands = !section.section.expansion.table.empty();
-  here.warms = material::over_temperature(section.section.law);
+  here.warms = material::takes_temperature(section.section.law);
   const std::size_t each = here.size + (here.expands ? 1 : 0) + (here.warms ? 1 : 0);
   if (each == 0) return here;
   here.points = solid::point_count(section_on(section, type), type);

@@ -63,23 +63,53 @@ TEST(InpHyperelastic, ItMovesFarWithoutNlgeom) {
             Kinematics::finite);
 }
 
-/// Poisson's ratio is 0.475 where no constant gives the bulk modulus.
+TEST(InpHyperelastic, OgdenAndFoam) {
+  const auto law = [](const std::string& material) {
+    return described(material).materials.at(0).law.value;
+  };
+  const auto ogden = std::get<material::Ogden>(
+      law("*HYPERELASTIC, OGDEN, N=3\n0.4, 1.3, 0.003, 5., -0.01, -2., 0.02, 0.\n0.03\n"));
+  EXPECT_EQ(ogden.mu2, 0.003);
+  EXPECT_EQ(ogden.alpha3, -2);
+  EXPECT_EQ(ogden.d1, 0.02);
+  EXPECT_EQ(ogden.d2, 0);
+  EXPECT_EQ(ogden.d3, 0.03);
+  EXPECT_NEAR(unloaded(law("*HYPERELASTIC, OGDEN, N=1\n3.488, 2.163, 0.\n")).poisson, 29.0 / 61,
+              1e-14);
+  const auto foam = std::get<material::Hyperfoam>(
+      law("*HYPERFOAM, N=2\n0.16, 8.9, 2.3e-5, -4.8, 0.1, 0.2\n*DENSITY\n3.\n"));
+  EXPECT_EQ(foam.alpha2, -4.8);
+  EXPECT_EQ(foam.nu1, 0.1);
+  EXPECT_EQ(foam.nu2, 0.2);
+  EXPECT_EQ(foam.density, 3);
+}
+
+/// Poisson's ratio is that of K = 20 mu, 0.475, where no constant gives the bulk modulus.
 TEST(InpHyperelastic, WithoutABulkModulus) {
   const material::Isotropic is = unloaded(rubber("*HYPERELASTIC, MOONEY-RIVLIN\n1.5, 0.5\n"));
-  EXPECT_NEAR(is.poisson, 0.475, 1e-14);
-  EXPECT_NEAR(is.young, 4 * 2 * 1.475, 1e-13);
+  EXPECT_NEAR(is.poisson, 29.0 / 61, 1e-14);
+  EXPECT_NEAR(is.young, 4 * 2 * 90.0 / 61, 1e-13);
 }
 
 TEST(InpHyperelastic, WhatIsNotSupported) {
-  EXPECT_THAT(message("*HYPERELASTIC, OGDEN, N=1\n1., 2., 0.1\n"),
-              HasSubstr("a.inp:13: *HYPERELASTIC: OGDEN is not supported: NEO HOOKE"));
+  EXPECT_THAT(message("*HYPERELASTIC, ARRUDA-BOYCE\n1., 2., 0.1\n"),
+              HasSubstr("a.inp:13: *HYPERELASTIC: ARRUDA-BOYCE is not supported: NEO HOOKE"));
+  EXPECT_THAT(message("*HYPERELASTIC, OGDEN, N=4\n1.\n"), HasSubstr("expected N=1, 2 or 3"));
+  EXPECT_THAT(message("*HYPERELASTIC, OGDEN, N=2\n1., 2., 0.1\n"),
+              HasSubstr("expected 4 constants, found 3"));
+  EXPECT_THAT(message("*HYPERFOAM, N=1\n1., 2., 0.1, 20.\n2., 2., 0.1, 100.\n"),
+              HasSubstr("*HYPERFOAM: constants that depend on the temperature"));
+  EXPECT_THAT(message("*HYPERFOAM, TEST DATA INPUT\n1., 2.\n"), HasSubstr("from test data"));
+  EXPECT_THAT(message("*HYPERFOAM, N=1\n1., 2., 0.5\n"), HasSubstr("nu1: must be > -1 and < 0.5"));
+  EXPECT_THAT(message("*HYPERELASTIC, OGDEN\n-1., 2., 0.1\n"),
+              HasSubstr("mu1: mu1 + mu2 + mu3 > 0"));
   EXPECT_THAT(message("*HYPERELASTIC, POLYNOMIAL, N=4\n1.\n"), HasSubstr("expected N=1, 2 or 3"));
   EXPECT_THAT(message("*HYPERELASTIC, MOONEY-RIVLIN\n1.\n"),
               HasSubstr("expected 2 constants, found 1"));
   EXPECT_THAT(message("*HYPERELASTIC, NEO HOOKE\n1., 0.1, 20.\n2., 0.1, 100.\n"),
               HasSubstr("temperature"));
   EXPECT_THAT(message("*ELASTIC\n1., 0.3\n*HYPERELASTIC, NEO HOOKE\n1., 0.1\n"),
-              HasSubstr("of a material with *HYPERELASTIC this is not supported"));
+              HasSubstr("of a material with *HYPERELASTIC or *HYPERFOAM this is not supported"));
 }
 
 }  // namespace

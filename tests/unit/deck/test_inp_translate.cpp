@@ -217,7 +217,7 @@ TEST(InpTranslate, WhatIsNotUnderstoodStopsWithItsLine) {
        "cubes.inp:33: *ELASTIC: depends on the temperature, which is given nowhere (*INITIAL "
        "CONDITIONS, *TEMPERATURE)"},
       {"elastic", blocks + "*MATERIAL, NAME=A\n*DENSITY\n1.\n" + step,
-       "cubes.inp:32: *MATERIAL: its *ELASTIC or *HYPERELASTIC is missing"},
+       "cubes.inp:32: *MATERIAL: its *ELASTIC, *HYPERELASTIC or *USER MATERIAL is missing"},
       {"outside", blocks + "*ELASTIC\n1., .3\n", "stands before the first *MATERIAL"},
       {"law",
        blocks + steel +

@@ -25,8 +25,9 @@ TEST(Catalogue, EachLawDescribesItselfAndItsParameters) {
     EXPECT_EQ(names.contains("E"), names.contains("nu")) << law.key;
   });
   EXPECT_EQ(keys, (std::set<std::string_view>{"linear_elastic", "st_venant_kirchhoff", "neo_hooke",
-                                              "elastoplastic", "norton", "rubber", "orthotropic",
-                                              "anisotropic"}));
+                                              "elastoplastic", "norton", "deformation_plasticity",
+                                              "rubber", "ogden", "hyperfoam", "orthotropic",
+                                              "anisotropic", "user"}));
 }
 
 TEST(Catalogue, ParametersAreWrittenThroughTheirSlots) {
@@ -44,6 +45,13 @@ TEST(Catalogue, ParametersAreWrittenThroughTheirSlots) {
     } else if constexpr (requires { law.d1111; }) {
       EXPECT_EQ(law.d1122, 0.0625);
       EXPECT_EQ(law.d2323, std::pow(0.25, 21));
+    } else if constexpr (requires { law.alpha1; }) {
+      EXPECT_EQ(law.mu1, 0.25);
+      EXPECT_EQ(law.alpha1, 0.0625);
+      EXPECT_EQ(law.density, std::pow(0.25, 10));
+    } else if constexpr (requires { law.routine; }) {
+      EXPECT_EQ(law.state, std::pow(0.25, 5));
+      EXPECT_EQ(law.density, std::pow(0.25, 6));
     } else {
       EXPECT_EQ(law.c10, 0.25);
       EXPECT_EQ(law.c01, 0.0625);

@@ -46,7 +46,7 @@ void for_each_yielding(Kind kind, const std::function<void(Yielding&)>& visit) {
   for_each_cell(kind, [&](CellCase c) {
     std::size_t size = 0;
     const auto yields = [&](auto& law) {
-      if constexpr (requires { constants(law).yield; }) {
+      if constexpr (requires { constants(law).kinematic; }) {
         constants(law).yield = 0.1;
         constants(law).isotropic = 0.5;
         constants(law).kinematic = 0.3;

@@ -181,7 +181,8 @@ class Reader {
 
 bool has_finite_step(const Deck& deck) {
   return std::any_of(deck.cards.begin(), deck.cards.end(), [](const Card& card) {
-    if (card.keyword == "HYPERELASTIC") return true;
+    for (const char* const far : {"HYPERELASTIC", "HYPERFOAM", "DEFORMATIONPLASTICITY"})
+      if (card.keyword == far) return true;
     return card.keyword == "STEP" && find_parameter(card, "NLGEOM") &&
            option(card, "NLGEOM") != "NO";
   });

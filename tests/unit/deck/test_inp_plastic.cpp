@@ -1,0 +1,105 @@
+// *PLASTIC and *CYCLIC HARDENING of decks.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "osculate/core/error.hpp"
+#include "osculate/deck/inp_translate.hpp"
+#include "osculate/deck/parse.hpp"
+#include "osculate/material/catalogue.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using ::testing::HasSubstr;
+
+Description metal_deck(const std::string& plastic) {
+  const std::string text =
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n"
+      "8, 0, 1, 1\n*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*MATERIAL, NAME=M\n"
+      "*ELASTIC\n200000., 0.3\n" +
+      plastic +
+      "*SOLID SECTION, ELSET=E, MATERIAL=M\n*STEP\n*STATIC\n*BOUNDARY\n1, 1, 3\n*END STEP\n";
+  return parse_model(translate_deck(text, "a.inp").root, "a.inp");
+}
+material::J2Plasticity metal(const std::string& plastic) {
+  return std::get<material::J2Plasticity>(metal_deck(plastic).materials.at(0).law.value);
+}
+std::string refused_metal(const std::string& plastic) {
+  try {
+    (void)metal_deck(plastic);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(InpPlastic, CombinedHardeningIsATableBesideAModulus) {
+  const material::J2Plasticity both = metal(
+      "*PLASTIC, HARDENING=COMBINED\n800., 0.\n1600., 0.1\n"
+      "*CYCLIC HARDENING\n500., 0.\n600., 0.02\n650., 0.1\n");
+  EXPECT_EQ(both.kinematic, 8000);
+  EXPECT_EQ(both.hardening, (core::Table{{500, 0}, {600, 0.02}, {650, 0.1}}));
+  EXPECT_EQ(both.yield, 0);
+  const material::J2Plasticity steady =
+      metal("*PLASTIC, HARDENING=COMBINED\n800., 0.\n1600., 0.1\n*CYCLIC HARDENING\n500., 0.\n");
+  EXPECT_EQ(steady.yield, 500);
+  EXPECT_EQ(steady.kinematic, 8000);
+  for (const char* const kind : {"COMBINED", "KINEMATIC"}) {
+    const material::J2Plasticity moved =
+        metal(std::string("*PLASTIC, HARDENING=") + kind + "\n800., 0.\n1600., 0.1\n");
+    EXPECT_EQ(moved.yield, 800);
+    EXPECT_EQ(moved.kinematic, 8000);
+    EXPECT_TRUE(moved.hardening.empty());
+  }
+}
+
+// As CalculiX: with a yield stress of 0 the answers are those of creep alone.
+TEST(InpPlastic, AYieldStressOfZeroBesideCreepIsCreep) {
+  const Description d = metal_deck("*PLASTIC\n0., 0.\n0., 10.\n*CREEP\n1.E-10, 5., 0.\n");
+  const auto norton = std::get<material::Norton>(d.materials.at(0).law.value);
+  EXPECT_EQ(norton.rate, 1e-10);
+  EXPECT_EQ(norton.exponent, 5);
+  EXPECT_THAT(
+      refused_metal("*PLASTIC\n8., 0.\n*CREEP\n1.E-10, 5., 0.\n"),
+      HasSubstr("a material that both flows and creeps is not supported, but with a yield"));
+}
+
+TEST(InpPlastic, OnePointDoesNotHarden) { EXPECT_EQ(metal("*PLASTIC\n800., 0.\n").yield, 800); }
+
+TEST(InpPlastic, DeformationPlasticityIsALawOfItsOwn) {
+  const std::string text =
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n"
+      "8, 0, 1, 1\n*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*MATERIAL, NAME=M\n"
+      "*DEFORMATION PLASTICITY\n190000., 0.34, 900., 12., 0.45\n*DENSITY\n3.\n"
+      "*SOLID SECTION, ELSET=E, MATERIAL=M\n*STEP\n*STATIC\n*BOUNDARY\n1, 1, 3\n*END STEP\n";
+  const Description d = parse_model(translate_deck(text, "a.inp").root, "a.inp");
+  const auto law = std::get<material::DeformationPlasticity>(d.materials.at(0).law.value);
+  EXPECT_EQ(law.young, 190000);
+  EXPECT_EQ(law.poisson, 0.34);
+  EXPECT_EQ(law.yield, 900);
+  EXPECT_EQ(law.exponent, 12);
+  EXPECT_EQ(law.offset, 0.45);
+  EXPECT_EQ(law.density, 3);
+  EXPECT_EQ(d.sections.at(0).kinematics.value, Kinematics::finite);  // as CalculiX, without NLGEOM
+}
+
+TEST(InpPlastic, WhatIsNotSupported) {
+  EXPECT_THAT(refused_metal("*DEFORMATION PLASTICITY\n190000., 0.34, 900., 12., 0.45\n"),
+              HasSubstr("of a material with *DEFORMATION PLASTICITY this is not supported"));
+  EXPECT_THAT(refused_metal("*PLASTIC, HARDENING=USER\n800., 0.\n"),
+              HasSubstr("HARDENING=USER is not supported: ISOTROPIC, KINEMATIC or COMBINED"));
+  EXPECT_THAT(refused_metal("*PLASTIC, HARDENING=COMBINED, DATA TYPE=PARAMETERS\n200., 1., 2.\n"),
+              HasSubstr("DATA TYPE=PARAMETERS is not supported"));
+  EXPECT_THAT(refused_metal("*PLASTIC, HARDENING=COMBINED\n8., 0.\n9., 0.1\n9.5, 0.2\n"),
+              HasSubstr("kinematic hardening is linear here"));
+  EXPECT_THAT(refused_metal("*PLASTIC\n800., 0.\n*CYCLIC HARDENING\n500., 0.\n"),
+              HasSubstr("*CYCLICHARDENING: belongs to *PLASTIC, HARDENING=COMBINED"));
+  EXPECT_THAT(refused_metal("*CYCLIC HARDENING\n500., 0.\n"),
+              HasSubstr("*CYCLICHARDENING: belongs to *PLASTIC, HARDENING=COMBINED"));
+  EXPECT_THAT(refused_metal("*PLASTIC, HARDENING=COMBINED\n800., 0.\n*CYCLIC HARDENING\n5., 0., "
+                            "20.\n4., 0., 100.\n"),
+              HasSubstr("tables for several temperatures"));
+}
+
+}  // namespace
+}  // namespace osculate::deck
