@@ -14,6 +14,7 @@ struct Condition {
   int line = 0;
   bool fresh = true;   ///< said in this step
   bool fixed = false;  ///< a displacement that stays where it is
+  bool swings = false;  ///< said in a step of *STEADY STATE DYNAMICS
 };
 /// By set or rigid body and direction 1 to 6; of pressures always 1.
 using Conditions = std::map<std::pair<std::string, int>, Condition>;

@@ -126,7 +126,7 @@ class StepChecker {
         require_rigid(d_, p.on, p.values[i]->mark, component_names[i]);
     for (std::size_t i = 0; i < component_count; ++i)
       if (p.values[i])
-        add_unique(seen, p.on.value + "." + component_names[i], p.values[i]->mark,
+        add_unique(seen, p.on.value + "." + component_names[i] + phase_text(p), p.values[i]->mark,
                    "prescription of");
   }
 
@@ -175,8 +175,13 @@ class StepChecker {
           require_rigid(d_, load.on, load.values[i]->mark, force_names[i]);
       for (std::size_t i = 0; i < component_count; ++i)
         if (load.values[i])
-          add_unique(seen, load.on.value + "." + components[i], load.values[i]->mark, "load on");
+          add_unique(seen, load.on.value + "." + components[i] + phase_text(load),
+                     load.values[i]->mark, "load on");
     }
+  }
+
+  static std::string phase_text(const Load& load) {
+    return load.phase ? fmt::format(" (phase {:g})", load.phase->value) : std::string{};
   }
 
   /// A displacement cannot be prescribed while the force that belongs to it is given.

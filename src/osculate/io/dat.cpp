@@ -88,6 +88,20 @@ std::string dat_modal_table(std::string_view title, std::span<const std::array<d
   return out;
 }
 
+std::string dat_factors(double frequency, std::span<const double> frequencies,
+                        std::span<const std::complex<double>> amounts) {
+  std::string out = fmt::format(
+      "\nP A R T I C I P A T I O N   F A C T O R S   F O R   F R E Q U E N C Y   {} "
+      "(CYCLES/TIME)\n\n MODE NO    FREQUENCY               FACTOR\n"
+      "           (CYCLES/TIME)      REAL        IMAGINARY\n\n",
+      fortran_real(frequency, 20, 13));
+  for (std::size_t i = 0; i < amounts.size(); ++i)
+    out += fmt::format("{:7}  {}  {}  {}\n", i + 1, fortran_real(frequencies[i], 14, 7),
+                       fortran_real(amounts[i].real(), 14, 7),
+                       fortran_real(amounts[i].imag(), 14, 7));
+  return out;
+}
+
 std::string sta_head() {
   return "SUMMARY OF JOB INFORMATION\n"
          "  STEP      INC     ATT  ITRS     TOT TIME     STEP TIME      INC TIME\n";

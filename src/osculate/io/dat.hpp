@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <complex>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -31,6 +32,9 @@ void append_dat_total(std::string& out, std::span<const double> values);
                                           std::span<const std::array<double, 6>> rows,
                                           std::string_view last_head,
                                           const std::optional<std::array<double, 6>>& last);
+/// How much of each vibration swings at a frequency.
+[[nodiscard]] std::string dat_factors(double frequency, std::span<const double> frequencies,
+                                      std::span<const std::complex<double>> amounts);
 
 /// An attempt to solve an increment. Numbers count from 1.
 struct Attempt {

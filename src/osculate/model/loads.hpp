@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -94,6 +95,20 @@ struct ModalDamping {
   double mass = 0, stiffness = 0;
 };
 
+struct Step;
+
+/// Loads and supports that swing, at one frequency after the other: those of the step are the real
+/// parts, `imaginary` has the others. Their tables are over the frequencies, 0 at `from`, 1 at `to`.
+///
+/// Sign       a load f swings as Re(f exp(i w t)), w = 2 pi frequency
+struct Harmonic {
+  double from = 0, to = 0;
+  int points = 20;  ///< between two frequencies of vibrations, both included
+  double bias = 3;  ///< how much closer they are to these
+  ModalDamping damping{};
+  std::shared_ptr<const Step> imaginary{};
+};
+
 /// Temperatures of nodes over a step.
 ///
 /// Tested by  tests/unit/model/test_temperatures.cpp
@@ -120,6 +135,7 @@ struct Step {
   std::optional<Frequencies> frequencies{};  ///< nothing moves: vibrations are looked for
   /// The vibrations of the last step that looks for them move, and nothing else.
   std::optional<ModalDamping> modal{};
+  std::optional<Harmonic> harmonic{};  ///< they swing with loads that do
   Temperatures temperature;
   std::vector<Ramp> gravity;                    ///< acceleration in every direction; empty: none
   double equation_start = 1, equation_end = 1;  ///< ramp of the constants of the equations

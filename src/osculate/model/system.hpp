@@ -136,6 +136,9 @@ class BasicSystem {
                                           double fraction);
   /// phi . C phi of the dampers of springs, vibration by vibration.
   [[nodiscard]] Eigen::MatrixXd dampers_on(const Vibrations& modes, const State& about) const;
+  /// phi . C w of the dampers of springs, w a motion of all nodes and rigid bodies.
+  [[nodiscard]] Eigen::VectorXd drag_along(const Vibrations& modes, const State& about,
+                                           const Eigen::VectorXd& motion) const;
   /// Displacement or rotation of a dof.
   [[nodiscard]] double value(const State& state, Dof dof) const;
   /// What the motions that the running step prescribes make of all nodes and rigid bodies up to its

@@ -39,7 +39,19 @@ struct Vibrations {
 struct VibrationMotion {
   Eigen::VectorXd place, rate, acceleration;
   Eigen::VectorXd carried{}, carried_rate{};  ///< by supports, of all dofs; empty: they rest
+  Eigen::VectorXd carried_acceleration{};     ///< likewise; empty: none
 };
+
+/// Vibrations that swing with one frequency.
+///
+/// Formula    u = Re((shapes place + carried) exp(i w t)) , w = 2 pi frequency
+struct HarmonicMotion {
+  double frequency = 0;
+  Eigen::VectorXcd place;
+  Eigen::VectorXcd carried{};  ///< by supports, of all dofs; empty: they rest
+};
+/// Real or imaginary part of displacements, velocities (times i w) and accelerations (times -w^2).
+[[nodiscard]] VibrationMotion part_of(const HarmonicMotion& motion, bool imaginary);
 
 /// Vibrations per time; negative where the state is unstable.
 [[nodiscard]] inline double frequency(double omega_squared) {

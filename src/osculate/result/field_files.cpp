@@ -281,6 +281,39 @@ void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
 }
 
 template <int Dim>
+void FieldFiles<Dim>::swings(const model::BasicSystem<Dim>& system,
+                             const model::BasicState<Dim>& state, double frequency,
+                             bool imaginary) {
+  const model::BasicNodalFields<Dim> f = model::nodal_fields(system, built_.model, state);
+  const std::string ending = imaginary ? "_imaginary" : "";
+  std::vector<io::Field> fields{vector_field("U" + ending, f.displacement),
+                                vector_field("RF" + ending, f.reaction),
+                                tensor_field("S" + ending, f.stress),
+                                tensor_field("E" + ending, f.strain)};
+  if (!imaginary) {
+    real_part_ = std::move(fields);
+    return;
+  }
+  io::Field amplitude = fields[0];
+  amplitude.name = "U_amplitude";
+  for (std::size_t i = 0; i < amplitude.values.size(); ++i)
+    amplitude.values[i] = std::hypot(amplitude.values[i], real_part_[0].values[i]);
+  real_part_.insert(real_part_.end(), fields.begin(), fields.end());
+  real_part_.push_back(std::move(amplitude));
+  real_part_.push_back(node_numbers_);
+  const std::string bodies = fmt::format("bodies_{:05d}.vtu", frame_);
+  io::write_vtu(listed(bodies),
+                {built_.model.mesh.nodes, bodies_.blocks, real_part_, bodies_.fields,
+                 bodies_.names},
+                compress_);
+  const std::size_t before = entries_.size();
+  entries_.push_back({frequency, "bodies", bodies});
+  ++frame_;
+  if (!pvd_) pvd_.emplace(folder_ + "/results.pvd", std::span(entries_).first(before));
+  pvd_->add(std::span(entries_).subspan(before));
+}
+
+template <int Dim>
 void FieldFiles<Dim>::write_contact(const model::BasicSystem<Dim>& system,
                                     const model::BasicState<Dim>& state, std::size_t pair,
                                     const std::string& stem) {

@@ -66,6 +66,14 @@ std::string time_steps_text(const std::string& step, const model::Progress& p,
                      counts_column("  ", record.iterations.back().counts, states));
 }
 
+std::string swing_text(const std::string& step, const model::Progress& p,
+                       const Eigen::VectorXcd& amounts) {
+  Eigen::Index most = 0;
+  amounts.cwiseAbs().maxCoeff(&most);
+  return fmt::format("{:<12} {:>4}  frequency {:<11.7g} vibration {} most", step, p.increment,
+                     p.time, most + 1);
+}
+
 std::string iteration_text(int number, const solve::IterationRecord& iteration,
                            PointStates states) {
   return fmt::format("  iteration {:>2}: residual {:.1e} energy {:.1e} step {:.3g}{}", number,
