@@ -230,7 +230,8 @@ struct Recorder {
     if (shown) fields.swings(system, state, p.time, part.imaginary);
     if (!part.imaginary) return;
     entry.record = part.record;
-    entry.note = nlohmann::json{{"outside_domain", nlohmann::json::array()}, {"time", p.time}}.dump();
+    entry.note =
+        nlohmann::json{{"outside_domain", nlohmann::json::array()}, {"time", p.time}}.dump();
     curvature_shares.push_back(0);
     notes.push_back(nlohmann::json::parse(entry.note));
     entry.deepest = watch.deepest;

@@ -43,7 +43,6 @@ inline constexpr std::array<LoadWords, load_kinds> load_words{
      {"centrifugal", {"speed_squared"}},
      {"pressure", {"value"}}}};
 
-
 /// Of loads that swing. Others have a real part alone.
 enum class LoadPart { real, imaginary };
 /// Cosine or sine of the phase of a load.

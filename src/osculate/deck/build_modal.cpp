@@ -27,9 +27,10 @@ void begin_harmonic(const BuildContext<Dim>& c, const Step& step,
   for (const model::BasicContactPair<Dim>& pair : c.model().pairs)
     if (!pairing::is_tied(pair.definition))
       throw core::InputError(
-          d.mark, fmt::format("contact '{}' is not tied: what opens, closes or slips does not swing "
-                              "with one frequency",
-                              pair.name));
+          d.mark,
+          fmt::format("contact '{}' is not tied: what opens, closes or slips does not swing "
+                      "with one frequency",
+                      pair.name));
   if (!about_start && temperatures != c.model().initial_temperature)
     throw core::InputError(d.mark,
                            "temperatures have changed before the vibrations were looked for: "

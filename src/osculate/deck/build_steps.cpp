@@ -154,8 +154,8 @@ void apply_swinging_loads(const BuildContext<Dim>& c, const deck::Step& step, Ru
         const double share = share_of(load, part);
         if (!value || share == 0) continue;
         if (kind == LoadKind::force && c.rigid_index.contains(load.on.value) &&
-            running.prescribed.contains(body_dof(
-                c.model(), c.rigid_index.at(load.on.value), static_cast<Component>(i))))
+            running.prescribed.contains(
+                body_dof(c.model(), c.rigid_index.at(load.on.value), static_cast<Component>(i))))
           throw core::InputError(value->mark,
                                  "the vibrations were found with this held: `release` it in the "
                                  "step with `modes`");

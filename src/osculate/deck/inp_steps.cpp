@@ -118,9 +118,10 @@ class Steps {
     const double bias = fields.real_or_zero("the bias");
     range_.bias = bias > 0 ? bias : usual_bias;
     if (!(range_.to >= range_.from) || range_.from < 0)
-      fields.fail(fmt::format("expected two frequencies, the second not below the first, found {:g} "
-                              "and {:g}",
-                              range_.from, range_.to));
+      fields.fail(
+          fmt::format("expected two frequencies, the second not below the first, found {:g} "
+                      "and {:g}",
+                      range_.from, range_.to));
     if (range_.points < 2) range_.points = usual_points;
     if (range_.bias < 1) fields.fail("a bias below 1 is not supported");
   }
@@ -253,9 +254,10 @@ class Steps {
     for (Conditions* const values : all_conditions())
       for (const auto& [key, value] : *values)
         if (value.size != 0 && !value.swings && !released_.contains({values, key}))
-          fail(fmt::format("what line {} says of a step before would go on in this one: write it "
-                           "again, or OP=NEW",
-                           value.line));
+          fail(
+              fmt::format("what line {} says of a step before would go on in this one: write it "
+                          "again, or OP=NEW",
+                          value.line));
     for (const bool imaginary : {false, true}) {
       imaginary_ = imaginary;
       put_directions(step, "prescribe", 'u', imaginary ? prescribed_2_ : prescribed_);
@@ -402,13 +404,13 @@ class Steps {
   /// What a card adds to what stood before; with OP=NEW that is gone.
   std::string start(const Card& card, Conditions& values, bool may_stand_before_steps = false) {
     if (!step_ && !may_stand_before_steps) io::inp::fail(m_.deck, card, "stands outside of a step");
-    for (const char* const other :
-         {"USER", "SUBMODEL", "SECTOR", "OMEGA0", "TIMEDELAY"})
+    for (const char* const other : {"USER", "SUBMODEL", "SECTOR", "OMEGA0", "TIMEDELAY"})
       if (io::inp::find_parameter(card, other))
         io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
     const std::string part = option_of(card, "LOADCASE");
     if (!part.empty() && part != "1" && part != "2")
-      io::inp::fail(m_.deck, card, fmt::format("expected LOAD CASE=1 or 2, found {}", printable(part)));
+      io::inp::fail(m_.deck, card,
+                    fmt::format("expected LOAD CASE=1 or 2, found {}", printable(part)));
     if (!part.empty() && !swung_)
       io::inp::fail(m_.deck, card, "LOAD CASE belongs to *STEADY STATE DYNAMICS");
     const std::string op = option_of(card, "OP");
@@ -443,8 +445,8 @@ class Steps {
     if (sum && value.amplitude != amplitude)
       io::inp::fail(m_.deck, line.at,
                     fmt::format("'{}' has this load with another amplitude in the same step", on));
-    value = {sum ? value.size + size : size, amplitude, line_of(line.at), true, false,
-             step_ && swung_};
+    value = {
+        sum ? value.size + size : size, amplitude, line_of(line.at), true, false, step_ && swung_};
   }
 
   void check_initial(const Card& card) const {
@@ -530,7 +532,8 @@ class Steps {
         read_gravity(fields, elements, amplitude, line,
                      part_of(card, body_forces_, body_forces_2_));
       } else if (load == "CENTRIF") {
-        if (option_of(card, "LOADCASE") == "2") fields.fail("CENTRIF with LOAD CASE=2 is not supported");
+        if (option_of(card, "LOADCASE") == "2")
+          fields.fail("CENTRIF with LOAD CASE=2 is not supported");
         read_centrifugal(fields, elements, amplitude, line);
       } else {
         fields.fail(fmt::format("load {} is not supported: P1 to P6, GRAV or CENTRIF",
@@ -785,7 +788,7 @@ class Steps {
   struct {
     double from = 0, to = 0, bias = 3;
     int points = 20;
-  } range_;  ///< of it
+  } range_;                                              ///< of it
   std::map<std::string, std::vector<Gravity>> gravity_;  ///< by part
   std::vector<std::array<double, 6>> axes_;              ///< of centrifugal loads: points of them
   std::set<std::pair<Conditions*, Conditions::key_type>> released_;

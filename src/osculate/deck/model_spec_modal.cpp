@@ -64,21 +64,22 @@ BoundKeys<M> modal_keys() { return {{modal_damping_key()}}; }
 
 BoundKeys<HarmonicDescription> harmonic_keys() {
   using H = HarmonicDescription;
-  return {{need(&H::from, "from",
-                number("The first frequency.").in("1/time").at_least(0).such_as("100")),
-           need(&H::to, "to", number("The last one.").in("1/time").at_least(0).such_as("2000")),
-           may(&H::points, "points",
-               integer("So many frequencies from one vibration to the next, with both; those of the "
-                       "vibrations in the range are always among them.")
-                   .at_least(2)
-                   .at_most(100'000)
-                   .otherwise("20")),
-           may(&H::bias, "bias",
-               number("How much closer they are to the vibrations: 1 is not at all.")
-                   .at_least(1)
-                   .at_most(100)
-                   .otherwise("3")),
-           of(&H::damped, modal_damping_key())}};
+  return {
+      {need(&H::from, "from",
+            number("The first frequency.").in("1/time").at_least(0).such_as("100")),
+       need(&H::to, "to", number("The last one.").in("1/time").at_least(0).such_as("2000")),
+       may(&H::points, "points",
+           integer("So many frequencies from one vibration to the next, with both; those of the "
+                   "vibrations in the range are always among them.")
+               .at_least(2)
+               .at_most(100'000)
+               .otherwise("20")),
+       may(&H::bias, "bias",
+           number("How much closer they are to the vibrations: 1 is not at all.")
+               .at_least(1)
+               .at_most(100)
+               .otherwise("3")),
+       of(&H::damped, modal_damping_key())}};
 }
 
 /// What does not go with a kind of step, with the reason.
@@ -90,7 +91,7 @@ void refuse_beside(const Value& step, std::span<const std::string_view> others,
           entry.key_mark,
           text + fmt::format("`{}` does not go with it{}", entry.key,
                              entry.key == "dynamics" || entry.key == "modal"
-                                 ? ", it is another motion in time"
+                                 ? ", it is another integration in time"
                                  : ", supports and contacts are those of the step with "
                                    "`modes`"));
 }
@@ -108,13 +109,13 @@ void check_harmonic(const Value& step, const Step& s) {
 
 /// A phase is one of a swing.
 void check_phases(const Step& s) {
-  for (const std::vector<Load>* const loads :
-       {&s.prescribe, &s.forces, &s.total_force, &s.pressure, &s.traction, &s.body_force,
-        &s.centrifugal})
+  for (const std::vector<Load>* const loads : {&s.prescribe, &s.forces, &s.total_force, &s.pressure,
+                                               &s.traction, &s.body_force, &s.centrifugal})
     for (const Load& load : *loads)
       if (load.phase)
-        throw core::InputError(load.phase->mark, "only what swings, in a step with `harmonic`, has "
-                                                 "a phase");
+        throw core::InputError(load.phase->mark,
+                               "only what swings, in a step with `harmonic`, has "
+                               "a phase");
 }
 
 }  // namespace

@@ -96,9 +96,9 @@ std::string dat_factors(double frequency, std::span<const double> frequencies,
       "           (CYCLES/TIME)      REAL        IMAGINARY\n\n",
       fortran_real(frequency, 20, 13));
   for (std::size_t i = 0; i < amounts.size(); ++i)
-    out += fmt::format("{:7}  {}  {}  {}\n", i + 1, fortran_real(frequencies[i], 14, 7),
-                       fortran_real(amounts[i].real(), 14, 7),
-                       fortran_real(amounts[i].imag(), 14, 7));
+    out +=
+        fmt::format("{:7}  {}  {}  {}\n", i + 1, fortran_real(frequencies[i], 14, 7),
+                    fortran_real(amounts[i].real(), 14, 7), fortran_real(amounts[i].imag(), 14, 7));
   return out;
 }
 

@@ -91,8 +91,8 @@ struct Analysis {
     }
     if (observer.vibrates) observer.vibrates(system, about, progress, modes);
     const auto next = static_cast<std::size_t>(progress.step) + 1;
-    if (next == model.steps.size() ||
-        (!model.steps[next].modal && !model.steps[next].harmonic)) modes.forget_unknowns();
+    if (next == model.steps.size() || (!model.steps[next].modal && !model.steps[next].harmonic))
+      modes.forget_unknowns();
     result.steps.back().vibrations = std::move(modes);
   }
 
@@ -131,7 +131,8 @@ struct Analysis {
         swinging = harmonic_system(system, model.steps[of], result.state, *known, failure);
       known->forget_unknowns();
     }
-    if (failure.empty()) begin_harmonic_step(system, step, options.linear_solver, *swinging, failure);
+    if (failure.empty())
+      begin_harmonic_step(system, step, options.linear_solver, *swinging, failure);
     if (failure.empty()) return true;
     result.outcome = solve::Outcome::numerical_failure;
     result.message = fmt::format("step '{}': {}", step.name, failure);
@@ -159,8 +160,7 @@ struct Analysis {
   void run_harmonic(const Step& step) {
     result.last_iterate = result.state;
     if (!begin_harmonic(static_cast<std::size_t>(progress.step))) return;
-    const std::vector<double> frequencies =
-        sweep(*step.harmonic, swinging->modes.omega_squared);
+    const std::vector<double> frequencies = sweep(*step.harmonic, swinging->modes.omega_squared);
     const auto count = static_cast<int>(frequencies.size());
     for (int i = position.nominal; i < count; ++i) {
       solve::IncrementRecord record;

@@ -83,8 +83,8 @@ struct BasicAnalysisObserver {
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
                      const Vibrations&)>
       vibrates{};
-  /// In place of `converged`, at each frequency of a harmonic step: the real part, and behind it the
-  /// imaginary one, as states that have been evaluated. Return false to stop.
+  /// In place of `converged`, at each frequency of a harmonic step: the real part, and behind it
+  /// the imaginary one, as states that have been evaluated. Return false to stop.
   std::function<bool(BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
                      const HarmonicPart&)>
       harmonic{};

@@ -39,13 +39,15 @@ std::string endless(const Eigen::VectorXd& omega_squared, const Eigen::MatrixXcd
   for (Eigen::Index i = 0; i < omega_squared.size(); ++i) {
     const double own = std::abs(omega_squared[i]);
     if (w == 0 && own <= free * largest)
-      return fmt::format("vibration {} is a free motion, which a force at the frequency 0 does not "
-                         "end: begin with a frequency above 0",
-                         i + 1);
+      return fmt::format(
+          "vibration {} is a free motion, which a force at the frequency 0 does not "
+          "end: begin with a frequency above 0",
+          i + 1);
     if (std::abs(a(i, i)) <= near * std::max(own, w * w))
-      return fmt::format("the frequency {:g} is that of vibration {}, which has no damping: its "
-                         "amplitude has no end",
-                         frequency, i + 1);
+      return fmt::format(
+          "the frequency {:g} is that of vibration {}, which has no damping: its "
+          "amplitude has no end",
+          frequency, i + 1);
   }
   return {};
 }
@@ -73,7 +75,7 @@ std::vector<double> sweep(const Harmonic& range, const Eigen::VectorXd& omega_sq
   std::vector<double> ends{range.from};
   for (const double value : omega_squared) {
     const double own = frequency(value);
-    if (own > ends.back() * (1 + same) && own < range.to * (1 - same)) ends.push_back(own);
+    if (own - ends.back() > same * range.to && own < range.to * (1 - same)) ends.push_back(own);
   }
   std::vector<double> out{range.from};
   if (range.to > range.from) ends.push_back(range.to);
@@ -97,7 +99,7 @@ BasicHarmonicSystem<Dim> harmonic_system(BasicSystem<Dim>& system, const Step& o
 
 template <int Dim>
 void begin_harmonic_step(BasicSystem<Dim>& system, const Step& step, const la::MakeSolver& solver,
-           BasicHarmonicSystem<Dim>& h, std::string& failure) {
+                         BasicHarmonicSystem<Dim>& h, std::string& failure) {
   h.parts = {step, *step.harmonic->imaginary};
   h.supports.clear();
   for (const bool imaginary : {false, true}) {
@@ -127,7 +129,7 @@ void begin_harmonic_step(BasicSystem<Dim>& system, const Step& step, const la::M
 
 template <int Dim>
 HarmonicMotion harmonic_response(BasicSystem<Dim>& system, const BasicHarmonicSystem<Dim>& h,
-                        double frequency, std::string& failure) {
+                                 double frequency, std::string& failure) {
   const Harmonic& range = *h.parts[0].harmonic;
   const double w = angular(frequency), place = place_in(range, frequency);
   const Eigen::VectorXd& squares = h.modes.omega_squared;
@@ -144,7 +146,8 @@ HarmonicMotion harmonic_response(BasicSystem<Dim>& system, const BasicHarmonicSy
   force.imag() = system.forces_on(h.modes, h.about, place);
   HarmonicMotion out{frequency, {}};
   for (const Swung& support : h.supports) {
-    const Complex s = support.factor.value(place) * (support.imaginary ? Complex(0, 1) : Complex(1));
+    const Complex s =
+        support.factor.value(place) * (support.imaginary ? Complex(0, 1) : Complex(1));
     force += s * (Complex(w * w, -w * range.damping.mass) * support.momenta -
                   Complex(0, w) * support.drag);
     if (out.carried.size() == 0) out.carried.setZero(support.motion.size());
@@ -158,7 +161,7 @@ HarmonicMotion harmonic_response(BasicSystem<Dim>& system, const BasicHarmonicSy
 
 template <int Dim>
 Superposed<Dim> harmonic_part(BasicSystem<Dim>& system, const BasicHarmonicSystem<Dim>& h,
-                     const HarmonicMotion& motion, bool imaginary) {
+                              const HarmonicMotion& motion, bool imaginary) {
   Superposed<Dim> out;
   const double place = place_in(*h.parts[0].harmonic, motion.frequency);
   system.begin_step(h.parts[imaginary ? 1 : 0], h.rest);
@@ -179,13 +182,17 @@ template BasicHarmonicSystem<2> harmonic_system(System&, const Step&, const Stat
                                                 std::string&);
 template BasicHarmonicSystem<3> harmonic_system(System3&, const Step&, const State3&, Vibrations,
                                                 std::string&);
-template void begin_harmonic_step(System&, const Step&, const la::MakeSolver&, BasicHarmonicSystem<2>&,
-                    std::string&);
-template void begin_harmonic_step(System3&, const Step&, const la::MakeSolver&, BasicHarmonicSystem<3>&,
-                    std::string&);
-template HarmonicMotion harmonic_response(System&, const BasicHarmonicSystem<2>&, double, std::string&);
-template HarmonicMotion harmonic_response(System3&, const BasicHarmonicSystem<3>&, double, std::string&);
-template Superposed<2> harmonic_part(System&, const BasicHarmonicSystem<2>&, const HarmonicMotion&, bool);
-template Superposed<3> harmonic_part(System3&, const BasicHarmonicSystem<3>&, const HarmonicMotion&, bool);
+template void begin_harmonic_step(System&, const Step&, const la::MakeSolver&,
+                                  BasicHarmonicSystem<2>&, std::string&);
+template void begin_harmonic_step(System3&, const Step&, const la::MakeSolver&,
+                                  BasicHarmonicSystem<3>&, std::string&);
+template HarmonicMotion harmonic_response(System&, const BasicHarmonicSystem<2>&, double,
+                                          std::string&);
+template HarmonicMotion harmonic_response(System3&, const BasicHarmonicSystem<3>&, double,
+                                          std::string&);
+template Superposed<2> harmonic_part(System&, const BasicHarmonicSystem<2>&, const HarmonicMotion&,
+                                     bool);
+template Superposed<3> harmonic_part(System3&, const BasicHarmonicSystem<3>&, const HarmonicMotion&,
+                                     bool);
 
 }  // namespace osculate::model

@@ -53,17 +53,19 @@ template <int Dim>
 /// Begins a step of it.
 template <int Dim>
 void begin_harmonic_step(BasicSystem<Dim>& system, const Step& step, const la::MakeSolver& solver,
-           BasicHarmonicSystem<Dim>& h, std::string& failure);
+                         BasicHarmonicSystem<Dim>& h, std::string& failure);
 
 /// What the loads and supports of the step make of it at one frequency. `failure`: why it has no
 /// end.
 template <int Dim>
-[[nodiscard]] HarmonicMotion harmonic_response(BasicSystem<Dim>& system, const BasicHarmonicSystem<Dim>& h,
-                                      double frequency, std::string& failure);
+[[nodiscard]] HarmonicMotion harmonic_response(BasicSystem<Dim>& system,
+                                               const BasicHarmonicSystem<Dim>& h, double frequency,
+                                               std::string& failure);
 
 /// Real or imaginary part of a motion as a state, and its evaluation with the loads of that part.
 template <int Dim>
-[[nodiscard]] Superposed<Dim> harmonic_part(BasicSystem<Dim>& system, const BasicHarmonicSystem<Dim>& h,
-                                   const HarmonicMotion& motion, bool imaginary);
+[[nodiscard]] Superposed<Dim> harmonic_part(BasicSystem<Dim>& system,
+                                            const BasicHarmonicSystem<Dim>& h,
+                                            const HarmonicMotion& motion, bool imaginary);
 
 }  // namespace osculate::model

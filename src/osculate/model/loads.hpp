@@ -98,7 +98,8 @@ struct ModalDamping {
 struct Step;
 
 /// Loads and supports that swing, at one frequency after the other: those of the step are the real
-/// parts, `imaginary` has the others. Their tables are over the frequencies, 0 at `from`, 1 at `to`.
+/// parts, `imaginary` has the others. Their tables are over the frequencies, 0 at `from`, 1 at
+/// `to`.
 ///
 /// Sign       a load f swings as Re(f exp(i w t)), w = 2 pi frequency
 struct Harmonic {

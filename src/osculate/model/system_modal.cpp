@@ -48,8 +48,8 @@ Eigen::VectorXd BasicSystem<Dim>::drag_along(const Vibrations& modes, const Stat
     for (std::size_t i = 0; i < damper.motion.dofs.size(); ++i) {
       double rate = 0;
       for (std::size_t k = 0; k < damper.motion.dofs.size(); ++k)
-        rate += damper.motion.gradient[static_cast<Eigen::Index>(k)] *
-                motion[damper.motion.dofs[k]];
+        rate +=
+            damper.motion.gradient[static_cast<Eigen::Index>(k)] * motion[damper.motion.dofs[k]];
       drag += damper.coefficient * damper.motion.gradient[static_cast<Eigen::Index>(i)] * rate *
               modes.motions.row(damper.motion.dofs[i]).transpose();
     }

@@ -196,8 +196,8 @@ void AnswerFiles<Dim>::write_tables(const model::BasicSystem<Dim>& system,
 
 template <int Dim>
 void AnswerFiles<Dim>::swings(const model::BasicSystem<Dim>& system,
-                              const model::BasicState<Dim>& state,
-                              const model::Progress& progress, const model::HarmonicPart& part) {
+                              const model::BasicState<Dim>& state, const model::Progress& progress,
+                              const model::HarmonicPart& part) {
   if (!part.imaginary) {
     std::vector<double> frequencies;
     for (const double value : part.omega_squared) frequencies.push_back(model::frequency(value));

@@ -286,10 +286,9 @@ void FieldFiles<Dim>::swings(const model::BasicSystem<Dim>& system,
                              bool imaginary) {
   const model::BasicNodalFields<Dim> f = model::nodal_fields(system, built_.model, state);
   const std::string ending = imaginary ? "_imaginary" : "";
-  std::vector<io::Field> fields{vector_field("U" + ending, f.displacement),
-                                vector_field("RF" + ending, f.reaction),
-                                tensor_field("S" + ending, f.stress),
-                                tensor_field("E" + ending, f.strain)};
+  std::vector<io::Field> fields{
+      vector_field("U" + ending, f.displacement), vector_field("RF" + ending, f.reaction),
+      tensor_field("S" + ending, f.stress), tensor_field("E" + ending, f.strain)};
   if (!imaginary) {
     real_part_ = std::move(fields);
     return;
@@ -302,10 +301,10 @@ void FieldFiles<Dim>::swings(const model::BasicSystem<Dim>& system,
   real_part_.push_back(std::move(amplitude));
   real_part_.push_back(node_numbers_);
   const std::string bodies = fmt::format("bodies_{:05d}.vtu", frame_);
-  io::write_vtu(listed(bodies),
-                {built_.model.mesh.nodes, bodies_.blocks, real_part_, bodies_.fields,
-                 bodies_.names},
-                compress_);
+  io::write_vtu(
+      listed(bodies),
+      {built_.model.mesh.nodes, bodies_.blocks, real_part_, bodies_.fields, bodies_.names},
+      compress_);
   const std::size_t before = entries_.size();
   entries_.push_back({frequency, "bodies", bodies});
   ++frame_;

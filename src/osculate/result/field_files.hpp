@@ -69,7 +69,7 @@ class FieldFiles {
   std::conditional_t<Dim == 2, RigidLines, RigidFaces> rigid_;
   io::Field node_numbers_;
   std::vector<io::Field> real_part_;  ///< of a swing whose other part is yet to come
-  std::vector<bool> touched_;  ///< per pair: it is written from its first contact on
+  std::vector<bool> touched_;         ///< per pair: it is written from its first contact on
 };
 
 }  // namespace osculate::result

@@ -366,10 +366,10 @@ std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
     facts.push_back({"Contact", entry.first, fmt::format("{} pairs of bodies", entry.second)});
   for (const model::Step& step : m.steps)
     facts.push_back({"Steps", step.name,
-                     step.harmonic ? fmt::format("frequencies from {:g} to {:g}",
-                                                 step.harmonic->from, step.harmonic->to)
+                     step.harmonic      ? fmt::format("frequencies from {:g} to {:g}",
+                                                      step.harmonic->from, step.harmonic->to)
                      : step.frequencies ? fmt::format("{} vibrations", step.frequencies->modes)
-                                      : fmt::format("{} increments", step.increments)});
+                                        : fmt::format("{} increments", step.increments)});
   return facts;
 }
 
