@@ -165,6 +165,9 @@ def frequencies_of_dat(path):
             inside = True
         elif "P A R T I C I P A T I O N" in line:
             inside = False
+        elif inside and len(words) == 6 and words[0].isdigit():  # a sector: all sectors alike come twice there
+            if words[0] != "0" or int(words[1]) % 2:
+                steps[-1].append(float(words[-2]))
         elif inside and len(words) in (4, 5) and words[0].isdigit():
             steps[-1].append(float(words[-2]))
     return [sorted(step) for step in steps]
@@ -241,7 +244,6 @@ ANALYSES = {
     "CFD": "flow (`*CFD`)",
     "ELECTROMAGNETICS": "`*ELECTROMAGNETICS`",
     "COMPLEXFREQUENCY": "`*COMPLEX FREQUENCY`",
-    "SELECTCYCLICSYMMETRYMODES": "`*SELECT CYCLIC SYMMETRY MODES`",
     "BUCKLE": "`*BUCKLE`",
     "SENSITIVITY": "sensitivities",
     "DESIGNVARIABLES": "sensitivities",

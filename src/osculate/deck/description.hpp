@@ -446,6 +446,7 @@ struct Step {
   std::vector<ContactChange> contact;
   std::optional<Marked<int>> modes;  ///< vibrations instead of increments
   ModesAbout about = ModesAbout::last;
+  std::vector<Marked<int>> diameters;  ///< of a sector of a ring
 };
 
 // ---- solution and output ----------------------------------------------------------------------

@@ -45,6 +45,7 @@ class Steps {
       read_time(card);
     if (key == "STEADYSTATEDYNAMICS") read_swing(card);
     if (key == "FREQUENCY") read_modes(card);
+    if (key == "SELECTCYCLICSYMMETRYMODES") read_diameters(card);
     if (key == "INITIALCONDITIONS") check_initial(card);
     if (key == "BOUNDARY") read_boundary(card);
     if (key == "CLOAD") read_forces(card);
@@ -63,6 +64,7 @@ class Steps {
     procedure_ = nullptr;
     at_once_ = option_of(card, "AMPLITUDE") == "STEP";
     modes_ = 0;
+    diameters_.reset();
     period_ = 1;
     increments_ = 1;
     released_.clear();
@@ -125,6 +127,19 @@ class Steps {
     if (range_.points < 2) range_.points = usual_points;
     if (range_.bias < 1) fields.fail("a bias below 1 is not supported");
   }
+  void read_diameters(const Card& card) {
+    if (modes_ == 0) io::inp::fail(m_.deck, card, "belongs behind *FREQUENCY");
+    const auto number = [&](const char* key) {
+      const std::string given = option_of(card, key);
+      return given.empty() || given == "0" ? 0 : io::inp::number_of(m_.deck, card.at, given, key);
+    };
+    const int first = number("NMIN"), last = number("NMAX");
+    if (first < 0 || last < first)
+      io::inp::fail(m_.deck, card,
+                    fmt::format("expected 0 <= NMIN <= NMAX, found {} and {}", first, last));
+    diameters_ = {first, last};
+  }
+
   void read_time(const Card& card) {
     begin_procedure(card);
     const bool modal = card.keyword == "MODALDYNAMIC";
@@ -162,10 +177,16 @@ class Steps {
     put(step, "name", inp_text(fmt::format("step_{}", number), line));
     if (modes_ > 0) {
       SourceNode count = inp_number(modes_, line_of(procedure_->at));
-      if (about_start_) {
-        SourceNode& modes = put(step, "modes", inp_map(count.line));
+      if (about_start_ || diameters_) {
+        const int at = count.line;
+        SourceNode& modes = put(step, "modes", inp_map(at));
         put(modes, "count", std::move(count));
-        put(modes, "about", inp_text("start", line_of(procedure_->at)));
+        if (about_start_) put(modes, "about", inp_text("start", at));
+        if (diameters_) {
+          SourceNode& list = put(modes, "diameters", inp_list(at));
+          for (int k = (*diameters_)[0]; k <= (*diameters_)[1]; ++k)
+            list.items.push_back(inp_number(k, at));
+        }
       } else {
         put(step, "modes", std::move(count));
       }
@@ -774,8 +795,9 @@ class Steps {
   const Card *step_ = nullptr, *procedure_ = nullptr;
   double period_ = 1, total_time_ = 0;
   int increments_ = 1, modes_ = 0;
-  int vibrations_ = 0;  ///< that a step has found for those behind it
-  int forgotten_ = 0;   ///< line of a load of that step
+  std::optional<std::array<int, 2>> diameters_;  ///< of a sector of a ring: first and last
+  int vibrations_ = 0;                           ///< that a step has found for those behind it
+  int forgotten_ = 0;                            ///< line of a load of that step
   std::map<std::pair<Conditions*, Conditions::key_type>, double> standing_;
   std::set<Conditions::key_type> held_;  ///< then
   bool superposed_ = false;              ///< a step has moved vibrations

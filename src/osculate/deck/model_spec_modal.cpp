@@ -156,6 +156,13 @@ void check_modal(const Value& step, Step& s) {
 
 namespace {
 
+void require_whole(const Step& found, const core::SourceMark& mark) {
+  if (!found.diameters.empty())
+    throw core::InputError(mark,
+                           "vibrations of a sector of a ring are not moved by loads: a model "
+                           "of the whole ring");
+}
+
 /// Swings follow the step that has found what swings, or one another.
 void check_harmonic_steps(const Description& d) {
   const Step* found = nullptr;
@@ -164,6 +171,7 @@ void check_harmonic_steps(const Description& d) {
       found = step.modes ? &step : nullptr;
       continue;
     }
+    if (found) require_whole(*found, step.harmonic->mark);
     if (!found)
       throw core::InputError(step.harmonic->mark,
                              "there are no vibrations that could swing: the step before needs the "
@@ -199,6 +207,7 @@ void check_modal_steps(const Description& d) {
       throw core::InputError(step.modal->mark,
                              "there are no vibrations that could move: the step before needs the "
                              "key 'modes'");
+    require_whole(*found, step.modal->mark);
     for (const ModalDescription::Ratio& r : step.modal->ratios)
       if (r.last.value > found->modes->value)
         throw core::InputError(r.last.mark, fmt::format("step '{}' looks for {} vibrations",

@@ -264,7 +264,18 @@ BoundKey<Step> modes_key() {
                {word("last", ModesAbout::last, "the one that the steps before led to"),
                 word("start", ModesAbout::start, "the one before the first step, without loads")})
                .otherwise("last")
-               .such_as("start"))});
+               .such_as("start")),
+       {optional("diameters",
+                 list("Of a sector of a ring with `cyclic_symmetry`: nodal diameters, for each of "
+                      "which so many vibrations are looked for. From 0, all sectors alike, to half "
+                      "of the sectors; between these they come in pairs, cosine and sine.",
+                      integer("One number of them.").at_least(0).at_most(10'000))
+                     .count(1)
+                     .such_as("[0, 1, 2]")),
+        [](S& s, const Value& v) {
+          for (const Value& item : v.items)
+            s.diameters.push_back(Marked<int>{item.code, item.mark});
+        }}});
   Spec spec = either(
                   "So many free vibrations, the slowest first, about the state that the steps "
                   "before led to; nothing else happens in the step. Closed contacts stay "

@@ -27,6 +27,9 @@ void append_dat_total(std::string& out, std::span<const double> values);
 
 /// Vibrations found: omega^2 in rad/time.
 [[nodiscard]] std::string dat_eigenvalues(std::span<const double> omega_squared);
+/// The same of a sector of a ring, with the nodal diameters of each.
+[[nodiscard]] std::string dat_eigenvalues(std::span<const double> omega_squared,
+                                          std::span<const int> diameters);
 /// A table of six numbers a vibration: along x, y, z, and around these; `last` has no number.
 [[nodiscard]] std::string dat_modal_table(std::string_view title,
                                           std::span<const std::array<double, 6>> rows,

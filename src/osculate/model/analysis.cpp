@@ -5,6 +5,7 @@
 #include <chrono>
 #include <iterator>
 
+#include "osculate/model/cyclic_vibrations.hpp"
 #include "osculate/model/harmonic.hpp"
 #include "osculate/model/pair_changes.hpp"
 #include "osculate/model/superposition.hpp"
@@ -81,7 +82,10 @@ struct Analysis {
   void find_vibrations(const Step& step) {
     const BasicState<Dim> about =
         step.frequencies->unloaded ? system.initial_state() : result.state;
-    Vibrations modes = system.vibrations(about, step.frequencies->modes, *solver);
+    Vibrations modes =
+        step.frequencies->diameters.empty()
+            ? system.vibrations(about, step.frequencies->modes, *solver)
+            : cyclic_vibrations(model, step, about, options.threads, options.linear_solver);
     result.last_iterate = result.state;
     if (!modes.failure.empty()) {
       result.outcome = solve::Outcome::numerical_failure;

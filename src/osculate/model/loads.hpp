@@ -82,6 +82,8 @@ struct Dynamics {
 struct Frequencies {
   int modes = 1;
   bool unloaded = false;  ///< about the latter
+  /// Of a sector of a ring: around which the motions of the sectors turn so many times.
+  std::vector<int> diameters{};
 };
 
 /// Damping of vibrations that are superposed: a ratio, of some of them another one, and Rayleigh's.

@@ -129,6 +129,14 @@ class BasicSystem {
   /// Tested by  tests/unit/model/test_vibrations.cpp, verification/vibrations
   [[nodiscard]] Vibrations vibrations(const State& state, int count, la::LinearSolver& solver);
 
+  /// Stiffness and mass that they are those of, by the unknowns, multipliers included. Returns why
+  /// there are none; empty: there are.
+  [[nodiscard]] std::string vibration_matrices(const State& state, la::SparseMatrix& stiffness,
+                                               la::SparseMatrix& mass);
+  /// The motion of all nodes and rigid bodies by a small one of the unknowns about a state.
+  [[nodiscard]] Eigen::VectorXd motion_by(const State& about,
+                                          const Eigen::VectorXd& unknowns) const;
+
   /// Forces of the loads of the running step on vibrations about a state.
   ///
   /// Formula    phi . F , F at the places of that state

@@ -287,6 +287,10 @@ std::string tables_of(const model::Vibrations& modes, double sector) {
 
 template <int Dim>
 void AnswerFiles<Dim>::vibrations(const model::Progress& progress, const model::Vibrations& modes) {
+  if (!modes.diameters.empty()) {
+    const auto count = static_cast<std::size_t>(modes.omega_squared.size());
+    return dat_.append(io::dat_eigenvalues({modes.omega_squared.data(), count}, modes.diameters));
+  }
   dat_.append(tables_of(modes, answers_.sector));
   const std::string& step = built_.model.steps[static_cast<std::size_t>(progress.step)].name;
   const auto wanted = [&](const deck::AnswerRequest& request) {

@@ -401,15 +401,25 @@ void FieldFiles<Dim>::write_modes(const std::string& step, const model::BasicSta
     return u;
   };
   std::vector<io::Field> fields{vector_field("U", field(state.u, 1)), node_numbers_};
-  std::string rows = "number,omega_squared,frequency\n";
+  const bool of_ring = !modes.diameters.empty();
+  std::string rows = fmt::format("number,omega_squared,frequency{}\n", of_ring ? ",diameters" : "");
   for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
     const Eigen::VectorXd shape = modes.shapes.col(i);
     double largest = 0;
     for (const Vec<Dim>& u : field(shape, 1)) largest = std::max(largest, u.norm());
-    fields.push_back(
-        vector_field(fmt::format("mode_{}", i + 1), field(shape, largest > 0 ? 1 / largest : 1)));
+    if (of_ring)
+      for (const Vec<Dim>& u : field(modes.imaginary.col(i), 1))
+        largest = std::max(largest, u.norm());
+    const double factor = largest > 0 ? 1 / largest : 1;
+    fields.push_back(vector_field(fmt::format("mode_{}", i + 1), field(shape, factor)));
     const double omega_squared = modes.omega_squared[i];
-    rows += fmt::format("{},{},{}\n", i + 1, omega_squared, model::frequency(omega_squared));
+    rows += fmt::format("{},{},{}", i + 1, omega_squared, model::frequency(omega_squared));
+    if (of_ring) {
+      fields.push_back(vector_field(fmt::format("mode_{}_imaginary", i + 1),
+                                    field(modes.imaginary.col(i), factor)));
+      rows += fmt::format(",{}", modes.diameters[static_cast<std::size_t>(i)]);
+    }
+    rows += "\n";
   }
   io::write_vtu(listed(fmt::format("modes_{}.vtu", step)),
                 {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},

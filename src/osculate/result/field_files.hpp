@@ -42,7 +42,8 @@ class FieldFiles {
   void write_last_iterate(const model::BasicState<Dim>& state,
                           const model::BasicFailure<Dim>& failure);
   /// Vibrations of a step: modes_STEP.vtu, displacements of the state and a vector field `mode_1`,
-  /// ... for each, its largest displacement 1; modes_STEP.csv, their frequencies.
+  /// ... for each, its largest displacement 1; modes_STEP.csv, their frequencies. Of a sector of a
+  /// ring the imaginary part `mode_1_imaginary`, ... as well, and the nodal diameters.
   void write_modes(const std::string& step, const model::BasicState<Dim>& state,
                    const model::Vibrations& modes);
   [[nodiscard]] const std::vector<io::PvdEntry>& written() const { return entries_; }

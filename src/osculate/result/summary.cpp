@@ -80,9 +80,12 @@ nlohmann::json chosen_json(const ChosenTimeSteps& chosen) {
 nlohmann::json modes_json(const std::optional<model::Vibrations>& modes) {
   if (!modes) return nullptr;
   nlohmann::json list = nlohmann::json::array();
-  for (const double value : modes->omega_squared)
+  for (const double value : modes->omega_squared) {
+    const std::size_t i = list.size();
     list.push_back(
         {{"omega_squared", number(value)}, {"frequency", number(model::frequency(value))}});
+    if (!modes->diameters.empty()) list.back()["diameters"] = modes->diameters[i];
+  }
   return {{"found", list}, {"missing", modes->missing}, {"residual", number(modes->residual)}};
 }
 

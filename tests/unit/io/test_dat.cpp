@@ -65,6 +65,19 @@ TEST(Dat, AmountsOfVibrationsAtAFrequency) {
             "      2   0.7683971E+05  -0.2741360E-05   0.0000000E+00\n");
 }
 
+/// Lines of the file that CalculiX 2.20 writes of its deck segment.
+TEST(Dat, VibrationsOfASector) {
+  const std::array found{0.2797486e3, 0.6659588e4};
+  const std::array diameters{1, 1};
+  const std::string text = dat_eigenvalues(found, diameters);
+  EXPECT_TRUE(text.starts_with(
+      "\n     E I G E N V A L U E   O U T P U T\n\n  NODAL   MODE NO    EIGENVALUE  "));
+  EXPECT_TRUE(text.ends_with(
+      "\n    1          1   0.2797486E+03   0.1672569E+02   0.2661976E+01   0.0000000E+00\n"
+      "    1          2   0.6659588E+04   0.8160630E+02   0.1298805E+02   0.0000000E+00\n"))
+      << text;
+}
+
 TEST(Dat, RowsOfIncrementsAndIterations) {
   EXPECT_EQ(sta_row({2, 1, 1, 2, true, 2, 1, 1}),
             "     2          1     1     2  0.200000E+01  0.100000E+01  0.100000E+01\n");
