@@ -57,6 +57,16 @@ struct Mass {
   }
 };
 
+/// Something small beside the largest eigenvalue; 1 where nothing has a mass.
+double small_part(const Sparse& k, const Sparse& m) {
+  constexpr double share = 1e-6;
+  double largest = 0;
+  const Eigen::VectorXd dk = k.diagonal(), dm = m.diagonal();
+  for (Eigen::Index i = 0; i < dk.size(); ++i)
+    if (dm[i] > 0) largest = std::max(largest, std::abs(dk[i]) / dm[i]);
+  return largest > 0 ? share * largest : 1;
+}
+
 struct Problem {
   Sparse k, m;
   LinearSolver& solver;
@@ -68,15 +78,7 @@ struct Problem {
     const Sparse shifted = k - shift * m;
     return solver.factor(plain(shifted), version, Symmetry::indefinite);
   }
-  /// Something small beside the largest eigenvalue.
-  [[nodiscard]] double small_shift() const {
-    constexpr double share = 1e-6;
-    double largest = 0;
-    const Eigen::VectorXd dk = k.diagonal(), dm = m.diagonal();
-    for (Eigen::Index i = 0; i < dk.size(); ++i)
-      if (dm[i] > 0) largest = std::max(largest, std::abs(dk[i]) / dm[i]);
-    return share * largest;
-  }
+  [[nodiscard]] double small_shift() const { return small_part(k, m); }
 };
 
 /// Whether the factors of K are those of a matrix that is not singular but for rounding.
@@ -303,11 +305,17 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m,
     const Sparse half = all * by;
     return Sparse(transposed * half);
   };
-  const Sparse mass = reduced(m);
-  Eigenpairs pairs = smallest_eigenpairs(plain(reduced(k)), plain(mass), count, solver);
+  const Sparse stiffness = reduced(k);
+  Sparse mass = reduced(m);
+  // Values of about 1: Lanczos' method takes what is very small for zero, and equal ones for one.
+  const double unit = small_part(stiffness, mass);
+  mass *= unit;
+  Eigenpairs pairs = smallest_eigenpairs(plain(stiffness), plain(mass), count, solver);
   if (!pairs.failure.empty()) return pairs;
   if (!real) complete_pairs(mass, count, pairs);
-  pairs.vectors = (by * pairs.vectors).eval();
+  pairs.values *= unit;
+  pairs.shift *= unit;
+  pairs.vectors = (std::sqrt(unit) * (by * pairs.vectors)).eval();
   return pairs;
 }
 

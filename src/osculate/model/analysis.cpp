@@ -182,6 +182,7 @@ struct Analysis {
       position.at = record.fraction;
       position.nominal = i + 1;
       result.steps.back().increments.push_back(record);
+      system.begin_step(step, result.state);
       if (observer.resumable) observer.resumable(system, result.state, progress, position);
       if (go_on) continue;
       result.outcome = solve::Outcome::stopped;

@@ -170,6 +170,13 @@ TEST(Eigenpairs, OfComplexCombinations) {
     EXPECT_LT((by.adjoint() * (dk * x - value * dm * x)).norm(), 1e-9);
     EXPECT_LT((by.bottomRows(3) * x.head(columns) - x.tail(3)).norm(), 1e-12);
   }
+  SparseMatrix light = mass;  // in other units
+  for (double& value : light.value) value *= 1e-17;
+  const Eigenpairs fast = smallest_eigenpairs(stiffness, light, t, columns, 7, *solver);
+  ASSERT_EQ(fast.values.size(), 7);
+  for (Eigen::Index i = 0; i < 7; ++i)
+    EXPECT_NEAR(1e-17 * fast.values[i], exact.eigenvalues()[i / 2], 1e-10);
+  EXPECT_LT(fast.residual, 1e-9);
   for (ComplexEntry& e : t) e.value = e.value.real();
   const Eigenpairs real = smallest_eigenpairs(stiffness, mass, t, columns, 4, *solver);
   EXPECT_EQ(real.vectors.rows(), n);
