@@ -1,3 +1,4 @@
+// size: everything that a run writes while it goes on shares one recorder
 #include "osculate/api/run.hpp"
 
 #include <fmt/format.h>

@@ -269,8 +269,7 @@ TEST(InpBetweenSteps, Swings) {
 
 TEST(InpBetweenSteps, NodalDiameters) {
   const std::string frequency = "*STEP\n*FREQUENCY\n12\n*SELECT CYCLIC SYMMETRY MODES, ";
-  expect_in(part(frequency + "NMIN=1, NMAX=3\n*END STEP\n", "steps"),
-            "diameters: [1, 2, 3]");
+  expect_in(part(frequency + "NMIN=1, NMAX=3\n*END STEP\n", "steps"), "diameters: [1, 2, 3]");
   expect_in(message_of(frequency + "NMIN=2, NMAX=1\n*END STEP\n"), "expected 0 <= NMIN <= NMAX");
   expect_in(
       message_of("*STEP\n*STATIC\n*SELECT CYCLIC SYMMETRY MODES, NMIN=2, NMAX=3\n*END STEP\n"),
