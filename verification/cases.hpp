@@ -29,6 +29,7 @@ namespace osculate::verification {
 [[nodiscard]] CaseResult hertz_line(const CaseContext& context);
 [[nodiscard]] CaseResult buckling(const CaseContext& context);
 [[nodiscard]] CaseResult vibrations(const CaseContext& context);
+[[nodiscard]] CaseResult cyclic_modes(const CaseContext& context);
 [[nodiscard]] CaseResult large_rotation(const CaseContext& context);
 [[nodiscard]] CaseResult projection_domains(const CaseContext& context);
 [[nodiscard]] CaseResult self_contact(const CaseContext& context);

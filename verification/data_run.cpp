@@ -52,7 +52,8 @@ std::vector<const DataColumn*> of_history(const std::vector<DataColumn>& columns
   std::vector<const DataColumn*> out;
   for (const DataColumn& column : columns)
     if (!column.asked->find("uniform") && column.name.find('.') != std::string::npos &&
-        !column.name.starts_with("energy.") && !column.name.ends_with("_gap"))
+        !column.name.starts_with("energy.") && !column.name.ends_with("_gap") &&
+        !column.name.ends_with(model::imaginary_suffix))  // beside the real part
       out.push_back(&column);
   return out;
 }
@@ -143,7 +144,7 @@ DataRun run_built(deck::BasicBuilt<Dim>& built, const std::vector<DataColumn>& c
                               : "");
     for (const model::HistoryRequest& request : built.history)
       out.columns[request.name].push_back(
-          model::history_value(system, built.model, state, request));
+          request.imaginary ? 0 : model::history_value(system, built.model, state, request));
     for (const DataColumn& column : columns)
       if (const deck::Value* const uniform = column.asked->find("uniform"))
         out.columns[column.name].push_back(deviation_from(*uniform, system, built.model, state));
@@ -154,6 +155,19 @@ DataRun run_built(deck::BasicBuilt<Dim>& built, const std::vector<DataColumn>& c
     out.columns["iterations"].push_back(
         record ? static_cast<double>(record->iterations.size()) + record->wasted_iterations : 0);
     out.columns["order"].push_back(record ? observed_order(record->iterations) : 0);
+    return true;
+  };
+  observer.harmonic = [&](model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+                          const model::Progress& progress, const model::HarmonicPart& part) {
+    for (const model::HistoryRequest& request : built.history)
+      if (request.imaginary == part.imaginary)
+        out.columns[request.name].push_back(
+            model::history_value(system, built.model, state, request));
+    if (part.imaginary) return true;
+    out.time.push_back(progress.time);
+    out.step.push_back(built.model.steps[static_cast<std::size_t>(progress.step)].name);
+    for (const char* const counted : {"increments", "cutbacks", "iterations", "order"})
+      out.columns[counted].push_back(counted == std::string_view("increments") ? 1 : 0);
     return true;
   };
   const model::BasicAnalysisResult<Dim> result = model::run(built.model, built.options, observer);

@@ -1,3 +1,4 @@
+// size: everything that a run writes while it goes on shares one recorder
 #include "osculate/api/run.hpp"
 
 #include <fmt/format.h>
@@ -199,12 +200,60 @@ struct Recorder {
     return !stopping;
   }
 
+  /// Real and imaginary part are one increment.
+  bool swings(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+              const model::Progress& p, const model::HarmonicPart& part) {
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      record_part(system, state, p, part);
+    } catch (const io::WriteError& error) {
+      write_error = error.what();
+    }
+    seconds += seconds_since(start);
+    stopping =
+        !write_error.empty() || (options.interrupted && options.interrupted()) || budget.too_late();
+    return !stopping;
+  }
+
+  void record_part(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+                   const model::Progress& p, const model::HarmonicPart& part) {
+    if (!part.imaginary) {
+      entry = {};
+      entry.progress = p;
+      entry.row.resize(built.history.size());
+    }
+    for (std::size_t i = 0; i < built.history.size(); ++i)
+      if (built.history[i].imaginary == part.imaginary)
+        entry.row[i] = model::history_value(system, built.model, state, built.history[i]);
+    if (answers) answers->swings(system, state, p, part);
+    const bool shown = wants_fields(p);
+    const std::size_t before = fields.written().size();
+    if (shown) fields.swings(system, state, p.time, part.imaginary);
+    if (!part.imaginary) return;
+    entry.record = part.record;
+    entry.note =
+        nlohmann::json{{"outside_domain", nlohmann::json::array()}, {"time", p.time}}.dump();
+    curvature_shares.push_back(0);
+    notes.push_back(nlohmann::json::parse(entry.note));
+    entry.deepest = watch.deepest;
+    const std::string line = result::swing_text(step_name(p), p, part.motion.place);
+    log_line(line);
+    show_progress(p, line);
+    ++converged_count;
+    history->row(row_of(p, entry.row));
+    report_row(p, entry.row);
+    if (shown)
+      entry.files.assign(fields.written().begin() + static_cast<std::ptrdiff_t>(before),
+                         fields.written().end());
+  }
+
   void record_increment(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
                         const model::Progress& p, const solve::IncrementRecord* record) {
     entry = {};
     entry.progress = p;
     for (const model::HistoryRequest& request : built.history)
-      entry.row.push_back(model::history_value(system, built.model, state, request));
+      entry.row.push_back(
+          request.imaginary ? 0 : model::history_value(system, built.model, state, request));
     if (!record) {
       report_memory(system);
       say_all(watch.begin(system, state));
@@ -420,6 +469,11 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
     recorder.say_all(result::buckling_text(step, found));
     recorder.fields.write_buckling(step, state, found);
     if (recorder.answers) recorder.answers->buckling(p, found);
+  };
+  observer.harmonic = [&recorder](model::BasicSystem<Dim>& system,
+                                  const model::BasicState<Dim>& state, const model::Progress& p,
+                                  const model::HarmonicPart& part) {
+    return recorder.swings(system, state, p, part);
   };
   observer.resumable = [&recorder](const model::BasicSystem<Dim>& system,
                                    const model::BasicState<Dim>& state, const model::Progress& p,

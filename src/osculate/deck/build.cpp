@@ -70,7 +70,7 @@ void check_durations(const Description& description, const std::optional<core::S
                      std::string_view what) {
   if (!timed) return;
   for (const Step& step : description.steps)
-    if (!step.duration && !step.modes && !step.buckling)
+    if (!step.duration && !step.modes && !step.buckling && !step.harmonic)
       throw core::InputError(*timed,
                              fmt::format("{} needs the duration of every step, and step '{}' has "
                                          "none",
@@ -141,6 +141,11 @@ void build_history(BuildContext<Dim>& c) {
         throw core::InputError(request.on.mark,
                                fmt::format("set '{}' has no nodes", request.on.value));
     }
+    const bool swings = has_imaginary_column(request, c.description);
+    c.built.history.push_back(out);
+    if (!swings) continue;
+    out.name += model::imaginary_suffix;
+    out.imaginary = true;
     c.built.history.push_back(std::move(out));
   }
   for (const AnswerRequest& request : c.description.output.dat)

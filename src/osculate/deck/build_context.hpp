@@ -93,7 +93,11 @@ template <int Dim>
 void build_dynamics(const BuildContext<Dim>& context, const Step& step,
                     std::vector<double>& gravity, model::Step& out);
 /// The damping of vibrations that move.
-void build_modal(const Step& step, model::Step& out);
+void build_modal(const ModalDescription& description, model::ModalDamping& out);
+/// A harmonic step without its loads; `about_start`: its vibrations are about the start.
+template <int Dim>
+void begin_harmonic(const BuildContext<Dim>& context, const Step& step,
+                    const std::vector<double>& temperatures, bool about_start, model::Step& out);
 /// What a step that looks for buckling loads needs; `temperatures` are those before it.
 ///
 /// Tested by  tests/unit/deck/test_buckling.cpp

@@ -108,13 +108,16 @@ double farthest(const std::vector<Foot<Dim>>& feet) {
 template <int Dim>
 void add_equations(const BuildContext<Dim>& c, Index node, const Foot<Dim>& foot,
                    const Mat<3, 3>& q, const core::SourceMark& mark,
-                   std::vector<MarkedEquation>& all) {
+                   std::vector<MarkedEquation>& all, model::CyclicJoint& joint) {
   for (int i = 0; i < Dim; ++i) {
     model::Equation equation;
     add_displacement(c, node, Vec<Dim>(Vec<Dim>::Unit(i)), 1.0, equation);
+    joint.here.push_back(equation);
     const Vec<Dim> back = q.row(i).template head<Dim>().transpose();
+    model::Equation& there = joint.there.emplace_back();
     for (const auto& [other, weight] : foot.weights)
-      add_displacement(c, other, back, -weight, equation);
+      add_displacement(c, other, back, -weight, there);
+    for (const model::Equation::Term& term : there.terms) add_term(equation, term.dof, term.factor);
     std::erase_if(equation.terms, [](const model::Equation::Term& term) {
       constexpr double rounding = 1e-12;
       return std::abs(term.factor) <= rounding;
@@ -127,7 +130,11 @@ void add_equations(const BuildContext<Dim>& c, Index node, const Foot<Dim>& foot
 
 template <int Dim>
 void add_cyclic_symmetry(const BuildContext<Dim>& c, std::vector<MarkedEquation>& all) {
+  model::RingSector& sector = c.model().sector.emplace();
   for (const CyclicSymmetry& s : c.description.cyclic_symmetry) {
+    sector.sectors = s.sectors.value;
+    const CyclicSymmetry& first = c.description.cyclic_symmetry.front();
+    bool back = Dim == 3 && (s.to - s.from).dot(first.to - first.from) < 0;
     const std::vector<Index> nodes = moving_nodes(c, s.dependent, Idle::refused);
     const OtherFace<Dim> face(c, s);
     const double angle = 2 * std::numbers::pi / s.sectors.value;
@@ -138,6 +145,7 @@ void add_cyclic_symmetry(const BuildContext<Dim>& c, std::vector<MarkedEquation>
     if (farthest(other) < farthest(found)) {
       q = other_way;
       found = other;
+      back = !back;
     }
     constexpr double too_far = 0.02;
     if (!(farthest(found) <= too_far * face.size()))
@@ -146,8 +154,10 @@ void add_cyclic_symmetry(const BuildContext<Dim>& c, std::vector<MarkedEquation>
           fmt::format("turned by 360/{} degrees, '{}' does not lie on '{}': a node is {:g} "
                       "away from it",
                       s.sectors.value, s.independent.value, s.dependent.value, farthest(found)));
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      add_equations(c, nodes[i], found[i], q, s.mark, all);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      sector.joints.emplace_back().back = back;
+      add_equations(c, nodes[i], found[i], q, s.mark, all, sector.joints.back());
+    }
   }
 }
 

@@ -78,6 +78,19 @@ void add_pretensions(const BuildContext<Dim>& c, std::vector<MarkedEquation>& al
   }
 }
 
+/// Of the model: these, what the mesh adds, and local axes.
+template <int Dim>
+void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all) {
+  if (!all.empty() || !c.model().mesh.relations.empty()) {
+    PrescribedCourses courses = prescribed_courses(c);
+    std::vector<MarkedEquation> first = relations(c, courses);
+    first.insert(first.end(), all.begin(), all.end());
+    c.model().equations =
+        reduced_equations(first, courses, Dim * static_cast<Dof>(c.model().reference.size()));
+  }
+  add_local_axes(c);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -101,15 +114,18 @@ void build_equations(BuildContext<Dim>& c) {
     }
   }
   add_pretensions(c, all);
-  add_cyclic_symmetry(c, all);
-  if (!all.empty() || !c.model().mesh.relations.empty()) {
-    PrescribedCourses courses = prescribed_courses(c);
-    std::vector<MarkedEquation> first = relations(c, courses);
-    first.insert(first.end(), all.begin(), all.end());
-    c.model().equations =
-        reduced_equations(first, courses, Dim * static_cast<Dof>(c.model().reference.size()));
+  if (std::ranges::any_of(c.description.steps,
+                          [](const Step& step) { return !step.diameters.empty(); })) {
+    set_equations(c, all);
+    std::vector<model::Equation> others = std::move(c.model().equations);
+    c.model().equations.clear();
+    add_cyclic_symmetry(c, all);
+    c.model().sector->others = std::move(others);
+  } else if (!c.description.cyclic_symmetry.empty()) {
+    add_cyclic_symmetry(c, all);
+    c.model().sector.reset();
   }
-  add_local_axes(c);
+  set_equations(c, all);
 }
 
 template void build_equations(BuildContext<2>&);

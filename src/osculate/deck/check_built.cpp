@@ -44,7 +44,7 @@ template <int Dim>
 void check_connected(const BuildContext<Dim>& c) {
   const model::BasicModel<Dim>& m = c.model();
   const auto inert = [](const model::Step& step) {
-    return model::takes_time(step) || step.frequencies;
+    return model::takes_time(step) || step.frequencies || step.harmonic;
   };
   if (std::all_of(m.steps.begin(), m.steps.end(), inert)) return;
   const std::vector<bool> held = held_nodes(m);

@@ -372,6 +372,7 @@ struct Load {
   Name on;
   std::array<std::optional<Number>, component_count> values;
   std::optional<Name> amplitude;
+  std::optional<Number> phase;      ///< degrees, of loads that swing
   Vec3 from{0, 0, 0}, to{0, 0, 1};  ///< points of the axis, of centrifugal loads
 };
 using Prescription = Load;
@@ -418,6 +419,15 @@ struct ModalDescription {
   double damping_mass = 0, damping_stiffness = 0;
 };
 
+/// Vibrations that the step before has found swing with loads, at one frequency after the other.
+struct HarmonicDescription {
+  core::SourceMark mark;
+  Number from, to;
+  int points = 20;
+  double bias = 3;
+  ModalDescription damped;
+};
+
 /// The state that vibrations are about, or that buckles: the one before the first step, or what
 /// steps led to.
 enum class ModesAbout { last, start };
@@ -432,11 +442,13 @@ struct Step {
   std::vector<Load> temperature;  ///< the first value
   std::optional<DynamicsDescription> dynamics;
   std::optional<ModalDescription> modal;
+  std::optional<HarmonicDescription> harmonic;
   std::optional<Marked<std::vector<double>>> gravity;
   std::vector<ContactChange> contact;
   std::optional<Marked<int>> modes;     ///< vibrations instead of increments
   std::optional<Marked<int>> buckling;  ///< critical loads instead of increments
   ModesAbout about = ModesAbout::last;
+  std::vector<Marked<int>> diameters;  ///< of a sector of a ring
 };
 
 // ---- solution and output ----------------------------------------------------------------------

@@ -29,7 +29,8 @@ class Steps {
     out_.steps = inp_list(1);
     out_.amplitudes = inp_map(1);
     for (const Card& card : m_.deck.cards) take(card);
-    if (step_) io::inp::fail(m_.deck, *step_, "its *END STEP is missing");
+    if (step_ && step_ != &m_.deck.cards.back())  // CalculiX passes over an empty one, too
+      io::inp::fail(m_.deck, *step_, "its *END STEP is missing");
     if (out_.steps.items.empty())
       throw core::InputError({m_.deck.files[0], 0, ""}, "the deck has no *STEP");
     return std::move(out_);
@@ -43,8 +44,10 @@ class Steps {
     if (key == "AMPLITUDE") read_amplitude(card);
     if (key == "STATIC" || key == "VISCO" || key == "DYNAMIC" || key == "MODALDYNAMIC")
       read_time(card);
+    if (key == "STEADYSTATEDYNAMICS") read_swing(card);
     if (key == "FREQUENCY") read_modes(card);
     if (key == "BUCKLE") read_buckling(card);
+    if (key == "SELECTCYCLICSYMMETRYMODES") read_diameters(card);
     if (key == "INITIALCONDITIONS") check_initial(card);
     if (key == "BOUNDARY") read_boundary(card);
     if (key == "CLOAD") read_forces(card);
@@ -64,11 +67,11 @@ class Steps {
     at_once_ = option_of(card, "AMPLITUDE") == "STEP";
     modes_ = 0;
     factors_ = 0;
+    diameters_.reset();
     period_ = 1;
     increments_ = 1;
     released_.clear();
-    for (Conditions* const values :
-         {&prescribed_, &forces_, &pressures_, &body_forces_, &centrifugal_})
+    for (Conditions* const values : all_conditions())
       for (auto& [key, value] : *values) value.fresh = false;
     for (auto& [on, value] : temperatures_) value.fresh = false;
     before_ = {forces_, pressures_, body_forces_, centrifugal_};
@@ -84,6 +87,11 @@ class Steps {
           m_.deck, card,
           fmt::format("the step has a procedure already, in line {}", procedure_->at.line));
     procedure_ = &card;
+    const bool swings = card.keyword == "STEADYSTATEDYNAMICS";
+    if (swung_ && !swings)
+      io::inp::fail(m_.deck, card,
+                    "only *STEADY STATE DYNAMICS follows *STEADY STATE DYNAMICS here");
+    swung_ = swings;
     if (superposed_ && card.keyword != "MODALDYNAMIC")
       io::inp::fail(m_.deck, card, "only *MODAL DYNAMIC follows *MODAL DYNAMIC here");
     superposed_ = card.keyword == "MODALDYNAMIC";
@@ -104,6 +112,45 @@ class Steps {
     about_start_ = moved_ && !io::inp::find_parameter(*step_, "PERTURBATION");
     factors_ = Fields(m_.deck, only_line(m_, card, "the number of buckling factors"))
                    .number("the number of buckling factors");
+  }
+  /// The range of frequencies.
+  void read_swing(const Card& card) {
+    begin_procedure(card);
+    check_vibrations(card);
+    if (option_of(card, "HARMONIC") == "NO")
+      io::inp::fail(m_.deck, card,
+                    "HARMONIC=NO is not supported: *MODAL DYNAMIC over some periods of the loads");
+    Fields fields(m_.deck, only_line(m_, card, "the first and the last frequency"));
+    range_.from = fields.real("the first frequency");
+    range_.to = fields.real("the last frequency");
+    constexpr int usual_points = 20;
+    constexpr double usual_bias = 3;
+    const auto next = fields.next();
+    range_.points = usual_points;
+    if (next && !next->empty())
+      range_.points = io::inp::number_of(m_.deck, io::inp::lines_of(m_.deck, card)[0].at, *next,
+                                         "the number of points");
+    const double bias = fields.real_or_zero("the bias");
+    range_.bias = bias > 0 ? bias : usual_bias;
+    if (!(range_.to >= range_.from) || range_.from < 0)
+      fields.fail(
+          fmt::format("expected two frequencies, the second not below the first, found {:g} "
+                      "and {:g}",
+                      range_.from, range_.to));
+    if (range_.points < 2) range_.points = usual_points;
+    if (range_.bias < 1) fields.fail("a bias below 1 is not supported");
+  }
+  void read_diameters(const Card& card) {
+    if (modes_ == 0) io::inp::fail(m_.deck, card, "belongs behind *FREQUENCY");
+    const auto number = [&](const char* key) {
+      const std::string given = option_of(card, key);
+      return given.empty() || given == "0" ? 0 : io::inp::number_of(m_.deck, card.at, given, key);
+    };
+    const int first = number("NMIN"), last = number("NMAX");
+    if (first < 0 || last < first)
+      io::inp::fail(m_.deck, card,
+                    fmt::format("expected 0 <= NMIN <= NMAX, found {} and {}", first, last));
+    diameters_ = {first, last};
   }
 
   void read_time(const Card& card) {
@@ -142,7 +189,20 @@ class Steps {
     SourceNode& step = out_.steps.items.emplace_back(inp_map(line));
     put(step, "name", inp_text(fmt::format("step_{}", number), line));
     if (modes_ > 0) {
-      put_search(step, "modes", modes_);
+      SourceNode count = inp_number(modes_, line_of(procedure_->at));
+      if (about_start_ || diameters_) {
+        const int at = count.line;
+        SourceNode& modes = put(step, "modes", inp_map(at));
+        put(modes, "count", std::move(count));
+        if (about_start_) put(modes, "about", inp_text("start", at));
+        if (diameters_) {
+          SourceNode& list = put(modes, "diameters", inp_list(at));
+          for (int k = (*diameters_)[0]; k <= (*diameters_)[1]; ++k)
+            list.items.push_back(inp_number(k, at));
+        }
+      } else {
+        put(step, "modes", std::move(count));
+      }
       end_of_modes(card, step);
       return;
     }
@@ -151,6 +211,7 @@ class Steps {
       end_of_buckling(card, step);
       return;
     }
+    if (procedure_->keyword == "STEADYSTATEDYNAMICS") return end_of_swing(card, step);
     const bool modal = procedure_->keyword == "MODALDYNAMIC";
     moved_ = moved_ || !modal;
     if (!modal) stand();
@@ -174,7 +235,7 @@ class Steps {
       put_holds(step);
     }
     put_directions(step, "forces", 'f', forces_);
-    put_pressures(step);
+    put_pressures(step, pressures_);
     put_directions(step, "body_force", 'f', body_forces_);
     put_centrifugal(step);
     SourceNode changes = inp_changes(m_, std::span(step_, &card));
@@ -261,6 +322,46 @@ class Steps {
     step_ = nullptr;
   }
 
+  /// Loads and supports of this step and of those like it before.
+  void end_of_swing(const Card& card, SourceNode& step) {
+    const int line = line_of(procedure_->at);
+    const auto fail = [&](const std::string& text) { io::inp::fail(m_.deck, *procedure_, text); };
+    if (moved_ && (io::inp::find_parameter(*step_, "PERTURBATION") != nullptr) == about_start_)
+      fail("PERTURBATION must be said of this step and of that with *FREQUENCY, or of none");
+    SourceNode& harmonic = put(step, "harmonic", inp_map(line));
+    put(harmonic, "from", inp_number(range_.from, line));
+    put(harmonic, "to", inp_number(range_.to, line));
+    put(harmonic, "points", inp_number(range_.points, line));
+    put(harmonic, "bias", inp_number(range_.bias, line));
+    for (SourceEntry& entry :
+         inp_modal(m_, std::span(m_.deck.cards.data(), &card), line, vibrations_).entries)
+      put(harmonic, entry.key.c_str(), std::move(entry.value));
+    check_supports();
+    for (Conditions* const values : all_conditions())
+      for (const auto& [key, value] : *values)
+        if (value.size != 0 && !value.swings && !released_.contains({values, key}))
+          fail(
+              fmt::format("what line {} says of a step before would go on in this one: write it "
+                          "again, or OP=NEW",
+                          value.line));
+    for (const bool imaginary : {false, true}) {
+      imaginary_ = imaginary;
+      put_directions(step, "prescribe", 'u', imaginary ? prescribed_2_ : prescribed_);
+      put_directions(step, "forces", 'f', imaginary ? forces_2_ : forces_);
+      put_pressures(step, imaginary ? pressures_2_ : pressures_);
+      put_directions(step, "body_force", 'f', imaginary ? body_forces_2_ : body_forces_);
+    }
+    imaginary_ = false;
+    put_centrifugal(step);
+    forget_removed();
+    step_ = nullptr;
+  }
+
+  std::array<Conditions*, 9> all_conditions() {
+    return {&prescribed_,   &forces_,   &pressures_,   &body_forces_,  &centrifugal_,
+            &prescribed_2_, &forces_2_, &pressures_2_, &body_forces_2_};
+  }
+
   /// What CalculiX does to loads of steps before: they go on in a step without PERTURBATION, unless
   /// they have an amplitude, and are the state in one with it.
   void check_loads() {
@@ -304,14 +405,14 @@ class Steps {
 
   /// Supports are those that the step which has found the vibrations knows.
   void check_supports() const {
-    for (const auto& [key, value] : prescribed_) {
-      if (!held_.contains(key))
-        io::inp::fail(
-            m_.deck, *procedure_,
-            fmt::format("supports must be those of the step with *FREQUENCY (*BOUNDARY of "
-                        "line {})",
-                        value.line));
-    }
+    for (const Conditions* const supports : {&prescribed_, &prescribed_2_})
+      for (const auto& [key, value] : *supports)
+        if (!held_.contains(key))
+          io::inp::fail(
+              m_.deck, *procedure_,
+              fmt::format("supports must be those of the step with *FREQUENCY (*BOUNDARY of "
+                          "line {})",
+                          value.line));
     for (const auto& [values, key] : released_)
       if (values == &prescribed_)
         io::inp::fail(
@@ -365,7 +466,8 @@ class Steps {
   /// Name of the part of a table that is this step, over its fraction.
   std::string amplitude_here(const std::string& name) {
     const Table& table = tables_.at(name);
-    const double start = table.of_total_time ? total_time_ : 0;
+    const double start = swung_ ? range_.from : table.of_total_time ? total_time_ : 0;
+    const double width = !swung_ ? period_ : range_.to > range_.from ? range_.to - range_.from : 1;
     const std::string here = plain_name(fmt::format("{}_{}", table.name, out_.steps.items.size()));
     if (find(out_.amplitudes, here)) return here;
     SourceNode& points = put(out_.amplitudes, here, inp_list(table.line));
@@ -375,11 +477,11 @@ class Steps {
     };
     add(0, at(table, start));
     for (const auto& [time, factor] : table.points) {
-      const double fraction = (time - start) / period_;
+      const double fraction = (time - start) / width;
       constexpr double near = 1e-9;
       if (fraction > near && fraction < 1 - near) add(fraction, factor);
     }
-    add(1, at(table, start + period_));
+    add(1, at(table, start + width));
     return here;
   }
 
@@ -388,10 +490,15 @@ class Steps {
   /// What a card adds to what stood before; with OP=NEW that is gone.
   std::string start(const Card& card, Conditions& values, bool may_stand_before_steps = false) {
     if (!step_ && !may_stand_before_steps) io::inp::fail(m_.deck, card, "stands outside of a step");
-    for (const char* const other :
-         {"USER", "SUBMODEL", "LOADCASE", "SECTOR", "OMEGA0", "TIMEDELAY"})
+    for (const char* const other : {"USER", "SUBMODEL", "SECTOR", "OMEGA0", "TIMEDELAY"})
       if (io::inp::find_parameter(card, other))
         io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
+    const std::string part = option_of(card, "LOADCASE");
+    if (!part.empty() && part != "1" && part != "2")
+      io::inp::fail(m_.deck, card,
+                    fmt::format("expected LOAD CASE=1 or 2, found {}", printable(part)));
+    if (!part.empty() && !swung_)
+      io::inp::fail(m_.deck, card, "LOAD CASE belongs to *STEADY STATE DYNAMICS");
     const std::string op = option_of(card, "OP");
     if (!op.empty() && op != "NEW" && op != "MOD")
       io::inp::fail(m_.deck, card, fmt::format("expected OP=NEW or MOD, found {}", printable(op)));
@@ -408,6 +515,11 @@ class Steps {
     return amplitude;
   }
 
+  /// Real or imaginary ones.
+  static Conditions& part_of(const Card& card, Conditions& real, Conditions& imaginary) {
+    return option_of(card, "LOADCASE") == "2" ? imaginary : real;
+  }
+
   /// Of one step the sizes add up where `adds`.
   void set(Conditions& values, const std::string& on, int direction, double size,
            const std::string& amplitude, const Line& line, bool adds) {
@@ -419,7 +531,8 @@ class Steps {
     if (sum && value.amplitude != amplitude)
       io::inp::fail(m_.deck, line.at,
                     fmt::format("'{}' has this load with another amplitude in the same step", on));
-    value = {sum ? value.size + size : size, amplitude, line_of(line.at), true, false};
+    value = {
+        sum ? value.size + size : size, amplitude, line_of(line.at), true, false, step_ && swung_};
   }
 
   void check_initial(const Card& card) const {
@@ -431,7 +544,8 @@ class Steps {
   }
 
   void read_boundary(const Card& card) {
-    const std::string amplitude = start(card, prescribed_, true);
+    Conditions& prescribed = part_of(card, prescribed_, prescribed_2_);
+    const std::string amplitude = start(card, prescribed, true);
     const bool fixed = io::inp::find_parameter(card, "FIXED") != nullptr;
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
@@ -447,14 +561,15 @@ class Steps {
       for (std::int32_t k = first; k <= last; ++k)
         for (const InpPlace& place : places(fields, set_name, k)) {
           if (!exists(place.direction)) continue;
-          set(prescribed_, place.on, place.direction, place.sign * size, amplitude, line, false);
-          prescribed_.at({place.on, place.direction}).fixed = fixed;
+          set(prescribed, place.on, place.direction, place.sign * size, amplitude, line, false);
+          prescribed.at({place.on, place.direction}).fixed = fixed;
         }
     }
   }
 
   void read_forces(const Card& card) {
-    const std::string amplitude = start(card, forces_);
+    Conditions& forces = part_of(card, forces_, forces_2_);
+    const std::string amplitude = start(card, forces);
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
       const std::string& set_name = node_set_of(m_, line, fields.next().value_or(""));
@@ -466,7 +581,7 @@ class Steps {
         if (!exists(place.direction))
           fields.fail(
               fmt::format("expected a direction 1 to {}, found {}", inp_dimension(m_), direction));
-        set(forces_, place.on, place.direction, place.sign * size, amplitude, line, true);
+        set(forces, place.on, place.direction, place.sign * size, amplitude, line, true);
       }
     }
   }
@@ -486,8 +601,9 @@ class Steps {
 
   void read_distributed(const Card& card) {
     // one card of OP=NEW removes pressures and body forces
-    const std::string amplitude = start(card, pressures_);
-    (void)start(card, body_forces_);
+    Conditions& pressures = part_of(card, pressures_, pressures_2_);
+    const std::string amplitude = start(card, pressures);
+    (void)start(card, part_of(card, body_forces_, body_forces_2_));
     if (option_of(card, "OP") == "NEW") gravity_.clear();
     (void)start(card, centrifugal_);
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
@@ -497,10 +613,13 @@ class Steps {
       if (io::inp::is_side_load(load)) {
         const std::string& on =
             set_of(m_, line.at, io::inp::side_set_name(load, elements), {SetKind::surface});
-        set(pressures_, on, 1, fields.real("the pressure"), amplitude, line, true);
+        set(pressures, on, 1, fields.real("the pressure"), amplitude, line, true);
       } else if (load == "GRAV") {
-        read_gravity(fields, elements, amplitude, line);
+        read_gravity(fields, elements, amplitude, line,
+                     part_of(card, body_forces_, body_forces_2_));
       } else if (load == "CENTRIF") {
+        if (option_of(card, "LOADCASE") == "2")
+          fields.fail("CENTRIF with LOAD CASE=2 is not supported");
         read_centrifugal(fields, elements, amplitude, line);
       } else {
         fields.fail(fmt::format("load {} is not supported: P1 to P6, GRAV or CENTRIF",
@@ -529,7 +648,7 @@ class Steps {
   }
 
   void read_gravity(Fields& fields, const std::string& elements, const std::string& amplitude,
-                    const Line& line) {
+                    const Line& line, Conditions& body_forces) {
     const double size = fields.real("the acceleration");
     Vec3 direction = Vec3::Zero();
     for (Eigen::Index k = 0; k < 3; ++k) direction[k] = fields.real_or_zero("a direction");
@@ -547,7 +666,7 @@ class Steps {
       note_gravity(fields, part.on, {on, direction, out_.steps.items.size()});
       for (int k = 0; k < inp_dimension(m_); ++k)
         if (direction[k] != 0)
-          set(body_forces_, part.on, k + 1, part.density * size * direction[k], amplitude, line,
+          set(body_forces, part.on, k + 1, part.density * size * direction[k], amplitude, line,
               true);
     }
   }
@@ -567,7 +686,8 @@ class Steps {
   }
 
   void read_on_surfaces(const Card& card) {
-    const std::string amplitude = start(card, pressures_);
+    Conditions& pressures = part_of(card, pressures_, pressures_2_);
+    const std::string amplitude = start(card, pressures);
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
       const std::string surface = io::inp::name_of(fields.next().value_or(""));
@@ -575,7 +695,7 @@ class Steps {
       const std::string load = io::inp::capitals(io::inp::name_of(fields.next().value_or("")));
       if (load != "P")
         fields.fail(fmt::format("load {} is not supported: P", io::inp::shown(load)));
-      set(pressures_, on, 1, fields.real("the pressure"), amplitude, line, true);
+      set(pressures, on, 1, fields.real("the pressure"), amplitude, line, true);
     }
   }
 
@@ -603,12 +723,13 @@ class Steps {
   /// Said now, or with an amplitude that goes on.
   bool is_active(Conditions& values, const Conditions::value_type& one) const {
     const bool released = released_.contains({&values, one.first});
+    if (swung_) return !released && one.second.swings && one.second.size != 0;
     if (&values == &prescribed_ && released) return false;
     return one.second.fresh || released || !one.second.amplitude.empty();
   }
 
   void put_directions(SourceNode& step, const char* key, char kind, Conditions& values) {
-    SourceNode list = inp_list(line_of(step_->at));
+    SourceNode& list = list_of(step, key);
     for (const auto& one : values) {
       if (!is_active(values, one) || one.second.fixed) continue;
       const auto& [set_and_direction, value] = one;
@@ -617,19 +738,31 @@ class Steps {
       put(entry, inp_component(kind, set_and_direction.second), inp_number(value.size, value.line));
       put_amplitude(entry, value, &values != &prescribed_);
     }
-    if (!list.items.empty()) put(step, key, std::move(list));
+    drop_empty(step, key);
   }
 
-  void put_pressures(SourceNode& step) {
-    SourceNode list = inp_list(line_of(step_->at));
-    for (const auto& one : pressures_) {
-      if (!is_active(pressures_, one)) continue;
+  /// The list of a step, which may be there from the real parts.
+  SourceNode& list_of(SourceNode& step, const char* key) const {
+    for (SourceEntry& entry : step.entries)
+      if (entry.key == key) return entry.value;
+    return put(step, key, inp_list(line_of(step_->at)));
+  }
+  static void drop_empty(SourceNode& step, const std::string& key) {
+    std::erase_if(step.entries, [&](const SourceEntry& entry) {
+      return entry.key == key && entry.value.items.empty();
+    });
+  }
+
+  void put_pressures(SourceNode& step, Conditions& pressures) {
+    SourceNode& list = list_of(step, "pressure");
+    for (const auto& one : pressures) {
+      if (!is_active(pressures, one)) continue;
       SourceNode& entry = list.items.emplace_back(inp_map(one.second.line));
       put(entry, "on", inp_text(one.first.first, one.second.line));
       put(entry, "value", inp_number(one.second.size, one.second.line));
       put_amplitude(entry, one.second);
     }
-    if (!list.items.empty()) put(step, "pressure", std::move(list));
+    drop_empty(step, "pressure");
   }
 
   /// In the order of the deck: of a node in several sets the last counts.
@@ -665,9 +798,10 @@ class Steps {
 
   /// Loads of steps in time act at once and displacements are ramped, where they name no amplitude.
   void put_amplitude(SourceNode& entry, const Condition& value, bool is_load = true) {
+    if (imaginary_) put(entry, "phase", inp_number(90, value.line));
     if (!value.amplitude.empty())
       put(entry, "amplitude", inp_text(amplitude_here(value.amplitude), value.line));
-    else if (at_once_ && is_load)
+    else if (at_once_ && is_load && !swung_)
       put(entry, "amplitude", inp_text(amplitude_at_once(), value.line));
   }
 
@@ -726,6 +860,7 @@ class Steps {
   const Card *step_ = nullptr, *procedure_ = nullptr;
   double period_ = 1, total_time_ = 0;
   int increments_ = 1, modes_ = 0, factors_ = 0;
+  std::optional<std::array<int, 2>> diameters_;  ///< of a sector of a ring: first and last
   std::tuple<Conditions, Conditions, Conditions, Conditions> before_;  ///< loads, of the last steps
   int vibrations_ = 0;  ///< that a step has found for those behind it
   int forgotten_ = 0;   ///< line of a load of that step
@@ -735,6 +870,13 @@ class Steps {
   bool at_once_ = false, moved_ = false, about_start_ = false;
   std::map<std::string, Table> tables_;
   Conditions prescribed_, forces_, pressures_, body_forces_, centrifugal_;
+  Conditions prescribed_2_, forces_2_, pressures_2_, body_forces_2_;  ///< imaginary parts
+  bool swung_ = false;      ///< the last procedure is *STEADY STATE DYNAMICS
+  bool imaginary_ = false;  ///< what is being put
+  struct {
+    double from = 0, to = 0, bias = 3;
+    int points = 20;
+  } range_;                                              ///< of it
   std::map<std::string, std::vector<Gravity>> gravity_;  ///< by part
   std::vector<std::array<double, 6>> axes_;              ///< of centrifugal loads: points of them
   std::set<std::pair<Conditions*, Conditions::key_type>> released_;

@@ -40,10 +40,11 @@ namespace osculate::deck {
 [[nodiscard]] Spec dynamics_spec();
 [[nodiscard]] BoundKey<Step> modal_key();
 [[nodiscard]] BoundKey<Step> buckling_key();
+[[nodiscard]] BoundKey<Step> harmonic_key();
 /// What goes with `buckling` in a step; its increments.
 void check_buckling(const Value& step, Step& s);
-/// What goes with `modal` in a step.
-void check_modal(const Value& step, const Step& s);
+/// What goes with `modal`, or with `harmonic`, in a step.
+void check_modal(const Value& step, Step& s);
 [[nodiscard]] Spec gravity_spec();
 /// A displacement or rotation.
 [[nodiscard]] Spec component_spec(std::string doc);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string_view>
 
 #include "osculate/deck/bind.hpp"
@@ -61,6 +62,62 @@ BoundKey<M> modal_damping_key() {
 
 BoundKeys<M> modal_keys() { return {{modal_damping_key()}}; }
 
+BoundKeys<HarmonicDescription> harmonic_keys() {
+  using H = HarmonicDescription;
+  return {
+      {need(&H::from, "from",
+            number("The first frequency.").in("1/time").at_least(0).such_as("100")),
+       need(&H::to, "to", number("The last one.").in("1/time").at_least(0).such_as("2000")),
+       may(&H::points, "points",
+           integer("So many frequencies from one vibration to the next, with both; those of the "
+                   "vibrations in the range are always among them.")
+               .at_least(2)
+               .at_most(100'000)
+               .otherwise("20")),
+       may(&H::bias, "bias",
+           number("How much closer they are to the vibrations: 1 is not at all.")
+               .at_least(1)
+               .at_most(100)
+               .otherwise("3")),
+       of(&H::damped, modal_damping_key())}};
+}
+
+/// What does not go with a kind of step, with the reason.
+void refuse_beside(const Value& step, std::span<const std::string_view> others,
+                   const std::string& text) {
+  for (const ValueEntry& entry : step.entries)
+    if (entry.value.given && std::ranges::find(others, entry.key) != others.end())
+      throw core::InputError(
+          entry.key_mark,
+          text + fmt::format("`{}` does not go with it{}", entry.key,
+                             entry.key == "dynamics" || entry.key == "modal"
+                                 ? ", it is another integration in time"
+                                 : ", supports and contacts are those of the step with "
+                                   "`modes`"));
+}
+
+void check_harmonic(const Value& step, const Step& s) {
+  constexpr std::array<std::string_view, 10> others{
+      "release", "hold",    "temperature", "contact",    "dynamics",
+      "modal",   "gravity", "duration",    "increments", "modes"};
+  refuse_beside(step, others, "a step with `harmonic` swings what vibrates by its loads: ");
+  if (s.harmonic->to.value < s.harmonic->from.value)
+    throw core::InputError(s.harmonic->to.mark,
+                           fmt::format("must not be below the first frequency, {:g}, got {:g}",
+                                       s.harmonic->from.value, s.harmonic->to.value));
+}
+
+/// A phase is one of a swing.
+void check_phases(const Step& s) {
+  for (const std::vector<Load>* const loads : {&s.prescribe, &s.forces, &s.total_force, &s.pressure,
+                                               &s.traction, &s.body_force, &s.centrifugal})
+    for (const Load& load : *loads)
+      if (load.phase)
+        throw core::InputError(load.phase->mark,
+                               "only what swings, in a step with `harmonic`, has "
+                               "a phase");
+}
+
 }  // namespace
 
 BoundKey<Step> modal_key() {
@@ -76,26 +133,63 @@ BoundKey<Step> modal_key() {
       [](Step& s, const Value& v) { s.modal = modal_keys().read(v); }};
 }
 
-void check_modal(const Value& step, const Step& s) {
+BoundKey<Step> harmonic_key() {
+  return {optional("harmonic",
+                   harmonic_keys()
+                       .spec("Swings of constant amplitude, at one frequency after the other: the "
+                             "vibrations that a step with `modes` before it has found swing with "
+                             "the loads and supports of this step, whose values are amplitudes. "
+                             "An `amplitude` is a factor over the frequencies, 0 at the first and "
+                             "1 at the last one.")
+                       .such_as("{from: 100, to: 2000, damping: {ratio: 0.02}}")),
+          [](Step& s, const Value& v) { s.harmonic = harmonic_keys().read(v); }};
+}
+
+void check_modal(const Value& step, Step& s) {
+  if (s.harmonic) return check_harmonic(step, s);
+  check_phases(s);
   if (!s.modal) return;
   constexpr std::array<std::string_view, 5> others{"release", "hold", "temperature", "contact",
                                                    "dynamics"};
-  for (const ValueEntry& entry : step.entries)
-    if (entry.value.given && std::ranges::find(others, entry.key) != others.end())
-      throw core::InputError(entry.key_mark,
-                             fmt::format("a step with `modal` moves what vibrates by its loads: "
-                                         "`{}` does not go with it{}",
-                                         entry.key,
-                                         entry.key == "dynamics"
-                                             ? ", it is another integration in time"
-                                             : ", supports and contacts are those of the step with "
-                                               "`modes`"));
+  refuse_beside(step, others, "a step with `modal` moves what vibrates by its loads: ");
 }
+
+namespace {
+
+void require_whole(const Step& found, const core::SourceMark& mark) {
+  if (!found.diameters.empty())
+    throw core::InputError(mark,
+                           "vibrations of a sector of a ring are not moved by loads: a model "
+                           "of the whole ring");
+}
+
+/// Swings follow the step that has found what swings, or one another.
+void check_harmonic_steps(const Description& d) {
+  const Step* found = nullptr;
+  for (const Step& step : d.steps) {
+    if (!step.harmonic) {
+      found = step.modes ? &step : nullptr;
+      continue;
+    }
+    if (found) require_whole(*found, step.harmonic->mark);
+    if (!found)
+      throw core::InputError(step.harmonic->mark,
+                             "there are no vibrations that could swing: the step before needs the "
+                             "key 'modes'");
+    for (const ModalDescription::Ratio& r : step.harmonic->damped.ratios)
+      if (r.last.value > found->modes->value)
+        throw core::InputError(r.last.mark, fmt::format("step '{}' looks for {} vibrations",
+                                                        found->name.value, found->modes->value));
+  }
+}
+
+}  // namespace
 
 /// The step before has what moves.
 void check_modal_steps(const Description& d) {
   const Step *found = nullptr, *before = nullptr;
   bool dynamic = false;
+  check_harmonic_steps(d);
   for (const Step& step : d.steps) {
     dynamic = dynamic || step.dynamics;
     if (!step.modal) {
@@ -113,6 +207,7 @@ void check_modal_steps(const Description& d) {
       throw core::InputError(step.modal->mark,
                              "there are no vibrations that could move: the step before needs the "
                              "key 'modes'");
+    require_whole(*found, step.modal->mark);
     for (const ModalDescription::Ratio& r : step.modal->ratios)
       if (r.last.value > found->modes->value)
         throw core::InputError(r.last.mark, fmt::format("step '{}' looks for {} vibrations",

@@ -333,13 +333,23 @@ std::vector<std::string> energy_columns(const Description& description) {
   return columns;
 }
 
+bool has_imaginary_column(const HistoryRequest& request, const Description& description) {
+  return request.target != HistoryTarget::contact && request.of.value < Quantity::remembered &&
+         std::ranges::any_of(description.steps,
+                             [](const Step& step) { return step.harmonic.has_value(); });
+}
+
 void complete_output(Description& description) {
   Output& output = description.output;
   for (HistoryRequest& request : output.history) complete(request, description);
   std::vector<std::string> columns{"step", "increment", "time"};
   for (std::string& column : energy_columns(description)) columns.push_back(std::move(column));
   require_unique_columns(output.history, columns);
-  for (const HistoryRequest& request : output.history) columns.push_back(request.column);
+  for (const HistoryRequest& request : output.history) {
+    columns.push_back(request.column);
+    if (has_imaginary_column(request, description))
+      columns.push_back(request.column + std::string(model::imaginary_suffix));
+  }
   check_answers(description);
   for (const Plot& plot : output.plots) {
     require_column(plot.x, columns);

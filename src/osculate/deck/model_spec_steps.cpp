@@ -23,6 +23,14 @@ BoundKey<Load> amplitude_key() {
                  .such_as("there_and_back"));
 }
 
+BoundKey<Load> phase_key() {
+  return may(&Load::phase, "phase",
+             number("By how much it goes ahead, in steps with `harmonic`: 90 is an imaginary one.")
+                 .in("degrees")
+                 .otherwise_as("0")
+                 .such_as("90"));
+}
+
 struct Part {
   const char* name;
   const char* doc;
@@ -58,6 +66,7 @@ BoundKey<Step> loads(std::vector<Load> Step::*member, const char* name, const ch
                      const std::vector<Part>& parts) {
   std::vector<BoundKey<Load>> all = load_keys(std::move(on), parts, "-0.5");
   all.push_back(amplitude_key());
+  all.push_back(phase_key());
   const BoundKeys<Load> keys(std::move(all));
   return {optional(name, loads_spec(std::move(doc), std::move(one), keys, parts).such_as(example)),
           [member, keys](Step& s, const Value& v) { s.*member = keys.read_all(v); }};
@@ -162,7 +171,8 @@ BoundKey<Step> pressure_key() {
                               .in("force/length^2")
                               .such_as("12")),
         [](Load& load, const Value& v) { store(load.values[0], v); }},
-       amplitude_key()});
+       amplitude_key(),
+       phase_key()});
   return {
       optional("pressure",
                list("Pressures on boundary facets; they follow the deformation of finite sections.",
@@ -230,7 +240,8 @@ BoundKey<Step> centrifugal_key() {
        may(&Load::from, "from", place("A point of the axis.", "[0, 0, 0]")),
        {optional("to", place("Another one.", "[0, 0, 1]")),
         [](Load& load, const Value& v) { load.to = place_of(v); }},
-       amplitude_key()});
+       amplitude_key(),
+       phase_key()});
   return {optional("centrifugal",
                    list("Centrifugal forces of bodies that turn about an axis, at their undeformed "
                         "places.",
@@ -253,7 +264,18 @@ BoundKey<Step> modes_key() {
                {word("last", ModesAbout::last, "the one that the steps before led to"),
                 word("start", ModesAbout::start, "the one before the first step, without loads")})
                .otherwise("last")
-               .such_as("start"))});
+               .such_as("start")),
+       {optional("diameters",
+                 list("Of a sector of a ring with `cyclic_symmetry`: nodal diameters, for each of "
+                      "which so many vibrations are looked for. From 0, all sectors alike, to half "
+                      "of the sectors; between these they come in pairs, cosine and sine.",
+                      integer("One number of them.").at_least(0).at_most(10'000))
+                     .count(1)
+                     .such_as("[0, 1, 2]")),
+        [](S& s, const Value& v) {
+          for (const Value& item : v.items)
+            s.diameters.push_back(Marked<int>{item.code, item.mark});
+        }}});
   Spec spec = either(
                   "So many free vibrations, the slowest first, about the state that the steps "
                   "before led to; nothing else happens in the step. Closed contacts stay "
@@ -271,7 +293,7 @@ BoundKeys<Step> step_keys() {
   return {{need(&S::name, "name", text("Name of the step.").as(TextRule::name).such_as("press")),
            may(&S::increments, "increments",
                integer("Number of equal increments to begin with; every step has some, but those "
-                       "with `modes` or `buckling`.")
+                       "with `modes`, `buckling` or `harmonic`.")
                    .at_least(1)
                    .at_most(1'000'000)
                    .such_as("10")),
@@ -299,7 +321,8 @@ BoundKeys<Step> step_keys() {
            contact_changes_key(),
            {optional("dynamics", dynamics_spec()),
             [](S& s, const Value& v) { s.dynamics = parse_dynamics(v); }},
-           modal_key()}};
+           modal_key(),
+           harmonic_key()}};
 }
 
 /// Either increments, or modes and nothing that moves.
@@ -318,6 +341,8 @@ void check_modes(const Value& v, Step& s) {
                                  "a step with `modes` moves nothing: what it holds is prescribed "
                                  "as 0 and stays where it is");
     s.increments = {1, s.modes->mark};
+  } else if (s.harmonic) {
+    s.increments = {1, s.harmonic->mark};
   } else if (s.increments.value == 0) {
     throw core::InputError(v.mark, "required key 'increments' is missing");
   }

@@ -54,6 +54,10 @@ struct RememberedNumber {
 void complete_output(Description& description);
 /// The steps that results are asked of.
 void check_answers(const Description& description);
+/// Whether what is asked for has a column for its imaginary part beside it: it swings in a harmonic
+/// step.
+[[nodiscard]] bool has_imaginary_column(const HistoryRequest& request,
+                                        const Description& description);
 /// Columns that the history has without being asked: those of model::energy_quantities, where a
 /// step has inertia, in their order, and the time step where one chooses it by its error.
 [[nodiscard]] std::vector<std::string> energy_columns(const Description& description);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/parse_parts.hpp"
@@ -88,10 +89,7 @@ class StepChecker {
   explicit StepChecker(const Description& d) : d_(d) {}
 
   void check(const Step& step) {
-    if (step.modes && !d_.cyclic_symmetry.empty())
-      throw core::InputError(step.modes->mark,
-                             "a sector of a cyclic symmetry has not the free vibrations of the "
-                             "whole: those that differ between sectors would be missing");
+    check_diameters(step);
     if (step.buckling && !d_.cyclic_symmetry.empty())
       throw core::InputError(step.buckling->mark,
                              "a sector of a cyclic symmetry buckles otherwise than the whole: what "
@@ -130,8 +128,35 @@ class StepChecker {
         require_rigid(d_, p.on, p.values[i]->mark, component_names[i]);
     for (std::size_t i = 0; i < component_count; ++i)
       if (p.values[i])
-        add_unique(seen, p.on.value + "." + component_names[i], p.values[i]->mark,
+        add_unique(seen, p.on.value + "." + component_names[i] + phase_text(p), p.values[i]->mark,
                    "prescription of");
+  }
+
+  void check_diameters(const Step& step) const {
+    if (step.modes && step.diameters.empty() && !d_.cyclic_symmetry.empty())
+      throw core::InputError(step.modes->mark,
+                             "a sector of a cyclic symmetry has not the free vibrations of the "
+                             "whole: say which nodal `diameters` they have, {count: 10, diameters: "
+                             "[0, 1, 2]}");
+    if (step.diameters.empty()) return;
+    if (d_.cyclic_symmetry.empty())
+      throw core::InputError(step.diameters.front().mark,
+                             "only a sector with `cyclic_symmetry` has nodal diameters");
+    const int sectors = d_.cyclic_symmetry.front().sectors.value;
+    for (const CyclicSymmetry& other : d_.cyclic_symmetry)
+      if (other.sectors.value != sectors)
+        throw core::InputError(other.sectors.mark,
+                               fmt::format("with nodal diameters all parts have as many sectors, "
+                                           "the first has {}",
+                                           sectors));
+    std::set<int> seen;
+    for (const Marked<int>& k : step.diameters) {
+      if (2 * k.value > sectors)
+        throw core::InputError(k.mark, fmt::format("{} sectors have at most {} nodal diameters",
+                                                   sectors, sectors / 2));
+      if (!seen.insert(k.value).second)
+        throw core::InputError(k.mark, fmt::format("{} is given twice", k.value));
+    }
   }
 
   /// Rigid bodies are held from the beginning, so that releasing them always makes sense.
@@ -179,8 +204,13 @@ class StepChecker {
           require_rigid(d_, load.on, load.values[i]->mark, force_names[i]);
       for (std::size_t i = 0; i < component_count; ++i)
         if (load.values[i])
-          add_unique(seen, load.on.value + "." + components[i], load.values[i]->mark, "load on");
+          add_unique(seen, load.on.value + "." + components[i] + phase_text(load),
+                     load.values[i]->mark, "load on");
     }
+  }
+
+  static std::string phase_text(const Load& load) {
+    return load.phase ? fmt::format(" (phase {:g})", load.phase->value) : std::string{};
   }
 
   /// A displacement cannot be prescribed while the force that belongs to it is given.

@@ -20,7 +20,7 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 37> synonyms{{
+constexpr std::array<Synonym, 38> synonyms{{
     {"plasticity plastic yielding mises-plasticity j2 metal",
      "materials.elastoplastic: yield, hardening, isotropic, kinematic"},
     {"creep norton relaxation", "materials.norton: A, n; every step needs a duration"},
@@ -40,9 +40,10 @@ constexpr std::array<Synonym, 37> synonyms{{
     {"hourglass reduced-integration c3d8r c3d20r", "sections.formulation: reduced"},
     {"shell membrane beam truss spring dashpot", no},
     {"hinge joint connector", no},
-    {"harmonic", no},
     {"buckling-load critical-load stability buckle euler", "steps.buckling (docs/buckling.md)"},
     {"eigenfrequency natural-frequency frequency", "steps.modes (docs/dynamics.md)"},
+    {"harmonic-response steady-state frequency-response sweep",
+     "steps.harmonic (docs/dynamics.md)"},
     {"fatigue wear crack cohesive", no},
     {"mpi cluster gpu iterative multigrid", no},
     {"abaqus calculix inp deck nset elset",

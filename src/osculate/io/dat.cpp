@@ -81,6 +81,27 @@ std::string dat_buckling(std::span<const double> factors) {
   return out;
 }
 
+std::string dat_eigenvalues(std::span<const double> omega_squared, std::span<const int> diameters) {
+  std::string out =
+      "\n     E I G E N V A L U E   O U T P U T\n\n"
+      "  NODAL   MODE NO    EIGENVALUE                      FREQUENCY   \n"
+      " DIAMETER                                    REAL PART            IMAGINARY PART\n"
+      "                                    (RAD/TIME)      (CYCLES/TIME)   (RAD/TIME)\n";
+  int number = 0;
+  for (std::size_t i = 0; i < omega_squared.size(); ++i) {
+    const bool first = i == 0 || diameters[i] != diameters[i - 1];
+    number = first ? 1 : number + 1;
+    if (first) out += '\n';
+    const double value = omega_squared[i], omega = std::sqrt(std::abs(value));
+    const double real = value < 0 ? 0 : omega, imaginary = value < 0 ? omega : 0;
+    out += fmt::format("{:5}    {:7}  {}  {}  {}  {}\n", diameters[i], number,
+                       fortran_real(value, 14, 7), fortran_real(real, 14, 7),
+                       fortran_real(real / (2 * std::numbers::pi), 14, 7),
+                       fortran_real(imaginary, 14, 7));
+  }
+  return out;
+}
+
 std::string dat_modal_table(std::string_view title, std::span<const std::array<double, 6>> rows,
                             std::string_view last_head,
                             const std::optional<std::array<double, 6>>& last) {
@@ -95,6 +116,20 @@ std::string dat_modal_table(std::string_view title, std::span<const std::array<d
   };
   for (std::size_t i = 0; i < rows.size(); ++i) add(fmt::format("{:7}", i + 1), rows[i]);
   if (last) add(last_head, *last);
+  return out;
+}
+
+std::string dat_factors(double frequency, std::span<const double> frequencies,
+                        std::span<const std::complex<double>> amounts) {
+  std::string out = fmt::format(
+      "\nP A R T I C I P A T I O N   F A C T O R S   F O R   F R E Q U E N C Y   {} "
+      "(CYCLES/TIME)\n\n MODE NO    FREQUENCY               FACTOR\n"
+      "           (CYCLES/TIME)      REAL        IMAGINARY\n\n",
+      fortran_real(frequency, 20, 13));
+  for (std::size_t i = 0; i < amounts.size(); ++i)
+    out +=
+        fmt::format("{:7}  {}  {}  {}\n", i + 1, fortran_real(frequencies[i], 14, 7),
+                    fortran_real(amounts[i].real(), 14, 7), fortran_real(amounts[i].imag(), 14, 7));
   return out;
 }
 

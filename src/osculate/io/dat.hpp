@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <complex>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -28,11 +29,17 @@ void append_dat_total(std::string& out, std::span<const double> values);
 [[nodiscard]] std::string dat_eigenvalues(std::span<const double> omega_squared);
 /// Factors by which loads buckle what there is.
 [[nodiscard]] std::string dat_buckling(std::span<const double> factors);
+/// The same of a sector of a ring, with the nodal diameters of each.
+[[nodiscard]] std::string dat_eigenvalues(std::span<const double> omega_squared,
+                                          std::span<const int> diameters);
 /// A table of six numbers a vibration: along x, y, z, and around these; `last` has no number.
 [[nodiscard]] std::string dat_modal_table(std::string_view title,
                                           std::span<const std::array<double, 6>> rows,
                                           std::string_view last_head,
                                           const std::optional<std::array<double, 6>>& last);
+/// How much of each vibration swings at a frequency.
+[[nodiscard]] std::string dat_factors(double frequency, std::span<const double> frequencies,
+                                      std::span<const std::complex<double>> amounts);
 
 /// An attempt to solve an increment. Numbers count from 1.
 struct Attempt {

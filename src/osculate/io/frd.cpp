@@ -182,9 +182,10 @@ std::string frd_field(const FrdMesh& part, const FrdTime& at, bool vector,
         at.mode->omega_squared, -1, 0, at.mode->number);
   out += fmt::format("  100CL{:5}{}{:12}                    {:2}{:5}{:10}{:2}\n", 100 + at.set,
                      time_text(at.mode ? at.mode->frequency : at.time), part.nodes.size(),
-                     at.mode      ? 2
-                     : at.buckles ? 4
-                                  : 0,
+                     at.mode       ? 2
+                     : at.buckles  ? 4
+                     : at.harmonic ? 1
+                                   : 0,
                      at.mode ? at.mode->number : at.set, at.mode ? "MODAL" : "", 1);
   out += fmt::format(" -4  {:8}{:5}{:5}\n", names[0], width + (vector ? 1 : 0), 1);
   constexpr std::array<std::array<int, 2>, 6> places{

@@ -64,7 +64,8 @@ struct FrdTime {
     double omega_squared = 0, frequency = 0;
   };
   std::optional<Mode> mode{};
-  bool buckles = false;  ///< the time is a factor of loads
+  bool buckles = false;   ///< the time is a factor of loads
+  bool harmonic = false;  ///< a part of a swing; `time` is its frequency
 };
 /// Values of the nodes, in the order of `part.nodes`: one number a node, three of a vector, else
 /// six (a tensor XX, YY, ZZ, XY, YZ, ZX, or what is shown like one).

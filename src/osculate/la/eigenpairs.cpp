@@ -40,6 +40,16 @@ struct Mass {
   }
 };
 
+/// Something small beside the largest eigenvalue; 1 where nothing has a mass.
+double small_part(const Sparse& k, const Sparse& m) {
+  constexpr double share = 1e-6;
+  double largest = 0;
+  const Eigen::VectorXd dk = k.diagonal(), dm = m.diagonal();
+  for (Eigen::Index i = 0; i < dk.size(); ++i)
+    if (dm[i] > 0) largest = std::max(largest, std::abs(dk[i]) / dm[i]);
+  return largest > 0 ? share * largest : 1;
+}
+
 struct Problem {
   Sparse k, m;
   LinearSolver& solver;
@@ -51,16 +61,19 @@ struct Problem {
     const Sparse shifted = k - shift * m;
     return solver.factor(plain(shifted), version, Symmetry::indefinite);
   }
-  /// Something small beside the largest eigenvalue.
-  [[nodiscard]] double small_shift() const {
-    constexpr double share = 1e-6;
-    double largest = 0;
-    const Eigen::VectorXd dk = k.diagonal(), dm = m.diagonal();
-    for (Eigen::Index i = 0; i < dk.size(); ++i)
-      if (dm[i] > 0) largest = std::max(largest, std::abs(dk[i]) / dm[i]);
-    return share * largest;
-  }
+  [[nodiscard]] double small_shift() const { return small_part(k, m); }
 };
+
+/// Whether the factors of K are those of a matrix that is not singular but for rounding.
+bool solves(Problem& p) {
+  constexpr double exact = 1e-6;
+  Eigen::VectorXd b(p.k.rows());
+  for (Eigen::Index i = 0; i < b.size(); ++i) b[i] = std::cos(0.9 * static_cast<double>(i));
+  b = (p.m * b).eval();
+  Eigen::VectorXd x = b;
+  return p.solver.solve(x) == SolveStatus::ok && x.allFinite() &&
+         (p.k * x - b).norm() <= exact * b.norm();
+}
 
 /// Vectors of the space in which M is not zero, normalised; and how good they are.
 void clean(Problem& p, Eigenpairs& pairs) {
@@ -177,7 +190,7 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int
   }
   double shift = 0;
   FactorReport report = p.factor(shift);
-  if (report.status != SolveStatus::ok) {
+  if (report.status != SolveStatus::ok || !solves(p)) {
     shift = -p.small_shift();
     report = p.factor(shift);
   }
@@ -197,6 +210,95 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int
     more += pairs.missing;
     if (p.factor(shift).status == SolveStatus::failed) break;
   }
+  return pairs;
+}
+
+namespace {
+
+/// K for the real and for the imaginary part.
+Sparse twice(const Sparse& a) {
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  const auto n = static_cast<Index>(a.rows());
+  for (Index row = 0; row < n; ++row)
+    for (Sparse::InnerIterator it(a, row); it; ++it)
+      for (const Index part : {0, n})
+        entries.emplace_back(part + row, part + static_cast<Index>(it.col()), it.value());
+  Sparse out(2 * n, 2 * n);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+Sparse transformation(std::span<const ComplexEntry> t, Index rows, Index columns, bool real) {
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  for (const ComplexEntry& e : t) {
+    entries.emplace_back(e.row, e.column, e.value.real());
+    if (real) continue;
+    entries.emplace_back(rows + e.row, columns + e.column, e.value.real());
+    if (e.value.imag() == 0) continue;
+    entries.emplace_back(rows + e.row, e.column, e.value.imag());
+    entries.emplace_back(e.row, columns + e.column, -e.value.imag());
+  }
+  const Index parts = real ? 1 : 2;
+  Sparse out(parts * rows, parts * columns);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+/// Both vectors of each pair, as many as are wanted: Lanczos' method may have found one alone.
+void complete_pairs(const Sparse& m, Eigen::Index wanted, Eigenpairs& pairs) {
+  const Eigen::Index n = pairs.vectors.rows() / 2, found = pairs.values.size();
+  Eigen::MatrixXd all(2 * n, 2 * found), all_m(2 * n, 2 * found);
+  std::vector<double> values;
+  constexpr double new_one = 0.1;
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < found; ++i) {
+    Eigen::VectorXd v = pairs.vectors.col(i);
+    for (int again = 0; again < 2; ++again)
+      v -= all.leftCols(count) * (all_m.leftCols(count).transpose() * v);
+    const double norm = std::sqrt(std::max(0.0, v.dot(m * v)));
+    if (norm < new_one) continue;
+    v /= norm;
+    Eigen::VectorXd turned(2 * n);  // i v
+    turned << -v.tail(n), v.head(n);
+    for (const Eigen::VectorXd& one : {v, turned}) {
+      all.col(count) = one;
+      all_m.col(count++) = m * one;
+      values.push_back(pairs.values[i]);
+    }
+  }
+  if (pairs.missing > 0)
+    pairs.missing = std::max(0, pairs.missing - static_cast<int>(count - found));
+  const Eigen::Index kept = std::min(wanted, count);
+  pairs.vectors = all.leftCols(kept);
+  pairs.values = Eigen::Map<const Eigen::VectorXd>(values.data(), kept);
+}
+
+}  // namespace
+
+Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m,
+                               std::span<const ComplexEntry> t, Index columns, int count,
+                               LinearSolver& solver) {
+  const bool real =
+      std::ranges::all_of(t, [](const ComplexEntry& e) { return e.value.imag() == 0; });
+  const Sparse by = transformation(t, k.n, columns, real);
+  const Sparse transposed = by.transpose();
+  const auto reduced = [&](const SparseMatrix& of) {
+    const Sparse one = sparse(of);
+    const Sparse all = real ? one : twice(one);
+    const Sparse half = all * by;
+    return Sparse(transposed * half);
+  };
+  const Sparse stiffness = reduced(k);
+  Sparse mass = reduced(m);
+  // Values of about 1: Lanczos' method takes what is very small for zero, and equal ones for one.
+  const double unit = small_part(stiffness, mass);
+  mass *= unit;
+  Eigenpairs pairs = smallest_eigenpairs(plain(stiffness), plain(mass), count, solver);
+  if (!pairs.failure.empty()) return pairs;
+  if (!real) complete_pairs(mass, count, pairs);
+  pairs.values *= unit;
+  pairs.shift *= unit;
+  pairs.vectors = (std::sqrt(unit) * (by * pairs.vectors)).eval();
   return pairs;
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <complex>
+#include <span>
 #include <string>
 
 #include "osculate/la/linear_solver.hpp"
@@ -25,6 +27,23 @@ struct Eigenpairs {
 /// Errors     `failure` in words; NotEnoughMemory
 /// Tested by  tests/unit/la/test_eigenpairs.cpp
 [[nodiscard]] Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m,
+                                             int count, LinearSolver& solver);
+
+/// An entry of a matrix that makes complex vectors of others.
+struct ComplexEntry {
+  Index row = 0, column = 0;
+  std::complex<double> value;
+};
+/// Eigenvalues of T^H K T q = lambda T^H M T q, and x = T q: real and, below it, imaginary part, so
+/// that a vector has 2 n rows; n, where T is real.
+///
+/// Formula    as real vectors (Re q, Im q), of T = [Re T, -Im T; Im T, Re T]: each value twice, of
+/// a
+///            vector x and of i x, both of which are returned
+/// Requires   as above; T has `columns` columns, all independent
+/// Tested by  tests/unit/la/test_eigenpairs.cpp
+[[nodiscard]] Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m,
+                                             std::span<const ComplexEntry> t, Index columns,
                                              int count, LinearSolver& solver);
 
 }  // namespace osculate::la

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <iterator>
 
+#include "osculate/model/cyclic_vibrations.hpp"
+#include "osculate/model/harmonic.hpp"
 #include "osculate/model/pair_changes.hpp"
 #include "osculate/model/superposition.hpp"
 
@@ -31,6 +33,7 @@ struct Analysis {
   double begun = 0;  ///< time at the beginning of the running step
   solve::StepPosition position{};
   std::optional<BasicSuperposition<Dim>> superposition{};  ///< of the last vibrations that moved
+  std::optional<BasicHarmonicSystem<Dim>> swinging{};      ///< of the last ones that swung
 
   /// Tells the observer; false to stop. Motions along vibrations leave no trace in the state that a
   /// later run goes on from: it repeats them.
@@ -45,6 +48,7 @@ struct Analysis {
   void forget_motion(const Step& step) {
     if (superposition) result.state = superposition->standing;
     if (!step.modal) superposition.reset();
+    if (!step.harmonic) swinging.reset();
   }
 
   /// Central differences: the increments of the step are where results are told.
@@ -78,7 +82,10 @@ struct Analysis {
   void find_vibrations(const Step& step) {
     const BasicState<Dim> about =
         step.frequencies->unloaded ? system.initial_state() : result.state;
-    Vibrations modes = system.vibrations(about, step.frequencies->modes, *solver);
+    Vibrations modes =
+        step.frequencies->diameters.empty()
+            ? system.vibrations(about, step.frequencies->modes, *solver)
+            : cyclic_vibrations(model, step, about, options.threads, options.linear_solver);
     result.last_iterate = result.state;
     if (!modes.failure.empty()) {
       result.outcome = solve::Outcome::numerical_failure;
@@ -88,7 +95,8 @@ struct Analysis {
     }
     if (observer.vibrates) observer.vibrates(system, about, progress, modes);
     const auto next = static_cast<std::size_t>(progress.step) + 1;
-    if (next == model.steps.size() || !model.steps[next].modal) modes.forget_unknowns();
+    if (next == model.steps.size() || (!model.steps[next].modal && !model.steps[next].harmonic))
+      modes.forget_unknowns();
     result.steps.back().vibrations = std::move(modes);
   }
 
@@ -108,25 +116,105 @@ struct Analysis {
     result.steps.back().buckling = std::move(found);
   }
 
+  /// The last step before that has looked for vibrations. False: there is none.
+  bool find_step_of_vibrations(std::size_t s, std::size_t& of) {
+    of = s;
+    while (of > 0 && !model.steps[of].frequencies) --of;
+    if (model.steps[of].frequencies) return true;
+    result.outcome = solve::Outcome::numerical_failure;
+    result.message =
+        fmt::format("step '{}': no step before it has found vibrations", model.steps[s].name);
+    return false;
+  }
+
+  /// Those that a step has found, again where they have been forgotten; that step is begun.
+  std::optional<Vibrations>& known_vibrations(std::size_t of) {
+    system.begin_step(model.steps[of], result.state);
+    std::optional<Vibrations>& known = result.steps[of].vibrations;
+    const bool unloaded = model.steps[of].frequencies->unloaded;
+    if (!known || known->vectors.size() == 0)
+      known = system.vibrations(unloaded ? system.initial_state() : result.state,
+                                model.steps[of].frequencies->modes, *solver);
+    return known;
+  }
+
+  /// Vibrations that swing in the running step, and its supports. False: they cannot.
+  bool begin_harmonic(std::size_t s) {
+    const Step& step = model.steps[s];
+    std::string failure;
+    if (!swinging) {
+      std::size_t of = s;
+      if (!find_step_of_vibrations(s, of)) return false;
+      std::optional<Vibrations>& known = known_vibrations(of);
+      failure = known->failure;
+      if (failure.empty())
+        swinging = harmonic_system(system, model.steps[of], result.state, *known, failure);
+      known->forget_unknowns();
+    }
+    if (failure.empty())
+      begin_harmonic_step(system, step, options.linear_solver, *swinging, failure);
+    if (failure.empty()) return true;
+    result.outcome = solve::Outcome::numerical_failure;
+    result.message = fmt::format("step '{}': {}", step.name, failure);
+    return false;
+  }
+
+  /// One frequency of a harmonic step. Empty: it is done; else why it is not.
+  std::string swing(double frequency, const solve::IncrementRecord& record, bool& go_on) {
+    std::string failure;
+    const HarmonicMotion motion = harmonic_response(system, *swinging, frequency, failure);
+    for (const bool imaginary : {false, true}) {
+      if (!failure.empty()) return failure;
+      const Superposed<Dim> now = harmonic_part(system, *swinging, motion, imaginary);
+      failure = now.failure;
+      if (failure.empty() && observer.harmonic)
+        go_on = observer.harmonic(system, now.state, progress,
+                                  {motion, swinging->modes.omega_squared, imaginary, record}) &&
+                go_on;
+    }
+    return failure;
+  }
+
+  /// One frequency after the other; those that a resumed run has behind it are left out. The state
+  /// of the steps before stays.
+  void run_harmonic(const Step& step) {
+    result.last_iterate = result.state;
+    if (!begin_harmonic(static_cast<std::size_t>(progress.step))) return;
+    const std::vector<double> frequencies = sweep(*step.harmonic, swinging->modes.omega_squared);
+    const auto count = static_cast<int>(frequencies.size());
+    for (int i = position.nominal; i < count; ++i) {
+      solve::IncrementRecord record;
+      record.fraction = static_cast<double>(i + 1) / count;
+      progress.increment = i + 1;
+      progress.fraction = record.fraction;
+      progress.time = frequencies[static_cast<std::size_t>(i)];
+      bool go_on = true;
+      const std::string failure = swing(progress.time, record, go_on);
+      if (!failure.empty()) {
+        result.outcome = solve::Outcome::numerical_failure;
+        result.message = fmt::format("step '{}': {}", step.name, failure);
+        return;
+      }
+      position.at = record.fraction;
+      position.nominal = i + 1;
+      result.steps.back().increments.push_back(record);
+      system.begin_step(step, result.state);
+      if (observer.resumable) observer.resumable(system, result.state, progress, position);
+      if (go_on) continue;
+      result.outcome = solve::Outcome::stopped;
+      result.message = "stopped by the user";
+      return;
+    }
+  }
+
   /// What vibrations move in the running step, which may have been resumed: at rest, or as the step
   /// before left them. False: they cannot.
   bool begin_superposition(std::size_t s) {
     if (superposition) return true;
     std::size_t of = s;
-    while (of > 0 && !model.steps[of].frequencies) --of;
-    if (!model.steps[of].frequencies) {
-      result.outcome = solve::Outcome::numerical_failure;
-      result.message =
-          fmt::format("step '{}': no step before it has found vibrations", model.steps[s].name);
-      return false;
-    }
+    if (!find_step_of_vibrations(s, of)) return false;
     const BasicState<Dim> standing = result.state;
-    system.begin_step(model.steps[of], standing);
-    std::optional<Vibrations>& known = result.steps[of].vibrations;
-    const bool unloaded = model.steps[of].frequencies->unloaded;
-    if (!known || known->vectors.size() == 0)
-      known = system.vibrations(unloaded ? system.initial_state() : standing,
-                                model.steps[of].frequencies->modes, *solver);
+    std::optional<Vibrations>& known = known_vibrations(of);
     std::string failure = known->failure;
     if (failure.empty())
       superposition =
@@ -178,6 +266,7 @@ struct Analysis {
     solver->may_change(step.frequencies ? std::vector<Index>{} : system.changing_unknowns());
     if (step.frequencies) return find_vibrations(step);
     if (step.buckling) return find_buckling(step);
+    if (step.harmonic) return run_harmonic(step);
     const auto on_increment = [&](const BasicState<Dim>& state,
                                   const solve::IncrementRecord& record) {
       ++progress.increment;

@@ -22,7 +22,8 @@ struct Progress {
   Index step = 0;       ///< 0-based
   Index increment = 0;  ///< 1-based inside the step, sub-increments counted
   double fraction = 0;
-  /// Of the analysis: steps with inertia last as long as they are told to, others one unit each.
+  /// Of the analysis: steps with inertia last as long as they are told to, others one unit each. In
+  /// harmonic steps the frequency.
   double time = 0;
 };
 
@@ -57,6 +58,14 @@ struct BasicAnalysisResult {
   Index unknowns = 0;
 };
 
+/// Real or imaginary part of a harmonic motion.
+struct HarmonicPart {
+  const HarmonicMotion& motion;
+  const Eigen::VectorXd& omega_squared;  ///< of the vibrations
+  bool imaginary;
+  const solve::IncrementRecord& record;
+};
+
 /// Hooks of an analysis. All may be empty.
 template <int Dim>
 struct BasicAnalysisObserver {
@@ -79,6 +88,11 @@ struct BasicAnalysisObserver {
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
                      const Buckling&)>
       buckles{};
+  /// In place of `converged`, at each frequency of a harmonic step: the real part, and behind it
+  /// the imaginary one, as states that have been evaluated. Return false to stop.
+  std::function<bool(BasicSystem<Dim>&, const BasicState<Dim>&, const Progress&,
+                     const HarmonicPart&)>
+      harmonic{};
   /// Where the analysis goes on from a resume point: it stands there, nothing has been solved yet.
   std::function<void(const BasicSystem<Dim>&, const BasicState<Dim>&)> resumed{};
   /// Asked between two iterations: true ends the analysis with what has converged.

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -82,6 +83,8 @@ struct Dynamics {
 struct Frequencies {
   int modes = 1;
   bool unloaded = false;  ///< about the latter
+  /// Of a sector of a ring: around which the motions of the sectors turn so many times.
+  std::vector<int> diameters{};
 };
 
 /// Buckling of such a state by what the loads of the step add to it.
@@ -99,6 +102,21 @@ struct ModalDamping {
   double ratio = 0;
   std::vector<Ratio> ratios{};  ///< the last one of a vibration counts
   double mass = 0, stiffness = 0;
+};
+
+struct Step;
+
+/// Loads and supports that swing, at one frequency after the other: those of the step are the real
+/// parts, `imaginary` has the others. Their tables are over the frequencies, 0 at `from`, 1 at
+/// `to`.
+///
+/// Sign       a load f swings as Re(f exp(i w t)), w = 2 pi frequency
+struct Harmonic {
+  double from = 0, to = 0;
+  int points = 20;  ///< between two frequencies of vibrations, both included
+  double bias = 3;  ///< how much closer they are to these
+  ModalDamping damping{};
+  std::shared_ptr<const Step> imaginary{};
 };
 
 /// Temperatures of nodes over a step.
@@ -128,6 +146,7 @@ struct Step {
   std::optional<BucklingSearch> buckling{};  ///< nothing moves: critical loads are looked for
   /// The vibrations of the last step that looks for them move, and nothing else.
   std::optional<ModalDamping> modal{};
+  std::optional<Harmonic> harmonic{};  ///< they swing with loads that do
   Temperatures temperature;
   std::vector<Ramp> gravity;                    ///< acceleration in every direction; empty: none
   double equation_start = 1, equation_end = 1;  ///< ramp of the constants of the equations

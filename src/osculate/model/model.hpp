@@ -70,6 +70,21 @@ struct BasicPairChange {
   pairing::Separation<Dim> separation{};
 };
 
+/// A node of the dependent face of a sector of a ring.
+///
+/// Formula    row by row  here + there = 0 , where all sectors move alike
+struct CyclicJoint {
+  std::vector<Equation> here;   ///< terms of the node
+  std::vector<Equation> there;  ///< of the other face, turned
+  bool back = false;            ///< the other face leads to the next sector the other way round
+};
+/// A sector of a ring: how its faces belong together, and the equations of the model without that.
+struct RingSector {
+  int sectors = 1;
+  std::vector<CyclicJoint> joints{};
+  std::vector<Equation> others{};
+};
+
 /// A mass at a node.
 struct PointMass {
   Index node;
@@ -89,6 +104,7 @@ struct BasicModel {
   std::vector<BasicContactPair<Dim>> pairs;
   std::vector<BasicPairChange<Dim>> pair_changes{};  ///< in the order of the steps
   std::vector<Equation> equations;
+  std::optional<RingSector> sector{};  ///< of a ring, where its vibrations are looked for
   std::vector<NodeConstraint> node_constraints{};
   std::vector<Spring> springs{};
   std::vector<PointMass> masses{};

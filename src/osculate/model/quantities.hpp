@@ -17,8 +17,11 @@ struct HistoryRequest {
   std::vector<Index> nodes;  ///< of a set
   std::string quantity;
   std::vector<Index> group{};  ///< further pairs: their sum, the largest of `max_*` and `slip`
+  bool imaginary = false;      ///< part of what swings, in harmonic steps; 0 in others
 };
 
+/// Behind the name of a column, where steps are harmonic: the imaginary part.
+inline constexpr std::string_view imaginary_suffix = ".imaginary";
 /// Of models whose materials dissipate.
 inline constexpr std::string_view plastic_quantity = "plastic";
 

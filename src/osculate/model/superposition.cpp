@@ -52,13 +52,7 @@ std::vector<double> pieces(const Step& step, double from, double to) {
 
 solve::Oscillator oscillator(const ModalDamping& damping, std::size_t mode, double omega_squared,
                              double dampers) {
-  const double omega = std::sqrt(std::max(0.0, omega_squared));
-  double ratio = damping.ratio;
-  for (const ModalDamping::Ratio& r : damping.ratios)
-    if (mode + 1 >= r.first && mode + 1 <= r.last) ratio = r.ratio;
-  const double c =
-      2 * ratio * omega + damping.mass + damping.stiffness * std::max(0.0, omega_squared) + dampers;
-  return {c, omega_squared};
+  return {damping_of(damping, mode, omega_squared) + dampers, omega_squared};
 }
 
 /// phi . C phi of dampers, which must not make one vibration of another.
@@ -73,6 +67,14 @@ std::vector<double> damped_alone(const Eigen::MatrixXd& c, std::string& failure)
 }
 
 }  // namespace
+
+double damping_of(const ModalDamping& damping, std::size_t mode, double omega_squared) {
+  const double positive = std::max(0.0, omega_squared);
+  double ratio = damping.ratio;
+  for (const ModalDamping::Ratio& r : damping.ratios)
+    if (mode + 1 >= r.first && mode + 1 <= r.last) ratio = r.ratio;
+  return 2 * ratio * std::sqrt(positive) + damping.mass + damping.stiffness * positive;
+}
 
 template <int Dim>
 BasicSuperposition<Dim> superposition(const BasicModel<Dim>& model, BasicSystem<Dim>& system,

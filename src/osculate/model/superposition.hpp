@@ -38,6 +38,10 @@ struct BasicSuperposition {
   std::vector<double> dampers{};  ///< phi . C phi
 };
 
+/// c of a vibration, counted from 0: 2 ratio omega + mass + stiffness omega^2.
+[[nodiscard]] double damping_of(const ModalDamping& damping, std::size_t mode,
+                                double omega_squared);
+
 /// At rest, of vibrations that `step` has found (the running one, begun from `standing`). Its
 /// loads are those at the state. `failure`: why it cannot be; empty: it can.
 template <int Dim>

@@ -136,6 +136,13 @@ class BasicSystem {
   /// Requires   sections of small strain and linear laws, springs that do not turn
   /// Tested by  tests/unit/deck/test_buckling.cpp, verification/buckling
   [[nodiscard]] Buckling buckling(const State& state, int count, la::LinearSolver& solver);
+  /// Stiffness and mass that they are those of, by the unknowns, multipliers included. Returns why
+  /// there are none; empty: there are.
+  [[nodiscard]] std::string vibration_matrices(const State& state, la::SparseMatrix& stiffness,
+                                               la::SparseMatrix& mass);
+  /// The motion of all nodes and rigid bodies by a small one of the unknowns about a state.
+  [[nodiscard]] Eigen::VectorXd motion_by(const State& about,
+                                          const Eigen::VectorXd& unknowns) const;
 
   /// Forces of the loads of the running step on vibrations about a state.
   ///
@@ -144,6 +151,9 @@ class BasicSystem {
                                           double fraction);
   /// phi . C phi of the dampers of springs, vibration by vibration.
   [[nodiscard]] Eigen::MatrixXd dampers_on(const Vibrations& modes, const State& about) const;
+  /// phi . C w of the dampers of springs, w a motion of all nodes and rigid bodies.
+  [[nodiscard]] Eigen::VectorXd drag_along(const Vibrations& modes, const State& about,
+                                           const Eigen::VectorXd& motion) const;
   /// Displacement or rotation of a dof.
   [[nodiscard]] double value(const State& state, Dof dof) const;
   /// What the motions that the running step prescribes make of all nodes and rigid bodies up to its

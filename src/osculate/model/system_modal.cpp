@@ -40,6 +40,23 @@ Eigen::MatrixXd BasicSystem<Dim>::dampers_on(const Vibrations& modes, const Stat
 }
 
 template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::drag_along(const Vibrations& modes, const State& about,
+                                             const Eigen::VectorXd& motion) const {
+  Eigen::VectorXd drag = Eigen::VectorXd::Zero(modes.omega_squared.size());
+  const std::vector<Vec<Dim>> x = positions(about);
+  for (const auto& damper : impl_->springs.dampers(about, x))
+    for (std::size_t i = 0; i < damper.motion.dofs.size(); ++i) {
+      double rate = 0;
+      for (std::size_t k = 0; k < damper.motion.dofs.size(); ++k)
+        rate +=
+            damper.motion.gradient[static_cast<Eigen::Index>(k)] * motion[damper.motion.dofs[k]];
+      drag += damper.coefficient * damper.motion.gradient[static_cast<Eigen::Index>(i)] * rate *
+              modes.motions.row(damper.motion.dofs[i]).transpose();
+    }
+  return drag;
+}
+
+template <int Dim>
 BasicState<Dim> BasicSystem<Dim>::moved_along(const Vibrations& modes, const State& about,
                                               const VibrationMotion& by, double fraction) const {
   const BasicDofSpace<Dim>& dofs = impl_->dofs;
@@ -55,6 +72,7 @@ BasicState<Dim> BasicSystem<Dim>::moved_along(const Vibrations& modes, const Sta
   state.rates.velocity = modes.motions * by.rate;
   if (by.carried.size() > 0) state.rates.velocity += by.carried_rate;
   state.rates.acceleration = modes.motions * by.acceleration;
+  if (by.carried_acceleration.size() > 0) state.rates.acceleration += by.carried_acceleration;
   if constexpr (Dim == 3)
     for (std::size_t b = 0; b < state.rigid.size(); ++b) {
       auto turning =
@@ -77,6 +95,10 @@ template double BasicSystem<2>::value(const State&, Dof) const;
 template double BasicSystem<3>::value(const State3&, Dof) const;
 template Eigen::MatrixXd BasicSystem<2>::dampers_on(const Vibrations&, const State&) const;
 template Eigen::MatrixXd BasicSystem<3>::dampers_on(const Vibrations&, const State3&) const;
+template Eigen::VectorXd BasicSystem<2>::drag_along(const Vibrations&, const State&,
+                                                    const Eigen::VectorXd&) const;
+template Eigen::VectorXd BasicSystem<3>::drag_along(const Vibrations&, const State3&,
+                                                    const Eigen::VectorXd&) const;
 template State BasicSystem<2>::moved_along(const Vibrations&, const State&, const VibrationMotion&,
                                            double) const;
 template State3 BasicSystem<3>::moved_along(const Vibrations&, const State3&,

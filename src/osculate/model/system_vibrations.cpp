@@ -106,14 +106,11 @@ void BasicSystem<Dim>::Impl::predict_about(const State& state, double fraction,
 }
 
 template <int Dim>
-Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::LinearSolver& solver) {
+std::string BasicSystem<Dim>::vibration_matrices(const State& state, la::SparseMatrix& stiffness,
+                                                 la::SparseMatrix& mass) {
   Impl& s = *impl_;
-  Vibrations out;
   const BasicInertia<Dim> inertia(s.model, false);
-  if (!(inertia.total() > 0)) {
-    out.failure = "nothing has a mass";
-    return out;
-  }
+  if (!(inertia.total() > 0)) return "nothing has a mass";
   const std::vector<Vec<Dim>> x = s.positions(state.u);
   s.reserve_pattern();
   s.builder.clear();
@@ -137,14 +134,29 @@ Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::Linea
       dofs[static_cast<std::size_t>(i)] = s.dofs.body_dof(static_cast<Index>(b), i);
     s.assembler.add_block(dofs, mass_of_body(inertia, s.model.rigid[b], state.rigid[b], b));
   }
-  const la::SparseMatrix mass = s.builder.finish();
+  mass = s.builder.finish();
   solve::Evaluation evaluation;
   s.predict_about(state, 1.0, evaluation);
-  if (!evaluation.ok) {
-    out.failure = evaluation.message;
-    return out;
-  }
-  const la::Eigenpairs pairs = la::smallest_eigenpairs(s.builder.finish(), mass, count, solver);
+  if (!evaluation.ok) return evaluation.message;
+  stiffness = s.builder.finish();
+  return {};
+}
+
+template <int Dim>
+Eigen::VectorXd BasicSystem<Dim>::motion_by(const State& about,
+                                            const Eigen::VectorXd& unknowns) const {
+  return impl_->motion_of_all(impl_->positions(about.u), about, unknowns);
+}
+
+template <int Dim>
+Vibrations BasicSystem<Dim>::vibrations(const State& state, int count, la::LinearSolver& solver) {
+  Impl& s = *impl_;
+  Vibrations out;
+  la::SparseMatrix stiffness, mass;
+  out.failure = vibration_matrices(state, stiffness, mass);
+  if (!out.failure.empty()) return out;
+  const std::vector<Vec<Dim>> x = s.positions(state.u);
+  const la::Eigenpairs pairs = la::smallest_eigenpairs(stiffness, mass, count, solver);
   out.failure = pairs.failure;
   out.omega_squared = pairs.values;
   out.residual = pairs.residual;
@@ -212,6 +224,12 @@ template Eigen::VectorXd BasicSystem<2>::momenta_along(const Vibrations&, const 
                                                        const Eigen::VectorXd&);
 template Eigen::VectorXd BasicSystem<3>::momenta_along(const Vibrations&, const State3&,
                                                        const Eigen::VectorXd&);
+template std::string BasicSystem<2>::vibration_matrices(const State&, la::SparseMatrix&,
+                                                        la::SparseMatrix&);
+template std::string BasicSystem<3>::vibration_matrices(const State3&, la::SparseMatrix&,
+                                                        la::SparseMatrix&);
+template Eigen::VectorXd BasicSystem<2>::motion_by(const State&, const Eigen::VectorXd&) const;
+template Eigen::VectorXd BasicSystem<3>::motion_by(const State3&, const Eigen::VectorXd&) const;
 template Vibrations BasicSystem<2>::vibrations(const State&, int, la::LinearSolver&);
 template Vibrations BasicSystem<3>::vibrations(const State&, int, la::LinearSolver&);
 

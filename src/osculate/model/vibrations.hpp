@@ -20,6 +20,10 @@ struct Vibrations {
   Eigen::MatrixXd shapes;     ///< columns; displacements of all nodes, x0 y0 (z0) x1 y1 ...
   Eigen::MatrixXd vectors{};  ///< columns; the same by the unknowns, multipliers included
   Eigen::MatrixXd motions{};  ///< columns; the same of all nodes and rigid bodies
+  /// Of a sector of a ring: by vibration its nodal diameters, and the imaginary part of its shape.
+  /// Sector s moves by Re((shape + i imaginary) exp(i s 2 pi diameters / sectors)), turned.
+  std::vector<int> diameters{};
+  Eigen::MatrixXd imaginary{};
   /// How much of each rigid motion a vibration takes part in: its rows phi . M r, r of a unit
   /// displacement along x, y, z and a unit rotation around these, and r . M r. Where the model is
   /// held, r is 0. In the plane z and rotations around x and y are 0, of rings all but y.
@@ -40,7 +44,19 @@ struct Vibrations {
 struct VibrationMotion {
   Eigen::VectorXd place, rate, acceleration;
   Eigen::VectorXd carried{}, carried_rate{};  ///< by supports, of all dofs; empty: they rest
+  Eigen::VectorXd carried_acceleration{};     ///< likewise; empty: none
 };
+
+/// Vibrations that swing with one frequency.
+///
+/// Formula    u = Re((shapes place + carried) exp(i w t)) , w = 2 pi frequency
+struct HarmonicMotion {
+  double frequency = 0;
+  Eigen::VectorXcd place;
+  Eigen::VectorXcd carried{};  ///< by supports, of all dofs; empty: they rest
+};
+/// Real or imaginary part of displacements, velocities (times i w) and accelerations (times -w^2).
+[[nodiscard]] VibrationMotion part_of(const HarmonicMotion& motion, bool imaginary);
 
 /// Vibrations per time; negative where the state is unstable.
 [[nodiscard]] inline double frequency(double omega_squared) {

@@ -179,12 +179,34 @@ void AnswerFiles<Dim>::converged(const model::BasicSystem<Dim>& system,
   attempt_ = 1;
   reached_ = progress.fraction;
   write_fields(system, state, progress);
+  write_tables(system, state, progress, time);
+}
+
+template <int Dim>
+void AnswerFiles<Dim>::write_tables(const model::BasicSystem<Dim>& system,
+                                    const model::BasicState<Dim>& state,
+                                    const model::Progress& progress, double time) {
   const std::string& step = built_.model.steps[static_cast<std::size_t>(progress.step)].name;
   std::string tables;
   for (const deck::AnswerRequest& request : output_.dat)
     if (is_due(request, step, progress))
       tables += answer_tables(answers_, system, state, request, time);
   if (!tables.empty()) dat_.append(tables);
+}
+
+template <int Dim>
+void AnswerFiles<Dim>::swings(const model::BasicSystem<Dim>& system,
+                              const model::BasicState<Dim>& state, const model::Progress& progress,
+                              const model::HarmonicPart& part) {
+  if (!part.imaginary) {
+    std::vector<double> frequencies;
+    for (const double value : part.omega_squared) frequencies.push_back(model::frequency(value));
+    const Eigen::VectorXcd amounts = part.motion.place * std::sqrt(answers_.sector);
+    dat_.append(io::dat_factors(part.motion.frequency, frequencies,
+                                {amounts.data(), static_cast<std::size_t>(amounts.size())}));
+  }
+  write_fields(system, state, progress, &part);
+  write_tables(system, state, progress, part.motion.frequency);
 }
 
 template <int Dim>
@@ -213,22 +235,32 @@ void AnswerFiles<Dim>::write_attempt(const io::Attempt& attempt,
 template <int Dim>
 void AnswerFiles<Dim>::write_fields(const model::BasicSystem<Dim>& system,
                                     const model::BasicState<Dim>& state,
-                                    const model::Progress& progress) {
+                                    const model::Progress& progress,
+                                    const model::HarmonicPart* part) {
   const std::string& step = built_.model.steps[static_cast<std::size_t>(progress.step)].name;
   std::set<Answer> wanted;
   for (const deck::AnswerRequest& request : output_.frd)
     if (is_due(request, step, progress)) wanted.insert(request.of.begin(), request.of.end());
   if (wanted.empty()) return;
   const model::BasicNodalFields<Dim> f = model::nodal_fields(system, built_.model, state);
-  ++sets_;
+  if (!part || !part->imaginary) ++sets_;
+  const int step_number = static_cast<int>(progress.step) + 1;
   for (const Answer what :
        {Answer::u, Answer::s, Answer::e, Answer::rf, Answer::peeq, Answer::contact}) {
     if (!wanted.contains(what)) continue;
-    const io::FrdTime at{++pieces_, static_cast<int>(progress.increment),
-                         static_cast<int>(progress.step) + 1, sets_,
-                         time_of(progress.step, progress.fraction)};
-    frd_.append(io::frd_field(answers_.mesh, at, what == Answer::u || what == Answer::rf,
-                              names_of(what), field_values(what, answers_, system, f)));
+    io::FrdTime at{++pieces_, static_cast<int>(progress.increment), step_number, sets_,
+                   time_of(progress.step, progress.fraction)};
+    std::vector<std::string_view> names = names_of(what);
+    std::string name(names.front());
+    if (part) {
+      at.increment = 0;
+      at.time = part->motion.frequency;
+      at.harmonic = true;
+      if (part->imaginary) name = name.substr(0, 7) + "I";
+    }
+    names.front() = name;
+    frd_.append(io::frd_field(answers_.mesh, at, what == Answer::u || what == Answer::rf, names,
+                              field_values(what, answers_, system, f)));
   }
 }
 
@@ -278,6 +310,10 @@ void AnswerFiles<Dim>::write_shape(const model::Progress& progress, const Eigen:
 
 template <int Dim>
 void AnswerFiles<Dim>::vibrations(const model::Progress& progress, const model::Vibrations& modes) {
+  if (!modes.diameters.empty()) {
+    const auto count = static_cast<std::size_t>(modes.omega_squared.size());
+    return dat_.append(io::dat_eigenvalues({modes.omega_squared.data(), count}, modes.diameters));
+  }
   dat_.append(tables_of(modes, answers_.sector));
   if (!wants_shapes(progress)) return;
   for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {

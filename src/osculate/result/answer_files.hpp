@@ -30,6 +30,9 @@ class AnswerFiles {
   /// An accepted increment.
   void converged(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
                  const model::Progress& progress, const solve::IncrementRecord& record);
+  /// A part of a swing: fields of the imaginary one have names that end with I.
+  void swings(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+              const model::Progress& progress, const model::HarmonicPart& part);
   /// An attempt that was dropped, from `progress` to a fraction of the step.
   void dropped(const model::Progress& progress, double to,
                const std::vector<solve::IterationRecord>& iterations);
@@ -50,7 +53,9 @@ class AnswerFiles {
   [[nodiscard]] double time_of(Index step, double fraction) const;
   [[nodiscard]] double duration_of(Index step) const;
   void write_fields(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
-                    const model::Progress& progress);
+                    const model::Progress& progress, const model::HarmonicPart* part = nullptr);
+  void write_tables(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+                    const model::Progress& progress, double time);
   void write_attempt(const io::Attempt& attempt,
                      const std::vector<solve::IterationRecord>& iterations);
 

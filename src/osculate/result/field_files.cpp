@@ -281,6 +281,38 @@ void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
 }
 
 template <int Dim>
+void FieldFiles<Dim>::swings(const model::BasicSystem<Dim>& system,
+                             const model::BasicState<Dim>& state, double frequency,
+                             bool imaginary) {
+  const model::BasicNodalFields<Dim> f = model::nodal_fields(system, built_.model, state);
+  const std::string ending = imaginary ? "_imaginary" : "";
+  std::vector<io::Field> fields{
+      vector_field("U" + ending, f.displacement), vector_field("RF" + ending, f.reaction),
+      tensor_field("S" + ending, f.stress), tensor_field("E" + ending, f.strain)};
+  if (!imaginary) {
+    real_part_ = std::move(fields);
+    return;
+  }
+  io::Field amplitude = fields[0];
+  amplitude.name = "U_amplitude";
+  for (std::size_t i = 0; i < amplitude.values.size(); ++i)
+    amplitude.values[i] = std::hypot(amplitude.values[i], real_part_[0].values[i]);
+  real_part_.insert(real_part_.end(), fields.begin(), fields.end());
+  real_part_.push_back(std::move(amplitude));
+  real_part_.push_back(node_numbers_);
+  const std::string bodies = fmt::format("bodies_{:05d}.vtu", frame_);
+  io::write_vtu(
+      listed(bodies),
+      {built_.model.mesh.nodes, bodies_.blocks, real_part_, bodies_.fields, bodies_.names},
+      compress_);
+  const std::size_t before = entries_.size();
+  entries_.push_back({frequency, "bodies", bodies});
+  ++frame_;
+  if (!pvd_) pvd_.emplace(folder_ + "/results.pvd", std::span(entries_).first(before));
+  pvd_->add(std::span(entries_).subspan(before));
+}
+
+template <int Dim>
 void FieldFiles<Dim>::write_contact(const model::BasicSystem<Dim>& system,
                                     const model::BasicState<Dim>& state, std::size_t pair,
                                     const std::string& stem) {
@@ -388,12 +420,30 @@ template <int Dim>
 void FieldFiles<Dim>::write_modes(const std::string& step, const model::BasicState<Dim>& state,
                                   const model::Vibrations& modes) {
   const std::size_t nodes = built_.model.mesh.nodes.size();
-  std::vector<io::Field> fields{vector_field("U", of_mesh<Dim>(nodes, state.u, 1)), node_numbers_};
-  add_shapes<Dim>(nodes, "mode", modes.shapes, fields);
-  std::string rows = "number,omega_squared,frequency\n";
-  for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i)
-    rows += fmt::format("{},{},{}\n", i + 1, modes.omega_squared[i],
-                        model::frequency(modes.omega_squared[i]));
+  const auto field = [&](const Eigen::VectorXd& of_all, double factor) {
+    return of_mesh<Dim>(nodes, of_all, factor);
+  };
+  std::vector<io::Field> fields{vector_field("U", field(state.u, 1)), node_numbers_};
+  const bool of_ring = !modes.diameters.empty();
+  std::string rows = fmt::format("number,omega_squared,frequency{}\n", of_ring ? ",diameters" : "");
+  for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
+    const Eigen::VectorXd shape = modes.shapes.col(i);
+    double largest = 0;
+    for (const Vec<Dim>& u : field(shape, 1)) largest = std::max(largest, u.norm());
+    if (of_ring)
+      for (const Vec<Dim>& u : field(modes.imaginary.col(i), 1))
+        largest = std::max(largest, u.norm());
+    const double factor = largest > 0 ? 1 / largest : 1;
+    fields.push_back(vector_field(fmt::format("mode_{}", i + 1), field(shape, factor)));
+    const double omega_squared = modes.omega_squared[i];
+    rows += fmt::format("{},{},{}", i + 1, omega_squared, model::frequency(omega_squared));
+    if (of_ring) {
+      fields.push_back(vector_field(fmt::format("mode_{}_imaginary", i + 1),
+                                    field(modes.imaginary.col(i), factor)));
+      rows += fmt::format(",{}", modes.diameters[static_cast<std::size_t>(i)]);
+    }
+    rows += "\n";
+  }
   io::write_vtu(listed(fmt::format("modes_{}.vtu", step)),
                 {built_.model.mesh.nodes, bodies_.blocks, fields, bodies_.fields, bodies_.names},
                 compress_);

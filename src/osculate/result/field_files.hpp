@@ -32,13 +32,18 @@ class FieldFiles {
   FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& built, const deck::Output& output);
   void write(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
              double time);
+  /// Parts of a swing at a frequency, which is its time: the real one, and behind it the imaginary
+  /// one, whose fields end with `_imaginary`. `U_amplitude` is that of each component.
+  void swings(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+              double frequency, bool imaginary);
   /// The last iterate of a failed increment, as last_iterate.vtu: displacements, `flips` (changes
   /// of the contact state at a slave node in the last iterations), and every free rigid motion as a
   /// vector field `free_motion_1`, ...
   void write_last_iterate(const model::BasicState<Dim>& state,
                           const model::BasicFailure<Dim>& failure);
   /// Vibrations of a step: modes_STEP.vtu, displacements of the state and a vector field `mode_1`,
-  /// ... for each, its largest displacement 1; modes_STEP.csv, their frequencies.
+  /// ... for each, its largest displacement 1; modes_STEP.csv, their frequencies. Of a sector of a
+  /// ring the imaginary part `mode_1_imaginary`, ... as well, and the nodal diameters.
   void write_modes(const std::string& step, const model::BasicState<Dim>& state,
                    const model::Vibrations& modes);
   /// Buckling of a step: buckling_STEP.vtu, displacements of the state, of what the loads add
@@ -69,7 +74,8 @@ class FieldFiles {
   BodyCells bodies_;
   std::conditional_t<Dim == 2, RigidLines, RigidFaces> rigid_;
   io::Field node_numbers_;
-  std::vector<bool> touched_;  ///< per pair: it is written from its first contact on
+  std::vector<io::Field> real_part_;  ///< of a swing whose other part is yet to come
+  std::vector<bool> touched_;         ///< per pair: it is written from its first contact on
 };
 
 }  // namespace osculate::result

@@ -66,6 +66,14 @@ std::string time_steps_text(const std::string& step, const model::Progress& p,
                      counts_column("  ", record.iterations.back().counts, states));
 }
 
+std::string swing_text(const std::string& step, const model::Progress& p,
+                       const Eigen::VectorXcd& amounts) {
+  Eigen::Index most = 0;
+  amounts.cwiseAbs().maxCoeff(&most);
+  return fmt::format("{:<12} {:>4}  frequency {:<11.7g} vibration {} most", step, p.increment,
+                     p.time, most + 1);
+}
+
 std::string iteration_text(int number, const solve::IterationRecord& iteration,
                            PointStates states) {
   return fmt::format("  iteration {:>2}: residual {:.1e} energy {:.1e} step {:.3g}{}", number,
@@ -77,8 +85,12 @@ std::vector<std::string> vibrations_text(const std::string& step, const model::V
   constexpr double rough = 1e-6;
   std::vector<std::string> texts;
   for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i)
-    texts.push_back(fmt::format("{:<12} mode {:3}  {:.6g} per time  (omega^2 {:.6g})", step, i + 1,
-                                model::frequency(modes.omega_squared[i]), modes.omega_squared[i]));
+    texts.push_back(fmt::format(
+        "{:<12} mode {:3}  {:.6g} per time  (omega^2 {:.6g}){}", step, i + 1,
+        model::frequency(modes.omega_squared[i]), modes.omega_squared[i],
+        modes.diameters.empty()
+            ? std::string{}
+            : fmt::format("  nodal diameters {}", modes.diameters[static_cast<std::size_t>(i)])));
   const auto doubt = [&](const std::string& text) {
     texts.push_back(fmt::format("warning: step '{}': {}", step, text));
   };

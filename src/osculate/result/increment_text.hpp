@@ -25,6 +25,10 @@ template <int Dim>
 [[nodiscard]] std::string time_steps_text(const std::string& step, const model::Progress& p,
                                           const solve::IncrementRecord& record, PointStates states);
 
+/// One frequency of a harmonic step: the vibration that swings most.
+[[nodiscard]] std::string swing_text(const std::string& step, const model::Progress& p,
+                                     const Eigen::VectorXcd& amounts);
+
 /// The vibrations that a step has found, then what speaks against them: some are missing, or they
 /// are not exact.
 [[nodiscard]] std::vector<std::string> vibrations_text(const std::string& step,

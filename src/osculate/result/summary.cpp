@@ -80,9 +80,12 @@ nlohmann::json chosen_json(const ChosenTimeSteps& chosen) {
 nlohmann::json modes_json(const std::optional<model::Vibrations>& modes) {
   if (!modes) return nullptr;
   nlohmann::json list = nlohmann::json::array();
-  for (const double value : modes->omega_squared)
+  for (const double value : modes->omega_squared) {
+    const std::size_t i = list.size();
     list.push_back(
         {{"omega_squared", number(value)}, {"frequency", number(model::frequency(value))}});
+    if (!modes->diameters.empty()) list.back()["diameters"] = modes->diameters[i];
+  }
   return {{"found", list}, {"missing", modes->missing}, {"residual", number(modes->residual)}};
 }
 
@@ -378,9 +381,11 @@ std::vector<ModelFact> model_facts(const deck::BasicBuilt<Dim>& built) {
     facts.push_back({"Contact", entry.first, fmt::format("{} pairs of bodies", entry.second)});
   for (const model::Step& step : m.steps)
     facts.push_back({"Steps", step.name,
-                     step.frequencies ? fmt::format("{} vibrations", step.frequencies->modes)
-                     : step.buckling  ? fmt::format("{} buckling loads", step.buckling->factors)
-                                      : fmt::format("{} increments", step.increments)});
+                     step.harmonic      ? fmt::format("frequencies from {:g} to {:g}",
+                                                      step.harmonic->from, step.harmonic->to)
+                     : step.frequencies ? fmt::format("{} vibrations", step.frequencies->modes)
+                     : step.buckling    ? fmt::format("{} buckling loads", step.buckling->factors)
+                                        : fmt::format("{} increments", step.increments)});
   return facts;
 }
 

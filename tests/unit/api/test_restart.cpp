@@ -116,6 +116,21 @@ constexpr const char* ringing =
     "  - {name: on, increments: 2, duration: 1, modal: {}}\n"
     "output: {history: [{on: b.right, of: uy}, {on: b.right, of: vy}, {on: b.left, of: rfy}]}\n";
 
+/// A bar that swings with loads and with its support, at some frequencies.
+constexpr const char* swinging =
+    "osculate: 1\n"
+    "mesh: {generate: {b: {box: {x: [0, 4], y: [0, 1], elements: [8, 2]}}}}\n"
+    "materials: {m: {linear_elastic: {E: 100, nu: 0.3, density: 1}}}\n"
+    "sections: [{on: b, material: m, element: plane_strain}]\n"
+    "steps:\n"
+    "  - {name: hold, increments: 1, prescribe: [{on: b.left, ux: 0, uy: 0}]}\n"
+    "  - {name: free, modes: 3}\n"
+    "  - {name: swing, harmonic: {from: 0.1, to: 0.7, points: 3, damping: {ratio: 0.02}}, "
+    "total_force: [{on: b.right, fy: 0.1, phase: 30}], prescribe: [{on: b.left, ux: 0.1}]}\n"
+    "  - {name: on, harmonic: {from: 0.2, to: 0.2}, total_force: [{on: b.right, fx: 1}]}\n"
+    "  - {name: after, increments: 1, total_force: [{on: b.right, fx: 1}]}\n"
+    "output: {history: [{on: b.right, of: uy}, {on: b.right, of: vy}, {on: b.left, of: rfy}]}\n";
+
 /// Runs that end with warnings of what was on the way: a beam that is bent and straightened again,
 /// a block that moves away from a floor that was nearest at first, a body that goes past its slave,
 /// blocks that go through a floor and that gain energy in explicit time integration.
@@ -182,6 +197,7 @@ class Restart : public ::testing::Test {
     std::ofstream(folder_ / "plastic.yaml") << plastic;
     std::ofstream(folder_ / "creeping.yaml") << creeping;
     std::ofstream(folder_ / "ringing.yaml") << ringing;
+    std::ofstream(folder_ / "swinging.yaml") << swinging;
   }
   void TearDown() override { fs::remove_all(folder_); }
   [[nodiscard]] RunOptions options(const std::string& model, const std::string& out,
@@ -261,8 +277,9 @@ TEST_F(Restart, TheWarningsAreThoseOfTheWholeRun) {
 }
 
 TEST_F(Restart, AfterEveryIncrementGivesTheSameBits) {
-  for (const auto& [model, least] : {std::pair("plane", 10), std::pair("plastic", 7),
-                                     std::pair("creeping", 7), std::pair("ringing", 6)}) {
+  for (const auto& [model, least] :
+       {std::pair("plane", 10), std::pair("plastic", 7), std::pair("creeping", 7),
+        std::pair("ringing", 6), std::pair("swinging", 5)}) {
     const std::string whole = std::string(model) + "_whole",
                       pieces = std::string(model) + "_pieces";
     ASSERT_EQ(run(options(model, whole)).status, RunStatus::done);

@@ -245,5 +245,56 @@ TEST(InpBetweenSteps, MotionsAlongVibrations) {
   expect_in(message_of(frequency + moves + end + press), "only *MODAL DYNAMIC follows");
 }
 
+TEST(InpBetweenSteps, Swings) {
+  const std::string frequency = "*STEP\n*FREQUENCY, STORAGE=YES\n12\n*END STEP\n";
+  const std::string swings = "*STEP\n*STEADY STATE DYNAMICS\n100., 200., 5\n";
+  const std::string load = "*CLOAD\n15, 3, -1.\n";
+  const std::string end = "*END STEP\n";
+  const std::string table = "*AMPLITUDE, NAME=A\n100., 1., 150., 3., 300., 0.\n";
+  const std::string steps = part(
+      table + frequency + swings + load +
+          "*CLOAD, LOAD CASE=2, AMPLITUDE=A\n15, 3, 4.\n*DLOAD, LOAD CASE=2\nUP, P2, 7.\n"
+          "*MODAL DAMPING, RAYLEIGH\n,, 3., 1.E-4\n" +
+          end + "*STEP\n*STEADY STATE DYNAMICS\n150., 150.,,1.\n*BOUNDARY\n1, 1, 1, 0.5\n" + end,
+      "steps");
+  expect_in(steps, "from: 100\n");
+  expect_in(steps, "points: 5\n");
+  expect_in(steps, "bias: 3\n");
+  expect_in(steps, "damping: {mass: 3, stiffness: 0.0001}");
+  expect_in(steps, "fz: -1}");
+  expect_in(steps, "fz: 4, phase: 90, amplitude: A_2}");
+  expect_in(steps, "value: 7, phase: 90}");
+  expect_in(steps, "points: 20\n      bias: 1\n");
+  expect_in(steps, "ux: 0.5}");
+  EXPECT_NE(steps.find("fz: -1}"), steps.rfind("fz: -1}"));  // loads of swings go on
+  expect_in(
+      part(table + frequency + swings + "*CLOAD, AMPLITUDE=A\n15, 3, 4.\n" + end, "amplitudes"),
+      "[0.5, 3]");
+  expect_in(message_of(swings + load + end), "the step before it must have a *FREQUENCY");
+  expect_in(message_of(frequency + "*STEP\n*STEADY STATE DYNAMICS, HARMONIC=NO\n1., 2.\n" + end),
+            "HARMONIC=NO is not supported");
+  expect_in(message_of(frequency + "*STEP\n*STEADY STATE DYNAMICS\n2., 1.\n" + end),
+            "the second not below the first");
+  expect_in(message_of("*STEP\n*STATIC\n*CLOAD, LOAD CASE=2\n15, 3, 4.\n" + end),
+            "LOAD CASE belongs to *STEADY STATE DYNAMICS");
+  expect_in(message_of(press + frequency + swings + end), "of a step before would go on");
+  EXPECT_EQ(message_of(press + frequency + swings + "*DLOAD, OP=NEW\n" + end), "no error");
+  expect_in(message_of(frequency + swings + "*BOUNDARY, LOAD CASE=2\n15, 3, 3, 1.\n" + end),
+            "supports must be those of the step with *FREQUENCY");
+  expect_in(message_of(frequency + swings + end + press), "only *STEADY STATE DYNAMICS follows");
+  EXPECT_EQ(message_of(frequency + swings + load + end + "*STEP\n"), "no error");
+}
+
+TEST(InpBetweenSteps, NodalDiameters) {
+  const std::string frequency = "*STEP\n*FREQUENCY\n12\n*SELECT CYCLIC SYMMETRY MODES, ";
+  expect_in(part(frequency + "NMIN=1, NMAX=3\n*END STEP\n", "steps"), "diameters: [1, 2, 3]");
+  expect_in(message_of(frequency + "NMIN=2, NMAX=1\n*END STEP\n"), "expected 0 <= NMIN <= NMAX");
+  expect_in(
+      message_of("*STEP\n*STATIC\n*SELECT CYCLIC SYMMETRY MODES, NMIN=2, NMAX=3\n*END STEP\n"),
+      "belongs behind *FREQUENCY");
+  expect_in(message_of(frequency + "NMIN=0, NMAX=0\n*END STEP\n"),
+            "only a sector with `cyclic_symmetry` has nodal diameters");
+}
+
 }  // namespace
 }  // namespace osculate::deck

@@ -63,6 +63,32 @@ TEST(Dat, VibrationsAsTheFormatHasThem) {
       << table;
 }
 
+/// Lines of the file that CalculiX 2.20 writes of its deck beamdy8.
+TEST(Dat, AmountsOfVibrationsAtAFrequency) {
+  const std::array frequencies{13096.0311, 76839.71};
+  const std::array<std::complex<double>, 2> amounts{
+      {{0.5349862e-3, -0.1857317e-3}, {-0.274136e-5, 0}}};
+  EXPECT_EQ(dat_factors(12000, frequencies, amounts),
+            "\nP A R T I C I P A T I O N   F A C T O R S   F O R   F R E Q U E N C Y    "
+            "0.1200000000000E+05 (CYCLES/TIME)\n\n MODE NO    FREQUENCY               FACTOR\n"
+            "           (CYCLES/TIME)      REAL        IMAGINARY\n\n"
+            "      1   0.1309603E+05   0.5349862E-03  -0.1857317E-03\n"
+            "      2   0.7683971E+05  -0.2741360E-05   0.0000000E+00\n");
+}
+
+/// Lines of the file that CalculiX 2.20 writes of its deck segment.
+TEST(Dat, VibrationsOfASector) {
+  const std::array found{0.2797486e3, 0.6659588e4};
+  const std::array diameters{1, 1};
+  const std::string text = dat_eigenvalues(found, diameters);
+  EXPECT_TRUE(text.starts_with(
+      "\n     E I G E N V A L U E   O U T P U T\n\n  NODAL   MODE NO    EIGENVALUE  "));
+  EXPECT_TRUE(text.ends_with(
+      "\n    1          1   0.2797486E+03   0.1672569E+02   0.2661976E+01   0.0000000E+00\n"
+      "    1          2   0.6659588E+04   0.8160630E+02   0.1298805E+02   0.0000000E+00\n"))
+      << text;
+}
+
 TEST(Dat, RowsOfIncrementsAndIterations) {
   EXPECT_EQ(sta_row({2, 1, 1, 2, true, 2, 1, 1}),
             "     2          1     1     2  0.200000E+01  0.100000E+01  0.100000E+01\n");

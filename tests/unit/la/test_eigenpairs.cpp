@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 namespace osculate::la {
@@ -126,6 +128,63 @@ TEST(Eigenpairs, OfFewMassesThatAMultiplierHolds) {
   ASSERT_EQ(found.values.size(), 2);  // of masses 2 and 1 on springs 1, 1 and 1
   EXPECT_NEAR(found.values[0], (3 - std::sqrt(3.0)) / 2, 1e-12);
   EXPECT_NEAR(found.values[1], (3 + std::sqrt(3.0)) / 2, 1e-12);
+}
+
+/// x = T q with a complex T, beside Eigen's solver for Hermitian matrices.
+TEST(Eigenpairs, OfComplexCombinations) {
+  constexpr Index n = 24, columns = n - 3;
+  MatrixBuilder k(n), m(n);
+  add_chain(0, n, true, k);
+  for (Index i = 0; i < n; ++i) m.add(i, i, 1 + 0.1 * static_cast<double>(i % 5));
+  std::vector<ComplexEntry> t;
+  for (Index i = 0; i < columns; ++i) t.push_back({i, i, 1.0});
+  for (Index i = 0; i < 3; ++i)
+    for (Index j = 0; j < 2; ++j)
+      t.push_back({columns + i, 4 * i + j, std::polar(0.6 + 0.1 * j, 0.7 + 0.2 * i)});
+  Eigen::MatrixXcd by = Eigen::MatrixXcd::Zero(n, columns);
+  for (const ComplexEntry& e : t) by(e.row, e.column) = e.value;
+  const auto dense = [](const SparseMatrix& a) {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(a.n, a.n);
+    for (Index row = 0; row < a.n; ++row)
+      for (Index at = a.row_start[static_cast<std::size_t>(row)];
+           at < a.row_start[static_cast<std::size_t>(row) + 1]; ++at)
+        out(row, a.column[static_cast<std::size_t>(at)]) = a.value[static_cast<std::size_t>(at)];
+    return out;
+  };
+  const SparseMatrix stiffness = k.finish(), mass = m.finish();
+  const Eigen::MatrixXd dk = dense(stiffness), dm = dense(mass);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXcd> exact(by.adjoint() * dk * by,
+                                                                         by.adjoint() * dm * by);
+  const auto solver = make_default_solver();
+  const Eigenpairs found = smallest_eigenpairs(stiffness, mass, t, columns, 7, *solver);
+  ASSERT_EQ(found.failure, "");
+  ASSERT_EQ(found.values.size(), 7);
+  EXPECT_EQ(found.missing, 0);
+  for (Eigen::Index i = 0; i < 7; ++i) {
+    const double value = exact.eigenvalues()[i / 2];
+    EXPECT_NEAR(found.values[i], value, 1e-10);
+    Eigen::VectorXcd x(n);
+    x.real() = found.vectors.col(i).head(n);
+    x.imag() = found.vectors.col(i).tail(n);
+    EXPECT_NEAR((x.adjoint() * dm * x)(0).real(), 1, 1e-10);
+    EXPECT_LT((by.adjoint() * (dk * x - value * dm * x)).norm(), 1e-9);
+    EXPECT_LT((by.bottomRows(3) * x.head(columns) - x.tail(3)).norm(), 1e-12);
+  }
+  SparseMatrix light = mass;  // in other units
+  for (double& value : light.value) value *= 1e-17;
+  const Eigenpairs fast = smallest_eigenpairs(stiffness, light, t, columns, 7, *solver);
+  ASSERT_EQ(fast.values.size(), 7);
+  for (Eigen::Index i = 0; i < 7; ++i)
+    EXPECT_NEAR(1e-17 * fast.values[i], exact.eigenvalues()[i / 2], 1e-10);
+  EXPECT_LT(fast.residual, 1e-9);
+  for (ComplexEntry& e : t) e.value = e.value.real();
+  const Eigenpairs real = smallest_eigenpairs(stiffness, mass, t, columns, 4, *solver);
+  EXPECT_EQ(real.vectors.rows(), n);
+  const Eigen::MatrixXd alone = by.real();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> exact_real(
+      alone.transpose() * dk * alone, alone.transpose() * dm * alone);
+  for (Eigen::Index i = 0; i < 4; ++i)
+    EXPECT_NEAR(real.values[i], exact_real.eigenvalues()[i], 1e-10);
 }
 
 TEST(Eigenpairs, SayWhyThereAreNone) {
