@@ -279,7 +279,7 @@ class Steps {
     only_here(temperatures_);
     at_once_ = false;
     put_directions(step, "forces", 'f', forces_);
-    put_pressures(step);
+    put_pressures(step, pressures_);
     put_directions(step, "body_force", 'f', body_forces_);
     put_centrifugal(step);
     put_temperatures(step);
