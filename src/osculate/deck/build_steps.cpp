@@ -153,6 +153,7 @@ void add_total(const ChannelKey& key, const Channel& channel, const Given* given
 template <int Dim>
 void apply_swinging_loads(const BuildContext<Dim>& c, const deck::Step& step, Running& running,
                           LoadPart part, model::Step& out) {
+  std::vector<LoadTotal> totals;
   const auto kinds = loads_of(step);
   for (int kind = 0; kind < load_kinds; ++kind)
     for (const Load& load : *kinds[static_cast<std::size_t>(kind)])
@@ -170,12 +171,16 @@ void apply_swinging_loads(const BuildContext<Dim>& c, const deck::Step& step, Ru
         const double size = share * value->value;
         const Given given{{size, size, amplitude_of(c, load.amplitude)},
                           load.amplitude ? load.amplitude->value : std::string{}};
-        add_total(channel_key(kind, load, i), channel, &given, c.built.loads.back());
+        add_total(channel_key(kind, load, i), channel, &given, totals);
         if (channel.facets.empty())
           out.dead.push_back({channel.unit, given.ramp});
         else
           out.pressure.push_back({channel.facets, given.ramp});
       }
+  for (LoadTotal& total : totals) {
+    if (part == LoadPart::imaginary) total.values += " (imaginary part)";
+    c.built.loads.back().push_back(std::move(total));
+  }
 }
 
 template <int Dim>
@@ -287,10 +292,7 @@ void add_imaginary(const BuildContext<Dim>& c, const deck::Step& step, Running& 
   model::Step imaginary;
   imaginary.name = out.name;
   imaginary.temperature = out.temperature;
-  const std::size_t totals = c.built.loads.back().size();
   apply_swinging_loads(c, step, running, LoadPart::imaginary, imaginary);
-  for (std::size_t i = totals; i < c.built.loads.back().size(); ++i)
-    c.built.loads.back()[i].values += " (imaginary part)";
   apply_prescriptions(c, step, running, LoadPart::imaginary, imaginary);
   out.harmonic->imaginary = std::make_shared<const model::Step>(std::move(imaginary));
 }

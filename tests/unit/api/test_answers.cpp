@@ -159,6 +159,49 @@ TEST_F(Answers, ForcesOfARingAreThoseOfASectorOfTwoDegrees) {
   EXPECT_EQ(count(read("ring.frd"), " -4  CONTACT     6    1"), 1U);
 }
 
+/// A mass that a spring holds, with a damper: real and imaginary part of F / (k - m w^2 + i w c),
+/// beside each other in the history, one behind the other in tables and fields.
+TEST_F(Answers, PartsOfASwing) {
+  const std::string text =
+      "osculate: 1\n"
+      "mesh: {generate: {b: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [1, 1, 1]}}}}\n"
+      "materials: {m: {linear_elastic: {E: 1, nu: 0, density: 2}}}\n"
+      "sections: [{on: b, material: m, element: solid}]\n"
+      "springs: [{terms: [{on: b.right, of: ux, factor: 0.25}], stiffness: 40, damping: 1.5}]\n"
+      "equal: [{on: b, of: ux}]\n"
+      "steps:\n"
+      "  - {name: hold, increments: 1, prescribe: [{on: b, uy: 0, uz: 0}]}\n"
+      "  - {name: free, modes: 1}\n"
+      "  - {name: swing, harmonic: {from: 0.5, to: 0.5}, total_force: [{on: b.right, fx: 5}]}\n"
+      "output:\n"
+      "  history: [{on: b.right, of: ux}]\n"
+      "  frd: [{of: [U, S, RF], steps: [swing]}]\n"
+      "  dat: [{on: b.right, of: [U], steps: [swing]}]\n";
+  ASSERT_EQ(run(options("swing", text)).status, RunStatus::done);
+  const double real = 0.23411714376338497, imaginary = -0.05445251558134364;
+  const std::string dat = read("swing.dat");
+  const std::string title = " displacements (vx,vy,vz) for set B.RIGHT and time  0.5000000E+00";
+  EXPECT_EQ(count(dat, title), 2U);
+  for (const auto& row : rows(dat, title)) EXPECT_NEAR(row[1], real, 1e-6);
+  for (const auto& row : rows(dat.substr(dat.rfind(title)), title))
+    EXPECT_NEAR(row[1], imaginary, 1e-7);
+  EXPECT_EQ(count(dat, "F O R   F R E Q U E N C Y    0.5000000000000E+00 (CYCLES/TIME)"), 1U);
+  const std::string frd = read("swing.frd");
+  for (const char* const name : {"DISP ", "STRESS ", "FORC ", "DISPI ", "STRESSI ", "FORCI "})
+    EXPECT_EQ(count(frd, std::string(" -4  ") + name), 1U) << name;
+  EXPECT_THAT(frd, HasSubstr("    1PSTEP                         4           0           3"));
+  EXPECT_THAT(frd, HasSubstr("                     1    1           1\n -4  DISPI"));
+  const std::string history = read("history.csv");
+  EXPECT_THAT(history, HasSubstr("b.right.ux,b.right.ux.imaginary"));
+  std::istringstream last(history.substr(history.rfind("\n3,1,0.5,") + 9));
+  double a = 0, b = 0;
+  char comma = 0;
+  last >> a >> comma >> b;
+  EXPECT_NEAR(a, real, 1e-10);
+  EXPECT_NEAR(b, imaginary, 1e-10);
+  EXPECT_THAT(read("bodies_00002.vtu"), HasSubstr("U_amplitude"));
+}
+
 TEST_F(Answers, ARestartWritesTheSameFiles) {
   RunOptions o = options("block", space);
   ASSERT_EQ(run(o).status, RunStatus::done);

@@ -128,7 +128,6 @@ constexpr const char* swinging =
     "  - {name: swing, harmonic: {from: 0.1, to: 0.7, points: 3, damping: {ratio: 0.02}}, "
     "total_force: [{on: b.right, fy: 0.1, phase: 30}], prescribe: [{on: b.left, ux: 0.1}]}\n"
     "  - {name: on, harmonic: {from: 0.2, to: 0.2}, total_force: [{on: b.right, fx: 1}]}\n"
-    "  - {name: after, increments: 1, total_force: [{on: b.right, fx: 1}]}\n"
     "output: {history: [{on: b.right, of: uy}, {on: b.right, of: vy}, {on: b.left, of: rfy}]}\n";
 
 /// Runs that end with warnings of what was on the way: a beam that is bent and straightened again,
