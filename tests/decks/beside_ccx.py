@@ -183,7 +183,7 @@ def factors_of_dat(path):
             inside = True
         elif inside and len(words) == 2 and words[0].isdigit():
             steps[-1].append(float(words[1]))
-        elif inside and len(words) > 2:
+        elif "O U T P U T" in line:
             inside = False
     return steps
 

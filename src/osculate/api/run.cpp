@@ -438,9 +438,7 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
 template <int Dim>
 model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
   model::BasicAnalysisObserver<Dim> observer;
-  observer.converged = [&recorder](model::BasicSystem<Dim>& system,
-                                   const model::BasicState<Dim>& state, const model::Progress& p,
-                                   const solve::IncrementRecord* record) {
+  observer.converged = [&recorder](auto& system, const auto& state, const auto& p, auto* record) {
     return recorder.converged(system, state, p, record);
   };
   observer.interrupted = [&recorder] {
@@ -454,29 +452,22 @@ model::BasicAnalysisObserver<Dim> observe(Recorder<Dim>& recorder) {
     recorder.say(fmt::format("{}: no convergence from {:.5g} to {:.5g} of the step: {}; halving",
                              recorder.step_name(p), p.fraction, to, reason));
   };
-  observer.vibrates = [&recorder](const model::BasicSystem<Dim>&,
-                                  const model::BasicState<Dim>& state, const model::Progress& p,
-                                  const model::Vibrations& modes) {
-    const std::string step = recorder.step_name(p);
-    recorder.say_all(result::vibrations_text(step, modes));
-    recorder.fields.write_modes(step, state, modes);
+  observer.vibrates = [&recorder](const auto&, const auto& state, const auto& p,
+                                  const auto& modes) {
+    recorder.say_all(result::vibrations_text(recorder.step_name(p), modes));
+    recorder.fields.write_modes(recorder.step_name(p), state, modes);
     if (recorder.answers) recorder.answers->vibrations(p, modes);
   };
-  observer.buckles = [&recorder](const model::BasicSystem<Dim>&,
-                                 const model::BasicState<Dim>& state, const model::Progress& p,
-                                 const model::Buckling& found) {
-    const std::string step = recorder.step_name(p);
-    recorder.say_all(result::buckling_text(step, found));
-    recorder.fields.write_buckling(step, state, found);
+  observer.buckles = [&recorder](const auto&, const auto& state, const auto& p, const auto& found) {
+    recorder.say_all(result::buckling_text(recorder.step_name(p), found));
+    recorder.fields.write_buckling(recorder.step_name(p), state, found);
     if (recorder.answers) recorder.answers->buckling(p, found);
   };
-  observer.harmonic = [&recorder](model::BasicSystem<Dim>& system,
-                                  const model::BasicState<Dim>& state, const model::Progress& p,
-                                  const model::HarmonicPart& part) {
+  observer.harmonic = [&recorder](auto& system, const auto& state, const auto& p,
+                                  const auto& part) {
     return recorder.swings(system, state, p, part);
   };
-  observer.resumable = [&recorder](const model::BasicSystem<Dim>& system,
-                                   const model::BasicState<Dim>& state, const model::Progress& p,
+  observer.resumable = [&recorder](const auto& system, const auto& state, const auto& p,
                                    const solve::StepPosition& position) {
     recorder.save(system, state, p, position);
   };

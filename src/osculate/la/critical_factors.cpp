@@ -160,7 +160,7 @@ double take(Pencil& p, const Flexible& found, Eigen::Index count, CriticalFactor
 int count_missing_factors(Pencil& p, const CriticalFactors& found, double accuracy,
                           int multipliers) {
   constexpr double least = 1e-6, most = 1e-2;
-  const double above = std::clamp(10 * accuracy, least, most);
+  const double above = std::clamp(100 * accuracy, least, most);
   const Eigen::Index n = found.values.size();
   const FactorReport beyond = p.factor((1 + above) * found.values[n - 1]);
   if (beyond.status == SolveStatus::failed) return -1;

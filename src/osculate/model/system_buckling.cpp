@@ -5,6 +5,22 @@
 #include "osculate/model/temperatures.hpp"
 
 namespace osculate::model {
+namespace {
+
+/// Contact points that are closed in an evaluation, but for those of ties.
+template <int Dim>
+int points_that_stay_closed(const BasicModel<Dim>& model, const Evaluated<Dim>& last) {
+  std::ptrdiff_t closed = 0;
+  for (std::size_t p = 0; p < last.contact.size(); ++p)
+    if (!pairing::is_tied(model.pairs[p].definition))
+      closed += std::ranges::count_if(last.contact[p].points, [](const auto& point) {
+        return point.status != contact::Status::open;
+      });
+  return static_cast<int>(closed);
+}
+
+}  // namespace
+
 /// Forces that cells of small strain have more after than before, on the nodes.
 template <int Dim>
 Eigen::VectorXd BasicSystem<Dim>::Impl::added_internal(const Strained& before,
@@ -50,12 +66,7 @@ Buckling BasicSystem<Dim>::buckling(const State& state, int count, la::LinearSol
     out.failure = "supports move, and contacts have multipliers";
   if (!out.failure.empty()) return out;
   const la::SparseMatrix k = s.builder.finish();
-  for (std::size_t p = 0; p < s.last.contact.size(); ++p)
-    if (!pairing::is_tied(s.model.pairs[p].definition))
-      out.closed +=
-          static_cast<int>(std::ranges::count_if(s.last.contact[p].points, [](const auto& point) {
-            return point.status != contact::Status::open;
-          }));
+  out.closed = points_that_stay_closed(s.model, s.last);
   s.assembler.set_configuration(x, state.rigid);
   Eigen::VectorXd rest = Eigen::VectorXd::Zero(unknowns());
   rest.head(displacements()) = -s.assembler.gather(with_loads - s.total_force());
