@@ -3,19 +3,21 @@
 
 namespace osculate::testing {
 
-/// Hooke's law as a routine of a user: sigma = D eps, with E and nu as constants.
+/// Hooke's law as a routine of a user, with E and nu as constants; Cauchy's stress is that of the
+/// undeformed volume over J: sigma = D eps / J, J = det of the deformation gradient.
 inline void user_hooke(double* stress, double*, double* ddsdde, double*, double*, double*, double*,
                        double*, double*, double*, double* stran, double* dstran, double*, double*,
                        double*, double*, double*, double*, char*, int*, int*, int*, int*,
-                       double* props, int*, double*, double*, double*, double*, double*, double*,
-                       int*, int*, int*, int*, int*, int*, std::size_t) {
+                       double* props, int*, double*, double*, double*, double*, double*,
+                       double* dfgrd1, int*, int*, int*, int*, int*, int*, std::size_t) {
   const material::Lame c = material::lame(props[0], props[1]);
+  const double volume = Eigen::Map<const Mat<3, 3>>(dfgrd1).determinant();
   for (int i = 0; i < 6; ++i) {
     stress[i] = 0;
     for (int j = 0; j < 6; ++j) {
       double& d = ddsdde[6 * j + i];
-      d = i < 3 && j < 3 ? c.lambda : 0;
-      if (i == j) d += i < 3 ? 2 * c.mu : c.mu;
+      d = i < 3 && j < 3 ? c.lambda / volume : 0;
+      if (i == j) d += (i < 3 ? 2 * c.mu : c.mu) / volume;
       stress[i] += d * (stran[j] + dstran[j]);
     }
   }

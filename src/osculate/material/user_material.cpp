@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <system_error>
 
 #include "osculate/material/radial_return.hpp"
 #include "osculate/material/stiffness.hpp"
@@ -181,7 +182,8 @@ std::optional<core::Fault> UserMaterial::fault() const {
 
 std::optional<core::Fault> UserMaterial::open(const std::string& folder) {
   const std::filesystem::path path = std::filesystem::path(folder.empty() ? "." : folder) / library;
-  if (!std::filesystem::exists(path))
+  std::error_code none;
+  if (!std::filesystem::exists(path, none))
     return core::Fault{fmt::format("there is no file '{}'", path.string()), "library", {}};
   FoundRoutine found = find_routine(path.string(), function);
   if (!found.opened)
