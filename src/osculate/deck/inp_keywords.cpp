@@ -8,7 +8,7 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<InpKeyword, 115> keywords{{
+constexpr std::array<InpKeyword, 116> keywords{{
     {"HEADING", "", "a title", silent, ""},
     {"INCLUDE", "INPUT", "", mesh, "the lines of the file"},
     {"NODE", "NSET SYSTEM INPUT", "number, x, y, z", mesh, "nodes, and a set of them"},
@@ -85,9 +85,13 @@ constexpr std::array<InpKeyword, 115> keywords{{
     {"PRE-TENSION SECTION", "SURFACE NODE", "normal", translated, "`pretension`"},
     {"CONTACT PAIR", "INTERACTION TYPE ADJUST SMALL SLIDING", "slave, master", translated,
      "`contact`: slave, master, sampling, `initial: adjust`"},
-    {"CONTACT", "", "", ours, "`contact: {all: ...}`"},
-    {"CONTACT INCLUSIONS", "ALL EXTERIOR", "pairs of surfaces", ours, "`contact: {all: ...}`"},
-    {"CONTACT PROPERTY ASSIGNMENT", "", "surfaces, interaction", ours, "`contact: {all: ...}`"},
+    {"CONTACT", "", "", translated, "`contact: {all: ...}`, or pairs"},
+    {"CONTACT INCLUSIONS", "ALL EXTERIOR", "pairs of surfaces", translated,
+     "`contact: {all: ...}`; pairs with `two_pass`"},
+    {"CONTACT EXCLUSIONS", "", "pairs of surfaces", translated,
+     "`contact.all: exclude` (of whole bodies)"},
+    {"CONTACT PROPERTY ASSIGNMENT", "", "surfaces, interaction", translated,
+     "`contact`: normal, friction"},
     {"SURFACE INTERACTION", "NAME", "", translated, "`contact`: normal, friction"},
     {"SURFACE BEHAVIOR", "PRESSURE-OVERCLOSURE", "stiffness, tension; table", translated,
      "`contact.normal`"},
@@ -135,10 +139,11 @@ constexpr std::array<InpKeyword, 115> keywords{{
     {"NODE PRINT", "NSET FREQUENCY TOTALS", "names of results", translated, "`output.dat`: U, RF"},
     {"EL PRINT", "ELSET FREQUENCY TOTALS", "names of results", translated,
      "`output.dat`: S, E, PEEQ, EVOL, ELSE"},
-    {"CONTACT PRINT", "FREQUENCY", "names of results", translated,
-     "`output.dat`: CDIS, CSTR, CNUM"},
-    {"FACE PRINT", "SURFACE", "names of results", silent, ""},
-    {"SECTION PRINT", "SURFACE", "names of results", silent, ""},
+    {"CONTACT PRINT", "FREQUENCY TOTALS", "names of results", translated,
+     "`output.dat`: CDIS, CSTR, CNUM, CELS"},
+    {"FACE PRINT", "SURFACE FREQUENCY", "names of results", translated, "`output.dat`: SOF"},
+    {"SECTION PRINT", "SURFACE FREQUENCY", "names of results", translated,
+     "`output.dat`: SOF (also for SOM, SOAREA)"},
     {"NODE FILE", "FREQUENCY", "names of results", translated, "`output.frd`: U, RF"},
     {"EL FILE", "FREQUENCY", "names of results", translated, "`output.frd`: S, E, PEEQ"},
     {"CONTACT FILE", "FREQUENCY", "names of results", translated, "`output.frd`: CONTACT"},

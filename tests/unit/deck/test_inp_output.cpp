@@ -98,6 +98,31 @@ TEST(InpOutput, ResultsThatAreNotWrittenAreToldOf) {
   EXPECT_EQ(notes.back(), "of the results asked for these are not written: ERR, NT");
 }
 
+TEST(InpOutput, ForcesOfSurfacesAndEnergiesOfContacts) {
+  std::vector<std::string> notes;
+  const Output output = read(
+                            "*SURFACE, NAME=CUT\n1, S2\n*STEP\n*STATIC\n"
+                            "*SECTION PRINT, SURFACE=cut, NAME=A\nSOF, SOM\nSOAREA, FLUX\n"
+                            "*CONTACT PRINT, TOTALS=ONLY\nCELS\n*END STEP\n",
+                            &notes)
+                            .output;
+  ASSERT_EQ(output.dat.size(), 2U);
+  EXPECT_THAT(output.dat[0].of, ElementsAre(Answer::cels));
+  EXPECT_EQ(output.dat[0].totals, Totals::only);
+  EXPECT_THAT(output.dat[1].of, ElementsAre(Answer::sof));
+  EXPECT_EQ(output.dat[1].on.at(0).value, "CUT");
+  EXPECT_EQ(notes.back(), "of the results asked for these are not written: FLUX");
+}
+
+TEST(InpOutput, ABodyNamesTheNodesThatStandForIt) {
+  const Description model = read(
+      "*NODE\n5, 0.5, -1\n6, 0.5, -1\n*RIGID BODY, NSET=PART, REF NODE=5, ROT NODE=6\n*STEP\n"
+      "*STATIC\n*END STEP\n");
+  ASSERT_EQ(model.rigid.size(), 1U);
+  EXPECT_EQ(model.rigid[0].reference_node.at(0).value, "node 5");
+  EXPECT_EQ(model.rigid[0].rotation_node.at(0).value, "node 6");
+}
+
 TEST(InpOutput, AnUnknownSetStopsWithItsLine) {
   try {
     (void)read("*STEP\n*STATIC\n*NODE PRINT, NSET=PRAT\nU\n*END STEP\n");
@@ -118,6 +143,18 @@ TEST(InpOutput, AModelFileSaysTheSame) {
   ASSERT_EQ(output.dat.size(), 1U);
   EXPECT_EQ(output.dat[0].every, 3);
   EXPECT_EQ(output.dat[0].on.at(0).value, "ALL");
+}
+
+TEST(Answers, AForceNeedsFacetsThatItGoesThrough) {
+  std::string text =
+      to_yaml(translate_deck(square + "*STEP\n*STATIC\n*END STEP\n", "square.inp").root);
+  text += "output: {dat: [{of: [SOF]}]}\n";
+  try {
+    (void)parse_model(text, "square.yaml");
+    FAIL() << "expected an error";
+  } catch (const core::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("SOF needs a set of facets: on"));
+  }
 }
 
 TEST(Answers, AStepThatIsNotThereIsAnError) {
