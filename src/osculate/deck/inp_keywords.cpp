@@ -126,7 +126,7 @@ constexpr std::array<InpKeyword, 116> keywords{{
     {"AMPLITUDE", "NAME TIME", "time, factor", translated, "`amplitudes`"},
     {"INITIAL CONDITIONS", "TYPE", "node or set, values", translated,
      "`initial_temperature`, `initial_velocity` (TYPE=VELOCITY)"},
-    {"CLOAD", "OP AMPLITUDE", "node or set, dof, force", translated, "`steps.forces`"},
+    {"CLOAD", "OP AMPLITUDE TIME DELAY", "node or set, dof, force", translated, "`steps.forces`"},
     {"DLOAD", "OP AMPLITUDE", "element or set, load, size", translated,
      "`pressure`, `body_force`, `centrifugal`"},
     {"DSLOAD", "AMPLITUDE", "surface, P, size", translated, "`steps.pressure`"},

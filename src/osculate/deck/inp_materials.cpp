@@ -85,6 +85,10 @@ void put_plastic(const InpModel& m, const Card& card, SourceNode& law) {
                   fmt::format("HARDENING={} is not supported: ISOTROPIC or "
                               "KINEMATIC",
                               kind));
+  if (points.size() == 1) {  // perfect plasticity
+    put(law, "yield", inp_number(points[0][0], line));
+    return;
+  }
   SourceNode& table = put(law, "hardening", inp_list(line));
   for (const auto& [stress, strain] : points) {
     SourceNode& row = table.items.emplace_back(inp_list(line));

@@ -58,6 +58,7 @@ class Builder {
       for (const auto& [key, raw] : raw_.scopes[s].node_surfaces)
         add_nodes(SetKind::node_surface, s, raw, members_.of(Kind::nodes, s, raw));
     }
+    out_.missing = members_.missing();
     return std::move(out_);
   }
 
