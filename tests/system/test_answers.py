@@ -192,8 +192,8 @@ U
 CDIS, CSTR
 *CONTACT PRINT
 CDIS, CSTR
-*CONTACT PRINT
-CNUM
+*CONTACT PRINT, TOTALS=YES
+CELS, CNUM
 *END STEP
 """
 
@@ -271,6 +271,29 @@ class Answers(unittest.TestCase):
                 for title, rows in expected.items():
                     with self.subTest(title):
                         self.close(dict(enumerate(tables[title])), dict(enumerate(rows)), 1e-4)
+
+    @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
+    def test_forces_through_surfaces_as_ccx_has_them(self):
+        """Of a column under the same stress everywhere, whose extrapolation in ccx is exact."""
+        nodes = [f"{4 * k + n}, {x}, {y}, {1.5 * k}" for k in range(3) for n, (x, y) in
+                 enumerate(((0, 0), (1, 0), (1, 2), (0, 2)), 1)]
+        cells = [f"{k}, " + ", ".join(str(4 * k - 4 + n) for n in range(1, 9)) for k in (1, 2)]
+        surfaces = (("CUT", "1, S2"), ("FOOT", "1, S1"), ("TIP", "2, S2"), ("SIDE", "2, S4"))
+        deck = "\n".join(["*NODE", *nodes, "*ELEMENT, TYPE=C3D8, ELSET=E", *cells,
+                          *(f"*SURFACE, NAME={name}\n{side}" for name, side in surfaces),
+                          "*MATERIAL, NAME=M", "*ELASTIC", "1000., 0.3", "*SOLID SECTION, ELSET=E, MATERIAL=M",
+                          "*BOUNDARY", "1, 1, 3", "2, 2, 3", "3, 3", "4, 3", "*STEP", "*STATIC", "*DLOAD", "2, P2, -7.",
+                          *(f"*SECTION PRINT, SURFACE={name}, NAME={name}\nSOF, SOM" for name, _ in surfaces[:3]),
+                          "*END STEP", ""])
+        self.solve("bar", deck)
+        os.mkdir(self.path("ccx"))
+        shutil.copy(self.path("bar.inp"), self.path("ccx"))
+        self.assertEqual(self.call("ccx", "-i", "bar", cwd="ccx").returncode, 0)
+        ours, theirs = (pathlib.Path(self.path(*where, "bar.dat")).read_text() for where in ((), ("ccx",)))
+        words = re.compile(r" *[-+]?\d\.\d+E[-+]\d+")
+        self.assertEqual(words.sub("#", ours), words.sub("#", theirs))
+        for a, b in zip(words.findall(ours), words.findall(theirs), strict=True):
+            self.assertAlmostEqual(float(a), float(b), delta=1e-3)
 
     def compare_contact(self):
         tables, expected = read_dat(self.path("blocks.dat")), read_dat(self.path("ccx", "blocks.dat"))

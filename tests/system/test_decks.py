@@ -3,12 +3,16 @@ import csv
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 
+from test_answers import read_vtu
+
 PROGRAM = sys.argv[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 YOUNG, POISSON, PRESSURE = 100.0, 0.3, 1.0
 
 
@@ -82,6 +86,59 @@ class Decks(unittest.TestCase):
             self.assertIn("broken.inp:", done.stderr)
             self.assertIn(wrong.split(",")[0], done.stderr)
             self.assertFalse(os.path.exists(os.path.join(self.folder, "broken.results")))
+
+    def last_fields(self, model, folder):
+        done = self.run_program("run", str(model), "-o", folder)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return read_vtu(sorted(pathlib.Path(self.folder, folder).glob("bodies_*.vtu"))[-1])
+
+    def test_a_model_file_becomes_a_deck_with_the_same_results(self):
+        """Contact, finite plastic strain with the load taken back, temperatures, kinematic hardening, second order."""
+        for model in ("contact_patch/matching", "plastic_bar/stretch", "plastic_bar/cycle_space", "plastic_cylinder/cylinder",
+                      "temperature/bimetal"):
+            with self.subTest(model):
+                source = ROOT / "verification" / f"{model}.yaml"
+                name = model.replace("/", "_")
+                done = self.run_program("convert", str(source), "-o", f"{name}.inp")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn("(solver, output) are left out", done.stderr)
+                ours, again = self.last_fields(source, f"{name}.ours"), self.last_fields(f"{name}.inp", f"{name}.again")
+                for field in ("U", "S", "RF"):
+                    largest = max(abs(v) for row in ours[field].values() for v in row)
+                    self.assertGreater(largest, 0)
+                    self.assertEqual(ours[field].keys(), again[field].keys())
+                    for node, row in ours[field].items():
+                        for a, b in zip(row, again[field][node], strict=True):
+                            self.assertLess(abs(a - b), 1e-9 * largest)
+
+    @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
+    def test_calculix_reads_such_a_deck(self):
+        for model, tolerance in (("plastic_bar/stretch", 1e-5), ("temperature/brick", 1e-5)):
+            with self.subTest(model):
+                source = ROOT / "verification" / f"{model}.yaml"
+                self.assertEqual(self.run_program("convert", str(source), "-o", "job.inp").returncode, 0)
+                self.assertEqual(subprocess.run(["ccx", "-i", "job"], cwd=self.folder, capture_output=True).returncode, 0)
+                theirs, inside = {}, False
+                for line in pathlib.Path(self.folder, "job.frd").read_text().splitlines():
+                    inside = line.startswith(" -4  DISP") or (inside and not line.startswith(" -3"))
+                    if inside and line.startswith(" -1"):
+                        theirs[int(line[3:13])] = [float(line[13 + 12 * k:25 + 12 * k]) for k in range(2)]
+                ours = self.last_fields(source, f"{source.stem}.ours")["U"]
+                largest = max(abs(v) for row in ours.values() for v in row)
+                common = [node for node in ours if node in theirs]
+                self.assertGreater(len(common), 7)
+                for node in common:
+                    for a, b in zip(ours[node][:2], theirs[node]):
+                        self.assertLess(abs(a - b), tolerance * largest)
+
+    def test_what_a_deck_cannot_say_is_named_with_its_line(self):
+        text = (ROOT / "verification/temperature/brick.yaml").read_text()
+        self.write("brick.yaml", text + "equal: [{on: b.top, of: uz}]\n")
+        done = self.run_program("convert", "brick.yaml", "-o", "brick.inp")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(f"brick.yaml:{len(text.splitlines()) + 1}: equal[0].", done.stderr)
+        self.assertIn("has no counterpart", done.stderr)
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "brick.inp")))
 
     def test_convert_writes_over_no_deck(self):
         self.assertEqual(self.run_program("convert", "column.inp", "-o", "column.inp").returncode, 2)

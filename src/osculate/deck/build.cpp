@@ -148,8 +148,7 @@ void build_history(BuildContext<Dim>& c) {
     out.imaginary = true;
     c.built.history.push_back(std::move(out));
   }
-  for (const AnswerRequest& request : c.description.output.dat)
-    for (const Name& on : request.on) (void)c.set(on);
+  build_answers(c);
   const std::vector<std::string> columns = energy_columns(c.description);
   for (std::size_t i = 0; i < columns.size(); ++i) {
     model::HistoryRequest out;

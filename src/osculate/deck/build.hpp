@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,12 +27,26 @@ struct LoadTotal {
   Resultant end;          ///< at the end of the step
 };
 
+/// A facet through which a force is summed up, and the cell on whose nodes it acts.
+struct CutFacet {
+  mesh::CellRef cell;
+  model::PressureLoad::Facet side;  ///< its normal points out of the cell
+};
+
+/// A node whose results in the files of CalculiX are those of a rigid body.
+struct BodyNode {
+  Index body = -1;
+  bool rotation = false;
+};
+
 /// Everything a run needs, built from a description and its mesh.
 template <int Dim>
 struct BasicBuilt {
   model::BasicModel<Dim> model;
   model::AnalysisOptions options;
   std::vector<model::HistoryRequest> history;
+  std::map<std::string, std::vector<CutFacet>> cuts;  ///< of the sets that SOF is asked for
+  std::map<Index, BodyNode> body_nodes;
   std::vector<std::vector<LoadTotal>> loads;  ///< of each step
   std::vector<std::string> warnings;          ///< plain sentences, shown by `check` and `run`
   std::vector<std::string> notes;             ///< what was decided for the user, shown there too

@@ -136,6 +136,12 @@ template <int Dim>
 void build_pair_changes(BuildContext<Dim>& context);
 template <int Dim>
 void build_history(BuildContext<Dim>& context);
+/// What the files of CalculiX need of the model: facets that forces go through, and the nodes that
+/// stand for rigid bodies.
+///
+/// Tested by  tests/unit/api/test_answers.cpp
+template <int Dim>
+void build_answers(BuildContext<Dim>& context);
 /// Whole-model checks: unconnected bodies, contradictory prescriptions, nothing to solve.
 template <int Dim>
 void check_model(BuildContext<Dim>& context);

@@ -172,6 +172,8 @@ struct Rigid {
   /// Two coordinates in the plane, three in space; absent: centroid of the set, centre of the
   /// shape.
   std::optional<Marked<std::vector<double>>> reference;
+  /// Sets of one node each that stand for its translations and rotations in the files of CalculiX.
+  std::vector<Name> reference_node{}, rotation_node{};
   std::optional<bool> flip;  ///< the body is on the other side; absent: where it belongs
   std::optional<Number> mass;
   std::optional<Number> density;  ///< instead of the mass; in the plane mass per area

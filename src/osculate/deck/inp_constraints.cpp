@@ -23,9 +23,11 @@ void put_rigid(InpModel& m, const Card& card, const std::string& nodes, SourceNo
   const Index node = only_node(m, reference);
   if (!m.body_nodes.try_emplace(node, InpBodyNode{name}).second)
     io::inp::fail(m.deck, card, "its reference node belongs to another body already");
-  if (const std::string turning = node_parameter(m, card, "ROTNODE"); !turning.empty())
-    m.body_nodes[only_node(m, turning)] = {name, 4, true};
+  const std::string turning = node_parameter(m, card, "ROTNODE");
+  if (!turning.empty()) m.body_nodes[only_node(m, turning)] = {name, 4, true};
   SourceNode& body = put(rigid, name, inp_map(line));
+  put(body, "reference_node", inp_text(reference, line));
+  if (!turning.empty()) put(body, "rotation_node", inp_text(turning, line));
   SourceNode& sets = put(body, "set", inp_list(line));
   if (!nodes.empty()) sets.items.push_back(inp_text(nodes, line));
   sets.items.push_back(inp_text(reference, line));

@@ -16,42 +16,6 @@ using io::inp::Fields;
 using io::inp::Line;
 using io::inp::SetKind;
 
-/// The cards of one `*SURFACE INTERACTION`.
-struct Interaction {
-  const Card* card = nullptr;
-  const Card *behavior = nullptr, *friction = nullptr, *damping = nullptr;
-  std::string name;
-};
-
-std::vector<Interaction> interactions_of(const InpModel& m) {
-  std::vector<Interaction> all;
-  const auto set = [&](const Card& card, const Card* Interaction::*which) {
-    if (all.empty()) io::inp::fail(m.deck, card, "stands before the first *SURFACE INTERACTION");
-    all.back().*which = &card;
-  };
-  for (const Card& card : m.deck.cards) {
-    if (card.keyword == "STEP") break;  // what follows changes one: inp_changes.cpp
-    if (card.keyword == "SURFACEINTERACTION")
-      all.push_back({&card, nullptr, nullptr, nullptr, value_of(m, card, "NAME")});
-    if (card.keyword == "SURFACEBEHAVIOR") set(card, &Interaction::behavior);
-    if (card.keyword == "FRICTION") set(card, &Interaction::friction);
-    if (card.keyword == "CONTACTDAMPING") set(card, &Interaction::damping);
-  }
-  return all;
-}
-
-const Interaction& interaction_of(const InpModel& m, const std::vector<Interaction>& all,
-                                  const Card& pair) {
-  const std::string& name = value_of(m, pair, "INTERACTION");
-  std::vector<std::string> names;
-  for (const Interaction& one : all) {
-    if (io::inp::capitals(one.name) == io::inp::capitals(name)) return one;
-    names.push_back(one.name);
-  }
-  io::inp::fail(m.deck, pair,
-                core::unknown_name_message("surface interaction", printable(name), names));
-}
-
 bool is_of_second_order(const InpModel& m, const mesh::Set& set) {
   return std::any_of(set.cells.begin(), set.cells.end(), [&](const mesh::CellRef& ref) {
     return cell::info(m.mesh.mesh.blocks[static_cast<std::size_t>(ref.block)].type).order > 1;
@@ -105,20 +69,13 @@ std::string name_for(const SourceNode& pairs, std::string_view slave, std::strin
 }
 
 /// The pair of one line of data, `slave, master`.
-SourceNode& add_pair(const InpModel& m, const Card& card, const Line& line, SourceNode& pairs) {
+SourceNode& pair_of_line(const InpModel& m, const Card& card, const Line& line, SourceNode& pairs) {
   Fields fields(m.deck, line);
   const std::string slave = io::inp::name_of(fields.next().value_or(""));
   const std::string master = io::inp::name_of(fields.next().value_or(""));
   if (slave.empty() || master.empty())
     fields.fail(fmt::format("*{}: expected two surfaces, slave and master", card.keyword));
-  const int at = line_of(line.at);
-  const std::string name = name_for(pairs, slave, master);
-  SourceNode& pair = pairs.items.emplace_back(inp_map(at));
-  put(pair, "name", inp_text(name, at));
-  put(pair, "master", inp_text(set_of(m, line.at, master, {SetKind::surface}), at));
-  put(pair, "slave",
-      inp_text(set_of(m, line.at, slave, {SetKind::surface, SetKind::node_surface}), at));
-  return pair;
+  return add_pair(m, line.at, slave, master, pairs);
 }
 
 /// Mean area of the facets of a set.
@@ -172,7 +129,7 @@ void put_adjust(const InpModel& m, const Card& card, const std::string& value, S
 }
 
 /// Friction, or damping along the surface.
-void put_friction(const InpModel& m, const Interaction& law, SourceNode& pair) {
+void put_friction(const InpModel& m, const InpInteraction& law, SourceNode& pair) {
   if (inp_is_tied(law.behavior)) return;
   SourceNode film = law.damping ? inp_film(m, *law.damping) : inp_map(0);
   if (!film.entries.empty() && law.friction)
@@ -184,18 +141,16 @@ void put_friction(const InpModel& m, const Interaction& law, SourceNode& pair) {
     put(pair, "friction", std::move(film));
 }
 
-void add_contact_pair(InpModel& m, const Card& card, const Interaction& law, SourceNode& pairs) {
+void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, SourceNode& pairs) {
   const auto lines = io::inp::lines_of(m.deck, card);
   if (lines.empty()) io::inp::fail(m.deck, card, "expected a line with two surfaces");
   for (const Line& line : lines) {
-    SourceNode& pair = add_pair(m, card, line, pairs);
+    SourceNode& pair = pair_of_line(m, card, line, pairs);
     put_sampling(m, card, find(pair, "slave")->text, inp_is_tied(law.behavior), pair);
     put_weight(m, card, pair);
     m.pairs.push_back({find(pair, "name")->text, io::inp::capitals(law.name),
                        find(pair, "slave")->text, find(pair, "master")->text});
-    SourceNode& normal = put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at)));
-    if (law.damping) put_damping(m, *law.damping, normal);
-    put_friction(m, law, pair);
+    put_laws(m, law, pair);
     if (const io::inp::Parameter* const adjust = io::inp::find_parameter(card, "ADJUST"))
       put_adjust(m, card, adjust->value, pair);
   }
@@ -205,7 +160,7 @@ void add_contact_pair(InpModel& m, const Card& card, const Interaction& law, Sou
 
 void add_ties(InpModel& m, const Card& card, SourceNode& pairs) {
   for (const Line& line : io::inp::lines_of(m.deck, card)) {
-    SourceNode& pair = add_pair(m, card, line, pairs);
+    SourceNode& pair = pair_of_line(m, card, line, pairs);
     const int at = line_of(line.at);
     put(pair, "sampling", inp_text("nodes", at));
     put_weight(m, card, pair);
@@ -219,15 +174,63 @@ void add_ties(InpModel& m, const Card& card, SourceNode& pairs) {
 
 }  // namespace
 
+std::vector<InpInteraction> inp_interactions(const InpModel& m) {
+  std::vector<InpInteraction> all;
+  const auto set = [&](const Card& card, const Card* InpInteraction::*which) {
+    if (all.empty()) io::inp::fail(m.deck, card, "stands before the first *SURFACE INTERACTION");
+    all.back().*which = &card;
+  };
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword == "STEP") break;  // what follows changes one: inp_changes.cpp
+    if (card.keyword == "SURFACEINTERACTION")
+      all.push_back({&card, nullptr, nullptr, nullptr, value_of(m, card, "NAME")});
+    if (card.keyword == "SURFACEBEHAVIOR") set(card, &InpInteraction::behavior);
+    if (card.keyword == "FRICTION") set(card, &InpInteraction::friction);
+    if (card.keyword == "CONTACTDAMPING") set(card, &InpInteraction::damping);
+  }
+  return all;
+}
+
+const InpInteraction& interaction_named(const InpModel& m, const std::vector<InpInteraction>& all,
+                                        io::inp::Place at, std::string_view name) {
+  std::vector<std::string> names;
+  for (const InpInteraction& one : all) {
+    if (io::inp::capitals(one.name) == io::inp::capitals(name)) return one;
+    names.push_back(one.name);
+  }
+  io::inp::fail(m.deck, at,
+                core::unknown_name_message("surface interaction", printable(name), names));
+}
+
+void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair) {
+  SourceNode& normal = put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at)));
+  if (law.damping) put_damping(m, *law.damping, normal);
+  put_friction(m, law, pair);
+}
+
+SourceNode& add_pair(const InpModel& m, io::inp::Place at, const std::string& slave,
+                     const std::string& master, SourceNode& pairs) {
+  const int line = line_of(at);
+  const std::string name = name_for(pairs, slave, master);
+  SourceNode& pair = pairs.items.emplace_back(inp_map(line));
+  put(pair, "name", inp_text(name, line));
+  put(pair, "master", inp_text(set_of(m, at, master, {SetKind::surface}), line));
+  put(pair, "slave",
+      inp_text(set_of(m, at, slave, {SetKind::surface, SetKind::node_surface}), line));
+  return pair;
+}
+
 SourceNode inp_contact(InpModel& m) {
   SourceNode pairs = inp_list(1);
-  const std::vector<Interaction> interactions = interactions_of(m);
+  const std::vector<InpInteraction> interactions = inp_interactions(m);
   for (const Card& card : m.deck.cards) {
     if (card.keyword == "CONTACTPAIR")
-      add_contact_pair(m, card, interaction_of(m, interactions, card), pairs);
+      add_contact_pair(
+          m, card, interaction_named(m, interactions, card.at, value_of(m, card, "INTERACTION")),
+          pairs);
     if (card.keyword == "TIE" && !is_cyclic_tie(card)) add_ties(m, card, pairs);
   }
-  return pairs;
+  return inp_general_contact(m, interactions, std::move(pairs));
 }
 
 }  // namespace osculate::deck

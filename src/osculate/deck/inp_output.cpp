@@ -6,7 +6,6 @@
 #include <set>
 
 #include "osculate/deck/inp_parts.hpp"
-#include "osculate/mesh/boundary.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -22,16 +21,18 @@ struct Kind {
   int group;  ///< requests of one group in a step replace those of earlier steps
   bool file;  ///< frd, else dat
 };
-constexpr std::array<Kind, 9> kinds{{{"NODEFILE", 0, true},
-                                     {"NODEOUTPUT", 0, true},
-                                     {"ELFILE", 1, true},
-                                     {"ELEMENTOUTPUT", 1, true},
-                                     {"CONTACTFILE", 2, true},
-                                     {"CONTACTOUTPUT", 2, true},
-                                     {"NODEPRINT", 3, false},
-                                     {"ELPRINT", 4, false},
-                                     {"CONTACTPRINT", 5, false}}};
-constexpr std::size_t groups = 6;
+constexpr std::array<Kind, 11> kinds{{{"NODEFILE", 0, true},
+                                      {"NODEOUTPUT", 0, true},
+                                      {"ELFILE", 1, true},
+                                      {"ELEMENTOUTPUT", 1, true},
+                                      {"CONTACTFILE", 2, true},
+                                      {"CONTACTOUTPUT", 2, true},
+                                      {"NODEPRINT", 3, false},
+                                      {"ELPRINT", 4, false},
+                                      {"CONTACTPRINT", 5, false},
+                                      {"SECTIONPRINT", 6, false},
+                                      {"FACEPRINT", 6, false}}};
+constexpr std::size_t groups = 7;
 
 struct Wanted {
   std::vector<std::string> of;
@@ -47,10 +48,12 @@ std::string word_of(const std::string& name, bool file) {
   if (name == "PE" || name == "CE" || name == "CEEQ") return "PEEQ";
   if (file && (name == "CDIS" || name == "CDISP" || name == "CSTR" || name == "CSTRESS"))
     return "CONTACT";
+  if (name == "SOM" || name == "SOAREA") return "SOF";
   if (name == "CDISP") return "CDIS";
   if (name == "CSTRESS" || name == "CSTRE") return "CSTR";
   constexpr std::array<std::string_view, 5> both{"U", "RF", "S", "E", "PEEQ"};
-  constexpr std::array<std::string_view, 5> tables{"EVOL", "ELSE", "CDIS", "CSTR", "CNUM"};
+  constexpr std::array<std::string_view, 7> tables{"EVOL", "ELSE", "CDIS", "CSTR",
+                                                   "CNUM", "CELS", "SOF"};
   const bool known = std::ranges::find(both, name) != both.end() ||
                      (!file && std::ranges::find(tables, name) != tables.end());
   return known ? name : std::string();
@@ -110,24 +113,7 @@ class Requests {
       Fields fields(m_.deck, line);
       while (!fields.done()) add(io::inp::capitals(io::inp::name_of(*fields.next())), kind, wanted);
     }
-    if (!wanted.of.empty()) {
-      tell_of_bodies(wanted);
-      wanted_[group].push_back(std::move(wanted));
-    }
-  }
-
-  /// Forces of a rigid body are those of its nodes: its reference node alone has none.
-  void tell_of_bodies(const Wanted& wanted) {
-    if (wanted.on.empty() || std::ranges::find(wanted.of, "RF") == wanted.of.end()) return;
-    for (const Index node : m_.mesh.mesh.find_set(wanted.on)->nodes) {
-      const auto body = m_.body_nodes.find(node);
-      if (body == m_.body_nodes.end() || !body->second.rigid) continue;
-      m_.notes.push_back(
-          fmt::format("RF of {} in the tables is not that of its rigid body '{}': ask for rfx, ... "
-                      "in a history",
-                      mesh::describe_node(m_.mesh.mesh, node), body->second.body));
-      return;
-    }
+    if (!wanted.of.empty()) wanted_[group].push_back(std::move(wanted));
   }
 
   void add(const std::string& name, const Kind& kind, Wanted& wanted) {
@@ -148,6 +134,8 @@ class Requests {
       return set_of(m_, card.at, nodes->value, {SetKind::nodes});
     if (card.keyword == "ELPRINT" && elements)
       return set_of(m_, card.at, elements->value, {SetKind::elements});
+    if (card.keyword == "SECTIONPRINT" || card.keyword == "FACEPRINT")
+      return set_of(m_, card.at, value_of(m_, card, "SURFACE"), {SetKind::surface});
     return {};
   }
 

@@ -146,6 +146,27 @@ struct NodeValue {
 [[nodiscard]] SourceNode inp_initial_velocity(const InpModel& m);
 
 [[nodiscard]] SourceNode inp_contact(InpModel& m);
+/// The cards of one `*SURFACE INTERACTION`.
+struct InpInteraction {
+  const io::inp::Card* card = nullptr;
+  const io::inp::Card *behavior = nullptr, *friction = nullptr, *damping = nullptr;
+  std::string name;
+};
+[[nodiscard]] std::vector<InpInteraction> inp_interactions(const InpModel& m);
+[[nodiscard]] const InpInteraction& interaction_named(const InpModel& m,
+                                                      const std::vector<InpInteraction>& all,
+                                                      io::inp::Place at, std::string_view name);
+/// Its laws as keys of a contact pair.
+void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair);
+/// A new pair of two surfaces of the deck, with a name of its own.
+SourceNode& add_pair(const InpModel& m, io::inp::Place at, const std::string& slave,
+                     const std::string& master, SourceNode& pairs);
+/// `*CONTACT` of everything, or of pairs of surfaces after the other pairs.
+///
+/// Tested by  tests/unit/deck/test_inp_general_contact.cpp
+[[nodiscard]] SourceNode inp_general_contact(InpModel& m,
+                                             const std::vector<InpInteraction>& interactions,
+                                             SourceNode pairs);
 /// What the cards of a step change of contact pairs; empty: nothing.
 [[nodiscard]] SourceNode inp_changes(const InpModel& m, std::span<const io::inp::Card> step);
 // The laws of a `*SURFACE INTERACTION`.

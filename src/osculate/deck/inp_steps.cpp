@@ -490,7 +490,7 @@ class Steps {
   /// What a card adds to what stood before; with OP=NEW that is gone.
   std::string start(const Card& card, Conditions& values, bool may_stand_before_steps = false) {
     if (!step_ && !may_stand_before_steps) io::inp::fail(m_.deck, card, "stands outside of a step");
-    for (const char* const other : {"USER", "SUBMODEL", "SECTOR", "OMEGA0", "TIMEDELAY"})
+    for (const char* const other : {"USER", "SUBMODEL", "SECTOR", "OMEGA0"})
       if (io::inp::find_parameter(card, other))
         io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
     const std::string part = option_of(card, "LOADCASE");
@@ -512,7 +512,21 @@ class Steps {
     }
     std::string amplitude = option_of(card, "AMPLITUDE");
     if (!amplitude.empty()) (void)table_of(card, amplitude);
-    return amplitude;
+    return delayed(card, std::move(amplitude));
+  }
+
+  /// With TIME DELAY a table begins so much later.
+  std::string delayed(const Card& card, std::string amplitude) {
+    const io::inp::Parameter* const given = io::inp::find_parameter(card, "TIMEDELAY");
+    if (!given) return amplitude;
+    if (amplitude.empty()) io::inp::fail(m_.deck, card, "TIME DELAY needs an AMPLITUDE");
+    Table table = tables_.at(amplitude);
+    const double delay = Fields(m_.deck, {given->value, card.at}).real("TIME DELAY as a time");
+    for (auto& point : table.points) point[0] += delay;
+    table.name += fmt::format("_after_{}", delay);
+    const std::string name = io::inp::capitals(table.name);
+    tables_[name] = std::move(table);
+    return name;
   }
 
   /// Real or imaginary ones.

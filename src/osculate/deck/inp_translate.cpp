@@ -148,6 +148,9 @@ TranslatedDeck translate_deck(const io::inp::Deck& deck) {
   check_keywords(m);
   m.finite = io::inp::has_finite_step(deck);
   m.mesh = io::inp::deck_mesh(deck);
+  for (const auto& [number, line] : m.mesh.missing)
+    m.notes.push_back(
+        fmt::format("line {}: node {} of a set does not exist, and is left out", line, number));
   for (const io::inp::DeckSet& set : m.mesh.sets)
     m.sets.emplace(std::pair(set.kind, io::inp::capitals(set.name)), set.set);
   TranslatedDeck out;

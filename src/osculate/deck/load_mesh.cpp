@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
 #include "osculate/deck/build_context.hpp"
+#include "osculate/deck/inp_translate.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/deck/parse_parts.hpp"
 #include "osculate/deck/pretension.hpp"
+#include "osculate/io/gmsh.hpp"
+#include "osculate/io/inp/deck_mesh.hpp"
 #include "osculate/io/mesh_format.hpp"
 #include "osculate/mesh/generate.hpp"
 #include "osculate/mesh/generate_ring.hpp"
@@ -86,10 +89,17 @@ void require_plane(const MeshFile& source, const mesh::Mesh& mesh) {
   require_in_plane(mesh, source.file.mark);
 }
 
+/// Of a deck that was translated, which told of what it leaves out.
+mesh::Mesh mesh_of_deck(const std::string& path) {
+  const std::string content = io::read_file(path);
+  return io::inp::deck_mesh(io::inp::read_cards(content, path)).mesh;
+}
+
 mesh::Mesh read_file(const MeshFile& source) {
   mesh::Mesh mesh;
   try {
-    mesh = io::read_mesh(source.path);
+    mesh = names_a_deck(source.file.mark.file) ? mesh_of_deck(source.path)
+                                               : io::read_mesh(source.path);
   } catch (const core::InputError& error) {
     throw core::InputError(source.file.mark, error.what());
   }

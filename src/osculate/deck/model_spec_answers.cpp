@@ -46,7 +46,8 @@ BoundKeys<R> dat_keys() {
   using A = Answer;
   return {
       {may(&R::on, "on",
-           text("Set of nodes (U, RF) or of cells; without it of everything.").such_as("top")),
+           text("Set of nodes (U, RF), of cells or (SOF) of facets; without it of everything.")
+               .such_as("top")),
        results_key({word("U", A::u, "displacements of nodes"),
                     word("RF", A::rf, "forces at nodes: loads and reactions"),
                     word("S", A::s, "stresses at the quadrature points of cells"),
@@ -54,12 +55,16 @@ BoundKeys<R> dat_keys() {
                     word("PEEQ", A::peeq, "equivalent plastic strain there"),
                     word("EVOL", A::evol, "volumes of cells"),
                     word("ELSE", A::energy, "strain energies of cells"),
+                    word("SOF", A::sof,
+                         "force and moment that act on a body through facets of its cells, on its "
+                         "boundary or inside, with their centre, mean normal and area"),
                     word("CDIS", A::cdis, "gap and slip of slave nodes in contact, of all pairs"),
                     word("CSTR", A::cstr, "pressure and shear there"),
+                    word("CELS", A::cels, "energies of the springs of the penalties there"),
                     word("CNUM", A::cnum, "how many slave nodes are in contact")},
                    "[U, RF]"),
        may(&R::totals, "totals",
-           choice("Sums over the set (RF, EVOL, ELSE).",
+           choice("Sums over the set (RF, EVOL, ELSE), of CELS over all contacts.",
                   {word("none", Totals::none, "no"), word("also", Totals::also, "with the values"),
                    word("only", Totals::only, "without the values")})
                .otherwise("none")),
@@ -88,6 +93,9 @@ BoundKey<Output> dat_key() {
 void check_answers(const Description& description) {
   std::vector<std::string> names;
   for (const Step& step : description.steps) names.push_back(step.name.value);
+  for (const R& request : description.output.dat)
+    if (request.on.empty() && std::ranges::find(request.of, Answer::sof) != request.of.end())
+      throw core::InputError(request.mark, "SOF needs a set of facets: on");
   for (const std::vector<R>* const list : {&description.output.frd, &description.output.dat})
     for (const R& request : *list)
       for (const Name& step : request.steps)

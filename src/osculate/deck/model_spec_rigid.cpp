@@ -34,6 +34,19 @@ BoundKeys<Rigid> rigid_keys() {
           .otherwise_as("the centroid of the nodes, the centre of the shape; with a mass that of "
                         "the homogeneous body")
           .such_as("[0, 1]")));
+  const auto node = [](std::string doc, std::string example) {
+    return text(std::move(doc)).otherwise_as("none").such_as(std::move(example));
+  };
+  keys.push_back(
+      may(&R::reference_node, "reference_node",
+          node("Set of one node: its force (RF) in the files of CalculiX is the force on "
+               "the body, loads and reactions.",
+               "hub")));
+  keys.push_back(may(&R::rotation_node, "rotation_node",
+                     node("Set of one node: in the files of CalculiX its displacement is the "
+                          "rotation vector of the body, its force the moment on it about the "
+                          "reference point.",
+                          "hub_turns")));
   keys.push_back(may(&R::mass, "mass",
                      number("Mass, with its centre at the reference point; in steps with inertia "
                             "the body then moves freely where nothing is prescribed.")

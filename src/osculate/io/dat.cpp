@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
 #include <numbers>
 
@@ -53,6 +54,27 @@ void append_dat_total(std::string& out, std::span<const double> values) {
     append_real(out, value, 13, 6);
   }
   out += '\n';
+}
+
+std::string dat_resultant(std::string_view what, double time, const DatResultant& of) {
+  std::string out = "\n\n" + dat_title(fmt::format("statistics for {} and", what), time);
+  const auto add = [&out](std::string_view title, std::initializer_list<double> values) {
+    out += fmt::format("   {}\n\n  ", title);
+    for (const double value : values) {
+      out += ' ';
+      append_real(out, value, 13, 6);
+    }
+    out += "\n\n";
+  };
+  const auto& [f, m, c, n, mc, area, normal, shear, torque, bending] = of;
+  add("total surface force (fx,fy,fz) and moment about the origin(mx,my,mz)",
+      {f[0], f[1], f[2], m[0], m[1], m[2]});
+  add("center of gravity and mean normal", {c[0], c[1], c[2], n[0], n[1], n[2]});
+  add("moment about the center of gravity(mx,my,mz)", {mc[0], mc[1], mc[2]});
+  add("area, normal force (+ = tension), shear force (size), torque and bending moment (size)",
+      {area, normal, shear, torque, bending});
+  out.pop_back();
+  return out;
 }
 
 std::string dat_eigenvalues(std::span<const double> omega_squared) {

@@ -25,6 +25,15 @@ void append_dat_row(std::string& out, std::int64_t number, int point,
 /// A row of totals.
 void append_dat_total(std::string& out, std::span<const double> values);
 
+/// Force and moment through a surface, with `what` of it: `surface set TOP`.
+struct DatResultant {
+  std::array<double, 3> force{}, moment{};   ///< the latter about the origin
+  std::array<double, 3> centre{}, normal{};  ///< of the surface; of unit length
+  std::array<double, 3> moment_about_centre{};
+  double area = 0, normal_force = 0, shear_force = 0, torque = 0, bending_moment = 0;
+};
+[[nodiscard]] std::string dat_resultant(std::string_view what, double time, const DatResultant& of);
+
 /// Vibrations found: omega^2 in rad/time.
 [[nodiscard]] std::string dat_eigenvalues(std::span<const double> omega_squared);
 /// Factors by which loads buckle what there is.

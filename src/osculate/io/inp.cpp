@@ -1,5 +1,7 @@
 #include "osculate/io/inp.hpp"
 
+#include <fmt/format.h>
+
 #include "osculate/io/inp/deck_mesh.hpp"
 
 namespace osculate::io {
@@ -11,7 +13,13 @@ bool looks_like_inp(std::string_view content) {
 
 mesh::Mesh read_inp(std::string_view content, const std::string& name) {
   const inp::Deck deck = inp::read_cards(content, name);
-  return inp::deck_mesh(deck).mesh;
+  inp::DeckMesh read = inp::deck_mesh(deck);
+  if (!read.missing.empty()) {
+    const auto& [number, line] = *read.missing.begin();
+    throw core::InputError({name, static_cast<int>(line), ""},
+                           fmt::format("node {} does not exist", number));
+  }
+  return std::move(read.mesh);
 }
 
 }  // namespace osculate::io

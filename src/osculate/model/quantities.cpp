@@ -50,29 +50,6 @@ double node_value(const Eigen::VectorXd& reaction, const BasicState<Dim>& state,
 Vec<1> moment_about(const Vec2& arm, const Vec2& force) { return Vec<1>(turn(arm).dot(force)); }
 Vec3 moment_about(const Vec3& arm, const Vec3& force) { return arm.cross(force); }
 
-/// Force and moment that the supports exert on a rigid body.
-template <int Dim>
-Vec<body::motions<Dim>> rigid_reaction(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
-                                       const BasicState<Dim>& state, Index b) {
-  constexpr int turns = body::rotations<Dim>;
-  const body::BasicRigidMotion<Dim>& motion = state.rigid[static_cast<std::size_t>(b)];
-  const Eigen::VectorXd reaction = reactions(system);
-  const std::vector<Vec<Dim>> x = system.positions(state);
-  Vec<Dim> force = Vec<Dim>::Zero();
-  Vec<turns> moment = Vec<turns>::Zero();
-  for (const Index n : model.rigid[static_cast<std::size_t>(b)].nodes) {
-    const Vec<Dim> f = reaction.segment<Dim>(Dim * n);
-    force += f;
-    moment += moment_about(Vec<Dim>(x[static_cast<std::size_t>(n)] - motion.center()), f);
-  }
-  const Dof first = system.dofs().body_dof(b, 0);
-  force += reaction.segment<Dim>(first);
-  moment += body::moment_of(motion, Vec<turns>(reaction.segment<turns>(first + Dim)));
-  Vec<body::motions<Dim>> sum;
-  sum << force, moment;
-  return sum;
-}
-
 template <int Dim>
 double rigid_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
                    const BasicState<Dim>& state, const HistoryRequest& request) {
@@ -88,7 +65,8 @@ double rigid_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
   const int direction = direction_of(quantity);
   const int rotation = Dim == 2 ? 0 : direction;
   if (!of_motion)
-    return rigid_reaction(system, model, state, request.target)[turns ? Dim + rotation : direction];
+    return force_on_body(system, model, state, request.target,
+                         reactions(system))[turns ? Dim + rotation : direction];
   const auto& motion = state.rigid[static_cast<std::size_t>(request.target)];
   return turns ? body::total_rotation(motion)[rotation] : motion.translation[direction];
 }
@@ -270,6 +248,28 @@ std::vector<Shown<Dim>> at_nodes(const pairing::PairDefinition<Dim>& pair,
 }  // namespace
 
 template <int Dim>
+Vec<body::motions<Dim>> force_on_body(const BasicSystem<Dim>& system, const BasicModel<Dim>& model,
+                                      const BasicState<Dim>& state, Index b,
+                                      const Eigen::VectorXd& forces) {
+  constexpr int turns = body::rotations<Dim>;
+  const body::BasicRigidMotion<Dim>& motion = state.rigid[static_cast<std::size_t>(b)];
+  const std::vector<Vec<Dim>> x = system.positions(state);
+  Vec<Dim> force = Vec<Dim>::Zero();
+  Vec<turns> moment = Vec<turns>::Zero();
+  for (const Index n : model.rigid[static_cast<std::size_t>(b)].nodes) {
+    const Vec<Dim> f = forces.segment<Dim>(Dim * n);
+    force += f;
+    moment += moment_about(Vec<Dim>(x[static_cast<std::size_t>(n)] - motion.center()), f);
+  }
+  const Dof first = system.dofs().body_dof(b, 0);
+  force += forces.segment<Dim>(first);
+  moment += body::moment_of(motion, Vec<turns>(forces.segment<turns>(first + Dim)));
+  Vec<body::motions<Dim>> sum;
+  sum << force, moment;
+  return sum;
+}
+
+template <int Dim>
 void pass_on(const BasicDofSpace<Dim>& dofs, Eigen::VectorXd& forces) {
   const Eigen::VectorXd before = forces;
   for (const Equation& equation : dofs.equations())
@@ -340,6 +340,10 @@ BasicContactFields<Dim> contact_fields(const BasicSystem<Dim>& system, const Bas
   return fields;
 }
 
+template Vec<body::motions<2>> force_on_body(const System&, const Model&, const State&, Index,
+                                             const Eigen::VectorXd&);
+template Vec<body::motions<3>> force_on_body(const System3&, const Model3&, const State3&, Index,
+                                             const Eigen::VectorXd&);
 template Eigen::VectorXd nodal_forces(const System&);
 template Eigen::VectorXd nodal_forces(const System3&);
 template void pass_on(const DofSpace&, Eigen::VectorXd&);

@@ -116,6 +116,14 @@ void pass_on(const BasicDofSpace<Dim>& dofs, Eigen::VectorXd& forces);
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd reactions(const BasicSystem<Dim>& system);
 
+/// Force and moment about the reference point that forces on nodes add up to on a rigid body; with
+/// those of `reactions` what its supports exert.
+template <int Dim>
+[[nodiscard]] Vec<body::motions<Dim>> force_on_body(const BasicSystem<Dim>& system,
+                                                    const BasicModel<Dim>& model,
+                                                    const BasicState<Dim>& state, Index body,
+                                                    const Eigen::VectorXd& forces);
+
 using ContactFields = BasicContactFields<2>;
 using ContactFields3 = BasicContactFields<3>;
 

@@ -126,7 +126,7 @@ AnswerFiles<Dim>::AnswerFiles(const std::string& stem, const deck::BasicBuilt<Di
                               const deck::Output& output, std::span<const std::uint64_t> marks)
     : built_(built),
       output_(output),
-      answers_(built.model),
+      answers_(built),
       frd_(stem + ".frd", mark(marks, 0), std::string(io::frd_end)),
       dat_(stem + ".dat", mark(marks, 1)),
       sta_(stem + ".sta", mark(marks, 2)),

@@ -6,9 +6,11 @@
 #include <map>
 #include <numeric>
 
+#include "osculate/body/rigid_body.hpp"
 #include "osculate/io/dat.hpp"
 #include "osculate/model/bulk.hpp"
 #include "osculate/model/quantities.hpp"
+#include "osculate/result/answer_sums.hpp"
 #include "osculate/solid/energy.hpp"
 
 namespace osculate::result {
@@ -28,7 +30,7 @@ bool is_ring(const solid::Section<3>&) { return false; }
 std::string name_in_deck(const deck::AnswerRequest& request) {
   if (request.on.empty()) return "all";
   std::string name = request.on[0].value;
-  for (const std::string_view ending : {".nodes", ".cells"})
+  for (const std::string_view ending : {".nodes", ".cells", ".surface"})
     if (name.ends_with(ending)) name.erase(name.rfind(ending));
   std::ranges::transform(name, name.begin(), [](char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c;
@@ -80,12 +82,48 @@ struct Tables {
 
   // ---- nodes ----------------------------------------------------------------------------------
 
+  /// The body that a node stands for.
+  [[nodiscard]] const deck::BodyNode* body_at(Index node) const {
+    const auto found = a.built.body_nodes.find(node);
+    return found == a.built.body_nodes.end() ? nullptr : &found->second;
+  }
+
+  /// Rotations and moments in space: about z in the plane.
+  [[nodiscard]] static Vec3 turning(const Vec<body::motions<Dim>>& motions) {
+    Vec3 out = Vec3::Zero();
+    out.tail<body::rotations<Dim>>() = motions.template tail<body::rotations<Dim>>();
+    return out;
+  }
+
+  [[nodiscard]] Vec3 displacement(Index node) const {
+    if (const deck::BodyNode* const of = body_at(node); of && of->rotation) {
+      Vec<body::motions<Dim>> motions = Vec<body::motions<Dim>>::Zero();
+      motions.template tail<body::rotations<Dim>>() =
+          body::total_rotation(state.rigid[static_cast<std::size_t>(of->body)]);
+      return turning(motions);
+    }
+    Vec3 u = Vec3::Zero();
+    u.template head<Dim>() = state.u.template segment<Dim>(Dim * node);
+    return u;
+  }
+
+  /// Of a node that stands for a rigid body what acts on all of it.
+  [[nodiscard]] Vec3 force(const Eigen::VectorXd& of_nodes, Index node) const {
+    const deck::BodyNode* const of = body_at(node);
+    if (!of) return a.force(of_nodes, node);
+    const Vec<body::motions<Dim>> sum =
+        model::force_on_body(system, a.model, state, of->body, of_nodes);
+    if (of->rotation) return a.sector * turning(sum);
+    Vec3 out = Vec3::Zero();
+    out.template head<Dim>() = a.sector * sum.template head<Dim>();
+    return out;
+  }
+
   void displacements() {
     if (request.totals == Totals::only) return;
     title("displacements (vx,vy,vz)");
     for (const Index n : nodes()) {
-      Vec3 u = Vec3::Zero();
-      u.template head<Dim>() = state.u.template segment<Dim>(Dim * n);
+      const Vec3 u = displacement(n);
       io::append_dat_row(out, a.node_number[static_cast<std::size_t>(n)], 0, {u.data(), 3});
     }
   }
@@ -95,10 +133,10 @@ struct Tables {
     if (request.totals != Totals::only) title("forces (fx,fy,fz)");
     const Eigen::VectorXd of_nodes = model::nodal_forces(system);
     for (const Index n : nodes()) {
-      const Vec3 force = a.force(of_nodes, n);
-      sum += force;
+      const Vec3 of_node = force(of_nodes, n);
+      sum += of_node;
       if (request.totals != Totals::only)
-        io::append_dat_row(out, a.node_number[static_cast<std::size_t>(n)], 0, {force.data(), 3});
+        io::append_dat_row(out, a.node_number[static_cast<std::size_t>(n)], 0, {of_node.data(), 3});
     }
     if (request.totals == Totals::none) return;
     title("total force (fx,fy,fz)");
@@ -202,6 +240,13 @@ struct Tables {
     io::append_dat_total(out, {&sum, 1});
   }
 
+  void through_facets() {
+    const auto cut = a.built.cuts.find(request.on.at(0).value);
+    if (cut == a.built.cuts.end()) return;
+    out += io::dat_resultant(fmt::format("surface set {}", name), time,
+                             resultant_through(a, state, cut->second));
+  }
+
   // ---- contact --------------------------------------------------------------------------------
 
   void contact(Answer what) {
@@ -211,6 +256,7 @@ struct Tables {
       out += fmt::format("{:17}\n", std::ranges::count_if(nodes, &NodeContact::closed));
       return;
     }
+    if (what == Answer::cels) return energies();
     if (request.totals == Totals::only) return;
     const bool stress = what == Answer::cstr;
     const std::string_view title =
@@ -222,6 +268,23 @@ struct Tables {
       if (c.closed)
         io::append_dat_row(out, a.node_number[static_cast<std::size_t>(c.node)], 0,
                            std::span(c.values).subspan(stress ? 3 : 0, 3));
+  }
+
+  void energies() {
+    const auto [of_nodes, total] = contact_energies(system, a.model);
+    if (request.totals != Totals::only) {
+      out += fmt::format(
+          "\n contact print energy (slave node,energy) forall contact elements and time{}\n\n",
+          io::fortran_real(time, 14, 7));
+      for (const auto& [node, energy] : of_nodes) {
+        const double value = a.sector * energy;
+        io::append_dat_row(out, a.node_number[static_cast<std::size_t>(node)], 0, {&value, 1});
+      }
+    }
+    if (request.totals == Totals::none) return;
+    out += io::dat_title("total contact spring energy for", time);
+    const double value = a.sector * total;
+    io::append_dat_total(out, {&value, 1});
   }
 
   void add(Answer what) {
@@ -237,6 +300,8 @@ struct Tables {
       case Answer::evol:
       case Answer::energy:
         return by_cell(what);
+      case Answer::sof:
+        return through_facets();
       default:
         return contact(what);
     }
@@ -246,7 +311,8 @@ struct Tables {
 }  // namespace
 
 template <int Dim>
-AnswerModel<Dim>::AnswerModel(const model::BasicModel<Dim>& of) : model(of) {
+AnswerModel<Dim>::AnswerModel(const deck::BasicBuilt<Dim>& all) : model(all.model), built(all) {
+  const model::BasicModel<Dim>& of = all.model;
   std::vector<io::FrdMesh::Cell> cells;
   std::map<std::pair<Index, Index>, Place> found;
   std::vector<std::string> materials;
@@ -258,8 +324,10 @@ AnswerModel<Dim>::AnswerModel(const model::BasicModel<Dim>& of) : model(of) {
     if (is_ring(section.section)) sector = sector_of_ring;
   });
   mesh = io::frd_mesh(of.mesh, std::move(cells));
-  for (const io::FrdMesh::Cell& cell : mesh.cells)
+  for (const io::FrdMesh::Cell& cell : mesh.cells) {
+    place_of[{cell.ref.block, cell.ref.cell}] = places.size();
     places.push_back(found.at({cell.ref.block, cell.ref.cell}));
+  }
   for (std::size_t n = 0; n < of.mesh.nodes.size(); ++n)
     node_number.push_back(mesh::node_number(of.mesh, static_cast<Index>(n)));
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)

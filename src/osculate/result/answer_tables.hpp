@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,12 +21,14 @@ struct AnswerModel {
     model::CellMemory memory;
   };
   const model::BasicModel<Dim>& model;
+  const deck::BasicBuilt<Dim>& built;
   io::FrdMesh mesh;
-  std::vector<Place> places;              ///< by cell of `mesh`
-  std::vector<std::int64_t> node_number;  ///< of all nodes of the model's mesh
+  std::vector<Place> places;                                ///< by cell of `mesh`
+  std::map<std::pair<Index, Index>, std::size_t> place_of;  ///< by block and cell
+  std::vector<std::int64_t> node_number;                    ///< of all nodes of the model's mesh
   double sector = 1;
 
-  explicit AnswerModel(const model::BasicModel<Dim>& of);
+  explicit AnswerModel(const deck::BasicBuilt<Dim>& of);
   /// Forces of a node from outside: loads and reactions. Inertia is no part of them.
   [[nodiscard]] Vec3 force(const Eigen::VectorXd& nodal_forces, Index node) const;
 };

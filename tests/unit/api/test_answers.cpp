@@ -202,6 +202,123 @@ TEST_F(Answers, PartsOfASwing) {
   EXPECT_THAT(read("bodies_00002.vtu"), HasSubstr("U_amplitude"));
 }
 
+/// The numbers behind a title within the table of a surface.
+std::vector<double> of_surface(const std::string& text, const std::string& surface,
+                               const std::string& title) {
+  const std::size_t at = text.find(" statistics for surface set " + surface + " and time");
+  EXPECT_NE(at, std::string::npos) << surface;
+  if (at == std::string::npos) return {};
+  const auto found = rows(text.substr(at), title);
+  return found.empty() ? std::vector<double>{} : found[0];
+}
+
+void expect_numbers(const std::vector<double>& found, const std::vector<double>& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 2e-6) << i;
+}
+
+/// A column 1 x 2 x 6 on a rigid foot, pulled and pushed aside at its top by 10 and 2: forces and
+/// moments through its sections follow from balance alone.
+constexpr const char* column = R"(*NODE
+1,0,0,0
+2,1,0,0
+3,1,2,0
+4,0,2,0
+5,0,0,3
+6,1,0,3
+7,1,2,3
+8,0,2,3
+9,0,0,6
+10,1,0,6
+11,1,2,6
+12,0,2,6
+100,0.5,1,-1
+101,0.5,1,-1
+*ELEMENT,TYPE=C3D8,ELSET=E
+1,1,2,3,4,5,6,7,8
+2,5,6,7,8,9,10,11,12
+*NSET,NSET=FOOT
+1,2,3,4
+*NSET,NSET=TOP
+9,10,11,12
+*NSET,NSET=HELD
+100,101
+*SURFACE,NAME=BOTTOM,TYPE=ELEMENT
+1,S1
+*SURFACE,NAME=MIDDLE,TYPE=ELEMENT
+1,S2
+*SURFACE,NAME=OTHER,TYPE=ELEMENT
+2,S1
+*MATERIAL,NAME=M
+*ELASTIC
+1000,0.3
+*SOLID SECTION,ELSET=E,MATERIAL=M
+*RIGID BODY,NSET=FOOT,REF NODE=100,ROT NODE=101
+*BOUNDARY
+100,1,3
+101,1,3
+*STEP
+*STATIC
+1,1
+*BOUNDARY
+101,3,3,1e-8
+*CLOAD
+TOP,3,2.5
+10,1,1
+11,1,1
+*NODE PRINT,NSET=HELD
+U,RF
+*SECTION PRINT,SURFACE=BOTTOM,NAME=A
+SOF,SOM,SOAREA
+*SECTION PRINT,SURFACE=MIDDLE,NAME=B
+SOF
+*SECTION PRINT,SURFACE=OTHER,NAME=C
+SOF
+*END STEP
+)";
+
+TEST_F(Answers, ForcesAndMomentsThroughSectionsBalanceTheLoads) {
+  RunOptions o;
+  o.model = (folder / "column.inp").string();
+  o.folder = (folder / "out").string();
+  std::ofstream(o.model) << column;
+  ASSERT_EQ(run(o).status, RunStatus::done);
+  const std::string dat = read("column.dat");
+  const std::string force =
+      "   total surface force (fx,fy,fz) and moment about the origin(mx,my,mz)";
+  expect_numbers(of_surface(dat, "BOTTOM", force), {-2, 0, -10, -10, -7, 2});
+  expect_numbers(of_surface(dat, "MIDDLE", force), {2, 0, 10, 10, 7, -2});
+  expect_numbers(of_surface(dat, "OTHER", force), {-2, 0, -10, -10, -7, 2});
+  expect_numbers(of_surface(dat, "MIDDLE", "   center of gravity and mean normal"),
+                 {0.5, 1, 3, 0, 0, 1});
+  expect_numbers(of_surface(dat, "OTHER", "   center of gravity and mean normal"),
+                 {0.5, 1, 3, 0, 0, -1});
+  expect_numbers(of_surface(dat, "MIDDLE", "   moment about the center of gravity(mx,my,mz)"),
+                 {0, 6, 0});
+  expect_numbers(of_surface(dat, "BOTTOM", "   area, normal force"), {2, 10, 2, 0, 12});
+  const auto forces = rows(dat, " forces (fx,fy,fz) for set HELD and");
+  expect_numbers(forces.at(0), {100, -2, 0, -10});
+  expect_numbers(forces.at(1), {101, 0, -14, 0});
+  const auto motions = rows(dat, " displacements (vx,vy,vz) for set HELD and");
+  expect_numbers(motions.at(0), {100, 0, 0, 0});
+  EXPECT_NEAR(motions.at(1).at(3), 1e-8, 1e-14);
+}
+
+TEST_F(Answers, EnergiesOfContactsAreThoseOfTheirSprings) {
+  std::string text = ring;
+  text.replace(text.find("{of: [CSTR, CNUM]}"), 18, "{of: [CELS], totals: also}");
+  ASSERT_EQ(run(options("ring", text)).status, RunStatus::done);
+  constexpr double pi = 3.14159265358979;
+  const double pressure = 100 * 0.01 / (1 + 100 / 1e5);
+  const double energy = pressure * pressure / 2e5 * 3 * pi / 180;  // p^2 / (2 eps) A
+  const std::string dat = read("ring.dat");
+  const auto of_nodes =
+      rows(dat, " contact print energy (slave node,energy) forall contact elements and time");
+  ASSERT_EQ(of_nodes.size(), 2U);
+  EXPECT_NEAR(of_nodes[0][1] + of_nodes[1][1], energy, 1e-6 * energy);
+  EXPECT_NEAR(rows(dat, " total contact spring energy for time")[0][0], energy, 1e-6 * energy);
+}
+
 TEST_F(Answers, ARestartWritesTheSameFiles) {
   RunOptions o = options("block", space);
   ASSERT_EQ(run(o).status, RunStatus::done);

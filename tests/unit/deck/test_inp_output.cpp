@@ -3,6 +3,8 @@
 
 #include "osculate/deck/inp_translate.hpp"
 #include "osculate/deck/parse.hpp"
+#include "osculate/io/inp.hpp"
+#include "osculate/io/inp/deck_mesh.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -98,6 +100,60 @@ TEST(InpOutput, ResultsThatAreNotWrittenAreToldOf) {
   EXPECT_EQ(notes.back(), "of the results asked for these are not written: ERR, NT");
 }
 
+TEST(InpOutput, ForcesOfSurfacesAndEnergiesOfContacts) {
+  std::vector<std::string> notes;
+  const Output output = read(
+                            "*SURFACE, NAME=CUT\n1, S2\n*STEP\n*STATIC\n"
+                            "*SECTION PRINT, SURFACE=cut, NAME=A\nSOF, SOM\nSOAREA, FLUX\n"
+                            "*CONTACT PRINT, TOTALS=ONLY\nCELS\n*END STEP\n",
+                            &notes)
+                            .output;
+  ASSERT_EQ(output.dat.size(), 2U);
+  EXPECT_THAT(output.dat[0].of, ElementsAre(Answer::cels));
+  EXPECT_EQ(output.dat[0].totals, Totals::only);
+  EXPECT_THAT(output.dat[1].of, ElementsAre(Answer::sof));
+  EXPECT_EQ(output.dat[1].on.at(0).value, "CUT");
+  EXPECT_EQ(notes.back(), "of the results asked for these are not written: FLUX");
+}
+
+TEST(InpOutput, ABodyNamesTheNodesThatStandForIt) {
+  const Description model = read(
+      "*NODE\n5, 0.5, -1\n6, 0.5, -1\n*RIGID BODY, NSET=PART, REF NODE=5, ROT NODE=6\n*STEP\n"
+      "*STATIC\n*END STEP\n");
+  ASSERT_EQ(model.rigid.size(), 1U);
+  EXPECT_EQ(model.rigid[0].reference_node.at(0).value, "node 5");
+  EXPECT_EQ(model.rigid[0].rotation_node.at(0).value, "node 6");
+}
+
+TEST(InpSets, NodesThatDoNotExistAreLeftOutAndToldOf) {
+  std::vector<std::string> notes;
+  const std::string steps =
+      "*NSET, NSET=SOME\n4, 29, 2\n*STEP\n*STATIC\n*NODE PRINT, NSET=SOME\nU\n*END STEP\n";
+  (void)read(steps, &notes);
+  ASSERT_FALSE(notes.empty());
+  EXPECT_EQ(notes.front(), "line 15: node 29 of a set does not exist, and is left out");
+  const std::string text = square + "*NSET, NSET=SOME\n4, 29, 2\n";
+  EXPECT_EQ(io::inp::deck_mesh(io::inp::read_cards(text, "a.inp")).mesh.find_set("SOME")->nodes,
+            (std::vector<Index>{1, 3}));
+  EXPECT_THROW((void)io::read_inp(text, "a.inp"), core::InputError);
+  EXPECT_THROW((void)read("*STEP\n*STATIC\n*BOUNDARY\n29, 1\n*END STEP\n"), core::InputError);
+}
+
+TEST(InpAmplitudes, ATimeDelayBeginsTheTableLater) {
+  const Description model = read(
+      "*AMPLITUDE, NAME=A\n0., 1., 1., 2., 2., 3.\n*STEP\n*STATIC\n1.5, 1.5\n"
+      "*CLOAD, AMPLITUDE=A, TIME DELAY=1.\n3, 2, 4.\n*END STEP\n");
+  ASSERT_EQ(model.amplitudes.size(), 1U);
+  const auto& points = model.amplitudes[0].points;
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_EQ(points[0], std::pair(0.0, 1.0));
+  EXPECT_NEAR(points[1].first, 2.0 / 3, 1e-15);
+  EXPECT_EQ(points[1].second, 1.0);
+  EXPECT_NEAR(points[2].second, 1.5, 1e-15);
+  EXPECT_THROW((void)read("*STEP\n*STATIC\n*CLOAD, TIME DELAY=1.\n3, 2, 4.\n*END STEP\n"),
+               core::InputError);
+}
+
 TEST(InpOutput, AnUnknownSetStopsWithItsLine) {
   try {
     (void)read("*STEP\n*STATIC\n*NODE PRINT, NSET=PRAT\nU\n*END STEP\n");
@@ -118,6 +174,18 @@ TEST(InpOutput, AModelFileSaysTheSame) {
   ASSERT_EQ(output.dat.size(), 1U);
   EXPECT_EQ(output.dat[0].every, 3);
   EXPECT_EQ(output.dat[0].on.at(0).value, "ALL");
+}
+
+TEST(Answers, AForceNeedsFacetsThatItGoesThrough) {
+  std::string text =
+      to_yaml(translate_deck(square + "*STEP\n*STATIC\n*END STEP\n", "square.inp").root);
+  text += "output: {dat: [{of: [SOF]}]}\n";
+  try {
+    (void)parse_model(text, "square.yaml");
+    FAIL() << "expected an error";
+  } catch (const core::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("SOF needs a set of facets: on"));
+  }
 }
 
 TEST(Answers, AStepThatIsNotThereIsAnError) {

@@ -44,6 +44,23 @@ TEST(Dat, RowsStandInTheColumnsOfTheFormat) {
             "\n forces (fx,fy,fz) for set FIX and time  0.5000000E+00\n\n");
 }
 
+TEST(Dat, ForcesThroughASurfaceAsTheFormatHasThem) {
+  const DatResultant of{
+      {-2, 0, -10}, {-10, -7, 2}, {0.5, 1, 0}, {0, 0, -1}, {0, -12, 0}, 2, 10, 2, 0, 12};
+  EXPECT_EQ(
+      dat_resultant("surface set S", 1, of),
+      "\n\n\n statistics for surface set S and time  0.1000000E+01\n\n"
+      "   total surface force (fx,fy,fz) and moment about the origin(mx,my,mz)\n\n"
+      "   -2.000000E+00  0.000000E+00 -1.000000E+01 -1.000000E+01 -7.000000E+00  2.000000E+00\n\n"
+      "   center of gravity and mean normal\n\n"
+      "    5.000000E-01  1.000000E+00  0.000000E+00  0.000000E+00  0.000000E+00 -1.000000E+00\n\n"
+      "   moment about the center of gravity(mx,my,mz)\n\n"
+      "    0.000000E+00 -1.200000E+01  0.000000E+00\n\n"
+      "   area, normal force (+ = tension), shear force (size), torque and bending moment "
+      "(size)\n\n"
+      "    2.000000E+00  1.000000E+01  2.000000E+00  0.000000E+00  1.200000E+01\n");
+}
+
 TEST(Dat, VibrationsAsTheFormatHasThem) {
   const std::array found{0.6770787e10, -4.0};
   const std::string text = dat_eigenvalues(found);

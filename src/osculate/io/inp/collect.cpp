@@ -148,10 +148,9 @@ class Collector {
     if (field.empty()) return;
     std::string name = name_of(field);
     if (scope == own_scope && !is_number(name)) scope = take_instance(name);
-    if (is_number(name))
-      add_number(set, number_of(deck_, at, name, "a number"), scope, at);
-    else
-      set.names.push_back({std::move(name), scope, at, false});
+    if (!is_number(name)) return set.names.push_back({std::move(name), scope, at, false});
+    add_number(set, number_of(deck_, at, name, "a number"), scope, at);
+    set.ranges.back().listed = true;
   }
 
   void add_range(RawSet& set, const Line& line, std::uint32_t scope) const {

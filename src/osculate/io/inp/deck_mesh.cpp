@@ -59,6 +59,7 @@ class Builder {
         add_nodes(SetKind::node_surface, s, raw, members_.of(Kind::nodes, s, raw));
     }
     mesh::remember_names(out_.mesh);
+    out_.missing = members_.missing();
     return std::move(out_);
   }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,8 @@ struct DeckMesh {
   mesh::Mesh mesh;
   std::vector<DeckSet> sets;
   std::vector<DeckKnot> knots{};
+  /// Numbers of nodes that sets list and that do not exist, with a line each: left out.
+  std::map<std::int64_t, std::uint32_t> missing{};
 };
 
 /// Of a set of nodes with some in knots: the set of the others.

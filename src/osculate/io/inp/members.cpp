@@ -82,13 +82,17 @@ void Members::add_nodes_of(Index element, std::vector<Index>& members) const {
 }
 
 void Members::add_range(Kind kind, std::uint32_t scope, const Range& range,
-                        std::vector<Index>& members) const {
+                        std::vector<Index>& members) {
   const ScopeNumbers& known = numbering_.scopes[scope];
   const NumberMap& map = kind == Kind::nodes ? known.nodes : known.elements;
   const Index first = kind == Kind::nodes ? known.first_node : known.first_element;
   if (!range.generated) {
     for (std::int64_t number = range.first; number <= range.last; ++number) {
       const Index place = map.find(number);
+      if (place < 0 && range.listed && kind == Kind::nodes) {
+        missing_.emplace(number, range.at.line);
+        continue;
+      }
       if (place < 0) fail(deck_, range.at, fmt::format("{} {} does not exist", word(kind), number));
       members.push_back(first + place);
     }

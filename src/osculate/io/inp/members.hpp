@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ class Members {
                                              const std::string& name, Place asked);
   /// Of a set that is described here and has no name.
   [[nodiscard]] std::vector<Index> of(Kind kind, std::uint32_t scope, const RawSet& set);
+  /// Numbers of nodes that sets list and that do not exist, with the line of the last one's set;
+  /// they are left out, as in CalculiX.
+  [[nodiscard]] const std::map<std::int64_t, std::uint32_t>& missing() const { return missing_; }
   /// The element of that number.
   [[nodiscard]] Index element(std::uint32_t scope, std::int32_t number, Place asked) const;
 
@@ -35,8 +39,7 @@ class Members {
     std::vector<Index> members;
   };
 
-  void add_range(Kind kind, std::uint32_t scope, const Range& range,
-                 std::vector<Index>& members) const;
+  void add_range(Kind kind, std::uint32_t scope, const Range& range, std::vector<Index>& members);
   void add_nodes_of(Index element, std::vector<Index>& members) const;
   [[noreturn]] void fail_unknown(Kind kind, std::uint32_t scope, const std::string& name,
                                  Place asked) const;
@@ -46,6 +49,7 @@ class Members {
   const Numbering& numbering_;
   const mesh::Mesh& mesh_;
   std::vector<std::array<Named<Known>, 2>> known_;  ///< by scope and kind
+  std::map<std::int64_t, std::uint32_t> missing_;
   std::size_t depth_ = 0;
 };
 

@@ -19,6 +19,7 @@ struct Range {
   std::uint32_t scope = own_scope;  ///< the instance meant; own_scope: where the set stands
   Place at{};
   bool generated = false;  ///< numbers that do not exist are left out
+  bool listed = false;     ///< by a card of a set: such nodes are told of and left out, too
 };
 
 /// A set that another one names.

@@ -1,0 +1,331 @@
+// A model file as an input file of CalculiX: its mesh, and what is left of the model file.
+#include "osculate/deck/to_inp.hpp"
+
+#include <algorithm>
+#include <charconv>
+
+#include "osculate/core/text.hpp"
+#include "osculate/deck/to_inp_parts.hpp"
+#include "osculate/io/inp/cards.hpp"
+#include "osculate/model/bulk.hpp"
+
+namespace osculate::deck {
+namespace {
+
+mesh::EdgeTable sides_table(const mesh::Mesh& mesh, std::span<const mesh::CellRef> cells,
+                            std::integral_constant<int, 2>) {
+  return mesh::edge_table(mesh, cells);
+}
+mesh::FaceTable sides_table(const mesh::Mesh& mesh, std::span<const mesh::CellRef> cells,
+                            std::integral_constant<int, 3>) {
+  return mesh::face_table(mesh, cells);
+}
+
+template <int Dim>
+std::vector<mesh::CellRef> cells_of(const model::BasicModel<Dim>& m) {
+  std::vector<mesh::CellRef> cells;
+  for (const auto& section : m.sections)
+    cells.insert(cells.end(), section.cells.begin(), section.cells.end());
+  return cells;
+}
+
+/// Comma between numbers, so many a line.
+template <class List, class Number>
+std::string lines_of_numbers(const List& list, const Number& number) {
+  constexpr std::size_t most = 12;
+  std::string out;
+  std::size_t count = 0;
+  for (const auto& one : list) {
+    if (count > 0) out += count % most == 0 ? ",\n" : ", ";
+    out += fmt::format("{}", number(one));
+    ++count;
+  }
+  return out + "\n";
+}
+
+std::string prefix(const solid::Section<2>& section) {
+  switch (section.assumption) {
+    case solid::Assumption::plane_strain:
+      return "CPE";
+    case solid::Assumption::plane_stress:
+      return "CPS";
+    default:
+      return "CAX";
+  }
+}
+std::string prefix(const solid::Section<3>&) { return "C3D"; }
+
+std::string_view ending(solid::Formulation formulation) {
+  switch (formulation) {
+    case solid::Formulation::bbar:
+      return "H";
+    case solid::Formulation::enhanced:
+      return "I";
+    case solid::Formulation::reduced:
+      return "R";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+Leaves::Leaves(const Description& description) : description_(description) {
+  for (const SourceLeaf& leaf : description.source) leaves_.push_back({leaf});
+}
+
+std::string Leaves::text(const std::string& path) {
+  for (Leaf& one : leaves_)
+    if (one.leaf.path == path) {
+      one.taken = true;
+      return one.leaf.text;
+    }
+  return {};
+}
+
+std::optional<double> Leaves::number(const std::string& path) {
+  const std::string found = text(path);
+  if (found.empty()) return {};
+  double value = 0;
+  const char* const end = found.data() + found.size();
+  const auto [stop, error] = std::from_chars(found.data() + (found[0] == '+' ? 1 : 0), end, value);
+  if (error != std::errc() || stop != end) fail(path, "expected a number");
+  return value;
+}
+
+void Leaves::take(std::string_view beginning) {
+  for (Leaf& one : leaves_) one.taken = one.taken || one.leaf.path.starts_with(beginning);
+}
+
+void Leaves::require_none_left() const {
+  for (const Leaf& one : leaves_)
+    if (!one.taken) fail(one.leaf.path, "has no counterpart in an input file, or is not written");
+}
+
+void Leaves::fail(const std::string& path, const std::string& message) const {
+  int line = 0;
+  for (const Leaf& one : leaves_)
+    if (one.leaf.path == path) line = one.leaf.line;
+  throw core::InputError({description_.file, line, path}, message);
+}
+
+std::string exact(double value) { return fmt::format("{}", value); }
+
+template <int Dim>
+InpMesh<Dim>::InpMesh(const Description& description, const model::BasicModel<Dim>& model)
+    : d_(description),
+      m_(model),
+      table_(sides_table(model.mesh, cells_of(model), std::integral_constant<int, Dim>())),
+      used_(model.mesh.nodes.size(), false) {
+  if (!model.mesh.relations.empty())
+    throw core::InputError(description.mesh.mark,
+                           "shells, beams and trusses that were expanded are not written");
+  std::set<std::int64_t> numbers, nodes;
+  for (std::size_t n = 0; n < model.mesh.nodes.size(); ++n)
+    own_numbers_ =
+        nodes.insert(mesh::node_number(model.mesh, static_cast<Index>(n))).second && own_numbers_;
+  const std::vector<mesh::CellRef> cells = cells_of(model);
+  bool own = true;
+  for (const mesh::CellRef& ref : cells)
+    own = numbers.insert(mesh::cell_number(model.mesh, ref)).second && own;
+  for (const mesh::CellRef& ref : cells) {
+    const auto next = static_cast<std::int64_t>(number_.size()) + 1;
+    number_[{ref.block, ref.cell}] = own ? mesh::cell_number(model.mesh, ref) : next;
+    for (const Index n : model::cell_nodes(model.mesh, ref).nodes)
+      used_[static_cast<std::size_t>(n)] = true;
+  }
+}
+
+template <int Dim>
+std::int64_t InpMesh<Dim>::node(Index node) const {
+  return own_numbers_ ? mesh::node_number(m_.mesh, node) : std::int64_t{node} + 1;
+}
+
+template <int Dim>
+std::string InpMesh<Dim>::elements(std::size_t section) const {
+  return m_.sections[section].name;
+}
+
+template <int Dim>
+std::string InpMesh<Dim>::type_of(const model::BasicBulkSection<Dim>& section,
+                                  cell::CellType type) const {
+  const solid::Section<Dim> own = model::section_on(section, type);
+  const int nodes = cell::info(type).nodes;
+  const std::string name = fmt::format("{}{}", prefix(own), nodes);
+  const io::inp::ElementType* const found = io::inp::find_element_type(name);
+  if (!found || found->cell != type || own.formulation == solid::Formulation::solid_shell)
+    throw core::InputError(
+        d_.mesh.mark,
+        fmt::format("section '{}': an input file has no element for its {} cells{}", section.name,
+                    cell::info(type).name, found ? " of this formulation" : ""));
+  return name + std::string(ending(own.formulation));
+}
+
+template <int Dim>
+std::string InpMesh<Dim>::cells() const {
+  std::string out = "*NODE, NSET=Nall\n";
+  for (std::size_t n = 0; n < m_.mesh.nodes.size(); ++n) {
+    if (!used_[n]) continue;
+    const Vec3& x = m_.mesh.nodes[n];
+    out += fmt::format("{}, {}, {}, {}\n", node(static_cast<Index>(n)), exact(x[0]), exact(x[1]),
+                       exact(x[2]));
+  }
+  for (std::size_t s = 0; s < m_.sections.size(); ++s) {
+    std::string last;
+    for (const mesh::CellRef& ref : m_.sections[s].cells) {
+      const model::CellNodes cell = model::cell_nodes(m_.mesh, ref);
+      const std::string type = type_of(m_.sections[s], cell.type);
+      if (type != last) out += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n", type, elements(s));
+      last = type;
+      const auto& name = *io::inp::find_element_type(
+          fmt::format("{}{}", prefix(m_.sections[s].section), cell.nodes.size()));
+      std::vector<std::int64_t> row{number_.at({ref.block, ref.cell})};
+      for (const std::int8_t place : io::inp::cell_places(name))
+        row.push_back(node(cell.nodes[static_cast<std::size_t>(place)]));
+      out += lines_of_numbers(row, [](std::int64_t number) { return number; });
+    }
+  }
+  return out;
+}
+
+template <int Dim>
+const mesh::Set& InpMesh<Dim>::set(const Name& on) const {
+  const mesh::Set* const found = m_.mesh.find_set(on.value);
+  if (!found)
+    throw core::InputError(on.mark, fmt::format("'{}' is no set of the mesh: rigid bodies are not "
+                                                "written",
+                                                on.value));
+  return *found;
+}
+
+/// A deck does not tell capital and small letters apart.
+template <int Dim>
+void InpMesh<Dim>::require_plain(const Name& on, std::set<std::string>& known) {
+  const bool odd = std::ranges::any_of(
+      on.value, [](char c) { return c == ',' || c == '=' || c == '"' || c == ' ' || c == '*'; });
+  if (odd || io::inp::is_number(on.value))
+    throw core::InputError(on.mark,
+                           fmt::format("'{}' is no name for a set of an input file", on.value));
+  if (!known.insert(io::inp::capitals(on.value)).second)
+    throw core::InputError(on.mark, fmt::format("there is another set that differs from '{}' in "
+                                                "capital letters alone",
+                                                on.value));
+}
+
+template <int Dim>
+const std::string& InpMesh<Dim>::nodes(const Name& on) {
+  const mesh::Set& found = set(on);
+  if (sets_.find(fmt::format("*NSET, NSET={}\n", on.value)) != std::string::npos) return found.name;
+  require_plain(on, node_sets_);
+  for (const Index n : found.nodes)
+    if (!used_[static_cast<std::size_t>(n)])
+      throw core::InputError(on.mark, fmt::format("{} of set '{}' belongs to no section",
+                                                  mesh::describe_node(m_.mesh, n), on.value));
+  sets_ += fmt::format("*NSET, NSET={}\n", on.value) +
+           lines_of_numbers(found.nodes, [this](Index n) { return node(n); });
+  return found.name;
+}
+
+template <int Dim>
+std::vector<Side<Dim>> InpMesh<Dim>::facets(const Name& on) const {
+  auto surface = mesh::surface_of(m_.mesh, table_, set(on));
+  if (!surface.errors.empty()) throw core::InputError(on.mark, surface.errors.front());
+  return std::move(surface.facets);
+}
+
+template <int Dim>
+bool InpMesh<Dim>::is_curved(const Name& surface) const {
+  return std::ranges::any_of(facets(surface),
+                             [](const auto& f) { return cell::info(f.type).order > 1; });
+}
+
+/// `4, S2`.
+template <int Dim>
+std::string InpMesh<Dim>::side_of(const Side<Dim>& facet, const Name& on) const {
+  const auto number = number_.find({facet.parent.block, facet.parent.cell});
+  if (number == number_.end())
+    throw core::InputError(on.mark, fmt::format("'{}' has facets that are no sides of a section's "
+                                                "cells: rigid surfaces are not written",
+                                                on.value));
+  const model::CellNodes cell = model::cell_nodes(m_.mesh, facet.parent);
+  const cell::CellInfo& info = cell::info(cell.type);
+  const auto corners = static_cast<std::size_t>(cell::info(facet.type).corners);
+  const auto all = facet.nodes();
+  const auto is_on = [&](auto local) {
+    const Index n = cell.nodes[static_cast<std::size_t>(local)];
+    return std::ranges::find(all, n) != all.end();
+  };
+  const auto matches = [&](int side) {
+    const auto at = static_cast<std::size_t>(side);
+    if constexpr (Dim == 2) return is_on(info.edges[at][0]) && is_on(info.edges[at][1]);
+    const cell::CellFace& face = info.faces[at];
+    if (cell::info(face.type).corners != static_cast<int>(corners)) return false;
+    for (std::size_t k = 0; k < corners; ++k)
+      if (!is_on(face.nodes[k])) return false;
+    return true;
+  };
+  const auto& type =
+      *io::inp::find_element_type(fmt::format("{}{}", Dim == 2 ? "CPE" : "C3D", cell.nodes.size()));
+  for (int k = 1; k <= 6; ++k) {
+    const std::string label = fmt::format("S{}", k);
+    const io::inp::Side side = io::inp::find_side(type, label);
+    if (side.kind != io::inp::Side::Kind::none && matches(side.local))
+      return fmt::format("{}, {}\n", number->second, label);
+  }
+  throw core::InputError(on.mark, fmt::format("'{}' has a facet that is no side", on.value));
+}
+
+template <int Dim>
+const std::string& InpMesh<Dim>::surface(const Name& on) {
+  const mesh::Set& found = set(on);
+  const std::string head = fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", on.value);
+  if (sets_.find(head) != std::string::npos) return found.name;
+  require_plain(on, surfaces_);
+  std::string lines;
+  for (const Side<Dim>& facet : facets(on)) lines += side_of(facet, on);
+  sets_ += head + lines;
+  return found.name;
+}
+
+template class InpMesh<2>;
+template class InpMesh<3>;
+
+namespace {
+
+template <int Dim>
+WrittenDeck deck_of(const Description& d, const BasicBuilt<Dim>& built) {
+  WrittenDeck deck;
+  Leaves leaves(d);
+  for (const char* const said : {"osculate", "mesh", "sets", "parameters"}) leaves.take(said);
+  InpMesh<Dim> mesh(d, built.model);
+  std::string model, steps;
+  write_model(d, built.model, mesh, leaves, model);
+  const auto finite = [](const auto& s) {
+    return s.section.kinematics == solid::Kinematics::finite;
+  };
+  write_steps(d, mesh, leaves, std::ranges::any_of(built.model.sections, finite), steps);
+  leaves.require_none_left();
+  const std::string title = d.title.empty() ? "A model file of Osculate" : d.title;
+  deck.text = fmt::format("*HEADING\n{}\n", title) + mesh.cells() + mesh.sets() + model + steps;
+  deck.notes.push_back(
+      "tolerances and results (solver, output) are left out: displacements, forces and stresses "
+      "are asked for");
+  const bool foreign = std::ranges::any_of(built.model.sections, [](const auto& s) {
+    return s.section.formulation == solid::Formulation::bbar ||
+           (Dim == 2 && s.section.formulation == solid::Formulation::enhanced);
+  });
+  if (foreign)
+    deck.notes.push_back(
+        "CalculiX has no elements with mean dilatation (C3D8H, CPE4H, ...) and no plane ones with "
+        "enhanced strains (CPE4I, ...): Osculate and Abaqus read them; `formulation: full` is "
+        "CPE4");
+  return deck;
+}
+
+}  // namespace
+
+WrittenDeck write_deck(const Description& description, const AnyBuilt& built) {
+  return std::visit([&](const auto& one) { return deck_of(description, one); }, built);
+}
+
+}  // namespace osculate::deck

@@ -1,0 +1,244 @@
+// Materials, sections, equations and contact of a model file as cards of a deck.
+#include <algorithm>
+
+#include "osculate/deck/to_inp_parts.hpp"
+#include "osculate/material/law.hpp"
+#include "osculate/pairing/sampling.hpp"
+
+namespace osculate::deck {
+namespace {
+
+// ---- materials --------------------------------------------------------------------------------
+
+/// `hardening` as rows of stress and plastic strain, or `yield` with a linear kinematic one.
+void write_hardening(const std::string& law, Leaves& leaves, std::string& out) {
+  const std::string path = law + ".hardening";
+  const auto kinematic = leaves.number(law + ".kinematic");
+  out += kinematic ? "*PLASTIC, HARDENING=KINEMATIC\n" : "*PLASTIC\n";
+  if (const auto yield = leaves.number(law + ".yield")) {
+    out += fmt::format("{}, 0\n", exact(*yield));
+    if (kinematic) out += fmt::format("{}, 1\n", exact(*yield + *kinematic));
+    return;
+  }
+  if (kinematic) leaves.fail(law + ".kinematic", "is written beside `yield` alone");
+  for (int i = 0;; ++i) {
+    const auto stress = leaves.number(fmt::format("{}[{}][0]", path, i));
+    const auto strain = leaves.number(fmt::format("{}[{}][1]", path, i));
+    if (!stress || !strain) return;
+    out += fmt::format("{}, {}\n", exact(*stress), exact(*strain));
+  }
+}
+
+void write_material(const Material& material, Leaves& leaves, std::string& out) {
+  const std::string path = fmt::format("materials.{}", material.name.value);
+  const std::string law = fmt::format("{}.{}", path, material::key_of(material.law.value));
+  out += fmt::format("*MATERIAL, NAME={}\n", material.name.value);
+  const bool plastic = law.ends_with(".elastoplastic");
+  if (!plastic && !law.ends_with(".linear_elastic") && !law.ends_with(".st_venant_kirchhoff"))
+    throw core::InputError(material.law.mark,
+                           fmt::format("{} is not written: linear_elastic, st_venant_kirchhoff or "
+                                       "elastoplastic",
+                                       material::key_of(material.law.value)));
+  const auto young = leaves.number(law + ".E"), poisson = leaves.number(law + ".nu");
+  if (!young || !poisson)
+    throw core::InputError(material.law.mark, "E and nu are written where each is one number");
+  out += fmt::format("*ELASTIC\n{}, {}\n", exact(*young), exact(*poisson));
+  if (plastic) write_hardening(law, leaves, out);
+  if (const auto density = leaves.number(law + ".density"))
+    out += fmt::format("*DENSITY\n{}\n", exact(*density));
+  if (const auto alpha = leaves.number(path + ".expansion.alpha")) {
+    const auto zero = leaves.number(path + ".expansion.reference");
+    out += fmt::format("*EXPANSION{}\n{}\n", zero ? ", ZERO=" + exact(*zero) : "", exact(*alpha));
+  }
+}
+
+double thickness_of(const solid::Section<2>& section) { return section.thickness; }
+double thickness_of(const solid::Section<3>&) { return 1; }
+bool is_round(const solid::Section<2>& section) {
+  return section.assumption == solid::Assumption::axisymmetric;
+}
+bool is_round(const solid::Section<3>&) { return false; }
+
+/// In a deck one step with NLGEOM makes all strains finite.
+template <int Dim>
+void require_one_kinematics(const Description& d, const model::BasicModel<Dim>& m) {
+  for (std::size_t s = 1; s < m.sections.size(); ++s)
+    if (m.sections[s].section.kinematics != m.sections[0].section.kinematics)
+      throw core::InputError(d.sections[s].kinematics.mark,
+                             "in an input file all sections have finite strains (NLGEOM), or none");
+}
+
+template <int Dim>
+void write_sections(const Description& d, const model::BasicModel<Dim>& m, const InpMesh<Dim>& mesh,
+                    Leaves& leaves, std::string& out) {
+  require_one_kinematics(d, m);
+  std::set<std::string> used;
+  for (std::size_t s = 0; s < d.sections.size(); ++s) {
+    for (const char* const key :
+         {"on", "material", "element", "thickness", "kinematics", "formulation"})
+      (void)leaves.text(fmt::format("sections[{}].{}", s, key));
+    const Section& section = d.sections[s];
+    if (used.insert(section.material.value).second)
+      write_material(*d.find_material(section.material.value), leaves, out);
+    out += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n", mesh.elements(s),
+                       section.material.value);
+    if (Dim == 2 && !is_round(m.sections[s].section))
+      out += exact(thickness_of(m.sections[s].section)) + "\n";
+  }
+  for (const Material& material : d.materials)
+    if (!used.contains(material.name.value))
+      leaves.take(fmt::format("materials.{}.", material.name.value));
+}
+
+// ---- equations --------------------------------------------------------------------------------
+
+template <int Dim>
+void write_equations(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  for (std::size_t e = 0; e < d.equations.size(); ++e) {
+    const Equation& equation = d.equations[e];
+    leaves.take(fmt::format("equations[{}].terms", e));
+    if (equation.value.value == 0) (void)leaves.text(fmt::format("equations[{}].value", e));
+    std::string terms;
+    std::size_t count = 0;
+    for (const EquationTerm& term : equation.terms) {
+      if (is_rotation(term.of))
+        throw core::InputError(term.on.mark, "rotations of rigid bodies are not written");
+      (void)mesh.nodes(term.on);
+      for (const Index n : mesh.set(term.on).nodes) {
+        terms += fmt::format("{}, {}, {}\n", mesh.node(n), static_cast<int>(term.of) + 1,
+                             exact(term.factor.value));
+        ++count;
+      }
+    }
+    out += fmt::format("*EQUATION\n{}\n{}", count, terms);
+  }
+}
+
+// ---- contact ----------------------------------------------------------------------------------
+
+/// `*SURFACE INTERACTION` of the laws that stand under a key.
+void write_laws(const std::string& path, const std::string& name, Leaves& leaves,
+                std::string& out) {
+  out +=
+      fmt::format("*SURFACE INTERACTION, NAME={}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=", name);
+  const bool tied = leaves.text(path + ".normal.separation") == "tied";
+  const auto penalty = leaves.number(path + ".normal.penalty");
+  if (tied && !penalty)
+    leaves.fail(path + ".normal.separation",
+                "is written with a penalty, or with `sampling: nodes` as *TIE");
+  if (tied || penalty) {
+    out += fmt::format("{}\n{}\n", tied ? "TIED" : "LINEAR", exact(*penalty));
+  } else if (const auto first = leaves.number(path + ".normal.table[0][0]")) {
+    out += "TABULAR\n";
+    for (int i = 0;; ++i) {
+      const auto depth = leaves.number(fmt::format("{}.normal.table[{}][0]", path, i));
+      const auto pressure = leaves.number(fmt::format("{}.normal.table[{}][1]", path, i));
+      if (!depth || !pressure) break;
+      out += fmt::format("{}, {}\n", exact(*pressure), exact(*depth));
+    }
+  } else {
+    out += "HARD\n";
+  }
+  const auto mu = leaves.number(path + ".friction.coulomb.mu");
+  if (!mu) {
+    if (leaves.text(path + ".friction") != "none" && !leaves.text(path + ".friction").empty())
+      leaves.fail(path + ".friction", "is not written");
+    return;
+  }
+  const auto slope = leaves.number(path + ".friction.coulomb.penalty");
+  out += fmt::format("*FRICTION\n{}{}\n", exact(*mu), slope ? ", " + exact(*slope) : "");
+}
+
+/// TYPE of a pair whose sampling a deck can say; else it stays a key without counterpart.
+template <int Dim>
+std::string type_of_pair(const Contact& contact, const model::BasicModel<Dim>& m,
+                         const InpMesh<Dim>& mesh, const std::string& path, Leaves& leaves) {
+  const Sampling& asked = contact.sampling.value;
+  const bool curved = mesh.is_curved(contact.slave);
+  const bool tied = contact.normal.separation.value == SeparationWord::tied;
+  const auto pair =
+      std::ranges::find(m.pairs, contact.name.value, [](const auto& one) { return one.name; });
+  bool nodes = asked.rule == SamplingRule::nodes;
+  bool gauss = asked.rule == SamplingRule::gauss && asked.subdomains == 1 &&
+               asked.points == (curved ? (tied ? 6 : 3) : 2);
+  if (asked.rule == SamplingRule::automatic && pair != m.pairs.end()) {
+    nodes = pairing::sampled_at_nodes(pair->definition.slave);
+    gauss = !nodes;
+  }
+  if (asked.rule == SamplingRule::mortar &&
+      contact.enforcement.value.kind == EnforcementWord::lagrange_multiplier) {
+    (void)leaves.text(path + ".enforcement");
+    (void)leaves.text(path + ".sampling");
+    return "MORTAR";
+  }
+  if ((nodes && curved) || (!nodes && !gauss))
+    throw core::InputError(
+        contact.sampling.mark.line > 0 ? contact.sampling.mark : contact.name.mark,
+        "an input file has nodes of first-order facets, and gauss: 2 (second "
+        "order: 3, tied 6)");
+  leaves.take(path + ".sampling");
+  if (contact.enforcement.value.kind == EnforcementWord::penalty)
+    (void)leaves.text(path + ".enforcement");
+  return nodes ? "NODE TO SURFACE" : "SURFACE TO SURFACE";
+}
+
+template <int Dim>
+void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size_t k,
+                InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  const Contact& contact = d.contact[k];
+  const std::string path = fmt::format("contact[{}]", k);
+  for (const char* const key : {".name", ".master", ".slave"}) (void)leaves.text(path + key);
+  const std::string type = type_of_pair(contact, m, mesh, path, leaves);
+  const std::string sides =
+      fmt::format("{}, {}\n", mesh.surface(contact.slave), mesh.surface(contact.master));
+  const bool tied = contact.normal.separation.value == SeparationWord::tied;
+  if (tied && contact.normal.law.automatic && type == "NODE TO SURFACE") {
+    (void)leaves.text(path + ".normal.separation");
+    const auto tolerance = leaves.number(path + ".normal.tolerance");
+    out += fmt::format("*TIE, NAME={}{}\n", contact.name.value,
+                       tolerance ? ", POSITION TOLERANCE=" + exact(*tolerance) : "");
+    out += sides;
+    return;
+  }
+  const std::string law = fmt::format("law_of_{}", contact.name.value);
+  write_laws(path, law, leaves, out);
+  out += fmt::format("*CONTACT PAIR, INTERACTION={}, TYPE={}\n{}", law, type, sides);
+}
+
+template <int Dim>
+void write_contact(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
+                   Leaves& leaves, std::string& out) {
+  if (d.contact.size() == 1 && d.contact[0].all) {
+    (void)leaves.text("contact");
+    (void)leaves.text("contact.all");
+    (void)leaves.text("contact.all.name");
+    write_laws("contact.all", "law_of_all", leaves, out);
+    out +=
+        "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , "
+        "law_of_all\n";
+    return;
+  }
+  for (std::size_t k = 0; k < d.contact.size(); ++k) write_pair(d, m, k, mesh, leaves, out);
+}
+
+}  // namespace
+
+template <int Dim>
+void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
+                 Leaves& leaves, std::string& out) {
+  write_sections(d, m, mesh, leaves, out);
+  write_equations(d, mesh, leaves, out);
+  write_contact(d, m, mesh, leaves, out);
+  if (d.initial_temperature.empty()) return;
+  leaves.take("initial_temperature");
+  out += "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n";
+  for (const Load& load : d.initial_temperature)
+    out += fmt::format("{}, {}\n", mesh.nodes(load.on), exact(load.values[0]->value));
+}
+
+template void write_model(const Description&, const model::Model&, InpMesh<2>&, Leaves&,
+                          std::string&);
+template void write_model(const Description&, const model::Model3&, InpMesh<3>&, Leaves&,
+                          std::string&);
+
+}  // namespace osculate::deck

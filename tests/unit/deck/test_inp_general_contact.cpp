@@ -1,0 +1,164 @@
+// *CONTACT of decks beside *CONTACT PAIR.
+#include <gmock/gmock.h>
+
+#include "inp_run_test.hpp"
+#include "osculate/deck/inp_translate.hpp"
+#include "osculate/deck/parse.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// Three cubes on top of each other, pressed by 0.06 at the top: two contacts of 1e4 in a row with
+/// three cubes of 1000.
+const std::string cubes = R"(*NODE, NSET=ALL
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+11, 0, 0, 1
+12, 1, 0, 1
+13, 1, 1, 1
+14, 0, 1, 1
+15, 0, 0, 2
+16, 1, 0, 2
+17, 1, 1, 2
+18, 0, 1, 2
+21, 0, 0, 2
+22, 1, 0, 2
+23, 1, 1, 2
+24, 0, 1, 2
+25, 0, 0, 3
+26, 1, 0, 3
+27, 1, 1, 3
+28, 0, 1, 3
+*ELEMENT, TYPE=C3D8, ELSET=LOW
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*ELEMENT, TYPE=C3D8, ELSET=MIDDLE
+2, 11, 12, 13, 14, 15, 16, 17, 18
+*ELEMENT, TYPE=C3D8, ELSET=HIGH
+3, 21, 22, 23, 24, 25, 26, 27, 28
+*NSET, NSET=BASE
+1, 2, 3, 4
+*NSET, NSET=TOP
+25, 26, 27, 28
+*SURFACE, NAME=A2
+1, S2
+*SURFACE, NAME=B1
+2, S1
+*SURFACE, NAME=B2
+2, S2
+*SURFACE, NAME=C1
+3, S1
+*SURFACE, NAME=OF_LOW
+LOW,
+*SURFACE, NAME=OF_HIGH
+HIGH,
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.
+*SOLID SECTION, ELSET=LOW, MATERIAL=M
+*SOLID SECTION, ELSET=MIDDLE, MATERIAL=M
+*SOLID SECTION, ELSET=HIGH, MATERIAL=M
+*SURFACE INTERACTION, NAME=SI
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR
+1.E4
+*SURFACE INTERACTION, NAME=ROUGH
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR
+2.E4
+*FRICTION
+0.3, 1.E4
+)";
+const std::string press = R"(*BOUNDARY
+BASE, 1, 3
+ALL, 1, 2
+*STEP
+*STATIC, DIRECT
+1., 1.
+*BOUNDARY
+TOP, 3, 3, -0.06
+*END STEP
+)";
+
+Description read(const std::string& contact) {
+  return parse_model(translate_deck(cubes + contact + press, "cubes.inp").root, "cubes.inp");
+}
+std::string refusal(const std::string& contact) {
+  try {
+    (void)read(contact);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(InpGeneralContact, AllExteriorAndItsPairsAreAsContactPairs) {
+  const std::string law = "*CONTACT PROPERTY ASSIGNMENT\n, , SI\n";
+  const std::array<std::string, 3> contacts{
+      "*CONTACT PAIR, INTERACTION=SI, TYPE=SURFACE TO SURFACE\nB1, A2\nC1, B2\n",
+      "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n" + law,
+      "*CONTACT\n*CONTACT INCLUSIONS\nB1, A2\nB2, C1\n" + law};
+  const double pressure = 0.06 / (3 / 1000.0 + 2 / 1e4);
+  for (const std::string& contact : contacts) {
+    const DeckRun run = run_deck(cubes + contact + press);
+    EXPECT_NEAR(run.reaction_of("BASE").z(), pressure, 1e-6 * pressure) << contact;
+    EXPECT_NEAR(run.displacement(6).z(), -pressure / 1000, 1e-6 * 0.06) << contact;
+    EXPECT_NEAR(run.displacement(15).z(), -pressure * (2 / 1000.0 + 1 / 1e4), 1e-6 * 0.06);
+  }
+}
+
+TEST(InpGeneralContact, ExclusionsNameTheSectionsOfWholeBodies) {
+  const Description model = read(
+      "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT EXCLUSIONS\nOF_LOW, OF_HIGH\n"
+      "of_high,\n*CONTACT PROPERTY ASSIGNMENT\n, , rough\n");
+  ASSERT_EQ(model.contact.size(), 1U);
+  const Contact& all = model.contact[0];
+  EXPECT_TRUE(all.all);
+  ASSERT_EQ(all.exclude.size(), 2U);
+  EXPECT_EQ(all.exclude[0][0].value, "LOW");
+  EXPECT_EQ(all.exclude[0][1].value, "HIGH");
+  EXPECT_EQ(all.exclude[1][0].value, "HIGH");
+  EXPECT_EQ(all.exclude[1][1].value, "HIGH");
+  EXPECT_TRUE(all.friction.has_value());
+}
+
+TEST(InpGeneralContact, PairsHaveTheLawAssignedToThemElseThatOfAll) {
+  const Description model = read(
+      "*CONTACT\n*CONTACT INCLUSIONS\nB1, A2\nB2, C1\nOF_LOW, OF_HIGH\nOF_LOW\n"
+      "*CONTACT EXCLUSIONS\nOF_HIGH, OF_LOW\n"
+      "*CONTACT PROPERTY ASSIGNMENT\nA2, B1, ROUGH\n, , SI\n");
+  ASSERT_EQ(model.contact.size(), 3U);
+  EXPECT_TRUE(model.contact[0].friction.has_value());
+  EXPECT_FALSE(model.contact[1].friction.has_value());
+  EXPECT_TRUE(model.contact[0].two_pass.has_value());
+  EXPECT_EQ(model.contact[2].slave.value, model.contact[2].master.value);
+  EXPECT_FALSE(model.contact[2].two_pass.has_value());
+}
+
+TEST(InpGeneralContact, WhatItCannotSayIsRefused) {
+  const std::string all = "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n";
+  EXPECT_THAT(refusal(all + "*CONTACT EXCLUSIONS\nA2, OF_HIGH\n"),
+              HasSubstr("cubes.inp:65: *CONTACT EXCLUSIONS: 'A2' is not the whole surface"));
+  EXPECT_THAT(refusal(all + "*CONTACT PROPERTY ASSIGNMENT\nA2, B1, SI\n"),
+              HasSubstr("there is one interaction, of all surfaces"));
+  EXPECT_THAT(refusal(all + "*CONTACT PROPERTY ASSIGNMENT\n, , S1\n"),
+              HasSubstr("unknown surface interaction 'S1'; did you mean 'SI'"));
+  EXPECT_THAT(refusal(all + "*CONTACT PAIR, INTERACTION=SI\nB1, A2\n"),
+              HasSubstr("ALL EXTERIOR is not supported beside *CONTACT PAIR and *TIE"));
+  EXPECT_THAT(refusal("*CONTACT\n"), HasSubstr("expected *CONTACT INCLUSIONS after it"));
+  EXPECT_THAT(refusal("*CONTACT INCLUSIONS, ALL EXTERIOR\n"), HasSubstr("before *CONTACT"));
+  EXPECT_THAT(refusal("*CONTACT\n*CONTACT INCLUSIONS\nB1, A2\n*CONTACT EXCLUSIONS\nB2, C1\n"),
+              HasSubstr("*CONTACT INCLUSIONS has no such pair"));
+  EXPECT_THAT(
+      refusal("*CONTACT\n*CONTACT INCLUSIONS\nB1, A2\n*STEP\n*STATIC\n*CONTACT\n*END STEP\n"),
+      HasSubstr("is not supported in a step"));
+}
+
+}  // namespace
+}  // namespace osculate::deck
