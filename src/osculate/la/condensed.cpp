@@ -117,7 +117,7 @@ struct Condensed::Impl {
 bool Condensed::Impl::pays(const SparseMatrix& k, Symmetry symmetry) {
   constexpr double fewest = 4, worth_it = 3;
   const auto c = static_cast<double>(changing.size());
-  if (changing.empty() || fewest * c > k.n) return false;
+  if (changing.empty() || fewest * c > k.n || changing.back() >= k.n) return false;
   if (!inside.analyse(k, symmetry, changing)) return false;
   const double dense_operations = (symmetric ? 1.0 : 2.0) / 3.0 * c * c * c;
   return inside.operations() > worth_it * dense_operations;

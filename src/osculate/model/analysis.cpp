@@ -263,7 +263,8 @@ struct Analysis {
   }
 
   void run_step(const Step& step) {
-    solver->may_change(step.frequencies ? std::vector<Index>{} : system.changing_unknowns());
+    const bool iterates = !step.frequencies && !step.buckling && !step.harmonic && !step.modal;
+    solver->may_change(iterates ? system.changing_unknowns() : std::vector<Index>{});
     if (step.frequencies) return find_vibrations(step);
     if (step.buckling) return find_buckling(step);
     if (step.harmonic) return run_harmonic(step);

@@ -113,6 +113,14 @@ TEST(Condensed, IsMumpsWhereItDoesNotPay) {
   }
 }
 
+TEST(Condensed, IsMumpsForMatricesOfAnotherSize) {
+  Condensed solver;
+  solver.may_change({100'000});
+  MatrixBuilder m = in_contact(5, 100);
+  Mumps whole;
+  EXPECT_EQ(solved(solver, m, Symmetry::indefinite), solved(whole, m, Symmetry::indefinite));
+}
+
 /// What is singular or indefinite is looked at in the whole, so that it is reported as ever.
 TEST(Condensed, ReportsOfBadMatricesAreThoseOfMumps) {
   MatrixBuilder loose = test::grid(width, height, false);
