@@ -106,7 +106,8 @@ void add_ring(const std::string& folder, CaseResult& result, int& missing) {
   };
   // the load acts on the outer side: of the order of h / R
   result.rows.push_back({"ring under dead pressure: p / (4 E I / R^3), h / R to 0",
-                         2 * factor(0.005) - factor(0.01), 1, Relation::equal, 1e-4, "Bodner 1958"});
+                         2 * factor(0.005) - factor(0.01), 1, Relation::equal, 1e-4,
+                         "Bodner 1958"});
 }
 
 /// Guided strips: the shape of the vibration is that of buckling, f^2 = f0^2 (1 + P / P_cr).

@@ -134,8 +134,9 @@ TEST(Harmonic, LoadsAddUp) {
       run(swing_step("total_force: [{on: bar.right, fx: 2}, {on: bar.right, fx: 2, phase: 90, "
                      "amplitude: falls}]"));
   const Sweep stretched =
-      run("  - {name: pull, increments: 1, " + pulled + "}\n" + "  - {name: again, modes: {count: 15, about: start}}\n" +
-          swing_step(pulled) + swing_step(pulled, "from: 1, to: 6", "once_more"));
+      run("  - {name: pull, increments: 1, " + pulled + "}\n" +
+          "  - {name: again, modes: {count: 15, about: start}}\n" + swing_step(pulled) +
+          swing_step(pulled, "from: 1, to: 6", "once_more"));
   ASSERT_EQ(stretched.result.outcome, solve::Outcome::converged) << stretched.result.message;
   ASSERT_EQ(stretched.frequency.size(), 14U);
   const Complex turn = std::polar(1.0, std::numbers::pi / 3);
