@@ -292,8 +292,9 @@ BoundKeys<Step> step_keys() {
   using S = Step;
   return {{need(&S::name, "name", text("Name of the step.").as(TextRule::name).such_as("press")),
            may(&S::increments, "increments",
-               integer("Number of equal increments to begin with; every step has some, but those "
-                       "with `modes`, `buckling` or `harmonic`.")
+               integer("Number of equal increments to begin with, which are cut where they must be "
+                       "and grow again; 1 where none is given, but steps with `dynamics` or "
+                       "`modal` need it.")
                    .at_least(1)
                    .at_most(1'000'000)
                    .such_as("10")),
@@ -344,7 +345,9 @@ void check_modes(const Value& v, Step& s) {
   } else if (s.harmonic) {
     s.increments = {1, s.harmonic->mark};
   } else if (s.increments.value == 0) {
-    throw core::InputError(v.mark, "required key 'increments' is missing");
+    if (s.dynamics || s.modal)
+      throw core::InputError(v.mark, "required key 'increments' is missing");
+    s.increments = {1, v.mark};
   }
 }
 

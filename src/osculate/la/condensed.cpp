@@ -95,6 +95,8 @@ struct Condensed::Impl {
   std::vector<Index> changing;
   bool condensed = false;  ///< the last factors
   SparseMatrix matrix;     ///< theirs, where condensed
+  std::uint64_t version = 0;
+  Symmetry symmetry = Symmetry::unsymmetric;
   bool symmetric = false;
   double seconds = 0;
   Count count;
@@ -110,6 +112,7 @@ struct Condensed::Impl {
   [[nodiscard]] bool accurate();
   bool substitute(Eigen::MatrixXd& x);
   bool substitute(Eigen::VectorXd& x);
+  bool solve(const Eigen::MatrixXd& given, Eigen::MatrixXd& x);
 };
 
 /// A dense matrix of the few beside the sparse one of the many, in operations: a function of the
@@ -194,6 +197,8 @@ FactorReport Condensed::factor(const SparseMatrix& k, std::uint64_t pattern_vers
   const auto begun = std::chrono::steady_clock::now();
   const double before = s.whole.seconds();
   FactorReport report;
+  s.version = pattern_version;
+  s.symmetry = symmetry;
   s.symmetric = symmetry != Symmetry::unsymmetric;
   s.condensed = s.pays(k, symmetry) && s.condense(k, report);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
@@ -209,27 +214,43 @@ FactorReport Condensed::factor(const SparseMatrix& k, std::uint64_t pattern_vers
   return report;
 }
 
+/// Solves with the condensed factors, with one correction where it helps. False: the residual stays
+/// larger than Mumps would leave it.
+bool Condensed::Impl::solve(const Eigen::MatrixXd& given, Eigen::MatrixXd& x) {
+  constexpr double good = 1e-12, good_enough = 1e-8;
+  x = given;
+  if (!substitute(x)) return false;
+  for (Eigen::Index c = 0; c < x.cols(); ++c) {
+    const auto residual = [&](const Eigen::VectorXd& of) -> Eigen::VectorXd {
+      return given.col(c) - product(matrix, of, symmetric);
+    };
+    const double size = given.col(c).stableNorm();
+    Eigen::VectorXd rest = residual(x.col(c));
+    double off = rest.stableNorm();
+    if (!(off > good * size) && std::isfinite(off)) continue;
+    if (!substitute(rest)) return false;
+    const Eigen::VectorXd better = x.col(c) + rest;
+    if (const double then = residual(better).stableNorm(); then < off) {
+      x.col(c) = better;
+      off = then;
+    }
+    if (!(off <= good_enough * size)) return false;
+  }
+  return true;
+}
+
 SolveStatus Condensed::solve(Eigen::MatrixXd& rhs) {
   Impl& s = *impl_;
   const auto begun = std::chrono::steady_clock::now();
   SolveStatus status = SolveStatus::ok;
-  if (!s.condensed) {
-    status = s.whole.solve(rhs);
-  } else if (rhs.rows() != s.matrix.n || !rhs.allFinite()) {
-    return SolveStatus::failed;
-  } else if (rhs.size() > 0) {
-    constexpr double good = 1e-12;
-    const Eigen::MatrixXd given = rhs;
-    if (!s.substitute(rhs)) return SolveStatus::failed;
-    for (Eigen::Index c = 0; c < rhs.cols() && rhs.allFinite(); ++c) {
-      Eigen::VectorXd rest = given.col(c) - product(s.matrix, rhs.col(c), s.symmetric);
-      const double off = rest.stableNorm();
-      if (!(off > good * given.col(c).stableNorm()) || !s.substitute(rest)) continue;
-      const Eigen::VectorXd better = rhs.col(c) + rest;
-      if ((given.col(c) - product(s.matrix, better, s.symmetric)).stableNorm() < off)
-        rhs.col(c) = better;
-    }
-    if (!rhs.allFinite()) status = SolveStatus::singular;
+  if (s.condensed && (rhs.rows() != s.matrix.n || !rhs.allFinite())) return SolveStatus::failed;
+  Eigen::MatrixXd x;
+  if (s.condensed && (rhs.size() == 0 || s.solve(rhs, x))) {
+    if (rhs.size() > 0) rhs = std::move(x);
+  } else {
+    if (s.condensed) status = s.whole.factor(s.matrix, s.version, s.symmetry).status;
+    s.condensed = false;
+    if (status == SolveStatus::ok) status = s.whole.solve(rhs);
   }
   s.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return status;

@@ -283,7 +283,7 @@ template <System S>
     else if (ended)
       return result;
     if (i == most + peeling.iterations() && most < limit && detail::gains(result.iterations))
-      most += more;
+      most = std::min(most + more, limit);
   }
   detail::fail(result, Outcome::not_converged,
                "not converged after " + std::to_string(most) + " iterations");

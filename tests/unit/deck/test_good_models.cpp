@@ -86,6 +86,12 @@ TEST(GoodModels, DefaultsOfTheSmallestModel) {
   EXPECT_EQ(c.weight.mark.line, 5);  // a default stands where its map stands
 }
 
+TEST(GoodModels, AStepIsOneIncrementWhereNothingIsSaid) {
+  const Description d =
+      parse_model(edited(test_file("block.yaml"), "    increments: 80\n", ""), "model.yaml");
+  EXPECT_EQ(d.steps[1].increments.value, 1);
+}
+
 TEST(GoodModels, OneToleranceDecidesAlone) {
   const std::string block = test_file("block.yaml");
   const auto solver = [&](const std::string& tolerance) {

@@ -238,6 +238,24 @@ TEST(Newton, FailuresSayWhy) {
   EXPECT_NEAR(third.trial.x[0], -1.0, 1e-12);
 }
 
+/// Each iteration leaves the same share of the residual.
+TEST(Newton, GoesOnWhileTheResidualHalvesEveryTenIterations) {
+  const auto with_share = [](double share) {
+    ToySystem slow = scalar_system([](double x, double t) { return x - t; },
+                                   [share](double) { return 1 / (1 - share); });
+    return solve_from(slow, 0.0, {.residual = 1e-8, .energy = 0, .line_search = LineSearch::off});
+  };
+  const auto gains = with_share(0.8);
+  EXPECT_EQ(gains.outcome, Outcome::converged) << gains.reason;
+  EXPECT_GT(gains.iterations.size(), 75U);
+  const auto limited = with_share(0.9);
+  EXPECT_EQ(limited.outcome, Outcome::not_converged);
+  EXPECT_EQ(limited.iterations.size(), 100U);
+  const auto creeps = with_share(0.95);
+  EXPECT_EQ(creeps.outcome, Outcome::not_converged);
+  EXPECT_EQ(creeps.iterations.size(), 25U);
+}
+
 /// Two springs in a row, the first end moved: the boundary moves with the body, not ahead of it.
 ToySystem chain(double stiffening) {
   ToySystem system;
