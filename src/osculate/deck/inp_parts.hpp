@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "osculate/deck/inp_conditions.hpp"
 #include "osculate/deck/source_tree.hpp"
 #include "osculate/io/inp/deck_mesh.hpp"
 
@@ -123,6 +124,10 @@ struct InpElements {
 [[nodiscard]] std::vector<InpElements> elements_of(const InpModel& m, const io::inp::Card& section);
 /// Elements of several sections stay in the last one; the sets of what is left of the others.
 [[nodiscard]] SourceNode inp_overlaps(const InpModel& m, SourceNode& sections);
+/// Refuses loads of a step on nodes or facets that another set has had loaded in the same direction
+/// by a step before: CalculiX has one load there, which the later one replaces.
+void check_loads_of_later_steps(const InpModel& m, const io::inp::Card& step,
+                                const Conditions& loads, std::string_view keyword);
 /// A set of elements of one material, and its mass per volume.
 struct InpDensity {
   std::string on;

@@ -234,6 +234,8 @@ class Steps {
       put_releases(step);
       put_holds(step);
     }
+    check_loads_of_later_steps(m_, *step_, forces_, "CLOAD");
+    check_loads_of_later_steps(m_, *step_, pressures_, "DLOAD");
     put_directions(step, "forces", 'f', forces_);
     put_pressures(step, pressures_);
     put_directions(step, "body_force", 'f', body_forces_);

@@ -105,13 +105,15 @@ BoundKey<Description> cyclic_key() {
                 .such_as("12")),
        may(&C::from, "from", place("A point of the axis.", "[0, 0, 0]")),
        may(&C::to, "to", place("Another one.", "[0, 0, 1]"))});
-  return {optional("cyclic_symmetry",
-                   list("Sectors of bodies whose loads and motions repeat round an axis (not for "
-                        "eigenmodes).",
-                        keys.spec("One sector."))
-                       .otherwise("[]")
-                       .such_as("[{dependent: left, independent: right, sectors: 12}]")),
-          [keys](Description& d, const Value& v) { d.cyclic_symmetry = keys.read_all(v); }};
+  return {
+      optional(
+          "cyclic_symmetry",
+          list("Sectors of bodies whose loads and motions repeat round an axis; vibrations with "
+               "`modes: diameters`.",
+               keys.spec("One sector."))
+              .otherwise("[]")
+              .such_as("[{dependent: left, independent: right, sectors: 12}]")),
+      [keys](Description& d, const Value& v) { d.cyclic_symmetry = keys.read_all(v); }};
 }
 
 }  // namespace

@@ -135,6 +135,7 @@ class StepWriter {
         if (!value || (!directed && k > 0)) continue;
         if (directed) require_displacement(load.on, k);
         const std::string& on = mesh_.nodes(load.on);
+        require_apart(load.on, on, k, standing, here);
         here.insert({on, k});
         standing[{on, k}] = {&load, value->value * end_of(load)};
         out += fmt::format("{}{}\n{}, {}{}\n", card, amplitude(load), on,
@@ -149,12 +150,33 @@ class StepWriter {
     return out;
   }
 
+  /// In an input file a load replaces that of a step before, node by node and facet by facet.
+  void require_apart(const Name& on, const std::string& set, int direction, Standing& standing,
+                     const std::set<std::pair<std::string, int>>& here) const {
+    const std::vector<Index>& nodes = mesh_.set({set, on.mark}).nodes;
+    for (const auto& [key, value] : standing) {
+      if (key.second != direction || key.first == set || here.contains(key) || value.end == 0)
+        continue;
+      const std::vector<Index>& others = mesh_.set({key.first, on.mark}).nodes;
+      for (const Index n : nodes)
+        if (std::ranges::binary_search(others, n))
+          throw core::InputError(
+              on.mark,
+              fmt::format("'{}' shares nodes with '{}', which a step before has loaded: an "
+                          "input file would replace that load there",
+                          on.value, key.first));
+    }
+  }
+
   std::string pressures(const Step& step) {
     std::string out;
     std::set<std::string> here;
+    std::set<std::pair<std::string, int>> said;
     for (const Load& load : step.pressure) {
       const std::string& on = mesh_.surface(load.on);
+      require_apart(load.on, on, 0, pressures_, said);
       here.insert(on);
+      said.insert({on, 0});
       pressures_[{on, 0}] = {&load, load.values[0]->value * end_of(load)};
       out +=
           fmt::format("*DSLOAD{}\n{}, P, {}\n", amplitude(load), on, exact(load.values[0]->value));

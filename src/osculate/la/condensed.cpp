@@ -108,6 +108,7 @@ struct Condensed::Impl {
 
   [[nodiscard]] bool pays(const SparseMatrix& k, Symmetry symmetry);
   bool condense(const SparseMatrix& k, FactorReport& report);
+  bool condense_or_forget(const SparseMatrix& k, FactorReport& report);
   [[nodiscard]] Eigen::MatrixXd small_matrix(const SparseMatrix& k) const;
   [[nodiscard]] bool accurate();
   bool substitute(Eigen::MatrixXd& x);
@@ -118,9 +119,9 @@ struct Condensed::Impl {
 /// A dense matrix of the few beside the sparse one of the many, in operations: a function of the
 /// pattern alone.
 bool Condensed::Impl::pays(const SparseMatrix& k, Symmetry symmetry) {
-  constexpr double fewest = 4, worth_it = 3;
+  constexpr double fewest = 4, worth_it = 3, most = 4000;  // 4000: a dense matrix of 128 MB
   const auto c = static_cast<double>(changing.size());
-  if (changing.empty() || fewest * c > k.n || changing.back() >= k.n) return false;
+  if (changing.empty() || c > most || fewest * c > k.n || changing.back() >= k.n) return false;
   if (!inside.analyse(k, symmetry, changing)) return false;
   const double dense_operations = (symmetric ? 1.0 : 2.0) / 3.0 * c * c * c;
   return inside.operations() > worth_it * dense_operations;
@@ -182,6 +183,21 @@ bool Condensed::Impl::condense(const SparseMatrix& k, FactorReport& report) {
   return true;
 }
 
+/// What is no use is not kept beside the factors of the whole.
+bool Condensed::Impl::condense_or_forget(const SparseMatrix& k, FactorReport& report) {
+  bool done = false;
+  try {
+    done = condense(k, report);
+  } catch (const std::bad_alloc&) {
+    done = false;
+  }
+  if (done) return true;
+  inside.forget();
+  dense = {};
+  matrix = {};
+  return false;
+}
+
 Condensed::Condensed(MumpsOptions options) : impl_(std::make_unique<Impl>(options)) {}
 Condensed::~Condensed() = default;
 
@@ -200,7 +216,7 @@ FactorReport Condensed::factor(const SparseMatrix& k, std::uint64_t pattern_vers
   s.version = pattern_version;
   s.symmetry = symmetry;
   s.symmetric = symmetry != Symmetry::unsymmetric;
-  s.condensed = s.pays(k, symmetry) && s.condense(k, report);
+  s.condensed = s.pays(k, symmetry) && s.condense_or_forget(k, report);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
   s.seconds += spent.count();
   if (s.condensed) {

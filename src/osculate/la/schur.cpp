@@ -85,10 +85,10 @@ bool SchurFactors::Impl::set_pattern(const SparseMatrix& k) {
       new_rows.push_back(i + 1);
       new_columns.push_back(j + 1);
     }
-  const bool other = rows != new_rows || columns != new_columns;
+  if (rows == new_rows && columns == new_columns) return false;  // the library points to them
   rows = std::move(new_rows);
   columns = std::move(new_columns);
-  return other;
+  return true;
 }
 
 /// Nested dissection of what is inside, then C.
@@ -163,6 +163,14 @@ bool SchurFactors::analyse(const SparseMatrix& k, Symmetry symmetry, std::span<c
   s.values.clear();
   s.analysed = s.id.infog[0] >= 0;
   return s.analysed;
+}
+
+void SchurFactors::forget() {
+  const LibraryCall guard(impl_->blas_threads);
+  impl_->close();
+  impl_->values = {};
+  impl_->schur.resize(0, 0);
+  impl_->work.resize(0, 0);
 }
 
 double SchurFactors::operations() const { return impl_->id.rinfog[0]; }

@@ -30,6 +30,8 @@ class SchurFactors {
   [[nodiscard]] double operations() const;
   /// Factors where the values are others than before. False: singular, or no room.
   bool factor(const SparseMatrix& k);
+  /// Gives the memory back.
+  void forget();
   [[nodiscard]] int negative_pivots() const;
   /// Smallest pivot beside the largest one.
   [[nodiscard]] double pivot_ratio() const;

@@ -57,10 +57,10 @@ Buckling BasicSystem<Dim>::buckling(const State& state, int count, la::LinearSol
   Buckling out;
   const std::vector<Vec<Dim>> x = s.positions(state.u);
   solve::Evaluation evaluation;
-  s.predict_about(state, 1.0, evaluation);
+  s.predict_about(state, 1.0, false, evaluation);
   const Eigen::VectorXd with_loads = s.total_force() + s.last.predicted;
   const Eigen::VectorXd carried = s.prescribed_increment(state, x, 1.0);
-  if (evaluation.ok) s.predict_about(state, 0.0, evaluation);
+  if (evaluation.ok) s.predict_about(state, 0.0, false, evaluation);
   if (!evaluation.ok) out.failure = evaluation.message;
   if (s.constraints.count() > 0 && !carried.isZero(0))
     out.failure = "supports move, and contacts have multipliers";

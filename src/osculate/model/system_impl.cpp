@@ -258,6 +258,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
     contact.add(committed, trial, fraction, length, x, pass == Pass::iterate, constraints, to, out);
   if (on(Term::rigid)) constraints.add_nodes(now, x, to);
   if (on(Term::pressure)) loads.add_pressure(step, now, fraction, to);
+  if (pressures_turn && with_tangent) loads.add_turning_pressure(step, fraction, to);
   loads.add_dead_loads(step, fraction, last.forces);
   loads.add_gravity(step, fraction, motion ? &motion->inertia : nullptr, last.forces);
   if (timed()) motion->add_inertia(now, to);

@@ -41,6 +41,7 @@ struct BasicSystem<Dim>::Impl {
   std::deque<ContactStates> recent;  ///< of the running attempt
   double assembly_seconds = 0;       ///< beside those of the terms
   bool with_stresses = false;        ///< tangents have what stresses do in small strain
+  bool pressures_turn = false;       ///< and what pressures do there
   // The running step.
   Step step;
   std::vector<bool> touched;    ///< by pair, in explicit time integration
@@ -62,7 +63,7 @@ struct BasicSystem<Dim>::Impl {
   [[nodiscard]] double round_off_in_time(std::span<const Vec<Dim>> x) const;
   // States that are left by little, in system_vibrations.cpp.
   /// Prediction from a state, contacts sticking, with what its stresses do to the stiffness.
-  void predict_about(const State& state, double fraction, solve::Evaluation& out);
+  void predict_about(const State& state, double fraction, bool turn, solve::Evaluation& out);
   /// Motions of all nodes and rigid bodies by a small one of the unknowns, without what is
   /// prescribed. Linear in the motion: rigid bodies turn by little.
   [[nodiscard]] Eigen::VectorXd motion_of_all(std::span<const Vec<Dim>> x, const State& state,

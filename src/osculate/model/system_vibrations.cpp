@@ -96,13 +96,14 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::motion_of_all(std::span<const Vec<Dim>> 
 }
 
 template <int Dim>
-void BasicSystem<Dim>::Impl::predict_about(const State& state, double fraction,
+void BasicSystem<Dim>::Impl::predict_about(const State& state, double fraction, bool turn,
                                            solve::Evaluation& out) {
   contact.friction = Prediction::sticking;
   recent.clear();
   with_stresses = true;
+  pressures_turn = turn;
   assemble(state, {state}, fraction, true, Pass::predict, out);
-  with_stresses = false;
+  with_stresses = pressures_turn = false;
 }
 
 template <int Dim>
@@ -136,7 +137,7 @@ std::string BasicSystem<Dim>::vibration_matrices(const State& state, la::SparseM
   }
   mass = s.builder.finish();
   solve::Evaluation evaluation;
-  s.predict_about(state, 1.0, evaluation);
+  s.predict_about(state, 1.0, true, evaluation);
   if (!evaluation.ok) return evaluation.message;
   stiffness = s.builder.finish();
   return {};
@@ -183,7 +184,7 @@ Eigen::VectorXd BasicSystem<Dim>::carried_along(const State& about, la::LinearSo
   Impl& s = *impl_;
   const std::vector<Vec<Dim>> x = s.positions(about.u);
   solve::Evaluation evaluation;
-  s.predict_about(about, 1.0, evaluation);
+  s.predict_about(about, 1.0, true, evaluation);
   if (!evaluation.ok) failure = evaluation.message;
   if (s.constraints.count() > 0) failure = "supports move, and contacts have multipliers";
   if (!failure.empty()) return {};
@@ -214,8 +215,8 @@ template Eigen::VectorXd BasicSystem<2>::Impl::motion_of_all(std::span<const Vec
                                                              const Eigen::VectorXd&) const;
 template Eigen::VectorXd BasicSystem<3>::Impl::motion_of_all(std::span<const Vec<3>>, const State3&,
                                                              const Eigen::VectorXd&) const;
-template void BasicSystem<2>::Impl::predict_about(const State&, double, solve::Evaluation&);
-template void BasicSystem<3>::Impl::predict_about(const State3&, double, solve::Evaluation&);
+template void BasicSystem<2>::Impl::predict_about(const State&, double, bool, solve::Evaluation&);
+template void BasicSystem<3>::Impl::predict_about(const State3&, double, bool, solve::Evaluation&);
 template Eigen::VectorXd BasicSystem<2>::carried_along(const State&, la::LinearSolver&,
                                                        std::string&);
 template Eigen::VectorXd BasicSystem<3>::carried_along(const State3&, la::LinearSolver&,

@@ -113,6 +113,24 @@ TEST(Condensed, IsMumpsWhereItDoesNotPay) {
   }
 }
 
+/// Entries of contact come, then the others change, without a new analysis between.
+TEST(Condensed, ContactComesAndThenAllElseChanges) {
+  Condensed solver;
+  solver.may_change(lowest());
+  for (const int closed : {0, 4, 20}) {
+    MatrixBuilder m = in_contact(closed, 50);
+    m.add(0, static_cast<Index>(2 * closed + 20), 0.25);  // another pattern of the few
+    m.add(static_cast<Index>(2 * closed + 20), 0, 0.25);
+    (void)solved(solver, m, Symmetry::indefinite);
+    const SparseMatrix& k = m.finish();
+    for (Index u = 0; u < k.n; ++u) m.add(u, u, 0.1 * (closed + 1));
+    Mumps whole;
+    const Eigen::VectorXd expected = solved(whole, m, Symmetry::indefinite);
+    EXPECT_LE((solved(solver, m, Symmetry::indefinite) - expected).norm(), 1e-10 * expected.norm());
+  }
+  EXPECT_EQ(solver.count().whole, 0);
+}
+
 TEST(Condensed, IsMumpsForMatricesOfAnotherSize) {
   Condensed solver;
   solver.may_change({100'000});

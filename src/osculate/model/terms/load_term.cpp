@@ -22,6 +22,29 @@ void LoadTerm<Dim>::add_pressure(const Step& step, const BasicState<Dim>& trial,
 }
 
 template <int Dim>
+void LoadTerm<Dim>::add_turning_pressure(const Step& step, double fraction,
+                                         Assembly<Dim>& to) const {
+  for (const PressureLoad& load : step.pressure) {
+    const double pressure = load.ramp.value(fraction);
+    if (pressure == 0.0) continue;
+    for (const PressureLoad::Facet& facet : load.facets) {
+      solid::Section<Dim> section = model.sections[static_cast<std::size_t>(facet.section)].section;
+      if (section.kinematics != solid::Kinematics::small) continue;
+      section.kinematics = solid::Kinematics::finite;
+      BasicBulkBlock<Dim> block;
+      set_dofs(std::span<const Index>(facet.nodes), block);
+      const solid::Coordinates<Dim> reference = reference_of(model, facet.nodes);
+      auto side = solid::side_pressure(section, facet.type, reference,
+                                       solid::Coordinates<Dim>(0 * reference), pressure);
+      side.tangent *= -to.share;
+      to.add_stiffness(
+          std::span<const Dof>(block.dofs.data(), static_cast<std::size_t>(block.dof_count)),
+          side.tangent);
+    }
+  }
+}
+
+template <int Dim>
 void LoadTerm<Dim>::add_dead_loads(const Step& step, double fraction, Forces& forces) const {
   for (const DeadLoad& load : step.dead) {
     const double factor = load.ramp.value(fraction);

@@ -17,6 +17,9 @@ struct LoadTerm {
 
   void add_pressure(const Step& step, const BasicState<Dim>& trial, double fraction,
                     Assembly<Dim>& to) const;
+  /// What pressures on bodies of small strain do as these turn with a small motion about a state,
+  /// in the tangent; forces are none. Those on other bodies are in `add_pressure`.
+  void add_turning_pressure(const Step& step, double fraction, Assembly<Dim>& to) const;
   void add_dead_loads(const Step& step, double fraction, Forces& forces) const;
   /// `inertia` of the running step, or null.
   void add_gravity(const Step& step, double fraction, const BasicInertia<Dim>* inertia,
