@@ -51,6 +51,24 @@ double eulers() {
   return 1000 * inertia * std::numbers::pi * std::numbers::pi / 400;
 }
 
+/// A pressure at the free end turns with it (Beck's column): vibrations of small strain know it, as
+/// those of finite strain do, and dead loads do not.
+TEST(Buckling, PressuresTurnInVibrationsOfSmallStrain) {
+  const auto lowest = [](const std::string& law, const std::string& load) {
+    const std::string steps = "  - {name: press, increments: 1, " + clamped + ", " + load +
+                              "}\n  - {name: free, modes: 2}\n";
+    const model::AnalysisResult found =
+        buckled(column(steps, "", law + ": {E: 1000, nu: 0, density: 1}"));
+    return found.steps.back().vibrations.value().omega_squared[0];
+  };
+  const std::string pressure = "pressure: [{on: c.right, value: 0.2}]";
+  const std::string dead = "traction: [{on: c.right, tx: -0.2}]";
+  const double turning = lowest("linear_elastic", pressure);
+  EXPECT_NEAR(turning / lowest("st_venant_kirchhoff", pressure), 1, 2e-3);
+  EXPECT_NEAR(lowest("linear_elastic", dead) / lowest("st_venant_kirchhoff", dead), 1, 2e-3);
+  EXPECT_GT(turning, 1.5 * lowest("linear_elastic", dead));
+}
+
 TEST(Buckling, OfAColumnByTheLoadsOfTheStep) {
   const Eigen::VectorXd found = factors_of(buckled(column(
       "  - {name: b, buckling: 2, " + clamped + ", total_force: [{on: c.right, fx: -2}]}\n")));

@@ -116,6 +116,10 @@ TEST(ToInp, WhatHasNoCounterpartIsRefusedByItsKey) {
               HasSubstr("rigid.r.plane"));
   EXPECT_THAT(refusal("{on: high.left, uy: 0}]", "{on: high.left, uy: 0}]\n    gravity: [0, 0, 1]"),
               HasSubstr("steps[0].gravity"));
+  EXPECT_THAT(
+      refusal("pressure: [{on: low.right, value: 3}]",
+              "forces: [{on: high.top, fy: 1}]\n    pressure: [{on: low.right, value: 3}]"),
+      HasSubstr("'high.right' shares nodes with 'high.top', which a step before has loaded"));
 }
 
 }  // namespace

@@ -60,7 +60,8 @@ TEST_P(Invariance, ForcesAndTangentTurnWithTheBody) {
       all.block(c.dim() * k, c.dim() * k, c.dim(), c.dim()) = q;
     const double scale = stiffness_scale(c, x);
     EXPECT_LT((b.force - all * a.force).norm(), 1e-14 * scale);
-    EXPECT_LT((b.tangent - all * a.tangent * all.transpose()).norm(), 1e-13 * scale);
+    // laws of principal stretches find these by an iteration, which rounds once more
+    EXPECT_LT((b.tangent - all * a.tangent * all.transpose()).norm(), 2e-13 * scale);
   });
 }
 
