@@ -79,7 +79,7 @@ class Decks(unittest.TestCase):
         self.assertAlmostEqual(float(row["BASE.rfy"]), PRESSURE, delta=1e-12)
 
     def test_what_is_not_understood_is_bad_input(self):
-        for right, wrong in (("*STATIC", "*COMPLEX FREQUENCY"), ("SIDE, 1", "SIED, 1")):
+        for right, wrong in (("*STATIC", "*COMPLEXFREQUENCY"), ("SIDE, 1", "SIED, 1")):
             self.write("broken.inp", deck(1).replace(right, wrong))
             done = self.run_program("run", "broken.inp")
             self.assertEqual(done.returncode, 2)
