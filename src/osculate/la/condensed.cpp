@@ -91,7 +91,7 @@ Eigen::VectorXd product(const SparseMatrix& k, const Eigen::VectorXd& x, bool sy
 struct Condensed::Impl {
   Mumps whole;
   SchurFactors inside;
-  Dense dense;
+  std::unique_ptr<Dense> dense = std::make_unique<Dense>();
   std::vector<Index> changing;
   bool condensed = false;  ///< the last factors
   SparseMatrix matrix;     ///< theirs, where condensed
@@ -108,7 +108,9 @@ struct Condensed::Impl {
 
   [[nodiscard]] bool pays(const SparseMatrix& k, Symmetry symmetry);
   bool condense(const SparseMatrix& k, FactorReport& report);
-  bool condense_or_forget(const SparseMatrix& k, FactorReport& report);
+  bool condense_where_it_fits(const SparseMatrix& k, FactorReport& report);
+  void forget();
+  FactorReport factor_whole(const SparseMatrix& k);
   [[nodiscard]] Eigen::MatrixXd small_matrix(const SparseMatrix& k) const;
   [[nodiscard]] bool accurate();
   bool substitute(Eigen::MatrixXd& x);
@@ -148,7 +150,7 @@ Eigen::MatrixXd Condensed::Impl::small_matrix(const SparseMatrix& k) const {
 bool Condensed::Impl::substitute(Eigen::MatrixXd& x) {
   Eigen::MatrixXd of_c;
   if (!inside.reduce(x, of_c)) return false;
-  dense.solve(of_c);
+  dense->solve(of_c);
   return inside.expand(of_c, x);
 }
 
@@ -162,7 +164,7 @@ bool Condensed::Impl::substitute(Eigen::VectorXd& x) {
 /// At most half of the digits are lost: else Mumps looks at the whole.
 bool Condensed::Impl::accurate() {
   constexpr double harmless = 1e-9, digits_left = 1e-6;
-  if (inside.pivot_ratio() > harmless && dense.pivot_ratio() > harmless) return true;
+  if (inside.pivot_ratio() > harmless && dense->pivot_ratio() > harmless) return true;
   const double lost = lost_accuracy(
       scale_of(matrix, symmetric),
       [this](const Eigen::VectorXd& x) { return product(matrix, x, symmetric); },
@@ -173,7 +175,7 @@ bool Condensed::Impl::accurate() {
 /// False: Mumps is to do it.
 bool Condensed::Impl::condense(const SparseMatrix& k, FactorReport& report) {
   if (!inside.factor(k)) return false;
-  if (!dense.factor(small_matrix(k), symmetric)) return false;
+  if (!dense->factor(small_matrix(k), symmetric)) return false;
   matrix = k;
   if (!accurate()) return false;
   report = {};
@@ -183,19 +185,31 @@ bool Condensed::Impl::condense(const SparseMatrix& k, FactorReport& report) {
   return true;
 }
 
-/// What is no use is not kept beside the factors of the whole.
-bool Condensed::Impl::condense_or_forget(const SparseMatrix& k, FactorReport& report) {
-  bool done = false;
+/// As condense, where there is room for it.
+bool Condensed::Impl::condense_where_it_fits(const SparseMatrix& k, FactorReport& report) {
   try {
-    done = condense(k, report);
+    return condense(k, report);
   } catch (const std::bad_alloc&) {
-    done = false;
+    forget();
+    return false;
   }
-  if (done) return true;
+}
+
+void Condensed::Impl::forget() {
   inside.forget();
-  dense = {};
+  dense = std::make_unique<Dense>();
   matrix = {};
-  return false;
+}
+
+/// By Mumps, with the room of what was condensed where it is short of it.
+FactorReport Condensed::Impl::factor_whole(const SparseMatrix& k) {
+  try {
+    return whole.factor(k, version, symmetry);
+  } catch (const NotEnoughMemory&) {
+    if (!inside.holds_factors()) throw;
+  }
+  forget();
+  return whole.factor(k, version, symmetry);
 }
 
 Condensed::Condensed(MumpsOptions options) : impl_(std::make_unique<Impl>(options)) {}
@@ -216,7 +230,7 @@ FactorReport Condensed::factor(const SparseMatrix& k, std::uint64_t pattern_vers
   s.version = pattern_version;
   s.symmetry = symmetry;
   s.symmetric = symmetry != Symmetry::unsymmetric;
-  s.condensed = s.pays(k, symmetry) && s.condense_or_forget(k, report);
+  s.condensed = s.pays(k, symmetry) && s.condense_where_it_fits(k, report);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
   s.seconds += spent.count();
   if (s.condensed) {
@@ -225,7 +239,7 @@ FactorReport Condensed::factor(const SparseMatrix& k, std::uint64_t pattern_vers
     return report;
   }
   ++s.count.whole;
-  report = s.whole.factor(k, pattern_version, symmetry);
+  report = s.factor_whole(k);
   s.seconds += s.whole.seconds() - before;
   return report;
 }

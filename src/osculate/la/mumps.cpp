@@ -104,30 +104,29 @@ struct Mumps::Impl {
   void refine(const Eigen::VectorXd& rhs, Eigen::VectorXd& x);
 };
 
-void mumps::require_room_for_blas() {
+bool mumps::open_library(DMUMPS_STRUC_C& id, int kind) {
   constexpr std::size_t buffers = std::size_t{256} << 20U;
   if (!core::can_allocate(buffers))
     throw NotEnoughMemory("not enough memory for the linear solver");
-}
-
-bool Mumps::Impl::begin(int kind) {
-  close();
-  require_room_for_blas();
   id = {};
   id.comm_fortran = use_communicator_world;
   id.par = 1;
   id.sym = kind;
-  call(start);
+  id.job = start;
+  dmumps_c(&id);
   if (id.infog[0] < 0) return false;
-  open = true;
   id.icntl[error_unit] = id.icntl[warning_unit] = id.icntl[info_unit] = -1;
   id.icntl[print_level] = 0;
   id.icntl[openmp_threads] = 1;
-  // Neither permutation nor scaling from the values at the time of the analysis: the next
-  // factorisations must not depend on them.
   id.icntl[transversal] = 0;
   id.icntl[scaling] = 7;  // rows and columns together, iterated, from the current values
   return true;
+}
+
+bool Mumps::Impl::begin(int kind) {
+  close();
+  open = open_library(id, kind);
+  return open;
 }
 
 void Mumps::Impl::set_pattern(const SparseMatrix& k) {

@@ -1,5 +1,7 @@
 #pragma once
 // How MUMPS is called; for the sources that do.
+#include <dmumps_c.h>
+
 #include <mutex>
 
 #include "osculate/la/linear_solver.hpp"
@@ -58,8 +60,12 @@ class LibraryCall {
   bool changed_ = false;
 };
 
-/// The BLAS asks the system for its buffers until it gets them: where there is no room for them, it
-/// is not to be called.
-void require_room_for_blas();
+/// A silent instance for matrices of this kind, without permutation or scaling from the values at
+/// the time of the analysis: the next factorisations must not depend on them. False: it did not
+/// start.
+///
+/// Errors     NotEnoughMemory where there is no room for the buffers of the BLAS, which asks the
+///            system for them until it gets them
+[[nodiscard]] bool open_library(DMUMPS_STRUC_C& id, int kind);
 
 }  // namespace osculate::la::mumps

@@ -53,20 +53,8 @@ struct SchurFactors::Impl {
 
 bool SchurFactors::Impl::begin() {
   close();
-  require_room_for_blas();
-  id = {};
-  id.comm_fortran = use_communicator_world;
-  id.par = 1;
-  id.sym = kind_of(symmetry);
-  call(start);
-  if (id.infog[0] < 0) return false;
-  open = true;
-  id.icntl[error_unit] = id.icntl[warning_unit] = id.icntl[info_unit] = -1;
-  id.icntl[print_level] = 0;
-  id.icntl[openmp_threads] = 1;
-  id.icntl[transversal] = 0;
-  id.icntl[scaling] = 7;
-  return true;
+  open = open_library(id, kind_of(symmetry));
+  return open;
 }
 
 bool SchurFactors::Impl::set_pattern(const SparseMatrix& k) {
@@ -164,6 +152,8 @@ bool SchurFactors::analyse(const SparseMatrix& k, Symmetry symmetry, std::span<c
   s.analysed = s.id.infog[0] >= 0;
   return s.analysed;
 }
+
+bool SchurFactors::holds_factors() const { return impl_->factored; }
 
 void SchurFactors::forget() {
   const LibraryCall guard(impl_->blas_threads);

@@ -30,6 +30,7 @@ class SchurFactors {
   [[nodiscard]] double operations() const;
   /// Factors where the values are others than before. False: singular, or no room.
   bool factor(const SparseMatrix& k);
+  [[nodiscard]] bool holds_factors() const;
   /// Gives the memory back.
   void forget();
   [[nodiscard]] int negative_pivots() const;
