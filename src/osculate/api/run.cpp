@@ -186,11 +186,12 @@ struct Recorder {
       options.progress(left);
   }
 
-  bool converged(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
-                 const model::Progress& p, const solve::IncrementRecord* record) {
+  /// Writes what an increment has given; false: the run ends here.
+  template <class Write>
+  bool written(const Write& write) {
     const auto start = std::chrono::steady_clock::now();
     try {
-      record_increment(system, state, p, record);
+      write();
     } catch (const io::WriteError& error) {
       write_error = error.what();
     }
@@ -200,19 +201,15 @@ struct Recorder {
     return !stopping;
   }
 
+  bool converged(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
+                 const model::Progress& p, const solve::IncrementRecord* record) {
+    return written([&] { record_increment(system, state, p, record); });
+  }
+
   /// Real and imaginary part are one increment.
   bool swings(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
               const model::Progress& p, const model::HarmonicPart& part) {
-    const auto start = std::chrono::steady_clock::now();
-    try {
-      record_part(system, state, p, part);
-    } catch (const io::WriteError& error) {
-      write_error = error.what();
-    }
-    seconds += seconds_since(start);
-    stopping =
-        !write_error.empty() || (options.interrupted && options.interrupted()) || budget.too_late();
-    return !stopping;
+    return written([&] { record_part(system, state, p, part); });
   }
 
   void record_part(model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,

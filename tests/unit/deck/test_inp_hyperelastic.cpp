@@ -84,7 +84,7 @@ TEST(InpHyperelastic, OgdenAndFoam) {
   EXPECT_EQ(foam.density, 3);
 }
 
-/// Poisson's ratio is that of K = 20 mu, 0.475, where no constant gives the bulk modulus.
+/// Poisson's ratio is that of K = 20 mu, 29/61, where no constant gives the bulk modulus.
 TEST(InpHyperelastic, WithoutABulkModulus) {
   const material::Isotropic is = unloaded(rubber("*HYPERELASTIC, MOONEY-RIVLIN\n1.5, 0.5\n"));
   EXPECT_NEAR(is.poisson, 29.0 / 61, 1e-14);
