@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "commands.hpp"
+#include "osculate/core/memory.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/la/blas_threads.hpp"
 
@@ -41,6 +42,7 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  osculate::core::keep_freed_memory();
   osculate::la::end_idle_blas_threads();
   return osculate::app::guarded(run_program, argc, argv);
 }

@@ -1,6 +1,7 @@
 #include "osculate/core/memory.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -61,6 +62,12 @@ bool can_allocate(std::size_t bytes) {
   void* const probe = std::malloc(bytes);  // not touched, so nothing is taken
   std::free(probe);
   return probe != nullptr;
+}
+
+void keep_freed_memory() {
+  constexpr int largest_block = 32 << 20, most = 128 << 20;
+  (void)mallopt(M_MMAP_THRESHOLD, largest_block);
+  (void)mallopt(M_TRIM_THRESHOLD, most);
 }
 
 std::string memory_text(double bytes) {

@@ -15,6 +15,10 @@ namespace osculate::core {
 /// Whether so many bytes can be allocated now; they are not kept.
 [[nodiscard]] bool can_allocate(std::size_t bytes);
 
+/// Keeps up to so much of what is freed for what is allocated next: pages that the system takes
+/// back must be cleared again. For programs, not for libraries.
+void keep_freed_memory();
+
 /// `1.2 GB`, `340 MB`
 [[nodiscard]] std::string memory_text(double bytes);
 

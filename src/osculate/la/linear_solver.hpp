@@ -40,6 +40,7 @@ struct FactorReport {
   /// correct the solution by its residual.
   Eigen::VectorXd weakest{};
   std::int64_t factor_entries = 0;
+  double operations = 0;  ///< of the factorisation, where it is worth to do without it; else 0
 };
 
 /// All that the rest of the program knows of a solver of linear systems. What a solver does not

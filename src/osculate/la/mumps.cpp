@@ -191,6 +191,7 @@ FactorReport Mumps::Impl::outcome() const {
   if (code < 0) return failure(SolveStatus::failed, "MUMPS error " + std::to_string(code));
   FactorReport report;
   if (symmetry != Symmetry::unsymmetric) report.negative_pivots = id.infog[11];
+  report.operations = std::max(0.0, id.rinfog[2]);  // of the elimination
   constexpr std::int64_t million = 1'000'000;
   report.factor_entries = id.infog[28] >= 0 ? id.infog[28] : -million * id.infog[28];
   return report;

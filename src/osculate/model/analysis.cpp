@@ -69,7 +69,7 @@ struct Analysis {
       position.at = end;
       solve::IncrementRecord record;
       record.fraction = end;
-      record.iterations.push_back({0, 0, 1, done.counts});
+      record.iterations.push_back({.counts = done.counts});
       record.time_steps = done.time_steps;
       result.steps.back().increments.push_back(record);
       if (on_increment(result.state, record)) continue;

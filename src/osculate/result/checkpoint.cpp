@@ -48,8 +48,8 @@ void fields(Archive& a, StateCounts& counts) {
 }
 template <class Archive>
 void fields(Archive& a, IterationRecord& record) {
-  auto& [residual, energy, step, counts] = record;
-  a(residual, energy, step, counts);
+  auto& [residual, energy, step, factored, counts] = record;
+  a(residual, energy, step, factored, counts);
 }
 template <class Archive>
 void fields(Archive& a, TimeSteps& steps) {
@@ -184,7 +184,7 @@ void fields(Archive& a, JournalEntry& e) {
 
 namespace {
 
-constexpr int version = 11;
+constexpr int version = 12;
 
 template <class... T>
 std::string saved(const T&... values) {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace osculate::result {
 namespace {
 
@@ -23,6 +25,13 @@ std::string precision_text(const solve::Precision& precision) {
 std::string counts_column(const char* gap, const solve::StateCounts& counts, PointStates states) {
   const std::string text = counts_text(counts, states);
   return text.empty() ? text : gap + text;
+}
+
+/// Empty where every iteration had its own.
+std::string factorisations_text(const std::vector<solve::IterationRecord>& iterations) {
+  const auto count = std::ranges::count_if(iterations, &solve::IterationRecord::factored);
+  if (count == std::ssize(iterations)) return {};
+  return fmt::format("  ({} factorisations)", count);
 }
 
 }  // namespace
@@ -54,8 +63,8 @@ std::string increment_text(const std::string& step, const model::Progress& p,
       counts_column("  ", last.counts, states),
       (record.cutbacks ? fmt::format("  ({} cut-backs)", record.cutbacks) : std::string{}) +
           (record.resisted ? "  (free motions resisted on the way)" : "") +
-          (record.on_path ? "  (on the path)" : "") + precision_text(record.precision) +
-          time_step_text(record.time_step));
+          factorisations_text(record.iterations) + (record.on_path ? "  (on the path)" : "") +
+          precision_text(record.precision) + time_step_text(record.time_step));
 }
 
 std::string time_steps_text(const std::string& step, const model::Progress& p,

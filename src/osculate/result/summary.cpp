@@ -47,6 +47,8 @@ nlohmann::json increment_json(double step_time, const solve::IncrementRecord& re
   if (record.precision.condition > 0) condition = number(record.precision.condition);
   return {{"time", step_time + record.fraction},
           {"iterations", record.iterations.size()},
+          {"factorisations",
+           std::ranges::count_if(record.iterations, &solve::IterationRecord::factored)},
           {"residual", number(last.residual)},
           {"energy", number(last.energy)},
           {"cutbacks", record.cutbacks},

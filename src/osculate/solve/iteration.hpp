@@ -86,9 +86,10 @@ struct Guess {
 };
 
 struct IterationRecord {
-  double residual = 0;  ///< |R| / scale after the correction
-  double energy = 0;    ///< relative to the first iteration
-  double step = 1;      ///< line search factor
+  double residual = 0;   ///< |R| / scale after the correction
+  double energy = 0;     ///< relative to the first iteration
+  double step = 1;       ///< line search factor
+  bool factored = true;  ///< else the factors of a former iteration served
   StateCounts counts;
 };
 

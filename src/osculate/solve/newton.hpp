@@ -184,13 +184,14 @@ bool meets(const Judge& judge, const Eigen::VectorXd& du, double energy_before,
 /// Writes down the iteration with correction `du`; true if it was the last one, converged or not.
 template <class Trial>
 bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energy_before,
-              NewtonResult<Trial>& result) {
+              NewtonResult<Trial>& result, bool factored = true) {
   const Evaluation& e = result.evaluation;
   if (!e.ok) return !fail(result, Outcome::numerical_failure, e.message);
   const double energy_after = std::abs(du.dot(e.residual));
   const bool by_residual = judge.options.residual > 0;
   IterationRecord record;
   record.step = step;
+  record.factored = factored;
   const double size = e.residual.norm();
   record.residual = relative_residual(result);
   record.energy = relative(by_residual ? energy_after : energy_before, judge.first_energy);
@@ -241,6 +242,7 @@ template <System S>
   }
   detail::Resistance<S> resistance(system, guess.resisted);
   detail::Peeling<S> peeling;
+  detail::FormerFactors former;
   int most = (resistance.on() ? 2 : 1) * options.max_iterations;
   const int more = options.max_iterations / 2, limit = 4 * most;
   for (int i = 1; i <= most + peeling.iterations(); ++i) {
@@ -249,7 +251,7 @@ template <System S>
     const Eigen::VectorXd linearised = branched ? result.evaluation.branch_residual : residual;
     Eigen::VectorXd du;
     result.trial = system.remember(result.trial);
-    if (!resistance.solve(solver, linearised, du, result)) {
+    if (!resistance.solve(solver, linearised, du, result, former)) {
       if (!peeling.gives_up(system, committed, time, result)) return result;
       judge.begin_again();
       continue;
@@ -276,7 +278,7 @@ template <System S>
     if (!known) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (result.total.size() == 0) result.total.setZero(du.size());
     result.total += step * du;
-    const bool ended = detail::conclude(judge, du, step, energy_before, result);
+    const bool ended = detail::conclude(judge, du, step, energy_before, result, former.fresh());
     if (known && !ended) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();

@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 
-#include "osculate/la/linear_solver.hpp"
+#include "osculate/la/nearby.hpp"
 #include "osculate/solve/iteration.hpp"
 
 namespace osculate::solve {
@@ -44,13 +44,53 @@ concept Interruptible = requires(const S s) {
   { s.interrupted() } -> std::same_as<bool>;
 };
 
+/// The factors of a former iteration of the same increment. They solve for a further correction
+/// where no point has changed its state, so that nothing can have come loose that was held.
+///
+/// Formula    |R + K du| <= c |R| , c = 0.1 of what is out of balance beside the forces: quadratic
+///            convergence is not lost
+/// Source     S. C. Eisenstat, H. F. Walker, SIAM J. Sci. Comput. 17 (1996) 16-32, choice 2
+/// Tested by  tests/unit/solve/test_former_factors.cpp
+class FormerFactors {
+ public:
+  /// The last correction took a factorisation.
+  [[nodiscard]] bool fresh() const { return fresh_; }
+  void forget() { affordable_ = 0; }
+  void keep(const la::FactorReport& report, const la::SparseMatrix& k, const StateCounts& counts) {
+    const bool sound = report.status == la::SolveStatus::ok && report.condition == 0;
+    affordable_ = sound ? la::affordable_iterations(report, k) : 0;
+    states_ = counts.signature;
+    fresh_ = true;
+  }
+  /// du = -K^-1 R ; false: the tangent of `system` is to be factored.
+  template <System S>
+  bool solve(S& system, la::LinearSolver& solver, const NewtonResult<typename S::Trial>& result,
+             const Eigen::VectorXd& residual, Eigen::VectorXd& du) {
+    if (affordable_ < 1 || result.evaluation.counts.signature != states_) return false;
+    constexpr double share = 0.1, least = 1e-9, most = 1e-4;
+    const double relative = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
+    du = -residual;
+    const la::NearbyLimits limits{affordable_, std::clamp(share * relative, least, most)};
+    fresh_ = !la::solve_nearby(system.matrix(), system.symmetry(), solver, limits, du).solved;
+    return !fresh_;
+  }
+
+ private:
+  int affordable_ = 0;  ///< iterations; none without factors
+  std::uint64_t states_ = 0;
+  bool fresh_ = true;
+};
+
 /// du = -K^-1 R. Returns false and fills the result when the tangent cannot be used.
 template <System S>
 bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd& residual,
-                      Eigen::VectorXd& du, NewtonResult<typename S::Trial>& result) {
+                      Eigen::VectorXd& du, NewtonResult<typename S::Trial>& result,
+                      FormerFactors* former = nullptr) {
   result.linear = la::SolveStatus::ok;
   if constexpr (Interruptible<S>)
     if (system.interrupted()) return fail(result, Outcome::stopped, "stopped by the user");
+  if (former && former->solve(system, solver, result, residual, du)) return true;
+  if (former) former->forget();
   la::FactorReport report =
       solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
   result.precision.condition = std::max(result.precision.condition, report.condition);
@@ -71,6 +111,7 @@ bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd
   result.linear = status;
   if (status != la::SolveStatus::ok || !du.allFinite())
     return fail(result, Outcome::numerical_failure, "the tangent is singular");
+  if (former) former->keep(report, system.matrix(), result.evaluation.counts);
   return true;
 }
 
@@ -98,8 +139,8 @@ class Resistance {
 
   /// As solve_correction, with as much resistance as it takes.
   bool solve(la::LinearSolver& solver, const Eigen::VectorXd& residual, Eigen::VectorXd& du,
-             NewtonResult<typename S::Trial>& result) {
-    if (!on_) return solve_correction(system_, solver, residual, du, result);
+             NewtonResult<typename S::Trial>& result, FormerFactors& former) {
+    if (!on_) return solve_correction(system_, solver, residual, du, result, &former);
     constexpr double most = 1.0, stiffer = 100, spare = 2;
     for (bool first = true; share_ <= most; first = false) {
       set(share_);

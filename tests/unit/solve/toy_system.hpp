@@ -27,6 +27,7 @@ struct ToySystem {
   };
   std::function<std::string(const Vector& x, const Vector& committed)> wrong;  ///< empty = ok
   std::function<double(double time)> prescribed;
+  std::function<std::uint64_t(const Vector& x)> states = [](const Vector&) { return 0; };
   double round_off = 0, round_off_in_time = 0;  ///< the estimates
   bool loaded = true;
   std::vector<Vector> evaluated;  ///< every x that `evaluate` saw
@@ -66,6 +67,7 @@ struct ToySystem {
     out.round_off = round_off;
     out.round_off_in_time = round_off_in_time;
     out.loaded = loaded;
+    out.counts.signature = states(trial.x);
     if (tangent) fill(trial.x);
   }
   [[nodiscard]] State apply(const State& state, const Vector& du, double time,

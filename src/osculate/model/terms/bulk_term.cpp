@@ -9,7 +9,7 @@
 namespace osculate::model {
 namespace {
 
-constexpr std::size_t tile = 256;  ///< cells computed in parallel before they are added in order
+constexpr std::size_t tile = 32;  ///< cells of a thread before they are added, in order
 
 }  // namespace
 
@@ -20,7 +20,7 @@ BulkTerm<Dim>::BulkTerm(const BasicModel<Dim>& m, int thread_count)
     jobs.push_back({&section, cell, of});
     linear.add(section, cell_nodes(model.mesh, cell).type);
   });
-  blocks.resize(std::min(tile, jobs.size()));
+  blocks.resize(std::min(tile * static_cast<std::size_t>(std::max(1, threads)), jobs.size()));
 }
 
 template <int Dim>
@@ -41,8 +41,8 @@ template <int Dim>
 bool BulkTerm<Dim>::add(const State& committed, const State& trial, double duration,
                         const CellInertia<Dim>* inertia, Assembly<Dim>& to,
                         solve::Evaluation& out) {
-  for (std::size_t start = 0; start < jobs.size(); start += tile) {
-    const std::size_t count = std::min(tile, jobs.size() - start);
+  for (std::size_t start = 0; start < jobs.size(); start += blocks.size()) {
+    const std::size_t count = std::min(blocks.size(), jobs.size() - start);
     const Stopwatch watch;
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::size_t i = 0; i < count; ++i) {
@@ -70,8 +70,8 @@ bool BulkTerm<Dim>::add(const State& committed, const State& trial, double durat
 
 template <int Dim>
 void BulkTerm<Dim>::add_stresses(const Strained& at, const Strained* less, Assembly<Dim>& to) {
-  for (std::size_t start = 0; start < jobs.size(); start += tile) {
-    const std::size_t count = std::min(tile, jobs.size() - start);
+  for (std::size_t start = 0; start < jobs.size(); start += blocks.size()) {
+    const std::size_t count = std::min(blocks.size(), jobs.size() - start);
 #pragma omp parallel for num_threads(threads) schedule(static)
     for (std::size_t i = 0; i < count; ++i) {
       const Job& job = jobs[start + i];

@@ -1,0 +1,102 @@
+#include "osculate/la/nearby.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "grid.hpp"
+#include "osculate/la/mumps.hpp"
+
+namespace osculate::la {
+namespace {
+
+constexpr Index width = 20, height = 15;
+
+/// A block on springs, with further ones of the stiffness `stiff` at `count` nodes of its lowest
+/// row: one changed unknown each. With `shear` they have an unsymmetric part.
+MatrixBuilder block(Index count, double stiff, double shear = 0) {
+  MatrixBuilder m = test::grid(width, height, true);
+  for (Index i = 0; i < count; ++i) {
+    m.add(2 * i + 1, 2 * i + 1, stiff);
+    if (shear != 0) m.add(2 * i, 2 * i + 1, shear * stiff);
+  }
+  return m;
+}
+
+Eigen::VectorXd load(Index n) { return Eigen::VectorXd::LinSpaced(n, -1, 2); }
+
+struct Solved {
+  Eigen::VectorXd by_factors, nearby;
+  Nearby report;
+  SparseMatrix k;
+};
+
+/// The block with `count` springs, by its own factors and by those of the block with none.
+Solved solved(Index count, double stiff, Symmetry kind, const NearbyLimits& limits,
+              double shear = 0) {
+  MatrixBuilder before = block(0, 0), after = block(count, stiff, shear);
+  Mumps former, own;
+  EXPECT_EQ(former.factor(before.finish(), 1, kind).status, SolveStatus::ok);
+  Solved s;
+  s.k = after.finish();
+  EXPECT_EQ(own.factor(s.k, 1, kind).status, SolveStatus::ok);
+  s.by_factors = s.nearby = load(s.k.n);
+  EXPECT_EQ(own.solve(s.by_factors), SolveStatus::ok);
+  s.report = solve_nearby(s.k, kind, former, limits, s.nearby);
+  return s;
+}
+
+// K = M + a change of rank r: K M^-1 has at most r + 1 different eigenvalues.
+TEST(Nearby, TakesOneIterationMoreThanUnknownsHaveChanged) {
+  for (const Symmetry kind :
+       {Symmetry::unsymmetric, Symmetry::positive_definite, Symmetry::indefinite})
+    for (const Index count : {0, 1, 3, 6}) {
+      SCOPED_TRACE(count);
+      const double shear = kind == Symmetry::unsymmetric ? 0.3 : 0.0;
+      const Solved s = solved(count, 5.0, kind, {20, 1e-10}, shear);
+      EXPECT_TRUE(s.report.solved);
+      EXPECT_LE(s.report.iterations, count + 1);
+      EXPECT_LT((s.nearby - s.by_factors).norm(), 1e-8 * s.by_factors.norm());
+    }
+}
+
+TEST(Nearby, KeepsItsToleranceOrChangesNothing) {
+  for (const double tolerance : {1e-2, 1e-5, 1e-9}) {
+    const Solved s = solved(10, 2.0, Symmetry::unsymmetric, {40, tolerance}, 0.3);
+    ASSERT_TRUE(s.report.solved);
+    EXPECT_LE((load(s.k.n) - multiply(s.k, s.nearby)).norm(), tolerance * load(s.k.n).norm());
+  }
+  const Solved few = solved(10, 2.0, Symmetry::unsymmetric, {3, 1e-9}, 0.3);
+  EXPECT_FALSE(few.report.solved);
+  EXPECT_EQ(few.nearby, load(few.k.n));
+}
+
+TEST(Nearby, RefusesWhatIsNoNumberOrHasNoFactors) {
+  MatrixBuilder m = block(0, 0);
+  Mumps none;
+  Eigen::VectorXd b = load(m.finish().n);
+  EXPECT_FALSE(solve_nearby(m.finish(), Symmetry::unsymmetric, none, {5, 1e-8}, b).solved);
+  EXPECT_EQ(b, load(b.size()));
+  ASSERT_EQ(none.factor(m.finish(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+  b[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(solve_nearby(m.finish(), Symmetry::unsymmetric, none, {5, 1e-8}, b).solved);
+  Eigen::VectorXd shorter = load(m.finish().n - 1);
+  EXPECT_FALSE(solve_nearby(m.finish(), Symmetry::unsymmetric, none, {5, 1e-8}, shorter).solved);
+}
+
+TEST(Nearby, IsAffordableWhereFactorsAreDear) {
+  const SparseMatrix& k = block(0, 0).finish();
+  FactorReport report;
+  EXPECT_EQ(affordable_iterations(report, k), 0);  // a solver that does not say
+  report.operations = 1e4;
+  report.factor_entries = 20'000;
+  EXPECT_EQ(affordable_iterations(report, k), 0);  // too small to be worth it
+  report.operations = 1.5e10;
+  report.factor_entries = 22'000'000;
+  EXPECT_GT(affordable_iterations(report, k), 15);
+  report.operations = 1e14;
+  EXPECT_EQ(affordable_iterations(report, k), 40);
+}
+
+}  // namespace
+}  // namespace osculate::la

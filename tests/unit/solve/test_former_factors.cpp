@@ -1,0 +1,97 @@
+// Corrections by the factors of a former iteration: where they may be, and that they change nothing
+// but the time.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "osculate/la/mumps.hpp"
+#include "toy_system.hpp"
+
+namespace osculate::solve {
+namespace {
+
+constexpr Index size = 400;  // dense: dear enough
+
+/// Springs that stiffen, each of which pulls at all others.
+ToySystem springs() {
+  ToySystem system;
+  system.size = size;
+  system.builder = la::MatrixBuilder{size};
+  const auto linear = [] {
+    Eigen::MatrixXd k = Eigen::MatrixXd::Constant(size, size, -0.5 / size);
+    for (Index i = 0; i < size; ++i) k(i, i) += 1 + 0.3 * std::sin(i);
+    return k;
+  };
+  const Eigen::MatrixXd k = linear();
+  system.force = [k](const Eigen::VectorXd& x, double t) -> Eigen::VectorXd {
+    return k * x + Eigen::VectorXd(x.array().cube()) -
+           t * Eigen::VectorXd::LinSpaced(size, 0.2, 0.6);
+  };
+  system.stiffness = [k](const Eigen::VectorXd& x) {
+    Eigen::MatrixXd tangent = k;
+    tangent.diagonal() += Eigen::VectorXd(3 * x.array().square());
+    return tangent;
+  };
+  return system;
+}
+
+/// Mumps, which does not say what its factors cost.
+class Silent final : public la::LinearSolver {
+ public:
+  la::FactorReport factor(const la::SparseMatrix& k, std::uint64_t version,
+                          la::Symmetry symmetry) override {
+    la::FactorReport report = mumps_.factor(k, version, symmetry);
+    report.operations = 0;
+    return report;
+  }
+  la::SolveStatus solve(Eigen::VectorXd& x) override { return mumps_.solve(x); }
+  la::SolveStatus solve(Eigen::MatrixXd& x) override { return mumps_.solve(x); }
+  [[nodiscard]] double seconds() const override { return mumps_.seconds(); }
+
+ private:
+  la::Mumps mumps_;
+};
+
+NewtonResult<ToySystem::Trial> solved(ToySystem& system, la::LinearSolver& solver) {
+  return newton(system, ToySystem::State{Eigen::VectorXd::Zero(size)}, 1.0, {}, solver);
+}
+
+std::ptrdiff_t factorisations(const NewtonResult<ToySystem::Trial>& result) {
+  return std::ranges::count_if(result.iterations, &IterationRecord::factored);
+}
+
+TEST(FormerFactors, SaveFactorisationsAndNothingElse) {
+  ToySystem system = springs();
+  la::Mumps mumps;
+  Silent silent;
+  const auto with = solved(system, mumps), without = solved(system, silent);
+  ASSERT_EQ(with.outcome, Outcome::converged) << with.reason;
+  ASSERT_EQ(without.outcome, Outcome::converged) << without.reason;
+  EXPECT_EQ(factorisations(without), std::ssize(without.iterations));
+  EXPECT_LT(factorisations(with), std::ssize(with.iterations));
+  EXPECT_EQ(with.iterations.size(), without.iterations.size());
+  EXPECT_LT((with.trial.x - without.trial.x).norm(), 1e-9 * without.trial.x.norm());
+}
+
+TEST(FormerFactors, AreNotTrustedWhereStatesHaveChanged) {
+  ToySystem system = springs();
+  std::uint64_t calls = 0;
+  system.states = [&](const Eigen::VectorXd&) { return ++calls; };
+  la::Mumps mumps;
+  const auto result = solved(system, mumps);
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  EXPECT_EQ(factorisations(result), std::ssize(result.iterations));
+}
+
+TEST(FormerFactors, BeginAnewWithEveryIncrement) {
+  ToySystem system = springs();
+  la::Mumps mumps, fresh;
+  const auto first = solved(system, mumps), again = solved(system, mumps);
+  const auto alone = solved(system, fresh);
+  EXPECT_TRUE(again.iterations.front().factored);
+  EXPECT_EQ(again.trial.x, first.trial.x);
+  EXPECT_EQ(again.trial.x, alone.trial.x);
+}
+
+}  // namespace
+}  // namespace osculate::solve
