@@ -1,7 +1,8 @@
 """Results in the files of CalculiX. Usage: test_answers.py PROGRAM
 
-Compares with ccx itself, and reads with cgx, where they are installed."""
+Compares with ccx itself, and reads with cgx and FreeCAD, where they are installed."""
 import glob
+import json
 import os
 import pathlib
 import re
@@ -198,6 +199,27 @@ CELS, CNUM
 """
 
 
+# Run by FreeCAD: what its importer has made of bar.frd. It numbers nodes anew, in the
+# order of their numbers.
+FREECAD = """
+import json
+import FreeCAD
+from feminout import importCcxFrdResults
+document = FreeCAD.newDocument("read")
+FreeCAD.ActiveDocument = document
+result = importCcxFrdResults.importFrd("bar.frd")
+mesh = result.Mesh.FemMesh
+parts = [result.NodeStressXX, result.NodeStressYY, result.NodeStressZZ,
+         result.NodeStressXY, result.NodeStressYZ, result.NodeStressXZ]
+found = {"volumes": len(mesh.Volumes), "numbers": list(result.NodeNumbers),
+         "place": [list(mesh.Nodes[n]) for n in sorted(mesh.Nodes)],
+         "u": [list(u) for u in result.DisplacementVectors], "s": [list(s) for s in zip(*parts)],
+         "mises": list(result.vonMises)}
+with open("read.json", "w") as file:
+    json.dump(found, file)
+"""
+
+
 class Answers(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -334,6 +356,24 @@ class Answers(unittest.TestCase):
                 expected = extreme(v[k] for v in vtu[field].values())
                 self.assertAlmostEqual(float(value), expected, delta=2e-5 * abs(float(most)))
                 self.assertAlmostEqual(vtu[field][int(node)][k], expected, delta=2e-5 * abs(float(most)))
+
+    @unittest.skipUnless(shutil.which("freecadcmd"), "FreeCAD is not installed")
+    def test_freecad_reads_the_file(self):
+        """Its importer of results, without a window: nodes, displacements and stresses."""
+        self.solve("bar", bar("C3D10"))
+        self.write("read.py", FREECAD)
+        done = self.call("freecadcmd", "read.py", HOME=self.folder, XDG_RUNTIME_DIR=self.folder)
+        self.assertTrue(os.path.exists(self.path("read.json")), done.stdout + done.stderr)
+        read = json.loads(pathlib.Path(self.path("read.json")).read_text())
+        nodes, elements, blocks = read_frd(self.path("bar.frd"))
+        self.assertEqual(read["volumes"], len(elements))
+        self.assertEqual(read["numbers"], list(range(1, len(nodes) + 1)))
+        of_node = {kind: dict(zip(sorted(nodes), read[kind], strict=True)) for kind in ("place", "u", "s")}
+        self.close(of_node["place"], nodes, 1e-9)
+        vtu = read_vtu(sorted(glob.glob(self.path("bar.results", "bodies_*.vtu")))[-1])
+        self.close(of_node["u"], vtu["U"], 1e-5)
+        self.close(of_node["s"], vtu["S"], 1e-5)  # XX YY ZZ XY YZ XZ both
+        self.assertGreater(max(read["mises"]), 0)
 
     def test_exit_codes_and_messages_are_those_of_ccx(self):
         self.assertEqual(self.call(PROGRAM, "ccx").returncode, 201)

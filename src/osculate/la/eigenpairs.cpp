@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "osculate/la/spectra_matrix.hpp"
 
@@ -75,28 +76,46 @@ bool solves(Problem& p) {
          (p.k * x - b).norm() <= exact * b.norm();
 }
 
-/// Vectors of the space in which M is not zero, normalised; and how good they are.
+/// What rounding alone may make of v . K v.
+///
+/// Formula    4 eps |v| . |K| |v| , absolute values entry by entry
+double rounding_along(const Sparse& k, const Eigen::VectorXd& v) {
+  double sum = 0;
+  for (Index row = 0; row < k.outerSize(); ++row)
+    for (Sparse::InnerIterator it(k, row); it; ++it)
+      sum += std::abs(v[row] * it.value() * v[it.col()]);
+  return 4 * std::numeric_limits<double>::epsilon() * sum;
+}
+
+/// Vectors of the space in which M is not zero, normalised; and how good they are. Values that
+/// cannot be told from 0 are 0.
 void clean(Problem& p, Eigenpairs& pairs) {
   p.solver.solve(pairs.vectors = p.m * pairs.vectors);
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
     auto v = pairs.vectors.col(i);
     v /= std::sqrt(v.dot(p.m * v));
-    const Eigen::VectorXd mv = p.m * v;
+    const Eigen::VectorXd mv = p.m * v, kv = p.k * v;
+    const double rounding = rounding_along(p.k, v);
+    pairs.rounding = std::max(pairs.rounding, rounding);
+    if (std::abs(v.dot(kv)) <= rounding) pairs.values[i] = 0;
     const double scale = (std::abs(pairs.values[i]) + std::abs(pairs.shift)) * mv.norm();
-    pairs.residual = std::max(pairs.residual, (p.k * v - pairs.values[i] * mv).norm() / scale);
+    if (scale > 0)
+      pairs.residual = std::max(pairs.residual, (kv - pairs.values[i] * mv).norm() / scale);
   }
 }
 
 /// Eigenvalues up to the last one that are not there.
 int count_missing(Problem& p, const Eigenpairs& pairs) {
-  constexpr double above = 1e-6;
+  constexpr double share = 1e-6, far = 1e3;
   const Eigen::Index n = pairs.values.size();
-  const double last = pairs.values[n - 1];
-  const double at = last + above * (std::abs(last) + std::abs(pairs.shift));
+  const double last = pairs.values[n - 1], first = pairs.values[0];
+  // The signs of pivots next to an eigenvalue are those of rounding.
+  const double above =
+      std::max(share * (std::abs(last) + std::abs(pairs.shift)), 10 * pairs.rounding);
   // Rows without mass are in balance at once: their pivots do not depend on the shift.
-  const FactorReport without =
-      p.factor(pairs.values[0] - 1e3 * (std::abs(pairs.values[0]) + std::abs(pairs.shift)));
-  const FactorReport with = p.factor(at);
+  const double below = far * std::max(std::abs(first) + std::abs(pairs.shift), above);
+  const FactorReport without = p.factor(first - below);
+  const FactorReport with = p.factor(last + above);
   if (with.status == SolveStatus::failed || without.status == SolveStatus::failed) return -1;
   return with.negative_pivots - without.negative_pivots - static_cast<int>(n);
 }
@@ -204,6 +223,12 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int
   Eigen::Index more = wanted;
   for (int i = 0; i < tries; ++i) {
     pairs = found_around(p, shift, more);
+    // A matrix that is singular but for rounding: its inverse sees nothing else.
+    if (pairs.failure.empty() && shift == 0 && pairs.without_stiffness() > 0) {
+      shift = -p.small_shift();
+      if (p.factor(shift).status == SolveStatus::failed) break;
+      pairs = found_around(p, shift, more);
+    }
     if (!pairs.failure.empty()) return pairs;
     pairs.missing = count_missing(p, pairs);
     if (pairs.missing <= 0 || more + pairs.missing >= p.with_mass) break;
@@ -298,6 +323,7 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m,
   if (!real) complete_pairs(mass, count, pairs);
   pairs.values *= unit;
   pairs.shift *= unit;
+  pairs.rounding *= unit;
   pairs.vectors = (std::sqrt(unit) * (by * pairs.vectors)).eval();
   return pairs;
 }
