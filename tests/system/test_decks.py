@@ -133,10 +133,10 @@ class Decks(unittest.TestCase):
 
     def test_what_a_deck_cannot_say_is_named_with_its_line(self):
         text = (ROOT / "verification/temperature/brick.yaml").read_text()
-        self.write("brick.yaml", text + "equal: [{on: b.top, of: uz}]\n")
+        self.write("brick.yaml", text + "rigid: {floor: {plane: {point: [0, 0, -9], normal: [0, 0, 1]}}}\n")
         done = self.run_program("convert", "brick.yaml", "-o", "brick.inp")
         self.assertEqual(done.returncode, 2)
-        self.assertIn(f"brick.yaml:{len(text.splitlines()) + 1}: equal[0].", done.stderr)
+        self.assertIn(f"brick.yaml:{len(text.splitlines()) + 1}: rigid.floor.plane", done.stderr)
         self.assertIn("has no counterpart", done.stderr)
         self.assertFalse(os.path.exists(os.path.join(self.folder, "brick.inp")))
 

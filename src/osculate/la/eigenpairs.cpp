@@ -76,15 +76,12 @@ bool solves(Problem& p) {
          (p.k * x - b).norm() <= exact * b.norm();
 }
 
-/// What rounding alone may make of v . K v.
-///
-/// Formula    4 eps |v| . |K| |v| , absolute values entry by entry
-double rounding_along(const Sparse& k, const Eigen::VectorXd& v) {
-  double sum = 0;
+/// |K| |v| , absolute values entry by entry.
+Eigen::VectorXd absolute_product(const Sparse& k, const Eigen::VectorXd& v) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(v.size());
   for (Index row = 0; row < k.outerSize(); ++row)
-    for (Sparse::InnerIterator it(k, row); it; ++it)
-      sum += std::abs(v[row] * it.value() * v[it.col()]);
-  return 4 * std::numeric_limits<double>::epsilon() * sum;
+    for (Sparse::InnerIterator it(k, row); it; ++it) out[row] += std::abs(it.value() * v[it.col()]);
+  return out;
 }
 
 /// Vectors of the space in which M is not zero, normalised; and how good they are. Values that
@@ -94,13 +91,15 @@ void clean(Problem& p, Eigenpairs& pairs) {
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
     auto v = pairs.vectors.col(i);
     v /= std::sqrt(v.dot(p.m * v));
-    const Eigen::VectorXd mv = p.m * v, kv = p.k * v;
-    const double rounding = rounding_along(p.k, v);
+    const Eigen::VectorXd mv = p.m * v, kv = p.k * v, most = absolute_product(p.k, v);
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() * v.cwiseAbs().dot(most);
     pairs.rounding = std::max(pairs.rounding, rounding);
-    if (std::abs(v.dot(kv)) <= rounding) pairs.values[i] = 0;
-    const double scale = (std::abs(pairs.values[i]) + std::abs(pairs.shift)) * mv.norm();
-    if (scale > 0)
-      pairs.residual = std::max(pairs.residual, (kv - pairs.values[i] * mv).norm() / scale);
+    const bool free = std::abs(v.dot(kv)) <= rounding;
+    if (free) pairs.values[i] = 0;
+    const double off = (kv - pairs.values[i] * mv).norm(),
+                 scale = free ? most.norm()
+                              : (std::abs(pairs.values[i]) + std::abs(pairs.shift)) * mv.norm();
+    if (off > 0) pairs.residual = std::max(pairs.residual, off / scale);
   }
 }
 
@@ -109,15 +108,19 @@ int count_missing(Problem& p, const Eigenpairs& pairs) {
   constexpr double share = 1e-6, far = 1e3;
   const Eigen::Index n = pairs.values.size();
   const double last = pairs.values[n - 1], first = pairs.values[0];
-  // The signs of pivots next to an eigenvalue are those of rounding.
-  const double above =
-      std::max(share * (std::abs(last) + std::abs(pairs.shift)), 10 * pairs.rounding);
+  const double above = share * (std::abs(last) + std::abs(pairs.shift));
   // Rows without mass are in balance at once: their pivots do not depend on the shift.
-  const double below = far * std::max(std::abs(first) + std::abs(pairs.shift), above);
+  const double below = far * (std::abs(first) + std::abs(pairs.shift) + pairs.rounding);
   const FactorReport without = p.factor(first - below);
-  const FactorReport with = p.factor(last + above);
-  if (with.status == SolveStatus::failed || without.status == SolveStatus::failed) return -1;
-  return with.negative_pivots - without.negative_pivots - static_cast<int>(n);
+  if (without.status == SolveStatus::failed) return -1;
+  // The signs of pivots next to an eigenvalue are those of rounding: one that was found is below.
+  int missing = -1;
+  for (double times = 10; missing < 0 && times <= 1e3; times *= 10) {
+    const FactorReport with = p.factor(last + std::max(above, times * pairs.rounding));
+    if (with.status == SolveStatus::failed) return -1;
+    missing = with.negative_pivots - without.negative_pivots - static_cast<int>(n);
+  }
+  return std::max(missing, -1);
 }
 
 Eigenpairs found_around(Problem& p, double shift, Eigen::Index count) {

@@ -82,7 +82,7 @@ std::string iteration_text(int number, const solve::IterationRecord& iteration,
 }
 
 std::vector<std::string> vibrations_text(const std::string& step, const model::Vibrations& modes) {
-  constexpr double rough = 1e-6;
+  constexpr double rough = 1e-4;  // where rounding rules, omega^2 is known better
   std::vector<std::string> texts;
   for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i)
     texts.push_back(fmt::format(

@@ -44,7 +44,8 @@ output: {{fields: none, report: false}}
 /// Lines of a run that tell of motions without stiffness.
 std::string said_of(const std::string& text) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(::testing::TempDir()) / ("osculate_v" + std::to_string(getpid()));
+  const fs::path folder =
+      fs::path(::testing::TempDir()) / ("osculate_v" + std::to_string(getpid()));
   fs::create_directories(folder);
   std::ofstream(folder / "model.yaml") << text;
   std::string found;
@@ -86,7 +87,8 @@ sections: [{on: a, material: m, element: solid}, {on: b, material: m, element: s
 steps: [{name: free, modes: 14}]
 output: {fields: none, report: false}
 )";
-  EXPECT_EQ(said_of(two), "free         12 of them are rigid motions or mechanisms: no stiffness\n");
+  EXPECT_EQ(said_of(two),
+            "free         12 of them are rigid motions or mechanisms: no stiffness\n");
 }
 
 // What heat or supports leave in a body that is let go are stresses in balance, within rounding.

@@ -224,8 +224,7 @@ TEST(Buckling, AfterAStepWithInertia) {
                             ", total_force: [{on: c.right, fy: -1e-4}]}\n",
                     rest = "  - {name: s, increments: 1, total_force: [{on: c.right, fy: 0}]}\n",
                     load = ", total_force: [{on: c.right, fx: -1}]}\n";
-  const std::string said =
-      error_of(column(swing + "  - {name: b, buckling: 1" + load, "", dense));
+  const std::string said = error_of(column(swing + "  - {name: b, buckling: 1" + load, "", dense));
   EXPECT_NE(said.find("steps[1].buckling: step 'd' leaves the bodies in motion"), std::string::npos)
       << said;
   for (const std::string& steps :
