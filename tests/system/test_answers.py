@@ -199,6 +199,54 @@ CELS, CNUM
 """
 
 
+# A bar that is pulled until it flows.
+PLASTIC = """*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 2, 0
+4, 0, 2, 0
+5, 0, 0, 1.5
+6, 1, 0, 1.5
+7, 1, 2, 1.5
+8, 0, 2, 1.5
+*ELEMENT, TYPE=C3D8, ELSET=E
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*NSET, NSET=BASE
+1, 2, 3, 4
+*NSET, NSET=TOP
+5, 6, 7, 8
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*PLASTIC
+5., 0.
+8., 0.1
+*SOLID SECTION, ELSET=E, MATERIAL=M
+*BOUNDARY
+1, 1, 3
+2, 2, 3
+3, 3
+4, 3
+4, 1
+*STEP
+*STATIC, DIRECT
+0.25, 1.
+*BOUNDARY
+TOP, 3, 3, 0.03
+*NODE FILE
+U
+*EL FILE
+S, PEEQ
+*EL PRINT, ELSET=E
+PEEQ
+*EL PRINT, ELSET=E
+S, E
+*EL PRINT, ELSET=E, TOTALS=ONLY
+ELSE
+*END STEP
+"""
+
+
 # Run by FreeCAD: what its importer has made of bar.frd. It numbers nodes anew, in the
 # order of their numbers.
 FREECAD = """
@@ -316,6 +364,28 @@ class Answers(unittest.TestCase):
         self.assertEqual(words.sub("#", ours), words.sub("#", theirs))
         for a, b in zip(words.findall(ours), words.findall(theirs), strict=True):
             self.assertAlmostEqual(float(a), float(b), delta=1e-3)
+
+    @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
+    def test_plastic_strains_as_ccx_has_them(self):
+        """PE of the nodes and of the points, stresses, strains and the energy of a bar that flows."""
+        self.solve("bar", PLASTIC)
+        os.mkdir(self.path("ccx"))
+        shutil.copy(self.path("bar.inp"), self.path("ccx"))
+        self.assertEqual(self.call("ccx", "-i", "bar", cwd="ccx").returncode, 0)
+        ours, theirs = (read_frd(self.path(*where, "bar.frd"))[2] for where in ((), ("ccx",)))
+        for name in ("PE", "STRESS", "DISP"):
+            with self.subTest(name):
+                both = [[block for block in blocks if block["name"] == name] for blocks in (ours, theirs)]
+                self.assertEqual([b["time"] for b in both[0]], [b["time"] for b in both[1]])
+                self.assertEqual(both[0][-1]["components"], both[1][-1]["components"])
+                for a, b in list(zip(*both, strict=True))[1:]:
+                    self.close(a["values"], b["values"], 1e-5)
+        tables, expected = read_dat(self.path("bar.dat")), read_dat(self.path("ccx", "bar.dat"))
+        self.assertEqual(list(tables), list(expected))
+        for title, rows in expected.items():
+            with self.subTest(title):
+                if any(v for row in rows for v in row[2:] or row):
+                    self.close(dict(enumerate(tables[title])), dict(enumerate(rows)), 1e-5)
 
     def compare_contact(self):
         tables, expected = read_dat(self.path("blocks.dat")), read_dat(self.path("ccx", "blocks.dat"))

@@ -130,7 +130,7 @@ std::string cube(const std::string& material, const std::string& more, const std
 }
 const std::string elastic = "linear_elastic: {E: 1000, nu: 0.25, density: 2}";
 const std::string pressed =
-    "  - {name: a, increments: 1, prescribe: [{on: c.bottom, ux: 0, uy: 0, uz: 0}]}\n";
+    "  - {name: a, increments: 1, duration: 1, prescribe: [{on: c.bottom, ux: 0, uy: 0, uz: 0}]}\n";
 Description again(const std::string& text) {
   return parse_model(translate_deck(written(text), "model.inp").root, "model.inp");
 }
