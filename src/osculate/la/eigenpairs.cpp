@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "osculate/la/spectra_matrix.hpp"
 
@@ -141,10 +142,15 @@ Eigenpairs found_around(Problem& p, double shift, Eigen::Index count) {
     pairs.failure = "the stiffness cannot be solved for";
     return pairs;
   }
-  lanczos.init(start.data());
   constexpr int most = 1000;
   constexpr double tolerance = 1e-11;
-  lanczos.compute(Spectra::SortRule::LargestMagn, most, tolerance, Spectra::SortRule::SmallestAlge);
+  try {
+    lanczos.init(start.data());
+    lanczos.compute(Spectra::SortRule::LargestMagn, most, tolerance,
+                    Spectra::SortRule::SmallestAlge);
+  } catch (const std::runtime_error&) {  // values of its small problem too far apart
+    failed = true;
+  }
   if (failed || lanczos.info() != Spectra::CompInfo::Successful) {
     pairs.failure = "Lanczos' method did not converge";
     return pairs;
@@ -226,8 +232,8 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int
   Eigen::Index more = wanted;
   for (int i = 0; i < tries; ++i) {
     pairs = found_around(p, shift, more);
-    // A matrix that is singular but for rounding: its inverse sees nothing else.
-    if (pairs.failure.empty() && shift == 0 && pairs.without_stiffness() > 0) {
+    // A matrix that is nearly singular: its inverse sees little else.
+    if (shift == 0 && (!pairs.failure.empty() || pairs.without_stiffness() > 0)) {
       shift = -p.small_shift();
       if (p.factor(shift).status == SolveStatus::failed) break;
       pairs = found_around(p, shift, more);
