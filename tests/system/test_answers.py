@@ -379,13 +379,14 @@ class Answers(unittest.TestCase):
                 self.assertEqual([b["time"] for b in both[0]], [b["time"] for b in both[1]])
                 self.assertEqual(both[0][-1]["components"], both[1][-1]["components"])
                 for a, b in list(zip(*both, strict=True))[1:]:
-                    self.close(a["values"], b["values"], 1e-5)
+                    self.close(a["values"], b["values"], 1e-4)  # as far as ccx iterates
         tables, expected = read_dat(self.path("bar.dat")), read_dat(self.path("ccx", "bar.dat"))
+        expected = {(title.replace(")for set", ") for set"), time): rows for (title, time), rows in expected.items()}
         self.assertEqual(list(tables), list(expected))
         for title, rows in expected.items():
             with self.subTest(title):
                 if any(v for row in rows for v in row[2:] or row):
-                    self.close(dict(enumerate(tables[title])), dict(enumerate(rows)), 1e-5)
+                    self.close(dict(enumerate(tables[title])), dict(enumerate(rows)), 1e-4)
 
     def compare_contact(self):
         tables, expected = read_dat(self.path("blocks.dat")), read_dat(self.path("ccx", "blocks.dat"))

@@ -1,5 +1,6 @@
 """Decks of Abaqus and CalculiX as they are. Usage: test_decks.py PROGRAM"""
 import csv
+import gzip
 import json
 import os
 import pathlib
@@ -13,6 +14,7 @@ from test_answers import read_vtu
 
 PROGRAM = sys.argv[1]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+CALCULIX = pathlib.Path("/usr/share/doc/calculix-ccx-test/examples/test")
 YOUNG, POISSON, PRESSURE = 100.0, 0.3, 1.0
 
 
@@ -38,6 +40,16 @@ def deck(cells):
               "*STEP", "*STATIC", "1., 1.", "*RESTART, WRITE", "*DLOAD", f"HIGH, P3, {PRESSURE}", "*NODE PRINT, NSET=BASE", "RF",
               "*END STEP", ""]
     return "\n".join(lines)
+
+
+def displacements(path):
+    """Of the last increment in a .frd."""
+    found, inside = {}, False
+    for line in path.read_text().splitlines():
+        inside = line.startswith(" -4  DISP") or (inside and not line.startswith(" -3"))
+        if inside and line.startswith(" -1"):
+            found[int(line[3:13])] = [float(line[13 + 12 * k:25 + 12 * k]) for k in range(3)]
+    return found
 
 
 class Decks(unittest.TestCase):
@@ -110,6 +122,62 @@ class Decks(unittest.TestCase):
                     for node, row in ours[field].items():
                         for a, b in zip(row, again[field][node], strict=True):
                             self.assertLess(abs(a - b), 1e-9 * largest)
+
+    def calculix_deck(self, name):
+        """A deck of CalculiX' own tests, in the folder of the test."""
+        source = CALCULIX / f"{name}.inp"
+        text = source.read_text() if source.exists() else gzip.open(f"{source}.gz", "rt", errors="replace").read()
+        self.write(f"{name}.inp", text)
+
+    @unittest.skipUnless(CALCULIX.is_dir(), "CalculiX' decks are not installed")
+    def test_a_deck_written_anew_has_the_same_answers(self):
+        """Axes, equations, MPCs, rigid bodies, gravity, plastic and hyperelastic bodies, contact, inertia, vibrations, buckling."""
+        for name in ("achteld", "aniso", "axial", "beam8b", "beam8f", "beamd", "beamdelay", "beamdy1", "beamdy8", "beamhf",
+                     "beamimpdy1", "beamnldyp", "beamnlmpc", "beampfix", "beampiso", "beampkin", "beamrb", "fricloop", "mpcforce",
+                     "segmentf"):
+            with self.subTest(name):
+                self.calculix_deck(name)
+                done = self.run_program("convert", f"{name}.inp", "-o", f"{name}_anew.inp")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                found = []
+                for deck_file in (name, f"{name}_anew"):
+                    self.assertEqual(self.run_program("run", f"{deck_file}.inp", "-o", deck_file).returncode, 0)
+                    files = sorted(path for pattern in ("bodies_*.vtu", "modes_*.vtu", "buckling_*.vtu", "modes_*.csv", "buckling_*.csv")
+                                   for path in pathlib.Path(self.folder, deck_file).glob(pattern))
+                    self.assertGreater(len(files), 0)
+                    found.append(files)
+                self.assertEqual([path.name for path in found[0]], [path.name for path in found[1]])
+                for ours, again in zip(*found):
+                    if ours.suffix == ".csv":
+                        rows, others = (list(csv.reader(path.open())) for path in (ours, again))
+                        for row, other in zip(rows[1:], others[1:], strict=True):
+                            self.assertAlmostEqual(float(row[1]) / (float(other[1]) or 1), 1, delta=1e-9)
+                    elif ours.name.startswith("bodies"):
+                        before, after = read_vtu(ours)["U"], read_vtu(again)["U"]
+                        largest = max(abs(v) for row in before.values() for v in row)
+                        for node, row in before.items():
+                            for a, b in zip(row, after[node], strict=True):
+                                self.assertLessEqual(abs(a - b), 1e-10 * largest)
+
+    @unittest.skipUnless(shutil.which("ccx") and CALCULIX.is_dir(), "CalculiX is not installed")
+    def test_calculix_runs_a_deck_written_anew(self):
+        """Its answers are those to its own deck."""
+        for name in ("beamhf", "beamnlmpc", "beamrb", "mpcforce", "segmentf"):
+            with self.subTest(name):
+                self.calculix_deck(name)
+                done = self.run_program("convert", f"{name}.inp", "-o", f"{name}_anew.inp")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                found = []
+                for job in (name, f"{name}_anew"):
+                    done = subprocess.run(["ccx", "-i", job], cwd=self.folder, capture_output=True, text=True)
+                    self.assertEqual(done.returncode, 0, done.stdout)
+                    found.append(displacements(pathlib.Path(self.folder, f"{job}.frd")))
+                common = found[0].keys() & found[1].keys()
+                self.assertGreater(len(common), 20)
+                largest = max(abs(v) for node in common for v in found[0][node])
+                for node in common:
+                    for a, b in zip(found[0][node], found[1][node], strict=True):
+                        self.assertLess(abs(a - b), 1e-4 * largest)
 
     @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
     def test_calculix_reads_such_a_deck(self):

@@ -152,6 +152,10 @@ std::optional<ControlNodes> InpMesh<Dim>::control(const std::string& rigid) cons
 
 template <int Dim>
 bool InpMesh<Dim>::finite() const {
+  if (m_.sections.empty())
+    return std::ranges::any_of(d_.springs, [](const Spring& spring) {
+      return !spring.between.empty() && spring.kinematics == Kinematics::finite;
+    });
   return std::ranges::any_of(
       m_.sections, [](const auto& s) { return s.section.kinematics == solid::Kinematics::finite; });
 }
@@ -255,10 +259,7 @@ const std::string& InpMesh<Dim>::nodes(const Name& on) {
   const bool known = names_.contains({'n', on.value});
   const std::string& name = plain(on.value, 'n');
   if (known) return name;
-  for (const Index n : found.nodes)
-    if (!used_[static_cast<std::size_t>(n)])
-      throw core::InputError(on.mark, fmt::format("{} of set '{}' belongs to no section",
-                                                  mesh::describe_node(m_.mesh, n), on.value));
+  for (const Index n : found.nodes) used_[static_cast<std::size_t>(n)] = true;  // of springs alone
   write_nodes(name, found.nodes);
   return name;
 }

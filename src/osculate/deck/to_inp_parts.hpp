@@ -94,7 +94,7 @@ class InpMesh {
   const model::BasicModel<Dim>& m_;
   SideTable<Dim> table_;
   std::map<std::pair<Index, Index>, std::int64_t> number_;     ///< of a cell, by block and place
-  std::vector<bool> used_;                                     ///< nodes of sections
+  std::vector<bool> used_;                                     ///< nodes that are written
   bool own_numbers_ = true;                                    ///< nodes have those of the mesh
   std::map<std::pair<char, std::string>, std::string> names_;  ///< of nodes 'n' and surfaces 's'
   std::set<std::pair<char, std::string>> taken_;               ///< these, in capitals
