@@ -135,12 +135,16 @@ InpMesh<Dim>::InpMesh(const Description& description, const model::BasicModel<Di
     for (const Index n : model::cell_nodes(model.mesh, ref).nodes)
       used_[static_cast<std::size_t>(n)] = true;
   }
-  std::int64_t last = 0;
   for (std::size_t n = 0; n < model.mesh.nodes.size(); ++n)
-    last = std::max(last, node(static_cast<Index>(n)));
+    last_node_ = std::max(last_node_, node(static_cast<Index>(n)));
+  std::int64_t last = last_node_;
+  const auto known = [&](const std::vector<Name>& sets) -> std::int64_t {
+    const mesh::Set* const set = sets.size() == 1 ? m_.mesh.find_set(sets[0].value) : nullptr;
+    return set && set->nodes.size() == 1 ? node(set->nodes[0]) : ++last;
+  };
   for (const Rigid& rigid : description.rigid) {
-    controls_[rigid.name.value] = {last + 1, last + 2};
-    last += 2;
+    const std::int64_t reference = known(rigid.reference_node);
+    controls_[rigid.name.value] = {reference, known(rigid.rotation_node)};
   }
 }
 
@@ -280,9 +284,13 @@ const std::string& InpMesh<Dim>::nodes_of_body(const SetShape& shape, const Rigi
   Vec3 at = Vec3::Zero();
   for (int k = 0; k < Dim; ++k) at[k] = body->reference[k];
   const ControlNodes control = controls_.at(rigid.name.value);
-  sets_ += "*NODE\n";
+  for (const std::vector<Name>& own : {rigid.reference_node, rigid.rotation_node})
+    for (const Name& one : own)
+      for (const Index n : set(one).nodes) used_[static_cast<std::size_t>(n)] = true;
   for (const std::int64_t number : {control.reference, control.rotation})
-    sets_ += fmt::format("{}, {}, {}, {}\n", number, exact(at[0]), exact(at[1]), exact(at[2]));
+    if (number > last_node_)
+      sets_ +=
+          fmt::format("*NODE\n{}, {}, {}, {}\n", number, exact(at[0]), exact(at[1]), exact(at[2]));
   return name;
 }
 

@@ -99,7 +99,7 @@ class InpMesh {
   std::map<std::pair<char, std::string>, std::string> names_;  ///< of nodes 'n' and surfaces 's'
   std::set<std::pair<char, std::string>> taken_;               ///< these, in capitals
   std::map<std::string, ControlNodes> controls_;               ///< by rigid body
-  std::int64_t last_element_ = 0;
+  std::int64_t last_element_ = 0, last_node_ = 0;  ///< numbers of the mesh, later of more
   std::string sets_;
 };
 

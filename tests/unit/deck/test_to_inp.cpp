@@ -226,7 +226,7 @@ TEST(ToInp, RigidBodiesAndTheirMotions) {
            "head, uz: -0.1}], release: [{on: head, of: [rx]}], forces: [{on: head, mx: 3}]}\n");
   const std::string deck = written(text);
   EXPECT_THAT(deck, HasSubstr("*RIGID BODY, NSET=head_nodes, REF NODE=28, ROT NODE=29\n"));
-  EXPECT_THAT(deck, HasSubstr("*NODE\n28, 0.5, 0.5, 2\n29, 0.5, 0.5, 2\n"));
+  EXPECT_THAT(deck, HasSubstr("*NODE\n28, 0.5, 0.5, 2\n*NODE\n29, 0.5, 0.5, 2\n"));
   EXPECT_THAT(deck, HasSubstr("28, 3, 3, -0.1\n"));
   EXPECT_THAT(deck, HasSubstr("29, 2, 2, 0\n"));
   EXPECT_THAT(deck, Not(HasSubstr("29, 1, 1,")));
