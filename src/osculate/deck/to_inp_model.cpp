@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "osculate/deck/to_inp_parts.hpp"
+#include "osculate/material/law.hpp"
 #include "osculate/pairing/sampling.hpp"
 
 namespace osculate::deck {
@@ -23,6 +24,14 @@ void require_one_kinematics(const Description& d, const model::BasicModel<Dim>& 
     if (m.sections[s].section.kinematics != m.sections[0].section.kinematics)
       throw core::InputError(d.sections[s].kinematics.mark,
                              "in an input file all sections have finite strains (NLGEOM), or none");
+  for (std::size_t s = 0; s < m.sections.size(); ++s)
+    if (m.sections[s].section.kinematics == solid::Kinematics::small &&
+        material::key_of(d.find_material(d.sections[s].material.value)->law.value) ==
+            "deformation_plasticity")
+      throw core::InputError(
+          d.sections[s].material.mark,
+          "*DEFORMATION PLASTICITY makes all strains of an input file finite: it "
+          "needs `kinematics: finite`");
 }
 
 template <int Dim>

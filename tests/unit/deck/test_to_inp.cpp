@@ -173,7 +173,8 @@ TEST(ToInp, MaterialsGoThereAndBack) {
     const bool warm = std::string(law).find("[[") < std::string::npos;
     const std::string text =
         cube(law, warm ? "initial_temperature: [{on: c, value: 20}]\n" : "",
-             warm ? edited(pressed, "}]}", "}], temperature: [{on: c, value: 50}]}") : pressed);
+             warm ? edited(pressed, "}]}", "}], temperature: [{on: c, value: 50}]}") : pressed,
+             std::string(law).starts_with("deformation") ? ", kinematics: finite" : "");
     const Description before = parse_model(text, "model.yaml"), after = again(text);
     const auto& found = after.materials.at(0).law.value;
     const material::Law& expected = before.materials.at(0).law.value;
@@ -276,6 +277,10 @@ TEST(ToInp, StepsOfAllKinds) {
 }
 
 TEST(ToInp, WhatADeckCannotSayOfTheNewKeys) {
+  EXPECT_THAT(refusal_of(cube("deformation_plasticity: {E: 1000, nu: 0.25, yield: 3, n: 5, alpha: "
+                              "0.3}",
+                              "", pressed)),
+              HasSubstr("makes all strains of an input file finite"));
   EXPECT_THAT(refusal_of(cube("neo_hooke: {E: 1000, nu: 0.25}", "", pressed)),
               HasSubstr("neo_hooke is not written"));
   EXPECT_THAT(refusal_of(cube(elastic,
@@ -286,10 +291,9 @@ TEST(ToInp, WhatADeckCannotSayOfTheNewKeys) {
   EXPECT_THAT(refusal_of(cube(elastic, "",
                               edited(pressed, "}]}", "}], total_force: [{on: c.top, fz: 1}]}"))),
               HasSubstr("steps[0].total_force"));
-  EXPECT_THAT(refusal_of(cube(
-                  elastic, "",
-                  edited(pressed, "increments: 1",
-                         "dynamics: {scheme: central_differences}, duration: 1, increments: 1"))),
+  EXPECT_THAT(refusal_of(cube(elastic, "",
+                              edited(pressed, "increments: 1",
+                                     "dynamics: {scheme: central_differences}, increments: 1"))),
               HasSubstr("schemes other than newmark and hht"));
 }
 
