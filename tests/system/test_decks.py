@@ -139,7 +139,7 @@ class Decks(unittest.TestCase):
                 self.assertEqual([path.name for path in found[0]], [path.name for path in found[1]])
                 for ours, again in zip(*found):
                     if ours.suffix == ".csv":
-                        rows, others = (list(csv.reader(path.open())) for path in (ours, again))
+                        rows, others = (list(csv.reader(path.read_text().splitlines())) for path in (ours, again))
                         for row, other in zip(rows[1:], others[1:], strict=True):
                             self.assertAlmostEqual(float(row[1]) / (float(other[1]) or 1), 1, delta=1e-9)
                     elif ours.name.startswith("bodies"):
