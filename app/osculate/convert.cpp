@@ -34,13 +34,14 @@ int write(const Flags& flags, const std::string& text) {
   return done;
 }
 
-/// A model file as an input file.
+/// A model file, or another input file, as an input file of its own.
 int convert_back(const Flags& flags) {
   if (!flags.output.empty() && !deck::names_a_deck(flags.output))
     throw core::InputError({flags.deck, 0, ""},
                            "expected an Abaqus or CalculiX input file, whose name ends in .inp, or "
                            "a model file and an output that ends in .inp");
   const deck::Description description = deck::read_model(flags.deck);
+  for (const std::string& note : description.notes) print(stderr, "note: {}\n", note);
   const deck::WrittenDeck written =
       deck::write_deck(description, deck::build_any(description, deck::load_mesh(description)));
   for (const std::string& note : written.notes) print(stderr, "note: {}\n", note);
@@ -49,7 +50,8 @@ int convert_back(const Flags& flags) {
 
 int convert(const Flags& flags) {
   keep_inputs({flags.output}, {flags.deck});
-  if (!deck::names_a_deck(flags.deck)) return convert_back(flags);
+  if (!deck::names_a_deck(flags.deck) || deck::names_a_deck(flags.output))
+    return convert_back(flags);
   deck::TranslatedDeck model = deck::translate_deck(io::read_file(flags.deck), flags.deck);
   for (const std::string& note : model.notes) print(stderr, "note: {}\n", note);
   if (!flags.output.empty()) lead_to_mesh(model.root, flags);
@@ -60,7 +62,8 @@ int convert(const Flags& flags) {
 
 void add_convert(CLI::App& app, int& exit_code) {
   CLI::App* const command = app.add_subcommand(
-      "convert", "Write an Abaqus or CalculiX input file as a model file, or the other way round");
+      "convert",
+      "Write an Abaqus or CalculiX input file as a model file, the other way round, or anew");
   auto flags = std::make_shared<Flags>();
   command->add_option("deck", flags->deck, "Input file (.inp), which stays the mesh, or model file")
       ->required();

@@ -1,7 +1,8 @@
 """Results in the files of CalculiX. Usage: test_answers.py PROGRAM
 
-Compares with ccx itself, and reads with cgx, where they are installed."""
+Compares with ccx itself, and reads with cgx and FreeCAD, where they are installed."""
 import glob
+import json
 import os
 import pathlib
 import re
@@ -198,6 +199,75 @@ CELS, CNUM
 """
 
 
+# A bar that is pulled until it flows.
+PLASTIC = """*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 2, 0
+4, 0, 2, 0
+5, 0, 0, 1.5
+6, 1, 0, 1.5
+7, 1, 2, 1.5
+8, 0, 2, 1.5
+*ELEMENT, TYPE=C3D8, ELSET=E
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*NSET, NSET=BASE
+1, 2, 3, 4
+*NSET, NSET=TOP
+5, 6, 7, 8
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*PLASTIC
+5., 0.
+8., 0.1
+*SOLID SECTION, ELSET=E, MATERIAL=M
+*BOUNDARY
+1, 1, 3
+2, 2, 3
+3, 3
+4, 3
+4, 1
+*STEP
+*STATIC, DIRECT
+0.25, 1.
+*BOUNDARY
+TOP, 3, 3, 0.03
+*NODE FILE
+U
+*EL FILE
+S, PEEQ
+*EL PRINT, ELSET=E
+PEEQ
+*EL PRINT, ELSET=E
+S, E
+*EL PRINT, ELSET=E, TOTALS=ONLY
+ELSE
+*END STEP
+"""
+
+
+# Run by FreeCAD: what its importer has made of bar.frd. It numbers nodes anew, in the
+# order of their numbers.
+FREECAD = """
+import json
+import FreeCAD
+from feminout import importCcxFrdResults
+document = FreeCAD.newDocument("read")
+FreeCAD.ActiveDocument = document
+result = importCcxFrdResults.importFrd("bar.frd")
+mesh = result.Mesh.FemMesh
+parts = [result.NodeStressXX, result.NodeStressYY, result.NodeStressZZ,
+         result.NodeStressXY, result.NodeStressYZ, result.NodeStressXZ]
+found = {"volumes": len(mesh.Volumes), "numbers": list(result.NodeNumbers),
+         "place": [list(mesh.Nodes[n]) for n in sorted(mesh.Nodes)],
+         "u": [list(u) for u in result.DisplacementVectors], "s": [list(s) for s in zip(*parts)],
+         "mises": list(result.vonMises)}
+with open("read.json", "w") as file:
+    json.dump(found, file)
+"""
+
+
 class Answers(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -295,6 +365,29 @@ class Answers(unittest.TestCase):
         for a, b in zip(words.findall(ours), words.findall(theirs), strict=True):
             self.assertAlmostEqual(float(a), float(b), delta=1e-3)
 
+    @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
+    def test_plastic_strains_as_ccx_has_them(self):
+        """PE of the nodes and of the points, stresses, strains and the energy of a bar that flows."""
+        self.solve("bar", PLASTIC)
+        os.mkdir(self.path("ccx"))
+        shutil.copy(self.path("bar.inp"), self.path("ccx"))
+        self.assertEqual(self.call("ccx", "-i", "bar", cwd="ccx").returncode, 0)
+        ours, theirs = (read_frd(self.path(*where, "bar.frd"))[2] for where in ((), ("ccx",)))
+        for name in ("PE", "STRESS", "DISP"):
+            with self.subTest(name):
+                both = [[block for block in blocks if block["name"] == name] for blocks in (ours, theirs)]
+                self.assertEqual([b["time"] for b in both[0]], [b["time"] for b in both[1]])
+                self.assertEqual(both[0][-1]["components"], both[1][-1]["components"])
+                for a, b in list(zip(*both, strict=True))[1:]:
+                    self.close(a["values"], b["values"], 1e-4)  # as far as ccx iterates
+        tables, expected = read_dat(self.path("bar.dat")), read_dat(self.path("ccx", "bar.dat"))
+        expected = {(title.replace(")for set", ") for set"), time): rows for (title, time), rows in expected.items()}
+        self.assertEqual(list(tables), list(expected))
+        for title, rows in expected.items():
+            with self.subTest(title):
+                if any(v for row in rows for v in row[2:] or row):
+                    self.close(dict(enumerate(tables[title])), dict(enumerate(rows)), 1e-4)
+
     def compare_contact(self):
         tables, expected = read_dat(self.path("blocks.dat")), read_dat(self.path("ccx", "blocks.dat"))
         self.assertEqual(list(tables), list(expected))
@@ -334,6 +427,24 @@ class Answers(unittest.TestCase):
                 expected = extreme(v[k] for v in vtu[field].values())
                 self.assertAlmostEqual(float(value), expected, delta=2e-5 * abs(float(most)))
                 self.assertAlmostEqual(vtu[field][int(node)][k], expected, delta=2e-5 * abs(float(most)))
+
+    @unittest.skipUnless(shutil.which("freecadcmd"), "FreeCAD is not installed")
+    def test_freecad_reads_the_file(self):
+        """Its importer of results, without a window: nodes, displacements and stresses."""
+        self.solve("bar", bar("C3D10"))
+        self.write("read.py", FREECAD)
+        done = self.call("freecadcmd", "read.py", HOME=self.folder, XDG_RUNTIME_DIR=self.folder)
+        self.assertTrue(os.path.exists(self.path("read.json")), done.stdout + done.stderr)
+        read = json.loads(pathlib.Path(self.path("read.json")).read_text())
+        nodes, elements, blocks = read_frd(self.path("bar.frd"))
+        self.assertEqual(read["volumes"], len(elements))
+        self.assertEqual(read["numbers"], list(range(1, len(nodes) + 1)))
+        of_node = {kind: dict(zip(sorted(nodes), read[kind], strict=True)) for kind in ("place", "u", "s")}
+        self.close(of_node["place"], nodes, 1e-9)
+        vtu = read_vtu(sorted(glob.glob(self.path("bar.results", "bodies_*.vtu")))[-1])
+        self.close(of_node["u"], vtu["U"], 1e-5)
+        self.close(of_node["s"], vtu["S"], 1e-5)  # XX YY ZZ XY YZ XZ both
+        self.assertGreater(max(read["mises"]), 0)
 
     def test_exit_codes_and_messages_are_those_of_ccx(self):
         self.assertEqual(self.call(PROGRAM, "ccx").returncode, 201)

@@ -46,8 +46,7 @@ struct Wanted {
 /// The word of `output` for one of the deck; empty: it is not written.
 std::string word_of(const std::string& name, bool file) {
   if (name == "PE" || name == "CE" || name == "CEEQ") return "PEEQ";
-  if (file && (name == "CDIS" || name == "CDISP" || name == "CSTR" || name == "CSTRESS"))
-    return "CONTACT";
+  if (file && (name.starts_with("CDIS") || name.starts_with("CSTR"))) return "CONTACT";
   if (name == "SOM" || name == "SOAREA") return "SOF";
   if (name == "CDISP") return "CDIS";
   if (name == "CSTRESS" || name == "CSTRE") return "CSTR";

@@ -54,7 +54,7 @@ BoundKeys<R> dat_keys() {
                     word("E", A::e, "strains there"),
                     word("PEEQ", A::peeq, "equivalent plastic strain there"),
                     word("EVOL", A::evol, "volumes of cells"),
-                    word("ELSE", A::energy, "strain energies of cells"),
+                    word("ELSE", A::energy, "work on cells: stored and dissipated in the material"),
                     word("SOF", A::sof,
                          "force and moment that act on a body through facets of its cells, on its "
                          "boundary or inside, with their centre, mean normal and area"),

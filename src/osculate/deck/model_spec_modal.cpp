@@ -212,10 +212,13 @@ void check_modal_steps(const Description& d) {
       if (r.last.value > found->modes->value)
         throw core::InputError(r.last.mark, fmt::format("step '{}' looks for {} vibrations",
                                                         found->name.value, found->modes->value));
-    if (!d.initial_velocity.empty() && !dynamic)
+    const bool later = !dynamic && std::ranges::any_of(d.steps, [](const Step& s) {
+      return s.dynamics.has_value();
+    });
+    if (!d.initial_velocity.empty() && later)
       throw core::InputError(d.initial_velocity.front().mark,
-                             "a step with `modal` begins at rest; a velocity is one of steps with "
-                             "`dynamics`");
+                             "steps with `modal` and, behind them, with `dynamics`: which of them "
+                             "has the velocity is not known");
   }
 }
 

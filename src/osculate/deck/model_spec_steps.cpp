@@ -418,11 +418,15 @@ BoundKey<Description> amplitudes_key() {
 }
 
 BoundKey<Description> initial_velocity_key() {
-  return {optional("initial_velocity",
-                   loads_spec("Velocities at the beginning of the first step with inertia.",
-                              "One velocity.", velocity_keys(), velocity_parts())
-                       .such_as("[{on: ball, vy: -2}]")),
-          [](Description& d, const Value& v) { d.initial_velocity = velocity_keys().read_all(v); }};
+  return {
+      optional(
+          "initial_velocity",
+          loads_spec(
+              "Velocities at the beginning of the first step with inertia, and of motions along "
+              "vibrations.",
+              "One velocity.", velocity_keys(), velocity_parts())
+              .such_as("[{on: ball, vy: -2}]")),
+      [](Description& d, const Value& v) { d.initial_velocity = velocity_keys().read_all(v); }};
 }
 
 BoundKey<Description> initial_temperature_key() {

@@ -90,6 +90,7 @@ class StepChecker {
 
   void check(const Step& step) {
     check_diameters(step);
+    check_rest(step);
     if (step.buckling && !d_.cyclic_symmetry.empty())
       throw core::InputError(step.buckling->mark,
                              "a sector of a cyclic symmetry buckles otherwise than the whole: what "
@@ -130,6 +131,20 @@ class StepChecker {
       if (p.values[i])
         add_unique(seen, p.on.value + "." + component_names[i] + phase_text(p), p.values[i]->mark,
                    "prescription of");
+  }
+
+  /// What buckles is a state of equilibrium.
+  void check_rest(const Step& step) {
+    if (step.buckling && step.about == ModesAbout::last && moving_)
+      throw core::InputError(
+          step.buckling->mark,
+          fmt::format("step '{}' leaves the bodies in motion, which is no state that buckles: a "
+                      "step without `dynamics` between them, or `about: start`",
+                      *moving_));
+    if (step.dynamics)
+      moving_ = step.name.value;
+    else if (!step.modes && !step.buckling && !step.modal && !step.harmonic)
+      moving_.reset();
   }
 
   void check_diameters(const Step& step) const {
@@ -226,6 +241,7 @@ class StepChecker {
 
   const Description& d_;
   std::array<bool, component_count> prescribed_{};  ///< by an earlier step, anywhere
+  std::optional<std::string> moving_{};             ///< the step that has left the bodies in motion
 };
 
 }  // namespace

@@ -131,9 +131,41 @@ InpMesh<Dim>::InpMesh(const Description& description, const model::BasicModel<Di
   for (const mesh::CellRef& ref : cells) {
     const auto next = static_cast<std::int64_t>(number_.size()) + 1;
     number_[{ref.block, ref.cell}] = own ? mesh::cell_number(model.mesh, ref) : next;
+    last_element_ = std::max(last_element_, number_[{ref.block, ref.cell}]);
     for (const Index n : model::cell_nodes(model.mesh, ref).nodes)
       used_[static_cast<std::size_t>(n)] = true;
   }
+  for (std::size_t n = 0; n < model.mesh.nodes.size(); ++n)
+    last_node_ = std::max(last_node_, node(static_cast<Index>(n)));
+  std::int64_t last = last_node_;
+  const auto known = [&](const std::vector<Name>& sets) -> std::int64_t {
+    const mesh::Set* const set = sets.size() == 1 ? m_.mesh.find_set(sets[0].value) : nullptr;
+    return set && set->nodes.size() == 1 ? node(set->nodes[0]) : ++last;
+  };
+  for (const Rigid& rigid : description.rigid) {
+    const std::int64_t reference = known(rigid.reference_node);
+    controls_[rigid.name.value] = {reference, known(rigid.rotation_node)};
+  }
+}
+
+template <int Dim>
+std::optional<ControlNodes> InpMesh<Dim>::control(const std::string& rigid) const {
+  const auto found = controls_.find(rigid);
+  return found == controls_.end() ? std::nullopt : std::optional(found->second);
+}
+
+template <int Dim>
+bool InpMesh<Dim>::finite() const {
+  if (m_.sections.empty())
+    return std::ranges::any_of(d_.springs, [](const Spring& spring) {
+      return !spring.between.empty() && spring.kinematics == Kinematics::finite;
+    });
+  return std::ranges::any_of(
+      m_.sections, [](const auto& s) { return s.section.kinematics == solid::Kinematics::finite; });
+}
+template <int Dim>
+bool InpMesh<Dim>::round() const {
+  return std::ranges::any_of(m_.sections, [](const auto& s) { return prefix(s.section) == "CAX"; });
 }
 
 template <int Dim>
@@ -143,7 +175,7 @@ std::int64_t InpMesh<Dim>::node(Index node) const {
 
 template <int Dim>
 std::string InpMesh<Dim>::elements(std::size_t section) const {
-  return m_.sections[section].name;
+  return plain_text(m_.sections[section].name);
 }
 
 template <int Dim>
@@ -198,32 +230,68 @@ const mesh::Set& InpMesh<Dim>::set(const Name& on) const {
   return *found;
 }
 
+/// Letters, digits, and what a deck has in names.
+template <int Dim>
+std::string InpMesh<Dim>::plain_text(const std::string& name) {
+  std::string text = name;
+  for (char& c : text)
+    if (c == ',' || c == '=' || c == '"' || c == ' ' || c == '*') c = '_';
+  return io::inp::is_number(text) ? "set_" + text : text;
+}
+
 /// A deck does not tell capital and small letters apart.
 template <int Dim>
-void InpMesh<Dim>::require_plain(const Name& on, std::set<std::string>& known) {
-  const bool odd = std::ranges::any_of(
-      on.value, [](char c) { return c == ',' || c == '=' || c == '"' || c == ' ' || c == '*'; });
-  if (odd || io::inp::is_number(on.value))
-    throw core::InputError(on.mark,
-                           fmt::format("'{}' is no name for a set of an input file", on.value));
-  if (!known.insert(io::inp::capitals(on.value)).second)
-    throw core::InputError(on.mark, fmt::format("there is another set that differs from '{}' in "
-                                                "capital letters alone",
-                                                on.value));
+const std::string& InpMesh<Dim>::plain(const std::string& name, char kind) {
+  std::string& known = names_[{kind, name}];
+  if (!known.empty()) return known;
+  const std::string text = plain_text(name);
+  known = text;
+  for (int k = 2; !taken_.insert({kind, io::inp::capitals(known)}).second; ++k)
+    known = fmt::format("{}_{}", text, k);
+  return known;
+}
+
+template <int Dim>
+void InpMesh<Dim>::write_nodes(const std::string& name, const std::vector<Index>& nodes) {
+  sets_ += fmt::format("*NSET, NSET={}\n", name) +
+           lines_of_numbers(nodes, [this](Index n) { return node(n); });
 }
 
 template <int Dim>
 const std::string& InpMesh<Dim>::nodes(const Name& on) {
   const mesh::Set& found = set(on);
-  if (sets_.find(fmt::format("*NSET, NSET={}\n", on.value)) != std::string::npos) return found.name;
-  require_plain(on, node_sets_);
-  for (const Index n : found.nodes)
-    if (!used_[static_cast<std::size_t>(n)])
-      throw core::InputError(on.mark, fmt::format("{} of set '{}' belongs to no section",
-                                                  mesh::describe_node(m_.mesh, n), on.value));
-  sets_ += fmt::format("*NSET, NSET={}\n", on.value) +
-           lines_of_numbers(found.nodes, [this](Index n) { return node(n); });
-  return found.name;
+  const bool known = names_.contains({'n', on.value});
+  const std::string& name = plain(on.value, 'n');
+  if (known) return name;
+  for (const Index n : found.nodes) used_[static_cast<std::size_t>(n)] = true;  // of springs alone
+  write_nodes(name, found.nodes);
+  return name;
+}
+
+template <int Dim>
+const std::string& InpMesh<Dim>::nodes_of_body(const SetShape& shape, const Rigid& rigid) {
+  const auto body =
+      std::ranges::find(m_.rigid, rigid.name.value, [](const auto& b) { return b.name; });
+  std::vector<Index> nodes;
+  for (const Index n : set(shape.set).nodes)
+    if (used_[static_cast<std::size_t>(n)]) nodes.push_back(n);
+  if (nodes.empty() || body == m_.rigid.end())
+    throw core::InputError(rigid.name.mark,
+                           "a rigid body without cells of a section: rigid surfaces are not "
+                           "written");
+  const std::string& name = plain(rigid.name.value + "_nodes", 'n');
+  write_nodes(name, nodes);
+  Vec3 at = Vec3::Zero();
+  for (int k = 0; k < Dim; ++k) at[k] = body->reference[k];
+  const ControlNodes control = controls_.at(rigid.name.value);
+  for (const std::vector<Name>& own : {rigid.reference_node, rigid.rotation_node})
+    for (const Name& one : own)
+      for (const Index n : set(one).nodes) used_[static_cast<std::size_t>(n)] = true;
+  for (const std::int64_t number : {control.reference, control.rotation})
+    if (number > last_node_)
+      sets_ +=
+          fmt::format("*NODE\n{}, {}, {}, {}\n", number, exact(at[0]), exact(at[1]), exact(at[2]));
+  return name;
 }
 
 template <int Dim>
@@ -277,14 +345,14 @@ std::string InpMesh<Dim>::side_of(const Side<Dim>& facet, const Name& on) const 
 
 template <int Dim>
 const std::string& InpMesh<Dim>::surface(const Name& on) {
-  const mesh::Set& found = set(on);
-  const std::string head = fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", on.value);
-  if (sets_.find(head) != std::string::npos) return found.name;
-  require_plain(on, surfaces_);
+  (void)set(on);
+  const bool known = names_.contains({'s', on.value});
+  const std::string& name = plain(on.value, 's');
+  if (known) return name;
   std::string lines;
   for (const Side<Dim>& facet : facets(on)) lines += side_of(facet, on);
-  sets_ += head + lines;
-  return found.name;
+  sets_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", name) + lines;
+  return name;
 }
 
 template class InpMesh<2>;
@@ -300,16 +368,15 @@ WrittenDeck deck_of(const Description& d, const BasicBuilt<Dim>& built) {
   InpMesh<Dim> mesh(d, built.model);
   std::string model, steps;
   write_model(d, built.model, mesh, leaves, model);
-  const auto finite = [](const auto& s) {
-    return s.section.kinematics == solid::Kinematics::finite;
-  };
-  write_steps(d, mesh, leaves, std::ranges::any_of(built.model.sections, finite), steps);
+  write_steps(d, mesh, leaves, steps);
   leaves.require_none_left();
   const std::string title = d.title.empty() ? "A model file of Osculate" : d.title;
   deck.text = fmt::format("*HEADING\n{}\n", title) + mesh.cells() + mesh.sets() + model + steps;
+  const bool asked = !d.output.frd.empty() || !d.output.dat.empty();
   deck.notes.push_back(
-      "tolerances and results (solver, output) are left out: displacements, forces and stresses "
-      "are asked for");
+      asked ? "tolerances and other results than frd and dat (solver, output) are left out"
+            : "tolerances and results (solver, output) are left out: displacements, forces and "
+              "stresses are asked for");
   const bool foreign = std::ranges::any_of(built.model.sections, [](const auto& s) {
     return s.section.formulation == solid::Formulation::bbar ||
            (Dim == 2 && s.section.formulation == solid::Formulation::enhanced);

@@ -1,4 +1,4 @@
-// Materials, sections, equations and contact of a model file as cards of a deck.
+// Sections, equations and contact of a model file as cards of a deck.
 #include <algorithm>
 
 #include "osculate/deck/to_inp_parts.hpp"
@@ -8,49 +8,7 @@
 namespace osculate::deck {
 namespace {
 
-// ---- materials --------------------------------------------------------------------------------
-
-/// `hardening` as rows of stress and plastic strain, or `yield` with a linear kinematic one.
-void write_hardening(const std::string& law, Leaves& leaves, std::string& out) {
-  const std::string path = law + ".hardening";
-  const auto kinematic = leaves.number(law + ".kinematic");
-  out += kinematic ? "*PLASTIC, HARDENING=KINEMATIC\n" : "*PLASTIC\n";
-  if (const auto yield = leaves.number(law + ".yield")) {
-    out += fmt::format("{}, 0\n", exact(*yield));
-    if (kinematic) out += fmt::format("{}, 1\n", exact(*yield + *kinematic));
-    return;
-  }
-  if (kinematic) leaves.fail(law + ".kinematic", "is written beside `yield` alone");
-  for (int i = 0;; ++i) {
-    const auto stress = leaves.number(fmt::format("{}[{}][0]", path, i));
-    const auto strain = leaves.number(fmt::format("{}[{}][1]", path, i));
-    if (!stress || !strain) return;
-    out += fmt::format("{}, {}\n", exact(*stress), exact(*strain));
-  }
-}
-
-void write_material(const Material& material, Leaves& leaves, std::string& out) {
-  const std::string path = fmt::format("materials.{}", material.name.value);
-  const std::string law = fmt::format("{}.{}", path, material::key_of(material.law.value));
-  out += fmt::format("*MATERIAL, NAME={}\n", material.name.value);
-  const bool plastic = law.ends_with(".elastoplastic");
-  if (!plastic && !law.ends_with(".linear_elastic") && !law.ends_with(".st_venant_kirchhoff"))
-    throw core::InputError(material.law.mark,
-                           fmt::format("{} is not written: linear_elastic, st_venant_kirchhoff or "
-                                       "elastoplastic",
-                                       material::key_of(material.law.value)));
-  const auto young = leaves.number(law + ".E"), poisson = leaves.number(law + ".nu");
-  if (!young || !poisson)
-    throw core::InputError(material.law.mark, "E and nu are written where each is one number");
-  out += fmt::format("*ELASTIC\n{}, {}\n", exact(*young), exact(*poisson));
-  if (plastic) write_hardening(law, leaves, out);
-  if (const auto density = leaves.number(law + ".density"))
-    out += fmt::format("*DENSITY\n{}\n", exact(*density));
-  if (const auto alpha = leaves.number(path + ".expansion.alpha")) {
-    const auto zero = leaves.number(path + ".expansion.reference");
-    out += fmt::format("*EXPANSION{}\n{}\n", zero ? ", ZERO=" + exact(*zero) : "", exact(*alpha));
-  }
-}
+// ---- sections ---------------------------------------------------------------------------------
 
 double thickness_of(const solid::Section<2>& section) { return section.thickness; }
 double thickness_of(const solid::Section<3>&) { return 1; }
@@ -66,6 +24,14 @@ void require_one_kinematics(const Description& d, const model::BasicModel<Dim>& 
     if (m.sections[s].section.kinematics != m.sections[0].section.kinematics)
       throw core::InputError(d.sections[s].kinematics.mark,
                              "in an input file all sections have finite strains (NLGEOM), or none");
+  for (std::size_t s = 0; s < m.sections.size(); ++s)
+    if (m.sections[s].section.kinematics == solid::Kinematics::small &&
+        material::key_of(d.find_material(d.sections[s].material.value)->law.value) ==
+            "deformation_plasticity")
+      throw core::InputError(
+          d.sections[s].material.mark,
+          "*DEFORMATION PLASTICITY makes all strains of an input file finite: it "
+          "needs `kinematics: finite`");
 }
 
 template <int Dim>
@@ -79,9 +45,10 @@ void write_sections(const Description& d, const model::BasicModel<Dim>& m, const
       (void)leaves.text(fmt::format("sections[{}].{}", s, key));
     const Section& section = d.sections[s];
     if (used.insert(section.material.value).second)
-      write_material(*d.find_material(section.material.value), leaves, out);
-    out += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}\n", mesh.elements(s),
-                       section.material.value);
+      write_material(*d.find_material(section.material.value), damping_cards(d), leaves, out);
+    const std::string axes = write_orientation(section, s, leaves, out);
+    out += fmt::format("*SOLID SECTION, ELSET={}, MATERIAL={}{}\n", mesh.elements(s),
+                       section.material.value, axes);
     if (Dim == 2 && !is_round(m.sections[s].section))
       out += exact(thickness_of(m.sections[s].section)) + "\n";
   }
@@ -92,6 +59,25 @@ void write_sections(const Description& d, const model::BasicModel<Dim>& m, const
 
 // ---- equations --------------------------------------------------------------------------------
 
+/// Terms `node, direction, factor` of a displacement of a set or of a rigid body.
+template <int Dim>
+std::size_t write_terms(const Name& on, Component of, double factor, InpMesh<Dim>& mesh,
+                        std::string& terms) {
+  const auto add = [&](std::int64_t node, int direction) {
+    terms += fmt::format("{}, {}, {}\n", node, direction, exact(factor));
+  };
+  if (const auto control = mesh.control(on.value)) {
+    const auto [node, direction] = control->of(of);
+    add(node, direction);
+    return 1;
+  }
+  if (is_rotation(of)) throw core::InputError(on.mark, "rotations of a set are not written");
+  (void)mesh.nodes(on);
+  const std::vector<Index>& nodes = mesh.set(on).nodes;
+  for (const Index n : nodes) add(mesh.node(n), static_cast<int>(of) + 1);
+  return nodes.size();
+}
+
 template <int Dim>
 void write_equations(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
   for (std::size_t e = 0; e < d.equations.size(); ++e) {
@@ -100,17 +86,19 @@ void write_equations(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, s
     if (equation.value.value == 0) (void)leaves.text(fmt::format("equations[{}].value", e));
     std::string terms;
     std::size_t count = 0;
-    for (const EquationTerm& term : equation.terms) {
-      if (is_rotation(term.of))
-        throw core::InputError(term.on.mark, "rotations of rigid bodies are not written");
-      (void)mesh.nodes(term.on);
-      for (const Index n : mesh.set(term.on).nodes) {
-        terms += fmt::format("{}, {}, {}\n", mesh.node(n), static_cast<int>(term.of) + 1,
-                             exact(term.factor.value));
-        ++count;
-      }
-    }
+    for (const EquationTerm& term : equation.terms)
+      count += write_terms(term.on, term.of, term.factor.value, mesh, terms);
     out += fmt::format("*EQUATION\n{}\n{}", count, terms);
+  }
+  for (std::size_t e = 0; e < d.equal.size(); ++e) {
+    const Equal& equal = d.equal[e];
+    leaves.take(fmt::format("equal[{}]", e));
+    (void)mesh.nodes(equal.on);
+    const std::vector<Index>& nodes = mesh.set(equal.on).nodes;
+    for (std::size_t k = 1; k < nodes.size(); ++k)
+      out += fmt::format("*EQUATION\n2\n{}, {}, 1\n{}, {}, -1\n", mesh.node(nodes[k]),
+                         static_cast<int>(equal.of) + 1, mesh.node(nodes[0]),
+                         static_cast<int>(equal.of) + 1);
   }
 }
 
@@ -221,19 +209,39 @@ void write_contact(const Description& d, const model::BasicModel<Dim>& m, InpMes
   for (std::size_t k = 0; k < d.contact.size(); ++k) write_pair(d, m, k, mesh, leaves, out);
 }
 
+template <int Dim>
+void write_initial(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  leaves.take("initial_temperature");
+  leaves.take("initial_velocity");
+  if (!d.initial_temperature.empty()) out += "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n";
+  for (const Load& load : d.initial_temperature)
+    out += fmt::format("{}, {}\n", mesh.nodes(load.on), exact(load.values[0]->value));
+  if (!d.initial_velocity.empty()) out += "*INITIAL CONDITIONS, TYPE=VELOCITY\n";
+  for (const Load& load : d.initial_velocity) {
+    if (mesh.control(load.on.value))
+      throw core::InputError(load.on.mark, "velocities of rigid bodies are not written");
+    for (std::size_t k = 0; k < 3; ++k)
+      if (load.values[k])
+        out +=
+            fmt::format("{}, {}, {}\n", mesh.nodes(load.on), k + 1, exact(load.values[k]->value));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
 void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
                  Leaves& leaves, std::string& out) {
   write_sections(d, m, mesh, leaves, out);
+  write_axes(d, mesh, leaves, out);
+  write_rigid(d, mesh, leaves, out);
   write_equations(d, mesh, leaves, out);
+  write_node_conditions(d, mesh, leaves, out);
+  write_springs(d, mesh, leaves, out);
+  write_masses(d, mesh, leaves, out);
+  write_cyclic_symmetry(d, mesh, leaves, out);
   write_contact(d, m, mesh, leaves, out);
-  if (d.initial_temperature.empty()) return;
-  leaves.take("initial_temperature");
-  out += "*INITIAL CONDITIONS, TYPE=TEMPERATURE\n";
-  for (const Load& load : d.initial_temperature)
-    out += fmt::format("{}, {}\n", mesh.nodes(load.on), exact(load.values[0]->value));
+  write_initial(d, mesh, leaves, out);
 }
 
 template void write_model(const Description&, const model::Model&, InpMesh<2>&, Leaves&,

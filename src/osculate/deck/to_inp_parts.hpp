@@ -42,6 +42,16 @@ class Leaves {
 /// A number as short as it is exact.
 [[nodiscard]] std::string exact(double value);
 
+/// The nodes of a rigid body that stand for its displacements and its rotations.
+struct ControlNodes {
+  std::int64_t reference = 0, rotation = 0;
+  /// Node and direction of a motion.
+  [[nodiscard]] std::pair<std::int64_t, int> of(Component motion) const {
+    const int k = static_cast<int>(motion);
+    return is_rotation(motion) ? std::pair{rotation, k - 2} : std::pair{reference, k + 1};
+  }
+};
+
 /// The mesh of a deck: nodes, the elements of the sections, and the sets that are asked for.
 template <int Dim>
 class InpMesh {
@@ -59,9 +69,22 @@ class InpMesh {
   /// Name of the elements of a section.
   [[nodiscard]] std::string elements(std::size_t section) const;
   [[nodiscard]] bool is_curved(const Name& surface) const;
+  /// Of a rigid body by its name.
+  [[nodiscard]] std::optional<ControlNodes> control(const std::string& rigid) const;
+  /// Set of the nodes of sections that belong to a rigid body, which is written.
+  const std::string& nodes_of_body(const SetShape& shape, const Rigid& rigid);
+  /// Number of an element that is no cell.
+  [[nodiscard]] std::int64_t new_element() { return ++last_element_; }
+  /// Whether some section has finite strains (NLGEOM), or is that of rings.
+  [[nodiscard]] bool finite() const;
+  [[nodiscard]] bool round() const;
 
  private:
-  void require_plain(const Name& on, std::set<std::string>& known);
+  /// The cards of a set of nodes.
+  void write_nodes(const std::string& name, const std::vector<Index>& nodes);
+  /// A name of the deck for one of the model file, always the same, and of no other set.
+  const std::string& plain(const std::string& name, char kind);
+  [[nodiscard]] static std::string plain_text(const std::string& name);
   [[nodiscard]] std::vector<Side<Dim>> facets(const Name& on) const;
   [[nodiscard]] std::string type_of(const model::BasicBulkSection<Dim>& section,
                                     cell::CellType type) const;
@@ -70,12 +93,55 @@ class InpMesh {
   const Description& d_;
   const model::BasicModel<Dim>& m_;
   SideTable<Dim> table_;
-  std::map<std::pair<Index, Index>, std::int64_t> number_;  ///< of a cell, by block and place
-  std::vector<bool> used_;                                  ///< nodes of sections
-  bool own_numbers_ = true;                                 ///< nodes have those of the mesh
-  std::set<std::string> node_sets_, surfaces_;              ///< in capitals
+  std::map<std::pair<Index, Index>, std::int64_t> number_;     ///< of a cell, by block and place
+  std::vector<bool> used_;                                     ///< nodes that are written
+  bool own_numbers_ = true;                                    ///< nodes have those of the mesh
+  std::map<std::pair<char, std::string>, std::string> names_;  ///< of nodes 'n' and surfaces 's'
+  std::set<std::pair<char, std::string>> taken_;               ///< these, in capitals
+  std::map<std::string, ControlNodes> controls_;               ///< by rigid body
+  std::int64_t last_element_ = 0, last_node_ = 0;  ///< numbers of the mesh, later of more
   std::string sets_;
 };
+
+// ---- the keys of a model file, as cards -------------------------------------------------------
+
+/// With `*DAMPING` of all materials.
+void write_material(const Material& material, const std::string& damping, Leaves& leaves,
+                    std::string& out);
+/// `*DAMPING` by the steps with inertia; empty: there is none.
+[[nodiscard]] std::string damping_cards(const Description& d);
+/// Adds the `*ORIENTATION` of a section; returns the parameter that names it, or nothing.
+[[nodiscard]] std::string write_orientation(const Section& section, std::size_t number,
+                                            Leaves& leaves, std::string& out);
+template <int Dim>
+void write_springs(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out);
+template <int Dim>
+void write_masses(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out);
+template <int Dim>
+void write_axes(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out);
+/// Nodes that stay in one plane, on one line, at their distance.
+template <int Dim>
+void write_node_conditions(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves,
+                           std::string& out);
+template <int Dim>
+void write_cyclic_symmetry(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves,
+                           std::string& out);
+/// Bodies that are sets of nodes; other shapes have no counterpart.
+template <int Dim>
+void write_rigid(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out);
+
+/// The cards of a step up to its loads.
+struct ProcedureCards {
+  std::string text;
+  bool at_once = false;  ///< loads without an amplitude act at once there
+  bool search = false;   ///< it looks for vibrations or buckling loads, and moves nothing
+};
+/// `moved`: a step before it has moved the bodies.
+[[nodiscard]] ProcedureCards procedure_of(const Description& d, std::size_t step, bool finite,
+                                          bool moved);
+/// Results that the model file asks for in the files of CalculiX; empty: for none.
+template <int Dim>
+[[nodiscard]] std::string requests_of(const Description& d, const Step& step, InpMesh<Dim>& mesh);
 
 /// Adds materials, sections, equations, contact and what there is at first.
 template <int Dim>
@@ -83,7 +149,6 @@ void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<
                  Leaves& leaves, std::string& out);
 /// The amplitudes, then the steps.
 template <int Dim>
-void write_steps(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, bool finite,
-                 std::string& out);
+void write_steps(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out);
 
 }  // namespace osculate::deck

@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
 
 #include "osculate/la/spectra_matrix.hpp"
 
@@ -75,30 +77,51 @@ bool solves(Problem& p) {
          (p.k * x - b).norm() <= exact * b.norm();
 }
 
-/// Vectors of the space in which M is not zero, normalised; and how good they are.
+/// |K| |v| , absolute values entry by entry.
+Eigen::VectorXd absolute_product(const Sparse& k, const Eigen::VectorXd& v) {
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(v.size());
+  for (Index row = 0; row < k.outerSize(); ++row)
+    for (Sparse::InnerIterator it(k, row); it; ++it) out[row] += std::abs(it.value() * v[it.col()]);
+  return out;
+}
+
+/// Vectors of the space in which M is not zero, normalised; and how good they are. Values that
+/// cannot be told from 0 are 0.
 void clean(Problem& p, Eigenpairs& pairs) {
   p.solver.solve(pairs.vectors = p.m * pairs.vectors);
   for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
     auto v = pairs.vectors.col(i);
     v /= std::sqrt(v.dot(p.m * v));
-    const Eigen::VectorXd mv = p.m * v;
-    const double scale = (std::abs(pairs.values[i]) + std::abs(pairs.shift)) * mv.norm();
-    pairs.residual = std::max(pairs.residual, (p.k * v - pairs.values[i] * mv).norm() / scale);
+    const Eigen::VectorXd mv = p.m * v, kv = p.k * v, most = absolute_product(p.k, v);
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() * v.cwiseAbs().dot(most);
+    pairs.rounding = std::max(pairs.rounding, rounding);
+    const bool free = std::abs(v.dot(kv)) <= rounding;
+    if (free) pairs.values[i] = 0;
+    const double off = (kv - pairs.values[i] * mv).norm(),
+                 scale = free ? most.norm()
+                              : (std::abs(pairs.values[i]) + std::abs(pairs.shift)) * mv.norm();
+    if (off > 0) pairs.residual = std::max(pairs.residual, off / scale);
   }
 }
 
 /// Eigenvalues up to the last one that are not there.
 int count_missing(Problem& p, const Eigenpairs& pairs) {
-  constexpr double above = 1e-6;
+  constexpr double share = 1e-6, far = 1e3;
   const Eigen::Index n = pairs.values.size();
-  const double last = pairs.values[n - 1];
-  const double at = last + above * (std::abs(last) + std::abs(pairs.shift));
+  const double last = pairs.values[n - 1], first = pairs.values[0];
+  const double above = share * (std::abs(last) + std::abs(pairs.shift));
   // Rows without mass are in balance at once: their pivots do not depend on the shift.
-  const FactorReport without =
-      p.factor(pairs.values[0] - 1e3 * (std::abs(pairs.values[0]) + std::abs(pairs.shift)));
-  const FactorReport with = p.factor(at);
-  if (with.status == SolveStatus::failed || without.status == SolveStatus::failed) return -1;
-  return with.negative_pivots - without.negative_pivots - static_cast<int>(n);
+  const double below = far * (std::abs(first) + std::abs(pairs.shift) + pairs.rounding);
+  const FactorReport without = p.factor(first - below);
+  if (without.status == SolveStatus::failed) return -1;
+  // The signs of pivots next to an eigenvalue are those of rounding: one that was found is below.
+  int missing = -1;
+  for (double times = 10; missing < 0 && times <= 1e3; times *= 10) {
+    const FactorReport with = p.factor(last + std::max(above, times * pairs.rounding));
+    if (with.status == SolveStatus::failed) return -1;
+    missing = with.negative_pivots - without.negative_pivots - static_cast<int>(n);
+  }
+  return std::max(missing, -1);
 }
 
 Eigenpairs found_around(Problem& p, double shift, Eigen::Index count) {
@@ -119,10 +142,15 @@ Eigenpairs found_around(Problem& p, double shift, Eigen::Index count) {
     pairs.failure = "the stiffness cannot be solved for";
     return pairs;
   }
-  lanczos.init(start.data());
   constexpr int most = 1000;
   constexpr double tolerance = 1e-11;
-  lanczos.compute(Spectra::SortRule::LargestMagn, most, tolerance, Spectra::SortRule::SmallestAlge);
+  try {
+    lanczos.init(start.data());
+    lanczos.compute(Spectra::SortRule::LargestMagn, most, tolerance,
+                    Spectra::SortRule::SmallestAlge);
+  } catch (const std::runtime_error&) {  // values of its small problem too far apart
+    failed = true;
+  }
   if (failed || lanczos.info() != Spectra::CompInfo::Successful) {
     pairs.failure = "Lanczos' method did not converge";
     return pairs;
@@ -204,6 +232,12 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int
   Eigen::Index more = wanted;
   for (int i = 0; i < tries; ++i) {
     pairs = found_around(p, shift, more);
+    // A matrix that is nearly singular: its inverse sees little else.
+    if (shift == 0 && (!pairs.failure.empty() || pairs.without_stiffness() > 0)) {
+      shift = -p.small_shift();
+      if (p.factor(shift).status == SolveStatus::failed) break;
+      pairs = found_around(p, shift, more);
+    }
     if (!pairs.failure.empty()) return pairs;
     pairs.missing = count_missing(p, pairs);
     if (pairs.missing <= 0 || more + pairs.missing >= p.with_mass) break;
@@ -298,6 +332,7 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m,
   if (!real) complete_pairs(mass, count, pairs);
   pairs.values *= unit;
   pairs.shift *= unit;
+  pairs.rounding *= unit;
   pairs.vectors = (std::sqrt(unit) * (by * pairs.vectors)).eval();
   return pairs;
 }

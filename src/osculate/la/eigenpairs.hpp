@@ -9,14 +9,21 @@ namespace osculate::la {
 
 /// Eigenvalues next to the shift and above it, smallest first, with their vectors.
 struct Eigenpairs {
-  Eigen::VectorXd values;
+  Eigen::VectorXd values;   ///< 0 exactly, where it cannot be told from 0: see rounding
   Eigen::MatrixXd vectors;  ///< columns, v . M v = 1
   double shift = 0;         ///< that they were found around
-  double residual = 0;      ///< largest |K v - lambda M v| / ((|lambda| + |shift|) |M v|)
+  double residual = 0;      ///< largest |K v - lambda M v| / ((|lambda| + |shift|) |M v|);
+                            ///< where lambda is 0, |K v| / | |K| |v| |
+  /// What rounding alone may make of an eigenvalue: the largest 4 eps |v| . |K| |v|, absolute
+  /// values entry by entry.
+  double rounding = 0;
   /// Eigenvalues up to the last one that are missing, by the signs of the pivots of K - s M, s
   /// above it (Sylvester's law of inertia): 0 is proof that all are there.
   int missing = 0;
   std::string failure;  ///< why there are none; empty: there are
+
+  /// Vectors that K does not resist: of rigid motions and mechanisms.
+  [[nodiscard]] Eigen::Index without_stiffness() const { return (values.array() == 0).count(); }
 };
 
 /// Smallest eigenvalues of K v = lambda M v by Lanczos' method with a shift that is inverted

@@ -76,6 +76,25 @@ double damping_of(const ModalDamping& damping, std::size_t mode, double omega_sq
   return 2 * ratio * std::sqrt(positive) + damping.mass + damping.stiffness * positive;
 }
 
+namespace {
+
+/// Rates of vibrations from velocities that were given, where no step in time has had them.
+///
+/// Formula    q' = phi . M v
+template <int Dim>
+Eigen::VectorXd first_rates(const BasicModel<Dim>& model, BasicSystem<Dim>& system,
+                            const BasicSuperposition<Dim>& motion) {
+  const bool had =
+      std::ranges::any_of(model.steps, [](const Step& s) { return s.dynamics.has_value(); });
+  if (had || model.initial_velocity.empty())
+    return Eigen::VectorXd::Zero(motion.modes.omega_squared.size());
+  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(system.dofs().dofs());
+  for (const auto& [dof, value] : model.initial_velocity) velocity[dof] = value;
+  return system.momenta_along(motion.modes, motion.about, velocity);
+}
+
+}  // namespace
+
 template <int Dim>
 BasicSuperposition<Dim> superposition(const BasicModel<Dim>& model, BasicSystem<Dim>& system,
                                       const Step& step, const BasicState<Dim>& standing,
@@ -87,7 +106,7 @@ BasicSuperposition<Dim> superposition(const BasicModel<Dim>& model, BasicSystem<
   motion.about = step.frequencies->unloaded ? system.initial_state() : standing;
   motion.modes = std::move(modes);
   const Eigen::Index count = motion.modes.omega_squared.size();
-  motion.now = {Eigen::VectorXd::Zero(count), Eigen::VectorXd::Zero(count),
+  motion.now = {Eigen::VectorXd::Zero(count), first_rates(model, system, motion),
                 Eigen::VectorXd::Zero(count)};
   motion.resting = system.forces_on(motion.modes, motion.about, 1.0);
   motion.dampers = damped_alone(system.dampers_on(motion.modes, motion.about), failure);

@@ -13,7 +13,8 @@ namespace osculate::model {
 ///            state, with its stresses (also those of small strain: solid::stress_stiffness), loads
 ///            that follow, and contacts: closed ones stay closed and stick, if they have friction;
 ///            open ones stay open
-/// Sign       omega^2 < 0: the state is unstable
+/// Sign       omega^2 < 0: the state is unstable; 0 exactly: K does not resist, within what
+///            rounding makes of phi . K phi (la::Eigenpairs)
 /// Units      omega in radians per time
 struct Vibrations {
   Eigen::VectorXd omega_squared;
@@ -33,6 +34,10 @@ struct Vibrations {
   int missing = 0;      ///< likewise
   std::string failure;  ///< why there are none; empty: there are
 
+  /// Rigid motions and mechanisms.
+  [[nodiscard]] Eigen::Index without_stiffness() const {
+    return (omega_squared.array() == 0).count();
+  }
   /// What only those need that move along them.
   void forget_unknowns() {
     vectors.resize(0, 0);

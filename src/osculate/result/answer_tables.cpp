@@ -215,11 +215,10 @@ struct Tables {
     } else {
       const auto& [section, memory] = a.places[cell];
       const model::CellNodes c = model::cell_nodes(a.model.mesh, a.mesh.cells[cell].ref);
-      value =
-          solid::cell_energy(model::section_on(*section, c.type), c.type,
-                             model::reference_of(a.model, c.nodes),
-                             model::displacement_of<Dim>(state.u, c.nodes), memory.of(state.memory))
-              .stored;
+      const solid::CellEnergy energy = solid::cell_energy(
+          model::section_on(*section, c.type), c.type, model::reference_of(a.model, c.nodes),
+          model::displacement_of<Dim>(state.u, c.nodes), memory.of(state.memory));
+      value = energy.stored + energy.dissipated;  // work on the cell, as there
     }
     return a.sector * value;
   }

@@ -91,7 +91,7 @@ std::string iteration_text(int number, const solve::IterationRecord& iteration,
 }
 
 std::vector<std::string> vibrations_text(const std::string& step, const model::Vibrations& modes) {
-  constexpr double rough = 1e-6;
+  constexpr double rough = 1e-4;  // where rounding rules, omega^2 is known better
   std::vector<std::string> texts;
   for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i)
     texts.push_back(fmt::format(
@@ -100,6 +100,10 @@ std::vector<std::string> vibrations_text(const std::string& step, const model::V
         modes.diameters.empty()
             ? std::string{}
             : fmt::format("  nodal diameters {}", modes.diameters[static_cast<std::size_t>(i)])));
+  if (const Eigen::Index free = modes.without_stiffness(); free > 0)
+    texts.push_back(fmt::format("{:<12} {} of them {} rigid motion{} or mechanism{}: no stiffness",
+                                step, free, free == 1 ? "is a" : "are", free == 1 ? "" : "s",
+                                free == 1 ? "" : "s"));
   const auto doubt = [&](const std::string& text) {
     texts.push_back(fmt::format("warning: step '{}': {}", step, text));
   };
@@ -108,9 +112,7 @@ std::vector<std::string> vibrations_text(const std::string& step, const model::V
   if (modes.missing < 0) doubt("whether all vibrations are there is not known");
   if (modes.residual > rough)
     doubt(fmt::format("the vibrations are known to {:.0e} only", modes.residual));
-  if (modes.omega_squared.size() > 0 && modes.omega_squared[0] < 0 &&
-      -modes.omega_squared[0] > rough * std::abs(modes.omega_squared.tail<1>()[0]))
-    doubt("the state is unstable: omega^2 < 0");
+  if ((modes.omega_squared.array() < 0).any()) doubt("the state is unstable: omega^2 < 0");
   return texts;
 }
 

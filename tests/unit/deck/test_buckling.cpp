@@ -217,6 +217,23 @@ TEST(Buckling, WhatItIsNotFor) {
   EXPECT_NE(said.find("have no amplitude"), std::string::npos) << said;
 }
 
+// What moves is in no balance: the state before all steps may buckle, or one that came to rest.
+TEST(Buckling, AfterAStepWithInertia) {
+  const std::string dense = "linear_elastic: {E: 1000, nu: 0, density: 1}",
+                    swing = "  - {name: d, increments: 3, duration: 0.1, dynamics: {}, " + clamped +
+                            ", total_force: [{on: c.right, fy: -1e-4}]}\n",
+                    rest = "  - {name: s, increments: 1, total_force: [{on: c.right, fy: 0}]}\n",
+                    load = ", total_force: [{on: c.right, fx: -1}]}\n";
+  const std::string said = error_of(column(swing + "  - {name: b, buckling: 1" + load, "", dense));
+  EXPECT_NE(said.find("steps[1].buckling: step 'd' leaves the bodies in motion"), std::string::npos)
+      << said;
+  for (const std::string& steps :
+       {"  - {name: b, buckling: 1, " + clamped + load,
+        swing + "  - {name: b, buckling: {count: 1, about: start}" + load,
+        swing + rest + "  - {name: b, buckling: 1" + load})
+    EXPECT_NEAR(factors_of(buckled(column(steps, "", dense)))[0] / eulers(), 1, 0.01);
+}
+
 TEST(Buckling, SaysWhyThereIsNone) {
   const auto message_of = [](const std::string& steps) { return answer_of(column(steps)).message; };
   EXPECT_EQ(message_of("  - {name: b, buckling: 1, " + clamped + "}\n"),

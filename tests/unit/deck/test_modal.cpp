@@ -147,6 +147,25 @@ TEST(Modal, FallsFreely) {
   EXPECT_NEAR(r.rate.back(), -3, 1e-6);
 }
 
+/// With a velocity: a body that nothing holds flies on, a bar that meets a wall with its held end
+/// moves as it does in time.
+TEST(Modal, BeginsWithGivenVelocities) {
+  const std::string thrown =
+      edited(modal_bar, "steps:\n", "initial_velocity: [{on: bar, vx: -0.1}]\nsteps:\n");
+  const Swing free =
+      swing(thrown + "  - {name: free, modes: 4}\n" + modal_step("3", "duration: 0.3, modal: {}"));
+  ASSERT_EQ(free.result.outcome, solve::Outcome::converged) << free.result.message;
+  EXPECT_NEAR(free.place.back(), -0.03, 1e-10);
+  EXPECT_NEAR(free.rate.back(), -0.1, 1e-9);
+  const Swing modal = swing(thrown + bar_held + "  - {name: free, modes: 40}\n" +
+                            modal_step("4", "duration: 0.3, modal: {damping: {mass: 2}}"));
+  const Swing stepped = swing(thrown + bar_held +
+                              modal_step("3000", "duration: 0.3, dynamics: {damping: {mass: 2}}"));
+  ASSERT_EQ(modal.result.outcome, solve::Outcome::converged) << modal.result.message;
+  EXPECT_GT(std::abs(stepped.place.back()), 1e-3);
+  EXPECT_NEAR(modal.place.back(), stepped.place.back(), 5e-3 * std::abs(stepped.place.back()));
+}
+
 /// A damper that is no part of one vibration alone would have to join them.
 TEST(Modal, DampersMayNotJoinVibrations) {
   const std::string damped =
@@ -238,8 +257,11 @@ TEST(Modal, Refusals) {
          "step 'free' looks for 3 vibrations");
   expect("modal: {}", "modal: {damping: {ratios: [{first: 3, last: 2, ratio: 0.1}]}}",
          "must not be below the first one, 3, got 2");
-  expect("steps:\n", "initial_velocity: [{on: bar, vx: 1}]\nsteps:\n",
-         "a step with `modal` begins at rest");
+  const std::string message =
+      modal_refusal(edited(good, "steps:\n", "initial_velocity: [{on: bar, vx: 1}]\nsteps:\n") +
+                    "  - {name: after, increments: 1, duration: 1, dynamics: {}}\n");
+  EXPECT_NE(message.find("which of them has the velocity is not known"), std::string::npos)
+      << message;
 }
 
 }  // namespace

@@ -104,22 +104,197 @@ TEST(ToInp, WhatHasNoCounterpartIsRefusedByItsKey) {
       HasSubstr("contact[0].enforcement: has no counterpart"));
   EXPECT_THAT(refusal("formulation: full, kinematics: small", "kinematics: finite"),
               HasSubstr("all sections have finite strains (NLGEOM), or none"));
-  EXPECT_THAT(refusal("{elastoplastic: {E: 1000, nu: 0.25, hardening: [[1, 0], [2, 0.5]]}}",
-                      "{orthotropic: {E1: 1, E2: 1, E3: 1, nu12: 0, nu13: 0, nu23: 0, G12: 1, "
-                      "G13: 1, G23: 1}}"),
-              HasSubstr("materials.hard.orthotropic: orthotropic is not written"));
   EXPECT_THAT(refusal("on: high.left, of: [uy]", "on: high.bottom_front_left, of: [uy]"),
               HasSubstr("'high.bottom_front_left' is not what was prescribed"));
   EXPECT_THAT(refusal("sections:\n",
                       "rigid: {r: {plane: {point: [0, 0, 0], normal: [0, 0, 1]}}}\n"
                       "sections:\n"),
               HasSubstr("rigid.r.plane"));
-  EXPECT_THAT(refusal("{on: high.left, uy: 0}]", "{on: high.left, uy: 0}]\n    gravity: [0, 0, 1]"),
-              HasSubstr("steps[0].gravity"));
+  EXPECT_THAT(refusal("{on: high.left, uy: 0}]",
+                      "{on: high.left, uy: 0}]\n    traction: [{on: high.top, tz: 1}]"),
+              HasSubstr("steps[0].traction"));
   EXPECT_THAT(
       refusal("pressure: [{on: low.right, value: 3}]",
               "forces: [{on: high.top, fy: 1}]\n    pressure: [{on: low.right, value: 3}]"),
       HasSubstr("'high.right' shares nodes with 'high.top', which a step before has loaded"));
+}
+
+/// A cube with another material, more keys and other steps.
+std::string cube(const std::string& material, const std::string& more, const std::string& steps,
+                 const std::string& section = "") {
+  return "osculate: 1\n"
+         "mesh: {generate: {c: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [2, 2, 2]}}}}\n"
+         "materials: {m: {" +
+         material + "}}\nsections: [{on: c, material: m, element: solid, formulation: full" +
+         section + "}]\n" + more + "steps:\n" + steps;
+}
+const std::string elastic = "linear_elastic: {E: 1000, nu: 0.25, density: 2}";
+const std::string pressed =
+    "  - {name: a, increments: 1, duration: 1, prescribe: [{on: c.bottom, ux: 0, uy: 0, uz: 0}]}\n";
+Description again(const std::string& text) {
+  return parse_model(translate_deck(written(text), "model.inp").root, "model.inp");
+}
+std::string refusal_of(const std::string& text) {
+  try {
+    (void)written(text);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// Keys and numbers of the first material, as the model file has them; what is 0 is not said.
+std::vector<std::pair<std::string, double>> numbers_of_law(const Description& d) {
+  std::vector<std::pair<std::string, double>> all;
+  for (const SourceLeaf& leaf : d.source)
+    if (leaf.path.starts_with("materials.m."))
+      if (const double value = std::stod(leaf.text); value != 0) all.emplace_back(leaf.path, value);
+  std::ranges::sort(all);
+  return all;
+}
+
+// Read again a law is the same law with the same numbers.
+TEST(ToInp, MaterialsGoThereAndBack) {
+  for (const char* const law :
+       {"linear_elastic: {E: 1000, nu: 0.25}",
+        "linear_elastic: {E: [[0, 1000], [100, 800]], nu: 0.25}",
+        "linear_elastic: {E: [[0, 1000], [100, 800]], nu: [[0, 0.2], [100, 0.3]]}",
+        "elastoplastic: {E: 1000, nu: 0.25, yield: 3, kinematic: 20}",
+        "norton: {E: 1000, nu: 0.25, A: 1.0e-4, n: 3}",
+        "deformation_plasticity: {E: 1000, nu: 0.25, yield: 3, n: 5, alpha: 0.3}",
+        "orthotropic: {E1: 100, E2: 200, E3: 300, nu12: 0.1, nu13: 0.2, nu23: 0.3, G12: 40, G13: "
+        "50, G23: 60}",
+        "anisotropic: {D1111: 10, D1122: 2, D2222: 11, D1133: 3, D2233: 4, D3333: 12, D1212: 5, "
+        "D1313: 6, D2323: 7, D1112: 0.5}",
+        "rubber: {c10: 1, d1: 0.01}", "rubber: {c10: 1, c01: 0.5, d1: 0.01}",
+        "rubber: {c10: 1, c20: -0.1, c30: 0.01, d1: 0.01, d2: 0.02}",
+        "ogden: {mu1: 1, alpha1: 2, mu2: -0.5, alpha2: -3, d1: 0.01}",
+        "hyperfoam: {mu1: 1, alpha1: 2, nu1: 0.2}"}) {
+    const bool warm = std::string(law).find("[[") < std::string::npos;
+    const std::string text =
+        cube(law, warm ? "initial_temperature: [{on: c, value: 20}]\n" : "",
+             warm ? edited(pressed, "}]}", "}], temperature: [{on: c, value: 50}]}") : pressed,
+             std::string(law).starts_with("deformation") ? ", kinematics: finite" : "");
+    const Description before = parse_model(text, "model.yaml"), after = again(text);
+    const auto& found = after.materials.at(0).law.value;
+    const material::Law& expected = before.materials.at(0).law.value;
+    const bool finite = after.sections.at(0).kinematics.value == Kinematics::finite;
+    EXPECT_EQ(finite, before.sections.at(0).kinematics.value == Kinematics::finite) << law;
+    EXPECT_EQ(material::key_of(found), material::key_of(expected)) << law;
+    EXPECT_EQ(numbers_of_law(after), numbers_of_law(before)) << law;
+  }
+}
+
+TEST(ToInp, WhatHoldsAndPullsNodes) {
+  const std::string more =
+      "axes: [{on: c.right, rectangular: {x: [1, 1, 0], xy: [0, 1, 0]}}]\n"
+      "equal: [{on: c.top_left, of: uz}]\n"
+      "coplanar: [{on: c.top}]\n"
+      "springs:\n"
+      "  - {between: [c.bottom_front_left, c.top_back_right], stiffness: 5, kinematics: small}\n"
+      "  - {terms: [{on: c.top_front_left, of: ux, factor: 1}], table: [[-1, -2], [0, 0], [1, "
+      "3]]}\n"
+      "  - {terms: [{on: c.top_front_left, of: uy, factor: 1}, {on: c.bottom_front_left, of: uy, "
+      "factor: -1}], damping: 4}\n"
+      "masses: [{on: c.top_front_left, mass: 7}]\n";
+  const std::string text = cube(elastic, more, pressed,
+                                ", orientation: {cylindrical: {from: [0, 0, "
+                                "0], to: [0, 0, 1]}, turn: {about: 1, angle: 30}}");
+  const std::string deck = written(text);
+  EXPECT_THAT(deck, HasSubstr("*TRANSFORM, NSET=c.right, TYPE=R\n1, 1, 0, 0, 1, 0\n"));
+  EXPECT_THAT(deck, HasSubstr("*ELEMENT, TYPE=SPRINGA, ELSET=spring_1\n9, 1, 27\n"
+                              "*SPRING, ELSET=spring_1\n\n5\n"));
+  EXPECT_THAT(deck, HasSubstr("*SPRING, ELSET=spring_2, NONLINEAR\n1\n-2, -1\n0, 0\n3, 1\n"));
+  EXPECT_THAT(deck, HasSubstr("*DASHPOT, ELSET=damper_3\n2, 2\n4\n"));
+  EXPECT_THAT(deck, HasSubstr("*MASS, ELSET=mass_1\n7\n"));
+  EXPECT_THAT(deck, HasSubstr("*MPC\nPLANE, c.top\n"));
+  EXPECT_THAT(deck,
+              HasSubstr("*ORIENTATION, NAME=axes_1, SYSTEM=CYLINDRICAL\n0, 0, 0, 0, 0, 1\n1, "));
+  EXPECT_THAT(deck, HasSubstr("*SOLID SECTION, ELSET=c, MATERIAL=m, ORIENTATION=axes_1\n"));
+  const Description after = again(text);
+  EXPECT_EQ(after.springs.size(), 3U);
+  EXPECT_EQ(after.masses.at(0).mass.value, 7);
+  EXPECT_EQ(after.coplanar.size(), 1U);
+  EXPECT_EQ(after.equations.size(), 2U);  // two of the three nodes follow the first
+  EXPECT_EQ(after.axes.size(), 1U);
+}
+
+// A body of a model file is held where nothing is said, one of a deck is free.
+TEST(ToInp, RigidBodiesAndTheirMotions) {
+  const std::string text =
+      cube(elastic, "rigid: {head: {set: c.top, reference: [0.5, 0.5, 2]}}\n",
+           "  - {name: a, increments: 1, prescribe: [{on: c.bottom, ux: 0, uy: 0, uz: 0}, {on: "
+           "head, uz: -0.1}], release: [{on: head, of: [rx]}], forces: [{on: head, mx: 3}]}\n");
+  const std::string deck = written(text);
+  EXPECT_THAT(deck, HasSubstr("*RIGID BODY, NSET=head_nodes, REF NODE=28, ROT NODE=29\n"));
+  EXPECT_THAT(deck, HasSubstr("*NODE\n28, 0.5, 0.5, 2\n*NODE\n29, 0.5, 0.5, 2\n"));
+  EXPECT_THAT(deck, HasSubstr("28, 3, 3, -0.1\n"));
+  EXPECT_THAT(deck, HasSubstr("29, 2, 2, 0\n"));
+  EXPECT_THAT(deck, Not(HasSubstr("29, 1, 1,")));
+  EXPECT_THAT(deck, HasSubstr("*CLOAD\n29, 1, 3\n"));
+  const Description after = again(text);
+  ASSERT_EQ(after.rigid.size(), 1U);
+  ASSERT_EQ(after.steps.at(0).release.size(), 1U);
+  EXPECT_TRUE(after.steps[0].release[0].of[3]);
+}
+
+TEST(ToInp, StepsOfAllKinds) {
+  const std::string steps =
+      "  - {name: a, increments: 1, prescribe: [{on: c.bottom, ux: 0, uy: 0, uz: 0}], gravity: [0, "
+      "0, -9]}\n"
+      "  - {name: b, modes: 4}\n"
+      "  - {name: c, modes: {count: 4, about: start}}\n"
+      "  - {name: d, modal: {damping: {ratio: 0.02}}, increments: 10, duration: 5, forces: [{on: "
+      "c.top, fx: 1}]}\n";
+  const std::string deck = written(cube(elastic, "", steps));
+  EXPECT_THAT(deck, HasSubstr("*DLOAD\nc, GRAV, 9, 0, 0, -9\n"));
+  EXPECT_THAT(deck, HasSubstr("**b\n*STEP, PERTURBATION\n*FREQUENCY\n4\n"));
+  EXPECT_THAT(deck, HasSubstr("**c\n*STEP\n*FREQUENCY\n4\n"));
+  EXPECT_THAT(deck, HasSubstr("**d\n*STEP\n*MODAL DYNAMIC\n0.5, 5\n*MODAL DAMPING\n1, 4, 0.02\n"));
+  EXPECT_THAT(deck, HasSubstr("*AMPLITUDE, NAME=ramp_1\n0, 0\n5, 1\n"));
+  const Description after = again(cube(elastic, "", steps));
+  EXPECT_EQ(after.steps.at(1).about, ModesAbout::last);
+  EXPECT_EQ(after.steps.at(2).about, ModesAbout::start);
+  EXPECT_EQ(after.steps.at(3).modal->ratios.at(0).ratio, 0.02);
+  const std::string swing =
+      written(cube(elastic, "",
+                   pressed + "  - {name: b, modes: {count: 3, about: start}}\n"
+                             "  - {name: h, harmonic: {from: 1, to: 3, points: 5}, forces: [{on: "
+                             "c.top, fx: 2, phase: 90}]}\n"));
+  EXPECT_THAT(swing, HasSubstr("*STEADY STATE DYNAMICS\n1, 3, 5, 3\n"));
+  EXPECT_THAT(swing, HasSubstr("*CLOAD, LOAD CASE=2\nc.top, 1, 2\n"));
+  const std::string buckles = written(
+      cube(elastic, "", pressed + "  - {name: b, buckling: 2, forces: [{on: c.top, fz: -1}]}\n"));
+  EXPECT_THAT(buckles, HasSubstr("*STEP, PERTURBATION\n*BUCKLE\n2\n*CLOAD\nc.top, 3, -1\n"));
+  const std::string moves = written(cube(
+      elastic, "initial_velocity: [{on: c, vx: 3}]\n",
+      "  - {name: a, dynamics: {scheme: {hht: {alpha: 0.05}}, damping: {mass: 2, stiffness: 0.1}}, "
+      "increments: 4, duration: 2, prescribe: [{on: c.bottom, uz: 0}], forces: [{on: c.top, fx: "
+      "1}]}\n"));
+  EXPECT_THAT(moves, HasSubstr("*DYNAMIC, DIRECT, ALPHA=-0.05\n0.5, 2\n"));
+  EXPECT_THAT(moves, HasSubstr("*DAMPING, ALPHA=2, BETA=0.1\n"));
+  EXPECT_THAT(moves, HasSubstr("*INITIAL CONDITIONS, TYPE=VELOCITY\nc, 1, 3\n"));
+}
+
+TEST(ToInp, WhatADeckCannotSayOfTheNewKeys) {
+  EXPECT_THAT(refusal_of(cube("deformation_plasticity: {E: 1000, nu: 0.25, yield: 3, n: 5, alpha: "
+                              "0.3}",
+                              "", pressed)),
+              HasSubstr("makes all strains of an input file finite"));
+  EXPECT_THAT(refusal_of(cube("neo_hooke: {E: 1000, nu: 0.25}", "", pressed)),
+              HasSubstr("neo_hooke is not written"));
+  EXPECT_THAT(refusal_of(cube(elastic,
+                              "springs: [{between: [c.bottom_front_left, c.top_back_right], "
+                              "stiffness: 5, kinematics: finite}]\n",
+                              pressed)),
+              HasSubstr("where the steps have NLGEOM"));
+  EXPECT_THAT(refusal_of(cube(elastic, "",
+                              edited(pressed, "}]}", "}], total_force: [{on: c.top, fz: 1}]}"))),
+              HasSubstr("steps[0].total_force"));
+  EXPECT_THAT(refusal_of(cube(elastic, "",
+                              edited(pressed, "increments: 1",
+                                     "dynamics: {scheme: central_differences}, increments: 1"))),
+              HasSubstr("schemes other than newmark and hht"));
 }
 
 }  // namespace

@@ -72,10 +72,29 @@ TEST(Eigenpairs, OfFreeChainsBeginWithZeros) {
   EXPECT_LT(found.shift, 0);
   EXPECT_EQ(found.missing, 0);
   const double s = std::sin(std::numbers::pi / (2 * n));
-  EXPECT_NEAR(found.values[0], 0, 1e-10);
-  EXPECT_NEAR(found.values[1], 0, 1e-10);
+  EXPECT_EQ(found.values[0], 0);
+  EXPECT_EQ(found.values[1], 0);
+  EXPECT_EQ(found.without_stiffness(), 2);
+  EXPECT_LT(found.residual, 1e-6);
   EXPECT_NEAR(found.values[2] / (4 * s * s), 1, 1e-8);
   EXPECT_NEAR(found.values[3] / (4 * s * s), 1, 1e-8);
+}
+
+// What rounding makes of a free motion is zero; a spring of 1e-9, or one that pushes, is not.
+TEST(Eigenpairs, TellSoftFromFree) {
+  constexpr Index n = 40;
+  for (const double soft : {1e-9, -1e-9}) {
+    MatrixBuilder k(n);
+    add_chain(0, n, false, k);
+    k.add(0, 0, soft);
+    const auto solver = make_default_solver();
+    const Eigenpairs found = smallest_eigenpairs(k.finish(), unit(n), 3, *solver);
+    ASSERT_EQ(found.failure, "");
+    EXPECT_EQ(found.without_stiffness(), 0);
+    EXPECT_EQ(found.missing, 0);
+    EXPECT_NEAR(found.values[0] / (soft / n), 1, 1e-3);
+    EXPECT_LT(found.rounding, 1e-13);
+  }
 }
 
 // A point without mass between two springs follows, also one that is pushed away.

@@ -1,0 +1,180 @@
+// What holds nodes together, springs and masses of a model file as cards of a deck.
+#include <algorithm>
+
+#include "osculate/deck/to_inp_parts.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// The only node of a set.
+template <int Dim>
+std::int64_t only_node_of(const Name& on, InpMesh<Dim>& mesh) {
+  (void)mesh.nodes(on);
+  return mesh.node(mesh.set(on).nodes.front());
+}
+
+/// `*ELEMENT` of one element that is no cell; returns the name of its set.
+template <int Dim>
+std::string write_element(const char* type, const std::string& name,
+                          const std::vector<std::int64_t>& nodes, InpMesh<Dim>& mesh,
+                          std::string& out) {
+  out += fmt::format("*ELEMENT, TYPE={}, ELSET={}\n{}, {}\n", type, name, mesh.new_element(),
+                     fmt::join(nodes, ", "));
+  return name;
+}
+
+/// Where a spring acts: the end of the type of its elements, its nodes, the line of its directions.
+struct SpringEnds {
+  std::string type;
+  std::vector<std::int64_t> nodes;
+  std::string directions;
+};
+
+template <int Dim>
+SpringEnds ends_of(const Spring& spring, InpMesh<Dim>& mesh) {
+  SpringEnds ends{"A", {}, "\n"};
+  for (const Name& on : spring.between) ends.nodes.push_back(only_node_of(on, mesh));
+  if (!ends.nodes.empty()) return ends;
+  const std::vector<EquationTerm>& terms = spring.terms;
+  const bool plain = terms.size() <= 2 && terms[0].factor.value == 1 &&
+                     (terms.size() == 1 || terms[1].factor.value == -1);
+  if (!plain)
+    throw core::InputError(spring.mark,
+                           "an input file has springs of one displacement and of the difference "
+                           "of two");
+  ends.type = terms.size() == 1 ? "1" : "2";
+  ends.directions.clear();
+  for (const EquationTerm& term : terms) {
+    std::int64_t node = 0;
+    int direction = static_cast<int>(term.of) + 1;
+    if (const auto control = mesh.control(term.on.value))
+      std::tie(node, direction) = control->of(term.of);
+    else
+      node = only_node_of(term.on, mesh);
+    ends.nodes.push_back(node);
+    ends.directions += fmt::format("{}{}", ends.directions.empty() ? "" : ", ", direction);
+  }
+  ends.directions += "\n";
+  return ends;
+}
+
+template <int Dim>
+void write_spring(const Spring& spring, std::size_t number, InpMesh<Dim>& mesh, std::string& out) {
+  if (!spring.between.empty() && (spring.kinematics == Kinematics::finite) != mesh.finite())
+    throw core::InputError(spring.mark,
+                           "in an input file springs between nodes turn with them where the steps "
+                           "have NLGEOM, and nowhere else");
+  if (mesh.round()) throw core::InputError(spring.mark, "springs of rings are not written");
+  const SpringEnds ends = ends_of(spring, mesh);
+  if (spring.stiffness || !spring.table.value.empty()) {
+    const std::string name = write_element(("SPRING" + ends.type).c_str(),
+                                           fmt::format("spring_{}", number), ends.nodes, mesh, out);
+    out += fmt::format("*SPRING, ELSET={}{}\n{}", name, spring.stiffness ? "" : ", NONLINEAR",
+                       ends.directions);
+    if (spring.stiffness) out += exact(spring.stiffness->value) + "\n";
+    for (const Vec2& point : spring.table.value)
+      out += fmt::format("{}, {}\n", exact(point[1]), exact(point[0]));
+  }
+  if (spring.damping == 0) return;
+  const std::string name = write_element(("DASHPOT" + ends.type).c_str(),
+                                         fmt::format("damper_{}", number), ends.nodes, mesh, out);
+  out += fmt::format("*DASHPOT, ELSET={}\n{}{}\n", name, ends.directions, exact(spring.damping));
+}
+
+/// Two points of axes, in space.
+std::string two_points(const Vec3& a, const Vec3& b) {
+  return fmt::format("{}, {}, {}, {}, {}, {}\n", exact(a[0]), exact(a[1]), exact(a[2]), exact(b[0]),
+                     exact(b[1]), exact(b[2]));
+}
+
+}  // namespace
+
+template <int Dim>
+void write_springs(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  leaves.take("springs[");
+  for (std::size_t k = 0; k < d.springs.size(); ++k) write_spring(d.springs[k], k + 1, mesh, out);
+}
+
+template <int Dim>
+void write_masses(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  leaves.take("masses[");
+  for (std::size_t k = 0; k < d.masses.size(); ++k) {
+    const PointMass& mass = d.masses[k];
+    const std::string name = fmt::format("mass_{}", k + 1);
+    if (mesh.control(mass.on.value))
+      throw core::InputError(mass.mark, "masses of rigid bodies are not written");
+    (void)mesh.nodes(mass.on);
+    for (const Index node : mesh.set(mass.on).nodes)
+      (void)write_element("MASS", name, {mesh.node(node)}, mesh, out);
+    out += fmt::format("*MASS, ELSET={}\n{}\n", name, exact(mass.mass.value));
+  }
+}
+
+template <int Dim>
+void write_axes(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  leaves.take("axes[");
+  for (const LocalAxes& axes : d.axes) {
+    const bool round = axes.along.kind == material::Orientation::Kind::cylindrical;
+    Vec3 b = axes.along.b;
+    if (round && Dim == 2) b = axes.along.a + Vec3(0, 0, 1);
+    out += fmt::format("*TRANSFORM, NSET={}, TYPE={}\n", mesh.nodes(axes.on), round ? "C" : "R") +
+           two_points(axes.along.a, b);
+  }
+}
+
+template <int Dim>
+void write_node_conditions(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves,
+                           std::string& out) {
+  const auto write = [&](const char* key, const char* kind, const std::vector<NodeCondition>& all) {
+    leaves.take(fmt::format("{}[", key));
+    for (const NodeCondition& one : all)
+      out += fmt::format("*MPC\n{}, {}\n", kind, mesh.nodes(one.on));
+  };
+  write("coplanar", "PLANE", d.coplanar);
+  write("collinear", "STRAIGHT", d.collinear);
+  write("fixed_distance", "BEAM", d.fixed_distance);
+}
+
+template <int Dim>
+void write_cyclic_symmetry(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves,
+                           std::string& out) {
+  leaves.take("cyclic_symmetry[");
+  for (std::size_t k = 0; k < d.cyclic_symmetry.size(); ++k) {
+    const CyclicSymmetry& one = d.cyclic_symmetry[k];
+    const std::string name = fmt::format("sector_{}", k + 1);
+    const std::string dependent = mesh.surface(one.dependent);
+    out += fmt::format("*TIE, CYCLIC SYMMETRY, NAME={}\n{}, {}\n", name, dependent,
+                       mesh.surface(one.independent));
+    out += fmt::format("*CYCLIC SYMMETRY MODEL, N={}, TIE={}\n", one.sectors.value, name) +
+           two_points(one.from, one.to);
+  }
+}
+
+template <int Dim>
+void write_rigid(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  for (const Rigid& rigid : d.rigid) {
+    const auto* const shape = std::get_if<SetShape>(&rigid.shape);
+    if (!shape) continue;  // its keys have no counterpart
+    const std::string path = fmt::format("rigid.{}", rigid.name.value);
+    for (const char* const key : {".set", ".reference", ".reference_node", ".rotation_node"})
+      leaves.take(path + key);
+    const auto control = mesh.control(rigid.name.value);
+    out += fmt::format("*RIGID BODY, NSET={}, REF NODE={}, ROT NODE={}\n",
+                       mesh.nodes_of_body(*shape, rigid), control->reference, control->rotation);
+  }
+}
+
+template void write_springs(const Description&, InpMesh<2>&, Leaves&, std::string&);
+template void write_springs(const Description&, InpMesh<3>&, Leaves&, std::string&);
+template void write_masses(const Description&, InpMesh<2>&, Leaves&, std::string&);
+template void write_masses(const Description&, InpMesh<3>&, Leaves&, std::string&);
+template void write_axes(const Description&, InpMesh<2>&, Leaves&, std::string&);
+template void write_axes(const Description&, InpMesh<3>&, Leaves&, std::string&);
+template void write_node_conditions(const Description&, InpMesh<2>&, Leaves&, std::string&);
+template void write_node_conditions(const Description&, InpMesh<3>&, Leaves&, std::string&);
+template void write_cyclic_symmetry(const Description&, InpMesh<2>&, Leaves&, std::string&);
+template void write_cyclic_symmetry(const Description&, InpMesh<3>&, Leaves&, std::string&);
+template void write_rigid(const Description&, InpMesh<2>&, Leaves&, std::string&);
+template void write_rigid(const Description&, InpMesh<3>&, Leaves&, std::string&);
+
+}  // namespace osculate::deck

@@ -1,0 +1,194 @@
+// What kind of step it is, and what it asks for, as cards of a deck.
+#include <algorithm>
+
+#include "osculate/deck/to_inp_parts.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// The last step with `modes` before one, whose vibrations move in it.
+const Step& step_of_vibrations(const Description& d, std::size_t step) {
+  std::size_t of = step;
+  while (of > 0 && !d.steps[of].modes) --of;
+  return d.steps[of];
+}
+
+/// Whether loads and supports of the steps before count: `about: last` of what has moved.
+bool is_on_top(const Step& search, bool moved) { return moved && search.about == ModesAbout::last; }
+
+std::string diameters_of(const Step& step) {
+  if (step.diameters.empty()) return {};
+  for (std::size_t k = 1; k < step.diameters.size(); ++k)
+    if (step.diameters[k].value != step.diameters[k - 1].value + 1)
+      throw core::InputError(step.diameters[k].mark,
+                             "an input file has nodal diameters from the first to the last");
+  return fmt::format("*SELECT CYCLIC SYMMETRY MODES, NMIN={}, NMAX={}\n",
+                     step.diameters.front().value, step.diameters.back().value);
+}
+
+std::string modal_damping(const ModalDescription& damping, int vibrations) {
+  std::string out;
+  if (damping.damping_mass != 0 || damping.damping_stiffness != 0) {
+    if (damping.ratio != 0 || !damping.ratios.empty())
+      throw core::InputError(damping.mark, "an input file has ratios or Rayleigh's damping");
+    return fmt::format("*MODAL DAMPING, RAYLEIGH\n, , {}, {}\n", exact(damping.damping_mass),
+                       exact(damping.damping_stiffness));
+  }
+  out = "*MODAL DAMPING\n";
+  if (damping.ratios.empty())
+    return out + fmt::format("1, {}, {}\n", vibrations, exact(damping.ratio));
+  if (damping.ratio != 0)
+    throw core::InputError(damping.mark, "an input file has a ratio of all vibrations, or of some");
+  for (const ModalDescription::Ratio& one : damping.ratios)
+    out += fmt::format("{}, {}, {}\n", one.first.value, one.last.value, exact(one.ratio));
+  return out;
+}
+
+std::string dynamic_of(const Step& step, double duration) {
+  const DynamicsDescription& dynamics = *step.dynamics;
+  const auto refuse = [&](const char* what) {
+    throw core::InputError(dynamics.mark, fmt::format("{} are not written", what));
+  };
+  if (dynamics.impact != ImpactWord::dissipative || dynamics.mass != MassWord::consistent ||
+      dynamics.impact_times != ImpactTimesWord::automatic)
+    refuse("choices of impacts and masses");
+  if (dynamics.scheme != SchemeWord::newmark && dynamics.scheme != SchemeWord::hht)
+    refuse("schemes other than newmark and hht");
+  if (dynamics.time_steps) refuse("time steps by their error");
+  const double alpha = dynamics.scheme == SchemeWord::hht ? dynamics.parameter : 0;
+  return fmt::format("*DYNAMIC, DIRECT, ALPHA={}\n{}, {}\n", exact(alpha == 0 ? 0 : -alpha),
+                     exact(duration / step.increments.value), exact(duration));
+}
+
+bool is_of_nodes(Answer a) { return a == Answer::u || a == Answer::rf; }
+bool is_of_contact(Answer a) {
+  return a == Answer::contact || a == Answer::cdis || a == Answer::cstr || a == Answer::cels ||
+         a == Answer::cnum;
+}
+const char* word_in_deck(Answer a) {
+  switch (a) {
+    case Answer::u:
+      return "U";
+    case Answer::rf:
+      return "RF";
+    case Answer::s:
+      return "S";
+    case Answer::e:
+      return "E";
+    case Answer::peeq:
+      return "PEEQ";
+    case Answer::contact:
+      return "CDIS, CSTR";
+    case Answer::evol:
+      return "EVOL";
+    case Answer::energy:
+      return "ELSE";
+    case Answer::sof:
+      return "SOF";
+    case Answer::cdis:
+      return "CDIS";
+    case Answer::cstr:
+      return "CSTR";
+    case Answer::cels:
+      return "CELS";
+    default:
+      return "CNUM";
+  }
+}
+
+/// Words of one kind of a request, after each other.
+template <class Kind>
+std::string words_of(const AnswerRequest& request, const Kind& kind) {
+  std::string out;
+  for (const Answer a : request.of)
+    if (kind(a)) out += fmt::format("{}{}", out.empty() ? "" : ", ", word_in_deck(a));
+  return out;
+}
+
+template <int Dim>
+std::string request_of(const AnswerRequest& request, bool file, const Description& d,
+                       InpMesh<Dim>& mesh) {
+  std::string end = request.every > 1 ? fmt::format(", FREQUENCY={}", request.every) : "";
+  if (request.totals != Totals::none)
+    end += request.totals == Totals::only ? ", TOTALS=ONLY" : ", TOTALS=YES";
+  const auto is_of_cells = [](Answer a) {
+    return !is_of_nodes(a) && !is_of_contact(a) && a != Answer::sof;
+  };
+  std::string on_nodes, on_cells, out;
+  for (const Name& on : request.on) {
+    if (request.of.front() == Answer::sof)
+      return fmt::format("*SECTION PRINT, SURFACE={0}, NAME={0}{1}\nSOF\n", mesh.surface(on), end);
+    if (is_of_nodes(request.of.front())) on_nodes = ", NSET=" + mesh.nodes(on);
+    if (!is_of_cells(request.of.front())) continue;
+    for (std::size_t s = 0; s < d.sections.size(); ++s)
+      if (d.sections[s].on.value == on.value) on_cells = ", ELSET=" + mesh.elements(s);
+    if (on_cells.empty())
+      throw core::InputError(on.mark, "tables of cells are written of whole sections");
+  }
+  const auto add = [&](const char* kind, const std::string& where, const std::string& words) {
+    if (!words.empty())
+      out += fmt::format("*{} {}{}{}\n{}\n", kind, file ? "FILE" : "PRINT", where, end, words);
+  };
+  add("NODE", on_nodes, words_of(request, is_of_nodes));
+  add("EL", on_cells, words_of(request, is_of_cells));
+  add("CONTACT", "", words_of(request, is_of_contact));
+  return out;
+}
+
+}  // namespace
+
+ProcedureCards procedure_of(const Description& d, std::size_t number, bool finite, bool moved) {
+  const Step& step = d.steps[number];
+  const double duration = step.duration ? step.duration->value : 1;
+  const std::string geometry = finite ? ", NLGEOM" : "";
+  const auto begin = [&](const Step& search) {
+    if (is_on_top(search, moved)) return std::string("*STEP, PERTURBATION\n");
+    return fmt::format("*STEP{}\n", moved ? "" : geometry);
+  };
+  const std::string title = fmt::format("**{}\n", step.name.value);
+  if (step.modes)
+    return {title + begin(step) + fmt::format("*FREQUENCY\n{}\n", step.modes->value) +
+                diameters_of(step),
+            false, true};
+  if (step.buckling)
+    return {title + begin(step) + fmt::format("*BUCKLE\n{}\n", step.buckling->value), false, true};
+  if (step.modal) {
+    const Step& of = step_of_vibrations(d, number);
+    return {title + begin(of) +
+                fmt::format("*MODAL DYNAMIC\n{}, {}\n", exact(duration / step.increments.value),
+                            exact(duration)) +
+                modal_damping(*step.modal, of.modes ? of.modes->value : 1),
+            true, false};
+  }
+  if (step.harmonic) {
+    const HarmonicDescription& range = *step.harmonic;
+    const Step& of = step_of_vibrations(d, number);
+    return {title + begin(of) +
+                fmt::format("*STEADY STATE DYNAMICS\n{}, {}, {}, {}\n", exact(range.from.value),
+                            exact(range.to.value), range.points, exact(range.bias)) +
+                modal_damping(range.damped, of.modes ? of.modes->value : 1),
+            false, false};
+  }
+  const std::string head = title + fmt::format("*STEP{}, INC=1000000\n", geometry);
+  if (step.dynamics) return {head + dynamic_of(step, duration), true, false};
+  return {head + fmt::format("*STATIC, DIRECT\n{}, {}\n", exact(duration / step.increments.value),
+                             exact(duration)),
+          false, false};
+}
+
+template <int Dim>
+std::string requests_of(const Description& d, const Step& step, InpMesh<Dim>& mesh) {
+  std::string out;
+  for (const bool file : {true, false})
+    for (const AnswerRequest& request : file ? d.output.frd : d.output.dat)
+      if (request.steps.empty() || std::ranges::any_of(request.steps, [&](const Name& n) {
+            return n.value == step.name.value;
+          }))
+        out += request_of(request, file, d, mesh);
+  return out;
+}
+
+template std::string requests_of(const Description&, const Step&, InpMesh<2>&);
+template std::string requests_of(const Description&, const Step&, InpMesh<3>&);
+
+}  // namespace osculate::deck
