@@ -41,7 +41,8 @@ constexpr std::array<InpKeyword, 116> keywords{{
      "`elastoplastic: hardening` beside `kinematic`"},
     {"CREEP", "LAW", "A, n, m", translated, "`norton: {A, n}` (LAW=NORTON, m = 0)"},
     {"HYPERELASTIC", "N", "constants", translated,
-     "`rubber` (NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, REDUCED POLYNOMIAL), `ogden` (OGDEN)"},
+     "`rubber` (NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, REDUCED POLYNOMIAL), `ogden` (OGDEN), "
+     "`arruda_boyce` (ARRUDA-BOYCE)"},
     {"HYPERFOAM", "N", "constants", translated, "`hyperfoam`"},
     {"DEFORMATION PLASTICITY", "", "E, nu, stress, n, alpha", translated,
      "`deformation_plasticity`"},

@@ -29,21 +29,30 @@ void write_hardening(const std::string& law, Leaves& leaves, std::string& out) {
   }
 }
 
-void write_material(const Material& material, Leaves& leaves, std::string& out) {
-  const std::string path = fmt::format("materials.{}", material.name.value);
-  const std::string law = fmt::format("{}.{}", path, material::key_of(material.law.value));
-  out += fmt::format("*MATERIAL, NAME={}\n", material.name.value);
+/// `*ELASTIC`, and `*PLASTIC` beside it.
+void write_elastic(const Material& material, const std::string& law, Leaves& leaves,
+                   std::string& out) {
   const bool plastic = law.ends_with(".elastoplastic");
   if (!plastic && !law.ends_with(".linear_elastic") && !law.ends_with(".st_venant_kirchhoff"))
     throw core::InputError(material.law.mark,
-                           fmt::format("{} is not written: linear_elastic, st_venant_kirchhoff or "
-                                       "elastoplastic",
+                           fmt::format("{} is not written: linear_elastic, st_venant_kirchhoff, "
+                                       "elastoplastic, rubber, ogden, arruda_boyce or hyperfoam",
                                        material::key_of(material.law.value)));
   const auto young = leaves.number(law + ".E"), poisson = leaves.number(law + ".nu");
   if (!young || !poisson)
     throw core::InputError(material.law.mark, "E and nu are written where each is one number");
   out += fmt::format("*ELASTIC\n{}, {}\n", exact(*young), exact(*poisson));
   if (plastic) write_hardening(law, leaves, out);
+}
+
+void write_material(const Material& material, Leaves& leaves, std::string& out) {
+  const std::string path = fmt::format("materials.{}", material.name.value);
+  const std::string kind(material::key_of(material.law.value));
+  const std::string law = fmt::format("{}.{}", path, kind);
+  out += fmt::format("*MATERIAL, NAME={}\n", material.name.value);
+  const std::string hyperelastic = hyperelastic_text(kind, law, leaves);
+  out += hyperelastic;
+  if (hyperelastic.empty()) write_elastic(material, law, leaves, out);
   if (const auto density = leaves.number(law + ".density"))
     out += fmt::format("*DENSITY\n{}\n", exact(*density));
   if (const auto alpha = leaves.number(path + ".expansion.alpha")) {

@@ -77,6 +77,11 @@ class InpMesh {
   std::string sets_;
 };
 
+/// The card of a law of rubber or foam whose keys stand under `law`; empty: it is another one.
+///
+/// Tested by  tests/unit/deck/test_to_inp.cpp
+[[nodiscard]] std::string hyperelastic_text(std::string_view kind, const std::string& law,
+                                            Leaves& leaves);
 /// Adds materials, sections, equations, contact and what there is at first.
 template <int Dim>
 void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
