@@ -209,7 +209,7 @@ bool is_thin(const InpModel& m, const Card& card) {
     io::inp::fail(m.deck, card, "COMPOSITE is not supported: one material, one thickness");
   if (card.keyword == "BEAMSECTION" || card.keyword == "BEAMGENERALSECTION")
     io::inp::fail(m.deck, card,
-                  fmt::format("SECTION={} is not supported: RECT or CIRC",
+                  fmt::format("SECTION={} is not supported: RECT, CIRC, PIPE or BOX",
                               printable(option_of(card, "SECTION"))));
   return false;
 }

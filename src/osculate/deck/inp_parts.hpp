@@ -187,6 +187,14 @@ void put_damping(const InpModel& m, const io::inp::Card& card, SourceNode& norma
 /// that stand for them.
 [[nodiscard]] SourceNode inp_rigid(InpModel& m);
 
+/// Of `*MPC, MEANROT`: with NLGEOM a rigid body that moves as the nodes do in the mean, whose
+/// rotation about the axis the node stands for, and its coupling; else an equation.
+///
+/// Tested by  tests/unit/deck/test_inp_meanrot.cpp
+void put_rotating_bodies(InpModel& m, SourceNode& rigid);
+void put_mean_rotations(const InpModel& m, SourceNode& root);
+void put_small_rotations(const InpModel& m, SourceNode& equations);
+
 /// Adds multi-point constraints, couplings, sections under pretension and cyclic symmetry.
 void put_constraints(InpModel& m, SourceNode& root);
 /// Adds springs, dampers, gaps and masses.
@@ -227,6 +235,13 @@ struct InpPlace {
 [[nodiscard]] std::string inp_component(char kind, int direction);
 /// 3 as soon as there is a volume, and without any cell.
 [[nodiscard]] int inp_dimension(const InpModel& m);
+
+/// Of a load P2NP: what `*BOUNDARY` prescribes as the second displacement of the node that it
+/// names, until the end of the step of `load`.
+///
+/// Errors     core::InputError: none, or one with an amplitude
+[[nodiscard]] double pressure_of_node(const InpModel& m, const io::inp::Card& load,
+                                      const io::inp::Line& line, std::string_view node);
 
 /// Time integration of a `*DYNAMIC`.
 [[nodiscard]] SourceNode inp_dynamics(const InpModel& m, const io::inp::Card& card);

@@ -10,14 +10,6 @@ namespace {
 constexpr std::array<double, 5> chain_factors{1.0 / 2, 1.0 / 20, 11.0 / 1050, 19.0 / 7000,
                                               519.0 / 673750};
 
-/// x - 1 - ln x of x = exp(2 ln J), halved: (J^2 - 1) / 2 - ln J, with its digits at small strain.
-double volume_energy(double log_j) {
-  if (std::abs(log_j) > 0.01) return std::expm1(2 * log_j) / 2 - log_j;
-  double sum = 0, term = log_j;  // sum (2 ln J)^k / (2 k!), k > 1
-  for (int k = 2; k < 10; ++k) sum += term *= 2 * log_j / k;
-  return sum;
-}
-
 }  // namespace
 
 ByInvariants by_invariants(const ArrudaBoyce& law, const Invariants& v) {
@@ -38,7 +30,7 @@ ByInvariants by_invariants(const ArrudaBoyce& law, const Invariants& v) {
     power *= first;
     factor *= shrink;
   }
-  w.energy += volume_energy(v.log_j) / law.d;
+  w.energy += (std::expm1(2 * v.log_j) / 2 - v.log_j) / law.d;
   w.dj = 2 * std::sinh(v.log_j) / law.d;
   w.djj = (1 + std::exp(-2 * v.log_j)) / law.d;
   return w;

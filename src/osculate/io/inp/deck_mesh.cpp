@@ -141,10 +141,13 @@ class Builder {
     Typed typed;
     for (const Index index : members_.of(Kind::elements, scope, raw.name, raw.at)) {
       const Element& element = numbering_.elements[static_cast<std::size_t>(index)];
-      const mesh::CellRef ref = element.cell;
-      cells[static_cast<std::size_t>(cell::info(block(ref).type).dimension)].push_back(ref);
-      if (element.type->family == Family::plane || element.type->family == Family::solid)
-        typed[numbering_.variants[element.variant]].push_back(ref);
+      std::vector<mesh::CellRef> refs{element.cell};
+      refs.insert(refs.end(), element.others.begin(), element.others.end());
+      for (const mesh::CellRef ref : refs) {
+        cells[static_cast<std::size_t>(cell::info(block(ref).type).dimension)].push_back(ref);
+        if (element.type->family == Family::plane || element.type->family == Family::solid)
+          typed[numbering_.variants[element.variant]].push_back(ref);
+      }
     }
     constexpr std::array<std::string_view, 4> kinds{".points", ".lines", ".areas", ".volumes"};
     bool whole = true;

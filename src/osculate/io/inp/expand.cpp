@@ -2,10 +2,12 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "osculate/io/inp/hollow_section.hpp"
 #include "osculate/io/inp/thin_groups.hpp"
 
 namespace osculate::io::inp {
@@ -17,9 +19,6 @@ using Shape = ThinSection::Shape;
 /// seen against the tangent counterclockwise from the first axis back and the second one forth;
 /// then the middles between them. -1: not needed.
 using Fiber = std::array<Index, 8>;
-/// Places of beam nodes in halves of the thickness along the first and second axis.
-constexpr std::array<std::array<double, 2>, 8> around{
-    {{-1, 1}, {-1, -1}, {1, -1}, {1, 1}, {-1, 0}, {0, -1}, {1, 0}, {0, 1}}};
 
 bool is_plate(const ThinGroup& group) { return group.section->shape == Shape::plate; }
 
@@ -72,6 +71,7 @@ class Expander {
       else
         element.cell = append(element.cell.block, static_cast<Index>(e), all);
     }
+    for (const std::int64_t number : numbers_) next_cell_ = std::max(next_cell_, number + 1);
   }
 
   mesh::CellRef append(Index block, Index element, std::span<const Index> nodes) {
@@ -110,7 +110,102 @@ class Expander {
       fiber[k] = add_node(origin + group.thickness[0] * (half * around[k][0] - offset[0]) * first +
                           group.thickness[1] * (half * around[k][1] - offset[1]) * group.normal);
     }
+    if (group.section->is_hollow()) add_points(group, fiber);
     return fiber;
+  }
+
+  // ---- hollow sections --------------------------------------------------------------------------
+
+  using Shares = std::vector<std::pair<Index, double>>;  ///< nodes, and what each counts for
+
+  /// What a fiber counts for a place of its section.
+  static void add_shares(const Fiber& fiber, const Vec2& place, double factor, bool corners,
+                         Shares& to) {
+    const auto four = shares_of_corners(place);
+    const auto eight = shares_around(place);
+    for (std::size_t k = 0; k < (corners ? 4U : 8U); ++k)
+      to.emplace_back(fiber[k], factor * (corners ? four[k] : eight[k]));
+  }
+  void follow(Index node, const Shares& shares) {
+    for (int k = 0; k < 3; ++k) {
+      mesh::Relation& relation = mesh_.relations.emplace_back();
+      relation.terms.push_back({node, k, 1});
+      for (const auto& [other, share] : shares)
+        if (std::abs(share) > 1e-14) relation.terms.push_back({other, k, -share});
+    }
+  }
+
+  /// Nodes of a hollow section; in the middle of a beam those of corners alone.
+  void add_points(const ThinGroup& group, const Fiber& fiber) {
+    const HollowSection& section = hollow(*group.section);
+    std::vector<Index>& points = points_[fiber[0]];
+    for (std::size_t p = 0; p < section.points.size(); ++p) {
+      Index& node = points.emplace_back(-1);
+      if (!group.has_middle && !section.is_corner[p]) continue;
+      Shares shares;
+      add_shares(fiber, section.points[p], 1, !group.has_middle, shares);
+      Vec3 place = Vec3::Zero();
+      for (const auto& [other, share] : shares) place += share * at(other);
+      node = add_node(place);
+    }
+  }
+  const HollowSection& hollow(const ThinSection& section) {
+    const auto [found, is_new] = hollow_.try_emplace(&section);
+    if (is_new) found->second = hollow_section(section);
+    return found->second;
+  }
+  /// The points at an end of a beam move with the eight of its fiber.
+  void tie_points(const ThinGroup& group, const Fiber& fiber) {
+    const HollowSection& section = hollow(*group.section);
+    for (std::size_t p = 0; p < section.points.size(); ++p) {
+      Shares shares;
+      add_shares(fiber, section.points[p], 1, false, shares);
+      follow(points_.at(fiber[0])[p], shares);
+    }
+  }
+  /// Those in its middle with all twenty nodes of the brick that the beam would be.
+  ///
+  /// Formula    u = sum_corners N4 u_middle + 1/2 sum_ends (sum N8 u - sum_corners N4 u)
+  void tie_middle(const HollowSection& section, const std::vector<Fiber>& at) {
+    const std::vector<Index>& points = points_.at(at[2][0]);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      if (points[p] < 0) continue;
+      Shares shares;
+      const Vec2& place = section.points[p];
+      add_shares(at[2], place, 1, true, shares);
+      for (const std::size_t end : {0, 1}) {
+        add_shares(at[end], place, 0.5, false, shares);
+        add_shares(at[end], place, -0.5, true, shares);
+      }
+      follow(points[p], shares);
+    }
+  }
+  const std::vector<double>& shares(const ThinGroup& group) {
+    const HollowSection& section = hollow(*group.section);
+    return group.has_middle ? section.share : section.corner_share;
+  }
+  const std::vector<double>& axis_shares(const ThinGroup& group) {
+    const HollowSection& section = hollow(*group.section);
+    return group.has_middle ? section.axis_share : section.axis_corner_share;
+  }
+  /// Nodes of a hollow section with what they count for, of those that count.
+  Shares shares_of(const Fiber& fiber, const std::vector<double>& share) const {
+    Shares shares;
+    for (std::size_t p = 0; p < share.size(); ++p)
+      if (share[p] != 0) shares.emplace_back(points_.at(fiber[0])[p], share[p]);
+    return shares;
+  }
+  /// The cells of a hollow beam between its fibers.
+  std::vector<std::vector<Index>> hollow_nodes(const HollowSection& section,
+                                               const std::vector<Fiber>& at) const {
+    std::vector<std::vector<Index>> all;
+    for (const auto& cell : section.cells) {
+      std::vector<Fiber> own(3);
+      for (std::size_t end = 0; end < 3; ++end)
+        for (std::size_t k = 0; k < 8; ++k) own[end][k] = points_.at(at[end][0])[cell[k]];
+      all.push_back(beam_nodes(own));
+    }
+    return all;
   }
 
   // ---- what the deck's node does ----------------------------------------------------------------
@@ -129,11 +224,20 @@ class Expander {
       for (const Index n : fibers[g])
         if (n >= 0) knot.nodes.push_back(n);
     }
+    const bool rigid = stiff > 1 && cards_.finite;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      if (!groups[g].section->is_hollow() || !groups[g].has_middle) continue;
+      const std::vector<Index>& points = points_.at(fibers[g][0]);
+      if (rigid) knot.nodes.insert(knot.nodes.end(), points.begin(), points.end());
+      if (!rigid) tie_points(groups[g], fibers[g]);
+    }
     if (stiff > 1 && cards_.finite) out_.knots.push_back(std::move(knot));
     if (stiff > 1 && !cards_.finite) knit(knot, groups);
     if (stiff != 1) return;
     if (is_plate(groups[last]) && groups[last].has_middle)
       add_weighted(node, fibers[last]);
+    else if (groups[last].section->is_hollow())
+      follow(node, shares_of(fibers[last], axis_shares(groups[last])));
     else
       add_mean(node, corners_of(groups[last], fibers[last]));
     straighten(node, groups[last], fibers[last]);
@@ -160,10 +264,11 @@ class Expander {
           {{{node, k, 1}, {fiber[0], k, 0.5}, {fiber[1], k, -2}, {fiber[2], k, 0.5}}});
   }
 
-  /// Where a node is held the edges of its section keep their middles between their ends.
+  /// Where a node is held the edges of its section keep their middles between their ends; hollow
+  /// sections are held in the mean.
   void straighten(Index node, const ThinGroup& group, const Fiber& fiber) {
     const auto held = cards_.held.find(node);
-    if (held == cards_.held.end() || !group.has_middle) return;
+    if (held == cards_.held.end() || !group.has_middle || group.section->is_hollow()) return;
     for (int k = 0; k < 3; ++k) {
       if (!held->second[static_cast<std::size_t>(k)]) continue;
       if (is_plate(group))
@@ -238,6 +343,28 @@ class Expander {
     return terms;
   }
 
+  /// The same of a whole section.
+  ///
+  /// Formula    axis . J^-1 sum share r x u , J = sum share (r^2 I - r r^T) , r from the centroid
+  std::vector<mesh::Relation::Term> mean_rotation(const Shares& shares, const Vec3& axis) const {
+    Vec3 middle = Vec3::Zero();
+    for (const auto& [node, share] : shares) middle += share * at(node);
+    Mat<3, 3> inertia = Mat<3, 3>::Zero();
+    for (const auto& [node, share] : shares) {
+      const Vec3 arm = at(node) - middle;
+      inertia += share * (arm.squaredNorm() * Mat<3, 3>::Identity() - arm * arm.transpose());
+    }
+    const Vec3 way = inertia.inverse() * axis;
+    std::vector<mesh::Relation::Term> terms;
+    for (const auto& [node, share] : shares) {
+      const Vec3 factor = share * way.cross(at(node) - middle);
+      for (int k = 0; k < 3; ++k)
+        if (std::abs(factor[k]) > 1e-12 * std::abs(share) * way.norm() * (at(node) - middle).norm())
+          terms.push_back({node, k, factor[k]});
+    }
+    return terms;
+  }
+
   /// Of the rotations that the deck names. A shell has none about its normal, and two at most: the
   /// third one is zero.
   void add_rotations(Index node, const ThinGroup& group, const Fiber& fiber) {
@@ -260,7 +387,9 @@ class Expander {
                               (!ways.empty() && ways.back().cross(way).norm() < small)))
         continue;
       ways.push_back(way);
-      const auto others = rotation(corners_of(group, fiber), axis);
+      const auto others = group.section->is_hollow()
+                              ? mean_rotation(shares_of(fiber, shares(group)), axis)
+                              : rotation(corners_of(group, fiber), axis);
       relation.terms.insert(relation.terms.end(), others.begin(), others.end());
     }
   }
@@ -283,9 +412,18 @@ class Expander {
     const cell::CellInfo& info = cell::info(element.type->cell);
     std::vector<Fiber> at_nodes;
     for (int k = 0; k < info.nodes; ++k) at_nodes.push_back(fibers.at({e, k}));
-    const std::vector<Index> nodes =
-        info.dimension == 2 ? plate_nodes(at_nodes, static_cast<std::size_t>(info.corners))
-                            : beam_nodes(at_nodes);
+    const ThinSection& section =
+        cards_.sections[static_cast<std::size_t>(cards_.section_of[static_cast<std::size_t>(e)])];
+    std::vector<std::vector<Index>> cells;
+    if (section.is_hollow()) {
+      tie_middle(hollow(section), at_nodes);
+      cells = hollow_nodes(hollow(section), at_nodes);
+    } else {
+      cells.push_back(info.dimension == 2
+                          ? plate_nodes(at_nodes, static_cast<std::size_t>(info.corners))
+                          : beam_nodes(at_nodes));
+    }
+    const std::vector<Index>& nodes = cells[0];
     const std::string letters =
         numbering_.variants[element.variant].substr(element.type->name.size());
     const bool reduced = letters.find('R') != std::string::npos && nodes.size() % 4 == 0;
@@ -294,11 +432,20 @@ class Expander {
     element.variant = variant_place(numbering_, solid + (reduced             ? "R"
                                                          : nodes.size() == 8 ? "I"
                                                                              : ""));
+    element.cell = append_solid(element, e, nodes);
+    for (std::size_t c = 1; c < cells.size(); ++c) {
+      element.others.push_back(append_solid(element, e, cells[c]));
+      const auto b = static_cast<std::size_t>(element.cell.block);
+      if (!numbers_.empty()) mesh_.blocks[b].numbers.back() = next_cell_++;
+    }
+  }
+  /// A cell whose nodes come in the deck's order.
+  mesh::CellRef append_solid(const Element& element, Index e, const std::vector<Index>& nodes) {
     const std::span<const std::int8_t> places = cell_places(*element.type);
     std::vector<Index> in_cell(nodes.size());
     for (std::size_t k = 0; k < nodes.size(); ++k)
       in_cell[static_cast<std::size_t>(places[k])] = nodes[k];
-    element.cell = append(block_of_type(mesh_, element.type->cell), e, in_cell);
+    return append(block_of_type(mesh_, element.type->cell), e, in_cell);
   }
 
   /// In the deck's order of C3D6, 8, 15 and 20: bottom, top, their middles, those between them.
@@ -334,6 +481,9 @@ class Expander {
   Expansion out_;
   std::vector<std::int64_t> numbers_;  ///< of the elements; empty: none
   std::int64_t next_ = 0;              ///< number of the next node
+  std::int64_t next_cell_ = 0;         ///< number of the next cell beyond one of an element
+  std::map<const ThinSection*, HollowSection> hollow_;
+  std::map<Index, std::vector<Index>> points_;  ///< of hollow sections, by the first of a fiber
 };
 
 }  // namespace

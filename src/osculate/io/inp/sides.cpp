@@ -56,8 +56,12 @@ mesh::CellRef Sides::facet(cell::CellType type, std::span<const Index> nodes,
 }
 
 void Sides::add_side(const SurfaceEntry& entry, Index element, std::vector<mesh::CellRef>& cells) {
-  const auto& [type, ref, variant, deck_nodes, family] =
+  const auto& [type, ref, variant, deck_nodes, family, others] =
       numbering_.elements[static_cast<std::size_t>(element)];
+  if (!others.empty())
+    fail(deck_, entry.set.at,
+         fmt::format("element {} is a hollow beam: its sides are not supported",
+                     mesh::cell_number(mesh_, ref)));
   const bool as_it_is = deck_nodes.empty() && !entry.of_load;
   const Side side =
       find_side(*type, as_it_is ? entry.side : solid_side(entry.side, entry.of_load, family));
@@ -84,7 +88,10 @@ void Sides::add_facets(const SurfaceEntry& entry, const Facets& facets,
 std::vector<mesh::CellRef> Sides::all_cells(int dimension) const {
   std::vector<mesh::CellRef> cells;
   for (const Element& element : numbering_.elements)
-    if (cell::info(element.type->cell).dimension == dimension) cells.push_back(element.cell);
+    if (cell::info(element.type->cell).dimension == dimension) {
+      cells.push_back(element.cell);
+      cells.insert(cells.end(), element.others.begin(), element.others.end());
+    }
   return cells;
 }
 
@@ -93,9 +100,10 @@ void Sides::add_free(const SurfaceEntry& entry, const std::vector<Index>& elemen
                      std::vector<mesh::CellRef>& cells) {
   mesh::Set solids{"", 3, {}, {}}, areas{"", 2, {}, {}};
   for (const Index element : elements) {
-    const auto& [type, ref, variant, deck_nodes, family] =
+    const auto& [type, ref, variant, deck_nodes, family, others] =
         numbering_.elements[static_cast<std::size_t>(element)];
     if (type->family == Family::solid) solids.cells.push_back(ref);
+    solids.cells.insert(solids.cells.end(), others.begin(), others.end());
     if (type->family == Family::plane) areas.cells.push_back(ref);
     if (type->family == Family::surface || type->family == Family::line) cells.push_back(ref);
   }
