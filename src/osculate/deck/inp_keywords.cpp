@@ -8,7 +8,7 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<InpKeyword, 116> keywords{{
+constexpr std::array<InpKeyword, 117> keywords{{
     {"HEADING", "", "a title", silent, ""},
     {"INCLUDE", "INPUT", "", mesh, "the lines of the file"},
     {"NODE", "NSET SYSTEM INPUT", "number, x, y, z", mesh, "nodes, and a set of them"},
@@ -57,7 +57,8 @@ constexpr std::array<InpKeyword, 116> keywords{{
     {"DAMPING", "ALPHA BETA", "", translated, "`steps.dynamics: damping` (one for all materials)"},
     {"SOLID SECTION", "ELSET MATERIAL ORIENTATION", "thickness", translated,
      "`sections`: on, material, element, thickness, orientation"},
-    {"SHELL SECTION", "ELSET MATERIAL OFFSET", "thickness", translated, "solids, `sections`"},
+    {"SHELL SECTION", "ELSET MATERIAL OFFSET COMPOSITE", "thickness; layers", translated,
+     "solids, `sections` (of each layer)"},
     {"MEMBRANE", "ELSET MATERIAL", "thickness", silent, "skipped, as in CalculiX"},
     {"MEMBRANE SECTION", "ELSET MATERIAL", "thickness", none, "no membranes"},
     {"BEAM SECTION", "ELSET MATERIAL SECTION OFFSET1 OFFSET2", "dimensions; axis", translated,

@@ -101,6 +101,9 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 void put_elastic(const InpModel& m, const io::inp::Card& elastic, SourceNode& law);
 /// The `*ORIENTATION` that a section names.
 [[nodiscard]] SourceNode inp_orientation(const InpModel& m, const io::inp::Card& section);
+/// The one of that name, in capitals.
+[[nodiscard]] SourceNode inp_orientation(const InpModel& m, const io::inp::Card& section,
+                                         const std::string& name);
 /// The law that a `*HYPERELASTIC` or `*HYPERFOAM` means, and its constants.
 [[nodiscard]] std::string_view hyperelastic_law(const io::inp::Card& card);
 void put_hyperelastic(const InpModel& m, const io::inp::Card& card, SourceNode& law);
@@ -122,6 +125,13 @@ struct InpElements {
 ///
 /// Tested by  tests/unit/deck/test_inp_elements.cpp
 [[nodiscard]] std::vector<InpElements> elements_of(const InpModel& m, const io::inp::Card& section);
+/// The same of a set of that name, as one of its layers.
+[[nodiscard]] std::vector<InpElements> elements_of(const InpModel& m, const io::inp::Card& section,
+                                                   const std::string& name);
+/// Adds the sections of the layers of a `*SHELL SECTION, COMPOSITE`.
+///
+/// Tested by  tests/unit/deck/test_inp_layers.cpp
+void put_layers(InpModel& m, const io::inp::Card& card, SourceNode& sections);
 /// Elements of several sections stay in the last one; the sets of what is left of the others.
 [[nodiscard]] SourceNode inp_overlaps(const InpModel& m, SourceNode& sections);
 /// Refuses loads of a step on nodes or facets that another set has had loaded in the same direction
@@ -235,13 +245,6 @@ struct InpPlace {
 [[nodiscard]] std::string inp_component(char kind, int direction);
 /// 3 as soon as there is a volume, and without any cell.
 [[nodiscard]] int inp_dimension(const InpModel& m);
-
-/// Of a load P2NP: what `*BOUNDARY` prescribes as the second displacement of the node that it
-/// names, until the end of the step of `load`.
-///
-/// Errors     core::InputError: none, or one with an amplitude
-[[nodiscard]] double pressure_of_node(const InpModel& m, const io::inp::Card& load,
-                                      const io::inp::Line& line, std::string_view node);
 
 /// Time integration of a `*DYNAMIC`.
 [[nodiscard]] SourceNode inp_dynamics(const InpModel& m, const io::inp::Card& card);

@@ -630,11 +630,6 @@ class Steps {
         const std::string& on =
             set_of(m_, line.at, io::inp::side_set_name(load, elements), {SetKind::surface});
         set(pressures, on, 1, fields.real("the pressure"), amplitude, line, true);
-      } else if (io::inp::is_node_pressure(load)) {
-        const std::string& on = set_of(
-            m_, line.at, io::inp::side_set_name(load.substr(0, 2), elements), {SetKind::surface});
-        const double size = pressure_of_node(m_, card, line, fields.next().value_or(""));
-        set(pressures, on, 1, size, amplitude, line, true);
       } else if (load == "GRAV") {
         read_gravity(fields, elements, amplitude, line,
                      part_of(card, body_forces_, body_forces_2_));

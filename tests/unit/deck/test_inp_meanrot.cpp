@@ -1,5 +1,6 @@
 // Mean rotations of nodes in decks: a bar that is twisted by them.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 

@@ -132,7 +132,7 @@ TEST(HollowSection, BeamsAreWholeAndMoveAsOne) {
       }
       largest = std::max(largest, std::abs(sum));
     }
-    EXPECT_LT(largest, text[0] == 'P' ? 1e-13 : 1e-12) << text;
+    EXPECT_LT(largest, 1e-11) << text;
   }
 }
 
@@ -145,10 +145,10 @@ TEST(HollowSection, WhatIsWrongIsSaid) {
     }
     return std::string();
   };
-  EXPECT_THAT(message("PIPE\n5., 5.\n"), HasSubstr("a.inp:10: *BEAM SECTION"));
+  EXPECT_THAT(message("PIPE\n5., 5.\n"), HasSubstr("a.inp:11: expected"));
   EXPECT_THAT(message("PIPE\n5., 5.\n"), HasSubstr("a wall thinner than the radius"));
   EXPECT_THAT(message("PIPE\n5.\n"), HasSubstr("a thickness above 0, found 0"));
-  EXPECT_THAT(message("PIPE\n"), HasSubstr("a line with the sizes"));
+  EXPECT_THAT(message("PIPE\n"), HasSubstr("a line with the thickness"));
   EXPECT_THAT(message("BOX\n10., 8., 1., 4., 1., 4.\n"), HasSubstr("walls that are thinner"));
   EXPECT_THAT(message("BOX\n10., 8., 1., 1., 1.\n"), HasSubstr("a thickness above 0, found 0"));
   EXPECT_THAT(message("PIPE\n5., 0.5\n*DLOAD\nE, P1, 2.\n"), HasSubstr("is a hollow beam"));

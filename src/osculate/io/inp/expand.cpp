@@ -7,20 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "osculate/io/inp/hollow_section.hpp"
-#include "osculate/io/inp/thin_groups.hpp"
+#include "osculate/io/inp/fibers.hpp"
 
 namespace osculate::io::inp {
 namespace {
-
-using Shape = ThinSection::Shape;
-
-/// The nodes that one node becomes. Shells: bottom, middle, top. Beams: the corners of the section,
-/// seen against the tangent counterclockwise from the first axis back and the second one forth;
-/// then the middles between them. -1: not needed.
-using Fiber = std::array<Index, 8>;
-
-bool is_plate(const ThinGroup& group) { return group.section->shape == Shape::plate; }
 
 /// What moves with the deck's node in the mean: bottom and top, corners of a section.
 std::vector<Index> corners_of(const ThinGroup& group, const Fiber& fiber) {
@@ -28,10 +18,10 @@ std::vector<Index> corners_of(const ThinGroup& group, const Fiber& fiber) {
   return {fiber[0], fiber[1], fiber[2], fiber[3]};
 }
 
-class Expander {
+class Expander : private Fibers {
  public:
   Expander(const Deck& deck, const ThinCards& cards, Numbering& numbering, mesh::Mesh& mesh)
-      : deck_(deck), cards_(cards), numbering_(numbering), mesh_(mesh) {}
+      : Fibers(mesh), deck_(deck), cards_(cards), numbering_(numbering) {}
 
   Expansion expand() {
     take_cells();
@@ -51,8 +41,6 @@ class Expander {
   }
 
  private:
-  const Vec3& at(Index node) const { return mesh_.nodes[static_cast<std::size_t>(node)]; }
-
   /// Nodes of the elements that are expanded, whose cells leave the mesh.
   void take_cells() {
     std::vector<mesh::Block> old = std::move(mesh_.blocks);
@@ -81,133 +69,6 @@ class Expander {
     return {block, to.size() - 1};
   }
 
-  Index add_node(const Vec3& place) {
-    if (!mesh_.numbers.empty()) {
-      if (next_ == 0) next_ = *std::max_element(mesh_.numbers.begin(), mesh_.numbers.end()) + 1;
-      mesh_.numbers.push_back(next_++);
-    }
-    mesh_.nodes.push_back(place);
-    return static_cast<Index>(mesh_.nodes.size()) - 1;
-  }
-
-  Fiber fiber_of(Index node, const ThinGroup& group) {
-    Fiber fiber;
-    fiber.fill(-1);
-    const Vec3 origin = at(node);
-    const std::array<double, 2>& offset = group.section->offset;
-    if (is_plate(group)) {
-      for (const std::size_t k : {0, 1, 2})
-        if (k != 1 || group.has_middle)
-          fiber[k] = add_node(origin + group.thickness[0] *
-                                           (0.5 * (static_cast<double>(k) - 1) - offset[0]) *
-                                           group.normal);
-      return fiber;
-    }
-    const Vec3 first = group.normal.cross(group.tangent);
-    for (std::size_t k = 0; k < (group.has_middle ? 8U : 4U); ++k) {
-      const bool round = k < 4 && group.section->shape == Shape::ellipse;
-      const double half = round ? 0.5 / std::numbers::sqrt2 : 0.5;
-      fiber[k] = add_node(origin + group.thickness[0] * (half * around[k][0] - offset[0]) * first +
-                          group.thickness[1] * (half * around[k][1] - offset[1]) * group.normal);
-    }
-    if (group.section->is_hollow()) add_points(group, fiber);
-    return fiber;
-  }
-
-  // ---- hollow sections --------------------------------------------------------------------------
-
-  using Shares = std::vector<std::pair<Index, double>>;  ///< nodes, and what each counts for
-
-  /// What a fiber counts for a place of its section.
-  static void add_shares(const Fiber& fiber, const Vec2& place, double factor, bool corners,
-                         Shares& to) {
-    const auto four = shares_of_corners(place);
-    const auto eight = shares_around(place);
-    for (std::size_t k = 0; k < (corners ? 4U : 8U); ++k)
-      to.emplace_back(fiber[k], factor * (corners ? four[k] : eight[k]));
-  }
-  void follow(Index node, const Shares& shares) {
-    for (int k = 0; k < 3; ++k) {
-      mesh::Relation& relation = mesh_.relations.emplace_back();
-      relation.terms.push_back({node, k, 1});
-      for (const auto& [other, share] : shares)
-        if (std::abs(share) > 1e-14) relation.terms.push_back({other, k, -share});
-    }
-  }
-
-  /// Nodes of a hollow section; in the middle of a beam those of corners alone.
-  void add_points(const ThinGroup& group, const Fiber& fiber) {
-    const HollowSection& section = hollow(*group.section);
-    std::vector<Index>& points = points_[fiber[0]];
-    for (std::size_t p = 0; p < section.points.size(); ++p) {
-      Index& node = points.emplace_back(-1);
-      if (!group.has_middle && !section.is_corner[p]) continue;
-      Shares shares;
-      add_shares(fiber, section.points[p], 1, !group.has_middle, shares);
-      Vec3 place = Vec3::Zero();
-      for (const auto& [other, share] : shares) place += share * at(other);
-      node = add_node(place);
-    }
-  }
-  const HollowSection& hollow(const ThinSection& section) {
-    const auto [found, is_new] = hollow_.try_emplace(&section);
-    if (is_new) found->second = hollow_section(section);
-    return found->second;
-  }
-  /// The points at an end of a beam move with the eight of its fiber.
-  void tie_points(const ThinGroup& group, const Fiber& fiber) {
-    const HollowSection& section = hollow(*group.section);
-    for (std::size_t p = 0; p < section.points.size(); ++p) {
-      Shares shares;
-      add_shares(fiber, section.points[p], 1, false, shares);
-      follow(points_.at(fiber[0])[p], shares);
-    }
-  }
-  /// Those in its middle with all twenty nodes of the brick that the beam would be.
-  ///
-  /// Formula    u = sum_corners N4 u_middle + 1/2 sum_ends (sum N8 u - sum_corners N4 u)
-  void tie_middle(const HollowSection& section, const std::vector<Fiber>& at) {
-    const std::vector<Index>& points = points_.at(at[2][0]);
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      if (points[p] < 0) continue;
-      Shares shares;
-      const Vec2& place = section.points[p];
-      add_shares(at[2], place, 1, true, shares);
-      for (const std::size_t end : {0, 1}) {
-        add_shares(at[end], place, 0.5, false, shares);
-        add_shares(at[end], place, -0.5, true, shares);
-      }
-      follow(points[p], shares);
-    }
-  }
-  const std::vector<double>& shares(const ThinGroup& group) {
-    const HollowSection& section = hollow(*group.section);
-    return group.has_middle ? section.share : section.corner_share;
-  }
-  const std::vector<double>& axis_shares(const ThinGroup& group) {
-    const HollowSection& section = hollow(*group.section);
-    return group.has_middle ? section.axis_share : section.axis_corner_share;
-  }
-  /// Nodes of a hollow section with what they count for, of those that count.
-  Shares shares_of(const Fiber& fiber, const std::vector<double>& share) const {
-    Shares shares;
-    for (std::size_t p = 0; p < share.size(); ++p)
-      if (share[p] != 0) shares.emplace_back(points_.at(fiber[0])[p], share[p]);
-    return shares;
-  }
-  /// The cells of a hollow beam between its fibers.
-  std::vector<std::vector<Index>> hollow_nodes(const HollowSection& section,
-                                               const std::vector<Fiber>& at) const {
-    std::vector<std::vector<Index>> all;
-    for (const auto& cell : section.cells) {
-      std::vector<Fiber> own(3);
-      for (std::size_t end = 0; end < 3; ++end)
-        for (std::size_t k = 0; k < 8; ++k) own[end][k] = points_.at(at[end][0])[cell[k]];
-      all.push_back(beam_nodes(own));
-    }
-    return all;
-  }
-
   // ---- what the deck's node does ----------------------------------------------------------------
 
   void join(Index node, const std::vector<ThinGroup>& groups, const std::vector<Fiber>& fibers) {
@@ -226,6 +87,7 @@ class Expander {
     }
     const bool rigid = stiff > 1 && cards_.finite;
     for (std::size_t g = 0; g < groups.size(); ++g) {
+      if (!groups[g].section->layers.empty()) add_inner_levels(fibers[g], knot);
       if (!groups[g].section->is_hollow() || !groups[g].has_middle) continue;
       const std::vector<Index>& points = points_.at(fibers[g][0]);
       if (rigid) knot.nodes.insert(knot.nodes.end(), points.begin(), points.end());
@@ -234,7 +96,9 @@ class Expander {
     if (stiff > 1 && cards_.finite) out_.knots.push_back(std::move(knot));
     if (stiff > 1 && !cards_.finite) knit(knot, groups);
     if (stiff != 1) return;
-    if (is_plate(groups[last]) && groups[last].has_middle)
+    if (!groups[last].section->layers.empty())
+      follow(node, shares_of_levels(groups[last], fibers[last]));
+    else if (is_plate(groups[last]) && groups[last].has_middle)
       add_weighted(node, fibers[last]);
     else if (groups[last].section->is_hollow())
       follow(node, shares_of(fibers[last], axis_shares(groups[last])));
@@ -242,6 +106,13 @@ class Expander {
       add_mean(node, corners_of(groups[last], fibers[last]));
     straighten(node, groups[last], fibers[last]);
     add_rotations(node, groups[last], fibers[last]);
+  }
+
+  /// The levels between bottom and top belong to a knot, too.
+  void add_inner_levels(const Fiber& fiber, Knot& knot) const {
+    const std::vector<Index>& levels = points_.at(fiber[0]);
+    for (std::size_t k = 1; k + 1 < levels.size(); ++k)
+      if (levels[k] >= 0) knot.nodes.push_back(levels[k]);
   }
 
   void add_mean(Index node, const std::vector<Index>& corners) {
@@ -271,7 +142,9 @@ class Expander {
     if (held == cards_.held.end() || !group.has_middle || group.section->is_hollow()) return;
     for (int k = 0; k < 3; ++k) {
       if (!held->second[static_cast<std::size_t>(k)]) continue;
-      if (is_plate(group))
+      if (!group.section->layers.empty())
+        straighten_levels(group, fiber, k);
+      else if (is_plate(group))
         add_mean(fiber[1], {fiber[0], fiber[2]}, k);
       else
         for (std::size_t m = 0; m < 4; ++m)
@@ -418,6 +291,9 @@ class Expander {
     if (section.is_hollow()) {
       tie_middle(hollow(section), at_nodes);
       cells = hollow_nodes(hollow(section), at_nodes);
+    } else if (!section.layers.empty()) {
+      cells = layer_nodes(section, at_nodes, static_cast<std::size_t>(info.corners));
+      element.layered = true;
     } else {
       cells.push_back(info.dimension == 2
                           ? plate_nodes(at_nodes, static_cast<std::size_t>(info.corners))
@@ -448,42 +324,12 @@ class Expander {
     return append(block_of_type(mesh_, element.type->cell), e, in_cell);
   }
 
-  /// In the deck's order of C3D6, 8, 15 and 20: bottom, top, their middles, those between them.
-  static std::vector<Index> plate_nodes(const std::vector<Fiber>& at, std::size_t corners) {
-    std::vector<Index> nodes;
-    const auto add = [&](std::size_t first, std::size_t last, std::size_t level) {
-      for (std::size_t k = first; k < last; ++k) nodes.push_back(at[k][level]);
-    };
-    add(0, corners, 0);
-    add(0, corners, 2);
-    if (at.size() == corners) return nodes;
-    add(corners, at.size(), 0);
-    add(corners, at.size(), 2);
-    add(0, corners, 1);
-    return nodes;
-  }
-
-  /// In the deck's order of C3D8 and C3D20; `at` has the ends, then the middle.
-  static std::vector<Index> beam_nodes(const std::vector<Fiber>& at) {
-    const Fiber &a = at[0], &b = at[1];
-    std::vector<Index> nodes{a[0], b[0], b[1], a[1], a[3], b[3], b[2], a[2]};
-    if (at.size() == 2) return nodes;
-    const Fiber& m = at[2];
-    nodes.insert(nodes.end(),
-                 {m[0], b[4], m[1], a[4], m[3], b[6], m[2], a[6], a[7], b[7], b[5], a[5]});
-    return nodes;
-  }
-
   const Deck& deck_;
   const ThinCards& cards_;
   Numbering& numbering_;
-  mesh::Mesh& mesh_;
   Expansion out_;
   std::vector<std::int64_t> numbers_;  ///< of the elements; empty: none
-  std::int64_t next_ = 0;              ///< number of the next node
   std::int64_t next_cell_ = 0;         ///< number of the next cell beyond one of an element
-  std::map<const ThinSection*, HollowSection> hollow_;
-  std::map<Index, std::vector<Index>> points_;  ///< of hollow sections, by the first of a fiber
 };
 
 }  // namespace

@@ -31,8 +31,7 @@ void add_element(std::string_view elements, Place at, RawMesh& mesh) {
 void add_side(const Deck& deck, const Line& line, RawMesh& mesh) {
   Fields fields(deck, line);
   const std::string elements = name_of(fields.next().value_or(""));
-  std::string load = capitals(name_of(fields.next().value_or("")));
-  if (is_node_pressure(load)) load.resize(2);
+  const std::string load = capitals(name_of(fields.next().value_or("")));
   if (load == "GRAV" || load == "CENTRIF") add_element(elements, line.at, mesh);
   if (elements.empty() || !is_side_load(load)) return;
   const std::string name = side_set_name(load, elements);
@@ -103,10 +102,6 @@ std::string side_set_name(std::string_view load, std::string_view elements) {
 bool is_side_load(std::string_view load) {
   if (load == "P") return true;
   return load.size() == 2 && load[0] == 'P' && load[1] >= '1' && load[1] <= '6';
-}
-
-bool is_node_pressure(std::string_view load) {
-  return load.size() == 4 && load.ends_with("NP") && is_side_load(load.substr(0, 2));
 }
 
 void add_loaded_sets(const Deck& deck, RawMesh& mesh) {

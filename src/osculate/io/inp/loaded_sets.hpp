@@ -19,8 +19,6 @@ namespace osculate::io::inp {
 /// Whether a load of `*DLOAD` (in capitals) is a pressure on a numbered side: P1, P2, ..., of
 /// shells P as well.
 [[nodiscard]] bool is_side_load(std::string_view load);
-/// P2NP and others: a pressure on such a side that is that of a node of a network.
-[[nodiscard]] bool is_node_pressure(std::string_view load);
 
 /// Adds sets for what boundary conditions, loads and equations name by numbers of nodes, and for
 /// the sides of elements that pressures act on.

@@ -82,13 +82,19 @@ class Reader {
     if (elements.empty()) return;
     const std::span<const Line> lines = lines_of(deck_, card);
     const bool plate = card.keyword == "SHELLSECTION";
-    const bool of_nodes = find_parameter(card, "NODALTHICKNESS") != nullptr;
+    const bool of_nodes = !is_layered(card) && find_parameter(card, "NODALTHICKNESS") != nullptr;
     ThinSection section;
     if (!plate) section.shape = shape_of(card);
     if (lines.empty() && !of_nodes) fail(deck_, card, "expected a line with the thickness");
     if (section.is_hollow()) {
       if (lines.empty()) fail(deck_, card, "expected a line with the sizes of the section");
       read_walls(lines[0], section);
+    } else if (is_layered(card)) {
+      for (const Line& line : lines) {
+        Fields fields(deck_, line);
+        section.layers.push_back(thickness(fields, true));
+        section.thickness[0] += section.layers.back();
+      }
     } else if (!lines.empty() && !of_nodes) {
       Fields fields(deck_, lines[0]);
       section.thickness[0] = thickness(fields, true);
@@ -107,6 +113,10 @@ class Reader {
         fail(deck_, card,
              fmt::format("its elements are of type {}, which is no {}", type.name,
                          plate ? "shell" : "beam in space"));
+      if (!section.layers.empty() && type.name != "S8" && type.name != "S6")
+        fail(deck_, card,
+             fmt::format("its elements are of type {}; shells of layers are S6, S8 or S8R",
+                         type.name));
       if (section.is_hollow() && type.name != "B32")
         fail(
             deck_, card,
@@ -219,8 +229,12 @@ bool has_finite_step(const Deck& deck) {
   });
 }
 
+bool is_layered(const Card& card) {
+  return card.keyword == "SHELLSECTION" && find_parameter(card, "COMPOSITE");
+}
+
 bool is_thin_section(const Card& card) {
-  if (card.keyword == "SHELLSECTION") return find_parameter(card, "COMPOSITE") == nullptr;
+  if (card.keyword == "SHELLSECTION") return true;
   return is_beam_section(card) && shape_of(card) != Shape::plate;
 }
 

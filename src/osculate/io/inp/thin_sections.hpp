@@ -17,6 +17,7 @@ struct ThinSection {
   /// Of a pipe its wall; of a box those at the first axis forth, the second forth, the first back,
   /// the second back.
   std::array<double, 4> wall{};
+  std::vector<double> layers{};    ///< of a plate of several: their thickness, bottom first
   std::array<double, 2> offset{};  ///< of the reference from the middle, in thicknesses
   Vec3 axis = -Vec3::UnitZ();      ///< beams: along the first axis
 
@@ -37,7 +38,9 @@ struct ThinCards {
 /// Whether a step has NLGEOM or a material is hyperelastic: displacements and rotations are of any
 /// size.
 [[nodiscard]] bool has_finite_step(const Deck& deck);
-/// Whether a section card is one whose elements are expanded: shells of one layer, beams with
+/// Whether a section card is one of a shell of layers.
+[[nodiscard]] bool is_layered(const Card& card);
+/// Whether a section card is one whose elements are expanded: shells, beams with
 /// rectangular and elliptic sections, pipes and boxes.
 [[nodiscard]] bool is_thin_section(const Card& card);
 
