@@ -48,6 +48,11 @@ void set_elastic(T& law, double young, double poisson) {
       law.d1 = 6 * (1 - 2 * poisson) / young;
     else
       law.nu1 = law.nu2 = poisson;
+  } else if constexpr (requires { law.lambda_m; }) {
+    law.lambda_m = 3;
+    const double of_one = 2 * by_invariants(T{1, law.lambda_m, 1, 0}, {}).d1;
+    law.mu = young / (2 * (1 + poisson)) / of_one;
+    law.d = 6 * (1 - 2 * poisson) / young;
   } else if constexpr (requires { law.routine; }) {
     law.constants = {young, poisson};
     (void)law.use(user_hooke);

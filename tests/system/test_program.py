@@ -303,7 +303,7 @@ class Program(unittest.TestCase):
         name = self.model(BLOCK.replace("SIDE", "0").replace("linear_elastic", "plastic"))
         done = self.run_program("check", name)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("elastoplastic, norton, deformation_plasticity, rubber, ogden, hyperfoam, orthotropic, anisotropic, user; others are not available", done.stderr)
+        self.assertIn("elastoplastic, norton, deformation_plasticity, rubber, ogden, hyperfoam, arruda_boyce, orthotropic, anisotropic, user; others are not available", done.stderr)
 
     def test_parameters_are_set_on_the_command_line(self):
         name = self.model(BLOCK.replace("title:", "parameters: {side: 0.1}\ntitle:").replace("SIDE", "=side"))

@@ -163,6 +163,7 @@ SourceNode inp_equations(const InpModel& m) {
     }
     if (missing > 0) io::inp::fail(m.deck, card, fmt::format("{} terms are missing", missing));
   }
+  put_small_rotations(m, equations);
   return equations;
 }
 
@@ -189,6 +190,7 @@ SourceNode inp_rigid(InpModel& m) {
                 rigid);
     }
   }
+  put_rotating_bodies(m, rigid);
   put_knots(m, rigid);
   return rigid;
 }

@@ -25,23 +25,31 @@ const char* key_of_mpc(const InpModel& m, const Line& line, const std::string& k
   if (kind == "PLANE") return "coplanar";
   if (kind == "STRAIGHT") return "collinear";
   if (kind == "BEAM") return "fixed_distance";
-  io::inp::fail(m.deck, line.at,
-                fmt::format("*MPC: {} is not supported: PLANE, STRAIGHT or BEAM", printable(kind)));
+  if (kind == "MEANROT") return nullptr;  // in inp_meanrot.cpp
+  io::inp::fail(
+      m.deck, line.at,
+      fmt::format("*MPC: {} is not supported: PLANE, STRAIGHT, BEAM or MEANROT", printable(kind)));
 }
 
 /// A line begins with the kind; one that begins with a node goes on with the last one.
 void put_mpcs(const InpModel& m, const Card& card, SourceNode& root) {
   SourceNode* nodes = nullptr;
+  bool known = false;
   for (const Line& line : io::inp::lines_of(m.deck, card)) {
     Fields fields(m.deck, line);
     const std::string first = io::inp::capitals(io::inp::name_of(fields.next().value_or("")));
     const int at = line_of(line.at);
     if (!first.empty() && !io::inp::is_number(first)) {
-      SourceNode& entry =
-          list_of(root, key_of_mpc(m, line, first), at).items.emplace_back(inp_map(at));
+      const char* const key = key_of_mpc(m, line, first);
+      known = true;
+      nodes = nullptr;
+      if (!key) continue;
+      SourceNode& entry = list_of(root, key, at).items.emplace_back(inp_map(at));
       nodes = &put(entry, "on", inp_list(at));
+    } else if (!known) {
+      fields.fail("expected PLANE, STRAIGHT, BEAM or MEANROT");
     } else if (!nodes) {
-      fields.fail("expected PLANE, STRAIGHT or BEAM");
+      continue;
     } else if (first != "0" && !first.empty()) {
       nodes->items.push_back(inp_text(node_set_of(m, line, first), at));
     }
@@ -130,6 +138,7 @@ bool is_cyclic_tie(const Card& card) {
 }
 
 void put_constraints(InpModel& m, SourceNode& root) {
+  put_mean_rotations(m, root);
   for (const Card& card : m.deck.cards) {
     if (card.keyword == "MPC") put_mpcs(m, card, root);
     if (card.keyword == "COUPLING") put_coupling(m, card, root);

@@ -157,7 +157,10 @@ void put_elastic(const InpModel& m, const Card& card, SourceNode& law) {
 }
 
 SourceNode inp_orientation(const InpModel& m, const Card& section) {
-  const std::string name = option_of(section, "ORIENTATION");
+  return inp_orientation(m, section, option_of(section, "ORIENTATION"));
+}
+
+SourceNode inp_orientation(const InpModel& m, const Card& section, const std::string& name) {
   const Card* const card = orientation_card(m, name);
   if (!card) {
     std::vector<std::string> known;

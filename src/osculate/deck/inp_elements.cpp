@@ -36,7 +36,11 @@ const char* element_of(std::string_view type) {
 }  // namespace
 
 std::vector<InpElements> elements_of(const InpModel& m, const Card& section) {
-  const std::string& name = value_of(m, section, "ELSET");
+  return elements_of(m, section, value_of(m, section, "ELSET"));
+}
+
+std::vector<InpElements> elements_of(const InpModel& m, const Card& section,
+                                     const std::string& name) {
   const std::string& whole = set_of(m, section.at, name, {SetKind::elements});
   const std::string key = io::inp::capitals(name);
   std::vector<InpElements> parts;

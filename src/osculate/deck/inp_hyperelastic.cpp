@@ -1,4 +1,4 @@
-// `*HYPERELASTIC` and `*HYPERFOAM` of a deck as `rubber`, `ogden` and `hyperfoam`.
+// `*HYPERELASTIC` and `*HYPERFOAM` of a deck as `rubber`, `ogden`, `arruda_boyce` and `hyperfoam`.
 #include <fmt/format.h>
 
 #include <array>
@@ -34,11 +34,11 @@ Form form_of(const InpModel& m, const Card& card) {
   if (is("NEOHOOKE")) return {{"c10"}, 1};
   if (is("MOONEY-RIVLIN")) return {{"c10", "c01"}, 1};
   if (is("YEOH")) return {{of_first.begin(), of_first.end()}, 3};
-  for (const char* const other : {"ARRUDA-BOYCE", "MARLOW", "VANDERWAALS", "USER"})
+  for (const char* const other : {"MARLOW", "VANDERWAALS", "USER"})
     if (is(other))
       io::inp::fail(m.deck, card,
                     fmt::format("{} is not supported: NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, "
-                                "REDUCED POLYNOMIAL or OGDEN",
+                                "REDUCED POLYNOMIAL, OGDEN or ARRUDA-BOYCE",
                                 other));
   const int n = order_of(m, card);
   if (is("REDUCEDPOLYNOMIAL")) return {{of_first.begin(), of_first.begin() + n}, n};
@@ -87,10 +87,26 @@ void put_terms(const InpModel& m, const Card& card, std::string_view volume, Sou
       put(law, fmt::format("{}{}", volume, p + 1), inp_number(numbers[2 * n + p], line));
 }
 
+/// mu, lambda_m and d; without it that of mu, not of the shear modulus, as there.
+void put_chains(const InpModel& m, const Card& card, SourceNode& law) {
+  std::vector<double> numbers = numbers_of(m, card);
+  if (numbers.size() < 2)
+    io::inp::fail(m.deck, card,
+                  fmt::format("expected mu, lambda_m and D, found {}", numbers.size()));
+  if (numbers.size() > 4)
+    io::inp::fail(m.deck, card, "constants that depend on the temperature are not supported");
+  numbers.resize(3);
+  const int line = line_of(card.at);
+  put(law, "mu", inp_number(numbers[0], line));
+  put(law, "lambda_m", inp_number(numbers[1], line));
+  put(law, "d", inp_number(numbers[2] != 0 ? numbers[2] : usual_compliance(numbers[0]), line));
+}
+
 }  // namespace
 
 std::string_view hyperelastic_law(const Card& card) {
   if (card.keyword == "HYPERFOAM") return "hyperfoam";
+  if (io::inp::find_parameter(card, "ARRUDA-BOYCE")) return "arruda_boyce";
   return io::inp::find_parameter(card, "OGDEN") ? "ogden" : "rubber";
 }
 
@@ -99,6 +115,7 @@ void put_hyperelastic(const InpModel& m, const Card& card, SourceNode& law) {
   if (io::inp::find_parameter(card, "TESTDATAINPUT"))
     io::inp::fail(m.deck, card, "constants from test data are not supported: give them");
   if (kind == "hyperfoam") return put_terms(m, card, "nu", law);
+  if (kind == "arruda_boyce") return put_chains(m, card, law);
   if (kind == "ogden") return put_terms(m, card, "d", law);
   const Form form = form_of(m, card);
   const std::vector<double> numbers = numbers_of(m, card);

@@ -8,7 +8,7 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<InpKeyword, 116> keywords{{
+constexpr std::array<InpKeyword, 117> keywords{{
     {"HEADING", "", "a title", silent, ""},
     {"INCLUDE", "INPUT", "", mesh, "the lines of the file"},
     {"NODE", "NSET SYSTEM INPUT", "number, x, y, z", mesh, "nodes, and a set of them"},
@@ -41,7 +41,8 @@ constexpr std::array<InpKeyword, 116> keywords{{
      "`elastoplastic: hardening` beside `kinematic`"},
     {"CREEP", "LAW", "A, n, m", translated, "`norton: {A, n}` (LAW=NORTON, m = 0)"},
     {"HYPERELASTIC", "N", "constants", translated,
-     "`rubber` (NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, REDUCED POLYNOMIAL), `ogden` (OGDEN)"},
+     "`rubber` (NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, REDUCED POLYNOMIAL), `ogden` (OGDEN), "
+     "`arruda_boyce` (ARRUDA-BOYCE)"},
     {"HYPERFOAM", "N", "constants", translated, "`hyperfoam`"},
     {"DEFORMATION PLASTICITY", "", "E, nu, stress, n, alpha", translated,
      "`deformation_plasticity`"},
@@ -56,12 +57,14 @@ constexpr std::array<InpKeyword, 116> keywords{{
     {"DAMPING", "ALPHA BETA", "", translated, "`steps.dynamics: damping` (one for all materials)"},
     {"SOLID SECTION", "ELSET MATERIAL ORIENTATION", "thickness", translated,
      "`sections`: on, material, element, thickness, orientation"},
-    {"SHELL SECTION", "ELSET MATERIAL OFFSET", "thickness", translated, "solids, `sections`"},
+    {"SHELL SECTION", "ELSET MATERIAL OFFSET COMPOSITE", "thickness; layers", translated,
+     "solids, `sections` (of each layer)"},
+    {"MEMBRANE", "ELSET MATERIAL", "thickness", silent, "skipped, as in CalculiX"},
     {"MEMBRANE SECTION", "ELSET MATERIAL", "thickness", none, "no membranes"},
     {"BEAM SECTION", "ELSET MATERIAL SECTION OFFSET1 OFFSET2", "dimensions; axis", translated,
-     "solids, `sections` (RECT, CIRC)"},
-    {"BEAM GENERAL SECTION", "ELSET MATERIAL SECTION", "properties; axis", none,
-     "beams have rectangular or elliptic sections"},
+     "solids, `sections` (RECT, CIRC, PIPE, BOX)"},
+    {"BEAM GENERAL SECTION", "ELSET MATERIAL SECTION OFFSET1 OFFSET2", "dimensions; axis",
+     translated, "solids, `sections` (RECT, CIRC, PIPE, BOX)"},
     {"NODAL THICKNESS", "", "nodes, thickness", translated, "solids"},
     {"NORMAL", "", "element, node, normal", translated, "solids"},
     {"ORIENTATION", "NAME SYSTEM", "points; axis, angle", translated,
@@ -75,7 +78,8 @@ constexpr std::array<InpKeyword, 116> keywords{{
     {"BOUNDARY", "OP AMPLITUDE FIXED LOAD CASE", "node or set, first dof, last dof, value",
      translated, "`steps.prescribe`, `release`, `hold`"},
     {"EQUATION", "", "number of terms; node, dof, factor", translated, "`equations`"},
-    {"MPC", "", "kind, nodes", translated, "`coplanar`, `collinear`, `fixed_distance`"},
+    {"MPC", "", "kind, nodes", translated,
+     "`coplanar`, `collinear`, `fixed_distance`; `equations` or `coupling` (MEANROT)"},
     {"TIE", "NAME POSITION TOLERANCE ADJUST", "slave, master", translated,
      "`contact` with `separation: tied`"},
     {"RIGID BODY", "NSET ELSET REF NODE ROT NODE", "", translated, "`rigid`"},

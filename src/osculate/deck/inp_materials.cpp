@@ -205,11 +205,9 @@ void require_sections(const InpModel& m, SourceNode& sections) {
 /// A section of shells or beams; what cannot be expanded stops.
 bool is_thin(const InpModel& m, const Card& card) {
   if (io::inp::is_thin_section(card)) return true;
-  if (card.keyword == "SHELLSECTION")
-    io::inp::fail(m.deck, card, "COMPOSITE is not supported: one material, one thickness");
   if (card.keyword == "BEAMSECTION" || card.keyword == "BEAMGENERALSECTION")
     io::inp::fail(m.deck, card,
-                  fmt::format("SECTION={} is not supported: RECT or CIRC",
+                  fmt::format("SECTION={} is not supported: RECT, CIRC, PIPE or BOX",
                               printable(option_of(card, "SECTION"))));
   return false;
 }
@@ -301,6 +299,10 @@ SourceNode inp_sections(InpModel& m) {
     if (card.keyword != "SOLIDSECTION" && !is_thin(m, card)) continue;
     const int line = line_of(card.at);
     if (is_discrete(m, value_of(m, card, "ELSET"))) continue;
+    if (io::inp::is_layered(card)) {
+      put_layers(m, card, sections);
+      continue;
+    }
     const bool oriented = is_oriented(m, card);
     for (const InpElements& part : elements_of(m, card)) {
       SourceNode& section = sections.items.emplace_back(inp_map(line));

@@ -101,6 +101,9 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 void put_elastic(const InpModel& m, const io::inp::Card& elastic, SourceNode& law);
 /// The `*ORIENTATION` that a section names.
 [[nodiscard]] SourceNode inp_orientation(const InpModel& m, const io::inp::Card& section);
+/// The one of that name, in capitals.
+[[nodiscard]] SourceNode inp_orientation(const InpModel& m, const io::inp::Card& section,
+                                         const std::string& name);
 /// The law that a `*HYPERELASTIC` or `*HYPERFOAM` means, and its constants.
 [[nodiscard]] std::string_view hyperelastic_law(const io::inp::Card& card);
 void put_hyperelastic(const InpModel& m, const io::inp::Card& card, SourceNode& law);
@@ -122,6 +125,13 @@ struct InpElements {
 ///
 /// Tested by  tests/unit/deck/test_inp_elements.cpp
 [[nodiscard]] std::vector<InpElements> elements_of(const InpModel& m, const io::inp::Card& section);
+/// The same of a set of that name, as one of its layers.
+[[nodiscard]] std::vector<InpElements> elements_of(const InpModel& m, const io::inp::Card& section,
+                                                   const std::string& name);
+/// Adds the sections of the layers of a `*SHELL SECTION, COMPOSITE`.
+///
+/// Tested by  tests/unit/deck/test_inp_layers.cpp
+void put_layers(InpModel& m, const io::inp::Card& card, SourceNode& sections);
 /// Elements of several sections stay in the last one; the sets of what is left of the others.
 [[nodiscard]] SourceNode inp_overlaps(const InpModel& m, SourceNode& sections);
 /// Refuses loads of a step on nodes or facets that another set has had loaded in the same direction
@@ -186,6 +196,14 @@ void put_damping(const InpModel& m, const io::inp::Card& card, SourceNode& norma
 /// Rigid bodies of `*RIGID BODY` and `*COUPLING`, and the knots of shells and beams, with the nodes
 /// that stand for them.
 [[nodiscard]] SourceNode inp_rigid(InpModel& m);
+
+/// Of `*MPC, MEANROT`: with NLGEOM a rigid body that moves as the nodes do in the mean, whose
+/// rotation about the axis the node stands for, and its coupling; else an equation.
+///
+/// Tested by  tests/unit/deck/test_inp_meanrot.cpp
+void put_rotating_bodies(InpModel& m, SourceNode& rigid);
+void put_mean_rotations(const InpModel& m, SourceNode& root);
+void put_small_rotations(const InpModel& m, SourceNode& equations);
 
 /// Adds multi-point constraints, couplings, sections under pretension and cyclic symmetry.
 void put_constraints(InpModel& m, SourceNode& root);

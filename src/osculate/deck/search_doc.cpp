@@ -65,8 +65,9 @@ constexpr std::array<Synonym, 39> synonyms{{
     {"self-contact general-contact all-contact", "contact: {all: ...} (docs/contact_all.md)"},
     {"dashpot-contact contact-damping", "contact.normal.damping"},
     {"mu cof", "contact.friction.coulomb.mu"},
-    {"hyperelastic elastomer mooney-rivlin mooney yeoh",
-     "materials.NAME.rubber, neo_hooke (sections.formulation: bbar by default)"},
+    {"hyperelastic elastomer mooney-rivlin mooney yeoh arruda-boyce",
+     "materials.NAME.rubber, neo_hooke, ogden, arruda_boyce (sections.formulation: bbar by "
+     "default)"},
     {"modal-dynamics superposition eigenmodes eigenfrequencies",
      "steps.modes, steps.modal (docs/dynamics.md)"},
     {"transient implicit-dynamics explicit impact crash drop", "steps.dynamics (docs/dynamics.md)"},

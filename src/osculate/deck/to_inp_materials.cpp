@@ -143,6 +143,9 @@ bool write_law(const std::string& law, const Material& material, Leaves& leaves,
   if (key == "anisotropic") write_anisotropic(law, leaves, out);
   if (key == "rubber") write_rubber(law, leaves, out);
   if (key == "ogden") write_terms_of(law, "*HYPERELASTIC, OGDEN", "d", leaves, out);
+  if (key == "arruda_boyce")
+    out += "*HYPERELASTIC, ARRUDA-BOYCE\n" +
+           rows_of_numbers(values_of(law, std::array{"mu", "lambda_m", "d"}, leaves));
   if (key == "hyperfoam") write_terms_of(law, "*HYPERFOAM", "nu", leaves, out);
   return key != "neo_hooke" && key != "user";
 }

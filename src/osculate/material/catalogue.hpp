@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "osculate/material/anisotropic.hpp"
+#include "osculate/material/arruda_boyce.hpp"
 #include "osculate/material/deformation_plasticity.hpp"
 #include "osculate/material/hyperfoam.hpp"
 #include "osculate/material/j2_plasticity.hpp"
@@ -20,11 +21,12 @@ namespace osculate::material {
 
 /// One of the laws, as a value. Its copies are made in law.cpp: only what asks which laws there are
 /// (that source, energy.cpp and deck/materials.cpp) has them in its code.
-struct Law : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
-                          Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>,
-                          DeformationPlasticity, Logarithmic<DeformationPlasticity>, Rubber, Ogden,
-                          Hyperfoam, Orthotropic, GreenLagrange<Orthotropic>, Anisotropic,
-                          GreenLagrange<Anisotropic>, UserMaterial, Logarithmic<UserMaterial>> {
+struct Law
+    : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
+                   Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>, DeformationPlasticity,
+                   Logarithmic<DeformationPlasticity>, Rubber, Ogden, Hyperfoam, ArrudaBoyce,
+                   Orthotropic, GreenLagrange<Orthotropic>, Anisotropic, GreenLagrange<Anisotropic>,
+                   UserMaterial, Logarithmic<UserMaterial>> {
   using variant::variant;
   Law();  ///< the first of the list, with its defaults
   Law(const Law&);

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "osculate/material/response.hpp"
+#include "osculate/material/invariants.hpp"
 
 namespace osculate::material {
 
@@ -75,18 +75,8 @@ struct Rubber {
   }
 };
 
-[[nodiscard]] Response respond(const Rubber& law, const Strain& strain);
-[[nodiscard]] Response3 respond(const Rubber& law, const Strain3& strain);
-/// The same with S33 = 0: Newton to round-off for E33.
-///
-/// Returns    not ok if the area of the plane is not positive, or if no thickness is found
-[[nodiscard]] Response respond_plane_stress(const Rubber& law, const Strain& strain,
-                                            double& strain_33);
-
+[[nodiscard]] ByInvariants by_invariants(const Rubber& law, const Invariants& v);
 /// mu = 2 (c10 + c01), K = 2 / d1.
 [[nodiscard]] Isotropic unloaded(const Rubber& law);
-/// W; infinity where det C is not positive.
-[[nodiscard]] double energy_of(const Rubber& law, const Strain& strain);
-[[nodiscard]] double energy_of(const Rubber& law, const Strain3& strain);
 
 }  // namespace osculate::material

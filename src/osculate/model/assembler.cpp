@@ -28,6 +28,25 @@ void BasicAssembler<Dim>::expand(std::span<const Dof> block_dofs, std::vector<Ex
 }
 
 template <int Dim>
+void BasicAssembler<Dim>::add_condensed(const Eigen::Ref<const Eigen::MatrixXd>& k) {
+  std::vector<Index> all;
+  for (const Expansion& one : rows_)
+    if (!prescribed(one.unknown)) all.push_back(one.unknown);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(k.rows(), static_cast<Eigen::Index>(all.size()));
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < row_end_.size(); first = row_end_[i++])
+    for (std::size_t a = first; a < row_end_[i]; ++a) {
+      if (prescribed(rows_[a].unknown)) continue;
+      const auto at = std::lower_bound(all.begin(), all.end(), rows_[a].unknown) - all.begin();
+      factors(static_cast<Eigen::Index>(i), at) += rows_[a].factor;
+    }
+  const Eigen::MatrixXd sum = factors.transpose() * (k * factors);
+  matrix_.add_block(all, sum.data(), sum.outerStride());
+}
+
+template <int Dim>
 void BasicAssembler<Dim>::add_outer(std::span<const Dof> row_dofs,
                                     std::span<const double> row_values,
                                     std::span<const Dof> column_dofs,

@@ -38,6 +38,8 @@ class BasicAssembler {
       return;
     }
     expand(block_dofs, rows_, row_end_);
+    constexpr std::size_t many = 4;
+    if (rows_.size() > many * block_dofs.size()) return add_condensed(k);
     for (std::size_t i = 0; i < block_dofs.size(); ++i)
       for (std::size_t a = i == 0 ? 0 : row_end_[i - 1]; a < row_end_[i]; ++a) {
         if (prescribed(rows_[a].unknown)) continue;
@@ -68,6 +70,11 @@ class BasicAssembler {
   [[nodiscard]] Eigen::VectorXd gather(const Eigen::VectorXd& dof_forces) const;
 
  private:
+  /// A block whose dofs (`rows_`) follow from few unknowns, many each: summed by these first.
+  ///
+  /// Formula    W^T K W , W the factors of the unknowns in the block's dofs
+  void add_condensed(const Eigen::Ref<const Eigen::MatrixXd>& k);
+
   /// True if every dof is an unknown itself; `unknowns_` then holds them, -1 for prescribed ones.
   [[nodiscard]] bool direct(std::span<const Dof> block_dofs);
   void expand(std::span<const Dof> block_dofs, std::vector<Expansion>& out,

@@ -84,6 +84,21 @@ TEST(InpHyperelastic, OgdenAndFoam) {
   EXPECT_EQ(foam.density, 3);
 }
 
+TEST(InpHyperelastic, Chains) {
+  const auto law = [](const std::string& material) {
+    return described(material).materials.at(0).law.value;
+  };
+  const auto given = std::get<material::ArrudaBoyce>(
+      law("*HYPERELASTIC, ARRUDA-BOYCE\n0.3, 5., 0.02\n*DENSITY\n3.\n"));
+  EXPECT_EQ(given.mu, 0.3);
+  EXPECT_EQ(given.lambda_m, 5);
+  EXPECT_EQ(given.d, 0.02);
+  EXPECT_EQ(given.density, 3);
+  const auto without =
+      std::get<material::ArrudaBoyce>(law("*HYPERELASTIC, ARRUDA-BOYCE\n0.3, 5.\n"));
+  EXPECT_NEAR(without.d, 0.1 / 0.3, 1e-15);
+}
+
 /// Poisson's ratio is that of K = 20 mu, 29/61, where no constant gives the bulk modulus.
 TEST(InpHyperelastic, WithoutABulkModulus) {
   const material::Isotropic is = unloaded(rubber("*HYPERELASTIC, MOONEY-RIVLIN\n1.5, 0.5\n"));
@@ -92,8 +107,14 @@ TEST(InpHyperelastic, WithoutABulkModulus) {
 }
 
 TEST(InpHyperelastic, WhatIsNotSupported) {
-  EXPECT_THAT(message("*HYPERELASTIC, ARRUDA-BOYCE\n1., 2., 0.1\n"),
-              HasSubstr("a.inp:13: *HYPERELASTIC: ARRUDA-BOYCE is not supported: NEO HOOKE"));
+  EXPECT_THAT(message("*HYPERELASTIC, MARLOW\n1., 2., 0.1\n"),
+              HasSubstr("a.inp:13: *HYPERELASTIC: MARLOW is not supported: NEO HOOKE"));
+  EXPECT_THAT(message("*HYPERELASTIC, ARRUDA-BOYCE\n1.\n"),
+              HasSubstr("expected mu, lambda_m and D, found 1"));
+  EXPECT_THAT(message("*HYPERELASTIC, ARRUDA-BOYCE\n1., 3., 0.1, 20.\n2., 3., 0.1, 100.\n"),
+              HasSubstr("*HYPERELASTIC: constants that depend on the temperature"));
+  EXPECT_THAT(message("*HYPERELASTIC, ARRUDA-BOYCE\n1., 0., 0.1\n"),
+              HasSubstr("lambda_m: must be > 0"));
   EXPECT_THAT(message("*HYPERELASTIC, OGDEN, N=4\n1.\n"), HasSubstr("expected N=1, 2 or 3"));
   EXPECT_THAT(message("*HYPERELASTIC, OGDEN, N=2\n1., 2., 0.1\n"),
               HasSubstr("expected 4 constants, found 3"));

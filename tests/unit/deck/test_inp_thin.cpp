@@ -108,7 +108,7 @@ TEST(InpThin, WhatIsNotExpandedStops) {
               "2, 3\n*MATERIAL, NAME=M\n*ELASTIC\n1, 0\n*SHELL SECTION, ELSET=E, "
               "COMPOSITE\n1., , M\n" +
               step),
-      HasSubstr("COMPOSITE is not supported"));
+      HasSubstr("its elements are of type S3; shells of layers are S6, S8 or S8R"));
   EXPECT_THAT(message(elbow + "*STEP, NLGEOM\n*STATIC\n*BOUNDARY\n1, 7\n*END STEP\n"),
               HasSubstr("expected directions 1 to 6, found 7 to 7"));
 }

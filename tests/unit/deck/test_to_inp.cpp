@@ -6,6 +6,7 @@
 #include "osculate/deck/inp_translate.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/deck/to_inp.hpp"
+#include "osculate/material/catalogue.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -94,6 +95,54 @@ TEST(ToInp, ReadAgainItIsTheSameModel) {
   ASSERT_EQ(after.steps[1].release.size(), 1U);
   EXPECT_EQ(after.steps[1].release[0].on.value, "high.left");
   EXPECT_EQ(after.initial_temperature[0].values[0]->value, 10);
+}
+
+/// The law of `hard` after it was written and read again.
+material::Law written_law(const std::string& law) {
+  const std::string text = edited(
+      edited(blocks, "{elastoplastic: {E: 1000, nu: 0.25, hardening: [[1, 0], [2, 0.5]]}}", law),
+      "formulation: full, kinematics: small", "formulation: full, kinematics: finite");
+  const std::string finite = edited(edited(text, "m: {linear_elastic:", "m: {st_venant_kirchhoff:"),
+                                    "{on: low, material: m, element: solid}",
+                                    "{on: low, material: m, element: solid, kinematics: finite}");
+  return parse_model(translate_deck(written(finite), "model.inp").root, "model.inp")
+      .find_material("hard")
+      ->law.value;
+}
+
+TEST(ToInp, RubberAndFoamAreReadAgainAsTheyWere) {
+  const auto two = std::get<material::Rubber>(
+      written_law("{rubber: {c10: 0.4, c11: 0.03, d1: 0.01, d2: 0.5, density: 2}}"));
+  EXPECT_EQ(two.c10, 0.4);
+  EXPECT_EQ(two.c11, 0.03);
+  EXPECT_EQ(two.c03, 0);
+  EXPECT_EQ(two.d2, 0.5);
+  EXPECT_EQ(two.density, 2);
+  const auto all = std::get<material::Rubber>(written_law(
+      "{rubber: {c10: 1, c01: 2, c20: 3, c11: 4, c02: 5, c30: 6, c21: 7, c12: 8, c03: 9, "
+      "d1: 0.1, d2: 0.2, d3: 0.3}}"));
+  EXPECT_EQ(all.c02, 5);
+  EXPECT_EQ(all.c03, 9);
+  EXPECT_EQ(all.d1, 0.1);
+  EXPECT_EQ(all.d3, 0.3);
+  EXPECT_EQ(std::get<material::Rubber>(written_law("{rubber: {c10: 1, d1: 0.1, d3: 0.3}}")).d3,
+            0.3);
+  const auto ogden = std::get<material::Ogden>(
+      written_law("{ogden: {mu1: 0.4, alpha1: 1.3, mu2: -0.01, alpha2: -2, d1: 0.02}}"));
+  EXPECT_EQ(ogden.mu2, -0.01);
+  EXPECT_EQ(ogden.alpha2, -2);
+  EXPECT_EQ(ogden.mu3, 0);
+  EXPECT_EQ(ogden.d1, 0.02);
+  const auto foam = std::get<material::Hyperfoam>(
+      written_law("{hyperfoam: {mu1: 0.16, alpha1: 8, nu1: 0.1, mu2: 0.1, alpha2: -4, nu2: 0.2}}"));
+  EXPECT_EQ(foam.alpha2, -4);
+  EXPECT_EQ(foam.nu1, 0.1);
+  EXPECT_EQ(foam.nu2, 0.2);
+  const auto chains = std::get<material::ArrudaBoyce>(
+      written_law("{arruda_boyce: {mu: 0.3, lambda_m: 3, d: 0.01}}"));
+  EXPECT_EQ(chains.mu, 0.3);
+  EXPECT_EQ(chains.lambda_m, 3);
+  EXPECT_EQ(chains.d, 0.01);
 }
 
 TEST(ToInp, WhatHasNoCounterpartIsRefusedByItsKey) {

@@ -26,8 +26,8 @@ TEST(Catalogue, EachLawDescribesItselfAndItsParameters) {
   });
   EXPECT_EQ(keys, (std::set<std::string_view>{"linear_elastic", "st_venant_kirchhoff", "neo_hooke",
                                               "elastoplastic", "norton", "deformation_plasticity",
-                                              "rubber", "ogden", "hyperfoam", "orthotropic",
-                                              "anisotropic", "user"}));
+                                              "rubber", "ogden", "hyperfoam", "arruda_boyce",
+                                              "orthotropic", "anisotropic", "user"}));
 }
 
 TEST(Catalogue, ParametersAreWrittenThroughTheirSlots) {
@@ -52,6 +52,10 @@ TEST(Catalogue, ParametersAreWrittenThroughTheirSlots) {
     } else if constexpr (requires { law.routine; }) {
       EXPECT_EQ(law.state, std::pow(0.25, 5));
       EXPECT_EQ(law.density, std::pow(0.25, 6));
+    } else if constexpr (requires { law.lambda_m; }) {
+      EXPECT_EQ(law.mu, 0.25);
+      EXPECT_EQ(law.lambda_m, 0.0625);
+      EXPECT_EQ(law.density, std::pow(0.25, 4));
     } else {
       EXPECT_EQ(law.c10, 0.25);
       EXPECT_EQ(law.c01, 0.0625);

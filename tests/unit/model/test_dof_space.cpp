@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -135,6 +136,38 @@ TEST(Assembler, AddsWhatADenseProductGives) {
   Eigen::VectorXd gathered = t.transpose() * force;
   gathered[2] = gathered[9] = 0;
   EXPECT_LT((assembler.gather(force) - gathered).norm(), 1e-13);
+}
+
+/// Nodes whose displacements are means of many others: blocks of them are summed by these first.
+TEST(Assembler, ManyTermsGiveWhatADenseProductGives) {
+  std::vector<Equation> equations;
+  for (Dof dof = 20; dof < 24; ++dof) {
+    Equation equation;
+    equation.terms.push_back({dof, 1.0});
+    for (Dof other = 0; other < 18; ++other)
+      equation.terms.push_back({other, -0.1 * static_cast<double>((other * dof) % 7 - 3)});
+    equations.push_back(std::move(equation));
+  }
+  const std::vector<Vec2> x(12, Vec2(1, 2));
+  const std::vector<body::RigidMotion> rigid;
+  const DofSpace dofs{12, std::vector<Index>(12, -1), 0, equations, std::vector<bool>(12, true)};
+  const std::vector<Dof> block{20, 21, 22, 23, 18};
+  Eigen::MatrixXd k(5, 5);
+  for (Eigen::Index i = 0; i < 5; ++i)
+    for (Eigen::Index j = 0; j < 5; ++j) k(i, j) = std::sin(static_cast<double>(3 * i + 7 * j));
+  std::vector<bool> prescribed(20, false);
+  prescribed[3] = prescribed[18] = true;
+  la::MatrixBuilder builder(dofs.unknowns());
+  Assembler assembler(dofs, builder);
+  assembler.set_prescribed(prescribed);
+  assembler.set_configuration(x, rigid);
+  assembler.add_block(block, k);
+  assembler.add_prescribed_diagonal(2.0);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(24, 24);
+  for (Eigen::Index i = 0; i < 5; ++i)
+    for (Eigen::Index j = 0; j < 5; ++j)
+      all(block[static_cast<std::size_t>(i)], block[static_cast<std::size_t>(j)]) += k(i, j);
+  expect_matrix(builder, transformed(dofs, x, rigid), all, prescribed, 2.0);
 }
 
 /// Nodes 0..4; node 1 belongs to nothing, nodes 2 and 3 to rigid body 0; dofs 0..14, then 15..20.

@@ -32,11 +32,21 @@ std::set<std::string> section_sets(const Deck& deck) {
   return names;
 }
 
+std::set<std::string> layered_sets(const Deck& deck) {
+  std::set<std::string> names;
+  for (const Card& card : deck.cards)
+    if (is_layered(card))
+      if (const Parameter* const set = find_parameter(card, "ELSET"))
+        names.insert(capitals(set->value));
+  return names;
+}
+
 class Builder {
  public:
   explicit Builder(const Deck& deck)
       : deck_(deck),
         sections_(section_sets(deck)),
+        layered_(layered_sets(deck)),
         raw_(raw_mesh(deck)),
         numbering_(add_cells(deck, raw_, out_.mesh)),
         members_(deck, raw_, numbering_, out_.mesh),
@@ -141,10 +151,13 @@ class Builder {
     Typed typed;
     for (const Index index : members_.of(Kind::elements, scope, raw.name, raw.at)) {
       const Element& element = numbering_.elements[static_cast<std::size_t>(index)];
-      const mesh::CellRef ref = element.cell;
-      cells[static_cast<std::size_t>(cell::info(block(ref).type).dimension)].push_back(ref);
-      if (element.type->family == Family::plane || element.type->family == Family::solid)
-        typed[numbering_.variants[element.variant]].push_back(ref);
+      std::vector<mesh::CellRef> refs{element.cell};
+      refs.insert(refs.end(), element.others.begin(), element.others.end());
+      for (const mesh::CellRef ref : refs) {
+        cells[static_cast<std::size_t>(cell::info(block(ref).type).dimension)].push_back(ref);
+        if (element.type->family == Family::plane || element.type->family == Family::solid)
+          typed[numbering_.variants[element.variant]].push_back(ref);
+      }
     }
     constexpr std::array<std::string_view, 4> kinds{".points", ".lines", ".areas", ".volumes"};
     bool whole = true;
@@ -159,6 +172,29 @@ class Builder {
       if (typed.size() == 1) out_.sets.back().type = typed.begin()->first;
     }
     add_typed_elements(scope, raw, typed);
+    add_layers(scope, raw);
+  }
+
+  /// Of a section of layers: a set of each, where its elements are all of one kind.
+  void add_layers(std::uint32_t scope, const RawSet& raw) {
+    if (!layered_.contains(capitals(named(scope, raw.name).name))) return;
+    std::vector<std::vector<mesh::CellRef>> layers;
+    std::set<std::string_view> types;
+    for (const Index index : members_.of(Kind::elements, scope, raw.name, raw.at)) {
+      const Element& element = numbering_.elements[static_cast<std::size_t>(index)];
+      types.insert(numbering_.variants[element.variant]);
+      layers.resize(std::max(layers.size(), element.others.size() + 1));
+      layers[0].push_back(element.cell);
+      for (std::size_t k = 0; k < element.others.size(); ++k)
+        layers[k + 1].push_back(element.others[k]);
+    }
+    for (std::size_t k = 0; k < layers.size(); ++k) {
+      mesh::Set set = named(scope, set_of_layer(raw.name, k + 1));
+      set.cells = std::move(layers[k]);
+      finish(set);
+      add(SetKind::elements, std::move(set), raw.at);
+      if (types.size() == 1) out_.sets.back().type = *types.begin();
+    }
   }
 
   void add_surface(std::uint32_t scope, const RawSurface& raw) {
@@ -194,7 +230,7 @@ class Builder {
   }
 
   const Deck& deck_;
-  std::set<std::string> sections_;
+  std::set<std::string> sections_, layered_;
   DeckMesh out_;
   RawMesh raw_;
   Numbering numbering_;
@@ -209,6 +245,9 @@ class Builder {
 
 std::string typed_set_name(std::string_view elements, std::string_view type) {
   return fmt::format("{} of {}", elements, type);
+}
+std::string set_of_layer(std::string_view elements, std::size_t layer) {
+  return fmt::format("{} layer {}", elements, layer);
 }
 std::string set_without_knots(std::string_view nodes) {
   return fmt::format("{} without knots", nodes);

@@ -39,6 +39,9 @@ struct DeckMesh {
   std::map<std::int64_t, std::uint32_t> missing{};
 };
 
+/// Of a set of elements that `*SHELL SECTION, COMPOSITE` names: one of its layers, the first of
+/// which is the lowest.
+[[nodiscard]] std::string set_of_layer(std::string_view elements, std::size_t layer);
 /// Of a set of nodes with some in knots: the set of the others.
 [[nodiscard]] std::string set_without_knots(std::string_view nodes);
 /// Of a set of nodes: the set of the nodes whose displacements are their rotations.

@@ -2,26 +2,15 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "osculate/io/inp/thin_groups.hpp"
+#include "osculate/io/inp/fibers.hpp"
 
 namespace osculate::io::inp {
 namespace {
-
-using Shape = ThinSection::Shape;
-
-/// The nodes that one node becomes. Shells: bottom, middle, top. Beams: the corners of the section,
-/// seen against the tangent counterclockwise from the first axis back and the second one forth;
-/// then the middles between them. -1: not needed.
-using Fiber = std::array<Index, 8>;
-/// Places of beam nodes in halves of the thickness along the first and second axis.
-constexpr std::array<std::array<double, 2>, 8> around{
-    {{-1, 1}, {-1, -1}, {1, -1}, {1, 1}, {-1, 0}, {0, -1}, {1, 0}, {0, 1}}};
-
-bool is_plate(const ThinGroup& group) { return group.section->shape == Shape::plate; }
 
 /// What moves with the deck's node in the mean: bottom and top, corners of a section.
 std::vector<Index> corners_of(const ThinGroup& group, const Fiber& fiber) {
@@ -29,10 +18,10 @@ std::vector<Index> corners_of(const ThinGroup& group, const Fiber& fiber) {
   return {fiber[0], fiber[1], fiber[2], fiber[3]};
 }
 
-class Expander {
+class Expander : private Fibers {
  public:
   Expander(const Deck& deck, const ThinCards& cards, Numbering& numbering, mesh::Mesh& mesh)
-      : deck_(deck), cards_(cards), numbering_(numbering), mesh_(mesh) {}
+      : Fibers(mesh), deck_(deck), cards_(cards), numbering_(numbering) {}
 
   Expansion expand() {
     take_cells();
@@ -52,8 +41,6 @@ class Expander {
   }
 
  private:
-  const Vec3& at(Index node) const { return mesh_.nodes[static_cast<std::size_t>(node)]; }
-
   /// Nodes of the elements that are expanded, whose cells leave the mesh.
   void take_cells() {
     std::vector<mesh::Block> old = std::move(mesh_.blocks);
@@ -72,6 +59,7 @@ class Expander {
       else
         element.cell = append(element.cell.block, static_cast<Index>(e), all);
     }
+    for (const std::int64_t number : numbers_) next_cell_ = std::max(next_cell_, number + 1);
   }
 
   mesh::CellRef append(Index block, Index element, std::span<const Index> nodes) {
@@ -79,38 +67,6 @@ class Expander {
     to.connectivity.insert(to.connectivity.end(), nodes.begin(), nodes.end());
     if (!numbers_.empty()) to.numbers.push_back(numbers_[static_cast<std::size_t>(element)]);
     return {block, to.size() - 1};
-  }
-
-  Index add_node(const Vec3& place) {
-    if (!mesh_.numbers.empty()) {
-      if (next_ == 0) next_ = *std::max_element(mesh_.numbers.begin(), mesh_.numbers.end()) + 1;
-      mesh_.numbers.push_back(next_++);
-    }
-    mesh_.nodes.push_back(place);
-    return static_cast<Index>(mesh_.nodes.size()) - 1;
-  }
-
-  Fiber fiber_of(Index node, const ThinGroup& group) {
-    Fiber fiber;
-    fiber.fill(-1);
-    const Vec3 origin = at(node);
-    const std::array<double, 2>& offset = group.section->offset;
-    if (is_plate(group)) {
-      for (const std::size_t k : {0, 1, 2})
-        if (k != 1 || group.has_middle)
-          fiber[k] = add_node(origin + group.thickness[0] *
-                                           (0.5 * (static_cast<double>(k) - 1) - offset[0]) *
-                                           group.normal);
-      return fiber;
-    }
-    const Vec3 first = group.normal.cross(group.tangent);
-    for (std::size_t k = 0; k < (group.has_middle ? 8U : 4U); ++k) {
-      const bool round = k < 4 && group.section->shape == Shape::ellipse;
-      const double half = round ? 0.5 / std::numbers::sqrt2 : 0.5;
-      fiber[k] = add_node(origin + group.thickness[0] * (half * around[k][0] - offset[0]) * first +
-                          group.thickness[1] * (half * around[k][1] - offset[1]) * group.normal);
-    }
-    return fiber;
   }
 
   // ---- what the deck's node does ----------------------------------------------------------------
@@ -129,15 +85,34 @@ class Expander {
       for (const Index n : fibers[g])
         if (n >= 0) knot.nodes.push_back(n);
     }
+    const bool rigid = stiff > 1 && cards_.finite;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      if (!groups[g].section->layers.empty()) add_inner_levels(fibers[g], knot);
+      if (!groups[g].section->is_hollow() || !groups[g].has_middle) continue;
+      const std::vector<Index>& points = points_.at(fibers[g][0]);
+      if (rigid) knot.nodes.insert(knot.nodes.end(), points.begin(), points.end());
+      if (!rigid) tie_points(groups[g], fibers[g]);
+    }
     if (stiff > 1 && cards_.finite) out_.knots.push_back(std::move(knot));
     if (stiff > 1 && !cards_.finite) knit(knot, groups);
     if (stiff != 1) return;
-    if (is_plate(groups[last]) && groups[last].has_middle)
+    if (!groups[last].section->layers.empty())
+      follow(node, shares_of_levels(groups[last], fibers[last]));
+    else if (is_plate(groups[last]) && groups[last].has_middle)
       add_weighted(node, fibers[last]);
+    else if (groups[last].section->is_hollow())
+      follow(node, shares_of(fibers[last], axis_shares(groups[last])));
     else
       add_mean(node, corners_of(groups[last], fibers[last]));
     straighten(node, groups[last], fibers[last]);
     add_rotations(node, groups[last], fibers[last]);
+  }
+
+  /// The levels between bottom and top belong to a knot, too.
+  void add_inner_levels(const Fiber& fiber, Knot& knot) const {
+    const std::vector<Index>& levels = points_.at(fiber[0]);
+    for (std::size_t k = 1; k + 1 < levels.size(); ++k)
+      if (levels[k] >= 0) knot.nodes.push_back(levels[k]);
   }
 
   void add_mean(Index node, const std::vector<Index>& corners) {
@@ -160,13 +135,16 @@ class Expander {
           {{{node, k, 1}, {fiber[0], k, 0.5}, {fiber[1], k, -2}, {fiber[2], k, 0.5}}});
   }
 
-  /// Where a node is held the edges of its section keep their middles between their ends.
+  /// Where a node is held the edges of its section keep their middles between their ends; hollow
+  /// sections are held in the mean.
   void straighten(Index node, const ThinGroup& group, const Fiber& fiber) {
     const auto held = cards_.held.find(node);
-    if (held == cards_.held.end() || !group.has_middle) return;
+    if (held == cards_.held.end() || !group.has_middle || group.section->is_hollow()) return;
     for (int k = 0; k < 3; ++k) {
       if (!held->second[static_cast<std::size_t>(k)]) continue;
-      if (is_plate(group))
+      if (!group.section->layers.empty())
+        straighten_levels(group, fiber, k);
+      else if (is_plate(group))
         add_mean(fiber[1], {fiber[0], fiber[2]}, k);
       else
         for (std::size_t m = 0; m < 4; ++m)
@@ -238,6 +216,28 @@ class Expander {
     return terms;
   }
 
+  /// The same of a whole section.
+  ///
+  /// Formula    axis . J^-1 sum share r x u , J = sum share (r^2 I - r r^T) , r from the centroid
+  std::vector<mesh::Relation::Term> mean_rotation(const Shares& shares, const Vec3& axis) const {
+    Vec3 middle = Vec3::Zero();
+    for (const auto& [node, share] : shares) middle += share * at(node);
+    Mat<3, 3> inertia = Mat<3, 3>::Zero();
+    for (const auto& [node, share] : shares) {
+      const Vec3 arm = at(node) - middle;
+      inertia += share * (arm.squaredNorm() * Mat<3, 3>::Identity() - arm * arm.transpose());
+    }
+    const Vec3 way = inertia.inverse() * axis;
+    std::vector<mesh::Relation::Term> terms;
+    for (const auto& [node, share] : shares) {
+      const Vec3 factor = share * way.cross(at(node) - middle);
+      for (int k = 0; k < 3; ++k)
+        if (std::abs(factor[k]) > 1e-12 * std::abs(share) * way.norm() * (at(node) - middle).norm())
+          terms.push_back({node, k, factor[k]});
+    }
+    return terms;
+  }
+
   /// Of the rotations that the deck names. A shell has none about its normal, and two at most: the
   /// third one is zero.
   void add_rotations(Index node, const ThinGroup& group, const Fiber& fiber) {
@@ -260,7 +260,9 @@ class Expander {
                               (!ways.empty() && ways.back().cross(way).norm() < small)))
         continue;
       ways.push_back(way);
-      const auto others = rotation(corners_of(group, fiber), axis);
+      const auto others = group.section->is_hollow()
+                              ? mean_rotation(shares_of(fiber, shares(group)), axis)
+                              : rotation(corners_of(group, fiber), axis);
       relation.terms.insert(relation.terms.end(), others.begin(), others.end());
     }
   }
@@ -283,9 +285,21 @@ class Expander {
     const cell::CellInfo& info = cell::info(element.type->cell);
     std::vector<Fiber> at_nodes;
     for (int k = 0; k < info.nodes; ++k) at_nodes.push_back(fibers.at({e, k}));
-    const std::vector<Index> nodes =
-        info.dimension == 2 ? plate_nodes(at_nodes, static_cast<std::size_t>(info.corners))
-                            : beam_nodes(at_nodes);
+    const ThinSection& section =
+        cards_.sections[static_cast<std::size_t>(cards_.section_of[static_cast<std::size_t>(e)])];
+    std::vector<std::vector<Index>> cells;
+    if (section.is_hollow()) {
+      tie_middle(hollow(section), at_nodes);
+      cells = hollow_nodes(hollow(section), at_nodes);
+    } else if (!section.layers.empty()) {
+      cells = layer_nodes(section, at_nodes, static_cast<std::size_t>(info.corners));
+      element.layered = true;
+    } else {
+      cells.push_back(info.dimension == 2
+                          ? plate_nodes(at_nodes, static_cast<std::size_t>(info.corners))
+                          : beam_nodes(at_nodes));
+    }
+    const std::vector<Index>& nodes = cells[0];
     const std::string letters =
         numbering_.variants[element.variant].substr(element.type->name.size());
     const bool reduced = letters.find('R') != std::string::npos && nodes.size() % 4 == 0;
@@ -294,46 +308,28 @@ class Expander {
     element.variant = variant_place(numbering_, solid + (reduced             ? "R"
                                                          : nodes.size() == 8 ? "I"
                                                                              : ""));
+    element.cell = append_solid(element, e, nodes);
+    for (std::size_t c = 1; c < cells.size(); ++c) {
+      element.others.push_back(append_solid(element, e, cells[c]));
+      const auto b = static_cast<std::size_t>(element.cell.block);
+      if (!numbers_.empty()) mesh_.blocks[b].numbers.back() = next_cell_++;
+    }
+  }
+  /// A cell whose nodes come in the deck's order.
+  mesh::CellRef append_solid(const Element& element, Index e, const std::vector<Index>& nodes) {
     const std::span<const std::int8_t> places = cell_places(*element.type);
     std::vector<Index> in_cell(nodes.size());
     for (std::size_t k = 0; k < nodes.size(); ++k)
       in_cell[static_cast<std::size_t>(places[k])] = nodes[k];
-    element.cell = append(block_of_type(mesh_, element.type->cell), e, in_cell);
-  }
-
-  /// In the deck's order of C3D6, 8, 15 and 20: bottom, top, their middles, those between them.
-  static std::vector<Index> plate_nodes(const std::vector<Fiber>& at, std::size_t corners) {
-    std::vector<Index> nodes;
-    const auto add = [&](std::size_t first, std::size_t last, std::size_t level) {
-      for (std::size_t k = first; k < last; ++k) nodes.push_back(at[k][level]);
-    };
-    add(0, corners, 0);
-    add(0, corners, 2);
-    if (at.size() == corners) return nodes;
-    add(corners, at.size(), 0);
-    add(corners, at.size(), 2);
-    add(0, corners, 1);
-    return nodes;
-  }
-
-  /// In the deck's order of C3D8 and C3D20; `at` has the ends, then the middle.
-  static std::vector<Index> beam_nodes(const std::vector<Fiber>& at) {
-    const Fiber &a = at[0], &b = at[1];
-    std::vector<Index> nodes{a[0], b[0], b[1], a[1], a[3], b[3], b[2], a[2]};
-    if (at.size() == 2) return nodes;
-    const Fiber& m = at[2];
-    nodes.insert(nodes.end(),
-                 {m[0], b[4], m[1], a[4], m[3], b[6], m[2], a[6], a[7], b[7], b[5], a[5]});
-    return nodes;
+    return append(block_of_type(mesh_, element.type->cell), e, in_cell);
   }
 
   const Deck& deck_;
   const ThinCards& cards_;
   Numbering& numbering_;
-  mesh::Mesh& mesh_;
   Expansion out_;
   std::vector<std::int64_t> numbers_;  ///< of the elements; empty: none
-  std::int64_t next_ = 0;              ///< number of the next node
+  std::int64_t next_cell_ = 0;         ///< number of the next cell beyond one of an element
 };
 
 }  // namespace

@@ -21,6 +21,11 @@ struct Expansion {
 /// lines of two and three nodes to C3D8 and C3D20. First in a cell is the side that the normal of a
 /// shell, the first axis of a beam points away from.
 ///
+/// A pipe or box is the cells of its section (hollow_section) along the brick that the beam would
+/// be: their nodes move with the 20 of that, which no cell has, and the deck's node, its forces and
+/// rotations are the mean over the section. Its first cell has the element's number, the others
+/// go on after the largest one.
+///
 /// The nodes of the deck remain: a relation of the mesh says that each moves as the mean of the
 /// corners it was expanded to. Where elements do not continue each other (thin_groups) it is a knot
 /// instead: with finite steps a set of nodes that move as one, else relations, with which it may

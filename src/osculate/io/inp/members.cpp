@@ -72,7 +72,7 @@ std::vector<Index> Members::of(Kind kind, std::uint32_t scope, const RawSet& set
 }
 
 void Members::add_nodes_of(Index element, std::vector<Index>& members) const {
-  const auto& [type, ref, variant, deck_nodes, family] =
+  const auto& [type, ref, variant, deck_nodes, family, others, layered] =
       numbering_.elements[static_cast<std::size_t>(element)];
   members.insert(members.end(), deck_nodes.begin(), deck_nodes.end());
   if (!deck_nodes.empty()) return;

@@ -10,9 +10,11 @@ namespace osculate::io::inp {
 struct Element {
   const ElementType* type = nullptr;
   mesh::CellRef cell{};
-  std::size_t variant = 0;             ///< place in Numbering::variants
-  std::vector<Index> deck_nodes{};     ///< of one that was expanded: those that the deck names
-  Family deck_family = Family::solid;  ///< of one that was expanded: surface or line
+  std::size_t variant = 0;              ///< place in Numbering::variants
+  std::vector<Index> deck_nodes{};      ///< of one that was expanded: those that the deck names
+  Family deck_family = Family::solid;   ///< of one that was expanded: surface or line
+  std::vector<mesh::CellRef> others{};  ///< of one that was expanded to several cells: the others
+  bool layered = false;                 ///< these are the layers above the first one
 };
 
 /// Where the nodes and elements of one scope are in the mesh.

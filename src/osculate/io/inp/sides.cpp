@@ -56,8 +56,12 @@ mesh::CellRef Sides::facet(cell::CellType type, std::span<const Index> nodes,
 }
 
 void Sides::add_side(const SurfaceEntry& entry, Index element, std::vector<mesh::CellRef>& cells) {
-  const auto& [type, ref, variant, deck_nodes, family] =
+  const auto& [type, ref, variant, deck_nodes, family, others, layered] =
       numbering_.elements[static_cast<std::size_t>(element)];
+  if (!others.empty() && !layered)
+    fail(deck_, entry.set.at,
+         fmt::format("element {} is a hollow beam: its sides are not supported",
+                     mesh::cell_number(mesh_, ref)));
   const bool as_it_is = deck_nodes.empty() && !entry.of_load;
   const Side side =
       find_side(*type, as_it_is ? entry.side : solid_side(entry.side, entry.of_load, family));
@@ -67,11 +71,19 @@ void Sides::add_side(const SurfaceEntry& entry, Index element, std::vector<mesh:
                      mesh::cell_number(mesh_, ref), type->name, shown(entry.side),
                      side_names(*type)));
   if (side.kind == Side::Kind::whole) return cells.push_back(ref);
-  Nodes nodes{};
-  const cell::CellType made =
-      side_nodes(mesh_.blocks[static_cast<std::size_t>(ref.block)], ref.cell, side, nodes);
-  cells.push_back(
-      facet(made, std::span(nodes).first(static_cast<std::size_t>(cell::info(made).nodes)), ref));
+  // of layers the bottom is that of the first, the top that of the last, the sides are those of all
+  std::vector<mesh::CellRef> all{ref};
+  all.insert(all.end(), others.begin(), others.end());
+  const bool top = side.local == find_side(*type, "S2").local;
+  if (side.local == find_side(*type, "S1").local) all.resize(1);
+  if (top) all.erase(all.begin(), all.end() - 1);
+  for (const mesh::CellRef& one : all) {
+    Nodes nodes{};
+    const cell::CellType made =
+        side_nodes(mesh_.blocks[static_cast<std::size_t>(one.block)], one.cell, side, nodes);
+    cells.push_back(
+        facet(made, std::span(nodes).first(static_cast<std::size_t>(cell::info(made).nodes)), one));
+  }
 }
 
 template <class Facets>
@@ -84,7 +96,10 @@ void Sides::add_facets(const SurfaceEntry& entry, const Facets& facets,
 std::vector<mesh::CellRef> Sides::all_cells(int dimension) const {
   std::vector<mesh::CellRef> cells;
   for (const Element& element : numbering_.elements)
-    if (cell::info(element.type->cell).dimension == dimension) cells.push_back(element.cell);
+    if (cell::info(element.type->cell).dimension == dimension) {
+      cells.push_back(element.cell);
+      cells.insert(cells.end(), element.others.begin(), element.others.end());
+    }
   return cells;
 }
 
@@ -93,9 +108,10 @@ void Sides::add_free(const SurfaceEntry& entry, const std::vector<Index>& elemen
                      std::vector<mesh::CellRef>& cells) {
   mesh::Set solids{"", 3, {}, {}}, areas{"", 2, {}, {}};
   for (const Index element : elements) {
-    const auto& [type, ref, variant, deck_nodes, family] =
+    const auto& [type, ref, variant, deck_nodes, family, others, layered] =
         numbering_.elements[static_cast<std::size_t>(element)];
     if (type->family == Family::solid) solids.cells.push_back(ref);
+    solids.cells.insert(solids.cells.end(), others.begin(), others.end());
     if (type->family == Family::plane) areas.cells.push_back(ref);
     if (type->family == Family::surface || type->family == Family::line) cells.push_back(ref);
   }

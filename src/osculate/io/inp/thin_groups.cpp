@@ -116,7 +116,8 @@ class Grouper {
   [[nodiscard]] static bool continues(const Corner& c, const Corner& first, double degrees) {
     constexpr double same = 1e-9;
     const ThinSection &a = *c.section, &b = *first.section;
-    if (a.hinged || b.hinged || a.shape != b.shape) return false;
+    if (a.hinged || b.hinged || a.shape != b.shape || a.wall != b.wall || a.layers != b.layers)
+      return false;
     for (const std::size_t k : {0, 1})
       if (std::abs(c.thickness[k] - first.thickness[k]) > same * first.thickness[0] ||
           std::abs(a.offset[k] - b.offset[k]) > same)

@@ -21,6 +21,18 @@ bool is_shell(const ElementType& type) {
 bool is_truss(const ElementType& type) { return type.name.starts_with("T3D"); }
 bool is_beam(const ElementType& type) { return type.name.starts_with("B3"); }
 
+/// PIPE and others as they are called; a plate is none of them.
+Shape shape_of(const Card& card) {
+  const std::string name = option(card, "SECTION");
+  if (name.starts_with("RECT")) return Shape::rectangle;
+  if (name.starts_with("CIRC")) return Shape::ellipse;
+  if (name == "PIPE") return Shape::pipe;
+  return name == "BOX" ? Shape::box : Shape::plate;
+}
+bool is_beam_section(const Card& card) {
+  return card.keyword == "BEAMSECTION" || card.keyword == "BEAMGENERALSECTION";
+}
+
 double number_or(const Card& card, std::string_view name, double fallback, const Deck& deck) {
   const Parameter* const found = find_parameter(card, name);
   if (!found) return fallback;
@@ -36,7 +48,7 @@ class Reader {
     out_.finite = has_finite_step(deck_);
     out_.section_of.assign(numbering_.elements.size(), -1);
     for (const Card& card : deck_.cards) {
-      if (card.keyword == "SHELLSECTION" || card.keyword == "BEAMSECTION") read_section(card);
+      if (card.keyword == "SHELLSECTION" || is_beam_section(card)) read_section(card);
       if (card.keyword == "SOLIDSECTION") read_trusses(card);
     }
     if (out_.sections.empty()) return std::move(out_);
@@ -70,13 +82,20 @@ class Reader {
     if (elements.empty()) return;
     const std::span<const Line> lines = lines_of(deck_, card);
     const bool plate = card.keyword == "SHELLSECTION";
-    const bool of_nodes = find_parameter(card, "NODALTHICKNESS") != nullptr;
+    const bool of_nodes = !is_layered(card) && find_parameter(card, "NODALTHICKNESS") != nullptr;
     ThinSection section;
-    if (!plate)
-      section.shape =
-          option(card, "SECTION").starts_with("RECT") ? Shape::rectangle : Shape::ellipse;
+    if (!plate) section.shape = shape_of(card);
     if (lines.empty() && !of_nodes) fail(deck_, card, "expected a line with the thickness");
-    if (!lines.empty() && !of_nodes) {
+    if (section.is_hollow()) {
+      if (lines.empty()) fail(deck_, card, "expected a line with the sizes of the section");
+      read_walls(lines[0], section);
+    } else if (is_layered(card)) {
+      for (const Line& line : lines) {
+        Fields fields(deck_, line);
+        section.layers.push_back(thickness(fields, true));
+        section.thickness[0] += section.layers.back();
+      }
+    } else if (!lines.empty() && !of_nodes) {
       Fields fields(deck_, lines[0]);
       section.thickness[0] = thickness(fields, true);
       if (!plate) section.thickness[1] = thickness(fields, false);
@@ -94,9 +113,31 @@ class Reader {
         fail(deck_, card,
              fmt::format("its elements are of type {}, which is no {}", type.name,
                          plate ? "shell" : "beam in space"));
+      if (!section.layers.empty() && type.name != "S8" && type.name != "S6")
+        fail(deck_, card,
+             fmt::format("its elements are of type {}; shells of layers are S6, S8 or S8R",
+                         type.name));
+      if (section.is_hollow() && type.name != "B32")
+        fail(
+            deck_, card,
+            fmt::format("its elements are of type {}; pipes and boxes are B32 or B32R", type.name));
       out_.section_of[static_cast<std::size_t>(element)] = static_cast<int>(out_.sections.size());
     }
     out_.sections.push_back(section);
+  }
+
+  /// PIPE: outer radius, wall. BOX: sizes along both axes, then four walls.
+  void read_walls(const Line& line, ThinSection& section) const {
+    Fields fields(deck_, line);
+    const bool pipe = section.shape == Shape::pipe;
+    section.thickness[0] = thickness(fields, true) * (pipe ? 2 : 1);
+    section.thickness[1] = pipe ? section.thickness[0] : thickness(fields, true);
+    for (std::size_t k = 0; k < (pipe ? 1U : 4U); ++k) section.wall[k] = thickness(fields, true);
+    if (pipe && !(section.wall[0] < section.thickness[0] / 2))
+      fields.fail("expected a wall thinner than the radius");
+    for (const std::size_t k : {0, 1})
+      if (!pipe && !(section.wall[k] + section.wall[k + 2] < section.thickness[k]))
+        fields.fail("expected walls that are thinner than the box");
   }
 
   void read_axis(const Line& line, Vec3& axis) const {
@@ -188,10 +229,13 @@ bool has_finite_step(const Deck& deck) {
   });
 }
 
+bool is_layered(const Card& card) {
+  return card.keyword == "SHELLSECTION" && find_parameter(card, "COMPOSITE");
+}
+
 bool is_thin_section(const Card& card) {
-  if (card.keyword == "SHELLSECTION") return find_parameter(card, "COMPOSITE") == nullptr;
-  const std::string shape = option(card, "SECTION");
-  return card.keyword == "BEAMSECTION" && (shape.starts_with("RECT") || shape.starts_with("CIRC"));
+  if (card.keyword == "SHELLSECTION") return true;
+  return is_beam_section(card) && shape_of(card) != Shape::plate;
 }
 
 ThinCards thin_cards(const Deck& deck, const RawMesh& raw, const Numbering& numbering,

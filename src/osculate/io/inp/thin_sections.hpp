@@ -11,11 +11,17 @@ namespace osculate::io::inp {
 /// How shells, beams and trusses fill space. Lengths of beams are along their first and second
 /// axis.
 struct ThinSection {
-  enum class Shape : std::uint8_t { plate, rectangle, ellipse } shape = Shape::plate;
+  enum class Shape : std::uint8_t { plate, rectangle, ellipse, pipe, box } shape = Shape::plate;
   bool hinged = false;                ///< of trusses: ends turn freely
   std::array<double, 2> thickness{};  ///< 0: of the nodes
-  std::array<double, 2> offset{};     ///< of the reference from the middle, in thicknesses
-  Vec3 axis = -Vec3::UnitZ();         ///< beams: along the first axis
+  /// Of a pipe its wall; of a box those at the first axis forth, the second forth, the first back,
+  /// the second back.
+  std::array<double, 4> wall{};
+  std::vector<double> layers{};    ///< of a plate of several: their thickness, bottom first
+  std::array<double, 2> offset{};  ///< of the reference from the middle, in thicknesses
+  Vec3 axis = -Vec3::UnitZ();      ///< beams: along the first axis
+
+  [[nodiscard]] bool is_hollow() const { return shape == Shape::pipe || shape == Shape::box; }
 };
 
 /// What a deck says of elements that are expanded to solids.
@@ -32,11 +38,14 @@ struct ThinCards {
 /// Whether a step has NLGEOM or a material is hyperelastic: displacements and rotations are of any
 /// size.
 [[nodiscard]] bool has_finite_step(const Deck& deck);
-/// Whether a section card is one whose elements are expanded: shells of one layer, beams with
-/// rectangular and elliptic sections.
+/// Whether a section card is one of a shell of layers.
+[[nodiscard]] bool is_layered(const Card& card);
+/// Whether a section card is one whose elements are expanded: shells, beams with
+/// rectangular and elliptic sections, pipes and boxes.
 [[nodiscard]] bool is_thin_section(const Card& card);
 
-/// From `*SHELL SECTION`, `*BEAM SECTION`, `*SOLID SECTION` of trusses, `*NODAL THICKNESS`,
+/// From `*SHELL SECTION`, `*BEAM SECTION`, `*BEAM GENERAL SECTION`, `*SOLID SECTION` of trusses,
+/// `*NODAL THICKNESS`,
 /// `*NORMAL`, and rotations in `*BOUNDARY` and `*CLOAD`. Sections within parts are left alone.
 ///
 /// Errors     core::InputError: a thickness that is not positive, elements that are neither
