@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "osculate/deck/build_displacements.hpp"
 #include "osculate/deck/pretension.hpp"
@@ -91,10 +92,9 @@ void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all)
   add_local_axes(c);
 }
 
-}  // namespace
-
+/// Those of the model file.
 template <int Dim>
-void build_equations(BuildContext<Dim>& c) {
+std::vector<MarkedEquation> given_equations(const BuildContext<Dim>& c) {
   std::vector<MarkedEquation> all;
   for (const deck::Equation& e : c.description.equations) {
     model::Equation equation;
@@ -113,6 +113,24 @@ void build_equations(BuildContext<Dim>& c) {
       all.push_back({std::move(equation), equal.mark, false});
     }
   }
+  return all;
+}
+
+/// The displacements whose equations a step frees.
+template <int Dim>
+std::set<Dof> freed_by(const BuildContext<Dim>& c, const Step& step) {
+  std::set<Dof> freed;
+  for (const Release& of : step.free_equations)
+    for_each_displacement(c, of,
+                          [&](const OneDisplacement& d, std::size_t) { freed.insert(d.dof); });
+  return freed;
+}
+
+}  // namespace
+
+template <int Dim>
+void build_equations(BuildContext<Dim>& c) {
+  std::vector<MarkedEquation> all = given_equations(c);
   add_pretensions(c, all);
   if (std::ranges::any_of(c.description.steps,
                           [](const Step& step) { return !step.diameters.empty(); })) {
@@ -128,6 +146,33 @@ void build_equations(BuildContext<Dim>& c) {
   set_equations(c, all);
 }
 
+template <int Dim>
+std::optional<std::vector<model::Equation>> equations_left(BuildContext<Dim>& c, std::size_t step) {
+  const std::vector<Step>& steps = c.description.steps;
+  if (steps[step].free_equations.empty() && !steps[step].frees_all_equations) return std::nullopt;
+  std::vector<MarkedEquation> all = given_equations(c);
+  for (std::size_t s = 0; s <= step; ++s) {
+    if (steps[s].frees_all_equations) all.clear();
+    const std::set<Dof> freed = freed_by(c, steps[s]);
+    const std::size_t before = all.size();
+    std::erase_if(all, [&](const MarkedEquation& e) {
+      return !e.equation.terms.empty() && freed.contains(e.equation.terms.front().dof);
+    });
+    if (s == step && !steps[s].free_equations.empty() && all.size() == before)
+      throw core::InputError(steps[s].free_equations.front().mark,
+                             fmt::format("no equation gives this displacement of '{}'",
+                                         steps[s].free_equations.front().on.value));
+  }
+  add_pretensions(c, all);
+  std::vector<model::Equation> kept = std::move(c.model().equations);
+  c.model().equations.clear();
+  set_equations(c, all);
+  std::swap(kept, c.model().equations);
+  return kept;
+}
+
+template std::optional<std::vector<model::Equation>> equations_left(BuildContext<2>&, std::size_t);
+template std::optional<std::vector<model::Equation>> equations_left(BuildContext<3>&, std::size_t);
 template void build_equations(BuildContext<2>&);
 template void build_equations(BuildContext<3>&);
 

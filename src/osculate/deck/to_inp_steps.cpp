@@ -40,6 +40,7 @@ class StepWriter {
     std::string out = fmt::format("**{}\n*STEP{}, INC=1000000\n*STATIC, DIRECT\n{}, {}\n",
                                   step.name.value, finite_ ? ", NLGEOM" : "",
                                   exact(duration_ / step.increments.value), exact(duration_));
+    out += bodies(step);
     out += prescribed(step);
     out += loads(step.forces, "*CLOAD", forces_, true);
     out += pressures(step);
@@ -47,6 +48,32 @@ class StepWriter {
     out += "*NODE FILE\nU, RF\n*EL FILE\nS, E\n";
     if (!d_.contact.empty()) out += "*CONTACT FILE\nCDIS, CSTR\n";
     return out + "*END STEP\n";
+  }
+
+  /// What comes and goes, of whole sections: all else has no counterpart.
+  std::string bodies(const Step& step) {
+    std::string out;
+    const auto take = [&](const char* key, std::size_t i, const Name& on) {
+      if (!is_section(d_, on)) return false;
+      leaves_.take(fmt::format("{}.{}[{}]", path_, key, i));
+      return true;
+    };
+    for (std::size_t i = 0; i < step.remove.size(); ++i)
+      if (const Name& on = step.remove[i].on; take("remove", i, on))
+        out += fmt::format("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\n{}\n", on.value);
+    for (std::size_t i = 0; i < step.add.size(); ++i)
+      if (const Name& on = step.add[i].on; take("add", i, on))
+        out += fmt::format("*MODEL CHANGE, TYPE=ELEMENT, ADD={}\n{}\n",
+                           step.add[i].with_strain ? "WITH STRAIN" : "STRAIN FREE", on.value);
+    for (std::size_t i = 0; i < step.materials.size(); ++i)
+      if (const Name& on = step.materials[i].on; take("materials", i, on))
+        out += fmt::format("*CHANGE SOLID SECTION, ELSET={}, MATERIAL={}\n", on.value,
+                           step.materials[i].material.value);
+    if (step.frees_all_equations) {
+      (void)leaves_.text(path_ + ".free_equations");
+      out += "*EQUATION, REMOVE ALL\n";
+    }
+    return out;
   }
 
   /// Factor at the end of a step.

@@ -19,8 +19,6 @@ std::string text_of_table() {
         return "no effect";
       case KeywordUse::translated:
         return "translated";
-      case KeywordUse::ours:
-        return "by hand";
       default:
         return "not available";
     }
