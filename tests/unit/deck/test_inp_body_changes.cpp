@@ -6,7 +6,7 @@
 namespace osculate::deck {
 namespace {
 
-/// Two unit cubes side by side, not joined, held below; lines 1 to 36.
+/// Two unit cubes side by side, not joined, held below; lines 1 to 36, the step from 37 on.
 const std::string two = R"(*NODE, NSET=NALL
 1, 0, 0, 0
 2, 1, 0, 0
@@ -113,14 +113,14 @@ TEST(InpBodyChanges, AreRefusedWithTheReason) {
     return {};
   };
   EXPECT_EQ(refused("*MODEL CHANGE, TYPE=ELEMENT\nB\n"),
-            "deck.inp:38: *MODELCHANGE: expected ADD or REMOVE");
+            "deck.inp:39: *MODELCHANGE: expected ADD or REMOVE");
   EXPECT_EQ(refused("*MODEL CHANGE, TYPE=ELEMENT, ADD=NEW\nB\n"),
-            "deck.inp:38: *MODELCHANGE: expected ADD, ADD=STRAIN FREE or ADD=WITH STRAIN");
-  EXPECT_EQ(refused("*EQUATION, REMOVE\n5, 7\n"), "deck.inp:39: 'node 5' has no direction 7");
+            "deck.inp:39: *MODELCHANGE: expected ADD, ADD=STRAIN FREE or ADD=WITH STRAIN");
+  EXPECT_EQ(refused("*EQUATION, REMOVE\n5, 7\n"), "deck.inp:40: 'node 5' has no direction 7");
   EXPECT_EQ(refused("*INITIAL CONDITIONS, TYPE=STRESS, USER\n"),
-            "deck.inp:38: *INITIALCONDITIONS: the parameter USER is not supported");
+            "deck.inp:39: *INITIALCONDITIONS: the parameter USER is not supported");
   EXPECT_EQ(refused("*INITIAL CONDITIONS, TYPE=STRESS\nA, 1., 2.\n"),
-            "deck.inp:39: expected an element or a set, a point (CalculiX), 6 "
+            "deck.inp:40: expected an element or a set, a point (CalculiX), 6 "
             "components");
 }
 
