@@ -12,12 +12,21 @@ namespace {
 
 using model::Dof;
 
-/// What the steps prescribe. A dof that is not prescribed through all steps has no course.
+/// The first step from one on that frees equations; the number of steps: none does.
+std::size_t next_freeing(const std::vector<Step>& steps, std::size_t from) {
+  while (from < steps.size() && steps[from].free_equations.empty() &&
+         !steps[from].frees_all_equations)
+    ++from;
+  return from;
+}
+
+/// What the steps before `until` prescribe. A dof that is not prescribed through all of them has no
+/// course.
 template <int Dim>
-PrescribedCourses prescribed_courses(const BuildContext<Dim>& c) {
+PrescribedCourses prescribed_courses(const BuildContext<Dim>& c, std::size_t until) {
   PrescribedCourses courses;
   const std::vector<Step>& steps = c.description.steps;
-  for (std::size_t s = 0; s < steps.size(); ++s) {
+  for (std::size_t s = 0; s < until; ++s) {
     for (auto& [dof, course] : courses)
       if (!course.steps.empty()) course.steps.push_back({course.steps.back().value, {}});
     for (const auto* const list : {&steps[s].release, &steps[s].hold})
@@ -79,11 +88,12 @@ void add_pretensions(const BuildContext<Dim>& c, std::vector<MarkedEquation>& al
   }
 }
 
-/// Of the model: these, what the mesh adds, and local axes.
+/// Of the model, before step `until`: these, what the mesh adds, and local axes.
 template <int Dim>
-void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all) {
+void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all,
+                   std::size_t until) {
   if (!all.empty() || !c.model().mesh.relations.empty()) {
-    PrescribedCourses courses = prescribed_courses(c);
+    PrescribedCourses courses = prescribed_courses(c, until);
     std::vector<MarkedEquation> first = relations(c, courses);
     first.insert(first.end(), all.begin(), all.end());
     c.model().equations =
@@ -132,9 +142,10 @@ template <int Dim>
 void build_equations(BuildContext<Dim>& c) {
   std::vector<MarkedEquation> all = given_equations(c);
   add_pretensions(c, all);
+  const std::size_t until = next_freeing(c.description.steps, 0);
   if (std::ranges::any_of(c.description.steps,
                           [](const Step& step) { return !step.diameters.empty(); })) {
-    set_equations(c, all);
+    set_equations(c, all, until);
     std::vector<model::Equation> others = std::move(c.model().equations);
     c.model().equations.clear();
     add_cyclic_symmetry(c, all);
@@ -143,7 +154,7 @@ void build_equations(BuildContext<Dim>& c) {
     add_cyclic_symmetry(c, all);
     c.model().sector.reset();
   }
-  set_equations(c, all);
+  set_equations(c, all, until);
 }
 
 template <int Dim>
@@ -166,7 +177,7 @@ std::optional<std::vector<model::Equation>> equations_left(BuildContext<Dim>& c,
   add_pretensions(c, all);
   std::vector<model::Equation> kept = std::move(c.model().equations);
   c.model().equations.clear();
-  set_equations(c, all);
+  set_equations(c, all, next_freeing(steps, step + 1));
   std::swap(kept, c.model().equations);
   return kept;
 }
