@@ -35,8 +35,8 @@ struct SystemSeconds {
 struct SystemMemory {
   std::vector<double> starts;          ///< of the prescribed dofs' ramps in the running step
   std::vector<la::MatrixPlace> grown;  ///< entries of contact in the pattern of the matrix
-  int built = 0;  ///< how often the system was built anew, which leaves nothing of `grown`
-  Eigen::VectorXd speeds;              ///< at the beginning of a step that estimates errors in time
+  int built = 0;           ///< how often the system was built anew, which leaves nothing of `grown`
+  Eigen::VectorXd speeds;  ///< at the beginning of a step that estimates errors in time
 };
 
 /// One increment of explicit time integration.
