@@ -37,16 +37,16 @@ void require_linear(const Section& s, const model::BasicBulkSection<Dim>& sectio
   const bool flows = law == "elastoplastic" || law == "norton";
   const bool may = finite ? law == "st_venant_kirchhoff" || material::directional(of.law)
                           : material::linear(of.law) || flows || law == "st_venant_kirchhoff";
+  if (material::over_temperature(of.law))
+    throw core::InputError(initial.on.mark,
+                           "initial stresses and strains do not go with constants "
+                           "that depend on the temperature");
   if (!may)
     throw core::InputError(initial.on.mark,
                            fmt::format("the section on '{}' is of {}{}: initial stresses and "
                                        "strains are for linear_elastic, orthotropic, anisotropic "
                                        "and, with small strains, elastoplastic and norton",
                                        s.on.value, law, finite ? " with finite strains" : ""));
-  if (material::over_temperature(of.law))
-    throw core::InputError(initial.on.mark,
-                           "initial stresses and strains do not go with constants "
-                           "that depend on the temperature");
   if (of.formulation == solid::Formulation::solid_shell)
     throw core::InputError(initial.on.mark, "initial stresses and strains are not for solid_shell");
   if (finite && !of.expansion.table.empty())
