@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -7,6 +8,8 @@
 #include "osculate/core/error.hpp"
 #include "osculate/core/version.hpp"
 #include "osculate/io/atomic_file.hpp"
+#include "osculate/io/gmsh.hpp"
+#include "osculate/io/inp/cards.hpp"
 
 // `osculate ccx` is called as CalculiX's solver is, and answers as that does: files beside the
 // deck, messages on standard output, exit code 0 or 201.
@@ -43,6 +46,19 @@ api::RunOutcome run_job(const std::string& job) {
   return run_until_interrupted(options);
 }
 
+/// JOBNAME.rout, where the deck asks for it by `*RESTART, WRITE`.
+void write_restart(const std::string& job) {
+  const std::string content = io::read_file(job + ".inp");
+  const io::inp::Deck deck = io::inp::read_cards(content, job + ".inp");
+  const auto writes = [](const io::inp::Card& card) {
+    return card.keyword == "RESTART" && io::inp::find_parameter(card, "WRITE");
+  };
+  if (std::none_of(deck.cards.begin(), deck.cards.end(), writes)) return;
+  io::AtomicFile file(job + ".rout");
+  file.write(io::inp::restart_text(deck));
+  file.commit();
+}
+
 int solve(std::string job) {
   const auto start = std::chrono::steady_clock::now();
   if (job.ends_with(".inp")) job.erase(job.rfind(".inp"));
@@ -51,6 +67,7 @@ int solve(std::string job) {
   try {
     const api::RunOutcome outcome = run_job(job);
     if (outcome.status != api::RunStatus::done) error = outcome.message;
+    if (error.empty()) write_restart(job);
   } catch (const core::InputError& input) {
     error = input.what();
   } catch (const io::WriteError& file) {

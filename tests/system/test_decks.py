@@ -205,6 +205,31 @@ class Decks(unittest.TestCase):
         self.assertEqual(self.run_program("convert", "column.inp", "-o", "column.inp").returncode, 2)
         self.assertEqual(self.run_program("convert", "column.yaml").returncode, 2)
 
+    def test_a_restart_goes_on_from_the_deck_before(self):
+        done = self.run_program("ccx", "-i", "column")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        os.rename(os.path.join(self.folder, "column.rout"), os.path.join(self.folder, "next.rin"))
+        more = "*STEP\n*STATIC\n1., 1.\n*DLOAD\nHIGH, P3, 2.\n*NODE PRINT, NSET=BASE\nRF\n*END STEP\n"
+        self.write("next.inp", "*RESTART, READ, STEP=1\n" + more)
+        self.write("whole.inp", deck(3) + more)
+        for job in ("next", "whole"):
+            done = self.run_program("ccx", "-i", job)
+            self.assertEqual(done.returncode, 0, done.stdout)
+        read = lambda name: pathlib.Path(self.folder, name).read_text()
+        self.assertEqual(read("next.dat"), read("whole.dat"))
+        self.assertIn("time  0.2000000E+01", read("next.dat"))
+        self.write("next.inp", "*RESTART, READ, STEP=2\n" + more)
+        self.assertIn("there are 1 steps to go on from, not 2", self.run_program("ccx", "-i", "next").stdout)
+        self.write("next.rin", "not text")
+        self.assertIn("is no file that `osculate ccx` has written", self.run_program("ccx", "-i", "next").stdout)
+
+    def test_a_deck_may_ask_for_no_analysis(self):
+        self.write("column.inp", deck(3).replace("*STATIC\n1., 1.", "*NO ANALYSIS"))
+        done = self.run_program("run", "column.inp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("*NO ANALYSIS: the deck is read and checked, nothing is solved", done.stdout + done.stderr)
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "column.results")))
+
     def test_the_bolted_joint_of_the_tutorial(self):
         """The bolt keeps its 10 kN while the flanges press on each other, and takes all once they have parted."""
         joint = pathlib.Path(__file__).resolve().parents[2] / "examples/bolted_joint/joint.inp"

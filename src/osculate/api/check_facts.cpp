@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +12,7 @@
 #include "osculate/core/text.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/quality.hpp"
+#include "osculate/model/body_changes.hpp"
 #include "osculate/model/supports.hpp"
 
 namespace osculate::api {
@@ -196,9 +199,13 @@ std::string support_text(const deck::BasicBuilt<Dim>& built, nlohmann::json& jso
   std::string text;
   std::vector<std::string> last;
   json["supports"] = nlohmann::json::array();
+  std::optional<model::BasicModel<Dim>> changing;
+  if (!m.body_changes.empty()) changing = m;
   for (std::size_t s = 0; s < m.steps.size(); ++s) {
-    const std::vector<model::Support> supports = model::supports(m, m.steps[s]);
-    last.resize(supports.size());
+    if (changing) model::change_bodies(m, s, *changing);
+    const std::vector<model::Support> supports =
+        model::supports(changing ? *changing : m, m.steps[s]);
+    if (last.size() != supports.size()) last.assign(supports.size(), {});
     for (std::size_t b = 0; b < supports.size(); ++b) {
       const model::Support& body = supports[b];
       json["supports"].push_back({{"step", m.steps[s].name},

@@ -531,6 +531,23 @@ RunOutcome run_built(const RunOptions& options, const deck::Description& descrip
   return finish(recorder, result, seconds_input);
 }
 
+/// Of a deck with `*NO ANALYSIS`: what was understood, and nothing else.
+template <int Dim>
+RunOutcome check_alone(const RunOptions& options, const deck::BasicBuilt<Dim>& built) {
+  const auto say = [&](const std::string& text) {
+    if (options.say) options.say(text);
+  };
+  for (const result::ModelFact& fact : result::model_facts(built))
+    say(fmt::format("{:<13} {:<16} {}", fact.heading, fact.name, fact.text));
+  for (const std::string& warning : built.warnings) say("warning: " + warning);
+  RunOutcome outcome;
+  outcome.message = "*NO ANALYSIS: the deck is read and checked, nothing is solved";
+  outcome.summary_json =
+      result::json_text({{"status", "checked"}, {"message", outcome.message}}, 1);
+  say(outcome.message);
+  return outcome;
+}
+
 }  // namespace
 
 RunOutcome run(const RunOptions& options) {
@@ -538,6 +555,8 @@ RunOutcome run(const RunOptions& options) {
   const nlohmann::json owner = result::owner_json(options.model);
   const deck::Description description = deck::read_model(options.model, options.settings);
   deck::AnyBuilt any = deck::build_any(description, deck::load_mesh(description));
+  if (description.check_only)
+    return std::visit([&](const auto& built) { return check_alone(options, built); }, any);
   return std::visit(
       [&](auto& built) { return run_built(options, description, built, owner, start); }, any);
 }

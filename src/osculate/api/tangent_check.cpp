@@ -12,6 +12,8 @@
 #include "osculate/core/error.hpp"
 #include "osculate/deck/build.hpp"
 #include "osculate/deck/parse.hpp"
+#include "osculate/model/body_changes.hpp"
+#include "osculate/model/pair_changes.hpp"
 #include "osculate/pairing/point_penalty.hpp"
 #include "osculate/result/checkpoint.hpp"
 #include "osculate/result/result_folder.hpp"
@@ -306,12 +308,16 @@ TangentReport check_increment(deck::BasicBuilt<Dim>& built, const result::RunIde
                               const std::string& folder) {
   constexpr double off_the_borders = 1e-6;
   built.options.threads = threads;
-  const Increment<Dim> found =
-      run_to(built, wanted, checkpoint_before(built, id, model, folder, wanted));
-  const model::BasicModel<Dim>& m = built.model;
+  Increment<Dim> found = run_to(built, wanted, checkpoint_before(built, id, model, folder, wanted));
+  const auto step = static_cast<std::size_t>(found.end.progress.step);
+  model::BasicModel<Dim> m = built.model;
+  model::change_pairs(built.model, step, m);
+  model::change_bodies(built.model, step, m);
+  if (found.end.progress.increment == 1)  // the one before was of another step
+    found.before = model::begin_bodies(
+        built.model, step, model::begin_anew(built.model, step, m, std::move(found.before)));
   model::BasicSystem<Dim> system(m, threads);
-  system.resume_step(m.steps.at(static_cast<std::size_t>(found.end.progress.step)), found.before,
-                     found.end.memory);
+  system.resume_step(m.steps.at(step), found.before, found.end.memory);
   Probe<Dim> probe{
       system, found.before, {found.end.state}, mean_facet_length(m), found.end.progress.fraction};
   probe.base.state.pairs = found.before.pairs;

@@ -243,6 +243,7 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
         context.related[static_cast<std::size_t>(Dim * term.node + term.direction)] = true;
   }
   build_sections(context);
+  build_initial_state(context);
   build_rigid(context);
   build_axes(context);
   build_masses(context);
@@ -251,6 +252,7 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   build_initial_temperature(context);
   build_node_constraints(context);
   build_springs(context);
+  build_body_changes(context);
   build_steps(context);
   build_pair_changes(context);
   build_initial_velocity(context);

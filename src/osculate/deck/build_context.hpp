@@ -50,6 +50,9 @@ struct BuildContext {
   std::vector<bool> related{};  ///< displacements that relations of the mesh name; empty: none
   std::unordered_map<Index, NodeAxes<Dim>> axes{};  ///< of nodes that `axes` names
   std::set<Index> control_nodes{};                  ///< of no cell: unknowns that equations name
+  /// By step: cells, by block and number, that are not there, and nodes that only those have.
+  std::vector<std::set<std::pair<Index, Index>>> removed_cells{};
+  std::vector<std::set<Index>> bare_nodes{};
 
   [[nodiscard]] model::BasicModel<Dim>& model() const { return built.model; }
   /// The set, or the error with the nearest name.
@@ -127,6 +130,22 @@ void build_node_constraints(BuildContext<Dim>& context);
 /// Tested by  tests/unit/deck/test_springs.cpp
 template <int Dim>
 void build_springs(BuildContext<Dim>& context);
+/// Stresses and strains before the first step, as strains of the points of cells.
+///
+/// Formula    E_0 = D^-1 S_0 - E_free , D of the undeformed material in its axes
+/// Tested by  tests/unit/deck/test_initial_state.cpp
+template <int Dim>
+void build_initial_state(BuildContext<Dim>& context);
+/// What changes of bodies and equations from step to step; before the steps, whose loads need it.
+///
+/// Tested by  tests/unit/deck/test_body_changes.cpp
+template <int Dim>
+void build_body_changes(BuildContext<Dim>& context);
+/// The equations of the model without those that the steps up to this one have freed; nothing where
+/// no equation is freed in the step itself.
+template <int Dim>
+[[nodiscard]] std::optional<std::vector<model::Equation>> equations_left(BuildContext<Dim>& context,
+                                                                         std::size_t step);
 template <int Dim>
 void build_steps(BuildContext<Dim>& context);
 /// What changes of pairs from step to step.

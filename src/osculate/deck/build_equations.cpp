@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "osculate/deck/build_displacements.hpp"
 #include "osculate/deck/pretension.hpp"
@@ -11,12 +12,21 @@ namespace {
 
 using model::Dof;
 
-/// What the steps prescribe. A dof that is not prescribed through all steps has no course.
+/// The first step from one on that frees equations; the number of steps: none does.
+std::size_t next_freeing(const std::vector<Step>& steps, std::size_t from) {
+  while (from < steps.size() && steps[from].free_equations.empty() &&
+         !steps[from].frees_all_equations)
+    ++from;
+  return from;
+}
+
+/// What the steps before `until` prescribe. A dof that is not prescribed through all of them has no
+/// course.
 template <int Dim>
-PrescribedCourses prescribed_courses(const BuildContext<Dim>& c) {
+PrescribedCourses prescribed_courses(const BuildContext<Dim>& c, std::size_t until) {
   PrescribedCourses courses;
   const std::vector<Step>& steps = c.description.steps;
-  for (std::size_t s = 0; s < steps.size(); ++s) {
+  for (std::size_t s = 0; s < until; ++s) {
     for (auto& [dof, course] : courses)
       if (!course.steps.empty()) course.steps.push_back({course.steps.back().value, {}});
     for (const auto* const list : {&steps[s].release, &steps[s].hold})
@@ -78,11 +88,12 @@ void add_pretensions(const BuildContext<Dim>& c, std::vector<MarkedEquation>& al
   }
 }
 
-/// Of the model: these, what the mesh adds, and local axes.
+/// Of the model, before step `until`: these, what the mesh adds, and local axes.
 template <int Dim>
-void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all) {
+void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all,
+                   std::size_t until) {
   if (!all.empty() || !c.model().mesh.relations.empty()) {
-    PrescribedCourses courses = prescribed_courses(c);
+    PrescribedCourses courses = prescribed_courses(c, until);
     std::vector<MarkedEquation> first = relations(c, courses);
     first.insert(first.end(), all.begin(), all.end());
     c.model().equations =
@@ -91,10 +102,9 @@ void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all)
   add_local_axes(c);
 }
 
-}  // namespace
-
+/// Those of the model file.
 template <int Dim>
-void build_equations(BuildContext<Dim>& c) {
+std::vector<MarkedEquation> given_equations(const BuildContext<Dim>& c) {
   std::vector<MarkedEquation> all;
   for (const deck::Equation& e : c.description.equations) {
     model::Equation equation;
@@ -113,10 +123,29 @@ void build_equations(BuildContext<Dim>& c) {
       all.push_back({std::move(equation), equal.mark, false});
     }
   }
+  return all;
+}
+
+/// The displacements whose equations a step frees.
+template <int Dim>
+std::set<Dof> freed_by(const BuildContext<Dim>& c, const Step& step) {
+  std::set<Dof> freed;
+  for (const Release& of : step.free_equations)
+    for_each_displacement(c, of,
+                          [&](const OneDisplacement& d, std::size_t) { freed.insert(d.dof); });
+  return freed;
+}
+
+}  // namespace
+
+template <int Dim>
+void build_equations(BuildContext<Dim>& c) {
+  std::vector<MarkedEquation> all = given_equations(c);
   add_pretensions(c, all);
+  const std::size_t until = next_freeing(c.description.steps, 0);
   if (std::ranges::any_of(c.description.steps,
                           [](const Step& step) { return !step.diameters.empty(); })) {
-    set_equations(c, all);
+    set_equations(c, all, until);
     std::vector<model::Equation> others = std::move(c.model().equations);
     c.model().equations.clear();
     add_cyclic_symmetry(c, all);
@@ -125,9 +154,36 @@ void build_equations(BuildContext<Dim>& c) {
     add_cyclic_symmetry(c, all);
     c.model().sector.reset();
   }
-  set_equations(c, all);
+  set_equations(c, all, until);
 }
 
+template <int Dim>
+std::optional<std::vector<model::Equation>> equations_left(BuildContext<Dim>& c, std::size_t step) {
+  const std::vector<Step>& steps = c.description.steps;
+  if (steps[step].free_equations.empty() && !steps[step].frees_all_equations) return std::nullopt;
+  std::vector<MarkedEquation> all = given_equations(c);
+  for (std::size_t s = 0; s <= step; ++s) {
+    if (steps[s].frees_all_equations) all.clear();
+    const std::set<Dof> freed = freed_by(c, steps[s]);
+    const std::size_t before = all.size();
+    std::erase_if(all, [&](const MarkedEquation& e) {
+      return !e.equation.terms.empty() && freed.contains(e.equation.terms.front().dof);
+    });
+    if (s == step && !steps[s].free_equations.empty() && all.size() == before)
+      throw core::InputError(steps[s].free_equations.front().mark,
+                             fmt::format("no equation gives this displacement of '{}'",
+                                         steps[s].free_equations.front().on.value));
+  }
+  add_pretensions(c, all);
+  std::vector<model::Equation> kept = std::move(c.model().equations);
+  c.model().equations.clear();
+  set_equations(c, all, next_freeing(steps, step + 1));
+  std::swap(kept, c.model().equations);
+  return kept;
+}
+
+template std::optional<std::vector<model::Equation>> equations_left(BuildContext<2>&, std::size_t);
+template std::optional<std::vector<model::Equation>> equations_left(BuildContext<3>&, std::size_t);
 template void build_equations(BuildContext<2>&);
 template void build_equations(BuildContext<3>&);
 

@@ -37,9 +37,13 @@ struct SideWords {
   static constexpr const char* cells = Dim == 2 ? "line" : "area";
 };
 
+/// Cells that are not there, by block and number.
+using Gone = std::set<std::pair<Index, Index>>;
+
 /// Boundary sides of bulk cells that a set names, outward, with the section they belong to.
 template <int Dim>
-std::vector<model::PressureLoad::Facet> loaded_sides(const BuildContext<Dim>& c, const Name& on) {
+std::vector<model::PressureLoad::Facet> loaded_sides(const BuildContext<Dim>& c, const Name& on,
+                                                     const Gone& gone) {
   using Words = SideWords<Dim>;
   const mesh::Set& set = c.set(on);
   if (set.dimension != Dim - 1)
@@ -53,6 +57,7 @@ std::vector<model::PressureLoad::Facet> loaded_sides(const BuildContext<Dim>& c,
       throw core::InputError(
           on.mark, fmt::format("the {} at {} of set '{}' is no boundary of a section", Words::side,
                                mesh::describe_node(c.model().mesh, side.nodes()[0]), on.value));
+    if (gone.contains({side.parent.block, side.parent.cell})) continue;
     model::PressureLoad::Facet facet;
     facet.nodes.assign(side.nodes().begin(), side.nodes().end());
     facet.section = c.section_of_cell.at({side.parent.block, side.parent.cell});
@@ -64,9 +69,9 @@ std::vector<model::PressureLoad::Facet> loaded_sides(const BuildContext<Dim>& c,
 
 template <int Dim>
 std::vector<std::pair<Dof, double>> traction_unit(const BuildContext<Dim>& c, const Load& load,
-                                                  int direction) {
+                                                  int direction, const Gone& gone) {
   std::vector<std::pair<Dof, double>> unit;
-  for (const model::PressureLoad::Facet& facet : loaded_sides(c, load.on)) {
+  for (const model::PressureLoad::Facet& facet : loaded_sides(c, load.on, gone)) {
     const auto& section = c.model().sections[static_cast<std::size_t>(facet.section)].section;
     const std::vector<double> weights =
         model::side_weights(c.model(), section, facet.type, facet.nodes);
@@ -78,39 +83,44 @@ std::vector<std::pair<Dof, double>> traction_unit(const BuildContext<Dim>& c, co
 
 template <int Dim>
 std::vector<std::pair<Dof, double>> body_force_unit(const BuildContext<Dim>& c, const Load& load,
-                                                    int direction) {
+                                                    int direction, const Gone& gone) {
   const mesh::Set& set = c.set(load.on);
   std::set<std::pair<Index, Index>> wanted;
   for (const mesh::CellRef& ref : set.cells) wanted.emplace(ref.block, ref.cell);
   std::vector<std::pair<Dof, double>> unit;
+  bool any = false;
   for (const model::BasicBulkSection<Dim>& section : c.model().sections)
     for (const mesh::CellRef& ref : section.cells) {
       if (!wanted.contains({ref.block, ref.cell})) continue;
+      any = true;
+      if (gone.contains({ref.block, ref.cell})) continue;
       const mesh::Block& block = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)];
       const std::vector<double> weights = model::cell_weights(c.model(), section, ref);
       for (std::size_t k = 0; k < weights.size(); ++k)
         unit.emplace_back(Dim * block.cell(ref.cell)[k] + direction, weights[k]);
     }
-  if (unit.empty())
+  if (!any)
     throw core::InputError(load.on.mark,
                            fmt::format("set '{}' has no bulk cells with a section", load.on.value));
   return unit;
 }
 
-/// Shares of the nodes of a set in one force on all of it: by area, by volume, or equal ones.
+/// Shares of the nodes of a set in one force on all of it: by area, by volume, or equal ones. What
+/// is not there takes its share with it.
 template <int Dim>
 std::vector<std::pair<Dof, double>> total_force_unit(const BuildContext<Dim>& c, const Load& load,
-                                                     int direction) {
+                                                     int direction, const Gone& gone) {
   const mesh::Set& set = c.set(load.on);
-  std::vector<std::pair<Dof, double>> unit;
-  if (set.dimension == Dim - 1 && !set.cells.empty())
-    unit = traction_unit(c, load, direction);
-  else if (set.dimension == Dim && !set.cells.empty())
-    unit = body_force_unit(c, load, direction);
-  else
-    unit = force_unit(c, load, static_cast<Component>(direction));
+  const auto unit_without = [&](const Gone& what) {
+    if (set.dimension == Dim - 1 && !set.cells.empty())
+      return traction_unit(c, load, direction, what);
+    if (set.dimension == Dim && !set.cells.empty())
+      return body_force_unit(c, load, direction, what);
+    return force_unit(c, load, static_cast<Component>(direction));
+  };
   double sum = 0;
-  for (const auto& entry : unit) sum += entry.second;
+  for (const auto& entry : unit_without({})) sum += entry.second;
+  std::vector<std::pair<Dof, double>> unit = unit_without(gone);
   for (auto& entry : unit) entry.second /= sum;
   return unit;
 }
@@ -119,7 +129,8 @@ std::vector<std::pair<Dof, double>> total_force_unit(const BuildContext<Dim>& c,
 ///
 /// Formula    f_i = rho sum_j M_ij (1 - e e^T) (X_j - X_0) , e along the axis, M = int N N dV
 template <int Dim>
-std::vector<std::pair<Dof, double>> centrifugal_unit(const BuildContext<Dim>& c, const Load& load) {
+std::vector<std::pair<Dof, double>> centrifugal_unit(const BuildContext<Dim>& c, const Load& load,
+                                                     const Gone& gone) {
   const Vec3 axis = load.to - load.from;
   if (!(axis.norm() > 0)) throw core::InputError(load.mark, "the points of the axis coincide");
   const Vec3 e = axis.normalized();
@@ -127,9 +138,12 @@ std::vector<std::pair<Dof, double>> centrifugal_unit(const BuildContext<Dim>& c,
   std::set<std::pair<Index, Index>> wanted;
   for (const mesh::CellRef& ref : set.cells) wanted.emplace(ref.block, ref.cell);
   std::vector<std::pair<Dof, double>> unit;
+  bool any = false;
   for (const model::BasicBulkSection<Dim>& section : c.model().sections)
     for (const mesh::CellRef& ref : section.cells) {
       if (!wanted.contains({ref.block, ref.cell})) continue;
+      any = true;
+      if (gone.contains({ref.block, ref.cell})) continue;
       const double density = material::density(section.section.law);
       if (!(density > 0))
         throw core::InputError(load.on.mark,
@@ -148,7 +162,7 @@ std::vector<std::pair<Dof, double>> centrifugal_unit(const BuildContext<Dim>& c,
         for (int k = 0; k < Dim; ++k) unit.emplace_back(Dim * cell.nodes[i] + k, force[k]);
       }
     }
-  if (unit.empty())
+  if (!any)
     throw core::InputError(load.on.mark,
                            fmt::format("set '{}' has no bulk cells with a section", load.on.value));
   return unit;
@@ -180,20 +194,27 @@ ChannelKey channel_key(int kind, const Load& load, int component) {
 }
 
 template <int Dim>
-Channel new_channel(const BuildContext<Dim>& c, int kind, const Load& load, int i) {
+Channel new_channel(const BuildContext<Dim>& c, int kind, const Load& load, int i,
+                    std::size_t step) {
+  const Gone& gone = c.removed_cells.at(step);
   Channel channel;
+  channel.load = load;
   if (kind == LoadKind::force) channel.unit = force_unit(c, load, static_cast<Component>(i));
-  if (kind == LoadKind::total_force) channel.unit = total_force_unit(c, load, i);
-  if (kind == LoadKind::traction) channel.unit = traction_unit(c, load, i);
-  if (kind == LoadKind::body_force) channel.unit = body_force_unit(c, load, i);
-  if (kind == LoadKind::centrifugal) channel.unit = centrifugal_unit(c, load);
-  if (kind == LoadKind::pressure) channel.facets = loaded_sides(c, load.on);
+  if (kind == LoadKind::total_force) channel.unit = total_force_unit(c, load, i, gone);
+  if (kind == LoadKind::traction) channel.unit = traction_unit(c, load, i, gone);
+  if (kind == LoadKind::body_force) channel.unit = body_force_unit(c, load, i, gone);
+  if (kind == LoadKind::centrifugal) channel.unit = centrifugal_unit(c, load, gone);
+  if (kind == LoadKind::pressure) channel.facets = loaded_sides(c, load.on, gone);
+  std::erase_if(channel.unit, [&](const auto& entry) {
+    return entry.first < Dim * static_cast<Dof>(c.model().reference.size()) &&
+           c.bare_nodes.at(step).contains(entry.first / Dim);
+  });
   channel.resultant = channel.facets.empty() ? resultant(c.model(), channel.unit)
                                              : resultant(c.model(), channel.facets);
   return channel;
 }
 
-template Channel new_channel(const BuildContext<2>&, int, const Load&, int);
-template Channel new_channel(const BuildContext<3>&, int, const Load&, int);
+template Channel new_channel(const BuildContext<2>&, int, const Load&, int, std::size_t);
+template Channel new_channel(const BuildContext<3>&, int, const Load&, int, std::size_t);
 
 }  // namespace osculate::deck

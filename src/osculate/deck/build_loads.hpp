@@ -24,6 +24,7 @@ struct Channel {
   std::vector<std::pair<model::Dof, double>> unit;
   std::vector<model::PressureLoad::Facet> facets;
   Resultant resultant;  ///< of the value 1
+  Load load{};          ///< as it was given first
 };
 
 struct LoadKind {
@@ -51,8 +52,9 @@ enum class LoadPart { real, imaginary };
 /// Loads of a step by kind.
 [[nodiscard]] std::array<const std::vector<Load>*, load_kinds> loads_of(const Step& step);
 [[nodiscard]] ChannelKey channel_key(int kind, const Load& load, int component);
-/// Of the value 1 of component i of a load.
+/// Of the value 1 of component i of a load, on what is there in a step.
 template <int Dim>
-[[nodiscard]] Channel new_channel(const BuildContext<Dim>& c, int kind, const Load& load, int i);
+[[nodiscard]] Channel new_channel(const BuildContext<Dim>& c, int kind, const Load& load, int i,
+                                  std::size_t step);
 
 }  // namespace osculate::deck

@@ -88,11 +88,20 @@ void warn_of_far(const BuildContext<Dim>& c, const deck::Step& step, const Presc
       way / size, size));
 }
 
+/// Those that hold in the step that is built.
+template <int Dim>
+const std::vector<model::Equation>& running_equations(const model::BasicModel<Dim>& m) {
+  const std::vector<model::Equation>* running = &m.equations;
+  for (const model::BasicBodyChange<Dim>& change : m.body_changes)
+    if (change.step <= m.steps.size() && change.equations) running = &*change.equations;
+  return *running;
+}
+
 template <int Dim>
 void apply_prescriptions(const BuildContext<Dim>& c, const deck::Step& step, Running& running,
                          LoadPart part, model::Step& out) {
   std::set<Dof> eliminated;
-  for (const model::Equation& equation : c.model().equations)
+  for (const model::Equation& equation : running_equations(c.model()))
     eliminated.insert(equation.terms.front().dof);
   std::map<Dof, std::pair<const Prescription*, double>> here;
   const double size_of_mesh = size_of(c.model().mesh);
@@ -167,7 +176,7 @@ void apply_swinging_loads(const BuildContext<Dim>& c, const deck::Step& step, Ru
           throw core::InputError(value->mark,
                                  "the vibrations were found with this held: `release` it in the "
                                  "step with `modes`");
-        const Channel channel = new_channel(c, kind, load, i);
+        const Channel channel = new_channel(c, kind, load, i, c.model().steps.size());
         const double size = share * value->value;
         const Given given{{size, size, amplitude_of(c, load.amplitude)},
                           load.amplitude ? load.amplitude->value : std::string{}};
@@ -183,10 +192,23 @@ void apply_swinging_loads(const BuildContext<Dim>& c, const deck::Step& step, Ru
   }
 }
 
+/// Loads of steps before, on what is there now.
+template <int Dim>
+void put_on_what_is_left(const BuildContext<Dim>& c, Running& running) {
+  const std::size_t s = c.model().steps.size();
+  if (s == 0 || c.removed_cells[s] == c.removed_cells[s - 1]) return;
+  for (auto& [key, channel] : running.channels) {
+    const double value = channel.value;
+    channel = new_channel(c, key.kind, Load(channel.load), key.component, s);
+    channel.value = value;
+  }
+}
+
 template <int Dim>
 void apply_loads(const BuildContext<Dim>& c, const deck::Step& step, Running& running,
                  model::Step& out) {
   std::map<ChannelKey, Given> givens;
+  put_on_what_is_left(c, running);
   const auto kinds = loads_of(step);
   for (int kind = 0; kind < load_kinds; ++kind)
     for (const Load& load : *kinds[static_cast<std::size_t>(kind)])
@@ -195,7 +217,7 @@ void apply_loads(const BuildContext<Dim>& c, const deck::Step& step, Running& ru
         if (!value) continue;
         const ChannelKey key = channel_key(kind, load, i);
         if (!running.channels.contains(key))
-          running.channels.emplace(key, new_channel(c, kind, load, i));
+          running.channels.emplace(key, new_channel(c, kind, load, i, c.model().steps.size()));
         if (kind == LoadKind::force && c.rigid_index.contains(load.on.value))
           running.prescribed.erase(
               body_dof(c.model(), c.rigid_index.at(load.on.value), static_cast<Component>(i)));

@@ -278,6 +278,24 @@ struct ContactChange {
   std::optional<std::optional<GivenLaw<contact::FrictionLaw>>> friction;
 };
 
+/// Stresses of a set of cells before the first step, or strains without stress.
+struct InitialState {
+  core::SourceMark mark;
+  Name on;
+  Marked<std::vector<double>> value;                ///< of all points, or
+  Marked<std::vector<std::vector<double>>> points;  ///< of one after the other
+};
+/// Cells that are taken away when a step begins, or come back.
+struct CellChange {
+  core::SourceMark mark;
+  Name on;
+  bool with_strain = false;  ///< of those that come back
+};
+struct MaterialChange {
+  core::SourceMark mark;
+  Name on, material;
+};
+
 // ---- loading ----------------------------------------------------------------------------------
 
 /// Points (fraction of the step, factor), fractions strictly increasing in 0..1.
@@ -447,8 +465,12 @@ struct Step {
   std::optional<HarmonicDescription> harmonic;
   std::optional<Marked<std::vector<double>>> gravity;
   std::vector<ContactChange> contact;
-  std::optional<Marked<int>> modes;     ///< vibrations instead of increments
-  std::optional<Marked<int>> buckling;  ///< critical loads instead of increments
+  std::vector<CellChange> remove, add;
+  std::vector<MaterialChange> materials;
+  std::vector<Release> free_equations;                  ///< that give these displacements, or
+  std::optional<core::SourceMark> frees_all_equations;  ///< all of them
+  std::optional<Marked<int>> modes;                     ///< vibrations instead of increments
+  std::optional<Marked<int>> buckling;                  ///< critical loads instead of increments
   ModesAbout about = ModesAbout::last;
   std::vector<Marked<int>> diameters;  ///< of a sector of a ring
 };
@@ -491,12 +513,14 @@ struct Description {
   std::vector<CyclicSymmetry> cyclic_symmetry;
   std::vector<Load> initial_velocity;     ///< vx vy vz wx wy wz
   std::vector<Load> initial_temperature;  ///< the first value
+  std::vector<InitialState> initial_stress, initial_strain;
   std::vector<Step> steps;
   Solver solver;
   Output output;
   /// What the results depend on, as it was written: everything but `title`, `solver`, `output`.
   std::vector<SourceLeaf> source;
   std::vector<std::string> notes;  ///< what was decided for the user while reading
+  bool check_only = false;         ///< a deck says that nothing is to be solved
 
   [[nodiscard]] const Material* find_material(const std::string& name) const;
   [[nodiscard]] const Rigid* find_rigid(const std::string& name) const;

@@ -42,8 +42,9 @@ void change_law(const InpModel& m, const Card& change, const char* key, const So
 
 void change_activity(const InpModel& m, const Card& card, SourceNode& list) {
   const bool removes = io::inp::find_parameter(card, "REMOVE") != nullptr;
+  if (option_of(card, "TYPE") == "ELEMENT") return;
   if (option_of(card, "TYPE") != "CONTACTPAIR")
-    io::inp::fail(m.deck, card, "expected TYPE=CONTACT PAIR: elements stay through all steps");
+    io::inp::fail(m.deck, card, "expected TYPE=CONTACT PAIR or ELEMENT");
   if (removes == (io::inp::find_parameter(card, "ADD") != nullptr))
     io::inp::fail(m.deck, card, "expected ADD or REMOVE");
   for (const Line& line : io::inp::lines_of(m.deck, card)) {

@@ -130,11 +130,7 @@ SourceNode inp_equations(const InpModel& m) {
   SourceNode equations = inp_list(1);
   for (const Card& card : m.deck.cards) {
     if (card.keyword == "DISTRIBUTINGCOUPLING") put_distributing(m, card, equations);
-    if (card.keyword != "EQUATION") continue;
-    for (const char* const removing : {"REMOVE", "REMOVEALL"})
-      if (io::inp::find_parameter(card, removing))
-        io::inp::fail(m.deck, card,
-                      "REMOVE is not supported: equations hold from the first step to the last");
+    if (card.keyword != "EQUATION" || is_removal_of_equations(card)) continue;
     std::int32_t missing = 0;
     SourceNode* terms = nullptr;
     for (const Line& line : io::inp::lines_of(m.deck, card)) {

@@ -10,7 +10,6 @@ enum class KeywordUse : std::uint8_t {
   mesh,        ///< makes the mesh: read where the file is a model's mesh, too
   silent,      ///< changes no answer: titles, what is printed and written
   translated,  ///< becomes a key of a model file
-  ours,        ///< says what a model file has a key for, but is not translated
   none         ///< says what there is no counterpart for
 };
 

@@ -184,6 +184,14 @@ SourceNode& add_pair(const InpModel& m, io::inp::Place at, const std::string& sl
                                              SourceNode pairs);
 /// What the cards of a step change of contact pairs; empty: nothing.
 [[nodiscard]] SourceNode inp_changes(const InpModel& m, std::span<const io::inp::Card> step);
+/// Adds to a step what its cards change of elements, sections and equations.
+///
+/// Tested by  tests/unit/deck/test_inp_body_changes.cpp
+void put_body_changes(const InpModel& m, std::span<const io::inp::Card> cards, SourceNode& step);
+/// `*EQUATION` with REMOVE or REMOVE ALL.
+[[nodiscard]] bool is_removal_of_equations(const io::inp::Card& card);
+/// Adds stresses and plastic strains of `*INITIAL CONDITIONS`.
+void put_initial_state(const InpModel& m, SourceNode& root);
 // The laws of a `*SURFACE INTERACTION`.
 [[nodiscard]] SourceNode inp_normal(const InpModel& m, const io::inp::Card* behavior, int line);
 [[nodiscard]] bool inp_is_tied(const io::inp::Card* behavior);

@@ -44,6 +44,7 @@ class Steps {
     if (key == "AMPLITUDE") read_amplitude(card);
     if (key == "STATIC" || key == "VISCO" || key == "DYNAMIC" || key == "MODALDYNAMIC")
       read_time(card);
+    if (key == "NOANALYSIS") begin_procedure(card);
     if (key == "STEADYSTATEDYNAMICS") read_swing(card);
     if (key == "FREQUENCY") read_modes(card);
     if (key == "BUCKLE") read_buckling(card);
@@ -240,12 +241,19 @@ class Steps {
     put_pressures(step, pressures_);
     put_directions(step, "body_force", 'f', body_forces_);
     put_centrifugal(step);
-    SourceNode changes = inp_changes(m_, std::span(step_, &card));
-    if (!changes.items.empty()) put(step, "contact", std::move(changes));
+    put_changes(card, step);
     if (!modal) put_temperatures(step);
     forget_removed();
     total_time_ += period_;
     step_ = nullptr;
+  }
+
+  /// What its cards change of contact, bodies and equations.
+  void put_changes(const Card& end, SourceNode& step) {
+    const std::span cards(step_, &end);
+    SourceNode changes = inp_changes(m_, cards);
+    if (!changes.items.empty()) put(step, "contact", std::move(changes));
+    put_body_changes(m_, cards, step);
   }
 
   /// How many, and about which state.
@@ -285,8 +293,7 @@ class Steps {
     put_directions(step, "body_force", 'f', body_forces_);
     put_centrifugal(step);
     put_temperatures(step);
-    SourceNode changes = inp_changes(m_, std::span(step_, &card));
-    if (!changes.items.empty()) put(step, "contact", std::move(changes));
+    put_changes(card, step);
     std::tie(forces_, pressures_, body_forces_, centrifugal_) = before_;
     temperatures_ = temperatures_before_;
     std::erase_if(released_, [&](const auto& one) { return one.first != &prescribed_; });
@@ -311,8 +318,7 @@ class Steps {
         io::inp::fail(m_.deck, card, "a step with *FREQUENCY moves nothing: *BOUNDARY with 0 only");
     put_directions(step, "prescribe", 'u', held);
     put_releases(step);
-    SourceNode changes = inp_changes(m_, std::span(step_, &card));
-    if (!changes.items.empty()) put(step, "contact", std::move(changes));
+    put_changes(card, step);
     forget_removed();
     vibrations_ = modes_;
     forgotten_ = 0;
@@ -553,10 +559,12 @@ class Steps {
 
   void check_initial(const Card& card) const {
     const std::string type = option_of(card, "TYPE");
-    if (type != "TEMPERATURE" && type != "VELOCITY")
-      io::inp::fail(
-          m_.deck, card,
-          fmt::format("TYPE={} is not supported: TEMPERATURE or VELOCITY", printable(type)));
+    for (const char* const known : {"TEMPERATURE", "VELOCITY", "STRESS", "PLASTICSTRAIN"})
+      if (type == known) return;
+    io::inp::fail(m_.deck, card,
+                  fmt::format("TYPE={} is not supported: TEMPERATURE, VELOCITY, STRESS or PLASTIC "
+                              "STRAIN",
+                              printable(type)));
   }
 
   void read_boundary(const Card& card) {

@@ -114,10 +114,7 @@ void check_keywords(InpModel& m) {
       if (known->keyword != "HEADING") left_out.insert(fmt::format("*{}", known->keyword));
       continue;
     }
-    if (known->use == KeywordUse::none)
-      io::inp::fail(m.deck, card, fmt::format("is not supported: {}", known->here));
-    io::inp::fail(m.deck, card,
-                  fmt::format("is not translated; a model file says it with {}", known->here));
+    io::inp::fail(m.deck, card, fmt::format("is not supported: {}", known->here));
   }
   if (left_out.empty()) return;
   std::string text;
@@ -174,12 +171,15 @@ TranslatedDeck translate_deck(const io::inp::Deck& deck) {
   put_unless_empty("equations", inp_equations(m));
   put_unless_empty("initial_temperature", inp_initial_temperature(m));
   put_unless_empty("initial_velocity", inp_initial_velocity(m));
+  put_initial_state(m, out.root);
   InpSteps steps = inp_steps(m);
   put_unless_empty("sets", std::move(m.new_sets));
   put_unless_empty("amplitudes", std::move(steps.amplitudes));
   put(out.root, "steps", std::move(steps.steps));
   put_unless_empty("output", inp_output(m));
   out.notes = std::move(m.notes);
+  out.check_only = std::ranges::any_of(
+      deck.cards, [](const Card& card) { return card.keyword == "NOANALYSIS"; });
   return out;
 }
 

@@ -12,6 +12,7 @@ namespace osculate::deck {
 struct TranslatedDeck {
   SourceNode root;
   std::vector<std::string> notes;  ///< what of the deck is left out, or means something else here
+  bool check_only = false;         ///< a step has `*NO ANALYSIS`
 };
 
 /// Translates an Abaqus or CalculiX input file into a model file whose mesh is the deck itself. The

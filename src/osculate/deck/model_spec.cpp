@@ -58,9 +58,10 @@ BoundKeys<Description> model_keys() {
       equal_key()};
   for (BoundKey<D>& key : constraint_keys()) keys.push_back(std::move(key));
   for (BoundKey<D>& key : spring_keys()) keys.push_back(std::move(key));
-  for (BoundKey<D> key :
-       {initial_velocity_key(), initial_temperature_key(), steps_key(), solver_key(), output_key()})
+  for (BoundKey<D> key : {initial_velocity_key(), initial_temperature_key()})
     keys.push_back(std::move(key));
+  for (BoundKey<D>& key : initial_state_keys()) keys.push_back(std::move(key));
+  for (BoundKey<D> key : {steps_key(), solver_key(), output_key()}) keys.push_back(std::move(key));
   return {std::move(keys)};
 }
 

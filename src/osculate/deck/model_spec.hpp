@@ -28,11 +28,17 @@ namespace osculate::deck {
 [[nodiscard]] std::vector<BoundKey<Description>> constraint_keys();
 [[nodiscard]] BoundKey<Description> initial_velocity_key();
 [[nodiscard]] BoundKey<Description> initial_temperature_key();
+/// Stresses and strains of bodies before the first step.
+[[nodiscard]] std::vector<BoundKey<Description>> initial_state_keys();
 [[nodiscard]] BoundKey<Description> steps_key();
 [[nodiscard]] BoundKey<Description> solver_key();
 [[nodiscard]] BoundKey<Description> output_key();
 
 [[nodiscard]] BoundKey<Step> contact_changes_key();
+/// Cells, materials and equations that change when a step begins.
+[[nodiscard]] std::vector<BoundKey<Step>> body_change_keys();
+/// Sets of nodes or rigid bodies, and which of their displacements.
+[[nodiscard]] BoundKeys<Release> displacements_of(std::string doc);
 /// Of `output`: results in the files of CalculiX.
 [[nodiscard]] BoundKey<Output> frd_key();
 [[nodiscard]] BoundKey<Output> dat_key();

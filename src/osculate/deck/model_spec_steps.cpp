@@ -94,8 +94,9 @@ BoundKey<Step> prescribe_key() {
         "radians"}});
 }
 
-/// Sets or rigid bodies, and which of their displacements.
-BoundKeys<Release> of_keys(std::string doc) {
+}  // namespace
+
+BoundKeys<Release> displacements_of(std::string doc) {
   using R = Release;
   return {{on_key<R>(std::move(doc), "top"),
            {required("of", list("Which displacements.", component_spec("One displacement."))
@@ -110,8 +111,10 @@ BoundKeys<Release> of_keys(std::string doc) {
             }}}};
 }
 
+namespace {
+
 BoundKey<Step> release_key() {
-  const BoundKeys<Release> keys = of_keys("Set of nodes, or rigid body.");
+  const BoundKeys<Release> keys = displacements_of("Set of nodes, or rigid body.");
   return {
       optional("release", list("Prescribed displacements to set free.", keys.spec("One release."))
                               .otherwise("[]")
@@ -120,7 +123,7 @@ BoundKey<Step> release_key() {
 }
 
 BoundKey<Step> hold_key() {
-  const BoundKeys<Release> keys = of_keys("Set of nodes, or rigid body.");
+  const BoundKeys<Release> keys = displacements_of("Set of nodes, or rigid body.");
   return {optional("hold", list("Displacements that stay, until they are released or prescribed, "
                                 "where they are when the step begins.",
                                 keys.spec("What is held."))
@@ -290,40 +293,43 @@ BoundKey<Step> modes_key() {
 
 BoundKeys<Step> step_keys() {
   using S = Step;
-  return {{need(&S::name, "name", text("Name of the step.").as(TextRule::name).such_as("press")),
-           may(&S::increments, "increments",
-               integer("Number of equal increments to begin with, which are cut where they must be "
-                       "and grow again; 1 where none is given, but steps with `dynamics` or "
-                       "`modal` need it.")
-                   .at_least(1)
-                   .at_most(1'000'000)
-                   .such_as("10")),
-           modes_key(),
-           buckling_key(),
-           may(&S::duration, "duration",
-               number("Time from the beginning of the step to its end; "
-                      "inertia and friction that depends on speed ask for "
-                      "it.")
-                   .in("time")
-                   .above(0)
-                   .otherwise_as("no time")
-                   .such_as("0.5")),
-           prescribe_key(),
-           release_key(),
-           hold_key(),
-           forces_key(),
-           total_force_key(),
-           pressure_key(),
-           traction_key(),
-           body_force_key(),
-           temperature_key(),
-           centrifugal_key(),
-           may(&S::gravity, "gravity", gravity_spec()),
-           contact_changes_key(),
-           {optional("dynamics", dynamics_spec()),
-            [](S& s, const Value& v) { s.dynamics = parse_dynamics(v); }},
-           modal_key(),
-           harmonic_key()}};
+  std::vector<BoundKey<S>> keys{
+      need(&S::name, "name", text("Name of the step.").as(TextRule::name).such_as("press")),
+      may(&S::increments, "increments",
+          integer("Number of equal increments to begin with, which are cut where they must be "
+                  "and grow again; 1 where none is given, but steps with `dynamics` or "
+                  "`modal` need it.")
+              .at_least(1)
+              .at_most(1'000'000)
+              .such_as("10")),
+      modes_key(),
+      buckling_key(),
+      may(&S::duration, "duration",
+          number("Time from the beginning of the step to its end; "
+                 "inertia and friction that depends on speed ask for "
+                 "it.")
+              .in("time")
+              .above(0)
+              .otherwise_as("no time")
+              .such_as("0.5")),
+      prescribe_key(),
+      release_key(),
+      hold_key(),
+      forces_key(),
+      total_force_key(),
+      pressure_key(),
+      traction_key(),
+      body_force_key(),
+      temperature_key(),
+      centrifugal_key(),
+      may(&S::gravity, "gravity", gravity_spec()),
+      contact_changes_key(),
+      {optional("dynamics", dynamics_spec()),
+       [](S& s, const Value& v) { s.dynamics = parse_dynamics(v); }},
+      modal_key(),
+      harmonic_key()};
+  for (BoundKey<S>& key : body_change_keys()) keys.push_back(std::move(key));
+  return {std::move(keys)};
 }
 
 /// Either increments, or modes and nothing that moves.

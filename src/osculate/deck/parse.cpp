@@ -118,6 +118,7 @@ Description read_deck(const std::string& path, std::span<const Setting> settings
   TranslatedDeck deck = translate_deck(content, path);
   Description d = parse_model(std::move(deck.root), path, settings);
   d.notes = std::move(deck.notes);
+  d.check_only = deck.check_only;
   return d;
 }
 

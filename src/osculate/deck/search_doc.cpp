@@ -20,7 +20,7 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 39> synonyms{{
+constexpr std::array<Synonym, 41> synonyms{{
     {"plasticity plastic yielding mises-plasticity j2 metal",
      "materials.elastoplastic: yield, hardening, isotropic, kinematic"},
     {"creep norton relaxation", "materials.norton: A, n; every step needs a duration"},
@@ -72,6 +72,10 @@ constexpr std::array<Synonym, 39> synonyms{{
      "steps.modes, steps.modal (docs/dynamics.md)"},
     {"transient implicit-dynamics explicit impact crash drop", "steps.dynamics (docs/dynamics.md)"},
     {"assembly instance include import-mesh several-meshes", "mesh.files, with mesh.generate"},
+    {"initial-stress residual-stress prestress eigenstrain",
+     "initial_stress, initial_strain (docs/materials.md)"},
+    {"birth-death element-death excavation model-change deactivate",
+     "steps.remove, steps.add, steps.materials, steps.free_equations (docs/materials.md)"},
     {"restart checkpoint resume", "`osculate run --restart`, output.checkpoint"},
 }};
 

@@ -52,6 +52,10 @@ void write_sections(const Description& d, const model::BasicModel<Dim>& m, const
     if (Dim == 2 && !is_round(m.sections[s].section))
       out += exact(thickness_of(m.sections[s].section)) + "\n";
   }
+  for (const Step& step : d.steps)
+    for (const MaterialChange& change : step.materials)
+      if (used.insert(change.material.value).second)
+        write_material(*d.find_material(change.material.value), leaves, out);
   for (const Material& material : d.materials)
     if (!used.contains(material.name.value))
       leaves.take(fmt::format("materials.{}.", material.name.value));
@@ -227,6 +231,20 @@ void write_initial(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std
   }
 }
 
+/// Of sections; strains as those that plastic flow has left.
+template <int Dim>
+void write_initial_states(const Description& d, const std::vector<InitialState>& initial,
+                   const std::string& key, const char* type, Leaves& leaves, std::string& out) {
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    const InitialState& one = initial[i];
+    if (!is_section(d, one.on) || !one.points.value.empty()) continue;
+    leaves.take(fmt::format("{}[{}]", key, i));
+    out += fmt::format("*INITIAL CONDITIONS, TYPE={}\n{}", type, one.on.value);
+    for (const double value : one.value.value) out += ", " + exact(value);
+    out += "\n";
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -242,6 +260,8 @@ void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<
   write_cyclic_symmetry(d, mesh, leaves, out);
   write_contact(d, m, mesh, leaves, out);
   write_initial(d, mesh, leaves, out);
+  write_initial_states<Dim>(d, d.initial_stress, "initial_stress", "STRESS", leaves, out);
+  write_initial_states<Dim>(d, d.initial_strain, "initial_strain", "PLASTIC STRAIN", leaves, out);
 }
 
 template void write_model(const Description&, const model::Model&, InpMesh<2>&, Leaves&,

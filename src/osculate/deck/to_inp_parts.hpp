@@ -39,6 +39,12 @@ class Leaves {
   std::vector<Leaf> leaves_;
 };
 
+/// Whether a set is that of a section, whose elements are written as one.
+[[nodiscard]] inline bool is_section(const Description& d, const Name& on) {
+  for (const Section& section : d.sections)
+    if (section.on.value == on.value) return true;
+  return false;
+}
 /// A number as short as it is exact.
 [[nodiscard]] std::string exact(double value);
 

@@ -28,22 +28,31 @@ struct Expansion {
 ///            theta : the Cauchy stress is that of the law at F_e
 /// Source     Stojanovic, Djuric & Vujosevic 1964; Lu & Pister 1975
 /// Tested by  tests/unit/material/test_expansion.cpp
+///
+/// An initial strain (Memory::initial) is added to the strain before.
+///
+/// Formula    S(E + E_0) , E_0 = D^-1 S_0 of an initial stress
 class Expanded {
  public:
   Expanded(bool finite, const Memory& memory)
-      : any_(memory.expansion), finite_(finite), strain_(any_ ? *memory.expansion : 0) {}
+      : any_(memory.expansion),
+        finite_(finite),
+        strain_(any_ ? *memory.expansion : 0),
+        initial_(memory.initial) {}
 
   [[nodiscard]] double stretch() const { return finite_ ? 1 + strain_ : 1; }
   [[nodiscard]] double volume() const { return stretch() * stretch() * stretch(); }
   template <int N>
   [[nodiscard]] Vec<N> elastic(Vec<N> strain) const {
+    if (initial_) strain += Eigen::Map<const Vec<6>>(initial_).template head<N>();
     if (!any_) return strain;
     strain.template head<3>().array() -= of_axes();
     return strain / (stretch() * stretch());
   }
   /// The strain along an axis, from the elastic one.
   [[nodiscard]] double total(double elastic) const {
-    return any_ ? stretch() * stretch() * elastic + of_axes() : elastic;
+    const double here = any_ ? stretch() * stretch() * elastic + of_axes() : elastic;
+    return initial_ ? here - initial_[2] : here;
   }
   template <int N>
   [[nodiscard]] ResponseOf<N> response(ResponseOf<N> elastic) const {
@@ -60,6 +69,7 @@ class Expanded {
   }
   bool any_, finite_;
   double strain_;
+  const double* initial_;
 };
 
 }  // namespace osculate::material

@@ -47,7 +47,7 @@ ResponseOf<N> expanded_answer(const Law& law, const Vec<N>& strain, const Memory
   const auto at = [&](const Vec<N>& elastic) {
     return std::visit([&](const auto& m) { return answer(m, elastic, memory); }, law);
   };
-  if (!memory.expansion) return at(strain);
+  if (!memory.expansion && !memory.initial) return at(strain);
   const Expanded by(finite_strain(law), memory);
   return by.response(at(by.elastic(strain)));
 }
@@ -56,7 +56,7 @@ StressOf<N> expanded_stress(const Law& law, const Vec<N>& strain, const Memory& 
   const auto at = [&](const Vec<N>& elastic) {
     return std::visit([&](const auto& m) { return stress_alone(m, elastic, memory); }, law);
   };
-  if (!memory.expansion) return at(strain);
+  if (!memory.expansion && !memory.initial) return at(strain);
   const Expanded by(finite_strain(law), memory);
   StressOf<N> s = at(by.elastic(strain));
   s.stress *= by.stretch();

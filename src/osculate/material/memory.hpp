@@ -25,6 +25,9 @@ struct Memory {
   const double* temperature = nullptr;  ///< one number a point; null: that of the law's constants
   const double* axes = nullptr;  ///< of the material, nine numbers a point by columns; null: global
   const double* temperature_before = nullptr;  ///< at the beginning of the increment, likewise
+  const double* initial = nullptr;  ///< strain of the undeformed body, six numbers a point; null: 0
+  /// Not of the law: displacements of the cell's nodes at which it is free of strain; null: none.
+  const double* origin = nullptr;
 
   [[nodiscard]] Memory at(std::size_t point) const {
     return {committed ? committed + point * size : nullptr,
@@ -34,7 +37,8 @@ struct Memory {
             expansion ? expansion + point : nullptr,
             temperature ? temperature + point : nullptr,
             axes ? axes + 9 * point : nullptr,
-            temperature_before ? temperature_before + point : nullptr};
+            temperature_before ? temperature_before + point : nullptr,
+            initial ? initial + 6 * point : nullptr};
   }
 };
 

@@ -65,7 +65,8 @@ bool stresses(const Law& law, const Pointwise<N, Q>& strain, const Memory& memor
     else
       return one_by_one<N, Q>(law, strain, memory, out);
   };
-  if (memory.expansion || memory.temperature) return one_by_one<N, Q>(law, strain, memory, out);
+  if (memory.expansion || memory.temperature || memory.initial)
+    return one_by_one<N, Q>(law, strain, memory, out);
   return std::visit(of, law);
 }
 

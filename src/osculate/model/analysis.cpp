@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <iterator>
 
+#include "osculate/model/body_changes.hpp"
 #include "osculate/model/cyclic_vibrations.hpp"
 #include "osculate/model/harmonic.hpp"
 #include "osculate/model/pair_changes.hpp"
@@ -311,13 +313,36 @@ struct Analysis {
   }
 };
 
-/// The first state and its evaluation, which gives the search trees their shape. False to stop.
+/// The first state and its evaluation, which gives the search trees their shape.
+template <int Dim>
+BasicState<Dim> first_state(Analysis<Dim>& a) {
+  BasicState<Dim> state = a.system.initial_state();
+  if (!a.model.steps.empty()) a.system.begin_step(a.model.steps.front(), state);
+  solve::Evaluation initial;
+  a.system.evaluate(state, 0.0, false, initial);
+  return state;
+}
+
+/// Pairs, bodies and equations as they are in a step that begins; `now` is what the system sees.
+template <int Dim>
+void change(const BasicModel<Dim>& model, std::size_t step, BasicModel<Dim>& now,
+            Analysis<Dim>& a) {
+  change_pairs(model, step, now);
+  a.result.state = begin_anew(model, step, now, std::move(a.result.state));
+  if (step == 0 || !bodies_change(model, step)) return;
+  change_bodies(model, step, now);
+  a.result.state = begin_bodies(model, step, std::move(a.result.state));
+  a.system.build_anew();
+  a.result.unknowns = std::max(a.result.unknowns, a.system.dofs().unknowns());
+  a.result.seconds_solver += a.solver->seconds();
+  a.solver = a.options.linear_solver();
+  (void)first_state(a);
+}
+
+/// False to stop.
 template <int Dim>
 bool begin(Analysis<Dim>& a, const BasicResumePoint<Dim>* from) {
-  a.result.state = a.system.initial_state();
-  if (!a.model.steps.empty()) a.system.begin_step(a.model.steps.front(), a.result.state);
-  solve::Evaluation initial;
-  a.system.evaluate(a.result.state, 0.0, false, initial);
+  a.result.state = first_state(a);
   if (!from && !a.model.steps.empty()) a.result.state = a.system.begin_motion(a.result.state);
   if (!from) return a.tell(a.result.state, nullptr);
   a.result.state = from->state;
@@ -334,10 +359,13 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
                              const BasicAnalysisObserver<Dim>& observer,
                              const BasicResumePoint<Dim>* from) {
   const auto start = std::chrono::steady_clock::now();
-  std::optional<BasicModel<Dim>> changing;  // where pairs change from step to step
-  if (!model.pair_changes.empty()) changing = model;
-  if (changing)
-    change_pairs(model, from ? static_cast<std::size_t>(from->progress.step) : 0, *changing);
+  std::optional<BasicModel<Dim>> changing;  // where it changes from step to step
+  if (!model.pair_changes.empty() || !model.body_changes.empty()) changing = model;
+  if (changing) {
+    const std::size_t running = from ? static_cast<std::size_t>(from->progress.step) : 0;
+    change_pairs(model, running, *changing);
+    if (!model.body_changes.empty()) change_bodies(model, running, *changing);
+  }
   const BasicModel<Dim>& now = changing ? *changing : model;
   Analysis<Dim> a{now, options, observer, {now, options.threads}};
   BasicAnalysisResult<Dim>& result = a.result;
@@ -363,10 +391,7 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
       a.progress.increment = 0;
       a.position = {};
       a.forget_motion(step);
-      if (changing) {
-        change_pairs(model, s, *changing);
-        result.state = begin_anew(model, s, *changing, std::move(result.state));
-      }
+      if (changing) change(model, s, *changing, a);
       a.system.begin_step(step, result.state);
       result.state = a.system.begin_motion(result.state);
     }
@@ -375,7 +400,7 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
     if (result.outcome != solve::Outcome::converged || step.name == options.until) break;
   }
   result.seconds_system = a.system.seconds();
-  result.seconds_solver = a.solver->seconds();
+  result.seconds_solver += a.solver->seconds();
   result.seconds = seconds_since(start);
   return result;
 }

@@ -46,6 +46,19 @@ solid::Coordinates<Dim> displacement_of(const Eigen::VectorXd& u, std::span<cons
 }
 
 template <int Dim>
+CellPlaces<Dim> places_of(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
+                          std::span<const Index> nodes, const Eigen::VectorXd& u,
+                          const material::Memory& memory) {
+  CellPlaces<Dim> out{reference_of(model, nodes), displacement_of<Dim>(u, nodes)};
+  if (!memory.origin) return out;
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Dim, Eigen::RowMajor>;
+  const Eigen::Map<const Rows> origin(memory.origin, out.reference.rows(), Dim);
+  out.displacement -= origin;
+  if (section.section.kinematics == solid::Kinematics::finite) out.reference += origin;
+  return out;
+}
+
+template <int Dim>
 solid::Section<Dim> section_on(const BasicBulkSection<Dim>& section, cell::CellType type) {
   solid::Section<Dim> own = section.section;
   if (!solid::unsupported(own, type).empty()) own.formulation = {};
@@ -58,9 +71,10 @@ void evaluate_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& se
                    const material::Memory& memory, bool with_tangent, BasicBulkBlock<Dim>& out) {
   const CellNodes cell = cell_nodes(model.mesh, ref);
   set_dofs(cell.nodes, out);
+  const CellPlaces<Dim> at = places_of(model, section, cell.nodes, u, memory);
   const auto evaluate = [&](const solid::Section<Dim>& own) {
-    solid::evaluate(own, cell.type, reference_of(model, cell.nodes),
-                    displacement_of<Dim>(u, cell.nodes), with_tangent, out.result, memory);
+    solid::evaluate(own, cell.type, at.reference, at.displacement, with_tangent, out.result,
+                    memory);
   };
   if (solid::unsupported(section.section, cell.type).empty())
     evaluate(section.section);  // no copy of the law
@@ -87,7 +101,8 @@ void stressed_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& se
   const solid::Section<Dim> own = section_on(section, cell.type);
   const solid::Coordinates<Dim> x = reference_of(model, cell.nodes);
   const auto stress_at = [&](const Eigen::VectorXd& of, const material::Memory& with) {
-    return solid::stress_at_points(own, cell.type, x, displacement_of<Dim>(of, cell.nodes), with);
+    return solid::stress_at_points(
+        own, cell.type, x, places_of(model, section, cell.nodes, of, with).displacement, with);
   };
   solid::CellStress<Dim> stress = stress_at(u, memory);
   const auto points = static_cast<std::size_t>(stress.count);
@@ -136,9 +151,10 @@ template <int Dim>
 BasicDofSpace<Dim> dof_space(const BasicModel<Dim>& model) {
   std::vector<bool> used(model.reference.size(), false);
   for (const BasicBulkSection<Dim>& section : model.sections)
-    for (const mesh::CellRef& ref : section.cells)
-      for (const Index node : cell_nodes(model.mesh, ref).nodes)
-        used[static_cast<std::size_t>(node)] = true;
+    for (std::size_t i = 0; i < section.cells.size(); ++i)
+      if (!is_removed(section, i))
+        for (const Index node : cell_nodes(model.mesh, section.cells[i]).nodes)
+          used[static_cast<std::size_t>(node)] = true;
   std::vector<Dof> also_used;
   for (const Spring& spring : model.springs) {
     for (const Index node : spring.ends)
@@ -165,6 +181,10 @@ template solid::Coordinates<2> reference_of(const Model&, std::span<const Index>
 template solid::Coordinates<3> reference_of(const Model3&, std::span<const Index>);
 template solid::Coordinates<2> displacement_of<2>(const Eigen::VectorXd&, std::span<const Index>);
 template solid::Coordinates<3> displacement_of<3>(const Eigen::VectorXd&, std::span<const Index>);
+template CellPlaces<2> places_of(const Model&, const BulkSection&, std::span<const Index>,
+                                 const Eigen::VectorXd&, const material::Memory&);
+template CellPlaces<3> places_of(const Model3&, const BulkSection3&, std::span<const Index>,
+                                 const Eigen::VectorXd&, const material::Memory&);
 template solid::Section<2> section_on(const BulkSection&, cell::CellType);
 template solid::Section<3> section_on(const BulkSection3&, cell::CellType);
 template void evaluate_cell(const Model&, const BulkSection&, const mesh::CellRef&,

@@ -74,6 +74,17 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] solid::Coordinates<Dim> displacement_of(const Eigen::VectorXd& u,
                                                       std::span<const Index> nodes);
+/// Where a cell is free of strain, and how far its nodes are from there. With small kinematics its
+/// shape stays that of the undeformed body.
+template <int Dim>
+struct CellPlaces {
+  solid::Coordinates<Dim> reference, displacement;
+};
+template <int Dim>
+[[nodiscard]] CellPlaces<Dim> places_of(const BasicModel<Dim>& model,
+                                        const BasicBulkSection<Dim>& section,
+                                        std::span<const Index> nodes, const Eigen::VectorXd& u,
+                                        const material::Memory& memory);
 /// Nodes and type of a cell.
 struct CellNodes {
   cell::CellType type;

@@ -31,8 +31,9 @@ std::vector<std::vector<Index>> deformable_bodies(const BasicModel<Dim>& model) 
   };
   std::vector<bool> used(parent.size(), false);
   for (const BasicBulkSection<Dim>& section : model.sections)
-    for (const mesh::CellRef& ref : section.cells) {
-      const std::span<const Index> nodes = cell_nodes(model.mesh, ref).nodes;
+    for (std::size_t i = 0; i < section.cells.size(); ++i) {
+      if (is_removed(section, i)) continue;
+      const std::span<const Index> nodes = cell_nodes(model.mesh, section.cells[i]).nodes;
       for (const Index node : nodes) {
         used[static_cast<std::size_t>(node)] = true;
         parent[static_cast<std::size_t>(root(node))] = root(nodes[0]);

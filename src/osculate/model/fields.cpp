@@ -22,9 +22,10 @@ void add_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section
               const mesh::CellRef& ref, const BasicState<Dim>& state, const CellMemory& memory,
               BasicNodalFields<Dim>& f, std::vector<int>& count) {
   const CellNodes cell = cell_nodes(model.mesh, ref);
-  const auto s = solid::nodal_stress(
-      section_on(section, cell.type), cell.type, reference_of(model, cell.nodes),
-      displacement_of<Dim>(state.u, cell.nodes), memory.of(state.memory));
+  const material::Memory of = memory.of(state.memory);
+  const CellPlaces<Dim> at = places_of(model, section, cell.nodes, state.u, of);
+  const auto s = solid::nodal_stress(section_on(section, cell.type), cell.type, at.reference,
+                                     at.displacement, of);
   for (std::size_t k = 0; k < cell.nodes.size(); ++k) {
     const auto node = static_cast<std::size_t>(cell.nodes[k]);
     ++count[node];
@@ -82,7 +83,9 @@ BasicNodalFields<Dim> nodal_fields(const BasicSystem<Dim>& system, const BasicMo
     f.reaction[i] = reaction.segment<Dim>(first);
   }
   std::vector<int> count(n, 0);
-  for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
+  const BasicModel<Dim>& now = system.model();
+  for_each_cell(now, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
+    if (m.removed) return;
     add_cell(model, section, ref, state, m, f, count);
     add_memory(model, section, ref, state.memory, m, f);
   });
@@ -105,6 +108,7 @@ double largest_remembered(const BasicModel<Dim>& model, const BasicState<Dim>& s
   f.mises.assign(model.mesh.nodes.size(), 0.0);
   std::vector<int> count(model.mesh.nodes.size(), 0);
   for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
+    if (m.removed) return;
     for (const Index node : cell_nodes(model.mesh, ref).nodes)
       ++count[static_cast<std::size_t>(node)];
     add_memory(model, section, ref, state.memory, m, f);

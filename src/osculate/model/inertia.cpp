@@ -11,9 +11,9 @@ template <int Dim>
 BasicInertia<Dim>::BasicInertia(const BasicModel<Dim>& model, bool lumped)
     : nodes_(static_cast<Index>(model.reference.size())) {
   for (const BasicBulkSection<Dim>& section : model.sections) {
-    const double density = material::density(section.section.law);
-    for (const mesh::CellRef& ref : section.cells) {
-      const CellNodes cell = cell_nodes(model.mesh, ref);
+    for (std::size_t i = 0; i < section.cells.size(); ++i) {
+      const double density = is_removed(section, i) ? 0 : material::density(section.section.law);
+      const CellNodes cell = cell_nodes(model.mesh, section.cells[i]);
       const solid::NodeMass unit =
           solid::consistent_mass(section.section, cell.type, reference_of(model, cell.nodes));
       cells_.push_back({{cell.nodes.begin(), cell.nodes.end()},
@@ -98,10 +98,12 @@ solid::CellEnergy bulk_energy(const BasicModel<Dim>& model, const Eigen::VectorX
                               std::span<const double> memory) {
   solid::CellEnergy sum;
   for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
+    if (m.removed) return;
     const CellNodes cell = cell_nodes(model.mesh, ref);
-    const solid::CellEnergy of_cell = solid::cell_energy(
-        section_on(section, cell.type), cell.type, reference_of(model, cell.nodes),
-        displacement_of<Dim>(u, cell.nodes), m.of(memory));
+    const material::Memory of = m.of(memory);
+    const CellPlaces<Dim> at = places_of(model, section, cell.nodes, u, of);
+    const solid::CellEnergy of_cell = solid::cell_energy(section_on(section, cell.type), cell.type,
+                                                         at.reference, at.displacement, of);
     sum.stored += of_cell.stored;
     sum.dissipated += of_cell.dissipated;
   });

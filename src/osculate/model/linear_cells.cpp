@@ -61,7 +61,8 @@ void LinearCells<Dim>::force(std::size_t number, const BasicModel<Dim>& model,
                              const BasicBulkSection<Dim>& section, const mesh::CellRef& cell,
                              const Eigen::VectorXd& u, const material::Memory& memory,
                              BasicBulkBlock<Dim>& out) {
-  if (!kept(number) || !keeps_digits(section) || memory.expansion) {
+  if (!kept(number) || !keeps_digits(section) || memory.expansion || memory.initial ||
+      memory.origin) {
     evaluate_cell(model, section, cell, u, memory, false, out);
     return;
   }

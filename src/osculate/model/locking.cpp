@@ -44,12 +44,13 @@ void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
     const bool keeps_volume = sum.flows || poisson_of(full.law) > nearly_incompressible;
     const Section enhanced = sum.flows ? full : with(full, Formulation::enhanced, wanted);
     const Section bbar = keeps_volume ? with(full, Formulation::bbar, wanted) : full;
-    for (const mesh::CellRef& ref : section.cells) {
-      const CellNodes cell = cell_nodes(model.mesh, ref);
-      memory = memory_after(memory, section, cell.type);
-      if (full.formulation != Formulation::full || cell.type != wanted) continue;
-      const solid::Coordinates<Dim> reference = reference_of(model, cell.nodes),
-                                    moved = displacement_of<Dim>(state.u, cell.nodes);
+    for (std::size_t i = 0; i < section.cells.size(); ++i) {
+      const CellNodes cell = cell_nodes(model.mesh, section.cells[i]);
+      memory = memory_after(memory, section, i, cell.type);
+      if (memory.removed || full.formulation != Formulation::full || cell.type != wanted) continue;
+      const CellPlaces<Dim> at =
+          places_of(model, section, cell.nodes, state.u, memory.of(state.memory));
+      const solid::Coordinates<Dim>&reference = at.reference, &moved = at.displacement;
       const auto energy_in = [&](const Section& of) {
         return solid::cell_energy(of, cell.type, reference, moved, memory.of(state.memory));
       };

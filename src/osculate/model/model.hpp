@@ -22,6 +22,37 @@ struct BasicBulkSection {
   solid::Section<Dim> section;
   std::vector<mesh::CellRef> cells;
   std::string material{};  ///< its name
+  /// By cell: strains of its points in the undeformed body, six numbers a point; none of a cell, or
+  /// of all, where it has none.
+  std::vector<std::vector<double>> initial{};
+  std::vector<char> removed{};  ///< by cell: it is not there now; empty: all are
+  std::vector<char> returns{};  ///< by cell: it may come back without strain; empty: none does
+};
+
+/// Whether a cell of a section is not there now.
+template <int Dim>
+[[nodiscard]] bool is_removed(const BasicBulkSection<Dim>& section, std::size_t cell) {
+  return !section.removed.empty() && section.removed[cell] != 0;
+}
+
+/// What becomes of bodies and equations when a step begins, and until they change again.
+template <int Dim>
+struct BasicBodyChange {
+  struct Material {
+    std::size_t section = 0;
+    solid::Section<Dim> now;
+    std::string name{};
+  };
+  struct Cells {
+    std::size_t section = 0;
+    std::vector<std::size_t> cells;  ///< of the section
+  };
+  std::size_t step = 0;
+  std::vector<Material> materials{};
+  std::vector<Cells> removed{};
+  std::vector<Cells> renewed{};   ///< back, free of strain where they are
+  std::vector<Cells> restored{};  ///< back, with the strain that they would have had
+  std::optional<std::vector<Equation>> equations{};  ///< all that hold from now on
 };
 
 /// Analytic shape of a rigid body.
@@ -103,6 +134,7 @@ struct BasicModel {
   std::vector<Index> body_of_node;  ///< rigid body of each node, -1 = deformable
   std::vector<BasicContactPair<Dim>> pairs;
   std::vector<BasicPairChange<Dim>> pair_changes{};  ///< in the order of the steps
+  std::vector<BasicBodyChange<Dim>> body_changes{};  ///< likewise, one a step at most
   std::vector<Equation> equations;
   std::optional<RingSector> sector{};  ///< of a ring, where its vibrations are looked for
   std::vector<NodeConstraint> node_constraints{};

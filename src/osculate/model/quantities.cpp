@@ -315,7 +315,7 @@ double history_value(const BasicSystem<Dim>& system, const BasicModel<Dim>& mode
       if (request.quantity == fraction_quantity) return state.fraction;
       return energy_value(state.rates.energies, request.quantity);
     case HistoryRequest::Kind::remembered:
-      return largest_remembered(model, state, request.nodes, request.quantity);
+      return largest_remembered(system.model(), state, request.nodes, request.quantity);
   }
   return std::numeric_limits<double>::quiet_NaN();
 }

@@ -66,10 +66,11 @@ void measure_small_strain(const BasicModel<Dim>& model, const Eigen::VectorXd& u
     if (found.size() <= entry) found.push_back({section.name});
     SmallStrain& here = found[entry++];
     here.may_be_finite = material::has_finite_form(section.section.law);
-    for (const mesh::CellRef& ref : section.cells) {
+    for (std::size_t i = 0; i < section.cells.size(); ++i) {
+      if (is_removed(section, i)) continue;
       const Mat<Dim, Dim> f =
           Mat<Dim, Dim>::Identity() +
-          mean_gradient<Dim>(model.reference, u, cell_nodes(model.mesh, ref).nodes);
+          mean_gradient<Dim>(model.reference, u, cell_nodes(model.mesh, section.cells[i]).nodes);
       const Mat<Dim, Dim> strain = 0.5 * (f.transpose() * f - Mat<Dim, Dim>::Identity());
       here.strain = std::max(here.strain, strain.norm());
       here.rotation = std::max(here.rotation, rotation_of(f));

@@ -141,8 +141,9 @@ struct Bodies {
         given_by[m.equations[e].terms[t].dof].push_back(e);
     first_rigid = held.size();
     for (const BasicBulkSection<Dim>& section : m.sections)
-      for (const mesh::CellRef& ref : section.cells) {
-        const Index node = cell_nodes(m.mesh, ref).nodes[0];
+      for (std::size_t i = 0; i < section.cells.size(); ++i) {
+        if (is_removed(section, i)) continue;
+        const Index node = cell_nodes(m.mesh, section.cells[i]).nodes[0];
         std::string& name = held[body_of(node)].support.body;
         if (name.empty()) name = section.name;
         held[body_of(node)].ring = held[body_of(node)].ring || is_ring(section);

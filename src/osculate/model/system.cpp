@@ -38,6 +38,24 @@ BasicState<Dim> BasicSystem<Dim>::initial_state() {
 }
 
 template <int Dim>
+const BasicModel<Dim>& BasicSystem<Dim>::model() const {
+  return impl_->model;
+}
+
+template <int Dim>
+void BasicSystem<Dim>::build_anew() {
+  auto next = std::make_unique<Impl>(impl_->model, impl_->bulk.threads);
+  next->enabled = impl_->enabled;
+  next->touched = impl_->touched;
+  next->asked = impl_->asked;
+  next->built = impl_->built + 1;
+  next->assembly_seconds = impl_->assembly_seconds;
+  next->bulk.seconds = impl_->bulk.seconds;
+  next->contact.seconds = impl_->contact.seconds;
+  impl_ = std::move(next);
+}
+
+template <int Dim>
 void BasicSystem<Dim>::begin_step(const Step& step, const State& committed) {
   impl_->step = step;
   const std::vector<Step>& steps = impl_->model.steps;
@@ -78,6 +96,7 @@ SystemMemory BasicSystem<Dim>::memory() const {
   for (const PrescribedDof& p : impl_->step.prescribed) memory.starts.push_back(p.ramp.start);
   impl_->builder.finish();  // what the last evaluation has kept aside belongs to it
   memory.grown = impl_->builder.grown();
+  memory.built = impl_->built;
   if (impl_->motion) memory.speeds = impl_->motion->speeds;
   return memory;
 }

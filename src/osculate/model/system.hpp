@@ -35,7 +35,8 @@ struct SystemSeconds {
 struct SystemMemory {
   std::vector<double> starts;          ///< of the prescribed dofs' ramps in the running step
   std::vector<la::MatrixPlace> grown;  ///< entries of contact in the pattern of the matrix
-  Eigen::VectorXd speeds;              ///< at the beginning of a step that estimates errors in time
+  int built = 0;           ///< how often the system was built anew, which leaves nothing of `grown`
+  Eigen::VectorXd speeds;  ///< at the beginning of a step that estimates errors in time
 };
 
 /// One increment of explicit time integration.
@@ -67,6 +68,11 @@ class BasicSystem {
   BasicSystem& operator=(const BasicSystem&) = delete;
 
   [[nodiscard]] State initial_state();
+  /// The model: as it is in the running step.
+  [[nodiscard]] const BasicModel<Dim>& model() const;
+  /// After bodies or equations of the model have changed: unknowns, matrix and buffers are made
+  /// anew, as those of a new system. A step has to be begun then.
+  void build_anew();
   /// Fixes what is prescribed and loaded during a step; start values come from `committed`.
   void begin_step(const Step& step, const State& committed);
   /// The committed state with what the running step needs of it: accelerations and the energies of

@@ -27,12 +27,14 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::added_internal(const Strained& before,
                                                        const Strained& after) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(dofs.dofs());
   BulkBlock block;
-  for (const auto& job : bulk.jobs)
+  for (const auto& job : bulk.jobs) {
+    if (job.memory.removed) continue;
     for (const auto& [at, sign] : {std::pair{&after, 1.0}, std::pair{&before, -1.0}}) {
       evaluate_cell(model, *job.section, job.cell, at->u, job.memory.of(at->memory), false, block);
       for (int k = 0; k < block.dof_count; ++k)
         force[block.dofs[static_cast<std::size_t>(k)]] += sign * block.result.force[k];
     }
+  }
   return force;
 }
 

@@ -56,7 +56,10 @@ void BasicSystem<Dim>::Impl::Motion::measure_damping(const State& committed) {
         system.bulk.jobs[c].section->section.kinematics == solid::Kinematics::finite;
     if (!first && !finite) continue;
     system.bulk.evaluate(c, committed.u, committed.memory, {}, 0, true, block);
-    damping[c] = factor * block.result.tangent;
+    if (block.dof_count == 0)
+      damping[c].resize(0, 0);
+    else
+      damping[c] = factor * block.result.tangent;
   }
 }
 
@@ -96,6 +99,7 @@ Eigen::VectorXd BasicSystem<Dim>::Impl::Motion::damping_of(const Eigen::VectorXd
   Eigen::VectorXd force = Eigen::VectorXd::Zero(velocity.size());
   if (settings.damping_mass > 0) force = settings.damping_mass * inertia.multiply(velocity);
   for (std::size_t c = 0; c < damping.size(); ++c) {
+    if (damping[c].size() == 0) continue;
     const std::vector<Index>& nodes = inertia.cells()[c].nodes;
     Eigen::VectorXd v(Dim * static_cast<Eigen::Index>(nodes.size()));
     for (std::size_t k = 0; k < nodes.size(); ++k)

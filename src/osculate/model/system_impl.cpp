@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "osculate/model/body_changes.hpp"
 #include "osculate/model/system_explicit.hpp"
 #include "osculate/model/temperatures.hpp"
 #include "osculate/pairing/point_penalty.hpp"
@@ -244,6 +245,7 @@ void BasicSystem<Dim>::Impl::assemble_terms(const State& committed, const Trial&
   const double duration = pass == Pass::whole ? 0.0 : length;
   std::optional<CellInertia<Dim>> of_cells;
   if (timed()) of_cells.emplace(motion->cell_inertia());
+  if (!model.body_changes.empty()) keep_memory(model, committed.memory, last.memory);
   warm(model, step.temperature, fraction, last.memory);
   if (on(Term::bulk) &&
       !bulk.add(committed, now, duration, of_cells ? &*of_cells : nullptr, to, out))

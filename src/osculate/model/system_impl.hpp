@@ -40,6 +40,7 @@ struct BasicSystem<Dim>::Impl {
   Evaluated<Dim> last;
   std::deque<ContactStates> recent;  ///< of the running attempt
   double assembly_seconds = 0;       ///< beside those of the terms
+  int built = 0;                     ///< how often anew
   bool with_stresses = false;        ///< tangents have what stresses do in small strain
   bool pressures_turn = false;       ///< and what pressures do there
   // The running step.

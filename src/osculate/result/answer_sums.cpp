@@ -44,6 +44,7 @@ void add_facet(const model::BasicModel<Dim>& m, const model::PressureLoad::Facet
 
 template <int Dim>
 io::DatResultant resultant_through(const AnswerModel<Dim>& answers,
+                                   const model::BasicModel<Dim>& running,
                                    const model::BasicState<Dim>& state,
                                    const std::vector<deck::CutFacet>& facets) {
   const model::BasicModel<Dim>& m = answers.model;
@@ -61,7 +62,8 @@ io::DatResultant resultant_through(const AnswerModel<Dim>& answers,
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   model::BasicBulkBlock<Dim> block;
   for (const auto& [at, nodes] : nodes_of_place) {
-    const auto& [section, memory] = answers.places[at];
+    const auto [section, memory] = answers.place_in(running, at);
+    if (memory.removed) continue;
     const mesh::CellRef& cell = answers.mesh.cells[at].ref;
     model::evaluate_cell(m, *section, cell, state.u, memory.of(state.memory), false, block);
     if (!block.ok) continue;
@@ -110,9 +112,11 @@ ContactEnergies contact_energies(const model::BasicSystem<Dim>& system,
   return sum;
 }
 
-template io::DatResultant resultant_through(const AnswerModel<2>&, const model::State&,
+template io::DatResultant resultant_through(const AnswerModel<2>&, const model::Model&,
+                                            const model::State&,
                                             const std::vector<deck::CutFacet>&);
-template io::DatResultant resultant_through(const AnswerModel<3>&, const model::State3&,
+template io::DatResultant resultant_through(const AnswerModel<3>&, const model::Model3&,
+                                            const model::State3&,
                                             const std::vector<deck::CutFacet>&);
 template ContactEnergies contact_energies(const model::System&, const model::Model&);
 template ContactEnergies contact_energies(const model::System3&, const model::Model3&);

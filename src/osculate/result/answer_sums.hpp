@@ -18,6 +18,7 @@ namespace osculate::result {
 /// Tested by  tests/unit/api/test_answers.cpp
 template <int Dim>
 [[nodiscard]] io::DatResultant resultant_through(const AnswerModel<Dim>& answers,
+                                                 const model::BasicModel<Dim>& running,
                                                  const model::BasicState<Dim>& state,
                                                  const std::vector<deck::CutFacet>& facets);
 

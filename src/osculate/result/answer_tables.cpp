@@ -63,7 +63,7 @@ struct Tables {
     return list;
   }
 
-  /// Cells of `a.mesh` that are in the set.
+  /// Cells of `a.mesh` that are in the set, and there in this step.
   [[nodiscard]] std::vector<std::size_t> cells() const {
     std::vector<std::size_t> list;
     std::vector<std::vector<char>> wanted;
@@ -74,7 +74,8 @@ struct Tables {
         wanted[static_cast<std::size_t>(ref.block)][static_cast<std::size_t>(ref.cell)] = 1;
     for (std::size_t c = 0; c < a.mesh.cells.size(); ++c) {
       const mesh::CellRef& ref = a.mesh.cells[c].ref;
-      if (wanted[static_cast<std::size_t>(ref.block)][static_cast<std::size_t>(ref.cell)] != 0)
+      if (wanted[static_cast<std::size_t>(ref.block)][static_cast<std::size_t>(ref.cell)] != 0 &&
+          !a.place_in(system.model(), c).memory.removed)
         list.push_back(c);
     }
     return list;
@@ -145,27 +146,13 @@ struct Tables {
 
   // ---- cells ----------------------------------------------------------------------------------
 
-  /// Points of a cell by their place: along the first direction, then the second, then the third.
-  [[nodiscard]] static std::vector<std::size_t> in_order(const solid::CellStress<Dim>& stress) {
-    std::vector<std::size_t> order(static_cast<std::size_t>(stress.count));
-    std::iota(order.begin(), order.end(), 0U);
-    constexpr double same = 1e-6;
-    std::ranges::sort(order, [&](std::size_t p, std::size_t q) {
-      for (Eigen::Index i = Dim; i-- > 0;) {
-        const double difference = stress.point[p].xi[i] - stress.point[q].xi[i];
-        if (std::abs(difference) > same) return difference < 0;
-      }
-      return false;
-    });
-    return order;
-  }
-
   [[nodiscard]] solid::CellStress<Dim> stress_of(std::size_t cell) const {
-    const auto& [section, memory] = a.places[cell];
+    const auto [section, place] = a.place_in(system.model(), cell);
     const model::CellNodes c = model::cell_nodes(a.model.mesh, a.mesh.cells[cell].ref);
-    return solid::stress_at_points(
-        model::section_on(*section, c.type), c.type, model::reference_of(a.model, c.nodes),
-        model::displacement_of<Dim>(state.u, c.nodes), memory.of(state.memory));
+    const material::Memory memory = place.of(state.memory);
+    const auto at = model::places_of(a.model, *section, c.nodes, state.u, memory);
+    return solid::stress_at_points(model::section_on(*section, c.type), c.type, at.reference,
+                                   at.displacement, memory);
   }
 
   /// xx, yy, zz, xy, xz, yz.
@@ -184,7 +171,7 @@ struct Tables {
     for (const std::size_t cell : cells()) {
       const solid::CellStress<Dim> stress = stress_of(cell);
       int number = 0;
-      for (const std::size_t p : in_order(stress)) {
+      for (const std::size_t p : solid::in_order(stress)) {
         ++number;
         if (what == Answer::peeq) {
           const double value = equivalent_plastic_strain(cell, p);
@@ -199,7 +186,7 @@ struct Tables {
   }
 
   [[nodiscard]] double equivalent_plastic_strain(std::size_t cell, std::size_t point) const {
-    const auto& [section, memory] = a.places[cell];
+    const auto [section, memory] = a.place_in(system.model(), cell);
     const auto names = material::memory_of(section->section.law);
     for (std::size_t i = 0; i < names.size(); ++i)
       if (names[i].name == "PEEQ") return state.memory[memory.first + point * memory.size + i];
@@ -213,11 +200,13 @@ struct Tables {
       for (int p = 0; p < stress.count; ++p)
         value += stress.point[static_cast<std::size_t>(p)].volume;
     } else {
-      const auto& [section, memory] = a.places[cell];
+      const auto [section, place] = a.place_in(system.model(), cell);
       const model::CellNodes c = model::cell_nodes(a.model.mesh, a.mesh.cells[cell].ref);
-      const solid::CellEnergy energy = solid::cell_energy(
-          model::section_on(*section, c.type), c.type, model::reference_of(a.model, c.nodes),
-          model::displacement_of<Dim>(state.u, c.nodes), memory.of(state.memory));
+      const material::Memory memory = place.of(state.memory);
+      const auto at = model::places_of(a.model, *section, c.nodes, state.u, memory);
+      const solid::CellEnergy energy =
+          solid::cell_energy(model::section_on(*section, c.type), c.type, at.reference,
+                             at.displacement, memory);
       value = energy.stored + energy.dissipated;  // work on the cell, as there
     }
     return a.sector * value;
@@ -243,7 +232,7 @@ struct Tables {
     const auto cut = a.built.cuts.find(request.on.at(0).value);
     if (cut == a.built.cuts.end()) return;
     out += io::dat_resultant(fmt::format("surface set {}", name), time,
-                             resultant_through(a, state, cut->second));
+                             resultant_through(a, system.model(), state, cut->second));
   }
 
   // ---- contact --------------------------------------------------------------------------------
@@ -331,6 +320,20 @@ AnswerModel<Dim>::AnswerModel(const deck::BasicBuilt<Dim>& all) : model(all.mode
     node_number.push_back(mesh::node_number(of.mesh, static_cast<Index>(n)));
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     node_number[static_cast<std::size_t>(mesh.nodes[i])] = mesh.numbers[i];
+}
+
+template <int Dim>
+typename AnswerModel<Dim>::Place AnswerModel<Dim>::place_in(const model::BasicModel<Dim>& running,
+                                                            std::size_t cell) const {
+  Place place = places[cell];
+  const auto number = static_cast<std::size_t>(place.section - model.sections.data());
+  place.section = &running.sections[number];
+  place.memory.removed = model::is_removed(*place.section, place.memory.index);
+  if (place.memory.initial) {
+    const std::vector<double>& initial = place.section->initial[place.memory.index];
+    place.memory.initial = initial.empty() ? nullptr : initial.data();
+  }
+  return place;
 }
 
 template <int Dim>

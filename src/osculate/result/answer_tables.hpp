@@ -28,6 +28,8 @@ struct AnswerModel {
   std::vector<std::int64_t> node_number;                    ///< of all nodes of the model's mesh
   double sector = 1;
 
+  /// A cell as it is in the running step.
+  [[nodiscard]] Place place_in(const model::BasicModel<Dim>& running, std::size_t cell) const;
   explicit AnswerModel(const deck::BasicBuilt<Dim>& of);
   /// Forces of a node from outside: loads and reactions. Inertia is no part of them.
   [[nodiscard]] Vec3 force(const Eigen::VectorXd& nodal_forces, Index node) const;

@@ -307,6 +307,8 @@ void CheckpointWriter<Dim>::append(const std::string& bytes) {
 
 template <int Dim>
 void CheckpointWriter<Dim>::add(JournalEntry entry, const model::SystemMemory& memory) {
+  if (memory.built != built_) grown_ = 0;
+  built_ = memory.built;
   entry.grown.assign(memory.grown.begin() + static_cast<std::ptrdiff_t>(grown_),
                      memory.grown.end());
   append(io::packed({"entry", saved(entry)}));
@@ -350,6 +352,17 @@ void fit(const Checkpoint<Dim>& found, const model::BasicModel<Dim>& model,
   if (!fits) throw core::InputError({path, 0, ""}, "does not fit the model");
 }
 
+/// Bodies or equations have changed since the last entry: the matrix is another one.
+template <int Dim>
+bool is_built_anew(const model::BasicModel<Dim>& model, const std::vector<JournalEntry>& before,
+                   const JournalEntry& now) {
+  if (before.empty()) return false;
+  return std::ranges::any_of(model.body_changes, [&](const auto& change) {
+    const auto step = static_cast<Index>(change.step);
+    return step > before.back().progress.step && step <= now.progress.step;
+  });
+}
+
 template <int Dim>
 Checkpoint<Dim> read_one(const std::string& path, const std::string& folder, const RunIdentity& now,
                          const model::BasicModel<Dim>& model, const std::string& model_file) {
@@ -381,6 +394,7 @@ Checkpoint<Dim> read_one(const std::string& path, const std::string& folder, con
   for (std::size_t i = 1; i < entries.size(); ++i) {
     JournalEntry entry;
     load(chunk_of(entries, i, "entry", journal), entry);
+    if (is_built_anew(model, found.entries, entry)) found.point.memory.grown.clear();
     found.point.memory.grown.insert(found.point.memory.grown.end(), entry.grown.begin(),
                                     entry.grown.end());
     const auto step = static_cast<std::size_t>(entry.progress.step);

@@ -109,6 +109,7 @@ class CheckpointWriter {
   io::AppendFile journal_;
   std::uint32_t checksum_ = 0;
   std::size_t grown_ = 0;  ///< places written so far
+  int built_ = 0;          ///< of the system that has them
   bool durable_ = false;   ///< checkpoint.bin has reached the disk
   std::chrono::steady_clock::time_point synced_{};
 };

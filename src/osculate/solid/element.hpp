@@ -3,6 +3,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "osculate/cell/volume_shape.hpp"
 #include "osculate/material/expansion.hpp"
@@ -111,6 +112,10 @@ struct CellStress {
   int count = 0;
   std::array<PointStress<Dim>, max_points<Dim>> point;
 };
+/// The points of a cell as CalculiX counts them: along the first direction of the cell first, then
+/// along the second and the third.
+template <int Dim>
+[[nodiscard]] std::vector<std::size_t> in_order(const CellStress<Dim>& stress);
 /// Tested by  tests/unit/solid/test_stress.cpp
 template <int Dim>
 [[nodiscard]] CellStress<Dim> stress_at_points(const Section<Dim>& section, cell::CellType type,

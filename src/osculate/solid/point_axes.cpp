@@ -61,6 +61,22 @@ std::array<double, static_cast<std::size_t>(max_points<Dim>)> expansion_at_point
   return out;
 }
 
+template <int Dim>
+std::vector<Mat<components<Dim>, components<Dim>>> unloaded_stiffness(
+    const Section<Dim>& section, CellType type, const Coordinates<Dim>& reference) {
+  const PointAxes<Dim> placed(section, type, reference);
+  const material::Memory memory = placed.in({});
+  const Vec<components<Dim>> still = Vec<components<Dim>>::Zero();
+  std::vector<Mat<components<Dim>, components<Dim>>> out;
+  for (std::size_t q = 0; q < point_count(section, type); ++q)
+    out.push_back(material::response(section.law, still, memory.at(q)).tangent);
+  return out;
+}
+
+template std::vector<Mat<4, 4>> unloaded_stiffness(const Section<2>&, CellType,
+                                                   const Coordinates<2>&);
+template std::vector<Mat<6, 6>> unloaded_stiffness(const Section<3>&, CellType,
+                                                   const Coordinates<3>&);
 template class PointAxes<2>;
 template class PointAxes<3>;
 template std::array<double, 9> values_at_points(const Section<2>&, CellType,

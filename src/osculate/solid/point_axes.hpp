@@ -23,4 +23,10 @@ class PointAxes {
   std::array<double, 9 * static_cast<std::size_t>(max_points<Dim>)> values_;
 };
 
+/// Stiffness of the undeformed material at the points of a cell, in the global axes: in the plane
+/// with all four components.
+template <int Dim>
+[[nodiscard]] std::vector<Mat<components<Dim>, components<Dim>>> unloaded_stiffness(
+    const Section<Dim>& section, cell::CellType type, const Coordinates<Dim>& reference);
+
 }  // namespace osculate::solid

@@ -1,6 +1,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "osculate/core/dense.hpp"
 #include "osculate/solid/enhanced.hpp"
@@ -196,6 +197,21 @@ const Eigen::MatrixXd& extrapolation_of(const Section<3>& section, CellType type
 }  // namespace
 
 template <int Dim>
+std::vector<std::size_t> in_order(const CellStress<Dim>& stress) {
+  std::vector<std::size_t> order(static_cast<std::size_t>(stress.count));
+  std::iota(order.begin(), order.end(), 0U);
+  constexpr double same = 1e-6;
+  std::ranges::sort(order, [&](std::size_t p, std::size_t q) {
+    for (Eigen::Index i = Dim; i-- > 0;) {
+      const double difference = stress.point[p].xi[i] - stress.point[q].xi[i];
+      if (std::abs(difference) > same) return difference < 0;
+    }
+    return false;
+  });
+  return order;
+}
+
+template <int Dim>
 CellStress<Dim> stress_at_points(const Section<Dim>& section, CellType type,
                                  const Coordinates<Dim>& reference,
                                  const Coordinates<Dim>& displacement,
@@ -265,6 +281,8 @@ NodalStress<Dim> nodal_stress(const Section<Dim>& section, CellType type,
   return out;
 }
 
+template std::vector<std::size_t> in_order(const CellStress<2>&);
+template std::vector<std::size_t> in_order(const CellStress<3>&);
 template CellStress<2> stress_at_points(const Section<2>&, CellType, const Coordinates<2>&,
                                         const Coordinates<2>&, const material::Memory&);
 template CellStress<3> stress_at_points(const Section<3>&, CellType, const Coordinates<3>&,

@@ -137,8 +137,8 @@ TEST(InpBetweenSteps, WhatCannotChangeIsTold) {
   expect_in(message_of(step("*FRICTION\n0.4, 7.E4\n")), "in a step it follows *CHANGE FRICTION");
   expect_in(message_of(step("*CHANGE FRICTION, INTERACTION=WET\n*FRICTION\n0.4, 7.E4\n")),
             "surface interaction of a contact pair");
-  expect_in(message_of(step("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nUP\n")),
-            "expected TYPE=CONTACT PAIR");
+  expect_in(message_of(step("*MODEL CHANGE, TYPE=SECTION, REMOVE\nUP\n")),
+            "expected TYPE=CONTACT PAIR or ELEMENT");
   expect_in(message_of(step("*MODEL CHANGE, TYPE=CONTACT PAIR\nSLAVE, MASTER\n")),
             "expected ADD or REMOVE");
   expect_in(message_of(step("*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nFEET, MASTER\n")),

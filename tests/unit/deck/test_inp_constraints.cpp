@@ -227,17 +227,5 @@ TEST(InpConstraints, CentrifugalForceOfABar) {
   EXPECT_NEAR(run.displacement(41).x(), 3 * 0.5 * 64 / 300, 1e-9);
 }
 
-TEST(InpConstraints, EquationsAreNotRemoved) {
-  const std::string two = bar(2) + "*EQUATION\n2\n11, 1, 1., 12, 1, -1.\n" + fixed;
-  try {
-    (void)run_deck(two + step("*EQUATION, REMOVE ALL\n"));
-    FAIL();
-  } catch (const core::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("*EQUATION: REMOVE is not supported"),
-              std::string::npos)
-        << error.what();
-  }
-}
-
 }  // namespace
 }  // namespace osculate::deck

@@ -19,8 +19,6 @@ std::string text_of_table() {
         return "no effect";
       case KeywordUse::translated:
         return "translated";
-      case KeywordUse::ours:
-        return "by hand";
       default:
         return "not available";
     }
@@ -50,7 +48,7 @@ TEST(InpKeywords, AreFoundWithoutTheirBlanks) {
     EXPECT_EQ(find_inp_keyword(plain), &known);
     EXPECT_EQ(find_inp_keyword(plain + "X"), nullptr);
     EXPECT_EQ(find_inp_keyword(plain.substr(1)), nullptr);
-    const bool told = known.use == KeywordUse::ours || known.use == KeywordUse::none;
+    const bool told = known.use == KeywordUse::none;
     EXPECT_FALSE(told && known.here.empty()) << known.keyword;
   }
 }

@@ -75,12 +75,12 @@ TEST(Spec, FullModelUsesEveryKey) {
     }
   };
   for (const char* const file :
-       {"full.yaml",        "parts.yaml",    "solid.yaml",          "shapes.yaml",
-        "all.yaml",         "channel.yaml",  "sampling.yaml",       "laws.yaml",
-        "enforcement.yaml", "dynamics.yaml", "dynamics_space.yaml", "impacts.yaml",
-        "ring.yaml",        "files.yaml",    "time.yaml",           "heat.yaml",
-        "changes.yaml",     "swings.yaml",   "sector.yaml",         "constraints.yaml",
-        "user.yaml"})
+       {"full.yaml",        "parts.yaml",        "solid.yaml",          "shapes.yaml",
+        "all.yaml",         "channel.yaml",      "sampling.yaml",       "laws.yaml",
+        "enforcement.yaml", "dynamics.yaml",     "dynamics_space.yaml", "impacts.yaml",
+        "ring.yaml",        "files.yaml",        "time.yaml",           "heat.yaml",
+        "changes.yaml",     "swings.yaml",       "sector.yaml",         "constraints.yaml",
+        "user.yaml",        "bodies_change.yaml"})
     visit(visit, read_yaml(test_file(file), file));
   each([&](const std::string&, const Spec& spec) {
     for (const Key& key : spec.keys) {

@@ -145,6 +145,31 @@ TEST(ToInp, RubberAndFoamAreReadAgainAsTheyWere) {
   EXPECT_EQ(chains.d, 0.01);
 }
 
+TEST(ToInp, BodiesThatChangeAreWrittenToo) {
+  const std::string changing =
+      edited(edited(edited(blocks,
+                           "contact:\n  - {name: c, master: low.top, slave: high.bottom, normal: "
+                           "{penalty: 1e4}, friction: {coulomb: {mu: 0.2, penalty: 5e3}}}\n",
+                           "initial_stress: [{on: low, value: [1, 2, 3, 4, 5, 6]}]\n"),
+                    "  - name: free\n",
+                    "  - {name: gone, increments: 1, remove: [{on: high}], free_equations: all}\n"
+                    "  - {name: back, increments: 1, add: [{on: high, with_strain: true}]}\n"
+                    "  - name: free\n    materials: [{on: high, material: weak}]\n"),
+             "  hard:",
+             "  weak: {elastoplastic: {E: 1000, nu: 0.25, hardening: [[1, 0], [1.5, 0.5]]}}\n"
+             "  hard:");
+  const Description after =
+      parse_model(translate_deck(written(changing), "model.inp").root, "model.inp");
+  ASSERT_EQ(after.initial_stress.size(), 1U);
+  EXPECT_EQ(after.initial_stress[0].value.value, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  ASSERT_EQ(after.steps.size(), 4U);
+  EXPECT_EQ(after.steps[1].remove.at(0).on.value, "high");
+  EXPECT_TRUE(after.steps[1].frees_all_equations);
+  EXPECT_TRUE(after.steps[2].add.at(0).with_strain);
+  EXPECT_EQ(after.steps[3].materials.at(0).material.value, "weak");
+  EXPECT_EQ(after.materials.size(), 3U);
+}
+
 TEST(ToInp, WhatHasNoCounterpartIsRefusedByItsKey) {
   EXPECT_THAT(refusal("normal: {penalty: 1e4}", "two_pass: true, normal: {penalty: 1e4}"),
               HasSubstr("model.yaml:13: contact[0].two_pass: has no counterpart"));

@@ -170,6 +170,38 @@ TEST(InpCards, FilesThatIncludeThemselves) {
   EXPECT_THAT(refusal(twice), HasSubstr("too many files include each other"));
 }
 
+TEST(InpCards, ARestartGoesOnFromTheStepsOfAnotherDeck) {
+  const std::string before =
+      "*HEADING\na, \"b\"\n*INCLUDE, INPUT=c\n*MATERIAL, NAME=\"My steel, new\"\n*RESTART, "
+      "WRITE\n*STEP, NLGEOM\n*STATIC\n1., 1.\n*END STEP\n*STEP\n*END STEP\n";
+  const std::string written = restart_text(deck_of({{"a.inp", before}, {"c", "*NODE\n1, 2.,\n"}}));
+  const auto words = [](const Deck& deck) {
+    std::vector<std::string> all;
+    for (const Card& card : deck.cards) {
+      all.push_back(card.keyword);
+      for (const Parameter& p : card.parameters) all.push_back(p.name + "=" + p.value);
+      for (const std::string& text : texts(deck, card)) all.push_back(text);
+    }
+    return all;
+  };
+  const std::vector<std::string> first{
+      "HEADING", "a, \"b\"", "NODE",   "1, 2.,", "MATERIAL", "NAME=My steel, new",
+      "STEP",    "NLGEOM=",  "STATIC", "1., 1.", "ENDSTEP"};
+  std::vector<std::string> with = first;
+  with.emplace_back("STEP");
+  EXPECT_EQ(words(deck_of({{"a.inp", "*RESTART, READ, STEP=1\n*STEP\n"}, {"a.rin", written}})),
+            with);
+  with.insert(with.end(), {"ENDSTEP", "STATIC"});
+  EXPECT_EQ(words(deck_of({{"a.inp", "*RESTART, READ\n*STATIC\n"}, {"a.rin", written}})), with);
+  EXPECT_THAT(refusal({{"a.inp", "*RESTART, READ, STEP=3\n*STEP\n"}, {"a.rin", written}}),
+              HasSubstr("a.inp:1: *RESTART: there are 2 steps to go on from, not 3"));
+  EXPECT_THAT(refusal({{"a.inp", "*NODE\n*RESTART, READ\n"}, {"a.rin", written}}),
+              HasSubstr("a.inp:2: *RESTART: READ stands before all other keywords of a deck"));
+  EXPECT_THAT(refusal({{"a.inp", "*RESTART, READ\n"}, {"a.rin", "*NODE\n"}}),
+              HasSubstr("is no file that `osculate ccx` has written for a restart"));
+  EXPECT_THAT(refusal({{"a.inp", "*RESTART, READ\n"}}), HasSubstr("no such file"));
+}
+
 TEST(InpCards, WhatIsNoDeck) {
   EXPECT_THAT(refusal({{"a.inp", ""}}), HasSubstr("a.inp: there is no keyword like '*NODE'"));
   EXPECT_THAT(refusal({{"a.inp", "** only\nhello\n"}}), HasSubstr("there is no keyword"));

@@ -115,6 +115,7 @@ class Reader {
       add_parameter(card, trimmed(line.substr(begin, comma - begin)));
     }
     if (card.keyword == "INCLUDE") return include(card);
+    if (card.keyword == "RESTART" && find_parameter(card, "READ")) return go_on(card);
     card.first_line = deck_.lines.size();
     deck_.cards.push_back(card);
     if ((card.keyword == "NODE" || card.keyword == "ELEMENT") && find_parameter(card, "INPUT"))
@@ -133,12 +134,52 @@ class Reader {
     card.parameters.push_back(std::move(parameter));
   }
 
+  /// The steps of an earlier deck, from the file that CalculiX takes its restart from.
+  void go_on(const Card& card) {
+    const bool first = std::all_of(deck_.cards.begin(), deck_.cards.end(),
+                                   [](const Card& c) { return c.keyword == "HEADING"; });
+    if (!first || within_.size() > 1)
+      fail(deck_, card, "READ stands before all other keywords of a deck");
+    const Parameter* const step = find_parameter(card, "STEP");
+    const std::int32_t steps =
+        step ? number_of(deck_, card.at, step->value, "the number of a step") : 0;
+    const std::string name = deck_.files[at_.file];
+    const std::string path = std::filesystem::path(name).replace_extension(".rin").string();
+    read_other(card, path, [&](std::string_view text) {
+      if (!text.starts_with(restart_head))
+        fail(
+            deck_, card,
+            fmt::format("{} is no file that `osculate ccx` has written for a restart (JOBNAME.rout "
+                        "of a deck with *RESTART, WRITE)",
+                        shown(path)));
+    });
+    keep_steps(card, steps);
+  }
+
+  /// Drops what stands behind the end of a step; 0: nothing.
+  void keep_steps(const Card& card, std::int32_t steps) {
+    std::int32_t ended = 0;
+    for (std::size_t c = 0; c < deck_.cards.size() && steps > 0; ++c) {
+      if (deck_.cards[c].keyword != "ENDSTEP" || ++ended < steps) continue;
+      deck_.lines.resize(deck_.cards[c].first_line);
+      deck_.cards.resize(c + 1);
+      return;
+    }
+    if (ended < steps)
+      fail(deck_, card, fmt::format("there are {} steps to go on from, not {}", ended, steps));
+  }
+
   void include(const Card& card) {
     const Parameter* const input = find_parameter(card, "INPUT");
     if (!input || input->value.empty())
       fail(deck_, card, "expected 'INPUT=' with the name of a file");
     const std::filesystem::path folder = std::filesystem::path(deck_.files[at_.file]).parent_path();
-    const std::string path = (folder / input->value).string();
+    read_other(card, (folder / input->value).string(), [](std::string_view) {});
+  }
+
+  /// The lines of another file in place of a card, if its text passes a check.
+  template <class Check>
+  void read_other(const Card& card, const std::string& path, const Check& check) {
     const std::string plain = std::filesystem::path(path).lexically_normal().string();
     if (std::find(within_.begin(), within_.end(), plain) != within_.end())
       fail(deck_, card, fmt::format("the file {} includes itself", shown(path)));
@@ -149,6 +190,7 @@ class Reader {
     } catch (const core::InputError& error) {
       fail(deck_, card, error.what());
     }
+    check(deck_.texts.back());
     const std::string_view rest = rest_;
     const Place at = at_;
     read(deck_.texts.back(), path);
@@ -176,6 +218,23 @@ Deck read_cards(std::string_view content, const std::string& name, const Opener&
 
 Deck read_cards(std::string_view content, const std::string& name) {
   return read_cards(content, name, [](const std::string& path) { return read_file(path); });
+}
+
+std::string restart_text(const Deck& deck) {
+  std::string text(restart_head);
+  text += '\n';
+  for (const Card& card : deck.cards) {
+    if (card.keyword == "RESTART") continue;
+    text += '*' + card.keyword;
+    for (const Parameter& p : card.parameters) {
+      if (p.name == "INPUT") continue;  // its lines are there
+      text += ", " + p.name;
+      if (!p.is_flag) text += "=\"" + p.value + '"';
+    }
+    text += '\n';
+    for (const Line& line : lines_of(deck, card)) text.append(line.text) += '\n';
+  }
+  return text;
 }
 
 std::span<const Line> lines_of(const Deck& deck, const Card& card) {

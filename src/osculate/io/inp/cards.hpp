@@ -51,13 +51,19 @@ struct Deck {
 /// Content of an included file; throws core::InputError.
 using Opener = std::function<std::string(const std::string& path)>;
 
+/// First line of the file that a restart goes on from.
+inline constexpr std::string_view restart_head =
+    "** Osculate: the steps that *RESTART, READ goes on from";
+
 /// Reads the cards. `content` must live as long as the deck; `name` appears in messages, and paths
 /// of `*INCLUDE` are relative to the file that names them.
 ///
 /// A line that begins with a star is a keyword, `KEYWORD, NAME=value, FLAG`, and goes on in the
 /// next one where it ends in a comma; two stars begin a comment. What stands before the first
-/// keyword is skipped. Keywords and names of parameters are the same in capital and small letters,
-/// with and without blanks.
+/// keyword is skipped. `*RESTART, READ, STEP=n` stands for the cards of the file beside it that
+/// ends in .rin instead of .inp, up to the end of its step n (the last one, where none is said):
+/// what `restart_text` has written. Keywords and names of parameters are the same in capital and
+/// small letters, with and without blanks.
 ///
 /// Errors     core::InputError with file and line: no keyword at all, a star without keyword, a
 ///            quotation without end, an included file that includes itself or is missing
@@ -65,6 +71,11 @@ using Opener = std::function<std::string(const std::string& path)>;
 [[nodiscard]] Deck read_cards(std::string_view content, const std::string& name,
                               const Opener& open);
 [[nodiscard]] Deck read_cards(std::string_view content, const std::string& name);
+
+/// The cards as one file that includes no other, for `*RESTART, READ`.
+///
+/// Tested by  tests/unit/io/test_inp_cards.cpp
+[[nodiscard]] std::string restart_text(const Deck& deck);
 
 [[nodiscard]] std::span<const Line> lines_of(const Deck& deck, const Card& card);
 /// The parameter of that name (in capitals); null: not given.

@@ -58,11 +58,30 @@ bool begins_with_nodes(const Card& card) {
   return false;
 }
 
+/// Elements that cards name by their numbers: stresses at first, elements that come and go.
+void add_named_elements(const Deck& deck, const Card& card, RawMesh& mesh) {
+  const Parameter* const type = find_parameter(card, "TYPE");
+  const std::string of = type ? capitals(type->value) : std::string{};
+  const bool initial =
+      card.keyword == "INITIALCONDITIONS" && (of == "STRESS" || of == "PLASTICSTRAIN");
+  if (!initial && !(card.keyword == "MODELCHANGE" && of == "ELEMENT")) return;
+  for (const Line& line : lines_of(deck, card))
+    for (Fields fields(deck, line); !fields.done();) {
+      add_element(name_of(fields.next().value_or("")), line.at, mesh);
+      if (initial) break;
+    }
+}
+
 /// Of `*EQUATION`: a line with the number of terms, then node, dof and factor of each.
 void add_nodes_of_equations(const Deck& deck, const Card& card, RawMesh& mesh) {
   std::int32_t missing = 0;  // of the terms
+  const bool removes = find_parameter(card, "REMOVE") != nullptr;
   for (const Line& line : lines_of(deck, card)) {
     Fields fields(deck, line);
+    if (removes) {
+      add_node(fields.next().value_or(""), line.at, mesh);
+      continue;
+    }
     if (missing == 0) {
       missing = number_of(fields.next().value_or("")).value_or(0);
       continue;
@@ -119,6 +138,7 @@ void add_loaded_sets(const Deck& deck, RawMesh& mesh) {
       for (const Line& line : lines_of(deck, card))
         for (Fields fields(deck, line); !fields.done();)
           add_node(fields.next().value_or(""), line.at, mesh);
+    add_named_elements(deck, card, mesh);
     if (card.keyword == "EQUATION") add_nodes_of_equations(deck, card, mesh);
     const bool of_nodes = begins_with_nodes(card);
     for (const Line& line : lines_of(deck, card)) {

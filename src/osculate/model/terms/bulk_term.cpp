@@ -27,6 +27,7 @@ template <int Dim>
 void BulkTerm<Dim>::reserve(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& builder) const {
   std::vector<Index> of_cell;
   for (const Job& job : jobs) {
+    if (job.memory.removed) continue;
     of_cell.clear();
     for (const Index node : cell_nodes(model.mesh, job.cell).nodes)
       for (int i = 0; i < Dim; ++i) {
@@ -57,6 +58,7 @@ bool BulkTerm<Dim>::add(const State& committed, const State& trial, double durat
         out.message = block.message;
         return false;
       }
+      if (block.dof_count == 0) continue;
       const std::span<const Dof> d(block.dofs.data(), static_cast<std::size_t>(block.dof_count));
       for (int k = 0; k < block.dof_count; ++k)
         to.into.forces.internal[d[static_cast<std::size_t>(k)]] += block.result.force[k];
@@ -76,7 +78,7 @@ void BulkTerm<Dim>::add_stresses(const Strained& at, const Strained* less, Assem
     for (std::size_t i = 0; i < count; ++i) {
       const Job& job = jobs[start + i];
       blocks[i].ok = false;
-      if (job.section->section.kinematics == solid::Kinematics::small)
+      if (!job.memory.removed && job.section->section.kinematics == solid::Kinematics::small)
         stressed_cell(model, *job.section, job.cell, at.u, job.memory.of(at.memory),
                       less ? &less->u : nullptr,
                       less ? job.memory.of(less->memory) : material::Memory{}, blocks[i]);

@@ -34,12 +34,18 @@ struct BulkTerm {
   BulkTerm(const BasicModel<Dim>& m, int thread_count);
   /// The places of all cells in the matrix.
   void reserve(const BasicDofSpace<Dim>& dofs, la::MatrixBuilder& builder) const;
-  /// A cell at the nodal displacements `u` after what its points remember. Different cells may be
-  /// evaluated at once. `next` may be empty; `duration` of the increment.
+  /// A cell at the nodal displacements `u` after what its points remember; nothing (no dofs) of one
+  /// that is not there. Different cells may be evaluated at once. `next` may be empty; `duration`
+  /// of the increment.
   void evaluate(std::size_t job, const Eigen::VectorXd& u, std::span<const double> memory,
                 std::span<double> next, double duration, bool with_tangent,
                 BasicBulkBlock<Dim>& out) {
     const Job& j = jobs[job];
+    if (j.memory.removed) {
+      out.ok = true;
+      out.dof_count = 0;
+      return;
+    }
     linear.evaluate(job, model, *j.section, j.cell, u, j.memory.of(memory, next, duration),
                     with_tangent, out);
   }

@@ -1,0 +1,173 @@
+// Bodies and equations that change from step to step, stresses at first: what is understood, what
+// is refused, what is left of the system. That forces and ways are right is
+// verification/body_changes.
+#include <algorithm>
+
+#include "osculate/model/body_changes.hpp"
+#include "osculate/model/material_memory.hpp"
+#include "osculate/solid/element.hpp"
+#include "system_test.hpp"
+
+namespace osculate::deck {
+namespace {
+
+const std::string& bars() {
+  static const std::string text = test_file("bodies_change.yaml");
+  return text;
+}
+
+model::Model in_step(const Built& b, std::size_t step) {
+  model::Model now = b.model;
+  model::change_bodies(b.model, step, now);
+  return now;
+}
+
+TEST(BodyChanges, StayFromStepToStep) {
+  const Built b = build_text(bars());
+  ASSERT_EQ(b.model.body_changes.size(), 3U);
+  EXPECT_FALSE(model::bodies_change(b.model, 0));
+  EXPECT_TRUE(model::bodies_change(b.model, 1));
+  const model::Model one = in_step(b, 1), again = in_step(b, 2), apart = in_step(b, 3);
+  EXPECT_FALSE(model::is_removed(one.sections[0], 0));
+  EXPECT_TRUE(model::is_removed(one.sections[1], 1));
+  EXPECT_FALSE(model::is_removed(again.sections[1], 1));
+  EXPECT_EQ(one.sections[0].material, "stiff");
+  EXPECT_EQ(apart.sections[0].material, "soft");
+  EXPECT_EQ(material::unloaded(apart.sections[0].section.law).young, 50);
+  EXPECT_EQ(one.equations.size(), 2U);
+  EXPECT_EQ(again.equations.size(), 2U);
+  EXPECT_EQ(apart.equations.size(), 1U);
+  // new cells have no strain of their own, and those that stay keep theirs
+  EXPECT_FALSE(b.model.sections[1].initial[0].empty());
+  EXPECT_TRUE(again.sections[1].initial[0].empty());
+  EXPECT_FALSE(again.sections[0].initial[0].empty());
+}
+
+TEST(BodyChanges, TakeTheirLoadsWithThem) {
+  const Built b = build_text(bars());
+  const auto sum = [&](std::size_t step) {
+    double all = 0;
+    for (const model::DeadLoad& load : b.model.steps[step].dead)
+      for (const auto& [dof, value] : load.unit) all += value * load.ramp.value(1);
+    return all;
+  };
+  EXPECT_NEAR(sum(0), 9, 1e-12);
+  EXPECT_NEAR(sum(1), 6, 1e-12);
+  EXPECT_NEAR(sum(2), 9, 1e-12);
+  const auto facets = [&](std::size_t step) {
+    std::size_t count = 0;
+    for (const model::PressureLoad& load : b.model.steps[step].pressure)
+      count += load.facets.size();
+    return count;
+  };
+  EXPECT_EQ(facets(0), 2U);
+  EXPECT_EQ(facets(1), 0U);
+  EXPECT_EQ(facets(2), 2U);
+  EXPECT_EQ(std::count(b.warnings.begin(), b.warnings.end(),
+                       "step 'one' takes all cells from 6 nodes: they stay where they are, or move "
+                       "as they are told, and forces on them have no effect"),
+            1);
+}
+
+TEST(BodyChanges, LeaveNoUnknownsWithoutCells) {
+  const Built b = build_text(bars());
+  const model::Model one = in_step(b, 1);
+  const model::DofSpace before = model::dof_space(b.model), now = model::dof_space(one);
+  const auto all = static_cast<Index>(b.model.reference.size());
+  EXPECT_EQ(before.unknowns(), 2 * all - 2);
+  // of the six nodes of b only the displacement that an equation gives is left, and is none itself
+  EXPECT_EQ(now.unknowns(), 2 * (all - 6) - 1);
+}
+
+TEST(BodyChanges, NewCellsAreFreeOfStrainWhereTheyAre) {
+  const Built b = build_text(bars());
+  const model::Model now = in_step(b, 2);
+  model::System system(now, 1);
+  model::State state = system.initial_state();
+  for (Eigen::Index i = 0; i < state.u.size(); ++i) state.u[i] = 0.01 * static_cast<double>(i % 7);
+  std::fill(state.memory.begin(), state.memory.end(), 0.5);
+  state = model::begin_bodies(b.model, 2, state);
+  std::size_t cells = 0;
+  model::for_each_cell(
+      now, [&](const auto& section, const mesh::CellRef& ref, const model::CellMemory& m) {
+        if (section.name != "b") return;
+        ++cells;
+        model::BulkBlock block;
+        model::evaluate_cell(now, section, ref, state.u, m.of(state.memory), false, block);
+        EXPECT_EQ(block.result.force.cwiseAbs().maxCoeff(), 0.0);
+      });
+  EXPECT_EQ(cells, 2U);
+  // what the system keeps of it is what was committed
+  system.begin_step(now.steps[2], state);
+  solve::Evaluation out;
+  system.evaluate(state, 0.0, false, out);
+  EXPECT_EQ(system.material_memory(), state.memory);
+}
+
+TEST(BodyChanges, TangentsAreDerivatives) {
+  // cells with a stress of their own, of finite strain
+  Probe probe(edited(edited(edited(bars(), "stiff: {linear_elastic: {E: 100, nu: 0}}",
+                                   "stiff: {st_venant_kirchhoff: {E: 100, nu: 0.2}}"),
+                            "soft: {linear_elastic: {E: 50, nu: 0}}",
+                            "soft: {st_venant_kirchhoff: {E: 50, nu: 0.2}}"),
+                     "value: [1, 0, 0, 0]", "value: [9, 4, 1, 3]"),
+              0.05);
+  const testing::DerivativeReport report = check_tangent_of(probe);
+  EXPECT_NEAR(report.order, 2, 0.1);
+}
+
+TEST(InitialState, IsAStressOfTheUndeformedBody) {
+  const Built b = build_text(bars());
+  const model::State state = model::System(b.model, 1).initial_state();
+  model::for_each_cell(b.model, [&](const auto& section, const mesh::CellRef& ref,
+                                    const model::CellMemory& m) {
+    const model::CellNodes cell = model::cell_nodes(b.model.mesh, ref);
+    const material::Memory memory = m.of(state.memory);
+    const auto at = model::places_of(b.model, section, cell.nodes, state.u, memory);
+    const auto stress = solid::stress_at_points(model::section_on(section, cell.type), cell.type,
+                                                at.reference, at.displacement, memory);
+    const auto order = solid::in_order(stress);
+    for (std::size_t p = 0; p < order.size(); ++p) {
+      Vec<4> wanted = Vec<4>::Zero();
+      if (section.name == "a") wanted[0] = 1;
+      if (section.name == "b" && p == 0) wanted = {-0.5, 0, 0, -1};  // -E e, shear 2 G e
+      if (section.name == "b" && p == 1) wanted[0] = -1.5;
+      EXPECT_LT((stress.point[order[p]].stress - wanted).norm(), 1e-13) << section.name << p;
+      EXPECT_TRUE(stress.point[order[p]].strain.isZero(0));
+    }
+    EXPECT_LT(stress.point[order[0]].position.x(), stress.point[order[1]].position.x());
+  });
+}
+
+TEST(BodyChanges, AreRefusedWithTheReason) {
+  const auto refused = [](const std::string& from, const std::string& to) {
+    return build_refusal(edited(bars(), from, to));
+  };
+  EXPECT_EQ(refused("add: [{on: b,", "add: [{on: a,"),
+            "model.yaml:14: steps[2].add[0].on: cell 1 of 'a' is there: no step has removed it");
+  EXPECT_EQ(refused("materials: [{on: a, material: soft}]", "remove: [{on: b}]"),
+            "model.yaml:14: steps[2].remove[0].on: cell 3 of 'b' is not there any more");
+  EXPECT_EQ(refused("{on: a, material: soft}]}\n", "{on: a, material: sof}]}\n"),
+            "model.yaml:14: steps[2].materials[0].material: unknown material 'sof'; did you mean "
+            "'soft'?");
+  EXPECT_EQ(refused("{on: b.bottom_right, of: [ux]}", "{on: b.bottom_left, of: [ux]}"),
+            "model.yaml:15: steps[3].free_equations[0]: no equation gives this displacement of "
+            "'b.bottom_left'");
+  EXPECT_EQ(refused("value: [1, 0, 0, 0]", "value: [1, 0, 0, 0, 0, 0]"),
+            "model.yaml:9: initial_stress[0].value: expected 4 components, xx, yy, zz, xy, got 6");
+  EXPECT_EQ(refused("[{on: a, value: [1, 0, 0, 0]}]", "[{on: a.right, value: [1, 0, 0, 0]}]"),
+            "model.yaml:9: initial_stress[0].on: set 'a.right' has no cells with a section");
+  EXPECT_EQ(
+      refused("stiff: {linear_elastic: {E: 100, nu: 0}}", "stiff: {neo_hooke: {E: 100, nu: 0}}"),
+      "model.yaml:9: initial_stress[0].on: the section on 'a' is of neo_hooke with finite "
+      "strains: initial stresses and strains are for linear_elastic, orthotropic, "
+      "anisotropic and, with small strains, elastoplastic and norton");
+  EXPECT_EQ(refused("soft: {linear_elastic: {E: 50, nu: 0}}",
+                    "soft: {elastoplastic: {E: 50, nu: 0, yield: 1}}"),
+            "model.yaml:14: steps[2].materials[0].material: material 'soft' remembers something "
+            "else than that of the section on 'a': one elastic law may take the place of another, "
+            "one elastoplastic of another, both with an expansion or both without");
+}
+
+}  // namespace
+}  // namespace osculate::deck

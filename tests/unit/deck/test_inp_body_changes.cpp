@@ -1,0 +1,128 @@
+// Decks: elements that go and come back, sections that change, equations that end, stresses and
+// plastic strains at first.
+#include "inp_run_test.hpp"
+#include "osculate/deck/inp_translate.hpp"
+
+namespace osculate::deck {
+namespace {
+
+/// Two unit cubes side by side, not joined, held below; lines 1 to 36, the step from 37 on.
+const std::string two = R"(*NODE, NSET=NALL
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+11, 2, 0, 0
+12, 3, 0, 0
+13, 3, 1, 0
+14, 2, 1, 0
+15, 2, 0, 1
+16, 3, 0, 1
+17, 3, 1, 1
+18, 2, 1, 1
+*ELEMENT, TYPE=C3D8, ELSET=A
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*ELEMENT, TYPE=C3D8, ELSET=B
+2, 11, 12, 13, 14, 15, 16, 17, 18
+*NSET, NSET=LOW
+1, 2, 3, 4, 11, 12, 13, 14
+*NSET, NSET=UP
+5, 6, 7, 8, 15, 16, 17, 18
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.
+*MATERIAL, NAME=SOFT
+*ELASTIC
+500., 0.
+*SOLID SECTION, ELSET=A, MATERIAL=M
+*SOLID SECTION, ELSET=B, MATERIAL=M
+*BOUNDARY
+NALL, 1, 2
+LOW, 3, 3
+)";
+std::string pull(double way, const std::string& cards = "") {
+  return "*STEP\n*STATIC\n" + cards + "*BOUNDARY\nUP, 3, 3, " + std::to_string(way) +
+         "\n*END STEP\n";
+}
+
+TEST(InpBodyChanges, ElementsGoAndComeBack) {
+  const auto run_with = [](const std::string& how) {
+    return run_deck(two + pull(0.1) + pull(0.2, "*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nB\n") +
+                    pull(0.3, "*MODEL CHANGE, TYPE=ELEMENT, ADD" + how + "\n2\n"));
+  };
+  const DeckRun fresh = run_with("=STRAIN FREE"), strained = run_with("=WITH STRAIN");
+  EXPECT_NEAR(fresh.reaction_of("LOW", 0).z(), -200, 1e-9);
+  EXPECT_NEAR(fresh.reaction_of("LOW", 1).z(), -200, 1e-9);
+  EXPECT_NEAR(fresh.reaction_of("LOW", 2).z(), -300 - 100, 1e-9);
+  EXPECT_NEAR(strained.reaction_of("LOW", 2).z(), -300 - 300, 1e-9);  // as CalculiX has it
+}
+
+TEST(InpBodyChanges, SectionsChange) {
+  const DeckRun run =
+      run_deck(two + pull(0.1) + pull(0.1, "*CHANGE SOLID SECTION, ELSET=B, MATERIAL=SOFT\n"));
+  EXPECT_NEAR(run.reaction_of("LOW", 0).z(), -200, 1e-9);
+  EXPECT_NEAR(run.reaction_of("LOW", 1).z(), -150, 1e-9);
+}
+
+TEST(InpBodyChanges, EquationsEnd) {
+  std::string text = two;
+  for (const int node : {5, 6, 7, 8})
+    text += "*EQUATION\n2\n" + std::to_string(node + 10) + ", 3, 1., " + std::to_string(node) +
+            ", 3, -1.\n";
+  const std::string step = "*STEP\n*STATIC\n*CLOAD\n5, 3, 10.\n6, 3, 10.\n7, 3, 10.\n8, 3, 10.\n";
+  const std::string end = "*END STEP\n";
+  const auto run_with = [&](const std::string& removal) {
+    return run_deck(text + step + end + step + removal + end);
+  };
+  for (const char* const removal :
+       {"*EQUATION, REMOVE ALL\n", "*EQUATION, REMOVE\n15, 3\n16, 3\n17, 3, 3\n18, 3\n",
+        "*EQUATION, REMOVE\nUP, 1, 3\n"}) {
+    SCOPED_TRACE(removal);
+    const DeckRun run = run_with(removal);
+    EXPECT_NEAR(run.displacement(5, 0).z(), 0.02, 1e-12);
+    EXPECT_NEAR(run.displacement(15, 0).z(), 0.02, 1e-12);
+    EXPECT_NEAR(run.displacement(5, 1).z(), 0.04, 1e-12);
+    EXPECT_NEAR(run.displacement(15, 1).z(), 0, 1e-12);
+  }
+}
+
+TEST(InpBodyChanges, StressesAndPlasticStrainsAtFirst) {
+  const auto held = [](const std::string& initial) {
+    return run_deck(two + "*INITIAL CONDITIONS, TYPE=" + initial + pull(0)).reaction_of("LOW").z();
+  };
+  EXPECT_NEAR(held("STRESS\nA, 0., 0., 50., 0., 0., 0.\n"), -50, 1e-12);
+  std::string points = "STRESS\n", strains = "PLASTIC STRAIN\n";
+  for (int p = 1; p <= 4; ++p)  // the lower four: half of the cube
+    points += "2, " + std::to_string(p) + ", 0., 0., 50., 0., 0., 0.\n";
+  for (int p = 1; p <= 8; ++p) strains += "2, " + std::to_string(p) + ", 0., 0., .01, 0., 0., 0.\n";
+  EXPECT_NEAR(held(points), -25, 1e-12);
+  EXPECT_NEAR(held(strains), 10, 1e-12);
+}
+
+TEST(InpBodyChanges, AreRefusedWithTheReason) {
+  const auto refused = [](const std::string& card) -> std::string {
+    try {
+      (void)translate_deck(two + pull(0.1, card), "deck.inp");
+    } catch (const core::InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refused("*MODEL CHANGE, TYPE=ELEMENT\nB\n"),
+            "deck.inp:39: *MODELCHANGE: expected ADD or REMOVE");
+  EXPECT_EQ(refused("*MODEL CHANGE, TYPE=ELEMENT, ADD=NEW\nB\n"),
+            "deck.inp:39: *MODELCHANGE: expected ADD, ADD=STRAIN FREE or ADD=WITH STRAIN");
+  EXPECT_EQ(refused("*EQUATION, REMOVE\n5, 7\n"), "deck.inp:40: 'node 5' has no direction 7");
+  EXPECT_EQ(refused("*INITIAL CONDITIONS, TYPE=STRESS, USER\n"),
+            "deck.inp:39: *INITIALCONDITIONS: the parameter USER is not supported");
+  EXPECT_EQ(refused("*INITIAL CONDITIONS, TYPE=STRESS\nA, 1., 2.\n"),
+            "deck.inp:40: expected an element or a set, a point (CalculiX), 6 "
+            "components");
+}
+
+}  // namespace
+}  // namespace osculate::deck
