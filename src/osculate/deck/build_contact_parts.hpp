@@ -1,6 +1,7 @@
 #pragma once
 // Shared by build_contact.cpp and build_contact_all.cpp; not for users.
 #include "osculate/deck/build_context.hpp"
+#include "osculate/model/onto_master.hpp"
 #include "osculate/pairing/automatic_stiffness.hpp"
 #include "osculate/pairing/facet_size.hpp"
 
@@ -45,6 +46,12 @@ template <int Dim>
 /// Tested by  tests/unit/deck/test_initial_overlap.cpp
 template <int Dim>
 void adjust_overlaps(BuildContext<Dim>& context);
+
+/// Moves nodes in the reference coordinates and says how far (`what` begins the note). Throws
+/// core::InputError at `mark` for a cell that is turned inside out.
+template <int Dim>
+void move_onto_master(BuildContext<Dim>& c, const std::vector<model::MovedNode<Dim>>& all,
+                      std::string_view what, const core::SourceMark& mark);
 
 /// Laws and forms from the description, areas; then the pair is part of the model. Errors point at
 /// `mark`.

@@ -366,6 +366,14 @@ struct CyclicSymmetry {
   Vec3 from{0, 0, 0}, to{0, 0, 1};
 };
 
+/// Nodes of the slave follow the master's facets.
+struct Tie {
+  core::SourceMark mark;
+  Name slave, master;
+  std::optional<Number> tolerance;
+  bool adjust = true;
+};
+
 /// A load or motion of a set at the end of the step; how many of `values` are used depends on the
 /// kind: motions and forces fx fy fz mx my mz are indexed by Component, pressure p, traction tx ty
 /// tz, body force fx fy fz. Absent ones are not touched.
@@ -489,6 +497,7 @@ struct Description {
   std::vector<PointMass> masses;
   std::vector<Pretension> pretension;
   std::vector<CyclicSymmetry> cyclic_symmetry;
+  std::vector<Tie> ties;
   std::vector<Load> initial_velocity;     ///< vx vy vz wx wy wz
   std::vector<Load> initial_temperature;  ///< the first value
   std::vector<Step> steps;

@@ -158,7 +158,8 @@ void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, 
     m.notes.push_back(fmt::format("line {}: sliding is finite, not SMALL SLIDING", card.at.line));
 }
 
-void add_ties(InpModel& m, const Card& card, SourceNode& pairs) {
+/// Explicit steps know no equations of many displacements.
+void add_explicit_ties(InpModel& m, const Card& card, SourceNode& pairs) {
   for (const Line& line : io::inp::lines_of(m.deck, card)) {
     SourceNode& pair = pair_of_line(m, card, line, pairs);
     const int at = line_of(line.at);
@@ -228,7 +229,8 @@ SourceNode inp_contact(InpModel& m) {
       add_contact_pair(
           m, card, interaction_named(m, interactions, card.at, value_of(m, card, "INTERACTION")),
           pairs);
-    if (card.keyword == "TIE" && !is_cyclic_tie(card)) add_ties(m, card, pairs);
+    if (card.keyword == "TIE" && !is_cyclic_tie(card) && is_explicit(m))
+      add_explicit_ties(m, card, pairs);
   }
   return inp_general_contact(m, interactions, std::move(pairs));
 }

@@ -77,7 +77,7 @@ constexpr std::array<InpKeyword, 116> keywords{{
     {"EQUATION", "", "number of terms; node, dof, factor", translated, "`equations`"},
     {"MPC", "", "kind, nodes", translated, "`coplanar`, `collinear`, `fixed_distance`"},
     {"TIE", "NAME POSITION TOLERANCE ADJUST", "slave, master", translated,
-     "`contact` with `separation: tied`"},
+     "`ties` (EXPLICIT: `contact` with `separation: tied`)"},
     {"RIGID BODY", "NSET ELSET REF NODE ROT NODE", "", translated, "`rigid`"},
     {"COUPLING", "CONSTRAINT NAME REF NODE SURFACE", "", translated, "`rigid`"},
     {"KINEMATIC", "", "first dof, last dof", translated, "`rigid` (all displacements)"},

@@ -187,7 +187,7 @@ void put_damping(const InpModel& m, const io::inp::Card& card, SourceNode& norma
 /// that stand for them.
 [[nodiscard]] SourceNode inp_rigid(InpModel& m);
 
-/// Adds multi-point constraints, couplings, sections under pretension and cyclic symmetry.
+/// Adds multi-point constraints, couplings, sections under pretension, cyclic symmetry and ties.
 void put_constraints(InpModel& m, SourceNode& root);
 /// Adds springs, dampers, gaps and masses.
 ///
@@ -195,6 +195,8 @@ void put_constraints(InpModel& m, SourceNode& root);
 void put_springs(const InpModel& m, SourceNode& root);
 /// Of a `*TIE`: it is one of the two faces of a sector.
 [[nodiscard]] bool is_cyclic_tie(const io::inp::Card& card);
+/// Some step is integrated explicitly: ties are penalties.
+[[nodiscard]] bool is_explicit(const InpModel& m);
 /// The node of a set of one node, or -1.
 [[nodiscard]] Index only_node(const InpModel& m, std::string_view set);
 /// The set of the node that a parameter gives the number of; empty without the parameter.
