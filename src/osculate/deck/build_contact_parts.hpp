@@ -59,6 +59,14 @@ template <int Dim>
 void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMark& mark,
               model::BasicContactPair<Dim> pair);
 
+/// Areas of the slave's points that the model gives; empty: those of its facets. A node without
+/// free faces has the mean of the others.
+///
+/// Tested by  tests/unit/deck/test_given_areas.cpp
+template <int Dim>
+[[nodiscard]] std::vector<double> given_areas(const BuildContext<Dim>& c, const Contact& contact,
+                                              const pairing::PairDefinition<Dim>& pair);
+
 /// Normal law, friction law, what is held, offset. Errors point at the key.
 template <int Dim>
 void set_laws(const BuildContext<Dim>& c, const Contact& contact,

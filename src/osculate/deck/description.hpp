@@ -193,7 +193,7 @@ enum class HistoryKind { continuous, chord, per_facet };
 enum class InitialWord { ignore, ramp, keep, adjust };
 enum class SmoothingWord { none, hermite, nurbs };
 
-enum class AreaWord { around };
+enum class AreaWord { around, middles };
 
 /// Of the master's surface.
 struct MasterSmoothing {
@@ -250,8 +250,8 @@ struct Contact {
   std::optional<GivenLaw<contact::FrictionLaw>> friction;
   Marked<Enforcement> enforcement;
   Marked<ContactWeight> weight;
-  double area = 0;           ///< of each slave node; 0: that of its facets, or
-  bool area_around = false;  ///< of the free faces round it
+  double area = 0;                    ///< of each slave node; 0: that of its facets, or
+  std::optional<AreaWord> area_by{};  ///< another share of them
   Marked<Residual> residual;
   Marked<Tangent> tangent;
   Marked<HistoryKind> history;

@@ -161,8 +161,8 @@ struct InpInteraction {
 [[nodiscard]] const InpInteraction& interaction_named(const InpModel& m,
                                                       const std::vector<InpInteraction>& all,
                                                       io::inp::Place at, std::string_view name);
-/// Its laws as keys of a contact pair.
-void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair);
+/// Its laws as keys of a contact pair; clearance: as of inp_normal.
+void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, double clearance = 0);
 /// A new pair of two surfaces of the deck, with a name of its own.
 SourceNode& add_pair(const InpModel& m, io::inp::Place at, const std::string& slave,
                      const std::string& master, SourceNode& pairs);
@@ -175,7 +175,10 @@ SourceNode& add_pair(const InpModel& m, io::inp::Place at, const std::string& sl
 /// What the cards of a step change of contact pairs; empty: nothing.
 [[nodiscard]] SourceNode inp_changes(const InpModel& m, std::span<const io::inp::Card> step);
 // The laws of a `*SURFACE INTERACTION`.
-[[nodiscard]] SourceNode inp_normal(const InpModel& m, const io::inp::Card* behavior, int line);
+/// `clearance`: up to which the linear law of node-to-face contact pulls, if nothing is said about
+/// it; 0: it is other contact, which does not pull.
+[[nodiscard]] SourceNode inp_normal(const InpModel& m, const io::inp::Card* behavior, int line,
+                                    double clearance = 0);
 [[nodiscard]] bool inp_is_tied(const io::inp::Card* behavior);
 [[nodiscard]] SourceNode inp_friction(const InpModel& m, const io::inp::Card& card);
 void put_damping(const InpModel& m, const io::inp::Card& card, SourceNode& normal);

@@ -31,7 +31,7 @@ Solved<Dim> solved(const std::string& text) {
   const Description description = parse_model(text, "model.yaml");
   Solved<Dim> out{std::get<BasicBuilt<Dim>>(build_any(description, load_mesh(description))), {}};
   model::BasicAnalysisObserver<Dim> observer;
-  observer.converged = [&](model::BasicSystem<Dim>&, const model::State& state,
+  observer.converged = [&](model::BasicSystem<Dim>&, const model::BasicState<Dim>& state,
                            const model::Progress&, const solve::IncrementRecord*) {
     out.u.clear();
     for (std::size_t n = 0; n < out.built.model.reference.size(); ++n)
