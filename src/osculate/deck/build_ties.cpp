@@ -22,6 +22,7 @@ struct TiedNodes {
   std::vector<Foot<Dim>> feet;
   std::size_t others = 0;  ///< of the slave
   double tolerance = 0, nearest = std::numeric_limits<double>::infinity();
+  double size = 0;  ///< mean edge of the master's facets
 };
 
 template <int Dim>
@@ -44,13 +45,17 @@ std::vector<Side<Dim>> master_facets(const BuildContext<Dim>& c, const Tie& tie)
 }
 
 template <int Dim>
+double size_of(const BuildContext<Dim>& c, const std::vector<Side<Dim>>& facets) {
+  return mean_size<Dim>(boundary_from<Dim>(facets, false), c.model().reference);
+}
+
+template <int Dim>
 TiedNodes<Dim> tied_nodes(const BuildContext<Dim>& c, const Tie& tie) {
   constexpr double near = 0.025;  // of the facets' edges
   const FacetFeet<Dim> master(c.model().reference, master_facets(c, tie));
   TiedNodes<Dim> out;
-  out.tolerance = tie.tolerance ? tie.tolerance->value
-                                : near * mean_size<Dim>(boundary_from<Dim>(master.facets(), false),
-                                                        c.model().reference);
+  out.size = size_of(c, master.facets());
+  out.tolerance = tie.tolerance ? tie.tolerance->value : near * out.size;
   for (const Index node : c.set(tie.slave).nodes) {
     if (!c.takes_part(node)) throw c.idle_node(tie.slave, node);
     Foot<Dim> foot = master.at(c.model().reference[static_cast<std::size_t>(node)]);
@@ -114,6 +119,20 @@ void add_equations(const BuildContext<Dim>& c, const Tie& tie, Index node, const
   }
 }
 
+/// Nodes of the master between those of the slave would be free.
+template <int Dim>
+void tell_of_coarse_slave(BuildContext<Dim>& c, const Tie& tie, double size) {
+  constexpr double much = 1.5;
+  if (c.set(tie.slave).dimension != Dim - 1 || c.set(tie.slave).cells.empty()) return;
+  const double own = size_of(c, oriented_facets(c, tie.slave));
+  if (!(own > much * size)) return;
+  c.built.warnings.push_back(fmt::format(
+      "{}: the facets of the slave are {:.2g} times as long as those of the master, whose nodes "
+      "between the slave's are free: make the finer side the slave, or use `contact` with "
+      "`separation: tied` and `sampling: mortar`",
+      name_of(tie), own / size));
+}
+
 template <int Dim>
 void tell(BuildContext<Dim>& c, const Tie& tie, const TiedNodes<Dim>& tied, const LeftOut& left) {
   std::string text =
@@ -125,6 +144,7 @@ void tell(BuildContext<Dim>& c, const Tie& tie, const TiedNodes<Dim>& tied, cons
     text += fmt::format("; {} follow from a rigid body or another equation and are not tied",
                         left.given);
   c.built.notes.push_back(std::move(text));
+  tell_of_coarse_slave(c, tie, tied.size);
   if (left.parted > 0)
     c.built.warnings.push_back(
         fmt::format("{}: {} displacements of slave nodes are prescribed, those of the master at "

@@ -127,6 +127,14 @@ TEST(Ties, NodesFollowFacets) {
   EXPECT_THAT(run.built.warnings, IsEmpty());
 }
 
+TEST(Ties, ACoarseSlaveIsToldOf) {
+  const Solved<2> run =
+      solved<2>(edited(two, "slave: b.bottom, master: a.top", "slave: a.top, master: b.bottom"));
+  EXPECT_THAT(run.built.warnings,
+              Contains(HasSubstr("the facets of the slave are 2.5 times as long as those of the "
+                                 "master, whose nodes between the slave's are free")));
+}
+
 TEST(Ties, NodesStayWhereTheyAreWithoutAdjust) {
   const Solved<2> run = solved<2>(edited(two, "0.03}", "0.03, adjust: false}"));
   for (const Index n : run.built.model.mesh.find_set("b.bottom")->nodes)
