@@ -166,9 +166,10 @@ void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, 
     SourceNode& pair = pair_of_line(m, card, line, pairs);
     put_sampling(m, card, find(pair, "slave")->text, inp_is_tied(law.behavior), pair);
     put_weight(m, card, pair);
+    const double clearance = is_of_nodes ? usual_clearance(m, find(pair, "slave")->text) : 0;
     m.pairs.push_back({find(pair, "name")->text, io::inp::capitals(law.name),
-                       find(pair, "slave")->text, find(pair, "master")->text});
-    put_laws(m, law, pair, is_of_nodes ? usual_clearance(m, find(pair, "slave")->text) : 0);
+                       find(pair, "slave")->text, find(pair, "master")->text, clearance});
+    put_laws(m, law, pair, clearance);
     if (const io::inp::Parameter* const adjust = io::inp::find_parameter(card, "ADJUST"))
       put_adjust(m, card, adjust->value, pair);
   }

@@ -148,7 +148,7 @@ void put_ties(const InpModel& m, const Card& card, SourceNode& root) {
       const double tolerance = Fields(m.deck, {given->value, card.at}).real("POSITION TOLERANCE");
       if (tolerance >= no_tolerance) put(tie, "tolerance", inp_number(tolerance, at));
     }
-    if (adjust == "NO") put(tie, "adjust", inp_text("false", at));
+    if (adjust == "NO") put(tie, "adjust", inp_text("false", at)).quoted = false;
   }
 }
 

@@ -19,6 +19,7 @@ namespace osculate::deck {
 struct InpPair {
   std::string name, interaction;  ///< the latter in capitals
   std::string slave, master;      ///< sets of the mesh
+  double clearance = 0;           ///< as of inp_normal
 };
 
 /// A node that stands for the motions of a rigid body: from this one on, 1 to 6.

@@ -145,7 +145,7 @@ TEST(Ties, NodesStayWhereTheyAreWithoutAdjust) {
 /// A support counts, the tie does not, and where the master goes on without it that is told of.
 TEST(Ties, WhatIsPrescribedIsNotTied) {
   const Solved<2> run = solved<2>(edited(two, "uy: 0}]", "uy: 0}, {on: b.left, ux: 0.01}]"));
-  EXPECT_NEAR(run.at({0, 1}).x(), 0.0, 0.01);
+  EXPECT_GT(std::abs(run.at({0, 1}).x() - 0.01), 1e-3) << "the master goes on";
   EXPECT_THAT(run.built.notes, Contains(HasSubstr("1 of their displacements are prescribed and not "
                                                   "tied")));
   EXPECT_THAT(run.built.warnings, Contains(HasSubstr("so that the surfaces part there")));
