@@ -152,9 +152,9 @@ TEST(InpBetweenSteps, TheLinearLawOfNodesPullsWhereATensionIsGiven) {
 )";
   const std::string of_nodes =
       "*CONTACT PAIR, INTERACTION=DRY, TYPE=NODE TO SURFACE\nSLAVE, MASTER\n";
-  // four nodes share an area of 1: a thousandth of the root of a quarter
+  // four nodes share an area of a quarter: a thousandth of the root of a sixteenth
   expect_in(part(pulling + of_nodes + press, "contact"),
-            "tensile: {stiffness: 100000, tension: 3, clearance: 0.0005}");
+            "tensile: {stiffness: 100000, tension: 3, clearance: 0.00025}");
   const std::string of_faces =
       "*CONTACT PAIR, INTERACTION=DRY, TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n";
   expect_in(part(pulling + of_faces + press, "contact"), "normal: {penalty: 100000}");
