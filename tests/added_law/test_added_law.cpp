@@ -48,8 +48,9 @@ TEST(AddedLaw, IsInSchemaAndDocumentation) {
   EXPECT_THAT(schema, HasSubstr("\"quadratic\""));
   EXPECT_THAT(schema, HasSubstr("Pressure over overclosure squared. Unit: force/length^4."));
   EXPECT_THAT(schema, HasSubstr("\"saturating\""));
-  EXPECT_THAT(deck::explain_model_key("contact.normal"),
-              HasSubstr("a penalty, or one of exponential, table, decaying and quadratic."));
+  EXPECT_THAT(
+      deck::explain_model_key("contact.normal"),
+      HasSubstr("a penalty, or one of exponential, table, decaying, tensile and quadratic."));
   EXPECT_THAT(
       deck::explain_model_key("friction"),
       HasSubstr("Exactly one of: coulomb, tresca, rough, rate_and_state, viscous, saturating"));
@@ -68,7 +69,7 @@ TEST(AddedLaw, IsRefusedWithItsKeys) {
             at + "quadratic: there is a table law already: use one of them");
   EXPECT_EQ(refusal(edited("quadratic:", "penalty: 5, quadratic:")),
             at + "penalty: there is another law already: use one of penalty, exponential, table, "
-                 "decaying, "
+                 "decaying, tensile, "
                  "quadratic");
   EXPECT_THAT(refusal(edited("factor: 400}", "factor: 400}, separation: tied")),
               HasSubstr("holding points needs a stiffness in tension"));

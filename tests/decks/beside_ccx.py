@@ -124,6 +124,30 @@ def blocks_of_frd(path):
     return found
 
 
+def places_of_frd(path):
+    """Of the nodes, by number."""
+    found, inside = {}, False
+    for line in open(path, errors="replace"):
+        if line.startswith("    2C"):
+            inside = True
+        elif line.startswith(" -3"):
+            break
+        elif inside and line.startswith(" -1"):
+            found[int(line[3:13])] = [float(line[k:k + 12]) for k in range(13, 49, 12)]
+    return found
+
+
+def of_the_same_nodes(ours, folder):
+    """What is ours, without nodes of the same number elsewhere: both programs add some to those of the deck."""
+    files = [next(place.glob("*.frd"), None) for place in (folder / "ours", folder)]
+    if None in files:
+        return ours
+    here, there = map(places_of_frd, files)
+    size = max((abs(c) for place in there.values() for c in place), default=0.0)
+    return {node: u for node, u in ours.items()
+            if not (node in here and node in there and math.dist(here[node], there[node]) > 1e-3 * size)}
+
+
 def displacements(folder):
     """By node: of the result file, and of the table of the nodes that the deck prints."""
     frd, dat = next(folder.glob("*.frd"), None), next(folder.glob("*.dat"), None)
@@ -242,7 +266,8 @@ def compare(row, options):
             return result | {"nodes": 0, "difference":
                              frequency_difference(vibrations, frequencies_of_dat(folder / "deck.dat"))}
         ours = blocks_of_frd(next((folder / "ours").glob("*.frd")))
-        _, result["difference"], result["nodes"] = difference(displacements(folder / "ours"), displacements(folder))
+        moved = of_the_same_nodes(displacements(folder / "ours"), folder)
+        _, result["difference"], result["nodes"] = difference(moved, displacements(folder))
         if "DISPI" in theirs:  # the imaginary parts of what swings
             _, imaginary, _ = difference(ours["DISPI"], theirs["DISPI"])
             result["difference"] = max(result["difference"], imaginary)

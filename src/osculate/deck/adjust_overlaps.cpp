@@ -7,7 +7,6 @@
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/model/bulk.hpp"
-#include "osculate/model/onto_master.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -26,7 +25,7 @@ void refuse_rigid(const BuildContext<Dim>& c, const Contact& contact,
 
 /// A cell that a moved node has turned inside out.
 template <int Dim>
-void check_cells(const BuildContext<Dim>& c, const Contact& contact,
+void check_cells(const BuildContext<Dim>& c, const core::SourceMark& mark,
                  const std::vector<bool>& moved) {
   for (const model::BasicBulkSection<Dim>& section : c.model().sections)
     for (const mesh::CellRef& ref : section.cells) {
@@ -35,7 +34,7 @@ void check_cells(const BuildContext<Dim>& c, const Contact& contact,
                                       [&](Index n) { return moved[static_cast<std::size_t>(n)]; });
       if (found == nodes.end() || model::smallest_jacobian(c.model(), ref) > 0) continue;
       throw core::InputError(
-          contact.initial.mark,
+          mark,
           fmt::format("moving the slave nodes onto the master turns the cell at {} inside out: the "
                       "overlap is deeper than the cell",
                       mesh::describe_node(c.model().mesh, *found)));
@@ -69,6 +68,14 @@ void adjust(BuildContext<Dim>& c, const Contact& contact) {
       return std::find(only.begin(), only.end(), one.node) == only.end();
     });
   }
+  move_onto_master(c, all, fmt::format("'{}'", contact.name.value), contact.initial.mark);
+}
+
+}  // namespace
+
+template <int Dim>
+void move_onto_master(BuildContext<Dim>& c, const std::vector<model::MovedNode<Dim>>& all,
+                      std::string_view what, const core::SourceMark& mark) {
   std::vector<bool> moved(c.model().reference.size());
   double farthest = 0;
   for (const model::MovedNode<Dim>& one : all) {
@@ -76,13 +83,11 @@ void adjust(BuildContext<Dim>& c, const Contact& contact) {
     farthest = std::max(farthest, one.way);
     move<Dim>(c, one.node, one.to);
   }
-  check_cells(c, contact, moved);
-  c.built.notes.push_back(fmt::format(
-      "'{}': {} slave nodes moved onto the master before the first step, by up to {:.4g}",
-      contact.name.value, all.size(), farthest));
+  check_cells(c, mark, moved);
+  c.built.notes.push_back(
+      fmt::format("{}: {} slave nodes moved onto the master before the first step, by up to {:.4g}",
+                  what, all.size(), farthest));
 }
-
-}  // namespace
 
 template <int Dim>
 void adjust_overlaps(BuildContext<Dim>& c) {
@@ -96,6 +101,10 @@ void adjust_overlaps(BuildContext<Dim>& c) {
   }
 }
 
+template void move_onto_master(BuildContext<2>&, const std::vector<model::MovedNode<2>>&,
+                               std::string_view, const core::SourceMark&);
+template void move_onto_master(BuildContext<3>&, const std::vector<model::MovedNode<3>>&,
+                               std::string_view, const core::SourceMark&);
 template void adjust_overlaps(BuildContext<2>&);
 template void adjust_overlaps(BuildContext<3>&);
 

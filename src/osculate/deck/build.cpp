@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "osculate/core/text.hpp"
-#include "osculate/deck/build_displacements.hpp"
+#include "osculate/deck/build_ties.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/deck/parse_parts.hpp"
 #include "osculate/deck/pretension.hpp"
@@ -191,16 +191,17 @@ std::vector<std::string> sets_without_cells(const Description& description,
   return names;
 }
 
-/// Of the contacts that name two sets of nodes, and of springs that join nodes.
+/// Of the contacts that name two sets of nodes, of ties, and of springs that join nodes.
 std::vector<mesh::ContactSides> sides_of_contacts(const Description& description,
                                                   const mesh::Mesh& mesh) {
   std::vector<mesh::ContactSides> out;
-  for (const Contact& contact : description.contact) {
-    const std::array<std::string, 2> names{contact.master.value, contact.slave.value};
-    if (contact.all || names[0] == names[1]) continue;
-    mesh::ContactSides& sides = out.emplace_back();
-    for (const std::size_t k : {0, 1}) sides[k] = nodes_of({names[k]}, mesh);
-  }
+  const auto add = [&](const Name& master, const Name& slave) {
+    out.push_back({nodes_of({master.value}, mesh), nodes_of({slave.value}, mesh)});
+  };
+  for (const Contact& contact : description.contact)
+    if (!contact.all && contact.master.value != contact.slave.value)
+      add(contact.master, contact.slave);
+  for (const Tie& tie : description.ties) add(tie.master, tie.slave);
   std::vector<std::string> first, others;
   for (const Spring& spring : description.springs)
     for (std::size_t k = 0; k < spring.terms.size(); ++k)
@@ -247,6 +248,7 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   build_rigid(context);
   build_axes(context);
   build_masses(context);
+  adjust_ties(context);
   build_contact(context);
   build_equations(context);
   build_initial_temperature(context);

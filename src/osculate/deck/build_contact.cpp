@@ -6,7 +6,6 @@
 #include "osculate/deck/build_contact_parts.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/mesh/boundary.hpp"
-#include "osculate/mesh/node_areas.hpp"
 #include "osculate/pairing/combinations.hpp"
 #include "osculate/pairing/sampling.hpp"
 
@@ -148,62 +147,6 @@ pairing::AreaRule area_rule(const BuildContext<2>& c, const pairing::PairDefinit
 }
 pairing::AreaRule area_rule(const BuildContext<3>&, const pairing::PairDefinition<3>&) {
   return {};
-}
-
-/// By node, in a plane model times the thickness or the circumference.
-std::vector<double> areas_around(const BuildContext<3>& c) {
-  return mesh::free_areas(c.model().mesh, c.sides);
-}
-std::vector<double> areas_around(const BuildContext<2>& c) {
-  const model::Model& m = c.model();
-  std::vector<double> areas(m.reference.size(), 0.0);
-  for (const mesh::Edge& edge : c.sides.edges) {
-    const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(edge.cell.block)];
-    const auto& local = cell::info(block.type).edges[static_cast<std::size_t>(edge.local)];
-    const Index* const nodes = block.cell(edge.cell.cell);
-    const std::array<Index, 2> ends{nodes[local[0]], nodes[local[1]]};
-    if (c.sides.find(ends[0], ends[1]).size() > 1) continue;
-    const solid::Section<2>& section = m.sections[static_cast<std::size_t>(c.section_of_cell.at(
-                                                      {edge.cell.block, edge.cell.cell}))]
-                                           .section;
-    const Vec2 a = m.reference[static_cast<std::size_t>(ends[0])],
-               b = m.reference[static_cast<std::size_t>(ends[1])];
-    const bool ring = section.assumption == solid::Assumption::axisymmetric;
-    for (const Index n : ends)
-      areas[static_cast<std::size_t>(n)] +=
-          0.5 * (b - a).norm() * (ring ? std::numbers::pi * (a.x() + b.x()) : section.thickness);
-  }
-  return areas;
-}
-
-/// Of the slave's points; empty: those of its facets. A node without free faces has the mean of the
-/// others.
-template <int Dim>
-std::vector<double> given_areas(const BuildContext<Dim>& c, const Contact& contact,
-                                const pairing::PairDefinition<Dim>& pair) {
-  const std::size_t count = pair.slave.points.size();
-  if (!(contact.area > 0) && !contact.area_around) return {};
-  if (!pairing::sampled_at_nodes(pair.slave) || pairing::by_mortar(pair))
-    throw core::InputError(contact.weight.mark, "a given area of nodes goes with sampling: nodes");
-  if (contact.area > 0) return std::vector<double>(count, contact.area);
-  const std::vector<double> all = areas_around(c);
-  std::vector<double> areas;
-  double sum = 0;
-  std::size_t some = 0;
-  for (const auto& point : pair.slave.points) {
-    const auto n = static_cast<std::size_t>(point.nearest_node());
-    areas.push_back(n < all.size() ? all[n] : 0.0);
-    sum += areas.back();
-    some += areas.back() > 0 ? 1 : 0;
-  }
-  if (some == 0)
-    throw core::InputError(contact.weight.mark,
-                           fmt::format("no node of the slave '{}' is a corner of a free face: give "
-                                       "the area as a number",
-                                       contact.slave.value));
-  for (double& area : areas)
-    if (!(area > 0)) area = sum / static_cast<double>(some);
-  return areas;
 }
 
 template <int Dim>

@@ -1,6 +1,7 @@
 #pragma once
 // Shared by build_contact.cpp and build_contact_all.cpp; not for users.
 #include "osculate/deck/build_context.hpp"
+#include "osculate/model/onto_master.hpp"
 #include "osculate/pairing/automatic_stiffness.hpp"
 #include "osculate/pairing/facet_size.hpp"
 
@@ -46,11 +47,25 @@ template <int Dim>
 template <int Dim>
 void adjust_overlaps(BuildContext<Dim>& context);
 
+/// Moves nodes in the reference coordinates and says how far (`what` begins the note). Throws
+/// core::InputError at `mark` for a cell that is turned inside out.
+template <int Dim>
+void move_onto_master(BuildContext<Dim>& c, const std::vector<model::MovedNode<Dim>>& all,
+                      std::string_view what, const core::SourceMark& mark);
+
 /// Laws and forms from the description, areas; then the pair is part of the model. Errors point at
 /// `mark`.
 template <int Dim>
 void add_pair(BuildContext<Dim>& c, const Contact& contact, const core::SourceMark& mark,
               model::BasicContactPair<Dim> pair);
+
+/// Areas of the slave's points that the model gives; empty: those of its facets. A node without
+/// free faces has the mean of the others.
+///
+/// Tested by  tests/unit/deck/test_given_areas.cpp
+template <int Dim>
+[[nodiscard]] std::vector<double> given_areas(const BuildContext<Dim>& c, const Contact& contact,
+                                              const pairing::PairDefinition<Dim>& pair);
 
 /// Normal law, friction law, what is held, offset. Errors point at the key.
 template <int Dim>

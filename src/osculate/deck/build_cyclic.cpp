@@ -5,74 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "osculate/cell/facet_shape.hpp"
-#include "osculate/cell/line_shape.hpp"
 #include "osculate/deck/build_displacements.hpp"
-#include "osculate/projection/projector.hpp"
+#include "osculate/deck/foot_on_facets.hpp"
 
 namespace osculate::deck {
 namespace {
-
-/// The place of a node on the other face.
-template <int Dim>
-struct Foot {
-  std::vector<std::pair<Index, double>> weights;
-  double distance = 0;
-};
-
-std::vector<double> shape_values(cell::CellType type, const Vec2& xi) {
-  std::vector<double> out;
-  const auto count = static_cast<std::size_t>(cell::info(type).nodes);
-  if (cell::is_facet(type)) {
-    const cell::FacetShape shape = cell::facet_shape(type, xi, 0);
-    out.assign(shape.n[0].begin(), shape.n[0].begin() + static_cast<std::ptrdiff_t>(count));
-  } else {
-    const cell::LineShape shape = cell::lagrange_line(static_cast<int>(count), xi[0]);
-    out.assign(shape.n[0].begin(), shape.n[0].begin() + static_cast<std::ptrdiff_t>(count));
-  }
-  return out;
-}
-
-template <int Dim>
-class OtherFace {
- public:
-  OtherFace(const BuildContext<Dim>& c, const CyclicSymmetry& s)
-      : facets_(oriented_facets(c, s.independent)), projector_(target(c, facets_)) {}
-
-  [[nodiscard]] Foot<Dim> at(const Vec<Dim>& place) const {
-    const projection::ClosestPoint<Dim> found =
-        projector_.closest(place, projection::Mode::nearest);
-    Foot<Dim> foot;
-    if (found.facet < 0) {
-      foot.distance = std::numeric_limits<double>::infinity();
-      return foot;
-    }
-    foot.distance = std::abs(found.distance);
-    const Side<Dim>& facet = facets_[static_cast<std::size_t>(found.facet)];
-    const std::vector<double> n = shape_values(facet.type, found.xi);
-    constexpr double none = 1e-9;
-    for (std::size_t k = 0; k < n.size(); ++k)
-      if (std::abs(n[k]) > none) foot.weights.emplace_back(facet.nodes()[k], n[k]);
-    return foot;
-  }
-  [[nodiscard]] double size() const { return projector_.size(); }
-
- private:
-  static projection::Target<Dim> target(const BuildContext<Dim>& c,
-                                        const std::vector<Side<Dim>>& facets) {
-    projection::FacetMesh<Dim> mesh;
-    mesh.nodes = c.model().reference;
-    for (const Side<Dim>& side : facets) {
-      projection::MeshFacet& facet = mesh.facets.emplace_back();
-      facet.type = side.type;
-      std::copy(side.nodes().begin(), side.nodes().end(), facet.nodes.begin());
-    }
-    return mesh;
-  }
-
-  std::vector<Side<Dim>> facets_;
-  projection::Projector<Dim> projector_;
-};
 
 /// Turns about the axis; a plane model has one across the plane.
 template <int Dim>
@@ -85,7 +22,7 @@ Mat<3, 3> turn_about(const CyclicSymmetry& s, double angle) {
 /// Where the nodes of the dependent face are on the other one, when that is turned by `q`.
 template <int Dim>
 std::vector<Foot<Dim>> feet(const BuildContext<Dim>& c, const CyclicSymmetry& s,
-                            const std::vector<Index>& nodes, const OtherFace<Dim>& face,
+                            const std::vector<Index>& nodes, const FacetFeet<Dim>& face,
                             const Mat<3, 3>& q) {
   std::vector<Foot<Dim>> out;
   for (const Index node : nodes) {
@@ -136,7 +73,7 @@ void add_cyclic_symmetry(const BuildContext<Dim>& c, std::vector<MarkedEquation>
     const CyclicSymmetry& first = c.description.cyclic_symmetry.front();
     bool back = Dim == 3 && (s.to - s.from).dot(first.to - first.from) < 0;
     const std::vector<Index> nodes = moving_nodes(c, s.dependent, Idle::refused);
-    const OtherFace<Dim> face(c, s);
+    const FacetFeet<Dim> face(c.model().reference, oriented_facets(c, s.independent));
     const double angle = 2 * std::numbers::pi / s.sectors.value;
     Mat<3, 3> q = turn_about<Dim>(s, angle);
     std::vector<Foot<Dim>> found = feet(c, s, nodes, face, q);

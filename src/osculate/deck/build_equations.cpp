@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "osculate/deck/build_displacements.hpp"
+#include "osculate/deck/build_ties.hpp"
 #include "osculate/deck/pretension.hpp"
 #include "osculate/deck/reduce_equations.hpp"
 
@@ -88,18 +88,43 @@ void add_pretensions(const BuildContext<Dim>& c, std::vector<MarkedEquation>& al
   }
 }
 
+/// These and what the mesh adds; the courses know of what that prescribes.
+template <int Dim>
+std::vector<model::Equation> reduced(const BuildContext<Dim>& c,
+                                     const std::vector<MarkedEquation>& all,
+                                     PrescribedCourses& courses) {
+  std::vector<MarkedEquation> first = relations(c, courses);
+  first.insert(first.end(), all.begin(), all.end());
+  return reduced_equations(first, courses, Dim * static_cast<Dof>(c.model().reference.size()));
+}
+
 /// Of the model, before step `until`: these, what the mesh adds, and local axes.
 template <int Dim>
 void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all,
                    std::size_t until) {
   if (!all.empty() || !c.model().mesh.relations.empty()) {
     PrescribedCourses courses = prescribed_courses(c, until);
-    std::vector<MarkedEquation> first = relations(c, courses);
-    first.insert(first.end(), all.begin(), all.end());
-    c.model().equations =
-        reduced_equations(first, courses, Dim * static_cast<Dof>(c.model().reference.size()));
+    c.model().equations = reduced(c, all, courses);
   }
   add_local_axes(c);
+}
+
+/// Of the surfaces that are tied, beside other equations.
+template <int Dim>
+std::vector<MarkedEquation> ties_beside(BuildContext<Dim>& c,
+                                        const std::vector<MarkedEquation>& others) {
+  std::vector<MarkedEquation> ties;
+  if (c.description.ties.empty()) return ties;
+  PrescribedCourses courses = prescribed_courses(c, until);
+  std::set<Dof> given;
+  for (const model::Equation& equation : reduced(c, others, courses))
+    given.insert(equation.terms.front().dof);
+  add_ties(c, courses, std::move(given), ties);
+  return ties;
+}
+
+void append(const std::vector<MarkedEquation>& more, std::vector<MarkedEquation>& all) {
+  all.insert(all.end(), more.begin(), more.end());
 }
 
 /// Those of the model file.
@@ -143,18 +168,20 @@ void build_equations(BuildContext<Dim>& c) {
   std::vector<MarkedEquation> all = given_equations(c);
   add_pretensions(c, all);
   const std::size_t until = next_freeing(c.description.steps, 0);
+  std::vector<MarkedEquation> beside = all;
+  if (!c.description.cyclic_symmetry.empty()) add_cyclic_symmetry(c, beside);
+  const std::vector<MarkedEquation> ties = ties_beside(c, beside, until);
   if (std::ranges::any_of(c.description.steps,
                           [](const Step& step) { return !step.diameters.empty(); })) {
+    append(ties, all);
     set_equations(c, all, until);
-    std::vector<model::Equation> others = std::move(c.model().equations);
+    c.model().sector->others = std::move(c.model().equations);
     c.model().equations.clear();
-    add_cyclic_symmetry(c, all);
-    c.model().sector->others = std::move(others);
-  } else if (!c.description.cyclic_symmetry.empty()) {
-    add_cyclic_symmetry(c, all);
+  } else {
     c.model().sector.reset();
   }
-  set_equations(c, all, until);
+  append(ties, beside);
+  set_equations(c, beside, until);
 }
 
 template <int Dim>
@@ -175,9 +202,11 @@ std::optional<std::vector<model::Equation>> equations_left(BuildContext<Dim>& c,
                                          steps[s].free_equations.front().on.value));
   }
   add_pretensions(c, all);
+  const std::size_t until = next_freeing(steps, step + 1);
+  append(ties_beside(c, all, until), all);
   std::vector<model::Equation> kept = std::move(c.model().equations);
   c.model().equations.clear();
-  set_equations(c, all, next_freeing(steps, step + 1));
+  set_equations(c, all, until);
   std::swap(kept, c.model().equations);
   return kept;
 }

@@ -41,7 +41,7 @@ bool needs_nodes(const BuildContext<Dim>& c, const Contact& contact) {
     return step.dynamics && step.dynamics->scheme == SchemeWord::central_differences;
   };
   return !contact.normal.law.automatic || contact.edges || contact.two_pass ||
-         contact.weight.value == ContactWeight::node || contact.area > 0 || contact.area_around ||
+         contact.weight.value == ContactWeight::node || contact.area > 0 || contact.area_by ||
          contact.enforcement.value.kind != EnforcementWord::penalty ||
          std::ranges::any_of(c.description.steps, is_explicit);
 }

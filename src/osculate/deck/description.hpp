@@ -193,7 +193,7 @@ enum class HistoryKind { continuous, chord, per_facet };
 enum class InitialWord { ignore, ramp, keep, adjust };
 enum class SmoothingWord { none, hermite, nurbs };
 
-enum class AreaWord { around };
+enum class AreaWord { around, middles };
 
 /// Of the master's surface.
 struct MasterSmoothing {
@@ -250,8 +250,8 @@ struct Contact {
   std::optional<GivenLaw<contact::FrictionLaw>> friction;
   Marked<Enforcement> enforcement;
   Marked<ContactWeight> weight;
-  double area = 0;           ///< of each slave node; 0: that of its facets, or
-  bool area_around = false;  ///< of the free faces round it
+  double area = 0;                    ///< of each slave node; 0: that of its facets, or
+  std::optional<AreaWord> area_by{};  ///< another share of them
   Marked<Residual> residual;
   Marked<Tangent> tangent;
   Marked<HistoryKind> history;
@@ -384,6 +384,14 @@ struct CyclicSymmetry {
   Vec3 from{0, 0, 0}, to{0, 0, 1};
 };
 
+/// Nodes of the slave follow the master's facets.
+struct Tie {
+  core::SourceMark mark;
+  Name slave, master;
+  std::optional<Number> tolerance;
+  bool adjust = true;
+};
+
 /// A load or motion of a set at the end of the step; how many of `values` are used depends on the
 /// kind: motions and forces fx fy fz mx my mz are indexed by Component, pressure p, traction tx ty
 /// tz, body force fx fy fz. Absent ones are not touched.
@@ -511,6 +519,7 @@ struct Description {
   std::vector<PointMass> masses;
   std::vector<Pretension> pretension;
   std::vector<CyclicSymmetry> cyclic_symmetry;
+  std::vector<Tie> ties;
   std::vector<Load> initial_velocity;     ///< vx vy vz wx wy wz
   std::vector<Load> initial_temperature;  ///< the first value
   std::vector<InitialState> initial_stress, initial_strain;

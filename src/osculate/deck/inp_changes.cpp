@@ -22,8 +22,9 @@ SourceNode& entry_of(SourceNode& list, const std::string& pair, int line) {
   return entry;
 }
 
-/// Puts one law into all pairs of an interaction.
-void change_law(const InpModel& m, const Card& change, const char* key, const SourceNode& law,
+/// Puts the law of a pair into all pairs of an interaction.
+template <class LawOf>
+void change_law(const InpModel& m, const Card& change, const char* key, const LawOf& law_of,
                 SourceNode& list) {
   const std::string& name = value_of(m, change, "INTERACTION");
   bool found = false;
@@ -32,7 +33,7 @@ void change_law(const InpModel& m, const Card& change, const char* key, const So
     names.push_back(pair.interaction);
     if (pair.interaction != io::inp::capitals(name)) continue;
     found = true;
-    put(entry_of(list, pair.name, line_of(change.at)), key, law);
+    put(entry_of(list, pair.name, line_of(change.at)), key, law_of(pair));
   }
   if (!found)
     io::inp::fail(m.deck, change,
@@ -83,9 +84,15 @@ SourceNode inp_changes(const InpModel& m, std::span<const Card> step) {
                     fmt::format("in a step it follows *CHANGE {}",
                                 is_friction ? "FRICTION" : "SURFACE BEHAVIOR"));
     if (is_friction)
-      change_law(m, *change, "friction", inp_friction(m, card), list);
+      change_law(
+          m, *change, "friction", [&](const InpPair&) { return inp_friction(m, card); }, list);
     else
-      change_law(m, *change, "normal", inp_normal(m, &card, line_of(card.at)), list);
+      change_law(
+          m, *change, "normal",
+          [&](const InpPair& pair) {
+            return inp_normal(m, &card, line_of(card.at), pair.clearance);
+          },
+          list);
     change = nullptr;
   }
   return list;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "osculate/core/text.hpp"
@@ -22,10 +23,9 @@ bool is_of_second_order(const InpModel& m, const mesh::Set& set) {
   });
 }
 
-/// Nodes, or Gauss points: two per direction of a facet, three of one of second order, whose
-/// corners have no positive area, and six of one that is tied: ccx integrates over the parts of the
-/// facets that lie on one facet of the master, and ties of coarse facets on fine ones need as many
-/// to come near that (docs/inp.md).
+/// Nodes, or Gauss points: two per direction of a facet, three of one of second order, and six of
+/// one that is tied: ccx integrates over the parts of the facets that lie on one facet of the
+/// master, and ties of coarse facets on fine ones need as many to come near that (docs/inp.md).
 void put_sampling(InpModel& m, const Card& card, const std::string& slave, bool tied,
                   SourceNode& pair) {
   const int at = line_of(card.at);
@@ -43,14 +43,17 @@ void put_sampling(InpModel& m, const Card& card, const std::string& slave, bool 
                   fmt::format("TYPE={} is not supported: NODE TO SURFACE, SURFACE TO SURFACE or "
                               "MORTAR",
                               printable(type)));
-  if (!has_facets || (type == "NODETOSURFACE" && !second_order)) {
+  if (!has_facets || type == "NODETOSURFACE") {
     put(pair, "sampling", inp_text("nodes", at));
+    if (second_order) {
+      put(put(pair, "weight", inp_map(at)), "area", inp_text("middles", at));
+      m.notes.push_back(fmt::format(
+          "line {}: nodes amid the edges of '{}' have nearly all of its area, as in CalculiX; "
+          "SURFACE TO SURFACE is better",
+          card.at.line, slave));
+    }
     return;
   }
-  if (type == "NODETOSURFACE")
-    m.notes.push_back(fmt::format(
-        "line {}: '{}' is sampled at Gauss points: corners of second-order facets have no area",
-        card.at.line, slave));
   put(put(pair, "sampling", inp_map(at)), "gauss",
       inp_number(!second_order ? 2
                  : tied        ? 6
@@ -141,16 +144,32 @@ void put_friction(const InpModel& m, const InpInteraction& law, SourceNode& pair
     put(pair, "friction", std::move(film));
 }
 
+/// Gap up to which node-to-face contact looks for a master in CalculiX: a thousandth of the square
+/// root of a slave node's area, here of the mean.
+double usual_clearance(const InpModel& m, const std::string& slave) {
+  constexpr double share = 1e-3;
+  const mesh::Set* const set = m.mesh.mesh.find_set(slave);
+  if (!set || set->nodes.empty()) return 0;
+  double area = mean_area(m.mesh.mesh, *set) * static_cast<double>(set->cells.size());
+  if (set->cells.empty()) {
+    const std::vector<double> areas = mesh::free_areas(m.mesh.mesh, mesh::face_table(m.mesh.mesh));
+    for (const Index n : set->nodes) area += areas[static_cast<std::size_t>(n)];
+  }
+  return share * std::sqrt(area / static_cast<double>(set->nodes.size()));
+}
+
 void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, SourceNode& pairs) {
   const auto lines = io::inp::lines_of(m.deck, card);
   if (lines.empty()) io::inp::fail(m.deck, card, "expected a line with two surfaces");
+  const bool is_of_nodes = option_of(card, "TYPE") == "NODETOSURFACE";
   for (const Line& line : lines) {
     SourceNode& pair = pair_of_line(m, card, line, pairs);
     put_sampling(m, card, find(pair, "slave")->text, inp_is_tied(law.behavior), pair);
     put_weight(m, card, pair);
+    const double clearance = is_of_nodes ? usual_clearance(m, find(pair, "slave")->text) : 0;
     m.pairs.push_back({find(pair, "name")->text, io::inp::capitals(law.name),
-                       find(pair, "slave")->text, find(pair, "master")->text});
-    put_laws(m, law, pair);
+                       find(pair, "slave")->text, find(pair, "master")->text, clearance});
+    put_laws(m, law, pair, clearance);
     if (const io::inp::Parameter* const adjust = io::inp::find_parameter(card, "ADJUST"))
       put_adjust(m, card, adjust->value, pair);
   }
@@ -158,7 +177,8 @@ void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, 
     m.notes.push_back(fmt::format("line {}: sliding is finite, not SMALL SLIDING", card.at.line));
 }
 
-void add_ties(InpModel& m, const Card& card, SourceNode& pairs) {
+/// Explicit steps know no equations of many displacements.
+void add_explicit_ties(InpModel& m, const Card& card, SourceNode& pairs) {
   for (const Line& line : io::inp::lines_of(m.deck, card)) {
     SourceNode& pair = pair_of_line(m, card, line, pairs);
     const int at = line_of(line.at);
@@ -202,8 +222,9 @@ const InpInteraction& interaction_named(const InpModel& m, const std::vector<Inp
                 core::unknown_name_message("surface interaction", printable(name), names));
 }
 
-void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair) {
-  SourceNode& normal = put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at)));
+void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, double clearance) {
+  SourceNode& normal =
+      put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at), clearance));
   if (law.damping) put_damping(m, *law.damping, normal);
   put_friction(m, law, pair);
 }
@@ -228,7 +249,8 @@ SourceNode inp_contact(InpModel& m) {
       add_contact_pair(
           m, card, interaction_named(m, interactions, card.at, value_of(m, card, "INTERACTION")),
           pairs);
-    if (card.keyword == "TIE" && !is_cyclic_tie(card)) add_ties(m, card, pairs);
+    if (card.keyword == "TIE" && !is_cyclic_tie(card) && is_explicit(m))
+      add_explicit_ties(m, card, pairs);
   }
   return inp_general_contact(m, interactions, std::move(pairs));
 }

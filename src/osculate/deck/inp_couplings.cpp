@@ -1,4 +1,5 @@
-// Multi-point constraints, couplings, sections under pretension and cyclic symmetry of a deck.
+// Multi-point constraints, couplings, sections under pretension, cyclic symmetry and ties of a
+// deck.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -131,7 +132,41 @@ void put_cyclic_symmetry(const InpModel& m, const Card& card, SourceNode& root) 
   put(entry, "to", inp_point(to, inp_dimension(m), line));
 }
 
+void put_ties(const InpModel& m, const Card& card, SourceNode& root) {
+  constexpr double no_tolerance = 1e-10;  // smaller ones are none there
+  for (const char* const other : {"MULTISTAGE", "FLUIDPERIODIC", "FLUIDCYCLIC"})
+    if (io::inp::find_parameter(card, other))
+      io::inp::fail(m.deck, card, fmt::format("{} is not supported", other));
+  const std::string adjust = option_of(card, "ADJUST");
+  if (!adjust.empty() && adjust != "YES" && adjust != "NO")
+    io::inp::fail(m.deck, card,
+                  fmt::format("expected ADJUST=YES or NO, found {}", printable(adjust)));
+  for (const Line& line : io::inp::lines_of(m.deck, card)) {
+    const int at = line_of(line.at);
+    Fields fields(m.deck, line);
+    const std::string slave = io::inp::name_of(fields.next().value_or(""));
+    const std::string master = io::inp::name_of(fields.next().value_or(""));
+    if (slave.empty() || master.empty())
+      fields.fail("*TIE: expected two surfaces, slave and master");
+    SourceNode& tie = list_of(root, "ties", at).items.emplace_back(inp_map(at));
+    put(tie, "slave",
+        inp_text(set_of(m, line.at, slave, {SetKind::surface, SetKind::node_surface}), at));
+    put(tie, "master", inp_text(set_of(m, line.at, master, {SetKind::surface}), at));
+    if (const auto* const given = io::inp::find_parameter(card, "POSITIONTOLERANCE")) {
+      const double tolerance = Fields(m.deck, {given->value, card.at}).real("POSITION TOLERANCE");
+      if (tolerance >= no_tolerance) put(tie, "tolerance", inp_number(tolerance, at));
+    }
+    if (adjust == "NO") put(tie, "adjust", inp_text("false", at)).quoted = false;
+  }
+}
+
 }  // namespace
+
+bool is_explicit(const InpModel& m) {
+  return std::any_of(m.deck.cards.begin(), m.deck.cards.end(), [](const Card& card) {
+    return card.keyword == "DYNAMIC" && io::inp::find_parameter(card, "EXPLICIT");
+  });
+}
 
 bool is_cyclic_tie(const Card& card) {
   return io::inp::find_parameter(card, "CYCLICSYMMETRY") != nullptr;
@@ -144,6 +179,7 @@ void put_constraints(InpModel& m, SourceNode& root) {
     if (card.keyword == "COUPLING") put_coupling(m, card, root);
     if (card.keyword == "PRE-TENSIONSECTION") put_pretension(m, card, root);
     if (card.keyword == "CYCLICSYMMETRYMODEL") put_cyclic_symmetry(m, card, root);
+    if (card.keyword == "TIE" && !is_cyclic_tie(card) && !is_explicit(m)) put_ties(m, card, root);
   }
 }
 

@@ -253,7 +253,9 @@ SourceNode inp_general_contact(InpModel& m, const std::vector<InpInteraction>& i
   if (!general.included.empty())
     io::inp::fail(m.deck, general.included[0].at,
                   "*CONTACT INCLUSIONS: ALL EXTERIOR has all pairs of surfaces already");
-  if (!pairs.items.empty())
+  const bool tied = std::ranges::any_of(
+      m.deck.cards, [](const Card& card) { return card.keyword == "TIE" && !is_cyclic_tie(card); });
+  if (tied || !pairs.items.empty())
     io::inp::fail(m.deck, *general.card,
                   "ALL EXTERIOR is not supported beside *CONTACT PAIR and *TIE: a model file has "
                   "contact of everything, or a list of pairs");

@@ -82,7 +82,7 @@ constexpr std::array<InpKeyword, 117> keywords{{
     {"MPC", "", "kind, nodes", translated,
      "`coplanar`, `collinear`, `fixed_distance`; `equations` or `coupling` (MEANROT)"},
     {"TIE", "NAME POSITION TOLERANCE ADJUST", "slave, master", translated,
-     "`contact` with `separation: tied`"},
+     "`ties` (EXPLICIT: `contact` with `separation: tied`)"},
     {"RIGID BODY", "NSET ELSET REF NODE ROT NODE", "", translated, "`rigid`"},
     {"COUPLING", "CONSTRAINT NAME REF NODE SURFACE", "", translated, "`rigid`"},
     {"KINEMATIC", "", "first dof, last dof", translated, "`rigid` (all displacements)"},

@@ -31,13 +31,21 @@ void put_decaying(const Line& line, Fields& fields, SourceNode& normal) {
   put(law, "clearance", inp_number(clearance, at));
 }
 
+/// The law of node-to-face contact.
+void put_tensile(int at, double stiffness, double tension, double clearance, SourceNode& normal) {
+  SourceNode& law = put(normal, "tensile", inp_map(at));
+  put(law, "stiffness", inp_number(stiffness, at));
+  put(law, "tension", inp_number(tension, at));
+  put(law, "clearance", inp_number(clearance, at));
+}
+
 }  // namespace
 
 bool inp_is_tied(const Card* behavior) {
   return behavior && option_of(*behavior, "PRESSURE-OVERCLOSURE") == "TIED";
 }
 
-SourceNode inp_normal(const InpModel& m, const Card* behavior, int line) {
+SourceNode inp_normal(const InpModel& m, const Card* behavior, int line, double clearance) {
   SourceNode normal = inp_map(line);
   if (!behavior) return normal;  // hard
   const std::string kind = option_of(*behavior, "PRESSURE-OVERCLOSURE");
@@ -59,7 +67,14 @@ SourceNode inp_normal(const InpModel& m, const Card* behavior, int line) {
     put_decaying(lines[0], fields, normal);
     return normal;
   }
-  put(normal, "penalty", inp_number(fields.real("the stiffness"), line_of(lines[0].at)));
+  const double stiffness = fields.real("the stiffness");
+  const double tension = kind == "LINEAR" ? fields.real_or_zero("the tension") : 0;
+  if (tension > 0 && clearance > 0) {
+    put_tensile(line_of(lines[0].at), stiffness, tension,
+                fields.done() ? clearance : fields.real("the clearance"), normal);
+    return normal;
+  }
+  put(normal, "penalty", inp_number(stiffness, line_of(lines[0].at)));
   if (kind == "TIED") put(normal, "separation", inp_text("tied", line_of(behavior->at)));
   return normal;
 }

@@ -19,6 +19,7 @@ namespace osculate::deck {
 struct InpPair {
   std::string name, interaction;  ///< the latter in capitals
   std::string slave, master;      ///< sets of the mesh
+  double clearance = 0;           ///< as of inp_normal
 };
 
 /// A node that stands for the motions of a rigid body: from this one on, 1 to 6.
@@ -171,8 +172,8 @@ struct InpInteraction {
 [[nodiscard]] const InpInteraction& interaction_named(const InpModel& m,
                                                       const std::vector<InpInteraction>& all,
                                                       io::inp::Place at, std::string_view name);
-/// Its laws as keys of a contact pair.
-void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair);
+/// Its laws as keys of a contact pair; clearance: as of inp_normal.
+void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, double clearance = 0);
 /// A new pair of two surfaces of the deck, with a name of its own.
 SourceNode& add_pair(const InpModel& m, io::inp::Place at, const std::string& slave,
                      const std::string& master, SourceNode& pairs);
@@ -193,7 +194,10 @@ void put_body_changes(const InpModel& m, std::span<const io::inp::Card> cards, S
 /// Adds stresses and plastic strains of `*INITIAL CONDITIONS`.
 void put_initial_state(const InpModel& m, SourceNode& root);
 // The laws of a `*SURFACE INTERACTION`.
-[[nodiscard]] SourceNode inp_normal(const InpModel& m, const io::inp::Card* behavior, int line);
+/// `clearance`: up to which the linear law of node-to-face contact pulls, if nothing is said about
+/// it; 0: it is other contact, which does not pull.
+[[nodiscard]] SourceNode inp_normal(const InpModel& m, const io::inp::Card* behavior, int line,
+                                    double clearance = 0);
 [[nodiscard]] bool inp_is_tied(const io::inp::Card* behavior);
 [[nodiscard]] SourceNode inp_friction(const InpModel& m, const io::inp::Card& card);
 void put_damping(const InpModel& m, const io::inp::Card& card, SourceNode& normal);
@@ -213,7 +217,7 @@ void put_rotating_bodies(InpModel& m, SourceNode& rigid);
 void put_mean_rotations(const InpModel& m, SourceNode& root);
 void put_small_rotations(const InpModel& m, SourceNode& equations);
 
-/// Adds multi-point constraints, couplings, sections under pretension and cyclic symmetry.
+/// Adds multi-point constraints, couplings, sections under pretension, cyclic symmetry and ties.
 void put_constraints(InpModel& m, SourceNode& root);
 /// Adds springs, dampers, gaps and masses.
 ///
@@ -221,6 +225,8 @@ void put_constraints(InpModel& m, SourceNode& root);
 void put_springs(const InpModel& m, SourceNode& root);
 /// Of a `*TIE`: it is one of the two faces of a sector.
 [[nodiscard]] bool is_cyclic_tie(const io::inp::Card& card);
+/// Some step is integrated explicitly: ties are penalties.
+[[nodiscard]] bool is_explicit(const InpModel& m);
 /// The node of a set of one node, or -1.
 [[nodiscard]] Index only_node(const InpModel& m, std::string_view set);
 /// The set of the node that a parameter gives the number of; empty without the parameter.

@@ -116,6 +116,33 @@ BoundKey<Description> cyclic_key() {
       [keys](Description& d, const Value& v) { d.cyclic_symmetry = keys.read_all(v); }};
 }
 
+BoundKey<Description> ties_key() {
+  using T = Tie;
+  const BoundKeys<T> keys(
+      {need(&T::slave, "slave",
+            set_or_sets("Facets or nodes that follow, of the finer mesh.", "left.end")),
+       need(&T::master, "master",
+            set_or_sets("Facets of deformable bodies that they follow.", "right.end")),
+       may(&T::tolerance, "tolerance",
+           number("Largest distance of a slave node from the master.")
+               .in("length")
+               .at_least(0)
+               .otherwise_as("0.025 of the mean edge of the master's facets")
+               .such_as("0.01")),
+       may(&T::adjust, "adjust",
+           boolean("Slave nodes are moved onto the master before the first step. A distance that "
+                   "is kept does not turn with the master.")
+               .otherwise("true"))});
+  return {optional("ties",
+                   list("Surfaces that move as one, by equations: nodes of the slave follow the "
+                        "master's facets, without tractions. With those: `contact` with "
+                        "`separation: tied`.",
+                        keys.spec("One tie."))
+                       .otherwise("[]")
+                       .such_as("[{slave: left.end, master: right.end}]")),
+          [keys](Description& d, const Value& v) { d.ties = keys.read_all(v); }};
+}
+
 }  // namespace
 
 BoundKeys<EquationTerm> term_keys() {
@@ -172,7 +199,8 @@ std::vector<BoundKey<Description>> constraint_keys() {
                         "Pairs of nodes that stay at their distance.", "Set of two nodes.", "rod"),
           coupling_key(),
           pretension_key(),
-          cyclic_key()};
+          cyclic_key(),
+          ties_key()};
 }
 
 }  // namespace osculate::deck

@@ -185,12 +185,15 @@ BoundKey<Contact> weight_key() {
              {number("The same for all.").in("length^2").above(0).such_as("0.25"),
               choice("Of its surroundings.", {word("around", AreaWord::around,
                                                    "its share of the free faces that it is a "
-                                                   "corner of")})})
+                                                   "corner of"),
+                                              word("middles", AreaWord::middles,
+                                                   "of its facets; of second order nearly all to "
+                                                   "the middles of edges, as in CalculiX")})})
           .otherwise_as("that of its facets")
           .such_as("0.25");
   const BoundKeys<Contact> given(
       {{optional("area", std::move(area)), [](Contact& c, const Value& v) {
-          c.area_around = v.alternative == 1;
+          if (v.alternative == 1) c.area_by = static_cast<AreaWord>(v.code);
           if (v.alternative == 0) c.area = v.number;
         }}});
   Spec spec =

@@ -20,7 +20,9 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 41> synonyms{{
+constexpr std::array<Synonym, 42> synonyms{{
+    {"tie tied tied-contact glue bonded mesh-tie",
+     "ties (docs/constraints.md), contact.normal.separation: tied"},
     {"plasticity plastic yielding mises-plasticity j2 metal",
      "materials.elastoplastic: yield, hardening, isotropic, kinematic"},
     {"creep norton relaxation", "materials.norton: A, n; every step needs a duration"},

@@ -117,7 +117,7 @@ void write_laws(const std::string& path, const std::string& name, Leaves& leaves
   const auto penalty = leaves.number(path + ".normal.penalty");
   if (tied && !penalty)
     leaves.fail(path + ".normal.separation",
-                "is written with a penalty, or with `sampling: nodes` as *TIE");
+                "is written with a penalty; *TIE is written of `ties`");
   if (tied || penalty) {
     out += fmt::format("{}\n{}\n", tied ? "TIED" : "LINEAR", exact(*penalty));
   } else if (const auto first = leaves.number(path + ".normal.table[0][0]")) {
@@ -183,15 +183,6 @@ void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size
   const std::string type = type_of_pair(contact, m, mesh, path, leaves);
   const std::string sides =
       fmt::format("{}, {}\n", mesh.surface(contact.slave), mesh.surface(contact.master));
-  const bool tied = contact.normal.separation.value == SeparationWord::tied;
-  if (tied && contact.normal.law.automatic && type == "NODE TO SURFACE") {
-    (void)leaves.text(path + ".normal.separation");
-    const auto tolerance = leaves.number(path + ".normal.tolerance");
-    out += fmt::format("*TIE, NAME={}{}\n", contact.name.value,
-                       tolerance ? ", POSITION TOLERANCE=" + exact(*tolerance) : "");
-    out += sides;
-    return;
-  }
   const std::string law = fmt::format("law_of_{}", contact.name.value);
   write_laws(path, law, leaves, out);
   out += fmt::format("*CONTACT PAIR, INTERACTION={}, TYPE={}\n{}", law, type, sides);
@@ -245,6 +236,19 @@ void write_initial_states(const Description& d, const std::vector<InitialState>&
   }
 }
 
+template <int Dim>
+void write_ties(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  for (std::size_t k = 0; k < d.ties.size(); ++k) {
+    const Tie& tie = d.ties[k];
+    leaves.take(fmt::format("ties[{}].", k));
+    out += fmt::format("*TIE, NAME=tie_{}{}{}\n", k + 1,
+                       tie.tolerance ? ", POSITION TOLERANCE=" + exact(tie.tolerance->value) : "",
+                       tie.adjust ? "" : ", ADJUST=NO");
+    const std::string slave = mesh.surface(tie.slave);
+    out += fmt::format("{}, {}\n", slave, mesh.surface(tie.master));
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -259,6 +263,7 @@ void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<
   write_masses(d, mesh, leaves, out);
   write_cyclic_symmetry(d, mesh, leaves, out);
   write_contact(d, m, mesh, leaves, out);
+  write_ties(d, mesh, leaves, out);
   write_initial(d, mesh, leaves, out);
   write_initial_states<Dim>(d, d.initial_stress, "initial_stress", "STRESS", leaves, out);
   write_initial_states<Dim>(d, d.initial_strain, "initial_strain", "PLASTIC STRAIN", leaves, out);

@@ -134,7 +134,7 @@ std::string_view name_of(Trait trait) {
       "master: an analytic shape",
       "`smoothing`",
       "lines of more than 4 nodes",
-      "`normal: exponential`, `decaying` or `table`",
+      "`normal: exponential`, `decaying`, `tensile` or `table`",
       "`damping`",
       "`separation: no_separation`, `tied_normal` or `tied`",
       "`separation: tied_normal` or `tied`",

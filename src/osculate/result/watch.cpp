@@ -9,6 +9,7 @@
 #include "osculate/result/initial_gaps.hpp"
 #include "osculate/result/never_closed.hpp"
 #include "osculate/result/penetration.hpp"
+#include "osculate/result/pulling.hpp"
 #include "osculate/result/soft_friction.hpp"
 
 namespace osculate::result {
@@ -64,6 +65,8 @@ std::vector<std::string> Watch<Dim>::take(const model::BasicSystem<Dim>& system,
     measure_penetration(pair, contact, deepest[p]);
     measure_closing(contact, system.touched()[p], deepest[p]);
     measure_sticking(pair, contact, deepest[p]);
+    if (progress.fraction >= 1.0)
+      add(pulling(pair, contact, model.steps[static_cast<std::size_t>(progress.step)].name), texts);
     if (!memory.passed[p]) {
       const std::string through = model::passed_through(model, pair, front[p], contact, now);
       memory.passed[p] = through.empty() ? 0 : 1;

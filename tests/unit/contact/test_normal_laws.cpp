@@ -58,6 +58,24 @@ TEST(NormalDecaying, FallsToAHundredthOverEveryClearanceAndEndsAfterThree) {
   EXPECT_TRUE(std::isfinite(law.response(-1e6).traction));
 }
 
+/// Against forces that CalculiX 2.20 printed of two cubes of one length (K = 5000, sigma = 1).
+TEST(NormalTensile, IsTheLinearLawOfCalculiX) {
+  const NormalTensile law{5000, 1, 0.005};
+  const std::vector<std::pair<double, double>> printed{
+      {-1e-2, 49.00131},  {-1e-3, 4.107169},  {-1e-4, 0.2751196},   {1e-4, -0.2248804},
+      {5e-4, -0.7151127}, {9e-4, -0.8730029}, {1.1e-3, -0.9085679}, {2e-3, -0.9689219}};
+  for (const auto& [gap, p] : printed) EXPECT_NEAR(pressure(law, gap) / p, 1, 1e-7) << gap;
+  EXPECT_EQ(pressure(law, 0), 0);
+  EXPECT_NEAR(law.response(0).d_traction, 2500, 1e-12);
+  EXPECT_TRUE(law.response(0.005).active);
+  EXPECT_FALSE(law.response(0.0050001).active);
+  EXPECT_EQ(stored_energy(law, 0.0050001), 0.0);
+  EXPECT_FALSE(holds(law));
+  EXPECT_FALSE(augmentable(law));
+  EXPECT_NEAR(pressure(law, -1e6), 5e9 - 1, 1e-3) << "nothing overflows";
+  EXPECT_EQ(fault(NormalLaw(NormalTensile{1, 0, 1})), "normal_tensile: tension must be > 0, got 0");
+}
+
 TEST(NormalTable, RunsThroughItsPointsAndOnBeyondTheLast) {
   EXPECT_FALSE(table.response(0.0100001).active);
   EXPECT_TRUE(table.response(0.01).active);
@@ -113,6 +131,8 @@ TEST(NormalLaws, StoreTheWorkOfTheirPressure) {
     expect(NormalExponential{p0, c0}, gap, 0.1 * c0);
   for (const double gap : {2.7 * c0, 0.1 * c0, -2 * c0, -9 * c0})
     expect(NormalDecaying{p0, c0}, gap, 0.05 * c0);
+  for (const double gap : {0.9 * c0, 0.1 * c0, -0.2 * c0, -5 * c0})
+    expect(NormalTensile{p0 / c0, 0.3 * p0, c0}, gap, 0.05 * c0);
   for (const double gap : {0.006, -0.01, -0.03, -0.09}) expect(table, gap, 1e-3);
   for (const double gap : {-0.3, 0.2}) expect(NormalPenalty{100.0}, gap, 1e-2);
   EXPECT_EQ(stored_energy(NormalExponential{p0, c0}, c0), 0.0);
@@ -137,7 +157,8 @@ TEST(NormalLaws, AreContinuousAndMonotone) {
 
 TEST(NormalLaws, DerivativesAreOfSecondOrder) {
   for (const NormalLaw& law :
-       {NormalLaw(NormalExponential{p0, c0}), NormalLaw(NormalDecaying{p0, c0})})
+       {NormalLaw(NormalExponential{p0, c0}), NormalLaw(NormalDecaying{p0, c0}),
+        NormalLaw(NormalTensile{p0 / c0, 0.3 * p0, c0})})
     for (const double gap : {0.9 * c0, 0.1 * c0, -0.7 * c0, -2.9 * c0}) {
       using V = Eigen::VectorXd;
       const auto f = [&](const V& g) { return V::Constant(1, response(law, g[0]).traction); };

@@ -52,7 +52,7 @@ TEST(BrokenModels, UnknownKeysNameTheNearest) {
        "limits)"},
       {"penalty: 2.1e6}\n    friction", "penalty: 2.1e6, <<: 1}\n    friction",
        "model.yaml:16: contact[0].normal: unknown key '<<'; known: penalty, exponential, table, "
-       "decaying, "
+       "decaying, tensile, "
        "damping, separation, tolerance, initial_gap"},
   });
 }

@@ -145,6 +145,26 @@ TEST(InpBetweenSteps, WhatCannotChangeIsTold) {
             "there is no *CONTACT PAIR of 'FEET' and 'MASTER'");
 }
 
+TEST(InpBetweenSteps, TheLinearLawOfNodesPullsWhereATensionIsGiven) {
+  const std::string pulling = R"(*SURFACE INTERACTION, NAME=DRY
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR
+1.E5, 3.
+)";
+  const std::string of_nodes =
+      "*CONTACT PAIR, INTERACTION=DRY, TYPE=NODE TO SURFACE\nSLAVE, MASTER\n";
+  // four nodes share an area of a quarter: a thousandth of the root of a sixteenth
+  expect_in(part(pulling + of_nodes + press, "contact"),
+            "tensile: {stiffness: 100000, tension: 3, clearance: 0.00025}");
+  const std::string of_faces =
+      "*CONTACT PAIR, INTERACTION=DRY, TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n";
+  expect_in(part(pulling + of_faces + press, "contact"), "normal: {penalty: 100000}");
+  const std::string change =
+      "*STEP\n*STATIC\n*CHANGE SURFACE BEHAVIOR, INTERACTION=DRY\n*SURFACE BEHAVIOR, "
+      "PRESSURE-OVERCLOSURE=LINEAR\n2.E5, 4., 0.01\n*END STEP\n";
+  expect_in(part(pulling + of_nodes + press + change, "steps"),
+            "tensile: {stiffness: 200000, tension: 4, clearance: 0.01}");
+}
+
 TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
   const std::string exponential = R"(*SURFACE INTERACTION, NAME=SOFT
 *SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL

@@ -9,6 +9,7 @@
 #include "osculate/contact/law/normal_exponential.hpp"
 #include "osculate/contact/law/normal_penalty.hpp"
 #include "osculate/contact/law/normal_table.hpp"
+#include "osculate/contact/law/normal_tensile.hpp"
 #include "osculate/contact/law/rate_and_state.hpp"
 #include "osculate/contact/law/rough.hpp"
 #include "osculate/contact/law/tresca.hpp"
@@ -17,7 +18,8 @@
 namespace osculate::contact {
 
 // The laws there are. The first normal law is that of pairs that name none.
-struct NormalLaws : std::variant<NormalPenalty, NormalExponential, NormalTable, NormalDecaying> {
+struct NormalLaws
+    : std::variant<NormalPenalty, NormalExponential, NormalTable, NormalDecaying, NormalTensile> {
   using variant::variant;
 };
 struct FrictionLaws : std::variant<Coulomb, Tresca, Rough, RateAndState, ViscousFriction> {

@@ -1,0 +1,26 @@
+#pragma once
+// Shared by build_*.cpp, not for users.
+#include <set>
+#include <vector>
+
+#include "osculate/deck/build_displacements.hpp"
+
+namespace osculate::deck {
+
+/// Moves the slave nodes of ties that `adjust` onto their masters, in the reference coordinates.
+template <int Dim>
+void adjust_ties(BuildContext<Dim>& context);
+
+/// Equations of the surfaces that are tied; says how many nodes are.
+///
+/// Formula    u = sum N_k u_k : a node of the slave, and the shape functions of the master's facet
+///            at the nearest place of it, in reference coordinates, no farther than the tolerance
+/// Input      courses: what is prescribed, and `given`: what other equations give. These
+///            displacements of slave nodes are not tied. Of several ties of a node the first counts
+/// Errors     core::InputError where nothing is near, or the master is rigid
+/// Tested by  tests/unit/deck/test_ties.cpp
+template <int Dim>
+void add_ties(BuildContext<Dim>& context, const PrescribedCourses& courses,
+              std::set<model::Dof> given, std::vector<MarkedEquation>& all);
+
+}  // namespace osculate::deck
