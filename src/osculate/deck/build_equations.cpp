@@ -112,7 +112,8 @@ void set_equations(BuildContext<Dim>& c, const std::vector<MarkedEquation>& all,
 /// Of the surfaces that are tied, beside other equations.
 template <int Dim>
 std::vector<MarkedEquation> ties_beside(BuildContext<Dim>& c,
-                                        const std::vector<MarkedEquation>& others) {
+                                        const std::vector<MarkedEquation>& others,
+                                        std::size_t until) {
   std::vector<MarkedEquation> ties;
   if (c.description.ties.empty()) return ties;
   PrescribedCourses courses = prescribed_courses(c, until);

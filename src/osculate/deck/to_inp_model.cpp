@@ -55,7 +55,7 @@ void write_sections(const Description& d, const model::BasicModel<Dim>& m, const
   for (const Step& step : d.steps)
     for (const MaterialChange& change : step.materials)
       if (used.insert(change.material.value).second)
-        write_material(*d.find_material(change.material.value), leaves, out);
+        write_material(*d.find_material(change.material.value), damping_cards(d), leaves, out);
   for (const Material& material : d.materials)
     if (!used.contains(material.name.value))
       leaves.take(fmt::format("materials.{}.", material.name.value));
@@ -225,12 +225,14 @@ void write_initial(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std
 /// Of sections; strains as those that plastic flow has left.
 template <int Dim>
 void write_initial_states(const Description& d, const std::vector<InitialState>& initial,
-                   const std::string& key, const char* type, Leaves& leaves, std::string& out) {
+                          const InpMesh<Dim>& mesh, const std::string& key, const char* type,
+                          Leaves& leaves, std::string& out) {
   for (std::size_t i = 0; i < initial.size(); ++i) {
     const InitialState& one = initial[i];
-    if (!is_section(d, one.on) || !one.points.value.empty()) continue;
+    const auto section = whole_section(d, one.on);
+    if (!section || !one.points.value.empty()) continue;
     leaves.take(fmt::format("{}[{}]", key, i));
-    out += fmt::format("*INITIAL CONDITIONS, TYPE={}\n{}", type, one.on.value);
+    out += fmt::format("*INITIAL CONDITIONS, TYPE={}\n{}", type, mesh.elements(*section));
     for (const double value : one.value.value) out += ", " + exact(value);
     out += "\n";
   }
@@ -265,8 +267,9 @@ void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<
   write_contact(d, m, mesh, leaves, out);
   write_ties(d, mesh, leaves, out);
   write_initial(d, mesh, leaves, out);
-  write_initial_states<Dim>(d, d.initial_stress, "initial_stress", "STRESS", leaves, out);
-  write_initial_states<Dim>(d, d.initial_strain, "initial_strain", "PLASTIC STRAIN", leaves, out);
+  write_initial_states<Dim>(d, d.initial_stress, mesh, "initial_stress", "STRESS", leaves, out);
+  write_initial_states<Dim>(d, d.initial_strain, mesh, "initial_strain", "PLASTIC STRAIN", leaves,
+                            out);
 }
 
 template void write_model(const Description&, const model::Model&, InpMesh<2>&, Leaves&,

@@ -39,11 +39,12 @@ class Leaves {
   std::vector<Leaf> leaves_;
 };
 
-/// Whether a set is that of a section, whose elements are written as one.
-[[nodiscard]] inline bool is_section(const Description& d, const Name& on) {
-  for (const Section& section : d.sections)
-    if (section.on.value == on.value) return true;
-  return false;
+/// The section of a set, whose elements are written as one; none: it is part of one, or of several.
+[[nodiscard]] inline std::optional<std::size_t> whole_section(const Description& d,
+                                                              const Name& on) {
+  for (std::size_t s = 0; s < d.sections.size(); ++s)
+    if (d.sections[s].on.value == on.value) return s;
+  return std::nullopt;
 }
 /// A number as short as it is exact.
 [[nodiscard]] std::string exact(double value);

@@ -66,7 +66,7 @@ class StepWriter {
     const ProcedureCards procedure = procedure_of(d_, number, mesh_.finite(), moved_);
     at_once_ = procedure.at_once;
     search_ = procedure.search;
-    std::string out = procedure.text + bodies(step);
+    std::string out = procedure.text + bodies(step, fmt::format("steps[{}]", number));
     if (step.harmonic)
       out += swings(step);
     else if (step.buckling)
@@ -105,26 +105,27 @@ class StepWriter {
   }
 
   /// What comes and goes, of whole sections: all else has no counterpart.
-  std::string bodies(const Step& step) {
+  std::string bodies(const Step& step, const std::string& path) {
     std::string out;
     const auto take = [&](const char* key, std::size_t i, const Name& on) {
-      if (!is_section(d_, on)) return false;
-      leaves_.take(fmt::format("{}.{}[{}]", path_, key, i));
-      return true;
+      const auto section = whole_section(d_, on);
+      if (!section) return std::string{};
+      leaves_.take(fmt::format("{}.{}[{}]", path, key, i));
+      return mesh_.elements(*section);
     };
     for (std::size_t i = 0; i < step.remove.size(); ++i)
-      if (const Name& on = step.remove[i].on; take("remove", i, on))
-        out += fmt::format("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\n{}\n", on.value);
+      if (const std::string on = take("remove", i, step.remove[i].on); !on.empty())
+        out += fmt::format("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\n{}\n", on);
     for (std::size_t i = 0; i < step.add.size(); ++i)
-      if (const Name& on = step.add[i].on; take("add", i, on))
+      if (const std::string on = take("add", i, step.add[i].on); !on.empty())
         out += fmt::format("*MODEL CHANGE, TYPE=ELEMENT, ADD={}\n{}\n",
-                           step.add[i].with_strain ? "WITH STRAIN" : "STRAIN FREE", on.value);
+                           step.add[i].with_strain ? "WITH STRAIN" : "STRAIN FREE", on);
     for (std::size_t i = 0; i < step.materials.size(); ++i)
-      if (const Name& on = step.materials[i].on; take("materials", i, on))
-        out += fmt::format("*CHANGE SOLID SECTION, ELSET={}, MATERIAL={}\n", on.value,
+      if (const std::string on = take("materials", i, step.materials[i].on); !on.empty())
+        out += fmt::format("*CHANGE SOLID SECTION, ELSET={}, MATERIAL={}\n", on,
                            step.materials[i].material.value);
     if (step.frees_all_equations) {
-      (void)leaves_.text(path_ + ".free_equations");
+      (void)leaves_.text(path + ".free_equations");
       out += "*EQUATION, REMOVE ALL\n";
     }
     return out;
