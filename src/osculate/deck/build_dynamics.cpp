@@ -94,6 +94,14 @@ void require_density(const Description& d) {
   }
 }
 
+/// The growth of the energy tells of unstable time steps: it must not be less than at rest.
+void require_energies(const Description& d) {
+  for (const Contact& contact : d.contact)
+    if (contact::stored_energy(contact.normal.law.law, 0) < 0)
+      throw core::InputError(contact.normal.law.mark,
+                             "a law that pulls is not supported with central_differences");
+}
+
 bool all_zero(const std::vector<double>& gravity) {
   return std::all_of(gravity.begin(), gravity.end(), [](double g) { return g == 0.0; });
 }
@@ -137,6 +145,7 @@ void build_dynamics(const BuildContext<Dim>& c, const Step& step, std::vector<do
                                    ? d.time_steps->smallest->value
                                    : 1e-3 * step.duration->value / step.increments.value};
     if (d.scheme == SchemeWord::central_differences) {
+      require_energies(c.description);
       out.dynamics->lumped = true;
       out.dynamics->scheme.impact = solve::Impact::average;
       out.dynamics->explicit_steps = solve::CentralDifferences{d.safety, d.step};

@@ -189,6 +189,11 @@ template <int Dim>
 std::optional<std::vector<model::Equation>> equations_left(BuildContext<Dim>& c, std::size_t step) {
   const std::vector<Step>& steps = c.description.steps;
   if (steps[step].free_equations.empty() && !steps[step].frees_all_equations) return std::nullopt;
+  if (!c.description.ties.empty())
+    throw core::InputError(c.description.ties.front().slave.mark,
+                           fmt::format("equations that end (step '{}') are not supported beside "
+                                       "ties: whose displacements they give, ties would",
+                                       steps[step].name.value));
   std::vector<MarkedEquation> all = given_equations(c);
   for (std::size_t s = 0; s <= step; ++s) {
     if (steps[s].frees_all_equations) all.clear();
@@ -204,7 +209,6 @@ std::optional<std::vector<model::Equation>> equations_left(BuildContext<Dim>& c,
   }
   add_pretensions(c, all);
   const std::size_t until = next_freeing(steps, step + 1);
-  append(ties_beside(c, all, until), all);
   std::vector<model::Equation> kept = std::move(c.model().equations);
   c.model().equations.clear();
   set_equations(c, all, until);

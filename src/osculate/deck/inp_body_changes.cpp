@@ -8,6 +8,7 @@
 #include "osculate/core/text.hpp"
 #include "osculate/deck/inp_parts.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
+#include "osculate/io/inp/thin_sections.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -55,6 +56,11 @@ void change_elements(const InpModel& m, const Card& card, SourceNode& step) {
 }
 
 void change_section(const InpModel& m, const Card& card, SourceNode& step) {
+  const auto stressed = [](const Card& other) {
+    return other.keyword == "INITIALCONDITIONS" && option_of(other, "TYPE") == "STRESS";
+  };
+  if (std::ranges::any_of(m.deck.cards, stressed))
+    io::inp::fail(m.deck, card, "is not supported beside initial stresses");
   if (!option_of(card, "ORIENTATION").empty())
     io::inp::fail(m.deck, card, "ORIENTATION is not supported: axes stay as they are");
   const int line = line_of(card.at);
@@ -145,6 +151,15 @@ void read_initial_line(const InpModel& m, const Line& line,
   (point ? given.points[number] : given.value) = values;
 }
 
+/// Wedges of six nodes, which have two points in CalculiX and six here.
+bool has_wedges(const InpModel& m, const std::string& on) {
+  const mesh::Mesh& mesh = m.mesh.mesh;
+  const mesh::Set* const set = mesh.find_set(on);
+  return set != nullptr && std::ranges::any_of(set->cells, [&](const mesh::CellRef& cell) {
+           return mesh.blocks[static_cast<std::size_t>(cell.block)].type == cell::CellType::wedge6;
+         });
+}
+
 }  // namespace
 
 void put_initial_state(const InpModel& m, SourceNode& root) {
@@ -158,7 +173,15 @@ void put_initial_state(const InpModel& m, SourceNode& root) {
           io::inp::fail(m.deck, card, fmt::format("the parameter {} is not supported", other));
       std::vector<std::pair<std::string, InitialLines>> all;
       for (const Line& line : io::inp::lines_of(m.deck, card)) read_initial_line(m, line, all);
+      const bool by_points =
+          std::ranges::any_of(all, [](const auto& one) { return !one.second.points.empty(); });
+      if (by_points && std::ranges::any_of(m.deck.cards, io::inp::is_layered))
+        io::inp::fail(m.deck, card, "points of shells of layers are not supported: give one value");
       for (const auto& [set, given] : all) {
+        if (!given.points.empty() && has_wedges(m, set))
+          io::inp::fail(m.deck, card,
+                        "points of C3D6 and S3 are not supported, which have others here: give one "
+                        "value");
         SourceNode& entry = list.items.emplace_back(inp_map(given.line));
         put(entry, "on", inp_text(set, given.line));
         if (given.points.empty()) {

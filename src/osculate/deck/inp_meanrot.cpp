@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 
 #include "osculate/deck/inp_parts.hpp"
 
@@ -104,6 +105,23 @@ void put_terms(const InpModel& m, const MeanRotation& one, int line, SourceNode&
     io::inp::fail(m.deck, one.at, "*MPC: MEANROT: its nodes lie on its axis");
 }
 
+/// The mean is that of small rotations where all nodes are as far from the axis.
+void require_one_radius(const InpModel& m, const MeanRotation& one) {
+  constexpr double rounding = 1e-4;
+  Vec3 middle = Vec3::Zero();
+  for (const std::string& node : one.nodes)
+    middle += place_of(m, node) / static_cast<double>(one.nodes.size());
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const std::string& node : one.nodes) {
+    const double radius = one.axis.cross(place_of(m, node) - middle).norm();
+    least = std::min(least, radius);
+    most = std::max(most, radius);
+  }
+  if (most - least > rounding * most)
+    io::inp::fail(m.deck, one.at,
+                  "*MPC: MEANROT: with NLGEOM its nodes have to be as far from the axis");
+}
+
 }  // namespace
 
 void put_rotating_bodies(InpModel& m, SourceNode& rigid) {
@@ -114,6 +132,7 @@ void put_rotating_bodies(InpModel& m, SourceNode& rigid) {
     if (largest < 1 - 1e-12)
       io::inp::fail(m.deck, one.at,
                     "*MPC: MEANROT: with NLGEOM its axis has to be along x, y or z");
+    require_one_radius(m, one);
     const int line = line_of(one.at);
     const InpBodyNode node{body_of(one), 4 + static_cast<int>(along), true,
                            one.axis[along] > 0 ? 1.0 : -1.0};

@@ -37,8 +37,21 @@ class Steps {
   }
 
  private:
+  /// What acts in a step, and would be read over between two of them.
+  void require_step(const Card& card) const {
+    const std::string& key = card.keyword;
+    const bool of_steps = (key == "MODELCHANGE" && option_of(card, "TYPE") == "ELEMENT") ||
+                          key == "CHANGESOLIDSECTION" || is_removal_of_equations(card);
+    const bool of_model = key == "BOUNDARY" || key == "EQUATION" || key == "MPC" || key == "TIE";
+    if (!step_ && (of_steps || (of_model && !out_.steps.items.empty())))
+      io::inp::fail(m_.deck, card, "stands outside of a step");
+    if (step_ && of_model && key != "BOUNDARY" && !is_removal_of_equations(card))
+      io::inp::fail(m_.deck, card, "stands in a step: before the first one is its place");
+  }
+
   void take(const Card& card) {
     const std::string& key = card.keyword;
+    require_step(card);
     if (key == "STEP") begin(card);
     if (key == "ENDSTEP") end(card);
     if (key == "AMPLITUDE") read_amplitude(card);

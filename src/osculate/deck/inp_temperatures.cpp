@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "osculate/deck/inp_parts.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
@@ -26,6 +27,21 @@ bool has_temperatures(const InpModel& m) {
          });
 }
 
+namespace {
+
+/// Nodes of shells, beams and trusses, which those follow that they are expanded to.
+bool has_expanded_nodes(const InpModel& m, const std::string& name) {
+  const mesh::Mesh& mesh = m.mesh.mesh;
+  const mesh::Set* const set = mesh.relations.empty() ? nullptr : mesh.find_set(name);
+  if (set == nullptr) return false;
+  const std::set<Index> nodes(set->nodes.begin(), set->nodes.end());
+  return std::ranges::any_of(mesh.relations, [&](const mesh::Relation& relation) {
+    return nodes.contains(relation.terms.front().node);
+  });
+}
+
+}  // namespace
+
 NodeValue temperature_of(const InpModel& m, const Line& line) {
   Fields fields(m.deck, line);
   const std::string name = io::inp::name_of(fields.next().value_or(""));
@@ -33,6 +49,8 @@ NodeValue temperature_of(const InpModel& m, const Line& line) {
   NodeValue value{
       set_of(m, line.at, number ? io::inp::node_set_name(*number) : name, {SetKind::nodes}),
       fields.real("the temperature")};
+  if (has_expanded_nodes(m, value.on))
+    fields.fail("temperatures of shells, beams and trusses are not supported");
   if (fields.real_or_zero("a gradient") != 0)
     fields.fail("gradients of the temperature through shells and beams are not supported");
   return value;

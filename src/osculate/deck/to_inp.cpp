@@ -195,7 +195,7 @@ std::string InpMesh<Dim>::type_of(const model::BasicBulkSection<Dim>& section,
 
 template <int Dim>
 std::string InpMesh<Dim>::cells() const {
-  std::string out = "*NODE, NSET=Nall\n";
+  std::string out = "*NODE\n";
   for (std::size_t n = 0; n < m_.mesh.nodes.size(); ++n) {
     if (!used_[n]) continue;
     const Vec3& x = m_.mesh.nodes[n];

@@ -199,12 +199,8 @@ Eigenpairs all_around(Problem& p, double shift, Eigen::Index count) {
   return pairs;
 }
 
-}  // namespace
-
-Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count,
-                               LinearSolver& solver) {
-  const Sparse all = sparse(k);
-  Problem p{0.5 * (all + Sparse(all.transpose())), sparse(m), solver};
+/// Of symmetric matrices whose values are of about 1.
+Eigenpairs smallest_of(Problem p, int count) {
   Eigenpairs none;
   const Eigen::VectorXd diagonal = p.m.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i) p.with_mass += diagonal[i] > 0 ? 1 : 0;
@@ -245,6 +241,28 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int
     if (p.factor(shift).status == SolveStatus::failed) break;
   }
   return pairs;
+}
+
+/// Values of about 1, where they are large: Lanczos' method takes what is very small for zero, and
+/// equal ones for one.
+Eigenpairs smallest_scaled(Sparse k, Sparse m, int count, LinearSolver& solver) {
+  const double unit = std::max(1.0, small_part(k, m));
+  m *= unit;
+  Eigenpairs pairs = smallest_of({std::move(k), std::move(m), solver}, count);
+  if (!pairs.failure.empty()) return pairs;
+  pairs.values *= unit;
+  pairs.shift *= unit;
+  pairs.rounding *= unit;
+  pairs.vectors *= std::sqrt(unit);
+  return pairs;
+}
+
+}  // namespace
+
+Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m, int count,
+                               LinearSolver& solver) {
+  const Sparse all = sparse(k);
+  return smallest_scaled(0.5 * (all + Sparse(all.transpose())), sparse(m), count, solver);
 }
 
 namespace {
@@ -322,18 +340,11 @@ Eigenpairs smallest_eigenpairs(const SparseMatrix& k, const SparseMatrix& m,
     const Sparse half = all * by;
     return Sparse(transposed * half);
   };
-  const Sparse stiffness = reduced(k);
-  Sparse mass = reduced(m);
-  // Values of about 1: Lanczos' method takes what is very small for zero, and equal ones for one.
-  const double unit = small_part(stiffness, mass);
-  mass *= unit;
+  const Sparse stiffness = reduced(k), mass = reduced(m);
   Eigenpairs pairs = smallest_eigenpairs(plain(stiffness), plain(mass), count, solver);
   if (!pairs.failure.empty()) return pairs;
   if (!real) complete_pairs(mass, count, pairs);
-  pairs.values *= unit;
-  pairs.shift *= unit;
-  pairs.rounding *= unit;
-  pairs.vectors = (std::sqrt(unit) * (by * pairs.vectors)).eval();
+  pairs.vectors = (by * pairs.vectors).eval();
   return pairs;
 }
 

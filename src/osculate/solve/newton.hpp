@@ -242,7 +242,7 @@ template <System S>
   }
   detail::Resistance<S> resistance(system, guess.resisted);
   detail::Peeling<S> peeling;
-  detail::FormerFactors former;
+  detail::FormerFactors former(options.residual);
   int most = (resistance.on() ? 2 : 1) * options.max_iterations;
   const int more = options.max_iterations / 2, limit = 4 * most;
   for (int i = 1; i <= most + peeling.iterations(); ++i) {

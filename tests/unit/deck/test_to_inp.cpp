@@ -150,7 +150,7 @@ TEST(ToInp, BodiesThatChangeAreWrittenToo) {
       edited(edited(edited(blocks,
                            "contact:\n  - {name: c, master: low.top, slave: high.bottom, normal: "
                            "{penalty: 1e4}, friction: {coulomb: {mu: 0.2, penalty: 5e3}}}\n",
-                           "initial_stress: [{on: low, value: [1, 2, 3, 4, 5, 6]}]\n"),
+                           "initial_strain: [{on: low, value: [1, 2, 3, 4, 5, 6]}]\n"),
                     "  - name: free\n",
                     "  - {name: gone, increments: 1, remove: [{on: high}], free_equations: all}\n"
                     "  - {name: back, increments: 1, add: [{on: high, with_strain: true}]}\n"
@@ -160,8 +160,8 @@ TEST(ToInp, BodiesThatChangeAreWrittenToo) {
              "  hard:");
   const Description after =
       parse_model(translate_deck(written(changing), "model.inp").root, "model.inp");
-  ASSERT_EQ(after.initial_stress.size(), 1U);
-  EXPECT_EQ(after.initial_stress[0].value.value, (std::vector<double>{1, 2, 3, 4, 5, 6}));
+  ASSERT_EQ(after.initial_strain.size(), 1U);
+  EXPECT_EQ(after.initial_strain[0].value.value, (std::vector<double>{1, 2, 3, 4, 5, 6}));
   ASSERT_EQ(after.steps.size(), 4U);
   EXPECT_EQ(after.steps[1].remove.at(0).on.value, "high");
   EXPECT_TRUE(after.steps[1].frees_all_equations);

@@ -142,6 +142,11 @@ class Host {
     out.branch_residual.resize(0);
     if (result_.branched()) out.branch_residual = out.residual + shift;
     out.force_scale = std::max(out.force_scale, std::sqrt(squares));
+    for (const ContactPoint<2>& point : result_.points()) {  // what states the tangent is of
+      const auto status = static_cast<std::uint64_t>(point.status);
+      out.counts.signature =
+          31 * out.counts.signature + 2 * status + (point.shear_traction[0] > 0 ? 1 : 0);
+    }
     if (tangent) fill_matrix();
   }
   void fill_matrix() {

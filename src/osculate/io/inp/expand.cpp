@@ -139,10 +139,12 @@ class Expander : private Fibers {
   /// sections are held in the mean.
   void straighten(Index node, const ThinGroup& group, const Fiber& fiber) {
     const auto held = cards_.held.find(node);
-    if (held == cards_.held.end() || !group.has_middle || group.section->is_hollow()) return;
+    const bool layered = !group.section->layers.empty();  // levels at middles of sides, too
+    if (held == cards_.held.end() || group.section->is_hollow()) return;
+    if (!group.has_middle && !layered) return;
     for (int k = 0; k < 3; ++k) {
       if (!held->second[static_cast<std::size_t>(k)]) continue;
-      if (!group.section->layers.empty())
+      if (layered)
         straighten_levels(group, fiber, k);
       else if (is_plate(group))
         add_mean(fiber[1], {fiber[0], fiber[2]}, k);

@@ -104,6 +104,7 @@ Fibers::Shares Fibers::shares_of_levels(const ThinGroup& group, const Fiber& fib
 void Fibers::straighten_levels(const ThinGroup& group, const Fiber& fiber, int direction) {
   const std::vector<Index>& levels = points_.at(fiber[0]);
   for (std::size_t k = 1; k + 1 < levels.size(); ++k) {
+    if (levels[k] < 0) continue;
     const double up = (at(levels[k]) - at(fiber[0])).norm() / group.thickness[0];
     mesh_.relations.push_back(
         {{{levels[k], direction, 1}, {fiber[0], direction, up - 1}, {fiber[2], direction, -up}}});
