@@ -204,9 +204,8 @@ struct Tables {
       const model::CellNodes c = model::cell_nodes(a.model.mesh, a.mesh.cells[cell].ref);
       const material::Memory memory = place.of(state.memory);
       const auto at = model::places_of(a.model, *section, c.nodes, state.u, memory);
-      const solid::CellEnergy energy =
-          solid::cell_energy(model::section_on(*section, c.type), c.type, at.reference,
-                             at.displacement, memory);
+      const solid::CellEnergy energy = solid::cell_energy(
+          model::section_on(*section, c.type), c.type, at.reference, at.displacement, memory);
       value = energy.stored + energy.dissipated;  // work on the cell, as there
     }
     return a.sector * value;

@@ -47,7 +47,8 @@ concept Interruptible = requires(const S s) {
 /// The factors of a former iteration of the same increment. They solve for a further correction
 /// where no point has changed its state, so that nothing can have come loose that was held.
 ///
-/// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-4 |R|: where the
+/// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-4 |R|: where
+/// the
 ///            rest of the way is linear it is the last correction, as by factors of its own
 /// Tested by  tests/unit/solve/test_former_factors.cpp
 class FormerFactors {
