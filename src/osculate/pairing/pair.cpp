@@ -134,6 +134,35 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   else
     out.tree = Tree<Dim>(out.boxes);
 }
+bool bends_by_little(const Vec2& n, const Chain& chain, const Facet& facet, Points<2> x) {
+  constexpr double flat = 1 - 5e-7;  // 1e-3 rad
+  for (const Index other : {facet.prev, facet.next})
+    if (other >= 0 &&
+        !(n.dot(middle_normal(chain.facets[static_cast<std::size_t>(other)], x)) > flat))
+      return false;
+  return true;
+}
+bool bends_by_little(const Vec3& n, const FacetSurface& surface, const SurfaceFacet& facet,
+                     Points<3> x) {
+  constexpr double flat = 1 - 5e-7;
+  for (const Index other : facet.neighbour)
+    if (other >= 0 &&
+        !(n.dot(middle_normal(surface.facets[static_cast<std::size_t>(other)], x)) > flat))
+      return false;
+  return true;
+}
+
+/// The facet that a point keeps: where its neighbours are nearly in its plane from the first change
+/// on, else when it goes back and forth.
+template <int Dim>
+KeptFacet kept_facet(const Boundary<Dim>& master, const ActiveBranch<Dim>& active, Points<Dim> x) {
+  const KeptFacet kept = active.kept();
+  if (!kept || active.goes_back_and_forth()) return kept;
+  const auto& facet = master.facets[static_cast<std::size_t>(kept.facet)];
+  if (facet.shape || !bends_by_little(middle_normal(facet, x), master, facet, x)) return {};
+  return kept;
+}
+
 /// A point where it was placed, or in the re-entrant vertex beside that place.
 template <int Dim>
 void evaluate_projected(const PairDefinition<Dim>& pair, Points<Dim> x,
@@ -194,8 +223,8 @@ void evaluate(const PairDefinition<Dim>& pair, Points<Dim> x, const PairState<Di
   for (std::size_t i = 0; i < pair.slave.points.size(); ++i) {
     PointContext<Dim> context = context_of(pair, active_set, multipliers, i);
     if (!committed.overlap.empty()) context.relieved = active_set.relief * committed.overlap[i];
-    ProjectedPoint<Dim> projected =
-        project_point(pair, out, x, i, committed.points[i], context.active.kept());
+    ProjectedPoint<Dim> projected = project_point(pair, out, x, i, committed.points[i],
+                                                  kept_facet<Dim>(pair.master, context.active, x));
     context.way = way_of_gap(pair, active_set, committed.points[i], projected.projection.facet,
                              projected.kinematics.gap);
     laps.add_to(out.seconds.projection);

@@ -38,8 +38,8 @@ Index facet_with(const PairSample& s, const pairing::ActiveSet<2>& active_set) {
 TEST(KeptFacet, IsContinuedALittle) {
   const PairSample s = ridge(0.01);
   EXPECT_EQ(facet_with(s, {}), 1);
-  EXPECT_EQ(facet_with(s, that_changed(0, 2)), 1);
-  EXPECT_EQ(facet_with(s, that_changed(0, 3)), 0);
+  EXPECT_EQ(facet_with(s, that_changed(0, 5)), 1);
+  EXPECT_EQ(facet_with(s, that_changed(0, 6)), 0);
   pairing::PairEvaluation<2> e;
   pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, that_changed(0, 6));
   EXPECT_GT(e.points[0].history.xi[0], 1);
@@ -59,9 +59,22 @@ TEST(KeptFacet, ChangesAreCounted) {
     pairing::PairEvaluation<2> e;
     pairing::evaluate<2>(s.pair, s.x, s.committed, true, e, active_set);
     active_set = pairing::evaluated_active_set<2>(e, active_set);
-    EXPECT_EQ(active_set.branch[0].changes, std::min(i, 3));
-    EXPECT_EQ(active_set.branch[0].facet, i < 3 && i % 2 == 0 ? 1 : 0);
+    EXPECT_EQ(active_set.branch[0].changes, std::min(i, 6));
+    EXPECT_EQ(active_set.branch[0].facet, i < 6 ? (i % 2 == 0 ? 1 : 0) : 1);
   }
+}
+
+/// Where the master hardly bends a facet is kept at its border from the first change on.
+TEST(KeptFacet, IsKeptAtOnceWhereTheMasterHardlyBends) {
+  PairSample s = ridge(5e-5);
+  s.x[3][1] = -1e-6;
+  EXPECT_EQ(facet_with(s, that_changed(0, 1)), 1);
+  s.x[0][1] = s.x[2][1] = -1e-4;
+  EXPECT_EQ(facet_with(s, {}), 1);
+  EXPECT_EQ(facet_with(s, that_changed(0, 1)), 0);
+  s.x[3][0] = 5e-4;
+  EXPECT_EQ(facet_with(s, that_changed(0, 1)), 1);
+  EXPECT_EQ(facet_with(s, that_changed(0, 2)), 0);
 }
 
 TEST(KeptFacet, InSpace) {
