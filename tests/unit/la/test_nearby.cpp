@@ -87,7 +87,8 @@ TEST(Nearby, RefusesWhatIsNoNumberOrHasNoFactors) {
 }
 
 TEST(Nearby, IsAffordableWhereFactorsAreDear) {
-  const SparseMatrix& k = block(0, 0).finish();
+  MatrixBuilder m = block(0, 0);
+  const SparseMatrix& k = m.finish();
   FactorReport report;
   EXPECT_EQ(affordable_iterations(report, k), 0);  // a solver that does not say
   report.operations = 1e4;
