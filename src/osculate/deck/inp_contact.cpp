@@ -164,9 +164,10 @@ void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, 
   const bool is_of_nodes = option_of(card, "TYPE") == "NODETOSURFACE";
   for (const Line& line : lines) {
     SourceNode& pair = pair_of_line(m, card, line, pairs);
-    put_sampling(m, card, find(pair, "slave")->text, inp_is_tied(law.behavior), pair);
+    const std::string slave = find(pair, "slave")->text;  // the pair's keys move when one is added
+    put_sampling(m, card, slave, inp_is_tied(law.behavior), pair);
     put_weight(m, card, pair);
-    const double clearance = is_of_nodes ? usual_clearance(m, find(pair, "slave")->text) : 0;
+    const double clearance = is_of_nodes ? usual_clearance(m, slave) : 0;
     m.pairs.push_back({find(pair, "name")->text, io::inp::capitals(law.name),
                        find(pair, "slave")->text, find(pair, "master")->text, clearance});
     put_laws(m, law, pair, clearance);
