@@ -79,6 +79,13 @@ const Vec3& place_of(const InpModel& m, const std::string& node) {
   return m.mesh.mesh.nodes[static_cast<std::size_t>(only_node(m, node))];
 }
 
+Vec3 middle_of(const InpModel& m, const MeanRotation& one) {
+  Vec3 middle = Vec3::Zero();
+  for (const std::string& node : one.nodes)
+    middle += place_of(m, node) / static_cast<double>(one.nodes.size());
+  return middle;
+}
+
 /// Factors of displacements in the mean of small rotations about the axis.
 ///
 /// Formula    1/N sum (axis x r) . u / r^2 , r from the middle of the nodes, across the axis
@@ -90,9 +97,8 @@ void put_terms(const InpModel& m, const MeanRotation& one, int line, SourceNode&
     put(term, "factor", inp_number(factor, line));
   };
   add(one.pilot, 1, -1);
-  Vec3 middle = Vec3::Zero();
   const auto count = static_cast<double>(one.nodes.size());
-  for (const std::string& node : one.nodes) middle += place_of(m, node) / count;
+  const Vec3 middle = middle_of(m, one);
   for (const std::string& node : one.nodes) {
     const Vec3 arm = place_of(m, node) - middle;
     const Vec3 radius = arm - arm.dot(one.axis) * one.axis;
@@ -108,9 +114,7 @@ void put_terms(const InpModel& m, const MeanRotation& one, int line, SourceNode&
 /// The mean is that of small rotations where all nodes are as far from the axis.
 void require_one_radius(const InpModel& m, const MeanRotation& one) {
   constexpr double rounding = 1e-4;
-  Vec3 middle = Vec3::Zero();
-  for (const std::string& node : one.nodes)
-    middle += place_of(m, node) / static_cast<double>(one.nodes.size());
+  const Vec3 middle = middle_of(m, one);
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const std::string& node : one.nodes) {
     const double radius = one.axis.cross(place_of(m, node) - middle).norm();

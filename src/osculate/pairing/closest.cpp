@@ -27,7 +27,7 @@ Vec2 unit_normal(const Facet& facet, double xi, std::span<const Vec2> x) {
 bool ends_at(const Chain& chain, const Facet& facet, bool high, std::span<const Vec2> x,
              const ProjectionQuery<2>& query) {
   const Index next = high ? facet.next : facet.prev;
-  if (next < 0 || query.kept) return true;
+  if (next < 0 || query.kept >= 0) return true;
   if (facet.shape || (!query.slave_normal && !query.filter)) return false;
   const Facet& other = chain.facets[static_cast<std::size_t>(next)];
   return ends_between<2>(query, unit_normal(facet, high ? facet.hi : facet.lo, x),
@@ -41,17 +41,16 @@ bool ends_at(const Chain& chain, const Facet& facet, bool high, std::span<const 
 /// would stand still there and then jump. But a point that is seen from the end at an angle to the
 /// normal belongs to the corner there, however near: between a normal and the next the force of a
 /// point that rests in a re-entrant vertex would jump. At an open end of the chain the facet is
-/// continued by a part of its range (`open` says by which, 0: there is a neighbour): the last node
-/// of a surface must not lose contact because its master tilts or stretches a little.
+/// continued by `end_extension` of its range: the last node of a surface must not lose contact
+/// because its master tilts or stretches a little.
 template <class Jet, class Open>
 void release_end(const Jet& jet, const Facet& facet, const Vec2& point, const Open& open,
                  CurveFoot& foot) {
   if (!foot.converged || (foot.xi != facet.lo && foot.xi != facet.hi)) return;
-  const double extension = open(foot.xi == facet.hi);
-  const bool open_end = extension > 0;
+  const bool open_end = open(foot.xi == facet.hi);
   if (foot.at_end && !open_end) return;
   const double range = facet.hi - facet.lo;
-  const double limit = (open_end ? extension : 2 * projection::end_tolerance) * range;
+  const double limit = (open_end ? end_extension : 2 * projection::end_tolerance) * range;
   double xi = foot.xi;
   projection::DistanceJet d = projection::distance_jet(jet(xi), xi, point);
   const bool beyond = foot.xi == facet.hi ? d.slope < 0 : d.slope > 0;
@@ -78,10 +77,7 @@ void release_end(const Jet& jet, const Facet& facet, const Vec2& point, const Op
 CurveFoot foot_on_facet(const Chain& chain, const Facet& facet, std::span<const Vec2> x,
                         const ProjectionQuery<2>& query) {
   const Vec2& point = query.point;
-  const double extension = query.kept ? query.kept.by : end_extension;
-  const auto open = [&](bool high) {
-    return ends_at(chain, facet, high, x, query) ? extension : 0.0;
-  };
+  const auto open = [&](bool high) { return ends_at(chain, facet, high, x, query); };
   if (facet.shape) {
     const Vec2 origin = node(facet, 0, x);
     const Vec2 arm = point - origin;
@@ -205,12 +201,12 @@ bool equidistant(const Chain& chain, std::span<const Vec2> x, const Candidate& b
 Projection<2> on_kept_facet(const Chain& chain, std::span<const Vec2> x,
                             const ProjectionQuery<2>& query) {
   Projection<2> p;
-  const Facet& facet = chain.facets[static_cast<std::size_t>(query.kept.facet)];
+  const Facet& facet = chain.facets[static_cast<std::size_t>(query.kept)];
   const CurveFoot foot = foot_on_facet(chain, facet, x, query);
   if (!foot.converged || foot.at_end || cosine_at(facet, foot, x, query) > same_way_cosine)
     return p;
   p.feature = Feature::face;
-  p.facet = query.kept.facet;
+  p.facet = query.kept;
   p.xi[0] = foot.xi;
   p.distance = std::sqrt(foot.squared_distance);
   return p;
@@ -258,11 +254,11 @@ void facet_boxes(const Chain& chain, std::span<const Vec2> x, std::vector<search
 
 Projection<2> closest(const Chain& chain, const Tree<2>& tree, std::span<const Vec2> x,
                       const ProjectionQuery<2>& query) {
-  if (query.kept) {
+  if (query.kept >= 0) {
     const Projection<2> kept = on_kept_facet(chain, x, query);
     if (kept.feature != Feature::none) return kept;
     ProjectionQuery<2> any = query;
-    any.kept = {};
+    any.kept = -1;
     return closest(chain, tree, x, any);
   }
   constexpr double far_away = std::numeric_limits<double>::infinity();

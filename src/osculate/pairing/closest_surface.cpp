@@ -55,7 +55,7 @@ Vec3 middle_of(const SurfaceFacet& facet, std::span<const Vec3> x) {
 bool ends_at(const FacetSurface& surface, const SurfaceFacet& facet, int edge,
              std::span<const Vec3> x, const ProjectionQuery<3>& query) {
   const Index other = facet.neighbour[static_cast<std::size_t>(edge)];
-  if (other < 0 || query.kept) return true;
+  if (other < 0 || query.kept >= 0) return true;
   if (!query.slave_normal && !query.filter) return false;
   const SurfaceFacet& next = surface.facets[static_cast<std::size_t>(other)];
   return ends_between<3>(query, middle_normal(facet, x), middle_normal(next, x),
@@ -71,8 +71,7 @@ void release_border(const FacetSurface& surface, const SurfaceFacet& facet, std:
                     const ProjectionQuery<3>& query, const Release& release, FacetFoot& foot) {
   if (!foot.converged || foot.feature == Feature::face || foot.local < 0) return;
   FacetFoot beyond = foot;
-  const double extension = query.kept ? query.kept.by : end_extension;
-  if (!release(extension, beyond)) return;  // nor by less
+  if (!release(end_extension, beyond)) return;  // nor by less
   constexpr double tolerance = 2e-8;
   bool open = false;
   if (foot.feature == Feature::edge) {
@@ -300,13 +299,13 @@ struct Look {
 Projection<3> on_kept_facet(const FacetSurface& surface, std::span<const Vec3> x,
                             const ProjectionQuery<3>& query) {
   Projection<3> p;
-  const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(query.kept.facet)];
+  const SurfaceFacet& facet = surface.facets[static_cast<std::size_t>(query.kept)];
   const FacetFoot foot = foot_on_facet(surface, facet, x, query);
   if (!foot.converged || foot.feature != Feature::face ||
       cosine_at(facet, foot, x, query) > same_way_cosine)
     return p;
   p.feature = Feature::face;
-  p.facet = query.kept.facet;
+  p.facet = query.kept;
   p.xi = foot.xi;
   p.distance = std::sqrt(foot.squared_distance);
   return p;
@@ -341,11 +340,11 @@ void facet_boxes(const FacetSurface& surface, std::span<const Vec3> x,
 
 Projection<3> closest(const FacetSurface& surface, const Tree<3>& tree, std::span<const Vec3> x,
                       const ProjectionQuery<3>& query) {
-  if (query.kept) {
+  if (query.kept >= 0) {
     const Projection<3> kept = on_kept_facet(surface, x, query);
     if (kept.feature != Feature::none) return kept;
     ProjectionQuery<3> any = query;
-    any.kept = {};
+    any.kept = -1;
     return closest(surface, tree, x, any);
   }
   constexpr double far_away = std::numeric_limits<double>::infinity();

@@ -134,33 +134,30 @@ void refresh(const PairDefinition<Dim>& pair, Points<Dim> x, bool with_tangent,
   else
     out.tree = Tree<Dim>(out.boxes);
 }
-bool bends_by_little(const Vec2& n, const Chain& chain, const Facet& facet, Points<2> x) {
-  constexpr double flat = 1 - 5e-7;  // 1e-3 rad
-  for (const Index other : {facet.prev, facet.next})
-    if (other >= 0 &&
-        !(n.dot(middle_normal(chain.facets[static_cast<std::size_t>(other)], x)) > flat))
-      return false;
-  return true;
-}
-bool bends_by_little(const Vec3& n, const FacetSurface& surface, const SurfaceFacet& facet,
-                     Points<3> x) {
+std::array<Index, 2> neighbours(const Facet& facet) { return {facet.prev, facet.next}; }
+const auto& neighbours(const SurfaceFacet& facet) { return facet.neighbour; }
+
+/// Whether the facets next to one lie in its plane, but for 1e-3 rad: 5 % of its length beyond its
+/// border the gap is off by 5e-5 of it, less than what a facet leaves of an arc.
+template <int Dim>
+bool is_flat_around(const Boundary<Dim>& master, Index facet, Points<Dim> x) {
   constexpr double flat = 1 - 5e-7;
-  for (const Index other : facet.neighbour)
-    if (other >= 0 &&
-        !(n.dot(middle_normal(surface.facets[static_cast<std::size_t>(other)], x)) > flat))
-      return false;
-  return true;
+  const auto& own = master.facets[static_cast<std::size_t>(facet)];
+  if (own.shape) return false;
+  const Vec<Dim> n = middle_normal(own, x);
+  return std::ranges::all_of(neighbours(own), [&](Index other) {
+    return other < 0 ||
+           n.dot(middle_normal(master.facets[static_cast<std::size_t>(other)], x)) > flat;
+  });
 }
 
-/// The facet that a point keeps: where its neighbours are nearly in its plane from the first change
-/// on, else when it goes back and forth.
+/// The facet that a point keeps: one of a plane from the first change on, where it makes hardly a
+/// difference and neighbours would take turns for the sake of rounding.
 template <int Dim>
-KeptFacet kept_facet(const Boundary<Dim>& master, const ActiveBranch<Dim>& active, Points<Dim> x) {
-  const KeptFacet kept = active.kept();
-  if (!kept || active.goes_back_and_forth()) return kept;
-  const auto& facet = master.facets[static_cast<std::size_t>(kept.facet)];
-  if (facet.shape || !bends_by_little(middle_normal(facet, x), master, facet, x)) return {};
-  return kept;
+Index kept_facet(const Boundary<Dim>& master, const ActiveBranch<Dim>& active, Points<Dim> x) {
+  const bool of_a_plane =
+      active.changes > 0 && active.facet >= 0 && is_flat_around<Dim>(master, active.facet, x);
+  return of_a_plane ? active.facet : active.kept();
 }
 
 /// A point where it was placed, or in the re-entrant vertex beside that place.

@@ -128,24 +128,16 @@ struct ActiveBranch {
   std::array<Index, 2> edges{-1, -1};     ///< of an edge-edge contact: the slave's and the master's
   /// A point that has gone back and forth over the border of a facet keeps that facet until the
   /// increment is done: between two facets at an angle the force jumps, and iterations that follow
-  /// it find no end. Right at the border, where it makes no difference, it does so at once, and the
-  /// farther beyond it the more often it has changed.
+  /// it find no end.
   Index facet = -1;  ///< in this iteration
   int changes = 0;   ///< of the facet, in this increment
   /// In contact on a face when it was linearised, and where on `facet` (see keeps_contact).
   bool closed = false;
   Vec<Dim - 1> xi = Vec<Dim - 1>::Zero();
   int kept_on = 0;  ///< iterations in a row that it was kept in contact though it was open
-  [[nodiscard]] bool goes_back_and_forth() const {
+  [[nodiscard]] Index kept() const {
     constexpr int enough = 6;
-    return changes >= enough && facet >= 0;
-  }
-  [[nodiscard]] KeptFacet kept() const {
-    constexpr double at_border = 1e-4, wider = 10;
-    if (changes == 0) return {};
-    double by = at_border;
-    for (int i = 1; i < changes && by < end_extension; ++i) by *= wider;
-    return {facet, std::min(by, end_extension)};
+    return changes >= enough ? facet : -1;
   }
 };
 

@@ -57,7 +57,7 @@ template <int Dim>
                                                 const PairEvaluation<Dim>& work, Points<Dim> x,
                                                 std::size_t i,
                                                 const contact::PointHistory<Dim>& history,
-                                                KeptFacet kept = {}) {
+                                                Index kept = -1) {
   if (work.apart) return {};
   ProjectionQuery<Dim> query;
   query.point = position<Dim>(pair.slave.points[i], x);

@@ -11,13 +11,6 @@ namespace osculate::pairing {
 /// How far an open border of a master is continued, as a part of the last facet's parameter range.
 inline constexpr double end_extension = 0.05;
 
-/// Facet that a point keeps which went over its border; -1: the nearest one.
-struct KeptFacet {
-  Index facet = -1;
-  double by = 0;  ///< how far it is continued there, as a part of its parameter range
-  [[nodiscard]] explicit operator bool() const { return facet >= 0; }
-};
-
 /// Generalized projection of a point onto a master: faces, then edges (3D) and vertices.
 template <int Dim>
 struct Projection {
@@ -40,7 +33,9 @@ struct ProjectionQuery {
   std::optional<Vec<Dim>> slave_normal;  ///< facets facing the same way are not candidates
   Index history = -1;                    ///< facet; equidistant: the side of the history wins
   projection::Feature history_feature = projection::Feature::none;
-  KeptFacet kept{};
+  /// Facet that a point keeps which went back and forth over its border (ActiveBranch::kept): it
+  /// is continued by `end_extension` there; -1: the nearest one.
+  Index kept = -1;
   const NodeFilter<Dim>* filter =
       nullptr;  ///< null: every facet is a candidate (candidate filter.hpp)
   /// An equidistant point has no side of its own: it belongs to the border between both facets.

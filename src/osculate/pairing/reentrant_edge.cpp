@@ -108,8 +108,7 @@ std::optional<EdgePlace> stay_or_leave(const PairDefinition<3>& pair, Points<3> 
   if (left < 0 && !too_deep<3>(pair, place.normal, offset)) return place;
   const auto side = static_cast<std::size_t>(std::max(left, 0));
   leave(place.normal[side]);
-  projected = project_point<3>(pair, work, x, i, history,
-                               {edge_of(pair, place).facets[side], end_extension});
+  projected = project_point<3>(pair, work, x, i, history, edge_of(pair, place).facets[side]);
   return std::nullopt;
 }
 
@@ -157,7 +156,7 @@ std::optional<EdgePlace> come_or_keep(const PairDefinition<3>& pair, Points<3> x
     return std::nullopt;
   }
   if (!on_edge && offset.dot(place->normal[1 - from]) >= 0) {
-    projected = project_point<3>(pair, work, x, i, history, {edge.facets[from], end_extension});
+    projected = project_point<3>(pair, work, x, i, history, edge.facets[from]);
     return std::nullopt;
   }
   take_into(pair, *place, place->normal[from], taken);
@@ -195,7 +194,7 @@ std::optional<EdgePlace> find_reentrant_edge(const PairDefinition<3>& pair, Poin
   taken = *context.multiplier;
   context.multiplier = &taken;
   if (projected.projection.feature == Feature::none) return std::nullopt;
-  if (context.active.goes_back_and_forth()) {
+  if (context.active.kept() >= 0) {
     if (context.active.branch == Branch::reentrant) take_to(projected.kinematics.normal, taken);
     return std::nullopt;
   }

@@ -81,7 +81,7 @@ std::optional<ReentrantVertex> stay_or_leave(const PairDefinition<2>& pair, Poin
   const auto side = static_cast<std::size_t>(std::max(left, 0));
   taken.normal = taken.shear.dot(v->normal[side]);
   taken.shear -= taken.normal * v->normal[side];
-  projected = project_point<2>(pair, work, x, i, history, {v->facets[side], end_extension});
+  projected = project_point<2>(pair, work, x, i, history, v->facets[side]);
   return std::nullopt;
 }
 
@@ -103,7 +103,7 @@ std::optional<ReentrantVertex> come_or_keep(const PairDefinition<2>& pair, Point
     return std::nullopt;
   }
   if (projected.projection.feature != Feature::corner && offset.dot(v->normal[1 - from]) >= 0) {
-    projected = project_point<2>(pair, work, x, i, history, {facet, end_extension});
+    projected = project_point<2>(pair, work, x, i, history, facet);
     return std::nullopt;
   }
   taken.shear += taken.normal * v->normal[from];
@@ -141,7 +141,7 @@ std::optional<ReentrantVertex> find_reentrant_vertex(const PairDefinition<2>& pa
                                                      ProjectedPoint<2>& projected) {
   taken = *context.multiplier;
   context.multiplier = &taken;
-  if (projected.projection.feature == Feature::none || context.active.goes_back_and_forth())
+  if (projected.projection.feature == Feature::none || context.active.kept() >= 0)
     return std::nullopt;
   const StateBefore<2> before = state_before<2>(
       history, context, [&] { return rests_in_reentrant_vertex(pair, history, x); });

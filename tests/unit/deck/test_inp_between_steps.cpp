@@ -1,6 +1,7 @@
 // Decks: what changes of contact from step to step, other laws, steps in time, vibrations.
 #include <gtest/gtest.h>
 
+#include "cube_nodes.hpp"
 #include "osculate/deck/inp_translate.hpp"
 #include "osculate/deck/parse.hpp"
 
@@ -9,23 +10,8 @@ namespace {
 
 /// A cube under one that is half as wide; lines 1 to 27.
 const std::string cubes = R"(*NODE, NSET=NALL
-1, 0, 0, 0
-2, 1, 0, 0
-3, 1, 1, 0
-4, 0, 1, 0
-5, 0, 0, 1
-6, 1, 0, 1
-7, 1, 1, 1
-8, 0, 1, 1
-11, 0, 0, 1
-12, 0.5, 0, 1
-13, 0.5, 0.5, 1
-14, 0, 0.5, 1
-15, 0, 0, 2
-16, 0.5, 0, 2
-17, 0.5, 0.5, 2
-18, 0, 0.5, 2
-*ELEMENT, TYPE=C3D8, ELSET=LOW
+)" + cube_nodes(1, {0, 0, 0}) +
+                          cube_nodes(11, {0, 0, 1}, 0.5) + R"(*ELEMENT, TYPE=C3D8, ELSET=LOW
 1, 1, 2, 3, 4, 5, 6, 7, 8
 *ELEMENT, TYPE=C3D8, ELSET=UP
 2, 11, 12, 13, 14, 15, 16, 17, 18

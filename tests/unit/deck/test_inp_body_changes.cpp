@@ -1,5 +1,6 @@
 // Decks: elements that go and come back, sections that change, equations that end, stresses and
 // plastic strains at first.
+#include "cube_nodes.hpp"
 #include "inp_run_test.hpp"
 #include "osculate/deck/inp_translate.hpp"
 
@@ -8,23 +9,8 @@ namespace {
 
 /// Two unit cubes side by side, not joined, held below; lines 1 to 36, the step from 37 on.
 const std::string two = R"(*NODE, NSET=NALL
-1, 0, 0, 0
-2, 1, 0, 0
-3, 1, 1, 0
-4, 0, 1, 0
-5, 0, 0, 1
-6, 1, 0, 1
-7, 1, 1, 1
-8, 0, 1, 1
-11, 2, 0, 0
-12, 3, 0, 0
-13, 3, 1, 0
-14, 2, 1, 0
-15, 2, 0, 1
-16, 3, 0, 1
-17, 3, 1, 1
-18, 2, 1, 1
-*ELEMENT, TYPE=C3D8, ELSET=A
+)" + cube_nodes(1, {0, 0, 0}) +
+                        cube_nodes(11, {2, 0, 0}) + R"(*ELEMENT, TYPE=C3D8, ELSET=A
 1, 1, 2, 3, 4, 5, 6, 7, 8
 *ELEMENT, TYPE=C3D8, ELSET=B
 2, 11, 12, 13, 14, 15, 16, 17, 18

@@ -1,6 +1,7 @@
 // *CONTACT of decks beside *CONTACT PAIR.
 #include <gmock/gmock.h>
 
+#include "cube_nodes.hpp"
 #include "inp_run_test.hpp"
 #include "osculate/deck/inp_translate.hpp"
 #include "osculate/deck/parse.hpp"
@@ -14,31 +15,9 @@ using ::testing::HasSubstr;
 /// Three cubes on top of each other, pressed by 0.06 at the top: two contacts of 1e4 in a row with
 /// three cubes of 1000.
 const std::string cubes = R"(*NODE, NSET=ALL
-1, 0, 0, 0
-2, 1, 0, 0
-3, 1, 1, 0
-4, 0, 1, 0
-5, 0, 0, 1
-6, 1, 0, 1
-7, 1, 1, 1
-8, 0, 1, 1
-11, 0, 0, 1
-12, 1, 0, 1
-13, 1, 1, 1
-14, 0, 1, 1
-15, 0, 0, 2
-16, 1, 0, 2
-17, 1, 1, 2
-18, 0, 1, 2
-21, 0, 0, 2
-22, 1, 0, 2
-23, 1, 1, 2
-24, 0, 1, 2
-25, 0, 0, 3
-26, 1, 0, 3
-27, 1, 1, 3
-28, 0, 1, 3
-*ELEMENT, TYPE=C3D8, ELSET=LOW
+)" + cube_nodes(1, {0, 0, 0}) +
+                          cube_nodes(11, {0, 0, 1}) + cube_nodes(21, {0, 0, 2}) +
+                          R"(*ELEMENT, TYPE=C3D8, ELSET=LOW
 1, 1, 2, 3, 4, 5, 6, 7, 8
 *ELEMENT, TYPE=C3D8, ELSET=MIDDLE
 2, 11, 12, 13, 14, 15, 16, 17, 18

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "cube_nodes.hpp"
 #include "osculate/deck/inp_translate.hpp"
 #include "osculate/deck/parse.hpp"
 
@@ -10,23 +11,8 @@ namespace {
 const std::string blocks = R"(*HEADING
 Two cubes
 *NODE, NSET=NALL
-1, 0, 0, 0
-2, 1, 0, 0
-3, 1, 1, 0
-4, 0, 1, 0
-5, 0, 0, 1
-6, 1, 0, 1
-7, 1, 1, 1
-8, 0, 1, 1
-11, 0, 0, 1
-12, 1, 0, 1
-13, 1, 1, 1
-14, 0, 1, 1
-15, 0, 0, 2
-16, 1, 0, 2
-17, 1, 1, 2
-18, 0, 1, 2
-*ELEMENT, TYPE=C3D8R, ELSET=LOW
+)" + cube_nodes(1, {0, 0, 0}) +
+                           cube_nodes(11, {0, 0, 1}) + R"(*ELEMENT, TYPE=C3D8R, ELSET=LOW
 1, 1, 2, 3, 4, 5, 6, 7, 8
 *ELEMENT, TYPE=C3D8R, ELSET=UP
 2, 11, 12, 13, 14, 15, 16, 17, 18

@@ -104,23 +104,5 @@ TEST(ClosestOnChain, EquidistantPointsWithoutHistoryTakeTheAveragedNormal) {
   EXPECT_EQ(line.at({-0.1, -0.1 + 1e-6}).feature, Feature::face);
 }
 
-// A facet that is kept goes on by the part of its range that is asked for, and no farther.
-TEST(ClosestOnChain, AKeptFacetGoesOnALittle) {
-  const Target<2> line = line_of({{-1, 0}, {0, 0}, {1, -0.1}});
-  pairing::ProjectionQuery<2> query;
-  for (const double by : {1e-4, 1e-2}) {
-    query.kept = {0, by};
-    query.point = {0.5 * by, -1e-3 * by};
-    EXPECT_EQ(line.at(query).facet, 0);
-    EXPECT_EQ(line.at(query).feature, Feature::face);
-    EXPECT_NEAR(line.at(query).xi[0], 1 + by, 1e-12);
-    query.point = {2 * by, -0.3 * by};
-    EXPECT_EQ(line.at(query).facet, 1);
-    query.kept = {};
-    query.point = {0.5 * by, -0.1 * by};
-    EXPECT_EQ(line.at(query).facet, 1);
-  }
-}
-
 }  // namespace
 }  // namespace osculate::testing

@@ -122,42 +122,5 @@ TEST(ClosestOnSurface, OpenBordersAreContinuedALittle) {
   EXPECT_TRUE(t.at({5.2, 1.3, -0.05}).beyond_end);
 }
 
-// A facet that is kept goes on by the part of its range that is asked for, and no farther.
-TEST(ClosestOnSurface, AKeptFacetGoesOnALittle) {
-  const std::vector<Vec3> x{{-1, 0, 0}, {0, 0, 0},    {0, 1, 0},
-                            {-1, 1, 0}, {1, 0, -0.1}, {1, 1, -0.1}};
-  pairing::FacetSurface surface;
-  for (const std::array<Index, 4>& nodes :
-       {std::array<Index, 4>{0, 1, 2, 3}, std::array<Index, 4>{1, 4, 5, 2}})
-    surface.facets.push_back(pairing::surface_facet(CellType::quad4, nodes));
-  const Target<3> t(x, surface);
-  pairing::ProjectionQuery<3> query;
-  for (const double by : {1e-4, 1e-2}) {
-    query.kept = {0, by};
-    query.point = {0.4 * by, 0.5, -1e-3 * by};
-    EXPECT_EQ(t.at(query).facet, 0);
-    EXPECT_EQ(t.at(query).feature, Feature::face);
-    EXPECT_NEAR(t.at(query).xi[0], 1 + 0.8 * by, 1e-12);
-    query.point = {2 * by, 0.5, -0.3 * by};
-    EXPECT_EQ(t.at(query).facet, 1);
-    query.kept = {};
-    query.point = {0.4 * by, 0.5, -0.1 * by};
-    EXPECT_EQ(t.at(query).facet, 1);
-  }
-}
-
-TEST(KeptFacet, IsWiderTheMoreOftenItHasChanged) {
-  pairing::ActiveBranch<3> branch;
-  branch.facet = 7;
-  EXPECT_FALSE(branch.kept());
-  double before = 0;
-  for (branch.changes = 1; branch.changes <= 4; ++branch.changes) {
-    EXPECT_EQ(branch.kept().facet, 7);
-    EXPECT_GT(branch.kept().by, before);
-    before = branch.kept().by;
-  }
-  EXPECT_EQ(before, pairing::end_extension);
-}
-
 }  // namespace
 }  // namespace osculate::testing
