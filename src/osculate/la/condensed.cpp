@@ -300,6 +300,24 @@ SolveStatus Condensed::solve(Eigen::VectorXd& rhs) {
   return status;
 }
 
+SolveStatus Condensed::solve_once(Eigen::VectorXd& rhs) {
+  Impl& s = *impl_;
+  if (!s.condensed) {
+    const double before = s.whole.seconds();
+    const SolveStatus status = s.whole.solve_once(rhs);
+    s.seconds += s.whole.seconds() - before;
+    return status;
+  }
+  if (rhs.size() != s.matrix.n || !rhs.allFinite()) return SolveStatus::failed;
+  const auto begun = std::chrono::steady_clock::now();
+  Eigen::VectorXd x = rhs;
+  const bool solved = x.size() == 0 || s.substitute(x);
+  s.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  if (!solved || !x.allFinite()) return SolveStatus::failed;
+  rhs = std::move(x);
+  return SolveStatus::ok;
+}
+
 double Condensed::seconds() const { return impl_->seconds; }
 Condensed::Count Condensed::count() const { return impl_->count; }
 

@@ -69,6 +69,10 @@ class LinearSolver {
   /// Replaces the right-hand side by the solution. `failed` without factors or for a wrong size or
   /// a NaN.
   virtual SolveStatus solve(Eigen::VectorXd& rhs_in_solution_out) = 0;
+  /// As `solve`, without a correction by the residual: for iterations that see the residual.
+  virtual SolveStatus solve_once(Eigen::VectorXd& rhs_in_solution_out) {
+    return solve(rhs_in_solution_out);
+  }
   /// One right-hand side a column, all at once (last bits may differ from one by one).
   virtual SolveStatus solve(Eigen::MatrixXd& rhs_in_solution_out) = 0;
   /// Spent in `factor` and `solve` so far [s].

@@ -384,6 +384,16 @@ SolveStatus Mumps::solve(Eigen::VectorXd& rhs) {
   return s.solve(rhs);
 }
 
+SolveStatus Mumps::solve_once(Eigen::VectorXd& rhs) {
+  Impl& s = *impl_;
+  if (!s.factored || rhs.size() != s.n || !rhs.allFinite()) return SolveStatus::failed;
+  if (s.n == 0) return SolveStatus::ok;
+  const Spent spent(s.seconds);
+  const LibraryCall guard(s.options.blas_threads);
+  const SolveStatus status = s.substitute(rhs.data(), 1);
+  return status != SolveStatus::ok || rhs.allFinite() ? status : SolveStatus::singular;
+}
+
 SolveStatus Mumps::solve(Eigen::MatrixXd& rhs) {
   Impl& s = *impl_;
   if (!s.factored || rhs.rows() != s.n || !rhs.allFinite()) return SolveStatus::failed;

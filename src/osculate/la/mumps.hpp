@@ -28,6 +28,7 @@ class Mumps final : public LinearSolver {
   FactorReport factor(const SparseMatrix& k, std::uint64_t pattern_version,
                       Symmetry symmetry) override;
   SolveStatus solve(Eigen::VectorXd& rhs_in_solution_out) override;
+  SolveStatus solve_once(Eigen::VectorXd& rhs_in_solution_out) override;
   SolveStatus solve(Eigen::MatrixXd& rhs_in_solution_out) override;
   [[nodiscard]] double seconds() const override;
 

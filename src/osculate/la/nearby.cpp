@@ -21,7 +21,7 @@ struct Operator {
   /// Not a number where the factors do not solve.
   [[nodiscard]] Eigen::VectorXd preconditioned(const Eigen::VectorXd& y) const {
     Eigen::VectorXd x = y;
-    if (factors.solve(x) != SolveStatus::ok) x.setConstant(std::nan(""));
+    if (factors.solve_once(x) != SolveStatus::ok) x.setConstant(std::nan(""));
     return x;
   }
   [[nodiscard]] Eigen::VectorXd operator*(const Eigen::VectorXd& y) const {

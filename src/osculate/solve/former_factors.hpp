@@ -7,11 +7,15 @@
 
 namespace osculate::solve::detail {
 
-/// The factors of a former iteration of the same increment. They solve for a further correction
-/// where no point has changed its state, so that nothing can have come loose that was held.
+/// The factors of a former iteration of the same increment, which solve for further corrections.
+/// Where points have changed their states since, a thousandth of what is out of balance may be
+/// left: the next iteration finds other states anyway. Once two iterations have the same states
+/// these are factored, and no increment ends with factors of others (`of_other_states`): something
+/// may have come loose that was held.
 ///
 /// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-4 |R|: where
-///            the rest of the way is linear it is the last correction, as by factors of its own
+///            the rest of the way is linear it is the last correction, as by factors of its own;
+///            1e-3 |R| where states have changed
 /// Tested by  tests/unit/solve/test_former_factors.cpp
 class FormerFactors {
  public:
@@ -19,31 +23,40 @@ class FormerFactors {
   explicit FormerFactors(double wanted) : wanted_(wanted) {}
   /// The last correction took a factorisation.
   [[nodiscard]] bool fresh() const { return fresh_; }
+  /// The last correction came by factors of other states.
+  [[nodiscard]] bool of_other_states() const { return !fresh_ && last_ != states_; }
   void forget() { affordable_ = 0; }
   void keep(const la::FactorReport& report, const la::SparseMatrix& k, const StateCounts& counts) {
     const bool sound = report.status == la::SolveStatus::ok && report.condition == 0;
     affordable_ = sound ? la::affordable_iterations(report, k) : 0;
-    states_ = counts.signature;
+    states_ = last_ = counts.signature;
     fresh_ = true;
   }
   /// du = -K^-1 R ; false: the tangent of `system` is to be factored.
   template <System S>
   bool solve(S& system, la::LinearSolver& solver, const NewtonResult<typename S::Trial>& result,
              const Eigen::VectorXd& residual, Eigen::VectorXd& du) {
-    if (affordable_ < 1 || result.evaluation.counts.signature != states_) return false;
-    constexpr double share = 0.1, least = 1e-9, most = 1e-4;
+    const std::uint64_t states = result.evaluation.counts.signature;
+    const bool changed = states != states_, settled = states == last_;
+    last_ = states;
+    if (affordable_ < 1 || (changed && (settled || failed_))) return false;
+    constexpr double share = 0.1, least = 1e-9, most = 1e-4, on_the_way = 1e-3;
     const double now = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
+    const double tolerance = changed ? on_the_way : std::clamp(share * wanted_ / now, least, most);
     du = -residual;
-    const la::NearbyLimits limits{affordable_, std::clamp(share * wanted_ / now, least, most)};
-    fresh_ = !la::solve_nearby(system.matrix(), system.symmetry(), solver, limits, du).solved;
+    fresh_ =
+        !la::solve_nearby(system.matrix(), system.symmetry(), solver, {affordable_, tolerance}, du)
+             .solved;
+    failed_ = failed_ || (changed && fresh_);
     return !fresh_;
   }
 
  private:
   double wanted_;
-  int affordable_ = 0;  ///< iterations; none without factors
-  std::uint64_t states_ = 0;
+  int affordable_ = 0;                   ///< iterations; none without factors
+  std::uint64_t states_ = 0, last_ = 0;  ///< of the factors, and of the last correction
   bool fresh_ = true;
+  bool failed_ = false;  ///< for once where states had changed: it would again
 };
 
 }  // namespace osculate::solve::detail

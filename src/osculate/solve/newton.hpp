@@ -184,14 +184,14 @@ bool meets(const Judge& judge, const Eigen::VectorXd& du, double energy_before,
 /// Writes down the iteration with correction `du`; true if it was the last one, converged or not.
 template <class Trial>
 bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energy_before,
-              NewtonResult<Trial>& result, bool factored = true) {
+              NewtonResult<Trial>& result, const FormerFactors& former = FormerFactors{0}) {
   const Evaluation& e = result.evaluation;
   if (!e.ok) return !fail(result, Outcome::numerical_failure, e.message);
   const double energy_after = std::abs(du.dot(e.residual));
   const bool by_residual = judge.options.residual > 0;
   IterationRecord record;
   record.step = step;
-  record.factored = factored;
+  record.factored = former.fresh();
   const double size = e.residual.norm();
   record.residual = relative_residual(result);
   record.energy = relative(by_residual ? energy_after : energy_before, judge.first_energy);
@@ -204,6 +204,7 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
   judge.look_at(size, step, record.residual < 1e-3);
   result.precision.round_off = false;
   if (!judge.settled(result.precision.condition, e.saddle, correction)) return false;
+  if (former.of_other_states()) return false;
   if (!judge.done(record.residual, energy_before, energy_after)) {
     const bool rounding =
         judge.only_rounding(e, record.residual, energy_before, result.first_residual) ||
@@ -278,7 +279,7 @@ template <System S>
     if (!known) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (result.total.size() == 0) result.total.setZero(du.size());
     result.total += step * du;
-    const bool ended = detail::conclude(judge, du, step, energy_before, result, former.fresh());
+    const bool ended = detail::conclude(judge, du, step, energy_before, result, former);
     if (known && !ended) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();
