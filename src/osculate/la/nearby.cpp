@@ -65,7 +65,7 @@ Nearby solve_nearby(const SparseMatrix& k, Symmetry symmetry, LinearSolver& fact
 }
 
 int affordable_iterations(const FactorReport& factors, const SparseMatrix& k) {
-  constexpr double per_operation = 1.0 / 8e9, per_factor_entry = 3e-9, per_entry = 2e-9,
+  constexpr double per_operation = 1.0 / 8e9, per_factor_entry = 3e-9, per_entry = 1.2e-9,
                    share = 0.5, most = 40;
   if (!(factors.operations > 0)) return 0;
   const auto entries = static_cast<double>(factors.factor_entries);

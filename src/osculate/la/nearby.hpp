@@ -28,7 +28,7 @@ struct NearbyLimits {
 /// report of the factors and the pattern alone, so that the same analysis takes the same way on any
 /// machine.
 ///
-/// Formula    seconds = operations / 8e9 + 3e-9 entries of a factorisation, 2e-9 (entries of the
+/// Formula    seconds = operations / 8e9 + 3e-9 entries of a factorisation, 1.2e-9 (entries of the
 ///            factors + entries of the matrix) of an iteration; at most 40
 [[nodiscard]] int affordable_iterations(const FactorReport& factors, const SparseMatrix& k);
 

@@ -11,7 +11,7 @@ namespace osculate::solve::detail {
 /// Where points have changed their states since, a thousandth of what is out of balance may be
 /// left: the next iteration finds other states anyway. Once two iterations have the same states
 /// these are factored, and no increment ends with factors of others (`of_other_states`): something
-/// may have come loose that was held.
+/// may have come loose that was held. Not where the energy alone says when iterations end.
 ///
 /// Formula    |R + K du| <= a tenth of the residual that ends the iterations, and 1e-4 |R|: where
 ///            the rest of the way is linear it is the last correction, as by factors of its own;
@@ -39,15 +39,17 @@ class FormerFactors {
     const std::uint64_t states = result.evaluation.counts.signature;
     const bool changed = states != states_, settled = states == last_;
     last_ = states;
-    if (affordable_ < 1 || (changed && (settled || failed_))) return false;
     constexpr double share = 0.1, least = 1e-9, most = 1e-4, on_the_way = 1e-3;
+    constexpr int tries = 2;
     const double now = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
+    if (affordable_ < 1) return false;
+    if (changed && (settled || failures_ >= tries || wanted_ <= 0 || now <= wanted_)) return false;
     const double tolerance = changed ? on_the_way : std::clamp(share * wanted_ / now, least, most);
     du = -residual;
     fresh_ =
         !la::solve_nearby(system.matrix(), system.symmetry(), solver, {affordable_, tolerance}, du)
              .solved;
-    failed_ = failed_ || (changed && fresh_);
+    if (changed && fresh_) ++failures_;
     return !fresh_;
   }
 
@@ -56,7 +58,7 @@ class FormerFactors {
   int affordable_ = 0;                   ///< iterations; none without factors
   std::uint64_t states_ = 0, last_ = 0;  ///< of the factors, and of the last correction
   bool fresh_ = true;
-  bool failed_ = false;  ///< for once where states had changed: it would again
+  int failures_ = 0;  ///< where states had changed
 };
 
 }  // namespace osculate::solve::detail

@@ -73,12 +73,37 @@ TEST(FormerFactors, SaveFactorisationsAndNothingElse) {
   EXPECT_LT((with.trial.x - without.trial.x).norm(), 1e-9 * without.trial.x.norm());
 }
 
-TEST(FormerFactors, AreNotTrustedWhereStatesHaveChanged) {
+/// States that change with the first `changes` evaluations.
+NewtonResult<ToySystem::Trial> with_changes(std::uint64_t changes, const NewtonOptions& options) {
   ToySystem system = springs();
   std::uint64_t calls = 0;
-  system.states = [&](const Eigen::VectorXd&) { return ++calls; };
+  system.states = [&](const Eigen::VectorXd&) { return std::min(++calls, changes); };
   la::Mumps mumps;
-  const auto result = solved(system, mumps);
+  return newton(system, ToySystem::State{Eigen::VectorXd::Zero(size)}, 1.0, options, mumps);
+}
+
+TEST(FormerFactors, ServeOnTheWayWhereStatesHaveChanged) {
+  const auto result = with_changes(4, {});
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  EXPECT_FALSE(result.iterations[1].factored);
+  EXPECT_LT(factorisations(result), std::ssize(result.iterations));
+  ToySystem system = springs();
+  la::Mumps mumps;
+  EXPECT_LT((result.trial.x - solved(system, mumps).trial.x).norm(), 1e-9 * result.trial.x.norm());
+}
+
+// States that never come to rest: what is solved with the factors of others is not the end.
+TEST(FormerFactors, OfOtherStatesEndNoIncrement) {
+  const auto result = with_changes(1000, {});
+  ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
+  EXPECT_FALSE(result.iterations[1].factored);
+  EXPECT_TRUE(result.iterations.back().factored);
+}
+
+TEST(FormerFactors, OfOtherStatesDoNotServeWhereTheEnergyAloneCounts) {
+  NewtonOptions by_energy;
+  by_energy.residual = 0;
+  const auto result = with_changes(1000, by_energy);
   ASSERT_EQ(result.outcome, Outcome::converged) << result.reason;
   EXPECT_EQ(factorisations(result), std::ssize(result.iterations));
 }
