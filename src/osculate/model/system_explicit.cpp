@@ -17,6 +17,7 @@ BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
     : system(s),
       options(*s.step.dynamics->explicit_steps),
       damping(s.step.dynamics->damping_mass),
+      batches(s.bulk),
       work(static_cast<std::size_t>(s.bulk.threads)),
       active_set(s.model.pairs.size()),
       turning(s.model.rigid.size()) {
@@ -27,6 +28,7 @@ BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
   make_masses();
   make_followers();
   make_gather();
+  system.bulk.linear.reserve([&](std::size_t cell) { return batches.takes(cell); });
   inverse.setZero(n);
   for (Dof d = 0; d < n; ++d) {
     const Index unknown = system.dofs.unknown_of(d);
@@ -113,27 +115,42 @@ void BasicSystem<Dim>::Impl::Explicit::place(const Vector& position) {
     x[n] = system.model.reference[n] + position.segment<Dim>(Dim * static_cast<Eigen::Index>(n));
 }
 
+template <int Dim>
+bool BasicSystem<Dim>::Impl::Explicit::add_cell(std::size_t cell, const Vector& u, double h) {
+  BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())];
+  const typename BulkTerm<Dim>::Job& job = system.bulk.jobs[cell];
+  system.bulk.linear.force(cell, system.model, *job.section, job.cell, u,
+                           job.memory.of(now.memory, system.last.memory, h), block);
+  std::copy_n(block.result.force.data(), block.dof_count,
+              cell_forces.begin() + static_cast<std::ptrdiff_t>(first_force[cell]));
+  return block.ok;
+}
+
 /// Forces of the cells by themselves, then their sums at the nodes in a fixed order: the bits do
 /// not depend on the number of threads.
 template <int Dim>
 bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
   const Stopwatch watch;
   const auto count = static_cast<std::ptrdiff_t>(system.bulk.jobs.size());
+  const auto fours = static_cast<std::ptrdiff_t>(batches.count());
+  const auto others = static_cast<std::ptrdiff_t>(batches.others().size());
   const auto nodes = static_cast<std::ptrdiff_t>(x.size());
   std::ptrdiff_t failed = count;
+  const auto alone = [&](std::size_t cell, std::ptrdiff_t& first_failed) {
+    if (!add_cell(cell, u, h))
+      first_failed = std::min(first_failed, static_cast<std::ptrdiff_t>(cell));
+  };
 #pragma omp parallel num_threads(system.bulk.threads)
   {
-    BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())];
 #pragma omp for schedule(static) reduction(min : failed)
-    for (std::ptrdiff_t c = 0; c < count; ++c) {
-      const typename BulkTerm<Dim>::Job& job = system.bulk.jobs[static_cast<std::size_t>(c)];
-      system.bulk.linear.force(static_cast<std::size_t>(c), system.model, *job.section, job.cell, u,
-                               job.memory.of(now.memory, system.last.memory, h), block);
-      if (!block.ok) failed = std::min(failed, c);
-      std::copy_n(block.result.force.data(), block.dof_count,
-                  cell_forces.begin() +
-                      static_cast<std::ptrdiff_t>(first_force[static_cast<std::size_t>(c)]));
+    for (std::ptrdiff_t b = 0; b < fours; ++b) {
+      const auto four = static_cast<std::size_t>(b);
+      if (batches.add(four, u, first_force, cell_forces)) continue;
+      for (const std::size_t cell : batches.jobs(four)) alone(cell, failed);
     }
+#pragma omp for schedule(static) reduction(min : failed)
+    for (std::ptrdiff_t i = 0; i < others; ++i)
+      alone(batches.others()[static_cast<std::size_t>(i)], failed);
 #pragma omp for schedule(static)
     for (std::ptrdiff_t n = 0; n < nodes; ++n) {
       const auto at = static_cast<std::size_t>(n);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "osculate/model/force_batches.hpp"
 #include "osculate/model/system_motion.hpp"
 
 namespace osculate::model {
@@ -44,6 +45,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   std::vector<Follower> followers;
   std::vector<bool> turns;  ///< per body: in space, by itself
   bool changes = false;  ///< stiffness: of cells with finite kinematics, laws that are not linear
+  ForceBatches<Dim> batches;
   std::vector<bool> touching;  ///< cells with nodes in contact pairs
   std::vector<std::size_t> first_force;
   std::vector<double> cell_forces;
@@ -87,6 +89,8 @@ struct BasicSystem<Dim>::Impl::Explicit {
   void load(const State& committed);
   void place(const Vector& position);
   [[nodiscard]] bool add_cells(const Vector& u, double h);
+  /// A cell by itself, into its place in `cell_forces`; false: it has no answer.
+  [[nodiscard]] bool add_cell(std::size_t cell, const Vector& u, double h);
   void add_contact(double h, double fraction);
   void commit_contact();
   void add_loads(double fraction);
@@ -107,8 +111,13 @@ struct BasicSystem<Dim>::Impl::Explicit {
 
   // system_explicit_step.cpp
   void measure_stable_step();
-  /// Largest eigenvalue of M^-1 K of a cell by itself.
-  [[nodiscard]] double cell_frequency(std::size_t cell, BulkBlock& block);
+  /// The largest eigenvalues of M^-1 K of cells by themselves: of all, and of those that touch.
+  struct Fastest {
+    double value = 0, beside = 0;
+    Index cell = -1;  ///< whose `value` it is
+  };
+  [[nodiscard]] Eigen::MatrixXd scaled_stiffness(std::size_t cell, BulkBlock& block);
+  void look_at(std::size_t cell, BulkBlock& block, Fastest& fastest);
   [[nodiscard]] std::string governed() const;
 
   // system_explicit_contact.cpp

@@ -1,0 +1,112 @@
+#include "osculate/model/force_batches.hpp"
+
+#include <algorithm>
+#include <map>
+
+namespace osculate::model {
+
+template <int Dim>
+ForceBatches<Dim>::ForceBatches(const BulkTerm<Dim>& bulk) : taken_(bulk.jobs.size(), 0) {
+  using Kind = std::pair<const BasicBulkSection<Dim>*, cell::CellType>;
+  std::vector<std::pair<Kind, std::vector<std::size_t>>> jobs;  // in the order of their first
+  std::map<Kind, std::size_t> place;
+  for (std::size_t j = 0; j < bulk.jobs.size(); ++j) {
+    const typename BulkTerm<Dim>::Job& job = bulk.jobs[j];
+    const CellMemory& memory = job.memory;
+    if (memory.count > 0 || memory.initial || memory.removed) continue;
+    const Kind kind{job.section, cell_nodes(bulk.model.mesh, job.cell).type};
+    const auto [it, anew] = place.try_emplace(kind, jobs.size());
+    if (anew) jobs.push_back({kind, {}});
+    jobs[it->second].second.push_back(j);
+  }
+  for (const auto& [kind, of_kind] : jobs) {
+    const CellNodes first = cell_nodes(bulk.model.mesh, bulk.jobs[of_kind.front()].cell);
+    std::optional<solid::Batch<Dim>> batch =
+        solid::batch_of<Dim>(section_on(*kind.first, kind.second), kind.second,
+                             reference_of(bulk.model, first.nodes));
+    if (!batch) continue;
+    kinds_.push_back(std::move(*batch));
+    take(bulk, kinds_.size() - 1, of_kind);
+  }
+  for (std::size_t j = 0; j < taken_.size(); ++j)
+    if (!takes(j)) others_.push_back(j);
+}
+
+/// Cells that are not of the kind leave their lanes' places to the next ones, so that first it has
+/// to be known which they are.
+template <int Dim>
+void ForceBatches<Dim>::take(const BulkTerm<Dim>& bulk, std::size_t kind,
+                             const std::vector<std::size_t>& jobs) {
+  const solid::Batch<Dim>& batch = kinds_[kind];
+  const auto nodes = static_cast<std::size_t>(cell::info(batch.type).nodes);
+  const std::size_t most = (jobs.size() + lanes - 1) / lanes;
+  const std::size_t begin = numbers_.size();
+  numbers_.resize(begin + most * batch.kept);
+  const auto cell_of = [&](std::size_t j) {
+    return cell_nodes(bulk.model.mesh, bulk.jobs[j].cell).nodes;
+  };
+  std::vector<char> fits(jobs.size(), 0);
+  const auto fours = static_cast<std::ptrdiff_t>(most);
+  // Each four by one thread: lanes are parts of the same numbers.
+#pragma omp parallel for num_threads(bulk.threads) schedule(static)
+  for (std::ptrdiff_t f = 0; f < fours; ++f)
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const std::size_t at = static_cast<std::size_t>(f) * lanes + lane;
+      const std::size_t job = std::min(at, jobs.size() - 1);
+      const bool good = solid::keep_in<Dim>(
+          batch, reference_of(bulk.model, cell_of(jobs[job])), static_cast<int>(lane),
+          &numbers_[begin + static_cast<std::size_t>(f) * batch.kept]);
+      if (at < jobs.size()) fits[at] = good ? 1 : 0;
+    }
+  for (std::size_t f = 0; f < most; ++f) {
+    Four four;
+    four.kind = kind;
+    four.numbers = begin + f * batch.kept;
+    four.nodes = nodes_.size();
+    const std::size_t last = std::min(jobs.size(), (f + 1) * lanes);
+    const auto at = [&](std::size_t i) { return f * lanes + i; };
+    const std::size_t here = last - f * lanes;
+    // A batch with a cell that does not fit is evaluated cell by cell.
+    if (!std::all_of(&fits[at(0)], &fits[at(0)] + here, [](char c) { return c != 0; })) continue;
+    four.cells = static_cast<int>(here);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      four.job[lane] = jobs[std::min(at(lane), last - 1)];
+    for (std::size_t k = 0; k < nodes; ++k)
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        nodes_.push_back(cell_of(four.job[lane])[k]);
+    for (std::size_t i = 0; i < here; ++i) taken_[four.job[i]] = 1;
+    fours_.push_back(four);
+  }
+}
+
+template <int Dim>
+bool ForceBatches<Dim>::add(std::size_t number, const Eigen::VectorXd& u,
+                            std::span<const std::size_t> first, std::vector<double>& out) const {
+  constexpr std::size_t most = std::size_t{Dim} << static_cast<unsigned>(Dim);
+  const Four& four = fours_[number];
+  const solid::Batch<Dim>& batch = kinds_[four.kind];
+  const auto nodes = static_cast<std::size_t>(cell::info(batch.type).nodes);
+  std::array<core::Pack, most> along, force;
+  const Index* const node = &nodes_[four.nodes];
+  std::array<core::Pack, Dim> common;
+  for (std::size_t k = 0; k < nodes; ++k)
+    for (std::size_t i = 0; i < Dim; ++i) {
+      const double* const of = u.data() + i;
+      const Index* const at = node + lanes * k;
+      const core::Pack value(of[Dim * at[0]], of[Dim * at[1]], of[Dim * at[2]], of[Dim * at[3]]);
+      if (k == 0) common[i] = value;
+      along[Dim * k + i] = value - common[i];
+    }
+  if (!solid::batch_forces<Dim>(batch, &numbers_[four.numbers], along.data(), force.data()))
+    return false;
+  for (int lane = 0; lane < four.cells; ++lane) {
+    double* const to = &out[first[four.job[static_cast<std::size_t>(lane)]]];
+    for (std::size_t d = 0; d < Dim * nodes; ++d) to[d] = force[d][lane];
+  }
+  return true;
+}
+
+template class ForceBatches<2>;
+template class ForceBatches<3>;
+
+}  // namespace osculate::model

@@ -1,0 +1,61 @@
+#pragma once
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "osculate/model/terms/bulk_term.hpp"
+#include "osculate/solid/batch.hpp"
+
+namespace osculate::model {
+
+/// The cells of a model whose forces explicit time integration takes four at a time, and the
+/// numbers that these keep. Cells go in the order of the model, section by section and type by
+/// type; the last lanes of a kind repeat its last cell.
+///
+/// Tested by  tests/unit/deck/test_force_batches.cpp
+template <int Dim>
+class ForceBatches {
+ public:
+  explicit ForceBatches(const BulkTerm<Dim>& bulk);
+
+  [[nodiscard]] std::size_t count() const { return fours_.size(); }
+  /// Jobs that are evaluated one by one, rising.
+  [[nodiscard]] const std::vector<std::size_t>& others() const { return others_; }
+  /// Whether a job is one of a batch.
+  [[nodiscard]] bool takes(std::size_t job) const { return taken_[job] != 0; }
+  /// The jobs of a batch, each once.
+  [[nodiscard]] std::span<const std::size_t> jobs(std::size_t four) const {
+    return {fours_[four].job.data(), static_cast<std::size_t>(fours_[four].cells)};
+  }
+  /// The forces of a batch at the nodal displacements: those of job j begin at first[j] of `out`.
+  /// False: a cell has no answer; which, its own evaluation says. Different ones at once.
+  ///
+  /// Formula    f(u - u_0) , u_0 the displacement of the first node: what all nodes have in common
+  ///            leaves no rounding in the sum of the forces
+  [[nodiscard]] bool add(std::size_t four, const Eigen::VectorXd& u,
+                         std::span<const std::size_t> first, std::vector<double>& out) const;
+
+ private:
+  static constexpr int lanes = core::Pack::count;
+  struct Four {
+    std::size_t kind = 0;     ///< of kinds_
+    std::size_t numbers = 0;  ///< where they begin
+    std::size_t nodes = 0;    ///< likewise; four of each place
+    int cells = 0;
+    std::array<std::size_t, lanes> job{};
+  };
+  void take(const BulkTerm<Dim>& bulk, std::size_t kind, const std::vector<std::size_t>& jobs);
+
+  std::vector<solid::Batch<Dim>> kinds_;
+  std::vector<Four> fours_;
+  std::vector<core::Pack> numbers_;
+  std::vector<Index> nodes_;
+  std::vector<std::size_t> others_;
+  std::vector<char> taken_;
+};
+
+extern template class ForceBatches<2>;
+extern template class ForceBatches<3>;
+
+}  // namespace osculate::model
