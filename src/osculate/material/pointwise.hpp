@@ -23,12 +23,17 @@ template <int N, int Q>
 [[nodiscard]] bool stresses(const Law& law, const Pointwise<N, Q>& strain, const Memory& memory,
                             Pointwise<N, Q>& out);
 
-/// The same at a point of each of several cells, of laws that remember nothing.
+/// The same at `count` points of each of several cells, of laws that remember nothing.
 ///
 /// Tested by  tests/unit/solid/test_batch.cpp
 template <int N>
-[[nodiscard]] bool stresses(const Law& law,
-                            const std::array<core::Pack, static_cast<std::size_t>(N)>& strain,
-                            std::array<core::Pack, static_cast<std::size_t>(N)>& out);
+[[nodiscard]] bool stresses(const Law& law, std::size_t count,
+                            const std::array<core::Pack, static_cast<std::size_t>(N)>* strain,
+                            std::array<core::Pack, static_cast<std::size_t>(N)>* out);
+
+/// Stored energies per reference volume of such points (energy.hpp).
+template <int N>
+[[nodiscard]] core::Pack stored_energies(
+    const Law& law, const std::array<core::Pack, static_cast<std::size_t>(N)>& strain);
 
 }  // namespace osculate::material

@@ -6,7 +6,7 @@
 namespace osculate::model {
 
 template <int Dim>
-ForceBatches<Dim>::ForceBatches(const BulkTerm<Dim>& bulk) : taken_(bulk.jobs.size(), 0) {
+ForceBatches<Dim>::ForceBatches(const BulkTerm<Dim>& bulk) : taken_(bulk.jobs.size(), 0), place_(bulk.jobs.size(), 0) {
   using Kind = std::pair<const BasicBulkSection<Dim>*, cell::CellType>;
   std::vector<std::pair<Kind, std::vector<std::size_t>>> jobs;  // in the order of their first
   std::map<Kind, std::size_t> place;
@@ -74,36 +74,83 @@ void ForceBatches<Dim>::take(const BulkTerm<Dim>& bulk, std::size_t kind,
     for (std::size_t k = 0; k < nodes; ++k)
       for (std::size_t lane = 0; lane < lanes; ++lane)
         nodes_.push_back(cell_of(four.job[lane])[k]);
-    for (std::size_t i = 0; i < here; ++i) taken_[four.job[i]] = 1;
+    for (std::size_t i = 0; i < here; ++i) {
+      taken_[four.job[i]] = 1;
+      place_[four.job[i]] = lanes * fours_.size() + i;
+    }
     fours_.push_back(four);
   }
 }
 
 template <int Dim>
-bool ForceBatches<Dim>::add(std::size_t number, const Eigen::VectorXd& u,
-                            std::span<const std::size_t> first, std::vector<double>& out) const {
-  constexpr std::size_t most = std::size_t{Dim} << static_cast<unsigned>(Dim);
-  const Four& four = fours_[number];
-  const solid::Batch<Dim>& batch = kinds_[four.kind];
-  const auto nodes = static_cast<std::size_t>(cell::info(batch.type).nodes);
-  std::array<core::Pack, most> along, force;
-  const Index* const node = &nodes_[four.nodes];
+void ForceBatches<Dim>::gather(const Four& four, const Eigen::VectorXd& u, Values& out) const {
+  const Index* at = &nodes_[four.nodes];
   std::array<core::Pack, Dim> common;
-  for (std::size_t k = 0; k < nodes; ++k)
+  for (std::size_t k = 0; k < nodes_of(four); ++k, at += lanes)
     for (std::size_t i = 0; i < Dim; ++i) {
       const double* const of = u.data() + i;
-      const Index* const at = node + lanes * k;
       const core::Pack value(of[Dim * at[0]], of[Dim * at[1]], of[Dim * at[2]], of[Dim * at[3]]);
       if (k == 0) common[i] = value;
-      along[Dim * k + i] = value - common[i];
+      out[Dim * k + i] = value - common[i];
     }
-  if (!solid::batch_forces<Dim>(batch, &numbers_[four.numbers], along.data(), force.data()))
+}
+
+template <int Dim>
+bool ForceBatches<Dim>::add(std::size_t number, const Eigen::VectorXd& u,
+                            std::span<const std::size_t> first, std::vector<double>& out) const {
+  const Four& four = fours_[number];
+  Values along, force;
+  gather(four, u, along);
+  if (!solid::batch_forces<Dim>(kinds_[four.kind], &numbers_[four.numbers], along.data(),
+                                force.data()))
     return false;
+  const std::size_t dofs = Dim * nodes_of(four);
   for (int lane = 0; lane < four.cells; ++lane) {
     double* const to = &out[first[four.job[static_cast<std::size_t>(lane)]]];
-    for (std::size_t d = 0; d < Dim * nodes; ++d) to[d] = force[d][lane];
+    for (std::size_t d = 0; d < dofs; ++d) to[d] = force[d][lane];
   }
   return true;
+}
+
+template <int Dim>
+bool ForceBatches<Dim>::energy(std::size_t number, const Eigen::VectorXd& u, double& sum) const {
+  const Four& four = fours_[number];
+  Values along;
+  gather(four, u, along);
+  core::Pack of_cells;
+  if (!solid::batch_energy<Dim>(kinds_[four.kind], &numbers_[four.numbers], along.data(), of_cells))
+    return false;
+  sum = 0;
+  for (int lane = 0; lane < four.cells; ++lane) sum += of_cells[lane];
+  return true;
+}
+
+template <int Dim>
+const Eigen::MatrixXd* ForceBatches<Dim>::stiffness(std::size_t job, Stiffness& last) const {
+  if (!takes(job)) return nullptr;
+  const std::size_t number = place_[job] / lanes, lane = place_[job] % lanes;
+  const Four& four = fours_[number];
+  if (!solid::linear_batch<Dim>(kinds_[four.kind])) return nullptr;
+  if (last.four == number) return &last.of_lane[lane];
+  const std::size_t dofs = Dim * nodes_of(four);
+  const auto size = static_cast<Eigen::Index>(dofs);
+  for (Eigen::MatrixXd& k : last.of_lane) k.resize(size, size);
+  Values along, force;
+  along.fill(core::Pack::Zero());
+  for (std::size_t column = 0; column < dofs; ++column) {
+    along[column] = core::Pack(1.0);
+    if (!solid::batch_forces<Dim>(kinds_[four.kind], &numbers_[four.numbers], along.data(),
+                                  force.data()))
+      return nullptr;
+    along[column] = core::Pack::Zero();
+    for (std::size_t row = 0; row < dofs; ++row)
+      for (int l = 0; l < lanes; ++l)
+        last.of_lane[static_cast<std::size_t>(l)](static_cast<Eigen::Index>(row),
+                                                  static_cast<Eigen::Index>(column)) =
+            force[row][l];
+  }
+  last.four = number;
+  return &last.of_lane[lane];
 }
 
 template class ForceBatches<2>;

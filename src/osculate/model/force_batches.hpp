@@ -35,6 +35,16 @@ class ForceBatches {
   ///            leaves no rounding in the sum of the forces
   [[nodiscard]] bool add(std::size_t four, const Eigen::VectorXd& u,
                          std::span<const std::size_t> first, std::vector<double>& out) const;
+  /// Stored energy of a batch. False as above.
+  [[nodiscard]] bool energy(std::size_t four, const Eigen::VectorXd& u, double& sum) const;
+  /// Stiffness matrices of the last batch that was asked for.
+  struct Stiffness {
+    std::size_t four = static_cast<std::size_t>(-1);
+    std::array<Eigen::MatrixXd, core::Pack::count> of_lane;
+  };
+  /// The stiffness of a job whose forces are linear, column by column from them; null: it is of
+  /// another kind. It stands in `last`.
+  [[nodiscard]] const Eigen::MatrixXd* stiffness(std::size_t job, Stiffness& last) const;
 
  private:
   static constexpr int lanes = core::Pack::count;
@@ -45,6 +55,13 @@ class ForceBatches {
     int cells = 0;
     std::array<std::size_t, lanes> job{};
   };
+  static constexpr std::size_t most_dofs = std::size_t{Dim} << static_cast<unsigned>(Dim);
+  using Values = std::array<core::Pack, most_dofs>;
+  /// Displacements of a batch less those of the first node.
+  void gather(const Four& four, const Eigen::VectorXd& u, Values& out) const;
+  [[nodiscard]] std::size_t nodes_of(const Four& four) const {
+    return static_cast<std::size_t>(cell::info(kinds_[four.kind].type).nodes);
+  }
   void take(const BulkTerm<Dim>& bulk, std::size_t kind, const std::vector<std::size_t>& jobs);
 
   std::vector<solid::Batch<Dim>> kinds_;
@@ -53,6 +70,7 @@ class ForceBatches {
   std::vector<Index> nodes_;
   std::vector<std::size_t> others_;
   std::vector<char> taken_;
+  std::vector<std::size_t> place_;  ///< of a taken job: lanes * its batch + its lane
 };
 
 extern template class ForceBatches<2>;

@@ -22,6 +22,7 @@ BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
       active_set(s.model.pairs.size()),
       turning(s.model.rigid.size()) {
   const Eigen::Index n = system.dofs.dofs();
+  loaded = !s.step.pressure.empty() || !s.step.dead.empty() || !s.step.gravity.empty();
   for (Vector* const v : {&past_internal, &past_contact, &past_external, &past_damping})
     v->setZero(n);
   x.resize(system.model.reference.size());
@@ -169,6 +170,7 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::add_contact(double h, double fraction) {
+  if (active_set.empty()) return;
   const Stopwatch watch;
   system.last.forces.contact.setZero();
   for (std::size_t p = 0; p < active_set.size(); ++p) {
@@ -201,6 +203,7 @@ void BasicSystem<Dim>::Impl::Explicit::commit_contact() {
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::add_loads(double fraction) {
+  if (!loaded) return;
   Vector& external = system.last.forces.external;
   external.setZero();
   if (!system.step.pressure.empty()) {
@@ -223,7 +226,9 @@ void BasicSystem<Dim>::Impl::Explicit::add_loads(double fraction) {
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::sum_forces() {
   const Forces& f = system.last.forces;
-  total = f.internal + f.contact - f.external;
+  total = f.internal;
+  if (!active_set.empty()) total += f.contact;
+  if (loaded) total -= f.external;
   for (std::size_t b = 0; b < now.rigid.size(); ++b) {
     const Vec<Dim> center = now.rigid[b].center();
     Vec<Dim> force = Vec<Dim>::Zero();
@@ -285,7 +290,7 @@ void BasicSystem<Dim>::Impl::Explicit::add_works(double h, const solve::Explicit
   const double half = 0.5 * h;
   works.internal += half * (past_internal + f.internal).dot(m.velocity);
   if (!active_set.empty()) works.contact += half * (past_contact + f.contact).dot(m.velocity);
-  works.external += half * (past_external + f.external).dot(m.velocity);
+  if (loaded) works.external += half * (past_external + f.external).dot(m.velocity);
   if (damping > 0) works.damping += half * (past_damping + damping_force).dot(m.velocity);
   for (std::size_t i = 0; i < held.size(); ++i) {
     double& past = past_held[static_cast<Eigen::Index>(i)];
@@ -353,7 +358,7 @@ bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::
   past_contact.swap(f.contact);
   past_external.swap(f.external);
   past_damping.swap(damping_force);
-  place(m.position);
+  if (!active_set.empty() || !now.rigid.empty()) place(m.position);  // nobody else asks
   const double fraction = time / system.step.duration;
   warm(system.model, system.step.temperature, fraction, system.last.memory);
   if (!add_cells(m.position, h)) return false;

@@ -44,6 +44,7 @@ struct BasicSystem<Dim>::Impl::Explicit {
   std::vector<Dof> held;  ///< prescribed dofs that are unknowns
   std::vector<Follower> followers;
   std::vector<bool> turns;  ///< per body: in space, by itself
+  bool loaded = false;   ///< there are loads
   bool changes = false;  ///< stiffness: of cells with finite kinematics, laws that are not linear
   ForceBatches<Dim> batches;
   std::vector<bool> touching;  ///< cells with nodes in contact pairs
@@ -102,6 +103,9 @@ struct BasicSystem<Dim>::Impl::Explicit {
   [[nodiscard]] double kinetic(const Vector& velocity) const;
   [[nodiscard]] double kinetic_of_held(const Vector& velocity) const;
   void finish(double fraction, double duration, ExplicitIncrement<State>& out);
+  /// Stored and dissipated in all cells.
+  [[nodiscard]] solid::CellEnergy cells_energy(const Eigen::VectorXd& u,
+                                               const std::vector<double>& memory) const;
   void add_energies(Rates& rates);
   /// Velocities and accelerations of what is prescribed at a fraction of the step, beside those of
   /// the motion; rotations in space have their spin only.
@@ -116,8 +120,10 @@ struct BasicSystem<Dim>::Impl::Explicit {
     double value = 0, beside = 0;
     Index cell = -1;  ///< whose `value` it is
   };
-  [[nodiscard]] Eigen::MatrixXd scaled_stiffness(std::size_t cell, BulkBlock& block);
-  void look_at(std::size_t cell, BulkBlock& block, Fastest& fastest);
+  [[nodiscard]] Eigen::MatrixXd scaled_stiffness(std::size_t cell, BulkBlock& block,
+                                                 typename ForceBatches<Dim>::Stiffness& last);
+  void look_at(std::size_t cell, BulkBlock& block, typename ForceBatches<Dim>::Stiffness& last,
+               Fastest& fastest);
   [[nodiscard]] std::string governed() const;
 
   // system_explicit_contact.cpp

@@ -18,14 +18,19 @@ constexpr int known_for = 100;  ///< time steps until what changes is measured a
 
 /// M^-1/2 K M^-1/2 of a cell by itself; empty where it has no answer (the next time step says so).
 template <int Dim>
-Eigen::MatrixXd BasicSystem<Dim>::Impl::Explicit::scaled_stiffness(std::size_t cell,
-                                                                   BulkBlock& block) {
+Eigen::MatrixXd BasicSystem<Dim>::Impl::Explicit::scaled_stiffness(
+    std::size_t cell, BulkBlock& block, typename ForceBatches<Dim>::Stiffness& last) {
   constexpr int most = Dim * solid::max_nodes<Dim>;
-  system.bulk.evaluate(cell, motion.position, now.memory, {}, 0, true, block);
-  if (!block.ok) return {};
+  const Eigen::MatrixXd* const of_batch = batches.stiffness(cell, last);
+  if (!of_batch) {
+    system.bulk.evaluate(cell, motion.position, now.memory, {}, 0, true, block);
+    if (!block.ok) return {};
+  }
   const Eigen::MatrixXd& mass_of = system.motion->inertia.cells()[cell].mass;
-  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> root(block.dof_count);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most, 1> root(of_batch ? of_batch->rows()
+                                                                     : block.dof_count);
   for (Eigen::Index d = 0; d < root.size(); ++d) root[d] = 1 / std::sqrt(mass_of(d / Dim, d / Dim));
+  if (of_batch) return root.asDiagonal() * *of_batch * root.asDiagonal();
   return root.asDiagonal() * block.result.tangent * root.asDiagonal();
 }
 
@@ -34,10 +39,11 @@ Eigen::MatrixXd BasicSystem<Dim>::Impl::Explicit::scaled_stiffness(std::size_t c
 ///
 /// Formula    lambda_max(A) < s if s I - A is positive definite
 template <int Dim>
-void BasicSystem<Dim>::Impl::Explicit::look_at(std::size_t cell, BulkBlock& block,
-                                               Fastest& fastest) {
+void BasicSystem<Dim>::Impl::Explicit::look_at(
+    std::size_t cell, BulkBlock& block, typename ForceBatches<Dim>::Stiffness& last,
+    Fastest& fastest) {
   constexpr double equal = 1e-12;  // cells of one shape differ in their last digits
-  const Eigen::MatrixXd scaled = scaled_stiffness(cell, block);
+  const Eigen::MatrixXd scaled = scaled_stiffness(cell, block, last);
   if (scaled.size() == 0) return;
   const double known = touching[cell] ? fastest.beside : fastest.value;
   if (core::eigenvalues_below(scaled, known * (1 + equal))) return;
@@ -63,15 +69,17 @@ void BasicSystem<Dim>::Impl::Explicit::measure_stable_step() {
   constexpr std::size_t part = 1024;
   const std::size_t jobs = system.bulk.jobs.size();
   Fastest all;
-  if (stable.cell >= 0) look_at(static_cast<std::size_t>(stable.cell), work.front(), all);
+  typename ForceBatches<Dim>::Stiffness first;
+  if (stable.cell >= 0) look_at(static_cast<std::size_t>(stable.cell), work.front(), first, all);
   std::vector<Fastest> of_part((jobs + part - 1) / part, all);
   const auto parts = static_cast<std::ptrdiff_t>(of_part.size());
 #pragma omp parallel for num_threads(system.bulk.threads) schedule(dynamic)
   for (std::ptrdiff_t p = 0; p < parts; ++p) {
     const auto number = static_cast<std::size_t>(p);
     BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())];
+    typename ForceBatches<Dim>::Stiffness last;
     for (std::size_t c = number * part; c < std::min(jobs, (number + 1) * part); ++c)
-      look_at(c, block, of_part[number]);
+      look_at(c, block, last, of_part[number]);
   }
   for (const Fastest& f : of_part) {
     if (f.value > all.value) {

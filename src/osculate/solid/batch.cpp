@@ -160,13 +160,13 @@ std::optional<BatchKind> kind_of(const Section<Dim>& section, cell::CellType typ
   const bool corner = type == corner_cell<Dim>, plain = follows_strain(section.law) &&
                                                         strained_in_plane(section);
   const bool reduced = section.formulation == Formulation::reduced;
+  const bool small = section.kinematics == Kinematics::small;
+  if (small && (!material::linear(section.law) || material::over_temperature(section.law)))
+    return {};
   if (plain && type == simplex) return BatchKind::simplex;
   if (plain && corner && reduced) return BatchKind::one_point;
   if (!corner) return {};
-  if (section.kinematics == Kinematics::small) {
-    const bool fits = material::linear(section.law) && !material::over_temperature(section.law);
-    return fits ? std::optional(BatchKind::linear) : std::nullopt;
-  }
+  if (small) return BatchKind::linear;
   const bool full =
       section.formulation == Formulation::full || section.formulation == Formulation::bbar;
   return plain && full ? std::optional(BatchKind::points) : std::nullopt;
@@ -223,21 +223,60 @@ bool keep_in(const Batch<Dim>& batch, const Coordinates<Dim>& reference, int lan
 
 template <int Dim>
 bool batch_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, Pack* force) {
+  const material::Law& law = batch.section.law;
+  const double depth = depth_at(batch.section, 0);
   switch (batch.kind) {
     case BatchKind::linear:
       batches::linear_forces<Dim>(batch, numbers, u, force);
       return true;
-    case BatchKind::one_point: {
-      const auto [along, shear] = mode_moduli(batch.section);
-      return batches::one_point_forces<Dim>(batch, along, shear, numbers, u, force);
-    }
+    case BatchKind::one_point:
+      return batches::one_point_forces<Dim>(batch, mode_moduli(batch.section), numbers, u, force);
     case BatchKind::points:
-      return batches::points_forces<Dim>(batch, depth_at(batch.section, 0), numbers, u, force);
+      return batch.section.formulation == Formulation::bbar
+                 ? batches::points_forces<true, Dim>(law, depth, numbers, u, force)
+                 : batches::points_forces<false, Dim>(law, depth, numbers, u, force);
     default:
       return batches::simplex_forces<Dim>(batch, numbers, u, force);
   }
 }
 
+/// Small strains: f . u / 2, of a linear law.
+template <int Dim>
+bool batch_energy(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, Pack& energy) {
+  const int nodes = cell::info(batch.type).nodes;
+  if (batch.section.kinematics == Kinematics::small) {
+    std::array<Pack, CellBasis<Dim>::dofs> force;
+    if (!batch_forces(batch, numbers, u, force.data())) return false;
+    energy = Pack::Zero();
+    for (int d = 0; d < Dim * nodes; ++d) energy += 0.5 * force[static_cast<std::size_t>(d)] * u[d];
+    return true;
+  }
+  if (batch.kind == BatchKind::points) {
+    const double depth = depth_at(batch.section, 0);
+    return batch.section.formulation == Formulation::bbar
+               ? batches::points_energy<true, Dim>(batch.section.law, depth, numbers, u, energy)
+               : batches::points_energy<false, Dim>(batch.section.law, depth, numbers, u, energy);
+  }
+  if (batch.kind == BatchKind::one_point) {
+    energy = batches::one_point_energy<Dim>(batch, mode_moduli(batch.section), numbers, u);
+    return true;
+  }
+  const batches::Kept<Dim> kept(numbers, nodes);
+  batches::Matrix<Dim> h;
+  batches::mean_gradient<Dim, Dim + 1>(kept.gradient, u, h);
+  energy = *kept.volume * batches::gradient_energy<Dim>(batch, h);
+  return true;
+}
+
+template <int Dim>
+bool linear_batch(const Batch<Dim>& batch) {
+  return batch.section.kinematics == Kinematics::small && material::linear(batch.section.law);
+}
+
+template bool batch_energy(const Batch<2>&, const Pack*, const Pack*, Pack&);
+template bool batch_energy(const Batch<3>&, const Pack*, const Pack*, Pack&);
+template bool linear_batch(const Batch<2>&);
+template bool linear_batch(const Batch<3>&);
 template std::optional<Batch<2>> batch_of(const Section<2>&, cell::CellType,
                                           const Coordinates<2>&);
 template std::optional<Batch<3>> batch_of(const Section<3>&, cell::CellType,

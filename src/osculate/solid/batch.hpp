@@ -55,4 +55,13 @@ template <int Dim>
 [[nodiscard]] bool batch_forces(const Batch<Dim>& batch, const core::Pack* numbers,
                                 const core::Pack* u, core::Pack* force);
 
+/// The stored energy of four cells, up to round-off that of `cell_energy`.
+template <int Dim>
+[[nodiscard]] bool batch_energy(const Batch<Dim>& batch, const core::Pack* numbers,
+                                const core::Pack* u, core::Pack& energy);
+
+/// Whether the forces are linear in the displacements.
+template <int Dim>
+[[nodiscard]] bool linear_batch(const Batch<Dim>& batch);
+
 }  // namespace osculate::solid

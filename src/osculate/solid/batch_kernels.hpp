@@ -144,7 +144,7 @@ template <int Dim>
   } else {
     small_strain<Dim>(h, strain);
   }
-  if (!material::stresses<components<Dim>>(section.law, strain, stress)) return false;
+  if (!material::stresses<components<Dim>>(section.law, 1, &strain, &stress)) return false;
   if (finite) {
     weighted_first_stress(f, stress, volume, out);
     return true;
@@ -237,15 +237,12 @@ inline void mode_work(const decltype(Uniform<Dim>::q)& q, const Matrix<Dim>& bas
   });
 }
 
-/// Input      along, shear: E' and mu, as reduced.hpp has them
+/// Input      moduli: E' and mu, as reduced.hpp has them
 template <int Dim>
-[[nodiscard]] bool one_point_forces(const Batch<Dim>& batch, double along, double shear,
-                                    const Pack* numbers, const Pack* u, Pack* force) {
-  const Kept<Dim> kept(numbers, 1 << Dim);
-  Uniform<Dim> at;
-  measure(kept, u, at);
-  Matrix<Dim> on_gradient, base, on_base;
-  if (!work_on_gradient<Dim>(batch.section, at.h, *kept.volume, on_gradient)) return false;
+inline void one_point_modes(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
+                            const Kept<Dim>& kept, const Uniform<Dim>& at,
+                            decltype(Uniform<Dim>::q)& on_mode, Matrix<Dim>& on_base) {
+  Matrix<Dim> base;
   const bool finite = batch.section.kinematics == Kinematics::finite;
   for (int i = 0; i < Dim; ++i)
     for (int j = 0; j < Dim; ++j) base(i, j) = kept.more[Dim * i + j];
@@ -255,11 +252,44 @@ template <int Dim>
         base(i(), j()) += Uniform<Dim>::share * at.product[i()][std::size_t{1} << j()];
       });
     });
+  mode_work<Dim>(at.q, base, kept.more + Dim * Dim, moduli[0] * *kept.volume,
+                 moduli[1] * *kept.volume, on_mode, on_base);
+}
+template <int Dim>
+[[nodiscard]] bool one_point_forces(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
+                                    const Pack* numbers, const Pack* u, Pack* force) {
+  const Kept<Dim> kept(numbers, 1 << Dim);
+  Uniform<Dim> at;
+  measure(kept, u, at);
+  Matrix<Dim> on_gradient, on_base;
+  if (!work_on_gradient<Dim>(batch.section, at.h, *kept.volume, on_gradient)) return false;
+  const bool finite = batch.section.kinematics == Kinematics::finite;
   decltype(at.q) on_mode;
-  mode_work<Dim>(at.q, base, kept.more + Dim * Dim, along * *kept.volume, shear * *kept.volume,
-                 on_mode, on_base);
+  one_point_modes<Dim>(batch, moduli, kept, at, on_mode, on_base);
   spread<Dim>(kept, on_gradient, on_mode, finite ? &on_base : nullptr, force);
   return true;
+}
+
+/// Energy per volume of a finite displacement gradient.
+template <int Dim>
+[[nodiscard]] Pack gradient_energy(const Batch<Dim>& batch, const Matrix<Dim>& h) {
+  Strains<Dim> strain;
+  green_lagrange(h, strain);
+  return material::stored_energies<components<Dim>>(batch.section.law, strain);
+}
+/// In finite strain; of a quadratic form in the modes  sum_a (work on q_a) . q_a / 2.
+template <int Dim>
+[[nodiscard]] Pack one_point_energy(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
+                                    const Pack* numbers, const Pack* u) {
+  const Kept<Dim> kept(numbers, 1 << Dim);
+  Uniform<Dim> at;
+  measure(kept, u, at);
+  decltype(at.q) on_mode;
+  Matrix<Dim> on_base;
+  one_point_modes<Dim>(batch, moduli, kept, at, on_mode, on_base);
+  Pack sum = Pack::Zero();
+  for (std::size_t m = 0; m < on_mode.size(); ++m) sum += on_mode[m] * at.q[m];
+  return *kept.volume * gradient_energy(batch, at.h) + 0.5 * sum;
 }
 
 template <int Dim>
@@ -282,107 +312,169 @@ template <int Dim>
 template <int Dim>
 struct FinitePoint {
   Matrix<Dim> inverse;  ///< dxi_j/dX_i at (i, j)
-  Matrix<Dim> f, of_f;  ///< deformation gradient, its cofactors
+  Matrix<Dim> f, of_f;  ///< deformation gradient; its cofactors, with the mean dilatation
   Pack volume, ratio;   ///< undeformed; det F
-  Pack growth;          ///< det F - 1
-  Strains<Dim> strain, stress;
+  Pack growth;          ///< det F - 1, with the mean dilatation
+  Pack weight;          ///< of the stress that works on the change of B: V m
+};
+/// All of them.
+template <int Dim>
+struct FinitePoints {
+  static constexpr std::size_t count = std::size_t{1} << Dim;
+  using Slopes = std::array<PointSlopes<Dim, Pack>, static_cast<std::size_t>(Dim)>;
+  std::array<FinitePoint<Dim>, count> point;
+  std::array<Strains<Dim>, count> strain, stress;
+  Pack total, grown;  ///< sum V , sum V (J - 1), with the mean dilatation
 };
 template <int Dim>
+inline Matrix<Dim> slopes_at(const typename FinitePoints<Dim>::Slopes& slopes, std::size_t q) {
+  Matrix<Dim> m;
+  repeat<Dim>([&](auto i) { repeat<Dim>([&](auto j) { m(i(), j()) = slopes[i()].at(j(), q); }); });
+  return m;
+}
+/// Without the mean dilatation nobody needs cofactors and growth.
+template <bool Mean, int Dim>
 inline void set_point(const Matrix<Dim>& jacobian, const Matrix<Dim>& slope, double depth,
-                      bool with_growth, FinitePoint<Dim>& p) {
+                      FinitePoint<Dim>& p, Strains<Dim>& strain) {
   const Pack determinant = cofactors(jacobian, p.inverse);
-  p.volume = depth * determinant;
+  p.volume = p.weight = depth * determinant;
   const Pack scale = 1 / determinant;
-  for (Pack& entry : p.inverse.entry) entry *= scale;
+  repeat<Dim * Dim>([&](auto e) { p.inverse.entry[e()] *= scale; });
   Matrix<Dim> h;
   times_transposed(slope, p.inverse, h);
   p.f = h;
-  for (int i = 0; i < Dim; ++i) p.f(i, i) += 1;
-  p.ratio = cofactors(p.f, p.of_f);
-  green_lagrange(h, p.strain);
-  if (with_growth) p.growth = volume_change(h, p.of_f);
+  repeat<Dim>([&](auto i) { p.f(i(), i()) += 1; });
+  Matrix<Dim> of_f;
+  p.ratio = cofactors(p.f, of_f);
+  green_lagrange(h, strain);
+  if constexpr (Mean) {
+    p.growth = volume_change(h, of_f);
+    p.of_f = of_f;
+  }
 }
-
-/// As finite_forces.hpp, where the formulas stand.
+/// Slopes of reference and displacements.
+///
+/// Input      numbers: factors of the products of coordinates in X, but the constant ones
 template <int Dim>
-[[nodiscard]] bool points_forces(const Batch<Dim>& batch, double depth, const Pack* numbers,
-                                 const Pack* u, Pack* force) {
-  constexpr std::size_t Q = std::size_t{1} << Dim;
-  constexpr double share = Uniform<Dim>::share;
-  const bool mean = batch.section.formulation == Formulation::bbar;
-  std::array<PointSlopes<Dim, Pack>, Dim> reference, displacement;
+inline void set_cell_slopes(const Pack* numbers, const Pack* u,
+                            typename FinitePoints<Dim>::Slopes& reference,
+                            typename FinitePoints<Dim>::Slopes& displacement) {
+  constexpr int Q = static_cast<int>(FinitePoints<Dim>::count);
   Products<Dim> product;
   set_products<Dim>(u, product);
   repeat<Dim>([&](auto i) {
     OfCorners<Dim, Pack> of_reference;
     of_reference[0] = Pack::Zero();
-    repeat<static_cast<int>(Q) - 1>([&](auto m) {
-      of_reference[m() + 1] = numbers[(static_cast<int>(Q) - 1) * i() + m()];
-      product[i()][m() + 1] *= share;
+    repeat<Q - 1>([&](auto m) {
+      of_reference[m() + 1] = numbers[(Q - 1) * i() + m()];
+      product[i()][m() + 1] *= Uniform<Dim>::share;
     });
     set_slopes<Dim>(of_reference, reference[i()]);
     set_slopes<Dim>(product[i()], displacement[i()]);
   });
-  std::array<FinitePoint<Dim>, Q> point;
-  Pack total = Pack::Zero(), grown = Pack::Zero();
-  for (std::size_t q = 0; q < Q; ++q) {
-    Matrix<Dim> jacobian, slope;
-    for (int i = 0; i < Dim; ++i)
-      for (int j = 0; j < Dim; ++j) {
-        jacobian(i, j) = reference[static_cast<std::size_t>(i)].at(j, q);
-        slope(i, j) = displacement[static_cast<std::size_t>(i)].at(j, q);
-      }
-    FinitePoint<Dim>& p = point[q];
-    set_point<Dim>(jacobian, slope, depth, mean, p);
-    if (!core::everywhere(p.ratio > 0)) return false;
-    if (!mean) continue;
-    total += p.volume;
-    grown += p.volume * p.growth;
-  }
-  const Pack of_mean = mean ? grown / total : Pack::Zero();
-  std::array<Pack, Q> weight, c;
-  Pack sum = Pack::Zero();
-  for (std::size_t q = 0; q < Q; ++q) {
-    FinitePoint<Dim>& p = point[q];
-    weight[q] = p.volume;
-    if (mean) {
-      const VolumeRatio<Pack> ratio(of_mean, p.growth);
-      ratio.apply(p.strain);
-      weight[q] *= ratio.m;
+}
+/// Kinematics of finite_forces.hpp, where the formulas stand; false: turned inside out.
+template <bool Mean, int Dim>
+[[nodiscard]] bool set_finite_points(double depth, const Pack* numbers, const Pack* u,
+                                     FinitePoints<Dim>& out) {
+  typename FinitePoints<Dim>::Slopes reference, displacement;
+  set_cell_slopes<Dim>(numbers, u, reference, displacement);
+  out.total = out.grown = Pack::Zero();
+  Pack::Mask upright = Pack(1.0) > 0.0;
+  for (std::size_t q = 0; q < out.point.size(); ++q) {
+    FinitePoint<Dim>& p = out.point[q];
+    set_point<Mean, Dim>(slopes_at<Dim>(reference, q), slopes_at<Dim>(displacement, q), depth, p,
+                         out.strain[q]);
+    upright = upright && p.ratio > 0;
+    if constexpr (Mean) {
+      out.total += p.volume;
+      out.grown += p.volume * p.growth;
     }
-    if (!material::stresses<components<Dim>>(batch.section.law, p.strain, p.stress)) return false;
-    if (!mean) continue;
-    c[q] = p.volume * work_of_growth(p.strain, p.stress);
-    sum += c[q];
   }
-  const Pack per_volume = mean ? sum / (total + grown) : Pack::Zero();
-  for (std::size_t q = 0; q < Q; ++q) {
-    FinitePoint<Dim>& p = point[q];
-    Matrix<Dim> pulled, slope;
-    weighted_first_stress(p.f, p.stress, weight[q], pulled);
-    if (mean) {
-      const Pack factor =
-          2.0 / 3 * (per_volume * p.volume * (1 + p.growth) - c[q]) / p.ratio;  // of the cofactors
-      for (std::size_t i = 0; i < pulled.entry.size(); ++i)
-        pulled.entry[i] += factor * p.of_f.entry[i];
+  if (!core::everywhere(upright)) return false;
+  if constexpr (Mean) {
+    const Pack mean = out.grown / out.total;
+    for (std::size_t q = 0; q < out.point.size(); ++q) {
+      const VolumeRatio<Pack> ratio(mean, out.point[q].growth);
+      ratio.apply(out.strain[q]);
+      out.point[q].weight *= ratio.m;
     }
-    times(pulled, p.inverse, slope);
-    for (int i = 0; i < Dim; ++i)
-      for (int j = 0; j < Dim; ++j) {
-        Pack& at = displacement[static_cast<std::size_t>(i)].at(j, q);  // no longer needed
-        // the points that differ in xi_j alone come one after the other
-        at = (q >> j & 1U) == 0 ? slope(i, j) : at + slope(i, j);
-      }
   }
+  return true;
+}
+/// Forces of what works on the slopes along xi.
+template <int Dim>
+inline void forces_of_slopes(typename FinitePoints<Dim>::Slopes& work, Pack* force) {
   repeat<Dim>([&](auto i) {
     OfCorners<Dim, Pack> v;
     for (Pack& value : v) value = Pack::Zero();
-    add_transposed<Dim>(displacement[i()], v);
-    repeat<static_cast<int>(Q)>([&](auto m) { v[m()] *= share; });
+    add_transposed<Dim>(work[i()], v);
+    for (Pack& value : v) value *= Uniform<Dim>::share;
     from_products(v);
-    repeat<static_cast<int>(Q)>(
-        [&](auto at) { force[Dim * corner_node<Dim>[at()] + i()] = v[at()]; });
+    repeat<1 << Dim>([&](auto at) { force[Dim * corner_node<Dim>[at()] + i()] = v[at()]; });
   });
+}
+
+/// Adds what a point has to what works on the slopes.
+template <int Dim>
+inline void add_pulled(const Matrix<Dim>& first_stress, const Matrix<Dim>& inverse, std::size_t q,
+                       typename FinitePoints<Dim>::Slopes& work) {
+  Matrix<Dim> slope;
+  times(first_stress, inverse, slope);
+  repeat<Dim>([&](auto i) {
+    repeat<Dim>([&](auto j) { work[i()].at(j(), q) += slope(i(), j()); });
+  });
+}
+template <int Dim>
+inline void clear(typename FinitePoints<Dim>::Slopes& work) {
+  for (auto& of_direction : work)
+    for (auto& along : of_direction.along) along.fill(Pack::Zero());
+}
+
+template <bool Mean, int Dim>
+[[nodiscard]] bool points_forces(const material::Law& law, double depth, const Pack* numbers,
+                                 const Pack* u, Pack* force) {
+  constexpr std::size_t Q = FinitePoints<Dim>::count;
+  FinitePoints<Dim> cell;
+  if (!set_finite_points<Mean>(depth, numbers, u, cell) ||
+      !material::stresses<components<Dim>>(law, Q, cell.strain.data(), cell.stress.data()))
+    return false;
+  std::array<Pack, Q> growing;  // V c
+  Pack per_volume = Pack::Zero();
+  if constexpr (Mean) {
+    for (std::size_t q = 0; q < Q; ++q) {
+      growing[q] = cell.point[q].volume * work_of_growth(cell.strain[q], cell.stress[q]);
+      per_volume += growing[q];
+    }
+    per_volume = per_volume / (cell.total + cell.grown);
+  }
+  typename FinitePoints<Dim>::Slopes work;
+  clear<Dim>(work);
+  for (std::size_t q = 0; q < Q; ++q) {
+    const FinitePoint<Dim>& p = cell.point[q];
+    Matrix<Dim> first_stress;
+    weighted_first_stress(p.f, cell.stress[q], p.weight, first_stress);
+    if constexpr (Mean) {
+      const Pack pressed = 2.0 / 3 * (per_volume * p.volume * (1 + p.growth) - growing[q]);
+      const Pack factor = pressed / p.ratio;  // of the cofactors
+      repeat<Dim * Dim>([&](auto e) { first_stress.entry[e()] += factor * p.of_f.entry[e()]; });
+    }
+    add_pulled<Dim>(first_stress, p.inverse, q, work);
+  }
+  forces_of_slopes<Dim>(work, force);
+  return true;
+}
+
+/// Stored energy of the points; false: turned inside out.
+template <bool Mean, int Dim>
+[[nodiscard]] bool points_energy(const material::Law& law, double depth, const Pack* numbers,
+                                 const Pack* u, Pack& energy) {
+  FinitePoints<Dim> cell;
+  if (!set_finite_points<Mean>(depth, numbers, u, cell)) return false;
+  energy = Pack::Zero();
+  for (std::size_t q = 0; q < cell.point.size(); ++q)
+    energy += cell.point[q].volume *
+              material::stored_energies<components<Dim>>(law, cell.strain[q]);
   return true;
 }
 

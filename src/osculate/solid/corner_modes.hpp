@@ -4,19 +4,13 @@
 // operation for each pair of a node and a point. For sources of this layer.
 #include <array>
 #include <bit>
-#include <utility>
 
+#include "osculate/core/repeat.hpp"
 #include "osculate/solid/element.hpp"
 
 namespace osculate::solid {
 
-/// Calls f(0), ..., f(N - 1) with constants.
-template <int N, class F>
-inline void repeat(const F& f) {
-  [&]<int... I>(std::integer_sequence<int, I...>) {
-    (f(std::integral_constant<int, I>{}), ...);
-  }(std::make_integer_sequence<int, N>{});
-}
+using core::repeat;
 
 /// Corners, points and products are numbered by bits: bit j of a corner or point says that xi_j is
 /// positive there, that of a product that it has the factor xi_j. The node at a corner:

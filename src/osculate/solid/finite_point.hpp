@@ -4,6 +4,7 @@
 #include <array>
 
 #include "osculate/core/pack.hpp"
+#include "osculate/core/repeat.hpp"
 
 namespace osculate::solid {
 
@@ -25,11 +26,12 @@ T cofactors(const PointMatrix<2, T>& a, PointMatrix<2, T>& out) {
 }
 template <class T>
 T cofactors(const PointMatrix<3, T>& a, PointMatrix<3, T>& out) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) {
-      const int k = (i + 1) % 3, l = (i + 2) % 3, m = (j + 1) % 3, n = (j + 2) % 3;
-      out(i, j) = a(k, m) * a(l, n) - a(k, n) * a(l, m);
-    }
+  core::repeat<3>([&](auto i) {
+    core::repeat<3>([&](auto j) {
+      constexpr int k = (i() + 1) % 3, l = (i() + 2) % 3, m = (j() + 1) % 3, n = (j() + 2) % 3;
+      out(i(), j()) = a(k, m) * a(l, n) - a(k, n) * a(l, m);
+    });
+  });
   return a(0, 0) * out(0, 0) + a(0, 1) * out(0, 1) + a(0, 2) * out(0, 2);
 }
 
@@ -39,7 +41,7 @@ T volume_change(const PointMatrix<Dim, T>& h, const PointMatrix<Dim, T>& of_f) {
   T first = h(1, 1);  // the first cofactor, less 1
   if constexpr (Dim == 3) first += h(2, 2) + h(1, 1) * h(2, 2) - h(1, 2) * h(2, 1);
   T sum = first + h(0, 0) * (1 + first);
-  for (int j = 1; j < Dim; ++j) sum += h(0, j) * of_f(0, j);
+  core::repeat<Dim - 1>([&](auto j) { sum += h(0, j() + 1) * of_f(0, j() + 1); });
   return sum;
 }
 
@@ -47,12 +49,13 @@ T volume_change(const PointMatrix<Dim, T>& h, const PointMatrix<Dim, T>& of_f) {
 template <int Dim, class T>
 void times_transposed(const PointMatrix<Dim, T>& a, const PointMatrix<Dim, T>& b,
                       PointMatrix<Dim, T>& out) {
-  for (int i = 0; i < Dim; ++i)
-    for (int j = 0; j < Dim; ++j) {
-      T sum = a(i, 0) * b(j, 0);
-      for (int k = 1; k < Dim; ++k) sum += a(i, k) * b(j, k);
-      out(i, j) = sum;
-    }
+  core::repeat<Dim>([&](auto i) {
+    core::repeat<Dim>([&](auto j) {
+      T sum = a(i(), 0) * b(j(), 0);
+      core::repeat<Dim - 1>([&](auto k) { sum += a(i(), k() + 1) * b(j(), k() + 1); });
+      out(i(), j()) = sum;
+    });
+  });
 }
 
 /// Component of a strain or stress at row i and column j.
@@ -64,13 +67,19 @@ constexpr std::size_t component(int i, int j) {
 template <int Dim, class T, std::size_t C>
 void green_lagrange(const PointMatrix<Dim, T>& h, std::array<T, C>& out) {
   out[2] = T::Zero();
-  for (int i = 0; i < Dim; ++i)
-    for (int j = i; j < Dim; ++j) {
-      T sum = h(0, i) * h(0, j);
-      for (int k = 1; k < Dim; ++k) sum += h(k, i) * h(k, j);
-      out[component(i, j)] =
-          i == j ? T(h(i, i) + 0.5 * sum) : T(h(i, j) + h(j, i) + sum);
-    }
+  core::repeat<Dim>([&](auto row) {
+    core::repeat<Dim>([&](auto column) {
+      constexpr int i = row(), j = column();
+      if constexpr (i <= j) {
+        T sum = h(0, i) * h(0, j);
+        core::repeat<Dim - 1>([&](auto k) { sum += h(k() + 1, i) * h(k() + 1, j); });
+        if constexpr (i == j)
+          out[component(i, j)] = h(i, i) + 0.5 * sum;
+        else
+          out[component(i, j)] = h(i, j) + h(j, i) + sum;
+      }
+    });
+  });
 }
 
 /// (1 + c)^(1/3): Halley's steps, of which each triples the digits.
@@ -120,19 +129,21 @@ template <int Dim, class T, std::size_t C>
 void weighted_first_stress(const PointMatrix<Dim, T>& f, const std::array<T, C>& stress,
                            const T& weight, PointMatrix<Dim, T>& out) {
   PointMatrix<Dim, T> s;
-  for (int i = 0; i < Dim; ++i)
-    for (int j = 0; j < Dim; ++j) s(i, j) = weight * stress[component(i, j)];
+  core::repeat<Dim>([&](auto i) {
+    core::repeat<Dim>([&](auto j) { s(i(), j()) = weight * stress[component(i(), j())]; });
+  });
   times_transposed(f, s, out);
 }
 /// A B.
 template <int Dim, class T>
 void times(const PointMatrix<Dim, T>& a, const PointMatrix<Dim, T>& b, PointMatrix<Dim, T>& out) {
-  for (int i = 0; i < Dim; ++i)
-    for (int j = 0; j < Dim; ++j) {
-      T sum = a(i, 0) * b(0, j);
-      for (int k = 1; k < Dim; ++k) sum += a(i, k) * b(k, j);
-      out(i, j) = sum;
-    }
+  core::repeat<Dim>([&](auto i) {
+    core::repeat<Dim>([&](auto j) {
+      T sum = a(i(), 0) * b(0, j());
+      core::repeat<Dim - 1>([&](auto k) { sum += a(i(), k() + 1) * b(k() + 1, j()); });
+      out(i(), j()) = sum;
+    });
+  });
 }
 
 }  // namespace osculate::solid

@@ -18,7 +18,7 @@ TEST(Pack, CalculatesEachNumber) {
     EXPECT_EQ((-a)[i], -a[i]);
     EXPECT_EQ(abs(a)[i], std::abs(a[i]));
     EXPECT_NEAR(log(abs(b))[i], std::log(std::abs(b[i])), 1e-15 * std::abs(std::log(1e3)));
-    EXPECT_EQ(cube_root_of(b)[i], std::cbrt(b[i]));
+    EXPECT_DOUBLE_EQ(cube_root_of(b)[i], std::cbrt(b[i]));
   }
   Pack c = a;
   c += b;

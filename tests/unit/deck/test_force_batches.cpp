@@ -34,6 +34,14 @@ void expect_same(const BuiltModel& built, std::size_t alone) {
       model::BasicBulkBlock<Dim> block;
       model::evaluate_cell(m, *bulk.jobs[job].section, bulk.jobs[job].cell, u, {}, false, block);
       ASSERT_TRUE(block.ok);
+      typename model::ForceBatches<Dim>::Stiffness last;
+      const Eigen::MatrixXd* const stiffness = batches.stiffness(job, last);
+      const bool small = bulk.jobs[job].section->section.kinematics == solid::Kinematics::small;
+      ASSERT_EQ(stiffness != nullptr, small);
+      if (small) {
+        model::evaluate_cell(m, *bulk.jobs[job].section, bulk.jobs[job].cell, u, {}, true, block);
+        EXPECT_LT((*stiffness - block.result.tangent).norm(), 1e-12 * stiffness->norm());
+      }
       for (int d = 0; d < block.dof_count; ++d)
         EXPECT_NEAR(forces[first[job] + static_cast<std::size_t>(d)], block.result.force[d],
                     1e-12 * block.result.force.norm());

@@ -8,6 +8,7 @@
 #include "osculate/cell/volume_shape.hpp"
 #include "osculate/solid/batch.hpp"
 #include "osculate/solid/corner_modes.hpp"
+#include "osculate/solid/energy.hpp"
 
 namespace osculate::solid {
 namespace {
@@ -66,12 +67,19 @@ double difference(const Section<Dim>& section, CellType type, double size, doubl
     want[static_cast<std::size_t>(lane)] = result.force;
   }
   EXPECT_TRUE(batch_forces<Dim>(*batch, numbers.data(), u.data(), force.data()));
+  Pack energy;
+  EXPECT_TRUE(batch_energy<Dim>(*batch, numbers.data(), u.data(), energy));
   double worst = 0;
   for (int lane = 0; lane < Pack::count; ++lane) {
     const auto& of_cell = want[static_cast<std::size_t>(lane)];
     for (int d = 0; d < Dim * n; ++d)
       worst = std::max(worst, std::abs(force[static_cast<std::size_t>(d)][lane] - of_cell[d]) /
                                   of_cell.template lpNorm<Eigen::Infinity>());
+    const double stored =
+        strain_energy<Dim>(section, type, cell_number<Dim>(type, lane, flat),
+                           displacement_number<Dim>(type, lane, size));
+    // ln J and tr E cancel in neo-Hooke's energy
+    EXPECT_NEAR(energy[lane], stored, 1e-12 * stored + 1e-13);
   }
   return worst;
 }
