@@ -117,12 +117,13 @@ void measure(int n, bool finite, const std::string& formulation, int threads, in
   }
   const double cells = std::pow(n, Dim), updates = cells / best;
   const double limit = bandwidth(threads) / least_bytes(Dim);
-  const std::string name = fmt::format("{}, {} strains{}{}", Dim == 2 ? "quad4" : "hex8",
-                                       finite ? "finite" : "small",
-                                       formulation.empty() ? "" : ", ", formulation);
-  fmt::print("| {} | {:.0f} | {} | {} | {:.2f} | {:.0f} | {:.1f} | {:.3f} | {:.2f} | {:.2f} | {:.0f} |\n",
-             name, cells, threads, count, updates / 1e6, 1e9 / updates, limit / 1e6,
-             updates / limit, cells_part, set_up_seconds, taken);
+  const std::string name =
+      fmt::format("{}, {} strains{}{}", Dim == 2 ? "quad4" : "hex8", finite ? "finite" : "small",
+                  formulation.empty() ? "" : ", ", formulation);
+  fmt::print(
+      "| {} | {:.0f} | {} | {} | {:.2f} | {:.0f} | {:.1f} | {:.3f} | {:.2f} | {:.2f} | {:.0f} |\n",
+      name, cells, threads, count, updates / 1e6, 1e9 / updates, limit / 1e6, updates / limit,
+      cells_part, set_up_seconds, taken);
   std::fflush(stdout);
 }
 

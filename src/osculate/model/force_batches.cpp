@@ -6,7 +6,8 @@
 namespace osculate::model {
 
 template <int Dim>
-ForceBatches<Dim>::ForceBatches(const BulkTerm<Dim>& bulk) : taken_(bulk.jobs.size(), 0), place_(bulk.jobs.size(), 0) {
+ForceBatches<Dim>::ForceBatches(const BulkTerm<Dim>& bulk)
+    : taken_(bulk.jobs.size(), 0), place_(bulk.jobs.size(), 0) {
   using Kind = std::pair<const BasicBulkSection<Dim>*, cell::CellType>;
   std::vector<std::pair<Kind, std::vector<std::size_t>>> jobs;  // in the order of their first
   std::map<Kind, std::size_t> place;
@@ -21,9 +22,8 @@ ForceBatches<Dim>::ForceBatches(const BulkTerm<Dim>& bulk) : taken_(bulk.jobs.si
   }
   for (const auto& [kind, of_kind] : jobs) {
     const CellNodes first = cell_nodes(bulk.model.mesh, bulk.jobs[of_kind.front()].cell);
-    std::optional<solid::Batch<Dim>> batch =
-        solid::batch_of<Dim>(section_on(*kind.first, kind.second), kind.second,
-                             reference_of(bulk.model, first.nodes));
+    std::optional<solid::Batch<Dim>> batch = solid::batch_of<Dim>(
+        section_on(*kind.first, kind.second), kind.second, reference_of(bulk.model, first.nodes));
     if (!batch) continue;
     kinds_.push_back(std::move(*batch));
     take(bulk, kinds_.size() - 1, of_kind);
@@ -72,8 +72,7 @@ void ForceBatches<Dim>::take(const BulkTerm<Dim>& bulk, std::size_t kind,
     for (std::size_t lane = 0; lane < lanes; ++lane)
       four.job[lane] = jobs[std::min(at(lane), last - 1)];
     for (std::size_t k = 0; k < nodes; ++k)
-      for (std::size_t lane = 0; lane < lanes; ++lane)
-        nodes_.push_back(cell_of(four.job[lane])[k]);
+      for (std::size_t lane = 0; lane < lanes; ++lane) nodes_.push_back(cell_of(four.job[lane])[k]);
     for (std::size_t i = 0; i < here; ++i) {
       taken_[four.job[i]] = 1;
       place_[four.job[i]] = lanes * fours_.size() + i;
@@ -96,20 +95,12 @@ void ForceBatches<Dim>::gather(const Four& four, const Eigen::VectorXd& u, Value
 }
 
 template <int Dim>
-bool ForceBatches<Dim>::add(std::size_t number, const Eigen::VectorXd& u,
-                            std::span<const std::size_t> first, std::vector<double>& out) const {
+bool ForceBatches<Dim>::forces(std::size_t number, const Eigen::VectorXd& u, Values& out) const {
   const Four& four = fours_[number];
-  Values along, force;
+  Values along;
   gather(four, u, along);
-  if (!solid::batch_forces<Dim>(kinds_[four.kind], &numbers_[four.numbers], along.data(),
-                                force.data()))
-    return false;
-  const std::size_t dofs = Dim * nodes_of(four);
-  for (int lane = 0; lane < four.cells; ++lane) {
-    double* const to = &out[first[four.job[static_cast<std::size_t>(lane)]]];
-    for (std::size_t d = 0; d < dofs; ++d) to[d] = force[d][lane];
-  }
-  return true;
+  return solid::batch_forces<Dim>(kinds_[four.kind], &numbers_[four.numbers], along.data(),
+                                  out.data());
 }
 
 template <int Dim>
@@ -145,9 +136,8 @@ const Eigen::MatrixXd* ForceBatches<Dim>::stiffness(std::size_t job, Stiffness& 
     along[column] = core::Pack::Zero();
     for (std::size_t row = 0; row < dofs; ++row)
       for (int l = 0; l < lanes; ++l)
-        last.of_lane[static_cast<std::size_t>(l)](static_cast<Eigen::Index>(row),
-                                                  static_cast<Eigen::Index>(column)) =
-            force[row][l];
+        last.of_lane[static_cast<std::size_t>(l)](
+            static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) = force[row][l];
   }
   last.four = number;
   return &last.of_lane[lane];

@@ -24,17 +24,20 @@ class ForceBatches {
   [[nodiscard]] const std::vector<std::size_t>& others() const { return others_; }
   /// Whether a job is one of a batch.
   [[nodiscard]] bool takes(std::size_t job) const { return taken_[job] != 0; }
+  /// Nodes of each of its cells.
+  [[nodiscard]] std::size_t nodes(std::size_t four) const { return nodes_of(fours_[four]); }
   /// The jobs of a batch, each once.
   [[nodiscard]] std::span<const std::size_t> jobs(std::size_t four) const {
     return {fours_[four].job.data(), static_cast<std::size_t>(fours_[four].cells)};
   }
-  /// The forces of a batch at the nodal displacements: those of job j begin at first[j] of `out`.
-  /// False: a cell has no answer; which, its own evaluation says. Different ones at once.
+  static constexpr std::size_t most_dofs = std::size_t{Dim} << static_cast<unsigned>(Dim);
+  using Values = std::array<core::Pack, most_dofs>;
+  /// The forces of a batch at the nodal displacements, job l of it in lane l. False: a cell has no
+  /// answer; which, its own evaluation says.
   ///
   /// Formula    f(u - u_0) , u_0 the displacement of the first node: what all nodes have in common
   ///            leaves no rounding in the sum of the forces
-  [[nodiscard]] bool add(std::size_t four, const Eigen::VectorXd& u,
-                         std::span<const std::size_t> first, std::vector<double>& out) const;
+  [[nodiscard]] bool forces(std::size_t four, const Eigen::VectorXd& u, Values& out) const;
   /// Stored energy of a batch. False as above.
   [[nodiscard]] bool energy(std::size_t four, const Eigen::VectorXd& u, double& sum) const;
   /// Stiffness matrices of the last batch that was asked for.
@@ -55,8 +58,6 @@ class ForceBatches {
     int cells = 0;
     std::array<std::size_t, lanes> job{};
   };
-  static constexpr std::size_t most_dofs = std::size_t{Dim} << static_cast<unsigned>(Dim);
-  using Values = std::array<core::Pack, most_dofs>;
   /// Displacements of a batch less those of the first node.
   void gather(const Four& four, const Eigen::VectorXd& u, Values& out) const;
   [[nodiscard]] std::size_t nodes_of(const Four& four) const {

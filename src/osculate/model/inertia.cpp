@@ -94,10 +94,9 @@ void CellInertia<Dim>::add_to(std::size_t cell, Eigen::Ref<Eigen::MatrixXd> tang
 }
 
 template <int Dim>
-solid::CellEnergy energy_of_cell(const BasicModel<Dim>& model,
-                                 const BasicBulkSection<Dim>& section, const mesh::CellRef& ref,
-                                 const CellMemory& where, const Eigen::VectorXd& u,
-                                 std::span<const double> memory) {
+solid::CellEnergy energy_of_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
+                                 const mesh::CellRef& ref, const CellMemory& where,
+                                 const Eigen::VectorXd& u, std::span<const double> memory) {
   if (where.removed) return {};
   const CellNodes cell = cell_nodes(model.mesh, ref);
   const material::Memory of = where.of(memory);

@@ -39,9 +39,9 @@ Eigen::MatrixXd BasicSystem<Dim>::Impl::Explicit::scaled_stiffness(
 ///
 /// Formula    lambda_max(A) < s if s I - A is positive definite
 template <int Dim>
-void BasicSystem<Dim>::Impl::Explicit::look_at(
-    std::size_t cell, BulkBlock& block, typename ForceBatches<Dim>::Stiffness& last,
-    Fastest& fastest) {
+void BasicSystem<Dim>::Impl::Explicit::look_at(std::size_t cell, BulkBlock& block,
+                                               typename ForceBatches<Dim>::Stiffness& last,
+                                               Fastest& fastest) {
   constexpr double equal = 1e-12;  // cells of one shape differ in their last digits
   const Eigen::MatrixXd scaled = scaled_stiffness(cell, block, last);
   if (scaled.size() == 0) return;
@@ -72,9 +72,9 @@ void BasicSystem<Dim>::Impl::Explicit::measure_stable_step() {
   typename ForceBatches<Dim>::Stiffness first;
   if (stable.cell >= 0) look_at(static_cast<std::size_t>(stable.cell), work.front(), first, all);
   std::vector<Fastest> of_part((jobs + part - 1) / part, all);
-  const auto parts = static_cast<std::ptrdiff_t>(of_part.size());
+  const auto part_count = static_cast<std::ptrdiff_t>(of_part.size());
 #pragma omp parallel for num_threads(system.bulk.threads) schedule(dynamic)
-  for (std::ptrdiff_t p = 0; p < parts; ++p) {
+  for (std::ptrdiff_t p = 0; p < part_count; ++p) {
     const auto number = static_cast<std::size_t>(p);
     BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())];
     typename ForceBatches<Dim>::Stiffness last;

@@ -17,10 +17,10 @@ using core::Pack;
 template <int Dim>
 struct CellBasis {
   static constexpr int nodes = corners<Dim>, dofs = Dim * nodes, modes = mode_count<Dim>;
-  CornerPoint<Dim> mean;         ///< volume and mean gradients
-  Mat<modes, Dim> slant;         ///< h_a . X / nodes
+  CornerPoint<Dim> mean;  ///< volume and mean gradients
+  Mat<modes, Dim> slant;  ///< h_a . X / nodes
   Mat<dofs, components<Dim>> of_strain = Mat<dofs, components<Dim>>::Zero();
-  Mat<dofs, Dim * modes> of_mode = Mat<dofs, Dim * modes>::Zero();
+  Mat<dofs, Dim* modes> of_mode = Mat<dofs, Dim * modes>::Zero();
 };
 
 template <int Dim>
@@ -157,8 +157,8 @@ template <int Dim>
 std::optional<BatchKind> kind_of(const Section<Dim>& section, cell::CellType type) {
   constexpr cell::CellType simplex = Dim == 2 ? cell::CellType::tri3 : cell::CellType::tet4;
   if (section.formulation == Formulation::solid_shell || is_ring(section)) return {};
-  const bool corner = type == corner_cell<Dim>, plain = follows_strain(section.law) &&
-                                                        strained_in_plane(section);
+  const bool corner = type == corner_cell<Dim>,
+             plain = follows_strain(section.law) && strained_in_plane(section);
   const bool reduced = section.formulation == Formulation::reduced;
   const bool small = section.kinematics == Kinematics::small;
   if (small && (!material::linear(section.law) || material::over_temperature(section.law)))
@@ -277,10 +277,8 @@ template bool batch_energy(const Batch<2>&, const Pack*, const Pack*, Pack&);
 template bool batch_energy(const Batch<3>&, const Pack*, const Pack*, Pack&);
 template bool linear_batch(const Batch<2>&);
 template bool linear_batch(const Batch<3>&);
-template std::optional<Batch<2>> batch_of(const Section<2>&, cell::CellType,
-                                          const Coordinates<2>&);
-template std::optional<Batch<3>> batch_of(const Section<3>&, cell::CellType,
-                                          const Coordinates<3>&);
+template std::optional<Batch<2>> batch_of(const Section<2>&, cell::CellType, const Coordinates<2>&);
+template std::optional<Batch<3>> batch_of(const Section<3>&, cell::CellType, const Coordinates<3>&);
 template bool keep_in(const Batch<2>&, const Coordinates<2>&, int, Pack*);
 template bool keep_in(const Batch<3>&, const Coordinates<3>&, int, Pack*);
 template bool batch_forces(const Batch<2>&, const Pack*, const Pack*, Pack*);

@@ -46,9 +46,8 @@ inline void mean_gradient(const Pack* gradient, const Pack* u, Matrix<Dim>& h) {
   repeat<Dim>([&](auto i) {
     repeat<Dim>([&](auto j) {
       Pack sum = u[i()] * gradient[j()];
-      repeat<Nodes - 1>([&](auto k) {
-        sum += u[Dim * (k() + 1) + i()] * gradient[Dim * (k() + 1) + j()];
-      });
+      repeat<Nodes - 1>(
+          [&](auto k) { sum += u[Dim * (k() + 1) + i()] * gradient[Dim * (k() + 1) + j()]; });
       h(i(), j()) = sum;
     });
   });
@@ -106,9 +105,8 @@ inline void spread(const Kept<Dim>& kept, Matrix<Dim>& on_gradient,
     repeat<Dim>([&](auto j) {
       v[std::size_t{1} << j()] = on_linear ? share * (*on_linear)(i(), j()) : Pack::Zero();
     });
-    repeat<mode_count<Dim>>([&](auto a) {
-      v[mode_product<Dim>[a()]] = share * on_mode[Dim * a() + i()];
-    });
+    repeat<mode_count<Dim>>(
+        [&](auto a) { v[mode_product<Dim>[a()]] = share * on_mode[Dim * a() + i()]; });
     from_products(v);
     repeat<1 << Dim>([&](auto c) {
       constexpr int k = corner_node<Dim>[c()];
@@ -205,8 +203,7 @@ inline void mode_work(const decltype(Uniform<Dim>::q)& q, const Matrix<Dim>& bas
     });
   });
   std::array<Pack, Dim> diagonal;
-  if constexpr (Dim == 3)
-    repeat<3>([&](auto i) { diagonal[i()] = s[i()][i()]; });
+  if constexpr (Dim == 3) repeat<3>([&](auto i) { diagonal[i()] = s[i()][i()]; });
   repeat<Dim>([&](auto i) {
     const Pack weight = along * inverse[i()] * inverse[i()];
     repeat<M>([&](auto a) {
@@ -421,9 +418,8 @@ inline void add_pulled(const Matrix<Dim>& first_stress, const Matrix<Dim>& inver
                        typename FinitePoints<Dim>::Slopes& work) {
   Matrix<Dim> slope;
   times(first_stress, inverse, slope);
-  repeat<Dim>([&](auto i) {
-    repeat<Dim>([&](auto j) { work[i()].at(j(), q) += slope(i(), j()); });
-  });
+  repeat<Dim>(
+      [&](auto i) { repeat<Dim>([&](auto j) { work[i()].at(j(), q) += slope(i(), j()); }); });
 }
 template <int Dim>
 inline void clear(typename FinitePoints<Dim>::Slopes& work) {
@@ -473,8 +469,8 @@ template <bool Mean, int Dim>
   if (!set_finite_points<Mean>(depth, numbers, u, cell)) return false;
   energy = Pack::Zero();
   for (std::size_t q = 0; q < cell.point.size(); ++q)
-    energy += cell.point[q].volume *
-              material::stored_energies<components<Dim>>(law, cell.strain[q]);
+    energy +=
+        cell.point[q].volume * material::stored_energies<components<Dim>>(law, cell.strain[q]);
   return true;
 }
 

@@ -13,9 +13,7 @@ template <int Dim, class T>
 struct PointMatrix {
   std::array<T, static_cast<std::size_t>(Dim* Dim)> entry;
   T& operator()(int i, int j) { return entry[static_cast<std::size_t>(Dim * i + j)]; }
-  const T& operator()(int i, int j) const {
-    return entry[static_cast<std::size_t>(Dim * i + j)];
-  }
+  const T& operator()(int i, int j) const { return entry[static_cast<std::size_t>(Dim * i + j)]; }
 };
 
 /// The transposed of adj A = det(A) A^-1, returns det A.
@@ -112,7 +110,8 @@ struct VolumeRatio {
   }
   template <std::size_t C>
   void apply(std::array<T, C>& strain) const {
-    for (std::size_t i = 0; i < C; ++i) strain[i] = i < 3 ? T(m * strain[i] + half) : T(m * strain[i]);
+    for (std::size_t i = 0; i < C; ++i)
+      strain[i] = i < 3 ? T(m * strain[i] + half) : T(m * strain[i]);
   }
 };
 /// S : (E + I/2).

@@ -189,8 +189,8 @@ Hourglass<Dim> hourglass(const Section<Dim>& section, const Coordinates<Dim>& re
   }
   if constexpr (Dim == 2) {
     if (is_ring(section))
-      add_ring(mode_moduli(section)[0] * p.volume / 3, centre, reference, displacement, with_tangent,
-               out);
+      add_ring(mode_moduli(section)[0] * p.volume / 3, centre, reference, displacement,
+               with_tangent, out);
   }
   return out;
 }

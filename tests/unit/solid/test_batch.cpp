@@ -59,8 +59,7 @@ double difference(const Section<Dim>& section, CellType type, double size, doubl
                            v = displacement_number<Dim>(type, lane, size);
     EXPECT_TRUE(keep_in<Dim>(*batch, x, lane, numbers.data()));
     for (int k = 0; k < n; ++k)
-      for (int i = 0; i < Dim; ++i)
-        u[static_cast<std::size_t>(Dim * k + i)].set(lane, v(k, i));
+      for (int i = 0; i < Dim; ++i) u[static_cast<std::size_t>(Dim * k + i)].set(lane, v(k, i));
     ElementResult<Dim> result;
     evaluate<Dim>(section, type, x, v, false, result);
     EXPECT_EQ(result.status, Status::ok);
@@ -75,9 +74,8 @@ double difference(const Section<Dim>& section, CellType type, double size, doubl
     for (int d = 0; d < Dim * n; ++d)
       worst = std::max(worst, std::abs(force[static_cast<std::size_t>(d)][lane] - of_cell[d]) /
                                   of_cell.template lpNorm<Eigen::Infinity>());
-    const double stored =
-        strain_energy<Dim>(section, type, cell_number<Dim>(type, lane, flat),
-                           displacement_number<Dim>(type, lane, size));
+    const double stored = strain_energy<Dim>(section, type, cell_number<Dim>(type, lane, flat),
+                                             displacement_number<Dim>(type, lane, size));
     // ln J and tr E cancel in neo-Hooke's energy
     EXPECT_NEAR(energy[lane], stored, 1e-12 * stored + 1e-13);
   }
@@ -157,10 +155,10 @@ TEST(Batch, WhatItCannotSayItDoesNotTake) {
   auto sheet = section_of<2>(Kinematics::finite, Formulation::full, stiff);
   sheet.assumption = Assumption::plane_stress;
   EXPECT_TRUE(refuses(sheet, CellType::quad4));
-  EXPECT_TRUE(refuses(section_of<3>(Kinematics::small, Formulation::full, elastic),
-                      CellType::hex20));
-  EXPECT_TRUE(refuses(section_of<3>(Kinematics::finite, Formulation::enhanced, stiff),
-                      CellType::hex8));
+  EXPECT_TRUE(
+      refuses(section_of<3>(Kinematics::small, Formulation::full, elastic), CellType::hex20));
+  EXPECT_TRUE(
+      refuses(section_of<3>(Kinematics::finite, Formulation::enhanced, stiff), CellType::hex8));
   material::J2Plasticity flows;
   flows.young = 100;
   flows.poisson = 0.3;
