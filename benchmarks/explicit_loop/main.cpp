@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -43,12 +45,23 @@ double bandwidth(int threads) {
   return 3.0 * sizeof(double) * static_cast<double>(n) / best;
 }
 
+/// What the process has in memory now, in MiB.
+double resident() {
+  std::ifstream pages("/proc/self/statm");
+  double all = 0, here = 0;
+  pages >> all >> here;
+  return here * 4096 / (1 << 20);
+}
+
+/// `formulation`: empty: that of the section by default.
 template <int Dim>
-std::string model_text(int n, bool finite) {
+std::string model_text(int n, bool finite, const std::string& formulation) {
   const std::string box =
       Dim == 2 ? fmt::format("x: [0, 1], y: [0, 1], elements: [{0}, {0}]", n)
                : fmt::format("x: [0, 1], y: [0, 1], z: [0, 1], elements: [{0}, {0}, {0}]", n);
   const char* const law = finite ? "neo_hooke" : "linear_elastic";
+  const std::string element = std::string(Dim == 2 ? "plane_strain" : "solid") +
+                              (formulation.empty() ? "" : ", formulation: " + formulation);
   return fmt::format(R"(osculate: 1
 title: A free body
 mesh: {{generate: {{body: {{box: {{{}}}}}}}}}
@@ -57,7 +70,7 @@ sections: [{{on: body, material: m, element: {}}}]
 initial_velocity: [{{on: body, vx: 1}}, {{on: body.left, vx: 1.01}}]
 steps: [{{name: fly, increments: 1, duration: 1, dynamics: {{scheme: central_differences}}}}]
 )",
-                     box, law, Dim == 2 ? "plane_strain" : "solid");
+                     box, law, element);
 }
 
 /// What one element update must move at least: the nodes of the cell once, and of one node the
@@ -69,15 +82,17 @@ constexpr double least_bytes(int dim) {
 }
 
 template <int Dim>
-void measure(const char* name, int n, bool finite, int threads) {
+void measure(int n, bool finite, const std::string& formulation, int threads, int steps) {
   const deck::Description description =
-      deck::parse_model(model_text<Dim>(n, finite), "benchmark.yaml");
+      deck::parse_model(model_text<Dim>(n, finite, formulation), "benchmark.yaml");
   const auto built = [&] {
     if constexpr (Dim == 2)
       return deck::build(description, deck::load_mesh(description));
     else
       return deck::build3(description, deck::load_mesh(description));
   }();
+  const double resident_before = resident();
+  const auto set_up = std::chrono::steady_clock::now();
   model::BasicSystem<Dim> system(built.model, threads);
   model::BasicState<Dim> state = system.initial_state();
   system.begin_step(built.model.steps.front(), state);
@@ -85,12 +100,13 @@ void measure(const char* name, int n, bool finite, int threads) {
   // The first increment also measures the stable step; time steps of the second one count.
   const double cell = 1.0 / n, step = 0.5 * cell / 12;
   state = system.advance(state, 5 * step).state;
+  const double set_up_seconds = seconds_since(set_up), taken = resident() - resident_before;
   double best = 1e30, cells_part = 0;
   int count = 0;
   for (int k = 0; k < 3; ++k) {
     const double bulk = system.seconds().bulk;
     const auto start = std::chrono::steady_clock::now();
-    const auto done = system.advance(state, state.fraction + 20 * step);
+    const auto done = system.advance(state, state.fraction + steps * step);
     const double seconds = seconds_since(start) / done.time_steps.count;
     if (seconds < best) {
       best = seconds;
@@ -101,23 +117,30 @@ void measure(const char* name, int n, bool finite, int threads) {
   }
   const double cells = std::pow(n, Dim), updates = cells / best;
   const double limit = bandwidth(threads) / least_bytes(Dim);
-  fmt::print("| {} | {:.0f} | {} | {} | {:.2f} | {:.0f} | {:.1f} | {:.3f} | {:.2f} |\n", name,
-             cells, threads, count, updates / 1e6, 1e9 / updates, limit / 1e6, updates / limit,
-             cells_part);
+  const std::string name =
+      fmt::format("{}, {} strains{}{}", Dim == 2 ? "quad4" : "hex8", finite ? "finite" : "small",
+                  formulation.empty() ? "" : ", ", formulation);
+  fmt::print(
+      "| {} | {:.0f} | {} | {} | {:.2f} | {:.0f} | {:.1f} | {:.3f} | {:.2f} | {:.2f} | {:.0f} |\n",
+      name, cells, threads, count, updates / 1e6, 1e9 / updates, limit / 1e6, updates / limit,
+      cells_part, set_up_seconds, taken);
+  std::fflush(stdout);
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
   const int most = count > 1 ? std::atoi(arguments[1]) : 2;
+  const int steps = count > 2 ? std::atoi(arguments[2]) : 20;
   fmt::print(
       "| cells | number | threads | time steps | updates [1e6/s] | ns an update | memory bound "
-      "[1e6/s] | ratio | share of the cells |\n|---|---|---|---|---|---|---|---|---|\n");
-  for (int threads = 1; threads <= most; ++threads) {
-    measure<2>("quad4, small strains", 300, false, threads);
-    measure<2>("quad4, finite strains", 300, true, threads);
-    measure<3>("hex8, small strains", 40, false, threads);
-    measure<3>("hex8, finite strains", 40, true, threads);
-  }
+      "[1e6/s] | ratio | share of the cells | set-up [s] | memory [MiB] |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (int threads = 1; threads <= most; ++threads)
+    for (const bool finite : {false, true})
+      for (const char* const formulation : {"", "full", "reduced"}) {
+        measure<2>(300, finite, formulation, threads, steps);
+        measure<3>(40, finite, formulation, threads, steps);
+      }
   return 0;
 }

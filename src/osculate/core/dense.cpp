@@ -1,5 +1,6 @@
 #include "osculate/core/dense.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -14,6 +15,13 @@ Spectrum spectrum(const DenseView& matrix) {
 Eigen::VectorXd eigenvalues(const DenseView& matrix) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly)
       .eigenvalues();
+}
+
+bool eigenvalues_below(const DenseView& matrix, double limit) {
+  Eigen::MatrixXd rest = -matrix;
+  rest.diagonal().array() += limit;
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factors(rest);
+  return factors.info() == Eigen::Success;
 }
 
 SingularValues singular_values(const DenseView& matrix) {

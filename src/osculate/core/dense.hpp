@@ -15,6 +15,9 @@ struct Spectrum {
 };
 [[nodiscard]] Spectrum spectrum(const DenseView& matrix);
 [[nodiscard]] Eigen::VectorXd eigenvalues(const DenseView& matrix);
+/// Whether all eigenvalues are below a limit, by Cholesky's factors of limit I - matrix: a tenth of
+/// the work. Within rounding of the limit either answer.
+[[nodiscard]] bool eigenvalues_below(const DenseView& matrix, double limit);
 
 /// matrix = U diag(values) V^T with square U and V; values fall.
 struct SingularValues {

@@ -1,23 +1,38 @@
 #include "osculate/material/pointwise.hpp"
 
+#include "osculate/material/energy.hpp"
 #include "osculate/material/law.hpp"
 
 namespace osculate::material {
 namespace {
 
-template <int N, int Q>
-bool stresses_of(const StVenantKirchhoff& law, const Pointwise<N, Q>& e, Pointwise<N, Q>& out) {
-  const Lame c = lame(law.young, law.poisson);
-  const Lanes<Q> pressure = c.lambda * (e[0] + e[1] + e[2]);
+using core::everywhere;
+/// A strain or stress of N components, each of several points.
+template <int N, class T>
+using Several = std::array<T, static_cast<std::size_t>(N)>;
+
+/// lambda tr(E) I + 2 mu E.
+template <int N, class T>
+void hooke_of(double young, double poisson, const Several<N, T>& e, Several<N, T>& out) {
+  const Lame c = lame(young, poisson);
+  const T pressure = c.lambda * (e[0] + e[1] + e[2]);
   for (std::size_t i = 0; i < N; ++i)
-    out[i] = i < 3 ? Lanes<Q>(pressure + 2 * c.mu * e[i]) : Lanes<Q>(c.mu * e[i]);
+    out[i] = i < 3 ? T(pressure + 2 * c.mu * e[i]) : T(c.mu * e[i]);
+}
+template <int N, class T>
+bool stresses_of(const StVenantKirchhoff& law, const Several<N, T>& e, Several<N, T>& out) {
+  hooke_of<N, T>(law.young, law.poisson, e, out);
+  return true;
+}
+template <int N, class T>
+bool stresses_of(const LinearElastic& law, const Several<N, T>& e, Several<N, T>& out) {
+  hooke_of<N, T>(law.young, law.poisson, e, out);
   return true;
 }
 
 /// S = mu 2 E C^-1 + lambda ln J C^-1 with C^-1 by cofactors, as in neo_hooke.cpp.
-template <int N, int Q>
-bool stresses_of(const NeoHooke& law, const Pointwise<N, Q>& e, Pointwise<N, Q>& out) {
-  using T = Lanes<Q>;
+template <int N, class T>
+bool stresses_of(const NeoHooke& law, const Several<N, T>& e, Several<N, T>& out) {
   const T zero = T::Zero();
   const T a = 2 * e[0], b = 2 * e[1], c = 2 * e[2], d = e[3];
   const T f = N == 6 ? e[N - 2] : zero, g = N == 6 ? e[N - 1] : zero;
@@ -25,19 +40,31 @@ bool stresses_of(const NeoHooke& law, const Pointwise<N, Q>& e, Pointwise<N, Q>&
   const T minor = a + b + a * b - d * d;  // of the plane, less 1
   const T change = minor + c * (1 + minor) + f * (d * g - f * c11) + g * (d * f - g * c22);
   const T determinant = 1 + change;
-  if (!(c11 > 0 && minor > -1 && determinant > 0).all()) return false;
+  if (!everywhere(c11 > 0) || !everywhere(minor > -1) || !everywhere(determinant > 0)) return false;
   const T scale = 1 / determinant;
-  const Pointwise<6, Q> inverse{scale * (c22 * c33 - f * f), scale * (c11 * c33 - g * g),
-                                scale * (1 + minor),         scale * (f * g - d * c33),
-                                scale * (d * g - f * c11),   scale * (d * f - g * c22)};
+  const Several<6, T> inverse{scale * (c22 * c33 - f * f), scale * (c11 * c33 - g * g),
+                              scale * (1 + minor),         scale * (f * g - d * c33),
+                              scale * (d * g - f * c11),   scale * (d * f - g * c22)};
   // ln(1 + change) with the digits that are lost in the sum
   const Lame k = lame(law.young, law.poisson);
-  const T pull = 0.5 * k.lambda * (determinant.log() + scale * (change - (determinant - 1)));
+  const T pull = 0.5 * k.lambda * (log(determinant) + scale * (change - (determinant - 1)));
   out[0] = k.mu * (a * inverse[0] + d * inverse[3] + g * inverse[5]) + pull * inverse[0];
   out[1] = k.mu * (d * inverse[3] + b * inverse[1] + f * inverse[4]) + pull * inverse[1];
   out[2] = k.mu * (g * inverse[5] + f * inverse[4] + c * inverse[2]) + pull * inverse[2];
   for (std::size_t i = 3; i < N; ++i) out[i] = (pull - k.mu) * inverse[i];
   return true;
+}
+
+/// mu tr E - mu ln J + lambda/2 (ln J)^2.
+template <int N, class T>
+T energies_of(const NeoHooke& law, const Several<N, T>& e) {
+  const Lame k = lame(law.young, law.poisson);
+  const T zero = T::Zero();
+  const T f = N == 6 ? e[N - 2] : zero, g = N == 6 ? e[N - 1] : zero;
+  const T c11 = 1 + 2 * e[0], c22 = 1 + 2 * e[1], c33 = 1 + 2 * e[2], d = e[3];
+  const T determinant = c33 * (c11 * c22 - d * d) + f * (d * g - f * c11) + g * (d * f - g * c22);
+  const T log_j = 0.5 * log(determinant);
+  return k.mu * (e[0] + e[1] + e[2] - log_j) + 0.5 * k.lambda * log_j * log_j;
 }
 
 /// Of other laws: one point after the other.
@@ -53,6 +80,17 @@ bool one_by_one(const Law& law, const Pointwise<N, Q>& e, const Memory& memory,
   }
   return true;
 }
+template <int N>
+bool one_by_one(const Law& law, const Several<N, core::Pack>& e, Several<N, core::Pack>& out) {
+  for (int q = 0; q < core::Pack::count; ++q) {
+    Vec<N> strain;
+    for (std::size_t i = 0; i < N; ++i) strain[static_cast<Eigen::Index>(i)] = e[i][q];
+    const StressOf<N> s = stress(law, strain);
+    if (!s.ok) return false;
+    for (std::size_t i = 0; i < N; ++i) out[i].set(q, s.stress[static_cast<Eigen::Index>(i)]);
+  }
+  return true;
+}
 
 }  // namespace
 
@@ -60,8 +98,8 @@ template <int N, int Q>
 bool stresses(const Law& law, const Pointwise<N, Q>& strain, const Memory& memory,
               Pointwise<N, Q>& out) {
   const auto of = [&]<class T>(const T& m) {
-    if constexpr (requires { stresses_of<N, Q>(m, strain, out); })
-      return stresses_of<N, Q>(m, strain, out);
+    if constexpr (requires { stresses_of<N, Lanes<Q>>(m, strain, out); })
+      return stresses_of<N, Lanes<Q>>(m, strain, out);
     else
       return one_by_one<N, Q>(law, strain, memory, out);
   };
@@ -70,6 +108,48 @@ bool stresses(const Law& law, const Pointwise<N, Q>& strain, const Memory& memor
   return std::visit(of, law);
 }
 
+template <int N>
+bool stresses(const Law& law, std::size_t count, const Several<N, core::Pack>* strain,
+              Several<N, core::Pack>* out) {
+  const auto of = [&]<class T>(const T& m) {
+    for (std::size_t q = 0; q < count; ++q) {
+      if constexpr (requires { stresses_of<N, core::Pack>(m, strain[q], out[q]); }) {
+        if (!stresses_of<N, core::Pack>(m, strain[q], out[q])) return false;
+      } else if (!one_by_one<N>(law, strain[q], out[q])) {
+        return false;
+      }
+    }
+    return true;
+  };
+  return std::visit(of, law);
+}
+
+template <int N>
+core::Pack stored_energies(const Law& law, const Several<N, core::Pack>& strain) {
+  core::Pack energy;
+  if (const auto* const soft = std::get_if<NeoHooke>(&law))
+    return energies_of<N, core::Pack>(*soft, strain);
+  if (const auto* const stiff = std::get_if<StVenantKirchhoff>(&law)) {
+    Several<N, core::Pack> s;
+    hooke_of<N, core::Pack>(stiff->young, stiff->poisson, strain, s);
+    energy = s[0] * strain[0];
+    for (std::size_t i = 1; i < N; ++i) energy += s[i] * strain[i];
+    return 0.5 * energy;
+  }
+  for (int q = 0; q < core::Pack::count; ++q) {
+    Vec<N> e;
+    for (std::size_t i = 0; i < N; ++i) e[static_cast<Eigen::Index>(i)] = strain[i][q];
+    energy.set(q, stored_energy(law, e));
+  }
+  return energy;
+}
+
+template core::Pack stored_energies<4>(const Law&, const Several<4, core::Pack>&);
+template core::Pack stored_energies<6>(const Law&, const Several<6, core::Pack>&);
+template bool stresses<4>(const Law&, std::size_t, const Several<4, core::Pack>*,
+                          Several<4, core::Pack>*);
+template bool stresses<6>(const Law&, std::size_t, const Several<6, core::Pack>*,
+                          Several<6, core::Pack>*);
 template bool stresses<4, 4>(const Law&, const Pointwise<4, 4>&, const Memory&, Pointwise<4, 4>&);
 template bool stresses<6, 1>(const Law&, const Pointwise<6, 1>&, const Memory&, Pointwise<6, 1>&);
 template bool stresses<6, 8>(const Law&, const Pointwise<6, 8>&, const Memory&, Pointwise<6, 8>&);

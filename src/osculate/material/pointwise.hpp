@@ -1,7 +1,9 @@
 #pragma once
-// Stresses at all points of a cell at once: the processor takes several points in one operation.
+// Stresses at several points at once, those of one cell or one of each of several cells: the
+// processor takes several of them in one operation.
 #include <array>
 
+#include "osculate/core/pack.hpp"
 #include "osculate/material/catalogue.hpp"
 
 namespace osculate::material {
@@ -20,5 +22,18 @@ using Pointwise = std::array<Lanes<Q>, static_cast<std::size_t>(N)>;
 template <int N, int Q>
 [[nodiscard]] bool stresses(const Law& law, const Pointwise<N, Q>& strain, const Memory& memory,
                             Pointwise<N, Q>& out);
+
+/// The same at `count` points of each of several cells, of laws that remember nothing.
+///
+/// Tested by  tests/unit/solid/test_batch.cpp
+template <int N>
+[[nodiscard]] bool stresses(const Law& law, std::size_t count,
+                            const std::array<core::Pack, static_cast<std::size_t>(N)>* strain,
+                            std::array<core::Pack, static_cast<std::size_t>(N)>* out);
+
+/// Stored energies per reference volume of such points (energy.hpp).
+template <int N>
+[[nodiscard]] core::Pack stored_energies(
+    const Law& law, const std::array<core::Pack, static_cast<std::size_t>(N)>& strain);
 
 }  // namespace osculate::material

@@ -94,22 +94,35 @@ void CellInertia<Dim>::add_to(std::size_t cell, Eigen::Ref<Eigen::MatrixXd> tang
 }
 
 template <int Dim>
+solid::CellEnergy energy_of_cell(const BasicModel<Dim>& model, const BasicBulkSection<Dim>& section,
+                                 const mesh::CellRef& ref, const CellMemory& where,
+                                 const Eigen::VectorXd& u, std::span<const double> memory) {
+  if (where.removed) return {};
+  const CellNodes cell = cell_nodes(model.mesh, ref);
+  const material::Memory of = where.of(memory);
+  const CellPlaces<Dim> at = places_of(model, section, cell.nodes, u, of);
+  return solid::cell_energy(section_on(section, cell.type), cell.type, at.reference,
+                            at.displacement, of);
+}
+
+template <int Dim>
 solid::CellEnergy bulk_energy(const BasicModel<Dim>& model, const Eigen::VectorXd& u,
                               std::span<const double> memory) {
   solid::CellEnergy sum;
   for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
-    if (m.removed) return;
-    const CellNodes cell = cell_nodes(model.mesh, ref);
-    const material::Memory of = m.of(memory);
-    const CellPlaces<Dim> at = places_of(model, section, cell.nodes, u, of);
-    const solid::CellEnergy of_cell = solid::cell_energy(section_on(section, cell.type), cell.type,
-                                                         at.reference, at.displacement, of);
+    const solid::CellEnergy of_cell = energy_of_cell(model, section, ref, m, u, memory);
     sum.stored += of_cell.stored;
     sum.dissipated += of_cell.dissipated;
   });
   return sum;
 }
 
+template solid::CellEnergy energy_of_cell(const Model&, const BulkSection&, const mesh::CellRef&,
+                                          const CellMemory&, const Eigen::VectorXd&,
+                                          std::span<const double>);
+template solid::CellEnergy energy_of_cell(const Model3&, const BulkSection3&, const mesh::CellRef&,
+                                          const CellMemory&, const Eigen::VectorXd&,
+                                          std::span<const double>);
 template struct CellInertia<2>;
 template struct CellInertia<3>;
 template class BasicInertia<2>;

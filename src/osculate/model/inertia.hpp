@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "osculate/model/bulk.hpp"
+#include "osculate/model/material_memory.hpp"
 #include "osculate/solid/energy.hpp"
 
 namespace osculate::model {
@@ -57,6 +58,13 @@ struct CellInertia {
   void add_to(std::size_t cell, Eigen::Ref<Eigen::MatrixXd> tangent) const;
 };
 
+/// Stored and dissipated in a cell, whose points remember their share of `memory`.
+template <int Dim>
+[[nodiscard]] solid::CellEnergy energy_of_cell(const BasicModel<Dim>& model,
+                                               const BasicBulkSection<Dim>& section,
+                                               const mesh::CellRef& ref, const CellMemory& where,
+                                               const Eigen::VectorXd& u,
+                                               std::span<const double> memory);
 /// Stored and dissipated in all cells, whose points remember `memory`.
 template <int Dim>
 [[nodiscard]] solid::CellEnergy bulk_energy(const BasicModel<Dim>& model, const Eigen::VectorXd& u,

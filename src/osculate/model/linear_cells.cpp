@@ -25,12 +25,9 @@ bool keeps_digits(const BasicBulkSection<Dim>& section) {
 template <int Dim>
 void LinearCells<Dim>::add(const BasicBulkSection<Dim>& section, cell::CellType type) {
   const std::size_t dofs = Dim * static_cast<std::size_t>(cell::info(type).nodes);
-  const bool kept = section.section.kinematics == solid::Kinematics::small &&
-                    material::linear(section.section.law) &&
-                    (size_ + dofs * dofs) * sizeof(double) <= most_bytes;
-  begin_.push_back(kept ? size_ : nowhere);
-  made_.push_back(0);
-  if (kept) size_ += dofs * dofs;
+  const bool linear = section.section.kinematics == solid::Kinematics::small &&
+                      material::linear(section.section.law);
+  length_.push_back(linear ? static_cast<std::uint32_t>(dofs * dofs) : 0);
 }
 
 template <int Dim>

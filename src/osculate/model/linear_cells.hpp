@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "osculate/model/bulk.hpp"
@@ -24,11 +25,29 @@ class LinearCells {
 
   /// The next cell, in the order in which they are numbered.
   void add(const BasicBulkSection<Dim>& section, cell::CellType type);
-  /// Takes the memory, once; cells that are evaluated before are not kept.
-  void reserve() { values_.resize(size_); }
+  /// Takes the memory; cells that are evaluated before are not kept. `needs_none(number)`: cells
+  /// that nobody will ask for. What is kept already stays only where that does not change.
+  template <class None>
+  void reserve(const None& needs_none) {
+    std::vector<std::size_t> begin(length_.size(), nowhere);
+    std::size_t size = 0;
+    for (std::size_t n = 0; n < length_.size(); ++n) {
+      if (length_[n] == 0 || needs_none(n) || (size + length_[n]) * sizeof(double) > most_bytes)
+        continue;
+      begin[n] = size;
+      size += length_[n];
+    }
+    if (begin == begin_ && size == values_.size()) return;
+    begin_ = std::move(begin);
+    made_.assign(length_.size(), 0);
+    values_ = std::vector<double>(size);
+  }
+  void reserve() {
+    reserve([](std::size_t) { return false; });
+  }
   /// Whether the matrix of a cell is stored, or will be.
   [[nodiscard]] bool kept(std::size_t number) const {
-    return begin_[number] != nowhere && !values_.empty();
+    return number < begin_.size() && begin_[number] != nowhere;
   }
   /// As evaluate_cell, of cell `number`. Different cells may be evaluated at once.
   void evaluate(std::size_t number, const BasicModel<Dim>& model,
@@ -43,10 +62,10 @@ class LinearCells {
  private:
   static constexpr std::size_t nowhere = static_cast<std::size_t>(-1);
   void keep(std::size_t number, const BasicBulkBlock<Dim>& block);
-  std::vector<std::size_t> begin_;  ///< of a cell's matrix in `values_`
+  std::vector<std::uint32_t> length_;  ///< of a cell's matrix; 0: it has none
+  std::vector<std::size_t> begin_;     ///< of a cell's matrix in `values_`
   std::vector<char> made_;
   std::vector<double> values_;
-  std::size_t size_ = 0;  ///< of `values_` when there is memory for them
 };
 
 }  // namespace osculate::model

@@ -11,22 +11,31 @@
 #include "osculate/model/temperatures.hpp"
 
 namespace osculate::model {
+namespace {
+
+constexpr std::size_t fours_a_part = 512, others_a_part = 512;
+
+}  // namespace
 
 template <int Dim>
 BasicSystem<Dim>::Impl::Explicit::Explicit(Impl& s)
     : system(s),
       options(*s.step.dynamics->explicit_steps),
       damping(s.step.dynamics->damping_mass),
+      batches(s.bulk),
       work(static_cast<std::size_t>(s.bulk.threads)),
       active_set(s.model.pairs.size()),
       turning(s.model.rigid.size()) {
   const Eigen::Index n = system.dofs.dofs();
+  loaded = !s.step.pressure.empty() || !s.step.dead.empty() || !s.step.gravity.empty();
   for (Vector* const v : {&past_internal, &past_contact, &past_external, &past_damping})
     v->setZero(n);
   x.resize(system.model.reference.size());
   make_masses();
   make_followers();
-  make_gather();
+  look_at_contact();
+  make_parts();
+  system.bulk.linear.reserve([&](std::size_t cell) { return batches.takes(cell); });
   inverse.setZero(n);
   for (Dof d = 0; d < n; ++d) {
     const Index unknown = system.dofs.unknown_of(d);
@@ -76,8 +85,9 @@ void BasicSystem<Dim>::Impl::Explicit::make_followers() {
                     system.motion->free_rotations(b) > 0);
 }
 
+/// Which cells touch, and whether the stiffness changes.
 template <int Dim>
-void BasicSystem<Dim>::Impl::Explicit::make_gather() {
+void BasicSystem<Dim>::Impl::Explicit::look_at_contact() {
   std::vector<bool> in_contact(system.model.reference.size(), false);
   for (const BasicContactPair<Dim>& pair : system.model.pairs) {
     changes = changes || !(contact::penalty_of(pair.definition.normal) > 0);
@@ -87,23 +97,52 @@ void BasicSystem<Dim>::Impl::Explicit::make_gather() {
       for (std::size_t k = 0; k < static_cast<std::size_t>(f.count); ++k)
         in_contact[static_cast<std::size_t>(f.nodes[k])] = true;
   }
-  std::vector<std::vector<std::size_t>> of_node(system.model.reference.size());
-  std::size_t size = 0;
   for (const typename BulkTerm<Dim>::Job& job : system.bulk.jobs) {
-    first_force.push_back(size);
     touching.push_back(false);
     changes = changes || job.section->section.kinematics == solid::Kinematics::finite;
-    for (const Index node : cell_nodes(system.model.mesh, job.cell).nodes) {
-      of_node[static_cast<std::size_t>(node)].push_back(size);
-      size += Dim;
+    for (const Index node : cell_nodes(system.model.mesh, job.cell).nodes)
       if (in_contact[static_cast<std::size_t>(node)]) touching.back() = true;
-    }
   }
-  cell_forces.resize(size);
-  gather.begin.push_back(0);
-  for (const std::vector<std::size_t>& entries : of_node) {
-    gather.entry.insert(gather.entry.end(), entries.begin(), entries.end());
-    gather.begin.push_back(gather.entry.size());
+}
+
+template <int Dim>
+void BasicSystem<Dim>::Impl::Explicit::make_parts() {
+  const std::size_t nodes = system.model.reference.size();
+  parts.of_fours = (batches.count() + fours_a_part - 1) / fours_a_part;
+  parts.count = parts.of_fours + (batches.others().size() + others_a_part - 1) / others_a_part;
+  std::vector<std::size_t> part_of(system.bulk.jobs.size());
+  for (std::size_t f = 0; f < batches.count(); ++f)
+    for (const std::size_t job : batches.jobs(f)) part_of[job] = f / fours_a_part;
+  for (std::size_t i = 0; i < batches.others().size(); ++i)
+    part_of[batches.others()[i]] = parts.of_fours + i / others_a_part;
+  std::vector<std::vector<std::size_t>> of_node(nodes);  // parts, rising
+  for (std::size_t j = 0; j < part_of.size(); ++j)
+    for (const Index node : cell_nodes(system.model.mesh, system.bulk.jobs[j].cell).nodes) {
+      std::vector<std::size_t>& of = of_node[static_cast<std::size_t>(node)];
+      const auto at = std::lower_bound(of.begin(), of.end(), part_of[j]);
+      if (at == of.end() || *at != part_of[j]) of.insert(at, part_of[j]);
+    }
+  std::vector<std::size_t> first_slot(nodes, 0);
+  std::size_t slots = 0;
+  for (std::size_t n = 0; n < nodes; ++n) {
+    if (of_node[n].size() < 2) continue;
+    parts.shared.push_back(static_cast<Index>(n));
+    first_slot[n] = slots;
+    slots += of_node[n].size();
+    parts.begin.push_back(first_slot[n]);
+  }
+  parts.begin.push_back(slots);
+  parts.slots.assign(Dim * slots, 0.0);
+  const auto dofs = static_cast<Index>(system.dofs.dofs());
+  for (std::size_t j = 0; j < part_of.size(); ++j) {
+    parts.first.push_back(parts.place.size());
+    for (const Index node : cell_nodes(system.model.mesh, system.bulk.jobs[j].cell).nodes) {
+      const std::vector<std::size_t>& of = of_node[static_cast<std::size_t>(node)];
+      const auto here = std::lower_bound(of.begin(), of.end(), part_of[j]) - of.begin();
+      const auto slot =
+          static_cast<Index>(first_slot[static_cast<std::size_t>(node)]) + static_cast<Index>(here);
+      parts.place.push_back(of.size() < 2 ? Dim * node : dofs + Dim * slot);
+    }
   }
 }
 
@@ -113,34 +152,77 @@ void BasicSystem<Dim>::Impl::Explicit::place(const Vector& position) {
     x[n] = system.model.reference[n] + position.segment<Dim>(Dim * static_cast<Eigen::Index>(n));
 }
 
-/// Forces of the cells by themselves, then their sums at the nodes in a fixed order: the bits do
-/// not depend on the number of threads.
+template <int Dim>
+bool BasicSystem<Dim>::Impl::Explicit::add_cell(std::size_t cell, const Vector& u, double h) {
+  BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())];
+  const typename BulkTerm<Dim>::Job& job = system.bulk.jobs[cell];
+  system.bulk.linear.force(cell, system.model, *job.section, job.cell, u,
+                           job.memory.of(now.memory, system.last.memory, h), block);
+  if (!block.ok) return false;
+  const Index* const place = &parts.place[parts.first[cell]];
+  for (int k = 0; k < block.dof_count / Dim; ++k) {
+    double* const to = at_place(place[k]);
+    for (int i = 0; i < Dim; ++i) to[i] += block.result.force[Dim * k + i];
+  }
+  return true;
+}
+
+template <int Dim>
+std::ptrdiff_t BasicSystem<Dim>::Impl::Explicit::add_part(std::size_t part, const Vector& u,
+                                                          double h) {
+  auto failed = static_cast<std::ptrdiff_t>(system.bulk.jobs.size());
+  const auto alone = [&](std::size_t cell) {
+    if (!add_cell(cell, u, h)) failed = std::min(failed, static_cast<std::ptrdiff_t>(cell));
+  };
+  if (part >= parts.of_fours) {
+    const std::vector<std::size_t>& others = batches.others();
+    const std::size_t begin = (part - parts.of_fours) * others_a_part;
+    for (std::size_t i = begin; i < std::min(others.size(), begin + others_a_part); ++i)
+      alone(others[i]);
+    return failed;
+  }
+  typename ForceBatches<Dim>::Values force;
+  const std::size_t begin = part * fours_a_part;
+  for (std::size_t f = begin; f < std::min(batches.count(), begin + fours_a_part); ++f) {
+    const std::span<const std::size_t> jobs = batches.jobs(f);
+    if (!batches.forces(f, u, force)) {
+      for (const std::size_t cell : jobs) alone(cell);
+      continue;
+    }
+    const std::size_t nodes = batches.nodes(f);
+    for (std::size_t lane = 0; lane < jobs.size(); ++lane) {
+      const Index* const place = &parts.place[parts.first[jobs[lane]]];
+      for (std::size_t k = 0; k < nodes; ++k) {
+        double* const to = at_place(place[k]);
+        for (std::size_t i = 0; i < Dim; ++i) to[i] += force[Dim * k + i][static_cast<int>(lane)];
+      }
+    }
+  }
+  return failed;
+}
+
 template <int Dim>
 bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
   const Stopwatch watch;
   const auto count = static_cast<std::ptrdiff_t>(system.bulk.jobs.size());
-  const auto nodes = static_cast<std::ptrdiff_t>(x.size());
+  const auto shared = static_cast<std::ptrdiff_t>(parts.shared.size());
+  const auto all = static_cast<std::ptrdiff_t>(parts.count);
   std::ptrdiff_t failed = count;
+  Vector& internal = system.last.forces.internal;
+  internal.setZero();
+  std::fill(parts.slots.begin(), parts.slots.end(), 0.0);
 #pragma omp parallel num_threads(system.bulk.threads)
   {
-    BulkBlock& block = work[static_cast<std::size_t>(omp_get_thread_num())];
 #pragma omp for schedule(static) reduction(min : failed)
-    for (std::ptrdiff_t c = 0; c < count; ++c) {
-      const typename BulkTerm<Dim>::Job& job = system.bulk.jobs[static_cast<std::size_t>(c)];
-      system.bulk.linear.force(static_cast<std::size_t>(c), system.model, *job.section, job.cell, u,
-                               job.memory.of(now.memory, system.last.memory, h), block);
-      if (!block.ok) failed = std::min(failed, c);
-      std::copy_n(block.result.force.data(), block.dof_count,
-                  cell_forces.begin() +
-                      static_cast<std::ptrdiff_t>(first_force[static_cast<std::size_t>(c)]));
-    }
+    for (std::ptrdiff_t p = 0; p < all; ++p)
+      failed = std::min(failed, add_part(static_cast<std::size_t>(p), u, h));
 #pragma omp for schedule(static)
-    for (std::ptrdiff_t n = 0; n < nodes; ++n) {
-      const auto at = static_cast<std::size_t>(n);
+    for (std::ptrdiff_t s = 0; s < shared; ++s) {
+      const auto at = static_cast<std::size_t>(s);
       Vec<Dim> sum = Vec<Dim>::Zero();
-      for (std::size_t e = gather.begin[at]; e < gather.begin[at + 1]; ++e)
-        sum += Eigen::Map<const Vec<Dim>>(&cell_forces[gather.entry[e]]);
-      system.last.forces.internal.template segment<Dim>(Dim * n) = sum;
+      for (std::size_t e = parts.begin[at]; e < parts.begin[at + 1]; ++e)
+        sum += Eigen::Map<const Vec<Dim>>(&parts.slots[Dim * e]);
+      internal.template segment<Dim>(Dim * parts.shared[at]) = sum;
     }
   }
   system.bulk.seconds += watch.seconds();
@@ -152,6 +234,7 @@ bool BasicSystem<Dim>::Impl::Explicit::add_cells(const Vector& u, double h) {
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::add_contact(double h, double fraction) {
+  if (active_set.empty()) return;
   const Stopwatch watch;
   system.last.forces.contact.setZero();
   for (std::size_t p = 0; p < active_set.size(); ++p) {
@@ -184,6 +267,7 @@ void BasicSystem<Dim>::Impl::Explicit::commit_contact() {
 
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::add_loads(double fraction) {
+  if (!loaded) return;
   Vector& external = system.last.forces.external;
   external.setZero();
   if (!system.step.pressure.empty()) {
@@ -206,7 +290,9 @@ void BasicSystem<Dim>::Impl::Explicit::add_loads(double fraction) {
 template <int Dim>
 void BasicSystem<Dim>::Impl::Explicit::sum_forces() {
   const Forces& f = system.last.forces;
-  total = f.internal + f.contact - f.external;
+  total = f.internal;
+  if (!active_set.empty()) total += f.contact;
+  if (loaded) total -= f.external;
   for (std::size_t b = 0; b < now.rigid.size(); ++b) {
     const Vec<Dim> center = now.rigid[b].center();
     Vec<Dim> force = Vec<Dim>::Zero();
@@ -268,7 +354,7 @@ void BasicSystem<Dim>::Impl::Explicit::add_works(double h, const solve::Explicit
   const double half = 0.5 * h;
   works.internal += half * (past_internal + f.internal).dot(m.velocity);
   if (!active_set.empty()) works.contact += half * (past_contact + f.contact).dot(m.velocity);
-  works.external += half * (past_external + f.external).dot(m.velocity);
+  if (loaded) works.external += half * (past_external + f.external).dot(m.velocity);
   if (damping > 0) works.damping += half * (past_damping + damping_force).dot(m.velocity);
   for (std::size_t i = 0; i < held.size(); ++i) {
     double& past = past_held[static_cast<Eigen::Index>(i)];
@@ -336,7 +422,7 @@ bool BasicSystem<Dim>::Impl::Explicit::accelerate(double time, double h, solve::
   past_contact.swap(f.contact);
   past_external.swap(f.external);
   past_damping.swap(damping_force);
-  place(m.position);
+  if (!active_set.empty() || !now.rigid.empty()) place(m.position);  // nobody else asks
   const double fraction = time / system.step.duration;
   warm(system.model, system.step.temperature, fraction, system.last.memory);
   if (!add_cells(m.position, h)) return false;

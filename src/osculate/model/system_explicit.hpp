@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "osculate/model/force_batches.hpp"
 #include "osculate/model/system_motion.hpp"
 
 namespace osculate::model {
@@ -21,9 +22,16 @@ struct BasicSystem<Dim>::Impl::Explicit {
     Dof dof, lead;
     double factor;
   };
-  /// Where the forces of cells on a node stand in `cell_forces`.
-  struct Gather {
-    std::vector<std::size_t> begin, entry;  ///< per node; one entry per cell
+  /// How the forces of cells become those of nodes: parts of fixed size take their cells in order,
+  /// so that bits do not depend on the number of threads. A node of one part only is added to where
+  /// it stands; others have a slot in each part, and the slots are summed in order.
+  struct Parts {
+    std::size_t of_fours = 0, count = 0;  ///< parts of batches, and all
+    std::vector<std::size_t> first;       ///< of a job's places in `place`
+    std::vector<Index> place;             ///< first dof, or dofs + that of the slot
+    std::vector<double> slots;
+    std::vector<Index> shared;       ///< nodes with slots
+    std::vector<std::size_t> begin;  ///< of their slots
   };
   /// A rigid body in space that turns by itself: its angular momentum, and the moment on it.
   struct Turning {
@@ -43,11 +51,11 @@ struct BasicSystem<Dim>::Impl::Explicit {
   std::vector<Dof> held;  ///< prescribed dofs that are unknowns
   std::vector<Follower> followers;
   std::vector<bool> turns;  ///< per body: in space, by itself
+  bool loaded = false;      ///< there are loads
   bool changes = false;  ///< stiffness: of cells with finite kinematics, laws that are not linear
+  ForceBatches<Dim> batches;
   std::vector<bool> touching;  ///< cells with nodes in contact pairs
-  std::vector<std::size_t> first_force;
-  std::vector<double> cell_forces;
-  Gather gather;
+  Parts parts;
   std::vector<BulkBlock> work;  ///< per thread
   std::vector<pairing::ActiveSet<Dim>> active_set;
 
@@ -83,10 +91,21 @@ struct BasicSystem<Dim>::Impl::Explicit {
   // system_explicit.cpp
   void make_masses();
   void make_followers();
-  void make_gather();
+  void make_parts();
+  void look_at_contact();
   void load(const State& committed);
   void place(const Vector& position);
   [[nodiscard]] bool add_cells(const Vector& u, double h);
+  /// A cell by itself; false: it has no answer.
+  [[nodiscard]] bool add_cell(std::size_t cell, const Vector& u, double h);
+  /// Where the forces of a place stand.
+  [[nodiscard]] double* at_place(Index place) {
+    Vector& internal = system.last.forces.internal;
+    const auto dofs = static_cast<Index>(internal.size());
+    return place < dofs ? internal.data() + place : parts.slots.data() + (place - dofs);
+  }
+  /// The cells of a part; the first that has no answer, or their number.
+  [[nodiscard]] std::ptrdiff_t add_part(std::size_t part, const Vector& u, double h);
   void add_contact(double h, double fraction);
   void commit_contact();
   void add_loads(double fraction);
@@ -98,6 +117,9 @@ struct BasicSystem<Dim>::Impl::Explicit {
   [[nodiscard]] double kinetic(const Vector& velocity) const;
   [[nodiscard]] double kinetic_of_held(const Vector& velocity) const;
   void finish(double fraction, double duration, ExplicitIncrement<State>& out);
+  /// Stored and dissipated in all cells.
+  [[nodiscard]] solid::CellEnergy cells_energy(const Eigen::VectorXd& u,
+                                               const std::vector<double>& memory) const;
   void add_energies(Rates& rates);
   /// Velocities and accelerations of what is prescribed at a fraction of the step, beside those of
   /// the motion; rotations in space have their spin only.
@@ -107,8 +129,15 @@ struct BasicSystem<Dim>::Impl::Explicit {
 
   // system_explicit_step.cpp
   void measure_stable_step();
-  /// Largest eigenvalue of M^-1 K of a cell by itself.
-  [[nodiscard]] double cell_frequency(std::size_t cell, BulkBlock& block);
+  /// The largest eigenvalues of M^-1 K of cells by themselves: of all, and of those that touch.
+  struct Fastest {
+    double value = 0, beside = 0;
+    Index cell = -1;  ///< whose `value` it is
+  };
+  [[nodiscard]] Eigen::MatrixXd scaled_stiffness(std::size_t cell, BulkBlock& block,
+                                                 typename ForceBatches<Dim>::Stiffness& last);
+  void look_at(std::size_t cell, BulkBlock& block, typename ForceBatches<Dim>::Stiffness& last,
+               Fastest& fastest);
   [[nodiscard]] std::string governed() const;
 
   // system_explicit_contact.cpp

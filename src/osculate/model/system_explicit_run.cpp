@@ -152,12 +152,47 @@ Rates BasicSystem<Dim>::Impl::Explicit::begin(const State& committed, Rates rate
   system.last.forces.inertia = inertia_forces(rates.acceleration);
   Energies& e = rates.energies;
   e.kinetic = kinetic(rates.velocity);
-  const solid::CellEnergy bulk = bulk_energy(system.model, committed.u, committed.memory);
+  const solid::CellEnergy bulk = cells_energy(committed.u, committed.memory);
   e.strain = bulk.stored;
   if (committed.rates.empty()) e.plastic_before = bulk.dissipated;
   e.contact = system.motion->contact_energy();
   e.damped = system.motion->damping_work();
   return rates;
+}
+
+/// Batches, then cells by themselves, in order.
+template <int Dim>
+solid::CellEnergy BasicSystem<Dim>::Impl::Explicit::cells_energy(
+    const Eigen::VectorXd& u, const std::vector<double>& memory) const {
+  const auto fours = static_cast<std::ptrdiff_t>(batches.count());
+  const auto others = static_cast<std::ptrdiff_t>(batches.others().size());
+  std::vector<solid::CellEnergy> of_four(batches.count()), of_other(batches.others().size());
+  const auto alone = [&](std::size_t cell) {
+    const typename BulkTerm<Dim>::Job& job = system.bulk.jobs[cell];
+    return energy_of_cell(system.model, *job.section, job.cell, job.memory, u, memory);
+  };
+#pragma omp parallel num_threads(system.bulk.threads)
+  {
+#pragma omp for schedule(static)
+    for (std::ptrdiff_t b = 0; b < fours; ++b) {
+      const auto four = static_cast<std::size_t>(b);
+      if (batches.energy(four, u, of_four[four].stored)) continue;
+      of_four[four] = {};
+      for (const std::size_t cell : batches.jobs(four)) of_four[four].stored += alone(cell).stored;
+    }
+#pragma omp for schedule(static)
+    for (std::ptrdiff_t i = 0; i < others; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      of_other[at] = alone(batches.others()[at]);
+    }
+  }
+  solid::CellEnergy sum;
+  for (const auto* const energies : {&of_four, &of_other})
+    for (const solid::CellEnergy& e : *energies) {
+      sum.stored += e.stored;
+      sum.dissipated += e.dissipated;
+    }
+  return sum;
 }
 
 /// Energy that nothing has put in: the time step is not stable, whatever the estimate says.
@@ -193,7 +228,7 @@ void BasicSystem<Dim>::Impl::Explicit::add_energies(Rates& rates) {
   const Energies before = e;
   works.supports += kinetic_of_held(rates.velocity) - held_before;
   e.kinetic = kinetic(rates.velocity);
-  const solid::CellEnergy bulk = bulk_energy(system.model, now.u, now.memory);
+  const solid::CellEnergy bulk = cells_energy(now.u, now.memory);
   e.strain = bulk.stored;
   e.plastic = bulk.dissipated - e.plastic_before;
   e.contact = system.motion->contact_energy();

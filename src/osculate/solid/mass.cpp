@@ -9,7 +9,7 @@ NodeMass consistent_mass(const Section<Dim>& section, cell::CellType type,
                          const Coordinates<Dim>& reference) {
   const Eigen::Index n = reference.rows();
   NodeMass mass = NodeMass::Zero(n, n);
-  const Rule<Dim> rule = mass_rule<Dim>(type);
+  const Rule<Dim>& rule = mass_rule<Dim>(type);
   for (std::size_t q = 0; q < rule.points.size(); ++q) {
     const auto shape = rule.shape[q].n.head(n);
     mass +=

@@ -116,12 +116,17 @@ const Rule<3>& reduced_rule_of<3>(cell::CellType type) {
 }
 
 template <>
-Rule<2> mass_rule<2>(cell::CellType type) {
-  return with_shapes<2>(type, area_mass_rule(type));
+const Rule<2>& mass_rule<2>(cell::CellType type) {
+  const auto of = [](cell::CellType t) { return with_shapes<2>(t, area_mass_rule(t)); };
+  static const std::array<Rule<2>, 5> rules{of(tri3), of(tri6), of(quad4), of(quad8), of(quad9)};
+  return rules[static_cast<std::size_t>(type) - static_cast<std::size_t>(tri3)];
 }
 template <>
-Rule<3> mass_rule<3>(cell::CellType type) {
-  return with_shapes<3>(type, volume_mass_rule(type));
+const Rule<3>& mass_rule<3>(cell::CellType type) {
+  const auto of = [](cell::CellType t) { return with_shapes<3>(t, volume_mass_rule(t)); };
+  static const std::array<Rule<3>, 8> rules{of(tet4), of(tet10), of(wedge6), of(wedge15),
+                                            of(hex8), of(hex20), of(hex27),  of(shell18)};
+  return rules[static_cast<std::size_t>(type) - static_cast<std::size_t>(tet4)];
 }
 
 }  // namespace osculate::solid

@@ -47,7 +47,7 @@ template <int Dim>
 /// One that is exact for N_i N_j times the Jacobian (and the radius of a ring) of a straight-sided
 /// cell.
 template <int Dim>
-[[nodiscard]] Rule<Dim> mass_rule(cell::CellType type);
+[[nodiscard]] const Rule<Dim>& mass_rule(cell::CellType type);
 
 [[nodiscard]] inline bool is_ring(const Section<2>& section) {
   return section.assumption == Assumption::axisymmetric;

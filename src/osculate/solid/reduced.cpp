@@ -29,22 +29,11 @@ struct Term {
   int b = -1, j = -1;
 };
 
-/// E' of the directions and the shear modulus.
-template <int Dim>
-std::array<double, 2> moduli(const Section<Dim>& section) {
-  const auto [young, poisson] = material::unloaded(section.law);
-  double along = young;
-  if constexpr (Dim == 2) {
-    if (section.assumption != Assumption::plane_stress) along /= 1 - poisson * poisson;
-  }
-  return {along, young / 2 / (1 + poisson)};
-}
-
 /// Input      square: |G_i|^2
 template <int Dim>
 std::array<Term, Dim == 2 ? 2 : 12> terms(const Section<Dim>& section, double volume,
                                           const Vec<Dim>& square) {
-  const auto [along, shear] = moduli(section);
+  const auto [along, shear] = mode_moduli(section);
   std::array<Term, Dim == 2 ? 2 : 12> all{};
   std::size_t count = 0;
   for (int i = 0; i < Dim; ++i) {
@@ -128,6 +117,16 @@ void add_curvature(const ModeStrains<Dim>& m, int a, int i, double stress,
 }  // namespace
 
 template <int Dim>
+std::array<double, 2> mode_moduli(const Section<Dim>& section) {
+  const auto [young, poisson] = material::unloaded(section.law);
+  double along = young;
+  if constexpr (Dim == 2) {
+    if (section.assumption != Assumption::plane_stress) along /= 1 - poisson * poisson;
+  }
+  return {along, young / 2 / (1 + poisson)};
+}
+
+template <int Dim>
 bool fill_mean_point(const Section<Dim>& section, const Coordinates<Dim>& reference,
                      const Coordinates<Dim>& displacement, CornerPoint<Dim>& p) {
   constexpr int n = corners<Dim>;
@@ -190,12 +189,14 @@ Hourglass<Dim> hourglass(const Section<Dim>& section, const Coordinates<Dim>& re
   }
   if constexpr (Dim == 2) {
     if (is_ring(section))
-      add_ring(moduli(section)[0] * p.volume / 3, centre, reference, displacement, with_tangent,
-               out);
+      add_ring(mode_moduli(section)[0] * p.volume / 3, centre, reference, displacement,
+               with_tangent, out);
   }
   return out;
 }
 
+template std::array<double, 2> mode_moduli(const Section<2>&);
+template std::array<double, 2> mode_moduli(const Section<3>&);
 template bool fill_mean_point(const Section<2>&, const Coordinates<2>&, const Coordinates<2>&,
                               CornerPoint<2>&);
 template bool fill_mean_point(const Section<3>&, const Coordinates<3>&, const Coordinates<3>&,

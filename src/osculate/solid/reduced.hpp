@@ -15,6 +15,10 @@ template <int Dim>
 [[nodiscard]] bool fill_mean_point(const Section<Dim>& section, const Coordinates<Dim>& reference,
                                    const Coordinates<Dim>& displacement, CornerPoint<Dim>& p);
 
+/// E' of the directions and mu of the modes (below).
+template <int Dim>
+[[nodiscard]] std::array<double, 2> mode_moduli(const Section<Dim>& section);
+
 /// Energy of the modes that the mean strain does not see, its derivative, and the lower triangle of
 /// the second one.
 ///

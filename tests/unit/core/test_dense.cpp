@@ -24,6 +24,14 @@ TEST(Dense, ASpectrumGivesTheMatrixBack) {
   EXPECT_LT((eigenvalues(symmetric) - s.values).norm(), 1e-13);
 }
 
+TEST(Dense, EigenvaluesAreBelowWhatIsAboveTheLargest) {
+  const Eigen::MatrixXd m = sample(6, 6), symmetric = m + m.transpose();
+  const double largest = eigenvalues(symmetric).maxCoeff();
+  EXPECT_TRUE(eigenvalues_below(symmetric, largest * (1 + 1e-12)));
+  EXPECT_FALSE(eigenvalues_below(symmetric, largest * (1 - 1e-12)));
+  EXPECT_FALSE(eigenvalues_below(symmetric, 0));
+}
+
 TEST(Dense, SingularValuesGiveTheMatrixBack) {
   const Eigen::MatrixXd m = sample(4, 4);
   const SingularValues s = singular_values(m);

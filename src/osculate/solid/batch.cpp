@@ -1,0 +1,287 @@
+#include "osculate/solid/batch.hpp"
+
+#include <Eigen/LU>
+
+#include "osculate/solid/batch_kernels.hpp"
+#include "osculate/solid/points.hpp"
+#include "osculate/solid/reduced.hpp"
+
+namespace osculate::solid {
+namespace {
+
+using batches::mode_count;
+using core::Pack;
+
+/// Linear modes of a quad4 or hex8, in which it does not strain or strains by one component, and
+/// modes without mean strain, dual to gamma_a; columns of displacements.
+template <int Dim>
+struct CellBasis {
+  static constexpr int nodes = corners<Dim>, dofs = Dim * nodes, modes = mode_count<Dim>;
+  CornerPoint<Dim> mean;  ///< volume and mean gradients
+  Mat<modes, Dim> slant;  ///< h_a . X / nodes
+  Mat<dofs, components<Dim>> of_strain = Mat<dofs, components<Dim>>::Zero();
+  Mat<dofs, Dim* modes> of_mode = Mat<dofs, Dim * modes>::Zero();
+};
+
+template <int Dim>
+CellBasis<Dim> basis_of(const Section<Dim>& section, const Coordinates<Dim>& reference) {
+  using Basis = CellBasis<Dim>;
+  constexpr int nodes = Basis::nodes, modes = Basis::modes;
+  Basis b;
+  const Mat<nodes, Dim> x = reference;
+  (void)fill_mean_point<Dim>(section, reference, Coordinates<Dim>::Zero(nodes, Dim), b.mean);
+  Mat<nodes, modes> h;
+  for (int a = 0; a < modes; ++a)
+    for (int k = 0; k < nodes; ++k) {
+      const Vec<Dim> xi = node_at<Dim>(corner_cell<Dim>, k);
+      h(k, a) = Dim == 3 && a < 3 ? xi.prod() / xi[a] : xi.prod();
+    }
+  b.slant = h.transpose() * x / nodes;
+  const Mat<nodes, modes> gamma = h / nodes - b.mean.gradient * b.slant.transpose();
+  const Mat<nodes, modes> plain = h * (gamma.transpose() * h).eval().inverse();
+  const Mat<nodes, modes> dual = plain - x * (b.mean.gradient.transpose() * plain);
+  const Eigen::Matrix<double, 1, Dim> centre = x.colwise().mean();
+  for (int k = 0; k < nodes; ++k) {
+    for (int a = 0; a < modes; ++a)
+      for (int i = 0; i < Dim; ++i) b.of_mode(Dim * k + i, Dim * a + i) = dual(k, a);
+    for (int i = 0; i < Dim; ++i)
+      for (int j = i; j < Dim; ++j) {
+        const auto column = static_cast<Eigen::Index>(component(i, j));
+        b.of_strain(Dim * k + i, column) += 0.5 * (x(k, j) - centre[j]);
+        b.of_strain(Dim * k + j, column) += 0.5 * (x(k, i) - centre[i]);
+      }
+  }
+  return b;
+}
+
+/// The cell as it is evaluated by itself.
+template <int Dim>
+ElementMatrix<Dim> stiffness_of_cell(const Section<Dim>& section, cell::CellType type,
+                                     const Coordinates<Dim>& reference) {
+  ElementResult<Dim> result;
+  evaluate(section, type, reference, Coordinates<Dim>::Zero(reference.rows(), Dim), true, result);
+  if (result.status != Status::ok) result.tangent.setZero(reference.size(), reference.size());
+  return result.tangent;
+}
+
+template <int Dim>
+void keep_mean(const CellBasis<Dim>& b, int lane, Pack*& at) {
+  const auto put = [&](double value) { (at++)->set(lane, value); };
+  put(b.mean.volume);
+  for (int k = 0; k < CellBasis<Dim>::nodes; ++k)
+    for (int j = 0; j < Dim; ++j) put(b.mean.gradient(k, j));
+  for (int a = 0; a < CellBasis<Dim>::modes; ++a)
+    for (int j = 0; j < Dim; ++j) put(b.slant(a, j));
+}
+
+/// Whether the kept numbers give the forces of the stiffness, at displacements that have a share of
+/// every mode.
+template <int Dim>
+bool gives_forces(const Batch<Dim>& batch, const ElementMatrix<Dim>& stiffness, int lane,
+                  const Pack* numbers) {
+  constexpr int dofs = CellBasis<Dim>::dofs;
+  constexpr double tolerance = 1e-12;
+  Vec<dofs> u, got;
+  std::array<Pack, dofs> of_u, force;
+  for (int d = 0; d < dofs; ++d) {
+    u[d] = std::sin(1.0 + 2.3 * d * d);
+    of_u[static_cast<std::size_t>(d)] = Pack(u[d]);
+  }
+  batches::linear_forces<Dim>(batch, numbers, of_u.data(), force.data());
+  for (int d = 0; d < dofs; ++d) got[d] = force[static_cast<std::size_t>(d)][lane];
+  const Vec<dofs> want = stiffness * u;
+  return (got - want).norm() <= tolerance * stiffness.norm() * u.norm();
+}
+
+template <int Dim>
+bool keep_linear(const Batch<Dim>& batch, const Coordinates<Dim>& reference, int lane,
+                 Pack* numbers) {
+  const CellBasis<Dim> b = basis_of(batch.section, reference);
+  const ElementMatrix<Dim> k = stiffness_of_cell(batch.section, batch.type, reference);
+  Pack* at = numbers;
+  keep_mean(b, lane, at);
+  constexpr int M = Dim * mode_count<Dim>;
+  const Mat<CellBasis<Dim>::dofs, M> pushed = k * b.of_mode;
+  const Mat<M, M> own = b.of_mode.transpose() * pushed;
+  for (int r = 0; r < M; ++r)
+    for (int c = r; c < M; ++c) (at++)->set(lane, own(r, c));
+  return gives_forces(batch, k, lane, numbers);
+}
+
+template <int Dim>
+void keep_one_point(const Batch<Dim>& batch, const Coordinates<Dim>& reference, int lane,
+                    Pack* numbers) {
+  const CellBasis<Dim> b = basis_of(batch.section, reference);
+  Pack* at = numbers;
+  keep_mean(b, lane, at);
+  const Shape<Dim> centre = shape_at<Dim>(corner_cell<Dim>, Vec<Dim>::Zero());
+  const Mat<Dim, Dim> base = reference.transpose() * centre.d.template topRows<corners<Dim>>();
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) (at++)->set(lane, base(i, j));
+  for (int i = 0; i < Dim; ++i) (at++)->set(lane, 1 / base.col(i).squaredNorm());
+}
+
+template <int Dim>
+void keep_points(const Coordinates<Dim>& reference, int lane, Pack* numbers) {
+  for (int i = 0; i < Dim; ++i) {
+    OfCorners<Dim, double> v;
+    for (std::size_t c = 0; c < v.size(); ++c) v[c] = reference(corner_node<Dim>[c], i);
+    to_products(v);
+    for (std::size_t m = 1; m < v.size(); ++m)
+      (numbers++)->set(lane, v[m] / static_cast<double>(v.size()));
+  }
+}
+
+template <int Dim>
+void keep_simplex(const Batch<Dim>& batch, const Coordinates<Dim>& reference, int lane,
+                  Pack* numbers) {
+  const Rule<Dim>& rule = rule_of(batch.section, batch.type);
+  Point<Dim, Dim + 1> p;
+  const Mat<Dim + 1, Dim> x = reference, u = Mat<Dim + 1, Dim>::Zero();
+  (void)fill_point<Dim, Dim + 1>(batch.section, rule.shape[0], rule.weights[0], x, u, p);
+  (numbers++)->set(lane, p.volume);
+  for (int k = 0; k <= Dim; ++k)
+    for (int j = 0; j < Dim; ++j) (numbers++)->set(lane, p.gradient(k, j));
+}
+
+bool strained_in_plane(const Section<2>& s) { return s.assumption == Assumption::plane_strain; }
+bool strained_in_plane(const Section<3>&) { return true; }
+
+/// The stress follows from the strain alone, everywhere in the same way.
+bool follows_strain(const material::Law& law) {
+  return material::memory_of(law).empty() && !material::directional(law) &&
+         !material::over_temperature(law) && !material::takes_temperature(law);
+}
+
+template <int Dim>
+std::optional<BatchKind> kind_of(const Section<Dim>& section, cell::CellType type) {
+  constexpr cell::CellType simplex = Dim == 2 ? cell::CellType::tri3 : cell::CellType::tet4;
+  if (section.formulation == Formulation::solid_shell || is_ring(section)) return {};
+  const bool corner = type == corner_cell<Dim>,
+             plain = follows_strain(section.law) && strained_in_plane(section);
+  const bool reduced = section.formulation == Formulation::reduced;
+  const bool small = section.kinematics == Kinematics::small;
+  if (small && (!material::linear(section.law) || material::over_temperature(section.law)))
+    return {};
+  if (plain && type == simplex) return BatchKind::simplex;
+  if (plain && corner && reduced) return BatchKind::one_point;
+  if (!corner) return {};
+  if (small) return BatchKind::linear;
+  const bool full =
+      section.formulation == Formulation::full || section.formulation == Formulation::bbar;
+  return plain && full ? std::optional(BatchKind::points) : std::nullopt;
+}
+
+template <int Dim>
+std::size_t numbers_of(BatchKind kind) {
+  constexpr int modes = Dim * mode_count<Dim>, nodes = 1 << Dim;
+  switch (kind) {
+    case BatchKind::linear:
+      return 1 + Dim * nodes + modes + modes * (modes + 1) / 2;
+    case BatchKind::one_point:
+      return 1 + Dim * nodes + modes + Dim * Dim + Dim;
+    case BatchKind::points:
+      return Dim * (nodes - 1);
+    default:
+      return 1 + Dim * (Dim + 1);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+std::optional<Batch<Dim>> batch_of(const Section<Dim>& section, cell::CellType type,
+                                   const Coordinates<Dim>& reference) {
+  const std::optional<BatchKind> kind = kind_of(section, type);
+  if (!kind) return {};
+  Batch<Dim> batch{*kind, type, section, {}, numbers_of<Dim>(*kind)};
+  batch.stiffness.setZero();
+  if (*kind == BatchKind::linear) {
+    const CellBasis<Dim> b = basis_of(section, reference);
+    const ElementMatrix<Dim> k = stiffness_of_cell(section, type, reference);
+    batch.stiffness = b.of_strain.transpose() * (k * b.of_strain).eval() / b.mean.volume;
+  }
+  return batch;
+}
+
+template <int Dim>
+bool keep_in(const Batch<Dim>& batch, const Coordinates<Dim>& reference, int lane, Pack* numbers) {
+  switch (batch.kind) {
+    case BatchKind::linear:
+      return keep_linear(batch, reference, lane, numbers);
+    case BatchKind::one_point:
+      keep_one_point(batch, reference, lane, numbers);
+      return true;
+    case BatchKind::points:
+      keep_points<Dim>(reference, lane, numbers);
+      return true;
+    default:
+      keep_simplex(batch, reference, lane, numbers);
+      return true;
+  }
+}
+
+template <int Dim>
+bool batch_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, Pack* force) {
+  const material::Law& law = batch.section.law;
+  const double depth = depth_at(batch.section, 0);
+  switch (batch.kind) {
+    case BatchKind::linear:
+      batches::linear_forces<Dim>(batch, numbers, u, force);
+      return true;
+    case BatchKind::one_point:
+      return batches::one_point_forces<Dim>(batch, mode_moduli(batch.section), numbers, u, force);
+    case BatchKind::points:
+      return batch.section.formulation == Formulation::bbar
+                 ? batches::points_forces<true, Dim>(law, depth, numbers, u, force)
+                 : batches::points_forces<false, Dim>(law, depth, numbers, u, force);
+    default:
+      return batches::simplex_forces<Dim>(batch, numbers, u, force);
+  }
+}
+
+/// Small strains: f . u / 2, of a linear law.
+template <int Dim>
+bool batch_energy(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, Pack& energy) {
+  const int nodes = cell::info(batch.type).nodes;
+  if (batch.section.kinematics == Kinematics::small) {
+    std::array<Pack, CellBasis<Dim>::dofs> force;
+    if (!batch_forces(batch, numbers, u, force.data())) return false;
+    energy = Pack::Zero();
+    for (int d = 0; d < Dim * nodes; ++d) energy += 0.5 * force[static_cast<std::size_t>(d)] * u[d];
+    return true;
+  }
+  if (batch.kind == BatchKind::points) {
+    const double depth = depth_at(batch.section, 0);
+    return batch.section.formulation == Formulation::bbar
+               ? batches::points_energy<true, Dim>(batch.section.law, depth, numbers, u, energy)
+               : batches::points_energy<false, Dim>(batch.section.law, depth, numbers, u, energy);
+  }
+  if (batch.kind == BatchKind::one_point) {
+    energy = batches::one_point_energy<Dim>(batch, mode_moduli(batch.section), numbers, u);
+    return true;
+  }
+  const batches::Kept<Dim> kept(numbers, nodes);
+  batches::Matrix<Dim> h;
+  batches::mean_gradient<Dim, Dim + 1>(kept.gradient, u, h);
+  energy = *kept.volume * batches::gradient_energy<Dim>(batch, h);
+  return true;
+}
+
+template <int Dim>
+bool linear_batch(const Batch<Dim>& batch) {
+  return batch.section.kinematics == Kinematics::small && material::linear(batch.section.law);
+}
+
+template bool batch_energy(const Batch<2>&, const Pack*, const Pack*, Pack&);
+template bool batch_energy(const Batch<3>&, const Pack*, const Pack*, Pack&);
+template bool linear_batch(const Batch<2>&);
+template bool linear_batch(const Batch<3>&);
+template std::optional<Batch<2>> batch_of(const Section<2>&, cell::CellType, const Coordinates<2>&);
+template std::optional<Batch<3>> batch_of(const Section<3>&, cell::CellType, const Coordinates<3>&);
+template bool keep_in(const Batch<2>&, const Coordinates<2>&, int, Pack*);
+template bool keep_in(const Batch<3>&, const Coordinates<3>&, int, Pack*);
+template bool batch_forces(const Batch<2>&, const Pack*, const Pack*, Pack*);
+template bool batch_forces(const Batch<3>&, const Pack*, const Pack*, Pack*);
+
+}  // namespace osculate::solid

@@ -1,0 +1,477 @@
+#pragma once
+// The forces of four cells at once (batch.hpp). For batch.cpp.
+#include <array>
+
+#include "osculate/material/pointwise.hpp"
+#include "osculate/solid/batch.hpp"
+#include "osculate/solid/corner_modes.hpp"
+#include "osculate/solid/finite_point.hpp"
+
+namespace osculate::solid::batches {
+
+using core::Pack;
+template <int Dim>
+using Matrix = PointMatrix<Dim, Pack>;
+template <int Dim>
+using Strains = std::array<Pack, static_cast<std::size_t>(components<Dim>)>;
+
+/// The products beyond linear ones, as reduced.hpp counts them: without xi_a, and all three.
+template <int Dim>
+inline constexpr std::array<std::size_t, Dim == 2 ? 1 : 4> mode_product = {};
+template <>
+inline constexpr std::array<std::size_t, 1> mode_product<2> = {3};
+template <>
+inline constexpr std::array<std::size_t, 4> mode_product<3> = {6, 5, 3, 7};
+template <int Dim>
+inline constexpr int mode_count = Dim == 2 ? 1 : 4;
+
+/// Numbers of a cell: its volume, the mean gradients dN_k/dX_j (at Dim k + j), and for quad4 and
+/// hex8  h_a . X_j / 2^Dim  (at Dim a + j), before what the kind keeps besides.
+template <int Dim>
+struct Kept {
+  const Pack* volume;
+  const Pack* gradient;
+  const Pack* slant;
+  const Pack* more;
+  Kept(const Pack* numbers, int nodes)
+      : volume(numbers),
+        gradient(volume + 1),
+        slant(gradient + Dim * nodes),
+        more(slant + Dim * mode_count<Dim>) {}
+};
+
+/// Mean displacement gradient du_i/dX_j.
+template <int Dim, int Nodes>
+inline void mean_gradient(const Pack* gradient, const Pack* u, Matrix<Dim>& h) {
+  repeat<Dim>([&](auto i) {
+    repeat<Dim>([&](auto j) {
+      Pack sum = u[i()] * gradient[j()];
+      repeat<Nodes - 1>(
+          [&](auto k) { sum += u[Dim * (k() + 1) + i()] * gradient[Dim * (k() + 1) + j()]; });
+      h(i(), j()) = sum;
+    });
+  });
+}
+
+/// Factors of the products of coordinates in the displacements, times 2^Dim.
+template <int Dim>
+using Products = std::array<OfCorners<Dim, Pack>, static_cast<std::size_t>(Dim)>;
+template <int Dim>
+inline void set_products(const Pack* u, Products<Dim>& out) {
+  repeat<Dim>([&](auto i) {
+    repeat<1 << Dim>([&](auto c) { out[i()][c()] = u[Dim * corner_node<Dim>[c()] + i()]; });
+    to_products(out[i()]);
+  });
+}
+
+/// What a mean displacement gradient and the modes that it does not see do.
+template <int Dim>
+struct Uniform {
+  static constexpr int modes = mode_count<Dim>;
+  static constexpr double share = 1.0 / (1 << Dim);
+  Products<Dim> product;
+  Matrix<Dim> h;
+  std::array<Pack, static_cast<std::size_t>(Dim* modes)> q;  ///< gamma_a . u_i at Dim a + i
+};
+template <int Dim>
+inline void measure(const Kept<Dim>& kept, const Pack* u, Uniform<Dim>& out) {
+  set_products<Dim>(u, out.product);
+  mean_gradient<Dim, 1 << Dim>(kept.gradient, u, out.h);
+  repeat<mode_count<Dim>>([&](auto a) {
+    repeat<Dim>([&](auto i) {
+      Pack sum = Uniform<Dim>::share * out.product[i()][mode_product<Dim>[a()]];
+      repeat<Dim>([&](auto j) { sum -= kept.slant[Dim * a() + j()] * out.h(i(), j()); });
+      out.q[Dim * a() + i()] = sum;
+    });
+  });
+}
+/// Forces of what works on the gradient (volume included), on the modes and on the linear products
+/// (share included).
+template <int Dim>
+inline void spread(const Kept<Dim>& kept, Matrix<Dim>& on_gradient,
+                   const decltype(Uniform<Dim>::q)& on_mode, const Matrix<Dim>* on_linear,
+                   Pack* force) {
+  constexpr double share = Uniform<Dim>::share;
+  repeat<mode_count<Dim>>([&](auto a) {
+    repeat<Dim>([&](auto i) {
+      repeat<Dim>([&](auto j) {
+        on_gradient(i(), j()) -= on_mode[Dim * a() + i()] * kept.slant[Dim * a() + j()];
+      });
+    });
+  });
+  repeat<Dim>([&](auto i) {
+    OfCorners<Dim, Pack> v;
+    v[0] = Pack::Zero();
+    repeat<Dim>([&](auto j) {
+      v[std::size_t{1} << j()] = on_linear ? share * (*on_linear)(i(), j()) : Pack::Zero();
+    });
+    repeat<mode_count<Dim>>(
+        [&](auto a) { v[mode_product<Dim>[a()]] = share * on_mode[Dim * a() + i()]; });
+    from_products(v);
+    repeat<1 << Dim>([&](auto c) {
+      constexpr int k = corner_node<Dim>[c()];
+      Pack sum = v[c()];
+      repeat<Dim>([&](auto j) { sum += on_gradient(i(), j()) * kept.gradient[Dim * k + j()]; });
+      force[Dim * k + i()] = sum;
+    });
+  });
+}
+
+/// Small strain of a displacement gradient.
+template <int Dim>
+inline void small_strain(const Matrix<Dim>& h, Strains<Dim>& e) {
+  e[2] = Pack::Zero();
+  for (int i = 0; i < Dim; ++i) {
+    e[component(i, i)] = h(i, i);
+    for (int j = i + 1; j < Dim; ++j) e[component(i, j)] = h(i, j) + h(j, i);
+  }
+}
+
+/// Weighted stress that works on the gradient at one point; false: no answer.
+template <int Dim>
+[[nodiscard]] inline bool work_on_gradient(const Section<Dim>& section, const Matrix<Dim>& h,
+                                           const Pack& volume, Matrix<Dim>& out) {
+  Strains<Dim> strain, stress;
+  Matrix<Dim> f = h;
+  const bool finite = section.kinematics == Kinematics::finite;
+  if (finite) {
+    for (int i = 0; i < Dim; ++i) f(i, i) += 1;
+    Matrix<Dim> cofactor;
+    if (!core::everywhere(cofactors(f, cofactor) > 0)) return false;
+    green_lagrange(h, strain);
+  } else {
+    small_strain<Dim>(h, strain);
+  }
+  if (!material::stresses<components<Dim>>(section.law, 1, &strain, &stress)) return false;
+  if (finite) {
+    weighted_first_stress(f, stress, volume, out);
+    return true;
+  }
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) out(i, j) = volume * stress[component(i, j)];
+  return true;
+}
+
+template <int Dim>
+void linear_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u, Pack* force) {
+  constexpr int C = components<Dim>, M = Dim * mode_count<Dim>;
+  const Kept<Dim> kept(numbers, 1 << Dim);
+  Uniform<Dim> at;
+  measure(kept, u, at);
+  Strains<Dim> strain, stress;
+  small_strain<Dim>(at.h, strain);
+  for (int i = 0; i < C; ++i) {
+    Pack sum = batch.stiffness(i, 0) * strain[0];
+    for (int j = 1; j < C; ++j) sum += batch.stiffness(i, j) * strain[static_cast<std::size_t>(j)];
+    stress[static_cast<std::size_t>(i)] = *kept.volume * sum;
+  }
+  Matrix<Dim> on_gradient;
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) on_gradient(i, j) = stress[component(i, j)];
+  std::array<Pack, M> w;
+  const Pack* k = kept.more;  // the upper triangle, row by row
+  repeat<M>([&](auto r) { w[r()] = Pack::Zero(); });
+  repeat<M>([&](auto r) {
+    Pack sum = w[r()] + *k++ * at.q[r()];
+    repeat<M>([&](auto c) {
+      if constexpr (c() > r()) {
+        const Pack value = *k++;
+        sum += value * at.q[c()];
+        w[c()] += value * at.q[r()];
+      }
+    });
+    w[r()] = sum;
+  });
+  spread<Dim>(kept, on_gradient, w, nullptr, force);
+}
+
+/// What the modes of reduced.hpp do: see there for the energy.
+///
+/// Input      base: g_i in columns; inverse: 1/|G_i|^2; along: E' V, shear: mu V
+/// Returns    what works on q_a (at Dim a + i); what works on g_i, in columns
+template <int Dim>
+inline void mode_work(const decltype(Uniform<Dim>::q)& q, const Matrix<Dim>& base,
+                      const Pack* inverse, const Pack& along, const Pack& shear,
+                      decltype(Uniform<Dim>::q)& on_mode, Matrix<Dim>& on_base) {
+  constexpr int M = mode_count<Dim>;
+  std::array<std::array<Pack, Dim>, M> s;  // Q_ai, then what works on them
+  repeat<M>([&](auto a) {
+    repeat<Dim>([&](auto i) {
+      Pack sum = q[Dim * a()] * base(0, i());
+      repeat<Dim - 1>([&](auto k) { sum += q[Dim * a() + k() + 1] * base(k() + 1, i()); });
+      s[a()][i()] = sum;
+    });
+  });
+  std::array<Pack, Dim> diagonal;
+  if constexpr (Dim == 3) repeat<3>([&](auto i) { diagonal[i()] = s[i()][i()]; });
+  repeat<Dim>([&](auto i) {
+    const Pack weight = along * inverse[i()] * inverse[i()];
+    repeat<M>([&](auto a) {
+      if constexpr (Dim == 2 || a() != i()) s[a()][i()] *= weight * (a() == 3 ? 1.0 / 9 : 1.0 / 3);
+    });
+  });
+  if constexpr (Dim == 3) {
+    std::array<Pack, 3> t;
+    repeat<3>([&](auto i) {
+      constexpr std::size_t j = (i() + 1) % 3;
+      t[i()] = 1.0 / 3 * shear * inverse[i()] * inverse[j] * (diagonal[i()] + diagonal[j]);
+    });
+    repeat<3>([&](auto i) { s[i()][i()] = t[i()] + t[(i() + 2) % 3]; });
+  }
+  repeat<M>([&](auto a) {
+    repeat<Dim>([&](auto k) {
+      Pack sum = s[a()][0] * base(k(), 0);
+      repeat<Dim - 1>([&](auto i) { sum += s[a()][i() + 1] * base(k(), i() + 1); });
+      on_mode[Dim * a() + k()] = sum;
+    });
+  });
+  repeat<Dim>([&](auto k) {
+    repeat<Dim>([&](auto i) {
+      Pack sum = s[0][i()] * q[k()];
+      repeat<M - 1>([&](auto a) { sum += s[a() + 1][i()] * q[Dim * (a() + 1) + k()]; });
+      on_base(k(), i()) = sum;
+    });
+  });
+}
+
+/// Input      moduli: E' and mu, as reduced.hpp has them
+template <int Dim>
+inline void one_point_modes(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
+                            const Kept<Dim>& kept, const Uniform<Dim>& at,
+                            decltype(Uniform<Dim>::q)& on_mode, Matrix<Dim>& on_base) {
+  Matrix<Dim> base;
+  const bool finite = batch.section.kinematics == Kinematics::finite;
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) base(i, j) = kept.more[Dim * i + j];
+  if (finite)
+    repeat<Dim>([&](auto i) {
+      repeat<Dim>([&](auto j) {
+        base(i(), j()) += Uniform<Dim>::share * at.product[i()][std::size_t{1} << j()];
+      });
+    });
+  mode_work<Dim>(at.q, base, kept.more + Dim * Dim, moduli[0] * *kept.volume,
+                 moduli[1] * *kept.volume, on_mode, on_base);
+}
+template <int Dim>
+[[nodiscard]] bool one_point_forces(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
+                                    const Pack* numbers, const Pack* u, Pack* force) {
+  const Kept<Dim> kept(numbers, 1 << Dim);
+  Uniform<Dim> at;
+  measure(kept, u, at);
+  Matrix<Dim> on_gradient, on_base;
+  if (!work_on_gradient<Dim>(batch.section, at.h, *kept.volume, on_gradient)) return false;
+  const bool finite = batch.section.kinematics == Kinematics::finite;
+  decltype(at.q) on_mode;
+  one_point_modes<Dim>(batch, moduli, kept, at, on_mode, on_base);
+  spread<Dim>(kept, on_gradient, on_mode, finite ? &on_base : nullptr, force);
+  return true;
+}
+
+/// Energy per volume of a finite displacement gradient.
+template <int Dim>
+[[nodiscard]] Pack gradient_energy(const Batch<Dim>& batch, const Matrix<Dim>& h) {
+  Strains<Dim> strain;
+  green_lagrange(h, strain);
+  return material::stored_energies<components<Dim>>(batch.section.law, strain);
+}
+/// In finite strain; of a quadratic form in the modes  sum_a (work on q_a) . q_a / 2.
+template <int Dim>
+[[nodiscard]] Pack one_point_energy(const Batch<Dim>& batch, const std::array<double, 2>& moduli,
+                                    const Pack* numbers, const Pack* u) {
+  const Kept<Dim> kept(numbers, 1 << Dim);
+  Uniform<Dim> at;
+  measure(kept, u, at);
+  decltype(at.q) on_mode;
+  Matrix<Dim> on_base;
+  one_point_modes<Dim>(batch, moduli, kept, at, on_mode, on_base);
+  Pack sum = Pack::Zero();
+  for (std::size_t m = 0; m < on_mode.size(); ++m) sum += on_mode[m] * at.q[m];
+  return *kept.volume * gradient_energy(batch, at.h) + 0.5 * sum;
+}
+
+template <int Dim>
+[[nodiscard]] bool simplex_forces(const Batch<Dim>& batch, const Pack* numbers, const Pack* u,
+                                  Pack* force) {
+  const Kept<Dim> kept(numbers, Dim + 1);
+  Matrix<Dim> h, work;
+  mean_gradient<Dim, Dim + 1>(kept.gradient, u, h);
+  if (!work_on_gradient<Dim>(batch.section, h, *kept.volume, work)) return false;
+  for (int k = 0; k <= Dim; ++k)
+    for (int i = 0; i < Dim; ++i) {
+      Pack sum = work(i, 0) * kept.gradient[Dim * k];
+      for (int j = 1; j < Dim; ++j) sum += work(i, j) * kept.gradient[Dim * k + j];
+      force[Dim * k + i] = sum;
+    }
+  return true;
+}
+
+/// One Gauss point of a cell in finite strain.
+template <int Dim>
+struct FinitePoint {
+  Matrix<Dim> inverse;  ///< dxi_j/dX_i at (i, j)
+  Matrix<Dim> f, of_f;  ///< deformation gradient; its cofactors, with the mean dilatation
+  Pack volume, ratio;   ///< undeformed; det F
+  Pack growth;          ///< det F - 1, with the mean dilatation
+  Pack weight;          ///< of the stress that works on the change of B: V m
+};
+/// All of them.
+template <int Dim>
+struct FinitePoints {
+  static constexpr std::size_t count = std::size_t{1} << Dim;
+  using Slopes = std::array<PointSlopes<Dim, Pack>, static_cast<std::size_t>(Dim)>;
+  std::array<FinitePoint<Dim>, count> point;
+  std::array<Strains<Dim>, count> strain, stress;
+  Pack total, grown;  ///< sum V , sum V (J - 1), with the mean dilatation
+};
+template <int Dim>
+inline Matrix<Dim> slopes_at(const typename FinitePoints<Dim>::Slopes& slopes, std::size_t q) {
+  Matrix<Dim> m;
+  repeat<Dim>([&](auto i) { repeat<Dim>([&](auto j) { m(i(), j()) = slopes[i()].at(j(), q); }); });
+  return m;
+}
+/// Without the mean dilatation nobody needs cofactors and growth.
+template <bool Mean, int Dim>
+inline void set_point(const Matrix<Dim>& jacobian, const Matrix<Dim>& slope, double depth,
+                      FinitePoint<Dim>& p, Strains<Dim>& strain) {
+  const Pack determinant = cofactors(jacobian, p.inverse);
+  p.volume = p.weight = depth * determinant;
+  const Pack scale = 1 / determinant;
+  repeat<Dim * Dim>([&](auto e) { p.inverse.entry[e()] *= scale; });
+  Matrix<Dim> h;
+  times_transposed(slope, p.inverse, h);
+  p.f = h;
+  repeat<Dim>([&](auto i) { p.f(i(), i()) += 1; });
+  Matrix<Dim> of_f;
+  p.ratio = cofactors(p.f, of_f);
+  green_lagrange(h, strain);
+  if constexpr (Mean) {
+    p.growth = volume_change(h, of_f);
+    p.of_f = of_f;
+  }
+}
+/// Slopes of reference and displacements.
+///
+/// Input      numbers: factors of the products of coordinates in X, but the constant ones
+template <int Dim>
+inline void set_cell_slopes(const Pack* numbers, const Pack* u,
+                            typename FinitePoints<Dim>::Slopes& reference,
+                            typename FinitePoints<Dim>::Slopes& displacement) {
+  constexpr int Q = static_cast<int>(FinitePoints<Dim>::count);
+  Products<Dim> product;
+  set_products<Dim>(u, product);
+  repeat<Dim>([&](auto i) {
+    OfCorners<Dim, Pack> of_reference;
+    of_reference[0] = Pack::Zero();
+    repeat<Q - 1>([&](auto m) {
+      of_reference[m() + 1] = numbers[(Q - 1) * i() + m()];
+      product[i()][m() + 1] *= Uniform<Dim>::share;
+    });
+    set_slopes<Dim>(of_reference, reference[i()]);
+    set_slopes<Dim>(product[i()], displacement[i()]);
+  });
+}
+/// Kinematics of finite_forces.hpp, where the formulas stand; false: turned inside out.
+template <bool Mean, int Dim>
+[[nodiscard]] bool set_finite_points(double depth, const Pack* numbers, const Pack* u,
+                                     FinitePoints<Dim>& out) {
+  typename FinitePoints<Dim>::Slopes reference, displacement;
+  set_cell_slopes<Dim>(numbers, u, reference, displacement);
+  out.total = out.grown = Pack::Zero();
+  Pack::Mask upright = Pack(1.0) > 0.0;
+  for (std::size_t q = 0; q < out.point.size(); ++q) {
+    FinitePoint<Dim>& p = out.point[q];
+    set_point<Mean, Dim>(slopes_at<Dim>(reference, q), slopes_at<Dim>(displacement, q), depth, p,
+                         out.strain[q]);
+    upright = upright && p.ratio > 0;
+    if constexpr (Mean) {
+      out.total += p.volume;
+      out.grown += p.volume * p.growth;
+    }
+  }
+  if (!core::everywhere(upright)) return false;
+  if constexpr (Mean) {
+    const Pack mean = out.grown / out.total;
+    for (std::size_t q = 0; q < out.point.size(); ++q) {
+      const VolumeRatio<Pack> ratio(mean, out.point[q].growth);
+      ratio.apply(out.strain[q]);
+      out.point[q].weight *= ratio.m;
+    }
+  }
+  return true;
+}
+/// Forces of what works on the slopes along xi.
+template <int Dim>
+inline void forces_of_slopes(typename FinitePoints<Dim>::Slopes& work, Pack* force) {
+  repeat<Dim>([&](auto i) {
+    OfCorners<Dim, Pack> v;
+    for (Pack& value : v) value = Pack::Zero();
+    add_transposed<Dim>(work[i()], v);
+    for (Pack& value : v) value *= Uniform<Dim>::share;
+    from_products(v);
+    repeat<1 << Dim>([&](auto at) { force[Dim * corner_node<Dim>[at()] + i()] = v[at()]; });
+  });
+}
+
+/// Adds what a point has to what works on the slopes.
+template <int Dim>
+inline void add_pulled(const Matrix<Dim>& first_stress, const Matrix<Dim>& inverse, std::size_t q,
+                       typename FinitePoints<Dim>::Slopes& work) {
+  Matrix<Dim> slope;
+  times(first_stress, inverse, slope);
+  repeat<Dim>(
+      [&](auto i) { repeat<Dim>([&](auto j) { work[i()].at(j(), q) += slope(i(), j()); }); });
+}
+template <int Dim>
+inline void clear(typename FinitePoints<Dim>::Slopes& work) {
+  for (auto& of_direction : work)
+    for (auto& along : of_direction.along) along.fill(Pack::Zero());
+}
+
+template <bool Mean, int Dim>
+[[nodiscard]] bool points_forces(const material::Law& law, double depth, const Pack* numbers,
+                                 const Pack* u, Pack* force) {
+  constexpr std::size_t Q = FinitePoints<Dim>::count;
+  FinitePoints<Dim> cell;
+  if (!set_finite_points<Mean>(depth, numbers, u, cell) ||
+      !material::stresses<components<Dim>>(law, Q, cell.strain.data(), cell.stress.data()))
+    return false;
+  std::array<Pack, Q> growing;  // V c
+  Pack per_volume = Pack::Zero();
+  if constexpr (Mean) {
+    for (std::size_t q = 0; q < Q; ++q) {
+      growing[q] = cell.point[q].volume * work_of_growth(cell.strain[q], cell.stress[q]);
+      per_volume += growing[q];
+    }
+    per_volume = per_volume / (cell.total + cell.grown);
+  }
+  typename FinitePoints<Dim>::Slopes work;
+  clear<Dim>(work);
+  for (std::size_t q = 0; q < Q; ++q) {
+    const FinitePoint<Dim>& p = cell.point[q];
+    Matrix<Dim> first_stress;
+    weighted_first_stress(p.f, cell.stress[q], p.weight, first_stress);
+    if constexpr (Mean) {
+      const Pack pressed = 2.0 / 3 * (per_volume * p.volume * (1 + p.growth) - growing[q]);
+      const Pack factor = pressed / p.ratio;  // of the cofactors
+      repeat<Dim * Dim>([&](auto e) { first_stress.entry[e()] += factor * p.of_f.entry[e()]; });
+    }
+    add_pulled<Dim>(first_stress, p.inverse, q, work);
+  }
+  forces_of_slopes<Dim>(work, force);
+  return true;
+}
+
+/// Stored energy of the points; false: turned inside out.
+template <bool Mean, int Dim>
+[[nodiscard]] bool points_energy(const material::Law& law, double depth, const Pack* numbers,
+                                 const Pack* u, Pack& energy) {
+  FinitePoints<Dim> cell;
+  if (!set_finite_points<Mean>(depth, numbers, u, cell)) return false;
+  energy = Pack::Zero();
+  for (std::size_t q = 0; q < cell.point.size(); ++q)
+    energy +=
+        cell.point[q].volume * material::stored_energies<components<Dim>>(law, cell.strain[q]);
+  return true;
+}
+
+}  // namespace osculate::solid::batches
