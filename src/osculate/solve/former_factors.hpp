@@ -26,15 +26,21 @@ class FormerFactors {
     states_ = counts.signature;
     fresh_ = true;
   }
+  /// How much of the residual may be left by a correction.
+  template <class Trial>
+  [[nodiscard]] double aim(const NewtonResult<Trial>& result) const {
+    constexpr double share = 0.1;
+    const double now = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
+    return share * wanted_ / now;
+  }
   /// du = -K^-1 R ; false: the tangent of `system` is to be factored.
   template <System S>
   bool solve(S& system, la::LinearSolver& solver, const NewtonResult<typename S::Trial>& result,
              const Eigen::VectorXd& residual, Eigen::VectorXd& du) {
     if (affordable_ < 1 || result.evaluation.counts.signature != states_) return false;
-    constexpr double share = 0.1, least = 1e-9, most = 1e-4;
-    const double now = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
+    constexpr double least = 1e-9, most = 1e-4;
     du = -residual;
-    const la::NearbyLimits limits{affordable_, std::clamp(share * wanted_ / now, least, most)};
+    const la::NearbyLimits limits{affordable_, std::clamp(aim(result), least, most)};
     fresh_ = !la::solve_nearby(system.matrix(), system.symmetry(), solver, limits, du).solved;
     return !fresh_;
   }

@@ -71,6 +71,7 @@ bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd
   if (report.status != la::SolveStatus::ok)
     return fail(result, Outcome::numerical_failure, "the linear solver failed: " + report.message);
   du = -residual;
+  if (former) solver.aim(former->aim(result));
   const la::SolveStatus status = solver.solve(du);
   result.linear = status;
   if (status != la::SolveStatus::ok || !du.allFinite())
