@@ -42,8 +42,8 @@ output: {{fields: none, report: false, checkpoint: none, history: [{{on: joint, 
 def run(program, folder, n, material, linear, threads):
     model = folder / f"{n}_{linear}.yaml"
     model.write_text(MODEL.format(n=n, m=max(2, round(0.8 * n)), material=material, linear=linear))
-    subprocess.run([program, "run", str(model), "--threads", str(threads)], check=True,
-                   stdout=subprocess.DEVNULL)
+    subprocess.run([pathlib.Path(program).absolute(), "run", model, "--threads", str(threads)],
+                   check=True, cwd=folder, stdout=subprocess.DEVNULL)
     results = folder / f"{n}_{linear}.results"
     summary = json.loads((results / "summary.json").read_text())
     with open(results / "history.csv", newline="") as file:

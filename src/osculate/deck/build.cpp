@@ -263,7 +263,7 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   warn_of_rest(context);
   build_history(context);
   check_model(context);
-  choose_linear_solver(description.solver.linear, core::memory_in_all(), built);
+  choose_linear_solver(description.solver.linear, {.memory = core::memory_in_all()}, built);
   return built;
 }
 

@@ -160,8 +160,9 @@ BoundKeys<S> solver_keys() {
        may(&S::linear, "linear",
            choice("How the linear systems of the iterations are solved.",
                   {word("auto", Linear::automatic,
-                        "direct; multigrid where factors would take more than the memory of the "
-                        "machine"),
+                        "direct; multigrid where factors would have more than 3e8 entries (150 000 "
+                        "unknowns of compact bodies in contact) or would take more than the memory "
+                        "of the machine"),
                    word("direct", Linear::direct, "by factors (MUMPS)"),
                    word("multigrid", Linear::multigrid,
                         "by GMRES with a multigrid cycle for the bodies and factors of what is in "

@@ -1,5 +1,6 @@
 #include "osculate/la/iterative.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -132,8 +133,10 @@ struct Iterative::Impl {
   Condensed direct;
   std::unique_ptr<Multigrid> bodies;
   Exact exact;
-  bool by_multigrid = false;  ///< the last matrix
-  bool factored = false;      ///< by the direct solver
+  bool by_multigrid = false;        ///< the last matrix
+  bool fresh = false;               ///< the coarser models are those of the last matrix
+  bool anew = true;                 ///< those that are there are not to be used
+  double pace = 0, first_pace = 0;  ///< iterations a digit of the last solution, and the first
   double wanted = 1e-10;
   double seconds = 0;
   std::uint64_t version = 0;
@@ -146,7 +149,9 @@ struct Iterative::Impl {
   Impl& operator=(const Impl&) = delete;
 
   [[nodiscard]] bool suits(const SparseMatrix& k) const;
-  bool build(const SparseMatrix& k);
+  bool build(CompressedRows a);
+  bool refresh(const SparseMatrix& k);
+  bool iterate(Eigen::VectorXd& rhs);
   bool precondition(Eigen::VectorXd& r);
   FactorReport factor_directly(const SparseMatrix& k);
   SolveStatus solve(Eigen::VectorXd& rhs);
@@ -162,21 +167,30 @@ bool Iterative::Impl::suits(const SparseMatrix& k) const {
 }
 
 /// False: the direct solver is to look at the matrix.
-bool Iterative::Impl::build(const SparseMatrix& k) {
+bool Iterative::Impl::build(CompressedRows a) {
+  fresh = true;
+  anew = false;
+  first_pace = 0;
   bodies = std::make_unique<Multigrid>(places.threads);
-  CompressedRows a = compressed(k, symmetry);
   if (!exact.factor(a, places, symmetry, options)) return false;
   Eigen::MatrixXd motions = rigid_motions(places, a);
   return bodies->build(std::move(a), groups_of(places), std::move(motions));
+}
+
+/// With the coarser models of an earlier matrix. False: they are not there, or worth nothing.
+bool Iterative::Impl::refresh(const SparseMatrix& k) {
+  constexpr double slower = 1.5;
+  if (anew || !by_multigrid || !bodies || pace > slower * first_pace) return false;
+  fresh = false;
+  CompressedRows a = compressed(k, symmetry);
+  return exact.factor(a, places, symmetry, options) && bodies->refresh(std::move(a));
 }
 
 FactorReport Iterative::Impl::factor_directly(const SparseMatrix& k) {
   by_multigrid = false;
   exact.forget();
   bodies.reset();
-  FactorReport report = direct.factor(k, version, symmetry);
-  factored = true;
-  return report;
+  return direct.factor(k, version, symmetry);
 }
 
 bool Iterative::Impl::precondition(Eigen::VectorXd& r) {
@@ -187,21 +201,30 @@ bool Iterative::Impl::precondition(Eigen::VectorXd& r) {
   return true;
 }
 
-SolveStatus Iterative::Impl::solve(Eigen::VectorXd& rhs) {
-  if (!by_multigrid) return direct.solve(rhs);
-  if (rhs.size() != bodies->matrix().rows() || !rhs.allFinite()) return SolveStatus::failed;
+/// False: it does not come to an end.
+bool Iterative::Impl::iterate(Eigen::VectorXd& rhs) {
   PreconditionedLimits limits;
   limits.tolerance = wanted;
   const Nearby done = solve_preconditioned(
       {bodies->matrix(), places.threads}, [this](Eigen::VectorXd& r) { return precondition(r); },
       limits, rhs);
   work.iterations += done.iterations;
-  if (done.solved) {
-    ++work.solutions;
-    return SolveStatus::ok;
-  }
+  if (!done.solved) return false;
+  ++work.solutions;
+  constexpr double head_start = 2;  // of the first iterations, which gain less
+  pace = done.iterations / (head_start - std::log10(wanted));
+  if (first_pace == 0) first_pace = pace;
+  return true;
+}
+
+SolveStatus Iterative::Impl::solve(Eigen::VectorXd& rhs) {
+  if (!by_multigrid) return direct.solve(rhs);
+  if (rhs.size() != bodies->matrix().rows() || !rhs.allFinite()) return SolveStatus::failed;
+  if (iterate(rhs)) return SolveStatus::ok;
+  const SparseMatrix k = stored(bodies->matrix());  // both triangles
+  if (!fresh && build(compressed(k, Symmetry::unsymmetric)) && iterate(rhs)) return SolveStatus::ok;
   ++work.given_up;
-  const FactorReport report = factor_directly(stored(bodies->matrix()));
+  const FactorReport report = factor_directly(k);
   return report.status == SolveStatus::ok ? direct.solve(rhs) : report.status;
 }
 
@@ -210,12 +233,15 @@ Iterative::~Iterative() = default;
 
 void Iterative::place(Places places) {
   places.threads = std::max(1, places.threads);
+  begin_anew();
   impl_->places = std::move(places);
 }
 
 void Iterative::may_change(std::vector<Index> unknowns) {
   impl_->direct.may_change(std::move(unknowns));
 }
+
+void Iterative::begin_anew() { impl_->anew = true; }
 
 void Iterative::aim(double share) {
   constexpr double least = 1e-10, most = 1e-4;
@@ -230,7 +256,7 @@ FactorReport Iterative::factor(const SparseMatrix& k, std::uint64_t pattern_vers
   s.symmetry = symmetry;
   s.wanted = 1e-10;
   if (!s.suits(k)) return s.factor_directly(k);
-  s.by_multigrid = s.build(k);
+  s.by_multigrid = s.refresh(k) || s.build(compressed(k, symmetry));
   if (s.by_multigrid) return {};
   ++s.work.given_up;
   return s.factor_directly(k);

@@ -54,8 +54,8 @@ struct IterativeWork {
 /// know (rows of zero pivots, counts of negative ones) it leaves as it is in the report; those
 /// counts decide about stability only where the matrix is of a symmetric kind.
 ///
-/// Contract   the bits of a solution depend on the matrix (and on what may change of it) alone, not
-///            on what was factored before
+/// Contract   the bits of a solution depend on the matrix (and on what may change of it) and on the
+///            matrices since `begin_anew` alone, not on what was factored before
 /// Errors     nothing is thrown but NotEnoughMemory and std::bad_alloc
 /// Tested by  tests/unit/la/test_mumps.cpp, tests/unit/deck/test_linear_solver.cpp (another one)
 class LinearSolver {
@@ -72,6 +72,8 @@ class LinearSolver {
   [[nodiscard]] virtual bool asks_for_places() const { return false; }
   /// Where the unknowns of the matrices to come are; none: nobody knows.
   virtual void place(Places /*places*/) {}
+  /// An increment begins: nothing of earlier matrices may show in the solutions to come.
+  virtual void begin_anew() {}
   /// How much of the right-hand sides to come may be left out of balance, until the next matrix.
   /// Solvers that are exact leave nothing.
   virtual void aim(double /*share*/) {}

@@ -21,9 +21,17 @@ struct Level {
   double largest = 0;  ///< eigenvalue of D^-1 A
   Eigen::VectorXd x, r, d, t, of_coarse;
 
+  /// What the smoother needs; false: there are no numbers.
+  bool prepare_smoother(int threads);
   void find_largest(int threads);
   void smooth(Eigen::VectorXd& solution, bool residual_wanted, int threads);
 };
+
+bool Level::prepare_smoother(int threads) {
+  inverse = BlockDiagonal(a, start);
+  find_largest(threads);
+  return largest > 0 && std::isfinite(largest);
+}
 
 /// By the power method from noise; a little more than it finds.
 void Level::find_largest(int threads) {
@@ -193,16 +201,20 @@ bool Multigrid::build(CompressedRows a, GroupStarts groups, Eigen::MatrixXd near
   s.levels[0]->start = std::move(groups);
   s.levels[0]->near_null = std::move(near_null);
   while (s.levels.back()->a.rows() > coarsest && s.levels.size() < most_levels) {
-    Level& level = *s.levels.back();
-    level.inverse = BlockDiagonal(level.a, level.start);
-    level.find_largest(s.threads);
-    if (!(level.largest > 0) || !std::isfinite(level.largest)) return false;
+    if (!s.levels.back()->prepare_smoother(s.threads)) return false;
     if (!s.coarsen()) break;
   }
   s.coarsest = std::make_unique<Mumps>();
   const FactorReport report =
       s.coarsest->factor(stored(s.levels.back()->a), 0, Symmetry::unsymmetric);
   return report.status == SolveStatus::ok;
+}
+
+bool Multigrid::refresh(CompressedRows a) {
+  Impl& s = *impl_;
+  if (!s.coarsest || s.levels.size() < 2 || s.levels[0]->a.rows() != a.rows()) return false;
+  s.levels[0]->a = std::move(a);
+  return s.levels[0]->prepare_smoother(s.threads);
 }
 
 bool Multigrid::Impl::cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::VectorXd& x) {

@@ -19,12 +19,15 @@ class FormerFactors {
   explicit FormerFactors(double wanted) : wanted_(wanted) {}
   /// The last correction took a factorisation.
   [[nodiscard]] bool fresh() const { return fresh_; }
+  /// The increment has just begun.
+  [[nodiscard]] bool first() const { return first_; }
   void forget() { affordable_ = 0; }
   void keep(const la::FactorReport& report, const la::SparseMatrix& k, const StateCounts& counts) {
     const bool sound = report.status == la::SolveStatus::ok && report.condition == 0;
     affordable_ = sound ? la::affordable_iterations(report, k) : 0;
     states_ = counts.signature;
     fresh_ = true;
+    first_ = false;
   }
   /// How much of the residual may be left by a correction.
   template <class Trial>
@@ -49,7 +52,7 @@ class FormerFactors {
   double wanted_;
   int affordable_ = 0;  ///< iterations; none without factors
   std::uint64_t states_ = 0;
-  bool fresh_ = true;
+  bool fresh_ = true, first_ = true;
 };
 
 }  // namespace osculate::solve::detail

@@ -55,6 +55,7 @@ bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd
     if (system.interrupted()) return fail(result, Outcome::stopped, "stopped by the user");
   if (former && former->solve(system, solver, result, residual, du)) return true;
   if (former) former->forget();
+  if (!former || former->first()) solver.begin_anew();
   la::FactorReport report =
       solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
   result.precision.condition = std::max(result.precision.condition, report.condition);

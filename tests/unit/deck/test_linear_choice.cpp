@@ -24,20 +24,27 @@ TEST(LinearChoice, FactorsByDefault) {
   Built3 built = cube("");
   EXPECT_FALSE(iterates(built));
   EXPECT_EQ(built.linear_note, "");
-  choose_linear_solver(Linear::automatic, 0, built);  // a machine that does not say
+  choose_linear_solver(Linear::automatic, {.memory = 0}, built);  // a machine that does not say
   EXPECT_FALSE(iterates(built));
 }
 
 TEST(LinearChoice, MultigridWhereFactorsDoNotFit) {
   Built3 built = cube("");
-  choose_linear_solver(Linear::automatic, 1e4, built);
+  choose_linear_solver(Linear::automatic, {.memory = 1e4}, built);
   EXPECT_TRUE(iterates(built));
   EXPECT_NE(built.linear_note.find("factors of the tangent would take about"), std::string::npos);
 }
 
+TEST(LinearChoice, MultigridWhereFactorsHaveManyEntries) {
+  Built3 built = cube("");
+  choose_linear_solver(Linear::automatic, {.entries = 1e3}, built);
+  EXPECT_TRUE(iterates(built));
+  EXPECT_NE(built.linear_note.find("entries"), std::string::npos);
+}
+
 TEST(LinearChoice, AsAskedFor) {
   Built3 direct = cube("solver: {linear: direct}\n");
-  choose_linear_solver(Linear::direct, 1e4, direct);
+  choose_linear_solver(Linear::direct, {.memory = 1e4, .entries = 1}, direct);
   EXPECT_FALSE(iterates(direct));
   const Built3 multigrid = cube("solver: {linear: multigrid}\n");
   EXPECT_TRUE(iterates(multigrid));

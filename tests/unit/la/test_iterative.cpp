@@ -79,9 +79,26 @@ TEST(Iterative, BitsDoNotDependOnThreadsNorOnWhatWasSolvedBefore) {
   Eigen::VectorXd x = load(block);
   ASSERT_EQ(used.solve(x), SolveStatus::ok);
   x = load(block);
+  used.begin_anew();
   ASSERT_EQ(used.factor(block.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
   ASSERT_EQ(used.solve(x), SolveStatus::ok);
   EXPECT_EQ(x, one.x);
+}
+
+TEST(Iterative, CoarserModelsServeForMatricesThatAreNear) {
+  Iterative solver;
+  solver.place(pressed(1, 0).places());
+  int first = 0;
+  for (const double stiff : {1e3, 1e1, 1e7}) {  // contact opens and closes everywhere
+    const ElasticBlock block = pressed(stiff, 0.3);
+    ASSERT_EQ(solver.factor(block.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+    const int before = solver.work().iterations;
+    Eigen::VectorXd x = load(block);
+    ASSERT_EQ(solver.solve(x), SolveStatus::ok);
+    EXPECT_LE(relative_residual(block.matrix(), x, load(block)), 1.001e-10);
+    if (first == 0) first = solver.work().iterations;
+    EXPECT_LE(solver.work().iterations - before, 2 * first);
+  }
 }
 
 TEST(Iterative, LeavesNoMoreThanIsAskedFor) {
