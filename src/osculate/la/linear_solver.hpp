@@ -72,8 +72,6 @@ class LinearSolver {
   [[nodiscard]] virtual bool asks_for_places() const { return false; }
   /// Where the unknowns of the matrices to come are; none: nobody knows.
   virtual void place(Places /*places*/) {}
-  /// An increment begins: nothing of earlier matrices may show in the solutions to come.
-  virtual void begin_anew() {}
   /// How much of the right-hand sides to come may be left out of balance, until the next matrix.
   /// Solvers that are exact leave nothing.
   virtual void aim(double /*share*/) {}
@@ -90,6 +88,8 @@ class LinearSolver {
   /// Spent in `factor` and `solve` so far [s].
   [[nodiscard]] virtual double seconds() const = 0;
   [[nodiscard]] virtual IterativeWork work() const { return {}; }
+  /// An increment begins: nothing of earlier matrices may show in the solutions to come.
+  virtual void begin_anew() {}
 };
 
 using MakeSolver = std::function<std::unique_ptr<LinearSolver>()>;
