@@ -45,7 +45,7 @@ model::AnalysisResult3 analysed(const Blocks& of, const std::string& linear, int
   return model::run(built.model, built.options, {});
 }
 
-class MultigridModels : public testing::TestWithParam<Blocks> {};
+class MultigridModels : public ::testing::TestWithParam<Blocks> {};
 
 TEST_P(MultigridModels, EndWhereThoseByFactorsDo) {
   const model::AnalysisResult3 direct = analysed(GetParam(), "direct");
@@ -66,22 +66,21 @@ TEST_P(MultigridModels, EndWhereThoseByFactorsDo) {
 
 INSTANTIATE_TEST_SUITE_P(
     Cells, MultigridModels,
-    testing::Values(Blocks{"Hex8", "elements: [8, 8, 8]"},
-                    Blocks{"Hex20", "elements: [5, 5, 5], type: hex20"},
-                    Blocks{"Hex27", "elements: [4, 4, 4], type: hex27"},
-                    Blocks{"Rubber", "elements: [7, 7, 7]", "{neo_hooke: {E: 200, nu: 0.45}}"},
-                    Blocks{"NearlyIncompressible", "elements: [7, 7, 7]",
-                           "{neo_hooke: {E: 200, nu: 0.49}}"},
-                    Blocks{"Mortar", "elements: [7, 7, 7]", "{linear_elastic: {E: 200, nu: 0.3}}",
-                           ", sampling: mortar"},
-                    Blocks{"StiffPenalty", "elements: [7, 7, 7]",
-                           "{linear_elastic: {E: 200, nu: 0.3}}", ", normal: {penalty: 1.0e+8}"},
-                    Blocks{"Equation", "elements: [7, 7, 7]", "{linear_elastic: {E: 200, nu: 0.3}}",
-                           "", "equal: [{on: low.left, of: ux}]\n"}),
-    [](const testing::TestParamInfo<Blocks>& info) { return info.param.name; });
+    ::testing::Values(
+        Blocks{"Hex8", "elements: [8, 8, 8]"}, Blocks{"Hex20", "elements: [5, 5, 5], type: hex20"},
+        Blocks{"Hex27", "elements: [4, 4, 4], type: hex27"},
+        Blocks{"Rubber", "elements: [7, 7, 7]", "{neo_hooke: {E: 200, nu: 0.45}}"},
+        Blocks{"NearlyIncompressible", "elements: [7, 7, 7]", "{neo_hooke: {E: 200, nu: 0.49}}"},
+        Blocks{"Mortar", "elements: [7, 7, 7]", "{linear_elastic: {E: 200, nu: 0.3}}",
+               ", sampling: mortar"},
+        Blocks{"StiffPenalty", "elements: [7, 7, 7]", "{linear_elastic: {E: 200, nu: 0.3}}",
+               ", normal: {penalty: 1.0e+8}"},
+        Blocks{"Equation", "elements: [7, 7, 7]", "{linear_elastic: {E: 200, nu: 0.3}}", "",
+               "equal: [{on: low.left, of: ux}]\n"}),
+    [](const ::testing::TestParamInfo<Blocks>& info) { return info.param.name; });
 
 // Multipliers are among the unknowns that are solved for exactly.
-TEST(MultigridModels, MultipliersAreSolvedFor) {
+TEST(MultigridRuns, MultipliersAreSolvedFor) {
   const Blocks of{"Multipliers", "elements: [7, 7, 7]", "{linear_elastic: {E: 200, nu: 0.3}}",
                   ", sampling: mortar, enforcement: lagrange_multiplier"};
   const model::AnalysisResult3 direct = analysed(of, "direct"),
@@ -93,7 +92,7 @@ TEST(MultigridModels, MultipliersAreSolvedFor) {
 }
 
 // A block that nothing holds fails as it does with factors.
-TEST(MultigridModels, AFreeBodyIsSaidToBeFree) {
+TEST(MultigridRuns, AFreeBodyIsSaidToBeFree) {
   std::string text = blocks({"Free", "elements: [8, 8, 8]"}, "multigrid");
   const std::string held = "{on: low.bottom, ux: 0, uy: 0, uz: 0}";
   text.replace(text.find(held), held.size(), "{on: low.bottom, ux: 0, uz: 0}");
@@ -108,7 +107,7 @@ TEST(MultigridModels, AFreeBodyIsSaidToBeFree) {
   }
 }
 
-TEST(MultigridModels, APlaneOne) {
+TEST(MultigridRuns, APlaneOne) {
   const auto text = [](const std::string& linear) {
     return R"(osculate: 1
 mesh:
