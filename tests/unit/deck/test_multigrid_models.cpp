@@ -67,21 +67,21 @@ TEST_P(MultigridModels, EndWhereThoseByFactorsDo) {
 INSTANTIATE_TEST_SUITE_P(
     Cells, MultigridModels,
     ::testing::Values(
-        Blocks{"Hex8", "elements: [8, 8, 8]"}, Blocks{"Hex20", "elements: [5, 5, 5], type: hex20"},
-        Blocks{"Hex27", "elements: [4, 4, 4], type: hex27"},
-        Blocks{"Rubber", "elements: [7, 7, 7]", "{neo_hooke: {E: 200, nu: 0.45}}"},
-        Blocks{"NearlyIncompressible", "elements: [7, 7, 7]", "{neo_hooke: {E: 200, nu: 0.49}}"},
-        Blocks{"Mortar", "elements: [7, 7, 7]", "{linear_elastic: {E: 200, nu: 0.3}}",
+        Blocks{"Hex8", "elements: [6, 6, 6]"}, Blocks{"Hex20", "elements: [4, 4, 4], type: hex20"},
+        Blocks{"Hex27", "elements: [3, 3, 3], type: hex27"},
+        Blocks{"Rubber", "elements: [6, 6, 6]", "{neo_hooke: {E: 200, nu: 0.45}}"},
+        Blocks{"NearlyIncompressible", "elements: [6, 6, 6]", "{neo_hooke: {E: 200, nu: 0.49}}"},
+        Blocks{"Mortar", "elements: [6, 6, 6]", "{linear_elastic: {E: 200, nu: 0.3}}",
                ", sampling: mortar"},
-        Blocks{"StiffPenalty", "elements: [7, 7, 7]", "{linear_elastic: {E: 200, nu: 0.3}}",
+        Blocks{"StiffPenalty", "elements: [6, 6, 6]", "{linear_elastic: {E: 200, nu: 0.3}}",
                ", normal: {penalty: 1.0e+8}"},
-        Blocks{"Equation", "elements: [7, 7, 7]", "{linear_elastic: {E: 200, nu: 0.3}}", "",
+        Blocks{"Equation", "elements: [6, 6, 6]", "{linear_elastic: {E: 200, nu: 0.3}}", "",
                "equal: [{on: low.left, of: ux}]\n"}),
     [](const ::testing::TestParamInfo<Blocks>& info) { return info.param.name; });
 
 // Multipliers are among the unknowns that are solved for exactly.
 TEST(MultigridRuns, MultipliersAreSolvedFor) {
-  const Blocks of{"Multipliers", "elements: [7, 7, 7]", "{linear_elastic: {E: 200, nu: 0.3}}",
+  const Blocks of{"Multipliers", "elements: [6, 6, 6]", "{linear_elastic: {E: 200, nu: 0.3}}",
                   ", sampling: mortar, enforcement: lagrange_multiplier"};
   const model::AnalysisResult3 direct = analysed(of, "direct"),
                                multigrid = analysed(of, "multigrid");
@@ -93,7 +93,7 @@ TEST(MultigridRuns, MultipliersAreSolvedFor) {
 
 // A block that nothing holds fails as it does with factors.
 TEST(MultigridRuns, AFreeBodyIsSaidToBeFree) {
-  std::string text = blocks({"Free", "elements: [8, 8, 8]"}, "multigrid");
+  std::string text = blocks({"Free", "elements: [6, 6, 6]"}, "multigrid");
   const std::string held = "{on: low.bottom, ux: 0, uy: 0, uz: 0}";
   text.replace(text.find(held), held.size(), "{on: low.bottom, ux: 0, uz: 0}");
   const Description d = parse_model(text, "model.yaml");
