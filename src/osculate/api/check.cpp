@@ -107,6 +107,8 @@ CheckReport check_built(const std::string& path, const deck::Description& descri
   const result::MemoryNeed memory =
       result::memory_need(m, system.symmetry() == la::Symmetry::unsymmetric);
   if (memory.entries > 0) report.text += fmt::format("{:<13} {}\n", "Memory", memory.text());
+  if (!built.linear_note.empty())
+    report.text += fmt::format("{:<13} {}\n", "Linear", built.linear_note);
   std::vector<std::string> warnings = built.warnings;
   report.text += contact_text(m, pairs, warnings);
   for (const std::string& warning : warnings) report.text += "warning: " + warning + "\n";

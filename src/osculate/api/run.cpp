@@ -310,6 +310,8 @@ struct Recorder {
   }
 
   void report_memory(const model::BasicSystem<Dim>& system) {
+    if (!built.linear_note.empty())
+      return say(fmt::format("{:<13} {}", "Linear", built.linear_note));
     const bool unsymmetric = system.symmetry() == la::Symmetry::unsymmetric;
     const std::string notice = result::memory_need(built.model, unsymmetric).notice();
     if (!notice.empty()) say(notice);
@@ -409,6 +411,7 @@ RunOutcome finish(Recorder<Dim>& recorder, const model::BasicAnalysisResult<Dim>
       result.failure && result.failure->cause == model::FailureCause::free_motion;
   recorder.say_all(recorder.watch.end(all || free_to_move));
   recorder.say_all(result::chosen_time_steps_text(result.steps, steps));
+  recorder.say_all(result::linear_systems_text(result.linear));
   summary["message"] = outcome.message;
   summary.update(recorder.owner);
   if (result.failure) summary["diagnosis"] = result::diagnosis_json(recorder.built.model, result);

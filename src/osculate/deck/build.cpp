@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/core/memory.hpp"
 #include "osculate/core/text.hpp"
 #include "osculate/deck/build_ties.hpp"
+#include "osculate/deck/linear_choice.hpp"
 #include "osculate/deck/parse.hpp"
 #include "osculate/deck/parse_parts.hpp"
 #include "osculate/deck/pretension.hpp"
@@ -261,6 +263,7 @@ BasicBuilt<Dim> build_in(const Description& description, mesh::Mesh mesh) {
   warn_of_rest(context);
   build_history(context);
   check_model(context);
+  choose_linear_solver(description.solver.linear, {.memory = core::memory_in_all()}, built);
   return built;
 }
 

@@ -51,6 +51,7 @@ struct BasicBuilt {
   std::vector<std::string> warnings;          ///< plain sentences, shown by `check` and `run`
   std::vector<std::string> notes;             ///< what was decided for the user, shown there too
   std::vector<std::string> input_notes;       ///< the same of the files that were read
+  std::string linear_note;                    ///< where linear systems are solved by multigrid: why
 };
 
 using Built = BasicBuilt<2>;

@@ -488,6 +488,7 @@ struct Step {
 enum class LineSearch { automatic, off };
 enum class Predictor { automatic, tangent };
 enum class ArcLength { automatic, always, off };
+enum class Linear { automatic, direct, multigrid };
 
 struct Solver {
   Number energy, residual;  ///< tolerances; 0 = this measure does not decide
@@ -497,6 +498,7 @@ struct Solver {
   std::optional<Number> minimum_fraction;
   Predictor predictor = Predictor::automatic;
   ArcLength arc_length = ArcLength::automatic;
+  Linear linear = Linear::automatic;
 };
 
 struct Description {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "osculate/la/places.hpp"
 #include "osculate/la/sparse_matrix.hpp"
 
 namespace osculate::la {
@@ -43,12 +44,18 @@ struct FactorReport {
   double operations = 0;  ///< of the factorisation, where it is worth to do without it; else 0
 };
 
+/// What a solver that iterates has done so far.
+struct IterativeWork {
+  int solutions = 0, iterations = 0;  ///< of systems that were solved so, and of all attempts
+  int given_up = 0;                   ///< matrices that were left to the direct solver
+};
+
 /// All that the rest of the program knows of a solver of linear systems. What a solver does not
 /// know (rows of zero pivots, counts of negative ones) it leaves as it is in the report; those
 /// counts decide about stability only where the matrix is of a symmetric kind.
 ///
-/// Contract   the bits of a solution depend on the matrix (and on what may change of it) alone, not
-///            on what was factored before
+/// Contract   the bits of a solution depend on the matrix (and on what may change of it) and on the
+///            matrices since `begin_anew` alone, not on what was factored before
 /// Errors     nothing is thrown but NotEnoughMemory and std::bad_alloc
 /// Tested by  tests/unit/la/test_mumps.cpp, tests/unit/deck/test_linear_solver.cpp (another one)
 class LinearSolver {
@@ -61,6 +68,13 @@ class LinearSolver {
   /// Between which unknowns alone entries are likely to change from one matrix to the next; none
   /// where nobody knows. A solver may make use of it, or not.
   virtual void may_change(std::vector<Index> /*unknowns*/) {}
+  /// Whether `place` is of use.
+  [[nodiscard]] virtual bool asks_for_places() const { return false; }
+  /// Where the unknowns of the matrices to come are; none: nobody knows.
+  virtual void place(Places /*places*/) {}
+  /// How much of the right-hand sides to come may be left out of balance, until the next matrix.
+  /// Solvers that are exact leave nothing.
+  virtual void aim(double /*share*/) {}
   /// Analyses where pattern or symmetry are not those of the last call, and factors.
   /// `pattern_version` saves the comparison of patterns where it changed; where it did not, the
   /// pattern is compared all the same.
@@ -77,6 +91,9 @@ class LinearSolver {
   virtual SolveStatus solve(Eigen::MatrixXd& rhs_in_solution_out) = 0;
   /// Spent in `factor` and `solve` so far [s].
   [[nodiscard]] virtual double seconds() const = 0;
+  [[nodiscard]] virtual IterativeWork work() const { return {}; }
+  /// An increment begins: nothing of earlier matrices may show in the solutions to come.
+  virtual void begin_anew() {}
 };
 
 using MakeSolver = std::function<std::unique_ptr<LinearSolver>()>;

@@ -264,9 +264,26 @@ struct Analysis {
     }
   }
 
+  /// What the linear solver is told of the unknowns of a step.
+  void introduce(bool iterates) {
+    solver->may_change(iterates ? system.changing_unknowns() : std::vector<Index>{});
+    if (!solver->asks_for_places()) return;
+    la::Places places = iterates ? system.unknown_places() : la::Places{};
+    places.threads = options.threads;
+    solver->place(std::move(places));
+  }
+  /// The solver is done with.
+  void take_leave() {
+    result.seconds_solver += solver->seconds();
+    const la::IterativeWork work = solver->work();
+    result.linear.solutions += work.solutions;
+    result.linear.iterations += work.iterations;
+    result.linear.given_up += work.given_up;
+  }
+
   void run_step(const Step& step) {
     const bool iterates = !step.frequencies && !step.buckling && !step.harmonic && !step.modal;
-    solver->may_change(iterates ? system.changing_unknowns() : std::vector<Index>{});
+    introduce(iterates);
     if (step.frequencies) return find_vibrations(step);
     if (step.buckling) return find_buckling(step);
     if (step.harmonic) return run_harmonic(step);
@@ -334,7 +351,7 @@ void change(const BasicModel<Dim>& model, std::size_t step, BasicModel<Dim>& now
   a.result.state = begin_bodies(model, step, std::move(a.result.state));
   a.system.build_anew();
   a.result.unknowns = std::max(a.result.unknowns, a.system.dofs().unknowns());
-  a.result.seconds_solver += a.solver->seconds();
+  a.take_leave();
   a.solver = a.options.linear_solver();
   (void)first_state(a);
 }
@@ -400,7 +417,7 @@ BasicAnalysisResult<Dim> run(const BasicModel<Dim>& model, const AnalysisOptions
     if (result.outcome != solve::Outcome::converged || step.name == options.until) break;
   }
   result.seconds_system = a.system.seconds();
-  result.seconds_solver += a.solver->seconds();
+  a.take_leave();
   result.seconds = seconds_since(start);
   return result;
 }

@@ -55,6 +55,7 @@ struct BasicAnalysisResult {
   double seconds = 0;                        ///< of the whole analysis, observers included
   SystemSeconds seconds_system;              ///< of its evaluations
   double seconds_solver = 0;                 ///< of the linear solver: factors and solutions
+  la::IterativeWork linear;                  ///< what it did by iterations
   Index unknowns = 0;
 };
 

@@ -93,16 +93,21 @@ double contact_ratio(BasicSystem<Dim>& system, const BasicState<Dim>& state) {
   return largest;
 }
 
-/// Of the upper triangle; the prescribed unknowns have a positive one.
+/// Of the upper triangle; the prescribed unknowns have a positive one. 0 where there is no room for
+/// factors.
 template <int Dim>
 int negative_pivots(BasicSystem<Dim>& system, const BasicState<Dim>& state) {
   solve::Evaluation evaluation;
   system.evaluate(state, state.fraction, true, evaluation);
   const bool saddle = system.matrix().n != system.dofs().unknowns();  // multipliers: always some
   if (!evaluation.ok || saddle) return 0;
-  return la::make_default_solver()
-      ->factor(system.matrix(), system.pattern_version(), la::Symmetry::indefinite)
-      .negative_pivots;
+  try {
+    return la::make_default_solver()
+        ->factor(system.matrix(), system.pattern_version(), la::Symmetry::indefinite)
+        .negative_pivots;
+  } catch (const la::NotEnoughMemory&) {
+    return 0;
+  }
 }
 
 /// An increment that has been cut to this was not just too large.

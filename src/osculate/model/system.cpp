@@ -1,5 +1,6 @@
 #include "osculate/model/system.hpp"
 #include "osculate/model/changing_unknowns.hpp"
+#include "osculate/model/unknown_places.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -323,6 +324,11 @@ std::vector<Index> BasicSystem<Dim>::changing_unknowns() const {
   // Multipliers make the small matrix indefinite, which only its unsymmetric factors bear.
   if (impl_->constraints.count() > 0 && impl_->symmetry != la::Symmetry::unsymmetric) return {};
   return model::changing_unknowns(impl_->model, impl_->dofs, impl_->constraints.count());
+}
+
+template <int Dim>
+la::Places BasicSystem<Dim>::unknown_places() const {
+  return model::unknown_places(impl_->model, impl_->dofs, impl_->constraints.count());
 }
 
 template <int Dim>

@@ -187,6 +187,8 @@ class BasicSystem {
   [[nodiscard]] la::Symmetry symmetry() const;
   /// See model/changing_unknowns.hpp; for la::LinearSolver::may_change.
   [[nodiscard]] std::vector<Index> changing_unknowns() const;
+  /// See model/unknown_places.hpp; for la::LinearSolver::place.
+  [[nodiscard]] la::Places unknown_places() const;
 
   [[nodiscard]] const BasicDofSpace<Dim>& dofs() const;
   [[nodiscard]] const Forces& forces() const;  ///< of the last evaluation
@@ -224,6 +226,10 @@ class BasicSystem {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Whether tangents of a model are factored as unsymmetric matrices.
+template <int Dim>
+[[nodiscard]] bool needs_unsymmetric(const BasicModel<Dim>& model);
 
 using System = BasicSystem<2>;
 using System3 = BasicSystem<3>;

@@ -21,6 +21,8 @@ bool has_moment_in_space(const BasicModel<Dim>& model, const DeadLoad& load) {
          });
 }
 
+}  // namespace
+
 template <int Dim>
 bool needs_unsymmetric(const BasicModel<Dim>& model) {
   for (const BasicContactPair<Dim>& pair : model.pairs) {
@@ -43,7 +45,8 @@ bool needs_unsymmetric(const BasicModel<Dim>& model) {
   return false;
 }
 
-}  // namespace
+template bool needs_unsymmetric(const Model&);
+template bool needs_unsymmetric(const Model3&);
 
 template <int Dim>
 BasicSystem<Dim>::Impl::Impl(const BasicModel<Dim>& m, int threads)

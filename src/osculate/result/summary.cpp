@@ -344,7 +344,7 @@ nlohmann::json summary_json(const std::string& model_file,
                      {"increments", list}});
   }
   const pairing::PairSeconds& parts = result.seconds_system.contact_parts;
-  return {
+  nlohmann::json summary = {
       {"osculate", core::version},
       {"model", model_file},
       {"status", status},
@@ -358,6 +358,25 @@ nlohmann::json summary_json(const std::string& model_file,
         {"evaluation", parts.evaluation}}},
       {"peak_memory_mb", peak_memory_mb()},
       {"unknowns", result.unknowns}};
+  if (result.linear.solutions + result.linear.given_up > 0)
+    summary["multigrid"] = {{"solutions", result.linear.solutions},
+                            {"iterations", result.linear.iterations},
+                            {"given_up", result.linear.given_up}};
+  return summary;
+}
+
+std::vector<std::string> linear_systems_text(const la::IterativeWork& work) {
+  std::vector<std::string> lines;
+  if (work.solutions > 0)
+    lines.push_back(
+        fmt::format("linear systems: {} solved by multigrid in {:.1f} iterations on average",
+                    work.solutions, static_cast<double>(work.iterations) / work.solutions));
+  if (work.given_up > 0)
+    lines.push_back(fmt::format(
+        "warning: multigrid did not solve {} of {} linear systems, which were factored after that; "
+        "`solver: {{linear: direct}}` saves the attempts",
+        work.given_up, work.given_up + work.solutions));
+  return lines;
 }
 
 template <int Dim>

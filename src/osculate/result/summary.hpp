@@ -58,6 +58,10 @@ struct ChosenTimeSteps {
 [[nodiscard]] std::vector<std::string> chosen_time_steps_text(
     const std::vector<model::StepRecord>& records, const std::vector<model::Step>& steps);
 
+/// A line for log.txt of linear systems that were solved by iterations, and a warning where some
+/// were not; empty without any.
+[[nodiscard]] std::vector<std::string> linear_systems_text(const la::IterativeWork& work);
+
 /// Largest resident memory of this process so far [MB].
 [[nodiscard]] double peak_memory_mb();
 

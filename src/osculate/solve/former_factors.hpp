@@ -25,12 +25,21 @@ class FormerFactors {
   [[nodiscard]] bool fresh() const { return fresh_; }
   /// The last correction came by factors of other states.
   [[nodiscard]] bool of_other_states() const { return !fresh_ && last_ != states_; }
+  /// The increment has just begun.
+  [[nodiscard]] bool first() const { return first_; }
   void forget() { affordable_ = 0; }
   void keep(const la::FactorReport& report, const la::SparseMatrix& k, const StateCounts& counts) {
     const bool sound = report.status == la::SolveStatus::ok && report.condition == 0;
     affordable_ = sound ? la::affordable_iterations(report, k) : 0;
     states_ = last_ = counts.signature;
     fresh_ = true;
+    first_ = false;
+  }
+  /// How much of the residual may be left by a correction.
+  template <class Trial>
+  [[nodiscard]] double aim(const NewtonResult<Trial>& result) const {
+    const double now = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
+    return share * wanted_ / now;
   }
   /// du = -K^-1 R ; false: the tangent of `system` is to be factored.
   template <System S>
@@ -39,12 +48,12 @@ class FormerFactors {
     const std::uint64_t states = result.evaluation.counts.signature;
     const bool changed = states != states_, settled = states == last_;
     last_ = states;
-    constexpr double share = 0.1, least = 1e-9, most = 1e-4, on_the_way = 1e-3;
+    constexpr double least = 1e-9, most = 1e-4, on_the_way = 1e-3;
     constexpr int tries = 2;
-    const double now = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
     if (affordable_ < 1) return false;
-    if (changed && (settled || failures_ >= tries || wanted_ <= 0 || now <= wanted_)) return false;
-    const double tolerance = changed ? on_the_way : std::clamp(share * wanted_ / now, least, most);
+    if (changed && (settled || failures_ >= tries || wanted_ <= 0 || aim(result) >= share))
+      return false;
+    const double tolerance = changed ? on_the_way : std::clamp(aim(result), least, most);
     du = -residual;
     fresh_ =
         !la::solve_nearby(system.matrix(), system.symmetry(), solver, {affordable_, tolerance}, du)
@@ -54,10 +63,11 @@ class FormerFactors {
   }
 
  private:
+  static constexpr double share = 0.1;
   double wanted_;
   int affordable_ = 0;                   ///< iterations; none without factors
   std::uint64_t states_ = 0, last_ = 0;  ///< of the factors, and of the last correction
-  bool fresh_ = true;
+  bool fresh_ = true, first_ = true;
   int failures_ = 0;  ///< where states had changed
 };
 

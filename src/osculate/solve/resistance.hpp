@@ -55,6 +55,7 @@ bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd
     if (system.interrupted()) return fail(result, Outcome::stopped, "stopped by the user");
   if (former && former->solve(system, solver, result, residual, du)) return true;
   if (former) former->forget();
+  if (!former || former->first()) solver.begin_anew();
   la::FactorReport report =
       solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
   result.precision.condition = std::max(result.precision.condition, report.condition);
@@ -71,6 +72,7 @@ bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd
   if (report.status != la::SolveStatus::ok)
     return fail(result, Outcome::numerical_failure, "the linear solver failed: " + report.message);
   du = -residual;
+  if (former) solver.aim(former->aim(result));
   const la::SolveStatus status = solver.solve(du);
   result.linear = status;
   if (status != la::SolveStatus::ok || !du.allFinite())

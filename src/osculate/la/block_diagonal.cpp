@@ -1,0 +1,78 @@
+#include "osculate/la/block_diagonal.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace osculate::la {
+namespace {
+
+Eigen::MatrixXd inverse_of_block(const CompressedRows& a, Index first, Index size) {
+  constexpr double digits = 1e-7;
+  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size, size);
+  for (Index i = 0; i < size; ++i)
+    for (CompressedRows::InnerIterator entry(a, first + i); entry; ++entry)
+      if (entry.col() >= first && entry.col() < first + size)
+        block(i, entry.col() - first) = entry.value();
+  block = (0.5 * (block + block.transpose())).eval();
+  const Eigen::LLT<Eigen::MatrixXd> factors(block);
+  const Eigen::VectorXd pivots = factors.matrixLLT().diagonal();
+  if (factors.info() != Eigen::Success || !(pivots.minCoeff() > digits * pivots.maxCoeff()))
+    return Eigen::MatrixXd::Zero(size, size);
+  return factors.solve(Eigen::MatrixXd::Identity(size, size));
+}
+
+template <int Size>
+void apply_block(const double* block, const Eigen::VectorXd& r, Index first, Index size,
+                 Eigen::VectorXd& y) {
+  using Block = Eigen::Matrix<double, Size, Size>;
+  y.segment<Size>(first, size).noalias() =
+      Eigen::Map<const Block>(block, size, size) * r.segment<Size>(first, size);
+}
+
+}  // namespace
+
+BlockDiagonal::BlockDiagonal(const CompressedRows& a, const GroupStarts& start) : start_(start) {
+  for (std::size_t g = 0; g + 1 < start.size(); ++g) {
+    const Index size = start[g + 1] - start[g];
+    const Eigen::MatrixXd inverse = inverse_of_block(a, start[g], size);
+    value_.insert(value_.end(), inverse.data(), inverse.data() + inverse.size());
+    place_.push_back(value_.size());
+  }
+}
+
+void BlockDiagonal::apply(const Eigen::VectorXd& r, int threads, Eigen::VectorXd& y) const {
+  y.resize(r.size());
+  const auto groups = static_cast<Index>(start_.size()) - 1;
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
+  for (Index g = 0; g < groups; ++g) {
+    const auto i = static_cast<std::size_t>(g);
+    const Index first = start_[i], size = start_[i + 1] - first;
+    const double* const block = value_.data() + place_[i];
+    if (size == 3)
+      apply_block<3>(block, r, first, size, y);
+    else if (size == 6)
+      apply_block<6>(block, r, first, size, y);
+    else
+      apply_block<Eigen::Dynamic>(block, r, first, size, y);
+  }
+}
+
+CompressedRows BlockDiagonal::as_matrix() const {
+  const Index n = start_.empty() ? 0 : start_.back();
+  CompressedRows out(n, n);
+  out.resizeNonZeros(static_cast<Index>(value_.size()));
+  Index next = 0;
+  for (std::size_t g = 0; g + 1 < start_.size(); ++g) {
+    const Index first = start_[g], size = start_[g + 1] - first;
+    for (Index i = 0; i < size; ++i) {
+      out.outerIndexPtr()[first + i] = next;
+      for (Index j = 0; j < size; ++j, ++next) {
+        out.innerIndexPtr()[next] = first + j;
+        out.valuePtr()[next] = value_[place_[g] + static_cast<std::size_t>(i + j * size)];
+      }
+    }
+  }
+  out.outerIndexPtr()[n] = next;
+  return out;
+}
+
+}  // namespace osculate::la

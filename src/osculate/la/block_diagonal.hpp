@@ -1,0 +1,27 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "osculate/la/aggregates.hpp"
+
+namespace osculate::la {
+
+/// Inverses of the symmetric parts of the diagonal blocks of a matrix; zero where a block is not
+/// positive definite, as that of a multiplier, or is singular to working precision.
+///
+/// Tested by  tests/unit/la/test_multigrid.cpp
+class BlockDiagonal {
+ public:
+  BlockDiagonal() = default;
+  BlockDiagonal(const CompressedRows& a, const GroupStarts& start);
+  /// y = D^-1 r
+  void apply(const Eigen::VectorXd& r, int threads, Eigen::VectorXd& y) const;
+  [[nodiscard]] CompressedRows as_matrix() const;
+
+ private:
+  GroupStarts start_;
+  std::vector<std::size_t> place_{0};  ///< of the block of a group, by columns
+  std::vector<double> value_;
+};
+
+}  // namespace osculate::la

@@ -1,0 +1,73 @@
+#include "osculate/la/compressed_rows.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace osculate::la {
+
+void multiply(const CompressedRows& a, const Eigen::VectorXd& x, int threads, Eigen::VectorXd& y) {
+  y.resize(a.rows());
+  const Index* const start = a.outerIndexPtr();
+  const Index* const column = a.innerIndexPtr();
+  const double* const value = a.valuePtr();
+  const auto rows = static_cast<Index>(a.rows());
+#pragma omp parallel for num_threads(threads) schedule(static) if (threads > 1)
+  for (Index i = 0; i < rows; ++i) {
+    double sum = 0;
+    for (Index e = start[i]; e < start[i + 1]; ++e) sum += value[e] * x[column[e]];
+    y[i] = sum;
+  }
+}
+
+CompressedRows compressed(const SparseMatrix& k, Symmetry symmetry) {
+  const Eigen::Map<const CompressedRows> given(k.n, k.n, static_cast<Index>(k.value.size()),
+                                               k.row_start.data(), k.column.data(), k.value.data());
+  CompressedRows a = given;
+  if (symmetry != Symmetry::unsymmetric)
+    a = CompressedRows(CompressedRows(given).selfadjointView<Eigen::Upper>());
+  a.prune([](Index i, Index j, double value) { return value != 0 || i == j; });
+  return a;
+}
+
+SparseMatrix stored(const CompressedRows& a) {
+  SparseMatrix k;
+  k.n = static_cast<Index>(a.rows());
+  k.row_start.assign(a.outerIndexPtr(), a.outerIndexPtr() + k.n + 1);
+  k.column.assign(a.innerIndexPtr(), a.innerIndexPtr() + a.nonZeros());
+  k.value.assign(a.valuePtr(), a.valuePtr() + a.nonZeros());
+  return k;
+}
+
+/// In pieces by several threads; the bits are those of one piece.
+CompressedRows product(const CompressedRows& a, const CompressedRows& b, int threads) {
+  const auto rows = static_cast<Index>(a.rows());
+  const Index pieces = std::min<Index>(rows, 8 * static_cast<Index>(threads));
+  if (threads < 2 || pieces < 2) return a * b;
+  std::vector<CompressedRows> piece(as_size(pieces));
+  const auto begin = [&](Index p) {
+    return static_cast<Index>(static_cast<std::int64_t>(rows) * p / pieces);
+  };
+#pragma omp parallel for num_threads(threads) schedule(dynamic)
+  for (Index p = 0; p < pieces; ++p)
+    piece[as_size(p)] = a.middleRows(begin(p), begin(p + 1) - begin(p)) * b;
+  CompressedRows out(rows, b.cols());
+  Index entries = 0;
+  for (const CompressedRows& part : piece) entries += static_cast<Index>(part.nonZeros());
+  out.resizeNonZeros(entries);
+  Index row = 0, next = 0;
+  for (CompressedRows& part : piece) {
+    part.makeCompressed();
+    const auto count = static_cast<Index>(part.nonZeros());
+    std::copy_n(part.innerIndexPtr(), count, out.innerIndexPtr() + next);
+    std::copy_n(part.valuePtr(), count, out.valuePtr() + next);
+    for (Index i = 0; i < part.rows(); ++i)
+      out.outerIndexPtr()[row++] = next + part.outerIndexPtr()[i];
+    next += count;
+    part = {};
+  }
+  out.outerIndexPtr()[rows] = next;
+  return out;
+}
+
+}  // namespace osculate::la

@@ -1,0 +1,22 @@
+#pragma once
+#include <Eigen/SparseCore>
+#include <cstddef>
+
+#include "osculate/la/linear_solver.hpp"
+
+namespace osculate::la {
+
+using CompressedRows = Eigen::SparseMatrix<double, Eigen::RowMajor, Index>;
+
+[[nodiscard]] constexpr std::size_t as_size(Index i) { return static_cast<std::size_t>(i); }
+
+/// The matrix with both triangles; entries that are zero are left out, but for the diagonal.
+[[nodiscard]] CompressedRows compressed(const SparseMatrix& k, Symmetry symmetry);
+[[nodiscard]] SparseMatrix stored(const CompressedRows& a);
+
+/// y = A x, row by row with several threads: the bits do not depend on their number.
+void multiply(const CompressedRows& a, const Eigen::VectorXd& x, int threads, Eigen::VectorXd& y);
+/// A B, likewise.
+[[nodiscard]] CompressedRows product(const CompressedRows& a, const CompressedRows& b, int threads);
+
+}  // namespace osculate::la

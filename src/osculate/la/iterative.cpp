@@ -1,0 +1,286 @@
+#include "osculate/la/iterative.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "osculate/la/condensed.hpp"
+#include "osculate/la/multigrid.hpp"
+#include "osculate/la/preconditioned.hpp"
+
+namespace osculate::la {
+namespace {
+
+/// Unknowns of one node that follow each other are a group; those of no node are one each.
+GroupStarts groups_of(const Places& places) {
+  GroupStarts start{0};
+  const auto n = static_cast<Index>(places.node.size());
+  for (Index i = 1; i <= n; ++i)
+    if (i == n || places.node[as_size(i)] < 0 ||
+        places.node[as_size(i)] != places.node[as_size(i - 1)])
+      start.push_back(i);
+  return start;
+}
+
+bool stands_alone(const CompressedRows& a, Index row) {
+  for (CompressedRows::InnerIterator entry(a, row); entry; ++entry)
+    if (entry.col() != row) return false;
+  return true;
+}
+
+/// Rigid motions of the nodes: translations, and rotations about the middle of all. Zero where an
+/// unknown has nothing to do with others, as where its motion is prescribed.
+Eigen::MatrixXd rigid_motions(const Places& places, const CompressedRows& a) {
+  const int dim = places.dimension;
+  const auto n = static_cast<Index>(places.node.size());
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& x : places.place) middle += x / n;
+  double size = 0;
+  for (const Eigen::Vector3d& x : places.place) size = std::max(size, (x - middle).norm());
+  if (!(size > 0)) size = 1;
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(n, dim == 3 ? 6 : 3);
+  for (Index i = 0; i < n; ++i) {
+    if (places.node[as_size(i)] < 0 || stands_alone(a, i)) continue;
+    const int k = places.direction[as_size(i)];
+    const Eigen::Vector3d x = (places.place[as_size(i)] - middle) / size;
+    motions(i, k) = 1;
+    for (int axis = dim == 3 ? 0 : 2; axis < 3; ++axis)
+      motions(i, dim == 3 ? 3 + axis : 2) = Eigen::Vector3d::Unit(axis).cross(x)[k];
+  }
+  return motions;
+}
+
+/// What is solved for directly: rows and columns of the matrix that are of contact.
+class Exact {
+ public:
+  /// False: singular.
+  bool factor(const CompressedRows& a, const Places& places, Symmetry symmetry,
+              const MumpsOptions& options) {
+    const auto n = static_cast<Index>(a.rows());
+    unknowns_.clear();
+    std::vector<Index> position(as_size(n), -1);
+    for (Index i = 0; i < n; ++i)
+      if (places.exact[as_size(i)] != 0 || places.node[as_size(i)] < 0) {
+        position[as_size(i)] = static_cast<Index>(unknowns_.size());
+        unknowns_.push_back(i);
+      }
+    if (unknowns_.empty()) return true;
+    std::vector<Eigen::Triplet<double, Index>> entries;
+    for (Index i = 0; i < n; ++i)
+      for (CompressedRows::InnerIterator entry(a, i); entry; ++entry)
+        if (const Index j = position[as_size(entry.col())]; j >= 0)
+          entries.emplace_back(i, j, entry.value());
+    columns_.resize(n, static_cast<Index>(unknowns_.size()));
+    columns_.setFromTriplets(entries.begin(), entries.end());
+    SparseMatrix few;
+    few.n = static_cast<Index>(unknowns_.size());
+    few.row_start = {0};
+    for (const Index i : unknowns_) {
+      for (CompressedRows::InnerIterator entry(columns_, i); entry; ++entry) {
+        few.column.push_back(static_cast<Index>(entry.col()));
+        few.value.push_back(entry.value());
+      }
+      few.row_start.push_back(static_cast<Index>(few.column.size()));
+    }
+    direct_ = std::make_unique<Mumps>(options);
+    return direct_->factor(few, 0, symmetry).status == SolveStatus::ok;
+  }
+  [[nodiscard]] bool any() const { return !unknowns_.empty(); }
+  /// few = K_cc^-1 r_c , and r gets the residual that they leave; false: it cannot be.
+  bool apply(int threads, Eigen::VectorXd& r, Eigen::VectorXd& few) {
+    few = r(unknowns_);
+    if (direct_->solve(few) != SolveStatus::ok) return false;
+    Eigen::VectorXd balanced;
+    multiply(columns_, few, threads, balanced);
+    r -= balanced;
+    return true;
+  }
+  void add(const Eigen::VectorXd& few, Eigen::VectorXd& x) const { x(unknowns_) += few; }
+  void forget() {
+    direct_.reset();
+    unknowns_.clear();
+    columns_ = {};
+  }
+
+ private:
+  std::vector<Index> unknowns_;
+  CompressedRows columns_;
+  std::unique_ptr<Mumps> direct_;
+};
+
+/// Adds the life time of the value to a sum [s].
+class Timed {
+ public:
+  explicit Timed(double& sum) : sum_(sum) {}
+  ~Timed() {
+    sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+  }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  double& sum_;
+  std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+struct Iterative::Impl {
+  MumpsOptions options;
+  Places places;
+  Condensed direct;
+  std::unique_ptr<Multigrid> bodies;
+  Exact exact;
+  bool by_multigrid = false;        ///< the last matrix
+  bool fresh = false;               ///< the coarser models are those of the last matrix
+  bool anew = true;                 ///< those that are there are not to be used
+  double pace = 0, first_pace = 0;  ///< iterations a digit of the last solution, and the first
+  double wanted = 1e-10;
+  double seconds = 0;
+  std::uint64_t version = 0;
+  Symmetry symmetry = Symmetry::unsymmetric;
+  IterativeWork work;
+
+  explicit Impl(MumpsOptions of) : options(of), direct(of) {}
+  ~Impl() = default;
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  [[nodiscard]] bool suits(const SparseMatrix& k) const;
+  bool build(CompressedRows a);
+  bool refresh(const SparseMatrix& k);
+  bool iterate(Eigen::VectorXd& rhs);
+  bool precondition(Eigen::VectorXd& r);
+  FactorReport factor_directly(const SparseMatrix& k);
+  SolveStatus solve(Eigen::VectorXd& rhs);
+};
+
+bool Iterative::Impl::suits(const SparseMatrix& k) const {
+  constexpr Index fewest = 1500;
+  if (k.n < fewest || !places.known(k.n)) return false;
+  Index count = 0;
+  for (std::size_t i = 0; i < places.node.size(); ++i)
+    if (places.exact[i] != 0 || places.node[i] < 0) ++count;
+  return 2 * count < k.n && std::ranges::all_of(k.value, [](double v) { return std::isfinite(v); });
+}
+
+/// False: the direct solver is to look at the matrix.
+bool Iterative::Impl::build(CompressedRows a) {
+  fresh = true;
+  anew = false;
+  first_pace = 0;
+  bodies = std::make_unique<Multigrid>(places.threads);
+  if (!exact.factor(a, places, symmetry, options)) return false;
+  Eigen::MatrixXd motions = rigid_motions(places, a);
+  return bodies->build(std::move(a), groups_of(places), std::move(motions));
+}
+
+/// With the coarser models of an earlier matrix. False: they are not there, or worth nothing.
+bool Iterative::Impl::refresh(const SparseMatrix& k) {
+  constexpr double slower = 1.5;
+  if (anew || !by_multigrid || !bodies || pace > slower * first_pace) return false;
+  fresh = false;
+  CompressedRows a = compressed(k, symmetry);
+  return exact.factor(a, places, symmetry, options) && bodies->refresh(std::move(a));
+}
+
+FactorReport Iterative::Impl::factor_directly(const SparseMatrix& k) {
+  by_multigrid = false;
+  exact.forget();
+  bodies.reset();
+  return direct.factor(k, version, symmetry);
+}
+
+bool Iterative::Impl::precondition(Eigen::VectorXd& r) {
+  if (!exact.any()) return bodies->apply(r);
+  Eigen::VectorXd few;
+  if (!exact.apply(places.threads, r, few) || !bodies->apply(r)) return false;
+  exact.add(few, r);
+  return true;
+}
+
+/// False: it does not come to an end.
+bool Iterative::Impl::iterate(Eigen::VectorXd& rhs) {
+  PreconditionedLimits limits;
+  limits.tolerance = wanted;
+  const Nearby done = solve_preconditioned(
+      {bodies->matrix(), places.threads}, [this](Eigen::VectorXd& r) { return precondition(r); },
+      limits, rhs);
+  work.iterations += done.iterations;
+  if (!done.solved) return false;
+  ++work.solutions;
+  constexpr double head_start = 2;  // of the first iterations, which gain less
+  pace = done.iterations / (head_start - std::log10(wanted));
+  if (first_pace == 0) first_pace = pace;
+  return true;
+}
+
+SolveStatus Iterative::Impl::solve(Eigen::VectorXd& rhs) {
+  if (!by_multigrid) return direct.solve(rhs);
+  if (rhs.size() != bodies->matrix().rows() || !rhs.allFinite()) return SolveStatus::failed;
+  if (iterate(rhs)) return SolveStatus::ok;
+  const SparseMatrix k = stored(bodies->matrix());  // both triangles
+  if (!fresh && build(compressed(k, Symmetry::unsymmetric)) && iterate(rhs)) return SolveStatus::ok;
+  ++work.given_up;
+  const FactorReport report = factor_directly(k);
+  return report.status == SolveStatus::ok ? direct.solve(rhs) : report.status;
+}
+
+Iterative::Iterative(MumpsOptions direct) : impl_(std::make_unique<Impl>(direct)) {}
+Iterative::~Iterative() = default;
+
+void Iterative::place(Places places) {
+  places.threads = std::max(1, places.threads);
+  begin_anew();
+  impl_->places = std::move(places);
+}
+
+void Iterative::may_change(std::vector<Index> unknowns) {
+  impl_->direct.may_change(std::move(unknowns));
+}
+
+void Iterative::begin_anew() { impl_->anew = true; }
+
+void Iterative::aim(double share) {
+  constexpr double least = 1e-10, most = 1e-4;
+  impl_->wanted = std::clamp(share, least, most);
+}
+
+FactorReport Iterative::factor(const SparseMatrix& k, std::uint64_t pattern_version,
+                               Symmetry symmetry) {
+  Impl& s = *impl_;
+  const Timed timed(s.seconds);
+  s.version = pattern_version;
+  s.symmetry = symmetry;
+  s.wanted = 1e-10;
+  if (!s.suits(k)) return s.factor_directly(k);
+  s.by_multigrid = s.refresh(k) || s.build(compressed(k, symmetry));
+  if (s.by_multigrid) return {};
+  ++s.work.given_up;
+  return s.factor_directly(k);
+}
+
+SolveStatus Iterative::solve(Eigen::VectorXd& rhs) {
+  const Timed timed(impl_->seconds);
+  return impl_->solve(rhs);
+}
+
+SolveStatus Iterative::solve(Eigen::MatrixXd& rhs) {
+  const Timed timed(impl_->seconds);
+  if (!impl_->by_multigrid) return impl_->direct.solve(rhs);
+  for (Eigen::Index c = 0; c < rhs.cols(); ++c) {
+    Eigen::VectorXd x = rhs.col(c);
+    if (const SolveStatus status = impl_->solve(x); status != SolveStatus::ok) return status;
+    rhs.col(c) = x;
+  }
+  return SolveStatus::ok;
+}
+
+double Iterative::seconds() const { return impl_->seconds; }
+IterativeWork Iterative::work() const { return impl_->work; }
+
+std::unique_ptr<LinearSolver> make_iterative_solver() { return std::make_unique<Iterative>(); }
+
+}  // namespace osculate::la

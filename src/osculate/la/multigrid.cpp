@@ -1,0 +1,262 @@
+#include "osculate/la/multigrid.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "osculate/la/block_diagonal.hpp"
+#include "osculate/la/mumps.hpp"
+
+namespace osculate::la {
+namespace {
+
+/// One model.
+struct Level {
+  CompressedRows a, p, transposed;  ///< the last two lead to the next coarser one
+  GroupStarts start;
+  Eigen::MatrixXd near_null;
+  BlockDiagonal inverse;
+  double largest = 0;  ///< eigenvalue of D^-1 A
+  Eigen::VectorXd x, r, d, t, of_coarse;
+
+  /// What the smoother needs; false: there are no numbers.
+  bool prepare_smoother(int threads);
+  void find_largest(int threads);
+  void smooth(Eigen::VectorXd& solution, bool residual_wanted, int threads);
+};
+
+bool Level::prepare_smoother(int threads) {
+  inverse = BlockDiagonal(a, start);
+  find_largest(threads);
+  return largest > 0 && std::isfinite(largest);
+}
+
+/// By the power method from noise; a little more than it finds.
+void Level::find_largest(int threads) {
+  constexpr int rounds = 15;
+  constexpr double more = 1.05;
+  Eigen::VectorXd v(a.rows()), w;
+  std::uint32_t noise = 1;
+  for (double& value : v) {
+    noise = noise * 1664525U + 1013904223U;
+    value = static_cast<double>(noise >> 8U) / (1U << 24U) - 0.5;
+  }
+  for (int i = 0; i < rounds; ++i) {
+    const double size = v.norm();
+    if (!(size > 0) || !std::isfinite(size)) break;
+    v /= size;
+    multiply(a, v, threads, w);
+    inverse.apply(w, threads, v);
+    largest = more * v.norm();
+  }
+}
+
+/// Adds to the solution what a Chebyshev polynomial of D^-1 A makes of its residual `r`, which is
+/// brought up to date where it is wanted.
+void Level::smooth(Eigen::VectorXd& solution, bool residual_wanted, int threads) {
+  constexpr int degree = 2;
+  constexpr double above = 1.1, part = 10;  // of the spectrum, from the top
+  const double high = above * largest, low = high / part;
+  const double middle = 0.5 * (high + low), half = 0.5 * (high - low), sigma = middle / half;
+  double rho = 1 / sigma;
+  inverse.apply(r, threads, t);
+  d = t / middle;
+  for (int i = 1;; ++i) {
+    solution += d;
+    if (i == degree && !residual_wanted) return;
+    multiply(a, d, threads, t);
+    r -= t;
+    if (i == degree) return;
+    const double next = 1 / (2 * sigma - rho);
+    inverse.apply(r, threads, t);
+    d = next * rho * d + (2 * next / half) * t;
+    rho = next;
+  }
+}
+
+/// Rows of a matrix of bases, in any order.
+class Bases {
+ public:
+  explicit Bases(Eigen::Index rows) : of_row_(static_cast<std::size_t>(rows)) {}
+  void add(Index row, Index first_column, const Eigen::RowVectorXd& values) {
+    of_row_[as_size(row)] = {first_column, static_cast<Index>(values.size()), value_.size()};
+    value_.insert(value_.end(), values.begin(), values.end());
+  }
+  [[nodiscard]] CompressedRows as_matrix(Index columns) const {
+    const auto rows = static_cast<Index>(of_row_.size());
+    CompressedRows p(rows, columns);
+    p.resizeNonZeros(static_cast<Index>(value_.size()));
+    Index next = 0;
+    for (Index i = 0; i < rows; ++i) {
+      p.outerIndexPtr()[i] = next;
+      const Place& of = of_row_[as_size(i)];
+      for (Index k = 0; k < of.count; ++k, ++next) {
+        p.innerIndexPtr()[next] = of.column + k;
+        p.valuePtr()[next] = value_[of.first + as_size(k)];
+      }
+    }
+    p.outerIndexPtr()[rows] = next;
+    return p;
+  }
+
+ private:
+  struct Place {
+    Index column = 0, count = 0;
+    std::size_t first = 0;
+  };
+  std::vector<Place> of_row_;
+  std::vector<double> value_;
+};
+
+/// Orthonormal bases of the near null vectors, aggregate by aggregate, and these in terms of them.
+struct Tentative {
+  CompressedRows p;
+  GroupStarts start{0};
+  Eigen::MatrixXd near_null;
+};
+
+Tentative tentative(const Level& fine, const Aggregates& aggregates) {
+  constexpr double dependent = 1e-8;
+  std::vector<std::vector<Index>> members(as_size(aggregates.count));
+  for (std::size_t g = 0; g < aggregates.of_group.size(); ++g)
+    if (aggregates.of_group[g] >= 0)
+      for (Index i = fine.start[g]; i < fine.start[g + 1]; ++i)
+        members[as_size(aggregates.of_group[g])].push_back(i);
+  const Eigen::Index modes = fine.near_null.cols();
+  Bases bases(fine.a.rows());
+  Tentative out;
+  out.near_null.resize(modes * aggregates.count, modes);
+  for (const std::vector<Index>& unknowns : members) {
+    const Eigen::MatrixXd of = fine.near_null(unknowns, Eigen::all);
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(of.rows(), modes);
+    qr.setThreshold(dependent);
+    qr.compute(of);
+    const Eigen::Index rank = qr.rank();
+    const Eigen::MatrixXd q = qr.householderQ() * Eigen::MatrixXd::Identity(of.rows(), rank);
+    const Index begin = out.start.back();
+    for (std::size_t i = 0; i < unknowns.size(); ++i)
+      bases.add(unknowns[i], begin, q.row(static_cast<Eigen::Index>(i)));
+    out.near_null.middleRows(begin, rank) = q.transpose() * of;
+    out.start.push_back(begin + static_cast<Index>(rank));
+  }
+  out.near_null.conservativeResize(out.start.back(), modes);
+  out.p = bases.as_matrix(out.start.back());
+  return out;
+}
+
+/// Groups that no coarser model knows.
+std::vector<char> left_out(const Level& level) {
+  std::vector<char> out(level.start.size() - 1, 0);
+  for (std::size_t g = 0; g < out.size(); ++g)
+    out[g] =
+        level.near_null.middleRows(level.start[g], level.start[g + 1] - level.start[g]).isZero(0);
+  return out;
+}
+
+}  // namespace
+
+struct Multigrid::Impl {
+  int threads;
+  std::vector<std::unique_ptr<Level>> levels{};
+  std::unique_ptr<Mumps> coarsest{};
+
+  bool coarsen();
+  bool cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::VectorXd& x);
+};
+
+/// Adds a coarser model to the last one. False: it would be hardly smaller.
+bool Multigrid::Impl::coarsen() {
+  constexpr double strength = 0.05, hardly = 0.7, damping = 4.0 / 3;
+  Level& fine = *levels.back();
+  const Aggregates aggregates = aggregate(fine.a, fine.start, left_out(fine), strength);
+  Tentative next = tentative(fine, aggregates);
+  const Index unknowns = next.start.back();
+  if (unknowns == 0 || unknowns > hardly * static_cast<double>(fine.a.rows())) return false;
+  const CompressedRows spread = product(fine.a, next.p, threads);
+  const CompressedRows scaled = product(fine.inverse.as_matrix(), spread, threads);
+  fine.p = next.p - (damping / fine.largest) * scaled;
+  fine.p.makeCompressed();
+  fine.transposed = fine.p.transpose();
+  auto coarse = std::make_unique<Level>();
+  coarse->a = product(fine.transposed, product(fine.a, fine.p, threads), threads);
+  coarse->start = std::move(next.start);
+  coarse->near_null = std::move(next.near_null);
+  fine.near_null = {};
+  levels.push_back(std::move(coarse));
+  return true;
+}
+
+Multigrid::Multigrid(int threads) : impl_(std::make_unique<Impl>(std::max(1, threads))) {}
+Multigrid::~Multigrid() = default;
+
+bool Multigrid::build(CompressedRows a, GroupStarts groups, Eigen::MatrixXd near_null) {
+  constexpr Index coarsest = 1500;
+  constexpr std::size_t most_levels = 12;
+  Impl& s = *impl_;
+  forget();
+  s.levels.push_back(std::make_unique<Level>());
+  s.levels[0]->a = std::move(a);
+  s.levels[0]->start = std::move(groups);
+  s.levels[0]->near_null = std::move(near_null);
+  while (s.levels.back()->a.rows() > coarsest && s.levels.size() < most_levels) {
+    if (!s.levels.back()->prepare_smoother(s.threads)) return false;
+    if (!s.coarsen()) break;
+  }
+  s.coarsest = std::make_unique<Mumps>();
+  const FactorReport report =
+      s.coarsest->factor(stored(s.levels.back()->a), 0, Symmetry::unsymmetric);
+  return report.status == SolveStatus::ok;
+}
+
+bool Multigrid::refresh(CompressedRows a) {
+  Impl& s = *impl_;
+  if (!s.coarsest || s.levels.size() < 2 || s.levels[0]->a.rows() != a.rows()) return false;
+  s.levels[0]->a = std::move(a);
+  return s.levels[0]->prepare_smoother(s.threads);
+}
+
+bool Multigrid::Impl::cycle(std::size_t level, const Eigen::VectorXd& b, Eigen::VectorXd& x) {
+  if (level + 1 == levels.size()) {
+    x = b;
+    return coarsest->solve(x) == SolveStatus::ok;
+  }
+  Level& fine = *levels[level];
+  x.setZero(b.size());
+  fine.r = b;
+  fine.smooth(x, true, threads);
+  Eigen::VectorXd rest;
+  multiply(fine.transposed, fine.r, threads, rest);
+  if (!cycle(level + 1, rest, fine.of_coarse)) return false;
+  multiply(fine.p, fine.of_coarse, threads, fine.d);
+  x += fine.d;
+  multiply(fine.a, fine.d, threads, fine.t);
+  fine.r -= fine.t;
+  fine.smooth(x, false, threads);
+  return true;
+}
+
+bool Multigrid::apply(Eigen::VectorXd& rhs) {
+  Eigen::VectorXd x;
+  if (!impl_->coarsest || !impl_->cycle(0, rhs, x)) return false;
+  rhs = std::move(x);
+  return rhs.allFinite();
+}
+
+const CompressedRows& Multigrid::matrix() const { return impl_->levels.front()->a; }
+
+double Multigrid::complexity() const {
+  double entries = 0;
+  for (const auto& level : impl_->levels) entries += static_cast<double>(level->a.nonZeros());
+  return entries / static_cast<double>(matrix().nonZeros());
+}
+
+int Multigrid::levels() const { return static_cast<int>(impl_->levels.size()); }
+
+void Multigrid::forget() {
+  impl_->levels.clear();
+  impl_->coarsest.reset();
+}
+
+}  // namespace osculate::la

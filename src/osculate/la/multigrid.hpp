@@ -1,0 +1,50 @@
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+
+#include "osculate/la/aggregates.hpp"
+
+namespace osculate::la {
+
+/// A multigrid cycle of smoothed aggregation: an approximate inverse of the stiffness of bodies.
+/// Each coarser model has the rigid motions of groups of nodes as its unknowns; the smoother is a
+/// Chebyshev polynomial of the blocks of the nodes, the coarsest model is factored by Mumps.
+///
+/// Formula    P = (I - 4 / (3 rho) D^-1 A) P_0 , A_coarse = P^T A P , P_0 an orthonormal basis of
+/// the
+///            near null vectors in each aggregate, D the diagonal blocks, rho the largest
+///            eigenvalue of D^-1 A
+/// Contract   the bits depend on the matrix, groups and near null vectors alone
+/// Source     P. Vanek, J. Mandel, M. Brezina, Computing 56 (1996) 179-196;
+///            M. Adams et al., J. Comput. Phys. 188 (2003) 593-610 (Chebyshev)
+/// Tested by  tests/unit/la/test_multigrid.cpp
+class Multigrid {
+ public:
+  explicit Multigrid(int threads);
+  ~Multigrid();
+  Multigrid(const Multigrid&) = delete;
+  Multigrid& operator=(const Multigrid&) = delete;
+
+  /// Builds the coarser models. False: it cannot be, as where a body is free to move.
+  ///
+  /// Shapes     near_null: a row per unknown. Unknowns of rows of zeros are in no coarser model;
+  ///            groups whose block is not positive definite are not smoothed either
+  bool build(CompressedRows a, GroupStarts groups, Eigen::MatrixXd near_null);
+  /// Takes another matrix of the same unknowns, near to the one that it was built of: the coarser
+  /// models stay. False: it has to be built.
+  bool refresh(CompressedRows a);
+  /// The matrix that it was given last.
+  [[nodiscard]] const CompressedRows& matrix() const;
+  /// One cycle from zero. False: no numbers came out.
+  bool apply(Eigen::VectorXd& rhs_in_solution_out);
+  /// Entries of all matrices over those of the finest.
+  [[nodiscard]] double complexity() const;
+  [[nodiscard]] int levels() const;
+  void forget();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace osculate::la

@@ -1,0 +1,188 @@
+#include "osculate/la/iterative.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "elastic_block.hpp"
+
+namespace osculate::la {
+namespace {
+
+using test::ElasticBlock;
+
+constexpr Index width = 12;
+
+/// A block whose upper side is pressed by stiff springs, with friction that is not symmetric.
+ElasticBlock pressed(double stiff, double friction) {
+  ElasticBlock block(width, width, width);
+  for (Index n = 0; n < block.nodes(); ++n) {
+    if (block.place(n).z() != width) continue;
+    block.builder().add(3 * n + 2, 3 * n + 2, stiff);
+    block.builder().add(3 * n, 3 * n + 2, friction * stiff);
+  }
+  return block;
+}
+
+Eigen::VectorXd load(const ElasticBlock& block) {
+  Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(block.unknowns(), -1, 2);
+  for (Index i = 0; i < block.unknowns(); ++i)
+    if (block.held(i)) b[i] = 0.01;
+  return b;
+}
+
+struct Outcome {
+  Eigen::VectorXd x;
+  IterativeWork work;
+};
+
+Outcome by_iterations(const ElasticBlock& block, Symmetry kind, int threads = 1) {
+  Iterative solver;
+  Places places = block.places();
+  places.threads = threads;
+  solver.place(places);
+  EXPECT_EQ(solver.factor(block.matrix(), 1, kind).status, SolveStatus::ok);
+  Outcome out{load(block), {}};
+  EXPECT_EQ(solver.solve(out.x), SolveStatus::ok);
+  out.work = solver.work();
+  return out;
+}
+
+// However stiff contact is, and with friction or without.
+TEST(Iterative, SolvesAsFactorsDo) {
+  int softest = 0;
+  for (const double stiff : {1.0, 1e4, 1e8})
+    for (const Symmetry kind :
+         {Symmetry::unsymmetric, Symmetry::indefinite, Symmetry::positive_definite}) {
+      const ElasticBlock block = pressed(stiff, kind == Symmetry::unsymmetric ? 0.3 : 0.0);
+      const Outcome found = by_iterations(block, kind);
+      EXPECT_EQ(found.work.solutions, 1);
+      EXPECT_EQ(found.work.given_up, 0);
+      if (softest == 0) softest = found.work.iterations;
+      EXPECT_LE(found.work.iterations, softest + 4) << stiff;
+      Mumps direct;
+      ASSERT_EQ(direct.factor(block.matrix(), 1, kind).status, SolveStatus::ok);
+      Eigen::VectorXd x = load(block);
+      ASSERT_EQ(direct.solve(x), SolveStatus::ok);
+      EXPECT_LT((found.x - x).norm(), 1e-8 * x.norm());
+    }
+}
+
+TEST(Iterative, BitsDoNotDependOnThreadsNorOnWhatWasSolvedBefore) {
+  const ElasticBlock block = pressed(1e3, 0.3);
+  const Outcome one = by_iterations(block, Symmetry::unsymmetric);
+  EXPECT_EQ(one.x, by_iterations(block, Symmetry::unsymmetric, 2).x);
+  Iterative used;
+  used.place(block.places());
+  ASSERT_EQ(used.factor(pressed(5, 0).matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+  used.aim(1e-5);
+  Eigen::VectorXd x = load(block);
+  ASSERT_EQ(used.solve(x), SolveStatus::ok);
+  x = load(block);
+  used.begin_anew();
+  ASSERT_EQ(used.factor(block.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+  ASSERT_EQ(used.solve(x), SolveStatus::ok);
+  EXPECT_EQ(x, one.x);
+}
+
+TEST(Iterative, CoarserModelsServeForMatricesThatAreNear) {
+  Iterative solver;
+  solver.place(pressed(1, 0).places());
+  int first = 0;
+  for (const double stiff : {1e3, 1e1, 1e7}) {  // contact opens and closes everywhere
+    const ElasticBlock block = pressed(stiff, 0.3);
+    ASSERT_EQ(solver.factor(block.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+    const int before = solver.work().iterations;
+    Eigen::VectorXd x = load(block);
+    ASSERT_EQ(solver.solve(x), SolveStatus::ok);
+    EXPECT_LE(relative_residual(block.matrix(), x, load(block)), 1.001e-10);
+    if (first == 0) first = solver.work().iterations;
+    EXPECT_LE(solver.work().iterations - before, 2 * first);
+  }
+}
+
+TEST(Iterative, LeavesNoMoreThanIsAskedFor) {
+  const ElasticBlock block = pressed(1e3, 0.3);
+  Iterative solver;
+  solver.place(block.places());
+  ASSERT_EQ(solver.factor(block.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+  int before = 0, last = 0;
+  for (const double share : {1e-4, 1e-6, 1e-9}) {
+    solver.aim(share);
+    Eigen::VectorXd x = load(block);
+    ASSERT_EQ(solver.solve(x), SolveStatus::ok);
+    EXPECT_LE(relative_residual(block.matrix(), x, load(block)), 1.001 * share);
+    EXPECT_GT(solver.work().iterations - before, last);
+    last = solver.work().iterations - before;
+    before = solver.work().iterations;
+  }
+}
+
+TEST(Iterative, SolvesForMultipliersToo) {
+  constexpr Index extra = 20;
+  const ElasticBlock block(width, width, width);
+  MatrixBuilder m(block.unknowns() + extra);
+  const SparseMatrix& k = block.matrix();
+  for (Index i = 0; i < k.n; ++i)
+    for (Index e = k.row_start[static_cast<std::size_t>(i)];
+         e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e)
+      m.add(i, k.column[static_cast<std::size_t>(e)], k.value[static_cast<std::size_t>(e)]);
+  Places places = block.places();
+  for (Index j = 0; j < extra; ++j) {
+    const Index row = block.unknowns() + j, u = 3 * block.node(j % 5 + 2, j / 5 + 2, width) + 2;
+    m.add(row, u, 1);
+    m.add(u, row, 1);
+    places.node.push_back(-1);
+    places.direction.push_back(0);
+    places.place.emplace_back(0, 0, 0);
+    places.exact.push_back(1);
+  }
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(block.unknowns() + extra);
+  b.tail(extra).setConstant(-0.1);
+  Iterative solver;
+  solver.place(places);
+  ASSERT_EQ(solver.factor(m.finish(), 1, Symmetry::indefinite).status, SolveStatus::ok);
+  Eigen::VectorXd x = b;
+  ASSERT_EQ(solver.solve(x), SolveStatus::ok);
+  EXPECT_EQ(solver.work().given_up, 0);
+  EXPECT_LT(relative_residual(m.finish(), x, b), 1e-9);
+}
+
+TEST(Iterative, FreeBodiesAreReportedByTheDirectSolver) {
+  const ElasticBlock block(width, width, width, false);
+  Iterative solver;
+  solver.place(block.places());
+  const FactorReport report = solver.factor(block.matrix(), 1, Symmetry::indefinite);
+  EXPECT_EQ(report.status, SolveStatus::singular);
+  EXPECT_EQ(solver.work().given_up, 1);
+}
+
+TEST(Iterative, WhatItKnowsNothingOfOrIsSmallIsFactored) {
+  const ElasticBlock block = pressed(10, 0.3), small(3, 3, 3);
+  Iterative solver;
+  for (const ElasticBlock* const of : {&block, &small}) {
+    ASSERT_EQ(solver.factor(of->matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+    Eigen::VectorXd x = load(*of);
+    ASSERT_EQ(solver.solve(x), SolveStatus::ok);
+    EXPECT_LT(relative_residual(of->matrix(), x, load(*of)), 1e-11);
+    solver.place(small.places());
+  }
+  EXPECT_EQ(solver.work().solutions + solver.work().given_up, 0);
+}
+
+TEST(Iterative, RefusesWhatIsNoNumber) {
+  ElasticBlock block = pressed(10, 0.3);
+  Iterative solver;
+  solver.place(block.places());
+  ASSERT_EQ(solver.factor(block.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::ok);
+  Eigen::VectorXd x = load(block);
+  x[5] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(solver.solve(x), SolveStatus::failed);
+  Eigen::VectorXd shorter = Eigen::VectorXd::Ones(7);
+  EXPECT_EQ(solver.solve(shorter), SolveStatus::failed);
+  block.builder().add(4, 4, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(solver.factor(block.matrix(), 1, Symmetry::unsymmetric).status, SolveStatus::failed);
+}
+
+}  // namespace
+}  // namespace osculate::la

@@ -1,0 +1,167 @@
+#include "osculate/la/multigrid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "elastic_block.hpp"
+#include "osculate/la/block_diagonal.hpp"
+
+namespace osculate::la {
+namespace {
+
+using test::ElasticBlock;
+
+GroupStarts groups_of_three(Index n) {
+  GroupStarts start;
+  for (Index i = 0; i <= n; i += 3) start.push_back(i);
+  return start;
+}
+
+Eigen::VectorXd noise(Eigen::Index n) {
+  Eigen::VectorXd v(n);
+  for (Eigen::Index i = 0; i < n; ++i) v[i] = std::sin(1.7 * static_cast<double>(i * i % 1009));
+  return v;
+}
+
+TEST(Aggregates, EveryGroupBelongsToOneAndThoseLeftOutToNone) {
+  const ElasticBlock block(11, 10, 9, false);
+  const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
+  const GroupStarts start = groups_of_three(block.unknowns());
+  std::vector<char> out(start.size() - 1, 0);
+  out[3] = out[40] = 1;
+  const Aggregates found = aggregate(a, start, out, 0.05);
+  std::vector<int> members(static_cast<std::size_t>(found.count), 0);
+  for (std::size_t g = 0; g < out.size(); ++g) {
+    if (out[g] != 0) {
+      EXPECT_EQ(found.of_group[g], -1);
+      continue;
+    }
+    ASSERT_GE(found.of_group[g], 0);
+    ASSERT_LT(found.of_group[g], found.count);
+    ++members[static_cast<std::size_t>(found.of_group[g])];
+  }
+  for (const int count : members) EXPECT_GT(count, 0);
+  EXPECT_LT(10 * found.count, static_cast<Index>(out.size()));
+}
+
+// A plate of long thin cells: stiff across, hardly along. Aggregates are across.
+TEST(Aggregates, WeakCouplingsAreLeftAlone) {
+  constexpr Index along = 10, across = 9;
+  std::vector<Eigen::Triplet<double, Index>> entries;
+  const auto id = [](Index i, Index j) { return i * across + j; };
+  for (Index i = 0; i < along; ++i)
+    for (Index j = 0; j < across; ++j) {
+      entries.emplace_back(id(i, j), id(i, j), 2.0);
+      if (j > 0) {
+        entries.emplace_back(id(i, j), id(i, j - 1), -1.0);
+        entries.emplace_back(id(i, j - 1), id(i, j), -1.0);
+      }
+      if (i > 0) {
+        entries.emplace_back(id(i, j), id(i - 1, j), -1e-4);
+        entries.emplace_back(id(i - 1, j), id(i, j), -1e-4);
+      }
+    }
+  CompressedRows a(along * across, along * across);
+  a.setFromTriplets(entries.begin(), entries.end());
+  GroupStarts start;
+  for (Index i = 0; i <= along * across; ++i) start.push_back(i);
+  const std::vector<char> none(static_cast<std::size_t>(along * across), 0);
+  const Aggregates found = aggregate(a, start, none, 0.05);
+  std::vector<Index> row(static_cast<std::size_t>(found.count), -1);
+  for (Index i = 0; i < along; ++i)
+    for (Index j = 0; j < across; ++j) {
+      Index& of = row[as_size(found.of_group[as_size(id(i, j))])];
+      if (of < 0) of = i;
+      EXPECT_EQ(of, i);
+    }
+}
+
+TEST(BlockDiagonal, InvertsBlocksAndLeavesOutThoseThatAreNotPositiveDefinite) {
+  CompressedRows a(6, 6);
+  a.insert(0, 0) = 4;
+  a.insert(0, 1) = 1;
+  a.insert(1, 0) = 1;
+  a.insert(1, 1) = 3;
+  a.insert(1, 3) = 7;  // of another block
+  a.insert(2, 2) = -1;
+  a.insert(3, 3) = 0;
+  a.insert(4, 4) = 1;
+  a.insert(4, 5) = 1;
+  a.insert(5, 4) = 1;
+  a.insert(5, 5) = 1;
+  a.makeCompressed();
+  const BlockDiagonal inverse(a, {0, 2, 3, 4, 6});
+  Eigen::VectorXd y;
+  inverse.apply(Eigen::VectorXd::Ones(6), 1, y);
+  Eigen::VectorXd expected = Eigen::VectorXd::Zero(6);
+  expected.head<2>() << 2.0 / 11, 3.0 / 11;
+  EXPECT_LT((y - expected).norm(), 1e-15);
+  EXPECT_LT((inverse.as_matrix() * Eigen::VectorXd::Ones(6) - expected).norm(), 1e-15);
+}
+
+/// What is left of an error after one cycle, in the norm of the energy, at most: by iterations.
+double convergence(const ElasticBlock& block, int threads = 1) {
+  const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
+  Multigrid cycle(threads);
+  EXPECT_TRUE(cycle.build(a, groups_of_three(block.unknowns()), block.rigid_motions()));
+  Eigen::VectorXd e = noise(block.unknowns());
+  for (Index i = 0; i < block.unknowns(); ++i)
+    if (block.held(i)) e[i] = 0;
+  double rate = 0;
+  for (int i = 0; i < 25; ++i) {
+    e /= std::sqrt(e.dot(a * e));
+    Eigen::VectorXd x = a * e;
+    EXPECT_TRUE(cycle.apply(x));
+    e -= x;
+    rate = std::sqrt(e.dot(a * e));
+  }
+  return rate;
+}
+
+TEST(Multigrid, ConvergesAtARateThatDoesNotFollowTheSize) {
+  const double coarse = convergence(ElasticBlock(8, 8, 8)),
+               fine = convergence(ElasticBlock(16, 16, 16));
+  EXPECT_LT(coarse, 0.5);
+  EXPECT_LT(fine, 0.6);
+}
+
+TEST(Multigrid, IsTheInverseWhereThereIsOneLevel) {
+  const ElasticBlock block(4, 4, 4);
+  const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
+  Multigrid cycle(1);
+  ASSERT_TRUE(cycle.build(a, groups_of_three(block.unknowns()), block.rigid_motions()));
+  EXPECT_EQ(cycle.levels(), 1);
+  Eigen::VectorXd x = noise(block.unknowns());
+  const Eigen::VectorXd b = x;
+  ASSERT_TRUE(cycle.apply(x));
+  EXPECT_LT((a * x - b).norm(), 1e-11 * b.norm());
+}
+
+TEST(Multigrid, IsSymmetricAndItsBitsDoNotDependOnThreads) {
+  const ElasticBlock block(9, 10, 11);
+  const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
+  Multigrid one(1), two(2);
+  ASSERT_TRUE(one.build(a, groups_of_three(block.unknowns()), block.rigid_motions()));
+  ASSERT_TRUE(two.build(a, groups_of_three(block.unknowns()), block.rigid_motions()));
+  EXPECT_GE(one.levels(), 2);
+  EXPECT_LT(one.complexity(), 1.5);
+  const Eigen::VectorXd u = noise(block.unknowns()), v = u.reverse();
+  Eigen::VectorXd mu = u, mv = v, again = u;
+  ASSERT_TRUE(one.apply(mu) && one.apply(mv) && two.apply(again));
+  EXPECT_NEAR(v.dot(mu), u.dot(mv), 1e-10 * mu.norm() * v.norm());
+  EXPECT_EQ(mu, again);
+}
+
+TEST(Multigrid, SaysThatAFreeBodyHasNoCoarsestModel) {
+  const ElasticBlock block(8, 8, 8, false);
+  const CompressedRows a = compressed(block.matrix(), Symmetry::unsymmetric);
+  Multigrid cycle(1);
+  EXPECT_FALSE(cycle.build(a, groups_of_three(block.unknowns()), block.rigid_motions()));
+  Eigen::VectorXd x = noise(block.unknowns());
+  cycle.forget();
+  EXPECT_FALSE(cycle.apply(x));
+}
+
+}  // namespace
+}  // namespace osculate::la
