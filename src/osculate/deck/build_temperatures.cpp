@@ -17,19 +17,21 @@ std::map<double, std::vector<Index>> heated_nodes(const BuildContext<Dim>& c, co
     throw core::InputError(load.on.mark,
                            "set '" + load.on.value + "' has no nodes to have a temperature");
   const auto part = [&](std::size_t k) { return load.values[k] ? load.values[k]->value : 0; };
+  const bool graded = part(1) != 0 || part(2) != 0;
   std::map<double, std::vector<Index>> out;
-  out[part(0)] = nodes;
-  if (c.model().mesh.expanded.empty() && !load.values[1] && !load.values[2]) return out;
   std::vector<bool> here(c.model().reference.size());
   for (const Index node : nodes) here[static_cast<std::size_t>(node)] = true;
   bool any = false;
   for (const mesh::Expanded& one : c.model().mesh.expanded) {
-    if (!here[static_cast<std::size_t>(one.of)] && !here[static_cast<std::size_t>(one.node)])
-      continue;
+    const bool named = here[static_cast<std::size_t>(one.node)];
+    if (!named && !here[static_cast<std::size_t>(one.of)]) continue;
     any = true;
+    here[static_cast<std::size_t>(one.node)] = false;
     out[part(0) + part(1) * one.height[0] + part(2) * one.height[1]].push_back(one.node);
   }
-  if (!any && (load.values[1] || load.values[2]))
+  for (const Index node : nodes)
+    if (here[static_cast<std::size_t>(node)]) out[part(0)].push_back(node);
+  if (!any && graded)
     throw core::InputError(load.mark,
                            fmt::format("gradients of the temperature are for nodes of shells and "
                                        "beams of an input file: '{}' has none",

@@ -136,7 +136,8 @@ BoundKey<Step> forces_key() {
   return loads(
       &Step::forces, "forces", "[{on: corner, fy: -3}]",
       "Forces on every node of a set (n nodes carry n times as much: `total_force` is one "
-      "force on all of them), or on a rigid body, whose motion they set free.",
+      "force on all of them), or on a rigid body, whose motion they set free (forces on its nodes "
+      "do not).",
       "One force.", on_key<Load>("Set of nodes, or rigid body.", "corner"),
       {{"fx", "Force in x at the end of the step.", "force"},
        {"fy", "Force in y at the end of the step.", "force"},

@@ -120,10 +120,11 @@ TEST(BodyChanges, TakeTheirEnergyWithThem) {
       "materials: {m: {elastoplastic: {E: 100, nu: 0, yield: 0.2, isotropic: 10, density: 1}}}\n"
       "sections: [{on: a, material: m, element: plane_strain}, {on: b, material: m, element: "
       "plane_strain}]\nsteps:\n"
-      "  - {name: pull, increments: 20, duration: 0.2, dynamics: {newmark: {}}, prescribe: [{on: "
+      "  - {name: pull, increments: 20, duration: 0.2, dynamics: {scheme: newmark}, prescribe: "
+      "[{on: "
       "a.left, ux: 0, uy: 0}, {on: b.left, ux: 0, uy: 0}], total_force: [{on: a.right, fx: 1}, "
       "{on: b.right, fx: 1}]}\n"
-      "  - {name: one, increments: 5, duration: 0.05, dynamics: {newmark: {}}, remove: [{on: "
+      "  - {name: one, increments: 5, duration: 0.05, dynamics: {scheme: newmark}, remove: [{on: "
       "b}]}\n");
   std::vector<model::Energies> at;
   model::AnalysisObserver observer;

@@ -102,9 +102,9 @@ TEST(InpThin, TemperaturesHaveGradients) {
       "*TEMPERATURE\nN, 30.\n1, 40., 5., -6.\n*END STEP\n");
   ASSERT_THAT(d.initial_temperature, SizeIs(1));
   EXPECT_EQ(d.initial_temperature[0].values[1]->value, 3);
-  EXPECT_FALSE(d.initial_temperature[0].values[2].has_value());
+  EXPECT_EQ(d.initial_temperature[0].values[2]->value, 0);
   ASSERT_THAT(d.steps[0].temperature, SizeIs(2));
-  EXPECT_FALSE(d.steps[0].temperature[0].values[1].has_value());
+  EXPECT_EQ(d.steps[0].temperature[0].values[1]->value, 0);
   EXPECT_EQ(d.steps[0].temperature[1].values[1]->value, 5);
   EXPECT_EQ(d.steps[0].temperature[1].values[2]->value, -6);
 }

@@ -104,6 +104,9 @@ TEST(Temperatures, OfBeamsAreThoseOfWhatTheyAreExpandedTo) {
     EXPECT_NEAR(after[n], 80 + 50 * x[2] - 7 * x[1], 1e-12) << n;
   }
   EXPECT_EQ(m.steps[1].temperature.at(1), std::vector<double>(10, 60.0));
+  const std::vector<double> of_cells = m.steps[2].temperature.at(1);  // their nodes, named so
+  for (std::size_t n = 0; n < m.reference.size(); ++n)
+    EXPECT_NEAR(of_cells[n], 60 - 50 * m.reference[n][2], 1e-12) << n;
   EXPECT_EQ(build_refusal(edited(test_file("heat.yaml"), "{on: low, value: 30}",
                                  "{on: low, value: 30, gradient: 5}")),
             "model.yaml:18: steps[0].temperature[0]: gradients of the temperature are for nodes of "
