@@ -46,14 +46,18 @@ api::RunOutcome run_job(const std::string& job) {
   return run_until_interrupted(options);
 }
 
-/// JOBNAME.rout, where the deck asks for it by `*RESTART, WRITE`.
+/// JOBNAME.rout, where the deck asks for it by `*RESTART, WRITE` and anything was solved.
 void write_restart(const std::string& job) {
   const std::string content = io::read_file(job + ".inp");
   const io::inp::Deck deck = io::inp::read_cards(content, job + ".inp");
   const auto writes = [](const io::inp::Card& card) {
     return card.keyword == "RESTART" && io::inp::find_parameter(card, "WRITE");
   };
+  const auto solves_nothing = [](const io::inp::Card& card) {
+    return card.keyword == "NOANALYSIS";
+  };
   if (std::none_of(deck.cards.begin(), deck.cards.end(), writes)) return;
+  if (std::any_of(deck.cards.begin(), deck.cards.end(), solves_nothing)) return;
   io::AtomicFile file(job + ".rout");
   file.write(io::inp::restart_text(deck));
   file.commit();

@@ -268,6 +268,36 @@ with open("read.json", "w") as file:
 """
 
 
+def thin(kind):
+    """Two shells or four beams along x, held at both ends, with forces on the nodes that are held and between, and a
+    pressure on shells."""
+    shell, second = kind[0] == "S", kind in ("S8", "B32")
+    n, wide = (4 if second else 2) if shell else (8 if second else 4), (2 if second else 1) if shell else 0
+    tag = {place: k + 1 for k, place in enumerate((i, j) for i in range(n + 1) for j in range(wide + 1)
+                                                  if not (shell and second and i % 2 and j % 2))}
+    rows = ["*NODE, NSET=N", *(f"{k}, {2 * i / n}, {j / max(wide, 1)}, 0." for (i, j), k in tag.items()),
+            f"*ELEMENT, TYPE={kind}, ELSET=E"]
+    step = 2 if second else 1
+    for e in range(n // step):
+        a, b = step * e, step * e + step
+        corners = [(a, 0), (b, 0), (b, wide), (a, wide)] if shell else [(a, 0), (b, 0)]
+        middles = [(a + 1, 0), (b, 1), (a + 1, wide), (a, 1)] if shell else [(a + 1, 0)]
+        if not shell and second:
+            corners[1:1], middles = middles, []
+        rows.append(", ".join(str(k) for k in [e + 1, *(tag[p] for p in corners + (middles if second else []))]))
+    held = [tag[0, j] for j in range(wide + 1)]
+    tip = [tag[n, j] for j in range(wide + 1)]
+    rows += ["*NSET, NSET=HELD", *(f"{k}," for k in held), "*NSET, NSET=TIP", *(f"{k}," for k in tip),
+             "*MATERIAL, NAME=M", "*ELASTIC", "210000., 0.3",
+             *(["*SHELL SECTION, ELSET=E, MATERIAL=M", "0.1"] if shell else
+               ["*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=RECT", "0.1, 0.2", "0., 0., 1."]),
+             "*BOUNDARY", "HELD, 1, 3", *([] if shell else ["HELD, 4, 4"]), "TIP, 2, 3", "*STEP", "*STATIC",
+             "*CLOAD", f"{held[0]}, 1, 10.", f"{held[-1]}, 2, -7.", f"{tip[0]}, 1, 3.", f"{tip[-1]}, 3, -2.",
+             f"{tag[n // 2, 0]}, 2, 0.5", *(["*DLOAD", "E, P, 0.5"] if shell else []), "*NODE PRINT, NSET=N", "RF",
+             "*NODE PRINT, NSET=HELD, TOTALS=ONLY", "RF", "*NODE FILE", "U", "*END STEP", ""]
+    return "\n".join(rows)
+
+
 class Answers(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -341,6 +371,19 @@ class Answers(unittest.TestCase):
                 for title, rows in expected.items():
                     with self.subTest(title):
                         self.close(dict(enumerate(tables[title])), dict(enumerate(rows)), 1e-4)
+
+    @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
+    def test_forces_of_shells_and_beams_that_are_held_and_loaded(self):
+        """Of a node the forces of the cells that it was expanded to: its reaction and all that it is loaded with."""
+        os.mkdir(self.path("ccx"))
+        for kind, off in (("S8", 1e-5), ("S4", 5e-3), ("B31", 1e-5), ("B32", 1e-5)):
+            with self.subTest(kind):
+                self.solve("thin", thin(kind))
+                shutil.copy(self.path("thin.inp"), self.path("ccx"))
+                self.assertEqual(self.call("ccx", "-i", "thin", cwd="ccx").returncode, 0)
+                ours, theirs = (read_dat(self.path(*where, "thin.dat")) for where in ((), ("ccx",)))
+                for title, rows in theirs.items():
+                    self.close(dict(enumerate(ours[title])), dict(enumerate(rows)), off)
 
     @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
     def test_forces_through_surfaces_as_ccx_has_them(self):

@@ -218,17 +218,29 @@ class Decks(unittest.TestCase):
         read = lambda name: pathlib.Path(self.folder, name).read_text()
         self.assertEqual(read("next.dat"), read("whole.dat"))
         self.assertIn("time  0.2000000E+01", read("next.dat"))
+        held = "*BOUNDARY\n1004, 1, 1, 0.01\n"  # before the next step, as in it
+        for before, within in ((held, ""), ("", held)):
+            self.write("next.inp", "*RESTART, READ, STEP=1\n" + before + more.replace("*DLOAD", within + "*DLOAD"))
+            done = self.run_program("ccx", "-i", "next")
+            self.assertEqual(done.returncode, 0, done.stdout)
+            os.rename(os.path.join(self.folder, "next.dat"), os.path.join(self.folder, f"{len(before)}.dat"))
+        self.assertEqual(read("0.dat"), read(f"{len(held)}.dat"))
+        self.assertNotEqual(read("0.dat"), read("whole.dat"))
         self.write("next.inp", "*RESTART, READ, STEP=2\n" + more)
         self.assertIn("there are 1 steps to go on from, not 2", self.run_program("ccx", "-i", "next").stdout)
         self.write("next.rin", "not text")
         self.assertIn("is no file that `osculate ccx` has written", self.run_program("ccx", "-i", "next").stdout)
 
     def test_a_deck_may_ask_for_no_analysis(self):
-        self.write("column.inp", deck(3).replace("*STATIC\n1., 1.", "*NO ANALYSIS"))
+        text = deck(3).replace("*STATIC\n1., 1.", "*NO ANALYSIS")
+        self.assertIn("*RESTART, WRITE", text)
+        self.write("column.inp", text)
         done = self.run_program("run", "column.inp")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("*NO ANALYSIS: the deck is read and checked, nothing is solved", done.stdout + done.stderr)
         self.assertFalse(os.path.exists(os.path.join(self.folder, "column.results")))
+        self.assertEqual(self.run_program("ccx", "-i", "column").returncode, 0)
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "column.rout")))
 
     def test_the_bolted_joint_of_the_tutorial(self):
         """The bolt keeps its 10 kN while the flanges press on each other, and takes all once they have parted."""

@@ -92,10 +92,14 @@ void build_axes(BuildContext<Dim>& c) {
 
 template <int Dim>
 std::vector<Index> moving_nodes(const BuildContext<Dim>& c, const Name& on, Idle idle,
-                                std::optional<int> direction) {
+                                std::optional<int> direction, InBodies in_bodies) {
   std::vector<Index> nodes;
   for (const Index node : c.set(on).nodes) {
     const Index body = c.model().body_of_node[static_cast<std::size_t>(node)];
+    if (body >= 0 && in_bodies == InBodies::kept) {
+      nodes.push_back(node);
+      continue;
+    }
     if (body >= 0)
       throw core::InputError(
           on.mark, fmt::format("set '{}' has nodes of the rigid body '{}'; name "
@@ -182,9 +186,9 @@ void add_component(const BuildContext<Dim>& c, const Name& on, Component compone
 template void build_axes(BuildContext<2>&);
 template void build_axes(BuildContext<3>&);
 template std::vector<Index> moving_nodes(const BuildContext<2>&, const Name&, Idle,
-                                         std::optional<int>);
+                                         std::optional<int>, InBodies);
 template std::vector<Index> moving_nodes(const BuildContext<3>&, const Name&, Idle,
-                                         std::optional<int>);
+                                         std::optional<int>, InBodies);
 template std::vector<OneDisplacement> displacements(const BuildContext<2>&, const Name&, Component,
                                                     Idle);
 template std::vector<OneDisplacement> displacements(const BuildContext<3>&, const Name&, Component,

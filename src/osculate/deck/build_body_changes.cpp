@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "osculate/core/text.hpp"
+#include "osculate/deck/build_cells.hpp"
 #include "osculate/deck/build_displacements.hpp"
 #include "osculate/model/bulk.hpp"
 
@@ -11,26 +12,6 @@ namespace osculate::deck {
 namespace {
 
 using CellKey = std::pair<Index, Index>;
-
-/// Cells of a set, by section. Fails where there is none with a section.
-template <int Dim>
-std::vector<typename model::BasicBodyChange<Dim>::Cells> cells_on(const BuildContext<Dim>& c,
-                                                                  const Name& on) {
-  std::set<CellKey> wanted;
-  for (const mesh::CellRef& ref : c.set(on).cells) wanted.emplace(ref.block, ref.cell);
-  std::vector<typename model::BasicBodyChange<Dim>::Cells> out;
-  const auto& sections = c.model().sections;
-  for (std::size_t s = 0; s < sections.size(); ++s) {
-    typename model::BasicBodyChange<Dim>::Cells part{s, {}};
-    for (std::size_t i = 0; i < sections[s].cells.size(); ++i)
-      if (wanted.contains({sections[s].cells[i].block, sections[s].cells[i].cell}))
-        part.cells.push_back(i);
-    if (!part.cells.empty()) out.push_back(std::move(part));
-  }
-  if (out.empty())
-    throw core::InputError(on.mark, fmt::format("set '{}' has no cells with a section", on.value));
-  return out;
-}
 
 /// Facets of contact stay.
 template <int Dim>
@@ -157,6 +138,7 @@ void change_material(BuildContext<Dim>& c, const MaterialChange& change,
                       "one elastic law may take the place of another, one elastoplastic of "
                       "another, both with an expansion or both without",
                       change.material.value, section.name));
+    if (!section.initial.empty()) require_hooke(now.now, section.name, change.material.mark);
     if (material::needs_duration(material->law.value))
       check_durations(c.description, material->law.mark,
                       fmt::format("material '{}', which depends on time,", material->name.value));

@@ -11,6 +11,8 @@ namespace osculate::deck {
 
 /// What happens to nodes of a set that take no part in the analysis.
 enum class Idle { refused, left_out };
+/// What happens to nodes of a set that rigid bodies move.
+enum class InBodies { refused, kept };
 
 /// A displacement component: a dof of the model, or (where local axes run against the global ones)
 /// minus one.
@@ -32,11 +34,12 @@ template <int Dim>
 template <int Dim>
 void build_axes(BuildContext<Dim>& context);
 
-/// Nodes of a set that move with the solution and with no rigid body, or in one direction by a
-/// relation of the mesh. Throws for others.
+/// Nodes of a set that move with the solution and with no rigid body (unless these are kept), or in
+/// one direction by a relation of the mesh. Throws for others.
 template <int Dim>
 [[nodiscard]] std::vector<Index> moving_nodes(const BuildContext<Dim>& context, const Name& on,
-                                              Idle idle, std::optional<int> direction = {});
+                                              Idle idle, std::optional<int> direction = {},
+                                              InBodies in_bodies = InBodies::refused);
 
 /// What `on` names for one component, of a rigid body or of each node, as prescriptions see it.
 ///

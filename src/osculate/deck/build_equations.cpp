@@ -117,10 +117,11 @@ std::vector<MarkedEquation> ties_beside(BuildContext<Dim>& c,
   std::vector<MarkedEquation> ties;
   if (c.description.ties.empty()) return ties;
   PrescribedCourses courses = prescribed_courses(c, until);
+  const PrescribedCourses at_first = prescribed_courses(c, std::min<std::size_t>(until, 1));
   std::set<Dof> given;
   for (const model::Equation& equation : reduced(c, others, courses))
     given.insert(equation.terms.front().dof);
-  add_ties(c, courses, std::move(given), ties);
+  add_ties(c, courses, at_first, std::move(given), ties);
   return ties;
 }
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/LU>
 
-#include "osculate/deck/build_context.hpp"
+#include "osculate/deck/build_cells.hpp"
 #include "osculate/model/bulk.hpp"
 #include "osculate/solid/point_axes.hpp"
 
@@ -25,34 +25,6 @@ Vec<solid::components<Dim>> ordered(const std::vector<double>& given, const core
   if constexpr (Dim == 3) std::swap(out[4], out[5]);
   if (strain) out.template tail<solid::components<Dim> - 3>() *= 2;
   return out;
-}
-
-/// Laws whose stress is D E from the undeformed body on, at least up to where they flow.
-template <int Dim>
-void require_linear(const Section& s, const model::BasicBulkSection<Dim>& section,
-                    const InitialState& initial) {
-  const solid::Section<Dim>& of = section.section;
-  const std::string_view law = material::key_of(of.law);
-  const bool finite = of.kinematics == solid::Kinematics::finite;
-  const bool flows = law == "elastoplastic" || law == "norton";
-  const bool may = finite ? law == "st_venant_kirchhoff" || material::directional(of.law)
-                          : material::linear(of.law) || flows || law == "st_venant_kirchhoff";
-  if (material::over_temperature(of.law))
-    throw core::InputError(initial.on.mark,
-                           "initial stresses and strains do not go with constants "
-                           "that depend on the temperature");
-  if (!may)
-    throw core::InputError(initial.on.mark,
-                           fmt::format("the section on '{}' is of {}{}: initial stresses and "
-                                       "strains are for linear_elastic, orthotropic, anisotropic "
-                                       "and, with small strains, elastoplastic and norton",
-                                       s.on.value, law, finite ? " with finite strains" : ""));
-  if (of.formulation == solid::Formulation::solid_shell)
-    throw core::InputError(initial.on.mark, "initial stresses and strains are not for solid_shell");
-  if (finite && !of.expansion.table.empty())
-    throw core::InputError(initial.on.mark,
-                           "initial stresses and strains do not go with finite strains and an "
-                           "expansion");
 }
 
 /// Adds to the strains of one cell.
@@ -101,32 +73,42 @@ void require_none_across(const InitialState&, const solid::Section<3>&, bool) {}
 template <int Dim>
 void add_initial(BuildContext<Dim>& c, const InitialState& initial, bool strain) {
   model::BasicModel<Dim>& m = c.model();
-  std::set<std::pair<Index, Index>> wanted;
-  for (const mesh::CellRef& ref : c.set(initial.on).cells) wanted.emplace(ref.block, ref.cell);
-  bool any = false;
-  for (std::size_t s = 0; s < m.sections.size(); ++s) {
-    model::BasicBulkSection<Dim>& section = m.sections[s];
-    bool here = false;
-    for (std::size_t i = 0; i < section.cells.size(); ++i) {
-      const mesh::CellRef& ref = section.cells[i];
-      if (!wanted.contains({ref.block, ref.cell})) continue;
-      if (!here) {
-        require_linear(c.description.sections[s], section, initial);
-        require_none_across(initial, section.section, strain);
-        section.initial.resize(section.cells.size());
-      }
-      here = any = true;
-      const model::CellNodes cell = model::cell_nodes(m.mesh, ref);
+  for (const auto& part : cells_on(c, initial.on)) {
+    model::BasicBulkSection<Dim>& section = m.sections[part.section];
+    require_hooke(section.section, c.description.sections[part.section].on.value, initial.on.mark);
+    require_none_across(initial, section.section, strain);
+    section.initial.resize(section.cells.size());
+    for (const std::size_t i : part.cells) {
+      const model::CellNodes cell = model::cell_nodes(m.mesh, section.cells[i]);
       add_to_cell(initial, strain, model::section_on(section, cell.type), cell.type,
                   model::reference_of(m, cell.nodes), section.initial[i]);
     }
   }
-  if (!any)
-    throw core::InputError(initial.on.mark,
-                           fmt::format("set '{}' has no cells with a section", initial.on.value));
 }
 
 }  // namespace
+
+template <int Dim>
+void require_hooke(const solid::Section<Dim>& section, const std::string& on,
+                   const core::SourceMark& mark) {
+  const bool finite = section.kinematics == solid::Kinematics::finite;
+  if (material::over_temperature(section.law))
+    throw core::InputError(mark,
+                           "initial stresses and strains do not go with constants that depend on "
+                           "the temperature");
+  if (!material::hooke_at_first(section.law))
+    throw core::InputError(
+        mark, fmt::format("the section on '{}' is of {}{}: initial stresses and strains are for "
+                          "linear_elastic, orthotropic, anisotropic and, with small strains, "
+                          "elastoplastic and norton",
+                          on, material::key_of(section.law), finite ? " with finite strains" : ""));
+  if (section.formulation == solid::Formulation::solid_shell)
+    throw core::InputError(mark, "initial stresses and strains are not for solid_shell");
+  if (finite && !section.expansion.table.empty())
+    throw core::InputError(mark,
+                           "initial stresses and strains do not go with finite strains and an "
+                           "expansion");
+}
 
 template <int Dim>
 void build_initial_state(BuildContext<Dim>& c) {
@@ -134,6 +116,8 @@ void build_initial_state(BuildContext<Dim>& c) {
   for (const InitialState& one : c.description.initial_strain) add_initial(c, one, true);
 }
 
+template void require_hooke(const solid::Section<2>&, const std::string&, const core::SourceMark&);
+template void require_hooke(const solid::Section<3>&, const std::string&, const core::SourceMark&);
 template void build_initial_state(BuildContext<2>&);
 template void build_initial_state(BuildContext<3>&);
 

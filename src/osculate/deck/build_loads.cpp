@@ -15,14 +15,16 @@ namespace {
 
 using model::Dof;
 
-/// Force per node on a set, or force and moment on a rigid body.
+/// Force per node on a set, whose nodes may be those of bodies, or force and moment on a rigid
+/// body.
 template <int Dim>
 std::vector<std::pair<Dof, double>> force_unit(const BuildContext<Dim>& c, const Load& load,
                                                Component i) {
   std::vector<std::pair<Dof, double>> unit;
   if (const auto rigid = c.rigid_index.find(load.on.value); rigid != c.rigid_index.end())
     return {{body_dof(c.model(), rigid->second, i), 1.0}};
-  for (const Index node : moving_nodes(c, load.on, Idle::refused, motion_of<Dim>(i))) {
+  for (const Index node :
+       moving_nodes(c, load.on, Idle::refused, motion_of<Dim>(i), InBodies::kept)) {
     const Vec<Dim> direction = direction_of(c, node, i);
     for (int k = 0; k < Dim; ++k)
       if (direction[k] != 0.0) unit.emplace_back(Dim * node + k, direction[k]);

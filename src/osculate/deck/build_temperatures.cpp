@@ -2,18 +2,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "osculate/deck/build_context.hpp"
 
 namespace osculate::deck {
 namespace {
 
+/// Temperatures that one entry gives: nodes that have the same one.
 template <int Dim>
-const std::vector<Index>& heated_nodes(const BuildContext<Dim>& c, const Name& on) {
-  const std::vector<Index>& nodes = c.set(on).nodes;
+std::map<double, std::vector<Index>> heated_nodes(const BuildContext<Dim>& c, const Load& load) {
+  const std::vector<Index>& nodes = c.set(load.on).nodes;
   if (nodes.empty())
-    throw core::InputError(on.mark, "set '" + on.value + "' has no nodes to have a temperature");
-  return nodes;
+    throw core::InputError(load.on.mark,
+                           "set '" + load.on.value + "' has no nodes to have a temperature");
+  const auto part = [&](std::size_t k) { return load.values[k] ? load.values[k]->value : 0; };
+  const bool graded = part(1) != 0 || part(2) != 0;
+  std::map<double, std::vector<Index>> out;
+  std::vector<bool> here(c.model().reference.size());
+  for (const Index node : nodes) here[static_cast<std::size_t>(node)] = true;
+  bool any = false;
+  for (const mesh::Expanded& one : c.model().mesh.expanded) {
+    const bool named = here[static_cast<std::size_t>(one.node)];
+    if (!named && !here[static_cast<std::size_t>(one.of)]) continue;
+    any = true;
+    here[static_cast<std::size_t>(one.node)] = false;
+    out[part(0) + part(1) * one.height[0] + part(2) * one.height[1]].push_back(one.node);
+  }
+  for (const Index node : nodes)
+    if (here[static_cast<std::size_t>(node)]) out[part(0)].push_back(node);
+  if (!any && graded)
+    throw core::InputError(load.mark,
+                           fmt::format("gradients of the temperature are for nodes of shells and "
+                                       "beams of an input file: '{}' has none",
+                                       load.on.value));
+  return out;
 }
 
 bool any_temperature(const Description& d) {
@@ -40,8 +63,8 @@ void build_initial_temperature(BuildContext<Dim>& c) {
   std::vector<double>& of = c.model().initial_temperature;
   of.assign(c.model().reference.size(), 0.0);
   for (const Load& load : c.description.initial_temperature)
-    for (const Index node : heated_nodes(c, load.on))
-      of[static_cast<std::size_t>(node)] = load.values[0]->value;
+    for (const auto& [value, nodes] : heated_nodes(c, load))
+      for (const Index node : nodes) of[static_cast<std::size_t>(node)] = value;
   const auto feels = [](const Material& m) {
     return !m.expansion.table.empty() || material::takes_temperature(m.law.value);
   };
@@ -59,8 +82,8 @@ void build_temperatures(const BuildContext<Dim>& c, const Step& step, std::vecto
   for (const Load& load : step.temperature) {
     model::Amplitude amplitude;
     if (load.amplitude) amplitude = c.description.find_amplitude(load.amplitude->value)->points;
-    out.temperature.changes.push_back(
-        {heated_nodes(c, load.on), load.values[0]->value, std::move(amplitude)});
+    for (auto& [value, nodes] : heated_nodes(c, load))
+      out.temperature.changes.push_back({std::move(nodes), value, amplitude});
   }
   now = out.temperature.at(1);
 }

@@ -15,12 +15,15 @@ void adjust_ties(BuildContext<Dim>& context);
 ///
 /// Formula    u = sum N_k u_k : a node of the slave, and the shape functions of the master's facet
 ///            at the nearest place of it, in reference coordinates, no farther than the tolerance
-/// Input      courses: what is prescribed, and `given`: what other equations give. These
-///            displacements of slave nodes are not tied. Of several ties of a node the first counts
+/// Input      ever, at_first: what any step prescribes, and what the first one does; `given`: what
+///            other equations give. Displacements of slave nodes that the first step prescribes, or
+///            that are given, are not tied; those of later steps move the master, where that is
+///            free. Of several ties of a node the first counts
 /// Errors     core::InputError where nothing is near, or the master is rigid
 /// Tested by  tests/unit/deck/test_ties.cpp
 template <int Dim>
-void add_ties(BuildContext<Dim>& context, const PrescribedCourses& courses,
-              std::set<model::Dof> given, std::vector<MarkedEquation>& all);
+void add_ties(BuildContext<Dim>& context, const PrescribedCourses& ever,
+              const PrescribedCourses& at_first, std::set<model::Dof> given,
+              std::vector<MarkedEquation>& all);
 
 }  // namespace osculate::deck

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
 
@@ -121,17 +122,19 @@ std::vector<std::string> fields_of(const InpModel& m, const Line& line) {
   return out;
 }
 
-/// CalculiX gives an element, one of its points and six components, Abaqus a set and as many
-/// components as there are.
+/// CalculiX gives an element, one of its points and six components (xx, yy, zz, xy, xz, yz), Abaqus
+/// a set and as many components as there are.
 void read_initial_line(const InpModel& m, const Line& line,
                        std::vector<std::pair<std::string, InitialLines>>& all) {
   const std::size_t components = inp_dimension(m) == 3 ? 6 : 4;
   const std::size_t count = fields_of(m, line).size();
   Fields fields(m.deck, line);
-  const bool point = count == 8 && components == 6;
+  const bool point = count == 8;
   if (!point && count != components + 1)
-    fields.fail(fmt::format("expected an element or a set, {}{} components",
-                            components == 6 ? "a point (CalculiX), " : "", components));
+    fields.fail(
+        fmt::format("expected an element, a point and 6 components (CalculiX), or an element or a "
+                    "set and {} components",
+                    components));
   const std::string set = elements_named(m, line, fields.next().value_or(""));
   auto known = std::find_if(all.begin(), all.end(), [&](const auto& g) { return g.first == set; });
   if (known == all.end()) {
@@ -145,10 +148,59 @@ void read_initial_line(const InpModel& m, const Line& line,
   }
   std::vector<double> values;
   for (std::size_t i = 0; i < components; ++i) values.push_back(fields.real("a component"));
+  if (point && components == 4 &&
+      (fields.real("the component xz") != 0 || fields.real("the component yz") != 0))
+    fields.fail("plane elements have no components xz and yz");
   InitialLines& given = known->second;
   if (point ? !given.value.empty() : !given.points.empty())
     fields.fail("gives values of points beside values of all points");
   (point ? given.points[number] : given.value) = values;
+}
+
+/// Points of a plane element in CalculiX, where it is a solid: in a layer, and layers.
+struct PlanePoints {
+  std::string_view type;  ///< behind CPE, CPS or CAX
+  std::int32_t in_layer, layers;
+};
+constexpr std::array<PlanePoints, 5> plane_points{
+    {{"4", 4, 2}, {"4I", 4, 2}, {"4R", 1, 1}, {"8", 9, 3}, {"8R", 4, 2}}};
+
+/// The one type of the elements of a set; empty: none, or several.
+std::string_view type_of(const InpModel& m, const std::string& on) {
+  for (const io::inp::DeckSet& set : m.mesh.sets)
+    if (set.kind == SetKind::elements && m.mesh.mesh.sets[set.set].name == on) return set.type;
+  return {};
+}
+
+/// Of plane elements those of the first layer; the others have to be the same.
+void keep_one_layer(const InpModel& m, const Card& card, const std::string& on,
+                    InitialLines& given) {
+  const std::string_view type = type_of(m, on);
+  const auto known = std::ranges::find(
+      plane_points, type.substr(std::min<std::size_t>(3, type.size())), &PlanePoints::type);
+  const auto fail = [&](const std::string& why) {
+    io::inp::fail(m.deck, card, fmt::format("'{}': {}", printable(on), why));
+  };
+  if (known == plane_points.end())
+    fail(
+        "points are those of elements of one type, CPE, CPS or CAX with 4 or 8 nodes: give one "
+        "value");
+  const std::vector<double> none(4, 0.0);
+  const auto at = [&](std::int32_t p) -> const std::vector<double>& {
+    const auto found = given.points.find(p);
+    return found == given.points.end() ? none : found->second;
+  };
+  const std::int32_t all = known->in_layer * known->layers;
+  if (given.points.rbegin()->first > all)
+    fail(fmt::format("its elements have {} points in CalculiX, not {}", all,
+                     given.points.rbegin()->first));
+  for (std::int32_t p = known->in_layer + 1; p <= all; ++p)
+    if (at(p) != at((p - 1) % known->in_layer + 1))
+      fail(
+          fmt::format("point {} is at the place of point {} of a plane element, and has other "
+                      "values",
+                      p, (p - 1) % known->in_layer + 1));
+  given.points.erase(given.points.upper_bound(known->in_layer), given.points.end());
 }
 
 /// Wedges of six nodes, which have two points in CalculiX and six here.
@@ -177,7 +229,8 @@ void put_initial_state(const InpModel& m, SourceNode& root) {
           std::ranges::any_of(all, [](const auto& one) { return !one.second.points.empty(); });
       if (by_points && std::ranges::any_of(m.deck.cards, io::inp::is_layered))
         io::inp::fail(m.deck, card, "points of shells of layers are not supported: give one value");
-      for (const auto& [set, given] : all) {
+      for (auto& [set, given] : all) {
+        if (!given.points.empty() && inp_dimension(m) == 2) keep_one_layer(m, card, set, given);
         if (!given.points.empty() && has_wedges(m, set))
           io::inp::fail(m.deck, card,
                         "points of C3D6 and S3 are not supported, which have others here: give one "
@@ -189,11 +242,11 @@ void put_initial_state(const InpModel& m, SourceNode& root) {
           continue;
         }
         SourceNode& points = put(entry, "points", inp_list(given.line));
+        const std::vector<double> none(inp_dimension(m) == 3 ? 6 : 4, 0.0);
         for (std::int32_t p = 1; p <= given.points.rbegin()->first; ++p) {
           const auto found = given.points.find(p);
           points.items.push_back(
-              numbers(found == given.points.end() ? std::vector<double>(6, 0.0) : found->second,
-                      given.line));
+              numbers(found == given.points.end() ? none : found->second, given.line));
         }
       }
     }

@@ -12,9 +12,10 @@ struct Condition {
   double size = 0;
   std::string amplitude;  ///< name in the deck, in capitals; empty: a ramp
   int line = 0;
-  bool fresh = true;    ///< said in this step
-  bool fixed = false;   ///< a displacement that stays where it is
-  bool swings = false;  ///< said in a step of *STEADY STATE DYNAMICS
+  bool fresh = true;                 ///< said in this step
+  bool fixed = false;                ///< a displacement that stays where it is
+  bool swings = false;               ///< said in a step of *STEADY STATE DYNAMICS
+  std::array<double, 2> gradient{};  ///< of temperatures
 };
 /// By set or rigid body and direction 1 to 6; of pressures always 1.
 using Conditions = std::map<std::pair<std::string, int>, Condition>;

@@ -150,12 +150,15 @@ struct InpDensity {
 /// Whether some step has temperatures, or they are given at first and a material depends on them:
 /// without, materials need no expansion.
 [[nodiscard]] bool has_temperatures(const InpModel& m);
-/// A set of nodes and its temperature.
+/// A set of nodes, its temperature and the gradients along the axes of shells and beams.
 struct NodeValue {
   std::string on;
   double value;
+  std::array<double, 2> gradient{};
 };
 [[nodiscard]] NodeValue temperature_of(const InpModel& m, const io::inp::Line& line);
+/// Those that are not 0, as keys of a temperature.
+void put_gradients(SourceNode& entry, const std::array<double, 2>& gradient);
 /// `expansion` of a material, from its `*EXPANSION`.
 [[nodiscard]] SourceNode inp_expansion(const InpModel& m, const io::inp::Card& card);
 [[nodiscard]] SourceNode inp_initial_temperature(const InpModel& m);

@@ -37,15 +37,16 @@ class Steps {
   }
 
  private:
-  /// What acts in a step, and would be read over between two of them.
+  /// What acts in a step, and would be read over between two of them. Supports that stand there are
+  /// those of the next one.
   void require_step(const Card& card) const {
     const std::string& key = card.keyword;
     const bool of_steps = (key == "MODELCHANGE" && option_of(card, "TYPE") == "ELEMENT") ||
                           key == "CHANGESOLIDSECTION" || is_removal_of_equations(card);
-    const bool of_model = key == "BOUNDARY" || key == "EQUATION" || key == "MPC" || key == "TIE";
+    const bool of_model = key == "EQUATION" || key == "MPC" || key == "TIE";
     if (!step_ && (of_steps || (of_model && !out_.steps.items.empty())))
       io::inp::fail(m_.deck, card, "stands outside of a step");
-    if (step_ && of_model && key != "BOUNDARY" && !is_removal_of_equations(card))
+    if (step_ && of_model && !is_removal_of_equations(card))
       io::inp::fail(m_.deck, card, "stands in a step: before the first one is its place");
   }
 
@@ -53,7 +54,10 @@ class Steps {
     const std::string& key = card.keyword;
     require_step(card);
     if (key == "STEP") begin(card);
-    if (key == "ENDSTEP") end(card);
+    if (key == "ENDSTEP") {
+      end(card);
+      begin_to_persist();
+    }
     if (key == "AMPLITUDE") read_amplitude(card);
     if (key == "STATIC" || key == "VISCO" || key == "DYNAMIC" || key == "MODALDYNAMIC")
       read_time(card);
@@ -84,14 +88,16 @@ class Steps {
     diameters_.reset();
     period_ = 1;
     increments_ = 1;
+    before_ = {forces_, pressures_, body_forces_, centrifugal_};
+    temperatures_before_ = temperatures_;
+  }
+
+  /// What a step has said is what the next ones find.
+  void begin_to_persist() {
     released_.clear();
     for (Conditions* const values : all_conditions())
       for (auto& [key, value] : *values) value.fresh = false;
     for (auto& [on, value] : temperatures_) value.fresh = false;
-    before_ = {forces_, pressures_, body_forces_, centrifugal_};
-    temperatures_before_ = temperatures_;
-    if (out_.steps.items.empty())
-      for (auto& [key, value] : prescribed_) value.fresh = true;  // said before the first step
   }
 
   void begin_procedure(const Card& card) {
@@ -750,8 +756,8 @@ class Steps {
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       NodeValue of = temperature_of(m_, line);
       std::erase_if(temperatures_, [&](const auto& one) { return one.first == of.on; });
-      temperatures_.emplace_back(std::move(of.on),
-                                 Condition{of.value, amplitude, line_of(line.at), true, false});
+      temperatures_.emplace_back(std::move(of.on), Condition{of.value, amplitude, line_of(line.at),
+                                                             true, false, false, of.gradient});
     }
   }
 
@@ -810,6 +816,7 @@ class Steps {
       SourceNode& entry = list.items.emplace_back(inp_map(value.line));
       put(entry, "on", inp_text(on, value.line));
       put(entry, "value", inp_number(value.size, value.line));
+      put_gradients(entry, value.gradient);
       put_amplitude(entry, value);
     }
     if (!list.items.empty()) put(step, "temperature", std::move(list));

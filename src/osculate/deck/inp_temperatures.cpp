@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "osculate/deck/inp_parts.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
@@ -27,21 +26,6 @@ bool has_temperatures(const InpModel& m) {
          });
 }
 
-namespace {
-
-/// Nodes of shells, beams and trusses, which those follow that they are expanded to.
-bool has_expanded_nodes(const InpModel& m, const std::string& name) {
-  const mesh::Mesh& mesh = m.mesh.mesh;
-  const mesh::Set* const set = mesh.relations.empty() ? nullptr : mesh.find_set(name);
-  if (set == nullptr) return false;
-  const std::set<Index> nodes(set->nodes.begin(), set->nodes.end());
-  return std::ranges::any_of(mesh.relations, [&](const mesh::Relation& relation) {
-    return nodes.contains(relation.terms.front().node);
-  });
-}
-
-}  // namespace
-
 NodeValue temperature_of(const InpModel& m, const Line& line) {
   Fields fields(m.deck, line);
   const std::string name = io::inp::name_of(fields.next().value_or(""));
@@ -49,11 +33,14 @@ NodeValue temperature_of(const InpModel& m, const Line& line) {
   NodeValue value{
       set_of(m, line.at, number ? io::inp::node_set_name(*number) : name, {SetKind::nodes}),
       fields.real("the temperature")};
-  if (has_expanded_nodes(m, value.on))
-    fields.fail("temperatures of shells, beams and trusses are not supported");
-  if (fields.real_or_zero("a gradient") != 0)
-    fields.fail("gradients of the temperature through shells and beams are not supported");
+  for (double& gradient : value.gradient) gradient = fields.real_or_zero("a gradient");
   return value;
+}
+
+void put_gradients(SourceNode& entry, const std::array<double, 2>& gradient) {
+  constexpr std::array<const char*, 2> keys{"gradient", "gradient_1"};
+  for (const std::size_t k : {0, 1})
+    if (gradient[k] != 0) put(entry, keys[k], inp_number(gradient[k], entry.line));
 }
 
 SourceNode inp_expansion(const InpModel& m, const Card& card) {
@@ -96,6 +83,7 @@ SourceNode inp_initial_temperature(const InpModel& m) {
       SourceNode& entry = list.items.emplace_back(inp_map(line_of(line.at)));
       put(entry, "on", inp_text(value.on, entry.line));
       put(entry, "value", inp_number(value.value, entry.line));
+      put_gradients(entry, value.gradient);
     }
   }
   return list;

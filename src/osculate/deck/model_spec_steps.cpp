@@ -136,7 +136,8 @@ BoundKey<Step> forces_key() {
   return loads(
       &Step::forces, "forces", "[{on: corner, fy: -3}]",
       "Forces on every node of a set (n nodes carry n times as much: `total_force` is one "
-      "force on all of them), or on a rigid body, whose motion they set free.",
+      "force on all of them), or on a rigid body, whose motion they set free (forces on its nodes "
+      "do not).",
       "One force.", on_key<Load>("Set of nodes, or rigid body.", "corner"),
       {{"fx", "Force in x at the end of the step.", "force"},
        {"fy", "Force in y at the end of the step.", "force"},
@@ -185,7 +186,7 @@ BoundKey<Step> pressure_key() {
       [keys](Step& s, const Value& v) { s.pressure = keys.read_all(v); }};
 }
 
-/// `on` and `value`: temperatures, of a step with an amplitude.
+/// `on`, `value` and gradients: temperatures, of a step with an amplitude.
 BoundKeys<Load> temperature_keys(bool of_step) {
   std::vector<BoundKey<Load>> keys{
       on_key<Load>("Set, of whose nodes it is.", "block"),
@@ -193,7 +194,19 @@ BoundKeys<Load> temperature_keys(bool of_step) {
                                         : "Temperature at the beginning, free of strain.")
                              .in("temperature")
                              .such_as("80")),
-       [](Load& load, const Value& v) { store(load.values[0], v); }}};
+       [](Load& load, const Value& v) { store(load.values[0], v); }},
+      {optional("gradient", number("Of shells and beams of an input file: how the temperature "
+                                   "rises along the normal, of beams along their second axis.")
+                                .in("temperature/length")
+                                .otherwise("0")
+                                .such_as("5")),
+       [](Load& load, const Value& v) { store(load.values[1], v); }},
+      {optional("gradient_1", number("Of beams of an input file: how the temperature rises along "
+                                     "their first axis.")
+                                  .in("temperature/length")
+                                  .otherwise("0")
+                                  .such_as("5")),
+       [](Load& load, const Value& v) { store(load.values[2], v); }}};
   if (of_step) keys.push_back(amplitude_key());
   return keys;
 }

@@ -107,7 +107,7 @@ class StepChecker {
     check_loads(step.pressure, {"value"}, false);
     check_loads(step.traction, {"tx", "ty", "tz"}, false);
     check_loads(step.body_force, {"fx", "fy", "fz"}, false);
-    check_loads(step.temperature, {"value"}, false);
+    check_loads(step.temperature, {"value", "gradient", "gradient_1"}, false);
     check_loads(step.centrifugal, {"speed_squared"}, false);
     for (const Load& force : step.forces) check_loaded_dof(step, force);
     for (const Load& force : step.total_force) check_loaded_dof(step, force);

@@ -80,7 +80,7 @@ void write_isotropic(const std::string& law, const Material& material, Leaves& l
                        exact(nu.empty() ? *poisson : nu[k][1]), exact(longer[k][0]));
 }
 
-void write_rubber(const std::string& law, Leaves& leaves, std::string& out) {
+void write_rubber(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
   constexpr std::array<const char*, 9> all{"c10", "c01", "c20", "c11", "c02",
                                            "c30", "c21", "c12", "c03"};
   constexpr std::array<std::size_t, 3> count{2, 5, 9};
@@ -113,7 +113,7 @@ void write_terms_of(const std::string& law, const char* card, const char* volume
   out += fmt::format("{}, N={}\n", card, last.size()) + rows_of_numbers(terms);
 }
 
-void write_anisotropic(const std::string& law, Leaves& leaves, std::string& out) {
+void write_anisotropic(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
   constexpr std::array<const char*, 21> all{"D1111", "D1122", "D2222", "D1133", "D2233", "D3333",
                                             "D1112", "D2212", "D3312", "D1212", "D1113", "D2213",
                                             "D3313", "D1213", "D1313", "D1123", "D2223", "D3323",
@@ -121,34 +121,56 @@ void write_anisotropic(const std::string& law, Leaves& leaves, std::string& out)
   out += "*ELASTIC, TYPE=ANISO\n" + rows_of_numbers(values_of(law, all, leaves));
 }
 
-/// The cards of the law itself. False: it has no counterpart.
-bool write_law(const std::string& law, const Material& material, Leaves& leaves, std::string& out) {
-  const std::string key(material::key_of(material.law.value));
-  if (key == "linear_elastic" || key == "st_venant_kirchhoff" || key == "elastoplastic" ||
-      key == "norton")
-    write_isotropic(law, material, leaves, out);
-  if (key == "elastoplastic") write_hardening(law, leaves, out);
-  if (key == "norton") {
-    const std::vector<double> creep = values_of(law, std::array{"A", "n"}, leaves);
-    out += "*CREEP\n" + rows_of_numbers({creep[0], creep[1], 0});
-  }
-  if (key == "deformation_plasticity")
-    out += "*DEFORMATION PLASTICITY\n" +
-           rows_of_numbers(values_of(law, std::array{"E", "nu", "yield", "n", "alpha"}, leaves));
-  if (key == "orthotropic")
-    out += "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n" +
-           rows_of_numbers(values_of(
-               law, std::array{"E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23"},
-               leaves));
-  if (key == "anisotropic") write_anisotropic(law, leaves, out);
-  if (key == "rubber") write_rubber(law, leaves, out);
-  if (key == "ogden") write_terms_of(law, "*HYPERELASTIC, OGDEN", "d", leaves, out);
-  if (key == "arruda_boyce")
-    out += "*HYPERELASTIC, ARRUDA-BOYCE\n" +
-           rows_of_numbers(values_of(law, std::array{"mu", "lambda_m", "d"}, leaves));
-  if (key == "hyperfoam") write_terms_of(law, "*HYPERFOAM", "nu", leaves, out);
-  return key != "neo_hooke" && key != "user";
+void write_elastoplastic(const std::string& law, const Material& material, Leaves& leaves,
+                         std::string& out) {
+  write_isotropic(law, material, leaves, out);
+  write_hardening(law, leaves, out);
 }
+void write_norton(const std::string& law, const Material& material, Leaves& leaves,
+                  std::string& out) {
+  write_isotropic(law, material, leaves, out);
+  const std::vector<double> creep = values_of(law, std::array{"A", "n"}, leaves);
+  out += "*CREEP\n" + rows_of_numbers({creep[0], creep[1], 0});
+}
+void write_deformation_plasticity(const std::string& law, const Material&, Leaves& leaves,
+                                  std::string& out) {
+  out += "*DEFORMATION PLASTICITY\n" +
+         rows_of_numbers(values_of(law, std::array{"E", "nu", "yield", "n", "alpha"}, leaves));
+}
+void write_orthotropic(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
+  out +=
+      "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n" +
+      rows_of_numbers(values_of(
+          law, std::array{"E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23"}, leaves));
+}
+void write_arruda_boyce(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
+  out += "*HYPERELASTIC, ARRUDA-BOYCE\n" +
+         rows_of_numbers(values_of(law, std::array{"mu", "lambda_m", "d"}, leaves));
+}
+void write_ogden(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
+  write_terms_of(law, "*HYPERELASTIC, OGDEN", "d", leaves, out);
+}
+void write_hyperfoam(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
+  write_terms_of(law, "*HYPERFOAM", "nu", leaves, out);
+}
+
+/// What writes the cards of a law; laws without have no counterpart.
+struct LawCards {
+  std::string_view key;
+  void (*write)(const std::string& law, const Material& material, Leaves& leaves, std::string& out);
+};
+constexpr std::array<LawCards, 11> cards_of_laws{
+    {{"linear_elastic", write_isotropic},
+     {"st_venant_kirchhoff", write_isotropic},
+     {"elastoplastic", write_elastoplastic},
+     {"norton", write_norton},
+     {"deformation_plasticity", write_deformation_plasticity},
+     {"orthotropic", write_orthotropic},
+     {"anisotropic", write_anisotropic},
+     {"rubber", write_rubber},
+     {"ogden", write_ogden},
+     {"arruda_boyce", write_arruda_boyce},
+     {"hyperfoam", write_hyperfoam}}};
 
 }  // namespace
 
@@ -157,10 +179,13 @@ void write_material(const Material& material, const std::string& damping, Leaves
   const std::string path = fmt::format("materials.{}", material.name.value);
   const std::string law = fmt::format("{}.{}", path, material::key_of(material.law.value));
   out += fmt::format("*MATERIAL, NAME={}\n", material.name.value);
-  if (!write_law(law, material, leaves, out))
+  const auto cards =
+      std::ranges::find(cards_of_laws, material::key_of(material.law.value), &LawCards::key);
+  if (cards == cards_of_laws.end())
     throw core::InputError(material.law.mark,
                            fmt::format("{} is not written: it has no counterpart",
                                        material::key_of(material.law.value)));
+  cards->write(law, material, leaves, out);
   if (const auto density = leaves.number(law + ".density"))
     out += fmt::format("*DENSITY\n{}\n", exact(*density));
   out += damping;

@@ -29,7 +29,8 @@ struct J2Plasticity {
       "Plasticity of metals: von Mises' yield condition, isotropic hardening by a table or a "
       "modulus, linear kinematic hardening. With kinematics: finite the strain is the logarithmic "
       "one.";
-  static constexpr bool finite_strain = false, large_strain = false, logarithmic = true;
+  static constexpr bool finite_strain = false, large_strain = false, logarithmic = true,
+                        hooke_at_first = true;
   static constexpr std::array<Remembered, 7> memory{{{"PEEQ", "equivalent plastic strain", false},
                                                      {"PE11", "plastic strain, tensor component"},
                                                      {"PE22", "plastic strain, tensor component"},

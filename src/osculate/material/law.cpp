@@ -107,6 +107,14 @@ bool linear(const Law& law) {
   return !over_temperature(law) && std::visit(of, law);
 }
 
+bool hooke_at_first(const Law& law) {
+  const auto of = []<class T>(const T&) {
+    return requires { requires T::linear; }
+    || requires { requires T::hooke_at_first; };
+  };
+  return !over_temperature(law) && std::visit(of, law);
+}
+
 std::span<const Remembered> memory_of(const Law& law) {
   const auto of =
       []<class T>([[maybe_unused]] const T& law_of_type) -> std::span<const Remembered> {

@@ -11,6 +11,9 @@ namespace osculate::material {
 [[nodiscard]] bool large_strain(const Law& law);
 /// The stress is proportional to the strain, always by the same factors.
 [[nodiscard]] bool linear(const Law& law);
+/// From the undeformed material on, at least up to where it flows, the stress (of finite laws
+/// the second one of Piola and Kirchhoff) is proportional to the strain (Green and Lagrange's).
+[[nodiscard]] bool hooke_at_first(const Law& law);
 /// What each material point remembers; empty: nothing.
 [[nodiscard]] std::span<const Remembered> memory_of(const Law& law);
 /// Whether increments have to take time.

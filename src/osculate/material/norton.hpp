@@ -22,7 +22,8 @@ struct Norton {
   static constexpr std::string_view doc =
       "Steady creep of metals: strains grow at a rate that is a power of von Mises' stress. With "
       "kinematics: finite the strain is the logarithmic one. Every step needs a duration.";
-  static constexpr bool finite_strain = false, large_strain = false, logarithmic = true;
+  static constexpr bool finite_strain = false, large_strain = false, logarithmic = true,
+                        hooke_at_first = true;
   static constexpr std::array<Remembered, 8> memory{
       {{"CEEQ", "equivalent creep strain", false},
        {"CE11", "creep strain, tensor component"},

@@ -14,7 +14,7 @@ struct StVenantKirchhoff {
   static constexpr std::string_view doc =
       "Hooke's law between second Piola-Kirchhoff stress and Green-Lagrange strain, for large "
       "rotations.";
-  static constexpr bool finite_strain = true, large_strain = false;
+  static constexpr bool finite_strain = true, large_strain = false, hooke_at_first = true;
   double young = 0, poisson = 0, density = 0;
   core::Table young_over = {}, poisson_over = {};  ///< over the temperature, in place of them
   static constexpr auto params() { return isotropic_params<StVenantKirchhoff>(); }

@@ -20,7 +20,7 @@ template <class T>
 struct GreenLagrange {
   static constexpr std::string_view key = T::key;
   static constexpr std::string_view doc = T::doc;
-  static constexpr bool finite_strain = true, large_strain = false;
+  static constexpr bool finite_strain = true, large_strain = false, hooke_at_first = true;
   T law;
 };
 template <Directional T>

@@ -53,6 +53,15 @@ struct Relation {
   std::vector<Term> terms;
 };
 
+/// A node that one of a shell or beam was expanded to (io::read_inp): it has the temperature of
+/// that one, whose force it is a part of.
+struct Expanded {
+  Index node;
+  Index of;     ///< what the file has
+  Vec2 height;  ///< from there along the normal of a shell or the second axis of a beam, and along
+                ///< the first axis of a beam
+};
+
 /// Whether names differ at most in capital and small letters (of ASCII).
 [[nodiscard]] inline bool same_but_for_case(std::string_view a, std::string_view b) {
   const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
@@ -60,14 +69,15 @@ struct Relation {
                     [&](char x, char y) { return small(x) == small(y); });
 }
 
-/// Nodes, cells, named sets and relations of nodes; nothing else. Coordinates always have three
-/// components (z = 0 for plane problems).
+/// Nodes, cells, named sets, relations of nodes and what these stand for; nothing else. Coordinates
+/// always have three components (z = 0 for plane problems).
 struct Mesh {
   std::vector<Vec3> nodes;
   std::vector<Block> blocks;
   std::vector<Set> sets;
   std::vector<std::int64_t> numbers{};  ///< of the nodes in the mesh file; empty: 1, 2, ...
   std::vector<Relation> relations{};
+  std::vector<Expanded> expanded{};
   std::unordered_map<std::string, std::size_t> place_of_set{};  ///< of `remember_names`, a hint
 
   /// The set of that name, else one that is called so but for capital letters.

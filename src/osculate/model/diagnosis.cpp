@@ -74,8 +74,9 @@ namespace {
 template <int Dim>
 std::string body_name(const BasicModel<Dim>& model, Index node) {
   for (const BasicBulkSection<Dim>& section : model.sections)
-    for (const mesh::CellRef& ref : section.cells) {
-      const std::span<const Index> nodes = cell_nodes(model.mesh, ref).nodes;
+    for (std::size_t i = 0; i < section.cells.size(); ++i) {
+      if (is_removed(section, i)) continue;
+      const std::span<const Index> nodes = cell_nodes(model.mesh, section.cells[i]).nodes;
       if (std::find(nodes.begin(), nodes.end(), node) != nodes.end()) return section.name;
     }
   return "?";
@@ -229,12 +230,12 @@ std::vector<BasicFreeMotion<Dim>> free_motions(BasicSystem<Dim>& system,
   for (Index u = 0; u < k.n; ++u) prescribed[static_cast<std::size_t>(u)] = system.prescribed(u);
   std::vector<Body<Dim>> bodies;
   std::vector<CompactModes> modes;
-  for (std::vector<Index>& nodes : deformable_bodies(model)) {
+  for (std::vector<Index>& nodes : deformable_bodies(system.model())) {  // of the running step
     const Modes<Dim> rigid = rigid_modes(system, nodes, x);
     Eigen::MatrixXd allowed = admissible(system, rigid.z);
     if (allowed.cols() == 0) continue;
     modes.push_back(compact(rigid.z * allowed));
-    const std::string name = body_name(model, nodes.front());
+    const std::string name = body_name(system.model(), nodes.front());
     bodies.push_back({std::move(nodes), name, rigid.center, std::move(allowed)});
   }
   const RigidStiffness stiffness(k, modes, stiffest_diagonal(k, prescribed));

@@ -282,12 +282,22 @@ void pass_on(const BasicDofSpace<Dim>& dofs, Eigen::VectorXd& forces) {
 
 template <int Dim>
 Eigen::VectorXd nodal_forces(const BasicSystem<Dim>& system) {
-  Eigen::VectorXd all = system.forces().internal + system.forces().contact;
+  const Eigen::VectorXd own = system.forces().internal + system.forces().contact;
+  Eigen::VectorXd all = own;
   // What follows from others has but its load.
   for (const Equation& equation : system.dofs().equations())
     if (const Dof lead = equation.terms.front().dof; system.dofs().stands_alone(lead))
       all[lead] += system.forces().external[lead];
   pass_on(system.dofs(), all);
+  // A node of a shell or beam has what those have that it was expanded to. In a body it is one of
+  // its nodes, like those.
+  const auto at = [](Index node) { return Eigen::seqN(Dim * node, Eigen::fix<Dim>); };
+  const auto takes = [&](const mesh::Expanded& one) { return system.dofs().body_of(one.of) < 0; };
+  const std::vector<mesh::Expanded>& expanded = system.model().mesh.expanded;
+  for (const mesh::Expanded& one : expanded)
+    if (takes(one)) all(at(one.of)) = own(at(one.of));
+  for (const mesh::Expanded& one : expanded)
+    if (takes(one)) all(at(one.of)) += own(at(one.node));
   return all;
 }
 

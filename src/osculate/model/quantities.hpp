@@ -103,7 +103,8 @@ template <int Dim>
                                                      const BasicModel<Dim>& model,
                                                      std::size_t pair);
 
-/// Forces that cells and contacts put on nodes, nodes of no cell what equations pass on to them.
+/// Forces that cells and contacts put on nodes: of nodes of no cell what equations pass on to them,
+/// of those of shells and beams the sum over the nodes that they were expanded to.
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd nodal_forces(const BasicSystem<Dim>& system);
 /// Adds to nodes of no cell what equations pass on to them of the forces on others.

@@ -9,32 +9,21 @@
 
 #include "osculate/core/dense.hpp"
 #include "osculate/model/bulk.hpp"
+#include "osculate/model/material_memory.hpp"
 
 namespace osculate::model {
 namespace {
 
 /// Gradient of the displacements over one cell; zero where the nodes span no volume.
 template <int Dim>
-Mat<Dim, Dim> mean_gradient(const std::vector<Vec<Dim>>& reference, const Eigen::VectorXd& u,
-                            std::span<const Index> nodes) {
-  const auto at = [&](Index n) -> const Vec<Dim>& {
-    return reference[static_cast<std::size_t>(n)];
-  };
-  const auto moved = [&](Index n) -> Vec<Dim> {
-    return u.template segment<Dim>(Dim * static_cast<Eigen::Index>(n));
-  };
-  Vec<Dim> middle = Vec<Dim>::Zero(), way = Vec<Dim>::Zero();
-  for (const Index n : nodes) {
-    middle += at(n);
-    way += moved(n);
-  }
-  middle /= static_cast<double>(nodes.size());
-  way /= static_cast<double>(nodes.size());
+Mat<Dim, Dim> mean_gradient(const CellPlaces<Dim>& cell) {
+  const Vec<Dim> middle = cell.reference.colwise().mean().transpose();
+  const Vec<Dim> way = cell.displacement.colwise().mean().transpose();
   Mat<Dim, Dim> spread = Mat<Dim, Dim>::Zero(), carried = spread;
-  for (const Index n : nodes) {
-    const Vec<Dim> arm = at(n) - middle;
+  for (Eigen::Index n = 0; n < cell.reference.rows(); ++n) {
+    const Vec<Dim> arm = cell.reference.row(n).transpose() - middle;
     spread += arm * arm.transpose();
-    carried += (moved(n) - way) * arm.transpose();
+    carried += (cell.displacement.row(n).transpose() - way) * arm.transpose();
   }
   const Mat<Dim, Dim> gradient = carried * spread.inverse();
   return gradient.allFinite() ? gradient : Mat<Dim, Dim>(Mat<Dim, Dim>::Zero());
@@ -58,24 +47,28 @@ double rotation_of(const Mat<3, 3>& f) {
 }  // namespace
 
 template <int Dim>
-void measure_small_strain(const BasicModel<Dim>& model, const Eigen::VectorXd& u,
+void measure_small_strain(const BasicModel<Dim>& model, const BasicState<Dim>& state,
                           std::vector<SmallStrain>& found) {
-  std::size_t entry = 0;
-  for (const BasicBulkSection<Dim>& section : model.sections) {
+  std::vector<std::size_t> entry_of(model.sections.size());
+  std::size_t entries = 0;
+  for (std::size_t s = 0; s < model.sections.size(); ++s) {
+    const BasicBulkSection<Dim>& section = model.sections[s];
     if (section.section.kinematics != solid::Kinematics::small) continue;
-    if (found.size() <= entry) found.push_back({section.name});
-    SmallStrain& here = found[entry++];
-    here.may_be_finite = material::has_finite_form(section.section.law);
-    for (std::size_t i = 0; i < section.cells.size(); ++i) {
-      if (is_removed(section, i)) continue;
-      const Mat<Dim, Dim> f =
-          Mat<Dim, Dim>::Identity() +
-          mean_gradient<Dim>(model.reference, u, cell_nodes(model.mesh, section.cells[i]).nodes);
-      const Mat<Dim, Dim> strain = 0.5 * (f.transpose() * f - Mat<Dim, Dim>::Identity());
-      here.strain = std::max(here.strain, strain.norm());
-      here.rotation = std::max(here.rotation, rotation_of(f));
-    }
+    entry_of[s] = entries++;
+    if (found.size() < entries) found.push_back({section.name});
+    found[entry_of[s]].may_be_finite = material::has_finite_form(section.section.law);
   }
+  for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
+    if (section.section.kinematics != solid::Kinematics::small || m.removed) return;
+    SmallStrain& here = found[entry_of[static_cast<std::size_t>(&section - model.sections.data())]];
+    const Mat<Dim, Dim> f =
+        Mat<Dim, Dim>::Identity() +
+        mean_gradient<Dim>(places_of(model, section, cell_nodes(model.mesh, ref).nodes, state.u,
+                                     m.of(state.memory)));
+    const Mat<Dim, Dim> strain = 0.5 * (f.transpose() * f - Mat<Dim, Dim>::Identity());
+    here.strain = std::max(here.strain, strain.norm());
+    here.rotation = std::max(here.rotation, rotation_of(f));
+  });
 }
 
 std::string left_small_strain(const SmallStrain& found) {
@@ -89,9 +82,7 @@ std::string left_small_strain(const SmallStrain& found) {
           : "a material of large rotations (st_venant_kirchhoff) or strains (neo_hooke)");
 }
 
-template void measure_small_strain(const BasicModel<2>&, const Eigen::VectorXd&,
-                                   std::vector<SmallStrain>&);
-template void measure_small_strain(const BasicModel<3>&, const Eigen::VectorXd&,
-                                   std::vector<SmallStrain>&);
+template void measure_small_strain(const Model&, const State&, std::vector<SmallStrain>&);
+template void measure_small_strain(const Model3&, const State3&, std::vector<SmallStrain>&);
 
 }  // namespace osculate::model

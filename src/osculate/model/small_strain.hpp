@@ -18,10 +18,11 @@ struct SmallStrain {
 /// Takes a state into account: one entry per section with small strains, in the model's order.
 ///
 /// Formula    F = I + G, G the linear field nearest to the displacements of a cell's nodes;
-///            strain |F^T F - I| / 2, rotation the angle of R in F = R U
+///            strain |F^T F - I| / 2, rotation the angle of R in F = R U; of cells that have come
+///            back new from where they did
 /// Tested by  tests/unit/model/test_small_strain.cpp
 template <int Dim>
-void measure_small_strain(const BasicModel<Dim>& model, const Eigen::VectorXd& u,
+void measure_small_strain(const BasicModel<Dim>& model, const BasicState<Dim>& state,
                           std::vector<SmallStrain>& found);
 
 /// A warning where it has, else empty.

@@ -306,16 +306,20 @@ Rates BasicSystem<Dim>::Impl::Motion::begin_rates(const State& committed) {
   Energies& e = rates.energies;
   const double kinetic = kinetic_energy(rates);
   const solid::CellEnergy bulk = bulk_energy(model, committed.u, committed.memory);
-  e.strain = bulk.stored + system.springs.stored(committed, mass_x);
+  const double strain = bulk.stored + system.springs.stored(committed, mass_x);
   e.contact = contact_energy();
   e.damped = damping_work();
   if (first) {
+    e.strain = strain;
     e.start = kinetic + e.strain + e.contact;
     e.friction_before = friction_work();
     e.plastic_before = bulk.dissipated;
   } else {
     e.external += kinetic - brought;  // of what is prescribed from now on
-    e.numerical += e.kinetic - brought;
+    // What cells had that are gone, and what changes with a material, leaves the balance.
+    e.numerical += e.kinetic - brought + e.strain - strain;
+    e.plastic_before = bulk.dissipated - e.plastic;
+    e.strain = strain;
   }
   e.kinetic = kinetic;
   return rates;

@@ -74,7 +74,7 @@ std::vector<std::string> Watch<Dim>::take(const model::BasicSystem<Dim>& system,
     }
   }
   remember_front(state);
-  model::measure_small_strain(system.model(), state.u, memory.small_strains);
+  model::measure_small_strain(system.model(), state, memory.small_strains);
   if (progress.fraction >= 1.0) model::measure_locking(system.model(), state, memory.locking);
   measure_energy(system, state, record);
   return texts;

@@ -5,6 +5,7 @@
 
 #include "osculate/model/body_changes.hpp"
 #include "osculate/model/material_memory.hpp"
+#include "osculate/model/small_strain.hpp"
 #include "osculate/solid/element.hpp"
 #include "system_test.hpp"
 
@@ -97,11 +98,47 @@ TEST(BodyChanges, NewCellsAreFreeOfStrainWhereTheyAre) {
         EXPECT_EQ(block.result.force.cwiseAbs().maxCoeff(), 0.0);
       });
   EXPECT_EQ(cells, 2U);
+  // nor are they far from where small strains hold
+  std::vector<model::SmallStrain> found;
+  model::measure_small_strain(now, state, found);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[1].section, "b");
+  EXPECT_EQ(found[1].strain, 0.0);
+  EXPECT_GT(found[0].strain, 0.01);
   // what the system keeps of it is what was committed
   system.begin_step(now.steps[2], state);
   solve::Evaluation out;
   system.evaluate(state, 0.0, false, out);
   EXPECT_EQ(system.material_memory(), state.memory);
+}
+
+/// Cells that are taken away in motion leave with what energy they have, and the balance is even.
+TEST(BodyChanges, TakeTheirEnergyWithThem) {
+  const Built b = build_text(
+      "osculate: 1\nmesh: {generate: {a: {box: {x: [0, 1], y: [0, 1], elements: [2, 1]}}, "
+      "b: {box: {x: [0, 1], y: [2, 3], elements: [2, 1]}}}}\n"
+      "materials: {m: {elastoplastic: {E: 100, nu: 0, yield: 0.2, isotropic: 10, density: 1}}}\n"
+      "sections: [{on: a, material: m, element: plane_strain}, {on: b, material: m, element: "
+      "plane_strain}]\nsteps:\n"
+      "  - {name: pull, increments: 20, duration: 0.2, dynamics: {scheme: newmark}, prescribe: "
+      "[{on: "
+      "a.left, ux: 0, uy: 0}, {on: b.left, ux: 0, uy: 0}], total_force: [{on: a.right, fx: 1}, "
+      "{on: b.right, fx: 1}]}\n"
+      "  - {name: one, increments: 5, duration: 0.05, dynamics: {scheme: newmark}, remove: [{on: "
+      "b}]}\n");
+  std::vector<model::Energies> at;
+  model::AnalysisObserver observer;
+  observer.converged = [&](model::System&, const model::State& state, const model::Progress&,
+                           const solve::IncrementRecord* record) {
+    if (record) at.push_back(state.rates.energies);
+    return true;
+  };
+  ASSERT_EQ(model::run(b.model, b.options, observer).outcome, solve::Outcome::converged);
+  const model::Energies &before = at[at.size() - 6], &after = at[at.size() - 5];
+  EXPECT_GT(before.plastic, 1e-4);
+  EXPECT_LT(after.strain + after.kinetic, 0.6 * (before.strain + before.kinetic));
+  EXPECT_GE(after.plastic, before.plastic);
+  EXPECT_NEAR(after.residual, before.residual, 1e-3 * before.strain);
 }
 
 TEST(BodyChanges, TangentsAreDerivatives) {
@@ -167,6 +204,20 @@ TEST(BodyChanges, AreRefusedWithTheReason) {
             "model.yaml:14: steps[2].materials[0].material: material 'soft' remembers something "
             "else than that of the section on 'a': one elastic law may take the place of another, "
             "one elastoplastic of another, both with an expansion or both without");
+  EXPECT_EQ(
+      refused("soft: {linear_elastic: {E: 50, nu: 0}}",
+              "soft: {deformation_plasticity: {E: 50, nu: 0, yield: 1, n: 5, alpha: 0.3}}")
+          .substr(0, 85),
+      "model.yaml:10: initial_strain[0].on: the section on 'b' is of deformation_plasticity:");
+  const std::string other = edited(
+      bars(), "soft: {linear_elastic: {E: 50, nu: 0}}}",
+      "soft: {linear_elastic: {E: 50, nu: 0}}, ramberg: {deformation_plasticity: {E: 50, nu: 0, "
+      "yield: 1, n: 5, alpha: 0.3}}}");
+  EXPECT_EQ(
+      build_refusal(edited(other, "{on: a, material: soft}]}\n", "{on: a, material: ramberg}]}\n"))
+          .substr(0, 97),
+      "model.yaml:14: steps[2].materials[0].material: the section on 'a' is of "
+      "deformation_plasticity: i");
 }
 
 }  // namespace

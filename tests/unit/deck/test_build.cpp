@@ -237,9 +237,6 @@ TEST(Build, Loads) {
        "model.yaml:35: steps[0].body_force[0].on: set 'rail' has no bulk cells with a section"},
       {{{"{on: low, fy: -1}", "{on: low.top, fy: -1}"}},
        "model.yaml:35: steps[0].body_force[0].on: set 'low.top' has no bulk cells with a section"},
-      {{{"{on: high.bottom_right, fy: -1}", "{on: rail.start, fy: -1}"}},
-       "model.yaml:32: steps[0].forces[0].on: set 'rail.start' has nodes of the rigid body 'base'; "
-       "name the rigid body instead"},
       {{{"{on: high.bottom_right, fy: -1}", "{on: loose, fy: -1}"}},
        "model.yaml:32: steps[0].forces[0].on: node 38 (-1, 5) of 'loose' belongs to no section and "
        "to no rigid body"},

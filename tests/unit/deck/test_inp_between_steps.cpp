@@ -69,6 +69,32 @@ void expect_in(const std::string& text, const std::string& what) {
   EXPECT_NE(text.find(what), std::string::npos) << what << "\nis not in\n" << text;
 }
 
+/// Supports between two steps are those of the second one, in a deck and after a restart.
+TEST(InpBetweenSteps, SupportsBetweenThemAreOfTheNext) {
+  const std::string held = "*BOUNDARY\nFOOT, 3, 3, 0.1\n", step = "*STEP\n*STATIC\n*END STEP\n";
+  const auto steps_of = [](const std::string& rest) {
+    return parse_model(translated(rest).root, "cubes.inp").steps;
+  };
+  const auto between = steps_of(press + held + step + step);
+  const auto within = steps_of(press + "*STEP\n*STATIC\n" + held + "*END STEP\n" + step);
+  ASSERT_EQ(between.size(), 3U);
+  for (std::size_t s = 0; s < 3; ++s) {
+    ASSERT_EQ(between[s].prescribe.size(), within[s].prescribe.size()) << s;
+    for (std::size_t p = 0; p < within[s].prescribe.size(); ++p) {
+      EXPECT_EQ(between[s].prescribe[p].on.value, within[s].prescribe[p].on.value);
+      EXPECT_EQ(between[s].prescribe[p].values[2].has_value(),
+                within[s].prescribe[p].values[2].has_value());
+    }
+  }
+  EXPECT_EQ(between[1].prescribe[0].values[2]->value, 0.1);
+  // with OP=NEW all others are free from then on
+  const auto anew = steps_of(press + "*BOUNDARY, OP=NEW\nFOOT, 3, 3, 0.1\n" + step);
+  EXPECT_EQ(anew[1].release.size(), 3U);  // the three directions of node 1
+  EXPECT_EQ(anew[1].prescribe.size(), 1U);
+  expect_in(message_of(press + "*EQUATION\n2\n1, 1, 1., 11, 1, -1.\n" + step),
+            "*EQUATION: stands outside of a step");
+}
+
 /// CalculiX has one load for a node or facet, whatever set it was given to.
 TEST(InpBetweenSteps, LoadsOfLaterStepsOnPartsOfOtherSetsAreRefused) {
   const auto steps = [](const std::string& first, const std::string& second) {

@@ -89,6 +89,75 @@ TEST(InpBodyChanges, StressesAndPlasticStrainsAtFirst) {
   EXPECT_NEAR(held(strains), 10, 1e-12);
 }
 
+/// CalculiX gives points of the solid that a plane element is there: those of one layer count.
+TEST(InpBodyChanges, StressesAtPointsOfPlaneElements) {
+  const auto translated = [](const std::string& type, const std::string& initial) {
+    return to_yaml(
+        translate_deck(
+            "*NODE, NSET=N\n1, 0, 0\n2, 2, 0\n3, 2, 1\n4, 0, 1\n5, 1, 0\n6, 2, .5\n7, 1, 1\n8, 0, "
+            ".5\n*ELEMENT, TYPE=" +
+                type + ", ELSET=E\n1, 1, 2, 3, 4" + (type[3] == '8' ? ", 5, 6, 7, 8" : "") +
+                "\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=E, "
+                "MATERIAL=M\n1.\n"
+                "*INITIAL CONDITIONS, TYPE=STRESS\n" +
+                initial + "*STEP\n*STATIC\n*BOUNDARY\nN, 1, 2\n*END STEP\n",
+            "deck.inp")
+            .root);
+  };
+  const auto lines = [](int count, int layer) {
+    std::string text;
+    for (int p = 0; p < count; ++p)
+      text += fmt::format("1, {}, {}., 0., 0., {}., 0., 0.\n", p + 1, p % layer + 1, p % layer);
+    return text;
+  };
+  const std::string reduced = translated("CPE8R", lines(8, 4));
+  EXPECT_NE(reduced.find("    points:\n      - [1, 0, 0, 0]\n      - [2, 0, 0, 1]\n      - [3, 0, "
+                         "0, 2]\n      - [4, 0, 0, 3]\nsteps:"),
+            std::string::npos)
+      << reduced;
+  EXPECT_NE(translated("CPE8", lines(27, 9)).find("- [9, 0, 0, 8]\nsteps:"), std::string::npos);
+  EXPECT_NE(translated("CPE4R", "1, 1, 5., 0, 0, 0, 0, 0\n").find("- [5, 0, 0, 0]\nsteps:"),
+            std::string::npos);
+  const auto refused = [&](const std::string& type, const std::string& initial) -> std::string {
+    try {
+      (void)translated(type, initial);
+    } catch (const core::InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refused("CPE8R", lines(8, 8)),
+            "deck.inp:17: *INITIALCONDITIONS: 'element 1': point 5 is at the place of point 1 of a "
+            "plane element, and has other values");
+  EXPECT_EQ(refused("CPE8R", lines(9, 4)),
+            "deck.inp:17: *INITIALCONDITIONS: 'element 1': its elements have 8 points in CalculiX, "
+            "not 9");
+  EXPECT_EQ(refused("CPE8R", "1, 1, 5., 0, 0, 0, 1., 0\n"),
+            "deck.inp:18: plane elements have no components xz and yz");
+}
+
+/// What held a body goes: the body is named, and how it may move.
+TEST(InpBodyChanges, ABodyThatIsFreeWithoutThemIsNamed) {
+  const std::string path = ::testing::TempDir() + "osculate_free_body.inp";
+  std::ofstream(path)
+      << "*NODE\n" + cube_nodes(1, {0, 0, 0}) + cube_nodes(11, {0, 0, 1}) +
+             "*ELEMENT, TYPE=C3D8, ELSET=FOOT\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+             "*ELEMENT, TYPE=C3D8, ELSET=TIP\n2, 5, 6, 7, 8, 15, 16, 17, 18\n"
+             "*NSET, NSET=LOW\n1, 2, 3, 4\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.\n"
+             "*SOLID SECTION, ELSET=FOOT, MATERIAL=M\n*SOLID SECTION, ELSET=TIP, "
+             "MATERIAL=M\n*BOUNDARY\nLOW, 1, 3\n"
+             "*STEP\n*STATIC\n*CLOAD\n15, 3, 1.\n*END STEP\n"
+             "*STEP\n*STATIC\n*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nFOOT\n*END STEP\n";
+  const AnyBuilt built = build_any_file(path);
+  std::remove(path.c_str());
+  const Built3& b = std::get<Built3>(built);
+  const model::AnalysisResult3 result = model::run(b.model, b.options, {});
+  EXPECT_NE(result.outcome, solve::Outcome::converged);
+  EXPECT_NE(result.message.find("body 'TIP' is free to move along (1.0000, 0.0000, 0.0000)"),
+            std::string::npos)
+      << result.message;
+}
+
 TEST(InpBodyChanges, AreRefusedWithTheReason) {
   const auto refused = [](const std::string& card) -> std::string {
     try {
@@ -105,9 +174,10 @@ TEST(InpBodyChanges, AreRefusedWithTheReason) {
   EXPECT_EQ(refused("*EQUATION, REMOVE\n5, 7\n"), "deck.inp:40: 'node 5' has no direction 7");
   EXPECT_EQ(refused("*INITIAL CONDITIONS, TYPE=STRESS, USER\n"),
             "deck.inp:39: *INITIALCONDITIONS: the parameter USER is not supported");
-  EXPECT_EQ(refused("*INITIAL CONDITIONS, TYPE=STRESS\nA, 1., 2.\n"),
-            "deck.inp:40: expected an element or a set, a point (CalculiX), 6 "
-            "components");
+  EXPECT_EQ(
+      refused("*INITIAL CONDITIONS, TYPE=STRESS\nA, 1., 2.\n"),
+      "deck.inp:40: expected an element, a point and 6 components (CalculiX), or an element or "
+      "a set and 6 components");
 }
 
 }  // namespace

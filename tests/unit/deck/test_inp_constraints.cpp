@@ -227,5 +227,22 @@ TEST(InpConstraints, CentrifugalForceOfABar) {
   EXPECT_NEAR(run.displacement(41).x(), 3 * 0.5 * 64 / 300, 1e-9);
 }
 
+/// A force on a node of a rigid body is that force on its reference point and a moment about it;
+/// it turns with the node, as far as it goes.
+TEST(InpConstraints, ForcesActOnNodesOfRigidBodies) {
+  const std::string body =
+      bar(1) + fixed + "*RIGID BODY, NSET=FINISH, REF NODE=901, ROT NODE=902\n";
+  constexpr double size = 1e-6;
+  // at node 11, by (0, -1/2, -1/2) from the reference point: M = r x F
+  const DeckRun at_node = run_deck(body + step(fmt::format("*CLOAD\n11, 1, {}\n", size)));
+  const DeckRun at_reference =
+      run_deck(body + step(fmt::format("*CLOAD\n901, 1, {}\n902, 2, {}\n902, 3, {}\n", size,
+                                       -size / 2, size / 2)));
+  const double scale = at_node.displacement(11).norm();
+  EXPECT_GT(scale, size / 100);
+  for (const int node : {11, 12, 13, 14})
+    EXPECT_LT((at_node.displacement(node) - at_reference.displacement(node)).norm(), 1e-6 * scale);
+}
+
 }  // namespace
 }  // namespace osculate::deck

@@ -95,6 +95,20 @@ TEST(InpThin, MomentsTurnNodesAndKnots) {
                                                      ::testing::Pair("rotations of node 32", 8)));
 }
 
+TEST(InpThin, TemperaturesHaveGradients) {
+  const Description d = described(
+      elbow +
+      "*EXPANSION\n1.e-5\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nN, 20., 3.\n*STEP\n*STATIC\n"
+      "*TEMPERATURE\nN, 30.\n1, 40., 5., -6.\n*END STEP\n");
+  ASSERT_THAT(d.initial_temperature, SizeIs(1));
+  EXPECT_EQ(d.initial_temperature[0].values[1]->value, 3);
+  EXPECT_EQ(d.initial_temperature[0].values[2]->value, 0);
+  ASSERT_THAT(d.steps[0].temperature, SizeIs(2));
+  EXPECT_EQ(d.steps[0].temperature[0].values[1]->value, 0);
+  EXPECT_EQ(d.steps[0].temperature[1].values[1]->value, 5);
+  EXPECT_EQ(d.steps[0].temperature[1].values[2]->value, -6);
+}
+
 TEST(InpThin, WhatIsNotExpandedStops) {
   const std::string step = "*STEP, NLGEOM\n*STATIC\n*END STEP\n";
   const auto with = [&](const std::string& from, const std::string& to) {

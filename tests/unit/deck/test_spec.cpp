@@ -74,13 +74,29 @@ TEST(Spec, FullModelUsesEveryKey) {
       self(self, entry.value);
     }
   };
-  for (const char* const file :
-       {"full.yaml",        "parts.yaml",        "solid.yaml",          "shapes.yaml",
-        "all.yaml",         "channel.yaml",      "sampling.yaml",       "laws.yaml",
-        "enforcement.yaml", "dynamics.yaml",     "dynamics_space.yaml", "impacts.yaml",
-        "ring.yaml",        "files.yaml",        "time.yaml",           "heat.yaml",
-        "changes.yaml",     "swings.yaml",       "sector.yaml",         "constraints.yaml",
-        "user.yaml",        "bodies_change.yaml"})
+  for (const char* const file : {"full.yaml",
+                                 "parts.yaml",
+                                 "solid.yaml",
+                                 "shapes.yaml",
+                                 "all.yaml",
+                                 "channel.yaml",
+                                 "sampling.yaml",
+                                 "laws.yaml",
+                                 "enforcement.yaml",
+                                 "dynamics.yaml",
+                                 "dynamics_space.yaml",
+                                 "impacts.yaml",
+                                 "ring.yaml",
+                                 "files.yaml",
+                                 "time.yaml",
+                                 "heat.yaml",
+                                 "changes.yaml",
+                                 "swings.yaml",
+                                 "sector.yaml",
+                                 "constraints.yaml",
+                                 "user.yaml",
+                                 "bodies_change.yaml",
+                                 "thin.yaml"})
     visit(visit, read_yaml(test_file(file), file));
   each([&](const std::string&, const Spec& spec) {
     for (const Key& key : spec.keys) {

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdio>
+#include <fstream>
 
 #include "system_test.hpp"
 
@@ -82,6 +84,34 @@ TEST(Temperatures, AreNeededWhereConstantsDependOnThem) {
           "steps: [{name: s, increments: 1, prescribe: [{on: b, ux: 0, uy: 0}]}]\n"),
       "model.yaml:3: materials.m.linear_elastic: material 'm' depends on the temperature, which "
       "is given nowhere: add `initial_temperature`");
+}
+
+/// A beam of an input file along x, its section 0.2 along y times 0.4 along z.
+TEST(Temperatures, OfBeamsAreThoseOfWhatTheyAreExpandedTo) {
+  const std::string path = ::testing::TempDir() + "osculate_thin.inp";
+  std::ofstream(path)
+      << "*NODE, NSET=N\n1, 0, 0, 0\n2, 1, 0, 0\n*ELEMENT, TYPE=B31, ELSET=E\n1, 1, 2\n"
+         "*BEAM SECTION, ELSET=E, MATERIAL=m, SECTION=RECT\n0.2, 0.4\n0, 1, 0\n";
+  const std::string text = edited(test_file("thin.yaml"), "thin.inp", path);
+  const Description d = parse_model(text, "model.yaml");
+  const Built3 b = build3(d, load_mesh(d));
+  const model::Model3& m = b.model;
+  ASSERT_EQ(m.reference.size(), 10U);
+  const std::vector<double> after = m.steps[0].temperature.at(1);
+  for (std::size_t n = 0; n < m.reference.size(); ++n) {
+    EXPECT_EQ(m.initial_temperature[n], 20.0);
+    const Vec3& x = m.reference[n];
+    EXPECT_NEAR(after[n], 80 + 50 * x[2] - 7 * x[1], 1e-12) << n;
+  }
+  EXPECT_EQ(m.steps[1].temperature.at(1), std::vector<double>(10, 60.0));
+  const std::vector<double> of_cells = m.steps[2].temperature.at(1);  // their nodes, named so
+  for (std::size_t n = 0; n < m.reference.size(); ++n)
+    EXPECT_NEAR(of_cells[n], 60 - 50 * m.reference[n][2], 1e-12) << n;
+  EXPECT_EQ(build_refusal(edited(test_file("heat.yaml"), "{on: low, value: 30}",
+                                 "{on: low, value: 30, gradient: 5}")),
+            "model.yaml:18: steps[0].temperature[0]: gradients of the temperature are for nodes of "
+            "shells and beams of an input file: 'low' has none");
+  std::remove(path.c_str());
 }
 
 }  // namespace

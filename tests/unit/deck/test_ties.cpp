@@ -156,6 +156,36 @@ TEST(Ties, WhatIsPrescribedIsNotTied) {
   EXPECT_THAT(held.built.warnings, IsEmpty());
 }
 
+/// A later step moves the master by its slave, and both are tied before it and in it.
+TEST(Ties, WhatALaterStepPrescribesMovesTheMaster) {
+  const std::string later = edited(two, "value: 1}]}]",
+                                   "value: 1}]}, {name: later, increments: 1, prescribe: [{on: "
+                                   "b.bottom_left, uy: 0.01}]}]");
+  const Solved<2> before = solved<2>(two), after = solved<2>(later);
+  EXPECT_THAT(after.built.notes, Contains("tie of 'b.bottom' to 'a.top': 6 of 6 nodes are tied "
+                                          "(within 0.03)"));
+  EXPECT_THAT(after.built.warnings, IsEmpty());
+  const auto corner = [](const Solved<2>& run, bool slave) {
+    const std::vector<Index>& nodes =
+        run.built.model.mesh.find_set(slave ? "b.bottom_left" : "a.top_left")->nodes;
+    return run.u[static_cast<std::size_t>(nodes.at(0))];
+  };
+  EXPECT_NEAR(corner(after, true).y(), 0.01, 1e-14);
+  for (const Solved<2>* const run : {&before, &after})
+    EXPECT_LT((corner(*run, true) - corner(*run, false)).norm(), 1e-13);
+  // until then all is as without it
+  model::BasicAnalysisObserver<2> observer;
+  Eigen::VectorXd first;
+  observer.converged = [&](model::System&, const model::State& state, const model::Progress& p,
+                           const solve::IncrementRecord* record) {
+    if (record && p.step == 0) first = state.u;
+    return true;
+  };
+  (void)model::run(after.built.model, after.built.options, observer);
+  for (std::size_t n = 0; n < before.u.size(); ++n)
+    EXPECT_LT((first.segment<2>(2 * static_cast<Eigen::Index>(n)) - before.u[n]).norm(), 1e-13);
+}
+
 /// Of two ties of a node, or a tie and an equation, the first counts.
 TEST(Ties, WhatFollowsAlreadyIsNotTiedAgain) {
   const Solved<2> once = solved<2>(two),

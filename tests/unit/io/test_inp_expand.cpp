@@ -118,6 +118,36 @@ TEST(InpExpand, NodesOfTheDeckStayAndMoveInTheMean) {
   EXPECT_THAT(deck.mesh.find_set("N")->nodes, SizeIs(9));
 }
 
+/// What a node was expanded to, with its place along the axes of the section.
+TEST(InpExpand, ExpandedNodesKnowTheirNode) {
+  for (const char* const section : {"*SHELL SECTION, ELSET=E, MATERIAL=M, OFFSET=0.5\n0.25\n",
+                                    "*SHELL SECTION, ELSET=E, COMPOSITE\n0.1, , M\n0.15, , M\n"}) {
+    const DeckMesh deck = read(plate("S8", section));
+    const std::vector<mesh::Expanded>& all = deck.mesh.expanded;
+    EXPECT_EQ(all.size(), deck.mesh.nodes.size() - 9);
+    for (const mesh::Expanded& one : all) {
+      EXPECT_GE(one.node, 9);
+      const Vec3 arm = deck.mesh.nodes[static_cast<std::size_t>(one.node)] -
+                       deck.mesh.nodes[static_cast<std::size_t>(one.of)];
+      EXPECT_NEAR((arm - one.height[0] * Vec3::UnitZ()).norm(), 0, 1e-12);
+      EXPECT_EQ(one.height[1], 0);
+    }
+  }
+  for (const char* const section :
+       {"RECT\n0.1, 0.2\n", "BOX\n0.4, 0.2, 0.02, 0.02, 0.02, 0.02\n"}) {
+    const DeckMesh beam = read(
+        "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 2, 0, 0\n*ELEMENT, TYPE=B32, ELSET=E\n1, 1, 2, 3\n"
+        "*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=" +
+        std::string(section) + "0, 1, 0\n");
+    EXPECT_EQ(beam.mesh.expanded.size(), beam.mesh.nodes.size() - 3);
+    for (const mesh::Expanded& one : beam.mesh.expanded) {
+      const Vec3 arm = beam.mesh.nodes[static_cast<std::size_t>(one.node)] -
+                       beam.mesh.nodes[static_cast<std::size_t>(one.of)];
+      EXPECT_NEAR((arm - Vec3(0, one.height[1], one.height[0])).norm(), 0, 1e-12);
+    }
+  }
+}
+
 TEST(InpExpand, ThicknessOfNodesWhereTheSectionSaysSo) {
   const std::string nodes =
       "*NODAL THICKNESS\n1, 0.1\n4, 0.1\n8, 0.1\n2, 0.5\n3, 0.5\n6, 0.5\n5, 0.3\n7, 0.3\n";

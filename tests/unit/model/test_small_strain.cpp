@@ -22,12 +22,14 @@ Mat<Dim, Dim> turned_by(double angle) {
 template <int Dim>
 SmallStrain measured(const Mat<Dim, Dim>& f, const solid::Section<Dim>& section) {
   const auto m = block<Dim>({}, section);
-  Eigen::VectorXd u(Dim * static_cast<Eigen::Index>(m.reference.size()));
+  BasicState<Dim> state;
+  Eigen::VectorXd& u = state.u;
+  u.resize(Dim * static_cast<Eigen::Index>(m.reference.size()));
   for (std::size_t n = 0; n < m.reference.size(); ++n)
     u.template segment<Dim>(Dim * static_cast<Eigen::Index>(n)) =
         f * m.reference[n] - m.reference[n] + Vec<Dim>::Constant(100);
   std::vector<SmallStrain> found;
-  measure_small_strain<Dim>(m, u, found);
+  measure_small_strain<Dim>(m, state, found);
   return found.empty() ? SmallStrain{"none"} : found.front();
 }
 

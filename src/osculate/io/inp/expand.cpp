@@ -31,6 +31,7 @@ class Expander : private Fibers {
       std::vector<Fiber> here;
       for (const ThinGroup& group : groups) {
         here.push_back(fiber_of(node, group));
+        note(node, group, here.back());
         for (const auto& member : group.members) fibers[member] = here.back();
       }
       join(node, groups, here);
@@ -67,6 +68,22 @@ class Expander : private Fibers {
     to.connectivity.insert(to.connectivity.end(), nodes.begin(), nodes.end());
     if (!numbers_.empty()) to.numbers.push_back(numbers_[static_cast<std::size_t>(element)]);
     return {block, to.size() - 1};
+  }
+
+  /// What the deck's node became.
+  void note(Index node, const ThinGroup& group, const Fiber& fiber) {
+    std::vector<Index> all(fiber.begin(), fiber.end());
+    if (const auto more = points_.find(fiber[0]); more != points_.end())
+      all.insert(all.end(), more->second.begin(), more->second.end());
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    const Vec3 first =
+        is_plate(group) ? Vec3(Vec3::Zero()) : Vec3(group.normal.cross(group.tangent));
+    for (const Index one : all) {
+      if (one < 0) continue;
+      const Vec3 arm = at(one) - at(node);
+      mesh_.expanded.push_back({one, node, {arm.dot(group.normal), arm.dot(first)}});
+    }
   }
 
   // ---- what the deck's node does ----------------------------------------------------------------
