@@ -193,7 +193,7 @@ enum class HistoryKind { continuous, chord, per_facet };
 enum class InitialWord { ignore, ramp, keep, adjust };
 enum class SmoothingWord { none, hermite, nurbs };
 
-enum class AreaWord { around, middles };
+enum class AreaWord { around, middles, master };
 
 /// Of the master's surface.
 struct MasterSmoothing {

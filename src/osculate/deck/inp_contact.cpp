@@ -93,31 +93,24 @@ double mean_area(const mesh::Mesh& mesh, const mesh::Set& facets) {
 }
 
 /// Slave nodes without facets have their share of the free faces of the solids round them, as in
-/// CalculiX; where there are no solids that of a facet of the master, or 1.
+/// CalculiX; where there are no solids, and in contact pairs of plane models, each has the whole
+/// area of a facet of the master.
 void put_weight(InpModel& m, const Card& card, SourceNode& pair) {
   const mesh::Set* const slave = m.mesh.mesh.find_set(find(pair, "slave")->text);
-  const mesh::Set* const master = m.mesh.mesh.find_set(find(pair, "master")->text);
-  if (!slave || !master || !slave->cells.empty()) return;
+  if (!slave || !slave->cells.empty()) return;
   const int line = line_of(card.at);
-  SourceNode& weight = put(pair, "weight", inp_map(line));
   const std::vector<double> areas = mesh::free_areas(m.mesh.mesh, mesh::face_table(m.mesh.mesh));
-  const bool around = std::any_of(slave->nodes.begin(), slave->nodes.end(),
-                                  [&](Index n) { return areas[static_cast<std::size_t>(n)] > 0; });
-  if (around || inp_dimension(m) == 2) {
-    put(weight, "area", inp_text("around", line));
-    m.notes.push_back(
-        fmt::format("line {}: nodes of '{}' have no facets: each has its share of the "
-                    "free faces round it",
-                    card.at.line, slave->name));
-    return;
-  }
-  const double of_master = mean_area(m.mesh.mesh, *master);
-  const double area = of_master > 0 ? of_master : 1;
-  put(weight, "area", inp_number(area, line));
-  m.notes.push_back(
-      fmt::format("line {}: nodes of '{}' have no facets: each has the area {:g} of a "
-                  "facet of the master",
-                  card.at.line, slave->name, area));
+  const bool around = inp_dimension(m) == 2
+                          ? card.keyword == "TIE"
+                          : std::any_of(slave->nodes.begin(), slave->nodes.end(), [&](Index n) {
+                              return areas[static_cast<std::size_t>(n)] > 0;
+                            });
+  put(put(pair, "weight", inp_map(line)), "area", inp_text(around ? "around" : "master", line));
+  m.notes.push_back(fmt::format("line {}: nodes of '{}' have no facets: each has {}", card.at.line,
+                                slave->name,
+                                around ? "its share of the free faces round it"
+                                       : "all of the area of a facet of the master, as in "
+                                         "CalculiX"));
 }
 
 void put_adjust(const InpModel& m, const Card& card, const std::string& value, SourceNode& pair) {

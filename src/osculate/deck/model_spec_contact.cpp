@@ -188,7 +188,10 @@ BoundKey<Contact> weight_key() {
                                                    "corner of"),
                                               word("middles", AreaWord::middles,
                                                    "of its facets; of second order nearly all to "
-                                                   "the middles of edges, as in CalculiX")})})
+                                                   "the middles of edges, as in CalculiX"),
+                                              word("master", AreaWord::master,
+                                                   "all of the master's facet that is nearest at "
+                                                   "the beginning, as in CalculiX")})})
           .otherwise_as("that of its facets")
           .such_as("0.25");
   const BoundKeys<Contact> given(
