@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "osculate/deck/build_contact_parts.hpp"
+#include "osculate/deck/foot_on_facets.hpp"
 #include "osculate/mesh/node_areas.hpp"
 #include "osculate/pairing/sampling.hpp"
 
@@ -65,10 +66,11 @@ double share_of_node(const pairing::SurfaceFacet& facet, std::size_t local) {
 }
 
 template <int Dim>
-double area_of(const pairing::SlaveSide<Dim>& slave, std::size_t f,
+double area_of(const pairing::Boundary<Dim>& boundary, std::size_t f,
                const std::vector<Vec<Dim>>& reference, const pairing::AreaRule& rule) {
-  pairing::Boundary<Dim> one = slave.boundary;
-  one.facets = {slave.boundary.facets[f]};
+  pairing::Boundary<Dim> one = boundary;
+  one.facets = {boundary.facets[f]};
+  if constexpr (Dim == 2) one.facets[0].prev = one.facets[0].next = -1;
   std::vector<double> areas;
   pairing::nodal_areas(pairing::make_slave_side(one), reference, rule, areas, nullptr);
   double sum = 0;
@@ -82,7 +84,7 @@ std::vector<double> areas_of_middles(const BuildContext<Dim>& c, const Contact& 
   const pairing::SlaveSide<Dim>& slave = pair.slave;
   std::vector<double> of_facets, areas;
   for (std::size_t f = 0; f < slave.boundary.facets.size(); ++f)
-    of_facets.push_back(area_of<Dim>(slave, f, c.model().reference, pair.area));
+    of_facets.push_back(area_of<Dim>(slave.boundary, f, c.model().reference, pair.area));
   for (std::size_t i = 0; i < slave.nodes.size(); ++i) {
     areas.push_back(0);
     for (const Index f : slave.facets_of[i]) {
@@ -105,6 +107,41 @@ std::vector<double> areas_of_middles(const BuildContext<Dim>& c, const Contact& 
   return areas;
 }
 
+/// Thickness or circumference of the section behind a facet; of a rigid mesh those of the pair.
+pairing::AreaRule rule_behind(const BuildContext<2>& c, const Side<2>& facet,
+                              const pairing::AreaRule& otherwise) {
+  const auto found = c.section_of_cell.find({facet.parent.block, facet.parent.cell});
+  if (found == c.section_of_cell.end()) return otherwise;
+  const solid::Section<2>& section =
+      c.model().sections[static_cast<std::size_t>(found->second)].section;
+  return {section.thickness, section.assumption == solid::Assumption::axisymmetric};
+}
+pairing::AreaRule rule_behind(const BuildContext<3>&, const Side<3>&,
+                              const pairing::AreaRule& otherwise) {
+  return otherwise;
+}
+
+/// Of the master's facet that is nearest a node where both lie at the beginning.
+template <int Dim>
+std::vector<double> areas_of_master(const BuildContext<Dim>& c, const Contact& contact,
+                                    const pairing::PairDefinition<Dim>& pair) {
+  if (c.rigid_index.contains(contact.master.value))
+    throw core::InputError(contact.weight.mark,
+                           fmt::format("area: master is of facets of the mesh, and '{}' is a rigid "
+                                       "body",
+                                       contact.master.value));
+  const FacetFeet<Dim> master(c.model().reference, oriented_facets(c, contact.master));
+  const pairing::Boundary<Dim> boundary = boundary_from<Dim>(master.facets(), false);
+  std::vector<double> areas;
+  for (const auto& point : pair.slave.points) {
+    const auto n = static_cast<std::size_t>(point.nearest_node());
+    const auto f = static_cast<std::size_t>(master.at(c.model().reference[n]).facet);
+    areas.push_back(area_of<Dim>(boundary, f, c.model().reference,
+                                 rule_behind(c, master.facets()[f], pair.area)));
+  }
+  return areas;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -116,6 +153,7 @@ std::vector<double> given_areas(const BuildContext<Dim>& c, const Contact& conta
     throw core::InputError(contact.weight.mark, "a given area of nodes goes with sampling: nodes");
   if (contact.area > 0) return std::vector<double>(count, contact.area);
   if (*contact.area_by == AreaWord::middles) return areas_of_middles(c, contact, pair);
+  if (*contact.area_by == AreaWord::master) return areas_of_master(c, contact, pair);
   const std::vector<double> all = areas_around(c);
   std::vector<double> areas;
   double sum = 0;

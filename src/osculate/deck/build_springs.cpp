@@ -55,6 +55,8 @@ void build_springs(BuildContext<Dim>& c) {
     out.damping = spring.damping;
     if (spring.stiffness) out.stiffness = spring.stiffness->value;
     for (const Vec2& point : spring.table.value) out.table.push_back({point[0], point[1]});
+    if (spring.gap)
+      out.gap = model::SpringGap{spring.gap->clearance, spring.gap->stiffness, spring.gap->tension};
     if (!spring.between.empty()) join(c, spring, out);
     model::Equation elongation;
     for (const EquationTerm& term : spring.terms) add_to_elongation(c, term, elongation);

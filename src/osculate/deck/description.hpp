@@ -193,7 +193,7 @@ enum class HistoryKind { continuous, chord, per_facet };
 enum class InitialWord { ignore, ramp, keep, adjust };
 enum class SmoothingWord { none, hermite, nurbs };
 
-enum class AreaWord { around, middles };
+enum class AreaWord { around, middles, master };
 
 /// Of the master's surface.
 struct MasterSmoothing {
@@ -359,6 +359,11 @@ struct Spring {
   std::vector<EquationTerm> terms;
   std::optional<Number> stiffness;
   Marked<std::vector<Vec2>> table;  ///< elongation, force
+  struct Gap {
+    core::SourceMark mark;
+    double clearance = 0, stiffness = 0, tension = 0;
+  };
+  std::optional<Gap> gap;
   double damping = 0;
   Kinematics kinematics = Kinematics::finite;
 };

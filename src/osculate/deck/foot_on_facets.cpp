@@ -52,6 +52,7 @@ Foot<Dim> FacetFeet<Dim>::at(const Vec<Dim>& place) const {
     return foot;
   }
   foot.place = found.point;
+  foot.facet = found.facet;
   foot.distance = std::abs(found.distance);
   const Side<Dim>& facet = facets_[static_cast<std::size_t>(found.facet)];
   const std::vector<double> n = shape_values(facet.type, found.xi);

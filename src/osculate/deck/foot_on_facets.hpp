@@ -14,6 +14,7 @@ struct Foot {
   std::vector<std::pair<Index, double>> weights;  ///< shape functions there by nodes, sum 1; at a
                                                   ///< node that alone, exactly
   Vec<Dim> place = Vec<Dim>::Zero();
+  Index facet = -1;     ///< in the order given
   double distance = 0;  ///< not signed; infinite: there is no facet
 };
 

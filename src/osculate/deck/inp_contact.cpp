@@ -23,6 +23,15 @@ bool is_of_second_order(const InpModel& m, const mesh::Set& set) {
   });
 }
 
+/// Of two slaves with one name node-to-surface contact has that of nodes, as in CalculiX; where
+/// both have the same nodes they are one set of the mesh.
+bool has_slave_of_nodes(const InpModel& m, const Card& card, const std::string& slave) {
+  return option_of(card, "TYPE") == "NODETOSURFACE" &&
+         std::any_of(m.mesh.sets.begin(), m.mesh.sets.end(), [&](const io::inp::DeckSet& set) {
+           return set.kind == SetKind::node_surface && m.mesh.mesh.sets[set.set].name == slave;
+         });
+}
+
 /// Nodes, or Gauss points: two per direction of a facet, three of one of second order, and six of
 /// one that is tied: ccx integrates over the parts of the facets that lie on one facet of the
 /// master, and ties of coarse facets on fine ones need as many to come near that (docs/inp.md).
@@ -31,7 +40,7 @@ void put_sampling(InpModel& m, const Card& card, const std::string& slave, bool 
   const int at = line_of(card.at);
   const std::string type = option_of(card, "TYPE");
   const mesh::Set* const set = m.mesh.mesh.find_set(slave);
-  const bool has_facets = set && !set->cells.empty();
+  const bool has_facets = set && !set->cells.empty() && !has_slave_of_nodes(m, card, slave);
   const bool second_order = has_facets && is_of_second_order(m, *set);
   if (type == "MORTAR" || type == "LINMORTAR" || type == "PGLINMORTAR") {
     put(pair, "sampling", inp_text("mortar", at));
@@ -78,7 +87,7 @@ SourceNode& pair_of_line(const InpModel& m, const Card& card, const Line& line, 
   const std::string master = io::inp::name_of(fields.next().value_or(""));
   if (slave.empty() || master.empty())
     fields.fail(fmt::format("*{}: expected two surfaces, slave and master", card.keyword));
-  return add_pair(m, line.at, slave, master, pairs);
+  return add_pair(m, line.at, slave, master, pairs, option_of(card, "TYPE") == "NODETOSURFACE");
 }
 
 /// Mean area of the facets of a set.
@@ -93,31 +102,23 @@ double mean_area(const mesh::Mesh& mesh, const mesh::Set& facets) {
 }
 
 /// Slave nodes without facets have their share of the free faces of the solids round them, as in
-/// CalculiX; where there are no solids that of a facet of the master, or 1.
+/// CalculiX; where there are no solids, and in contact pairs of plane models, each has the whole
+/// area of a facet of the master.
 void put_weight(InpModel& m, const Card& card, SourceNode& pair) {
   const mesh::Set* const slave = m.mesh.mesh.find_set(find(pair, "slave")->text);
-  const mesh::Set* const master = m.mesh.mesh.find_set(find(pair, "master")->text);
-  if (!slave || !master || !slave->cells.empty()) return;
+  if (!slave || !(slave->cells.empty() || has_slave_of_nodes(m, card, slave->name))) return;
   const int line = line_of(card.at);
-  SourceNode& weight = put(pair, "weight", inp_map(line));
   const std::vector<double> areas = mesh::free_areas(m.mesh.mesh, mesh::face_table(m.mesh.mesh));
-  const bool around = std::any_of(slave->nodes.begin(), slave->nodes.end(),
-                                  [&](Index n) { return areas[static_cast<std::size_t>(n)] > 0; });
-  if (around || inp_dimension(m) == 2) {
-    put(weight, "area", inp_text("around", line));
-    m.notes.push_back(
-        fmt::format("line {}: nodes of '{}' have no facets: each has its share of the "
-                    "free faces round it",
-                    card.at.line, slave->name));
-    return;
-  }
-  const double of_master = mean_area(m.mesh.mesh, *master);
-  const double area = of_master > 0 ? of_master : 1;
-  put(weight, "area", inp_number(area, line));
-  m.notes.push_back(
-      fmt::format("line {}: nodes of '{}' have no facets: each has the area {:g} of a "
-                  "facet of the master",
-                  card.at.line, slave->name, area));
+  const bool around = inp_dimension(m) == 2
+                          ? card.keyword == "TIE"
+                          : std::any_of(slave->nodes.begin(), slave->nodes.end(), [&](Index n) {
+                              return areas[static_cast<std::size_t>(n)] > 0;
+                            });
+  put(put(pair, "weight", inp_map(line)), "area", inp_text(around ? "around" : "master", line));
+  m.notes.push_back(fmt::format("line {}: '{}' are nodes: each has {}", card.at.line, slave->name,
+                                around ? "its share of the free faces round it"
+                                       : "all of the area of a facet of the master, as in "
+                                         "CalculiX"));
 }
 
 void put_adjust(const InpModel& m, const Card& card, const std::string& value, SourceNode& pair) {
@@ -146,12 +147,13 @@ void put_friction(const InpModel& m, const InpInteraction& law, SourceNode& pair
 
 /// Gap up to which node-to-face contact looks for a master in CalculiX: a thousandth of the square
 /// root of a slave node's area, here of the mean.
-double usual_clearance(const InpModel& m, const std::string& slave) {
+double usual_clearance(const InpModel& m, const Card& card, const std::string& slave) {
   constexpr double share = 1e-3;
   const mesh::Set* const set = m.mesh.mesh.find_set(slave);
   if (!set || set->nodes.empty()) return 0;
   double area = mean_area(m.mesh.mesh, *set) * static_cast<double>(set->cells.size());
-  if (set->cells.empty()) {
+  if (set->cells.empty() || has_slave_of_nodes(m, card, slave)) {
+    area = 0;
     const std::vector<double> areas = mesh::free_areas(m.mesh.mesh, mesh::face_table(m.mesh.mesh));
     for (const Index n : set->nodes) area += areas[static_cast<std::size_t>(n)];
   }
@@ -167,7 +169,7 @@ void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, 
     const std::string slave = find(pair, "slave")->text;  // the pair's keys move when one is added
     put_sampling(m, card, slave, inp_is_tied(law.behavior), pair);
     put_weight(m, card, pair);
-    const double clearance = is_of_nodes ? usual_clearance(m, slave) : 0;
+    const double clearance = is_of_nodes ? usual_clearance(m, card, slave) : 0;
     m.pairs.push_back({find(pair, "name")->text, io::inp::capitals(law.name),
                        find(pair, "slave")->text, find(pair, "master")->text, clearance});
     put_laws(m, law, pair, clearance);
@@ -231,14 +233,17 @@ void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, do
 }
 
 SourceNode& add_pair(const InpModel& m, io::inp::Place at, const std::string& slave,
-                     const std::string& master, SourceNode& pairs) {
+                     const std::string& master, SourceNode& pairs, bool nodes) {
   const int line = line_of(at);
   const std::string name = name_for(pairs, slave, master);
   SourceNode& pair = pairs.items.emplace_back(inp_map(line));
   put(pair, "name", inp_text(name, line));
   put(pair, "master", inp_text(set_of(m, at, master, {SetKind::surface}), line));
+  const bool of_nodes = nodes && m.sets.contains({SetKind::node_surface, io::inp::capitals(slave)});
   put(pair, "slave",
-      inp_text(set_of(m, at, slave, {SetKind::surface, SetKind::node_surface}), line));
+      inp_text(of_nodes ? set_of(m, at, slave, {SetKind::node_surface})
+                        : set_of(m, at, slave, {SetKind::surface, SetKind::node_surface}),
+               line));
   return pair;
 }
 

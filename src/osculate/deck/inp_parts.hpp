@@ -177,9 +177,10 @@ struct InpInteraction {
                                                       io::inp::Place at, std::string_view name);
 /// Its laws as keys of a contact pair; clearance: as of inp_normal.
 void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, double clearance = 0);
-/// A new pair of two surfaces of the deck, with a name of its own.
+/// A new pair of two surfaces of the deck, with a name of its own. `nodes`: of slaves that share
+/// their name that of nodes.
 SourceNode& add_pair(const InpModel& m, io::inp::Place at, const std::string& slave,
-                     const std::string& master, SourceNode& pairs);
+                     const std::string& master, SourceNode& pairs, bool nodes = false);
 /// `*CONTACT` of everything, or of pairs of surfaces after the other pairs.
 ///
 /// Tested by  tests/unit/deck/test_inp_general_contact.cpp

@@ -172,9 +172,9 @@ void put_dashpot(const InpModel& m, const Card& card, SourceNode& root) {
 
 /// Nodes that are free to part, and pushed apart as soon as they are nearer than the clearance.
 ///
-/// Formula    q = n . (u2 - u1) , F = k (q + d) where q < -d , 0 elsewhere
+/// Formula    q = n . (u2 - u1) , F(q) that of model::SpringGap, whose tension is there in any case
 void put_gap(const InpModel& m, const Card& card, SourceNode& root) {
-  constexpr double usual_stiffness = 1e12;  // of CalculiX
+  constexpr double usual_stiffness = 1e12, usual_tension = 1e-3;  // of CalculiX
   for (const Discrete& element : elements_with(m, card)) {
     require_kind(m, card, element, "GAP");
     const Line& data = only_line(m, card, "clearance and direction");
@@ -183,10 +183,8 @@ void put_gap(const InpModel& m, const Card& card, SourceNode& root) {
     const Vec3 direction = point_of(fields);
     if (!(direction.norm() > 0)) fields.fail("expected the direction of the gap");
     (void)fields.next();
-    const double given = fields.real_or_zero("the stiffness");
-    if (fields.real_or_zero("the force in tension") != 0)
-      fields.fail("a force in tension is not supported");
-    const double stiffness = sectors(m, element) * (given > 0 ? given : usual_stiffness);
+    const double stiffness = fields.real_or_zero("the stiffness"),
+                 tension = fields.real_or_zero("the force in tension");
     const int line = line_of(data.at);
     SourceNode& spring = new_spring(root, line);
     SourceNode& terms = put(spring, "terms", inp_list(line));
@@ -195,12 +193,11 @@ void put_gap(const InpModel& m, const Card& card, SourceNode& root) {
         put_term(m, data, element.nodes[0], k + 1, -n, terms);
         put_term(m, data, element.nodes[1], k + 1, n, terms);
       }
-    SourceNode& table = put(spring, "table", inp_list(line));
-    const double far = 1e3 * (1 + std::abs(clearance));
-    for (const std::array<double, 2>& point : {std::array{-clearance - far, -stiffness * far},
-                                               std::array{-clearance, 0.0}, std::array{far, 0.0}})
-      table.items.emplace_back(inp_list(line)).items = {inp_number(point[0], line),
-                                                        inp_number(point[1], line)};
+    SourceNode& gap = put(spring, "gap", inp_map(line));
+    const double parts = sectors(m, element);
+    put(gap, "clearance", inp_number(clearance, line));
+    put(gap, "stiffness", inp_number(parts * (stiffness > 0 ? stiffness : usual_stiffness), line));
+    put(gap, "tension", inp_number(parts * (tension > 0 ? tension : usual_tension), line));
   }
 }
 

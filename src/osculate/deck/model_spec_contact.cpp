@@ -183,12 +183,14 @@ BoundKey<Contact> weight_key() {
   Spec area =
       either("Area of each slave node, also of those without facets.",
              {number("The same for all.").in("length^2").above(0).such_as("0.25"),
-              choice("Of its surroundings.", {word("around", AreaWord::around,
-                                                   "its share of the free faces that it is a "
-                                                   "corner of"),
-                                              word("middles", AreaWord::middles,
-                                                   "of its facets; of second order nearly all to "
-                                                   "the middles of edges, as in CalculiX")})})
+              choice("Of its surroundings.",
+                     {word("around", AreaWord::around,
+                           "its share of the free faces that it is a "
+                           "corner of"),
+                      word("middles", AreaWord::middles,
+                           "of its facets; of second order nearly all to "
+                           "the middles of edges, as in CalculiX"),
+                      word("master", AreaWord::master, "that of the master's facet below it")})})
           .otherwise_as("that of its facets")
           .such_as("0.25");
   const BoundKeys<Contact> given(

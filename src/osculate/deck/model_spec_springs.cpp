@@ -13,10 +13,34 @@ void check_curve(const Value& v) {
 
 void check_spring(const Value& v, const Spring& spring) {
   const bool curve = !spring.table.value.empty();
-  if (curve && spring.stiffness)
-    throw core::InputError(spring.table.mark, "a spring has a stiffness or a table, not both");
-  if (!curve && !spring.stiffness && !(spring.damping > 0))
-    throw core::InputError(v.mark, "one of stiffness, table and damping is missing");
+  const int laws = (curve ? 1 : 0) + (spring.stiffness ? 1 : 0) + (spring.gap ? 1 : 0);
+  if (laws > 1)
+    throw core::InputError(spring.gap ? spring.gap->mark : spring.table.mark,
+                           "a spring has a stiffness, a table or a gap, not two of them");
+  if (laws == 0 && !(spring.damping > 0))
+    throw core::InputError(v.mark, "one of stiffness, table, gap and damping is missing");
+}
+
+BoundKey<Spring> gap_key() {
+  using G = Spring::Gap;
+  const BoundKeys<G> keys(
+      {may(&G::clearance, "clearance",
+           number("How much shorter it becomes until it is closed.").in("length").otherwise("0")),
+       need(&G::stiffness, "stiffness",
+            number("Force per length once it is closed.")
+                .in("force/length")
+                .above(0)
+                .such_as("1e6")),
+       need(&G::tension, "tension",
+            number("Force that pulls what is apart, for want of a corner in the law: the smaller, "
+                   "the sharper.")
+                .in("force")
+                .above(0)
+                .such_as("1e-3"))});
+  return {optional("gap", keys.spec("Free until it has closed, and stiff then, as CalculiX' "
+                                    "gap elements.")
+                              .such_as("{clearance: 0.5, stiffness: 1e6, tension: 1e-3}")),
+          [keys](Spring& s, const Value& v) { s.gap = keys.read(v); }};
 }
 
 BoundKeys<Spring> keys_of_spring() {
@@ -43,6 +67,7 @@ BoundKeys<Spring> keys_of_spring() {
                        .count(2)
                        .such_as("[[-1, 0], [0, 0], [1, 25]]")),
                check_curve),
+       gap_key(),
        may(&S::damping, "damping",
            number("Force per rate of the elongation, in steps with inertia.")
                .in("force time/length")

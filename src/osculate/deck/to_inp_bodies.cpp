@@ -65,6 +65,7 @@ void write_spring(const Spring& spring, std::size_t number, InpMesh<Dim>& mesh, 
                            "in an input file springs between nodes turn with them where the steps "
                            "have NLGEOM, and nowhere else");
   if (mesh.round()) throw core::InputError(spring.mark, "springs of rings are not written");
+  if (spring.gap) throw core::InputError(spring.gap->mark, "gaps are not written");
   const SpringEnds ends = ends_of(spring, mesh);
   if (spring.stiffness || !spring.table.value.empty()) {
     const std::string name = write_element(("SPRING" + ends.type).c_str(),

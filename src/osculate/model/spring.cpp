@@ -1,6 +1,9 @@
 #include "osculate/model/spring.hpp"
 
 #include <cmath>
+#include <limits>
+
+#include "osculate/contact/law/normal_tensile.hpp"
 
 namespace osculate::model {
 namespace {
@@ -39,9 +42,18 @@ double area_between(const core::Table& table, double low, double high) {
   return area;
 }
 
+SpringResponse by_gap(const SpringGap& gap, double elongation) {
+  const contact::NormalTensile law{gap.stiffness, gap.tension,
+                                   std::numeric_limits<double>::infinity()};
+  const contact::NormalResponse r = law.response(gap.clearance + elongation);
+  return {r.traction, r.d_traction,
+          law.work(-gap.clearance - elongation) - law.work(-gap.clearance)};
+}
+
 }  // namespace
 
 SpringResponse response(const Spring& spring, double elongation) {
+  if (spring.gap) return by_gap(*spring.gap, elongation);
   if (spring.table.empty()) {
     const double k = spring.stiffness;
     return {k * elongation, k, 0.5 * k * elongation * elongation};

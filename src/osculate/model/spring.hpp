@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,13 +12,26 @@
 
 namespace osculate::model {
 
+/// What is apart, and stiff as soon as it has come together.
+///
+/// Formula    F = K g (1/2 - atan(g / e) / pi) , g = clearance + q , e = pi T / K : -T - K g far
+///            inside, T far outside
+/// Source     GAPUNI of CalculiX (ccx 2.20 User's Manual, *GAP), measured to seven digits on one
+///            element; the law of contact::NormalTensile, which has the formula
+/// Units      clearance: length, K force/length, T force
+struct SpringGap {
+  double clearance = 0;
+  double stiffness = 0;  ///< K
+  double tension = 0;    ///< T, above zero
+};
+
 /// A force that depends on one elongation q, and a damper beside it.
 ///
 /// Formula    of two nodes  q = |x2 - x1| - |X2 - X1| , along the line that joins them, or (if it
 ///            does not turn) q = e . (u2 - u1) , e along that of the reference configuration;
 ///            of displacements  q = sum factor u ;
 ///            F = k q , or by straight lines between the points of a table, constant beyond its
-///            ends; plus c dq/dt in steps with inertia
+///            ends, or that of a gap; plus c dq/dt in steps with inertia
 /// Units      force over length; k force/length, c force time/length
 struct Spring {
   std::string name{};
@@ -26,6 +40,7 @@ struct Spring {
   std::vector<Equation::Term> terms{};
   double stiffness = 0;
   core::Table table{};  ///< elongation (increasing), force; empty: linear
+  std::optional<SpringGap> gap{};
   double damping = 0;
 
   [[nodiscard]] bool joins() const { return ends[0] >= 0; }

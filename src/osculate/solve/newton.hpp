@@ -54,11 +54,14 @@ struct Judge {
   }
 
   /// A tangent without digits may leave a small residual far from the answer: only corrections that
-  /// have become small beside the first ones say that it is near. Multipliers of constraints that
-  /// say the same twice are free to move for ever: they say nothing.
-  [[nodiscard]] bool settled(double condition, bool saddle, double correction) const {
-    constexpr double small = 1e-5;
-    return condition == 0 || saddle || correction <= small * largest_correction;
+  /// have become small beside the first ones say that it is near, or that do no work: forces of the
+  /// size of rounding go on moving along what has no stiffness. Multipliers of constraints that say
+  /// the same twice are free to move for ever: they say nothing.
+  [[nodiscard]] bool settled(double condition, bool saddle, double correction,
+                             double energy_before) const {
+    constexpr double small = 1e-5, no_work = 1e-16;
+    return condition == 0 || saddle || correction <= small * largest_correction ||
+           energy_before <= no_work * first_energy;
   }
 
   /// Three times in a row no part of the correction that can be told from none lessens what is out
@@ -203,7 +206,7 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
   judge.largest_correction = std::max(judge.largest_correction, correction);
   judge.look_at(size, step, record.residual < 1e-3);
   result.precision.round_off = false;
-  if (!judge.settled(result.precision.condition, e.saddle, correction)) return false;
+  if (!judge.settled(result.precision.condition, e.saddle, correction, energy_before)) return false;
   if (former.of_other_states()) return false;
   if (!judge.done(record.residual, energy_before, energy_after)) {
     const bool rounding =

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <numbers>
+#include <regex>
+
 #include "space_test.hpp"
 
 namespace osculate::deck {
@@ -58,6 +61,43 @@ TEST(GivenAreas, AreThoseOfExtrudedFacetsInThePlane) {
   };
   expect_near(plane("quad8"), {0.52, 0.52, 0.96});
   expect_near(plane("quad4"), {1, 1});
+  expect_near(
+      areas<2>(block("{x: [0, 2], y: [0, 1], elements: [2, 1], type: quad8}", "plane_strain")),
+      {0.26, 0.26, 0.48, 0.48, 0.52});
+}
+
+/// Of the nodes at x = 0, 1, 2 beside facets that end at 0, 1.5, 3; sorted.
+std::vector<double> areas_of_master(const std::string& section) {
+  const bool space = section == "solid";
+  const char* const depth = space ? ", z: [0, 0.5]" : "";
+  const char* const one = space ? ", 1" : "";
+  const std::string text = fmt::format(
+      "osculate: 1\nmesh: {{generate: {{a: {{box: {{x: [0, 3], y: [0, 1]{0}, elements: [2, "
+      "1{1}]}}}}, "
+      "b: {{box: {{x: [0, 2], y: [1, 2]{0}, elements: [2, 1{1}]}}}}}}}}\n"
+      "materials: {{m: {{linear_elastic: {{E: 100, nu: 0}}}}}}\n"
+      "sections: [{{on: a, material: m, {2}}}, {{on: b, material: m, {2}}}]\n"
+      "contact: [{{name: c, master: {3}, slave: {4}, sampling: nodes, weight: {{area: master}}, "
+      "normal: {{penalty: 100}}}}]\n"
+      "steps: [{{name: s, increments: 1}}]\n",
+      depth, one,
+      section == "plane_strain" ? "element: plane_strain, thickness: 0.2" : "element: " + section,
+      space ? "a.back" : "a.top", space ? "b.front" : "b.bottom");
+  return space ? areas<3>(text) : areas<2>(text);
+}
+
+/// As in CalculiX, whose nodal surfaces in the plane have no facets: forces of two facets of 0.65
+/// and 0.9 on which nodes are pressed by 10, thickness 0.5, are 3.25 and 4.5 there.
+TEST(GivenAreas, AreThoseOfTheFacetsBelow) {
+  constexpr double pi = std::numbers::pi;
+  expect_near(areas_of_master("plane_strain"), {0.3, 0.3, 0.3});
+  expect_near(areas_of_master("axisymmetric"), {2.25 * pi, 2.25 * pi, 6.75 * pi});
+  expect_near(areas_of_master("solid"), std::vector<double>(6, 0.75));
+  EXPECT_THAT(
+      any_refusal(
+          std::regex_replace(block("{x: [0, 2], y: [0, 1], elements: [1, 1]}", "plane_strain"),
+                             std::regex("middles"), "master")),
+      ::testing::HasSubstr("area: master is of facets of the mesh, and 'floor' is a rigid"));
 }
 
 TEST(GivenAreas, AreRefusedOfOtherFacets) {

@@ -207,6 +207,21 @@ TEST(InpBetweenSteps, NodesWithoutFacetsHaveTheirShareOfTheFreeFaces) {
   expect_in(contact, "{mu: 0.2, penalty: 50000}");
 }
 
+// A surface of nodes and one of facets may share a name: node-to-surface contact has that of nodes.
+TEST(InpBetweenSteps, OfTwoSlavesWithOneNameThatOfNodesCounts) {
+  const auto contact = [&](const std::string& nodes, const std::string& type) {
+    return part(dry + "*SURFACE, NAME=SLAVE, TYPE=NODE\n" + nodes +
+                    "*CONTACT PAIR, INTERACTION=DRY, TYPE=" + type + "\nSLAVE, MASTER\n" + press,
+                "contact");
+  };
+  expect_in(contact("FOOT\n", "NODE TO SURFACE"),
+            "slave: SLAVE\n    sampling: nodes\n    weight: {area: around}");
+  expect_in(contact("FOOT\n", "SURFACE TO SURFACE"), "slave: SLAVE\n    sampling: {gauss: 2}");
+  expect_in(contact("11, 12\n", "NODE TO SURFACE"),
+            "slave: SLAVE.surface_nodes\n    sampling: nodes\n    weight: {area: around}");
+  expect_in(contact("11, 12\n", "SURFACE TO SURFACE"), "slave: SLAVE\n    sampling: {gauss: 2}");
+}
+
 TEST(InpBetweenSteps, StepsInTime) {
   const std::string deck = dry + pair + R"(*STEP
 *DYNAMIC, DIRECT, ALPHA=-0.1

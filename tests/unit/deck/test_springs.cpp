@@ -177,9 +177,13 @@ TEST(Springs, WhatIsWrong) {
             "m.yaml:5: springs[0].between[1]: 'b.top_left' and 'b.top_left' lie at one place: the "
             "spring has no direction; give it `terms`");
   EXPECT_EQ(of("{between: [b.top_left, b.top_right]}"),
-            "m.yaml:5: springs[0]: one of stiffness, table and damping is missing");
-  EXPECT_EQ(of("{between: [b.top_left, b.top_right], stiffness: 1, table: [[0, 0], [1, 1]]}"),
-            "m.yaml:5: springs[0].table: a spring has a stiffness or a table, not both");
+            "m.yaml:5: springs[0]: one of stiffness, table, gap and damping is missing");
+  EXPECT_EQ(
+      of("{between: [b.top_left, b.top_right], stiffness: 1, table: [[0, 0], [1, 1]]}"),
+      "m.yaml:5: springs[0].table: a spring has a stiffness, a table or a gap, not two of them");
+  EXPECT_EQ(
+      of("{between: [b.top_left, b.top_right], stiffness: 1, gap: {stiffness: 1, tension: 1}}"),
+      "m.yaml:5: springs[0].gap: a spring has a stiffness, a table or a gap, not two of them");
   EXPECT_EQ(of("{between: [b.top_left, b.top_right], table: [[0, 0], [0, 1]]}"),
             "m.yaml:5: springs[0].table[1]: the elongations must increase");
   EXPECT_EQ(of("{terms: [{on: b.left, of: uz, factor: 1}], stiffness: 1}"),

@@ -362,6 +362,11 @@ TEST(ToInp, WhatADeckCannotSayOfTheNewKeys) {
                               "stiffness: 5, kinematics: finite}]\n",
                               pressed)),
               HasSubstr("where the steps have NLGEOM"));
+  EXPECT_THAT(refusal_of(cube(elastic,
+                              "springs: [{between: [c.bottom_front_left, c.top_back_right], gap: "
+                              "{stiffness: 5, tension: 1}, kinematics: small}]\n",
+                              pressed)),
+              HasSubstr("springs[0].gap: gaps are not written"));
   EXPECT_THAT(refusal_of(cube(elastic, "",
                               edited(pressed, "}]}", "}], total_force: [{on: c.top, fz: 1}]}"))),
               HasSubstr("steps[0].total_force"));

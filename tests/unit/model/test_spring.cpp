@@ -38,6 +38,46 @@ TEST(Spring, StoredEnergyIsTheAreaBelowTheForce) {
   EXPECT_DOUBLE_EQ(response(table, -2).stored, 4 + 1.5);
 }
 
+/// Forces of one GAPUNI in ccx 2.20, which prints seven digits.
+TEST(Spring, GapsPushAndHardlyPull) {
+  const auto force = [](double clearance, double stiffness, double tension, double q) {
+    Spring spring;
+    spring.gap = SpringGap{clearance, stiffness, tension};
+    return response(spring, q).force;
+  };
+  EXPECT_NEAR(force(0, 100, 0.1, -0.3), -29.9, 5e-6);
+  EXPECT_NEAR(force(0, 100, 0.1, -0.01), -0.9031078, 5e-8);
+  EXPECT_NEAR(force(0, 100, 0.1, -0.0001), -0.005101287, 5e-10);
+  EXPECT_NEAR(force(0, 100, 0.1, 0.001), 0.04019067, 5e-9);
+  EXPECT_NEAR(force(0, 100, 0.1, 0.5), 0.09999868, 5e-9);
+  EXPECT_NEAR(force(0.05, 100, 0.1, -0.3), -24.90001, 5e-6);
+  EXPECT_NEAR(force(0.05, 100, 0.1, -0.01), 0.09979514, 5e-9);
+  EXPECT_NEAR(force(0, 1e12, 1e-3, 0.5), 1e-3, 1e-15) << "no digits are lost far outside";
+}
+
+TEST(Spring, GapsHaveASlopeAndAnEnergy) {
+  Spring spring;
+  spring.gap = SpringGap{0.3, 7, 0.2};
+  EXPECT_EQ(response(spring, 0).stored, 0);
+  for (const double q : {-2.0, -0.4, -0.3, -0.1, 1.5}) {
+    const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, q), d = Eigen::VectorXd::Ones(1);
+    const auto of = [&](double SpringResponse::*what) {
+      return [&, what](const Eigen::VectorXd& v) {
+        return Eigen::VectorXd(Eigen::VectorXd::Constant(1, response(spring, v[0]).*what));
+      };
+    };
+    const auto expect_order = [&](const testing::DerivativeReport& r) {
+      EXPECT_TRUE(r.exact || std::abs(r.order - 2) < 0.1) << q << ' ' << r.order << ' ' << r.error;
+    };
+    expect_order(testing::check_derivative(of(&SpringResponse::force),
+                                           Eigen::VectorXd::Constant(1, response(spring, q).slope),
+                                           at, d, 1e-3));
+    expect_order(testing::check_derivative(of(&SpringResponse::stored),
+                                           Eigen::VectorXd::Constant(1, response(spring, q).force),
+                                           at, d, 1e-3));
+  }
+}
+
 template <int Dim>
 SpringMotion motion(const Spring& spring, const Eigen::VectorXd& u) {
   std::vector<Vec<Dim>> reference{Vec<Dim>::Constant(0.5), Vec<Dim>::LinSpaced(-1, 2)}, x;

@@ -212,6 +212,46 @@ TEST(Newton, SingularTangent) {
   EXPECT_EQ(result.trial.x[0], 0.0);
 }
 
+/// Says of every matrix that it has no digits.
+class Doubtful final : public la::LinearSolver {
+ public:
+  la::FactorReport factor(const la::SparseMatrix& k, std::uint64_t version,
+                          la::Symmetry symmetry) override {
+    la::FactorReport report = solver_.factor(k, version, symmetry);
+    report.condition = 1e15;
+    return report;
+  }
+  la::SolveStatus solve(Eigen::VectorXd& x) override { return solver_.solve(x); }
+  la::SolveStatus solve(Eigen::MatrixXd& x) override { return solver_.solve(x); }
+  [[nodiscard]] double seconds() const override { return 0; }
+
+ private:
+  la::Mumps solver_;
+};
+
+/// Unknown 1 has hardly any stiffness, and `noise` pushes it back and forth.
+TEST(Newton, WhatMovesWithoutWorkIsNotWaitedFor) {
+  const auto solved = [](double noise) {
+    ToySystem system;
+    system.size = 2;
+    system.builder = la::MatrixBuilder{2};
+    system.stiffness = [](const Eigen::VectorXd&) {
+      return Eigen::MatrixXd(Eigen::Vector2d(1, 1e-14).asDiagonal());
+    };
+    int count = 0;
+    system.force = [&count, noise](const Eigen::VectorXd& x, double) {
+      return vector({x[0] - 1, (++count % 2 == 0 ? 1 : -1) * noise});
+    };
+    Doubtful solver;
+    return newton<ToySystem>(system, {vector({0, 0})}, 1.0, {}, solver);
+  };
+  const auto rounding = solved(1e-16);  // it moves by 0.01 each time
+  EXPECT_EQ(rounding.outcome, Outcome::converged);
+  EXPECT_LE(rounding.iterations.size(), 2u);
+  EXPECT_NEAR(rounding.trial.x[0], 1, 1e-12);
+  EXPECT_EQ(solved(1e-9).outcome, Outcome::not_converged) << "a force that does work";
+}
+
 TEST(Newton, FailuresSayWhy) {
   ToySystem inverted = cubic();
   inverted.wrong = [](const Eigen::VectorXd& x, const Eigen::VectorXd&) {

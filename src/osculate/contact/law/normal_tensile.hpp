@@ -56,7 +56,7 @@ struct NormalTensile {
   [[nodiscard]] double onset_gap() const { return clearance; }
   [[nodiscard]] NormalResponse response(double gap, bool = false) const {
     if (gap > clearance) return {};
-    const double x = -gap / width(), share = 0.5 + std::atan(x) / std::numbers::pi;
+    const double x = -gap / width(), share = share_of(-gap);
     return {true, stiffness_inside * gap * share,
             stiffness_inside * (share + x / (std::numbers::pi * (1 + x * x)))};
   }
@@ -64,14 +64,18 @@ struct NormalTensile {
   [[nodiscard]] double energy(double gap, bool = false) const {
     return gap > clearance ? 0 : work(-gap) - work(-clearance);
   }
+  /// Integral of the pressure over the overclosure, from 0 on.
+  [[nodiscard]] double work(double h) const {
+    const double e = width(), share = share_of(h);
+    return stiffness_inside *
+           (0.5 * h * h * share + 0.5 * e * e * (share - 0.5) - 0.5 * e * h / std::numbers::pi);
+  }
 
  private:
   [[nodiscard]] double width() const { return std::numbers::pi * tension / stiffness_inside; }
-  /// Integral of the pressure over the overclosure, from 0 on.
-  [[nodiscard]] double work(double h) const {
-    const double e = width();
-    return stiffness_inside *
-           (0.25 * h * h + 0.5 * ((h * h + e * e) * std::atan(h / e) - e * h) / std::numbers::pi);
+  /// 1/2 + atan(h / e) / pi, with all its digits far outside, where it is nearly nothing.
+  [[nodiscard]] double share_of(double h) const {
+    return std::atan2(width(), -h) / std::numbers::pi;
   }
 };
 
