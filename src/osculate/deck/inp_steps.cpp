@@ -80,6 +80,7 @@ class Steps {
     procedure_ = nullptr;
     at_once_ = option_of(card, "AMPLITUDE") == "STEP";
     modes_ = 0;
+    bounds_ = {0, 0};
     factors_ = 0;
     diameters_.reset();
     period_ = 1;
@@ -115,8 +116,9 @@ class Steps {
   void read_modes(const Card& card) {
     begin_procedure(card);
     about_start_ = moved_ && !io::inp::find_parameter(*step_, "PERTURBATION");
-    modes_ = Fields(m_.deck, only_line(m_, card, "the number of vibrations"))
-                 .number("the number of vibrations");
+    Fields fields(m_.deck, only_line(m_, card, "the number of vibrations"));
+    modes_ = fields.number("the number of vibrations");
+    for (double& bound : bounds_) bound = fields.real_or_zero("a frequency");
   }
 
   /// Factors of the loads of the step alone: with PERTURBATION on top of what the steps before led
@@ -192,7 +194,12 @@ class Steps {
     // They are cut where they must be, those in time also for their errors.
     const int of_automatic = card.keyword == "STATIC" || card.keyword == "VISCO" ? 10 : 100;
     increments_ = static_cast<int>(count);
-    if (!direct) increments_ = std::min(increments_, of_automatic);
+    if (direct || modal) return;
+    (void)fields.real_or_zero("the smallest increment");
+    const double longest = fields.real_or_zero("the largest increment");
+    const double least = longest > 0 ? std::ceil(period_ / longest * (1 - slack)) : 1;
+    if (!(least <= most)) fields.fail("more than a million increments");
+    increments_ = std::max(std::min(increments_, of_automatic), static_cast<int>(least));
   }
 
   void end(const Card& card) {
@@ -204,11 +211,13 @@ class Steps {
     put(step, "name", inp_text(fmt::format("step_{}", number), line));
     if (modes_ > 0) {
       SourceNode count = inp_number(modes_, line_of(procedure_->at));
-      if (about_start_ || diameters_) {
+      if (about_start_ || diameters_ || bounds_[0] > 0 || bounds_[1] > 0) {
         const int at = count.line;
         SourceNode& modes = put(step, "modes", inp_map(at));
         put(modes, "count", std::move(count));
         if (about_start_) put(modes, "about", inp_text("start", at));
+        if (bounds_[0] > 0) put(modes, "from", inp_number(bounds_[0], at));
+        if (bounds_[1] > 0) put(modes, "to", inp_number(bounds_[1], at));
         if (diameters_) {
           SourceNode& list = put(modes, "diameters", inp_list(at));
           for (int k = (*diameters_)[0]; k <= (*diameters_)[1]; ++k)
@@ -458,15 +467,20 @@ class Steps {
     if (!time.empty() && time != "STEPTIME" && time != "TOTALTIME")
       io::inp::fail(m_.deck, card, fmt::format("expected TIME=TOTAL TIME, found {}", time));
     table.of_total_time = time == "TOTALTIME";
-    for (const char* const other : {"DEFINITION", "VALUE", "SHIFTX", "SHIFTY", "USER"})
+    for (const char* const other : {"DEFINITION", "VALUE", "USER"})
       if (io::inp::find_parameter(card, other) && option_of(card, other) != "TABULAR" &&
           option_of(card, other) != "RELATIVE")
         io::inp::fail(m_.deck, card, fmt::format("{} is not supported", other));
+    const auto shift = [&](const char* key) {
+      const io::inp::Parameter* const given = io::inp::find_parameter(card, key);
+      return given ? Fields(m_.deck, {given->value, card.at}).real(key) : 0.0;
+    };
+    const double later = shift("SHIFTX"), more = shift("SHIFTY");
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
       while (!fields.done()) {
-        const double t = fields.real("a time");
-        const double factor = fields.real("a factor");
+        const double t = fields.real("a time") + later;
+        const double factor = fields.real("a factor") + more;
         if (!table.points.empty() && !(t > table.points.back()[0]))
           fields.fail("expected a later time than the one before");
         table.points.push_back({t, factor});
@@ -580,6 +594,41 @@ class Steps {
                               printable(type)));
   }
 
+  /// Nodes without elements have no displacements: as in CalculiX nothing acts on them.
+  bool is_idle(const std::string& set, const Line& line) {
+    const std::vector<Index>& nodes = m_.mesh.mesh.find_set(set)->nodes;
+    const bool used = std::ranges::any_of(
+        nodes, [&](Index n) { return m_.used_nodes[static_cast<std::size_t>(n)]; });
+    if (used || nodes.empty()) return false;
+    if (idle_.insert(set).second)
+      m_.notes.push_back(fmt::format(
+          "line {}: '{}' has no nodes of elements: what acts on them is left out, as in CalculiX",
+          line.at.line, set));
+    return true;
+  }
+
+  /// The directions of a line of `*BOUNDARY`, and the displacement. As in CalculiX, nodes without
+  /// rotations are not held in them.
+  std::vector<int> held_here(Fields& fields, const Line& line, const std::string& set_name,
+                             double& size) const {
+    const std::string_view word = fields.next().value_or("");
+    std::vector<int> directions = io::inp::held_directions(word);
+    const int highest = highest_direction(m_, set_name);
+    const bool of_body = m_.body_nodes.contains(only_node(m_, set_name));
+    if (directions.empty()) {
+      const std::int32_t first = io::inp::number_of(m_.deck, line.at, word, "the first direction");
+      std::int32_t last = first;
+      if (const auto field = fields.next(); field && !field->empty())
+        last = io::inp::number_of(m_.deck, line.at, *field, "the last direction");
+      size = fields.real_or_zero("the displacement");
+      if (const int most = of_body ? highest : 6; last > most || last < first)
+        fields.fail(fmt::format("expected directions 1 to {}, found {} to {}", most, first, last));
+      for (std::int32_t k = first; k <= last; ++k) directions.push_back(k);
+    }
+    std::erase_if(directions, [&](int k) { return k > highest; });
+    return directions;
+  }
+
   void read_boundary(const Card& card) {
     Conditions& prescribed = part_of(card, prescribed_, prescribed_2_);
     const std::string amplitude = start(card, prescribed, true);
@@ -587,15 +636,9 @@ class Steps {
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
       const std::string& set_name = node_set_of(m_, line, fields.next().value_or(""));
-      const std::int32_t first = fields.number("the first direction");
-      std::int32_t last = first;
-      if (const auto field = fields.next(); field && !field->empty())
-        last = io::inp::number_of(m_.deck, line.at, *field, "the last direction");
-      const double size = fields.real_or_zero("the displacement");
-      if (const int highest = highest_direction(m_, set_name); last > highest || last < first)
-        fields.fail(
-            fmt::format("expected directions 1 to {}, found {} to {}", highest, first, last));
-      for (std::int32_t k = first; k <= last; ++k)
+      double size = 0;
+      if (is_idle(set_name, line)) continue;
+      for (const int k : held_here(fields, line, set_name, size))
         for (const InpPlace& place : places(fields, set_name, k)) {
           if (!exists(place.direction)) continue;
           set(prescribed, place.on, place.direction, place.sign * size, amplitude, line, false);
@@ -610,6 +653,7 @@ class Steps {
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
       const std::string& set_name = node_set_of(m_, line, fields.next().value_or(""));
+      if (is_idle(set_name, line)) continue;
       const std::int32_t direction = fields.number("the direction");
       const std::vector<InpPlace> on = places(fields, set_name, direction);
       if (on.empty()) fields.fail("no shell or beam can take a moment here");
@@ -636,7 +680,15 @@ class Steps {
     return inp_dimension(m_) == 3 || direction <= 2 || direction == 6;
   }
 
+  /// Pressures follow the surface, with NLGEOM.
+  void check_follower(const Card& card) const {
+    if (m_.finite && option_of(card, "FOLLOWER") == "NO")
+      io::inp::fail(m_.deck, card,
+                    "FOLLOWER=NO is not supported with NLGEOM: pressures turn with their surface");
+  }
+
   void read_distributed(const Card& card) {
+    check_follower(card);
     // one card of OP=NEW removes pressures and body forces
     Conditions& pressures = part_of(card, pressures_, pressures_2_);
     const std::string amplitude = start(card, pressures);
@@ -723,6 +775,7 @@ class Steps {
   }
 
   void read_on_surfaces(const Card& card) {
+    check_follower(card);
     Conditions& pressures = part_of(card, pressures_, pressures_2_);
     const std::string amplitude = start(card, pressures);
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
@@ -742,17 +795,27 @@ class Steps {
         io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
     Conditions none;
     const std::string amplitude = start(card, none);
-    const auto old = [](const auto& one) { return !one.second.fresh; };
-    if (option_of(card, "OP") == "NEW" && std::ranges::any_of(temperatures_, old))
-      io::inp::fail(m_.deck, card,
-                    "OP=NEW is not supported after a step with temperatures: write those that "
-                    "nodes go back to");
+    if (option_of(card, "OP") == "NEW") go_back(line_of(card.at));
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       NodeValue of = temperature_of(m_, line);
       std::erase_if(temperatures_, [&](const auto& one) { return one.first == of.on; });
       temperatures_.emplace_back(std::move(of.on),
                                  Condition{of.value, amplitude, line_of(line.at), true, false});
     }
+  }
+
+  /// Nodes with temperatures of steps before go back to those at first, or to 0 without.
+  void go_back(int line) {
+    const auto old = [](const auto& one) { return !one.second.fresh; };
+    std::vector<std::pair<std::string, Condition>> back;
+    for (const auto& [on, value] : temperatures_)
+      if (!value.fresh) back.emplace_back(on, Condition{0, {}, line, true, false});
+    if (back.empty()) return;
+    for (SourceNode& one : inp_initial_temperature(m_).items)
+      back.emplace_back(find(one, "on")->text,
+                        Condition{std::stod(find(one, "value")->text), {}, line, true, false});
+    std::erase_if(temperatures_, old);
+    temperatures_.insert(temperatures_.begin(), back.begin(), back.end());
   }
 
   // ---- the step -------------------------------------------------------------------------------
@@ -897,6 +960,7 @@ class Steps {
   const Card *step_ = nullptr, *procedure_ = nullptr;
   double period_ = 1, total_time_ = 0;
   int increments_ = 1, modes_ = 0, factors_ = 0;
+  std::array<double, 2> bounds_{};               ///< of the frequencies that are listed; 0: none
   std::optional<std::array<int, 2>> diameters_;  ///< of a sector of a ring: first and last
   std::tuple<Conditions, Conditions, Conditions, Conditions> before_;  ///< loads, of the last steps
   int vibrations_ = 0;  ///< that a step has found for those behind it
@@ -918,6 +982,7 @@ class Steps {
   std::vector<std::array<double, 6>> axes_;              ///< of centrifugal loads: points of them
   std::set<std::pair<Conditions*, Conditions::key_type>> released_;
   std::vector<std::pair<std::string, Condition>> temperatures_, temperatures_before_;
+  std::set<std::string> idle_;  ///< sets of nodes without elements that have been told of
 };
 
 }  // namespace

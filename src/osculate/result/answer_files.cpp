@@ -265,7 +265,8 @@ void AnswerFiles<Dim>::write_fields(const model::BasicSystem<Dim>& system,
 }
 
 /// The tables that CalculiX writes of every search for vibrations, of a sector of a ring.
-std::string tables_of(const model::Vibrations& modes, double sector) {
+std::string tables_of(const model::Vibrations& modes, double sector,
+                      const std::array<double, 2>& listed) {
   std::vector<std::array<double, 6>> factors, masses;
   std::array<double, 6> sums{}, moving{};
   for (Eigen::Index i = 0; i < modes.participation.rows(); ++i) {
@@ -279,7 +280,7 @@ std::string tables_of(const model::Vibrations& modes, double sector) {
   }
   for (std::size_t k = 0; k < 6; ++k)
     moving[k] = sector * modes.moving_mass[static_cast<Eigen::Index>(k)];
-  return io::dat_eigenvalues({modes.omega_squared.data(), factors.size()}) +
+  return io::dat_eigenvalues({modes.omega_squared.data(), factors.size()}, listed) +
          io::dat_modal_table("P A R T I C I P A T I O N   F A C T O R S", factors, "", {}) +
          io::dat_modal_table("E F F E C T I V E   M O D A L   M A S S", masses, "TOTAL", sums) +
          io::dat_modal_table("T O T A L   E F F E C T I V E   M A S S", {}, "", moving);
@@ -314,9 +315,13 @@ void AnswerFiles<Dim>::vibrations(const model::Progress& progress, const model::
     const auto count = static_cast<std::size_t>(modes.omega_squared.size());
     return dat_.append(io::dat_eigenvalues({modes.omega_squared.data(), count}, modes.diameters));
   }
-  dat_.append(tables_of(modes, answers_.sector));
+  const model::Step& step = built_.model.steps[static_cast<std::size_t>(progress.step)];
+  const std::array<double, 2> listed =
+      step.frequencies ? step.frequencies->listed : model::Frequencies{}.listed;
+  dat_.append(tables_of(modes, answers_.sector, listed));
   if (!wants_shapes(progress)) return;
   for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
+    if (!io::is_in_range(modes.omega_squared[i], listed)) continue;
     io::FrdTime at;
     at.mode = io::FrdTime::Mode{static_cast<int>(i) + 1, modes.omega_squared[i],
                                 model::frequency(modes.omega_squared[i])};
