@@ -232,6 +232,13 @@ void put_constraints(InpModel& m, SourceNode& root);
 ///
 /// Tested by  tests/unit/deck/test_inp_springs.cpp
 void put_springs(const InpModel& m, SourceNode& root);
+/// A point mass and the set of its node.
+struct InpMass {
+  std::string node;
+  double mass = 0;
+};
+/// The masses whose `*MASS` names the set, or all of them (`io::inp::every_element`).
+[[nodiscard]] std::vector<InpMass> inp_masses(const InpModel& m, std::string_view elements);
 /// Of a `*TIE`: it is one of the two faces of a sector.
 [[nodiscard]] bool is_cyclic_tie(const io::inp::Card& card);
 /// Some step is integrated explicitly: ties are penalties.

@@ -260,6 +260,7 @@ class Steps {
     check_loads_of_later_steps(m_, *step_, forces_, "CLOAD");
     check_loads_of_later_steps(m_, *step_, pressures_, "DLOAD");
     put_directions(step, "forces", 'f', forces_);
+    put_directions(step, "forces", 'f', weights_);
     put_pressures(step, pressures_);
     put_directions(step, "body_force", 'f', body_forces_);
     put_centrifugal(step);
@@ -387,9 +388,9 @@ class Steps {
     step_ = nullptr;
   }
 
-  std::array<Conditions*, 9> all_conditions() {
-    return {&prescribed_,   &forces_,   &pressures_,   &body_forces_,  &centrifugal_,
-            &prescribed_2_, &forces_2_, &pressures_2_, &body_forces_2_};
+  std::array<Conditions*, 10> all_conditions() {
+    return {&weights_,     &prescribed_,   &forces_,   &pressures_,   &body_forces_,
+            &centrifugal_, &prescribed_2_, &forces_2_, &pressures_2_, &body_forces_2_};
   }
 
   /// What CalculiX does to loads of steps before: they go on in a step without PERTURBATION, unless
@@ -694,6 +695,7 @@ class Steps {
     const std::string amplitude = start(card, pressures);
     (void)start(card, part_of(card, body_forces_, body_forces_2_));
     if (option_of(card, "OP") == "NEW") gravity_.clear();
+    (void)start(card, weights_);
     (void)start(card, centrifugal_);
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
@@ -736,14 +738,30 @@ class Steps {
     all.push_back(now);
   }
 
+  /// The weight of a point mass, which acts with body forces, not with the forces of `*CLOAD`.
+  void weigh(const std::string& node, const Vec3& weight, const std::string& amplitude,
+             const Line& line) {
+    if (procedure_ && (factors_ > 0 || modes_ > 0 || swung_ || superposed_))
+      io::inp::fail(m_.deck, line.at,
+                    fmt::format("GRAV on masses is not supported with *{}", procedure_->keyword));
+    for (int k = 0; k < inp_dimension(m_); ++k)
+      for (const InpPlace& place : inp_places(m_, node, k + 1))
+        if (weight[k] != 0)
+          set(weights_, place.on, place.direction, place.sign * weight[k], amplitude, line, true);
+  }
+
   void read_gravity(Fields& fields, const std::string& elements, const std::string& amplitude,
                     const Line& line, Conditions& body_forces) {
     const double size = fields.real("the acceleration");
     Vec3 direction = Vec3::Zero();
     for (Eigen::Index k = 0; k < 3; ++k) direction[k] = fields.real_or_zero("a direction");
     if (!(direction.norm() > 0)) fields.fail("expected the direction of gravity");
-    const std::string& on =
-        set_of(m_, line.at, io::inp::element_set_name(elements), {SetKind::elements});
+    const std::string name = io::inp::element_set_name(elements);
+    const std::vector<InpMass> masses = inp_masses(m_, name);
+    for (const InpMass& one : masses)
+      weigh(one.node, Vec3(one.mass * size * direction.normalized()), amplitude, line);
+    if (!masses.empty() && !m_.sets.contains({SetKind::elements, io::inp::capitals(name)})) return;
+    const std::string& on = set_of(m_, line.at, name, {SetKind::elements});
     const std::vector<InpDensity> parts = densities_on(m_, on);
     if (parts.empty())
       fields.fail(fmt::format("GRAV acts on elements that have a section, not on {}",
@@ -971,6 +989,7 @@ class Steps {
   bool at_once_ = false, moved_ = false, about_start_ = false;
   std::map<std::string, Table> tables_;
   Conditions prescribed_, forces_, pressures_, body_forces_, centrifugal_;
+  Conditions weights_;                                                ///< of point masses
   Conditions prescribed_2_, forces_2_, pressures_2_, body_forces_2_;  ///< imaginary parts
   bool swung_ = false;      ///< the last procedure is *STEADY STATE DYNAMICS
   bool imaginary_ = false;  ///< what is being put

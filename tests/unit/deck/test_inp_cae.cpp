@@ -123,6 +123,17 @@ TEST(InpEquation, SetsOfOneSizeAreJoinedNodeByNode) {
   }
 }
 
+/// A mass of 2 on a corner, and all of the cube of 3, under gravity of 10 downwards.
+TEST(InpCae, GravityActsOnMassesToo) {
+  const std::string mass =
+      "*DENSITY\n3.\n*ELEMENT, TYPE=MASS, ELSET=MA\n9, 7\n*MASS, ELSET=MA\n2.\n*BOUNDARY\n"
+      "BASE, 1, 3\n";
+  const DeckRun both = run_deck(cube(mass, "*DLOAD\n, GRAV, 10., 0., 0., -1.\n"));
+  EXPECT_NEAR(both.reaction_of("BASE").z(), 50, 1e-9);
+  const DeckRun one = run_deck(cube(mass, "*DLOAD\nMA, GRAV, 10., 0., 0., -1.\n"));
+  EXPECT_NEAR(one.reaction_of("BASE").z(), 20, 1e-9);
+}
+
 TEST(InpEquation, SetsOfOtherSizesStop) {
   EXPECT_THAT(message_of(cube("*EQUATION\n2\nTOP, 3, 1., THREE, 3, 1.\n", "")),
               HasSubstr("one equation for each node of the first set, which has 4: 'THREE' has 3"));
