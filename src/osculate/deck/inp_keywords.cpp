@@ -51,7 +51,7 @@ constexpr std::array<InpKeyword, 132> keywords{{
     {"HYPERFOAM", "N; MODULI", "constants", translated, "`hyperfoam`"},
     {"DEFORMATION PLASTICITY", "", "E, nu, stress, n, alpha", translated,
      "`deformation_plasticity`"},
-    {"USER MATERIAL", "CONSTANTS; UNSYMM", "constants", translated,
+    {"USER MATERIAL", "CONSTANTS, TYPE=MECHANICAL; UNSYMM", "constants", translated,
      "`user: {library, constants}`, the library by OSCULATE_USER_MATERIAL"},
     {"DEPVAR", "; DELETE", "number of state variables", translated, "`user: state`"},
     {"DENSITY", "", "density, temperature", translated, "`density` of the material"},

@@ -194,7 +194,7 @@ class Steps {
     // They are cut where they must be, those in time also for their errors.
     const int of_automatic = card.keyword == "STATIC" || card.keyword == "VISCO" ? 10 : 100;
     increments_ = static_cast<int>(count);
-    if (direct || modal) return;
+    if (direct || io::inp::find_parameter(card, "EXPLICIT")) return;
     (void)fields.real_or_zero("the smallest increment");
     const double longest = fields.real_or_zero("the largest increment");
     const double least = longest > 0 ? std::ceil(period_ / longest * (1 - slack)) : 1;

@@ -66,8 +66,8 @@ TEST(InpCae, AxesOfPartsTurnWithTheirInstances) {
                                    held),
                              "a.inp")
                   .root);
-  EXPECT_THAT(yaml, HasSubstr("{on: Block-1.Set-1, material: Wood"));
-  EXPECT_THAT(yaml, HasSubstr("{on: Block-2.Set-1, material: Wood"));
+  EXPECT_THAT(yaml, HasSubstr("on: Block-1.Set-1\n    material: Wood"));
+  EXPECT_THAT(yaml, HasSubstr("on: Block-2.Set-1\n    material: Wood"));
   EXPECT_THAT(yaml, HasSubstr("xy: [1, 0, 0]"));
   const std::size_t second = yaml.find("on: Block-2.Set-1");
   const std::size_t xy = yaml.find("xy: [", second);
@@ -83,6 +83,19 @@ std::string message_of(const std::string& text) {
     return error.what();
   }
   return "no error";
+}
+
+/// A set of reference nodes and others: the bodies turn, and the others have no rotations.
+TEST(InpCae, SetsOfBodiesAndNodesAreHeldWhole) {
+  const std::string yaml =
+      to_yaml(translate_deck(stack(section, isotropic,
+                                   "*Nset, nset=Both\nRP, Block-1.5\n*Boundary\nBoth, 2, 6, 0.\n"),
+                             "a.inp")
+                  .root);
+  EXPECT_THAT(yaml, HasSubstr("- {on: body_of_RP, uy: 0}"));
+  EXPECT_THAT(yaml, HasSubstr("- {on: body_of_RP, rz: 0}"));
+  EXPECT_THAT(yaml, HasSubstr("- {on: Both without knots, uy: 0}"));
+  EXPECT_THAT(yaml, HasSubstr("- {on: Both without knots, uz: 0}"));
 }
 
 TEST(InpCae, WhatPartsMayNotHoldStops) {
