@@ -116,6 +116,10 @@ class Requests {
     wanted.local = card.keyword == "NODEPRINT" && !m_.transformed.empty() &&
                    option_of(card, "GLOBAL") != "YES";
     if (option_of(card, "OUTPUT") == "2D") of_deck_nodes_ = true;
+    if (kind.file && kind.group == 0 && option_of(card, "GLOBAL") == "NO" &&
+        !m_.transformed.empty())
+      m_.notes.push_back(fmt::format(
+          "line {}: GLOBAL=NO: the .frd file is along x, y and z all the same", card.at.line));
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
       while (!fields.done()) add(io::inp::capitals(io::inp::name_of(*fields.next())), kind, wanted);
