@@ -1,6 +1,4 @@
 #pragma once
-#include <array>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -87,9 +85,6 @@ struct Frequencies {
   bool unloaded = false;  ///< about the latter
   /// Of a sector of a ring: around which the motions of the sectors turn so many times.
   std::vector<int> diameters{};
-  /// Of frequencies that the files of CalculiX list, and vibrations that they show.
-  std::array<double, 2> listed{-std::numeric_limits<double>::infinity(),
-                               std::numeric_limits<double>::infinity()};
 };
 
 /// Buckling of such a state by what the loads of the step add to it.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <limits>
 #include <set>
 
 #include "osculate/core/version.hpp"
@@ -315,9 +316,10 @@ void AnswerFiles<Dim>::vibrations(const model::Progress& progress, const model::
     const auto count = static_cast<std::size_t>(modes.omega_squared.size());
     return dat_.append(io::dat_eigenvalues({modes.omega_squared.data(), count}, modes.diameters));
   }
-  const model::Step& step = built_.model.steps[static_cast<std::size_t>(progress.step)];
+  constexpr double all = std::numeric_limits<double>::infinity();
+  const auto bounds = built_.listed_frequencies.find(progress.step);
   const std::array<double, 2> listed =
-      step.frequencies ? step.frequencies->listed : model::Frequencies{}.listed;
+      bounds == built_.listed_frequencies.end() ? std::array{-all, all} : bounds->second;
   dat_.append(tables_of(modes, answers_.sector, listed));
   if (!wants_shapes(progress)) return;
   for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
