@@ -457,6 +457,47 @@ class Answers(unittest.TestCase):
             self.assertEqual(self.call("ccx", "-i", "blocks", cwd="ccx").returncode, 0)
             self.compare_contact()
 
+    def beside_ccx(self, name, text):
+        """The tables of both."""
+        self.solve(name, text)
+        os.mkdir(self.path("ccx"))
+        shutil.copy(self.path(f"{name}.inp"), self.path("ccx"))
+        self.assertEqual(self.call("ccx", "-i", name, cwd="ccx").returncode, 0)
+        return [pathlib.Path(self.path(*where, f"{name}.dat")).read_text() for where in ((), ("ccx",))]
+
+    @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
+    def test_shear_of_contact_has_the_sign_of_ccx(self):
+        """Of a block that sticks while it is pushed along the other one."""
+        text = BLOCKS.replace("*CONTACT PAIR", "*FRICTION\n0.5, 1.E3\n*CONTACT PAIR", 1)
+        text = text.replace("ALL, 1, 2\n", "").replace("TOP, 3, 3, -0.4\n", "TOP, 3, 3, -0.4\n" + "".join(
+            f"{node}, 1, 1, 0.004\n{node}, 2, 2, -0.002\n" for node in range(11, 19)))
+        self.beside_ccx("blocks", text)
+        tables, expected = read_dat(self.path("blocks.dat")), read_dat(self.path("ccx", "blocks.dat"))
+        shears = 0
+        for title, rows in expected.items():
+            if title[0].startswith(("contact stress", "relative contact")):
+                self.close(dict(enumerate(tables[title])), dict(enumerate(rows)), 1e-4)
+                shears += sum(len(row) == 4 and abs(row[2]) > 1 for row in rows)
+        self.assertGreater(shears, 0)
+        ours = last(read_frd(self.path("blocks.frd"))[2], "CONTACT")
+        theirs = last(read_frd(self.path("ccx", "blocks.frd"))[2], "CONTACT")
+        self.close({node: ours[node] for node in theirs}, theirs, 1e-4)  # 0.02, of shears of 4
+
+    @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
+    def test_results_along_the_axes_of_nodes(self):
+        text = bar("C3D20").replace("*BOUNDARY", "*TRANSFORM, NSET=TOP\n1., 1., 0., -1., 1., 0.\n*BOUNDARY", 1)
+        text = text.replace("*NODE PRINT, NSET=TOP\nU\n",
+                            "*NODE PRINT, NSET=TOP, TOTALS=YES\nU, RF\n*NODE PRINT, NSET=TOP, GLOBAL=YES\nU\n")
+        ours, theirs = self.beside_ccx("bar", text)
+        words = re.compile(r" *[-+]?\d\.\d+E[-+]\d+")
+        rows = [[line for line in said.splitlines() if re.match(r" +\d+ .*E|.*(displ|force)", line)]
+                for said in (ours, theirs)]
+        self.assertEqual(*([words.sub("#", line).strip() for line in of] for of in rows))
+        self.assertTrue(any(line.endswith(" L") for line in rows[0]))
+        for a, b in zip(*rows):
+            for x, y in zip(words.findall(a), words.findall(b), strict=True):
+                self.assertAlmostEqual(float(x), float(y), delta=1e-4)
+
     @unittest.skipUnless(shutil.which("cgx"), "cgx is not installed")
     def test_cgx_reads_the_file(self):
         self.solve("bar", bar("C3D20"))

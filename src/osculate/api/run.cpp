@@ -551,13 +551,31 @@ RunOutcome check_alone(const RunOptions& options, const deck::BasicBuilt<Dim>& b
   return outcome;
 }
 
+/// What goes on before the first increment, where that takes seconds.
+void tell_of_reading(const RunOptions& options) {
+  constexpr double large = 10, megabyte = 1e6;
+  std::error_code ignored;
+  const double size =
+      static_cast<double>(std::filesystem::file_size(options.model, ignored)) / megabyte;
+  if (options.progress && !ignored && size >= large)
+    options.progress(fmt::format("reading {} ({:.0f} MB)", options.model, size));
+}
+void tell_of_building(const RunOptions& options, const mesh::Mesh& mesh) {
+  constexpr std::size_t large = 200'000;
+  if (options.progress && mesh.nodes.size() >= large)
+    options.progress(fmt::format("preparing the model of {} nodes", mesh.nodes.size()));
+}
+
 }  // namespace
 
 RunOutcome run(const RunOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const nlohmann::json owner = result::owner_json(options.model);
+  tell_of_reading(options);
   const deck::Description description = deck::read_model(options.model, options.settings);
-  deck::AnyBuilt any = deck::build_any(description, deck::load_mesh(description));
+  mesh::Mesh nodes_and_cells = deck::load_mesh(description);
+  tell_of_building(options, nodes_and_cells);
+  deck::AnyBuilt any = deck::build_any(description, std::move(nodes_and_cells));
   if (description.check_only)
     return std::visit([&](const auto& built) { return check_alone(options, built); }, any);
   return std::visit(

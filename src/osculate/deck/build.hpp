@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <map>
 #include <string>
 #include <variant>
@@ -47,6 +48,9 @@ struct BasicBuilt {
   std::vector<model::HistoryRequest> history;
   std::map<std::string, std::vector<CutFacet>> cuts;  ///< of the sets that SOF is asked for
   std::map<Index, BodyNode> body_nodes;
+  std::map<Index, Mat<Dim, Dim>> node_axes;  ///< of nodes that `axes` names, by columns
+  /// Of each step with vibrations: frequencies that the files of CalculiX list.
+  std::map<Index, std::array<double, 2>> listed_frequencies;
   std::vector<std::vector<LoadTotal>> loads;  ///< of each step
   std::vector<std::string> warnings;          ///< plain sentences, shown by `check` and `run`
   std::vector<std::string> notes;             ///< what was decided for the user, shown there too

@@ -101,6 +101,7 @@ void build_answers(BuildContext<Dim>& c) {
       if (cuts) c.built.cuts[on.value] = cut_of_set(c, on);
     }
   }
+  for (const auto& [node, axes] : c.axes) c.built.node_axes[node] = axes.axes;
   for (const Rigid& rigid : c.description.rigid) {
     const Index body = c.rigid_index.at(rigid.name.value);
     add_body_nodes(c, rigid.reference_node, {body, false});

@@ -129,11 +129,59 @@ void append(const std::vector<MarkedEquation>& more, std::vector<MarkedEquation>
   all.insert(all.end(), more.begin(), more.end());
 }
 
+/// A term of each node of a set, or of a rigid body.
+template <int Dim>
+std::vector<model::Equation> term_of_each(const BuildContext<Dim>& c, const EquationTerm& term) {
+  std::vector<model::Equation> parts;
+  if (c.rigid_index.contains(term.on.value) || is_rotation(term.of)) {
+    for (const OneDisplacement& d : displacements(c, term.on, term.of, Idle::refused))
+      add_term(parts.emplace_back(), d.dof, term.factor.value);
+    return parts;
+  }
+  for (const Index node : moving_nodes(c, term.on, Idle::refused, motion_of<Dim>(term.of)))
+    add_displacement(c, node, direction_of(c, node, term.of), term.factor.value,
+                     parts.emplace_back());
+  return parts;
+}
+
+/// One equation for each node of the first set. What cancels out, as of a node that is to move as
+/// itself, is none.
+template <int Dim>
+void add_of_each_node(const BuildContext<Dim>& c, const deck::Equation& e,
+                      std::vector<MarkedEquation>& all) {
+  std::vector<std::vector<model::Equation>> parts;
+  for (const EquationTerm& term : e.terms) {
+    parts.push_back(term_of_each(c, term));
+    if (parts.back().size() != 1 && parts.back().size() != parts.front().size())
+      throw core::InputError(
+          term.on.mark,
+          fmt::format("expected one node, or as many as '{}' has, which are {}: '{}' has {}",
+                      e.terms.front().on.value, parts.front().size(), term.on.value,
+                      parts.back().size()));
+  }
+  for (std::size_t k = 0; k < parts.front().size(); ++k) {
+    model::Equation equation;
+    equation.value = e.value.value;
+    for (const std::vector<model::Equation>& part : parts)
+      for (const model::Equation::Term& term : part[part.size() == 1 ? 0 : k].terms)
+        add_term(equation, term.dof, term.factor);
+    std::erase_if(equation.terms, [](const auto& term) { return term.factor == 0; });
+    if (!equation.terms.empty())
+      all.push_back({std::move(equation), e.mark, false});
+    else if (e.value.value != 0)
+      throw core::InputError(e.mark, "the terms of a node cancel out, and cannot have a value");
+  }
+}
+
 /// Those of the model file.
 template <int Dim>
 std::vector<MarkedEquation> given_equations(const BuildContext<Dim>& c) {
   std::vector<MarkedEquation> all;
   for (const deck::Equation& e : c.description.equations) {
+    if (e.for_each_node) {
+      add_of_each_node(c, e, all);
+      continue;
+    }
     model::Equation equation;
     equation.value = e.value.value;
     for (const EquationTerm& term : e.terms)

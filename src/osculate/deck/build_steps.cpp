@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "osculate/deck/build_loads.hpp"
@@ -339,6 +340,10 @@ void build_steps(BuildContext<Dim>& c) {
     const bool unloaded = step.about == ModesAbout::start;
     if (step.modes) out.frequencies = model::Frequencies{step.modes->value, unloaded, {}};
     for (const Marked<int>& k : step.diameters) out.frequencies->diameters.push_back(k.value);
+    if (step.lowest || step.highest)
+      c.built.listed_frequencies[static_cast<Index>(c.model().steps.size())] = {
+          step.lowest ? step.lowest->value : -std::numeric_limits<double>::infinity(),
+          step.highest ? step.highest->value : std::numeric_limits<double>::infinity()};
     if (step.modal) build_modal(*step.modal, out.modal.emplace());
     if (step.harmonic) begin_harmonic(c, step, temperatures, about_start, out);
     if (step.duration) out.duration = step.duration->value;

@@ -328,11 +328,13 @@ struct EquationTerm {
   Component of = Component::ux;
   Number factor;
 };
-/// sum factor * u = value, term by term over the nodes of the sets.
+/// sum factor * u = value, term by term over the nodes of the sets; or for each node of the first
+/// set one such equation, with the nodes of the same place in the others.
 struct Equation {
   core::SourceMark mark;
   std::vector<EquationTerm> terms;
   Number value;
+  bool for_each_node = false;
 };
 /// All nodes of the set share one displacement.
 struct Equal {
@@ -485,7 +487,8 @@ struct Step {
   std::optional<Marked<int>> modes;                     ///< vibrations instead of increments
   std::optional<Marked<int>> buckling;                  ///< critical loads instead of increments
   ModesAbout about = ModesAbout::last;
-  std::vector<Marked<int>> diameters;  ///< of a sector of a ring
+  std::vector<Marked<int>> diameters;     ///< of a sector of a ring
+  std::optional<Number> lowest, highest;  ///< of the frequencies that the files of CalculiX list
 };
 
 // ---- solution and output ----------------------------------------------------------------------

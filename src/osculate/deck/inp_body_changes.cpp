@@ -68,7 +68,7 @@ void change_section(const InpModel& m, const Card& card, SourceNode& step) {
   SourceNode& entry = list_in_step(step, "materials", line).items.emplace_back(inp_map(line));
   put(entry, "on",
       inp_text(set_of(m, card.at, value_of(m, card, "ELSET"), {SetKind::elements}), line));
-  put(entry, "material", inp_text(plain_name(value_of(m, card, "MATERIAL")), line));
+  put(entry, "material", inp_text(material_named(m, value_of(m, card, "MATERIAL")), line));
 }
 
 void free_equations(const InpModel& m, const Card& card, SourceNode& step) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "osculate/deck/inp_parts.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
@@ -126,38 +127,93 @@ void put_distributing(const InpModel& m, const Card& card, SourceNode& equations
 
 }  // namespace
 
+namespace {
+
+/// A set whose nodes are not in the order of their numbers: others here.
+void require_sorted(const InpModel& m, const Line& line, const std::string& set) {
+  for (const Card& card : m.deck.cards)
+    if (card.keyword == "NSET" && io::inp::find_parameter(card, "UNSORTED") &&
+        option_of(card, "NSET") == io::inp::capitals(set))
+      io::inp::fail(m.deck, line.at,
+                    fmt::format("*EQUATION: '{}' is UNSORTED, which is not supported: nodes are in "
+                                "the order of their numbers",
+                                set));
+}
+
+/// The terms of one equation, which has one for each node of its sets, as in Abaqus.
+class EquationReader {
+ public:
+  EquationReader(const InpModel& m, SourceNode& equation, int line)
+      : m_(m), equation_(equation), terms_(inp_list(line)) {}
+
+  /// `node or set, direction, factor`
+  void read(Fields& fields, const Line& line) {
+    const std::string& set = node_set_of(m_, line, fields.next().value_or(""));
+    const std::int32_t dof = fields.number("the number of a direction");
+    if (dof < 1 || dof > highest_direction(m_, set))
+      fields.fail(fmt::format("'{}' has no direction {}", set, dof));
+    const std::vector<InpPlace> places = inp_places(m_, set, dof);
+    if (places.size() != 1) fields.fail("expected one node here, or nodes that are no knots");
+    count(fields, line, set);
+    const InpPlace& place = places[0];
+    const int at = line_of(line.at);
+    SourceNode& term = terms_.items.emplace_back(inp_map(at));
+    put(term, "on", inp_text(place.on, at));
+    put(term, "of", inp_text(inp_component('u', place.direction), at));
+    put(term, "factor", inp_number(place.sign * fields.real("the factor"), at));
+  }
+
+  void finish() {
+    put(equation_, "terms", std::move(terms_));
+    if (nodes_ > 1)
+      put(equation_, "for_each_node", inp_text("true", equation_.line)).quoted = false;
+  }
+
+ private:
+  /// Sets have as many nodes as the first one.
+  void count(Fields& fields, const Line& line, const std::string& set) {
+    const std::size_t nodes = m_.mesh.mesh.find_set(set)->nodes.size();
+    if (terms_.items.empty()) nodes_ = nodes;
+    if (nodes > 1) require_sorted(m_, line, set);
+    if (nodes != 1 && nodes != nodes_)
+      fields.fail(
+          fmt::format("*EQUATION: there is one equation for each node of the first set, "
+                      "which has {}: '{}' has {}",
+                      nodes_, set, nodes));
+  }
+
+  const InpModel& m_;
+  SourceNode& equation_;
+  SourceNode terms_;
+  std::size_t nodes_ = 0;
+};
+
+void put_equations(const InpModel& m, const Card& card, SourceNode& equations) {
+  std::int32_t missing = 0;
+  std::optional<EquationReader> reader;
+  for (const Line& line : io::inp::lines_of(m.deck, card)) {
+    Fields fields(m.deck, line);
+    const int at = line_of(line.at);
+    if (missing == 0) {
+      missing = fields.number("the number of terms");
+      fields.expect_end();
+      reader.emplace(m, equations.items.emplace_back(inp_map(at)), at);
+      continue;
+    }
+    for (; !fields.done() && missing > 0; --missing) reader->read(fields, line);
+    if (missing == 0) reader->finish();
+  }
+  if (missing > 0) io::inp::fail(m.deck, card, fmt::format("{} terms are missing", missing));
+}
+
+}  // namespace
+
 SourceNode inp_equations(const InpModel& m) {
   SourceNode equations = inp_list(1);
   for (const Card& card : m.deck.cards) {
     if (card.keyword == "DISTRIBUTINGCOUPLING") put_distributing(m, card, equations);
-    if (card.keyword != "EQUATION" || is_removal_of_equations(card)) continue;
-    std::int32_t missing = 0;
-    SourceNode* terms = nullptr;
-    for (const Line& line : io::inp::lines_of(m.deck, card)) {
-      Fields fields(m.deck, line);
-      const int at = line_of(line.at);
-      if (missing == 0) {
-        missing = fields.number("the number of terms");
-        fields.expect_end();
-        SourceNode& equation = equations.items.emplace_back(inp_map(at));
-        terms = &put(equation, "terms", inp_list(at));
-        continue;
-      }
-      for (; !fields.done() && missing > 0; --missing) {
-        const std::string& set = node_set_of(m, line, fields.next().value_or(""));
-        const std::int32_t dof = fields.number("the number of a direction");
-        if (dof < 1 || dof > highest_direction(m, set))
-          fields.fail(fmt::format("'{}' has no direction {}", set, dof));
-        const std::vector<InpPlace> places = inp_places(m, set, dof);
-        if (places.size() != 1) fields.fail("expected one node here, or nodes that are no knots");
-        const InpPlace& place = places[0];
-        SourceNode& term = terms->items.emplace_back(inp_map(at));
-        put(term, "on", inp_text(place.on, at));
-        put(term, "of", inp_text(inp_component('u', place.direction), at));
-        put(term, "factor", inp_number(place.sign * fields.real("the factor"), at));
-      }
-    }
-    if (missing > 0) io::inp::fail(m.deck, card, fmt::format("{} terms are missing", missing));
+    if (card.keyword == "EQUATION" && !is_removal_of_equations(card))
+      put_equations(m, card, equations);
   }
   put_small_rotations(m, equations);
   return equations;
@@ -212,9 +268,12 @@ std::string node_parameter(const InpModel& m, const Card& card, std::string_view
   const io::inp::Parameter* const given = io::inp::find_parameter(card, name);
   if (!given) return {};
   const auto number = io::inp::number_of(io::inp::name_of(given->value));
-  if (!number)
-    io::inp::fail(m.deck, card, fmt::format("expected the number of a node in '{}='", name));
-  return set_of(m, card.at, io::inp::node_set_name(*number), {SetKind::nodes});
+  const std::string& set =
+      set_of(m, card.at, number ? io::inp::node_set_name(*number) : given->value, {SetKind::nodes});
+  if (only_node(m, set) < 0)
+    io::inp::fail(m.deck, card,
+                  fmt::format("expected a node in '{}=', and '{}' has several", name, set));
+  return set;
 }
 
 const Card& kind_of_coupling(const InpModel& m, const Card& coupling) {
@@ -227,7 +286,7 @@ const Card& kind_of_coupling(const InpModel& m, const Card& coupling) {
 
 std::string reference_body(const InpModel& m, const Card& card) {
   const std::string reference = node_parameter(m, card, "REFNODE");
-  if (reference.empty()) io::inp::fail(m.deck, card, "expected 'REF NODE=' with a number");
+  if (reference.empty()) io::inp::fail(m.deck, card, "expected 'REF NODE=' with a node");
   return plain_name(fmt::format("body of {}", reference));
 }
 

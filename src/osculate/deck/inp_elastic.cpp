@@ -182,9 +182,14 @@ SourceNode inp_orientation(const InpModel& m, const Card& section, const std::st
   if (lines.empty()) io::inp::fail(m.deck, *card, "expected a line with two points");
   const int line = line_of(card->at);
   Fields fields(m.deck, lines[0]);
-  const Vec3 a = point_of(fields), b = point_of(fields);
+  Vec3 a = point_of(fields), b = point_of(fields);
   SourceNode axes = inp_map(line);
   const bool round = system == "CYLINDRICAL";
+  if (!round) {
+    const Vec3 origin = point_of(fields);
+    a -= origin;
+    b -= origin;
+  }
   SourceNode& points = put(axes, round ? "cylindrical" : "rectangular", inp_map(line));
   put(points, round ? "from" : "x", inp_point(a, 3, line));
   put(points, round ? "to" : "xy", inp_point(b, 3, line));

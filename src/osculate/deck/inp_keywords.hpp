@@ -1,7 +1,9 @@
 #pragma once
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace osculate::deck {
 
@@ -14,9 +16,10 @@ enum class KeywordUse : std::uint8_t {
 };
 
 struct InpKeyword {
-  std::string_view keyword;     ///< in capitals, with blanks: `SOLID SECTION`
-  std::string_view parameters;  ///< those that matter, separated by blanks
-  std::string_view data;        ///< what its lines hold
+  std::string_view keyword;  ///< in capitals, with blanks: `SOLID SECTION`
+  /// Those that are read; behind a semicolon those without effect on the answer. Any other stops.
+  std::string_view parameters;
+  std::string_view data;  ///< what its lines hold
   KeywordUse use;
   std::string_view here;  ///< what it becomes: sets, the key of a model file; none: why not
 };
@@ -30,5 +33,8 @@ struct InpKeyword {
 
 /// By a name in capitals without blanks, as io::inp::Card has it; null: not in the table.
 [[nodiscard]] const InpKeyword* find_inp_keyword(std::string_view keyword);
+
+/// The names of a list of parameters, `NSET, REF NODE; NAME`; a value that they must have, too.
+[[nodiscard]] std::vector<std::string> inp_parameter_names(std::string_view list);
 
 }  // namespace osculate::deck

@@ -80,6 +80,11 @@ SourceNode inp_normal(const InpModel& m, const Card* behavior, int line, double 
 }
 
 SourceNode inp_friction(const InpModel& m, const Card& card) {
+  if (io::inp::find_parameter(card, "ROUGH")) {
+    SourceNode friction = inp_map(line_of(card.at));
+    put(friction, "rough", inp_map(line_of(card.at)));
+    return friction;
+  }
   const Line& line = only_line(m, card, "the coefficient and the stick slope");
   Fields fields(m.deck, line);
   const int at = line_of(line.at);

@@ -64,7 +64,7 @@ void put_layers(InpModel& m, const Card& card, SourceNode& sections) {
     Fields fields(m.deck, line);
     (void)fields.real("the thickness of the layer");
     (void)fields.next();  // points of integration
-    const std::string material = plain_name(io::inp::name_of(fields.next().value_or("")));
+    const std::string material = material_named(m, io::inp::name_of(fields.next().value_or("")));
     if (material.empty()) fields.fail("expected the material of the layer");
     const std::string orientation = io::inp::name_of(fields.next().value_or(""));
     const std::vector<InpElements> parts =

@@ -214,12 +214,22 @@ bool is_thin(const InpModel& m, const Card& card) {
 
 }  // namespace
 
+std::string material_named(const InpModel& m, std::string_view name) {
+  const std::string key = io::inp::capitals(plain_name(name));
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "MATERIAL") continue;
+    std::string known = plain_name(value_of(m, card, "NAME"));
+    if (io::inp::capitals(known) == key) return known;
+  }
+  return plain_name(name);
+}
+
 SourceNode inp_materials(InpModel& m) {
   SourceNode materials = inp_map(1);
   for (const MaterialCards& c : material_cards(m)) {
     const int line = line_of(c.material->at);
     const std::string name = plain_name(value_of(m, *c.material, "NAME"));
-    if (find(materials, name))
+    if (find(materials, material_named(m, name)))
       io::inp::fail(m.deck, *c.material, fmt::format("a second material is called '{}'", name));
     if (!c.elastic && !c.hyperelastic && !c.user && !c.deformation)
       io::inp::fail(m.deck, *c.material,
@@ -307,7 +317,7 @@ SourceNode inp_sections(InpModel& m) {
     for (const InpElements& part : elements_of(m, card)) {
       SourceNode& section = sections.items.emplace_back(inp_map(line));
       put(section, "on", inp_text(part.set, line));
-      put(section, "material", inp_text(plain_name(value_of(m, card, "MATERIAL")), line));
+      put(section, "material", inp_text(material_named(m, value_of(m, card, "MATERIAL")), line));
       put(section, "element", inp_text(std::string(part.element), line));
       put(section, "kinematics", inp_text(m.finite ? "finite" : "small", line));
       put(section, "formulation", inp_text(std::string(part.formulation), line));

@@ -37,9 +37,10 @@ constexpr std::size_t groups = 7;
 struct Wanted {
   std::vector<std::string> of;
   std::string on, totals;
+  bool local = false;
   int line = 0;
   [[nodiscard]] bool same(const Wanted& b) const {
-    return of == b.of && on == b.on && totals == b.totals;
+    return of == b.of && on == b.on && totals == b.totals && local == b.local;
   }
 };
 
@@ -67,6 +68,10 @@ class Requests {
     if (!left_out_.empty())
       m_.notes.push_back(fmt::format("of the results asked for these are not written: {}",
                                      fmt::join(left_out_, ", ")));
+    if (of_deck_nodes_ && !m_.mesh.mesh.relations.empty())
+      m_.notes.emplace_back(
+          "OUTPUT=2D: the .frd file has the solids that shells and beams become, and the deck's "
+          "nodes beside them, which move as OUTPUT=2D says");
     SourceNode output = inp_map(1);
     for (const bool file : {true, false})
       if (SourceNode list = list_of(file); !list.items.empty())
@@ -108,6 +113,13 @@ class Requests {
     const std::string totals = option_of(card, "TOTALS");
     if (totals == "YES" || totals == "ONLY") wanted.totals = totals == "YES" ? "also" : "only";
     if (!kind.file) wanted.on = set_on(card);
+    wanted.local = card.keyword == "NODEPRINT" && !m_.transformed.empty() &&
+                   option_of(card, "GLOBAL") != "YES";
+    if (option_of(card, "OUTPUT") == "2D") of_deck_nodes_ = true;
+    if (kind.file && kind.group == 0 && option_of(card, "GLOBAL") == "NO" &&
+        !m_.transformed.empty())
+      m_.notes.push_back(fmt::format(
+          "line {}: GLOBAL=NO: the .frd file is along x, y and z all the same", card.at.line));
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
       while (!fields.done()) add(io::inp::capitals(io::inp::name_of(*fields.next())), kind, wanted);
@@ -162,6 +174,7 @@ class Requests {
       SourceNode& of = put(entry, "of", inp_list(line));
       for (const std::string& word : a.wanted.of) of.items.push_back(inp_text(word, line));
       if (!file && !a.wanted.totals.empty()) put(entry, "totals", inp_text(a.wanted.totals, line));
+      if (a.wanted.local) put(entry, "local", inp_text("true", line)).quoted = false;
       if (a.every > 1) put(entry, "every", inp_number(a.every, line));
       if (a.steps.size() == step_) continue;
       SourceNode& steps = put(entry, "steps", inp_list(line));
@@ -174,6 +187,7 @@ class Requests {
   InpModel& m_;
   std::size_t step_ = 0;
   int every_ = 1;
+  bool of_deck_nodes_ = false;
   std::array<bool, groups> fresh_{};
   std::array<std::vector<Wanted>, groups> wanted_;
   std::vector<Active> active_;

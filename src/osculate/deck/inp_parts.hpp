@@ -41,6 +41,7 @@ struct InpModel {
   std::map<Index, InpBodyNode> body_nodes{};  ///< by node of the mesh
   std::set<Index> transformed{};              ///< nodes with a `*TRANSFORM`
   SourceNode sections{}, new_sets{};          ///< keys of the model file: as far as they are known
+  std::vector<bool> used_nodes{};             ///< in a cell, or named by a key before the steps
 };
 
 /// Line of a place of the deck's first file; 0: it stands in an included one.
@@ -80,6 +81,12 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 /// Three coordinates; those that are not given are 0.
 [[nodiscard]] Vec3 point_of(io::inp::Fields& fields);
 
+/// Every parameter is read, or told of as without effect on the answer, or refused with the nearest
+/// known one.
+///
+/// Tested by  tests/unit/deck/test_inp_parameters.cpp
+void check_parameters(InpModel& m);
+
 // ---- the keys of a model file -----------------------------------------------------------------
 
 /// `modal` of a step that ends with the last of these cards, with so many vibrations: the last
@@ -87,6 +94,8 @@ SourceNode& put(SourceNode& map, std::string key, SourceNode value);
 [[nodiscard]] SourceNode inp_modal(const InpModel& m, std::span<const io::inp::Card> until,
                                    int line, int vibrations);
 [[nodiscard]] SourceNode inp_materials(InpModel& m);
+/// A material as the model file calls it: by its name in capital and small letters.
+[[nodiscard]] std::string material_named(const InpModel& m, std::string_view name);
 /// Whether the numbers of all lines are the same; the temperature, which stands last, is not read.
 [[nodiscard]] bool has_constant_lines(const InpModel& m, const io::inp::Card& card);
 /// The first line of such a card.
@@ -227,6 +236,13 @@ void put_constraints(InpModel& m, SourceNode& root);
 ///
 /// Tested by  tests/unit/deck/test_inp_springs.cpp
 void put_springs(const InpModel& m, SourceNode& root);
+/// A point mass and the set of its node.
+struct InpMass {
+  std::string node;
+  double mass = 0;
+};
+/// The masses whose `*MASS` names the set, or all of them (`io::inp::every_element`).
+[[nodiscard]] std::vector<InpMass> inp_masses(const InpModel& m, std::string_view elements);
 /// Of a `*TIE`: it is one of the two faces of a sector.
 [[nodiscard]] bool is_cyclic_tie(const io::inp::Card& card);
 /// Some step is integrated explicitly: ties are penalties.

@@ -226,6 +226,20 @@ bool has_properties(const InpModel& m, const Card& element) {
 
 }  // namespace
 
+std::vector<InpMass> inp_masses(const InpModel& m, std::string_view elements) {
+  const std::string key = io::inp::capitals(elements);
+  std::vector<InpMass> masses;
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "MASS" ||
+        (elements != io::inp::every_element && option_of(card, "ELSET") != key))
+      continue;
+    const double mass = Fields(m.deck, only_line(m, card, "the mass")).real("the mass");
+    for (const Discrete& element : elements_with(m, card))
+      masses.push_back({element.nodes[0], mass});
+  }
+  return masses;
+}
+
 void put_springs(const InpModel& m, SourceNode& root) {
   for (const Card& card : m.deck.cards)
     if (card.keyword == "ELEMENT" && io::inp::discrete_nodes(card) > 0 &&

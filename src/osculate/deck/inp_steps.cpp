@@ -84,6 +84,7 @@ class Steps {
     procedure_ = nullptr;
     at_once_ = option_of(card, "AMPLITUDE") == "STEP";
     modes_ = 0;
+    bounds_ = {0, 0};
     factors_ = 0;
     diameters_.reset();
     period_ = 1;
@@ -121,8 +122,9 @@ class Steps {
   void read_modes(const Card& card) {
     begin_procedure(card);
     about_start_ = moved_ && !io::inp::find_parameter(*step_, "PERTURBATION");
-    modes_ = Fields(m_.deck, only_line(m_, card, "the number of vibrations"))
-                 .number("the number of vibrations");
+    Fields fields(m_.deck, only_line(m_, card, "the number of vibrations"));
+    modes_ = fields.number("the number of vibrations");
+    for (double& bound : bounds_) bound = fields.real_or_zero("a frequency");
   }
 
   /// Factors of the loads of the step alone: with PERTURBATION on top of what the steps before led
@@ -198,7 +200,12 @@ class Steps {
     // They are cut where they must be, those in time also for their errors.
     const int of_automatic = card.keyword == "STATIC" || card.keyword == "VISCO" ? 10 : 100;
     increments_ = static_cast<int>(count);
-    if (!direct) increments_ = std::min(increments_, of_automatic);
+    if (direct || io::inp::find_parameter(card, "EXPLICIT")) return;
+    (void)fields.real_or_zero("the smallest increment");
+    const double longest = fields.real_or_zero("the largest increment");
+    const double least = longest > 0 ? std::ceil(period_ / longest * (1 - slack)) : 1;
+    if (!(least <= most)) fields.fail("more than a million increments");
+    increments_ = std::max(std::min(increments_, of_automatic), static_cast<int>(least));
   }
 
   void end(const Card& card) {
@@ -210,11 +217,13 @@ class Steps {
     put(step, "name", inp_text(fmt::format("step_{}", number), line));
     if (modes_ > 0) {
       SourceNode count = inp_number(modes_, line_of(procedure_->at));
-      if (about_start_ || diameters_) {
+      if (about_start_ || diameters_ || bounds_[0] > 0 || bounds_[1] > 0) {
         const int at = count.line;
         SourceNode& modes = put(step, "modes", inp_map(at));
         put(modes, "count", std::move(count));
         if (about_start_) put(modes, "about", inp_text("start", at));
+        if (bounds_[0] > 0) put(modes, "from", inp_number(bounds_[0], at));
+        if (bounds_[1] > 0) put(modes, "to", inp_number(bounds_[1], at));
         if (diameters_) {
           SourceNode& list = put(modes, "diameters", inp_list(at));
           for (int k = (*diameters_)[0]; k <= (*diameters_)[1]; ++k)
@@ -257,6 +266,7 @@ class Steps {
     check_loads_of_later_steps(m_, *step_, forces_, "CLOAD");
     check_loads_of_later_steps(m_, *step_, pressures_, "DLOAD");
     put_directions(step, "forces", 'f', forces_);
+    put_directions(step, "forces", 'f', weights_);
     put_pressures(step, pressures_);
     put_directions(step, "body_force", 'f', body_forces_);
     put_centrifugal(step);
@@ -384,9 +394,9 @@ class Steps {
     step_ = nullptr;
   }
 
-  std::array<Conditions*, 9> all_conditions() {
-    return {&prescribed_,   &forces_,   &pressures_,   &body_forces_,  &centrifugal_,
-            &prescribed_2_, &forces_2_, &pressures_2_, &body_forces_2_};
+  std::array<Conditions*, 10> all_conditions() {
+    return {&weights_,     &prescribed_,   &forces_,   &pressures_,   &body_forces_,
+            &centrifugal_, &prescribed_2_, &forces_2_, &pressures_2_, &body_forces_2_};
   }
 
   /// What CalculiX does to loads of steps before: they go on in a step without PERTURBATION, unless
@@ -464,15 +474,20 @@ class Steps {
     if (!time.empty() && time != "STEPTIME" && time != "TOTALTIME")
       io::inp::fail(m_.deck, card, fmt::format("expected TIME=TOTAL TIME, found {}", time));
     table.of_total_time = time == "TOTALTIME";
-    for (const char* const other : {"DEFINITION", "VALUE", "SHIFTX", "SHIFTY", "USER"})
+    for (const char* const other : {"DEFINITION", "VALUE", "USER"})
       if (io::inp::find_parameter(card, other) && option_of(card, other) != "TABULAR" &&
           option_of(card, other) != "RELATIVE")
         io::inp::fail(m_.deck, card, fmt::format("{} is not supported", other));
+    const auto shift = [&](const char* key) {
+      const io::inp::Parameter* const given = io::inp::find_parameter(card, key);
+      return given ? Fields(m_.deck, {given->value, card.at}).real(key) : 0.0;
+    };
+    const double later = shift("SHIFTX"), more = shift("SHIFTY");
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
       while (!fields.done()) {
-        const double t = fields.real("a time");
-        const double factor = fields.real("a factor");
+        const double t = fields.real("a time") + later;
+        const double factor = fields.real("a factor") + more;
         if (!table.points.empty() && !(t > table.points.back()[0]))
           fields.fail("expected a later time than the one before");
         table.points.push_back({t, factor});
@@ -586,6 +601,41 @@ class Steps {
                               printable(type)));
   }
 
+  /// Nodes without elements have no displacements: as in CalculiX nothing acts on them.
+  bool is_idle(const std::string& set, const Line& line) {
+    const std::vector<Index>& nodes = m_.mesh.mesh.find_set(set)->nodes;
+    const bool used = std::ranges::any_of(
+        nodes, [&](Index n) { return m_.used_nodes[static_cast<std::size_t>(n)]; });
+    if (used || nodes.empty()) return false;
+    if (idle_.insert(set).second)
+      m_.notes.push_back(fmt::format(
+          "line {}: '{}' has no nodes of elements: what acts on them is left out, as in CalculiX",
+          line.at.line, set));
+    return true;
+  }
+
+  /// The directions of a line of `*BOUNDARY`, and the displacement. As in CalculiX, nodes without
+  /// rotations are not held in them.
+  std::vector<int> held_here(Fields& fields, const Line& line, const std::string& set_name,
+                             double& size) const {
+    const std::string_view word = fields.next().value_or("");
+    std::vector<int> directions = io::inp::held_directions(word);
+    const int highest = highest_direction(m_, set_name);
+    const bool of_body = m_.body_nodes.contains(only_node(m_, set_name));
+    if (directions.empty()) {
+      const std::int32_t first = io::inp::number_of(m_.deck, line.at, word, "the first direction");
+      std::int32_t last = first;
+      if (const auto field = fields.next(); field && !field->empty())
+        last = io::inp::number_of(m_.deck, line.at, *field, "the last direction");
+      size = fields.real_or_zero("the displacement");
+      if (const int most = of_body ? highest : 6; last > most || last < first)
+        fields.fail(fmt::format("expected directions 1 to {}, found {} to {}", most, first, last));
+      for (std::int32_t k = first; k <= last; ++k) directions.push_back(k);
+    }
+    std::erase_if(directions, [&](int k) { return k > highest; });
+    return directions;
+  }
+
   void read_boundary(const Card& card) {
     Conditions& prescribed = part_of(card, prescribed_, prescribed_2_);
     const std::string amplitude = start(card, prescribed, true);
@@ -593,15 +643,9 @@ class Steps {
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
       const std::string& set_name = node_set_of(m_, line, fields.next().value_or(""));
-      const std::int32_t first = fields.number("the first direction");
-      std::int32_t last = first;
-      if (const auto field = fields.next(); field && !field->empty())
-        last = io::inp::number_of(m_.deck, line.at, *field, "the last direction");
-      const double size = fields.real_or_zero("the displacement");
-      if (const int highest = highest_direction(m_, set_name); last > highest || last < first)
-        fields.fail(
-            fmt::format("expected directions 1 to {}, found {} to {}", highest, first, last));
-      for (std::int32_t k = first; k <= last; ++k)
+      double size = 0;
+      if (is_idle(set_name, line)) continue;
+      for (const int k : held_here(fields, line, set_name, size))
         for (const InpPlace& place : places(fields, set_name, k)) {
           if (!exists(place.direction)) continue;
           set(prescribed, place.on, place.direction, place.sign * size, amplitude, line, false);
@@ -616,6 +660,7 @@ class Steps {
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
       const std::string& set_name = node_set_of(m_, line, fields.next().value_or(""));
+      if (is_idle(set_name, line)) continue;
       const std::int32_t direction = fields.number("the direction");
       const std::vector<InpPlace> on = places(fields, set_name, direction);
       if (on.empty()) fields.fail("no shell or beam can take a moment here");
@@ -642,12 +687,21 @@ class Steps {
     return inp_dimension(m_) == 3 || direction <= 2 || direction == 6;
   }
 
+  /// Pressures follow the surface, with NLGEOM.
+  void check_follower(const Card& card) const {
+    if (m_.finite && option_of(card, "FOLLOWER") == "NO")
+      io::inp::fail(m_.deck, card,
+                    "FOLLOWER=NO is not supported with NLGEOM: pressures turn with their surface");
+  }
+
   void read_distributed(const Card& card) {
+    check_follower(card);
     // one card of OP=NEW removes pressures and body forces
     Conditions& pressures = part_of(card, pressures_, pressures_2_);
     const std::string amplitude = start(card, pressures);
     (void)start(card, part_of(card, body_forces_, body_forces_2_));
     if (option_of(card, "OP") == "NEW") gravity_.clear();
+    (void)start(card, weights_);
     (void)start(card, centrifugal_);
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       Fields fields(m_.deck, line);
@@ -690,14 +744,30 @@ class Steps {
     all.push_back(now);
   }
 
+  /// The weight of a point mass, which acts with body forces, not with the forces of `*CLOAD`.
+  void weigh(const std::string& node, const Vec3& weight, const std::string& amplitude,
+             const Line& line) {
+    if (procedure_ && (factors_ > 0 || modes_ > 0 || swung_ || superposed_))
+      io::inp::fail(m_.deck, line.at,
+                    fmt::format("GRAV on masses is not supported with *{}", procedure_->keyword));
+    for (int k = 0; k < inp_dimension(m_); ++k)
+      for (const InpPlace& place : inp_places(m_, node, k + 1))
+        if (weight[k] != 0)
+          set(weights_, place.on, place.direction, place.sign * weight[k], amplitude, line, true);
+  }
+
   void read_gravity(Fields& fields, const std::string& elements, const std::string& amplitude,
                     const Line& line, Conditions& body_forces) {
     const double size = fields.real("the acceleration");
     Vec3 direction = Vec3::Zero();
     for (Eigen::Index k = 0; k < 3; ++k) direction[k] = fields.real_or_zero("a direction");
     if (!(direction.norm() > 0)) fields.fail("expected the direction of gravity");
-    const std::string& on =
-        set_of(m_, line.at, io::inp::element_set_name(elements), {SetKind::elements});
+    const std::string name = io::inp::element_set_name(elements);
+    const std::vector<InpMass> masses = inp_masses(m_, name);
+    for (const InpMass& one : masses)
+      weigh(one.node, Vec3(one.mass * size * direction.normalized()), amplitude, line);
+    if (!masses.empty() && !m_.sets.contains({SetKind::elements, io::inp::capitals(name)})) return;
+    const std::string& on = set_of(m_, line.at, name, {SetKind::elements});
     const std::vector<InpDensity> parts = densities_on(m_, on);
     if (parts.empty())
       fields.fail(fmt::format("GRAV acts on elements that have a section, not on {}",
@@ -729,6 +799,7 @@ class Steps {
   }
 
   void read_on_surfaces(const Card& card) {
+    check_follower(card);
     Conditions& pressures = part_of(card, pressures_, pressures_2_);
     const std::string amplitude = start(card, pressures);
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
@@ -748,17 +819,27 @@ class Steps {
         io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
     Conditions none;
     const std::string amplitude = start(card, none);
-    const auto old = [](const auto& one) { return !one.second.fresh; };
-    if (option_of(card, "OP") == "NEW" && std::ranges::any_of(temperatures_, old))
-      io::inp::fail(m_.deck, card,
-                    "OP=NEW is not supported after a step with temperatures: write those that "
-                    "nodes go back to");
+    if (option_of(card, "OP") == "NEW") go_back(line_of(card.at));
     for (const Line& line : io::inp::lines_of(m_.deck, card)) {
       NodeValue of = temperature_of(m_, line);
       std::erase_if(temperatures_, [&](const auto& one) { return one.first == of.on; });
       temperatures_.emplace_back(std::move(of.on), Condition{of.value, amplitude, line_of(line.at),
                                                              true, false, false, of.gradient});
     }
+  }
+
+  /// Nodes with temperatures of steps before go back to those at first, or to 0 without.
+  void go_back(int line) {
+    const auto old = [](const auto& one) { return !one.second.fresh; };
+    std::vector<std::pair<std::string, Condition>> back;
+    for (const auto& [on, value] : temperatures_)
+      if (!value.fresh) back.emplace_back(on, Condition{0, {}, line, true, false});
+    if (back.empty()) return;
+    for (SourceNode& one : inp_initial_temperature(m_).items)
+      back.emplace_back(find(one, "on")->text,
+                        Condition{std::stod(find(one, "value")->text), {}, line, true, false});
+    std::erase_if(temperatures_, old);
+    temperatures_.insert(temperatures_.begin(), back.begin(), back.end());
   }
 
   // ---- the step -------------------------------------------------------------------------------
@@ -904,6 +985,7 @@ class Steps {
   const Card *step_ = nullptr, *procedure_ = nullptr;
   double period_ = 1, total_time_ = 0;
   int increments_ = 1, modes_ = 0, factors_ = 0;
+  std::array<double, 2> bounds_{};               ///< of the frequencies that are listed; 0: none
   std::optional<std::array<int, 2>> diameters_;  ///< of a sector of a ring: first and last
   std::tuple<Conditions, Conditions, Conditions, Conditions> before_;  ///< loads, of the last steps
   int vibrations_ = 0;  ///< that a step has found for those behind it
@@ -914,6 +996,7 @@ class Steps {
   bool at_once_ = false, moved_ = false, about_start_ = false;
   std::map<std::string, Table> tables_;
   Conditions prescribed_, forces_, pressures_, body_forces_, centrifugal_;
+  Conditions weights_;                                                ///< of point masses
   Conditions prescribed_2_, forces_2_, pressures_2_, body_forces_2_;  ///< imaginary parts
   bool swung_ = false;      ///< the last procedure is *STEADY STATE DYNAMICS
   bool imaginary_ = false;  ///< what is being put
@@ -925,6 +1008,7 @@ class Steps {
   std::vector<std::array<double, 6>> axes_;              ///< of centrifugal loads: points of them
   std::set<std::pair<Conditions*, Conditions::key_type>> released_;
   std::vector<std::pair<std::string, Condition>> temperatures_, temperatures_before_;
+  std::set<std::string> idle_;  ///< sets of nodes without elements that have been told of
 };
 
 }  // namespace

@@ -32,8 +32,16 @@ int inp_dimension(const InpModel& m) {
 
 int highest_direction(const InpModel& m, const std::string& set) {
   const auto body = m.body_nodes.find(only_node(m, set));
-  if (body == m.body_nodes.end())
-    return m.mesh.mesh.relations.empty() && m.mesh.knots.empty() ? 3 : 6;
+  if (body == m.body_nodes.end()) {
+    const auto turns = [&](Index node) {
+      const auto one = m.body_nodes.find(node);
+      return one != m.body_nodes.end() && one->second.rigid;
+    };
+    const bool turning =
+        !m.mesh.mesh.relations.empty() || !m.mesh.knots.empty() ||
+        (!m.body_nodes.empty() && std::ranges::any_of(m.mesh.mesh.find_set(set)->nodes, turns));
+    return turning ? 6 : 3;
+  }
   if (!body->second.rigid) return 1;
   return 7 - body->second.first;
 }
@@ -61,6 +69,7 @@ std::vector<InpPlace> inp_places(const InpModel& m, const std::string& set, int 
     if (body == m.body_nodes.end()) continue;
     in_bodies = true;
     int motion = direction + body->second.first - 1;
+    if (motion > 6) continue;  // of a node for rotations, which has three directions
     if (inp_dimension(m) == 2 && motion == 3) motion = 4;  // a displacement that is none in a plane
     places.push_back({body->second.body, motion, body->second.sign});
   }

@@ -10,6 +10,7 @@
 #include "osculate/core/text.hpp"
 #include "osculate/deck/inp_keywords.hpp"
 #include "osculate/deck/inp_parts.hpp"
+#include "osculate/io/inp/loaded_sets.hpp"
 #include "osculate/io/inp/thin_sections.hpp"
 
 namespace osculate::deck {
@@ -99,9 +100,23 @@ const std::string& set_of(const InpModel& m, Place at, std::string_view name,
 
 namespace {
 
+/// What a part or an instance may hold, but for the mesh: sections, which are not there any more.
+void require_assembly(const InpModel& m, const Card& card, const InpKeyword& known,
+                      const Card*& part) {
+  const std::string& key = card.keyword;
+  if (key == "PART" || key == "INSTANCE") part = &card;
+  if (key == "ENDPART" || key == "ENDINSTANCE") part = nullptr;
+  if (!part || (known.use == KeywordUse::mesh && io::inp::discrete_nodes(card) == 0)) return;
+  io::inp::fail(m.deck, card,
+                fmt::format("stands in the *{} of line {}, where the mesh and its sections are "
+                            "read: its place is the assembly or behind it",
+                            part->keyword, part->at.line));
+}
+
 /// A keyword without counterpart stops; others that are left out are told of once.
 void check_keywords(InpModel& m) {
   std::set<std::string> left_out;
+  const Card* part = nullptr;
   for (const Card& card : m.deck.cards) {
     const InpKeyword* const known = find_inp_keyword(card.keyword);
     if (!known) {
@@ -109,7 +124,10 @@ void check_keywords(InpModel& m) {
       for (const InpKeyword& one : inp_keywords()) names.emplace_back(one.keyword);
       io::inp::fail(m.deck, card.at, core::unknown_name_message("keyword", card.keyword, names));
     }
-    if (known->use == KeywordUse::mesh || known->use == KeywordUse::translated) continue;
+    if (known->use == KeywordUse::mesh || known->use == KeywordUse::translated) {
+      require_assembly(m, card, *known, part);
+      continue;
+    }
     if (known->use == KeywordUse::silent) {
       if (known->keyword != "HEADING") left_out.insert(fmt::format("*{}", known->keyword));
       continue;
@@ -120,6 +138,26 @@ void check_keywords(InpModel& m) {
   std::string text;
   for (const std::string& one : left_out) text += (text.empty() ? "" : ", ") + one;
   m.notes.push_back(fmt::format("of '{}' these are left out: {}", m.deck.files[0], text));
+}
+
+/// Nodes of all sets that a tree names.
+void mark_named_nodes(InpModel& m, const SourceNode& tree) {
+  for (const SourceEntry& entry : tree.entries) mark_named_nodes(m, entry.value);
+  for (const SourceNode& item : tree.items) mark_named_nodes(m, item);
+  if (tree.kind != SourceNode::Kind::scalar || !tree.quoted) return;
+  if (const mesh::Set* const set = m.mesh.mesh.find_set(tree.text))
+    for (const Index node : set->nodes) m.used_nodes[static_cast<std::size_t>(node)] = true;
+}
+
+void mark_used_nodes(InpModel& m, const SourceNode& root) {
+  m.used_nodes.assign(m.mesh.mesh.nodes.size(), false);
+  for (const mesh::Block& block : m.mesh.mesh.blocks)
+    for (const Index node : block.connectivity) m.used_nodes[static_cast<std::size_t>(node)] = true;
+  for (const mesh::Relation& relation : m.mesh.mesh.relations)
+    for (const auto& term : relation.terms)
+      m.used_nodes[static_cast<std::size_t>(term.node)] = true;
+  for (const auto& [node, body] : m.body_nodes) m.used_nodes[static_cast<std::size_t>(node)] = true;
+  mark_named_nodes(m, root);
 }
 
 std::string heading_of(const InpModel& m) {
@@ -143,6 +181,7 @@ TranslatedDeck translate_deck(const io::inp::Deck& deck) {
   const std::string& file = deck.files[0];
   InpModel m{deck, {}, {}, false, {}, {}};
   check_keywords(m);
+  check_parameters(m);
   m.finite = io::inp::has_finite_step(deck);
   m.mesh = io::inp::deck_mesh(deck);
   for (const auto& [number, line] : m.mesh.missing)
@@ -172,6 +211,7 @@ TranslatedDeck translate_deck(const io::inp::Deck& deck) {
   put_unless_empty("initial_temperature", inp_initial_temperature(m));
   put_unless_empty("initial_velocity", inp_initial_velocity(m));
   put_initial_state(m, out.root);
+  mark_used_nodes(m, out.root);
   InpSteps steps = inp_steps(m);
   put_unless_empty("sets", std::move(m.new_sets));
   put_unless_empty("amplitudes", std::move(steps.amplitudes));

@@ -68,6 +68,11 @@ BoundKeys<R> dat_keys() {
                   {word("none", Totals::none, "no"), word("also", Totals::also, "with the values"),
                    word("only", Totals::only, "without the values")})
                .otherwise("none")),
+       may(&R::local, "local",
+           boolean("U and RF of nodes with `axes` are along these, in rows that end in L, as "
+                   "CalculiX has them without GLOBAL=YES. Sums are along x, y and z.")
+               .otherwise("false")
+               .such_as("true")),
        every_key(), steps_of_key()}};
 }
 

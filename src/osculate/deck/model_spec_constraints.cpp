@@ -15,7 +15,14 @@ BoundKeys<Equation> equation_keys() {
            number("Value of the sum, reached at the end of the first step.")
                .in("length")
                .otherwise("0")
-               .such_as("0.1"))}};
+               .such_as("0.1")),
+       may(&E::for_each_node, "for_each_node",
+           boolean("One equation for each node of the first set instead of one of the sums: the "
+                   "other sets have as many nodes, of which each equation takes that of the same "
+                   "place in the order of the numbers, or one node (a rigid body), which is in "
+                   "all of them.")
+               .otherwise("false")
+               .such_as("true"))}};
 }
 
 BoundKeys<Equal> equal_keys() {

@@ -281,6 +281,16 @@ BoundKey<Step> modes_key() {
                 word("start", ModesAbout::start, "the one before the first step, without loads")})
                .otherwise("last")
                .such_as("start")),
+       may(&S::lowest, "from",
+           number("Lowest frequency that MODEL.dat and MODEL.frd list (not of sectors of rings), "
+                  "with the "
+                  "numbers that the vibrations have; so many are found all the same.")
+               .in("1/time")
+               .at_least(0)
+               .otherwise_as("all")
+               .such_as("0.01")),
+       may(&S::highest, "to",
+           number("Highest one.").in("1/time").above(0).otherwise_as("all").such_as("1e6")),
        {optional("diameters",
                  list("Of a sector of a ring with `cyclic_symmetry`: nodal diameters, for each of "
                       "which so many vibrations are looked for. From 0, all sectors alike, to half "

@@ -92,6 +92,7 @@ struct AnswerRequest {
   std::vector<Name> on;  ///< a set, of tables; none: everywhere
   std::vector<Answer> of;
   Totals totals = Totals::none;  ///< of tables: sums over the set
+  bool local = false;            ///< of tables: U and RF along the axes of their nodes
   int every = 1;                 ///< n-th increment, and the last of each step
   std::vector<Name> steps;       ///< none: all
   core::SourceMark mark{};

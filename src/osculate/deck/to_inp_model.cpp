@@ -65,21 +65,43 @@ void write_sections(const Description& d, const model::BasicModel<Dim>& m, const
 
 /// Terms `node, direction, factor` of a displacement of a set or of a rigid body.
 template <int Dim>
-std::size_t write_terms(const Name& on, Component of, double factor, InpMesh<Dim>& mesh,
-                        std::string& terms) {
+std::vector<std::string> written_terms(const EquationTerm& term, InpMesh<Dim>& mesh) {
+  std::vector<std::string> terms;
   const auto add = [&](std::int64_t node, int direction) {
-    terms += fmt::format("{}, {}, {}\n", node, direction, exact(factor));
+    terms.push_back(fmt::format("{}, {}, {}\n", node, direction, exact(term.factor.value)));
   };
-  if (const auto control = mesh.control(on.value)) {
-    const auto [node, direction] = control->of(of);
+  if (const auto control = mesh.control(term.on.value)) {
+    const auto [node, direction] = control->of(term.of);
     add(node, direction);
-    return 1;
+    return terms;
   }
-  if (is_rotation(of)) throw core::InputError(on.mark, "rotations of a set are not written");
-  (void)mesh.nodes(on);
-  const std::vector<Index>& nodes = mesh.set(on).nodes;
-  for (const Index n : nodes) add(mesh.node(n), static_cast<int>(of) + 1);
-  return nodes.size();
+  if (is_rotation(term.of))
+    throw core::InputError(term.on.mark, "rotations of a set are not written");
+  (void)mesh.nodes(term.on);
+  for (const Index n : mesh.set(term.on).nodes) add(mesh.node(n), static_cast<int>(term.of) + 1);
+  return terms;
+}
+
+/// One equation of the sums, or for each node of the first set one.
+template <int Dim>
+std::string written_equation(const Equation& equation, InpMesh<Dim>& mesh) {
+  std::vector<std::vector<std::string>> all;
+  std::size_t count = 0;
+  for (const EquationTerm& term : equation.terms)
+    count += all.emplace_back(written_terms(term, mesh)).size();
+  std::string out;
+  if (!equation.for_each_node) {
+    out = fmt::format("*EQUATION\n{}\n", count);
+    for (const std::vector<std::string>& terms : all)
+      for (const std::string& term : terms) out += term;
+    return out;
+  }
+  for (std::size_t k = 0; k < all.front().size(); ++k) {
+    out += fmt::format("*EQUATION\n{}\n", all.size());
+    for (const std::vector<std::string>& terms : all)
+      out += terms.size() == 1 ? terms[0] : terms.at(k);
+  }
+  return out;
 }
 
 template <int Dim>
@@ -87,12 +109,9 @@ void write_equations(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, s
   for (std::size_t e = 0; e < d.equations.size(); ++e) {
     const Equation& equation = d.equations[e];
     leaves.take(fmt::format("equations[{}].terms", e));
+    (void)leaves.text(fmt::format("equations[{}].for_each_node", e));
     if (equation.value.value == 0) (void)leaves.text(fmt::format("equations[{}].value", e));
-    std::string terms;
-    std::size_t count = 0;
-    for (const EquationTerm& term : equation.terms)
-      count += write_terms(term.on, term.of, term.factor.value, mesh, terms);
-    out += fmt::format("*EQUATION\n{}\n{}", count, terms);
+    out += written_equation(equation, mesh);
   }
   for (std::size_t e = 0; e < d.equal.size(); ++e) {
     const Equal& equal = d.equal[e];

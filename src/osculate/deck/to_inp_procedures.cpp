@@ -16,6 +16,14 @@ const Step& step_of_vibrations(const Description& d, std::size_t step) {
 /// Whether loads and supports of the steps before count: `about: last` of what has moved.
 bool is_on_top(const Step& search, bool moved) { return moved && search.about == ModesAbout::last; }
 
+/// Of the frequencies that are listed, behind the number of vibrations.
+std::string bounds_of(const Step& step) {
+  if (!step.lowest && !step.highest) return {};
+  std::string text = fmt::format(", {}", exact(step.lowest ? step.lowest->value : 0));
+  if (step.highest) text += fmt::format(", {}", exact(step.highest->value));
+  return text;
+}
+
 std::string diameters_of(const Step& step) {
   if (step.diameters.empty()) return {};
   for (std::size_t k = 1; k < step.diameters.size(); ++k)
@@ -129,6 +137,7 @@ std::string request_of(const AnswerRequest& request, bool file, const Descriptio
     if (!words.empty())
       out += fmt::format("*{} {}{}{}\n{}\n", kind, file ? "FILE" : "PRINT", where, end, words);
   };
+  if (!file && !d.axes.empty() && !request.local) on_nodes += ", GLOBAL=YES";
   add("NODE", on_nodes, words_of(request, is_of_nodes));
   add("EL", on_cells, words_of(request, is_of_cells));
   add("CONTACT", "", words_of(request, is_of_contact));
@@ -147,7 +156,8 @@ ProcedureCards procedure_of(const Description& d, std::size_t number, bool finit
   };
   const std::string title = fmt::format("**{}\n", step.name.value);
   if (step.modes)
-    return {title + begin(step) + fmt::format("*FREQUENCY\n{}\n", step.modes->value) +
+    return {title + begin(step) +
+                fmt::format("*FREQUENCY\n{}{}\n", step.modes->value, bounds_of(step)) +
                 diameters_of(step),
             false, true};
   if (step.buckling)

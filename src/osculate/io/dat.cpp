@@ -77,13 +77,21 @@ std::string dat_resultant(std::string_view what, double time, const DatResultant
   return out;
 }
 
-std::string dat_eigenvalues(std::span<const double> omega_squared) {
+bool is_in_range(double omega_squared, const std::array<double, 2>& frequencies) {
+  if (omega_squared < 0) return frequencies[0] < 0;
+  const double frequency = std::sqrt(omega_squared) / (2 * std::numbers::pi);
+  return frequency >= frequencies[0] && frequency <= frequencies[1];
+}
+
+std::string dat_eigenvalues(std::span<const double> omega_squared,
+                            const std::array<double, 2>& frequencies) {
   std::string out =
       "\n     E I G E N V A L U E   O U T P U T\n\n"
       " MODE NO    EIGENVALUE                       FREQUENCY   \n"
       "                                     REAL PART            IMAGINARY PART\n"
       "                           (RAD/TIME)      (CYCLES/TIME     (RAD/TIME)\n\n";
   for (std::size_t i = 0; i < omega_squared.size(); ++i) {
+    if (!is_in_range(omega_squared[i], frequencies)) continue;
     const double value = omega_squared[i], omega = std::sqrt(std::abs(value));
     const double real = value < 0 ? 0 : omega, imaginary = value < 0 ? omega : 0;
     out += fmt::format(

@@ -34,8 +34,12 @@ struct DatResultant {
 };
 [[nodiscard]] std::string dat_resultant(std::string_view what, double time, const DatResultant& of);
 
-/// Vibrations found: omega^2 in rad/time.
-[[nodiscard]] std::string dat_eigenvalues(std::span<const double> omega_squared);
+/// Whether the frequency of a vibration is in a range; where omega^2 < 0 it is below all.
+[[nodiscard]] bool is_in_range(double omega_squared, const std::array<double, 2>& frequencies);
+/// Vibrations found: omega^2 in rad/time. Those of frequencies in the range are listed, by their
+/// numbers.
+[[nodiscard]] std::string dat_eigenvalues(std::span<const double> omega_squared,
+                                          const std::array<double, 2>& frequencies);
 /// Factors by which loads buckle what there is.
 [[nodiscard]] std::string dat_buckling(std::span<const double> factors);
 /// The same of a sector of a ring, with the nodal diameters of each.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
+#include <limits>
 #include <set>
 
 #include "osculate/core/version.hpp"
@@ -265,7 +266,8 @@ void AnswerFiles<Dim>::write_fields(const model::BasicSystem<Dim>& system,
 }
 
 /// The tables that CalculiX writes of every search for vibrations, of a sector of a ring.
-std::string tables_of(const model::Vibrations& modes, double sector) {
+std::string tables_of(const model::Vibrations& modes, double sector,
+                      const std::array<double, 2>& listed) {
   std::vector<std::array<double, 6>> factors, masses;
   std::array<double, 6> sums{}, moving{};
   for (Eigen::Index i = 0; i < modes.participation.rows(); ++i) {
@@ -279,7 +281,7 @@ std::string tables_of(const model::Vibrations& modes, double sector) {
   }
   for (std::size_t k = 0; k < 6; ++k)
     moving[k] = sector * modes.moving_mass[static_cast<Eigen::Index>(k)];
-  return io::dat_eigenvalues({modes.omega_squared.data(), factors.size()}) +
+  return io::dat_eigenvalues({modes.omega_squared.data(), factors.size()}, listed) +
          io::dat_modal_table("P A R T I C I P A T I O N   F A C T O R S", factors, "", {}) +
          io::dat_modal_table("E F F E C T I V E   M O D A L   M A S S", masses, "TOTAL", sums) +
          io::dat_modal_table("T O T A L   E F F E C T I V E   M A S S", {}, "", moving);
@@ -314,9 +316,14 @@ void AnswerFiles<Dim>::vibrations(const model::Progress& progress, const model::
     const auto count = static_cast<std::size_t>(modes.omega_squared.size());
     return dat_.append(io::dat_eigenvalues({modes.omega_squared.data(), count}, modes.diameters));
   }
-  dat_.append(tables_of(modes, answers_.sector));
+  constexpr double all = std::numeric_limits<double>::infinity();
+  const auto bounds = built_.listed_frequencies.find(progress.step);
+  const std::array<double, 2> listed =
+      bounds == built_.listed_frequencies.end() ? std::array{-all, all} : bounds->second;
+  dat_.append(tables_of(modes, answers_.sector, listed));
   if (!wants_shapes(progress)) return;
   for (Eigen::Index i = 0; i < modes.omega_squared.size(); ++i) {
+    if (!io::is_in_range(modes.omega_squared[i], listed)) continue;
     io::FrdTime at;
     at.mode = io::FrdTime::Mode{static_cast<int>(i) + 1, modes.omega_squared[i],
                                 model::frequency(modes.omega_squared[i])};

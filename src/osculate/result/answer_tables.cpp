@@ -120,13 +120,22 @@ struct Tables {
     return out;
   }
 
+  /// A row of a node, along its own axes where these are asked for.
+  void row(Index node, Vec3 value) {
+    const auto found = a.built.node_axes.find(node);
+    const bool local = request.local && found != a.built.node_axes.end();
+    if (local) {
+      const Vec<Dim> turned = found->second.transpose() * value.template head<Dim>();
+      value.template head<Dim>() = turned;
+    }
+    io::append_dat_row(out, a.node_number[static_cast<std::size_t>(node)], 0, {value.data(), 3});
+    if (local) out.insert(out.size() - 1, " L");
+  }
+
   void displacements() {
     if (request.totals == Totals::only) return;
     title("displacements (vx,vy,vz)");
-    for (const Index n : nodes()) {
-      const Vec3 u = displacement(n);
-      io::append_dat_row(out, a.node_number[static_cast<std::size_t>(n)], 0, {u.data(), 3});
-    }
+    for (const Index n : nodes()) row(n, displacement(n));
   }
 
   void forces() {
@@ -136,8 +145,7 @@ struct Tables {
     for (const Index n : nodes()) {
       const Vec3 of_node = force(of_nodes, n);
       sum += of_node;
-      if (request.totals != Totals::only)
-        io::append_dat_row(out, a.node_number[static_cast<std::size_t>(n)], 0, {of_node.data(), 3});
+      if (request.totals != Totals::only) row(n, of_node);
     }
     if (request.totals == Totals::none) return;
     title("total force (fx,fy,fz)");
@@ -366,11 +374,13 @@ std::vector<NodeContact> node_contacts(const model::BasicSystem<Dim>& system,
   for (std::size_t p = 0; p < model.pairs.size(); ++p) {
     const model::BasicContactFields<Dim> c = model::contact_fields(system, model, p);
     for (std::size_t i = 0; i < c.nodes.size(); ++i) {
-      NodeContact now{
-          c.nodes[i], c.cstatus[i] > 0, {c.copen[i], c.cslip[i], 0, c.cpress[i], c.cshear[i], 0}};
+      const auto shear = [](double on_slave) { return 0.0 - on_slave; };  // there on the master
+      NodeContact now{c.nodes[i],
+                      c.cstatus[i] > 0,
+                      {c.copen[i], c.cslip[i], 0, c.cpress[i], shear(c.cshear[i]), 0}};
       if constexpr (Dim == 3) {
         now.values[2] = c.cslip2[i];
-        now.values[5] = c.cshear2[i];
+        now.values[5] = shear(c.cshear2[i]);
       }
       const auto [at, fresh] = by_node.try_emplace(c.nodes[i], now);
       if (!fresh && now.closed && now.values[3] >= at->second.values[3]) at->second = now;

@@ -53,7 +53,8 @@ template <int Dim>
                                         const deck::AnswerRequest& request, double time);
 
 /// COPEN, CSLIP1, CSLIP2, CPRESS, CSHEAR1, CSHEAR2 of slave nodes (where a node is one of several
-/// pairs those of the largest pressure), by node.
+/// pairs those of the largest pressure), by node. The shear is along the slip that it resists, the
+/// one of the slave on the master, as in CalculiX.
 struct NodeContact {
   Index node;
   bool closed;

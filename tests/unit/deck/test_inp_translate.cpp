@@ -196,7 +196,7 @@ TEST(InpTranslate, WhatIsNotUnderstoodStopsWithItsLine) {
        "cubes.inp:40: unknown set of nodes 'BASS'; did you mean 'BASE'?"},
       {"node", blocks + steel + "*BOUNDARY\n99, 1\n" + step, "99"},
       {"direction", blocks + steel + "*BOUNDARY\nBASE, 11\n" + step,
-       "cubes.inp:40: expected directions 1 to 3, found 11 to 11"},
+       "cubes.inp:40: expected directions 1 to 6, found 11 to 11"},
       {"load", blocks + steel + "*STEP\n*STATIC\n*DLOAD\nUP, NEWTON, 1.\n*END STEP\n",
        "load 'NEWTON' is not supported: P1 to P6, GRAV or CENTRIF"},
       {"temperature", blocks + "*MATERIAL, NAME=A\n*ELASTIC\n1., .3, 20.\n2., .3, 100.\n",

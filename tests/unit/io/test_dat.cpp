@@ -1,5 +1,6 @@
 #include "osculate/io/dat.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -63,7 +64,13 @@ TEST(Dat, ForcesThroughASurfaceAsTheFormatHasThem) {
 
 TEST(Dat, VibrationsAsTheFormatHasThem) {
   const std::array found{0.6770787e10, -4.0};
-  const std::string text = dat_eigenvalues(found);
+  constexpr double all = std::numeric_limits<double>::infinity();
+  const std::string text = dat_eigenvalues(found, {-all, all});
+  EXPECT_THAT(dat_eigenvalues(found, {0.01, all}),
+              ::testing::Not(::testing::HasSubstr("      2  ")));
+  EXPECT_THAT(dat_eigenvalues(found, {0.01, 1e4}),
+              ::testing::Not(::testing::HasSubstr("      1  ")));
+  EXPECT_THAT(dat_eigenvalues(found, {-all, 1e4}), ::testing::HasSubstr("      2  -0.4"));
   EXPECT_TRUE(text.starts_with("\n     E I G E N V A L U E   O U T P U T\n\n MODE NO "));
   EXPECT_TRUE(
       text.ends_with("      1   0.6770787E+10   0.8228479E+05   0.1309603E+05   0.0000000E+00\n"

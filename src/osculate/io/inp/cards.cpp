@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "osculate/io/gmsh.hpp"
+#include "osculate/io/inp/parts.hpp"
 
 namespace osculate::io::inp {
 namespace {
@@ -213,6 +214,7 @@ Deck read_cards(std::string_view content, const std::string& name, const Opener&
   Reader(deck, open).read(content, name);
   if (deck.cards.empty())
     fail(deck, Place{}, "there is no keyword like '*NODE': not an Abaqus or CalculiX input file");
+  give_sections_to_instances(deck);
   return deck;
 }
 

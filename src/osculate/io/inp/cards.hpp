@@ -40,7 +40,7 @@ struct Card {
 
 /// What an Abaqus or CalculiX input file and the files it includes say, card by card. Nothing is
 /// interpreted but `*INCLUDE` and the parameter INPUT of cards with data, which are replaced by
-/// the files' lines.
+/// the files' lines, and sections of parts.
 struct Deck {
   std::vector<std::string> files;  ///< their names
   std::vector<Line> lines;
@@ -63,7 +63,8 @@ inline constexpr std::string_view restart_head =
 /// keyword is skipped. `*RESTART, READ, STEP=n` stands for the cards of the file beside it that
 /// ends in .rin instead of .inp, up to the end of its step n (the last one, where none is said):
 /// what `restart_text` has written. Keywords and names of parameters are the same in capital and
-/// small letters, with and without blanks.
+/// small letters, with and without blanks. Sections in parts are given to the instances
+/// (give_sections_to_instances).
 ///
 /// Errors     core::InputError with file and line: no keyword at all, a star without keyword, a
 ///            quotation without end, an included file that includes itself or is missing

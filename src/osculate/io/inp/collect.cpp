@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
 #include "osculate/core/text.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
+#include "osculate/io/inp/parts.hpp"
 #include "osculate/io/inp/scope.hpp"
 #include "osculate/io/utf8.hpp"
 
@@ -14,16 +14,8 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// How an instance is put: moved, then turned.
-struct Placement {
-  Vec3 move = Vec3::Zero(), about = Vec3::Zero(), axis = Vec3::Zero();
-  double angle = 0;  ///< radians, right-handed about the axis
-};
-
 void place(std::vector<Vec3>& nodes, const Placement& placement) {
-  Mat<3, 3> turn = Mat<3, 3>::Identity();
-  if (placement.angle != 0)
-    turn = Eigen::AngleAxisd(placement.angle, placement.axis.stableNormalized()).toRotationMatrix();
+  const Mat<3, 3> turn = placement.turn();
   for (Vec3& x : nodes) {
     const Vec3 arm = x + placement.move - placement.about;
     x = placement.about + turn * arm;
@@ -351,7 +343,7 @@ class Collector {
       fail(deck_, card, fmt::format("the instance '{}' is there twice", name));
     mesh_.scopes.push_back(found->second.scope);
     mesh_.scopes.back().name = name;
-    placement_ = placement_of(card);
+    placement_ = placement_of(deck_, card);
   }
   void end_instance(const Card& card) {
     leave(card, "INSTANCE");
@@ -360,32 +352,6 @@ class Collector {
     for (const Vec3& x : nodes)
       if (!x.allFinite()) fail(deck_, card, "its place is too far away for a number");
     instance_ = 0;
-  }
-
-  Placement placement_of(const Card& card) const {
-    const std::span<const Line> lines = lines_of(deck_, card);
-    if (lines.size() > 2)
-      fail(deck_, lines[2].at, "expected one line of translation, one of rotation");
-    Placement placement;
-    const auto read = [](Fields& fields, Vec3& x) {
-      for (Eigen::Index k = 0; k < 3; ++k) x[k] = fields.real_or_zero("a coordinate");
-    };
-    if (!lines.empty()) {
-      Fields fields(deck_, lines[0]);
-      read(fields, placement.move);
-      fields.expect_end();
-    }
-    if (lines.size() < 2) return placement;
-    Fields fields(deck_, lines[1]);
-    read(fields, placement.about);
-    read(fields, placement.axis);
-    placement.axis -= placement.about;
-    placement.angle = fields.real("the angle of the rotation") * degree;
-    fields.expect_end();
-    const double length = placement.axis.stableNorm();
-    if (placement.angle != 0 && !(length > 0 && std::isfinite(length)))
-      fields.fail("expected two different points of the axis");
-    return placement;
   }
 
   const Deck& deck_;

@@ -59,6 +59,7 @@ class Builder {
       for (const auto& [key, raw] : raw_.scopes[s].element_sets) add_elements(s, raw);
     for (std::uint32_t s = 0; s < raw_.scopes.size(); ++s)
       for (const auto& [key, raw] : raw_.scopes[s].surfaces) add_surface(s, raw);
+    find_reference_nodes();
     for (std::uint32_t s = 0; s < raw_.scopes.size(); ++s) {
       for (const auto& [key, raw] : raw_.scopes[s].node_sets) {
         const std::vector<Index>& nodes = members_.of(Kind::nodes, s, raw.name, raw.at);
@@ -86,6 +87,25 @@ class Builder {
       out_.knots.push_back({knot.node, set.name});
       out_.mesh.sets.push_back(std::move(set));
       in_knot_.insert(knot.node);
+    }
+  }
+
+  /// Nodes that stand for bodies are like knots: what acts on them acts on these.
+  void find_reference_nodes() {
+    for (const Card& card : deck_.cards) {
+      if (card.keyword != "RIGIDBODY" && card.keyword != "COUPLING" &&
+          card.keyword != "PRE-TENSIONSECTION")
+        continue;
+      for (const char* const name : {"REFNODE", "ROTNODE", "NODE"}) {
+        const Parameter* const given = find_parameter(card, name);
+        if (!given) continue;
+        const std::optional<std::int32_t> number = number_of(name_of(given->value));
+        const Named<RawSet>& sets = raw_.scopes[0].node_sets;
+        const auto found = sets.find(capitals(number ? node_set_name(*number) : given->value));
+        if (found == sets.end()) continue;
+        for (const Index node : members_.of(Kind::nodes, 0, found->second.name, card.at))
+          in_knot_.insert(node);
+      }
     }
   }
 

@@ -2,12 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <limits>
+
 namespace osculate::io::inp {
 namespace {
 
+/// `instance.17`, a node of an instance, which keeps that name.
+void add_node_of_instance(std::string_view field, Place at, RawMesh& mesh) {
+  const std::size_t dot = field.find('.');
+  if (dot == std::string_view::npos) return;
+  const auto instance = mesh.instances.find(capitals(field.substr(0, dot)));
+  const std::string name = name_of(field.substr(dot + 1));
+  const std::optional<std::int32_t> number = number_of(name);
+  if (instance == mesh.instances.end() || !number) return;
+  RawSet& set = mesh.scopes[instance->second].node_sets[name];
+  if (set.name.empty()) set = {name, at, {{*number, *number, 1, own_scope, at, false}}, {}};
+}
+
 void add_node(std::string_view field, Place at, RawMesh& mesh) {
   const std::optional<std::int32_t> number = number_of(field);
-  if (!number) return;
+  if (!number) return add_node_of_instance(name_of(field), at, mesh);
   const std::string name = node_set_name(*number);
   RawSet& set = mesh.scopes[0].node_sets[capitals(name)];
   if (!set.name.empty()) return;
@@ -28,11 +43,25 @@ void add_element(std::string_view elements, Place at, RawMesh& mesh) {
   set.ranges.push_back({*number, *number, 1, own_scope, at, false});
 }
 
+void add_every_element(Place at, RawMesh& mesh) {
+  RawSet& set = mesh.scopes[0].element_sets[capitals(every_element)];
+  if (!set.name.empty()) return;
+  set.name = every_element;
+  set.at = at;
+  for (std::size_t s = 0; s < mesh.scopes.size(); ++s)
+    if (!mesh.scopes[s].elements.empty())
+      set.ranges.push_back({1, std::numeric_limits<std::int32_t>::max(), 1,
+                            static_cast<std::uint32_t>(s), at, true});
+}
+
 void add_side(const Deck& deck, const Line& line, RawMesh& mesh) {
   Fields fields(deck, line);
   const std::string elements = name_of(fields.next().value_or(""));
   const std::string load = capitals(name_of(fields.next().value_or("")));
-  if (load == "GRAV" || load == "CENTRIF") add_element(elements, line.at, mesh);
+  if (load == "GRAV" || load == "CENTRIF") {
+    if (elements.empty()) return add_every_element(line.at, mesh);
+    add_element(elements, line.at, mesh);
+  }
   if (elements.empty() || !is_side_load(load)) return;
   const std::string name = side_set_name(load, elements);
   RawSurface& surface = mesh.scopes[0].surfaces[capitals(name)];
@@ -111,11 +140,31 @@ int discrete_nodes(const Card& element) {
 std::string node_set_name(std::int32_t number) { return fmt::format("node {}", number); }
 
 std::string element_set_name(std::string_view elements) {
+  if (elements.empty()) return std::string(every_element);
   return is_number(elements) ? fmt::format("element {}", elements) : std::string(elements);
 }
 
 std::string side_set_name(std::string_view load, std::string_view elements) {
   return fmt::format("{} of {}", load, element_set_name(elements));
+}
+
+std::vector<int> held_directions(std::string_view word) {
+  struct Held {
+    std::string_view word;
+    std::vector<int> directions;
+  };
+  static const std::array<Held, 8> all{{{"ENCASTRE", {1, 2, 3, 4, 5, 6}},
+                                        {"PINNED", {1, 2, 3}},
+                                        {"XSYMM", {1, 5, 6}},
+                                        {"YSYMM", {2, 4, 6}},
+                                        {"ZSYMM", {3, 4, 5}},
+                                        {"XASYMM", {2, 3, 4}},
+                                        {"YASYMM", {1, 3, 5}},
+                                        {"ZASYMM", {1, 2, 6}}}};
+  const std::string name = capitals(name_of(word));
+  for (const Held& one : all)
+    if (one.word == name) return one.directions;
+  return {};
 }
 
 bool is_side_load(std::string_view load) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "osculate/io/inp/scope.hpp"
 
@@ -19,6 +20,14 @@ namespace osculate::io::inp {
 /// Whether a load of `*DLOAD` (in capitals) is a pressure on a numbered side: P1, P2, ..., of
 /// shells P as well.
 [[nodiscard]] bool is_side_load(std::string_view load);
+
+/// Set of all elements, which a body force without a set acts on.
+inline constexpr std::string_view every_element = "every element";
+/// Directions that a word of `*BOUNDARY` holds: ENCASTRE 1 to 6, PINNED 1 to 3, XSYMM 1, 5, 6 and
+/// its kin, XASYMM 2, 3, 4 and its kin. Empty: no such word.
+///
+/// Source     Abaqus Keywords Guide, *BOUNDARY
+[[nodiscard]] std::vector<int> held_directions(std::string_view word);
 
 /// Adds sets for what boundary conditions, loads and equations name by numbers of nodes, and for
 /// the sides of elements that pressures act on.

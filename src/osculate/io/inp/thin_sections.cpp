@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/io/inp/loaded_sets.hpp"
+
 namespace osculate::io::inp {
 namespace {
 
@@ -64,9 +66,20 @@ class Reader {
  private:
   /// The elements of a section; none where the set is that of a part.
   [[nodiscard]] std::vector<Index> elements_of(const Card& card) {
-    const std::string set = option(card, "ELSET");
-    if (!raw_.scopes[0].element_sets.contains(set)) return {};
-    return members_.of(Kind::elements, 0, set, card.at);
+    std::string set = option(card, "ELSET");
+    const std::uint32_t scope = take_instance(set);
+    if (!raw_.scopes[scope].element_sets.contains(set)) return {};
+    return members_.of(Kind::elements, scope, set, card.at);
+  }
+
+  /// Takes `instance.` off a name, and says which scope that is; else what stands outside of them.
+  std::uint32_t take_instance(std::string& name) const {
+    const std::size_t dot = name.find('.');
+    if (dot == std::string::npos) return 0;
+    const auto instance = raw_.instances.find(capitals(std::string_view(name).substr(0, dot)));
+    if (instance == raw_.instances.end()) return 0;
+    name.erase(0, dot + 1);
+    return instance->second;
   }
 
   [[nodiscard]] double thickness(Fields& fields, bool needed) const {
@@ -166,13 +179,15 @@ class Reader {
   }
 
   [[nodiscard]] std::vector<Index> nodes_of(std::string_view field, Place at) {
-    const std::string name = name_of(field);
+    std::string name = name_of(field);
+    const std::uint32_t scope = take_instance(name);
     if (const std::optional<std::int32_t> number = number_of(name)) {
-      const Index place = numbering_.scopes[0].nodes.find(*number);
+      const ScopeNumbers& numbers = numbering_.scopes[scope];
+      const Index place = numbers.nodes.find(*number);
       if (place < 0) fail(deck_, at, fmt::format("node {} does not exist", *number));
-      return {numbering_.scopes[0].first_node + place};
+      return {numbers.first_node + place};
     }
-    return members_.of(Kind::nodes, 0, name, at);
+    return members_.of(Kind::nodes, scope, name, at);
   }
 
   void read_thickness(const Card& card) {
@@ -201,9 +216,13 @@ class Reader {
     for (const Line& line : lines_of(deck_, card)) {
       Fields fields(deck_, line);
       const std::string_view nodes = fields.next().value_or("");
-      const auto first = number_of(fields.next().value_or(""));
+      const std::string_view word = fields.next().value_or("");
+      std::vector<int> directions = of_boundary ? held_directions(word) : std::vector<int>{};
+      const auto first = number_of(word);
       const auto last = of_boundary ? number_of(fields.next().value_or("")) : first;
-      for (int k = first.value_or(7); k <= std::min(last.value_or(*first), 6); ++k) {
+      for (int k = first.value_or(7); k <= std::min(last.value_or(*first), 6); ++k)
+        directions.push_back(k);
+      for (const int k : directions) {
         if (k < 4 && !of_boundary) continue;
         for (const Index node : nodes_of(nodes, line.at))
           (k < 4 ? out_.held : out_.rotations)[node][static_cast<std::size_t>((k - 1) % 3)] = true;

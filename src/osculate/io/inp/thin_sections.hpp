@@ -46,7 +46,7 @@ struct ThinCards {
 
 /// From `*SHELL SECTION`, `*BEAM SECTION`, `*BEAM GENERAL SECTION`, `*SOLID SECTION` of trusses,
 /// `*NODAL THICKNESS`,
-/// `*NORMAL`, and rotations in `*BOUNDARY` and `*CLOAD`. Sections within parts are left alone.
+/// `*NORMAL`, and rotations in `*BOUNDARY` and `*CLOAD`.
 ///
 /// Errors     core::InputError: a thickness that is not positive, elements that are neither
 /// Tested by  tests/unit/io/test_inp_expand.cpp
