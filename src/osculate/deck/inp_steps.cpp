@@ -200,7 +200,11 @@ class Steps {
     // They are cut where they must be, those in time also for their errors.
     const int of_automatic = card.keyword == "STATIC" || card.keyword == "VISCO" ? 10 : 100;
     increments_ = static_cast<int>(count);
-    if (direct || io::inp::find_parameter(card, "EXPLICIT")) return;
+    if (direct) return;
+    if (io::inp::find_parameter(card, "EXPLICIT")) {
+      increments_ = std::min(increments_, of_automatic);
+      return;
+    }
     (void)fields.real_or_zero("the smallest increment");
     const double longest = fields.real_or_zero("the largest increment");
     const double least = longest > 0 ? std::ceil(period_ / longest * (1 - slack)) : 1;
@@ -266,6 +270,7 @@ class Steps {
     check_loads_of_later_steps(m_, *step_, forces_, "CLOAD");
     check_loads_of_later_steps(m_, *step_, pressures_, "DLOAD");
     put_directions(step, "forces", 'f', forces_);
+    check_weights();
     put_directions(step, "forces", 'f', weights_);
     put_pressures(step, pressures_);
     put_directions(step, "body_force", 'f', body_forces_);
@@ -593,6 +598,9 @@ class Steps {
 
   void check_initial(const Card& card) const {
     const std::string type = option_of(card, "TYPE");
+    for (const char* const other : {"USER", "FILE", "GEOSTATIC", "SECTIONPOINTS"})
+      if (io::inp::find_parameter(card, other))
+        io::inp::fail(m_.deck, card, fmt::format("the parameter {} is not supported", other));
     for (const char* const known : {"TEMPERATURE", "VELOCITY", "STRESS", "PLASTICSTRAIN"})
       if (type == known) return;
     io::inp::fail(m_.deck, card,
@@ -750,10 +758,24 @@ class Steps {
     if (procedure_ && (factors_ > 0 || modes_ > 0 || swung_ || superposed_))
       io::inp::fail(m_.deck, line.at,
                     fmt::format("GRAV on masses is not supported with *{}", procedure_->keyword));
+    if (m_.transformed.contains(only_node(m_, node)))
+      io::inp::fail(m_.deck, line.at,
+                    fmt::format("GRAV on a mass at '{}', which has a *TRANSFORM, is not supported",
+                                printable(node)));
     for (int k = 0; k < inp_dimension(m_); ++k)
       for (const InpPlace& place : inp_places(m_, node, k + 1))
         if (weight[k] != 0)
           set(weights_, place.on, place.direction, place.sign * weight[k], amplitude, line, true);
+  }
+
+  /// Forces of a model file on the same set replace each other.
+  void check_weights() const {
+    for (const auto& [place, weight] : weights_)
+      if (forces_.contains(place))
+        io::inp::fail(m_.deck, *step_,
+                      fmt::format("'{}' has GRAV on a mass and a force of *CLOAD in the same "
+                                  "direction, which is not supported",
+                                  printable(place.first)));
   }
 
   void read_gravity(Fields& fields, const std::string& elements, const std::string& amplitude,
@@ -835,9 +857,19 @@ class Steps {
     for (const auto& [on, value] : temperatures_)
       if (!value.fresh) back.emplace_back(on, Condition{0, {}, line, true, false});
     if (back.empty()) return;
+    const auto number = [](SourceNode& of, const char* key) {
+      const SourceNode* const value = find(of, key);
+      return value ? std::stod(value->text) : 0.0;
+    };
     for (SourceNode& one : inp_initial_temperature(m_).items)
       back.emplace_back(find(one, "on")->text,
-                        Condition{std::stod(find(one, "value")->text), {}, line, true, false});
+                        Condition{number(one, "value"),
+                                  {},
+                                  line,
+                                  true,
+                                  false,
+                                  false,
+                                  {number(one, "gradient"), number(one, "gradient_1")}});
     std::erase_if(temperatures_, old);
     temperatures_.insert(temperatures_.begin(), back.begin(), back.end());
   }

@@ -157,7 +157,9 @@ void mark_used_nodes(InpModel& m, const SourceNode& root) {
     for (const auto& term : relation.terms)
       m.used_nodes[static_cast<std::size_t>(term.node)] = true;
   for (const auto& [node, body] : m.body_nodes) m.used_nodes[static_cast<std::size_t>(node)] = true;
-  mark_named_nodes(m, root);
+  // What has a temperature has no displacements for that.
+  for (const SourceEntry& entry : root.entries)
+    if (entry.key != "initial_temperature") mark_named_nodes(m, entry.value);
 }
 
 std::string heading_of(const InpModel& m) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
+#include <new>
 #include <vector>
 
 namespace osculate::la {
@@ -48,13 +50,19 @@ CompressedRows product(const CompressedRows& a, const CompressedRows& b, int thr
   const auto begin = [&](Index p) {
     return static_cast<Index>(static_cast<std::int64_t>(rows) * p / pieces);
   };
-#pragma omp parallel for num_threads(threads) schedule(dynamic)
-  for (Index p = 0; p < pieces; ++p)
-    piece[as_size(p)] = a.middleRows(begin(p), begin(p + 1) - begin(p)) * b;
+  int without_room = 0;  // an exception must not leave the loop
+#pragma omp parallel for num_threads(threads) schedule(dynamic) reduction(+ : without_room)
+  for (Index p = 0; p < pieces; ++p) try {
+      piece[as_size(p)] = a.middleRows(begin(p), begin(p + 1) - begin(p)) * b;
+    } catch (const std::bad_alloc&) {
+      ++without_room;
+    }
+  std::int64_t entries = 0;
+  for (const CompressedRows& part : piece) entries += part.nonZeros();
+  if (without_room > 0 || entries > std::numeric_limits<Index>::max())
+    throw NotEnoughMemory("not enough memory for a product of matrices");
   CompressedRows out(rows, b.cols());
-  Index entries = 0;
-  for (const CompressedRows& part : piece) entries += static_cast<Index>(part.nonZeros());
-  out.resizeNonZeros(entries);
+  out.resizeNonZeros(static_cast<Index>(entries));
   Index row = 0, next = 0;
   for (CompressedRows& part : piece) {
     part.makeCompressed();

@@ -136,6 +136,7 @@ struct Iterative::Impl {
   bool by_multigrid = false;        ///< the last matrix
   bool fresh = false;               ///< the coarser models are those of the last matrix
   bool anew = true;                 ///< those that are there are not to be used
+  bool refused = false;             ///< a matrix since `begin_anew` was left to the direct solver
   double pace = 0, first_pace = 0;  ///< iterations a digit of the last solution, and the first
   double wanted = 1e-10;
   double seconds = 0;
@@ -151,6 +152,7 @@ struct Iterative::Impl {
   [[nodiscard]] bool suits(const SparseMatrix& k) const;
   bool build(CompressedRows a);
   bool refresh(const SparseMatrix& k);
+  [[nodiscard]] bool resists_all();
   bool iterate(Eigen::VectorXd& rhs);
   bool precondition(Eigen::VectorXd& r);
   FactorReport factor_directly(const SparseMatrix& k);
@@ -171,10 +173,33 @@ bool Iterative::Impl::build(CompressedRows a) {
   fresh = true;
   anew = false;
   first_pace = 0;
+  pace = 0;
   bodies = std::make_unique<Multigrid>(places.threads);
   if (!exact.factor(a, places, symmetry, options)) return false;
   Eigen::MatrixXd motions = rigid_motions(places, a);
-  return bodies->build(std::move(a), groups_of(places), std::move(motions));
+  return bodies->build(std::move(a), groups_of(places), std::move(motions)) && resists_all();
+}
+
+/// Noise is no force that a singular matrix balances, though the loads may be: without a solution,
+/// or with one that says that the matrix has hardly a digit, the direct solver is to look at it.
+bool Iterative::Impl::resists_all() {
+  constexpr double worst_condition = 1e13;
+  const CompressedRows& a = bodies->matrix();
+  Eigen::VectorXd noise(a.rows());
+  std::uint32_t bits = 1;
+  for (double& value : noise) {
+    bits = 1664525U * bits + 1013904223U;
+    value = static_cast<double>(bits >> 8U) / (1U << 23U) - 1;
+  }
+  Eigen::VectorXd scaled = noise.cwiseProduct(a.diagonal().cwiseAbs().cwiseSqrt());
+  const double force = scaled.stableNorm();
+  if (!(force > 0)) return false;
+  PreconditionedLimits limits;
+  const Nearby done = solve_preconditioned(
+      {a, places.threads}, [this](Eigen::VectorXd& r) { return precondition(r); }, limits, scaled);
+  work.iterations += done.iterations;
+  const double motion = scaled.cwiseProduct(a.diagonal().cwiseAbs().cwiseSqrt()).stableNorm();
+  return done.solved && motion <= worst_condition * noise.stableNorm();
 }
 
 /// With the coarser models of an earlier matrix. False: they are not there, or worth nothing.
@@ -224,7 +249,10 @@ SolveStatus Iterative::Impl::solve(Eigen::VectorXd& rhs) {
   const SparseMatrix k = stored(bodies->matrix());  // both triangles
   if (!fresh && build(compressed(k, Symmetry::unsymmetric)) && iterate(rhs)) return SolveStatus::ok;
   ++work.given_up;
+  refused = true;
   const FactorReport report = factor_directly(k);
+  // What else there is to be said of the matrix `factor` says, if it is asked again.
+  if (report.status == SolveStatus::ok && report.condition > 0) return SolveStatus::singular;
   return report.status == SolveStatus::ok ? direct.solve(rhs) : report.status;
 }
 
@@ -241,7 +269,10 @@ void Iterative::may_change(std::vector<Index> unknowns) {
   impl_->direct.may_change(std::move(unknowns));
 }
 
-void Iterative::begin_anew() { impl_->anew = true; }
+void Iterative::begin_anew() {
+  impl_->anew = true;
+  impl_->refused = false;
+}
 
 void Iterative::aim(double share) {
   constexpr double least = 1e-10, most = 1e-4;
@@ -255,10 +286,13 @@ FactorReport Iterative::factor(const SparseMatrix& k, std::uint64_t pattern_vers
   s.version = pattern_version;
   s.symmetry = symmetry;
   s.wanted = 1e-10;
-  if (!s.suits(k)) return s.factor_directly(k);
-  s.by_multigrid = s.refresh(k) || s.build(compressed(k, symmetry));
+  if (s.refused || !s.suits(k)) return s.factor_directly(k);
+  const bool again = s.refresh(k);
+  s.by_multigrid = false;
+  s.by_multigrid = again || s.build(compressed(k, symmetry));
   if (s.by_multigrid) return {};
   ++s.work.given_up;
+  s.refused = true;
   return s.factor_directly(k);
 }
 

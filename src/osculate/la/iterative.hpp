@@ -16,6 +16,10 @@ namespace osculate::la {
 /// Between two calls of `begin_anew` the coarser models of the first matrix serve for those that
 /// follow, until they take half as many iterations again.
 ///
+/// A matrix whose coarser models are made is tried with noise: where that has no solution, or one
+/// that says that hardly a digit is left, something is free to move, and the direct solver says
+/// what. Once it was asked it goes on until `begin_anew`.
+///
 /// Returns    solutions with |b - K x| <= wanted |b| (`aim`). Where that is out of reach, the
 ///            matrix is factored by the direct solver, whose answer counts
 /// Limits     few unknowns, matrices whose unknowns have not been

@@ -14,7 +14,7 @@ namespace osculate::model {
 
 /// What is apart, and stiff as soon as it has come together.
 ///
-/// Formula    F = K g (1/2 - atan(g / e) / pi) , g = clearance + q , e = pi T / K : -T - K g far
+/// Formula    F = K g (1/2 - atan(g / e) / pi) , g = clearance + q , e = pi T / K : K g + T far
 ///            inside, T far outside
 /// Source     GAPUNI of CalculiX (ccx 2.20 User's Manual, *GAP), measured to seven digits on one
 ///            element; the law of contact::NormalTensile, which has the formula

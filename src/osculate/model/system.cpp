@@ -1,14 +1,14 @@
 #include "osculate/model/system.hpp"
-#include "osculate/model/changing_unknowns.hpp"
-#include "osculate/model/unknown_places.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/model/changing_unknowns.hpp"
 #include "osculate/model/passed_through.hpp"
 #include "osculate/model/penetration.hpp"
 #include "osculate/model/system_motion.hpp"
 #include "osculate/model/temperatures.hpp"
+#include "osculate/model/unknown_places.hpp"
 
 namespace osculate::model {
 

@@ -25,8 +25,12 @@ class FormerFactors {
   [[nodiscard]] bool fresh() const { return fresh_; }
   /// The last correction came by factors of other states.
   [[nodiscard]] bool of_other_states() const { return !fresh_ && last_ != states_; }
-  /// The increment has just begun.
-  [[nodiscard]] bool first() const { return first_; }
+  /// Points have other states than at the last factorisation: what is there of it does not know
+  /// what has come loose.
+  template <class Trial>
+  [[nodiscard]] bool changed(const NewtonResult<Trial>& result) const {
+    return first_ || result.evaluation.counts.signature != states_;
+  }
   void forget() { affordable_ = 0; }
   void keep(const la::FactorReport& report, const la::SparseMatrix& k, const StateCounts& counts) {
     const bool sound = report.status == la::SolveStatus::ok && report.condition == 0;

@@ -59,9 +59,9 @@ struct Judge {
   /// the same twice are free to move for ever: they say nothing.
   [[nodiscard]] bool settled(double condition, bool saddle, double correction,
                              double energy_before) const {
-    constexpr double small = 1e-5, no_work = 1e-16;
+    constexpr double small = 1e-5, no_work = 1e-16, smaller = 1e-2;
     return condition == 0 || saddle || correction <= small * largest_correction ||
-           energy_before <= no_work * first_energy;
+           (energy_before <= no_work * first_energy && correction <= smaller * largest_correction);
   }
 
   /// Three times in a row no part of the correction that can be told from none lessens what is out

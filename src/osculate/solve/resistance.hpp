@@ -45,19 +45,11 @@ concept Interruptible = requires(const S s) {
   { s.interrupted() } -> std::same_as<bool>;
 };
 
-/// du = -K^-1 R. Returns false and fills the result when the tangent cannot be used.
+/// False, and the result says why, where the tangent is not to be used.
 template <System S>
-bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd& residual,
-                      Eigen::VectorXd& du, NewtonResult<typename S::Trial>& result,
-                      FormerFactors* former = nullptr) {
-  result.linear = la::SolveStatus::ok;
-  if constexpr (Interruptible<S>)
-    if (system.interrupted()) return fail(result, Outcome::stopped, "stopped by the user");
-  if (former && former->solve(system, solver, result, residual, du)) return true;
-  if (former) former->forget();
-  if (!former || former->first()) solver.begin_anew();
-  la::FactorReport report =
-      solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
+bool factor_tangent(S& system, la::LinearSolver& solver, NewtonResult<typename S::Trial>& result,
+                    la::FactorReport& report) {
+  report = solver.factor(system.matrix(), system.pattern_version(), system.symmetry());
   result.precision.condition = std::max(result.precision.condition, report.condition);
   if constexpr (KnowsFreeMotions<S>)
     if (report.weakest.size() > 0 && !system.is_free_motion(result.trial, report.weakest))
@@ -71,14 +63,33 @@ bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd
     return fail(result, Outcome::numerical_failure, "the tangent is singular");
   if (report.status != la::SolveStatus::ok)
     return fail(result, Outcome::numerical_failure, "the linear solver failed: " + report.message);
-  du = -residual;
-  if (former) solver.aim(former->aim(result));
-  const la::SolveStatus status = solver.solve(du);
-  result.linear = status;
-  if (status != la::SolveStatus::ok || !du.allFinite())
-    return fail(result, Outcome::numerical_failure, "the tangent is singular");
-  if (former) former->keep(report, system.matrix(), result.evaluation.counts);
   return true;
+}
+
+/// du = -K^-1 R. Returns false and fills the result when the tangent cannot be used.
+template <System S>
+bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd& residual,
+                      Eigen::VectorXd& du, NewtonResult<typename S::Trial>& result,
+                      FormerFactors* former = nullptr) {
+  result.linear = la::SolveStatus::ok;
+  if constexpr (Interruptible<S>)
+    if (system.interrupted()) return fail(result, Outcome::stopped, "stopped by the user");
+  if (former && former->solve(system, solver, result, residual, du)) return true;
+  if (former) former->forget();
+  if (!former || former->changed(result)) solver.begin_anew();
+  // A solver that iterates knows after an attempt that the matrix is to be factored.
+  const int attempts = solver.asks_for_places() ? 2 : 1;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    la::FactorReport report;
+    if (!factor_tangent(system, solver, result, report)) return false;
+    du = -residual;
+    if (former) solver.aim(former->aim(result));
+    result.linear = solver.solve(du);
+    if (result.linear != la::SolveStatus::ok || !du.allFinite()) continue;
+    if (former) former->keep(report, system.matrix(), result.evaluation.counts);
+    return true;
+  }
+  return fail(result, Outcome::numerical_failure, "the tangent is singular");
 }
 
 /// Resistance against free motions, for bodies that nothing holds until contact closes, and against

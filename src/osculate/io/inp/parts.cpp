@@ -62,8 +62,25 @@ class Giver {
         const bool of_axes = parameter.name == "NAME" && card.keyword == "ORIENTATION";
         if (parameter.name == "ELSET" || axes || of_axes) parameter.value.insert(0, prefix);
       }
+      if (find_parameter(card, "COMPOSITE")) name_layers(prefix, card);
       if (placement.angle != 0 || placement.move.norm() > 0) put(placement, card);
       kept.push_back(std::move(card));
+    }
+  }
+
+  /// The orientations of layers, fourth on their lines, are those of the instance.
+  void name_layers(const std::string& prefix, Card& card) {
+    const std::vector<Line> lines(lines_of(deck_, card).begin(), lines_of(deck_, card).end());
+    card.first_line = deck_.lines.size();
+    for (Line line : lines) {
+      std::string text;
+      Fields fields(deck_, line);
+      for (int k = 1; !fields.done(); ++k) {
+        const std::string field = name_of(fields.next().value_or(""));
+        text += (k > 1 ? ", " : "") + (k == 4 && is_own(field) ? prefix : std::string()) + field;
+      }
+      line.text = deck_.texts.emplace_back(std::move(text));
+      deck_.lines.push_back(line);
     }
   }
 

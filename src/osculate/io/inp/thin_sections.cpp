@@ -220,8 +220,8 @@ class Reader {
       std::vector<int> directions = of_boundary ? held_directions(word) : std::vector<int>{};
       const auto first = number_of(word);
       const auto last = of_boundary ? number_of(fields.next().value_or("")) : first;
-      for (int k = first.value_or(7); k <= std::min(last.value_or(*first), 6); ++k)
-        directions.push_back(k);
+      if (first)
+        for (int k = *first; k <= std::min(last.value_or(*first), 6); ++k) directions.push_back(k);
       for (const int k : directions) {
         if (k < 4 && !of_boundary) continue;
         for (const Index node : nodes_of(nodes, line.at))
