@@ -86,7 +86,7 @@ class Shells(unittest.TestCase):
 
     def check(self, errors, last):
         for before, after in zip(errors, errors[1:]):
-            self.assertLess(after, before)
+            self.assertLess(after, before + 1e-9)  # S8R has the cubic deflection itself, whatever their number
         self.assertLess(errors[-1], last)
 
     def test_cantilever_beams(self):

@@ -158,7 +158,7 @@ std::vector<char> left_out(const Level& level) {
 }  // namespace
 
 struct Multigrid::Impl {
-  int threads;
+  int threads = 1;
   std::vector<std::unique_ptr<Level>> levels{};
   std::unique_ptr<Mumps> coarsest{};
 
@@ -188,7 +188,9 @@ bool Multigrid::Impl::coarsen() {
   return true;
 }
 
-Multigrid::Multigrid(int threads) : impl_(std::make_unique<Impl>(std::max(1, threads))) {}
+Multigrid::Multigrid(int threads) : impl_(std::make_unique<Impl>()) {
+  impl_->threads = std::max(1, threads);
+}
 Multigrid::~Multigrid() = default;
 
 bool Multigrid::build(CompressedRows a, GroupStarts groups, Eigen::MatrixXd near_null) {
