@@ -5,8 +5,8 @@
 
 #include "deck_test.hpp"
 #include "osculate/deck/build.hpp"
-#include "osculate/la/mumps.hpp"
 #include "osculate/model/analysis.hpp"
+#include "retold_solver.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -49,23 +49,6 @@ class FullMatrix final : public la::LinearSolver {
   Eigen::FullPivLU<Eigen::MatrixXd> lu_;
 };
 
-/// Mumps, whose factors serve for one matrix.
-class Once final : public la::LinearSolver {
- public:
-  la::FactorReport factor(const la::SparseMatrix& k, std::uint64_t version,
-                          la::Symmetry symmetry) override {
-    la::FactorReport report = mumps_.factor(k, version, symmetry);
-    report.operations = 0;
-    return report;
-  }
-  la::SolveStatus solve(Eigen::VectorXd& x) override { return mumps_.solve(x); }
-  la::SolveStatus solve(Eigen::MatrixXd& x) override { return mumps_.solve(x); }
-  [[nodiscard]] double seconds() const override { return mumps_.seconds(); }
-
- private:
-  la::Mumps mumps_;
-};
-
 std::string sheared(const std::string& how) {
   return R"(osculate: 1
 mesh:
@@ -89,7 +72,7 @@ TEST(LinearSolver, AnotherOneGivesTheSameResults) {
     SCOPED_TRACE(how);
     const Description d = parse_model(sheared(how), "model.yaml");
     Built built = build(d, load_mesh(d));
-    built.options.linear_solver = [] { return std::make_unique<Once>(); };
+    built.options.linear_solver = testing::factors_that_serve_once;
     const model::AnalysisResult usual = model::run(built.model, built.options, {});
     ASSERT_EQ(usual.outcome, solve::Outcome::converged) << usual.message;
     int factored = 0;

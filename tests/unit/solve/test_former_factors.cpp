@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "osculate/la/mumps.hpp"
+#include "retold_solver.hpp"
 #include "toy_system.hpp"
 
 namespace osculate::solve {
@@ -35,23 +36,6 @@ ToySystem springs() {
   return system;
 }
 
-/// Mumps, which does not say what its factors cost.
-class Silent final : public la::LinearSolver {
- public:
-  la::FactorReport factor(const la::SparseMatrix& k, std::uint64_t version,
-                          la::Symmetry symmetry) override {
-    la::FactorReport report = mumps_.factor(k, version, symmetry);
-    report.operations = 0;
-    return report;
-  }
-  la::SolveStatus solve(Eigen::VectorXd& x) override { return mumps_.solve(x); }
-  la::SolveStatus solve(Eigen::MatrixXd& x) override { return mumps_.solve(x); }
-  [[nodiscard]] double seconds() const override { return mumps_.seconds(); }
-
- private:
-  la::Mumps mumps_;
-};
-
 NewtonResult<ToySystem::Trial> solved(ToySystem& system, la::LinearSolver& solver) {
   return newton(system, ToySystem::State{Eigen::VectorXd::Zero(size)}, 1.0, {}, solver);
 }
@@ -63,8 +47,8 @@ std::ptrdiff_t factorisations(const NewtonResult<ToySystem::Trial>& result) {
 TEST(FormerFactors, SaveFactorisationsAndNothingElse) {
   ToySystem system = springs();
   la::Mumps mumps;
-  Silent silent;
-  const auto with = solved(system, mumps), without = solved(system, silent);
+  const auto silent = testing::factors_that_serve_once();
+  const auto with = solved(system, mumps), without = solved(system, *silent);
   ASSERT_EQ(with.outcome, Outcome::converged) << with.reason;
   ASSERT_EQ(without.outcome, Outcome::converged) << without.reason;
   EXPECT_EQ(factorisations(without), std::ssize(without.iterations));

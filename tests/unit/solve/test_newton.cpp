@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "osculate/la/mumps.hpp"
+#include "retold_solver.hpp"
 #include "toy_system.hpp"
 
 namespace osculate::solve {
@@ -212,23 +213,6 @@ TEST(Newton, SingularTangent) {
   EXPECT_EQ(result.trial.x[0], 0.0);
 }
 
-/// Says of every matrix that it has no digits.
-class Doubtful final : public la::LinearSolver {
- public:
-  la::FactorReport factor(const la::SparseMatrix& k, std::uint64_t version,
-                          la::Symmetry symmetry) override {
-    la::FactorReport report = solver_.factor(k, version, symmetry);
-    report.condition = 1e15;
-    return report;
-  }
-  la::SolveStatus solve(Eigen::VectorXd& x) override { return solver_.solve(x); }
-  la::SolveStatus solve(Eigen::MatrixXd& x) override { return solver_.solve(x); }
-  [[nodiscard]] double seconds() const override { return 0; }
-
- private:
-  la::Mumps solver_;
-};
-
 /// Unknown 1 has hardly any stiffness, and `noise` pushes it back and forth.
 TEST(Newton, WhatMovesWithoutWorkIsNotWaitedFor) {
   const auto solved = [](double noise) {
@@ -242,7 +226,7 @@ TEST(Newton, WhatMovesWithoutWorkIsNotWaitedFor) {
     system.force = [&count, noise](const Eigen::VectorXd& x, double) {
       return vector({x[0] - 1, (++count % 2 == 0 ? 1 : -1) * noise});
     };
-    Doubtful solver;
+    testing::RetoldSolver solver([](la::FactorReport& report) { report.condition = 1e15; });
     return newton<ToySystem>(system, {vector({0, 0})}, 1.0, {}, solver);
   };
   const auto rounding = solved(1e-16);  // it moves by 0.01 each time
