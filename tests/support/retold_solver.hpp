@@ -6,7 +6,7 @@
 
 #include "osculate/la/mumps.hpp"
 
-namespace osculate::testing {
+namespace osculate::support {
 
 class RetoldSolver final : public la::LinearSolver {
  public:
@@ -32,4 +32,4 @@ class RetoldSolver final : public la::LinearSolver {
   return std::make_unique<RetoldSolver>([](la::FactorReport& report) { report.operations = 0; });
 }
 
-}  // namespace osculate::testing
+}  // namespace osculate::support

@@ -72,7 +72,7 @@ TEST(LinearSolver, AnotherOneGivesTheSameResults) {
     SCOPED_TRACE(how);
     const Description d = parse_model(sheared(how), "model.yaml");
     Built built = build(d, load_mesh(d));
-    built.options.linear_solver = testing::factors_that_serve_once;
+    built.options.linear_solver = support::factors_that_serve_once;
     const model::AnalysisResult usual = model::run(built.model, built.options, {});
     ASSERT_EQ(usual.outcome, solve::Outcome::converged) << usual.message;
     int factored = 0;

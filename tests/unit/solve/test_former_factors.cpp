@@ -47,7 +47,7 @@ std::ptrdiff_t factorisations(const NewtonResult<ToySystem::Trial>& result) {
 TEST(FormerFactors, SaveFactorisationsAndNothingElse) {
   ToySystem system = springs();
   la::Mumps mumps;
-  const auto silent = testing::factors_that_serve_once();
+  const auto silent = support::factors_that_serve_once();
   const auto with = solved(system, mumps), without = solved(system, *silent);
   ASSERT_EQ(with.outcome, Outcome::converged) << with.reason;
   ASSERT_EQ(without.outcome, Outcome::converged) << without.reason;

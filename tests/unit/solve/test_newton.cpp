@@ -226,7 +226,7 @@ TEST(Newton, WhatMovesWithoutWorkIsNotWaitedFor) {
     system.force = [&count, noise](const Eigen::VectorXd& x, double) {
       return vector({x[0] - 1, (++count % 2 == 0 ? 1 : -1) * noise});
     };
-    testing::RetoldSolver solver([](la::FactorReport& report) { report.condition = 1e15; });
+    support::RetoldSolver solver([](la::FactorReport& report) { report.condition = 1e15; });
     return newton<ToySystem>(system, {vector({0, 0})}, 1.0, {}, solver);
   };
   const auto rounding = solved(1e-16);  // it moves by 0.01 each time
