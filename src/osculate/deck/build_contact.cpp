@@ -180,6 +180,10 @@ void set_forms(const Contact& contact, pairing::PairDefinition<Dim>& pair) {
   if (contact.search_depth) pair.depth = contact.search_depth->value;
   if (contact.initial.value == InitialWord::ramp) pair.overlap = pairing::InitialOverlap::ramped;
   if (contact.initial.value == InitialWord::keep) pair.overlap = pairing::InitialOverlap::kept;
+  if (contact.initial.value == InitialWord::clearance) {
+    pair.overlap = pairing::InitialOverlap::given;
+    pair.clearance = contact.initial_clearance;
+  }
 }
 
 /// Corners of rigid curves are there on purpose, however blunt; those of meshes may be their way to
@@ -236,9 +240,10 @@ void set_fit_target(const BuildContext<Dim>& c, const Contact& contact,
   auto* const asked = std::get_if<pairing::ByAugmentedLagrange>(&pair.enforcement);
   if (!asked || contact.enforcement.value.target || pair.overlap == pairing::InitialOverlap::kept)
     return;
-  double deepest = 0;
+  const bool given = pair.overlap == pairing::InitialOverlap::given;
+  double deepest = given ? -pair.clearance : 0;
   for (const auto& point : pairing::initial_state<Dim>(pair, c.model().reference).points)
-    if (point.active) deepest = std::max(deepest, pair.offset - point.gap);
+    if (point.active && !given) deepest = std::max(deepest, pair.offset - point.gap);
   if (deepest > least * asked->target)
     asked->target = std::clamp(left * deepest, least * asked->target, asked->target);
 }

@@ -43,6 +43,7 @@ std::vector<Asked> asked_of(const Contact& c) {
       {Trait::relieved_overlap,
        c.initial.value == InitialWord::ramp || c.initial.value == InitialWord::keep,
        &c.initial.mark},
+      {Trait::given_clearance, c.initial.value == InitialWord::clearance, &c.initial.mark},
       {Trait::corrected, enforcement != EnforcementWord::penalty, &c.enforcement.mark},
       {Trait::multipliers, enforcement == EnforcementWord::lagrange_multiplier,
        &c.enforcement.mark},

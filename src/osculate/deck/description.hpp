@@ -190,7 +190,7 @@ enum class ContactWeight { node, reference_area, current_area };
 enum class Residual { surface, full };
 enum class TangentKind { consistent, covariant };
 enum class HistoryKind { continuous, chord, per_facet };
-enum class InitialWord { ignore, ramp, keep, adjust };
+enum class InitialWord { ignore, ramp, keep, adjust, clearance };
 enum class SmoothingWord { none, hermite, nurbs };
 
 enum class AreaWord { around, middles, master };
@@ -258,6 +258,7 @@ struct Contact {
   Marked<MasterSmoothing> smoothing;
   Marked<InitialWord> initial;               ///< what becomes of initial overlaps
   double initial_tolerance = 0;              ///< of adjust: gaps up to this are closed too
+  double initial_clearance = 0;              ///< of clearance
   std::optional<Name> initial_nodes;         ///< of adjust: these are moved, and no others
   std::optional<core::SourceMark> two_pass;  ///< where it was asked for
   std::optional<Number> search_depth;

@@ -85,7 +85,13 @@ SourceNode inp_changes(const InpModel& m, std::span<const Card> step) {
                                 is_friction ? "FRICTION" : "SURFACE BEHAVIOR"));
     if (is_friction)
       change_law(
-          m, *change, "friction", [&](const InpPair&) { return inp_friction(m, card); }, list);
+          m, *change, "friction",
+          [&](const InpPair& pair) {
+            const auto all = inp_interactions(m);
+            return inp_shear(m, &card,
+                             interaction_named(m, all, card.at, pair.interaction).damping);
+          },
+          list);
     else
       change_law(
           m, *change, "normal",

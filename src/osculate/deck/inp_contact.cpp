@@ -32,11 +32,12 @@ bool has_slave_of_nodes(const InpModel& m, const Card& card, const std::string& 
          });
 }
 
-/// Nodes, or Gauss points: two per direction of a facet, three of one of second order, and six of
+/// Mortar: unknown tractions of hard contact, and the law of pressure where there is one. Nodes,
+/// or Gauss points: two per direction of a facet, three of one of second order, and six of
 /// one that is tied: ccx integrates over the parts of the facets that lie on one facet of the
 /// master, and ties of coarse facets on fine ones need as many to come near that (docs/inp.md).
-void put_sampling(InpModel& m, const Card& card, const std::string& slave, bool tied,
-                  SourceNode& pair) {
+void put_sampling(InpModel& m, const Card& card, const std::string& slave,
+                  const InpInteraction& law, SourceNode& pair) {
   const int at = line_of(card.at);
   const std::string type = option_of(card, "TYPE");
   const mesh::Set* const set = m.mesh.mesh.find_set(slave);
@@ -44,7 +45,7 @@ void put_sampling(InpModel& m, const Card& card, const std::string& slave, bool 
   const bool second_order = has_facets && is_of_second_order(m, *set);
   if (type == "MORTAR" || type == "LINMORTAR" || type == "PGLINMORTAR") {
     put(pair, "sampling", inp_text("mortar", at));
-    put(pair, "enforcement", inp_text("lagrange_multiplier", at));
+    if (inp_is_hard(law.behavior)) put(pair, "enforcement", inp_text("lagrange_multiplier", at));
     return;
   }
   if (!type.empty() && type != "NODETOSURFACE" && type != "SURFACETOSURFACE")
@@ -64,9 +65,9 @@ void put_sampling(InpModel& m, const Card& card, const std::string& slave, bool 
     return;
   }
   put(put(pair, "sampling", inp_map(at)), "gauss",
-      inp_number(!second_order ? 2
-                 : tied        ? 6
-                               : 3,
+      inp_number(!second_order               ? 2
+                 : inp_is_tied(law.behavior) ? 6
+                                             : 3,
                  at));
 }
 
@@ -132,19 +133,6 @@ void put_adjust(const InpModel& m, const Card& card, const std::string& value, S
   put(initial, "nodes", inp_text(set_of(m, card.at, value, {SetKind::nodes}), at));
 }
 
-/// Friction, or damping along the surface.
-void put_friction(const InpModel& m, const InpInteraction& law, SourceNode& pair) {
-  if (inp_is_tied(law.behavior)) return;
-  SourceNode film = law.damping ? inp_film(m, *law.damping) : inp_map(0);
-  if (!film.entries.empty() && law.friction)
-    io::inp::fail(m.deck, *law.damping,
-                  "TANGENT FRACTION is not supported beside *FRICTION: there is one law of shear");
-  if (law.friction)
-    put(pair, "friction", inp_friction(m, *law.friction));
-  else if (!film.entries.empty())
-    put(pair, "friction", std::move(film));
-}
-
 /// Gap up to which node-to-face contact looks for a master in CalculiX: a thousandth of the square
 /// root of a slave node's area, here of the mean.
 double usual_clearance(const InpModel& m, const Card& card, const std::string& slave) {
@@ -167,7 +155,7 @@ void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, 
   for (const Line& line : lines) {
     SourceNode& pair = pair_of_line(m, card, line, pairs);
     const std::string slave = find(pair, "slave")->text;  // the pair's keys move when one is added
-    put_sampling(m, card, slave, inp_is_tied(law.behavior), pair);
+    put_sampling(m, card, slave, law, pair);
     put_weight(m, card, pair);
     const double clearance = is_of_nodes ? usual_clearance(m, card, slave) : 0;
     m.pairs.push_back({find(pair, "name")->text, io::inp::capitals(law.name),
@@ -178,6 +166,31 @@ void add_contact_pair(InpModel& m, const Card& card, const InpInteraction& law, 
   }
   if (io::inp::find_parameter(card, "SMALLSLIDING"))
     m.notes.push_back(fmt::format("line {}: sliding is finite, not SMALL SLIDING", card.at.line));
+}
+
+/// The initial gap of all points of a contact pair, whatever the mesh has.
+void put_clearance(InpModel& m, const Card& card, SourceNode& pairs) {
+  const auto surface = [&](const char* key) {
+    return set_of(m, card.at, io::inp::name_of(value_of(m, card, key)),
+                  {SetKind::surface, SetKind::node_surface});
+  };
+  const std::string slave = surface("SLAVE"), master = surface("MASTER");
+  const auto of = std::ranges::find_if(
+      m.pairs, [&](const InpPair& one) { return one.slave == slave && one.master == master; });
+  if (of == m.pairs.end())
+    io::inp::fail(m.deck, card,
+                  fmt::format("there is no *CONTACT PAIR of '{}' and '{}'", slave, master));
+  const auto pair = std::ranges::find_if(
+      pairs.items, [&](SourceNode& one) { return find(one, "name")->text == of->name; });
+  if (find(*pair, "initial"))
+    io::inp::fail(m.deck, card, "the contact pair has an ADJUST or a *CLEARANCE already");
+  if (of->clearance > 0)
+    m.notes.push_back(
+        fmt::format("line {}: CalculiX leaves *CLEARANCE out with NODE TO SURFACE; here it counts",
+                    card.at.line));
+  const double value = Fields(m.deck, {value_of(m, card, "VALUE"), card.at}).real("VALUE");
+  const int line = line_of(card.at);
+  put(put(*pair, "initial", inp_map(line)), "clearance", inp_number(value, line));
 }
 
 /// Explicit steps know no equations of many displacements.
@@ -229,7 +242,10 @@ void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, do
   SourceNode& normal =
       put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at), clearance));
   if (law.damping) put_damping(m, *law.damping, normal);
-  put_friction(m, law, pair);
+  if (inp_is_tied(law.behavior)) return;
+  SourceNode friction = inp_shear(m, law.friction, law.damping);
+  if (!friction.entries.empty() || !friction.text.empty())
+    put(pair, "friction", std::move(friction));
 }
 
 SourceNode& add_pair(const InpModel& m, io::inp::Place at, const std::string& slave,
@@ -258,6 +274,8 @@ SourceNode inp_contact(InpModel& m) {
     if (card.keyword == "TIE" && !is_cyclic_tie(card) && is_explicit(m))
       add_explicit_ties(m, card, pairs);
   }
+  for (const Card& card : m.deck.cards)
+    if (card.keyword == "CLEARANCE") put_clearance(m, card, pairs);
   return inp_general_contact(m, interactions, std::move(pairs));
 }
 

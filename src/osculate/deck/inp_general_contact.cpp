@@ -63,14 +63,15 @@ void take(const InpModel& m, const Card& card, General& general) {
 
 General general_of(const InpModel& m) {
   General general;
-  bool in_step = false;
+  int steps = 0;
   for (const Card& card : m.deck.cards) {
-    in_step = in_step || card.keyword == "STEP";
+    if (card.keyword == "STEP") ++steps;
     if (card.keyword != "CONTACT" && card.keyword != "CONTACTINCLUSIONS" &&
         card.keyword != "CONTACTEXCLUSIONS" && card.keyword != "CONTACTPROPERTYASSIGNMENT")
       continue;
-    if (in_step)
-      io::inp::fail(m.deck, card, "is not supported in a step: it holds from the beginning here");
+    if (steps > 1)
+      io::inp::fail(m.deck, card,
+                    "is not supported after the first step: general contact does not change here");
     take(m, card, general);
   }
   for (const ContactLine& one : general.included) general.all = general.all || one.everything();

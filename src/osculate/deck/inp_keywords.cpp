@@ -116,7 +116,7 @@ constexpr std::array<InpKeyword, 132> keywords{{
      "stiffness, tension; table", translated, "`contact.normal`"},
     {"FRICTION", "ROUGH; SLIP TOLERANCE, ELASTIC SLIP, LAGRANGE", "mu, stick slope", translated,
      "`contact.friction.coulomb`: mu, penalty"},
-    {"CLEARANCE", "MASTER, SLAVE, VALUE", "", none, "gaps are those of the mesh"},
+    {"CLEARANCE", "MASTER, SLAVE, VALUE", "", translated, "`contact.initial: clearance`"},
     {"CONTACT DAMPING", "TANGENT FRACTION, DEFINITION=DAMPING COEFFICIENT", "coefficient",
      translated, "`contact.normal.damping: viscous`"},
     {"CONTACT CONTROLS", "", "", silent, ""},

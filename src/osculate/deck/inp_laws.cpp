@@ -39,6 +39,41 @@ void put_tensile(int at, double stiffness, double tension, double clearance, Sou
   put(law, "clearance", inp_number(clearance, at));
 }
 
+/// The damping along the surface, as a share of that across it.
+double film_of(const InpModel& m, const Card& damping) {
+  const io::inp::Parameter* const fraction = io::inp::find_parameter(damping, "TANGENTFRACTION");
+  if (!fraction) return 0;
+  const double share = Fields(m.deck, {fraction->value, damping.at}).real("TANGENT FRACTION");
+  const Line& line = only_line(m, damping, "the damping coefficient");
+  return share * Fields(m.deck, line).real("the damping coefficient");
+}
+
+SourceNode film_alone(double film, int at) {
+  SourceNode friction = inp_map(at);
+  put(put(friction, "viscous", inp_map(at)), "coefficient", inp_number(film, at));
+  return friction;
+}
+
+SourceNode friction_of(const InpModel& m, const Card& card, double film) {
+  if (io::inp::find_parameter(card, "ROUGH")) {
+    SourceNode friction = inp_map(line_of(card.at));
+    put(friction, "rough", inp_map(line_of(card.at)));
+    return friction;
+  }
+  const Line& line = only_line(m, card, "the coefficient and the stick slope");
+  Fields fields(m.deck, line);
+  const int at = line_of(line.at);
+  const double mu = fields.real("the coefficient of friction");
+  if (mu == 0) return film > 0 ? film_alone(film, at) : inp_text("none", at);
+  SourceNode friction = inp_map(line_of(card.at));
+  SourceNode& coulomb = put(friction, "coulomb", inp_map(at));
+  put(coulomb, "mu", inp_number(mu, at));
+  if (const double slope = fields.real_or_zero("the stick slope"); slope > 0)
+    put(coulomb, "penalty", inp_number(slope, at));
+  if (film > 0) put(coulomb, "viscous", inp_number(film, at));
+  return friction;
+}
+
 }  // namespace
 
 bool inp_is_tied(const Card* behavior) {
@@ -79,23 +114,15 @@ SourceNode inp_normal(const InpModel& m, const Card* behavior, int line, double 
   return normal;
 }
 
-SourceNode inp_friction(const InpModel& m, const Card& card) {
-  if (io::inp::find_parameter(card, "ROUGH")) {
-    SourceNode friction = inp_map(line_of(card.at));
-    put(friction, "rough", inp_map(line_of(card.at)));
-    return friction;
-  }
-  const Line& line = only_line(m, card, "the coefficient and the stick slope");
-  Fields fields(m.deck, line);
-  const int at = line_of(line.at);
-  const double mu = fields.real("the coefficient of friction");
-  if (mu == 0) return inp_text("none", at);
-  SourceNode friction = inp_map(line_of(card.at));
-  SourceNode& coulomb = put(friction, "coulomb", inp_map(at));
-  put(coulomb, "mu", inp_number(mu, at));
-  if (const double slope = fields.real_or_zero("the stick slope"); slope > 0)
-    put(coulomb, "penalty", inp_number(slope, at));
-  return friction;
+bool inp_is_hard(const Card* behavior) {
+  const std::string kind = behavior ? option_of(*behavior, "PRESSURE-OVERCLOSURE") : std::string();
+  return kind.empty() || kind == "HARD";
+}
+
+SourceNode inp_shear(const InpModel& m, const Card* friction, const Card* damping) {
+  const double film = damping ? film_of(m, *damping) : 0;
+  if (friction) return friction_of(m, *friction, film);
+  return film > 0 ? film_alone(film, line_of(damping->at)) : inp_map(0);
 }
 
 void put_damping(const InpModel& m, const Card& card, SourceNode& normal) {
@@ -103,20 +130,6 @@ void put_damping(const InpModel& m, const Card& card, SourceNode& normal) {
   const int at = line_of(line.at);
   SourceNode& damping = put(normal, "damping", inp_map(at));
   put(damping, "viscous", inp_number(Fields(m.deck, line).real("the damping coefficient"), at));
-}
-
-SourceNode inp_film(const InpModel& m, const Card& damping) {
-  const io::inp::Parameter* const fraction = io::inp::find_parameter(damping, "TANGENTFRACTION");
-  const Line& line = only_line(m, damping, "the damping coefficient");
-  const int at = line_of(line.at);
-  const double share =
-      fraction ? Fields(m.deck, {fraction->value, damping.at}).real("TANGENT FRACTION") : 0;
-  SourceNode friction = inp_map(at);
-  if (!(share > 0)) return friction;
-  SourceNode& film = put(friction, "viscous", inp_map(at));
-  put(film, "coefficient",
-      inp_number(share * Fields(m.deck, line).real("the damping coefficient"), at));
-  return friction;
 }
 
 }  // namespace osculate::deck

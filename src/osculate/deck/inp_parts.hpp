@@ -212,10 +212,13 @@ void put_initial_state(const InpModel& m, SourceNode& root);
 [[nodiscard]] SourceNode inp_normal(const InpModel& m, const io::inp::Card* behavior, int line,
                                     double clearance = 0);
 [[nodiscard]] bool inp_is_tied(const io::inp::Card* behavior);
-[[nodiscard]] SourceNode inp_friction(const InpModel& m, const io::inp::Card& card);
+/// Without a law of pressure.
+[[nodiscard]] bool inp_is_hard(const io::inp::Card* behavior);
+/// `friction` of a pair, from a `*FRICTION` with the damping along the surface of a `*CONTACT
+/// DAMPING`; null: there is none. Empty: neither.
+[[nodiscard]] SourceNode inp_shear(const InpModel& m, const io::inp::Card* friction,
+                                   const io::inp::Card* damping);
 void put_damping(const InpModel& m, const io::inp::Card& card, SourceNode& normal);
-/// Damping along the surface as friction; empty: there is none.
-[[nodiscard]] SourceNode inp_film(const InpModel& m, const io::inp::Card& damping);
 [[nodiscard]] SourceNode inp_axes(InpModel& m);
 [[nodiscard]] SourceNode inp_equations(const InpModel& m);
 /// Rigid bodies of `*RIGID BODY` and `*COUPLING`, and the knots of shells and beams, with the nodes

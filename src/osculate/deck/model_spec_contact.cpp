@@ -307,6 +307,10 @@ BoundKey<Contact> smoothing_key() {
 Spec initial_spec() {
   const Spec tolerance =
       number("Initial gaps up to this are closed too.").in("length").at_least(0).such_as("0.01");
+  const Spec clearance =
+      number("Every gap begins with this, whatever it is in the mesh; negative: an overlap.")
+          .in("length")
+          .such_as("0.01");
   const Spec nodes = text("Adjust these slave nodes alone, whatever their gap.").such_as("rim");
   return either("What becomes of slave points that are inside the master from the beginning.",
                 {choice("One of these.",
@@ -318,9 +322,10 @@ Spec initial_spec() {
                          word("adjust", InitialWord::adjust,
                               "the slave nodes are moved onto the master without strain, before "
                               "anything is computed")}),
-                 map("Adjust with a tolerance, or certain nodes.",
-                     {optional("adjust", tolerance), optional("nodes", nodes)})
-                     .with(Group::Rule::exactly_one, {"adjust", "nodes"})})
+                 map("Adjust with a tolerance, or certain nodes; or a clearance that is given.",
+                     {optional("adjust", tolerance), optional("nodes", nodes),
+                      optional("clearance", clearance)})
+                     .with(Group::Rule::exactly_one, {"adjust", "nodes", "clearance"})})
       .otherwise("ignore")
       .such_as("ramp");
 }
@@ -344,6 +349,11 @@ void read_initial(Contact& c, const Value& v) {
     return;
   }
   c.initial = {InitialWord::adjust, v.mark};
+  if (const Value* const clearance = v.find("clearance")) {
+    c.initial.value = InitialWord::clearance;
+    c.initial_clearance = number_of(*clearance).value;
+    return;
+  }
   if (const Value* const nodes = v.find("nodes"))
     c.initial_nodes = name_of(*nodes);
   else

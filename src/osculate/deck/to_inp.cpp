@@ -179,6 +179,26 @@ std::string InpMesh<Dim>::elements(std::size_t section) const {
 }
 
 template <int Dim>
+const std::string& InpMesh<Dim>::elements(const Name& on) {
+  const bool known = names_.contains({'e', on.value});
+  std::string& name = names_[{'e', on.value}];
+  if (known) return name;
+  if (const auto section = whole_section(d_, on)) return name = elements(*section);
+  std::vector<std::int64_t> numbers;
+  for (const mesh::CellRef& ref : set(on).cells) {
+    const auto found = number_.find({ref.block, ref.cell});
+    if (found == number_.end())
+      throw core::InputError(on.mark,
+                             fmt::format("'{}' has cells that belong to no section", on.value));
+    numbers.push_back(found->second);
+  }
+  name = plain_text(on.value) + "_elements";
+  sets_ += fmt::format("*ELSET, ELSET={}\n", name) +
+           lines_of_numbers(numbers, [](std::int64_t number) { return number; });
+  return name;
+}
+
+template <int Dim>
 std::string InpMesh<Dim>::type_of(const model::BasicBulkSection<Dim>& section,
                                   cell::CellType type) const {
   const solid::Section<Dim> own = model::section_on(section, type);
@@ -344,15 +364,27 @@ std::string InpMesh<Dim>::side_of(const Side<Dim>& facet, const Name& on) const 
 }
 
 template <int Dim>
-const std::string& InpMesh<Dim>::surface(const Name& on) {
+const std::string& InpMesh<Dim>::surface(const Name& on, bool of_nodes) {
   (void)set(on);
-  const bool known = names_.contains({'s', on.value});
-  const std::string& name = plain(on.value, 's');
+  const char kind = of_nodes ? 'p' : 's';
+  const bool known = names_.contains({kind, on.value});
+  const std::string& name = plain(of_nodes ? on.value + "_nodes" : on.value, kind);
+  if (of_nodes) names_[{kind, on.value}] = name;
   if (known) return name;
+  if (of_nodes) {
+    sets_ += fmt::format("*SURFACE, NAME={}, TYPE=NODE\n{},\n", name, nodes(on));
+    return name;
+  }
   std::string lines;
   for (const Side<Dim>& facet : facets(on)) lines += side_of(facet, on);
   sets_ += fmt::format("*SURFACE, NAME={}, TYPE=ELEMENT\n", name) + lines;
   return name;
+}
+
+template <int Dim>
+const std::string& InpMesh<Dim>::surface_named(const Name& on) const {
+  const auto nodes = names_.find({'p', on.value});
+  return nodes == names_.end() ? names_.at({'s', on.value}) : nodes->second;
 }
 
 template class InpMesh<2>;

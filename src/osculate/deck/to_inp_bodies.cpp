@@ -1,5 +1,7 @@
 // What holds nodes together, springs and masses of a model file as cards of a deck.
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "osculate/deck/to_inp_parts.hpp"
 
@@ -58,6 +60,28 @@ SpringEnds ends_of(const Spring& spring, InpMesh<Dim>& mesh) {
   return ends;
 }
 
+/// Of the difference of two nodes' displacements along a unit vector.
+template <int Dim>
+void write_gap(const Spring& spring, std::size_t number, InpMesh<Dim>& mesh, std::string& out) {
+  std::array<Vec3, 2> along{Vec3::Zero(), Vec3::Zero()};
+  std::vector<std::int64_t> nodes;
+  for (const EquationTerm& term : spring.terms) {
+    if (is_rotation(term.of) || mesh.control(term.on.value))
+      throw core::InputError(term.on.mark, "gaps of rigid bodies are not written");
+    const std::int64_t node = only_node_of(term.on, mesh);
+    if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
+    if (nodes.size() <= 2)
+      along[node == nodes[0] ? 0 : 1][static_cast<int>(term.of)] = term.factor.value;
+  }
+  if (nodes.size() != 2 || along[0] != -along[1] ||
+      std::abs(along[1].norm() - 1) > 1e-12)  // of rounding
+    throw core::InputError(spring.mark, "an input file has gaps of two nodes along a unit vector");
+  const std::string name = write_element("GAPUNI", fmt::format("gap_{}", number), nodes, mesh, out);
+  out += fmt::format("*GAP, ELSET={}\n{}, {}, {}, {}, , {}, {}\n", name,
+                     exact(spring.gap->clearance), exact(along[1][0]), exact(along[1][1]),
+                     exact(along[1][2]), exact(spring.gap->stiffness), exact(spring.gap->tension));
+}
+
 template <int Dim>
 void write_spring(const Spring& spring, std::size_t number, InpMesh<Dim>& mesh, std::string& out) {
   if (!spring.between.empty() && (spring.kinematics == Kinematics::finite) != mesh.finite())
@@ -65,7 +89,10 @@ void write_spring(const Spring& spring, std::size_t number, InpMesh<Dim>& mesh, 
                            "in an input file springs between nodes turn with them where the steps "
                            "have NLGEOM, and nowhere else");
   if (mesh.round()) throw core::InputError(spring.mark, "springs of rings are not written");
-  if (spring.gap) throw core::InputError(spring.gap->mark, "gaps are not written");
+  if (spring.gap) {
+    write_gap(spring, number, mesh, out);
+    return;
+  }
   const SpringEnds ends = ends_of(spring, mesh);
   if (spring.stiffness || !spring.table.value.empty()) {
     const std::string name = write_element(("SPRING" + ends.type).c_str(),

@@ -1,9 +1,8 @@
-// Sections, equations and contact of a model file as cards of a deck.
+// Sections, equations and what there is at first of a model file as cards of a deck.
 #include <algorithm>
 
 #include "osculate/deck/to_inp_parts.hpp"
 #include "osculate/material/law.hpp"
-#include "osculate/pairing/sampling.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -125,104 +124,6 @@ void write_equations(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, s
   }
 }
 
-// ---- contact ----------------------------------------------------------------------------------
-
-/// `*SURFACE INTERACTION` of the laws that stand under a key.
-void write_laws(const std::string& path, const std::string& name, Leaves& leaves,
-                std::string& out) {
-  out +=
-      fmt::format("*SURFACE INTERACTION, NAME={}\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=", name);
-  const bool tied = leaves.text(path + ".normal.separation") == "tied";
-  const auto penalty = leaves.number(path + ".normal.penalty");
-  if (tied && !penalty)
-    leaves.fail(path + ".normal.separation",
-                "is written with a penalty; *TIE is written of `ties`");
-  if (tied || penalty) {
-    out += fmt::format("{}\n{}\n", tied ? "TIED" : "LINEAR", exact(*penalty));
-  } else if (const auto first = leaves.number(path + ".normal.table[0][0]")) {
-    out += "TABULAR\n";
-    for (int i = 0;; ++i) {
-      const auto depth = leaves.number(fmt::format("{}.normal.table[{}][0]", path, i));
-      const auto pressure = leaves.number(fmt::format("{}.normal.table[{}][1]", path, i));
-      if (!depth || !pressure) break;
-      out += fmt::format("{}, {}\n", exact(*pressure), exact(*depth));
-    }
-  } else {
-    out += "HARD\n";
-  }
-  const auto mu = leaves.number(path + ".friction.coulomb.mu");
-  if (!mu) {
-    if (leaves.text(path + ".friction") != "none" && !leaves.text(path + ".friction").empty())
-      leaves.fail(path + ".friction", "is not written");
-    return;
-  }
-  const auto slope = leaves.number(path + ".friction.coulomb.penalty");
-  out += fmt::format("*FRICTION\n{}{}\n", exact(*mu), slope ? ", " + exact(*slope) : "");
-}
-
-/// TYPE of a pair whose sampling a deck can say; else it stays a key without counterpart.
-template <int Dim>
-std::string type_of_pair(const Contact& contact, const model::BasicModel<Dim>& m,
-                         const InpMesh<Dim>& mesh, const std::string& path, Leaves& leaves) {
-  const Sampling& asked = contact.sampling.value;
-  const bool curved = mesh.is_curved(contact.slave);
-  const bool tied = contact.normal.separation.value == SeparationWord::tied;
-  const auto pair =
-      std::ranges::find(m.pairs, contact.name.value, [](const auto& one) { return one.name; });
-  bool nodes = asked.rule == SamplingRule::nodes;
-  bool gauss = asked.rule == SamplingRule::gauss && asked.subdomains == 1 &&
-               asked.points == (curved ? (tied ? 6 : 3) : 2);
-  if (asked.rule == SamplingRule::automatic && pair != m.pairs.end()) {
-    nodes = pairing::sampled_at_nodes(pair->definition.slave);
-    gauss = !nodes;
-  }
-  if (asked.rule == SamplingRule::mortar &&
-      contact.enforcement.value.kind == EnforcementWord::lagrange_multiplier) {
-    (void)leaves.text(path + ".enforcement");
-    (void)leaves.text(path + ".sampling");
-    return "MORTAR";
-  }
-  if ((nodes && curved) || (!nodes && !gauss))
-    throw core::InputError(
-        contact.sampling.mark.line > 0 ? contact.sampling.mark : contact.name.mark,
-        "an input file has nodes of first-order facets, and gauss: 2 (second "
-        "order: 3, tied 6)");
-  leaves.take(path + ".sampling");
-  if (contact.enforcement.value.kind == EnforcementWord::penalty)
-    (void)leaves.text(path + ".enforcement");
-  return nodes ? "NODE TO SURFACE" : "SURFACE TO SURFACE";
-}
-
-template <int Dim>
-void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size_t k,
-                InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
-  const Contact& contact = d.contact[k];
-  const std::string path = fmt::format("contact[{}]", k);
-  for (const char* const key : {".name", ".master", ".slave"}) (void)leaves.text(path + key);
-  const std::string type = type_of_pair(contact, m, mesh, path, leaves);
-  const std::string sides =
-      fmt::format("{}, {}\n", mesh.surface(contact.slave), mesh.surface(contact.master));
-  const std::string law = fmt::format("law_of_{}", contact.name.value);
-  write_laws(path, law, leaves, out);
-  out += fmt::format("*CONTACT PAIR, INTERACTION={}, TYPE={}\n{}", law, type, sides);
-}
-
-template <int Dim>
-void write_contact(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
-                   Leaves& leaves, std::string& out) {
-  if (d.contact.size() == 1 && d.contact[0].all) {
-    (void)leaves.text("contact");
-    (void)leaves.text("contact.all");
-    (void)leaves.text("contact.all.name");
-    write_laws("contact.all", "law_of_all", leaves, out);
-    out +=
-        "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , "
-        "law_of_all\n";
-    return;
-  }
-  for (std::size_t k = 0; k < d.contact.size(); ++k) write_pair(d, m, k, mesh, leaves, out);
-}
-
 template <int Dim>
 void write_initial(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
   leaves.take("initial_temperature");
@@ -241,32 +142,18 @@ void write_initial(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std
   }
 }
 
-/// Of sections; strains as those that plastic flow has left.
+/// Strains as those that plastic flow has left.
 template <int Dim>
-void write_initial_states(const Description& d, const std::vector<InitialState>& initial,
-                          const InpMesh<Dim>& mesh, const std::string& key, const char* type,
-                          Leaves& leaves, std::string& out) {
+void write_initial_states(const std::vector<InitialState>& initial, InpMesh<Dim>& mesh,
+                          const std::string& key, const char* type, Leaves& leaves,
+                          std::string& out) {
   for (std::size_t i = 0; i < initial.size(); ++i) {
     const InitialState& one = initial[i];
-    const auto section = whole_section(d, one.on);
-    if (!section || !one.points.value.empty()) continue;
+    if (!one.points.value.empty()) continue;
     leaves.take(fmt::format("{}[{}]", key, i));
-    out += fmt::format("*INITIAL CONDITIONS, TYPE={}\n{}", type, mesh.elements(*section));
+    out += fmt::format("*INITIAL CONDITIONS, TYPE={}\n{}", type, mesh.elements(one.on));
     for (const double value : one.value.value) out += ", " + exact(value);
     out += "\n";
-  }
-}
-
-template <int Dim>
-void write_ties(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
-  for (std::size_t k = 0; k < d.ties.size(); ++k) {
-    const Tie& tie = d.ties[k];
-    leaves.take(fmt::format("ties[{}].", k));
-    out += fmt::format("*TIE, NAME=tie_{}{}{}\n", k + 1,
-                       tie.tolerance ? ", POSITION TOLERANCE=" + exact(tie.tolerance->value) : "",
-                       tie.adjust ? "" : ", ADJUST=NO");
-    const std::string slave = mesh.surface(tie.slave);
-    out += fmt::format("{}, {}\n", slave, mesh.surface(tie.master));
   }
 }
 
@@ -286,9 +173,8 @@ void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<
   write_contact(d, m, mesh, leaves, out);
   write_ties(d, mesh, leaves, out);
   write_initial(d, mesh, leaves, out);
-  write_initial_states<Dim>(d, d.initial_stress, mesh, "initial_stress", "STRESS", leaves, out);
-  write_initial_states<Dim>(d, d.initial_strain, mesh, "initial_strain", "PLASTIC STRAIN", leaves,
-                            out);
+  write_initial_states(d.initial_stress, mesh, "initial_stress", "STRESS", leaves, out);
+  write_initial_states(d.initial_strain, mesh, "initial_strain", "PLASTIC STRAIN", leaves, out);
 }
 
 template void write_model(const Description&, const model::Model&, InpMesh<2>&, Leaves&,

@@ -70,11 +70,15 @@ class InpMesh {
   [[nodiscard]] std::string sets() const { return sets_; }
   /// Name of a set of nodes or of a surface, which is written.
   const std::string& nodes(const Name& on);
-  const std::string& surface(const Name& on);
+  const std::string& surface(const Name& on, bool of_nodes = false);
+  /// The one of these that was written before.
+  [[nodiscard]] const std::string& surface_named(const Name& on) const;
   [[nodiscard]] const mesh::Set& set(const Name& on) const;
   [[nodiscard]] std::int64_t node(Index node) const;
   /// Name of the elements of a section.
   [[nodiscard]] std::string elements(std::size_t section) const;
+  /// The same of a set of cells, which is written where it is not that of a section.
+  const std::string& elements(const Name& on);
   [[nodiscard]] bool is_curved(const Name& surface) const;
   /// Of a rigid body by its name.
   [[nodiscard]] std::optional<ControlNodes> control(const std::string& rigid) const;
@@ -103,7 +107,7 @@ class InpMesh {
   std::map<std::pair<Index, Index>, std::int64_t> number_;     ///< of a cell, by block and place
   std::vector<bool> used_;                                     ///< nodes that are written
   bool own_numbers_ = true;                                    ///< nodes have those of the mesh
-  std::map<std::pair<char, std::string>, std::string> names_;  ///< of nodes 'n' and surfaces 's'
+  std::map<std::pair<char, std::string>, std::string> names_;  ///< of nodes 'n', surfaces 's', 'p'
   std::set<std::pair<char, std::string>> taken_;               ///< these, in capitals
   std::map<std::string, ControlNodes> controls_;               ///< by rigid body
   std::int64_t last_element_ = 0, last_node_ = 0;  ///< numbers of the mesh, later of more
@@ -150,6 +154,15 @@ struct ProcedureCards {
 template <int Dim>
 [[nodiscard]] std::string requests_of(const Description& d, const Step& step, InpMesh<Dim>& mesh);
 
+template <int Dim>
+void write_contact(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
+                   Leaves& leaves, std::string& out);
+template <int Dim>
+void write_ties(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out);
+/// What a step changes of contact pairs; of `all` it has no counterpart.
+template <int Dim>
+[[nodiscard]] std::string contact_changes(const Description& d, std::size_t step,
+                                          InpMesh<Dim>& mesh, Leaves& leaves);
 /// Adds materials, sections, equations, contact and what there is at first.
 template <int Dim>
 void write_model(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "osculate/deck/to_inp_parts.hpp"
+#include "osculate/solve/central_differences.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -60,12 +61,20 @@ std::string dynamic_of(const Step& step, double duration) {
   if (dynamics.impact != ImpactWord::dissipative || dynamics.mass != MassWord::consistent ||
       dynamics.impact_times != ImpactTimesWord::automatic)
     refuse("choices of impacts and masses");
+  const double step_size = duration / step.increments.value;
+  if (dynamics.scheme == SchemeWord::central_differences && dynamics.step == 0 &&
+      dynamics.safety == solve::CentralDifferences{}.safety)
+    return fmt::format("*DYNAMIC, EXPLICIT, DIRECT\n{}, {}\n", exact(step_size), exact(duration));
   if (dynamics.scheme != SchemeWord::newmark && dynamics.scheme != SchemeWord::hht)
-    refuse("schemes other than newmark and hht");
-  if (dynamics.time_steps) refuse("time steps by their error");
+    refuse("schemes other than newmark, hht and central differences");
   const double alpha = dynamics.scheme == SchemeWord::hht ? dynamics.parameter : 0;
-  return fmt::format("*DYNAMIC, DIRECT, ALPHA={}\n{}, {}\n", exact(alpha == 0 ? 0 : -alpha),
-                     exact(duration / step.increments.value), exact(duration));
+  const bool automatic = dynamics.time_steps.has_value();
+  constexpr double usual_error = 1e-3;  // where a deck says nothing
+  if (automatic && (dynamics.time_steps->error != usual_error || dynamics.time_steps->smallest))
+    refuse("other errors of time steps than the usual one");
+  return fmt::format("*DYNAMIC{}, ALPHA={}\n{}, {}{}\n", automatic ? "" : ", DIRECT",
+                     exact(alpha == 0 ? 0 : -alpha), exact(step_size), exact(duration),
+                     automatic ? ", , " + exact(step_size) : "");
 }
 
 bool is_of_nodes(Answer a) { return a == Answer::u || a == Answer::rf; }
@@ -128,10 +137,7 @@ std::string request_of(const AnswerRequest& request, bool file, const Descriptio
       return fmt::format("*SECTION PRINT, SURFACE={0}, NAME={0}{1}\nSOF\n", mesh.surface(on), end);
     if (is_of_nodes(request.of.front())) on_nodes = ", NSET=" + mesh.nodes(on);
     if (!is_of_cells(request.of.front())) continue;
-    for (std::size_t s = 0; s < d.sections.size(); ++s)
-      if (d.sections[s].on.value == on.value) on_cells = ", ELSET=" + mesh.elements(s);
-    if (on_cells.empty())
-      throw core::InputError(on.mark, "tables of cells are written of whole sections");
+    on_cells = ", ELSET=" + mesh.elements(on);
   }
   const auto add = [&](const char* kind, const std::string& where, const std::string& words) {
     if (!words.empty())

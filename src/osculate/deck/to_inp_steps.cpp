@@ -66,7 +66,8 @@ class StepWriter {
     const ProcedureCards procedure = procedure_of(d_, number, mesh_.finite(), moved_);
     at_once_ = procedure.at_once;
     search_ = procedure.search;
-    std::string out = procedure.text + bodies(step, fmt::format("steps[{}]", number));
+    std::string out = procedure.text + contact_changes(d_, number, mesh_, leaves_) +
+                      bodies(step, fmt::format("steps[{}]", number));
     if (step.harmonic)
       out += swings(step);
     else if (step.buckling)
@@ -104,26 +105,33 @@ class StepWriter {
     return out;
   }
 
-  /// What comes and goes, of whole sections: all else has no counterpart.
+  /// What comes and goes.
   std::string bodies(const Step& step, const std::string& path) {
     std::string out;
     const auto take = [&](const char* key, std::size_t i, const Name& on) {
-      const auto section = whole_section(d_, on);
-      if (!section) return std::string{};
       leaves_.take(fmt::format("{}.{}[{}]", path, key, i));
-      return mesh_.elements(*section);
+      return mesh_.elements(on);
     };
     for (std::size_t i = 0; i < step.remove.size(); ++i)
-      if (const std::string on = take("remove", i, step.remove[i].on); !on.empty())
-        out += fmt::format("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\n{}\n", on);
+      out += fmt::format("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\n{}\n",
+                         take("remove", i, step.remove[i].on));
     for (std::size_t i = 0; i < step.add.size(); ++i)
-      if (const std::string on = take("add", i, step.add[i].on); !on.empty())
-        out += fmt::format("*MODEL CHANGE, TYPE=ELEMENT, ADD={}\n{}\n",
-                           step.add[i].with_strain ? "WITH STRAIN" : "STRAIN FREE", on);
+      out += fmt::format("*MODEL CHANGE, TYPE=ELEMENT, ADD={}\n{}\n",
+                         step.add[i].with_strain ? "WITH STRAIN" : "STRAIN FREE",
+                         take("add", i, step.add[i].on));
     for (std::size_t i = 0; i < step.materials.size(); ++i)
-      if (const std::string on = take("materials", i, step.materials[i].on); !on.empty())
-        out += fmt::format("*CHANGE SOLID SECTION, ELSET={}, MATERIAL={}\n", on,
-                           step.materials[i].material.value);
+      out +=
+          fmt::format("*CHANGE SOLID SECTION, ELSET={}, MATERIAL={}\n",
+                      take("materials", i, step.materials[i].on), step.materials[i].material.value);
+    for (std::size_t i = 0; i < step.free_equations.size(); ++i) {
+      const Release& one = step.free_equations[i];
+      leaves_.take(fmt::format("{}.free_equations[{}]", path, i));
+      for (int k = 0; k < static_cast<int>(component_count); ++k)
+        if (one.of[static_cast<std::size_t>(k)]) {
+          const DeckPlace at = place(one.on, k);
+          out += fmt::format("*EQUATION, REMOVE\n{}, {}\n", at.on, at.direction);
+        }
+    }
     if (step.frees_all_equations) {
       (void)leaves_.text(path + ".free_equations");
       out += "*EQUATION, REMOVE ALL\n";
@@ -392,7 +400,7 @@ class StepWriter {
     for (const Load& load : step.centrifugal) {
       const Vec3 along = load.to - load.from;
       out += spread(
-          load, mesh_.elements(section_of(load.on)) + ", CENTRIF", load.values[0]->value,
+          load, mesh_.elements(load.on) + ", CENTRIF", load.values[0]->value,
           fmt::format("{}, {}, {}, {}, {}, {}", exact(load.from[0]), exact(load.from[1]),
                       exact(load.from[2]), exact(along[0]), exact(along[1]), exact(along[2])));
     }

@@ -25,6 +25,12 @@ constexpr std::array table{
     Refusal{printed_history, mortar, "mortar has its own history, without borders: use continuous"},
     Refusal{smoothed_master, mortar, "mortar integrates over the facets of the mesh: use none"},
     Refusal{relieved_overlap, mortar, "mortar knows initial overlaps only as they are: use adjust"},
+    Refusal{given_clearance, mortar, "mortar knows initial gaps only as they are in the mesh"},
+    Refusal{given_clearance, own_surface,
+            "a clearance is that of two surfaces: name master and slave"},
+    Refusal{given_clearance, held_from_start,
+            "points that are held from the start keep the gap they have"},
+    Refusal{given_clearance, edges, "edge-edge contacts have no gap at the start"},
     Refusal{corrected, gap_law,
             "a law that gives the pressure as a function of the gap is met by itself: use penalty"},
     Refusal{corrected, damping,
@@ -112,7 +118,9 @@ Traits traits_of(const PairDefinition<Dim>& pair) {
   t.add(held, !is<MayPart>(pair.separation));
   t.add(Trait::held_from_start, pairing::held_from_start(pair));
   t.add(tied, is_tied(pair));
-  t.add(relieved_overlap, pair.overlap != InitialOverlap::acts);
+  t.add(relieved_overlap,
+        pair.overlap == InitialOverlap::ramped || pair.overlap == InitialOverlap::kept);
+  t.add(given_clearance, pair.overlap == InitialOverlap::given);
   t.add(corrected, !is<ByPenalty>(pair.enforcement));
   t.add(multipliers, by_multipliers(pair));
   t.add(nodal_weight, pair.weight == Weight::node);
@@ -140,6 +148,7 @@ std::string_view name_of(Trait trait) {
       "`separation: tied_normal` or `tied`",
       "`separation: tied`",
       "`initial: ramp` or `keep`",
+      "`initial: clearance`",
       "`enforcement: augmented_lagrange` or `lagrange_multiplier`",
       "`enforcement: lagrange_multiplier`",
       "`weight: node`",

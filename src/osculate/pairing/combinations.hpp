@@ -24,6 +24,7 @@ enum class Trait : std::uint8_t {
   held_from_start,    ///< tied_normal, tied
   tied,               ///< without slip too
   relieved_overlap,   ///< initial overlaps that are ramped, or do not count
+  given_clearance,    ///< initial gaps that are given
   corrected,          ///< augmented Lagrangian or multipliers
   multipliers,        ///< the tractions are unknowns
   nodal_weight,       ///< weight: node

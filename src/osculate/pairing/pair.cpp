@@ -305,6 +305,23 @@ ActiveSet<Dim> evaluated_active_set(const PairEvaluation<Dim>& evaluation,
   return active_set;
 }
 
+namespace {
+
+/// The part of the gap at the start that does not count; with a clearance that decides also whether
+/// the point is in contact.
+template <int Dim>
+double relieve(const PairDefinition<Dim>& pair, PointHistory<Dim>& history) {
+  const double gap = history.gap - pair.offset;
+  if (pair.overlap != InitialOverlap::given) return history.active ? std::min(0.0, gap) : 0.0;
+  if (history.facet < 0) return 0;
+  PointContext<Dim> context;
+  context.relieved = gap - pair.clearance;
+  history.active = is_closed(pair, history, history.gap, context);
+  return context.relieved;
+}
+
+}  // namespace
+
 template <int Dim>
 PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
   PairEvaluation<Dim> work;
@@ -327,9 +344,7 @@ PairState<Dim> initial_state(const PairDefinition<Dim>& pair, Points<Dim> x) {
     h.active = is_closed(pair, h, h.gap);
   }
   if (pair.overlap != InitialOverlap::acts)
-    for (PointHistory<Dim>& h : state.points) {
-      state.overlap.push_back(h.active ? std::min(0.0, h.gap - pair.offset) : 0.0);
-    }
+    for (PointHistory<Dim>& h : state.points) state.overlap.push_back(relieve(pair, h));
   if constexpr (Dim == 3) {
     if (!edges_of(pair)) return state;
     // By a whole evaluation: it tells which edge-edge contacts are the nodes' own contacts.

@@ -27,8 +27,9 @@ using Points = std::type_identity_t<std::span<const Vec<Dim>>>;
 enum class Weight : std::uint8_t { node, reference_area, current_area };
 
 /// Initial penetrations: they act from the beginning, they are let in over the first step, or they
-/// never count: the gap is measured from them.
-enum class InitialOverlap : std::uint8_t { acts, ramped, kept };
+/// never count: the gap is measured from them. `given`: every gap begins with the same clearance,
+/// whatever it is in the mesh.
+enum class InitialOverlap : std::uint8_t { acts, ramped, kept, given };
 
 /// One contact pair: a choice on each of the four axes, the forms of residual and tangent, and what
 /// the two sides of it are. Everything here is the same in the plane and in space.
@@ -59,6 +60,7 @@ struct PairDefinition {
   std::vector<RelativeStiffness> relative_stiffness{};
   double offset = 0;  ///< half thicknesses of master and slave: the laws see the gap less this
   InitialOverlap overlap = InitialOverlap::acts;
+  double clearance = 0;  ///< of InitialOverlap::given; negative: an overlap
 
   // Enforcement.
   Enforcement enforcement{};
@@ -104,7 +106,8 @@ template <int Dim>
 struct PairState {
   std::vector<contact::PointHistory<Dim>> points;
   std::vector<MortarPlace> places;  ///< mortar: one per slave node; empty at first
-  /// Gaps <= 0 of the slave's points at the beginning; empty where they act from then on.
+  /// Gaps of the slave's points at the beginning which do not count: overlaps, or what is more than
+  /// the clearance; empty where they act from then on.
   std::vector<double> overlap;
 };
 

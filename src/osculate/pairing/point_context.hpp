@@ -21,7 +21,7 @@ struct PointContext {
   bool predict = false;
   bool known = false;   ///< `active_set` is of an iteration (or predicted), not made up
   double duration = 0;  ///< of the increment
-  double relieved = 0;  ///< part <= 0 of the gap that does not count (PairState::overlap)
+  double relieved = 0;  ///< part of the gap that does not count (PairState::overlap)
   double way = 0;       ///< of the gap in the increment, with ActiveSet::mean_onset
   const contact::Multiplier<Dim>* multiplier = nullptr;
   double stiffening = 1;

@@ -66,6 +66,50 @@ TEST(ChangingCoulomb, IsSteadiedByPowersOfTen) {
   EXPECT_EQ(steadying(falling, -infinite, 0), 1e12);
 }
 
+Coulomb with_film(Coulomb law, double viscous) {
+  law.viscous = viscous;
+  return law;
+}
+
+// What is left of the traction without the film is dry friction at the speed of the sliding.
+TEST(CoulombWithFilm, TheFilmIsOnTopOfDryFriction) {
+  const double c = 3, duration = 0.25, eps = 80;
+  for (const Coulomb& dry : {Coulomb{0.5, eps}, Coulomb{0.5, eps, 3.0},
+                             changing(0.2, 0.1, By::distance), changing(0.9, 0.1, By::distance),
+                             changing(0.2, 0.3, By::speed), changing(0.9, 0.3, By::speed, 6.0)})
+    for (const double trial : {5.5, 9.0, 60.0}) {
+      const Sliding sliding{0.03, duration};
+      const TangentialResponse<2> r = with_film(dry, c).response<2>(Vec<1>(-trial), -10.0, sliding);
+      const double moved = slid<2>(Vec<1>(-trial), r, eps), film = c * moved / duration;
+      if (r.status == Status::stick) {
+        EXPECT_LE(trial, dry.first_limit(10, sliding).value);
+        continue;
+      }
+      EXPECT_GT(moved, 0);
+      double mu = 0.5;
+      if (dry.kinetic) {
+        const double a = dry.speed ? moved / duration : 0.03 + moved;
+        mu = *dry.kinetic + (0.5 - *dry.kinetic) * std::exp(-a / dry.speed.value_or(0.1));
+      }
+      EXPECT_NEAR(-r.traction[0], std::min(10 * mu, dry.cap) + film, 1e-13 * trial);
+    }
+}
+
+TEST(CoulombWithFilm, BeginsWithoutAJumpAndNeedsATime) {
+  const Coulomb law = with_film({0.5, 80.0}, 3);
+  EXPECT_EQ(law.response<2>(Vec<1>(5.0), -10.0, {0, 0.5}).status, Status::stick);
+  EXPECT_NEAR(law.response<2>(Vec<1>(5.0 + 1e-9), -10.0, {0, 0.5}).traction[0], 5.0, 1e-8);
+  EXPECT_EQ(law.response<2>(Vec<1>(9.0), -10.0, {}).traction[0], 5.0);  // no time: dry
+  EXPECT_TRUE(needs_duration(FrictionLaw(law)));
+  EXPECT_FALSE(needs_duration(FrictionLaw(Coulomb{0.5, 80.0})));
+  // As fast as in the last increment.
+  EXPECT_EQ(predicted_limit(FrictionLaw(law), 7, -10, {0, 0.5}).value, 7);
+  EXPECT_EQ(predicted_limit(FrictionLaw(law), 4, -10, {0, 0.5}).value, 5);
+  EXPECT_EQ(text(FrictionLaw(law)), "Coulomb 0.5 and viscous 3 (penalty 80)");
+  EXPECT_EQ(fault(FrictionLaw(with_film({0.5, 80.0}, -1))),
+            "friction_coulomb: viscous must be >= 0, got -1");
+}
+
 // At the first sliding the limit is the static one, without a jump; far out the kinetic one.
 TEST(ChangingCoulomb, BeginsStaticAndEndsKinetic) {
   const Coulomb law = changing(0.2, 0.1, By::distance);
@@ -145,7 +189,7 @@ void expect_second_order(const FrictionLaw& law, const Vec<Dim - 1>& trial, doub
 }
 
 TEST(FrictionLaws, DerivativesAreOfSecondOrder) {
-  const std::array<FrictionLaw, 10> laws{Coulomb{0.5, 80.0},
+  const std::array<FrictionLaw, 14> laws{Coulomb{0.5, 80.0},
                                          Coulomb{0.5, 80.0, 3.0},
                                          changing(0.2, 0.1, By::distance),
                                          changing(0.9, 0.1, By::distance),
@@ -154,7 +198,11 @@ TEST(FrictionLaws, DerivativesAreOfSecondOrder) {
                                          changing(0.2, 0.1, By::distance, 3.0),
                                          Tresca{3.0, 80.0},
                                          Rough{80.0},
-                                         Rough{80.0, 0.8}};
+                                         Rough{80.0, 0.8},
+                                         with_film({0.5, 80.0}, 3),
+                                         with_film({0.5, 80.0, 3.0}, 3),
+                                         with_film(changing(0.2, 0.1, By::distance), 3),
+                                         with_film(changing(0.9, 0.2, By::speed), 3)};
   for (const FrictionLaw& law : laws)
     for (const double size : {1.0, 9.0, 14.0}) {
       const Sliding sliding{0.02, 0.5};
@@ -165,11 +213,11 @@ TEST(FrictionLaws, DerivativesAreOfSecondOrder) {
 }
 
 TEST(FrictionLaws, DissipationIsTractionTimesDistanceSlid) {
-  const std::array<FrictionLaw, 4> laws{Coulomb{0.5, 80.0, 3.0}, changing(0.2, 0.1, By::distance),
-                                        Tresca{3.0, 80.0}, Rough{80.0}};
+  const std::array<FrictionLaw, 5> laws{Coulomb{0.5, 80.0, 3.0}, changing(0.2, 0.1, By::distance),
+                                        Tresca{3.0, 80.0}, Rough{80.0}, with_film({0.5, 80.0}, 3)};
   for (const FrictionLaw& law : laws) {
     const Vec2 trial(6, -8);
-    const TangentialResponse<3> r = response<3>(law, trial, -10.0, {});
+    const TangentialResponse<3> r = response<3>(law, trial, -10.0, {0, 0.5});
     const double distance = slid<3>(trial, r, stiffness(law));
     EXPECT_NEAR(dissipated<3>(trial, r, stiffness(law)), r.traction.norm() * distance, 1e-14);
     EXPECT_EQ(distance == 0, law.as<Rough>() != nullptr);

@@ -116,7 +116,7 @@ TEST(BrokenModels, WrongTypes) {
        "'0.3'"},
       {"mu: 0.3", "mu: 0,3",
        "model.yaml:17: contact[0].friction.coulomb: unknown key '3'; known: "
-       "mu, penalty, kinetic, decay, cap"},
+       "mu, penalty, kinetic, decay, cap, viscous"},
       {"mu: 0.3", "mu: 1d4",
        "model.yaml:17: contact[0].friction.coulomb.mu: expected a number, got the text '1d4'"},
       {"mu: 0.3", "mu: 0x10",

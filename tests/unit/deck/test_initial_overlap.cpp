@@ -83,6 +83,21 @@ TEST(InitialOverlap, AToleranceClosesGaps) {
   EXPECT_EQ(forces(column(", initial: {adjust: 0.01}", -0.02))[5], 0);
 }
 
+// Whatever the mesh has: an overlap, a gap or neither.
+TEST(InitialOverlap, AClearanceIsThatOfAllPoints) {
+  for (const double overlap : {0.02, -0.02, 0.0}) {
+    const std::vector<double> touching = forces(column(", initial: {clearance: 0}", overlap));
+    EXPECT_NEAR(touching[3], 0, 1e-9) << overlap;
+    EXPECT_NEAR(touching[5], force_of(0.01, 1 + overlap), 1e-9) << overlap;
+    const std::vector<double> apart = forces(column(", initial: {clearance: 0.004}", overlap));
+    EXPECT_EQ(apart[3], 0) << overlap;
+    EXPECT_NEAR(apart[5], force_of(0.006, 1 + overlap), 1e-9) << overlap;
+    const std::vector<double> pressed = forces(column(", initial: {clearance: -0.004}", overlap));
+    EXPECT_NEAR(pressed[3], force_of(0.004, 1 + overlap), 1e-9) << overlap;
+    EXPECT_NEAR(pressed[5], force_of(0.014, 1 + overlap), 1e-9) << overlap;
+  }
+}
+
 TEST(InitialOverlap, RefusesWhatTurnsCellsInsideOut) {
   try {
     (void)build_text(column(", initial: adjust", 0.6));

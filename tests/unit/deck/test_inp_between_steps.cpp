@@ -188,13 +188,32 @@ TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
             "decaying: {pressure: 6, clearance: 0.001}");
   expect_in(part(dry + "*CONTACT DAMPING\n0.5\n" + pair + press, "contact"),
             "damping: {viscous: 0.5}");
-  expect_in(message_of(dry + "*CONTACT DAMPING, TANGENT FRACTION=1.\n0.5\n" + pair + press),
-            "there is one law of shear");
+  expect_in(part(dry + "*CONTACT DAMPING, TANGENT FRACTION=0.5\n0.5\n" + pair + press, "contact"),
+            "viscous: 0.25}");
+  const std::string mortar = "*CONTACT PAIR, INTERACTION=SOFT, TYPE=MORTAR\nSLAVE, MASTER\n";
+  const std::string unknown = "enforcement: lagrange_multiplier";
+  EXPECT_EQ(part(exponential + mortar + press, "contact").find(unknown), std::string::npos);
+  expect_in(part("*SURFACE INTERACTION, NAME=SOFT\n" + mortar + press, "contact"), unknown);
   // A set of nodes is moved, a distance is one.
   const std::string adjusted =
       "*CONTACT PAIR, INTERACTION=DRY, TYPE=NODE TO SURFACE, ADJUST=FOOT\nSLAVE, MASTER\n";
   expect_in(part(dry + adjusted + press, "contact"), "initial: {nodes: FOOT}");
   EXPECT_EQ(message_of(dry + adjusted + press), "no error");
+}
+
+TEST(InpBetweenSteps, AClearanceIsThatOfItsPair) {
+  const auto with = [&](const std::string& card, const std::string& adjust = "") {
+    return dry + "*CONTACT PAIR, INTERACTION=DRY, TYPE=SURFACE TO SURFACE" + adjust +
+           "\nSLAVE, MASTER\n" + card + press;
+  };
+  const std::string card = "*CLEARANCE, SLAVE=SLAVE, MASTER=MASTER, VALUE=-1E-3\n";
+  expect_in(part(with(card), "contact"), "initial: {clearance: -0.001}");
+  expect_in(message_of(with(card + card)),
+            "the contact pair has an ADJUST or a *CLEARANCE already");
+  expect_in(message_of(with(card, ", ADJUST=0.01")), "has an ADJUST or a *CLEARANCE already");
+  expect_in(message_of(with("*CLEARANCE, SLAVE=MASTER, MASTER=SLAVE, VALUE=0\n")),
+            "there is no *CONTACT PAIR of 'MASTER' and 'SLAVE'");
+  expect_in(message_of(with("*CLEARANCE, SLAVE=SLAVE, MASTER=MASTER, VALUE=x\n")), "VALUE");
 }
 
 // Each of the four nodes has a quarter of the faces of the small cube that it is a corner of: 0.25

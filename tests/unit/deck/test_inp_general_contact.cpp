@@ -134,9 +134,8 @@ TEST(InpGeneralContact, WhatItCannotSayIsRefused) {
   EXPECT_THAT(refusal("*CONTACT INCLUSIONS, ALL EXTERIOR\n"), HasSubstr("before *CONTACT"));
   EXPECT_THAT(refusal("*CONTACT\n*CONTACT INCLUSIONS\nB1, A2\n*CONTACT EXCLUSIONS\nB2, C1\n"),
               HasSubstr("*CONTACT INCLUSIONS has no such pair"));
-  EXPECT_THAT(
-      refusal("*CONTACT\n*CONTACT INCLUSIONS\nB1, A2\n*STEP\n*STATIC\n*CONTACT\n*END STEP\n"),
-      HasSubstr("is not supported in a step"));
+  EXPECT_THAT(refusal("*STEP\n*STATIC\n*END STEP\n*STEP\n*STATIC\n*CONTACT\n*END STEP\n"),
+              HasSubstr("is not supported after the first step"));
 }
 
 }  // namespace

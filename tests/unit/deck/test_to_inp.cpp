@@ -366,14 +366,91 @@ TEST(ToInp, WhatADeckCannotSayOfTheNewKeys) {
                               "springs: [{between: [c.bottom_front_left, c.top_back_right], gap: "
                               "{stiffness: 5, tension: 1}, kinematics: small}]\n",
                               pressed)),
-              HasSubstr("springs[0].gap: gaps are not written"));
+              HasSubstr("gaps of two nodes along a unit vector"));
   EXPECT_THAT(refusal_of(cube(elastic, "",
                               edited(pressed, "}]}", "}], total_force: [{on: c.top, fz: 1}]}"))),
               HasSubstr("steps[0].total_force"));
   EXPECT_THAT(refusal_of(cube(elastic, "",
                               edited(pressed, "increments: 1",
-                                     "dynamics: {scheme: central_differences}, increments: 1"))),
-              HasSubstr("schemes other than newmark and hht"));
+                                     "dynamics: {scheme: {generalized_alpha: {radius: 0.8}}}, "
+                                     "increments: 1"))),
+              HasSubstr("schemes other than newmark, hht and central differences"));
+  EXPECT_THAT(refusal("friction: {coulomb: {mu: 0.2, penalty: 5e3}}",
+                      "friction: {viscous: {coefficient: 2, penalty: 5e3}}"),
+              HasSubstr("a film is written as a share of `normal.damping: viscous`"));
+  EXPECT_THAT(refusal("normal: {penalty: 1e4}", "weight: {area: 0.3}, normal: {penalty: 1e4}"),
+              HasSubstr("contact[0].weight.area: has no counterpart"));
+}
+
+/// The pair of `blocks` with other keys, after it was written and read again.
+Contact pair_again(const std::string& keys, std::string& text) {
+  text = written(edited(blocks,
+                        "normal: {penalty: 1e4}, friction: {coulomb: {mu: 0.2, penalty: "
+                        "5e3}}",
+                        keys));
+  return parse_model(translate_deck(text, "model.inp").root, "model.inp").contact.at(0);
+}
+
+TEST(ToInp, LawsOfContactGoThereAndBack) {
+  std::string text;
+  Contact pair = pair_again(
+      "normal: {penalty: 1e4, damping: {viscous: 4}}, initial: {clearance: -0.01}, "
+      "friction: {coulomb: {mu: 0.2, penalty: 5e3, viscous: 3}}",
+      text);
+  EXPECT_THAT(text, HasSubstr("*CONTACT DAMPING, TANGENT FRACTION=0.75\n4\n"));
+  EXPECT_THAT(text, HasSubstr("*CLEARANCE, SLAVE=high.bottom, MASTER=low.top, VALUE=-0.01\n"));
+  EXPECT_EQ(pair.initial.value, InitialWord::clearance);
+  EXPECT_EQ(pair.initial_clearance, -0.01);
+  EXPECT_EQ(contact::text(pair.friction->law), "Coulomb 0.2 and viscous 3 (penalty 5000)");
+  pair = pair_again(
+      "normal: {decaying: {pressure: 5, clearance: 0.01}}, friction: {rough: {}}, "
+      "initial: {adjust: 0.2}",
+      text);
+  EXPECT_THAT(text, HasSubstr("PRESSURE-OVERCLOSURE=EXPONENTIAL\n0.01, 5\n*FRICTION, ROUGH\n"));
+  EXPECT_EQ(pair.initial.value, InitialWord::adjust);
+  EXPECT_EQ(pair.initial_tolerance, 0.2);
+  pair = pair_again(
+      "normal: {tensile: {stiffness: 1e4, tension: 2, clearance: 0.01}}, "
+      "weight: {area: around}",
+      text);
+  EXPECT_THAT(text, HasSubstr("LINEAR\n10000, 2, 0.01\n"));
+  EXPECT_THAT(text, HasSubstr("*SURFACE, NAME=high.bottom_nodes, TYPE=NODE\nhigh.bottom,\n"));
+  EXPECT_EQ(pair.area_by, AreaWord::around);
+  pair = pair_again("sampling: mortar, enforcement: lagrange_multiplier", text);
+  EXPECT_EQ(pair.enforcement.value.kind, EnforcementWord::lagrange_multiplier);
+  pair = pair_again("sampling: mortar, normal: {penalty: 1e4}", text);
+  EXPECT_EQ(pair.sampling.value.rule, SamplingRule::mortar);
+  EXPECT_EQ(pair.enforcement.value.kind, EnforcementWord::penalty);
+}
+
+TEST(ToInp, ContactThatChangesGoesThereAndBack) {
+  const std::string text = written(
+      edited(blocks, "    release: [{on: high.left, of: [uy]}]",
+             "    contact: [{pair: c, active: false, normal: {penalty: 2e4}, friction: none}]\n"
+             "    release: [{on: high.left, of: [uy]}]"));
+  EXPECT_THAT(text, HasSubstr("*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nhigh.bottom, low.top\n"));
+  const Description after = parse_model(translate_deck(text, "model.inp").root, "model.inp");
+  ASSERT_EQ(after.steps[1].contact.size(), 1U);
+  const ContactChange& change = after.steps[1].contact[0];
+  EXPECT_EQ(change.active, false);
+  EXPECT_EQ(contact::text(change.normal->law.law), "penalty 20000");
+  ASSERT_TRUE(change.friction.has_value());
+  EXPECT_FALSE(change.friction->has_value());
+}
+
+TEST(ToInp, PartsOfSectionsAndGaps) {
+  const std::string text = written(edited(
+      edited(blocks, "amplitudes:",
+             "springs: [{terms: [{on: low.bottom_front_left, of: uz, factor: -1}, {on: "
+             "low.bottom_back_right, of: uz, factor: 1}], gap: {clearance: 0.1, stiffness: 1e4, "
+             "tension: 1e-3}}]\nsets: {end: {on: low, box: {x: [1, 2]}}}\namplitudes:"),
+      "    release:", "    remove: [{on: end}]\n    release:"));
+  EXPECT_THAT(text, HasSubstr("*GAP, ELSET=gap_1\n0.1, 0, 0, 1, , 10000, 0.001\n"));
+  EXPECT_THAT(text, HasSubstr("*ELSET, ELSET=end_elements\n2\n"));
+  EXPECT_THAT(text, HasSubstr("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nend_elements\n"));
+  const Description after = parse_model(translate_deck(text, "model.inp").root, "model.inp");
+  ASSERT_EQ(after.springs.size(), 1U);
+  EXPECT_EQ(after.springs[0].gap->clearance, 0.1);
 }
 
 }  // namespace

@@ -11,12 +11,14 @@
 namespace osculate::contact {
 
 /// Coulomb friction by return mapping from an elastic predictor, with an optional change from the
-/// static coefficient to a kinetic one and an optional cap of the shear traction.
+/// static coefficient to a kinetic one, an optional cap of the shear traction and an optional film
+/// beside it.
 ///
 /// Formula    t = t_tr            if |t_tr| <= L_0                        (stick)
 ///            t = L t_tr / |t_tr| otherwise                               (slip)
-///            L = min(mu(a) p, cap) , a taken at the end of the increment: it depends on L by
-///            the distance slid, (|t_tr| - L) / eps_T; L_0 is L without sliding in the increment;
+///            L = min(mu(a) p, cap) + c V , a and the speed V taken at the end of the increment:
+///            they depend on L by the distance slid, (|t_tr| - L) / eps_T; L_0 is L without sliding
+///            in the increment; c V as in viscous_friction.hpp, none while the point sticks;
 ///            p = |N| under pressure, 0 where a held point is pulled
 ///            mu(a) = mu_k + (mu - mu_k) exp(-a / scale) ,
 ///            a = distance slid since the point came into contact, or
@@ -29,9 +31,10 @@ namespace osculate::contact {
 /// Sign       the force on the slave's residual is +t for a slip in the direction +t
 /// Tested by  tests/unit/contact/test_laws.cpp, test_friction_laws.cpp
 struct Coulomb {
-  static constexpr std::string_view key = "coulomb",
-                                    words = "Coulomb {mu}[ to {kinetic}][ up to {cap}]",
-                                    doc = "Coulomb's law with an elastic stick range.";
+  static constexpr std::string_view
+      key = "coulomb",
+      words = "Coulomb {mu}[ to {kinetic}][ up to {cap}][ and viscous {viscous}]",
+      doc = "Coulomb's law with an elastic stick range.";
   static constexpr core::OneOf decay{
       "decay",
       "How the coefficient goes from mu to kinetic: mu(a) = kinetic + (mu - kinetic) exp(-a / "
@@ -43,6 +46,7 @@ struct Coulomb {
   std::optional<double> kinetic{};  ///< mu_k; above mu: friction grows
   /// The scale of a: one of them where there is a kinetic coefficient.
   std::optional<double> distance{}, speed{};
+  std::optional<double> viscous{};  ///< c of the film
 
   static constexpr auto params();
   [[nodiscard]] std::optional<core::Fault> fault() const {
@@ -78,20 +82,22 @@ struct Coulomb {
 
   /// The limit of a point whose trial is beyond the first limit.
   [[nodiscard]] SlipLimit limit(double trial, double pressure, const Sliding& sliding) const {
-    if (!kinetic || rate(sliding) == 0.0) return first_limit(pressure, sliding);
+    const double film = film_rate(sliding);
+    const SlipLimit dry = first_limit(pressure, sliding);
+    if (!kinetic || rate(sliding) == 0.0) return beside_film(dry, trial, film);
     const double value = solved(trial, pressure, sliding);
     const double a = argument(trial - value, sliding);
-    const double growth = slope(a) * rate(sliding) * pressure;  // kappa
-    return capped({value, growth / (1 + growth), coefficient(a) / (1 + growth)});
+    if (coefficient(a) * pressure > cap) return beside_film({cap, 0, 0}, trial, film);
+    const double growth = slope(a) * rate(sliding) * pressure + film;  // kappa
+    return {value, growth / (1 + growth), coefficient(a) / (1 + growth)};
   }
 
   /// Before the first iteration nothing has slid: at which limit a sliding point will go on.
   [[nodiscard]] SlipLimit predicted_limit(double trial, double pressure,
                                           const Sliding& sliding) const {
-    if (!kinetic || !speed || !(pressure > 0)) return first_limit(pressure, sliding);
-    const double low = std::min(mu, *kinetic), high = std::max(mu, *kinetic);
-    const double last = std::clamp(trial / pressure, low, high);  // of the last increment
-    return capped({last * pressure, 0, last});
+    SlipLimit dry = predicted_dry(trial, pressure, sliding);
+    if (film_rate(sliding) > 0) dry.value = std::max(dry.value, trial);  // as fast as before
+    return dry;
   }
 
   template <int Dim>
@@ -106,9 +112,25 @@ struct Coulomb {
   }
 
  private:
+  [[nodiscard]] SlipLimit predicted_dry(double trial, double pressure,
+                                        const Sliding& sliding) const {
+    if (!kinetic || !speed || !(pressure > 0)) return first_limit(pressure, sliding);
+    const double low = std::min(mu, *kinetic), high = std::max(mu, *kinetic);
+    const double last = std::clamp(trial / pressure, low, high);  // of the last increment
+    return capped({last * pressure, 0, last});
+  }
   [[nodiscard]] double scale() const { return speed ? *speed : distance.value_or(1); }
   [[nodiscard]] SlipLimit capped(const SlipLimit& limit) const {
     return limit.value > cap ? SlipLimit{cap, 0, 0} : limit;
+  }
+  /// c / (eps_T h): c V is so many times the excess of the trial.
+  [[nodiscard]] double film_rate(const Sliding& sliding) const {
+    return sliding.duration > 0 ? viscous.value_or(0) / (stiffness * sliding.duration) : 0.0;
+  }
+  /// The limit of a constant dry friction with the film.
+  [[nodiscard]] static SlipLimit beside_film(const SlipLimit& dry, double trial, double film) {
+    return {(dry.value + film * trial) / (1 + film), film / (1 + film),
+            dry.d_pressure / (1 + film)};
   }
   /// d(a) / d(distance in the increment) / eps_T
   [[nodiscard]] double rate(const Sliding& sliding) const {
@@ -125,16 +147,18 @@ struct Coulomb {
   [[nodiscard]] double slope(double a) const {
     return (*kinetic - mu) / scale() * std::exp(-a / scale());
   }
-  /// The one root of L = mu(a(L)) p below the trial. Friction that falls: the function is concave
-  /// and the tangents' roots rise to it from the least limit; that grows: convex, from above.
+  /// The one root of L = mu(a(L)) p + c V(L) below the trial. Friction that falls: the function is
+  /// concave and the tangents' roots rise to it from the least limit; that grows: convex, from
+  /// above.
   [[nodiscard]] double solved(double trial, double pressure, const Sliding& sliding) const {
     constexpr int most = 50;
     constexpr double rounding = 4e-15;
+    const double film = film_rate(sliding);
     double value = std::min(trial, *kinetic * pressure);
     for (int i = 0; i < most; ++i) {
       const double a = argument(trial - value, sliding);
-      const double error = value - coefficient(a) * pressure;
-      const double step = error / (1 + slope(a) * rate(sliding) * pressure);
+      const double error = value - coefficient(a) * pressure - film * (trial - value);
+      const double step = error / (1 + slope(a) * rate(sliding) * pressure + film);
       value -= step;
       if (!(std::abs(step) > rounding * value)) break;
     }
@@ -143,7 +167,7 @@ struct Coulomb {
 };
 
 constexpr auto Coulomb::params() {
-  return std::array<core::Param<Coulomb>, 6>{
+  return std::array<core::Param<Coulomb>, 7>{
       {{.key = "mu",
         .unit = "1",
         .doc = "Coefficient of friction.",
@@ -183,7 +207,16 @@ constexpr auto Coulomb::params() {
         .range = {.lower = 0},
         .required = false,
         .example = "40",
-        .otherwise = "none"}}};
+        .otherwise = "none"},
+       {.key = "viscous",
+        .unit = "force time/length^3 (force time/length with weight: node)",
+        .doc = "Shear traction per sliding speed of a film, on top; every step needs a duration.",
+        .slot = &Coulomb::viscous,
+        .range = {.lower = 0, .with_lower = true},
+        .required = false,
+        .example = "0.5",
+        .otherwise = "none",
+        .timed = true}}};
 }
 
 }  // namespace osculate::contact

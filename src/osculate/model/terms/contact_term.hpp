@@ -24,7 +24,9 @@ struct ContactTerm {
 
   /// Share of the initial overlaps of a pair that does not count at a fraction of the step.
   [[nodiscard]] double relief(const pairing::PairDefinition<Dim>& pair, double fraction) const {
-    if (pair.overlap == pairing::InitialOverlap::kept) return 1;
+    if (pair.overlap == pairing::InitialOverlap::kept ||
+        pair.overlap == pairing::InitialOverlap::given)
+      return 1;
     return pair.overlap == pairing::InitialOverlap::ramped && beginning ? 1 - fraction : 0;
   }
   /// `near`: places far from the master are not needed (ActiveSet::near).

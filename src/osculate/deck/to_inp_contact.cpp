@@ -1,0 +1,238 @@
+// Contact pairs and tied surfaces of a model file as cards of a deck.
+#include <algorithm>
+
+#include "osculate/deck/to_inp_parts.hpp"
+#include "osculate/mesh/node_areas.hpp"
+#include "osculate/pairing/sampling.hpp"
+
+namespace osculate::deck {
+namespace {
+
+// ---- laws -------------------------------------------------------------------------------------
+
+/// The rows of a table, the pressure first.
+std::string written_table(const std::string& path, Leaves& leaves) {
+  std::string out;
+  for (int i = 0;; ++i) {
+    const auto depth = leaves.number(fmt::format("{}[{}][0]", path, i));
+    const auto pressure = leaves.number(fmt::format("{}[{}][1]", path, i));
+    if (!depth || !pressure) return out;
+    out += fmt::format("{}, {}\n", exact(*pressure), exact(*depth));
+  }
+}
+
+/// `*SURFACE BEHAVIOR` of `normal`. What is not taken of it has no counterpart.
+std::string written_pressure(const std::string& path, Leaves& leaves) {
+  const bool tied = leaves.text(path + ".separation") == "tied";
+  const auto penalty = leaves.number(path + ".penalty");
+  if (tied && !penalty)
+    leaves.fail(path + ".separation", "is written with a penalty; *TIE is written of `ties`");
+  std::string text = "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=";
+  if (penalty) return text + fmt::format("{}\n{}\n", tied ? "TIED" : "LINEAR", exact(*penalty));
+  if (const auto stiffness = leaves.number(path + ".tensile.stiffness")) {
+    const auto tension = leaves.number(path + ".tensile.tension"),
+               clearance = leaves.number(path + ".tensile.clearance");
+    return text + fmt::format("LINEAR\n{}, {}, {}\n", exact(*stiffness), exact(tension.value_or(0)),
+                              exact(clearance.value_or(0)));
+  }
+  if (const auto pressure = leaves.number(path + ".decaying.pressure"))
+    return text + fmt::format("EXPONENTIAL\n{}, {}\n",
+                              exact(leaves.number(path + ".decaying.clearance").value_or(0)),
+                              exact(*pressure));
+  if (const std::string table = written_table(path + ".table", leaves); !table.empty())
+    return text + "TABULAR\n" + table;
+  return text + "HARD\n";
+}
+
+/// `*FRICTION` of `friction`, and what a film adds to a `*CONTACT DAMPING`.
+struct WrittenShear {
+  std::string text;
+  double film = 0;
+};
+WrittenShear written_shear(const std::string& path, Leaves& leaves) {
+  if (leaves.text(path) == "none") return {"*FRICTION\n0\n"};
+  if (const auto film = leaves.number(path + ".viscous.coefficient")) return {"", *film};
+  if (leaves.text(path + ".rough") == "{}") return {"*FRICTION, ROUGH\n"};
+  const auto mu = leaves.number(path + ".coulomb.mu");
+  if (!mu) return {};
+  const auto slope = leaves.number(path + ".coulomb.penalty");
+  return {fmt::format("*FRICTION\n{}{}\n", exact(*mu), slope ? ", " + exact(*slope) : ""),
+          leaves.number(path + ".coulomb.viscous").value_or(0)};
+}
+
+/// `*SURFACE INTERACTION` of the laws that stand under a key.
+std::string written_laws(const std::string& path, const std::string& name, Leaves& leaves) {
+  std::string out = fmt::format("*SURFACE INTERACTION, NAME={}\n", name);
+  out += written_pressure(path + ".normal", leaves);
+  const WrittenShear shear = written_shear(path + ".friction", leaves);
+  out += shear.text;
+  const auto damper = leaves.number(path + ".normal.damping.viscous");
+  if (!damper && shear.film == 0) return out;
+  if (!damper || *damper == 0)
+    leaves.fail(path + ".friction",
+                "a film is written as a share of `normal.damping: viscous`, which is missing");
+  const std::string share =
+      shear.film > 0 ? ", TANGENT FRACTION=" + exact(shear.film / *damper) : "";
+  return out + fmt::format("*CONTACT DAMPING{}\n{}\n", share, exact(*damper));
+}
+
+// ---- pairs ------------------------------------------------------------------------------------
+
+/// Whether slave nodes without facets have the free faces round them in a deck, not the facet of
+/// the master below them.
+template <int Dim>
+AreaWord area_of_nodes(const model::BasicModel<Dim>& m, const mesh::Set& slave) {
+  if (Dim == 2) return AreaWord::master;
+  const std::vector<double> areas = mesh::free_areas(m.mesh, mesh::face_table(m.mesh));
+  return std::ranges::any_of(slave.nodes,
+                             [&](Index n) { return areas[static_cast<std::size_t>(n)] > 0; })
+             ? AreaWord::around
+             : AreaWord::master;
+}
+
+/// What a deck can say of how a pair is sampled: its TYPE, and whether the slave is one of nodes.
+struct PairType {
+  std::string type;
+  bool of_nodes = false;
+};
+
+/// TYPE of a pair whose sampling a deck can say; else it stays a key without counterpart.
+template <int Dim>
+PairType type_of_pair(const Contact& contact, const model::BasicModel<Dim>& m,
+                      const InpMesh<Dim>& mesh, const std::string& path, Leaves& leaves) {
+  const Sampling& asked = contact.sampling.value;
+  const mesh::Set& slave = mesh.set(contact.slave);
+  const bool of_nodes = slave.cells.empty() || contact.area_by == AreaWord::around ||
+                        contact.area_by == AreaWord::master;
+  const bool curved = !of_nodes && mesh.is_curved(contact.slave);
+  const bool tied = contact.normal.separation.value == SeparationWord::tied;
+  const auto pair =
+      std::ranges::find(m.pairs, contact.name.value, [](const auto& one) { return one.name; });
+  bool nodes = asked.rule == SamplingRule::nodes;
+  bool gauss = asked.rule == SamplingRule::gauss && asked.subdomains == 1 &&
+               asked.points == (curved ? (tied ? 6 : 3) : 2);
+  if (asked.rule == SamplingRule::automatic && pair != m.pairs.end()) {
+    nodes = pairing::sampled_at_nodes(pair->definition.slave);
+    gauss = !nodes;
+  }
+  const bool unknown = contact.enforcement.value.kind == EnforcementWord::lagrange_multiplier;
+  const bool hard = contact::augmentable(contact.normal.law.law) && contact.normal.law.automatic;
+  if (asked.rule == SamplingRule::mortar && unknown == hard) {
+    (void)leaves.text(path + ".enforcement");
+    (void)leaves.text(path + ".sampling");
+    return {"MORTAR"};
+  }
+  const bool middles = contact.area_by == AreaWord::middles;
+  if ((nodes && curved && !middles) || (!nodes && !gauss))
+    throw core::InputError(
+        contact.sampling.mark.line > 0 ? contact.sampling.mark : contact.name.mark,
+        "an input file has nodes of first-order facets, and gauss: 2 (second "
+        "order: 3, tied 6)");
+  leaves.take(path + ".sampling");
+  if (middles || (of_nodes && contact.area_by == area_of_nodes(m, slave)))
+    (void)leaves.text(path + ".weight.area");
+  if (contact.enforcement.value.kind == EnforcementWord::penalty)
+    (void)leaves.text(path + ".enforcement");
+  return {nodes ? "NODE TO SURFACE" : "SURFACE TO SURFACE", of_nodes};
+}
+
+/// `, ADJUST=...` of `initial`, or its `*CLEARANCE`.
+template <int Dim>
+std::string adjusted(const Contact& contact, const std::string& path, InpMesh<Dim>& mesh,
+                     Leaves& leaves) {
+  if (const auto tolerance = leaves.number(path + ".initial.adjust"))
+    return ", ADJUST=" + exact(*tolerance);
+  if (leaves.text(path + ".initial") == "adjust") return ", ADJUST=0";
+  if (!contact.initial_nodes) return {};
+  (void)leaves.text(path + ".initial.nodes");
+  return ", ADJUST=" + mesh.nodes(*contact.initial_nodes);
+}
+
+std::string law_name(const std::string& pair) { return fmt::format("law_of_{}", pair); }
+
+template <int Dim>
+void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size_t k,
+                InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  const Contact& contact = d.contact[k];
+  const std::string path = fmt::format("contact[{}]", k);
+  for (const char* const key : {".name", ".master", ".slave"}) (void)leaves.text(path + key);
+  const PairType type = type_of_pair(contact, m, mesh, path, leaves);
+  const std::string slave = mesh.surface(contact.slave, type.of_nodes),
+                    master = mesh.surface(contact.master);
+  out += written_laws(path, law_name(contact.name.value), leaves);
+  const std::string adjust = adjusted(contact, path, mesh, leaves);
+  out += fmt::format("*CONTACT PAIR, INTERACTION={}, TYPE={}{}\n{}, {}\n",
+                     law_name(contact.name.value), type.type, adjust, slave, master);
+  if (const auto clearance = leaves.number(path + ".initial.clearance"))
+    out += fmt::format("*CLEARANCE, SLAVE={}, MASTER={}, VALUE={}\n", slave, master,
+                       exact(*clearance));
+}
+
+}  // namespace
+
+template <int Dim>
+void write_contact(const Description& d, const model::BasicModel<Dim>& m, InpMesh<Dim>& mesh,
+                   Leaves& leaves, std::string& out) {
+  if (d.contact.size() == 1 && d.contact[0].all) {
+    (void)leaves.text("contact");
+    (void)leaves.text("contact.all");
+    (void)leaves.text("contact.all.name");
+    out += written_laws("contact.all", "law_of_all", leaves);
+    out +=
+        "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , "
+        "law_of_all\n";
+    return;
+  }
+  for (std::size_t k = 0; k < d.contact.size(); ++k) write_pair(d, m, k, mesh, leaves, out);
+}
+
+template <int Dim>
+void write_ties(const Description& d, InpMesh<Dim>& mesh, Leaves& leaves, std::string& out) {
+  for (std::size_t k = 0; k < d.ties.size(); ++k) {
+    const Tie& tie = d.ties[k];
+    leaves.take(fmt::format("ties[{}].", k));
+    out += fmt::format("*TIE, NAME=tie_{}{}{}\n", k + 1,
+                       tie.tolerance ? ", POSITION TOLERANCE=" + exact(tie.tolerance->value) : "",
+                       tie.adjust ? "" : ", ADJUST=NO");
+    const std::string slave = mesh.surface(tie.slave);
+    out += fmt::format("{}, {}\n", slave, mesh.surface(tie.master));
+  }
+}
+
+template <int Dim>
+std::string contact_changes(const Description& d, std::size_t step, InpMesh<Dim>& mesh,
+                            Leaves& leaves) {
+  std::string out;
+  for (std::size_t k = 0; k < d.steps[step].contact.size(); ++k) {
+    const ContactChange& change = d.steps[step].contact[k];
+    const std::string path = fmt::format("steps[{}].contact[{}]", step, k);
+    const auto of = std::ranges::find(d.contact, change.pair.value,
+                                      [](const Contact& one) { return one.name.value; });
+    if (of == d.contact.end() || of->all) continue;  // its keys have no counterpart
+    (void)leaves.text(path + ".pair");
+    (void)leaves.text(path + ".active");
+    if (change.active)
+      out += fmt::format("*MODEL CHANGE, TYPE=CONTACT PAIR, {}\n{}, {}\n",
+                         *change.active ? "ADD" : "REMOVE", mesh.surface_named(of->slave),
+                         mesh.surface_named(of->master));
+    if (change.normal)
+      out += fmt::format("*CHANGE SURFACE BEHAVIOR, INTERACTION={}\n{}",
+                         law_name(change.pair.value), written_pressure(path + ".normal", leaves));
+    if (!change.friction) continue;
+    const WrittenShear shear = written_shear(path + ".friction", leaves);
+    out += fmt::format("*CHANGE FRICTION, INTERACTION={}\n{}", law_name(change.pair.value),
+                       shear.text.empty() ? "*FRICTION\n0\n" : shear.text);
+  }
+  return out;
+}
+
+template void write_contact(const Description&, const model::Model&, InpMesh<2>&, Leaves&,
+                            std::string&);
+template void write_contact(const Description&, const model::Model3&, InpMesh<3>&, Leaves&,
+                            std::string&);
+template void write_ties(const Description&, InpMesh<2>&, Leaves&, std::string&);
+template void write_ties(const Description&, InpMesh<3>&, Leaves&, std::string&);
+template std::string contact_changes(const Description&, std::size_t, InpMesh<2>&, Leaves&);
+template std::string contact_changes(const Description&, std::size_t, InpMesh<3>&, Leaves&);
+
+}  // namespace osculate::deck
