@@ -125,7 +125,10 @@ std::string words_of(const AnswerRequest& request, const Kind& kind) {
 template <int Dim>
 std::string request_of(const AnswerRequest& request, bool file, const Description& d,
                        InpMesh<Dim>& mesh) {
-  std::string end = request.every > 1 ? fmt::format(", FREQUENCY={}", request.every) : "";
+  const auto seldom = [](const AnswerRequest& one) { return one.every > 1; };
+  const bool said = std::ranges::any_of(d.output.frd, seldom) ||
+                    std::ranges::any_of(d.output.dat, seldom);  // later cards would keep it
+  std::string end = said ? fmt::format(", FREQUENCY={}", request.every) : "";
   if (request.totals != Totals::none)
     end += request.totals == Totals::only ? ", TOTALS=ONLY" : ", TOTALS=YES";
   const auto is_of_cells = [](Answer a) {
