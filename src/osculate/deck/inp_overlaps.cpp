@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "osculate/deck/inp_parts.hpp"
+#include "osculate/deck/inp_steps.hpp"
 
 namespace osculate::deck {
 namespace {
