@@ -92,7 +92,7 @@ void read_forces(const InpReading& r, const Card& card) {
       if (!inp_has_direction(r.m, place.direction))
         fields.fail(
             fmt::format("expected a direction 1 to {}, found {}", inp_dimension(r.m), direction));
-      set_condition(r.m, forces, {place.on, place.direction}, place.sign * size, said, line);
+      add_load(r, forces, {place.on, place.direction}, place.sign * size, said, line);
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "osculate/deck/inp_steps.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
+#include "osculate/io/inp/thin_sections.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -29,36 +30,48 @@ struct LoadLine {
   std::string elements;
 };
 
-/// In a later step the same load is replaced, but others would add to what is there.
-void note_gravity(const InpReading& r, const Fields& fields, const std::string& part,
-                  const InpGravity& now) {
+/// The set that a GRAV on a part of the bodies acts on. CalculiX replaces that of the same set and
+/// direction and adds others: these have sets of their own, of the same nodes or elements.
+std::string gravity_set(const InpReading& r, const LoadLine& load, const std::string& part,
+                        const InpGravity& now) {
   std::vector<InpGravity>& all = r.acting.gravity[part];
-  const bool before = std::any_of(all.begin(), all.end(),
-                                  [&](const InpGravity& one) { return one.step < now.step; });
-  if (before && (all.size() > 1 || all[0].set != now.set || all[0].direction != now.direction))
-    fields.fail(
-        "GRAV of another set or direction than in a step before is not supported: write "
-        "OP=NEW and all of it");
-  if (before) all.clear();
-  all.push_back(now);
+  const auto same = [&](const InpGravity& one) {
+    return one.set == now.set && one.direction == now.direction;
+  };
+  const auto known = std::ranges::find_if(all, same);
+  const auto number = known - all.begin();
+  if (known == all.end()) all.push_back(now);
+  if (number == 0) return part;
+  if (!r.m.mesh.mesh.find_set(part) && !find(r.m.new_sets, part))
+    load.fields.fail(
+        fmt::format("'{}' is a rigid body: GRAV of several sets or directions on its masses is not "
+                    "supported",
+                    part));
+  std::string name = plain_name(fmt::format("{} gravity {}", part, number + 1));
+  if (find(r.m.new_sets, name)) return name;
+  SourceNode& set = put(r.m.new_sets, name, inp_map(line_of(load.line.at)));
+  put(set, "of", inp_text(part, set.line));
+  put(set, "within", inp_list(set.line)).items = {inp_text(part, set.line)};
+  return name;
 }
 
 /// The weight of a point mass, which acts with body forces, not with the forces of `*CLOAD`.
-void weigh(const InpReading& r, const std::string& node, const Vec3& weight, const LoadLine& on) {
+void weigh(const InpReading& r, const InpMass& mass, const Vec3& acceleration,
+           const InpGravity& now, const LoadLine& load) {
   const InpModel& m = r.m;
-  const InpProcedure& now = r.procedure;
-  if (now.factors > 0 || now.modes > 0 || now.is("STEADYSTATEDYNAMICS") || now.is("MODALDYNAMIC"))
-    io::inp::fail(m.deck, on.line.at,
-                  fmt::format("GRAV on masses is not supported with *{}", now.card->keyword));
-  if (m.transformed.contains(only_node(m, node)))
-    io::inp::fail(m.deck, on.line.at,
-                  fmt::format("GRAV on a mass at '{}', which has a *TRANSFORM, is not supported",
-                              printable(node)));
+  const InpProcedure& step = r.procedure;
+  if (step.factors > 0 || step.modes > 0 || step.is("STEADYSTATEDYNAMICS") ||
+      step.is("MODALDYNAMIC"))
+    io::inp::fail(m.deck, load.line.at,
+                  fmt::format("GRAV on masses is not supported with *{}", step.card->keyword));
+  const Vec3 weight =
+      mass.mass * axes_of_node(m, only_node(m, mass.node)).transpose() * acceleration;
   for (int k = 0; k < inp_dimension(m); ++k)
-    for (const InpPlace& place : inp_places(m, node, k + 1))
+    for (const InpPlace& place : inp_places(m, mass.node, k + 1))
       if (weight[k] != 0)
-        set_condition(m, r.acting.parts[0].weights, {place.on, place.direction},
-                      place.sign * weight[k], on.said, on.line);
+        set_condition(m, r.acting.parts[0].weights,
+                      {gravity_set(r, load, place.on, now), place.direction},
+                      place.sign * weight[k], load.said, load.line, true);
 }
 
 void read_gravity(const InpReading& r, const LoadLine& load, Conditions& body_forces) {
@@ -68,24 +81,46 @@ void read_gravity(const InpReading& r, const LoadLine& load, Conditions& body_fo
   for (Eigen::Index k = 0; k < 3; ++k) direction[k] = fields.real_or_zero("a direction");
   if (!(direction.norm() > 0)) fields.fail("expected the direction of gravity");
   const std::string name = io::inp::element_set_name(load.elements);
+  direction.normalize();
   const std::vector<InpMass> masses = inp_masses(r.m, name);
-  for (const InpMass& one : masses)
-    weigh(r, one.node, Vec3(one.mass * size * direction.normalized()), load);
+  for (const InpMass& one : masses) weigh(r, one, Vec3(size * direction), {name, direction}, load);
   if (!masses.empty() && !r.m.sets.contains({SetKind::elements, io::inp::capitals(name)})) return;
   const std::string& on = set_of(r.m, load.line.at, name, {SetKind::elements});
   const std::vector<InpDensity> parts = densities_on(r.m, on);
   if (parts.empty())
     fields.fail(fmt::format("GRAV acts on elements that have a section, not on {}",
                             io::inp::shown(load.elements)));
-  direction.normalize();
   for (const InpDensity& part : parts) {
     if (!(part.density > 0))
       fields.fail(fmt::format("the material of {} has no *DENSITY", io::inp::shown(part.on)));
-    note_gravity(r, fields, part.on, {on, direction, r.steps});
+    const std::string acts_on = gravity_set(r, load, part.on, {on, direction});
     for (int k = 0; k < inp_dimension(r.m); ++k)
       if (direction[k] != 0)
-        set_condition(r.m, body_forces, {part.on, k + 1}, part.density * size * direction[k],
-                      load.said, load.line);
+        set_condition(r.m, body_forces, {acts_on, k + 1}, part.density * size * direction[k],
+                      load.said, load.line, true);
+  }
+}
+
+std::set<std::pair<Index, Index>> cells_of_set(const InpModel& m, const std::string& set) {
+  std::set<std::pair<Index, Index>> cells;
+  for (const mesh::CellRef& ref : m.mesh.mesh.find_set(set)->cells)
+    cells.insert({ref.block, ref.cell});
+  return cells;
+}
+
+/// Of CENTRIF of several sets or axes on an element CalculiX takes one, which the order of the sets
+/// decides, and Abaqus all.
+void require_one_rotation(const InpReading& r, const LoadLine& load, const std::string& on,
+                          int axis) {
+  const auto cells = cells_of_set(r.m, on);
+  for (const auto& [key, value] : r.acting.parts[0].centrifugal) {
+    if (value.size == 0 || key == std::pair{on, axis}) continue;
+    const auto others = cells_of_set(r.m, key.first);
+    if (std::ranges::any_of(others, [&](const auto& cell) { return cells.contains(cell); }))
+      load.fields.fail(
+          fmt::format("elements of '{}' have a CENTRIF of another set or axis (line {}), of which "
+                      "CalculiX takes one and Abaqus the sum: not supported",
+                      on, value.line));
   }
 }
 
@@ -99,8 +134,33 @@ void read_centrifugal(const InpReading& r, const LoadLine& load) {
   if (known == axes.end()) known = axes.insert(axes.end(), axis);
   const std::string& on =
       set_of(r.m, load.line.at, io::inp::element_set_name(load.elements), {SetKind::elements});
-  set_condition(r.m, r.acting.parts[0].centrifugal, {on, static_cast<int>(known - axes.begin())},
-                speed, load.said, load.line);
+  const int axis_number = static_cast<int>(known - axes.begin());
+  require_one_rotation(r, load, on, axis_number);
+  set_condition(r.m, r.acting.parts[0].centrifugal, {on, axis_number}, speed, load.said, load.line,
+                true);
+}
+
+/// The one thickness of shells, whose edges are faces of solids.
+double shell_thickness(const InpModel& m, const LoadLine& load) {
+  const std::string name = io::inp::element_set_name(load.elements);
+  const auto loaded = cells_of_set(m, set_of(m, load.line.at, name, {SetKind::elements}));
+  std::set<double> found;
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "SHELLSECTION") continue;
+    const std::string& on = set_of(m, card.at, value_of(m, card, "ELSET"), {SetKind::elements});
+    const auto cells = cells_of_set(m, on);
+    if (std::ranges::none_of(cells, [&](const auto& cell) { return loaded.contains(cell); }))
+      continue;
+    double thickness = 0;
+    for (const Line& line : io::inp::lines_of(m.deck, card)) {
+      thickness += Fields(m.deck, line).real("the thickness");
+      if (!io::inp::is_layered(card)) break;
+    }
+    found.insert(io::inp::find_parameter(card, "NODALTHICKNESS") ? 0 : thickness);
+  }
+  if (found.size() != 1 || !(*found.begin() > 0))
+    load.fields.fail("EDNOR needs shells of one thickness, which their *SHELL SECTION gives");
+  return *found.begin();
 }
 
 void read_distributed(const InpReading& r, const Card& card) {
@@ -118,7 +178,12 @@ void read_distributed(const InpReading& r, const Card& card) {
     if (io::inp::is_side_load(load)) {
       const std::string& on =
           set_of(r.m, line.at, io::inp::side_set_name(load, one.elements), {SetKind::surface});
-      set_condition(r.m, part.pressures, {on, 1}, fields.real("the pressure"), said, line);
+      add_load(r, part.pressures, {on, 1}, fields.real("the pressure"), said, line);
+    } else if (io::inp::is_edge_load(load)) {
+      const std::string& on =
+          set_of(r.m, line.at, io::inp::side_set_name(load, one.elements), {SetKind::surface});
+      const double force = fields.real("the force per length");
+      add_load(r, part.pressures, {on, 1}, force / shell_thickness(r.m, one), said, line);
     } else if (load == "GRAV") {
       read_gravity(r, one, part.body_forces);
     } else if (load == "CENTRIF") {
@@ -127,7 +192,8 @@ void read_distributed(const InpReading& r, const Card& card) {
       read_centrifugal(r, one);
     } else {
       fields.fail(
-          fmt::format("load {} is not supported: P1 to P6, GRAV or CENTRIF", io::inp::shown(load)));
+          fmt::format("load {} is not supported: P1 to P6, EDNOR1 to EDNOR4, GRAV or CENTRIF",
+                      io::inp::shown(load)));
     }
   }
 }
@@ -141,11 +207,30 @@ void read_on_surfaces(const InpReading& r, const Card& card) {
     const std::string& on = set_of(r.m, line.at, surface, {SetKind::surface});
     const std::string load = io::inp::capitals(io::inp::name_of(fields.next().value_or("")));
     if (load != "P") fields.fail(fmt::format("load {} is not supported: P", io::inp::shown(load)));
-    set_condition(r.m, pressures, {on, 1}, fields.real("the pressure"), said, line);
+    add_load(r, pressures, {on, 1}, fields.real("the pressure"), said, line);
   }
 }
 
 }  // namespace
+
+Conditions with_weights(const InpModel& m, const InpConditions& part) {
+  Conditions all = part.forces;
+  for (const auto& [place, weight] : part.weights) {
+    const auto [found, is_new] = all.try_emplace(place, weight);
+    if (is_new) continue;
+    Condition& force = found->second;
+    if (force.size != 0 && weight.size != 0 && force.amplitude != weight.amplitude)
+      throw core::InputError({m.deck.files[0], 0, ""},
+                             fmt::format("'{}' has GRAV on a mass (line {}) and a force of *CLOAD "
+                                         "with another amplitude, which is not supported",
+                                         place.first, weight.line));
+    if (force.size == 0) force.amplitude = weight.amplitude;
+    force.fresh = force.fresh || force.released || weight.fresh || weight.released;
+    force.released = false;
+    force.size += weight.size;
+  }
+  return all;
+}
 
 void read_load(const InpReading& r, const Card& card) {
   if (card.keyword != "DLOAD" && card.keyword != "DSLOAD") return;

@@ -210,6 +210,8 @@ void put_damping(const InpModel& m, const io::inp::Card& card, SourceNode& norma
 /// Damping along the surface as friction; empty: there is none.
 [[nodiscard]] SourceNode inp_film(const InpModel& m, const io::inp::Card& damping);
 [[nodiscard]] SourceNode inp_axes(InpModel& m);
+/// The axes (columns) of its `*TRANSFORM`; the global ones without.
+[[nodiscard]] Mat<3, 3> axes_of_node(const InpModel& m, Index node);
 [[nodiscard]] SourceNode inp_equations(const InpModel& m);
 /// Rigid bodies of `*RIGID BODY` and `*COUPLING`, and the knots of shells and beams, with the nodes
 /// that stand for them.
@@ -248,6 +250,8 @@ struct InpMass {
 /// The card of a `*COUPLING` that says how, after it.
 [[nodiscard]] const io::inp::Card& kind_of_coupling(const InpModel& m,
                                                     const io::inp::Card& coupling);
+/// A `*KINEMATIC` that couples all displacements.
+[[nodiscard]] bool moves_surface(const InpModel& m, const io::inp::Card& kind);
 /// Name of the rigid body of a card's reference node.
 [[nodiscard]] std::string reference_body(const InpModel& m, const io::inp::Card& card);
 

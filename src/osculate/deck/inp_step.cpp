@@ -128,8 +128,7 @@ void put_loads(const InpWriting& w, InpActing& acting, bool imaginary) {
   const auto force = [](SourceNode& entry, int direction, const Condition& value) {
     put(entry, inp_component('f', direction), inp_number(value.size, value.line));
   };
-  put_all("forces", part.forces, force);
-  put_all("forces", part.weights, force);
+  put_all("forces", with_weights(w.m, part), force);
   put_all("pressure", part.pressures, [](SourceNode& entry, int, const Condition& value) {
     put(entry, "value", inp_number(value.size, value.line));
   });

@@ -13,6 +13,8 @@ using io::inp::Card;
 /// What has been read up to a card.
 struct History {
   InpModel& m;
+  const InpLoadParts& parts;
+  InpOverlaps overlaps{};
   InpSteps out{};
   InpTables tables{};
   InpActing acting{}, before{};  ///< the latter: when the step begins
@@ -124,6 +126,11 @@ void end_buckling(History& h, const Card& card, const InpWriting& w) {
   h.found = {};
 }
 
+void note_loads(History& h, const InpConditions& part) {
+  note_overlaps(h.m, part.forces, h.overlaps);
+  note_overlaps(h.m, part.pressures, h.overlaps);
+}
+
 /// Loads and supports of this step and of those like it before.
 void end_swing(History& h, const Card& card, const InpWriting& w) {
   check_perturbation(h.m, *h.step, *h.now.card, h.found, h.moved);
@@ -135,6 +142,7 @@ void end_swing(History& h, const Card& card, const InpWriting& w) {
   check_supports(h.m, *h.now.card, h.found, h.acting);
   check_swinging(h.m, *h.now.card, h.acting);
   for (const bool imaginary : {false, true}) {
+    note_loads(h, h.acting.parts[imaginary ? 1 : 0]);
     put_prescribed(w, h.acting.parts[imaginary ? 1 : 0].prescribed, true, imaginary);
     put_loads(w, h.acting, imaginary);
   }
@@ -173,14 +181,7 @@ void end_motion(History& h, const Card& card, const InpWriting& w) {
     put_releases(w, real.prescribed);
     put_holds(w, real.prescribed);
   }
-  check_loads_of_later_steps(h.m, *h.step, real.forces, "CLOAD");
-  check_loads_of_later_steps(h.m, *h.step, real.pressures, "DLOAD");
-  for (const auto& [place, weight] : real.weights)
-    if (real.forces.contains(place))
-      io::inp::fail(h.m.deck, *h.step,
-                    fmt::format("'{}' has GRAV on a mass and a force of *CLOAD in the same "
-                                "direction, which is not supported",
-                                printable(place.first)));
+  note_loads(h, real);
   put_loads(w, h.acting);
   put_changes(h, card, w.step);
   if (!modal) put_temperatures(w, h.acting);
@@ -217,22 +218,14 @@ void take_card(History& h, const Card& card) {
   if (is_procedure(card)) begin_procedure(h, card);
   if (key == "SELECTCYCLICSYMMETRYMODES") read_diameters(h.m, card, h.now);
   if (key == "INITIALCONDITIONS") check_initial_conditions(h.m, card);
-  const InpReading reading{h.m,
-                           h.tables,
-                           h.acting,
-                           h.idle,
-                           h.now,
-                           h.out.steps.items.size(),
-                           h.step != nullptr,
-                           h.last.is("STEADYSTATEDYNAMICS")};
+  const InpReading reading{h.m,     h.tables, h.acting,          h.idle,
+                           h.parts, h.now,    h.step != nullptr, h.last.is("STEADYSTATEDYNAMICS")};
   read_condition(reading, card);
   read_load(reading, card);
 }
 
-}  // namespace
-
-InpSteps inp_steps(InpModel& m) {
-  History h{m};
+History walk_steps(InpModel& m, const InpLoadParts& parts) {
+  History h{m, parts};
   h.out.steps = inp_list(1);
   h.out.amplitudes = inp_map(1);
   for (const Card& card : m.deck.cards) take_card(h, card);
@@ -240,7 +233,21 @@ InpSteps inp_steps(InpModel& m) {
     io::inp::fail(m.deck, *h.step, "its *END STEP is missing");
   if (h.out.steps.items.empty())
     throw core::InputError({m.deck.files[0], 0, ""}, "the deck has no *STEP");
-  return std::move(h.out);
+  return h;
+}
+
+}  // namespace
+
+InpSteps inp_steps(InpModel& m) {
+  const std::vector<std::string> notes = m.notes;
+  const SourceNode sets = m.new_sets;
+  const InpLoadParts whole;
+  History h = walk_steps(m, whole);
+  if (h.overlaps.empty()) return std::move(h.out);
+  m.notes = notes;
+  m.new_sets = sets;
+  const InpLoadParts parts = load_parts(m, h.overlaps);
+  return walk_steps(m, parts).out;
 }
 
 }  // namespace osculate::deck

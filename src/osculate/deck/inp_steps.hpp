@@ -97,11 +97,10 @@ struct InpConditions {
   return {&all.forces, &all.pressures, &all.body_forces, &all.centrifugal, &all.weights};
 }
 
-/// A GRAV of a part of the bodies: by which set, along which direction and in which step.
+/// A GRAV of a part of the bodies: by which set, along which direction.
 struct InpGravity {
   std::string set;
   Vec3 direction;
-  std::size_t step;
 };
 /// What acts, step by step.
 struct InpActing {
@@ -111,14 +110,20 @@ struct InpActing {
   std::vector<std::array<double, 6>> axes;  ///< of centrifugal loads: two points of each
 };
 
+/// Sets, each with those that overlap it and have been loaded by a step before or after.
+using InpOverlaps = std::map<std::string, std::set<std::string>>;
+/// The parts that such a set is loaded by, one by one: CalculiX has one load in a direction of a
+/// node or on a facet, which that of a later step replaces.
+using InpLoadParts = std::map<std::string, std::vector<std::string>>;
+
 /// Where a card of supports or loads stands.
 struct InpReading {
   InpModel& m;
   InpTables& tables;
   InpActing& acting;
-  std::set<std::string>& idle;    ///< sets of nodes without elements that have been told of
+  std::set<std::string>& idle;  ///< sets of nodes without elements that have been told of
+  const InpLoadParts& parts;
   const InpProcedure& procedure;  ///< of the step, as far as it is read
-  std::size_t steps = 0;          ///< how many have ended
   bool in_step = false;
   bool swings = false;  ///< the last procedure is *STEADY STATE DYNAMICS
 };
@@ -135,16 +140,20 @@ void read_load(const InpReading& r, const io::inp::Card& card);
 InpSaid begin_card(const InpReading& r, const io::inp::Card& card, Conditions& values);
 /// Of one step the sizes of loads add up.
 void set_condition(const InpModel& m, Conditions& values, const std::pair<std::string, int>& place,
-                   double size, const InpSaid& said, const io::inp::Line& line, bool adds = true);
+                   double size, const InpSaid& said, const io::inp::Line& line, bool adds);
+/// A load on a set, or on its parts.
+void add_load(const InpReading& r, Conditions& values, const std::pair<std::string, int>& place,
+              double size, const InpSaid& said, const io::inp::Line& line);
+/// Forces at nodes, those of `*CLOAD` and weights of masses: there are both where both act.
+[[nodiscard]] Conditions with_weights(const InpModel& m, const InpConditions& part);
 /// Real or imaginary ones.
 [[nodiscard]] InpConditions& part_of(const InpReading& r, const io::inp::Card& card);
 /// What a step has said is what the next ones find.
 void end_conditions(InpActing& acting);
-/// Refuses loads of a step on nodes or facets that another set has had loaded in the same direction
-/// by a step before: CalculiX has one load there, which the later one replaces. In
-/// inp_overlaps.cpp.
-void check_loads_of_later_steps(const InpModel& m, const io::inp::Card& step,
-                                const Conditions& loads, std::string_view keyword);
+/// Notes sets of loads of a step that overlap others, which a step before has loaded in the same
+/// direction; the parts of all of them, which become new sets. In inp_load_parts.cpp.
+void note_overlaps(const InpModel& m, const Conditions& loads, InpOverlaps& overlaps);
+[[nodiscard]] InpLoadParts load_parts(InpModel& m, const InpOverlaps& overlaps);
 
 // ---- motions along vibrations: inp_vibrations.cpp ---------------------------------------------
 
