@@ -88,6 +88,39 @@ void add_pretensions(const BuildContext<Dim>& c, std::vector<MarkedEquation>& al
   }
 }
 
+/// Some displacements of nodes follow a rigid body, which turns little.
+///
+/// Formula    u_i = U_i + sum_k theta_k (e_k x (X - X_b))_i
+/// Tested by  tests/unit/deck/test_couplings.cpp
+template <int Dim>
+void add_followers(const BuildContext<Dim>& c, std::vector<MarkedEquation>& all) {
+  for (const Coupling& coupling : c.description.coupling) {
+    if (coupling.is_mean()) continue;
+    if (Dim == 2 && coupling.of[2])
+      throw core::InputError(coupling.mark, "a plane model has no displacement 'uz'");
+    for (const auto& section : c.model().sections)
+      if (section.section.kinematics == solid::Kinematics::finite)
+        throw core::InputError(coupling.mark,
+                               "a coupling of some displacements is one of small rotations: not "
+                               "with sections of finite kinematics");
+    const Index body = c.rigid_index.at(coupling.rigid.value);
+    const Vec<Dim> centre = c.model().rigid[static_cast<std::size_t>(body)].reference;
+    for (const Index node : moving_nodes(c, coupling.on, Idle::refused))
+      for (int i = 0; i < Dim; ++i) {
+        if (!coupling.of[static_cast<std::size_t>(i)]) continue;
+        model::Equation equation;
+        add_displacement(c, node, Vec<Dim>(Vec<Dim>::Unit(i)), 1.0, equation);
+        add_term(equation, body_dof(c.model(), body, static_cast<Component>(i)), -1.0);
+        Vec3 arm = Vec3::Zero();
+        arm.head<Dim>() = c.model().reference[static_cast<std::size_t>(node)] - centre;
+        for (int k = Dim == 2 ? 2 : 0; k < 3; ++k)
+          if (const double moves = Vec3(Vec3::Unit(k).cross(arm))[i]; moves != 0)
+            add_term(equation, body_dof(c.model(), body, static_cast<Component>(3 + k)), -moves);
+        all.push_back({std::move(equation), coupling.mark, true});
+      }
+  }
+}
+
 /// These and what the mesh adds; the courses know of what that prescribes.
 template <int Dim>
 std::vector<model::Equation> reduced(const BuildContext<Dim>& c,
@@ -217,6 +250,7 @@ template <int Dim>
 void build_equations(BuildContext<Dim>& c) {
   std::vector<MarkedEquation> all = given_equations(c);
   add_pretensions(c, all);
+  add_followers(c, all);
   const std::size_t until = next_freeing(c.description.steps, 0);
   std::vector<MarkedEquation> beside = all;
   if (!c.description.cyclic_symmetry.empty()) add_cyclic_symmetry(c, beside);
@@ -257,6 +291,7 @@ std::optional<std::vector<model::Equation>> equations_left(BuildContext<Dim>& c,
                                          steps[s].free_equations.front().on.value));
   }
   add_pretensions(c, all);
+  add_followers(c, all);
   const std::size_t until = next_freeing(steps, step + 1);
   std::vector<model::Equation> kept = std::move(c.model().equations);
   c.model().equations.clear();

@@ -143,7 +143,8 @@ void build_node_constraints(BuildContext<Dim>& c) {
   }
   for (const NodeCondition& one : d.collinear) add_all(c, one, NodeConstraint::Kind::line);
   for (const NodeCondition& one : d.fixed_distance) add_distance(c, one);
-  for (const Coupling& one : d.coupling) add_coupling(c, one);
+  for (const Coupling& one : d.coupling)
+    if (one.is_mean()) add_coupling(c, one);
   if (c.model().node_constraints.empty()) return;
   const double stiffness = node_stiffness(c);
   for (NodeConstraint& one : c.model().node_constraints) one.stiffness = stiffness;

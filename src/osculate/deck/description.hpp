@@ -349,10 +349,13 @@ struct NodeCondition {
   core::SourceMark mark;
   Name on;
 };
-/// The mean motion of a set's nodes is that of a rigid body.
+/// The mean motion of a set's nodes is that of a rigid body; or these displacements of each are.
 struct Coupling {
   core::SourceMark mark;
   Name on, rigid;
+  std::array<bool, 3> of{};
+
+  [[nodiscard]] bool is_mean() const { return of == std::array<bool, 3>{}; }
 };
 /// A force that depends on one elongation: of the line between two nodes, or of a sum of
 /// displacements as in equations.

@@ -7,6 +7,7 @@
 
 #include "osculate/deck/inp_parts.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
+#include "osculate/material/orientation.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -16,8 +17,9 @@ using io::inp::Fields;
 using io::inp::Line;
 using io::inp::SetKind;
 
-/// A rigid body of the nodes of a set (if it has some) and its reference node.
-void put_rigid(InpModel& m, const Card& card, const std::string& nodes, SourceNode& rigid) {
+/// A rigid body of the nodes of sets and its reference node.
+void put_rigid(InpModel& m, const Card& card, const std::vector<std::string>& nodes,
+               SourceNode& rigid) {
   const int line = line_of(card.at);
   const std::string name = reference_body(m, card);
   const std::string reference = node_parameter(m, card, "REFNODE");
@@ -30,32 +32,34 @@ void put_rigid(InpModel& m, const Card& card, const std::string& nodes, SourceNo
   put(body, "reference_node", inp_text(reference, line));
   if (!turning.empty()) put(body, "rotation_node", inp_text(turning, line));
   SourceNode& sets = put(body, "set", inp_list(line));
-  if (!nodes.empty()) sets.items.push_back(inp_text(nodes, line));
+  for (const std::string& set : nodes) sets.items.push_back(inp_text(set, line));
   sets.items.push_back(inp_text(reference, line));
   put(body, "reference",
       inp_point(m.mesh.mesh.nodes[static_cast<std::size_t>(node)], inp_dimension(m), line));
 }
 
-/// All displacements, or a refusal.
-void require_all_directions(const InpModel& m, const Card& kinematic) {
-  std::array<bool, 6> coupled{};
-  const auto lines = io::inp::lines_of(m.deck, kinematic);
-  for (const Line& line : lines) {
-    Fields fields(m.deck, line);
-    const std::int32_t first = fields.number("the first direction");
-    std::int32_t last = first;
-    if (const auto field = fields.next(); field && !field->empty())
-      last = io::inp::number_of(m.deck, line.at, *field, "the last direction");
-    for (std::int32_t k = first; k <= std::min<std::int32_t>(last, 6); ++k)
-      coupled[static_cast<std::size_t>(k - 1)] = true;
-  }
-  for (int k = 0; k < inp_dimension(m); ++k)
-    if (!lines.empty() && !coupled[static_cast<std::size_t>(k)])
-      io::inp::fail(m.deck, kinematic,
-                    "nodes are coupled in all directions here, which are those from 1 to 3");
-}
-
 }  // namespace
+
+Mat<3, 3> axes_of_node(const InpModel& m, Index node) {
+  Mat<3, 3> axes = Mat<3, 3>::Identity();
+  if (!m.transformed.contains(node)) return axes;
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "TRANSFORM") continue;
+    const std::string& on = set_of(m, card.at, value_of(m, card, "NSET"), {SetKind::nodes});
+    const std::vector<Index>& nodes = m.mesh.mesh.find_set(on)->nodes;
+    if (std::ranges::find(nodes, node) == nodes.end()) continue;
+    using Kind = material::Orientation::Kind;
+    Fields fields(m.deck, only_line(m, card, "two points"));
+    material::Orientation along;
+    along.kind = option_of(card, "TYPE") == "C" ? Kind::cylindrical : Kind::rectangular;
+    along.a = point_of(fields);
+    along.b = point_of(fields);
+    if (inp_dimension(m) == 2 && along.kind == Kind::cylindrical) along.b = along.a + Vec3::UnitZ();
+    if (material::gives_axes(along))
+      axes = material::axes_at(along, m.mesh.mesh.nodes[static_cast<std::size_t>(node)]);
+  }
+  return axes;
+}
 
 SourceNode inp_axes(InpModel& m) {
   SourceNode axes = inp_list(1);
@@ -154,13 +158,19 @@ class EquationReader {
       fields.fail(fmt::format("'{}' has no direction {}", set, dof));
     const std::vector<InpPlace> places = inp_places(m_, set, dof);
     if (places.size() != 1) fields.fail("expected one node here, or nodes that are no knots");
+    const double factor = fields.real("the factor");
+    add(fields, line, set, places[0], factor);
+  }
+
+  /// What a direction of a set acts on, as a term.
+  void add(Fields& fields, const Line& line, const std::string& set, const InpPlace& place,
+           double factor) {
     count(fields, line, set);
-    const InpPlace& place = places[0];
     const int at = line_of(line.at);
     SourceNode& term = terms_.items.emplace_back(inp_map(at));
     put(term, "on", inp_text(place.on, at));
     put(term, "of", inp_text(inp_component('u', place.direction), at));
-    put(term, "factor", inp_number(place.sign * fields.real("the factor"), at));
+    put(term, "factor", inp_number(place.sign * factor, at));
   }
 
   void finish() {
@@ -206,12 +216,42 @@ void put_equations(const InpModel& m, const Card& card, SourceNode& equations) {
   if (missing > 0) io::inp::fail(m.deck, card, fmt::format("{} terms are missing", missing));
 }
 
+/// `*MPC` of Abaqus: the nodes of the first set move as the second node; with TIE they turn as it.
+void put_joints(const InpModel& m, const Card& card, SourceNode& equations) {
+  for (const Line& line : io::inp::lines_of(m.deck, card)) {
+    Fields fields(m.deck, line);
+    const std::string kind = io::inp::capitals(io::inp::name_of(fields.next().value_or("")));
+    if (kind != "PIN" && kind != "TIE") continue;
+    const std::array<std::string, 2> sets{node_set_of(m, line, fields.next().value_or("")),
+                                          node_set_of(m, line, fields.next().value_or(""))};
+    fields.expect_end();
+    if (only_node(m, sets[1]) < 0)
+      fields.fail(fmt::format("*MPC: expected one node, '{}' has several", sets[1]));
+    const int highest = std::min(highest_direction(m, sets[0]), highest_direction(m, sets[1]));
+    for (int k = 1; k <= (kind == "PIN" ? 3 : highest); ++k) {
+      if (!inp_has_direction(m, k)) continue;
+      const std::vector<InpPlace> follows = inp_places(m, sets[0], k),
+                                  leads = inp_places(m, sets[1], k);
+      if (k > 3 && (follows.empty() || leads.empty())) continue;
+      if (follows.size() != 1 || leads.size() != 1)
+        fields.fail("*MPC: expected one node, or nodes without rotations");
+      SourceNode equation = inp_map(line_of(line.at));
+      EquationReader reader(m, equation, equation.line);
+      reader.add(fields, line, sets[0], follows[0], 1);
+      reader.add(fields, line, sets[1], leads[0], -1);
+      reader.finish();
+      equations.items.push_back(std::move(equation));
+    }
+  }
+}
+
 }  // namespace
 
 SourceNode inp_equations(const InpModel& m) {
   SourceNode equations = inp_list(1);
   for (const Card& card : m.deck.cards) {
     if (card.keyword == "DISTRIBUTINGCOUPLING") put_distributing(m, card, equations);
+    if (card.keyword == "MPC") put_joints(m, card, equations);
     if (card.keyword == "EQUATION" && !is_removal_of_equations(card))
       put_equations(m, card, equations);
   }
@@ -219,28 +259,32 @@ SourceNode inp_equations(const InpModel& m) {
   return equations;
 }
 
+namespace {
+
+/// Sets of a `*RIGID BODY`: of nodes also those of Abaqus, which differ for shells and beams alone.
+std::vector<std::string> sets_of_body(const InpModel& m, const Card& card) {
+  std::vector<std::string> sets;
+  for (const char* const key : {"NSET", "ELSET", "PINNSET", "TIENSET"})
+    if (const io::inp::Parameter* const given = io::inp::find_parameter(card, key))
+      sets.push_back(
+          set_of(m, card.at, given->value,
+                 {key == std::string_view("ELSET") ? SetKind::elements : SetKind::nodes}));
+  if (sets.empty()) io::inp::fail(m.deck, card, "expected NSET= or ELSET=");
+  return sets;
+}
+
+}  // namespace
+
 SourceNode inp_rigid(InpModel& m) {
   SourceNode rigid = inp_map(1);
   for (const Card& card : m.deck.cards) {
-    if (card.keyword == "RIGIDBODY") {
-      const bool by_nodes = io::inp::find_parameter(card, "NSET") != nullptr;
-      put_rigid(m, card,
-                set_of(m, card.at, value_of(m, card, by_nodes ? "NSET" : "ELSET"),
-                       {by_nodes ? SetKind::nodes : SetKind::elements}),
-                rigid);
-    }
-    if (card.keyword == "COUPLING") {
-      const Card& kind = kind_of_coupling(m, card);
-      if (kind.keyword == "DISTRIBUTING") {
-        put_rigid(m, card, "", rigid);
-        continue;
-      }
-      require_all_directions(m, kind);
-      put_rigid(m, card,
-                set_of(m, card.at, value_of(m, card, "SURFACE"),
-                       {SetKind::surface, SetKind::node_surface}),
-                rigid);
-    }
+    if (card.keyword == "RIGIDBODY") put_rigid(m, card, sets_of_body(m, card), rigid);
+    if (card.keyword != "COUPLING") continue;
+    std::vector<std::string> moved;
+    if (moves_surface(m, kind_of_coupling(m, card)))
+      moved.push_back(set_of(m, card.at, value_of(m, card, "SURFACE"),
+                             {SetKind::surface, SetKind::node_surface}));
+    put_rigid(m, card, moved, rigid);
   }
   put_rotating_bodies(m, rigid);
   put_knots(m, rigid);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "osculate/deck/inp_parts.hpp"
 #include "osculate/deck/pretension.hpp"
@@ -26,10 +27,11 @@ const char* key_of_mpc(const InpModel& m, const Line& line, const std::string& k
   if (kind == "PLANE") return "coplanar";
   if (kind == "STRAIGHT") return "collinear";
   if (kind == "BEAM") return "fixed_distance";
-  if (kind == "MEANROT") return nullptr;  // in inp_meanrot.cpp
-  io::inp::fail(
-      m.deck, line.at,
-      fmt::format("*MPC: {} is not supported: PLANE, STRAIGHT, BEAM or MEANROT", printable(kind)));
+  if (kind == "MEANROT") return nullptr;               // in inp_meanrot.cpp
+  if (kind == "PIN" || kind == "TIE") return nullptr;  // equations
+  io::inp::fail(m.deck, line.at,
+                fmt::format("*MPC: {} is not supported: PLANE, STRAIGHT, BEAM, MEANROT, PIN or TIE",
+                            printable(kind)));
 }
 
 /// A line begins with the kind; one that begins with a node goes on with the last one.
@@ -48,7 +50,7 @@ void put_mpcs(const InpModel& m, const Card& card, SourceNode& root) {
       SourceNode& entry = list_of(root, key, at).items.emplace_back(inp_map(at));
       nodes = &put(entry, "on", inp_list(at));
     } else if (!known) {
-      fields.fail("expected PLANE, STRAIGHT, BEAM or MEANROT");
+      fields.fail("expected PLANE, STRAIGHT, BEAM, MEANROT, PIN or TIE");
     } else if (!nodes) {
       continue;
     } else if (first != "0" && !first.empty()) {
@@ -60,9 +62,28 @@ void put_mpcs(const InpModel& m, const Card& card, SourceNode& root) {
   }
 }
 
-/// The mean motion of the nodes of a surface is that of the reference node.
+/// The directions that the lines of a `*KINEMATIC` or `*DISTRIBUTING` name; without lines all.
+std::array<bool, 6> coupled_directions(const InpModel& m, const Card& kind) {
+  std::array<bool, 6> coupled{};
+  const auto lines = io::inp::lines_of(m.deck, kind);
+  if (lines.empty()) coupled.fill(true);
+  for (const Line& line : lines) {
+    Fields fields(m.deck, line);
+    const std::int32_t first = fields.number("the first direction");
+    std::int32_t last = first;
+    if (const auto field = fields.next(); field && !field->empty())
+      last = io::inp::number_of(m.deck, line.at, *field, "the last direction");
+    for (std::int32_t k = first; k <= std::min<std::int32_t>(last, 6); ++k)
+      coupled[static_cast<std::size_t>(k - 1)] = true;
+  }
+  return coupled;
+}
+
+/// The mean motion of the nodes of a surface is that of the reference node, or some displacements
+/// of each are. As in CalculiX, the directions of a `*DISTRIBUTING` are of no account.
 void put_coupling(const InpModel& m, const Card& card, SourceNode& root) {
-  if (kind_of_coupling(m, card).keyword != "DISTRIBUTING") return;
+  const Card& kind = kind_of_coupling(m, card);
+  if (moves_surface(m, kind)) return;
   const int line = line_of(card.at);
   SourceNode& entry = list_of(root, "coupling", line).items.emplace_back(inp_map(line));
   put(entry, "on",
@@ -70,6 +91,17 @@ void put_coupling(const InpModel& m, const Card& card, SourceNode& root) {
                       {SetKind::surface, SetKind::node_surface}),
                line));
   put(entry, "rigid", inp_text(reference_body(m, card), line));
+  if (kind.keyword == "DISTRIBUTING") return;
+  const std::array<bool, 6> coupled = coupled_directions(m, kind);
+  SourceNode of = inp_list(line);
+  for (int k = 1; k <= inp_dimension(m); ++k)
+    if (coupled[static_cast<std::size_t>(k - 1)])
+      of.items.push_back(inp_text(inp_component('u', k), line));
+  if (of.items.empty()) io::inp::fail(m.deck, kind, "couples no displacement");
+  if (m.finite)
+    io::inp::fail(m.deck, kind,
+                  "some directions alone are not supported with NLGEOM: all displacements");
+  put(entry, "of", std::move(of));
 }
 
 void put_pretension(InpModel& m, const Card& card, SourceNode& root) {
@@ -161,6 +193,13 @@ void put_ties(const InpModel& m, const Card& card, SourceNode& root) {
 }
 
 }  // namespace
+
+bool moves_surface(const InpModel& m, const Card& kind) {
+  if (kind.keyword != "KINEMATIC") return false;
+  const std::array<bool, 6> coupled = coupled_directions(m, kind);
+  return std::all_of(coupled.begin(), coupled.begin() + inp_dimension(m),
+                     [](bool one) { return one; });
+}
 
 bool is_explicit(const InpModel& m) {
   return std::any_of(m.deck.cards.begin(), m.deck.cards.end(), [](const Card& card) {

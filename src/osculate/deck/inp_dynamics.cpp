@@ -1,7 +1,7 @@
 // Steps in time of a deck.
 #include <fmt/format.h>
 
-#include "osculate/deck/inp_parts.hpp"
+#include "osculate/deck/inp_steps.hpp"
 
 namespace osculate::deck {
 namespace {

@@ -8,7 +8,7 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<InpKeyword, 132> keywords{{
+constexpr std::array<InpKeyword, 148> keywords{{
     {"HEADING", "", "a title", silent, ""},
     {"INCLUDE", "INPUT", "", mesh, "the lines of the file"},
     {"NODE", "NSET, SYSTEM, INPUT", "number, x, y, z", mesh, "nodes, and a set of them"},
@@ -88,12 +88,15 @@ constexpr std::array<InpKeyword, 132> keywords{{
     {"EQUATION", "REMOVE, REMOVE ALL", "number of terms; node, dof, factor", translated,
      "`equations`, `steps.free_equations` (REMOVE)"},
     {"MPC", "", "kind, nodes", translated,
-     "`coplanar`, `collinear`, `fixed_distance`; `equations` or `coupling` (MEANROT)"},
+     "`coplanar`, `collinear`, `fixed_distance`; `equations` or `coupling` (MEANROT); `equations` "
+     "(PIN, TIE)"},
     {"TIE", "NAME, POSITION TOLERANCE, ADJUST, CYCLIC SYMMETRY; TYPE, NO ROTATION, NO THICKNESS",
      "slave, master", translated, "`ties` (EXPLICIT: `contact` with `separation: tied`)"},
-    {"RIGID BODY", "NSET, ELSET, REF NODE, ROT NODE", "", translated, "`rigid`"},
+    {"RIGID BODY", "NSET, ELSET, REF NODE, ROT NODE, PIN NSET, TIE NSET", "", translated,
+     "`rigid`"},
     {"COUPLING", "CONSTRAINT NAME, REF NODE, SURFACE", "", translated, "`rigid`"},
-    {"KINEMATIC", "", "first dof, last dof", translated, "`rigid` (all displacements)"},
+    {"KINEMATIC", "", "first dof, last dof", translated,
+     "`rigid` (all displacements), `coupling: of`"},
     {"DISTRIBUTING", "WEIGHTING METHOD=UNIFORM, COUPLING=CONTINUUM", "first dof, last dof",
      translated, "`coupling`"},
     {"DISTRIBUTING COUPLING", "ELSET", "nodes, weights", translated, "`equations`"},
@@ -175,7 +178,7 @@ constexpr std::array<InpKeyword, 132> keywords{{
     {"NODE PRINT", "NSET, FREQUENCY, TOTALS, GLOBAL; FREQUENCYF, TIME POINTS, SUMMARY",
      "names of results", translated, "`output.dat`: U, RF"},
     {"EL PRINT", "ELSET, FREQUENCY, TOTALS, GLOBAL; FREQUENCYF, TIME POINTS, SUMMARY, POSITION",
-     "names of results", translated, "`output.dat`: S, E, PEEQ, EVOL, ELSE"},
+     "names of results", translated, "`output.dat`: S, E, PEEQ, ENER, EVOL, ELSE"},
     {"CONTACT PRINT",
      "FREQUENCY, TOTALS; FREQUENCYF, TIME POINTS, NSET, SET, SUMMARY, SLAVE, MASTER",
      "names of results", translated, "`output.dat`: CDIS, CSTR, CNUM, CELS"},
@@ -224,6 +227,25 @@ constexpr std::array<InpKeyword, 132> keywords{{
     {"FILTER", "NAME", "", silent, ""},
     {"SOLUTION TECHNIQUE", "TYPE", "", silent, "`solver`"},
     {"DIAGNOSTICS", "", "", silent, ""},
+    {"PHYSICAL CONSTANTS", "ABSOLUTE ZERO, STEFAN BOLTZMANN, NEWTON GRAVITY", "", silent,
+     "no radiation"},
+    {"DFLUX", "OP, AMPLITUDE", "element or set, load, flux", silent, "temperatures do not change"},
+    {"CFLUX", "OP, AMPLITUDE", "node or set, dof, flux", silent, "temperatures do not change"},
+    {"FILM", "OP, AMPLITUDE", "element or set, face, coefficient", silent,
+     "temperatures do not change"},
+    {"RADIATE", "OP, AMPLITUDE", "element or set, face, emissivity", silent,
+     "temperatures do not change"},
+    {"ELECTRICAL CONDUCTIVITY", "", "conductivity", silent, "no electric fields"},
+    {"FLUID CONSTANTS", "", "constants", silent, "no fluids"},
+    {"SPECIFIC GAS CONSTANT", "", "constant", silent, "no fluids"},
+    {"BASE MOTION", "DOF, AMPLITUDE", "", none, "`*BOUNDARY` with an amplitude"},
+    {"BOUNDARYF", "", "", none, "no fluids"},
+    {"GREEN", "", "", none, "no Green functions"},
+    {"SENSITIVITY", "", "", none, "no sensitivities"},
+    {"SUBSTRUCTURE GENERATE", "", "", none, "no substructures"},
+    {"REFINE MESH", "LIMIT", "name of a result", none, "meshes stay as they are"},
+    {"USER ELEMENT", "TYPE", "", none, "no elements of users"},
+    {"FLUID SECTION", "ELSET, MATERIAL, TYPE", "", none, "no fluids"},
 }};
 
 /// Whether a keyword is the name but for its blanks.

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "osculate/deck/inp_parts.hpp"
+#include "osculate/deck/inp_steps.hpp"
 
 namespace osculate::deck {
 namespace {

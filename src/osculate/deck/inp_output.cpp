@@ -52,8 +52,8 @@ std::string word_of(const std::string& name, bool file) {
   if (name == "CDISP") return "CDIS";
   if (name == "CSTRESS" || name == "CSTRE") return "CSTR";
   constexpr std::array<std::string_view, 5> both{"U", "RF", "S", "E", "PEEQ"};
-  constexpr std::array<std::string_view, 7> tables{"EVOL", "ELSE", "CDIS", "CSTR",
-                                                   "CNUM", "CELS", "SOF"};
+  constexpr std::array<std::string_view, 8> tables{"ENER", "EVOL", "ELSE", "CDIS",
+                                                   "CSTR", "CNUM", "CELS", "SOF"};
   const bool known = std::ranges::find(both, name) != both.end() ||
                      (!file && std::ranges::find(tables, name) != tables.end());
   return known ? name : std::string();

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -53,49 +52,6 @@ SourceNode inp_overlaps(const InpModel& m, SourceNode& sections) {
   }
   sections.items = std::move(kept);
   return sets;
-}
-
-namespace {
-
-/// What a load on a set acts on, each by its nodes: facets of surfaces, else nodes.
-std::vector<std::vector<Index>> loaded_places(const InpModel& m, const std::string& on) {
-  std::vector<std::vector<Index>> places;
-  const mesh::Mesh& mesh = m.mesh.mesh;
-  const mesh::Set* const set = mesh.find_set(on);
-  if (!set) return places;
-  for (const mesh::CellRef& ref : set->cells) {
-    const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(ref.block)];
-    const Index* const first = block.cell(ref.cell);
-    places.emplace_back(first, first + cell::info(block.type).nodes);
-    std::ranges::sort(places.back());
-  }
-  if (set->cells.empty())
-    for (const Index n : set->nodes) places.push_back({n});
-  return places;
-}
-
-}  // namespace
-
-void check_loads_of_later_steps(const InpModel& m, const io::inp::Card& step,
-                                const Conditions& loads, std::string_view keyword) {
-  std::map<std::pair<std::vector<Index>, int>, std::string> standing;
-  for (const auto& [key, value] : loads)
-    if (!value.fresh && value.size != 0)
-      for (std::vector<Index>& place : loaded_places(m, key.first))
-        standing.try_emplace({std::move(place), key.second}, key.first);
-  if (standing.empty()) return;
-  for (const auto& [key, value] : loads) {
-    if (!value.fresh) continue;
-    for (std::vector<Index>& place : loaded_places(m, key.first)) {
-      const auto found = standing.find({std::move(place), key.second});
-      if (found == standing.end()) continue;
-      io::inp::fail(m.deck, step,
-                    fmt::format("'{}' (line {}) has parts of '{}', which a step before has loaded: "
-                                "there CalculiX replaces the load, and here both would act. Give "
-                                "*{} with OP=NEW and all loads of the step",
-                                key.first, value.line, found->second, keyword));
-    }
-  }
 }
 
 }  // namespace osculate::deck

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "osculate/deck/inp_conditions.hpp"
 #include "osculate/deck/source_tree.hpp"
 #include "osculate/io/inp/deck_mesh.hpp"
 
@@ -89,10 +88,6 @@ void check_parameters(InpModel& m);
 
 // ---- the keys of a model file -----------------------------------------------------------------
 
-/// `modal` of a step that ends with the last of these cards, with so many vibrations: the last
-/// damping of the deck holds, as in CalculiX. In inp_modal.cpp.
-[[nodiscard]] SourceNode inp_modal(const InpModel& m, std::span<const io::inp::Card> until,
-                                   int line, int vibrations);
 [[nodiscard]] SourceNode inp_materials(InpModel& m);
 /// A material as the model file calls it: by its name in capital and small letters.
 [[nodiscard]] std::string material_named(const InpModel& m, std::string_view name);
@@ -144,10 +139,6 @@ struct InpElements {
 void put_layers(InpModel& m, const io::inp::Card& card, SourceNode& sections);
 /// Elements of several sections stay in the last one; the sets of what is left of the others.
 [[nodiscard]] SourceNode inp_overlaps(const InpModel& m, SourceNode& sections);
-/// Refuses loads of a step on nodes or facets that another set has had loaded in the same direction
-/// by a step before: CalculiX has one load there, which the later one replaces.
-void check_loads_of_later_steps(const InpModel& m, const io::inp::Card& step,
-                                const Conditions& loads, std::string_view keyword);
 /// A set of elements of one material, and its mass per volume.
 struct InpDensity {
   std::string on;
@@ -172,6 +163,8 @@ void put_gradients(SourceNode& entry, const std::array<double, 2>& gradient);
 [[nodiscard]] SourceNode inp_expansion(const InpModel& m, const io::inp::Card& card);
 [[nodiscard]] SourceNode inp_initial_temperature(const InpModel& m);
 [[nodiscard]] SourceNode inp_initial_velocity(const InpModel& m);
+/// Refuses an `*INITIAL CONDITIONS` of other things.
+void check_initial_conditions(const InpModel& m, const io::inp::Card& card);
 
 [[nodiscard]] SourceNode inp_contact(InpModel& m);
 /// The cards of one `*SURFACE INTERACTION`.
@@ -220,6 +213,8 @@ void put_initial_state(const InpModel& m, SourceNode& root);
                                    const io::inp::Card* damping);
 void put_damping(const InpModel& m, const io::inp::Card& card, SourceNode& normal);
 [[nodiscard]] SourceNode inp_axes(InpModel& m);
+/// The axes (columns) of its `*TRANSFORM`; the global ones without.
+[[nodiscard]] Mat<3, 3> axes_of_node(const InpModel& m, Index node);
 [[nodiscard]] SourceNode inp_equations(const InpModel& m);
 /// Rigid bodies of `*RIGID BODY` and `*COUPLING`, and the knots of shells and beams, with the nodes
 /// that stand for them.
@@ -258,6 +253,8 @@ struct InpMass {
 /// The card of a `*COUPLING` that says how, after it.
 [[nodiscard]] const io::inp::Card& kind_of_coupling(const InpModel& m,
                                                     const io::inp::Card& coupling);
+/// A `*KINEMATIC` that couples all displacements.
+[[nodiscard]] bool moves_surface(const InpModel& m, const io::inp::Card& kind);
 /// Name of the rigid body of a card's reference node.
 [[nodiscard]] std::string reference_body(const InpModel& m, const io::inp::Card& card);
 
@@ -282,9 +279,11 @@ struct InpPlace {
 [[nodiscard]] std::string inp_component(char kind, int direction);
 /// 3 as soon as there is a volume, and without any cell.
 [[nodiscard]] int inp_dimension(const InpModel& m);
+/// In the plane there are the directions 1, 2 and 6.
+[[nodiscard]] inline bool inp_has_direction(const InpModel& m, int direction) {
+  return inp_dimension(m) == 3 || direction <= 2 || direction == 6;
+}
 
-/// Time integration of a `*DYNAMIC`.
-[[nodiscard]] SourceNode inp_dynamics(const InpModel& m, const io::inp::Card& card);
 /// Adds the knots of shells and beams to rigid bodies.
 void put_knots(InpModel& m, SourceNode& bodies);
 

@@ -89,6 +89,19 @@ SourceNode inp_initial_temperature(const InpModel& m) {
   return list;
 }
 
+void check_initial_conditions(const InpModel& m, const Card& card) {
+  const std::string type = option_of(card, "TYPE");
+  for (const char* const other : {"USER", "FILE", "GEOSTATIC", "SECTIONPOINTS"})
+    if (io::inp::find_parameter(card, other))
+      io::inp::fail(m.deck, card, fmt::format("the parameter {} is not supported", other));
+  for (const char* const known : {"TEMPERATURE", "VELOCITY", "STRESS", "PLASTICSTRAIN"})
+    if (type == known) return;
+  io::inp::fail(m.deck, card,
+                fmt::format("TYPE={} is not supported: TEMPERATURE, VELOCITY, STRESS or PLASTIC "
+                            "STRAIN",
+                            printable(type)));
+}
+
 SourceNode inp_initial_velocity(const InpModel& m) {
   SourceNode list = inp_list(1);
   for (const Card& card : m.deck.cards) {

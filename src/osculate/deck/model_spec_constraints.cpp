@@ -56,11 +56,29 @@ BoundKey<Description> condition_key(std::vector<NodeCondition> Description::*mem
 BoundKey<Description> coupling_key() {
   const BoundKeys<Coupling> keys(
       {on_key<Coupling>("Set of nodes or boundary facets, not on one line.", "rim"),
-       need(&Coupling::rigid, "rigid", text("The rigid body.").such_as("hub"))});
+       need(&Coupling::rigid, "rigid", text("The rigid body.").such_as("hub")),
+       {optional("of",
+                 list("These displacements of each node are those of the body, and the others "
+                      "are free (small displacements and rotations only).",
+                      choice("Which displacement.",
+                             {word("ux", Component::ux, "displacement in x"),
+                              word("uy", Component::uy, "displacement in y"),
+                              word("uz", Component::uz, "displacement in z (models in space)")}))
+                     .count(1, 3)
+                     .otherwise_as("the mean motion")
+                     .such_as("[ux, uy]")),
+        [](Coupling& coupling, const Value& v) {
+          for (const Value& item : v.items) {
+            bool& slot = coupling.of[static_cast<std::size_t>(item.code)];
+            if (slot) throw core::InputError(item.mark, quoted(item.text) + " is given twice");
+            slot = true;
+          }
+        }}});
   return {optional("coupling",
                    list("Sets whose mean motion (by least squares, of any rotation) is that of a "
                         "rigid body: forces and moments on the body are shared out over the nodes, "
-                        "facets by their area, and leave the set free to deform.",
+                        "facets by their area, and leave the set free to deform. Or, with `of`, "
+                        "sets of which each node follows the body in some directions.",
                         keys.spec("One coupling."))
                        .otherwise("[]")
                        .such_as("[{on: rim, rigid: hub}]")),

@@ -84,7 +84,7 @@ struct Plot {
 
 /// What files for the tools around CalculiX hold, by the words of that program. `contact` are
 /// COPEN, CSLIP*, CPRESS, CSHEAR* together.
-enum class Answer { u, rf, s, e, peeq, contact, evol, energy, sof, cdis, cstr, cels, cnum };
+enum class Answer { u, rf, s, e, peeq, contact, evol, energy, sof, cdis, cstr, cels, cnum, ener };
 enum class Totals { none, also, only };
 
 /// A result of the nodes in MODEL.frd, or a table in MODEL.dat.

@@ -96,6 +96,8 @@ const char* word_in_deck(Answer a) {
       return "PEEQ";
     case Answer::contact:
       return "CDIS, CSTR";
+    case Answer::ener:
+      return "ENER";
     case Answer::evol:
       return "EVOL";
     case Answer::energy:

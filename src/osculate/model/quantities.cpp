@@ -272,11 +272,13 @@ Vec<body::motions<Dim>> force_on_body(const BasicSystem<Dim>& system, const Basi
 template <int Dim>
 void pass_on(const BasicDofSpace<Dim>& dofs, Eigen::VectorXd& forces) {
   const Eigen::VectorXd before = forces;
+  const Dof bodies = dofs.body_dof(0, 0);
   for (const Equation& equation : dofs.equations())
     for (std::size_t t = 1; t < equation.terms.size(); ++t) {
       const auto& [dof, factor] = equation.terms[t];
       const Equation::Term& lead = equation.terms.front();
-      if (dofs.stands_alone(dof)) forces[dof] -= before[lead.dof] * factor / lead.factor;
+      if (dofs.stands_alone(dof) || dof >= bodies)
+        forces[dof] -= before[lead.dof] * factor / lead.factor;
     }
 }
 

@@ -154,13 +154,17 @@ struct Tables {
 
   // ---- cells ----------------------------------------------------------------------------------
 
-  [[nodiscard]] solid::CellStress<Dim> stress_of(std::size_t cell) const {
+  /// Calls `of(section, type, reference, displacement, memory)` for a cell.
+  template <class Of>
+  [[nodiscard]] auto at_cell(std::size_t cell, const Of& of) const {
     const auto [section, place] = a.place_in(system.model(), cell);
     const model::CellNodes c = model::cell_nodes(a.model.mesh, a.mesh.cells[cell].ref);
     const material::Memory memory = place.of(state.memory);
     const auto at = model::places_of(a.model, *section, c.nodes, state.u, memory);
-    return solid::stress_at_points(model::section_on(*section, c.type), c.type, at.reference,
-                                   at.displacement, memory);
+    return of(model::section_on(*section, c.type), c.type, at.reference, at.displacement, memory);
+  }
+  [[nodiscard]] solid::CellStress<Dim> stress_of(std::size_t cell) const {
+    return at_cell(cell, [](const auto&... of) { return solid::stress_at_points(of...); });
   }
 
   /// xx, yy, zz, xy, xz, yz.
@@ -173,16 +177,18 @@ struct Tables {
 
   void at_points(Answer what) {
     if (request.totals == Totals::only) return;
-    title(what == Answer::s   ? "stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz)"
-          : what == Answer::e ? "strains (elem, integ.pnt.,exx,eyy,ezz,exy,exz,eyz)"
-                              : "equivalent plastic strain (elem, integ.pnt.,pe)");
+    title(what == Answer::s      ? "stresses (elem, integ.pnt.,sxx,syy,szz,sxy,sxz,syz)"
+          : what == Answer::e    ? "strains (elem, integ.pnt.,exx,eyy,ezz,exy,exz,eyz)"
+          : what == Answer::ener ? "internal energy density (elem, integ.pnt.,energy)"
+                                 : "equivalent plastic strain (elem, integ.pnt.,pe)");
     for (const std::size_t cell : cells()) {
       const solid::CellStress<Dim> stress = stress_of(cell);
       int number = 0;
       for (const std::size_t p : solid::in_order(stress)) {
         ++number;
-        if (what == Answer::peeq) {
-          const double value = equivalent_plastic_strain(cell, p);
+        if (what == Answer::peeq || what == Answer::ener) {
+          const double value =
+              what == Answer::ener ? work_at(cell, stress, p) : equivalent_plastic_strain(cell, p);
           io::append_dat_row(out, a.mesh.cells[cell].number, number, {&value, 1});
         } else {
           const auto& point = stress.point[p];
@@ -191,6 +197,17 @@ struct Tables {
         }
       }
     }
+  }
+
+  /// Per reference volume.
+  [[nodiscard]] double work_at(std::size_t cell, const solid::CellStress<Dim>& stress,
+                               std::size_t point) const {
+    return at_cell(cell, [&](const auto& section, auto type, const auto& reference, const auto&,
+                             const material::Memory& memory) {
+      const solid::CellEnergy energy =
+          solid::point_energies<Dim>(section, type, reference, stress, memory)[point];
+      return energy.stored + energy.dissipated;
+    });
   }
 
   [[nodiscard]] double equivalent_plastic_strain(std::size_t cell, std::size_t point) const {
@@ -208,12 +225,8 @@ struct Tables {
       for (int p = 0; p < stress.count; ++p)
         value += stress.point[static_cast<std::size_t>(p)].volume;
     } else {
-      const auto [section, place] = a.place_in(system.model(), cell);
-      const model::CellNodes c = model::cell_nodes(a.model.mesh, a.mesh.cells[cell].ref);
-      const material::Memory memory = place.of(state.memory);
-      const auto at = model::places_of(a.model, *section, c.nodes, state.u, memory);
-      const solid::CellEnergy energy = solid::cell_energy(
-          model::section_on(*section, c.type), c.type, at.reference, at.displacement, memory);
+      const solid::CellEnergy energy =
+          at_cell(cell, [](const auto&... of) { return solid::cell_energy(of...); });
       value = energy.stored + energy.dissipated;  // work on the cell, as there
     }
     return a.sector * value;
@@ -291,6 +304,7 @@ struct Tables {
       case Answer::s:
       case Answer::e:
       case Answer::peeq:
+      case Answer::ener:
         return at_points(what);
       case Answer::evol:
       case Answer::energy:

@@ -13,6 +13,14 @@ struct CellEnergy {
   double stored = 0;
   double dissipated = 0;  ///< so far, in the material
 };
+/// The same of each point of `stress_at_points`, per reference volume, without what hourglass
+/// control stores.
+///
+/// Tested by  tests/unit/api/test_answers.cpp
+template <int Dim>
+[[nodiscard]] std::array<CellEnergy, max_points<Dim>> point_energies(
+    const Section<Dim>& section, cell::CellType type, const Coordinates<Dim>& reference,
+    const CellStress<Dim>& cell, const material::Memory& memory);
 template <int Dim>
 [[nodiscard]] CellEnergy cell_energy(const Section<Dim>& section, cell::CellType type,
                                      const Coordinates<Dim>& reference,

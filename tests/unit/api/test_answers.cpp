@@ -31,7 +31,7 @@ constexpr const char* space =
     "  frd: [{of: [U, S, E, RF, PEEQ], every: 3, steps: [pull]}, {of: [U], steps: [more]}]\n"
     "  dat:\n"
     "    - {on: b.right, of: [U, RF], totals: also, every: 4, steps: [pull]}\n"
-    "    - {on: b, of: [S, EVOL, ELSE], every: 4, totals: also, steps: [pull]}\n"
+    "    - {on: b, of: [S, ENER, EVOL, ELSE], every: 4, totals: also, steps: [pull]}\n"
     "    - {on: b.right, of: [RF, CNUM], totals: only, every: 2, steps: [more]}\n";
 
 /// A ring of radii 1 and 2, pressed along its axis on a floor by 0.01 of its height.
@@ -117,6 +117,9 @@ TEST_F(Answers, TablesOfAPulledBlockHaveItsClosedSolution) {
   for (const auto& row : stresses) EXPECT_NEAR(row[2], 1, 1e-6);
   EXPECT_EQ(stresses[8][0], 2);
   EXPECT_EQ(stresses[15][1], 8);
+  const auto work = rows(dat, " internal energy density (elem, integ.pnt.,energy) for set B ");
+  ASSERT_EQ(work.size(), 16U);
+  for (const auto& row : work) EXPECT_NEAR(row[2], 0.005, 1e-8);
   EXPECT_NEAR(rows(dat, " total volume for set B and")[0][0], 2, 1e-6);
   EXPECT_NEAR(rows(dat, " internal energy (element, energy) for set B and")[1][1], 0.005, 1e-8);
   EXPECT_NEAR(rows(dat, " total internal energy for set B and")[0][0], 0.01, 1e-8);

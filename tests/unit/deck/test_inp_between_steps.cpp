@@ -95,22 +95,6 @@ TEST(InpBetweenSteps, SupportsBetweenThemAreOfTheNext) {
             "*EQUATION: stands outside of a step");
 }
 
-/// CalculiX has one load for a node or facet, whatever set it was given to.
-TEST(InpBetweenSteps, LoadsOfLaterStepsOnPartsOfOtherSetsAreRefused) {
-  const auto steps = [](const std::string& first, const std::string& second) {
-    return "*STEP\n*STATIC\n" + first + "*END STEP\n*STEP\n*STATIC\n" + second + "*END STEP\n";
-  };
-  const std::string force = "*CLOAD\nFOOT, 3, 1.\n", one = "*CLOAD\n12, 3, 2.\n";
-  expect_in(message_of(steps(force, one)),
-            "'node 12' (line 48) has parts of 'FOOT', which a step before has loaded");
-  EXPECT_EQ(message_of(steps(force + one, force + one)), "no error");
-  EXPECT_EQ(message_of(steps(force, "*CLOAD\n12, 2, 2.\n")), "no error");
-  EXPECT_EQ(message_of(steps(force, "*CLOAD, OP=NEW\nFOOT, 3, 1.\n12, 3, 2.\n")), "no error");
-  expect_in(message_of(steps("*DLOAD\nUP, P2, 1.\n", "*DLOAD\n2, P2, 2.\n")),
-            "has parts of 'P2 of UP', which a step before has loaded");
-  EXPECT_EQ(message_of(steps("*DLOAD\nUP, P2, 1.\n", "*DLOAD\n2, P3, 2.\n")), "no error");
-}
-
 TEST(InpBetweenSteps, LawsChangeAndPairsComeAndGo) {
   const std::string steps = part(dry + pair + press + R"(*STEP
 *STATIC

@@ -1,13 +1,19 @@
 // Axes, multi-point constraints, rigid bodies and their loads in decks.
 #include <fmt/format.h>
+#include <gmock/gmock.h>
+
 #include <cmath>
 #include <numbers>
 #include <tuple>
 
+#include "cube_nodes.hpp"
 #include "inp_run_test.hpp"
+#include "osculate/deck/inp_translate.hpp"
 
 namespace osculate::deck {
 namespace {
+
+using ::testing::HasSubstr;
 
 /// A bar of `count` cubes along an axis of a frame turned about z, E = 100, nu = 0.
 /// Nodes 10 k + 1 to 10 k + 4 lie in the plane k.
@@ -109,6 +115,68 @@ TEST(InpConstraints, KinematicCouplingIsARigidBody) {
   const DeckRun run = run_deck(text);
   for (const int number : {21, 22, 23, 24, 901})
     EXPECT_NEAR(run.displacement(number).x(), 0.1, 1e-9);
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    (void)translate_deck(text, "a.inp");
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// A cube, whose top is coupled with a node above it.
+std::string coupled_cube(const std::string& directions, const std::string& rest,
+                         const std::string& parameters = "") {
+  return "*NODE, NSET=NALL\n" + cube_nodes(1, {0, 0, 0}) +
+         "20, 0.5, 0.7, 1.5\n*ELEMENT, TYPE=C3D8, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+         "*SURFACE, NAME=TOP\nE, S2\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n"
+         "*SOLID SECTION, ELSET=E, MATERIAL=M\n*NSET, NSET=BASE\n1, 2, 3, 4\n*BOUNDARY\n"
+         "BASE, 1, 3\n*COUPLING, CONSTRAINT NAME=C, REF NODE=20, SURFACE=TOP\n*KINEMATIC\n" +
+         directions + "*BOUNDARY\n20, 2, 2\n20, 4, 4\n" + step(rest, parameters);
+}
+
+/// Numbers of CalculiX 2.20.
+TEST(InpConstraints, KinematicCouplingOfSomeDirections) {
+  const DeckRun run = run_deck(coupled_cube("1, 1\n3\n", "*CLOAD\n20, 1, 1.\n20, 5, 1.\n"));
+  const std::array<Vec3, 4> there{{{8.394286e-3, 3.169524e-3, 7.527619e-3},
+                                   {8.394286e-3, -3.169524e-3, -7.527619e-3},
+                                   {1.186095e-2, 3.961905e-4, -7.527619e-3},
+                                   {1.186095e-2, -3.961905e-4, 7.527619e-3}}};
+  for (int k = 0; k < 4; ++k)
+    EXPECT_LT((run.displacement(5 + k) - there[static_cast<std::size_t>(k)]).norm(), 1e-8) << k;
+  EXPECT_NEAR(run.displacement(20).x(), 1.834857e-2, 1e-8);
+  EXPECT_NEAR(run.reaction_of("BASE").x(), -1, 1e-9);
+  EXPECT_THAT(message_of(coupled_cube("1, 1\n", "", ", NLGEOM")),
+              HasSubstr("some directions alone are not supported with NLGEOM"));
+  EXPECT_THAT(message_of(coupled_cube("4, 6\n", "")), HasSubstr("couples no displacement"));
+}
+
+/// Abaqus: nodes that move as another one, and nodes of rigid bodies by more than one set.
+TEST(InpConstraints, PinnedAndTiedNodes) {
+  for (const char* const kind : {"PIN", "TIE"}) {
+    const DeckRun run = run_deck(bar(2) + "*MPC\n" + kind + ", FINISH, 901\n" + kind +
+                                 ", 11, 12\n" + fixed + step("*CLOAD\n901, 1, 8.\n11, 2, 1.\n"));
+    for (const int number : {21, 22, 23, 24})
+      EXPECT_LT((run.displacement(number) - run.displacement(901)).norm(), 1e-14);
+    EXPECT_LT((run.displacement(11) - run.displacement(12)).norm(), 1e-14);
+    EXPECT_GT(run.displacement(12).y(), 0.001);
+    EXPECT_NEAR(run.reaction_of("START").x(), -8, 1e-9);
+  }
+  EXPECT_THAT(message_of(bar(2) + "*MPC\nPIN, 901, FINISH\n" + fixed + step("")),
+              HasSubstr("expected one node, 'FINISH' has several"));
+  EXPECT_THAT(message_of(bar(2) + "*MPC\nLINK, 901, 1\n" + fixed + step("")),
+              HasSubstr("MEANROT, PIN or TIE"));
+  const DeckRun body =
+      run_deck(bar(2) +
+               "*NSET, NSET=P\n21, 22\n*NSET, NSET=T\n23, 24\n*RIGID BODY, REF NODE=901, "
+               "PIN NSET=P, TIE NSET=T\n" +
+               fixed + step("*CLOAD\n901, 1, 8.\n"));
+  for (const int number : {21, 22, 23, 24})
+    EXPECT_NEAR(body.displacement(number).x(), body.displacement(901).x(), 1e-9);
+  EXPECT_THAT(message_of(bar(2) + "*RIGID BODY, REF NODE=901\n" + fixed + step("")),
+              HasSubstr("expected NSET= or ELSET="));
 }
 
 /// Force and moment at the middle of the face arrive at the clamped end.

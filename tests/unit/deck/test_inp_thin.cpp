@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "inp_run_test.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/deck/inp_translate.hpp"
 #include "osculate/deck/parse.hpp"
@@ -33,7 +34,7 @@ std::string message(const std::string& text) {
   return "";
 }
 
-/// In a later step the same GRAV is replaced; another one would add to it.
+/// In a later step the same GRAV is replaced; another one adds to it, on a set of its own.
 TEST(InpThin, GravityOfLaterSteps) {
   const auto deck = [](const std::string& second) {
     return elbow + "*STEP\n*STATIC\n*DLOAD\nE, GRAV, 3, 0, 0, -1\n*END STEP\n*STEP\n*STATIC\n" +
@@ -41,9 +42,37 @@ TEST(InpThin, GravityOfLaterSteps) {
   };
   const Description d = described(deck("*DLOAD\nE, GRAV, 5, 0, 0, -1\n"));
   EXPECT_EQ(d.steps[1].body_force[0].values[2]->value, -10);
-  EXPECT_THROW((void)described(deck("*DLOAD\nE, GRAV, 5, 1, 0, 0\n")), core::InputError);
+  const Description other = described(deck("*DLOAD\nE, GRAV, 5, 1, 0, 0\n"));
+  ASSERT_THAT(other.steps[1].body_force, SizeIs(1));
+  EXPECT_EQ(other.steps[1].body_force[0].on.value, "E_gravity_2");
+  EXPECT_EQ(other.steps[1].body_force[0].values[0]->value, 10);
   const Description anew = described(deck("*DLOAD, OP=NEW\nE, GRAV, 5, 1, 0, 0\n"));
   EXPECT_EQ(anew.steps[1].body_force.size(), 2u);  // that along z becomes 0
+}
+
+/// Forces per length push into the shell: a plate under them is in plane stress.
+TEST(InpThin, ForcesAlongEdgesAreForcesOfTheirFaces) {
+  const auto plate = [](const std::string& load, const std::string& section) {
+    return "*NODE, NSET=N\n1, 0, 0, 0\n2, 1, 0, 0\n3, 2, 0, 0\n4, 2, 1, 0\n5, 2, 2, 0\n6, 1, 2, 0\n"
+           "7, 0, 2, 0\n8, 0, 1, 0\n*ELEMENT, TYPE=S8, ELSET=E\n1, 1, 3, 5, 7, 2, 4, 6, 8\n"
+           "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SHELL SECTION, ELSET=E, MATERIAL=M" +
+           section +
+           "*NSET, NSET=BC\n1, 8, 7\n*BOUNDARY\nBC, 1, 1\n8, 2, 2\nN, 3, "
+           "3\n*STEP\n*STATIC\n*DLOAD\n" +
+           load + "*END STEP\n";
+  };
+  for (const char* const elements : {"E", "1"}) {
+    const Description d = described(plate(std::string(elements) + ", EDNOR2, 3.\n", "\n0.1\n"));
+    ASSERT_THAT(d.steps[0].pressure, SizeIs(1));
+    EXPECT_EQ(d.steps[0].pressure[0].on.value,
+              std::string("EDNOR2 of ") + (*elements == 'E' ? "E" : "element 1"));
+    EXPECT_DOUBLE_EQ(d.steps[0].pressure[0].values[0]->value, 30);
+  }
+  const DeckRun run = run_deck(plate("E, EDNOR2, 3.\n", "\n0.1\n"));
+  EXPECT_NEAR(run.displacement(4).x(), -0.06, 1e-12);  // sigma = -30
+  EXPECT_NEAR(run.displacement(5).y(), 0.009, 1e-12);
+  EXPECT_THAT(message(plate("E, EDNOR2, 3.\n", ", NODAL THICKNESS\n*NODAL THICKNESS\nN, 0.1\n")),
+              HasSubstr("EDNOR needs shells of one thickness"));
 }
 
 TEST(InpThin, SectionsAreSolids) {

@@ -146,6 +146,7 @@ Side find_side(const ElementType& type, std::string_view label) {
 
 std::string solid_side(std::string_view label, bool of_load, Family family) {
   if (of_load) {
+    if (family == surface && label.size() == 6) return {'S', static_cast<char>(label[5] + 2)};
     if (family == surface) return "S1";
     if (family == line && label == "P2") return "S5";
     return "S" + std::string(label.substr(1));

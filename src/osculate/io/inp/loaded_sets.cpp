@@ -62,7 +62,8 @@ void add_side(const Deck& deck, const Line& line, RawMesh& mesh) {
     if (elements.empty()) return add_every_element(line.at, mesh);
     add_element(elements, line.at, mesh);
   }
-  if (elements.empty() || !is_side_load(load)) return;
+  if (elements.empty() || !(is_side_load(load) || is_edge_load(load))) return;
+  if (is_edge_load(load)) add_element(elements, line.at, mesh);
   const std::string name = side_set_name(load, elements);
   RawSurface& surface = mesh.scopes[0].surfaces[capitals(name)];
   if (!surface.name.empty()) return;
@@ -170,6 +171,10 @@ std::vector<int> held_directions(std::string_view word) {
 bool is_side_load(std::string_view load) {
   if (load == "P") return true;
   return load.size() == 2 && load[0] == 'P' && load[1] >= '1' && load[1] <= '6';
+}
+
+bool is_edge_load(std::string_view load) {
+  return load.size() == 6 && load.starts_with("EDNOR") && load[5] >= '1' && load[5] <= '4';
 }
 
 void add_loaded_sets(const Deck& deck, RawMesh& mesh) {

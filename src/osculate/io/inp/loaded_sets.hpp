@@ -21,6 +21,9 @@ namespace osculate::io::inp {
 /// shells P as well.
 [[nodiscard]] bool is_side_load(std::string_view load);
 
+/// Whether it is a force per length of an edge of shells, in their plane: EDNOR1 to EDNOR4.
+[[nodiscard]] bool is_edge_load(std::string_view load);
+
 /// Set of all elements, which a body force without a set acts on.
 inline constexpr std::string_view every_element = "every element";
 /// Directions that a word of `*BOUNDARY` holds: ENCASTRE 1 to 6, PINNED 1 to 3, XSYMM 1, 5, 6 and

@@ -1,0 +1,110 @@
+// Couplings of some displacements with a rigid body.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "osculate/deck/build.hpp"
+#include "osculate/deck/parse.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A square under a body, which all of its top follows in some directions.
+std::string under_a_body(const std::string& of, const std::string& loads,
+                         const std::string& kinematics = "small") {
+  return "osculate: 1\n"
+         "mesh: {generate: {b: {box: {x: [0, 1], y: [0, 1], elements: [2, 2]}}}}\n"
+         "materials: {m: {" +
+         std::string(kinematics == "small" ? "linear_elastic" : "st_venant_kirchhoff") +
+         ": {E: 100, nu: 0.3}}}\n"
+         "sections: [{on: b, material: m, element: plane_strain, kinematics: " +
+         kinematics +
+         "}]\n"
+         "rigid: {hub: {circle: {center: [0.3, 2], radius: 0.1}}}\n"
+         "coupling: [{on: b.top, rigid: hub, of: " +
+         of +
+         "}]\n"
+         "steps:\n"
+         "  - {name: s, increments: 1, prescribe: [{on: b.bottom, ux: 0, uy: 0}, " +
+         loads + "}\n";
+}
+/// A run, and the reactions at its end.
+struct CoupledRun {
+  Built built;
+  model::AnalysisResult result;
+  Eigen::VectorXd reaction;
+
+  explicit CoupledRun(const std::string& text) {
+    const Description d = parse_model(text, "m.yaml");
+    built = build(d, load_mesh(d));
+    model::AnalysisObserver observer;
+    observer.converged = [&](model::System& system, const model::State& state,
+                             const model::Progress&, const solve::IncrementRecord*) {
+      const model::Forces& f = system.forces();
+      reaction = (f.internal + f.contact - f.external).head(state.u.size());
+      return true;
+    };
+    result = model::run(built.model, built.options, observer);
+    EXPECT_EQ(result.outcome, solve::Outcome::converged) << result.message;
+  }
+};
+std::string refusal_of(const std::string& text) {
+  try {
+    const Description d = parse_model(text, "m.yaml");
+    (void)build(d, load_mesh(d));
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// u_i = U_i + theta (e_z x (X - X_b))_i in the directions that are named, and in no other.
+TEST(Couplings, NodesFollowABodyInSomeDirections) {
+  for (const char* const of : {"[uy]", "[ux]", "[ux, uy]"}) {
+    const CoupledRun run(under_a_body(of, "{on: hub, ux: 0.02, uy: 0.01, rz: 0.1}]"));
+    bool other = false;
+    for (const Index n : run.built.model.mesh.find_set("b.top")->nodes) {
+      const Vec2 arm = run.built.model.reference[static_cast<std::size_t>(n)] - Vec2(0.3, 2);
+      const Vec2 moved(0.02 - 0.1 * arm.y(), 0.01 + 0.1 * arm.x());
+      const Vec2 u = run.result.state.u.segment<2>(2 * n);
+      for (const int i : {0, 1}) {
+        const bool follows = std::string(of).find(i == 0 ? "ux" : "uy") != std::string::npos;
+        const double apart = std::abs(u[i] - moved[i]);
+        if (!follows)
+          other = other || apart > 1e-3;
+        else
+          EXPECT_LT(apart, 1e-13) << of;
+      }
+    }
+    EXPECT_EQ(other, std::string(of) != "[ux, uy]");
+  }
+}
+
+/// A force on a body that is free reaches the square, with its moment.
+TEST(Couplings, ForcesOfTheBodyReachItsNodes) {
+  const CoupledRun run(under_a_body("[ux, uy]",
+                                    "{on: hub, uy: 0}], release: [{on: hub, of: [ux, rz]}], "
+                                    "forces: [{on: hub, fx: 0.1, mz: 0.3}]"));
+  double force = 0, moment = 0;
+  for (const Index n : run.built.model.mesh.find_set("b.bottom")->nodes) {
+    const Vec2 reaction = run.reaction.segment<2>(2 * n);
+    const Vec2 arm = run.built.model.reference[static_cast<std::size_t>(n)] - Vec2(0.3, 2);
+    force += reaction.x();
+    moment += arm.x() * reaction.y() - arm.y() * reaction.x();
+  }
+  EXPECT_NEAR(force, -0.1, 1e-12);
+  EXPECT_NEAR(moment, -0.3, 1e-12);
+}
+
+TEST(Couplings, WhatCannotFollowIsTold) {
+  const std::string held = "{on: hub, ux: 0}]";
+  EXPECT_EQ(refusal_of(under_a_body("[ux]", held)), "no error");
+  EXPECT_THAT(refusal_of(under_a_body("[ux, uz]", held)), HasSubstr("has no displacement 'uz'"));
+  EXPECT_THAT(refusal_of(under_a_body("[ux, ux]", held)), HasSubstr("'ux' is given twice"));
+  EXPECT_THAT(refusal_of(under_a_body("[ux]", held, "finite")),
+              HasSubstr("one of small rotations: not with sections of finite kinematics"));
+}
+
+}  // namespace
+}  // namespace osculate::deck

@@ -1,0 +1,178 @@
+// Decks: loads of later steps replace those of the nodes and facets they act on, as in CalculiX.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cube_nodes.hpp"
+#include "inp_run_test.hpp"
+#include "osculate/deck/inp_translate.hpp"
+#include "osculate/deck/parse.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// Two cubes in a row that share the face x = 1; A is the top of the first, B that of the second.
+std::string two_cubes(const std::string& cards) {
+  return "*NODE, NSET=NALL\n" + cube_nodes(1, {0, 0, 0}) +
+         "9, 2, 0, 0\n10, 2, 1, 0\n11, 2, 0, 1\n12, 2, 1, 1\n"
+         "*ELEMENT, TYPE=C3D8, ELSET=EA\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+         "*ELEMENT, TYPE=C3D8, ELSET=EB\n2, 2, 9, 10, 3, 6, 11, 12, 7\n*ELSET, ELSET=EALL\nEA, EB\n"
+         "*NSET, NSET=BASE\n1, 2, 3, 4, 9, 10\n*NSET, NSET=A\n5, 6, 7, 8\n"
+         "*NSET, NSET=B\n6, 7, 11, 12\n*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*DENSITY\n1.\n"
+         "*SOLID SECTION, ELSET=EALL, MATERIAL=M\n*BOUNDARY\nBASE, 1, 3\n" +
+         cards;
+}
+std::string a_step(const std::string& cards) { return "*STEP\n*STATIC\n" + cards + "*END STEP\n"; }
+std::string forces_on(std::initializer_list<int> nodes, double size) {
+  std::string lines;
+  for (const int node : nodes) lines += fmt::format("{}, 3, {}\n", node, size);
+  return lines;
+}
+/// Both have the same displacements after each step.
+void expect_same(const std::string& one, const std::string& other) {
+  const DeckRun a = run_deck(two_cubes(one)), b = run_deck(two_cubes(other));
+  ASSERT_EQ(a.u.size(), b.u.size());
+  for (std::size_t s = 0; s < a.u.size(); ++s) {
+    EXPECT_GT(b.u[s].norm(), 0);
+    EXPECT_LT((a.u[s] - b.u[s]).norm(), 1e-12 * b.u[s].norm()) << s;
+  }
+}
+std::string text_of(const std::string& cards) {
+  return to_yaml(translate_deck(two_cubes(cards), "a.inp").root);
+}
+std::string refusal_of(const std::string& cards) {
+  try {
+    (void)text_of(cards);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+// CalculiX' reactions of such steps: 4, 42, 420, 4040.
+TEST(InpLoadParts, ForcesOfLaterStepsReplaceThoseOfTheirNodes) {
+  expect_same(a_step("*CLOAD\nA, 3, 1.\n") + a_step("*CLOAD\nB, 3, 10.\n") +
+                  a_step("*CLOAD\nA, 3, 100.\n") +
+                  a_step("*CLOAD, OP=NEW\nB, 3, 10.\nA, 3, 1000.\n"),
+              a_step("*CLOAD\n" + forces_on({5, 6, 7, 8}, 1)) +
+                  a_step("*CLOAD\n" + forces_on({6, 7, 11, 12}, 10)) +
+                  a_step("*CLOAD\n" + forces_on({5, 6, 7, 8}, 100)) +
+                  a_step("*CLOAD\n" + forces_on({6, 7}, 1010) + forces_on({5, 8}, 1000) +
+                         forces_on({11, 12}, 10)));
+}
+
+TEST(InpLoadParts, ForcesOfOneNodeAmongThoseOfItsSet) {
+  expect_same(a_step("*CLOAD\nA, 3, 1.\n7, 2, 3.\n") + a_step("*CLOAD\n7, 3, 5.\n") +
+                  a_step("*CLOAD\nB, 3, 2.\n"),
+              a_step("*CLOAD\n7, 2, 3.\n" + forces_on({5, 6, 7, 8}, 1)) +
+                  a_step("*CLOAD\n" + forces_on({7}, 5)) +
+                  a_step("*CLOAD\n" + forces_on({6, 7, 11, 12}, 2)));
+}
+
+TEST(InpLoadParts, AmplitudesEndWhereTheirForcesAreReplaced) {
+  const std::string table = "*AMPLITUDE, NAME=T\n0., 0., 0.5, 2., 1., 1.\n";
+  expect_same(table + a_step("*CLOAD, AMPLITUDE=T\nA, 3, 1.\n") + a_step("*CLOAD\nB, 3, 10.\n"),
+              table + a_step("*CLOAD, AMPLITUDE=T\n" + forces_on({5, 6, 7, 8}, 1)) +
+                  a_step("*CLOAD\n" + forces_on({6, 7, 11, 12}, 10)));
+  // CalculiX has an error, too
+  EXPECT_THAT(refusal_of(table + a_step("*CLOAD\nA, 3, 1.\n") + a_step("*CLOAD\nB, 3, 10.\n") +
+                         a_step("*CLOAD\nA, 3, 1.\n*CLOAD, AMPLITUDE=T\nB, 3, 10.\n")),
+              HasSubstr("has this load with another amplitude in the same step"));
+}
+
+TEST(InpLoadParts, PressuresOfLaterStepsReplaceThoseOfTheirFacets) {
+  expect_same(a_step("*DLOAD\nEALL, P2, 1.\n") + a_step("*DLOAD\n2, P2, 10.\n") +
+                  a_step("*DLOAD\nEA, P2, 100.\n2, P2, 7.\n2, P2, 3.\n"),
+              a_step("*DLOAD\n1, P2, 1.\n2, P2, 1.\n") + a_step("*DLOAD\n2, P2, 10.\n") +
+                  a_step("*DLOAD\n1, P2, 100.\n2, P2, 10.\n"));
+}
+
+TEST(InpLoadParts, SetsOfWhichNoneReplacesTheOtherStayWhole) {
+  const auto has_parts = [](const std::string& cards) {
+    return text_of(cards).find("\nsets:") != std::string::npos;
+  };
+  const std::string a = "*CLOAD\nA, 3, 1.\n", b = "*CLOAD\nB, 3, 2.\n";
+  EXPECT_TRUE(has_parts(a_step(a) + a_step(b)));
+  EXPECT_FALSE(has_parts(a_step(a + b) + a_step(a + b)));
+  EXPECT_FALSE(has_parts(a_step(a) + a_step("*CLOAD\nB, 2, 2.\n")));
+  EXPECT_FALSE(has_parts(a_step(a) + a_step("*CLOAD, OP=NEW\nB, 3, 2.\n")));
+  EXPECT_FALSE(has_parts(a_step("*DLOAD\nEALL, P2, 1.\n") + a_step("*DLOAD\n2, P3, 10.\n")));
+}
+
+/// CalculiX replaces GRAV of the same set and direction, and adds others.
+TEST(InpLoadParts, GravityOfOtherSetsAndDirectionsAdds) {
+  const auto down = [](const std::string& on, double size) {
+    return fmt::format("{}, GRAV, {}, 0, 0, -1\n", on, size);
+  };
+  const DeckRun run = run_deck(
+      two_cubes(a_step("*DLOAD\n" + down("EALL", 1)) +
+                a_step("*DLOAD\n" + down("EB", 10) + "EALL, GRAV, 3, 1, 0, 0\n") +
+                a_step("*DLOAD\n" + down("EALL", 7)) + a_step("*DLOAD\nEALL, GRAV, 5, 1, 0, 0\n") +
+                a_step("*DLOAD, OP=NEW\nEB, GRAV, 2, 1, 0, 0\n")));
+  const std::array<Vec3, 5> weights{
+      {{0, 0, 2}, {-6, 0, 12}, {-6, 0, 24}, {-10, 0, 24}, {-2, 0, 0}}};
+  for (std::size_t s = 0; s < weights.size(); ++s)  // half of a cube rests on the nodes of its base
+    EXPECT_LT((run.reaction_of("NALL", s) - weights[s]).norm(), 1e-9) << s;
+}
+
+/// What is said of them last, and the order of the sets, would decide there.
+TEST(InpLoadParts, AnElementTurnsAboutOneAxis) {
+  const std::string axis = ", 0, 0, 0, 0, 0, 1\n", other = ", 1, 0, 0, 0, 0, 1\n";
+  const std::string first = "*DLOAD\nEALL, CENTRIF, 1." + axis;
+  const auto refused = HasSubstr("have a CENTRIF of another set or axis");
+  EXPECT_THAT(refusal_of(a_step(first) + a_step("*DLOAD\nEB, CENTRIF, 2." + axis)), refused);
+  EXPECT_THAT(refusal_of(a_step(first + "EALL, CENTRIF, 2." + other)), refused);
+  EXPECT_EQ(refusal_of(a_step(first) + a_step("*DLOAD\nEALL, CENTRIF, 2." + axis)), "no error");
+  EXPECT_EQ(refusal_of(a_step(first) + a_step("*DLOAD, OP=NEW\nEB, CENTRIF, 2." + axis)),
+            "no error");
+  EXPECT_EQ(refusal_of(a_step("*DLOAD\nEA, CENTRIF, 1." + axis + "EB, CENTRIF, 2." + other)),
+            "no error");
+}
+
+const std::string mass = "*ELEMENT, TYPE=MASS, ELSET=EM\n100, 7\n*MASS, ELSET=EM\n4.\n";
+
+TEST(InpLoadParts, WeightsOfMassesBesideForcesOfTheirNode) {
+  const DeckRun run = run_deck(two_cubes(
+      mass + a_step("*DLOAD\nEM, GRAV, 10., 0, 0, -2.\n*CLOAD\n7, 3, 3.\n7, 1, 2.\n") +
+      a_step("*CLOAD, OP=NEW\n") + a_step("*DLOAD\nEM, GRAV, 5., 0, 0, -1.\n") +
+      a_step("*DLOAD\nEM, GRAV, 2., 1, 0, 0\n") + a_step("*CLOAD\n7, 3, 1.\n*DLOAD, OP=NEW\n")));
+  const std::array<Vec3, 5> sums{{{-2, 0, 37}, {0, 0, 40}, {0, 0, 20}, {-8, 0, 20}, {0, 0, -1}}};
+  for (std::size_t s = 0; s < sums.size(); ++s)
+    EXPECT_LT((run.reaction_of("BASE", s) - sums[s]).norm(), 1e-9) << s;
+}
+
+/// Forces of the node are along its axes, its weight is not.
+TEST(InpLoadParts, WeightsOfMassesWithAxesOfTheirOwn) {
+  for (const char* const axes : {"TYPE=C\n0, 0, 0, 0, 0, 1\n", "TYPE=R\n1, 1, 0, 0, 1, 0\n"}) {
+    const DeckRun run = run_deck(
+        two_cubes(std::string("*TRANSFORM, NSET=A, ") + axes + mass +
+                  a_step("*DLOAD\nEM, GRAV, 10., 1., 0., -1.\n*CLOAD\n7, 1, 3.\n7, 3, 3.\n")));
+    const double along = 40 / std::sqrt(2.0), radial = 3 / std::sqrt(2.0);
+    EXPECT_LT((run.reaction_of("BASE") - Vec3(-along - radial, -radial, along - 3)).norm(), 1e-9);
+  }
+}
+
+TEST(InpLoadParts, TemperaturesOfLaterStepsReplaceThoseOfTheirNodes) {
+  const auto cubes = [&](const std::string& cards) {
+    std::string text = two_cubes(cards);
+    const std::size_t at = text.find("*SOLID SECTION");
+    return text.insert(at, "*EXPANSION\n1.E-3\n");
+  };
+  const auto on = [](std::initializer_list<int> nodes, double size) {
+    std::string lines = "*TEMPERATURE\n";
+    for (const int node : nodes) lines += fmt::format("{}, {}\n", node, size);
+    return lines;
+  };
+  const DeckRun sets =
+      run_deck(cubes(a_step("*TEMPERATURE\nA, 1.\n") + a_step("*TEMPERATURE\nB, 10.\n") +
+                     a_step("*TEMPERATURE\nA, 100.\n")));
+  const DeckRun nodes =
+      run_deck(cubes(a_step(on({5, 6, 7, 8}, 1)) + a_step(on({6, 7, 11, 12}, 10)) +
+                     a_step(on({5, 6, 7, 8}, 100))));
+  for (std::size_t s = 0; s < 3; ++s)
+    EXPECT_LT((sets.u[s] - nodes.u[s]).norm(), 1e-12 * nodes.u[s].norm()) << s;
+}
+
+}  // namespace
+}  // namespace osculate::deck
