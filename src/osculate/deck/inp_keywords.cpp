@@ -35,13 +35,13 @@ constexpr std::array<InpKeyword, 132> keywords{{
     {"SYSTEM", "", "axes", none, "write all nodes in the global axes"},
     {"MATERIAL", "NAME; DESCRIPTION", "", translated, "`materials`"},
     {"ELASTIC", "TYPE; MODULI", "E, nu, temperature; constants", translated,
-     "`linear_elastic`, `st_venant_kirchhoff` (E and nu over the temperature, too), `orthotropic`, "
-     "`anisotropic`"},
+     "`linear_elastic`, `st_venant_kirchhoff`, `orthotropic`, `anisotropic` (over the temperature, "
+     "too)"},
     {"PLASTIC", "HARDENING, DATA TYPE", "stress, plastic strain, temperature", translated,
      "`elastoplastic: hardening` (isotropic), `kinematic`, or both (COMBINED)"},
-    {"CYCLIC HARDENING", "", "stress, plastic strain", translated,
+    {"CYCLIC HARDENING", "", "stress, plastic strain, temperature", translated,
      "`elastoplastic: hardening` beside `kinematic`"},
-    {"CREEP", "LAW", "A, n, m", translated, "`norton: {A, n}` (LAW=NORTON, m = 0)"},
+    {"CREEP", "LAW", "A, n, m, temperature", translated, "`norton: {A, n}` (LAW=NORTON, m = 0)"},
     {"HYPERELASTIC",
      "N, NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, REDUCED POLYNOMIAL, OGDEN, ARRUDA-BOYCE; "
      "MODULI",
@@ -55,8 +55,8 @@ constexpr std::array<InpKeyword, 132> keywords{{
      "`user: {library, constants}`, the library by OSCULATE_USER_MATERIAL"},
     {"DEPVAR", "; DELETE", "number of state variables", translated, "`user: state`"},
     {"DENSITY", "", "density, temperature", translated, "`density` of the material"},
-    {"EXPANSION", "ZERO, TYPE", "coefficient, temperature", translated,
-     "`materials.NAME.expansion` (isotropic)"},
+    {"EXPANSION", "ZERO, TYPE", "coefficients, temperature", translated,
+     "`materials.NAME.expansion` (ISO, ORTHO, ANISO)"},
     {"CONDUCTIVITY", "TYPE", "conductivity", silent, "temperatures do not change"},
     {"SPECIFIC HEAT", "", "specific heat", silent, "temperatures do not change"},
     {"DAMPING", "ALPHA, BETA", "", translated, "`steps.dynamics: damping` (one for all materials)"},

@@ -101,13 +101,24 @@ void check_parameters(InpModel& m);
 /// The first line of such a card.
 [[nodiscard]] const io::inp::Line& constant_line(const InpModel& m, const io::inp::Card& card,
                                                  const char* what);
-/// Of a `*ELASTIC`: the law that it means, whether that is other than isotropic, or has constants
-/// that depend on the temperature, and its constants.
+/// Constants of a material at a temperature.
+struct InpConstants {
+  std::vector<double> values{};
+  double temperature = 0;
+  int line = 0;
+};
+/// Puts each of them under its key, as a number or a table over the temperature.
+void put_over_temperature(const InpModel& m, const io::inp::Card& card,
+                          const std::vector<InpConstants>& rows,
+                          const std::vector<std::string_view>& keys, SourceNode& law);
+/// Whether the numbers of `*ELASTIC`, `*PLASTIC`, `*CYCLIC HARDENING` or `*CREEP` do; not of
+/// others.
+[[nodiscard]] bool depends_on_temperature(const InpModel& m, const io::inp::Card& card);
+/// Of a `*ELASTIC`: the law that it means, whether that is other than isotropic, and its constants.
 ///
 /// Tested by  tests/unit/deck/test_inp_elastic.cpp
 [[nodiscard]] std::string_view elastic_law(const InpModel& m, const io::inp::Card& elastic);
 [[nodiscard]] bool is_directional(const io::inp::Card& elastic);
-[[nodiscard]] bool depends_on_temperature(const InpModel& m, const io::inp::Card& elastic);
 void put_elastic(const InpModel& m, const io::inp::Card& elastic, SourceNode& law);
 /// The `*ORIENTATION` that a section names.
 [[nodiscard]] SourceNode inp_orientation(const InpModel& m, const io::inp::Card& section);
@@ -159,6 +170,8 @@ struct InpDensity {
 /// Whether some step has temperatures, or they are given at first and a material depends on them:
 /// without, materials need no expansion.
 [[nodiscard]] bool has_temperatures(const InpModel& m);
+/// Fails where temperatures are given nowhere, for a card whose numbers depend on them.
+void require_temperatures(const InpModel& m, const io::inp::Card& card);
 /// A set of nodes, its temperature and the gradients along the axes of shells and beams.
 struct NodeValue {
   std::string on;
@@ -170,6 +183,8 @@ struct NodeValue {
 void put_gradients(SourceNode& entry, const std::array<double, 2>& gradient);
 /// `expansion` of a material, from its `*EXPANSION`.
 [[nodiscard]] SourceNode inp_expansion(const InpModel& m, const io::inp::Card& card);
+/// Whether a card is one that differs with the direction.
+[[nodiscard]] bool expands_by_directions(const io::inp::Card& card);
 [[nodiscard]] SourceNode inp_initial_temperature(const InpModel& m);
 [[nodiscard]] SourceNode inp_initial_velocity(const InpModel& m);
 

@@ -78,7 +78,7 @@ template <class T>
 concept TakesMemory = requires(const T& law, const Strain& strain, const Strain3& strain3,
                                double& strain_33, const Memory& memory, const double* state) {
   { T::memory.front() } -> std::convertible_to<Remembered>;
-  { energy_of(law, strain3, state) } -> std::same_as<double>;
+  { energy_of(law, strain3, memory) } -> std::same_as<double>;
   { dissipated_by(law, state) } -> std::same_as<double>;
   { respond(law, strain, memory) } -> std::same_as<Response>;
   { respond(law, strain3, memory) } -> std::same_as<Response3>;
