@@ -53,6 +53,7 @@ struct OneOf {
 /// Sentences of the points of a table, and one of them.
 struct PointWords {
   std::string_view point, coordinate, example;
+  std::size_t least = 2;  ///< of how many points
 };
 
 /// A parameter describes itself; it knows nothing about files or languages. A type `T` with

@@ -8,7 +8,7 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<InpKeyword, 132> keywords{{
+constexpr std::array<InpKeyword, 133> keywords{{
     {"HEADING", "", "a title", silent, ""},
     {"INCLUDE", "INPUT", "", mesh, "the lines of the file"},
     {"NODE", "NSET, SYSTEM, INPUT", "number, x, y, z", mesh, "nodes, and a set of them"},
@@ -34,7 +34,7 @@ constexpr std::array<InpKeyword, 132> keywords{{
     {"ELCOPY", "OLD SET", "", none, "write all elements"},
     {"SYSTEM", "", "axes", none, "write all nodes in the global axes"},
     {"MATERIAL", "NAME; DESCRIPTION", "", translated, "`materials`"},
-    {"ELASTIC", "TYPE; MODULI", "E, nu, temperature; constants", translated,
+    {"ELASTIC", "TYPE, MODULI", "E, nu, temperature; constants", translated,
      "`linear_elastic`, `st_venant_kirchhoff`, `orthotropic`, `anisotropic` (over the temperature, "
      "too)"},
     {"PLASTIC", "HARDENING, DATA TYPE", "stress, plastic strain, temperature", translated,
@@ -42,6 +42,8 @@ constexpr std::array<InpKeyword, 132> keywords{{
     {"CYCLIC HARDENING", "", "stress, plastic strain, temperature", translated,
      "`elastoplastic: hardening` beside `kinematic`"},
     {"CREEP", "LAW", "A, n, m, temperature", translated, "`norton: {A, n}` (LAW=NORTON, m = 0)"},
+    {"VISCOELASTIC", "TIME=PRONY", "g, k, tau", translated,
+     "`viscoelastic: {shear, bulk}` beside `*ELASTIC` (MODULI)"},
     {"HYPERELASTIC",
      "N, NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, REDUCED POLYNOMIAL, OGDEN, ARRUDA-BOYCE; "
      "MODULI",

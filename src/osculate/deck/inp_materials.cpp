@@ -22,7 +22,7 @@ struct MaterialCards {
   const Card* material = nullptr;
   const Card *elastic = nullptr, *plastic = nullptr, *density = nullptr, *creep = nullptr,
              *expansion = nullptr, *hyperelastic = nullptr, *user = nullptr, *depvar = nullptr,
-             *cyclic = nullptr, *deformation = nullptr;
+             *cyclic = nullptr, *deformation = nullptr, *viscoelastic = nullptr;
 };
 
 std::vector<MaterialCards> material_cards(const InpModel& m) {
@@ -45,6 +45,7 @@ std::vector<MaterialCards> material_cards(const InpModel& m) {
     if (card.keyword == "DEFORMATIONPLASTICITY") set(card, &MaterialCards::deformation);
     if (card.keyword == "DENSITY") set(card, &MaterialCards::density);
     if (card.keyword == "CREEP") set(card, &MaterialCards::creep);
+    if (card.keyword == "VISCOELASTIC") set(card, &MaterialCards::viscoelastic);
     if (card.keyword == "USERMATERIAL") set(card, &MaterialCards::user);
     if (card.keyword == "DEPVAR") set(card, &MaterialCards::depvar);
     if (card.keyword == "EXPANSION") set(card, &MaterialCards::expansion);
@@ -188,6 +189,12 @@ std::string_view law_of(const InpModel& m, const MaterialCards& c) {
     if (c.deformation && other)
       io::inp::fail(m.deck, *other,
                     "of a material with *DEFORMATION PLASTICITY this is not supported");
+  for (const Card* const other : {c.plastic, c.creep, c.hyperelastic, c.user, c.deformation})
+    if (c.viscoelastic && other)
+      io::inp::fail(m.deck, *other, "of a material with *VISCOELASTIC this is not supported");
+  if (c.viscoelastic && c.elastic && is_directional(*c.elastic))
+    io::inp::fail(m.deck, *c.viscoelastic,
+                  "of a material that is not isotropic this is not supported");
   if (c.depvar && !c.user)
     io::inp::fail(m.deck, *c.depvar, "belongs to a *USER MATERIAL, and the material has none");
   if (c.user) return user_law(m, *c.material);
@@ -209,6 +216,7 @@ std::string_view law_of(const InpModel& m, const MaterialCards& c) {
                   "of 0, which "
                   "is creep alone");
   if (c.plastic) return "elastoplastic";
+  if (c.viscoelastic) return "viscoelastic";
   if (c.creep) return "norton";
   return elastic_law(m, *c.elastic);
 }
@@ -274,6 +282,8 @@ SourceNode inp_materials(InpModel& m) {
       put_deformation(m, *c.deformation, law);
     else if (c.hyperelastic)
       put_hyperelastic(m, *c.hyperelastic, law);
+    else if (c.viscoelastic)
+      put_viscoelastic(m, *c.elastic, *c.viscoelastic, law);
     else
       put_elastic(m, *c.elastic, law);
     if (const double density = density_of(m, c); density > 0)

@@ -136,6 +136,13 @@ void put_hyperelastic(const InpModel& m, const io::inp::Card& card, SourceNode& 
 [[nodiscard]] std::string_view user_law(const InpModel& m, const io::inp::Card& material);
 void put_user(const InpModel& m, const io::inp::Card& material, const io::inp::Card& user,
               const io::inp::Card* depvar, SourceNode& law);
+/// Puts the constants of a `*VISCOELASTIC` beside an `*ELASTIC`, at once.
+///
+/// Tested by  tests/unit/deck/test_inp_viscoelastic.cpp
+void put_viscoelastic(const InpModel& m, const io::inp::Card& elastic,
+                      const io::inp::Card& viscoelastic, SourceNode& law);
+/// The shortest time of any series of a deck; none: nothing relaxes.
+[[nodiscard]] std::optional<double> shortest_relaxation(const InpModel& m);
 [[nodiscard]] SourceNode inp_sections(InpModel& m);
 /// A set of elements, and the words of a section that their types stand for.
 struct InpElements {

@@ -212,6 +212,19 @@ class Steps {
     increments_ = std::max(std::min(increments_, of_automatic), static_cast<int>(least));
   }
 
+  /// `*STATIC` is the response at once of what relaxes.
+  double duration(std::size_t number) {
+    if (procedure_->keyword != "STATIC") return period_;
+    const std::optional<double> shortest = shortest_relaxation(m_);
+    if (!shortest) return period_;
+    constexpr double next_to_none = 1e-9;
+    m_.notes.push_back(
+        fmt::format("step {} (*STATIC) is the response at once of *VISCOELASTIC: it has the "
+                    "duration {:g}, 1e-9 of the shortest relaxation time",
+                    number, next_to_none * *shortest));
+    return next_to_none * *shortest;
+  }
+
   void end(const Card& card) {
     if (!step_) io::inp::fail(m_.deck, card, "there is no *STEP that it could end");
     if (!procedure_) io::inp::fail(m_.deck, *step_, "the step has no procedure such as *STATIC");
@@ -250,7 +263,7 @@ class Steps {
     if (!modal) stand();
     if (!modal) vibrations_ = 0;
     put(step, "increments", inp_number(increments_, line_of(procedure_->at)));
-    put(step, "duration", inp_number(period_, line_of(procedure_->at)));
+    put(step, "duration", inp_number(duration(number), line_of(procedure_->at)));
     if (procedure_->keyword == "DYNAMIC") put(step, "dynamics", inp_dynamics(m_, *procedure_));
     if (modal) {
       put(step, "modal",

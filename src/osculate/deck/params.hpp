@@ -44,8 +44,11 @@ template <class T>
     const Spec point = list(std::string(p.points->point), number(std::string(p.points->coordinate)))
                            .count(2, p.curves ? 3 : 2)
                            .such_as(std::string(p.points->example));
-    if (!core::number_in(T{}, p.slot))
-      return list(std::move(doc), point).count(2).such_as(std::move(example));
+    if (!core::number_in(T{}, p.slot)) {
+      const Spec points =
+          list(std::move(doc), point).count(p.points->least).such_as(std::move(example));
+      return p.otherwise.empty() ? points : points.otherwise_as(std::string(p.otherwise));
+    }
     return either(std::move(doc),
                   {number_with("A modulus."), list("The points of a curve.", point).count(2)})
         .otherwise("0")

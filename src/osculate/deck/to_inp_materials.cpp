@@ -245,16 +245,28 @@ void write_expansion(const std::string& path, Leaves& leaves, std::string& out) 
   write_rows(rows, out);
 }
 
+void write_viscoelastic(const std::string& law, const Material& material, Leaves& leaves,
+                        std::string& out) {
+  out += "*ELASTIC, MODULI=INSTANTANEOUS\n";
+  write_constants(law, std::array{"E", "nu"}, {}, material, leaves, out);
+  out += "*VISCOELASTIC, TIME=PRONY\n";
+  for (const std::vector<double>& term : rows_of(law + ".shear", leaves))
+    out += fmt::format("{}, 0, {}\n", exact(term[0]), exact(term[1]));
+  for (const std::vector<double>& term : rows_of(law + ".bulk", leaves))
+    out += fmt::format("0, {}, {}\n", exact(term[0]), exact(term[1]));
+}
+
 /// What writes the cards of a law; laws without have no counterpart.
 struct LawCards {
   std::string_view key;
   void (*write)(const std::string& law, const Material& material, Leaves& leaves, std::string& out);
 };
-constexpr std::array<LawCards, 11> cards_of_laws{
+constexpr std::array<LawCards, 12> cards_of_laws{
     {{"linear_elastic", write_isotropic},
      {"st_venant_kirchhoff", write_isotropic},
      {"elastoplastic", write_elastoplastic},
      {"norton", write_norton},
+     {"viscoelastic", write_viscoelastic},
      {"deformation_plasticity", write_deformation_plasticity},
      {"orthotropic", write_orthotropic},
      {"anisotropic", write_anisotropic},
