@@ -95,9 +95,10 @@ class Decks(unittest.TestCase):
         return read_vtu(sorted(pathlib.Path(self.folder, folder).glob("bodies_*.vtu"))[-1])
 
     def test_a_model_file_becomes_a_deck_with_the_same_results(self):
-        """Contact, finite plastic strain with the load taken back, temperatures, kinematic hardening, second order."""
+        """Contact, finite plastic strain with the load taken back, temperatures, kinematic hardening, second order, expansion by directions,
+        viscoelastic."""
         for model in ("contact_patch/matching", "plastic_bar/stretch", "plastic_bar/cycle_space", "plastic_cylinder/cylinder",
-                      "temperature/bimetal"):
+                      "temperature/bimetal", "plastic_bar/heated", "temperature/fibres", "temperature/tube", "viscoelastic/bar"):
             with self.subTest(model):
                 source = ROOT / "verification" / f"{model}.yaml"
                 name = model.replace("/", "_")

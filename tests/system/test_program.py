@@ -293,7 +293,7 @@ class Program(unittest.TestCase):
             found = self.run_program("doc", *arguments)
             self.assertEqual(found.returncode, 0, found.stderr)
             self.assertIn("sections[].element: axisymmetric", found.stdout)
-        for word in ("viscoelastic", "gasket"):
+        for word in ("damage", "gasket"):
             self.assertIn(f"'{word}': not available: see `osculate doc limits`", self.run_program("doc", word).stdout)
         self.assertIn("# What Osculate cannot do", self.run_program("doc", "limits").stdout)
         self.assertEqual(self.run_program("doc", "xyzzy").returncode, 2)
@@ -303,7 +303,7 @@ class Program(unittest.TestCase):
         name = self.model(BLOCK.replace("SIDE", "0").replace("linear_elastic", "plastic"))
         done = self.run_program("check", name)
         self.assertEqual(done.returncode, 2)
-        self.assertIn("elastoplastic, norton, deformation_plasticity, rubber, ogden, hyperfoam, arruda_boyce, orthotropic, anisotropic, user; others are not available", done.stderr)
+        self.assertIn("elastoplastic, norton, deformation_plasticity, rubber, ogden, hyperfoam, arruda_boyce, orthotropic, anisotropic, viscoelastic, user; others are not available", done.stderr)
 
     def test_parameters_are_set_on_the_command_line(self):
         name = self.model(BLOCK.replace("title:", "parameters: {side: 0.1}\ntitle:").replace("SIDE", "=side"))

@@ -27,6 +27,12 @@ struct Range {
 
 /// The points of a curve, e.g. stress over strain.
 using Table = std::vector<std::array<double, 2>>;
+/// A curve that holds at one temperature.
+struct Curve {
+  double temperature = 0;
+  Table points{};
+};
+using Curves = std::vector<Curve>;
 
 /// Where an object of type `T` keeps the value of a parameter.
 template <class T>
@@ -47,6 +53,7 @@ struct OneOf {
 /// Sentences of the points of a table, and one of them.
 struct PointWords {
   std::string_view point, coordinate, example;
+  std::size_t least = 2;  ///< of how many points
 };
 
 /// A parameter describes itself; it knows nothing about files or languages. A type `T` with
@@ -68,6 +75,9 @@ struct Param {
   const PointWords* points = nullptr;    ///< of a table: what its points are
   bool timed = false;                    ///< means something only where increments take time
   Table T::*over = nullptr;  ///< a table over the temperature may be given in place of the number
+  /// Points may have a temperature behind them, and then belong to one curve each temperature, the
+  /// temperatures rising. In place of a number one curve may be given, too.
+  Curves T::*curves = nullptr;
 };
 
 /// What is wrong with an object whose parameters are in their ranges: a type with parameters may
@@ -124,6 +134,14 @@ template <class T>
     if (param.over) return &(object.*param.over);
   return static_cast<Member*>(nullptr);
 }
+/// The curves over the temperature of a parameter that may have some.
+template <class T>
+[[nodiscard]] auto* curves_over(T& object, const Param<std::remove_const_t<T>>& param) {
+  using Member = std::conditional_t<std::is_const_v<T>, const Curves, Curves>;
+  if constexpr (sizeof(T) >= sizeof(Curves))
+    if (param.curves) return &(object.*param.curves);
+  return static_cast<Member*>(nullptr);
+}
 template <class T>
 void set(T& object, const Slot<T>& slot, double value) {
   if (double* const number = member_in<double>(object, slot)) *number = value;
@@ -161,6 +179,11 @@ template <class T>
       for (const auto& [temperature, value] : *table)
         if (!std::isfinite(temperature) || !param.range.contains(value))
           return OutOfRange{param.key, value, param.range};
+    if (const Curves* const curves = curves_over(object, param))
+      for (const Curve& curve : *curves)
+        for (const auto& [ordinate, abscissa] : curve.points)
+          if (!std::isfinite(curve.temperature + ordinate + abscissa))
+            return OutOfRange{param.key, curve.temperature + ordinate + abscissa};
     const std::optional<double> value = number_in(object, param.slot);
     if (!value || param.range.contains(*value)) continue;
     if (!param.required && !param.automatic && value == number_in(T{}, param.slot)) continue;

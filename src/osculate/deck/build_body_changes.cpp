@@ -39,7 +39,7 @@ void refuse_contact(const BuildContext<Dim>& c, const CellChange& change,
 template <int Dim>
 void require_renewable(const BuildContext<Dim>& c, const CellChange& change,
                        model::BasicBulkSection<Dim>& section) {
-  if (!section.section.expansion.table.empty() && !c.model().initial_temperature.empty())
+  if (material::strains_of(section.section.expansion) > 0 && !c.model().initial_temperature.empty())
     throw core::InputError(change.on.mark,
                            fmt::format("cells of '{}' expand with their temperature: they come "
                                        "back with `with_strain: true` only",
@@ -131,7 +131,7 @@ void change_material(BuildContext<Dim>& c, const MaterialChange& change,
                       "is not for",
                       section.name, finite ? "finite" : "small", change.material.value));
     if (!remembers_the_same(section.section.law, now.now.law) ||
-        section.section.expansion.table.empty() != now.now.expansion.table.empty())
+        material::strains_of(section.section.expansion) != material::strains_of(now.now.expansion))
       throw core::InputError(
           change.material.mark,
           fmt::format("material '{}' remembers something else than that of the section on '{}': "

@@ -104,7 +104,7 @@ void require_hooke(const solid::Section<Dim>& section, const std::string& on,
                           on, material::key_of(section.law), finite ? " with finite strains" : ""));
   if (section.formulation == solid::Formulation::solid_shell)
     throw core::InputError(mark, "initial stresses and strains are not for solid_shell");
-  if (finite && !section.expansion.table.empty())
+  if (finite && material::strains_of(section.expansion) > 0)
     throw core::InputError(mark,
                            "initial stresses and strains do not go with finite strains and an "
                            "expansion");

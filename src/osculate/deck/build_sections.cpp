@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "osculate/deck/build_context.hpp"
 #include "osculate/mesh/shell_cells.hpp"
 #include "osculate/mesh/shell_direction.hpp"
@@ -132,11 +134,11 @@ void check_cell(const BuildContext<Dim>& c, const Section& s,
 
 /// Axes that are given mean something, and are some.
 template <int Dim>
-void check_orientation(BuildContext<Dim>& c, const Section& s, const material::Law& law) {
+void check_orientation(BuildContext<Dim>& c, const Section& s, const solid::Section<Dim>& section) {
   const material::Orientation& axes = s.orientation.value;
   if (axes.kind == material::Orientation::Kind::global) return;
   require_axes(axes, s.orientation.mark);
-  if (!material::directional(law))
+  if (!material::directional(section.law) && section.expansion.directions.empty())
     c.built.warnings.push_back(
         fmt::format("sections: the orientation on '{}' has no effect: material '{}' is the same in "
                     "all directions",
@@ -147,23 +149,32 @@ void check_orientation(BuildContext<Dim>& c, const Section& s, const material::L
 /// the other way.
 void check_plane(const BuildContext<2>& c, const Section& s, const model::BulkSection& section,
                  const mesh::CellRef& ref) {
-  if (!material::directional(section.section.law)) return;
+  const auto& expands = section.section.expansion.directions;
+  if (!material::directional(section.section.law) && expands.empty()) return;
   const mesh::Block& block = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)];
   const int nodes = cell::info(block.type).nodes;
   Vec3 middle = Vec3::Zero();
   for (int k = 0; k < nodes; ++k)
     middle += c.model().mesh.nodes[static_cast<std::size_t>(block.cell(ref.cell)[k])] / nodes;
-  const material::Tangent3 d =
-      material::turned(material::stiffness_of(section.section.law),
-                       material::axes_at(section.section.orientation, middle));
+  const Mat<3, 3> axes = material::axes_at(section.section.orientation, middle);
   constexpr double rounding = 1e-12;
-  if (d.topRightCorner<4, 2>().cwiseAbs().maxCoeff() <= rounding * d.cwiseAbs().maxCoeff()) return;
-  const bool given = section.section.orientation.kind != material::Orientation::Kind::global;
-  throw core::InputError(
-      given ? s.orientation.mark : s.material.mark,
-      fmt::format("material '{}' answers strains of the plane with shear across it: in the plane "
-                  "one of its axes is across it, and its constants have no such terms",
-                  s.material.value));
+  const auto fail = [&](const char* what) {
+    const bool given = section.section.orientation.kind != material::Orientation::Kind::global;
+    throw core::InputError(
+        given ? s.orientation.mark : s.material.mark,
+        fmt::format("material '{}' {} across it: in the plane one of its axes is "
+                    "across it, and its constants have no such terms",
+                    s.material.value, what));
+  };
+  for (const material::Tangent3& own : material::stiffnesses_of(section.section.law)) {
+    const material::Tangent3 d = material::turned(own, axes);
+    if (!(d.topRightCorner<4, 2>().cwiseAbs().maxCoeff() <= rounding * d.cwiseAbs().maxCoeff()))
+      fail("answers strains of the plane with shear");
+  }
+  for (const auto& row : expands) {
+    const material::Strain3 e = material::into_axes(axes.transpose()) * row.coefficients;
+    if (!(e.tail<2>().norm() <= rounding * e.norm())) fail("shears, as it expands,");
+  }
 }
 
 template <int Dim>
@@ -220,7 +231,7 @@ void build_sections(BuildContext<Dim>& c) {
     section.section = solid_section(c, s);
     section.cells = set.cells;
     section.material = s.material.value;
-    check_orientation(c, s, section.section.law);
+    check_orientation(c, s, section.section);
     if (s.element.value == SectionElement::solid_shell)
       (void)mesh::align_shells(m.mesh, section.cells);
     for (const mesh::CellRef& ref : section.cells) add_cell(c, s, section, ref);

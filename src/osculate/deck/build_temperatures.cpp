@@ -66,7 +66,7 @@ void build_initial_temperature(BuildContext<Dim>& c) {
     for (const auto& [value, nodes] : heated_nodes(c, load))
       for (const Index node : nodes) of[static_cast<std::size_t>(node)] = value;
   const auto feels = [](const Material& m) {
-    return !m.expansion.table.empty() || material::takes_temperature(m.law.value);
+    return material::strains_of(m.expansion) > 0 || material::takes_temperature(m.law.value);
   };
   const std::vector<Material>& materials = c.description.materials;
   if (std::none_of(materials.begin(), materials.end(), feels))

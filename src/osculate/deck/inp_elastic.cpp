@@ -39,54 +39,50 @@ std::string type_of(const Card& card) {
   return type;
 }
 
-/// The constants of a card, and perhaps a temperature behind them.
-std::vector<double> constants_of(const InpModel& m, const Card& card, std::size_t count) {
+/// The constants of a card of so many a temperature.
+std::vector<InpConstants> constants_of(const InpModel& m, const Card& card, std::size_t count) {
   constexpr std::size_t width = 8;
   const auto lines = io::inp::lines_of(m.deck, card);
   const std::size_t needed = (count + width - 1) / width;
-  if (lines.size() < needed)
+  if (lines.empty() || lines.size() % needed != 0)
     io::inp::fail(m.deck, card,
                   fmt::format("expected {} constants in {} lines of {}, found {} lines", count,
                               needed, width, lines.size()));
-  if (lines.size() > needed)
-    io::inp::fail(m.deck, lines[needed].at,
-                  "*ELASTIC: constants that depend on the temperature are supported of isotropic "
-                  "materials alone");
-  std::vector<double> numbers;
-  for (std::size_t i = 0; i < needed; ++i) {
+  std::vector<InpConstants> rows;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
     Fields fields(m.deck, lines[i]);
-    for (std::size_t k = 0; k < width && numbers.size() < count; ++k)
-      numbers.push_back(fields.real_or_zero("a constant"));
+    if (i % needed == 0) rows.emplace_back().line = line_of(lines[i].at);
+    std::vector<double>& values = rows.back().values;
+    for (std::size_t k = 0; k < width && values.size() < count; ++k)
+      values.push_back(fields.real_or_zero("a constant"));
+    if (values.size() == count) rows.back().temperature = fields.real_or_zero("a temperature");
   }
-  return numbers;
+  return rows;
 }
 
-/// E and nu, or both over the temperature.
-void put_isotropic(const InpModel& m, const Card& card, SourceNode& law) {
-  const int line = line_of(card.at);
-  struct Constant {
-    const char *key, *what;
-    SourceNode table;
-    bool same = true;
-  };
-  std::array<Constant, 2> constants{
-      {{"E", "Young's modulus", inp_list(line)}, {"nu", "Poisson's ratio", inp_list(line)}}};
+/// E and nu, each temperature in a line.
+std::vector<InpConstants> isotropic_constants(const InpModel& m, const Card& card) {
+  std::vector<InpConstants> rows;
   for (const Line& one : io::inp::lines_of(m.deck, card)) {
     Fields fields(m.deck, one);
-    const std::array<double, 2> values{fields.real(constants[0].what),
-                                       fields.real_or_zero(constants[1].what)};
-    const double temperature = fields.real_or_zero("a temperature");
-    for (std::size_t k = 0; k < 2; ++k) {
-      SourceNode& row = constants[k].table.items.emplace_back(inp_list(line_of(one.at)));
-      row.items = {inp_number(temperature, row.line), inp_number(values[k], row.line)};
-      constants[k].same =
-          constants[k].same && row.items[1].text == constants[k].table.items[0].items[1].text;
-    }
+    InpConstants& row = rows.emplace_back();
+    row.line = line_of(one.at);
+    row.values = {fields.real("Young's modulus"), fields.real_or_zero("Poisson's ratio")};
+    row.temperature = fields.real_or_zero("a temperature");
   }
-  if (constants[0].table.items.empty())
-    io::inp::fail(m.deck, card, "expected a line with E and nu");
-  for (Constant& c : constants)
-    put(law, c.key, c.same ? c.table.items[0].items[1] : std::move(c.table));
+  if (rows.empty()) io::inp::fail(m.deck, card, "expected a line with E and nu");
+  return rows;
+}
+
+std::vector<InpConstants> elastic_constants(const InpModel& m, const Card& card) {
+  const ElasticForm form = form_of_type(type_of(card));
+  return form.law.empty() ? isotropic_constants(m, card)
+                          : constants_of(m, card, form.constants.size());
+}
+
+bool are_constant(const std::vector<InpConstants>& rows) {
+  return std::ranges::all_of(rows,
+                             [&](const InpConstants& row) { return row.values == rows[0].values; });
 }
 
 /// Numbers of a line that come before the temperature.
@@ -122,9 +118,39 @@ const Line& constant_line(const InpModel& m, const Card& card, const char* what)
 
 bool is_directional(const Card& elastic) { return !form_of_type(type_of(elastic)).law.empty(); }
 
-bool depends_on_temperature(const InpModel& m, const Card& elastic) {
-  return !is_directional(elastic) && io::inp::lines_of(m.deck, elastic).size() > 1 &&
-         !has_constant_lines(m, elastic);
+bool depends_on_temperature(const InpModel& m, const Card& card) {
+  if (card.keyword == "ELASTIC") return !are_constant(elastic_constants(m, card));
+  const bool curves = card.keyword == "PLASTIC" || card.keyword == "CYCLICHARDENING";
+  if (!curves && card.keyword != "CREEP") return false;
+  std::optional<double> first;
+  for (const Line& line : io::inp::lines_of(m.deck, card)) {
+    Fields fields(m.deck, line);
+    for (int k = 0; k < (curves ? 2 : 3); ++k) (void)fields.real_or_zero("a number");
+    const double temperature = fields.real_or_zero("a temperature");
+    if (temperature != first.value_or(temperature)) return true;
+    first = temperature;
+  }
+  return false;
+}
+
+void put_over_temperature(const InpModel& m, const Card& card,
+                          const std::vector<InpConstants>& rows,
+                          const std::vector<std::string_view>& keys, SourceNode& law) {
+  if (!are_constant(rows)) require_temperatures(m, card);
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const double first = rows[0].values[k];
+    const bool same =
+        std::ranges::all_of(rows, [&](const InpConstants& row) { return row.values[k] == first; });
+    if (same) {
+      put(law, std::string(keys[k]), inp_number(first, rows[0].line));
+      continue;
+    }
+    SourceNode& table = put(law, std::string(keys[k]), inp_list(line_of(card.at)));
+    for (const InpConstants& of : rows) {
+      SourceNode& row = table.items.emplace_back(inp_list(of.line));
+      row.items = {inp_number(of.temperature, of.line), inp_number(of.values[k], of.line)};
+    }
+  }
 }
 
 std::string_view elastic_law(const InpModel& m, const Card& elastic) {
@@ -139,21 +165,19 @@ std::string_view elastic_law(const InpModel& m, const Card& elastic) {
 
 void put_elastic(const InpModel& m, const Card& card, SourceNode& law) {
   const ElasticForm form = form_of_type(type_of(card));
-  if (form.law.empty()) {
-    if (depends_on_temperature(m, card) && !has_temperatures(m))
-      io::inp::fail(m.deck, card,
-                    "depends on the temperature, which is given nowhere (*INITIAL CONDITIONS, "
-                    "*TEMPERATURE)");
-    put_isotropic(m, card, law);
-    return;
-  }
-  const std::vector<double> numbers = constants_of(m, card, form.constants.size());
-  const int line = line_of(card.at);
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const std::string key(form.constants[k]);
-    const bool needed = form.law == "orthotropic" || key.substr(1, 2) == key.substr(3, 2);
-    if (needed || numbers[k] != 0) put(law, key, inp_number(numbers[k], line));
-  }
+  std::vector<InpConstants> rows = elastic_constants(m, card);
+  std::vector<std::string_view> keys =
+      form.law.empty() ? std::vector<std::string_view>{"E", "nu"} : form.constants;
+  if (form.law == "anisotropic")  // constants beside the diagonal may be left out
+    for (std::size_t k = keys.size(); k-- > 0;) {
+      if (keys[k].substr(1, 2) == keys[k].substr(3, 2)) continue;
+      if (std::ranges::any_of(rows, [&](const InpConstants& row) { return row.values[k] != 0; }))
+        continue;
+      keys.erase(keys.begin() + static_cast<std::ptrdiff_t>(k));
+      for (InpConstants& row : rows)
+        row.values.erase(row.values.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+  put_over_temperature(m, card, rows, keys, law);
 }
 
 SourceNode inp_orientation(const InpModel& m, const Card& section) {

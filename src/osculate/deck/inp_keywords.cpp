@@ -8,7 +8,7 @@ namespace {
 
 using enum KeywordUse;
 
-constexpr std::array<InpKeyword, 148> keywords{{
+constexpr std::array<InpKeyword, 149> keywords{{
     {"HEADING", "", "a title", silent, ""},
     {"INCLUDE", "INPUT", "", mesh, "the lines of the file"},
     {"NODE", "NSET, SYSTEM, INPUT", "number, x, y, z", mesh, "nodes, and a set of them"},
@@ -34,14 +34,16 @@ constexpr std::array<InpKeyword, 148> keywords{{
     {"ELCOPY", "OLD SET", "", none, "write all elements"},
     {"SYSTEM", "", "axes", none, "write all nodes in the global axes"},
     {"MATERIAL", "NAME; DESCRIPTION", "", translated, "`materials`"},
-    {"ELASTIC", "TYPE; MODULI", "E, nu, temperature; constants", translated,
-     "`linear_elastic`, `st_venant_kirchhoff` (E and nu over the temperature, too), `orthotropic`, "
-     "`anisotropic`"},
+    {"ELASTIC", "TYPE, MODULI", "E, nu, temperature; constants", translated,
+     "`linear_elastic`, `st_venant_kirchhoff`, `orthotropic`, `anisotropic` (over the temperature, "
+     "too)"},
     {"PLASTIC", "HARDENING, DATA TYPE", "stress, plastic strain, temperature", translated,
      "`elastoplastic: hardening` (isotropic), `kinematic`, or both (COMBINED)"},
-    {"CYCLIC HARDENING", "", "stress, plastic strain", translated,
+    {"CYCLIC HARDENING", "", "stress, plastic strain, temperature", translated,
      "`elastoplastic: hardening` beside `kinematic`"},
-    {"CREEP", "LAW", "A, n, m", translated, "`norton: {A, n}` (LAW=NORTON, m = 0)"},
+    {"CREEP", "LAW", "A, n, m, temperature", translated, "`norton: {A, n}` (LAW=NORTON, m = 0)"},
+    {"VISCOELASTIC", "TIME=PRONY", "g, k, tau", translated,
+     "`viscoelastic: {shear, bulk}` beside `*ELASTIC` (MODULI)"},
     {"HYPERELASTIC",
      "N, NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL, REDUCED POLYNOMIAL, OGDEN, ARRUDA-BOYCE; "
      "MODULI",
@@ -55,8 +57,8 @@ constexpr std::array<InpKeyword, 148> keywords{{
      "`user: {library, constants}`, the library by OSCULATE_USER_MATERIAL"},
     {"DEPVAR", "; DELETE", "number of state variables", translated, "`user: state`"},
     {"DENSITY", "", "density, temperature", translated, "`density` of the material"},
-    {"EXPANSION", "ZERO, TYPE", "coefficient, temperature", translated,
-     "`materials.NAME.expansion` (isotropic)"},
+    {"EXPANSION", "ZERO, TYPE", "coefficients, temperature", translated,
+     "`materials.NAME.expansion` (ISO, ORTHO, ANISO)"},
     {"CONDUCTIVITY", "TYPE", "conductivity", silent, "temperatures do not change"},
     {"SPECIFIC HEAT", "", "specific heat", silent, "temperatures do not change"},
     {"DAMPING", "ALPHA, BETA", "", translated, "`steps.dynamics: damping` (one for all materials)"},

@@ -13,14 +13,17 @@ using io::inp::Card;
 using io::inp::Fields;
 using io::inp::Line;
 
-const Card* elastic_of(const InpModel& m, std::string_view material) {
+/// A material with axes.
+bool has_axes(const InpModel& m, std::string_view material) {
   bool here = false;
   for (const Card& card : m.deck.cards) {
     if (card.keyword == "MATERIAL")
       here = io::inp::capitals(plain_name(value_of(m, card, "NAME"))) == material;
-    if (here && card.keyword == "ELASTIC") return &card;
+    if (here &&
+        ((card.keyword == "ELASTIC" && is_directional(card)) || expands_by_directions(card)))
+      return true;
   }
-  return nullptr;
+  return false;
 }
 
 /// Of rectangular axes the third one; none where they are others.
@@ -77,8 +80,7 @@ void put_layers(InpModel& m, const Card& card, SourceNode& sections) {
     put(section, "element", inp_text("solid", at));
     put(section, "kinematics", inp_text(m.finite ? "finite" : "small", at));
     put(section, "formulation", inp_text(std::string(parts[0].formulation), at));
-    const Card* const elastic = elastic_of(m, io::inp::capitals(material));
-    if (!elastic || !is_directional(*elastic)) continue;
+    if (!has_axes(m, io::inp::capitals(material))) continue;
     std::optional<Vec3> axis = Vec3::UnitZ();
     if (!orientation.empty()) {
       SourceNode axes = inp_orientation(m, card, io::inp::capitals(orientation));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "osculate/core/param.hpp"
 #include "osculate/deck/inp_parts.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
 #include "osculate/io/inp/thin_sections.hpp"
@@ -21,7 +22,7 @@ struct MaterialCards {
   const Card* material = nullptr;
   const Card *elastic = nullptr, *plastic = nullptr, *density = nullptr, *creep = nullptr,
              *expansion = nullptr, *hyperelastic = nullptr, *user = nullptr, *depvar = nullptr,
-             *cyclic = nullptr, *deformation = nullptr;
+             *cyclic = nullptr, *deformation = nullptr, *viscoelastic = nullptr;
 };
 
 std::vector<MaterialCards> material_cards(const InpModel& m) {
@@ -44,6 +45,7 @@ std::vector<MaterialCards> material_cards(const InpModel& m) {
     if (card.keyword == "DEFORMATIONPLASTICITY") set(card, &MaterialCards::deformation);
     if (card.keyword == "DENSITY") set(card, &MaterialCards::density);
     if (card.keyword == "CREEP") set(card, &MaterialCards::creep);
+    if (card.keyword == "VISCOELASTIC") set(card, &MaterialCards::viscoelastic);
     if (card.keyword == "USERMATERIAL") set(card, &MaterialCards::user);
     if (card.keyword == "DEPVAR") set(card, &MaterialCards::depvar);
     if (card.keyword == "EXPANSION") set(card, &MaterialCards::expansion);
@@ -56,49 +58,74 @@ double density_of(const InpModel& m, const MaterialCards& c) {
   return Fields(m.deck, constant_line(m, *c.density, "the density")).real("the density");
 }
 
-/// Pairs of stress and plastic strain.
-std::vector<std::array<double, 2>> hardening_of(const InpModel& m, const Card& card) {
-  std::vector<std::array<double, 2>> points;
+/// One curve where all are the same.
+core::Curves that_differ(core::Curves curves) {
+  const auto same = [&](const core::Curve& curve) { return curve.points == curves[0].points; };
+  if (std::ranges::all_of(curves, same)) curves.resize(1);
+  return curves;
+}
+
+/// Stress over plastic strain, one curve a temperature.
+core::Curves hardening_of(const InpModel& m, const Card& card) {
+  core::Curves curves;
   for (const Line& line : io::inp::lines_of(m.deck, card)) {
     Fields fields(m.deck, line);
     const double stress = fields.real("the yield stress");
     const double strain = fields.real_or_zero("the plastic strain");
-    if (!points.empty() && !(strain > points.back()[1]))
-      fields.fail(
-          "expected a larger plastic strain than in the line before (tables for several "
-          "temperatures are not supported)");
-    points.push_back({stress, strain});
+    const double temperature = fields.real_or_zero("a temperature");
+    fields.expect_end();
+    if (curves.empty() || temperature > curves.back().temperature) curves.push_back({temperature});
+    core::Curve& curve = curves.back();
+    if (temperature < curve.temperature)
+      fields.fail("expected a temperature that is not below that of the line before");
+    if (!curve.points.empty() && !(strain > curve.points.back()[1]))
+      fields.fail("expected a larger plastic strain than in the line before");
+    curve.points.push_back({stress, strain});
   }
-  if (points.empty()) io::inp::fail(m.deck, card, "expected lines with stress and plastic strain");
-  return points;
+  if (curves.empty()) io::inp::fail(m.deck, card, "expected lines with stress and plastic strain");
+  curves = that_differ(std::move(curves));
+  if (curves.size() > 1) require_temperatures(m, card);
+  return curves;
 }
 
-void put_yield_table(const std::vector<std::array<double, 2>>& points, int line, SourceNode& law) {
-  if (points.size() == 1) {
-    put(law, "yield", inp_number(points[0][0], line));
-    return;
-  }
-  SourceNode& table = put(law, "hardening", inp_list(line));
-  for (const auto& [stress, strain] : points) {
-    SourceNode& row = table.items.emplace_back(inp_list(line));
-    row.items = {inp_number(stress, line), inp_number(strain, line)};
-  }
+SourceNode curves_node(const core::Curves& curves, int line) {
+  SourceNode table = inp_list(line);
+  for (const core::Curve& curve : curves)
+    for (const auto& [stress, strain] : curve.points) {
+      SourceNode& row = table.items.emplace_back(inp_list(line));
+      row.items = {inp_number(stress, line), inp_number(strain, line)};
+      if (curves.size() > 1) row.items.push_back(inp_number(curve.temperature, line));
+    }
+  return table;
 }
 
-/// The middle of the yield surface moves by the slope of the two points of `*PLASTIC`; its size is
-/// that of `*CYCLIC HARDENING`, without which it stays.
+void put_yield_table(const core::Curves& curves, int line, SourceNode& law) {
+  if (curves.size() == 1 && curves[0].points.size() == 1)
+    put(law, "yield", inp_number(curves[0].points[0][0], line));
+  else
+    put(law, "hardening", curves_node(curves, line));
+}
+
+/// The middle of the yield surface moves by what the curve of `*PLASTIC` rises by; its size is that
+/// of `*CYCLIC HARDENING`, without which it is that of the beginning of the curve.
 void put_kinematic(const InpModel& m, const Card& card, const Card* cyclic, SourceNode& law) {
-  const auto points = hardening_of(m, card);
+  core::Curves moves = hardening_of(m, card), size;
+  for (core::Curve& curve : moves) {
+    const std::array<double, 2> first = curve.points[0];
+    size.push_back({curve.temperature, {first}});
+    for (auto& point : curve.points) point[0] -= first[0];
+  }
   const int line = line_of(card.at);
-  if (points.size() > 2)
-    io::inp::fail(m.deck, card, "kinematic hardening is linear here: give two points");
+  moves = that_differ(std::move(moves));
   if (cyclic)
     put_yield_table(hardening_of(m, *cyclic), line_of(cyclic->at), law);
   else
-    put(law, "yield", inp_number(points[0][0], line));
-  if (points.size() == 2)
-    put(law, "kinematic",
-        inp_number((points[1][0] - points[0][0]) / (points[1][1] - points[0][1]), line));
+    put_yield_table(that_differ(std::move(size)), line, law);
+  const core::Table& only = moves[0].points;
+  if (moves.size() > 1 || only.size() > 2)
+    put(law, "kinematic", curves_node(moves, line));
+  else if (only.size() == 2)
+    put(law, "kinematic", inp_number(only[1][0] / (only[1][1] - only[0][1]), line));
 }
 
 void put_plastic(const InpModel& m, const Card& card, const Card* cyclic, SourceNode& law) {
@@ -132,18 +159,26 @@ void put_creep(const InpModel& m, const Card& card, SourceNode& law) {
   const std::string kind = option_of(card, "LAW");
   if (!kind.empty() && kind != "NORTON" && kind != "STRAIN")
     io::inp::fail(m.deck, card, fmt::format("LAW={} is not supported: NORTON", kind));
-  const Line& line = constant_line(m, card, "A, n and m");
-  Fields fields(m.deck, line);
-  put(law, "A", inp_number(fields.real("A"), line_of(line.at)));
-  put(law, "n", inp_number(fields.real("n"), line_of(line.at)));
-  if (fields.real_or_zero("m") != 0)
-    fields.fail("creep that depends on the time (m not 0) is not supported");
+  std::vector<InpConstants> rows;
+  for (const Line& line : io::inp::lines_of(m.deck, card)) {
+    Fields fields(m.deck, line);
+    InpConstants& row = rows.emplace_back();
+    row.line = line_of(line.at);
+    row.values = {fields.real("A"), fields.real("n")};
+    if (fields.real_or_zero("m") != 0)
+      fields.fail("creep that depends on the time (m not 0) is not supported");
+    row.temperature = fields.real_or_zero("a temperature");
+  }
+  if (rows.empty()) io::inp::fail(m.deck, card, "expected a line with A, n and m");
+  put_over_temperature(m, card, rows, {"A", "n"}, law);
 }
 
 /// A yield stress of 0 without hardening: beside `*CREEP` all that flows is what creeps.
 bool flows_at_once(const InpModel& m, const Card& plastic) {
-  return std::ranges::all_of(hardening_of(m, plastic),
-                             [](const auto& point) { return point[0] == 0; });
+  const core::Curves curves = hardening_of(m, plastic);
+  return std::ranges::all_of(curves, [](const core::Curve& curve) {
+    return std::ranges::all_of(curve.points, [](const auto& point) { return point[0] == 0; });
+  });
 }
 
 std::string_view law_of(const InpModel& m, const MaterialCards& c) {
@@ -154,6 +189,12 @@ std::string_view law_of(const InpModel& m, const MaterialCards& c) {
     if (c.deformation && other)
       io::inp::fail(m.deck, *other,
                     "of a material with *DEFORMATION PLASTICITY this is not supported");
+  for (const Card* const other : {c.plastic, c.creep, c.hyperelastic, c.user, c.deformation})
+    if (c.viscoelastic && other)
+      io::inp::fail(m.deck, *other, "of a material with *VISCOELASTIC this is not supported");
+  if (c.viscoelastic && c.elastic && is_directional(*c.elastic))
+    io::inp::fail(m.deck, *c.viscoelastic,
+                  "of a material that is not isotropic this is not supported");
   if (c.depvar && !c.user)
     io::inp::fail(m.deck, *c.depvar, "belongs to a *USER MATERIAL, and the material has none");
   if (c.user) return user_law(m, *c.material);
@@ -168,8 +209,6 @@ std::string_view law_of(const InpModel& m, const MaterialCards& c) {
   for (const Card* const other : {c.plastic, c.creep})
     if (other && is_directional(*c.elastic))
       io::inp::fail(m.deck, *other, "of a material that is not isotropic this is not supported");
-    else if (other)
-      (void)constant_line(m, *c.elastic, "E and nu");
   if (c.plastic && c.creep && flows_at_once(m, *c.plastic)) return "norton";
   if (c.plastic && c.creep)
     io::inp::fail(m.deck, *c.creep,
@@ -177,6 +216,7 @@ std::string_view law_of(const InpModel& m, const MaterialCards& c) {
                   "of 0, which "
                   "is creep alone");
   if (c.plastic) return "elastoplastic";
+  if (c.viscoelastic) return "viscoelastic";
   if (c.creep) return "norton";
   return elastic_law(m, *c.elastic);
 }
@@ -242,6 +282,8 @@ SourceNode inp_materials(InpModel& m) {
       put_deformation(m, *c.deformation, law);
     else if (c.hyperelastic)
       put_hyperelastic(m, *c.hyperelastic, law);
+    else if (c.viscoelastic)
+      put_viscoelastic(m, *c.elastic, *c.viscoelastic, law);
     else
       put_elastic(m, *c.elastic, law);
     if (const double density = density_of(m, c); density > 0)
@@ -278,7 +320,8 @@ bool is_oriented(const InpModel& m, const Card& section) {
   const Card* const elastic = material.elastic;
   if (material.user && !option_of(section, "ORIENTATION").empty())
     io::inp::fail(m.deck, section, "a *USER MATERIAL in axes of its own is not supported");
-  const bool directional = elastic && is_directional(*elastic);
+  const bool directional = (elastic && is_directional(*elastic)) ||
+                           (material.expansion && expands_by_directions(*material.expansion));
   if (directional && io::inp::is_thin_section(section))
     io::inp::fail(m.deck, section,
                   "shells and beams of a material that is not isotropic are not supported");

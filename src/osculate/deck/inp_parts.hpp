@@ -96,13 +96,24 @@ void check_parameters(InpModel& m);
 /// The first line of such a card.
 [[nodiscard]] const io::inp::Line& constant_line(const InpModel& m, const io::inp::Card& card,
                                                  const char* what);
-/// Of a `*ELASTIC`: the law that it means, whether that is other than isotropic, or has constants
-/// that depend on the temperature, and its constants.
+/// Constants of a material at a temperature.
+struct InpConstants {
+  std::vector<double> values{};
+  double temperature = 0;
+  int line = 0;
+};
+/// Puts each of them under its key, as a number or a table over the temperature.
+void put_over_temperature(const InpModel& m, const io::inp::Card& card,
+                          const std::vector<InpConstants>& rows,
+                          const std::vector<std::string_view>& keys, SourceNode& law);
+/// Whether the numbers of `*ELASTIC`, `*PLASTIC`, `*CYCLIC HARDENING` or `*CREEP` do; not of
+/// others.
+[[nodiscard]] bool depends_on_temperature(const InpModel& m, const io::inp::Card& card);
+/// Of a `*ELASTIC`: the law that it means, whether that is other than isotropic, and its constants.
 ///
 /// Tested by  tests/unit/deck/test_inp_elastic.cpp
 [[nodiscard]] std::string_view elastic_law(const InpModel& m, const io::inp::Card& elastic);
 [[nodiscard]] bool is_directional(const io::inp::Card& elastic);
-[[nodiscard]] bool depends_on_temperature(const InpModel& m, const io::inp::Card& elastic);
 void put_elastic(const InpModel& m, const io::inp::Card& elastic, SourceNode& law);
 /// The `*ORIENTATION` that a section names.
 [[nodiscard]] SourceNode inp_orientation(const InpModel& m, const io::inp::Card& section);
@@ -120,6 +131,13 @@ void put_hyperelastic(const InpModel& m, const io::inp::Card& card, SourceNode& 
 [[nodiscard]] std::string_view user_law(const InpModel& m, const io::inp::Card& material);
 void put_user(const InpModel& m, const io::inp::Card& material, const io::inp::Card& user,
               const io::inp::Card* depvar, SourceNode& law);
+/// Puts the constants of a `*VISCOELASTIC` beside an `*ELASTIC`, at once.
+///
+/// Tested by  tests/unit/deck/test_inp_viscoelastic.cpp
+void put_viscoelastic(const InpModel& m, const io::inp::Card& elastic,
+                      const io::inp::Card& viscoelastic, SourceNode& law);
+/// The shortest time of any series of a deck; none: nothing relaxes.
+[[nodiscard]] std::optional<double> shortest_relaxation(const InpModel& m);
 [[nodiscard]] SourceNode inp_sections(InpModel& m);
 /// A set of elements, and the words of a section that their types stand for.
 struct InpElements {
@@ -150,6 +168,8 @@ struct InpDensity {
 /// Whether some step has temperatures, or they are given at first and a material depends on them:
 /// without, materials need no expansion.
 [[nodiscard]] bool has_temperatures(const InpModel& m);
+/// Fails where temperatures are given nowhere, for a card whose numbers depend on them.
+void require_temperatures(const InpModel& m, const io::inp::Card& card);
 /// A set of nodes, its temperature and the gradients along the axes of shells and beams.
 struct NodeValue {
   std::string on;
@@ -161,6 +181,8 @@ struct NodeValue {
 void put_gradients(SourceNode& entry, const std::array<double, 2>& gradient);
 /// `expansion` of a material, from its `*EXPANSION`.
 [[nodiscard]] SourceNode inp_expansion(const InpModel& m, const io::inp::Card& card);
+/// Whether a card is one that differs with the direction.
+[[nodiscard]] bool expands_by_directions(const io::inp::Card& card);
 [[nodiscard]] SourceNode inp_initial_temperature(const InpModel& m);
 [[nodiscard]] SourceNode inp_initial_velocity(const InpModel& m);
 /// Refuses an `*INITIAL CONDITIONS` of other things.

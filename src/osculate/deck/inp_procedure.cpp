@@ -142,10 +142,27 @@ void put_search(const InpProcedure& procedure, SourceNode& step) {
     list.items.push_back(inp_number(k, line));
 }
 
-void put_time(const InpModel& m, const InpProcedure& procedure, SourceNode& step) {
+namespace {
+
+/// `*STATIC` is the response at once of what relaxes.
+double duration_of(InpModel& m, const InpProcedure& procedure) {
+  if (!procedure.is("STATIC")) return procedure.period;
+  const std::optional<double> shortest = shortest_relaxation(m);
+  if (!shortest) return procedure.period;
+  constexpr double next_to_none = 1e-9;
+  m.notes.push_back(
+      fmt::format("line {}: *STATIC is the response at once of *VISCOELASTIC: the step has the "
+                  "duration {:g}, 1e-9 of the shortest relaxation time",
+                  procedure.card->at.line, next_to_none * *shortest));
+  return next_to_none * *shortest;
+}
+
+}  // namespace
+
+void put_time(InpModel& m, const InpProcedure& procedure, SourceNode& step) {
   const int line = line_of(procedure.card->at);
   put(step, "increments", inp_number(procedure.increments, line));
-  put(step, "duration", inp_number(procedure.period, line));
+  put(step, "duration", inp_number(duration_of(m, procedure), line));
   if (procedure.is("DYNAMIC")) put(step, "dynamics", inp_dynamics(m, *procedure.card));
 }
 

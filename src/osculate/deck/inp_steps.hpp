@@ -64,7 +64,7 @@ struct InpProcedure {
 void read_diameters(const InpModel& m, const io::inp::Card& card, InpProcedure& procedure);
 /// Adds `modes` or `buckling`; increments and duration; the range of frequencies as a new map.
 void put_search(const InpProcedure& procedure, SourceNode& step);
-void put_time(const InpModel& m, const InpProcedure& procedure, SourceNode& step);
+void put_time(InpModel& m, const InpProcedure& procedure, SourceNode& step);
 SourceNode& put_range(const InpProcedure& procedure, SourceNode& step);
 /// Time integration of a `*DYNAMIC`. In inp_dynamics.cpp.
 [[nodiscard]] SourceNode inp_dynamics(const InpModel& m, const io::inp::Card& card);

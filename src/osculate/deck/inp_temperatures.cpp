@@ -13,17 +13,34 @@ using io::inp::Fields;
 using io::inp::Line;
 using io::inp::SetKind;
 
+namespace {
+
+template <class Is>
+bool any_card(const InpModel& m, const Is& is) {
+  return std::any_of(m.deck.cards.begin(), m.deck.cards.end(), is);
+}
+bool changes_temperatures(const InpModel& m) {
+  return any_card(m, [](const Card& card) { return card.keyword == "TEMPERATURE"; });
+}
+bool begins_with_temperatures(const InpModel& m) {
+  return any_card(m, [](const Card& card) {
+    return card.keyword == "INITIALCONDITIONS" && option_of(card, "TYPE") == "TEMPERATURE";
+  });
+}
+
+}  // namespace
+
 bool has_temperatures(const InpModel& m) {
-  const auto any = [&](const auto& is) {
-    return std::any_of(m.deck.cards.begin(), m.deck.cards.end(), is);
-  };
-  if (any([](const Card& card) { return card.keyword == "TEMPERATURE"; })) return true;
-  return any([&](const Card& card) {
-           return card.keyword == "ELASTIC" && depends_on_temperature(m, card);
-         }) &&
-         any([](const Card& card) {
-           return card.keyword == "INITIALCONDITIONS" && option_of(card, "TYPE") == "TEMPERATURE";
-         });
+  return changes_temperatures(m) ||
+         (begins_with_temperatures(m) &&
+          any_card(m, [&](const Card& card) { return depends_on_temperature(m, card); }));
+}
+
+void require_temperatures(const InpModel& m, const Card& card) {
+  if (!changes_temperatures(m) && !begins_with_temperatures(m))
+    io::inp::fail(m.deck, card,
+                  "depends on the temperature, which is given nowhere (*INITIAL CONDITIONS, "
+                  "*TEMPERATURE)");
 }
 
 NodeValue temperature_of(const InpModel& m, const Line& line) {
@@ -43,26 +60,55 @@ void put_gradients(SourceNode& entry, const std::array<double, 2>& gradient) {
     if (gradient[k] != 0) put(entry, keys[k], inp_number(gradient[k], entry.line));
 }
 
-SourceNode inp_expansion(const InpModel& m, const Card& card) {
+namespace {
+
+/// How many coefficients a `*EXPANSION` has.
+std::size_t coefficients_of(const InpModel& m, const Card& card) {
   const std::string type = option_of(card, "TYPE");
+  if (type == "ORTHO" || type == "ORTHOTROPIC") return 3;
+  if (type == "ANISO" || type == "ANISOTROPIC") return 6;
   if (!type.empty() && type != "ISO" && type != "ISOTROPIC")
     io::inp::fail(m.deck, card,
-                  fmt::format("TYPE={} is not supported: materials are isotropic", type));
+                  fmt::format("TYPE={} is not supported: ISO, ORTHO or ANISO", printable(type)));
+  return 1;
+}
+
+/// A row of the table over the temperature, which stands first.
+SourceNode expansion_row(const InpModel& m, const Line& one, std::size_t coefficients) {
+  const int line = line_of(one.at);
+  Fields fields(m.deck, one);
+  SourceNode row = inp_list(line);
+  row.items.emplace_back();
+  for (std::size_t k = 0; k < coefficients; ++k)
+    row.items.push_back(inp_number(k == 0 ? fields.real("the coefficient of expansion")
+                                          : fields.real_or_zero("a coefficient of expansion"),
+                                   line));
+  row.items[0] = inp_number(fields.real_or_zero("a temperature"), line);
+  fields.expect_end();
+  return row;
+}
+
+}  // namespace
+
+bool expands_by_directions(const Card& card) {
+  const std::string type = option_of(card, "TYPE");
+  return card.keyword == "EXPANSION" && (type.starts_with("ORTHO") || type.starts_with("ANISO"));
+}
+
+SourceNode inp_expansion(const InpModel& m, const Card& card) {
+  const std::size_t coefficients = coefficients_of(m, card);
   const int line = line_of(card.at);
   const auto lines = io::inp::lines_of(m.deck, card);
   if (lines.empty()) io::inp::fail(m.deck, card, "expected lines of coefficient and temperature");
   SourceNode expansion = inp_map(line);
   SourceNode table = inp_list(line);
-  for (const Line& one : lines) {
-    Fields fields(m.deck, one);
-    const double alpha = fields.real("the coefficient of expansion");
-    const double temperature = fields.real_or_zero("a temperature");
-    fields.expect_end();
-    SourceNode& row = table.items.emplace_back(inp_list(line_of(one.at)));
-    row.items = {inp_number(temperature, row.line), inp_number(alpha, row.line)};
+  for (const Line& one : lines) table.items.push_back(expansion_row(m, one, coefficients));
+  if (table.items.size() == 1) {  // without the temperature
+    SourceNode only = std::move(table.items[0]);
+    only.items.erase(only.items.begin());
+    table = coefficients == 1 ? std::move(only.items[0]) : std::move(only);
   }
-  const bool constant = table.items.size() == 1;
-  put(expansion, "alpha", constant ? table.items[0].items[1] : std::move(table));
+  put(expansion, "alpha", std::move(table));
   if (const io::inp::Parameter* const zero = io::inp::find_parameter(card, "ZERO")) {
     Line value;
     value.text = zero->value;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
+#include <span>
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/bind.hpp"
@@ -24,38 +26,74 @@ std::string keys_of(const Is& is) {
   return core::join(keys);
 }
 
-/// Pairs of temperature and coefficient, or one coefficient.
+/// Strain of coefficients along three axes, or of six: 11, 22, 33, 12, 13, 23 of a tensor.
+material::Strain3 strain_of(std::span<const Value> values) {
+  material::Strain3 strain = material::Strain3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) strain[static_cast<Eigen::Index>(k)] = values[k].number;
+  if (values.size() == 6)
+    strain.tail<3>() << 2 * values[3].number, 2 * values[5].number, 2 * values[4].number;
+  return strain;
+}
+
+/// A row of a temperature and one, three or six coefficients.
+void add_row(const Value& row, std::size_t width, material::Expansion& to, double& last) {
+  if (row.items.size() != width || (width != 2 && width != 4 && width != 7))
+    throw core::InputError(
+        row.mark, "expected a temperature and 1, 3 or 6 coefficients, in all rows the same");
+  const double temperature = row.items[0].number;
+  if (!(temperature > last)) throw core::InputError(row.mark, "temperatures must increase");
+  last = temperature;
+  if (width == 2)
+    to.table.push_back({temperature, row.items[1].number});
+  else
+    to.directions.push_back({temperature, strain_of(std::span(row.items).subspan(1))});
+}
+
+void read_expansion(Material& m, const Value& v) {
+  m.expansion.reference = v.at("reference").number;
+  const Value& given = v.at("alpha");
+  if (given.alternative == 0) m.expansion.table.push_back({0, given.number});
+  if (given.alternative == 1) {
+    double last = -std::numeric_limits<double>::infinity();
+    for (const Value& row : given.items)
+      add_row(row, given.items[0].items.size(), m.expansion, last);
+  }
+  if (given.alternative != 2) return;
+  if (given.items.size() != 3 && given.items.size() != 6)
+    throw core::InputError(given.mark, "expected 3 coefficients along the axes, or 6 of a tensor");
+  m.expansion.directions.push_back({0, strain_of(given.items)});
+}
+
+/// Rows of temperature and coefficients, or coefficients.
 BoundKey<Material> expansion_key() {
-  const Spec pair = list("One pair [T, alpha].", number("Temperature, or coefficient."))
-                        .count(2, 2)
-                        .such_as("[100, 1.2e-5]");
+  const Spec row = list("One row [T, alpha], or with three or six coefficients.",
+                        number("Temperature, or coefficient."))
+                       .count(2, 7)
+                       .such_as("[100, 1.2e-5]");
   const Spec alpha =
       either("Mean coefficient of thermal expansion from the reference temperature on.",
-             {number("One for all temperatures.").in("1/temperature"),
-              list("Pairs [T, alpha], T increasing; straight between them, constant beyond.", pair)
-                  .count(1)})
+             {number("One for all temperatures and directions.").in("1/temperature"),
+              list("Rows [T, alpha], T increasing; straight between them, constant beyond. By "
+                   "directions [T, a1, a2, a3], or six coefficients.",
+                   row)
+                  .count(1),
+              list("By directions, in the axes that the section's `orientation` gives: three along "
+                   "them, or those of a symmetric tensor, 11, 22, 33, 12, 13, 23.",
+                   number("Coefficient.").in("1/temperature"))
+                  .count(3, 6)
+                  .such_as("[1.2e-5, 3.0e-5, 3.0e-5]")})
           .such_as("1.2e-5");
   const Spec reference =
       number(
-          "Temperature that the coefficients of a table count from. It does not matter for one "
-          "coefficient: free of stress is the initial temperature.")
+          "Temperature that the coefficients of a table count from. It does not matter for "
+          "coefficients without a table: free of stress is the initial temperature.")
           .in("temperature")
           .otherwise("0")
           .such_as("20");
-  return {
-      optional("expansion", map("Strain by the temperature.",
-                                {required("alpha", alpha), optional("reference", reference)})
-                                .such_as("{alpha: 1.2e-5}")),
-      [](Material& m, const Value& v) {
-        m.expansion.reference = v.at("reference").number;
-        const Value& given = v.at("alpha");
-        if (given.alternative == 0) m.expansion.table.push_back({0, given.number});
-        for (const Value& row : given.items) {
-          if (!m.expansion.table.empty() && !(row.items[0].number > m.expansion.table.back()[0]))
-            throw core::InputError(row.mark, "temperatures must increase");
-          m.expansion.table.push_back({row.items[0].number, row.items[1].number});
-        }
-      }};
+  return {optional("expansion", map("Strain by the temperature.",
+                                    {required("alpha", alpha), optional("reference", reference)})
+                                    .such_as("{alpha: 1.2e-5}")),
+          read_expansion};
 }
 
 /// The law of a value; one whose formulas stand in a library, with them.

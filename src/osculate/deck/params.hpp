@@ -40,13 +40,20 @@ template <class T>
                           {Choice{"auto", std::string(p.automatic->means), 0, true}})})
         .otherwise("auto")
         .such_as(std::move(example));
-  if (p.points)
-    return list(std::move(doc),
-                list(std::string(p.points->point), number(std::string(p.points->coordinate)))
-                    .count(2, 2)
-                    .such_as(std::string(p.points->example)))
-        .count(2)
+  if (p.points) {
+    const Spec point = list(std::string(p.points->point), number(std::string(p.points->coordinate)))
+                           .count(2, p.curves ? 3 : 2)
+                           .such_as(std::string(p.points->example));
+    if (!core::number_in(T{}, p.slot)) {
+      const Spec points =
+          list(std::move(doc), point).count(p.points->least).such_as(std::move(example));
+      return p.otherwise.empty() ? points : points.otherwise_as(std::string(p.otherwise));
+    }
+    return either(std::move(doc),
+                  {number_with("A modulus."), list("The points of a curve.", point).count(2)})
+        .otherwise("0")
         .such_as(std::move(example));
+  }
   if (p.over) {
     const Spec pair = list("One pair, of a temperature and the value there.", number("A number."))
                           .count(2, 2)
@@ -120,6 +127,22 @@ void check_temperatures(const core::Param<T>& p, const Value& table) {
   }
 }
 
+/// Rows of two coordinates, and perhaps the temperature of their curve.
+[[nodiscard]] inline core::Curves curves_of(const Value& rows) {
+  core::Curves curves;
+  const std::size_t width = rows.items.front().items.size();
+  for (const Value& row : rows.items) {
+    if (row.items.size() != width)
+      throw core::InputError(row.mark, "either all points have a temperature or none");
+    const double temperature = width == 3 ? row.items[2].number : 0;
+    if (!curves.empty() && temperature < curves.back().temperature)
+      throw core::InputError(row.mark, "temperatures must increase from curve to curve");
+    if (curves.empty() || temperature > curves.back().temperature) curves.push_back({temperature});
+    curves.back().points.push_back({row.items[0].number, row.items[1].number});
+  }
+  return curves;
+}
+
 /// Throws core::InputError with what is wrong, if anything is, at the place of its key.
 inline void require_none(const std::optional<core::Fault>& fault, const Value& v) {
   if (!fault) return;
@@ -144,6 +167,12 @@ template <class T>
       std::vector<double> numbers;
       for (const Value& item : value->items) numbers.push_back(item.number);
       core::set(object, p.slot, std::move(numbers));
+      continue;
+    }
+    if (core::Curves* const curves = core::curves_over(object, p);
+        curves && !value->items.empty() &&
+        (core::number_in(object, p.slot) || value->items[0].items.size() == 3)) {
+      *curves = curves_of(*value);
       continue;
     }
     core::Table points;

@@ -20,7 +20,7 @@ struct Synonym {
 
 constexpr std::string_view no = "not available: see `osculate doc limits`";
 
-constexpr std::array<Synonym, 42> synonyms{{
+constexpr std::array<Synonym, 43> synonyms{{
     {"tie tied tied-contact glue bonded mesh-tie",
      "ties (docs/constraints.md), contact.normal.separation: tied"},
     {"plasticity plastic yielding mises-plasticity j2 metal",
@@ -28,7 +28,8 @@ constexpr std::array<Synonym, 42> synonyms{{
     {"creep norton relaxation", "materials.norton: A, n; every step needs a duration"},
     {"orthotropic anisotropic lamina fibre ply wood material-axes orientation",
      "materials.NAME.orthotropic, anisotropic; sections.orientation"},
-    {"viscoelastic damage", no},
+    {"viscoelastic prony maxwell relaxation-modulus", "materials.NAME.viscoelastic: shear, bulk"},
+    {"damage", no},
     {"rate-and-state velocity-weakening dieterich ruina", "contact.friction.rate_and_state"},
     {"stl cad-surface", "mesh: files with the extension .stl, for rigid bodies"},
     {"bolt pretension preload", "pretension (docs/constraints.md), steps.hold"},

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <span>
 
 #include "osculate/deck/to_inp_parts.hpp"
 #include "osculate/material/law.hpp"
@@ -9,23 +10,72 @@
 namespace osculate::deck {
 namespace {
 
-/// `hardening` as rows of stress and plastic strain, or `yield` with a linear kinematic one.
-void write_hardening(const std::string& law, Leaves& leaves, std::string& out) {
-  const std::string path = law + ".hardening";
-  const auto kinematic = leaves.number(law + ".kinematic");
-  out += kinematic ? "*PLASTIC, HARDENING=KINEMATIC\n" : "*PLASTIC\n";
-  if (const auto yield = leaves.number(law + ".yield")) {
-    out += fmt::format("{}, 0\n", exact(*yield));
-    if (kinematic) out += fmt::format("{}, 1\n", exact(*yield + *kinematic));
-    return;
-  }
-  if (kinematic) leaves.fail(law + ".kinematic", "is written beside `yield` alone");
+/// Rows of numbers of a key, as long as there are some.
+std::vector<std::vector<double>> rows_of(const std::string& path, Leaves& leaves) {
+  std::vector<std::vector<double>> rows;
   for (int i = 0;; ++i) {
-    const auto stress = leaves.number(fmt::format("{}[{}][0]", path, i));
-    const auto strain = leaves.number(fmt::format("{}[{}][1]", path, i));
-    if (!stress || !strain) return;
-    out += fmt::format("{}, {}\n", exact(*stress), exact(*strain));
+    std::vector<double> row;
+    while (const auto number = leaves.number(fmt::format("{}[{}][{}]", path, i, row.size())))
+      row.push_back(*number);
+    if (row.empty()) return rows;
+    rows.push_back(std::move(row));
   }
+}
+
+void write_rows(const std::vector<std::vector<double>>& rows, std::string& out) {
+  for (const std::vector<double>& row : rows)
+    for (std::size_t k = 0; k < row.size(); ++k)
+      out += exact(row[k]) + (k + 1 == row.size() ? "\n" : ", ");
+}
+
+/// Of a curve a temperature, the first point of each, which the others count from.
+std::vector<std::vector<double>> first_points(const std::vector<std::vector<double>>& rows) {
+  std::vector<std::vector<double>> first;
+  for (const std::vector<double>& row : rows)
+    if (row[1] == 0) first.push_back(row);
+  return first;
+}
+
+/// Kinematic hardening from the stress at which the material yields at first: `*PLASTIC`, and the
+/// size of the yield surface as `*CYCLIC HARDENING` where it changes.
+void write_kinematic(const std::string& law, std::vector<std::vector<double>> size, Leaves& leaves,
+                     std::string& out) {
+  const auto modulus = leaves.number(law + ".kinematic");
+  std::vector<std::vector<double>> moves =
+      modulus ? std::vector<std::vector<double>>{{0, 0}, {*modulus, 1}}
+              : rows_of(law + ".kinematic", leaves);
+  // two points are read as a modulus, which goes on beyond them
+  if (!modulus && moves.size() == 2) moves.push_back({moves[1][0], 2 * moves[1][1]});
+  const std::vector<std::vector<double>> first = first_points(size);
+  const bool hardens = first.size() < size.size();
+  if (!hardens && first.size() > 1 && first_points(moves).size() != first.size())
+    leaves.fail(law + ".kinematic",
+                "is written over the same temperatures as the yield stress alone");
+  std::size_t curve = 0;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    if (i > 0 && moves[i][1] == 0) ++curve;
+    const std::vector<double>& from = first[std::min(curve, first.size() - 1)];
+    if (!hardens && first.size() > 1 && from.back() != moves[i].back())
+      leaves.fail(law + ".kinematic",
+                  "is written over the same temperatures as the yield stress alone");
+    moves[i][0] += from[0];
+  }
+  out += hardens ? "*PLASTIC, HARDENING=COMBINED\n" : "*PLASTIC, HARDENING=KINEMATIC\n";
+  write_rows(moves, out);
+  if (!hardens) return;
+  out += "*CYCLIC HARDENING\n";
+  write_rows(size, out);
+}
+
+/// `yield` or `hardening` as rows of stress and plastic strain, beside `kinematic`.
+void write_hardening(const std::string& law, Leaves& leaves, std::string& out) {
+  const auto yield = leaves.number(law + ".yield");
+  std::vector<std::vector<double>> size =
+      yield ? std::vector<std::vector<double>>{{*yield, 0}} : rows_of(law + ".hardening", leaves);
+  if (!leaves.text(law + ".kinematic").empty() || !leaves.text(law + ".kinematic[0][0]").empty())
+    return write_kinematic(law, std::move(size), leaves, out);
+  out += "*PLASTIC\n";
+  write_rows(size, out);
 }
 
 /// Eight numbers a line.
@@ -60,24 +110,39 @@ std::vector<std::array<double, 2>> table_of(const std::string& path, Leaves& lea
   }
 }
 
-/// E and nu, each a number or a table over the same temperatures.
+/// Constants, each a number or a table over the same temperatures, and what stands behind them.
+void write_constants(const std::string& law, std::span<const char* const> keys,
+                     const std::vector<double>& behind, const Material& material, Leaves& leaves,
+                     std::string& out) {
+  std::vector<double> numbers;
+  std::vector<std::vector<std::array<double, 2>>> tables;
+  const std::vector<std::array<double, 2>>* any = nullptr;
+  const auto same = [](const auto& a, const auto& b) { return a[0] == b[0]; };
+  for (const char* const key : keys) {
+    numbers.push_back(leaves.number(fmt::format("{}.{}", law, key)).value_or(0));
+    tables.push_back(table_of(fmt::format("{}.{}", law, key), leaves));
+  }
+  for (const auto& table : tables) {
+    if (table.empty()) continue;
+    if (any && !std::ranges::equal(*any, table, same))
+      throw core::InputError(
+          material.law.mark,
+          fmt::format("{} are written over the same temperatures alone", fmt::join(keys, ", ")));
+    any = &table;
+  }
+  for (std::size_t row = 0; row < (any ? any->size() : 1); ++row) {
+    std::vector<double> line = numbers;
+    for (std::size_t k = 0; k < line.size(); ++k)
+      if (!tables[k].empty()) line[k] = tables[k][row][1];
+    line.insert(line.end(), behind.begin(), behind.end());
+    if (any) line.push_back((*any)[row][0]);
+    out += rows_of_numbers(line);
+  }
+}
 void write_isotropic(const std::string& law, const Material& material, Leaves& leaves,
                      std::string& out) {
-  const auto young = leaves.number(law + ".E"), poisson = leaves.number(law + ".nu");
   out += "*ELASTIC\n";
-  if (young && poisson) {
-    out += fmt::format("{}, {}\n", exact(*young), exact(*poisson));
-    return;
-  }
-  const auto e = table_of(law + ".E", leaves), nu = table_of(law + ".nu", leaves);
-  const auto& longer = e.empty() ? nu : e;
-  const auto same = [](const auto& a, const auto& b) { return a[0] == b[0]; };
-  if (!e.empty() && !nu.empty() && !std::ranges::equal(e, nu, same))
-    throw core::InputError(material.law.mark,
-                           "E and nu are written over the same temperatures alone");
-  for (std::size_t k = 0; k < longer.size(); ++k)
-    out += fmt::format("{}, {}, {}\n", exact(e.empty() ? *young : e[k][1]),
-                       exact(nu.empty() ? *poisson : nu[k][1]), exact(longer[k][0]));
+  write_constants(law, std::array{"E", "nu"}, {}, material, leaves, out);
 }
 
 void write_rubber(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
@@ -113,12 +178,14 @@ void write_terms_of(const std::string& law, const char* card, const char* volume
   out += fmt::format("{}, N={}\n", card, last.size()) + rows_of_numbers(terms);
 }
 
-void write_anisotropic(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
+void write_anisotropic(const std::string& law, const Material& material, Leaves& leaves,
+                       std::string& out) {
   constexpr std::array<const char*, 21> all{"D1111", "D1122", "D2222", "D1133", "D2233", "D3333",
                                             "D1112", "D2212", "D3312", "D1212", "D1113", "D2213",
                                             "D3313", "D1213", "D1313", "D1123", "D2223", "D3323",
                                             "D1223", "D1323", "D2323"};
-  out += "*ELASTIC, TYPE=ANISO\n" + rows_of_numbers(values_of(law, all, leaves));
+  out += "*ELASTIC, TYPE=ANISO\n";
+  write_constants(law, all, {}, material, leaves, out);
 }
 
 void write_elastoplastic(const std::string& law, const Material& material, Leaves& leaves,
@@ -129,19 +196,20 @@ void write_elastoplastic(const std::string& law, const Material& material, Leave
 void write_norton(const std::string& law, const Material& material, Leaves& leaves,
                   std::string& out) {
   write_isotropic(law, material, leaves, out);
-  const std::vector<double> creep = values_of(law, std::array{"A", "n"}, leaves);
-  out += "*CREEP\n" + rows_of_numbers({creep[0], creep[1], 0});
+  out += "*CREEP\n";
+  write_constants(law, std::array{"A", "n"}, {0}, material, leaves, out);
 }
 void write_deformation_plasticity(const std::string& law, const Material&, Leaves& leaves,
                                   std::string& out) {
   out += "*DEFORMATION PLASTICITY\n" +
          rows_of_numbers(values_of(law, std::array{"E", "nu", "yield", "n", "alpha"}, leaves));
 }
-void write_orthotropic(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
-  out +=
-      "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n" +
-      rows_of_numbers(values_of(
-          law, std::array{"E1", "E2", "E3", "nu12", "nu13", "nu23", "G12", "G13", "G23"}, leaves));
+void write_orthotropic(const std::string& law, const Material& material, Leaves& leaves,
+                       std::string& out) {
+  constexpr std::array<const char*, 9> all{"E1",   "E2",  "E3",  "nu12", "nu13",
+                                           "nu23", "G12", "G13", "G23"};
+  out += "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n";
+  write_constants(law, all, {}, material, leaves, out);
 }
 void write_arruda_boyce(const std::string& law, const Material&, Leaves& leaves, std::string& out) {
   out += "*HYPERELASTIC, ARRUDA-BOYCE\n" +
@@ -154,16 +222,51 @@ void write_hyperfoam(const std::string& law, const Material&, Leaves& leaves, st
   write_terms_of(law, "*HYPERFOAM", "nu", leaves, out);
 }
 
+/// Rows of coefficients, one, three or six, and their temperature where there are several.
+void write_expansion(const std::string& path, Leaves& leaves, std::string& out) {
+  std::vector<std::vector<double>> rows = rows_of(path + ".alpha", leaves);
+  for (std::vector<double>& row : rows) std::rotate(row.begin(), row.begin() + 1, row.end());
+  std::size_t coefficients = rows.empty() ? 0 : rows[0].size() - 1;
+  if (const auto alpha = leaves.number(path + ".alpha")) rows = {{*alpha}};
+  if (rows.empty()) {
+    std::vector<double> row;
+    while (const auto number = leaves.number(fmt::format("{}.alpha[{}]", path, row.size())))
+      row.push_back(*number);
+    if (row.empty()) return;
+    coefficients = row.size();
+    rows.push_back(std::move(row));
+  }
+  const auto zero = leaves.number(path + ".reference");
+  out += fmt::format("*EXPANSION{}{}\n",
+                     coefficients == 3   ? ", TYPE=ORTHO"
+                     : coefficients == 6 ? ", TYPE=ANISO"
+                                         : "",
+                     zero ? ", ZERO=" + exact(*zero) : "");
+  write_rows(rows, out);
+}
+
+void write_viscoelastic(const std::string& law, const Material& material, Leaves& leaves,
+                        std::string& out) {
+  out += "*ELASTIC, MODULI=INSTANTANEOUS\n";
+  write_constants(law, std::array{"E", "nu"}, {}, material, leaves, out);
+  out += "*VISCOELASTIC, TIME=PRONY\n";
+  for (const std::vector<double>& term : rows_of(law + ".shear", leaves))
+    out += fmt::format("{}, 0, {}\n", exact(term[0]), exact(term[1]));
+  for (const std::vector<double>& term : rows_of(law + ".bulk", leaves))
+    out += fmt::format("0, {}, {}\n", exact(term[0]), exact(term[1]));
+}
+
 /// What writes the cards of a law; laws without have no counterpart.
 struct LawCards {
   std::string_view key;
   void (*write)(const std::string& law, const Material& material, Leaves& leaves, std::string& out);
 };
-constexpr std::array<LawCards, 11> cards_of_laws{
+constexpr std::array<LawCards, 12> cards_of_laws{
     {{"linear_elastic", write_isotropic},
      {"st_venant_kirchhoff", write_isotropic},
      {"elastoplastic", write_elastoplastic},
      {"norton", write_norton},
+     {"viscoelastic", write_viscoelastic},
      {"deformation_plasticity", write_deformation_plasticity},
      {"orthotropic", write_orthotropic},
      {"anisotropic", write_anisotropic},
@@ -189,10 +292,7 @@ void write_material(const Material& material, const std::string& damping, Leaves
   if (const auto density = leaves.number(law + ".density"))
     out += fmt::format("*DENSITY\n{}\n", exact(*density));
   out += damping;
-  if (const auto alpha = leaves.number(path + ".expansion.alpha")) {
-    const auto zero = leaves.number(path + ".expansion.reference");
-    out += fmt::format("*EXPANSION{}\n{}\n", zero ? ", ZERO=" + exact(*zero) : "", exact(*alpha));
-  }
+  write_expansion(path + ".expansion", leaves, out);
 }
 
 std::string write_orientation(const Section& section, std::size_t number, Leaves& leaves,

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "osculate/deck/to_inp_parts.hpp"
+#include "osculate/material/law.hpp"
 #include "osculate/solve/central_differences.hpp"
 
 namespace osculate::deck {
@@ -192,8 +193,12 @@ ProcedureCards procedure_of(const Description& d, std::size_t number, bool finit
   }
   const std::string head = title + fmt::format("*STEP{}, INC=1000000\n", geometry);
   if (step.dynamics) return {head + dynamic_of(step, duration), true, false};
-  return {head + fmt::format("*STATIC, DIRECT\n{}, {}\n", exact(duration / step.increments.value),
-                             exact(duration)),
+  // in *STATIC what is viscoelastic has its response at once
+  const bool relaxes = std::ranges::any_of(d.materials, [](const Material& m) {
+    return material::key_of(m.law.value) == material::Viscoelastic::key;
+  });
+  return {head + fmt::format("{}, DIRECT\n{}, {}\n", relaxes ? "*VISCO, CETOL=1" : "*STATIC",
+                             exact(duration / step.increments.value), exact(duration)),
           false, false};
 }
 

@@ -16,10 +16,12 @@ Tangent3 stiffness(const Anisotropic& c) {
   return d;
 }
 
-std::optional<core::Fault> Anisotropic::fault() const {
+namespace {
+
+std::optional<core::Fault> anisotropic_fault(const Anisotropic& c) {
   constexpr std::array<std::string_view, 6> diagonal{"D1111", "D2222", "D3333",
                                                      "D1212", "D2323", "D1313"};
-  const std::optional<int> row = first_not_positive(stiffness(*this));
+  const std::optional<int> row = first_not_positive(stiffness(c));
   if (!row) return std::nullopt;
   const std::string_view key = diagonal[static_cast<std::size_t>(*row)];
   return core::Fault{
@@ -28,6 +30,14 @@ std::optional<core::Fault> Anisotropic::fault() const {
                   key),
       key,
       {}};
+}
+
+}  // namespace
+
+/// What is positive definite at two temperatures is so between them.
+std::optional<core::Fault> Anisotropic::fault() const {
+  return fault_over_temperature(*this, 0,
+                                [](const Anisotropic& c) { return anisotropic_fault(c); });
 }
 
 }  // namespace osculate::material

@@ -16,17 +16,18 @@
 #include "osculate/material/rubber.hpp"
 #include "osculate/material/st_venant_kirchhoff.hpp"
 #include "osculate/material/user_material.hpp"
+#include "osculate/material/viscoelastic.hpp"
 
 namespace osculate::material {
 
 /// One of the laws, as a value. Its copies are made in law.cpp: only what asks which laws there are
 /// (that source, energy.cpp and deck/materials.cpp) has them in its code.
-struct Law
-    : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
-                   Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>, DeformationPlasticity,
-                   Logarithmic<DeformationPlasticity>, Rubber, Ogden, Hyperfoam, ArrudaBoyce,
-                   Orthotropic, GreenLagrange<Orthotropic>, Anisotropic, GreenLagrange<Anisotropic>,
-                   UserMaterial, Logarithmic<UserMaterial>> {
+struct Law : std::variant<LinearElastic, StVenantKirchhoff, NeoHooke, J2Plasticity,
+                          Logarithmic<J2Plasticity>, Norton, Logarithmic<Norton>,
+                          DeformationPlasticity, Logarithmic<DeformationPlasticity>, Rubber, Ogden,
+                          Hyperfoam, ArrudaBoyce, Orthotropic, GreenLagrange<Orthotropic>,
+                          Anisotropic, GreenLagrange<Anisotropic>, Viscoelastic,
+                          Logarithmic<Viscoelastic>, UserMaterial, Logarithmic<UserMaterial>> {
   using variant::variant;
   Law();  ///< the first of the list, with its defaults
   Law(const Law&);
@@ -78,7 +79,7 @@ template <class T>
 concept TakesMemory = requires(const T& law, const Strain& strain, const Strain3& strain3,
                                double& strain_33, const Memory& memory, const double* state) {
   { T::memory.front() } -> std::convertible_to<Remembered>;
-  { energy_of(law, strain3, state) } -> std::same_as<double>;
+  { energy_of(law, strain3, memory) } -> std::same_as<double>;
   { dissipated_by(law, state) } -> std::same_as<double>;
   { respond(law, strain, memory) } -> std::same_as<Response>;
   { respond(law, strain3, memory) } -> std::same_as<Response3>;

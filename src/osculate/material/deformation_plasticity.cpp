@@ -41,7 +41,7 @@ Response respond_plane_stress(const DeformationPlasticity& law, const Strain& st
   return without_stress_across(law, e, strain_33, memory);
 }
 
-double energy_of(const DeformationPlasticity& law, const Strain3& strain, const double*) {
+double energy_of(const DeformationPlasticity& law, const Strain3& strain, const Memory&) {
   const Lame c = lame(law.young, law.poisson);
   const Vec<6> e = elastic_strain(strain, Vec<6>::Zero());
   const double trace = e.head<3>().sum(), bulk = c.lambda + 2 * c.mu / 3;

@@ -65,7 +65,7 @@ constexpr std::array<core::Param<DeformationPlasticity>, 6> DeformationPlasticit
   return {law.young, law.poisson};
 }
 [[nodiscard]] double energy_of(const DeformationPlasticity& law, const Strain3& strain,
-                               const double* state);
+                               const Memory& memory);
 [[nodiscard]] inline double dissipated_by(const DeformationPlasticity&, const double*) { return 0; }
 
 }  // namespace osculate::material

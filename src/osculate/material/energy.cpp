@@ -15,7 +15,7 @@ double energy(const Law& law, const StrainType& strain, const Memory& memory) {
     if constexpr (Directional<T>)
       return 0.5 * elastic.dot(proportional(stiffness_at(l, memory), elastic).stress);
     else if constexpr (Remembers<T>)
-      return energy_of(l, in_space(elastic), memory.committed);
+      return energy_of(l, in_space(elastic), memory);
     else if constexpr (OverTemperature<T>)
       return energy_of(at_point(l, memory), elastic);
     else

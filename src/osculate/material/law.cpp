@@ -59,7 +59,7 @@ StressOf<N> expanded_stress(const Law& law, const Vec<N>& strain, const Memory& 
   if (!memory.expansion && !memory.initial) return at(strain);
   const Expanded by(finite_strain(law), memory);
   StressOf<N> s = at(by.elastic(strain));
-  s.stress *= by.stretch();
+  s.stress = by.stress(s.stress);
   return s;
 }
 
@@ -78,8 +78,8 @@ const T& named(const GreenLagrange<T>& form) {
 }
 
 template <class T>
-bool has_tables([[maybe_unused]] const T& law) {
-  if constexpr (OverTemperature<T>) return !law.young_over.empty() || !law.poisson_over.empty();
+bool depends_on_temperature([[maybe_unused]] const T& law) {
+  if constexpr (OverTemperature<T>) return has_tables(law);
   return false;
 }
 
@@ -166,7 +166,7 @@ bool directional(const Law& law) {
 }
 
 bool over_temperature(const Law& law) {
-  return std::visit([](const auto& m) { return has_tables(m); }, law);
+  return std::visit([](const auto& m) { return depends_on_temperature(named(m)); }, law);
 }
 
 bool takes_temperature(const Law& law) {
@@ -184,13 +184,21 @@ std::string complaint(const Law& law) {
   return std::visit(of, law);
 }
 
-Tangent3 stiffness_of(const Law& law) {
+std::vector<Tangent3> stiffnesses_of(const Law& law) {
   return std::visit(
-      []<class T>([[maybe_unused]] const T& m) -> Tangent3 {
-        if constexpr (Directional<T>)
-          return stiffness(m);
-        else
-          return Tangent3::Zero();
+      []<class T>([[maybe_unused]] const T& m) -> std::vector<Tangent3> {
+        if constexpr (!Directional<T>) {
+          return {};
+        } else {
+          std::vector<Tangent3> all;
+          Memory memory;
+          for (const double temperature : temperatures_of(named(m))) {
+            memory.temperature = &temperature;
+            all.push_back(own_stiffness(m, memory));
+          }
+          if (all.empty()) all.push_back(stiffness(m));
+          return all;
+        }
       },
       law);
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <vector>
 
 #include "osculate/material/catalogue.hpp"
 
@@ -30,8 +31,8 @@ namespace osculate::material {
 [[nodiscard]] bool takes_temperature(const Law& law);
 /// Why a law had no answer, where it can say so.
 [[nodiscard]] std::string complaint(const Law& law);
-/// Of a directional law, in its axes; zero of others.
-[[nodiscard]] Tangent3 stiffness_of(const Law& law);
+/// Of a directional law, in its axes, at each of the temperatures of its tables; none of others.
+[[nodiscard]] std::vector<Tangent3> stiffnesses_of(const Law& law);
 [[nodiscard]] double density(const Law& law);
 /// Of the unloaded material.
 [[nodiscard]] Isotropic unloaded(const Law& law);

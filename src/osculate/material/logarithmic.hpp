@@ -97,9 +97,10 @@ template <class T>
 }
 template <class T>
 [[nodiscard]] double energy_of(const Logarithmic<T>& m, const Strain3& strain,
-                               const double* state) {
+                               const Memory& memory) {
   const LogarithmicStrain log(strain);
-  return log.ok() ? energy_of(m.law, log.strain(), state) : std::numeric_limits<double>::infinity();
+  return log.ok() ? energy_of(m.law, log.strain(), memory)
+                  : std::numeric_limits<double>::infinity();
 }
 template <class T>
 [[nodiscard]] double dissipated_by(const Logarithmic<T>& m, const double* state) {

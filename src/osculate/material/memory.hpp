@@ -17,28 +17,33 @@ struct Remembered {
 ///
 /// Tested by  tests/unit/material/test_j2_plasticity.cpp
 struct Memory {
-  const double* committed = nullptr;  ///< null: all zero
-  double* next = nullptr;             ///< null: not asked for
-  std::size_t size = 0;               ///< numbers a point
-  double duration = 0;                ///< of the increment, for laws that depend on time
-  const double* expansion = nullptr;  ///< strain by the temperature, one number a point; null: none
+  const double* committed = nullptr;    ///< null: all zero
+  double* next = nullptr;               ///< null: not asked for
+  std::size_t size = 0;                 ///< numbers a point
+  double duration = 0;                  ///< of the increment, for laws that depend on time
+  const double* expansion = nullptr;    ///< strain by the temperature (`strains`); null: none
   const double* temperature = nullptr;  ///< one number a point; null: that of the law's constants
   const double* axes = nullptr;  ///< of the material, nine numbers a point by columns; null: global
   const double* temperature_before = nullptr;  ///< at the beginning of the increment, likewise
   const double* initial = nullptr;  ///< strain of the undeformed body, six numbers a point; null: 0
   /// Not of the law: displacements of the cell's nodes at which it is free of strain; null: none.
   const double* origin = nullptr;
+  std::size_t strains = 1;  ///< numbers of the expansion a point: 1, or 6 of a strain
 
   [[nodiscard]] Memory at(std::size_t point) const {
-    return {committed ? committed + point * size : nullptr,
-            next ? next + point * size : nullptr,
-            size,
-            duration,
-            expansion ? expansion + point : nullptr,
-            temperature ? temperature + point : nullptr,
-            axes ? axes + 9 * point : nullptr,
-            temperature_before ? temperature_before + point : nullptr,
-            initial ? initial + 6 * point : nullptr};
+    const auto moved = [&](auto* from, std::size_t by) {
+      return from ? from + point * by : nullptr;
+    };
+    Memory m = *this;
+    m.committed = moved(committed, size);
+    m.next = moved(next, size);
+    m.expansion = moved(expansion, strains);
+    m.temperature = moved(temperature, 1);
+    m.axes = moved(axes, 9);
+    m.temperature_before = moved(temperature_before, 1);
+    m.initial = moved(initial, 6);
+    m.origin = nullptr;
+    return m;
   }
 };
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "osculate/material/over_temperature.hpp"
 #include "osculate/material/power_flow.hpp"
 #include "osculate/material/radial_return.hpp"
 
@@ -12,7 +13,8 @@ constexpr std::size_t dissipation = 7;  ///< among what is remembered
 
 }  // namespace
 
-Response3 respond(const Norton& law, const Strain3& strain, Memory memory) {
+Response3 respond(const Norton& over, const Strain3& strain, Memory memory) {
+  const Norton law = at_point(over, memory);
   const Lame c = lame(law.young, law.poisson);
   Inelastic now = inelastic_of(memory.committed);
   Response3 r = elastic_predictor(c, elastic_strain(strain, now.strain));
@@ -45,9 +47,10 @@ Response respond_plane_stress(const Norton& law, const Strain& strain, double& s
   return return_in_plane_stress(law, strain, strain_33, memory);
 }
 
-double energy_of(const Norton& law, const Strain3& strain, const double* state) {
-  const Lame c = lame(law.young, law.poisson);
-  const Vec<6> elastic = elastic_strain(strain, inelastic_of(state).strain);
+double energy_of(const Norton& law, const Strain3& strain, const Memory& memory) {
+  const Norton here = at_point(law, memory);
+  const Lame c = lame(here.young, here.poisson);
+  const Vec<6> elastic = elastic_strain(strain, inelastic_of(memory.committed).strain);
   const double trace = elastic.head<3>().sum(), size = tensor_norm(elastic);
   return 0.5 * c.lambda * trace * trace + c.mu * size * size;
 }

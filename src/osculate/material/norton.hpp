@@ -35,6 +35,8 @@ struct Norton {
        {"CDENS", "energy dissipated by creep, per volume", false}}};
   double young = 0, poisson = 0, density = 0;
   double rate = 0, exponent = 1;  ///< A, n
+  /// Over the temperature, in place of them.
+  core::Table young_over = {}, poisson_over = {}, rate_over = {}, exponent_over = {};
   static constexpr std::array<core::Param<Norton>, 5> params();
 };
 
@@ -49,13 +51,15 @@ constexpr std::array<core::Param<Norton>, 5> Norton::params() {
            .slot = &Norton::rate,
            .range = {.lower = 0, .with_lower = true},
            .example = "1.0e-12",
-           .timed = true},
+           .timed = true,
+           .over = &Norton::rate_over},
           {.key = "n",
            .unit = "1",
            .doc = "The power of von Mises' stress.",
            .slot = &Norton::exponent,
            .range = {.lower = 1, .with_lower = true},
-           .example = "5"}};
+           .example = "5",
+           .over = &Norton::exponent_over}};
 }
 
 [[nodiscard]] Response3 respond(const Norton& law, const Strain3& strain, Memory memory);
@@ -64,8 +68,8 @@ constexpr std::array<core::Param<Norton>, 5> Norton::params() {
                                             double& strain_33, Memory memory);
 
 [[nodiscard]] inline Isotropic unloaded(const Norton& law) { return {law.young, law.poisson}; }
-/// Stored at a strain by a point that remembers `state` (null: nothing).
-[[nodiscard]] double energy_of(const Norton& law, const Strain3& strain, const double* state);
+/// Stored at a strain by a point that remembers something (null: nothing).
+[[nodiscard]] double energy_of(const Norton& law, const Strain3& strain, const Memory& memory);
 /// Dissipated so far by a point that remembers `state`.
 [[nodiscard]] double dissipated_by(const Norton& law, const double* state);
 

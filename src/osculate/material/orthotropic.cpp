@@ -26,18 +26,28 @@ Tangent3 stiffness(const Orthotropic& law) {
   return d;
 }
 
-std::optional<core::Fault> Orthotropic::fault() const {
+namespace {
+
+std::optional<core::Fault> orthotropic_fault(const Orthotropic& c) {
   const auto needed = [](std::string_view what, std::string_view key) {
     return core::Fault{
         fmt::format("{} is needed: else the stiffness is not positive definite", what), key, {}};
   };
-  if (!(nu12 * nu12 * e2 < e1)) return needed("nu12^2 < E1 / E2", "nu12");
-  if (!(nu13 * nu13 * e3 < e1)) return needed("nu13^2 < E1 / E3", "nu13");
-  if (!(nu23 * nu23 * e3 < e2)) return needed("nu23^2 < E2 / E3", "nu23");
-  if (first_not_positive(stiffness(*this)))
+  if (!(c.nu12 * c.nu12 * c.e2 < c.e1)) return needed("nu12^2 < E1 / E2", "nu12");
+  if (!(c.nu13 * c.nu13 * c.e3 < c.e1)) return needed("nu13^2 < E1 / E3", "nu13");
+  if (!(c.nu23 * c.nu23 * c.e3 < c.e2)) return needed("nu23^2 < E2 / E3", "nu23");
+  if (first_not_positive(stiffness(c)))
     return needed("nu12^2 E2 / E1 + nu13^2 E3 / E1 + nu23^2 E3 / E2 + 2 nu12 nu13 nu23 E3 / E1 < 1",
                   {});
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<core::Fault> Orthotropic::fault() const {
+  constexpr int between = 7;  // these conditions are not linear in the constants
+  return fault_over_temperature(*this, between,
+                                [](const Orthotropic& c) { return orthotropic_fault(c); });
 }
 
 }  // namespace osculate::material

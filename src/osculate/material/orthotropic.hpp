@@ -24,31 +24,43 @@ struct Orthotropic {
   static constexpr bool finite_strain = false, large_strain = false, linear = true;
   double e1 = 0, e2 = 0, e3 = 0, nu12 = 0, nu13 = 0, nu23 = 0, g12 = 0, g13 = 0, g23 = 0,
          density = 0;
+  /// Over the temperature, in place of them.
+  core::Table e1_over = {}, e2_over = {}, e3_over = {}, nu12_over = {}, nu13_over = {},
+              nu23_over = {}, g12_over = {}, g13_over = {}, g23_over = {};
 
   static constexpr auto params() {
     using P = core::Param<Orthotropic>;
-    const auto modulus = [](std::string_view key, std::string_view doc, double Orthotropic::*slot) {
+    const auto modulus = [](std::string_view key, std::string_view doc, double Orthotropic::*slot,
+                            core::Table Orthotropic::*over) {
       return P{.key = key,
                .unit = "force/length^2",
                .doc = doc,
                .slot = slot,
                .range = {.lower = 0},
-               .example = "1.0e4"};
+               .example = "1.0e4",
+               .over = over};
     };
-    const auto ratio = [](std::string_view key, std::string_view doc, double Orthotropic::*slot) {
-      return P{.key = key, .unit = "1", .doc = doc, .slot = slot, .example = "0.3"};
+    const auto ratio = [](std::string_view key, std::string_view doc, double Orthotropic::*slot,
+                          core::Table Orthotropic::*over) {
+      return P{.key = key, .unit = "1", .doc = doc, .slot = slot, .example = "0.3", .over = over};
     };
     using O = Orthotropic;
     return std::array<P, 10>{
-        {modulus("E1", "Young's modulus along the first axis.", &O::e1),
-         modulus("E2", "Young's modulus along the second axis.", &O::e2),
-         modulus("E3", "Young's modulus along the third axis.", &O::e3),
-         ratio("nu12", "What a pull along the first axis takes from the second.", &O::nu12),
-         ratio("nu13", "What a pull along the first axis takes from the third.", &O::nu13),
-         ratio("nu23", "What a pull along the second axis takes from the third.", &O::nu23),
-         modulus("G12", "Shear modulus in the plane of the first and second axis.", &O::g12),
-         modulus("G13", "Shear modulus in the plane of the first and third axis.", &O::g13),
-         modulus("G23", "Shear modulus in the plane of the second and third axis.", &O::g23),
+        {modulus("E1", "Young's modulus along the first axis.", &O::e1, &O::e1_over),
+         modulus("E2", "Young's modulus along the second axis.", &O::e2, &O::e2_over),
+         modulus("E3", "Young's modulus along the third axis.", &O::e3, &O::e3_over),
+         ratio("nu12", "What a pull along the first axis takes from the second.", &O::nu12,
+               &O::nu12_over),
+         ratio("nu13", "What a pull along the first axis takes from the third.", &O::nu13,
+               &O::nu13_over),
+         ratio("nu23", "What a pull along the second axis takes from the third.", &O::nu23,
+               &O::nu23_over),
+         modulus("G12", "Shear modulus in the plane of the first and second axis.", &O::g12,
+                 &O::g12_over),
+         modulus("G13", "Shear modulus in the plane of the first and third axis.", &O::g13,
+                 &O::g13_over),
+         modulus("G23", "Shear modulus in the plane of the second and third axis.", &O::g23,
+                 &O::g23_over),
          {.key = "density",
           .unit = "mass/length^3",
           .doc = "Mass per reference volume.",

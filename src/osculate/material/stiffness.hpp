@@ -5,6 +5,7 @@
 
 #include "osculate/material/memory.hpp"
 #include "osculate/material/orientation.hpp"
+#include "osculate/material/over_temperature.hpp"
 
 namespace osculate::material {
 
@@ -32,10 +33,21 @@ template <Directional T>
   return unloaded(form.law);
 }
 
+/// At the temperature of a point, in the axes of the law.
+template <Directional T>
+[[nodiscard]] Tangent3 own_stiffness(const T& law, const Memory& memory) {
+  if constexpr (OverTemperature<T>)
+    if (has_tables(law)) return stiffness(at_point(law, memory));
+  return stiffness(law);
+}
+template <Directional T>
+[[nodiscard]] Tangent3 own_stiffness(const GreenLagrange<T>& form, const Memory& memory) {
+  return own_stiffness(form.law, memory);
+}
 /// In the axes of a point; without, these are the global ones.
 template <Directional T>
 [[nodiscard]] Tangent3 stiffness_at(const T& law, const Memory& memory) {
-  const Tangent3 own = stiffness(law);
+  const Tangent3 own = own_stiffness(law, memory);
   return memory.axes ? turned(own, Eigen::Map<const Mat<3, 3>>(memory.axes)) : own;
 }
 

@@ -155,9 +155,9 @@ Response respond_plane_stress(const UserMaterial& law, const Strain& strain, dou
   return without_stress_across(law, e, strain_33, memory);
 }
 
-double energy_of(const UserMaterial& law, const Strain3& strain, const double* state) {
-  const Past before = past_of(state);
-  UserPoint p = point_at(law, before, strain, {state});
+double energy_of(const UserMaterial& law, const Strain3& strain, const Memory& memory) {
+  const Past before = past_of(memory.committed);
+  UserPoint p = point_at(law, before, strain, {memory.committed});
   if (!is_itself(p, before, strain) && !(law.routine && law.routine->ask(p)))
     return std::numeric_limits<double>::infinity();
   const bool silent = p.stored == 0 && p.plastic == 0 && p.creep == 0;

@@ -108,7 +108,8 @@ constexpr std::array<core::Param<UserMaterial>, 6> UserMaterial::params() {
 
 [[nodiscard]] inline Isotropic unloaded(const UserMaterial& law) { return law.at_rest; }
 /// Stored by a point that remembers `state` (null: nothing).
-[[nodiscard]] double energy_of(const UserMaterial& law, const Strain3& strain, const double* state);
+[[nodiscard]] double energy_of(const UserMaterial& law, const Strain3& strain,
+                               const Memory& memory);
 /// Dissipated so far by a point that remembers `state`.
 [[nodiscard]] double dissipated_by(const UserMaterial& law, const double* state);
 

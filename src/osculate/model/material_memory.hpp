@@ -9,15 +9,16 @@ namespace osculate::model {
 
 /// Where the material points of all cells keep what they remember: numbers one after the other, in
 /// the order of sections, cells and points. Cells of laws that remember nothing have none. Behind
-/// them stand the strains by the temperature, one a point, of cells that expand, then the
+/// them stand the strains by the temperature of cells that expand, one or six a point, then the
 /// temperatures of those whose constants depend on them, and last the displacements of the nodes at
 /// which cells that come back are free of strain.
 struct CellMemory {
-  std::size_t first = 0;   ///< of the cell's numbers
-  std::size_t size = 0;    ///< numbers of the law a point
-  std::size_t count = 0;   ///< of the cell
-  std::size_t points = 0;  ///< where there are numbers
-  bool expands = false, warms = false;
+  std::size_t first = 0;    ///< of the cell's numbers
+  std::size_t size = 0;     ///< numbers of the law a point
+  std::size_t count = 0;    ///< of the cell
+  std::size_t points = 0;   ///< where there are numbers
+  std::size_t strains = 0;  ///< by the temperature a point: 0, 1, or 6
+  bool warms = false;
   std::size_t nodes = 0;            ///< displacements of a cell that comes back
   std::size_t index = 0;            ///< of the cell in its section
   const double* initial = nullptr;  ///< strains of the undeformed body
@@ -35,11 +36,13 @@ struct CellMemory {
     memory.duration = duration;
     if (nodes > 0) memory.origin = memory.committed + count - nodes;
     const double* const behind = (memory.next ? memory.next : memory.committed) + size * points;
-    if (expands) memory.expansion = behind;
+    if (strains > 0) {
+      memory.expansion = behind;
+      memory.strains = strains;
+    }
     if (!warms) return memory;
-    const std::size_t strains = expands ? points : 0;
-    memory.temperature = behind + strains;
-    memory.temperature_before = memory.committed + size * points + strains;
+    memory.temperature = behind + strains * points;
+    memory.temperature_before = memory.committed + (size + strains) * points;
     return memory;
   }
   /// The displacements of a cell that comes back.
@@ -48,10 +51,10 @@ struct CellMemory {
   }
   /// The strains by the temperature.
   [[nodiscard]] std::span<double> expansion(std::span<double> of) const {
-    return of.subspan(first + size * points, expands ? points : 0);
+    return of.subspan(first + size * points, strains * points);
   }
   [[nodiscard]] std::span<double> temperature(std::span<double> of) const {
-    return of.subspan(first + (size + (expands ? 1 : 0)) * points, warms ? points : 0);
+    return of.subspan(first + (size + strains) * points, warms ? points : 0);
   }
 };
 
@@ -69,9 +72,9 @@ template <int Dim>
     here.initial = section.initial[index].data();
   if (!section.returns.empty() && section.returns[index] != 0)
     here.nodes = Dim * static_cast<std::size_t>(cell::info(type).nodes);
-  here.expands = !section.section.expansion.table.empty();
+  here.strains = material::strains_of(section.section.expansion);
   here.warms = material::takes_temperature(section.section.law);
-  const std::size_t each = here.size + (here.expands ? 1 : 0) + (here.warms ? 1 : 0);
+  const std::size_t each = here.size + here.strains + (here.warms ? 1 : 0);
   if (each > 0) here.points = solid::point_count(section_on(section, type), type);
   here.count = each * here.points + here.nodes;
   return here;

@@ -23,7 +23,7 @@ void warm(const BasicModel<Dim>& model, const Temperatures& temperature, double 
   const std::vector<double> nodal = temperature.at(fraction);
   std::vector<double> now, before;
   for_each_cell(model, [&](const auto& section, const mesh::CellRef& ref, const CellMemory& m) {
-    if (!m.expands && !m.warms) return;
+    if (m.strains == 0 && !m.warms) return;
     const CellNodes cell = cell_nodes(model.mesh, ref);
     now.clear();
     before.clear();
@@ -35,8 +35,9 @@ void warm(const BasicModel<Dim>& model, const Temperatures& temperature, double 
     const auto write = [](const auto& values, std::span<double> to) {
       std::copy_n(values.begin(), to.size(), to.begin());
     };
-    if (m.expands)
-      write(solid::expansion_at_points(of, cell.type, now, before), m.expansion(memory));
+    if (m.strains > 0)
+      write(solid::expansion_at_points(of, cell.type, reference_of(model, cell.nodes), now, before),
+            m.expansion(memory));
     if (m.warms) write(solid::values_at_points(of, cell.type, now), m.temperature(memory));
   });
 }

@@ -147,14 +147,15 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::array<double, static_cast<std::size_t>(max_points<Dim>)> values_at_points(
     const Section<Dim>& section, cell::CellType type, std::span<const double> nodal);
-/// Strains that the temperatures give the points of a cell, for Memory::expansion.
+/// Strains that the temperatures give the points of a cell, for Memory::expansion: one number a
+/// point, or six in the global axes (material::strains_of).
 ///
 /// Input      temperature, before: of the nodes, now and at first
 /// Tested by  tests/unit/solid/test_expansion.cpp
 template <int Dim>
-[[nodiscard]] std::array<double, static_cast<std::size_t>(max_points<Dim>)> expansion_at_points(
-    const Section<Dim>& section, cell::CellType type, std::span<const double> temperature,
-    std::span<const double> before);
+[[nodiscard]] std::array<double, 6 * static_cast<std::size_t>(max_points<Dim>)> expansion_at_points(
+    const Section<Dim>& section, cell::CellType type, const Coordinates<Dim>& reference,
+    std::span<const double> temperature, std::span<const double> before);
 
 /// int N_k dV: what a unit body force per volume gives each node.
 template <int Dim>

@@ -19,6 +19,16 @@ Shape<Dim> shape_at_point(const Section<Dim>& section, CellType type, std::size_
   return rule_of(section, type).shape[point];
 }
 
+/// The axes of the material at a point.
+template <int Dim>
+Mat<3, 3> axes_at_point(const Section<Dim>& section, CellType type,
+                        const Coordinates<Dim>& reference, std::size_t point) {
+  const Shape<Dim> shape = shape_at_point(section, type, point);
+  Vec3 place = Vec3::Zero();
+  place.head<Dim>() = reference.transpose() * shape.n.head(shape.count);
+  return material::axes_at(section.orientation, place);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -29,11 +39,8 @@ PointAxes<Dim>::PointAxes(const Section<Dim>& section, CellType type,
   if (!any_) return;
   const std::size_t count = point_count(section, type);
   for (std::size_t q = 0; q < count; ++q) {
-    const Shape<Dim> shape = shape_at_point(section, type, q);
-    Vec3 place = Vec3::Zero();
-    place.head<Dim>() = reference.transpose() * shape.n.head(shape.count);
     Eigen::Map<Mat<3, 3>> here(&values_[9 * q]);
-    here = material::axes_at(section.orientation, place);
+    here = axes_at_point(section, type, reference, q);
   }
 }
 
@@ -51,13 +58,24 @@ std::array<double, static_cast<std::size_t>(max_points<Dim>)> values_at_points(
 }
 
 template <int Dim>
-std::array<double, static_cast<std::size_t>(max_points<Dim>)> expansion_at_points(
-    const Section<Dim>& section, CellType type, std::span<const double> temperature,
-    std::span<const double> before) {
-  auto out = values_at_points(section, type, temperature);
+std::array<double, 6 * static_cast<std::size_t>(max_points<Dim>)> expansion_at_points(
+    const Section<Dim>& section, CellType type, const Coordinates<Dim>& reference,
+    std::span<const double> temperature, std::span<const double> before) {
+  const auto now = values_at_points(section, type, temperature);
   const auto first = values_at_points(section, type, before);
-  for (std::size_t q = 0; q < out.size(); ++q)
-    out[q] = material::expansion(section.expansion, out[q], first[q]);
+  std::array<double, 6 * static_cast<std::size_t>(max_points<Dim>)> out{};
+  const std::size_t count = point_count(section, type);
+  for (std::size_t q = 0; q < count; ++q) {
+    if (section.expansion.directions.empty()) {
+      out[q] = material::expansion(section.expansion, now[q], first[q]);
+      continue;
+    }
+    // the axes turned back: from components along them to global ones
+    const Mat<3, 3> axes = axes_at_point(section, type, reference, q);
+    Eigen::Map<material::Strain3> here(&out[6 * q]);
+    here = material::into_axes(axes.transpose()) *
+           material::expansion_by_directions(section.expansion, now[q], first[q]);
+  }
   return out;
 }
 
@@ -83,11 +101,11 @@ template std::array<double, 9> values_at_points(const Section<2>&, CellType,
                                                 std::span<const double>);
 template std::array<double, 27> values_at_points(const Section<3>&, CellType,
                                                  std::span<const double>);
-template std::array<double, 9> expansion_at_points(const Section<2>&, CellType,
-                                                   std::span<const double>,
-                                                   std::span<const double>);
-template std::array<double, 27> expansion_at_points(const Section<3>&, CellType,
-                                                    std::span<const double>,
+template std::array<double, 54> expansion_at_points(const Section<2>&, CellType,
+                                                    const Coordinates<2>&, std::span<const double>,
                                                     std::span<const double>);
+template std::array<double, 162> expansion_at_points(const Section<3>&, CellType,
+                                                     const Coordinates<3>&, std::span<const double>,
+                                                     std::span<const double>);
 
 }  // namespace osculate::solid

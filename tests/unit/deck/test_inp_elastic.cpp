@@ -127,8 +127,10 @@ TEST(InpElastic, SaysWhatIsNotSupported) {
               HasSubstr("TYPE=LAMINA is not supported: ISO, ORTHO, ENGINEERING CONSTANTS, ANISO"));
   EXPECT_THAT(message({"*ELASTIC, TYPE=ORTHO\n1., 2.\n"}),
               HasSubstr("expected 9 constants in 2 lines of 8, found 1 lines"));
-  EXPECT_THAT(message({wood + "12., 2., 1., .3, .4, .2, .8, .7\n.6, 40.\n"}),
-              HasSubstr("of isotropic materials alone"));
+  EXPECT_THAT(message({wood + "12., 2., 1., .3, .4, .2, .8, .7\n"}),
+              HasSubstr("expected 9 constants in 2 lines of 8, found 3 lines"));
+  EXPECT_THAT(message({wood + "11., 2., 1., .3, .4, .2, .8, .7\n.6, 40.\n"}),
+              HasSubstr("depends on the temperature, which is given nowhere"));
   EXPECT_THAT(message({wood + "*PLASTIC\n1., 0.\n"}), HasSubstr("that is not isotropic"));
   EXPECT_THAT(message({wood, ", ORIENTATION=P", "*ORIENTATION, NAME=O\n0., 0., 1., 1., 0., 0.\n"}),
               HasSubstr("unknown ORIENTATION 'P'"));
@@ -137,6 +139,43 @@ TEST(InpElastic, SaysWhatIsNotSupported) {
               HasSubstr("SYSTEM=SPHERICAL is not supported: RECTANGULAR or CYLINDRICAL"));
   EXPECT_THAT(message({"*ELASTIC, TYPE=ORTHO\n1., 2., 1., 2., 2., 1., 1., 1.\n1.\n"}),
               HasSubstr("D2222 is too small beside the other constants"));
+}
+
+TEST(InpElastic, AllConstantsOverTheTemperature) {
+  const std::string initial = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nN, 20.\n";
+  // the same in all lines: no table
+  EXPECT_TRUE(law<material::Orthotropic>({wood + "12., 2., 1., .3, .4, .2, .8, .7\n.6, 40.\n"})
+                  .e1_over.empty());
+  const auto named = law<material::Orthotropic>(
+      {wood + "11., 2., 1., .3, .4, .2, .8, .7\n.5, 40.\n", "", initial});
+  EXPECT_EQ(named.e1_over, (core::Table{{20, 12}, {40, 11}}));
+  EXPECT_EQ(named.g23_over, (core::Table{{20, 0.6}, {40, 0.5}}));
+  EXPECT_TRUE(named.e2_over.empty());
+  EXPECT_EQ(named.e2, 2);
+  const auto all = law<material::Anisotropic>(
+      {"*ELASTIC, TYPE=ANISO\n300., 11., 320., 13., 14., 350., 16., 0.,\n18., 39., 20., "
+       "21., 22., 23., 44., 25.,\n26., 27., 28., 29., 50., 0.\n"
+       "300., 11., 320., 13., 14., 350., 16., 7.,\n18., 39., 20., "
+       "21., 22., 23., 44., 25.,\n26., 27., 28., 29., 60., 90.\n",
+       "", initial});
+  EXPECT_EQ(all.d2212_over, (core::Table{{0, 0}, {90, 7}}));
+  EXPECT_EQ(all.d2323_over, (core::Table{{0, 50}, {90, 60}}));
+  EXPECT_TRUE(all.d1111_over.empty());
+  EXPECT_EQ(described({wood + "11., 2., 1., .3, .4, .2, .8, .7\n.5, 40.\n", "", initial})
+                .initial_temperature.size(),
+            1U);
+}
+
+TEST(InpElastic, CreepOverTheTemperature) {
+  const std::string initial = "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nN, 20.\n",
+                    visco = "*STEP\n*VISCO, CETOL=1.\n1., 1.\n";
+  const auto pipe = law<material::Norton>(
+      {"*ELASTIC\n200., .3, 0.\n100., .3, 500.\n*CREEP\n1.e-5, 3., 0., 0.\n2.e-5, 3., 0., 500.\n",
+       "", initial, visco});
+  EXPECT_EQ(pipe.young_over, (core::Table{{0, 200}, {500, 100}}));
+  EXPECT_EQ(pipe.rate_over, (core::Table{{0, 1e-5}, {500, 2e-5}}));
+  EXPECT_EQ(pipe.exponent, 3);
+  EXPECT_TRUE(pipe.exponent_over.empty());
 }
 
 TEST(InpElastic, TablesOverTheTemperature) {
@@ -150,8 +189,6 @@ TEST(InpElastic, TablesOverTheTemperature) {
   EXPECT_TRUE(
       law<material::LinearElastic>({"*ELASTIC\n2., .3, 0.\n2., .3, 500.\n"}).young_over.empty());
   EXPECT_THAT(message({table}), HasSubstr("which is given nowhere"));
-  EXPECT_THAT(message({table + "*PLASTIC\n1., 0.\n", "", initial}),
-              HasSubstr("numbers that depend on the temperature are not supported"));
 }
 
 }  // namespace

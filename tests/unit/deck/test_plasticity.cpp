@@ -40,6 +40,19 @@ TEST(Plasticity, KeysThatDoNotGoTogetherAreRefused) {
   EXPECT_THAT(refused("hardening: [[1, 0], [2, 0]]"),
               HasSubstr("hardening[1]: plastic strains rise from point to point"));
   EXPECT_THAT(refused("yield: 0"), HasSubstr("> 0"));
+  EXPECT_THAT(refused("hardening: [[1, 0, 20], [2, 0.1]]"),
+              HasSubstr("hardening[1]: either all points have a temperature or none"));
+  EXPECT_THAT(refused("hardening: [[1, 0, 20], [2, 0, 10]]"),
+              HasSubstr("hardening[1]: temperatures must increase from curve to curve"));
+  EXPECT_THAT(refused("hardening: [[1, 0, 20], [2, 0.1, 20], [3, 0, 30], [4, 0, 30]]"),
+              HasSubstr("hardening[3]: plastic strains rise from point to point"));
+  EXPECT_THAT(build_refusal(with("yield: 1", "hardening: [[1, 0, 20], [2, 0, 30]]")),
+              HasSubstr("material 'm' depends on the temperature, which is given nowhere"));
+  const auto moved = [](const std::string& to) { return refusal(with("kinematic: 10", to)); };
+  EXPECT_EQ(moved("kinematic: [[0, 0], [2, 0.1], [3, 0.3]]"), "");
+  EXPECT_THAT(moved("kinematic: [[1, 0], [2, 0.1]]"),
+              HasSubstr("kinematic[0]: a curve of kinematic hardening begins with [0, 0]"));
+  EXPECT_THAT(moved("kinematic: [[0, 0], [2, 0.1, 5]]"), HasSubstr("either all points"));
   EXPECT_THAT(refused("yeld: 1"), HasSubstr("did you mean 'yield'"));
 }
 

@@ -43,6 +43,36 @@ TEST(Temperatures, OfATableIncrease) {
             "model.yaml:6: materials.lead.expansion.alpha[1]: temperatures must increase");
 }
 
+TEST(Temperatures, ExpandByDirections) {
+  const std::string text = test_file("heat.yaml");
+  const auto with = [&](const std::string& alpha) {
+    return edited(text, "alpha: [[0, 3e-5], [100, 4e-5]]", "alpha: " + alpha);
+  };
+  const auto expansion = [&](const std::string& alpha) {
+    return parse_model(with(alpha), "model.yaml").find_material("lead")->expansion;
+  };
+  const material::Expansion three = expansion("[1, 2, 3]");
+  EXPECT_TRUE(three.table.empty());
+  ASSERT_EQ(three.directions.size(), 1U);
+  EXPECT_EQ(three.directions[0].coefficients, material::Strain3(1, 2, 3, 0, 0, 0));
+  // 11, 22, 33, 12, 13, 23 of a tensor; here twice the shears, 12, 23, 13
+  const material::Expansion six = expansion("[[0, 1, 2, 3, 4, 5, 6], [9, 1, 1, 1, 0, 0, 0]]");
+  ASSERT_EQ(six.directions.size(), 2U);
+  EXPECT_EQ(six.directions[0].coefficients, material::Strain3(1, 2, 3, 8, 12, 10));
+  EXPECT_EQ(six.directions[1].temperature, 9);
+  EXPECT_EQ(refusal(with("[1, 2, 3, 4]")),
+            "model.yaml:6: materials.lead.expansion.alpha: expected 3 coefficients along the axes, "
+            "or 6 of a tensor");
+  EXPECT_EQ(refusal(with("[[0, 1], [2, 1, 2, 3]]")),
+            "model.yaml:6: materials.lead.expansion.alpha[1]: expected a temperature and 1, 3 or 6 "
+            "coefficients, in all rows the same");
+  EXPECT_EQ(refusal(with("[[0, 1, 2, 3], [0, 1, 2, 3]]")),
+            "model.yaml:6: materials.lead.expansion.alpha[1]: temperatures must increase");
+  EXPECT_EQ(build_refusal(with("[1, 2, 3]")), "");
+  EXPECT_NE(build_refusal(with("[1, 2, 3, 0, 1, 0]")).find("shears, as it expands, across it"),
+            std::string::npos);
+}
+
 TEST(Temperatures, ElasticConstantsAreTablesOverThem) {
   const std::string text = test_file("heat.yaml");
   const Description d = parse_model(text, "model.yaml");

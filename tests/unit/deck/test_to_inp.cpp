@@ -110,6 +110,23 @@ material::Law written_law(const std::string& law) {
       ->law.value;
 }
 
+TEST(ToInp, ExpansionByDirections) {
+  const auto of = [](const std::string& alpha) {
+    return written(edited(blocks, "{alpha: 1e-5, reference: 20}", alpha));
+  };
+  EXPECT_THAT(of("{alpha: [1e-5, 2e-5, 3e-5]}"),
+              HasSubstr("*EXPANSION, TYPE=ORTHO\n1e-05, 2e-05, 3e-05\n"));
+  EXPECT_THAT(
+      of("{alpha: [[0, 1, 2, 3, 4, 5, 6], [9, 2, 2, 3, 4, 5, 6]], reference: 1}"),
+      HasSubstr("*EXPANSION, TYPE=ANISO, ZERO=1\n1, 2, 3, 4, 5, 6, 0\n2, 2, 3, 4, 5, 6, 9\n"));
+  EXPECT_THAT(of("{alpha: [[0, 1e-5], [100, 2e-5]]}"),
+              HasSubstr("*EXPANSION\n1e-05, 0\n2e-05, 100\n"));
+  EXPECT_THAT(refusal("hardening: [[1, 0], [2, 0.5]]",
+                      "hardening: [[1, 0, 0], [2, 0, 9]], kinematic: [[0, 0, 0], [2, 1, 0], [0, 0, "
+                      "8], [2, 1, 8]]"),
+              HasSubstr("over the same temperatures as the yield stress alone"));
+}
+
 TEST(ToInp, RubberAndFoamAreReadAgainAsTheyWere) {
   const auto two = std::get<material::Rubber>(
       written_law("{rubber: {c10: 0.4, c11: 0.03, d1: 0.01, d2: 0.5, density: 2}}"));
@@ -229,21 +246,34 @@ std::vector<std::pair<std::string, double>> numbers_of_law(const Description& d)
 
 // Read again a law is the same law with the same numbers.
 TEST(ToInp, MaterialsGoThereAndBack) {
-  for (const char* const law :
-       {"linear_elastic: {E: 1000, nu: 0.25}",
-        "linear_elastic: {E: [[0, 1000], [100, 800]], nu: 0.25}",
-        "linear_elastic: {E: [[0, 1000], [100, 800]], nu: [[0, 0.2], [100, 0.3]]}",
-        "elastoplastic: {E: 1000, nu: 0.25, yield: 3, kinematic: 20}",
-        "norton: {E: 1000, nu: 0.25, A: 1.0e-4, n: 3}",
-        "deformation_plasticity: {E: 1000, nu: 0.25, yield: 3, n: 5, alpha: 0.3}",
-        "orthotropic: {E1: 100, E2: 200, E3: 300, nu12: 0.1, nu13: 0.2, nu23: 0.3, G12: 40, G13: "
-        "50, G23: 60}",
-        "anisotropic: {D1111: 10, D1122: 2, D2222: 11, D1133: 3, D2233: 4, D3333: 12, D1212: 5, "
-        "D1313: 6, D2323: 7, D1112: 0.5}",
-        "rubber: {c10: 1, d1: 0.01}", "rubber: {c10: 1, c01: 0.5, d1: 0.01}",
-        "rubber: {c10: 1, c20: -0.1, c30: 0.01, d1: 0.01, d2: 0.02}",
-        "ogden: {mu1: 1, alpha1: 2, mu2: -0.5, alpha2: -3, d1: 0.01}",
-        "hyperfoam: {mu1: 1, alpha1: 2, nu1: 0.2}"}) {
+  for (
+      const char* const law :
+      {"linear_elastic: {E: 1000, nu: 0.25}",
+       "linear_elastic: {E: [[0, 1000], [100, 800]], nu: 0.25}",
+       "linear_elastic: {E: [[0, 1000], [100, 800]], nu: [[0, 0.2], [100, 0.3]]}",
+       "elastoplastic: {E: 1000, nu: 0.25, yield: 3, kinematic: 20}",
+       "elastoplastic: {E: [[0, 1000], [100, 800]], nu: 0.25, hardening: [[3, 0, 0], [4, 0.1, 0], "
+       "[2, 0, 100]], kinematic: 20}",
+       "elastoplastic: {E: 1000, nu: 0.25, yield: 3, kinematic: [[0, 0], [1, 0.125], [1.5, 0.25]]}",
+       "elastoplastic: {E: 1000, nu: 0.25, hardening: [[3, 0, 0], [2, 0, 100]], kinematic: [[0, 0, "
+       "0], [1, 0.5, 0], [0, 0, 100], [2, 0.5, 100]]}",
+       "norton: {E: 1000, nu: 0.25, A: 1.0e-4, n: 3}",
+       "norton: {E: 1000, nu: 0.25, A: [[0, 1.0e-4], [100, 2.0e-4]], n: 3}",
+       "viscoelastic: {E: 1000, nu: 0.25, shear: [[0.25, 1], [0.5, 2]], bulk: [[0.125, 3]]}",
+       "orthotropic: {E1: [[0, 100], [100, 90]], E2: 200, E3: 300, nu12: 0.1, nu13: 0.2, nu23: "
+       "0.3, G12: 40, G13: 50, G23: [[0, 60], [100, 50]]}",
+       "anisotropic: {D1111: 10, D1122: [[0, 2], [100, 3]], D2222: 11, D1133: 3, D2233: 4, D3333: "
+       "12, D1212: 5, D1313: 6, D2323: 7, D1112: 0.5}",
+       "deformation_plasticity: {E: 1000, nu: 0.25, yield: 3, n: 5, alpha: 0.3}",
+       "orthotropic: {E1: 100, E2: 200, E3: 300, nu12: 0.1, nu13: 0.2, nu23: 0.3, G12: 40, G13: "
+       "50, G23: 60}",
+       "anisotropic: {D1111: 10, D1122: 2, D2222: 11, D1133: 3, D2233: 4, D3333: 12, D1212: 5, "
+       "D1313: 6, D2323: 7, D1112: 0.5}",
+       "rubber: {c10: 1, d1: 0.01}",
+       "rubber: {c10: 1, c01: 0.5, d1: 0.01}",
+       "rubber: {c10: 1, c20: -0.1, c30: 0.01, d1: 0.01, d2: 0.02}",
+       "ogden: {mu1: 1, alpha1: 2, mu2: -0.5, alpha2: -3, d1: 0.01}",
+       "hyperfoam: {mu1: 1, alpha1: 2, nu1: 0.2}"}) {
     const bool warm = std::string(law).find("[[") < std::string::npos;
     const std::string text =
         cube(law, warm ? "initial_temperature: [{on: c, value: 20}]\n" : "",

@@ -24,10 +24,10 @@ TEST(Catalogue, EachLawDescribesItselfAndItsParameters) {
     EXPECT_TRUE(names.contains("density")) << law.key;
     EXPECT_EQ(names.contains("E"), names.contains("nu")) << law.key;
   });
-  EXPECT_EQ(keys, (std::set<std::string_view>{"linear_elastic", "st_venant_kirchhoff", "neo_hooke",
-                                              "elastoplastic", "norton", "deformation_plasticity",
-                                              "rubber", "ogden", "hyperfoam", "arruda_boyce",
-                                              "orthotropic", "anisotropic", "user"}));
+  EXPECT_EQ(keys, (std::set<std::string_view>{
+                      "linear_elastic", "st_venant_kirchhoff", "neo_hooke", "elastoplastic",
+                      "norton", "deformation_plasticity", "rubber", "ogden", "hyperfoam",
+                      "arruda_boyce", "orthotropic", "anisotropic", "viscoelastic", "user"}));
 }
 
 TEST(Catalogue, ParametersAreWrittenThroughTheirSlots) {

@@ -101,13 +101,57 @@ TEST(Expansion, IsThatOfTheTemperatureAtThePoints) {
     const Coordinates<2> x = sample_cell(cell::CellType::quad8, 0.1, true);
     std::vector<double> now, before(8, 20.0);
     for (Eigen::Index k = 0; k < 8; ++k) now.push_back(50 + 3 * x(k, 0) - 7 * x(k, 1));
-    const auto strains = expansion_at_points(s, cell::CellType::quad8, now, before);
+    const auto strains = expansion_at_points(s, cell::CellType::quad8, x, now, before);
     const CellStress<2> at = stress_at_points(s, cell::CellType::quad8, x, Coordinates<2>(0 * x));
     for (std::size_t q = 0; q < static_cast<std::size_t>(at.count); ++q) {
       const Vec2& place = at.point[q].position;
       EXPECT_NEAR(strains[q], 2e-5 * (30 + 3 * place.x() - 7 * place.y()), 1e-17);
     }
   }
+}
+
+// By directions they are those of the axes at the place of the point.
+TEST(Expansion, ByDirectionsIsAlongTheAxesAtThePoints) {
+  Section<3> s;
+  s.law = material::LinearElastic{7, 0.3, 0};
+  s.expansion.directions = {{0, material::Strain3(1e-5, 2e-5, 3e-5, 0, 0, 0)}};
+  s.orientation.kind = material::Orientation::Kind::cylindrical;
+  s.orientation.b = Vec3::UnitZ();
+  Coordinates<3> x = sample_volume(cell::CellType::hex8, 0.1, false);
+  for (Eigen::Index k = 0; k < 8; ++k) x.row(k) += Vec3(3, 1, 0).transpose();
+  const std::vector<double> now(8, 50.0), before(8, 20.0);
+  const auto strains = expansion_at_points(s, cell::CellType::hex8, x, now, before);
+  const CellStress<3> at = stress_at_points(s, cell::CellType::hex8, x, Coordinates<3>(0 * x));
+  for (std::size_t q = 0; q < static_cast<std::size_t>(at.count); ++q) {
+    const Vec3& place = at.point[q].position;
+    const double c = place.x() / place.head<2>().norm(), n = place.y() / place.head<2>().norm();
+    EXPECT_NEAR(strains[6 * q], 30e-5 * (c * c + 2 * n * n), 1e-18);
+    EXPECT_NEAR(strains[6 * q + 1], 30e-5 * (n * n + 2 * c * c), 1e-18);
+    EXPECT_NEAR(strains[6 * q + 2], 90e-5, 1e-18);
+    EXPECT_NEAR(strains[6 * q + 3], 2 * 30e-5 * c * n * (1 - 2), 1e-18);
+    EXPECT_NEAR(strains[6 * q + 4], 0, 1e-18);
+  }
+}
+
+// A cell that is free to expand by directions is free of stress.
+TEST_P(ExpandingCell, IsFreeOfStressWhenItExpandsByDirections) {
+  for_each_cell(GetParam(), [](const CellCase& c) {
+    if (c.kind != Kind::space) return;
+    const Eigen::MatrixXd x = curved(c);
+    Mat<3, 3> e;
+    e << 0.02, 0.005, 0.003, 0.005, -0.01, 0.004, 0.003, 0.004, 0.03;
+    std::vector<double> strains;
+    for (int q = 0; q < 27; ++q)
+      for (const double v : {e(0, 0), e(1, 1), e(2, 2), 2 * e(0, 1), 2 * e(1, 2), 2 * e(0, 2)})
+        strains.push_back(v);
+    material::Memory memory;
+    memory.expansion = strains.data();
+    memory.strains = 6;
+    const Eigen::MatrixXd u = x * e;
+    const CellResult r = answer(c, x, u, true, memory);
+    EXPECT_EQ(r.status, Status::ok);
+    EXPECT_LT(r.force.norm(), 1e-14 * stiffness_scale(c, x));
+  });
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ void for_each_yielding(Kind kind, const std::function<void(Yielding&)>& visit) {
         constants(law).yield = 0.1;
         constants(law).isotropic = 0.5;
         constants(law).kinematic = 0.3;
-        size = law.memory.size();
+        size = remembered_by(constants(law)).size();
       }
     };
     std::visit([&](auto& of) { std::visit(yields, of.section.law); }, c.of);

@@ -1,0 +1,94 @@
+// `*VISCOELASTIC` of a deck.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "osculate/deck/inp_parts.hpp"
+
+namespace osculate::deck {
+namespace {
+
+using io::inp::Card;
+using io::inp::Fields;
+using io::inp::Line;
+
+/// g, k and tau of the terms.
+std::vector<std::array<double, 3>> prony_terms(const InpModel& m, const Card& card) {
+  if (!io::inp::find_parameter(card, "TIME"))
+    io::inp::fail(m.deck, card, "TIME=PRONY is expected: others are not supported");
+  std::vector<std::array<double, 3>> terms;
+  for (const Line& line : io::inp::lines_of(m.deck, card)) {
+    Fields fields(m.deck, line);
+    const double g = fields.real_or_zero("the share of the shear modulus"),
+                 k = fields.real_or_zero("the share of the bulk modulus"),
+                 time = fields.real("the relaxation time");
+    fields.expect_end();
+    if (!(g >= 0 && k >= 0 && g + k > 0)) fields.fail("expected shares that are not negative");
+    if (!(time > 0)) fields.fail("expected a relaxation time greater than 0");
+    terms.push_back({g, k, time});
+  }
+  if (terms.empty()) io::inp::fail(m.deck, card, "expected lines of g, k and tau");
+  return terms;
+}
+
+/// What remains of a modulus.
+double remaining(const InpModel& m, const Card& card,
+                 const std::vector<std::array<double, 3>>& terms, std::size_t which) {
+  double rest = 1;
+  for (const auto& term : terms) rest -= term[which];
+  if (!(rest > 0))
+    io::inp::fail(m.deck, card, "the sum of the shares is less than 1: something remains");
+  return rest;
+}
+
+void put_series(const std::vector<std::array<double, 3>>& terms, std::size_t which, const char* key,
+                int line, SourceNode& law) {
+  SourceNode series = inp_list(line);
+  for (const auto& term : terms) {
+    if (term[which] == 0) continue;
+    SourceNode& row = series.items.emplace_back(inp_list(line));
+    row.items = {inp_number(term[which], line), inp_number(term[2], line)};
+  }
+  if (!series.items.empty()) put(law, key, std::move(series));
+}
+
+}  // namespace
+
+void put_viscoelastic(const InpModel& m, const Card& elastic, const Card& viscoelastic,
+                      SourceNode& law) {
+  const auto terms = prony_terms(m, viscoelastic);
+  Fields fields(m.deck, constant_line(m, elastic, "E and nu"));
+  double young = fields.real("Young's modulus"), poisson = fields.real_or_zero("Poisson's ratio");
+  std::string moduli = option_of(elastic, "MODULI");
+  std::erase(moduli, ' ');
+  if (moduli != "INSTANTANEOUS" && !moduli.empty() && moduli != "LONGTERM")
+    io::inp::fail(
+        m.deck, elastic,
+        fmt::format("MODULI={} is not supported: INSTANTANEOUS or LONG TERM", printable(moduli)));
+  const double shear_rest = remaining(m, viscoelastic, terms, 0),
+               bulk_rest = remaining(m, viscoelastic, terms, 1);
+  if (moduli != "INSTANTANEOUS") {
+    const double shear = young / (2 * (1 + poisson)) / shear_rest,
+                 bulk = young / (3 * (1 - 2 * poisson)) / bulk_rest;
+    young = 9 * bulk * shear / (3 * bulk + shear);
+    poisson = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear));
+  }
+  const int line = line_of(elastic.at);
+  put(law, "E", inp_number(young, line));
+  put(law, "nu", inp_number(poisson, line));
+  put_series(terms, 0, "shear", line_of(viscoelastic.at), law);
+  put_series(terms, 1, "bulk", line_of(viscoelastic.at), law);
+}
+
+std::optional<double> shortest_relaxation(const InpModel& m) {
+  std::optional<double> shortest;
+  for (const Card& card : m.deck.cards) {
+    if (card.keyword != "VISCOELASTIC") continue;
+    for (const auto& term : prony_terms(m, card))
+      shortest = std::min(shortest.value_or(term[2]), term[2]);
+  }
+  return shortest;
+}
+
+}  // namespace osculate::deck
