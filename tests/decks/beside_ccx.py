@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""CalculiX's own decks in Osculate and in ccx, their displacements side by side.
+"""CalculiX's own decks and those of FreeCAD in Osculate and in ccx, their displacements side by side.
 
-    tests/decks/beside_ccx.py [--osculate PROGRAM] [--ccx PROGRAM] [--examples FOLDER] [--write FILE] [DECK...]
+    tests/decks/beside_ccx.py [--osculate PROGRAM] [--ccx PROGRAM] [--write FILE] [DECK...]
     tests/decks/beside_ccx.py --test --osculate PROGRAM      every quick row of rows.txt must hold
     tests/decks/beside_ccx.py --osculate PROGRAM --write docs/decks.md      all rows, and what is refused
 
-rows.txt has the decks, what they may differ by, and why. The decks are those of Debian's package
-calculix-ccx-test, ccx that of calculix-ccx. Both read the same deck, but for its requests of
+rows.txt has the decks, what they may differ by, and why. The decks are those of Debian's packages
+calculix-ccx-test and freecad-common (these begin with `freecad/`), ccx that of calculix-ccx. Both read the same deck, but for its requests of
 output: at the end of each step the displacements of all nodes. What is compared is the state that
 either leaves at the end: the largest difference of a node's displacement over the largest displacement,
 likewise of its force (reaction and load), and the largest contact pressures; of decks that look for
@@ -25,12 +25,36 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import typing
 
 HERE = pathlib.Path(__file__).resolve().parent
-EXAMPLES = "/usr/share/doc/calculix-ccx-test/examples/test"
 OUTPUT = ("NODEFILE", "ELFILE", "CONTACTFILE", "NODEOUTPUT", "ELEMENTOUTPUT", "CONTACTOUTPUT", "NODEPRINT",
           "ELPRINT", "CONTACTPRINT", "FACEPRINT", "SECTIONPRINT", "OUTPUT", "RESTART")
 PRINTED = "NODESOFLINES"
+
+
+class Collection(typing.NamedTuple):
+    """Decks of one folder: their names begin with the prefix."""
+    prefix: str
+    folder: pathlib.Path
+    package: str
+    title: str
+
+    def decks(self):
+        """The names of all, without rows or with."""
+        return {self.prefix + re.sub(r"\.inp(\.gz)?$", "", path.name) for path in self.folder.iterdir()
+                if re.search(r"\.inp(\.gz)?$", path.name)}
+
+
+COLLECTIONS = (
+    Collection("freecad/", pathlib.Path("/usr/share/freecad/Mod/Fem/femtest/data/calculix"), "freecad-common",
+               "FreeCAD's decks"),
+    Collection("", pathlib.Path("/usr/share/doc/calculix-ccx-test/examples/test"), "calculix-ccx-test",
+               "CalculiX' decks"))
+
+
+def collection_of(deck):
+    return next(collection for collection in COLLECTIONS if deck.startswith(collection.prefix))
 
 
 class Row:
@@ -47,13 +71,26 @@ def rows():
     return [Row(line) for line in lines if line.strip() and not line.startswith("#")]
 
 
-def text_of(examples, deck):
+def text_of(deck):
+    collection = collection_of(deck)
     for suffix, opened in ((".inp", open), (".inp.gz", gzip.open)):
-        path = pathlib.Path(examples) / (deck + suffix)
+        path = collection.folder / (deck.removeprefix(collection.prefix) + suffix)
         if path.exists():
             with opened(path, "rt", errors="replace") as file:
                 return file.read()
-    raise FileNotFoundError(f"no deck '{deck}' in {examples}")
+    raise FileNotFoundError(f"no deck '{deck}' in {collection.folder}")
+
+
+def put(deck, folder):
+    """The deck as deck.inp, with the files beside it that it may include. Its text as it stands there."""
+    text = asking_for_results(text_of(deck))
+    (folder / "deck.inp").write_text(text)
+    collection = collection_of(deck)
+    name = deck.removeprefix(collection.prefix)
+    for file in collection.folder.glob(name + ".*"):
+        if not file.name.startswith((name + ".inp", name + ".dat", name + ".frd")):
+            shutil.copy(file, folder)
+    return text
 
 
 def nodes_of_lines(text):
@@ -180,7 +217,7 @@ def pressure_difference(ours, theirs):
 
 
 def frequencies_of_dat(path):
-    """Of all steps, one behind the other, each in order."""
+    """Of all steps, one behind the other, each in order; 0: below those that were asked for."""
     steps, inside = [], False
     for line in open(path, errors="replace"):
         words = line.split()
@@ -193,7 +230,7 @@ def frequencies_of_dat(path):
             if words[0] != "0" or int(words[1]) % 2:
                 steps[-1].append(float(words[-2]))
         elif inside and len(words) in (4, 5) and words[0].isdigit():
-            steps[-1].append(float(words[-2]))
+            steps[-1] += [0.0] * (int(words[0]) - 1 - len(steps[-1])) + [float(words[-2])]
     return [sorted(step) for step in steps]
 
 
@@ -235,13 +272,9 @@ def compare(row, options):
     result = {"deck": row.deck}
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        text = asking_for_results(text_of(options.examples, row.deck))
-        (folder / "deck.inp").write_text(text)
+        text = put(row.deck, folder)
         if re.search(r"^\*\s*USER\s*MATERIAL", text, re.I | re.M):
             user_material(options, folder)
-        for file in pathlib.Path(options.examples).glob(row.deck + ".*"):
-            if not file.name.startswith((row.deck + ".inp", row.deck + ".dat", row.deck + ".frd")):
-                shutil.copy(file, folder)
         code, said, error, result["seconds"] = run(
             [options.osculate, "run", "deck.inp", "--json", "-o", "ours"], folder, options.limit)
         if code != 0:
@@ -284,9 +317,10 @@ def percent(value):
 
 def line_of(row, result):
     reason = row.reason.replace("|", "/")
+    name = row.deck.removeprefix(collection_of(row.deck).prefix)
     if "wrong" in result:
-        return f"| {row.deck} | | | | | | | {(reason + ' ' + result['wrong']).strip()} |"
-    return (f"| {row.deck} | {result['nodes'] or ''} | {percent(result['difference'])} | "
+        return f"| {name} | | | | | | | {(reason + ' ' + result['wrong']).strip()} |"
+    return (f"| {name} | {result['nodes'] or ''} | {percent(result['difference'])} | "
             f"{percent(result.get('forces'))} | {percent(result.get('pressure'))} | "
             f"{result['iterations']} / {result['ccx_iterations']} | "
             f"{result['seconds']:.2f} / {result['ccx_seconds']:.2f} | {reason} |")
@@ -325,53 +359,65 @@ def refusal(text, message):
     return f"`*{spelled}`" + (f": {what}" if what else "")
 
 
-def refused(options, with_rows):
+def refused(options, collection, with_rows):
     """Decks by the reason why `osculate check` refuses them; those that it takes though they have no row."""
     reasons, taken = {}, []
-    names = sorted({re.sub(r"\.inp(\.gz)?$", "", path.name) for path in pathlib.Path(options.examples).iterdir()
-                    if re.search(r"\.inp(\.gz)?$", path.name)} - with_rows)
-    for deck in names:
+    for deck in sorted(collection.decks() - with_rows):
         with tempfile.TemporaryDirectory() as folder:
-            text = text_of(options.examples, deck)
-            (pathlib.Path(folder) / "deck.inp").write_text(asking_for_results(text))
-            for file in pathlib.Path(options.examples).glob(deck + ".*"):
-                if not file.name.startswith((deck + ".inp", deck + ".dat", deck + ".frd")):
-                    shutil.copy(file, folder)
+            put(deck, pathlib.Path(folder))
             code, said, error, _ = run([options.osculate, "check", "deck.inp"], folder, options.limit)
+        name = deck.removeprefix(collection.prefix)
         if code == 0:
-            taken.append(deck)
+            taken.append(name)
         else:
-            reasons.setdefault(refusal(text, error or said), []).append(deck)
+            reasons.setdefault(refusal(text_of(deck), error or said), []).append(name)
     return sorted(reasons.items(), key=lambda item: (-len(item[1]), item[0])), taken
 
 
-def page(lines, good, options):
+HEAD = ["| deck | nodes | displacements | forces | pressure | iterations | seconds | |",
+        "|---|---|---|---|---|---|---|---|"]
+
+
+def section(collection, compared, options):
+    """Of the page: what was compared of a collection, and what is refused."""
+    of_it = [(row, result) for row, result in compared if collection_of(row.deck) is collection]
+    reasons, taken = refused(options, collection, {row.deck for row in rows()})
+    count = sum(len(decks) for _, decks in reasons)
+    good = sum(holds(row, result) for row, result in of_it)
+    text = [
+        f"## {collection.title}", "",
+        f"{len(of_it)} decks have a row, {good} of them hold, the others say why not; {count} decks are refused.", "",
+        *HEAD, *(line_of(row, result) for row, result in of_it), ""]
+    if reasons:
+        text += [
+            "Refused, by the analysis that Osculate has none of, else by the first message: behind it there may be others.",
+            "", "| reason | decks | |", "|---|---|---|",
+            *(f"| {reason} | {len(decks)} | {', '.join(decks)} |" for reason, decks in reasons), ""]
+    if taken:
+        text += ["Read, but without an answer to compare within the limits of time and convergence: "
+                 + ", ".join(taken) + ".", ""]
+    return text
+
+
+def page(compared, options):
     """docs/decks.md."""
     version = subprocess.run([options.ccx, "-v"], capture_output=True, text=True).stdout
     version = (re.findall(r"\d+\.\d+", version) or ["?"])[0]
-    reasons, taken = refused(options, {row.deck for row in rows()})
-    count = sum(len(decks) for _, decks in reasons)
     text = [
-        "# CalculiX' own decks", "",
-        f"The decks that come with CalculiX {version} (Debian's package calculix-ccx-test) in Osculate and in CalculiX. Both read the",
+        "# Decks of CalculiX and FreeCAD", "",
+        f"The decks that come with CalculiX {version} (Debian's package calculix-ccx-test) and those by which FreeCAD tests what it",
+        "writes for CalculiX (freecad-common), in Osculate and in CalculiX. Both read the",
         "same deck; the state that either leaves at the end is compared. Displacements: largest difference at a node over the",
         "largest displacement; of decks that end with vibrations the same of their frequencies, of those with buckling loads the same of the factors. Forces: likewise, but CalculiX'",
         "have those of constraints (sections of shells, equations) as well. Pressure: of the largest contact pressures. Iterations and seconds (of the processor) are those",
         "of Osculate / CalculiX, which counts iterations of nonlinear steps alone. [rows.txt](../tests/decks/rows.txt) has what a",
         "deck may differ by, and why; its quick rows are a test.", "",
         "To make this page again:", "", "```",
-        "apt install calculix-ccx calculix-ccx-test",
-        "tests/decks/beside_ccx.py --osculate build/release/bin/osculate --write docs/decks.md", "```", "",
-        f"{len(good)} decks have a row, {sum(good)} of them hold, the others say why not; {count} decks are refused.", "",
-        "## Beside CalculiX", "", *lines, "",
-        "## Refused", "",
-        "By the analysis that Osculate has none of, else by the first message: behind it there may be others.", "",
-        "| reason | decks | |", "|---|---|---|",
-        *(f"| {reason} | {len(decks)} | {', '.join(decks)} |" for reason, decks in reasons)]
-    if taken:
-        text += ["", "## Without a row", "", "Read, but without an answer to compare within the limits of time and convergence: "
-                 + ", ".join(taken) + "."]
-    return "\n".join(text) + "\n"
+        f"apt install calculix-ccx {' '.join(collection.package for collection in reversed(COLLECTIONS))}",
+        "tests/decks/beside_ccx.py --osculate build/release/bin/osculate --write docs/decks.md", "```", ""]
+    for collection in reversed(COLLECTIONS):
+        text += section(collection, compared, options)
+    return "\n".join(text[:-1]) + "\n"
 
 
 def holds(row, result):
@@ -383,7 +429,6 @@ def main():
     parser.add_argument("decks", nargs="*", metavar="DECK")
     parser.add_argument("--osculate", default="osculate", metavar="PROGRAM")
     parser.add_argument("--ccx", default="ccx", metavar="PROGRAM")
-    parser.add_argument("--examples", default=EXAMPLES, metavar="FOLDER")
     parser.add_argument("--limit", type=float, default=120, metavar="SECONDS")
     parser.add_argument("--kind", help="rows of this kind only")
     parser.add_argument("--test", action="store_true", help="quick rows only, each must hold")
@@ -395,22 +440,22 @@ def main():
     if options.kind:
         chosen = [row for row in chosen if row.kind == options.kind]
     if options.test:
-        if not shutil.which(options.ccx) or not os.path.isdir(options.examples):
-            print("no ccx or no decks (Debian: calculix-ccx, calculix-ccx-test)")
+        missing = [collection for collection in COLLECTIONS if not collection.folder.is_dir()]
+        chosen = [row for row in chosen if row.speed == "quick" and collection_of(row.deck) not in missing]
+        if not shutil.which(options.ccx) or not chosen:
+            print("no ccx or no decks (Debian: calculix-ccx, calculix-ccx-test, freecad-common)")
             return 77
-        chosen = [row for row in chosen if row.speed == "quick"]
-    lines = ["| deck | nodes | displacements | forces | pressure | iterations | seconds | |",
-             "|---|---|---|---|---|---|---|---|"]
-    good = []
+        for collection in missing:
+            print(f"without {collection.title} (Debian: {collection.package})")
+    compared = []
     for row in chosen:
-        result = compare(row, options)
-        lines.append(line_of(row, result))
-        good.append(holds(row, result))
-        print(("ok      " if good[-1] else "DIFFERS ") + lines[-1], flush=True)
+        compared.append((row, compare(row, options)))
+        print(("ok      " if holds(*compared[-1]) else "DIFFERS ") + line_of(*compared[-1]), flush=True)
     if options.write:
-        pathlib.Path(options.write).write_text(page(lines, good, options))
-    print(f"{sum(good)} of {len(good)} hold")
-    return 1 if options.test and not all(good) else 0
+        pathlib.Path(options.write).write_text(page(compared, options))
+    good = sum(holds(*pair) for pair in compared)
+    print(f"{good} of {len(compared)} hold")
+    return 1 if options.test and good < len(compared) else 0
 
 
 if __name__ == "__main__":
