@@ -151,7 +151,7 @@ double duration_of(InpModel& m, const InpProcedure& procedure) {
   if (!shortest) return procedure.period;
   constexpr double next_to_none = 1e-9;
   m.notes.push_back(
-      fmt::format("line {}: *STATIC is the response at once of *VISCOELASTIC: the step has the "
+      fmt::format("line {}: *STATIC is the response at once of *VISCOELASTIC: it has the "
                   "duration {:g}, 1e-9 of the shortest relaxation time",
                   procedure.card->at.line, next_to_none * *shortest));
   return next_to_none * *shortest;
