@@ -34,6 +34,8 @@ std::string overlap_line(const model::BasicModel<Dim>& m, const model::BasicCont
     fate = "they are let in over the first step";
   if (pair.definition.overlap == pairing::InitialOverlap::kept)
     fate = "gaps are measured from them";
+  if (pair.definition.overlap == pairing::InitialOverlap::given)
+    fate = "the clearance of the contact counts in their place";
   const Index node = pair.definition.slave.points[g.deepest].nearest_node();
   const std::string deep = pair.height > 0 ? fmt::format(", {:.2g} of the height of the cells",
                                                          -g.smallest / pair.height)

@@ -241,9 +241,10 @@ const InpInteraction& interaction_named(const InpModel& m, const std::vector<Inp
 void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, double clearance) {
   SourceNode& normal =
       put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at), clearance));
-  if (law.damping) put_damping(m, *law.damping, normal);
+  const Card* const damping = inp_begins_in_time(m) ? law.damping : nullptr;
+  if (damping) put_damping(m, *damping, normal);
   if (inp_is_tied(law.behavior)) return;
-  SourceNode friction = inp_shear(m, law.friction, law.damping);
+  SourceNode friction = inp_shear(m, law.friction, damping);
   if (!friction.entries.empty() || !friction.text.empty())
     put(pair, "friction", std::move(friction));
 }

@@ -44,6 +44,7 @@ SourceNode inp_dynamics(const InpModel& m, const Card& card) {
   SourceNode dynamics = inp_map(line);
   if (find_parameter(card, "EXPLICIT")) {
     put(dynamics, "scheme", inp_text("central_differences", line));
+    put_damping(m, dynamics);
     return dynamics;
   }
   constexpr double usual = -0.05;

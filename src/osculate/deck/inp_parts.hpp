@@ -211,7 +211,10 @@ SourceNode& add_pair(const InpModel& m, io::inp::Place at, const std::string& sl
 [[nodiscard]] SourceNode inp_general_contact(InpModel& m,
                                              const std::vector<InpInteraction>& interactions,
                                              SourceNode pairs);
-/// What the cards of a step change of contact pairs; empty: nothing.
+/// Whether the first step that moves something has inertia.
+[[nodiscard]] bool inp_begins_in_time(const InpModel& m);
+/// What the cards of a step change of contact pairs; empty: nothing. `*CONTACT DAMPING` comes and
+/// goes with steps in time.
 [[nodiscard]] SourceNode inp_changes(const InpModel& m, std::span<const io::inp::Card> step);
 /// Adds to a step what its cards change of elements, sections and equations.
 ///

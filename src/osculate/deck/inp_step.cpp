@@ -78,8 +78,9 @@ void put_axis(SourceNode& entry, const std::array<double, 6>& axis) {
 
 bool is_at_once(const io::inp::Card& step, const InpProcedure& procedure) {
   if (procedure.factors > 0) return false;
-  return option_of(step, "AMPLITUDE") == "STEP" || procedure.is("DYNAMIC") ||
-         procedure.is("MODALDYNAMIC");
+  const std::string amplitude = option_of(step, "AMPLITUDE");
+  return amplitude == "STEP" || procedure.is("DYNAMIC") || procedure.is("MODALDYNAMIC") ||
+         (procedure.is("VISCO") && amplitude != "RAMP");
 }
 
 void put_prescribed(const InpWriting& w, const Conditions& prescribed, bool sudden,

@@ -177,7 +177,7 @@ void end_motion(History& h, const Card& card, const InpWriting& w) {
     h.standing = real;
     h.found = {};
     put_time(h.m, h.now, w.step);
-    put_prescribed(w, real.prescribed);
+    put_prescribed(w, real.prescribed, h.now.is("VISCO"));
     put_releases(w, real.prescribed);
     put_holds(w, real.prescribed);
   }

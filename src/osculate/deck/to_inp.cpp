@@ -192,7 +192,11 @@ const std::string& InpMesh<Dim>::elements(const Name& on) {
                              fmt::format("'{}' has cells that belong to no section", on.value));
     numbers.push_back(found->second);
   }
+  for (const auto& section : m_.sections)
+    taken_.insert({'e', io::inp::capitals(plain_text(section.name))});
   name = plain_text(on.value) + "_elements";
+  for (int k = 2; !taken_.insert({'e', io::inp::capitals(name)}).second; ++k)
+    name = fmt::format("{}_elements_{}", plain_text(on.value), k);
   sets_ += fmt::format("*ELSET, ELSET={}\n", name) +
            lines_of_numbers(numbers, [](std::int64_t number) { return number; });
   return name;

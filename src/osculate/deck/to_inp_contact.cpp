@@ -60,14 +60,25 @@ WrittenShear written_shear(const std::string& path, Leaves& leaves) {
           leaves.number(path + ".coulomb.viscous").value_or(0)};
 }
 
+/// Whether every step has inertia, or moves nothing.
+bool all_in_time(const Description& d) {
+  return std::ranges::all_of(d.steps, [](const Step& s) {
+    return s.dynamics || s.modal || s.harmonic || s.modes || s.buckling;
+  });
+}
+
 /// `*SURFACE INTERACTION` of the laws that stand under a key.
-std::string written_laws(const std::string& path, const std::string& name, Leaves& leaves) {
+std::string written_laws(const std::string& path, const std::string& name, bool all_in_time,
+                         Leaves& leaves) {
   std::string out = fmt::format("*SURFACE INTERACTION, NAME={}\n", name);
   out += written_pressure(path + ".normal", leaves);
   const WrittenShear shear = written_shear(path + ".friction", leaves);
   out += shear.text;
   const auto damper = leaves.number(path + ".normal.damping.viscous");
   if (!damper && shear.film == 0) return out;
+  if (!all_in_time)
+    leaves.fail(path + (damper ? ".normal.damping.viscous" : ".friction"),
+                "of an input file acts in steps with `dynamics` alone");
   if (!damper || *damper == 0)
     leaves.fail(path + ".friction",
                 "a film is written as a share of `normal.damping: viscous`, which is missing");
@@ -115,9 +126,10 @@ PairType type_of_pair(const Contact& contact, const model::BasicModel<Dim>& m,
     nodes = pairing::sampled_at_nodes(pair->definition.slave);
     gauss = !nodes;
   }
-  const bool unknown = contact.enforcement.value.kind == EnforcementWord::lagrange_multiplier;
+  const EnforcementWord enforced = contact.enforcement.value.kind;
   const bool hard = contact::augmentable(contact.normal.law.law) && contact.normal.law.automatic;
-  if (asked.rule == SamplingRule::mortar && unknown == hard) {
+  if (asked.rule == SamplingRule::mortar &&
+      enforced == (hard ? EnforcementWord::lagrange_multiplier : EnforcementWord::penalty)) {
     (void)leaves.text(path + ".enforcement");
     (void)leaves.text(path + ".sampling");
     return {"MORTAR"};
@@ -131,8 +143,7 @@ PairType type_of_pair(const Contact& contact, const model::BasicModel<Dim>& m,
   leaves.take(path + ".sampling");
   if (middles || (of_nodes && contact.area_by == area_of_nodes(m, slave)))
     (void)leaves.text(path + ".weight.area");
-  if (contact.enforcement.value.kind == EnforcementWord::penalty)
-    (void)leaves.text(path + ".enforcement");
+  if (enforced == EnforcementWord::penalty) (void)leaves.text(path + ".enforcement");
   return {nodes ? "NODE TO SURFACE" : "SURFACE TO SURFACE", of_nodes};
 }
 
@@ -159,7 +170,7 @@ void write_pair(const Description& d, const model::BasicModel<Dim>& m, std::size
   const PairType type = type_of_pair(contact, m, mesh, path, leaves);
   const std::string slave = mesh.surface(contact.slave, type.of_nodes),
                     master = mesh.surface(contact.master);
-  out += written_laws(path, law_name(contact.name.value), leaves);
+  out += written_laws(path, law_name(contact.name.value), all_in_time(d), leaves);
   const std::string adjust = adjusted(contact, path, mesh, leaves);
   out += fmt::format("*CONTACT PAIR, INTERACTION={}, TYPE={}{}\n{}, {}\n",
                      law_name(contact.name.value), type.type, adjust, slave, master);
@@ -177,7 +188,7 @@ void write_contact(const Description& d, const model::BasicModel<Dim>& m, InpMes
     (void)leaves.text("contact");
     (void)leaves.text("contact.all");
     (void)leaves.text("contact.all.name");
-    out += written_laws("contact.all", "law_of_all", leaves);
+    out += written_laws("contact.all", "law_of_all", all_in_time(d), leaves);
     out +=
         "*CONTACT\n*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT PROPERTY ASSIGNMENT\n, , "
         "law_of_all\n";
@@ -220,6 +231,11 @@ std::string contact_changes(const Description& d, std::size_t step, InpMesh<Dim>
                          law_name(change.pair.value), written_pressure(path + ".normal", leaves));
     if (!change.friction) continue;
     const WrittenShear shear = written_shear(path + ".friction", leaves);
+    const auto pair = static_cast<std::size_t>(of - d.contact.begin());
+    const WrittenShear first =
+        written_shear(fmt::format("contact[{}].friction", pair), leaves);
+    if (shear.film != 0 || first.film != 0)
+      throw core::InputError(change.mark, "changes of friction beside a film are not written");
     out += fmt::format("*CHANGE FRICTION, INTERACTION={}\n{}", law_name(change.pair.value),
                        shear.text.empty() ? "*FRICTION\n0\n" : shear.text);
   }

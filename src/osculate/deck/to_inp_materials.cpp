@@ -45,7 +45,10 @@ void write_kinematic(const std::string& law, std::vector<std::vector<double>> si
       modulus ? std::vector<std::vector<double>>{{0, 0}, {*modulus, 1}}
               : rows_of(law + ".kinematic", leaves);
   // two points are read as a modulus, which goes on beyond them
-  if (!modulus && moves.size() == 2) moves.push_back({moves[1][0], 2 * moves[1][1]});
+  if (!modulus && moves.size() == 2 && moves[1][1] > 0) {
+    moves.push_back(moves[1]);
+    moves.back()[1] *= 2;
+  }
   const std::vector<std::vector<double>> first = first_points(size);
   const bool hardens = first.size() < size.size();
   if (!hardens && first.size() > 1 && first_points(moves).size() != first.size())

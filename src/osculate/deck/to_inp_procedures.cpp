@@ -193,12 +193,16 @@ ProcedureCards procedure_of(const Description& d, std::size_t number, bool finit
   }
   const std::string head = title + fmt::format("*STEP{}, INC=1000000\n", geometry);
   if (step.dynamics) return {head + dynamic_of(step, duration), true, false};
-  // in *STATIC what is viscoelastic has its response at once
+  // in *STATIC nothing creeps or relaxes, and in *VISCO loads act at once where nothing is said
   const bool relaxes = std::ranges::any_of(d.materials, [](const Material& m) {
-    return material::key_of(m.law.value) == material::Viscoelastic::key;
+    const std::string_view key = material::key_of(m.law.value);
+    return key == material::Viscoelastic::key || key == "norton";
   });
-  return {head + fmt::format("{}, DIRECT\n{}, {}\n", relaxes ? "*VISCO, CETOL=1" : "*STATIC",
-                             exact(duration / step.increments.value), exact(duration)),
+  const std::string times = fmt::format("{}, {}\n", exact(duration / step.increments.value),
+                                        exact(duration));
+  if (!relaxes) return {head + "*STATIC, DIRECT\n" + times, false, false};
+  return {title + fmt::format("*STEP{}, INC=1000000, AMPLITUDE=RAMP\n", geometry) +
+              "*VISCO, CETOL=1, DIRECT\n" + times,
           false, false};
 }
 

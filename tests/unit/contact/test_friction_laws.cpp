@@ -189,7 +189,7 @@ void expect_second_order(const FrictionLaw& law, const Vec<Dim - 1>& trial, doub
 }
 
 TEST(FrictionLaws, DerivativesAreOfSecondOrder) {
-  const std::array<FrictionLaw, 14> laws{Coulomb{0.5, 80.0},
+  const std::array<FrictionLaw, 15> laws{Coulomb{0.5, 80.0},
                                          Coulomb{0.5, 80.0, 3.0},
                                          changing(0.2, 0.1, By::distance),
                                          changing(0.9, 0.1, By::distance),
@@ -202,7 +202,8 @@ TEST(FrictionLaws, DerivativesAreOfSecondOrder) {
                                          with_film({0.5, 80.0}, 3),
                                          with_film({0.5, 80.0, 3.0}, 3),
                                          with_film(changing(0.2, 0.1, By::distance), 3),
-                                         with_film(changing(0.9, 0.2, By::speed), 3)};
+                                         with_film(changing(0.9, 0.2, By::speed), 3),
+                                         with_film(changing(0.9, 0.1, By::distance), 60)};
   for (const FrictionLaw& law : laws)
     for (const double size : {1.0, 9.0, 14.0}) {
       const Sliding sliding{0.02, 0.5};

@@ -170,10 +170,18 @@ TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
       "*CONTACT PAIR, INTERACTION=SOFT, TYPE=SURFACE TO SURFACE\nSLAVE, MASTER\n";
   expect_in(part(exponential + soft + press, "contact"),
             "decaying: {pressure: 6, clearance: 0.001}");
-  expect_in(part(dry + "*CONTACT DAMPING\n0.5\n" + pair + press, "contact"),
+  const std::string in_time = "*STEP\n*DYNAMIC, DIRECT\n0.1, 1.\n*END STEP\n";
+  const std::string damped = "*CONTACT DAMPING, TANGENT FRACTION=0.5\n0.5\n";
+  expect_in(part(dry + "*CONTACT DAMPING\n0.5\n" + pair + in_time, "contact"),
             "damping: {viscous: 0.5}");
-  expect_in(part(dry + "*CONTACT DAMPING, TANGENT FRACTION=0.5\n0.5\n" + pair + press, "contact"),
-            "viscous: 0.25}");
+  expect_in(part(dry + damped + pair + in_time, "contact"), "viscous: 0.25}");
+  // in steps with inertia alone
+  const std::string all = part(dry + damped + pair + press + in_time + press, "contact");
+  EXPECT_EQ(all.find("viscous"), std::string::npos) << all;
+  const std::string steps = part(dry + damped + pair + press + in_time + in_time + press, "steps");
+  expect_in(steps, "damping: {viscous: 0.5}");
+  expect_in(steps, "viscous: 0.25}");
+  EXPECT_EQ(steps.find("viscous: 0.5"), steps.rfind("viscous: 0.5")) << steps;
   const std::string mortar = "*CONTACT PAIR, INTERACTION=SOFT, TYPE=MORTAR\nSLAVE, MASTER\n";
   const std::string unknown = "enforcement: lagrange_multiplier";
   EXPECT_EQ(part(exponential + mortar + press, "contact").find(unknown), std::string::npos);

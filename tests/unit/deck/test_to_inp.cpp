@@ -407,7 +407,7 @@ TEST(ToInp, WhatADeckCannotSayOfTheNewKeys) {
               HasSubstr("schemes other than newmark, hht and central differences"));
   EXPECT_THAT(refusal("friction: {coulomb: {mu: 0.2, penalty: 5e3}}",
                       "friction: {viscous: {coefficient: 2, penalty: 5e3}}"),
-              HasSubstr("a film is written as a share of `normal.damping: viscous`"));
+              HasSubstr("acts in steps with `dynamics` alone"));
   EXPECT_THAT(refusal("normal: {penalty: 1e4}", "weight: {area: 0.3}, normal: {penalty: 1e4}"),
               HasSubstr("contact[0].weight.area: has no counterpart"));
 }
@@ -424,14 +424,12 @@ Contact pair_again(const std::string& keys, std::string& text) {
 TEST(ToInp, LawsOfContactGoThereAndBack) {
   std::string text;
   Contact pair = pair_again(
-      "normal: {penalty: 1e4, damping: {viscous: 4}}, initial: {clearance: -0.01}, "
-      "friction: {coulomb: {mu: 0.2, penalty: 5e3, viscous: 3}}",
+      "normal: {penalty: 1e4}, initial: {clearance: -0.01}, "
+      "friction: {coulomb: {mu: 0.2, penalty: 5e3}}",
       text);
-  EXPECT_THAT(text, HasSubstr("*CONTACT DAMPING, TANGENT FRACTION=0.75\n4\n"));
   EXPECT_THAT(text, HasSubstr("*CLEARANCE, SLAVE=high.bottom, MASTER=low.top, VALUE=-0.01\n"));
   EXPECT_EQ(pair.initial.value, InitialWord::clearance);
   EXPECT_EQ(pair.initial_clearance, -0.01);
-  EXPECT_EQ(contact::text(pair.friction->law), "Coulomb 0.2 and viscous 3 (penalty 5000)");
   pair = pair_again(
       "normal: {decaying: {pressure: 5, clearance: 0.01}}, friction: {rough: {}}, "
       "initial: {adjust: 0.2}",
@@ -451,6 +449,38 @@ TEST(ToInp, LawsOfContactGoThereAndBack) {
   pair = pair_again("sampling: mortar, normal: {penalty: 1e4}", text);
   EXPECT_EQ(pair.sampling.value.rule, SamplingRule::mortar);
   EXPECT_EQ(pair.enforcement.value.kind, EnforcementWord::penalty);
+}
+
+TEST(ToInp, StepsInTimeGoThereAndBack) {
+  const auto steps = [&](const std::string& scheme) {
+    const std::string text = R"(osculate: 1
+mesh: {generate: {a: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [1, 1, 1]}}, b: {box: {x: [0, 1], y: [0, 1], z: [1, 2], elements: [1, 1, 1]}}}}
+materials: {m: {linear_elastic: {E: 1000, nu: 0.25, density: 2}}}
+sections: [{on: a, material: m, element: solid}, {on: b, material: m, element: solid}]
+contact: [{name: c, master: a.top, slave: b.bottom, normal: {penalty: 1e4, damping: {viscous: 4}}, friction: {coulomb: {mu: 0.2, penalty: 5e3, viscous: 3}}}]
+steps: [{name: s, increments: 4, duration: 2, dynamics: {damping: {mass: 0.3}, )" + scheme + R"(}, prescribe: [{on: a.bottom, uz: 0}]}]
+)";
+    const std::string deck = written(text);
+    EXPECT_THAT(deck, HasSubstr("*CONTACT DAMPING, TANGENT FRACTION=0.75\n4\n"));
+    const Description d = parse_model(translate_deck(deck, "model.inp").root, "model.inp");
+    EXPECT_EQ(contact::text(d.contact.at(0).friction->law),
+              "Coulomb 0.2 and viscous 3 (penalty 5000)");
+    EXPECT_EQ(d.steps.at(0).increments.value, 4);
+    EXPECT_EQ(d.steps.at(0).dynamics->damping_mass, 0.3);
+    return *d.steps.at(0).dynamics;
+  };
+  EXPECT_EQ(steps("scheme: central_differences").scheme, SchemeWord::central_differences);
+  EXPECT_TRUE(steps("scheme: newmark, time_steps: {}").time_steps.has_value());
+  EXPECT_FALSE(steps("scheme: {hht: {alpha: 0.1}}").time_steps.has_value());
+  EXPECT_THAT(refusal("normal: {penalty: 1e4}", "normal: {penalty: 1e4, damping: {viscous: 4}}"),
+              HasSubstr("acts in steps with `dynamics` alone"));
+  EXPECT_THAT(refusal("    release: [{on: high.left, of: [uy]}]",
+                      "    contact: [{pair: c, friction: {coulomb: {mu: 0.2, penalty: 5e3, "
+                      "viscous: 3}}}]\n    release: [{on: high.left, of: [uy]}]"),
+              HasSubstr("changes of friction beside a film are not written"));
+  EXPECT_THAT(refusal("normal: {penalty: 1e4}",
+                      "sampling: mortar, enforcement: augmented_lagrange, normal: {penalty: 1e4}"),
+              HasSubstr("an input file has nodes of first-order facets"));
 }
 
 TEST(ToInp, ContactThatChangesGoesThereAndBack) {

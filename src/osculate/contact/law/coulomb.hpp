@@ -154,7 +154,7 @@ struct Coulomb {
     constexpr int most = 50;
     constexpr double rounding = 4e-15;
     const double film = film_rate(sliding);
-    double value = std::min(trial, *kinetic * pressure);
+    double value = std::min(trial, (*kinetic * pressure + film * trial) / (1 + film));
     for (int i = 0; i < most; ++i) {
       const double a = argument(trial - value, sliding);
       const double error = value - coefficient(a) * pressure - film * (trial - value);
