@@ -23,6 +23,8 @@ struct Judge {
   double least_residual = std::numeric_limits<double>::infinity();
   int stalled = 0;  ///< iterations that made the residual hardly smaller, one after the other
   int tiny_steps = 0, short_steps = 0;
+  bool patient = true;  ///< motions that go far before they come to rest are expected
+  int wild = 0;         ///< iterations that left more than there was at first, one after the other
   double last_residual = 0;
 
   /// Rounding of the coordinates times a stiff penalty can keep the residual above any tolerance.
@@ -72,10 +74,25 @@ struct Judge {
   /// residual is a poor guide, and the next correction is taken as a whole.
   [[nodiscard]] bool creeps() const { return short_steps >= 3; }
 
+  /// Bodies were driven far through each other, and every correction drives them farther: what is
+  /// left of the forces does more work on each than the first one had to do. An increment half as
+  /// long ends sooner than this one.
+  ///
+  /// Decision   docs/decisions/062-attempts-that-diverge.md
+  [[nodiscard]] bool diverges() const {
+    constexpr int enough = 8;
+    return !patient && wild >= enough;
+  }
+  void look_for_divergence(const IterationRecord& record) {
+    constexpr double most_of_it = 0.5, far_more = 10;
+    const bool worse = record.residual > most_of_it && record.energy > far_more;
+    wild = worse ? wild + 1 : 0;
+  }
+
   /// Another problem is solved from here on, on the way to the same solution.
   void begin_again() {
     least_residual = std::numeric_limits<double>::infinity();
-    stalled = tiny_steps = short_steps = 0;
+    stalled = tiny_steps = short_steps = wild = 0;
   }
 
   void look_at(double residual_norm, double step, bool near) {
@@ -205,6 +222,7 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
   const double correction = du.lpNorm<Eigen::Infinity>();
   judge.largest_correction = std::max(judge.largest_correction, correction);
   judge.look_at(size, step, record.residual < 1e-3);
+  judge.look_for_divergence(record);
   result.precision.round_off = false;
   if (!judge.settled(result.precision.condition, e.saddle, correction, energy_before)) return false;
   if (former.of_other_states()) return false;
@@ -215,6 +233,9 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
     if (!rounding && judge.stuck())
       return !fail(result, Outcome::not_converged,
                    "no part of the correction lessens the forces out of balance");
+    if (!rounding && judge.diverges())
+      return !fail(result, Outcome::not_converged,
+                   "the iterations diverge: every correction leaves more out of balance");
     if (!rounding) return false;
     result.precision.round_off = by_residual && record.residual > judge.options.residual;
   }
@@ -245,6 +266,7 @@ template <System S>
     return result;
   }
   detail::Resistance<S> resistance(system, guess.resisted);
+  judge.patient = resistance.on();
   detail::Peeling<S> peeling;
   detail::FormerFactors former(options.residual);
   int most = (resistance.on() ? 2 : 1) * options.max_iterations;

@@ -262,6 +262,23 @@ TEST(Newton, FailuresSayWhy) {
   EXPECT_NEAR(third.trial.x[0], -1.0, 1e-12);
 }
 
+/// Newton on sign(x) |x|^0.4 goes from x to -1.5 x: what is left does 1.5^1.4 times the work of the
+/// iteration before, more than ten times that of the first one after five. Eight such are enough.
+TEST(Newton, EndsEarlyWhereEveryCorrectionLeavesMore) {
+  constexpr double power = 0.4;
+  ToySystem system =
+      scalar_system([](double x, double) { return std::copysign(std::pow(std::abs(x), power), x); },
+                    [](double x) { return power * std::pow(std::abs(x), power - 1); });
+  const auto result =
+      solve_from(system, 1.0, {.max_iterations = 25, .line_search = LineSearch::off});
+  EXPECT_EQ(result.outcome, Outcome::not_converged);
+  EXPECT_EQ(result.reason, "the iterations diverge: every correction leaves more out of balance");
+  ASSERT_EQ(result.iterations.size(), 12u);
+  EXPECT_NEAR(result.trial.x[0], std::pow(-1.5, 12), 1e-9);
+  EXPECT_LT(result.iterations[3].energy, 10);
+  EXPECT_GT(result.iterations[4].energy, 10);
+}
+
 /// Each iteration leaves the same share of the residual.
 TEST(Newton, GoesOnWhileTheResidualHalvesEveryTenIterations) {
   const auto with_share = [](double share) {
