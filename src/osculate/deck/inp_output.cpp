@@ -6,6 +6,7 @@
 #include <set>
 
 #include "osculate/deck/inp_parts.hpp"
+#include "osculate/mesh/thin_elements.hpp"
 
 namespace osculate::deck {
 namespace {
@@ -68,14 +69,12 @@ class Requests {
     if (!left_out_.empty())
       m_.notes.push_back(fmt::format("of the results asked for these are not written: {}",
                                      fmt::join(left_out_, ", ")));
-    if (of_deck_nodes_ && !m_.mesh.mesh.relations.empty())
-      m_.notes.emplace_back(
-          "OUTPUT=2D: the .frd file has the solids that shells and beams become, and the deck's "
-          "nodes beside them, which move as OUTPUT=2D says");
     SourceNode output = inp_map(1);
     for (const bool file : {true, false})
       if (SourceNode list = list_of(file); !list.items.empty())
         put(output, file ? "frd" : "dat", std::move(list));
+    if (as_given_ && shows_as_given())
+      put(output, "shells_as_given", inp_text("true", 1)).quoted = false;
     return output;
   }
 
@@ -87,6 +86,22 @@ class Requests {
     int every;
     std::vector<std::size_t> steps;
   };
+
+  /// Whether the .frd file can have shells and beams as the deck has them; a note says why not.
+  bool shows_as_given() {
+    const mesh::ThinElements thin = mesh::thin_elements(m_.mesh.mesh);
+    if (thin.elements.empty() && thin.complete) return false;
+    const bool contact = std::ranges::any_of(active_, [](const Active& a) {
+      return a.file && std::ranges::find(a.wanted.of, "CONTACT") != a.wanted.of.end();
+    });
+    if (thin.complete && !contact) return true;
+    m_.notes.push_back(
+        fmt::format("OUTPUT=2D: the .frd file has the solids that shells and beams become: {}",
+                    contact ? "results of contact are theirs"
+                            : "layers and hollow sections have no "
+                              "means here"));
+    return false;
+  }
 
   void take(const Card& card) {
     if (card.keyword == "STEP") {
@@ -115,7 +130,8 @@ class Requests {
     if (!kind.file) wanted.on = set_on(card);
     wanted.local = card.keyword == "NODEPRINT" && !m_.transformed.empty() &&
                    option_of(card, "GLOBAL") != "YES";
-    if (option_of(card, "OUTPUT") == "2D") of_deck_nodes_ = true;
+    if (const std::string output = option_of(card, "OUTPUT"); kind.file && !output.empty())
+      as_given_ = output == "2D";
     if (kind.file && kind.group == 0 && option_of(card, "GLOBAL") == "NO" &&
         !m_.transformed.empty())
       m_.notes.push_back(fmt::format(
@@ -187,7 +203,7 @@ class Requests {
   InpModel& m_;
   std::size_t step_ = 0;
   int every_ = 1;
-  bool of_deck_nodes_ = false;
+  bool as_given_ = false;  ///< OUTPUT=2D
   std::array<bool, groups> fresh_{};
   std::array<std::vector<Wanted>, groups> wanted_;
   std::vector<Active> active_;

@@ -101,6 +101,12 @@ void check_answers(const Description& description) {
   for (const R& request : description.output.dat)
     if (request.on.empty() && std::ranges::find(request.of, Answer::sof) != request.of.end())
       throw core::InputError(request.mark, "SOF needs a set of facets: on");
+  if (description.output.as_given)
+    for (const R& request : description.output.frd)
+      if (std::ranges::find(request.of, Answer::contact) != request.of.end())
+        throw core::InputError(request.mark,
+                               "CONTACT is of the solids that shells become: not with "
+                               "shells_as_given");
   for (const std::vector<R>* const list : {&description.output.frd, &description.output.dat})
     for (const R& request : *list)
       for (const Name& step : request.steps)

@@ -220,7 +220,12 @@ BoundKeys<Output> output_keys() {
                               .such_as("[{x: time, y: floor.normal_force}]")),
         [](O& o, const Value& v) { o.plots = plot_keys().read_all(v); }},
        frd_key(),
-       dat_key()}};
+       dat_key(),
+       may(&O::as_given, "shells_as_given",
+           boolean("MODEL.frd has shells and beams of a deck by its own elements and nodes, with "
+                   "means over their sections, as OUTPUT=2D of CalculiX; else, and where sections "
+                   "are hollow or of layers, the solids that they become.")
+               .otherwise("false"))}};
 }
 
 bool needs_rigid(Quantity q) {

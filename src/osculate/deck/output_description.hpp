@@ -107,6 +107,7 @@ struct Output {
   int checkpoint = 1;           ///< every so many increments; 0: never
   std::vector<Plot> plots;
   std::vector<AnswerRequest> frd, dat;
+  bool as_given = false;  ///< frd: shells and beams as the deck has them
 };
 
 }  // namespace osculate::deck

@@ -38,6 +38,16 @@ std::string user_line(std::string_view key, std::string_view value, int width = 
                      width);
 }
 
+struct Written {
+  cell::CellType type;
+  const Index* nodes;
+};
+Written written_for(const FrdMesh::Cell& one, const mesh::Mesh& mesh) {
+  if (one.as) return {one.as->type, one.as->nodes.data()};
+  const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(one.ref.block)];
+  return {block.type, block.cell(one.ref.cell)};
+}
+
 bool unique(std::vector<std::int64_t> numbers) {
   std::sort(numbers.begin(), numbers.end());
   return std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end() &&
@@ -76,6 +86,10 @@ FrdCell frd_cell(cell::CellType type) {
       return {5, local_nodes(type, 6, 15)};
     case tet10:
       return {6, local_nodes(type, 4, 10)};
+    case line2:
+      return {11, {0, 1}};
+    case line3:
+      return {12, {0, 1, 2}};
     case tri3:
       return {7, local_nodes(type, 3, 3)};
     case tri6:
@@ -106,10 +120,10 @@ FrdMesh frd_mesh(const mesh::Mesh& mesh, std::vector<FrdMesh::Cell> cells) {
   FrdMesh out;
   std::vector<char> used(mesh.nodes.size(), 0);
   for (FrdMesh::Cell& one : cells) {
-    const mesh::Block& block = mesh.blocks[static_cast<std::size_t>(one.ref.block)];
-    const FrdCell shape = frd_cell(block.type);
+    const auto [type, nodes] = written_for(one, mesh);
+    const FrdCell shape = frd_cell(type);
     if (shape.type == 0) continue;
-    for (const int k : shape.nodes) used[static_cast<std::size_t>(block.cell(one.ref.cell)[k])] = 1;
+    for (const int k : shape.nodes) used[static_cast<std::size_t>(nodes[k])] = 1;
     one.number = mesh::cell_number(mesh, one.ref);
     out.cells.push_back(one);
   }
@@ -147,15 +161,14 @@ std::string frd_cells(const FrdMesh& part, const mesh::Mesh& mesh) {
   for (std::size_t i = 0; i < part.nodes.size(); ++i)
     number[static_cast<std::size_t>(part.nodes[i])] = part.numbers[i];
   constexpr std::size_t in_a_line = 10;
-  std::vector<FrdCell> shapes;
-  for (const mesh::Block& block : mesh.blocks) shapes.push_back(frd_cell(block.type));
   std::string out = fmt::format("    3C{:30}{:38}\n", part.cells.size(), 1);
+  cell::CellType type = cell::CellType::point1;
+  FrdCell shape;
   for (const FrdMesh::Cell& one : part.cells) {
-    const auto block = static_cast<std::size_t>(one.ref.block);
-    const FrdCell& shape = shapes[block];
+    const auto [of, nodes] = written_for(one, mesh);
+    if (of != type) shape = frd_cell(type = of);
     fmt::format_to(std::back_inserter(out), " -1{:10}{:5}{:5}{:5}\n", one.number, shape.type, 0,
                    one.material);
-    const Index* const nodes = mesh.blocks[block].cell(one.ref.cell);
     for (std::size_t k = 0; k < shape.nodes.size(); ++k) {
       if (k % in_a_line == 0) out += k > 0 ? "\n -2" : " -2";
       append_number(out, number[static_cast<std::size_t>(nodes[shape.nodes[k]])]);

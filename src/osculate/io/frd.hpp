@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "osculate/mesh/mesh.hpp"
+#include "osculate/mesh/thin_elements.hpp"
 
 // Pieces of a result file of CalculiX (jobname.frd, ASCII, long format), to be put one after the
 // other; it ends with `frd_end`.
@@ -32,6 +32,7 @@ struct FrdMesh {
     mesh::CellRef ref;
     int material = 1;
     std::int64_t number = 0;
+    const mesh::ThinElement* as = nullptr;  ///< what is written in its place
   };
   std::vector<Cell> cells;
   std::vector<Index> nodes;  ///< of the mesh

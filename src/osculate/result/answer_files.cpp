@@ -63,12 +63,39 @@ class Column {
   std::vector<double> values_;
 };
 
+/// Whether the frd file has shells and beams as the deck has them.
+template <int Dim>
+bool shows_as_given(const AnswerModel<Dim>& answers, const deck::Output& output) {
+  return output.as_given && answers.thin.complete && !answers.thin.elements.empty();
+}
+
+/// A field of the solids at a node, of shells and beams the mean over the section.
+template <int Dim, class Values>
+std::vector<double> told_of(const AnswerModel<Dim>& answers, Index node, const Values& at) {
+  const mesh::SectionMean* const mean = answers.thin.mean_of(node);
+  if (!mean) {
+    const auto own = at(node);
+    return {own.begin(), own.end()};
+  }
+  std::vector<double> sum;
+  for (const auto& [n, share] : mean->shares) {
+    const auto values = at(n);
+    sum.resize(static_cast<std::size_t>(values.size()), 0.0);
+    std::transform(values.begin(), values.end(), sum.begin(), sum.begin(),
+                   [part = share](double value, double so_far) { return so_far + part * value; });
+  }
+  return sum;
+}
+
 /// Values of a field at the nodes of the file.
 template <int Dim>
 std::vector<double> field_values(Answer what, const AnswerModel<Dim>& answers,
+                                 const std::vector<Index>& nodes,
                                  const model::BasicSystem<Dim>& system,
                                  const model::BasicNodalFields<Dim>& f) {
-  const std::vector<Index>& nodes = answers.mesh.nodes;
+  const auto in = [](const auto& field) {
+    return [&field](Index n) { return field[static_cast<std::size_t>(n)]; };
+  };
   Column column(names_of(what).size() - 1, nodes.size());
   if (what == Answer::contact) {
     std::vector<std::array<double, 6>> values(answers.model.mesh.nodes.size());
@@ -80,19 +107,19 @@ std::vector<double> field_values(Answer what, const AnswerModel<Dim>& answers,
   const auto plastic = std::ranges::find(f.memory, "PEEQ", [](const auto& m) { return m.first; });
   const Eigen::VectorXd forces =
       what == Answer::rf ? model::nodal_forces(system) : Eigen::VectorXd();
+  const auto plastic_at = [&](Index n) {
+    const bool any = plastic != f.memory.end();
+    return std::array{any ? plastic->second[static_cast<std::size_t>(n)] : 0.0};
+  };
   for (const Index node : nodes) {
-    const auto n = static_cast<std::size_t>(node);
-    if (what == Answer::u) column.add({f.displacement[n].data(), Dim});
-    if (what == Answer::s) column.add(f.stress[n]);
-    if (what == Answer::e) column.add(f.strain[n]);
+    if (what == Answer::u) column.add(told_of(answers, node, in(f.displacement)));
+    if (what == Answer::s) column.add(told_of(answers, node, in(f.stress)));
+    if (what == Answer::e) column.add(told_of(answers, node, in(f.strain)));
     if (what == Answer::rf) {  // of the whole ring in .frd
       const Vec3 force = answers.force(forces, node) / answers.sector;
       column.add({force.data(), 3});
     }
-    if (what == Answer::peeq) {
-      const double value = plastic == f.memory.end() ? 0.0 : plastic->second[n];
-      column.add({&value, 1});
-    }
+    if (what == Answer::peeq) column.add(told_of(answers, node, plastic_at));
   }
   return column.values();
 }
@@ -128,6 +155,7 @@ AnswerFiles<Dim>::AnswerFiles(const std::string& stem, const deck::BasicBuilt<Di
     : built_(built),
       output_(output),
       answers_(built),
+      shown_(shows_as_given(answers_, output) ? answers_.as_given() : answers_.mesh),
       frd_(stem + ".frd", mark(marks, 0), std::string(io::frd_end)),
       dat_(stem + ".dat", mark(marks, 1)),
       sta_(stem + ".sta", mark(marks, 2)),
@@ -136,8 +164,8 @@ AnswerFiles<Dim>::AnswerFiles(const std::string& stem, const deck::BasicBuilt<Di
       sets_(static_cast<int>(mark(marks, 5))),
       reached_(std::bit_cast<double>(mark(marks, 6))) {
   if (mark(marks, 0) > 0) return;
-  frd_.append(head() + io::frd_nodes(answers_.mesh, built.model.mesh) +
-              io::frd_cells(answers_.mesh, built.model.mesh));
+  frd_.append(head() + io::frd_nodes(shown_, built.model.mesh) +
+              io::frd_cells(shown_, built.model.mesh));
   sta_.append(io::sta_head());
   cvg_.append(io::cvg_head());
 }
@@ -260,8 +288,8 @@ void AnswerFiles<Dim>::write_fields(const model::BasicSystem<Dim>& system,
       if (part->imaginary) name = name.substr(0, 7) + "I";
     }
     names.front() = name;
-    frd_.append(io::frd_field(answers_.mesh, at, what == Answer::u || what == Answer::rf, names,
-                              field_values(what, answers_, system, f)));
+    frd_.append(io::frd_field(shown_, at, what == Answer::u || what == Answer::rf, names,
+                              field_values(what, answers_, shown_.nodes, system, f)));
   }
 }
 
@@ -301,13 +329,16 @@ bool AnswerFiles<Dim>::wants_shapes(const model::Progress& progress) const {
 template <int Dim>
 void AnswerFiles<Dim>::write_shape(const model::Progress& progress, const Eigen::VectorXd& shape,
                                    io::FrdTime at) {
-  Column column(3, answers_.mesh.nodes.size());
-  for (const Index node : answers_.mesh.nodes) column.add({shape.data() + Dim * node, Dim});
+  Column column(3, shown_.nodes.size());
+  for (const Index node : shown_.nodes) {
+    const Vec3 u = answers_.displacement(shape, node);
+    column.add({u.data(), 3});
+  }
   at.piece = ++pieces_;
   at.increment = 1;
   at.step = static_cast<int>(progress.step) + 1;
   at.set = ++sets_;
-  frd_.append(io::frd_field(answers_.mesh, at, true, names_of(Answer::u), column.values()));
+  frd_.append(io::frd_field(shown_, at, true, names_of(Answer::u), column.values()));
 }
 
 template <int Dim>

@@ -62,6 +62,7 @@ class AnswerFiles {
   const deck::BasicBuilt<Dim>& built_;
   const deck::Output& output_;
   AnswerModel<Dim> answers_;
+  io::FrdMesh shown_;  ///< in the frd file
   io::AppendFile frd_, dat_, sta_, cvg_;
   int pieces_ = 0, sets_ = 0;  ///< written to the frd file
   int attempt_ = 1;

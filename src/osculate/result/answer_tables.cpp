@@ -103,9 +103,7 @@ struct Tables {
           body::total_rotation(state.rigid[static_cast<std::size_t>(of->body)]);
       return turning(motions);
     }
-    Vec3 u = Vec3::Zero();
-    u.template head<Dim>() = state.u.template segment<Dim>(Dim * node);
-    return u;
+    return a.displacement(state.u, node);
   }
 
   /// Of a node that stands for a rigid body what acts on all of it.
@@ -306,7 +304,8 @@ struct Tables {
 }  // namespace
 
 template <int Dim>
-AnswerModel<Dim>::AnswerModel(const deck::BasicBuilt<Dim>& all) : model(all.model), built(all) {
+AnswerModel<Dim>::AnswerModel(const deck::BasicBuilt<Dim>& all)
+    : model(all.model), built(all), thin(mesh::thin_elements(all.model.mesh)) {
   const model::BasicModel<Dim>& of = all.model;
   std::vector<io::FrdMesh::Cell> cells;
   std::map<std::pair<Index, Index>, Place> found;
@@ -327,6 +326,29 @@ AnswerModel<Dim>::AnswerModel(const deck::BasicBuilt<Dim>& all) : model(all.mode
     node_number.push_back(mesh::node_number(of.mesh, static_cast<Index>(n)));
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i)
     node_number[static_cast<std::size_t>(mesh.nodes[i])] = mesh.numbers[i];
+}
+
+template <int Dim>
+io::FrdMesh AnswerModel<Dim>::as_given() const {
+  std::map<std::pair<Index, Index>, const mesh::ThinElement*> as;
+  for (const mesh::ThinElement& element : thin.elements)
+    as[{element.cell.block, element.cell.cell}] = &element;
+  std::vector<io::FrdMesh::Cell> cells = mesh.cells;
+  for (io::FrdMesh::Cell& cell : cells)
+    if (const auto found = as.find({cell.ref.block, cell.ref.cell}); found != as.end())
+      cell.as = found->second;
+  return io::frd_mesh(model.mesh, std::move(cells));
+}
+
+template <int Dim>
+Vec3 AnswerModel<Dim>::displacement(const Eigen::VectorXd& u, Index node) const {
+  Vec3 out = Vec3::Zero();
+  if (const mesh::SectionMean* const mean = thin.mean_of(node))
+    for (const auto& [n, share] : mean->shares)
+      out.template head<Dim>() += share * u.segment<Dim>(Dim * n);
+  else
+    out.template head<Dim>() = u.segment<Dim>(Dim * node);
+  return out;
 }
 
 template <int Dim>

@@ -27,10 +27,18 @@ struct AnswerModel {
   std::map<std::pair<Index, Index>, std::size_t> place_of;  ///< by block and cell
   std::vector<std::int64_t> node_number;                    ///< of all nodes of the model's mesh
   double sector = 1;
+  mesh::ThinElements thin;  ///< shells and beams, and what is told of their nodes
 
   /// A cell as it is in the running step.
   [[nodiscard]] Place place_in(const model::BasicModel<Dim>& running, std::size_t cell) const;
   explicit AnswerModel(const deck::BasicBuilt<Dim>& of);
+  /// The cells of `mesh` as the deck has them: shells and beams by their own nodes. What points to
+  /// them lasts as long as this.
+  [[nodiscard]] io::FrdMesh as_given() const;
+  /// Displacements of a node: of shells and beams the mean over the section.
+  ///
+  /// Input      u: of all nodes
+  [[nodiscard]] Vec3 displacement(const Eigen::VectorXd& u, Index node) const;
   /// Forces of a node from outside: loads and reactions. Inertia is no part of them.
   [[nodiscard]] Vec3 force(const Eigen::VectorXd& nodal_forces, Index node) const;
 };

@@ -195,6 +195,7 @@ TEST(GoodModels, SolverAndOutput) {
   EXPECT_EQ(d.output.every, 5);
   EXPECT_FALSE(d.output.report || d.output.compress);
   EXPECT_TRUE(d.output.contact_points);
+  EXPECT_FALSE(d.output.as_given);
   EXPECT_EQ(d.output.history[0].column, "Normal force");
   EXPECT_EQ(d.output.history[1].target, HistoryTarget::rigid);
   EXPECT_EQ(d.output.plots[0].y.size(), 2u);

@@ -87,7 +87,29 @@ TEST(Frd, CellsThatTheFormatDoesNotHaveAreShownByOthers) {
   EXPECT_EQ(frd_cell(hex27).nodes, frd_cell(hex20).nodes);
   EXPECT_EQ(frd_cell(quad9).nodes, frd_cell(quad8).nodes);
   EXPECT_THAT(frd_cell(shell18).nodes, ElementsAre(0, 1, 2, 3, 9, 10, 11, 12));
-  EXPECT_EQ(frd_cell(line2).type, 0);
+  EXPECT_EQ(frd_cell(point1).type, 0);
+}
+
+TEST(Frd, BeamsHaveTheMiddleLast) {
+  using enum cell::CellType;
+  EXPECT_EQ(frd_cell(line2).type, 11);
+  EXPECT_EQ(frd_cell(line3).type, 12);
+  EXPECT_THAT(frd_cell(line3).nodes, ElementsAre(0, 1, 2));
+}
+
+TEST(Frd, AShellIsWrittenByItsOwnNodes) {
+  const mesh::Mesh mesh = read_inp(
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=S3, ELSET=E\n7, 1, 2, 3\n"
+      "*SHELL SECTION, ELSET=E, MATERIAL=M\n0.1\n",
+      "shell.inp");
+  EXPECT_EQ(written(mesh), std::pair(2, std::vector{4, 6, 8, 5, 7, 9}));
+  const mesh::ThinElements thin = mesh::thin_elements(mesh);
+  ASSERT_EQ(thin.elements.size(), 1U);
+  const mesh::CellRef ref = thin.elements[0].cell;
+  const FrdMesh part = frd_mesh(mesh, {{ref, 1, 0, thin.elements.data()}});
+  EXPECT_THAT(part.numbers, ElementsAre(1, 2, 3));
+  EXPECT_THAT(frd_cells(part, mesh), HasSubstr(" -1         7    7    0    1\n"
+                                               " -2         1         2         3\n"));
 }
 
 mesh::Mesh two_triangles() {
