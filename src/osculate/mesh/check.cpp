@@ -153,22 +153,30 @@ double smallest_jacobian(const Mesh& mesh, CellRef ref,
   return smallest;
 }
 
-/// Volume cells that are inside out or flat; only cells with finite coordinates are judged.
+/// Volume cells that are inside out or flat; only cells with finite coordinates are judged. Those
+/// of second order may be so at a node alone.
 void check_volumes(const Mesh& mesh, std::vector<Finding>& findings) {
-  Tally bad;
+  Tally bad, folded;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Block& block = mesh.blocks[b];
     if (cell::info(block.type).dimension != 3) continue;
     const std::vector<cell::VolumeShape> shapes = judged_shapes(block.type);
+    const std::vector<cell::VolumeShape> middle{shapes.back()};
+    const bool curved = cell::info(block.type).nodes > cell::info(block.type).corners;
     for (Index c = 0; c < block.size(); ++c) {
-      const double jacobian = smallest_jacobian(mesh, {static_cast<Index>(b), c}, shapes);
+      const CellRef ref{static_cast<Index>(b), c};
+      const double jacobian = smallest_jacobian(mesh, ref, shapes);
       if (jacobian <= 0)
-        bad.add(fmt::format("{} (smallest Jacobian {:.3g})", cell_name(mesh, block, c), jacobian));
+        (curved && smallest_jacobian(mesh, ref, middle) > 0 ? folded : bad)
+            .add(fmt::format("{} (smallest Jacobian {:.3g})", cell_name(mesh, block, c), jacobian));
     }
   }
   report(findings, Flaw::inside_out, true, bad,
          "volume cell(s) that are inside out or flat (numbered against their type's order, or too "
          "distorted)");
+  report(findings, Flaw::folded, false, folded,
+         "volume cell(s) of second order that are inside out or flat at a node: stresses are poor "
+         "there");
 }
 
 /// Whether a contact is between a node and an edge, or another node.

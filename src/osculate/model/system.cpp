@@ -1,9 +1,10 @@
 #include "osculate/model/system.hpp"
-#include "osculate/model/changing_unknowns.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "osculate/model/changing_unknowns.hpp"
+#include "osculate/model/flow.hpp"
 #include "osculate/model/passed_through.hpp"
 #include "osculate/model/penetration.hpp"
 #include "osculate/model/system_motion.hpp"
@@ -315,6 +316,12 @@ std::string BasicSystem<Dim>::refused(const State& committed, const Trial& trial
     if (!text.empty()) return text;
   }
   return {};
+}
+
+template <int Dim>
+double BasicSystem<Dim>::flow(const State& committed, const Trial&) const {
+  if (!impl_->model.pairs.empty()) return 0;
+  return largest_flow(impl_->model, committed.memory, impl_->last.memory);
 }
 
 template <int Dim>

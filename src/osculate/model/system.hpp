@@ -116,6 +116,9 @@ class BasicSystem {
   /// Why a solution is none, `trial` the last state evaluated: points went through a master that
   /// they were in front of, to where no contact is looked for. Else empty.
   [[nodiscard]] std::string refused(const State& committed, const Trial& trial) const;
+  /// By how much the equivalent plastic strain grows at most, in statics of finite strains without
+  /// contact: there another branch may be met. `trial` the last state evaluated.
+  [[nodiscard]] double flow(const State& committed, const Trial& trial) const;
   /// The converged state with its new history and rates. `trial` must be the last state evaluated.
   [[nodiscard]] State commit(const Trial& trial, double fraction) const;
   /// The first impact before `fraction` (or not long after it) if everything goes on with the

@@ -1,5 +1,8 @@
 #include "osculate/solid/reduced.hpp"
 
+#include <Eigen/QR>
+#include <cmath>
+
 namespace osculate::solid {
 namespace {
 
@@ -194,6 +197,24 @@ Hourglass<Dim> hourglass(const Section<Dim>& section, const Coordinates<Dim>& re
                out);
   }
   return out;
+}
+
+Mat<20, 20> faint_stiffness(const Section<3>& section, const Coordinates<3>& reference) {
+  constexpr double share = 1e-6;
+  static const Shape<3> centre = shape_at<3>(cell::CellType::hex20, Vec3::Zero());
+  const Mat<20, 3> x = reference;
+  const Mat<3, 3> base = 2 * x.transpose() * centre.d.topRows<20>();  // columns: lengths
+  const Vec3 length = base.colwise().norm().transpose();
+  const double least = length.minCoeff(), largest = length.maxCoeff();
+  Mat<20, 10> quadratic;
+  const Mat<20, 3> r = (x.rowwise() - x.colwise().mean()) / largest;
+  quadratic << Mat<20, 1>::Ones(), r, r.cwiseProduct(r), r.col(0).cwiseProduct(r.col(1)),
+      r.col(1).cwiseProduct(r.col(2)), r.col(2).cwiseProduct(r.col(0));
+  const Eigen::HouseholderQR<Mat<20, 10>> factors(quadratic);
+  const Mat<20, 10> q = factors.householderQ() * Mat<20, 10>::Identity();
+  const double size = share * material::unloaded(section.law).young * std::abs(base.determinant()) *
+                      (least * least) / (largest * largest * largest * largest);
+  return size * (Mat<20, 20>::Identity() - q * q.transpose());
 }
 
 template bool fill_mean_point(const Section<2>&, const Coordinates<2>&, const Coordinates<2>&,

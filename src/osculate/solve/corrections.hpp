@@ -1,5 +1,7 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <optional>
 #include <string>
 #include <utility>
@@ -60,6 +62,30 @@ void augment(S& system, const typename S::State& committed, double time,
            " corrections of the multipliers");
 }
 
+/// Systems that know by how much a body flows in an increment.
+template <class S>
+concept KnowsFlow = requires(const S s, const typename S::State& committed,
+                             const typename S::Trial& trial) {
+  { s.flow(committed, trial) } -> std::same_as<double>;
+};
+
+/// A solution that took many iterations and in which metal flows much may be on another branch than
+/// the one that shorter increments follow.
+template <System S>
+std::string lost_its_way(const S& system, const typename S::State& committed,
+                         const NewtonResult<typename S::Trial>& attempt) {
+  constexpr std::size_t many = 10;
+  constexpr double much = 0.01;
+  if constexpr (KnowsFlow<S>) {
+    if (attempt.iterations.size() <= many) return {};
+    const double flow = system.flow(committed, attempt.trial);
+    if (flow > much)
+      return "metal flows by " + std::to_string(static_cast<int>(std::lround(100 * flow))) +
+             " % in one increment of " + std::to_string(attempt.iterations.size()) + " iterations";
+  }
+  return {};
+}
+
 /// A solution that the system refuses has failed.
 template <System S>
 void refuse(const S& system, const typename S::State& committed,
@@ -68,6 +94,9 @@ void refuse(const S& system, const typename S::State& committed,
     if (attempt.outcome == Outcome::converged)
       if (std::string reason = system.refused(committed, attempt.trial); !reason.empty())
         fail(attempt, Outcome::not_converged, std::move(reason));
+  if (attempt.outcome == Outcome::converged)
+    if (std::string reason = lost_its_way(system, committed, attempt); !reason.empty())
+      fail(attempt, Outcome::not_converged, std::move(reason));
 }
 
 /// Newton's method with the corrections of `augment`.

@@ -68,6 +68,41 @@ TEST(Increments, CutBackAndGrowOnTheNominalGrid) {
   EXPECT_TRUE(grew);
 }
 
+/// Flows as it moves.
+struct FlowingSystem : ToySystem {
+  explicit FlowingSystem(ToySystem toy) : ToySystem(std::move(toy)) {}
+  [[nodiscard]] double flow(const State& committed, const State& trial) const {
+    return 0.02 * std::abs(trial.x[0] - committed.x[0]);
+  }
+};
+
+// What flows by more than a hundredth in more than ten iterations is halved: here towards a root of
+// third order, which Newton's method comes near by a third an iteration.
+TEST(Increments, FlowOfManyIterationsIsHalved) {
+  FlowingSystem system(scalar_system([](double x, double t) { return x * x * x - 27 * (1 - t); },
+                                     [](double x) { return 3 * x * x; }));
+  IncrementOptions options;
+  options.max_cutbacks = 12;
+  options.newton.line_search = LineSearch::off;
+  options.newton.predictor = Predictor::tangent;
+  std::vector<std::string> reasons;
+  double before = 3;
+  la::Mumps solver;
+  const auto result = run_step(
+      system, ToySystem::State{vector({3.0})}, 1, options, solver,
+      IncrementObserver<ToySystem::State>(
+          [&](const ToySystem::State& state, const IncrementRecord& record) {
+            EXPECT_TRUE(record.iterations.size() <= 10 || std::abs(state.x[0] - before) <= 0.5);
+            before = state.x[0];
+            return true;
+          }),
+      CutbackObserver([&](const std::string& reason, double, double,
+                          const std::vector<IterationRecord>&) { reasons.push_back(reason); }));
+  EXPECT_EQ(result.outcome, Outcome::converged);
+  ASSERT_FALSE(reasons.empty());
+  EXPECT_EQ(reasons[0].substr(0, 39), "metal flows by 6 % in one increment of ") << reasons[0];
+}
+
 TEST(Increments, EasyStepsNeedNoSubIncrements) {
   ToySystem system =
       scalar_system([](double x, double t) { return 2 * x - t; }, [](double) { return 2.0; });

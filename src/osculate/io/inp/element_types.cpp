@@ -17,7 +17,7 @@ constexpr std::array<ElementType, 47> types{{
     {"C3D8", continuum, hex8, solid},
     {"C3D10", continuum, tet10, solid},
     {"C3D15", continuum, wedge15, solid},
-    {"C3D20", continuum, hex20, solid},
+    {"C3D20", "RIHMTSB", hex20, solid},
     {"CPE3", continuum, tri3, plane},
     {"CPE4", continuum, quad4, plane},
     {"CPE6", continuum, tri6, plane},
