@@ -39,7 +39,7 @@ void evaluate_full(const Section<Dim>& section, CellType type, const Coordinates
   }
   if constexpr (Dim == 3 && N == Eigen::Dynamic) {
     if (has_faint_stiffness(section, type))
-      add_faint_stiffness(faint_stiffness(section, reference), displacement, sum);
+      add_faint_stiffness(faint_stiffness(section, type, reference), displacement, sum);
   }
   sum.finish(out);
 }

@@ -20,8 +20,9 @@ enum class Kinematics { small, finite };
 /// enhanced strains of thin bodies in space (hex8, shell18). reduced: one point for quad4 and hex8,
 /// whose other modes are stabilised (reduced.hpp); two along each axis for quad8 and hex20, of
 /// which one cell alone keeps one mode (quad8) without energy, as do neighbours that are few, or
-/// six (hex20), which have a very small one (reduced.hpp); one and two along the height for wedge6.
-/// beam: hex20 whose first axis lies along a beam, two points along it, five by five across.
+/// six (hex20), which have a very small one (reduced.hpp); two along the height for wedge6
+/// (likewise one mode). beam: hex20 whose first axis lies along a beam, two points along it, five
+/// by five across.
 enum class Formulation { full, bbar, enhanced, solid_shell, reduced, beam };
 
 /// What a body in the plane or in space is made of.

@@ -32,7 +32,7 @@ CellEnergy cell_energy(const Section<Dim>& section, cell::CellType type,
   }
   if constexpr (Dim == 3) {
     if (has_faint_stiffness(section, type)) {
-      const auto resistance = faint_stiffness(section, reference);
+      const auto resistance = faint_stiffness(section, type, reference);
       energy.stored += 0.5 * (displacement.transpose() * resistance * displacement).trace();
     }
   }

@@ -199,22 +199,31 @@ Hourglass<Dim> hourglass(const Section<Dim>& section, const Coordinates<Dim>& re
   return out;
 }
 
-Mat<20, 20> faint_stiffness(const Section<3>& section, const Coordinates<3>& reference) {
-  constexpr double share = 1e-6;
-  static const Shape<3> centre = shape_at<3>(cell::CellType::hex20, Vec3::Zero());
-  const Mat<20, 3> x = reference;
-  const Mat<3, 3> base = 2 * x.transpose() * centre.d.topRows<20>();  // columns: lengths
+NodeMatrix3 faint_stiffness(const Section<3>& section, cell::CellType type,
+                            const Coordinates<3>& reference) {
+  constexpr double share = 1e-6, third = 1.0 / 3;
+  const bool wedge = type == cell::CellType::wedge6;
+  const Eigen::Index n = reference.rows();
+  const Shape<3> centre = shape_at<3>(type, wedge ? Vec3(third, third, 0) : Vec3(Vec3::Zero()));
+  const Vec3 sides = wedge ? Vec3(1, 1, 2) : Vec3(2, 2, 2);  // of the cell's own coordinates
+  const Mat<3, 3> base = reference.transpose() * centre.d.topRows(n) * sides.asDiagonal();
   const Vec3 length = base.colwise().norm().transpose();
   const double least = length.minCoeff(), largest = length.maxCoeff();
-  Mat<20, 10> quadratic;
-  const Mat<20, 3> r = (x.rowwise() - x.colwise().mean()) / largest;
-  quadratic << Mat<20, 1>::Ones(), r, r.cwiseProduct(r), r.col(0).cwiseProduct(r.col(1)),
-      r.col(1).cwiseProduct(r.col(2)), r.col(2).cwiseProduct(r.col(0));
-  const Eigen::HouseholderQR<Mat<20, 10>> factors(quadratic);
-  const Mat<20, 10> q = factors.householderQ() * Mat<20, 10>::Identity();
-  const double size = share * material::unloaded(section.law).young * std::abs(base.determinant()) *
-                      (least * least) / (largest * largest * largest * largest);
-  return size * (Mat<20, 20>::Identity() - q * q.transpose());
+  const double volume = (wedge ? 0.5 : 1.0) * std::abs(base.determinant());
+  using Polynomials = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_nodes<3>, 10>;
+  Polynomials terms(n, wedge ? 4 : 10);
+  const Coordinates<3> r = (reference.rowwise() - reference.colwise().mean()) / largest;
+  terms.col(0).setOnes();
+  terms.middleCols<3>(1) = r;
+  for (Eigen::Index i = 0; !wedge && i < 3; ++i) {
+    terms.col(4 + i) = r.col(i).cwiseAbs2();
+    terms.col(7 + i) = r.col(i).cwiseProduct(r.col((i + 1) % 3));
+  }
+  const Eigen::HouseholderQR<Polynomials> factors(terms);
+  const Polynomials q = factors.householderQ() * Polynomials::Identity(n, terms.cols());
+  const double size = share * material::unloaded(section.law).young * volume * (least * least) /
+                      (largest * largest * largest * largest);
+  return size * (NodeMatrix3::Identity(n, n) - q * q.transpose());
 }
 
 template bool fill_mean_point(const Section<2>&, const Coordinates<2>&, const Coordinates<2>&,

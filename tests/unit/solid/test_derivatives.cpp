@@ -110,7 +110,8 @@ int hourglass_modes(const CellCase& c) {
 }
 /// Those that have little.
 int faint_modes(const CellCase& c) {
-  return c.reduced() && c.type() == cell::CellType::hex20 ? 6 : 0;
+  if (!c.reduced()) return 0;
+  return c.type() == cell::CellType::hex20 ? 6 : c.type() == cell::CellType::wedge6 ? 1 : 0;
 }
 
 // Stiffness without rigid motions is positive: no mode of zero energy (hourglass) is left.
