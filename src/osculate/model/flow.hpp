@@ -8,7 +8,7 @@ namespace osculate::model {
 /// The largest growth of the equivalent plastic strain over the material points of bodies of finite
 /// strain from one state of their memory to another; 0 where nothing can flow.
 ///
-/// Tested by  tests/unit/api/test_flow.cpp
+/// Tested by  tests/unit/solve/test_increments.cpp
 template <int Dim>
 [[nodiscard]] double largest_flow(const BasicModel<Dim>& model, std::span<const double> before,
                                   std::span<const double> after);

@@ -116,7 +116,7 @@ class BasicSystem {
   /// Why a solution is none, `trial` the last state evaluated: points went through a master that
   /// they were in front of, to where no contact is looked for. Else empty.
   [[nodiscard]] std::string refused(const State& committed, const Trial& trial) const;
-  /// By how much the equivalent plastic strain grows at most, in statics of finite strains without
+  /// By how much the equivalent plastic strain grows at most, where strains are finite, without
   /// contact: there another branch may be met. `trial` the last state evaluated.
   [[nodiscard]] double flow(const State& committed, const Trial& trial) const;
   /// The converged state with its new history and rates. `trial` must be the last state evaluated.
