@@ -81,12 +81,12 @@ template class PointAxes<2>;
 template class PointAxes<3>;
 template std::array<double, 9> values_at_points(const Section<2>&, CellType,
                                                 std::span<const double>);
-template std::array<double, 27> values_at_points(const Section<3>&, CellType,
+template std::array<double, 50> values_at_points(const Section<3>&, CellType,
                                                  std::span<const double>);
 template std::array<double, 9> expansion_at_points(const Section<2>&, CellType,
                                                    std::span<const double>,
                                                    std::span<const double>);
-template std::array<double, 27> expansion_at_points(const Section<3>&, CellType,
+template std::array<double, 50> expansion_at_points(const Section<3>&, CellType,
                                                     std::span<const double>,
                                                     std::span<const double>);
 
