@@ -12,6 +12,8 @@
 namespace osculate::model {
 namespace {
 
+double poisson_of(const material::Law& law) { return material::unloaded(law).poisson; }
+
 /// The same section with another formulation, or as it is where that is not made for its cells.
 template <int Dim>
 solid::Section<Dim> with(const solid::Section<Dim>& section, solid::Formulation formulation,
@@ -21,11 +23,11 @@ solid::Section<Dim> with(const solid::Section<Dim>& section, solid::Formulation 
   return solid::unsupported(other, type).empty() ? other : section;
 }
 
-/// Energies of one wedge: all of it, that of the shear between its top and its bottom, and that of
-/// what its points have in common.
+/// Energies of one wedge: all of it, what of it is of the shear between its top and its bottom and
+/// of the stress across, and that of what its points have in common.
 struct WedgeEnergy {
   double whole = 0, across = 0, mean = 0;
-  /// As a plate of one layer does, of which the shear is none; a layer of a thick body stretches,
+  /// As a plate of one layer does, which has neither; a layer of a thick body stretches,
   /// and one that is sheared alone has no other strain.
   [[nodiscard]] bool bends() const {
     const double bending = whole - mean;
@@ -42,8 +44,9 @@ bool is_thin(const solid::Coordinates<3>& x, Vec3& normal) {
   return std::abs(up.dot(normal)) < 0.5 * side;
 }
 
-/// Formula    shear: sum V (sigma n)_t . (epsilon n)_t , t: along the plate; in common: V/2 times
-///            the mean stress and strain
+/// Formula    shear: sum V (sigma n)_t . (epsilon n)_t , t: along the plate; across: sum V/2
+///            sigma_nn^2 (1 + nu) (1 - 2 nu) / (E (1 - nu)) , what is less if the thickness may
+///            change; in common: V/2 times the mean stress and strain
 WedgeEnergy wedge_energy(const solid::Section<3>& section, const CellPlaces<3>& at,
                          const Vec3& normal, const material::Memory& memory) {
   const auto tensor = [](const Vec<6>& v) {
@@ -54,6 +57,8 @@ WedgeEnergy wedge_energy(const solid::Section<3>& section, const CellPlaces<3>& 
   WedgeEnergy out;
   const solid::CellStress<3> cell = solid::stress_at_points(section, cell::CellType::wedge6,
                                                             at.reference, at.displacement, memory);
+  const double young = material::unloaded(section.law).young, nu = poisson_of(section.law);
+  const double give = (1 + nu) * (1 - 2 * nu) / (young * (1 - nu));
   double volume = 0;
   Mat<3, 3> stresses = Mat<3, 3>::Zero(), strains = Mat<3, 3>::Zero();
   for (std::size_t q = 0; q < static_cast<std::size_t>(cell.count); ++q) {
@@ -61,7 +66,8 @@ WedgeEnergy wedge_energy(const solid::Section<3>& section, const CellPlaces<3>& 
     const Mat<3, 3> stress = tensor(cell.point[q].stress), strain = tensor(cell.point[q].strain);
     const Vec3 pull = stress * normal, way = strain * normal;
     out.whole += 0.5 * part * stress.cwiseProduct(strain).sum();
-    out.across += part * (pull.dot(way) - pull.dot(normal) * way.dot(normal));
+    const double across = pull.dot(normal);
+    out.across += part * (pull.dot(way) - across * way.dot(normal) + 0.5 * give * across * across);
     volume += part;
     stresses += part * stress;
     strains += part * strain;
@@ -88,8 +94,6 @@ void add_wedge(const solid::Section<3>& section, cell::CellType type, const Cell
 }
 void add_wedge(const solid::Section<2>&, cell::CellType, const CellPlaces<2>&,
                const material::Memory&, Locking&) {}
-
-double poisson_of(const material::Law& law) { return material::unloaded(law).poisson; }
 
 }  // namespace
 

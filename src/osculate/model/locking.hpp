@@ -33,8 +33,8 @@ struct Locking {
 ///            formulations, and dissipated; of cells that have dissipated more than they store.
 ///            Those have flown well beyond yield, where the volume changes of a cell that is bent
 ///            are no longer real. Of wedge6 cells that are less than half as high as long and bend
-///            more than they stretch, the energy of the shear between top and bottom is one that
-///            a plate so thin hardly has
+///            more than they stretch, the energy of the shear between top and bottom, and of the
+///            stress across, is one that a plate so thin hardly has
 /// Tested by  tests/unit/api/test_locking.cpp
 template <int Dim>
 void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
