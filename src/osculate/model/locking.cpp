@@ -35,13 +35,13 @@ struct WedgeEnergy {
   }
 };
 
-/// Whether a wedge is less high than its triangle is long; its normal.
+/// Whether a wedge is less than half as high as its triangle is long; its normal.
 bool is_thin(const solid::Coordinates<3>& x, Vec3& normal) {
   const Vec3 a = x.row(1) - x.row(0), b = x.row(2) - x.row(0);
   const Vec3 up = (x.bottomRows<3>().colwise().sum() - x.topRows<3>().colwise().sum()) / 3;
-  const double side = std::max({a.norm(), b.norm(), (a - b).norm()});
+  const double side = std::sqrt(a.cross(b).norm());
   normal = a.cross(b).normalized();
-  return std::abs(up.dot(normal)) < side;
+  return std::abs(up.dot(normal)) < 0.5 * side;
 }
 
 /// Formula    shear: sum V (sigma n)_t . (epsilon n)_t , t: along the plate; across: sum V/2

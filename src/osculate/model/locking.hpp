@@ -32,7 +32,7 @@ struct Locking {
 ///            1 / (1 - s). Where a law remembers, W is the work: stored, with the same flow in all
 ///            formulations, and dissipated; of cells that have dissipated more than they store.
 ///            Those have flown well beyond yield, where the volume changes of a cell that is bent
-///            are no longer real. Of wedge6 cells that are less high than long and bend
+///            are no longer real. Of wedge6 cells that are less than half as high as long and bend
 ///            more than they stretch, the energy of the shear between top and bottom, and of the
 ///            stress across, is one that a plate so thin hardly has
 /// Tested by  tests/unit/api/test_locking.cpp
