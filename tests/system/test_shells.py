@@ -67,6 +67,34 @@ class Shells(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
 
+    def said(self, deck):
+        with open(os.path.join(self.folder, "a.inp"), "w", encoding="utf-8") as file:
+            file.write(deck)
+        done = subprocess.run([PROGRAM, "run", "a.inp"], cwd=self.folder, capture_output=True, text=True,
+                              check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout + done.stderr
+
+    def test_knots_hold_nodes_together(self):
+        """Corners of frames have nodes at one place, which is no flaw."""
+        for step in ("*STEP", "*STEP, NLGEOM"):
+            rows = line([(0, 0, 0), (1, 0, 0), (2, 0, 0), (2, 1, 0), (2, 2, 0)], "B32R") + material()
+            rows += ["*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=RECT", "0.1, 0.1", "0, 0, 1", "*BOUNDARY", "1, 1, 6",
+                     step, "*STATIC", "*CLOAD", "5, 3, 1.E-6", "*END STEP", ""]
+            said = self.said("\n".join(rows))
+            self.assertNotIn("at the same place", said)
+            self.assertNotIn("warning", said)
+
+    def test_triangles_that_lock_say_so(self):
+        """Long S3 are sheared as they bend, S6 are not."""
+        self.assertIn("S6 in place of S3", self.said(plate("S3", 2)[0]))
+        self.assertNotIn("they lock", self.said(plate("S6", 2)[0]))
+
+    def test_rows_of_reduced_integration_have_an_answer(self):
+        """A row of S8R, and of B32R with rectangles, in few iterations."""
+        for deck in (plate("S8R", 10)[0], beam("B32R", 20, "2, 1.")[0], beam("B32R", 4, "4, 1.")[0]):
+            self.assertNotIn("halving", self.said(deck))
+
     def displacement(self, deck, node, component):
         """Of a node that the deck loads."""
         with open(os.path.join(self.folder, "a.inp"), "w") as file:

@@ -193,6 +193,21 @@ std::vector<std::string> sets_without_cells(const Description& description,
   return names;
 }
 
+/// By node: whether relations of the mesh (knots and ends of shells and beams) or a rigid body of
+/// nodes move it together with others; empty: none.
+std::vector<bool> joined_nodes(const Description& description, const mesh::Mesh& mesh) {
+  std::vector<std::string> bodies;
+  for (const Rigid& rigid : description.rigid)
+    if (const auto* const shape = std::get_if<SetShape>(&rigid.shape))
+      bodies.push_back(shape->set.value);
+  if (bodies.empty() && mesh.relations.empty()) return {};
+  std::vector<bool> joined = nodes_of(bodies, mesh);
+  for (const mesh::Relation& relation : mesh.relations)
+    for (const mesh::Relation::Term& term : relation.terms)
+      joined[static_cast<std::size_t>(term.node)] = true;
+  return joined;
+}
+
 /// Of the contacts that name two sets of nodes, of ties, and of springs that join nodes.
 std::vector<mesh::ContactSides> sides_of_contacts(const Description& description,
                                                   const mesh::Mesh& mesh) {
@@ -204,6 +219,8 @@ std::vector<mesh::ContactSides> sides_of_contacts(const Description& description
     if (!contact.all && contact.master.value != contact.slave.value)
       add(contact.master, contact.slave);
   for (const Tie& tie : description.ties) add(tie.master, tie.slave);
+  if (const std::vector<bool> joined = joined_nodes(description, mesh); !joined.empty())
+    out.push_back({joined, joined});
   std::vector<std::string> first, others;
   for (const Spring& spring : description.springs)
     for (std::size_t k = 0; k < spring.terms.size(); ++k)

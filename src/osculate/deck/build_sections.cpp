@@ -51,6 +51,8 @@ solid::Formulation formulation_of(const Section& s, const Material& material) {
       return solid::Formulation::enhanced;
     case Formulation::reduced:
       return solid::Formulation::reduced;
+    case Formulation::beam:
+      return solid::Formulation::beam;
     default:
       return solid::Formulation::full;
   }

@@ -114,7 +114,7 @@ enum class SectionElement { plane_strain, plane_stress, axisymmetric, solid, sol
 /// True for bodies in space.
 [[nodiscard]] constexpr bool is_space(SectionElement e) { return e >= SectionElement::solid; }
 enum class Kinematics { small, finite };
-enum class Formulation { automatic, full, bbar, enhanced, reduced };
+enum class Formulation { automatic, full, bbar, enhanced, reduced, beam };
 
 struct Section {
   Name on;

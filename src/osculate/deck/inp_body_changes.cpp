@@ -8,6 +8,7 @@
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/inp_parts.hpp"
+#include "osculate/io/inp/element_types.hpp"
 #include "osculate/io/inp/loaded_sets.hpp"
 #include "osculate/io/inp/thin_sections.hpp"
 
@@ -203,12 +204,15 @@ void keep_one_layer(const InpModel& m, const Card& card, const std::string& on,
   given.points.erase(given.points.upper_bound(known->in_layer), given.points.end());
 }
 
-/// Wedges of six nodes, which have two points in CalculiX and six here.
-bool has_wedges(const InpModel& m, const std::string& on) {
+/// Bricks of B32R, whose 50 points come in another order in CalculiX.
+bool has_beam_bricks(const InpModel& m, const std::string& on) {
   const mesh::Mesh& mesh = m.mesh.mesh;
   const mesh::Set* const set = mesh.find_set(on);
-  return set != nullptr && std::ranges::any_of(set->cells, [&](const mesh::CellRef& cell) {
-           return mesh.blocks[static_cast<std::size_t>(cell.block)].type == cell::CellType::wedge6;
+  return set != nullptr && std::ranges::any_of(m.mesh.sets, [&](const io::inp::DeckSet& typed) {
+           return typed.kind == SetKind::elements && typed.type == io::inp::beam_brick &&
+                  std::ranges::any_of(mesh.sets[typed.set].cells, [&](const mesh::CellRef& cell) {
+                    return std::ranges::find(set->cells, cell) != set->cells.end();
+                  });
          });
 }
 
@@ -231,9 +235,9 @@ void put_initial_state(const InpModel& m, SourceNode& root) {
         io::inp::fail(m.deck, card, "points of shells of layers are not supported: give one value");
       for (auto& [set, given] : all) {
         if (!given.points.empty() && inp_dimension(m) == 2) keep_one_layer(m, card, set, given);
-        if (!given.points.empty() && has_wedges(m, set))
+        if (!given.points.empty() && has_beam_bricks(m, set))
           io::inp::fail(m.deck, card,
-                        "points of C3D6 and S3 are not supported, which have others here: give one "
+                        "points of B32R are not supported, which have another order here: give one "
                         "value");
         SourceNode& entry = list.items.emplace_back(inp_map(given.line));
         put(entry, "on", inp_text(set, given.line));

@@ -14,12 +14,14 @@ using io::inp::Card;
 using io::inp::SetKind;
 
 /// C3D8 and CPE4 are fully integrated as in CalculiX; of the variants R is reduced integration, I
-/// are incompatible modes, H is for incompressible materials.
+/// are incompatible modes, H is for incompressible materials. C3D6 has two points.
 const char* formulation_of(std::string_view type, const io::inp::ElementType& known) {
   using enum cell::CellType;
   const std::string_view letters = type.substr(known.name.size());
   const bool first = known.cell == quad4 || known.cell == hex8;
   const bool second = known.cell == quad8 || known.cell == hex20;
+  if (type == io::inp::beam_brick) return "beam";
+  if (known.cell == wedge6) return "reduced";
   if (letters.find('R') != std::string_view::npos && (first || second)) return "reduced";
   if (letters.find('I') != std::string_view::npos && first) return "enhanced";
   if (letters.find('H') != std::string_view::npos && first && !type.starts_with("CPS"))

@@ -26,7 +26,7 @@ BoundKey<Description> initial_key(std::vector<InitialState> Description::*member
                            "first direction of the cell first. Cells of few points leave the "
                            "others out; points that are not given have none.",
                       tensor_spec("One point: ", unit))
-                     .count(1, 27)
+                     .count(1, 50)
                      .such_as("[[-100, -100, -100, 0, 0, 0]]")),
         [](I& i, const Value& v) {
           for (const Value& item : v.items) i.points.value.push_back(numbers_of(item).value);

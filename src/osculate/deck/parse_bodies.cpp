@@ -68,7 +68,11 @@ BoundKeys<Section> section_keys() {
                 "CPS4I, CPE4I, CAX4I and C3D8I)"),
            word("reduced", Formulation::reduced,
                 "fewer points: of quad4 and hex8 one, with hourglass control, of quad8 and hex20 "
-                "two along each axis (Abaqus' and CalculiX' elements whose names end in R)")})
+                "two along each axis (Abaqus' and CalculiX' elements whose names end in R), of "
+                "wedge6 two along its height (CalculiX' C3D6)"),
+           word("beam", Formulation::beam,
+                "of hex20, whose first axis lies along a beam: two points along it, five by five "
+                "across (CalculiX' B32R)")})
           .otherwise("auto")
           .such_as("bbar");
   return {{need(&S::on, "on", set_or_sets("Set of area cells, in space of volume cells.", "block")),

@@ -209,11 +209,13 @@ std::string InpMesh<Dim>::type_of(const model::BasicBulkSection<Dim>& section,
   const int nodes = cell::info(type).nodes;
   const std::string name = fmt::format("{}{}", prefix(own), nodes);
   const io::inp::ElementType* const found = io::inp::find_element_type(name);
-  if (!found || found->cell != type || own.formulation == solid::Formulation::solid_shell)
+  if (!found || found->cell != type || own.formulation == solid::Formulation::solid_shell ||
+      own.formulation == solid::Formulation::beam)
     throw core::InputError(
         d_.mesh.mark,
         fmt::format("section '{}': an input file has no element for its {} cells{}", section.name,
                     cell::info(type).name, found ? " of this formulation" : ""));
+  if (type == cell::CellType::wedge6) return name;
   return name + std::string(ending(own.formulation));
 }
 
@@ -397,6 +399,17 @@ template class InpMesh<3>;
 namespace {
 
 template <int Dim>
+bool has_full_wedges(const model::BasicModel<Dim>& m) {
+  return std::ranges::any_of(m.sections, [&](const auto& section) {
+    return std::ranges::any_of(section.cells, [&](const mesh::CellRef& ref) {
+      const cell::CellType type = m.mesh.blocks[static_cast<std::size_t>(ref.block)].type;
+      return type == cell::CellType::wedge6 &&
+             model::section_on(section, type).formulation == solid::Formulation::full;
+    });
+  });
+}
+
+template <int Dim>
 WrittenDeck deck_of(const Description& d, const BasicBuilt<Dim>& built) {
   WrittenDeck deck;
   Leaves leaves(d);
@@ -422,6 +435,10 @@ WrittenDeck deck_of(const Description& d, const BasicBuilt<Dim>& built) {
         "CalculiX has no elements with mean dilatation (C3D8H, CPE4H, ...) and no plane ones with "
         "enhanced strains (CPE4I, ...): Osculate and Abaqus read them; `formulation: full` is "
         "CPE4");
+  if (has_full_wedges(built.model))
+    deck.notes.push_back(
+        "C3D6 has two points here as in CalculiX: `formulation: reduced` of wedge6 cells; those of "
+        "this model have more of them");
   return deck;
 }
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <numeric>
 
+#include "osculate/cell/quadrature.hpp"
 #include "osculate/cell/volume_shape.hpp"
 #include "osculate/mesh/boundary.hpp"
 #include "osculate/mesh/support.hpp"
@@ -141,6 +142,18 @@ std::vector<cell::VolumeShape> judged_shapes(cell::CellType type) {
   return shapes;
 }
 
+/// Those at the points where a cell of second order is integrated fully.
+std::vector<cell::VolumeShape> shapes_at_points(cell::CellType type) {
+  using enum cell::CellType;
+  const cell::Quadrature3D rule = type == tet10     ? cell::gauss_tetrahedron(2)
+                                  : type == wedge15 ? cell::gauss_wedge(2, 3)
+                                  : type == shell18 ? cell::gauss_hex(3, 2)
+                                                    : cell::gauss_hex(3);
+  std::vector<cell::VolumeShape> shapes;
+  for (const Vec3& xi : rule.points) shapes.push_back(cell::volume_shape(type, xi));
+  return shapes;
+}
+
 double smallest_jacobian(const Mesh& mesh, CellRef ref,
                          const std::vector<cell::VolumeShape>& shapes) {
   const Index* const nodes = nodes_of(mesh, ref);
@@ -153,22 +166,31 @@ double smallest_jacobian(const Mesh& mesh, CellRef ref,
   return smallest;
 }
 
-/// Volume cells that are inside out or flat; only cells with finite coordinates are judged.
+/// Volume cells that are inside out or flat; only cells with finite coordinates are judged. Those
+/// of second order may be so where they have no point of integration.
 void check_volumes(const Mesh& mesh, std::vector<Finding>& findings) {
-  Tally bad;
+  Tally bad, folded;
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
     const Block& block = mesh.blocks[b];
     if (cell::info(block.type).dimension != 3) continue;
     const std::vector<cell::VolumeShape> shapes = judged_shapes(block.type);
+    const std::vector<cell::VolumeShape> points = shapes_at_points(block.type);
+    const bool curved = cell::info(block.type).nodes > cell::info(block.type).corners;
     for (Index c = 0; c < block.size(); ++c) {
-      const double jacobian = smallest_jacobian(mesh, {static_cast<Index>(b), c}, shapes);
+      const CellRef ref{static_cast<Index>(b), c};
+      const double jacobian = smallest_jacobian(mesh, ref, shapes);
       if (jacobian <= 0)
-        bad.add(fmt::format("{} (smallest Jacobian {:.3g})", cell_name(mesh, block, c), jacobian));
+        (curved && smallest_jacobian(mesh, ref, points) > 0 ? folded : bad)
+            .add(fmt::format("{} (smallest Jacobian {:.3g})", cell_name(mesh, block, c), jacobian));
     }
   }
   report(findings, Flaw::inside_out, true, bad,
          "volume cell(s) that are inside out or flat (numbered against their type's order, or too "
          "distorted)");
+  report(
+      findings, Flaw::folded, false, folded,
+      "volume cell(s) of second order that are inside out or flat at a node or in the middle, not "
+      "at their points: stresses are poor there");
 }
 
 /// Whether a contact is between a node and an edge, or another node.

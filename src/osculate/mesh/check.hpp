@@ -16,7 +16,8 @@ enum class Flaw : std::uint8_t {
   duplicate_volume,  ///< two volume cells on the same nodes
   duplicate_area,    ///< two area cells on the same nodes
   duplicate_line,    ///< two line cells on the same nodes
-  inside_out,        ///< a volume cell whose Jacobian is not positive at its nodes and centre
+  inside_out,        ///< a volume cell whose Jacobian is not positive at its nodes or middle
+  folded,            ///< one of second order, but not at its points
   unused_node,       ///< a node of no cell (points and node sets do not count as use)
   double_node,       ///< two nodes of one body's set at the same place: parts that are not joined
   hanging_node,      ///< plane: a node on an edge of another cell of its set, between its ends

@@ -12,6 +12,8 @@
 namespace osculate::model {
 namespace {
 
+double poisson_of(const material::Law& law) { return material::unloaded(law).poisson; }
+
 /// The same section with another formulation, or as it is where that is not made for its cells.
 template <int Dim>
 solid::Section<Dim> with(const solid::Section<Dim>& section, solid::Formulation formulation,
@@ -21,7 +23,77 @@ solid::Section<Dim> with(const solid::Section<Dim>& section, solid::Formulation 
   return solid::unsupported(other, type).empty() ? other : section;
 }
 
-double poisson_of(const material::Law& law) { return material::unloaded(law).poisson; }
+/// Energies of one wedge: all of it, what of it is of the shear between its top and its bottom and
+/// of the stress across, and that of what its points have in common.
+struct WedgeEnergy {
+  double whole = 0, across = 0, mean = 0;
+  /// As a plate of one layer does, which has neither; a layer of a thick body stretches,
+  /// and one that is sheared alone has no other strain.
+  [[nodiscard]] bool bends() const {
+    const double bending = whole - mean;
+    return bending > 1e-3 * across && bending > mean - across;
+  }
+};
+
+/// Whether a wedge is less than half as high as its triangle is long; its normal.
+bool is_thin(const solid::Coordinates<3>& x, Vec3& normal) {
+  const Vec3 a = x.row(1) - x.row(0), b = x.row(2) - x.row(0);
+  const Vec3 up = (x.bottomRows<3>().colwise().sum() - x.topRows<3>().colwise().sum()) / 3;
+  const double side = std::sqrt(a.cross(b).norm());
+  normal = a.cross(b).normalized();
+  return std::abs(up.dot(normal)) < 0.5 * side;
+}
+
+/// Formula    shear: sum V (sigma n)_t . (epsilon n)_t , t: along the plate; across: sum V/2
+///            sigma_nn^2 (1 + nu) (1 - 2 nu) / (E (1 - nu)) , what is less if the thickness may
+///            change; in common: V/2 times the mean stress and strain
+WedgeEnergy wedge_energy(const solid::Section<3>& section, const CellPlaces<3>& at,
+                         const Vec3& normal, const material::Memory& memory) {
+  const auto tensor = [](const Vec<6>& v) {
+    Mat<3, 3> t;
+    t << v[0], v[3], v[5], v[3], v[1], v[4], v[5], v[4], v[2];
+    return t;
+  };
+  WedgeEnergy out;
+  const solid::CellStress<3> cell = solid::stress_at_points(section, cell::CellType::wedge6,
+                                                            at.reference, at.displacement, memory);
+  const double young = material::unloaded(section.law).young, nu = poisson_of(section.law);
+  const double give = (1 + nu) * (1 - 2 * nu) / (young * (1 - nu));
+  double volume = 0;
+  Mat<3, 3> stresses = Mat<3, 3>::Zero(), strains = Mat<3, 3>::Zero();
+  for (std::size_t q = 0; q < static_cast<std::size_t>(cell.count); ++q) {
+    const double part = cell.point[q].volume;
+    const Mat<3, 3> stress = tensor(cell.point[q].stress), strain = tensor(cell.point[q].strain);
+    const Vec3 pull = stress * normal, way = strain * normal;
+    out.whole += 0.5 * part * stress.cwiseProduct(strain).sum();
+    const double across = pull.dot(normal);
+    out.across += part * (pull.dot(way) - across * way.dot(normal) + 0.5 * give * across * across);
+    volume += part;
+    stresses += part * stress;
+    strains += part * strain;
+  }
+  out.mean = 0.5 * stresses.cwiseProduct(strains).sum() / volume;
+  return out;
+}
+
+/// Adds the shear of a thin wedge that bends.
+void add_wedge(const solid::Section<3>& section, cell::CellType type, const CellPlaces<3>& at,
+               const material::Memory& memory, Locking& sum) {
+  Vec3 normal;
+  if (type != cell::CellType::wedge6 || !is_thin(at.reference, normal)) return;
+  const WedgeEnergy energy = wedge_energy(section, at, normal, memory);
+  if (!std::isfinite(energy.whole)) return;
+  constexpr double visible = 1e-6;
+  sum.wedges = true;
+  sum.floor += solid::strain_energy(section, type, at.reference,
+                                    solid::Coordinates<3>(visible * at.reference));
+  sum.energy += energy.whole;
+  sum.enhanced += energy.whole -
+                  (energy.bends() ? std::clamp(energy.across, 0.0, std::abs(energy.whole)) : 0.0);
+  sum.bbar += energy.whole;
+}
+void add_wedge(const solid::Section<2>&, cell::CellType, const CellPlaces<2>&,
+               const material::Memory&, Locking&) {}
 
 }  // namespace
 
@@ -47,9 +119,12 @@ void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
     for (std::size_t i = 0; i < section.cells.size(); ++i) {
       const CellNodes cell = cell_nodes(model.mesh, section.cells[i]);
       memory = memory_after(memory, section, i, cell.type);
-      if (memory.removed || full.formulation != Formulation::full || cell.type != wanted) continue;
+      const bool first = full.formulation == Formulation::full && cell.type == wanted;
+      if (memory.removed || (!first && cell.type != cell::CellType::wedge6)) continue;
       const CellPlaces<Dim> at =
           places_of(model, section, cell.nodes, state.u, memory.of(state.memory));
+      if (!sum.flows) add_wedge(full, cell.type, at, memory.of(state.memory), sum);
+      if (!first) continue;
       const solid::Coordinates<Dim>&reference = at.reference, &moved = at.displacement;
       const auto energy_in = [&](const Section& of) {
         return solid::cell_energy(of, cell.type, reference, moved, memory.of(state.memory));
@@ -73,14 +148,17 @@ std::string locks(const Locking& found) {
   const double left = volume ? found.bbar : found.enhanced;
   return fmt::format(
       "warning: section '{}': {:.2g} % of the {} is in strains that first-order cells "
-      "cannot avoid (they lock, {}): the body is too stiff; give it formulation: {}, second-order "
-      "cells, or more cells",
+      "cannot avoid (they lock, {}): the body is too stiff; give it {}second-order cells{}, or "
+      "more cells",
       found.section, 100 * (1 - left / found.energy),
       found.flows ? "work done on cells that flow" : "strain energy",
       found.flows ? "since flow keeps the volume"
       : volume    ? "being nearly incompressible"
                   : "in bending",
-      volume ? "bbar" : "enhanced");
+      volume         ? "formulation: bbar, "
+      : found.wedges ? ""
+                     : "formulation: enhanced, ",
+      found.wedges && !volume ? " (S6 in place of S3)" : "");
 }
 
 template void measure_locking(const BasicModel<2>&, const BasicState<2>&, std::vector<Locking>&);

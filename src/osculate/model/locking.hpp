@@ -12,13 +12,14 @@ namespace osculate::model {
 /// that other formulations of the same cells would not have at the same displacements.
 struct Locking {
   std::string section;
-  double energy = 0;  ///< of quad4 and hex8 cells with full integration
+  double energy = 0;  ///< of quad4 and hex8 cells with full integration, of thin wedge6 cells
   double enhanced =
       0;             ///< what is left with enhanced strains; that of `energy` where there are none
   double bbar = 0;   ///< with the mean volume change, where Poisson's ratio is near a half or the
                      ///< cell flows
   double floor = 0;  ///< of strains too small to be told from round-off
-  bool flows = false;  ///< the section's law remembers: only cells that flow are in the sums
+  bool wedges = false;  ///< it has thin wedge6 cells (CalculiX' S3)
+  bool flows = false;   ///< the section's law remembers: only cells that flow are in the sums
   [[nodiscard]] bool large() const {
     return energy > floor && energy - std::min(enhanced, bbar) > 0.15 * energy;
   }
@@ -31,7 +32,9 @@ struct Locking {
 ///            1 / (1 - s). Where a law remembers, W is the work: stored, with the same flow in all
 ///            formulations, and dissipated; of cells that have dissipated more than they store.
 ///            Those have flown well beyond yield, where the volume changes of a cell that is bent
-///            are no longer real
+///            are no longer real. Of wedge6 cells that are less than half as high as long and bend
+///            more than they stretch, the energy of the shear between top and bottom, and of the
+///            stress across, is one that a plate so thin hardly has
 /// Tested by  tests/unit/api/test_locking.cpp
 template <int Dim>
 void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,

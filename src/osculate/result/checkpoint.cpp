@@ -137,7 +137,8 @@ void fields(Archive& a, SmallStrain& found) {
 }
 template <class Archive>
 void fields(Archive& a, Locking& found) {
-  auto& [section, energy, enhanced, bbar, floor, flows] = found;
+  auto& [section, energy, enhanced, bbar, floor, wedges, flows] = found;
+  (void)wedges;  // known anew after the next increment
   a(section, energy, enhanced, bbar, floor, flows);
 }
 }  // namespace osculate::model

@@ -172,6 +172,8 @@ const char* formulation_name(solid::Formulation formulation) {
       return "solid shell";
     case solid::Formulation::reduced:
       return "reduced integration";
+    case solid::Formulation::beam:
+      return "reduced integration along the beam";
   }
   return "";
 }

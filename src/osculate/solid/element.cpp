@@ -37,6 +37,10 @@ void evaluate_full(const Section<Dim>& section, CellType type, const Coordinates
     }
     sum.add(p, r);
   }
+  if constexpr (Dim == 3 && N == Eigen::Dynamic) {
+    if (has_faint_stiffness(section, type))
+      add_faint_stiffness(faint_stiffness(section, type, reference), displacement, sum);
+  }
   sum.finish(out);
 }
 
@@ -156,7 +160,8 @@ void evaluate_whole(const Section<Dim>& section, CellType type, const Coordinate
   const bool reduced = section.formulation == Formulation::reduced;
   if (reduced && type == corner_cell<Dim>)
     evaluate_one_point<Dim>(section, reference, displacement, memory, with_tangent, out);
-  else if (!reduced && section.formulation != Formulation::full)
+  else if (!reduced && section.formulation != Formulation::full &&
+           section.formulation != Formulation::beam)
     evaluate_corners(section, reference, displacement, memory, with_tangent, out);
   else if (type == corner_cell<Dim>)
     evaluate_full_of.template operator()<corners<Dim>>();
@@ -220,10 +225,14 @@ std::string_view unsupported(const Section<Dim>& section, CellType type) {
     return "formulation solid_shell exists for hex8 and shell18 cells only; use full";
   }
   if (section.formulation == Formulation::reduced) {
-    if (type == corner_cell<Dim> || type == CellType::quad8 || type == CellType::hex20) return {};
+    if (type == corner_cell<Dim> || type == CellType::quad8 || type == CellType::hex20 ||
+        type == CellType::wedge6)
+      return {};
     return Dim == 2 ? "formulation reduced exists for quad4 and quad8 cells only; use auto"
-                    : "formulation reduced exists for hex8 and hex20 cells only; use auto";
+                    : "formulation reduced exists for hex8, hex20 and wedge6 cells only; use auto";
   }
+  if (section.formulation == Formulation::beam)
+    return type == CellType::hex20 ? "" : "formulation beam exists for hex20 cells only; use auto";
   if (type != corner_cell<Dim>)
     return Dim == 2 ? "formulations bbar and enhanced exist for quad4 cells only; use auto"
                     : "formulations bbar and enhanced exist for hex8 cells only; use auto";
@@ -275,6 +284,7 @@ double smallest_jacobian(CellType type, const Coordinates<Dim>& reference) {
   };
   for (const bool ring : {false, true})
     for (const Shape<Dim>& s : rule_of<Dim>(type, ring).shape) visit(s);
+  if (cell::info(type).nodes > cell::info(type).corners) return smallest;
   for (int k = 0; k < cell::info(type).nodes; ++k)
     visit(shape_at<Dim>(type, node_at<Dim>(type, k)));
   return smallest;

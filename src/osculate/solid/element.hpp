@@ -18,10 +18,12 @@ enum class Kinematics { small, finite };
 /// volumetric locking. enhanced: incompatible strain modes (four of quad4, five of it where
 /// axisymmetric, twelve of hex8), against bending and volumetric locking. solid_shell: assumed and
 /// enhanced strains of thin bodies in space (hex8, shell18). reduced: one point for quad4 and hex8,
-/// whose other modes are stabilised (reduced.hpp), two along each axis for quad8 and hex20, of
-/// which one cell alone keeps one mode (quad8) or six (hex20) without energy; cells that share
-/// sides do not have them together, but where they are few.
-enum class Formulation { full, bbar, enhanced, solid_shell, reduced };
+/// whose other modes are stabilised (reduced.hpp); two along each axis for quad8 and hex20, of
+/// which one cell alone keeps one mode (quad8) without energy, as do neighbours that are few, or
+/// six (hex20), which have a very small one (reduced.hpp); two along the height for wedge6
+/// (likewise one mode). beam: hex20 whose first axis lies along a beam, two points along it, five
+/// by five across.
+enum class Formulation { full, bbar, enhanced, solid_shell, reduced, beam };
 
 /// What a body in the plane or in space is made of.
 template <int Dim>
@@ -52,7 +54,7 @@ template <int Dim>
 template <int Dim>
 inline constexpr int max_nodes = Dim == 2 ? 9 : cell::max_volume_nodes;
 template <int Dim>
-inline constexpr int max_points = Dim == 2 ? 9 : 27;
+inline constexpr int max_points = Dim == 2 ? 9 : 50;
 /// Of strains and stresses: xx, yy, zz, xy and, in space, yz, zx.
 template <int Dim>
 inline constexpr int components = Dim == 2 ? 4 : 6;
@@ -162,7 +164,8 @@ template <int Dim>
 [[nodiscard]] ElementVector<Dim> volume_weights(const Section<Dim>& section, cell::CellType type,
                                                 const Coordinates<Dim>& reference);
 
-/// Smallest Jacobian determinant over the quadrature points and nodes.
+/// Smallest Jacobian determinant over the quadrature points of full integration, of cells of first
+/// order over their nodes, too.
 template <int Dim>
 [[nodiscard]] double smallest_jacobian(cell::CellType type, const Coordinates<Dim>& reference);
 

@@ -44,6 +44,12 @@ CellEnergy cell_energy(const Section<Dim>& section, cell::CellType type,
     if (fill_mean_point<Dim>(section, reference, displacement, p))
       energy.stored += hourglass<Dim>(section, reference, displacement, p, false).energy;
   }
+  if constexpr (Dim == 3) {
+    if (has_faint_stiffness(section, type)) {
+      const auto resistance = faint_stiffness(section, type, reference);
+      energy.stored += 0.5 * (displacement.transpose() * resistance * displacement).trace();
+    }
+  }
   return energy;
 }
 

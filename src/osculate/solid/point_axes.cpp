@@ -99,12 +99,12 @@ template class PointAxes<2>;
 template class PointAxes<3>;
 template std::array<double, 9> values_at_points(const Section<2>&, CellType,
                                                 std::span<const double>);
-template std::array<double, 27> values_at_points(const Section<3>&, CellType,
+template std::array<double, 50> values_at_points(const Section<3>&, CellType,
                                                  std::span<const double>);
 template std::array<double, 54> expansion_at_points(const Section<2>&, CellType,
                                                     const Coordinates<2>&, std::span<const double>,
                                                     std::span<const double>);
-template std::array<double, 162> expansion_at_points(const Section<3>&, CellType,
+template std::array<double, 300> expansion_at_points(const Section<3>&, CellType,
                                                      const Coordinates<3>&, std::span<const double>,
                                                      std::span<const double>);
 

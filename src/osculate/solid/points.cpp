@@ -71,6 +71,18 @@ cell::Quadrature3D volume_mass_rule(cell::CellType type) {
   }
 }
 
+cell::Quadrature3D gauss_along_beam() {
+  const cell::Quadrature1D along = cell::gauss_legendre(2);
+  const cell::Quadrature2D across = cell::gauss_quad(5);
+  cell::Quadrature3D rule;
+  for (std::size_t q = 0; q < across.weights.size(); ++q)
+    for (std::size_t a = 0; a < along.weights.size(); ++a) {
+      rule.points.emplace_back(along.points[a], across.points[q].x(), across.points[q].y());
+      rule.weights.push_back(along.weights[a] * across.weights[q]);
+    }
+  return rule;
+}
+
 template <int Dim, class Quadrature>
 Rule<Dim> with_shapes(cell::CellType type, const Quadrature& q) {
   Rule<Dim> rule{q.points, q.weights, {}};
@@ -111,8 +123,14 @@ const Rule<2>& reduced_rule_of<2>(cell::CellType type) {
 template <>
 const Rule<3>& reduced_rule_of<3>(cell::CellType type) {
   static const Rule<3> one = with_shapes<3>(hex8, cell::gauss_hex(1)),
-                       eight = with_shapes<3>(hex20, cell::gauss_hex(2));
-  return type == hex8 ? one : eight;
+                       eight = with_shapes<3>(hex20, cell::gauss_hex(2)),
+                       wedge = with_shapes<3>(wedge6, cell::gauss_wedge(1, 2));
+  return type == hex8 ? one : type == wedge6 ? wedge : eight;
+}
+
+const Rule<3>& beam_rule() {
+  static const Rule<3> rule = with_shapes<3>(hex20, gauss_along_beam());
+  return rule;
 }
 
 template <>

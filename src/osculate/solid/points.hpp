@@ -41,9 +41,12 @@ struct Rule {
 };
 template <int Dim>
 [[nodiscard]] const Rule<Dim>& rule_of(cell::CellType type, bool ring = false);
-/// Two points along each axis for quad8 and hex20, one for quad4 and hex8.
+/// Two points along each axis for quad8 and hex20, one for quad4 and hex8, two along the height for
+/// wedge6.
 template <int Dim>
 [[nodiscard]] const Rule<Dim>& reduced_rule_of(cell::CellType type);
+/// Of hex20 along a beam: two points along the first axis, five along the others.
+[[nodiscard]] const Rule<3>& beam_rule();
 /// One that is exact for N_i N_j times the Jacobian (and the radius of a ring) of a straight-sided
 /// cell.
 template <int Dim>
@@ -56,6 +59,9 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] const Rule<Dim>& rule_of(const Section<Dim>& section, cell::CellType type) {
   if (section.formulation == Formulation::reduced) return reduced_rule_of<Dim>(type);
+  if constexpr (Dim == 3) {
+    if (section.formulation == Formulation::beam) return beam_rule();
+  }
   return rule_of<Dim>(type, is_ring(section));
 }
 

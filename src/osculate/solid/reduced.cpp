@@ -1,5 +1,10 @@
 #include "osculate/solid/reduced.hpp"
 
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
 namespace osculate::solid {
 namespace {
 
@@ -193,6 +198,35 @@ Hourglass<Dim> hourglass(const Section<Dim>& section, const Coordinates<Dim>& re
                with_tangent, out);
   }
   return out;
+}
+
+NodeMatrix3 faint_stiffness(const Section<3>& section, cell::CellType type,
+                            const Coordinates<3>& reference) {
+  constexpr double share = 1e-5, third = 1.0 / 3;
+  const bool wedge = type == cell::CellType::wedge6;
+  const Eigen::Index n = reference.rows();
+  const Shape<3> centre = shape_at<3>(type, wedge ? Vec3(third, third, 0) : Vec3(Vec3::Zero()));
+  const Vec3 sides = wedge ? Vec3(1, 1, 2) : Vec3(2, 2, 2);  // of the cell's own coordinates
+  const Mat<3, 3> base = reference.transpose() * centre.d.topRows(n) * sides.asDiagonal();
+  const double largest = base.colwise().norm().maxCoeff(), box = std::abs(base.determinant());
+  double face = 0;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    face = std::max(face, base.col(i).cross(base.col((i + 1) % 3)).norm());
+  const double least = box / face, volume = (wedge ? 0.5 : 1.0) * box;
+  using Polynomials = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_nodes<3>, 10>;
+  Polynomials terms(n, wedge ? 4 : 10);
+  const Coordinates<3> r = (reference.rowwise() - reference.colwise().mean()) / largest;
+  terms.col(0).setOnes();
+  terms.middleCols<3>(1) = r;
+  for (Eigen::Index i = 0; !wedge && i < 3; ++i) {
+    terms.col(4 + i) = r.col(i).cwiseAbs2();
+    terms.col(7 + i) = r.col(i).cwiseProduct(r.col((i + 1) % 3));
+  }
+  const Eigen::HouseholderQR<Polynomials> factors(terms);
+  const Polynomials q = factors.householderQ() * Polynomials::Identity(n, terms.cols());
+  const double size = share * material::unloaded(section.law).young * volume * (least * least) /
+                      (largest * largest * largest * largest);
+  return size * (NodeMatrix3::Identity(n, n) - q * q.transpose());
 }
 
 template std::array<double, 2> mode_moduli(const Section<2>&);

@@ -52,4 +52,33 @@ template <int Dim>
                                        const Coordinates<Dim>& displacement,
                                        const CornerPoint<Dim>& p, bool with_tangent);
 
+/// Whether a cell is one of hex20 whose eight points leave six modes without energy, or of wedge6
+/// whose two leave one: a row of such cells may have some of them together, and its linear
+/// equations have no answer.
+[[nodiscard]] inline bool has_faint_stiffness(const Section<3>& section, cell::CellType type) {
+  return section.formulation == Formulation::reduced &&
+         (type == cell::CellType::hex20 || type == cell::CellType::wedge6);
+}
+using NodeMatrix3 = Sizes<3, Eigen::Dynamic>::NodeMatrix;
+/// What resists displacements of hex20 that are not quadratic in space, of wedge6 that are not
+/// linear; the same in each direction.
+///
+/// Formula    W = k/2 sum_i u_i . P u_i , P = 1 - Q Q^T with the orthonormal Q of the quadratic
+///            (linear) polynomials of X at the nodes; k = 1e-5 E V h^2 / l^4 , E of the unloaded
+///            material, l the largest of the cell's lengths at its centre, h its height over the
+///            largest of the faces there. That is small beside the bending of a plate, too. No
+///            quadratic displacement has it, so that what converges does as before, nor does a
+///            rotation: P F X = 0
+/// Tested by  tests/unit/solid/test_reduced.cpp, test_derivatives.cpp, test_invariance.cpp
+[[nodiscard]] NodeMatrix3 faint_stiffness(const Section<3>& section, cell::CellType type,
+                                          const Coordinates<3>& reference);
+template <class Sum>
+void add_faint_stiffness(const NodeMatrix3& stiffness, const Coordinates<3>& displacement,
+                         Sum& sum) {
+  const Coordinates<3> force = stiffness * displacement;
+  for (Eigen::Index k = 0; k < force.rows(); ++k)
+    sum.force.template segment<3>(3 * k) += force.row(k);
+  if (sum.with_tangent) sum.geometric += stiffness;
+}
+
 }  // namespace osculate::solid

@@ -146,6 +146,7 @@ Eigen::RowVectorXd reduced_basis(std::size_t points, const Vec2& xi) {
 }
 Eigen::RowVectorXd reduced_basis(std::size_t points, const Vec3& xi) {
   if (points == 1) return Eigen::RowVectorXd::Ones(1);
+  if (points == 2) return Eigen::RowVector2d(1, xi.z());  // wedge6
   Eigen::RowVectorXd b(8);
   b << reduced_basis(4, Vec2(xi.head<2>())), xi.z() * reduced_basis(4, Vec2(xi.head<2>()));
   return b;
@@ -157,8 +158,24 @@ Eigen::MatrixXd make_reduced_extrapolation(CellType type) {
   return extrapolation<Dim>(type, points,
                             [&](const Vec<Dim>& xi) { return reduced_basis(points.size(), xi); });
 }
+/// Linear along the beam, quadratic across.
+const Eigen::MatrixXd& beam_extrapolation() {
+  static const Eigen::MatrixXd all =
+      extrapolation<3>(CellType::hex20, beam_rule().points, [](const Vec3& xi) {
+        const double y = xi.y(), z = xi.z();
+        Eigen::RowVectorXd b(12);
+        b.head<6>() << 1, y, z, y * z, y * y, z * z;
+        b.tail<6>() = xi.x() * b.head<6>();
+        return b;
+      });
+  return all;
+}
 template <int Dim>
 const Eigen::MatrixXd& reduced_extrapolation_of(CellType type) {
+  if constexpr (Dim == 3) {
+    static const Eigen::MatrixXd wedge = make_reduced_extrapolation<3>(CellType::wedge6);
+    if (type == CellType::wedge6) return wedge;
+  }
   static const Eigen::MatrixXd one = make_reduced_extrapolation<Dim>(corner_cell<Dim>),
                                two = make_reduced_extrapolation<Dim>(Dim == 2 ? CellType::quad8
                                                                               : CellType::hex20);
@@ -185,6 +202,7 @@ const Eigen::MatrixXd& extrapolation_of(const Section<2>& section, CellType type
 }
 const Eigen::MatrixXd& extrapolation_of(const Section<3>& section, CellType type) {
   if (section.formulation == Formulation::reduced) return reduced_extrapolation_of<3>(type);
+  if (section.formulation == Formulation::beam) return beam_extrapolation();
   using enum CellType;
   static const std::array<Eigen::MatrixXd, 8> all{
       make_extrapolation<3>(tet4),    make_extrapolation<3>(tet10),  make_extrapolation<3>(wedge6),
@@ -225,10 +243,12 @@ CellStress<Dim> stress_at_points(const Section<Dim>& section, CellType type,
   const Rule<Dim>& rule = rule_of(section, type);
   Seen<Dim> seen;
   const bool reduced = section.formulation == Formulation::reduced,
-             one = reduced && type == corner_cell<Dim>;
+             one = reduced && type == corner_cell<Dim>,
+             plain = section.formulation == Formulation::full ||
+                     section.formulation == Formulation::beam;
   if (one)
     see_one_point(section, reference, displacement, seen);
-  else if (reduced || section.formulation == Formulation::full)
+  else if (reduced || plain)
     see_full(section, type, reference, displacement, seen);
   else
     see_assumed(section, reference, displacement, memory, seen);

@@ -52,6 +52,33 @@ TEST(Locking, ABeamInSpaceLikewise) {
   EXPECT_THAT(warnings_of(text), ElementsAre(HasSubstr("formulation: enhanced")));
 }
 
+/// A plate of triangles, 10 x 10, with what its sides are held and moved by.
+std::string plate(const std::string& type, double height, int layers, const std::string& moved,
+                  const std::string& formulation = "auto") {
+  return fmt::format(R"(osculate: 1
+mesh: {{generate: {{b: {{box: {{x: [0, 10], y: [0, 10], z: [0, {}], elements: [6, 6, {}], type: {}}}}}}}}}
+materials: {{m: {{linear_elastic: {{E: 100, nu: 0.3}}}}}}
+sections: [{{on: b, material: m, element: solid, formulation: {}}}]
+steps: [{{name: bend, increments: 1, prescribe: [{}]}}]
+output: {{fields: none, report: false}}
+)",
+                     height, layers, type, formulation, moved);
+}
+
+// A layer of a thick body and one that is sheared have a shear that is real.
+TEST(Locking, APlateOfOneLayerOfTrianglesIsTooStiff) {
+  const std::string bent = "{on: b.left, ux: 0, uy: 0, uz: 0}, {on: b.right, uz: -0.1}";
+  const std::string sheared = "{on: b.bottom, ux: 0, uy: 0, uz: 0}, {on: b.top, ux: 0.001, uz: 0}";
+  for (const char* const formulation : {"full", "reduced"}) {
+    SCOPED_TRACE(formulation);
+    EXPECT_THAT(warnings_of(plate("wedge6", 0.5, 1, bent, formulation)),
+                ElementsAre(HasSubstr("second-order cells (S6 in place of S3)")));
+    EXPECT_THAT(warnings_of(plate("wedge6", 0.5, 1, sheared, formulation)), IsEmpty());
+    EXPECT_THAT(warnings_of(plate("wedge6", 5, 8, bent, formulation)), IsEmpty());
+  }
+  EXPECT_THAT(warnings_of(plate("wedge15", 0.5, 1, bent)), IsEmpty());
+}
+
 /// A block whose top is pressed down over its left half, or all over.
 std::string block(const std::string& more, const std::string& where, double poisson = 0.4999) {
   return fmt::format(R"(osculate: 1

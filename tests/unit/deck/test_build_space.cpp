@@ -45,7 +45,7 @@ TEST(BuildSpace, SectionsAndRigidBodies) {
   EXPECT_EQ(m.sections[0].section.kinematics, solid::Kinematics::finite);
   EXPECT_TRUE(std::holds_alternative<material::NeoHooke>(m.sections[0].section.law));
   EXPECT_EQ(model::section_on(m.sections[1], cell::CellType::hex20).formulation,
-            solid::Formulation::full);
+            solid::Formulation::beam);
   EXPECT_EQ(m.sections[0].cells.size(), 4u);
   ASSERT_EQ(m.rigid.size(), 2u);
   EXPECT_EQ(m.rigid[0].reference, Vec3(1, 1, -0.5));
@@ -322,18 +322,16 @@ TEST(BuildSpace, WhatSpaceDoesNotHave) {
           {"reference: [1, 1, -0.5]", "reference: [1, 1]",
            "model.yaml:18: rigid.base.reference: expected 3 values, because the model is in space, "
            "got 2"},
-          {"material: steel, element: solid}", "material: steel, element: plane_strain}",
+          {"element: solid, formulation: beam}", "element: plane_strain}",
            "model.yaml:16: sections[1].element: the sections on 'low' and 'high' exclude each "
            "other: one is plane, one in space"},
-          {"material: steel, element: solid}", "material: steel, element: solid, thickness: 2}",
+          {"element: solid, formulation: beam}", "element: solid, thickness: 2}",
            "model.yaml:16: sections[1].thickness: is for plane bodies; a body in space has its "
            "own"},
-          {"material: steel, element: solid}",
-           "material: steel, element: solid_shell, formulation: bbar}",
+          {"element: solid, formulation: beam}", "element: solid_shell, formulation: bbar}",
            "model.yaml:16: sections[1].formulation: solid_shell elements have a formulation of "
            "their own"},
-          {"material: steel, element: solid}",
-           "material: steel, element: solid, formulation: bbar}",
+          {"element: solid, formulation: beam}", "element: solid, formulation: bbar}",
            "model.yaml:16: sections[1].formulation: set 'high' has hex20 cells: formulations bbar "
            "and enhanced exist for hex8 cells only; use auto"},
       });

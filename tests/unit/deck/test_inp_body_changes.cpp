@@ -1,5 +1,7 @@
 // Decks: elements that go and come back, sections that change, equations that end, stresses and
 // plastic strains at first.
+#include <cmath>
+
 #include "cube_nodes.hpp"
 #include "inp_run_test.hpp"
 #include "osculate/deck/inp_translate.hpp"
@@ -134,6 +136,36 @@ TEST(InpBodyChanges, StressesAtPointsOfPlaneElements) {
             "not 9");
   EXPECT_EQ(refused("CPE8R", "1, 1, 5., 0, 0, 0, 1., 0\n"),
             "deck.inp:18: plane elements have no components xz and yz");
+}
+
+/// A wedge whose section shrinks by half over its height: the first of two points lies below, where
+/// the triangle has (1 - (1 - 1 / sqrt 3) / 4) of its length.
+TEST(InpBodyChanges, StressesAtPointsOfWedges) {
+  const DeckRun run = run_deck(
+      "*NODE, NSET=N\n1, 0, 0, 0\n2, 3, 0, 0\n3, 0, 3, 0\n4, .5, .5, 1\n5, 2, .5, 1\n6, .5, 2, "
+      "1\n*ELEMENT, TYPE=C3D6, ELSET=E\n1, 1, 2, 3, 4, 5, 6\n*NSET, NSET=LOW\n1, 2, 3\n"
+      "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*SOLID SECTION, ELSET=E, MATERIAL=M\n"
+      "*INITIAL CONDITIONS, TYPE=STRESS\n1, 1, 0., 0., 50., 0., 0., 0.\n"
+      "*STEP\n*STATIC\n*BOUNDARY\nN, 1, 3\n*END STEP\n");
+  const double side = 1 - (1 - 1 / std::sqrt(3.0)) / 4;
+  EXPECT_NEAR(run.reaction_of("LOW").z(), -50 * 4.5 * side * side / 2, 1e-12);
+}
+
+TEST(InpBodyChanges, PointsOfBeamsHaveAnotherOrder) {
+  std::string message;
+  try {
+    (void)translate_deck(
+        "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 2, 0, 0\n*ELEMENT, TYPE=B32R, ELSET=E\n1, 1, 2, 3\n"
+        "*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.3\n*BEAM SECTION, ELSET=E, MATERIAL=M, "
+        "SECTION=RECT\n1., 1.\n0., 0., 1.\n*INITIAL CONDITIONS, TYPE=STRESS\n"
+        "1, 1, 5., 0., 0., 0., 0., 0.\n*STEP\n*STATIC\n*END STEP\n",
+        "deck.inp");
+  } catch (const core::InputError& error) {
+    message = error.what();
+  }
+  EXPECT_EQ(message,
+            "deck.inp:13: *INITIALCONDITIONS: points of B32R are not supported, which have another "
+            "order here: give one value");
 }
 
 /// What held a body goes: the body is named, and how it may move.

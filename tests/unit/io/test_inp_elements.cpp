@@ -302,7 +302,7 @@ TEST(InpElements, VariantsOfAllNamesThatAreKnown) {
     EXPECT_TRUE(inp::find_element_type(name)) << name;
   for (const char* const name :
        {"C3D8Z", "C3D8RR", "C3D", "C3D27", "c3d8", "", "DC3D8", "F3D8", "S", "SPRINGA", "MASS",
-        "B33", "C3D20 R", "U1", "CONN3D2", "S4R55"})
+        "B33", "C3D20 R", "C3D20B", "C3D20BR", "C3D20RBT", "U1", "CONN3D2", "S4R55"})
     EXPECT_FALSE(inp::find_element_type(name)) << name;
 }
 

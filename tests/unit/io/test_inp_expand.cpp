@@ -16,6 +16,7 @@
 #include "osculate/cell/volume_shape.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/io/inp/deck_mesh.hpp"
+#include "osculate/io/inp/element_types.hpp"
 #include "osculate/mesh/check.hpp"
 
 namespace osculate::io::inp {
@@ -323,6 +324,35 @@ TEST(InpExpand, RoundBeamsAreSecondOrderArcs) {
   }
 }
 
+// Of reduced integration along the beam only, where their bricks would have modes without energy.
+TEST(InpExpand, BeamsOfReducedIntegrationAreBricksOfTheirOwn) {
+  const auto type_of = [](const char* type, const std::string& size) {
+    const DeckMesh deck =
+        read(line(type, "*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=" + size + "\n0, 1, 0\n"));
+    for (const DeckSet& set : deck.sets)
+      if (set.name == "E" && set.kind == SetKind::elements) return set.type;
+    return std::string();
+  };
+  EXPECT_EQ(type_of("B32R", "RECT\n0.4, 0.2"), beam_brick);
+  EXPECT_EQ(type_of("B32R", "CIRC\n0.4, 0.2"), beam_brick);
+  EXPECT_EQ(type_of("B32R", "PIPE\n0.2, 0.1"), "C3D20R");
+  EXPECT_EQ(type_of("B32", "RECT\n0.4, 0.2"), "C3D20");
+}
+
+// The first direction of the bricks lies along the beam.
+TEST(InpExpand, BricksOfBeamsBeginAlongThem) {
+  const DeckMesh deck =
+      read(line("B32R", "*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=RECT\n0.4, 0.2\n0, 1, 0\n"));
+  for (const mesh::CellRef& ref : deck.mesh.find_set("E")->cells) {
+    const Index* const nodes = deck.mesh.blocks[static_cast<std::size_t>(ref.block)].cell(ref.cell);
+    const cell::VolumeShape middle = cell::volume_shape(cell::CellType::hex20, Vec3::Zero());
+    Vec3 way = Vec3::Zero();
+    for (int k = 0; k < 20; ++k)
+      way += middle.d(k, 0) * deck.mesh.nodes[static_cast<std::size_t>(nodes[k])];
+    EXPECT_LT(way.normalized().tail<2>().norm(), 1e-12);
+  }
+}
+
 TEST(InpExpand, TrussesAreHinged) {
   const DeckMesh deck = read(
       "*NODE\n1, 0, 0, 0\n2, 5, 0, 5\n3, 0, 0, 10\n*ELEMENT, TYPE=T3D2, ELSET=E\n1, 1, 2\n2, 2, 3\n"
@@ -426,6 +456,13 @@ TEST(InpExpand, WhatIsWrongIsTold) {
   };
   EXPECT_THAT(message(plate("S4", "*SHELL SECTION, ELSET=E, MATERIAL=M\n0.\n")),
               HasSubstr("expected a thickness above 0, found 0"));
+  for (const char* const type : {"B31", "B31R"})
+    EXPECT_THAT(message("*NODE\n1, 0, 0, 0\n2, 0, 0, 5\n*ELEMENT, TYPE=" + std::string(type) +
+                        ", ELSET=E\n1, 1, 2\n*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=CIRC\n"
+                        "0.4, 0.4\n0, 1, 0\n"),
+                HasSubstr("its elements are of type B31; round beams are B32 or B32R"));
+  EXPECT_THAT(message("*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D20RB, ELSET=E\n1, 1\n"),
+              HasSubstr("elements of type 'C3D20RB' are not supported"));
   EXPECT_THAT(message(plate("S4", "*SHELL SECTION, ELSET=E, MATERIAL=M, NODAL THICKNESS\n")),
               HasSubstr("element 1 has no thickness at node 1"));
   EXPECT_THAT(message(plate("S4", "*BEAM SECTION, ELSET=E, MATERIAL=M, SECTION=RECT\n1, 1\n")),

@@ -121,6 +121,19 @@ TEST(CheckSpace, OneCornerPushedThroughTheCellIsNamed) {
               ::testing::HasSubstr("hex8 on nodes 1 2 5 4 7 8 11 10 (smallest Jacobian -"));
 }
 
+// One of second order may be so at a node where it has no point.
+TEST(CheckSpace, CornerOfSecondOrderIsAWarning) {
+  Mesh mesh = cube(CellType::tet10);
+  const Index* const nodes = mesh.blocks[0].cell(0);
+  const Vec3 corner = mesh.nodes[static_cast<std::size_t>(nodes[0])];
+  Vec3& middle = mesh.nodes[static_cast<std::size_t>(nodes[4])];  // between the corners 0 and 1
+  middle = corner + 0.4 * (middle - corner);
+  const std::vector<Finding> findings = check_mesh(mesh);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_EQ(findings[0].flaw, Flaw::folded);
+  EXPECT_FALSE(findings[0].is_error);
+}
+
 TEST(CheckSpace, FlatCellIsFound) {
   Mesh mesh = cube(CellType::tet4);
   for (Vec3& x : mesh.nodes) x.z() = 0;

@@ -13,13 +13,15 @@ bool plane_strain(const CellCase& c) {
   return c.kind == Kind::plane && !c.plane_stress() && !c.axisymmetric();
 }
 
-material::Memory heated(const std::array<double, 27>& strains) {
+using Strains = std::array<double, static_cast<std::size_t>(max_points<3>)>;
+
+material::Memory heated(const Strains& strains) {
   material::Memory memory;
   memory.expansion = strains.data();
   return memory;
 }
-std::array<double, 27> uneven(double size) {
-  std::array<double, 27> strains{};
+Strains uneven(double size) {
+  Strains strains{};
   for (std::size_t q = 0; q < strains.size(); ++q)
     strains[q] = size * (1 + 0.5 * noise(static_cast<Eigen::Index>(q), 0));
   return strains;
@@ -32,7 +34,7 @@ TEST_P(ExpandingCell, IsFreeOfStressWhenFreeToExpand) {
     if (plane_strain(c)) return;
     const Eigen::MatrixXd x = c.kind == Kind::shell ? regular(c) : curved(c);
     for (const double strain : {1e-6, 0.01, -0.1}) {
-      std::array<double, 27> strains{};
+      Strains strains{};
       strains.fill(strain);
       const Eigen::MatrixXd u = strain * x;
       const CellResult r = answer(c, x, u, true, heated(strains));
@@ -49,7 +51,7 @@ TEST_P(ExpandingCell, HasTheOppositeStrainsStressWhenHeld) {
   for_each_cell(GetParam(), [](const CellCase& c) {
     if (c.finite() || c.plane_stress() || c.kind == Kind::shell) return;
     const Eigen::MatrixXd x = curved(c), none = 0 * x;
-    std::array<double, 27> strains{};
+    Strains strains{};
     strains.fill(1e-3);
     const double pressure = 7 / (1 - 2 * 0.3) * 1e-3;
     for (const PointValues& p : point_values(c, x, none, heated(strains)).at)
@@ -59,7 +61,7 @@ TEST_P(ExpandingCell, HasTheOppositeStrainsStressWhenHeld) {
 }
 
 TEST_P(ExpandingCell, HasTheDerivativeOfItsForceAsTangent) {
-  const std::array<double, 27> strains = uneven(0.03);
+  const Strains strains = uneven(0.03);
   for_each_cell(GetParam(), [&](const CellCase& c) {
     const Eigen::MatrixXd x = curved(c), u = motion(c);
     const Eigen::VectorXd along = flat(motion(c, c.kind == Kind::shell ? 0.06 : 0.3, 5));
@@ -75,7 +77,7 @@ TEST_P(ExpandingCell, HasTheDerivativeOfItsForceAsTangent) {
 }
 
 TEST_P(ExpandingCell, HasAForceThatIsTheDerivativeOfItsEnergy) {
-  const std::array<double, 27> strains = uneven(0.03);
+  const Strains strains = uneven(0.03);
   for_each_cell(GetParam(), [&](const CellCase& c) {
     if (c.kind == Kind::shell) return;
     const Eigen::MatrixXd x = curved(c), u = motion(c);

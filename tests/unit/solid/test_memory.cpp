@@ -60,7 +60,7 @@ void for_each_yielding(Kind kind, const std::function<void(Yielding&)>& visit) {
     ++visited;
     visit(y);
   });
-  EXPECT_EQ(visited, kind == Kind::plane ? 52 : kind == Kind::space ? 24 : 4);
+  EXPECT_EQ(visited, kind == Kind::plane ? 52 : kind == Kind::space ? 28 : 4);
 }
 
 void expect_consistent(const Yielding& y, const Eigen::MatrixXd& x, const Eigen::MatrixXd& u) {
@@ -188,7 +188,7 @@ TEST_P(RememberingCell, ValuesOfPointsGoToTheNodesAsALinearField) {
     for (Eigen::Index k = 0; k < x.rows(); ++k) {
       const Eigen::RowVector2d exact = field(x.row(k).transpose());
       EXPECT_NEAR(nodal(k, 0), 3, 1e-12);
-      EXPECT_TRUE(y.points == 1 || std::abs(nodal(k, 1) - exact[1]) < 1e-11) << nodal(k, 1);
+      EXPECT_TRUE(y.points <= 2 || std::abs(nodal(k, 1) - exact[1]) < 1e-11) << nodal(k, 1);
     }
   });
 }

@@ -1,5 +1,8 @@
 // One point with hourglass control, and two along each axis.
+#include <Eigen/Eigenvalues>
+
 #include "cell_cases.hpp"
+#include "osculate/solid/reduced.hpp"
 
 namespace osculate::solid::testing {
 namespace {
@@ -92,9 +95,65 @@ TEST(Reduced, HasFewerPoints) {
   EXPECT_EQ(point_count(plane, quad8), 4u);
   EXPECT_EQ(point_count(space(), hex8), 1u);
   EXPECT_EQ(point_count(space(), hex20), 8u);
+  EXPECT_EQ(point_count(space(), wedge6), 2u);
   for (const cell::CellType type : {tri3, tri6, quad9}) EXPECT_NE(unsupported(plane, type), "");
-  for (const cell::CellType type : {tet4, tet10, wedge6, wedge15, hex27, shell18})
+  for (const cell::CellType type : {tet4, tet10, wedge15, hex27, shell18})
     EXPECT_NE(unsupported(space(), type), "");
+}
+
+double energy_of(const Section<3>& s, const Coordinates<3>& x, const Coordinates<3>& u) {
+  ElementResult<3> r;
+  evaluate(s, cell::CellType::hex20, x, u, false, r);
+  return r.force.dot(flat(u));
+}
+
+/// Spectrum of the stiffness of one cell.
+Eigen::VectorXd spectrum_of(const Section<3>& s, cell::CellType type, const Coordinates<3>& x) {
+  ElementResult<3> r;
+  evaluate(s, type, x, Coordinates<3>(0 * x), true, r);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(r.tangent)).eigenvalues();
+}
+
+// The modes that eight points do not see have a stiffness of about 1e-5, no quadratic displacement
+// has any of it, and a flat cell has less of it than of bending.
+TEST(Reduced, SecondOrderCellsHaveAFaintStiffness) {
+  const Coordinates<3> x = sample_volume(cell::CellType::hex20, 0.08, true);
+  const Eigen::VectorXd values = spectrum_of(space(), cell::CellType::hex20, x);
+  EXPECT_LT(values.head(6).cwiseAbs().maxCoeff(), 1e-14 * values[59]);
+  EXPECT_GT(values[6], 1e-8 * values[59]);
+  EXPECT_LT(values[11], 1e-5 * values[59]);
+  EXPECT_GT(values[12], 1e-4 * values[59]);
+  const NodeMatrix3 faint = faint_stiffness(space(), cell::CellType::hex20, x);
+  EXPECT_LT((faint * bent(x)).norm(), 1e-16 * faint.norm());
+  Coordinates<3> flat_one = x;
+  flat_one.col(2) *= 0.01;
+  EXPECT_NEAR(faint_stiffness(space(), cell::CellType::hex20, flat_one).norm() / faint.norm(), 1e-6,
+              3e-7);
+}
+
+// Along a beam: what bends in its section is integrated as fully, and no mode is without energy.
+TEST(Reduced, BeamHasAllModesAndBends) {
+  const Coordinates<3> x = sample_volume(cell::CellType::hex20, 0, false);
+  Section<3> s = space(0);
+  s.formulation = Formulation::beam;
+  EXPECT_EQ(point_count(s, cell::CellType::hex20), 50u);
+  EXPECT_NE(unsupported(s, cell::CellType::hex8), "");
+  const Eigen::VectorXd values = spectrum_of(s, cell::CellType::hex20, x);
+  EXPECT_LT(values.head(6).cwiseAbs().maxCoeff(), 1e-14 * values[59]);
+  EXPECT_GT(values[6], 1e-3 * values[59]);
+  const double here = energy_of(s, x, bent(x));
+  s.formulation = Formulation::full;
+  EXPECT_NEAR(here, energy_of(s, x, bent(x)), 1e-17);
+}
+
+// Two points leave a wedge one mode, whose ends turn against each other.
+TEST(Reduced, WedgesHaveAFaintStiffness) {
+  const Coordinates<3> x = sample_volume(cell::CellType::wedge6, 0.08, true);
+  const Eigen::VectorXd values = spectrum_of(space(), cell::CellType::wedge6, x);
+  EXPECT_LT(values.head(6).cwiseAbs().maxCoeff(), 1e-14 * values[17]);
+  EXPECT_GT(values[6], 1e-9 * values[17]);
+  EXPECT_LT(values[6], 1e-5 * values[17]);
+  EXPECT_GT(values[7], 1e-3 * values[17]);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ Vec3 between_corners(cell::CellType type, const Coordinates<3>& x, const Vec3& x
 
 std::string VolumeCase::name() const {
   constexpr std::array kinds{"small", "finite"};
-  constexpr std::array formulations{"full", "bbar", "enhanced", "solid_shell", "reduced"};
+  constexpr std::array formulations{"full", "bbar", "enhanced", "solid_shell", "reduced", "beam"};
   return std::string(cell::info(type).name) + " " +
          kinds[static_cast<std::size_t>(section.kinematics)] + " " +
          formulations[static_cast<std::size_t>(section.formulation)] + " " +
@@ -35,7 +35,7 @@ void for_each_volume(const std::function<void(const VolumeCase&)>& visit) {
   int visited = 0;
   for (const cell::CellType type : volume_types)
     for (const Kinematics kinematics : {Kinematics::small, Kinematics::finite})
-      for (const Formulation formulation : {full, bbar, enhanced, reduced})
+      for (const Formulation formulation : {full, bbar, enhanced, reduced, beam})
         for_each_form([&](const material::Law& law) {
           const VolumeCase c{{kinematics, formulation, law}, type};
           if (!unsupported(c.section, type).empty()) return;
@@ -44,7 +44,8 @@ void for_each_volume(const std::function<void(const VolumeCase&)>& visit) {
           visit(c);
         });
   EXPECT_EQ(visited,
-            12 * form_count);  // 8 cells, bbar, enhanced and reduced of hex8, reduced of hex20
+            14 * form_count);  // 8 cells, bbar, enhanced and reduced of hex8, reduced of hex20 and
+                               // wedge6, beam of hex20
 }
 
 void for_each_shell(const std::function<void(const VolumeCase&)>& visit) {

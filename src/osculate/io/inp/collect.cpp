@@ -247,7 +247,9 @@ class Collector {
   const ElementType& type_of(const Card& card) const {
     const Parameter* const type = find_parameter(card, "TYPE");
     if (!type) fail(deck_, card, "expected 'TYPE=' with a type of element");
-    if (const ElementType* const found = find_element_type(capitals(type->value))) return *found;
+    const std::string name = capitals(type->value);
+    const ElementType* const found = name == beam_brick ? nullptr : find_element_type(name);
+    if (found) return *found;
     fail(deck_, card,
          fmt::format("elements of type {} are not supported; supported are {} and their variants",
                      shown(type->value), element_type_names()));

@@ -11,7 +11,7 @@ using enum cell::CellType;
 using enum Family;
 
 constexpr std::string_view continuum = "RIHMTS", shell = "RST5W", beam = "RHST";
-constexpr std::array<ElementType, 47> types{{
+constexpr std::array<ElementType, 48> types{{
     {"C3D4", continuum, tet4, solid},
     {"C3D6", continuum, wedge6, solid},
     {"C3D8", continuum, hex8, solid},
@@ -59,6 +59,7 @@ constexpr std::array<ElementType, 47> types{{
     {"M3D9", "R", quad9, surface},
     {"T2D3", "HT", line3, line},
     {"T3D3", "HT", line3, line},
+    {beam_brick, "", hex20, solid},
 }};
 
 constexpr std::array<std::int8_t, 9> same{0, 1, 2, 3, 4, 5, 6, 7, 8};
@@ -112,7 +113,7 @@ const ElementType* find_element_type(std::string_view name) {
 std::string element_type_names() {
   std::string all;
   for (const ElementType& type : types)
-    all += fmt::format("{}{}", all.empty() ? "" : ", ", type.name);
+    if (type.name != beam_brick) all += fmt::format("{}{}", all.empty() ? "" : ", ", type.name);
   return all;
 }
 

@@ -21,6 +21,9 @@ struct ElementType {
   Family family;
 };
 
+/// The bricks that B32R becomes, a variant of C3D20 that no deck has itself.
+inline constexpr std::string_view beam_brick = "C3D20RB";
+
 /// By its name in capitals; null: no cell for it.
 ///
 /// Source     Abaqus Elements Guide, "Node ordering and face numbering"; CalculiX CrunchiX User's

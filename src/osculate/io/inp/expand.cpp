@@ -323,10 +323,13 @@ class Expander : private Fibers {
         numbering_.variants[element.variant].substr(element.type->name.size());
     const bool reduced = letters.find('R') != std::string::npos && nodes.size() % 4 == 0;
     const std::string solid = "C3D" + std::to_string(nodes.size());
+    const bool of_beam =
+        reduced && info.dimension == 1 && nodes.size() == 20 && !section.is_hollow();
     element.type = find_element_type(solid);
-    element.variant = variant_place(numbering_, solid + (reduced             ? "R"
-                                                         : nodes.size() == 8 ? "I"
-                                                                             : ""));
+    element.variant = variant_place(numbering_, of_beam ? std::string(beam_brick)
+                                                        : solid + (reduced             ? "R"
+                                                                   : nodes.size() == 8 ? "I"
+                                                                                       : ""));
     element.cell = append_solid(element, e, nodes);
     for (std::size_t c = 1; c < cells.size(); ++c) {
       element.others.push_back(append_solid(element, e, cells[c]));

@@ -130,6 +130,9 @@ class Reader {
         fail(deck_, card,
              fmt::format("its elements are of type {}; shells of layers are S6, S8 or S8R",
                          type.name));
+      if (section.shape == Shape::ellipse && type.name != "B32")
+        fail(deck_, card,
+             fmt::format("its elements are of type {}; round beams are B32 or B32R", type.name));
       if (section.is_hollow() && type.name != "B32")
         fail(
             deck_, card,
