@@ -1,3 +1,4 @@
+// size: one example goes there and back
 // Model files as decks, and those as model files again.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
