@@ -64,7 +64,7 @@ using NodeMatrix3 = Sizes<3, Eigen::Dynamic>::NodeMatrix;
 /// linear; the same in each direction.
 ///
 /// Formula    W = k/2 sum_i u_i . P u_i , P = 1 - Q Q^T with the orthonormal Q of the quadratic
-///            (linear) polynomials of X at the nodes; k = 1e-5 E V h^2 / l^4 , E of the unloaded
+///            (linear) polynomials of X at the nodes; k = 1e-6 E V h^2 / l^4 , E of the unloaded
 ///            material, l the largest of the cell's lengths at its centre, h its height over the
 ///            largest of the faces there. That is small beside the bending of a plate, too. No
 ///            quadratic displacement has it, so that what converges does as before, nor does a

@@ -114,7 +114,7 @@ Eigen::VectorXd spectrum_of(const Section<3>& s, cell::CellType type, const Coor
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(r.tangent)).eigenvalues();
 }
 
-// The modes that eight points do not see have a stiffness of about 1e-5, no quadratic displacement
+// The modes that eight points do not see have a stiffness of about 1e-6, no quadratic displacement
 // has any of it, and a flat cell has less of it than of bending.
 TEST(Reduced, SecondOrderCellsHaveAFaintStiffness) {
   const Coordinates<3> x = sample_volume(cell::CellType::hex20, 0.08, true);
