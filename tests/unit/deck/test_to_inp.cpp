@@ -406,9 +406,6 @@ TEST(ToInp, WhatADeckCannotSayOfTheNewKeys) {
                                      "dynamics: {scheme: {generalized_alpha: {radius: 0.8}}}, "
                                      "increments: 1"))),
               HasSubstr("schemes other than newmark, hht and central differences"));
-  EXPECT_THAT(refusal("friction: {coulomb: {mu: 0.2, penalty: 5e3}}",
-                      "friction: {viscous: {coefficient: 2, penalty: 5e3}}"),
-              HasSubstr("acts in steps with `dynamics` alone"));
   EXPECT_THAT(refusal("normal: {penalty: 1e4}", "weight: {area: 0.3}, normal: {penalty: 1e4}"),
               HasSubstr("contact[0].weight.area: has no counterpart"));
 }
@@ -459,7 +456,8 @@ mesh: {generate: {a: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [1, 1, 1]
 materials: {m: {linear_elastic: {E: 1000, nu: 0.25, density: 2}}}
 sections: [{on: a, material: m, element: solid}, {on: b, material: m, element: solid}]
 contact: [{name: c, master: a.top, slave: b.bottom, normal: {penalty: 1e4, damping: {viscous: 4}}, friction: {coulomb: {mu: 0.2, penalty: 5e3, viscous: 3}}}]
-steps: [{name: s, increments: 4, duration: 2, dynamics: {damping: {mass: 0.3}, )" + scheme + R"(}, prescribe: [{on: a.bottom, uz: 0}]}]
+steps: [{name: s, increments: 4, duration: 2, dynamics: {damping: {mass: 0.3}, )" +
+                             scheme + R"(}, prescribe: [{on: a.bottom, uz: 0}]}]
 )";
     const std::string deck = written(text);
     EXPECT_THAT(deck, HasSubstr("*CONTACT DAMPING, TANGENT FRACTION=0.75\n4\n"));
@@ -473,15 +471,28 @@ steps: [{name: s, increments: 4, duration: 2, dynamics: {damping: {mass: 0.3}, )
   EXPECT_EQ(steps("scheme: central_differences").scheme, SchemeWord::central_differences);
   EXPECT_TRUE(steps("scheme: newmark, time_steps: {}").time_steps.has_value());
   EXPECT_FALSE(steps("scheme: {hht: {alpha: 0.1}}").time_steps.has_value());
-  EXPECT_THAT(refusal("normal: {penalty: 1e4}", "normal: {penalty: 1e4, damping: {viscous: 4}}"),
-              HasSubstr("acts in steps with `dynamics` alone"));
-  EXPECT_THAT(refusal("    release: [{on: high.left, of: [uy]}]",
-                      "    contact: [{pair: c, friction: {coulomb: {mu: 0.2, penalty: 5e3, "
-                      "viscous: 3}}}]\n    release: [{on: high.left, of: [uy]}]"),
-              HasSubstr("changes of friction beside a film are not written"));
   EXPECT_THAT(refusal("normal: {penalty: 1e4}",
                       "sampling: mortar, enforcement: augmented_lagrange, normal: {penalty: 1e4}"),
               HasSubstr("an input file has nodes of first-order facets"));
+}
+
+/// `blocks` with durations in all steps, and another edit.
+std::string timed_refusal(const std::string& from, const std::string& to) {
+  return refusal_of(edited(edited(blocks, from, to), "  - name: free\n    increments: 1",
+                           "  - name: free\n    duration: 1\n    increments: 1"));
+}
+
+TEST(ToInp, WhatIsDampedInStepsWithoutInertiaIsRefused) {
+  EXPECT_THAT(
+      timed_refusal("normal: {penalty: 1e4}", "normal: {penalty: 1e4, damping: {viscous: 4}}"),
+      HasSubstr("acts in steps with `dynamics` alone"));
+  EXPECT_THAT(timed_refusal("friction: {coulomb: {mu: 0.2, penalty: 5e3}}",
+                            "friction: {viscous: {coefficient: 2, penalty: 5e3}}"),
+              HasSubstr("acts in steps with `dynamics` alone"));
+  EXPECT_THAT(timed_refusal("    release: [{on: high.left, of: [uy]}]",
+                            "    contact: [{pair: c, friction: {coulomb: {mu: 0.2, penalty: 5e3, "
+                            "viscous: 3}}}]\n    release: [{on: high.left, of: [uy]}]"),
+              HasSubstr("changes of friction beside a film are not written"));
 }
 
 TEST(ToInp, ContactThatChangesGoesThereAndBack) {
@@ -500,15 +511,20 @@ TEST(ToInp, ContactThatChangesGoesThereAndBack) {
 }
 
 TEST(ToInp, PartsOfSectionsAndGaps) {
-  const std::string text = written(edited(
-      edited(blocks, "amplitudes:",
-             "springs: [{terms: [{on: low.bottom_front_left, of: uz, factor: -1}, {on: "
-             "low.bottom_back_right, of: uz, factor: 1}], gap: {clearance: 0.1, stiffness: 1e4, "
-             "tension: 1e-3}}]\nsets: {end: {on: low, box: {x: [1, 2]}}}\namplitudes:"),
-      "    release:", "    remove: [{on: end}]\n    release:"));
+  const std::string whole =
+      edited(edited(blocks, "  - {on: low, material: m, element: solid}\n", ""),
+             "  - {on: high, material: hard, element: solid, formulation: full, kinematics: small}",
+             "  - {on: both, material: m, element: solid}\nsets: {both: {union: [low, high]}}");
+  const std::string gap =
+      "springs: [{terms: [{on: low.bottom_front_left, of: uz, factor: -1}, {on: "
+      "low.bottom_back_right, of: uz, factor: 1}], gap: {clearance: 0.1, stiffness: 1e4, "
+      "tension: 1e-3}}]\n";
+  const std::string text =
+      written(edited(edited(whole, "amplitudes:", gap + "amplitudes:"),
+                     "    release:", "    remove: [{on: high}]\n    release:"));
   EXPECT_THAT(text, HasSubstr("*GAP, ELSET=gap_1\n0.1, 0, 0, 1, , 10000, 0.001\n"));
-  EXPECT_THAT(text, HasSubstr("*ELSET, ELSET=end_elements\n2\n"));
-  EXPECT_THAT(text, HasSubstr("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nend_elements\n"));
+  EXPECT_THAT(text, HasSubstr("*ELSET, ELSET=high_elements\n3\n"));
+  EXPECT_THAT(text, HasSubstr("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nhigh_elements\n"));
   const Description after = parse_model(translate_deck(text, "model.inp").root, "model.inp");
   ASSERT_EQ(after.springs.size(), 1U);
   EXPECT_EQ(after.springs[0].gap->clearance, 0.1);
