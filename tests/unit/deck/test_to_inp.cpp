@@ -519,12 +519,11 @@ TEST(ToInp, PartsOfSectionsAndGaps) {
       "springs: [{terms: [{on: low.bottom_front_left, of: uz, factor: -1}, {on: "
       "low.bottom_back_right, of: uz, factor: 1}], gap: {clearance: 0.1, stiffness: 1e4, "
       "tension: 1e-3}}]\n";
-  const std::string text =
-      written(edited(edited(whole, "amplitudes:", gap + "amplitudes:"),
-                     "    release:", "    remove: [{on: high}]\n    release:"));
+  const std::string text = written(edited(whole, "amplitudes:", gap + "amplitudes:") +
+                                   "output: {dat: [{on: high, of: [S]}]}\n");
   EXPECT_THAT(text, HasSubstr("*GAP, ELSET=gap_1\n0.1, 0, 0, 1, , 10000, 0.001\n"));
   EXPECT_THAT(text, HasSubstr("*ELSET, ELSET=high_elements\n3\n"));
-  EXPECT_THAT(text, HasSubstr("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\nhigh_elements\n"));
+  EXPECT_THAT(text, HasSubstr("*EL PRINT, ELSET=high_elements\nS\n"));
   const Description after = parse_model(translate_deck(text, "model.inp").root, "model.inp");
   ASSERT_EQ(after.springs.size(), 1U);
   EXPECT_EQ(after.springs[0].gap->clearance, 0.1);
