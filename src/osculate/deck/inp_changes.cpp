@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "osculate/core/text.hpp"
 #include "osculate/deck/inp_parts.hpp"
@@ -23,91 +22,23 @@ SourceNode& entry_of(SourceNode& list, const std::string& pair, int line) {
   return entry;
 }
 
-/// The pairs of the interaction that a `*CHANGE ...` names, in capitals.
-std::string changed_interaction(const InpModel& m, const Card& change) {
-  const std::string name = io::inp::capitals(value_of(m, change, "INTERACTION"));
+/// Puts the law of a pair into all pairs of an interaction.
+template <class LawOf>
+void change_law(const InpModel& m, const Card& change, const char* key, const LawOf& law_of,
+                SourceNode& list) {
+  const std::string& name = value_of(m, change, "INTERACTION");
+  bool found = false;
   std::vector<std::string> names;
   for (const InpPair& pair : m.pairs) {
-    if (pair.interaction == name) return name;
     names.push_back(pair.interaction);
+    if (pair.interaction != io::inp::capitals(name)) continue;
+    found = true;
+    put(entry_of(list, pair.name, line_of(change.at)), key, law_of(pair));
   }
-  io::inp::fail(
-      m.deck, change,
-      core::unknown_name_message("surface interaction of a contact pair", printable(name), names));
-}
-
-/// What changes of the laws of interactions, by their names in capitals.
-struct ChangedLaws {
-  std::set<std::string> normal, friction;
-};
-
-/// Takes the cards of a law of a step; `laws`: where they go.
-void read_changes(const InpModel& m, std::span<const Card> step,
-                  std::vector<InpInteraction>& laws, ChangedLaws* changed) {
-  const Card* change = nullptr;
-  for (const Card& card : step) {
-    if (card.keyword == "CHANGEFRICTION" || card.keyword == "CHANGESURFACEBEHAVIOR") change = &card;
-    const bool is_friction = card.keyword == "FRICTION";
-    if (!is_friction && card.keyword != "SURFACEBEHAVIOR") continue;
-    if (!change || (change->keyword == "CHANGEFRICTION") != is_friction)
-      io::inp::fail(m.deck, card,
-                    fmt::format("in a step it follows *CHANGE {}",
-                                is_friction ? "FRICTION" : "SURFACE BEHAVIOR"));
-    const std::string name = changed_interaction(m, *change);
-    for (InpInteraction& law : laws)
-      if (io::inp::capitals(law.name) == name) (is_friction ? law.friction : law.behavior) = &card;
-    if (changed) (is_friction ? changed->friction : changed->normal).insert(name);
-    change = nullptr;
-  }
-}
-
-/// The laws at the end of a step, and whether it and the one before have inertia: contact is damped
-/// there alone, as in CalculiX. Steps that move nothing are as the one before them.
-struct LawsThen {
-  std::vector<InpInteraction> laws;
-  bool in_time = false, was_in_time = false;
-};
-LawsThen laws_then(const InpModel& m, std::span<const Card> step, ChangedLaws& changed) {
-  LawsThen then{inp_interactions(m)};
-  then.in_time = then.was_in_time = inp_begins_in_time(m);
-  const Card* const first = m.deck.cards.data();
-  const auto from = static_cast<std::size_t>(step.data() - first);
-  for (std::size_t k = 0; k < from + step.size(); ++k) {
-    const std::string& key = m.deck.cards[k].keyword;
-    if (k == from) then.was_in_time = then.in_time;
-    if (key == "STATIC" || key == "VISCO" || key == "DYNAMIC") then.in_time = key == "DYNAMIC";
-  }
-  std::size_t begin = 0;
-  while (begin < from && m.deck.cards[begin].keyword != "STEP") ++begin;
-  read_changes(m, {first + begin, from - begin}, then.laws, nullptr);
-  read_changes(m, step, then.laws, &changed);
-  return then;
-}
-
-void put_changed_laws(const InpModel& m, std::span<const Card> step, SourceNode& list) {
-  ChangedLaws changed;
-  const LawsThen then = laws_then(m, step, changed);
-  for (const InpPair& pair : m.pairs)
-    for (const InpInteraction& law : then.laws) {
-      if (io::inp::capitals(law.name) != pair.interaction) continue;
-      const bool switched = law.damping && then.in_time != then.was_in_time;
-      const Card* const damping = then.in_time ? law.damping : nullptr;
-      const auto entry = [&](const Card* card) -> SourceNode& {
-        return entry_of(list, pair.name, line_of((card ? card : &step.front())->at));
-      };
-      if (switched || changed.normal.contains(pair.interaction)) {
-        SourceNode normal =
-            inp_normal(m, law.behavior, line_of((law.behavior ? law.behavior : law.card)->at),
-                       pair.clearance);
-        if (damping) put_damping(m, *damping, normal);
-        put(entry(law.behavior), "normal", std::move(normal));
-      }
-      if (!switched && !changed.friction.contains(pair.interaction)) continue;
-      SourceNode friction = inp_shear(m, law.friction, damping);
-      if (friction.entries.empty() && friction.text.empty())
-        friction = inp_text("none", line_of(step.front().at));
-      put(entry(law.friction), "friction", std::move(friction));
-    }
+  if (!found)
+    io::inp::fail(m.deck, change,
+                  core::unknown_name_message("surface interaction of a contact pair",
+                                             printable(name), names));
 }
 
 void change_activity(const InpModel& m, const Card& card, SourceNode& list) {
@@ -140,18 +71,36 @@ void change_activity(const InpModel& m, const Card& card, SourceNode& list) {
 
 }  // namespace
 
-bool inp_begins_in_time(const InpModel& m) {
-  for (const Card& card : m.deck.cards)
-    if (card.keyword == "STATIC" || card.keyword == "VISCO" || card.keyword == "DYNAMIC")
-      return card.keyword == "DYNAMIC";
-  return false;
-}
-
 SourceNode inp_changes(const InpModel& m, std::span<const Card> step) {
   SourceNode list = inp_list(step.empty() ? 1 : line_of(step.front().at));
-  for (const Card& card : step)
+  const Card* change = nullptr;
+  for (const Card& card : step) {
     if (card.keyword == "MODELCHANGE") change_activity(m, card, list);
-  put_changed_laws(m, step, list);
+    if (card.keyword == "CHANGEFRICTION" || card.keyword == "CHANGESURFACEBEHAVIOR") change = &card;
+    const bool is_friction = card.keyword == "FRICTION";
+    if (!is_friction && card.keyword != "SURFACEBEHAVIOR") continue;
+    if (!change || (change->keyword == "CHANGEFRICTION") != is_friction)
+      io::inp::fail(m.deck, card,
+                    fmt::format("in a step it follows *CHANGE {}",
+                                is_friction ? "FRICTION" : "SURFACE BEHAVIOR"));
+    if (is_friction)
+      change_law(
+          m, *change, "friction",
+          [&](const InpPair& pair) {
+            const auto all = inp_interactions(m);
+            return inp_shear(m, &card,
+                             damping_of(m, interaction_named(m, all, card.at, pair.interaction)));
+          },
+          list);
+    else
+      change_law(
+          m, *change, "normal",
+          [&](const InpPair& pair) {
+            return inp_normal(m, &card, line_of(card.at), pair.clearance);
+          },
+          list);
+    change = nullptr;
+  }
   return list;
 }
 

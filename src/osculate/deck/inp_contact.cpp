@@ -238,10 +238,24 @@ const InpInteraction& interaction_named(const InpModel& m, const std::vector<Inp
                 core::unknown_name_message("surface interaction", printable(name), names));
 }
 
+const Card* damping_of(const InpModel& m, const InpInteraction& law) {
+  if (!law.damping) return nullptr;
+  bool in_time = false, at_rest = false;
+  for (const Card& card : m.deck.cards) {
+    in_time = in_time || card.keyword == "DYNAMIC";
+    at_rest = at_rest || card.keyword == "STATIC" || card.keyword == "VISCO";
+  }
+  if (in_time && at_rest)
+    io::inp::fail(m.deck, *law.damping,
+                  "acts in steps with *DYNAMIC alone, and the deck has others: damping that comes "
+                  "and goes is not supported");
+  return in_time ? law.damping : nullptr;
+}
+
 void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, double clearance) {
   SourceNode& normal =
       put(pair, "normal", inp_normal(m, law.behavior, line_of(law.card->at), clearance));
-  const Card* const damping = inp_begins_in_time(m) ? law.damping : nullptr;
+  const Card* const damping = damping_of(m, law);
   if (damping) put_damping(m, *damping, normal);
   if (inp_is_tied(law.behavior)) return;
   SourceNode friction = inp_shear(m, law.friction, damping);

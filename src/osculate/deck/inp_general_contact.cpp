@@ -182,19 +182,6 @@ void put_exclusions(InpModel& m, const General& general, SourceNode& all) {
   }
 }
 
-/// Contact is damped in steps in time alone, and that of everything does not change.
-void require_one_kind_of_steps(const InpModel& m, const InpInteraction& law) {
-  if (!law.damping) return;
-  for (const Card& card : m.deck.cards) {
-    const bool in_time = card.keyword == "DYNAMIC";
-    if ((in_time || card.keyword == "STATIC" || card.keyword == "VISCO") &&
-        in_time != inp_begins_in_time(m))
-      io::inp::fail(m.deck, *law.damping,
-                    "ALL EXTERIOR with damping is not supported where some steps are *DYNAMIC and "
-                    "others are not");
-  }
-}
-
 SourceNode contact_of_all(InpModel& m, const General& general,
                           const std::vector<InpInteraction>& interactions) {
   const int line = line_of(general.card->at);
@@ -207,9 +194,7 @@ SourceNode contact_of_all(InpModel& m, const General& general,
                     "all surfaces: `, , NAME`");
   if (!general.laws.empty()) {
     const ContactLine& law = general.laws.back();
-    const InpInteraction& of = interaction_named(m, interactions, law.at, law.interaction);
-    require_one_kind_of_steps(m, of);
-    put_laws(m, of, all);
+    put_laws(m, interaction_named(m, interactions, law.at, law.interaction), all);
   }
   put_exclusions(m, general, all);
   return root;

@@ -199,6 +199,9 @@ struct InpInteraction {
 [[nodiscard]] const InpInteraction& interaction_named(const InpModel& m,
                                                       const std::vector<InpInteraction>& all,
                                                       io::inp::Place at, std::string_view name);
+/// Its damping, which acts in steps in time alone, as in CalculiX: null where there are none. Fails
+/// where there are both kinds of steps: damping does not change from step to step.
+[[nodiscard]] const io::inp::Card* damping_of(const InpModel& m, const InpInteraction& law);
 /// Its laws as keys of a contact pair; clearance: as of inp_normal.
 void put_laws(const InpModel& m, const InpInteraction& law, SourceNode& pair, double clearance = 0);
 /// A new pair of two surfaces of the deck, with a name of its own. `nodes`: of slaves that share
@@ -211,10 +214,7 @@ SourceNode& add_pair(const InpModel& m, io::inp::Place at, const std::string& sl
 [[nodiscard]] SourceNode inp_general_contact(InpModel& m,
                                              const std::vector<InpInteraction>& interactions,
                                              SourceNode pairs);
-/// Whether the first step that moves something has inertia.
-[[nodiscard]] bool inp_begins_in_time(const InpModel& m);
-/// What the cards of a step change of contact pairs; empty: nothing. `*CONTACT DAMPING` comes and
-/// goes with steps in time.
+/// What the cards of a step change of contact pairs; empty: nothing.
 [[nodiscard]] SourceNode inp_changes(const InpModel& m, std::span<const io::inp::Card> step);
 /// Adds to a step what its cards change of elements, sections and equations.
 ///

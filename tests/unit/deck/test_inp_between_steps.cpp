@@ -176,12 +176,9 @@ TEST(InpBetweenSteps, LawsThatAreNoPenalty) {
             "damping: {viscous: 0.5}");
   expect_in(part(dry + damped + pair + in_time, "contact"), "viscous: 0.25}");
   // in steps with inertia alone
-  const std::string all = part(dry + damped + pair + press + in_time + press, "contact");
-  EXPECT_EQ(all.find("viscous"), std::string::npos) << all;
-  const std::string steps = part(dry + damped + pair + press + in_time + in_time + press, "steps");
-  expect_in(steps, "damping: {viscous: 0.5}");
-  expect_in(steps, "viscous: 0.25}");
-  EXPECT_EQ(steps.find("viscous: 0.5"), steps.rfind("viscous: 0.5")) << steps;
+  const std::string at_rest = part(dry + damped + pair + press, "contact");
+  EXPECT_EQ(at_rest.find("viscous"), std::string::npos) << at_rest;
+  expect_in(message_of(dry + damped + pair + press + in_time), "acts in steps with *DYNAMIC alone");
   const std::string mortar = "*CONTACT PAIR, INTERACTION=SOFT, TYPE=MORTAR\nSLAVE, MASTER\n";
   const std::string unknown = "enforcement: lagrange_multiplier";
   EXPECT_EQ(part(exponential + mortar + press, "contact").find(unknown), std::string::npos);
