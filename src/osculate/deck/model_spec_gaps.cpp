@@ -9,8 +9,9 @@ Spec initial_spec() {
   const Spec tolerance =
       number("Initial gaps up to this are closed too.").in("length").at_least(0).such_as("0.01");
   const Spec clearance =
-      number("Every gap over the master begins with this, whatever it is in the mesh; negative: an "
-             "overlap.")
+      number(
+          "Every gap over the master begins with this, whatever it is in the mesh; negative: an "
+          "overlap.")
           .in("length")
           .such_as("0.01");
   const Spec nodes = text("Adjust these slave nodes alone, whatever their gap.").such_as("rim");

@@ -171,8 +171,9 @@ template <class T>
     }
     if (core::Curves* const curves = core::curves_over(object, p);
         curves && !value->items.empty() &&
-        (core::number_in(object, p.slot) ||
-         std::ranges::any_of(value->items, [](const Value& row) { return row.items.size() == 3; }))) {
+        (core::number_in(object, p.slot) || std::ranges::any_of(value->items, [](const Value& row) {
+           return row.items.size() == 3;
+         }))) {
       *curves = curves_of(*value);
       continue;
     }

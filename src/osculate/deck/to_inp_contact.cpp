@@ -232,8 +232,7 @@ std::string contact_changes(const Description& d, std::size_t step, InpMesh<Dim>
     if (!change.friction) continue;
     const WrittenShear shear = written_shear(path + ".friction", leaves);
     const auto pair = static_cast<std::size_t>(of - d.contact.begin());
-    const WrittenShear first =
-        written_shear(fmt::format("contact[{}].friction", pair), leaves);
+    const WrittenShear first = written_shear(fmt::format("contact[{}].friction", pair), leaves);
     if (shear.film != 0 || first.film != 0)
       throw core::InputError(change.mark, "changes of friction beside a film are not written");
     out += fmt::format("*CHANGE FRICTION, INTERACTION={}\n{}", law_name(change.pair.value),

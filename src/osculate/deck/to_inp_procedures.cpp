@@ -198,8 +198,8 @@ ProcedureCards procedure_of(const Description& d, std::size_t number, bool finit
     const std::string_view key = material::key_of(m.law.value);
     return key == material::Viscoelastic::key || key == "norton";
   });
-  const std::string times = fmt::format("{}, {}\n", exact(duration / step.increments.value),
-                                        exact(duration));
+  const std::string times =
+      fmt::format("{}, {}\n", exact(duration / step.increments.value), exact(duration));
   if (!relaxes) return {head + "*STATIC, DIRECT\n" + times, false, false};
   return {title + fmt::format("*STEP{}, INC=1000000, AMPLITUDE=RAMP\n", geometry) +
               "*VISCO, CETOL=1, DIRECT\n" + times,
