@@ -98,13 +98,6 @@ const Card* orientation_card(const InpModel& m, const std::string& name) {
 
 }  // namespace
 
-bool has_constant_lines(const InpModel& m, const Card& card) {
-  const auto lines = io::inp::lines_of(m.deck, card);
-  return std::all_of(lines.begin(), lines.end(), [&](const Line& line) {
-    return before_temperature(line) == before_temperature(lines[0]);
-  });
-}
-
 const Line& constant_line(const InpModel& m, const Card& card, const char* what) {
   const auto lines = io::inp::lines_of(m.deck, card);
   if (lines.size() < 2) return only_line(m, card, what);

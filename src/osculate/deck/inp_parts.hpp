@@ -91,9 +91,7 @@ void check_parameters(InpModel& m);
 [[nodiscard]] SourceNode inp_materials(InpModel& m);
 /// A material as the model file calls it: by its name in capital and small letters.
 [[nodiscard]] std::string material_named(const InpModel& m, std::string_view name);
-/// Whether the numbers of all lines are the same; the temperature, which stands last, is not read.
-[[nodiscard]] bool has_constant_lines(const InpModel& m, const io::inp::Card& card);
-/// The first line of such a card.
+/// The first line of a card whose lines differ in the temperature alone, which stands last.
 [[nodiscard]] const io::inp::Line& constant_line(const InpModel& m, const io::inp::Card& card,
                                                  const char* what);
 /// Constants of a material at a temperature.
