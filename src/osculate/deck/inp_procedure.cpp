@@ -144,17 +144,23 @@ void put_search(const InpProcedure& procedure, SourceNode& step) {
 
 namespace {
 
-/// `*STATIC` is the response at once of what relaxes.
+/// `*STATIC` is the response at once of what relaxes, and nothing creeps in it, as in CalculiX.
 double duration_of(InpModel& m, const InpProcedure& procedure) {
   if (!procedure.is("STATIC")) return procedure.period;
-  const std::optional<double> shortest = shortest_relaxation(m);
-  if (!shortest) return procedure.period;
   constexpr double next_to_none = 1e-9;
-  m.notes.push_back(
-      fmt::format("line {}: *STATIC is the response at once of *VISCOELASTIC: it has the "
-                  "duration {:g}, 1e-9 of the shortest relaxation time",
-                  procedure.card->at.line, next_to_none * *shortest));
-  return next_to_none * *shortest;
+  const auto say = [&](const char* what, double duration, const char* of) {
+    m.notes.push_back(fmt::format("line {}: *STATIC {}: it has the duration {:g}, 1e-9 of {}",
+                                  procedure.card->at.line, what, duration, of));
+    return duration;
+  };
+  if (const std::optional<double> shortest = shortest_relaxation(m))
+    return say("is the response at once of *VISCOELASTIC", next_to_none * *shortest,
+               "the shortest relaxation time");
+  const bool creeps =
+      std::ranges::any_of(m.deck.cards, [](const Card& card) { return card.keyword == "CREEP"; });
+  if (creeps)
+    return say("knows no *CREEP, as in CalculiX", next_to_none * procedure.period, "its time");
+  return procedure.period;
 }
 
 }  // namespace
