@@ -24,18 +24,20 @@ std::string gap_line(const std::string& pair, const result::GapFacts& g, std::si
       "Initial gaps", pair, g.found, points, g.touching, g.overlapping, g.smallest, g.largest);
 }
 
-/// The deepest overlap by name, and what becomes of all of them.
+/// The clearance that counts instead, or the deepest overlap by name and what becomes of all of
+/// them.
 template <int Dim>
 std::string overlap_line(const model::BasicModel<Dim>& m, const model::BasicContactPair<Dim>& pair,
                          const result::GapFacts& g) {
+  if (pair.definition.overlap == pairing::InitialOverlap::given)
+    return fmt::format("{:<13} {:<16} {:.4g} in place of these gaps\n", "Clearance", pair.name,
+                       pair.definition.clearance);
   if (g.overlapping == 0) return {};
   const char* fate = "they are pushed out in the first increment";
   if (pair.definition.overlap == pairing::InitialOverlap::ramped)
     fate = "they are let in over the first step";
   if (pair.definition.overlap == pairing::InitialOverlap::kept)
     fate = "gaps are measured from them";
-  if (pair.definition.overlap == pairing::InitialOverlap::given)
-    fate = "the clearance of the contact counts in their place";
   const Index node = pair.definition.slave.points[g.deepest].nearest_node();
   const std::string deep = pair.height > 0 ? fmt::format(", {:.2g} of the height of the cells",
                                                          -g.smallest / pair.height)

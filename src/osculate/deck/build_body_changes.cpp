@@ -138,6 +138,9 @@ void change_material(BuildContext<Dim>& c, const MaterialChange& change,
                       "one elastic law may take the place of another, one elastoplastic of "
                       "another, both with an expansion or both without",
                       change.material.value, section.name));
+    if constexpr (Dim == 2)
+      for (const mesh::CellRef& ref : section.cells)
+        check_plane(c, of, now.now, change.material, ref);
     if (!section.initial.empty()) require_hooke(now.now, section.name, change.material.mark);
     if (material::needs_duration(material->law.value))
       check_durations(c.description, material->law.mark,

@@ -82,6 +82,11 @@ template <int Dim>
 [[nodiscard]] solid::Section<Dim> make_solid_section(const Section& section,
                                                      const Material& material);
 
+/// In the plane nothing may shear across it: neither strain of the plane makes such a stress, nor
+/// the other way. `named`: the material, where it is told.
+void check_plane(const BuildContext<2>& context, const Section& description,
+                 const solid::Section<2>& section, const Name& named, const mesh::CellRef& cell);
+
 template <int Dim>
 void build_sections(BuildContext<Dim>& context);
 template <int Dim>

@@ -147,38 +147,6 @@ void check_orientation(BuildContext<Dim>& c, const Section& s, const solid::Sect
                     s.on.value, s.material.value));
 }
 
-/// In the plane nothing may shear across it: neither strain of the plane makes such a stress, nor
-/// the other way.
-void check_plane(const BuildContext<2>& c, const Section& s, const model::BulkSection& section,
-                 const mesh::CellRef& ref) {
-  const auto& expands = section.section.expansion.directions;
-  if (!material::directional(section.section.law) && expands.empty()) return;
-  const mesh::Block& block = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)];
-  const int nodes = cell::info(block.type).nodes;
-  Vec3 middle = Vec3::Zero();
-  for (int k = 0; k < nodes; ++k)
-    middle += c.model().mesh.nodes[static_cast<std::size_t>(block.cell(ref.cell)[k])] / nodes;
-  const Mat<3, 3> axes = material::axes_at(section.section.orientation, middle);
-  constexpr double rounding = 1e-12;
-  const auto fail = [&](const char* what) {
-    const bool given = section.section.orientation.kind != material::Orientation::Kind::global;
-    throw core::InputError(
-        given ? s.orientation.mark : s.material.mark,
-        fmt::format("material '{}' {} across it: in the plane one of its axes is "
-                    "across it, and its constants have no such terms",
-                    s.material.value, what));
-  };
-  for (const material::Tangent3& own : material::stiffnesses_of(section.section.law)) {
-    const material::Tangent3 d = material::turned(own, axes);
-    if (!(d.topRightCorner<4, 2>().cwiseAbs().maxCoeff() <= rounding * d.cwiseAbs().maxCoeff()))
-      fail("answers strains of the plane with shear");
-  }
-  for (const auto& row : expands) {
-    const material::Strain3 e = material::into_axes(axes.transpose()) * row.coefficients;
-    if (!(e.tail<2>().norm() <= rounding * e.norm())) fail("shears, as it expands,");
-  }
-}
-
 template <int Dim>
 void check_set(const Section& s, const mesh::Set& set) {
   if (set.dimension == Dim && !set.cells.empty()) return;
@@ -206,7 +174,7 @@ void add_cell(BuildContext<Dim>& c, const Section& s, const model::BasicBulkSect
                     at->second == index ? section.name
                                         : m.sections[static_cast<std::size_t>(at->second)].name));
   check_cell(c, s, section, ref);
-  if constexpr (Dim == 2) check_plane(c, s, section, ref);
+  if constexpr (Dim == 2) check_plane(c, s, section.section, s.material, ref);
   const mesh::Block& block = m.mesh.blocks[static_cast<std::size_t>(ref.block)];
   for (int k = 0; k < cell::info(block.type).nodes; ++k) {
     Index& slot = c.section_of_node[static_cast<std::size_t>(block.cell(ref.cell)[k])];
@@ -215,6 +183,36 @@ void add_cell(BuildContext<Dim>& c, const Section& s, const model::BasicBulkSect
 }
 
 }  // namespace
+
+void check_plane(const BuildContext<2>& c, const Section& s, const solid::Section<2>& section,
+                 const Name& named, const mesh::CellRef& ref) {
+  const auto& expands = section.expansion.directions;
+  if (!material::directional(section.law) && expands.empty()) return;
+  const mesh::Block& block = c.model().mesh.blocks[static_cast<std::size_t>(ref.block)];
+  const int nodes = cell::info(block.type).nodes;
+  Vec3 middle = Vec3::Zero();
+  for (int k = 0; k < nodes; ++k)
+    middle += c.model().mesh.nodes[static_cast<std::size_t>(block.cell(ref.cell)[k])] / nodes;
+  const Mat<3, 3> axes = material::axes_at(section.orientation, middle);
+  constexpr double rounding = 1e-12;
+  const auto fail = [&](const char* what) {
+    const bool given = section.orientation.kind != material::Orientation::Kind::global;
+    throw core::InputError(
+        given ? s.orientation.mark : named.mark,
+        fmt::format("material '{}' {} across it: in the plane one of its axes is "
+                    "across it, and its constants have no such terms",
+                    named.value, what));
+  };
+  for (const material::Tangent3& own : material::stiffnesses_of(section.law)) {
+    const material::Tangent3 d = material::turned(own, axes);
+    if (!(d.topRightCorner<4, 2>().cwiseAbs().maxCoeff() <= rounding * d.cwiseAbs().maxCoeff()))
+      fail("answers strains of the plane with shear");
+  }
+  for (const auto& row : expands) {
+    const material::Strain3 e = material::into_axes(axes.transpose()) * row.coefficients;
+    if (!(e.tail<2>().norm() <= rounding * e.norm())) fail("shears, as it expands,");
+  }
+}
 
 template <int Dim>
 void build_sections(BuildContext<Dim>& c) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "osculate/material/between.hpp"
+
 namespace osculate::material {
 
 CurvePiece piece_at(const core::Table& points, double plastic) {
@@ -17,16 +19,10 @@ CurvePiece piece_at(const core::Table& points, double plastic) {
 }
 
 CurvePiece piece_at(const core::Curves& curves, const double* temperature, double plastic) {
-  const auto above =
-      temperature ? std::find_if(curves.begin(), curves.end(),
-                                 [&](const core::Curve& c) { return c.temperature > *temperature; })
-                  : curves.begin();
-  if (above == curves.begin()) return piece_at(curves.front().points, plastic);
-  if (above == curves.end()) return piece_at(curves.back().points, plastic);
-  const core::Curve& below = *(above - 1);
-  const double weight =
-      (*temperature - below.temperature) / (above->temperature - below.temperature);
-  const CurvePiece a = piece_at(below.points, plastic), b = piece_at(above->points, plastic);
+  if (!temperature) return piece_at(curves.front().points, plastic);
+  const auto at = between(curves, *temperature, [](const auto& c) { return c.temperature; });
+  const CurvePiece a = piece_at(at.below.points, plastic), b = piece_at(at.above.points, plastic);
+  const double weight = at.weight;
   const double start = std::max(a.start, b.start);
   return {start, std::min(a.end, b.end), (1 - weight) * a.at(start) + weight * b.at(start),
           (1 - weight) * a.slope + weight * b.slope};

@@ -1,8 +1,8 @@
 #include "osculate/material/expansion.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 
+#include "osculate/material/between.hpp"
 #include "osculate/material/orientation.hpp"
 #include "osculate/material/over_temperature.hpp"
 
@@ -10,15 +10,8 @@ namespace osculate::material {
 namespace {
 
 Strain3 coefficients_at(const std::vector<Expansion::Directions>& rows, double temperature) {
-  const auto above = std::find_if(rows.begin(), rows.end(), [&](const Expansion::Directions& row) {
-    return row.temperature > temperature;
-  });
-  if (above == rows.begin()) return rows.front().coefficients;
-  if (above == rows.end()) return rows.back().coefficients;
-  const Expansion::Directions& below = *(above - 1);
-  const double weight =
-      (temperature - below.temperature) / (above->temperature - below.temperature);
-  return (1 - weight) * below.coefficients + weight * above->coefficients;
+  const auto at = between(rows, temperature, [](const auto& row) { return row.temperature; });
+  return at.below.coefficients + at.weight * (at.above.coefficients - at.below.coefficients);
 }
 
 }  // namespace

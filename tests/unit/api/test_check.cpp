@@ -46,6 +46,12 @@ TEST(Check, AnOverlapIsShownOnceWhateverBecomesOfIt) {
   }
 }
 
+TEST(Check, AClearanceIsSaidBesideTheGapsOfTheMesh) {
+  const std::string text = check_text(block(", initial: {clearance: 0.002}")).text;
+  EXPECT_THAT(text, HasSubstr("Clearance     c                0.002 in place of these gaps\n"));
+  EXPECT_THAT(text, ::testing::Not(HasSubstr("Overlaps")));
+}
+
 TEST(Check, SizeSetsCellsLoadsAndSupports) {
   const CheckReport report = check_text(block(""));
   for (const char* const line :

@@ -37,6 +37,7 @@ TEST(InitialGaps, SmallOverlapsAndThoseThatAreMeantAreNot) {
   EXPECT_THAT(warnings_of(column(0.01, "")), IsEmpty());
   EXPECT_THAT(warnings_of(column(0.15, ", initial: ramp")), IsEmpty());
   EXPECT_THAT(warnings_of(column(0.15, ", initial: keep")), IsEmpty());
+  EXPECT_THAT(warnings_of(column(0.8, ", initial: {clearance: 0}")), IsEmpty());
 }
 
 }  // namespace

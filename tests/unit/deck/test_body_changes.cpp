@@ -209,6 +209,15 @@ TEST(BodyChanges, AreRefusedWithTheReason) {
               "soft: {deformation_plasticity: {E: 50, nu: 0, yield: 1, n: 5, alpha: 0.3}}")
           .substr(0, 85),
       "model.yaml:10: initial_strain[0].on: the section on 'b' is of deformation_plasticity:");
+  const std::string wood = edited(
+      bars(), "soft: {linear_elastic: {E: 50, nu: 0}}}",
+      "soft: {linear_elastic: {E: 50, nu: 0}}, wood: {anisotropic: {D1111: 9, D1122: 0, D2222: 9, "
+      "D1133: 0, D2233: 0, D3333: 9, D1212: 4, D1313: 4, D2323: 4, D1113: 1}}}");
+  EXPECT_EQ(
+      build_refusal(edited(wood, "{on: a, material: soft}]}\n", "{on: a, material: wood}]}\n")),
+      "model.yaml:14: steps[2].materials[0].material: material 'wood' answers strains of the plane "
+      "with shear across it: in the plane one of its axes is across it, and its constants have no "
+      "such terms");
   const std::string other = edited(
       bars(), "soft: {linear_elastic: {E: 50, nu: 0}}}",
       "soft: {linear_elastic: {E: 50, nu: 0}}, ramberg: {deformation_plasticity: {E: 50, nu: 0, "
