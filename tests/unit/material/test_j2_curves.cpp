@@ -8,9 +8,12 @@
 #include "osculate/material/energy.hpp"
 #include "osculate/material/j2_plasticity.hpp"
 #include "osculate/material/law.hpp"
+#include "von_mises.hpp"
 
 namespace osculate::material {
 namespace {
+
+using support::mises;
 
 using State = std::array<double, J2Plasticity::memory.size()>;
 
@@ -56,11 +59,6 @@ struct Point {
     return r;
   }
 };
-
-double mises(const Stress3& s) {
-  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * s.tail<3>().squaredNorm());
-}
 
 // Without a change of the temperature the law of that temperature alone has the same answers.
 TEST(J2Curves, AtOneTemperatureAreThatCurve) {

@@ -8,9 +8,12 @@
 #include "derivative_check.hpp"
 #include "osculate/material/energy.hpp"
 #include "osculate/material/law.hpp"
+#include "von_mises.hpp"
 
 namespace osculate::material {
 namespace {
+
+using support::mises;
 
 using State = std::array<double, J2Plasticity::memory.size()>;
 
@@ -38,10 +41,6 @@ struct Point {
   }
 };
 
-double mises(const Stress3& s) {
-  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * s.tail<3>().squaredNorm());
-}
 /// Stress without the back stress of a state.
 Stress3 relative(const J2Plasticity& law, const Stress3& s, const State& state) {
   return s - 2.0 / 3 * law.kinematic * Eigen::Map<const Stress3>(state.data() + 1);

@@ -7,9 +7,12 @@
 
 #include "derivative_check.hpp"
 #include "osculate/material/law.hpp"
+#include "von_mises.hpp"
 
 namespace osculate::material {
 namespace {
+
+using support::mises;
 
 using State = std::array<double, Norton::memory.size()>;
 
@@ -18,11 +21,6 @@ const Norton viscous{.young = 200, .poisson = 0.3, .rate = 1e-3, .exponent = 1};
 const Strain3 first{{0.012, -0.006, 0.004, 0.010, -0.005, 0.008}};
 const Strain3 second{{-0.004, 0.009, 0.002, -0.012, 0.006, 0.003}};
 const Strain3 along{{0.5, -0.3, 0.2, 0.7, -0.4, 0.6}};
-
-double mises(const Stress3& s) {
-  const double a = s[0] - s[1], b = s[1] - s[2], c = s[2] - s[0];
-  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * s.tail<3>().squaredNorm());
-}
 
 Response3 step(const Law& law, const Strain3& e, double duration, State& state) {
   State next{};
