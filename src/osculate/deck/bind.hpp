@@ -2,6 +2,7 @@
 // Keys of the model file together with the members that their values go to: one statement says both
 // what may stand there and where it is kept.
 #include <functional>
+#include <span>
 
 #include "osculate/deck/parse_parts.hpp"
 
@@ -151,7 +152,7 @@ template <class Any, class T, class Check = void (*)(const Value&, const T&)>
             return Any(std::move(object));
           }};
 }
-[[nodiscard]] inline std::vector<std::string> names_of(const std::vector<Key>& keys) {
+[[nodiscard]] inline std::vector<std::string> names_of(std::span<const Key> keys) {
   std::vector<std::string> names;
   for (const Key& key : keys) names.push_back(key.name);
   return names;

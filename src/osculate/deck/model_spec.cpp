@@ -65,9 +65,9 @@ BoundKeys<Description> model_keys() {
   return {std::move(keys)};
 }
 
-Spec model_spec() {
-  return model_keys().spec(
-      "A model of Osculate. All quantities are in one consistent system of units.");
+Spec model_spec(const BoundKeys<Description>& keys) {
+  return keys.spec("A model of Osculate. All quantities are in one consistent system of units.");
 }
+Spec model_spec() { return model_spec(model_keys()); }
 
 }  // namespace osculate::deck

@@ -8,6 +8,7 @@ namespace osculate::deck {
 /// The keys of the model file with the members of the description that their values go to: the one
 /// list that validation, reading, JSON schema and `osculate doc` share.
 [[nodiscard]] BoundKeys<Description> model_keys();
+[[nodiscard]] Spec model_spec(const BoundKeys<Description>& keys);
 [[nodiscard]] Spec model_spec();
 
 // Its branches, one file each, in the order in which they are read: sections need the materials.

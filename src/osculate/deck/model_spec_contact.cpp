@@ -95,7 +95,8 @@ Spec normal_spec() {
   std::string doc = fmt::format("Law in the normal direction: a {}, or one of {}.", usual,
                                 core::join_with(others, "and"));
   keys.push_back(optional("damping", damping_spec()));
-  for (Key& key : holding_keys().spec({}).keys) keys.push_back(std::move(key));
+  const Spec holding = holding_keys().spec({});
+  keys.insert(keys.end(), holding.keys.begin(), holding.keys.end());
   return map(std::move(doc), std::move(keys)).otherwise("{}").such_as("{penalty: 2.1e6}");
 }
 

@@ -96,11 +96,12 @@ Description parse_model(SourceNode root, std::string file_name, std::span<const 
   require_document(root, file_name);
   Description d;
   d.parameters = apply_parameters(root, file_name, settings);
-  Value model = check(model_spec(), root, file_name);
+  const BoundKeys<Description> keys = model_keys();
+  Value model = check(model_spec(keys), root, file_name);
   std::vector<SetDefinition> unions;
   name_unions(model, unions);
   d.file = std::move(file_name);
-  model_keys().read(model, d);
+  keys.read(model, d);
   for (SetDefinition& one : unions)
     if (!find_named(d.sets, one.name.value)) d.sets.push_back(std::move(one));
   check_dimension(d);

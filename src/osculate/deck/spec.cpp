@@ -121,12 +121,12 @@ Spec map(std::string doc, std::vector<Key> keys) {
 }
 Spec names(std::string doc, Spec item) {
   Spec spec = basic(Type::names, std::move(doc));
-  spec.parts.push_back(std::move(item));
+  spec.parts = std::vector<Spec>{std::move(item)};
   return spec;
 }
 Spec list(std::string doc, Spec item) {
   Spec spec = basic(Type::list, std::move(doc));
-  spec.parts.push_back(std::move(item));
+  spec.parts = std::vector<Spec>{std::move(item)};
   return spec;
 }
 Spec text(std::string doc) { return basic(Type::text, std::move(doc)); }

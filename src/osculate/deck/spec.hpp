@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -51,6 +52,29 @@ struct Group {
 
 struct Key;
 
+/// A list whose copies share it: specifications are made of copies of copies.
+template <class T>
+class Shared {
+ public:
+  Shared() = default;
+  Shared(std::vector<T> items)  // NOLINT(google-explicit-constructor)
+      : items_(std::make_shared<const std::vector<T>>(std::move(items))) {}
+  /// Of this list alone.
+  void push_back(T item) {
+    std::vector<T> items(begin(), end());
+    items.push_back(std::move(item));
+    items_ = std::make_shared<const std::vector<T>>(std::move(items));
+  }
+  [[nodiscard]] const T* begin() const { return items_ ? items_->data() : nullptr; }
+  [[nodiscard]] const T* end() const { return items_ ? items_->data() + items_->size() : nullptr; }
+  [[nodiscard]] std::size_t size() const { return items_ ? items_->size() : 0; }
+  [[nodiscard]] bool empty() const { return size() == 0; }
+  [[nodiscard]] const T& operator[](std::size_t i) const { return (*items_)[i]; }
+
+ private:
+  std::shared_ptr<const std::vector<T>> items_;
+};
+
 /// One node of the specification of the model file. A plain tree; validation (check.hpp), the JSON
 /// schema (schema.hpp) and the explanations (explain.hpp) are functions of it, and nothing else
 /// knows which keys there are.
@@ -65,10 +89,10 @@ struct Spec {
   std::string example;   ///< YAML
   std::string hint;      ///< added to the message for a key or word that is not known
   std::optional<Bound> low, high;
-  std::vector<Choice> choices;
-  std::vector<Key> keys;
+  Shared<Choice> choices;
+  Shared<Key> keys;
   std::vector<Group> groups;
-  std::vector<Spec> parts;  ///< list, names: the one item; either: the alternatives
+  Shared<Spec> parts;  ///< list, names: the one item; either: the alternatives
   std::size_t min_items = 0, max_items = std::numeric_limits<std::size_t>::max();
   TextRule rule = TextRule::any;
   bool available = true;  ///< false: the key is known, but its feature does not exist yet

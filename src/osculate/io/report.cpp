@@ -86,11 +86,11 @@ std::string read_title(const std::string& data) {
 std::string escape_data(std::string_view json) {
   std::string out;
   out.reserve(json.size() + json.size() / 64);
-  for (const char c : json) {
-    if (c == '<')
-      out += "\\u003c";
-    else
-      out += c;
+  for (std::size_t at = 0; at < json.size();) {
+    const std::size_t next = std::min(json.find('<', at), json.size());
+    out.append(json, at, next - at);
+    if (next < json.size()) out += "\\u003c";
+    at = next + 1;
   }
   return out;
 }
@@ -123,7 +123,11 @@ std::string fill(std::string_view page, std::span<const Place> places) {
 }  // namespace
 
 std::string report_html(const std::string& data_json) {
-  std::string title = escape_markup(read_title(data_json));
+  return report_html(data_json, read_title(data_json));
+}
+
+std::string report_html(const std::string& data_json, const std::string& title_text) {
+  std::string title = escape_markup(title_text);
   if (title.empty()) title = "Osculate";
   const std::string data = escape_data(data_json);
   const std::array<Place, 3> places{

@@ -13,6 +13,8 @@ namespace osculate::io {
 /// Errors     core::InputError naming the line if `data_json` is not JSON or not an object
 /// Tested by  tests/unit/io/test_report.cpp
 [[nodiscard]] std::string report_html(const std::string& data_json);
+/// The same of data that is known to be such an object, with this title.
+[[nodiscard]] std::string report_html(const std::string& data_json, const std::string& title);
 
 /// Base64 (RFC 4648, with padding) of the values as little-endian IEEE single precision: the
 /// compact form of the arrays in the report data, `{"f32": "...", "shape": [...]}`.

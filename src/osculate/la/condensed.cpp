@@ -71,24 +71,13 @@ Eigen::VectorXd scale_of(const SparseMatrix& k, bool symmetric) {
   return scale;
 }
 
-Eigen::VectorXd product(const SparseMatrix& k, const Eigen::VectorXd& x, bool symmetric) {
-  if (!symmetric) return multiply(k, x);
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(k.n);
-  for (Index i = 0; i < k.n; ++i)
-    for (Index e = k.row_start[static_cast<std::size_t>(i)];
-         e < k.row_start[static_cast<std::size_t>(i) + 1]; ++e) {
-      const Index j = k.column[static_cast<std::size_t>(e)];
-      const double value = k.value[static_cast<std::size_t>(e)];
-      if (i > j) continue;
-      y[i] += value * x[j];
-      if (i != j) y[j] += value * x[i];
-    }
-  return y;
-}
-
 }  // namespace
 
 struct Condensed::Impl {
+  [[nodiscard]] Eigen::VectorXd multiplied(const Eigen::VectorXd& x) const {
+    return symmetric ? multiply_symmetric(matrix, x) : multiply(matrix, x);
+  }
+
   Mumps whole;
   SchurFactors inside;
   std::unique_ptr<Dense> dense = std::make_unique<Dense>();
@@ -166,8 +155,7 @@ bool Condensed::Impl::accurate() {
   constexpr double harmless = 1e-9, digits_left = 1e-6;
   if (inside.pivot_ratio() > harmless && dense->pivot_ratio() > harmless) return true;
   const double lost = lost_accuracy(
-      scale_of(matrix, symmetric),
-      [this](const Eigen::VectorXd& x) { return product(matrix, x, symmetric); },
+      scale_of(matrix, symmetric), [this](const Eigen::VectorXd& x) { return multiplied(x); },
       [this](Eigen::VectorXd& x) { return substitute(x); });
   return lost < digits_left;
 }
@@ -252,7 +240,7 @@ bool Condensed::Impl::solve(const Eigen::MatrixXd& given, Eigen::MatrixXd& x) {
   if (!substitute(x)) return false;
   for (Eigen::Index c = 0; c < x.cols(); ++c) {
     const auto residual = [&](const Eigen::VectorXd& of) -> Eigen::VectorXd {
-      return given.col(c) - product(matrix, of, symmetric);
+      return given.col(c) - multiplied(of);
     };
     const double size = given.col(c).stableNorm();
     Eigen::VectorXd rest = residual(x.col(c));

@@ -137,6 +137,8 @@ struct Iterative::Impl {
   bool fresh = false;               ///< the coarser models are those of the last matrix
   bool anew = true;                 ///< those that are there are not to be used
   bool refused = false;             ///< a matrix since `begin_anew` was left to the direct solver
+  bool tried = false;               ///< with noise, a matrix since `may_come_loose`
+  bool trusts = false;              ///< matrices are not tried before somebody asks
   double pace = 0, first_pace = 0;  ///< iterations a digit of the last solution, and the first
   double wanted = 1e-10;
   double seconds = 0;
@@ -177,7 +179,8 @@ bool Iterative::Impl::build(CompressedRows a) {
   bodies = std::make_unique<Multigrid>(places.threads);
   if (!exact.factor(a, places, symmetry, options)) return false;
   Eigen::MatrixXd motions = rigid_motions(places, a);
-  return bodies->build(std::move(a), groups_of(places), std::move(motions)) && resists_all();
+  if (!bodies->build(std::move(a), groups_of(places), std::move(motions))) return false;
+  return trusts || resists_all();
 }
 
 /// Noise is no force that a singular matrix balances, though the loads may be: without a solution,
@@ -196,10 +199,12 @@ bool Iterative::Impl::resists_all() {
   if (!(force > 0)) return false;
   PreconditionedLimits limits;
   const Nearby done = solve_preconditioned(
-      {a, places.threads}, [this](Eigen::VectorXd& r) { return precondition(r); }, limits, scaled);
+      [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { multiply(a, x, places.threads, y); },
+      [this](Eigen::VectorXd& r) { return precondition(r); }, limits, scaled);
   work.iterations += done.iterations;
   const double motion = scaled.cwiseProduct(a.diagonal().cwiseAbs().cwiseSqrt()).stableNorm();
-  return done.solved && motion <= worst_condition * noise.stableNorm();
+  tried = done.solved && motion <= worst_condition * noise.stableNorm();
+  return tried;
 }
 
 /// With the coarser models of an earlier matrix. False: they are not there, or worth nothing.
@@ -231,8 +236,10 @@ bool Iterative::Impl::iterate(Eigen::VectorXd& rhs) {
   PreconditionedLimits limits;
   limits.tolerance = wanted;
   const Nearby done = solve_preconditioned(
-      {bodies->matrix(), places.threads}, [this](Eigen::VectorXd& r) { return precondition(r); },
-      limits, rhs);
+      [this](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+        multiply(bodies->matrix(), x, places.threads, y);
+      },
+      [this](Eigen::VectorXd& r) { return precondition(r); }, limits, rhs);
   work.iterations += done.iterations;
   if (!done.solved) return false;
   ++work.solutions;
@@ -271,11 +278,24 @@ void Iterative::may_change(std::vector<Index> unknowns) {
 
 void Iterative::begin_anew() {
   impl_->anew = true;
-  impl_->refused = false;
+  impl_->refused = impl_->trusts = false;
+}
+
+void Iterative::may_come_loose() {
+  impl_->tried = false;
+  impl_->trusts = true;
+}
+
+bool Iterative::sound() {
+  Impl& s = *impl_;
+  const Timed timed(s.seconds);
+  if (!s.by_multigrid || s.tried || s.resists_all()) return true;
+  s.refused = true;
+  return false;
 }
 
 void Iterative::aim(double share) {
-  constexpr double least = 1e-10, most = 1e-4;
+  constexpr double least = 1e-10, most = 1e-3;
   impl_->wanted = std::clamp(share, least, most);
 }
 

@@ -16,9 +16,10 @@ namespace osculate::la {
 /// Between two calls of `begin_anew` the coarser models of the first matrix serve for those that
 /// follow, until they take half as many iterations again.
 ///
-/// A matrix whose coarser models are made is tried with noise: where that has no solution, or one
-/// that says that hardly a digit is left, something is free to move, and the direct solver says
-/// what. Once it was asked it goes on until `begin_anew`.
+/// A matrix is tried with noise, the first after `begin_anew` and after `may_come_loose` the one of
+/// which `sound` asks: where that has no solution, or one that says that hardly a digit is left,
+/// something is free to move, and the direct solver says what. Once it was asked it goes on until
+/// `begin_anew`.
 ///
 /// Returns    solutions with |b - K x| <= wanted |b| (`aim`). Where that is out of reach, the
 ///            matrix is factored by the direct solver, whose answer counts
@@ -42,6 +43,8 @@ class Iterative final : public LinearSolver {
   void place(Places places) override;
   void may_change(std::vector<Index> unknowns) override;
   void begin_anew() override;
+  void may_come_loose() override;
+  [[nodiscard]] bool sound() override;
   void aim(double share) override;
   FactorReport factor(const SparseMatrix& k, std::uint64_t pattern_version,
                       Symmetry symmetry) override;

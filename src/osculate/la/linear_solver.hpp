@@ -94,6 +94,12 @@ class LinearSolver {
   [[nodiscard]] virtual IterativeWork work() const { return {}; }
   /// An increment begins: nothing of earlier matrices may show in the solutions to come.
   virtual void begin_anew() {}
+  /// What held something in the last matrix may not hold it in those to come. Who ends with one of
+  /// them asks `sound`.
+  virtual void may_come_loose() {}
+  /// Whether the last matrix has a solution for every right-hand side. Solvers that factor have
+  /// told so already; after `false` the next matrix is factored.
+  [[nodiscard]] virtual bool sound() { return true; }
 };
 
 using MakeSolver = std::function<std::unique_ptr<LinearSolver>()>;

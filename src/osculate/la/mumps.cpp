@@ -163,6 +163,7 @@ bool Mumps::Impl::same_pattern(const SparseMatrix& k) const {
 /// Returns the first row with an entry that is not finite, or -1.
 Index Mumps::Impl::set_values(const SparseMatrix& k) {
   values.clear();
+  values.reserve(k.value.size());
   for (Index i = 0; i < k.n; ++i)
     for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
       if (!std::isfinite(k.value[at(e)])) return i;

@@ -8,14 +8,16 @@ namespace osculate::la {
 
 Nearby solve_nearby(const SparseMatrix& k, Symmetry symmetry, LinearSolver& factors,
                     const NearbyLimits& limits, Eigen::VectorXd& rhs_in_solution_out) {
-  if (k.n == 0 || limits.iterations < 1) return {};
-  const CompressedRows a = compressed(k, symmetry);
+  if (k.n == 0 || limits.iterations < 1 || rhs_in_solution_out.size() != k.n) return {};
   PreconditionedLimits once;
   once.tolerance = once.good_enough = limits.tolerance;
   once.iterations = once.restart = limits.iterations;
   return solve_preconditioned(
-      {a}, [&factors](Eigen::VectorXd& x) { return factors.solve_once(x) == SolveStatus::ok; },
-      once, rhs_in_solution_out);
+      [&](const Eigen::VectorXd& x, Eigen::VectorXd& y) {
+        y = symmetry == Symmetry::unsymmetric ? multiply(k, x) : multiply_symmetric(k, x);
+      },
+      [&factors](Eigen::VectorXd& x) { return factors.solve_once(x) == SolveStatus::ok; }, once,
+      rhs_in_solution_out);
 }
 
 int affordable_iterations(const FactorReport& factors, const SparseMatrix& k) {

@@ -10,10 +10,11 @@ namespace {
 
 /// A M^-1, whose residual is the true one.
 struct Preconditioned {
-  const Multiplied& of;
+  const Multiply& a;
   const Precondition& precondition;
+  Eigen::Index n;
 
-  [[nodiscard]] Eigen::Index rows() const { return of.a.rows(); }
+  [[nodiscard]] Eigen::Index rows() const { return n; }
   /// Not a number where the preconditioner does not work.
   [[nodiscard]] Eigen::VectorXd solution(const Eigen::VectorXd& y) const {
     Eigen::VectorXd x = y;
@@ -22,7 +23,7 @@ struct Preconditioned {
   }
   [[nodiscard]] Eigen::VectorXd operator*(const Eigen::VectorXd& y) const {
     Eigen::VectorXd product;
-    multiply(of.a, solution(y), of.threads, product);
+    a(solution(y), product);
     return product;
   }
 };
@@ -34,15 +35,15 @@ struct NothingOnTheLeft {
 
 }  // namespace
 
-Nearby solve_preconditioned(const Multiplied& a, const Precondition& precondition,
+Nearby solve_preconditioned(const Multiply& a, const Precondition& precondition,
                             const PreconditionedLimits& limits,
                             Eigen::VectorXd& rhs_in_solution_out) {
   const Eigen::VectorXd& b = rhs_in_solution_out;
-  const Eigen::Index n = a.a.rows();
+  const Eigen::Index n = b.size();
   Nearby result;
-  if (n == 0 || limits.iterations < 1 || b.size() != n || !b.allFinite()) return result;
+  if (n == 0 || limits.iterations < 1 || !b.allFinite()) return result;
   constexpr double rounding = 1 + 1e-6;
-  const Preconditioned by{a, precondition};
+  const Preconditioned by{a, precondition, n};
   const double size = b.stableNorm();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n), rest = b, product;
   double left = size;
@@ -56,7 +57,7 @@ Nearby solve_preconditioned(const Multiplied& a, const Precondition& preconditio
     result.iterations += static_cast<int>(std::max<Eigen::Index>(iterations, 1));
     const Eigen::VectorXd further = by.solution(y);
     if (!further.allFinite()) return result;
-    multiply(a.a, further, a.threads, product);
+    a(further, product);
     const double then = Eigen::VectorXd(rest - product).stableNorm();
     const bool gains = then <= limits.enough * left;
     if (then < left) {

@@ -2,7 +2,6 @@
 #include <Eigen/Core>
 #include <functional>
 
-#include "osculate/la/compressed_rows.hpp"
 #include "osculate/la/nearby.hpp"
 
 namespace osculate::la {
@@ -10,11 +9,8 @@ namespace osculate::la {
 /// r becomes M^-1 r, M near to the matrix; false: it cannot be.
 using Precondition = std::function<bool(Eigen::VectorXd&)>;
 
-/// A matrix, and by how many threads it is multiplied.
-struct Multiplied {
-  const CompressedRows& a;
-  int threads = 1;
-};
+/// y becomes A x.
+using Multiply = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& y)>;
 
 struct PreconditionedLimits {
   double tolerance = 1e-8;    ///< of the residual beside the right-hand side
@@ -32,7 +28,7 @@ struct PreconditionedLimits {
 ///            else nothing is changed
 /// Source     Y. Saad, M. H. Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856-869
 /// Tested by  tests/unit/la/test_nearby.cpp, test_iterative.cpp
-[[nodiscard]] Nearby solve_preconditioned(const Multiplied& a, const Precondition& precondition,
+[[nodiscard]] Nearby solve_preconditioned(const Multiply& a, const Precondition& precondition,
                                           const PreconditionedLimits& limits,
                                           Eigen::VectorXd& rhs_in_solution_out);
 

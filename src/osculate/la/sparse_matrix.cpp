@@ -25,6 +25,22 @@ Eigen::VectorXd multiply(const SparseMatrix& k, const Eigen::VectorXd& x) {
   return y;
 }
 
+Eigen::VectorXd multiply_symmetric(const SparseMatrix& k, const Eigen::VectorXd& x) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(k.n);
+  for (Index i = 0; i < k.n; ++i) {
+    double sum = 0;
+    for (Index e = k.row_start[at(i)]; e < k.row_start[at(i) + 1]; ++e) {
+      const Index j = k.column[at(e)];
+      const double value = k.value[at(e)];
+      if (i > j) continue;
+      sum += value * x[j];
+      if (i != j) y[j] += value * x[i];
+    }
+    y[i] += sum;
+  }
+  return y;
+}
+
 double relative_residual(const SparseMatrix& k, const Eigen::VectorXd& x,
                          const Eigen::VectorXd& b) {
   if (k.n == 0) return 0;
@@ -54,13 +70,23 @@ double* MatrixBuilder::find(Index row, Index column) {
   return matrix_.value.data() + (place - matrix_.column.begin());
 }
 
-void MatrixBuilder::reserve_block(std::span<const Index> rows, std::span<const Index> columns) {
+bool MatrixBuilder::has(std::span<const Index> rows, std::span<const Index> columns) {
   for (const Index i : rows)
     for (const Index j : columns)
-      if (i >= 0 && j >= 0 && find(i, j) == nullptr) pending_.push_back({i, j});
-  // Bounds the memory of the set-up, and how often what is there is copied.
-  const std::size_t most = std::max<std::size_t>(8'000'000, matrix_.column.size() / 2);
-  if (pending_.size() > most) merge();
+      if (i >= 0 && j >= 0 && find(i, j) == nullptr) return false;
+  return true;
+}
+
+void MatrixBuilder::reserve_block(std::span<const Index> rows, std::span<const Index> columns) {
+  if (has(rows, columns)) return;
+  const std::size_t begin = block_unknowns_.size();
+  const auto append = [&](std::span<const Index> unknowns) {
+    for (const Index i : unknowns)
+      if (i >= 0) block_unknowns_.push_back(i);
+    return block_unknowns_.size();
+  };
+  const std::size_t between = append(rows);
+  blocks_.push_back({begin, between, append(columns)});
 }
 
 void MatrixBuilder::reserve_block(std::span<const Index> unknowns) {
@@ -79,36 +105,64 @@ void MatrixBuilder::add(Index row, Index column, double value) {
     aside_.push_back({{row, column}, value});
 }
 
+void MatrixBuilder::order(std::span<const Index> columns) {
+  order_.clear();
+  for (std::size_t j = 0; j < columns.size(); ++j)
+    if (columns[j] >= 0) order_.push_back(j);
+  std::sort(order_.begin(), order_.end(),
+            [&](std::size_t a, std::size_t b) { return columns[a] < columns[b]; });
+  places_.assign(order_.size(), 0);
+}
+
+template <class ValueOf>
+void MatrixBuilder::add_to_row(Index row, std::span<const Index> columns, const ValueOf& value_of) {
+  const Index* const first = matrix_.column.data() + matrix_.row_start[at(row)];
+  const std::ptrdiff_t count = matrix_.row_start[at(row) + 1] - matrix_.row_start[at(row)];
+  double* const sums = matrix_.value.data() + matrix_.row_start[at(row)];
+  std::ptrdiff_t next = 0;
+  for (std::size_t k = 0; k < order_.size(); ++k) {
+    const Index column = columns[order_[k]];
+    std::ptrdiff_t place = places_[k];  // where it was in the row before
+    if (place >= count || first[place] != column) place = next;
+    if (place >= count || first[place] != column)
+      place =
+          std::lower_bound(first + std::max<std::ptrdiff_t>(0, next - 1), first + count, column) -
+          first;
+    const double value = value_of(order_[k]);
+    if (place < count && first[place] == column) {
+      sums[place] += value;
+      places_[k] = place;
+      next = place + 1;
+    } else if (value != 0.0) {
+      aside_.push_back({{row, column}, value});
+    }
+  }
+}
+
 void MatrixBuilder::add_block(std::span<const Index> unknowns, const double* values,
                               std::ptrdiff_t stride) {
-  order_.clear();
-  for (std::size_t j = 0; j < unknowns.size(); ++j)
-    if (unknowns[j] >= 0) order_.push_back(j);
-  std::sort(order_.begin(), order_.end(),
-            [&](std::size_t a, std::size_t b) { return unknowns[a] < unknowns[b]; });
-  places_.assign(order_.size(), 0);
-  for (const std::size_t i : order_) {
-    const Index row = unknowns[i];
-    const Index* const first = matrix_.column.data() + matrix_.row_start[at(row)];
-    const std::ptrdiff_t count = matrix_.row_start[at(row) + 1] - matrix_.row_start[at(row)];
-    double* const sums = matrix_.value.data() + matrix_.row_start[at(row)];
-    const double* const entries = values + i;
-    std::ptrdiff_t next = 0;
-    for (std::size_t k = 0; k < order_.size(); ++k) {
-      const Index column = unknowns[order_[k]];
-      std::ptrdiff_t place = places_[k];  // where it was in the row before
-      if (place >= count || first[place] != column) place = next;
-      if (place >= count || first[place] != column)
-        place = std::lower_bound(first + next, first + count, column) - first;
-      const double value = entries[static_cast<std::ptrdiff_t>(order_[k]) * stride];
-      if (place < count && first[place] == column) {
-        sums[place] += value;
-        places_[k] = place;
-        next = place + 1;
-      } else if (value != 0.0) {
-        aside_.push_back({{row, column}, value});
-      }
-    }
+  order(unknowns);
+  for (const std::size_t i : order_)
+    add_to_row(unknowns[i], unknowns, [row = values + i, stride](std::size_t j) {
+      return row[static_cast<std::ptrdiff_t>(j) * stride];
+    });
+}
+
+void MatrixBuilder::add_product(std::span<const Index> rows,
+                                const Eigen::Ref<const Eigen::MatrixXd>& first,
+                                std::span<const Index> columns,
+                                const Eigen::Ref<const Eigen::MatrixXd>& second) {
+  order(columns);
+  const Eigen::Index rank = first.cols();
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto row = first.row(static_cast<Eigen::Index>(i));
+    if (rows[i] < 0 || row.isZero(0)) continue;
+    add_to_row(rows[i], columns, [&](std::size_t j) {
+      double sum = 0;
+      for (Eigen::Index r = 0; r < rank; ++r)
+        sum += row[r] * second(r, static_cast<Eigen::Index>(j));
+      return sum;
+    });
   }
 }
 
@@ -118,8 +172,8 @@ const SparseMatrix& MatrixBuilder::finish() {
 }
 
 void MatrixBuilder::merge() {
-  if (pending_.empty() && aside_.empty()) return;
-  if (!pending_.empty()) grow();  // what was reserved did not come by entries
+  if (!waits() && aside_.empty()) return;
+  if (waits()) grow();  // what was reserved did not come by entries
   const auto before = static_cast<std::ptrdiff_t>(grown_.size());
   for (const Entry& entry : aside_) {
     if (find(entry.at.row, entry.at.column) != nullptr) continue;
@@ -131,7 +185,7 @@ void MatrixBuilder::merge() {
             [&](const Place& a, const Place& b) { return key(a) < key(b); });
   const auto same = [&](const Place& a, const Place& b) { return key(a) == key(b); };
   grown_.erase(std::unique(grown_.begin() + before, grown_.end(), same), grown_.end());
-  if (!pending_.empty()) grow();
+  if (waits()) grow();
   for (const Entry& entry : aside_) *find(entry.at.row, entry.at.column) += entry.value;
   aside_.clear();
 }
@@ -146,44 +200,83 @@ void MatrixBuilder::grow_by(std::span<const MatrixPlace> places) {
   merge();
 }
 
-/// Unites the pattern with the pending places. Neither kind is in the pattern before, so it grows.
+namespace {
+
+/// Lists by row, one behind the other: those of row i are items[start[i]] to items[start[i + 1]].
+struct ByRow {
+  std::vector<std::size_t> start;
+  std::vector<Index> items;
+};
+/// Input      each(take): calls take(row, item) for all of them, twice in the same order
+template <class Each>
+ByRow by_row(std::size_t rows, const Each& each) {
+  ByRow out;
+  out.start.assign(rows + 2, 0);  // shifted by one while they are filled
+  each([&](Index row, Index) { ++out.start[at(row) + 2]; });
+  for (std::size_t i = 0; i < rows; ++i) out.start[i + 2] += out.start[i + 1];
+  out.items.resize(out.start[rows + 1]);
+  each([&](Index row, Index item) { out.items[out.start[at(row) + 1]++] = item; });
+  out.start.pop_back();
+  return out;
+}
+
+/// A row with further columns, sorted, behind the others of `to`.
+void append_row(const SparseMatrix& from, std::size_t row, std::span<const Index> fresh,
+                SparseMatrix& to) {
+  auto next = fresh.begin();
+  for (Index e = from.row_start[row]; e < from.row_start[row + 1]; ++e) {
+    for (; next != fresh.end() && *next < from.column[at(e)]; ++next) {
+      to.column.push_back(*next);
+      to.value.push_back(0.0);
+    }
+    to.column.push_back(from.column[at(e)]);
+    to.value.push_back(from.value[at(e)]);
+  }
+  to.column.insert(to.column.end(), next, fresh.end());
+  to.value.resize(to.column.size(), 0.0);
+  to.row_start[row + 1] = static_cast<Index>(to.column.size());
+}
+
+}  // namespace
+
+/// Unites the pattern with what waits. Neither kind is all in the pattern before, so it grows.
 void MatrixBuilder::grow() {
   const auto rows = at(matrix_.n);
-  std::vector<std::size_t> end(rows, 0);  // buckets of new columns, one a row
-  for (const Place& place : pending_) ++end[at(place.row)];
-  std::size_t total = 0;
-  for (std::size_t& e : end) {
-    const std::size_t count = e;
-    e = total;
-    total += count;
-  }
-  std::vector<Index> fresh(total);
-  for (const Place& place : pending_) fresh[end[at(place.row)]++] = place.column;
-  pending_.clear();
-
+  const ByRow blocks = by_row(rows, [&](const auto& take) {
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+      for (std::size_t k = blocks_[b].rows; k < blocks_[b].columns; ++k)
+        take(block_unknowns_[k], static_cast<Index>(b));
+  });
+  const ByRow single = by_row(rows, [&](const auto& take) {
+    for (const Place& place : pending_) take(place.row, place.column);
+  });
   SparseMatrix grown;
   grown.n = matrix_.n;
   grown.row_start.assign(rows + 1, 0);
-  grown.column.reserve(matrix_.column.size() + total / 2);
-  grown.value.reserve(matrix_.column.size() + total / 2);
-  auto from = fresh.begin();
+  std::size_t fresh_at_most = pending_.size();
+  for (const Block& b : blocks_) fresh_at_most += (b.columns - b.rows) * (b.end - b.columns);
+  grown.column.reserve(matrix_.column.size() + fresh_at_most / 2);  // neighbours share columns
+  grown.value.reserve(grown.column.capacity());
+  std::vector<Index> seen(rows, -1), fresh;  // the row in which a column was seen last
   for (std::size_t i = 0; i < rows; ++i) {
-    const auto to = fresh.begin() + static_cast<std::ptrdiff_t>(end[i]);
-    std::sort(from, to);
-    const auto last = std::unique(from, to);
-    for (Index e = matrix_.row_start[i]; e < matrix_.row_start[i + 1]; ++e) {
-      for (; from != last && *from < matrix_.column[at(e)]; ++from) {
-        grown.column.push_back(*from);
-        grown.value.push_back(0.0);
-      }
-      grown.column.push_back(matrix_.column[at(e)]);
-      grown.value.push_back(matrix_.value[at(e)]);
+    fresh.clear();
+    const auto row = static_cast<Index>(i);
+    for (Index e = matrix_.row_start[i]; e < matrix_.row_start[i + 1]; ++e)
+      seen[at(matrix_.column[at(e)])] = row;
+    const auto take = [&](Index column) {
+      if (std::exchange(seen[at(column)], row) != row) fresh.push_back(column);
+    };
+    for (std::size_t k = blocks.start[i]; k < blocks.start[i + 1]; ++k) {
+      const Block& block = blocks_[at(blocks.items[k])];
+      for (std::size_t c = block.columns; c < block.end; ++c) take(block_unknowns_[c]);
     }
-    grown.column.insert(grown.column.end(), from, last);
-    grown.value.resize(grown.column.size(), 0.0);
-    grown.row_start[i + 1] = static_cast<Index>(grown.column.size());
-    from = to;
+    for (std::size_t k = single.start[i]; k < single.start[i + 1]; ++k) take(single.items[k]);
+    std::sort(fresh.begin(), fresh.end());
+    append_row(matrix_, i, fresh, grown);
   }
+  blocks_.clear();
+  block_unknowns_.clear();
+  pending_.clear();
   matrix_ = std::move(grown);
   ++version_;
 }

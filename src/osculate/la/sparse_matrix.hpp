@@ -28,6 +28,9 @@ struct MatrixPlace {
 /// Requires   x.size() == k.n
 [[nodiscard]] Eigen::VectorXd multiply(const SparseMatrix& k, const Eigen::VectorXd& x);
 
+/// The same of a symmetric matrix, of which the upper triangle counts for both.
+[[nodiscard]] Eigen::VectorXd multiply_symmetric(const SparseMatrix& k, const Eigen::VectorXd& x);
+
 /// How well x solves K x = b.
 ///
 /// Formula    |b - K x| / |b| in the Euclidean norm; 0 for b = 0 and x = 0
@@ -59,6 +62,10 @@ class MatrixBuilder {
   /// Requires   unknowns distinct; rows and columns of negative ones are left out, and so are zeros
   ///            that are not in the pattern
   void add_block(std::span<const Index> unknowns, const double* values, std::ptrdiff_t stride);
+  /// Adds the product of two factors in the same way, the first with a row for each of `rows`, the
+  /// second with a column for each of `columns`; columns may be named more than once.
+  void add_product(std::span<const Index> rows, const Eigen::Ref<const Eigen::MatrixXd>& first,
+                   std::span<const Index> columns, const Eigen::Ref<const Eigen::MatrixXd>& second);
   /// Merges what was kept aside and returns the matrix.
   const SparseMatrix& finish();
   /// Places by which entries have made the pattern grow so far, each once (all merged). The same
@@ -69,7 +76,7 @@ class MatrixBuilder {
   /// Changes when the pattern grew. Growth that waits for `finish` counts already, so it does not
   /// matter which of the two is called first.
   [[nodiscard]] std::uint64_t pattern_version() const {
-    return version_ + (pending_.empty() && aside_.empty() ? 0 : 1);
+    return version_ + (waits() || !aside_.empty() ? 1 : 0);
   }
 
  private:
@@ -78,14 +85,25 @@ class MatrixBuilder {
     Place at;
     double value;
   };
+  /// Rows and columns that were reserved together.
+  struct Block {
+    std::size_t rows, columns, end;  ///< in block_unknowns_: rows to columns, columns to end
+  };
   [[nodiscard]] double* find(Index row, Index column);
+  [[nodiscard]] bool has(std::span<const Index> rows, std::span<const Index> columns);
+  [[nodiscard]] bool waits() const { return !blocks_.empty() || !pending_.empty(); }
+  void order(std::span<const Index> columns);
+  template <class ValueOf>
+  void add_to_row(Index row, std::span<const Index> columns, const ValueOf& value_of);
   void merge();
   void grow();
 
   SparseMatrix matrix_;
-  std::vector<Place> pending_;  ///< reserved, not yet in the pattern
-  std::vector<Entry> aside_;    ///< added outside the pattern, in the order of the calls
-  std::vector<Place> grown_;    ///< in the order of the growth
+  std::vector<Block> blocks_;          ///< reserved, not yet in the pattern
+  std::vector<Index> block_unknowns_;  ///< of these
+  std::vector<Place> pending_;         ///< likewise, one by one
+  std::vector<Entry> aside_;           ///< added outside the pattern, in the order of the calls
+  std::vector<Place> grown_;           ///< in the order of the growth
   std::uint64_t version_ = 1;
   std::vector<std::size_t> order_;      ///< of the columns of a block
   std::vector<std::ptrdiff_t> places_;  ///< of these columns in the row before

@@ -6,12 +6,13 @@
 namespace osculate::model {
 
 template <int Dim>
-bool BasicAssembler<Dim>::direct(std::span<const Dof> block_dofs) {
-  unknowns_.clear();
+bool BasicAssembler<Dim>::direct(std::span<const Dof> block_dofs,
+                                 std::vector<Index>& unknowns) const {
+  unknowns.clear();
   for (const Dof dof : block_dofs) {
     const Index unknown = dofs_.unknown_of(dof);
     if (unknown < 0) return false;
-    unknowns_.push_back(prescribed(unknown) ? -1 : unknown);
+    unknowns.push_back(prescribed(unknown) ? -1 : unknown);
   }
   return true;
 }
@@ -48,20 +49,23 @@ void BasicAssembler<Dim>::add_condensed(const Eigen::Ref<const Eigen::MatrixXd>&
 
 template <int Dim>
 void BasicAssembler<Dim>::add_outer(std::span<const Dof> row_dofs,
-                                    std::span<const double> row_values,
+                                    const Eigen::Ref<const Eigen::MatrixXd>& rows,
                                     std::span<const Dof> column_dofs,
-                                    std::span<const double> column_values) {
+                                    const Eigen::Ref<const Eigen::MatrixXd>& columns) {
+  if (direct(row_dofs, unknowns_) && direct(column_dofs, column_unknowns_))
+    return matrix_.add_product(unknowns_, rows, column_unknowns_, columns);
   expand(row_dofs, rows_, row_end_);
   expand(column_dofs, columns_, column_end_);
   for (std::size_t i = 0; i < row_dofs.size(); ++i)
     for (std::size_t a = i == 0 ? 0 : row_end_[i - 1]; a < row_end_[i]; ++a) {
-      const double row = row_values[i] * rows_[a].factor;
-      if (row == 0.0 || prescribed(rows_[a].unknown)) continue;
-      for (std::size_t j = 0; j < column_dofs.size(); ++j)
+      const auto row = rows.row(static_cast<Eigen::Index>(i));
+      if (row.isZero(0) || prescribed(rows_[a].unknown)) continue;
+      for (std::size_t j = 0; j < column_dofs.size(); ++j) {
+        const double value = rows_[a].factor * row.dot(columns.col(static_cast<Eigen::Index>(j)));
         for (std::size_t b = j == 0 ? 0 : column_end_[j - 1]; b < column_end_[j]; ++b)
           if (!prescribed(columns_[b].unknown))
-            matrix_.add(rows_[a].unknown, columns_[b].unknown,
-                        row * column_values[j] * columns_[b].factor);
+            matrix_.add(rows_[a].unknown, columns_[b].unknown, value * columns_[b].factor);
+      }
     }
 }
 

@@ -33,7 +33,7 @@ class BasicAssembler {
   /// Requires   k stored by columns
   template <class Matrix>
   void add_block(std::span<const Dof> block_dofs, const Matrix& k) {
-    if (direct(block_dofs)) {
+    if (direct(block_dofs, unknowns_)) {
       matrix_.add_block(unknowns_, k.data(), k.outerStride());
       return;
     }
@@ -54,9 +54,11 @@ class BasicAssembler {
       }
   }
 
-  /// Rank-one term rows (x) columns.
-  void add_outer(std::span<const Dof> row_dofs, std::span<const double> row_values,
-                 std::span<const Dof> column_dofs, std::span<const double> column_values);
+  /// rows * columns: a row of the one for each of `row_dofs`, a column of the other for each of
+  /// `column_dofs`.
+  void add_outer(std::span<const Dof> row_dofs, const Eigen::Ref<const Eigen::MatrixXd>& rows,
+                 std::span<const Dof> column_dofs,
+                 const Eigen::Ref<const Eigen::MatrixXd>& columns);
 
   /// Entries of one unknown outside the dof space (a multiplier): its row, its column. The row's
   /// largest entry is returned: 0 where nothing it depends on is free.
@@ -75,8 +77,8 @@ class BasicAssembler {
   /// Formula    W^T K W , W the factors of the unknowns in the block's dofs
   void add_condensed(const Eigen::Ref<const Eigen::MatrixXd>& k);
 
-  /// True if every dof is an unknown itself; `unknowns_` then holds them, -1 for prescribed ones.
-  [[nodiscard]] bool direct(std::span<const Dof> block_dofs);
+  /// True if every dof is an unknown itself; `unknowns` then are these, -1 for prescribed ones.
+  [[nodiscard]] bool direct(std::span<const Dof> block_dofs, std::vector<Index>& unknowns) const;
   void expand(std::span<const Dof> block_dofs, std::vector<Expansion>& out,
               std::vector<std::size_t>& end) const;
 
@@ -85,7 +87,7 @@ class BasicAssembler {
   std::vector<bool> prescribed_;
   std::span<const Vec<Dim>> x_;
   const std::vector<body::BasicRigidMotion<Dim>>* rigid_ = nullptr;
-  std::vector<Index> unknowns_;
+  std::vector<Index> unknowns_, column_unknowns_;
   std::vector<Expansion> rows_, columns_;
   std::vector<std::size_t> row_end_, column_end_;
 };

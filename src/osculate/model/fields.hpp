@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,27 @@ template <int Dim>
                                                  const BasicModel<Dim>& model,
                                                  const BasicState<Dim>& state);
 
+/// A state that was reached, with its system, for all who write something of it: its results at
+/// the nodes are computed when the first of them asks. For as long as system and state are as they
+/// are.
+template <int Dim>
+class BasicReached {
+ public:
+  const BasicSystem<Dim>& system;
+  const BasicModel<Dim>& model;
+  const BasicState<Dim>& state;
+  BasicReached(const BasicSystem<Dim>& of_system, const BasicModel<Dim>& of_model,
+               const BasicState<Dim>& of_state)
+      : system(of_system), model(of_model), state(of_state) {}
+  [[nodiscard]] const BasicNodalFields<Dim>& fields() const {
+    if (!fields_) fields_ = nodal_fields(system, model, state);
+    return *fields_;
+  }
+
+ private:
+  mutable std::optional<BasicNodalFields<Dim>> fields_;
+};
+
 /// The value of BasicNodalFields::memory with this name that is largest in size, over some nodes;
 /// 0 if there are none.
 ///
@@ -36,5 +58,7 @@ template <int Dim>
 
 using NodalFields = BasicNodalFields<2>;
 using NodalFields3 = BasicNodalFields<3>;
+using Reached = BasicReached<2>;
+using Reached3 = BasicReached<3>;
 
 }  // namespace osculate::model

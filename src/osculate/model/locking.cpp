@@ -83,10 +83,7 @@ void add_wedge(const solid::Section<3>& section, cell::CellType type, const Cell
   if (type != cell::CellType::wedge6 || !is_thin(at.reference, normal)) return;
   const WedgeEnergy energy = wedge_energy(section, at, normal, memory);
   if (!std::isfinite(energy.whole)) return;
-  constexpr double visible = 1e-6;
   sum.wedges = true;
-  sum.floor += solid::strain_energy(section, type, at.reference,
-                                    solid::Coordinates<3>(visible * at.reference));
   sum.energy += energy.whole;
   sum.enhanced += energy.whole -
                   (energy.bends() ? std::clamp(energy.across, 0.0, std::abs(energy.whole)) : 0.0);
@@ -95,50 +92,94 @@ void add_wedge(const solid::Section<3>& section, cell::CellType type, const Cell
 void add_wedge(const solid::Section<2>&, cell::CellType, const CellPlaces<2>&,
                const material::Memory&, Locking&) {}
 
+/// Whether a cell of the section can lock.
+template <int Dim>
+bool can_lock(const solid::Section<Dim>& section, cell::CellType type) {
+  constexpr cell::CellType corners = Dim == 2 ? cell::CellType::quad4 : cell::CellType::hex8;
+  return (section.formulation == solid::Formulation::full && type == corners) ||
+         type == cell::CellType::wedge6;
+}
+
+/// The cells of a section that can lock: of(cell, memory, places).
+template <int Dim, class Of>
+void for_each_first(const BasicModel<Dim>& model, const BasicState<Dim>& state, std::size_t s,
+                    const Of& of) {
+  const BasicBulkSection<Dim>& section = model.sections[s];
+  CellMemory memory;
+  for (std::size_t i = 0; i < section.cells.size(); ++i) {
+    const CellNodes cell = cell_nodes(model.mesh, section.cells[i]);
+    memory = memory_after(memory, section, i, cell.type);
+    if (memory.removed || !can_lock(section.section, cell.type)) continue;
+    const material::Memory remembered = memory.of(state.memory);
+    of(cell.type, remembered, places_of(model, section, cell.nodes, state.u, remembered));
+  }
+}
+
+/// The energies of one section in one state, but for the floor.
+template <int Dim>
+Locking locking_of(const BasicModel<Dim>& model, const BasicState<Dim>& state, std::size_t s) {
+  using solid::Formulation;
+  constexpr cell::CellType wanted = Dim == 2 ? cell::CellType::quad4 : cell::CellType::hex8;
+  const solid::Section<Dim>& full = model.sections[s].section;
+  Locking sum;
+  sum.flows = !material::memory_of(full.law).empty();
+  // Elsewhere volume changes are those of bending, as they should be.
+  constexpr double nearly_incompressible = 0.45;
+  const bool keeps_volume = sum.flows || poisson_of(full.law) > nearly_incompressible;
+  const solid::Section<Dim> enhanced = with(full, Formulation::enhanced, wanted),
+                            bbar = with(full, Formulation::bbar, wanted);
+  for_each_first(
+      model, state, s,
+      [&](cell::CellType type, const material::Memory& memory, const CellPlaces<Dim>& at) {
+        if (type != wanted) {
+          if (!sum.flows) add_wedge(full, type, at, memory, sum);
+          return;
+        }
+        const auto energy_in = [&](const solid::Section<Dim>& of) {
+          return solid::cell_energy(of, type, at.reference, at.displacement, memory);
+        };
+        const solid::CellEnergy plain = energy_in(full),
+                                mean = keeps_volume ? energy_in(bbar) : plain;
+        if (sum.flows && !(mean.dissipated > mean.stored)) return;
+        const double energy = plain.stored + plain.dissipated;
+        if (!std::isfinite(energy)) return;
+        sum.energy += energy;
+        sum.enhanced += sum.flows ? energy : std::min(energy_in(enhanced).stored, energy);
+        sum.bbar += std::min(mean.stored + mean.dissipated, energy);
+      });
+  return sum;
+}
+
+/// Energy of strains that are too small to be told from round-off.
+template <int Dim>
+double floor_of(const BasicModel<Dim>& model, const BasicState<Dim>& state, std::size_t s) {
+  constexpr double visible = 1e-6;
+  double floor = 0;
+  for_each_first(model, state, s,
+                 [&](cell::CellType type, const material::Memory&, const CellPlaces<Dim>& at) {
+                   floor += solid::strain_energy(model.sections[s].section, type, at.reference,
+                                                 solid::Coordinates<Dim>(visible * at.reference));
+                 });
+  return floor;
+}
+
 }  // namespace
 
 template <int Dim>
 void measure_locking(const BasicModel<Dim>& model, const BasicState<Dim>& state,
                      std::vector<Locking>& found) {
-  using Section = solid::Section<Dim>;
-  using solid::Formulation;
-  constexpr cell::CellType wanted = Dim == 2 ? cell::CellType::quad4 : cell::CellType::hex8;
   found.resize(model.sections.size());
-  CellMemory memory;
   for (std::size_t s = 0; s < model.sections.size(); ++s) {
-    const BasicBulkSection<Dim>& section = model.sections[s];
-    const Section& full = section.section;
+    const Locking here = locking_of(model, state, s);
     Locking& sum = found[s];
-    sum.section = section.name;
-    sum.flows = !material::memory_of(full.law).empty();
-    // Elsewhere volume changes are those of bending, as they should be.
-    constexpr double nearly_incompressible = 0.45, visible = 1e-6;
-    const bool keeps_volume = sum.flows || poisson_of(full.law) > nearly_incompressible;
-    const Section enhanced = sum.flows ? full : with(full, Formulation::enhanced, wanted);
-    const Section bbar = keeps_volume ? with(full, Formulation::bbar, wanted) : full;
-    for (std::size_t i = 0; i < section.cells.size(); ++i) {
-      const CellNodes cell = cell_nodes(model.mesh, section.cells[i]);
-      memory = memory_after(memory, section, i, cell.type);
-      const bool first = full.formulation == Formulation::full && cell.type == wanted;
-      if (memory.removed || (!first && cell.type != cell::CellType::wedge6)) continue;
-      const CellPlaces<Dim> at =
-          places_of(model, section, cell.nodes, state.u, memory.of(state.memory));
-      if (!sum.flows) add_wedge(full, cell.type, at, memory.of(state.memory), sum);
-      if (!first) continue;
-      const solid::Coordinates<Dim>&reference = at.reference, &moved = at.displacement;
-      const auto energy_in = [&](const Section& of) {
-        return solid::cell_energy(of, cell.type, reference, moved, memory.of(state.memory));
-      };
-      const solid::CellEnergy mean = energy_in(bbar), plain = energy_in(full);
-      if (sum.flows && !(mean.dissipated > mean.stored)) continue;
-      const double energy = plain.stored + plain.dissipated;
-      if (!std::isfinite(energy)) continue;
-      sum.floor += solid::strain_energy(full, cell.type, reference,
-                                        solid::Coordinates<Dim>(visible * reference));
-      sum.energy += energy;
-      sum.enhanced += sum.flows ? energy : std::min(energy_in(enhanced).stored, energy);
-      sum.bbar += std::min(mean.stored + mean.dissipated, energy);
-    }
+    sum.section = model.sections[s].name;
+    sum.flows = here.flows;
+    sum.wedges = sum.wedges || here.wedges;
+    sum.energy += here.energy;
+    sum.enhanced += here.enhanced;
+    sum.bbar += here.bbar;
+    // A sum is large only where one of its states is.
+    if (here.large()) sum.floor += floor_of(model, state, s);
   }
 }
 

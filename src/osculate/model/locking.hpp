@@ -17,7 +17,7 @@ struct Locking {
       0;             ///< what is left with enhanced strains; that of `energy` where there are none
   double bbar = 0;   ///< with the mean volume change, where Poisson's ratio is near a half or the
                      ///< cell flows
-  double floor = 0;  ///< of strains too small to be told from round-off
+  double floor = 0;  ///< of strains too small to be told from round-off, in states that may lock
   bool wedges = false;  ///< it has thin wedge6 cells (CalculiX' S3)
   bool flows = false;   ///< the section's law remembers: only cells that flow are in the sums
   [[nodiscard]] bool large() const {

@@ -178,7 +178,7 @@ PatchPoints patch_points(const SurfaceFacet& facet, std::span<const Vec3> x) {
   points.fill(Vec3::Zero());
   for (std::size_t k = 0; k < static_cast<std::size_t>(facet.count); ++k)
     for (std::size_t j = 0; j < gregory_points; ++j)
-      points[j] += facet.patch->weight[k][j] * x[static_cast<std::size_t>(facet.nodes[k])];
+      points[j] += facet.patch->weight[j][k] * x[static_cast<std::size_t>(facet.nodes[k])];
   return points;
 }
 

@@ -1,5 +1,8 @@
 #include "osculate/pairing/gregory.hpp"
 
+#include <Eigen/Core>
+#include <utility>
+
 namespace osculate::pairing {
 namespace {
 
@@ -41,9 +44,14 @@ constexpr std::array<Meeting, 35> make_meetings() {
 }
 constexpr std::array<Meeting, 35> meetings = make_meetings();
 
+template <std::size_t... N>
+void add_product(const Taylor& a, const Taylor& b, Taylor& out, std::index_sequence<N...>) {
+  ((out.c[meetings[N].k] += a.c[meetings[N].i] * b.c[meetings[N].j]), ...);
+}
+
 Taylor operator*(const Taylor& a, const Taylor& b) {
   Taylor out;
-  for (const Meeting& m : meetings) out.c[m.k] += a.c[m.i] * b.c[m.j];
+  add_product(a, b, out, std::make_index_sequence<meetings.size()>{});
   return out;
 }
 
@@ -52,52 +60,95 @@ Taylor operator*(double factor, Taylor a) {
   return a;
 }
 
-Taylor operator+(Taylor a, const Taylor& b) {
-  for (std::size_t i = 0; i < 10; ++i) a.c[i] += b.c[i];
-  return a;
+/// f(s, t) of two linear functions, from its coefficients in their changes.
+Taylor of_linear(const Taylor& f, const Taylor& s, const Taylor& t) {
+  const double s1 = s.c[1], s2 = s.c[2], t1 = t.c[1], t2 = t.c[2];
+  const std::array<double, 10>& c = f.c;
+  Taylor out;
+  out.c[0] = c[0];
+  out.c[1] = c[1] * s1 + c[2] * t1;
+  out.c[2] = c[1] * s2 + c[2] * t2;
+  out.c[3] = c[3] * s1 * s1 + c[4] * s1 * t1 + c[5] * t1 * t1;
+  out.c[4] = 2 * c[3] * s1 * s2 + c[4] * (s1 * t2 + s2 * t1) + 2 * c[5] * t1 * t2;
+  out.c[5] = c[3] * s2 * s2 + c[4] * s2 * t2 + c[5] * t2 * t2;
+  out.c[6] = ((c[6] * s1 + c[7] * t1) * s1 + c[8] * t1 * t1) * s1 + c[9] * t1 * t1 * t1;
+  out.c[7] = 3 * c[6] * s1 * s1 * s2 + c[7] * s1 * (s1 * t2 + 2 * s2 * t1) +
+             c[8] * t1 * (2 * s1 * t2 + s2 * t1) + 3 * c[9] * t1 * t1 * t2;
+  out.c[8] = 3 * c[6] * s1 * s2 * s2 + c[7] * s2 * (2 * s1 * t2 + s2 * t1) +
+             c[8] * t2 * (s1 * t2 + 2 * s2 * t1) + 3 * c[9] * t1 * t2 * t2;
+  out.c[9] = ((c[6] * s2 + c[7] * t2) * s2 + c[8] * t2 * t2) * s2 + c[9] * t2 * t2 * t2;
+  return out;
 }
 
-/// 1 / a by the series of 1 / (1 + e) with e = a / a_0 - 1.
-Taylor inverse(const Taylor& a) {
-  Taylor e = (1 / a.c[0]) * a;
-  e.c[0] = 0;
-  Taylor sum = linear(1, 0, 0), power = sum;
-  for (int k = 0; k < 3; ++k) {
-    power = -1.0 * (power * e);
-    sum = sum + power;
-  }
-  return (1 / a.c[0]) * sum;
-}
-
-/// s^2 / (s^2 + t^2); 1/2 where both vanish.
-Taylor share(const Taylor& s, const Taylor& t) {
-  const Taylor a = s * s, sum = a + t * t;
+/// s^2 / (s^2 + t^2) of two linear functions; 1/2 where both vanish. With s and t exchanged it is
+/// what is left of 1.
+///
+/// Formula    with D = s^2 + t^2:  f_s = 2 s t^2 / D^2,  f_ss = 2 t^2 (t^2 - 3 s^2) / D^3,
+///            f_st = 4 s t (s^2 - t^2) / D^3,  f_sss = 24 s t^2 (s^2 - t^2) / D^4,
+///            f_sst = -4 t (t^4 - 8 s^2 t^2 + 3 s^4) / D^4 ;  f(s, t) = 1 - f(t, s) has the others
+Taylor share(const Taylor& first, const Taylor& second) {
+  const double s = first.c[0], t = second.c[0], s2 = s * s, t2 = t * t, d = s2 + t2;
   constexpr double corner = 1e-18;
-  return sum.c[0] < corner ? linear(0.5, 0, 0) : a * inverse(sum);
+  if (d < corner) return linear(0.5, 0, 0);
+  const double e = 1 / d, e2 = e * e, e3 = e2 * e, e4 = e2 * e2;
+  Taylor f;
+  f.c[0] = s2 * e;
+  f.c[1] = 2 * s * t2 * e2;
+  f.c[2] = -2 * t * s2 * e2;
+  f.c[3] = t2 * (t2 - 3 * s2) * e3;
+  f.c[4] = 4 * s * t * (s2 - t2) * e3;
+  f.c[5] = -s2 * (s2 - 3 * t2) * e3;
+  f.c[6] = 4 * s * t2 * (s2 - t2) * e4;
+  f.c[7] = -2 * t * (t2 * t2 - 8 * s2 * t2 + 3 * s2 * s2) * e4;
+  f.c[8] = 2 * s * (s2 * s2 - 8 * s2 * t2 + 3 * t2 * t2) * e4;
+  f.c[9] = -4 * t * s2 * (t2 - s2) * e4;
+  return of_linear(f, first, second);
+}
+
+Taylor rest_of(Taylor part) {
+  for (double& c : part.c) c = -c;
+  part.c[0] += 1;
+  return part;
 }
 
 struct Basis {
   std::array<Taylor, gregory_points> b;
 };
 
-std::array<Taylor, 4> cubic(const Taylor& u, const Taylor& rest) {
-  return {rest * rest * rest, 3.0 * (u * rest * rest), 3.0 * (u * u * rest), u * u * u};
+/// Taylor coefficients of a function of one coordinate.
+using Line = std::array<double, 4>;
+
+/// Bernstein polynomials of degree 3 of u, which is (1 + x) / 2.
+std::array<Line, 4> cubics(double x) {
+  constexpr double h = 0.5;  // du/dx
+  const double u = h * (1 + x), r = h * (1 - x);
+  return {{{r * r * r, -3 * h * r * r, 3 * h * h * r, -h * h * h},
+           {3 * u * r * r, 3 * h * r * (r - 2 * u), 3 * h * h * (u - 2 * r), 3 * h * h * h},
+           {3 * u * u * r, 3 * h * u * (2 * r - u), 3 * h * h * (r - 2 * u), -3 * h * h * h},
+           {u * u * u, 3 * h * u * u, 3 * h * h * u, h * h * h}}};
+}
+
+/// a of the first coordinate times b of the second one.
+Taylor outer(const Line& a, const Line& b) {
+  Taylor out;
+  for (std::size_t k = 0; k < powers.size(); ++k) out.c[k] = a[powers[k][0]] * b[powers[k][1]];
+  return out;
 }
 
 Basis quad_basis(const Vec2& xi) {
   const std::array<Taylor, 2> u{linear(0.5 * (1 + xi.x()), 0.5, 0),
                                 linear(0.5 * (1 - xi.x()), -0.5, 0)},
       v{linear(0.5 * (1 + xi.y()), 0, 0.5), linear(0.5 * (1 - xi.y()), 0, -0.5)};
-  const std::array<Taylor, 4> bu = cubic(u[0], u[1]), bv = cubic(v[0], v[1]);
+  const std::array<Line, 4> bu = cubics(xi.x()), bv = cubics(xi.y());
   Basis out;
   for (std::size_t j = 0; j < 4; ++j)
     for (std::size_t i = 0; i < 4; ++i) {
-      const Taylor b = bu[i] * bv[j];
+      const Taylor b = outer(bu[i], bv[j]);
       out.b[quad_point(i, j)] = b;
       if (i % 3 == 0 || j % 3 == 0) continue;
-      const Taylor &s = u[i - 1], &t = v[j - 1];
-      out.b[quad_point(i, j)] = b * share(s, t);
-      out.b[quad_point(i, j, true)] = b * share(t, s);
+      const Taylor part = share(u[i - 1], v[j - 1]);
+      out.b[quad_point(i, j)] = b * part;
+      out.b[quad_point(i, j, true)] = b * rest_of(part);
     }
   return out;
 }
@@ -114,8 +165,9 @@ Basis triangle_basis(const Vec2& xi) {
     out.b[triangle_border(k, 2)] = 6.0 * (ab * ab);
     out.b[triangle_border(k, 3)] = 4.0 * (ab * b * b);
     const Taylor inner = 12.0 * (aa * b * c);
-    out.b[triangle_inner(k, false)] = inner * share(b, c);
-    out.b[triangle_inner(k, true)] = inner * share(c, b);
+    const Taylor part = share(b, c);
+    out.b[triangle_inner(k, false)] = inner * part;
+    out.b[triangle_inner(k, true)] = inner * rest_of(part);
   }
   return out;
 }
@@ -135,12 +187,17 @@ cell::FacetShape gregory_shape(const GregoryWeights& patch, int count, const Vec
   const GregoryBasis basis = gregory_basis(patch.triangle, xi);
   cell::FacetShape shape;
   shape.count = count;
-  for (std::size_t d = 0; d < 10; ++d)
-    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
-      double sum = 0;
-      for (std::size_t j = 0; j < gregory_points; ++j) sum += patch.weight[k][j] * basis[d][j];
-      shape.n[d][k] = sum;
+  using Four = Eigen::Array4d;  // nodes at a time
+  static_assert(cell::max_shape_nodes % 4 == 0);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); k += 4) {
+    std::array<Four, 10> sum;
+    sum.fill(Four::Zero());
+    for (std::size_t j = 0; j < gregory_points; ++j) {
+      const Four weight = Eigen::Map<const Four>(patch.weight[j].data() + k);
+      for (std::size_t d = 0; d < 10; ++d) sum[d] += basis[d][j] * weight;
     }
+    for (std::size_t d = 0; d < 10; ++d) Eigen::Map<Four>(shape.n[d].data() + k) = sum[d];
+  }
   return shape;
 }
 

@@ -13,7 +13,7 @@ inline constexpr std::size_t gregory_points = 20;
 /// borders beside it, that are mixed by the distance from them: so the tangent planes along the
 /// four (three) borders are independent of each other.
 ///
-/// Formula    r = sum_k N_k x_k ,  N_k = sum_j weight[k][j] B_j ;  B_j: Bernstein polynomials, of
+/// Formula    r = sum_k N_k x_k ,  N_k = sum_j weight[j][k] B_j ;  B_j: Bernstein polynomials, of
 /// the
 ///            inner points times s^2/(s^2 + t^2), with the distances s from the border the other
 ///            version is for and t from its own
@@ -23,7 +23,7 @@ inline constexpr std::size_t gregory_points = 20;
 ///            point for the border that leaves it and the one for the border that arrives
 struct GregoryWeights {
   bool triangle = false;
-  std::array<std::array<double, gregory_points>, cell::max_shape_nodes> weight{};
+  std::array<std::array<double, cell::max_shape_nodes>, gregory_points> weight{};
 };
 
 /// B_j and their derivatives in the order of cell::FacetShape, by the coordinates of the facet.

@@ -422,7 +422,7 @@ SurfaceFacet with_patch(const SurfaceFacet& facet, const Points& points) {
       if (!std::isfinite(term.second))
         throw core::GeometryError(
             "smoothing: a facet of the master has no shape at one of its nodes");
-      patch.weight[static_cast<std::size_t>(found - begin)][j] = term.second;
+      patch.weight[j][static_cast<std::size_t>(found - begin)] = term.second;
     }
   out.patch = std::make_shared<const GregoryWeights>(patch);
   return out;

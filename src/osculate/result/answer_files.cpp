@@ -194,8 +194,7 @@ double AnswerFiles<Dim>::time_of(Index step, double fraction) const {
 }
 
 template <int Dim>
-void AnswerFiles<Dim>::converged(const model::BasicSystem<Dim>& system,
-                                 const model::BasicState<Dim>& state,
+void AnswerFiles<Dim>::converged(const model::BasicReached<Dim>& reached,
                                  const model::Progress& progress,
                                  const solve::IncrementRecord& record) {
   if (progress.increment == 1) reached_ = 0;
@@ -207,26 +206,24 @@ void AnswerFiles<Dim>::converged(const model::BasicSystem<Dim>& system,
       record.iterations);
   attempt_ = 1;
   reached_ = progress.fraction;
-  write_fields(system, state, progress);
-  write_tables(system, state, progress, time);
+  write_fields(reached, progress);
+  write_tables(reached, progress, time);
 }
 
 template <int Dim>
-void AnswerFiles<Dim>::write_tables(const model::BasicSystem<Dim>& system,
-                                    const model::BasicState<Dim>& state,
+void AnswerFiles<Dim>::write_tables(const model::BasicReached<Dim>& reached,
                                     const model::Progress& progress, double time) {
   const std::string& step = built_.model.steps[static_cast<std::size_t>(progress.step)].name;
   std::string tables;
   for (const deck::AnswerRequest& request : output_.dat)
     if (is_due(request, step, progress))
-      tables += answer_tables(answers_, system, state, request, time);
+      tables += answer_tables(answers_, reached.system, reached.state, request, time);
   if (!tables.empty()) dat_.append(tables);
 }
 
 template <int Dim>
-void AnswerFiles<Dim>::swings(const model::BasicSystem<Dim>& system,
-                              const model::BasicState<Dim>& state, const model::Progress& progress,
-                              const model::HarmonicPart& part) {
+void AnswerFiles<Dim>::swings(const model::BasicReached<Dim>& reached,
+                              const model::Progress& progress, const model::HarmonicPart& part) {
   if (!part.imaginary) {
     std::vector<double> frequencies;
     for (const double value : part.omega_squared) frequencies.push_back(model::frequency(value));
@@ -234,8 +231,8 @@ void AnswerFiles<Dim>::swings(const model::BasicSystem<Dim>& system,
     dat_.append(io::dat_factors(part.motion.frequency, frequencies,
                                 {amounts.data(), static_cast<std::size_t>(amounts.size())}));
   }
-  write_fields(system, state, progress, &part);
-  write_tables(system, state, progress, part.motion.frequency);
+  write_fields(reached, progress, &part);
+  write_tables(reached, progress, part.motion.frequency);
 }
 
 template <int Dim>
@@ -262,8 +259,7 @@ void AnswerFiles<Dim>::write_attempt(const io::Attempt& attempt,
 }
 
 template <int Dim>
-void AnswerFiles<Dim>::write_fields(const model::BasicSystem<Dim>& system,
-                                    const model::BasicState<Dim>& state,
+void AnswerFiles<Dim>::write_fields(const model::BasicReached<Dim>& reached,
                                     const model::Progress& progress,
                                     const model::HarmonicPart* part) {
   const std::string& step = built_.model.steps[static_cast<std::size_t>(progress.step)].name;
@@ -271,7 +267,8 @@ void AnswerFiles<Dim>::write_fields(const model::BasicSystem<Dim>& system,
   for (const deck::AnswerRequest& request : output_.frd)
     if (is_due(request, step, progress)) wanted.insert(request.of.begin(), request.of.end());
   if (wanted.empty()) return;
-  const model::BasicNodalFields<Dim> f = model::nodal_fields(system, built_.model, state);
+  const model::BasicSystem<Dim>& system = reached.system;
+  const model::BasicNodalFields<Dim>& f = reached.fields();
   if (!part || !part->imaginary) ++sets_;
   const int step_number = static_cast<int>(progress.step) + 1;
   for (const Answer what :

@@ -6,6 +6,7 @@
 
 #include "osculate/io/append_file.hpp"
 #include "osculate/io/dat.hpp"
+#include "osculate/model/fields.hpp"
 #include "osculate/result/answer_tables.hpp"
 
 namespace osculate::result {
@@ -28,11 +29,11 @@ class AnswerFiles {
   AnswerFiles(const std::string& stem, const deck::BasicBuilt<Dim>& built,
               const deck::Output& output, std::span<const std::uint64_t> marks = {});
   /// An accepted increment.
-  void converged(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
-                 const model::Progress& progress, const solve::IncrementRecord& record);
+  void converged(const model::BasicReached<Dim>& reached, const model::Progress& progress,
+                 const solve::IncrementRecord& record);
   /// A part of a swing: fields of the imaginary one have names that end with I.
-  void swings(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
-              const model::Progress& progress, const model::HarmonicPart& part);
+  void swings(const model::BasicReached<Dim>& reached, const model::Progress& progress,
+              const model::HarmonicPart& part);
   /// An attempt that was dropped, from `progress` to a fraction of the step.
   void dropped(const model::Progress& progress, double to,
                const std::vector<solve::IterationRecord>& iterations);
@@ -52,10 +53,10 @@ class AnswerFiles {
   /// Of the analysis, all steps' durations counted.
   [[nodiscard]] double time_of(Index step, double fraction) const;
   [[nodiscard]] double duration_of(Index step) const;
-  void write_fields(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
-                    const model::Progress& progress, const model::HarmonicPart* part = nullptr);
-  void write_tables(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
-                    const model::Progress& progress, double time);
+  void write_fields(const model::BasicReached<Dim>& reached, const model::Progress& progress,
+                    const model::HarmonicPart* part = nullptr);
+  void write_tables(const model::BasicReached<Dim>& reached, const model::Progress& progress,
+                    double time);
   void write_attempt(const io::Attempt& attempt,
                      const std::vector<solve::IterationRecord>& iterations);
 

@@ -247,9 +247,10 @@ std::string FieldFiles<Dim>::listed(const std::string& name) {
 }
 
 template <int Dim>
-void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
-                            const model::BasicState<Dim>& state, double time) {
-  const model::BasicNodalFields<Dim> f = model::nodal_fields(system, built_.model, state);
+void FieldFiles<Dim>::write(const model::BasicReached<Dim>& reached, double time) {
+  const model::BasicSystem<Dim>& system = reached.system;
+  const model::BasicState<Dim>& state = reached.state;
+  const model::BasicNodalFields<Dim>& f = reached.fields();
   std::vector<io::Field> fields{vector_field("U", f.displacement), vector_field("RF", f.reaction),
                                 tensor_field("S", f.stress), tensor_field("E", f.strain),
                                 io::scalar_field("Mises", f.mises)};
@@ -281,10 +282,9 @@ void FieldFiles<Dim>::write(const model::BasicSystem<Dim>& system,
 }
 
 template <int Dim>
-void FieldFiles<Dim>::swings(const model::BasicSystem<Dim>& system,
-                             const model::BasicState<Dim>& state, double frequency,
+void FieldFiles<Dim>::swings(const model::BasicReached<Dim>& reached, double frequency,
                              bool imaginary) {
-  const model::BasicNodalFields<Dim> f = model::nodal_fields(system, built_.model, state);
+  const model::BasicNodalFields<Dim>& f = reached.fields();
   const std::string ending = imaginary ? "_imaginary" : "";
   std::vector<io::Field> fields{
       vector_field("U" + ending, f.displacement), vector_field("RF" + ending, f.reaction),

@@ -6,6 +6,7 @@
 
 #include "osculate/deck/build.hpp"
 #include "osculate/io/vtk.hpp"
+#include "osculate/model/fields.hpp"
 #include "osculate/result/result_folder.hpp"
 #include "osculate/result/rigid_pictures.hpp"
 
@@ -30,12 +31,10 @@ template <int Dim>
 class FieldFiles {
  public:
   FieldFiles(std::string folder, const deck::BasicBuilt<Dim>& built, const deck::Output& output);
-  void write(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
-             double time);
+  void write(const model::BasicReached<Dim>& reached, double time);
   /// Parts of a swing at a frequency, which is its time: the real one, and behind it the imaginary
   /// one, whose fields end with `_imaginary`. `U_amplitude` is that of each component.
-  void swings(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
-              double frequency, bool imaginary);
+  void swings(const model::BasicReached<Dim>& reached, double frequency, bool imaginary);
   /// The last iterate of a failed increment, as last_iterate.vtu: displacements, `flips` (changes
   /// of the contact state at a slave node in the last iterations), and every free rigid motion as a
   /// vector field `free_motion_1`, ...

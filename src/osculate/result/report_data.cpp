@@ -39,11 +39,10 @@ void ReportCollector<Dim>::add_history(const std::vector<double>& row) {
 }
 
 template <int Dim>
-void ReportCollector<Dim>::add_frame(const model::BasicSystem<Dim>& system,
-                                     const model::BasicState<Dim>& state,
+void ReportCollector<Dim>::add_frame(const model::BasicReached<Dim>& reached,
                                      const model::Progress& progress) {
   if (view_.max_frames() == 0) return;
-  nlohmann::json frame = view_.frame(system, state);
+  nlohmann::json frame = view_.frame(reached);
   frame["step"] = progress.step + 1;  // as in the columns of the history
   frame["increment"] = progress.increment;
   frame["time"] = progress.time;

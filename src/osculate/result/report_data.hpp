@@ -19,8 +19,7 @@ class ReportCollector {
   ~ReportCollector();
   ReportCollector(const ReportCollector&) = delete;
   ReportCollector& operator=(const ReportCollector&) = delete;
-  void add_frame(const model::BasicSystem<Dim>& system, const model::BasicState<Dim>& state,
-                 const model::Progress& progress);
+  void add_frame(const model::BasicReached<Dim>& reached, const model::Progress& progress);
   /// A frame that was made before: `newest()` of another collector.
   void add_frame(const nlohmann::json& frame);
   /// The frame that was added last; null if there is none or the view wants none.

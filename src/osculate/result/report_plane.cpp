@@ -72,10 +72,12 @@ nlohmann::json ReportView<2>::rigid_json(const model::State& state) const {
   return rigid;
 }
 
-nlohmann::json ReportView<2>::frame(const model::System& system, const model::State& state) const {
+nlohmann::json ReportView<2>::frame(const model::Reached& reached) const {
+  const model::System& system = reached.system;
+  const model::State& state = reached.state;
   const model::Model& m = model_;
   const std::size_t n = m.mesh.nodes.size();
-  const model::NodalFields fields = model::nodal_fields(system, m, state);
+  const model::NodalFields& fields = reached.fields();
   const std::vector<Vec2> x = system.positions(state);
   nlohmann::json contact = nlohmann::json::array();
   for (std::size_t p = 0; p < m.pairs.size(); ++p)

@@ -178,9 +178,10 @@ nlohmann::json ReportView<3>::volumes_json() const {
   return volumes;
 }
 
-nlohmann::json ReportView<3>::frame(const model::System3& system,
-                                    const model::State3& state) const {
-  const model::NodalFields3 f = model::nodal_fields(system, model_, state);
+nlohmann::json ReportView<3>::frame(const model::Reached3& reached) const {
+  const model::System3& system = reached.system;
+  const model::State3& state = reached.state;
+  const model::NodalFields3& f = reached.fields();
   const std::size_t n = nodes_.size();
   const auto u = [&](std::size_t i) -> Vec3 {
     if (i < n) return f.displacement[static_cast<std::size_t>(nodes_[i])];

@@ -5,6 +5,7 @@
 
 #include "osculate/mesh/surface.hpp"
 #include "osculate/model/failure.hpp"
+#include "osculate/model/fields.hpp"
 #include "osculate/result/body_numbers.hpp"
 #include "osculate/result/rigid_pictures.hpp"
 
@@ -22,7 +23,7 @@ class ReportView<2> {
   explicit ReportView(const model::Model& model);
   [[nodiscard]] nlohmann::json mesh() const;
   /// `u`, `fields`, `contact` and `rigid` of one frame.
-  [[nodiscard]] nlohmann::json frame(const model::System& system, const model::State& state) const;
+  [[nodiscard]] nlohmann::json frame(const model::Reached& reached) const;
   /// The place `u` where an increment failed for good, its free rigid motions on the same points,
   /// and `rigid` there.
   [[nodiscard]] nlohmann::json last_iterate(const model::State& state,
@@ -51,8 +52,7 @@ class ReportView<3> {
  public:
   explicit ReportView(const model::Model3& model);
   [[nodiscard]] nlohmann::json mesh() const;
-  [[nodiscard]] nlohmann::json frame(const model::System3& system,
-                                     const model::State3& state) const;
+  [[nodiscard]] nlohmann::json frame(const model::Reached3& reached) const;
   [[nodiscard]] nlohmann::json last_iterate(const model::State3& state,
                                             const model::Failure3& failure) const;
   [[nodiscard]] std::size_t max_frames() const;

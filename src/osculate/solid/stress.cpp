@@ -35,6 +35,12 @@ struct Seen {
 template <int Dim>
 void see_full(const Section<Dim>& section, CellType type, const Coordinates<Dim>& reference,
               const Coordinates<Dim>& displacement, Seen<Dim>& out) {
+  if (type == corner_cell<Dim>) {
+    CornerPoints<Dim> points;
+    if (!fill_points<Dim>(section, reference, displacement, points)) out.status = Status::inverted;
+    for (std::size_t q = 0; q < points.size(); ++q) out.set(q, points[q]);
+    return;
+  }
   const Rule<Dim>& rule = rule_of(section, type);
   for (std::size_t q = 0; q < rule.weights.size(); ++q) {
     Point<Dim, Eigen::Dynamic> p;

@@ -29,8 +29,10 @@ class FormerFactors {
   /// what has come loose.
   template <class Trial>
   [[nodiscard]] bool changed(const NewtonResult<Trial>& result) const {
-    return first_ || result.evaluation.counts.signature != states_;
+    return result.evaluation.counts.signature != states_;
   }
+  /// Nothing has been factored yet.
+  [[nodiscard]] bool first() const { return first_; }
   void forget() { affordable_ = 0; }
   void keep(const la::FactorReport& report, const la::SparseMatrix& k, const StateCounts& counts) {
     const bool sound = report.status == la::SolveStatus::ok && report.condition == 0;
@@ -42,8 +44,7 @@ class FormerFactors {
   /// How much of the residual may be left by a correction.
   template <class Trial>
   [[nodiscard]] double aim(const NewtonResult<Trial>& result) const {
-    const double now = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
-    return share * wanted_ / now;
+    return std::max(wanted(result), moved_ ? on_the_way : 0.0);
   }
   /// du = -K^-1 R ; false: the tangent of `system` is to be factored.
   template <System S>
@@ -51,13 +52,14 @@ class FormerFactors {
              const Eigen::VectorXd& residual, Eigen::VectorXd& du) {
     const std::uint64_t states = result.evaluation.counts.signature;
     const bool changed = states != states_, settled = states == last_;
+    moved_ = !first_ && !settled;
     last_ = states;
-    constexpr double least = 1e-9, most = 1e-4, on_the_way = 1e-3;
+    constexpr double least = 1e-9, most = 1e-4;
     constexpr int tries = 2;
     if (affordable_ < 1) return false;
-    if (changed && (settled || failures_ >= tries || wanted_ <= 0 || aim(result) >= share))
+    if (changed && (settled || failures_ >= tries || wanted_ <= 0 || wanted(result) >= share))
       return false;
-    const double tolerance = changed ? on_the_way : std::clamp(aim(result), least, most);
+    const double tolerance = changed ? on_the_way : std::clamp(wanted(result), least, most);
     du = -residual;
     fresh_ =
         !la::solve_nearby(system.matrix(), system.symmetry(), solver, {affordable_, tolerance}, du)
@@ -67,12 +69,19 @@ class FormerFactors {
   }
 
  private:
-  static constexpr double share = 0.1;
+  /// To be left of the residual where it is the last correction.
+  template <class Trial>
+  [[nodiscard]] double wanted(const NewtonResult<Trial>& result) const {
+    const double now = result.iterations.empty() ? 1.0 : result.iterations.back().residual;
+    return share * wanted_ / now;
+  }
+  static constexpr double share = 0.1, on_the_way = 1e-3;
   double wanted_;
   int affordable_ = 0;                   ///< iterations; none without factors
   std::uint64_t states_ = 0, last_ = 0;  ///< of the factors, and of the last correction
   bool fresh_ = true, first_ = true;
-  int failures_ = 0;  ///< where states had changed
+  bool moved_ = false;  ///< points have other states than at the last correction
+  int failures_ = 0;    ///< where states had changed
 };
 
 }  // namespace osculate::solve::detail

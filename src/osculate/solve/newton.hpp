@@ -243,6 +243,15 @@ bool conclude(Judge& judge, const Eigen::VectorXd& du, double step, double energ
   return true;
 }
 
+/// False where the iterations would end with a tangent that leaves something free to move: the next
+/// one finds out what.
+template <class Trial>
+bool is_sound(la::LinearSolver& solver, NewtonResult<Trial>& result) {
+  if (result.outcome != Outcome::converged || solver.sound()) return true;
+  result.outcome = Outcome::not_converged;
+  return false;
+}
+
 }  // namespace detail
 
 /// One increment by Newton's method from a committed state to `time`.
@@ -304,7 +313,8 @@ template <System S>
     if (!known) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (result.total.size() == 0) result.total.setZero(du.size());
     result.total += step * du;
-    const bool ended = detail::conclude(judge, du, step, energy_before, result, former);
+    const bool ended = detail::conclude(judge, du, step, energy_before, result, former) &&
+                       detail::is_sound(solver, result);
     if (known && !ended) system.evaluate(committed, result.trial, time, true, result.evaluation);
     if (peeling.turns(system, committed, time, ended, result))
       judge.begin_again();

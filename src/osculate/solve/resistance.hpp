@@ -76,7 +76,10 @@ bool solve_correction(S& system, la::LinearSolver& solver, const Eigen::VectorXd
     if (system.interrupted()) return fail(result, Outcome::stopped, "stopped by the user");
   if (former && former->solve(system, solver, result, residual, du)) return true;
   if (former) former->forget();
-  if (!former || former->changed(result)) solver.begin_anew();
+  if (!former || former->first())
+    solver.begin_anew();
+  else if (former->changed(result))
+    solver.may_come_loose();
   // A solver that iterates knows after an attempt that the matrix is to be factored.
   const int attempts = solver.asks_for_places() ? 2 : 1;
   for (int attempt = 0; attempt < attempts; ++attempt) {

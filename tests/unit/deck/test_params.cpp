@@ -163,7 +163,7 @@ TEST(Params, ThatDoNotGoTogetherAreRefusedWhereTheyStand) {
 
 /// Every law of the catalogue is a key of `materials`, with its sentence and its parameters.
 TEST(Params, OfAllMaterialsAreInTheModelFile) {
-  const Spec one = find_key(model_spec(), "materials")->spec.parts.at(0);
+  const Spec one = find_key(model_spec(), "materials")->spec.parts[0];
   int laws = 0;
   material::for_each_law([&]<class T>(const T&) {
     const Key* const law = find_key(one, T::key);

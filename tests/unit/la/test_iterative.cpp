@@ -158,6 +158,29 @@ TEST(Iterative, FreeBodiesAreReportedByTheDirectSolver) {
   EXPECT_EQ(solver.work().given_up, 1);
 }
 
+/// A body that springs held, and that nothing holds in the end, under forces that balance.
+TEST(Iterative, WhatHasComeLooseIsFoundOutAtTheEnd) {
+  const ElasticBlock loose(width, width, width, false);
+  ElasticBlock held(width, width, width, false);
+  for (Index i = 0; i < held.unknowns(); ++i) held.builder().add(i, i, 1.0);
+  Iterative solver;
+  solver.place(held.places());
+  ASSERT_EQ(solver.factor(held.matrix(), 1, Symmetry::indefinite).status, SolveStatus::ok);
+  EXPECT_TRUE(solver.sound());
+  const int tried = solver.work().iterations;
+  EXPECT_TRUE(solver.sound());
+  EXPECT_EQ(solver.work().iterations, tried) << "once is enough";
+  solver.may_come_loose();
+  ASSERT_EQ(solver.factor(held.matrix(), 1, Symmetry::indefinite).status, SolveStatus::ok);
+  EXPECT_EQ(solver.work().iterations, tried) << "nobody has asked yet";
+  EXPECT_TRUE(solver.sound());
+  EXPECT_GT(solver.work().iterations, tried);
+  solver.may_come_loose();
+  ASSERT_EQ(solver.factor(loose.matrix(), 1, Symmetry::indefinite).status, SolveStatus::ok);
+  EXPECT_FALSE(solver.sound());
+  EXPECT_EQ(solver.factor(loose.matrix(), 1, Symmetry::indefinite).status, SolveStatus::singular);
+}
+
 TEST(Iterative, WhatItKnowsNothingOfOrIsSmallIsFactored) {
   const ElasticBlock block = pressed(10, 0.3), small(3, 3, 3);
   Iterative solver;

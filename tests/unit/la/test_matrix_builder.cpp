@@ -172,6 +172,40 @@ TEST(MatrixBuilder, blocks_give_the_bits_of_single_entries) {
   EXPECT_EQ(a.value, b.value);
 }
 
+/// Of rows and columns of different nodes; a column is named twice.
+TEST(MatrixBuilder, products_are_the_sums_of_single_entries) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<Index> unknown(0, 39);
+  std::uniform_real_distribution<double> value(-1, 1);
+  MatrixBuilder outer(40), entries(40);
+  for (int turn = 0; turn < 60; ++turn) {
+    std::vector<Index> rows(5), columns(8);
+    for (Index& i : rows) i = unknown(random);
+    for (Index& j : columns) j = unknown(random);
+    columns[3] = columns[6];
+    columns[static_cast<std::size_t>(turn % 8)] = rows[static_cast<std::size_t>(turn % 5)] = -1;
+    if (turn % 4 == 0) outer.reserve_block(rows, columns), entries.reserve_block(rows, columns);
+    if (turn % 7 == 0) outer.finish(), entries.finish();
+    Eigen::MatrixXd by(5, 2), of(2, 8);
+    for (double& v : by.reshaped()) v = value(random);
+    for (double& v : of.reshaped()) v = value(random);
+    by.row((turn + 1) % 5).setZero();
+    outer.add_product(rows, by, columns, of);
+    const Eigen::MatrixXd sums = by * of;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t j = 0; j < columns.size(); ++j) {
+        const double v = sums(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+        if (rows[i] >= 0 && columns[j] >= 0 && v != 0) entries.add(rows[i], columns[j], v);
+      }
+  }
+  const SparseMatrix& a = outer.finish();
+  const SparseMatrix& b = entries.finish();
+  EXPECT_EQ(a.row_start, b.row_start);
+  EXPECT_EQ(a.column, b.column);
+  ASSERT_EQ(a.value.size(), b.value.size());
+  for (std::size_t e = 0; e < a.value.size(); ++e) EXPECT_NEAR(a.value[e], b.value[e], 1e-14) << e;
+}
+
 /// What a restart needs: the same reservations and the places that came by entries.
 TEST(MatrixBuilder, grows_to_the_pattern_of_another) {
   const std::vector<Index> block{0, 1, 2};

@@ -107,10 +107,10 @@ TEST(Assembler, AddsWhatADenseProductGives) {
   const std::vector<Dof> block{0, 1, 3, 6, 7, 9, 10, 11, 4};
   const auto n = static_cast<Eigen::Index>(block.size());
   Eigen::MatrixXd k(n, n);
-  Eigen::VectorXd rows(n), columns(n);
+  Eigen::MatrixXd rows(n, 2), columns(2, n);
+  for (double& v : rows.reshaped()) v = uniform(generator);
+  for (double& v : columns.reshaped()) v = uniform(generator);
   for (Eigen::Index i = 0; i < n; ++i) {
-    rows[i] = uniform(generator);
-    columns[i] = uniform(generator);
     for (Eigen::Index j = 0; j < n; ++j) k(i, j) = uniform(generator);
   }
   std::vector<bool> prescribed(10, false);
@@ -120,11 +120,11 @@ TEST(Assembler, AddsWhatADenseProductGives) {
   assembler.set_prescribed(prescribed);
   assembler.set_configuration(s.x, s.rigid);
   assembler.add_block(block, k);
-  assembler.add_outer(block, {rows.data(), block.size()}, block, {columns.data(), block.size()});
+  assembler.add_outer(block, rows, block, columns);
   assembler.add_prescribed_diagonal(3.0);
 
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(18, 18);
-  const Eigen::MatrixXd sum = k + rows * columns.transpose();
+  const Eigen::MatrixXd sum = k + rows * columns;
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j)
       all(block[static_cast<std::size_t>(i)], block[static_cast<std::size_t>(j)]) += sum(i, j);

@@ -20,8 +20,8 @@ struct Assembly {
   bool with_tangent = false;
   const Eigen::VectorXd* inc = nullptr;  ///< the prescribed increment; null: nothing is predicted
   double share = 1;  ///< of internal and external forces in the balance of a step in time
-  std::vector<Dof> path_dofs{};  ///< columns of the next outer product or row
-  std::vector<double> path_values{};
+  std::vector<Dof> path_dofs{};       ///< columns of the next outer product or row
+  std::vector<double> path_values{};  ///< one for each, or Dim
   std::vector<Dof> row_dofs{};
 
   template <class Block>
@@ -47,19 +47,30 @@ struct Assembly {
     path_dofs.clear();
     path_values.clear();
   }
-  template <class Values>
-  void add_to_path(Index node, const Values& values) {
+  void add_to_path(Index node, const Vec<Dim>& values) {
     for (int i = 0; i < Dim; ++i) {
       path_dofs.push_back(dofs.node_dof(node, i));
       path_values.push_back(values[i]);
     }
   }
-  /// rows * path . dx
-  void add_outer(std::span<const Dof> of, const double* rows) {
-    assembler.add_outer(of, {rows, of.size()}, path_dofs, path_values);
+  /// A path of vectors: a column of `values` for each direction of the node.
+  void add_vectors_to_path(Index node, const Mat<Dim, Dim>& values) {
+    for (int i = 0; i < Dim; ++i) path_dofs.push_back(dofs.node_dof(node, i));
+    path_values.insert(path_values.end(), values.data(), values.data() + Dim * Dim);
+  }
+  /// rows * path . dx, with one row for each of `of` in `rows` and a column for each value of the
+  /// path's dofs.
+  template <class Rows>
+  void add_outer(std::span<const Dof> of, const Rows& rows) {
+    const auto columns = static_cast<Eigen::Index>(path_dofs.size());
+    const Eigen::Map<const Eigen::MatrixXd> path(path_values.data(), rows.cols(), columns);
+    assembler.add_outer(of, rows, path_dofs, path);
     if (!inc) return;
-    const double along = along_path();
-    for (std::size_t i = 0; i < of.size(); ++i) into.predicted[of[i]] += rows[i] * along;
+    Eigen::VectorXd along = Eigen::VectorXd::Zero(rows.cols());
+    for (Eigen::Index j = 0; j < columns; ++j)
+      along += (*inc)[path_dofs[static_cast<std::size_t>(j)]] * path.col(j);
+    for (std::size_t i = 0; i < of.size(); ++i)
+      into.predicted[of[i]] += rows.row(static_cast<Eigen::Index>(i)).dot(along);
   }
   /// path . dx in the row of a multiplier. Largest entry of the row.
   double add_row(Index unknown) {

@@ -27,17 +27,16 @@ void add_block(const pairing::ContactBlock<Dim>& block, Assembly<Dim>& to) {
   if (block.branched) into.branched = true;
   if (!to.with_tangent) return;
   if (block.tangent.size() > 0) to.add_stiffness(d, block.tangent);
-  // Of the nodes behind a contact point: one outer product per direction in space.
-  if (!block.path().empty())
-    for (Eigen::Index c = 0; c < Dim; ++c) {
-      to.begin_path();
-      for (const pairing::NodeMatrix<Dim>& g : block.path()) to.add_to_path(g.node, g.value.row(c));
-      to.add_outer(d, block.path_rows.col(c).data());
-    }
+  const auto rows = static_cast<Eigen::Index>(d.size());
+  if (!block.path().empty()) {  // of the nodes behind a contact point
+    to.begin_path();
+    for (const pairing::NodeMatrix<Dim>& g : block.path()) to.add_vectors_to_path(g.node, g.value);
+    to.add_outer(d, block.path_rows.topRows(rows));
+  }
   if (block.area.empty()) return;
   to.begin_path();
   for (const pairing::NodeGradient<Dim>& g : block.area) to.add_to_path(g.node, g.value);
-  to.add_outer(d, block.area_rows.data());
+  to.add_outer(d, block.area_rows.head(rows));
 }
 
 }  // namespace
