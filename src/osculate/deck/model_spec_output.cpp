@@ -158,16 +158,18 @@ BoundKeys<S> solver_keys() {
                         "never, nor are snaps passed: load control ends at a limit point")})
                .otherwise("auto")),
        may(&S::linear, "linear",
-           choice("How the linear systems of the iterations are solved.",
-                  {word("auto", Linear::automatic,
-                        "direct; multigrid where factors would have more than 3e8 entries (150 000 "
-                        "unknowns of compact bodies in contact) or would take more than the memory "
-                        "of the machine"),
-                   word("direct", Linear::direct, "by factors (MUMPS)"),
-                   word("multigrid", Linear::multigrid,
-                        "by GMRES with a multigrid cycle for the bodies and factors of what is in "
-                        "contact: for large bodies, in a fraction of the memory. Matrices that it "
-                        "does not solve are factored")})
+           choice(
+               "How the linear systems of the iterations are solved.",
+               {word("auto", Linear::automatic,
+                     "direct; multigrid where factors would have more than 2000 entries for each "
+                     "unknown (compact bodies of more than 50 000 unknowns, that are not nearly "
+                     "incompressible) or 3e8 in all, or would take more than the memory of the "
+                     "machine"),
+                word("direct", Linear::direct, "by factors (MUMPS)"),
+                word("multigrid", Linear::multigrid,
+                     "by GMRES with a multigrid cycle for the bodies and factors of what is in "
+                     "contact: for large bodies, in a fraction of the memory. Matrices that it "
+                     "does not solve are factored")})
                .otherwise("auto"))}};
 }
 

@@ -7,10 +7,11 @@
 namespace osculate::deck {
 namespace {
 
-Built3 cube(const std::string& solver) {
+Built3 cube(const std::string& solver, const std::string& nu = "0.3") {
   const Description d = parse_model(R"(osculate: 1
 mesh: {generate: {c: {box: {x: [0, 1], y: [0, 1], z: [0, 1], elements: [6, 6, 6]}}}}
-materials: {s: {linear_elastic: {E: 200, nu: 0.3}}}
+materials: {s: {linear_elastic: {E: 200, nu: )" +
+                                        nu + R"(}}}
 sections: [{on: c, material: s, element: solid}]
 steps: [{name: pull, increments: 1, prescribe: [{on: c.bottom, ux: 0, uy: 0, uz: 0}, {on: c.top, uz: 0.01}]}]
 )" + solver,
@@ -40,6 +41,15 @@ TEST(LinearChoice, MultigridWhereFactorsHaveManyEntries) {
   choose_linear_solver(Linear::automatic, {.entries = 1e3}, built);
   EXPECT_TRUE(iterates(built));
   EXPECT_NE(built.linear_note.find("entries"), std::string::npos);
+}
+
+// Of compact bodies, but for those that multigrid takes long for.
+TEST(LinearChoice, MultigridWhereAnUnknownHasManyEntries) {
+  Built3 steel = cube(""), rubber = cube("", "0.499");
+  for (Built3* const built : {&steel, &rubber})
+    choose_linear_solver(Linear::automatic, {.of_unknown = 10}, *built);
+  EXPECT_TRUE(iterates(steel));
+  EXPECT_FALSE(iterates(rubber));
 }
 
 TEST(LinearChoice, AsAskedFor) {
