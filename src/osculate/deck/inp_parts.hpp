@@ -307,6 +307,12 @@ struct InpPlace {
   return inp_dimension(m) == 3 || direction <= 2 || direction == 6;
 }
 
+/// Whether plane elements became solids, beside others.
+[[nodiscard]] bool has_layers_of_plane(const InpModel& m);
+/// Fails where a set has nodes of these, or, `of_deck`, nodes that they were expanded from.
+void refuse_layers_of_plane(const InpModel& m, io::inp::Place at, const std::string& set,
+                            bool of_deck, std::string_view what);
+
 /// Adds the knots of shells and beams to rigid bodies.
 void put_knots(InpModel& m, SourceNode& bodies);
 
