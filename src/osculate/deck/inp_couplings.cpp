@@ -115,7 +115,7 @@ void put_pretension(InpModel& m, const Card& card, SourceNode& root) {
       inp_text(set_of(m, card.at, value_of(m, card, "SURFACE"), {SetKind::surface}), line));
   put(entry, "node", inp_text(node, line));
   const std::string surface = find(entry, "on")->text;
-  refuse_layers_of_plane(m, card.at, surface, false,
+  refuse_layers_of_plane(m, card.at, surface, PlaneNodes::of_solids,
                          "*PRE-TENSION SECTION through them is not supported");
   Vec3 axis = Vec3::Zero();
   if (const auto lines = io::inp::lines_of(m.deck, card); !lines.empty()) {
@@ -186,7 +186,7 @@ void put_ties(const InpModel& m, const Card& card, SourceNode& root) {
       fields.fail("*TIE: expected two surfaces, slave and master");
     SourceNode& tie = list_of(root, "ties", at).items.emplace_back(inp_map(at));
     const std::string& on = set_of(m, line.at, slave, {SetKind::surface, SetKind::node_surface});
-    refuse_layers_of_plane(m, line.at, on, false,
+    refuse_layers_of_plane(m, line.at, on, PlaneNodes::both,
                            "they follow the nodes of the deck and cannot be the slave of a *TIE "
                            "(CalculiX does not tie them): make them the master");
     put(tie, "slave", inp_text(on, at));

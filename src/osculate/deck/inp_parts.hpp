@@ -1,5 +1,6 @@
 #pragma once
 // The parts of the translation of an Abaqus or CalculiX deck into a model file; for inp_*.cpp.
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -309,9 +310,11 @@ struct InpPlace {
 
 /// Whether plane elements became solids, beside others.
 [[nodiscard]] bool has_layers_of_plane(const InpModel& m);
-/// Fails where a set has nodes of these, or, `of_deck`, nodes that they were expanded from.
+/// Nodes of the deck's plane elements, and those of the solids that they became.
+enum class PlaneNodes : std::uint8_t { of_deck, of_solids, both };
+/// Fails where a set has some of these.
 void refuse_layers_of_plane(const InpModel& m, io::inp::Place at, const std::string& set,
-                            bool of_deck, std::string_view what);
+                            PlaneNodes nodes, std::string_view what);
 
 /// Adds the knots of shells and beams to rigid bodies.
 void put_knots(InpModel& m, SourceNode& bodies);

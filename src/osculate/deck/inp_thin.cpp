@@ -35,10 +35,12 @@ bool has_layers_of_plane(const InpModel& m) {
 }
 
 void refuse_layers_of_plane(const InpModel& m, io::inp::Place at, const std::string& set,
-                            bool of_deck, std::string_view what) {
+                            PlaneNodes which, std::string_view what) {
   std::set<Index> plane;
   for (const mesh::Expanded& one : m.mesh.mesh.expanded)
-    if (one.follows) plane.insert({one.node, of_deck ? one.of : one.node});
+    if (one.follows)
+      plane.insert({which == PlaneNodes::of_deck ? one.of : one.node,
+                    which == PlaneNodes::of_solids ? one.node : one.of});
   const std::vector<Index>& nodes = m.mesh.mesh.find_set(set)->nodes;
   if (std::ranges::any_of(nodes, [&](Index node) { return plane.contains(node); }))
     io::inp::fail(

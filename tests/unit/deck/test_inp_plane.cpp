@@ -248,6 +248,14 @@ TEST(InpPlane, WhatLayersCannotDoIsRefused) {
                       "TIE=T\n0, 0, 0, 0, 1, 0\n" +
                       end),
               HasSubstr("plane elements become solids beside others: not supported here"));
+  EXPECT_THAT(
+      message(
+          mixed + surfaces +
+          "*SURFACE, NAME=POINTS, TYPE=NODE\nP\n*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, "
+          "PRESSURE-OVERCLOSURE=LINEAR\n1e5\n*CONTACT PAIR, INTERACTION=I, TYPE=NODE TO "
+          "SURFACE\nPOINTS, FACE\n" +
+          end),
+      HasSubstr("a surface of their nodes is not supported, name their edges"));
   EXPECT_THAT(message(mixed + end), IsEmpty());
 }
 
