@@ -10,8 +10,8 @@
 #include <map>
 #include <numbers>
 
-#include "osculate/cell/area_shape.hpp"
 #include "osculate/cell/quadrature.hpp"
+#include "osculate/cell/shape.hpp"
 #include "osculate/cell/volume_shape.hpp"
 #include "osculate/core/error.hpp"
 #include "osculate/io/inp/deck_mesh.hpp"
