@@ -204,6 +204,23 @@ TEST(InpPlane, NodesHaveAxes) {
   EXPECT_NEAR(run.displacement(2).x(), 2 * 10 * 0.91e-3, 1e-12);
 }
 
+/// A body that flies: its solids move as the nodes of the deck are told.
+TEST(InpPlane, VelocitiesAtFirst) {
+  for (const std::string type : {"CPE4", "CPS8R", "CAX4", "CPE6"}) {
+    SCOPED_TRACE(type);
+    const DeckRun run = run_deck(
+        element(type, "0.25") + cube + "*INITIAL CONDITIONS, TYPE=VELOCITY\nP, 2, 3.\nP, 3, 1.\n" +
+        (is_ring(type) ? "" : "P, 1, 2.\n") +
+        "*STEP\n*DYNAMIC, DIRECT\n0.01, 0.02\n*DLOAD\n20, P4, 0.\n*END STEP\n");
+    for (const int number : {1, 2, 3}) {
+      const Vec3 expected(is_ring(type) ? 0 : 0.04, 0.06, 0);
+      EXPECT_NEAR((run.displacement(number) - expected).norm(), 0, 1e-12);
+    }
+    for (const mesh::Expanded& one : run.built.model.mesh.expanded)
+      EXPECT_NEAR(run.u[0][3 * one.node + 1], 0.06, 1e-12);
+  }
+}
+
 TEST(InpPlane, PlaneElementsAreShownAsTheyAre) {
   const auto shown = [](const std::string& text, const std::string& request) {
     const Description d = parse_model(
