@@ -191,7 +191,7 @@ TEST(InpPlane, EdgesAreFacesAcross) {
     }
     EXPECT_THAT(message(element(type) + section("0.25") + cube +
                         fmt::format("*SURFACE, NAME=E\nP, S{}\n", edges + 1)),
-                HasSubstr(fmt::format("has no side S{}; expected S1 to S{}", edges + 1, edges)));
+                HasSubstr(fmt::format("has no side 'S{}'; expected S1 to S{}", edges + 1, edges)));
   }
 }
 

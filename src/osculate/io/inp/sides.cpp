@@ -70,7 +70,7 @@ void Sides::add_side(const SurfaceEntry& entry, Index element, std::vector<mesh:
   if (side.kind == Side::Kind::none)
     fail(deck_, entry.set.at,
          fmt::format("element {} of type {} has no side {}; expected {}",
-                     mesh::cell_number(mesh_, ref), numbering_.variants[variant], shown(entry.side),
+                     mesh::cell_number(mesh_, ref), type->name, shown(entry.side),
                      layer ? fmt::format("S1 to S{}", cell::info(type->cell).corners / 2)
                            : side_names(*type)));
   if (side.kind == Side::Kind::whole) return cells.push_back(ref);
