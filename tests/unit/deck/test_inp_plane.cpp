@@ -72,9 +72,13 @@ TEST(InpPlane, UnitPressureHasItsResultant) {
       Vec3 expected = sides[static_cast<std::size_t>(k - 1)];
       if (edges == 3 && k == 3) expected = Vec3(-4, 2, 0);
       const double radius = edges == 4 && k == 4 ? 1 : k == 2 ? 3 : 2;
-      // of second order an arc, else its chord
+      // across the radius the chord, along it what is between arcs (of second order) or chords
       const double arc = type[3] > '4' ? 2 * degree : std::sin(2 * degree);
-      expected *= is_ring(type) ? arc * radius : 0.25;
+      if (is_ring(type))
+        expected =
+            radius * Vec3(2 * std::sin(degree) * expected.x(), arc * expected.y(), expected.z());
+      else
+        expected *= 0.25;
       const double close = is_ring(type) && type[3] > '4' ? 1e-6 : 1e-9;
       EXPECT_NEAR((run.reaction_of("P") - expected).norm(), 0, close * expected.norm());
       EXPECT_NEAR(run.displacement(112).x(), -0.91e-3, 1e-12);  // the cube: (1 - nu^2) / E
