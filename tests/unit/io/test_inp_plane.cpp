@@ -287,7 +287,9 @@ TEST(InpPlane, CellsOnTheAxisAreNoError) {
 TEST(InpPlane, WhatIsNotInThePlaneIsRefused) {
   std::string high = element("CPE4");
   high.replace(high.find("3, 3, 4"), 7, "3, 3, 4, 0.1");
-  EXPECT_THAT(message(high + section("") + cube), HasSubstr("of plane elements is not at z = 0"));
+  EXPECT_THAT(
+      message(high + section("") + cube),
+      HasSubstr("a.inp:13: *SOLID SECTION: node 3 (3, 4, 0.1) of plane elements is not at z = 0"));
   std::string behind = element("CAX4");
   behind.replace(behind.find("1, 1, 0"), 7, "1, -1, 0");
   EXPECT_THAT(message(behind + section("") + cube), HasSubstr("has a negative radius (x)"));

@@ -98,9 +98,9 @@ class Expander : private Fibers {
 
   // ---- what the deck's node does ----------------------------------------------------------------
 
-  [[noreturn]] void fail_at(Index node, const std::string& what) const {
-    throw core::InputError({deck_.files[0], 0, ""},
-                           fmt::format("{} {}", mesh::describe_node(mesh_, node), what));
+  [[noreturn]] void fail_at(const ThinGroup& group, Index node, const char* what) const {
+    fail(deck_, group.section->at,
+         fmt::format("*SOLID SECTION: {} {}", mesh::describe_node(mesh_, node), what));
   }
 
   /// Whether the groups are of plane elements; fails where these meet shells or beams.
@@ -109,14 +109,16 @@ class Expander : private Fibers {
     const auto plane = [](const ThinGroup& group) { return group.section->is_plane(); };
     const auto count = std::ranges::count_if(groups, plane);
     if (count == 0) return false;
+    const ThinGroup& first = *std::ranges::find_if(groups, plane);
     if (count < std::ssize(groups))
-      fail_at(node, "is one of plane elements and of shells, beams or trusses: not supported");
+      fail_at(first, node,
+              "is one of plane elements and of shells, beams or trusses: not supported");
     constexpr double rounding = 1e-9;
     if (std::abs(at(node).z()) > rounding * at(node).norm())
-      fail_at(node, "of plane elements is not at z = 0");
+      fail_at(first, node, "of plane elements is not at z = 0");
     for (std::size_t g = 0; g < groups.size(); ++g) {
       if (groups[g].section->plane == ThinSection::Plane::axisymmetric && at(node).x() < 0)
-        fail_at(node, "of axisymmetric elements has a negative radius (x)");
+        fail_at(groups[g], node, "of axisymmetric elements has a negative radius (x)");
       follow_plane(node, groups[g], fibers[g]);
     }
     keep_in_plane(node, fibers[0], in_solids_[static_cast<std::size_t>(node)]);

@@ -215,6 +215,7 @@ class Reader {
       if (!is_new) continue;
       ThinSection& section = out_.sections.emplace_back();
       section.plane = found->first;
+      section.at = card.at;
       section.thickness[0] = 1;
       if (section.plane == ThinSection::Plane::axisymmetric) continue;
       if (const auto lines = lines_of(deck_, card); !lines.empty()) {

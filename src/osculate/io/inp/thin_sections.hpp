@@ -23,6 +23,7 @@ struct ThinSection {
   std::vector<double> layers{};    ///< of a plate of several: their thickness, bottom first
   std::array<double, 2> offset{};  ///< of the reference from the middle, in thicknesses
   Vec3 axis = -Vec3::UnitZ();      ///< beams: along the first axis
+  Place at{};                      ///< of the card, of plane elements
 
   [[nodiscard]] bool is_hollow() const { return shape == Shape::pipe || shape == Shape::box; }
   [[nodiscard]] bool is_plane() const { return plane != Plane::none; }
